@@ -1,0 +1,57 @@
+# Everything below is a line or two of CMake (CMakePresets.json); this file gives the lines their names.
+# On a bare Debian 12 `make demo` and `make test` need only make, git and root (or sudo).
+.DEFAULT_GOAL := build
+.NOTPARALLEL:
+.PHONY: build deps demo test sanitize bench install format format-check tidy clean help
+
+JOBS ?= $(shell nproc)
+PREFIX ?= /usr/local
+FLANK_DATA ?= $(CURDIR)/../shared/data
+export FLANK_DATA
+
+FLANK := build/release/apps/flank/flank
+
+build:  ## build the release variant (command: build/release/apps/flank/flank)
+	cmake --preset release
+	cmake --build --preset release --parallel $(JOBS)
+
+deps:  ## install the Debian packages that a build needs, if any is missing
+	scripts/install-deps.sh build
+
+demo: deps build  ## make a twisted blade, fit a tool and its motion to it, and judge them
+	mkdir -p out/demo
+	$(FLANK) example twisted-blade -o out/demo/blade.step
+	$(FLANK) fit out/demo/blade.step --face F1 -o out/demo
+
+test: deps build  ## build and run all tests
+	ctest --preset release --parallel $(JOBS)
+
+sanitize: deps  ## run the tests under the address, undefined-behaviour and thread sanitizers
+	scripts/sanitize.sh asan
+	scripts/sanitize.sh tsan
+
+bench:  ## build and run the benchmarks
+	scripts/install-deps.sh build bench
+	cmake --preset bench
+	cmake --build --preset bench --parallel $(JOBS)
+	scripts/run-bench.sh build/bench/bench
+
+install: deps build  ## install the command, the library and its headers under PREFIX
+	cmake --install build/release --prefix $(PREFIX)
+
+format:  ## format the sources in place
+	scripts/check-format.sh --fix
+
+format-check:
+	scripts/check-format.sh
+
+tidy:  ## lint the sources (clang-tidy)
+	scripts/install-deps.sh build dev
+	cmake --preset release
+	scripts/tidy.sh build/release
+
+clean:
+	rm -rf build out
+
+help:
+	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*##/ -/'

@@ -1,0 +1,37 @@
+/// The subcommands: each adds itself to the parser and returns what to run when it was chosen.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <functional>
+
+#include "flank/base/progress.h"
+
+namespace flank {
+
+/// Options that every command shares.
+struct CommonOptions {
+  bool json = false;
+  bool quiet = false;
+  int threads = 0;
+  std::uint64_t seed = 1;
+};
+
+/// Runs the chosen command and returns the exit code.
+using Command = std::function<int(const CommonOptions&)>;
+
+/// A command line with its help text and what it does.
+struct Subcommand {
+  CLI::App* app;
+  Command run;
+};
+
+[[nodiscard]] Subcommand add_inspect(CLI::App& parser);
+[[nodiscard]] Subcommand add_example(CLI::App& parser);
+[[nodiscard]] Subcommand add_tool(CLI::App& parser);
+[[nodiscard]] Subcommand add_fit(CLI::App& parser);
+[[nodiscard]] Subcommand add_verify(CLI::App& parser);
+
+/// A line on stderr that grows on a terminal, plain lines otherwise, nothing if quiet; cancelled by Ctrl-C.
+[[nodiscard]] Progress terminal_progress(const CommonOptions& options);
+
+}  // namespace flank

@@ -1,0 +1,77 @@
+// The command line: parses arguments, calls the pipeline, turns errors into exit codes.
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <vector>
+
+#include "commands.h"
+#include "flank/base/error.h"
+#include "flank/base/parallel.h"
+
+namespace {
+
+/// One line on stderr, whatever the message holds.
+int complain(const std::string& message, int code) {
+  std::string line = message;
+  for (char& c : line)
+    if (c == '\n') c = ' ';
+  fmt::print(stderr, "flank: {}\n", line);
+  return code;
+}
+
+/// A first word that is no command is named, with those that are.
+void require_known_command(const CLI::App& parser, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::string known;
+  for (const CLI::App* command : parser.get_subcommands([](const CLI::App*) { return true; })) {
+    if (command->get_name() == argv[1]) return;
+    known += (known.empty() ? "" : ", ") + command->get_name();
+  }
+  throw flank::UsageError(fmt::format("'{}' is no command; there are {}", argv[1], known));
+}
+
+void add_common(CLI::App& app, flank::CommonOptions& common) {
+  app.add_flag("--json", common.json, "Print the summary as JSON on stdout, and nothing else");
+  app.add_flag("--quiet", common.quiet, "No progress and no summary");
+  app.add_option("--threads", common.threads, "Threads to use; 0: all cores. The result does not depend on it")
+      ->check(CLI::Range(0, 1024));
+  app.add_option("--seed", common.seed, "Seed of everything random");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App parser{"flank: custom-shaped milling tools and the five-axis motions whose flank finishes a surface",
+                  "flank"};
+  parser.set_version_flag("--version", FLANK_VERSION);
+  parser.require_subcommand(1);
+  parser.footer(
+      "Exit: 0 done and within what was asked; 1 done, but not within it; 2 wrong usage; 3 input refused; 4 our "
+      "fault.");
+  flank::CommonOptions common;
+  std::vector<flank::Subcommand> commands = {flank::add_inspect(parser), flank::add_example(parser),
+                                             flank::add_tool(parser), flank::add_fit(parser),
+                                             flank::add_verify(parser)};
+  for (const flank::Subcommand& command : commands) add_common(*command.app, common);
+  try {
+    require_known_command(parser, argc, argv);
+    parser.parse(argc, argv);
+  } catch (const flank::UsageError& e) {
+    return complain(e.what(), e.exit_code());
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return parser.exit(e);
+    return complain(std::string(e.what()) + " (see flank --help)", 2);
+  }
+  try {
+    flank::set_thread_count(common.threads);
+    for (const flank::Subcommand& command : commands)
+      if (command.app->parsed()) return command.run(common);
+    return 2;
+  } catch (const flank::Error& e) {
+    return complain(e.what(), e.exit_code());
+  } catch (const std::bad_alloc&) {
+    return complain("out of memory", 4);
+  } catch (const std::exception& e) {
+    return complain(std::string("internal error: ") + e.what(), 4);
+  }
+}

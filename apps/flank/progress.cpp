@@ -1,0 +1,49 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "commands.h"
+
+namespace flank {
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+
+void on_interrupt(int) {
+  // A second Ctrl-C ends at once.
+  if (interrupted != 0) std::_Exit(130);
+  interrupted = 1;
+}
+
+std::string time_left(double seconds, double share) {
+  if (share < 0.05) return "";
+  return fmt::format(", {:.0f} s left", seconds * (1.0 - share) / share);
+}
+
+}  // namespace
+
+Progress terminal_progress(const CommonOptions& options) {
+  std::signal(SIGINT, on_interrupt);
+  Progress progress;
+  progress.cancelled = [] { return interrupted != 0; };
+  if (options.quiet || options.json) return progress;
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  const auto start = std::chrono::steady_clock::now();
+  progress.report = [terminal, start](std::string_view stage, double share) {
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (terminal)
+      fmt::print(stderr, "\r\x1b[K{} {:3.0f} %{}{}", stage, 100.0 * share, time_left(seconds, share),
+                 share >= 1.0 ? "\r\x1b[K" : "");
+    else if (share < 1.0)
+      fmt::print(stderr, "{} {:.0f} %\n", stage, 100.0 * share);
+    std::fflush(stderr);
+  };
+  return progress;
+}
+
+}  // namespace flank

@@ -1,0 +1,21 @@
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(FLANK_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/OpenFlank)
+
+install(TARGETS flank EXPORT OpenFlankTargets)
+if(TARGET flank_app)
+  install(TARGETS flank_app)
+endif()
+# Headers that show another library than Eigen are named for it (tests/layers) and stay here.
+install(DIRECTORY src/flank DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h"
+        REGEX "(occt|json)[^/]*\\.h$" EXCLUDE)
+install(FILES LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+install(EXPORT OpenFlankTargets NAMESPACE OpenFlank:: DESTINATION ${FLANK_CMAKE_DIR})
+configure_package_config_file(cmake/OpenFlankConfig.cmake.in ${PROJECT_BINARY_DIR}/OpenFlankConfig.cmake
+                              INSTALL_DESTINATION ${FLANK_CMAKE_DIR})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/OpenFlankConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/OpenFlankConfig.cmake ${PROJECT_BINARY_DIR}/OpenFlankConfigVersion.cmake
+              cmake/FindOCCT.cmake
+        DESTINATION ${FLANK_CMAKE_DIR})

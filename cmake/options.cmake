@@ -1,0 +1,42 @@
+option(FLANK_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
+option(FLANK_BUILD_BENCH "Build the benchmarks" OFF)
+option(FLANK_WARNINGS_AS_ERRORS "Let no compiler warning pass in our own code" ${PROJECT_IS_TOP_LEVEL})
+set(FLANK_SANITIZE "" CACHE STRING "Sanitizers to compile with, e.g. address,undefined or thread")
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+
+find_program(FLANK_CCACHE ccache)
+if(FLANK_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${FLANK_CCACHE})
+endif()
+
+# Every target of our own links this one; third-party headers come in as SYSTEM, so it does not judge them.
+add_library(flank_warnings INTERFACE)
+target_compile_options(flank_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  # GCC 12 takes "text" + std::string for an overlapping copy (GCC bug 105651).
+  target_compile_options(flank_warnings INTERFACE -Wno-restrict)
+endif()
+if(FLANK_WARNINGS_AS_ERRORS)
+  target_compile_options(flank_warnings INTERFACE -Werror)
+endif()
+
+# The same input gives the same bytes: no fused multiply-add that depends on the optimiser (decision 0002).
+add_compile_options(-ffp-contract=off)
+# A program that reads no part does not load the CAD kernel: it starts at once, and so does every test.
+add_link_options(-Wl,--as-needed)
+if(FLANK_SANITIZE)
+  add_compile_options(-fsanitize=${FLANK_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${FLANK_SANITIZE})
+  # What the address sanitizer finds anyway; without these, Eigen's expressions compile and run twice as fast.
+  add_compile_options(-fno-sanitize=null,alignment,object-size,vptr)
+  # GCC 12 sees uninitialised reads in instrumented Eigen expressions that are none.
+  target_compile_options(flank_warnings INTERFACE -Wno-maybe-uninitialized -Wno-uninitialized)
+endif()

@@ -1,0 +1,88 @@
+#include "flank/base/parallel.h"
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace flank {
+namespace {
+
+std::unique_ptr<tbb::global_control>& control() {
+  static std::unique_ptr<tbb::global_control> instance;
+  return instance;
+}
+
+int& count_setting() {
+  static int count = 0;
+  return count;
+}
+
+#ifdef __SANITIZE_THREAD__
+// oneTBB comes without instrumentation, so the thread sanitizer cannot see it hand work over and reports every loop.
+// Plain threads are seen: with them it judges our loop bodies and nothing else.
+template <class Run>
+void run_blocks(std::size_t blocks, const Run& run) {
+  std::atomic<std::size_t> next{0};
+  std::exception_ptr failure;
+  std::mutex failure_mutex;
+  auto work = [&] {
+    try {
+      for (std::size_t block = next++; block < blocks; block = next++) run(block);
+    } catch (...) {
+      const std::lock_guard lock(failure_mutex);
+      if (!failure) failure = std::current_exception();
+      next = blocks;
+    }
+  };
+  std::vector<std::thread> threads(std::min(blocks, static_cast<std::size_t>(thread_count())));
+  for (std::thread& thread : threads) thread = std::thread(work);
+  for (std::thread& thread : threads) thread.join();
+  if (failure) std::rethrow_exception(failure);
+}
+#else
+template <class Run>
+void run_blocks(std::size_t blocks, const Run& run) {
+  tbb::parallel_for(std::size_t{0}, blocks, run);
+}
+#endif
+
+}  // namespace
+
+void set_thread_count(int threads) {
+  const int hardware = std::max(1u, std::thread::hardware_concurrency());
+  count_setting() = threads > 0 ? threads : hardware;
+  control() = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                    static_cast<std::size_t>(count_setting()));
+}
+
+int thread_count() {
+  if (count_setting() == 0) set_thread_count(0);
+  return count_setting();
+}
+
+void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body) {
+  parallel_blocks(count, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) body(i);
+  });
+}
+
+void parallel_blocks(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {
+  if (count == 0) return;
+  const std::size_t step = std::max<std::size_t>(1, grain);
+  const std::size_t blocks = (count + step - 1) / step;
+  auto run = [&](std::size_t block) { body(block * step, std::min(count, (block + 1) * step)); };
+  if (thread_count() == 1 || blocks == 1) {
+    for (std::size_t block = 0; block < blocks; ++block) run(block);
+    return;
+  }
+  run_blocks(blocks, run);
+}
+
+}  // namespace flank

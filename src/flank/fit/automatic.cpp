@@ -1,0 +1,129 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "flank/base/parallel.h"
+#include "flank/fit/polish.h"
+#include "flank/seed/ruled_start.h"
+
+namespace flank {
+namespace {
+
+struct Candidate {
+  RuledStart start;
+  FitDraft draft;
+  CoverageEstimate estimate;
+  double score = -1.0;
+};
+
+std::vector<double> start_radii(const ToolModel& tool, const RadiusBounds& bounds) {
+  if (tool.radius) return {*tool.radius};
+  constexpr int kRadii = 5;
+  std::vector<double> radii;
+  const double low = std::max(bounds.smallest, 1e-3 * bounds.largest);
+  for (int k = 0; k < kRadii; ++k) radii.push_back(low * std::pow(bounds.largest / low, (k + 0.5) / kRadii));
+  return radii;
+}
+
+std::vector<RuledStart> enumerate_starts(const ToolModel& tool, const RadiusBounds& bounds) {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  std::vector<RuledStart> starts;
+  for (bool swapped : {false, true})
+    for (double radius : start_radii(tool, bounds))
+      for (double skew : {0.0, 12.0, -12.0, 25.0, -25.0}) {
+        RuledStart start;
+        start.swapped = swapped;
+        start.radius_mm = radius;
+        start.skew_rad = skew * kDegree;
+        starts.push_back(start);
+      }
+  return starts;
+}
+
+/// The motions of a start, one a strip, bands side by side.
+std::vector<FitTask> make_tasks(const Target& target, const Chart& chart, const RuledStart& start, int strips,
+                                std::optional<double> axis_length) {
+  std::vector<RuledStart> bands;
+  double length = 0.0;
+  for (int k = 0; k < strips; ++k) {
+    RuledStart band = start;
+    band.band_low = static_cast<double>(k) / strips;
+    band.band_high = static_cast<double>(k + 1) / strips;
+    length = std::max(length, 1.02 * longest_chord(chart, band));
+    bands.push_back(band);
+  }
+  if (axis_length) length = *axis_length;
+  std::vector<FitTask> tasks;
+  for (const RuledStart& band : bands) tasks.push_back({&target, make_motion(chart, band, length, 12)});
+  return tasks;
+}
+
+FitDraft start_draft(const std::vector<FitTask>& tasks, const ToolModel& tool, double radius) {
+  FitDraft draft;
+  for (const FitTask& task : tasks) {
+    draft.targets.push_back(task.target);
+    draft.motions.push_back(task.motion);
+  }
+  const double length = tasks.front().motion.axis_length;
+  draft.free_tool = tool.free();
+  draft.free_parameters = tool.free_parameters;
+  draft.tool =
+      tool.free() ? RadialFunction::spline(length, Eigen::VectorXd::Constant(6, radius)) : tool.make(length, radius);
+  return draft;
+}
+
+void quick_fit(Candidate& candidate, const Target& target, const Chart& chart, const ToolModel& tool,
+               const FlankFitOptions& options, const std::vector<SurfaceSample>& samples) {
+  const std::optional<double> length = tool.axis_length ? tool.axis_length : options.axis_length_mm;
+  const std::vector<FitTask> tasks = make_tasks(target, chart, candidate.start, options.strips, length);
+  const FitDraft draft = start_draft(tasks, tool, candidate.start.radius_mm);
+  candidate.draft = run_stage(draft, options.bounds, quick_stage(robust_scale(target, options)));
+  candidate.estimate =
+      estimate_coverage(samples, candidate.draft.motions, candidate.draft.tool, 4.0 * options.tolerance_mm, 48);
+  candidate.score = candidate.estimate.score(4.0 * options.tolerance_mm);
+}
+
+void sort_by_score(std::vector<Candidate>& candidates) {
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+}
+
+}  // namespace
+
+FlankFitResult fit_automatic(const Target& target, const ToolModel& tool, const FlankFitOptions& options,
+                             const Progress& progress) {
+  FlankFitResult result;
+  const Chart chart(target);
+  const std::vector<SurfaceSample> samples = ranking_samples(target, options);
+  const std::vector<SurfaceSample> few = target.samples(std::sqrt(target.area() / 400.0));
+  std::vector<Candidate> candidates;
+  for (const RuledStart& start : enumerate_starts(tool, options.bounds)) candidates.push_back({start, {}, {}, -1.0});
+  result.candidates = static_cast<int>(candidates.size());
+  progress.step("starts", 0.0);
+  parallel_for(candidates.size(), [&](std::size_t k) { quick_fit(candidates[k], target, chart, tool, options, few); });
+  sort_by_score(candidates);
+  if (candidates.empty() || candidates.front().score <= 0.0) {
+    result.status = FitStatus::kNoStart;
+    result.message = "no ruled start touches the target within four tolerances";
+    if (candidates.empty()) return result;
+  }
+  candidates.resize(std::min<std::size_t>(candidates.size(), static_cast<std::size_t>(options.kept_after_quick)));
+  progress.step("polish", 0.5);
+  if (progress.stop()) candidates.resize(1);
+  std::vector<Polished> polished(candidates.size());
+  std::vector<std::vector<IterationTrace>> traces(candidates.size());
+  parallel_for(candidates.size(),
+               [&](std::size_t k) { polished[k] = polish(candidates[k].draft, samples, options, &traces[k]); });
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < polished.size(); ++k) {
+    if (polished[k].estimate.score(options.tolerance_mm) > polished[best].estimate.score(options.tolerance_mm))
+      best = k;
+  }
+  result.before = estimate_coverage(samples, candidates[best].draft.motions, candidates[best].draft.tool,
+                                    options.tolerance_mm, kRankingPoses);
+  result.trace = traces[best];
+  return finish(without_overcut(polished[best], samples, options), options, std::move(result));
+}
+
+}  // namespace flank

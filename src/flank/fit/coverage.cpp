@@ -1,0 +1,65 @@
+#include <algorithm>
+#include <cmath>
+
+#include "flank/envelope/swept_estimate.h"
+#include "flank/fit/flank_fit.h"
+
+namespace flank {
+
+double CoverageEstimate::score(double tolerance_mm) const {
+  // Coverage first; among equals the lower overcut, which is worth at most two percent of coverage per tolerance.
+  const double excess = std::clamp(overcut_mm / tolerance_mm - 1.0, 0.0, 10.0);
+  const double within = 0.005 * std::min(1.0, overcut_mm / tolerance_mm);
+  return at_tolerance + 0.2 * at_four_tolerances - 0.02 * excess - within - 1e-3 * std::min(1.0, rms_mm / tolerance_mm);
+}
+
+CoverageEstimate estimate_coverage(const std::vector<SurfaceSample>& samples, const std::vector<RuledMotion>& motions,
+                                   const RadialFunction& tool, double tolerance_mm, int poses) {
+  const SweptEstimate swept(motions, tool, poses);
+  CoverageEstimate estimate;
+  double area = 0.0, near_area = 0.0, squares = 0.0;
+  for (const SurfaceSample& sample : samples) {
+    const double f = swept.distance(sample.point);
+    area += sample.area;
+    if (std::abs(f) <= tolerance_mm) estimate.at_tolerance += sample.area;
+    if (std::abs(f) <= 4.0 * tolerance_mm) {
+      estimate.at_four_tolerances += sample.area;
+      near_area += sample.area;
+      squares += sample.area * f * f;
+    }
+    estimate.overcut_mm = std::max(estimate.overcut_mm, -f);
+  }
+  if (area > 0.0) {
+    estimate.at_tolerance /= area;
+    estimate.at_four_tolerances /= area;
+  }
+  if (near_area > 0.0) estimate.rms_mm = std::sqrt(squares / near_area);
+  return estimate;
+}
+
+ResidualSummary validate(const std::vector<FitTask>& tasks, const RadialFunction& tool, int count_t, int count_s) {
+  ResidualSummary summary;
+  std::size_t inside = 0, all = 0;
+  double squares = 0.0;
+  for (const FitTask& task : tasks) {
+    for (int i = 0; i < count_t; ++i) {
+      const Pose pose = task.motion.pose(static_cast<double>(i) / (count_t - 1));
+      for (int j = 0; j < count_s; ++j) {
+        const double s = tool.axis_length() * j / (count_s - 1);
+        const Footpoint foot = task.target->closest(pose.at(s));
+        ++all;
+        if (foot.location != Location::kInside) continue;
+        ++inside;
+        const double e = foot.distance - tool.at(s).r;
+        squares += e * e;
+        summary.largest_mm = std::max(summary.largest_mm, std::abs(e));
+        summary.largest_overcut_mm = std::max(summary.largest_overcut_mm, -e);
+      }
+    }
+  }
+  if (inside > 0) summary.rms_mm = std::sqrt(squares / static_cast<double>(inside));
+  if (all > 0) summary.inside_share = static_cast<double>(inside) / static_cast<double>(all);
+  return summary;
+}
+
+}  // namespace flank

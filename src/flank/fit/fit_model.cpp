@@ -1,0 +1,399 @@
+#include "flank/fit/fit_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flank {
+namespace {
+
+/// Keeps |w| near one: the length of w is a gauge, this term only holds it (MATH section 2).
+constexpr double kUnitPenalty = 1e-9;
+/// Weight of the one-sided terms that keep the tool inside its bounds.
+constexpr double kBoundWeight = 10.0;
+
+/// The residual with its dead zone cut out.
+double effective(double e, double dead_zone) {
+  if (dead_zone <= 0.0) return e;
+  return e > 0.0 ? std::max(0.0, e - dead_zone) : std::min(0.0, e + dead_zone);
+}
+/// Share of its weight that a sample inside the dead zone keeps in the matrix: it holds the step, and pulls nowhere.
+constexpr double kDeadZoneDamping = 0.02;
+
+}  // namespace
+
+Vec3 distance_gradient(const Vec3& p, const Footpoint& foot) {
+  if (foot.location != Location::kBorder) return foot.normal;
+  const Vec3 away = p - foot.point;
+  const double length = away.norm();
+  if (length < 1e-12) return foot.normal;
+  return (foot.distance < 0.0 ? -away : away) / length;
+}
+
+FitModel::FitModel(std::vector<const Target*> targets, const FitState& start, std::vector<int> free_parameters,
+                   const RadiusBounds& bounds, const FitStage& stage)
+    : targets_(std::move(targets)),
+      free_(std::move(free_parameters)),
+      bounds_(bounds),
+      stage_(stage),
+      axis_length_(start.motions.front().axis_length),
+      tool_parameters_(static_cast<int>(free_.size())) {
+  const RuledMotion& first = start.motions.front();
+  for (int i = 0; i < stage.samples_t; ++i) {
+    TimeSample time{};
+    time.t = static_cast<double>(i) / (stage.samples_t - 1);
+    const int span = find_span(3, first.tip.knots, time.t);
+    double n[12];
+    basis_derivatives(3, first.tip.knots, span, time.t, 2, n);
+    time.first = span - 3;
+    std::copy_n(n, 4, time.basis);
+    const double h = 1.0 / (stage.samples_t - 1);
+    for (int k = 0; k < 4; ++k) time.basis_d2[k] = n[8 + k] * h * h;
+    times_.push_back(time);
+  }
+  for (int j = 0; j < stage.samples_s; ++j) {
+    s_.push_back(axis_length_ * j / (stage.samples_s - 1));
+    start_radius_.push_back(start.tool.at(s_.back()).r);
+  }
+  for (const RuledMotion& motion : start.motions) {
+    std::vector<Anchor> anchors;
+    for (const TimeSample& time : times_) {
+      const AxisJet axis = motion.jet(time.t);
+      const Vec3 v = axis.velocity(0.5 * axis_length_);
+      const Vec3 across = v - v.dot(axis.u) * axis.u;
+      anchors.push_back({axis.at(0.5 * axis_length_), across.normalized(), axis.tip, axis.u});
+    }
+    anchors_.push_back(std::move(anchors));
+  }
+}
+
+ArrowSystem FitModel::make_system() const {
+  return ArrowSystem(std::vector<int>(targets_.size(), stage_.control_points), tool_parameters_);
+}
+
+FitModel::PoseAt FitModel::pose_at(const RuledMotion& motion, const TimeSample& time) const {
+  PoseAt pose;
+  pose.tip.setZero();
+  pose.w.setZero();
+  for (int k = 0; k < 4; ++k) {
+    pose.tip += time.basis[k] * motion.tip.poles.col(time.first + k);
+    pose.w += time.basis[k] * motion.direction.poles.col(time.first + k);
+  }
+  pose.length_w = pose.w.norm();
+  pose.u = pose.w / pose.length_w;
+  return pose;
+}
+
+void FitModel::find_feet(FitState& state) const {
+  const int n = stage_.samples_s;
+  state.feet.resize(targets_.size());
+  for (std::size_t m = 0; m < targets_.size(); ++m) {
+    std::vector<Footpoint>& feet = state.feet[m];
+    const bool warm = static_cast<int>(feet.size()) == n * stage_.samples_t;
+    if (!warm) feet.assign(static_cast<std::size_t>(n * stage_.samples_t), Footpoint{});
+    for (int i = 0; i < stage_.samples_t; ++i) {
+      const PoseAt pose = pose_at(state.motions[m], times_[i]);
+      for (int j = 0; j < n; ++j) {
+        Footpoint& foot = feet[static_cast<std::size_t>(i * n + j)];
+        const Footpoint* hint = &foot;
+        if (!warm && j > 0) hint = &foot - 1;
+        if (!warm && j == 0 && i > 0) hint = &foot - n;
+        foot = targets_[m]->track(pose.tip + s_[j] * pose.u, *hint);
+      }
+    }
+  }
+}
+
+Vec3 FitModel::point(const FitState& state, int motion, int i, int j) const {
+  const PoseAt pose = pose_at(state.motions[motion], times_[i]);
+  return pose.tip + s_[j] * pose.u;
+}
+
+double FitModel::residual(const FitState& state, int motion, int i, int j) const {
+  const Footpoint& foot = state.feet[motion][static_cast<std::size_t>(i * stage_.samples_s + j)];
+  return foot.distance - state.tool.at(s_[j]).r;
+}
+
+std::vector<std::vector<double>> FitModel::sample_weights(const FitState& state) const {
+  const int n = stage_.samples_s;
+  std::vector<double> radius(n);
+  for (int j = 0; j < n; ++j) radius[j] = state.tool.at(s_[j]).r;
+  std::vector<std::vector<double>> weights(targets_.size());
+  double largest = 0.0;
+  if (stage_.norm > 2.0) {
+    for (const auto& feet : state.feet)
+      for (std::size_t k = 0; k < feet.size(); ++k)
+        if (feet[k].location == Location::kInside)
+          largest = std::max(largest, std::abs(feet[k].distance - radius[k % n]));
+  }
+  const double share = 1.0 / (static_cast<double>(targets_.size()) * n * stage_.samples_t);
+  for (std::size_t m = 0; m < targets_.size(); ++m) {
+    const std::vector<Footpoint>& feet = state.feet[m];
+    weights[m].resize(feet.size());
+    for (std::size_t k = 0; k < feet.size(); ++k) {
+      const double e = feet[k].distance - radius[k % n];
+      const bool inside = feet[k].location == Location::kInside;
+      double w = inside ? 1.0 : stage_.extension_weight;
+      const double scale = inside ? stage_.robust_scale_mm : stage_.extension_scale_mm;
+      if (scale > 0.0) {
+        const double q = 1.0 + e * e / (scale * scale);
+        w /= q * q;
+      }
+      if (stage_.norm > 2.0 && largest > 0.0)
+        w *= std::pow(std::min(1.0, std::abs(e) / largest), stage_.norm - 2.0) + 1e-6;
+      if (e < 0.0) w *= stage_.overcut_weight;
+      weights[m][k] = w * share;
+    }
+  }
+  return weights;
+}
+
+Vec6 FitModel::row(const PoseAt& pose, double s, const Footpoint& foot) const {
+  const Vec3 n = distance_gradient(pose.tip + s * pose.u, foot);
+  Vec6 g;
+  g.head<3>() = n;
+  // The direction is scaled by the axis length, so that all six coordinates are lengths.
+  g.tail<3>() = (s / (axis_length_ * pose.length_w)) * (n - n.dot(pose.u) * pose.u);
+  return g;
+}
+
+Eigen::VectorXd FitModel::tool_gradient(const RadialFunction& tool, double s) const {
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(tool.parameter_count());
+  tool.gradient(s, all.data());
+  return all(free_);
+}
+
+void FitModel::tool_gradients(const FitState& state, Eigen::MatrixXd& gradients) const {
+  gradients.setZero(tool_parameters_, stage_.samples_s);
+  if (free_.empty()) return;
+  for (int j = 0; j < stage_.samples_s; ++j) gradients.col(j) = tool_gradient(state.tool, s_[j]);
+}
+
+double FitModel::cost(const FitState& state, const std::vector<std::vector<double>>& weights) const {
+  const int n = stage_.samples_s;
+  std::vector<double> radius(n);
+  for (int j = 0; j < n; ++j) radius[j] = state.tool.at(s_[j]).r;
+  double sum = tool_cost(state);
+  for (std::size_t m = 0; m < targets_.size(); ++m) {
+    for (std::size_t k = 0; k < weights[m].size(); ++k) {
+      const double e = effective(state.feet[m][k].distance - radius[k % n], stage_.dead_zone_mm);
+      sum += weights[m][k] * e * e;
+    }
+    sum += regulariser_cost(state, static_cast<int>(m));
+  }
+  return sum;
+}
+
+void FitModel::assemble(const FitState& state, const std::vector<std::vector<double>>& weights,
+                        ArrowSystem& system) const {
+  system.clear();
+  const int n = stage_.samples_s;
+  std::vector<double> radius(n), factors(static_cast<std::size_t>(n * stage_.samples_t)), matrix_weights;
+  for (int j = 0; j < n; ++j) radius[j] = state.tool.at(s_[j]).r;
+  for (std::size_t m = 0; m < targets_.size(); ++m) {
+    matrix_weights = weights[m];
+    for (std::size_t k = 0; k < factors.size(); ++k) {
+      const double e = effective(state.feet[m][k].distance - radius[k % n], stage_.dead_zone_mm);
+      factors[k] = weights[m][k] * e;
+      if (e == 0.0) matrix_weights[k] *= kDeadZoneDamping;
+    }
+    assemble_rows(state, static_cast<int>(m), matrix_weights, factors, system);
+    assemble_regularisers(state, static_cast<int>(m), system);
+  }
+  assemble_tool(state, system);
+}
+
+void FitModel::assemble_rows(const FitState& state, int motion, const std::vector<double>& weights,
+                             const std::vector<double>& gradient_factors, ArrowSystem& system) const {
+  const int n = stage_.samples_s;
+  Eigen::MatrixXd b;
+  tool_gradients(state, b);
+  Eigen::VectorXd column_weight = Eigen::VectorXd::Zero(n), column_factor = Eigen::VectorXd::Zero(n);
+  PoseTerms terms;
+  Eigen::Matrix<double, 6, Eigen::Dynamic> weighted(6, n);
+  for (int i = 0; i < stage_.samples_t; ++i) {
+    const PoseAt pose = pose_at(state.motions[motion], times_[i]);
+    terms.matrix.setZero();
+    terms.gradient.setZero();
+    for (int j = 0; j < n; ++j) {
+      const std::size_t k = static_cast<std::size_t>(i * n + j);
+      const Vec6 g = row(pose, s_[j], state.feet[motion][k]);
+      weighted.col(j) = weights[k] * g;
+      terms.matrix.noalias() += weighted.col(j) * g.transpose();
+      terms.gradient += gradient_factors[k] * g;
+      column_weight[j] += weights[k];
+      column_factor[j] += gradient_factors[k];
+    }
+    if (!free_.empty()) terms.coupling.noalias() = -weighted * b.transpose();
+    system.add_pose(motion, times_[i].first, times_[i].basis, terms, !free_.empty());
+  }
+  if (free_.empty()) return;
+  system.tool_matrix += b * column_weight.asDiagonal() * b.transpose();
+  system.gradient.tail(tool_parameters_) -= b * column_factor;
+}
+
+std::vector<double> FitModel::row_products(const FitState& state, int motion, const Eigen::VectorXd& step) const {
+  const int n = stage_.samples_s;
+  Eigen::MatrixXd b;
+  tool_gradients(state, b);
+  const Eigen::VectorXd tool_part =
+      free_.empty() ? Eigen::VectorXd::Zero(n).eval() : Eigen::VectorXd(b.transpose() * step.tail(tool_parameters_));
+  std::vector<double> products(static_cast<std::size_t>(n * stage_.samples_t));
+  for (int i = 0; i < stage_.samples_t; ++i) {
+    const PoseAt pose = pose_at(state.motions[motion], times_[i]);
+    Vec6 dx = Vec6::Zero();
+    const int base = 6 * (motion * stage_.control_points + times_[i].first);
+    for (int k = 0; k < 4; ++k) dx += times_[i].basis[k] * step.segment<6>(base + 6 * k);
+    for (int j = 0; j < n; ++j) {
+      const std::size_t k = static_cast<std::size_t>(i * n + j);
+      products[k] = row(pose, s_[j], state.feet[motion][k]).dot(dx) - tool_part[j];
+    }
+  }
+  return products;
+}
+
+void FitModel::assemble_regularisers(const FitState& state, int motion, ArrowSystem& system) const {
+  const RuledMotion& rails = state.motions[motion];
+  const double share = 1.0 / (static_cast<double>(targets_.size()) * stage_.samples_t);
+  const double half = 0.5 * axis_length_;
+  PoseTerms terms;
+  for (int i = 0; i < stage_.samples_t; ++i) {
+    const TimeSample& time = times_[i];
+    terms.matrix = Mat6::Identity() * (stage_.fairness * share);
+    terms.gradient.setZero();
+    for (int k = 0; k < 4; ++k) {
+      terms.gradient.head<3>() += time.basis_d2[k] * rails.tip.poles.col(time.first + k);
+      terms.gradient.tail<3>() += time.basis_d2[k] * axis_length_ * rails.direction.poles.col(time.first + k);
+    }
+    terms.gradient *= stage_.fairness * share;
+    system.add_pose(motion, time.first, time.basis_d2, terms, false);
+
+    const PoseAt pose = pose_at(rails, time);
+    const Anchor& anchor = anchors_[motion][static_cast<std::size_t>(i)];
+    terms.matrix.setZero();
+    terms.gradient.setZero();
+    const auto add = [&](const Vec6& g, double e, double weight) {
+      terms.matrix += weight * share * g * g.transpose();
+      terms.gradient += weight * share * e * g;
+    };
+    Vec6 g;
+    const Vec3 tangent = anchor.tangent;
+    g << tangent, (half / (axis_length_ * pose.length_w)) * (tangent - tangent.dot(pose.u) * pose.u);
+    add(g, tangent.dot(pose.tip + half * pose.u - anchor.middle), stage_.transversal_anchor);
+    g << anchor.axis, Vec3::Zero();
+    add(g, anchor.axis.dot(pose.tip - anchor.tip), stage_.axial_pin);
+    g << Vec3::Zero(), pose.u;
+    add(g, axis_length_ * (pose.length_w - 1.0), kUnitPenalty);
+    system.add_pose(motion, time.first, time.basis, terms, false);
+  }
+}
+
+double FitModel::regulariser_cost(const FitState& state, int motion) const {
+  const RuledMotion& rails = state.motions[motion];
+  const double half = 0.5 * axis_length_;
+  double sum = 0.0;
+  for (int i = 0; i < stage_.samples_t; ++i) {
+    const TimeSample& time = times_[i];
+    Vec3 a = Vec3::Zero(), w = Vec3::Zero();
+    for (int k = 0; k < 4; ++k) {
+      a += time.basis_d2[k] * rails.tip.poles.col(time.first + k);
+      w += time.basis_d2[k] * axis_length_ * rails.direction.poles.col(time.first + k);
+    }
+    sum += stage_.fairness * (a.squaredNorm() + w.squaredNorm());
+    const PoseAt pose = pose_at(rails, time);
+    const Anchor& anchor = anchors_[motion][static_cast<std::size_t>(i)];
+    const double drift = anchor.tangent.dot(pose.tip + half * pose.u - anchor.middle);
+    const double slide = anchor.axis.dot(pose.tip - anchor.tip);
+    const double unit = axis_length_ * (pose.length_w - 1.0);
+    sum += stage_.transversal_anchor * drift * drift + stage_.axial_pin * slide * slide + kUnitPenalty * unit * unit;
+  }
+  return sum / (static_cast<double>(targets_.size()) * stage_.samples_t);
+}
+
+namespace {
+
+/// One-sided residuals of the tool's bounds at one s; zero inside the bounds. `slope_sign` tells the side of a slope
+/// residual.
+struct BoundResiduals {
+  double radius = 0.0;
+  double slope = 0.0;
+};
+BoundResiduals bound_residuals(const RadialJet& jet, const RadiusBounds& bounds, double axis_length) {
+  BoundResiduals out;
+  out.radius = std::max(0.0, jet.r - bounds.largest) - std::max(0.0, bounds.smallest - jet.r);
+  out.slope = (std::max(0.0, jet.d1 - bounds.steepest) - std::max(0.0, -bounds.steepest - jet.d1)) * axis_length;
+  return out;
+}
+
+}  // namespace
+
+void FitModel::assemble_tool(const FitState& state, ArrowSystem& system) const {
+  if (free_.empty()) return;
+  const int n = stage_.samples_s;
+  Eigen::MatrixXd b;
+  tool_gradients(state, b);
+  auto gradient = system.gradient.tail(tool_parameters_);
+  const double h = axis_length_ * 1e-4;
+  for (int j = 0; j < n; ++j) {
+    const RadialJet jet = state.tool.at(s_[j]);
+    system.tool_matrix += (stage_.radius_pin / n) * b.col(j) * b.col(j).transpose();
+    gradient += (stage_.radius_pin / n) * (jet.r - start_radius_[j]) * b.col(j);
+    const BoundResiduals residuals = bound_residuals(jet, bounds_, axis_length_);
+    if (residuals.radius != 0.0) {
+      system.tool_matrix += (kBoundWeight / n) * b.col(j) * b.col(j).transpose();
+      gradient += (kBoundWeight / n) * residuals.radius * b.col(j);
+    }
+    if (residuals.slope == 0.0) continue;
+    const double low = std::max(0.0, s_[j] - h), high = std::min(axis_length_, s_[j] + h);
+    const Eigen::VectorXd g =
+        (tool_gradient(state.tool, high) - tool_gradient(state.tool, low)) * (axis_length_ / (high - low));
+    system.tool_matrix += (kBoundWeight / n) * g * g.transpose();
+    gradient += (kBoundWeight / n) * residuals.slope * g;
+  }
+  if (state.tool.family() != ToolFamily::kSpline) return;
+  const Eigen::VectorXd& r = state.tool.parameters();
+  for (int k = 1; k + 1 < tool_parameters_; ++k) {
+    const double e = r[k - 1] - 2.0 * r[k] + r[k + 1];
+    const double d[3] = {1.0, -2.0, 1.0};
+    for (int p = 0; p < 3; ++p) {
+      gradient[k - 1 + p] += stage_.tool_fairness * e * d[p];
+      for (int q = 0; q < 3; ++q) system.tool_matrix(k - 1 + p, k - 1 + q) += stage_.tool_fairness * d[p] * d[q];
+    }
+  }
+}
+
+double FitModel::tool_cost(const FitState& state) const {
+  if (free_.empty()) return 0.0;
+  double sum = 0.0;
+  for (std::size_t j = 0; j < s_.size(); ++j) {
+    const RadialJet jet = state.tool.at(s_[j]);
+    const BoundResiduals e = bound_residuals(jet, bounds_, axis_length_);
+    const double drift = jet.r - start_radius_[j];
+    sum += (kBoundWeight * (e.radius * e.radius + e.slope * e.slope) + stage_.radius_pin * drift * drift) /
+           stage_.samples_s;
+  }
+  if (state.tool.family() != ToolFamily::kSpline) return sum;
+  const Eigen::VectorXd& r = state.tool.parameters();
+  for (int k = 1; k + 1 < tool_parameters_; ++k) {
+    const double e = r[k - 1] - 2.0 * r[k] + r[k + 1];
+    sum += stage_.tool_fairness * e * e;
+  }
+  return sum;
+}
+
+FitState FitModel::moved(const FitState& state, const Eigen::VectorXd& step) const {
+  FitState next = state;
+  for (std::size_t m = 0; m < next.motions.size(); ++m) {
+    const int base = static_cast<int>(m) * 6 * stage_.control_points;
+    for (int k = 0; k < stage_.control_points; ++k) {
+      next.motions[m].tip.poles.col(k) += step.segment<3>(base + 6 * k);
+      next.motions[m].direction.poles.col(k) += step.segment<3>(base + 6 * k + 3) / axis_length_;
+    }
+  }
+  if (free_.empty()) return next;
+  Eigen::VectorXd parameters = state.tool.parameters();
+  parameters(free_) += step.tail(tool_parameters_);
+  next.tool = state.tool.with_parameters(parameters);
+  return next;
+}
+
+}  // namespace flank

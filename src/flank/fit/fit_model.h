@@ -1,0 +1,129 @@
+/// The variational fit as a least-squares model (MATH section 7; paper A (8)-(12), with the rigidity of section 2 built
+/// in).
+///
+/// Residuals e_ij = d(R(s_j, t_i)) - r(s_j) over a grid of every motion, against that motion's target; one tool for
+/// all.
+#pragma once
+
+#include <vector>
+
+#include "flank/fit/arrow_system.h"
+#include "flank/motion/ruled_motion.h"
+#include "flank/surface/target.h"
+#include "flank/tool/radial_function.h"
+
+namespace flank {
+
+/// One motion and the target that its envelope is to be.
+struct FitTask {
+  const Target* target = nullptr;
+  RuledMotion motion;
+};
+
+/// Bounds on the tool, kept by one-sided terms in the fit and exactly at its end. Millimetres.
+struct RadiusBounds {
+  double smallest = 0.0;  ///< a minimum core radius, too
+  double largest = 1e300;
+  double steepest = 0.95;  ///< |r'|
+};
+
+/// Weights and sizes of one pass of the fit. Weights multiply mean squares of lengths in mm.
+struct FitStage {
+  int samples_t = 100, samples_s = 30;
+  int control_points = 24;
+  int tool_coefficients = 12;  ///< of a free tool
+  int iterations = 30;
+  double fairness = 1e-3;            ///< of second differences of tip and direction rails at the samples (A (11))
+  double tool_fairness = 1e-6;       ///< of second differences of a free tool's coefficients
+  double transversal_anchor = 1e-2;  ///< drift of the middle of the axis along its transversal velocity at the start
+  double axial_pin = 1e-3;           ///< slide of the tip along the axis at the start
+  double radius_pin = 0.0;  ///< of r(s) - r(s) at the start: an offset of tool and axis together is nearly a gauge
+  double extension_weight = 0.05;   ///< of samples whose footpoint is past the border (zero invites the pose to leave)
+  double robust_scale_mm = 0.0;     ///< Geman-McClure scale of samples inside the target; 0: plain least squares
+  double extension_scale_mm = 0.0;  ///< the same for samples past the border, whose surface is only extrapolated
+  double norm = 2.0;                ///< p of the p-norm, 2: least squares
+  double dead_zone_mm = 0.0;        ///< residuals count only beyond this, as sign(e) max(0, |e| - dead zone)
+  double overcut_weight = 1.0;      ///< factor on the weight of samples with e < 0 (the tool enters the face)
+  double step_tolerance = 1e-9;     ///< stop when a step changes the cost by less than this share
+};
+
+/// Everything that changes during a fit.
+struct FitState {
+  std::vector<RuledMotion> motions;
+  RadialFunction tool;
+  std::vector<std::vector<Footpoint>> feet;  ///< [motion][i * samples_s + j]
+};
+
+class FitModel {
+ public:
+  /// free_parameters: indices of the tool's parameters that may change (none: the tool is given). The motions' rails
+  /// must be clamped cubic over [0, 1] with stage.control_points control points each.
+  FitModel(std::vector<const Target*> targets, const FitState& start, std::vector<int> free_parameters,
+           const RadiusBounds& bounds, const FitStage& stage);
+
+  [[nodiscard]] ArrowSystem make_system() const;
+  /// Footpoints of all samples, warm from state.feet where it has them, else marched from one cold query a motion.
+  void find_feet(FitState& state) const;
+  /// Weights of the samples at this state: location, robust, p-norm.
+  [[nodiscard]] std::vector<std::vector<double>> sample_weights(const FitState& state) const;
+  /// Sum of all weighted squares for frozen sample weights.
+  [[nodiscard]] double cost(const FitState& state, const std::vector<std::vector<double>>& weights) const;
+  /// Normal equations at the state.
+  void assemble(const FitState& state, const std::vector<std::vector<double>>& weights, ArrowSystem& system) const;
+  /// Adds sum of w_ij g g' (and, where `target` is given, gradient w_ij target_ij g) of the residual rows alone: for
+  /// constrained steps.
+  void assemble_rows(const FitState& state, int motion, const std::vector<double>& weights,
+                     const std::vector<double>& gradient_factors, ArrowSystem& system) const;
+  /// Directional derivative of the residuals of one motion along a step.
+  [[nodiscard]] std::vector<double> row_products(const FitState& state, int motion, const Eigen::VectorXd& step) const;
+  /// State after a step; footpoints are kept as hints only.
+  [[nodiscard]] FitState moved(const FitState& state, const Eigen::VectorXd& step) const;
+
+  [[nodiscard]] double residual(const FitState& state, int motion, int i, int j) const;
+  /// The axis point of a sample.
+  [[nodiscard]] Vec3 point(const FitState& state, int motion, int i, int j) const;
+  [[nodiscard]] const Target& target(int motion) const { return *targets_[static_cast<std::size_t>(motion)]; }
+  [[nodiscard]] int samples_t() const { return stage_.samples_t; }
+  [[nodiscard]] int samples_s() const { return stage_.samples_s; }
+  [[nodiscard]] const FitStage& stage() const { return stage_; }
+
+ private:
+  struct TimeSample {
+    double t;
+    int first;
+    double basis[4], basis_d2[4];  ///< values and second derivatives of the four active basis functions
+  };
+  struct Anchor {
+    Vec3 middle, tangent, tip, axis;
+  };
+  struct PoseAt {
+    Vec3 tip, w, u;
+    double length_w;
+  };
+
+  [[nodiscard]] PoseAt pose_at(const RuledMotion& motion, const TimeSample& time) const;
+  [[nodiscard]] Vec6 row(const PoseAt& pose, double s, const Footpoint& foot) const;
+  [[nodiscard]] Eigen::VectorXd tool_gradient(const RadialFunction& tool, double s) const;
+  void tool_gradients(const FitState& state, Eigen::MatrixXd& gradients) const;
+  void assemble_regularisers(const FitState& state, int motion, ArrowSystem& system) const;
+  void assemble_tool(const FitState& state, ArrowSystem& system) const;
+  [[nodiscard]] double regulariser_cost(const FitState& state, int motion) const;
+  [[nodiscard]] double tool_cost(const FitState& state) const;
+
+  std::vector<const Target*> targets_;
+  std::vector<int> free_;
+  RadiusBounds bounds_;
+  FitStage stage_;
+  double axis_length_;
+  std::vector<TimeSample> times_;
+  std::vector<double> s_;
+  std::vector<std::vector<Anchor>> anchors_;
+  std::vector<double> start_radius_;  ///< r(s_j) at the start
+  int tool_parameters_;
+};
+
+/// Signed direction in which the distance of a footpoint grows: its normal, or for a border point the direction to the
+/// query point.
+[[nodiscard]] Vec3 distance_gradient(const Vec3& p, const Footpoint& foot);
+
+}  // namespace flank

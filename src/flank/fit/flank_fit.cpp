@@ -1,0 +1,24 @@
+#include "flank/fit/flank_fit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "flank/fit/polish.h"
+
+namespace flank {
+
+FlankFitResult fit_from_starts(const std::vector<FitTask>& tasks, const ToolModel& tool, const FlankFitOptions& options,
+                               const Progress& progress) {
+  FlankFitResult result;
+  const std::vector<SurfaceSample> samples = ranking_samples(*tasks.front().target, options);
+  FitDraft draft = make_draft(tasks, tool, options);
+  progress.step("fit", 0.1);
+  result.before = estimate_coverage(samples, draft.motions, draft.tool, options.tolerance_mm, kRankingPoses);
+  const Polished polished = without_overcut(polish(draft, samples, options, &result.trace), samples, options);
+  progress.step("fit", 0.9);
+  return finish(polished, options, std::move(result));
+}
+
+}  // namespace flank

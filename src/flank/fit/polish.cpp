@@ -1,0 +1,157 @@
+#include "flank/fit/polish.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace flank {
+namespace {
+
+/// A residual below this share of the diagonal says that the target is an envelope of such a tool: go for the last
+/// digits.
+constexpr double kExactShare = 2e-5;
+
+/// Overcut below this share of the diagonal is settled: the constrained pass would not improve it.
+constexpr double kSettledOvercutShare = 1e-6;
+
+/// Distances of the axes' points to their targets, averaged over time: the first radial function.
+RadialFunction mean_distance_tool(const std::vector<FitTask>& tasks, const RadiusBounds& bounds) {
+  constexpr int kS = 25, kT = 15;
+  const double length = tasks.front().motion.axis_length;
+  std::vector<Vec2> samples;
+  for (int j = 0; j < kS; ++j) {
+    const double s = length * j / (kS - 1);
+    double sum = 0.0;
+    int count = 0;
+    for (const FitTask& task : tasks) {
+      for (int i = 0; i < kT; ++i) {
+        const Footpoint foot = task.target->closest(task.motion.pose((i + 0.5) / kT).at(s));
+        sum += foot.distance;
+        ++count;
+      }
+    }
+    samples.emplace_back(s, std::clamp(sum / count, bounds.smallest, bounds.largest));
+  }
+  return RadialFunction::spline_through(length, samples, 6);
+}
+
+Polished assess(FitDraft draft, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
+  Polished polished;
+  if (draft.free_tool) draft.tool = clamp_tool(draft.tool, options.bounds);
+  polished.estimate = estimate_coverage(samples, draft.motions, draft.tool, options.tolerance_mm, kRankingPoses);
+  polished.draft = std::move(draft);
+  return polished;
+}
+
+/// Largest residual against the target itself, between the samples of the passes.
+double validated_error(const FitDraft& draft) {
+  std::vector<FitTask> tasks;
+  for (std::size_t m = 0; m < draft.motions.size(); ++m) tasks.push_back({draft.targets[m], draft.motions[m]});
+  return validate(tasks, draft.tool, 97, 29).largest_mm;
+}
+
+/// For targets that are envelopes: passes of growing resolution, the one kept whose error off the samples is least.
+Polished exact_polish(const Polished& start, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options,
+                      std::vector<IterationTrace>* trace) {
+  Polished best = start;
+  double least = validated_error(start.draft);
+  FitDraft draft = start.draft;
+  for (bool last : {false, true, true}) {
+    draft = run_stage(draft, options.bounds, exact_stage(last), trace);
+    const double error = validated_error(draft);
+    Polished trial = assess(draft, samples, options);
+    const bool covers = trial.estimate.at_tolerance > best.estimate.at_tolerance - 1e-3;
+    if (!covers || error > least) continue;
+    least = error;
+    best = std::move(trial);
+  }
+  return best;
+}
+
+/// A free tool's radii shifted so that the overcut is at most half a tolerance, if that does not lose coverage.
+Polished shifted(const Polished& polished, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
+  if (!polished.draft.free_tool) return polished;
+  Polished best = polished;
+  for (double share : {0.25, 0.5, 0.75, 1.0}) {
+    FitDraft draft = polished.draft;
+    const double by = share * polished.estimate.overcut_mm;
+    const Eigen::VectorXd radii = (draft.tool.parameters().array() - by).max(options.bounds.smallest);
+    draft.tool = draft.tool.with_parameters(radii);
+    Polished trial = assess(std::move(draft), samples, options);
+    if (trial.estimate.score(options.tolerance_mm) > best.estimate.score(options.tolerance_mm)) best = std::move(trial);
+  }
+  return best;
+}
+
+}  // namespace
+
+double robust_scale(const Target& target, const FlankFitOptions& options) {
+  return std::max(4.0 * options.tolerance_mm, 1e-3 * target.diagonal());
+}
+
+std::vector<SurfaceSample> ranking_samples(const Target& target, const FlankFitOptions& options) {
+  return target.samples(std::sqrt(target.area()) * options.sample_share);
+}
+
+FitDraft make_draft(const std::vector<FitTask>& tasks, const ToolModel& tool, const FlankFitOptions& options) {
+  FitDraft draft;
+  for (const FitTask& task : tasks) {
+    draft.targets.push_back(task.target);
+    draft.motions.push_back(task.motion);
+  }
+  draft.free_tool = tool.free();
+  draft.tool = mean_distance_tool(tasks, options.bounds);
+  if (draft.free_tool) return draft;
+  const double length = tasks.front().motion.axis_length;
+  draft.tool = tool.make(length, draft.tool.at(0.5 * length).r);
+  draft.free_parameters = tool.free_parameters;
+  return draft;
+}
+
+Polished polish(const FitDraft& draft, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options,
+                std::vector<IterationTrace>* trace) {
+  ResidualSummary summary;
+  Polished best = assess(draft, samples, options);
+  const auto keep = [&](Polished&& trial) {
+    if (trial.estimate.score(options.tolerance_mm) > best.estimate.score(options.tolerance_mm)) best = std::move(trial);
+  };
+  const double diagonal = draft.targets.front()->diagonal();
+  const double scale = robust_scale(*draft.targets.front(), options);
+  keep(assess(run_stage(draft, options.bounds, polish_stage(scale), trace, &summary), samples, options));
+  if (summary.rms_mm < kExactShare * diagonal) {
+    return exact_polish(best, samples, options, trace);
+  }
+  const FitStage stage = tolerance_stage(options.tolerance_mm, scale);
+  if (draft.free_tool || !draft.free_parameters.empty())
+    keep(assess(run_stage(best.draft, options.bounds, stage, trace), samples, options));
+  return shifted(best, samples, options);
+}
+
+Polished without_overcut(const Polished& polished, const std::vector<SurfaceSample>& samples,
+                         const FlankFitOptions& options) {
+  const double diagonal = polished.draft.targets.front()->diagonal();
+  if (polished.draft.free_tool || polished.estimate.overcut_mm < kSettledOvercutShare * diagonal) return polished;
+  FitStage stage = tolerance_stage(options.tolerance_mm, robust_scale(*polished.draft.targets.front(), options));
+  stage.dead_zone_mm = 0.0;
+  stage.samples_t = 140;
+  Polished held = assess(run_constrained(polished.draft, options.bounds, stage, 0.0), samples, options);
+  return held.estimate.overcut_mm < polished.estimate.overcut_mm ? held : polished;
+}
+
+FlankFitResult finish(const Polished& polished, const FlankFitOptions& options, FlankFitResult result) {
+  result.tool = polished.draft.tool;
+  result.motions = polished.draft.motions;
+  result.after = polished.estimate;
+  std::vector<FitTask> tasks;
+  for (std::size_t m = 0; m < result.motions.size(); ++m)
+    tasks.push_back({polished.draft.targets[m], result.motions[m]});
+  result.residuals = validate(tasks, result.tool, 60, 24);
+  const bool good = result.after.at_tolerance >= 0.995 && result.after.overcut_mm <= options.tolerance_mm;
+  result.status = good ? FitStatus::kWithinTolerance : FitStatus::kPartial;
+  result.message = fmt::format("estimated coverage {:.2f} % at {:.4g} mm, overcut {:.4g} mm",
+                               100.0 * result.after.at_tolerance, options.tolerance_mm, result.after.overcut_mm);
+  return result;
+}
+
+}  // namespace flank

@@ -1,0 +1,41 @@
+/// From a draft that a start or a quick fit gave to a result: the passes, the choice among them, the last corrections.
+#pragma once
+
+#include <vector>
+
+#include "flank/fit/stages.h"
+
+namespace flank {
+
+inline constexpr int kRankingPoses = 160;
+
+/// Residuals far beyond this are outliers to a robust pass.
+[[nodiscard]] double robust_scale(const Target& target, const FlankFitOptions& options);
+
+/// Samples of the target that rank drafts.
+[[nodiscard]] std::vector<SurfaceSample> ranking_samples(const Target& target, const FlankFitOptions& options);
+
+/// A draft for these tasks: the tool given, or a free spline of the mean distance of the axes to their targets.
+[[nodiscard]] FitDraft make_draft(const std::vector<FitTask>& tasks, const ToolModel& tool,
+                                  const FlankFitOptions& options);
+
+struct Polished {
+  FitDraft draft;
+  CoverageEstimate estimate;
+};
+
+/// Least squares, then either the exact passes (residual near zero) or the tolerance passes. Never returns worse than
+/// the best it saw.
+[[nodiscard]] Polished polish(const FitDraft& draft, const std::vector<SurfaceSample>& samples,
+                              const FlankFitOptions& options, std::vector<IterationTrace>* trace);
+
+/// A tool whose shape is given cannot shrink: its overcut is taken out by the constrained pass, at the price of
+/// material left.
+[[nodiscard]] Polished without_overcut(const Polished& polished, const std::vector<SurfaceSample>& samples,
+                                       const FlankFitOptions& options);
+
+/// Fills a result from the chosen draft: overcut taken out of a free tool's radii, validation with cold footpoints,
+/// status.
+[[nodiscard]] FlankFitResult finish(const Polished& polished, const FlankFitOptions& options, FlankFitResult result);
+
+}  // namespace flank

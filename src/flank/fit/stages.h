@@ -1,0 +1,40 @@
+/// One pass of the fit after another: coarse and robust first, then fine.
+#pragma once
+
+#include <vector>
+
+#include "flank/fit/flank_fit.h"
+
+namespace flank {
+
+/// A tool and motions between passes, without footpoints.
+struct FitDraft {
+  std::vector<const Target*> targets;
+  std::vector<RuledMotion> motions;
+  RadialFunction tool;
+  std::vector<int> free_parameters;  ///< of the tool; ignored where `free_tool`
+  bool free_tool = false;            ///< a spline whose number of coefficients a pass may change
+};
+
+/// Brings the draft to the stage's number of control points and coefficients and minimises; `trace` grows if given.
+[[nodiscard]] FitDraft run_stage(const FitDraft& draft, const RadiusBounds& bounds, const FitStage& stage,
+                                 std::vector<IterationTrace>* trace = nullptr, ResidualSummary* summary = nullptr);
+
+/// Short robust pass for ranking starts.
+[[nodiscard]] FitStage quick_stage(double robust_scale_mm);
+/// Least squares at the resolution of the papers (100 x 30, 24 control points).
+[[nodiscard]] FitStage polish_stage(double robust_scale_mm);
+/// For targets that are envelopes (residual near zero): no fairness that would bias, no pull from extensions; the last
+/// of them has more control points and all but no anchors.
+[[nodiscard]] FitStage exact_stage(bool last);
+/// For targets that are not: residuals count beyond 0.7 tolerances, so that coverage grows instead of the mean falling.
+[[nodiscard]] FitStage tolerance_stage(double tolerance_mm, double robust_scale_mm);
+
+/// The same passes under a hard limit on overcut (constrained.h), at the resolution of `stage`.
+[[nodiscard]] FitDraft run_constrained(const FitDraft& draft, const RadiusBounds& bounds, const FitStage& stage,
+                                       double allowed_overcut_mm);
+
+/// Tool parameters clamped into the bounds (splines: coefficients, whose hull holds the function).
+[[nodiscard]] RadialFunction clamp_tool(const RadialFunction& tool, const RadiusBounds& bounds);
+
+}  // namespace flank

@@ -1,0 +1,223 @@
+#include "flank/geom/mesh_topology.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace flank {
+namespace {
+
+struct Edge {
+  int low, high;  // vertices
+  int triangle, side;
+  bool ascending;  // whether the triangle runs from low to high
+};
+
+std::vector<Edge> sorted_edges(const TriangleMesh& mesh) {
+  std::vector<Edge> edges;
+  edges.reserve(3 * mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const int a = mesh.triangles[t][(k + 1) % 3], b = mesh.triangles[t][(k + 2) % 3];
+      edges.push_back({std::min(a, b), std::max(a, b), static_cast<int>(t), k, a < b});
+    }
+  }
+  std::sort(edges.begin(), edges.end(), [](const Edge& x, const Edge& y) {
+    if (x.low != y.low) return x.low < y.low;
+    if (x.high != y.high) return x.high < y.high;
+    return x.triangle < y.triangle;
+  });
+  return edges;
+}
+
+void link(const TriangleMesh& mesh, double crease_rad, MeshTopology& topology) {
+  const std::vector<Vec3> normals = triangle_normals(mesh);
+  const std::vector<Edge> edges = sorted_edges(mesh);
+  const double least_cosine = std::cos(crease_rad);
+  topology.neighbors.assign(mesh.triangles.size(), {-1, -1, -1});
+  for (std::size_t i = 0; i < edges.size();) {
+    std::size_t j = i + 1;
+    while (j < edges.size() && edges[j].low == edges[i].low && edges[j].high == edges[i].high) ++j;
+    if (j - i == 2 && edges[i].ascending != edges[i + 1].ascending) {
+      const auto s = static_cast<std::size_t>(edges[i].triangle), t = static_cast<std::size_t>(edges[i + 1].triangle);
+      if (normals[s].dot(normals[t]) > least_cosine) {
+        topology.neighbors[s][edges[i].side] = edges[i + 1].triangle;
+        topology.neighbors[t][edges[i + 1].side] = edges[i].triangle;
+      }
+    }
+    i = j;
+  }
+}
+
+void collect_fans(const TriangleMesh& mesh, MeshTopology& topology) {
+  const std::size_t count = mesh.vertices.size();
+  topology.fan_begin.assign(count + 1, 0);
+  for (const auto& t : mesh.triangles)
+    for (int v : t) ++topology.fan_begin[static_cast<std::size_t>(v) + 1];
+  for (std::size_t v = 0; v < count; ++v) topology.fan_begin[v + 1] += topology.fan_begin[v];
+  topology.fans.assign(3 * mesh.triangles.size(), 0);
+  std::vector<int> next(topology.fan_begin.begin(), topology.fan_begin.end() - 1);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int v : mesh.triangles[t])
+      topology.fans[static_cast<std::size_t>(next[static_cast<std::size_t>(v)]++)] = static_cast<int>(t);
+}
+
+int corner_of(const TriangleMesh& mesh, int triangle, int vertex) {
+  const auto& t = mesh.triangles[static_cast<std::size_t>(triangle)];
+  return t[0] == vertex ? 0 : t[1] == vertex ? 1 : 2;
+}
+
+/// Moves the triangles of `around` that hang together with the first one, over linked sides that end at the vertex, to
+/// the front; returns how many they are.
+std::size_t gather_fan(const TriangleMesh& mesh, const MeshTopology& topology, int vertex, std::span<int> around) {
+  std::size_t count = 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    const int corner = corner_of(mesh, around[i], vertex);
+    for (int k = 1; k < 3; ++k) {
+      const int other = topology.neighbors[static_cast<std::size_t>(around[i])][(corner + k) % 3];
+      for (std::size_t j = count; other >= 0 && j < around.size(); ++j)
+        if (around[j] == other) std::swap(around[j], around[count++]);
+    }
+  }
+  return count;
+}
+
+/// Gives every fan but the first its own copy of the vertex. Returns whether anything was doubled.
+bool separate_vertices(TriangleMesh& mesh, const MeshTopology& topology) {
+  const std::size_t count = mesh.vertices.size();
+  std::vector<int> around;
+  for (std::size_t v = 0; v < count; ++v) {
+    const int vertex = static_cast<int>(v);
+    const auto all = topology.around(vertex);
+    around.assign(all.begin(), all.end());
+    std::span<int> rest(around);
+    if (!rest.empty()) rest = rest.subspan(gather_fan(mesh, topology, vertex, rest));
+    while (!rest.empty()) {
+      const std::size_t fan = gather_fan(mesh, topology, vertex, rest);
+      const int copy = static_cast<int>(mesh.vertices.size());
+      mesh.vertices.push_back(Vec3(mesh.vertices[v]));
+      for (int t : rest.first(fan)) {
+        const int corner = corner_of(mesh, t, vertex);
+        mesh.triangles[static_cast<std::size_t>(t)][corner] = copy;
+      }
+      rest = rest.subspan(fan);
+    }
+  }
+  return mesh.vertices.size() != count;
+}
+
+}  // namespace
+
+MeshTopology link_triangles(TriangleMesh& mesh, double crease_rad) {
+  MeshTopology topology;
+  link(mesh, crease_rad, topology);
+  collect_fans(mesh, topology);
+  if (separate_vertices(mesh, topology)) {
+    // Where a fin came off, the two sides left behind belong together.
+    link(mesh, crease_rad, topology);
+    collect_fans(mesh, topology);
+  }
+  topology.on_border.assign(mesh.vertices.size(), 0);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      if (topology.neighbors[t][k] >= 0) continue;
+      topology.on_border[static_cast<std::size_t>(mesh.triangles[t][(k + 1) % 3])] = 1;
+      topology.on_border[static_cast<std::size_t>(mesh.triangles[t][(k + 2) % 3])] = 1;
+    }
+  }
+  return topology;
+}
+
+std::vector<int> components(const MeshTopology& topology) {
+  std::vector<int> number(topology.neighbors.size(), -1);
+  std::vector<int> stack;
+  int count = 0;
+  for (std::size_t start = 0; start < number.size(); ++start) {
+    if (number[start] >= 0) continue;
+    number[start] = count;
+    stack.assign(1, static_cast<int>(start));
+    while (!stack.empty()) {
+      const auto t = static_cast<std::size_t>(stack.back());
+      stack.pop_back();
+      for (int other : topology.neighbors[t]) {
+        if (other < 0 || number[static_cast<std::size_t>(other)] >= 0) continue;
+        number[static_cast<std::size_t>(other)] = count;
+        stack.push_back(other);
+      }
+    }
+    ++count;
+  }
+  return number;
+}
+
+std::vector<std::vector<TriangleSide>> border_loops(const TriangleMesh& mesh, const MeshTopology& topology) {
+  // After link_triangles a border vertex has one fan, so exactly one border side starts there.
+  std::vector<TriangleSide> starting(mesh.vertices.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k)
+      if (topology.neighbors[t][k] < 0)
+        starting[static_cast<std::size_t>(mesh.triangles[t][(k + 1) % 3])] = {static_cast<int>(t), k};
+  std::vector<char> used(mesh.vertices.size(), 0);
+  std::vector<std::vector<TriangleSide>> loops;
+  for (std::size_t v = 0; v < starting.size(); ++v) {
+    if (starting[v].triangle < 0 || used[v]) continue;
+    std::vector<TriangleSide> loop;
+    for (std::size_t at = v; !used[at];) {
+      used[at] = 1;
+      loop.push_back(starting[at]);
+      const auto& triangle = mesh.triangles[static_cast<std::size_t>(starting[at].triangle)];
+      at = static_cast<std::size_t>(triangle[(starting[at].side + 2) % 3]);
+    }
+    loops.push_back(std::move(loop));
+  }
+  return loops;
+}
+
+double corner_angle(const TriangleMesh& mesh, int triangle, int corner) {
+  const auto& t = mesh.triangles[static_cast<std::size_t>(triangle)];
+  const auto point = [&](int k) -> const Vec3& { return mesh.vertices[static_cast<std::size_t>(t[k % 3])]; };
+  const Vec3 a = point(corner + 1) - point(corner), b = point(corner + 2) - point(corner);
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+double total_turning(const TriangleMesh& mesh, const MeshTopology& topology, std::span<const TriangleSide> loop) {
+  double turning = 0.0;
+  for (const TriangleSide& side : loop) {
+    const int vertex = mesh.triangles[static_cast<std::size_t>(side.triangle)][(side.side + 1) % 3];
+    turning += std::numbers::pi;
+    for (int t : topology.around(vertex)) turning -= corner_angle(mesh, t, corner_of(mesh, t, vertex));
+  }
+  return turning;
+}
+
+std::vector<Vec3> triangle_normals(const TriangleMesh& mesh) {
+  std::vector<Vec3> normals;
+  normals.reserve(mesh.triangles.size());
+  for (const auto& t : mesh.triangles) {
+    const Vec3& a = mesh.vertices[static_cast<std::size_t>(t[0])];
+    const Vec3 n =
+        (mesh.vertices[static_cast<std::size_t>(t[1])] - a).cross(mesh.vertices[static_cast<std::size_t>(t[2])] - a);
+    const double length = n.norm();
+    normals.push_back(length > 0.0 ? Vec3(n / length) : Vec3(Vec3::Zero()));
+  }
+  return normals;
+}
+
+std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {
+  const std::vector<Vec3> flat = triangle_normals(mesh);
+  std::vector<Vec3> normals(mesh.vertices.size(), Vec3::Zero());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k)
+      normals[static_cast<std::size_t>(mesh.triangles[t][k])] += corner_angle(mesh, static_cast<int>(t), k) * flat[t];
+  for (Vec3& n : normals) {
+    const double length = n.norm();
+    n = length > 1e-9 ? Vec3(n / length) : Vec3(Vec3::Zero());
+  }
+  // Where they cancel (a sheet folded onto itself) one of them has to do.
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int v : mesh.triangles[t])
+      if (Vec3& n = normals[static_cast<std::size_t>(v)]; n.isZero()) n = flat[t];
+  return normals;
+}
+
+}  // namespace flank

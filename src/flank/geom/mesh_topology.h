@@ -1,0 +1,58 @@
+/// Who is whose neighbour in a triangle mesh.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "flank/geom/triangle_mesh.h"
+
+namespace flank {
+
+/// Adjacency of an oriented manifold mesh. Side k of a triangle lies opposite its corner k and runs from corner k+1 to
+/// corner k+2.
+struct MeshTopology {
+  std::vector<std::array<int, 3>> neighbors;  ///< [t][k]: the triangle across side k, -1 at a border
+  std::vector<int>
+      fan_begin;  ///< triangles around vertex v: fans[fan_begin[v]] to fans[fan_begin[v + 1] - 1], ascending
+  std::vector<int> fans;
+  std::vector<char> on_border;  ///< per vertex: 1 where a border side starts or ends
+
+  [[nodiscard]] std::span<const int> around(int vertex) const {
+    const auto v = static_cast<std::size_t>(vertex);
+    return {fans.data() + fan_begin[v], fans.data() + fan_begin[v + 1]};
+  }
+};
+
+/// One side of one triangle.
+struct TriangleSide {
+  int triangle = -1, side = 0;
+};
+
+/// Sides that belong to exactly two triangles, in opposite directions, and whose triangles' normals differ by less than
+/// `crease_rad`, are linked; all others are borders. Vertices where several fans of linked triangles meet are doubled
+/// in `mesh`, one vertex a fan, appended at the end, so that creases, fins and bow ties come apart.
+[[nodiscard]] MeshTopology link_triangles(TriangleMesh& mesh, double crease_rad);
+
+/// Number of the connected component of each triangle, counted from 0 in the order of the triangles.
+[[nodiscard]] std::vector<int> components(const MeshTopology& topology);
+
+/// Closed border loops, each in the triangles' own direction (the surface lies to the left, seen from the machining
+/// side).
+[[nodiscard]] std::vector<std::vector<TriangleSide>> border_loops(const TriangleMesh& mesh,
+                                                                  const MeshTopology& topology);
+
+/// Corner k of the angle in triangle t, in radians.
+[[nodiscard]] double corner_angle(const TriangleMesh& mesh, int triangle, int corner);
+
+/// Sum over the loop's vertices of pi minus the surface's inner angle: near 2 pi for the rim of a disk, 0 for the end
+/// of a tube, -2 pi for a hole cut into a surface (exact on a plane; the surface's own curvature shifts it).
+[[nodiscard]] double total_turning(const TriangleMesh& mesh, const MeshTopology& topology,
+                                   std::span<const TriangleSide> loop);
+
+/// Unit normals of the triangles (zero where the area is zero) and, weighted by the corner angles, of the vertices; one
+/// of the triangles' where those around a vertex cancel.
+[[nodiscard]] std::vector<Vec3> triangle_normals(const TriangleMesh& mesh);
+[[nodiscard]] std::vector<Vec3> vertex_normals(const TriangleMesh& mesh);
+
+}  // namespace flank

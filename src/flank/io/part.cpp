@@ -1,0 +1,131 @@
+#include "flank/io/part.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <string_view>
+#include <utility>
+
+#include "flank/base/error.h"
+#include "flank/io/read_cad.h"
+#include "flank/io/read_mesh.h"
+#include "flank/io/read_mesh_regions.h"
+#include "flank/io/read_mesh_repair.h"
+#include "flank/io/read_sniff.h"
+#include "flank/io/read_unit.h"
+
+namespace flank {
+namespace {
+
+/// "cm: 42.8 x 74.4 x 48.4 mm" for every unit, so that the user recognises the right one.
+std::string sizes_by_unit(const Vec3& size) {
+  std::string text;
+  for (const char* unit : {"mm", "cm", "m", "in"}) {
+    const Vec3 mm = millimetres_per(unit) * size;
+    text += fmt::format("{}{} ({:.3g} x {:.3g} x {:.3g} mm)", text.empty() ? "" : ", ", unit, mm.x(), mm.y(), mm.z());
+  }
+  return text;
+}
+
+TriangleMesh parse_mesh(const std::string& file, const std::string& format, std::string_view content) {
+  TriangleMesh mesh = format == "STL"   ? read_stl(file, content)
+                      : format == "OBJ" ? read_obj(file, content)
+                                        : read_ply(file, content);
+  if (mesh.triangles.empty()) throw InputError(file + ": has no triangles; accepted are meshes with faces");
+  return mesh;
+}
+
+/// The box of what the triangles use: a stray vertex is not part of the part.
+Vec3 used_size(const TriangleMesh& mesh) {
+  Box3 box;
+  for (const auto& t : mesh.triangles)
+    for (const int v : t) box.add(mesh.vertices[static_cast<std::size_t>(v)]);
+  return box.high - box.low;
+}
+
+Part read_mesh(const std::string& file, const std::string& format, std::string_view content,
+               const std::optional<std::string>& unit) {
+  TriangleMesh raw = parse_mesh(file, format, content);
+  if (!unit)
+    throw InputError(
+        fmt::format("{}: a mesh file has no unit; say which with --unit: {}", file, sizes_by_unit(used_size(raw))));
+  Part part;
+  part.file = file;
+  part.format = format;
+  part.unit = *unit;
+  part.millimetres_per_unit = millimetres_per(*unit);
+  for (Vec3& v : raw.vertices) v *= part.millimetres_per_unit;
+  try {
+    ReadMesh repaired = repair_read_mesh(std::move(raw), format == "STL");
+    part.mesh = std::move(repaired.mesh);
+    part.repairs = std::move(repaired.account);
+  } catch (const InputError& error) {
+    throw InputError(file + ": " + error.what());
+  }
+  part.mesh_faces = mesh_regions(part.mesh);
+  part.surface_types.assign(part.mesh_faces.size(), "mesh");
+  part.box = part.mesh.box();
+  return part;
+}
+
+int face_index(const Part& part, std::string_view name) {
+  int index = 0;
+  const char* end = name.data() + name.size();
+  const bool named = name.size() > 1 && (name.front() == 'F' || name.front() == 'f');
+  const auto [stop, error] =
+      named ? std::from_chars(name.data() + 1, end, index) : std::from_chars_result{end, std::errc::invalid_argument};
+  if (error != std::errc() || stop != end || index < 1 || index > part.face_count())
+    throw InputError(
+        fmt::format("{}: there is no face \"{}\"; accepted are F1 to F{}", part.file, name, part.face_count()));
+  return index - 1;
+}
+
+}  // namespace
+
+Part read_part(const std::string& file, const std::optional<std::string>& unit) {
+  if (unit) (void)millimetres_per(*unit);
+  const std::string content = read_bytes(file);
+  const std::string format = sniff_format(file, content);
+  if (format == "STL" || format == "OBJ" || format == "PLY") return read_mesh(file, format, content, unit);
+  return read_cad(file, format, unit);
+}
+
+std::vector<int> parse_face_list(const Part& part, const std::string& list) {
+  std::vector<int> faces;
+  for (std::size_t begin = 0; begin <= list.size();) {
+    const std::size_t end = std::min(list.find(',', begin), list.size());
+    std::string_view name = std::string_view(list).substr(begin, end - begin);
+    while (!name.empty() && name.front() == ' ') name.remove_prefix(1);
+    while (!name.empty() && name.back() == ' ') name.remove_suffix(1);
+    const int index = face_index(part, name);
+    if (std::find(faces.begin(), faces.end(), index) != faces.end())
+      throw InputError(
+          fmt::format("{}: face \"{}\" is named twice in \"{}\"; name each face once", part.file, name, list));
+    faces.push_back(index);
+    begin = end + 1;
+  }
+  return faces;
+}
+
+TriangleMesh extract_mesh(const Part& part, const std::vector<int>& faces) {
+  TriangleMesh mesh;
+  std::vector<int> number(part.mesh.vertices.size(), -1);
+  for (const int face : faces) {
+    for (const int t : part.mesh_faces[static_cast<std::size_t>(face)]) {
+      std::array<int, 3> corners = part.mesh.triangles[static_cast<std::size_t>(t)];
+      for (int& v : corners) {
+        int& renumbered = number[static_cast<std::size_t>(v)];
+        if (renumbered < 0) {
+          renumbered = static_cast<int>(mesh.vertices.size());
+          mesh.vertices.push_back(part.mesh.vertices[static_cast<std::size_t>(v)]);
+        }
+        v = renumbered;
+      }
+      mesh.triangles.push_back(corners);
+    }
+  }
+  return mesh;
+}
+
+}  // namespace flank

@@ -1,0 +1,43 @@
+// The folder that a fit leaves: every file whole or not at all.
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "flank/base/atomic_file.h"
+#include "flank/base/error.h"
+#include "flank/io/path_cls.h"
+#include "flank/io/path_csv.h"
+#include "flank/io/path_json.h"
+#include "flank/io/tool_dxf.h"
+#include "flank/io/tool_json.h"
+#include "flank/pipeline/fit_job.h"
+#include "flank/pipeline/job_json.h"
+#include "flank/pipeline/verify_json.h"
+
+namespace flank {
+
+void ensure_folder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder))
+    throw InputError("-o " + folder + ": cannot make this folder (" + (error ? error.message() : "a file is there") +
+                     "); a folder that can be written is needed");
+  // Better to learn it before the work than after: a probe file that is made and removed.
+  const AtomicFile probe((std::filesystem::path(folder) / "job.json").string());
+}
+
+void write_fit(const FitJob& job, const FitOutcome& outcome, const std::string& folder) {
+  ensure_folder(folder);
+  const auto file = [&](const char* name) { return (std::filesystem::path(folder) / name).string(); };
+  ClsOptions cls;
+  cls.part = std::filesystem::path(job.part).stem().string();
+  write_file(file("tool.json"), tool_to_json(outcome.tool));
+  write_file(file("tool.dxf"), tool_to_dxf(outcome.tool));
+  write_file(file("path.json"), path_to_json(outcome.path));
+  write_file(file("path.cls"), path_to_cls(outcome.path, outcome.tool, cls));
+  write_file(file("path.csv"), path_to_csv(outcome.path));
+  write_file(file("job.json"), job_to_json(job));
+  write_file(file("verify.json"), verify_to_json(outcome.verify));
+  write_file(file("summary.json"), summary_json(job, outcome));
+}
+
+}  // namespace flank

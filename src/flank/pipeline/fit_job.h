@@ -1,0 +1,62 @@
+/// `flank fit` as one function: part file in, tool, path and verdict out.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "flank/base/progress.h"
+#include "flank/fit/flank_fit.h"
+#include "flank/io/part.h"
+#include "flank/path/path.h"
+#include "flank/tool/tool.h"
+#include "flank/verify/judge.h"
+
+namespace flank {
+
+/// What the user asked for. Lengths in mm.
+struct FitJob {
+  std::string part;                  ///< file
+  std::optional<std::string> unit;   ///< of a mesh
+  std::string faces = "F1";          ///< "F1" or "F1,F3": one target
+  std::optional<int> side;           ///< +1, -1: which side of an open sheet is machined; none: both are tried
+  std::string tool = "free";         ///< tool spec: free, family[:name=value,...], or a tool.json
+  std::optional<std::string> start;  ///< "x,y,z,x,y,z": tip and holder end of a first axis
+  std::optional<std::string> guide;  ///< file of several such lines
+  int strips = 1;                    ///< 0: as many as the tolerance needs, at most kMostStrips
+  double tolerance_mm = 0.01;
+  std::optional<double> axis_length_mm;
+  std::optional<double> radius_min_mm, radius_max_mm;
+  double slope_max = 0.95;          ///< of |r'|
+  double least_coverage = 0.95;     ///< share of the target within tolerance that counts as done
+  std::optional<double> sample_mm;  ///< spacing of the judge's samples
+};
+inline constexpr int kMostStrips = 12;
+
+struct FitOutcome {
+  Tool tool;
+  Path path;
+  FlankFitResult fit;
+  VerifyReport verify;
+  double chord_bound_mm = 0.0;                          ///< between the motion and the joined poses
+  double largest_c = 0.0;                               ///< regularity of the envelope, < 1 needed
+  double diagonal_mm = 0.0;                             ///< of the target
+  std::vector<std::string> notes;                       ///< repairs of the part, warnings
+  std::vector<std::pair<std::string, double>> seconds;  ///< stage, wall time
+  bool complete = true;                                 ///< false: cancelled, what is here is unfinished
+  /// 0: overcut on the target within tolerance and coverage at least as asked; 1: not.
+  [[nodiscard]] int exit_code(const FitJob& job) const;
+};
+
+/// Reads, fits, samples and judges. Throws UsageError and InputError before any work is done.
+[[nodiscard]] FitOutcome run_fit(const FitJob& job, const Progress& progress);
+
+/// Writes tool.json, tool.dxf, path.json, path.cls, path.csv, verify.json, summary.json and job.json to a folder.
+void write_fit(const FitJob& job, const FitOutcome& outcome, const std::string& folder);
+
+/// Table for a terminal.
+[[nodiscard]] std::string summary_text(const FitJob& job, const FitOutcome& outcome);
+/// summary.json (schema openflank/summary/1).
+[[nodiscard]] std::string summary_json(const FitJob& job, const FitOutcome& outcome);
+
+}  // namespace flank

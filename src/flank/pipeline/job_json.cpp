@@ -1,0 +1,74 @@
+#include "flank/pipeline/job_json.h"
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "flank/base/error.h"
+
+namespace flank {
+namespace {
+
+constexpr const char* kSchema = "openflank/job/1";
+
+template <typename T>
+void put(nlohmann::ordered_json& json, const char* key, const std::optional<T>& value) {
+  if (value) json[key] = *value;
+}
+
+template <typename T>
+std::optional<T> take(const nlohmann::json& json, const char* key) {
+  if (!json.contains(key)) return std::nullopt;
+  return json.at(key).get<T>();
+}
+
+}  // namespace
+
+std::string job_to_json(const FitJob& job) {
+  nlohmann::ordered_json json;
+  json["schema"] = kSchema;
+  json["units"] = "mm";
+  json["part"] = std::filesystem::absolute(job.part).lexically_normal().string();
+  put(json, "unit", job.unit);
+  json["faces"] = job.faces;
+  put(json, "side", job.side);
+  json["tool"] = job.tool;
+  put(json, "start", job.start);
+  put(json, "guide", job.guide);
+  json["strips"] = job.strips;
+  json["tolerance"] = job.tolerance_mm;
+  put(json, "axis_length", job.axis_length_mm);
+  put(json, "radius_min", job.radius_min_mm);
+  put(json, "radius_max", job.radius_max_mm);
+  json["slope_max"] = job.slope_max;
+  json["coverage"] = job.least_coverage;
+  put(json, "sample", job.sample_mm);
+  return json.dump(2) + "\n";
+}
+
+FitJob job_from_json(const std::string& text, const std::string& file) {
+  try {
+    const nlohmann::json json = nlohmann::json::parse(text);
+    if (json.value("schema", "") != kSchema) throw InputError(file + ": schema \"" + kSchema + "\" is needed");
+    FitJob job;
+    job.part = json.at("part").get<std::string>();
+    job.unit = take<std::string>(json, "unit");
+    job.faces = json.at("faces").get<std::string>();
+    job.side = take<int>(json, "side");
+    job.tool = json.value("tool", job.tool);
+    job.start = take<std::string>(json, "start");
+    job.guide = take<std::string>(json, "guide");
+    job.strips = json.value("strips", job.strips);
+    job.tolerance_mm = json.at("tolerance").get<double>();
+    job.axis_length_mm = take<double>(json, "axis_length");
+    job.radius_min_mm = take<double>(json, "radius_min");
+    job.radius_max_mm = take<double>(json, "radius_max");
+    job.slope_max = json.value("slope_max", job.slope_max);
+    job.least_coverage = json.value("coverage", job.least_coverage);
+    job.sample_mm = take<double>(json, "sample");
+    return job;
+  } catch (const nlohmann::json::exception& e) {
+    throw InputError(file + ": not a job file: " + e.what());
+  }
+}
+
+}  // namespace flank

@@ -1,0 +1,28 @@
+/// From faces of a part to the targets of a fit and the samples of the judge.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "flank/io/part.h"
+#include "flank/surface/target.h"
+#include "flank/verify/judge.h"
+
+namespace flank {
+
+/// Faces that hang together are one target; faces that do not are several, to be machined with one tool.
+struct TargetGroup {
+  std::string faces;  ///< "F1" or "F1,F2"
+  std::unique_ptr<Target> target;
+  bool of_solid = true;  ///< the machining side is known from the solid
+};
+
+/// side = -1 turns the machining side of open sheets.
+[[nodiscard]] std::vector<TargetGroup> make_targets(const Part& part, const std::vector<int>& faces, int side);
+
+/// Samples of the targets and of every other face of the part (coarser) for the judge.
+[[nodiscard]] std::vector<FaceSamples> judge_samples(const Part& part, const std::vector<int>& faces, double spacing_mm,
+                                                     double check_spacing_mm);
+
+}  // namespace flank

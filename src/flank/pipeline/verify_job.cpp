@@ -1,0 +1,77 @@
+#include "flank/pipeline/verify_job.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "flank/base/atomic_file.h"
+#include "flank/base/error.h"
+#include "flank/io/path_json.h"
+#include "flank/io/tool_json.h"
+#include "flank/pipeline/job_json.h"
+#include "flank/pipeline/targets.h"
+#include "flank/pipeline/verify_json.h"
+
+namespace flank {
+namespace {
+
+std::string read_text_file(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw InputError(file + ": cannot be read; a folder written by `flank fit` is needed");
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+}  // namespace
+
+double default_spacing(double diagonal_mm) { return std::clamp(diagonal_mm / 300.0, 0.05, 0.5); }
+
+VerifyOutcome run_verify(const VerifyJob& request) {
+  const std::filesystem::path folder(request.folder);
+  if (!std::filesystem::is_directory(folder))
+    throw InputError(request.folder + ": no such folder; a folder written by `flank fit` is needed");
+  const auto file = [&](const char* name) { return (folder / name).string(); };
+  VerifyOutcome outcome;
+  outcome.job = job_from_json(read_text_file(file("job.json")), file("job.json"));
+  if (request.part) outcome.job.part = *request.part;
+  if (request.tolerance_mm) outcome.job.tolerance_mm = *request.tolerance_mm;
+  if (request.sample_mm) outcome.job.sample_mm = request.sample_mm;
+  if (!(outcome.job.tolerance_mm > 0.0)) throw UsageError("--tolerance: a length > 0 mm is needed");
+  const Tool tool = read_tool(file("tool.json"));
+  const Path path = read_path(file("path.json"));
+  const Part part = read_part(outcome.job.part, outcome.job.unit);
+  const std::vector<int> faces = parse_face_list(part, outcome.job.faces);
+  const double spacing = outcome.job.sample_mm.value_or(default_spacing(part.box.diagonal()));
+  JudgeOptions options;
+  options.tolerance_mm = outcome.job.tolerance_mm;
+  outcome.report = judge(tool, path, judge_samples(part, faces, spacing, 2.0 * spacing), options);
+  write_file(file("verify.json"), verify_to_json(outcome.report));
+  return outcome;
+}
+
+std::string verify_text(const VerifyOutcome& outcome) {
+  const VerifyReport& v = outcome.report;
+  std::string text = fmt::format("{:<8} {:>6} {:>11} {:>9} {:>11} {:>11} {:>11}\n", "face", "role", "area mm2",
+                                 "coverage", "overcut mm", "undercut mm", "rms mm");
+  for (const FaceVerdict& f : v.faces) {
+    if (f.target)
+      text += fmt::format("{:<8} {:>6} {:>11.2f} {:>8.2f}% {:>11.6f} {:>11.6f} {:>11.6f}\n", f.face, "target",
+                          f.area_mm2, 100.0 * f.coverage, f.overcut_mm, f.undercut_covered_mm, f.rms_mm);
+    else
+      text += fmt::format("{:<8} {:>6} {:>11.2f} {:>9} {:>11.6f}\n", f.face, "check", f.area_mm2, "", f.overcut_mm);
+  }
+  for (const WorstPlace& w : v.worst)
+    text += fmt::format("worst: {} at ({:.3f}, {:.3f}, {:.3f}) f = {:.6f} mm, strip {}, pose {:.2f}, s {:.3f}\n",
+                        w.face, w.point.x(), w.point.y(), w.point.z(), w.f, w.strip + 1, w.t, w.s);
+  text +=
+      fmt::format("coverage {:.2f} % within {} mm, overcut {:.6f} mm, between samples at most {:.4f} mm worse: {}\n",
+                  100.0 * v.coverage, v.tolerance_mm, v.overcut_mm, v.sampling_bound_mm,
+                  outcome.exit_code() == 0 ? "within what was asked" : "NOT within what was asked");
+  return text;
+}
+
+}  // namespace flank

@@ -1,0 +1,33 @@
+/// `flank verify DIR`: judges the tool and the path that lie in a folder.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "flank/pipeline/fit_job.h"
+
+namespace flank {
+
+struct VerifyJob {
+  std::string folder;
+  std::optional<std::string> part;     ///< instead of the part named in job.json
+  std::optional<double> tolerance_mm;  ///< instead of the job's
+  std::optional<double> sample_mm;
+};
+
+struct VerifyOutcome {
+  FitJob job;  ///< with the overrides
+  VerifyReport report;
+  [[nodiscard]] int exit_code() const {
+    return report.overcut_mm <= job.tolerance_mm && report.coverage >= job.least_coverage ? 0 : 1;
+  }
+};
+
+/// Reads job.json, tool.json and path.json, judges, and writes verify.json.
+[[nodiscard]] VerifyOutcome run_verify(const VerifyJob& job);
+[[nodiscard]] std::string verify_text(const VerifyOutcome& outcome);
+
+/// Spacing of the judge's samples on the target where none is given, mm.
+[[nodiscard]] double default_spacing(double diagonal_mm);
+
+}  // namespace flank

@@ -1,0 +1,21 @@
+/// verify.json (docs/schema/verify.md, schema "openflank/verify/1"): a VerifyReport as text and back.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "flank/verify/judge.h"
+
+namespace flank {
+
+/// "not_run", "pass", "overcut" or "gouge".
+[[nodiscard]] std::string_view verdict_name(Verdict verdict);
+
+/// The report as indented JSON; every number is written so that reading it back gives the same bits.
+[[nodiscard]] std::string verify_to_json(const VerifyReport& report);
+
+/// The report in `text`. `source` names the file in messages. Throws InputError for text that is no JSON, another
+/// schema, or a field that is missing or of the wrong type.
+[[nodiscard]] VerifyReport verify_from_json(const std::string& text, const std::string& source);
+
+}  // namespace flank

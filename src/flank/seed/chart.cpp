@@ -1,0 +1,108 @@
+#include "flank/seed/chart.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace flank {
+namespace {
+
+/// Plane coordinates of every sample, scaled to the unit square.
+std::vector<Vec2> plane_coordinates(const Target& target, const std::vector<SurfaceSample>& samples) {
+  std::vector<Vec2> plane;
+  if (target.patch_count() == 1) {
+    for (const SurfaceSample& s : samples) plane.emplace_back(s.u, s.v);
+  } else {
+    Vec3 mean = Vec3::Zero();
+    for (const SurfaceSample& s : samples) mean += s.point;
+    mean /= static_cast<double>(samples.size());
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    for (const SurfaceSample& s : samples) spread += (s.point - mean) * (s.point - mean).transpose();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(spread);
+    const Vec3 a = eigen.eigenvectors().col(2), b = eigen.eigenvectors().col(1);
+    for (const SurfaceSample& s : samples) plane.emplace_back(a.dot(s.point - mean), b.dot(s.point - mean));
+  }
+  Vec2 low = plane.front(), high = plane.front();
+  for (const Vec2& p : plane) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  // Samples are cell centres: the border lies half a cell further out.
+  const double cell = 0.5 / std::sqrt(static_cast<double>(samples.size()));
+  for (Vec2& p : plane) {
+    for (int k = 0; k < 2; ++k) p[k] = cell + (1.0 - 2.0 * cell) * (p[k] - low[k]) / std::max(1e-300, high[k] - low[k]);
+  }
+  return plane;
+}
+
+/// Local linear regression of the points over the plane, at q.
+Vec3 regress(const std::vector<Vec2>& plane, const std::vector<SurfaceSample>& samples, const Vec2& q,
+             std::size_t& nearest) {
+  constexpr std::size_t kNeighbours = 12;
+  std::vector<std::pair<double, std::size_t>> order(plane.size());
+  for (std::size_t i = 0; i < plane.size(); ++i) order[i] = {(plane[i] - q).squaredNorm(), i};
+  const std::size_t count = std::min(kNeighbours, order.size());
+  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end());
+  nearest = order.front().second;
+  const double scale = order[count - 1].first + 1e-300;
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Identity() * 1e-9;
+  Eigen::Matrix3d rhs = Eigen::Matrix3d::Zero();
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = order[k].second;
+    const double w = 1.0 / (0.05 + order[k].first / scale);
+    const Vec3 row(1.0, (plane[i] - q)[0], (plane[i] - q)[1]);
+    normal += w * row * row.transpose();
+    rhs += w * row * samples[i].point.transpose();
+  }
+  return normal.ldlt().solve(rhs).row(0).transpose();
+}
+
+}  // namespace
+
+Chart::Chart(const Target& target) {
+  const std::vector<SurfaceSample> samples = target.samples(std::sqrt(target.area() / 1600.0));
+  const std::vector<Vec2> plane = plane_coordinates(target, samples);
+  std::vector<Footpoint> hints(samples.size());
+  nodes_.resize(kNodes * kNodes);
+  for (int i = 0; i < kNodes; ++i) {
+    for (int j = 0; j < kNodes; ++j) {
+      const Vec2 q(-kOverrun + (1.0 + 2.0 * kOverrun) * i / (kNodes - 1),
+                   -kOverrun + (1.0 + 2.0 * kOverrun) * j / (kNodes - 1));
+      std::size_t nearest = 0;
+      const Vec3 p = regress(plane, samples, q, nearest);
+      if (hints[nearest].patch < 0) hints[nearest] = target.closest(samples[nearest].point);
+      const Footpoint foot = target.track(p, hints[nearest]);
+      nodes_[static_cast<std::size_t>(i * kNodes + j)] = {foot.point, foot.normal};
+    }
+  }
+  for (int k = 0; k < 8; ++k) {
+    const double b = (k + 0.5) / 8.0;
+    for (int i = 0; i < 16; ++i) {
+      length_a_ += (at((i + 1) / 16.0, b).point - at(i / 16.0, b).point).norm() / 8.0;
+      length_b_ += (at(b, (i + 1) / 16.0).point - at(b, i / 16.0).point).norm() / 8.0;
+    }
+  }
+}
+
+ChartPoint Chart::at(double a, double b) const {
+  const double x = (a + kOverrun) / (1.0 + 2.0 * kOverrun) * (kNodes - 1);
+  const double y = (b + kOverrun) / (1.0 + 2.0 * kOverrun) * (kNodes - 1);
+  const int i = std::clamp(static_cast<int>(std::floor(x)), 0, kNodes - 2);
+  const int j = std::clamp(static_cast<int>(std::floor(y)), 0, kNodes - 2);
+  const double f = x - i, g = y - j;
+  const auto node = [&](int di, int dj) -> const ChartPoint& {
+    return nodes_[static_cast<std::size_t>((i + di) * kNodes + j + dj)];
+  };
+  const double w[4] = {(1 - f) * (1 - g), (1 - f) * g, f * (1 - g), f * g};
+  ChartPoint out;
+  out.point = w[0] * node(0, 0).point + w[1] * node(0, 1).point + w[2] * node(1, 0).point + w[3] * node(1, 1).point;
+  // Normals do not extrapolate well: beyond the chart the border's is kept.
+  const double fn = std::clamp(f, 0.0, 1.0), gn = std::clamp(g, 0.0, 1.0);
+  out.normal = ((1 - fn) * (1 - gn) * node(0, 0).normal + (1 - fn) * gn * node(0, 1).normal +
+                fn * (1 - gn) * node(1, 0).normal + fn * gn * node(1, 1).normal)
+                   .normalized();
+  return out;
+}
+
+}  // namespace flank

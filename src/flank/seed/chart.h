@@ -1,0 +1,36 @@
+/// A rectangle of points laid over a target, so that starts can speak of "across" and "along" whatever the target is
+/// made of.
+#pragma once
+
+#include <vector>
+
+#include "flank/surface/target.h"
+
+namespace flank {
+
+struct ChartPoint {
+  Vec3 point, normal;
+};
+
+class Chart {
+ public:
+  /// One NURBS face: its own parameter directions. Several faces or a mesh: the two long principal directions of its
+  /// samples.
+  explicit Chart(const Target& target);
+
+  /// Point and unit normal at (a, b), [0, 1] x [0, 1] over the target's extent; beyond it the target's extension, then
+  /// linear.
+  [[nodiscard]] ChartPoint at(double a, double b) const;
+  /// Mean length of the lines of constant b and of constant a, mm.
+  [[nodiscard]] double length_a() const { return length_a_; }
+  [[nodiscard]] double length_b() const { return length_b_; }
+
+ private:
+  static constexpr int kNodes = 37;  ///< a side; the outer ones lie past the border
+  static constexpr double kOverrun = 0.08;
+
+  std::vector<ChartPoint> nodes_;
+  double length_a_ = 0.0, length_b_ = 0.0;
+};
+
+}  // namespace flank

@@ -1,0 +1,109 @@
+#include "flank/seed/guide_start.h"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "flank/base/error.h"
+#include "flank/seed/movability.h"
+
+namespace flank {
+namespace {
+
+constexpr int kDense = 400;
+/// An axis shorter than this share of the guide's mean length has no direction worth following.
+constexpr double kShortest = 0.05;
+
+BSplineCurve3 rail(const std::vector<AxisLine>& lines, bool holder) {
+  BSplineCurve3 curve;
+  const int count = static_cast<int>(lines.size());
+  curve.degree = std::min(3, count - 1);
+  curve.knots = uniform_knots(curve.degree, count);
+  curve.poles.resize(3, count);
+  for (int k = 0; k < count; ++k) {
+    const AxisLine& line = lines[static_cast<std::size_t>(k)];
+    curve.poles.col(k) = holder ? line.holder : line.tip;
+  }
+  return curve;
+}
+
+}  // namespace
+
+std::vector<AxisLine> parse_guide(const std::string& file, std::string_view text) {
+  std::vector<AxisLine> lines;
+  std::size_t number = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    std::string_view row = text.substr(at, end - at);
+    at = end + 1;
+    ++number;
+    row = row.substr(0, row.find('#'));
+    if (row.find_first_not_of(" \t\r,;") == std::string_view::npos) continue;
+    AxisLine line;
+    std::string why;
+    if (!parse_axis_line(row, line, why)) throw InputError(file + ", line " + std::to_string(number) + ": " + why);
+    lines.push_back(line);
+  }
+  if (lines.size() >= 2) return lines;
+  throw InputError(file +
+                   ": a guide needs at least two lines of six numbers (tip and holder end of an axis, mm), found " +
+                   std::to_string(lines.size()));
+}
+
+std::vector<AxisLine> read_guide(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream content;
+  if (stream) content << stream.rdbuf();
+  if (!stream || (content.str().empty() && stream.peek() != std::ifstream::traits_type::eof()))
+    throw InputError(file + ": cannot be read; a text file of lines with six numbers is expected");
+  return parse_guide(file, content.str());
+}
+
+GuideStart start_from_guide(const std::string& file, const std::vector<AxisLine>& lines,
+                            std::optional<double> axis_length_mm, int control_points) {
+  const BSplineCurve3 tip = rail(lines, false), holder = rail(lines, true);
+  std::vector<Vec3> tips, arms;
+  std::vector<double> travel{0.0};
+  GuideStart out;
+  for (int i = 0; i <= kDense; ++i) {
+    const double t = static_cast<double>(i) / kDense;
+    tips.push_back(tip.value(t));
+    arms.push_back(holder.value(t) - tips.back());
+    out.mean_length_mm += arms.back().norm() / (kDense + 1);
+    if (i == 0) continue;
+    const Vec3 tip_step = tips.back() - tips[tips.size() - 2];
+    travel.push_back(travel.back() + (tip_step + 0.5 * (arms.back() - arms[arms.size() - 2])).norm());
+  }
+  for (const Vec3& arm : arms)
+    if (arm.norm() < kShortest * out.mean_length_mm)
+      throw InputError(file +
+                       ": the axis turns over between two lines of the guide; give more lines, all from tip to holder");
+  if (travel.back() < 1e-6 * out.mean_length_mm)
+    throw InputError(file + ": the lines of the guide lie at the same place");
+
+  const double length = axis_length_mm.value_or(out.mean_length_mm);
+  // Equal steps of travel, not of the guide's parameter: the samples of a fit are equally spaced in time.
+  std::vector<Pose> poses;
+  std::vector<double> times;
+  for (std::size_t i = 0; i < tips.size(); ++i) {
+    out.largest_stretch_mm = std::max(out.largest_stretch_mm, std::abs(arms[i].norm() - length));
+    poses.push_back({tips[i], arms[i].normalized()});
+    times.push_back(travel[i] / travel.back());
+  }
+  out.motion = fit_motion(poses, times, length, control_points);
+  return out;
+}
+
+int side_of_motion(const Target& target, const RuledMotion& motion) {
+  constexpr int kTimes = 9;
+  std::vector<Footpoint> feet(12);
+  double sum = 0.0;
+  for (int i = 0; i < kTimes; ++i) {
+    for (Footpoint& foot : feet) foot.patch = -1;
+    track_axis(target, motion.pose((i + 0.5) / kTimes), motion.axis_length, feet);
+    for (const Footpoint& foot : feet) sum += footpoint_weight(foot.location) * foot.distance;
+  }
+  return sum < 0.0 ? -1 : 1;
+}
+
+}  // namespace flank

@@ -1,0 +1,37 @@
+/// A start that the user gives as several lines (`--guide FILE`, paper A 4.4): the ends of the lines are the control
+/// polygons of two cubic B-spline rails, which are then made rigid (MATH section 2).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "flank/motion/ruled_motion.h"
+#include "flank/seed/axis_line.h"
+#include "flank/surface/target.h"
+
+namespace flank {
+
+/// Lines in the order of the file. Each line of the file is "x y z x y z" in mm (commas or blanks; # starts a comment):
+/// tip and holder end of one axis. Throws InputError naming the file and the line; at least two axes are needed.
+[[nodiscard]] std::vector<AxisLine> read_guide(const std::string& file);
+/// The same from a text; `file` is for messages.
+[[nodiscard]] std::vector<AxisLine> parse_guide(const std::string& file, std::string_view text);
+
+struct GuideStart {
+  RuledMotion motion;
+  double mean_length_mm = 0.0;      ///< of the two rails' distance: the axis length where none is given
+  double largest_stretch_mm = 0.0;  ///< how far the holder end was moved to make the axis rigid
+};
+
+/// The rigid motion of a guide: its tip rail is the guide's, its axis points to the guide's holder rail. Fewer than
+/// four lines give rails of a lower degree. Throws InputError naming the file where the guide has no extent or an axis
+/// of it vanishes on the way.
+[[nodiscard]] GuideStart start_from_guide(const std::string& file, const std::vector<AxisLine>& lines,
+                                          std::optional<double> axis_length_mm, int control_points = 24);
+
+/// +1: the motion runs on the machining side of the target, -1: on the other side.
+[[nodiscard]] int side_of_motion(const Target& target, const RuledMotion& motion);
+
+}  // namespace flank

@@ -1,0 +1,28 @@
+/// Local search for a better movable line near a given one (paper A 4.2: samples around both ends, the best is kept;
+/// here the same four degrees of freedom are minimised instead of sampled).
+#pragma once
+
+#include "flank/geom/vec.h"
+#include "flank/seed/movability.h"
+
+namespace flank {
+
+struct LineSearchOptions {
+  int samples = 24;
+  int iterations = 12;
+  double radius_share = 0.01;  ///< how far an end may move, as a share of the target's diagonal
+};
+
+struct LineSearch {
+  Pose pose;
+  Movability before, after;
+  double shift_mm = 0.0;  ///< of the end that moved farther
+  int evaluations = 0;
+};
+
+/// Levenberg-Marquardt on <n_j, v(s_j)> over the shifts of both ends across the axis. Deterministic; never returns a
+/// line that is less movable, or whose footpoints count less, than the given one.
+[[nodiscard]] LineSearch search_line(const Target& target, const Pose& start, double axis_length,
+                                     const LineSearchOptions& options = {});
+
+}  // namespace flank

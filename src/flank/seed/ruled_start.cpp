@@ -1,0 +1,65 @@
+#include "flank/seed/ruled_start.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace flank {
+namespace {
+
+struct AxisLine {
+  Vec3 middle, direction;
+  double length;
+};
+
+double skew_share(const Chart& chart, const RuledStart& start) {
+  const double across = start.swapped ? chart.length_a() : chart.length_b();
+  const double along = start.swapped ? chart.length_b() : chart.length_a();
+  return std::clamp(std::tan(start.skew_rad) * across / along, -0.6, 0.6);
+}
+
+/// The line fitted to the offset contact line of time t (least squares), directed along increasing b.
+AxisLine axis_line(const Chart& chart, const RuledStart& start, double t) {
+  constexpr int kSamples = 17;
+  const double skew = skew_share(chart, start);
+  const double reach = 1.0 + std::abs(skew) * (start.band_high - start.band_low) + 0.04;
+  const double middle = 0.5 * (start.band_low + start.band_high);
+  Eigen::Matrix<double, 3, kSamples> q;
+  for (int k = 0; k < kSamples; ++k) {
+    const double b = start.band_low + (start.band_high - start.band_low) * k / (kSamples - 1);
+    const double a = 0.5 + reach * (t - 0.5) + skew * (b - middle);
+    const ChartPoint at = start.swapped ? chart.at(b, a) : chart.at(a, b);
+    q.col(k) = at.point + start.radius_mm * at.normal;
+  }
+  const Vec3 mean = q.rowwise().mean();
+  const Eigen::Matrix<double, 3, kSamples> centred = q.colwise() - mean;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(centred * centred.transpose());
+  Vec3 u = eigen.eigenvectors().col(2);
+  if (u.dot(q.col(kSamples - 1) - q.col(0)) < 0.0) u = -u;
+  const Eigen::Matrix<double, 1, kSamples> along = u.transpose() * centred;
+  return {mean + 0.5 * (along.minCoeff() + along.maxCoeff()) * u, u, along.maxCoeff() - along.minCoeff()};
+}
+
+constexpr int kTimes = 41;
+
+}  // namespace
+
+double longest_chord(const Chart& chart, const RuledStart& start) {
+  double longest = 0.0;
+  for (int i = 0; i < kTimes; ++i) longest = std::max(longest, axis_line(chart, start, i / (kTimes - 1.0)).length);
+  return longest;
+}
+
+RuledMotion make_motion(const Chart& chart, const RuledStart& start, double axis_length, int count) {
+  std::vector<Pose> poses;
+  std::vector<double> times;
+  for (int i = 0; i < kTimes; ++i) {
+    const double t = i / (kTimes - 1.0);
+    const AxisLine line = axis_line(chart, start, t);
+    poses.push_back({line.middle - 0.5 * axis_length * line.direction, line.direction});
+    times.push_back(t);
+  }
+  return fit_motion(poses, times, axis_length, count);
+}
+
+}  // namespace flank

@@ -1,0 +1,24 @@
+#include "flank/surface/target.h"
+
+#include "flank/base/parallel.h"
+
+namespace flank {
+namespace {
+
+constexpr std::size_t kGrain = 64;
+
+}  // namespace
+
+void Target::closest_batch(std::span<const Vec3> points, std::span<Footpoint> footpoints) const {
+  parallel_blocks(points.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) footpoints[k] = closest(points[k]);
+  });
+}
+
+void Target::track_batch(std::span<const Vec3> points, std::span<Footpoint> footpoints) const {
+  parallel_blocks(points.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) footpoints[k] = track(points[k], footpoints[k]);
+  });
+}
+
+}  // namespace flank

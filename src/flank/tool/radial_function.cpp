@@ -1,0 +1,150 @@
+#include "flank/tool/radial_function.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "flank/base/error.h"
+#include "flank/tool/families.h"
+#include "flank/tool/uniform_cubic.h"
+
+namespace flank {
+
+namespace {
+
+constexpr int kSmallestSpline = 4;
+
+struct FamilyInfo {
+  std::string_view name;
+  std::array<std::string_view, 4> parameters;
+  std::size_t count;
+  int angle;  ///< index of the parameter that is an angle, -1 for none
+};
+
+constexpr std::array<FamilyInfo, 8> kFamilies = {{
+    {"cylinder", {"radius"}, 1, -1},
+    {"cone", {"radius", "angle"}, 2, 1},
+    {"barrel", {"arc", "radius", "s0"}, 3, -1},
+    {"lens", {"radius", "end_radius"}, 2, -1},
+    {"tapered-barrel", {"arc", "radius", "angle"}, 3, 2},
+    {"hyperbolic", {"radius", "slope", "bend"}, 3, -1},
+    {"power", {"a", "b", "c", "d"}, 4, -1},
+    {"spline", {}, 0, -1},
+}};
+
+const FamilyInfo& info(ToolFamily family) { return kFamilies[static_cast<std::size_t>(family)]; }
+
+/// Where coefficient i sits along the axis, in knot spans: the mean of its three inner knots.
+double greville(int count, int i) {
+  double sum = 0.0;
+  for (int k = i - 2; k <= i; ++k) sum += std::clamp(k, 0, count - 3);
+  return sum / 3.0;
+}
+
+void require_length(double axis_length) {
+  if (!(axis_length > 0.0 && std::isfinite(axis_length)))
+    throw InternalError("a radial function needs a finite axis length > 0");
+}
+
+}  // namespace
+
+std::string_view family_name(ToolFamily family) { return info(family).name; }
+
+std::optional<ToolFamily> family_from_name(std::string_view name) {
+  for (const ToolFamily family : kToolFamilies)
+    if (info(family).name == name) return family;
+  return std::nullopt;
+}
+
+std::span<const std::string_view> parameter_names(ToolFamily family) {
+  return std::span(info(family).parameters).first(info(family).count);
+}
+
+bool parameter_is_angle(ToolFamily family, int index) { return index >= 0 && info(family).angle == index; }
+
+RadialFunction::RadialFunction(ToolFamily family, double axis_length, Eigen::VectorXd parameters)
+    : family_(family), axis_length_(axis_length), parameters_(std::move(parameters)) {
+  require_length(axis_length);
+  if (family == ToolFamily::kSpline) {
+    if (parameters_.size() < kSmallestSpline)
+      throw InternalError("a spline radial function needs at least 4 coefficients");
+  } else if (parameters_.size() != static_cast<Eigen::Index>(info(family).count)) {
+    throw InternalError("wrong number of parameters for a " + std::string(family_name(family)));
+  }
+}
+
+RadialFunction RadialFunction::spline(double axis_length, Eigen::VectorXd coefficients) {
+  return {ToolFamily::kSpline, axis_length, std::move(coefficients)};
+}
+
+RadialFunction RadialFunction::spline_through(double axis_length, std::span<const Vec2> samples, int count) {
+  require_length(axis_length);
+  if (count < kSmallestSpline || samples.empty())
+    throw InternalError("a least-squares spline needs samples and at least 4 coefficients");
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(count, count);
+  for (const Vec2& p : samples) {
+    const UniformCubic b = UniformCubic::at(axis_length, count, p.x());
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j) normal(b.first + i, b.first + j) += b.n3[i] * b.n3[j];
+  }
+  // Bends of the control polygon hold coefficients that no sample reaches; the refinement below takes their bias out of
+  // the others.
+  const double mu = 1e-10 * normal.trace() / count;
+  for (int i = 1; i + 1 < count; ++i) {
+    const double left = 1.0 / (greville(count, i) - greville(count, i - 1));
+    const double right = 1.0 / (greville(count, i + 1) - greville(count, i));
+    const Eigen::Vector3d d(left, -left - right, right);
+    normal.block<3, 3>(i - 1, i - 1) += mu * d * d.transpose();
+  }
+  const Eigen::LDLT<Eigen::MatrixXd> solver(normal);
+  RadialFunction f = spline(axis_length, Eigen::VectorXd::Zero(count));
+  for (int step = 0; step < 4; ++step) {
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(count);
+    for (const Vec2& p : samples) {
+      const UniformCubic b = UniformCubic::at(axis_length, count, p.x());
+      const double residual = p.y() - f.at(p.x()).r;
+      for (int i = 0; i < 4; ++i) gradient[b.first + i] += b.n3[i] * residual;
+    }
+    f.parameters_ += solver.solve(gradient);
+  }
+  return f;
+}
+
+RadialJet RadialFunction::at(double s) const {
+  if (family_ != ToolFamily::kSpline) return family_jet(family_, axis_length_, parameters_.data(), s);
+  const UniformCubic b = UniformCubic::at(axis_length_, parameter_count(), s);
+  const double* c = parameters_.data() + b.first;
+  const std::array<double, 3> d = {3.0 * b.inverse_gap3[0] * (c[1] - c[0]), 3.0 * b.inverse_gap3[1] * (c[2] - c[1]),
+                                   3.0 * b.inverse_gap3[2] * (c[3] - c[2])};
+  const double e0 = 2.0 * b.inverse_gap2[0] * (d[1] - d[0]), e1 = 2.0 * b.inverse_gap2[1] * (d[2] - d[1]);
+  RadialJet jet;
+  jet.r = b.n3[0] * c[0] + b.n3[1] * c[1] + b.n3[2] * c[2] + b.n3[3] * c[3];
+  jet.d1 = (b.n2[0] * d[0] + b.n2[1] * d[1] + b.n2[2] * d[2]) * b.inverse_h;
+  jet.d2 = (b.n1[0] * e0 + b.n1[1] * e1) * b.inverse_h * b.inverse_h;
+  return jet;
+}
+
+void RadialFunction::active_gradient(double s, double* out) const {
+  if (family_ != ToolFamily::kSpline) return family_gradient(family_, axis_length_, parameters_.data(), s, out);
+  const UniformCubic b = UniformCubic::at(axis_length_, parameter_count(), s);
+  std::copy(b.n3.begin(), b.n3.end(), out);
+}
+
+void RadialFunction::gradient(double s, double* out) const {
+  if (family_ != ToolFamily::kSpline) return active_gradient(s, out);
+  std::fill_n(out, parameter_count(), 0.0);
+  active_gradient(s, out + first_active(s));
+}
+
+int RadialFunction::first_active(double s) const {
+  if (family_ != ToolFamily::kSpline) return 0;
+  return UniformCubic::at(axis_length_, parameter_count(), s).first;
+}
+
+int RadialFunction::active_count() const { return family_ == ToolFamily::kSpline ? 4 : parameter_count(); }
+
+RadialFunction RadialFunction::with_parameters(const Eigen::VectorXd& parameters) const {
+  return {family_, axis_length_, parameters};
+}
+
+}  // namespace flank

@@ -1,0 +1,218 @@
+// What each figure means is written in docs/algorithms/judge.md.
+#include "flank/verify/judge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "flank/base/error.h"
+#include "flank/base/parallel.h"
+
+namespace flank {
+namespace {
+
+constexpr std::size_t kBlock =
+    256;  ///< samples a task measures, from the first to the last: fixed, so that threads change nothing
+constexpr double kEndShare = 1e-9;  ///< of a step or of the axis: nearer to an end than this counts as at the end
+constexpr double kWorstSeparation = 0.05;  ///< of the face's size: how far worst places keep from one another
+
+/// Whether the strip sweeps past the sample: its nearest sphere belongs to the inside of a strip's path and of the
+/// axis.
+bool swept_past(const SweptDistance& d, const Tool& tool, const Path& path) {
+  if (d.strip < 0) return false;
+  const double last = static_cast<double>(path.strips[static_cast<std::size_t>(d.strip)].poses.size()) - 1.0;
+  const double length = tool.radial.axis_length();
+  return d.t > kEndShare && d.t < last - kEndShare && d.s > kEndShare * length && d.s < (1.0 - kEndShare) * length;
+}
+
+struct Sums {
+  double area = 0.0, covered = 0.0, touched = 0.0, squares = 0.0;
+};
+
+Sums add_up(const Tool& tool, const Path& path, const FaceSamples& face, const std::vector<SweptDistance>& distances,
+            double tolerance, FaceVerdict& verdict) {
+  Sums sums;
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    const SweptDistance& d = distances[i];
+    const double area = face.areas[i];
+    sums.area += area;
+    verdict.overcut_mm = std::max(verdict.overcut_mm, -d.f);
+    if (!face.target) continue;
+    verdict.undercut_mm = std::max(verdict.undercut_mm, d.f);
+    if (std::abs(d.f) <= tolerance) sums.covered += area;
+    if (!swept_past(d, tool, path)) continue;
+    verdict.undercut_covered_mm = std::max(verdict.undercut_covered_mm, d.f);
+    sums.touched += area;
+    sums.squares += area * d.f * d.f;
+  }
+  return sums;
+}
+
+/// The deepest places of one face, each at least a share of the face's size away from deeper ones.
+std::vector<WorstPlace> worst_of(const FaceSamples& face, const std::vector<SweptDistance>& distances, int count) {
+  std::vector<std::size_t> order;
+  Box3 box;
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    box.add(face.points[i]);
+    if (distances[i].f < 0.0) order.push_back(i);
+  }
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return distances[a].f < distances[b].f || (distances[a].f == distances[b].f && a < b);
+  });
+  const double separation = kWorstSeparation * box.diagonal();
+  std::vector<WorstPlace> out;
+  for (std::size_t i : order) {
+    if (static_cast<int>(out.size()) >= count) break;
+    const bool close = std::any_of(out.begin(), out.end(),
+                                   [&](const WorstPlace& w) { return (w.point - face.points[i]).norm() < separation; });
+    if (close) continue;
+    const SweptDistance& d = distances[i];
+    out.push_back({face.face, face.points[i], d.f, d.strip, d.t, d.s});
+  }
+  return out;
+}
+
+void add_histogram(VerifyReport& report, const FaceSamples& face, const std::vector<SweptDistance>& distances) {
+  const auto& edges = report.histogram_edges_mm;
+  const int bins = static_cast<int>(report.histogram_area_mm2.size());
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    const auto above = std::upper_bound(edges.begin(), edges.end(), distances[i].f) - edges.begin();
+    const int bin = std::clamp(static_cast<int>(above) - 1, 0, bins - 1);
+    report.histogram_area_mm2[static_cast<std::size_t>(bin)] += face.areas[i];
+  }
+}
+
+void prepare_histogram(VerifyReport& report, const JudgeOptions& options) {
+  const int bins = options.histogram_bins;
+  for (int i = 0; i <= bins; ++i) report.histogram_edges_mm.push_back(options.tolerance_mm * (4.0 * i / bins - 2.0));
+  report.histogram_area_mm2.assign(static_cast<std::size_t>(bins), 0.0);
+}
+
+double least_radius(const Tool& tool) {
+  constexpr int kSteps = 256;
+  double least = tool.radial.at(0.0).r;
+  for (int i = 1; i <= kSteps; ++i) least = std::min(least, tool.radial.at(tool.radial.axis_length() * i / kSteps).r);
+  return least;
+}
+
+// The swept solid is a union of balls of radius at least r. At the deepest inner point y of a face, cut by f(y) = -o,
+// the ball (c, b) that cuts there touches the face's normal: y - c = (b - o) n. A sample x at most e away along the
+// face leaves the tangent plane by at most k e^2 / 2, k the largest normal curvature, so |x - c| <= (b - o) + (1/(b -
+// o) + k) e^2 / 2 and f(x) <= f(y) + (1/(r - o) + k) e^2 / 2. f has slope at most 1 besides, so e itself always bounds
+// it. y lies in the cell of one of the samples: the deepest that any cell allows, less the deepest sample.
+double between_samples(const FaceSamples& face, const std::vector<SweptDistance>& distances, double least_radius,
+                       double overcut) {
+  const double inner = least_radius - overcut - face.spacing_mm;
+  double deepest = overcut;
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    const double e = face.reaches_mm.empty() ? face.spacing_mm : face.reaches_mm[i];
+    double more = e;
+    if (inner > 0.0 && !face.curvatures_per_mm.empty())
+      more = std::min(e, 0.5 * (1.0 / inner + face.curvatures_per_mm[i]) * e * e);
+    deepest = std::max(deepest, more - distances[i].f);
+  }
+  return deepest - overcut;
+}
+
+void require_usable(const JudgeOptions& options) {
+  if (!(options.tolerance_mm > 0.0))
+    throw UsageError("tolerance " + std::to_string(options.tolerance_mm) + " mm; more than 0 is accepted");
+  if (options.histogram_bins < 1) throw UsageError("a histogram needs at least one bin");
+}
+
+/// What one face adds to the report.
+struct FaceResult {
+  FaceVerdict verdict;
+  Sums sums;
+  std::vector<WorstPlace> worst;
+};
+
+FaceResult judge_face(const SweptVolume& volume, const Tool& tool, const Path& path, const FaceSamples& face,
+                      const JudgeOptions& options, VerifyReport& report) {
+  // On a check surface only overcut matters, at the samples and between them.
+  const double horizon =
+      face.target ? options.horizon_mm : std::min(options.horizon_mm, std::max(options.tolerance_mm, face.spacing_mm));
+  const std::vector<SweptDistance> distances = swept_distances(volume, face, horizon);
+  FaceResult result;
+  FaceVerdict& verdict = result.verdict;
+  verdict.face = face.face;
+  verdict.target = face.target;
+  verdict.samples = face.points.size();
+  verdict.spacing_mm = face.spacing_mm;
+  const Sums sums = result.sums = add_up(tool, path, face, distances, options.tolerance_mm, verdict);
+  verdict.area_mm2 = sums.area;
+  verdict.coverage = sums.area > 0.0 ? sums.covered / sums.area : 0.0;
+  verdict.rms_mm = sums.touched > 0.0 ? std::sqrt(sums.squares / sums.touched) : 0.0;
+  verdict.sampling_bound_mm = between_samples(face, distances, least_radius(tool), verdict.overcut_mm);
+  result.worst = worst_of(face, distances, options.worst_places);
+  if (face.target) add_histogram(report, face, distances);
+  return result;
+}
+
+void add_target(VerifyReport& report, Sums& totals, const FaceResult& face) {
+  totals.area += face.sums.area;
+  totals.covered += face.sums.covered;
+  totals.touched += face.sums.touched;
+  totals.squares += face.sums.squares;
+  report.overcut_mm = std::max(report.overcut_mm, face.verdict.overcut_mm);
+  report.undercut_mm = std::max(report.undercut_mm, face.verdict.undercut_mm);
+  report.undercut_covered_mm = std::max(report.undercut_covered_mm, face.verdict.undercut_covered_mm);
+  report.sampling_bound_mm = std::max(report.sampling_bound_mm, face.verdict.sampling_bound_mm);
+}
+
+void keep_worst(std::vector<WorstPlace>& worst, int count) {
+  std::stable_sort(worst.begin(), worst.end(), [](const WorstPlace& a, const WorstPlace& b) { return a.f < b.f; });
+  if (static_cast<int>(worst.size()) > count) worst.resize(static_cast<std::size_t>(std::max(0, count)));
+}
+
+Verdict verdict_of(const VerifyReport& report) {
+  if (report.gouge_mm > report.tolerance_mm) return Verdict::kGouge;
+  return report.overcut_mm > report.tolerance_mm ? Verdict::kOvercut : Verdict::kPass;
+}
+
+}  // namespace
+
+std::vector<SweptDistance> swept_distances(const SweptVolume& volume, const FaceSamples& face, double horizon_mm) {
+  std::vector<SweptDistance> out(face.points.size());
+  parallel_blocks(out.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+    volume.distances(std::span(face.points).subspan(begin, end - begin), horizon_mm,
+                     std::span(out).subspan(begin, end - begin));
+  });
+  return out;
+}
+
+std::vector<std::size_t> covered_samples(const SweptVolume& volume, const FaceSamples& face, double tolerance_mm) {
+  const double horizon = 1.01 * tolerance_mm;
+  const std::vector<SweptDistance> distances = swept_distances(volume, face, horizon);
+  std::vector<std::size_t> covered;
+  for (std::size_t i = 0; i < distances.size(); ++i)
+    if (std::abs(distances[i].f) <= tolerance_mm) covered.push_back(i);
+  return covered;
+}
+
+VerifyReport judge(const Tool& tool, const Path& path, const std::vector<FaceSamples>& faces,
+                   const JudgeOptions& options) {
+  require_usable(options);
+  VerifyReport report;
+  report.tolerance_mm = options.tolerance_mm;
+  prepare_histogram(report, options);
+  const SweptVolume volume(tool, path);
+  Sums totals;
+  for (const FaceSamples& face : faces) {
+    FaceResult result = judge_face(volume, tool, path, face, options, report);
+    if (face.target) {
+      add_target(report, totals, result);
+    } else {
+      report.gouge_mm = std::max(report.gouge_mm, result.verdict.overcut_mm);
+    }
+    report.worst.insert(report.worst.end(), result.worst.begin(), result.worst.end());
+    report.faces.push_back(std::move(result.verdict));
+  }
+  keep_worst(report.worst, options.worst_places);
+  report.coverage = totals.area > 0.0 ? totals.covered / totals.area : 0.0;
+  report.rms_mm = totals.touched > 0.0 ? std::sqrt(totals.squares / totals.touched) : 0.0;
+  report.verdict = verdict_of(report);
+  return report;
+}
+
+}  // namespace flank

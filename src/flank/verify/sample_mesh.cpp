@@ -1,0 +1,42 @@
+#include <algorithm>
+#include <cmath>
+
+#include "flank/base/error.h"
+#include "flank/verify/judge.h"
+
+namespace flank {
+
+// A triangle is cut into n^2 similar ones, each as large as the spacing allows; a centroid is farthest from its own
+// corners.
+FaceSamples sample_mesh(const std::string& id, const TriangleMesh& mesh, double spacing_mm, bool target) {
+  if (!(spacing_mm > 0.0))
+    throw UsageError("sample spacing " + std::to_string(spacing_mm) + " mm; more than 0 is accepted");
+  for (const Vec3& v : mesh.vertices)
+    if (!v.allFinite()) throw InputError("mesh " + id + " has a vertex that is not a number");
+  FaceSamples out;
+  out.face = id;
+  out.target = target;
+  for (const auto& t : mesh.triangles) {
+    const Vec3 a = mesh.vertices[static_cast<std::size_t>(t[0])];
+    const Vec3 ab = mesh.vertices[static_cast<std::size_t>(t[1])] - a;
+    const Vec3 ac = mesh.vertices[static_cast<std::size_t>(t[2])] - a;
+    const double longest = std::max({ab.norm(), ac.norm(), (ac - ab).norm()});
+    const int n = std::max(1, static_cast<int>(std::ceil(longest / spacing_mm)));
+    const double area = 0.5 * ab.cross(ac).norm() / (n * n);
+    const Vec3 centroid = (ab + ac) / 3.0;
+    out.spacing_mm =
+        std::max({out.spacing_mm, centroid.norm() / n, (centroid - ab).norm() / n, (centroid - ac).norm() / n});
+    for (int i = 0; i < n; ++i) {
+      for (int j = 0; i + j < n; ++j) {
+        out.points.push_back(a + ((i + 1.0 / 3.0) * ab + (j + 1.0 / 3.0) * ac) / n);
+        out.areas.push_back(area);
+        if (i + j + 1 >= n) continue;
+        out.points.push_back(a + ((i + 2.0 / 3.0) * ab + (j + 2.0 / 3.0) * ac) / n);
+        out.areas.push_back(area);
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace flank

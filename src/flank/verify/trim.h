@@ -1,0 +1,37 @@
+/// Which points of the parameter plane lie inside a face's trims: even-odd along lines of constant v.
+#pragma once
+
+#include <vector>
+
+#include "flank/geom/face.h"
+
+namespace flank::verify {
+
+/// The loops as polylines; immutable. A face without loops has everything inside.
+class Trim {
+ public:
+  /// Chords stay within `tolerance_u`, `tolerance_v` of the trimming curves (parameter units).
+  Trim(const std::vector<TrimLoop>& loops, double tolerance_u, double tolerance_v);
+
+  /// Where the line v = constant crosses the loops, ascending in u: inside between the 1st and 2nd, 3rd and 4th, ...
+  [[nodiscard]] std::vector<double> crossings(double v) const;
+  [[nodiscard]] bool everything() const { return everything_; }
+  /// Even-odd test of u against the crossings of its line.
+  [[nodiscard]] bool inside(const std::vector<double>& crossings, double u) const;
+  /// Smallest rectangle around the loops.
+  [[nodiscard]] Vec2 low() const { return low_; }
+  [[nodiscard]] Vec2 high() const { return high_; }
+
+ private:
+  struct Chord {
+    Vec2 a, b;
+  };
+  void add(const BSplineCurve2& edge, double tolerance_u, double tolerance_v);
+  void close(const Vec2& from, const Vec2& to) { chords_.push_back({from, to}); }
+
+  bool everything_ = true;
+  Vec2 low_ = Vec2::Constant(1e300), high_ = Vec2::Constant(-1e300);
+  std::vector<Chord> chords_;
+};
+
+}  // namespace flank::verify

@@ -1,0 +1,83 @@
+#include "flank/base/atomic_file.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "flank/base/error.h"
+
+namespace flank {
+namespace {
+
+namespace fs = std::filesystem;
+
+class AtomicFileTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("atomic_file_test-" + std::to_string(::getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  [[nodiscard]] static std::string content(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  }
+  [[nodiscard]] long count() const { return std::distance(fs::directory_iterator(folder_), fs::directory_iterator()); }
+
+  fs::path folder_;
+};
+
+TEST_F(AtomicFileTest, WritesTextAndBytes) {
+  const std::string bytes("a\0b\r\n\xff", 6);
+  write_file(path("bytes"), bytes);
+  EXPECT_EQ(content(path("bytes")), bytes);
+  EXPECT_EQ(count(), 1);
+}
+
+TEST_F(AtomicFileTest, ReplacesWhatWasThere) {
+  write_file(path("f"), "a much longer first version");
+  write_file(path("f"), "second");
+  EXPECT_EQ(content(path("f")), "second");
+  EXPECT_EQ(count(), 1);
+}
+
+TEST_F(AtomicFileTest, LeavesNothingWithoutCommit) {
+  write_file(path("f"), "old");
+  {
+    const AtomicFile file(path("f"));
+    std::ofstream(file.temporary()) << "half";
+    EXPECT_EQ(count(), 2);
+  }
+  EXPECT_EQ(content(path("f")), "old");
+  EXPECT_EQ(count(), 1);
+}
+
+TEST_F(AtomicFileTest, TheTemporaryLiesInTheSameFolder) {
+  const AtomicFile file(path("f"));
+  EXPECT_EQ(fs::path(file.temporary()).parent_path(), folder_);
+}
+
+TEST_F(AtomicFileTest, RefusesAFolderThatIsNotThere) {
+  try {
+    write_file(path("no/such/f"), "x");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("no/such/f"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(count(), 0);
+}
+
+TEST_F(AtomicFileTest, RefusesAFolderAndAnEmptyName) {
+  fs::create_directories(folder_ / "sub");
+  EXPECT_THROW(write_file(path("sub"), "x"), InputError);
+  EXPECT_THROW(write_file("", "x"), InputError);
+  EXPECT_EQ(count(), 1);
+}
+
+}  // namespace
+}  // namespace flank

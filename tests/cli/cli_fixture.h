@@ -1,0 +1,66 @@
+/// A scratch folder and the built command.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "cli/process.h"
+
+namespace flank::cli {
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool kSanitized = true;
+#else
+inline constexpr bool kSanitized = false;
+#endif
+
+/// File of the folder of real parts; empty if it is not there.
+inline fs::path real_part(const std::string& name) {
+  const char* folder = std::getenv("FLANK_DATA");
+  const fs::path file = (folder ? fs::path(folder) : fs::path(FLANK_SOURCE_DIR) / "../shared/data") / name;
+  return fs::exists(file) ? file : fs::path();
+}
+
+class Cli : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    std::string name = std::string(info->test_suite_name()) + "_" + info->name();
+    std::replace(name.begin(), name.end(), '/', '_');
+    root_ = fs::path(testing::TempDir()) / ("flank_cli_" + std::to_string(::getpid()) + "_" + name);
+    fs::remove_all(root_);
+    fs::create_directories(root_ / "streams");
+  }
+  void TearDown() override { fs::remove_all(root_); }
+
+  [[nodiscard]] std::string path(const std::string& name) const { return (root_ / name).string(); }
+  [[nodiscard]] Outcome flank(const std::vector<std::string>& arguments) const {
+    return run_program(FLANK_BINARY, arguments, root_ / "streams");
+  }
+
+  /// The twisted blade that the program makes itself.
+  [[nodiscard]] std::string make_blade() const {
+    const Outcome made = flank({"example", "twisted-blade", "-o", path("blade.step")});
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    return path("blade.step");
+  }
+
+  /// Refused with this exit code, one line that contains `what`, and nothing left in the folder `out`.
+  void expect_refused(const std::vector<std::string>& arguments, int exit_code, const std::string& what) const {
+    const Outcome outcome = flank(arguments);
+    EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(messages(outcome).size(), 1u) << outcome.err;
+    EXPECT_NE(outcome.err.find(what), std::string::npos) << "no '" << what << "' in: " << outcome.err;
+    if (fs::is_directory(root_ / "out")) {
+      EXPECT_TRUE(fs::is_empty(root_ / "out")) << "left behind: " << fs::directory_iterator(root_ / "out")->path();
+    }
+  }
+
+  fs::path root_;
+};
+
+}  // namespace flank::cli

@@ -1,0 +1,98 @@
+// The least-squares model: its gradient and rows against finite differences, its solver against a dense one.
+#include "flank/fit/fit_model.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <numeric>
+
+#include "flank/base/random.h"
+#include "flank/pipeline/example.h"
+
+namespace flank {
+namespace {
+
+/// A small model of an exact envelope, started off it.
+class FitModelTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const Example example = make_example("envelope-barrel-1", {.relative_accuracy = 1e-7});
+    target_ = make_target(std::vector<Face>{example.faces.front()});
+    Random random(3);
+    const RuledMotion start = perturb(example.truth->motions.front(), 5e-3, example.diagonal_mm, random);
+    stage_.samples_t = 12;
+    stage_.samples_s = 7;
+    stage_.control_points = 8;
+    stage_.radius_pin = 1e-2;
+    stage_.axial_pin = 1e-2;
+    std::vector<Pose> poses;
+    std::vector<double> times;
+    for (int i = 0; i <= 40; ++i) {
+      times.push_back(i / 40.0);
+      poses.push_back(start.pose(times.back()));
+    }
+    state_.motions.push_back(fit_motion(poses, times, start.axis_length, stage_.control_points));
+    Eigen::VectorXd radii(6);
+    for (int k = 0; k < 6; ++k) radii[k] = 6.0 + 0.2 * k * (5 - k) / 5.0;
+    state_.tool = RadialFunction::spline(start.axis_length, radii);
+  }
+
+  FitModel make_model(const FitStage& stage) const {
+    std::vector<int> all(static_cast<std::size_t>(state_.tool.parameter_count()));
+    std::iota(all.begin(), all.end(), 0);
+    return {{target_.get()}, state_, all, {6.1, 6.3, 0.02}, stage};
+  }
+
+  Eigen::VectorXd random_step(int size, double length) const {
+    Random random(11);
+    Eigen::VectorXd step(size);
+    for (double& x : step) x = length * random.normal();
+    return step;
+  }
+
+  std::unique_ptr<Target> target_;
+  FitStage stage_;
+  FitState state_;
+};
+
+TEST_F(FitModelTest, RowsAreTheDerivativesOfTheResiduals) {
+  const FitModel model = make_model(stage_);
+  FitState state = state_;
+  model.find_feet(state);
+  const Eigen::VectorXd direction = random_step(model.make_system().size(), 1.0);
+  const std::vector<double> rows = model.row_products(state, 0, direction);
+  const double h = 1e-5;
+  FitState plus = model.moved(state, h * direction), minus = model.moved(state, -h * direction);
+  model.find_feet(plus);
+  model.find_feet(minus);
+  int compared = 0;
+  for (int i = 0; i < stage_.samples_t; ++i) {
+    for (int j = 0; j < stage_.samples_s; ++j) {
+      if (state.feet[0][static_cast<std::size_t>(i * stage_.samples_s + j)].location != Location::kInside) continue;
+      const double numeric = (model.residual(plus, 0, i, j) - model.residual(minus, 0, i, j)) / (2.0 * h);
+      EXPECT_NEAR(rows[static_cast<std::size_t>(i * stage_.samples_s + j)], numeric, 1e-5) << i << ' ' << j;
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 40);
+}
+
+TEST_F(FitModelTest, ArrowSolveIsTheDenseSolve) {
+  const FitModel model = make_model(stage_);
+  FitState state = state_;
+  model.find_feet(state);
+  ArrowSystem system = model.make_system();
+  model.assemble(state, model.sample_weights(state), system);
+  system.add_damping(1e-3);
+  const int n = system.size();
+  Eigen::MatrixXd dense(n, n);
+  for (int k = 0; k < n; ++k) dense.col(k) = system.multiply(Eigen::VectorXd::Unit(n, k));
+  EXPECT_LT((dense - dense.transpose()).norm(), 1e-12 * dense.norm());
+  Eigen::VectorXd step;
+  ASSERT_TRUE(system.solve(0.0, step));
+  const Eigen::VectorXd expected = -dense.ldlt().solve(system.gradient);
+  EXPECT_LT((step - expected).norm(), 1e-8 * expected.norm());
+}
+
+}  // namespace
+}  // namespace flank

@@ -1,0 +1,73 @@
+/// Files for the tests of io: real parts where they are, small ones kept with the tests, and scratch.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "flank/base/error.h"
+#include "flank/io/part.h"
+
+namespace flank::testing_io {
+
+namespace fs = std::filesystem;
+
+/// Empty where the folder of real parts is absent.
+inline std::string real_part(const std::string& name) {
+  const char* folder = std::getenv("FLANK_DATA");
+  const fs::path path = (folder != nullptr ? fs::path(folder) : fs::path(FLANK_SOURCE_DIR) / "../shared/data") / name;
+  return fs::exists(path) ? path.string() : std::string();
+}
+
+inline std::string own_part(const std::string& name) {
+  return std::string(FLANK_SOURCE_DIR) + "/tests/io/data/" + name;
+}
+inline std::string corpus(const std::string& name) { return std::string(FLANK_SOURCE_DIR) + "/tests/corpus/" + name; }
+
+/// A folder of its own for one test, removed with it.
+class Scratch {
+ public:
+  Scratch() : folder_(fs::temp_directory_path() / ("flank_io_test-" + std::to_string(::getpid()))) {
+    fs::create_directories(folder_);
+  }
+  ~Scratch() { fs::remove_all(folder_); }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  [[nodiscard]] std::string write(const std::string& name, const std::string& content) const {
+    std::ofstream(path(name), std::ios::binary) << content;
+    return path(name);
+  }
+
+ private:
+  fs::path folder_;
+};
+
+/// The message of the InputError that reading the file must end with.
+inline std::string refusal(const std::string& file, const std::optional<std::string>& unit = {}) {
+  try {
+    (void)read_part(file, unit);
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find(fs::path(file).filename().string()), std::string::npos) << error.what();
+    return error.what();
+  }
+  ADD_FAILURE() << file << " was not refused";
+  return {};
+}
+
+inline bool tells(const Part& part, const std::string& words) {
+  for (const std::string& repair : part.repairs)
+    if (repair.find(words) != std::string::npos) return true;
+  return false;
+}
+
+}  // namespace flank::testing_io
+
+#define FLANK_REAL_PART(variable, name)                     \
+  const std::string variable = testing_io::real_part(name); \
+  if (variable.empty()) GTEST_SKIP() << "no real parts: " name

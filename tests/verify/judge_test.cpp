@@ -1,0 +1,202 @@
+#include "flank/verify/judge.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <numeric>
+
+#include "brute_force.h"
+#include "faces.h"
+#include "flank/base/error.h"
+#include "flank/base/parallel.h"
+
+namespace flank {
+namespace {
+
+Tool cylinder(double radius, double length) {
+  Tool tool;
+  tool.radial = RadialFunction::spline(length, Eigen::VectorXd::Constant(6, radius));
+  return tool;
+}
+
+/// Axis along z at y = `height`, from x = `from` to x = `to`.
+Path pass(double from, double to, double height, int poses = 11) {
+  Strip strip;
+  for (int i = 0; i < poses; ++i)
+    strip.poses.push_back({Vec3(from + (to - from) * i / (poses - 1), height, 0.0), Vec3::UnitZ()});
+  return {{strip}};
+}
+
+TEST(Judge, AnExactPassOverAPlaneIsFlawless) {
+  const auto samples = sample_face(test::plane_face("F1", 40.0, 20.0), 0.5, true);
+  const VerifyReport r = judge(cylinder(5.0, 20.0), pass(-1.0, 41.0, 5.0), {samples}, {});
+  EXPECT_EQ(r.verdict, Verdict::kPass);
+  EXPECT_DOUBLE_EQ(r.coverage, 1.0);
+  EXPECT_LT(r.overcut_mm, 1e-12);
+  EXPECT_LT(r.undercut_mm, 1e-12);
+  EXPECT_LT(r.rms_mm, 1e-12);
+  EXPECT_EQ(r.faces.at(0).samples, samples.points.size());
+  EXPECT_NEAR(r.faces.at(0).area_mm2, 800.0, 1e-9);
+  EXPECT_NEAR(std::accumulate(r.histogram_area_mm2.begin(), r.histogram_area_mm2.end(), 0.0), 800.0, 1e-9);
+  EXPECT_NEAR(r.histogram_area_mm2.at(20), 800.0, 1e-9) << "all of it in the middle bin";
+}
+
+TEST(Judge, HeightAboveThePlaneIsMaterialLeft) {
+  const auto samples = sample_face(test::plane_face("F1", 40.0, 20.0), 0.5, true);
+  const VerifyReport r = judge(cylinder(5.0, 20.0), pass(-1.0, 41.0, 5.03), {samples}, {});
+  EXPECT_EQ(r.verdict, Verdict::kPass) << "material left is no overcut";
+  EXPECT_EQ(r.coverage, 0.0);
+  EXPECT_NEAR(r.undercut_mm, 0.03, 1e-9);
+  EXPECT_NEAR(r.undercut_covered_mm, 0.03, 1e-9);
+  EXPECT_NEAR(r.rms_mm, 0.03, 1e-9);
+  EXPECT_NEAR(r.histogram_area_mm2.back(), 800.0, 1e-9) << "the last bin is open";
+}
+
+TEST(Judge, HalfAPlaneIsHalfCovered) {
+  const auto samples = sample_face(test::plane_face("F1", 40.0, 20.0), 0.5, true);
+  const VerifyReport r = judge(cylinder(5.0, 20.0), pass(-1.0, 20.0, 5.0), {samples}, {});
+  // The round end of the sweep stays within the tolerance for sqrt(2 * 5 * 0.01) = 0.316 mm beyond the last pose.
+  EXPECT_NEAR(r.coverage, 0.5, 0.0126);
+  EXPECT_GE(r.coverage, 0.5);
+  EXPECT_NEAR(r.undercut_mm, std::hypot(19.75, 5.0) - 5.0, 1e-9);
+  EXPECT_LT(r.undercut_covered_mm, 1e-12) << "what lies beyond the last pose is not swept";
+  EXPECT_LT(r.rms_mm, 1e-12);
+}
+
+TEST(Judge, CoveredSamplesAreTheOnesWithinTolerance) {
+  const auto samples = sample_face(test::plane_face("F1", 40.0, 20.0), 0.5, true);
+  const SweptVolume volume(cylinder(5.0, 20.0), pass(-1.0, 20.0, 5.0));
+  const auto covered = covered_samples(volume, samples, 0.01);
+  EXPECT_NEAR(static_cast<double>(covered.size()) / static_cast<double>(samples.points.size()), 0.5, 0.0126);
+  for (std::size_t i : covered) EXPECT_LT(samples.points[i].x(), 20.32);
+}
+
+TEST(Judge, CoverageIsWeightedByAreaOverTheTargets) {
+  const auto near = sample_face(test::plane_face("F1", 40.0, 20.0), 0.5, true);
+  const auto far = sample_face(test::plane_face("F2", 40.0, 60.0, -30.0), 1.0, true);
+  const VerifyReport r = judge(cylinder(5.0, 20.0), pass(-1.0, 41.0, 5.0), {near, far}, {});
+  EXPECT_NEAR(r.coverage, 0.25, 1e-12);
+  EXPECT_DOUBLE_EQ(r.faces.at(0).coverage, 1.0);
+  EXPECT_DOUBLE_EQ(r.faces.at(1).coverage, 0.0);
+}
+
+TEST(Judge, PlantedDipsAreFoundWithPlaceDepthAndPose) {
+  // Two dips of the axis, the deeper one at x = 30; the axis stays parallel to z.
+  Path path;
+  path.strips.emplace_back();
+  for (double x : {-1.0, 8.0, 10.0, 12.0, 28.0, 30.0, 32.0, 41.0}) {
+    const double dip = x == 10.0 ? 0.05 : x == 30.0 ? 0.2 : 0.0;
+    path.strips[0].poses.push_back({Vec3(x, 5.0 - dip, 0.0), Vec3::UnitZ()});
+  }
+  const auto samples = sample_face(test::plane_face("F4", 40.0, 20.0), 0.25, true);
+  const VerifyReport r = judge(cylinder(5.0, 20.0), path, {samples}, {});
+  EXPECT_EQ(r.verdict, Verdict::kOvercut);
+  EXPECT_LE(r.overcut_mm, 0.2 + 1e-12);
+  EXPECT_GE(r.overcut_mm + r.sampling_bound_mm, 0.2);
+  EXPECT_NEAR(r.overcut_mm, 0.2, 0.125 * 0.125 / 9.0);
+  ASSERT_GE(r.worst.size(), 2u);
+  EXPECT_EQ(r.worst[0].face, "F4");
+  EXPECT_EQ(r.worst[0].f, -r.overcut_mm);
+  EXPECT_NEAR(r.worst[0].point.x(), 30.0, 0.13);
+  EXPECT_NEAR(r.worst[0].t, 5.0, 0.1);
+  EXPECT_EQ(r.worst[0].strip, 0);
+  for (std::size_t i = 0; i < r.worst.size(); ++i) {
+    EXPECT_LT(r.worst[i].f, 0.0);
+    EXPECT_LE(r.worst[i > 0 ? i - 1 : 0].f, r.worst[i].f);
+    for (std::size_t j = 0; j < i; ++j) EXPECT_GT((r.worst[i].point - r.worst[j].point).norm(), 2.0) << "spread out";
+  }
+}
+
+TEST(Judge, ACutIntoACheckFaceIsAGouge) {
+  const auto target = sample_face(test::plane_face("F1", 40.0, 20.0), 0.5, true);
+  // A wall under the tip: the round end reaches 5 below z = 0.
+  Face floor = test::plane_face("F2", 40.0, 12.0);
+  for (Vec3& p : floor.surface.poles) p = Vec3(p.x(), p.z(), -4.7);
+  const VerifyReport r =
+      judge(cylinder(5.0, 20.0), pass(-1.0, 41.0, 5.0), {target, sample_face(floor, 0.25, false)}, {});
+  EXPECT_EQ(r.verdict, Verdict::kGouge);
+  EXPECT_NEAR(r.gouge_mm, 0.3, 0.002);
+  EXPECT_LE(r.gouge_mm, 0.3);
+  EXPECT_LT(r.overcut_mm, 1e-12);
+  EXPECT_EQ(r.worst.at(0).face, "F2");
+  EXPECT_NEAR(r.worst.at(0).point.y(), 5.0, 0.13);
+  EXPECT_NEAR(r.worst.at(0).s, 0.0, 1e-12);
+}
+
+TEST(Judge, BetweenSamplesItIsNoWorseThanTheBoundSays) {
+  Random random(17);
+  const Tool tool = brute::random_tool(random, 20.0);
+  Path path = pass(-2.0, 42.0, 0.0, 40);
+  for (Pose& p : path.strips[0].poses) {
+    p.tip.y() = tool.radial.at(10.0).r - 0.05 + 0.1 * std::sin(2.0 * p.tip.x());
+    p.axis = Vec3(0.02 * std::cos(p.tip.x()), 0.02 * std::sin(p.tip.x()), 1.0).normalized();
+  }
+  const Face face = test::plane_face("F1", 40.0, 20.0);
+  const VerifyReport fine = judge(tool, path, {sample_face(face, 0.08, true)}, {});
+  for (double spacing : {0.4, 0.8, 1.6, 3.2}) {
+    const VerifyReport coarse = judge(tool, path, {sample_face(face, spacing, true)}, {});
+    EXPECT_LE(fine.overcut_mm, coarse.overcut_mm + coarse.sampling_bound_mm) << spacing;
+    EXPECT_LE(coarse.sampling_bound_mm, 0.71 * spacing);
+    if (spacing < 0.5) {
+      EXPECT_LE(coarse.sampling_bound_mm, 0.05) << "of second order in the spacing";
+    }
+  }
+}
+
+TEST(Judge, BeyondTheHorizonIsCountedAsNotMachined) {
+  const auto samples = sample_face(test::plane_face("F1", 40.0, 20.0), 0.5, true);
+  JudgeOptions options;
+  options.horizon_mm = 1.0;
+  const VerifyReport r = judge(cylinder(5.0, 20.0), pass(-1.0, 20.0, 5.0), {samples}, options);
+  EXPECT_DOUBLE_EQ(r.undercut_mm, 1.0);
+  EXPECT_NEAR(r.coverage, 0.5, 0.0126);
+  EXPECT_LT(r.undercut_covered_mm, 1e-12);
+}
+
+TEST(Judge, AnEmptyPathCoversNothing) {
+  const auto samples = sample_face(test::plane_face("F1", 4.0, 2.0), 0.5, true);
+  JudgeOptions options;
+  options.horizon_mm = 3.0;
+  const VerifyReport r = judge(cylinder(5.0, 20.0), Path{}, {samples}, options);
+  EXPECT_EQ(r.coverage, 0.0);
+  EXPECT_EQ(r.overcut_mm, 0.0);
+  EXPECT_EQ(r.undercut_mm, 3.0);
+  EXPECT_TRUE(r.worst.empty());
+}
+
+TEST(Judge, SameBitsForOneAndTwoThreads) {
+  Random random(23);
+  const Tool tool = brute::random_tool(random, 20.0);
+  const Path path = brute::twisted_path(random, 60, 30.0, 0.6);
+  const auto samples = sample_face(test::quarter_cylinder("F1", 15.0, 20.0), 0.4, true);
+  set_thread_count(1);
+  const VerifyReport a = judge(tool, path, {samples}, {});
+  set_thread_count(2);
+  const VerifyReport b = judge(tool, path, {samples}, {});
+  set_thread_count(0);
+  EXPECT_EQ(a.coverage, b.coverage);
+  EXPECT_EQ(a.overcut_mm, b.overcut_mm);
+  EXPECT_EQ(a.undercut_mm, b.undercut_mm);
+  EXPECT_EQ(a.undercut_covered_mm, b.undercut_covered_mm);
+  EXPECT_EQ(a.rms_mm, b.rms_mm);
+  EXPECT_EQ(a.histogram_area_mm2, b.histogram_area_mm2);
+  ASSERT_EQ(a.worst.size(), b.worst.size());
+  for (std::size_t i = 0; i < a.worst.size(); ++i) {
+    EXPECT_EQ(a.worst[i].point, b.worst[i].point);
+    EXPECT_EQ(a.worst[i].f, b.worst[i].f);
+    EXPECT_EQ(a.worst[i].t, b.worst[i].t);
+    EXPECT_EQ(a.worst[i].s, b.worst[i].s);
+  }
+}
+
+TEST(Judge, RefusesOptionsThatAreNone) {
+  JudgeOptions options;
+  options.tolerance_mm = -1.0;
+  EXPECT_THROW((void)judge(cylinder(5.0, 20.0), pass(0, 1, 5.0), {}, options), UsageError);
+  options = {};
+  options.histogram_bins = 0;
+  EXPECT_THROW((void)judge(cylinder(5.0, 20.0), pass(0, 1, 5.0), {}, options), UsageError);
+}
+
+}  // namespace
+}  // namespace flank
