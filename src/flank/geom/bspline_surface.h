@@ -33,8 +33,8 @@ struct BSplineSurface {
   [[nodiscard]] SurfaceJet jet(double u, double v) const;
 };
 
-/// Tensor interpolation of a grid of points (u index major, nu x nv) at the parameters u, v (both from 0 to 1), by degree x degree
-/// splines with knots averaged from the parameters (Piegl and Tiller, 9.8).
+/// Tensor interpolation of a grid of points (u index major, nu x nv) at the parameters u, v (both from 0 to 1), by
+/// degree x degree splines with knots averaged from the parameters (Piegl and Tiller, 9.8).
 [[nodiscard]] BSplineSurface interpolate_grid(const std::vector<Vec3>& points, const std::vector<double>& u,
                                               const std::vector<double>& v, int degree);
 

@@ -8,6 +8,7 @@
 #include <Geom2d_BSplineCurve.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <Interface_Static.hxx>
+#include <STEPControl_Controller.hxx>
 #include <STEPControl_Writer.hxx>
 #include <Standard_Failure.hxx>
 #include <StepBasic_Product.hxx>
@@ -159,6 +160,7 @@ TopoDS_Face occt_face(const Face& face) {
 
 /// The same faces give the same bytes: no date, and no counter in the product's name.
 void write_model(const std::string& path, const std::string& name, const TopoDS_Compound& shape) {
+  STEPControl_Controller::Init();  // else the settings do not exist yet at the first write, and are lost
   Interface_Static::SetCVal("write.step.schema", "AP214IS");
   Interface_Static::SetCVal("write.step.unit", "MM");
   Interface_Static::SetCVal("write.step.product.name", name.c_str());

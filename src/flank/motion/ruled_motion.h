@@ -1,4 +1,5 @@
-/// A rigid motion of the tool axis (MATH section 2): tip rail a(t), direction rail w(t), u = w/|w|, R(s,t) = a(t) + s u(t), t in [0, 1].
+/// A rigid motion of the tool axis (MATH section 2): tip rail a(t), direction rail w(t), u = w/|w|, R(s,t) = a(t) + s
+/// u(t), t in [0, 1].
 #pragma once
 
 #include <vector>
@@ -26,21 +27,25 @@ struct RuledMotion {
   [[nodiscard]] AxisJet jet(double t) const;
 };
 
-/// Least-squares motion with `count` control points a rail through poses at parameters t in [0, 1] (poses.size() >= count).
+/// Least-squares motion with `count` control points a rail through poses at parameters t in [0, 1] (poses.size() >=
+/// count).
 [[nodiscard]] RuledMotion fit_motion(const std::vector<Pose>& poses, const std::vector<double>& t, double axis_length,
                                      int count);
 
 struct SamplingOptions {
-  double chord_tolerance_mm = 1e-4;  ///< largest distance between the motion and the joined poses, at both ends of the axis
+  double chord_tolerance_mm =
+      1e-4;  ///< largest distance between the motion and the joined poses, at both ends of the axis
   int minimum_poses = 2;
   int maximum_poses = 100000;
 };
 struct SampledMotion {
   std::vector<Pose> poses;
   std::vector<double> t;
-  double chord_bound_mm = 0.0;  ///< bound of the distance between the motion and the joined poses, reached by construction
+  double chord_bound_mm =
+      0.0;  ///< bound of the distance between the motion and the joined poses, reached by construction
 };
-/// Samples a motion adaptively in t. The bound comes from the second derivatives of the rails over each step, not from sampling alone.
+/// Samples a motion adaptively in t. The bound comes from the second derivatives of the rails over each step, not from
+/// sampling alone.
 [[nodiscard]] SampledMotion sample_motion(const RuledMotion& motion, const SamplingOptions& options);
 
 }  // namespace flank

@@ -1,4 +1,5 @@
-/// Path: poses in strips, pure data. A pose is joined to the next one by a straight line of the tip and of the unnormalised axis vector.
+/// Path: poses in strips, pure data. A pose is joined to the next one by a straight line of the tip and of the
+/// unnormalised axis vector.
 #pragma once
 
 #include <string>

@@ -36,7 +36,8 @@ class NurbsFace {
   /// Whether the face is all of its domain.
   [[nodiscard]] bool whole() const { return trim_.whole(); }
   [[nodiscard]] const TrimRegion& trim() const { return trim_; }
-  /// Point and derivatives at parameters of the domain, on its borders and a little past them by the polynomials of its own cells.
+  /// Point and derivatives at parameters of the domain, on its borders and a little past them by the polynomials of its
+  /// own cells.
   [[nodiscard]] SurfaceJet jet_within(double u, double v) const;
   /// Length scale of convergence: the diagonal of the face, mm.
   [[nodiscard]] double size() const { return size_; }

@@ -11,20 +11,23 @@
 
 namespace flank {
 
-/// Where a footpoint lies. kInside: in the interior of the trimmed face, p - point is along the normal. kBorder: on the border, p - point is
-/// not along the normal. kExtension: on the smooth extrapolation past the border (only `track` returns it).
+/// Where a footpoint lies. kInside: in the interior of the trimmed face, p - point is along the normal. kBorder: on the
+/// border, p - point is not along the normal. kExtension: on the smooth extrapolation past the border (only `track`
+/// returns it).
 enum class Location { kInside, kBorder, kExtension };
 
 /// Closest point of a target to a query point p (MATH: section 4 of the design's formulas).
 struct Footpoint {
   Vec3 point = Vec3::Zero();
   Vec3 normal = Vec3::UnitZ();  ///< unit surface normal at `point`, towards the machining side
-  /// kInside and kExtension: <p - point, normal>, signed, negative on the material's side. kBorder: |p - point| with the sign of that product.
+  /// kInside and kExtension: <p - point, normal>, signed, negative on the material's side. kBorder: |p - point| with
+  /// the sign of that product.
   double distance = 0.0;
-  double k1 = 0.0, k2 = 0.0;  ///< principal curvatures, positive where the surface bends towards the machining side; k1 <= k2
+  double k1 = 0.0,
+         k2 = 0.0;  ///< principal curvatures, positive where the surface bends towards the machining side; k1 <= k2
   Vec3 d1 = Vec3::UnitX(), d2 = Vec3::UnitY();  ///< their unit directions
   double u = 0.0, v = 0.0;                      ///< surface parameters (mesh: barycentric)
-  int patch = -1;                               ///< which face (mesh: which triangle); -1: not found yet, usable as "no hint"
+  int patch = -1;  ///< which face (mesh: which triangle); -1: not found yet, usable as "no hint"
   Location location = Location::kInside;
 };
 
@@ -45,9 +48,10 @@ class Target {
   /// Cold query: the globally closest point of the trimmed target itself (never on an extension).
   [[nodiscard]] virtual Footpoint closest(const Vec3& p) const = 0;
 
-  /// Warm query: the locally closest point near `hint` on the target extended past its borders; falls back to a cold start (then continued onto the
-  /// extension where the footpoint would lie on the border) if hint.patch < 0 or the iteration fails.
-  /// The result varies smoothly with p as long as the footpoint keeps its branch: this is what fits use.
+  /// Warm query: the locally closest point near `hint` on the target extended past its borders; falls back to a cold
+  /// start (then continued onto the extension where the footpoint would lie on the border) if hint.patch < 0 or the
+  /// iteration fails. The result varies smoothly with p as long as the footpoint keeps its branch: this is what fits
+  /// use.
   [[nodiscard]] virtual Footpoint track(const Vec3& p, const Footpoint& hint) const = 0;
 
   /// Batches; result[i] belongs to points[i]. footpoints is hint (patch >= 0) and result in track_batch.
@@ -67,17 +71,19 @@ class Target {
   double area_ = 0.0;
 };
 
-/// How far a target is extended past its borders, as a share of its size in that direction, and the share of each iso-line that the
-/// extrapolation is fitted to.
+/// How far a target is extended past its borders, as a share of its size in that direction, and the share of each
+/// iso-line that the extrapolation is fitted to.
 struct ExtensionOptions {
   double length_share = 0.10;
   double fit_share = 0.18;
 };
 
-/// Target of one or more trimmed NURBS faces. side = +1: the machining side is the face's outward normal (Face::reversed), -1: the other one.
+/// Target of one or more trimmed NURBS faces. side = +1: the machining side is the face's outward normal
+/// (Face::reversed), -1: the other one.
 [[nodiscard]] std::unique_ptr<Target> make_target(std::vector<Face> faces, int side = +1, const ExtensionOptions& = {});
 
-/// Target of a triangle mesh with local polynomial surfaces ("jets") fitted at its vertices. The triangles' orientation gives the machining side.
+/// Target of a triangle mesh with local polynomial surfaces ("jets") fitted at its vertices. The triangles' orientation
+/// gives the machining side.
 [[nodiscard]] std::unique_ptr<Target> make_target(TriangleMesh mesh, const ExtensionOptions& = {});
 
 }  // namespace flank
