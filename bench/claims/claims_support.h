@@ -1,0 +1,70 @@
+// What the cases share: a scratch folder, a job from the file, the real error of a fit.
+#pragma once
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include "claims/claims.h"
+#include "flank/base/error.h"
+#include "flank/base/random.h"
+#include "flank/envelope/envelope.h"
+#include "flank/fit/flank_fit.h"
+#include "flank/motion/ruled_motion.h"
+#include "flank/pipeline/example.h"
+#include "flank/pipeline/fit_job.h"
+#include "flank/surface/target.h"
+#include "flank/verify/judge.h"
+
+namespace flank::bench {
+
+inline std::string scratch(const std::string& name) {
+  const auto folder = std::filesystem::temp_directory_path() / "flank_claims";
+  std::filesystem::create_directories(folder);
+  return (folder / name).string();
+}
+
+/// File of one of the real parts.
+inline std::string real_part(const std::string& name) {
+  const char* data = std::getenv("FLANK_DATA");
+  const std::string file = std::string(data ? data : FLANK_SOURCE_DIR "/../shared/data") + "/" + name;
+  if (!std::filesystem::exists(file)) throw InputError(file + " is not there (set FLANK_DATA)");
+  return file;
+}
+
+inline double seconds_of(const std::function<void()>& f) {
+  const auto begin = std::chrono::steady_clock::now();
+  f();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+/// Largest error on a grid 3 times denser than the fit's, with fresh cold footpoints on `truth`.
+inline double largest_error(const Target& truth, const FlankFitResult& fit) {
+  std::vector<FitTask> tasks;
+  for (const RuledMotion& motion : fit.motions) tasks.push_back({&truth, motion});
+  return validate(tasks, fit.tool, 300, 90).largest_mm;
+}
+
+/// The judge over faces, from the motions sampled within `chord_mm`.
+inline VerifyReport judge_fit(const std::vector<Face>& faces, const FlankFitResult& fit, double tolerance_mm,
+                              double spacing_mm) {
+  Tool tool;
+  tool.radial = fit.tool;
+  Path path;
+  SamplingOptions sampling;
+  sampling.chord_tolerance_mm = 0.002 * tolerance_mm;
+  for (const RuledMotion& motion : fit.motions) {
+    Strip strip;
+    strip.id = static_cast<int>(path.strips.size()) + 1;
+    strip.poses = sample_motion(motion, sampling).poses;
+    path.strips.push_back(std::move(strip));
+  }
+  std::vector<FaceSamples> samples;
+  for (const Face& face : faces) samples.push_back(sample_face(face, spacing_mm, true));
+  JudgeOptions options;
+  options.tolerance_mm = tolerance_mm;
+  return judge(tool, path, samples, options);
+}
+
+}  // namespace flank::bench
