@@ -21,8 +21,9 @@ std::vector<Figure> from_a_start(const std::string& name) {
   Random random(5);
   const RuledMotion start = perturb(example.truth->motions.front(), 0.01, d, random);
   FlankFitResult fit;
-  const double seconds =
-      seconds_of([&] { fit = fit_from_starts({{target.get(), start}}, ToolModel{}, open_options(d), {}); });
+  const double seconds = seconds_of([&] {
+    fit = fit_from_starts({{target.get(), start}}, ToolModel{}, open_options(d), {});
+  });
   const VerifyReport verdict = judge_fit({example.faces.front()}, fit, 5e-5 * d, d / 200.0);
   return {at_most("largest error", largest_error(*target, fit) / d, 2e-6),
           at_most("overcut", verdict.overcut_mm / d, 5e-6),

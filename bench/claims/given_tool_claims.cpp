@@ -24,8 +24,8 @@ std::vector<Figure> given(const std::string& part, const std::string& tool) {
   (void)target;
   return {at_most("overcut", outcome.verify.overcut_mm / d, 2e-5),
           shown("undercut over the covered strip", outcome.verify.undercut_covered_mm / d),
-          shown("rms", outcome.verify.rms_mm / d),
-          shown("coverage at 0.05 mm", outcome.verify.coverage), shown("seconds", seconds)};
+          shown("rms", outcome.verify.rms_mm / d), shown("coverage at 0.05 mm", outcome.verify.coverage),
+          shown("seconds", seconds)};
 }
 
 }  // namespace

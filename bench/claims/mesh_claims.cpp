@@ -22,8 +22,9 @@ std::vector<Figure> from_a_start(const std::string& name, double bound, double l
   options.bounds.smallest = 0.01 * d;
   options.bounds.largest = 0.15 * d;
   FlankFitResult fit;
-  const double seconds =
-      seconds_of([&] { fit = fit_from_starts({{targets.front().target.get(), start}}, ToolModel{}, options, {}); });
+  const double seconds = seconds_of([&] {
+    fit = fit_from_starts({{targets.front().target.get(), start}}, ToolModel{}, options, {});
+  });
   const VerifyReport verdict = judge_fit({exact.face}, fit, 5e-5 * d, d / 200.0);
   return {at_most("largest error", largest_error(*exact_target, fit) / d, bound),
           at_least("coverage", verdict.coverage, least_coverage), shown("seconds", seconds)};

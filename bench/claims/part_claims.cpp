@@ -30,7 +30,8 @@ std::vector<Figure> real(const PartCase& c) {
   return {at_least("coverage", outcome.verify.coverage, c.coverage),
           at_most("overcut, mm", outcome.verify.overcut_mm, c.overcut),
           shown("undercut over the covered strip, mm", outcome.verify.undercut_covered_mm),
-          shown("rms, mm", outcome.verify.rms_mm), shown("strips", static_cast<double>(outcome.path.strips.size())),
+          shown("rms, mm", outcome.verify.rms_mm),
+          shown("strips", static_cast<double>(outcome.path.strips.size())),
           shown("seconds", seconds)};
 }
 
@@ -43,8 +44,7 @@ std::vector<Figure> ruled_blade() {
   job.side = +1;
   double seconds = 0.0;
   const FitOutcome outcome = fit_file(job, seconds);
-  return {at_least("coverage", outcome.verify.coverage, 0.99),
-          at_most("overcut, mm", outcome.verify.overcut_mm, 0.01),
+  return {at_least("coverage", outcome.verify.coverage, 0.99), at_most("overcut, mm", outcome.verify.overcut_mm, 0.01),
           shown("largest material left, mm", outcome.verify.undercut_mm), shown("seconds", seconds)};
 }
 

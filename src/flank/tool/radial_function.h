@@ -19,20 +19,18 @@ struct RadialJet {
 };
 
 /// The families and their parameters, in order (mm; angles in radians; x = s - L/2, the distance from mid-length):
-///   cylinder        radius                      r = radius: a cylinder with spherical ends
-///   cone            radius, angle               r = radius + s sin(angle): meridian slope `angle`, inscribed sphere
-///   `radius` at s = 0 barrel          arc, radius, s0             r = arc - sqrt((arc - radius)^2 + (s - s0)^2):
-///   meridian arc of radius `arc`, largest `radius`
-///                                               at s0. arc < 0 is a concave arc of radius |arc| with waist `radius`; 0
-///                                               < arc < radius is the outer side of a torus, which is no tool (B,
-///                                               Example 1; check_legitimacy says so)
-///   lens            radius, end_radius          barrel arc symmetric about mid-length: `radius` there, `end_radius` at
-///   both ends tapered-barrel  arc, radius, angle          barrel arc tilted by `angle`: inscribed sphere `radius` at x
-///   = 0 and meridian slope `angle` there
-///                                               (another reference point would only name the same arc twice)
-///   hyperbolic      radius, slope, bend         r = radius + slope x + bend x^2; bend > 0 (1/mm) is a concave meridian
-///   power           a, b, c, d                  r = (a + b s)^(1/d) / c (B (19); one parameter more than degrees of
-///   freedom) spline          coefficients                clamped cubic B-spline over [0, L] with equal knots
+///   cylinder        radius               r = radius: a cylinder with spherical ends
+///   cone            radius, angle        r = radius + s sin(angle): meridian slope `angle`, inscribed sphere `radius` at s = 0
+///   barrel          arc, radius, s0      r = arc - sqrt((arc - radius)^2 + (s - s0)^2): meridian arc of radius `arc`, largest
+///                                        `radius` at s0. arc < 0 is a concave arc of radius |arc| with waist `radius`;
+///                                        0 < arc < radius is the outer side of a torus, which is no tool (B, Example 1;
+///                                        check_legitimacy says so)
+///   lens            radius, end_radius   barrel arc symmetric about mid-length: `radius` there, `end_radius` at both ends
+///   tapered-barrel  arc, radius, angle   barrel arc tilted by `angle`: inscribed sphere `radius` at x = 0 and meridian slope
+///                                        `angle` there (another reference point would only name the same arc twice)
+///   hyperbolic      radius, slope, bend  r = radius + slope x + bend x^2; bend > 0 (1/mm) is a concave meridian
+///   power           a, b, c, d           r = (a + b s)^(1/d) / c (B (19); one parameter more than degrees of freedom)
+///   spline          coefficients         clamped cubic B-spline over [0, L] with equal knots
 enum class ToolFamily { kCylinder, kCone, kBarrel, kLens, kTaperedBarrel, kHyperbolic, kPower, kSpline };
 
 /// Value type; cheap to evaluate, no allocation in at() and gradient().
