@@ -38,9 +38,11 @@ double SweptEstimate::at_pose(const Pose& pose, const Vec3& x) const {
   return std::sqrt(rho2 + (z - s) * (z - s)) - interpolate(radius_, s * per_length_);
 }
 
-double SweptEstimate::distance(const Vec3& x) const {
-  double best = std::numeric_limits<double>::infinity();
-  for (const std::vector<Pose>& poses : poses_) {
+SweptContact SweptEstimate::nearest(const Vec3& x) const {
+  SweptContact best;
+  best.f = std::numeric_limits<double>::infinity();
+  for (std::size_t m = 0; m < poses_.size(); ++m) {
+    const std::vector<Pose>& poses = poses_[m];
     std::size_t at = 0;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -50,12 +52,72 @@ double SweptEstimate::distance(const Vec3& x) const {
         at = i;
       }
     }
+    double t = static_cast<double>(at);
     if (at > 0 && at + 1 < poses.size()) {
       const double a = at_pose(poses[at - 1], x), b = at_pose(poses[at + 1], x);
       const double bend = a + b - 2.0 * least;
-      if (bend > 0.0) least -= (a - b) * (a - b) / (8.0 * bend);
+      if (bend > 0.0) {
+        least -= (a - b) * (a - b) / (8.0 * bend);
+        t += 0.5 * (a - b) / bend;
+      }
     }
-    best = std::min(best, least);
+    if (least >= best.f) continue;
+    best.f = least;
+    best.motion = static_cast<int>(m);
+    best.t = t * spacing();
+  }
+  return best;
+}
+
+namespace {
+
+/// Nearest sphere of the tool at one pose: the stationary s, or an end.
+SweptContact contact_at(const RuledMotion& motion, const RadialFunction& radial, const Vec3& x, double t, double s) {
+  const Pose pose = motion.pose(t);
+  const Vec3 q = x - pose.tip;
+  const double length = radial.axis_length(), z = q.dot(pose.axis);
+  const double rho2 = std::max(0.0, q.squaredNorm() - z * z);
+  SweptContact contact;
+  contact.t = t;
+  RadialJet jet;
+  for (int k = 0; k < 5; ++k) {
+    jet = radial.at(s);
+    const double d = std::sqrt(rho2 + (z - s) * (z - s)) + 1e-300;
+    // d/ds (D - r) = (s - z) / D - r' = 0, by Newton's method on (z - s) + r' D.
+    const double value = (z - s) + jet.d1 * d, slope = -1.0 + jet.d2 * d - jet.d1 * (z - s) / d;
+    const double next = std::clamp(slope < -0.05 ? s - value / slope : s + value, 0.0, length);
+    const double moved = std::abs(next - s);
+    s = next;
+    if (moved < 1e-10 * length) break;
+  }
+  const Vec3 away = pose.at(s) - x;
+  const double d = away.norm();
+  contact.s = s;
+  contact.f = d - radial.at(s).r;
+  if (d > 1e-12) contact.to_axis = away / d;
+  return contact;
+}
+
+}  // namespace
+
+SweptContact refine_contact(const RuledMotion& motion, const RadialFunction& radial, const Vec3& x, double t,
+                            double window) {
+  const Pose pose = motion.pose(t);
+  const double first_s = std::clamp((x - pose.tip).dot(pose.axis), 0.0, radial.axis_length());
+  SweptContact best = contact_at(motion, radial, x, std::clamp(t, 0.0, 1.0), first_s);
+  // Parabolas through three points, each sixteen times narrower than the last.
+  for (double h = 0.5 * window; h > 1e-3 * window; h /= 16.0) {
+    const double middle = std::clamp(best.t, h, 1.0 - h);
+    const SweptContact a = contact_at(motion, radial, x, middle - h, best.s);
+    const SweptContact b = contact_at(motion, radial, x, middle + h, best.s);
+    const SweptContact m = middle == best.t ? best : contact_at(motion, radial, x, middle, best.s);
+    const double bend = a.f + b.f - 2.0 * m.f;
+    for (const SweptContact* c : {&a, &m, &b})
+      if (c->f < best.f) best = *c;
+    if (bend <= 0.0) continue;
+    const double vertex = middle + std::clamp(0.5 * (a.f - b.f) / bend, -1.0, 1.0) * h;
+    const SweptContact v = contact_at(motion, radial, x, vertex, best.s);
+    if (v.f < best.f) best = v;
   }
   return best;
 }

@@ -62,7 +62,7 @@ void descend(const FitModel& model, FitState& state, const Rows& margins, const 
     const GapProblem problem{&model, &real, &quadratic, gaps_of(model, real, margins, options.allowed_overcut_mm)};
     const Eigen::VectorXd step = solve_gaps(problem, options.interior_iterations);
     FitState trial = model.moved(state, step);
-    model.find_feet(trial);
+    model.locate(trial);
     FitState trial_real = real_feet(model, trial);
     const double trial_cost = model.cost(trial, weights);
     const double trial_worst = violation(gaps_of(model, trial_real, margins, options.allowed_overcut_mm));
@@ -126,7 +126,7 @@ double add_margins(const FitModel& model, const FitState& state, double allowed,
 ConstrainedResult minimise_constrained(const FitModel& model, FitState start, const ConstrainedOptions& options) {
   ConstrainedResult result;
   FitState state = std::move(start);
-  model.find_feet(state);
+  model.locate(state);
   Rows margins;
   for (const auto& feet : state.feet) margins.emplace_back(feet.size(), 0.0);
   result.overcut_mm = 1e300;

@@ -28,7 +28,7 @@ struct FlankFitOptions {
   std::optional<double> axis_length_mm;  ///< none: 1.02 times the longest offset contact line of the start
   RadiusBounds bounds;
   int strips = 1;  ///< motions side by side on one target, one tool
-  int kept_after_quick = 6, kept_after_polish = 2;
+  int kept_after_quick = 6, kept_after_polish = 3;  ///< candidates
   double sample_share =
       1.0 / 45.0;  ///< spacing of the samples that rank candidates, as a share of the square root of the area
 };

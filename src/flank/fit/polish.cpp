@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/fit/swept_polish.h"
+
 namespace flank {
 namespace {
 
@@ -34,14 +36,6 @@ RadialFunction mean_distance_tool(const std::vector<FitTask>& tasks, const Radiu
     samples.emplace_back(s, std::clamp(sum / count, bounds.smallest, bounds.largest));
   }
   return RadialFunction::spline_through(length, samples, 6);
-}
-
-Polished assess(FitDraft draft, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
-  Polished polished;
-  if (draft.free_tool) draft.tool = clamp_tool(draft.tool, options.bounds);
-  polished.estimate = estimate_coverage(samples, draft.motions, draft.tool, options.tolerance_mm, kRankingPoses);
-  polished.draft = std::move(draft);
-  return polished;
 }
 
 /// Largest residual against the target itself, between the samples of the passes.
@@ -86,6 +80,14 @@ Polished shifted(const Polished& polished, const std::vector<SurfaceSample>& sam
 
 }  // namespace
 
+Polished assess(FitDraft draft, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
+  Polished polished;
+  if (draft.free_tool) draft.tool = clamp_tool(draft.tool, options.bounds);
+  polished.estimate = estimate_coverage(samples, draft.motions, draft.tool, options.tolerance_mm, kRankingPoses);
+  polished.draft = std::move(draft);
+  return polished;
+}
+
 double robust_scale(const Target& target, const FlankFitOptions& options) {
   return std::max(4.0 * options.tolerance_mm, 1e-3 * target.diagonal());
 }
@@ -120,12 +122,20 @@ Polished polish(const FitDraft& draft, const std::vector<SurfaceSample>& samples
   const double scale = robust_scale(*draft.targets.front(), options);
   keep(assess(run_stage(draft, options.bounds, polish_stage(scale), trace, &summary), samples, options));
   if (summary.rms_mm < kExactShare * diagonal) {
-    return exact_polish(best, samples, options, trace);
+    best = exact_polish(best, samples, options, trace);
+    best.exact = true;
+    return best;
   }
   const FitStage stage = tolerance_stage(options.tolerance_mm, scale);
   if (draft.free_tool || !draft.free_parameters.empty())
     keep(assess(run_stage(best.draft, options.bounds, stage, trace), samples, options));
   return shifted(best, samples, options);
+}
+
+Polished last_passes(const Polished& polished, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options,
+                     std::vector<IterationTrace>* trace) {
+  if (polished.exact) return polished;
+  return shifted(swept_polish(polished, samples, options, trace), samples, options);
 }
 
 Polished without_overcut(const Polished& polished, const std::vector<SurfaceSample>& samples,

@@ -33,9 +33,6 @@ RadialFunction with_coefficients(const RadialFunction& tool, int count) {
 
 }  // namespace
 
-namespace {
-
-/// Start of a pass: rails and spline at the stage's resolution; fills the list of free parameters.
 FitState start_state(const FitDraft& draft, const FitStage& stage, FitDraft& next) {
   FitState start;
   for (const RuledMotion& motion : draft.motions)
@@ -48,8 +45,6 @@ FitState start_state(const FitDraft& draft, const FitStage& stage, FitDraft& nex
   }
   return start;
 }
-
-}  // namespace
 
 FitDraft run_stage(const FitDraft& draft, const RadiusBounds& bounds, const FitStage& stage,
                    std::vector<IterationTrace>* trace, ResidualSummary* summary) {

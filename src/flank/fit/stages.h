@@ -16,6 +16,10 @@ struct FitDraft {
   bool free_tool = false;            ///< a spline whose number of coefficients a pass may change
 };
 
+/// Start of a pass: rails and spline at the stage's resolution; `next` becomes the draft with its list of free
+/// parameters.
+[[nodiscard]] FitState start_state(const FitDraft& draft, const FitStage& stage, FitDraft& next);
+
 /// Brings the draft to the stage's number of control points and coefficients and minimises; `trace` grows if given.
 [[nodiscard]] FitDraft run_stage(const FitDraft& draft, const RadiusBounds& bounds, const FitStage& stage,
                                  std::vector<IterationTrace>* trace = nullptr, ResidualSummary* summary = nullptr);

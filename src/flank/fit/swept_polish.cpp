@@ -1,0 +1,82 @@
+#include "flank/fit/swept_polish.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "flank/fit/levenberg_marquardt.h"
+
+namespace flank {
+namespace {
+
+/// Points of the passes a side of the target; the judge's samples are several times denser.
+constexpr int kPointsPerSide = 50;
+
+/// Passes in turn: dead zone in tolerances, fairness, anchor, control points, coefficients.
+struct Pass {
+  double dead_zone, fairness, anchor;
+  int control_points, coefficients, iterations;
+};
+constexpr Pass kPasses[] = {{0.6, 1e-5, 1e-2, 32, 16, 12}, {0.6, 1e-6, 1e-4, 48, 24, 25}, {0.3, 1e-6, 1e-4, 48, 24, 12}};
+
+FitStage swept_stage(const Pass& pass, const FlankFitOptions& options) {
+  FitStage stage;
+  stage.samples_t = 120;  // of the regularisers
+  stage.samples_s = 36;
+  stage.control_points = pass.control_points;
+  stage.tool_coefficients = pass.coefficients;
+  stage.iterations = pass.iterations;
+  stage.fairness = pass.fairness;
+  stage.transversal_anchor = pass.anchor;
+  stage.axial_pin = 1e-6;
+  stage.dead_zone_mm = pass.dead_zone * options.tolerance_mm;
+  // What a strip cannot reach must not pull it off what it can.
+  stage.robust_scale_mm = 20.0 * options.tolerance_mm;
+  stage.overcut_weight = 4.0;
+  stage.step_tolerance = 3e-4;
+  return stage;
+}
+
+}  // namespace
+
+std::vector<FacePoint> target_points(const FitDraft& draft, int per_side) {
+  std::vector<const Target*> targets;
+  for (const Target* target : draft.targets)
+    if (std::find(targets.begin(), targets.end(), target) == targets.end()) targets.push_back(target);
+  double area = 0.0;
+  for (const Target* target : targets) area += target->area();
+  std::vector<FacePoint> points;
+  for (const Target* target : targets) {
+    const double spacing = std::sqrt(target->area()) / per_side;
+    for (const SurfaceSample& sample : target->samples(spacing)) points.push_back({sample.point, sample.area / area});
+    // The samples are middles of cells; a tool cuts deepest at the rim. A rim point stands for half a cell.
+    for (const Vec3& point : target->border_points(spacing))
+      points.push_back({point, 0.5 * spacing * spacing / area});
+  }
+  return points;
+}
+
+FitDraft run_swept(const FitDraft& draft, const RadiusBounds& bounds, const FitStage& stage,
+                   std::vector<FacePoint> points, std::vector<IterationTrace>* trace) {
+  FitDraft next;
+  FitState start = start_state(draft, stage, next);
+  const SweptModel model(std::move(points), draft.targets, start, next.free_parameters, bounds, stage);
+  MinimiseResult result = levenberg_marquardt(model, std::move(start));
+  if (trace) trace->insert(trace->end(), result.trace.begin(), result.trace.end());
+  next.motions = std::move(result.state.motions);
+  next.tool = result.state.tool;
+  return next;
+}
+
+Polished swept_polish(const Polished& polished, const std::vector<SurfaceSample>& samples,
+                      const FlankFitOptions& options, std::vector<IterationTrace>* trace) {
+  const std::vector<FacePoint> points = target_points(polished.draft, kPointsPerSide);
+  Polished best = polished;
+  for (const Pass& pass : kPasses) {
+    Polished trial =
+        assess(run_swept(best.draft, options.bounds, swept_stage(pass, options), points, trace), samples, options);
+    if (trial.estimate.score(options.tolerance_mm) > best.estimate.score(options.tolerance_mm)) best = std::move(trial);
+  }
+  return best;
+}
+
+}  // namespace flank
