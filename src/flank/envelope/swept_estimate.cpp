@@ -20,6 +20,10 @@ SweptEstimate::SweptEstimate(const std::vector<RuledMotion>& motions, const Radi
   for (const RuledMotion& motion : motions) {
     std::vector<Pose>& table = poses_.emplace_back();
     for (int i = 0; i < poses; ++i) table.push_back(motion.pose(static_cast<double>(i) / (poses - 1)));
+    double& stride = stride_.emplace_back(0.0);
+    for (std::size_t i = 0; i + 1 < table.size(); ++i)
+      for (const double s : {0.0, axis_length_})
+        stride = std::max(stride, (table[i + 1].at(s) - table[i].at(s)).norm());
   }
   for (int k = 0; k <= kTable; ++k) {
     const RadialJet jet = radial.at(axis_length_ * k / kTable);
@@ -38,20 +42,37 @@ double SweptEstimate::at_pose(const Pose& pose, const Vec3& x) const {
   return std::sqrt(rho2 + (z - s) * (z - s)) - interpolate(radius_, s * per_length_);
 }
 
+std::size_t SweptEstimate::nearest_pose(std::size_t motion, const Vec3& x, double& least) const {
+  const std::vector<Pose>& poses = poses_[motion];
+  constexpr std::size_t kCoarse = 12;
+  std::size_t at = 0;
+  least = std::numeric_limits<double>::infinity();
+  const auto look = [&](std::size_t i) {
+    const double f = at_pose(poses[i], x);
+    if (f < least) {
+      least = f;
+      at = i;
+    }
+    return f;
+  };
+  for (std::size_t i = kCoarse / 2; i < poses.size(); i += kCoarse) look(i);
+  // From pose to pose f changes by no more than the stride: far poses are jumped over. What at_pose leaves to its two
+  // steps in s is held off by a tenth.
+  for (std::size_t i = 0; i < poses.size();) {
+    const double f = look(i);
+    const double jump = stride_[motion] > 0.0 ? 0.9 * (f - least) / stride_[motion] : 0.0;
+    i += 1 + static_cast<std::size_t>(std::min(jump, static_cast<double>(poses.size())));
+  }
+  return at;
+}
+
 SweptContact SweptEstimate::nearest(const Vec3& x) const {
   SweptContact best;
   best.f = std::numeric_limits<double>::infinity();
   for (std::size_t m = 0; m < poses_.size(); ++m) {
     const std::vector<Pose>& poses = poses_[m];
-    std::size_t at = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-      const double f = at_pose(poses[i], x);
-      if (f < least) {
-        least = f;
-        at = i;
-      }
-    }
+    double least = 0.0;
+    const std::size_t at = nearest_pose(m, x, least);
     double t = static_cast<double>(at);
     if (at > 0 && at + 1 < poses.size()) {
       const double a = at_pose(poses[at - 1], x), b = at_pose(poses[at + 1], x);
@@ -106,7 +127,7 @@ SweptContact refine_contact(const RuledMotion& motion, const RadialFunction& rad
   const double first_s = std::clamp((x - pose.tip).dot(pose.axis), 0.0, radial.axis_length());
   SweptContact best = contact_at(motion, radial, x, std::clamp(t, 0.0, 1.0), first_s);
   // Parabolas through three points, each sixteen times narrower than the last.
-  for (double h = 0.5 * window; h > 1e-3 * window; h /= 16.0) {
+  for (double h = 0.5 * window; h > 1e-2 * window; h /= 16.0) {
     const double middle = std::clamp(best.t, h, 1.0 - h);
     const SweptContact a = contact_at(motion, radial, x, middle - h, best.s);
     const SweptContact b = contact_at(motion, radial, x, middle + h, best.s);

@@ -33,8 +33,10 @@ class SweptEstimate {
 
  private:
   [[nodiscard]] double at_pose(const Pose& pose, const Vec3& x) const;
+  [[nodiscard]] std::size_t nearest_pose(std::size_t motion, const Vec3& x, double& least) const;
 
   std::vector<std::vector<Pose>> poses_;
+  std::vector<double> stride_;  ///< of each motion: no point of the axis moves farther from one pose to the next
   std::vector<double> radius_, lean_;  ///< r and r'/sqrt(1-r'^2) at equal steps of s
   double axis_length_;
   double per_length_;

@@ -7,8 +7,10 @@
 namespace flank {
 
 double CoverageEstimate::score(double tolerance_mm) const {
-  // Coverage first; among equals the lower overcut, which is worth at most two percent of coverage per tolerance.
-  const double excess = std::clamp(overcut_mm / tolerance_mm - 1.0, 0.0, 10.0);
+  // Coverage first; among equals the lower overcut. Overcut beyond the tolerance fails the part: it costs ten percent of
+  // coverage for the first tolerance, two for each one more.
+  const double beyond = std::clamp(overcut_mm / tolerance_mm - 1.0, 0.0, 10.0);
+  const double excess = beyond + 4.0 * std::min(1.0, beyond);
   const double within = 0.005 * std::min(1.0, overcut_mm / tolerance_mm);
   return at_tolerance + 0.2 * at_four_tolerances - 0.02 * excess - within - 1e-3 * std::min(1.0, rms_mm / tolerance_mm);
 }

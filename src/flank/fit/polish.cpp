@@ -63,13 +63,14 @@ Polished exact_polish(const Polished& start, const std::vector<SurfaceSample>& s
   return best;
 }
 
-/// A free tool's radii shifted so that the overcut is at most half a tolerance, if that does not lose coverage.
+/// A free tool's radii reduced against overcut, as far as that scores better.
 Polished shifted(const Polished& polished, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
   if (!polished.draft.free_tool) return polished;
   Polished best = polished;
-  for (double share : {0.25, 0.5, 0.75, 1.0}) {
+  const double overcut = polished.estimate.overcut_mm, excess = overcut - 0.95 * options.tolerance_mm;
+  for (double by : {excess, 0.25 * overcut, 0.5 * overcut, 0.75 * overcut, overcut}) {
+    if (by <= 0.0) continue;
     FitDraft draft = polished.draft;
-    const double by = share * polished.estimate.overcut_mm;
     const Eigen::VectorXd radii = (draft.tool.parameters().array() - by).max(options.bounds.smallest);
     draft.tool = draft.tool.with_parameters(radii);
     Polished trial = assess(std::move(draft), samples, options);
@@ -93,7 +94,11 @@ double robust_scale(const Target& target, const FlankFitOptions& options) {
 }
 
 std::vector<SurfaceSample> ranking_samples(const Target& target, const FlankFitOptions& options) {
-  return target.samples(std::sqrt(target.area()) * options.sample_share);
+  const double spacing = std::sqrt(target.area()) * options.sample_share;
+  std::vector<SurfaceSample> samples = target.samples(spacing);
+  // The rim, where a tool cuts deepest, counts for overcut alone: it has no area.
+  for (const Vec3& point : target.border_points(spacing)) samples.push_back({point, Vec3::UnitZ()});
+  return samples;
 }
 
 FitDraft make_draft(const std::vector<FitTask>& tasks, const ToolModel& tool, const FlankFitOptions& options) {
@@ -134,7 +139,11 @@ Polished polish(const FitDraft& draft, const std::vector<SurfaceSample>& samples
 
 Polished last_passes(const Polished& polished, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options,
                      std::vector<IterationTrace>* trace) {
-  if (polished.exact) return polished;
+  /// Below this share of the tolerance the overcut of an exact fit is not worth its last digits.
+  constexpr double kWorthShifting = 0.1;
+  if (polished.exact)
+    return polished.estimate.overcut_mm > kWorthShifting * options.tolerance_mm ? shifted(polished, samples, options)
+                                                                                : polished;
   return shifted(swept_polish(polished, samples, options, trace), samples, options);
 }
 

@@ -74,30 +74,32 @@ double SweptModel::cost(const FitState& state, const std::vector<double>& weight
   return sum;
 }
 
-void SweptModel::add_row(const FitState& state, std::size_t k, double weight, double factor,
-                         ArrowSystem& system) const {
+ResidualRow SweptModel::row(const FitState& state, std::size_t k) const {
   const SweptContact& contact = state.contacts[k];
   const RuledMotion& motion = state.motions[static_cast<std::size_t>(contact.motion)];
+  ResidualRow row;
+  row.motion = contact.motion;
   const int span = find_span(3, motion.tip.knots, contact.t);
-  double basis[12];
-  basis_derivatives(3, motion.tip.knots, span, contact.t, 0, basis);
+  row.first = span - 3;
+  basis_derivatives(3, motion.tip.knots, span, contact.t, 0, row.basis);
   Vec3 w = Vec3::Zero();
-  for (int j = 0; j < 4; ++j) w += basis[j] * motion.direction.poles.col(span - 3 + j);
+  for (int j = 0; j < 4; ++j) w += row.basis[j] * motion.direction.poles.col(row.first + j);
   const double length = w.norm();
   const Vec3 u = w / length, n = contact.to_axis;
-  Vec6 g;
-  g << n, (contact.s / (axis_length_ * length)) * (n - n.dot(u) * u);
-  PoseTerms terms;
-  terms.matrix = weight * g * g.transpose();
-  terms.gradient = factor * g;
-  const bool couples = !free_.empty();
-  if (couples) {
-    const Eigen::VectorXd b = base_.tool_gradient(state.tool, contact.s);
-    terms.coupling = -weight * g * b.transpose();
-    system.tool_matrix += weight * b * b.transpose();
-    system.gradient.tail(b.size()) -= factor * b;
+  row.pose << n, (contact.s / (axis_length_ * length)) * (n - n.dot(u) * u);
+  if (free_.empty()) return row;
+  if (state.tool.family() == ToolFamily::kSpline) {
+    row.tool_first = state.tool.first_active(contact.s);
+    row.tool_count = 4;
+    state.tool.active_gradient(contact.s, row.tool);
+  } else {
+    double all[4];
+    state.tool.gradient(contact.s, all);
+    row.tool_count = static_cast<int>(free_.size());
+    for (int j = 0; j < row.tool_count; ++j) row.tool[j] = all[free_[static_cast<std::size_t>(j)]];
   }
-  system.add_pose(contact.motion, span - 3, basis, terms, couples);
+  for (double& x : row.tool) x = -x;
+  return row;
 }
 
 void SweptModel::assemble(const FitState& state, const std::vector<double>& weights, ArrowSystem& system) const {
@@ -107,7 +109,7 @@ void SweptModel::assemble(const FitState& state, const std::vector<double>& weig
   for (std::size_t k = 0; k < weights.size(); ++k) {
     const double e = residual(state, k);
     if (e == 0.0 && points_[k].one_sided) continue;
-    add_row(state, k, e == 0.0 ? kDeadZoneDamping * weights[k] : weights[k], weights[k] * e, system);
+    system.add_row(row(state, k), e == 0.0 ? kDeadZoneDamping * weights[k] : weights[k], weights[k] * e);
   }
   base_.assemble_regularisers(state, system);
 }

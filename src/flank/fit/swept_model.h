@@ -37,12 +37,13 @@ class SweptModel {
   [[nodiscard]] FitState moved(const FitState& state, const Eigen::VectorXd& step) const {
     return base_.moved(state, step);
   }
+  /// df/d(unknowns) of point k at its contact.
+  [[nodiscard]] ResidualRow row(const FitState& state, std::size_t k) const;
   [[nodiscard]] const FitStage& stage() const { return base_.stage(); }
   [[nodiscard]] const std::vector<FacePoint>& points() const { return points_; }
 
  private:
   [[nodiscard]] double residual(const FitState& state, std::size_t k) const;
-  void add_row(const FitState& state, std::size_t k, double weight, double factor, ArrowSystem& system) const;
 
   std::vector<FacePoint> points_;
   FitModel base_;

@@ -8,15 +8,16 @@
 namespace flank {
 namespace {
 
-/// Points of the passes a side of the target; the judge's samples are several times denser.
-constexpr int kPointsPerSide = 50;
-
-/// Passes in turn: dead zone in tolerances, fairness, anchor, control points, coefficients.
+/// Passes in turn: dead zone in tolerances, fairness, anchor, control points, coefficients; points a side of the target
+/// (the judge's samples are several times denser).
 struct Pass {
   double dead_zone, fairness, anchor;
-  int control_points, coefficients, iterations;
+  int control_points, coefficients, iterations, points_per_side;
 };
-constexpr Pass kPasses[] = {{0.6, 1e-5, 1e-2, 32, 16, 12}, {0.6, 1e-6, 1e-4, 48, 24, 25}, {0.3, 1e-6, 1e-4, 48, 24, 12}};
+constexpr Pass kPasses[] = {{0.6, 1e-5, 1e-2, 32, 16, 12, 25},
+                            {0.6, 1e-6, 1e-7, 48, 24, 40, 30},
+                            {0.6, 1e-6, 1e-7, 48, 24, 15, 50},
+                            {0.3, 1e-6, 1e-7, 48, 24, 15, 50}};
 
 FitStage swept_stage(const Pass& pass, const FlankFitOptions& options) {
   FitStage stage;
@@ -27,7 +28,7 @@ FitStage swept_stage(const Pass& pass, const FlankFitOptions& options) {
   stage.iterations = pass.iterations;
   stage.fairness = pass.fairness;
   stage.transversal_anchor = pass.anchor;
-  stage.axial_pin = 1e-6;
+  stage.axial_pin = 1e-8;
   stage.dead_zone_mm = pass.dead_zone * options.tolerance_mm;
   // What a strip cannot reach must not pull it off what it can.
   stage.robust_scale_mm = 20.0 * options.tolerance_mm;
@@ -69,9 +70,9 @@ FitDraft run_swept(const FitDraft& draft, const RadiusBounds& bounds, const FitS
 
 Polished swept_polish(const Polished& polished, const std::vector<SurfaceSample>& samples,
                       const FlankFitOptions& options, std::vector<IterationTrace>* trace) {
-  const std::vector<FacePoint> points = target_points(polished.draft, kPointsPerSide);
   Polished best = polished;
   for (const Pass& pass : kPasses) {
+    const std::vector<FacePoint> points = target_points(best.draft, pass.points_per_side);
     Polished trial =
         assess(run_swept(best.draft, options.bounds, swept_stage(pass, options), points, trace), samples, options);
     if (trial.estimate.score(options.tolerance_mm) > best.estimate.score(options.tolerance_mm)) best = std::move(trial);
