@@ -55,28 +55,6 @@ class FitModelTest : public ::testing::Test {
   FitState state_;
 };
 
-TEST_F(FitModelTest, RowsAreTheDerivativesOfTheResiduals) {
-  const FitModel model = make_model(stage_);
-  FitState state = state_;
-  model.locate(state);
-  const Eigen::VectorXd direction = random_step(model.make_system().size(), 1.0);
-  const std::vector<double> rows = model.row_products(state, 0, direction);
-  const double h = 1e-5;
-  FitState plus = model.moved(state, h * direction), minus = model.moved(state, -h * direction);
-  model.locate(plus);
-  model.locate(minus);
-  int compared = 0;
-  for (int i = 0; i < stage_.samples_t; ++i) {
-    for (int j = 0; j < stage_.samples_s; ++j) {
-      if (state.feet[0][static_cast<std::size_t>(i * stage_.samples_s + j)].location != Location::kInside) continue;
-      const double numeric = (model.residual(plus, 0, i, j) - model.residual(minus, 0, i, j)) / (2.0 * h);
-      EXPECT_NEAR(rows[static_cast<std::size_t>(i * stage_.samples_s + j)], numeric, 1e-5) << i << ' ' << j;
-      ++compared;
-    }
-  }
-  EXPECT_GT(compared, 40);
-}
-
 TEST_F(FitModelTest, GradientIsHalfTheDerivativeOfTheCost) {
   stage_.dead_zone_mm = 0.002;
   const FitModel model = make_model(stage_);

@@ -28,6 +28,7 @@ SweptEstimate::SweptEstimate(const std::vector<RuledMotion>& motions, const Radi
   for (int k = 0; k <= kTable; ++k) {
     const RadialJet jet = radial.at(axis_length_ * k / kTable);
     radius_.push_back(jet.r);
+    least_radius_ = k == 0 ? jet.r : std::min(least_radius_, jet.r);
     lean_.push_back(jet.d1 / std::sqrt(std::max(1e-6, 1.0 - jet.d1 * jet.d1)));
   }
 }
@@ -64,6 +65,40 @@ std::size_t SweptEstimate::nearest_pose(std::size_t motion, const Vec3& x, doubl
     i += 1 + static_cast<std::size_t>(std::min(jump, static_cast<double>(poses.size())));
   }
   return at;
+}
+
+double SweptEstimate::slack(std::size_t motion) const {
+  // A sphere of radius r that passes x half-way between two poses comes nearer by about stride^2 / (8 r).
+  return stride_[motion] * stride_[motion] / (8.0 * least_radius_);
+}
+
+void SweptEstimate::places(const Vec3& x, std::vector<SweptContact>& places) const {
+  places.clear();
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t m = 0; m < poses_.size(); ++m) {
+    double f = 0.0;
+    (void)nearest_pose(m, x, f);
+    least = std::min(least, f + slack(m));
+  }
+  for (std::size_t m = 0; m < poses_.size(); ++m) {
+    std::size_t last = poses_[m].size();
+    for (std::size_t i = 0; i < poses_[m].size();) {
+      const double f = at_pose(poses_[m][i], x);
+      if (f <= least) {
+        const bool same_run = last + 1 == i;
+        if (!same_run) places.emplace_back();
+        if (!same_run || f < places.back().f) {
+          places.back().motion = static_cast<int>(m);
+          places.back().t = static_cast<double>(i) * spacing();
+          places.back().f = f;
+        }
+        last = i++;
+        continue;
+      }
+      const double jump = stride_[m] > 0.0 ? 0.9 * (f - least) / stride_[m] : 0.0;
+      i += 1 + static_cast<std::size_t>(std::min(jump, static_cast<double>(poses_[m].size())));
+    }
+  }
 }
 
 SweptContact SweptEstimate::nearest(const Vec3& x) const {
@@ -126,19 +161,24 @@ SweptContact refine_contact(const RuledMotion& motion, const RadialFunction& rad
   const Pose pose = motion.pose(t);
   const double first_s = std::clamp((x - pose.tip).dot(pose.axis), 0.0, radial.axis_length());
   SweptContact best = contact_at(motion, radial, x, std::clamp(t, 0.0, 1.0), first_s);
-  // Parabolas through three points, each sixteen times narrower than the last.
-  for (double h = 0.5 * window; h > 1e-2 * window; h /= 16.0) {
+  // Parabolas through three points, sixteen times narrower once the least of them is not at an end.
+  double h = 0.5 * window;
+  for (int k = 0; k < 10 && h > 1e-2 * window; ++k) {
     const double middle = std::clamp(best.t, h, 1.0 - h);
     const SweptContact a = contact_at(motion, radial, x, middle - h, best.s);
     const SweptContact b = contact_at(motion, radial, x, middle + h, best.s);
     const SweptContact m = middle == best.t ? best : contact_at(motion, radial, x, middle, best.s);
     const double bend = a.f + b.f - 2.0 * m.f;
+    const bool bracketed = m.f <= a.f && m.f <= b.f;
     for (const SweptContact* c : {&a, &m, &b})
       if (c->f < best.f) best = *c;
-    if (bend <= 0.0) continue;
-    const double vertex = middle + std::clamp(0.5 * (a.f - b.f) / bend, -1.0, 1.0) * h;
-    const SweptContact v = contact_at(motion, radial, x, vertex, best.s);
-    if (v.f < best.f) best = v;
+    const bool at_rim = best.t <= 0.0 || best.t >= 1.0;
+    if (bracketed && bend > 0.0) {
+      const double vertex = middle + 0.5 * (a.f - b.f) / bend * h;
+      const SweptContact v = contact_at(motion, radial, x, vertex, best.s);
+      if (v.f < best.f) best = v;
+    }
+    if (bracketed || at_rim) h /= 16.0;
   }
   return best;
 }

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "flank/base/parallel.h"
-#include "flank/fit/polish.h"
+#include "flank/fit/swept_polish.h"
 #include "flank/seed/ruled_start.h"
 
 namespace flank {

@@ -21,7 +21,12 @@ CoverageEstimate estimate_coverage(const std::vector<SurfaceSample>& samples, co
   CoverageEstimate estimate;
   double area = 0.0, near_area = 0.0, squares = 0.0;
   for (const SurfaceSample& sample : samples) {
-    const double f = swept.distance(sample.point);
+    const SweptContact near = swept.nearest(sample.point);
+    // The estimate is good enough to rank coverage; what would be called overcut is looked at closely.
+    const double f = near.f >= 0.0 ? near.f
+                                   : refine_contact(motions[static_cast<std::size_t>(near.motion)], tool, sample.point,
+                                                    near.t, swept.spacing())
+                                         .f;
     area += sample.area;
     if (std::abs(f) <= tolerance_mm) estimate.at_tolerance += sample.area;
     if (std::abs(f) <= 4.0 * tolerance_mm) {
@@ -30,6 +35,7 @@ CoverageEstimate estimate_coverage(const std::vector<SurfaceSample>& samples, co
       squares += sample.area * f * f;
     }
     estimate.overcut_mm = std::max(estimate.overcut_mm, -f);
+    estimate.undercut_mm = std::max(estimate.undercut_mm, f);
   }
   if (area > 0.0) {
     estimate.at_tolerance /= area;

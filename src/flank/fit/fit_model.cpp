@@ -224,26 +224,6 @@ void FitModel::assemble_rows(const FitState& state, int motion, const std::vecto
   system.gradient.tail(tool_parameters_) -= b * column_factor;
 }
 
-std::vector<double> FitModel::row_products(const FitState& state, int motion, const Eigen::VectorXd& step) const {
-  const int n = stage_.samples_s;
-  Eigen::MatrixXd b;
-  tool_gradients(state, b);
-  const Eigen::VectorXd tool_part =
-      free_.empty() ? Eigen::VectorXd::Zero(n).eval() : Eigen::VectorXd(b.transpose() * step.tail(tool_parameters_));
-  std::vector<double> products(static_cast<std::size_t>(n * stage_.samples_t));
-  for (int i = 0; i < stage_.samples_t; ++i) {
-    const PoseAt pose = pose_at(state.motions[motion], times_[i]);
-    Vec6 dx = Vec6::Zero();
-    const int base = 6 * (motion * stage_.control_points + times_[i].first);
-    for (int k = 0; k < 4; ++k) dx += times_[i].basis[k] * step.segment<6>(base + 6 * k);
-    for (int j = 0; j < n; ++j) {
-      const std::size_t k = static_cast<std::size_t>(i * n + j);
-      products[k] = row(pose, s_[j], state.feet[motion][k]).dot(dx) - tool_part[j];
-    }
-  }
-  return products;
-}
-
 FitState FitModel::moved(const FitState& state, const Eigen::VectorXd& step) const {
   FitState next = state;
   for (std::size_t m = 0; m < next.motions.size(); ++m) {

@@ -72,12 +72,6 @@ class FitModel {
   [[nodiscard]] double cost(const FitState& state, const std::vector<std::vector<double>>& weights) const;
   /// Normal equations at the state.
   void assemble(const FitState& state, const std::vector<std::vector<double>>& weights, ArrowSystem& system) const;
-  /// Adds sum of w_ij g g' (and, where `target` is given, gradient w_ij target_ij g) of the residual rows alone: for
-  /// constrained steps.
-  void assemble_rows(const FitState& state, int motion, const std::vector<double>& weights,
-                     const std::vector<double>& gradient_factors, ArrowSystem& system) const;
-  /// Directional derivative of the residuals of one motion along a step.
-  [[nodiscard]] std::vector<double> row_products(const FitState& state, int motion, const Eigen::VectorXd& step) const;
   /// State after a step; footpoints are kept as hints only.
   [[nodiscard]] FitState moved(const FitState& state, const Eigen::VectorXd& step) const;
 
@@ -112,6 +106,9 @@ class FitModel {
 
   [[nodiscard]] PoseAt pose_at(const RuledMotion& motion, const TimeSample& time) const;
   [[nodiscard]] Vec6 row(const PoseAt& pose, double s, const Footpoint& foot) const;
+  /// Adds sum of w_ij g g' and of factor_ij g of one motion's residual rows.
+  void assemble_rows(const FitState& state, int motion, const std::vector<double>& weights,
+                     const std::vector<double>& gradient_factors, ArrowSystem& system) const;
   void tool_gradients(const FitState& state, Eigen::MatrixXd& gradients) const;
   void assemble_rails(const FitState& state, int motion, ArrowSystem& system) const;
   void assemble_tool(const FitState& state, ArrowSystem& system) const;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flank/fit/polish.h"
+#include "flank/fit/swept_polish.h"
 
 namespace flank {
 

@@ -37,7 +37,8 @@ struct FlankFitOptions {
 struct CoverageEstimate {
   double at_tolerance = 0.0, at_four_tolerances = 0.0;  ///< area shares
   double overcut_mm = 0.0;
-  double rms_mm = 0.0;  ///< of f over samples within four tolerances
+  double undercut_mm = 0.0;  ///< largest material left anywhere on the target
+  double rms_mm = 0.0;       ///< of f over samples within four tolerances
   [[nodiscard]] double score(double tolerance_mm) const;
 };
 

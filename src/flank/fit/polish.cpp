@@ -14,9 +14,6 @@ namespace {
 /// digits.
 constexpr double kExactShare = 2e-5;
 
-/// Overcut below this share of the diagonal is settled: the constrained pass would not improve it.
-constexpr double kSettledOvercutShare = 1e-6;
-
 /// Distances of the axes' points to their targets, averaged over time: the first radial function.
 RadialFunction mean_distance_tool(const std::vector<FitTask>& tasks, const RadiusBounds& bounds) {
   constexpr int kS = 25, kT = 15;
@@ -145,17 +142,6 @@ Polished last_passes(const Polished& polished, const std::vector<SurfaceSample>&
     return polished.estimate.overcut_mm > kWorthShifting * options.tolerance_mm ? shifted(polished, samples, options)
                                                                                 : polished;
   return shifted(swept_polish(polished, samples, options, trace), samples, options);
-}
-
-Polished without_overcut(const Polished& polished, const std::vector<SurfaceSample>& samples,
-                         const FlankFitOptions& options) {
-  const double diagonal = polished.draft.targets.front()->diagonal();
-  if (polished.draft.free_tool || polished.estimate.overcut_mm < kSettledOvercutShare * diagonal) return polished;
-  FitStage stage = tolerance_stage(options.tolerance_mm, robust_scale(*polished.draft.targets.front(), options));
-  stage.dead_zone_mm = 0.0;
-  stage.samples_t = 140;
-  Polished held = assess(run_constrained(polished.draft, options.bounds, stage, 0.0), samples, options);
-  return held.estimate.overcut_mm < polished.estimate.overcut_mm ? held : polished;
 }
 
 FlankFitResult finish(const Polished& polished, const FlankFitOptions& options, FlankFitResult result) {

@@ -37,11 +37,6 @@ struct Polished {
 [[nodiscard]] Polished last_passes(const Polished& polished, const std::vector<SurfaceSample>& samples,
                                    const FlankFitOptions& options, std::vector<IterationTrace>* trace);
 
-/// A tool whose shape is given cannot shrink: its overcut is taken out by the constrained pass, at the price of
-/// material left.
-[[nodiscard]] Polished without_overcut(const Polished& polished, const std::vector<SurfaceSample>& samples,
-                                       const FlankFitOptions& options);
-
 /// Fills a result from the chosen draft: overcut taken out of a free tool's radii, validation with cold footpoints,
 /// status.
 [[nodiscard]] FlankFitResult finish(const Polished& polished, const FlankFitOptions& options, FlankFitResult result);

@@ -34,10 +34,6 @@ struct FitDraft {
 /// For targets that are not: residuals count beyond 0.7 tolerances, so that coverage grows instead of the mean falling.
 [[nodiscard]] FitStage tolerance_stage(double tolerance_mm, double robust_scale_mm);
 
-/// The same passes under a hard limit on overcut (constrained.h), at the resolution of `stage`.
-[[nodiscard]] FitDraft run_constrained(const FitDraft& draft, const RadiusBounds& bounds, const FitStage& stage,
-                                       double allowed_overcut_mm);
-
 /// Tool parameters clamped into the bounds (splines: coefficients, whose hull holds the function).
 [[nodiscard]] RadialFunction clamp_tool(const RadialFunction& tool, const RadiusBounds& bounds);
 

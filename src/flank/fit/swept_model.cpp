@@ -9,8 +9,9 @@
 namespace flank {
 namespace {
 
-/// Poses tabulated a motion to find the nearest place; the contact is then refined continuously.
-constexpr int kPoses = 96;
+/// Poses tabulated for each control point of a rail to find the nearest place, which is then refined continuously: enough
+/// to see every wave that the rails can make.
+constexpr int kPosesPerControlPoint = 4;
 /// Points one task of the parallel search takes.
 constexpr std::size_t kChunk = 64;
 
@@ -28,15 +29,19 @@ SweptModel::SweptModel(std::vector<FacePoint> points, std::vector<const Target*>
       axis_length_(start.motions.front().axis_length) {}
 
 void SweptModel::locate(FitState& state) const {
-  const SweptEstimate swept(state.motions, state.tool, kPoses);
+  const SweptEstimate swept(state.motions, state.tool, kPosesPerControlPoint * stage().control_points);
   state.contacts.resize(points_.size());
   parallel_blocks(points_.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    std::vector<SweptContact> places;
     for (std::size_t k = begin; k < end; ++k) {
-      const SweptContact near = swept.nearest(points_[k].point);
+      swept.places(points_[k].point, places);
       SweptContact& contact = state.contacts[k];
-      contact = refine_contact(state.motions[static_cast<std::size_t>(near.motion)], state.tool, points_[k].point, near.t,
-                               swept.spacing());
-      contact.motion = near.motion;
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        const RuledMotion& motion = state.motions[static_cast<std::size_t>(places[i].motion)];
+        SweptContact refined = refine_contact(motion, state.tool, points_[k].point, places[i].t, swept.spacing());
+        refined.motion = places[i].motion;
+        if (i == 0 || refined.f < contact.f) contact = refined;
+      }
     }
   });
 }

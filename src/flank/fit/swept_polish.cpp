@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/fit/constrained.h"
 #include "flank/fit/levenberg_marquardt.h"
 
 namespace flank {
@@ -14,6 +15,9 @@ struct Pass {
   double dead_zone, fairness, anchor;
   int control_points, coefficients, iterations, points_per_side;
 };
+/// Overcut below this share of the diagonal is settled: the constrained pass would not improve it.
+constexpr double kSettledOvercutShare = 1e-6;
+
 constexpr Pass kPasses[] = {{0.6, 1e-5, 1e-2, 32, 16, 12, 25},
                             {0.6, 1e-6, 1e-7, 48, 24, 40, 30},
                             {0.6, 1e-6, 1e-7, 48, 24, 15, 50},
@@ -35,6 +39,13 @@ FitStage swept_stage(const Pass& pass, const FlankFitOptions& options) {
   stage.overcut_weight = 4.0;
   stage.step_tolerance = 3e-4;
   return stage;
+}
+
+double smallest_radius(const RadialFunction& tool) {
+  constexpr int kSamples = 64;
+  double least = tool.at(0.0).r;
+  for (int j = 1; j <= kSamples; ++j) least = std::min(least, tool.at(tool.axis_length() * j / kSamples).r);
+  return least;
 }
 
 }  // namespace
@@ -77,6 +88,45 @@ Polished swept_polish(const Polished& polished, const std::vector<SurfaceSample>
         assess(run_swept(best.draft, options.bounds, swept_stage(pass, options), points, trace), samples, options);
     if (trial.estimate.score(options.tolerance_mm) > best.estimate.score(options.tolerance_mm)) best = std::move(trial);
   }
+  return best;
+}
+
+FitDraft run_constrained(const FitDraft& draft, const RadiusBounds& bounds, const FitStage& stage, double band_mm) {
+  constexpr int kFirstPerSide = 40, kDensePerSide = 200;
+  FitDraft next;
+  const FitState start = start_state(draft, stage, next);
+  ConstrainedProblem problem{draft.targets, next.free_parameters, bounds, stage, target_points(draft, kFirstPerSide),
+                             target_points(draft, kDensePerSide)};
+  ConstrainedOptions options;
+  // A sphere of radius r that touches half-way between two points is deeper there by spacing^2 / (8 r).
+  const double spacing = std::sqrt(draft.targets.front()->area()) / kDensePerSide;
+  options.allowed_overcut_mm = -spacing * spacing / (8.0 * smallest_radius(draft.tool));
+  options.settled_mm = -0.5 * options.allowed_overcut_mm;
+  options.band_mm = band_mm;
+  ConstrainedResult result = minimise_constrained(problem, start, options);
+  next.motions = std::move(result.state.motions);
+  next.tool = result.state.tool;
+  return next;
+}
+
+Polished without_overcut(const Polished& polished, const std::vector<SurfaceSample>& samples,
+                         const FlankFitOptions& options) {
+  const double diagonal = polished.draft.targets.front()->diagonal();
+  if (polished.draft.free_tool || polished.estimate.overcut_mm < kSettledOvercutShare * diagonal) return polished;
+  FitStage stage = swept_stage(kPasses[1], options);
+  stage.dead_zone_mm = 0.0;
+  stage.overcut_weight = 1.0;
+  stage.fairness = 1e-4;
+  const double band = 10.0 * options.tolerance_mm;
+  Polished best = assess(run_constrained(polished.draft, options.bounds, stage, band), samples, options);
+  if (best.estimate.overcut_mm >= polished.estimate.overcut_mm) return polished;
+  // Least squares leaves up to three times the least possible material in places: once more, with what counts for
+  // nothing taken out.
+  stage.dead_zone_mm = std::min(0.5 * best.estimate.undercut_mm, 0.7 * options.tolerance_mm);
+  Polished evened = assess(run_constrained(best.draft, options.bounds, stage, band), samples, options);
+  const bool kept = evened.estimate.at_tolerance > best.estimate.at_tolerance - 1e-3 &&
+                    evened.estimate.overcut_mm <= best.estimate.overcut_mm + kSettledOvercutShare * diagonal;
+  if (kept && evened.estimate.undercut_mm < best.estimate.undercut_mm) best = std::move(evened);
   return best;
 }
 

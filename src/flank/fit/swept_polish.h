@@ -15,8 +15,18 @@ namespace flank {
 [[nodiscard]] FitDraft run_swept(const FitDraft& draft, const RadiusBounds& bounds, const FitStage& stage,
                                  std::vector<FacePoint> points, std::vector<IterationTrace>* trace);
 
+/// The same under a hard limit on overcut (constrained.h), with a margin for what lies between the points; points beyond
+/// `band_mm` from the tool are not held.
+[[nodiscard]] FitDraft run_constrained(const FitDraft& draft, const RadiusBounds& bounds, const FitStage& stage,
+                                       double band_mm);
+
 /// Passes with a dead zone that narrows while the rails grow softer; each is kept only if it scores better.
 [[nodiscard]] Polished swept_polish(const Polished& polished, const std::vector<SurfaceSample>& samples,
                                     const FlankFitOptions& options, std::vector<IterationTrace>* trace);
+
+/// A tool whose shape is given cannot shrink: its overcut is taken out by the constrained pass, at the price of material
+/// left.
+[[nodiscard]] Polished without_overcut(const Polished& polished, const std::vector<SurfaceSample>& samples,
+                                       const FlankFitOptions& options);
 
 }  // namespace flank
