@@ -124,7 +124,8 @@ FlankFitResult fit_automatic(const Target& target, const ToolModel& tool, const 
   std::stable_sort(order.begin(), order.end(), by_score);
   order.resize(std::min<std::size_t>(order.size(), static_cast<std::size_t>(options.kept_after_polish)));
   progress.step("polish", 0.75);
-  parallel_for(order.size(), [&](std::size_t k) {
+  const bool promising = polished[order.front()].estimate.at_tolerance >= options.promising;
+  parallel_for(promising ? order.size() : 0, [&](std::size_t k) {
     polished[order[k]] = last_passes(polished[order[k]], samples, options, &traces[order[k]]);
   });
   std::stable_sort(order.begin(), order.end(), by_score);
@@ -132,7 +133,7 @@ FlankFitResult fit_automatic(const Target& target, const ToolModel& tool, const 
   result.before = estimate_coverage(samples, candidates[best].draft.motions, candidates[best].draft.tool,
                                     options.tolerance_mm, kRankingPoses);
   result.trace = traces[best];
-  return finish(without_overcut(polished[best], samples, options), options, std::move(result));
+  return finish(settled(without_overcut(polished[best], samples, options), options), options, std::move(result));
 }
 
 }  // namespace flank

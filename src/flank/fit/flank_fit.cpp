@@ -20,7 +20,7 @@ FlankFitResult fit_from_starts(const std::vector<FitTask>& tasks, const ToolMode
       without_overcut(last_passes(polish(draft, samples, options, &result.trace), samples, options, &result.trace), samples,
                       options);
   progress.step("fit", 0.9);
-  return finish(polished, options, std::move(result));
+  return finish(settled(polished, options), options, std::move(result));
 }
 
 }  // namespace flank

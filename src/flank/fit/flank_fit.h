@@ -29,6 +29,7 @@ struct FlankFitOptions {
   RadiusBounds bounds;
   int strips = 1;  ///< motions side by side on one target, one tool
   int kept_after_quick = 6, kept_after_polish = 3;  ///< candidates
+  double promising = 0.0;  ///< the last passes are left out where the best candidate covers less before them
   double sample_share =
       1.0 / 45.0;  ///< spacing of the samples that rank candidates, as a share of the square root of the area
 };

@@ -144,6 +144,24 @@ Polished last_passes(const Polished& polished, const std::vector<SurfaceSample>&
   return shifted(swept_polish(polished, samples, options, trace), samples, options);
 }
 
+Polished settled(const Polished& polished, const FlankFitOptions& options) {
+  constexpr double kDenser = 4.0;
+  FlankFitOptions dense = options;
+  dense.sample_share = options.sample_share / kDenser;
+  std::vector<SurfaceSample> samples;
+  const std::vector<const Target*>& targets = polished.draft.targets;
+  for (std::size_t k = 0; k < targets.size(); ++k) {
+    if (std::find(targets.begin(), targets.begin() + static_cast<std::ptrdiff_t>(k), targets[k]) !=
+        targets.begin() + static_cast<std::ptrdiff_t>(k))
+      continue;
+    const std::vector<SurfaceSample> more = ranking_samples(*targets[k], dense);
+    samples.insert(samples.end(), more.begin(), more.end());
+  }
+  Polished again = assess(polished.draft, samples, options);
+  again.exact = polished.exact;
+  return again.estimate.overcut_mm > options.tolerance_mm ? shifted(again, samples, options) : again;
+}
+
 FlankFitResult finish(const Polished& polished, const FlankFitOptions& options, FlankFitResult result) {
   result.tool = polished.draft.tool;
   result.motions = polished.draft.motions;

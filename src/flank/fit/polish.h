@@ -37,6 +37,10 @@ struct Polished {
 [[nodiscard]] Polished last_passes(const Polished& polished, const std::vector<SurfaceSample>& samples,
                                    const FlankFitOptions& options, std::vector<IterationTrace>* trace);
 
+/// Looked at again with samples several times denser than those that ranked it, and a free tool shifted if its overcut
+/// turns out to be beyond the tolerance.
+[[nodiscard]] Polished settled(const Polished& polished, const FlankFitOptions& options);
+
 /// Fills a result from the chosen draft: overcut taken out of a free tool's radii, validation with cold footpoints,
 /// status.
 [[nodiscard]] FlankFitResult finish(const Polished& polished, const FlankFitOptions& options, FlankFitResult result);

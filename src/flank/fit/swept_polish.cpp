@@ -21,7 +21,9 @@ constexpr double kSettledOvercutShare = 1e-6;
 constexpr Pass kPasses[] = {{0.6, 1e-5, 1e-2, 32, 16, 12, 25},
                             {0.6, 1e-6, 1e-7, 48, 24, 40, 30},
                             {0.6, 1e-6, 1e-7, 48, 24, 15, 50},
-                            {0.3, 1e-6, 1e-7, 48, 24, 15, 50}};
+                            {0.3, 1e-6, 1e-7, 48, 24, 15, 50},
+                            {0.0, 1e-6, 1e-7, 48, 24, 12, 50}};
+constexpr double kCovered = 0.995;
 
 FitStage swept_stage(const Pass& pass, const FlankFitOptions& options) {
   FitStage stage;
@@ -83,6 +85,8 @@ Polished swept_polish(const Polished& polished, const std::vector<SurfaceSample>
                       const FlankFitOptions& options, std::vector<IterationTrace>* trace) {
   Polished best = polished;
   for (const Pass& pass : kPasses) {
+    // The last one lowers what is left of the mean where nothing more is to be covered.
+    if (pass.dead_zone == 0.0 && best.estimate.at_tolerance < kCovered) continue;
     const std::vector<FacePoint> points = target_points(best.draft, pass.points_per_side);
     Polished trial =
         assess(run_swept(best.draft, options.bounds, swept_stage(pass, options), points, trace), samples, options);
