@@ -72,20 +72,31 @@ double SweptEstimate::slack(std::size_t motion) const {
   return stride_[motion] * stride_[motion] / (8.0 * least_radius_);
 }
 
-void SweptEstimate::places(const Vec3& x, std::vector<SweptContact>& places) const {
-  places.clear();
-  double least = std::numeric_limits<double>::infinity();
+double SweptEstimate::bound(const Vec3& x, const SweptContact& hint) const {
+  double bound = std::numeric_limits<double>::infinity();
+  if (hint.motion >= 0) {
+    const auto m = static_cast<std::size_t>(hint.motion);
+    const double at = std::clamp(hint.t, 0.0, 1.0) / spacing();
+    return at_pose(poses_[m][static_cast<std::size_t>(std::lround(at))], x) + slack(m);
+  }
   for (std::size_t m = 0; m < poses_.size(); ++m) {
     double f = 0.0;
     (void)nearest_pose(m, x, f);
-    least = std::min(least, f + slack(m));
+    bound = std::min(bound, f + slack(m));
   }
+  return bound;
+}
+
+void SweptEstimate::places(const Vec3& x, const SweptContact& hint, std::vector<SweptContact>& places) const {
+  places.clear();
+  double bound_f = bound(x, hint);
   for (std::size_t m = 0; m < poses_.size(); ++m) {
     std::size_t last = poses_[m].size();
     for (std::size_t i = 0; i < poses_[m].size();) {
       const double f = at_pose(poses_[m][i], x);
-      if (f <= least) {
-        const bool same_run = last + 1 == i;
+      if (f <= bound_f) {
+        bound_f = std::min(bound_f, f + slack(m));
+        const bool same_run = last + 1 == i && !places.empty() && places.back().motion == static_cast<int>(m);
         if (!same_run) places.emplace_back();
         if (!same_run || f < places.back().f) {
           places.back().motion = static_cast<int>(m);
@@ -95,10 +106,11 @@ void SweptEstimate::places(const Vec3& x, std::vector<SweptContact>& places) con
         last = i++;
         continue;
       }
-      const double jump = stride_[m] > 0.0 ? 0.9 * (f - least) / stride_[m] : 0.0;
+      const double jump = stride_[m] > 0.0 ? 0.9 * (f - bound_f) / stride_[m] : 0.0;
       i += 1 + static_cast<std::size_t>(std::min(jump, static_cast<double>(poses_[m].size())));
     }
   }
+  std::erase_if(places, [&](const SweptContact& place) { return place.f > bound_f; });
 }
 
 SweptContact SweptEstimate::nearest(const Vec3& x) const {

@@ -30,8 +30,8 @@ class SweptEstimate {
   [[nodiscard]] SweptContact nearest(const Vec3& x) const;
   /// Tabulated poses that may lead to the least f: of every run of poses near the least value its best one, all motions
   /// together (motion, t and f). Between poses f can be lower by what a step along the path allows: values within that
-  /// of the least count. `places` is cleared first.
-  void places(const Vec3& x, std::vector<SweptContact>& places) const;
+  /// of the least count. `places` is cleared first. `hint` is a place near which the least is expected (motion -1: none).
+  void places(const Vec3& x, const SweptContact& hint, std::vector<SweptContact>& places) const;
   /// Spacing of the poses in t.
   [[nodiscard]] double spacing() const { return 1.0 / (static_cast<double>(poses_.front().size()) - 1.0); }
 
@@ -39,6 +39,7 @@ class SweptEstimate {
   [[nodiscard]] double at_pose(const Pose& pose, const Vec3& x) const;
   [[nodiscard]] std::size_t nearest_pose(std::size_t motion, const Vec3& x, double& least) const;
   [[nodiscard]] double slack(std::size_t motion) const;
+  [[nodiscard]] double bound(const Vec3& x, const SweptContact& hint) const;
 
   std::vector<std::vector<Pose>> poses_;
   std::vector<double> stride_;  ///< of each motion: no point of the axis moves farther from one pose to the next

@@ -34,8 +34,8 @@ void SweptModel::locate(FitState& state) const {
   parallel_blocks(points_.size(), kChunk, [&](std::size_t begin, std::size_t end) {
     std::vector<SweptContact> places;
     for (std::size_t k = begin; k < end; ++k) {
-      swept.places(points_[k].point, places);
       SweptContact& contact = state.contacts[k];
+      swept.places(points_[k].point, contact, places);
       for (std::size_t i = 0; i < places.size(); ++i) {
         const RuledMotion& motion = state.motions[static_cast<std::size_t>(places[i].motion)];
         SweptContact refined = refine_contact(motion, state.tool, points_[k].point, places[i].t, swept.spacing());

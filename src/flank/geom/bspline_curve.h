@@ -28,7 +28,20 @@ struct BSplineCurve {
   [[nodiscard]] int count() const { return static_cast<int>(poles.cols()); }
   [[nodiscard]] double first() const { return knots[static_cast<std::size_t>(degree)]; }
   [[nodiscard]] double last() const { return knots[static_cast<std::size_t>(count())]; }
-  [[nodiscard]] Point value(double t) const { return jet(t).p; }
+  [[nodiscard]] Point value(double t) const {
+    const int span = find_span(degree, knots, t);
+    std::array<double, kMaxDegree + 1> n;
+    basis_derivatives(degree, knots, span, t, 0, n.data());
+    Point p = Point::Zero();
+    double w = 0.0;
+    for (int j = 0; j <= degree; ++j) {
+      const int i = span - degree + j;
+      const double b = weights.empty() ? n[j] : n[j] * weights[static_cast<std::size_t>(i)];
+      p += b * poles.col(i);
+      w += b;
+    }
+    return weights.empty() ? p : Point(p / w);
+  }
 
   /// Value, first and second derivative at t (extrapolated outside the domain).
   [[nodiscard]] CurveJet<Dim> jet(double t) const {
