@@ -57,7 +57,8 @@ std::vector<Figure> given(const std::string& part, const std::string& tool) {
           shown("undercut", outcome.verify.undercut_mm / d),
           shown("largest error of the two-sided fit", rival / d),
           at_most("ratio of undercut", outcome.verify.undercut_mm / rival, 3.0),
-          shown("rms", outcome.verify.rms_mm / d), shown("coverage at 0.1 mm", outcome.verify.coverage),
+          shown("rms", outcome.verify.rms_mm / d),
+          shown("coverage at 0.1 mm", outcome.verify.coverage),
           shown("seconds", seconds)};
 }
 

@@ -13,8 +13,8 @@ namespace flank {
 struct SweptContact {
   int motion = -1;
   double t = 0.0, s = 0.0;
-  double f = 0.0;                 ///< |x - R(s,t)| - r(s), mm: > 0 material left at x, < 0 overcut
-  Vec3 to_axis = Vec3::UnitZ();   ///< unit direction from x to the axis point: df/dR
+  double f = 0.0;                ///< |x - R(s,t)| - r(s), mm: > 0 material left at x, < 0 overcut
+  Vec3 to_axis = Vec3::UnitZ();  ///< unit direction from x to the axis point: df/dR
 };
 
 class SweptEstimate {
@@ -42,7 +42,7 @@ class SweptEstimate {
   [[nodiscard]] double bound(const Vec3& x, const SweptContact& hint) const;
 
   std::vector<std::vector<Pose>> poses_;
-  std::vector<double> stride_;  ///< of each motion: no point of the axis moves farther from one pose to the next
+  std::vector<double> stride_;         ///< of each motion: no point of the axis moves farther from one pose to the next
   std::vector<double> radius_, lean_;  ///< r and r'/sqrt(1-r'^2) at equal steps of s
   double axis_length_;
   double per_length_;
@@ -51,7 +51,7 @@ class SweptEstimate {
 
 /// The contact at the local minimum over t near `t` (within `window` of it) and over s: exact to about 1e-9 mm where that
 /// minimum is smooth in t.
-[[nodiscard]] SweptContact refine_contact(const RuledMotion& motion, const RadialFunction& radial, const Vec3& x, double t,
-                                          double window);
+[[nodiscard]] SweptContact refine_contact(const RuledMotion& motion, const RadialFunction& radial, const Vec3& x,
+                                          double t, double window);
 
 }  // namespace flank

@@ -53,8 +53,7 @@ int descend(const SweptModel& model, FitState& state, const ConstrainedOptions& 
   for (; steps < options.steps; ++steps) {
     model.assemble(state, weights, quadratic);
     quadratic.add_damping(damping);
-    const Eigen::VectorXd step =
-        solve_gaps(gap_problem(model, state, quadratic, options), options.interior_iterations);
+    const Eigen::VectorXd step = solve_gaps(gap_problem(model, state, quadratic, options), options.interior_iterations);
     FitState trial = model.moved(state, step);
     model.locate(trial);
     const double after = merit(trial);

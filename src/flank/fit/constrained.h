@@ -13,7 +13,7 @@ struct ConstrainedOptions {
   double allowed_overcut_mm = 0.0;
   double settled_mm = 1e-5;  ///< a violation that is as good as none
   double band_mm = 1.0;      ///< points with f above this are no constraints of a step
-  int steps = 12;        ///< of sequential quadratic programming between two exchanges
+  int steps = 12;            ///< of sequential quadratic programming between two exchanges
   int exchanges = 8;
   int interior_iterations = 25;
 };

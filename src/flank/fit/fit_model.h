@@ -7,8 +7,8 @@
 
 #include <vector>
 
-#include "flank/fit/arrow_system.h"
 #include "flank/envelope/swept_estimate.h"
+#include "flank/fit/arrow_system.h"
 #include "flank/motion/ruled_motion.h"
 #include "flank/surface/target.h"
 #include "flank/tool/radial_function.h"

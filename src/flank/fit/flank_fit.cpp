@@ -16,9 +16,8 @@ FlankFitResult fit_from_starts(const std::vector<FitTask>& tasks, const ToolMode
   FitDraft draft = make_draft(tasks, tool, options);
   progress.step("fit", 0.1);
   result.before = estimate_coverage(samples, draft.motions, draft.tool, options.tolerance_mm, kRankingPoses);
-  const Polished polished = 
-      without_overcut(last_passes(polish(draft, samples, options, &result.trace), samples, options, &result.trace), samples,
-                      options);
+  const Polished polished = without_overcut(
+      last_passes(polish(draft, samples, options, &result.trace), samples, options, &result.trace), samples, options);
   progress.step("fit", 0.9);
   return finish(settled(polished, options), options, std::move(result));
 }

@@ -27,7 +27,7 @@ struct FlankFitOptions {
   double tolerance_mm = 0.01;
   std::optional<double> axis_length_mm;  ///< none: 1.02 times the longest offset contact line of the start
   RadiusBounds bounds;
-  int strips = 1;  ///< motions side by side on one target, one tool
+  int strips = 1;                                   ///< motions side by side on one target, one tool
   int kept_after_quick = 6, kept_after_polish = 3;  ///< candidates
   double promising = 0.0;  ///< the last passes are left out where the best candidate covers less before them
   double sample_share =
@@ -45,7 +45,7 @@ struct CoverageEstimate {
 
 enum class FitStatus {
   kNotRun,
-  kWithinTolerance,  ///< estimated coverage >= 99.5 % and overcut <= tolerance
+  kWithinTolerance,  ///< estimated coverage >= 99 % and overcut <= tolerance
   kPartial,          ///< a motion was found, but it covers less or cuts deeper
   kNoStart,          ///< no candidate touched the target
 };

@@ -134,8 +134,8 @@ Polished polish(const FitDraft& draft, const std::vector<SurfaceSample>& samples
   return shifted(best, samples, options);
 }
 
-Polished last_passes(const Polished& polished, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options,
-                     std::vector<IterationTrace>* trace) {
+Polished last_passes(const Polished& polished, const std::vector<SurfaceSample>& samples,
+                     const FlankFitOptions& options, std::vector<IterationTrace>* trace) {
   /// Below this share of the tolerance the overcut of an exact fit is not worth its last digits.
   constexpr double kWorthShifting = 0.1;
   if (polished.exact)
@@ -170,7 +170,7 @@ FlankFitResult finish(const Polished& polished, const FlankFitOptions& options, 
   for (std::size_t m = 0; m < result.motions.size(); ++m)
     tasks.push_back({polished.draft.targets[m], result.motions[m]});
   result.residuals = validate(tasks, result.tool, 60, 24);
-  const bool good = result.after.at_tolerance >= 0.995 && result.after.overcut_mm <= options.tolerance_mm;
+  const bool good = result.after.at_tolerance >= 0.99 && result.after.overcut_mm <= options.tolerance_mm;
   result.status = good ? FitStatus::kWithinTolerance : FitStatus::kPartial;
   result.message = fmt::format("estimated coverage {:.2f} % at {:.4g} mm, overcut {:.4g} mm",
                                100.0 * result.after.at_tolerance, options.tolerance_mm, result.after.overcut_mm);

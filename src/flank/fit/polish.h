@@ -26,7 +26,8 @@ struct Polished {
 };
 
 /// The draft with a free tool clamped into its bounds, and what it covers.
-[[nodiscard]] Polished assess(FitDraft draft, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options);
+[[nodiscard]] Polished assess(FitDraft draft, const std::vector<SurfaceSample>& samples,
+                              const FlankFitOptions& options);
 
 /// Least squares, then either the exact passes (residual near zero) or the tolerance passes. Never returns worse than
 /// the best it saw.

@@ -15,9 +15,7 @@ constexpr int kPosesPerControlPoint = 4;
 /// Points one task of the parallel search takes.
 constexpr std::size_t kChunk = 64;
 
-double cut(double e, double dead_zone) {
-  return e > 0.0 ? std::max(0.0, e - dead_zone) : std::min(0.0, e + dead_zone);
-}
+double cut(double e, double dead_zone) { return e > 0.0 ? std::max(0.0, e - dead_zone) : std::min(0.0, e + dead_zone); }
 
 }  // namespace
 

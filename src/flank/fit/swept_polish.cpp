@@ -63,8 +63,7 @@ std::vector<FacePoint> target_points(const FitDraft& draft, int per_side) {
     const double spacing = std::sqrt(target->area()) / per_side;
     for (const SurfaceSample& sample : target->samples(spacing)) points.push_back({sample.point, sample.area / area});
     // The samples are middles of cells; a tool cuts deepest at the rim. A rim point stands for half a cell.
-    for (const Vec3& point : target->border_points(spacing))
-      points.push_back({point, 0.5 * spacing * spacing / area});
+    for (const Vec3& point : target->border_points(spacing)) points.push_back({point, 0.5 * spacing * spacing / area});
   }
   return points;
 }
@@ -99,7 +98,11 @@ FitDraft run_constrained(const FitDraft& draft, const RadiusBounds& bounds, cons
   constexpr int kFirstPerSide = 40, kDensePerSide = 200;
   FitDraft next;
   const FitState start = start_state(draft, stage, next);
-  ConstrainedProblem problem{draft.targets, next.free_parameters, bounds, stage, target_points(draft, kFirstPerSide),
+  ConstrainedProblem problem{draft.targets,
+                             next.free_parameters,
+                             bounds,
+                             stage,
+                             target_points(draft, kFirstPerSide),
                              target_points(draft, kDensePerSide)};
   ConstrainedOptions options;
   // A sphere of radius r that touches half-way between two points is deeper there by spacing^2 / (8 r).
