@@ -1,0 +1,13 @@
+/// The faces of a part as triangles to look at.
+#pragma once
+
+#include <vector>
+
+#include "flank/pipeline/view.h"
+
+namespace flank {
+
+/// Every face of the part: `targets` (indices) finely, the others as coarsely as they may look.
+[[nodiscard]] std::vector<ViewFace> view_faces(const Part& part, const std::vector<int>& targets);
+
+}  // namespace flank

@@ -1,0 +1,121 @@
+// Puts the page together from what lies in the folder; what is missing is said, not hidden.
+import { PathCharts, histogram } from './charts.js';
+import { packed } from './data.js';
+import { byId, html } from './dom.js';
+import { asked, rows, table, verdict, worstList } from './figures.js';
+import * as format from './format.js';
+import { made } from './made.js';
+import { PathModel } from './path.js';
+import { Player } from './player.js';
+import { profile } from './profile.js';
+import { watchTheme } from './theme.js';
+import { View } from './view.js';
+
+const FIRST_SHARE = 0.3;
+
+function notice(text) {
+  byId('notices').append(html('p', { class: 'notice' }, text));
+}
+
+function subtitle({ view, summary }) {
+  const parts = [];
+  if (view) {
+    const radii = view.tool.profile.map(([, , rho]) => rho);
+    const kind = view.tool.family === 'spline' ? 'free tool' : view.tool.family;
+    parts.push(`${kind}, ⌀ ${format.plain(2 * Math.min(...radii))} to ${format.length(2 * Math.max(...radii), 3)}, axis ${format.length(view.tool.axis_length_mm, 3)}`);
+    parts.push(`${view.strips.length} strip${view.strips.length === 1 ? '' : 's'}`);
+  }
+  const tolerance = view?.tolerance_mm ?? summary?.tolerance;
+  if (tolerance) parts.push(`tolerance ±${format.error(tolerance)}`);
+  return parts.join(' · ');
+}
+
+function head(files) {
+  const { view, summary } = files;
+  const part = view?.part ?? summary?.part?.split('/').pop();
+  const title = part ? `${view?.faces ?? summary.faces} of ${part}` : 'OpenFlank report';
+  byId('title').textContent = title;
+  byId('subtitle').textContent = subtitle(files);
+  const { state, text, entered } = verdict(files);
+  byId('verdict').textContent = text;
+  byId('verdict').classList.add(state);
+  if (entered.length) {
+    byId('entered').hidden = false;
+    byId('entered').classList.add('warn');
+    byId('entered').textContent = `Enters ${entered.length} other face${entered.length === 1 ? '' : 's'}`;
+    byId('entered').title = entered.map((f) => `${f.face} by ${format.error(f.overcut_mm)}`).join(', ');
+  }
+}
+
+function still(files, go) {
+  const { verify, view } = files;
+  const list = rows(files);
+  list.length ? byId('table').append(table(list)) : byId('figures').remove();
+  if (verify) {
+    byId('places').append(worstList(verify.worst_places, asked(files).tolerance, go));
+    byId('histogram').append(histogram(verify));
+  } else for (const id of ['worst', 'spread']) byId(id).remove();
+  view ? byId('profile').append(profile(view.tool)) : byId('tool').remove();
+  byId('made').append(made(files, document.querySelector('meta[name=generator]').content));
+}
+
+/** The 3D view, or a sentence why there is none. */
+function moving(files, path, go) {
+  try {
+    return new View(files, path, go);
+  } catch (error) {
+    byId('stage').remove();
+    notice(`No 3D view: ${error.message}. The browser must offer WebGL 2; the figures and drawings below are complete.`);
+    return null;
+  }
+}
+
+function missing(files) {
+  const wanted = { view: 'the 3D view, the tool and the charts along the path', verify: 'the figures of the judge', summary: 'the summary of the fit' };
+  for (const [name, what] of Object.entries(wanted))
+    if (!files[name]) notice(`The folder holds no ${name}.json, so ${what} ${name === 'summary' ? 'is' : 'are'} missing here.${name === 'summary' ? '' : ' “flank verify” writes it.'}`);
+}
+
+function start(files, options) {
+  const path = files.view ? new PathModel(files.view) : null;
+  let view = null, charts = null, player = null;
+  const go = (place) => {
+    const strip = path?.strips.find((s) => s.id === place.strip) ?? path?.strips[place.strip - 1];
+    if (player && strip && path.shown().includes(strip)) player.set(path.shareOf(strip, place.t), true);
+  };
+  head(files);
+  still(files, go);
+  missing(files);
+  if (!files.view) {
+    byId('stage').remove();
+    byId('along').remove();
+  } else {
+    view = moving(files, path, go);
+    charts = new PathCharts(byId('charts'), path, files.view.tolerance_mm, (share) => player?.set(share, true));
+    if (view) {
+      player = new Player(path, (place, share) => { view.move(place); charts.move(share); },
+        () => { view.axis.choose(path.chosen); charts.rebuild(); });
+      player.set(Number(options.get('at') ?? FIRST_SHARE));
+      view.open(path);
+      byId('canvas').setAttribute('aria-label', `${byId('title').textContent}, coloured by the signed error; the tool stands on the path. Arrow keys turn, plus and minus zoom, Home resets.`);
+    }
+  }
+  watchTheme(() => view?.paint(), options.get('theme'));
+  return { view, player, path };
+}
+
+function shortcuts({ player }) {
+  document.addEventListener('keydown', (event) => {
+    if (event.key !== ' ' || !player || /^(BUTTON|SELECT|INPUT|A)$/.test(event.target.tagName)) return;
+    event.preventDefault();
+    player.toggle();
+  });
+}
+
+const options = new URLSearchParams(location.hash.slice(1));
+const files = { view: packed('view.json'), verify: packed('verify.json'), summary: packed('summary.json') };
+if (options.get('theme')) document.documentElement.dataset.theme = options.get('theme');
+const page = start(files, options);
+shortcuts(page);
+document.documentElement.dataset.ready = Math.round(performance.now());
+window.flankReport = page;

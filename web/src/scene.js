@@ -1,0 +1,104 @@
+// The 3D view: camera, light, what is shown. It draws only when something changed.
+import {
+  AmbientLight, DirectionalLight, PerspectiveCamera, Raycaster, Scene, Vector2, Vector3, WebGLRenderer,
+} from 'three';
+import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import { FIELD_OF_VIEW, frameOf, presets } from './camera.js';
+
+export class Stage {
+  constructor(canvas) {
+    this.canvas = canvas;
+    this.listeners = [];
+    this.quiet = true;
+    // What was drawn last stays readable: for printing and for screenshots.
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
+    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
+    this.scene = new Scene();
+    this.camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.1, 10000);
+    this.scene.add(this.camera, new AmbientLight(0xffffff, 1.75));
+    this.key = new DirectionalLight(0xffffff, 1.7);
+    this.key.position.set(-0.5, 0.9, 0.8);
+    this.camera.add(this.key, this.key.target);
+    this.hold(new Vector3());
+    new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
+  }
+
+  /** Controls learn the upward direction only when they are made. */
+  hold(target) {
+    this.controls?.dispose();
+    this.controls = new OrbitControls(this.camera, this.canvas);
+    this.controls.target.copy(target);
+    this.controls.addEventListener('change', () => this.draw());
+    this.controls.update();
+  }
+
+  onDraw(listener) {
+    this.listeners.push(listener);
+  }
+
+  frame(targets, toolAxis) {
+    this.home = frameOf(targets);
+    this.presets = presets(this.renderer, this.scene, targets, this.home, toolAxis);
+    this.camera.near = 0.02 * this.presets.distance;
+    this.camera.far = 40 * this.presets.distance;
+    this.quiet = false;
+    this.resize();
+    this.look('overview');
+  }
+
+  look(name) {
+    const { position, up } = this.presets[name];
+    // In a tall window the width is what the target must fit into.
+    const back = Math.max(1, 1 / this.camera.aspect);
+    this.camera.up.copy(up);
+    this.camera.position.copy(position).sub(this.home.centre).multiplyScalar(back).add(this.home.centre);
+    this.hold(this.home.centre);
+    this.draw();
+  }
+
+  /** Turns about the target by angles in radians, or comes nearer by a factor. */
+  orbit(right, upwards, nearer = 1) {
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    offset.applyAxisAngle(this.camera.up, right);
+    const side = new Vector3().crossVectors(this.camera.up, offset).normalize();
+    const lifted = offset.clone().applyAxisAngle(side, -upwards);
+    if (Math.abs(lifted.clone().normalize().dot(this.camera.up)) < 0.98) offset.copy(lifted);
+    this.camera.position.copy(this.controls.target).addScaledVector(offset, nearer);
+    this.controls.update();
+    this.draw();
+  }
+
+  resize() {
+    const { clientWidth: width, clientHeight: height } = this.canvas.parentElement;
+    if (!width || !height) return;
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.draw();
+  }
+
+  draw() {
+    if (this.quiet) return;
+    this.renderer.render(this.scene, this.camera);
+    for (const listener of this.listeners) listener(this);
+  }
+
+  /** Millimetres of a pixel at the target's depth. */
+  get pixel() {
+    const depth = this.camera.position.distanceTo(this.controls.target);
+    return (2 * depth * Math.tan((0.5 * FIELD_OF_VIEW * Math.PI) / 180)) / this.canvas.clientHeight;
+  }
+
+  /** CSS pixels of a point of space. */
+  toScreen(point) {
+    const p = point.clone().project(this.camera);
+    return [0.5 * (p.x + 1) * this.canvas.clientWidth, 0.5 * (1 - p.y) * this.canvas.clientHeight, p.z];
+  }
+
+  pick(x, y, meshes) {
+    const ray = new Raycaster();
+    const where = new Vector2((2 * x) / this.canvas.clientWidth - 1, 1 - (2 * y) / this.canvas.clientHeight);
+    ray.setFromCamera(where, this.camera);
+    return ray.intersectObjects(meshes, false)[0] ?? null;
+  }
+}

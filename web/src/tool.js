@@ -1,0 +1,127 @@
+// The tool as a body of revolution about its axis, and the surface that its axis runs through.
+import {
+  BufferAttribute, BufferGeometry, DoubleSide, Group, LatheGeometry, Line, LineBasicMaterial, LineDashedMaterial,
+  LineSegments, Mesh, MeshBasicMaterial, MeshStandardMaterial, Quaternion, Vector2, Vector3,
+} from 'three';
+
+const AROUND = 72;
+const CAP = 20;
+const UP = new Vector3(0, 1, 0);
+
+/** The sphere's arc from the axis to the profile: at the tip (side -1) or at the upper end (+1). */
+function cap(centre, radius, z, rho, side) {
+  const from = side < 0 ? Math.PI : Math.atan2(rho, z - centre);
+  const to = side < 0 ? Math.atan2(rho, z - centre) : 0;
+  const out = [];
+  for (let k = 0; k <= CAP; ++k) {
+    const angle = from + ((to - from) * k) / CAP;
+    out.push([centre + radius * Math.cos(angle), Math.max(0, radius * Math.sin(angle))]);
+  }
+  return out;
+}
+
+/** The outline [z, rho] of the flank with its round ends, from the tip upwards. */
+export function outline(tool) {
+  const flank = tool.profile.map(([, z, rho]) => [z, rho]);
+  const first = flank[0], last = flank[flank.length - 1];
+  return {
+    tip: cap(0, tool.tip_radius_mm, first[0], first[1], -1),
+    flank,
+    end: cap(tool.axis_length_mm, tool.end_radius_mm, last[0], last[1], +1),
+  };
+}
+
+function lathe(points, material) {
+  return new Mesh(new LatheGeometry(points.map(([z, rho]) => new Vector2(rho, z)), AROUND), material);
+}
+
+/** Profiles given as corners keep them: every corner twice, so that its normals are not blended. */
+function closed(profile) {
+  if (!profile.length) return [];
+  const points = [[profile[0][0], 0], ...profile, [profile[profile.length - 1][0], 0]];
+  return points.flatMap((p, k) => (k > 0 && k + 1 < points.length ? [p, p] : [p]));
+}
+
+export class ToolModel {
+  constructor(tool) {
+    this.root = new Group();
+    const shape = outline(tool);
+    this.materials = {
+      flank: new MeshStandardMaterial({ metalness: 0.35, roughness: 0.38, side: DoubleSide }),
+      shank: new MeshStandardMaterial({ metalness: 0.3, roughness: 0.5, side: DoubleSide }),
+      holder: new MeshStandardMaterial({ metalness: 0.2, roughness: 0.6, side: DoubleSide }),
+      axis: new LineDashedMaterial({ dashSize: 0.03 * tool.axis_length_mm, gapSize: 0.015 * tool.axis_length_mm }),
+    };
+    this.root.add(lathe([...shape.tip, ...shape.flank.slice(1, -1), ...shape.end], this.materials.flank));
+    if (tool.shank.length) this.root.add(lathe(closed(tool.shank), this.materials.shank));
+    if (tool.holder.length) this.root.add(lathe(closed(tool.holder), this.materials.holder));
+    const top = Math.max(tool.axis_length_mm + tool.end_radius_mm, ...tool.shank.map((p) => p[0]), ...tool.holder.map((p) => p[0]));
+    const line = new BufferGeometry().setFromPoints([new Vector3(0, -2 * tool.tip_radius_mm, 0), new Vector3(0, top + 0.25 * tool.axis_length_mm, 0)]);
+    const axis = new Line(line, this.materials.axis);
+    axis.computeLineDistances();
+    this.root.add(axis);
+  }
+
+  place(pose) {
+    this.root.position.copy(pose.tip);
+    this.root.quaternion.copy(new Quaternion().setFromUnitVectors(UP, pose.axis));
+  }
+
+  paint(theme) {
+    this.materials.flank.color.set(theme.tool);
+    this.materials.shank.color.set(theme.shank);
+    this.materials.holder.color.set(theme.holder);
+    this.materials.axis.color.set(theme.axis);
+  }
+}
+
+/** The ruled surface of one strip: both rails and some rulings as lines, a veil between them. */
+function axisSurface(strip, length, materials) {
+  const count = strip.tips.length;
+  const positions = new Float32Array(6 * count);
+  strip.tips.forEach((tip, k) => {
+    positions.set([tip.x, tip.y, tip.z], 6 * k);
+    const top = tip.clone().addScaledVector(strip.axes[k], length);
+    positions.set([top.x, top.y, top.z], 6 * k + 3);
+  });
+  const faces = [], lines = [];
+  for (let k = 0; k + 1 < count; ++k) {
+    faces.push(2 * k, 2 * k + 1, 2 * k + 2, 2 * k + 1, 2 * k + 3, 2 * k + 2);
+    lines.push(2 * k, 2 * k + 2, 2 * k + 1, 2 * k + 3);
+  }
+  for (let k = 0, rulings = 16; k <= rulings; ++k) {
+    const at = k === rulings ? count - 1 : strip.at((strip.length * k) / rulings)[0];
+    lines.push(2 * at, 2 * at + 1);
+  }
+  const shape = new BufferGeometry();
+  shape.setAttribute('position', new BufferAttribute(positions, 3));
+  const wires = shape.clone();
+  shape.setIndex(faces);
+  wires.setIndex(lines);
+  return [new Mesh(shape, materials.veil), new LineSegments(wires, materials.lines)];
+}
+
+export class AxisModel {
+  constructor(path, length) {
+    this.root = new Group();
+    this.materials = {
+      veil: new MeshBasicMaterial({ transparent: true, opacity: 0.16, side: DoubleSide, depthWrite: false }),
+      lines: new LineBasicMaterial({ transparent: true, opacity: 0.6 }),
+    };
+    this.groups = path.strips.map((strip) => {
+      const group = new Group();
+      if (strip.tips.length > 1) group.add(...axisSurface(strip, length, this.materials));
+      this.root.add(group);
+      return group;
+    });
+  }
+
+  choose(chosen) {
+    this.groups.forEach((group, k) => { group.visible = chosen === null || chosen === k; });
+  }
+
+  paint(theme) {
+    this.materials.veil.color.set(theme.axis);
+    this.materials.lines.color.set(theme.axis);
+  }
+}
