@@ -52,5 +52,5 @@ writeFileSync(html, page);
 writeFileSync(
   cpp,
   `// Made by web/build.mjs.\n#include "flank/report/page_template.h"\n\nnamespace flank {\n\nstd::string_view page_template() {\n` +
-    `  static constexpr std::string_view kPage =\n${literals(page)};\n  return kPage;\n}\n\n}  // namespace flank\n`,
+    `  static constexpr char kPage[] =\n${literals(page)};\n  return {kPage, sizeof kPage - 1};\n}\n\n}  // namespace flank\n`,
 );

@@ -2,7 +2,7 @@
 import {
   BufferAttribute, BufferGeometry, DoubleSide, Group, LineBasicMaterial, LineSegments, Mesh, MeshLambertMaterial,
 } from 'three';
-import { errorTexture, texturePlace } from './colours.js';
+import { ErrorTexture, SPANS } from './colours.js';
 
 function geometry(positions, indices) {
   const out = new BufferGeometry();
@@ -16,7 +16,7 @@ function coloured(body, tolerance, texture) {
   const shape = geometry(body.positions, body.indices);
   const uv = new Float32Array(2 * body.f.length);
   for (let i = 0; i < body.f.length; ++i) {
-    uv[2 * i] = texturePlace(body.f[i] / tolerance);
+    uv[2 * i] = body.f[i] / tolerance;
     uv[2 * i + 1] = 0.5;
   }
   shape.setAttribute('uv', new BufferAttribute(uv, 2));
@@ -57,49 +57,64 @@ function edges(bodies) {
   return new LineSegments(shape, new LineBasicMaterial({ transparent: true, opacity: 0.45 }));
 }
 
+/** How the faces that are no targets look. */
+export const OTHERS = ['solid', 'see-through', 'hidden'];
+const SEE_THROUGH = 0.22;
+
 export class PartModel {
   constructor(bodies, tolerance) {
     this.root = new Group();
-    this.targets = bodies.filter((b) => b.target && b.f).map((b) => coloured(b, tolerance, errorTexture(null)));
-    this.entered = bodies.filter((b) => !b.target && b.f);
-    this.tolerance = tolerance;
-    this.enteredMeshes = this.entered.map((b) => coloured(b, tolerance, errorTexture('#cccccc')));
+    this.span = SPANS[0];
+    this.colours = true;
+    this.textures = { target: new ErrorTexture(), entered: new ErrorTexture() };
+    const make = (chosen, texture) => bodies.filter(chosen).map((b) => coloured(b, tolerance, texture.texture));
+    this.targets = make((b) => b.target && b.f, this.textures.target);
+    this.entered = make((b) => !b.target && b.f, this.textures.entered);
     const calm = bodies.filter((b) => !b.f);
     this.calm = calm.length ? merged(calm) : null;
-    this.edges = edges(bodies);
-    this.root.add(...this.targets, ...this.enteredMeshes, this.edges);
+    this.edges = edges(bodies.filter((b) => b.target));
+    this.otherEdges = edges(bodies.filter((b) => !b.target));
+    this.root.add(...this.targets, ...this.entered, this.edges, this.otherEdges);
     if (this.calm) this.root.add(this.calm);
   }
 
   /** Everything but the targets. */
   get others() {
-    return [...this.enteredMeshes, ...(this.calm ? [this.calm] : [])];
+    return [...this.entered, ...(this.calm ? [this.calm] : [])];
   }
 
-  showOthers(visible) {
-    for (const mesh of this.others) mesh.visible = visible;
-  }
-
-  showError(visible) {
-    for (const mesh of [...this.targets, ...this.enteredMeshes]) {
-      mesh.material.map = visible ? mesh.userData.map : null;
-      mesh.material.color.set(visible ? '#ffffff' : mesh.userData.rest);
+  /** `look`: one of OTHERS. */
+  showOthers(look) {
+    for (const mesh of this.others) mesh.visible = look !== 'hidden';
+    this.otherEdges.visible = look !== 'hidden';
+    for (const mesh of this.others) {
+      const veiled = look === 'see-through';
+      Object.assign(mesh.material, { transparent: veiled, opacity: veiled ? (mesh === this.calm ? SEE_THROUGH : 2 * SEE_THROUGH) : 1, depthWrite: !veiled });
       mesh.material.needsUpdate = true;
     }
+    this.otherEdges.material.opacity = look === 'see-through' ? 0.25 : 0.45;
+  }
+
+  /** `span`: the end of the scale in tolerances. */
+  showError(visible, span) {
+    this.colours = visible;
+    this.span = span;
+    this.paint(this.theme);
   }
 
   paint(theme) {
-    for (const mesh of this.targets) {
-      mesh.userData.map ??= mesh.material.map;
-      mesh.userData.rest = theme.target;
-    }
-    const texture = errorTexture(theme.part);
-    for (const mesh of this.enteredMeshes) {
-      mesh.userData.map = texture;
-      mesh.userData.rest = theme.part;
-      if (mesh.material.map) mesh.material.map = texture;
-    }
+    this.theme = theme;
+    this.textures.target.paint(this.span, null);
+    this.textures.entered.paint(this.span, theme.part);
+    const paintAll = (meshes, texture, rest) => meshes.forEach(({ material }) => {
+      material.map = this.colours ? texture.texture : null;
+      material.color.set(this.colours ? '#ffffff' : rest);
+      material.needsUpdate = true;
+    });
+    paintAll(this.targets, this.textures.target, theme.target);
+    paintAll(this.entered, this.textures.entered, theme.part);
     this.calm?.material.color.set(theme.part);
     this.edges.material.color.set(theme.edge);
+    this.otherEdges.material.color.set(theme.edge);
   }
 }

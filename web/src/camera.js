@@ -4,8 +4,11 @@ import { Color, Matrix4, MeshBasicMaterial, PerspectiveCamera, Quaternion, Vecto
 const PROBE = 72;
 export const FIELD_OF_VIEW = 26;
 
-/** Mean outward normal of the targets, their middle and radius. */
-export function frameOf(meshes) {
+/** Every so many vertices are looked at when the camera is moved back far enough. */
+const THINNING = 400;
+
+/** Mean normal of the targets on the side of the point `towards`, their middle and radius, and some of their points. */
+export function frameOf(meshes, towards) {
   const normal = new Vector3(), low = new Vector3(Infinity, Infinity, Infinity), high = low.clone().negate();
   const a = new Vector3(), b = new Vector3(), c = new Vector3();
   for (const { geometry } of meshes) {
@@ -22,9 +25,18 @@ export function frameOf(meshes) {
       high.max(a);
     }
   }
+  const points = [];
+  for (const { geometry } of meshes) {
+    const p = geometry.attributes.position;
+    const stride = Math.max(1, Math.floor(p.count / THINNING));
+    for (let k = 0; k < p.count; k += stride) points.push(new Vector3().fromBufferAttribute(p, k));
+  }
   const centre = low.clone().add(high).multiplyScalar(0.5);
-  return { normal: normal.lengthSq() > 0 ? normal.normalize() : new Vector3(0, 0, 1), centre,
-    radius: Math.max(1e-6, 0.5 * low.distanceTo(high)) };
+  if (normal.lengthSq() > 0) normal.normalize();
+  else normal.set(0, 0, 1);
+  // A sheet may be machined from its back.
+  if (towards && towards.clone().sub(centre).dot(normal) < 0) normal.negate();
+  return { normal, centre, points, radius: Math.max(1e-6, 0.5 * low.distanceTo(high)) };
 }
 
 /** The direction `front` turned about `up` and then lifted, degrees. */
@@ -59,29 +71,75 @@ function visibility(renderer, scene, targets, camera) {
   return count;
 }
 
-/** Camera places by name: { position, up }, all looking at frame.centre. */
-export function presets(renderer, scene, targets, frame, toolAxis) {
-  const up = toolAxis.clone().addScaledVector(frame.normal, -toolAxis.dot(frame.normal));
-  if (up.lengthSq() < 1e-4) up.copy(new Vector3(0, 0, 1).cross(frame.normal));
+/** Directions to try, degrees off the target's normal: oblique ones first, for a body looks flat from its front. */
+const AZIMUTHS = [-35, 35, -55, 55, -15, 15, -75, 75];
+const ELEVATIONS = [12, 35, -15, 55];
+/** Where less of the target shows than this share of what would show alone, the other faces are in the way. */
+const HIDDEN = 0.72;
+
+/** The view that shows most: { direction, share of the path, hidden }. */
+function search(count, { normal }, up, { shares, put, others }) {
+  let best = { score: -1 };
+  for (const share of shares) {
+    const axis = put(share);
+    for (const azimuth of AZIMUTHS)
+      for (const elevation of ELEVATIONS) {
+        const direction = turned(normal, up, azimuth, elevation);
+        const pixels = count(direction);
+        // A body looks flat from its front, and narrow from its side.
+        const score = pixels * (Math.abs(azimuth) < 20 ? 0.85 : 1);
+        if (score > 1.02 * best.score) best = { score, pixels, direction, share, axis };
+      }
+  }
+  put(best.share);
+  for (const mesh of others) mesh.visible = false;
+  best.hidden = best.pixels < HIDDEN * count(best.direction);
+  for (const mesh of others) mesh.visible = true;
+  return best;
+}
+
+/**
+ * Camera places by name, { direction, up, points that must be seen }, and the share of the path at which the tool hides
+ * least. `wish` is { targets, others, axis, shares, put }; put(share) places the tool and returns the ends of its axis.
+ */
+export function presets(renderer, scene, frame, wish) {
+  const { normal } = frame;
+  const up = wish.axis.clone().addScaledVector(normal, -wish.axis.dot(normal));
+  if (up.lengthSq() < 1e-4) up.copy(new Vector3(0, 0, 1).cross(normal));
   up.normalize();
   const distance = frame.radius / Math.sin((0.5 * FIELD_OF_VIEW * Math.PI) / 180);
   const camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.02 * distance, 20 * distance);
-  const look = (direction, top) => {
+  camera.up.copy(up);
+  const best = search((direction) => {
     camera.position.copy(frame.centre).addScaledVector(direction, distance);
-    camera.up.copy(top);
     camera.lookAt(frame.centre);
+    return visibility(renderer, scene, wish.targets, camera);
+  }, frame, up, wish);
+  const points = [...frame.points, ...best.axis];
+  return { overview: { direction: best.direction, up, points }, face: { direction: normal, up, points },
+    axis: { direction: wish.axis.clone().normalize(), up: normal, points: frame.points },
+    distance, share: best.share, hidden: best.hidden };
+}
+
+/**
+ * Where the camera sees all points, { position, target }. `room` says which part of the picture's half width and half
+ * height is free on each side.
+ */
+export function fitted({ direction, up, points }, aspect, room) {
+  const side = new Vector3().crossVectors(up, direction).normalize();
+  const top = new Vector3().crossVectors(direction, side).normalize();
+  const tall = Math.tan((0.5 * FIELD_OF_VIEW * Math.PI) / 180), wide = tall * aspect;
+  // The planes of the view's pyramid, pushed out until they hold every point: opposite ones fix the distance.
+  const fit = (axis, plus, minus) => {
+    const high = Math.max(...points.map((p) => p.dot(axis) + plus * p.dot(direction)));
+    const low = Math.max(...points.map((p) => minus * p.dot(direction) - p.dot(axis)));
+    return { away: (high + low) / (plus + minus), at: (away) => (high - plus * away - low + minus * away) / 2 };
   };
-  let best = null;
-  for (const azimuth of [-35, 35, -55, 55, -15, 15])
-    for (const elevation of [12, 35, -15]) {
-      const direction = turned(frame.normal, up, azimuth, elevation);
-      look(direction, up);
-      const score = visibility(renderer, scene, targets, camera) * (Math.abs(azimuth) < 20 ? 0.85 : 1);
-      if (!best || score > 1.02 * best.score) best = { score, direction };
-    }
-  const place = (direction, top) => ({ position: frame.centre.clone().addScaledVector(direction, 1.12 * distance), up: top.clone() });
-  return { overview: place(best.direction, up), face: place(frame.normal, up),
-    axis: place(toolAxis.clone().normalize(), frame.normal), distance };
+  const across = fit(side, wide * room.right, wide * room.left), along = fit(top, tall * room.top, tall * room.bottom);
+  const away = Math.max(across.away, along.away);
+  const foot = side.clone().multiplyScalar(across.at(away)).addScaledVector(top, along.at(away));
+  const middle = points.reduce((sum, p) => sum + p.dot(direction), 0) / points.length;
+  return { position: foot.clone().addScaledVector(direction, away), target: foot.clone().addScaledVector(direction, middle) };
 }
 
 /** Screen directions of x, y and z, for the little cross of axes. */

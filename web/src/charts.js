@@ -1,5 +1,5 @@
 // Histogram of the error, and what happens along the path.
-import { colourAt, css } from './colours.js';
+import { colourAt, css, SPANS } from './colours.js';
 import { html, svg } from './dom.js';
 import * as format from './format.js';
 import { Plot } from './plot.js';
@@ -16,12 +16,12 @@ export function histogram(verify) {
   const top = Math.max(...shares) * 1.12;
   const plot = new Plot({ x: [edges[0] * factor, edges[edges.length - 1] * factor], y: [0, top], height: 230, top: 22,
     xName: `signed error, ${unit}  (− overcut, + undercut)`, yName: 'share of the area, %', xCount: 8,
-    title: `Histogram of the signed error: ${format.percent(verify.coverage)} of the target lies within the tolerance of ${format.error(verify.tolerance_mm)}` });
+    title: `Histogram of the signed error: ${format.percent(verify.coverage)} of the target lies within the tolerance of ${format.tolerance(verify.tolerance_mm)}` });
   const t = verify.tolerance_mm;
   shares.forEach((share, k) => {
     const middle = 0.5 * (edges[k] + edges[k + 1]);
     const open = k === 0 ? -3 : k + 1 === shares.length ? 3 : middle / t;
-    plot.bar(edges[k] * factor, edges[k + 1] * factor, share, css(colourAt(open)));
+    plot.bar(edges[k] * factor, edges[k + 1] * factor, share, css(colourAt(open, SPANS[0])));
   });
   for (const side of [-1, 1]) {
     const x = plot.px(side * t * factor);

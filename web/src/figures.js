@@ -17,7 +17,7 @@ export function rows(files) {
   const verdict = (holds, otherwise = 'fail') => (holds ? 'pass' : otherwise);
   const out = [];
   if (verify) {
-    const tolerance = format.error(verify.tolerance_mm);
+    const tolerance = format.tolerance(verify.tolerance_mm);
     const v = (key, name, text, wanted, state, hint) => out.push({ key, name, value: verify[key], text, wanted, state, hint });
     v('coverage', `Coverage within ±${tolerance}`, format.percent(verify.coverage),
       limit.coverage === null ? '' : `≥ ${format.percent(limit.coverage)}`,
@@ -85,6 +85,6 @@ export function worstList(places, tolerance, go) {
     button.addEventListener('click', () => go(place, k));
     return html('li', {}, button);
   };
-  return html('div', {}, html('p', { class: 'soft' }, `Deepest first; minus is overcut. The tolerance is ±${format.error(tolerance)}.`),
+  return html('div', {}, html('p', { class: 'soft' }, `Deepest first; minus is overcut. The tolerance is ±${format.tolerance(tolerance)}.`),
     html('ol', { class: 'places' }, ...shown.map(item)));
 }

@@ -16,6 +16,9 @@ export function error(mm, significant = 3) {
   return `${digits(1000 * mm, significant)}\u00a0µm`;
 }
 
+/** A length that somebody chose: without zeros that say nothing. */
+export const tolerance = (mm) => (mm < 1 ? `${tick(1000 * mm)}\u00a0µm` : `${tick(mm)}\u00a0mm`);
+
 export const length = (mm, significant = 4) => `${digits(mm, significant)}\u00a0mm`;
 export const plain = (value, significant = 3) => digits(value, significant);
 export const percent = (share) => `${minus((100 * share).toFixed(2))}\u00a0%`;

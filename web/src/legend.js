@@ -1,30 +1,42 @@
 // The scale of the error's colours, the cross of axes, and the scale bar.
-import { colourAt, css, SPAN, UNREACHED } from './colours.js';
+import { colourAt, css, UNREACHED } from './colours.js';
 import { axesOnScreen } from './camera.js';
 import { svg } from './dom.js';
 import * as format from './format.js';
 
-const HEIGHT = 216, TOP = 30, BAR = 14, X = 8;
+const HEIGHT = 208, TOP = 40, BAR = 14, X = 8;
 
-export function legend(tolerance) {
-  const y = (x) => TOP + ((SPAN - x) / (2 * SPAN)) * HEIGHT;
-  const root = svg('svg', { viewBox: '0 0 118 300', width: 118, height: 300, role: 'img',
-    'aria-label': `Colours of the signed error: pale within the tolerance of ${format.error(tolerance)}, blue where material is left, red where too much is taken, grey where nothing reached` });
-  const steps = 192;
-  for (let k = 0; k < steps; ++k) {
-    const x = SPAN - ((k + 0.5) / steps) * 2 * SPAN;
-    root.append(svg('rect', { x: X, width: BAR, y: TOP + (k * HEIGHT) / steps, height: HEIGHT / steps + 0.6, fill: css(colourAt(x)) }));
+/** Where the scale has numbers, in tolerances. */
+const labels = (span) => (span > 1 ? [span, 0.5 * span, 1, 0, -1, -0.5 * span, -span] : [span, 0.5 * span, 0, -0.5 * span, -span]);
+
+function bar(y, span) {
+  const rects = [];
+  for (let k = 0; k < HEIGHT; ++k) {
+    const x = span - ((k + 0.5) / HEIGHT) * 2 * span;
+    rects.push(svg('rect', { x: X, width: BAR, y: TOP + k, height: 1.6, fill: css(colourAt(x, span)), 'shape-rendering': 'crispEdges' }));
   }
-  root.append(svg('rect', { x: X, y: TOP, width: BAR, height: HEIGHT, class: 'frame' }));
-  root.append(svg('path', { d: `M${X + BAR + 3} ${y(1)}h5V${y(-1)}h-5`, class: 'bracket' }));
-  for (const x of [4, 2, 1, 0, -1, -2, -4]) {
-    const label = x === 0 ? '0' : `${x > 0 ? '+' : ''}${format.error(x * tolerance)}`;
-    root.append(svg('text', { x: X + BAR + 12, y: y(x) + 4, class: Math.abs(x) === 1 ? 'strong' : '' }, label));
+  rects.push(svg('rect', { x: X, y: TOP, width: BAR, height: HEIGHT, class: 'frame' }));
+  if (span > 1) rects.push(svg('path', { d: `M${X + BAR + 3} ${y(1)}h5V${y(-1)}h-5`, class: 'bracket' }));
+  return rects;
+}
+
+/** The scale for a tolerance in mm, ending at `span` tolerances. */
+export function legend(tolerance, span) {
+  const y = (x) => TOP + ((span - x) / (2 * span)) * HEIGHT;
+  const below = TOP + HEIGHT;
+  const root = svg('svg', { viewBox: '0 0 112 304', width: 112, height: 304, role: 'img',
+    'aria-label': `Colours of the signed error: pale near zero, a jump at the tolerance of ${format.tolerance(tolerance)}, blue where material is left, red where too much is taken, grey where nothing reached` });
+  root.append(...bar(y, span));
+  for (const x of labels(span)) {
+    const label = x === 0 ? '0' : `${x > 0 ? '+' : ''}${format.error(x * tolerance, 2)}`;
+    const place = y(x) + (x === span ? 9 : x === -span ? 0 : 4);
+    root.append(svg('text', { x: X + BAR + 12, y: place, class: Math.abs(x) === 1 ? 'strong' : '' }, label));
   }
-  root.append(svg('text', { x: X, y: 11 }, 'signed error'), svg('text', { x: X, y: 23, class: 'soft' }, 'material left'),
-    svg('text', { x: X, y: TOP + HEIGHT + 15, class: 'soft' }, 'cut too deep'),
-    svg('rect', { x: X, y: TOP + HEIGHT + 26, width: BAR, height: 12, fill: UNREACHED }),
-    svg('text', { x: X + BAR + 12, y: TOP + HEIGHT + 36 }, 'not reached'));
+  root.append(svg('text', { x: X, y: 14, class: 'strong' }, 'Signed error'), svg('text', { x: X, y: 31, class: 'soft' }, 'material left'),
+    svg('text', { x: X, y: below + 17, class: 'soft' }, 'cut too deep'));
+  if (span > 1) root.append(svg('rect', { x: X, y: below + 29, width: BAR, height: 12, fill: UNREACHED }),
+    svg('text', { x: X + BAR + 12, y: below + 39 }, 'not reached'));
+  else root.append(svg('text', { x: X, y: below + 38, class: 'soft' }, `tolerance ±${format.tolerance(tolerance)}`));
   return root;
 }
 

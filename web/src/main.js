@@ -11,7 +11,8 @@ import { profile } from './profile.js';
 import { watchTheme } from './theme.js';
 import { View } from './view.js';
 
-const FIRST_SHARE = 0.3;
+/** Where the tool may stand at first: on the path, not at its ends. */
+const FIRST_SHARES = [0.14, 0.26, 0.74, 0.86];
 
 function notice(text) {
   byId('notices').append(html('p', { class: 'notice' }, text));
@@ -26,7 +27,7 @@ function subtitle({ view, summary }) {
     parts.push(`${view.strips.length} strip${view.strips.length === 1 ? '' : 's'}`);
   }
   const tolerance = view?.tolerance_mm ?? summary?.tolerance;
-  if (tolerance) parts.push(`tolerance ±${format.error(tolerance)}`);
+  if (tolerance) parts.push(`tolerance ±${format.tolerance(tolerance)}`);
   return parts.join(' · ');
 }
 
@@ -95,8 +96,8 @@ function start(files, options) {
     if (view) {
       player = new Player(path, (place, share) => { view.move(place); charts.move(share); },
         () => { view.axis.choose(path.chosen); charts.rebuild(); });
-      player.set(Number(options.get('at') ?? FIRST_SHARE));
-      view.open(path);
+      const at = options.get('at');
+      player.set(view.open(path, at === null ? FIRST_SHARES : [Number(at)]));
       byId('canvas').setAttribute('aria-label', `${byId('title').textContent}, coloured by the signed error; the tool stands on the path. Arrow keys turn, plus and minus zoom, Home resets.`);
     }
   }

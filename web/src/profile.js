@@ -34,7 +34,7 @@ class Drawing {
     const all = [...shape.tip, ...shape.flank, ...shape.end, ...tool.shank, ...tool.holder];
     this.z = [Math.min(...all.map((p) => p[0])), Math.max(...all.map((p) => p[0]))];
     const tallest = Math.max(...all.map((p) => p[1]));
-    this.scale = Math.min((WIDTH - LEFT - RIGHT) / (this.z[1] - this.z[0]), 190 / tallest);
+    this.scale = Math.min((WIDTH - LEFT - RIGHT) / (this.z[1] - this.z[0]), 150 / tallest);
     this.base = 50 + tallest * this.scale;
     this.height = this.base + 58;
   }

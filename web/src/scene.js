@@ -3,7 +3,12 @@ import {
   AmbientLight, DirectionalLight, PerspectiveCamera, Raycaster, Scene, Vector2, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
-import { FIELD_OF_VIEW, frameOf, presets } from './camera.js';
+import { FIELD_OF_VIEW, fitted, frameOf, presets } from './camera.js';
+
+/** Pixels at the sides of the view: the colour scale stands on the left, buttons above. */
+const ROOM = { left: 150, right: 40, top: 56, bottom: 30 };
+/** In a narrow view what stands at the sides may cover the part. */
+const NARROW = 620;
 
 export class Stage {
   constructor(canvas) {
@@ -15,8 +20,8 @@ export class Stage {
     this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.1, 10000);
-    this.scene.add(this.camera, new AmbientLight(0xffffff, 1.75));
-    this.key = new DirectionalLight(0xffffff, 1.7);
+    this.scene.add(this.camera, new AmbientLight(0xffffff, 2.6));
+    this.key = new DirectionalLight(0xffffff, 1.2);
     this.key.position.set(-0.5, 0.9, 0.8);
     this.camera.add(this.key, this.key.target);
     this.hold(new Vector3());
@@ -36,23 +41,31 @@ export class Stage {
     this.listeners.push(listener);
   }
 
-  frame(targets, toolAxis) {
-    this.home = frameOf(targets);
-    this.presets = presets(this.renderer, this.scene, targets, this.home, toolAxis);
+  /** Looks for the best views; `wish` as presets() takes it. */
+  frame(wish) {
+    this.home = frameOf(wish.targets, wish.towards);
+    this.presets = presets(this.renderer, this.scene, this.home, wish);
     this.camera.near = 0.02 * this.presets.distance;
     this.camera.far = 40 * this.presets.distance;
-    this.quiet = false;
     this.resize();
-    this.look('overview');
+    return this.presets;
+  }
+
+  room() {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const free = (pixels, size) => Math.max(0.4, 1 - (2 * pixels) / size);
+    return { left: free(width < NARROW ? 20 : ROOM.left, width), right: free(width < NARROW ? 20 : ROOM.right, width),
+      top: free(ROOM.top, height), bottom: free(ROOM.bottom, height) };
   }
 
   look(name) {
-    const { position, up } = this.presets[name];
-    // In a tall window the width is what the target must fit into.
-    const back = Math.max(1, 1 / this.camera.aspect);
-    this.camera.up.copy(up);
-    this.camera.position.copy(position).sub(this.home.centre).multiplyScalar(back).add(this.home.centre);
-    this.hold(this.home.centre);
+    const preset = this.presets[name];
+    const { position, target } = fitted(preset, this.camera.aspect, this.room());
+    this.quiet = true;
+    this.camera.up.copy(preset.up);
+    this.camera.position.copy(position);
+    this.hold(target);
+    this.quiet = false;
     this.draw();
   }
 

@@ -45,9 +45,11 @@ function closed(profile) {
 export class ToolModel {
   constructor(tool) {
     this.root = new Group();
+    this.length = tool.axis_length_mm;
+    this.ends = [[0, tool.tip_radius_mm], [tool.axis_length_mm, tool.end_radius_mm]];
     const shape = outline(tool);
     this.materials = {
-      flank: new MeshStandardMaterial({ metalness: 0.35, roughness: 0.38, side: DoubleSide }),
+      flank: new MeshStandardMaterial({ metalness: 0.15, roughness: 0.42, side: DoubleSide }),
       shank: new MeshStandardMaterial({ metalness: 0.3, roughness: 0.5, side: DoubleSide }),
       holder: new MeshStandardMaterial({ metalness: 0.2, roughness: 0.6, side: DoubleSide }),
       axis: new LineDashedMaterial({ dashSize: 0.03 * tool.axis_length_mm, gapSize: 0.015 * tool.axis_length_mm }),
@@ -65,6 +67,13 @@ export class ToolModel {
   place(pose) {
     this.root.position.copy(pose.tip);
     this.root.quaternion.copy(new Quaternion().setFromUnitVectors(UP, pose.axis));
+  }
+
+  /** Corners of boxes around both ends of the flank, where the tool stands. */
+  extremes() {
+    this.root.updateMatrixWorld(true);
+    return this.ends.flatMap(([s, r]) => [[-r, 0, 0], [r, 0, 0], [0, 0, -r], [0, 0, r], [0, s ? r : -r, 0]]
+      .map(([x, y, z]) => this.root.localToWorld(new Vector3(x, y + s, z))));
   }
 
   paint(theme) {
@@ -89,7 +98,7 @@ function axisSurface(strip, length, materials) {
     faces.push(2 * k, 2 * k + 1, 2 * k + 2, 2 * k + 1, 2 * k + 3, 2 * k + 2);
     lines.push(2 * k, 2 * k + 2, 2 * k + 1, 2 * k + 3);
   }
-  for (let k = 0, rulings = 16; k <= rulings; ++k) {
+  for (let k = 0, rulings = 12; k <= rulings; ++k) {
     const at = k === rulings ? count - 1 : strip.at((strip.length * k) / rulings)[0];
     lines.push(2 * at, 2 * at + 1);
   }
@@ -105,8 +114,8 @@ export class AxisModel {
   constructor(path, length) {
     this.root = new Group();
     this.materials = {
-      veil: new MeshBasicMaterial({ transparent: true, opacity: 0.16, side: DoubleSide, depthWrite: false }),
-      lines: new LineBasicMaterial({ transparent: true, opacity: 0.6 }),
+      veil: new MeshBasicMaterial({ transparent: true, opacity: 0.05, side: DoubleSide, depthWrite: false }),
+      lines: new LineBasicMaterial({ transparent: true, opacity: 0.5 }),
     };
     this.groups = path.strips.map((strip) => {
       const group = new Group();

@@ -1,5 +1,7 @@
 // Puts the 3D view together: part, axis surface, tool, pins, layers, probe, keys.
-import { PartModel } from './bodies.js';
+import { Vector3 } from 'three';
+import { OTHERS, PartModel } from './bodies.js';
+import { SPANS } from './colours.js';
 import { readBody } from './data.js';
 import { byId, html } from './dom.js';
 import * as format from './format.js';
@@ -8,6 +10,18 @@ import { Pins } from './pins.js';
 import { Stage } from './scene.js';
 import { palette } from './theme.js';
 import { AxisModel, ToolModel } from './tool.js';
+
+/** Sizes of the errors, without what was not machined at all. */
+function* swept(f, tolerance) {
+  for (const value of f) if (value < SPANS[0] * tolerance) yield Math.abs(value);
+}
+
+/** A labelled choice among [value, name], in the box of layers. */
+function select(name, entries) {
+  const choice = html('select', {}, ...entries.map(([value, text]) => html('option', { value }, text)));
+  byId('layers').append(html('label', { class: 'choice' }, name, choice));
+  return choice;
+}
 
 export class View {
   constructor({ view, verify }, path, go) {
@@ -18,9 +32,9 @@ export class View {
     this.axis = new AxisModel(path, view.tool.axis_length_mm);
     this.stage.scene.add(this.part.root, this.tool.root, this.axis.root);
     this.pins = new Pins(byId('pins'), verify?.worst_places ?? [], view.tolerance_mm, go);
-    byId('legend').replaceChildren(legend(view.tolerance_mm));
     this.paint();
     this.addLayers();
+    this.addScales(view);
     this.addControls();
     this.stage.onDraw((stage) => {
       drawTriad(byId('triad'), stage.camera);
@@ -29,11 +43,24 @@ export class View {
     });
   }
 
-  /** Chooses the camera; the tool must stand where it is to be shown. */
-  open(path) {
+  /** Chooses the camera, and returns which of some shares of the path shows most of the target. */
+  open(path, shares) {
+    const targets = this.part.targets.length ? this.part.targets : this.part.others;
     const middle = path.locate(0.5);
-    const targets = this.part.targets;
-    this.stage.frame(targets.length ? targets : this.part.others, middle ? middle.axis : new this.tool.root.position.constructor(0, 0, 1));
+    const axis = middle?.axis ?? new Vector3(0, 0, 1);
+    const put = (share) => {
+      const place = path.locate(share);
+      if (place) this.tool.place(place);
+      return place ? this.tool.extremes() : [];
+    };
+    const towards = middle ? middle.tip.clone().addScaledVector(axis, 0.5 * this.tool.length) : null;
+    const found = this.stage.frame({ targets, others: this.part.others, axis, towards, shares, put });
+    if (found.hidden) {
+      this.others.value = 'see-through';
+      this.part.showOthers('see-through');
+    }
+    this.stage.look('overview');
+    return found.share;
   }
 
   paint() {
@@ -49,8 +76,6 @@ export class View {
 
   addLayers() {
     const layers = [
-      ['Error colours', true, (on) => this.part.showError(on)],
-      ['Other faces', true, (on) => this.part.showOthers(on)],
       ['Tool', true, (on) => { this.tool.root.visible = on; }],
       ['Axis surface', true, (on) => { this.axis.root.visible = on; }],
       ['Worst places', true, (on) => this.pins.show(on)],
@@ -61,6 +86,25 @@ export class View {
       box.addEventListener('change', () => { show(box.checked); this.stage.draw(); });
       byId('layers').append(html('label', {}, box, name));
     }
+  }
+
+  /** Choices with more than two answers. `spans`: the ends of the colour scale in tolerances, 0 for no colours. */
+  addScales(view) {
+    const largest = Math.max(...this.part.targets.flatMap(({ userData }) => [...swept(userData.body.f, view.tolerance_mm)]), 1e-9) / view.tolerance_mm;
+    const spans = [[SPANS[0], `± ${SPANS[0]} tolerances`], [SPANS[1], '± tolerance'], [Math.min(1, largest), '± largest error'], [0, 'no colours']];
+    const range = select('Colours', spans.filter(([span], k) => k !== 2 || span < 1));
+    range.addEventListener('change', () => this.showScale(Number(range.value)));
+    this.others = select('Other faces', OTHERS.map((look) => [look, look]));
+    this.others.addEventListener('change', () => { this.part.showOthers(this.others.value); this.stage.draw(); });
+    if (!this.part.others.length) this.others.parentElement.hidden = true;
+    this.showScale(SPANS[0]);
+  }
+
+  showScale(span) {
+    byId('legend').replaceChildren(...(span > 0 ? [legend(this.tolerance, span)] : []));
+    byId('legend').hidden = !(span > 0);
+    this.part.showError(span > 0, span || SPANS[0]);
+    this.stage.draw();
   }
 
   addControls() {
@@ -87,7 +131,7 @@ export class View {
     requestAnimationFrame(() => {
       this.probing = false;
       const box = byId('canvas').getBoundingClientRect();
-      const meshes = [...this.part.targets, ...this.part.enteredMeshes, this.tool.root.children[0]].filter((m) => m.visible && m.parent.visible);
+      const meshes = [...this.part.targets, ...this.part.entered, this.tool.root.children[0]].filter((m) => m.visible && m.parent.visible);
       const hit = this.stage.pick(event.clientX - box.left, event.clientY - box.top, meshes);
       byId('probe').textContent = hit ? this.describe(hit) : '';
     });

@@ -136,7 +136,7 @@ FitOutcome run_fit(const FitJob& job, const Progress& progress) {
   options.tolerance_mm = job.tolerance_mm;
   outcome.verify = judge(outcome.tool, outcome.path, judge_samples(part, faces, spacing, 2.0 * spacing), options);
   watch.lap("verify");
-  outcome.view = view_to_json(make_view(job, part, faces, outcome.tool, outcome.path));
+  outcome.view = view_to_json(make_view(job, part, faces, outcome.tool, outcome.path, outcome.verify));
   watch.lap("view");
   return outcome;
 }

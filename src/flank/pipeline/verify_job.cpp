@@ -52,7 +52,7 @@ VerifyOutcome run_verify(const VerifyJob& request) {
   options.tolerance_mm = outcome.job.tolerance_mm;
   outcome.report = judge(tool, path, judge_samples(part, faces, spacing, 2.0 * spacing), options);
   write_file(file("verify.json"), verify_to_json(outcome.report));
-  write_file(file("view.json"), view_to_json(make_view(outcome.job, part, faces, tool, path)));
+  write_file(file("view.json"), view_to_json(make_view(outcome.job, part, faces, tool, path, outcome.report)));
   return outcome;
 }
 

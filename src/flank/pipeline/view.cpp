@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <set>
 
 #include "flank/envelope/envelope.h"
 #include "flank/pipeline/view_mesh.h"
@@ -76,18 +77,23 @@ void add_to_places(const SweptDistance& d, double axis_length, std::vector<ViewS
   place.highest_f_mm = std::max(place.highest_f_mm, d.f);
 }
 
-void judge_faces(View& view, const Path& path) {
+std::set<std::string> entered_faces(const VerifyReport& verdict, double tolerance_mm) {
+  std::set<std::string> entered;
+  for (const FaceVerdict& face : verdict.faces)
+    if (!face.target && face.overcut_mm > kEnteredShare * tolerance_mm) entered.insert(face.face);
+  return entered;
+}
+
+void judge_faces(View& view, const Path& path, const std::set<std::string>& entered) {
   if (path.pose_count() == 0) return;
   const SweptVolume volume(view.tool, path);
   for (ViewFace& body : view.bodies) {
+    if (!body.target && !entered.contains(body.face)) continue;
     FaceSamples samples;
     samples.face = body.face;
     samples.points = body.mesh.vertices;
     const double horizon = body.target ? 1e300 : kCheckHorizon * view.tolerance_mm;
-    const std::vector<SweptDistance> distances = swept_distances(volume, samples, horizon);
-    const bool entered = std::any_of(distances.begin(), distances.end(), [](const auto& d) { return d.f < 0.0; });
-    if (!body.target && !entered) continue;
-    for (const SweptDistance& d : distances) {
+    for (const SweptDistance& d : swept_distances(volume, samples, horizon)) {
       body.f_mm.push_back(d.f);
       if (body.target) add_to_places(d, view.tool.radial.axis_length(), view.strips);
     }
@@ -131,21 +137,23 @@ std::string job_command(const FitJob& job) {
   return text;
 }
 
-View make_view(const FitJob& job, const Part& part, const std::vector<int>& faces, const Tool& tool, const Path& path) {
+View make_view(const FitJob& job, const Part& part, const std::vector<int>& faces, const Tool& tool, const Path& path,
+               const VerifyReport& verdict) {
   View view;
   view.part = file_name(job.part);
   view.command = job_command(job);
   view.faces = job.faces;
   view.tolerance_mm = job.tolerance_mm;
   view.least_coverage = job.least_coverage;
-  view.bodies = view_faces(part, faces);
+  const std::set<std::string> entered = entered_faces(verdict, job.tolerance_mm);
+  view.bodies = view_faces(part, faces, entered);
   view.tool = tool;
   view.profile = profile_of(tool.radial);
   for (const Strip& strip : path.strips) {
     view.strips.push_back(thinned(strip));
     view.strips.back().places = places_of(strip, tool.radial);
   }
-  judge_faces(view, path);
+  judge_faces(view, path, entered);
   return view;
 }
 

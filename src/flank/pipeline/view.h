@@ -15,7 +15,7 @@ struct ViewFace {
   bool target = false;
   TriangleMesh mesh;
   std::vector<std::vector<Vec3>> borders;  ///< polylines
-  /// Swept distance at the vertices, mm; empty for a check surface that no vertex says is entered.
+  /// Swept distance at the vertices, mm; empty for a check surface that the judge did not find entered.
   std::vector<double> f_mm;
 };
 
@@ -53,15 +53,19 @@ struct View {
   std::vector<ProfilePoint> profile;
 };
 
-/// The targets get about kTargetTriangles triangles, all other faces together at most about kOtherTriangles.
+/// The targets get about kTargetTriangles triangles, the check surfaces that are entered kEnteredTriangles, all other
+/// faces together at most about kOtherTriangles.
 inline constexpr int kTargetTriangles = 60000;
+inline constexpr int kEnteredTriangles = 40000;
 inline constexpr int kOtherTriangles = 150000;
+/// A check surface counts as entered from this share of the tolerance on: one that only touches the target is not.
+inline constexpr double kEnteredShare = 0.5;
 inline constexpr std::size_t kMostPosesShown = 1500;
 inline constexpr std::size_t kMostPlaces = 240;
 
 /// Triangulates the part, asks the judge at the vertices, and thins the path out.
 [[nodiscard]] View make_view(const FitJob& job, const Part& part, const std::vector<int>& faces, const Tool& tool,
-                             const Path& path);
+                             const Path& path, const VerifyReport& verdict);
 
 /// "flank fit blade.step --face F1 --tolerance 0.1": the command line that asks for a job.
 [[nodiscard]] std::string job_command(const FitJob& job);

@@ -49,12 +49,18 @@ void tessellate_all(const Part& part, std::vector<ViewFace>& bodies) {
     });
     if (triangles_of_others(bodies) <= static_cast<std::size_t>(kOtherTriangles)) break;
   }
-  double target_area = 0.0;
+}
+
+/// Replaces the coarse triangles of the bodies that `chosen` names by about `count` equal ones.
+template <class Chosen>
+void refine(const Part& part, std::vector<ViewFace>& bodies, int count, const Chosen& chosen) {
+  const double diagonal = std::max(part.box.diagonal(), 1e-9);
+  double sum = 0.0;
   for (const ViewFace& body : bodies)
-    if (body.target) target_area += area(body.mesh);
-  const double edge = std::max(std::sqrt(2.0 * target_area / kTargetTriangles), 1e-6 * diagonal);
+    if (chosen(body)) sum += area(body.mesh);
+  const double edge = std::max(std::sqrt(2.0 * sum / count), 1e-6 * diagonal);
   parallel_for(bodies.size(), [&](std::size_t i) {
-    if (bodies[i].target) tessellate_into(bodies[i], part.faces[i], kTargetChord * diagonal, edge);
+    if (chosen(bodies[i])) tessellate_into(bodies[i], part.faces[i], kTargetChord * diagonal, edge);
   });
 }
 
@@ -92,16 +98,21 @@ void extract_all(const Part& part, std::vector<ViewFace>& bodies) {
 
 }  // namespace
 
-std::vector<ViewFace> view_faces(const Part& part, const std::vector<int>& targets) {
+std::vector<ViewFace> view_faces(const Part& part, const std::vector<int>& targets,
+                                 const std::set<std::string>& entered) {
   std::vector<ViewFace> bodies(static_cast<std::size_t>(part.face_count()));
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     bodies[k].face = part.is_mesh() ? "F" + std::to_string(k + 1) : part.faces[k].id;
     bodies[k].target = is_target(targets, k);
   }
-  if (part.is_mesh())
+  if (part.is_mesh()) {
     extract_all(part, bodies);
-  else
-    tessellate_all(part, bodies);
+    return bodies;
+  }
+  tessellate_all(part, bodies);
+  refine(part, bodies, kTargetTriangles, [](const ViewFace& body) { return body.target; });
+  refine(part, bodies, kEnteredTriangles,
+         [&](const ViewFace& body) { return !body.target && entered.contains(body.face); });
   return bodies;
 }
 
