@@ -1,8 +1,7 @@
 // The part: its target coloured by error, everything else calm.
-import {
-  BufferAttribute, BufferGeometry, DoubleSide, Group, LineBasicMaterial, LineSegments, Mesh, MeshLambertMaterial,
-} from 'three';
+import { BufferAttribute, BufferGeometry, Group, LineBasicMaterial, LineSegments, Mesh } from 'three';
 import { ErrorTexture, SPANS } from './colours.js';
+import { PLAIN, wall } from './surface.js';
 
 function geometry(positions, indices) {
   const out = new BufferGeometry();
@@ -20,9 +19,7 @@ function coloured(body, tolerance, texture) {
     uv[2 * i + 1] = 0.5;
   }
   shape.setAttribute('uv', new BufferAttribute(uv, 2));
-  const material = new MeshLambertMaterial({ map: texture, side: DoubleSide, polygonOffset: true,
-    polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
-  const mesh = new Mesh(shape, material);
+  const mesh = new Mesh(shape, wall({ map: texture }));
   mesh.userData.body = body;
   return mesh;
 }
@@ -38,9 +35,7 @@ function merged(bodies) {
     vertex += body.positions.length;
     index += body.indices.length;
   }
-  const material = new MeshLambertMaterial({ side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1,
-    polygonOffsetUnits: 1 });
-  return new Mesh(geometry(positions, indices), material);
+  return new Mesh(geometry(positions, indices), wall());
 }
 
 function edges(bodies) {
@@ -107,9 +102,8 @@ export class PartModel {
     this.textures.target.paint(this.span, null);
     this.textures.entered.paint(this.span, theme.part);
     const paintAll = (meshes, texture, rest) => meshes.forEach(({ material }) => {
-      material.map = this.colours ? texture.texture : null;
+      material.map = this.colours ? texture.texture : PLAIN;
       material.color.set(this.colours ? '#ffffff' : rest);
-      material.needsUpdate = true;
     });
     paintAll(this.targets, this.textures.target, theme.target);
     paintAll(this.entered, this.textures.entered, theme.part);

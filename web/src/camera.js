@@ -1,7 +1,7 @@
 // Where to look from: the target must show, obliquely enough to look like a body.
-import { Color, Matrix4, MeshBasicMaterial, PerspectiveCamera, Quaternion, Vector3, WebGLRenderTarget } from 'three';
+import { Matrix4, Quaternion, Vector3 } from 'three';
+import { surfacePoints, Visibility } from './visible.js';
 
-const PROBE = 72;
 export const FIELD_OF_VIEW = 26;
 
 /** Every so many vertices are looked at when the camera is moved back far enough. */
@@ -48,29 +48,6 @@ function turned(front, up, azimuth, elevation) {
   return direction.multiplyScalar(Math.cos(e)).addScaledVector(up, Math.sin(e)).normalize();
 }
 
-/** How much of the target shows from each of some directions: it is drawn red, all else black, and counted. */
-function visibility(renderer, scene, targets, camera) {
-  const target = new WebGLRenderTarget(PROBE, PROBE);
-  const pixels = new Uint8Array(4 * PROBE * PROBE);
-  const saved = new Map();
-  const red = new MeshBasicMaterial({ color: new Color(1, 0, 0), side: 2 }), black = new MeshBasicMaterial({ color: 0, side: 2 });
-  scene.traverse((object) => {
-    if (!object.isMesh) return;
-    saved.set(object, object.material);
-    object.material = object.material.transparent ? object.material : targets.includes(object) ? red : black;
-  });
-  renderer.setRenderTarget(target);
-  renderer.clear();
-  renderer.render(scene, camera);
-  renderer.readRenderTargetPixels(target, 0, 0, PROBE, PROBE, pixels);
-  renderer.setRenderTarget(null);
-  saved.forEach((material, object) => { object.material = material; });
-  target.dispose();
-  let count = 0;
-  for (let k = 0; k < pixels.length; k += 4) if (pixels[k] > 128) ++count;
-  return count;
-}
-
 /** Directions to try, degrees off the target's normal: oblique ones first, for a body looks flat from its front. */
 const AZIMUTHS = [-35, 35, -55, 55, -15, 15, -75, 75];
 const ELEVATIONS = [12, 35, -15, 55];
@@ -78,47 +55,42 @@ const ELEVATIONS = [12, 35, -15, 55];
 const HIDDEN = 0.72;
 
 /** The view that shows most: { direction, share of the path, hidden }. */
-function search(count, { normal }, up, { shares, put, others }) {
+function search({ normal, centre, radius }, up, { targets, others, shares, put, toolPoints }) {
+  const h = radius / 30;
+  const seen = new Visibility(surfacePoints(targets, h, centre, 4 * radius), centre, radius);
+  const clouds = [surfacePoints(others, h, centre, 4 * radius)];
   let best = { score: -1 };
   for (const share of shares) {
     const axis = put(share);
+    clouds[1] = toolPoints();
     for (const azimuth of AZIMUTHS)
       for (const elevation of ELEVATIONS) {
         const direction = turned(normal, up, azimuth, elevation);
-        const pixels = count(direction);
-        // A body looks flat from its front, and narrow from its side.
-        const score = pixels * (Math.abs(azimuth) < 20 ? 0.85 : 1);
-        if (score > 1.02 * best.score) best = { score, pixels, direction, share, axis };
+        const cells = seen.count(direction, up, clouds);
+        // A body looks flat from its front.
+        const score = cells * (Math.abs(azimuth) < 20 ? 0.85 : 1);
+        if (score > 1.02 * best.score) best = { score, cells, direction, share, axis, tool: clouds[1] };
       }
   }
-  put(best.share);
-  for (const mesh of others) mesh.visible = false;
-  best.hidden = best.pixels < HIDDEN * count(best.direction);
-  for (const mesh of others) mesh.visible = true;
+  best.hidden = best.cells < HIDDEN * seen.count(best.direction, up, [best.tool]);
   return best;
 }
 
 /**
  * Camera places by name, { direction, up, points that must be seen }, and the share of the path at which the tool hides
- * least. `wish` is { targets, others, axis, shares, put }; put(share) places the tool and returns the ends of its axis.
+ * least. `wish` is { targets, others, axis, shares, put, toolPoints }; put(share) places the tool and returns what must
+ * be seen of it, toolPoints() is its surface where it stands.
  */
-export function presets(renderer, scene, frame, wish) {
+export function presets(frame, wish) {
   const { normal } = frame;
   const up = wish.axis.clone().addScaledVector(normal, -wish.axis.dot(normal));
   if (up.lengthSq() < 1e-4) up.copy(new Vector3(0, 0, 1).cross(normal));
   up.normalize();
-  const distance = frame.radius / Math.sin((0.5 * FIELD_OF_VIEW * Math.PI) / 180);
-  const camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.02 * distance, 20 * distance);
-  camera.up.copy(up);
-  const best = search((direction) => {
-    camera.position.copy(frame.centre).addScaledVector(direction, distance);
-    camera.lookAt(frame.centre);
-    return visibility(renderer, scene, wish.targets, camera);
-  }, frame, up, wish);
+  const best = search(frame, up, wish);
   const points = [...frame.points, ...best.axis];
   return { overview: { direction: best.direction, up, points }, face: { direction: normal, up, points },
     axis: { direction: wish.axis.clone().normalize(), up: normal, points: frame.points },
-    distance, share: best.share, hidden: best.hidden };
+    share: best.share, hidden: best.hidden };
 }
 
 /**

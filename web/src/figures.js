@@ -10,9 +10,16 @@ export function asked({ view, verify, summary }) {
   };
 }
 
+/** Over the poses that are there, else over the whole motion of the fit. */
+function largestC({ view, summary }) {
+  const along = (view?.strips ?? []).flatMap((strip) => strip.places.largest_c);
+  if (along.length) return along.includes(null) ? 99 : Math.max(...along);
+  return typeof summary?.largest_c === 'number' ? summary.largest_c : null;
+}
+
 /** Rows { key, name, value, text, wanted, state }; state is pass, fail, warn or nothing. */
 export function rows(files) {
-  const { verify, summary } = files;
+  const { verify } = files;
   const limit = asked(files);
   const verdict = (holds, otherwise = 'fail') => (holds ? 'pass' : otherwise);
   const out = [];
@@ -20,7 +27,7 @@ export function rows(files) {
     const tolerance = format.tolerance(verify.tolerance_mm);
     const v = (key, name, text, wanted, state, hint) => out.push({ key, name, value: verify[key], text, wanted, state, hint });
     v('coverage', `Coverage within ±${tolerance}`, format.percent(verify.coverage),
-      limit.coverage === null ? '' : `≥ ${format.percent(limit.coverage)}`,
+      limit.coverage === null ? '' : `≥ ${format.tick(100 * limit.coverage)}\u00a0%`,
       limit.coverage === null ? '' : verdict(verify.coverage >= limit.coverage), 'share of the target’s area that is finished');
     v('overcut_mm', 'Overcut', format.error(verify.overcut_mm), `≤ ${tolerance}`,
       verdict(verify.overcut_mm <= verify.tolerance_mm), 'deepest cut into the target');
@@ -32,9 +39,10 @@ export function rows(files) {
     v('sampling_bound_mm', 'Between the samples', format.error(verify.sampling_bound_mm), '', '',
       `overcut may be deeper than stated by no more than this; ${verify.samples.toLocaleString('en')} samples`);
   }
-  if (summary && typeof summary.largest_c === 'number')
-    out.push({ key: 'largest_c', name: 'Regularity, largest |c|', value: summary.largest_c, text: format.plain(summary.largest_c),
-      wanted: '< 1', state: verdict(summary.largest_c < 1, 'warn'), hint: 'at 1 the tool plunges along its own axis' });
+  const c = largestC(files);
+  if (c !== null)
+    out.push({ key: 'largest_c', name: 'Regularity, largest |c|', value: c, text: format.plain(c), wanted: '< 1',
+      state: verdict(c < 1, 'warn'), hint: 'along the path; at 1 the tool plunges along its own axis' });
   return out;
 }
 

@@ -118,5 +118,7 @@ const files = { view: packed('view.json'), verify: packed('verify.json'), summar
 if (options.get('theme')) document.documentElement.dataset.theme = options.get('theme');
 const page = start(files, options);
 shortcuts(page);
-document.documentElement.dataset.ready = Math.round(performance.now());
+/** Says when all is there: after the first frame where there is a 3D view. */
+const ready = () => { document.documentElement.dataset.ready ??= Math.round(performance.now()); };
+page.view ? page.view.stage.onDraw(ready) : ready();
 window.flankReport = page;

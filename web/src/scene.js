@@ -6,7 +6,7 @@ import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { FIELD_OF_VIEW, fitted, frameOf, presets } from './camera.js';
 
 /** Pixels at the sides of the view: the colour scale stands on the left, buttons above. */
-const ROOM = { left: 150, right: 40, top: 56, bottom: 30 };
+const ROOM = { left: 150, right: 130, top: 56, bottom: 30 };
 /** In a narrow view what stands at the sides may cover the part. */
 const NARROW = 620;
 
@@ -17,12 +17,14 @@ export class Stage {
     this.quiet = true;
     // What was drawn last stays readable: for printing and for screenshots.
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
+    // Asking the driver for complaints makes it finish every program before the next is begun.
+    this.renderer.debug.checkShaderErrors = false;
     this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.1, 10000);
-    this.scene.add(this.camera, new AmbientLight(0xffffff, 2.6));
-    this.key = new DirectionalLight(0xffffff, 1.2);
-    this.key.position.set(-0.5, 0.9, 0.8);
+    this.scene.add(this.camera, new AmbientLight(0xffffff, 2.15));
+    this.key = new DirectionalLight(0xffffff, 1.0);
+    this.key.position.set(-0.35, 0.6, 1);
     this.camera.add(this.key, this.key.target);
     this.hold(new Vector3());
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
@@ -44,9 +46,10 @@ export class Stage {
   /** Looks for the best views; `wish` as presets() takes it. */
   frame(wish) {
     this.home = frameOf(wish.targets, wish.towards);
-    this.presets = presets(this.renderer, this.scene, this.home, wish);
-    this.camera.near = 0.02 * this.presets.distance;
-    this.camera.far = 40 * this.presets.distance;
+    this.presets = presets(this.home, wish);
+    const distance = this.home.radius / Math.sin((0.5 * FIELD_OF_VIEW * Math.PI) / 180);
+    this.camera.near = 0.02 * distance;
+    this.camera.far = 40 * distance;
     this.resize();
     return this.presets;
   }
@@ -90,10 +93,15 @@ export class Stage {
     this.draw();
   }
 
+  /** Draws before the next frame, however often it is asked to. */
   draw() {
-    if (this.quiet) return;
-    this.renderer.render(this.scene, this.camera);
-    for (const listener of this.listeners) listener(this);
+    if (this.quiet || this.asked) return;
+    this.asked = true;
+    requestAnimationFrame(() => {
+      this.asked = false;
+      this.renderer.render(this.scene, this.camera);
+      for (const listener of this.listeners) listener(this);
+    });
   }
 
   /** Millimetres of a pixel at the target's depth. */

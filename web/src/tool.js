@@ -1,8 +1,9 @@
 // The tool as a body of revolution about its axis, and the surface that its axis runs through.
 import {
-  BufferAttribute, BufferGeometry, DoubleSide, Group, LatheGeometry, Line, LineBasicMaterial, LineDashedMaterial,
-  LineSegments, Mesh, MeshBasicMaterial, MeshStandardMaterial, Quaternion, Vector2, Vector3,
+  BufferAttribute, BufferGeometry, Group, LatheGeometry, Line, LineBasicMaterial, LineSegments, Mesh, Quaternion, Vector2,
+  Vector3,
 } from 'three';
+import { surface } from './surface.js';
 
 const AROUND = 72;
 const CAP = 20;
@@ -49,24 +50,33 @@ export class ToolModel {
     this.ends = [[0, tool.tip_radius_mm], [tool.axis_length_mm, tool.end_radius_mm]];
     const shape = outline(tool);
     this.materials = {
-      flank: new MeshStandardMaterial({ metalness: 0.15, roughness: 0.42, side: DoubleSide }),
-      shank: new MeshStandardMaterial({ metalness: 0.3, roughness: 0.5, side: DoubleSide }),
-      holder: new MeshStandardMaterial({ metalness: 0.2, roughness: 0.6, side: DoubleSide }),
-      axis: new LineDashedMaterial({ dashSize: 0.03 * tool.axis_length_mm, gapSize: 0.015 * tool.axis_length_mm }),
+      flank: surface({ specular: 0x555555 }),
+      shank: surface({ specular: 0x444444 }),
+      holder: surface({ specular: 0x222222 }),
+      axis: new LineBasicMaterial({ transparent: true, opacity: 0.8 }),
     };
     this.root.add(lathe([...shape.tip, ...shape.flank.slice(1, -1), ...shape.end], this.materials.flank));
     if (tool.shank.length) this.root.add(lathe(closed(tool.shank), this.materials.shank));
     if (tool.holder.length) this.root.add(lathe(closed(tool.holder), this.materials.holder));
     const top = Math.max(tool.axis_length_mm + tool.end_radius_mm, ...tool.shank.map((p) => p[0]), ...tool.holder.map((p) => p[0]));
     const line = new BufferGeometry().setFromPoints([new Vector3(0, -2 * tool.tip_radius_mm, 0), new Vector3(0, top + 0.25 * tool.axis_length_mm, 0)]);
-    const axis = new Line(line, this.materials.axis);
-    axis.computeLineDistances();
-    this.root.add(axis);
+    this.root.add(new Line(line, this.materials.axis));
   }
 
   place(pose) {
     this.root.position.copy(pose.tip);
     this.root.quaternion.copy(new Quaternion().setFromUnitVectors(UP, pose.axis));
+  }
+
+  /** Points of its surface, where the tool stands. */
+  surface() {
+    this.root.updateMatrixWorld(true);
+    const out = [], point = new Vector3();
+    for (const mesh of this.root.children.filter((child) => child.isMesh)) {
+      const p = mesh.geometry.attributes.position;
+      for (let k = 0; k < p.count; k += 3) out.push(...point.fromBufferAttribute(p, k).applyMatrix4(mesh.matrixWorld).toArray());
+    }
+    return new Float32Array(out);
   }
 
   /** Corners of boxes around both ends of the flank, where the tool stands. */
@@ -106,6 +116,7 @@ function axisSurface(strip, length, materials) {
   shape.setAttribute('position', new BufferAttribute(positions, 3));
   const wires = shape.clone();
   shape.setIndex(faces);
+  shape.computeVertexNormals();
   wires.setIndex(lines);
   return [new Mesh(shape, materials.veil), new LineSegments(wires, materials.lines)];
 }
@@ -114,7 +125,7 @@ export class AxisModel {
   constructor(path, length) {
     this.root = new Group();
     this.materials = {
-      veil: new MeshBasicMaterial({ transparent: true, opacity: 0.05, side: DoubleSide, depthWrite: false }),
+      veil: surface({ transparent: true, opacity: 0.06, depthWrite: false }),
       lines: new LineBasicMaterial({ transparent: true, opacity: 0.5 }),
     };
     this.groups = path.strips.map((strip) => {

@@ -54,7 +54,8 @@ export class View {
       return place ? this.tool.extremes() : [];
     };
     const towards = middle ? middle.tip.clone().addScaledVector(axis, 0.5 * this.tool.length) : null;
-    const found = this.stage.frame({ targets, others: this.part.others, axis, towards, shares, put });
+    const found = this.stage.frame({ targets, others: this.part.others, axis, towards, shares, put,
+      toolPoints: () => this.tool.surface() });
     if (found.hidden) {
       this.others.value = 'see-through';
       this.part.showOthers('see-through');
