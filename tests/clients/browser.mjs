@@ -63,7 +63,7 @@ export class Browser {
     await page.send('Emulation.setDeviceMetricsOverride', { width, height, deviceScaleFactor: 1, mobile: false });
     await page.send('Emulation.setEmulatedMedia', { features: media });
     await page.send('Page.navigate', { url: `file://${file}${hash}` });
-    await page.until('document.documentElement.dataset.ready !== undefined', 60);
+    await page.until('document.documentElement?.dataset.ready !== undefined', 60);
     return page;
   }
 
