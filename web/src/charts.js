@@ -53,15 +53,17 @@ function errorChart(path, tolerance) {
   const low = Math.min(-1.25 * tolerance, extreme(points, 1, Math.min, 0));
   const high = Math.max(1.25 * tolerance, extreme(points, 2, Math.max, 0));
   const { factor, unit } = scaleOf(tolerance);
-  const y = [Math.max(low * 1.06, -8 * tolerance) * factor, Math.min(high * 1.06, 8 * tolerance) * factor];
+  // A single place that nothing reached must not flatten all others.
+  const most = 3.2 * tolerance;
+  const y = [Math.max(low * 1.06, -most) * factor, Math.min(high * 1.06, most) * factor];
   const plot = new Plot({ x: [0, path.total() || 1], y, xName: 'travel of mid-axis, mm', yName: `error, ${unit}`,
     title: `Error of the target along the path, from ${format.error(extreme(points, 1, Math.min, 0))} to ${format.error(extreme(points, 2, Math.max, 0))}` });
   const scaled = points.map(([x, a, b]) => [x, a === null ? null : a * factor, b === null ? null : b * factor]);
   plot.band(scaled, 'band');
   plot.curve(scaled.map(([x, , b]) => [x, b]), 'curve under');
   plot.curve(scaled.map(([x, a]) => [x, a]), 'curve over');
-  plot.limit(tolerance * factor, 'undercut: + tolerance');
-  plot.limit(-tolerance * factor, 'overcut: − tolerance');
+  plot.limit(tolerance * factor, '+ tolerance: undercut');
+  plot.limit(-tolerance * factor, '− tolerance: overcut', 11);
   return plot;
 }
 

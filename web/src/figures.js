@@ -17,6 +17,18 @@ function largestC({ view, summary }) {
   return typeof summary?.largest_c === 'number' ? summary.largest_c : null;
 }
 
+/** Which faces are entered, the deepest first. */
+function enteredFaces(verify) {
+  return verify.faces.filter((f) => !f.target && f.overcut_mm > verify.tolerance_mm).sort((a, b) => b.overcut_mm - a.overcut_mm);
+}
+
+function otherFaces(verify) {
+  const entered = enteredFaces(verify);
+  const named = entered.slice(0, 3).map((f) => `${f.face} ${format.error(f.overcut_mm)}`).join(', ');
+  const more = entered.length > 3 ? ` and ${entered.length - 3} more` : '';
+  return `deepest cut into any face that is not a target${named ? `: ${named}${more}` : ''}`;
+}
+
 /** Rows { key, name, value, text, wanted, state }; state is pass, fail, warn or nothing. */
 export function rows(files) {
   const { verify } = files;
@@ -32,7 +44,7 @@ export function rows(files) {
     v('overcut_mm', 'Overcut', format.error(verify.overcut_mm), `≤ ${tolerance}`,
       verdict(verify.overcut_mm <= verify.tolerance_mm), 'deepest cut into the target');
     v('gouge_mm', 'Overcut of other faces', format.error(verify.gouge_mm), `≤ ${tolerance}`,
-      verdict(verify.gouge_mm <= verify.tolerance_mm, 'warn'), 'deepest cut into any face that is not a target');
+      verdict(verify.gouge_mm <= verify.tolerance_mm, 'warn'), otherFaces(verify));
     v('undercut_covered_mm', 'Undercut where swept', format.error(verify.undercut_covered_mm), '', '', 'most material left where the tool sweeps past');
     v('undercut_mm', 'Undercut anywhere', format.error(verify.undercut_mm), '', '', 'most material left anywhere on the target');
     v('rms_mm', 'Root mean square', format.error(verify.rms_mm), '', '', 'of the error where the tool sweeps past');
@@ -72,7 +84,7 @@ export function verdict(files) {
   const failed = list.filter((row) => row.state === 'fail');
   const judged = list.some((row) => row.state === 'pass' || row.state === 'fail');
   const complete = files.summary?.complete !== false;
-  const entered = (files.verify?.faces ?? []).filter((f) => !f.target && f.overcut_mm > files.verify.tolerance_mm);
+  const entered = files.verify ? enteredFaces(files.verify) : [];
   if (!judged) return { state: 'warn', text: 'Not judged', entered };
   if (!complete) return { state: 'fail', text: 'Interrupted: incomplete', entered };
   return failed.length ? { state: 'fail', text: 'Not within what was asked', entered }

@@ -37,11 +37,11 @@ export class Plot {
     }
   }
 
-  /** A horizontal limit with its name. */
-  limit(value, text) {
+  /** A horizontal limit with its name above it, or `below` it by so many pixels. */
+  limit(value, text, below = -3) {
     const y = this.py(value);
     this.root.append(svg('line', { class: 'limit', x1: this.left, x2: this.right, y1: y, y2: y }));
-    if (text) this.root.append(svg('text', { class: 'limit', x: this.right - 2, y: y - 3, 'text-anchor': 'end' }, text));
+    if (text) this.root.append(svg('text', { class: 'limit', x: this.right - 2, y: y + below, 'text-anchor': 'end' }, text));
   }
 
   bar(x0, x1, height, colour) {

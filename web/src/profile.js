@@ -106,5 +106,5 @@ export function profile(tool) {
   const drawing = new Drawing(tool);
   const family = tool.family === 'spline' ? 'free profile (spline)' : tool.family;
   return html('div', {}, html('p', { class: 'soft' }, `${family}${tool.name && tool.name !== tool.family ? `, “${tool.name}”` : ''}. Drawn to scale; the heavy line cuts. Positive curvature is convex. tool.dxf holds the exact profile.`),
-    html('div', { class: 'scroll' }, drawing.draw(), curvature(drawing)));
+    html('div', { class: 'scroll', tabindex: '0', role: 'group', 'aria-label': 'Drawing of the profile' }, drawing.draw(), curvature(drawing)));
 }

@@ -11,6 +11,9 @@ import { Stage } from './scene.js';
 import { palette } from './theme.js';
 import { AxisModel, ToolModel } from './tool.js';
 
+/** In a narrower window the choices start folded. */
+const NARROW = 700;
+
 /** Sizes of the errors, without what was not machined at all. */
 function* swept(f, tolerance) {
   for (const value of f) if (value < SPANS[0] * tolerance) yield Math.abs(value);
@@ -76,6 +79,7 @@ export class View {
   }
 
   addLayers() {
+    byId('layers').open = window.innerWidth > NARROW;
     const layers = [
       ['Tool', true, (on) => { this.tool.root.visible = on; }],
       ['Axis surface', true, (on) => { this.axis.root.visible = on; }],
