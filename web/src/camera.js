@@ -7,7 +7,13 @@ export const FIELD_OF_VIEW = 26;
 /** Every so many vertices are looked at when the camera is moved back far enough. */
 const THINNING = 400;
 
-/** Mean normal of the targets on the side of the point `towards`, their middle and radius, and some of their points. */
+/** From the nearest of some points to a place. */
+function offset(place, points) {
+  const nearest = points.reduce((best, p) => (p.distanceToSquared(place) < best.distanceToSquared(place) ? p : best));
+  return place.clone().sub(nearest);
+}
+
+/** Mean normal of the targets on the side of the places `towards`, their middle and radius, and some of their points. */
 export function frameOf(meshes, towards) {
   const normal = new Vector3(), low = new Vector3(Infinity, Infinity, Infinity), high = low.clone().negate();
   const a = new Vector3(), b = new Vector3(), c = new Vector3();
@@ -34,8 +40,9 @@ export function frameOf(meshes, towards) {
   const centre = low.clone().add(high).multiplyScalar(0.5);
   if (normal.lengthSq() > 0) normal.normalize();
   else normal.set(0, 0, 1);
-  // A sheet may be machined from its back.
-  if (towards && towards.clone().sub(centre).dot(normal) < 0) normal.negate();
+  // A sheet may be machined from its back: the axis lies on the side that counts.
+  const side = towards.reduce((sum, place) => sum + offset(place, points).dot(normal), 0);
+  if (side < 0) normal.negate();
   return { normal, centre, points, radius: Math.max(1e-6, 0.5 * low.distanceTo(high)) };
 }
 
@@ -53,6 +60,7 @@ const AZIMUTHS = [-35, 35, -55, 55, -15, 15, -75, 75];
 const ELEVATIONS = [12, 35, -15, 55];
 /** Where less of the target shows than this share of what would show alone, the other faces are in the way. */
 const HIDDEN = 0.72;
+const TOOL_WEIGHT = 0.4;
 
 /** The view that shows most: { direction, share of the path, hidden }. */
 function search({ normal, centre, radius }, up, { targets, others, shares, put, toolPoints }) {
@@ -66,13 +74,13 @@ function search({ normal, centre, radius }, up, { targets, others, shares, put, 
     for (const azimuth of AZIMUTHS)
       for (const elevation of ELEVATIONS) {
         const direction = turned(normal, up, azimuth, elevation);
-        const cells = seen.count(direction, up, clouds);
-        // A body looks flat from its front.
-        const score = cells * (Math.abs(azimuth) < 20 ? 0.85 : 1);
-        if (score > 1.02 * best.score) best = { score, cells, direction, share, axis, tool: clouds[1] };
+        const { target, tool } = seen.count(direction, up, clouds);
+        // The tool counts a little. A body looks flat from its front.
+        const score = (target + TOOL_WEIGHT * tool) * (Math.abs(azimuth) < 20 ? 0.85 : 1);
+        if (score > 1.02 * best.score) best = { score, target, direction, share, axis, tool: clouds[1] };
       }
   }
-  best.hidden = best.cells < HIDDEN * seen.count(best.direction, up, [best.tool]);
+  best.hidden = best.target < HIDDEN * seen.count(best.direction, up, [new Float32Array(0), best.tool]).target;
   return best;
 }
 

@@ -56,7 +56,7 @@ export class View {
       if (place) this.tool.place(place);
       return place ? this.tool.extremes() : [];
     };
-    const towards = middle ? middle.tip.clone().addScaledVector(axis, 0.5 * this.tool.length) : null;
+    const towards = middle ? [0.2, 0.5, 0.8].map(path.locate, path).map(({ tip, axis: u }) => tip.clone().addScaledVector(u, 0.5 * this.tool.length)) : [];
     const found = this.stage.frame({ targets, others: this.part.others, axis, towards, shares, put,
       toolPoints: () => this.tool.surface() });
     if (found.hidden) {

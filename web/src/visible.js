@@ -35,7 +35,7 @@ function sampleTriangle(p, a, b, c, h, add) {
     }
 }
 
-/** Knows the target's points; asks how many of them a cloud of occluders leaves visible. */
+/** Knows the target's points; asks how many of them stay visible. */
 export class Visibility {
   constructor(points, centre, radius) {
     Object.assign(this, { points, centre, radius });
@@ -55,13 +55,18 @@ export class Visibility {
     }
   }
 
-  /** Cells of the picture in which the target shows, seen from `direction` through some clouds. */
-  count(direction, up, clouds) {
+  /** Cells of the picture in which a cloud shows behind what is in the depth buffer. */
+  shown(cloud, direction, up) {
+    const cells = new Set();
+    this.project(cloud, direction, up, (cell, d) => { if (d > this.depth[cell] - 1.5 * this.h) cells.add(cell); });
+    return cells.size;
+  }
+
+  /** Cells in which the target and the tool show, seen from `direction` among the other faces. */
+  count(direction, up, [others, tool]) {
     this.depth.fill(-Infinity);
-    for (const cloud of clouds)
+    for (const cloud of [others, tool, this.points])
       this.project(cloud, direction, up, (cell, d) => { if (d > this.depth[cell]) this.depth[cell] = d; });
-    const shown = new Set();
-    this.project(this.points, direction, up, (cell, d) => { if (d > this.depth[cell] - 1.5 * this.h) shown.add(cell); });
-    return shown.size;
+    return { target: this.shown(this.points, direction, up), tool: this.shown(tool, direction, up) };
   }
 }
