@@ -56,6 +56,7 @@ function(flank_report_page target)
       COMMENT "Bundling the report page"
       VERBATIM)
   else()
+    set(source ${PROJECT_BINARY_DIR}/web/page_missing.cpp)
     file(CONFIGURE OUTPUT ${source} @ONLY CONTENT
 "#include \"flank/report/page_template.h\"
 namespace flank {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "flank/pipeline/example.h"
@@ -173,6 +174,35 @@ TEST(View, AMeshKeepsItsFacesAndACoarseTargetIsDivided) {
   EXPECT_EQ(view.bodies[1].mesh.triangles.size(), 1u);
   EXPECT_TRUE(view.bodies[0].f_mm.empty()) << "there is no path, so there is no error";
   EXPECT_EQ(view.command, "flank fit two.stl --face F1 --unit mm");
+}
+
+TEST(View, AVeryFineMeshIsDrawnCoarser) {
+  constexpr int kSide = 600;
+  Part part;
+  part.mesh_faces.resize(1);
+  for (int j = 0; j <= kSide; ++j)
+    for (int i = 0; i <= kSide; ++i) {
+      part.mesh.vertices.emplace_back(0.1 * i, 0.1 * j, 3.0);
+      if (i == kSide || j == kSide) continue;
+      const int a = j * (kSide + 1) + i, b = a + kSide + 1;
+      for (const std::array<int, 3>& t : {std::array{a, a + 1, b}, std::array{a + 1, b + 1, b}}) {
+        part.mesh_faces[0].push_back(static_cast<int>(part.mesh.triangles.size()));
+        part.mesh.triangles.push_back(t);
+      }
+    }
+  part.box = part.mesh.box();
+  FitJob job;
+  job.part = "fine.stl";
+  Tool tool;
+  tool.radial = RadialFunction(ToolFamily::kCylinder, 10.0, Eigen::VectorXd::Constant(1, 2.0));
+  const View view = make_view(job, part, {0}, tool, {}, {});
+  const TriangleMesh& mesh = view.bodies[0].mesh;
+  EXPECT_LE(mesh.triangles.size(), kMostMeshTriangles);
+  EXPECT_GT(mesh.triangles.size(), kMostMeshTriangles / 4);
+  double area = 0.0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    area += 0.5 * (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]).norm();
+  EXPECT_NEAR(area, 3600.0, 0.01 * 3600.0);
 }
 
 }  // namespace

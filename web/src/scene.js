@@ -22,8 +22,8 @@ export class Stage {
     this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.1, 10000);
-    this.scene.add(this.camera, new AmbientLight(0xffffff, 2.15));
-    this.key = new DirectionalLight(0xffffff, 1.0);
+    this.scene.add(this.camera, new AmbientLight(0xffffff, 2.45));
+    this.key = new DirectionalLight(0xffffff, 0.7);
     this.key.position.set(-0.35, 0.6, 1);
     this.camera.add(this.key, this.key.target);
     this.hold(new Vector3());

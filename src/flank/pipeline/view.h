@@ -58,6 +58,8 @@ struct View {
 inline constexpr int kTargetTriangles = 60000;
 inline constexpr int kEnteredTriangles = 40000;
 inline constexpr int kOtherTriangles = 150000;
+/// A mesh of more triangles than this is drawn coarser.
+inline constexpr int kMostMeshTriangles = 300000;
 /// A check surface counts as entered from this share of the tolerance on: one that only touches the target is not.
 inline constexpr double kEnteredShare = 0.5;
 inline constexpr std::size_t kMostPosesShown = 1500;

@@ -1,7 +1,9 @@
 #include "flank/pipeline/view_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <map>
 
 #include "flank/base/parallel.h"
@@ -83,7 +85,42 @@ TriangleMesh refined(const TriangleMesh& mesh) {
   return out;
 }
 
-/// A mesh keeps its own triangles; those of a coarse target are divided, so that the colours have where to change.
+/// The mesh with its vertices drawn together in cubes of side `cell`: the first vertex of each stands for all.
+TriangleMesh clustered(const TriangleMesh& mesh, double cell) {
+  TriangleMesh out;
+  std::map<std::array<std::int64_t, 3>, int> cubes;
+  std::vector<int> index;
+  for (const Vec3& p : mesh.vertices) {
+    const auto at = [&](int k) { return static_cast<std::int64_t>(std::floor(p[k] / cell)); };
+    const auto [entry, is_new] = cubes.try_emplace({at(0), at(1), at(2)}, static_cast<int>(out.vertices.size()));
+    if (is_new) out.vertices.push_back(p);
+    index.push_back(entry->second);
+  }
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const std::array<int, 3> t{index[a], index[b], index[c]};
+    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) out.triangles.push_back(t);
+  }
+  return out;
+}
+
+/// Coarsens all bodies alike until they have at most kMostMeshTriangles together.
+void thin_out(std::vector<ViewFace>& bodies) {
+  const auto count = [&] {
+    std::size_t sum = 0;
+    for (const ViewFace& body : bodies) sum += body.mesh.triangles.size();
+    return sum;
+  };
+  if (count() <= static_cast<std::size_t>(kMostMeshTriangles)) return;
+  double whole = 0.0;
+  for (const ViewFace& body : bodies) whole += area(body.mesh);
+  // A surface has about two triangles for each cube that it meets.
+  double cell = std::sqrt(2.0 * whole / kMostMeshTriangles);
+  for (; count() > static_cast<std::size_t>(kMostMeshTriangles) && cell > 0.0; cell *= 1.25)
+    for (ViewFace& body : bodies) body.mesh = clustered(body.mesh, cell);
+}
+
+/// A mesh keeps its own triangles where they are not too many; those of a coarse target are divided, so that the colours
+/// have where to change.
 void extract_all(const Part& part, std::vector<ViewFace>& bodies) {
   std::size_t target_triangles = 0;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
@@ -94,6 +131,7 @@ void extract_all(const Part& part, std::vector<ViewFace>& bodies) {
        target_triangles *= 4)
     for (ViewFace& body : bodies)
       if (body.target) body.mesh = refined(body.mesh);
+  thin_out(bodies);
 }
 
 }  // namespace
