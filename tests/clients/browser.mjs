@@ -69,9 +69,12 @@ export class Browser {
 
   async close() {
     const gone = new Promise((resolve) => this.process.once('exit', resolve));
-    this.process.kill();
+    const stuck = setTimeout(() => this.process.kill('SIGKILL'), 5000);
+    this.send('Browser.close').catch(() => this.process.kill());
     await gone;
-    rmSync(this.folder, { recursive: true, force: true, maxRetries: 5 });
+    clearTimeout(stuck);
+    // Its helpers end a little later than the browser, and write until they do.
+    rmSync(this.folder, { recursive: true, force: true, maxRetries: 20, retryDelay: 100 });
   }
 }
 

@@ -97,7 +97,7 @@ export class PathCharts {
 
   rebuild() {
     this.plots = [errorChart(this.path, this.tolerance), regularityChart(this.path)];
-    if (this.path.shown().every((strip) => strip.places.clearance_mm)) this.plots.push(clearanceChart(this.path));
+    if (this.path.shown().length && this.path.shown().every((strip) => strip.places.clearance_mm)) this.plots.push(clearanceChart(this.path));
     this.cursors = this.plots.map((plot) => {
       const cursor = svg('line', { class: 'cursor', y1: plot.top, y2: plot.bottom });
       plot.root.append(cursor);

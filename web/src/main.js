@@ -48,27 +48,47 @@ function head(files) {
   }
 }
 
-function still(files, go) {
-  const { verify, view } = files;
-  const list = rows(files);
-  list.length ? byId('table').append(table(list)) : byId('figures').remove();
-  if (verify) {
-    byId('places').append(worstList(verify.worst_places, asked(files).tolerance, go));
-    byId('histogram').append(histogram(verify));
-  } else for (const id of ['worst', 'spread']) byId(id).remove();
-  view ? byId('profile').append(profile(view.tool)) : byId('tool').remove();
-  byId('made').append(made(files, document.querySelector('meta[name=generator]').content));
-}
-
-/** The 3D view, or a sentence why there is none. */
-function moving(files, path, go) {
+/** Draws one part of the page; a file that lacks what it needs costs that part alone. */
+function part(id, draw) {
   try {
-    return new View(files, path, go);
+    return draw();
   } catch (error) {
-    byId('stage').remove();
-    notice(`No 3D view: ${error.message}. The browser must offer WebGL 2; the figures and drawings below are complete.`);
+    const name = byId(id)?.querySelector('h2')?.textContent ?? byId(id)?.getAttribute('aria-label') ?? id;
+    byId(id)?.remove();
+    notice(`“${name}” is missing here: ${error.message}.`);
     return null;
   }
+}
+
+function still(files, go) {
+  const { verify, view } = files;
+  part('figures', () => {
+    const list = rows(files);
+    list.length ? byId('table').append(table(list)) : byId('figures').remove();
+  });
+  if (verify) {
+    part('worst', () => byId('places').append(worstList(verify.worst_places, asked(files).tolerance, go)));
+    part('spread', () => byId('histogram').append(histogram(verify)));
+  } else for (const id of ['worst', 'spread']) byId(id).remove();
+  view ? part('tool', () => byId('profile').append(profile(view.tool))) : byId('tool').remove();
+  part('origin', () => byId('made').append(made(files, document.querySelector('meta[name=generator]').content)));
+}
+
+/** What moves: the 3D view, its player and the charts that follow it. Whatever cannot be had is null. */
+function moving(files, options, page) {
+  const path = part('along', () => new PathModel(files.view));
+  if (path) page.charts = part('along', () => new PathCharts(byId('charts'), path, files.view.tolerance_mm, (share) => page.player?.set(share, true)));
+  page.path = path;
+  page.view = part('stage', () => {
+    const view = new View(files, path, page.go);
+    const at = options.get('at');
+    const share = view.open(path, at === null ? FIRST_SHARES : [Number(at)]);
+    page.player = new Player(path, (place, where) => { view.move(place); page.charts?.move(where); },
+      () => { view.axis.choose(path.chosen); page.charts?.rebuild(); });
+    page.player.set(share);
+    return view;
+  });
+  byId('canvas')?.setAttribute('aria-label', `${byId('title').textContent}, coloured by the signed error; the tool stands on the path. Arrow keys turn, plus and minus zoom, Home resets.`);
 }
 
 function missing(files) {
@@ -78,31 +98,18 @@ function missing(files) {
 }
 
 function start(files, options) {
-  const path = files.view ? new PathModel(files.view) : null;
-  let view = null, charts = null, player = null;
-  const go = (place) => {
-    const strip = path?.strips.find((s) => s.id === place.strip) ?? path?.strips[place.strip - 1];
-    if (player && strip && path.shown().includes(strip)) player.set(path.shareOf(strip, place.t), true);
+  const page = { view: null, player: null, charts: null, path: null };
+  page.go = (place) => {
+    const strip = page.path?.strips.find((s) => s.id === place.strip) ?? page.path?.strips[place.strip - 1];
+    if (page.player && strip && page.path.shown().includes(strip)) page.player.set(page.path.shareOf(strip, place.t), true);
   };
-  head(files);
-  still(files, go);
+  part('heading', () => head(files));
+  still(files, page.go);
   missing(files);
-  if (!files.view) {
-    byId('stage').remove();
-    byId('along').remove();
-  } else {
-    view = moving(files, path, go);
-    charts = new PathCharts(byId('charts'), path, files.view.tolerance_mm, (share) => player?.set(share, true));
-    if (view) {
-      player = new Player(path, (place, share) => { view.move(place); charts.move(share); },
-        () => { view.axis.choose(path.chosen); charts.rebuild(); });
-      const at = options.get('at');
-      player.set(view.open(path, at === null ? FIRST_SHARES : [Number(at)]));
-      byId('canvas').setAttribute('aria-label', `${byId('title').textContent}, coloured by the signed error; the tool stands on the path. Arrow keys turn, plus and minus zoom, Home resets.`);
-    }
-  }
-  watchTheme(() => view?.paint(), options.get('theme'));
-  return { view, player, path };
+  if (files.view) moving(files, options, page);
+  else for (const id of ['stage', 'along']) byId(id).remove();
+  watchTheme(() => page.view?.paint(), options.get('theme'));
+  return page;
 }
 
 function shortcuts({ player }) {

@@ -16,6 +16,7 @@ export class Stage {
     this.listeners = [];
     this.quiet = true;
     // What was drawn last stays readable: for printing and for screenshots.
+    if (!document.createElement('canvas').getContext('webgl2')) throw new Error('this browser offers no WebGL 2');
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
     // Asking the driver for complaints makes it finish every program before the next is begun.
     this.renderer.debug.checkShaderErrors = false;

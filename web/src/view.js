@@ -29,6 +29,7 @@ function select(name, entries) {
 export class View {
   constructor({ view, verify }, path, go) {
     this.tolerance = view.tolerance_mm;
+    if (!path) throw new Error('there is no path');
     this.stage = new Stage(byId('canvas'));
     this.part = new PartModel(view.bodies.map(readBody), view.tolerance_mm);
     this.tool = new ToolModel(view.tool);
