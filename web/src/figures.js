@@ -51,6 +51,10 @@ export function rows(files) {
     v('sampling_bound_mm', 'Between the samples', format.error(verify.sampling_bound_mm), '', '',
       `overcut may be deeper than stated by no more than this; ${verify.samples.toLocaleString('en')} samples`);
   }
+  const tool = files.view?.tool;
+  if (tool && 'legitimate' in tool)
+    out.push({ key: 'legitimate', name: 'Profile of the tool', value: tool.legitimate, text: tool.legitimate ? 'legitimate' : 'not legitimate', wanted: '',
+      state: verdict(tool.legitimate), hint: tool.reason || 'its spheres are inscribed all along' });
   const c = largestC(files);
   if (c !== null)
     out.push({ key: 'largest_c', name: 'Regularity, largest |c|', value: c, text: format.plain(c), wanted: '< 1',

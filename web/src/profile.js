@@ -88,11 +88,19 @@ class Drawing {
   }
 }
 
+/** The range of most values and 0: a spike at an end of the flank must not flatten the rest. */
+function usual(values) {
+  const sorted = [...values].sort((a, b) => a - b);
+  const at = (share) => sorted[Math.round(share * (sorted.length - 1))];
+  const reach = 0.5 * (at(0.95) - at(0.05));
+  return [Math.min(0, Math.max(sorted[0], at(0.05) - reach)), Math.max(0, Math.min(sorted[sorted.length - 1], at(0.95) + reach))];
+}
+
 /** Curvature of the meridian over z, lined up with the drawing above it. */
 function curvature(drawing) {
   const points = drawing.tool.profile.filter(([, , , k]) => k !== null).map(([, z, , k]) => [z, 1000 * k]);
   if (points.length < 2) return null;
-  const low = Math.min(0, ...points.map((p) => p[1])), high = Math.max(0, ...points.map((p) => p[1]));
+  const [low, high] = usual(points.map((p) => p[1]));
   const margin = 0.08 * (high - low) || 1;
   const drawn = LEFT + (drawing.z[1] - drawing.z[0]) * drawing.scale;
   const plot = new Plot({ width: WIDTH, height: 140, left: LEFT, right: WIDTH - drawn, x: drawing.z, y: [low - margin, high + margin],

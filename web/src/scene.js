@@ -6,7 +6,7 @@ import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { FIELD_OF_VIEW, fitted, frameOf, presets } from './camera.js';
 
 /** Pixels at the sides of the view: the colour scale stands on the left, buttons above. */
-const ROOM = { left: 150, right: 130, top: 56, bottom: 30 };
+const ROOM = { left: 150, right: 40, top: 56, bottom: 30 };
 /** In a narrow view what stands at the sides may cover the part. */
 const NARROW = 620;
 

@@ -11,18 +11,15 @@ import { Stage } from './scene.js';
 import { palette } from './theme.js';
 import { AxisModel, ToolModel } from './tool.js';
 
-/** In a narrower window the choices start folded. */
-const NARROW = 700;
-
 /** Sizes of the errors, without what was not machined at all. */
 function* swept(f, tolerance) {
   for (const value of f) if (value < SPANS[0] * tolerance) yield Math.abs(value);
 }
 
-/** A labelled choice among [value, name], in the box of layers. */
+/** A labelled choice among [value, name], in the row of layers. */
 function select(name, entries) {
   const choice = html('select', {}, ...entries.map(([value, text]) => html('option', { value }, text)));
-  byId('layers').append(html('label', { class: 'choice' }, name, choice));
+  byId('layers').append(html('label', {}, name, choice));
   return choice;
 }
 
@@ -80,7 +77,6 @@ export class View {
   }
 
   addLayers() {
-    byId('layers').open = window.innerWidth > NARROW;
     const layers = [
       ['Tool', true, (on) => { this.tool.root.visible = on; }],
       ['Axis surface', true, (on) => { this.axis.root.visible = on; }],

@@ -77,7 +77,10 @@ Json tool_to_view(const View& view) {
   for (const ProfilePoint& p : view.profile)
     profile.push_back({number(p.s), number(p.z), number(p.rho), number(p.curvature_per_mm)});
   const RadialFunction& radial = view.tool.radial;
+  const Legitimacy legitimacy = check_legitimacy(radial);
   return {{"name", view.tool.name},
+          {"legitimate", legitimacy.legitimate},
+          {"reason", legitimacy.reason},
           {"family", family_name(radial.family())},
           {"axis_length_mm", radial.axis_length()},
           {"tip_radius_mm", radial.at(0.0).r},
