@@ -1,11 +1,44 @@
 // A tool that is given, on faces that are not its envelope: no overcut, and not much more material left than the best
 // two-sided motion leaves as error.
 #include "claims/claims_support.h"
-#include "flank/fit/polish.h"
+#include "flank/fit/swept_polish.h"
 #include "flank/pipeline/tool_model.h"
 
 namespace flank::bench {
 namespace {
+
+/// The least largest |f| over the face that a motion of either sign reaches, from the one-sided result: passes whose dead
+/// zone narrows, the best by the judge kept.
+double two_sided(const Example& example, const FitOutcome& outcome) {
+  const std::unique_ptr<Target> target = make_target(std::vector<Face>{example.faces.front()});
+  FitDraft draft;
+  draft.tool = outcome.fit.tool;
+  for (const RuledMotion& motion : outcome.fit.motions) {
+    draft.motions.push_back(motion);
+    draft.targets.push_back(target.get());
+  }
+  const std::vector<FacePoint> points = target_points(draft, 50);
+  double best = std::max(outcome.verify.undercut_mm, outcome.verify.overcut_mm);
+  for (const double share : {0.5, 0.6, 0.7, 0.8, 0.85, 0.9, 0.9, 0.9}) {
+    FitStage stage;
+    stage.control_points = 48;
+    stage.fairness = 1e-6;
+    stage.transversal_anchor = 1e-7;
+    stage.axial_pin = 1e-8;
+    stage.iterations = 30;
+    stage.dead_zone_mm = share * best;
+    const FitDraft trial = run_swept(draft, RadiusBounds{}, stage, points, nullptr);
+    FlankFitResult fit;
+    fit.tool = trial.tool;
+    fit.motions = trial.motions;
+    const VerifyReport verdict = judge_fit({example.faces.front()}, fit, 0.1, example.diagonal_mm / 200.0);
+    const double largest = std::max(verdict.undercut_mm, verdict.overcut_mm);
+    if (largest >= best) continue;
+    best = largest;
+    draft = trial;
+  }
+  return best;
+}
 
 std::vector<Figure> given(const std::string& part, const std::string& tool) {
   const Example example = make_example(part);
@@ -15,16 +48,16 @@ std::vector<Figure> given(const std::string& part, const std::string& tool) {
   job.part = scratch(part + ".step");
   job.tool = tool;
   job.side = +1;
-  job.tolerance_mm = 0.05;
+  job.tolerance_mm = 0.1;
   job.least_coverage = 0.0;
   FitOutcome outcome;
   const double seconds = seconds_of([&] { outcome = run_fit(job, {}); });
-  // The rival: the same start, largest error of either sign minimised.
-  const std::unique_ptr<Target> target = make_target(std::vector<Face>{example.faces.front()});
-  (void)target;
+  const double rival = two_sided(example, outcome);
   return {at_most("overcut", outcome.verify.overcut_mm / d, 2e-5),
-          shown("undercut over the covered strip", outcome.verify.undercut_covered_mm / d),
-          shown("rms", outcome.verify.rms_mm / d), shown("coverage at 0.05 mm", outcome.verify.coverage),
+          shown("undercut", outcome.verify.undercut_mm / d),
+          shown("largest error of the two-sided fit", rival / d),
+          at_most("ratio of undercut", outcome.verify.undercut_mm / rival, 3.0),
+          shown("rms", outcome.verify.rms_mm / d), shown("coverage at 0.1 mm", outcome.verify.coverage),
           shown("seconds", seconds)};
 }
 

@@ -20,10 +20,15 @@ SweptEstimate::SweptEstimate(const std::vector<RuledMotion>& motions, const Radi
   for (const RuledMotion& motion : motions) {
     std::vector<Pose>& table = poses_.emplace_back();
     for (int i = 0; i < poses; ++i) table.push_back(motion.pose(static_cast<double>(i) / (poses - 1)));
+    double& stride = stride_.emplace_back(0.0);
+    for (std::size_t i = 0; i + 1 < table.size(); ++i)
+      for (const double s : {0.0, axis_length_})
+        stride = std::max(stride, (table[i + 1].at(s) - table[i].at(s)).norm());
   }
   for (int k = 0; k <= kTable; ++k) {
     const RadialJet jet = radial.at(axis_length_ * k / kTable);
     radius_.push_back(jet.r);
+    least_radius_ = k == 0 ? jet.r : std::min(least_radius_, jet.r);
     lean_.push_back(jet.d1 / std::sqrt(std::max(1e-6, 1.0 - jet.d1 * jet.d1)));
   }
 }
@@ -38,24 +43,142 @@ double SweptEstimate::at_pose(const Pose& pose, const Vec3& x) const {
   return std::sqrt(rho2 + (z - s) * (z - s)) - interpolate(radius_, s * per_length_);
 }
 
-double SweptEstimate::distance(const Vec3& x) const {
-  double best = std::numeric_limits<double>::infinity();
-  for (const std::vector<Pose>& poses : poses_) {
-    std::size_t at = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-      const double f = at_pose(poses[i], x);
-      if (f < least) {
-        least = f;
-        at = i;
-      }
+std::size_t SweptEstimate::nearest_pose(std::size_t motion, const Vec3& x, double& least) const {
+  const std::vector<Pose>& poses = poses_[motion];
+  constexpr std::size_t kCoarse = 12;
+  std::size_t at = 0;
+  least = std::numeric_limits<double>::infinity();
+  const auto look = [&](std::size_t i) {
+    const double f = at_pose(poses[i], x);
+    if (f < least) {
+      least = f;
+      at = i;
     }
+    return f;
+  };
+  for (std::size_t i = kCoarse / 2; i < poses.size(); i += kCoarse) look(i);
+  // From pose to pose f changes by no more than the stride: far poses are jumped over. What at_pose leaves to its two
+  // steps in s is held off by a tenth.
+  for (std::size_t i = 0; i < poses.size();) {
+    const double f = look(i);
+    const double jump = stride_[motion] > 0.0 ? 0.9 * (f - least) / stride_[motion] : 0.0;
+    i += 1 + static_cast<std::size_t>(std::min(jump, static_cast<double>(poses.size())));
+  }
+  return at;
+}
+
+double SweptEstimate::slack(std::size_t motion) const {
+  // A sphere of radius r that passes x half-way between two poses comes nearer by about stride^2 / (8 r).
+  return stride_[motion] * stride_[motion] / (8.0 * least_radius_);
+}
+
+void SweptEstimate::places(const Vec3& x, std::vector<SweptContact>& places) const {
+  places.clear();
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t m = 0; m < poses_.size(); ++m) {
+    double f = 0.0;
+    (void)nearest_pose(m, x, f);
+    least = std::min(least, f + slack(m));
+  }
+  for (std::size_t m = 0; m < poses_.size(); ++m) {
+    std::size_t last = poses_[m].size();
+    for (std::size_t i = 0; i < poses_[m].size();) {
+      const double f = at_pose(poses_[m][i], x);
+      if (f <= least) {
+        const bool same_run = last + 1 == i;
+        if (!same_run) places.emplace_back();
+        if (!same_run || f < places.back().f) {
+          places.back().motion = static_cast<int>(m);
+          places.back().t = static_cast<double>(i) * spacing();
+          places.back().f = f;
+        }
+        last = i++;
+        continue;
+      }
+      const double jump = stride_[m] > 0.0 ? 0.9 * (f - least) / stride_[m] : 0.0;
+      i += 1 + static_cast<std::size_t>(std::min(jump, static_cast<double>(poses_[m].size())));
+    }
+  }
+}
+
+SweptContact SweptEstimate::nearest(const Vec3& x) const {
+  SweptContact best;
+  best.f = std::numeric_limits<double>::infinity();
+  for (std::size_t m = 0; m < poses_.size(); ++m) {
+    const std::vector<Pose>& poses = poses_[m];
+    double least = 0.0;
+    const std::size_t at = nearest_pose(m, x, least);
+    double t = static_cast<double>(at);
     if (at > 0 && at + 1 < poses.size()) {
       const double a = at_pose(poses[at - 1], x), b = at_pose(poses[at + 1], x);
       const double bend = a + b - 2.0 * least;
-      if (bend > 0.0) least -= (a - b) * (a - b) / (8.0 * bend);
+      if (bend > 0.0) {
+        least -= (a - b) * (a - b) / (8.0 * bend);
+        t += 0.5 * (a - b) / bend;
+      }
     }
-    best = std::min(best, least);
+    if (least >= best.f) continue;
+    best.f = least;
+    best.motion = static_cast<int>(m);
+    best.t = t * spacing();
+  }
+  return best;
+}
+
+namespace {
+
+/// Nearest sphere of the tool at one pose: the stationary s, or an end.
+SweptContact contact_at(const RuledMotion& motion, const RadialFunction& radial, const Vec3& x, double t, double s) {
+  const Pose pose = motion.pose(t);
+  const Vec3 q = x - pose.tip;
+  const double length = radial.axis_length(), z = q.dot(pose.axis);
+  const double rho2 = std::max(0.0, q.squaredNorm() - z * z);
+  SweptContact contact;
+  contact.t = t;
+  RadialJet jet;
+  for (int k = 0; k < 5; ++k) {
+    jet = radial.at(s);
+    const double d = std::sqrt(rho2 + (z - s) * (z - s)) + 1e-300;
+    // d/ds (D - r) = (s - z) / D - r' = 0, by Newton's method on (z - s) + r' D.
+    const double value = (z - s) + jet.d1 * d, slope = -1.0 + jet.d2 * d - jet.d1 * (z - s) / d;
+    const double next = std::clamp(slope < -0.05 ? s - value / slope : s + value, 0.0, length);
+    const double moved = std::abs(next - s);
+    s = next;
+    if (moved < 1e-10 * length) break;
+  }
+  const Vec3 away = pose.at(s) - x;
+  const double d = away.norm();
+  contact.s = s;
+  contact.f = d - radial.at(s).r;
+  if (d > 1e-12) contact.to_axis = away / d;
+  return contact;
+}
+
+}  // namespace
+
+SweptContact refine_contact(const RuledMotion& motion, const RadialFunction& radial, const Vec3& x, double t,
+                            double window) {
+  const Pose pose = motion.pose(t);
+  const double first_s = std::clamp((x - pose.tip).dot(pose.axis), 0.0, radial.axis_length());
+  SweptContact best = contact_at(motion, radial, x, std::clamp(t, 0.0, 1.0), first_s);
+  // Parabolas through three points, sixteen times narrower once the least of them is not at an end.
+  double h = 0.5 * window;
+  for (int k = 0; k < 10 && h > 1e-2 * window; ++k) {
+    const double middle = std::clamp(best.t, h, 1.0 - h);
+    const SweptContact a = contact_at(motion, radial, x, middle - h, best.s);
+    const SweptContact b = contact_at(motion, radial, x, middle + h, best.s);
+    const SweptContact m = middle == best.t ? best : contact_at(motion, radial, x, middle, best.s);
+    const double bend = a.f + b.f - 2.0 * m.f;
+    const bool bracketed = m.f <= a.f && m.f <= b.f;
+    for (const SweptContact* c : {&a, &m, &b})
+      if (c->f < best.f) best = *c;
+    const bool at_rim = best.t <= 0.0 || best.t >= 1.0;
+    if (bracketed && bend > 0.0) {
+      const double vertex = middle + 0.5 * (a.f - b.f) / bend * h;
+      const SweptContact v = contact_at(motion, radial, x, vertex, best.s);
+      if (v.f < best.f) best = v;
+    }
+    if (bracketed || at_rim) h /= 16.0;
   }
   return best;
 }

@@ -9,6 +9,14 @@
 
 namespace flank {
 
+/// Where a swept tool comes nearest to a point.
+struct SweptContact {
+  int motion = -1;
+  double t = 0.0, s = 0.0;
+  double f = 0.0;                 ///< |x - R(s,t)| - r(s), mm: > 0 material left at x, < 0 overcut
+  Vec3 to_axis = Vec3::UnitZ();   ///< unit direction from x to the axis point: df/dR
+};
+
 class SweptEstimate {
  public:
   /// `poses` axis positions a motion are tabulated.
@@ -17,15 +25,32 @@ class SweptEstimate {
   /// Estimate of f: least over the tabulated poses, improved by a parabola through its neighbours; the axis parameter
   /// of a contact by two fixed-point steps s = z + r' rho / sqrt(1 - r'^2). Error of third order in the spacing of the
   /// poses.
-  [[nodiscard]] double distance(const Vec3& x) const;
+  [[nodiscard]] double distance(const Vec3& x) const { return nearest(x).f; }
+  /// The same with its place: motion, t and f (s and to_axis are not filled).
+  [[nodiscard]] SweptContact nearest(const Vec3& x) const;
+  /// Tabulated poses that may lead to the least f: of every run of poses near the least value its best one, all motions
+  /// together (motion, t and f). Between poses f can be lower by what a step along the path allows: values within that
+  /// of the least count. `places` is cleared first.
+  void places(const Vec3& x, std::vector<SweptContact>& places) const;
+  /// Spacing of the poses in t.
+  [[nodiscard]] double spacing() const { return 1.0 / (static_cast<double>(poses_.front().size()) - 1.0); }
 
  private:
   [[nodiscard]] double at_pose(const Pose& pose, const Vec3& x) const;
+  [[nodiscard]] std::size_t nearest_pose(std::size_t motion, const Vec3& x, double& least) const;
+  [[nodiscard]] double slack(std::size_t motion) const;
 
   std::vector<std::vector<Pose>> poses_;
+  std::vector<double> stride_;  ///< of each motion: no point of the axis moves farther from one pose to the next
   std::vector<double> radius_, lean_;  ///< r and r'/sqrt(1-r'^2) at equal steps of s
   double axis_length_;
   double per_length_;
+  double least_radius_;
 };
+
+/// The contact at the local minimum over t near `t` (within `window` of it) and over s: exact to about 1e-9 mm where that
+/// minimum is smooth in t.
+[[nodiscard]] SweptContact refine_contact(const RuledMotion& motion, const RadialFunction& radial, const Vec3& x, double t,
+                                          double window);
 
 }  // namespace flank

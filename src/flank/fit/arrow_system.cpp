@@ -40,6 +40,36 @@ void ArrowSystem::add_pose(int motion, int first, const double* basis, const Pos
   }
 }
 
+void ArrowSystem::add_row(const ResidualRow& row, double weight, double factor) {
+  const int base = motion_offset(row.motion) + 6 * row.first;
+  const int tool = tool_offset() + row.tool_first;
+  for (int l = 0; l < 4; ++l) {
+    for (int c = 0; c < 6; ++c) {
+      const int column = base + 6 * l + c;
+      const double value = row.basis[l] * row.pose[c], weighted = weight * value;
+      gradient[column] += factor * value;
+      for (int k = 0; k < row.tool_count; ++k) border_(column, row.tool_first + k) += weighted * row.tool[k];
+      double* to = band_.data() + column * kBand - column + base;
+      for (int r = 6 * l + c; r < 6 * (l + 1); ++r) to[r] += weighted * row.basis[l] * row.pose[r - 6 * l];
+      for (int k = l + 1; k < 4; ++k)
+        for (int r = 0; r < 6; ++r) to[6 * k + r] += weighted * row.basis[k] * row.pose[r];
+    }
+  }
+  for (int k = 0; k < row.tool_count; ++k) {
+    gradient[tool + k] += factor * row.tool[k];
+    for (int l = 0; l < row.tool_count; ++l)
+      tool_matrix(row.tool_first + k, row.tool_first + l) += weight * row.tool[k] * row.tool[l];
+  }
+}
+
+double ArrowSystem::product(const ResidualRow& row, const Eigen::VectorXd& x) const {
+  const int base = motion_offset(row.motion) + 6 * row.first;
+  double sum = 0.0;
+  for (int l = 0; l < 4; ++l) sum += row.basis[l] * row.pose.dot(x.segment<6>(base + 6 * l));
+  for (int k = 0; k < row.tool_count; ++k) sum += row.tool[k] * x[tool_offset() + row.tool_first + k];
+  return sum;
+}
+
 double ArrowSystem::mean_diagonal(int first, int last) const {
   double trace = 0.0;
   for (int c = first; c < last; ++c) trace += band_[static_cast<std::size_t>(c * kBand)];

@@ -18,6 +18,15 @@ struct PoseTerms {
   Mat6X coupling;  ///< 6 x tool parameters
 };
 
+/// The derivative of one residual: by the pose at its time, and by at most four parameters of the tool in a row.
+struct ResidualRow {
+  int motion = 0, first = 0;  ///< control points first .. first + 3 act
+  double basis[4] = {};
+  Vec6 pose = Vec6::Zero();  ///< by tip and scaled direction
+  int tool_first = 0, tool_count = 0;
+  double tool[4] = {};
+};
+
 /// Symmetric positive system (H + damping D) step = -gradient. Unknowns: motion 0 (six per control point), motion 1,
 /// ..., the tool's parameters. Cubic rails: four control points act at a time, so H has 24 sub-diagonals per motion.
 class ArrowSystem {
@@ -27,6 +36,11 @@ class ArrowSystem {
   void clear();
   /// Spreads the terms of a pose over control points first .. first + 3 with the weights basis[0..3].
   void add_pose(int motion, int first, const double* basis, const PoseTerms& terms, bool couples_tool);
+
+  /// Adds weight J'J of one residual to the matrix and factor J to the gradient.
+  void add_row(const ResidualRow& row, double weight, double factor);
+  /// J x of one residual.
+  [[nodiscard]] double product(const ResidualRow& row, const Eigen::VectorXd& x) const;
 
   /// Adds damping times the mean diagonal of each motion, and of the tool's own diagonal, to H for good.
   void add_damping(double damping);

@@ -1,10 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <optional>
 
 #include "flank/base/parallel.h"
-#include "flank/fit/polish.h"
+#include "flank/fit/swept_polish.h"
 #include "flank/seed/ruled_start.h"
 
 namespace flank {
@@ -115,15 +116,24 @@ FlankFitResult fit_automatic(const Target& target, const ToolModel& tool, const 
   std::vector<std::vector<IterationTrace>> traces(candidates.size());
   parallel_for(candidates.size(),
                [&](std::size_t k) { polished[k] = polish(candidates[k].draft, samples, options, &traces[k]); });
-  std::size_t best = 0;
-  for (std::size_t k = 1; k < polished.size(); ++k) {
-    if (polished[k].estimate.score(options.tolerance_mm) > polished[best].estimate.score(options.tolerance_mm))
-      best = k;
-  }
+  std::vector<std::size_t> order(polished.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto by_score = [&](std::size_t a, std::size_t b) {
+    return polished[a].estimate.score(options.tolerance_mm) > polished[b].estimate.score(options.tolerance_mm);
+  };
+  std::stable_sort(order.begin(), order.end(), by_score);
+  order.resize(std::min<std::size_t>(order.size(), static_cast<std::size_t>(options.kept_after_polish)));
+  progress.step("polish", 0.75);
+  const bool promising = polished[order.front()].estimate.at_tolerance >= options.promising;
+  parallel_for(promising ? order.size() : 0, [&](std::size_t k) {
+    polished[order[k]] = last_passes(polished[order[k]], samples, options, &traces[order[k]]);
+  });
+  std::stable_sort(order.begin(), order.end(), by_score);
+  const std::size_t best = order.front();
   result.before = estimate_coverage(samples, candidates[best].draft.motions, candidates[best].draft.tool,
                                     options.tolerance_mm, kRankingPoses);
   result.trace = traces[best];
-  return finish(without_overcut(polished[best], samples, options), options, std::move(result));
+  return finish(settled(without_overcut(polished[best], samples, options), options), options, std::move(result));
 }
 
 }  // namespace flank

@@ -1,29 +1,40 @@
-/// The fit under hard limits on overcut: d(R(s,t)) - r(s) >= -allowed for every sample (MATH section 7, the constrained
-/// step).
+/// The fit under hard limits on overcut (MATH section 7, the constrained step): f(x_k) >= -allowed at points of the
+/// target, f(x_k) >= margin at points of check surfaces, f the swept distance of swept_model.h.
+///
+/// Sequential quadratic programming; every convex step by an interior point. Points are exchanged: after each descent
+/// the limits are tried on a dense set, and points that break them join the constraints.
 #pragma once
 
-#include "flank/fit/fit_model.h"
+#include "flank/fit/swept_model.h"
 
 namespace flank {
 
 struct ConstrainedOptions {
   double allowed_overcut_mm = 0.0;
-  int steps = 12;       ///< of sequential quadratic programming
-  int refinements = 6;  ///< rounds in which samples next to an overcut on a 3 times denser grid get a margin
-  int interior_iterations = 30;
+  double settled_mm = 1e-5;  ///< a violation that is as good as none
+  double band_mm = 1.0;      ///< points with f above this are no constraints of a step
+  int steps = 12;        ///< of sequential quadratic programming between two exchanges
+  int exchanges = 8;
+  int interior_iterations = 25;
+};
+
+/// What stays the same while points are exchanged.
+struct ConstrainedProblem {
+  std::vector<const Target*> targets;
+  std::vector<int> free_parameters;
+  RadiusBounds bounds;
+  FitStage stage;                 ///< dead zone 0
+  std::vector<FacePoint> points;  ///< of the objective, and the first constraints
+  std::vector<FacePoint> dense;   ///< where the limits are tried
 };
 
 struct ConstrainedResult {
   FitState state;
-  double overcut_mm = 0.0;    ///< largest r - d on the dense grid, against the real (not extended) target
-  double violation_mm = 0.0;  ///< largest violation on the model's own samples
-  int steps = 0;
+  double violation_mm = 0.0;  ///< largest on the dense points
+  int steps = 0, exchanged = 0;
 };
 
-/// Minimises the model's cost (its stage should be plain least squares) under the limits, from `start`. Each step
-/// solves the convex problem of the linearised gaps by a primal-dual interior-point method; samples past the border are
-/// held off the real face, whose border they may not enter.
-[[nodiscard]] ConstrainedResult minimise_constrained(const FitModel& model, FitState start,
+[[nodiscard]] ConstrainedResult minimise_constrained(const ConstrainedProblem& problem, const FitState& start,
                                                      const ConstrainedOptions& options);
 
 }  // namespace flank

@@ -1,25 +1,51 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/base/parallel.h"
 #include "flank/envelope/swept_estimate.h"
 #include "flank/fit/flank_fit.h"
 
 namespace flank {
 
 double CoverageEstimate::score(double tolerance_mm) const {
-  // Coverage first; among equals the lower overcut, which is worth at most two percent of coverage per tolerance.
-  const double excess = std::clamp(overcut_mm / tolerance_mm - 1.0, 0.0, 10.0);
+  // Coverage first; among equals the lower overcut. Overcut beyond the tolerance fails the part: it costs ten percent of
+  // coverage for the first tolerance, two for each one more.
+  const double beyond = std::clamp(overcut_mm / tolerance_mm - 1.0, 0.0, 10.0);
+  const double excess = beyond + 4.0 * std::min(1.0, beyond);
   const double within = 0.005 * std::min(1.0, overcut_mm / tolerance_mm);
   return at_tolerance + 0.2 * at_four_tolerances - 0.02 * excess - within - 1e-3 * std::min(1.0, rms_mm / tolerance_mm);
 }
 
+namespace {
+
+/// f at the samples. The estimate is good enough to rank coverage; what would be called overcut is looked at closely.
+std::vector<double> estimate_distances(const std::vector<SurfaceSample>& samples,
+                                       const std::vector<RuledMotion>& motions, const RadialFunction& tool, int poses) {
+  constexpr std::size_t kGrain = 256;
+  const SweptEstimate swept(motions, tool, poses);
+  std::vector<double> distances(samples.size());
+  parallel_blocks(samples.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const SweptContact near = swept.nearest(samples[k].point);
+      distances[k] = near.f;
+      if (near.f >= 0.0 || near.motion < 0) continue;
+      const RuledMotion& motion = motions[static_cast<std::size_t>(near.motion)];
+      distances[k] = refine_contact(motion, tool, samples[k].point, near.t, swept.spacing()).f;
+    }
+  });
+  return distances;
+}
+
+}  // namespace
+
 CoverageEstimate estimate_coverage(const std::vector<SurfaceSample>& samples, const std::vector<RuledMotion>& motions,
                                    const RadialFunction& tool, double tolerance_mm, int poses) {
-  const SweptEstimate swept(motions, tool, poses);
+  const std::vector<double> distances = estimate_distances(samples, motions, tool, poses);
   CoverageEstimate estimate;
   double area = 0.0, near_area = 0.0, squares = 0.0;
-  for (const SurfaceSample& sample : samples) {
-    const double f = swept.distance(sample.point);
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const SurfaceSample& sample = samples[k];
+    const double f = distances[k];
     area += sample.area;
     if (std::abs(f) <= tolerance_mm) estimate.at_tolerance += sample.area;
     if (std::abs(f) <= 4.0 * tolerance_mm) {
@@ -28,6 +54,7 @@ CoverageEstimate estimate_coverage(const std::vector<SurfaceSample>& samples, co
       squares += sample.area * f * f;
     }
     estimate.overcut_mm = std::max(estimate.overcut_mm, -f);
+    estimate.undercut_mm = std::max(estimate.undercut_mm, f);
   }
   if (area > 0.0) {
     estimate.at_tolerance /= area;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "flank/fit/arrow_system.h"
+#include "flank/envelope/swept_estimate.h"
 #include "flank/motion/ruled_motion.h"
 #include "flank/surface/target.h"
 #include "flank/tool/radial_function.h"
@@ -51,7 +52,8 @@ struct FitStage {
 struct FitState {
   std::vector<RuledMotion> motions;
   RadialFunction tool;
-  std::vector<std::vector<Footpoint>> feet;  ///< [motion][i * samples_s + j]
+  std::vector<std::vector<Footpoint>> feet;  ///< of a FitModel: [motion][i * samples_s + j]
+  std::vector<SweptContact> contacts;        ///< of a SweptModel: of each of its points
 };
 
 class FitModel {
@@ -63,21 +65,22 @@ class FitModel {
 
   [[nodiscard]] ArrowSystem make_system() const;
   /// Footpoints of all samples, warm from state.feet where it has them, else marched from one cold query a motion.
-  void find_feet(FitState& state) const;
+  void locate(FitState& state) const;
   /// Weights of the samples at this state: location, robust, p-norm.
   [[nodiscard]] std::vector<std::vector<double>> sample_weights(const FitState& state) const;
   /// Sum of all weighted squares for frozen sample weights.
   [[nodiscard]] double cost(const FitState& state, const std::vector<std::vector<double>>& weights) const;
   /// Normal equations at the state.
   void assemble(const FitState& state, const std::vector<std::vector<double>>& weights, ArrowSystem& system) const;
-  /// Adds sum of w_ij g g' (and, where `target` is given, gradient w_ij target_ij g) of the residual rows alone: for
-  /// constrained steps.
-  void assemble_rows(const FitState& state, int motion, const std::vector<double>& weights,
-                     const std::vector<double>& gradient_factors, ArrowSystem& system) const;
-  /// Directional derivative of the residuals of one motion along a step.
-  [[nodiscard]] std::vector<double> row_products(const FitState& state, int motion, const Eigen::VectorXd& step) const;
   /// State after a step; footpoints are kept as hints only.
   [[nodiscard]] FitState moved(const FitState& state, const Eigen::VectorXd& step) const;
+
+  /// The terms that do not look at the targets: fairness, anchors, pins, the tool's bounds.
+  [[nodiscard]] double regulariser_cost(const FitState& state) const;
+  /// Adds them to the normal equations.
+  void assemble_regularisers(const FitState& state, ArrowSystem& system) const;
+  /// Gradient of the radius by the free parameters of the tool.
+  [[nodiscard]] Eigen::VectorXd tool_gradient(const RadialFunction& tool, double s) const;
 
   [[nodiscard]] double residual(const FitState& state, int motion, int i, int j) const;
   /// The axis point of a sample.
@@ -103,11 +106,13 @@ class FitModel {
 
   [[nodiscard]] PoseAt pose_at(const RuledMotion& motion, const TimeSample& time) const;
   [[nodiscard]] Vec6 row(const PoseAt& pose, double s, const Footpoint& foot) const;
-  [[nodiscard]] Eigen::VectorXd tool_gradient(const RadialFunction& tool, double s) const;
+  /// Adds sum of w_ij g g' and of factor_ij g of one motion's residual rows.
+  void assemble_rows(const FitState& state, int motion, const std::vector<double>& weights,
+                     const std::vector<double>& gradient_factors, ArrowSystem& system) const;
   void tool_gradients(const FitState& state, Eigen::MatrixXd& gradients) const;
-  void assemble_regularisers(const FitState& state, int motion, ArrowSystem& system) const;
+  void assemble_rails(const FitState& state, int motion, ArrowSystem& system) const;
   void assemble_tool(const FitState& state, ArrowSystem& system) const;
-  [[nodiscard]] double regulariser_cost(const FitState& state, int motion) const;
+  [[nodiscard]] double rail_cost(const FitState& state, int motion) const;
   [[nodiscard]] double tool_cost(const FitState& state) const;
 
   std::vector<const Target*> targets_;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flank/fit/polish.h"
+#include "flank/fit/swept_polish.h"
 
 namespace flank {
 
@@ -16,9 +16,11 @@ FlankFitResult fit_from_starts(const std::vector<FitTask>& tasks, const ToolMode
   FitDraft draft = make_draft(tasks, tool, options);
   progress.step("fit", 0.1);
   result.before = estimate_coverage(samples, draft.motions, draft.tool, options.tolerance_mm, kRankingPoses);
-  const Polished polished = without_overcut(polish(draft, samples, options, &result.trace), samples, options);
+  const Polished polished = 
+      without_overcut(last_passes(polish(draft, samples, options, &result.trace), samples, options, &result.trace), samples,
+                      options);
   progress.step("fit", 0.9);
-  return finish(polished, options, std::move(result));
+  return finish(settled(polished, options), options, std::move(result));
 }
 
 }  // namespace flank

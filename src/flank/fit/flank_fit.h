@@ -28,7 +28,8 @@ struct FlankFitOptions {
   std::optional<double> axis_length_mm;  ///< none: 1.02 times the longest offset contact line of the start
   RadiusBounds bounds;
   int strips = 1;  ///< motions side by side on one target, one tool
-  int kept_after_quick = 6, kept_after_polish = 2;
+  int kept_after_quick = 6, kept_after_polish = 3;  ///< candidates
+  double promising = 0.0;  ///< the last passes are left out where the best candidate covers less before them
   double sample_share =
       1.0 / 45.0;  ///< spacing of the samples that rank candidates, as a share of the square root of the area
 };
@@ -37,7 +38,8 @@ struct FlankFitOptions {
 struct CoverageEstimate {
   double at_tolerance = 0.0, at_four_tolerances = 0.0;  ///< area shares
   double overcut_mm = 0.0;
-  double rms_mm = 0.0;  ///< of f over samples within four tolerances
+  double undercut_mm = 0.0;  ///< largest material left anywhere on the target
+  double rms_mm = 0.0;       ///< of f over samples within four tolerances
   [[nodiscard]] double score(double tolerance_mm) const;
 };
 

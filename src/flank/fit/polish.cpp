@@ -5,15 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/fit/swept_polish.h"
+
 namespace flank {
 namespace {
 
 /// A residual below this share of the diagonal says that the target is an envelope of such a tool: go for the last
 /// digits.
 constexpr double kExactShare = 2e-5;
-
-/// Overcut below this share of the diagonal is settled: the constrained pass would not improve it.
-constexpr double kSettledOvercutShare = 1e-6;
 
 /// Distances of the axes' points to their targets, averaged over time: the first radial function.
 RadialFunction mean_distance_tool(const std::vector<FitTask>& tasks, const RadiusBounds& bounds) {
@@ -34,14 +33,6 @@ RadialFunction mean_distance_tool(const std::vector<FitTask>& tasks, const Radiu
     samples.emplace_back(s, std::clamp(sum / count, bounds.smallest, bounds.largest));
   }
   return RadialFunction::spline_through(length, samples, 6);
-}
-
-Polished assess(FitDraft draft, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
-  Polished polished;
-  if (draft.free_tool) draft.tool = clamp_tool(draft.tool, options.bounds);
-  polished.estimate = estimate_coverage(samples, draft.motions, draft.tool, options.tolerance_mm, kRankingPoses);
-  polished.draft = std::move(draft);
-  return polished;
 }
 
 /// Largest residual against the target itself, between the samples of the passes.
@@ -69,13 +60,14 @@ Polished exact_polish(const Polished& start, const std::vector<SurfaceSample>& s
   return best;
 }
 
-/// A free tool's radii shifted so that the overcut is at most half a tolerance, if that does not lose coverage.
+/// A free tool's radii reduced against overcut, as far as that scores better.
 Polished shifted(const Polished& polished, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
   if (!polished.draft.free_tool) return polished;
   Polished best = polished;
-  for (double share : {0.25, 0.5, 0.75, 1.0}) {
+  const double overcut = polished.estimate.overcut_mm, excess = overcut - 0.95 * options.tolerance_mm;
+  for (double by : {excess, 0.25 * overcut, 0.5 * overcut, 0.75 * overcut, overcut}) {
+    if (by <= 0.0) continue;
     FitDraft draft = polished.draft;
-    const double by = share * polished.estimate.overcut_mm;
     const Eigen::VectorXd radii = (draft.tool.parameters().array() - by).max(options.bounds.smallest);
     draft.tool = draft.tool.with_parameters(radii);
     Polished trial = assess(std::move(draft), samples, options);
@@ -86,12 +78,24 @@ Polished shifted(const Polished& polished, const std::vector<SurfaceSample>& sam
 
 }  // namespace
 
+Polished assess(FitDraft draft, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
+  Polished polished;
+  if (draft.free_tool) draft.tool = clamp_tool(draft.tool, options.bounds);
+  polished.estimate = estimate_coverage(samples, draft.motions, draft.tool, options.tolerance_mm, kRankingPoses);
+  polished.draft = std::move(draft);
+  return polished;
+}
+
 double robust_scale(const Target& target, const FlankFitOptions& options) {
   return std::max(4.0 * options.tolerance_mm, 1e-3 * target.diagonal());
 }
 
 std::vector<SurfaceSample> ranking_samples(const Target& target, const FlankFitOptions& options) {
-  return target.samples(std::sqrt(target.area()) * options.sample_share);
+  const double spacing = std::sqrt(target.area()) * options.sample_share;
+  std::vector<SurfaceSample> samples = target.samples(spacing);
+  // The rim, where a tool cuts deepest, counts for overcut alone: it has no area.
+  for (const Vec3& point : target.border_points(spacing)) samples.push_back({point, Vec3::UnitZ()});
+  return samples;
 }
 
 FitDraft make_draft(const std::vector<FitTask>& tasks, const ToolModel& tool, const FlankFitOptions& options) {
@@ -120,7 +124,9 @@ Polished polish(const FitDraft& draft, const std::vector<SurfaceSample>& samples
   const double scale = robust_scale(*draft.targets.front(), options);
   keep(assess(run_stage(draft, options.bounds, polish_stage(scale), trace, &summary), samples, options));
   if (summary.rms_mm < kExactShare * diagonal) {
-    return exact_polish(best, samples, options, trace);
+    best = exact_polish(best, samples, options, trace);
+    best.exact = true;
+    return best;
   }
   const FitStage stage = tolerance_stage(options.tolerance_mm, scale);
   if (draft.free_tool || !draft.free_parameters.empty())
@@ -128,15 +134,32 @@ Polished polish(const FitDraft& draft, const std::vector<SurfaceSample>& samples
   return shifted(best, samples, options);
 }
 
-Polished without_overcut(const Polished& polished, const std::vector<SurfaceSample>& samples,
-                         const FlankFitOptions& options) {
-  const double diagonal = polished.draft.targets.front()->diagonal();
-  if (polished.draft.free_tool || polished.estimate.overcut_mm < kSettledOvercutShare * diagonal) return polished;
-  FitStage stage = tolerance_stage(options.tolerance_mm, robust_scale(*polished.draft.targets.front(), options));
-  stage.dead_zone_mm = 0.0;
-  stage.samples_t = 140;
-  Polished held = assess(run_constrained(polished.draft, options.bounds, stage, 0.0), samples, options);
-  return held.estimate.overcut_mm < polished.estimate.overcut_mm ? held : polished;
+Polished last_passes(const Polished& polished, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options,
+                     std::vector<IterationTrace>* trace) {
+  /// Below this share of the tolerance the overcut of an exact fit is not worth its last digits.
+  constexpr double kWorthShifting = 0.1;
+  if (polished.exact)
+    return polished.estimate.overcut_mm > kWorthShifting * options.tolerance_mm ? shifted(polished, samples, options)
+                                                                                : polished;
+  return shifted(swept_polish(polished, samples, options, trace), samples, options);
+}
+
+Polished settled(const Polished& polished, const FlankFitOptions& options) {
+  constexpr double kDenser = 4.0;
+  FlankFitOptions dense = options;
+  dense.sample_share = options.sample_share / kDenser;
+  std::vector<SurfaceSample> samples;
+  const std::vector<const Target*>& targets = polished.draft.targets;
+  for (std::size_t k = 0; k < targets.size(); ++k) {
+    if (std::find(targets.begin(), targets.begin() + static_cast<std::ptrdiff_t>(k), targets[k]) !=
+        targets.begin() + static_cast<std::ptrdiff_t>(k))
+      continue;
+    const std::vector<SurfaceSample> more = ranking_samples(*targets[k], dense);
+    samples.insert(samples.end(), more.begin(), more.end());
+  }
+  Polished again = assess(polished.draft, samples, options);
+  again.exact = polished.exact;
+  return again.estimate.overcut_mm > options.tolerance_mm ? shifted(again, samples, options) : again;
 }
 
 FlankFitResult finish(const Polished& polished, const FlankFitOptions& options, FlankFitResult result) {

@@ -22,17 +22,24 @@ inline constexpr int kRankingPoses = 160;
 struct Polished {
   FitDraft draft;
   CoverageEstimate estimate;
+  bool exact = false;  ///< the target is an envelope of such a tool
 };
+
+/// The draft with a free tool clamped into its bounds, and what it covers.
+[[nodiscard]] Polished assess(FitDraft draft, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options);
 
 /// Least squares, then either the exact passes (residual near zero) or the tolerance passes. Never returns worse than
 /// the best it saw.
 [[nodiscard]] Polished polish(const FitDraft& draft, const std::vector<SurfaceSample>& samples,
                               const FlankFitOptions& options, std::vector<IterationTrace>* trace);
 
-/// A tool whose shape is given cannot shrink: its overcut is taken out by the constrained pass, at the price of
-/// material left.
-[[nodiscard]] Polished without_overcut(const Polished& polished, const std::vector<SurfaceSample>& samples,
-                                       const FlankFitOptions& options);
+/// The passes of swept_polish.h where the target is no envelope, and a free tool shifted against overcut.
+[[nodiscard]] Polished last_passes(const Polished& polished, const std::vector<SurfaceSample>& samples,
+                                   const FlankFitOptions& options, std::vector<IterationTrace>* trace);
+
+/// Looked at again with samples several times denser than those that ranked it, and a free tool shifted if its overcut
+/// turns out to be beyond the tolerance.
+[[nodiscard]] Polished settled(const Polished& polished, const FlankFitOptions& options);
 
 /// Fills a result from the chosen draft: overcut taken out of a free tool's radii, validation with cold footpoints,
 /// status.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "flank/fit/constrained.h"
 
 namespace flank {
 namespace {
@@ -33,9 +32,6 @@ RadialFunction with_coefficients(const RadialFunction& tool, int count) {
 
 }  // namespace
 
-namespace {
-
-/// Start of a pass: rails and spline at the stage's resolution; fills the list of free parameters.
 FitState start_state(const FitDraft& draft, const FitStage& stage, FitDraft& next) {
   FitState start;
   for (const RuledMotion& motion : draft.motions)
@@ -49,8 +45,6 @@ FitState start_state(const FitDraft& draft, const FitStage& stage, FitDraft& nex
   return start;
 }
 
-}  // namespace
-
 FitDraft run_stage(const FitDraft& draft, const RadiusBounds& bounds, const FitStage& stage,
                    std::vector<IterationTrace>* trace, ResidualSummary* summary) {
   FitDraft next;
@@ -59,19 +53,6 @@ FitDraft run_stage(const FitDraft& draft, const RadiusBounds& bounds, const FitS
   MinimiseResult result = minimise(model, std::move(start));
   if (trace) trace->insert(trace->end(), result.trace.begin(), result.trace.end());
   if (summary) *summary = summarise_residuals(model, result.state);
-  next.motions = std::move(result.state.motions);
-  next.tool = result.state.tool;
-  return next;
-}
-
-FitDraft run_constrained(const FitDraft& draft, const RadiusBounds& bounds, const FitStage& stage,
-                         double allowed_overcut_mm) {
-  FitDraft next;
-  FitState start = start_state(draft, stage, next);
-  const FitModel model(draft.targets, start, next.free_parameters, bounds, stage);
-  ConstrainedOptions options;
-  options.allowed_overcut_mm = allowed_overcut_mm;
-  ConstrainedResult result = minimise_constrained(model, std::move(start), options);
   next.motions = std::move(result.state.motions);
   next.tool = result.state.tool;
   return next;

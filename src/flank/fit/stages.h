@@ -16,6 +16,10 @@ struct FitDraft {
   bool free_tool = false;            ///< a spline whose number of coefficients a pass may change
 };
 
+/// Start of a pass: rails and spline at the stage's resolution; `next` becomes the draft with its list of free
+/// parameters.
+[[nodiscard]] FitState start_state(const FitDraft& draft, const FitStage& stage, FitDraft& next);
+
 /// Brings the draft to the stage's number of control points and coefficients and minimises; `trace` grows if given.
 [[nodiscard]] FitDraft run_stage(const FitDraft& draft, const RadiusBounds& bounds, const FitStage& stage,
                                  std::vector<IterationTrace>* trace = nullptr, ResidualSummary* summary = nullptr);
@@ -29,10 +33,6 @@ struct FitDraft {
 [[nodiscard]] FitStage exact_stage(bool last);
 /// For targets that are not: residuals count beyond 0.7 tolerances, so that coverage grows instead of the mean falling.
 [[nodiscard]] FitStage tolerance_stage(double tolerance_mm, double robust_scale_mm);
-
-/// The same passes under a hard limit on overcut (constrained.h), at the resolution of `stage`.
-[[nodiscard]] FitDraft run_constrained(const FitDraft& draft, const RadiusBounds& bounds, const FitStage& stage,
-                                       double allowed_overcut_mm);
 
 /// Tool parameters clamped into the bounds (splines: coefficients, whose hull holds the function).
 [[nodiscard]] RadialFunction clamp_tool(const RadialFunction& tool, const RadiusBounds& bounds);

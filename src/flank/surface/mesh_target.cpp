@@ -93,6 +93,20 @@ Footpoint MeshTarget::track(const Vec3& p, const Footpoint& hint) const {
   return footpoint_of(walk, p, surface_.real_triangles);
 }
 
+std::vector<Vec3> MeshTarget::border_points(double spacing_mm) const {
+  std::vector<Vec3> points;
+  for (int t = 0; t < surface_.real_triangles; ++t) {
+    for (int side = 0; side < 3; ++side) {
+      const int neighbor = surface_.neighbor(t, side);
+      if (neighbor >= 0 && neighbor < surface_.real_triangles) continue;
+      const Vec3 &a = surface_.corner(t, (side + 1) % 3), &b = surface_.corner(t, (side + 2) % 3);
+      const int steps = std::max(1, static_cast<int>(std::ceil((b - a).norm() / spacing_mm)));
+      for (int i = 0; i < steps; ++i) points.push_back(a + (b - a) * (static_cast<double>(i) / steps));
+    }
+  }
+  return points;
+}
+
 std::vector<SurfaceSample> MeshTarget::samples(double spacing_mm) const { return mesh_samples(surface_, spacing_mm); }
 
 std::unique_ptr<Target> make_target(TriangleMesh mesh, const ExtensionOptions& options) {

@@ -25,6 +25,7 @@ class MeshTarget final : public Target {
   [[nodiscard]] Footpoint closest(const Vec3& p) const override;
   [[nodiscard]] Footpoint track(const Vec3& p, const Footpoint& hint) const override;
   [[nodiscard]] std::vector<SurfaceSample> samples(double spacing_mm) const override;
+  [[nodiscard]] std::vector<Vec3> border_points(double spacing_mm) const override;
   [[nodiscard]] int patch_count() const override { return surface_.real_triangles; }
 
   [[nodiscard]] const JetSurface& surface() const { return surface_; }

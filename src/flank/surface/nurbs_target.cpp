@@ -234,6 +234,18 @@ std::vector<SurfaceSample> NurbsTarget::samples(double spacing_mm) const {
   return result;
 }
 
+std::vector<Vec3> NurbsTarget::border_points(double spacing_mm) const {
+  std::vector<Vec3> points;
+  const auto& pieces = borders_.pieces();
+  for (int k = 0; k < static_cast<int>(pieces.size()); ++k) {
+    if (borders_.piece(k).interior) continue;
+    const double chord = (borders_.point(faces_, k, 1.0) - borders_.point(faces_, k, 0.0)).norm();
+    const int steps = std::max(1, static_cast<int>(std::ceil(chord / spacing_mm)));
+    for (int i = 0; i < steps; ++i) points.push_back(borders_.point(faces_, k, static_cast<double>(i) / steps));
+  }
+  return points;
+}
+
 std::unique_ptr<Target> make_target(std::vector<Face> faces, int side, const ExtensionOptions& options) {
   return std::make_unique<NurbsTarget>(faces, side, options);
 }

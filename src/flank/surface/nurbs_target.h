@@ -17,6 +17,7 @@ class NurbsTarget : public Target {
   [[nodiscard]] Footpoint closest(const Vec3& p) const override;
   [[nodiscard]] Footpoint track(const Vec3& p, const Footpoint& hint) const override;
   [[nodiscard]] std::vector<SurfaceSample> samples(double spacing_mm) const override;
+  [[nodiscard]] std::vector<Vec3> border_points(double spacing_mm) const override;
   [[nodiscard]] int patch_count() const override { return static_cast<int>(faces_.size()); }
 
  private:

@@ -61,6 +61,9 @@ class Target {
   /// Samples on the trimmed target with a spacing of about `spacing_mm`, in a fixed order.
   [[nodiscard]] virtual std::vector<SurfaceSample> samples(double spacing_mm) const = 0;
 
+  /// Points on the border of the trimmed target (not on seams and inner edges), at most `spacing_mm` apart along it.
+  [[nodiscard]] virtual std::vector<Vec3> border_points(double spacing_mm) const = 0;
+
   [[nodiscard]] virtual int patch_count() const = 0;
   [[nodiscard]] const Box3& box() const { return box_; }
   [[nodiscard]] double diagonal() const { return box_.diagonal(); }

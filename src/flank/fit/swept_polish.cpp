@@ -1,0 +1,137 @@
+#include "flank/fit/swept_polish.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "flank/fit/constrained.h"
+#include "flank/fit/levenberg_marquardt.h"
+
+namespace flank {
+namespace {
+
+/// Passes in turn: dead zone in tolerances, fairness, anchor, control points, coefficients; points a side of the target
+/// (the judge's samples are several times denser).
+struct Pass {
+  double dead_zone, fairness, anchor;
+  int control_points, coefficients, iterations, points_per_side;
+};
+/// Overcut below this share of the diagonal is settled: the constrained pass would not improve it.
+constexpr double kSettledOvercutShare = 1e-6;
+
+constexpr Pass kPasses[] = {{0.6, 1e-5, 1e-2, 32, 16, 12, 25},
+                            {0.6, 1e-6, 1e-7, 48, 24, 40, 30},
+                            {0.6, 1e-6, 1e-7, 48, 24, 15, 50},
+                            {0.3, 1e-6, 1e-7, 48, 24, 15, 50},
+                            {0.0, 1e-6, 1e-7, 48, 24, 12, 50}};
+constexpr double kCovered = 0.995;
+
+FitStage swept_stage(const Pass& pass, const FlankFitOptions& options) {
+  FitStage stage;
+  stage.samples_t = 120;  // of the regularisers
+  stage.samples_s = 36;
+  stage.control_points = pass.control_points;
+  stage.tool_coefficients = pass.coefficients;
+  stage.iterations = pass.iterations;
+  stage.fairness = pass.fairness;
+  stage.transversal_anchor = pass.anchor;
+  stage.axial_pin = 1e-8;
+  stage.dead_zone_mm = pass.dead_zone * options.tolerance_mm;
+  // What a strip cannot reach must not pull it off what it can.
+  stage.robust_scale_mm = 20.0 * options.tolerance_mm;
+  stage.overcut_weight = 4.0;
+  stage.step_tolerance = 3e-4;
+  return stage;
+}
+
+double smallest_radius(const RadialFunction& tool) {
+  constexpr int kSamples = 64;
+  double least = tool.at(0.0).r;
+  for (int j = 1; j <= kSamples; ++j) least = std::min(least, tool.at(tool.axis_length() * j / kSamples).r);
+  return least;
+}
+
+}  // namespace
+
+std::vector<FacePoint> target_points(const FitDraft& draft, int per_side) {
+  std::vector<const Target*> targets;
+  for (const Target* target : draft.targets)
+    if (std::find(targets.begin(), targets.end(), target) == targets.end()) targets.push_back(target);
+  double area = 0.0;
+  for (const Target* target : targets) area += target->area();
+  std::vector<FacePoint> points;
+  for (const Target* target : targets) {
+    const double spacing = std::sqrt(target->area()) / per_side;
+    for (const SurfaceSample& sample : target->samples(spacing)) points.push_back({sample.point, sample.area / area});
+    // The samples are middles of cells; a tool cuts deepest at the rim. A rim point stands for half a cell.
+    for (const Vec3& point : target->border_points(spacing))
+      points.push_back({point, 0.5 * spacing * spacing / area});
+  }
+  return points;
+}
+
+FitDraft run_swept(const FitDraft& draft, const RadiusBounds& bounds, const FitStage& stage,
+                   std::vector<FacePoint> points, std::vector<IterationTrace>* trace) {
+  FitDraft next;
+  FitState start = start_state(draft, stage, next);
+  const SweptModel model(std::move(points), draft.targets, start, next.free_parameters, bounds, stage);
+  MinimiseResult result = levenberg_marquardt(model, std::move(start));
+  if (trace) trace->insert(trace->end(), result.trace.begin(), result.trace.end());
+  next.motions = std::move(result.state.motions);
+  next.tool = result.state.tool;
+  return next;
+}
+
+Polished swept_polish(const Polished& polished, const std::vector<SurfaceSample>& samples,
+                      const FlankFitOptions& options, std::vector<IterationTrace>* trace) {
+  Polished best = polished;
+  for (const Pass& pass : kPasses) {
+    // The last one lowers what is left of the mean where nothing more is to be covered.
+    if (pass.dead_zone == 0.0 && best.estimate.at_tolerance < kCovered) continue;
+    const std::vector<FacePoint> points = target_points(best.draft, pass.points_per_side);
+    Polished trial =
+        assess(run_swept(best.draft, options.bounds, swept_stage(pass, options), points, trace), samples, options);
+    if (trial.estimate.score(options.tolerance_mm) > best.estimate.score(options.tolerance_mm)) best = std::move(trial);
+  }
+  return best;
+}
+
+FitDraft run_constrained(const FitDraft& draft, const RadiusBounds& bounds, const FitStage& stage, double band_mm) {
+  constexpr int kFirstPerSide = 40, kDensePerSide = 200;
+  FitDraft next;
+  const FitState start = start_state(draft, stage, next);
+  ConstrainedProblem problem{draft.targets, next.free_parameters, bounds, stage, target_points(draft, kFirstPerSide),
+                             target_points(draft, kDensePerSide)};
+  ConstrainedOptions options;
+  // A sphere of radius r that touches half-way between two points is deeper there by spacing^2 / (8 r).
+  const double spacing = std::sqrt(draft.targets.front()->area()) / kDensePerSide;
+  options.allowed_overcut_mm = -spacing * spacing / (8.0 * smallest_radius(draft.tool));
+  options.settled_mm = -0.5 * options.allowed_overcut_mm;
+  options.band_mm = band_mm;
+  ConstrainedResult result = minimise_constrained(problem, start, options);
+  next.motions = std::move(result.state.motions);
+  next.tool = result.state.tool;
+  return next;
+}
+
+Polished without_overcut(const Polished& polished, const std::vector<SurfaceSample>& samples,
+                         const FlankFitOptions& options) {
+  const double diagonal = polished.draft.targets.front()->diagonal();
+  if (polished.draft.free_tool || polished.estimate.overcut_mm < kSettledOvercutShare * diagonal) return polished;
+  FitStage stage = swept_stage(kPasses[1], options);
+  stage.dead_zone_mm = 0.0;
+  stage.overcut_weight = 1.0;
+  stage.fairness = 1e-4;
+  const double band = 10.0 * options.tolerance_mm;
+  Polished best = assess(run_constrained(polished.draft, options.bounds, stage, band), samples, options);
+  if (best.estimate.overcut_mm >= polished.estimate.overcut_mm) return polished;
+  // Least squares leaves up to three times the least possible material in places: once more, with what counts for
+  // nothing taken out.
+  stage.dead_zone_mm = std::min(0.5 * best.estimate.undercut_mm, 0.7 * options.tolerance_mm);
+  Polished evened = assess(run_constrained(best.draft, options.bounds, stage, band), samples, options);
+  const bool kept = evened.estimate.at_tolerance > best.estimate.at_tolerance - 1e-3 &&
+                    evened.estimate.overcut_mm <= best.estimate.overcut_mm + kSettledOvercutShare * diagonal;
+  if (kept && evened.estimate.undercut_mm < best.estimate.undercut_mm) best = std::move(evened);
+  return best;
+}
+
+}  // namespace flank

@@ -1,0 +1,32 @@
+/// The last passes of a fit that is no exact envelope: on the swept distance at fixed points of the faces (swept_model.h).
+#pragma once
+
+#include <vector>
+
+#include "flank/fit/polish.h"
+#include "flank/fit/swept_model.h"
+
+namespace flank {
+
+/// Points of the draft's targets, each target once, spacing about sqrt(area) / `per_side`; shares sum to one.
+[[nodiscard]] std::vector<FacePoint> target_points(const FitDraft& draft, int per_side);
+
+/// One pass at the stage's resolution over these points.
+[[nodiscard]] FitDraft run_swept(const FitDraft& draft, const RadiusBounds& bounds, const FitStage& stage,
+                                 std::vector<FacePoint> points, std::vector<IterationTrace>* trace);
+
+/// The same under a hard limit on overcut (constrained.h), with a margin for what lies between the points; points beyond
+/// `band_mm` from the tool are not held.
+[[nodiscard]] FitDraft run_constrained(const FitDraft& draft, const RadiusBounds& bounds, const FitStage& stage,
+                                       double band_mm);
+
+/// Passes with a dead zone that narrows while the rails grow softer; each is kept only if it scores better.
+[[nodiscard]] Polished swept_polish(const Polished& polished, const std::vector<SurfaceSample>& samples,
+                                    const FlankFitOptions& options, std::vector<IterationTrace>* trace);
+
+/// A tool whose shape is given cannot shrink: its overcut is taken out by the constrained pass, at the price of material
+/// left.
+[[nodiscard]] Polished without_overcut(const Polished& polished, const std::vector<SurfaceSample>& samples,
+                                       const FlankFitOptions& options);
+
+}  // namespace flank
