@@ -98,7 +98,7 @@ export function verdict(files) {
 /** The worst places as a list; `go` is called with the place that was chosen. */
 export function worstList(places, tolerance, go) {
   const shown = places.filter((place) => place.f_mm !== null);
-  if (!shown.length) return html('p', { class: 'soft' }, 'None were found.');
+  if (!shown.length) return html('p', { class: 'soft' }, 'Nothing is cut too deep anywhere.');
   const item = (place, k) => {
     const [x, y, z] = place.point.map((v) => format.plain(v, 4));
     const deep = place.f_mm < -tolerance;
