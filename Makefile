@@ -2,7 +2,7 @@
 # On a bare Debian 12 `make demo` and `make test` need only make, git and root (or sudo).
 .DEFAULT_GOAL := build
 .NOTPARALLEL:
-.PHONY: build deps demo test sanitize bench install format format-check tidy clean help
+.PHONY: build deps demo test test-clients sanitize bench install format format-check tidy clean help
 
 JOBS ?= $(shell nproc)
 PREFIX ?= /usr/local
@@ -22,9 +22,14 @@ demo: deps build  ## make a twisted blade, fit a tool and its motion to it, and 
 	mkdir -p out/demo
 	$(FLANK) example twisted-blade -o out/demo/blade.step
 	$(FLANK) fit out/demo/blade.step --face F1 -o out/demo
+	$(FLANK) report out/demo || echo "(built without the report page: no npm)"
 
 test: deps build  ## build and run all tests
 	ctest --preset release --parallel $(JOBS)
+
+test-clients: deps build  ## run the tests of the report page in headless Chromium, which is installed if it is missing
+	scripts/install-deps.sh clients
+	ctest --preset release --label-regex '^clients$$'
 
 sanitize: deps  ## run the tests under the address, undefined-behaviour and thread sanitizers
 	scripts/sanitize.sh asan

@@ -1,12 +1,16 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages of the named groups, and does nothing at all if they are there already.
-# usage: install-deps.sh [build] [bench] [dev]
+# usage: install-deps.sh [build] [bench] [dev] [clients]
 set -euo pipefail
 
 build=(g++ cmake ninja-build libeigen3-dev libtbb-dev libfmt-dev nlohmann-json3-dev libcli11-dev
        libocct-data-exchange-dev libgtest-dev)
 bench=(libbenchmark-dev libembree-dev)
 dev=(clang-format clang-tidy)
+clients=(chromium)
+# Node.js and npm bundle the report page; a newer one from elsewhere will do, and then the packages would get in its way.
+command -v node > /dev/null || build+=(nodejs)
+command -v npm > /dev/null || build+=(npm)
 
 wanted=()
 for group in "${@:-build}"; do
@@ -14,7 +18,8 @@ for group in "${@:-build}"; do
     build) wanted+=("${build[@]}") ;;
     bench) wanted+=("${bench[@]}") ;;
     dev) wanted+=("${dev[@]}") ;;
-    *) echo "install-deps.sh: unknown group '$group' (build, bench, dev)" >&2; exit 2 ;;
+    clients) wanted+=("${clients[@]}") ;;
+    *) echo "install-deps.sh: unknown group '$group' (build, bench, dev, clients)" >&2; exit 2 ;;
   esac
 done
 

@@ -49,9 +49,9 @@ int main(int argc, char** argv) {
       "Exit: 0 done and within what was asked; 1 done, but not within it; 2 wrong usage; 3 input refused; 4 our "
       "fault.");
   flank::CommonOptions common;
-  std::vector<flank::Subcommand> commands = {flank::add_inspect(parser), flank::add_example(parser),
-                                             flank::add_tool(parser), flank::add_fit(parser),
-                                             flank::add_verify(parser)};
+  std::vector<flank::Subcommand> commands = {
+      flank::add_inspect(parser), flank::add_example(parser), flank::add_tool(parser), flank::add_fit(parser),
+      flank::add_verify(parser),  flank::add_report(parser),  flank::add_view(parser)};
   for (const flank::Subcommand& command : commands) add_common(*command.app, common);
   try {
     require_known_command(parser, argc, argv);

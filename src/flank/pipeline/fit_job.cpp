@@ -12,6 +12,8 @@
 #include "flank/pipeline/targets.h"
 #include "flank/pipeline/tool_model.h"
 #include "flank/pipeline/verify_job.h"
+#include "flank/pipeline/view.h"
+#include "flank/pipeline/view_json.h"
 
 namespace flank {
 namespace {
@@ -134,6 +136,8 @@ FitOutcome run_fit(const FitJob& job, const Progress& progress) {
   options.tolerance_mm = job.tolerance_mm;
   outcome.verify = judge(outcome.tool, outcome.path, judge_samples(part, faces, spacing, 2.0 * spacing), options);
   watch.lap("verify");
+  outcome.view = view_to_json(make_view(job, part, faces, outcome.tool, outcome.path, outcome.verify));
+  watch.lap("view");
   return outcome;
 }
 

@@ -38,6 +38,7 @@ struct FitOutcome {
   Path path;
   FlankFitResult fit;
   VerifyReport verify;
+  std::string view;                                     ///< view.json, for `flank report`
   double chord_bound_mm = 0.0;                          ///< between the motion and the joined poses
   double largest_c = 0.0;                               ///< regularity of the envelope, < 1 needed
   double diagonal_mm = 0.0;                             ///< of the target
@@ -51,7 +52,8 @@ struct FitOutcome {
 /// Reads, fits, samples and judges. Throws UsageError and InputError before any work is done.
 [[nodiscard]] FitOutcome run_fit(const FitJob& job, const Progress& progress);
 
-/// Writes tool.json, tool.dxf, path.json, path.cls, path.csv, verify.json, summary.json and job.json to a folder.
+/// Writes tool.json, tool.dxf, path.json, path.cls, path.csv, verify.json, view.json, summary.json and job.json to a
+/// folder.
 void write_fit(const FitJob& job, const FitOutcome& outcome, const std::string& folder);
 
 /// Table for a terminal.

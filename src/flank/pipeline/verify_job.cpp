@@ -14,6 +14,8 @@
 #include "flank/pipeline/job_json.h"
 #include "flank/pipeline/targets.h"
 #include "flank/pipeline/verify_json.h"
+#include "flank/pipeline/view.h"
+#include "flank/pipeline/view_json.h"
 
 namespace flank {
 namespace {
@@ -50,6 +52,7 @@ VerifyOutcome run_verify(const VerifyJob& request) {
   options.tolerance_mm = outcome.job.tolerance_mm;
   outcome.report = judge(tool, path, judge_samples(part, faces, spacing, 2.0 * spacing), options);
   write_file(file("verify.json"), verify_to_json(outcome.report));
+  write_file(file("view.json"), view_to_json(make_view(outcome.job, part, faces, tool, path, outcome.report)));
   return outcome;
 }
 

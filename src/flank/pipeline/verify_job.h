@@ -23,7 +23,7 @@ struct VerifyOutcome {
   }
 };
 
-/// Reads job.json, tool.json and path.json, judges, and writes verify.json.
+/// Reads job.json, tool.json and path.json, judges, and writes verify.json and view.json.
 [[nodiscard]] VerifyOutcome run_verify(const VerifyJob& job);
 [[nodiscard]] std::string verify_text(const VerifyOutcome& outcome);
 

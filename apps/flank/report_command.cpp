@@ -1,0 +1,97 @@
+// report and view.
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "flank/base/atomic_file.h"
+#include "flank/report/browser.h"
+#include "flank/report/report.h"
+
+namespace flank {
+namespace {
+
+struct ReportOptions {
+  std::string folder;
+  std::string html;  ///< empty: report.html in the folder
+  std::string png;   ///< empty: no picture
+  PictureOptions picture;
+  std::string size = "1600x1000";
+  std::string theme;
+  [[nodiscard]] std::string page() const {
+    return html.empty() ? (std::filesystem::path(folder) / "report.html").string() : html;
+  }
+};
+
+void add_page(CLI::App* app, ReportOptions& options) {
+  app->add_option("DIR", options.folder, "A folder written by flank fit")->required();
+  app->add_option("-o,--output", options.html, "The page to write; default: report.html in DIR");
+}
+
+int say(const std::vector<std::string>& written, const CommonOptions& common) {
+  if (common.json) {
+    nlohmann::ordered_json json = {{"schema", "openflank/report/1"}, {"files", written}};
+    fmt::print("{}\n", json.dump(2));
+  } else if (!common.quiet) {
+    for (const std::string& file : written) fmt::print("{}\n", file);
+  }
+  return 0;
+}
+
+/// "1600x1000" to the size of a window.
+std::string read_size(const std::string& text, PictureOptions& picture) {
+  char rest = '\0';
+  const int count = std::sscanf(text.c_str(), "%dx%d%c", &picture.width, &picture.height, &rest);
+  const bool sensible =
+      count == 2 && std::min(picture.width, picture.height) >= 200 && std::max(picture.width, picture.height) <= 10000;
+  return sensible ? "" : text + ": WIDTHxHEIGHT in pixels, each from 200 to 10000, is needed";
+}
+
+int report(ReportOptions& options, const CommonOptions& common) {
+  write_file(options.page(), make_report(options.folder));
+  std::vector<std::string> written{options.page()};
+  if (!options.png.empty()) {
+    if (!options.theme.empty()) options.picture.fragment = "theme=" + options.theme;
+    make_picture(options.page(), options.png, options.picture);
+    written.push_back(options.png);
+  }
+  return say(written, common);
+}
+
+}  // namespace
+
+Subcommand add_report(CLI::App& parser) {
+  CLI::App* app = parser.add_subcommand(
+      "report", "Write one HTML page of what lies in a folder: the part, its error, the moving tool, the figures");
+  auto options = std::make_shared<ReportOptions>();
+  add_page(app, *options);
+  app->add_option("--png", options->png, "Also make a picture of the page (needs Chromium)");
+  app->add_option("--png-size", options->size, "Size of the picture, pixels")
+      ->capture_default_str()
+      ->check([options](const std::string& text) { return read_size(text, options->picture); });
+  app->add_option("--theme", options->theme, "Of the picture: light or dark; default: as the system has it")
+      ->check(CLI::IsMember({"light", "dark"}));
+  app->footer(
+      "Example: flank example twisted-blade -o blade.step && flank fit blade.step --face F1 -o out --tolerance 0.1; "
+      "flank report out");
+  return {app, [options](const CommonOptions& common) { return report(*options, common); }};
+}
+
+Subcommand add_view(CLI::App& parser) {
+  CLI::App* app = parser.add_subcommand("view", "Write the page of a folder and open it in the browser");
+  auto options = std::make_shared<ReportOptions>();
+  add_page(app, *options);
+  app->footer(
+      "Example: flank example twisted-blade -o blade.step && flank fit blade.step --face F1 -o out --tolerance 0.1; "
+      "flank view out");
+  return {app, [options](const CommonOptions& common) {
+            const int code = report(*options, common);
+            open_page(options->page());
+            return code;
+          }};
+}
+
+}  // namespace flank

@@ -1,0 +1,68 @@
+# The page of `flank report`: bundled from web/ with packages that npm fetches into the build tree, and built into the
+# library. Where npm is missing or cannot fetch them the library is built without the page, and the command says so.
+find_program(FLANK_NODE NAMES node nodejs)
+find_program(FLANK_NPM npm)
+if(FLANK_NODE AND FLANK_NPM)
+  set(_flank_npm_found ON)
+else()
+  set(_flank_npm_found OFF)
+endif()
+option(FLANK_REPORT "Build the page of `flank report` (needs Node.js and npm)" ${_flank_npm_found})
+
+# Sets FLANK_WEB_PACKAGES to the folder of the packages, or FLANK_REPORT to OFF. Asks npm only when the lock file changed.
+function(flank_fetch_web_packages)
+  set(folder ${PROJECT_BINARY_DIR}/web)
+  set(files package.json package-lock.json .npmrc)
+  foreach(file IN LISTS files)
+    configure_file(${PROJECT_SOURCE_DIR}/web/${file} ${folder}/${file} COPYONLY)
+  endforeach()
+  file(SHA256 ${folder}/package-lock.json wanted)
+  set(stamp ${folder}/node_modules/.fetched)
+  set(fetched "")
+  if(EXISTS ${stamp})
+    file(READ ${stamp} fetched)
+  endif()
+  if(NOT fetched STREQUAL wanted)
+    message(STATUS "Fetching the packages of the report page")
+    execute_process(COMMAND ${FLANK_NPM} ci --no-audit --no-fund --ignore-scripts WORKING_DIRECTORY ${folder}
+                    RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output TIMEOUT 300)
+    if(NOT status EQUAL 0)
+      message(WARNING "npm could not fetch the packages of the report page (${status}); building without it:\n${output}")
+      set(FLANK_REPORT OFF PARENT_SCOPE)
+      return()
+    endif()
+    file(WRITE ${stamp} ${wanted})
+  endif()
+  set(FLANK_WEB_PACKAGES ${folder}/node_modules PARENT_SCOPE)
+endfunction()
+
+if(FLANK_REPORT)
+  if(NOT _flank_npm_found)
+    message(FATAL_ERROR "FLANK_REPORT needs Node.js and npm (Debian: apt install nodejs npm)")
+  endif()
+  flank_fetch_web_packages()
+endif()
+
+# flank_report_page(TARGET): gives TARGET the source that holds the page, or one that says that there is none.
+function(flank_report_page target)
+  set(source ${PROJECT_BINARY_DIR}/web/page_template.cpp)
+  if(FLANK_REPORT)
+    file(GLOB parts CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/web/src/*)
+    add_custom_command(
+      OUTPUT ${source}
+      BYPRODUCTS ${PROJECT_BINARY_DIR}/web/page.html
+      COMMAND ${FLANK_NODE} ${PROJECT_SOURCE_DIR}/web/build.mjs ${FLANK_WEB_PACKAGES} ${PROJECT_BINARY_DIR}/web/page.html ${source}
+      DEPENDS ${parts} ${PROJECT_SOURCE_DIR}/web/build.mjs ${PROJECT_SOURCE_DIR}/web/package-lock.json
+      COMMENT "Bundling the report page"
+      VERBATIM)
+  else()
+    set(source ${PROJECT_BINARY_DIR}/web/page_missing.cpp)
+    file(CONFIGURE OUTPUT ${source} @ONLY CONTENT
+"#include \"flank/report/page_template.h\"
+namespace flank {
+std::string_view page_template() { return {}; }
+}  // namespace flank
+")
+  endif()
+  target_sources(${target} PRIVATE ${source})
+endfunction()

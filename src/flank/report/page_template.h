@@ -1,0 +1,14 @@
+/// The page of `flank report` as it was built into the library (web/), with places for the title and the data.
+#pragma once
+
+#include <string_view>
+
+namespace flank {
+
+/// The whole HTML file; empty where the library was built without the page.
+[[nodiscard]] std::string_view page_template();
+
+inline constexpr std::string_view kTitlePlace = "<!--FLANK_TITLE-->";
+inline constexpr std::string_view kDataPlace = "<!--FLANK_DATA-->";
+
+}  // namespace flank

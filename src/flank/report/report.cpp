@@ -1,0 +1,110 @@
+#include "flank/report/report.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "flank/base/error.h"
+#include "flank/report/page_template.h"
+
+namespace flank {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string replaced(std::string_view text, std::string_view what, std::string_view with) {
+  const std::size_t at = text.find(what);
+  if (at == std::string_view::npos) throw InternalError("the page has no place for " + std::string(what));
+  return std::string(text.substr(0, at)) + std::string(with) + std::string(text.substr(at + what.size()));
+}
+
+/// "view.json" has schema "openflank/view/1".
+std::string schema_of(const std::string& name) { return "openflank/" + name.substr(0, name.find('.')) + "/1"; }
+
+void require_schema(const nlohmann::json& json, const std::string& file, const std::string& schema) {
+  if (json.is_object() && json.contains("schema") && json["schema"] == schema) return;
+  throw InputError(file + ": schema \"" + schema + "\" is needed");
+}
+
+std::optional<std::string> read_checked(const fs::path& file, const std::string& schema) {
+  if (!fs::exists(file)) return std::nullopt;
+  std::ifstream stream(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  if (!stream.good() && !stream.eof()) throw InputError(file.string() + ": cannot be read");
+  const auto json = nlohmann::json::parse(text, nullptr, false);
+  if (json.is_discarded()) throw InputError(file.string() + ": not JSON; a file written by `flank fit` is needed");
+  require_schema(json, file.string(), schema);
+  return text;
+}
+
+std::string title_of(const nlohmann::json& json) {
+  const std::string part = json.value("part", "");
+  if (part.empty()) return "OpenFlank report";
+  return json.value("faces", "") + " of " + fs::path(part).filename().string() + " - OpenFlank";
+}
+
+}  // namespace
+
+const std::vector<std::string>& report_files() {
+  static const std::vector<std::string> kFiles{"view.json", "verify.json", "summary.json"};
+  return kFiles;
+}
+
+bool page_is_built() { return !page_template().empty(); }
+
+std::string script_safe(std::string_view json) {
+  std::string text;
+  text.reserve(json.size());
+  for (char c : json) c == '<' ? text += "\\u003c" : text += c;
+  return text;
+}
+
+std::string html_safe(std::string_view text) {
+  std::string out;
+  for (char c : text) switch (c) {
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '&':
+        out += "&amp;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
+    }
+  return out;
+}
+
+std::string fill_page(std::string_view page, std::string_view title, std::string_view data) {
+  // The data last: it may hold anything, even the mark of another place.
+  return replaced(replaced(page, kTitlePlace, html_safe(title)), kDataPlace, data);
+}
+
+std::string make_report(const std::string& folder) {
+  if (!page_is_built())
+    throw UsageError("this flank was built without its report page; build it where npm is, with -D FLANK_REPORT=ON");
+  if (!fs::is_directory(folder))
+    throw InputError(folder + ": no such folder; a folder written by `flank fit` is needed");
+  std::string data = "<meta name=\"generator\" content=\"OpenFlank " FLANK_VERSION "\">\n", title;
+  bool found = false;
+  for (const std::string& name : report_files()) {
+    const auto text = read_checked(fs::path(folder) / name, schema_of(name));
+    if (!text) continue;
+    if (title.empty()) title = title_of(nlohmann::json::parse(*text));
+    found = true;
+    data += "<script type=\"application/json\" data-file=\"" + name + "\">" + script_safe(*text) + "</script>\n";
+  }
+  if (!found)
+    throw InputError(folder +
+                     ": holds none of view.json, verify.json, summary.json; a folder written by `flank fit` is needed");
+  return fill_page(page_template(), title, data);
+}
+
+}  // namespace flank

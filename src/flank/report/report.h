@@ -1,0 +1,30 @@
+/// `flank report DIR`: the files of a folder packed into one HTML page that needs nothing else. It computes nothing.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace flank {
+
+/// Files that the page reads, in the order in which they are packed.
+[[nodiscard]] const std::vector<std::string>& report_files();
+
+/// Whether the library holds the page: it is built where npm is (FLANK_REPORT).
+[[nodiscard]] bool page_is_built();
+
+/// The page of what lies in `folder`. A file that is missing is left out, and the page says so. Throws UsageError if the
+/// library was built without the page; InputError if there is no such folder, if it holds none of the files, or if one
+/// of them is no JSON of the schema that belongs to it.
+[[nodiscard]] std::string make_report(const std::string& folder);
+
+/// The same from a given template: title and data are put in their places.
+[[nodiscard]] std::string fill_page(std::string_view page, std::string_view title, std::string_view data);
+
+/// JSON that may stand inside a script element: no "<" is left, and the value is the same.
+[[nodiscard]] std::string script_safe(std::string_view json);
+
+/// Text that may stand inside an HTML element.
+[[nodiscard]] std::string html_safe(std::string_view text);
+
+}  // namespace flank

@@ -1,0 +1,126 @@
+// The 3D view: camera, light, what is shown. It draws only when something changed.
+import {
+  AmbientLight, DirectionalLight, PerspectiveCamera, Raycaster, Scene, Vector2, Vector3, WebGLRenderer,
+} from 'three';
+import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import { FIELD_OF_VIEW, fitted, frameOf, presets } from './camera.js';
+
+/** Pixels at the sides of the view: the colour scale stands on the left, buttons above. */
+const ROOM = { left: 150, right: 40, top: 56, bottom: 30 };
+/** In a narrow view what stands at the sides may cover the part. */
+const NARROW = 620;
+
+export class Stage {
+  constructor(canvas) {
+    this.canvas = canvas;
+    this.listeners = [];
+    this.quiet = true;
+    // What was drawn last stays readable: for printing and for screenshots.
+    if (!document.createElement('canvas').getContext('webgl2')) throw new Error('this browser offers no WebGL 2');
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
+    // Asking the driver for complaints makes it finish every program before the next is begun.
+    this.renderer.debug.checkShaderErrors = false;
+    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
+    this.scene = new Scene();
+    this.camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.1, 10000);
+    this.scene.add(this.camera, new AmbientLight(0xffffff, 2.45));
+    this.key = new DirectionalLight(0xffffff, 0.7);
+    this.key.position.set(-0.35, 0.6, 1);
+    this.camera.add(this.key, this.key.target);
+    this.hold(new Vector3());
+    new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
+  }
+
+  /** Controls learn the upward direction only when they are made. */
+  hold(target) {
+    this.controls?.dispose();
+    this.controls = new OrbitControls(this.camera, this.canvas);
+    this.controls.target.copy(target);
+    this.controls.addEventListener('change', () => this.draw());
+    this.controls.update();
+  }
+
+  onDraw(listener) {
+    this.listeners.push(listener);
+  }
+
+  /** Looks for the best views; `wish` as presets() takes it. */
+  frame(wish) {
+    this.home = frameOf(wish.targets, wish.towards);
+    this.presets = presets(this.home, wish);
+    const distance = this.home.radius / Math.sin((0.5 * FIELD_OF_VIEW * Math.PI) / 180);
+    this.camera.near = 0.02 * distance;
+    this.camera.far = 40 * distance;
+    this.resize();
+    return this.presets;
+  }
+
+  room() {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const free = (pixels, size) => Math.max(0.4, 1 - (2 * pixels) / size);
+    return { left: free(width < NARROW ? 20 : ROOM.left, width), right: free(width < NARROW ? 20 : ROOM.right, width),
+      top: free(ROOM.top, height), bottom: free(ROOM.bottom, height) };
+  }
+
+  look(name) {
+    const preset = this.presets[name];
+    const { position, target } = fitted(preset, this.camera.aspect, this.room());
+    this.quiet = true;
+    this.camera.up.copy(preset.up);
+    this.camera.position.copy(position);
+    this.hold(target);
+    this.quiet = false;
+    this.draw();
+  }
+
+  /** Turns about the target by angles in radians, or comes nearer by a factor. */
+  orbit(right, upwards, nearer = 1) {
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    offset.applyAxisAngle(this.camera.up, right);
+    const side = new Vector3().crossVectors(this.camera.up, offset).normalize();
+    const lifted = offset.clone().applyAxisAngle(side, -upwards);
+    if (Math.abs(lifted.clone().normalize().dot(this.camera.up)) < 0.98) offset.copy(lifted);
+    this.camera.position.copy(this.controls.target).addScaledVector(offset, nearer);
+    this.controls.update();
+    this.draw();
+  }
+
+  resize() {
+    const { clientWidth: width, clientHeight: height } = this.canvas.parentElement;
+    if (!width || !height) return;
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.draw();
+  }
+
+  /** Draws before the next frame, however often it is asked to. */
+  draw() {
+    if (this.quiet || this.asked) return;
+    this.asked = true;
+    requestAnimationFrame(() => {
+      this.asked = false;
+      this.renderer.render(this.scene, this.camera);
+      for (const listener of this.listeners) listener(this);
+    });
+  }
+
+  /** Millimetres of a pixel at the target's depth. */
+  get pixel() {
+    const depth = this.camera.position.distanceTo(this.controls.target);
+    return (2 * depth * Math.tan((0.5 * FIELD_OF_VIEW * Math.PI) / 180)) / this.canvas.clientHeight;
+  }
+
+  /** CSS pixels of a point of space. */
+  toScreen(point) {
+    const p = point.clone().project(this.camera);
+    return [0.5 * (p.x + 1) * this.canvas.clientWidth, 0.5 * (1 - p.y) * this.canvas.clientHeight, p.z];
+  }
+
+  pick(x, y, meshes) {
+    const ray = new Raycaster();
+    const where = new Vector2((2 * x) / this.canvas.clientWidth - 1, 1 - (2 * y) / this.canvas.clientHeight);
+    ray.setFromCamera(where, this.camera);
+    return ray.intersectObjects(meshes, false)[0] ?? null;
+  }
+}
