@@ -1,0 +1,57 @@
+#include "flank/verify/flank_profile.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "flank/tool/tool.h"
+
+namespace flank::verify {
+namespace {
+
+constexpr int kDeepest = 10;  ///< halvings of one of the first pieces
+constexpr int kFirstPieces = 16;
+constexpr double kPi = 3.14159265358979323846;
+
+double off_chord(const Vec2& a, const Vec2& b, const Vec2& x) {
+  const Vec2 d = b - a;
+  const double length = d.norm();
+  return length > 0.0 ? std::abs(d.x() * (x.y() - a.y()) - d.y() * (x.x() - a.x())) / length : (x - a).norm();
+}
+
+/// Appends the outline from s0 (excluded) to s1. The quarter points catch what the middle of an S-shaped piece hides.
+void append(const RadialFunction& radial, double s0, double s1, int depth, std::vector<Vec2>& out) {
+  const Vec2 a = meridian_point(radial, s0), b = meridian_point(radial, s1);
+  double off = 0.0;
+  for (double f : {0.25, 0.5, 0.75}) off = std::max(off, off_chord(a, b, meridian_point(radial, s0 + f * (s1 - s0))));
+  if (off > 0.5 * kFlankProfileErrorMm && depth < kDeepest) {
+    append(radial, s0, 0.5 * (s0 + s1), depth + 1, out);
+    append(radial, 0.5 * (s0 + s1), s1, depth + 1, out);
+    return;
+  }
+  out.push_back(b);
+}
+
+/// The arc of a sphere of radius r about z = center, from the angle `from` to `to` seen from the axis direction.
+void append_cap(double center, double r, double from, double to, std::vector<Vec2>& out) {
+  const double step = 2.0 * std::acos(std::max(0.0, 1.0 - kFlankProfileErrorMm / r));
+  const int count = std::max(2, static_cast<int>(std::ceil(std::abs(to - from) / step)));
+  for (int i = 0; i <= count; ++i) {
+    const double angle = from + (to - from) * i / count;
+    out.emplace_back(center + r * std::cos(angle), std::max(0.0, r * std::sin(angle)));
+  }
+}
+
+}  // namespace
+
+std::vector<Vec2> flank_profile(const RadialFunction& radial) {
+  const double length = radial.axis_length();
+  const RadialJet tip = radial.at(0.0), top = radial.at(length);
+  std::vector<Vec2> out;
+  append_cap(0.0, tip.r, kPi, std::acos(-tip.d1), out);
+  for (int i = 0; i < kFirstPieces; ++i)
+    append(radial, length * i / kFirstPieces, length * (i + 1) / kFirstPieces, 0, out);
+  append_cap(length, top.r, std::acos(-top.d1), 0.0, out);
+  return out;
+}
+
+}  // namespace flank::verify
