@@ -191,6 +191,23 @@ TEST(FlankProfile, HugsTheOutline) {
       EXPECT_LE(f, 1.2 * kFlankProfileErrorMm);
       EXPECT_GE(f, -1.2 * kFlankProfileErrorMm);
     }
+    // The bodies against the spheres, from all sides.
+    const std::vector<Revolved> bodies = flank_bodies(radial);
+    Random random(2);
+    for (int k = 0; k < 300; ++k) {
+      const double z = random.uniform(-20.0, 60.0), rho = random.uniform(0.0, 20.0);
+      double truth = 1e300, ours = 1e300;
+      for (int j = 0; j <= 4000; ++j) {
+        const double s = radial.axis_length() * j / 4000;
+        truth = std::min(truth, std::hypot(z - s, rho) - radial.at(s).r);
+      }
+      for (const Revolved& body : bodies) ours = std::min(ours, body.value(z, rho));
+      if (truth > 0.0) {
+        EXPECT_NEAR(ours, truth, 2.0 * kFlankProfileErrorMm) << z << ' ' << rho;
+      } else {
+        EXPECT_LE(ours, 2.0 * kFlankProfileErrorMm) << z << ' ' << rho;
+      }
+    }
   }
 }
 

@@ -1,5 +1,6 @@
 #include "flank/clearance/convex_profile.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace flank {
@@ -9,64 +10,58 @@ constexpr double kSameSlope = 1e-12;
 
 }  // namespace
 
-ConvexProfile::ConvexProfile(const std::vector<Vec2>& corners) {
+ConvexProfile::ConvexProfile(const std::vector<Vec2>& corners, double rounding)
+    : first_(corners.front()), rounding_(rounding) {
   Vec2 at(corners.front().x(), 0.0);
   const auto add = [&](const Vec2& to) {
-    const double length = (to - at).norm();
+    const Vec2 step = to - at;
+    const double length = step.norm();
     if (length > 0.0) {
-      from_.push_back(at);
-      along_.emplace_back((to - at) / length);
-      length_.push_back(length);
+      const double nz = -step.y() / length, nr = step.x() / length;
+      sides_.push_back({nz, nr, nz * at.x() + nr * at.y(), nr * at.x() - nz * at.y(), length});
     }
     at = to;
   };
   for (const Vec2& corner : corners) add(corner);
   add({corners.back().x(), 0.0});
-  if (from_.empty()) {
-    from_.push_back(at);
-    along_.emplace_back(0.0, 1.0);
-    length_.push_back(0.0);
-  }
-  const auto count = static_cast<Eigen::Index>(from_.size());
-  normal_z_.resize(count);
-  normal_rho_.resize(count);
-  offset_.resize(count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    normal_z_[i] = -along_[k].y();
-    normal_rho_[i] = along_[k].x();
-    offset_[i] = normal_z_[i] * from_[k].x() + normal_rho_[i] * from_[k].y();
-  }
 }
 
-BodyJet ConvexProfile::at(const Pose& pose, const Vec3& x) const {
-  BodyJet jet;
-  const Vec3 d = x - pose.tip;
-  jet.z = d.dot(pose.axis);
-  const Vec3 perpendicular = d - jet.z * pose.axis;
-  jet.rho = perpendicular.norm();
-  jet.across = jet.rho > 0.0 ? Vec3(perpendicular / jet.rho) : pose.axis.unitOrthogonal();
-  Eigen::Index facing = 0;
-  jet.value = (normal_z_ * jet.z + normal_rho_ * jet.rho - offset_).maxCoeff(&facing);
-  jet.along = normal_z_[facing];
-  jet.out = normal_rho_[facing];
-  if (jet.value > 0.0) {
-    // Outside: from the side that faces the point most to the one that holds its foot.
-    auto k = static_cast<std::size_t>(facing);
-    const Vec2 p(jet.z, jet.rho);
-    const auto share = [&](std::size_t i) { return along_[i].dot(p - from_[i]); };
-    double t = share(k);
-    while (t < 0.0 && k > 0 && share(k - 1) <= length_[k - 1]) t = share(--k);
-    while (t > length_[k] && k + 1 < from_.size() && share(k + 1) >= 0.0) t = share(++k);
-    const bool rim = t <= 0.0 || t >= length_[k];
-    const Vec2 off = p - from_[k] - std::min(std::max(t, 0.0), length_[k]) * along_[k];
-    jet.value = off.norm();
-    if (jet.value > 0.0) {
-      jet.along = off.x() / jet.value;
-      jet.out = off.y() / jet.value;
-      jet.corner = rim ? 1.0 / jet.value : 0.0;
-    }
+ProfileJet ConvexProfile::at(double z, double rho) const {
+  if (sides_.empty()) {
+    const double d = std::hypot(z - first_.x(), rho);
+    if (!(d > 0.0)) return {-rounding_, 0.0, 1.0, 0.0};
+    return {d - rounding_, (z - first_.x()) / d, rho / d, 1.0 / d};
   }
+  std::size_t k = 0;
+  double farthest = -1e300;
+  for (std::size_t i = 0; i < sides_.size(); ++i) {
+    const double out = sides_[i].normal_z * z + sides_[i].normal_rho * rho - sides_[i].offset;
+    if (out > farthest) farthest = out, k = i;
+  }
+  const auto share = [&](std::size_t i) {
+    return sides_[i].normal_rho * z - sides_[i].normal_z * rho - sides_[i].start;
+  };
+  double t = share(k);
+  if (farthest <= 0.0 || (t >= 0.0 && t <= sides_[k].length))
+    return {farthest - rounding_, sides_[k].normal_z, sides_[k].normal_rho, 0.0};
+  // Outside: from the side that faces the point most to the one that holds its foot.
+  while (t < 0.0 && k > 0 && share(k - 1) <= sides_[k - 1].length) t = share(--k);
+  while (t > sides_[k].length && k + 1 < sides_.size() && share(k + 1) >= 0.0) t = share(++k);
+  const Side& side = sides_[k];
+  const double off = side.normal_z * z + side.normal_rho * rho - side.offset;
+  const double past = t - std::clamp(t, 0.0, side.length);
+  const double d = std::hypot(off, past);
+  if (!(d > 0.0)) return {-rounding_, side.normal_z, side.normal_rho, 0.0};
+  return {d - rounding_, (off * side.normal_z + past * side.normal_rho) / d,
+          (off * side.normal_rho - past * side.normal_z) / d, past == 0.0 ? 0.0 : 1.0 / d};
+}
+
+BodyJet body_jet(const ConvexProfile& body, const Pose& pose, const Vec3& x) {
+  const PosedPoint at(pose, x);
+  BodyJet jet{body.at(at.z, at.rho)};
+  jet.z = at.z;
+  jet.rho = at.rho;
+  jet.across = at.rho > 0.0 ? Vec3(at.perpendicular / at.rho) : pose.axis.unitOrthogonal();
   jet.gradient = jet.along * pose.axis + jet.out * jet.across;
   return jet;
 }

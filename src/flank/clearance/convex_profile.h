@@ -7,14 +7,18 @@
 
 namespace flank {
 
-/// Signed distance of a point to a posed body, negative inside, convex everywhere.
-struct BodyJet {
+/// Signed distance in the half plane (z, rho), rho >= 0, of the tool's axis.
+struct ProfileJet {
   double value = 0.0;
-  Vec3 gradient = Vec3::Zero();   ///< unit vector, away from the body
-  Vec3 across = Vec3::Zero();     ///< unit vector from the axis to the point
-  double z = 0.0, rho = 0.0;      ///< of the point: along the axis from s = 0, and from the axis
-  double along = 0.0, out = 0.0;  ///< the gradient's parts along the axis and along `across`
-  double corner = 0.0;            ///< 1 / distance where a rim of the body is nearest, else 0
+  double along = 0.0, out = 0.0;  ///< its gradient, a unit vector: along the axis and away from it
+  double corner = 0.0;            ///< 1 / distance where a corner is nearest, else 0
+};
+
+/// Signed distance of a point to a posed body, negative inside, convex everywhere.
+struct BodyJet : ProfileJet {
+  Vec3 gradient = Vec3::Zero();  ///< unit vector, away from the body
+  Vec3 across = Vec3::Zero();    ///< unit vector from the axis to the point
+  double z = 0.0, rho = 0.0;     ///< of the point: along the axis from s = 0, and from the axis
 
   /// Second derivative along two directions: a rim curves by 1 / distance across the gradient in the plane of the axis,
   /// and going round the axis by out / rho.
@@ -27,19 +31,40 @@ struct BodyJet {
 
 class ConvexProfile {
  public:
-  /// Corners (z, r) from the lower to the upper end: z not falling, r >= 0, slopes not growing.
-  explicit ConvexProfile(const std::vector<Vec2>& corners);
+  /// Corners (z, r) from the lower to the upper end: z not falling, r >= 0, slopes not growing. The body grows by
+  /// `rounding`; one corner on the axis makes a ball.
+  explicit ConvexProfile(const std::vector<Vec2>& corners, double rounding = 0.0);
 
-  [[nodiscard]] BodyJet at(const Pose& pose, const Vec3& x) const;
+  [[nodiscard]] ProfileJet at(double z, double rho) const;
 
  private:
-  /// Sides from the axis over the outside back to the axis, in arrays, for the compiler's sake.
-  Eigen::ArrayXd normal_z_, normal_rho_, offset_;
-  std::vector<Vec2> from_, along_;
-  std::vector<double> length_;
+  /// A side of the outline, from the axis over the outside back to the axis.
+  struct Side {
+    double normal_z, normal_rho, offset;  ///< its line is normal . p = offset
+    double start, length;  ///< (-normal_rho, normal_z) . p of its first end; the other direction is along
+  };
+  Vec2 first_;
+  double rounding_ = 0.0;
+  std::vector<Side> sides_;  ///< none: the body is a ball about first_
 };
 
 /// A profile (z, radius) as convex ones.
 [[nodiscard]] std::vector<ConvexProfile> split_convex(const std::vector<Vec2>& profile);
+
+/// Where a point is, seen from a pose.
+struct PosedPoint {
+  Vec3 perpendicular;
+  double z = 0.0, rho = 0.0;
+
+  PosedPoint(const Pose& pose, const Vec3& x) {
+    const Vec3 d = x - pose.tip;
+    z = d.dot(pose.axis);
+    perpendicular = d - z * pose.axis;
+    rho = perpendicular.norm();
+  }
+};
+
+/// The distance of the point in space.
+[[nodiscard]] BodyJet body_jet(const ConvexProfile& body, const Pose& pose, const Vec3& x);
 
 }  // namespace flank

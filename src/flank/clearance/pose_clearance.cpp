@@ -36,26 +36,15 @@ void simplify(const std::vector<Vec2>& fine, std::size_t a, std::size_t b, std::
   simplify(fine, at, b, out);
 }
 
-/// The outline of the flank: a quarter or so of a circle, the meridian, and another one.
-std::vector<Vec2> flank_outline(const RadialFunction& radial) {
-  constexpr int kArc = 256;
-  const double length = radial.axis_length();
-  const std::vector<Vec2> middle = meridian(radial, kMeridianPoints);
-  std::vector<Vec2> fine;
-  const auto arc = [&](double center, double r, double from, double to) {
-    for (int i = 0; i <= kArc; ++i) {
-      const double angle = from + (to - from) * i / kArc;
-      fine.emplace_back(center - r * std::cos(angle), std::max(0.0, r * std::sin(angle)));
-    }
-  };
-  const auto angle_of = [](const Vec2& p, double center) { return std::atan2(p.y(), center - p.x()); };
-  arc(0.0, radial.at(0.0).r, 0.0, angle_of(middle.front(), 0.0));
-  fine.insert(fine.end(), middle.begin() + 1, middle.end());
-  arc(length, radial.at(length).r, angle_of(middle.back(), length), std::acos(-1.0));
-  std::vector<Vec2> out{fine.front()};
-  simplify(fine, 0, fine.size() - 1, out);
-  for (std::size_t k = 1; k < out.size(); ++k) out[k].x() = std::max(out[k].x(), out[k - 1].x());
-  return out;
+/// The flank, a union of spheres: what turns below its meridian, and the balls at its ends.
+std::vector<ConvexProfile> flank_shapes(const RadialFunction& radial) {
+  const std::vector<Vec2> fine = meridian(radial, kMeridianPoints);
+  std::vector<Vec2> outline{fine.front()};
+  simplify(fine, 0, fine.size() - 1, outline);
+  std::vector<ConvexProfile> shapes = split_convex(outline);
+  for (const double s : {0.0, radial.axis_length()})
+    shapes.emplace_back(std::vector<Vec2>{Vec2(s, 0.0)}, radial.at(s).r);
+  return shapes;
 }
 
 /// A triangle of one of the trees and how near it is.
@@ -83,8 +72,10 @@ class Search {
       if (entry.bound >= hit.value) continue;
       const CheckTree::Node& node = tree_.nodes()[static_cast<std::size_t>(entry.node)];
       if (node.second < 0) {
-        for (int k = node.first; k < node.end; ++k) measure(k, hit);
-        if (any && hit.triangle >= 0) return;
+        for (int k = node.first; k < node.end; ++k) {
+          measure(k, hit, any);
+          if (any && hit.triangle >= 0) return;
+        }
         continue;
       }
       Entry near{bound(entry.node + 1), entry.node + 1}, far{bound(node.second), node.second};
@@ -94,10 +85,11 @@ class Search {
     }
   }
 
-  void measure(int k, Hit& hit) const {
+  void measure(int k, Hit& hit, bool any) const {
     const CheckTree::Triangle& triangle = tree_.triangles()[static_cast<std::size_t>(k)];
     for (const ConvexProfile& body : bodies_) {
-      const TriangleDistance found = triangle_distance(body, pose_, triangle.corners, hit.value + triangle.slack_mm);
+      const TriangleDistance found =
+          triangle_distance(body, pose_, triangle.corners, hit.value + triangle.slack_mm, any);
       if (found.below) hit = {found.value - triangle.slack_mm, hit.side, k, found};
     }
   }
@@ -110,10 +102,13 @@ class Search {
 
   [[nodiscard]] double bound(int index) const {
     const CheckTree::Node& node = tree_.nodes()[static_cast<std::size_t>(index)];
+    const PosedPoint at(pose_, node.center);
+    const Vec3 across = at.rho > 0.0 ? Vec3(at.perpendicular / at.rho) : pose_.axis.unitOrthogonal();
     double least = 1e300;
     for (const ConvexProfile& body : bodies_) {
-      const BodyJet jet = body.at(pose_, node.center);
-      least = std::min(least, jet.value - jet.gradient.cwiseAbs().dot(node.half));
+      const ProfileJet jet = body.at(at.z, at.rho);
+      const Vec3 gradient = jet.along * pose_.axis + jet.out * across;
+      least = std::min(least, jet.value - gradient.cwiseAbs().dot(node.half));
     }
     return least - tree_.largest_slack();
   }
@@ -154,7 +149,7 @@ struct PoseChecker::Data {
       const Search search(sides[s].bodies, sides[s].tree, pose);
       const int before = hit.triangle;
       const double value = hit.value;
-      if (warm.side == static_cast<int>(s) && warm.triangle >= 0) search.measure(warm.triangle, hit);
+      if (warm.side == static_cast<int>(s) && warm.triangle >= 0) search.measure(warm.triangle, hit, any);
       if (!(any && hit.triangle >= 0)) search.run(hit, any);
       if (hit.triangle != before || hit.value < value) hit.side = static_cast<int>(s);
     }
@@ -183,7 +178,7 @@ PoseChecker::PoseChecker(const Tool& tool, std::span<const CheckSurface> surface
   auto data = std::make_unique<Data>();
   for (const std::vector<Vec2>* profile : {&tool.shank, &tool.holder})
     for (ConvexProfile& body : split_convex(*profile)) data->sides[0].bodies.push_back(std::move(body));
-  data->sides[1].bodies = split_convex(flank_outline(tool.radial));
+  data->sides[1].bodies = flank_shapes(tool.radial);
   std::array<std::vector<CheckTree::Triangle>, Data::kSides> triangles;
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
     const CheckSurface& surface = surfaces[k];

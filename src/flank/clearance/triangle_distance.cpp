@@ -52,13 +52,14 @@ struct Model {
 
 class Descent {
  public:
-  Descent(const ConvexProfile& body, const Pose& pose, const Corners& v, double cutoff)
-      : body_(body), pose_(pose), v_(v), cutoff_(cutoff), side1_(v[1] - v[0]), side2_(v[2] - v[0]) {}
+  Descent(const ConvexProfile& body, const Pose& pose, const Corners& v, double cutoff, bool any)
+      : body_(body), pose_(pose), v_(v), cutoff_(cutoff), any_(any), side1_(v[1] - v[0]), side2_(v[2] - v[0]) {}
 
   TriangleDistance run() {
     double p = 1.0 / 3.0, q = 1.0 / 3.0;
     move_to(p, q);
     for (int k = 0; k < kMostSteps; ++k) {
+      if (any_ && best_.value < cutoff_) return finished();
       lower_ = std::max(lower_, tangent_bound(best_.jet, best_.point, v_));
       if (lower_ >= cutoff_ || best_.value - lower_ <= kTriangleDistanceError) return finished();
       if (!step(p, q)) break;
@@ -68,11 +69,16 @@ class Descent {
   }
 
  private:
+  struct Part {
+    Corners corners;
+    double bound = 0.0;
+  };
+
   [[nodiscard]] Vec3 place(double p, double q) const { return v_[0] + p * side1_ + q * side2_; }
 
   void move_to(double p, double q) {
     best_.point = place(p, q);
-    best_.jet = body_.at(pose_, best_.point);
+    best_.jet = body_jet(body_, pose_, best_.point);
     best_.value = best_.jet.value;
   }
 
@@ -87,7 +93,7 @@ class Descent {
     for (int k = 0; k < kMostHalvings; ++k, share *= 0.5) {
       const double a = p + share * move.x(), b = q + share * move.y();
       const Vec3 x = place(a, b);
-      const BodyJet there = body_.at(pose_, x);
+      const BodyJet there = body_jet(body_, pose_, x);
       if (!(there.value <= best_.value + kEnoughFall * share * slope)) continue;
       p = a;
       q = b;
@@ -101,26 +107,33 @@ class Descent {
 
   /// Quarters, depth first, without those whose tangent bound shows that they hold nothing lower.
   void divide() {
-    std::array<Corners, 128> stack;
+    std::array<Part, 128> stack;
     std::size_t top = 0;
-    stack[top++] = v_;
+    stack[top++] = {v_, lower_};
     for (int parts = 0; top > 0 && parts < kMostParts; ++parts) {
-      const Corners t = stack[--top];
-      const Vec3 x = (t[0] + t[1] + t[2]) / 3.0;
-      const BodyJet jet = body_.at(pose_, x);
-      if (jet.value < best_.value) {
-        best_.value = jet.value;
-        best_.point = x;
-        best_.jet = jet;
-      }
+      const Part part = stack[--top];
       const double slack = kTriangleDistanceError + std::max(0.0, -kDepthShareError * best_.value);
-      if (tangent_bound(jet, x, t) >= std::min(best_.value - slack, cutoff_) || top + 4 > stack.size()) continue;
+      if (part.bound >= std::min(best_.value - slack, cutoff_) || top + 4 > stack.size()) continue;
+      const Corners& t = part.corners;
       const Vec3 a = 0.5 * (t[1] + t[2]), b = 0.5 * (t[2] + t[0]), c = 0.5 * (t[0] + t[1]);
-      stack[top++] = {t[0], c, b};
-      stack[top++] = {c, t[1], a};
-      stack[top++] = {b, a, t[2]};
-      stack[top++] = {a, b, c};
+      for (const Corners& quarter : {Corners{t[0], c, b}, Corners{c, t[1], a}, Corners{b, a, t[2]}, Corners{a, b, c}})
+        stack[top++] = {quarter, std::max(part.bound, look_at(quarter))};
+      // The most promising one on top.
+      std::sort(stack.begin() + static_cast<std::ptrdiff_t>(top) - 4, stack.begin() + static_cast<std::ptrdiff_t>(top),
+                [](const Part& x, const Part& y) { return x.bound > y.bound; });
     }
+  }
+
+  /// Measures the middle of a part; returns its tangent bound.
+  double look_at(const Corners& t) {
+    const Vec3 x = (t[0] + t[1] + t[2]) / 3.0;
+    const BodyJet jet = body_jet(body_, pose_, x);
+    if (jet.value < best_.value) {
+      best_.value = jet.value;
+      best_.point = x;
+      best_.jet = jet;
+    }
+    return tangent_bound(jet, x, t);
   }
 
   TriangleDistance finished() {
@@ -133,6 +146,7 @@ class Descent {
   const Pose& pose_;
   const Corners& v_;
   double cutoff_;
+  bool any_;
   Vec3 side1_, side2_;
   double lower_ = -1e300;
   TriangleDistance best_;
@@ -140,8 +154,9 @@ class Descent {
 
 }  // namespace
 
-TriangleDistance triangle_distance(const ConvexProfile& body, const Pose& pose, const Corners& corners, double cutoff) {
-  return Descent(body, pose, corners, cutoff).run();
+TriangleDistance triangle_distance(const ConvexProfile& body, const Pose& pose, const Corners& corners, double cutoff,
+                                   bool any) {
+  return Descent(body, pose, corners, cutoff, any).run();
 }
 
 }  // namespace flank

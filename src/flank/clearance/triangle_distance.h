@@ -20,8 +20,8 @@ inline constexpr double kDepthShareError = 1e-3;
 
 /// A signed distance that is convex lies above its tangent planes: value - min over the corners of <gradient, x - corner>
 /// bounds it from below on the whole triangle. Newton's method within the triangle runs until that bound closes; where
-/// the distance has kinks (inside the body) the triangle is divided instead.
+/// the distance has kinks (inside the body) the triangle is divided instead. `any`: the first place below the cutoff will do.
 [[nodiscard]] TriangleDistance triangle_distance(const ConvexProfile& body, const Pose& pose,
-                                                 const std::array<Vec3, 3>& corners, double cutoff);
+                                                 const std::array<Vec3, 3>& corners, double cutoff, bool any = false);
 
 }  // namespace flank

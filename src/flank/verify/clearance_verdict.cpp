@@ -49,7 +49,7 @@ struct Body {
 
 std::vector<Body> bodies_of(const Tool& tool) {
   std::vector<Body> bodies;
-  bodies.push_back({ToolBody::kFlank, convex_bodies(flank_profile(tool.radial)), kFlankProfileErrorMm});
+  bodies.push_back({ToolBody::kFlank, flank_bodies(tool.radial), kFlankProfileErrorMm});
   bodies.push_back({ToolBody::kShank, convex_bodies(tool.shank), 0.0});
   bodies.push_back({ToolBody::kHolder, convex_bodies(tool.holder), 0.0});
   return bodies;

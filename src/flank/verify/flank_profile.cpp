@@ -10,7 +10,6 @@ namespace {
 
 constexpr int kDeepest = 10;  ///< halvings of one of the first pieces
 constexpr int kFirstPieces = 16;
-constexpr double kPi = 3.14159265358979323846;
 
 double off_chord(const Vec2& a, const Vec2& b, const Vec2& x) {
   const Vec2 d = b - a;
@@ -31,27 +30,20 @@ void append(const RadialFunction& radial, double s0, double s1, int depth, std::
   out.push_back(b);
 }
 
-/// The arc of a sphere of radius r about z = center, from the angle `from` to `to` seen from the axis direction.
-void append_cap(double center, double r, double from, double to, std::vector<Vec2>& out) {
-  const double step = 2.0 * std::acos(std::max(0.0, 1.0 - kFlankProfileErrorMm / r));
-  const int count = std::max(2, static_cast<int>(std::ceil(std::abs(to - from) / step)));
-  for (int i = 0; i <= count; ++i) {
-    const double angle = from + (to - from) * i / count;
-    out.emplace_back(center + r * std::cos(angle), std::max(0.0, r * std::sin(angle)));
-  }
-}
-
 }  // namespace
 
 std::vector<Vec2> flank_profile(const RadialFunction& radial) {
   const double length = radial.axis_length();
-  const RadialJet tip = radial.at(0.0), top = radial.at(length);
-  std::vector<Vec2> out;
-  append_cap(0.0, tip.r, kPi, std::acos(-tip.d1), out);
+  std::vector<Vec2> out{meridian_point(radial, 0.0)};
   for (int i = 0; i < kFirstPieces; ++i)
     append(radial, length * i / kFirstPieces, length * (i + 1) / kFirstPieces, 0, out);
-  append_cap(length, top.r, std::acos(-top.d1), 0.0, out);
   return out;
+}
+
+std::vector<Revolved> flank_bodies(const RadialFunction& radial) {
+  std::vector<Revolved> bodies = convex_bodies(flank_profile(radial));
+  for (double s : {0.0, radial.axis_length()}) bodies.emplace_back(std::vector<Vec2>{Vec2(s, 0.0)}, radial.at(s).r);
+  return bodies;
 }
 
 }  // namespace flank::verify

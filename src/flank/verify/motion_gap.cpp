@@ -143,7 +143,7 @@ double GapSearch::later_bound(const Interval& interval, const Revolved& body, co
     const Pose pose = g.at(tau);
     const double along = n.dot(pose.axis), across = n.cross(pose.axis).norm();
     const Vec2& c = body.support(along, across);
-    ends = std::max(ends, n.dot(pose.tip) + c.x() * along + c.y() * across);
+    ends = std::max(ends, n.dot(pose.tip) + c.x() * along + c.y() * across + body.rounding());
   }
   for (const Vec2& c : body.corners()) sizes = std::max(sizes, std::abs(c.x()) + c.y());
   const double squared = g.dw.squaredNorm(), least = 1.0 - 0.25 * squared;

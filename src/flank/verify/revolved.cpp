@@ -17,7 +17,7 @@ bool turns_outwards(const Vec2& a, const Vec2& b, const Vec2& c) {
 
 }  // namespace
 
-Revolved::Revolved(std::vector<Vec2> corners) : corners_(std::move(corners)) {
+Revolved::Revolved(std::vector<Vec2> corners, double rounding) : corners_(std::move(corners)), rounding_(rounding) {
   std::vector<Vec2> outline{Vec2(corners_.front().x(), 0.0)};
   outline.insert(outline.end(), corners_.begin(), corners_.end());
   outline.emplace_back(corners_.back().x(), 0.0);
@@ -26,8 +26,6 @@ Revolved::Revolved(std::vector<Vec2> corners) : corners_(std::move(corners)) {
     const double length = step.norm();
     if (length > 0.0) sides_.push_back({outline[i], step / length, Vec2(-step.y(), step.x()) / length, length});
   }
-  // A needle on the axis or a point: one side without length keeps the distances right.
-  if (sides_.empty()) sides_.push_back({outline[0], Vec2(0.0, 1.0), Vec2(-1.0, 0.0), 0.0});
 }
 
 double Revolved::value(double z, double rho) const { return distance(z, rho).value; }
@@ -39,10 +37,14 @@ ProfileDistance Revolved::distance(double z, double rho) const {
     const double out = side.normal.x() * (z - side.from.x()) + side.normal.y() * (rho - side.from.y());
     if (out > farthest) farthest = out, facing = &side;
   }
-  if (farthest <= 0.0) return {farthest, facing->normal.x(), facing->normal.y(), 0.0};
-  // Outside: the nearest point of all sides.
+  if (facing != nullptr && farthest <= 0.0) return {farthest - rounding_, facing->normal.x(), facing->normal.y(), 0.0};
+  // Outside: the nearest point of all sides, or of the only corner.
   double least = 1e300;
   ProfileDistance found;
+  if (facing == nullptr) {
+    found = {0.0, z - corners_.front().x(), rho, 1.0};
+    least = found.dz * found.dz + rho * rho;
+  }
   for (const Side& side : sides_) {
     const double dz = z - side.from.x(), dr = rho - side.from.y();
     const double t = std::clamp(side.along.x() * dz + side.along.y() * dr, 0.0, side.length);
@@ -52,11 +54,12 @@ ProfileDistance Revolved::distance(double z, double rho) const {
     least = squared;
     found = {0.0, ez, er, t > 0.0 && t < side.length ? 0.0 : 1.0};
   }
-  found.value = std::sqrt(least);
-  const double inverse = 1.0 / found.value;
-  found.dz *= inverse;
-  found.drho *= inverse;
-  found.corner *= inverse;
+  const double distance = std::sqrt(least);
+  found.value = distance - rounding_;
+  if (!(distance > 0.0)) return {found.value, 0.0, 1.0, 0.0};  // the centre of a ball: any direction is a subgradient
+  found.dz /= distance;
+  found.drho /= distance;
+  found.corner /= distance;
   return found;
 }
 

@@ -18,15 +18,17 @@ struct ProfileDistance {
 /// inside: the largest over unit n of <n, x> - support(n).
 class Revolved {
  public:
-  /// Corners (z, r) with z not falling, r >= 0, whose slopes do not grow. At least one.
-  explicit Revolved(std::vector<Vec2> corners);
+  /// Corners (z, r) with z not falling, r >= 0, whose slopes do not grow. At least one. All of it grows by `rounding`: a
+  /// single corner on the axis makes a ball.
+  explicit Revolved(std::vector<Vec2> corners, double rounding = 0.0);
 
   [[nodiscard]] ProfileDistance distance(double z, double rho) const;
   /// The same without the gradient.
   [[nodiscard]] double value(double z, double rho) const;
-  /// Corner that is farthest in the direction that has `along` to the axis and `across` >= 0 from it.
+  /// Corner (before the rounding) that is farthest in the direction that has `along` to the axis and `across` >= 0 from it.
   [[nodiscard]] const Vec2& support(double along, double across) const;
   [[nodiscard]] const std::vector<Vec2>& corners() const { return corners_; }
+  [[nodiscard]] double rounding() const { return rounding_; }
 
  private:
   struct Side {
@@ -34,6 +36,7 @@ class Revolved {
     double length = 0.0;
   };
   std::vector<Vec2> corners_;
+  double rounding_ = 0.0;
   std::vector<Side> sides_;  ///< from the axis over the lower end, the outside and the upper end back to the axis
 };
 

@@ -116,8 +116,9 @@ bool holds(const std::array<Vec3, 3>& v, const Vec3& cross, const Vec3& x) {
 Vec3 support_point(const Revolved& body, const Vec3& n) {
   const double across = std::hypot(n.x(), n.y());
   const Vec2& c = body.support(n.z(), across);
-  if (!(across > 0.0)) return {0.0, 0.0, c.x()};
-  return {c.y() * n.x() / across, c.y() * n.y() / across, c.x()};
+  const Vec3 rounded = body.rounding() * n;
+  if (!(across > 0.0)) return rounded + Vec3(0.0, 0.0, c.x());
+  return rounded + Vec3(c.y() * n.x() / across, c.y() * n.y() / across, c.x());
 }
 
 TriangleGap best_side(const Revolved& body, const std::array<Vec3, 3>& v, double cutoff) {
