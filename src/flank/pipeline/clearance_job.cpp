@@ -78,9 +78,11 @@ void add_obstacles(const Part& part, ObstacleRole role, const std::vector<int>& 
     const bool target = std::find(targets.begin(), targets.end(), static_cast<int>(k)) != targets.end();
     const std::string file = std::filesystem::path(part.file).filename().string();
     const std::string name = role == ObstacleRole::kFixture ? file + " " + faces[k].face : faces[k].face;
-    if (faces[k].deviation_mm > 2.0 * deviation || faces[k].beyond_border)
-      notes.push_back(fmt::format("{}: its triangles for clearances are {:.3g} mm off{}", name, faces[k].deviation_mm,
-                                  faces[k].beyond_border ? " and go past its border" : ""));
+    if (faces[k].deviation_mm > 2.0 * deviation)
+      notes.push_back(fmt::format("{}: its triangles for clearances are up to {:.3g} mm off (counted in the bound)",
+                                  name, faces[k].deviation_mm));
+    if (faces[k].beyond_border)
+      notes.push_back(name + ": its triangles for clearances may go past its border, which could not be followed");
     out.push_back({name, target ? ObstacleRole::kTarget : role, std::move(faces[k].mesh), faces[k].deviation_mm});
   }
 }
@@ -93,8 +95,7 @@ const char* role_words(ObstacleRole role) {
 
 std::vector<Vec2> holder_profile(const std::string& text) {
   const std::string what = "--holder " + text;
-  const bool inline_text =
-      text.find_first_not_of("0123456789.,:;+-eE ") == std::string::npos && text.find(':') != text.npos;
+  const bool inline_text = text.find(':') != std::string::npos && !std::filesystem::exists(text);
   std::vector<Vec2> profile;
   if (inline_text) {
     profile = pairs_of(text, what);
