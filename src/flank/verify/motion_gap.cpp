@@ -98,8 +98,8 @@ class GapSearch {
   [[nodiscard]] double needed() const { return best_.value - gap_bound(best_.value, accuracy_); }
   [[nodiscard]] double reach(const Interval& interval) const;
   [[nodiscard]] double node_bound(const Frame& frame, const Sphere& sphere) const;
-  [[nodiscard]] double later_bound(const Interval& interval, const Revolved& body, const std::array<Vec3, 3>& corners,
-                                   const Vec3& n) const;
+  [[nodiscard]] double later_support(const Interval& interval, const Revolved& body, const Vec3& n) const;
+  [[nodiscard]] bool behind_slab(const Interval& interval, const Frame& frame, const ObstacleTree::Node& node) const;
   void gather(const Interval& interval);
   void check(const Interval& interval, const Frame& frame, double reach, Pair pair);
   void split(const Interval& interval, std::size_t begin);
@@ -135,8 +135,8 @@ double GapSearch::node_bound(const Frame& frame, const Sphere& sphere) const {
   return least - sphere.radius;
 }
 
-double GapSearch::later_bound(const Interval& interval, const Revolved& body, const std::array<Vec3, 3>& corners,
-                              const Vec3& n) const {
+/// Upper bound of the body's support along n over the interval.
+double GapSearch::later_support(const Interval& interval, const Revolved& body, const Vec3& n) const {
   const Segment& g = segment(interval);
   double ends = -1e300, sizes = 0.0;
   for (double tau : {interval.low, interval.high}) {
@@ -149,8 +149,19 @@ double GapSearch::later_bound(const Interval& interval, const Revolved& body, co
   const double squared = g.dw.squaredNorm(), least = 1.0 - 0.25 * squared;
   const double turn = std::sqrt(squared) / least, bend = turn * (turn + squared / least) * sizes;
   const double open = interval.high - interval.low;
-  const double near = std::min({n.dot(corners[0]), n.dot(corners[1]), n.dot(corners[2])});
-  return near - ends - 0.125 * bend * open * open;
+  return ends + 0.125 * bend * open * open;
+}
+
+/// Whether the slab alone keeps every triangle of the node far enough for the whole interval: faces that the body runs
+/// along in parallel are settled by it at once.
+bool GapSearch::behind_slab(const Interval& interval, const Frame& frame, const ObstacleTree::Node& node) const {
+  const double middle = 0.5 * (motion_.lowest_ + motion_.highest_);
+  const bool above = 2.0 * node.normal.dot(frame.origin + middle * frame.axis) > node.low + node.high;
+  const Vec3 n = above ? Vec3(-node.normal) : node.normal;
+  const double near = above ? -node.high : node.low;
+  for (const Revolved& body : motion_.body_)
+    if (near - later_support(interval, body, n) < needed()) return false;
+  return true;
 }
 
 void GapSearch::check(const Interval& interval, const Frame& frame, double reach, Pair pair) {
@@ -174,7 +185,9 @@ void GapSearch::check(const Interval& interval, const Frame& frame, double reach
              std::hypot(on_body.x(), on_body.y())};
   }
   if (reach == 0.0 || gap.value - reach >= needed()) return;
-  if (later_bound(interval, body, corners, frame.turned(gap.normal)) >= needed()) return;
+  const Vec3 n = frame.turned(gap.normal);
+  const double near = std::min({n.dot(corners[0]), n.dot(corners[1]), n.dot(corners[2])});
+  if (near - later_support(interval, body, n) >= needed()) return;
   open_.push_back(pair);
 }
 
@@ -189,6 +202,7 @@ void GapSearch::gather(const Interval& interval) {
     nodes_.pop_back();
     if (bound >= needed() + reach) continue;
     const ObstacleTree::Node& node = motion_.tree_.node(index);
+    if (node.flat && behind_slab(interval, frame, node)) continue;
     if (node.second < 0) {
       for (int k = node.first; k < node.end; ++k)
         for (int b = 0; b < static_cast<int>(motion_.body_.size()); ++b) check(interval, frame, reach, {k, b});

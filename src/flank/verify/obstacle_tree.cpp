@@ -7,6 +7,7 @@ namespace flank::verify {
 namespace {
 
 constexpr int kLeaf = 3;
+constexpr double kFlat = 0.25;             ///< of the radius: thickness of a slab that is worth asking
 constexpr double kOutwards = 1.0 + 1e-12;  ///< rounding must not let a corner out of its sphere
 
 std::array<Vec3, 3> corners_of(const TriangleMesh& mesh, int triangle) {
@@ -47,23 +48,41 @@ ObstacleTree::ObstacleTree(const TriangleMesh& mesh) {
   }
 }
 
+/// Sphere and slab of the node's triangles. The slab lies across their mean normal, whichever way each of them is oriented.
+void ObstacleTree::enclose(const TriangleMesh& mesh, Node& node) const {
+  Box3 box;
+  Vec3 sum = Vec3::Zero();
+  for (int k = node.first; k < node.end; ++k) {
+    const auto v = corners_of(mesh, numbers_[static_cast<std::size_t>(k)]);
+    for (const Vec3& x : v) box.add(x);
+    const Vec3 normal = (v[1] - v[0]).cross(v[2] - v[0]);
+    sum += normal.dot(sum) < 0.0 ? Vec3(-normal) : normal;
+  }
+  node.sphere.center = box.center();
+  if (sum.norm() > 0.0) node.normal = sum.normalized();
+  node.low = 1e300;
+  node.high = -1e300;
+  for (int k = node.first; k < node.end; ++k) {
+    for (const Vec3& x : corners_of(mesh, numbers_[static_cast<std::size_t>(k)])) {
+      node.sphere.radius = std::max(node.sphere.radius, (x - node.sphere.center).norm() * kOutwards);
+      node.low = std::min(node.low, node.normal.dot(x));
+      node.high = std::max(node.high, node.normal.dot(x));
+    }
+  }
+  node.flat = node.high - node.low < kFlat * node.sphere.radius;
+}
+
 int ObstacleTree::build(const TriangleMesh& mesh, const std::vector<Vec3>& centers, int first, int end) {
   const int index = static_cast<int>(nodes_.size());
   nodes_.emplace_back();
   Node node;
   node.first = first;
   node.end = end;
-  Box3 box, middles;
-  for (int k = first; k < end; ++k) {
-    const int triangle = numbers_[static_cast<std::size_t>(k)];
-    for (const Vec3& x : corners_of(mesh, triangle)) box.add(x);
-    middles.add(centers[static_cast<std::size_t>(triangle)]);
-  }
-  node.sphere.center = box.center();
-  for (int k = first; k < end; ++k)
-    for (const Vec3& x : corners_of(mesh, numbers_[static_cast<std::size_t>(k)]))
-      node.sphere.radius = std::max(node.sphere.radius, (x - node.sphere.center).norm() * kOutwards);
+  enclose(mesh, node);
   if (end - first > kLeaf) {
+    Box3 middles;
+    for (int k = first; k < end; ++k)
+      middles.add(centers[static_cast<std::size_t>(numbers_[static_cast<std::size_t>(k)])]);
     int axis = 0;
     (middles.high - middles.low).maxCoeff(&axis);
     const int middle = first + (end - first) / 2;

@@ -16,9 +16,13 @@ struct Sphere {
 
 class ObstacleTree {
  public:
-  /// A node holds triangles [first, end); its children are the next node and `second` (-1: a leaf).
+  /// A node holds triangles [first, end); its children are the next node and `second` (-1: a leaf). All of it lies in the
+  /// slab low <= <normal, x> <= high.
   struct Node {
     Sphere sphere;
+    Vec3 normal = Vec3::UnitZ();
+    double low = 0.0, high = 0.0;
+    bool flat = false;  ///< the slab is thin for the node's size
     int second = -1, first = 0, end = 0;
   };
 
@@ -34,6 +38,7 @@ class ObstacleTree {
   [[nodiscard]] int number(int i) const { return numbers_[static_cast<std::size_t>(i)]; }
 
  private:
+  void enclose(const TriangleMesh& mesh, Node& node) const;
   int build(const TriangleMesh& mesh, const std::vector<Vec3>& centers, int first, int end);
 
   std::vector<Node> nodes_;
