@@ -8,6 +8,9 @@ namespace {
 
 constexpr double kSameSlope = 1e-12;
 
+/// Millimetres neither overflow nor vanish: std::hypot takes care of that and a tenth of a query's time.
+double length_of(double x, double y) { return std::sqrt(x * x + y * y); }
+
 }  // namespace
 
 ConvexProfile::ConvexProfile(const std::vector<Vec2>& corners, double rounding)
@@ -28,7 +31,7 @@ ConvexProfile::ConvexProfile(const std::vector<Vec2>& corners, double rounding)
 
 ProfileJet ConvexProfile::at(double z, double rho) const {
   if (sides_.empty()) {
-    const double d = std::hypot(z - first_.x(), rho);
+    const double d = length_of(z - first_.x(), rho);
     if (!(d > 0.0)) return {-rounding_, 0.0, 1.0, 0.0};
     return {d - rounding_, (z - first_.x()) / d, rho / d, 1.0 / d};
   }
@@ -50,7 +53,7 @@ ProfileJet ConvexProfile::at(double z, double rho) const {
   const Side& side = sides_[k];
   const double off = side.normal_z * z + side.normal_rho * rho - side.offset;
   const double past = t - std::clamp(t, 0.0, side.length);
-  const double d = std::hypot(off, past);
+  const double d = length_of(off, past);
   if (!(d > 0.0)) return {-rounding_, side.normal_z, side.normal_rho, 0.0};
   return {d - rounding_, (off * side.normal_z + past * side.normal_rho) / d,
           (off * side.normal_rho - past * side.normal_z) / d, past == 0.0 ? 0.0 : 1.0 / d};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "flank/base/parallel.h"
 #include "flank/clearance/check_tree.h"
@@ -66,28 +67,31 @@ class Search {
     if (tree_.empty() || bodies_.empty()) return;
     std::array<Entry, kStack> stack;
     int top = 0;
-    stack[static_cast<std::size_t>(top++)] = {bound(0), 0};
+    stack[static_cast<std::size_t>(top++)] = entry_of({0.0, 0.0, 0, kAll}, 0, hit.value);
     while (top > 0) {
       const Entry entry = stack[static_cast<std::size_t>(--top)];
       if (entry.bound >= hit.value) continue;
       const CheckTree::Node& node = tree_.nodes()[static_cast<std::size_t>(entry.node)];
       if (node.second < 0) {
         for (int k = node.first; k < node.end; ++k) {
-          measure(k, hit, any);
+          measure(k, hit, any, entry.bodies);
           if (any && hit.triangle >= 0) return;
         }
         continue;
       }
-      Entry near{bound(entry.node + 1), entry.node + 1}, far{bound(node.second), node.second};
-      if (far.bound < near.bound) std::swap(near, far);
+      Entry near = entry_of(entry, entry.node + 1, hit.value), far = entry_of(entry, node.second, hit.value);
+      // For the nearest place the lower bound leads, for any place the middle does: it is more likely to be one.
+      if (any ? far.middle < near.middle : far.bound < near.bound) std::swap(near, far);
       if (far.bound < hit.value) stack[static_cast<std::size_t>(top++)] = far;
       if (near.bound < hit.value) stack[static_cast<std::size_t>(top++)] = near;
     }
   }
 
-  void measure(int k, Hit& hit, bool any) const {
+  void measure(int k, Hit& hit, bool any, std::uint64_t which = kAll) const {
     const CheckTree::Triangle& triangle = tree_.triangles()[static_cast<std::size_t>(k)];
-    for (const ConvexProfile& body : bodies_) {
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      if ((which & bit(b)) == 0) continue;
+      const ConvexProfile& body = bodies_[b];
       const TriangleDistance found =
           triangle_distance(body, pose_, triangle.corners, hit.value + triangle.slack_mm, any);
       if (found.below) hit = {found.value - triangle.slack_mm, hit.side, k, found};
@@ -96,21 +100,31 @@ class Search {
 
  private:
   struct Entry {
-    double bound = 0.0;
+    double bound = 0.0, middle = 0.0;  ///< of all of the node, and at its middle
     int node = 0;
+    std::uint64_t bodies = 0;  ///< that can be near enough, a bit each
   };
 
-  [[nodiscard]] double bound(int index) const {
+  static constexpr std::uint64_t kAll = ~std::uint64_t{0};
+  /// Bodies from the 64th on share the last bit.
+  static std::uint64_t bit(std::size_t body) { return std::uint64_t{1} << std::min<std::size_t>(body, 63); }
+
+  /// The node `index` below `parent`: bodies that were too far from that are too far from this.
+  [[nodiscard]] Entry entry_of(const Entry& parent, int index, double below) const {
     const CheckTree::Node& node = tree_.nodes()[static_cast<std::size_t>(index)];
     const PosedPoint at(pose_, node.center);
     const Vec3 across = at.rho > 0.0 ? Vec3(at.perpendicular / at.rho) : pose_.axis.unitOrthogonal();
-    double least = 1e300;
-    for (const ConvexProfile& body : bodies_) {
-      const ProfileJet jet = body.at(at.z, at.rho);
+    Entry entry{1e300, 1e300, index, 0};
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      if ((parent.bodies & bit(b)) == 0) continue;
+      const ProfileJet jet = bodies_[b].at(at.z, at.rho);
       const Vec3 gradient = jet.along * pose_.axis + jet.out * across;
-      least = std::min(least, jet.value - gradient.cwiseAbs().dot(node.half));
+      entry.middle = std::min(entry.middle, jet.value);
+      const double bound = jet.value - gradient.cwiseAbs().dot(node.half) - tree_.largest_slack();
+      if (bound < below) entry.bodies |= bit(b);
+      entry.bound = std::min(entry.bound, bound);
     }
-    return least - tree_.largest_slack();
+    return entry;
   }
 
   const std::vector<ConvexProfile>& bodies_;
