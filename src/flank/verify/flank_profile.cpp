@@ -37,12 +37,18 @@ std::vector<Vec2> flank_profile(const RadialFunction& radial) {
   std::vector<Vec2> out{meridian_point(radial, 0.0)};
   for (int i = 0; i < kFirstPieces; ++i)
     append(radial, length * i / kFirstPieces, length * (i + 1) / kFirstPieces, 0, out);
+  // A radial function that is no tool (a fit that failed) still makes bodies.
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    out[k].y() = std::isfinite(out[k].y()) ? std::max(0.0, out[k].y()) : 0.0;
+    if (k > 0) out[k].x() = std::max(out[k].x(), out[k - 1].x());
+  }
   return out;
 }
 
 std::vector<Revolved> flank_bodies(const RadialFunction& radial) {
   std::vector<Revolved> bodies = convex_bodies(flank_profile(radial));
-  for (double s : {0.0, radial.axis_length()}) bodies.emplace_back(std::vector<Vec2>{Vec2(s, 0.0)}, radial.at(s).r);
+  for (double s : {0.0, radial.axis_length()})
+    bodies.emplace_back(std::vector<Vec2>{Vec2(s, 0.0)}, std::max(0.0, radial.at(s).r));
   return bodies;
 }
 

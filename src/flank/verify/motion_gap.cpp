@@ -23,8 +23,10 @@ namespace {
 
 constexpr double kFirstReachMm = 0.5;  ///< a segment is cut at once into intervals that move the body by no more
 constexpr int kMostIntervals = 1024;
-constexpr int kFirstPoses = 48;     ///< looked at before all else, for a good value to compare with
-constexpr std::size_t kBlock = 32;  ///< segments a task searches; fixed, so that threads change nothing
+constexpr double kDepthSlack = 0.25;      ///< of the bound that is allowed: error of the depth at one pose ...
+constexpr double kFirstDepthReach = 0.7;  ///< ... and first intervals once there is a collision
+constexpr int kFirstPoses = 48;           ///< looked at before all else, for a good value to compare with
+constexpr std::size_t kBlock = 32;        ///< segments a task searches; fixed, so that threads change nothing
 
 /// The tool's frame at a pose.
 struct Frame {
@@ -83,7 +85,11 @@ class GapSearch {
 
   void search(int segment) {
     const double reach = this->reach({segment, 0.0, 1.0});
-    const int count = std::clamp(static_cast<int>(std::ceil(reach / kFirstReachMm)), 1, kMostIntervals);
+    // Inside a body only the first-order bound holds: intervals that it decides at once are cheaper than halving.
+    const double first = best_.value < 0.0
+                             ? std::min(kFirstReachMm, kFirstDepthReach * gap_bound(best_.value, accuracy_))
+                             : kFirstReachMm;
+    const int count = std::clamp(static_cast<int>(std::ceil(reach / first)), 1, kMostIntervals);
     for (int k = 0; k < count; ++k) {
       const Interval interval{segment, static_cast<double>(k) / count, static_cast<double>(k + 1) / count};
       gather(interval);
@@ -168,11 +174,13 @@ void GapSearch::check(const Interval& interval, const Frame& frame, double reach
   const Revolved& body = motion_.body_[static_cast<std::size_t>(pair.body)];
   const Sphere& sphere = motion_.tree_.sphere(pair.triangle);
   const Vec3 center = frame.local(sphere.center);
-  const double enough = needed() + reach;
+  // Depths need not be exact: what they lack counts as reach.
+  const double slack = best_.value < 0.0 ? kDepthSlack * gap_bound(best_.value, accuracy_) : kDepthErrorMm;
+  const double enough = needed() + reach + slack;
   if (body.value(center.z(), std::hypot(center.x(), center.y())) - sphere.radius >= enough) return;
   const auto& corners = motion_.tree_.corners(pair.triangle);
   const TriangleGap gap =
-      triangle_gap(body, {frame.local(corners[0]), frame.local(corners[1]), frame.local(corners[2])}, enough);
+      triangle_gap(body, {frame.local(corners[0]), frame.local(corners[1]), frame.local(corners[2])}, enough, slack);
   if (gap.value >= enough) return;
   if (gap.value < best_.value) {
     const Vec3 on_body = gap.point - gap.value * gap.normal;
@@ -184,7 +192,7 @@ void GapSearch::check(const Interval& interval, const Frame& frame, double reach
              on_body.z(),
              std::hypot(on_body.x(), on_body.y())};
   }
-  if (reach == 0.0 || gap.value - reach >= needed()) return;
+  if (reach == 0.0 || gap.value - slack - reach >= needed()) return;
   const Vec3 n = frame.turned(gap.normal);
   const double near = std::min({n.dot(corners[0]), n.dot(corners[1]), n.dot(corners[2])});
   if (near - later_support(interval, body, n) >= needed()) return;

@@ -10,7 +10,6 @@ namespace flank::verify {
 namespace {
 
 constexpr int kMostSteps = 80;
-constexpr double kDepthErrorMm = 1e-8;  ///< of the search over the triangle's inside
 constexpr double kGolden = 0.6180339887498949;
 
 /// Value and slopes of the signed distance along x = from + t step.
@@ -49,7 +48,7 @@ struct LineMinimum {
 
 /// Root of the growing slope in [0, 1], by Newton's method inside a bracket. Between the bracket's ends the value can
 /// lie below that of the last place by no more than |slope| times the bracket: that is the stopping rule.
-LineMinimum line_minimum(const Revolved& body, const Line& line) {
+LineMinimum line_minimum(const Revolved& body, const Line& line, double error = 0.1 * kTriangleGapErrorMm) {
   const LineJet first = line_jet(body, line, 0.0);
   if (first.slope >= 0.0) return {first.value, 0.0};
   const LineJet last = line_jet(body, line, 1.0);
@@ -68,7 +67,7 @@ LineMinimum line_minimum(const Revolved& body, const Line& line) {
       low = t;
       slope_low = at.slope;
     }
-    if (std::abs(at.slope) * (high - low) <= 0.1 * kTriangleGapErrorMm || !(high - low > 1e-15)) break;
+    if (std::abs(at.slope) * (high - low) <= error || !(high - low > 1e-15)) break;
     const double newton = at.bend > 0.0 ? t - at.slope / at.bend : -1.0;
     const bool shrinks = high - low < 0.5 * open;
     t = newton > low && newton < high && (shrinks || i % 3 != 2) ? newton : 0.5 * (low + high);
@@ -78,11 +77,11 @@ LineMinimum line_minimum(const Revolved& body, const Line& line) {
 
 /// Least value over the whole triangle, the plane cutting the body: the least over the lines parallel to one side is a
 /// convex function of the line.
-TriangleGap deepest(const Revolved& body, const std::array<Vec3, 3>& v) {
+TriangleGap deepest(const Revolved& body, const std::array<Vec3, 3>& v, double error) {
   TriangleGap best;
   const auto across = [&](double s) {
     const Line line{v[0] + s * (v[1] - v[0]), s * (v[2] - v[1])};
-    const LineMinimum found = line_minimum(body, line);
+    const LineMinimum found = line_minimum(body, line, 0.1 * error);
     if (found.value < best.value) best = {found.value, line.at(found.t), Vec3::Zero()};
     return found.value;
   };
@@ -91,7 +90,7 @@ TriangleGap deepest(const Revolved& body, const std::array<Vec3, 3>& v) {
   across(0.0);
   across(1.0);
   double fc = across(c), fd = across(d);
-  while ((high - low) * reach > kDepthErrorMm) {
+  while ((high - low) * reach > 0.5 * error) {
     if (fc < fd) {
       high = d, d = c, fd = fc, c = high - kGolden * (high - low), fc = across(c);
     } else {
@@ -135,9 +134,18 @@ TriangleGap best_side(const Revolved& body, const std::array<Vec3, 3>& v, double
   return best;
 }
 
+/// The least value on the triangle that the tangent plane of a convex function at x allows.
+double tangent_bound(double value, const Vec3& gradient, const Vec3& x, const std::array<Vec3, 3>& v) {
+  return value + std::min({gradient.dot(v[0] - x), gradient.dot(v[1] - x), gradient.dot(v[2] - x)});
+}
+
 }  // namespace
 
-TriangleGap triangle_gap(const Revolved& body, const std::array<Vec3, 3>& v, double cutoff) {
+TriangleGap triangle_gap(const Revolved& body, const std::array<Vec3, 3>& v, double cutoff, double depth_error_mm) {
+  const Vec3 middle = (v[0] + v[1] + v[2]) / 3.0;
+  const Vec3 slope = gradient_at(body, middle);
+  const double far = tangent_bound(body.value(middle.z(), std::hypot(middle.x(), middle.y())), slope, middle, v);
+  if (far >= cutoff) return {far, middle, slope};
   const Vec3 cross = (v[1] - v[0]).cross(v[2] - v[0]);
   const double doubled = cross.norm();
   const double longest = std::max((v[1] - v[0]).squaredNorm(), (v[2] - v[0]).squaredNorm());
@@ -148,18 +156,24 @@ TriangleGap triangle_gap(const Revolved& body, const std::array<Vec3, 3>& v, dou
   const double over = offset - n.dot(above), under = n.dot(below) - offset;
   const double apart = std::max(over, under);
   if (apart >= cutoff) return {apart, v[0], n};
-  if (apart > 0.0) {
-    const Vec3 direction = over > 0.0 ? n : Vec3(-n);
-    const Vec3 foot = (over > 0.0 ? above : below) + apart * direction;
-    if (holds(v, cross, foot)) return {apart, foot, direction};
-    return best_side(body, v, cutoff);
+  // No point of the plane is lower than `apart`; outside the body the foot of its support point is as low, inside it may
+  // be.
+  const Vec3 direction = over > under ? n : Vec3(-n);
+  const Vec3 foot = (over > under ? above : below) + apart * direction;
+  if (holds(v, cross, foot)) {
+    const double value = apart > 0.0 ? apart : body.value(foot.z(), std::hypot(foot.x(), foot.y()));
+    if (value <= apart + depth_error_mm) return {value, foot, direction};
   }
+  if (apart > 0.0) return best_side(body, v, cutoff);
   const TriangleGap side = best_side(body, v, cutoff);
   // The plane cuts the body in a convex region: that meets a side, or it lies wholly in the triangle or outside.
   const double share = over / (over + under);
   const Vec3 cut = std::isfinite(share) ? Vec3(above + share * (below - above)) : above;
   if (side.value > 0.0 && !holds(v, cross, cut)) return side;
-  const TriangleGap inside = deepest(body, v);
+  // Mostly a side, or a corner, is the deepest place, and its tangent plane proves it.
+  if (side.value < cutoff && tangent_bound(side.value, side.normal, side.point, v) >= side.value - depth_error_mm)
+    return side;
+  const TriangleGap inside = deepest(body, v, depth_error_mm);
   return inside.value < side.value ? inside : side;
 }
 
