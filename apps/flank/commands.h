@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "flank/base/progress.h"
+#include "flank/pipeline/clearance_job.h"
 
 namespace flank {
 
@@ -32,6 +33,9 @@ struct Subcommand {
 [[nodiscard]] Subcommand add_verify(CLI::App& parser);
 [[nodiscard]] Subcommand add_report(CLI::App& parser);
 [[nodiscard]] Subcommand add_view(CLI::App& parser);
+
+/// --shank-radius, --shank-length, --holder, --fixture and --clearance.
+void add_clearance_options(CLI::App& app, ClearanceJob& job);
 
 /// A line on stderr that grows on a terminal, plain lines otherwise, nothing if quiet; cancelled by Ctrl-C.
 [[nodiscard]] Progress terminal_progress(const CommonOptions& options);

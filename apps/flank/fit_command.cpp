@@ -82,6 +82,7 @@ Subcommand add_fit(CLI::App& parser) {
   app->add_option("--coverage", job->least_coverage, "Share of the face within tolerance that counts as done")
       ->capture_default_str();
   app->add_option("--sample", job->sample_mm, "Spacing of the judge's samples, mm");
+  add_clearance_options(*app, job->clearance);
   app->add_option("--unit", job->unit, "Unit of a mesh: mm, cm, m or in")
       ->check(CLI::IsMember({"mm", "cm", "m", "in"}));
   app->footer(

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "flank/base/error.h"
 
 namespace flank {
@@ -23,6 +25,10 @@ VerifyReport full_report() {
   r.worst = {{"F1", Vec3(1.0 / 7.0, 2, 3), -1.0 / 3.0, 2, 12.25, 7.5}, {"F2", Vec3(4, 5, 6), -0.25, -1, 0, 0}};
   r.histogram_edges_mm = {-0.02, 0.0, 0.02};
   r.histogram_area_mm2 = {100.5, 20.0};
+  r.clearance.figures = {
+      {ToolBody::kShank, ObstacleRole::kTarget, 1.0 / 7.0, 1e-3, -0.01, true, "F1", Vec3(1, 2, 1.0 / 3.0), 0, 3.25,
+       70.5, 4.0},
+      {ToolBody::kHolder, ObstacleRole::kFixture, 1e300 * 1e300, 0.0, 2.0, true, "", Vec3::Zero(), -1, 0.0, 0.0, 0.0}};
   return r;
 }
 
@@ -43,6 +49,15 @@ TEST(VerifyJson, ReadsBackWhatItWrote) {
   EXPECT_EQ(b.worst[0].strip, 2);
   EXPECT_EQ(b.worst[1].strip, -1);
   EXPECT_EQ(b.histogram_area_mm2, a.histogram_area_mm2);
+  ASSERT_EQ(b.clearance.figures.size(), 2u);
+  const ClearanceFigure &shank = b.clearance.figures[0], &holder = b.clearance.figures[1];
+  EXPECT_EQ(shank.body, ToolBody::kShank);
+  EXPECT_EQ(shank.role, ObstacleRole::kTarget);
+  EXPECT_EQ(shank.clearance_mm, 1.0 / 7.0);
+  EXPECT_EQ(shank.point, a.clearance.figures[0].point);
+  EXPECT_EQ(shank.t, 3.25);
+  EXPECT_TRUE(std::isinf(holder.clearance_mm));
+  EXPECT_EQ(holder.strip, -1);
 }
 
 TEST(VerifyJson, NothingRunIsReadableToo) {
@@ -65,6 +80,9 @@ TEST(VerifyJson, RefusesOtherText) {
   EXPECT_NE(message_of("[1, 2]").find("out/verify.json"), std::string::npos);
   EXPECT_NE(message_of(R"({"schema": "openflank/tool/1"})").find("openflank/verify/1 is accepted"), std::string::npos);
   std::string text = verify_to_json(full_report());
+  text.replace(text.find("\"shank\""), 7, "\"shaft\"");
+  EXPECT_NE(message_of(text).find("shaft"), std::string::npos);
+  text = verify_to_json(full_report());
   text.replace(text.find("\"gouge\""), 7, "\"maybe\"");
   EXPECT_NE(message_of(text).find("maybe"), std::string::npos);
   text = verify_to_json(full_report());

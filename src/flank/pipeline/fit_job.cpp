@@ -94,13 +94,14 @@ void sample_path(const FitJob& job, const FitSearch& search, FitOutcome& outcome
 
 int FitOutcome::exit_code(const FitJob& job) const {
   const bool done = complete && verify.overcut_mm <= job.tolerance_mm && verify.coverage >= job.least_coverage &&
-                    check_legitimacy(tool.radial).legitimate;
+                    verify.clearance.kept() && check_legitimacy(tool.radial).legitimate;
   return done ? 0 : 1;
 }
 
 FitOutcome run_fit(const FitJob& job, const Progress& progress) {
   check_job(job);
   const ToolSpec spec = parse_tool_spec(job.tool);
+  check_clearance_job(job.clearance, spec.tool ? &*spec.tool : nullptr);
   FitOutcome outcome;
   Stopwatch watch(outcome);
   progress.step("read", 0.0);
@@ -122,6 +123,7 @@ FitOutcome run_fit(const FitJob& job, const Progress& progress) {
   outcome.tool.radial = search.fit.tool;
   outcome.tool.name = spec.free ? "free" : std::string(family_name(search.fit.tool.family()));
   if (spec.tool) outcome.tool = *spec.tool;
+  equip_tool(job.clearance, outcome.tool);
   const Legitimacy legitimacy = check_legitimacy(outcome.tool.radial);
   if (!legitimacy.legitimate) outcome.notes.push_back("the tool is not legitimate: " + legitimacy.reason);
   sample_path(job, search, outcome);
@@ -136,6 +138,9 @@ FitOutcome run_fit(const FitJob& job, const Progress& progress) {
   options.tolerance_mm = job.tolerance_mm;
   outcome.verify = judge(outcome.tool, outcome.path, judge_samples(part, faces, spacing, 2.0 * spacing), options);
   watch.lap("verify");
+  outcome.verify.clearance = measure_clearance(job.clearance, outcome.tool, outcome.path, part, faces, job.unit,
+                                               job.tolerance_mm, outcome.notes);
+  watch.lap("clearance");
   outcome.view = view_to_json(make_view(job, part, faces, outcome.tool, outcome.path, outcome.verify));
   watch.lap("view");
   return outcome;

@@ -9,6 +9,7 @@
 #include "flank/fit/flank_fit.h"
 #include "flank/io/part.h"
 #include "flank/path/path.h"
+#include "flank/pipeline/clearance_job.h"
 #include "flank/tool/tool.h"
 #include "flank/verify/judge.h"
 
@@ -30,6 +31,7 @@ struct FitJob {
   double slope_max = 0.95;          ///< of |r'|
   double least_coverage = 0.95;     ///< share of the target within tolerance that counts as done
   std::optional<double> sample_mm;  ///< spacing of the judge's samples
+  ClearanceJob clearance;           ///< shank, holder, fixtures
 };
 inline constexpr int kMostStrips = 12;
 
@@ -45,7 +47,7 @@ struct FitOutcome {
   std::vector<std::string> notes;                       ///< repairs of the part, warnings
   std::vector<std::pair<std::string, double>> seconds;  ///< stage, wall time
   bool complete = true;                                 ///< false: cancelled, what is here is unfinished
-  /// 0: overcut on the target within tolerance and coverage at least as asked; 1: not.
+  /// 0: overcut on the target within tolerance, coverage at least as asked and clearances kept; 1: not.
   [[nodiscard]] int exit_code(const FitJob& job) const;
 };
 

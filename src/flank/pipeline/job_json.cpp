@@ -21,6 +21,25 @@ std::optional<T> take(const nlohmann::json& json, const char* key) {
   return json.at(key).get<T>();
 }
 
+void put_clearance(nlohmann::ordered_json& json, const ClearanceJob& job) {
+  put(json, "shank_radius", job.shank_radius_mm);
+  put(json, "shank_length", job.shank_length_mm);
+  put(json, "holder", job.holder);
+  put(json, "clearance", job.required_mm);
+  for (const std::string& file : job.fixtures)
+    json["fixtures"].push_back(std::filesystem::absolute(file).lexically_normal().string());
+}
+
+ClearanceJob take_clearance(const nlohmann::json& json) {
+  ClearanceJob job;
+  job.shank_radius_mm = take<double>(json, "shank_radius");
+  job.shank_length_mm = take<double>(json, "shank_length");
+  job.holder = take<std::string>(json, "holder");
+  job.required_mm = take<double>(json, "clearance");
+  if (json.contains("fixtures")) job.fixtures = json.at("fixtures").get<std::vector<std::string>>();
+  return job;
+}
+
 }  // namespace
 
 std::string job_to_json(const FitJob& job) {
@@ -42,6 +61,7 @@ std::string job_to_json(const FitJob& job) {
   json["slope_max"] = job.slope_max;
   json["coverage"] = job.least_coverage;
   put(json, "sample", job.sample_mm);
+  put_clearance(json, job.clearance);
   return json.dump(2) + "\n";
 }
 
@@ -65,6 +85,7 @@ FitJob job_from_json(const std::string& text, const std::string& file) {
     job.slope_max = json.value("slope_max", job.slope_max);
     job.least_coverage = json.value("coverage", job.least_coverage);
     job.sample_mm = take<double>(json, "sample");
+    job.clearance = take_clearance(json);
     return job;
   } catch (const nlohmann::json::exception& e) {
     throw InputError(file + ": not a job file: " + e.what());

@@ -47,6 +47,7 @@ std::string summary_text(const FitJob& job, const FitOutcome& outcome) {
   text += check_face_lines(v);
   text +=
       fmt::format("  bound       between the judge's samples f is worse by at most {:.4f} mm\n", v.sampling_bound_mm);
+  text += clearance_text(v.clearance);
   for (const std::string& note : outcome.notes) text += "  note        " + note + "\n";
   text += "  time       ";
   for (const auto& [stage, seconds] : outcome.seconds) text += fmt::format(" {} {:.2f} s", stage, seconds);
@@ -57,6 +58,10 @@ std::string summary_text(const FitJob& job, const FitOutcome& outcome) {
     text += fmt::format("              overcut {:.4f} mm > {} mm\n", v.overcut_mm, job.tolerance_mm);
   if (!done && v.coverage < job.least_coverage)
     text += fmt::format("              coverage {} < {}\n", percent(v.coverage), percent(job.least_coverage));
+  if (!done && !v.clearance.kept())
+    text +=
+        fmt::format("              the {} does not keep {} mm from {} surely\n", body_name(v.clearance.worst()->body),
+                    v.clearance.worst()->required_mm, v.clearance.worst()->obstacle);
   return text;
 }
 
@@ -78,6 +83,7 @@ std::string summary_json(const FitJob& job, const FitOutcome& outcome) {
   json["rms"] = v.rms_mm;
   json["other_faces_overcut"] = v.gouge_mm;
   json["sampling_bound"] = v.sampling_bound_mm;
+  if (!v.clearance.figures.empty()) json["clearance"] = nlohmann::ordered_json::parse(clearance_to_json(v.clearance));
   json["chord_bound"] = outcome.chord_bound_mm;
   json["largest_c"] = outcome.largest_c;
   json["diagonal"] = outcome.diagonal_mm;

@@ -28,6 +28,14 @@ std::string read_text_file(const std::string& file) {
   return text.str();
 }
 
+/// Shank and holder as asked for now: tool.json has those of the job.
+ClearanceJob overrides(const ClearanceJob& asked, const ClearanceJob& merged) {
+  ClearanceJob job = asked;
+  job.fixtures = merged.fixtures;
+  job.required_mm = merged.required_mm;
+  return job;
+}
+
 }  // namespace
 
 double default_spacing(double diagonal_mm) { return std::clamp(diagonal_mm / 300.0, 0.05, 0.5); }
@@ -43,7 +51,13 @@ VerifyOutcome run_verify(const VerifyJob& request) {
   if (request.tolerance_mm) outcome.job.tolerance_mm = *request.tolerance_mm;
   if (request.sample_mm) outcome.job.sample_mm = request.sample_mm;
   if (!(outcome.job.tolerance_mm > 0.0)) throw UsageError("--tolerance: a length > 0 mm is needed");
-  const Tool tool = read_tool(file("tool.json"));
+  ClearanceJob& clearance = outcome.job.clearance;
+  if (!request.clearance.fixtures.empty()) clearance.fixtures = request.clearance.fixtures;
+  if (request.clearance.required_mm) clearance.required_mm = request.clearance.required_mm;
+  Tool tool = read_tool(file("tool.json"));
+  const ClearanceJob now = overrides(request.clearance, clearance);
+  check_clearance_job(now, &tool);
+  equip_tool(now, tool);
   const Path path = read_path(file("path.json"));
   const Part part = read_part(outcome.job.part, outcome.job.unit);
   const std::vector<int> faces = parse_face_list(part, outcome.job.faces);
@@ -51,6 +65,8 @@ VerifyOutcome run_verify(const VerifyJob& request) {
   JudgeOptions options;
   options.tolerance_mm = outcome.job.tolerance_mm;
   outcome.report = judge(tool, path, judge_samples(part, faces, spacing, 2.0 * spacing), options);
+  outcome.report.clearance =
+      measure_clearance(clearance, tool, path, part, faces, outcome.job.unit, outcome.job.tolerance_mm, outcome.notes);
   write_file(file("verify.json"), verify_to_json(outcome.report));
   write_file(file("view.json"), view_to_json(make_view(outcome.job, part, faces, tool, path, outcome.report)));
   return outcome;
@@ -70,6 +86,8 @@ std::string verify_text(const VerifyOutcome& outcome) {
   for (const WorstPlace& w : v.worst)
     text += fmt::format("worst: {} at ({:.3f}, {:.3f}, {:.3f}) f = {:.6f} mm, strip {}, pose {:.2f}, s {:.3f}\n",
                         w.face, w.point.x(), w.point.y(), w.point.z(), w.f, w.strip + 1, w.t, w.s);
+  text += clearance_text(v.clearance);
+  for (const std::string& note : outcome.notes) text += "note: " + note + "\n";
   text +=
       fmt::format("coverage {:.2f} % within {} mm, overcut {:.6f} mm, between samples at most {:.4f} mm worse: {}\n",
                   100.0 * v.coverage, v.tolerance_mm, v.overcut_mm, v.sampling_bound_mm,

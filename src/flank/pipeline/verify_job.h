@@ -13,13 +13,17 @@ struct VerifyJob {
   std::optional<std::string> part;     ///< instead of the part named in job.json
   std::optional<double> tolerance_mm;  ///< instead of the job's
   std::optional<double> sample_mm;
+  ClearanceJob clearance;  ///< what is given takes the place of the tool's or the job's
 };
 
 struct VerifyOutcome {
   FitJob job;  ///< with the overrides
   VerifyReport report;
+  std::vector<std::string> notes;
   [[nodiscard]] int exit_code() const {
-    return report.overcut_mm <= job.tolerance_mm && report.coverage >= job.least_coverage ? 0 : 1;
+    return report.overcut_mm <= job.tolerance_mm && report.coverage >= job.least_coverage && report.clearance.kept()
+               ? 0
+               : 1;
   }
 };
 

@@ -73,6 +73,54 @@ WorstPlace place_from(const Json& j) {
   return w;
 }
 
+Json to_json(const ClearanceFigure& f) {
+  return {{"body", body_name(f.body)},
+          {"against", role_name(f.role)},
+          {"clearance_mm", number(f.clearance_mm)},
+          {"bound_mm", number(f.bound_mm)},
+          {"required_mm", number(f.required_mm)},
+          {"kept", f.kept},
+          {"obstacle", f.obstacle},
+          {"point", {number(f.point.x()), number(f.point.y()), number(f.point.z())}},
+          {"strip", f.strip < 0 ? Json(nullptr) : Json(f.strip + 1)},
+          {"t", number(f.t)},
+          {"z_mm", number(f.z_mm)},
+          {"rho_mm", number(f.rho_mm)}};
+}
+
+Json to_json(const ClearanceReport& report) {
+  Json list = Json::array();
+  for (const ClearanceFigure& f : report.figures) list.push_back(to_json(f));
+  return list;
+}
+
+template <class Name, class Value, std::size_t N>
+Value value_named(const std::string& name, const std::array<Value, N>& values, const Name& name_of) {
+  for (Value value : values)
+    if (name_of(value) == name) return value;
+  throw InputError("clearance: \"" + name + "\" is not known here");
+}
+
+ClearanceFigure clearance_from(const Json& j) {
+  ClearanceFigure f;
+  f.body = value_named(j.at("body").get<std::string>(),
+                       std::array{ToolBody::kFlank, ToolBody::kShank, ToolBody::kHolder}, body_name);
+  f.role = value_named(j.at("against").get<std::string>(),
+                       std::array{ObstacleRole::kTarget, ObstacleRole::kPart, ObstacleRole::kFixture}, role_name);
+  f.clearance_mm = to_number(j.at("clearance_mm"));
+  f.bound_mm = to_number(j.at("bound_mm"));
+  f.required_mm = to_number(j.at("required_mm"));
+  f.kept = j.at("kept").get<bool>();
+  f.obstacle = j.at("obstacle").get<std::string>();
+  const Json& p = j.at("point");
+  f.point = {to_number(p.at(0)), to_number(p.at(1)), to_number(p.at(2))};
+  f.strip = j.at("strip").is_null() ? -1 : j.at("strip").get<int>() - 1;
+  f.t = to_number(j.at("t"));
+  f.z_mm = to_number(j.at("z_mm"));
+  f.rho_mm = to_number(j.at("rho_mm"));
+  return f;
+}
+
 Verdict verdict_from(const std::string& name) {
   for (const auto& [verdict, known] : kVerdicts)
     if (known == name) return verdict;
@@ -99,6 +147,8 @@ VerifyReport report_from(const Json& j) {
   if (!r.histogram_edges_mm.empty() && r.histogram_edges_mm.size() != r.histogram_area_mm2.size() + 1)
     throw InputError("a histogram of " + std::to_string(r.histogram_area_mm2.size()) + " bins with " +
                      std::to_string(r.histogram_edges_mm.size()) + " edges; one edge more than bins is accepted");
+  if (j.contains("clearance"))
+    for (const Json& c : j.at("clearance")) r.clearance.figures.push_back(clearance_from(c));
   return r;
 }
 
@@ -109,6 +159,8 @@ std::string_view verdict_name(Verdict verdict) {
     if (known == verdict) return name;
   return "not_run";
 }
+
+std::string clearance_to_json(const ClearanceReport& report) { return to_json(report).dump(2); }
 
 std::string verify_to_json(const VerifyReport& r) {
   std::size_t samples = 0;
@@ -132,6 +184,7 @@ std::string verify_to_json(const VerifyReport& r) {
   for (const WorstPlace& w : r.worst) j["worst_places"].push_back(to_json(w));
   for (double e : r.histogram_edges_mm) j["histogram"]["edges_mm"].push_back(number(e));
   for (double a : r.histogram_area_mm2) j["histogram"]["area_mm2"].push_back(number(a));
+  if (!r.clearance.figures.empty()) j["clearance"] = to_json(r.clearance);
   return j.dump(2) + "\n";
 }
 

@@ -11,6 +11,9 @@ namespace flank {
 /// "not_run", "pass", "overcut" or "gouge".
 [[nodiscard]] std::string_view verdict_name(Verdict verdict);
 
+/// The figures of a clearance report as a JSON array: "clearance" of verify.json and summary.json.
+[[nodiscard]] std::string clearance_to_json(const ClearanceReport& report);
+
 /// The report as indented JSON; every number is written so that reading it back gives the same bits.
 [[nodiscard]] std::string verify_to_json(const VerifyReport& report);
 

@@ -11,6 +11,7 @@
 #include "flank/geom/triangle_mesh.h"
 #include "flank/path/path.h"
 #include "flank/tool/tool.h"
+#include "flank/verify/clearance_verdict.h"
 
 namespace flank {
 
@@ -111,6 +112,7 @@ struct VerifyReport {
   std::vector<WorstPlace> worst;  ///< most negative f first, over all faces
   std::vector<double> histogram_edges_mm;
   std::vector<double> histogram_area_mm2;  ///< of f over the targets
+  ClearanceReport clearance;               ///< of shank, holder and fixtures; not filled by judge()
 };
 
 [[nodiscard]] VerifyReport judge(const Tool& tool, const Path& path, const std::vector<FaceSamples>& faces,
