@@ -17,7 +17,7 @@ struct PartCase {
   double coverage, overcut;  // asked for
 };
 
-std::vector<Figure> real(const PartCase& c) {
+FitJob job_of(const PartCase& c) {
   FitJob job;
   job.part = real_part(c.file);
   job.faces = c.faces;
@@ -25,8 +25,12 @@ std::vector<Figure> real(const PartCase& c) {
   job.radius_min_mm = c.radius_min;
   job.radius_max_mm = c.radius_max;
   job.strips = c.strips;
+  return job;
+}
+
+std::vector<Figure> real(const PartCase& c) {
   double seconds = 0.0;
-  const FitOutcome outcome = fit_file(job, seconds);
+  const FitOutcome outcome = fit_file(job_of(c), seconds);
   return {at_least("coverage", outcome.verify.coverage, c.coverage),
           at_most("overcut, mm", outcome.verify.overcut_mm, c.overcut),
           shown("undercut over the covered strip, mm", outcome.verify.undercut_covered_mm),
@@ -50,13 +54,7 @@ std::vector<Figure> ruled_blade() {
 
 /// Root-mean-square error of a free tool against that of the best cylinder, one strip each.
 std::vector<Figure> custom_against_cylinder(const PartCase& c) {
-  FitJob job;
-  job.part = real_part(c.file);
-  job.faces = c.faces;
-  job.tolerance_mm = c.tolerance;
-  job.radius_min_mm = c.radius_min;
-  job.radius_max_mm = c.radius_max;
-  job.strips = c.strips;
+  FitJob job = job_of(c);
   double seconds = 0.0;
   const FitOutcome custom = fit_file(job, seconds);
   job.tool = "cylinder";

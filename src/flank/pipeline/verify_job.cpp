@@ -38,7 +38,10 @@ ClearanceJob overrides(const ClearanceJob& asked, const ClearanceJob& merged) {
 
 }  // namespace
 
-double default_spacing(double diagonal_mm) { return std::clamp(diagonal_mm / 300.0, 0.05, 0.5); }
+double default_spacing(double diagonal_mm) {
+  // Half a millimetre is fine enough for blades of a hand's size; a metre of fan blade would be a million samples.
+  return std::clamp(diagonal_mm / 300.0, 0.05, std::max(0.5, diagonal_mm / 1000.0));
+}
 
 VerifyOutcome run_verify(const VerifyJob& request) {
   const std::filesystem::path folder(request.folder);
