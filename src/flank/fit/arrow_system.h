@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 namespace flank {
@@ -21,10 +22,10 @@ struct PoseTerms {
 /// The derivative of one residual: by the pose at its time, and by at most four parameters of the tool in a row.
 struct ResidualRow {
   int motion = 0, first = 0;  ///< control points first .. first + 3 act
-  double basis[4] = {};
+  std::array<double, 4> basis{};
   Vec6 pose = Vec6::Zero();  ///< by tip and scaled direction
   int tool_first = 0, tool_count = 0;
-  double tool[4] = {};
+  std::array<double, 4> tool{};
 };
 
 /// Symmetric positive system (H + damping D) step = -gradient. Unknowns: motion 0 (six per control point), motion 1,

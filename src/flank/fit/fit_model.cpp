@@ -37,10 +37,10 @@ FitModel::FitModel(std::vector<const Target*> targets, const FitState& start, st
     TimeSample time{};
     time.t = static_cast<double>(i) / (stage.samples_t - 1);
     const int span = find_span(3, first.tip.knots, time.t);
-    double n[12];
-    basis_derivatives(3, first.tip.knots, span, time.t, 2, n);
+    std::array<double, 12> n;
+    basis_derivatives(3, first.tip.knots, span, time.t, 2, n.data());
     time.first = span - 3;
-    std::copy_n(n, 4, time.basis);
+    std::copy_n(n.data(), 4, time.basis.data());
     const double h = 1.0 / (stage.samples_t - 1);
     for (int k = 0; k < 4; ++k) time.basis_d2[k] = n[8 + k] * h * h;
     times_.push_back(time);
@@ -217,7 +217,7 @@ void FitModel::assemble_rows(const FitState& state, int motion, const std::vecto
       column_factor[j] += gradient_factors[k];
     }
     if (!free_.empty()) terms.coupling.noalias() = -weighted * b.transpose();
-    system.add_pose(motion, times_[i].first, times_[i].basis, terms, !free_.empty());
+    system.add_pose(motion, times_[i].first, times_[i].basis.data(), terms, !free_.empty());
   }
   if (free_.empty()) return;
   system.tool_matrix += b * column_weight.asDiagonal() * b.transpose();

@@ -5,6 +5,7 @@
 /// all.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "flank/envelope/swept_estimate.h"
@@ -94,7 +95,7 @@ class FitModel {
   struct TimeSample {
     double t;
     int first;
-    double basis[4], basis_d2[4];  ///< values and second derivatives of the four active basis functions
+    std::array<double, 4> basis, basis_d2;  ///< values and second derivatives of the four active basis functions
   };
   struct Anchor {
     Vec3 middle, tangent, tip, axis;

@@ -39,7 +39,7 @@ void FitModel::assemble_rails(const FitState& state, int motion, ArrowSystem& sy
       terms.gradient.tail<3>() += time.basis_d2[k] * axis_length_ * rails.direction.poles.col(time.first + k);
     }
     terms.gradient *= stage_.fairness * share;
-    system.add_pose(motion, time.first, time.basis_d2, terms, false);
+    system.add_pose(motion, time.first, time.basis_d2.data(), terms, false);
 
     const PoseAt pose = pose_at(rails, time);
     const Anchor& anchor = anchors_[motion][static_cast<std::size_t>(i)];
@@ -57,7 +57,7 @@ void FitModel::assemble_rails(const FitState& state, int motion, ArrowSystem& sy
     add(g, anchor.axis.dot(pose.tip - anchor.tip), stage_.axial_pin);
     g << Vec3::Zero(), pose.u;
     add(g, axis_length_ * (pose.length_w - 1.0), kUnitPenalty);
-    system.add_pose(motion, time.first, time.basis, terms, false);
+    system.add_pose(motion, time.first, time.basis.data(), terms, false);
   }
 }
 
@@ -127,7 +127,7 @@ void FitModel::assemble_tool(const FitState& state, ArrowSystem& system) const {
   const Eigen::VectorXd& r = state.tool.parameters();
   for (int k = 1; k + 1 < tool_parameters_; ++k) {
     const double e = r[k - 1] - 2.0 * r[k] + r[k + 1];
-    const double d[3] = {1.0, -2.0, 1.0};
+    constexpr std::array<double, 3> d = {1.0, -2.0, 1.0};
     for (int p = 0; p < 3; ++p) {
       gradient[k - 1 + p] += stage_.tool_fairness * e * d[p];
       for (int q = 0; q < 3; ++q) system.tool_matrix(k - 1 + p, k - 1 + q) += stage_.tool_fairness * d[p] * d[q];

@@ -84,7 +84,7 @@ ResidualRow SweptModel::row(const FitState& state, std::size_t k) const {
   row.motion = contact.motion;
   const int span = find_span(3, motion.tip.knots, contact.t);
   row.first = span - 3;
-  basis_derivatives(3, motion.tip.knots, span, contact.t, 0, row.basis);
+  basis_derivatives(3, motion.tip.knots, span, contact.t, 0, row.basis.data());
   Vec3 w = Vec3::Zero();
   for (int j = 0; j < 4; ++j) w += row.basis[j] * motion.direction.poles.col(row.first + j);
   const double length = w.norm();
@@ -94,10 +94,10 @@ ResidualRow SweptModel::row(const FitState& state, std::size_t k) const {
   if (state.tool.family() == ToolFamily::kSpline) {
     row.tool_first = state.tool.first_active(contact.s);
     row.tool_count = 4;
-    state.tool.active_gradient(contact.s, row.tool);
+    state.tool.active_gradient(contact.s, row.tool.data());
   } else {
-    double all[4];
-    state.tool.gradient(contact.s, all);
+    std::array<double, 4> all{};
+    state.tool.gradient(contact.s, all.data());
     row.tool_count = static_cast<int>(free_.size());
     for (int j = 0; j < row.tool_count; ++j) row.tool[j] = all[free_[static_cast<std::size_t>(j)]];
   }

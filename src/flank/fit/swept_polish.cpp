@@ -1,6 +1,7 @@
 #include "flank/fit/swept_polish.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "flank/fit/constrained.h"
@@ -18,11 +19,11 @@ struct Pass {
 /// Overcut below this share of the diagonal is settled: the constrained pass would not improve it.
 constexpr double kSettledOvercutShare = 1e-6;
 
-constexpr Pass kPasses[] = {{0.6, 1e-5, 1e-2, 32, 16, 12, 25},
-                            {0.6, 1e-6, 1e-7, 48, 24, 40, 30},
-                            {0.6, 1e-6, 1e-7, 48, 24, 15, 50},
-                            {0.3, 1e-6, 1e-7, 48, 24, 15, 50},
-                            {0.0, 1e-6, 1e-7, 48, 24, 12, 50}};
+constexpr std::array<Pass, 5> kPasses = {{{0.6, 1e-5, 1e-2, 32, 16, 12, 25},
+                                          {0.6, 1e-6, 1e-7, 48, 24, 40, 30},
+                                          {0.6, 1e-6, 1e-7, 48, 24, 15, 50},
+                                          {0.3, 1e-6, 1e-7, 48, 24, 15, 50},
+                                          {0.0, 1e-6, 1e-7, 48, 24, 12, 50}}};
 constexpr double kCovered = 0.995;
 
 FitStage swept_stage(const Pass& pass, const FlankFitOptions& options) {
