@@ -55,6 +55,22 @@ TEST_P(ExactEnvelope, IsFoundFromAStartThatIsOff) {
 INSTANTIATE_TEST_SUITE_P(Envelopes, ExactEnvelope,
                          ::testing::Values("envelope-hyperbolic-1", "envelope-cone-1", "envelope-spline-2"));
 
+// The last digits survive what is done against overcut.
+TEST(FlankFit, AConeIsFoundOnAConeEnvelope) {
+  if (kSanitized) GTEST_SKIP() << "minutes under a sanitizer; the model is tested there by itself";
+  const Scene scene = make_scene("envelope-cone-3", 1e-2);
+  ToolModel cone;
+  cone.make = [&](double length, double) {
+    Eigen::VectorXd parameters = scene.example.truth->tool.radial.parameters();
+    parameters[0] *= 1.1;
+    return RadialFunction(ToolFamily::kCone, length, parameters);
+  };
+  cone.free_parameters = {0, 1};
+  const FlankFitResult result = fit_from_starts({{scene.target.get(), scene.start}}, cone, options_for(scene), {});
+  const ResidualSummary error = validate({{scene.target.get(), result.motions.front()}}, result.tool, 301, 91);
+  EXPECT_LT(error.largest_mm / scene.example.diagonal_mm, 2e-6);
+}
+
 TEST(FlankFit, AutomaticStartCoversAnExactEnvelope) {
   if (kSanitized) GTEST_SKIP() << "minutes under a sanitizer; the model is tested there by itself";
   const Scene scene = make_scene("envelope-hyperbolic-2", 0.0);

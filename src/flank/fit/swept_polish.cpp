@@ -120,7 +120,10 @@ FitDraft run_constrained(const FitDraft& draft, const RadiusBounds& bounds, cons
 Polished without_overcut(const Polished& polished, const std::vector<SurfaceSample>& samples,
                          const FlankFitOptions& options) {
   const double diagonal = polished.draft.targets.front()->diagonal();
-  if (polished.draft.free_tool || polished.estimate.overcut_mm < kSettledOvercutShare * diagonal) return polished;
+  // An exact fit would pay for its last digits of overcut with all of its error.
+  const double settled = polished.exact ? std::max(kSettledOvercutShare * diagonal, 0.1 * options.tolerance_mm)
+                                        : kSettledOvercutShare * diagonal;
+  if (polished.draft.free_tool || polished.estimate.overcut_mm < settled) return polished;
   FitStage stage = swept_stage(kPasses[1], options);
   stage.dead_zone_mm = 0.0;
   stage.overcut_weight = 1.0;
