@@ -12,8 +12,10 @@ double CoverageEstimate::score(double tolerance_mm) const {
   // coverage for the first tolerance, two for each one more.
   const double beyond = std::clamp(overcut_mm / tolerance_mm - 1.0, 0.0, 10.0);
   const double excess = beyond + 4.0 * std::min(1.0, beyond);
+  // Within the tolerance the mean error counts for more, so that no tool is shifted off the middle of the face.
   const double within = 0.005 * std::min(1.0, overcut_mm / tolerance_mm);
-  return at_tolerance + 0.2 * at_four_tolerances - 0.02 * excess - within - 1e-3 * std::min(1.0, rms_mm / tolerance_mm);
+  return at_tolerance + 0.2 * at_four_tolerances - 0.02 * excess - within -
+         0.006 * std::min(1.0, rms_mm / tolerance_mm);
 }
 
 namespace {

@@ -60,6 +60,13 @@ Polished exact_polish(const Polished& start, const std::vector<SurfaceSample>& s
   return best;
 }
 
+Polished shifted_by(FitDraft draft, double by, const std::vector<SurfaceSample>& samples,
+                    const FlankFitOptions& options) {
+  const Eigen::VectorXd radii = (draft.tool.parameters().array() - by).max(options.bounds.smallest);
+  draft.tool = draft.tool.with_parameters(radii);
+  return assess(std::move(draft), samples, options);
+}
+
 /// A free tool's radii reduced against overcut, as far as that scores better.
 Polished shifted(const Polished& polished, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
   if (!polished.draft.free_tool) return polished;
@@ -67,10 +74,7 @@ Polished shifted(const Polished& polished, const std::vector<SurfaceSample>& sam
   const double overcut = polished.estimate.overcut_mm, excess = overcut - 0.95 * options.tolerance_mm;
   for (double by : {excess, 0.25 * overcut, 0.5 * overcut, 0.75 * overcut, overcut}) {
     if (by <= 0.0) continue;
-    FitDraft draft = polished.draft;
-    const Eigen::VectorXd radii = (draft.tool.parameters().array() - by).max(options.bounds.smallest);
-    draft.tool = draft.tool.with_parameters(radii);
-    Polished trial = assess(std::move(draft), samples, options);
+    Polished trial = shifted_by(polished.draft, by, samples, options);
     if (trial.estimate.score(options.tolerance_mm) > best.estimate.score(options.tolerance_mm)) best = std::move(trial);
   }
   return best;
@@ -136,11 +140,15 @@ Polished polish(const FitDraft& draft, const std::vector<SurfaceSample>& samples
 
 Polished last_passes(const Polished& polished, const std::vector<SurfaceSample>& samples,
                      const FlankFitOptions& options, std::vector<IterationTrace>* trace) {
-  /// Below this share of the tolerance the overcut of an exact fit is not worth its last digits.
-  constexpr double kWorthShifting = 0.1;
-  if (polished.exact)
-    return polished.estimate.overcut_mm > kWorthShifting * options.tolerance_mm ? shifted(polished, samples, options)
-                                                                                : polished;
+  /// An exact fit with more overcut than this share of the tolerance is shifted down to it; its last digits stay.
+  constexpr double kExactOvercut = 0.1;
+  if (polished.exact) {
+    const double by = polished.estimate.overcut_mm - kExactOvercut * options.tolerance_mm;
+    if (!polished.draft.free_tool || by <= 0.0) return polished;
+    Polished lower = shifted_by(polished.draft, by, samples, options);
+    lower.exact = true;
+    return lower;
+  }
   return shifted(swept_polish(polished, samples, options, trace), samples, options);
 }
 
