@@ -39,6 +39,21 @@ inline double seconds_of(const std::function<void()>& f) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
+/// The fit as for a part of which nothing is known: radii open, tolerance 5e-5 of the diagonal.
+inline FlankFitOptions open_options(double diagonal) {
+  FlankFitOptions options;
+  options.tolerance_mm = 5e-5 * diagonal;
+  options.bounds.smallest = 0.01 * diagonal;
+  options.bounds.largest = 0.15 * diagonal;
+  return options;
+}
+
+/// The true motion of an example, off by 1e-2 of the diagonal.
+inline RuledMotion start_off(const Example& example) {
+  Random random(5);
+  return perturb(example.truth->motions.front(), 0.01, example.diagonal_mm, random);
+}
+
 /// Largest error on a grid 3 times denser than the fit's, with fresh cold footpoints on `truth`.
 inline double largest_error(const Target& truth, const FlankFitResult& fit) {
   std::vector<FitTask> tasks;

@@ -6,20 +6,11 @@ namespace {
 
 const char* const kTools[] = {"barrel", "hyperbolic", "cone", "spline"};
 
-FlankFitOptions open_options(double diagonal) {
-  FlankFitOptions options;
-  options.tolerance_mm = 5e-5 * diagonal;
-  options.bounds.smallest = 0.01 * diagonal;
-  options.bounds.largest = 0.15 * diagonal;
-  return options;
-}
-
 std::vector<Figure> from_a_start(const std::string& name) {
   const Example example = make_example(name);
   const double d = example.diagonal_mm;
   const std::unique_ptr<Target> target = make_target(std::vector<Face>{example.faces.front()});
-  Random random(5);
-  const RuledMotion start = perturb(example.truth->motions.front(), 0.01, d, random);
+  const RuledMotion start = start_off(example);
   FlankFitResult fit;
   const double seconds = seconds_of([&] {
     fit = fit_from_starts({{target.get(), start}}, ToolModel{}, open_options(d), {});
@@ -51,8 +42,7 @@ std::vector<Figure> forced_cone(const std::string& name) {
   const Example example = make_example(name);
   const double d = example.diagonal_mm;
   const std::unique_ptr<Target> target = make_target(std::vector<Face>{example.faces.front()});
-  Random random(5);
-  const RuledMotion start = perturb(example.truth->motions.front(), 0.01, d, random);
+  const RuledMotion start = start_off(example);
   ToolModel cone;
   cone.make = [&](double length, double) {
     Eigen::VectorXd parameters = example.truth->tool.radial.parameters();

@@ -15,12 +15,8 @@ std::vector<Figure> from_a_start(const std::string& name, double bound, double l
   write_example(example, scratch(name + ".ply"));
   const Part part = read_part(scratch(name + ".ply"), "mm");
   const std::vector<TargetGroup> targets = make_targets(part, {0}, +1);
-  Random random(5);
-  const RuledMotion start = perturb(truth, 0.01, d, random);
-  FlankFitOptions options;
-  options.tolerance_mm = 5e-5 * d;
-  options.bounds.smallest = 0.01 * d;
-  options.bounds.largest = 0.15 * d;
+  const RuledMotion start = start_off(example);
+  const FlankFitOptions options = open_options(d);
   FlankFitResult fit;
   const double seconds = seconds_of([&] {
     fit = fit_from_starts({{targets.front().target.get(), start}}, ToolModel{}, options, {});

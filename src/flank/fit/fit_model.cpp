@@ -113,13 +113,6 @@ std::vector<std::vector<double>> FitModel::sample_weights(const FitState& state)
   std::vector<double> radius(n);
   for (int j = 0; j < n; ++j) radius[j] = state.tool.at(s_[j]).r;
   std::vector<std::vector<double>> weights(targets_.size());
-  double largest = 0.0;
-  if (stage_.norm > 2.0) {
-    for (const auto& feet : state.feet)
-      for (std::size_t k = 0; k < feet.size(); ++k)
-        if (feet[k].location == Location::kInside)
-          largest = std::max(largest, std::abs(feet[k].distance - radius[k % n]));
-  }
   const double share = 1.0 / (static_cast<double>(targets_.size()) * n * stage_.samples_t);
   for (std::size_t m = 0; m < targets_.size(); ++m) {
     const std::vector<Footpoint>& feet = state.feet[m];
@@ -133,8 +126,6 @@ std::vector<std::vector<double>> FitModel::sample_weights(const FitState& state)
         const double q = 1.0 + e * e / (scale * scale);
         w /= q * q;
       }
-      if (stage_.norm > 2.0 && largest > 0.0)
-        w *= std::pow(std::min(1.0, std::abs(e) / largest), stage_.norm - 2.0) + 1e-6;
       if (e < 0.0) w *= stage_.overcut_weight;
       weights[m][k] = w * share;
     }

@@ -43,7 +43,6 @@ struct FitStage {
   double extension_weight = 0.05;   ///< of samples whose footpoint is past the border (zero invites the pose to leave)
   double robust_scale_mm = 0.0;     ///< Geman-McClure scale of samples inside the target; 0: plain least squares
   double extension_scale_mm = 0.0;  ///< the same for samples past the border, whose surface is only extrapolated
-  double norm = 2.0;                ///< p of the p-norm, 2: least squares
   double dead_zone_mm = 0.0;        ///< residuals count only beyond this, as sign(e) max(0, |e| - dead zone)
   double overcut_weight = 1.0;      ///< factor on the weight of samples with e < 0 (the tool enters the face)
   double step_tolerance = 1e-9;     ///< stop when a step changes the cost by less than this share
@@ -67,7 +66,7 @@ class FitModel {
   [[nodiscard]] ArrowSystem make_system() const;
   /// Footpoints of all samples, warm from state.feet where it has them, else marched from one cold query a motion.
   void locate(FitState& state) const;
-  /// Weights of the samples at this state: location, robust, p-norm.
+  /// Weights of the samples at this state: location, robust.
   [[nodiscard]] std::vector<std::vector<double>> sample_weights(const FitState& state) const;
   /// Sum of all weighted squares for frozen sample weights.
   [[nodiscard]] double cost(const FitState& state, const std::vector<std::vector<double>>& weights) const;

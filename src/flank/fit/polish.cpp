@@ -157,16 +157,11 @@ Polished settled(const Polished& polished, const FlankFitOptions& options) {
   FlankFitOptions dense = options;
   dense.sample_share = options.sample_share / kDenser;
   std::vector<SurfaceSample> samples;
-  const std::vector<const Target*>& targets = polished.draft.targets;
-  for (std::size_t k = 0; k < targets.size(); ++k) {
-    if (std::find(targets.begin(), targets.begin() + static_cast<std::ptrdiff_t>(k), targets[k]) !=
-        targets.begin() + static_cast<std::ptrdiff_t>(k))
-      continue;
-    const std::vector<SurfaceSample> more = ranking_samples(*targets[k], dense);
+  for (const Target* target : distinct_targets(polished.draft)) {
+    const std::vector<SurfaceSample> more = ranking_samples(*target, dense);
     samples.insert(samples.end(), more.begin(), more.end());
   }
-  Polished again = assess(polished.draft, samples, options);
-  again.exact = polished.exact;
+  const Polished again = assess(polished.draft, samples, options);
   return again.estimate.overcut_mm > options.tolerance_mm ? shifted(again, samples, options) : again;
 }
 

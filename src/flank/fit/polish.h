@@ -42,8 +42,7 @@ struct Polished {
 /// turns out to be beyond the tolerance.
 [[nodiscard]] Polished settled(const Polished& polished, const FlankFitOptions& options);
 
-/// Fills a result from the chosen draft: overcut taken out of a free tool's radii, validation with cold footpoints,
-/// status.
+/// Fills a result from the chosen draft: validation with cold footpoints, status.
 [[nodiscard]] FlankFitResult finish(const Polished& polished, const FlankFitOptions& options, FlankFitResult result);
 
 }  // namespace flank

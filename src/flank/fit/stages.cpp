@@ -31,6 +31,13 @@ RadialFunction with_coefficients(const RadialFunction& tool, int count) {
 
 }  // namespace
 
+std::vector<const Target*> distinct_targets(const FitDraft& draft) {
+  std::vector<const Target*> targets;
+  for (const Target* target : draft.targets)
+    if (std::find(targets.begin(), targets.end(), target) == targets.end()) targets.push_back(target);
+  return targets;
+}
+
 FitState start_state(const FitDraft& draft, const FitStage& stage, FitDraft& next) {
   FitState start;
   for (const RuledMotion& motion : draft.motions)

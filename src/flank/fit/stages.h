@@ -16,6 +16,9 @@ struct FitDraft {
   bool free_tool = false;            ///< a spline whose number of coefficients a pass may change
 };
 
+/// The draft's targets, each once (strips side by side share one), in their order.
+[[nodiscard]] std::vector<const Target*> distinct_targets(const FitDraft& draft);
+
 /// Start of a pass: rails and spline at the stage's resolution; `next` becomes the draft with its list of free
 /// parameters.
 [[nodiscard]] FitState start_state(const FitDraft& draft, const FitStage& stage, FitDraft& next);

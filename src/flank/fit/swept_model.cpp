@@ -52,8 +52,6 @@ double SweptModel::residual(const FitState& state, std::size_t k) const {
 
 std::vector<double> SweptModel::sample_weights(const FitState& state) const {
   std::vector<double> weights(points_.size());
-  double largest = 0.0;
-  for (const SweptContact& contact : state.contacts) largest = std::max(largest, std::abs(contact.f));
   const double scale = stage().robust_scale_mm;
   for (std::size_t k = 0; k < weights.size(); ++k) {
     double w = points_[k].share;
@@ -61,7 +59,6 @@ std::vector<double> SweptModel::sample_weights(const FitState& state) const {
     if (!points_[k].one_sided) {
       if (f < 0.0) w *= stage().overcut_weight;
       if (f > 0.0 && scale > 0.0) w /= std::pow(1.0 + f * f / (scale * scale), 2);
-      if (stage().norm > 2.0 && largest > 0.0) w *= std::pow(std::abs(f) / largest, stage().norm - 2.0) + 1e-6;
     }
     weights[k] = w;
   }

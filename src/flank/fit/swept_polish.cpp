@@ -16,15 +16,15 @@ struct Pass {
   double dead_zone, fairness, anchor;
   int control_points, coefficients, iterations, points_per_side;
 };
-/// Overcut below this share of the diagonal is settled: the constrained pass would not improve it.
-constexpr double kSettledOvercutShare = 1e-6;
-
 constexpr std::array<Pass, 5> kPasses = {{{0.6, 1e-5, 1e-2, 32, 16, 12, 25},
                                           {0.6, 1e-6, 1e-7, 48, 24, 40, 30},
                                           {0.6, 1e-6, 1e-7, 48, 24, 15, 50},
                                           {0.3, 1e-6, 1e-7, 48, 24, 15, 50},
                                           {0.0, 1e-6, 1e-7, 48, 24, 12, 50}}};
+/// Where less is covered, the pass without a dead zone is left out.
 constexpr double kCovered = 0.995;
+/// Overcut below this share of the diagonal is settled: the constrained pass would not improve it.
+constexpr double kSettledOvercutShare = 1e-6;
 
 FitStage swept_stage(const Pass& pass, const FlankFitOptions& options) {
   FitStage stage;
@@ -54,9 +54,7 @@ double smallest_radius(const RadialFunction& tool) {
 }  // namespace
 
 std::vector<FacePoint> target_points(const FitDraft& draft, int per_side) {
-  std::vector<const Target*> targets;
-  for (const Target* target : draft.targets)
-    if (std::find(targets.begin(), targets.end(), target) == targets.end()) targets.push_back(target);
+  const std::vector<const Target*> targets = distinct_targets(draft);
   double area = 0.0;
   for (const Target* target : targets) area += target->area();
   std::vector<FacePoint> points;
