@@ -6,6 +6,7 @@
 
 #include "flank/base/parallel.h"
 #include "flank/fit/swept_polish.h"
+#include "flank/seed/clear_start.h"
 #include "flank/seed/ruled_start.h"
 
 namespace flank {
@@ -42,9 +43,29 @@ std::vector<RuledStart> enumerate_starts(const ToolModel& tool, const RadiusBoun
   return starts;
 }
 
+/// The same beside walls: the tips on the spine of the ball that rolls along target and wall.
+std::vector<FitTask> make_clear_tasks(const Target& target, const Chart& chart, const RuledStart& start, int strips,
+                                      std::optional<double> axis_length, const FlankChecks& checks) {
+  std::vector<ClearStart> bands;
+  double length = 0.0;
+  for (int k = 0; k < strips; ++k) {
+    RuledStart band = start;
+    band.band_low = static_cast<double>(k) / strips;
+    band.band_high = static_cast<double>(k + 1) / strips;
+    ClearStart clear = clear_start(chart, band, checks);
+    length = std::max(length, 1.03 * clear.longest_mm);
+    if (clear.free_lines > 0) bands.push_back(std::move(clear));
+  }
+  if (axis_length) length = *axis_length;
+  std::vector<FitTask> tasks;
+  for (const ClearStart& band : bands) tasks.push_back({&target, make_motion(band, length, 12), &checks});
+  return tasks;
+}
+
 /// The motions of a start, one a strip, bands side by side.
 std::vector<FitTask> make_tasks(const Target& target, const Chart& chart, const RuledStart& start, int strips,
-                                std::optional<double> axis_length) {
+                                std::optional<double> axis_length, const FlankChecks* checks) {
+  if (checks != nullptr) return make_clear_tasks(target, chart, start, strips, axis_length, *checks);
   std::vector<RuledStart> bands;
   double length = 0.0;
   for (int k = 0; k < strips; ++k) {
@@ -65,6 +86,7 @@ FitDraft start_draft(const std::vector<FitTask>& tasks, const ToolModel& tool, d
   for (const FitTask& task : tasks) {
     draft.targets.push_back(task.target);
     draft.motions.push_back(task.motion);
+    draft.checks.push_back(task.checks);
   }
   const double length = tasks.front().motion.axis_length;
   draft.free_tool = tool.free();
@@ -77,11 +99,13 @@ FitDraft start_draft(const std::vector<FitTask>& tasks, const ToolModel& tool, d
 void quick_fit(Candidate& candidate, const Target& target, const Chart& chart, const ToolModel& tool,
                const FlankFitOptions& options, const std::vector<SurfaceSample>& samples) {
   const std::optional<double> length = tool.axis_length ? tool.axis_length : options.axis_length_mm;
-  const std::vector<FitTask> tasks = make_tasks(target, chart, candidate.start, options.strips, length);
+  const std::vector<FitTask> tasks = make_tasks(target, chart, candidate.start, options.strips, length, options.checks);
+  if (tasks.empty()) return;
   const FitDraft draft = start_draft(tasks, tool, candidate.start.radius_mm);
   candidate.draft = run_stage(draft, options.bounds, quick_stage(robust_scale(target, options)));
   candidate.estimate =
       estimate_coverage(samples, candidate.draft.motions, candidate.draft.tool, 4.0 * options.tolerance_mm, 48);
+  candidate.estimate.gouge_mm = flank_gouge(candidate.draft.motions, candidate.draft.checks, candidate.draft.tool, 48);
   candidate.score = candidate.estimate.score(4.0 * options.tolerance_mm);
 }
 
@@ -96,8 +120,10 @@ FlankFitResult fit_automatic(const Target& target, const ToolModel& tool, const 
                              const Progress& progress) {
   FlankFitResult result;
   const Chart chart(target);
-  const std::vector<SurfaceSample> samples = ranking_samples(target, options);
-  const std::vector<SurfaceSample> few = target.samples(std::sqrt(target.area() / 400.0));
+  const std::vector<SurfaceSample> samples = ranking_samples(target, options.checks, options);
+  FlankFitOptions coarse = options;
+  coarse.sample_share = 1.0 / 20.0;
+  const std::vector<SurfaceSample> few = ranking_samples(target, options.checks, coarse);
   std::vector<Candidate> candidates;
   for (const RuledStart& start : enumerate_starts(tool, options.bounds)) candidates.push_back({start, {}, {}, -1.0});
   result.candidates = static_cast<int>(candidates.size());

@@ -99,7 +99,8 @@ double exchange(const ConstrainedProblem& problem, const SweptModel& probe, cons
 ConstrainedResult minimise_constrained(const ConstrainedProblem& problem, const FitState& start,
                                        const ConstrainedOptions& options) {
   const auto model_of = [&](const std::vector<FacePoint>& points) {
-    return SweptModel(points, problem.targets, start, problem.free_parameters, problem.bounds, problem.stage);
+    return SweptModel(points, problem.targets, start, problem.free_parameters, problem.bounds, problem.stage,
+                      problem.checks);
   };
   const SweptModel probe = model_of(problem.dense);
   std::vector<FacePoint> points = problem.points;

@@ -21,6 +21,7 @@ struct ConstrainedOptions {
 /// What stays the same while points are exchanged.
 struct ConstrainedProblem {
   std::vector<const Target*> targets;
+  std::vector<const FlankChecks*> checks;  ///< as FitDraft; soft terms of the objective
   std::vector<int> free_parameters;
   RadiusBounds bounds;
   FitStage stage;                 ///< dead zone 0

@@ -10,8 +10,13 @@ namespace flank {
 double CoverageEstimate::score(double tolerance_mm) const {
   // Coverage first; among equals the lower overcut. Overcut beyond the tolerance fails the part: it costs ten percent of
   // coverage for the first tolerance, two for each one more.
-  const double beyond = std::clamp(overcut_mm / tolerance_mm - 1.0, 0.0, 10.0);
-  const double excess = beyond + 4.0 * std::min(1.0, beyond);
+  const auto excess_of = [&](double depth) {
+    const double beyond = std::clamp(depth / tolerance_mm - 1.0, 0.0, 10.0);
+    return beyond + 4.0 * std::min(1.0, beyond);
+  };
+  // Into other faces it can go so deep that ten tolerances are nothing; less deep is still better.
+  const double depth = 10.0 * std::min(1.0, gouge_mm / (100.0 * tolerance_mm));
+  const double excess = excess_of(overcut_mm) + excess_of(gouge_mm) + depth;
   // Within the tolerance the mean error counts for more, so that no tool is shifted off the middle of the face.
   const double within = 0.005 * std::min(1.0, overcut_mm / tolerance_mm);
   return at_tolerance + 0.2 * at_four_tolerances - 0.02 * excess - within -
@@ -64,6 +69,30 @@ CoverageEstimate estimate_coverage(const std::vector<SurfaceSample>& samples, co
   }
   if (near_area > 0.0) estimate.rms_mm = std::sqrt(squares / near_area);
   return estimate;
+}
+
+double flank_gouge(const std::vector<RuledMotion>& motions, const std::vector<const FlankChecks*>& checks,
+                   const RadialFunction& tool, int poses) {
+  constexpr int kSteps = 60;  ///< along the axis, at most
+  double deepest = 0.0;
+  for (std::size_t m = 0; m < checks.size(); ++m) {
+    if (checks[m] == nullptr) continue;
+    std::vector<double> depths(static_cast<std::size_t>(poses) + 1, 0.0);
+    const double length = motions[m].axis_length;
+    parallel_for(depths.size(), [&](std::size_t i) {
+      const Pose pose = motions[m].pose(static_cast<double>(i) / poses);
+      for (double s = 0.0;; s = std::min(s, length)) {
+        const double r = tool.at(s).r;
+        const double gap = checks[m]->at(pose.at(s), r + 0.1 * length).distance_mm - r;
+        depths[i] = std::max(depths[i], -gap);
+        if (s >= length) break;
+        // The gap changes by at most twice the step (|r'| < 1): what is clear by it stays so for half of it.
+        s += std::max(length / kSteps, 0.5 * gap);
+      }
+    });
+    deepest = std::max(deepest, *std::max_element(depths.begin(), depths.end()));
+  }
+  return deepest;
 }
 
 ResidualSummary validate(const std::vector<FitTask>& tasks, const RadialFunction& tool, int count_t, int count_s) {

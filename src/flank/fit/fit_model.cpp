@@ -25,8 +25,9 @@ Vec3 distance_gradient(const Vec3& p, const Footpoint& foot) {
 }
 
 FitModel::FitModel(std::vector<const Target*> targets, const FitState& start, std::vector<int> free_parameters,
-                   const RadiusBounds& bounds, const FitStage& stage)
+                   const RadiusBounds& bounds, const FitStage& stage, std::vector<const FlankChecks*> checks)
     : targets_(std::move(targets)),
+      checks_(std::move(checks)),
       free_(std::move(free_parameters)),
       bounds_(bounds),
       stage_(stage),
@@ -79,6 +80,7 @@ FitModel::PoseAt FitModel::pose_at(const RuledMotion& motion, const TimeSample& 
 }
 
 void FitModel::locate(FitState& state) const {
+  locate_checks(state);
   const int n = stage_.samples_s;
   state.feet.resize(targets_.size());
   for (std::size_t m = 0; m < targets_.size(); ++m) {

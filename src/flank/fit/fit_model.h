@@ -8,6 +8,7 @@
 #include <array>
 #include <vector>
 
+#include "flank/clearance/flank_checks.h"
 #include "flank/envelope/swept_estimate.h"
 #include "flank/fit/arrow_system.h"
 #include "flank/motion/ruled_motion.h"
@@ -20,6 +21,7 @@ namespace flank {
 struct FitTask {
   const Target* target = nullptr;
   RuledMotion motion;
+  const FlankChecks* checks = nullptr;  ///< what its flank must not enter; null: nothing
 };
 
 /// Bounds on the tool, kept by one-sided terms in the fit and exactly at its end. Millimetres.
@@ -45,27 +47,39 @@ struct FitStage {
   double extension_scale_mm = 0.0;  ///< the same for samples past the border, whose surface is only extrapolated
   double dead_zone_mm = 0.0;        ///< residuals count only beyond this, as sign(e) max(0, |e| - dead zone)
   double overcut_weight = 1.0;      ///< factor on the weight of samples with e < 0 (the tool enters the face)
+  double clear_weight = 30.0;       ///< of the mean square by which the flank enters check faces
+  double clear_margin_mm = 0.0;     ///< it is to stay clear of them by this
   double step_tolerance = 1e-9;     ///< stop when a step changes the cost by less than this share
+};
+
+/// What is known of a point of the axis and the check faces; true of places nearby, too, less their distance.
+struct CheckSample {
+  CheckDistance nearest;
+  Vec3 at = Vec3::Zero();
+  bool known = false;
 };
 
 /// Everything that changes during a fit.
 struct FitState {
   std::vector<RuledMotion> motions;
   RadialFunction tool;
-  std::vector<std::vector<Footpoint>> feet;  ///< of a FitModel: [motion][i * samples_s + j]
-  std::vector<SweptContact> contacts;        ///< of a SweptModel: of each of its points
+  std::vector<std::vector<Footpoint>> feet;      ///< of a FitModel: [motion][i * samples_s + j]
+  std::vector<std::vector<CheckSample>> checks;  ///< [motion][i * samples_s + j], where there are check faces
+  std::vector<SweptContact> contacts;            ///< of a SweptModel: of each of its points
 };
 
 class FitModel {
  public:
   /// free_parameters: indices of the tool's parameters that may change (none: the tool is given). The motions' rails
-  /// must be clamped cubic over [0, 1] with stage.control_points control points each.
+  /// must be clamped cubic over [0, 1] with stage.control_points control points each. checks: of each motion, or none.
   FitModel(std::vector<const Target*> targets, const FitState& start, std::vector<int> free_parameters,
-           const RadiusBounds& bounds, const FitStage& stage);
+           const RadiusBounds& bounds, const FitStage& stage, std::vector<const FlankChecks*> checks = {});
 
   [[nodiscard]] ArrowSystem make_system() const;
   /// Footpoints of all samples, warm from state.feet where it has them, else marched from one cold query a motion.
   void locate(FitState& state) const;
+  /// The part of it that belongs to check faces.
+  void locate_checks(FitState& state) const;
   /// Weights of the samples at this state: location, robust.
   [[nodiscard]] std::vector<std::vector<double>> sample_weights(const FitState& state) const;
   /// Sum of all weighted squares for frozen sample weights.
@@ -75,7 +89,7 @@ class FitModel {
   /// State after a step; footpoints are kept as hints only.
   [[nodiscard]] FitState moved(const FitState& state, const Eigen::VectorXd& step) const;
 
-  /// The terms that do not look at the targets: fairness, anchors, pins, the tool's bounds.
+  /// The terms that do not look at the targets: fairness, anchors, pins, the tool's bounds, check faces.
   [[nodiscard]] double regulariser_cost(const FitState& state) const;
   /// Adds them to the normal equations.
   void assemble_regularisers(const FitState& state, ArrowSystem& system) const;
@@ -112,10 +126,16 @@ class FitModel {
   void tool_gradients(const FitState& state, Eigen::MatrixXd& gradients) const;
   void assemble_rails(const FitState& state, int motion, ArrowSystem& system) const;
   void assemble_tool(const FitState& state, ArrowSystem& system) const;
+  /// By how much the ball of a sample enters a check face; 0 where it is clear.
+  [[nodiscard]] double intrusion(const FitState& state, std::size_t motion, std::size_t k, double radius) const;
+  [[nodiscard]] double check_weight() const;
+  [[nodiscard]] double check_cost(const FitState& state) const;
+  void assemble_checks(const FitState& state, ArrowSystem& system) const;
   [[nodiscard]] double rail_cost(const FitState& state, int motion) const;
   [[nodiscard]] double tool_cost(const FitState& state) const;
 
   std::vector<const Target*> targets_;
+  std::vector<const FlankChecks*> checks_;  ///< of each motion; empty: none has any
   std::vector<int> free_;
   RadiusBounds bounds_;
   FitStage stage_;

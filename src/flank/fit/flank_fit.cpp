@@ -12,7 +12,7 @@ namespace flank {
 FlankFitResult fit_from_starts(const std::vector<FitTask>& tasks, const ToolModel& tool, const FlankFitOptions& options,
                                const Progress& progress) {
   FlankFitResult result;
-  const std::vector<SurfaceSample> samples = ranking_samples(*tasks.front().target, options);
+  const std::vector<SurfaceSample> samples = ranking_samples(*tasks.front().target, tasks.front().checks, options);
   FitDraft draft = make_draft(tasks, tool, options);
   progress.step("fit", 0.1);
   result.before = estimate_coverage(samples, draft.motions, draft.tool, options.tolerance_mm, kRankingPoses);

@@ -30,6 +30,9 @@ struct FlankFitOptions {
   int strips = 1;                                   ///< motions side by side on one target, one tool
   int kept_after_quick = 6, kept_after_polish = 3;  ///< candidates
   double promising = 0.0;  ///< the last passes are left out where the best candidate covers less before them
+  const FlankChecks* checks = nullptr;  ///< fit_automatic: what the flank must not enter; outlives the call
+  double reach_radius_mm =
+      0.0;  ///< with checks: the target is what a ball of this radius reaches; 0: the smallest radius
   double sample_share =
       1.0 / 45.0;  ///< spacing of the samples that rank candidates, as a share of the square root of the area
 };
@@ -38,6 +41,7 @@ struct FlankFitOptions {
 struct CoverageEstimate {
   double at_tolerance = 0.0, at_four_tolerances = 0.0;  ///< area shares
   double overcut_mm = 0.0;
+  double gouge_mm = 0.0;     ///< deepest that the flank enters a check face
   double undercut_mm = 0.0;  ///< largest material left anywhere on the target
   double rms_mm = 0.0;       ///< of f over samples within four tolerances
   [[nodiscard]] double score(double tolerance_mm) const;
@@ -75,6 +79,10 @@ struct FlankFitResult {
 [[nodiscard]] CoverageEstimate estimate_coverage(const std::vector<SurfaceSample>& samples,
                                                  const std::vector<RuledMotion>& motions, const RadialFunction& tool,
                                                  double tolerance_mm, int poses);
+
+/// The deepest that the flank enters a check face, mm; checks as in FitDraft.
+[[nodiscard]] double flank_gouge(const std::vector<RuledMotion>& motions, const std::vector<const FlankChecks*>& checks,
+                                 const RadialFunction& tool, int poses);
 
 /// Residuals on a grid of count_t x count_s with fresh cold footpoints; samples beyond the border are left out.
 [[nodiscard]] ResidualSummary validate(const std::vector<FitTask>& tasks, const RadialFunction& tool, int count_t,

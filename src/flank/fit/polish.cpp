@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/base/parallel.h"
 #include "flank/fit/swept_polish.h"
 
 namespace flank {
@@ -86,6 +87,7 @@ Polished assess(FitDraft draft, const std::vector<SurfaceSample>& samples, const
   Polished polished;
   if (draft.free_tool) draft.tool = clamp_tool(draft.tool, options.bounds);
   polished.estimate = estimate_coverage(samples, draft.motions, draft.tool, options.tolerance_mm, kRankingPoses);
+  polished.estimate.gouge_mm = flank_gouge(draft.motions, draft.checks, draft.tool, kRankingPoses);
   polished.draft = std::move(draft);
   return polished;
 }
@@ -94,9 +96,19 @@ double robust_scale(const Target& target, const FlankFitOptions& options) {
   return std::max(4.0 * options.tolerance_mm, 1e-3 * target.diagonal());
 }
 
-std::vector<SurfaceSample> ranking_samples(const Target& target, const FlankFitOptions& options) {
+double reach_radius(const FlankFitOptions& options) {
+  return options.reach_radius_mm > 0.0 ? options.reach_radius_mm : options.bounds.smallest;
+}
+
+std::vector<SurfaceSample> ranking_samples(const Target& target, const FlankChecks* checks,
+                                           const FlankFitOptions& options) {
   const double spacing = std::sqrt(target.area()) * options.sample_share;
   std::vector<SurfaceSample> samples = target.samples(spacing);
+  if (checks != nullptr) {
+    parallel_for(samples.size(), [&](std::size_t k) {
+      if (!checks->reachable(samples[k], reach_radius(options), options.tolerance_mm)) samples[k].area = 0.0;
+    });
+  }
   // The rim, where a tool cuts deepest, counts for overcut alone: it has no area.
   for (const Vec3& point : target.border_points(spacing)) samples.push_back({point, Vec3::UnitZ()});
   return samples;
@@ -107,6 +119,7 @@ FitDraft make_draft(const std::vector<FitTask>& tasks, const ToolModel& tool, co
   for (const FitTask& task : tasks) {
     draft.targets.push_back(task.target);
     draft.motions.push_back(task.motion);
+    draft.checks.push_back(task.checks);
   }
   draft.free_tool = tool.free();
   draft.tool = mean_distance_tool(tasks, options.bounds);
@@ -158,7 +171,7 @@ Polished settled(const Polished& polished, const FlankFitOptions& options) {
   dense.sample_share = options.sample_share / kDenser;
   std::vector<SurfaceSample> samples;
   for (const Target* target : distinct_targets(polished.draft)) {
-    const std::vector<SurfaceSample> more = ranking_samples(*target, dense);
+    const std::vector<SurfaceSample> more = ranking_samples(*target, checks_of(polished.draft, target), dense);
     samples.insert(samples.end(), more.begin(), more.end());
   }
   const Polished again = assess(polished.draft, samples, options);
@@ -173,7 +186,8 @@ FlankFitResult finish(const Polished& polished, const FlankFitOptions& options, 
   for (std::size_t m = 0; m < result.motions.size(); ++m)
     tasks.push_back({polished.draft.targets[m], result.motions[m]});
   result.residuals = validate(tasks, result.tool, 60, 24);
-  const bool good = result.after.at_tolerance >= 0.99 && result.after.overcut_mm <= options.tolerance_mm;
+  const bool good = result.after.at_tolerance >= 0.99 && result.after.overcut_mm <= options.tolerance_mm &&
+                    result.after.gouge_mm <= options.tolerance_mm;
   result.status = good ? FitStatus::kWithinTolerance : FitStatus::kPartial;
   result.message = fmt::format("estimated coverage {:.2f} % at {:.4g} mm, overcut {:.4g} mm",
                                100.0 * result.after.at_tolerance, options.tolerance_mm, result.after.overcut_mm);

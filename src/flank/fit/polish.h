@@ -12,8 +12,13 @@ inline constexpr int kRankingPoses = 160;
 /// Residuals far beyond this are outliers to a robust pass.
 [[nodiscard]] double robust_scale(const Target& target, const FlankFitOptions& options);
 
-/// Samples of the target that rank drafts.
-[[nodiscard]] std::vector<SurfaceSample> ranking_samples(const Target& target, const FlankFitOptions& options);
+/// Samples of the target that rank drafts. Those that check faces put out of reach have no area: they count for overcut
+/// alone.
+[[nodiscard]] std::vector<SurfaceSample> ranking_samples(const Target& target, const FlankChecks* checks,
+                                                         const FlankFitOptions& options);
+
+/// Radius of the ball that says what is in reach.
+[[nodiscard]] double reach_radius(const FlankFitOptions& options);
 
 /// A draft for these tasks: the tool given, or a free spline of the mean distance of the axes to their targets.
 [[nodiscard]] FitDraft make_draft(const std::vector<FitTask>& tasks, const ToolModel& tool,

@@ -38,6 +38,12 @@ std::vector<const Target*> distinct_targets(const FitDraft& draft) {
   return targets;
 }
 
+const FlankChecks* checks_of(const FitDraft& draft, const Target* target) {
+  for (std::size_t m = 0; m < draft.checks.size(); ++m)
+    if (draft.targets[m] == target) return draft.checks[m];
+  return nullptr;
+}
+
 FitState start_state(const FitDraft& draft, const FitStage& stage, FitDraft& next) {
   FitState start;
   for (const RuledMotion& motion : draft.motions)
@@ -55,7 +61,7 @@ FitDraft run_stage(const FitDraft& draft, const RadiusBounds& bounds, const FitS
                    std::vector<IterationTrace>* trace, ResidualSummary* summary) {
   FitDraft next;
   FitState start = start_state(draft, stage, next);
-  const FitModel model(draft.targets, start, next.free_parameters, bounds, stage);
+  const FitModel model(draft.targets, start, next.free_parameters, bounds, stage, draft.checks);
   MinimiseResult result = minimise(model, std::move(start));
   if (trace) trace->insert(trace->end(), result.trace.begin(), result.trace.end());
   if (summary) *summary = summarise_residuals(model, result.state);

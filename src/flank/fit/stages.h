@@ -10,6 +10,7 @@ namespace flank {
 /// A tool and motions between passes, without footpoints.
 struct FitDraft {
   std::vector<const Target*> targets;
+  std::vector<const FlankChecks*> checks;  ///< of each motion; empty: nothing is in the way
   std::vector<RuledMotion> motions;
   RadialFunction tool;
   std::vector<int> free_parameters;  ///< of the tool; ignored where `free_tool`
@@ -18,6 +19,9 @@ struct FitDraft {
 
 /// The draft's targets, each once (strips side by side share one), in their order.
 [[nodiscard]] std::vector<const Target*> distinct_targets(const FitDraft& draft);
+
+/// What the flank must not enter on this target; null: nothing.
+[[nodiscard]] const FlankChecks* checks_of(const FitDraft& draft, const Target* target);
 
 /// Start of a pass: rails and spline at the stage's resolution; `next` becomes the draft with its list of free
 /// parameters.

@@ -26,7 +26,8 @@ class SweptModel {
   /// As FitModel; of the stage, samples are not used for residuals (only for regularisers), robust_scale_mm bounds the
   /// pull of points that are out of reach, overcut_weight multiplies points with f < 0.
   SweptModel(std::vector<FacePoint> points, std::vector<const Target*> targets, const FitState& start,
-             std::vector<int> free_parameters, const RadiusBounds& bounds, const FitStage& stage);
+             std::vector<int> free_parameters, const RadiusBounds& bounds, const FitStage& stage,
+             std::vector<const FlankChecks*> checks = {});
 
   [[nodiscard]] ArrowSystem make_system() const { return base_.make_system(); }
   /// Fills state.contacts.

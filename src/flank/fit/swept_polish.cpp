@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "flank/base/parallel.h"
 #include "flank/fit/constrained.h"
 #include "flank/fit/levenberg_marquardt.h"
 
@@ -44,6 +45,8 @@ FitStage swept_stage(const Pass& pass, const FlankFitOptions& options) {
   return stage;
 }
 
+Reach reach_of(const FlankFitOptions& options) { return {reach_radius(options), options.tolerance_mm}; }
+
 double smallest_radius(const RadialFunction& tool) {
   constexpr int kSamples = 64;
   double least = tool.at(0.0).r;
@@ -53,16 +56,24 @@ double smallest_radius(const RadialFunction& tool) {
 
 }  // namespace
 
-std::vector<FacePoint> target_points(const FitDraft& draft, int per_side) {
+std::vector<FacePoint> target_points(const FitDraft& draft, int per_side, const Reach& reach) {
   const std::vector<const Target*> targets = distinct_targets(draft);
   double area = 0.0;
   for (const Target* target : targets) area += target->area();
   std::vector<FacePoint> points;
   for (const Target* target : targets) {
     const double spacing = std::sqrt(target->area()) / per_side;
-    for (const SurfaceSample& sample : target->samples(spacing)) points.push_back({sample.point, sample.area / area});
+    std::vector<SurfaceSample> samples = target->samples(spacing);
     // The samples are middles of cells; a tool cuts deepest at the rim. A rim point stands for half a cell.
-    for (const Vec3& point : target->border_points(spacing)) points.push_back({point, 0.5 * spacing * spacing / area});
+    for (const Vec3& point : target->border_points(spacing))
+      samples.push_back({point, target->closest(point).normal, 0.5 * spacing * spacing});
+    const std::size_t first = points.size();
+    points.resize(first + samples.size());
+    const FlankChecks* checks = checks_of(draft, target);
+    parallel_for(samples.size(), [&](std::size_t k) {
+      const bool out = checks != nullptr && !checks->reachable(samples[k], reach.radius_mm, reach.depth_mm);
+      points[first + k] = {samples[k].point, samples[k].area / area, out};
+    });
   }
   return points;
 }
@@ -71,7 +82,7 @@ FitDraft run_swept(const FitDraft& draft, const RadiusBounds& bounds, const FitS
                    std::vector<FacePoint> points, std::vector<IterationTrace>* trace) {
   FitDraft next;
   FitState start = start_state(draft, stage, next);
-  const SweptModel model(std::move(points), draft.targets, start, next.free_parameters, bounds, stage);
+  const SweptModel model(std::move(points), draft.targets, start, next.free_parameters, bounds, stage, draft.checks);
   MinimiseResult result = levenberg_marquardt(model, std::move(start));
   if (trace) trace->insert(trace->end(), result.trace.begin(), result.trace.end());
   next.motions = std::move(result.state.motions);
@@ -85,7 +96,7 @@ Polished swept_polish(const Polished& polished, const std::vector<SurfaceSample>
   for (const Pass& pass : kPasses) {
     // The last one lowers what is left of the mean where nothing more is to be covered.
     if (pass.dead_zone == 0.0 && best.estimate.at_tolerance < kCovered) continue;
-    const std::vector<FacePoint> points = target_points(best.draft, pass.points_per_side);
+    const std::vector<FacePoint> points = target_points(best.draft, pass.points_per_side, reach_of(options));
     Polished trial =
         assess(run_swept(best.draft, options.bounds, swept_stage(pass, options), points, trace), samples, options);
     if (trial.estimate.score(options.tolerance_mm) > best.estimate.score(options.tolerance_mm)) best = std::move(trial);
@@ -93,16 +104,18 @@ Polished swept_polish(const Polished& polished, const std::vector<SurfaceSample>
   return best;
 }
 
-FitDraft run_constrained(const FitDraft& draft, const RadiusBounds& bounds, const FitStage& stage, double band_mm) {
+FitDraft run_constrained(const FitDraft& draft, const RadiusBounds& bounds, const FitStage& stage, double band_mm,
+                         const Reach& reach) {
   constexpr int kFirstPerSide = 40, kDensePerSide = 200;
   FitDraft next;
   const FitState start = start_state(draft, stage, next);
   ConstrainedProblem problem{draft.targets,
+                             draft.checks,
                              next.free_parameters,
                              bounds,
                              stage,
-                             target_points(draft, kFirstPerSide),
-                             target_points(draft, kDensePerSide)};
+                             target_points(draft, kFirstPerSide, reach),
+                             target_points(draft, kDensePerSide, reach)};
   ConstrainedOptions options;
   // A sphere of radius r that touches half-way between two points is deeper there by spacing^2 / (8 r).
   const double spacing = std::sqrt(draft.targets.front()->area()) / kDensePerSide;
@@ -127,12 +140,14 @@ Polished without_overcut(const Polished& polished, const std::vector<SurfaceSamp
   stage.overcut_weight = 1.0;
   stage.fairness = 1e-4;
   const double band = 10.0 * options.tolerance_mm;
-  Polished best = assess(run_constrained(polished.draft, options.bounds, stage, band), samples, options);
+  Polished best =
+      assess(run_constrained(polished.draft, options.bounds, stage, band, reach_of(options)), samples, options);
   if (best.estimate.overcut_mm >= polished.estimate.overcut_mm) return polished;
   // Least squares leaves up to three times the least possible material in places: once more, with what counts for
   // nothing taken out.
   stage.dead_zone_mm = std::min(0.5 * best.estimate.undercut_mm, 0.7 * options.tolerance_mm);
-  Polished evened = assess(run_constrained(best.draft, options.bounds, stage, band), samples, options);
+  Polished evened =
+      assess(run_constrained(best.draft, options.bounds, stage, band, reach_of(options)), samples, options);
   const bool kept = evened.estimate.at_tolerance > best.estimate.at_tolerance - 1e-3 &&
                     evened.estimate.overcut_mm <= best.estimate.overcut_mm + kSettledOvercutShare * diagonal;
   if (kept && evened.estimate.undercut_mm < best.estimate.undercut_mm) best = std::move(evened);

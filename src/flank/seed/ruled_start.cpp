@@ -7,18 +7,14 @@
 namespace flank {
 namespace {
 
-struct AxisLine {
-  Vec3 middle, direction;
-  double length;
-};
-
 double skew_share(const Chart& chart, const RuledStart& start) {
   const double across = start.swapped ? chart.length_a() : chart.length_b();
   const double along = start.swapped ? chart.length_b() : chart.length_a();
   return std::clamp(std::tan(start.skew_rad) * across / along, -0.6, 0.6);
 }
 
-/// The line fitted to the offset contact line of time t (least squares), directed along increasing b.
+}  // namespace
+
 AxisLine axis_line(const Chart& chart, const RuledStart& start, double t) {
   constexpr int kSamples = 17;
   const double skew = skew_share(chart, start);
@@ -40,21 +36,18 @@ AxisLine axis_line(const Chart& chart, const RuledStart& start, double t) {
   return {mean + 0.5 * (along.minCoeff() + along.maxCoeff()) * u, u, along.maxCoeff() - along.minCoeff()};
 }
 
-constexpr int kTimes = 41;
-
-}  // namespace
-
 double longest_chord(const Chart& chart, const RuledStart& start) {
   double longest = 0.0;
-  for (int i = 0; i < kTimes; ++i) longest = std::max(longest, axis_line(chart, start, i / (kTimes - 1.0)).length);
+  for (int i = 0; i < kStartTimes; ++i)
+    longest = std::max(longest, axis_line(chart, start, i / (kStartTimes - 1.0)).length);
   return longest;
 }
 
 RuledMotion make_motion(const Chart& chart, const RuledStart& start, double axis_length, int count) {
   std::vector<Pose> poses;
   std::vector<double> times;
-  for (int i = 0; i < kTimes; ++i) {
-    const double t = i / (kTimes - 1.0);
+  for (int i = 0; i < kStartTimes; ++i) {
+    const double t = i / (kStartTimes - 1.0);
     const AxisLine line = axis_line(chart, start, t);
     poses.push_back({line.middle - 0.5 * axis_length * line.direction, line.direction});
     times.push_back(t);

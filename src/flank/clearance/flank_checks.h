@@ -1,0 +1,49 @@
+/// The other faces of a part, as the flank sees them: how far is a point of the axis from what its ball must not enter?
+///
+/// A signed answer (MATH section 7): an axis that has passed through the hub's surface must find its way back, so a face
+/// that the target's machining side sees from outside counts as a wall, negative behind it.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "flank/surface/target.h"
+
+namespace flank {
+
+/// A face that the flank must not enter.
+struct CheckFace {
+  std::unique_ptr<Target> surface;
+  bool oriented = false;  ///< its normal points out of the material (the face of a solid)
+};
+
+/// Distance of a point to the nearest check face.
+struct CheckDistance {
+  double distance_mm = 0.0;      ///< negative behind a wall; the horizon if nothing is nearer
+  Vec3 gradient = Vec3::Zero();  ///< of the distance, a unit vector; zero beyond the horizon
+  int face = -1;                 ///< index of the check face; -1 beyond the horizon
+};
+
+/// Immutable after construction, for many threads at once.
+class FlankChecks {
+ public:
+  /// Faces that the flank of a tool on `target` must not enter. Parts overlap and are open, so which side of a face is
+  /// material is settled by the points at `offset_mm` above the target: a wall is a face whose outside most of those see
+  /// that look at its inside, not its border. A face without orientation is turned to where most are. All others have a
+  /// distance without sign: the blade's own back, signed, would call every place in front of the blade forbidden.
+  FlankChecks(std::vector<CheckFace> faces, const Target& target, double offset_mm);
+
+  [[nodiscard]] CheckDistance at(const Vec3& p, double horizon_mm) const;
+  /// Whether a ball of this radius that touches the target at the sample enters no check face by more than `depth_mm`
+  /// (MATH section 9).
+  [[nodiscard]] bool reachable(const SurfaceSample& sample, double radius_mm, double depth_mm) const;
+  [[nodiscard]] int count() const { return static_cast<int>(faces_.size()); }
+  /// +1, -1: a wall as it is oriented, or turned; 0: its distance has no sign.
+  [[nodiscard]] int sign(int face) const { return signs_[static_cast<std::size_t>(face)]; }
+
+ private:
+  std::vector<CheckFace> faces_;
+  std::vector<int> signs_;
+};
+
+}  // namespace flank

@@ -1,0 +1,162 @@
+#include "flank/seed/clear_start.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flank {
+namespace {
+
+constexpr int kSteps = 48;         ///< along a line
+constexpr int kRefits = 2;         ///< of a line to its free stretch
+constexpr double kOverrun = 0.03;  ///< a free end is passed by this share of the stretch
+
+using Line = ClearStart::Line;
+
+/// Distance of the ball on a line to the walls; also a bound of how far along the line nothing changes.
+double gap_at(const AxisLine& axis, double sigma, double radius, const FlankChecks& checks) {
+  constexpr double kSight = 4.0;  ///< radii
+  return checks.at(axis.middle + sigma * axis.direction, kSight * radius).distance_mm - radius;
+}
+
+/// Where between a free and a blocked place the ball touches.
+double touch(const AxisLine& axis, double free, double blocked, double radius, const FlankChecks& checks) {
+  for (int k = 0; k < 12; ++k) {
+    const double middle = 0.5 * (free + blocked);
+    (gap_at(axis, middle, radius, checks) >= 0.0 ? free : blocked) = middle;
+  }
+  return free;
+}
+
+/// The longest free stretch of the line over its own length.
+Line free_stretch(const AxisLine& axis, double radius, const FlankChecks& checks) {
+  Line line{axis};
+  const double step = axis.length / kSteps, end = 0.5 * axis.length;
+  // `begin`: of the present stretch; `seen`: the last free place of it; `wall`: the last blocked place.
+  double begin = end, seen = end, wall = -2.0 * end;
+  bool inside = false, blocked_before = false;
+  const auto close = [&](double blocked, bool by_wall) {
+    const double high = by_wall ? touch(axis, seen, blocked, radius, checks) : end;
+    if (high - begin > line.high - line.low) {
+      line.low = begin;
+      line.high = high;
+      line.low_blocked = blocked_before;
+      line.high_blocked = by_wall;
+      line.free = true;
+    }
+    inside = false;
+  };
+  for (double sigma = -end;;) {
+    const double gap = gap_at(axis, sigma, radius, checks);
+    if (gap >= 0.0) {
+      if (!inside) {
+        blocked_before = wall >= -end;
+        begin = blocked_before ? touch(axis, sigma, wall, radius, checks) : -end;
+        inside = true;
+      }
+      seen = sigma;
+    } else {
+      if (inside) close(sigma, true);
+      wall = sigma;
+    }
+    if (sigma >= end) break;
+    sigma = std::min(end, sigma + std::max(step, std::abs(gap)));
+  }
+  if (inside) close(end, false);
+  line.free = line.free && line.high - line.low > step;
+  return line;
+}
+
+/// The line of time t, fitted again to what is free of its contact line.
+Line clear_line(const Chart& chart, const RuledStart& start, double t, const FlankChecks& checks) {
+  RuledStart band = start;
+  Line line = free_stretch(axis_line(chart, band, t), start.radius_mm, checks);
+  for (int k = 0; k < kRefits && line.free && (line.low_blocked || line.high_blocked); ++k) {
+    const double width = band.band_high - band.band_low;
+    const double low = band.band_low + width * (line.low / line.axis.length + 0.5);
+    const double high = band.band_low + width * (line.high / line.axis.length + 0.5);
+    // A little of what is blocked stays in, so that the next search finds the wall again.
+    constexpr double kKept = 0.04;
+    if (line.low_blocked) band.band_low = std::max(start.band_low, low - kKept);
+    if (line.high_blocked) band.band_high = std::min(start.band_high, high + kKept);
+    const Line next = free_stretch(axis_line(chart, band, t), start.radius_mm, checks);
+    if (!next.free) break;
+    line = next;
+  }
+  return line;
+}
+
+/// Lines without a free stretch move along with their nearest neighbour.
+void fill(std::vector<Line>& lines) {
+  const int n = static_cast<int>(lines.size());
+  std::vector<Line> filled = lines;
+  for (int i = 0; i < n; ++i) {
+    for (int d = 1; d < n && !filled[i].free; ++d) {
+      for (int k : {i - d, i + d}) {
+        if (k < 0 || k >= n || !lines[k].free || filled[i].free) continue;
+        filled[i] = lines[k];
+        filled[i].axis.middle += lines[i].axis.middle - lines[k].axis.middle;
+      }
+    }
+  }
+  lines = std::move(filled);
+}
+
+/// Lines at kStartTimes times in [first, last].
+std::vector<Line> lines_between(const Chart& chart, const RuledStart& start, const FlankChecks& checks, double first,
+                                double last) {
+  std::vector<Line> lines;
+  for (int i = 0; i < kStartTimes; ++i)
+    lines.push_back(clear_line(chart, start, first + (last - first) * i / (kStartTimes - 1.0), checks));
+  return lines;
+}
+
+}  // namespace
+
+ClearStart clear_start(const Chart& chart, const RuledStart& start, const FlankChecks& checks) {
+  constexpr double kPast = 0.04;  ///< of the times, past the first and the last line that is free
+  ClearStart clear;
+  clear.lines = lines_between(chart, start, checks, 0.0, 1.0);
+  const auto is_free = [](const Line& line) { return line.free; };
+  const auto first = std::find_if(clear.lines.begin(), clear.lines.end(), is_free);
+  if (first == clear.lines.end()) return clear;
+  const auto last = std::find_if(clear.lines.rbegin(), clear.lines.rend(), is_free);
+  const double step = 1.0 / (kStartTimes - 1);
+  const double begin = step * static_cast<double>(first - clear.lines.begin());
+  const double end = 1.0 - step * static_cast<double>(last - clear.lines.rbegin());
+  if (begin > kPast || end < 1.0 - kPast)
+    clear.lines = lines_between(chart, start, checks, std::max(0.0, begin - kPast), std::min(1.0, end + kPast));
+  for (const Line& line : clear.lines) {
+    if (!line.free) continue;
+    clear.longest_mm = std::max(clear.longest_mm, line.high - line.low);
+    ++clear.free_lines;
+  }
+  fill(clear.lines);
+  return clear;
+}
+
+RuledMotion make_motion(const ClearStart& start, double axis_length, int count) {
+  int low = 0, high = 0;
+  for (const Line& line : start.lines) {
+    low += line.low_blocked ? 1 : 0;
+    high += line.high_blocked ? 1 : 0;
+  }
+  const bool reversed = high > low;
+  std::vector<Pose> poses;
+  std::vector<double> times;
+  for (std::size_t i = 0; i < start.lines.size(); ++i) {
+    const Line& line = start.lines[i];
+    const Vec3 u = reversed ? Vec3(-line.axis.direction) : line.axis.direction;
+    const double from = reversed ? -line.high : line.low, to = reversed ? -line.low : line.high;
+    const bool wall = reversed ? line.high_blocked : line.low_blocked;
+    double tip = 0.5 * (from + to - axis_length);
+    if (wall)
+      tip = from;
+    else if (low + high > 0)
+      tip = from - std::min(kOverrun * axis_length, std::max(0.0, axis_length - (to - from)));
+    poses.push_back({line.axis.middle + tip * u, u});
+    times.push_back(static_cast<double>(i) / static_cast<double>(start.lines.size() - 1));
+  }
+  return fit_motion(poses, times, axis_length, count);
+}
+
+}  // namespace flank
