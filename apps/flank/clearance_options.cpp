@@ -30,4 +30,13 @@ void add_clearance_options(CLI::App& app, ClearanceJob& job) {
       ->group(group);
 }
 
+void add_check_options(CLI::App& app, CheckFaceChoice& choice) {
+  const std::string group = "Other faces";
+  app.add_option("--check-faces", choice.only,
+                 "The tool must not enter these faces, F88,F12; default: any face that is not machined. Entering one "
+                 "by more than the tolerance is exit 1")
+      ->group(group);
+  app.add_option("--ignore-faces", choice.ignored, "It may enter these: they are not checked")->group(group);
+}
+
 }  // namespace flank

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "flank/base/progress.h"
+#include "flank/pipeline/check_faces.h"
 #include "flank/pipeline/clearance_job.h"
 
 namespace flank {
@@ -36,6 +37,9 @@ struct Subcommand {
 
 /// --shank-radius, --shank-length, --holder, --fixture and --clearance.
 void add_clearance_options(CLI::App& app, ClearanceJob& job);
+
+/// --check-faces and --ignore-faces.
+void add_check_options(CLI::App& app, CheckFaceChoice& choice);
 
 /// A line on stderr that grows on a terminal, plain lines otherwise, nothing if quiet; cancelled by Ctrl-C.
 [[nodiscard]] Progress terminal_progress(const CommonOptions& options);

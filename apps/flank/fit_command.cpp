@@ -17,9 +17,11 @@ struct FitTexts {
   std::string folder;
   std::string strips = "1";
   std::optional<std::string> side;
+  std::string avoid = "on";
 };
 
 void read_texts(const FitTexts& texts, FitJob& job) {
+  job.avoid = texts.avoid == "on";
   if (texts.side) job.side = *texts.side == "-" ? -1 : +1;
   if (texts.strips == "auto") {
     job.strips = 0;
@@ -44,7 +46,7 @@ int run(const FitJob& job, const std::string& folder, const CommonOptions& commo
       fmt::print("{}", summary_json(job, outcome));
     else if (!common.quiet)
       fmt::print("{}  written to  {}\n", summary_text(job, outcome), folder);
-    return outcome.exit_code(job);
+    return outcome.acceptance(job).exit_code();
   } catch (...) {
     std::error_code ignored;
     if (!existed) std::filesystem::remove(folder, ignored);
@@ -82,6 +84,13 @@ Subcommand add_fit(CLI::App& parser) {
   app->add_option("--coverage", job->least_coverage, "Share of the face within tolerance that counts as done")
       ->capture_default_str();
   app->add_option("--sample", job->sample_mm, "Spacing of the judge's samples, mm");
+  add_check_options(*app, job->check);
+  app->add_option("--avoid", texts->avoid,
+                  "on: steer the tool clear of the other faces; off: fit as if they were not there (they are judged "
+                  "all the same)")
+      ->check(CLI::IsMember({"on", "off"}))
+      ->capture_default_str()
+      ->group("Other faces");
   add_clearance_options(*app, job->clearance);
   app->add_option("--unit", job->unit, "Unit of a mesh: mm, cm, m or in")
       ->check(CLI::IsMember({"mm", "cm", "m", "in"}));

@@ -91,6 +91,7 @@ Subcommand add_verify(CLI::App& parser) {
   app->add_option("--part", job->part, "Judge against this part instead of the one named in job.json");
   app->add_option("--tolerance", job->tolerance_mm, "Tolerance, mm, instead of the job's");
   app->add_option("--sample", job->sample_mm, "Spacing of the samples, mm");
+  add_check_options(*app, job->check);
   add_clearance_options(*app, job->clearance);
   app->footer(
       "Example: flank example twisted-blade -o blade.step && flank fit blade.step --face F1 -o out --tolerance 0.1; "
@@ -98,10 +99,10 @@ Subcommand add_verify(CLI::App& parser) {
   return {app, [job](const CommonOptions& common) {
             const VerifyOutcome outcome = run_verify(*job);
             if (common.json)
-              fmt::print("{}\n", verify_to_json(outcome.report));
+              fmt::print("{}\n", verify_to_json(outcome.report, outcome.acceptance));
             else if (!common.quiet)
               fmt::print("{}", verify_text(outcome));
-            return outcome.exit_code();
+            return outcome.acceptance.exit_code();
           }};
 }
 

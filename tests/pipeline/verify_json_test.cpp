@@ -20,8 +20,9 @@ VerifyReport full_report() {
   r.rms_mm = 0.1;
   r.gouge_mm = 0.25;
   r.sampling_bound_mm = 3e-4;
-  r.faces = {{"F1", true, 120.5, 4000, 1.0 / 3.0, 1e300, 2e-7, 0.1, 0.97, 0.2, 3e-4},
-             {"F2", false, 7.0, 12, 0.25, 0, 0, 0, 0, 0.2, 0.01}};
+  r.faces = {
+      {"F1", true, 120.5, 4000, 1.0 / 3.0, 1e300, 2e-7, 0.1, 0.97, 0.2, 3e-4, {}},
+      {"F2", false, 7.0, 12, 0.25, 0, 0, 0, 0, 0.2, 0.01, WorstPlace{"F2", Vec3(4, 5, 1.0 / 3.0), -0.25, 0, 1.5, 2.5}}};
   r.worst = {{"F1", Vec3(1.0 / 7.0, 2, 3), -1.0 / 3.0, 2, 12.25, 7.5}, {"F2", Vec3(4, 5, 6), -0.25, -1, 0, 0}};
   r.histogram_edges_mm = {-0.02, 0.0, 0.02};
   r.histogram_area_mm2 = {100.5, 20.0};
@@ -34,8 +35,8 @@ VerifyReport full_report() {
 
 TEST(VerifyJson, ReadsBackWhatItWrote) {
   const VerifyReport a = full_report();
-  const VerifyReport b = verify_from_json(verify_to_json(a), "verify.json");
-  EXPECT_EQ(verify_to_json(a), verify_to_json(b));
+  const VerifyReport b = verify_from_json(verify_to_json(a, {}), "verify.json");
+  EXPECT_EQ(verify_to_json(a, {}), verify_to_json(b, {}));
   EXPECT_EQ(b.verdict, a.verdict);
   EXPECT_EQ(b.coverage, a.coverage);
   EXPECT_EQ(b.overcut_mm, a.overcut_mm);
@@ -44,6 +45,10 @@ TEST(VerifyJson, ReadsBackWhatItWrote) {
   EXPECT_EQ(b.faces[0].samples, 4000u);
   EXPECT_FALSE(b.faces[1].target);
   EXPECT_EQ(b.faces[1].sampling_bound_mm, 0.01);
+  EXPECT_FALSE(b.faces[0].deepest);
+  ASSERT_TRUE(b.faces[1].deepest);
+  EXPECT_EQ(b.faces[1].deepest->point, a.faces[1].deepest->point);
+  EXPECT_EQ(b.faces[1].deepest->t, 1.5);
   ASSERT_EQ(b.worst.size(), 2u);
   EXPECT_EQ(b.worst[0].point, a.worst[0].point);
   EXPECT_EQ(b.worst[0].strip, 2);
@@ -61,7 +66,7 @@ TEST(VerifyJson, ReadsBackWhatItWrote) {
 }
 
 TEST(VerifyJson, NothingRunIsReadableToo) {
-  const VerifyReport b = verify_from_json(verify_to_json(VerifyReport{}), "verify.json");
+  const VerifyReport b = verify_from_json(verify_to_json(VerifyReport{}, {}), "verify.json");
   EXPECT_EQ(b.verdict, Verdict::kNotRun);
   EXPECT_TRUE(b.faces.empty());
 }
@@ -79,13 +84,13 @@ TEST(VerifyJson, RefusesOtherText) {
   EXPECT_NE(message_of("").find("out/verify.json"), std::string::npos);
   EXPECT_NE(message_of("[1, 2]").find("out/verify.json"), std::string::npos);
   EXPECT_NE(message_of(R"({"schema": "openflank/tool/1"})").find("openflank/verify/1 is accepted"), std::string::npos);
-  std::string text = verify_to_json(full_report());
+  std::string text = verify_to_json(full_report(), {});
   text.replace(text.find("\"shank\""), 7, "\"shaft\"");
   EXPECT_NE(message_of(text).find("shaft"), std::string::npos);
-  text = verify_to_json(full_report());
+  text = verify_to_json(full_report(), {});
   text.replace(text.find("\"gouge\""), 7, "\"maybe\"");
   EXPECT_NE(message_of(text).find("maybe"), std::string::npos);
-  text = verify_to_json(full_report());
+  text = verify_to_json(full_report(), {});
   text.replace(text.find("\"coverage\""), 10, "\"cover\"   ");
   EXPECT_FALSE(message_of(text).empty());
 }

@@ -73,7 +73,7 @@ class ViewOfExample : public testing::Test {
     job_.tolerance_mm = 0.01;
     JudgeOptions options;
     options.tolerance_mm = job_.tolerance_mm;
-    verdict_ = judge(tool_, path_, judge_samples(part_, {0}, 0.5, 1.0), options);
+    verdict_ = judge(tool_, path_, judge_samples(part_, {0}, {}, 0.5, 1.0), options);
     view_ = make_view(job_, part_, {0}, tool_, path_, verdict_);
   }
 
@@ -149,7 +149,7 @@ TEST_F(ViewOfExample, AFaceThatIsEnteredIsColoured) {
   for (Vec3& p : far.surface.poles) p -= 50.0 * normal;
   part.faces = {part.faces.front(), raised, far};
   JudgeOptions options;
-  const VerifyReport verdict = judge(tool_, path_, judge_samples(part, {0}, 0.5, 1.0), options);
+  const VerifyReport verdict = judge(tool_, path_, judge_samples(part, {0}, {1, 2}, 0.5, 1.0), options);
   const View view = make_view(job_, part, {0}, tool_, path_, verdict);
   ASSERT_EQ(view.bodies.size(), 3u);
   ASSERT_FALSE(view.bodies[1].f_mm.empty());

@@ -34,17 +34,19 @@ export function rows(files) {
   const { verify } = files;
   const limit = asked(files);
   const verdict = (holds, otherwise = 'fail') => (holds ? 'pass' : otherwise);
+  // verify.json says which figures are not as asked; files of older versions do not.
+  const judged = (key, holds) => verdict(verify.reasons ? !verify.reasons.some((reason) => reason.figure === key) : holds);
   const out = [];
   if (verify) {
     const tolerance = format.tolerance(verify.tolerance_mm);
     const v = (key, name, text, wanted, state, hint) => out.push({ key, name, value: verify[key], text, wanted, state, hint });
     v('coverage', `Coverage within ±${tolerance}`, format.percent(verify.coverage),
       limit.coverage === null ? '' : `≥ ${format.tick(100 * limit.coverage)}\u00a0%`,
-      limit.coverage === null ? '' : verdict(verify.coverage >= limit.coverage), 'share of the target’s area that is finished');
+      limit.coverage === null ? '' : judged('coverage', verify.coverage >= limit.coverage), 'share of the target’s area that is finished');
     v('overcut_mm', 'Overcut', format.error(verify.overcut_mm), `≤ ${tolerance}`,
-      verdict(verify.overcut_mm <= verify.tolerance_mm), 'deepest cut into the target');
+      judged('overcut_mm', verify.overcut_mm <= verify.tolerance_mm), 'deepest cut into the target');
     v('gouge_mm', 'Overcut of other faces', format.error(verify.gouge_mm), `≤ ${tolerance}`,
-      verdict(verify.gouge_mm <= verify.tolerance_mm, 'warn'), otherFaces(verify));
+      judged('gouge_mm', verify.gouge_mm <= verify.tolerance_mm), otherFaces(verify));
     v('undercut_covered_mm', 'Undercut where swept', format.error(verify.undercut_covered_mm), '', '', 'most material left where the tool sweeps past');
     v('undercut_mm', 'Undercut anywhere', format.error(verify.undercut_mm), '', '', 'most material left anywhere on the target');
     v('rms_mm', 'Root mean square', format.error(verify.rms_mm), '', '', 'of the error where the tool sweeps past');

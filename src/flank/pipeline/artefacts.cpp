@@ -36,7 +36,7 @@ void write_fit(const FitJob& job, const FitOutcome& outcome, const std::string& 
   write_file(file("path.cls"), path_to_cls(outcome.path, outcome.tool, cls));
   write_file(file("path.csv"), path_to_csv(outcome.path));
   write_file(file("job.json"), job_to_json(job));
-  write_file(file("verify.json"), verify_to_json(outcome.verify));
+  write_file(file("verify.json"), verify_to_json(outcome.verify, outcome.acceptance(job)));
   write_file(file("view.json"), outcome.view);
   write_file(file("summary.json"), summary_json(job, outcome));
 }

@@ -71,11 +71,16 @@ bool is_mesh_file(const std::string& file) {
   return end == ".stl" || end == ".obj" || end == ".ply";
 }
 
-void add_obstacles(const Part& part, ObstacleRole role, const std::vector<int>& targets, double deviation,
-                   std::vector<Obstacle>& out, std::vector<std::string>& notes) {
+bool holds(const std::vector<int>& faces, std::size_t face) {
+  return std::find(faces.begin(), faces.end(), static_cast<int>(face)) != faces.end();
+}
+
+void add_obstacles(const Part& part, ObstacleRole role, const std::vector<int>& targets, const std::vector<int>& checks,
+                   double deviation, std::vector<Obstacle>& out, std::vector<std::string>& notes) {
   std::vector<FaceTriangles> faces = triangulate(part, deviation);
   for (std::size_t k = 0; k < faces.size(); ++k) {
-    const bool target = std::find(targets.begin(), targets.end(), static_cast<int>(k)) != targets.end();
+    const bool target = holds(targets, k);
+    if (role == ObstacleRole::kPart && !target && !holds(checks, k)) continue;
     const std::string file = std::filesystem::path(part.file).filename().string();
     const std::string name = role == ObstacleRole::kFixture ? file + " " + faces[k].face : faces[k].face;
     if (faces[k].deviation_mm > 2.0 * deviation)
@@ -137,17 +142,18 @@ void equip_tool(const ClearanceJob& job, Tool& tool) {
 }
 
 ClearanceReport measure_clearance(const ClearanceJob& job, const Tool& tool, const Path& path, const Part& part,
-                                  const std::vector<int>& target_faces, const std::optional<std::string>& unit,
-                                  double tolerance_mm, std::vector<std::string>& notes) {
+                                  const std::vector<int>& target_faces, const std::vector<int>& check_faces,
+                                  const std::optional<std::string>& unit, double tolerance_mm,
+                                  std::vector<std::string>& notes) {
   if (tool.shank.empty() && tool.holder.empty() && job.fixtures.empty()) return {};
   const double deviation = std::clamp(0.5 * tolerance_mm, kFinestMm, kCoarsestMm);
   std::vector<Obstacle> obstacles;
   if (!tool.shank.empty() || !tool.holder.empty())
-    add_obstacles(part, ObstacleRole::kPart, target_faces, deviation, obstacles, notes);
+    add_obstacles(part, ObstacleRole::kPart, target_faces, check_faces, deviation, obstacles, notes);
   for (const std::string& file : job.fixtures) {
     const Part fixture = read_part(file, is_mesh_file(file) ? unit : std::nullopt);
     for (const std::string& repair : fixture.repairs) notes.push_back(file + ": " + repair);
-    add_obstacles(fixture, ObstacleRole::kFixture, {}, deviation, obstacles, notes);
+    add_obstacles(fixture, ObstacleRole::kFixture, {}, {}, deviation, obstacles, notes);
   }
   ClearanceOptions options;
   options.tolerance_mm = tolerance_mm;

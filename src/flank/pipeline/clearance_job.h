@@ -35,10 +35,12 @@ void equip_tool(const ClearanceJob& job, Tool& tool);
 /// The shape that the job asks for, as points (z, radius).
 [[nodiscard]] std::vector<Vec2> holder_profile(const std::string& text);
 
-/// Judges shank, holder and fixtures; an empty report where there are none. `target_faces` are indices into the part's
-/// faces; `unit` is that of fixtures that are meshes. Notes say what was done to fixtures.
+/// Judges shank, holder and fixtures; an empty report where there are none. `target_faces` and `check_faces` are indices
+/// into the part's faces: no other faces count; `unit` is that of fixtures that are meshes. Notes say what was done to
+/// fixtures.
 [[nodiscard]] ClearanceReport measure_clearance(const ClearanceJob& job, const Tool& tool, const Path& path,
                                                 const Part& part, const std::vector<int>& target_faces,
+                                                const std::vector<int>& check_faces,
                                                 const std::optional<std::string>& unit, double tolerance_mm,
                                                 std::vector<std::string>& notes);
 

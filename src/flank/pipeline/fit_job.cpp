@@ -92,10 +92,8 @@ void sample_path(const FitJob& job, const FitSearch& search, FitOutcome& outcome
 
 }  // namespace
 
-int FitOutcome::exit_code(const FitJob& job) const {
-  const bool done = complete && verify.overcut_mm <= job.tolerance_mm && verify.coverage >= job.least_coverage &&
-                    verify.clearance.kept() && check_legitimacy(tool.radial).legitimate;
-  return done ? 0 : 1;
+Acceptance FitOutcome::acceptance(const FitJob& job) const {
+  return accept(tool, verify, job.least_coverage, complete);
 }
 
 FitOutcome run_fit(const FitJob& job, const Progress& progress) {
@@ -107,7 +105,9 @@ FitOutcome run_fit(const FitJob& job, const Progress& progress) {
   progress.step("read", 0.0);
   const Part part = read_part(job.part, job.unit);
   const std::vector<int> faces = parse_face_list(part, job.faces);
+  const std::vector<int> checks = faces_to_check(part, faces, job.check);
   outcome.notes = part.repairs;
+  if (const std::string note = unchecked_note(part, faces, checks); !note.empty()) outcome.notes.push_back(note);
   require(!job.axis_length_mm || *job.axis_length_mm <= 1.5 * part.box.diagonal(),
           fmt::format("--axis-length {} mm is longer than the part ({:.1f} mm); lengths up to {:.1f} mm are accepted",
                       job.axis_length_mm.value_or(0.0), part.box.diagonal(), 1.5 * part.box.diagonal()));
@@ -136,9 +136,10 @@ FitOutcome run_fit(const FitJob& job, const Progress& progress) {
   const double spacing = job.sample_mm.value_or(default_spacing(part.box.diagonal()));
   JudgeOptions options;
   options.tolerance_mm = job.tolerance_mm;
-  outcome.verify = judge(outcome.tool, outcome.path, judge_samples(part, faces, spacing, 2.0 * spacing), options);
+  outcome.verify =
+      judge(outcome.tool, outcome.path, judge_samples(part, faces, checks, spacing, 2.0 * spacing), options);
   watch.lap("verify");
-  outcome.verify.clearance = measure_clearance(job.clearance, outcome.tool, outcome.path, part, faces, job.unit,
+  outcome.verify.clearance = measure_clearance(job.clearance, outcome.tool, outcome.path, part, faces, checks, job.unit,
                                                job.tolerance_mm, outcome.notes);
   watch.lap("clearance");
   outcome.view = view_to_json(make_view(job, part, faces, outcome.tool, outcome.path, outcome.verify));

@@ -9,6 +9,8 @@
 #include "flank/fit/flank_fit.h"
 #include "flank/io/part.h"
 #include "flank/path/path.h"
+#include "flank/pipeline/acceptance.h"
+#include "flank/pipeline/check_faces.h"
 #include "flank/pipeline/clearance_job.h"
 #include "flank/tool/tool.h"
 #include "flank/verify/judge.h"
@@ -31,6 +33,8 @@ struct FitJob {
   double slope_max = 0.95;          ///< of |r'|
   double least_coverage = 0.95;     ///< share of the target within tolerance that counts as done
   std::optional<double> sample_mm;  ///< spacing of the judge's samples
+  CheckFaceChoice check;            ///< which other faces must not be entered
+  bool avoid = true;                ///< the planner steers clear of the check faces; the judge looks at them anyway
   ClearanceJob clearance;           ///< shank, holder, fixtures
 };
 inline constexpr int kMostStrips = 12;
@@ -47,8 +51,8 @@ struct FitOutcome {
   std::vector<std::string> notes;                       ///< repairs of the part, warnings
   std::vector<std::pair<std::string, double>> seconds;  ///< stage, wall time
   bool complete = true;                                 ///< false: cancelled, what is here is unfinished
-  /// 0: overcut on the target within tolerance, coverage at least as asked and clearances kept; 1: not.
-  [[nodiscard]] int exit_code(const FitJob& job) const;
+  /// Whether this is what was asked for: the one rule (acceptance.h).
+  [[nodiscard]] Acceptance acceptance(const FitJob& job) const;
 };
 
 /// Reads, fits, samples and judges. Throws UsageError and InputError before any work is done.

@@ -11,15 +11,6 @@ namespace {
 
 std::string percent(double share) { return fmt::format("{:.2f} %", 100.0 * share); }
 
-std::string check_face_lines(const VerifyReport& verify) {
-  std::string text;
-  for (const FaceVerdict& face : verify.faces) {
-    if (face.target || face.overcut_mm <= verify.tolerance_mm) continue;
-    text += fmt::format("  entered     {} by {:.4f} mm\n", face.face, face.overcut_mm);
-  }
-  return text;
-}
-
 }  // namespace
 
 std::string summary_text(const FitJob& job, const FitOutcome& outcome) {
@@ -42,26 +33,18 @@ std::string summary_text(const FitJob& job, const FitOutcome& outcome) {
   text += fmt::format("  undercut    {:.6f} mm where the path touches, {:.4f} mm anywhere on the target\n",
                       v.undercut_covered_mm, v.undercut_mm);
   text += fmt::format("  rms         {:.6f} mm over the covered samples\n", v.rms_mm);
-  text += fmt::format("  other faces {:.4f} mm deepest overcut{}\n", v.gouge_mm,
-                      v.gouge_mm > v.tolerance_mm ? " (not part of the verdict of this command)" : "");
-  text += check_face_lines(v);
+  text += fmt::format("  other faces {:.6f} mm deepest overcut\n", v.gouge_mm);
   text +=
       fmt::format("  bound       between the judge's samples f is worse by at most {:.4f} mm\n", v.sampling_bound_mm);
   text += clearance_text(v.clearance);
   for (const std::string& note : outcome.notes) text += "  note        " + note + "\n";
   text += "  time       ";
   for (const auto& [stage, seconds] : outcome.seconds) text += fmt::format(" {} {:.2f} s", stage, seconds);
-  const bool done = outcome.exit_code(job) == 0;
-  text += fmt::format("\n  verdict     {}{}\n", done ? "within what was asked" : "NOT within what was asked",
-                      outcome.complete ? "" : " (interrupted: incomplete)");
-  if (!done && v.overcut_mm > job.tolerance_mm)
-    text += fmt::format("              overcut {:.4f} mm > {} mm\n", v.overcut_mm, job.tolerance_mm);
-  if (!done && v.coverage < job.least_coverage)
-    text += fmt::format("              coverage {} < {}\n", percent(v.coverage), percent(job.least_coverage));
-  if (!done && !v.clearance.kept())
-    text +=
-        fmt::format("              the {} does not keep {} mm from {} surely\n", body_name(v.clearance.worst()->body),
-                    v.clearance.worst()->required_mm, v.clearance.worst()->obstacle);
+  const Acceptance acceptance = outcome.acceptance(job);
+  text +=
+      fmt::format("\n  verdict     {}{}\n", acceptance.pass() ? "within what was asked" : "NOT within what was asked",
+                  outcome.complete ? "" : " (interrupted: incomplete)");
+  text += reason_lines(acceptance);
   return text;
 }
 
@@ -73,7 +56,7 @@ std::string summary_json(const FitJob& job, const FitOutcome& outcome) {
   json["part"] = job.part;
   json["faces"] = job.faces;
   json["complete"] = outcome.complete;
-  json["within"] = outcome.exit_code(job) == 0;
+  json["within"] = outcome.acceptance(job).pass();
   json["tolerance"] = job.tolerance_mm;
   json["coverage"] = v.coverage;
   json["least_coverage"] = job.least_coverage;

@@ -86,15 +86,19 @@ std::vector<TargetGroup> make_targets(const Part& part, const std::vector<int>& 
   return targets;
 }
 
-std::vector<FaceSamples> judge_samples(const Part& part, const std::vector<int>& faces, double spacing_mm,
-                                       double check_spacing_mm) {
-  std::vector<FaceSamples> samples(static_cast<std::size_t>(part.face_count()));
+std::vector<FaceSamples> judge_samples(const Part& part, const std::vector<int>& targets,
+                                       const std::vector<int>& checks, double spacing_mm, double check_spacing_mm) {
+  std::vector<int> faces = targets;
+  faces.insert(faces.end(), checks.begin(), checks.end());
+  std::sort(faces.begin(), faces.end());
+  std::vector<FaceSamples> samples(faces.size());
   parallel_for(samples.size(), [&](std::size_t k) {
-    const int face = static_cast<int>(k);
-    const bool target = std::find(faces.begin(), faces.end(), face) != faces.end();
+    const int face = faces[k];
+    const bool target = std::find(targets.begin(), targets.end(), face) != targets.end();
     const double spacing = target ? spacing_mm : check_spacing_mm;
-    samples[k] = part.is_mesh() ? sample_mesh("F" + std::to_string(k + 1), extract_mesh(part, {face}), spacing, target)
-                                : sample_face(part.faces[k], spacing, target);
+    samples[k] = part.is_mesh()
+                     ? sample_mesh("F" + std::to_string(face + 1), extract_mesh(part, {face}), spacing, target)
+                     : sample_face(part.faces[static_cast<std::size_t>(face)], spacing, target);
   });
   return samples;
 }

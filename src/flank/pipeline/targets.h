@@ -21,8 +21,9 @@ struct TargetGroup {
 /// side = -1 turns the machining side of open sheets.
 [[nodiscard]] std::vector<TargetGroup> make_targets(const Part& part, const std::vector<int>& faces, int side);
 
-/// Samples of the targets and of every other face of the part (coarser) for the judge.
-[[nodiscard]] std::vector<FaceSamples> judge_samples(const Part& part, const std::vector<int>& faces, double spacing_mm,
+/// Samples of the targets and of the check faces (coarser) for the judge, in the order of the part's faces.
+[[nodiscard]] std::vector<FaceSamples> judge_samples(const Part& part, const std::vector<int>& targets,
+                                                     const std::vector<int>& checks, double spacing_mm,
                                                      double check_spacing_mm);
 
 }  // namespace flank

@@ -53,6 +53,7 @@ VerifyOutcome run_verify(const VerifyJob& request) {
   if (request.part) outcome.job.part = *request.part;
   if (request.tolerance_mm) outcome.job.tolerance_mm = *request.tolerance_mm;
   if (request.sample_mm) outcome.job.sample_mm = request.sample_mm;
+  if (request.check.any()) outcome.job.check = request.check;
   if (!(outcome.job.tolerance_mm > 0.0)) throw UsageError("--tolerance: a length > 0 mm is needed");
   ClearanceJob& clearance = outcome.job.clearance;
   if (!request.clearance.fixtures.empty()) clearance.fixtures = request.clearance.fixtures;
@@ -64,13 +65,16 @@ VerifyOutcome run_verify(const VerifyJob& request) {
   const Path path = read_path(file("path.json"));
   const Part part = read_part(outcome.job.part, outcome.job.unit);
   const std::vector<int> faces = parse_face_list(part, outcome.job.faces);
+  const std::vector<int> checks = faces_to_check(part, faces, outcome.job.check);
+  if (const std::string note = unchecked_note(part, faces, checks); !note.empty()) outcome.notes.push_back(note);
   const double spacing = outcome.job.sample_mm.value_or(default_spacing(part.box.diagonal()));
   JudgeOptions options;
   options.tolerance_mm = outcome.job.tolerance_mm;
-  outcome.report = judge(tool, path, judge_samples(part, faces, spacing, 2.0 * spacing), options);
-  outcome.report.clearance =
-      measure_clearance(clearance, tool, path, part, faces, outcome.job.unit, outcome.job.tolerance_mm, outcome.notes);
-  write_file(file("verify.json"), verify_to_json(outcome.report));
+  outcome.report = judge(tool, path, judge_samples(part, faces, checks, spacing, 2.0 * spacing), options);
+  outcome.report.clearance = measure_clearance(clearance, tool, path, part, faces, checks, outcome.job.unit,
+                                               outcome.job.tolerance_mm, outcome.notes);
+  outcome.acceptance = accept(tool, outcome.report, outcome.job.least_coverage);
+  write_file(file("verify.json"), verify_to_json(outcome.report, outcome.acceptance));
   write_file(file("view.json"), view_to_json(make_view(outcome.job, part, faces, tool, path, outcome.report)));
   return outcome;
 }
@@ -94,7 +98,8 @@ std::string verify_text(const VerifyOutcome& outcome) {
   text +=
       fmt::format("coverage {:.2f} % within {} mm, overcut {:.6f} mm, between samples at most {:.4f} mm worse: {}\n",
                   100.0 * v.coverage, v.tolerance_mm, v.overcut_mm, v.sampling_bound_mm,
-                  outcome.exit_code() == 0 ? "within what was asked" : "NOT within what was asked");
+                  outcome.acceptance.pass() ? "within what was asked" : "NOT within what was asked");
+  text += reason_lines(outcome.acceptance);
   return text;
 }
 

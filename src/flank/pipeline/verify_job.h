@@ -13,6 +13,7 @@ struct VerifyJob {
   std::optional<std::string> part;     ///< instead of the part named in job.json
   std::optional<double> tolerance_mm;  ///< instead of the job's
   std::optional<double> sample_mm;
+  CheckFaceChoice check;   ///< instead of the job's choice, if any is given
   ClearanceJob clearance;  ///< what is given takes the place of the tool's or the job's
 };
 
@@ -20,11 +21,7 @@ struct VerifyOutcome {
   FitJob job;  ///< with the overrides
   VerifyReport report;
   std::vector<std::string> notes;
-  [[nodiscard]] int exit_code() const {
-    return report.overcut_mm <= job.tolerance_mm && report.coverage >= job.least_coverage && report.clearance.kept()
-               ? 0
-               : 1;
-  }
+  Acceptance acceptance;
 };
 
 /// Reads job.json, tool.json and path.json, judges, and writes verify.json and view.json.

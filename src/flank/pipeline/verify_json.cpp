@@ -25,36 +25,6 @@ Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nul
 
 double to_number(const Json& j) { return j.is_null() ? std::numeric_limits<double>::infinity() : j.get<double>(); }
 
-Json to_json(const FaceVerdict& f) {
-  return {{"face", f.face},
-          {"target", f.target},
-          {"area_mm2", number(f.area_mm2)},
-          {"samples", f.samples},
-          {"spacing_mm", number(f.spacing_mm)},
-          {"overcut_mm", number(f.overcut_mm)},
-          {"undercut_mm", number(f.undercut_mm)},
-          {"undercut_covered_mm", number(f.undercut_covered_mm)},
-          {"rms_mm", number(f.rms_mm)},
-          {"coverage", number(f.coverage)},
-          {"sampling_bound_mm", number(f.sampling_bound_mm)}};
-}
-
-FaceVerdict face_from(const Json& j) {
-  FaceVerdict f;
-  f.face = j.at("face").get<std::string>();
-  f.target = j.at("target").get<bool>();
-  f.area_mm2 = to_number(j.at("area_mm2"));
-  f.samples = j.at("samples").get<std::size_t>();
-  f.spacing_mm = to_number(j.at("spacing_mm"));
-  f.overcut_mm = to_number(j.at("overcut_mm"));
-  f.undercut_mm = to_number(j.at("undercut_mm"));
-  f.undercut_covered_mm = to_number(j.at("undercut_covered_mm"));
-  f.rms_mm = to_number(j.at("rms_mm"));
-  f.coverage = to_number(j.at("coverage"));
-  f.sampling_bound_mm = to_number(j.at("sampling_bound_mm"));
-  return f;
-}
-
 Json to_json(const WorstPlace& w) {
   return {{"face", w.face},      {"point", {number(w.point.x()), number(w.point.y()), number(w.point.z())}},
           {"f_mm", number(w.f)}, {"strip", w.strip < 0 ? Json(nullptr) : Json(w.strip + 1)},
@@ -71,6 +41,39 @@ WorstPlace place_from(const Json& j) {
   w.t = to_number(j.at("t"));
   w.s = to_number(j.at("s_mm"));
   return w;
+}
+
+Json to_json(const FaceVerdict& f) {
+  Json j = {{"face", f.face},
+            {"target", f.target},
+            {"area_mm2", number(f.area_mm2)},
+            {"samples", f.samples},
+            {"spacing_mm", number(f.spacing_mm)},
+            {"overcut_mm", number(f.overcut_mm)},
+            {"undercut_mm", number(f.undercut_mm)},
+            {"undercut_covered_mm", number(f.undercut_covered_mm)},
+            {"rms_mm", number(f.rms_mm)},
+            {"coverage", number(f.coverage)},
+            {"sampling_bound_mm", number(f.sampling_bound_mm)}};
+  if (f.deepest) j["deepest"] = to_json(*f.deepest);
+  return j;
+}
+
+FaceVerdict face_from(const Json& j) {
+  FaceVerdict f;
+  f.face = j.at("face").get<std::string>();
+  f.target = j.at("target").get<bool>();
+  f.area_mm2 = to_number(j.at("area_mm2"));
+  f.samples = j.at("samples").get<std::size_t>();
+  f.spacing_mm = to_number(j.at("spacing_mm"));
+  f.overcut_mm = to_number(j.at("overcut_mm"));
+  f.undercut_mm = to_number(j.at("undercut_mm"));
+  f.undercut_covered_mm = to_number(j.at("undercut_covered_mm"));
+  f.rms_mm = to_number(j.at("rms_mm"));
+  f.coverage = to_number(j.at("coverage"));
+  f.sampling_bound_mm = to_number(j.at("sampling_bound_mm"));
+  if (j.contains("deepest")) f.deepest = place_from(j.at("deepest"));
+  return f;
 }
 
 Json to_json(const ClearanceFigure& f) {
@@ -162,12 +165,14 @@ std::string_view verdict_name(Verdict verdict) {
 
 std::string clearance_to_json(const ClearanceReport& report) { return to_json(report).dump(2); }
 
-std::string verify_to_json(const VerifyReport& r) {
+std::string verify_to_json(const VerifyReport& r, const Acceptance& acceptance) {
   std::size_t samples = 0;
   for (const FaceVerdict& f : r.faces) samples += f.samples;
   Json j = {{"schema", kSchema},
             {"units", "mm"},
             {"verdict", verdict_name(r.verdict)},
+            {"pass", acceptance.pass()},
+            {"reasons", Json::array()},
             {"tolerance_mm", number(r.tolerance_mm)},
             {"coverage", number(r.coverage)},
             {"overcut_mm", number(r.overcut_mm)},
@@ -180,6 +185,8 @@ std::string verify_to_json(const VerifyReport& r) {
             {"faces", Json::array()},
             {"worst_places", Json::array()},
             {"histogram", {{"edges_mm", Json::array()}, {"area_mm2", Json::array()}}}};
+  for (const Shortfall& reason : acceptance.reasons)
+    j["reasons"].push_back({{"figure", reason.figure}, {"text", reason.text}});
   for (const FaceVerdict& f : r.faces) j["faces"].push_back(to_json(f));
   for (const WorstPlace& w : r.worst) j["worst_places"].push_back(to_json(w));
   for (double e : r.histogram_edges_mm) j["histogram"]["edges_mm"].push_back(number(e));

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "flank/pipeline/acceptance.h"
 #include "flank/verify/judge.h"
 
 namespace flank {
@@ -14,10 +15,11 @@ namespace flank {
 /// The figures of a clearance report as a JSON array: "clearance" of verify.json and summary.json.
 [[nodiscard]] std::string clearance_to_json(const ClearanceReport& report);
 
-/// The report as indented JSON; every number is written so that reading it back gives the same bits.
-[[nodiscard]] std::string verify_to_json(const VerifyReport& report);
+/// The report as indented JSON; every number is written so that reading it back gives the same bits. `acceptance` says
+/// whether it is what was asked for.
+[[nodiscard]] std::string verify_to_json(const VerifyReport& report, const Acceptance& acceptance);
 
-/// The report in `text`. `source` names the file in messages. Throws InputError for text that is no JSON, another
+/// The report in `text`, without its acceptance. `source` names the file in messages. Throws InputError for text that is no JSON, another
 /// schema, or a field that is missing or of the wrong type.
 [[nodiscard]] VerifyReport verify_from_json(const std::string& text, const std::string& source);
 

@@ -145,6 +145,7 @@ FaceResult judge_face(const SweptVolume& volume, const Tool& tool, const Path& p
   verdict.rms_mm = sums.touched > 0.0 ? std::sqrt(sums.squares / sums.touched) : 0.0;
   verdict.sampling_bound_mm = between_samples(face, distances, least_radius(tool), verdict.overcut_mm);
   result.worst = worst_of(face, distances, options.worst_places);
+  if (!result.worst.empty()) verdict.deepest = result.worst.front();
   if (face.target) add_histogram(report, face, distances);
   return result;
 }

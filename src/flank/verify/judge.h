@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -91,7 +92,8 @@ struct FaceVerdict {
   double rms_mm = 0.0;               ///< of f over the samples that a strip sweeps past
   double coverage = 0.0;             ///< area share with |f| <= tolerance
   double spacing_mm = 0.0;
-  double sampling_bound_mm = 0.0;  ///< overcut between samples exceeds overcut_mm by no more (judge.md)
+  double sampling_bound_mm = 0.0;     ///< overcut between samples exceeds overcut_mm by no more (judge.md)
+  std::optional<WorstPlace> deepest;  ///< where overcut_mm is; none: nothing is cut
 };
 
 enum class Verdict {
