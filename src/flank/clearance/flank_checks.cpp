@@ -1,7 +1,10 @@
 #include "flank/clearance/flank_checks.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
+#include <limits>
 
 #include "flank/base/parallel.h"
 
@@ -11,46 +14,181 @@ namespace {
 constexpr int kVoters = 400;
 constexpr double kMajority = 0.55;  ///< a blade that is buried in its hub for a third still sees the hub from outside
 
+struct Vote {
+  int sign = 0;
+  bool behind = false;  ///< all of the target sees its material side: it lies behind the target or behind a wall
+};
+
 /// Which way a face must be turned so that the target's machining side is outside of it; 0 if that is not clear.
-int vote(const CheckFace& face, const std::vector<SurfaceSample>& samples, double offset_mm) {
-  double outside = 0.0, all = 0.0;
+Vote vote(const CheckFace& face, const std::vector<SurfaceSample>& samples, double offset_mm) {
+  double outside = 0.0, all = 0.0, area = 0.0;
   for (const SurfaceSample& sample : samples) {
     const Footpoint foot = face.surface->closest(sample.point + offset_mm * sample.normal);
+    area += sample.area;
     if (foot.location != Location::kInside) continue;
     all += sample.area;
     if (foot.distance > 0.0) outside += sample.area;
   }
-  if (all == 0.0) return 0;
-  if (outside >= kMajority * all) return +1;
-  return !face.oriented && outside <= (1.0 - kMajority) * all ? -1 : 0;
+  if (all == 0.0) return {};
+  if (outside >= kMajority * all) return {+1, false};
+  if (face.oriented) return {0, outside == 0.0 && all >= 0.5 * area};
+  return {outside <= (1.0 - kMajority) * all ? -1 : 0, false};
 }
 
 }  // namespace
 
-FlankChecks::FlankChecks(std::vector<CheckFace> faces, const Target& target, double offset_mm)
-    : faces_(std::move(faces)), signs_(faces_.size(), 0) {
+/// What is known at a point of a lattice: the distance there, and the faces that can be nearest within half a cell of it.
+struct FlankChecks::LatticeNode {
+  double distance_mm = 0.0;
+  std::vector<std::size_t> faces;
+};
+
+/// A lattice around the target whose nodes are found when they are first asked for. Distances are true of the places
+/// nearby, less the way there: many questions need no more, the others ask fewer faces and look less far.
+struct FlankChecks::Lattice {
+  static constexpr int kPerSide = 64;  ///< along the longest side of the box
+
+  Lattice(const Box3& box, double margin) {
+    const Vec3 size = (box.high - box.low).array() + 2.0 * margin;
+    step = size.maxCoeff() / kPerSide;
+    low = box.low.array() - margin;
+    std::size_t all = 1;
+    for (int k = 0; k < 3; ++k) {
+      count[static_cast<std::size_t>(k)] = static_cast<int>(std::ceil(size[k] / step)) + 1;
+      all *= static_cast<std::size_t>(count[static_cast<std::size_t>(k)]);
+    }
+    nodes = std::vector<std::atomic<const LatticeNode*>>(all);
+  }
+  ~Lattice() {
+    for (std::atomic<const LatticeNode*>& node : nodes) delete node.load();
+  }
+
+  /// Index of the node nearest to p, and its place; -1 off the lattice.
+  std::ptrdiff_t index(const Vec3& p, Vec3& at) const {
+    std::ptrdiff_t sum = 0;
+    for (int k = 2; k >= 0; --k) {
+      const double x = std::round((p[k] - low[k]) / step);
+      const int n = count[static_cast<std::size_t>(k)];
+      if (!(x >= 0.0 && x < n)) return -1;
+      sum = sum * n + static_cast<std::ptrdiff_t>(x);
+      at[k] = low[k] + x * step;
+    }
+    return sum;
+  }
+  [[nodiscard]] Vec3 place(const std::array<int, 3>& corner) const {
+    return low + step * Vec3(corner[0], corner[1], corner[2]);
+  }
+  [[nodiscard]] std::ptrdiff_t index(const std::array<int, 3>& corner) const {
+    return (static_cast<std::ptrdiff_t>(corner[2]) * count[1] + corner[1]) * count[0] + corner[0];
+  }
+  /// The node, made by `make` where it is not known yet: two threads may make the same, one of them is kept.
+  template <class Make>
+  const LatticeNode& node(std::ptrdiff_t index, Make&& make) {
+    std::atomic<const LatticeNode*>& place = nodes[static_cast<std::size_t>(index)];
+    const LatticeNode* known = place.load(std::memory_order_acquire);
+    if (known != nullptr) return *known;
+    auto made = std::make_unique<const LatticeNode>(make());
+    if (place.compare_exchange_strong(known, made.get(), std::memory_order_acq_rel)) return *made.release();
+    return *known;
+  }
+
+  Vec3 low;
+  double step = 1.0;
+  std::array<int, 3> count{};
+  std::vector<std::atomic<const LatticeNode*>> nodes;
+};
+
+FlankChecks::FlankChecks(std::vector<CheckFace> faces, const Target& target, double offset_mm, double allowance_mm)
+    : faces_(std::move(faces)),
+      allowance_mm_(allowance_mm),
+      signs_(faces_.size(), 0),
+      lattice_(std::make_unique<Lattice>(target.box(), 2.0 * offset_mm)) {
   const std::vector<SurfaceSample> samples = target.samples(std::sqrt(target.area() / kVoters));
-  parallel_for(faces_.size(), [&](std::size_t k) { signs_[k] = vote(faces_[k], samples, offset_mm); });
+  std::vector<Vote> votes(faces_.size());
+  parallel_for(faces_.size(), [&](std::size_t k) { votes[k] = vote(faces_[k], samples, offset_mm); });
+  for (std::size_t k = 0; k < votes.size(); ++k) signs_[k] = votes[k].sign;
+  for (const bool walls : {true, false})
+    for (std::size_t k = 0; k < votes.size(); ++k)
+      if (!votes[k].behind && (votes[k].sign != 0) == walls) order_.push_back(k);
 }
 
 bool FlankChecks::reachable(const SurfaceSample& sample, double radius_mm, double depth_mm) const {
   return at(sample.point + radius_mm * sample.normal, radius_mm).distance_mm >= radius_mm - depth_mm;
 }
 
+FlankChecks::~FlankChecks() = default;
+
+FlankChecks::LatticeNode FlankChecks::make_node(const Vec3& place) const {
+  constexpr double kFar = std::numeric_limits<double>::infinity(), kRounding = 1.0 + 1e-9;
+  LatticeNode made{search(order_, place, kFar, kFar).distance_mm, {}};
+  const double far = made.distance_mm + std::sqrt(3.0) * lattice_->step * kRounding;
+  for (const std::size_t k : order_) {
+    const double sight = signs_[k] != 0 ? std::max(std::abs(made.distance_mm), std::abs(far)) : far;
+    if (!(sight > 0.0)) continue;
+    const Footpoint foot = faces_[k].surface->closest_within(place, sight * kRounding);
+    if (foot.patch >= 0 && signed_distance(k, place, foot) <= far) made.faces.push_back(k);
+  }
+  return made;
+}
+
+CheckDistance FlankChecks::estimate(const Vec3& p) const {
+  std::array<int, 3> corner{};
+  std::array<double, 3> share{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double x = (p[static_cast<Eigen::Index>(k)] - lattice_->low[static_cast<Eigen::Index>(k)]) / lattice_->step;
+    corner[k] = static_cast<int>(std::floor(x));
+    share[k] = x - corner[k];
+    if (!(x >= 0.0) || corner[k] + 1 >= lattice_->count[k]) return at(p, std::numeric_limits<double>::infinity());
+  }
+  CheckDistance sum;
+  for (int c = 0; c < 8; ++c) {
+    const std::array<int, 3> at{corner[0] + (c & 1), corner[1] + (c >> 1 & 1), corner[2] + (c >> 2)};
+    const LatticeNode& node = lattice_->node(lattice_->index(at), [&] { return make_node(lattice_->place(at)); });
+    const double x = (c & 1) != 0 ? share[0] : 1.0 - share[0], y = (c & 2) != 0 ? share[1] : 1.0 - share[1],
+                 z = (c & 4) != 0 ? share[2] : 1.0 - share[2];
+    sum.distance_mm += x * y * z * node.distance_mm;
+    sum.gradient += node.distance_mm / lattice_->step *
+                    Vec3((c & 1) != 0 ? y * z : -y * z, (c & 2) != 0 ? x * z : -x * z, (c & 4) != 0 ? x * y : -x * y);
+    if (c == 0 && !node.faces.empty()) sum.face = static_cast<int>(node.faces.front());
+  }
+  return sum;
+}
+
+double FlankChecks::signed_distance(std::size_t face, const Vec3& p, const Footpoint& foot) const {
+  const int sign = signs_[face];
+  return foot.location == Location::kInside && sign != 0 ? sign * foot.distance : (p - foot.point).norm();
+}
+
 CheckDistance FlankChecks::at(const Vec3& p, double horizon_mm) const {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  Vec3 place;
+  const std::ptrdiff_t index = lattice_->index(p, place);
+  if (index < 0) return search(order_, p, horizon_mm, kFar);
+  const LatticeNode& node = lattice_->node(index, [&] { return make_node(place); });
+  const double way = (p - place).norm();
+  CheckDistance free;
+  free.distance_mm = horizon_mm;
+  if (node.distance_mm - way >= horizon_mm) return free;
+  return search(node.faces, p, horizon_mm, (std::abs(node.distance_mm) + way) * (1.0 + 1e-9));
+}
+
+CheckDistance FlankChecks::search(const std::vector<std::size_t>& faces, const Vec3& p, double horizon_mm,
+                                  double sight_mm) const {
   CheckDistance nearest;
   nearest.distance_mm = horizon_mm;
-  for (std::size_t k = 0; k < faces_.size(); ++k) {
-    const double box = faces_[k].surface->box().squared_distance(p);
-    if (box > 0.0 && (nearest.distance_mm <= 0.0 || box >= nearest.distance_mm * nearest.distance_mm)) continue;
-    const Footpoint foot = faces_[k].surface->closest(p);
-    const Vec3 away = p - foot.point;
-    const double length = away.norm();
-    double distance = length;
-    if (foot.location == Location::kInside && signs_[k] != 0) distance = signs_[k] * foot.distance;
+  for (const std::size_t k : faces) {
+    const Target& face = *faces_[k].surface;
+    // What is behind a wall is so at any depth.
+    const double sight = signs_[k] != 0 ? sight_mm : std::min(sight_mm, nearest.distance_mm);
+    if (sight <= 0.0 || face.box().squared_distance(p) >= sight * sight) continue;
+    const Footpoint foot = face.closest_within(p, sight);
+    if (foot.patch < 0) continue;
+    const double distance = signed_distance(k, p, foot);
     if (distance >= nearest.distance_mm) continue;
     nearest.distance_mm = distance;
     nearest.face = static_cast<int>(k);
+    const Vec3 away = p - foot.point;
+    const double length = away.norm();
     if (length > 1e-9) {
       nearest.gradient = (distance < 0.0 ? -1.0 : 1.0) / length * away;
     } else {

@@ -83,7 +83,9 @@ double flank_gouge(const std::vector<RuledMotion>& motions, const std::vector<co
       const Pose pose = motions[m].pose(static_cast<double>(i) / poses);
       for (double s = 0.0;; s = std::min(s, length)) {
         const double r = tool.at(s).r;
-        const double gap = checks[m]->at(pose.at(s), r + 0.1 * length).distance_mm - r;
+        // What the estimate calls far is not looked at closely.
+        double gap = checks[m]->estimate(pose.at(s)).distance_mm - r;
+        if (gap < 0.02 * length) gap = checks[m]->at(pose.at(s), r + 0.02 * length).distance_mm - r;
         depths[i] = std::max(depths[i], -gap);
         if (s >= length) break;
         // The gap changes by at most twice the step (|r'| < 1): what is clear by it stays so for half of it.

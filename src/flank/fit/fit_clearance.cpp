@@ -17,7 +17,7 @@ void FitModel::locate_checks(FitState& state) const {
   const int n = stage_.samples_s;
   state.checks.resize(targets_.size());
   std::vector<double> needed(n);
-  for (int j = 0; j < n; ++j) needed[j] = std::max(0.0, state.tool.at(s_[j]).r + stage_.clear_margin_mm);
+  for (int j = 0; j < n; ++j) needed[j] = std::max(0.0, state.tool.at(s_[j]).r);
   for (std::size_t m = 0; m < targets_.size(); ++m) {
     if (checks_[m] == nullptr) continue;
     std::vector<CheckSample>& samples = state.checks[m];
@@ -30,7 +30,8 @@ void FitModel::locate_checks(FitState& state) const {
           const Vec3 p = pose.tip + s_[j] * pose.u;
           // The distance changes by no more than the point moves.
           if (sample.known && sample.nearest.distance_mm - (p - sample.at).norm() > needed[j]) continue;
-          sample = {checks_[m]->at(p, needed[j] + kSightMm), p, true};
+          sample = {stage_.clear_estimated ? checks_[m]->estimate(p) : checks_[m]->at(p, needed[j] + kSightMm), p,
+                    true};
         }
       }
     });
@@ -39,7 +40,7 @@ void FitModel::locate_checks(FitState& state) const {
 
 double FitModel::intrusion(const FitState& state, std::size_t motion, std::size_t k, double radius) const {
   const CheckDistance& nearest = state.checks[motion][k].nearest;
-  return nearest.face < 0 ? 0.0 : std::max(0.0, radius + stage_.clear_margin_mm - nearest.distance_mm);
+  return nearest.face < 0 ? 0.0 : std::max(0.0, radius - checks_[motion]->allowance_mm() - nearest.distance_mm);
 }
 
 double FitModel::check_cost(const FitState& state) const {

@@ -48,7 +48,7 @@ struct FitStage {
   double dead_zone_mm = 0.0;        ///< residuals count only beyond this, as sign(e) max(0, |e| - dead zone)
   double overcut_weight = 1.0;      ///< factor on the weight of samples with e < 0 (the tool enters the face)
   double clear_weight = 30.0;       ///< of the mean square by which the flank enters check faces
-  double clear_margin_mm = 0.0;     ///< it is to stay clear of them by this
+  bool clear_estimated = false;     ///< distances to check faces by interpolation
   double step_tolerance = 1e-9;     ///< stop when a step changes the cost by less than this share
 };
 

@@ -83,6 +83,7 @@ FitStage quick_stage(double robust_scale_mm) {
   stage.robust_scale_mm = robust_scale_mm;
   stage.extension_scale_mm = robust_scale_mm;
   stage.step_tolerance = 1e-3;
+  stage.clear_estimated = true;
   return stage;
 }
 

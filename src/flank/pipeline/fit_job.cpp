@@ -113,7 +113,7 @@ FitOutcome run_fit(const FitJob& job, const Progress& progress) {
                       job.axis_length_mm.value_or(0.0), part.box.diagonal(), 1.5 * part.box.diagonal()));
   watch.lap("read");
 
-  FitSearch search = search_fit(job, part, faces, spec, bounds_of, progress);
+  FitSearch search = search_fit(job, part, faces, checks, spec, bounds_of, progress);
   outcome.fit = search.fit;
   outcome.diagonal_mm = search.targets.front().target->diagonal();
   outcome.notes.insert(outcome.notes.end(), search.fit.notes.begin(), search.fit.notes.end());

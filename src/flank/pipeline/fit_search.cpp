@@ -62,9 +62,11 @@ void fit_groups(const FitJob& job, FitSearch& search, const ToolModel& tool, con
   ToolModel shared = tool;
   for (std::size_t g = 0; g < search.targets.size(); ++g) {
     const Target& target = *search.targets[g].target;
-    FlankFitResult result = fit_group(target, shared, options, job.strips, job.least_coverage, progress);
+    FlankFitOptions own = options;
+    own.checks = search.targets[g].checks.get();
+    FlankFitResult result = fit_group(target, shared, own, job.strips, job.least_coverage, progress);
     for (const RuledMotion& motion : result.motions) {
-      tasks.push_back({&target, motion});
+      tasks.push_back({&target, motion, own.checks});
       search.group_of_motion.push_back(g);
     }
     if (g == 0) {
@@ -81,23 +83,40 @@ void fit_groups(const FitJob& job, FitSearch& search, const ToolModel& tool, con
 
 double mean_score(const FitSearch& search, double tolerance_mm) { return search.fit.after.score(tolerance_mm); }
 
-FitSearch search_side(const FitJob& job, const Part& part, const std::vector<int>& faces, const ToolSpec& spec,
-                      int side, const std::function<RadiusBounds(const FitJob&, double)>& bounds,
-                      const Progress& progress) {
+/// Gives every target the faces that its flank keeps clear of: the check faces and the other targets.
+void add_checks(const FitJob& job, const Part& part, const std::vector<int>& faces, const std::vector<int>& checks,
+                double largest_radius, FitSearch& search) {
+  /// The flank lies within a diameter of its target, and the walls of a channel beyond it count.
+  constexpr double kReach = 2.0;
+  for (TargetGroup& group : search.targets) {
+    std::vector<int> others = checks;
+    for (const int face : faces)
+      if (std::find(group.indices.begin(), group.indices.end(), face) == group.indices.end()) others.push_back(face);
+    std::sort(others.begin(), others.end());
+    group.checks = make_flank_checks(part, *group.target, others, kReach * largest_radius, 0.5 * job.tolerance_mm,
+                                     search.fit.notes);
+  }
+}
+
+FitSearch search_side(const FitJob& job, const Part& part, const std::vector<int>& faces,
+                      const std::vector<int>& checks, const ToolSpec& spec, int side,
+                      const std::function<RadiusBounds(const FitJob&, double)>& bounds, const Progress& progress) {
   FitSearch search;
   search.targets = make_targets(part, faces, side);
   FlankFitOptions options;
   options.tolerance_mm = job.tolerance_mm;
   options.axis_length_mm = job.axis_length_mm;
   options.bounds = bounds(job, search.targets.front().target->diagonal());
+  options.reach_radius_mm = job.reach_radius_mm.value_or(0.0);
   const ToolModel tool = make_tool_model(spec);
+  if (job.avoid) add_checks(job, part, faces, checks, options.bounds.largest, search);
   if (!job.start && !job.guide) {
     fit_groups(job, search, tool, options, progress);
     return search;
   }
   if (search.targets.size() > 1) throw UsageError("--start and --guide take faces that hang together");
   const Target& target = *search.targets.front().target;
-  FitTask task{&target, {}};
+  FitTask task{&target, {}, search.targets.front().checks.get()};
   if (job.start) {
     const auto [tip, end] = parse_line(*job.start);
     const double length = tool.axis_length.value_or(job.axis_length_mm.value_or((end - tip).norm()));
@@ -132,16 +151,16 @@ int side_of_start(const FitJob& job, const Part& part, const std::vector<int>& f
 
 }  // namespace
 
-FitSearch search_fit(const FitJob& job, const Part& part, const std::vector<int>& faces, const ToolSpec& spec,
-                     const std::function<RadiusBounds(const FitJob&, double diagonal)>& bounds,
+FitSearch search_fit(const FitJob& job, const Part& part, const std::vector<int>& faces, const std::vector<int>& checks,
+                     const ToolSpec& spec, const std::function<RadiusBounds(const FitJob&, double diagonal)>& bounds,
                      const Progress& progress) {
   const bool sheet =
       part.is_mesh() || std::any_of(faces.begin(), faces.end(), [&](int f) { return !part.faces[f].of_solid; });
-  if (!sheet || job.side) return search_side(job, part, faces, spec, job.side.value_or(+1), bounds, progress);
+  if (!sheet || job.side) return search_side(job, part, faces, checks, spec, job.side.value_or(+1), bounds, progress);
   if (job.start || job.guide)
-    return search_side(job, part, faces, spec, side_of_start(job, part, faces), bounds, progress);
-  FitSearch plus = search_side(job, part, faces, spec, +1, bounds, progress);
-  FitSearch minus = search_side(job, part, faces, spec, -1, bounds, progress);
+    return search_side(job, part, faces, checks, spec, side_of_start(job, part, faces), bounds, progress);
+  FitSearch plus = search_side(job, part, faces, checks, spec, +1, bounds, progress);
+  FitSearch minus = search_side(job, part, faces, checks, spec, -1, bounds, progress);
   const bool first = mean_score(plus, job.tolerance_mm) >= mean_score(minus, job.tolerance_mm);
   FitSearch& best = first ? plus : minus;
   best.fit.notes.push_back(

@@ -15,8 +15,9 @@ struct FitSearch {
   std::vector<std::size_t> group_of_motion;  ///< index into targets
 };
 
+/// faces: of the targets; checks: the faces that are no targets and must not be entered.
 [[nodiscard]] FitSearch search_fit(const FitJob& job, const Part& part, const std::vector<int>& faces,
-                                   const ToolSpec& spec,
+                                   const std::vector<int>& checks, const ToolSpec& spec,
                                    const std::function<RadiusBounds(const FitJob&, double diagonal)>& bounds,
                                    const Progress& progress);
 

@@ -80,7 +80,12 @@ MeshWalk MeshTarget::closest_walk(const Vec3& p) const {
   return best;
 }
 
-Footpoint MeshTarget::closest(const Vec3& p) const { return footpoint_of(closest_walk(p), p, surface_.real_triangles); }
+Footpoint MeshTarget::closest_within(const Vec3& p, double horizon_mm) const {
+  if (box_.squared_distance(p) >= horizon_mm * horizon_mm) return {};
+  Footpoint foot = footpoint_of(closest_walk(p), p, surface_.real_triangles);
+  if ((foot.point - p).norm() >= horizon_mm) foot.patch = -1;
+  return foot;
+}
 
 Footpoint MeshTarget::track(const Vec3& p, const Footpoint& hint) const {
   if (hint.patch >= 0 && hint.patch < static_cast<int>(surface_.mesh.triangles.size())) {

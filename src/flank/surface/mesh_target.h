@@ -22,7 +22,7 @@ class MeshTarget final : public Target {
   /// Throws InputError for a mesh that repair_mesh refuses.
   MeshTarget(TriangleMesh mesh, const ExtensionOptions& options);
 
-  [[nodiscard]] Footpoint closest(const Vec3& p) const override;
+  [[nodiscard]] Footpoint closest_within(const Vec3& p, double horizon_mm) const override;
   [[nodiscard]] Footpoint track(const Vec3& p, const Footpoint& hint) const override;
   [[nodiscard]] std::vector<SurfaceSample> samples(double spacing_mm) const override;
   [[nodiscard]] std::vector<Vec3> border_points(double spacing_mm) const override;

@@ -138,8 +138,9 @@ void NurbsTarget::search_border(int piece, const Vec3& p, Best& best) const {
   if (x.squared < best.squared) best = {x.squared, borders_.piece(piece).face, piece, x.u, x.v, x.t};
 }
 
-Footpoint NurbsTarget::closest(const Vec3& p) const {
+Footpoint NurbsTarget::closest_within(const Vec3& p, double horizon_mm) const {
   Best best;
+  best.squared = std::min(best.squared, horizon_mm * horizon_mm);
   tree_.nearest(p, best.squared, [&](int item) {
     const auto k = static_cast<std::size_t>(item);
     if (k < cells_.size())
@@ -176,7 +177,7 @@ bool NurbsTarget::leads_on(const Best& best, int& partner) const {
 }
 
 Footpoint NurbsTarget::finish(const Vec3& p, const Best& best) const {
-  if (best.face < 0) {  // p is not finite
+  if (best.face < 0) {  // nothing within the horizon, or p is not finite
     Footpoint nothing;
     nothing.distance = std::numeric_limits<double>::quiet_NaN();
     return nothing;

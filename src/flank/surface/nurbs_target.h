@@ -14,7 +14,7 @@ class NurbsTarget : public Target {
   NurbsTarget(const std::vector<Face>& faces, int side, const ExtensionOptions& options);
 
   /// Of a point that is not finite: patch -1 and a distance that is no number.
-  [[nodiscard]] Footpoint closest(const Vec3& p) const override;
+  [[nodiscard]] Footpoint closest_within(const Vec3& p, double horizon_mm) const override;
   [[nodiscard]] Footpoint track(const Vec3& p, const Footpoint& hint) const override;
   [[nodiscard]] std::vector<SurfaceSample> samples(double spacing_mm) const override;
   [[nodiscard]] std::vector<Vec3> border_points(double spacing_mm) const override;

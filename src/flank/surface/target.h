@@ -1,6 +1,7 @@
 /// What the tool must touch. One interface for trimmed NURBS faces, meshes with jets, and several of them together.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -46,7 +47,11 @@ class Target {
   virtual ~Target() = default;
 
   /// Cold query: the globally closest point of the trimmed target itself (never on an extension).
-  [[nodiscard]] virtual Footpoint closest(const Vec3& p) const = 0;
+  [[nodiscard]] Footpoint closest(const Vec3& p) const {
+    return closest_within(p, std::numeric_limits<double>::infinity());
+  }
+  /// The same where it is nearer than the horizon; else patch is -1. Asking for less is faster.
+  [[nodiscard]] virtual Footpoint closest_within(const Vec3& p, double horizon_mm) const = 0;
 
   /// Warm query: the locally closest point near `hint` on the target extended past its borders; falls back to a cold
   /// start (then continued onto the extension where the footpoint would lie on the border) if hint.patch < 0 or the
