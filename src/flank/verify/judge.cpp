@@ -13,7 +13,10 @@ namespace {
 
 constexpr std::size_t kBlock =
     256;  ///< samples a task measures, from the first to the last: fixed, so that threads change nothing
-constexpr double kEndShare = 1e-9;  ///< of a step or of the axis: nearer to an end than this counts as at the end
+constexpr std::size_t kLeastBlock = 16;  ///< so few samples are measured one by one
+constexpr double kRounding = 1e-9;
+constexpr double kFarHorizonMm = 1e6;  ///< beyond any part: nothing is farther
+constexpr double kEndShare = 1e-9;     ///< of a step or of the axis: nearer to an end than this counts as at the end
 constexpr double kWorstSeparation = 0.05;  ///< of the face's size: how far worst places keep from one another
 
 /// Whether the strip sweeps past the sample: its nearest sphere belongs to the inside of a strip's path and of the
@@ -184,11 +187,39 @@ double smallest_radius(const Tool& tool) {
   return least;
 }
 
+namespace {
+
+/// distances() of neighbouring points, in halves: f has slope 1, so that one place may tell that all of them are farther
+/// than the horizon.
+void measure_near(const SweptVolume& volume, std::span<const Vec3> points, double horizon,
+                  std::span<SweptDistance> out) {
+  if (points.size() <= kLeastBlock) {
+    volume.distances(points, horizon, out);
+    return;
+  }
+  Box3 box;
+  for (const Vec3& p : points) box.add(p);
+  const double radius = 0.5 * box.diagonal() * (1.0 + kRounding);
+  if (volume.distance(box.center(), horizon + radius).f >= horizon + radius) {
+    for (SweptDistance& d : out) d = {horizon, -1, 0.0, 0.0};
+    return;
+  }
+  const std::size_t half = points.size() / 2;
+  measure_near(volume, points.first(half), horizon, out.first(half));
+  measure_near(volume, points.subspan(half), horizon, out.subspan(half));
+}
+
+}  // namespace
+
 std::vector<SweptDistance> swept_distances(const SweptVolume& volume, const FaceSamples& face, double horizon_mm) {
   std::vector<SweptDistance> out(face.points.size());
   parallel_blocks(out.size(), kBlock, [&](std::size_t begin, std::size_t end) {
-    volume.distances(std::span(face.points).subspan(begin, end - begin), horizon_mm,
-                     std::span(out).subspan(begin, end - begin));
+    const std::span points = std::span(face.points).subspan(begin, end - begin);
+    const std::span results = std::span(out).subspan(begin, end - begin);
+    if (horizon_mm < kFarHorizonMm)
+      measure_near(volume, points, horizon_mm, results);
+    else
+      volume.distances(points, horizon_mm, results);
   });
   return out;
 }
