@@ -30,13 +30,17 @@ void add_clearance_options(CLI::App& app, ClearanceJob& job) {
       ->group(group);
 }
 
-void add_check_options(CLI::App& app, CheckFaceChoice& choice) {
+void add_check_options(CLI::App& app, CheckFaceChoice& choice, std::optional<double>& reach_radius_mm) {
   const std::string group = "Other faces";
   app.add_option("--check-faces", choice.only,
                  "The tool must not enter these faces, F88,F12; default: any face that is not machined. Entering one "
                  "by more than the tolerance is exit 1")
       ->group(group);
   app.add_option("--ignore-faces", choice.ignored, "It may enter these: they are not checked")->group(group);
+  app.add_option("--reach-radius", reach_radius_mm,
+                 "A place of the face counts as reachable where a ball of this radius touches it without entering "
+                 "another face, mm; --coverage is about those; default: the tool's smallest radius")
+      ->group(group);
 }
 
 }  // namespace flank

@@ -38,8 +38,8 @@ struct Subcommand {
 /// --shank-radius, --shank-length, --holder, --fixture and --clearance.
 void add_clearance_options(CLI::App& app, ClearanceJob& job);
 
-/// --check-faces and --ignore-faces.
-void add_check_options(CLI::App& app, CheckFaceChoice& choice);
+/// --check-faces, --ignore-faces and --reach-radius.
+void add_check_options(CLI::App& app, CheckFaceChoice& choice, std::optional<double>& reach_radius_mm);
 
 /// A line on stderr that grows on a terminal, plain lines otherwise, nothing if quiet; cancelled by Ctrl-C.
 [[nodiscard]] Progress terminal_progress(const CommonOptions& options);

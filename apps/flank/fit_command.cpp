@@ -81,10 +81,11 @@ Subcommand add_fit(CLI::App& parser) {
   app->add_option("--radius-max", job->radius_max_mm,
                   "Largest radius of a free tool, mm; default: 15 % of the face's diagonal");
   app->add_option("--slope-max", job->slope_max, "Largest |r'| of a free tool")->capture_default_str();
-  app->add_option("--coverage", job->least_coverage, "Share of the face within tolerance that counts as done")
+  app->add_option("--coverage", job->least_coverage,
+                  "Share of what is reachable of the face, within tolerance, that counts as done")
       ->capture_default_str();
   app->add_option("--sample", job->sample_mm, "Spacing of the judge's samples, mm");
-  add_check_options(*app, job->check);
+  add_check_options(*app, job->check, job->reach_radius_mm);
   app->add_option("--avoid", texts->avoid,
                   "on: steer the tool clear of the other faces; off: fit as if they were not there (they are judged "
                   "all the same)")

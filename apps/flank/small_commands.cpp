@@ -91,7 +91,7 @@ Subcommand add_verify(CLI::App& parser) {
   app->add_option("--part", job->part, "Judge against this part instead of the one named in job.json");
   app->add_option("--tolerance", job->tolerance_mm, "Tolerance, mm, instead of the job's");
   app->add_option("--sample", job->sample_mm, "Spacing of the samples, mm");
-  add_check_options(*app, job->check);
+  add_check_options(*app, job->check, job->reach_radius_mm);
   add_clearance_options(*app, job->clearance);
   app->footer(
       "Example: flank example twisted-blade -o blade.step && flank fit blade.step --face F1 -o out --tolerance 0.1; "

@@ -14,15 +14,18 @@ VerifyReport full_report() {
   r.verdict = Verdict::kGouge;
   r.tolerance_mm = 0.01;
   r.coverage = 0.9731415926535897;
+  r.reachable_share = 0.9;
+  r.coverage_reachable = 1.0 / 1.1;
+  r.reach_radius_mm = 1.5;
   r.overcut_mm = 1.0 / 3.0;
   r.undercut_mm = 1e300;
   r.undercut_covered_mm = 2e-7;
   r.rms_mm = 0.1;
   r.gouge_mm = 0.25;
   r.sampling_bound_mm = 3e-4;
-  r.faces = {
-      {"F1", true, 120.5, 4000, 1.0 / 3.0, 1e300, 2e-7, 0.1, 0.97, 0.2, 3e-4, {}},
-      {"F2", false, 7.0, 12, 0.25, 0, 0, 0, 0, 0.2, 0.01, WorstPlace{"F2", Vec3(4, 5, 1.0 / 3.0), -0.25, 0, 1.5, 2.5}}};
+  r.faces = {{"F1", true, 120.5, 4000, 1.0 / 3.0, 1e300, 2e-7, 0.1, 0.97, 0.9, 0.99, 0.2, 3e-4, {}},
+             {"F2", false, 7.0, 12, 0.25, 0, 0, 0, 0, 0, 0, 0.2, 0.01,
+              WorstPlace{"F2", Vec3(4, 5, 1.0 / 3.0), -0.25, 0, 1.5, 2.5}}};
   r.worst = {{"F1", Vec3(1.0 / 7.0, 2, 3), -1.0 / 3.0, 2, 12.25, 7.5}, {"F2", Vec3(4, 5, 6), -0.25, -1, 0, 0}};
   r.histogram_edges_mm = {-0.02, 0.0, 0.02};
   r.histogram_area_mm2 = {100.5, 20.0};
@@ -39,6 +42,10 @@ TEST(VerifyJson, ReadsBackWhatItWrote) {
   EXPECT_EQ(verify_to_json(a, {}), verify_to_json(b, {}));
   EXPECT_EQ(b.verdict, a.verdict);
   EXPECT_EQ(b.coverage, a.coverage);
+  EXPECT_EQ(b.reachable_share, a.reachable_share);
+  EXPECT_EQ(b.coverage_reachable, a.coverage_reachable);
+  EXPECT_EQ(b.reach_radius_mm, a.reach_radius_mm);
+  EXPECT_EQ(b.faces[0].coverage_reachable, 0.99);
   EXPECT_EQ(b.overcut_mm, a.overcut_mm);
   EXPECT_EQ(b.undercut_mm, a.undercut_mm);
   ASSERT_EQ(b.faces.size(), 2u);

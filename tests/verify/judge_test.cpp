@@ -52,6 +52,27 @@ TEST(Judge, HeightAboveThePlaneIsMaterialLeft) {
   EXPECT_NEAR(r.histogram_area_mm2.back(), 800.0, 1e-9) << "the last bin is open";
 }
 
+// What is far from the path is left out in blocks; near it nothing may be lost.
+TEST(Judge, DistancesUpToTheHorizonAreThoseOfEachPointAlone) {
+  const Tool tool = cylinder(5.0, 20.0);
+  Path path = pass(30.0, 170.0, 4.9, 29);
+  for (Pose& p : path.strips[0].poses) p.axis = Vec3(0.1, 0.002 * p.tip.x(), 1.0).normalized();
+  const auto face = sample_face(test::plane_face("F1", 300.0, 150.0), 0.7, false);
+  const SweptVolume volume(tool, path);
+  for (double horizon : {0.01, 0.7, 20.0}) {
+    const std::vector<SweptDistance> all = swept_distances(volume, face, horizon);
+    int near = 0, far = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const double alone = volume.distance(face.points[i], horizon).f;
+      ASSERT_NEAR(std::min(all[i].f, horizon), std::min(alone, horizon), 1e-9) << face.points[i].transpose();
+      EXPECT_EQ(all[i].strip < 0, all[i].f >= horizon);
+      ++(alone < horizon ? near : far);
+    }
+    EXPECT_GT(near, 100) << horizon;
+    EXPECT_GT(far, 10000) << horizon;
+  }
+}
+
 TEST(Judge, HalfAPlaneIsHalfCovered) {
   const auto samples = sample_face(test::plane_face("F1", 40.0, 20.0), 0.5, true);
   const VerifyReport r = judge(cylinder(5.0, 20.0), pass(-1.0, 20.0, 5.0), {samples}, {});

@@ -41,8 +41,13 @@ export function rows(files) {
     const tolerance = format.tolerance(verify.tolerance_mm);
     const v = (key, name, text, wanted, state, hint) => out.push({ key, name, value: verify[key], text, wanted, state, hint });
     v('coverage', `Coverage within ±${tolerance}`, format.percent(verify.coverage),
+      '', '', 'share of the target’s area that is finished');
+    const reachable = 'coverage_reachable' in verify;
+    const share = reachable ? verify.coverage_reachable : verify.coverage;
+    v(reachable ? 'coverage_reachable' : 'coverage', 'Coverage of what is reachable', format.percent(share),
       limit.coverage === null ? '' : `≥ ${format.tick(100 * limit.coverage)}\u00a0%`,
-      limit.coverage === null ? '' : judged('coverage', verify.coverage >= limit.coverage), 'share of the target’s area that is finished');
+      limit.coverage === null ? '' : judged('coverage_reachable', share >= limit.coverage),
+      reachable ? `a ball of radius ${format.plain(verify.reach_radius_mm)} mm reaches ${format.percent(verify.reachable_share)} of the target` : 'of the whole target');
     v('overcut_mm', 'Overcut', format.error(verify.overcut_mm), `≤ ${tolerance}`,
       judged('overcut_mm', verify.overcut_mm <= verify.tolerance_mm), 'deepest cut into the target');
     v('gouge_mm', 'Overcut of other faces', format.error(verify.gouge_mm), `≤ ${tolerance}`,

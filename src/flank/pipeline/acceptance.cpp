@@ -45,14 +45,20 @@ Acceptance accept(const Tool& tool, const VerifyReport& report, double least_cov
     out.reasons.push_back({"legitimate", "the tool is not legitimate: " + legitimacy.reason});
   add_cuts(report, true, out.reasons);
   add_cuts(report, false, out.reasons);
-  if (!(report.coverage >= least_coverage))
+  if (!(report.coverage_reachable >= least_coverage))
     out.reasons.push_back(
-        {"coverage", fmt::format("coverage {:.3f} % < {:.3f} %", 100.0 * report.coverage, 100.0 * least_coverage)});
+        {"coverage_reachable", fmt::format("coverage {:.3f} % < {:.3f} % of what is reachable",
+                                           100.0 * report.coverage_reachable, 100.0 * least_coverage)});
   for (const ClearanceFigure& f : report.clearance.figures)
     if (!f.kept)
       out.reasons.push_back({"clearance", fmt::format("the {} does not keep {} mm from {} surely", body_name(f.body),
                                                       f.required_mm, f.obstacle)});
   return out;
+}
+
+std::string reach_text(const VerifyReport& report) {
+  return fmt::format("reachable   {:.2f} % of the target (ball of radius {:.4g} mm), of which {:.2f} % is covered",
+                     100.0 * report.reachable_share, report.reach_radius_mm, 100.0 * report.coverage_reachable);
 }
 
 std::string reason_lines(const Acceptance& acceptance) {

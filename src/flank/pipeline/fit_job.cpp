@@ -9,9 +9,9 @@
 #include "flank/base/error.h"
 #include "flank/envelope/envelope.h"
 #include "flank/pipeline/fit_search.h"
+#include "flank/pipeline/judge_job.h"
 #include "flank/pipeline/targets.h"
 #include "flank/pipeline/tool_model.h"
-#include "flank/pipeline/verify_job.h"
 #include "flank/pipeline/view.h"
 #include "flank/pipeline/view_json.h"
 
@@ -45,6 +45,7 @@ void check_job(const FitJob& job) {
   require(job.slope_max > 0.0 && job.slope_max < 1.0, "--slope-max: a number between 0 and 1 is needed");
   require(job.strips >= 0 && job.strips <= 64, "--strips: auto or a number from 1 to 64 is needed");
   require(job.least_coverage >= 0.0 && job.least_coverage <= 1.0, "--coverage: a share between 0 and 1 is needed");
+  check_reach_radius(job);
   require(!(job.start && job.guide), "--start and --guide: give one of them");
 }
 
@@ -133,11 +134,7 @@ FitOutcome run_fit(const FitJob& job, const Progress& progress) {
   watch.lap("sample");
 
   progress.step("verify", 0.9);
-  const double spacing = job.sample_mm.value_or(default_spacing(part.box.diagonal()));
-  JudgeOptions options;
-  options.tolerance_mm = job.tolerance_mm;
-  outcome.verify =
-      judge(outcome.tool, outcome.path, judge_samples(part, faces, checks, spacing, 2.0 * spacing), options);
+  outcome.verify = judge_job(job, part, faces, checks, outcome.tool, outcome.path);
   watch.lap("verify");
   outcome.verify.clearance = measure_clearance(job.clearance, outcome.tool, outcome.path, part, faces, checks, job.unit,
                                                job.tolerance_mm, outcome.notes);

@@ -30,12 +30,13 @@ struct FitJob {
   double tolerance_mm = 0.01;
   std::optional<double> axis_length_mm;
   std::optional<double> radius_min_mm, radius_max_mm;
-  double slope_max = 0.95;          ///< of |r'|
-  double least_coverage = 0.95;     ///< share of the target within tolerance that counts as done
-  std::optional<double> sample_mm;  ///< spacing of the judge's samples
-  CheckFaceChoice check;            ///< which other faces must not be entered
-  bool avoid = true;                ///< the planner steers clear of the check faces; the judge looks at them anyway
-  ClearanceJob clearance;           ///< shank, holder, fixtures
+  double slope_max = 0.95;                ///< of |r'|
+  double least_coverage = 0.95;           ///< share of what is reachable of the target, within tolerance: done
+  std::optional<double> sample_mm;        ///< spacing of the judge's samples
+  std::optional<double> reach_radius_mm;  ///< of the ball that says what is reachable; none: the tool's smallest radius
+  CheckFaceChoice check;                  ///< which other faces must not be entered
+  bool avoid = true;       ///< the planner steers clear of the check faces; the judge looks at them anyway
+  ClearanceJob clearance;  ///< shank, holder, fixtures
 };
 inline constexpr int kMostStrips = 12;
 

@@ -61,6 +61,7 @@ std::string job_to_json(const FitJob& job) {
   json["slope_max"] = job.slope_max;
   json["coverage"] = job.least_coverage;
   put(json, "sample", job.sample_mm);
+  put(json, "reach_radius", job.reach_radius_mm);
   put(json, "check_faces", job.check.only);
   put(json, "ignore_faces", job.check.ignored);
   json["avoid"] = job.avoid;
@@ -88,6 +89,7 @@ FitJob job_from_json(const std::string& text, const std::string& file) {
     job.slope_max = json.value("slope_max", job.slope_max);
     job.least_coverage = json.value("coverage", job.least_coverage);
     job.sample_mm = take<double>(json, "sample");
+    job.reach_radius_mm = take<double>(json, "reach_radius");
     job.check = {take<std::string>(json, "check_faces"), take<std::string>(json, "ignore_faces")};
     job.avoid = json.value("avoid", job.avoid);
     job.clearance = take_clearance(json);

@@ -29,6 +29,7 @@ std::string summary_text(const FitJob& job, const FitOutcome& outcome) {
                       outcome.path.strips.size(), outcome.path.strips.size() == 1 ? "" : "s", outcome.path.pose_count(),
                       outcome.chord_bound_mm, outcome.largest_c);
   text += fmt::format("  coverage    {} of the target within {} mm\n", percent(v.coverage), v.tolerance_mm);
+  text += "  " + reach_text(v) + "\n";
   text += fmt::format("  overcut     {:.6f} mm\n", v.overcut_mm);
   text += fmt::format("  undercut    {:.6f} mm where the path touches, {:.4f} mm anywhere on the target\n",
                       v.undercut_covered_mm, v.undercut_mm);
@@ -59,6 +60,9 @@ std::string summary_json(const FitJob& job, const FitOutcome& outcome) {
   json["within"] = outcome.acceptance(job).pass();
   json["tolerance"] = job.tolerance_mm;
   json["coverage"] = v.coverage;
+  json["reachable_share"] = v.reachable_share;
+  json["coverage_reachable"] = v.coverage_reachable;
+  json["reach_radius"] = v.reach_radius_mm;
   json["least_coverage"] = job.least_coverage;
   json["overcut"] = v.overcut_mm;
   json["undercut"] = v.undercut_mm;

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -12,7 +11,7 @@
 #include "flank/io/path_json.h"
 #include "flank/io/tool_json.h"
 #include "flank/pipeline/job_json.h"
-#include "flank/pipeline/targets.h"
+#include "flank/pipeline/judge_job.h"
 #include "flank/pipeline/verify_json.h"
 #include "flank/pipeline/view.h"
 #include "flank/pipeline/view_json.h"
@@ -38,11 +37,6 @@ ClearanceJob overrides(const ClearanceJob& asked, const ClearanceJob& merged) {
 
 }  // namespace
 
-double default_spacing(double diagonal_mm) {
-  // Half a millimetre is fine enough for blades of a hand's size; a metre of fan blade would be a million samples.
-  return std::clamp(diagonal_mm / 300.0, 0.05, std::max(0.5, diagonal_mm / 1000.0));
-}
-
 VerifyOutcome run_verify(const VerifyJob& request) {
   const std::filesystem::path folder(request.folder);
   if (!std::filesystem::is_directory(folder))
@@ -53,6 +47,8 @@ VerifyOutcome run_verify(const VerifyJob& request) {
   if (request.part) outcome.job.part = *request.part;
   if (request.tolerance_mm) outcome.job.tolerance_mm = *request.tolerance_mm;
   if (request.sample_mm) outcome.job.sample_mm = request.sample_mm;
+  if (request.reach_radius_mm) outcome.job.reach_radius_mm = request.reach_radius_mm;
+  check_reach_radius(outcome.job);
   if (request.check.any()) outcome.job.check = request.check;
   if (!(outcome.job.tolerance_mm > 0.0)) throw UsageError("--tolerance: a length > 0 mm is needed");
   ClearanceJob& clearance = outcome.job.clearance;
@@ -67,10 +63,7 @@ VerifyOutcome run_verify(const VerifyJob& request) {
   const std::vector<int> faces = parse_face_list(part, outcome.job.faces);
   const std::vector<int> checks = faces_to_check(part, faces, outcome.job.check);
   if (const std::string note = unchecked_note(part, faces, checks); !note.empty()) outcome.notes.push_back(note);
-  const double spacing = outcome.job.sample_mm.value_or(default_spacing(part.box.diagonal()));
-  JudgeOptions options;
-  options.tolerance_mm = outcome.job.tolerance_mm;
-  outcome.report = judge(tool, path, judge_samples(part, faces, checks, spacing, 2.0 * spacing), options);
+  outcome.report = judge_job(outcome.job, part, faces, checks, tool, path);
   outcome.report.clearance = measure_clearance(clearance, tool, path, part, faces, checks, outcome.job.unit,
                                                outcome.job.tolerance_mm, outcome.notes);
   outcome.acceptance = accept(tool, outcome.report, outcome.job.least_coverage);
@@ -95,6 +88,7 @@ std::string verify_text(const VerifyOutcome& outcome) {
                         w.face, w.point.x(), w.point.y(), w.point.z(), w.f, w.strip + 1, w.t, w.s);
   text += clearance_text(v.clearance);
   for (const std::string& note : outcome.notes) text += "note: " + note + "\n";
+  text += reach_text(v) + "\n";
   text +=
       fmt::format("coverage {:.2f} % within {} mm, overcut {:.6f} mm, between samples at most {:.4f} mm worse: {}\n",
                   100.0 * v.coverage, v.tolerance_mm, v.overcut_mm, v.sampling_bound_mm,

@@ -13,8 +13,9 @@ struct VerifyJob {
   std::optional<std::string> part;     ///< instead of the part named in job.json
   std::optional<double> tolerance_mm;  ///< instead of the job's
   std::optional<double> sample_mm;
-  CheckFaceChoice check;   ///< instead of the job's choice, if any is given
-  ClearanceJob clearance;  ///< what is given takes the place of the tool's or the job's
+  std::optional<double> reach_radius_mm;  ///< instead of the job's
+  CheckFaceChoice check;                  ///< instead of the job's choice, if any is given
+  ClearanceJob clearance;                 ///< what is given takes the place of the tool's or the job's
 };
 
 struct VerifyOutcome {
@@ -27,8 +28,5 @@ struct VerifyOutcome {
 /// Reads job.json, tool.json and path.json, judges, and writes verify.json and view.json.
 [[nodiscard]] VerifyOutcome run_verify(const VerifyJob& job);
 [[nodiscard]] std::string verify_text(const VerifyOutcome& outcome);
-
-/// Spacing of the judge's samples on the target where none is given, mm.
-[[nodiscard]] double default_spacing(double diagonal_mm);
 
 }  // namespace flank

@@ -54,6 +54,8 @@ Json to_json(const FaceVerdict& f) {
             {"undercut_covered_mm", number(f.undercut_covered_mm)},
             {"rms_mm", number(f.rms_mm)},
             {"coverage", number(f.coverage)},
+            {"reachable_share", number(f.reachable_share)},
+            {"coverage_reachable", number(f.coverage_reachable)},
             {"sampling_bound_mm", number(f.sampling_bound_mm)}};
   if (f.deepest) j["deepest"] = to_json(*f.deepest);
   return j;
@@ -71,6 +73,8 @@ FaceVerdict face_from(const Json& j) {
   f.undercut_covered_mm = to_number(j.at("undercut_covered_mm"));
   f.rms_mm = to_number(j.at("rms_mm"));
   f.coverage = to_number(j.at("coverage"));
+  f.reachable_share = to_number(j.at("reachable_share"));
+  f.coverage_reachable = to_number(j.at("coverage_reachable"));
   f.sampling_bound_mm = to_number(j.at("sampling_bound_mm"));
   if (j.contains("deepest")) f.deepest = place_from(j.at("deepest"));
   return f;
@@ -137,6 +141,9 @@ VerifyReport report_from(const Json& j) {
   r.verdict = verdict_from(j.at("verdict").get<std::string>());
   r.tolerance_mm = to_number(j.at("tolerance_mm"));
   r.coverage = to_number(j.at("coverage"));
+  r.reachable_share = to_number(j.at("reachable_share"));
+  r.coverage_reachable = to_number(j.at("coverage_reachable"));
+  r.reach_radius_mm = to_number(j.at("reach_radius_mm"));
   r.overcut_mm = to_number(j.at("overcut_mm"));
   r.undercut_mm = to_number(j.at("undercut_mm"));
   r.undercut_covered_mm = to_number(j.at("undercut_covered_mm"));
@@ -175,6 +182,9 @@ std::string verify_to_json(const VerifyReport& r, const Acceptance& acceptance) 
             {"reasons", Json::array()},
             {"tolerance_mm", number(r.tolerance_mm)},
             {"coverage", number(r.coverage)},
+            {"reachable_share", number(r.reachable_share)},
+            {"coverage_reachable", number(r.coverage_reachable)},
+            {"reach_radius_mm", number(r.reach_radius_mm)},
             {"overcut_mm", number(r.overcut_mm)},
             {"undercut_mm", number(r.undercut_mm)},
             {"undercut_covered_mm", number(r.undercut_covered_mm)},

@@ -133,6 +133,7 @@ std::string job_command(const FitJob& job) {
   if (job.slope_max != usual.slope_max) add("--slope-max", job.slope_max);
   if (job.least_coverage != usual.least_coverage) add("--coverage", job.least_coverage);
   if (job.sample_mm) add("--sample", *job.sample_mm);
+  if (job.reach_radius_mm) add("--reach-radius", *job.reach_radius_mm);
   if (job.check.only) add("--check-faces", *job.check.only);
   if (job.check.ignored) add("--ignore-faces", *job.check.ignored);
   if (!job.avoid) add("--avoid", "off");

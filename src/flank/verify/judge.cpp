@@ -13,7 +13,10 @@ namespace {
 
 constexpr std::size_t kBlock =
     256;  ///< samples a task measures, from the first to the last: fixed, so that threads change nothing
-constexpr double kEndShare = 1e-9;  ///< of a step or of the axis: nearer to an end than this counts as at the end
+constexpr std::size_t kLeastBlock = 16;  ///< so few samples are measured one by one
+constexpr double kRounding = 1e-9;
+constexpr double kFarHorizonMm = 1e6;  ///< beyond any part: nothing is farther
+constexpr double kEndShare = 1e-9;     ///< of a step or of the axis: nearer to an end than this counts as at the end
 constexpr double kWorstSeparation = 0.05;  ///< of the face's size: how far worst places keep from one another
 
 /// Whether the strip sweeps past the sample: its nearest sphere belongs to the inside of a strip's path and of the
@@ -26,7 +29,7 @@ bool swept_past(const SweptDistance& d, const Tool& tool, const Path& path) {
 }
 
 struct Sums {
-  double area = 0.0, covered = 0.0, touched = 0.0, squares = 0.0;
+  double area = 0.0, covered = 0.0, reachable = 0.0, covered_reachable = 0.0, touched = 0.0, squares = 0.0;
 };
 
 Sums add_up(const Tool& tool, const Path& path, const FaceSamples& face, const std::vector<SweptDistance>& distances,
@@ -39,7 +42,12 @@ Sums add_up(const Tool& tool, const Path& path, const FaceSamples& face, const s
     verdict.overcut_mm = std::max(verdict.overcut_mm, -d.f);
     if (!face.target) continue;
     verdict.undercut_mm = std::max(verdict.undercut_mm, d.f);
-    if (std::abs(d.f) <= tolerance) sums.covered += area;
+    const double reachable = face.reachable.empty() ? area : area * face.reachable[i];
+    sums.reachable += reachable;
+    if (std::abs(d.f) <= tolerance) {
+      sums.covered += area;
+      sums.covered_reachable += reachable;
+    }
     if (!swept_past(d, tool, path)) continue;
     verdict.undercut_covered_mm = std::max(verdict.undercut_covered_mm, d.f);
     sums.touched += area;
@@ -88,13 +96,6 @@ void prepare_histogram(VerifyReport& report, const JudgeOptions& options) {
   report.histogram_area_mm2.assign(static_cast<std::size_t>(bins), 0.0);
 }
 
-double least_radius(const Tool& tool) {
-  constexpr int kSteps = 256;
-  double least = tool.radial.at(0.0).r;
-  for (int i = 1; i <= kSteps; ++i) least = std::min(least, tool.radial.at(tool.radial.axis_length() * i / kSteps).r);
-  return least;
-}
-
 // The swept solid is a union of balls of radius at least r. At the deepest inner point y of a face, cut by f(y) = -o,
 // the ball (c, b) that cuts there touches the face's normal: y - c = (b - o) n. A sample x at most e away along the
 // face leaves the tangent plane by at most k e^2 / 2, k the largest normal curvature, so |x - c| <= (b - o) + (1/(b -
@@ -120,6 +121,8 @@ void require_usable(const JudgeOptions& options) {
   if (options.histogram_bins < 1) throw UsageError("a histogram needs at least one bin");
 }
 
+double share_of(double part, double whole) { return whole > 0.0 ? part / whole : 0.0; }
+
 /// What one face adds to the report.
 struct FaceResult {
   FaceVerdict verdict;
@@ -141,9 +144,11 @@ FaceResult judge_face(const SweptVolume& volume, const Tool& tool, const Path& p
   verdict.spacing_mm = face.spacing_mm;
   const Sums sums = result.sums = add_up(tool, path, face, distances, options.tolerance_mm, verdict);
   verdict.area_mm2 = sums.area;
-  verdict.coverage = sums.area > 0.0 ? sums.covered / sums.area : 0.0;
+  verdict.coverage = share_of(sums.covered, sums.area);
+  verdict.reachable_share = share_of(sums.reachable, sums.area);
+  verdict.coverage_reachable = share_of(sums.covered_reachable, sums.reachable);
   verdict.rms_mm = sums.touched > 0.0 ? std::sqrt(sums.squares / sums.touched) : 0.0;
-  verdict.sampling_bound_mm = between_samples(face, distances, least_radius(tool), verdict.overcut_mm);
+  verdict.sampling_bound_mm = between_samples(face, distances, smallest_radius(tool), verdict.overcut_mm);
   result.worst = worst_of(face, distances, options.worst_places);
   if (!result.worst.empty()) verdict.deepest = result.worst.front();
   if (face.target) add_histogram(report, face, distances);
@@ -153,6 +158,8 @@ FaceResult judge_face(const SweptVolume& volume, const Tool& tool, const Path& p
 void add_target(VerifyReport& report, Sums& totals, const FaceResult& face) {
   totals.area += face.sums.area;
   totals.covered += face.sums.covered;
+  totals.reachable += face.sums.reachable;
+  totals.covered_reachable += face.sums.covered_reachable;
   totals.touched += face.sums.touched;
   totals.squares += face.sums.squares;
   report.overcut_mm = std::max(report.overcut_mm, face.verdict.overcut_mm);
@@ -173,11 +180,46 @@ Verdict verdict_of(const VerifyReport& report) {
 
 }  // namespace
 
+double smallest_radius(const Tool& tool) {
+  constexpr int kSteps = 256;
+  double least = tool.radial.at(0.0).r;
+  for (int i = 1; i <= kSteps; ++i) least = std::min(least, tool.radial.at(tool.radial.axis_length() * i / kSteps).r);
+  return least;
+}
+
+namespace {
+
+/// distances() of neighbouring points, in halves: f has slope 1, so that one place may tell that all of them are farther
+/// than the horizon.
+void measure_near(const SweptVolume& volume, std::span<const Vec3> points, double horizon,
+                  std::span<SweptDistance> out) {
+  if (points.size() <= kLeastBlock) {
+    volume.distances(points, horizon, out);
+    return;
+  }
+  Box3 box;
+  for (const Vec3& p : points) box.add(p);
+  const double radius = 0.5 * box.diagonal() * (1.0 + kRounding);
+  if (volume.distance(box.center(), horizon + radius).f >= horizon + radius) {
+    for (SweptDistance& d : out) d = {horizon, -1, 0.0, 0.0};
+    return;
+  }
+  const std::size_t half = points.size() / 2;
+  measure_near(volume, points.first(half), horizon, out.first(half));
+  measure_near(volume, points.subspan(half), horizon, out.subspan(half));
+}
+
+}  // namespace
+
 std::vector<SweptDistance> swept_distances(const SweptVolume& volume, const FaceSamples& face, double horizon_mm) {
   std::vector<SweptDistance> out(face.points.size());
   parallel_blocks(out.size(), kBlock, [&](std::size_t begin, std::size_t end) {
-    volume.distances(std::span(face.points).subspan(begin, end - begin), horizon_mm,
-                     std::span(out).subspan(begin, end - begin));
+    const std::span points = std::span(face.points).subspan(begin, end - begin);
+    const std::span results = std::span(out).subspan(begin, end - begin);
+    if (horizon_mm < kFarHorizonMm)
+      measure_near(volume, points, horizon_mm, results);
+    else
+      volume.distances(points, horizon_mm, results);
   });
   return out;
 }
@@ -210,7 +252,9 @@ VerifyReport judge(const Tool& tool, const Path& path, const std::vector<FaceSam
     report.faces.push_back(std::move(result.verdict));
   }
   keep_worst(report.worst, options.worst_places);
-  report.coverage = totals.area > 0.0 ? totals.covered / totals.area : 0.0;
+  report.coverage = share_of(totals.covered, totals.area);
+  report.reachable_share = share_of(totals.reachable, totals.area);
+  report.coverage_reachable = share_of(totals.covered_reachable, totals.reachable);
   report.rms_mm = totals.touched > 0.0 ? std::sqrt(totals.squares / totals.touched) : 0.0;
   report.verdict = verdict_of(report);
   return report;

@@ -25,6 +25,9 @@ struct FaceSamples {
   double spacing_mm = 0.0;         ///< no point of the face is farther than this from a sample, up to the border cells
   std::vector<double> reaches_mm;  ///< of each sample: the farthest point of its cell; empty: spacing_mm
   std::vector<double> curvatures_per_mm;  ///< of each sample: largest |normal curvature|; empty: not known
+  std::vector<Vec3> normals;      ///< of each sample: unit, away from the material where `of_solid`; empty: not known
+  bool of_solid = false;          ///< the face bounds a solid; else it is a sheet, whose normals may point either way
+  std::vector<double> reachable;  ///< of each sample: share of its cell that is reachable (reach.h); empty: all of it
 };
 
 /// Samples a trimmed face at cells of about `spacing_mm` (centres of cells), by the judge's own code; points outside
@@ -66,6 +69,9 @@ class SweptVolume {
 [[nodiscard]] std::vector<std::size_t> covered_samples(const SweptVolume& volume, const FaceSamples& face,
                                                        double tolerance_mm);
 
+/// Smallest radius of the flank, mm, at 257 places of the axis.
+[[nodiscard]] double smallest_radius(const Tool& tool);
+
 struct JudgeOptions {
   double tolerance_mm = 0.01;
   double horizon_mm = 1e300;  ///< material left is measured up to this; beyond it is "not machined"
@@ -91,6 +97,8 @@ struct FaceVerdict {
   double undercut_covered_mm = 0.0;  ///< largest f over the samples that a strip sweeps past (see judge.md)
   double rms_mm = 0.0;               ///< of f over the samples that a strip sweeps past
   double coverage = 0.0;             ///< area share with |f| <= tolerance
+  double reachable_share = 0.0;      ///< of the area (target)
+  double coverage_reachable = 0.0;   ///< the same share of the reachable area alone; 0 where nothing is reachable
   double spacing_mm = 0.0;
   double sampling_bound_mm = 0.0;     ///< overcut between samples exceeds overcut_mm by no more (judge.md)
   std::optional<WorstPlace> deepest;  ///< where overcut_mm is; none: nothing is cut
@@ -106,7 +114,9 @@ enum class Verdict {
 struct VerifyReport {
   Verdict verdict = Verdict::kNotRun;
   double tolerance_mm = 0.0;
-  double coverage = 0.0;  ///< area-weighted over the targets
+  double coverage = 0.0;                                   ///< area-weighted over the targets
+  double reachable_share = 0.0, coverage_reachable = 0.0;  ///< likewise
+  double reach_radius_mm = 0.0;  ///< of the ball that `reachable` of the samples is about; not filled by judge()
   double overcut_mm = 0.0, undercut_mm = 0.0, undercut_covered_mm = 0.0, rms_mm = 0.0;  ///< over the targets
   double gouge_mm = 0.0;           ///< largest overcut on a check surface
   double sampling_bound_mm = 0.0;  ///< the largest of the targets'

@@ -30,6 +30,7 @@ class ObstacleTree {
   explicit ObstacleTree(const TriangleMesh& mesh);
 
   [[nodiscard]] bool empty() const { return corners_.empty(); }
+  [[nodiscard]] int node_count() const { return static_cast<int>(nodes_.size()); }
   [[nodiscard]] const Node& node(int i) const { return nodes_[static_cast<std::size_t>(i)]; }
   /// Triangles are counted in the tree's order.
   [[nodiscard]] const std::array<Vec3, 3>& corners(int i) const { return corners_[static_cast<std::size_t>(i)]; }

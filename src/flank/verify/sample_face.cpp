@@ -141,8 +141,15 @@ double mean_stretch(const BSplineSurface& s, Range u, Range v) {
   return 0.25 * sum;
 }
 
+/// Unit normal, away from the material of the face's solid; zero where the face is degenerate.
+Vec3 normal_at(const SurfaceJet& jet, bool reversed) {
+  const Vec3 cross = jet.du.cross(jet.dv);
+  const double length = cross.norm();
+  return length > 0.0 ? Vec3((reversed ? -1.0 : 1.0) / length * cross) : Vec3(Vec3::Zero());
+}
+
 /// Adds the sample of a cell, and what it says about the spacing and the curvature.
-void add_cell(FaceSamples& out, const BSplineSurface& s, const CellPart& part, Range u, Range v) {
+void add_cell(FaceSamples& out, const BSplineSurface& s, const CellPart& part, Range u, Range v, bool reversed) {
   const double du = u.high - u.low, dv = v.high - v.low;
   const SurfaceJet jet = s.jet(part.u, part.v);
   const Vec3 a = 0.5 * du * jet.du, b = 0.5 * dv * jet.dv;
@@ -154,6 +161,7 @@ void add_cell(FaceSamples& out, const BSplineSurface& s, const CellPart& part, R
   out.spacing_mm = std::max(out.spacing_mm, half_diagonal + bend);
   out.reaches_mm.push_back(half_diagonal + bend);
   out.curvatures_per_mm.push_back(largest_curvature(jet));
+  out.normals.push_back(normal_at(jet, reversed));
 }
 
 void require_usable(const Face& face, double spacing_mm) {
@@ -195,6 +203,7 @@ FaceSamples sample_face(const Face& face, double spacing_mm, bool target) {
   FaceSamples out;
   out.face = face.id;
   out.target = target;
+  out.of_solid = face.of_solid;
   for (std::size_t j = 0; j + 1 < vs.size(); ++j) {
     const Range cell_v{vs[j], vs[j + 1]};
     const RowCrossings row = row_crossings(trim, cell_v);
@@ -202,7 +211,7 @@ FaceSamples sample_face(const Face& face, double spacing_mm, bool target) {
       const Range cell_u{us[i], us[i + 1]};
       const CellPart part = inside_part(trim, row, cell_u, cell_v);
       if (!(part.share > 0.0)) continue;
-      add_cell(out, s, part, cell_u, cell_v);
+      add_cell(out, s, part, cell_u, cell_v, face.reversed);
     }
   }
   return out;

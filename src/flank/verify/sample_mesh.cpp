@@ -23,6 +23,7 @@ FaceSamples sample_mesh(const std::string& id, const TriangleMesh& mesh, double 
     const double longest = std::max({ab.norm(), ac.norm(), (ac - ab).norm()});
     const int n = std::max(1, static_cast<int>(std::ceil(longest / spacing_mm)));
     const double area = 0.5 * ab.cross(ac).norm() / (n * n);
+    const Vec3 normal = area > 0.0 ? ab.cross(ac).normalized() : Vec3(Vec3::Zero());
     const Vec3 centroid = (ab + ac) / 3.0;
     out.spacing_mm =
         std::max({out.spacing_mm, centroid.norm() / n, (centroid - ab).norm() / n, (centroid - ac).norm() / n});
@@ -30,9 +31,11 @@ FaceSamples sample_mesh(const std::string& id, const TriangleMesh& mesh, double 
       for (int j = 0; i + j < n; ++j) {
         out.points.push_back(a + ((i + 1.0 / 3.0) * ab + (j + 1.0 / 3.0) * ac) / n);
         out.areas.push_back(area);
+        out.normals.push_back(normal);
         if (i + j + 1 >= n) continue;
         out.points.push_back(a + ((i + 2.0 / 3.0) * ab + (j + 2.0 / 3.0) * ac) / n);
         out.areas.push_back(area);
+        out.normals.push_back(normal);
       }
     }
   }

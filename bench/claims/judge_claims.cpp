@@ -1,0 +1,68 @@
+// The judge on a real part: two blades on a sector of a hub, every other face a check surface.
+#include "claims/claims_support.h"
+#include "flank/base/parallel.h"
+#include "flank/pipeline/check_faces.h"
+#include "flank/pipeline/judge_job.h"
+#include "flank/pipeline/targets.h"
+
+namespace flank::bench {
+namespace {
+
+constexpr double kSpacingMm = 0.25, kBoundSeconds = 5.0;
+constexpr std::size_t kPoses = 1000;
+constexpr int kThreads = 2;
+
+/// The same way with steps halved, from the first one on, until there are `count` poses.
+Strip with_poses(const Strip& strip, std::size_t count) {
+  Strip out = strip;
+  out.poses.clear();
+  std::size_t missing = count - std::min(count, strip.poses.size());
+  for (std::size_t i = 0; i < strip.poses.size(); ++i) {
+    const Pose& here = strip.poses[i];
+    out.poses.push_back(here);
+    if (i + 1 == strip.poses.size() || missing == 0) continue;
+    const Pose& next = strip.poses[i + 1];
+    out.poses.push_back({0.5 * (here.tip + next.tip), (here.axis + next.axis).normalized()});
+    --missing;
+  }
+  return out;
+}
+
+std::vector<Figure> sector() {
+  FitJob job;
+  job.part = real_part("r37_blisk_sector_2blades.step");
+  job.faces = "F9";
+  job.tolerance_mm = 0.1;
+  job.avoid = false;
+  FitOutcome outcome = run_fit(job, {});
+  for (Strip& strip : outcome.path.strips) strip = with_poses(strip, kPoses);
+  const Part part = read_part(job.part);
+  const std::vector<int> targets = parse_face_list(part, job.faces), checks = faces_to_check(part, targets, {});
+  const int threads = thread_count();
+  set_thread_count(kThreads);
+  std::vector<FaceSamples> samples;
+  VerifyReport report;
+  const double sampling =
+      seconds_of([&] { samples = judge_samples(part, targets, checks, kSpacingMm, 2 * kSpacingMm); });
+  const double judging =
+      seconds_of([&] { report = judge(outcome.tool, outcome.path, samples, {.tolerance_mm = 0.1}); });
+  const double reaching = seconds_of(
+      [&] { measure_reach(part, targets, checks, outcome.tool, outcome.path, 5.0, job.tolerance_mm, samples); });
+  set_thread_count(threads);
+  std::size_t points = 0;
+  for (const FaceSamples& face : samples) points += face.points.size();
+  return {at_most("seconds, samples and judge, 2 threads", sampling + judging, kBoundSeconds),
+          shown("of which the samples", sampling),
+          shown("seconds, reachable share besides", reaching),
+          shown("poses", static_cast<double>(outcome.path.pose_count())),
+          shown("samples", static_cast<double>(points)),
+          shown("deepest cut into other faces, mm", report.gouge_mm)};
+}
+
+}  // namespace
+
+void add_judge_claims(std::vector<Claim>& claims) {
+  claims.push_back({"judge/r37 blisk sector F9, 1000 poses", sector});
+}
+
+}  // namespace flank::bench

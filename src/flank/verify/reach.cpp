@@ -1,0 +1,237 @@
+// Why two tests: a point of the target that lies deep inside another solid has a ball that enters nothing, since the
+// solid's surface is far away. Between the two cases the ball always enters that surface: where the target passes
+// through it, the centre is at most a radius from it. So what is inside and what is not need only be told apart where
+// the surface is farther than the ball, which the winding number does whatever the triangulation's small gaps.
+#include "flank/verify/reach.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <span>
+
+#include "flank/base/error.h"
+#include "flank/base/parallel.h"
+#include "flank/geom/triangle_bvh.h"
+#include "flank/verify/obstacle_tree.h"
+#include "flank/verify/winding.h"
+
+namespace flank {
+namespace {
+
+using namespace verify;
+
+/// A cell on the border of the reachable part is measured at the places of a Fibonacci lattice: every line along a side
+/// of the cell holds one of them, so that a border along the sides is seen as finely as one across.
+constexpr int kPlaces = 89, kTurn = 55;
+constexpr std::size_t kBlock = 256;
+constexpr std::size_t kLeastBlock = 8;  ///< so few balls are measured one by one
+constexpr double kRounding = 1e-9;
+constexpr int kStackSize = 128;
+constexpr std::size_t kVotes = 512;  ///< samples that tell the side of a sheet
+
+void append(TriangleMesh& all, const TriangleMesh& mesh) {
+  const int first = static_cast<int>(all.vertices.size());
+  all.vertices.insert(all.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+  for (const auto& t : mesh.triangles) all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+}
+
+double triangle_distance(const ObstacleTree& tree, int triangle, const Vec3& x) {
+  const auto& v = tree.corners(triangle);
+  return std::sqrt(closest_on_triangle(x, v[0], v[1], v[2]).squared_distance);
+}
+
+/// No triangle of the node is nearer.
+double node_bound(const ObstacleTree::Node& node, const Vec3& x) {
+  const double along = node.normal.dot(x);
+  const double slab = std::max(node.low - along, along - node.high);
+  return std::max(slab, (x - node.sphere.center).norm() - node.sphere.radius);
+}
+
+/// Distance from x to the nearest triangle where that is below `cap`, else `cap`; any distance below `enough` if there
+/// is one.
+double capped_distance(const ObstacleTree& tree, const Vec3& x, double cap, double enough) {
+  if (tree.empty()) return cap;
+  std::array<std::pair<int, double>, kStackSize> stack;
+  int size = 0;
+  stack[size++] = {0, node_bound(tree.node(0), x)};
+  double least = cap;
+  while (size > 0 && least >= enough) {
+    const auto [index, promised] = stack[--size];
+    if (promised >= least) continue;
+    const ObstacleTree::Node& node = tree.node(index);
+    if (node.second < 0) {
+      for (int k = node.first; k < node.end; ++k) least = std::min(least, triangle_distance(tree, k, x));
+      continue;
+    }
+    std::pair near{index + 1, node_bound(tree.node(index + 1), x)};
+    std::pair far{node.second, node_bound(tree.node(node.second), x)};
+    if (far.second < near.second) std::swap(near, far);
+    if (far.second < least) stack[size++] = far;
+    if (near.second < least) stack[size++] = near;
+  }
+  return least;
+}
+
+/// The triangles that are nearer to x than `cap`.
+std::vector<int> triangles_within(const ObstacleTree& tree, const Vec3& x, double cap) {
+  std::vector<int> found, stack;
+  if (!tree.empty()) stack.push_back(0);
+  while (!stack.empty()) {
+    const int index = stack.back();
+    stack.pop_back();
+    const ObstacleTree::Node& node = tree.node(index);
+    if (node_bound(node, x) >= cap) continue;
+    if (node.second >= 0) {
+      stack.push_back(node.second);
+      stack.push_back(index + 1);
+      continue;
+    }
+    for (int k = node.first; k < node.end; ++k)
+      if (triangle_distance(tree, k, x) < cap) found.push_back(k);
+  }
+  return found;
+}
+
+/// The ball at one sample.
+struct Ball {
+  Vec3 center, normal;
+  double area = 0.0;   ///< of the sample's cell
+  double slack = 0.0;  ///< no place of the cell moves the centre by more
+};
+
+/// What the ball must keep out of.
+class Surroundings {
+ public:
+  Surroundings(const std::vector<ReachFace>& others, double limit) : limit_(limit) {
+    TriangleMesh checked;
+    std::map<int, std::pair<TriangleMesh, bool>> solids;
+    for (const ReachFace& face : others) {
+      if (face.checked) append(checked, face.mesh);
+      if (face.solid < 0) continue;
+      append(solids[face.solid].first, face.mesh);
+      solids[face.solid].second |= face.checked;
+      all_checked_ = all_checked_ && face.checked;
+    }
+    surface_ = ObstacleTree(checked);
+    for (const auto& [number, solid] : solids) {
+      if (!solid.second) continue;
+      boxes_.push_back(solid.first.box());
+      solids_.emplace_back(solid.first);
+    }
+  }
+
+  /// The shares of the cells of neighbouring balls, in halves: a distance has slope 1, so that one place may decide for
+  /// all of them.
+  void measure(std::span<const Ball> balls, std::span<double> shares) const {
+    if (balls.size() <= kLeastBlock) {
+      std::transform(balls.begin(), balls.end(), shares.begin(), [this](const Ball& ball) { return share(ball); });
+      return;
+    }
+    Box3 box;
+    double slack = 0.0;
+    for (const Ball& ball : balls) {
+      box.add(ball.center);
+      slack = std::max(slack, ball.slack);
+    }
+    const double away = slack + 0.5 * box.diagonal() * (1.0 + kRounding);
+    const double distance = capped_distance(surface_, box.center(), limit_ + away, limit_ - away);
+    if (distance < limit_ - away) {
+      std::fill(shares.begin(), shares.end(), 0.0);
+    } else if (distance >= limit_ + away && all_checked_) {
+      // No surface between the balls: they lie on one side of it.
+      std::fill(shares.begin(), shares.end(), buried(box.center()) ? 0.0 : 1.0);
+    } else {
+      const std::size_t half = balls.size() / 2;
+      measure(balls.first(half), shares.first(half));
+      measure(balls.subspan(half), shares.subspan(half));
+    }
+  }
+
+ private:
+  /// Share of a cell that the ball can touch.
+  [[nodiscard]] double share(const Ball& ball) const {
+    const auto& [center, normal, area, slack] = ball;
+    if (normal.isZero()) return 1.0;  // degenerate: such a cell has no area
+    const double distance = capped_distance(surface_, center, limit_ + slack, limit_ - slack);
+    if (distance < limit_ - slack || buried(center)) return 0.0;
+    if (distance >= limit_ + slack) return 1.0;
+    // A triangle that holds any place of the cell is one of these.
+    const std::vector<int> near = triangles_within(surface_, center, limit_ + slack);
+    const Vec3 e1 = normal.unitOrthogonal(), e2 = normal.cross(e1);
+    const double side = std::sqrt(area) / kPlaces;
+    int free = 0;
+    for (int i = 0; i < kPlaces; ++i) {
+      const double a = (i + 0.5 - 0.5 * kPlaces) * side, b = ((i * kTurn) % kPlaces + 0.5 - 0.5 * kPlaces) * side;
+      const Vec3 x = center + a * e1 + b * e2;
+      const bool held =
+          std::any_of(near.begin(), near.end(), [&](int k) { return triangle_distance(surface_, k, x) < limit_; });
+      if (!held) ++free;
+    }
+    return static_cast<double>(free) / kPlaces;
+  }
+
+  [[nodiscard]] bool buried(const Vec3& x) const {
+    for (std::size_t k = 0; k < solids_.size(); ++k) {
+      const bool in_box = (x.array() >= boxes_[k].low.array()).all() && (x.array() <= boxes_[k].high.array()).all();
+      if (in_box && solids_[k].inside(x)) return true;
+    }
+    return false;
+  }
+
+  double limit_;
+  bool all_checked_ = true;  ///< no face is there only to close its solid
+  ObstacleTree surface_;
+  std::vector<Box3> boxes_;
+  std::vector<Winding> solids_;
+};
+
+void require_usable(const FaceSamples& target, const ReachOptions& options) {
+  if (!(options.radius_mm > 0.0 && std::isfinite(options.radius_mm)))
+    throw UsageError("reach: a radius > 0 mm is accepted");
+  if (!(options.tolerance_mm > 0.0)) throw UsageError("reach: a tolerance > 0 mm is accepted");
+  if (target.normals.size() != target.points.size()) throw InternalError("reach: a target's samples need normals");
+}
+
+}  // namespace
+
+std::vector<double> reachable_shares(const FaceSamples& target, const std::vector<ReachFace>& others,
+                                     const ReachOptions& options) {
+  require_usable(target, options);
+  const Surroundings around(others, options.radius_mm - options.tolerance_mm);
+  std::vector<Ball> balls(target.points.size());
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    const double reach = target.reaches_mm.empty() ? target.spacing_mm : target.reaches_mm[i];
+    const double bend = target.curvatures_per_mm.empty() ? 0.0 : options.radius_mm * target.curvatures_per_mm[i];
+    const Vec3& n = target.normals[i];
+    balls[i] = {target.points[i] + options.radius_mm * n, n, target.areas[i], reach * (1.0 + bend)};
+  }
+  std::vector<double> shares(balls.size());
+  parallel_blocks(shares.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+    around.measure(std::span(balls).subspan(begin, end - begin), std::span(shares).subspan(begin, end - begin));
+  });
+  return shares;
+}
+
+int side_of_tool(const Tool& tool, const Path& path, const FaceSamples& sheet) {
+  const std::size_t stride = std::max<std::size_t>(1, sheet.points.size() / kVotes);
+  FaceSamples some;
+  std::vector<Vec3> normals;
+  for (std::size_t i = 0; i < sheet.points.size(); i += stride) {
+    some.points.push_back(sheet.points[i]);
+    normals.push_back(sheet.normals[i]);
+  }
+  const double near = 0.5 * smallest_radius(tool);
+  const std::vector<SweptDistance> distances = swept_distances(SweptVolume(tool, path), some, near);
+  int votes = 0;
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    const SweptDistance& d = distances[i];
+    if (d.strip < 0 || std::abs(d.f) > near) continue;
+    const auto& poses = path.strips[static_cast<std::size_t>(d.strip)].poses;
+    const Pose& pose = poses[std::min(poses.size() - 1, static_cast<std::size_t>(std::lround(d.t)))];
+    votes += (pose.at(d.s) - some.points[i]).dot(normals[i]) >= 0.0 ? 1 : -1;
+  }
+  return votes < 0 ? -1 : +1;
+}
+
+}  // namespace flank

@@ -1,0 +1,35 @@
+/// The reachable share of a target (MATH section 9): where a ball can touch it without entering another face.
+#pragma once
+
+#include <vector>
+
+#include "flank/path/path.h"
+#include "flank/tool/tool.h"
+#include "flank/verify/judge.h"
+
+namespace flank {
+
+/// A face that is not the target, as triangles; counter-clockwise seen from outside where it belongs to a solid.
+struct ReachFace {
+  TriangleMesh mesh;
+  int solid = -1;       ///< -1: an open sheet, which has no inside
+  bool checked = true;  ///< the ball must not enter it; else it only helps to close its solid
+};
+
+struct ReachOptions {
+  double radius_mm = 1.0;      ///< of the ball
+  double tolerance_mm = 0.01;  ///< it may enter other faces by this much
+};
+
+/// Share of each sample's cell, 0 to 1, whose points x are reachable: the ball about c = x + radius n(x) enters no
+/// checked face by more than the tolerance, and c lies in no solid that has a checked face (a target may run on inside
+/// another solid, which is no place for a tool however far its surface is). `target.normals` point to the machining
+/// side. Cells through which the border of the reachable part runs are measured at 89 places.
+/// Parallel; the same bits for any number of threads. Throws UsageError for a radius or tolerance that is not > 0.
+[[nodiscard]] std::vector<double> reachable_shares(const FaceSamples& target, const std::vector<ReachFace>& others,
+                                                   const ReachOptions& options);
+
+/// +1 or -1: on which side of a sheet, by its samples' normals, the tool runs where it passes near; +1 if it does not.
+[[nodiscard]] int side_of_tool(const Tool& tool, const Path& path, const FaceSamples& sheet);
+
+}  // namespace flank

@@ -1,0 +1,100 @@
+#include "flank/pipeline/judge_job.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "flank/base/error.h"
+#include "flank/pipeline/check_faces.h"
+#include "flank/pipeline/targets.h"
+
+namespace flank {
+namespace {
+
+std::string real_part(const std::string& name) {
+  const char* folder = std::getenv("FLANK_DATA");
+  const std::filesystem::path file =
+      (folder ? std::filesystem::path(folder) : std::filesystem::path(FLANK_SOURCE_DIR) / "../shared/data") / name;
+  return std::filesystem::exists(file) ? file.string() : std::string();
+}
+
+/// Samples of one target with its reachable shares.
+FaceSamples reach_of(const Part& part, int target, double radius, double tolerance, double spacing) {
+  const std::vector<int> checks = faces_to_check(part, {target}, {});
+  std::vector<FaceSamples> samples = judge_samples(part, {target}, checks, spacing, 10.0);
+  measure_reach(part, {target}, checks, {}, {}, radius, tolerance, samples);
+  return samples[static_cast<std::size_t>(target)];
+}
+
+double share_of(const FaceSamples& face) {
+  double part = 0.0, whole = 0.0;
+  for (std::size_t i = 0; i < face.points.size(); ++i) {
+    part += face.areas[i] * face.reachable[i];
+    whole += face.areas[i];
+  }
+  return part / whole;
+}
+
+/// The planner's footpoints on every other face say the same as the judge's triangles. What is held although its ball
+/// touches nothing must lie below the hub's spline face.
+void expect_as_footpoints(const Part& part, const FaceSamples& face, int own, double radius, double tolerance) {
+  constexpr int kHub = 87;
+  std::vector<std::unique_ptr<Target>> others;
+  for (int k = 0; k < part.face_count(); ++k)
+    if (k != own) others.push_back(make_target({part.faces[static_cast<std::size_t>(k)]}, +1));
+  const std::unique_ptr<Target> hub = make_target({part.faces[kHub]}, +1);
+  int free = 0, held = 0, buried = 0;
+  for (std::size_t i = 0; i < face.points.size(); i += 7) {
+    const Vec3 c = face.points[i] + radius * face.normals[i];
+    double least = 1e300;
+    for (const auto& other : others) least = std::min(least, (other->closest(c).point - c).norm());
+    const double margin = least - (radius - tolerance);
+    const Footpoint foot = hub->closest(c);
+    const bool below = (c - foot.point).dot(foot.normal) < 0.0;
+    if (face.reachable[i] == 1.0) {
+      ++free;
+      EXPECT_TRUE(margin > -0.006 && !below) << margin << " at " << face.points[i].transpose();
+    } else if (face.reachable[i] == 0.0) {
+      ++(margin < 0.006 ? held : buried);
+      EXPECT_TRUE(margin < 0.006 || below) << margin << " at " << face.points[i].transpose();
+    }
+  }
+  EXPECT_GT(std::min({free, held, buried}), 10) << free << ' ' << held << ' ' << buried;
+}
+
+TEST(JudgeJob, ReachableShareOfAnImpellerBladeThatRunsOnInTheHub) {
+  const std::string file = real_part("kj66_impeller.step");
+  if (file.empty()) GTEST_SKIP() << "no real parts in FLANK_DATA";
+  const Part part = read_part(file);
+  for (int target : {0, 2}) {
+    const FaceSamples coarse = reach_of(part, target, 1.5, 0.02, 1.0), fine = reach_of(part, target, 1.5, 0.02, 0.3);
+    EXPECT_NEAR(share_of(coarse), share_of(fine), 1e-3);
+    for (std::size_t i = 0; i < coarse.points.size(); ++i)
+      EXPECT_TRUE(coarse.points[i].y() > 2.5 || coarse.reachable[i] == 0.0) << coarse.points[i].transpose();
+    if (target == 0) expect_as_footpoints(part, coarse, target, 1.5, 0.02);
+  }
+}
+
+TEST(JudgeJob, ReachableShareBetweenTwoBladesOfOneSolid) {
+  const std::string file = real_part("r37_blisk_sector_2blades.step");
+  if (file.empty()) GTEST_SKIP() << "no real parts in FLANK_DATA";
+  const Part part = read_part(file);
+  for (int target : {8, 10}) {
+    const FaceSamples coarse = reach_of(part, target, 5.0, 0.1, 1.0), fine = reach_of(part, target, 5.0, 0.1, 0.4);
+    EXPECT_NEAR(share_of(coarse), share_of(fine), 1e-3);
+    EXPECT_GT(share_of(fine), 0.9) << "all but a strip along the hub";
+    EXPECT_LT(share_of(fine), 0.97);
+  }
+}
+
+TEST(JudgeJob, RefusesARadiusThatIsNone) {
+  FitJob job;
+  for (double radius : {0.0, -1.0, 1e300 * 1e300}) {
+    job.reach_radius_mm = radius;
+    EXPECT_THROW(check_reach_radius(job), UsageError);
+  }
+}
+
+}  // namespace
+}  // namespace flank
