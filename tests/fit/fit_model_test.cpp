@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 #include <numeric>
 
+#include "clearance/check_scene.h"
 #include "flank/base/random.h"
 #include "flank/pipeline/example.h"
 
@@ -50,6 +51,22 @@ class FitModelTest : public ::testing::Test {
     return step;
   }
 
+  /// The gradient of the cost against central differences.
+  void expect_gradient(const FitModel& model) const {
+    FitState state = state_;
+    model.locate(state);
+    const auto weights = model.sample_weights(state);
+    ArrowSystem system = model.make_system();
+    model.assemble(state, weights, system);
+    const Eigen::VectorXd direction = random_step(system.size(), 1.0);
+    const double h = 1e-6;
+    FitState plus = model.moved(state, h * direction), minus = model.moved(state, -h * direction);
+    model.locate(plus);
+    model.locate(minus);
+    const double numeric = (model.cost(plus, weights) - model.cost(minus, weights)) / (2.0 * h);
+    EXPECT_NEAR(2.0 * system.gradient.dot(direction), numeric, 1e-5 * std::abs(numeric));
+  }
+
   std::unique_ptr<Target> target_;
   FitStage stage_;
   FitState state_;
@@ -57,19 +74,39 @@ class FitModelTest : public ::testing::Test {
 
 TEST_F(FitModelTest, GradientIsHalfTheDerivativeOfTheCost) {
   stage_.dead_zone_mm = 0.002;
-  const FitModel model = make_model(stage_);
+  expect_gradient(make_model(stage_));
+}
+
+TEST_F(FitModelTest, GradientHoldsForToolsThatAreHardlyLegitimate) {
+  Eigen::VectorXd radii = state_.tool.parameters();
+  radii.array() += 34.0;
+  radii[2] -= 30.0;  // r'' so large that the spheres are not inscribed
+  state_.tool = state_.tool.with_parameters(radii);
+  bool bent = false;
+  for (int j = 0; j < stage_.samples_s; ++j) {
+    const RadialJet jet = state_.tool.at(state_.motions.front().axis_length * j / (stage_.samples_s - 1));
+    bent = bent || 1.0 - jet.d1 * jet.d1 - jet.r * jet.d2 < 0.0;
+  }
+  ASSERT_TRUE(bent);
+  expect_gradient(make_model(stage_));
+}
+
+TEST_F(FitModelTest, GradientHoldsBesideCheckFaces) {
+  // A wall across the tip of the axis, so that many balls enter it.
+  const Pose pose = state_.motions.front().pose(0.5);
+  const Vec3 x = pose.axis.unitOrthogonal(), y = pose.axis.cross(x), tip = pose.at(3.0);
+  const Face wall =
+      testing::quad(tip - 90 * x - 90 * y, tip + 90 * x - 90 * y, tip - 90 * x + 90 * y, tip + 90 * x + 90 * y, "F2");
+  const FlankChecks checks(testing::only({make_target({wall}), true}), *target_, 2.0, 0.01);
+  ASSERT_EQ(checks.sign(0), +1);
+  std::vector<int> all(static_cast<std::size_t>(state_.tool.parameter_count()));
+  std::iota(all.begin(), all.end(), 0);
+  const FitModel model({target_.get()}, state_, all, {6.1, 6.3, 0.02}, stage_, {&checks});
+  const FitModel without({target_.get()}, state_, all, {6.1, 6.3, 0.02}, stage_);
   FitState state = state_;
   model.locate(state);
-  const auto weights = model.sample_weights(state);
-  ArrowSystem system = model.make_system();
-  model.assemble(state, weights, system);
-  const Eigen::VectorXd direction = random_step(system.size(), 1.0);
-  const double h = 1e-6;
-  FitState plus = model.moved(state, h * direction), minus = model.moved(state, -h * direction);
-  model.locate(plus);
-  model.locate(minus);
-  const double numeric = (model.cost(plus, weights) - model.cost(minus, weights)) / (2.0 * h);
-  EXPECT_NEAR(2.0 * system.gradient.dot(direction), numeric, 1e-5 * std::abs(numeric));
+  ASSERT_GT(model.regulariser_cost(state), without.regulariser_cost(state) + 1.0);
+  expect_gradient(model);
 }
 
 TEST_F(FitModelTest, ArrowSolveIsTheDenseSolve) {

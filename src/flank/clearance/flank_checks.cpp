@@ -117,6 +117,7 @@ bool FlankChecks::reachable(const SurfaceSample& sample, double radius_mm, doubl
 }
 
 FlankChecks::~FlankChecks() = default;
+FlankChecks::FlankChecks(FlankChecks&&) noexcept = default;
 
 FlankChecks::LatticeNode FlankChecks::make_node(const Vec3& place) const {
   constexpr double kFar = std::numeric_limits<double>::infinity(), kRounding = 1.0 + 1e-9;

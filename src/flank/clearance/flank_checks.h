@@ -35,6 +35,7 @@ class FlankChecks {
   FlankChecks(std::vector<CheckFace> faces, const Target& target, double offset_mm, double allowance_mm);
 
   ~FlankChecks();
+  FlankChecks(FlankChecks&&) noexcept;
 
   [[nodiscard]] CheckDistance at(const Vec3& p, double horizon_mm) const;
   /// The distance (never a horizon) by interpolation in a lattice around the target: good to hundredths of its step, a

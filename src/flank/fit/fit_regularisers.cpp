@@ -91,11 +91,15 @@ namespace {
 struct BoundResiduals {
   double radius = 0.0;
   double slope = 0.0;
+  double convexity = 0.0;
 };
+/// What 1 - r'^2 - r r'' is held above: at zero the spheres are no longer inscribed (MATH section 1).
+constexpr double kLeastConvexity = 0.05;
 BoundResiduals bound_residuals(const RadialJet& jet, const RadiusBounds& bounds, double axis_length) {
   BoundResiduals out;
   out.radius = std::max(0.0, jet.r - bounds.largest) - std::max(0.0, bounds.smallest - jet.r);
   out.slope = (std::max(0.0, jet.d1 - bounds.steepest) - std::max(0.0, -bounds.steepest - jet.d1)) * axis_length;
+  out.convexity = std::max(0.0, kLeastConvexity - (1.0 - jet.d1 * jet.d1 - jet.r * jet.d2)) * axis_length;
   return out;
 }
 
@@ -117,12 +121,17 @@ void FitModel::assemble_tool(const FitState& state, ArrowSystem& system) const {
       system.tool_matrix += (kBoundWeight / n) * b.col(j) * b.col(j).transpose();
       gradient += (kBoundWeight / n) * residuals.radius * b.col(j);
     }
-    if (residuals.slope == 0.0) continue;
+    if (residuals.slope == 0.0 && residuals.convexity == 0.0) continue;
     // Central also at the ends, where the end polynomial goes on: one-sided differences are off by 1e-4.
-    const Eigen::VectorXd g =
-        (tool_gradient(state.tool, s_[j] + h) - tool_gradient(state.tool, s_[j] - h)) * (0.5 * axis_length_ / h);
-    system.tool_matrix += (kBoundWeight / n) * g * g.transpose();
-    gradient += (kBoundWeight / n) * residuals.slope * g;
+    const Eigen::VectorXd after = tool_gradient(state.tool, s_[j] + h), before = tool_gradient(state.tool, s_[j] - h);
+    const Eigen::VectorXd by_d1 = (after - before) / (2.0 * h), by_d2 = (after - 2.0 * b.col(j) + before) / (h * h);
+    const auto add = [&](const Eigen::VectorXd& g, double residual) {
+      if (residual == 0.0) return;
+      system.tool_matrix += (kBoundWeight / n) * g * g.transpose();
+      gradient += (kBoundWeight / n) * residual * g;
+    };
+    add(axis_length_ * by_d1, residuals.slope);
+    add(axis_length_ * (2.0 * jet.d1 * by_d1 + jet.d2 * b.col(j) + jet.r * by_d2), residuals.convexity);
   }
   if (state.tool.family() != ToolFamily::kSpline) return;
   const Eigen::VectorXd& r = state.tool.parameters();
@@ -143,7 +152,8 @@ double FitModel::tool_cost(const FitState& state) const {
     const RadialJet jet = state.tool.at(s_[j]);
     const BoundResiduals e = bound_residuals(jet, bounds_, axis_length_);
     const double drift = jet.r - start_radius_[j];
-    sum += (kBoundWeight * (e.radius * e.radius + e.slope * e.slope) + stage_.radius_pin * drift * drift) /
+    sum += (kBoundWeight * (e.radius * e.radius + e.slope * e.slope + e.convexity * e.convexity) +
+            stage_.radius_pin * drift * drift) /
            stage_.samples_s;
   }
   if (state.tool.family() != ToolFamily::kSpline) return sum;
