@@ -9,6 +9,7 @@
 #include "flank/io/path_json.h"
 #include "flank/io/tool_dxf.h"
 #include "flank/io/tool_json.h"
+#include "flank/io/tool_step.h"
 #include "flank/pipeline/fit_job.h"
 #include "flank/pipeline/job_json.h"
 #include "flank/pipeline/verify_json.h"
@@ -25,6 +26,15 @@ void ensure_folder(const std::string& folder) {
   const AtomicFile probe((std::filesystem::path(folder) / "job.json").string());
 }
 
+/// For CAD and CAM systems. What was left of an earlier tool must not be taken for this one's.
+static void write_solids(const FitOutcome& outcome, const std::string& tool, const std::string& strips) {
+  if (check_legitimacy(outcome.tool.radial).legitimate)
+    write_file(tool, tool_to_step(outcome.tool));
+  else
+    std::filesystem::remove(tool);
+  write_file(strips, strips_to_step(outcome.strip_surfaces));
+}
+
 void write_fit(const FitJob& job, const FitOutcome& outcome, const std::string& folder) {
   ensure_folder(folder);
   const auto file = [&](const char* name) { return (std::filesystem::path(folder) / name).string(); };
@@ -32,6 +42,7 @@ void write_fit(const FitJob& job, const FitOutcome& outcome, const std::string& 
   cls.part = std::filesystem::path(job.part).stem().string();
   write_file(file("tool.json"), tool_to_json(outcome.tool));
   write_file(file("tool.dxf"), tool_to_dxf(outcome.tool));
+  write_solids(outcome, file("tool.step"), file("strips.step"));
   write_file(file("path.json"), path_to_json(outcome.path));
   write_file(file("path.cls"), path_to_cls(outcome.path, outcome.tool, cls));
   write_file(file("path.csv"), path_to_csv(outcome.path));
