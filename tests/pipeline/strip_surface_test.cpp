@@ -51,6 +51,28 @@ TEST_P(StripSurfaces, KeepTheirPromiseBetweenTheirPoints) {
   EXPECT_LE(radius, kStripSurfaceMm);
 }
 
+/// What a fit gives: rails and radial function with knots, across which the envelope has a jump of curvature.
+TEST(StripSurface, NeedsFewPointsAtKnots) {
+  std::vector<Pose> poses;
+  std::vector<double> t;
+  for (int k = 0; k <= 60; ++k) {
+    t.push_back(k / 60.0);
+    const double a = 4.0 * t.back();
+    poses.push_back({Vec3(20.0 * a, 6.0 * std::sin(1.7 * a), 2.0 * std::cos(2.3 * a)),
+                     Vec3(0.3 * std::sin(a), 0.2 * std::cos(2.1 * a), 1.0).normalized()});
+  }
+  Eigen::VectorXd c(9);
+  c << 3.0, 3.2, 3.1, 2.8, 2.9, 3.4, 3.9, 4.0, 3.7;
+  const RadialFunction radial = RadialFunction::spline(25.0, c);
+  const RuledMotion motion = fit_motion(poses, t, 25.0, 11);
+  ASSERT_LT(regularity(motion, radial, 100, 40).largest_c, 0.9);
+  const StripSurface made = strip_surface({1, motion, 0.03, 0.97, -1}, radial);
+  EXPECT_LE(made.envelope_deviation_mm, 0.5 * kStripSurfaceMm);
+  EXPECT_LE(made.axis_deviation_mm, 0.5 * kStripSurfaceMm);
+  EXPECT_LT(made.envelope.count_u, 150);
+  EXPECT_LT(made.envelope.count_v, 80);
+}
+
 TEST_P(StripSurfaces, NormalsLookToTheTool) {
   const SurfaceJet jet = made.envelope.jet(0.4, 0.6);
   const Vec3 center = strip.motion.pose(t(0.4)).at(0.6 * radial.axis_length());

@@ -56,8 +56,9 @@ struct FitOutcome {
 /// Reads, fits, samples and judges. Throws UsageError and InputError before any work is done.
 [[nodiscard]] FitOutcome run_fit(const FitJob& job, const Progress& progress);
 
-/// Writes tool.json, tool.dxf, tool.step, strips.step, path.json, path.cls, path.csv, verify.json, view.json,
-/// summary.json and job.json to a folder. A tool that is not legitimate has no tool.step.
+/// Writes tool.json, tool.dxf, tool.step, tool.fctb, strips.step, path.json, path.cls, path.csv, verify.json, view.json,
+/// summary.json and job.json to a folder. A tool that is not legitimate has neither
+/// tool.step nor tool.fctb.
 void write_fit(const FitJob& job, const FitOutcome& outcome, const std::string& folder);
 
 /// Table for a terminal.

@@ -18,22 +18,26 @@ struct StripMotion {
   int side = +1;                    ///< of the contact points that machine the target (envelope.h)
 };
 
-/// Parameters (t, s) of both surfaces run over [0, 1] x [0, 1]: u from the first pose to the last, v from s = 0 to s = L.
+/// Parameters of both surfaces run over [0, 1] x [0, 1]: u from the first pose to the last in equal steps of t, v from
+/// s = 0 to s = L.
 struct StripSurface {
   std::string name;         ///< "strip 1"
-  BSplineSurface envelope;  ///< through contact points
-  BSplineSurface axis;      ///< through axis points; straight in v
-  /// Largest distance, mm, between the surfaces and the exact points in the middle of their grid's cells and sides.
+  BSplineSurface envelope;  ///< through contact points, degree 5 by 5
+  BSplineSurface axis;      ///< through axis points, degree 5 by 1
+  /// Largest distance found, mm, between the surfaces and the exact points of the same parameters, at kStripPlaces places
+  /// of every knot interval, a direction.
   double envelope_deviation_mm = 0.0, axis_deviation_mm = 0.0;
   bool towards_tool = true;  ///< (S_u x S_v) of the envelope points to the side that the tool is on
-  int plunging = 0;  ///< points of the envelope's grid where the tool plunges (|c| >= 1): there is no contact there
+  int plunging =
+      0;  ///< points that the envelope goes through where the tool plunges (|c| >= 1): there is no contact there
 };
 
 /// How far a strip's surfaces may be from the exact ones, mm. A surface that its largest grid does not bring so near says
 /// so in its deviation.
 inline constexpr double kStripSurfaceMm = 1e-3;
-/// The largest grid: so many poses and points on the axis.
-inline constexpr int kMostStripPoses = 385, kMostStripPoints = 193;
+inline constexpr int kStripPlaces = 4;
+/// A direction with more control points than this is not made finer.
+inline constexpr int kMostStripPoints = 400;
 
 [[nodiscard]] StripSurface strip_surface(const StripMotion& strip, const RadialFunction& radial);
 
