@@ -98,7 +98,9 @@ def strips():
 
 
 def drawing():
-    document = FreeCAD.newDocument()
+    FreeCAD.newDocument()
+    # Texts and dimensions are read on demand only.
+    FreeCAD.ParamGet("User parameter:BaseApp/Preferences/Mod/Draft").SetBool("dxftext", True)
     Import.readDXF(file("tool.dxf"))
     shapes = [o.Shape for o in FreeCAD.ActiveDocument.Objects if hasattr(o, "Shape") and not o.Shape.isNull()]
     return {

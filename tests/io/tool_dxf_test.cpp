@@ -81,8 +81,7 @@ std::vector<std::pair<double, std::string>> dimensions_of(const std::string& tex
   bool inside = false;
   const auto at = [&](int code) { return std::stod(d.at(code)); };
   for (const auto& [code, value] : pairs_of(text)) {
-    if (code == 0 && inside)
-      found.emplace_back(at(50) == 90.0 ? std::abs(at(24) - at(23)) : std::abs(at(14) - at(13)), d.at(1));
+    if (code == 0 && inside) found.emplace_back(std::hypot(at(14) - at(13), at(24) - at(23)), d.at(1));
     if (code == 0) {
       inside = value == "DIMENSION";
       d.clear();

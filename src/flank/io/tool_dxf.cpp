@@ -103,7 +103,11 @@ std::vector<DxfDimension> dimensions_of(const Tool& tool, const std::vector<Vec2
   const Extent e = extent_of(tool, flank);
   const auto level = [&](int k) { return e.widest + (2.0 + 3.0 * k) * height; };
   std::vector<DxfDimension> all;
-  const auto length = [&](const Vec2& a, const Vec2& b, int k) { all.push_back({a, b, false, level(k), ""}); };
+  // At one radius: some readers measure from point to point, not along the axis.
+  const auto length = [&](const Vec2& a, const Vec2& b, int k) {
+    const double rho = std::max(a.y(), b.y());
+    all.push_back({{a.x(), rho}, {b.x(), rho}, false, level(k), ""});
+  };
   const auto diameter = [&](const Vec2& p) { all.push_back({{p.x(), -p.y()}, p, true, p.x(), "%%c"}); };
   length(flank.front(), flank.back(), 0);
   length({0.0, 0.0}, {tool.radial.axis_length(), 0.0}, 1);
