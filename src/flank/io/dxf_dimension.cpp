@@ -1,5 +1,7 @@
 #include "flank/io/dxf_dimension.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace flank {
