@@ -27,7 +27,7 @@ demo: deps build  ## make a twisted blade, fit a tool and its motion to it, and 
 test: deps build  ## build and run all tests
 	ctest --preset release --parallel $(JOBS)
 
-test-clients: deps build  ## run the tests of the report page in headless Chromium, which is installed if it is missing
+test-clients: deps build  ## open what we write in headless Chromium and FreeCAD, which are installed if they are missing
 	scripts/install-deps.sh clients
 	ctest --preset release --label-regex '^clients$$'
 

@@ -7,7 +7,7 @@ build=(g++ cmake ninja-build libeigen3-dev libtbb-dev libfmt-dev nlohmann-json3-
        libocct-data-exchange-dev libgtest-dev)
 bench=(libbenchmark-dev libembree-dev libfcl-dev)
 dev=(clang-format clang-tidy)
-clients=(chromium)
+clients=(chromium freecad-python3)
 # Node.js and npm bundle the report page; a newer one from elsewhere will do, and then the packages would get in its way.
 command -v node > /dev/null || build+=(nodejs)
 command -v npm > /dev/null || build+=(npm)

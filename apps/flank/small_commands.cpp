@@ -73,7 +73,8 @@ Subcommand add_tool(CLI::App& parser) {
   app->add_option("--axis-length", options->axis_length_mm, "Length of the axis, mm");
   app->add_option("--shank-diameter", options->shank_diameter_mm, "A plain shank above the flank, mm");
   app->add_option("--name", options->name, "Name of the tool");
-  app->add_option("-o,--output", options->outputs, "Files to write: .json, .dxf, .svg, .csv")->allow_extra_args(false);
+  app->add_option("-o,--output", options->outputs, "Files to write: .json, .dxf, .step, .fctb, .svg, .csv")
+      ->allow_extra_args(false);
   app->add_flag("--show", options->show, "Draw the profile also when files are written");
   app->footer("Example: flank tool barrel --param arc=85 --param radius=5 --axis-length 30 -o tool.json -o tool.dxf");
   return {app, [options](const CommonOptions& common) {

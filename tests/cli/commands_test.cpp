@@ -71,7 +71,8 @@ TEST_F(CliFit, FitsJudgesAndIsJudgedTheSameAgain) {
   const json summary = json::parse(fit.out);
   ASSERT_TRUE(find_key(summary, "coverage").is_number()) << fit.out;
   EXPECT_GT(find_key(summary, "coverage").get<double>(), 0.9);
-  for (const char* name : {"tool.json", "path.json", "path.cls", "tool.dxf", "verify.json", "summary.json"}) {
+  for (const char* name : {"tool.json", "path.json", "path.cls", "tool.dxf", "tool.step", "tool.fctb", "strips.step",
+                           "verify.json", "summary.json"}) {
     EXPECT_TRUE(fs::exists(root_ / "out" / name)) << name;
   }
   const json path_file = json::parse(read_file(root_ / "out/path.json"));
@@ -99,7 +100,7 @@ TEST_F(CliFit, SameBytesForOneAndTwoThreads) {
         {"fit", blade, "--face", "F1", "--threads", threads, "--quiet", "-o", path(std::string("out") + threads)});
     ASSERT_TRUE(fit.exit_code == 0 || fit.exit_code == 1) << fit.exit_code << ' ' << fit.err;
   }
-  for (const char* name : {"tool.json", "path.json", "path.cls", "tool.dxf"}) {
+  for (const char* name : {"tool.json", "path.json", "path.cls", "tool.dxf", "tool.step", "tool.fctb", "strips.step"}) {
     EXPECT_EQ(read_file(root_ / "out1" / name), read_file(root_ / "out2" / name)) << name;
   }
 }

@@ -1,5 +1,6 @@
 #include "flank/io/tool_dxf.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -53,21 +54,64 @@ TEST(ToolDxf, HasTheStructureOfR12) {
   std::map<std::string, int> entities;
   int depth = 0;
   bool version = false;
+  bool blocks = false;
   for (const auto& [code, value] : pairs) {
     if (code == 1 && value == "AC1009") version = true;
-    if (code != 0) continue;
+    if (code == 2 && (value == "BLOCKS" || value == "ENTITIES")) blocks = value == "BLOCKS";
+    if (code != 0 || (blocks && value != "ENDSEC" && value != "SECTION")) continue;
     ++entities[value];
     depth += value == "SECTION" ? 1 : value == "ENDSEC" ? -1 : 0;
     EXPECT_TRUE(depth == 0 || depth == 1);
   }
   EXPECT_TRUE(version);
-  EXPECT_EQ(entities["SECTION"], 3);
-  EXPECT_EQ(entities["ENDSEC"], 3);
+  EXPECT_EQ(entities["SECTION"], 4);
+  EXPECT_EQ(entities["ENDSEC"], 4);
+  EXPECT_EQ(entities["DIMENSION"], 10);
   EXPECT_EQ(entities["POLYLINE"], 3);
   EXPECT_EQ(entities["SEQEND"], 3);
   EXPECT_EQ(entities["ARC"], 1);
   EXPECT_EQ(entities["LINE"], 1);
   EXPECT_EQ(pairs.back(), std::make_pair(0, std::string("EOF")));
+}
+
+/// The dimensions as (measured, text), the measured ones from their points alone.
+std::vector<std::pair<double, std::string>> dimensions_of(const std::string& text) {
+  std::vector<std::pair<double, std::string>> found;
+  std::map<int, std::string> d;
+  bool inside = false;
+  const auto at = [&](int code) { return std::stod(d.at(code)); };
+  for (const auto& [code, value] : pairs_of(text)) {
+    if (code == 0 && inside) found.emplace_back(std::hypot(at(14) - at(13), at(24) - at(23)), d.at(1));
+    if (code == 0) {
+      inside = value == "DIMENSION";
+      d.clear();
+    }
+    d[code] = value;
+  }
+  return found;
+}
+
+TEST(ToolDxf, HasTheDimensionsOfTheTool) {
+  const Tool tool = barrel();
+  const std::string text = tool_to_dxf(tool);
+  const Vec2 begin = meridian_point(tool.radial, 0.0), end = meridian_point(tool.radial, 24.0);
+  const std::vector<std::pair<double, std::string>> wanted{{end.x() - begin.x(), ""},
+                                                           {24.0, ""},
+                                                           {60.0 + tool.radial.at(0.0).r, ""},
+                                                           {2.0 * begin.y(), "%%c"},
+                                                           {2.0 * end.y(), "%%c"},
+                                                           {5.0, "R"},
+                                                           {26.0, ""},
+                                                           {8.0, "%%c"},
+                                                           {10.0, ""},
+                                                           {24.0, "%%c"}};
+  const auto found = dimensions_of(text);
+  ASSERT_EQ(found.size(), wanted.size());
+  for (std::size_t k = 0; k < wanted.size(); ++k) {
+    EXPECT_NEAR(found[k].first, wanted[k].first, 1e-3) << k;
+    EXPECT_EQ(found[k].second, wanted[k].second + fmt::format("{:.4f}", found[k].first)) << k;
+    EXPECT_NE(text.find("\n*D" + std::to_string(k + 1) + "\n"), std::string::npos) << k;
+  }
 }
 
 TEST(ToolDxf, CentrelineLiesOnTheAxisWithItsLineType) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "flank/pipeline/example.h"
@@ -110,6 +111,24 @@ TEST_F(ViewOfExample, TheSwingAlongThePathIsThatOfTheVertices) {
       EXPECT_GE(place.lowest_f_mm, *low);
       EXPECT_LE(place.highest_f_mm, *high);
     }
+  }
+}
+
+TEST_F(ViewOfExample, ClearanceAlongThePathWhereItWasAsked) {
+  const auto json = [&] {
+    return nlohmann::json::parse(view_to_json(make_view(job_, part_, {0}, tool_, path_, verdict_)));
+  };
+  EXPECT_FALSE(json().at("strips").at(0).at("places").contains("clearance_mm"));
+  std::vector<double> poses;
+  for (std::size_t k = 0; k < path_.strips.front().poses.size(); ++k) poses.push_back(100.0 - static_cast<double>(k));
+  verdict_.clearance.pose_clearance_mm = {poses};
+  const nlohmann::json places = json().at("strips").at(0).at("places");
+  ASSERT_EQ(places.at("clearance_mm").size(), places.at("t").size());
+  // It falls along the path, so that a place has that of its last pose.
+  for (std::size_t k = 0; k < places.at("t").size(); ++k) {
+    const double last =
+        std::ceil(static_cast<double>((k + 1) * (poses.size() - 1)) / static_cast<double>(places.at("t").size()));
+    EXPECT_NEAR(places.at("clearance_mm").at(k).get<double>(), 100.0 - last, 1e-4) << k;
   }
 }
 

@@ -211,6 +211,30 @@ TEST(FlankProfile, HugsTheOutline) {
   }
 }
 
+TEST(ClearanceVerdict, SaysHowNearEveryPoseIs) {
+  Tool tool;
+  tool.radial = RadialFunction(ToolFamily::kCylinder, 20.0, Eigen::VectorXd::Constant(1, 4.0));
+  tool.shank = {{20.0, 6.0}, {50.0, 6.0}};
+  // Standing upright over the plane z = -10, then lying with the shank 7 mm above it; the target at z = -30 is nearer to
+  // nothing, and a plane that only the part has is none of the flank's.
+  Path path;
+  path.strips.resize(2);
+  for (int k = 0; k < 5; ++k) path.strips[0].poses.push_back({Vec3(0.0, 0.0, 0.5 * k * k), Vec3::UnitZ()});
+  path.strips[1].poses = {{Vec3(0.0, 0.0, 3.0), Vec3::UnitX()}, {Vec3(1.0, 0.0, 3.5), Vec3::UnitX()}};
+  const std::vector<Obstacle> obstacles{{"vice", ObstacleRole::kFixture, square(200.0, -10.0), 0.0},
+                                        {"F1", ObstacleRole::kTarget, square(200.0, -9.0), 0.0}};
+  const ClearanceReport report = judge_clearance(tool, path, obstacles, {});
+  ASSERT_EQ(report.pose_clearance_mm.size(), 2u);
+  ASSERT_EQ(report.pose_clearance_mm[0].size(), 5u);
+  for (int k = 0; k < 5; ++k)
+    EXPECT_NEAR(report.pose_clearance_mm[0][static_cast<std::size_t>(k)], 6.0 + 0.5 * k * k, kPoseClearanceMm) << k;
+  ASSERT_EQ(report.pose_clearance_mm[1].size(), 2u);
+  EXPECT_NEAR(report.pose_clearance_mm[1][0], 7.0, kPoseClearanceMm);
+  EXPECT_NEAR(report.pose_clearance_mm[1][1], 7.5, kPoseClearanceMm);
+  const ClearanceReport touching = judge_clearance(tool, path, {obstacles[1]}, {});
+  EXPECT_TRUE(std::isinf(touching.pose_clearance_mm[0][0])) << "shank and target alone are not asked";
+}
+
 TEST(ClearanceVerdict, RefusesBadOptions) {
   ClearanceOptions options;
   options.accuracy_mm = 0.0;

@@ -82,9 +82,9 @@ function clearanceChart(path) {
   const points = along(path, (p, k) => [p.clearance_mm[k], 0]);
   const low = Math.min(0, extreme(points, 1, Math.min, 0)), high = extreme(points, 1, Math.max, 1);
   const plot = new Plot({ x: [0, path.total() || 1], y: [low * 1.1, Math.max(high * 1.1, 1e-3)], height: 150, xName: 'travel of mid-axis, mm',
-    yName: 'clearance, mm', yCount: 3, title: `Clearance from other faces along the path, least ${format.length(extreme(points, 1, Math.min, 0))}` });
+    yName: 'clearance, mm', yCount: 3, title: `Clearance of shank, holder and fixtures along the path, least ${format.length(extreme(points, 1, Math.min, 0))}` });
   plot.curve(points, 'curve main');
-  plot.limit(0, 'touches another face');
+  plot.limit(0, 'touches');
   return plot;
 }
 

@@ -54,6 +54,21 @@ Eigen::MatrixXd collocation(const std::vector<double>& t, const std::vector<doub
   return m;
 }
 
+/// Solves for the poles of a surface whose knots and counts are set, and whose poles are the points at (u, v).
+void solve_poles(BSplineSurface& s, const std::vector<double>& u, const std::vector<double>& v) {
+  const Eigen::PartialPivLU<Eigen::MatrixXd> lu_u(collocation(u, s.knots_u, s.degree_u));
+  const Eigen::PartialPivLU<Eigen::MatrixXd> lu_v(collocation(v, s.knots_v, s.degree_v));
+  for (int c = 0; c < 3; ++c) {
+    Eigen::MatrixXd grid(s.count_u, s.count_v);
+    for (int i = 0; i < s.count_u; ++i)
+      for (int j = 0; j < s.count_v; ++j) grid(i, j) = s.pole(i, j)[c];
+    grid = lu_u.solve(grid).eval();
+    grid = lu_v.solve(grid.transpose()).transpose().eval();
+    for (int i = 0; i < s.count_u; ++i)
+      for (int j = 0; j < s.count_v; ++j) s.pole(i, j)[c] = grid(i, j);
+  }
+}
+
 }  // namespace
 
 Vec3 BSplineSurface::value(double u, double v) const {
@@ -115,18 +130,34 @@ BSplineSurface interpolate_grid(const std::vector<Vec3>& points, const std::vect
   s.count_v = static_cast<int>(v.size());
   s.knots_u = averaged_knots(u, degree);
   s.knots_v = averaged_knots(v, degree);
-  const Eigen::PartialPivLU<Eigen::MatrixXd> lu_u(collocation(u, s.knots_u, degree));
-  const Eigen::PartialPivLU<Eigen::MatrixXd> lu_v(collocation(v, s.knots_v, degree));
   s.poles = points;
-  for (int c = 0; c < 3; ++c) {
-    Eigen::MatrixXd grid(s.count_u, s.count_v);
-    for (int i = 0; i < s.count_u; ++i)
-      for (int j = 0; j < s.count_v; ++j) grid(i, j) = s.pole(i, j)[c];
-    grid = lu_u.solve(grid).eval();
-    grid = lu_v.solve(grid.transpose()).transpose().eval();
-    for (int i = 0; i < s.count_u; ++i)
-      for (int j = 0; j < s.count_v; ++j) s.pole(i, j)[c] = grid(i, j);
+  solve_poles(s, u, v);
+  return s;
+}
+
+std::vector<double> greville_sites(const std::vector<double>& knots, int degree) {
+  std::vector<double> sites;
+  for (std::size_t i = 0; i + static_cast<std::size_t>(degree) + 1 < knots.size(); ++i) {
+    double sum = 0.0;
+    for (int j = 1; j <= degree; ++j) sum += knots[i + static_cast<std::size_t>(j)];
+    sites.push_back(sum / degree);
   }
+  sites.front() = knots.front();
+  sites.back() = knots.back();
+  return sites;
+}
+
+BSplineSurface interpolate_grid(const std::vector<Vec3>& points, const std::vector<double>& knots_u,
+                                const std::vector<double>& knots_v, int degree_u, int degree_v) {
+  BSplineSurface s;
+  s.degree_u = degree_u;
+  s.degree_v = degree_v;
+  s.knots_u = knots_u;
+  s.knots_v = knots_v;
+  s.count_u = static_cast<int>(knots_u.size()) - degree_u - 1;
+  s.count_v = static_cast<int>(knots_v.size()) - degree_v - 1;
+  s.poles = points;
+  solve_poles(s, greville_sites(knots_u, degree_u), greville_sites(knots_v, degree_v));
   return s;
 }
 

@@ -38,4 +38,11 @@ struct BSplineSurface {
 [[nodiscard]] BSplineSurface interpolate_grid(const std::vector<Vec3>& points, const std::vector<double>& u,
                                               const std::vector<double>& v, int degree);
 
+/// Tensor interpolation with clamped knots that are given: points at the Greville sites of both directions (u index
+/// major). Knots may be multiple up to the degree, so that the surface is as smooth as what it goes through and no more.
+[[nodiscard]] BSplineSurface interpolate_grid(const std::vector<Vec3>& points, const std::vector<double>& knots_u,
+                                              const std::vector<double>& knots_v, int degree_u, int degree_v);
+/// The means of `degree` neighbouring inner knots, one for each control point.
+[[nodiscard]] std::vector<double> greville_sites(const std::vector<double>& knots, int degree);
+
 }  // namespace flank

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "flank/base/error.h"
-#include "flank/io/json_input.h"
+#include "flank/io/dxf_dimension.h"
 #include "flank/tool/meridian.h"
 
 namespace flank {
@@ -16,24 +15,6 @@ namespace {
 
 constexpr double kDegrees = 57.29577951308232;
 constexpr int kRed = 1, kGreen = 3, kCyan = 4, kWhite = 7, kGrey = 8;
-
-/// Group codes and values, one a line.
-class DxfText {
- public:
-  DxfText& add(int code, std::string_view value) {
-    text_ += fmt::format("{:>3}\n{}\n", code, value);
-    return *this;
-  }
-  DxfText& add(int code, double value) { return add(code, exact_decimal(value)); }
-  DxfText& add(int code, int value) { return add(code, fmt::format("{}", value)); }
-  DxfText& point(int first_code, double x, double y) {
-    return add(first_code, x).add(first_code + 10, y).add(first_code + 20, 0.0);
-  }
-  [[nodiscard]] std::string take() { return std::move(text_); }
-
- private:
-  std::string text_;
-};
 
 /// Equal steps in s, fine enough that no chord is farther than kDxfChordMm from the meridian (measured at the steps'
 /// middles, with a margin).
@@ -59,7 +40,7 @@ void line_type(DxfText& out, std::string_view name, std::string_view look, const
   for (const double d : dashes) out.add(49, d);
 }
 
-void tables(DxfText& out) {
+void tables(DxfText& out, double height) {
   out.add(0, "SECTION").add(2, "TABLES");
   out.add(0, "TABLE").add(2, "LTYPE").add(70, 2);
   line_type(out, "CONTINUOUS", "Solid line", {});
@@ -73,10 +54,12 @@ void tables(DxfText& out) {
   const std::vector<Layer> layers = {{"0", kWhite, "CONTINUOUS"},     {"FLANK", kWhite, "CONTINUOUS"},
                                      {"TIP", kGreen, "CONTINUOUS"},   {"SHANK", kCyan, "CONTINUOUS"},
                                      {"HOLDER", kGrey, "CONTINUOUS"}, {"CENTRELINE", kRed, "CENTER"},
-                                     {"TEXT", kGrey, "CONTINUOUS"}};
+                                     {"TEXT", kGrey, "CONTINUOUS"},   {kDxfDimensionLayer, kGreen, "CONTINUOUS"}};
   out.add(0, "TABLE").add(2, "LAYER").add(70, static_cast<int>(layers.size()));
   for (const Layer& l : layers) out.add(0, "LAYER").add(2, l.name).add(70, 0).add(62, l.colour).add(6, l.type);
-  out.add(0, "ENDTAB").add(0, "ENDSEC");
+  out.add(0, "ENDTAB");
+  dxf_dimension_style(out, height);
+  out.add(0, "ENDSEC");
 }
 
 void polyline(DxfText& out, std::string_view layer, const std::vector<Vec2>& points) {
@@ -97,9 +80,57 @@ void tip_arc(DxfText& out, const RadialFunction& radial) {
   out.add(50, std::atan2(p.y(), p.x()) * kDegrees).add(51, 180.0);
 }
 
-void dimensions(DxfText& out, const Tool& tool, const std::vector<Vec2>& flank) {
+double text_height(const Tool& tool) { return std::max(0.5, tool.radial.axis_length() / 40.0); }
+
+/// Where the drawing ends: along the axis, and the largest radius of flank, shank and holder.
+struct Extent {
+  double low = 0.0, high = 0.0, widest = 0.0;
+};
+
+Extent extent_of(const Tool& tool, const std::vector<Vec2>& flank) {
+  Extent e{-tool.radial.at(0.0).r, flank.back().x(), 0.0};
+  for (const auto* profile : std::initializer_list<const std::vector<Vec2>*>{&flank, &tool.shank, &tool.holder})
+    for (const Vec2& p : *profile) e.high = std::max(e.high, p.x()), e.widest = std::max(e.widest, p.y());
+  return e;
+}
+
+Vec2 widest_point(const std::vector<Vec2>& profile) {
+  return *std::max_element(profile.begin(), profile.end(), [](const Vec2& a, const Vec2& b) { return a.y() < b.y(); });
+}
+
+/// Lengths above the profile, diameters across the axis, where the lower half would be.
+std::vector<DxfDimension> dimensions_of(const Tool& tool, const std::vector<Vec2>& flank, double height) {
+  const Extent e = extent_of(tool, flank);
+  const auto level = [&](int k) { return e.widest + (2.0 + 3.0 * k) * height; };
+  std::vector<DxfDimension> all;
+  // At one radius: some readers measure from point to point, not along the axis.
+  const auto length = [&](const Vec2& a, const Vec2& b, int k) {
+    const double rho = std::max(a.y(), b.y());
+    all.push_back({{a.x(), rho}, {b.x(), rho}, false, level(k), ""});
+  };
+  const auto diameter = [&](const Vec2& p) { all.push_back({{p.x(), -p.y()}, p, true, p.x(), "%%c"}); };
+  length(flank.front(), flank.back(), 0);
+  length({0.0, 0.0}, {tool.radial.axis_length(), 0.0}, 1);
+  length({e.low, 0.0}, {e.high, 0.0}, 2);
+  diameter(flank.front());
+  diameter(flank.back());
+  const Vec2 most = widest_point(flank);
+  // Beside the diameter where the largest radius is that of an end.
+  const double beside = most.x() < flank.front().x() + 2.0 * height  ? flank.front().x() + 3.0 * height
+                        : most.x() > flank.back().x() - 2.0 * height ? flank.back().x() - 3.0 * height
+                                                                     : most.x();
+  all.push_back({{most.x(), 0.0}, most, true, beside, "R"});
+  int k = 0;
+  for (const auto* profile : {&tool.shank, &tool.holder}) {
+    if (profile->size() < 2) continue;
+    length(profile->front(), profile->back(), k++);
+    diameter(widest_point(*profile));
+  }
+  return all;
+}
+
+void notes(DxfText& out, const Tool& tool, const std::vector<Vec2>& flank, double height) {
   const RadialFunction& radial = tool.radial;
-  const double height = std::max(0.5, radial.axis_length() / 40.0);
   double least = flank.front().y(), most = least;
   for (const Vec2& p : flank) least = std::min(least, p.y()), most = std::max(most, p.y());
   const std::vector<std::string> lines = {
@@ -108,31 +139,34 @@ void dimensions(DxfText& out, const Tool& tool, const std::vector<Vec2>& flank) 
                   flank.back().x(), flank.back().y()),
       fmt::format("RADIUS LEAST {:.4f} LARGEST {:.4f}  TIP SPHERE R {:.4f}", least, most, radial.at(0.0).r)};
   for (std::size_t i = 0; i < lines.size(); ++i)
-    text_line(out, 0.0, -height * (3.0 + 2.0 * static_cast<double>(i)), height, lines[i]);
+    text_line(out, 0.0, -extent_of(tool, flank).widest - height * (3.0 + 2.0 * static_cast<double>(i)), height,
+              lines[i]);
 }
 
 }  // namespace
 
 std::string tool_to_dxf(const Tool& tool) {
   const std::vector<Vec2> flank = flank_points(tool.radial);
-  double low = -tool.radial.at(0.0).r, high = flank.back().x();
-  for (const auto* profile : {&tool.shank, &tool.holder})
-    for (const Vec2& p : *profile) high = std::max(high, p.x());
-  const double overhang = 0.05 * (high - low);
+  const Extent e = extent_of(tool, flank);
+  const double overhang = 0.05 * (e.high - e.low), height = text_height(tool);
+  const std::vector<DxfDimension> dimensions = dimensions_of(tool, flank, height);
   DxfText out;
   out.add(999, "half profile of a milling tool, millimetres");
   out.add(0, "SECTION").add(2, "HEADER").add(9, "$ACADVER").add(1, "AC1009");
-  out.add(9, "$EXTMIN").point(10, low, 0.0).add(9, "$EXTMAX").point(10, high, high - low);
+  out.add(9, "$EXTMIN").point(10, e.low - overhang, -e.widest - 8.0 * height);
+  out.add(9, "$EXTMAX").point(10, e.high + overhang, e.widest + 10.0 * height);
   out.add(9, "$LTSCALE").add(40, 1.0).add(0, "ENDSEC");
-  tables(out);
+  tables(out, height);
+  dxf_dimension_blocks(out, dimensions, height);
   out.add(0, "SECTION").add(2, "ENTITIES");
   tip_arc(out, tool.radial);
   polyline(out, "FLANK", flank);
   polyline(out, "SHANK", tool.shank);
   polyline(out, "HOLDER", tool.holder);
   out.add(0, "LINE").add(8, "CENTRELINE").add(6, "CENTER");
-  out.point(10, low - overhang, 0.0).point(11, high + overhang, 0.0);
-  dimensions(out, tool, flank);
+  out.point(10, e.low - overhang, 0.0).point(11, e.high + overhang, 0.0);
+  dxf_dimensions(out, dimensions, height);
+  notes(out, tool, flank, height);
   out.add(0, "ENDSEC").add(0, "EOF");
   return out.take();
 }

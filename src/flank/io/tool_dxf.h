@@ -1,4 +1,4 @@
-/// tool.dxf (docs/schema/dxf.md): half profile and centreline for the tool grinder, as ASCII DXF of AutoCAD R12.
+/// tool.dxf (docs/schema/dxf.md): half profile, centreline and dimensions for the tool grinder, as ASCII DXF of AutoCAD R12.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,8 @@ inline constexpr double kDxfChordMm = 1e-4;
 
 /// The whole file: x along the axis (s = 0 at x = 0, holder towards +x), y the radius; millimetres. Layers FLANK
 /// (polyline), TIP (arc of the sphere of s = 0), SHANK and HOLDER (polylines), CENTRELINE (a line of line type CENTER),
-/// TEXT (length and radii).
+/// TEXT (length and radii), DIMENSION (linear dimensions: of flank, axis, whole tool, shank and holder the lengths, of
+/// both ends of the flank, shank and holder the diameters, and the flank's largest radius).
 [[nodiscard]] std::string tool_to_dxf(const Tool& tool);
 
 /// Points (z, rho) of the profile in a DXF: the polyline on layer FLANK, else the only polyline in the file (POLYLINE

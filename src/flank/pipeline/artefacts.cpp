@@ -8,7 +8,9 @@
 #include "flank/io/path_csv.h"
 #include "flank/io/path_json.h"
 #include "flank/io/tool_dxf.h"
+#include "flank/io/tool_fctb.h"
 #include "flank/io/tool_json.h"
+#include "flank/io/tool_step.h"
 #include "flank/pipeline/fit_job.h"
 #include "flank/pipeline/job_json.h"
 #include "flank/pipeline/verify_json.h"
@@ -25,6 +27,17 @@ void ensure_folder(const std::string& folder) {
   const AtomicFile probe((std::filesystem::path(folder) / "job.json").string());
 }
 
+/// For CAD and CAM systems. What was left of an earlier tool must not be taken for this one's.
+static void write_tool_exports(const Tool& tool, const std::string& step, const std::string& fctb) {
+  if (check_legitimacy(tool.radial).legitimate) {
+    write_file(step, tool_to_step(tool));
+    write_file(fctb, tool_to_fctb(tool));
+  } else {
+    std::filesystem::remove(step);
+    std::filesystem::remove(fctb);
+  }
+}
+
 void write_fit(const FitJob& job, const FitOutcome& outcome, const std::string& folder) {
   ensure_folder(folder);
   const auto file = [&](const char* name) { return (std::filesystem::path(folder) / name).string(); };
@@ -32,6 +45,8 @@ void write_fit(const FitJob& job, const FitOutcome& outcome, const std::string& 
   cls.part = std::filesystem::path(job.part).stem().string();
   write_file(file("tool.json"), tool_to_json(outcome.tool));
   write_file(file("tool.dxf"), tool_to_dxf(outcome.tool));
+  write_tool_exports(outcome.tool, file("tool.step"), file("tool.fctb"));
+  write_file(file("strips.step"), strips_to_step(outcome.strip_surfaces));
   write_file(file("path.json"), path_to_json(outcome.path));
   write_file(file("path.cls"), path_to_cls(outcome.path, outcome.tool, cls));
   write_file(file("path.csv"), path_to_csv(outcome.path));

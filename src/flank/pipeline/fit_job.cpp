@@ -58,9 +58,10 @@ RadiusBounds bounds_of(const FitJob& job, double diagonal) {
   return bounds;
 }
 
-/// Poses before the first and after the last one that touches the target are cut off, but for one: they machine
-/// nothing.
-std::vector<Pose> touching_poses(const std::vector<Pose>& poses, const Target& target, double axis_length) {
+/// The poses [first, last) that a strip keeps: those before the first and after the last one that touches the target are
+/// cut off, but for one, because they machine nothing.
+std::pair<std::size_t, std::size_t> touching_poses(const std::vector<Pose>& poses, const Target& target,
+                                                   double axis_length) {
   const auto touches = [&](const Pose& pose) {
     constexpr int kSamples = 24;
     for (int j = 0; j <= kSamples; ++j)
@@ -68,9 +69,16 @@ std::vector<Pose> touching_poses(const std::vector<Pose>& poses, const Target& t
     return false;
   };
   const auto first = std::find_if(poses.begin(), poses.end(), touches);
-  if (first == poses.end()) return poses;
+  if (first == poses.end()) return {0, poses.size()};
   const auto last = std::find_if(poses.rbegin(), std::make_reverse_iterator(first), touches).base();
-  return {first == poses.begin() ? first : first - 1, last == poses.end() ? last : last + 1};
+  return {static_cast<std::size_t>(first - poses.begin()) - (first == poses.begin() ? 0 : 1),
+          static_cast<std::size_t>(last - poses.begin()) + (last == poses.end() ? 0 : 1)};
+}
+
+/// The side of the contact points that look from the middle of the motion to the target.
+int machining_contact(const RuledMotion& motion, const RadialFunction& radial, const Target& target) {
+  const Vec3 middle = motion.pose(0.5).at(0.5 * radial.axis_length());
+  return contact_side(motion, radial, target.closest(middle).point - middle);
 }
 
 void sample_path(const FitJob& job, const FitSearch& search, FitOutcome& outcome) {
@@ -84,7 +92,12 @@ void sample_path(const FitJob& job, const FitSearch& search, FitOutcome& outcome
     Strip strip;
     strip.id = static_cast<int>(m) + 1;
     strip.face = group.faces;
-    strip.poses = touching_poses(sampled.poses, *group.target, motion.axis_length);
+    const auto [first, last] = touching_poses(sampled.poses, *group.target, motion.axis_length);
+    strip.poses.assign(sampled.poses.begin() + static_cast<std::ptrdiff_t>(first),
+                       sampled.poses.begin() + static_cast<std::ptrdiff_t>(last));
+    outcome.strip_surfaces.push_back(strip_surface({strip.id, motion, sampled.t[first], sampled.t[last - 1],
+                                                    machining_contact(motion, search.fit.tool, *group.target)},
+                                                   search.fit.tool));
     outcome.path.strips.push_back(std::move(strip));
     const Regularity regular = regularity(motion, search.fit.tool, 200, 40);
     outcome.largest_c = std::max(outcome.largest_c, regular.largest_c);
@@ -131,6 +144,7 @@ FitOutcome run_fit(const FitJob& job, const Progress& progress) {
   if (outcome.largest_c >= 1.0)
     outcome.notes.push_back(
         fmt::format("the tool plunges: |c| = {:.3f} >= 1 somewhere along the path", outcome.largest_c));
+  note_strip_surfaces(outcome.strip_surfaces, outcome.notes);
   watch.lap("sample");
 
   progress.step("verify", 0.9);

@@ -12,6 +12,7 @@
 #include "flank/pipeline/acceptance.h"
 #include "flank/pipeline/check_faces.h"
 #include "flank/pipeline/clearance_job.h"
+#include "flank/pipeline/strip_surface.h"
 #include "flank/tool/tool.h"
 #include "flank/verify/judge.h"
 
@@ -44,6 +45,7 @@ struct FitOutcome {
   Tool tool;
   Path path;
   FlankFitResult fit;
+  std::vector<StripSurface> strip_surfaces;  ///< one a strip of the path
   VerifyReport verify;
   std::string view;                                     ///< view.json, for `flank report`
   double chord_bound_mm = 0.0;                          ///< between the motion and the joined poses
@@ -59,8 +61,9 @@ struct FitOutcome {
 /// Reads, fits, samples and judges. Throws UsageError and InputError before any work is done.
 [[nodiscard]] FitOutcome run_fit(const FitJob& job, const Progress& progress);
 
-/// Writes tool.json, tool.dxf, path.json, path.cls, path.csv, verify.json, view.json, summary.json and job.json to a
-/// folder.
+/// Writes tool.json, tool.dxf, tool.step, tool.fctb, strips.step, path.json, path.cls, path.csv, verify.json, view.json,
+/// summary.json and job.json to a folder. A tool that is not legitimate has neither
+/// tool.step nor tool.fctb.
 void write_fit(const FitJob& job, const FitOutcome& outcome, const std::string& folder);
 
 /// Table for a terminal.

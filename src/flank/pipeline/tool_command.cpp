@@ -10,7 +10,9 @@
 #include "flank/base/error.h"
 #include "flank/io/json_input.h"
 #include "flank/io/tool_dxf.h"
+#include "flank/io/tool_fctb.h"
 #include "flank/io/tool_json.h"
+#include "flank/io/tool_step.h"
 #include "flank/io/tool_svg.h"
 
 namespace flank {
@@ -102,9 +104,11 @@ std::string tool_as(const Tool& tool, const std::string& file) {
   const std::string ending = ending_of(file);
   if (ending == ".json") return tool_to_json(tool);
   if (ending == ".dxf") return tool_to_dxf(tool);
+  if (ending == ".step" || ending == ".stp") return tool_to_step(tool);
+  if (ending == ".fctb") return tool_to_fctb(tool);
   if (ending == ".svg") return tool_to_svg(tool);
   if (ending == ".csv") return profile_csv(tool.radial);
-  throw UsageError(fmt::format("-o {}: unknown ending; accepted: .json, .dxf, .svg, .csv", file));
+  throw UsageError(fmt::format("-o {}: unknown ending; accepted: .json, .dxf, .step, .fctb, .svg, .csv", file));
 }
 
 int run_tool_command(const ToolCommandOptions& options, std::ostream& out) {

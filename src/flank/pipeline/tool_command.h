@@ -53,7 +53,7 @@ struct ToolCommandOptions {
   std::optional<double> shank_diameter_mm;  ///< a plain cylinder above the flank, as long as the axis
   std::optional<std::string> name;          ///< of the tool
   std::vector<std::string>
-      outputs;         ///< files, by their endings: .json, .dxf, .svg, .csv (meridian); none: the drawing is printed
+      outputs;  ///< files, by their endings: .json, .dxf, .step, .fctb, .svg, .csv (meridian); none: the drawing is printed
   bool show = false;   ///< print the drawing also when there are outputs
   bool json = false;   ///< print nothing but a summary in JSON
   bool quiet = false;  ///< print nothing when files are written
@@ -62,7 +62,7 @@ struct ToolCommandOptions {
 /// The tool that the options describe. Throws UsageError and InputError.
 [[nodiscard]] Tool tool_of_command(const ToolCommandOptions& options);
 
-/// A tool as the content of a file of this ending (".json", ".dxf", ".svg", ".csv"). Throws UsageError naming the
+/// A tool as the content of a file of this ending (".json", ".dxf", ".step" or ".stp", ".fctb", ".svg", ".csv"). Throws UsageError naming the
 /// endings.
 [[nodiscard]] std::string tool_as(const Tool& tool, const std::string& file);
 

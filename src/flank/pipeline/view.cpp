@@ -57,7 +57,7 @@ std::vector<ViewPlace> places_of(const Strip& strip, const RadialFunction& radia
     const std::size_t first = k * steps / places.size();
     const std::size_t last = ((k + 1) * steps + places.size() - 1) / places.size();
     const double middle = (static_cast<double>(k) + 0.5) * static_cast<double>(steps);
-    places[k] = {middle / static_cast<double>(places.size()), kInfinity, -kInfinity, 0.0};
+    places[k] = {middle / static_cast<double>(places.size()), kInfinity, -kInfinity, 0.0, kInfinity};
     for (std::size_t i = first; i < last; ++i)
       places[k].largest_c = std::max(places[k].largest_c, largest_c(strip.poses[i], strip.poses[i + 1], radial));
   }
@@ -75,6 +75,16 @@ void add_to_places(const SweptDistance& d, double axis_length, std::vector<ViewS
   ViewPlace& place = strip.places[static_cast<std::size_t>(std::min(count - 1.0, d.t / steps * count))];
   place.lowest_f_mm = std::min(place.lowest_f_mm, d.f);
   place.highest_f_mm = std::max(place.highest_f_mm, d.f);
+}
+
+/// The least clearance of the poses that a place covers.
+void add_clearance(const std::vector<double>& poses, std::vector<ViewPlace>& places) {
+  const std::size_t steps = poses.size() - 1;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const std::size_t first = k * steps / places.size();
+    const std::size_t last = ((k + 1) * steps + places.size() - 1) / places.size();
+    for (std::size_t i = first; i <= last; ++i) places[k].clearance_mm = std::min(places[k].clearance_mm, poses[i]);
+  }
 }
 
 std::set<std::string> entered_faces(const VerifyReport& verdict, double tolerance_mm) {
@@ -156,6 +166,9 @@ View make_view(const FitJob& job, const Part& part, const std::vector<int>& face
   for (const Strip& strip : path.strips) {
     view.strips.push_back(thinned(strip));
     view.strips.back().places = places_of(strip, tool.radial);
+    const std::size_t index = view.strips.size() - 1;
+    if (const auto& by_strip = verdict.clearance.pose_clearance_mm; index < by_strip.size())
+      add_clearance(by_strip[index], view.strips.back().places);
   }
   judge_faces(view, path, entered);
   return view;

@@ -25,6 +25,8 @@ struct ViewPlace {
   double lowest_f_mm = 0;  ///< over the target's vertices that this place sweeps past; infinite where there are none
   double highest_f_mm = 0;
   double largest_c = 0.0;  ///< regularity along the axis: plunges at 1
+  double clearance_mm =
+      0;  ///< least of the judge's at the poses of this place; infinite: nothing is near, or asked for
 };
 
 struct ViewStrip {

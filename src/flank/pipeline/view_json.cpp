@@ -61,14 +61,18 @@ Json to_json(const ViewStrip& strip) {
             {"pose_count", strip.pose_count},
             {"index", strip.index},
             {"poses", to_base64(as_floats(poses))}};
-  Json t = Json::array(), low = Json::array(), high = Json::array(), c = Json::array();
+  Json t = Json::array(), low = Json::array(), high = Json::array(), c = Json::array(), clearance = Json::array();
+  bool any_clearance = false;
   for (const ViewPlace& place : strip.places) {
     t.push_back(number(place.t));
     low.push_back(number(place.lowest_f_mm));
     high.push_back(number(place.highest_f_mm));
     c.push_back(number(place.largest_c));
+    clearance.push_back(number(place.clearance_mm));
+    any_clearance = any_clearance || std::isfinite(place.clearance_mm);
   }
   j["places"] = {{"t", t}, {"lowest_f_mm", low}, {"highest_f_mm", high}, {"largest_c", c}};
+  if (any_clearance) j["places"]["clearance_mm"] = clearance;
   return j;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "flank/base/error.h"
+#include "flank/base/parallel.h"
 #include "flank/verify/flank_profile.h"
 #include "flank/verify/motion_gap.h"
 #include "flank/verify/pose_tree.h"
@@ -55,9 +56,10 @@ std::vector<Body> bodies_of(const Tool& tool) {
   return bodies;
 }
 
+bool may_touch(ToolBody body, ObstacleRole role) { return body == ToolBody::kShank && role == ObstacleRole::kTarget; }
+
 double requirement(const ClearanceOptions& options, ToolBody body, ObstacleRole role) {
-  const bool may_touch = body == ToolBody::kShank && role == ObstacleRole::kTarget;
-  if (options.required_mm >= 0.0 && !may_touch) return options.required_mm;
+  if (options.required_mm >= 0.0 && !may_touch(body, role)) return options.required_mm;
   return body == ToolBody::kHolder ? 0.0 : -options.tolerance_mm;
 }
 
@@ -85,6 +87,22 @@ ClearanceFigure measure(const Body& body, const Scene& scene, const std::vector<
   figure.z_mm = place.z;
   figure.rho_mm = place.rho;
   return figure;
+}
+
+/// Lowers the clearance of every pose to that of this pair.
+void lower_to(std::vector<std::vector<double>>& by_strip, const Body& body, const Scene& scene,
+              const std::vector<Segment>& segments) {
+  constexpr std::size_t kGrain = 16;
+  const MotionGap gap(body.parts, scene.tree, segments);
+  parallel_blocks(segments.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      std::vector<double>& poses = by_strip[static_cast<std::size_t>(segments[k].strip)];
+      const auto first = static_cast<std::size_t>(segments[k].pose);
+      const bool ends = k + 1 == segments.size() || segments[k + 1].strip != segments[k].strip;
+      for (std::size_t i = first; i < std::min(poses.size(), first + (ends ? 2 : 1)); ++i)
+        poses[i] = gap.at(static_cast<int>(k), i == first ? 0.0 : 1.0, kPoseClearanceMm, poses[i]);
+    }
+  });
 }
 
 }  // namespace
@@ -116,11 +134,14 @@ ClearanceReport judge_clearance(const Tool& tool, const Path& path, const std::v
   std::array<Scene, kRoles.size()> scenes;
   for (std::size_t k = 0; k < kRoles.size(); ++k) scenes[k] = scene_of(obstacles, kRoles[k]);
   ClearanceReport report;
+  for (const Strip& strip : path.strips)
+    report.pose_clearance_mm.emplace_back(strip.poses.size(), std::numeric_limits<double>::infinity());
   for (const Body& body : bodies_of(tool)) {
     if (body.parts.empty()) continue;
     for (const Scene& scene : scenes) {
       if (scene.tree.empty() || (body.name == ToolBody::kFlank && scene.role != ObstacleRole::kFixture)) continue;
       report.figures.push_back(measure(body, scene, obstacles, segments, options));
+      if (!may_touch(body.name, scene.role)) lower_to(report.pose_clearance_mm, body, scene, segments);
     }
   }
   return report;

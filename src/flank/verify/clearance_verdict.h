@@ -25,6 +25,8 @@ struct Obstacle {
 
 enum class ToolBody { kFlank, kShank, kHolder };
 
+inline constexpr double kPoseClearanceMm = 0.01;
+
 struct ClearanceOptions {
   double accuracy_mm = 1e-3;   ///< of the minimum over the motion
   double tolerance_mm = 0.01;  ///< what the shank may enter the target by, and everything without a requirement
@@ -53,6 +55,9 @@ struct ClearanceFigure {
 /// Empty: nothing was asked, or the tool has neither shank nor holder and there are no fixtures.
 struct ClearanceReport {
   std::vector<ClearanceFigure> figures;  ///< in the order of body, then role
+  /// Least distance of any of these pairs but shank and target (which may touch) at every pose, by strip: for charts.
+  /// Infinite where there are no such pairs; above the truth by no more than kPoseClearanceMm or 2 percent of a depth.
+  std::vector<std::vector<double>> pose_clearance_mm;
   [[nodiscard]] bool kept() const;
   /// The figure with the least clearance less its requirement; nullptr if there is none.
   [[nodiscard]] const ClearanceFigure* worst() const;

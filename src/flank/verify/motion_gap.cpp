@@ -240,6 +240,15 @@ void GapSearch::split(const Interval& interval, std::size_t begin) {
   }
 }
 
+double MotionGap::at(int segment, double tau, double accuracy_mm, double limit_mm) const {
+  GapPlace start;
+  start.value = limit_mm;
+  if (body_.empty() || tree_.empty()) return limit_mm;
+  GapSearch search(*this, accuracy_mm, start);
+  search.look_at(segment, tau);
+  return search.best().value;
+}
+
 GapPlace MotionGap::least(double accuracy_mm, double limit_mm) const {
   GapPlace start;
   start.value = limit_mm;

@@ -34,6 +34,8 @@ class MotionGap {
   /// The least value over all segments: found.value - gap_bound(found.value, accuracy) <= truth <= found.value. Values
   /// of `limit` and above need not be told apart. Parallel; the same bits for any number of threads.
   [[nodiscard]] GapPlace least(double accuracy_mm, double limit_mm) const;
+  /// The value at one place of one segment; `limit_mm` where it is not below that.
+  [[nodiscard]] double at(int segment, double tau, double accuracy_mm, double limit_mm) const;
 
  private:
   friend class GapSearch;
