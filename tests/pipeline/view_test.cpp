@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "flank/pipeline/example.h"
+#include "flank/pipeline/path_regularity.h"
 #include "flank/pipeline/targets.h"
 #include "flank/pipeline/view_json.h"
 
@@ -111,6 +112,19 @@ TEST_F(ViewOfExample, TheSwingAlongThePathIsThatOfTheVertices) {
       EXPECT_LE(place.highest_f_mm, *high);
     }
   }
+}
+
+TEST_F(ViewOfExample, RegularityIsThatOfTheWholePath) {
+  double largest = 0.0;
+  for (const ViewPlace& place : view_.strips.front().places) largest = std::max(largest, place.largest_c);
+  EXPECT_GT(largest, 0.0);
+  EXPECT_EQ(largest, largest_c(path_, tool_.radial));
+  // A step along the tool's own axis is a plunge.
+  Path plunge = path_;
+  Pose last = plunge.strips.front().poses.back();
+  last.tip += 0.1 * last.axis;
+  plunge.strips.front().poses.push_back(last);
+  EXPECT_GT(largest_c(plunge, tool_.radial), 1.0);
 }
 
 TEST_F(ViewOfExample, TheProfileIsTheMeridianWithItsCurvature) {
