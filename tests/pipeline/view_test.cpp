@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "flank/pipeline/example.h"
+#include "flank/pipeline/path_regularity.h"
 #include "flank/pipeline/targets.h"
 #include "flank/pipeline/view_json.h"
 
@@ -130,6 +131,19 @@ TEST_F(ViewOfExample, ClearanceAlongThePathWhereItWasAsked) {
         std::ceil(static_cast<double>((k + 1) * (poses.size() - 1)) / static_cast<double>(places.at("t").size()));
     EXPECT_NEAR(places.at("clearance_mm").at(k).get<double>(), 100.0 - last, 1e-4) << k;
   }
+}
+
+TEST_F(ViewOfExample, RegularityIsThatOfTheWholePath) {
+  double largest = 0.0;
+  for (const ViewPlace& place : view_.strips.front().places) largest = std::max(largest, place.largest_c);
+  EXPECT_GT(largest, 0.0);
+  EXPECT_EQ(largest, largest_c(path_, tool_.radial));
+  // A step along the tool's own axis is a plunge.
+  Path plunge = path_;
+  Pose last = plunge.strips.front().poses.back();
+  last.tip += 0.1 * last.axis;
+  plunge.strips.front().poses.push_back(last);
+  EXPECT_GT(largest_c(plunge, tool_.radial), 1.0);
 }
 
 TEST_F(ViewOfExample, TheProfileIsTheMeridianWithItsCurvature) {

@@ -10,6 +10,7 @@
 #include "flank/envelope/envelope.h"
 #include "flank/pipeline/fit_search.h"
 #include "flank/pipeline/judge_job.h"
+#include "flank/pipeline/path_regularity.h"
 #include "flank/pipeline/targets.h"
 #include "flank/pipeline/tool_model.h"
 #include "flank/pipeline/view.h"
@@ -99,9 +100,8 @@ void sample_path(const FitJob& job, const FitSearch& search, FitOutcome& outcome
                                                     machining_contact(motion, search.fit.tool, *group.target)},
                                                    search.fit.tool));
     outcome.path.strips.push_back(std::move(strip));
-    const Regularity regular = regularity(motion, search.fit.tool, 200, 40);
-    outcome.largest_c = std::max(outcome.largest_c, regular.largest_c);
   }
+  outcome.largest_c = largest_c(outcome.path, outcome.tool.radial);
 }
 
 }  // namespace

@@ -47,11 +47,11 @@ struct FitOutcome {
   FlankFitResult fit;
   std::vector<StripSurface> strip_surfaces;  ///< one a strip of the path
   VerifyReport verify;
-  std::string view;                                     ///< view.json, for `flank report`
-  double chord_bound_mm = 0.0;                          ///< between the motion and the joined poses
-  double largest_c = 0.0;                               ///< regularity of the envelope, < 1 needed
-  double diagonal_mm = 0.0;                             ///< of the target
-  std::vector<std::string> notes;                       ///< repairs of the part, warnings
+  std::string view;                ///< view.json, for `flank report`
+  double chord_bound_mm = 0.0;     ///< between the motion and the joined poses
+  double largest_c = 0.0;          ///< regularity of the envelope along the written path, < 1 needed
+  double diagonal_mm = 0.0;        ///< of the target
+  std::vector<std::string> notes;  ///< repairs of the part, warnings
   std::vector<std::pair<std::string, double>> seconds;  ///< stage, wall time
   bool complete = true;                                 ///< false: cancelled, what is here is unfinished
   /// Whether this is what was asked for: the one rule (acceptance.h).

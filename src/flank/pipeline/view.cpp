@@ -8,7 +8,7 @@
 #include <limits>
 #include <set>
 
-#include "flank/envelope/envelope.h"
+#include "flank/pipeline/path_regularity.h"
 #include "flank/pipeline/view_mesh.h"
 
 namespace flank {
@@ -16,7 +16,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kProfilePoints = 161;
-constexpr int kRegularitySamples = 24;
 /// Of a check surface only what is entered is of interest: beyond this many tolerances the judge need not be exact.
 constexpr double kCheckHorizon = 4.0;
 
@@ -30,22 +29,6 @@ ViewStrip thinned(const Strip& strip) {
   if (!strip.poses.empty() && out.index.back() + 1 < strip.poses.size()) out.index.push_back(strip.poses.size() - 1);
   for (std::size_t k : out.index) out.poses.push_back(strip.poses[k]);
   return out;
-}
-
-/// Regularity of the straight join from one pose to the next, at its middle.
-double largest_c(const Pose& from, const Pose& to, const RadialFunction& radial) {
-  AxisJet axis;
-  axis.tip = 0.5 * (from.tip + to.tip);
-  axis.u = (from.axis + to.axis).normalized();
-  axis.tip_d1 = to.tip - from.tip;
-  axis.u_d1 = to.axis - from.axis;
-  axis.u_d1 -= axis.u_d1.dot(axis.u) * axis.u;
-  double largest = 0.0;
-  for (int j = 0; j <= kRegularitySamples; ++j) {
-    const double s = radial.axis_length() * j / kRegularitySamples;
-    largest = std::max(largest, std::abs(contact_point(axis, radial.at(s), s, +1).c));
-  }
-  return largest;
 }
 
 std::vector<ViewPlace> places_of(const Strip& strip, const RadialFunction& radial) {

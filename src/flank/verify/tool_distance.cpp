@@ -78,15 +78,24 @@ NearestSphere ToolDistance::search(double z, double rho) const {
 }
 
 int ToolDistance::minima(double z, double rho, double below, std::array<double, kMostMinima>& s) const {
+  const double limit = below + radial_.step();
+  // Only spheres whose centre is near enough can be below the limit.
+  const double reach = limit + radial_.largest_radius();
+  if (!(reach > rho)) return 0;
+  const double window = std::min(std::sqrt(reach * reach - rho * rho), 1e3 * radial_.length() + std::abs(z));
+  const auto node_at = [&](double x) {
+    return static_cast<int>(std::clamp(x / radial_.step(), -2.0, radial_.count() + 2.0));
+  };
+  const int first = std::max(0, node_at(z - window) - 1), last = std::min(radial_.count(), node_at(z + window) + 1);
+  const auto at_node = [&](int i) {
+    const double dz = z - radial_.node(i);
+    return std::sqrt(dz * dz + rho * rho) - radial_.node_radius(i);
+  };
   int count = 0;
-  double before = 1e300, here = value(z, rho, 0.0);
-  for (int i = 0; i <= radial_.count(); ++i) {
-    double after = 1e300;
-    if (i < radial_.count()) {
-      const double dz = z - radial_.node(i + 1);
-      after = std::sqrt(dz * dz + rho * rho) - radial_.node_radius(i + 1);
-    }
-    if (here <= before && here < after && here < below + radial_.step() && count < kMostMinima)
+  double before = first > 0 ? at_node(first - 1) : 1e300, here = at_node(std::min(first, radial_.count()));
+  for (int i = first; i <= last; ++i) {
+    const double after = i < radial_.count() ? at_node(i + 1) : 1e300;
+    if (here <= before && here < after && here < limit && count < kMostMinima)
       s[static_cast<std::size_t>(count++)] = radial_.node(i);
     before = here;
     here = after;
