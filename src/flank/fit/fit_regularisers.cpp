@@ -111,7 +111,7 @@ void FitModel::assemble_tool(const FitState& state, ArrowSystem& system) const {
   Eigen::MatrixXd b;
   tool_gradients(state, b);
   auto gradient = system.gradient.tail(tool_parameters_);
-  const double h = axis_length_ * 1e-4;
+  const double h = axis_length_ * 1e-4, h2 = axis_length_ * 5e-6;
   for (int j = 0; j < n; ++j) {
     const RadialJet jet = state.tool.at(s_[j]);
     system.tool_matrix += (stage_.radius_pin / n) * b.col(j) * b.col(j).transpose();
@@ -123,8 +123,11 @@ void FitModel::assemble_tool(const FitState& state, ArrowSystem& system) const {
     }
     if (residuals.slope == 0.0 && residuals.convexity == 0.0) continue;
     // Central also at the ends, where the end polynomial goes on: one-sided differences are off by 1e-4.
-    const Eigen::VectorXd after = tool_gradient(state.tool, s_[j] + h), before = tool_gradient(state.tool, s_[j] - h);
-    const Eigen::VectorXd by_d1 = (after - before) / (2.0 * h), by_d2 = (after - 2.0 * b.col(j) + before) / (h * h);
+    const Eigen::VectorXd by_d1 =
+        (tool_gradient(state.tool, s_[j] + h) - tool_gradient(state.tool, s_[j] - h)) / (2.0 * h);
+    // A smaller step: at a knot r'' has a corner.
+    const Eigen::VectorXd by_d2 =
+        (tool_gradient(state.tool, s_[j] + h2) - 2.0 * b.col(j) + tool_gradient(state.tool, s_[j] - h2)) / (h2 * h2);
     const auto add = [&](const Eigen::VectorXd& g, double residual) {
       if (residual == 0.0) return;
       system.tool_matrix += (kBoundWeight / n) * g * g.transpose();
