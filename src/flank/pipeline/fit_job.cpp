@@ -13,6 +13,7 @@
 #include "flank/pipeline/path_regularity.h"
 #include "flank/pipeline/targets.h"
 #include "flank/pipeline/tool_model.h"
+#include "flank/pipeline/used_times.h"
 #include "flank/pipeline/view.h"
 #include "flank/pipeline/view_json.h"
 
@@ -59,21 +60,12 @@ RadiusBounds bounds_of(const FitJob& job, double diagonal) {
   return bounds;
 }
 
-/// The poses [first, last) that a strip keeps: those before the first and after the last one that touches the target are
-/// cut off, but for one, because they machine nothing.
-std::pair<std::size_t, std::size_t> touching_poses(const std::vector<Pose>& poses, const Target& target,
-                                                   double axis_length) {
-  const auto touches = [&](const Pose& pose) {
-    constexpr int kSamples = 24;
-    for (int j = 0; j <= kSamples; ++j)
-      if (target.closest(pose.at(axis_length * j / kSamples)).location == Location::kInside) return true;
-    return false;
-  };
-  const auto first = std::find_if(poses.begin(), poses.end(), touches);
-  if (first == poses.end()) return {0, poses.size()};
-  const auto last = std::find_if(poses.rbegin(), std::make_reverse_iterator(first), touches).base();
-  return {static_cast<std::size_t>(first - poses.begin()) - (first == poses.begin() ? 0 : 1),
-          static_cast<std::size_t>(last - poses.begin()) + (last == poses.end() ? 0 : 1)};
+/// The poses [first, last) of a range of times, and one more at each end.
+std::pair<std::size_t, std::size_t> poses_between(const std::vector<double>& t, const TimeRange& range) {
+  const auto after_first = std::upper_bound(t.begin(), t.end(), range.first);
+  const auto not_before_last = std::lower_bound(t.begin(), t.end(), range.last);
+  return {after_first == t.begin() ? 0 : static_cast<std::size_t>(after_first - t.begin()) - 1,
+          not_before_last == t.end() ? t.size() : static_cast<std::size_t>(not_before_last - t.begin()) + 1};
 }
 
 /// The side of the contact points that look from the middle of the motion to the target.
@@ -83,6 +75,9 @@ int machining_contact(const RuledMotion& motion, const RadialFunction& radial, c
 }
 
 void sample_path(const FitJob& job, const FitSearch& search, FitOutcome& outcome) {
+  std::vector<const Target*> targets;
+  for (const TargetGroup& group : search.targets) targets.push_back(group.target.get());
+  const std::vector<TimeRange> used = used_times(search.fit.motions, search.fit.tool, targets, job.tolerance_mm);
   for (std::size_t m = 0; m < search.fit.motions.size(); ++m) {
     const RuledMotion& motion = search.fit.motions[m];
     const TargetGroup& group = search.targets[search.group_of_motion[m]];
@@ -93,7 +88,7 @@ void sample_path(const FitJob& job, const FitSearch& search, FitOutcome& outcome
     Strip strip;
     strip.id = static_cast<int>(m) + 1;
     strip.face = group.faces;
-    const auto [first, last] = touching_poses(sampled.poses, *group.target, motion.axis_length);
+    const auto [first, last] = poses_between(sampled.t, used[m]);
     strip.poses.assign(sampled.poses.begin() + static_cast<std::ptrdiff_t>(first),
                        sampled.poses.begin() + static_cast<std::ptrdiff_t>(last));
     outcome.strip_surfaces.push_back(strip_surface({strip.id, motion, sampled.t[first], sampled.t[last - 1],
