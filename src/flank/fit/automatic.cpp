@@ -43,19 +43,24 @@ std::vector<RuledStart> enumerate_starts(const ToolModel& tool, const RadiusBoun
   return starts;
 }
 
-/// The same beside walls: the tips on the spine of the ball that rolls along target and wall.
+/// The motions of a start beside walls: the tips on the spine of the ball that rolls along target and wall. None where
+/// no wall is in the way of the lines.
 std::vector<FitTask> make_clear_tasks(const Target& target, const Chart& chart, const RuledStart& start, int strips,
                                       std::optional<double> axis_length, const FlankChecks& checks) {
+  constexpr int kFewBlocked = kStartTimes / 4;  // where a wall only grazes the lines, the fit does better than a cut
   std::vector<ClearStart> bands;
   double length = 0.0;
+  bool blocked = false;
   for (int k = 0; k < strips; ++k) {
     RuledStart band = start;
     band.band_low = static_cast<double>(k) / strips;
     band.band_high = static_cast<double>(k + 1) / strips;
     ClearStart clear = clear_start(chart, band, checks);
     length = std::max(length, 1.03 * clear.longest_mm);
+    blocked = blocked || clear.blocked_lines > kFewBlocked || clear.free_lines < kStartTimes - kFewBlocked;
     if (clear.free_lines > 0) bands.push_back(std::move(clear));
   }
+  if (!blocked) return {};
   if (axis_length) length = *axis_length;
   std::vector<FitTask> tasks;
   for (const ClearStart& band : bands) tasks.push_back({&target, make_motion(band, length, 12), &checks});
@@ -65,7 +70,10 @@ std::vector<FitTask> make_clear_tasks(const Target& target, const Chart& chart, 
 /// The motions of a start, one a strip, bands side by side.
 std::vector<FitTask> make_tasks(const Target& target, const Chart& chart, const RuledStart& start, int strips,
                                 std::optional<double> axis_length, const FlankChecks* checks) {
-  if (checks != nullptr) return make_clear_tasks(target, chart, start, strips, axis_length, *checks);
+  if (checks != nullptr) {
+    std::vector<FitTask> tasks = make_clear_tasks(target, chart, start, strips, axis_length, *checks);
+    if (!tasks.empty()) return tasks;
+  }
   std::vector<RuledStart> bands;
   double length = 0.0;
   for (int k = 0; k < strips; ++k) {
@@ -77,7 +85,7 @@ std::vector<FitTask> make_tasks(const Target& target, const Chart& chart, const 
   }
   if (axis_length) length = *axis_length;
   std::vector<FitTask> tasks;
-  for (const RuledStart& band : bands) tasks.push_back({&target, make_motion(chart, band, length, 12)});
+  for (const RuledStart& band : bands) tasks.push_back({&target, make_motion(chart, band, length, 12), checks});
   return tasks;
 }
 
@@ -129,6 +137,7 @@ FlankFitResult fit_automatic(const Target& target, const ToolModel& tool, const 
   result.candidates = static_cast<int>(candidates.size());
   progress.step("starts", 0.0);
   parallel_for(candidates.size(), [&](std::size_t k) { quick_fit(candidates[k], target, chart, tool, options, few); });
+  std::erase_if(candidates, [](const Candidate& candidate) { return candidate.draft.motions.empty(); });
   sort_by_score(candidates);
   if (candidates.empty() || candidates.front().score <= 0.0) {
     result.status = FitStatus::kNoStart;

@@ -154,8 +154,12 @@ Polished polish(const FitDraft& draft, const std::vector<SurfaceSample>& samples
 Polished last_passes(const Polished& polished, const std::vector<SurfaceSample>& samples,
                      const FlankFitOptions& options, std::vector<IterationTrace>* trace) {
   /// An exact fit with more overcut than this share of the tolerance is shifted down to it; its last digits stay.
-  constexpr double kExactOvercut = 0.1;
-  if (polished.exact) {
+  constexpr double kExactOvercut = 0.1, kExactCovers = 0.9995;
+  // An exact fit has its residuals at the axis, and beside a wall some of the face may lie past the axis' end: the
+  // passes below see it.
+  const bool short_of_face = polished.estimate.at_tolerance < kExactCovers && !polished.draft.checks.empty() &&
+                             polished.draft.checks.front() != nullptr;
+  if (polished.exact && !short_of_face) {
     const double by = polished.estimate.overcut_mm - kExactOvercut * options.tolerance_mm;
     if (!polished.draft.free_tool || by <= 0.0) return polished;
     Polished lower = shifted_by(polished.draft, by, samples, options);
@@ -175,7 +179,13 @@ Polished settled(const Polished& polished, const FlankFitOptions& options) {
     samples.insert(samples.end(), more.begin(), more.end());
   }
   const Polished again = assess(polished.draft, samples, options);
-  return again.estimate.overcut_mm > options.tolerance_mm ? shifted(again, samples, options) : again;
+  if (again.estimate.overcut_mm > options.tolerance_mm) return shifted(again, samples, options);
+  // Between these samples, too, nothing may be cut deeper than the tolerance: a little room, where it costs little.
+  constexpr double kRoom = 0.06, kCost = 0.005;
+  const double by = again.estimate.overcut_mm - (1.0 - kRoom) * options.tolerance_mm;
+  if (!again.draft.free_tool || by <= 0.0) return again;
+  Polished lower = shifted_by(again.draft, by, samples, options);
+  return lower.estimate.at_tolerance >= again.estimate.at_tolerance - kCost ? lower : again;
 }
 
 FlankFitResult finish(const Polished& polished, const FlankFitOptions& options, FlankFitResult result) {

@@ -17,11 +17,15 @@ struct Pass {
   double dead_zone, fairness, anchor;
   int control_points, coefficients, iterations, points_per_side;
 };
-constexpr std::array<Pass, 5> kPasses = {{{0.6, 1e-5, 1e-2, 32, 16, 12, 25},
-                                          {0.6, 1e-6, 1e-7, 48, 24, 40, 30},
-                                          {0.6, 1e-6, 1e-7, 48, 24, 15, 50},
-                                          {0.3, 1e-6, 1e-7, 48, 24, 15, 50},
-                                          {0.0, 1e-6, 1e-7, 48, 24, 12, 50}}};
+constexpr double kFair = 1e-3, kSoft = 1e-6;
+constexpr std::array<Pass, 6> kPasses = {{{0.6, kFair, 1e-2, 32, 16, 12, 25},
+                                          {0.6, kFair, 1e-7, 48, 24, 25, 30},
+                                          {0.6, kSoft, 1e-7, 48, 24, 40, 30},
+                                          {0.6, kSoft, 1e-7, 48, 24, 15, 50},
+                                          {0.3, kSoft, 1e-7, 48, 24, 15, 50},
+                                          {0.0, kSoft, 1e-7, 48, 24, 12, 50}}};
+/// Where rails that are fair cover this much, none are made softer: a machine runs them better.
+constexpr double kFairCovers = 0.998;
 /// Where less is covered, the pass without a dead zone is left out.
 constexpr double kCovered = 0.995;
 /// Overcut below this share of the diagonal is settled: the constrained pass would not improve it.
@@ -93,13 +97,18 @@ FitDraft run_swept(const FitDraft& draft, const RadiusBounds& bounds, const FitS
 Polished swept_polish(const Polished& polished, const std::vector<SurfaceSample>& samples,
                       const FlankFitOptions& options, std::vector<IterationTrace>* trace) {
   Polished best = polished;
-  for (const Pass& pass : kPasses) {
+  bool fair = false;
+  for (Pass pass : kPasses) {
+    if (pass.fairness == kSoft && fair) pass.fairness = kFair;
     // The last one lowers what is left of the mean where nothing more is to be covered.
     if (pass.dead_zone == 0.0 && best.estimate.at_tolerance < kCovered) continue;
     const std::vector<FacePoint> points = target_points(best.draft, pass.points_per_side, reach_of(options));
     Polished trial =
         assess(run_swept(best.draft, options.bounds, swept_stage(pass, options), points, trace), samples, options);
     if (trial.estimate.score(options.tolerance_mm) > best.estimate.score(options.tolerance_mm)) best = std::move(trial);
+    const CoverageEstimate& now = best.estimate;
+    if (pass.fairness == kFair)
+      fair = now.at_tolerance >= kFairCovers && std::max(now.overcut_mm, now.gouge_mm) <= options.tolerance_mm;
   }
   return best;
 }

@@ -34,8 +34,8 @@ std::vector<TimeRange> used_times(const std::vector<RuledMotion>& motions, const
     contacts[k] = swept.nearest(places[k]);
     if (std::abs(contacts[k].f) > 2.0 * tolerance_mm) return;
     const int motion = contacts[k].motion;
-    contacts[k] = refine_contact(motions[static_cast<std::size_t>(motion)], tool, places[k], contacts[k].t,
-                                 swept.spacing());
+    contacts[k] =
+        refine_contact(motions[static_cast<std::size_t>(motion)], tool, places[k], contacts[k].t, swept.spacing());
     contacts[k].motion = motion;
   });
   std::vector<TimeRange> ranges(motions.size(), {2.0, -1.0});

@@ -12,10 +12,11 @@ constexpr double kOverrun = 0.03;  ///< a free end is passed by this share of th
 
 using Line = ClearStart::Line;
 
-/// Distance of the ball on a line to the walls; also a bound of how far along the line nothing changes.
+/// Distance of the ball on a line to the walls; also a bound of how far along the line nothing changes. A ball on the
+/// border of the target touches what begins there, and the chart is good to a few hundredths of a radius: as good as free.
 double gap_at(const AxisLine& axis, double sigma, double radius, const FlankChecks& checks) {
-  constexpr double kSight = 4.0;  ///< radii
-  return checks.at(axis.middle + sigma * axis.direction, kSight * radius).distance_mm - radius;
+  constexpr double kSight = 4.0, kGood = 0.995;  ///< radii
+  return checks.at(axis.middle + sigma * axis.direction, kSight * radius).distance_mm - kGood * radius;
 }
 
 /// Where between a free and a blocked place the ball touches.
@@ -129,6 +130,7 @@ ClearStart clear_start(const Chart& chart, const RuledStart& start, const FlankC
     if (!line.free) continue;
     clear.longest_mm = std::max(clear.longest_mm, line.high - line.low);
     ++clear.free_lines;
+    if (line.low_blocked || line.high_blocked) ++clear.blocked_lines;
   }
   fill(clear.lines);
   return clear;

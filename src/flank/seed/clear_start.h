@@ -20,6 +20,7 @@ struct ClearStart {
   std::vector<Line> lines;  ///< at kStartTimes times
   double longest_mm = 0.0;  ///< free stretch
   int free_lines = 0;
+  int blocked_lines = 0;  ///< lines with a wall at an end
 };
 
 [[nodiscard]] ClearStart clear_start(const Chart& chart, const RuledStart& start, const FlankChecks& checks);
