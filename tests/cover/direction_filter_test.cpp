@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdio>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -37,20 +37,23 @@ double shifted_error(const std::function<double(const Vec3&)>& distance, const R
   return 0.5 * (high - low);
 }
 
-/// A cylinder beside a big ellipsoid: the error foretold is the error found, to the curvature's change over the line.
+/// A cylinder and a cone beside a big ellipsoid: the error foretold is the error found, to the curvature's change over
+/// the line.
 TEST(DirectionFilter, ForetellsTheErrorOfAClampedLine) {
   const testing::Shape shape = testing::ellipsoid_shape(Vec3(50.0, 50.0, 4000.0));
-  const RadialFunction cylinder(ToolFamily::kCylinder, 30.0, Eigen::VectorXd::Constant(1, 6.0));
   const Footpoint foot = testing::shape_foot(shape, 0.3, 0.0);
-  const CandidateDirections found = candidate_directions(foot, cylinder.at(15.0), {0.01, 30.0, 3.0});
-  ASSERT_EQ(found.candidate, Candidate::kNear);
-  ASSERT_EQ(found.count, 2);
-  for (const Vec3& u : found.all()) {
-    const Pose axis = contact_axis(foot, 6.0, 15.0, u);
-    const double error =
-        shifted_error([&](const Vec3& p) { return testing::shape_distance(shape, p, 0.3, 0.0); }, cylinder, axis);
-    EXPECT_NEAR(error / found.error_mm, 1.0, 1e-3);
-    EXPECT_LT((axis.at(15.0) - foot.point - 6.0 * foot.normal).norm(), 1e-13);
+  for (const double slope : {0.0, 0.3}) {
+    const RadialFunction radial(ToolFamily::kCone, 30.0, Eigen::Vector2d(9.0 - 15.0 * slope, std::asin(slope)));
+    const CandidateDirections found = candidate_directions(foot, radial.at(15.0), {0.01, 30.0, 3.0});
+    ASSERT_EQ(found.candidate, Candidate::kNear);
+    ASSERT_EQ(found.count, 2);
+    for (const Vec3& u : found.all()) {
+      const Pose axis = contact_axis(foot, 9.0, 15.0, u);
+      const double error =
+          shifted_error([&](const Vec3& p) { return testing::shape_distance(shape, p, 0.3, 0.0); }, radial, axis);
+      EXPECT_NEAR(error / found.error_mm, 1.0, 1e-3) << "slope " << slope;
+      EXPECT_LT((axis.at(15.0) - foot.point - 9.0 * foot.normal).norm(), 1e-13);
+    }
   }
 }
 
@@ -108,41 +111,50 @@ TEST(DirectionFilter, KeepsEveryPairOfAnExactEnvelope) {
   EXPECT_EQ(kept, pairs);
 }
 
-/// The count of paper B's figure 6, and what the tolerance changes about it.
-struct Counted {
-  std::string side;
-  RadialFunction radial;
-  double tolerance_mm;
-};
-
-SearchSpace count(const Counted& row) {
-  const std::unique_ptr<Target> target = example_side(row.side);
+/// The count of paper B's figure 6: over all footpoints of a side and 30 spheres.
+SearchSpace count(const std::string& side, const RadialFunction& radial, double tolerance_mm) {
+  const std::unique_ptr<Target> target = example_side(side);
   DirectionFilterOptions options;
-  options.tolerance_mm = row.tolerance_mm;
-  const SearchSpace space = count_search_space(feet_of(*target, 2.0), row.radial, 30, options);
+  options.tolerance_mm = tolerance_mm;
+  const std::vector<Footpoint> feet = feet_of(*target, 3.0);
+  const SearchSpace space = count_search_space(feet, radial, 30, options);
+  EXPECT_EQ(space.pairs, 30 * static_cast<long>(feet.size()));
   EXPECT_EQ(space.real + space.near + space.rejected, space.pairs);
-  std::printf("%-16s tol %-7g pairs %7ld real %5.1f %% near %5.1f %% removed %5.1f %% (gouging %5.1f %%)\n",
-              row.side.c_str(), row.tolerance_mm, space.pairs, 100.0 * double(space.real) / double(space.pairs),
-              100.0 * double(space.near) / double(space.pairs), 100.0 * space.removed_by_filter(),
-              100.0 * double(space.gouging) / double(space.pairs));
   return space;
 }
 
-TEST(DirectionFilter, AConeOnASlightlyEllipticSideIsKept) {
+TEST(DirectionFilter, KeepsAConeOnASlightlyEllipticSide) {
   const RadialFunction cone(ToolFamily::kCone, 40.0, Eigen::Vector2d(5.0, 0.06));
-  const SearchSpace space = count({"elliptic-side", cone, 0.01});
-  EXPECT_EQ(space.real, 0);
-  EXPECT_EQ(space.near, space.pairs);
-  EXPECT_EQ(count({"elliptic-side", cone, 1e-3}).rejected, space.pairs);
+  const SearchSpace space = count("elliptic-side", cone, 0.01);
+  EXPECT_EQ(space.removed_by_real_roots(), 1.0);
+  EXPECT_EQ(space.removed_by_filter(), 0.0);
+  EXPECT_EQ(count("elliptic-side", cone, 1e-3).removed_by_filter(), 1.0);
 }
 
-TEST(DirectionFilter, CountsOnBlades) {
-  const RadialFunction cylinder(ToolFamily::kCylinder, 30.0, Eigen::VectorXd::Constant(1, 5.0));
+/// A barrel of arc 250 on the convex side of a blade: real roots leave a quarter, a tolerance of 0.05 mm most.
+TEST(DirectionFilter, RemovesLessWhereTheToleranceIsWide) {
+  const RadialFunction barrel(ToolFamily::kBarrel, 30.0, Eigen::Vector3d(250.0, 5.0, 15.0));
+  const SearchSpace wide = count("twisted-blade", barrel, 0.05), narrow = count("twisted-blade", barrel, 0.01);
+  EXPECT_EQ(wide.real, narrow.real);
+  EXPECT_NEAR(wide.removed_by_real_roots(), 0.75, 0.02);
+  EXPECT_NEAR(wide.removed_by_filter(), 0.15, 0.02);
+  EXPECT_NEAR(narrow.removed_by_filter(), 0.65, 0.02);
+}
+
+TEST(DirectionFilter, RemovesAToolOfTheWrongBend) {
   const RadialFunction barrel(ToolFamily::kBarrel, 30.0, Eigen::Vector3d(85.0, 5.0, 15.0));
-  const RadialFunction hollow(ToolFamily::kHyperbolic, 30.0, Eigen::Vector3d(5.0, 0.0, 2e-3));
-  for (const std::string side : {"twisted-blade", "ruled-blade"})
-    for (const RadialFunction& radial : {cylinder, barrel, hollow})
-      for (const double tolerance : {0.05, 0.01}) count({side, radial, tolerance});
+  const SearchSpace space = count("twisted-blade", barrel, 0.01);
+  EXPECT_EQ(space.rejected, space.pairs);
+  EXPECT_EQ(space.gouging, 0);
+}
+
+TEST(DirectionFilter, CountsSpheresThatAreTooLarge) {
+  Footpoint groove;
+  groove.k2 = 0.25;
+  const RadialFunction cylinder(ToolFamily::kCylinder, 30.0, Eigen::VectorXd::Constant(1, 5.0));
+  const SearchSpace space = count_search_space(std::vector<Footpoint>{groove}, cylinder, 7, {});
+  EXPECT_EQ(space.pairs, 7);
+  EXPECT_EQ(space.gouging, 7);
 }
 
 }  // namespace
