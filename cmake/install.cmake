@@ -10,6 +10,7 @@ endif()
 # Headers that show another library than Eigen are named for it (tests/layers) and stay here.
 install(DIRECTORY src/flank DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h"
         REGEX "(occt|json)[^/]*\\.h$" EXCLUDE)
+install(DIRECTORY share/catalogue DESTINATION ${CMAKE_INSTALL_DATADIR}/openflank)
 install(FILES LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 install(EXPORT OpenFlankTargets NAMESPACE OpenFlank:: DESTINATION ${FLANK_CMAKE_DIR})

@@ -8,6 +8,10 @@ endfunction()
 
 file(REMOVE_RECURSE ${WORK_DIR})
 run(${CMAKE_COMMAND} --install ${FLANK_BUILD_DIR} --prefix ${WORK_DIR}/prefix)
+file(GLOB catalogue ${WORK_DIR}/prefix/share/openflank/catalogue/*.json)
+if(NOT catalogue)
+  message(FATAL_ERROR "the tool catalogue is not installed")
+endif()
 run(${CMAKE_COMMAND} -G Ninja -S ${CONSUMER_DIR} -B ${WORK_DIR}/build -D CMAKE_CXX_COMPILER=${CXX}
     -D CMAKE_PREFIX_PATH=${WORK_DIR}/prefix -D WANTED_VERSION=${FLANK_VERSION})
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
