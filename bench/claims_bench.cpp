@@ -38,6 +38,7 @@ int main(int argc, char** argv) {
   add_mesh_claims(claims);
   add_given_tool_claims(claims);
   add_part_claims(claims);
+  add_avoidance_claims(claims);
   add_judge_claims(claims);
   bool all = true;
   for (const Claim& claim : claims) {

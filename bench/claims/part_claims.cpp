@@ -25,6 +25,7 @@ FitJob job_of(const PartCase& c) {
   job.radius_min_mm = c.radius_min;
   job.radius_max_mm = c.radius_max;
   job.strips = c.strips;
+  job.avoid = false;  // the face alone: what its neighbours allow is in avoidance_claims
   return job;
 }
 
