@@ -18,20 +18,6 @@
 namespace flank {
 namespace {
 
-class Stopwatch {
- public:
-  explicit Stopwatch(FitOutcome& outcome) : outcome_(outcome) {}
-  void lap(const std::string& stage) {
-    const auto now = std::chrono::steady_clock::now();
-    outcome_.seconds.emplace_back(stage, std::chrono::duration<double>(now - last_).count());
-    last_ = now;
-  }
-
- private:
-  FitOutcome& outcome_;
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
 void require(bool holds, const std::string& message) {
   if (!holds) throw UsageError(message);
 }
@@ -73,27 +59,50 @@ std::vector<Pose> touching_poses(const std::vector<Pose>& poses, const Target& t
 }
 
 void sample_path(const FitJob& job, const FitSearch& search, FitOutcome& outcome) {
-  for (std::size_t m = 0; m < search.fit.motions.size(); ++m) {
-    const RuledMotion& motion = search.fit.motions[m];
-    const TargetGroup& group = search.targets[search.group_of_motion[m]];
-    SamplingOptions options;
-    options.chord_tolerance_mm = 0.02 * job.tolerance_mm;
-    const SampledMotion sampled = sample_motion(motion, options);
-    outcome.chord_bound_mm = std::max(outcome.chord_bound_mm, sampled.chord_bound_mm);
-    Strip strip;
-    strip.id = static_cast<int>(m) + 1;
-    strip.face = group.faces;
-    strip.poses = touching_poses(sampled.poses, *group.target, motion.axis_length);
-    outcome.path.strips.push_back(std::move(strip));
-    const Regularity regular = regularity(motion, search.fit.tool, 200, 40);
-    outcome.largest_c = std::max(outcome.largest_c, regular.largest_c);
-  }
+  for (std::size_t m = 0; m < search.fit.motions.size(); ++m)
+    add_strip(job, search.fit.motions[m], search.targets[search.group_of_motion[m]], outcome);
 }
 
 }  // namespace
 
+void Stopwatch::lap(const std::string& stage) {
+  const auto now = std::chrono::steady_clock::now();
+  outcome_.seconds.emplace_back(stage, std::chrono::duration<double>(now - last_).count());
+  last_ = now;
+}
+
+void add_strip(const FitJob& job, const RuledMotion& motion, const TargetGroup& group, FitOutcome& outcome) {
+  SamplingOptions options;
+  options.chord_tolerance_mm = 0.02 * job.tolerance_mm;
+  const SampledMotion sampled = sample_motion(motion, options);
+  outcome.chord_bound_mm = std::max(outcome.chord_bound_mm, sampled.chord_bound_mm);
+  Strip strip;
+  strip.id = static_cast<int>(outcome.path.strips.size()) + 1;
+  strip.face = group.faces;
+  strip.poses = touching_poses(sampled.poses, *group.target, motion.axis_length);
+  outcome.path.strips.push_back(std::move(strip));
+  const Regularity regular = regularity(motion, outcome.tool.radial, 200, 40);
+  outcome.largest_c = std::max(outcome.largest_c, regular.largest_c);
+}
+
+void judge_outcome(const FitJob& job, const Part& part, const std::vector<int>& faces, FitOutcome& outcome,
+                   Stopwatch& watch) {
+  const double spacing = job.sample_mm.value_or(default_spacing(part.box.diagonal()));
+  JudgeOptions options;
+  options.tolerance_mm = job.tolerance_mm;
+  outcome.verify = judge(outcome.tool, outcome.path, judge_samples(part, faces, spacing, 2.0 * spacing), options);
+  watch.lap("verify");
+  outcome.verify.clearance = measure_clearance(job.clearance, outcome.tool, outcome.path, part, faces, job.unit,
+                                               job.tolerance_mm, outcome.notes);
+  watch.lap("clearance");
+  outcome.view = view_to_json(make_view(job, part, faces, outcome.tool, outcome.path, outcome.verify));
+  watch.lap("view");
+}
+
 int FitOutcome::exit_code(const FitJob& job) const {
-  const bool done = complete && verify.overcut_mm <= job.tolerance_mm && verify.coverage >= job.least_coverage &&
+  // A given tool has nothing to blame: its strips keep clear of every face of the part.
+  const bool clean = job.command != "cover" || verify.gouge_mm <= job.tolerance_mm;
+  const bool done = complete && clean && verify.overcut_mm <= job.tolerance_mm && verify.coverage >= job.least_coverage &&
                     verify.clearance.kept() && check_legitimacy(tool.radial).legitimate;
   return done ? 0 : 1;
 }
@@ -133,16 +142,7 @@ FitOutcome run_fit(const FitJob& job, const Progress& progress) {
   watch.lap("sample");
 
   progress.step("verify", 0.9);
-  const double spacing = job.sample_mm.value_or(default_spacing(part.box.diagonal()));
-  JudgeOptions options;
-  options.tolerance_mm = job.tolerance_mm;
-  outcome.verify = judge(outcome.tool, outcome.path, judge_samples(part, faces, spacing, 2.0 * spacing), options);
-  watch.lap("verify");
-  outcome.verify.clearance = measure_clearance(job.clearance, outcome.tool, outcome.path, part, faces, job.unit,
-                                               job.tolerance_mm, outcome.notes);
-  watch.lap("clearance");
-  outcome.view = view_to_json(make_view(job, part, faces, outcome.tool, outcome.path, outcome.verify));
-  watch.lap("view");
+  judge_outcome(job, part, faces, outcome, watch);
   return outcome;
 }
 

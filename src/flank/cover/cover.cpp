@@ -1,0 +1,98 @@
+#include "flank/cover/cover.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "flank/cover/order.h"
+#include "flank/cover/reasons.h"
+#include "flank/cover/smooth.h"
+
+namespace flank {
+namespace {
+
+constexpr double kFloorShare = 0.8;  ///< of the tolerance: how deep a pose may enter another face
+
+class Stopwatch {
+ public:
+  explicit Stopwatch(CoverResult& result) : result_(result) {}
+  void lap(const char* stage) {
+    const auto now = std::chrono::steady_clock::now();
+    result_.seconds.emplace_back(stage, std::chrono::duration<double>(now - last_).count());
+    last_ = now;
+  }
+
+ private:
+  CoverResult& result_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+bool has_checks(const Tool& tool, std::span<const CheckSurface> checks) {
+  const bool above = !tool.shank.empty() || !tool.holder.empty();
+  return std::any_of(checks.begin(), checks.end(), [&](const CheckSurface& c) { return above || !c.flank_may_touch; });
+}
+
+double overlap_of(const CoverSamples& samples, const std::vector<CoverStrip>& strips) {
+  double sum = 0.0;
+  for (const CoverStrip& strip : strips) sum += strip.area;
+  const double covered = covered_share(samples, strips) * samples.area;
+  return covered > 0.0 ? sum / covered - 1.0 : 0.0;
+}
+
+}  // namespace
+
+CoverResult cover(const Target& target, const Tool& tool, std::span<const CheckSurface> checks,
+                  const CoverOptions& options, const Progress& progress) {
+  CoverResult result;
+  Stopwatch watch(result);
+  progress.step("samples", 0.05);
+  const CoverSamples samples = cover_samples(target, options.sample_share * std::sqrt(target.area()));
+  const PoseChecker checker(tool, checks);
+  LineGuard guard;
+  guard.floor_mm = -kFloorShare * options.tolerance_mm;
+  if (has_checks(tool, checks)) guard.checker = &checker;
+  const TileScene scene{target, tool.radial, samples, guard, options};
+  watch.lap("samples");
+
+  progress.step("grow", 0.1);
+  const std::vector<LineSeed> seeds =
+      options.seeds.empty() ? grid_seeds(target, tool.radial, options.seed_places, options.seed_directions)
+                            : options.seeds;
+  CandidatePool pool = grow_pool(scene, seeds);
+  result.seeds = static_cast<int>(seeds.size());
+  result.lines = pool.lines;
+  watch.lap("grow");
+  if (pool.strips.empty()) {
+    result.status = pool.lines == 0 ? CoverStatus::kNoLine : CoverStatus::kNoStrip;
+    result.message = reason_of(target, tool.radial, samples, {}, options.tolerance_mm);
+    return result;
+  }
+
+  progress.step("tile", 0.35);
+  const StripSet set = choose_set(scene, pool.strips);
+  result.grown = static_cast<int>(pool.strips.size());
+  std::vector<CoverStrip> strips;
+  for (const int k : set) strips.push_back(pool.strips[static_cast<std::size_t>(k)]);
+  result.coverage_before = covered_share(samples, strips);
+  watch.lap("tile");
+
+  progress.step("smooth", 0.55);
+  if (options.smooth && !progress.stop()) strips = smooth_strips(scene, checks, strips).strips;
+  watch.lap("smooth");
+
+  result.status = CoverStatus::kCovered;
+  result.coverage = covered_share(samples, strips);
+  result.overlap = overlap_of(samples, strips);
+  for (const CoverStrip& strip : strips) {
+    result.overcut_mm = std::max(result.overcut_mm, strip.overcut_mm);
+    result.motions.push_back(strip.motion);
+  }
+  result.motions = ordered(result.motions);
+  result.message = reason_of(target, tool.radial, samples, strips, options.tolerance_mm);
+  watch.lap("order");
+  return result;
+}
+
+}  // namespace flank

@@ -1,0 +1,170 @@
+#include "flank/cover/line_fit.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "flank/seed/movability.h"
+
+namespace flank {
+namespace {
+
+constexpr int kLawsonSteps = 14;
+/// Errors beyond this share of the tolerance are evened out by Lawson's weights; below it least squares is as good.
+constexpr double kLawsonFrom = 0.4;
+constexpr double kHeld = 1e9;  ///< weight of a coordinate that is not to change
+/// A step moves no end by more than this share of the axis: the distances are not linear over more.
+constexpr double kLongestStep = 0.15;
+constexpr double kSettled = 1e-3;  ///< a step below this share of the tolerance ends the iteration
+
+}  // namespace
+
+LineFitter::LineFitter(const Target& target, const RadialFunction& radial, const LineFitOptions& options)
+    : target_(target), length_(radial.axis_length()), options_(options) {
+  const auto n = static_cast<std::size_t>(options.samples);
+  for (std::size_t j = 0; j < n; ++j) {
+    s_.push_back(length_ * static_cast<double>(j) / (static_cast<double>(n) - 1.0));
+    radius_.push_back(radial.at(s_.back()).r);
+  }
+  feet_.resize(n);
+  rows_.resize(n);
+  errors_.resize(n);
+  weights_.resize(n);
+  base_weights_.resize(n);
+}
+
+void LineFitter::forget() { std::fill(feet_.begin(), feet_.end(), Footpoint{}); }
+
+void LineFitter::set_feet(std::span<const Footpoint> feet) { std::copy(feet.begin(), feet.end(), feet_.begin()); }
+
+LineFit LineFitter::measure(const Pose& pose) {
+  track_axis(target_, pose, length_, feet_);
+  LineFit fit;
+  fit.pose = pose;
+  double largest = 0.0;
+  std::size_t inside = 0;
+  for (std::size_t j = 0; j < feet_.size(); ++j) {
+    errors_[j] = feet_[j].distance - radius_[j];
+    if (feet_[j].location != Location::kInside) continue;
+    ++inside;
+    largest = std::max(largest, std::abs(errors_[j]));
+  }
+  if (inside > 0) fit.largest_mm = largest;
+  fit.inside_share = static_cast<double>(inside) / static_cast<double>(feet_.size());
+  return fit;
+}
+
+double LineFitter::overcut(const Pose& pose) const {
+  double worst = -1e300;
+  for (std::size_t j = 0; j < feet_.size(); ++j) {
+    const bool inside = feet_[j].location == Location::kInside;
+    // The nearest point of the border is never nearer than the footpoint on the extension where that bends away from
+    // nothing; asking is dear, so only samples that come near are asked.
+    const double distance = inside ? feet_[j].distance : target_.closest(pose.at(s_[j])).distance;
+    worst = std::max(worst, radius_[j] - (inside ? distance : std::abs(distance)));
+  }
+  return worst;
+}
+
+LineFitter::Frame LineFitter::frame_of(const Pose& pose, const Vec3& travel) const {
+  Vec3 e1 = travel - travel.dot(pose.axis) * pose.axis;
+  if (e1.norm() < 1e-9) e1 = pose.axis.unitOrthogonal();
+  e1.normalize();
+  return {e1, pose.axis.cross(e1), pose.axis};
+}
+
+Pose LineFitter::moved(const Pose& pose, const Frame& frame, const Vec5& x) const {
+  const Vec3 middle = pose.at(0.5 * length_) + x[0] * frame.e1 + x[1] * frame.e2 + x[2] * frame.u;
+  const Vec3 axis = (pose.axis + (2.0 / length_) * (x[3] * frame.e1 + x[4] * frame.e2)).normalized();
+  return {middle - 0.5 * length_ * axis, axis};
+}
+
+void LineFitter::linearise(const Frame& frame) {
+  for (std::size_t j = 0; j < feet_.size(); ++j) {
+    const Vec3& n = feet_[j].normal;
+    const double rho = 2.0 * s_[j] / length_ - 1.0, a = n.dot(frame.e1), b = n.dot(frame.e2);
+    rows_[j] << a, b, n.dot(frame.u), rho * a, rho * b;
+  }
+}
+
+void LineFitter::load_weights() {
+  double sum = 0.0;
+  for (std::size_t j = 0; j < feet_.size(); ++j) sum += base_weights_[j] = footpoint_weight(feet_[j].location);
+  if (sum > 0.0)
+    for (double& w : base_weights_) w /= sum;
+  weights_ = base_weights_;
+}
+
+LineFitter::Vec5 LineFitter::solve(const Vec5& stay, const Vec5& offset) const {
+  Mat5 normal = stay.asDiagonal();
+  Vec5 rhs = -stay.cwiseProduct(offset);
+  for (std::size_t j = 0; j < rows_.size(); ++j) {
+    normal.noalias() += weights_[j] * rows_[j] * rows_[j].transpose();
+    rhs -= weights_[j] * errors_[j] * rows_[j];
+  }
+  return normal.ldlt().solve(rhs);
+}
+
+LineFitter::Vec5 LineFitter::best_step(const Vec5& stay, const Vec5& offset) {
+  load_weights();
+  const auto largest = [&](const Vec5& x) {
+    double worst = 0.0;
+    for (std::size_t j = 0; j < rows_.size(); ++j)
+      if (feet_[j].location == Location::kInside) worst = std::max(worst, std::abs(errors_[j] + rows_[j].dot(x)));
+    return worst;
+  };
+  Vec5 best = solve(stay, offset);
+  double least = largest(best);
+  if (least < kLawsonFrom * options_.tolerance_mm) return best;
+  Vec5 x = best;
+  for (int k = 0; k < kLawsonSteps; ++k) {
+    double worst = 1e-300, sum = 0.0;
+    for (std::size_t j = 0; j < rows_.size(); ++j) worst = std::max(worst, std::abs(errors_[j] + rows_[j].dot(x)));
+    for (std::size_t j = 0; j < rows_.size(); ++j) {
+      const bool inside = feet_[j].location == Location::kInside;
+      if (inside) weights_[j] *= std::abs(errors_[j] + rows_[j].dot(x)) / worst + 1e-3;
+      sum += weights_[j];
+    }
+    if (!(sum > 0.0)) break;
+    for (double& w : weights_) w /= sum;
+    x = solve(stay, offset);
+    const double now = largest(x);
+    if (now < least) {
+      least = now;
+      best = x;
+    }
+  }
+  return best;
+}
+
+LineFit LineFitter::refine(const Pose& start, const LineHold& hold) {
+  const auto stay_of = [&](double share) { return std::pow(4.0 * share * options_.tolerance_mm / length_, 2); };
+  Vec5 stay = Vec5::Constant(stay_of(options_.stay_share));
+  if (hold.slide_share > 0.0) stay[2] = stay_of(hold.slide_share);
+  if (hold.travel.norm() > 0.0) stay[0] = kHeld;
+  LineFit best = measure(start);
+  if (!best.touches()) return best;
+  const Frame frame = frame_of(start, hold.travel);
+  Vec5 offset = Vec5::Zero();
+  for (int k = 0; k < options_.steps; ++k) {
+    best_feet_ = feet_;
+    linearise(frame);
+    Vec5 x = best_step(stay, offset);
+    const double longest = kLongestStep * length_, size = x.cwiseAbs().maxCoeff();
+    if (size > longest) x *= longest / size;
+    const LineFit trial = measure(moved(best.pose, frame, x));
+    const bool better = trial.touches() && trial.largest_mm < best.largest_mm;
+    const bool lost = !trial.touches() || trial.largest_mm > 2.0 * best.largest_mm + options_.tolerance_mm;
+    if (!better && (lost || k > 0)) {
+      feet_ = best_feet_;
+      return best;
+    }
+    const double gained = best.largest_mm - trial.largest_mm;
+    best = trial;
+    offset += x;
+    if (size < kSettled * options_.tolerance_mm || (k > 0 && gained < 0.01 * best.largest_mm)) break;
+  }
+  return best;
+}
+
+}  // namespace flank

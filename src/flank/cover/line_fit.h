@@ -1,0 +1,86 @@
+/// REFINE (MATH section 8): the line near a given one along which the tool touches the target best, in the sense of the
+/// largest error.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "flank/geom/vec.h"
+#include "flank/surface/target.h"
+#include "flank/tool/radial_function.h"
+
+namespace flank {
+
+struct LineFitOptions {
+  double tolerance_mm = 0.01;
+  int samples = 17;  ///< axis points s_j = L j / (samples - 1)
+  int steps = 8;     ///< of Gauss-Newton; each has the footpoints of all samples once or twice
+  /// Moving an end by a quarter of the axis weighs like an error of this share of the tolerance everywhere: it decides
+  /// what the target leaves open (the slide of a cylinder) and hardly moves what it does not.
+  double stay_share = 0.1;
+};
+
+/// What a correction may not change, and what it is to stay near.
+struct LineHold {
+  Vec3 travel = Vec3::Zero();  ///< the middle of the axis does not move this way; zero: free
+  double slide_share = 0.0;    ///< as stay_share, for the slide along the axis alone; 0: stay_share
+};
+
+/// A line and how well the tool touches there: e_j = d(l(s_j)) - r(s_j), mm, positive where material is left.
+struct LineFit {
+  Pose pose;
+  double largest_mm = 1e300;   ///< |e_j| over the samples whose footpoint is inside the target; 1e300: there is none
+  double inside_share = 0.0;   ///< of the samples
+  [[nodiscard]] bool touches() const { return inside_share > 0.0; }
+};
+
+/// Fits lines one after another; holds the scratch memory, so one per thread.
+class LineFitter {
+ public:
+  LineFitter(const Target& target, const RadialFunction& radial, const LineFitOptions& options);
+
+  /// Forgets the footpoints: the next call starts cold.
+  void forget();
+  /// Takes the footpoints of a line near by as hints.
+  void set_feet(std::span<const Footpoint> feet);
+  [[nodiscard]] std::span<const Footpoint> feet() const { return feet_; }
+
+  /// Errors of a line; its footpoints are in feet() afterwards.
+  [[nodiscard]] LineFit measure(const Pose& pose);
+  /// Gauss-Newton on the five coordinates of a line; each step solves the linearised minimax problem by Lawson's
+  /// weights where the errors come near the tolerance, else least squares. Never worse than `start`. Footpoints of the
+  /// result are in feet().
+  [[nodiscard]] LineFit refine(const Pose& start, const LineHold& hold = {});
+  /// Largest r(s_j) - d of the line last measured, d the distance of the trimmed target itself: also of samples past its
+  /// border, which errors on its extension say nothing about.
+  [[nodiscard]] double overcut(const Pose& pose) const;
+
+  [[nodiscard]] const Target& target() const { return target_; }
+  [[nodiscard]] double axis_length() const { return length_; }
+  [[nodiscard]] const LineFitOptions& options() const { return options_; }
+
+ private:
+  using Vec5 = Eigen::Matrix<double, 5, 1>;
+  using Mat5 = Eigen::Matrix<double, 5, 5>;
+  /// Coordinates of a small motion of the axis, all in mm at its ends: shift along e1, e2 and the axis, turn by e1, e2.
+  struct Frame {
+    Vec3 e1, e2, u;
+  };
+
+  [[nodiscard]] Frame frame_of(const Pose& pose, const Vec3& travel) const;
+  [[nodiscard]] Pose moved(const Pose& pose, const Frame& frame, const Vec5& x) const;
+  void linearise(const Frame& frame);
+  [[nodiscard]] Vec5 solve(const Vec5& stay, const Vec5& offset) const;
+  [[nodiscard]] Vec5 best_step(const Vec5& stay, const Vec5& offset);
+  void load_weights();
+
+  const Target& target_;
+  double length_;
+  LineFitOptions options_;
+  std::vector<double> s_, radius_;
+  std::vector<Footpoint> feet_, best_feet_;
+  std::vector<Vec5> rows_;
+  std::vector<double> errors_, weights_, base_weights_;
+};
+
+}  // namespace flank

@@ -1,0 +1,30 @@
+/// SMOOTH (MATH section 8): the chosen strips as one fit with the given tool (fit/swept_model.h), then certified.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "flank/cover/tile.h"
+
+namespace flank {
+
+/// A set of strips that is free of overcut and of other faces, and its covered share.
+struct SmoothResult {
+  std::vector<CoverStrip> strips;
+  double coverage = 0.0;
+  std::vector<std::string> notes;
+};
+
+/// All strips together are fitted to the target's points; other faces push back where the tool comes near them. Passes
+/// are kept only where the covered share rises; a strip whose certificate fails falls back to the strip that it was.
+[[nodiscard]] SmoothResult smooth_strips(const TileScene& scene, std::span<const CheckSurface> checks,
+                                         const std::vector<CoverStrip>& strips);
+
+/// Covered share of the area.
+[[nodiscard]] double covered_share(const CoverSamples& samples, const std::vector<CoverStrip>& strips);
+
+/// Certificate of a strip: no overcut beyond the tolerance at the samples, clear of other faces from end to end.
+[[nodiscard]] bool certified(const TileScene& scene, const CoverStrip& strip);
+
+}  // namespace flank

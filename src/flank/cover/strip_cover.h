@@ -1,0 +1,43 @@
+/// What one strip machines: the samples of the target that its swept tool leaves within tolerance.
+#pragma once
+
+#include <vector>
+
+#include "flank/motion/ruled_motion.h"
+#include "flank/surface/target.h"
+#include "flank/tool/radial_function.h"
+
+namespace flank {
+
+/// Samples of the target by which strips are measured, chosen and reported.
+struct CoverSamples {
+  std::vector<SurfaceSample> cells;  ///< middles of cells; areas in mm^2
+  std::vector<Vec3> border;          ///< where a tool that runs off the face cuts deepest
+  double area = 0.0;                 ///< sum over the cells
+};
+[[nodiscard]] CoverSamples cover_samples(const Target& target, double spacing_mm);
+
+/// A strip as a motion, measured.
+struct CoverStrip {
+  RuledMotion motion;
+  std::vector<int> cells;   ///< within tolerance, ascending
+  double overcut_mm = 0.0;  ///< max(0, -f) over cells and border
+  double area = 0.0;        ///< mm^2, of `cells`
+};
+
+/// Motion through the poses of a strip, by chord length; at most `control_points` a rail.
+[[nodiscard]] RuledMotion motion_through(const std::vector<Pose>& poses, double axis_length, int control_points);
+
+/// f at the samples by the planner's estimate (swept_estimate.h).
+[[nodiscard]] CoverStrip measure_strip(const CoverSamples& samples, RuledMotion motion, const RadialFunction& radial,
+                                       double tolerance_mm);
+
+/// The part of a motion over [t0, t1], as a motion over [0, 1].
+[[nodiscard]] RuledMotion part_of_motion(const RuledMotion& motion, double t0, double t1);
+
+/// A strip that cuts deeper than the tolerance is cut short: the longest stretch of it that does not remains. No cells
+/// where nothing does.
+[[nodiscard]] CoverStrip without_overcut_stretches(const CoverSamples& samples, CoverStrip strip,
+                                                   const RadialFunction& radial, double tolerance_mm);
+
+}  // namespace flank

@@ -1,0 +1,40 @@
+/// TILE (MATH section 8): candidates for strips, and the set of them that covers most for its price.
+#pragma once
+
+#include <vector>
+
+#include "flank/cover/cover.h"
+#include "flank/cover/grow.h"
+#include "flank/cover/strip_cover.h"
+
+namespace flank {
+
+/// What candidates are grown with; all by reference, for many threads.
+struct TileScene {
+  const Target& target;
+  const RadialFunction& radial;
+  const CoverSamples& samples;
+  const LineGuard& guard;
+  const CoverOptions& options;
+};
+
+struct CandidatePool {
+  std::vector<CoverStrip> strips;
+  int lines = 0;  ///< seeds that refined to within tolerance
+};
+
+/// Strips grown from the seeds, in their order, each clear of other faces and without overcut.
+[[nodiscard]] CandidatePool grow_pool(const TileScene& scene, const std::vector<LineSeed>& seeds);
+
+/// A set of strips: indices into a pool.
+using StripSet = std::vector<int>;
+
+/// What a set is worth: covered share of the area less the price of its strips.
+[[nodiscard]] double set_value(const TileScene& scene, const std::vector<CoverStrip>& pool, const StripSet& set);
+
+/// The best set that was found. Several tilings are tried, each from another first strip: strips that follow the edge
+/// of a chosen one are grown as they are needed and join the pool. Then strips are exchanged one for one, added and
+/// dropped as long as the value rises.
+[[nodiscard]] StripSet choose_set(const TileScene& scene, std::vector<CoverStrip>& pool);
+
+}  // namespace flank

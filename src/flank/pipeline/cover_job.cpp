@@ -1,0 +1,132 @@
+#include "flank/pipeline/cover_job.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "flank/base/error.h"
+#include "flank/cover/order.h"
+#include "flank/pipeline/check_surfaces.h"
+#include "flank/pipeline/targets.h"
+#include "flank/pipeline/tool_command.h"
+
+namespace flank {
+namespace {
+
+void require(bool holds, const std::string& message) {
+  if (!holds) throw UsageError(message);
+}
+
+/// A whole tool: a file, or a family with all its parameters and an axis length.
+Tool tool_of(const FitJob& job) {
+  require(!job.tool.empty(), "--tool: a tool.json, or a family with all its parameters and --axis-length, is needed");
+  const ToolSpec spec = parse_tool_spec(job.tool);
+  if (spec.tool) {
+    require(!job.axis_length_mm, "--axis-length: the tool's file has its length; it goes with a family");
+    const Legitimacy legitimacy = check_legitimacy(spec.tool->radial);
+    require(legitimacy.legitimate, "--tool " + job.tool + ": this is no tool: " + legitimacy.reason);
+    return *spec.tool;
+  }
+  require(!spec.free, "--tool: flank cover takes a given tool; flank fit finds one");
+  require(job.axis_length_mm.has_value(), "--axis-length: a family needs the length of its axis, mm");
+  return make_tool(*spec.family, spec.given, *job.axis_length_mm);
+}
+
+void check_job(const CoverJob& job) {
+  const FitJob& base = job.base;
+  require(base.tolerance_mm > 0.0 && std::isfinite(base.tolerance_mm), "--tolerance: a length > 0 mm is needed");
+  require(base.least_coverage >= 0.0 && base.least_coverage <= 1.0,
+          "--coverage: a share between 0 and 1 is needed");
+  require(job.strategy == "grow", "--strategy " + job.strategy + ": grow is what there is");
+  require(!job.most_strips || (*job.most_strips >= 1 && *job.most_strips <= 200),
+          "--strips: a number from 1 to 200 is needed");
+  require(!job.strip_price || (*job.strip_price >= 0.0 && *job.strip_price < 1.0),
+          "--strip-price: a share from 0 to 1 is needed");
+}
+
+CoverOptions options_of(const CoverJob& job) {
+  CoverOptions options = job.options;
+  options.tolerance_mm = job.base.tolerance_mm;
+  if (job.most_strips) options.most_strips = *job.most_strips;
+  if (job.strip_price) options.strip_price = *job.strip_price;
+  return options;
+}
+
+/// Other faces of the part; for shank and holder the target itself as well.
+std::vector<CheckSurface> checks_of(const Part& part, const std::vector<int>& members, const Target& target,
+                                    const Tool& tool, double tolerance_mm) {
+  double reach = 0.0;
+  for (int j = 0; j <= 16; ++j)
+    reach = std::max(reach, tool.radial.axis_length() + 2.0 * tool.radial.at(tool.radial.axis_length() * j / 16.0).r);
+  for (const auto* profile : {&tool.shank, &tool.holder})
+    for (const Vec2& p : *profile) reach = std::max(reach, p.x() + 2.0 * p.y());
+  std::vector<CheckSurface> checks =
+      other_faces(part, members, target.box(), reach, std::clamp(0.15 * tolerance_mm, 5e-4, 0.02));
+  if (!tool.shank.empty() || !tool.holder.empty())
+    checks.push_back(check_surface(target, std::sqrt(target.area()) / 60.0, true));
+  return checks;
+}
+
+/// Indices of a group's faces among those asked for.
+std::vector<int> members_of(const Part& part, const TargetGroup& group) { return parse_face_list(part, group.faces); }
+
+void keep(const CoverResult& result, const TargetGroup& group, FitOutcome& outcome) {
+  outcome.fit.motions.insert(outcome.fit.motions.end(), result.motions.begin(), result.motions.end());
+  outcome.fit.candidates += result.grown;
+  outcome.fit.before.at_tolerance = result.coverage_before;
+  outcome.fit.after.at_tolerance = result.coverage;
+  outcome.fit.after.overcut_mm = std::max(outcome.fit.after.overcut_mm, result.overcut_mm);
+  outcome.notes.insert(outcome.notes.end(), result.notes.begin(), result.notes.end());
+  outcome.notes.push_back(group.faces + ": " + result.message);
+  for (const auto& [stage, seconds] : result.seconds) outcome.seconds.emplace_back(stage, seconds);
+  const std::string prefix = group.faces + " ";
+  outcome.figures.emplace_back(prefix + "seeds", result.seeds);
+  outcome.figures.emplace_back(prefix + "lines", result.lines);
+  outcome.figures.emplace_back(prefix + "grown", result.grown);
+  outcome.figures.emplace_back(prefix + "strips", static_cast<double>(result.motions.size()));
+  outcome.figures.emplace_back(prefix + "before", result.coverage_before);
+  outcome.figures.emplace_back(prefix + "after", result.coverage);
+  outcome.figures.emplace_back(prefix + "overlap", result.overlap);
+  outcome.figures.emplace_back(prefix + "links mm", link_length(result.motions));
+}
+
+/// The side of open sheets on which more is covered.
+std::vector<TargetGroup> groups_of(const CoverJob& job, const Part& part, const std::vector<int>& faces) {
+  return make_targets(part, faces, job.base.side.value_or(+1));
+}
+
+}  // namespace
+
+FitOutcome run_cover(const CoverJob& job, const Progress& progress) {
+  check_job(job);
+  const FitJob& base = job.base;
+  FitOutcome outcome;
+  outcome.tool = tool_of(base);
+  check_clearance_job(base.clearance, &outcome.tool);
+  equip_tool(base.clearance, outcome.tool);
+  Stopwatch watch(outcome);
+  progress.step("read", 0.0);
+  const Part part = read_part(base.part, base.unit);
+  const std::vector<int> faces = parse_face_list(part, base.faces);
+  outcome.notes = part.repairs;
+  const std::vector<TargetGroup> groups = groups_of(job, part, faces);
+  outcome.fit.tool = outcome.tool.radial;
+  outcome.diagonal_mm = groups.front().target->diagonal();
+  watch.lap("read");
+  for (const TargetGroup& group : groups) {
+    const std::vector<CheckSurface> checks =
+        checks_of(part, members_of(part, group), *group.target, outcome.tool, base.tolerance_mm);
+    watch.lap("other faces");
+    const CoverResult result = cover(*group.target, outcome.tool, checks, options_of(job), progress);
+    keep(result, group, outcome);
+    for (const RuledMotion& motion : result.motions) add_strip(base, motion, group, outcome);
+    watch.lap("cover");
+  }
+  outcome.complete = !progress.stop();
+  progress.step("verify", 0.9);
+  judge_outcome(base, part, faces, outcome, watch);
+  return outcome;
+}
+
+}  // namespace flank
