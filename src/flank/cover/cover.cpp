@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "flank/base/parallel.h"
 #include "flank/cover/order.h"
 #include "flank/cover/reasons.h"
 #include "flank/cover/smooth.h"
@@ -13,7 +14,7 @@
 namespace flank {
 namespace {
 
-constexpr double kFloorShare = 0.8;  ///< of the tolerance: how deep a pose may enter another face
+constexpr double kFloorShare = 0.65;  ///< of the tolerance: how deep a pose may enter another face
 
 class Stopwatch {
  public:
@@ -39,6 +40,41 @@ double overlap_of(const CoverSamples& samples, const std::vector<CoverStrip>& st
   for (const CoverStrip& strip : strips) sum += strip.area;
   const double covered = covered_share(samples, strips) * samples.area;
   return covered > 0.0 ? sum / covered - 1.0 : 0.0;
+}
+
+std::vector<CoverStrip> remeasured(const TileScene& scene, const std::vector<CoverStrip>& strips) {
+  std::vector<CoverStrip> result(strips.size());
+  parallel_for(strips.size(), [&](std::size_t k) {
+    result[k] = measure_strip(scene.samples, strips[k].motion, scene.radial, scene.options.tolerance_mm);
+  });
+  return result;
+}
+
+/// What cuts too deep between the samples that chose it is cut short.
+std::vector<CoverStrip> cut_short(const TileScene& dense, std::vector<CoverStrip> strips) {
+  parallel_for(strips.size(), [&](std::size_t k) {
+    strips[k] = without_overcut_stretches(dense.samples, std::move(strips[k]), dense.radial, dense.options.tolerance_mm);
+  });
+  std::erase_if(strips, [](const CoverStrip& strip) { return strip.cells.empty(); });
+  return strips;
+}
+
+/// Smooths; where that leaves gaps that are worth a strip, adds it and smooths again.
+std::vector<CoverStrip> smoothed(const TileScene& coarse, const TileScene& dense, std::span<const CheckSurface> checks,
+                                 const std::vector<CoverStrip>& pool, std::vector<CoverStrip> strips,
+                                 const Progress& progress) {
+  constexpr int kRounds = 3;
+  strips = cut_short(dense, remeasured(dense, strips));
+  for (int round = 0; round < kRounds && dense.options.smooth && !progress.stop(); ++round) {
+    progress.step("smooth", 0.55 + 0.1 * round);
+    strips = pruned(dense, smooth_strips(dense, checks, strips).strips);
+    if (round + 1 == kRounds) break;
+    const std::vector<CoverStrip> more =
+        cut_short(dense, remeasured(dense, additions(coarse, pool, remeasured(coarse, strips))));
+    if (more.empty()) break;
+    strips.insert(strips.end(), more.begin(), more.end());
+  }
+  return strips;
 }
 
 }  // namespace
@@ -79,18 +115,20 @@ CoverResult cover(const Target& target, const Tool& tool, std::span<const CheckS
   watch.lap("tile");
 
   progress.step("smooth", 0.55);
-  if (options.smooth && !progress.stop()) strips = smooth_strips(scene, checks, strips).strips;
+  const CoverSamples dense = cover_samples(target, options.dense_share * std::sqrt(target.area()));
+  const TileScene dense_scene{target, tool.radial, dense, guard, options};
+  strips = smoothed(scene, dense_scene, checks, pool.strips, strips, progress);
   watch.lap("smooth");
 
   result.status = CoverStatus::kCovered;
-  result.coverage = covered_share(samples, strips);
-  result.overlap = overlap_of(samples, strips);
+  result.coverage = covered_share(dense, strips);
+  result.overlap = overlap_of(dense, strips);
   for (const CoverStrip& strip : strips) {
     result.overcut_mm = std::max(result.overcut_mm, strip.overcut_mm);
     result.motions.push_back(strip.motion);
   }
   result.motions = ordered(result.motions);
-  result.message = reason_of(target, tool.radial, samples, strips, options.tolerance_mm);
+  result.message = reason_of(target, tool.radial, samples, remeasured(scene, strips), options.tolerance_mm);
   watch.lap("order");
   return result;
 }

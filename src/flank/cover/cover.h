@@ -22,6 +22,7 @@ struct CoverOptions {
   double strip_price = 0.006;    ///< share of the area that a strip must add, to be worth its time
   double overlap_share = 0.04;   ///< of neighbouring strips, in axis lengths
   double sample_share = 0.02;    ///< spacing of the samples that measure strips, as a share of the root of the area
+  double dense_share = 0.007;    ///< the same of those that certify and report them
   int control_points = 24;       ///< of a smoothed strip, a rail; doubled where the certificate fails
   double enough_coverage = 1.0;  ///< no strip is added beyond this share of the area
   bool smooth = true;

@@ -32,7 +32,7 @@ SweptContact contact(const SweptEstimate& swept, const RuledMotion& motion, cons
                      const Vec3& x, double tolerance_mm) {
   SweptContact near = swept.nearest(x);
   // The estimate ranks; what would count as overcut, or as just within tolerance, is looked at closely.
-  if (std::abs(std::abs(near.f) - tolerance_mm) < 0.3 * tolerance_mm || near.f < -tolerance_mm) {
+  if (std::abs(std::abs(near.f) - tolerance_mm) < 0.3 * tolerance_mm || near.f < -0.5 * tolerance_mm) {
     const double t = near.t;
     near = refine_contact(motion, radial, x, t, swept.spacing());
   }
@@ -44,7 +44,7 @@ SweptContact contact(const SweptEstimate& swept, const RuledMotion& motion, cons
 CoverSamples cover_samples(const Target& target, double spacing_mm) {
   CoverSamples samples;
   samples.cells = target.samples(spacing_mm);
-  samples.border = target.border_points(spacing_mm);
+  samples.border = target.border_points(spacing_mm / 3.0);
   for (const SurfaceSample& cell : samples.cells) samples.area += cell.area;
   return samples;
 }
@@ -108,12 +108,13 @@ CoverStrip without_overcut_stretches(const CoverSamples& samples, CoverStrip str
                                      double tolerance_mm) {
   constexpr int kTries = 4;
   constexpr double kMargin = 0.02, kShortest = 0.1;
-  for (int k = 0; k < kTries && strip.overcut_mm > tolerance_mm; ++k) {
+  const double limit = kCertifiedShare * tolerance_mm;
+  for (int k = 0; k < kTries && strip.overcut_mm > limit; ++k) {
     const SweptEstimate swept({strip.motion}, radial, table_poses(strip.motion));
     std::vector<double> bad = {-kMargin, 1.0 + kMargin};
     const auto look = [&](const Vec3& x) {
       const SweptContact at = contact(swept, strip.motion, radial, x, tolerance_mm);
-      if (at.f < -tolerance_mm) bad.push_back(at.t);
+      if (at.f < -limit) bad.push_back(at.t);
     };
     for (const SurfaceSample& cell : samples.cells) look(cell.point);
     for (const Vec3& x : samples.border) look(x);
@@ -125,7 +126,7 @@ CoverStrip without_overcut_stretches(const CoverSamples& samples, CoverStrip str
     if (t1 - t0 < kShortest) return {};
     strip = measure_strip(samples, part_of_motion(strip.motion, t0, t1), radial, tolerance_mm);
   }
-  return strip.overcut_mm > tolerance_mm ? CoverStrip{} : strip;
+  return strip.overcut_mm > limit ? CoverStrip{} : strip;
 }
 
 }  // namespace flank

@@ -15,7 +15,11 @@ struct CoverSamples {
   std::vector<Vec3> border;          ///< where a tool that runs off the face cuts deepest
   double area = 0.0;                 ///< sum over the cells
 };
+/// Cells of about `spacing_mm`; points of the border a third as far apart.
 [[nodiscard]] CoverSamples cover_samples(const Target& target, double spacing_mm);
+
+/// Overcut at the samples is certified to this share of the tolerance: what lies between them has the rest.
+inline constexpr double kCertifiedShare = 0.96;
 
 /// A strip as a motion, measured.
 struct CoverStrip {
@@ -35,7 +39,7 @@ struct CoverStrip {
 /// The part of a motion over [t0, t1], as a motion over [0, 1].
 [[nodiscard]] RuledMotion part_of_motion(const RuledMotion& motion, double t0, double t1);
 
-/// A strip that cuts deeper than the tolerance is cut short: the longest stretch of it that does not remains. No cells
+/// A strip that cuts deeper than kCertifiedShare of the tolerance is cut short: the longest stretch of it that does not remains. No cells
 /// where nothing does.
 [[nodiscard]] CoverStrip without_overcut_stretches(const CoverSamples& samples, CoverStrip strip,
                                                    const RadialFunction& radial, double tolerance_mm);

@@ -244,4 +244,54 @@ StripSet choose_set(const TileScene& scene, std::vector<CoverStrip>& pool) {
   return best;
 }
 
+std::vector<CoverStrip> additions(const TileScene& scene, const std::vector<CoverStrip>& pool,
+                                  const std::vector<CoverStrip>& strips) {
+  CellCount covered(scene.samples);
+  for (const CoverStrip& strip : strips) covered.add(strip);
+  std::vector<std::vector<CoverStrip>> beside(strips.size());
+  parallel_for(strips.size(), [&](std::size_t k) { beside[k] = neighbours(scene, strips[k], covered); });
+  std::vector<const CoverStrip*> candidates;
+  for (const auto& found : beside)
+    for (const CoverStrip& strip : found) candidates.push_back(&strip);
+  for (const CoverStrip& strip : pool) candidates.push_back(&strip);
+  std::vector<CoverStrip> added;
+  while (strips.size() + added.size() < static_cast<std::size_t>(scene.options.most_strips)) {
+    const CoverStrip* best = nullptr;
+    double most = scene.options.strip_price;
+    for (const CoverStrip* strip : candidates) {
+      const double gain = covered.gain(*strip);
+      if (gain <= most) continue;
+      most = gain;
+      best = strip;
+    }
+    if (!best) break;
+    covered.add(*best);
+    added.push_back(*best);
+  }
+  return added;
+}
+
+std::vector<CoverStrip> pruned(const TileScene& scene, std::vector<CoverStrip> strips) {
+  CellCount covered(scene.samples);
+  for (const CoverStrip& strip : strips) covered.add(strip);
+  while (strips.size() > 1) {
+    std::size_t least = 0;
+    double worth = scene.options.strip_price;
+    bool found = false;
+    for (std::size_t k = 0; k < strips.size(); ++k) {
+      covered.add(strips[k], -1);
+      const double gain = covered.gain(strips[k]);
+      covered.add(strips[k]);
+      if (gain >= worth) continue;
+      worth = gain;
+      least = k;
+      found = true;
+    }
+    if (!found) break;
+    covered.add(strips[least], -1);
+    strips.erase(strips.begin() + static_cast<std::ptrdiff_t>(least));
+  }
+  return strips;
+}
+
 }  // namespace flank

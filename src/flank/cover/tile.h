@@ -37,4 +37,12 @@ using StripSet = std::vector<int>;
 /// dropped as long as the value rises.
 [[nodiscard]] StripSet choose_set(const TileScene& scene, std::vector<CoverStrip>& pool);
 
+/// Strips of the pool, and new ones beside `strips`, that add more than their price to what `strips` cover; each adds to
+/// those before it.
+[[nodiscard]] std::vector<CoverStrip> additions(const TileScene& scene, const std::vector<CoverStrip>& pool,
+                                                const std::vector<CoverStrip>& strips);
+
+/// The strips without those that are not worth their price, the least first.
+[[nodiscard]] std::vector<CoverStrip> pruned(const TileScene& scene, std::vector<CoverStrip> strips);
+
 }  // namespace flank

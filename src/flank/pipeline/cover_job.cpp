@@ -62,7 +62,7 @@ std::vector<CheckSurface> checks_of(const Part& part, const std::vector<int>& me
   for (const auto* profile : {&tool.shank, &tool.holder})
     for (const Vec2& p : *profile) reach = std::max(reach, p.x() + 2.0 * p.y());
   std::vector<CheckSurface> checks =
-      other_faces(part, members, target.box(), reach, std::clamp(0.15 * tolerance_mm, 5e-4, 0.02));
+      other_faces(part, members, target.box(), reach, std::clamp(0.3 * tolerance_mm, 1e-3, 0.05));
   if (!tool.shank.empty() || !tool.holder.empty())
     checks.push_back(check_surface(target, std::sqrt(target.area()) / 60.0, true));
   return checks;
