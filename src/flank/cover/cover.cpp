@@ -45,7 +45,8 @@ double overlap_of(const CoverSamples& samples, const std::vector<CoverStrip>& st
 std::vector<CoverStrip> remeasured(const TileScene& scene, const std::vector<CoverStrip>& strips) {
   std::vector<CoverStrip> result(strips.size());
   parallel_for(strips.size(), [&](std::size_t k) {
-    result[k] = measure_strip(scene.samples, strips[k].motion, scene.radial, scene.options.tolerance_mm);
+    LineFitter fitter(scene.target, scene.radial, line_options(scene));
+    result[k] = measure_strip(scene.samples, strips[k].motion, scene.radial, fitter);
   });
   return result;
 }
@@ -53,7 +54,8 @@ std::vector<CoverStrip> remeasured(const TileScene& scene, const std::vector<Cov
 /// What cuts too deep between the samples that chose it is cut short.
 std::vector<CoverStrip> cut_short(const TileScene& dense, std::vector<CoverStrip> strips) {
   parallel_for(strips.size(), [&](std::size_t k) {
-    strips[k] = without_overcut_stretches(dense.samples, std::move(strips[k]), dense.radial, dense.options.tolerance_mm);
+    LineFitter fitter(dense.target, dense.radial, line_options(dense));
+    strips[k] = without_overcut_stretches(dense.samples, std::move(strips[k]), dense.radial, fitter);
   });
   std::erase_if(strips, [](const CoverStrip& strip) { return strip.cells.empty(); });
   return strips;

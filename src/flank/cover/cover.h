@@ -19,7 +19,7 @@ struct CoverOptions {
   std::vector<LineSeed> seeds;  ///< empty: a grid of seed_places x seed_directions
   int seed_places = 30, seed_directions = 12;
   int most_strips = 16;
-  double strip_price = 0.006;    ///< share of the area that a strip must add, to be worth its time
+  double strip_price = 0.01;     ///< share of the area that a strip must add, to be worth its time
   double overlap_share = 0.04;   ///< of neighbouring strips, in axis lengths
   double sample_share = 0.02;    ///< spacing of the samples that measure strips, as a share of the root of the area
   double dense_share = 0.007;    ///< the same of those that certify and report them

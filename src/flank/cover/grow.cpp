@@ -12,6 +12,10 @@ namespace {
 constexpr double kAxialPenalty = 1e-3, kTurnPenalty = 1e-4;
 /// Turn of the axis, times half its length, that one step may add, as a share of the step: a branch jump turns more.
 constexpr double kJump = 4.0;
+constexpr double kOffMean = 0.5;  ///< farthest that the middle of a step lies from the mean of its ends, in steps
+/// Stay of the corrector (LineFitOptions::stay_share): the predictor goes on smoothly, and within the tolerance that is
+/// worth more than the least error.
+constexpr double kStay = 0.5;
 constexpr double kAdvance = 0.1;  ///< least advance of the footpoints, as a share of the step
 
 Pose shifted(const Pose& pose, const AxisVelocity& v, double axis_length, double step) {
@@ -36,7 +40,8 @@ class Grower {
 
  private:
   Movability velocity(const AxisVelocity& last) const;
-  bool step(double h, const AxisVelocity& v, LineFit& next);
+  bool step(double h, const AxisVelocity& v, LineFit& middle, LineFit& next);
+  bool between(double h, const Vec3& travel, const LineFit& next, LineFit& middle);
   bool within(const LineFit& fit) const;
   bool advanced(double h, const Vec3& direction) const;
   void overrun(const AxisVelocity& last, std::vector<Pose>& poses) const;
@@ -77,11 +82,11 @@ bool Grower::advanced(double h, const Vec3& direction) const {
   return count == 0 || sum >= kAdvance * h * count;
 }
 
-bool Grower::step(double h, const AxisVelocity& v, LineFit& next) {
+bool Grower::step(double h, const AxisVelocity& v, LineFit& middle, LineFit& next) {
   blocked_ = false;
   fitter_.set_feet(feet_);
   Pose predicted = shifted(pose_, v, length_, h);
-  LineHold hold{v.middle, 0.0};
+  LineHold hold{v.middle, 0.0, kStay};
   if (guide_.neighbour) {
     const double slide = guide_slide(guide_, predicted, length_);
     predicted.tip += std::clamp(slide, -0.5 * h, 0.5 * h) * predicted.axis;
@@ -97,9 +102,19 @@ bool Grower::step(double h, const AxisVelocity& v, LineFit& next) {
   if (!within(next) || !advanced(h, v.middle.normalized())) return false;
   const double jump = std::max((next.pose.tip - pose_.tip).norm(), (next.pose.at(length_) - pose_.at(length_)).norm());
   if (jump > kJump * h) return false;
+  return between(h, v.middle, next, middle);
+}
+
+/// Certificate at the middle of a step. The mean of two poses is off a curved way by h^2 / 8 of its curvature, more than a
+/// fine tolerance allows; refined, it has to lie near the mean all the same.
+bool Grower::between(double h, const Vec3& travel, const LineFit& next, LineFit& middle) {
   const std::vector<Footpoint> feet(fitter_.feet().begin(), fitter_.feet().end());
-  const LineFit middle = fitter_.measure(half_way(pose_, next.pose));
-  const bool held = within(middle);
+  const Pose mean = half_way(pose_, next.pose);
+  middle = fitter_.measure(mean);
+  if (!within(middle)) middle = fitter_.refine(mean, {travel, 0.0, kStay});
+  const double off =
+      std::max((middle.pose.tip - mean.tip).norm(), (middle.pose.at(length_) - mean.at(length_)).norm());
+  const bool held = off < kOffMean * h && within(middle);
   blocked_ = held && !guard_.clear(middle.pose);
   fitter_.set_feet(feet);
   return held && !blocked_;
@@ -119,13 +134,14 @@ GrowEnd Grower::run(const LineFit& line, const Vec3& heading, std::vector<Pose>&
   while (travel < options_.longest_travel_share * size_) {
     const Movability at = velocity(last);
     if (!at.valid()) return GrowEnd::kTolerance;
-    LineFit next;
+    LineFit middle, next;
     bool done = false;
-    for (; !done && h >= options_.shortest_step_share * size_; h *= done ? 1.0 : 0.5) done = step(h, at.velocity, next);
+    for (; !done && h >= options_.shortest_step_share * size_; h *= done ? 1.0 : 0.5) done = step(h, at.velocity, middle, next);
     if (!done) return blocked_ ? GrowEnd::kCheck : GrowEnd::kTolerance;
     last = {(next.pose.at(0.5 * length_) - pose_.at(0.5 * length_)) / h, (next.pose.axis - pose_.axis) / h};
     pose_ = next.pose;
     feet_.assign(fitter_.feet().begin(), fitter_.feet().end());
+    poses.push_back(middle.pose);
     poses.push_back(pose_);
     travel += h;
     h = std::min(1.5 * h, options_.longest_step_share * size_);

@@ -139,7 +139,7 @@ LineFitter::Vec5 LineFitter::best_step(const Vec5& stay, const Vec5& offset) {
 
 LineFit LineFitter::refine(const Pose& start, const LineHold& hold) {
   const auto stay_of = [&](double share) { return std::pow(4.0 * share * options_.tolerance_mm / length_, 2); };
-  Vec5 stay = Vec5::Constant(stay_of(options_.stay_share));
+  Vec5 stay = Vec5::Constant(stay_of(hold.stay_share > 0.0 ? hold.stay_share : options_.stay_share));
   if (hold.slide_share > 0.0) stay[2] = stay_of(hold.slide_share);
   if (hold.travel.norm() > 0.0) stay[0] = kHeld;
   LineFit best = measure(start);

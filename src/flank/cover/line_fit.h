@@ -24,6 +24,7 @@ struct LineFitOptions {
 struct LineHold {
   Vec3 travel = Vec3::Zero();  ///< the middle of the axis does not move this way; zero: free
   double slide_share = 0.0;    ///< as stay_share, for the slide along the axis alone; 0: stay_share
+  double stay_share = 0.0;     ///< instead of the options'; 0: the options'
 };
 
 /// A line and how well the tool touches there: e_j = d(l(s_j)) - r(s_j), mm, positive where material is left.

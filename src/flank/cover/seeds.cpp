@@ -20,17 +20,21 @@ bool is_symmetric(const RadialFunction& radial) {
   return true;
 }
 
-std::vector<LineSeed> grid_seeds(const Target& target, const RadialFunction& radial, int places, int directions) {
+std::vector<Vec3> seed_directions(const Vec3& normal, const RadialFunction& radial, int directions) {
   const bool half = is_symmetric(radial);
   const int count = half ? directions : 2 * directions;
   const double step = (half ? 1.0 : 2.0) * std::numbers::pi / count;
+  const Vec3 a = normal.unitOrthogonal(), b = normal.cross(a);
+  std::vector<Vec3> result;
+  for (int k = 0; k < count; ++k) result.push_back(std::cos(k * step) * a + std::sin(k * step) * b);
+  return result;
+}
+
+std::vector<LineSeed> grid_seeds(const Target& target, const RadialFunction& radial, int places, int directions) {
   std::vector<LineSeed> seeds;
-  for (const SurfaceSample& sample : target.samples(std::sqrt(target.area() / places))) {
-    const Vec3 a = sample.normal.unitOrthogonal(), b = sample.normal.cross(a);
-    for (int k = 0; k < count; ++k)
-      seeds.push_back({sample.point, sample.normal, std::cos(k * step) * a + std::sin(k * step) * b,
-                       0.5 * radial.axis_length()});
-  }
+  for (const SurfaceSample& sample : target.samples(std::sqrt(target.area() / places)))
+    for (const Vec3& direction : seed_directions(sample.normal, radial, directions))
+      seeds.push_back({sample.point, sample.normal, direction, 0.5 * radial.axis_length()});
   return seeds;
 }
 

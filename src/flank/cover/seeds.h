@@ -23,6 +23,9 @@ struct LineSeed {
 [[nodiscard]] std::vector<LineSeed> grid_seeds(const Target& target, const RadialFunction& radial, int places,
                                                int directions);
 
+/// The directions of a grid at a point: `directions` over half a turn, twice as many over the whole.
+[[nodiscard]] std::vector<Vec3> seed_directions(const Vec3& normal, const RadialFunction& radial, int directions);
+
 /// Are both ends of the tool alike, r(s) = r(L - s)? Then a line turned round is the same line.
 [[nodiscard]] bool is_symmetric(const RadialFunction& radial);
 

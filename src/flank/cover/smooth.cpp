@@ -17,7 +17,7 @@ struct Pass {
   double dead_zone, fairness, anchor, overcut_weight;
   int iterations, points_per_side;
 };
-constexpr std::array<Pass, 2> kPasses = {{{0.6, 1e-5, 1e-3, 4.0, 8, 25}, {0.6, 1e-6, 1e-7, 10.0, 12, 36}}};
+constexpr std::array<Pass, 2> kPasses = {{{0.6, 1e-4, 1e-3, 4.0, 8, 25}, {0.6, 1e-6, 1e-7, 10.0, 12, 36}}};
 /// Where a certificate fails: overcut counts above all.
 constexpr Pass kLimitPass = {0.6, 1e-6, 1e-5, 50.0, 8, 36};
 constexpr int kLimitRounds = 2;
@@ -94,7 +94,7 @@ std::vector<FacePoint> check_points(const TileScene& scene, const std::vector<Ve
 /// Points of the target where the swept tools cut nearly as deep as the tolerance allows, or deeper.
 std::vector<FacePoint> deep_points(const TileScene& scene, const std::vector<CoverStrip>& strips, double share) {
   const SweptEstimate swept(motions_of(strips), scene.radial, 5 * scene.options.control_points);
-  std::vector<Vec3> all = scene.samples.border;
+  std::vector<Vec3> all = scene.target.border_points(0.3 * scene.options.dense_share * std::sqrt(scene.target.area()));
   for (const SurfaceSample& cell : scene.samples.cells) all.push_back(cell.point);
   std::vector<char> deep(all.size(), 0);
   parallel_blocks(all.size(), 256, [&](std::size_t begin, std::size_t end) {
@@ -114,7 +114,8 @@ std::vector<FacePoint> deep_points(const TileScene& scene, const std::vector<Cov
 std::vector<CoverStrip> measured(const TileScene& scene, const std::vector<RuledMotion>& motions) {
   std::vector<CoverStrip> strips(motions.size());
   parallel_for(motions.size(), [&](std::size_t k) {
-    strips[k] = measure_strip(scene.samples, motions[k], scene.radial, scene.options.tolerance_mm);
+    LineFitter fitter(scene.target, scene.radial, line_options(scene));
+    strips[k] = measure_strip(scene.samples, motions[k], scene.radial, fitter);
   });
   return strips;
 }

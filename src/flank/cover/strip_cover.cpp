@@ -8,8 +8,10 @@
 namespace flank {
 namespace {
 
-constexpr int kLeastControlPoints = 6;
+constexpr int kLeastControlPoints = 4;
+constexpr int kSamplesPerControlPoint = 4;
 constexpr int kPosesPerControlPoint = 5;
+constexpr int kDepthsPerControlPoint = 4;
 
 int table_poses(const RuledMotion& motion) { return std::max(40, kPosesPerControlPoint * motion.tip.count()); }
 
@@ -28,6 +30,21 @@ Box3 swept_box(const RuledMotion& motion, const RadialFunction& radial, double m
   return box;
 }
 
+/// Slope at x[i] of the parabola through three neighbours.
+Vec3 slope(const std::vector<Vec3>& x, const std::vector<double>& t, std::size_t i) {
+  const std::size_t m = std::clamp<std::size_t>(i, 1, t.size() - 2);
+  const double a = t[m] - t[m - 1], b = t[m + 1] - t[m];
+  const Vec3 left = (x[m] - x[m - 1]) / a, right = (x[m + 1] - x[m]) / b, bend = (right - left) / (a + b);
+  return left + (2.0 * t[i] - t[m] - t[m - 1]) * bend;
+}
+
+/// Cubic Hermite curve through points at times t, slopes from parabolas.
+Vec3 hermite(const std::vector<Vec3>& x, const std::vector<double>& t, std::size_t i, double at) {
+  const double h = t[i + 1] - t[i], f = (at - t[i]) / h, g = 1.0 - f;
+  return g * g * (1.0 + 2.0 * f) * x[i] + f * f * (1.0 + 2.0 * g) * x[i + 1] +
+         h * f * g * (g * slope(x, t, i) - f * slope(x, t, i + 1));
+}
+
 SweptContact contact(const SweptEstimate& swept, const RuledMotion& motion, const RadialFunction& radial,
                      const Vec3& x, double tolerance_mm) {
   SweptContact near = swept.nearest(x);
@@ -44,51 +61,63 @@ SweptContact contact(const SweptEstimate& swept, const RuledMotion& motion, cons
 CoverSamples cover_samples(const Target& target, double spacing_mm) {
   CoverSamples samples;
   samples.cells = target.samples(spacing_mm);
-  samples.border = target.border_points(spacing_mm / 3.0);
   for (const SurfaceSample& cell : samples.cells) samples.area += cell.area;
   return samples;
 }
 
 RuledMotion motion_through(const std::vector<Pose>& poses, double axis_length, int control_points) {
-  std::vector<Pose> dense;
-  std::vector<double> chord = {0.0}, t;
+  std::vector<Vec3> tips, axes;
+  std::vector<double> t = {0.0};
   for (std::size_t i = 0; i + 1 < poses.size(); ++i)
-    chord.push_back(chord.back() + 0.5 * ((poses[i + 1].tip - poses[i].tip).norm() +
-                                          (poses[i + 1].at(axis_length) - poses[i].at(axis_length)).norm()));
-  const int count = std::clamp(static_cast<int>(poses.size()), kLeastControlPoints, control_points);
-  // Few poses leave control points without data: the joined poses give more.
-  const int between = std::max(1, static_cast<int>(std::ceil(2.0 * count / static_cast<double>(poses.size()))));
-  for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
-    for (int k = 0; k < between; ++k) {
-      const double f = static_cast<double>(k) / between;
-      dense.push_back({poses[i].tip + f * (poses[i + 1].tip - poses[i].tip),
-                       (poses[i].axis + f * (poses[i + 1].axis - poses[i].axis)).normalized()});
-      t.push_back((chord[i] + f * (chord[i + 1] - chord[i])) / chord.back());
-    }
+    t.push_back(t.back() + 0.5 * ((poses[i + 1].tip - poses[i].tip).norm() +
+                                  (poses[i + 1].at(axis_length) - poses[i].at(axis_length)).norm()));
+  for (std::size_t i = 1; i + 1 < t.size(); ++i) t[i] /= t.back();
+  t.back() = 1.0;
+  for (const Pose& pose : poses) {
+    tips.push_back(pose.tip);
+    axes.push_back(pose.axis);
   }
-  dense.push_back(poses.back());
-  t.push_back(1.0);
-  return fit_motion(dense, t, axis_length, std::min(count, static_cast<int>(dense.size())));
+  // The steps of a strip differ in length, the knots do not: the poses are joined by cubics first.
+  const int count = std::clamp(static_cast<int>(poses.size()), kLeastControlPoints, control_points);
+  const int samples = kSamplesPerControlPoint * count;
+  std::vector<Pose> even;
+  std::vector<double> times;
+  for (int i = 0; i <= samples; ++i) {
+    times.push_back(static_cast<double>(i) / samples);
+    const auto after = std::upper_bound(t.begin() + 1, t.end() - 1, times.back());
+    const auto k = static_cast<std::size_t>(after - t.begin()) - 1;
+    even.push_back({hermite(tips, t, k, times.back()), hermite(axes, t, k, times.back()).normalized()});
+  }
+  return fit_motion(even, times, axis_length, count);
+}
+
+std::vector<double> depths_along(LineFitter& fitter, const RuledMotion& motion, int poses) {
+  std::vector<double> depths;
+  fitter.forget();
+  for (int i = 0; i <= poses; ++i) {
+    const Pose pose = motion.pose(static_cast<double>(i) / poses);
+    (void)fitter.measure(pose);
+    depths.push_back(fitter.overcut(pose));
+  }
+  return depths;
 }
 
 CoverStrip measure_strip(const CoverSamples& samples, RuledMotion motion, const RadialFunction& radial,
-                         double tolerance_mm) {
+                         LineFitter& fitter) {
   CoverStrip strip;
+  const double tolerance = fitter.options().tolerance_mm;
   const int poses = table_poses(motion);
-  const Box3 box = swept_box(motion, radial, tolerance_mm, poses);
+  const Box3 box = swept_box(motion, radial, tolerance, poses);
   const SweptEstimate swept({motion}, radial, poses);
   for (std::size_t k = 0; k < samples.cells.size(); ++k) {
     const SurfaceSample& cell = samples.cells[k];
     if (box.squared_distance(cell.point) > 0.0) continue;
-    const double f = contact(swept, motion, radial, cell.point, tolerance_mm).f;
-    strip.overcut_mm = std::max(strip.overcut_mm, -f);
-    if (std::abs(f) > tolerance_mm) continue;
+    if (std::abs(contact(swept, motion, radial, cell.point, tolerance).f) > tolerance) continue;
     strip.cells.push_back(static_cast<int>(k));
     strip.area += cell.area;
   }
-  for (const Vec3& x : samples.border)
-    if (box.squared_distance(x) == 0.0)
-      strip.overcut_mm = std::max(strip.overcut_mm, -contact(swept, motion, radial, x, tolerance_mm).f);
+  const std::vector<double> depths = depths_along(fitter, motion, kDepthsPerControlPoint * motion.tip.count());
+  strip.overcut_mm = std::max(0.0, *std::max_element(depths.begin(), depths.end()));
   strip.motion = std::move(motion);
   return strip;
 }
@@ -105,26 +134,23 @@ RuledMotion part_of_motion(const RuledMotion& motion, double t0, double t1) {
 }
 
 CoverStrip without_overcut_stretches(const CoverSamples& samples, CoverStrip strip, const RadialFunction& radial,
-                                     double tolerance_mm) {
-  constexpr int kTries = 4;
-  constexpr double kMargin = 0.02, kShortest = 0.1;
-  const double limit = kCertifiedShare * tolerance_mm;
+                                     LineFitter& fitter) {
+  constexpr int kTries = 3;
+  constexpr double kShortest = 0.1;
+  const double limit = kCertifiedShare * fitter.options().tolerance_mm;
   for (int k = 0; k < kTries && strip.overcut_mm > limit; ++k) {
-    const SweptEstimate swept({strip.motion}, radial, table_poses(strip.motion));
-    std::vector<double> bad = {-kMargin, 1.0 + kMargin};
-    const auto look = [&](const Vec3& x) {
-      const SweptContact at = contact(swept, strip.motion, radial, x, tolerance_mm);
-      if (at.f < -limit) bad.push_back(at.t);
-    };
-    for (const SurfaceSample& cell : samples.cells) look(cell.point);
-    for (const Vec3& x : samples.border) look(x);
-    std::sort(bad.begin(), bad.end());
-    std::size_t widest = 0;
-    for (std::size_t i = 0; i + 1 < bad.size(); ++i)
-      if (bad[i + 1] - bad[i] > bad[widest + 1] - bad[widest]) widest = i;
-    const double t0 = bad[widest] + kMargin, t1 = bad[widest + 1] - kMargin;
+    const int poses = kDepthsPerControlPoint * strip.motion.tip.count();
+    const std::vector<double> depths = depths_along(fitter, strip.motion, poses);
+    int first = 0, longest = 0;
+    for (int i = 0, run = 0; i <= poses; ++i) {
+      run = depths[static_cast<std::size_t>(i)] <= limit ? run + 1 : 0;
+      if (run <= longest) continue;
+      longest = run;
+      first = i - run + 1;
+    }
+    const double t0 = static_cast<double>(first) / poses, t1 = static_cast<double>(first + longest - 1) / poses;
     if (t1 - t0 < kShortest) return {};
-    strip = measure_strip(samples, part_of_motion(strip.motion, t0, t1), radial, tolerance_mm);
+    strip = measure_strip(samples, part_of_motion(strip.motion, t0, t1), radial, fitter);
   }
   return strip.overcut_mm > limit ? CoverStrip{} : strip;
 }

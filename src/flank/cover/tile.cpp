@@ -16,6 +16,7 @@ constexpr double kAlike = 0.6;
 /// Places along a strip where a neighbour is tried, in this order; one that adds enough ends it.
 constexpr std::array<double, 5> kPlaces = {0.5, 0.25, 0.75, 0.1, 0.9};
 constexpr int kGuidePoses = 60;
+constexpr double kLeastInsideOfGaps = 0.25;
 constexpr double kLeastInside = 0.8;  ///< of a seed's line: what hangs over the border determines little
 
 /// How often each cell is covered.
@@ -32,6 +33,13 @@ class CellCount {
       if (counts_[static_cast<std::size_t>(k)] == 0) area += samples_.cells[static_cast<std::size_t>(k)].area;
     return area / samples_.area;
   }
+  /// Cells that nothing covers.
+  [[nodiscard]] std::vector<std::size_t> open() const {
+    std::vector<std::size_t> cells;
+    for (std::size_t k = 0; k < counts_.size(); ++k)
+      if (counts_[k] == 0) cells.push_back(k);
+    return cells;
+  }
   [[nodiscard]] double covered() const {
     double area = 0.0;
     for (std::size_t k = 0; k < counts_.size(); ++k)
@@ -43,12 +51,6 @@ class CellCount {
   const CoverSamples& samples_;
   std::vector<int> counts_;
 };
-
-LineFitOptions line_options(const TileScene& scene) {
-  LineFitOptions options;
-  options.tolerance_mm = scene.options.tolerance_mm;
-  return options;
-}
 
 /// The strip of a line near `pose`; no cells where there is none.
 CoverStrip strip_near(const TileScene& scene, LineFitter& fitter, const Pose& pose, const GrowGuide& guide,
@@ -64,9 +66,9 @@ CoverStrip strip_near(const TileScene& scene, LineFitter& fitter, const Pose& po
   if (is_line) *is_line = true;
   if (!scene.guard.clear(line.pose)) return {};
   const GrownStrip grown = grow(fitter, scene.guard, line, guide);
-  if (grown.poses.size() < 3) return {};
-  CoverStrip strip = measure_strip(scene.samples, motion_through(grown.poses, length, 48), scene.radial, tolerance);
-  return without_overcut_stretches(scene.samples, std::move(strip), scene.radial, tolerance);
+  if (grown.poses.size() < 5) return {};
+  CoverStrip strip = measure_strip(scene.samples, motion_through(grown.poses, length, 48), scene.radial, fitter);
+  return without_overcut_stretches(scene.samples, std::move(strip), scene.radial, fitter);
 }
 
 /// Strips beside `strip`, past its tip and past its holder end, that add to what is covered.
@@ -94,6 +96,27 @@ std::vector<CoverStrip> neighbours(const TileScene& scene, const CoverStrip& str
     if (most > 0.0) found.push_back(std::move(best));
   }
   return found;
+}
+
+/// Seeds at places that nothing covers, far from each other; also with such a place near an end of the axis, which
+/// reaches into corners.
+std::vector<LineSeed> gap_seeds(const TileScene& scene, const CellCount& covered) {
+  constexpr std::size_t kMostPlaces = 8;
+  std::vector<std::size_t> open = covered.open();
+  std::vector<double> far(open.size(), 1e300);
+  std::vector<LineSeed> seeds;
+  const auto cell = [&](std::size_t i) -> const SurfaceSample& { return scene.samples.cells[open[i]]; };
+  std::size_t next = 0;
+  for (std::size_t places = 0; places < kMostPlaces && next < open.size(); ++places) {
+    for (const double share : {0.5, 0.15, 0.85})
+      for (const Vec3& direction : seed_directions(cell(next).normal, scene.radial, scene.options.seed_directions))
+        seeds.push_back({cell(next).point, cell(next).normal, direction, share * scene.radial.axis_length()});
+    for (std::size_t i = 0; i < open.size(); ++i)
+      far[i] = std::min(far[i], (cell(i).point - cell(next).point).squaredNorm());
+    next = static_cast<std::size_t>(std::max_element(far.begin(), far.end()) - far.begin());
+    if (far[next] < std::pow(0.25 * scene.radial.axis_length(), 2)) break;
+  }
+  return seeds;
 }
 
 /// One tiling: the first strip, then again and again what adds most, until nothing is worth its price. `grown` are
@@ -197,22 +220,33 @@ StripSet improved(const TileScene& scene, const std::vector<CoverStrip>& pool, S
   return set;
 }
 
-}  // namespace
-
-CandidatePool grow_pool(const TileScene& scene, const std::vector<LineSeed>& seeds) {
+/// Strips of the seeds, in their order, without those that came to nothing; `lines` counts seeds with a line.
+std::vector<CoverStrip> strips_of(const TileScene& scene, const std::vector<LineSeed>& seeds, double least_inside,
+                                  int* lines) {
   std::vector<CoverStrip> strips(seeds.size());
-  std::vector<char> lines(seeds.size(), 0);
+  std::vector<char> is_line(seeds.size(), 0);
   parallel_for(seeds.size(), [&](std::size_t k) {
     LineFitter fitter(scene.target, scene.radial, line_options(scene));
-    bool is_line = false;
-    strips[k] = strip_near(scene, fitter, seed_pose(seeds[k], scene.radial), {}, kLeastInside, &is_line);
-    lines[k] = is_line ? 1 : 0;
+    bool line = false;
+    strips[k] = strip_near(scene, fitter, seed_pose(seeds[k], scene.radial), {}, least_inside, &line);
+    is_line[k] = line ? 1 : 0;
   });
+  if (lines) *lines = static_cast<int>(std::count(is_line.begin(), is_line.end(), 1));
+  std::erase_if(strips, [](const CoverStrip& strip) { return strip.cells.empty(); });
+  return strips;
+}
+
+}  // namespace
+
+LineFitOptions line_options(const TileScene& scene) {
+  LineFitOptions options;
+  options.tolerance_mm = scene.options.tolerance_mm;
+  return options;
+}
+
+CandidatePool grow_pool(const TileScene& scene, const std::vector<LineSeed>& seeds) {
   CandidatePool pool;
-  for (std::size_t k = 0; k < seeds.size(); ++k) {
-    pool.lines += lines[k];
-    if (!strips[k].cells.empty()) pool.strips.push_back(std::move(strips[k]));
-  }
+  pool.strips = strips_of(scene, seeds, kLeastInside, &pool.lines);
   return pool;
 }
 
@@ -250,7 +284,9 @@ std::vector<CoverStrip> additions(const TileScene& scene, const std::vector<Cove
   for (const CoverStrip& strip : strips) covered.add(strip);
   std::vector<std::vector<CoverStrip>> beside(strips.size());
   parallel_for(strips.size(), [&](std::size_t k) { beside[k] = neighbours(scene, strips[k], covered); });
+  const std::vector<CoverStrip> in_gaps = strips_of(scene, gap_seeds(scene, covered), kLeastInsideOfGaps, nullptr);
   std::vector<const CoverStrip*> candidates;
+  for (const CoverStrip& strip : in_gaps) candidates.push_back(&strip);
   for (const auto& found : beside)
     for (const CoverStrip& strip : found) candidates.push_back(&strip);
   for (const CoverStrip& strip : pool) candidates.push_back(&strip);

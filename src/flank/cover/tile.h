@@ -18,6 +18,8 @@ struct TileScene {
   const CoverOptions& options;
 };
 
+[[nodiscard]] LineFitOptions line_options(const TileScene& scene);
+
 struct CandidatePool {
   std::vector<CoverStrip> strips;
   int lines = 0;  ///< seeds that refined to within tolerance
