@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "flank/base/parallel.h"
+#include "flank/cover/certify.h"
 #include "flank/cover/order.h"
 #include "flank/cover/reasons.h"
 #include "flank/cover/smooth.h"
@@ -30,9 +31,30 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-bool has_checks(const Tool& tool, std::span<const CheckSurface> checks) {
-  const bool above = !tool.shank.empty() || !tool.holder.empty();
-  return std::any_of(checks.begin(), checks.end(), [&](const CheckSurface& c) { return above || !c.flank_may_touch; });
+double smallest_radius(const RadialFunction& radial) {
+  double least = 1e300;
+  for (int j = 0; j <= 64; ++j) least = std::min(least, radial.at(radial.axis_length() * j / 64.0).r);
+  return least;
+}
+
+/// Leaves out the cells that a ball of the tool's smallest radius cannot touch without entering an obstacle; returns the
+/// area share of the others.
+double keep_reachable(CoverSamples& samples, const LineGuard& guard, const RadialFunction& radial) {
+  const double radius = smallest_radius(radial);
+  std::vector<char> open(samples.cells.size());
+  parallel_for(samples.cells.size(), [&](std::size_t k) {
+    const SurfaceSample& cell = samples.cells[k];
+    open[k] = guard.clear(cell.point + radius * cell.normal, radius) ? 1 : 0;
+  });
+  CoverSamples kept;
+  for (std::size_t k = 0; k < open.size(); ++k) {
+    if (open[k] == 0) continue;
+    kept.cells.push_back(samples.cells[k]);
+    kept.area += samples.cells[k].area;
+  }
+  const double share = kept.area / samples.area;
+  samples = std::move(kept);
+  return share;
 }
 
 double overlap_of(const CoverSamples& samples, const std::vector<CoverStrip>& strips) {
@@ -55,21 +77,21 @@ std::vector<CoverStrip> remeasured(const TileScene& scene, const std::vector<Cov
 std::vector<CoverStrip> cut_short(const TileScene& dense, std::vector<CoverStrip> strips) {
   parallel_for(strips.size(), [&](std::size_t k) {
     LineFitter fitter(dense.target, dense.radial, line_options(dense));
-    strips[k] = without_overcut_stretches(dense.samples, std::move(strips[k]), dense.radial, fitter);
+    strips[k] = cut_to_certified(dense.samples, dense.guard, std::move(strips[k]), dense.radial, fitter);
   });
   std::erase_if(strips, [](const CoverStrip& strip) { return strip.cells.empty(); });
   return strips;
 }
 
 /// Smooths; where that leaves gaps that are worth a strip, adds it and smooths again.
-std::vector<CoverStrip> smoothed(const TileScene& coarse, const TileScene& dense, std::span<const CheckSurface> checks,
+std::vector<CoverStrip> smoothed(const TileScene& coarse, const TileScene& dense, const CoverObstacles& obstacles,
                                  const std::vector<CoverStrip>& pool, std::vector<CoverStrip> strips,
                                  const Progress& progress) {
   constexpr int kRounds = 3;
   strips = cut_short(dense, remeasured(dense, strips));
   for (int round = 0; round < kRounds && dense.options.smooth && !progress.stop(); ++round) {
     progress.step("smooth", 0.55 + 0.1 * round);
-    strips = pruned(dense, smooth_strips(dense, checks, strips).strips);
+    strips = pruned(dense, smooth_strips(dense, obstacles, strips).strips);
     if (round + 1 == kRounds) break;
     const std::vector<CoverStrip> more =
         cut_short(dense, remeasured(dense, additions(coarse, pool, remeasured(coarse, strips))));
@@ -81,16 +103,14 @@ std::vector<CoverStrip> smoothed(const TileScene& coarse, const TileScene& dense
 
 }  // namespace
 
-CoverResult cover(const Target& target, const Tool& tool, std::span<const CheckSurface> checks,
+CoverResult cover(const Target& target, const Tool& tool, const CoverObstacles& obstacles,
                   const CoverOptions& options, const Progress& progress) {
   CoverResult result;
   Stopwatch watch(result);
   progress.step("samples", 0.05);
-  const CoverSamples samples = cover_samples(target, options.sample_share * std::sqrt(target.area()));
-  const PoseChecker checker(tool, checks);
-  LineGuard guard;
-  guard.floor_mm = -kFloorShare * options.tolerance_mm;
-  if (has_checks(tool, checks)) guard.checker = &checker;
+  const LineGuard guard(tool, obstacles, -kFloorShare * options.tolerance_mm);
+  CoverSamples samples = cover_samples(target, options.sample_share * std::sqrt(target.area()));
+  result.reachable = keep_reachable(samples, guard, tool.radial);
   const TileScene scene{target, tool.radial, samples, guard, options};
   watch.lap("samples");
 
@@ -117,9 +137,10 @@ CoverResult cover(const Target& target, const Tool& tool, std::span<const CheckS
   watch.lap("tile");
 
   progress.step("smooth", 0.55);
-  const CoverSamples dense = cover_samples(target, options.dense_share * std::sqrt(target.area()));
+  CoverSamples dense = cover_samples(target, options.dense_share * std::sqrt(target.area()));
+  result.reachable = keep_reachable(dense, guard, tool.radial);
   const TileScene dense_scene{target, tool.radial, dense, guard, options};
-  strips = smoothed(scene, dense_scene, checks, pool.strips, strips, progress);
+  strips = smoothed(scene, dense_scene, obstacles, pool.strips, strips, progress);
   watch.lap("smooth");
 
   result.status = CoverStatus::kCovered;

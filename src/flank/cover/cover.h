@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "flank/base/progress.h"
-#include "flank/clearance/pose_clearance.h"
+#include "flank/cover/line_guard.h"
 #include "flank/cover/seeds.h"
 #include "flank/motion/ruled_motion.h"
 #include "flank/surface/target.h"
@@ -22,7 +22,7 @@ struct CoverOptions {
   double strip_price = 0.01;     ///< share of the area that a strip must add, to be worth its time
   double overlap_share = 0.04;   ///< of neighbouring strips, in axis lengths
   double sample_share = 0.02;    ///< spacing of the samples that measure strips, as a share of the root of the area
-  double dense_share = 0.007;    ///< the same of those that certify and report them
+  double dense_share = 0.011;    ///< the same of those that certify and report them
   int control_points = 24;       ///< of a smoothed strip, a rail; doubled where the certificate fails
   double enough_coverage = 1.0;  ///< no strip is added beyond this share of the area
   bool smooth = true;
@@ -39,7 +39,9 @@ struct CoverResult {
   CoverStatus status = CoverStatus::kNotRun;
   std::string message;
   std::vector<RuledMotion> motions;  ///< one a strip, in the order of machining
-  double coverage_before = 0.0;      ///< area share within tolerance before smoothing, by the planner's own estimate
+  double reachable = 1.0;  ///< area share where a ball of the tool's smallest radius enters no obstacle (MATH section 9)
+  /// Area share of the reachable part that is within tolerance before smoothing, by the planner's own estimate.
+  double coverage_before = 0.0;
   double coverage = 0.0;             ///< and of `motions`
   double overlap = 0.0;              ///< sum of the strips' covered areas over that of their union, less 1
   double overcut_mm = 0.0;           ///< largest -f over samples and border
@@ -48,9 +50,9 @@ struct CoverResult {
   std::vector<std::pair<std::string, double>> seconds;  ///< wall time of the stages
 };
 
-/// Finds the strips. `checks` are the faces that the tool must not enter by more than the tolerance; a strip that would
-/// is cut short or dropped. Same result for any number of threads.
-[[nodiscard]] CoverResult cover(const Target& target, const Tool& tool, std::span<const CheckSurface> checks,
+/// Finds the strips. The tool enters no obstacle by more than the tolerance; a strip that would is cut short or dropped.
+/// Same result for any number of threads.
+[[nodiscard]] CoverResult cover(const Target& target, const Tool& tool, const CoverObstacles& obstacles,
                                 const CoverOptions& options, const Progress& progress);
 
 }  // namespace flank

@@ -54,16 +54,25 @@ LineFit LineFitter::measure(const Pose& pose) {
   return fit;
 }
 
+Footpoint LineFitter::trimmed_foot(const Pose& pose, std::size_t j) const {
+  return feet_[j].location == Location::kInside ? feet_[j] : target_.closest(pose.at(s_[j]));
+}
+
+double LineFitter::depth(const Footpoint& foot, std::size_t j) const {
+  return radius_[j] - (foot.location == Location::kInside ? foot.distance : std::abs(foot.distance));
+}
+
 double LineFitter::overcut(const Pose& pose) const {
   double worst = -1e300;
-  for (std::size_t j = 0; j < feet_.size(); ++j) {
-    const bool inside = feet_[j].location == Location::kInside;
-    // The nearest point of the border is never nearer than the footpoint on the extension where that bends away from
-    // nothing; asking is dear, so only samples that come near are asked.
-    const double distance = inside ? feet_[j].distance : target_.closest(pose.at(s_[j])).distance;
-    worst = std::max(worst, radius_[j] - (inside ? distance : std::abs(distance)));
-  }
+  for (std::size_t j = 0; j < feet_.size(); ++j) worst = std::max(worst, depth(trimmed_foot(pose, j), j));
   return worst;
+}
+
+void LineFitter::deep_points(const Pose& pose, double depth_mm, std::vector<Vec3>& points) const {
+  for (std::size_t j = 0; j < feet_.size(); ++j) {
+    const Footpoint foot = trimmed_foot(pose, j);
+    if (depth(foot, j) > depth_mm) points.push_back(foot.point);
+  }
 }
 
 LineFitter::Frame LineFitter::frame_of(const Pose& pose, const Vec3& travel) const {

@@ -56,6 +56,9 @@ class LineFitter {
   /// border, which errors on its extension say nothing about.
   [[nodiscard]] double overcut(const Pose& pose) const;
 
+  /// Points of the trimmed target that the line last measured enters by more than `depth_mm`, one a sample, appended.
+  void deep_points(const Pose& pose, double depth_mm, std::vector<Vec3>& points) const;
+
   [[nodiscard]] const Target& target() const { return target_; }
   [[nodiscard]] double axis_length() const { return length_; }
   [[nodiscard]] const LineFitOptions& options() const { return options_; }
@@ -68,6 +71,8 @@ class LineFitter {
     Vec3 e1, e2, u;
   };
 
+  [[nodiscard]] Footpoint trimmed_foot(const Pose& pose, std::size_t j) const;
+  [[nodiscard]] double depth(const Footpoint& foot, std::size_t j) const;
   [[nodiscard]] Frame frame_of(const Pose& pose, const Vec3& travel) const;
   [[nodiscard]] Pose moved(const Pose& pose, const Frame& frame, const Vec5& x) const;
   void linearise(const Frame& frame);

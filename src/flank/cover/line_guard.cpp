@@ -4,21 +4,87 @@
 #include <cmath>
 
 namespace flank {
+namespace {
+
+constexpr int kAxisSamples = 13;
+
+/// Signed distance of a closed solid. A nearest point on a border is a gap between its faces: outside.
+double solid_distance(const Target& solid, const Vec3& p, Vec3* away = nullptr) {
+  const Footpoint foot = solid.closest(p);
+  const double distance = foot.location == Location::kInside ? foot.distance : std::abs(foot.distance);
+  if (away) *away = foot.normal;
+  return distance;
+}
+
+bool is_far(const Target& solid, const Vec3& p, double reach) {
+  return reach <= 0.0 || solid.box().squared_distance(p) >= reach * reach;
+}
+
+}  // namespace
+
+LineGuard::LineGuard(const Tool& tool, const CoverObstacles& obstacles, double floor_mm)
+    : obstacles_(&obstacles), floor_mm_(floor_mm) {
+  const bool above = !tool.shank.empty() || !tool.holder.empty();
+  if (std::any_of(obstacles.surfaces.begin(), obstacles.surfaces.end(),
+                  [&](const CheckSurface& c) { return above || !c.flank_may_touch; }))
+    checker_ = std::make_shared<const PoseChecker>(tool, obstacles.surfaces);
+  for (int j = 0; j < kAxisSamples; ++j) {
+    s_.push_back(tool.radial.axis_length() * j / (kAxisSamples - 1));
+    radius_.push_back(tool.radial.at(s_.back()).r);
+  }
+}
+
+bool LineGuard::clear(const Pose& pose) const {
+  if (!obstacles_) return true;
+  for (const auto& solid : obstacles_->solids) {
+    for (std::size_t j = 0; j < s_.size(); ++j) {
+      const Vec3 p = pose.at(s_[j]);
+      const double reach = radius_[j] + floor_mm_;
+      if (!is_far(*solid, p, reach) && solid_distance(*solid, p) < reach) return false;
+    }
+  }
+  return !checker_ || checker_->is_free(pose, floor_mm_);
+}
+
+LineClearance LineGuard::measure(const Pose& pose, double horizon_mm) const {
+  LineClearance result;
+  if (!obstacles_) return result;
+  for (const auto& solid : obstacles_->solids) {
+    for (std::size_t j = 0; j < s_.size(); ++j) {
+      const Vec3 p = pose.at(s_[j]);
+      if (is_far(*solid, p, radius_[j] + horizon_mm)) continue;
+      Vec3 away = Vec3::Zero();
+      const double clearance = solid_distance(*solid, p, &away) - radius_[j];
+      if (clearance < result.clearance_mm) result = {clearance, away.dot(pose.axis)};
+    }
+  }
+  if (!checker_) return result;
+  const PoseClearance found = checker_->measure(pose, horizon_mm);
+  if (found.surface >= 0 && found.clearance_mm < result.clearance_mm)
+    result = {found.clearance_mm, found.tip_gradient.dot(pose.axis)};
+  return result;
+}
+
+bool LineGuard::clear(const Vec3& center, double radius) const {
+  if (!obstacles_) return true;
+  const double reach = radius + floor_mm_;
+  return std::all_of(obstacles_->solids.begin(), obstacles_->solids.end(), [&](const auto& solid) {
+    return is_far(*solid, center, reach) || solid_distance(*solid, center) >= reach;
+  });
+}
 
 Pose slid_clear(const LineGuard& guard, const Pose& pose, double reach_mm) {
-  constexpr int kSteps = 5;
+  constexpr int kSteps = 6;
   constexpr double kLeastGain = 0.05;  ///< a slide that frees less than this per millimetre leads nowhere
   if (guard.clear(pose)) return pose;
   // A little more than needed: the refinement that follows moves the axis again.
-  const double wanted = guard.floor_mm + 0.3 * std::abs(guard.floor_mm);
+  const double wanted = guard.floor_mm() + 0.3 * std::abs(guard.floor_mm());
   Pose at = pose;
   double slide = 0.0;
   for (int k = 0; k < kSteps; ++k) {
-    const PoseClearance found = guard.checker->measure(at, std::max(0.1, 4.0 * std::abs(guard.floor_mm)));
-    if (found.surface < 0 || found.clearance_mm >= guard.floor_mm) return at;
-    const double gain = found.tip_gradient.dot(pose.axis);
-    if (std::abs(gain) < kLeastGain) return at;
-    slide = std::clamp(slide + (wanted - found.clearance_mm) / gain, -reach_mm, reach_mm);
+    const LineClearance found = guard.measure(at, std::max(0.1, 4.0 * std::abs(guard.floor_mm())));
+    if (found.clearance_mm >= guard.floor_mm() || std::abs(found.slide_gain) < kLeastGain) return at;
+    slide = std::clamp(slide + (wanted - found.clearance_mm) / found.slide_gain, -reach_mm, reach_mm);
     at.tip = pose.tip + slide * pose.axis;
   }
   return at;

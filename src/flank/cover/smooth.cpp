@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "flank/base/parallel.h"
+#include "flank/cover/certify.h"
 #include "flank/envelope/swept_estimate.h"
 #include "flank/fit/levenberg_marquardt.h"
 #include "flank/fit/swept_polish.h"
@@ -24,7 +25,9 @@ constexpr int kLimitRounds = 2;
 constexpr double kEnough = 0.9985;       ///< covered share at which no further pass is run
 constexpr double kCheckWeight = 300.0;   ///< of a point of another face against a point of the target
 constexpr double kMarginShare = 0.6;     ///< of the tolerance: what a fit aims at where a certificate asks for all of it
-constexpr double kDeepShare = 0.9, kDeepAimShare = 0.8;  ///< deeper points are held by a pass of limits, to the latter
+constexpr double kDeepShare = 0.9, kDeepAimShare = 0.8;  ///< deeper places are held, to the latter, by a pass of limits
+constexpr double kSolidSpacingShare = 0.005;  ///< of the target's diagonal: spacing of the samples of solids
+constexpr double kNearShare = 0.005;           ///< likewise: how near a face is to be, to be looked at in a pass
 constexpr std::size_t kMostCheckPoints = 800;
 
 FitDraft draft_of(const TileScene& scene, const std::vector<CoverStrip>& strips) {
@@ -59,55 +62,66 @@ std::vector<RuledMotion> motions_of(const std::vector<CoverStrip>& strips) {
   return motions;
 }
 
-/// Corners of the triangles of other faces, those in reach of the target.
-std::vector<Vec3> corners_near(const TileScene& scene, std::span<const CheckSurface> checks) {
+/// Those of the points whose f is below a bound, in their order.
+std::vector<Vec3> points_below(const TileScene& scene, const std::vector<CoverStrip>& strips,
+                               const std::vector<Vec3>& points, double bound) {
+  const SweptEstimate swept(motions_of(strips), scene.radial, 60);
+  std::vector<char> below(points.size(), 0);
+  parallel_blocks(points.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) below[k] = swept.distance(points[k]) < bound ? 1 : 0;
+  });
+  std::vector<Vec3> result;
+  for (std::size_t k = 0; k < points.size(); ++k)
+    if (below[k] != 0) result.push_back(points[k]);
+  return result;
+}
+
+/// Corners of the triangles of other faces, and samples of solids, that the strips come near.
+std::vector<Vec3> corners_near(const TileScene& scene, const CoverObstacles& obstacles,
+                               const std::vector<CoverStrip>& strips) {
   const Box3& box = scene.target.box();
-  const double reach = 0.5 * scene.radial.axis_length();
+  const double reach = 0.5 * scene.radial.axis_length(), size = scene.target.diagonal();
   std::vector<Vec3> corners;
-  for (const CheckSurface& check : checks) {
+  const auto add = [&](const Vec3& x) {
+    if (box.squared_distance(x) < reach * reach) corners.push_back(x);
+  };
+  for (const CheckSurface& check : obstacles.surfaces) {
     if (check.flank_may_touch) continue;
-    for (const Vec3& x : check.mesh.vertices)
-      if (box.squared_distance(x) < reach * reach) corners.push_back(x);
+    for (const Vec3& x : check.mesh.vertices) add(x);
   }
-  return corners;
+  for (const auto& solid : obstacles.solids)
+    for (const SurfaceSample& sample : solid->samples(kSolidSpacingShare * size)) add(sample.point);
+  return points_below(scene, strips, corners, 20.0 * scene.options.tolerance_mm + kNearShare * size);
 }
 
 /// Points of other faces that the swept tools enter, or nearly: those entered first, evenly thinned.
 std::vector<FacePoint> check_points(const TileScene& scene, const std::vector<Vec3>& corners,
                                     const std::vector<CoverStrip>& strips, double share) {
-  const SweptEstimate swept(motions_of(strips), scene.radial, 60);
-  const double near = 2.0 * scene.options.tolerance_mm;
-  std::vector<char> close(corners.size(), 0);
-  parallel_blocks(corners.size(), 256, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) close[k] = swept.distance(corners[k]) < near ? 1 : 0;
-  });
-  const auto count = static_cast<std::size_t>(std::count(close.begin(), close.end(), 1));
-  const std::size_t stride = 1 + count / kMostCheckPoints;
+  const std::vector<Vec3> near = points_below(scene, strips, corners, 2.0 * scene.options.tolerance_mm);
+  const std::size_t stride = 1 + near.size() / kMostCheckPoints;
   std::vector<FacePoint> points;
-  std::size_t seen = 0;
-  for (std::size_t k = 0; k < corners.size(); ++k)
-    if (close[k] != 0 && seen++ % stride == 0)
-      points.push_back({corners[k], share, true, -kMarginShare * scene.options.tolerance_mm});
+  for (std::size_t k = 0; k < near.size(); k += stride)
+    points.push_back({near[k], share, true, -kMarginShare * scene.options.tolerance_mm});
   return points;
 }
 
-/// Points of the target where the swept tools cut nearly as deep as the tolerance allows, or deeper.
+/// Points of the target where the tool of these strips cuts nearly as deep as the tolerance allows, or deeper.
 std::vector<FacePoint> deep_points(const TileScene& scene, const std::vector<CoverStrip>& strips, double share) {
-  const SweptEstimate swept(motions_of(strips), scene.radial, 5 * scene.options.control_points);
-  std::vector<Vec3> all = scene.target.border_points(0.3 * scene.options.dense_share * std::sqrt(scene.target.area()));
-  for (const SurfaceSample& cell : scene.samples.cells) all.push_back(cell.point);
-  std::vector<char> deep(all.size(), 0);
-  parallel_blocks(all.size(), 256, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k)
-      deep[k] = swept.distance(all[k]) < -kDeepShare * scene.options.tolerance_mm ? 1 : 0;
+  const double tolerance = scene.options.tolerance_mm;
+  std::vector<std::vector<Vec3>> found(strips.size());
+  parallel_for(strips.size(), [&](std::size_t k) {
+    LineFitter fitter(scene.target, scene.radial, line_options(scene));
+    const RuledMotion& motion = strips[k].motion;
+    const int poses = depth_poses(motion);
+    for (int i = 0; i <= poses; ++i) {
+      const Pose pose = motion.pose(static_cast<double>(i) / poses);
+      (void)fitter.measure(pose);
+      fitter.deep_points(pose, kDeepShare * tolerance, found[k]);
+    }
   });
-  const auto count = static_cast<std::size_t>(std::count(deep.begin(), deep.end(), 1));
-  const std::size_t stride = 1 + count / kMostCheckPoints;
   std::vector<FacePoint> points;
-  std::size_t seen = 0;
-  for (std::size_t k = 0; k < all.size(); ++k)
-    if (deep[k] != 0 && seen++ % stride == 0)
-      points.push_back({all[k], share, true, -kDeepAimShare * scene.options.tolerance_mm});
+  for (const auto& of_strip : found)
+    for (const Vec3& x : of_strip) points.push_back({x, share, true, -kDeepAimShare * tolerance});
   return points;
 }
 
@@ -124,7 +138,7 @@ std::vector<CoverStrip> measured(const TileScene& scene, const std::vector<Ruled
 std::vector<CoverStrip> with_fallbacks(const TileScene& scene, std::vector<CoverStrip> strips,
                                        const std::vector<CoverStrip>& before, int& fallen) {
   std::vector<char> good(strips.size());
-  parallel_for(strips.size(), [&](std::size_t k) { good[k] = certified(scene, strips[k]) ? 1 : 0; });
+  parallel_for(strips.size(), [&](std::size_t k) { good[k] = is_certified(scene.guard, strips[k], scene.options.tolerance_mm) ? 1 : 0; });
   fallen = 0;
   for (std::size_t k = 0; k < strips.size(); ++k) {
     if (good[k] != 0) continue;
@@ -164,18 +178,10 @@ double covered_share(const CoverSamples& samples, const std::vector<CoverStrip>&
   return area / samples.area;
 }
 
-bool certified(const TileScene& scene, const CoverStrip& strip) {
-  constexpr int kPoses = 120;
-  if (strip.cells.empty() || strip.overcut_mm > kCertifiedShare * scene.options.tolerance_mm) return false;
-  for (int i = 0; i <= kPoses; ++i)
-    if (!scene.guard.clear(strip.motion.pose(static_cast<double>(i) / kPoses))) return false;
-  return true;
-}
-
-SmoothResult smooth_strips(const TileScene& scene, std::span<const CheckSurface> checks,
+SmoothResult smooth_strips(const TileScene& scene, const CoverObstacles& obstacles,
                            const std::vector<CoverStrip>& strips) {
   SmoothResult best{strips, covered_share(scene.samples, strips), {}};
-  const std::vector<Vec3> corners = corners_near(scene, checks);
+  const std::vector<Vec3> corners = corners_near(scene, obstacles, strips);
   std::vector<CoverStrip> now = strips;
   bool first = true;
   for (const Pass& pass : kPasses) {

@@ -1,7 +1,6 @@
 /// SMOOTH (MATH section 8): the chosen strips as one fit with the given tool (fit/swept_model.h), then certified.
 #pragma once
 
-#include <span>
 #include <string>
 #include <vector>
 
@@ -18,13 +17,10 @@ struct SmoothResult {
 
 /// All strips together are fitted to the target's points; other faces push back where the tool comes near them. Passes
 /// are kept only where the covered share rises; a strip whose certificate fails falls back to the strip that it was.
-[[nodiscard]] SmoothResult smooth_strips(const TileScene& scene, std::span<const CheckSurface> checks,
+[[nodiscard]] SmoothResult smooth_strips(const TileScene& scene, const CoverObstacles& obstacles,
                                          const std::vector<CoverStrip>& strips);
 
 /// Covered share of the area.
 [[nodiscard]] double covered_share(const CoverSamples& samples, const std::vector<CoverStrip>& strips);
-
-/// Certificate of a strip: no overcut beyond the tolerance at the samples, clear of other faces from end to end.
-[[nodiscard]] bool certified(const TileScene& scene, const CoverStrip& strip);
 
 }  // namespace flank

@@ -11,7 +11,7 @@ namespace {
 constexpr int kLeastControlPoints = 4;
 constexpr int kSamplesPerControlPoint = 4;
 constexpr int kPosesPerControlPoint = 5;
-constexpr int kDepthsPerControlPoint = 4;
+
 
 int table_poses(const RuledMotion& motion) { return std::max(40, kPosesPerControlPoint * motion.tip.count()); }
 
@@ -91,6 +91,11 @@ RuledMotion motion_through(const std::vector<Pose>& poses, double axis_length, i
   return fit_motion(even, times, axis_length, count);
 }
 
+int depth_poses(const RuledMotion& motion) {
+  constexpr int kPerControlPoint = 4;
+  return kPerControlPoint * motion.tip.count();
+}
+
 std::vector<double> depths_along(LineFitter& fitter, const RuledMotion& motion, int poses) {
   std::vector<double> depths;
   fitter.forget();
@@ -116,7 +121,7 @@ CoverStrip measure_strip(const CoverSamples& samples, RuledMotion motion, const 
     strip.cells.push_back(static_cast<int>(k));
     strip.area += cell.area;
   }
-  const std::vector<double> depths = depths_along(fitter, motion, kDepthsPerControlPoint * motion.tip.count());
+  const std::vector<double> depths = depths_along(fitter, motion, depth_poses(motion));
   strip.overcut_mm = std::max(0.0, *std::max_element(depths.begin(), depths.end()));
   strip.motion = std::move(motion);
   return strip;
@@ -131,28 +136,6 @@ RuledMotion part_of_motion(const RuledMotion& motion, double t0, double t1) {
     poses.push_back(motion.pose(t0 + t.back() * (t1 - t0)));
   }
   return fit_motion(poses, t, motion.axis_length, motion.tip.count());
-}
-
-CoverStrip without_overcut_stretches(const CoverSamples& samples, CoverStrip strip, const RadialFunction& radial,
-                                     LineFitter& fitter) {
-  constexpr int kTries = 3;
-  constexpr double kShortest = 0.1;
-  const double limit = kCertifiedShare * fitter.options().tolerance_mm;
-  for (int k = 0; k < kTries && strip.overcut_mm > limit; ++k) {
-    const int poses = kDepthsPerControlPoint * strip.motion.tip.count();
-    const std::vector<double> depths = depths_along(fitter, strip.motion, poses);
-    int first = 0, longest = 0;
-    for (int i = 0, run = 0; i <= poses; ++i) {
-      run = depths[static_cast<std::size_t>(i)] <= limit ? run + 1 : 0;
-      if (run <= longest) continue;
-      longest = run;
-      first = i - run + 1;
-    }
-    const double t0 = static_cast<double>(first) / poses, t1 = static_cast<double>(first + longest - 1) / poses;
-    if (t1 - t0 < kShortest) return {};
-    strip = measure_strip(samples, part_of_motion(strip.motion, t0, t1), radial, fitter);
-  }
-  return strip.overcut_mm > limit ? CoverStrip{} : strip;
 }
 
 }  // namespace flank

@@ -25,6 +25,8 @@ inline constexpr double kCertifiedShare = 0.96;
 /// is the overcut itself; and it varies slowly along s and t, where f varies quickly over the face near the ends of the
 /// axis.
 [[nodiscard]] std::vector<double> depths_along(LineFitter& fitter, const RuledMotion& motion, int poses);
+/// Steps of t that see every wave that the rails can make.
+[[nodiscard]] int depth_poses(const RuledMotion& motion);
 
 /// A strip as a motion, measured.
 struct CoverStrip {
@@ -43,10 +45,5 @@ struct CoverStrip {
 
 /// The part of a motion over [t0, t1], as a motion over [0, 1].
 [[nodiscard]] RuledMotion part_of_motion(const RuledMotion& motion, double t0, double t1);
-
-/// A strip that cuts deeper than kCertifiedShare of the tolerance is cut short: the longest stretch of it that does not remains. No cells
-/// where nothing does.
-[[nodiscard]] CoverStrip without_overcut_stretches(const CoverSamples& samples, CoverStrip strip,
-                                                   const RadialFunction& radial, LineFitter& fitter);
 
 }  // namespace flank

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "flank/base/parallel.h"
+#include "flank/cover/certify.h"
 
 namespace flank {
 namespace {
@@ -68,7 +69,8 @@ CoverStrip strip_near(const TileScene& scene, LineFitter& fitter, const Pose& po
   const GrownStrip grown = grow(fitter, scene.guard, line, guide);
   if (grown.poses.size() < 5) return {};
   CoverStrip strip = measure_strip(scene.samples, motion_through(grown.poses, length, 48), scene.radial, fitter);
-  return without_overcut_stretches(scene.samples, std::move(strip), scene.radial, fitter);
+  // Its poses are clear; what lies between them is looked at for the strips that are chosen.
+  return cut_to_certified(scene.samples, LineGuard(), std::move(strip), scene.radial, fitter);
 }
 
 /// Strips beside `strip`, past its tip and past its holder end, that add to what is covered.

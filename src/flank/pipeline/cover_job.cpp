@@ -54,18 +54,18 @@ CoverOptions options_of(const CoverJob& job) {
 }
 
 /// Other faces of the part; for shank and holder the target itself as well.
-std::vector<CheckSurface> checks_of(const Part& part, const std::vector<int>& members, const Target& target,
+CoverObstacles obstacles_of(const Part& part, const std::vector<int>& members, const Target& target,
                                     const Tool& tool, double tolerance_mm) {
   double reach = 0.0;
   for (int j = 0; j <= 16; ++j)
     reach = std::max(reach, tool.radial.axis_length() + 2.0 * tool.radial.at(tool.radial.axis_length() * j / 16.0).r);
   for (const auto* profile : {&tool.shank, &tool.holder})
     for (const Vec2& p : *profile) reach = std::max(reach, p.x() + 2.0 * p.y());
-  std::vector<CheckSurface> checks =
-      other_faces(part, members, target.box(), reach, std::clamp(0.3 * tolerance_mm, 1e-3, 0.05));
+  CoverObstacles obstacles =
+      other_faces(part, members, target, reach, std::clamp(0.3 * tolerance_mm, 1e-3, 0.05));
   if (!tool.shank.empty() || !tool.holder.empty())
-    checks.push_back(check_surface(target, std::sqrt(target.area()) / 60.0, true));
-  return checks;
+    obstacles.surfaces.push_back(check_surface(target, std::sqrt(target.area()) / 60.0, true));
+  return obstacles;
 }
 
 /// Indices of a group's faces among those asked for.
@@ -85,6 +85,7 @@ void keep(const CoverResult& result, const TargetGroup& group, FitOutcome& outco
   outcome.figures.emplace_back(prefix + "lines", result.lines);
   outcome.figures.emplace_back(prefix + "grown", result.grown);
   outcome.figures.emplace_back(prefix + "strips", static_cast<double>(result.motions.size()));
+  outcome.figures.emplace_back(prefix + "reachable", result.reachable);
   outcome.figures.emplace_back(prefix + "before", result.coverage_before);
   outcome.figures.emplace_back(prefix + "after", result.coverage);
   outcome.figures.emplace_back(prefix + "overlap", result.overlap);
@@ -115,10 +116,10 @@ FitOutcome run_cover(const CoverJob& job, const Progress& progress) {
   outcome.diagonal_mm = groups.front().target->diagonal();
   watch.lap("read");
   for (const TargetGroup& group : groups) {
-    const std::vector<CheckSurface> checks =
-        checks_of(part, members_of(part, group), *group.target, outcome.tool, base.tolerance_mm);
+    const CoverObstacles obstacles =
+        obstacles_of(part, members_of(part, group), *group.target, outcome.tool, base.tolerance_mm);
     watch.lap("other faces");
-    const CoverResult result = cover(*group.target, outcome.tool, checks, options_of(job), progress);
+    const CoverResult result = cover(*group.target, outcome.tool, obstacles, options_of(job), progress);
     keep(result, group, outcome);
     for (const RuledMotion& motion : result.motions) add_strip(base, motion, group, outcome);
     watch.lap("cover");
