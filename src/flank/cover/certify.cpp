@@ -19,7 +19,7 @@ CoverStrip cut_to_certified(const CoverSamples& samples, const LineGuard& guard,
   const double tolerance = fitter.options().tolerance_mm;
   for (int k = 0; k < kTries && !strip.cells.empty() && !is_certified(guard, strip, tolerance); ++k) {
     const int poses = depth_poses(strip.motion);
-    const std::vector<double> depths = depths_along(fitter, strip.motion, poses);
+    const std::vector<double> depths = depths_along(samples, strip.motion, radial, fitter);
     int first = 0, longest = 0;
     for (int i = 0, run = 0; i <= poses; ++i) {
       const bool good = depths[static_cast<std::size_t>(i)] <= kCertifiedShare * tolerance &&
@@ -29,7 +29,9 @@ CoverStrip cut_to_certified(const CoverSamples& samples, const LineGuard& guard,
       longest = run;
       first = i - run + 1;
     }
-    const double t0 = static_cast<double>(first) / poses, t1 = static_cast<double>(first + longest - 1) / poses;
+    // The new ends lie a step within: right at the edge of what is allowed the next step may be beyond it.
+    const double t0 = (first + (first > 0 ? 1.0 : 0.0)) / poses;
+    const double t1 = (first + longest - (first + longest <= poses ? 2.0 : 1.0)) / poses;
     if (t1 - t0 < kShortest) return {};
     strip = measure_strip(samples, part_of_motion(strip.motion, t0, t1), radial, fitter);
   }

@@ -31,22 +31,16 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-double smallest_radius(const RadialFunction& radial) {
-  double least = 1e300;
-  for (int j = 0; j <= 64; ++j) least = std::min(least, radial.at(radial.axis_length() * j / 64.0).r);
-  return least;
-}
-
 /// Leaves out the cells that a ball of the tool's smallest radius cannot touch without entering an obstacle; returns the
 /// area share of the others.
-double keep_reachable(CoverSamples& samples, const LineGuard& guard, const RadialFunction& radial) {
-  const double radius = smallest_radius(radial);
+double keep_reachable(CoverSamples& samples, const LineGuard& guard) {
   std::vector<char> open(samples.cells.size());
   parallel_for(samples.cells.size(), [&](std::size_t k) {
     const SurfaceSample& cell = samples.cells[k];
-    open[k] = guard.clear(cell.point + radius * cell.normal, radius) ? 1 : 0;
+    open[k] = guard.ball_is_clear(cell.point + guard.ball_radius() * cell.normal) ? 1 : 0;
   });
   CoverSamples kept;
+  kept.border = samples.border;
   for (std::size_t k = 0; k < open.size(); ++k) {
     if (open[k] == 0) continue;
     kept.cells.push_back(samples.cells[k]);
@@ -84,14 +78,14 @@ std::vector<CoverStrip> cut_short(const TileScene& dense, std::vector<CoverStrip
 }
 
 /// Smooths; where that leaves gaps that are worth a strip, adds it and smooths again.
-std::vector<CoverStrip> smoothed(const TileScene& coarse, const TileScene& dense, const CoverObstacles& obstacles,
+std::vector<CoverStrip> smoothed(const TileScene& coarse, const TileScene& dense,
                                  const std::vector<CoverStrip>& pool, std::vector<CoverStrip> strips,
                                  const Progress& progress) {
   constexpr int kRounds = 3;
   strips = cut_short(dense, remeasured(dense, strips));
   for (int round = 0; round < kRounds && dense.options.smooth && !progress.stop(); ++round) {
     progress.step("smooth", 0.55 + 0.1 * round);
-    strips = pruned(dense, smooth_strips(dense, obstacles, strips).strips);
+    strips = pruned(dense, smooth_strips(dense, strips).strips);
     if (round + 1 == kRounds) break;
     const std::vector<CoverStrip> more =
         cut_short(dense, remeasured(dense, additions(coarse, pool, remeasured(coarse, strips))));
@@ -110,7 +104,7 @@ CoverResult cover(const Target& target, const Tool& tool, const CoverObstacles& 
   progress.step("samples", 0.05);
   const LineGuard guard(tool, obstacles, -kFloorShare * options.tolerance_mm);
   CoverSamples samples = cover_samples(target, options.sample_share * std::sqrt(target.area()));
-  result.reachable = keep_reachable(samples, guard, tool.radial);
+  result.reachable = keep_reachable(samples, guard);
   const TileScene scene{target, tool.radial, samples, guard, options};
   watch.lap("samples");
 
@@ -138,9 +132,9 @@ CoverResult cover(const Target& target, const Tool& tool, const CoverObstacles& 
 
   progress.step("smooth", 0.55);
   CoverSamples dense = cover_samples(target, options.dense_share * std::sqrt(target.area()));
-  result.reachable = keep_reachable(dense, guard, tool.radial);
+  result.reachable = keep_reachable(dense, guard);
   const TileScene dense_scene{target, tool.radial, dense, guard, options};
-  strips = smoothed(scene, dense_scene, obstacles, pool.strips, strips, progress);
+  strips = smoothed(scene, dense_scene, pool.strips, strips, progress);
   watch.lap("smooth");
 
   result.status = CoverStatus::kCovered;

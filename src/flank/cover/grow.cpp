@@ -44,7 +44,7 @@ class Grower {
   bool between(double h, const Vec3& travel, const LineFit& next, LineFit& middle);
   bool within(const LineFit& fit) const;
   bool advanced(double h, const Vec3& direction) const;
-  void overrun(const AxisVelocity& last, std::vector<Pose>& poses) const;
+  void overrun(const AxisVelocity& last, std::vector<Pose>& poses);
 
   LineFitter& fitter_;
   const LineGuard& guard_;
@@ -67,7 +67,8 @@ Movability Grower::velocity(const AxisVelocity& last) const {
 
 bool Grower::within(const LineFit& fit) const {
   const double tolerance = fitter_.options().tolerance_mm;
-  return !fit.touches() || (fit.largest_mm <= tolerance && fitter_.overcut(fit.pose) <= tolerance);
+  // A tool that has left the target still must not cut its border.
+  return (!fit.touches() || fit.largest_mm <= tolerance) && fitter_.overcut(fit.pose) <= tolerance;
 }
 
 bool Grower::advanced(double h, const Vec3& direction) const {
@@ -121,9 +122,9 @@ bool Grower::between(double h, const Vec3& travel, const LineFit& next, LineFit&
 }
 
 /// Past the border the last motion goes on as it is, as far as it is clear.
-void Grower::overrun(const AxisVelocity& last, std::vector<Pose>& poses) const {
+void Grower::overrun(const AxisVelocity& last, std::vector<Pose>& poses) {
   const Pose next = shifted(poses.back(), last, length_, options_.overrun_share * size_);
-  if (guard_.clear(next)) poses.push_back(next);
+  if (within(fitter_.measure(next)) && guard_.clear(next)) poses.push_back(next);
 }
 
 GrowEnd Grower::run(const LineFit& line, const Vec3& heading, std::vector<Pose>& poses) {

@@ -19,6 +19,26 @@ constexpr double kSettled = 1e-3;  ///< a step below this share of the tolerance
 
 }  // namespace
 
+LineFrame line_frame(const Pose& pose, const Vec3& travel) {
+  Vec3 e1 = travel - travel.dot(pose.axis) * pose.axis;
+  if (e1.norm() < 1e-9) e1 = pose.axis.unitOrthogonal();
+  e1.normalize();
+  return {e1, pose.axis.cross(e1), pose.axis};
+}
+
+Pose moved_line(const Pose& pose, double axis_length, const LineFrame& frame, const Vec5& x) {
+  const Vec3 middle = pose.at(0.5 * axis_length) + x[0] * frame.e1 + x[1] * frame.e2 + x[2] * frame.u;
+  const Vec3 axis = (pose.axis + (2.0 / axis_length) * (x[3] * frame.e1 + x[4] * frame.e2)).normalized();
+  return {middle - 0.5 * axis_length * axis, axis};
+}
+
+Vec5 distance_row(const LineFrame& frame, const Vec3& normal, double rho) {
+  const double a = normal.dot(frame.e1), b = normal.dot(frame.e2);
+  Vec5 row;
+  row << a, b, normal.dot(frame.u), rho * a, rho * b;
+  return row;
+}
+
 LineFitter::LineFitter(const Target& target, const RadialFunction& radial, const LineFitOptions& options)
     : target_(target), length_(radial.axis_length()), options_(options) {
   const auto n = static_cast<std::size_t>(options.samples);
@@ -68,6 +88,13 @@ double LineFitter::overcut(const Pose& pose) const {
   return worst;
 }
 
+double LineFitter::inside_overcut() const {
+  double worst = -1e300;
+  for (std::size_t j = 0; j < feet_.size(); ++j)
+    if (feet_[j].location == Location::kInside) worst = std::max(worst, -errors_[j]);
+  return worst;
+}
+
 void LineFitter::deep_points(const Pose& pose, double depth_mm, std::vector<Vec3>& points) const {
   for (std::size_t j = 0; j < feet_.size(); ++j) {
     const Footpoint foot = trimmed_foot(pose, j);
@@ -75,25 +102,9 @@ void LineFitter::deep_points(const Pose& pose, double depth_mm, std::vector<Vec3
   }
 }
 
-LineFitter::Frame LineFitter::frame_of(const Pose& pose, const Vec3& travel) const {
-  Vec3 e1 = travel - travel.dot(pose.axis) * pose.axis;
-  if (e1.norm() < 1e-9) e1 = pose.axis.unitOrthogonal();
-  e1.normalize();
-  return {e1, pose.axis.cross(e1), pose.axis};
-}
-
-Pose LineFitter::moved(const Pose& pose, const Frame& frame, const Vec5& x) const {
-  const Vec3 middle = pose.at(0.5 * length_) + x[0] * frame.e1 + x[1] * frame.e2 + x[2] * frame.u;
-  const Vec3 axis = (pose.axis + (2.0 / length_) * (x[3] * frame.e1 + x[4] * frame.e2)).normalized();
-  return {middle - 0.5 * length_ * axis, axis};
-}
-
-void LineFitter::linearise(const Frame& frame) {
-  for (std::size_t j = 0; j < feet_.size(); ++j) {
-    const Vec3& n = feet_[j].normal;
-    const double rho = 2.0 * s_[j] / length_ - 1.0, a = n.dot(frame.e1), b = n.dot(frame.e2);
-    rows_[j] << a, b, n.dot(frame.u), rho * a, rho * b;
-  }
+void LineFitter::linearise(const LineFrame& frame) {
+  for (std::size_t j = 0; j < feet_.size(); ++j)
+    rows_[j] = distance_row(frame, feet_[j].normal, 2.0 * s_[j] / length_ - 1.0);
 }
 
 void LineFitter::load_weights() {
@@ -104,8 +115,8 @@ void LineFitter::load_weights() {
   weights_ = base_weights_;
 }
 
-LineFitter::Vec5 LineFitter::solve(const Vec5& stay, const Vec5& offset) const {
-  Mat5 normal = stay.asDiagonal();
+Vec5 LineFitter::solve(const Vec5& stay, const Vec5& offset) const {
+  Eigen::Matrix<double, 5, 5> normal = stay.asDiagonal();
   Vec5 rhs = -stay.cwiseProduct(offset);
   for (std::size_t j = 0; j < rows_.size(); ++j) {
     normal.noalias() += weights_[j] * rows_[j] * rows_[j].transpose();
@@ -114,7 +125,7 @@ LineFitter::Vec5 LineFitter::solve(const Vec5& stay, const Vec5& offset) const {
   return normal.ldlt().solve(rhs);
 }
 
-LineFitter::Vec5 LineFitter::best_step(const Vec5& stay, const Vec5& offset) {
+Vec5 LineFitter::best_step(const Vec5& stay, const Vec5& offset) {
   load_weights();
   const auto largest = [&](const Vec5& x) {
     double worst = 0.0;
@@ -153,7 +164,7 @@ LineFit LineFitter::refine(const Pose& start, const LineHold& hold) {
   if (hold.travel.norm() > 0.0) stay[0] = kHeld;
   LineFit best = measure(start);
   if (!best.touches()) return best;
-  const Frame frame = frame_of(start, hold.travel);
+  const LineFrame frame = line_frame(start, hold.travel);
   Vec5 offset = Vec5::Zero();
   for (int k = 0; k < options_.steps; ++k) {
     best_feet_ = feet_;
@@ -161,7 +172,7 @@ LineFit LineFitter::refine(const Pose& start, const LineHold& hold) {
     Vec5 x = best_step(stay, offset);
     const double longest = kLongestStep * length_, size = x.cwiseAbs().maxCoeff();
     if (size > longest) x *= longest / size;
-    const LineFit trial = measure(moved(best.pose, frame, x));
+    const LineFit trial = measure(moved_line(best.pose, length_, frame, x));
     const bool better = trial.touches() && trial.largest_mm < best.largest_mm;
     const bool lost = !trial.touches() || trial.largest_mm > 2.0 * best.largest_mm + options_.tolerance_mm;
     if (!better && (lost || k > 0)) {

@@ -35,6 +35,19 @@ struct LineFit {
   [[nodiscard]] bool touches() const { return inside_share > 0.0; }
 };
 
+using Vec5 = Eigen::Matrix<double, 5, 1>;
+
+/// Coordinates of a small motion of the axis, all in mm at its ends: shift along e1, e2 and the axis u, turn by e1, e2.
+struct LineFrame {
+  Vec3 e1 = Vec3::UnitX(), e2 = Vec3::UnitY(), u = Vec3::UnitZ();
+};
+/// The frame of a pose, e1 along the part of `travel` across the axis (any, where there is none).
+[[nodiscard]] LineFrame line_frame(const Pose& pose, const Vec3& travel);
+/// The pose moved by coordinates of the frame.
+[[nodiscard]] Pose moved_line(const Pose& pose, double axis_length, const LineFrame& frame, const Vec5& x);
+/// dd/dx of the distance of the axis point s at x = 0; `normal` is its footpoint's, rho = 2 s / L - 1.
+[[nodiscard]] Vec5 distance_row(const LineFrame& frame, const Vec3& normal, double rho);
+
 /// Fits lines one after another; holds the scratch memory, so one per thread.
 class LineFitter {
  public:
@@ -56,6 +69,8 @@ class LineFitter {
   /// border, which errors on its extension say nothing about.
   [[nodiscard]] double overcut(const Pose& pose) const;
 
+  /// The same over the samples inside the target alone: cheap.
+  [[nodiscard]] double inside_overcut() const;
   /// Points of the trimmed target that the line last measured enters by more than `depth_mm`, one a sample, appended.
   void deep_points(const Pose& pose, double depth_mm, std::vector<Vec3>& points) const;
 
@@ -64,18 +79,9 @@ class LineFitter {
   [[nodiscard]] const LineFitOptions& options() const { return options_; }
 
  private:
-  using Vec5 = Eigen::Matrix<double, 5, 1>;
-  using Mat5 = Eigen::Matrix<double, 5, 5>;
-  /// Coordinates of a small motion of the axis, all in mm at its ends: shift along e1, e2 and the axis, turn by e1, e2.
-  struct Frame {
-    Vec3 e1, e2, u;
-  };
-
   [[nodiscard]] Footpoint trimmed_foot(const Pose& pose, std::size_t j) const;
   [[nodiscard]] double depth(const Footpoint& foot, std::size_t j) const;
-  [[nodiscard]] Frame frame_of(const Pose& pose, const Vec3& travel) const;
-  [[nodiscard]] Pose moved(const Pose& pose, const Frame& frame, const Vec5& x) const;
-  void linearise(const Frame& frame);
+  void linearise(const LineFrame& frame);
   [[nodiscard]] Vec5 solve(const Vec5& stay, const Vec5& offset) const;
   [[nodiscard]] Vec5 best_step(const Vec5& stay, const Vec5& offset);
   void load_weights();

@@ -7,13 +7,11 @@ namespace flank {
 namespace {
 
 constexpr int kAxisSamples = 13;
+constexpr double kBallAxisShare = 1e-4;  ///< a ball is a very short cylinder with round ends
 
 /// Signed distance of a closed solid. A nearest point on a border is a gap between its faces: outside.
-double solid_distance(const Target& solid, const Vec3& p, Vec3* away = nullptr) {
-  const Footpoint foot = solid.closest(p);
-  const double distance = foot.location == Location::kInside ? foot.distance : std::abs(foot.distance);
-  if (away) *away = foot.normal;
-  return distance;
+double signed_distance(const Footpoint& foot) {
+  return foot.location == Location::kInside ? foot.distance : std::abs(foot.distance);
 }
 
 bool is_far(const Target& solid, const Vec3& p, double reach) {
@@ -24,14 +22,20 @@ bool is_far(const Target& solid, const Vec3& p, double reach) {
 
 LineGuard::LineGuard(const Tool& tool, const CoverObstacles& obstacles, double floor_mm)
     : obstacles_(&obstacles), floor_mm_(floor_mm) {
-  const bool above = !tool.shank.empty() || !tool.holder.empty();
-  if (std::any_of(obstacles.surfaces.begin(), obstacles.surfaces.end(),
-                  [&](const CheckSurface& c) { return above || !c.flank_may_touch; }))
-    checker_ = std::make_shared<const PoseChecker>(tool, obstacles.surfaces);
   for (int j = 0; j < kAxisSamples; ++j) {
     s_.push_back(tool.radial.axis_length() * j / (kAxisSamples - 1));
     radius_.push_back(tool.radial.at(s_.back()).r);
   }
+  ball_radius_ = *std::min_element(radius_.begin(), radius_.end());
+  const bool above = !tool.shank.empty() || !tool.holder.empty();
+  if (std::any_of(obstacles.surfaces.begin(), obstacles.surfaces.end(),
+                  [&](const CheckSurface& c) { return above || !c.flank_may_touch; }))
+    checker_ = std::make_shared<const PoseChecker>(tool, obstacles.surfaces);
+  if (obstacles.surfaces.empty()) return;
+  Tool ball;
+  ball.radial = RadialFunction(ToolFamily::kCylinder, kBallAxisShare * ball_radius_,
+                               Eigen::VectorXd::Constant(1, ball_radius_));
+  ball_checker_ = std::make_shared<const PoseChecker>(ball, obstacles.surfaces);
 }
 
 bool LineGuard::clear(const Pose& pose) const {
@@ -40,7 +44,7 @@ bool LineGuard::clear(const Pose& pose) const {
     for (std::size_t j = 0; j < s_.size(); ++j) {
       const Vec3 p = pose.at(s_[j]);
       const double reach = radius_[j] + floor_mm_;
-      if (!is_far(*solid, p, reach) && solid_distance(*solid, p) < reach) return false;
+      if (!is_far(*solid, p, reach) && signed_distance(solid->closest(p)) < reach) return false;
     }
   }
   return !checker_ || checker_->is_free(pose, floor_mm_);
@@ -53,24 +57,24 @@ LineClearance LineGuard::measure(const Pose& pose, double horizon_mm) const {
     for (std::size_t j = 0; j < s_.size(); ++j) {
       const Vec3 p = pose.at(s_[j]);
       if (is_far(*solid, p, radius_[j] + horizon_mm)) continue;
-      Vec3 away = Vec3::Zero();
-      const double clearance = solid_distance(*solid, p, &away) - radius_[j];
-      if (clearance < result.clearance_mm) result = {clearance, away.dot(pose.axis)};
+      const Footpoint foot = solid->closest(p);
+      const double clearance = signed_distance(foot) - radius_[j];
+      if (clearance < result.clearance_mm) result = {clearance, foot.normal.dot(pose.axis), foot.point};
     }
   }
   if (!checker_) return result;
   const PoseClearance found = checker_->measure(pose, horizon_mm);
   if (found.surface >= 0 && found.clearance_mm < result.clearance_mm)
-    result = {found.clearance_mm, found.tip_gradient.dot(pose.axis)};
+    result = {found.clearance_mm, found.tip_gradient.dot(pose.axis), found.point};
   return result;
 }
 
-bool LineGuard::clear(const Vec3& center, double radius) const {
+bool LineGuard::ball_is_clear(const Vec3& center) const {
   if (!obstacles_) return true;
-  const double reach = radius + floor_mm_;
-  return std::all_of(obstacles_->solids.begin(), obstacles_->solids.end(), [&](const auto& solid) {
-    return is_far(*solid, center, reach) || solid_distance(*solid, center) >= reach;
-  });
+  const double reach = ball_radius_ + floor_mm_;
+  for (const auto& solid : obstacles_->solids)
+    if (!is_far(*solid, center, reach) && signed_distance(solid->closest(center)) < reach) return false;
+  return !ball_checker_ || ball_checker_->is_free({center, Vec3::UnitZ()}, floor_mm_);
 }
 
 Pose slid_clear(const LineGuard& guard, const Pose& pose, double reach_mm) {

@@ -22,6 +22,7 @@ struct CoverObstacles {
 struct LineClearance {
   double clearance_mm = 1e300;  ///< negative: depth
   double slide_gain = 0.0;      ///< its derivative by a slide of the tool along its axis, towards the holder
+  Vec3 point = Vec3::Zero();    ///< of the obstacle
 };
 
 /// The planner's question, pose by pose, for one tool; immutable. Everything else must outlive it.
@@ -34,13 +35,15 @@ class LineGuard {
   [[nodiscard]] bool clear(const Pose& pose) const;
   /// Exact up to `horizon_mm`, beyond it some value above.
   [[nodiscard]] LineClearance measure(const Pose& pose, double horizon_mm) const;
-  /// Whether a ball is clear.
-  [[nodiscard]] bool clear(const Vec3& center, double radius) const;
+  /// Whether a ball of the tool's smallest radius is clear.
+  [[nodiscard]] bool ball_is_clear(const Vec3& center) const;
+  [[nodiscard]] double ball_radius() const { return ball_radius_; }
   [[nodiscard]] double floor_mm() const { return floor_mm_; }  ///< negative: depth that the tolerance allows
 
  private:
   const CoverObstacles* obstacles_ = nullptr;
-  std::shared_ptr<const PoseChecker> checker_;
+  std::shared_ptr<const PoseChecker> checker_, ball_checker_;
+  double ball_radius_ = 0.0;
   std::vector<double> s_, radius_;  ///< samples of the axis
   double floor_mm_ = 0.0;
 };

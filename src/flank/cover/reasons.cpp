@@ -21,11 +21,16 @@ ThinPlace thinnest(const RadialFunction& radial) {
   return thin;
 }
 
-/// Uncovered samples that hang together, the largest such patch: its area and its middle.
-std::pair<double, Vec3> largest_gap(const CoverSamples& samples, const std::vector<CoverStrip>& strips) {
+std::vector<char> covered_cells(const CoverSamples& samples, const std::vector<CoverStrip>& strips) {
   std::vector<char> covered(samples.cells.size(), 0);
   for (const CoverStrip& strip : strips)
     for (const int k : strip.cells) covered[static_cast<std::size_t>(k)] = 1;
+  return covered;
+}
+
+/// Uncovered samples that hang together, the largest such patch: its area and its middle.
+std::pair<double, Vec3> largest_gap(const CoverSamples& samples, const std::vector<CoverStrip>& strips) {
+  std::vector<char> covered = covered_cells(samples, strips);
   const double reach =
       2.5 * std::sqrt(samples.area / static_cast<double>(std::max<std::size_t>(1, samples.cells.size())));
   std::pair<double, Vec3> largest{0.0, Vec3::Zero()};
@@ -52,9 +57,12 @@ std::pair<double, Vec3> largest_gap(const CoverSamples& samples, const std::vect
 
 }  // namespace
 
-ConcavePlace most_concave(const Target& target, const CoverSamples& samples) {
+ConcavePlace most_concave(const Target& target, const CoverSamples& samples, const std::vector<CoverStrip>& strips) {
+  const std::vector<char> covered = covered_cells(samples, strips);
   ConcavePlace place;
-  for (const SurfaceSample& cell : samples.cells) {
+  for (std::size_t k = 0; k < covered.size(); ++k) {
+    if (covered[k] != 0) continue;
+    const SurfaceSample& cell = samples.cells[k];
     const Footpoint foot = target.closest(cell.point);
     if (foot.k2 <= place.curvature) continue;
     place = {foot.k2, cell.point};
@@ -64,7 +72,7 @@ ConcavePlace most_concave(const Target& target, const CoverSamples& samples) {
 
 std::string reason_of(const Target& target, const RadialFunction& radial, const CoverSamples& samples,
                       const std::vector<CoverStrip>& strips, double tolerance_mm) {
-  const ConcavePlace concave = most_concave(target, samples);
+  const ConcavePlace concave = most_concave(target, samples, strips);
   const ThinPlace thin = thinnest(radial);
   if (thin.radius * concave.curvature > 1.0)
     return fmt::format(
@@ -77,6 +85,7 @@ std::string reason_of(const Target& target, const RadialFunction& radial, const 
         "one whose meridian bends as the face does, is needed",
         radial.axis_length(), tolerance_mm);
   const auto [area, middle] = largest_gap(samples, strips);
+  if (area == 0.0) return "";
   return fmt::format("the largest place not covered is {:.3g} mm2 about ({:.1f}, {:.1f}, {:.1f})", area, middle.x(),
                      middle.y(), middle.z());
 }

@@ -26,8 +26,7 @@ constexpr double kEnough = 0.9985;       ///< covered share at which no further 
 constexpr double kCheckWeight = 300.0;   ///< of a point of another face against a point of the target
 constexpr double kMarginShare = 0.6;     ///< of the tolerance: what a fit aims at where a certificate asks for all of it
 constexpr double kDeepShare = 0.9, kDeepAimShare = 0.8;  ///< deeper places are held, to the latter, by a pass of limits
-constexpr double kSolidSpacingShare = 0.005;  ///< of the target's diagonal: spacing of the samples of solids
-constexpr double kNearShare = 0.005;           ///< likewise: how near a face is to be, to be looked at in a pass
+constexpr double kNear = 2.0;  ///< tolerances: how near another face is to be, to be looked at in a pass
 constexpr std::size_t kMostCheckPoints = 800;
 
 FitDraft draft_of(const TileScene& scene, const std::vector<CoverStrip>& strips) {
@@ -76,32 +75,20 @@ std::vector<Vec3> points_below(const TileScene& scene, const std::vector<CoverSt
   return result;
 }
 
-/// Corners of the triangles of other faces, and samples of solids, that the strips come near.
-std::vector<Vec3> corners_near(const TileScene& scene, const CoverObstacles& obstacles,
-                               const std::vector<CoverStrip>& strips) {
-  const Box3& box = scene.target.box();
-  const double reach = 0.5 * scene.radial.axis_length(), size = scene.target.diagonal();
-  std::vector<Vec3> corners;
-  const auto add = [&](const Vec3& x) {
-    if (box.squared_distance(x) < reach * reach) corners.push_back(x);
-  };
-  for (const CheckSurface& check : obstacles.surfaces) {
-    if (check.flank_may_touch) continue;
-    for (const Vec3& x : check.mesh.vertices) add(x);
-  }
-  for (const auto& solid : obstacles.solids)
-    for (const SurfaceSample& sample : solid->samples(kSolidSpacingShare * size)) add(sample.point);
-  return points_below(scene, strips, corners, 20.0 * scene.options.tolerance_mm + kNearShare * size);
-}
-
-/// Points of other faces that the swept tools enter, or nearly: those entered first, evenly thinned.
-std::vector<FacePoint> check_points(const TileScene& scene, const std::vector<Vec3>& corners,
-                                    const std::vector<CoverStrip>& strips, double share) {
-  const std::vector<Vec3> near = points_below(scene, strips, corners, 2.0 * scene.options.tolerance_mm);
-  const std::size_t stride = 1 + near.size() / kMostCheckPoints;
+/// Points of other faces that the tool of these strips enters, or nearly: the nearest one of each pose.
+std::vector<FacePoint> check_points(const TileScene& scene, const std::vector<CoverStrip>& strips, double share) {
+  const double tolerance = scene.options.tolerance_mm;
+  std::vector<std::vector<FacePoint>> found(strips.size());
+  parallel_for(strips.size(), [&](std::size_t k) {
+    const RuledMotion& motion = strips[k].motion;
+    const int poses = depth_poses(motion);
+    for (int i = 0; i <= poses; ++i) {
+      const LineClearance at = scene.guard.measure(motion.pose(static_cast<double>(i) / poses), kNear * tolerance);
+      if (at.clearance_mm < kNear * tolerance) found[k].push_back({at.point, share, true, -kMarginShare * tolerance});
+    }
+  });
   std::vector<FacePoint> points;
-  for (std::size_t k = 0; k < near.size(); k += stride)
-    points.push_back({near[k], share, true, -kMarginShare * scene.options.tolerance_mm});
+  for (const auto& of_strip : found) points.insert(points.end(), of_strip.begin(), of_strip.end());
   return points;
 }
 
@@ -120,8 +107,13 @@ std::vector<FacePoint> deep_points(const TileScene& scene, const std::vector<Cov
     }
   });
   std::vector<FacePoint> points;
+  found.push_back(points_below(scene, strips, scene.samples.border, -kDeepShare * tolerance));
+  std::size_t count = 0, seen = 0;
+  for (const auto& of_strip : found) count += of_strip.size();
+  const std::size_t stride = 1 + count / kMostCheckPoints;
   for (const auto& of_strip : found)
-    for (const Vec3& x : of_strip) points.push_back({x, share, true, -kDeepAimShare * tolerance});
+    for (const Vec3& x : of_strip)
+      if (seen++ % stride == 0) points.push_back({x, share, true, -kDeepAimShare * tolerance});
   return points;
 }
 
@@ -134,26 +126,35 @@ std::vector<CoverStrip> measured(const TileScene& scene, const std::vector<Ruled
   return strips;
 }
 
-/// Strips that fail their certificate as they were before.
-std::vector<CoverStrip> with_fallbacks(const TileScene& scene, std::vector<CoverStrip> strips,
+/// Strips that fail their certificate are cut short, or as they were before, whichever covers more besides the others.
+std::vector<CoverStrip> with_fallbacks(const TileScene& scene, const std::vector<CoverStrip>& strips,
                                        const std::vector<CoverStrip>& before, int& fallen) {
+  std::vector<CoverStrip> result(strips.size());
   std::vector<char> good(strips.size());
-  parallel_for(strips.size(), [&](std::size_t k) { good[k] = is_certified(scene.guard, strips[k], scene.options.tolerance_mm) ? 1 : 0; });
+  parallel_for(strips.size(), [&](std::size_t k) {
+    LineFitter fitter(scene.target, scene.radial, line_options(scene));
+    good[k] = is_certified(scene.guard, strips[k], scene.options.tolerance_mm) ? 1 : 0;
+    result[k] = good[k] != 0 ? strips[k] : cut_to_certified(scene.samples, scene.guard, strips[k], scene.radial, fitter);
+  });
+  CellCount covered(scene.samples);
+  for (const CoverStrip& strip : result) covered.add(strip);
   fallen = 0;
   for (std::size_t k = 0; k < strips.size(); ++k) {
     if (good[k] != 0) continue;
-    strips[k] = before[k];
     ++fallen;
+    covered.add(result[k], -1);
+    if (covered.gain(before[k]) > covered.gain(result[k])) result[k] = before[k];
+    covered.add(result[k]);
   }
-  return strips;
+  return result;
 }
 
-std::vector<RuledMotion> run_pass(const TileScene& scene, const std::vector<Vec3>& corners,
-                                  const std::vector<CoverStrip>& strips, const Pass& pass, bool limits) {
+std::vector<RuledMotion> run_pass(const TileScene& scene, const std::vector<CoverStrip>& strips, const Pass& pass,
+                                  bool limits) {
   const FitDraft draft = draft_of(scene, strips);
   std::vector<FacePoint> points = target_points(draft, pass.points_per_side);
   const double share = kCheckWeight / static_cast<double>(points.size());
-  const std::vector<FacePoint> others = check_points(scene, corners, strips, share);
+  const std::vector<FacePoint> others = check_points(scene, strips, share);
   points.insert(points.end(), others.begin(), others.end());
   if (limits) {
     const std::vector<FacePoint> deep = deep_points(scene, strips, share);
@@ -178,18 +179,16 @@ double covered_share(const CoverSamples& samples, const std::vector<CoverStrip>&
   return area / samples.area;
 }
 
-SmoothResult smooth_strips(const TileScene& scene, const CoverObstacles& obstacles,
-                           const std::vector<CoverStrip>& strips) {
+SmoothResult smooth_strips(const TileScene& scene, const std::vector<CoverStrip>& strips) {
   SmoothResult best{strips, covered_share(scene.samples, strips), {}};
-  const std::vector<Vec3> corners = corners_near(scene, obstacles, strips);
   std::vector<CoverStrip> now = strips;
   bool first = true;
   for (const Pass& pass : kPasses) {
-    now = measured(scene, run_pass(scene, corners, now, pass, false));
+    now = measured(scene, run_pass(scene, now, pass, false));
     int fallen = 0;
     std::vector<CoverStrip> trial = with_fallbacks(scene, now, best.strips, fallen);
     for (int round = 0; round < kLimitRounds && fallen > 0; ++round) {
-      now = measured(scene, run_pass(scene, corners, now, kLimitPass, true));
+      now = measured(scene, run_pass(scene, now, kLimitPass, true));
       trial = with_fallbacks(scene, now, best.strips, fallen);
     }
     const double share = covered_share(scene.samples, trial);

@@ -17,8 +17,7 @@ struct SmoothResult {
 
 /// All strips together are fitted to the target's points; other faces push back where the tool comes near them. Passes
 /// are kept only where the covered share rises; a strip whose certificate fails falls back to the strip that it was.
-[[nodiscard]] SmoothResult smooth_strips(const TileScene& scene, const CoverObstacles& obstacles,
-                                         const std::vector<CoverStrip>& strips);
+[[nodiscard]] SmoothResult smooth_strips(const TileScene& scene, const std::vector<CoverStrip>& strips);
 
 /// Covered share of the area.
 [[nodiscard]] double covered_share(const CoverSamples& samples, const std::vector<CoverStrip>& strips);

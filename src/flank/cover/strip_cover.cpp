@@ -45,6 +45,23 @@ Vec3 hermite(const std::vector<Vec3>& x, const std::vector<double>& t, std::size
          h * f * g * (g * slope(x, t, i) - f * slope(x, t, i + 1));
 }
 
+double smallest_radius(const RadialFunction& radial) {
+  double least = 1e300;
+  for (int j = 0; j <= 32; ++j) least = std::min(least, radial.at(radial.axis_length() * j / 32.0).r);
+  return least;
+}
+
+/// How much nearer than at the tabulated poses a sphere may come to a point between two of them.
+double table_slack(const RuledMotion& motion, const RadialFunction& radial) {
+  const int poses = table_poses(motion);
+  double stride = 0.0;
+  for (int i = 0; i + 1 < poses; ++i) {
+    const Pose a = motion.pose(static_cast<double>(i) / (poses - 1)), b = motion.pose((i + 1.0) / (poses - 1));
+    stride = std::max({stride, (b.tip - a.tip).norm(), (b.at(motion.axis_length) - a.at(motion.axis_length)).norm()});
+  }
+  return stride * stride / (2.0 * smallest_radius(radial));
+}
+
 SweptContact contact(const SweptEstimate& swept, const RuledMotion& motion, const RadialFunction& radial,
                      const Vec3& x, double tolerance_mm) {
   SweptContact near = swept.nearest(x);
@@ -60,7 +77,9 @@ SweptContact contact(const SweptEstimate& swept, const RuledMotion& motion, cons
 
 CoverSamples cover_samples(const Target& target, double spacing_mm) {
   CoverSamples samples;
+  constexpr double kBorderShare = 0.25;
   samples.cells = target.samples(spacing_mm);
+  samples.border = target.border_points(kBorderShare * spacing_mm);
   for (const SurfaceSample& cell : samples.cells) samples.area += cell.area;
   return samples;
 }
@@ -92,17 +111,29 @@ RuledMotion motion_through(const std::vector<Pose>& poses, double axis_length, i
 }
 
 int depth_poses(const RuledMotion& motion) {
-  constexpr int kPerControlPoint = 4;
-  return kPerControlPoint * motion.tip.count();
+  constexpr int kPerControlPoint = 8, kMost = 192;
+  return std::min(kPerControlPoint * motion.tip.count(), kMost);
 }
 
-std::vector<double> depths_along(LineFitter& fitter, const RuledMotion& motion, int poses) {
+std::vector<double> depths_along(const CoverSamples& samples, const RuledMotion& motion, const RadialFunction& radial,
+                                 LineFitter& fitter) {
+  const int poses = depth_poses(motion);
   std::vector<double> depths;
   fitter.forget();
   for (int i = 0; i <= poses; ++i) {
-    const Pose pose = motion.pose(static_cast<double>(i) / poses);
-    (void)fitter.measure(pose);
-    depths.push_back(fitter.overcut(pose));
+    (void)fitter.measure(motion.pose(static_cast<double>(i) / poses));
+    depths.push_back(fitter.inside_overcut());
+  }
+  const Box3 box = swept_box(motion, radial, 0.0, poses);
+  const SweptEstimate swept({motion}, radial, table_poses(motion));
+  const double slack = 2.0 * fitter.options().tolerance_mm + table_slack(motion, radial);
+  for (const Vec3& x : samples.border) {
+    if (box.squared_distance(x) > 0.0) continue;
+    SweptContact at = swept.nearest(x);
+    if (at.f > slack) continue;
+    at = refine_contact(motion, radial, x, at.t, swept.spacing());
+    double& depth = depths[static_cast<std::size_t>(std::lround(at.t * poses))];
+    depth = std::max(depth, -at.f);
   }
   return depths;
 }
@@ -121,7 +152,7 @@ CoverStrip measure_strip(const CoverSamples& samples, RuledMotion motion, const 
     strip.cells.push_back(static_cast<int>(k));
     strip.area += cell.area;
   }
-  const std::vector<double> depths = depths_along(fitter, motion, depth_poses(motion));
+  const std::vector<double> depths = depths_along(samples, motion, radial, fitter);
   strip.overcut_mm = std::max(0.0, *std::max_element(depths.begin(), depths.end()));
   strip.motion = std::move(motion);
   return strip;

@@ -20,39 +20,6 @@ constexpr int kGuidePoses = 60;
 constexpr double kLeastInsideOfGaps = 0.25;
 constexpr double kLeastInside = 0.8;  ///< of a seed's line: what hangs over the border determines little
 
-/// How often each cell is covered.
-class CellCount {
- public:
-  explicit CellCount(const CoverSamples& samples) : samples_(samples), counts_(samples.cells.size()) {}
-  void add(const CoverStrip& strip, int sign = 1) {
-    for (const int k : strip.cells) counts_[static_cast<std::size_t>(k)] += sign;
-  }
-  /// Share of the area that the strip covers and nothing else does.
-  [[nodiscard]] double gain(const CoverStrip& strip) const {
-    double area = 0.0;
-    for (const int k : strip.cells)
-      if (counts_[static_cast<std::size_t>(k)] == 0) area += samples_.cells[static_cast<std::size_t>(k)].area;
-    return area / samples_.area;
-  }
-  /// Cells that nothing covers.
-  [[nodiscard]] std::vector<std::size_t> open() const {
-    std::vector<std::size_t> cells;
-    for (std::size_t k = 0; k < counts_.size(); ++k)
-      if (counts_[k] == 0) cells.push_back(k);
-    return cells;
-  }
-  [[nodiscard]] double covered() const {
-    double area = 0.0;
-    for (std::size_t k = 0; k < counts_.size(); ++k)
-      if (counts_[k] > 0) area += samples_.cells[k].area;
-    return area / samples_.area;
-  }
-
- private:
-  const CoverSamples& samples_;
-  std::vector<int> counts_;
-};
-
 /// The strip of a line near `pose`; no cells where there is none.
 CoverStrip strip_near(const TileScene& scene, LineFitter& fitter, const Pose& pose, const GrowGuide& guide,
                       double least_inside, bool* is_line = nullptr) {

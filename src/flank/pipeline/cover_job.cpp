@@ -78,7 +78,12 @@ void keep(const CoverResult& result, const TargetGroup& group, FitOutcome& outco
   outcome.fit.after.at_tolerance = result.coverage;
   outcome.fit.after.overcut_mm = std::max(outcome.fit.after.overcut_mm, result.overcut_mm);
   outcome.notes.insert(outcome.notes.end(), result.notes.begin(), result.notes.end());
-  outcome.notes.push_back(group.faces + ": " + result.message);
+  if (!result.message.empty()) outcome.notes.push_back(group.faces + ": " + result.message);
+  if (result.reachable < 0.9995)
+    outcome.notes.push_back(fmt::format(
+        "{}: {:.1f} % can be reached: elsewhere a ball of the tool's smallest radius would enter another face; of "
+        "that, {:.1f} % is covered",
+        group.faces, 100.0 * result.reachable, 100.0 * result.coverage));
   for (const auto& [stage, seconds] : result.seconds) outcome.seconds.emplace_back(stage, seconds);
   const std::string prefix = group.faces + " ";
   outcome.figures.emplace_back(prefix + "seeds", result.seeds);
@@ -92,9 +97,37 @@ void keep(const CoverResult& result, const TargetGroup& group, FitOutcome& outco
   outcome.figures.emplace_back(prefix + "links mm", link_length(result.motions));
 }
 
-/// The side of open sheets on which more is covered.
-std::vector<TargetGroup> groups_of(const CoverJob& job, const Part& part, const std::vector<int>& faces) {
-  return make_targets(part, faces, job.base.side.value_or(+1));
+/// A group with its strips.
+struct Covered {
+  TargetGroup group;
+  CoverResult result;
+};
+
+Covered cover_group(const CoverJob& job, const Part& part, TargetGroup group, const Tool& tool,
+                    const Progress& progress) {
+  const CoverObstacles obstacles =
+      obstacles_of(part, members_of(part, group), *group.target, tool, job.base.tolerance_mm);
+  CoverResult result = cover(*group.target, tool, obstacles, options_of(job), progress);
+  return {std::move(group), std::move(result)};
+}
+
+/// Every group; open sheets from both sides, where none is asked for, and the better one kept.
+std::vector<Covered> cover_groups(const CoverJob& job, const Part& part, const std::vector<int>& faces,
+                                  const Tool& tool, const Progress& progress) {
+  std::vector<Covered> all;
+  for (TargetGroup& group : make_targets(part, faces, job.base.side.value_or(+1)))
+    all.push_back(cover_group(job, part, std::move(group), tool, progress));
+  if (job.base.side) return all;
+  std::vector<TargetGroup> other_side = make_targets(part, faces, -1);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (all[k].group.of_solid) continue;
+    Covered other = cover_group(job, part, std::move(other_side[k]), tool, progress);
+    const bool better = other.result.coverage * other.result.reachable > all[k].result.coverage * all[k].result.reachable;
+    if (better) all[k] = std::move(other);
+    all[k].result.notes.push_back(fmt::format("{}: open sheet: both sides were tried, side {} covers more; choose with --side",
+                                              all[k].group.faces, better ? "-" : "+"));
+  }
+  return all;
 }
 
 }  // namespace
@@ -111,18 +144,14 @@ FitOutcome run_cover(const CoverJob& job, const Progress& progress) {
   const Part part = read_part(base.part, base.unit);
   const std::vector<int> faces = parse_face_list(part, base.faces);
   outcome.notes = part.repairs;
-  const std::vector<TargetGroup> groups = groups_of(job, part, faces);
-  outcome.fit.tool = outcome.tool.radial;
-  outcome.diagonal_mm = groups.front().target->diagonal();
   watch.lap("read");
-  for (const TargetGroup& group : groups) {
-    const CoverObstacles obstacles =
-        obstacles_of(part, members_of(part, group), *group.target, outcome.tool, base.tolerance_mm);
-    watch.lap("other faces");
-    const CoverResult result = cover(*group.target, outcome.tool, obstacles, options_of(job), progress);
-    keep(result, group, outcome);
-    for (const RuledMotion& motion : result.motions) add_strip(base, motion, group, outcome);
-    watch.lap("cover");
+  const std::vector<Covered> all = cover_groups(job, part, faces, outcome.tool, progress);
+  watch.lap("cover");
+  outcome.fit.tool = outcome.tool.radial;
+  outcome.diagonal_mm = all.front().group.target->diagonal();
+  for (const Covered& covered : all) {
+    keep(covered.result, covered.group, outcome);
+    for (const RuledMotion& motion : covered.result.motions) add_strip(base, motion, covered.group, outcome);
   }
   outcome.complete = !progress.stop();
   progress.step("verify", 0.9);
