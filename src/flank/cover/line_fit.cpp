@@ -115,8 +115,8 @@ void LineFitter::load_weights() {
   weights_ = base_weights_;
 }
 
-Vec5 LineFitter::solve(const Vec5& stay, const Vec5& offset) const {
-  Eigen::Matrix<double, 5, 5> normal = stay.asDiagonal();
+Vec5 LineFitter::solve(const Vec5& stay, const Vec5& offset, double damping) const {
+  Eigen::Matrix<double, 5, 5> normal = (stay + Vec5::Constant(damping)).asDiagonal();
   Vec5 rhs = -stay.cwiseProduct(offset);
   for (std::size_t j = 0; j < rows_.size(); ++j) {
     normal.noalias() += weights_[j] * rows_[j] * rows_[j].transpose();
@@ -125,7 +125,7 @@ Vec5 LineFitter::solve(const Vec5& stay, const Vec5& offset) const {
   return normal.ldlt().solve(rhs);
 }
 
-Vec5 LineFitter::best_step(const Vec5& stay, const Vec5& offset) {
+Vec5 LineFitter::best_step(const Vec5& stay, const Vec5& offset, double damping) {
   load_weights();
   const auto largest = [&](const Vec5& x) {
     double worst = 0.0;
@@ -133,7 +133,7 @@ Vec5 LineFitter::best_step(const Vec5& stay, const Vec5& offset) {
       if (feet_[j].location == Location::kInside) worst = std::max(worst, std::abs(errors_[j] + rows_[j].dot(x)));
     return worst;
   };
-  Vec5 best = solve(stay, offset);
+  Vec5 best = solve(stay, offset, damping);
   double least = largest(best);
   if (least < kLawsonFrom * options_.tolerance_mm) return best;
   Vec5 x = best;
@@ -147,7 +147,7 @@ Vec5 LineFitter::best_step(const Vec5& stay, const Vec5& offset) {
     }
     if (!(sum > 0.0)) break;
     for (double& w : weights_) w /= sum;
-    x = solve(stay, offset);
+    x = solve(stay, offset, damping);
     const double now = largest(x);
     if (now < least) {
       least = now;
@@ -155,6 +155,15 @@ Vec5 LineFitter::best_step(const Vec5& stay, const Vec5& offset) {
     }
   }
   return best;
+}
+
+Vec5 LineFitter::limited_step(const Vec5& stay, const Vec5& offset) {
+  const double longest = kLongestStep * length_;
+  Vec5 x = best_step(stay, offset, 0.0);
+  // What the distances hardly see runs away first: damped, not scaled, the rest of the step stays what it is.
+  for (double damping = 1e-8; x.cwiseAbs().maxCoeff() > longest && damping < 1e4; damping *= 30.0)
+    x = best_step(stay, offset, damping);
+  return x;
 }
 
 LineFit LineFitter::refine(const Pose& start, const LineHold& hold) {
@@ -169,9 +178,8 @@ LineFit LineFitter::refine(const Pose& start, const LineHold& hold) {
   for (int k = 0; k < options_.steps; ++k) {
     best_feet_ = feet_;
     linearise(frame);
-    Vec5 x = best_step(stay, offset);
-    const double longest = kLongestStep * length_, size = x.cwiseAbs().maxCoeff();
-    if (size > longest) x *= longest / size;
+    const Vec5 x = limited_step(stay, offset);
+    const double size = x.cwiseAbs().maxCoeff();
     const LineFit trial = measure(moved_line(best.pose, length_, frame, x));
     const bool better = trial.touches() && trial.largest_mm < best.largest_mm;
     const bool lost = !trial.touches() || trial.largest_mm > 2.0 * best.largest_mm + options_.tolerance_mm;

@@ -82,8 +82,9 @@ class LineFitter {
   [[nodiscard]] Footpoint trimmed_foot(const Pose& pose, std::size_t j) const;
   [[nodiscard]] double depth(const Footpoint& foot, std::size_t j) const;
   void linearise(const LineFrame& frame);
-  [[nodiscard]] Vec5 solve(const Vec5& stay, const Vec5& offset) const;
-  [[nodiscard]] Vec5 best_step(const Vec5& stay, const Vec5& offset);
+  [[nodiscard]] Vec5 solve(const Vec5& stay, const Vec5& offset, double damping) const;
+  [[nodiscard]] Vec5 best_step(const Vec5& stay, const Vec5& offset, double damping);
+  [[nodiscard]] Vec5 limited_step(const Vec5& stay, const Vec5& offset);
   void load_weights();
 
   const Target& target_;
