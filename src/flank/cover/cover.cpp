@@ -15,7 +15,11 @@
 namespace flank {
 namespace {
 
+constexpr double kSmoothWorth = 0.002;  ///< share of the area that smooth rails may cost
 constexpr double kFloorShare = 0.65;  ///< of the tolerance: how deep a pose may enter another face
+
+/// Axis samples of certificates. Surfaces may ripple at their borders within a fraction of a millimetre.
+constexpr int kCertifySamples = 81;
 
 class Stopwatch {
  public:
@@ -67,32 +71,38 @@ std::vector<CoverStrip> remeasured(const TileScene& scene, const std::vector<Cov
   return result;
 }
 
-/// What cuts too deep between the samples that chose it is cut short.
-std::vector<CoverStrip> cut_short(const TileScene& dense, std::vector<CoverStrip> strips) {
+/// What cuts too deep between the samples that chose it is lifted, or else cut short.
+std::vector<CoverStrip> made_certain(const TileScene& dense, std::vector<CoverStrip> strips) {
   parallel_for(strips.size(), [&](std::size_t k) {
     LineFitter fitter(dense.target, dense.radial, line_options(dense));
-    strips[k] = cut_to_certified(dense.samples, dense.guard, std::move(strips[k]), dense.radial, fitter);
+    const CoverStrip raised = lifted(dense.samples, std::move(strips[k]), dense.radial, fitter);
+    strips[k] = cut_to_certified(dense.samples, dense.guard, raised, dense.radial, fitter);
   });
   std::erase_if(strips, [](const CoverStrip& strip) { return strip.cells.empty(); });
   return strips;
 }
 
-/// Smooths; where that leaves gaps that are worth a strip, adds it and smooths again.
-std::vector<CoverStrip> smoothed(const TileScene& coarse, const TileScene& dense,
-                                 const std::vector<CoverStrip>& pool, std::vector<CoverStrip> strips,
-                                 const Progress& progress) {
+double value_of(const TileScene& scene, const std::vector<CoverStrip>& strips) {
+  return covered_share(scene.samples, strips) - scene.options.strip_price * static_cast<double>(strips.size());
+}
+
+/// Smooths; where that leaves gaps that are worth a strip, adds it and smooths again. The best that was seen.
+std::vector<CoverStrip> smoothed(const TileScene& coarse, const TileScene& dense, const std::vector<CoverStrip>& pool,
+                                 std::vector<CoverStrip> strips, const Progress& progress) {
   constexpr int kRounds = 3;
-  strips = cut_short(dense, remeasured(dense, strips));
+  strips = made_certain(dense, remeasured(dense, strips));
+  std::vector<CoverStrip> best = strips;
   for (int round = 0; round < kRounds && dense.options.smooth && !progress.stop(); ++round) {
     progress.step("smooth", 0.55 + 0.1 * round);
     strips = pruned(dense, smooth_strips(dense, strips).strips);
+    if (value_of(dense, strips) > value_of(dense, best) - (round == 0 ? kSmoothWorth : 0.0)) best = strips;
     if (round + 1 == kRounds) break;
     const std::vector<CoverStrip> more =
-        cut_short(dense, remeasured(dense, additions(coarse, pool, remeasured(coarse, strips))));
+        made_certain(dense, remeasured(dense, additions(coarse, pool, remeasured(coarse, strips))));
     if (more.empty()) break;
     strips.insert(strips.end(), more.begin(), more.end());
   }
-  return strips;
+  return best;
 }
 
 }  // namespace
@@ -133,7 +143,7 @@ CoverResult cover(const Target& target, const Tool& tool, const CoverObstacles& 
   progress.step("smooth", 0.55);
   CoverSamples dense = cover_samples(target, options.dense_share * std::sqrt(target.area()));
   result.reachable = keep_reachable(dense, guard);
-  const TileScene dense_scene{target, tool.radial, dense, guard, options};
+  const TileScene dense_scene{target, tool.radial, dense, guard, options, kCertifySamples};
   strips = smoothed(scene, dense_scene, pool.strips, strips, progress);
   watch.lap("smooth");
 

@@ -166,6 +166,21 @@ Vec5 LineFitter::limited_step(const Vec5& stay, const Vec5& offset) {
   return x;
 }
 
+LineFitter::Lift LineFitter::lift(const Pose& pose, double depth_mm) const {
+  Lift lift;
+  for (std::size_t j = 0; j < feet_.size(); ++j) {
+    const Footpoint foot = trimmed_foot(pose, j);
+    const double excess = depth(foot, j) - depth_mm;
+    if (excess <= 0.0) continue;
+    const bool upper = 2.0 * s_[j] > length_;
+    const Vec3 away = foot.location == Location::kInside ? foot.normal : (pose.at(s_[j]) - foot.point).normalized();
+    const Vec3 shift = excess * length_ / (upper ? s_[j] : length_ - s_[j]) * away;
+    Vec3& end = upper ? lift.holder : lift.tip;
+    if (shift.squaredNorm() > end.squaredNorm()) end = shift;
+  }
+  return lift;
+}
+
 LineFit LineFitter::refine(const Pose& start, const LineHold& hold) {
   const auto stay_of = [&](double share) { return std::pow(4.0 * share * options_.tolerance_mm / length_, 2); };
   Vec5 stay = Vec5::Constant(stay_of(hold.stay_share > 0.0 ? hold.stay_share : options_.stay_share));

@@ -74,6 +74,13 @@ class LineFitter {
   /// Points of the trimmed target that the line last measured enters by more than `depth_mm`, one a sample, appended.
   void deep_points(const Pose& pose, double depth_mm, std::vector<Vec3>& points) const;
 
+  /// Shifts of the tip and of the holder end that would take the line last measured out of the trimmed target where it is
+  /// deeper than `depth_mm`. Each deep sample lifts the end that it is nearer to; the other end is its hinge.
+  struct Lift {
+    Vec3 tip = Vec3::Zero(), holder = Vec3::Zero();
+  };
+  [[nodiscard]] Lift lift(const Pose& pose, double depth_mm) const;
+
   [[nodiscard]] const Target& target() const { return target_; }
   [[nodiscard]] double axis_length() const { return length_; }
   [[nodiscard]] const LineFitOptions& options() const { return options_; }

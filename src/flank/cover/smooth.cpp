@@ -126,15 +126,17 @@ std::vector<CoverStrip> measured(const TileScene& scene, const std::vector<Ruled
   return strips;
 }
 
-/// Strips that fail their certificate are cut short, or as they were before, whichever covers more besides the others.
+/// Strips that cut too deep are lifted; those that fail their certificate all the same are cut short, or as they were before, whichever covers more besides the others.
 std::vector<CoverStrip> with_fallbacks(const TileScene& scene, const std::vector<CoverStrip>& strips,
                                        const std::vector<CoverStrip>& before, int& fallen) {
   std::vector<CoverStrip> result(strips.size());
   std::vector<char> good(strips.size());
   parallel_for(strips.size(), [&](std::size_t k) {
     LineFitter fitter(scene.target, scene.radial, line_options(scene));
-    good[k] = is_certified(scene.guard, strips[k], scene.options.tolerance_mm) ? 1 : 0;
-    result[k] = good[k] != 0 ? strips[k] : cut_to_certified(scene.samples, scene.guard, strips[k], scene.radial, fitter);
+    result[k] = lifted(scene.samples, strips[k], scene.radial, fitter);
+    good[k] = is_certified(scene.guard, result[k], scene.options.tolerance_mm) ? 1 : 0;
+    if (good[k] == 0)
+      result[k] = cut_to_certified(scene.samples, scene.guard, std::move(result[k]), scene.radial, fitter);
   });
   CellCount covered(scene.samples);
   for (const CoverStrip& strip : result) covered.add(strip);

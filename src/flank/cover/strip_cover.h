@@ -19,7 +19,7 @@ struct CoverSamples {
 [[nodiscard]] CoverSamples cover_samples(const Target& target, double spacing_mm);
 
 /// Overcut is certified to this share of the tolerance: what lies between the samples has the rest.
-inline constexpr double kCertifiedShare = 0.96;
+inline constexpr double kCertifiedShare = 0.94;
 
 /// Depth of the tool in the target at equal steps of t of a motion, the larger of two. Where the swept tool cuts deepest
 /// into the inside of a face it does so by one of its spheres: max over s of r(s) - d(R(s, t)), which varies slowly along

@@ -210,6 +210,7 @@ std::vector<CoverStrip> strips_of(const TileScene& scene, const std::vector<Line
 LineFitOptions line_options(const TileScene& scene) {
   LineFitOptions options;
   options.tolerance_mm = scene.options.tolerance_mm;
+  options.samples = scene.line_samples;
   return options;
 }
 

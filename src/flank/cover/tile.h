@@ -16,6 +16,7 @@ struct TileScene {
   const CoverSamples& samples;
   const LineGuard& guard;
   const CoverOptions& options;
+  int line_samples = 17;  ///< of the axis, where lines and depths are measured
 };
 
 [[nodiscard]] LineFitOptions line_options(const TileScene& scene);
