@@ -9,7 +9,8 @@
 namespace flank {
 
 Subcommand add_cover(CLI::App& parser) {
-  CLI::App* app = parser.add_subcommand("cover", "Find the strips with which a given tool finishes a face, and judge them");
+  CLI::App* app =
+      parser.add_subcommand("cover", "Find the strips with which a given tool finishes a face, and judge them");
   auto job = std::make_shared<CoverJob>();
   auto folder = std::make_shared<std::string>();
   auto side = std::make_shared<std::optional<std::string>>();
@@ -25,7 +26,7 @@ Subcommand add_cover(CLI::App& parser) {
   app->add_option("--strategy", job->strategy, "How strips are found: grow")->capture_default_str();
   app->add_option("--strips", job->most_strips, "Most strips on one target; default: as many as are worth their price");
   app->add_option("--strip-price", job->strip_price,
-                  "Share of the face that a strip must add to be worth it; default: 0.01");
+                  "Share of the face that a strip must add to be worth it; default: 0.005");
   app->add_option("--side", *side, "Machined side of an open sheet, + or -; default: both are tried")
       ->check(CLI::IsMember({"+", "-"}));
   app->add_option("--coverage", job->base.least_coverage, "Share of the face within tolerance that counts as done")

@@ -9,19 +9,21 @@ using nlohmann::json;
 class CliCover : public Cli {
  protected:
   void SetUp() override {
-    if (kSanitized) GTEST_SKIP() << "a whole search takes minutes under a sanitizer; its parts are tested there one by one";
+    if (kSanitized)
+      GTEST_SKIP() << "a whole search takes minutes under a sanitizer; its parts are tested there one by one";
     Cli::SetUp();
   }
   [[nodiscard]] std::vector<std::string> command(const std::string& folder) const {
-    return {"cover", make_blade(), "--face", "F1",     "--tool", "cylinder:radius=5", "--axis-length",
-            "20",    "--side",     "+",      "--tolerance", "0.08", "-o",              path(folder)};
+    return {"cover",  make_blade(), "--face",      "F1",   "--tool", "cylinder:radius=5", "--axis-length", "20",
+            "--side", "+",          "--tolerance", "0.08", "-o",     path(folder)};
   }
 };
 
 TEST_F(CliCover, CoversAndIsJudgedTheSameAgain) {
   const Outcome cover = flank(command("out"));
   ASSERT_EQ(cover.exit_code, 0) << cover.out << cover.err;
-  for (const char* name : {"tool.json", "path.json", "path.cls", "path.csv", "job.json", "verify.json", "view.json", "summary.json"})
+  for (const char* name :
+       {"tool.json", "path.json", "path.cls", "path.csv", "job.json", "verify.json", "view.json", "summary.json"})
     EXPECT_TRUE(fs::exists(root_ / "out" / name)) << name;
   const json summary = json::parse(read_file(root_ / "out/summary.json"));
   EXPECT_GE(summary.at("coverage").get<double>(), 0.97);
@@ -66,8 +68,11 @@ TEST_F(Cli, CoverRefusesWrongUsage) {
   refused({"--tool", "free"}, "--tool");
   refused({"--tool", "cylinder:radius=5"}, "--axis-length");
   refused({"--tool", "barrel:radius=5", "--axis-length", "20"}, "arc");
-  for (const auto& [option, value] : std::vector<std::pair<std::string, std::string>>{
-           {"--tolerance", "0"}, {"--coverage", "2"}, {"--strips", "0"}, {"--strip-price", "-1"}, {"--strategy", "guess"}}) {
+  for (const auto& [option, value] : std::vector<std::pair<std::string, std::string>>{{"--tolerance", "0"},
+                                                                                      {"--coverage", "2"},
+                                                                                      {"--strips", "0"},
+                                                                                      {"--strip-price", "-1"},
+                                                                                      {"--strategy", "guess"}}) {
     std::vector<std::string> more = tool;
     more.insert(more.end(), {option, value});
     refused(more, option);

@@ -16,7 +16,7 @@ namespace flank {
 namespace {
 
 constexpr double kSmoothWorth = 0.002;  ///< share of the area that smooth rails may cost
-constexpr double kFloorShare = 0.65;  ///< of the tolerance: how deep a pose may enter another face
+constexpr double kFloorShare = 0.65;    ///< of the tolerance: how deep a pose may enter another face
 
 /// Axis samples of certificates. Surfaces may ripple at their borders within a fraction of a millimetre.
 constexpr int kCertifySamples = 81;
@@ -105,10 +105,40 @@ std::vector<CoverStrip> smoothed(const TileScene& coarse, const TileScene& dense
   return best;
 }
 
+/// Without the strip that adds least, where the others, smoothed again, take over what it did.
+std::vector<CoverStrip> thinned(const TileScene& dense, std::vector<CoverStrip> strips, const Progress& progress) {
+  constexpr int kDrops = 2;
+  constexpr double kTakenOver = 0.06;  ///< share of the area that neighbours may be able to take over
+  for (int k = 0; k < kDrops && dense.options.smooth && !progress.stop(); ++k) {
+    progress.step("thin out", 0.8);
+    CellCount covered(dense.samples);
+    for (const CoverStrip& strip : strips) covered.add(strip);
+    std::size_t least = 0;
+    double worth = kTakenOver;
+    bool found = false;
+    for (std::size_t i = 0; i < strips.size() && strips.size() > 1; ++i) {
+      covered.add(strips[i], -1);
+      const double gain = covered.gain(strips[i]);
+      covered.add(strips[i]);
+      if (gain >= worth) continue;
+      worth = gain;
+      least = i;
+      found = true;
+    }
+    if (!found) break;
+    std::vector<CoverStrip> fewer = strips;
+    fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(least));
+    fewer = smooth_strips(dense, fewer).strips;
+    if (value_of(dense, fewer) <= value_of(dense, strips)) break;
+    strips = std::move(fewer);
+  }
+  return strips;
+}
+
 }  // namespace
 
-CoverResult cover(const Target& target, const Tool& tool, const CoverObstacles& obstacles,
-                  const CoverOptions& options, const Progress& progress) {
+CoverResult cover(const Target& target, const Tool& tool, const CoverObstacles& obstacles, const CoverOptions& options,
+                  const Progress& progress) {
   CoverResult result;
   Stopwatch watch(result);
   progress.step("samples", 0.05);
@@ -144,7 +174,7 @@ CoverResult cover(const Target& target, const Tool& tool, const CoverObstacles& 
   CoverSamples dense = cover_samples(target, options.dense_share * std::sqrt(target.area()));
   result.reachable = keep_reachable(dense, guard);
   const TileScene dense_scene{target, tool.radial, dense, guard, options, kCertifySamples};
-  strips = smoothed(scene, dense_scene, pool.strips, strips, progress);
+  strips = thinned(dense_scene, smoothed(scene, dense_scene, pool.strips, strips, progress), progress);
   watch.lap("smooth");
 
   result.status = CoverStatus::kCovered;

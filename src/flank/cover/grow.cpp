@@ -113,8 +113,7 @@ bool Grower::between(double h, const Vec3& travel, const LineFit& next, LineFit&
   const Pose mean = half_way(pose_, next.pose);
   middle = fitter_.measure(mean);
   if (!within(middle)) middle = fitter_.refine(mean, {travel, 0.0, kStay});
-  const double off =
-      std::max((middle.pose.tip - mean.tip).norm(), (middle.pose.at(length_) - mean.at(length_)).norm());
+  const double off = std::max((middle.pose.tip - mean.tip).norm(), (middle.pose.at(length_) - mean.at(length_)).norm());
   const bool held = off < kOffMean * h && within(middle);
   blocked_ = held && !guard_.clear(middle.pose);
   fitter_.set_feet(feet);
@@ -137,7 +136,8 @@ GrowEnd Grower::run(const LineFit& line, const Vec3& heading, std::vector<Pose>&
     if (!at.valid()) return GrowEnd::kTolerance;
     LineFit middle, next;
     bool done = false;
-    for (; !done && h >= options_.shortest_step_share * size_; h *= done ? 1.0 : 0.5) done = step(h, at.velocity, middle, next);
+    for (; !done && h >= options_.shortest_step_share * size_; h *= done ? 1.0 : 0.5)
+      done = step(h, at.velocity, middle, next);
     if (!done) return blocked_ ? GrowEnd::kCheck : GrowEnd::kTolerance;
     last = {(next.pose.at(0.5 * length_) - pose_.at(0.5 * length_)) / h, (next.pose.axis - pose_.axis) / h};
     pose_ = next.pose;

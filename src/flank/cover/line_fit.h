@@ -30,8 +30,8 @@ struct LineHold {
 /// A line and how well the tool touches there: e_j = d(l(s_j)) - r(s_j), mm, positive where material is left.
 struct LineFit {
   Pose pose;
-  double largest_mm = 1e300;   ///< |e_j| over the samples whose footpoint is inside the target; 1e300: there is none
-  double inside_share = 0.0;   ///< of the samples
+  double largest_mm = 1e300;  ///< |e_j| over the samples whose footpoint is inside the target; 1e300: there is none
+  double inside_share = 0.0;  ///< of the samples
   [[nodiscard]] bool touches() const { return inside_share > 0.0; }
 };
 

@@ -33,8 +33,8 @@ LineGuard::LineGuard(const Tool& tool, const CoverObstacles& obstacles, double f
     checker_ = std::make_shared<const PoseChecker>(tool, obstacles.surfaces);
   if (obstacles.surfaces.empty()) return;
   Tool ball;
-  ball.radial = RadialFunction(ToolFamily::kCylinder, kBallAxisShare * ball_radius_,
-                               Eigen::VectorXd::Constant(1, ball_radius_));
+  ball.radial =
+      RadialFunction(ToolFamily::kCylinder, kBallAxisShare * ball_radius_, Eigen::VectorXd::Constant(1, ball_radius_));
   ball_checker_ = std::make_shared<const PoseChecker>(ball, obstacles.surfaces);
 }
 

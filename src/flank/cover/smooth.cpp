@@ -18,13 +18,13 @@ struct Pass {
   double dead_zone, fairness, anchor, overcut_weight;
   int iterations, points_per_side;
 };
-constexpr std::array<Pass, 2> kPasses = {{{0.6, 1e-4, 1e-3, 4.0, 8, 25}, {0.6, 1e-6, 1e-7, 10.0, 12, 36}}};
+constexpr std::array<Pass, 2> kPasses = {{{0.6, 1e-4, 1e-3, 4.0, 8, 25}, {0.6, 1e-6, 1e-7, 10.0, 12, 32}}};
 /// Where a certificate fails: overcut counts above all.
-constexpr Pass kLimitPass = {0.6, 1e-6, 1e-5, 50.0, 8, 36};
-constexpr int kLimitRounds = 2;
-constexpr double kEnough = 0.9985;       ///< covered share at which no further pass is run
-constexpr double kCheckWeight = 300.0;   ///< of a point of another face against a point of the target
-constexpr double kMarginShare = 0.6;     ///< of the tolerance: what a fit aims at where a certificate asks for all of it
+constexpr Pass kLimitPass = {0.6, 1e-6, 1e-5, 50.0, 6, 32};
+constexpr int kLimitRounds = 1;
+constexpr double kEnough = 0.9985;      ///< covered share at which no further pass is run
+constexpr double kCheckWeight = 300.0;  ///< of a point of another face against a point of the target
+constexpr double kMarginShare = 0.6;    ///< of the tolerance: what a fit aims at where a certificate asks for all of it
 constexpr double kDeepShare = 0.9, kDeepAimShare = 0.8;  ///< deeper places are held, to the latter, by a pass of limits
 constexpr double kNear = 2.0;  ///< tolerances: how near another face is to be, to be looked at in a pass
 constexpr std::size_t kMostCheckPoints = 800;

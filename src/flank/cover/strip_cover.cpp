@@ -12,7 +12,6 @@ constexpr int kLeastControlPoints = 4;
 constexpr int kSamplesPerControlPoint = 4;
 constexpr int kPosesPerControlPoint = 5;
 
-
 int table_poses(const RuledMotion& motion) { return std::max(40, kPosesPerControlPoint * motion.tip.count()); }
 
 /// Box of the swept tool.
@@ -62,8 +61,8 @@ double table_slack(const RuledMotion& motion, const RadialFunction& radial) {
   return stride * stride / (2.0 * smallest_radius(radial));
 }
 
-SweptContact contact(const SweptEstimate& swept, const RuledMotion& motion, const RadialFunction& radial,
-                     const Vec3& x, double tolerance_mm) {
+SweptContact contact(const SweptEstimate& swept, const RuledMotion& motion, const RadialFunction& radial, const Vec3& x,
+                     double tolerance_mm) {
   SweptContact near = swept.nearest(x);
   // The estimate ranks; what would count as overcut, or as just within tolerance, is looked at closely.
   if (std::abs(std::abs(near.f) - tolerance_mm) < 0.3 * tolerance_mm || near.f < -0.5 * tolerance_mm) {

@@ -36,8 +36,7 @@ Tool tool_of(const FitJob& job) {
 void check_job(const CoverJob& job) {
   const FitJob& base = job.base;
   require(base.tolerance_mm > 0.0 && std::isfinite(base.tolerance_mm), "--tolerance: a length > 0 mm is needed");
-  require(base.least_coverage >= 0.0 && base.least_coverage <= 1.0,
-          "--coverage: a share between 0 and 1 is needed");
+  require(base.least_coverage >= 0.0 && base.least_coverage <= 1.0, "--coverage: a share between 0 and 1 is needed");
   require(job.strategy == "grow", "--strategy " + job.strategy + ": grow is what there is");
   require(!job.most_strips || (*job.most_strips >= 1 && *job.most_strips <= 200),
           "--strips: a number from 1 to 200 is needed");
@@ -54,15 +53,14 @@ CoverOptions options_of(const CoverJob& job) {
 }
 
 /// Other faces of the part; for shank and holder the target itself as well.
-CoverObstacles obstacles_of(const Part& part, const std::vector<int>& members, const Target& target,
-                                    const Tool& tool, double tolerance_mm) {
+CoverObstacles obstacles_of(const Part& part, const std::vector<int>& members, const Target& target, const Tool& tool,
+                            double tolerance_mm) {
   double reach = 0.0;
   for (int j = 0; j <= 16; ++j)
     reach = std::max(reach, tool.radial.axis_length() + 2.0 * tool.radial.at(tool.radial.axis_length() * j / 16.0).r);
   for (const auto* profile : {&tool.shank, &tool.holder})
     for (const Vec2& p : *profile) reach = std::max(reach, p.x() + 2.0 * p.y());
-  CoverObstacles obstacles =
-      other_faces(part, members, target, reach, std::clamp(0.3 * tolerance_mm, 1e-3, 0.05));
+  CoverObstacles obstacles = other_faces(part, members, target, reach, std::clamp(0.3 * tolerance_mm, 1e-3, 0.05));
   if (!tool.shank.empty() || !tool.holder.empty())
     obstacles.surfaces.push_back(check_surface(target, std::sqrt(target.area()) / 60.0, true));
   return obstacles;
@@ -122,10 +120,12 @@ std::vector<Covered> cover_groups(const CoverJob& job, const Part& part, const s
   for (std::size_t k = 0; k < all.size(); ++k) {
     if (all[k].group.of_solid) continue;
     Covered other = cover_group(job, part, std::move(other_side[k]), tool, progress);
-    const bool better = other.result.coverage * other.result.reachable > all[k].result.coverage * all[k].result.reachable;
+    const bool better =
+        other.result.coverage * other.result.reachable > all[k].result.coverage * all[k].result.reachable;
     if (better) all[k] = std::move(other);
-    all[k].result.notes.push_back(fmt::format("{}: open sheet: both sides were tried, side {} covers more; choose with --side",
-                                              all[k].group.faces, better ? "-" : "+"));
+    all[k].result.notes.push_back(
+        fmt::format("{}: open sheet: both sides were tried, side {} covers more; choose with --side",
+                    all[k].group.faces, better ? "-" : "+"));
   }
   return all;
 }

@@ -102,8 +102,9 @@ void judge_outcome(const FitJob& job, const Part& part, const std::vector<int>& 
 int FitOutcome::exit_code(const FitJob& job) const {
   // A given tool has nothing to blame: its strips keep clear of every face of the part.
   const bool clean = job.command != "cover" || verify.gouge_mm <= job.tolerance_mm;
-  const bool done = complete && clean && verify.overcut_mm <= job.tolerance_mm && verify.coverage >= job.least_coverage &&
-                    verify.clearance.kept() && check_legitimacy(tool.radial).legitimate;
+  const bool done = complete && clean && verify.overcut_mm <= job.tolerance_mm &&
+                    verify.coverage >= job.least_coverage && verify.clearance.kept() &&
+                    check_legitimacy(tool.radial).legitimate;
   return done ? 0 : 1;
 }
 

@@ -42,8 +42,9 @@ std::string summary_text(const FitJob& job, const FitOutcome& outcome) {
   text += fmt::format("  undercut    {:.6f} mm where the path touches, {:.4f} mm anywhere on the target\n",
                       v.undercut_covered_mm, v.undercut_mm);
   text += fmt::format("  rms         {:.6f} mm over the covered samples\n", v.rms_mm);
-  text += fmt::format("  other faces {:.4f} mm deepest overcut{}\n", v.gouge_mm,
-                      v.gouge_mm > v.tolerance_mm && job.command == "fit" ? " (not part of the verdict of this command)" : "");
+  text += fmt::format(
+      "  other faces {:.4f} mm deepest overcut{}\n", v.gouge_mm,
+      v.gouge_mm > v.tolerance_mm && job.command == "fit" ? " (not part of the verdict of this command)" : "");
   text += check_face_lines(v);
   text +=
       fmt::format("  bound       between the judge's samples f is worse by at most {:.4f} mm\n", v.sampling_bound_mm);
