@@ -52,6 +52,15 @@ TEST_F(StripCover, CutsOvercutOff) {
   EXPECT_NEAR(strip.motion.pose(0.0).tip.x(), 0.0, 1e-6);
 }
 
+TEST_F(StripCover, LiftsWhatIsALittleTooDeep) {
+  const CoverStrip whole = measure_strip(samples_, over_plane(0.014), radial_, fitter_);
+  ASSERT_FALSE(is_certified(LineGuard(), whole, 0.01));
+  const CoverStrip strip = lifted(samples_, whole, radial_, fitter_);
+  EXPECT_TRUE(is_certified(LineGuard(), strip, 0.01)) << strip.overcut_mm;
+  EXPECT_GT(strip.area, 0.99 * whole.area);
+  EXPECT_NEAR(strip.motion.pose(0.1).tip.z(), 5.0, 1e-4) << "nothing is lifted elsewhere";
+}
+
 TEST_F(StripCover, CutsOffWhatEntersAnObstacle) {
   CoverObstacles obstacles;
   CheckSurface wall;

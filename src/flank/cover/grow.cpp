@@ -100,6 +100,8 @@ bool Grower::step(double h, const AxisVelocity& v, LineFit& middle, LineFit& nex
     blocked_ = !guard_.clear(next.pose);
     if (blocked_) return false;
   }
+  // Where the line leaves the target it does so by a short step: past it the way only follows an extrapolation.
+  if (!next.touches() && h > options_.first_step_share * size_) return false;
   if (!within(next) || !advanced(h, v.middle.normalized())) return false;
   const double jump = std::max((next.pose.tip - pose_.tip).norm(), (next.pose.at(length_) - pose_.at(length_)).norm());
   if (jump > kJump * h) return false;
