@@ -82,6 +82,20 @@ TEST(Cover, SaysWhichCurvatureForbidsTheTool) {
   EXPECT_NE(result.message.find("this tool has 80"), std::string::npos) << result.message;
 }
 
+TEST(Cover, SaysThatNothingCanBeReached) {
+  // A lid a millimetre above the sheet.
+  const auto target = testing::flat_target(0.0, 20.0, 0.0, 20.0);
+  CoverObstacles obstacles;
+  CheckSurface lid;
+  lid.mesh = {{Vec3(-200.0, -200.0, 1.0), Vec3(300.0, -200.0, 1.0), Vec3(0.0, 400.0, 1.0)}, {{0, 1, 2}}};
+  obstacles.surfaces.push_back(lid);
+  const CoverResult result = cover(*target, testing::cylinder(4.0, 10.0), obstacles, options_for(0.01), {});
+  EXPECT_NE(result.status, CoverStatus::kCovered);
+  EXPECT_EQ(result.reachable, 0.0);
+  EXPECT_TRUE(result.motions.empty());
+  EXPECT_NE(result.message.find("nowhere"), std::string::npos) << result.message;
+}
+
 TEST(Cover, TakesTheUsersSeeds) {
   const auto target = testing::flat_target(0.0, 50.0, 0.0, 30.0);
   CoverOptions options = options_for(0.01);

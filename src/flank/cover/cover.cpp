@@ -1,7 +1,5 @@
 #include "flank/cover/cover.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -135,6 +133,30 @@ std::vector<CoverStrip> thinned(const TileScene& dense, std::vector<CoverStrip> 
   return strips;
 }
 
+/// Fills the result from the strips that are left.
+void describe(const TileScene& coarse, const TileScene& dense, const std::vector<CoverStrip>& strips,
+              CoverResult& result) {
+  result.status = strips.empty() ? CoverStatus::kNoStrip : CoverStatus::kCovered;
+  result.coverage = covered_share(dense.samples, strips);
+  result.overlap = overlap_of(dense.samples, strips);
+  for (const CoverStrip& strip : strips) {
+    result.overcut_mm = std::max(result.overcut_mm, strip.overcut_mm);
+    result.motions.push_back(strip.motion);
+  }
+  result.motions = ordered(result.motions);
+  result.message =
+      reason_of(coarse.target, coarse.radial, coarse.samples, remeasured(coarse, strips), coarse.options.tolerance_mm);
+}
+
+/// Nothing to choose from.
+CoverResult nothing(const TileScene& scene, int lines, CoverResult result) {
+  result.status = lines == 0 ? CoverStatus::kNoLine : CoverStatus::kNoStrip;
+  result.message = scene.samples.cells.empty()
+                       ? "nowhere can a ball of the tool's smallest radius touch this face without entering another"
+                       : reason_of(scene.target, scene.radial, scene.samples, {}, scene.options.tolerance_mm);
+  return result;
+}
+
 }  // namespace
 
 CoverResult cover(const Target& target, const Tool& tool, const CoverObstacles& obstacles, const CoverOptions& options,
@@ -156,11 +178,7 @@ CoverResult cover(const Target& target, const Tool& tool, const CoverObstacles& 
   result.seeds = static_cast<int>(seeds.size());
   result.lines = pool.lines;
   watch.lap("grow");
-  if (pool.strips.empty()) {
-    result.status = pool.lines == 0 ? CoverStatus::kNoLine : CoverStatus::kNoStrip;
-    result.message = reason_of(target, tool.radial, samples, {}, options.tolerance_mm);
-    return result;
-  }
+  if (pool.strips.empty() || samples.cells.empty()) return nothing(scene, pool.lines, std::move(result));
 
   progress.step("tile", 0.35);
   const StripSet set = choose_set(scene, pool.strips);
@@ -177,15 +195,7 @@ CoverResult cover(const Target& target, const Tool& tool, const CoverObstacles& 
   strips = thinned(dense_scene, smoothed(scene, dense_scene, pool.strips, strips, progress), progress);
   watch.lap("smooth");
 
-  result.status = CoverStatus::kCovered;
-  result.coverage = covered_share(dense, strips);
-  result.overlap = overlap_of(dense, strips);
-  for (const CoverStrip& strip : strips) {
-    result.overcut_mm = std::max(result.overcut_mm, strip.overcut_mm);
-    result.motions.push_back(strip.motion);
-  }
-  result.motions = ordered(result.motions);
-  result.message = reason_of(target, tool.radial, samples, remeasured(scene, strips), options.tolerance_mm);
+  describe(scene, dense_scene, strips, result);
   watch.lap("order");
   return result;
 }

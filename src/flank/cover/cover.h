@@ -45,7 +45,7 @@ struct CoverResult {
   double coverage_before = 0.0;
   double coverage = 0.0;                ///< and of `motions`
   double overlap = 0.0;                 ///< sum of the strips' covered areas over that of their union, less 1
-  double overcut_mm = 0.0;              ///< largest -f over samples and border
+  double overcut_mm = 0.0;              ///< largest depth of a strip in the target
   int seeds = 0, lines = 0, grown = 0;  ///< lines: seeds that refine to within tolerance; grown: candidates
   std::vector<std::string> notes;
   std::vector<std::pair<std::string, double>> seconds;  ///< wall time of the stages

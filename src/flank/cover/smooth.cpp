@@ -178,11 +178,11 @@ double covered_share(const CoverSamples& samples, const std::vector<CoverStrip>&
       flag = 1;
     }
   }
-  return area / samples.area;
+  return samples.area > 0.0 ? area / samples.area : 0.0;
 }
 
 SmoothResult smooth_strips(const TileScene& scene, const std::vector<CoverStrip>& strips) {
-  SmoothResult best{strips, covered_share(scene.samples, strips), {}};
+  SmoothResult best{strips, covered_share(scene.samples, strips)};
   std::vector<CoverStrip> now = strips;
   bool first = true;
   for (const Pass& pass : kPasses) {

@@ -1,7 +1,6 @@
 /// SMOOTH (MATH section 8): the chosen strips as one fit with the given tool (fit/swept_model.h), then certified.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "flank/cover/tile.h"
@@ -12,7 +11,6 @@ namespace flank {
 struct SmoothResult {
   std::vector<CoverStrip> strips;
   double coverage = 0.0;
-  std::vector<std::string> notes;
 };
 
 /// All strips together are fitted to the target's points; other faces push back where the tool comes near them. Passes
