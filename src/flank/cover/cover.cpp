@@ -14,7 +14,9 @@ namespace flank {
 namespace {
 
 constexpr double kSmoothWorth = 0.002;  ///< share of the area that smooth rails may cost
-constexpr double kFloorShare = 0.65;    ///< of the tolerance: how deep a pose may enter another face
+/// Of the tolerance: how deep a pose may enter another face, in a certificate and while a strip grows. What lies between
+/// the poses of a strip, once they are joined smoothly, has the difference.
+constexpr double kFloorShare = 0.65, kGrowFloorShare = 0.35;
 
 /// Axis samples of certificates. Surfaces may ripple at their borders within a fraction of a millimetre.
 constexpr int kCertifySamples = 81;
@@ -165,9 +167,10 @@ CoverResult cover(const Target& target, const Tool& tool, const CoverObstacles& 
   Stopwatch watch(result);
   progress.step("samples", 0.05);
   const LineGuard guard(tool, obstacles, -kFloorShare * options.tolerance_mm);
+  const LineGuard grow_guard = guard.with_floor(-kGrowFloorShare * options.tolerance_mm);
   CoverSamples samples = cover_samples(target, options.sample_share * std::sqrt(target.area()));
   result.reachable = keep_reachable(samples, guard);
-  const TileScene scene{target, tool.radial, samples, guard, options};
+  const TileScene scene{target, tool.radial, samples, grow_guard, options};
   watch.lap("samples");
 
   progress.step("grow", 0.1);

@@ -38,6 +38,12 @@ class LineGuard {
   /// Whether a ball of the tool's smallest radius is clear.
   [[nodiscard]] bool ball_is_clear(const Vec3& center) const;
   [[nodiscard]] double ball_radius() const { return ball_radius_; }
+  /// The same with another floor.
+  [[nodiscard]] LineGuard with_floor(double floor_mm) const {
+    LineGuard other = *this;
+    other.floor_mm_ = floor_mm;
+    return other;
+  }
   [[nodiscard]] double floor_mm() const { return floor_mm_; }  ///< negative: depth that the tolerance allows
 
  private:

@@ -58,6 +58,8 @@ std::string summary_text(const FitJob& job, const FitOutcome& outcome) {
                       outcome.complete ? "" : " (interrupted: incomplete)");
   if (!done && v.overcut_mm > job.tolerance_mm)
     text += fmt::format("              overcut {:.4f} mm > {} mm\n", v.overcut_mm, job.tolerance_mm);
+  if (!done && job.command == "cover" && v.gouge_mm > job.tolerance_mm)
+    text += fmt::format("              another face is entered by {:.4f} mm > {} mm\n", v.gouge_mm, job.tolerance_mm);
   if (!done && v.coverage < job.least_coverage)
     text += fmt::format("              coverage {} < {}\n", percent(v.coverage), percent(job.least_coverage));
   if (!done && !v.clearance.kept())
