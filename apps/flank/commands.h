@@ -7,6 +7,7 @@
 #include "flank/base/progress.h"
 #include "flank/pipeline/check_faces.h"
 #include "flank/pipeline/clearance_job.h"
+#include "flank/pipeline/fit_job.h"
 
 namespace flank {
 
@@ -31,9 +32,15 @@ struct Subcommand {
 [[nodiscard]] Subcommand add_example(CLI::App& parser);
 [[nodiscard]] Subcommand add_tool(CLI::App& parser);
 [[nodiscard]] Subcommand add_fit(CLI::App& parser);
+[[nodiscard]] Subcommand add_cover(CLI::App& parser);
 [[nodiscard]] Subcommand add_verify(CLI::App& parser);
 [[nodiscard]] Subcommand add_report(CLI::App& parser);
 [[nodiscard]] Subcommand add_view(CLI::App& parser);
+
+/// Makes the folder, works, writes what came out, prints the summary; returns the exit code. A folder that it made is
+/// removed where the work is refused.
+[[nodiscard]] int run_job(const FitJob& job, const std::string& folder, const CommonOptions& common,
+                          const std::function<FitOutcome(const Progress&)>& work);
 
 /// --shank-radius, --shank-length, --holder, --fixture and --clearance.
 void add_clearance_options(CLI::App& app, ClearanceJob& job);

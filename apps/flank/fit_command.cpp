@@ -34,12 +34,15 @@ void read_texts(const FitTexts& texts, FitJob& job) {
   job.strips = static_cast<int>(count);
 }
 
-int run(const FitJob& job, const std::string& folder, const CommonOptions& common) {
+}  // namespace
+
+int run_job(const FitJob& job, const std::string& folder, const CommonOptions& common,
+            const std::function<FitOutcome(const Progress&)>& work) {
   const bool existed = std::filesystem::exists(folder);
   ensure_folder(folder);
   try {
     const Progress progress = terminal_progress(common);
-    const FitOutcome outcome = run_fit(job, progress);
+    const FitOutcome outcome = work(progress);
     write_fit(job, outcome, folder);
     progress.step("done", 1.0);
     if (common.json)
@@ -53,8 +56,6 @@ int run(const FitJob& job, const std::string& folder, const CommonOptions& commo
     throw;
   }
 }
-
-}  // namespace
 
 Subcommand add_fit(CLI::App& parser) {
   CLI::App* app =
@@ -99,7 +100,8 @@ Subcommand add_fit(CLI::App& parser) {
       "Example: flank example twisted-blade -o blade.step && flank fit blade.step --face F1 --tolerance 0.1 -o out");
   return {app, [job, texts](const CommonOptions& common) {
             read_texts(*texts, *job);
-            return run(*job, texts->folder, common);
+            return run_job(*job, texts->folder, common,
+                           [&](const Progress& progress) { return run_fit(*job, progress); });
           }};
 }
 

@@ -50,8 +50,8 @@ int main(int argc, char** argv) {
       "fault.");
   flank::CommonOptions common;
   std::vector<flank::Subcommand> commands = {
-      flank::add_inspect(parser), flank::add_example(parser), flank::add_tool(parser), flank::add_fit(parser),
-      flank::add_verify(parser),  flank::add_report(parser),  flank::add_view(parser)};
+      flank::add_inspect(parser), flank::add_example(parser), flank::add_tool(parser),   flank::add_fit(parser),
+      flank::add_cover(parser),   flank::add_verify(parser),  flank::add_report(parser), flank::add_view(parser)};
   for (const flank::Subcommand& command : commands) add_common(*command.app, common);
   try {
     require_known_command(parser, argc, argv);

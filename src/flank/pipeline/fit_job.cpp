@@ -20,20 +20,6 @@
 namespace flank {
 namespace {
 
-class Stopwatch {
- public:
-  explicit Stopwatch(FitOutcome& outcome) : outcome_(outcome) {}
-  void lap(const std::string& stage) {
-    const auto now = std::chrono::steady_clock::now();
-    outcome_.seconds.emplace_back(stage, std::chrono::duration<double>(now - last_).count());
-    last_ = now;
-  }
-
- private:
-  FitOutcome& outcome_;
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
 void require(bool holds, const std::string& message) {
   if (!holds) throw UsageError(message);
 }
@@ -75,34 +61,60 @@ int machining_contact(const RuledMotion& motion, const RadialFunction& radial, c
 }
 
 void sample_path(const FitJob& job, const FitSearch& search, FitOutcome& outcome) {
-  std::vector<const Target*> targets;
-  for (const TargetGroup& group : search.targets) targets.push_back(group.target.get());
-  const std::vector<TimeRange> used = used_times(search.fit.motions, search.fit.tool, targets, job.tolerance_mm);
-  for (std::size_t m = 0; m < search.fit.motions.size(); ++m) {
-    const RuledMotion& motion = search.fit.motions[m];
-    const TargetGroup& group = search.targets[search.group_of_motion[m]];
-    SamplingOptions options;
-    options.chord_tolerance_mm = 0.02 * job.tolerance_mm;
-    const SampledMotion sampled = sample_motion(motion, options);
-    outcome.chord_bound_mm = std::max(outcome.chord_bound_mm, sampled.chord_bound_mm);
-    Strip strip;
-    strip.id = static_cast<int>(m) + 1;
-    strip.face = group.faces;
-    const auto [first, last] = poses_between(sampled.t, used[m]);
-    strip.poses.assign(sampled.poses.begin() + static_cast<std::ptrdiff_t>(first),
-                       sampled.poses.begin() + static_cast<std::ptrdiff_t>(last));
-    outcome.strip_surfaces.push_back(strip_surface({strip.id, motion, sampled.t[first], sampled.t[last - 1],
-                                                    machining_contact(motion, search.fit.tool, *group.target)},
-                                                   search.fit.tool));
-    outcome.path.strips.push_back(std::move(strip));
-  }
-  outcome.largest_c = largest_c(outcome.path, outcome.tool.radial);
+  std::vector<const TargetGroup*> groups;
+  for (const std::size_t g : search.group_of_motion) groups.push_back(&search.targets[g]);
+  add_strips(job, search.fit.motions, groups, outcome);
 }
 
 }  // namespace
 
 Acceptance FitOutcome::acceptance(const FitJob& job) const {
   return accept(tool, verify, job.least_coverage, complete);
+}
+
+void Stopwatch::lap(const std::string& stage) {
+  const auto now = std::chrono::steady_clock::now();
+  outcome_.seconds.emplace_back(stage, std::chrono::duration<double>(now - last_).count());
+  last_ = now;
+}
+
+void add_strips(const FitJob& job, const std::vector<RuledMotion>& motions,
+                const std::vector<const TargetGroup*>& groups, FitOutcome& outcome) {
+  std::vector<const Target*> targets;
+  for (const TargetGroup* group : groups)
+    if (std::find(targets.begin(), targets.end(), group->target.get()) == targets.end())
+      targets.push_back(group->target.get());
+  const RadialFunction& radial = outcome.tool.radial;
+  const std::vector<TimeRange> used = used_times(motions, radial, targets, job.tolerance_mm);
+  for (std::size_t m = 0; m < motions.size(); ++m) {
+    SamplingOptions options;
+    options.chord_tolerance_mm = 0.02 * job.tolerance_mm;
+    const SampledMotion sampled = sample_motion(motions[m], options);
+    outcome.chord_bound_mm = std::max(outcome.chord_bound_mm, sampled.chord_bound_mm);
+    Strip strip;
+    strip.id = static_cast<int>(m) + 1;
+    strip.face = groups[m]->faces;
+    const auto [first, last] = poses_between(sampled.t, used[m]);
+    strip.poses.assign(sampled.poses.begin() + static_cast<std::ptrdiff_t>(first),
+                       sampled.poses.begin() + static_cast<std::ptrdiff_t>(last));
+    outcome.strip_surfaces.push_back(strip_surface({strip.id, motions[m], sampled.t[first], sampled.t[last - 1],
+                                                    machining_contact(motions[m], radial, *groups[m]->target)},
+                                                   radial));
+    outcome.path.strips.push_back(std::move(strip));
+  }
+  outcome.largest_c = largest_c(outcome.path, radial);
+  note_strip_surfaces(outcome.strip_surfaces, outcome.notes);
+}
+
+void judge_outcome(const FitJob& job, const Part& part, const std::vector<int>& faces, const std::vector<int>& checks,
+                   FitOutcome& outcome, Stopwatch& watch) {
+  outcome.verify = judge_job(job, part, faces, checks, outcome.tool, outcome.path);
+  watch.lap("verify");
+  outcome.verify.clearance = measure_clearance(job.clearance, outcome.tool, outcome.path, part, faces, checks, job.unit,
+                                               job.tolerance_mm, outcome.notes);
+  watch.lap("clearance");
+  outcome.view = view_to_json(make_view(job, part, faces, outcome.tool, outcome.path, outcome.verify));
+  watch.lap("view");
 }
 
 FitOutcome run_fit(const FitJob& job, const Progress& progress) {
@@ -143,13 +155,7 @@ FitOutcome run_fit(const FitJob& job, const Progress& progress) {
   watch.lap("sample");
 
   progress.step("verify", 0.9);
-  outcome.verify = judge_job(job, part, faces, checks, outcome.tool, outcome.path);
-  watch.lap("verify");
-  outcome.verify.clearance = measure_clearance(job.clearance, outcome.tool, outcome.path, part, faces, checks, job.unit,
-                                               job.tolerance_mm, outcome.notes);
-  watch.lap("clearance");
-  outcome.view = view_to_json(make_view(job, part, faces, outcome.tool, outcome.path, outcome.verify));
-  watch.lap("view");
+  judge_outcome(job, part, faces, checks, outcome, watch);
   return outcome;
 }
 

@@ -1,6 +1,7 @@
 /// `flank fit` as one function: part file in, tool, path and verdict out.
 #pragma once
 
+#include <chrono>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@ namespace flank {
 
 /// What the user asked for. Lengths in mm.
 struct FitJob {
+  std::string command = "fit";       ///< of the command line that asked for this
   std::string part;                  ///< file
   std::optional<std::string> unit;   ///< of a mesh
   std::string faces = "F1";          ///< "F1" or "F1,F3": one target
@@ -47,11 +49,12 @@ struct FitOutcome {
   FlankFitResult fit;
   std::vector<StripSurface> strip_surfaces;  ///< one a strip of the path
   VerifyReport verify;
-  std::string view;                ///< view.json, for `flank report`
-  double chord_bound_mm = 0.0;     ///< between the motion and the joined poses
-  double largest_c = 0.0;          ///< regularity of the envelope along the written path, < 1 needed
-  double diagonal_mm = 0.0;        ///< of the target
-  std::vector<std::string> notes;  ///< repairs of the part, warnings
+  std::string view;             ///< view.json, for `flank report`
+  double chord_bound_mm = 0.0;  ///< between the motion and the joined poses
+  double largest_c = 0.0;       ///< regularity of the envelope along the written path, < 1 needed
+  double diagonal_mm = 0.0;     ///< of the target
+  std::vector<std::pair<std::string, double>> figures;  ///< name, value: what else a command has to say in summaries
+  std::vector<std::string> notes;                       ///< repairs of the part, warnings
   std::vector<std::pair<std::string, double>> seconds;  ///< stage, wall time
   bool complete = true;                                 ///< false: cancelled, what is here is unfinished
   /// Whether this is what was asked for: the one rule (acceptance.h).
@@ -60,6 +63,27 @@ struct FitOutcome {
 
 /// Reads, fits, samples and judges. Throws UsageError and InputError before any work is done.
 [[nodiscard]] FitOutcome run_fit(const FitJob& job, const Progress& progress);
+
+/// Wall time of one stage after another, into outcome.seconds.
+class Stopwatch {
+ public:
+  explicit Stopwatch(FitOutcome& outcome) : outcome_(outcome) {}
+  void lap(const std::string& stage);
+
+ private:
+  FitOutcome& outcome_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+struct TargetGroup;
+/// Samples the motions (groups[m]: what motion m machines) as strips of the path, each cut to the time in which it
+/// machines, with their surfaces. outcome.tool must be there, and the path empty.
+void add_strips(const FitJob& job, const std::vector<RuledMotion>& motions,
+                const std::vector<const TargetGroup*>& groups, FitOutcome& outcome);
+/// Judges tool and path of the outcome, measures clearances, makes the view. faces, checks: indices of targets and check
+/// faces.
+void judge_outcome(const FitJob& job, const Part& part, const std::vector<int>& faces, const std::vector<int>& checks,
+                   FitOutcome& outcome, Stopwatch& watch);
 
 /// Writes tool.json, tool.dxf, tool.step, tool.fctb, strips.step, path.json, path.cls, path.csv, verify.json, view.json,
 /// summary.json and job.json to a folder. A tool that is not legitimate has neither

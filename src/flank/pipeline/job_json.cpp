@@ -46,6 +46,7 @@ std::string job_to_json(const FitJob& job) {
   nlohmann::ordered_json json;
   json["schema"] = kSchema;
   json["units"] = "mm";
+  json["command"] = job.command;
   json["part"] = std::filesystem::absolute(job.part).lexically_normal().string();
   put(json, "unit", job.unit);
   json["faces"] = job.faces;
@@ -74,6 +75,7 @@ FitJob job_from_json(const std::string& text, const std::string& file) {
     const nlohmann::json json = nlohmann::json::parse(text);
     if (json.value("schema", "") != kSchema) throw InputError(file + ": schema \"" + kSchema + "\" is needed");
     FitJob job;
+    job.command = json.value("command", job.command);
     job.part = json.at("part").get<std::string>();
     job.unit = take<std::string>(json, "unit");
     job.faces = json.at("faces").get<std::string>();

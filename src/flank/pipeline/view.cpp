@@ -111,7 +111,7 @@ std::string file_name(const std::string& path) { return std::filesystem::path(pa
 
 std::string job_command(const FitJob& job) {
   const FitJob usual;
-  std::string text = "flank fit " + file_name(job.part) + " --face " + job.faces;
+  std::string text = "flank " + job.command + " " + file_name(job.part) + " --face " + job.faces;
   const auto add = [&](const char* option, const auto& value) { text += fmt::format(" {} {}", option, value); };
   if (job.tool != usual.tool)
     add("--tool", job.tool.find(".json") == std::string::npos ? job.tool : file_name(job.tool));

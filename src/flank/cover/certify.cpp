@@ -1,0 +1,103 @@
+#include "flank/cover/certify.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace flank {
+
+bool is_certified(const LineGuard& guard, const CoverStrip& strip, double tolerance_mm) {
+  if (strip.cells.empty() || strip.overcut_mm > kCertifiedShare * tolerance_mm) return false;
+  const int poses = depth_poses(strip.motion);
+  for (int i = 0; i <= poses; ++i)
+    if (!guard.clear(strip.motion.pose(static_cast<double>(i) / poses))) return false;
+  return true;
+}
+
+namespace {
+
+/// The largest of the shifts within `reach` steps, then the mean over as many: a ramp up before it is needed.
+std::vector<Vec3> ramped(const std::vector<Vec3>& shifts, int reach) {
+  const int n = static_cast<int>(shifts.size());
+  const auto window = [&](int i, const auto& visit) {
+    for (int k = std::max(0, i - reach); k <= std::min(n - 1, i + reach); ++k) visit(static_cast<std::size_t>(k));
+  };
+  std::vector<Vec3> wide(shifts.size(), Vec3::Zero()), smooth(shifts.size(), Vec3::Zero());
+  for (int i = 0; i < n; ++i)
+    window(i, [&](std::size_t k) {
+      Vec3& at = wide[static_cast<std::size_t>(i)];
+      if (shifts[k].squaredNorm() > at.squaredNorm()) at = shifts[k];
+    });
+  for (int i = 0; i < n; ++i) {
+    int count = 0;
+    window(i, [&](std::size_t k) {
+      smooth[static_cast<std::size_t>(i)] += wide[k];
+      ++count;
+    });
+    smooth[static_cast<std::size_t>(i)] /= count;
+  }
+  return smooth;
+}
+
+/// The motion with both ends of the axis shifted at equal steps of t.
+RuledMotion shifted(const RuledMotion& motion, const std::vector<Vec3>& tips, const std::vector<Vec3>& holders) {
+  std::vector<Pose> poses;
+  std::vector<double> times;
+  for (std::size_t i = 0; i < tips.size(); ++i) {
+    times.push_back(static_cast<double>(i) / static_cast<double>(tips.size() - 1));
+    const Pose pose = motion.pose(times.back());
+    const Vec3 tip = pose.tip + tips[i], holder = pose.at(motion.axis_length) + holders[i];
+    poses.push_back({tip, (holder - tip).normalized()});
+  }
+  return fit_motion(poses, times, motion.axis_length, motion.tip.count());
+}
+
+}  // namespace
+
+CoverStrip lifted(const CoverSamples& samples, CoverStrip strip, const RadialFunction& radial, LineFitter& fitter) {
+  constexpr int kTries = 4;
+  constexpr double kAim = 0.97;  ///< of what is certified
+  const double limit = kCertifiedShare * fitter.options().tolerance_mm;
+  for (int k = 0; k < kTries && !strip.cells.empty() && strip.overcut_mm > limit; ++k) {
+    const int poses = depth_poses(strip.motion);
+    std::vector<Vec3> tips, holders;
+    fitter.forget();
+    for (int i = 0; i <= poses; ++i) {
+      const Pose pose = strip.motion.pose(static_cast<double>(i) / poses);
+      (void)fitter.measure(pose);
+      const LineFitter::Lift lift = fitter.lift(pose, kAim * limit);
+      tips.push_back(lift.tip);
+      holders.push_back(lift.holder);
+    }
+    const int reach = std::max(1, poses / strip.motion.tip.count());
+    strip = measure_strip(samples, shifted(strip.motion, ramped(tips, reach), ramped(holders, reach)), radial, fitter);
+  }
+  return strip;
+}
+
+CoverStrip cut_to_certified(const CoverSamples& samples, const LineGuard& guard, CoverStrip strip,
+                            const RadialFunction& radial, LineFitter& fitter) {
+  constexpr int kTries = 3;
+  constexpr double kShortest = 0.1;
+  const double tolerance = fitter.options().tolerance_mm;
+  for (int k = 0; k < kTries && !strip.cells.empty() && !is_certified(guard, strip, tolerance); ++k) {
+    const int poses = depth_poses(strip.motion);
+    const std::vector<double> depths = depths_along(samples, strip.motion, radial, fitter);
+    int first = 0, longest = 0;
+    for (int i = 0, run = 0; i <= poses; ++i) {
+      const bool good = depths[static_cast<std::size_t>(i)] <= kCertifiedShare * tolerance &&
+                        guard.clear(strip.motion.pose(static_cast<double>(i) / poses));
+      run = good ? run + 1 : 0;
+      if (run <= longest) continue;
+      longest = run;
+      first = i - run + 1;
+    }
+    // The new ends lie a step within: right at the edge of what is allowed the next step may be beyond it.
+    const double t0 = (first + (first > 0 ? 1.0 : 0.0)) / poses;
+    const double t1 = (first + longest - (first + longest <= poses ? 2.0 : 1.0)) / poses;
+    if (t1 - t0 < kShortest) return {};
+    strip = measure_strip(samples, part_of_motion(strip.motion, t0, t1), radial, fitter);
+  }
+  return is_certified(guard, strip, tolerance) ? strip : CoverStrip{};
+}
+
+}  // namespace flank

@@ -1,0 +1,22 @@
+/// CERTIFY, as far as the planner can: the judge has the last word.
+#pragma once
+
+#include "flank/cover/line_guard.h"
+#include "flank/cover/strip_cover.h"
+
+namespace flank {
+
+/// No overcut beyond kCertifiedShare of the tolerance, and clear of the guard's obstacles from end to end.
+[[nodiscard]] bool is_certified(const LineGuard& guard, const CoverStrip& strip, double tolerance_mm);
+
+/// A strip that cuts too deep here and there, lifted there by as much, with ramps that its rails can follow. What it
+/// leaves instead is within the tolerance where the excess was small.
+[[nodiscard]] CoverStrip lifted(const CoverSamples& samples, CoverStrip strip, const RadialFunction& radial,
+                                LineFitter& fitter);
+
+/// A strip that fails is cut short: the longest stretch of it that does not remains. No cells where that is less than a
+/// tenth.
+[[nodiscard]] CoverStrip cut_to_certified(const CoverSamples& samples, const LineGuard& guard, CoverStrip strip,
+                                          const RadialFunction& radial, LineFitter& fitter);
+
+}  // namespace flank

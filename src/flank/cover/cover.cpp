@@ -1,0 +1,206 @@
+#include "flank/cover/cover.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "flank/base/parallel.h"
+#include "flank/cover/certify.h"
+#include "flank/cover/order.h"
+#include "flank/cover/reasons.h"
+#include "flank/cover/smooth.h"
+
+namespace flank {
+namespace {
+
+constexpr double kSmoothWorth = 0.002;  ///< share of the area that smooth rails may cost
+/// Of the tolerance: how deep a pose may enter another face, in a certificate and while a strip grows. What lies between
+/// the poses of a strip, once they are joined smoothly, has the difference.
+constexpr double kFloorShare = 0.65, kGrowFloorShare = 0.35;
+
+/// Axis samples of certificates. Surfaces may ripple at their borders within a fraction of a millimetre.
+constexpr int kCertifySamples = 81;
+
+class Stopwatch {
+ public:
+  explicit Stopwatch(CoverResult& result) : result_(result) {}
+  void lap(const char* stage) {
+    const auto now = std::chrono::steady_clock::now();
+    result_.seconds.emplace_back(stage, std::chrono::duration<double>(now - last_).count());
+    last_ = now;
+  }
+
+ private:
+  CoverResult& result_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+/// Leaves out the cells that a ball of the tool's smallest radius cannot touch without entering an obstacle; returns the
+/// area share of the others.
+double keep_reachable(CoverSamples& samples, const LineGuard& guard) {
+  std::vector<char> open(samples.cells.size());
+  parallel_for(samples.cells.size(), [&](std::size_t k) {
+    const SurfaceSample& cell = samples.cells[k];
+    open[k] = guard.ball_is_clear(cell.point + guard.ball_radius() * cell.normal) ? 1 : 0;
+  });
+  CoverSamples kept;
+  kept.border = samples.border;
+  for (std::size_t k = 0; k < open.size(); ++k) {
+    if (open[k] == 0) continue;
+    kept.cells.push_back(samples.cells[k]);
+    kept.area += samples.cells[k].area;
+  }
+  const double share = kept.area / samples.area;
+  samples = std::move(kept);
+  return share;
+}
+
+double overlap_of(const CoverSamples& samples, const std::vector<CoverStrip>& strips) {
+  double sum = 0.0;
+  for (const CoverStrip& strip : strips) sum += strip.area;
+  const double covered = covered_share(samples, strips) * samples.area;
+  return covered > 0.0 ? sum / covered - 1.0 : 0.0;
+}
+
+std::vector<CoverStrip> remeasured(const TileScene& scene, const std::vector<CoverStrip>& strips) {
+  std::vector<CoverStrip> result(strips.size());
+  parallel_for(strips.size(), [&](std::size_t k) {
+    LineFitter fitter(scene.target, scene.radial, line_options(scene));
+    result[k] = measure_strip(scene.samples, strips[k].motion, scene.radial, fitter);
+  });
+  return result;
+}
+
+/// What cuts too deep between the samples that chose it is lifted, or else cut short.
+std::vector<CoverStrip> made_certain(const TileScene& dense, std::vector<CoverStrip> strips) {
+  parallel_for(strips.size(), [&](std::size_t k) {
+    LineFitter fitter(dense.target, dense.radial, line_options(dense));
+    const CoverStrip raised = lifted(dense.samples, std::move(strips[k]), dense.radial, fitter);
+    strips[k] = cut_to_certified(dense.samples, dense.guard, raised, dense.radial, fitter);
+  });
+  std::erase_if(strips, [](const CoverStrip& strip) { return strip.cells.empty(); });
+  return strips;
+}
+
+double value_of(const TileScene& scene, const std::vector<CoverStrip>& strips) {
+  return covered_share(scene.samples, strips) - scene.options.strip_price * static_cast<double>(strips.size());
+}
+
+/// Smooths; where that leaves gaps that are worth a strip, adds it and smooths again. The best that was seen.
+std::vector<CoverStrip> smoothed(const TileScene& coarse, const TileScene& dense, const std::vector<CoverStrip>& pool,
+                                 std::vector<CoverStrip> strips, const Progress& progress) {
+  constexpr int kRounds = 3;
+  strips = made_certain(dense, remeasured(dense, strips));
+  std::vector<CoverStrip> best = strips;
+  for (int round = 0; round < kRounds && dense.options.smooth && !progress.stop(); ++round) {
+    progress.step("smooth", 0.55 + 0.1 * round);
+    strips = pruned(dense, smooth_strips(dense, strips).strips);
+    if (value_of(dense, strips) > value_of(dense, best) - (round == 0 ? kSmoothWorth : 0.0)) best = strips;
+    if (round + 1 == kRounds) break;
+    const std::vector<CoverStrip> more =
+        made_certain(dense, remeasured(dense, additions(coarse, pool, remeasured(coarse, strips))));
+    if (more.empty()) break;
+    strips.insert(strips.end(), more.begin(), more.end());
+  }
+  return best;
+}
+
+/// Without the strip that adds least, where the others, smoothed again, take over what it did.
+std::vector<CoverStrip> thinned(const TileScene& dense, std::vector<CoverStrip> strips, const Progress& progress) {
+  constexpr int kDrops = 2;
+  constexpr double kTakenOver = 0.06;  ///< share of the area that neighbours may be able to take over
+  for (int k = 0; k < kDrops && dense.options.smooth && !progress.stop(); ++k) {
+    progress.step("thin out", 0.8);
+    CellCount covered(dense.samples);
+    for (const CoverStrip& strip : strips) covered.add(strip);
+    std::size_t least = 0;
+    double worth = kTakenOver;
+    bool found = false;
+    for (std::size_t i = 0; i < strips.size() && strips.size() > 1; ++i) {
+      covered.add(strips[i], -1);
+      const double gain = covered.gain(strips[i]);
+      covered.add(strips[i]);
+      if (gain >= worth) continue;
+      worth = gain;
+      least = i;
+      found = true;
+    }
+    if (!found) break;
+    std::vector<CoverStrip> fewer = strips;
+    fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(least));
+    fewer = smooth_strips(dense, fewer).strips;
+    if (value_of(dense, fewer) <= value_of(dense, strips)) break;
+    strips = std::move(fewer);
+  }
+  return strips;
+}
+
+/// Fills the result from the strips that are left.
+void describe(const TileScene& coarse, const TileScene& dense, const std::vector<CoverStrip>& strips,
+              CoverResult& result) {
+  result.status = strips.empty() ? CoverStatus::kNoStrip : CoverStatus::kCovered;
+  result.coverage = covered_share(dense.samples, strips);
+  result.overlap = overlap_of(dense.samples, strips);
+  for (const CoverStrip& strip : strips) {
+    result.overcut_mm = std::max(result.overcut_mm, strip.overcut_mm);
+    result.motions.push_back(strip.motion);
+  }
+  result.motions = ordered(result.motions);
+  result.message =
+      reason_of(coarse.target, coarse.radial, coarse.samples, remeasured(coarse, strips), coarse.options.tolerance_mm);
+}
+
+/// Nothing to choose from.
+CoverResult nothing(const TileScene& scene, int lines, CoverResult result) {
+  result.status = lines == 0 ? CoverStatus::kNoLine : CoverStatus::kNoStrip;
+  result.message = scene.samples.cells.empty()
+                       ? "nowhere can a ball of the tool's smallest radius touch this face without entering another"
+                       : reason_of(scene.target, scene.radial, scene.samples, {}, scene.options.tolerance_mm);
+  return result;
+}
+
+}  // namespace
+
+CoverResult cover(const Target& target, const Tool& tool, const CoverObstacles& obstacles, const CoverOptions& options,
+                  const Progress& progress) {
+  CoverResult result;
+  Stopwatch watch(result);
+  progress.step("samples", 0.05);
+  const LineGuard guard(tool, obstacles, -kFloorShare * options.tolerance_mm);
+  const LineGuard grow_guard = guard.with_floor(-kGrowFloorShare * options.tolerance_mm);
+  CoverSamples samples = cover_samples(target, options.sample_share * std::sqrt(target.area()));
+  result.reachable = keep_reachable(samples, guard);
+  const TileScene scene{target, tool.radial, samples, grow_guard, options};
+  watch.lap("samples");
+
+  progress.step("grow", 0.1);
+  const std::vector<LineSeed> seeds =
+      options.seeds.empty() ? grid_seeds(target, tool.radial, options.seed_places, options.seed_directions)
+                            : options.seeds;
+  CandidatePool pool = grow_pool(scene, seeds);
+  result.seeds = static_cast<int>(seeds.size());
+  result.lines = pool.lines;
+  watch.lap("grow");
+  if (pool.strips.empty() || samples.cells.empty()) return nothing(scene, pool.lines, std::move(result));
+
+  progress.step("tile", 0.35);
+  const StripSet set = choose_set(scene, pool.strips);
+  result.grown = static_cast<int>(pool.strips.size());
+  std::vector<CoverStrip> strips;
+  for (const int k : set) strips.push_back(pool.strips[static_cast<std::size_t>(k)]);
+  result.coverage_before = covered_share(samples, strips);
+  watch.lap("tile");
+
+  progress.step("smooth", 0.55);
+  CoverSamples dense = cover_samples(target, options.dense_share * std::sqrt(target.area()));
+  result.reachable = keep_reachable(dense, guard);
+  const TileScene dense_scene{target, tool.radial, dense, guard, options, kCertifySamples};
+  strips = thinned(dense_scene, smoothed(scene, dense_scene, pool.strips, strips, progress), progress);
+  watch.lap("smooth");
+
+  describe(scene, dense_scene, strips, result);
+  watch.lap("order");
+  return result;
+}
+
+}  // namespace flank

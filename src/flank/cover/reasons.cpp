@@ -1,0 +1,93 @@
+#include "flank/cover/reasons.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace flank {
+namespace {
+
+struct ThinPlace {
+  double s = 0.0, radius = 1e300;
+};
+
+ThinPlace thinnest(const RadialFunction& radial) {
+  ThinPlace thin;
+  for (int j = 0; j <= 100; ++j) {
+    const double s = radial.axis_length() * j / 100.0, r = radial.at(s).r;
+    if (r < thin.radius) thin = {s, r};
+  }
+  return thin;
+}
+
+std::vector<char> covered_cells(const CoverSamples& samples, const std::vector<CoverStrip>& strips) {
+  std::vector<char> covered(samples.cells.size(), 0);
+  for (const CoverStrip& strip : strips)
+    for (const int k : strip.cells) covered[static_cast<std::size_t>(k)] = 1;
+  return covered;
+}
+
+/// Uncovered samples that hang together, the largest such patch: its area and its middle.
+std::pair<double, Vec3> largest_gap(const CoverSamples& samples, const std::vector<CoverStrip>& strips) {
+  std::vector<char> covered = covered_cells(samples, strips);
+  const double reach =
+      2.5 * std::sqrt(samples.area / static_cast<double>(std::max<std::size_t>(1, samples.cells.size())));
+  std::pair<double, Vec3> largest{0.0, Vec3::Zero()};
+  for (std::size_t first = 0; first < samples.cells.size(); ++first) {
+    if (covered[first] != 0) continue;
+    std::vector<std::size_t> patch = {first};
+    covered[first] = 1;
+    double area = 0.0;
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t i = 0; i < patch.size(); ++i) {
+      const SurfaceSample& cell = samples.cells[patch[i]];
+      area += cell.area;
+      sum += cell.area * cell.point;
+      for (std::size_t k = 0; k < samples.cells.size(); ++k) {
+        if (covered[k] != 0 || (samples.cells[k].point - cell.point).squaredNorm() > reach * reach) continue;
+        covered[k] = 1;
+        patch.push_back(k);
+      }
+    }
+    if (area > largest.first) largest = {area, sum / area};
+  }
+  return largest;
+}
+
+}  // namespace
+
+ConcavePlace most_concave(const Target& target, const CoverSamples& samples, const std::vector<CoverStrip>& strips) {
+  const std::vector<char> covered = covered_cells(samples, strips);
+  ConcavePlace place;
+  for (std::size_t k = 0; k < covered.size(); ++k) {
+    if (covered[k] != 0) continue;
+    const SurfaceSample& cell = samples.cells[k];
+    const Footpoint foot = target.closest(cell.point);
+    if (foot.k2 <= place.curvature) continue;
+    place = {foot.k2, cell.point};
+  }
+  return place;
+}
+
+std::string reason_of(const Target& target, const RadialFunction& radial, const CoverSamples& samples,
+                      const std::vector<CoverStrip>& strips, double tolerance_mm) {
+  const ConcavePlace concave = most_concave(target, samples, strips);
+  const ThinPlace thin = thinnest(radial);
+  if (thin.radius * concave.curvature > 1.0)
+    return fmt::format(
+        "largest concave curvature needs r below {:.3g} mm at ({:.1f}, {:.1f}, {:.1f}); this tool has {:.3g} mm at "
+        "its thinnest, s = {:.3g}",
+        1.0 / concave.curvature, concave.point.x(), concave.point.y(), concave.point.z(), thin.radius, thin.s);
+  if (strips.empty())
+    return fmt::format(
+        "no line of this tool's {:.3g} mm stays within {:.3g} mm of the face over its whole length: a shorter tool, or "
+        "one whose meridian bends as the face does, is needed",
+        radial.axis_length(), tolerance_mm);
+  const auto [area, middle] = largest_gap(samples, strips);
+  if (area == 0.0) return "";
+  return fmt::format("the largest place not covered is {:.3g} mm2 about ({:.1f}, {:.1f}, {:.1f})", area, middle.x(),
+                     middle.y(), middle.z());
+}
+
+}  // namespace flank
