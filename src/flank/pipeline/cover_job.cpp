@@ -168,6 +168,7 @@ FitOutcome run_cover(const CoverJob& job, const Progress& progress) {
     groups.insert(groups.end(), covered.result.motions.size(), &covered.group);
   }
   add_strips(base, outcome.fit.motions, groups, outcome);
+  watch.lap("sample");
   outcome.complete = !progress.stop();
   progress.step("verify", 0.9);
   judge_outcome(base, part, faces, checks, outcome, watch);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "flank/envelope/envelope.h"
 #include "flank/io/write_step.h"
@@ -107,7 +108,10 @@ struct Fitted {
 
 /// Interpolates, and halves intervals where the surface is too far off between its points until it is near enough.
 Fitted fitted(const ExactSurface& exact, Direction along, Direction across) {
-  for (;;) {
+  // Where an envelope folds, halving does not help: rounds that do not halve the deviation are the end of it.
+  constexpr int kIdleRounds = 2;
+  int idle = 0;
+  for (double before = std::numeric_limits<double>::infinity();;) {
     const std::vector<double> u = along.sites(), v = across.sites();
     std::vector<Vec3> points;
     for (const double a : u)
@@ -116,6 +120,9 @@ Fitted fitted(const ExactSurface& exact, Direction along, Direction across) {
     const auto error = [&](double a, double b) { return (out.surface.value(a, b) - exact(a, b)).norm(); };
     for (const double a : along.places())
       for (const double b : across.places()) out.deviation_mm = std::max(out.deviation_mm, error(a, b));
+    idle = out.deviation_mm > 0.5 * before ? idle + 1 : 0;
+    before = out.deviation_mm;
+    if (idle == kIdleRounds) return out;
     // On a line through its points only the interpolation along it shows.
     const auto worst_u = [&](double a) {
       double worst = 0.0;
