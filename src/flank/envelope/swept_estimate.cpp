@@ -69,7 +69,9 @@ std::size_t SweptEstimate::nearest_pose(std::size_t motion, const Vec3& x, doubl
 
 double SweptEstimate::slack(std::size_t motion) const {
   // A sphere of radius r that passes x half-way between two poses comes nearer by about stride^2 / (8 r).
-  return stride_[motion] * stride_[motion] / (8.0 * least_radius_);
+  // A radial function that is no tool (r <= 0 somewhere) must not make it negative: then nothing would be nearest.
+  const double radius = std::max(least_radius_, 1e-3 * axis_length_);
+  return stride_[motion] * stride_[motion] / (8.0 * radius);
 }
 
 double SweptEstimate::bound(const Vec3& x, const SweptContact& hint) const {

@@ -26,6 +26,12 @@ MinimiseResult levenberg_marquardt(const Model& model, FitState start) {
   double damping = kFirstDamping;
   auto weights = model.sample_weights(state);
   result.trace.push_back(trace(state, model.cost(state, weights), damping));
+  // A start that is no motion, or a tool that is none, has nowhere to go.
+  if (!std::isfinite(result.trace.back().cost)) {
+    result.status = MinimiseStatus::kStalled;
+    result.state = std::move(state);
+    return result;
+  }
   result.status = MinimiseStatus::kIterationLimit;
   int small_steps = 0;
   for (int iteration = 0; iteration < model.stage().iterations; ++iteration) {

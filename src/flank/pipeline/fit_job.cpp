@@ -151,7 +151,6 @@ FitOutcome run_fit(const FitJob& job, const Progress& progress) {
   if (outcome.largest_c >= 1.0)
     outcome.notes.push_back(
         fmt::format("the tool plunges: |c| = {:.3f} >= 1 somewhere along the path", outcome.largest_c));
-  note_strip_surfaces(outcome.strip_surfaces, outcome.notes);
   watch.lap("sample");
 
   progress.step("verify", 0.9);
