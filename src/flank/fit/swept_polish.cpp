@@ -41,6 +41,8 @@ FitStage swept_stage(const Pass& pass, const FlankFitOptions& options) {
   stage.fairness = pass.fairness;
   stage.transversal_anchor = pass.anchor;
   stage.axial_pin = 1e-8;
+  // Where the tool touches nothing it goes on as it came; where it touches, this is far below what the face asks.
+  stage.tool_fairness = 1e-2 * options.tolerance_mm * options.tolerance_mm;
   stage.dead_zone_mm = pass.dead_zone * options.tolerance_mm;
   // What a strip cannot reach must not pull it off what it can.
   stage.robust_scale_mm = 20.0 * options.tolerance_mm;
