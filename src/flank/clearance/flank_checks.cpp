@@ -37,16 +37,11 @@ Vote vote(const CheckFace& face, const std::vector<SurfaceSample>& samples, doub
 
 }  // namespace
 
-/// What is known at a point of a lattice: the distance there, and the faces that can be nearest within half a cell of it.
-struct FlankChecks::LatticeNode {
-  double distance_mm = 0.0;
-  std::vector<std::size_t> faces;
-};
-
 /// A lattice around the target whose nodes are found when they are first asked for. Distances are true of the places
 /// nearby, less the way there: many questions need no more, the others ask fewer faces and look less far.
 struct FlankChecks::Lattice {
-  static constexpr int kPerSide = 64;  ///< along the longest side of the box
+  static constexpr int kPerSide = 48;  ///< along the longest side of the box
+  using Faces = std::vector<std::size_t>;
 
   Lattice(const Box3& box, double margin) {
     const Vec3 size = (box.high - box.low).array() + 2.0 * margin;
@@ -57,10 +52,12 @@ struct FlankChecks::Lattice {
       count[static_cast<std::size_t>(k)] = static_cast<int>(std::ceil(size[k] / step)) + 1;
       all *= static_cast<std::size_t>(count[static_cast<std::size_t>(k)]);
     }
-    nodes = std::vector<std::atomic<const LatticeNode*>>(all);
+    distances = std::vector<std::atomic<double>>(all);
+    for (std::atomic<double>& distance : distances) distance.store(kUnknown, std::memory_order_relaxed);
+    faces = std::vector<std::atomic<const Faces*>>(all);
   }
   ~Lattice() {
-    for (std::atomic<const LatticeNode*>& node : nodes) delete node.load();
+    for (std::atomic<const Faces*>& list : faces) delete list.load();
   }
 
   /// Index of the node nearest to p, and its place; -1 off the lattice.
@@ -81,21 +78,33 @@ struct FlankChecks::Lattice {
   [[nodiscard]] std::ptrdiff_t index(const std::array<int, 3>& corner) const {
     return (static_cast<std::ptrdiff_t>(corner[2]) * count[1] + corner[1]) * count[0] + corner[0];
   }
-  /// The node, made by `make` where it is not known yet: two threads may make the same, one of them is kept.
-  template <class Make>
-  const LatticeNode& node(std::ptrdiff_t index, Make&& make) {
-    std::atomic<const LatticeNode*>& place = nodes[static_cast<std::size_t>(index)];
-    const LatticeNode* known = place.load(std::memory_order_acquire);
+  /// The distance at a node, found by `find` where it is not known yet: two threads may find the same.
+  template <class Find>
+  double distance(std::ptrdiff_t index, Find&& find) {
+    std::atomic<double>& place = distances[static_cast<std::size_t>(index)];
+    double known = place.load(std::memory_order_relaxed);
+    if (known != kUnknown) return known;
+    known = find();
+    place.store(known, std::memory_order_relaxed);
+    return known;
+  }
+  /// The faces that can be nearest within half a cell of a node, likewise.
+  template <class Find>
+  const Faces& near(std::ptrdiff_t index, Find&& find) {
+    std::atomic<const Faces*>& place = faces[static_cast<std::size_t>(index)];
+    const Faces* known = place.load(std::memory_order_acquire);
     if (known != nullptr) return *known;
-    auto made = std::make_unique<const LatticeNode>(make());
-    if (place.compare_exchange_strong(known, made.get(), std::memory_order_acq_rel)) return *made.release();
+    auto found = std::make_unique<const Faces>(find());
+    if (place.compare_exchange_strong(known, found.get(), std::memory_order_acq_rel)) return *found.release();
     return *known;
   }
 
+  static constexpr double kUnknown = -1e300;
   Vec3 low;
   double step = 1.0;
   std::array<int, 3> count{};
-  std::vector<std::atomic<const LatticeNode*>> nodes;
+  std::vector<std::atomic<double>> distances;
+  std::vector<std::atomic<const Faces*>> faces;
 };
 
 FlankChecks::FlankChecks(std::vector<CheckFace> faces, const Target& target, double offset_mm, double allowance_mm)
@@ -119,17 +128,22 @@ bool FlankChecks::reachable(const SurfaceSample& sample, double radius_mm, doubl
 FlankChecks::~FlankChecks() = default;
 FlankChecks::FlankChecks(FlankChecks&&) noexcept = default;
 
-FlankChecks::LatticeNode FlankChecks::make_node(const Vec3& place) const {
-  constexpr double kFar = std::numeric_limits<double>::infinity(), kRounding = 1.0 + 1e-9;
-  LatticeNode made{search(order_, place, kFar, kFar).distance_mm, {}};
-  const double far = made.distance_mm + std::sqrt(3.0) * lattice_->step * kRounding;
+double FlankChecks::node_distance(std::ptrdiff_t index, const Vec3& place) const {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  return lattice_->distance(index, [&] { return search(order_, place, kFar, kFar).distance_mm; });
+}
+
+std::vector<std::size_t> FlankChecks::faces_near(const Vec3& place, double distance_mm) const {
+  constexpr double kRounding = 1.0 + 1e-9;
+  std::vector<std::size_t> near;
+  const double far = distance_mm + std::sqrt(3.0) * lattice_->step * kRounding;
   for (const std::size_t k : order_) {
-    const double sight = signs_[k] != 0 ? std::max(std::abs(made.distance_mm), std::abs(far)) : far;
+    const double sight = signs_[k] != 0 ? std::max(std::abs(distance_mm), std::abs(far)) : far;
     if (!(sight > 0.0)) continue;
     const Footpoint foot = faces_[k].surface->closest_within(place, sight * kRounding);
-    if (foot.patch >= 0 && signed_distance(k, place, foot) <= far) made.faces.push_back(k);
+    if (foot.patch >= 0 && signed_distance(k, place, foot) <= far) near.push_back(k);
   }
-  return made;
+  return near;
 }
 
 CheckDistance FlankChecks::estimate(const Vec3& p) const {
@@ -142,15 +156,15 @@ CheckDistance FlankChecks::estimate(const Vec3& p) const {
     if (!(x >= 0.0) || corner[k] + 1 >= lattice_->count[k]) return at(p, std::numeric_limits<double>::infinity());
   }
   CheckDistance sum;
+  sum.face = 0;
   for (int c = 0; c < 8; ++c) {
     const std::array<int, 3> at{corner[0] + (c & 1), corner[1] + (c >> 1 & 1), corner[2] + (c >> 2)};
-    const LatticeNode& node = lattice_->node(lattice_->index(at), [&] { return make_node(lattice_->place(at)); });
+    const double distance = node_distance(lattice_->index(at), lattice_->place(at));
     const double x = (c & 1) != 0 ? share[0] : 1.0 - share[0], y = (c & 2) != 0 ? share[1] : 1.0 - share[1],
                  z = (c & 4) != 0 ? share[2] : 1.0 - share[2];
-    sum.distance_mm += x * y * z * node.distance_mm;
-    sum.gradient += node.distance_mm / lattice_->step *
+    sum.distance_mm += x * y * z * distance;
+    sum.gradient += distance / lattice_->step *
                     Vec3((c & 1) != 0 ? y * z : -y * z, (c & 2) != 0 ? x * z : -x * z, (c & 4) != 0 ? x * y : -x * y);
-    if (c == 0 && !node.faces.empty()) sum.face = static_cast<int>(node.faces.front());
   }
   return sum;
 }
@@ -165,12 +179,12 @@ CheckDistance FlankChecks::at(const Vec3& p, double horizon_mm) const {
   Vec3 place;
   const std::ptrdiff_t index = lattice_->index(p, place);
   if (index < 0) return search(order_, p, horizon_mm, kFar);
-  const LatticeNode& node = lattice_->node(index, [&] { return make_node(place); });
-  const double way = (p - place).norm();
+  const double known = node_distance(index, place), way = (p - place).norm();
   CheckDistance free;
   free.distance_mm = horizon_mm;
-  if (node.distance_mm - way >= horizon_mm) return free;
-  return search(node.faces, p, horizon_mm, (std::abs(node.distance_mm) + way) * (1.0 + 1e-9));
+  if (known - way >= horizon_mm) return free;
+  const std::vector<std::size_t>& near = lattice_->near(index, [&] { return faces_near(place, known); });
+  return search(near, p, horizon_mm, (std::abs(known) + way) * (1.0 + 1e-9));
 }
 
 CheckDistance FlankChecks::search(const std::vector<std::size_t>& faces, const Vec3& p, double horizon_mm,

@@ -21,7 +21,7 @@ struct CheckFace {
 struct CheckDistance {
   double distance_mm = 0.0;      ///< negative behind a wall; the horizon if nothing is nearer
   Vec3 gradient = Vec3::Zero();  ///< of the distance, a unit vector; zero beyond the horizon
-  int face = -1;                 ///< index of the check face; -1 beyond the horizon
+  int face = -1;                 ///< index of the check face; -1 beyond the horizon; of an estimate: 0
 };
 
 /// Immutable after construction, for many threads at once.
@@ -39,7 +39,7 @@ class FlankChecks {
 
   [[nodiscard]] CheckDistance at(const Vec3& p, double horizon_mm) const;
   /// The distance (never a horizon) by interpolation in a lattice around the target: good to hundredths of its step, a
-  /// sixty-fourth of the target, but near what is nearest to two faces; much faster, for searches that start rough.
+  /// forty-eighth of the target, but near what is nearest to two faces; much faster, for searches that start rough.
   [[nodiscard]] CheckDistance estimate(const Vec3& p) const;
   /// Whether a ball of this radius that touches the target at the sample enters no check face by more than `depth_mm`
   /// (MATH section 9).
@@ -52,9 +52,10 @@ class FlankChecks {
   [[nodiscard]] int sign(int face) const { return signs_[static_cast<std::size_t>(face)]; }
 
  private:
-  struct LatticeNode;
   struct Lattice;
-  [[nodiscard]] LatticeNode make_node(const Vec3& place) const;
+  [[nodiscard]] double node_distance(std::ptrdiff_t index, const Vec3& place) const;
+  /// Faces that can be nearest within half a cell of a node with this distance.
+  [[nodiscard]] std::vector<std::size_t> faces_near(const Vec3& place, double distance_mm) const;
   /// As at(), of these faces, where nothing that matters is farther than the sight.
   [[nodiscard]] CheckDistance search(const std::vector<std::size_t>& faces, const Vec3& p, double horizon_mm,
                                      double sight_mm) const;
