@@ -10,6 +10,7 @@
 #include "flank/envelope/envelope.h"
 #include "flank/pipeline/fit_search.h"
 #include "flank/pipeline/judge_job.h"
+#include "flank/pipeline/lengthen.h"
 #include "flank/pipeline/path_regularity.h"
 #include "flank/pipeline/targets.h"
 #include "flank/pipeline/tool_model.h"
@@ -64,6 +65,30 @@ void sample_path(const FitJob& job, const FitSearch& search, FitOutcome& outcome
   std::vector<const TargetGroup*> groups;
   for (const std::size_t g : search.group_of_motion) groups.push_back(&search.targets[g]);
   add_strips(job, search.fit.motions, groups, outcome);
+}
+
+/// Lifts a shank or holder that comes too near, where the flank's length is open (lengthen.h).
+void lift_shank(const FitJob& job, const Part& part, const std::vector<int>& faces, const std::vector<int>& checks,
+                FitSearch& search, FitOutcome& outcome) {
+  if (job.axis_length_mm || (!job.clearance.shank_length_mm && !job.clearance.holder)) return;
+  const auto clear = [&](const FlankFitResult& fit) {
+    Tool tool;
+    tool.radial = fit.tool;
+    equip_tool(job.clearance, tool);
+    Path path;
+    for (const RuledMotion& motion : fit.motions) {
+      SamplingOptions options;
+      options.chord_tolerance_mm = 0.02 * job.tolerance_mm;
+      path.strips.push_back({});
+      path.strips.back().poses = sample_motion(motion, options).poses;
+    }
+    std::vector<std::string> notes;
+    return measure_clearance(job.clearance, tool, path, part, faces, checks, job.unit, job.tolerance_mm, notes).kept();
+  };
+  const double more = lengthen_until_clear(search.fit, std::max(1.0, job.clearance.required_mm.value_or(0.0)), clear);
+  if (more > 0.0)
+    outcome.notes.push_back(
+        fmt::format("the flank was lengthened by {} mm, so that shank and holder keep their clearances", more));
 }
 
 }  // namespace
@@ -135,6 +160,7 @@ FitOutcome run_fit(const FitJob& job, const Progress& progress) {
   watch.lap("read");
 
   FitSearch search = search_fit(job, part, faces, checks, spec, bounds_of, progress);
+  if (spec.free) lift_shank(job, part, faces, checks, search, outcome);
   outcome.fit = search.fit;
   outcome.diagonal_mm = search.targets.front().target->diagonal();
   outcome.notes.insert(outcome.notes.end(), search.fit.notes.begin(), search.fit.notes.end());
