@@ -139,8 +139,8 @@ TEST(AdmissibleDirections, FindTheAxisOfAnExactEnvelope) {
       const Pose pose = exact.motion.pose(t);
       const Footpoint foot = exact.target->closest(pose.at(s));
       double nearest = 1.0;
-      for (const Vec3& u : admissible_directions(foot, exact.tool.at(s)).roots())
-        nearest = std::min(nearest, (u - pose.axis).norm());
+      const AdmissibleDirections found = admissible_directions(foot, exact.tool.at(s));
+      for (const Vec3& u : found.roots()) nearest = std::min(nearest, (u - pose.axis).norm());
       EXPECT_LT(nearest, 1e-5) << "t = " << t;
     }
   }

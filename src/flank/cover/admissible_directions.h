@@ -55,7 +55,8 @@ struct AdmissibleDirections {
   std::array<Vec3, 4>
       directions;  ///< unit, tip to holder, at theta, -theta, pi - theta, pi + theta; kTwo: theta, pi + theta
 
-  [[nodiscard]] std::span<const Vec3> roots() const { return {directions.data(), static_cast<std::size_t>(count)}; }
+  [[nodiscard]] std::span<const Vec3> roots() const&& = delete;  // it would outlive the directions
+  [[nodiscard]] std::span<const Vec3> roots() const& { return {directions.data(), static_cast<std::size_t>(count)}; }
 };
 
 /// All directions of the axis with second-order contact at the footpoint (its distance, parameters and location do not
