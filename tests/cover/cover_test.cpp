@@ -10,6 +10,12 @@
 namespace flank {
 namespace {
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
+
 CoverOptions options_for(double tolerance_mm) {
   CoverOptions options;
   options.tolerance_mm = tolerance_mm;
@@ -17,6 +23,7 @@ CoverOptions options_for(double tolerance_mm) {
 }
 
 TEST(Cover, TwistedBladeWithACylinder) {
+  if (kSanitized) GTEST_SKIP() << "minutes under a sanitizer; its parts are tested there by themselves";
   const Example blade = make_example("twisted-blade");
   const auto target = make_target(blade.faces);
   const double tolerance = 1e-3 * blade.diagonal_mm;
@@ -31,6 +38,7 @@ TEST(Cover, TwistedBladeWithACylinder) {
 }
 
 TEST(Cover, SurfaceLongerThanTheTool) {
+  if (kSanitized) GTEST_SKIP() << "minutes under a sanitizer; its parts are tested there by themselves";
   const testing::LongSurface surface;
   Tool tool;
   tool.radial = surface.tool;
@@ -43,6 +51,7 @@ TEST(Cover, SurfaceLongerThanTheTool) {
 }
 
 TEST(Cover, SameForAnyNumberOfThreads) {
+  if (kSanitized) GTEST_SKIP() << "minutes under a sanitizer; its parts are tested there by themselves";
   const auto target = testing::flat_target(0.0, 50.0, 0.0, 30.0);
   std::vector<CoverResult> results;
   for (const int threads : {1, 3}) {
@@ -57,6 +66,7 @@ TEST(Cover, SameForAnyNumberOfThreads) {
 }
 
 TEST(Cover, KeepsClearOfAWall) {
+  if (kSanitized) GTEST_SKIP() << "minutes under a sanitizer; its parts are tested there by themselves";
   const auto target = testing::flat_target(0.0, 50.0, 0.0, 30.0);
   CoverObstacles obstacles;
   CheckSurface wall;
