@@ -53,7 +53,7 @@ TEST(CheckFaces, SaysWhatIsLeftOut) {
 
 TEST(CheckFaces, AreKeptInTheJob) {
   FitJob job;
-  job.part = "/tmp/part.step";
+  job.part = "parts/part.step";
   job.check = {"F88,F12", "F5"};
   job.avoid = false;
   const FitJob back = job_from_json(job_to_json(job), "job.json");
@@ -62,7 +62,7 @@ TEST(CheckFaces, AreKeptInTheJob) {
   EXPECT_FALSE(back.avoid);
   EXPECT_EQ(job_command(job), "flank fit part.step --face F1 --check-faces F88,F12 --ignore-faces F5 --avoid off");
   FitJob plain;
-  plain.part = "/tmp/part.step";
+  plain.part = "parts/part.step";
   const FitJob usual = job_from_json(job_to_json(plain), "job.json");
   EXPECT_FALSE(usual.check.any());
   EXPECT_TRUE(usual.avoid);
