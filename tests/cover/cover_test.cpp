@@ -6,15 +6,12 @@
 #include "cover/cover_targets.h"
 #include "flank/base/parallel.h"
 #include "flank/cover/tile.h"
+#include "sanitized.h"
 
 namespace flank {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;
-#else
-constexpr bool kSanitized = false;
-#endif
+using testing::kSanitized;
 
 CoverOptions options_for(double tolerance_mm) {
   CoverOptions options;

@@ -4,15 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "flank/pipeline/example.h"
+#include "sanitized.h"
 
 namespace flank {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;
-#else
-constexpr bool kSanitized = false;
-#endif
+using testing::kSanitized;
 
 // Largest error, relative to the diagonal, on a grid three times denser than the fit's, footpoints cold.
 constexpr double kExactError = 2e-6;

@@ -43,6 +43,16 @@ std::vector<RuledStart> enumerate_starts(const ToolModel& tool, const RadiusBoun
   return starts;
 }
 
+/// The start cut into bands side by side, one a strip.
+std::vector<RuledStart> bands_of(const RuledStart& start, int strips) {
+  std::vector<RuledStart> bands(static_cast<std::size_t>(strips), start);
+  for (int k = 0; k < strips; ++k) {
+    bands[static_cast<std::size_t>(k)].band_low = static_cast<double>(k) / strips;
+    bands[static_cast<std::size_t>(k)].band_high = static_cast<double>(k + 1) / strips;
+  }
+  return bands;
+}
+
 /// The motions of a start beside walls: the tips on the spine of the ball that rolls along target and wall. None where
 /// no wall is in the way of the lines.
 std::vector<FitTask> make_clear_tasks(const Target& target, const Chart& chart, const RuledStart& start, int strips,
@@ -51,10 +61,7 @@ std::vector<FitTask> make_clear_tasks(const Target& target, const Chart& chart, 
   std::vector<ClearStart> bands;
   double length = 0.0;
   bool blocked = false;
-  for (int k = 0; k < strips; ++k) {
-    RuledStart band = start;
-    band.band_low = static_cast<double>(k) / strips;
-    band.band_high = static_cast<double>(k + 1) / strips;
+  for (const RuledStart& band : bands_of(start, strips)) {
     ClearStart clear = clear_start(chart, band, checks);
     length = std::max(length, 1.03 * clear.longest_mm);
     blocked = blocked || clear.blocked_lines > kFewBlocked || clear.free_lines < kStartTimes - kFewBlocked;
@@ -74,15 +81,9 @@ std::vector<FitTask> make_tasks(const Target& target, const Chart& chart, const 
     std::vector<FitTask> tasks = make_clear_tasks(target, chart, start, strips, axis_length, *checks);
     if (!tasks.empty()) return tasks;
   }
-  std::vector<RuledStart> bands;
+  const std::vector<RuledStart> bands = bands_of(start, strips);
   double length = 0.0;
-  for (int k = 0; k < strips; ++k) {
-    RuledStart band = start;
-    band.band_low = static_cast<double>(k) / strips;
-    band.band_high = static_cast<double>(k + 1) / strips;
-    length = std::max(length, 1.02 * longest_chord(chart, band));
-    bands.push_back(band);
-  }
+  for (const RuledStart& band : bands) length = std::max(length, 1.02 * longest_chord(chart, band));
   if (axis_length) length = *axis_length;
   std::vector<FitTask> tasks;
   for (const RuledStart& band : bands) tasks.push_back({&target, make_motion(chart, band, length, 12), checks});

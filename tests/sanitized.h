@@ -1,0 +1,12 @@
+// Whether the tests run under a sanitizer, where whole searches take minutes: their parts are tested there one by one.
+#pragma once
+
+namespace flank::testing {
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool kSanitized = true;
+#else
+inline constexpr bool kSanitized = false;
+#endif
+
+}  // namespace flank::testing
