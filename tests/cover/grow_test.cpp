@@ -29,7 +29,7 @@ TEST(Grow, RunsFromBorderToBorder) {
     // or cut off.
     const CoverSamples samples = cover_samples(*surface.exact.target, 1.5);
     const CoverStrip joined = measure_strip(samples, motion_through(strip.poses, 24.0, 48), surface.tool, fitter);
-    const CoverStrip raised = lifted(samples, joined, surface.tool, fitter);
+    const CoverStrip raised = lifted(samples, LineGuard(), joined, surface.tool, fitter);
     const CoverStrip covered = cut_to_certified(samples, LineGuard(), raised, surface.tool, fitter);
     EXPECT_TRUE(is_certified(LineGuard(), covered, 1e-3)) << covered.overcut_mm;
     EXPECT_GT(covered.area / samples.area, 0.92 * 24.0 / 40.0);

@@ -54,7 +54,10 @@ TEST(LineFit, EvensTheLargestErrorOut) {
   const Pose start{foot.point + 5.0 * foot.normal - 15.0 * along, along};
   const LineFit found = fitter.refine(start);
   ASSERT_TRUE(found.touches());
-  EXPECT_NEAR(fitter.overcut(found.pose), found.largest_mm, 0.1 * found.largest_mm);
+  const double overcut = fitter.overcut(found.pose);
+  EXPECT_NEAR(overcut, found.largest_mm, 0.1 * found.largest_mm);
+  EXPECT_EQ(fitter.overcut(found.pose, 0.5 * overcut), overcut);
+  EXPECT_EQ(fitter.overcut(found.pose, 2.0 * overcut), 2.0 * overcut);
   fitter.forget();
   EXPECT_LT(found.largest_mm, 0.6 * fitter.measure(start).largest_mm);
 }

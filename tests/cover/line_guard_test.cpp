@@ -55,6 +55,18 @@ TEST(LineGuard, SeesDepthInAClosedSolid) {
   EXPECT_FALSE(guard.ball_is_clear(21.9 * x));
 }
 
+TEST(LineGuard, FindsTheDeepestPlaceOfTheAxis) {
+  CoverObstacles obstacles;
+  obstacles.solids.push_back(ball());
+  const LineGuard guard(testing::cylinder(2.0, 60.0), obstacles, -0.01);
+  // Grazing the ball and deep in it: the middle of the axis is deepest, not an end.
+  for (const double height : {21.0, 15.0, 10.0}) {
+    const LineClearance found = guard.measure({Vec3(-33.0, height, 0.0), Vec3::UnitX()}, 5.0);
+    EXPECT_NEAR(found.clearance_mm, height - 22.0, 0.1) << height;
+    EXPECT_NEAR(found.slide_gain, 0.0, 0.1) << height;
+  }
+}
+
 TEST(LineGuard, SlidesOutAlongTheAxis) {
   CoverObstacles obstacles;
   obstacles.solids.push_back(ball());

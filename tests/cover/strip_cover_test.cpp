@@ -9,14 +9,14 @@
 namespace flank {
 namespace {
 
-/// The ball-ended cylinder of radius 5 over the plane z = 0, at height 5 - depth(x), its axis along y.
-RuledMotion over_plane(double depth_in_the_middle) {
+/// The ball-ended cylinder of radius 5 over the plane z = 0, at height 5 - depth(x), its axis along y from `y` on.
+RuledMotion over_plane(double depth_in_the_middle, double y = 10.0) {
   std::vector<Pose> poses;
   std::vector<double> t;
   for (int i = 0; i <= 60; ++i) {
     t.push_back(i / 60.0);
     const double x = 60.0 * t.back(), bump = std::exp(-std::pow((x - 40.0) / 4.0, 2));
-    poses.push_back({Vec3(x, 10.0, 5.0 - depth_in_the_middle * bump), Vec3::UnitY()});
+    poses.push_back({Vec3(x, y, 5.0 - depth_in_the_middle * bump), Vec3::UnitY()});
   }
   return fit_motion(poses, t, 20.0, 40);
 }
@@ -55,10 +55,34 @@ TEST_F(StripCover, CutsOvercutOff) {
 TEST_F(StripCover, LiftsWhatIsALittleTooDeep) {
   const CoverStrip whole = measure_strip(samples_, over_plane(0.014), radial_, fitter_);
   ASSERT_FALSE(is_certified(LineGuard(), whole, 0.01));
-  const CoverStrip strip = lifted(samples_, whole, radial_, fitter_);
+  const CoverStrip strip = lifted(samples_, LineGuard(), whole, radial_, fitter_);
   EXPECT_TRUE(is_certified(LineGuard(), strip, 0.01)) << strip.overcut_mm;
   EXPECT_GT(strip.area, 0.99 * whole.area);
   EXPECT_NEAR(strip.motion.pose(0.1).tip.z(), 5.0, 1e-4) << "nothing is lifted elsewhere";
+}
+
+TEST_F(StripCover, SlidesAwayFromAnObstacleThatATipEnters) {
+  // A block whose wall bulges towards the tips, by 0.05 mm about x = 40.
+  CoverObstacles obstacles;
+  CheckSurface wall;
+  for (int i = 0; i <= 120; ++i) {
+    const double x = 0.5 * i, y = 5.0 - 0.05 * (1.0 - std::exp(-std::pow((x - 40.0) / 4.0, 2)));
+    wall.mesh.vertices.emplace_back(x, y, -1.0);
+    wall.mesh.vertices.emplace_back(x, y, 12.0);
+    if (i == 0) continue;
+    const int k = 2 * i;
+    wall.mesh.triangles.push_back({k - 2, k - 1, k});
+    wall.mesh.triangles.push_back({k - 1, k + 1, k});
+  }
+  obstacles.surfaces.push_back(wall);
+  const LineGuard guard(testing::cylinder(5.0, 20.0), obstacles, -0.005);
+  const CoverStrip whole = measure_strip(samples_, over_plane(0.0, 9.98), radial_, fitter_);
+  ASSERT_FALSE(is_certified(guard, whole, 0.01)) << "0.02 mm into the bulge";
+  const CoverStrip strip = lifted(samples_, guard, whole, radial_, fitter_);
+  EXPECT_TRUE(is_certified(guard, strip, 0.01));
+  EXPECT_GT(strip.area, 0.995 * whole.area);
+  EXPECT_NEAR(strip.motion.pose(0.1).tip.y(), 9.98, 1e-4) << "it slides nowhere else";
+  EXPECT_GT(strip.motion.pose(2.0 / 3.0).tip.y(), 9.99);
 }
 
 TEST_F(StripCover, CutsOffWhatEntersAnObstacle) {

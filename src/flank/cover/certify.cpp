@@ -53,23 +53,46 @@ RuledMotion shifted(const RuledMotion& motion, const std::vector<Vec3>& tips, co
 
 }  // namespace
 
-CoverStrip lifted(const CoverSamples& samples, CoverStrip strip, const RadialFunction& radial, LineFitter& fitter) {
+namespace {
+
+/// Shifts of the ends of the axis at equal steps of t.
+struct Shifts {
+  std::vector<Vec3> tips, holders;
+  bool any = false;
+};
+
+/// What takes the poses of a strip out of the target where they are too deep in it, and out of other faces.
+Shifts shifts_of(const LineGuard& guard, const CoverStrip& strip, double depth_mm, LineFitter& fitter) {
+  constexpr double kReachShare = 0.25;  ///< of the axis: a slide that is longer is another strip
+  const int poses = depth_poses(strip.motion);
+  Shifts shifts;
+  fitter.forget();
+  for (int i = 0; i <= poses; ++i) {
+    const Pose pose = strip.motion.pose(static_cast<double>(i) / poses);
+    (void)fitter.measure(pose);
+    const LineFitter::Lift lift = fitter.lift(pose, depth_mm);
+    const Vec3 slide = slid_clear(guard, pose, kReachShare * strip.motion.axis_length).tip - pose.tip;
+    shifts.tips.push_back(lift.tip + slide);
+    shifts.holders.push_back(lift.holder + slide);
+    shifts.any = shifts.any || shifts.tips.back() != Vec3::Zero() || shifts.holders.back() != Vec3::Zero();
+  }
+  return shifts;
+}
+
+}  // namespace
+
+CoverStrip lifted(const CoverSamples& samples, const LineGuard& guard, CoverStrip strip, const RadialFunction& radial,
+                  LineFitter& fitter) {
   constexpr int kTries = 4;
   constexpr double kAim = 0.97;  ///< of what is certified
   const double limit = kCertifiedShare * fitter.options().tolerance_mm;
-  for (int k = 0; k < kTries && !strip.cells.empty() && strip.overcut_mm > limit; ++k) {
-    const int poses = depth_poses(strip.motion);
-    std::vector<Vec3> tips, holders;
-    fitter.forget();
-    for (int i = 0; i <= poses; ++i) {
-      const Pose pose = strip.motion.pose(static_cast<double>(i) / poses);
-      (void)fitter.measure(pose);
-      const LineFitter::Lift lift = fitter.lift(pose, kAim * limit);
-      tips.push_back(lift.tip);
-      holders.push_back(lift.holder);
-    }
-    const int reach = std::max(1, poses / strip.motion.tip.count());
-    strip = measure_strip(samples, shifted(strip.motion, ramped(tips, reach), ramped(holders, reach)), radial, fitter);
+  for (int k = 0; k < kTries && !strip.cells.empty(); ++k) {
+    const double depth = strip.overcut_mm > limit ? kAim * limit : strip.overcut_mm;
+    const Shifts shifts = shifts_of(guard, strip, depth, fitter);
+    if (!shifts.any) break;
+    const int reach = std::max(1, depth_poses(strip.motion) / strip.motion.tip.count());
+    strip = measure_strip(samples, shifted(strip.motion, ramped(shifts.tips, reach), ramped(shifts.holders, reach)),
+                          radial, fitter);
   }
   return strip;
 }

@@ -9,10 +9,11 @@ namespace flank {
 /// No overcut beyond kCertifiedShare of the tolerance, and clear of the guard's obstacles from end to end.
 [[nodiscard]] bool is_certified(const LineGuard& guard, const CoverStrip& strip, double tolerance_mm);
 
-/// A strip that cuts too deep here and there, lifted there by as much, with ramps that its rails can follow. What it
-/// leaves instead is within the tolerance where the excess was small.
-[[nodiscard]] CoverStrip lifted(const CoverSamples& samples, CoverStrip strip, const RadialFunction& radial,
-                                LineFitter& fitter);
+/// A strip that cuts too deep here and there, lifted there by as much, with ramps that its rails can follow; where it
+/// enters another face it slides along its axis in the same way. What it leaves instead is within the tolerance where the
+/// excess was small.
+[[nodiscard]] CoverStrip lifted(const CoverSamples& samples, const LineGuard& guard, CoverStrip strip,
+                                const RadialFunction& radial, LineFitter& fitter);
 
 /// A strip that fails is cut short: the longest stretch of it that does not remains. No cells where that is less than a
 /// tenth.

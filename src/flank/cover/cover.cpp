@@ -75,7 +75,7 @@ std::vector<CoverStrip> remeasured(const TileScene& scene, const std::vector<Cov
 std::vector<CoverStrip> made_certain(const TileScene& dense, std::vector<CoverStrip> strips) {
   parallel_for(strips.size(), [&](std::size_t k) {
     LineFitter fitter(dense.target, dense.radial, line_options(dense));
-    const CoverStrip raised = lifted(dense.samples, std::move(strips[k]), dense.radial, fitter);
+    const CoverStrip raised = lifted(dense.samples, dense.guard, std::move(strips[k]), dense.radial, fitter);
     strips[k] = cut_to_certified(dense.samples, dense.guard, raised, dense.radial, fitter);
   });
   std::erase_if(strips, [](const CoverStrip& strip) { return strip.cells.empty(); });

@@ -68,7 +68,7 @@ Movability Grower::velocity(const AxisVelocity& last) const {
 bool Grower::within(const LineFit& fit) const {
   const double tolerance = fitter_.options().tolerance_mm;
   // A tool that has left the target still must not cut its border.
-  return (!fit.touches() || fit.largest_mm <= tolerance) && fitter_.overcut(fit.pose) <= tolerance;
+  return (!fit.touches() || fit.largest_mm <= tolerance) && fitter_.overcut(fit.pose, tolerance) <= tolerance;
 }
 
 bool Grower::advanced(double h, const Vec3& direction) const {

@@ -74,17 +74,23 @@ LineFit LineFitter::measure(const Pose& pose) {
   return fit;
 }
 
-Footpoint LineFitter::trimmed_foot(const Pose& pose, std::size_t j) const {
-  return feet_[j].location == Location::kInside ? feet_[j] : target_.closest(pose.at(s_[j]));
+Footpoint LineFitter::trimmed_foot(const Pose& pose, std::size_t j, double depth_mm) const {
+  if (feet_[j].location == Location::kInside) return feet_[j];
+  // Past the border nothing is deep that is not near: a horizon spares most of the search.
+  const double horizon = radius_[j] - depth_mm;
+  return horizon > 0.0 ? target_.closest_within(pose.at(s_[j]), horizon) : Footpoint{};
 }
 
 double LineFitter::depth(const Footpoint& foot, std::size_t j) const {
   return radius_[j] - (foot.location == Location::kInside ? foot.distance : std::abs(foot.distance));
 }
 
-double LineFitter::overcut(const Pose& pose) const {
-  double worst = -1e300;
-  for (std::size_t j = 0; j < feet_.size(); ++j) worst = std::max(worst, depth(trimmed_foot(pose, j), j));
+double LineFitter::overcut(const Pose& pose, double least_mm) const {
+  double worst = least_mm;
+  for (std::size_t j = 0; j < feet_.size(); ++j) {
+    const Footpoint foot = trimmed_foot(pose, j, worst);
+    if (foot.patch >= 0) worst = std::max(worst, depth(foot, j));
+  }
   return worst;
 }
 
@@ -97,8 +103,8 @@ double LineFitter::inside_overcut() const {
 
 void LineFitter::deep_points(const Pose& pose, double depth_mm, std::vector<Vec3>& points) const {
   for (std::size_t j = 0; j < feet_.size(); ++j) {
-    const Footpoint foot = trimmed_foot(pose, j);
-    if (depth(foot, j) > depth_mm) points.push_back(foot.point);
+    const Footpoint foot = trimmed_foot(pose, j, depth_mm);
+    if (foot.patch >= 0 && depth(foot, j) > depth_mm) points.push_back(foot.point);
   }
 }
 
@@ -169,8 +175,8 @@ Vec5 LineFitter::limited_step(const Vec5& stay, const Vec5& offset) {
 LineFitter::Lift LineFitter::lift(const Pose& pose, double depth_mm) const {
   Lift lift;
   for (std::size_t j = 0; j < feet_.size(); ++j) {
-    const Footpoint foot = trimmed_foot(pose, j);
-    const double excess = depth(foot, j) - depth_mm;
+    const Footpoint foot = trimmed_foot(pose, j, depth_mm);
+    const double excess = foot.patch >= 0 ? depth(foot, j) - depth_mm : 0.0;
     if (excess <= 0.0) continue;
     const bool upper = 2.0 * s_[j] > length_;
     const Vec3 away = foot.location == Location::kInside ? foot.normal : (pose.at(s_[j]) - foot.point).normalized();

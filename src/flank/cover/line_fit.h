@@ -66,8 +66,8 @@ class LineFitter {
   /// result are in feet().
   [[nodiscard]] LineFit refine(const Pose& start, const LineHold& hold = {});
   /// Largest r(s_j) - d of the line last measured, d the distance of the trimmed target itself: also of samples past its
-  /// border, which errors on its extension say nothing about.
-  [[nodiscard]] double overcut(const Pose& pose) const;
+  /// border, which errors on its extension say nothing about. `least_mm` if nothing is deeper: the greater, the faster.
+  [[nodiscard]] double overcut(const Pose& pose, double least_mm = -1e300) const;
 
   /// The same over the samples inside the target alone: cheap.
   [[nodiscard]] double inside_overcut() const;
@@ -86,7 +86,8 @@ class LineFitter {
   [[nodiscard]] const LineFitOptions& options() const { return options_; }
 
  private:
-  [[nodiscard]] Footpoint trimmed_foot(const Pose& pose, std::size_t j) const;
+  /// On the trimmed target; patch -1 where the sample is less deep than that.
+  [[nodiscard]] Footpoint trimmed_foot(const Pose& pose, std::size_t j, double depth_mm) const;
   [[nodiscard]] double depth(const Footpoint& foot, std::size_t j) const;
   void linearise(const LineFrame& frame);
   [[nodiscard]] Vec5 solve(const Vec5& stay, const Vec5& offset, double damping) const;

@@ -6,6 +6,7 @@
 
 #include "flank/clearance/pose_clearance.h"
 #include "flank/surface/target.h"
+#include "flank/tool/tool.h"
 
 namespace flank {
 
@@ -47,10 +48,14 @@ class LineGuard {
   [[nodiscard]] double floor_mm() const { return floor_mm_; }  ///< negative: depth that the tolerance allows
 
  private:
+  enum class Ask { kWhether, kLeast };
+  void measure_solid(const Target& solid, const Pose& pose, double enough_mm, Ask ask, LineClearance& result) const;
+
   const CoverObstacles* obstacles_ = nullptr;
   std::shared_ptr<const PoseChecker> checker_, ball_checker_;
   double ball_radius_ = 0.0;
-  std::vector<double> s_, radius_;  ///< samples of the axis
+  RadialFunction radial_;
+  double steepest_ = 0.0;  ///< largest |r'|
   double floor_mm_ = 0.0;
 };
 

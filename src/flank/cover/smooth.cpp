@@ -133,7 +133,7 @@ std::vector<CoverStrip> with_fallbacks(const TileScene& scene, const std::vector
   std::vector<char> good(strips.size());
   parallel_for(strips.size(), [&](std::size_t k) {
     LineFitter fitter(scene.target, scene.radial, line_options(scene));
-    result[k] = lifted(scene.samples, strips[k], scene.radial, fitter);
+    result[k] = lifted(scene.samples, scene.guard, strips[k], scene.radial, fitter);
     good[k] = is_certified(scene.guard, result[k], scene.options.tolerance_mm) ? 1 : 0;
     if (good[k] == 0)
       result[k] = cut_to_certified(scene.samples, scene.guard, std::move(result[k]), scene.radial, fitter);
@@ -151,10 +151,20 @@ std::vector<CoverStrip> with_fallbacks(const TileScene& scene, const std::vector
   return result;
 }
 
+/// Points of the target, spread evenly; those that the tool cannot reach count for overcut alone.
+std::vector<FacePoint> points_to_fit(const TileScene& scene, const FitDraft& draft, int per_side) {
+  std::vector<FacePoint> points = target_points(draft, per_side);
+  parallel_for(points.size(), [&](std::size_t k) {
+    const Vec3& x = points[k].point;
+    points[k].one_sided = !scene.guard.ball_is_clear(x + scene.guard.ball_radius() * scene.target.closest(x).normal);
+  });
+  return points;
+}
+
 std::vector<RuledMotion> run_pass(const TileScene& scene, const std::vector<CoverStrip>& strips, const Pass& pass,
                                   bool limits) {
   const FitDraft draft = draft_of(scene, strips);
-  std::vector<FacePoint> points = target_points(draft, pass.points_per_side);
+  std::vector<FacePoint> points = points_to_fit(scene, draft, pass.points_per_side);
   const double share = kCheckWeight / static_cast<double>(points.size());
   const std::vector<FacePoint> others = check_points(scene, strips, share);
   points.insert(points.end(), others.begin(), others.end());

@@ -29,7 +29,7 @@ CoverStrip strip_near(const TileScene& scene, LineFitter& fitter, const Pose& po
   if (line.touches() && line.largest_mm <= tolerance && !scene.guard.clear(line.pose))
     line = fitter.refine(slid_clear(scene.guard, line.pose, length), {Vec3::Zero(), 4.0});
   if (!line.touches() || line.largest_mm > tolerance || line.inside_share < least_inside ||
-      fitter.overcut(line.pose) > tolerance)
+      fitter.overcut(line.pose, tolerance) > tolerance)
     return {};
   if (is_line) *is_line = true;
   if (!scene.guard.clear(line.pose)) return {};
