@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -59,6 +61,38 @@ TEST(Catalogue, ABallNosedMillHasItsPublishedFigures) {
   EXPECT_EQ(2.0 * radius, 4.0);
   EXPECT_EQ(radius + tool.radial.axis_length(), 14.0);
   EXPECT_EQ(radius + tool.shank.back().x(), 50.0);
+}
+
+/// Height above the tip and radius of the flank's profile at its upper end, and the overall length.
+struct Figures {
+  double cutting_length, top_radius, overall;
+};
+
+Figures figures_of(const char* file) {
+  const Tool tool = read_tool((kFolder / file).string());
+  const double tip = tool.radial.at(0.0).r, length = tool.radial.axis_length();
+  const RadialJet top = tool.radial.at(length);
+  return {tip + length - top.r * top.d1, top.r * std::sqrt(1.0 - top.d1 * top.d1), tip + tool.shank.back().x()};
+}
+
+/// APMX 2 inch, OAL 4 inch; R 1/8 inch and 3 degrees a side.
+TEST(Catalogue, ATaperedBallNosedMillHasItsPublishedFigures) {
+  const Figures found = figures_of("amana-46283-cone.json");
+  EXPECT_NEAR(found.cutting_length, 50.8, 1e-6);
+  EXPECT_NEAR(found.overall, 101.6, 1e-6);
+  const double angle = 3.0 * std::numbers::pi / 180.0;
+  const double rise = (50.8 - 3.175 * (1.0 - std::sin(angle))) * std::tan(angle);
+  EXPECT_NEAR(found.top_radius, 3.175 * std::cos(angle) + rise, 1e-5);
+}
+
+/// DC 16, APMX 12.5, OAL 90 mm; arc 1000 mm, 27 degrees in the middle.
+TEST(Catalogue, ATaperedBarrelHasItsPublishedFigures) {
+  const Figures found = figures_of("garant-207534-tapered-barrel-16-1000.json");
+  EXPECT_NEAR(found.cutting_length, 12.5, 1e-5);
+  EXPECT_NEAR(found.top_radius, 8.0, 1e-5);
+  EXPECT_NEAR(found.overall, 90.0, 1e-5);
+  const Tool tool = read_tool((kFolder / "garant-207534-tapered-barrel-16-1000.json").string());
+  EXPECT_NEAR(tool.radial.at(0.5 * tool.radial.axis_length()).d1, std::sin(27.0 * std::numbers::pi / 180.0), 1e-8);
 }
 
 }  // namespace
