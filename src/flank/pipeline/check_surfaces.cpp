@@ -8,19 +8,23 @@
 namespace flank {
 namespace {
 
-/// Is any of a face near the box? Judged by points of its surface, so by a little more than its trimmed part.
-bool is_near(const BSplineSurface& surface, const Box3& box, double reach_mm) {
+/// Is any of a face within reach of the target? Judged by points of its surface, so by a little more than its trimmed part.
+bool is_near(const BSplineSurface& surface, const Target& target, double reach_mm) {
   constexpr int kPoints = 24;
+  std::vector<Vec3> points;
   Box3 face;
   for (int i = 0; i <= kPoints; ++i) {
     for (int j = 0; j <= kPoints; ++j) {
       const double u = surface.u_first() + (surface.u_last() - surface.u_first()) * i / kPoints;
       const double v = surface.v_first() + (surface.v_last() - surface.v_first()) * j / kPoints;
-      face.add(surface.value(u, v));
+      points.push_back(surface.value(u, v));
+      face.add(points.back());
     }
   }
   const double slack = reach_mm + face.diagonal() / kPoints;
-  return (face.low.array() <= box.high.array() + slack).all() && (face.high.array() >= box.low.array() - slack).all();
+  return std::any_of(points.begin(), points.end(), [&](const Vec3& p) {
+    return target.box().squared_distance(p) <= slack * slack && target.closest_within(p, slack).patch >= 0;
+  });
 }
 
 /// Solids of which no face is in `faces`.
@@ -80,8 +84,7 @@ CoverObstacles other_faces(const Part& part, const std::vector<int>& faces, cons
   std::vector<int> others;
   for (int k = 0; k < part.face_count(); ++k) {
     const auto i = static_cast<std::size_t>(k);
-    if (left_out[i] == 0 && (part.is_mesh() || is_near(part.faces[i].surface, target.box(), reach_mm)))
-      others.push_back(k);
+    if (left_out[i] == 0 && (part.is_mesh() || is_near(part.faces[i].surface, target, reach_mm))) others.push_back(k);
   }
   obstacles.surfaces.resize(others.size());
   parallel_for(others.size(),
