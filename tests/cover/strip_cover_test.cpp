@@ -41,6 +41,34 @@ TEST_F(StripCover, MeasuresOvercut) {
   EXPECT_NEAR(strip.overcut_mm, 0.05, 2e-3);
 }
 
+TEST(MeasureStrip, SeesARidgeBetweenTheSamplesOfTheAxis) {
+  // 0.05 mm high and 0.3 mm wide, along the path; the samples of the axis are 1.25 mm apart.
+  std::vector<double> u, v;
+  for (int i = 0; i <= 8; ++i) u.push_back(i / 8.0);
+  for (int j = 0; j <= 400; ++j) v.push_back(j / 400.0);
+  std::vector<Vec3> points;
+  for (const double a : u)
+    for (const double b : v)
+      points.emplace_back(10.0 * a, 40.0 * b, 0.05 * std::exp(-std::pow((40.0 * b - 15.625) / 0.15, 2)));
+  Face face;
+  face.id = "F1";
+  face.surface = interpolate_grid(points, u, v, 3);
+  const auto target = make_target(std::vector<Face>{face});
+  const RadialFunction radial = testing::cylinder(5.0, 20.0).radial;
+  LineFitter fitter(*target, radial, {.tolerance_mm = 0.02});
+  std::vector<Pose> poses;
+  std::vector<double> t;
+  for (int i = 0; i <= 20; ++i) {
+    t.push_back(i / 20.0);
+    poses.push_back({Vec3(10.0 * t.back(), 10.0, 5.0), Vec3::UnitY()});
+  }
+  const CoverSamples samples = cover_samples(*target, 0.1);
+  const CoverStrip strip = measure_strip(samples, fit_motion(poses, t, 20.0, 8), radial, fitter);
+  EXPECT_NEAR(strip.overcut_mm, 0.05, 3e-3);
+  const CoverStrip up = lifted(samples, LineGuard(), strip, radial, fitter);
+  EXPECT_LE(up.overcut_mm, 0.02);
+}
+
 TEST_F(StripCover, CutsOvercutOff) {
   const CoverStrip whole = measure_strip(samples_, over_plane(0.05), radial_, fitter_);
   EXPECT_FALSE(is_certified(LineGuard(), whole, 0.01));

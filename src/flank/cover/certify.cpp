@@ -1,6 +1,7 @@
 #include "flank/cover/certify.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace flank {
@@ -74,8 +75,18 @@ Shifts shifts_of(const LineGuard& guard, const CoverStrip& strip, double depth_m
     const Vec3 slide = slid_clear(guard, pose, kReachShare * strip.motion.axis_length).tip - pose.tip;
     shifts.tips.push_back(lift.tip + slide);
     shifts.holders.push_back(lift.holder + slide);
-    shifts.any = shifts.any || shifts.tips.back() != Vec3::Zero() || shifts.holders.back() != Vec3::Zero();
   }
+  for (const SweptContact& at : strip.deep) {
+    if (-at.f <= depth_mm) continue;
+    const double length = strip.motion.axis_length;
+    const bool upper = 2.0 * at.s > length;
+    const Vec3 shift = (-at.f - depth_mm) * length / (upper ? at.s : length - at.s) * at.to_axis;
+    Vec3& end = (upper ? shifts.holders : shifts.tips)[static_cast<std::size_t>(std::lround(at.t * poses))];
+    if (shift.squaredNorm() > end.squaredNorm()) end = shift;
+  }
+  const auto moves = [](const Vec3& v) { return v != Vec3::Zero(); };
+  shifts.any = std::any_of(shifts.tips.begin(), shifts.tips.end(), moves) ||
+               std::any_of(shifts.holders.begin(), shifts.holders.end(), moves);
   return shifts;
 }
 
@@ -104,10 +115,9 @@ CoverStrip cut_to_certified(const CoverSamples& samples, const LineGuard& guard,
   const double tolerance = fitter.options().tolerance_mm;
   for (int k = 0; k < kTries && !strip.cells.empty() && !is_certified(guard, strip, tolerance); ++k) {
     const int poses = depth_poses(strip.motion);
-    const std::vector<double> depths = depths_along(samples, strip.motion, radial, fitter);
     int first = 0, longest = 0;
     for (int i = 0, run = 0; i <= poses; ++i) {
-      const bool good = depths[static_cast<std::size_t>(i)] <= kCertifiedShare * tolerance &&
+      const bool good = strip.depths[static_cast<std::size_t>(i)] <= kCertifiedShare * tolerance &&
                         guard.clear(strip.motion.pose(static_cast<double>(i) / poses));
       run = good ? run + 1 : 0;
       if (run <= longest) continue;

@@ -114,46 +114,61 @@ int depth_poses(const RuledMotion& motion) {
   return std::min(kPerControlPoint * motion.tip.count(), kMost);
 }
 
-std::vector<double> depths_along(const CoverSamples& samples, const RuledMotion& motion, const RadialFunction& radial,
-                                 LineFitter& fitter) {
-  const int poses = depth_poses(motion);
-  std::vector<double> depths;
+namespace {
+
+constexpr double kDeepShare = 0.8;  ///< of the tolerance: what a strip remembers as deep
+
+/// Depths by the spheres of the axis.
+void measure_axis(CoverStrip& strip, LineFitter& fitter) {
+  const int poses = depth_poses(strip.motion);
   fitter.forget();
   for (int i = 0; i <= poses; ++i) {
-    (void)fitter.measure(motion.pose(static_cast<double>(i) / poses));
-    depths.push_back(fitter.inside_overcut());
+    (void)fitter.measure(strip.motion.pose(static_cast<double>(i) / poses));
+    strip.depths.push_back(fitter.inside_overcut());
   }
-  const Box3 box = swept_box(motion, radial, 0.0, poses);
-  const SweptEstimate swept({motion}, radial, table_poses(motion));
-  const double slack = 2.0 * fitter.options().tolerance_mm + table_slack(motion, radial);
+}
+
+/// Counts a contact at a point of the target, with all its fields, among the depths.
+void count_contact(CoverStrip& strip, const SweptContact& at, double tolerance_mm) {
+  const auto steps = static_cast<double>(strip.depths.size() - 1);
+  double& depth = strip.depths[static_cast<std::size_t>(std::lround(at.t * steps))];
+  depth = std::max(depth, -at.f);
+  if (at.f < -kDeepShare * tolerance_mm) strip.deep.push_back(at);
+}
+
+void measure_border(const CoverSamples& samples, const SweptEstimate& swept, const Box3& box,
+                    const RadialFunction& radial, double tolerance_mm, CoverStrip& strip) {
+  const double slack = 2.0 * tolerance_mm + table_slack(strip.motion, radial);
   for (const Vec3& x : samples.border) {
     if (box.squared_distance(x) > 0.0) continue;
-    SweptContact at = swept.nearest(x);
+    const SweptContact at = swept.nearest(x);
     if (at.f > slack) continue;
-    at = refine_contact(motion, radial, x, at.t, swept.spacing());
-    double& depth = depths[static_cast<std::size_t>(std::lround(at.t * poses))];
-    depth = std::max(depth, -at.f);
+    count_contact(strip, refine_contact(strip.motion, radial, x, at.t, swept.spacing()), tolerance_mm);
   }
-  return depths;
 }
+
+}  // namespace
 
 CoverStrip measure_strip(const CoverSamples& samples, RuledMotion motion, const RadialFunction& radial,
                          LineFitter& fitter) {
   CoverStrip strip;
+  strip.motion = std::move(motion);
   const double tolerance = fitter.options().tolerance_mm;
-  const int poses = table_poses(motion);
-  const Box3 box = swept_box(motion, radial, tolerance, poses);
-  const SweptEstimate swept({motion}, radial, poses);
+  const int poses = table_poses(strip.motion);
+  const Box3 box = swept_box(strip.motion, radial, tolerance, poses);
+  const SweptEstimate swept({strip.motion}, radial, poses);
+  measure_axis(strip, fitter);
   for (std::size_t k = 0; k < samples.cells.size(); ++k) {
     const SurfaceSample& cell = samples.cells[k];
     if (box.squared_distance(cell.point) > 0.0) continue;
-    if (std::abs(contact(swept, motion, radial, cell.point, tolerance).f) > tolerance) continue;
+    const SweptContact at = contact(swept, strip.motion, radial, cell.point, tolerance);
+    if (at.f < -kDeepShare * tolerance) count_contact(strip, at, tolerance);
+    if (std::abs(at.f) > tolerance) continue;
     strip.cells.push_back(static_cast<int>(k));
     strip.area += cell.area;
   }
-  const std::vector<double> depths = depths_along(samples, motion, radial, fitter);
-  strip.overcut_mm = std::max(0.0, *std::max_element(depths.begin(), depths.end()));
-  strip.motion = std::move(motion);
+  measure_border(samples, swept, box, radial, tolerance, strip);
+  strip.overcut_mm = std::max(0.0, *std::max_element(strip.depths.begin(), strip.depths.end()));
   return strip;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "flank/cover/line_fit.h"
+#include "flank/envelope/swept_estimate.h"
 #include "flank/motion/ruled_motion.h"
 #include "flank/surface/target.h"
 #include "flank/tool/radial_function.h"
@@ -21,21 +22,23 @@ struct CoverSamples {
 /// Overcut is certified to this share of the tolerance: what lies between the samples has the rest.
 inline constexpr double kCertifiedShare = 0.94;
 
-/// Depth of the tool in the target at equal steps of t of a motion, the larger of two. Where the swept tool cuts deepest
-/// into the inside of a face it does so by one of its spheres: max over s of r(s) - d(R(s, t)), which varies slowly along
-/// s and t, while f over the face has narrow ridges beside the ends of the axis. Where it runs over the border, and over
-/// corners above all, that is the other way round: -f at the points of the border.
-[[nodiscard]] std::vector<double> depths_along(const CoverSamples& samples, const RuledMotion& motion,
-                                               const RadialFunction& radial, LineFitter& fitter);
 /// Steps of t that see every wave that the rails can make.
 [[nodiscard]] int depth_poses(const RuledMotion& motion);
 
 /// A strip as a motion, measured.
 struct CoverStrip {
   RuledMotion motion;
-  std::vector<int> cells;   ///< within tolerance, ascending
-  double overcut_mm = 0.0;  ///< largest depth along the motion
-  double area = 0.0;        ///< mm^2, of `cells`
+  std::vector<int> cells;  ///< within tolerance, ascending
+  double area = 0.0;       ///< mm^2, of `cells`
+  /// Depth of the tool in the target at equal steps of t, depth_poses(motion) of them; the largest of two. Where the swept
+  /// tool cuts deepest into the inside of a face it does so by one of its spheres: max over s of r(s) - d(R(s, t)), which
+  /// varies slowly along s and t, while f over the face has narrow ridges beside the ends of the axis. Where it runs over
+  /// the border, over corners above all, or over a ripple narrower than the samples of the axis, that is the other way
+  /// round: -f at the points of the border and of the inside.
+  std::vector<double> depths;
+  double overcut_mm = 0.0;  ///< the largest of them
+  std::vector<SweptContact>
+      deep;  ///< contacts of points of the target that are about as deep as the tolerance, or more
 };
 
 /// How often each cell is covered.
@@ -74,7 +77,7 @@ class CellCount {
 /// Motion through the poses of a strip (5 or more), by chord length; at most `control_points` a rail.
 [[nodiscard]] RuledMotion motion_through(const std::vector<Pose>& poses, double axis_length, int control_points);
 
-/// f at the samples by the planner's estimate (swept_estimate.h); overcut along the motion.
+/// f at the samples by the planner's estimate (swept_estimate.h); depths along the motion.
 [[nodiscard]] CoverStrip measure_strip(const CoverSamples& samples, RuledMotion motion, const RadialFunction& radial,
                                        LineFitter& fitter);
 
