@@ -39,6 +39,7 @@ int main(int argc, char** argv) {
   add_given_tool_claims(claims);
   add_part_claims(claims);
   add_avoidance_claims(claims);
+  add_cover_claims(claims);
   add_judge_claims(claims);
   bool all = true;
   for (const Claim& claim : claims) {

@@ -37,6 +37,7 @@ void add_mesh_claims(std::vector<Claim>& claims);
 void add_given_tool_claims(std::vector<Claim>& claims);
 void add_part_claims(std::vector<Claim>& claims);
 void add_avoidance_claims(std::vector<Claim>& claims);
+void add_cover_claims(std::vector<Claim>& claims);
 void add_judge_claims(std::vector<Claim>& claims);
 
 }  // namespace flank::bench
