@@ -8,6 +8,7 @@
 #include "flank/cover/certify.h"
 #include "flank/cover/order.h"
 #include "flank/cover/reasons.h"
+#include "flank/cover/shape_places.h"
 #include "flank/cover/smooth.h"
 
 namespace flank {
@@ -150,6 +151,26 @@ void describe(const TileScene& coarse, const TileScene& dense, const std::vector
       reason_of(coarse.target, coarse.radial, coarse.samples, remeasured(coarse, strips), coarse.options.tolerance_mm);
 }
 
+/// Strips of the first seeds. What the filter leaves is a third of all directions; where none of it leads to a strip, all
+/// are tried.
+CandidatePool first_pool(const TileScene& scene, CoverResult& result) {
+  const CoverOptions& options = scene.options;
+  const std::vector<SurfaceSample> places = options.places == SeedPlaces::kShape
+                                                ? shape_places(scene.target, options.seed_places)
+                                                : grid_places(scene.target, options.seed_places);
+  std::vector<LineSeed> seeds = options.seeds;
+  if (seeds.empty() && options.directions == SeedDirections::kAdmissible)
+    seeds = admissible_seeds(scene.target, places, scene.radial, options.seed_spheres, options.tolerance_mm);
+  CandidatePool pool = grow_pool(scene, seeds);
+  if (pool.strips.empty() && options.seeds.empty()) {
+    seeds = even_seeds(places, scene.radial, options.seed_directions);
+    pool = grow_pool(scene, seeds);
+  }
+  result.seeds = static_cast<int>(seeds.size());
+  result.lines = pool.lines;
+  return pool;
+}
+
 /// Nothing to choose from.
 CoverResult nothing(const TileScene& scene, int lines, CoverResult result) {
   result.status = lines == 0 ? CoverStatus::kNoLine : CoverStatus::kNoStrip;
@@ -174,12 +195,7 @@ CoverResult cover(const Target& target, const Tool& tool, const CoverObstacles& 
   watch.lap("samples");
 
   progress.step("grow", 0.1);
-  const std::vector<LineSeed> seeds =
-      options.seeds.empty() ? grid_seeds(target, tool.radial, options.seed_places, options.seed_directions)
-                            : options.seeds;
-  CandidatePool pool = grow_pool(scene, seeds);
-  result.seeds = static_cast<int>(seeds.size());
-  result.lines = pool.lines;
+  CandidatePool pool = first_pool(scene, result);
   watch.lap("grow");
   if (pool.strips.empty() || samples.cells.empty()) return nothing(scene, pool.lines, std::move(result));
 

@@ -14,10 +14,25 @@
 
 namespace flank {
 
+/// Where on the target lines are begun.
+enum class SeedPlaces {
+  kGrid,   ///< spread evenly
+  kShape,  ///< more where the target bends more (shape_places.h)
+};
+
+/// In which directions of the tangent plane.
+enum class SeedDirections {
+  kEven,        ///< seed_directions over half a turn
+  kAdmissible,  ///< those that the tolerance-aware filter leaves, at seed_spheres values of s (direction_filter.h)
+};
+
 struct CoverOptions {
   double tolerance_mm = 0.01;
-  std::vector<LineSeed> seeds;  ///< empty: a grid of seed_places x seed_directions
-  int seed_places = 30, seed_directions = 12;
+  std::vector<LineSeed> seeds;  ///< empty: as the next lines say
+  SeedPlaces places = SeedPlaces::kGrid;
+  SeedDirections directions = SeedDirections::kAdmissible;
+  int seed_places = 30, seed_directions = 12,
+      seed_spheres = 3;  ///< even directions also where no admissible one leads on
   int most_strips = 16;
   double strip_price = 0.005;    ///< share of the area that a strip must add, to be worth its time
   double overlap_share = 0.04;   ///< of neighbouring strips, in axis lengths

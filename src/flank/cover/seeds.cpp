@@ -1,7 +1,10 @@
 #include "flank/cover/seeds.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "flank/cover/direction_filter.h"
 
 namespace flank {
 
@@ -30,11 +33,43 @@ std::vector<Vec3> seed_directions(const Vec3& normal, const RadialFunction& radi
   return result;
 }
 
-std::vector<LineSeed> grid_seeds(const Target& target, const RadialFunction& radial, int places, int directions) {
+std::vector<SurfaceSample> grid_places(const Target& target, int count) {
+  return target.samples(std::sqrt(target.area() / count));
+}
+
+std::vector<LineSeed> even_seeds(const std::vector<SurfaceSample>& places, const RadialFunction& radial,
+                                 int directions) {
   std::vector<LineSeed> seeds;
-  for (const SurfaceSample& sample : target.samples(std::sqrt(target.area() / places)))
-    for (const Vec3& direction : seed_directions(sample.normal, radial, directions))
-      seeds.push_back({sample.point, sample.normal, direction, 0.5 * radial.axis_length()});
+  for (const SurfaceSample& place : places)
+    for (const Vec3& direction : seed_directions(place.normal, radial, directions))
+      seeds.push_back({place.point, place.normal, direction, 0.5 * radial.axis_length()});
+  return seeds;
+}
+
+std::vector<LineSeed> admissible_seeds(const Target& target, const std::vector<SurfaceSample>& places,
+                                       const RadialFunction& radial, int spheres, double tolerance_mm) {
+  DirectionFilterOptions options;
+  options.tolerance_mm = tolerance_mm;
+  options.contact_length_mm = std::min(radial.axis_length(), target.diagonal());
+  const bool half = is_symmetric(radial);
+  std::vector<LineSeed> seeds;
+  for (const SurfaceSample& place : places) {
+    const Footpoint foot = target.closest(place.point);
+    for (int j = 0; j < spheres; ++j) {
+      const double s = (j + 0.5) / spheres * radial.axis_length();
+      const CandidateDirections found = candidate_directions(foot, radial.at(s), options);
+      std::vector<Vec3> taken;
+      for (const Vec3& axis : found.all()) {
+        const Vec3 direction = (axis - axis.dot(foot.normal) * foot.normal).normalized();
+        // A tool with equal ends turned round is the same line, from the other sphere.
+        const bool known = half && std::any_of(taken.begin(), taken.end(),
+                                               [&](const Vec3& d) { return d.dot(direction) < -1.0 + 1e-6; });
+        if (known) continue;
+        taken.push_back(direction);
+        seeds.push_back({foot.point, foot.normal, direction, s});
+      }
+    }
+  }
   return seeds;
 }
 

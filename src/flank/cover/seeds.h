@@ -18,10 +18,18 @@ struct LineSeed {
 /// The axis of a seed (MATH section 5): its sphere of s touches at the footpoint, <n, u> = r'(s).
 [[nodiscard]] Pose seed_pose(const LineSeed& seed, const RadialFunction& radial);
 
-/// A simple grid: about `places` footpoints spread evenly over the target times `directions` directions over half a
-/// turn, or over the whole turn where the tool's ends differ; s is the middle of the axis.
-[[nodiscard]] std::vector<LineSeed> grid_seeds(const Target& target, const RadialFunction& radial, int places,
+/// At each place, `directions` directions over half a turn, or over the whole turn where the tool's ends differ; s is the
+/// middle of the axis.
+[[nodiscard]] std::vector<LineSeed> even_seeds(const std::vector<SurfaceSample>& places, const RadialFunction& radial,
                                                int directions);
+
+/// At each place, for each of `spheres` values of s (the middles of equal pieces of the axis: over s, not over r, which may
+/// have a value at several s), the directions that the tolerance-aware filter leaves (direction_filter.h).
+[[nodiscard]] std::vector<LineSeed> admissible_seeds(const Target& target, const std::vector<SurfaceSample>& places,
+                                                     const RadialFunction& radial, int spheres, double tolerance_mm);
+
+/// About `count` places, spread evenly over the target.
+[[nodiscard]] std::vector<SurfaceSample> grid_places(const Target& target, int count);
 
 /// The directions of a grid at a point: `directions` over half a turn, twice as many over the whole.
 [[nodiscard]] std::vector<Vec3> seed_directions(const Vec3& normal, const RadialFunction& radial, int directions);
