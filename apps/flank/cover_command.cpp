@@ -23,7 +23,9 @@ Subcommand add_cover(CLI::App& parser) {
   app->add_option("-o,--output", *folder, "Folder for the results")->required();
   app->add_option("--tolerance", job->base.tolerance_mm, "Tolerance, mm")->capture_default_str();
   app->add_option("--axis-length", job->base.axis_length_mm, "Length of the axis of a family, mm");
-  app->add_option("--strategy", job->strategy, "How strips are found: grow")->capture_default_str();
+  app->add_option("--strategy", job->strategy,
+                  "How strips are found: grow, or curves (the published method, to compare)")
+      ->capture_default_str();
   app->add_option("--strips", job->most_strips, "Most strips on one target; default: as many as are worth their price");
   app->add_option("--strip-price", job->strip_price,
                   "Share of the face that a strip must add to be worth it; default: 0.005");

@@ -6,6 +6,7 @@
 
 #include "flank/base/parallel.h"
 #include "flank/cover/certify.h"
+#include "flank/cover/curves.h"
 #include "flank/cover/order.h"
 #include "flank/cover/reasons.h"
 #include "flank/cover/shape_places.h"
@@ -180,6 +181,30 @@ CoverResult nothing(const TileScene& scene, int lines, CoverResult result) {
   return result;
 }
 
+/// Strategy `curves`, once there are samples.
+CoverResult curves_cover(const TileScene& scene, const LineGuard& guard, CoverResult result, const Progress& progress) {
+  Stopwatch watch(result);
+  progress.step("curves", 0.1);
+  const CurveStrips found = strips_of_curves(scene);
+  result.seeds = found.counts.seeds;
+  result.lines = found.counts.lines;
+  result.grown = found.counts.strips;
+  result.notes.push_back(counts_text(found.counts));
+  watch.lap("curves");
+  if (found.strips.empty()) return nothing(scene, found.counts.lines, std::move(result));
+
+  progress.step("smooth", 0.55);
+  CoverSamples dense = cover_samples(scene.target, scene.options.dense_share * std::sqrt(scene.target.area()));
+  result.reachable = keep_reachable(dense, guard);
+  const TileScene dense_scene{scene.target, scene.radial, dense, guard, scene.options, kCertifySamples};
+  const SmoothedCurves smooth = smoothed_curves(dense_scene, found.strips);
+  result.coverage_before = smooth.coverage_before;
+  watch.lap("smooth");
+  describe(scene, dense_scene, smooth.strips, result);
+  watch.lap("order");
+  return result;
+}
+
 }  // namespace
 
 CoverResult cover(const Target& target, const Tool& tool, const CoverObstacles& obstacles, const CoverOptions& options,
@@ -193,6 +218,7 @@ CoverResult cover(const Target& target, const Tool& tool, const CoverObstacles& 
   result.reachable = keep_reachable(samples, guard);
   const TileScene scene{target, tool.radial, samples, grow_guard, options};
   watch.lap("samples");
+  if (options.strategy == CoverStrategy::kCurves) return curves_cover(scene, guard, std::move(result), progress);
 
   progress.step("grow", 0.1);
   CandidatePool pool = first_pool(scene, result);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "flank/base/progress.h"
+#include "flank/cover/curves_options.h"
 #include "flank/cover/line_guard.h"
 #include "flank/cover/seeds.h"
 #include "flank/motion/ruled_motion.h"
@@ -26,7 +27,14 @@ enum class SeedDirections {
   kAdmissible,  ///< those that the tolerance-aware filter leaves, at seed_spheres values of s (direction_filter.h)
 };
 
+enum class CoverStrategy {
+  kGrow,   ///< lines refined and grown, tiled, chosen by value
+  kCurves  ///< paper B: integral curves, lines, clusters, groups (curves.h)
+};
+
 struct CoverOptions {
+  CoverStrategy strategy = CoverStrategy::kGrow;
+  CurvesOptions curves;
   double tolerance_mm = 0.01;
   std::vector<LineSeed> seeds;  ///< empty: as the next lines say
   SeedPlaces places = SeedPlaces::kGrid;

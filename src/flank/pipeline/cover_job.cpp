@@ -34,12 +34,17 @@ Tool tool_of(const FitJob& job) {
   return make_tool(*spec.family, spec.given, *job.axis_length_mm);
 }
 
+CoverStrategy strategy_of(const std::string& name) {
+  require(name == "grow" || name == "curves", "--strategy " + name + ": there are grow and curves");
+  return name == "grow" ? CoverStrategy::kGrow : CoverStrategy::kCurves;
+}
+
 void check_job(const CoverJob& job) {
   const FitJob& base = job.base;
   require(base.tolerance_mm > 0.0 && std::isfinite(base.tolerance_mm), "--tolerance: a length > 0 mm is needed");
   require(base.least_coverage >= 0.0 && base.least_coverage <= 1.0, "--coverage: a share between 0 and 1 is needed");
   check_reach_radius(base);
-  require(job.strategy == "grow", "--strategy " + job.strategy + ": grow is what there is");
+  (void)strategy_of(job.strategy);
   require(!job.most_strips || (*job.most_strips >= 1 && *job.most_strips <= 200),
           "--strips: a number from 1 to 200 is needed");
   require(!job.strip_price || (*job.strip_price >= 0.0 && *job.strip_price < 1.0),
@@ -48,6 +53,7 @@ void check_job(const CoverJob& job) {
 
 CoverOptions options_of(const CoverJob& job) {
   CoverOptions options = job.options;
+  options.strategy = strategy_of(job.strategy);
   options.tolerance_mm = job.base.tolerance_mm;
   if (job.most_strips) options.most_strips = *job.most_strips;
   if (job.strip_price) options.strip_price = *job.strip_price;

@@ -10,7 +10,7 @@ namespace flank {
 /// sample, clearance.
 struct CoverJob {
   FitJob base;
-  std::string strategy = "grow";
+  std::string strategy = "grow";  ///< or "curves"
   std::optional<int> most_strips;
   std::optional<double> strip_price;  ///< share of the area
   CoverOptions options;               ///< tolerance, strips and price are taken from the fields above

@@ -1,0 +1,123 @@
+// Strategy `grow` against `curves` (paper B's own pipeline; docs/algorithms/curves.md): the whole command on the same faces
+// with the same tools, side by side, the judge's figures. With arguments: only the faces whose name contains one of them.
+// FLANK_THREADS limits the threads (1 unless set). Time is the processor's, so that other programs do not count.
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <exception>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "flank/base/atomic_file.h"
+#include "flank/base/error.h"
+#include "flank/base/parallel.h"
+#include "flank/io/tool_json.h"
+#include "flank/pipeline/cover_job.h"
+#include "flank/pipeline/example.h"
+
+namespace {
+
+using namespace flank;
+
+struct Scene {
+  std::string name, part, tool;  ///< part: an example's name, or a file of FLANK_DATA
+  double axis_length;            ///< 0: the tool is the example's own, its middle `middle_share`
+  double tolerance;              ///< mm; < 0: the share of the diagonal
+  double middle_share = 1.0;
+};
+
+std::vector<Scene> scenes() {
+  const std::string cylinder = "cylinder:radius=5";
+  return {{"twisted-blade 1e-3", "twisted-blade", cylinder, 20.0, -1e-3},
+          {"twisted-blade 1e-4", "twisted-blade", cylinder, 20.0, -1e-4},
+          {"elliptic-side cone", "elliptic-side", "cone:radius=4,angle=4", 30.0, 0.04},
+          {"envelope-barrel-1", "envelope-barrel-1", "", 0.0, -1e-4},
+          {"envelope-hyperbolic-2 middle", "envelope-hyperbolic-2", "", 0.0, -1e-4, 0.6},
+          {"r37_blade F1", "r37_blade.step", cylinder, 20.0, 0.05}};
+}
+
+std::string scratch(const std::string& name) {
+  const auto folder = std::filesystem::temp_directory_path() / "flank_cover_bench";
+  std::filesystem::create_directories(folder);
+  return (folder / name).string();
+}
+
+std::string real_part(const std::string& name) {
+  const char* data = std::getenv("FLANK_DATA");
+  const std::string file = std::string(data ? data : FLANK_SOURCE_DIR "/../shared/data") + "/" + name;
+  if (!std::filesystem::exists(file)) throw InputError(file + " is not there (set FLANK_DATA)");
+  return file;
+}
+
+/// The middle of an example's own tool, as a file.
+std::string own_tool(const Example& example, double share) {
+  Tool tool = example.truth->tool;
+  tool.radial = RadialFunction(tool.radial.family(), share * tool.radial.axis_length(), tool.radial.parameters());
+  if (share == 1.0) tool = example.truth->tool;
+  const std::string file = scratch(example.name + ".json");
+  write_file(file, tool_to_json(tool));
+  return file;
+}
+
+CoverJob job_of(const Scene& scene) {
+  CoverJob job;
+  job.base.least_coverage = 0.0;
+  job.base.tool = scene.tool;
+  if (scene.axis_length > 0.0) job.base.axis_length_mm = scene.axis_length;
+  job.base.tolerance_mm = scene.tolerance;
+  if (scene.part.ends_with(".step")) {
+    job.base.part = real_part(scene.part);
+    return job;
+  }
+  const Example example = make_example(scene.part);
+  job.base.part = scratch(scene.part + ".step");
+  job.base.side = +1;
+  write_example(example, job.base.part);
+  if (scene.axis_length <= 0.0) job.base.tool = own_tool(example, scene.middle_share);
+  if (scene.tolerance < 0.0) job.base.tolerance_mm = -scene.tolerance * example.diagonal_mm;
+  return job;
+}
+
+double figure(const FitOutcome& outcome, const std::string& name) {
+  for (const auto& [key, value] : outcome.figures)
+    if (key.ends_with(" " + name)) return value;
+  return 0.0;
+}
+
+void row(const Scene& scene, CoverJob job, const std::string& strategy) {
+  job.strategy = strategy;
+  const std::clock_t start = std::clock();
+  const FitOutcome outcome = run_cover(job, {});
+  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  std::printf("%-30s %-7s %7.4f %8.1f %8.1f %8.1f %7zu %9.0f %9.4f %8.1f\n", scene.name.c_str(), strategy.c_str(),
+              job.base.tolerance_mm, 100.0 * figure(outcome, "before"), 100.0 * figure(outcome, "after"),
+              100.0 * outcome.verify.coverage, outcome.path.strips.size(), 100.0 * figure(outcome, "overlap"),
+              outcome.verify.overcut_mm, seconds);
+}
+
+bool asked_for(const std::string& name, int argc, char** argv) {
+  for (int k = 1; k < argc; ++k)
+    if (name.find(argv[k]) != std::string::npos) return true;
+  return argc < 2;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
+  const char* threads = std::getenv("FLANK_THREADS");
+  set_thread_count(threads ? std::atoi(threads) : 1);
+  std::printf("%-30s %-7s %7s %8s %8s %8s %7s %9s %9s %8s\n", "face and tool", "by", "tol mm", "before %", "after %",
+              "judged %", "strips", "overlap %", "overcut", "seconds");
+  for (const Scene& scene : scenes()) {
+    if (!asked_for(scene.name, argc, argv)) continue;
+    try {
+      const CoverJob job = job_of(scene);
+      for (const char* strategy : {"grow", "curves"}) row(scene, job, strategy);
+    } catch (const std::exception& e) {
+      std::printf("%-30s not measured: %s\n", scene.name.c_str(), e.what());
+    }
+  }
+  return 0;
+}
