@@ -32,9 +32,12 @@ std::vector<Scene> scenes() {
   return {{"twisted-blade 1e-3", "twisted-blade", cylinder, 20.0, -1e-3},
           {"twisted-blade 1e-4", "twisted-blade", cylinder, 20.0, -1e-4},
           {"elliptic-side cone", "elliptic-side", "cone:radius=4,angle=4", 30.0, 0.04},
-          {"envelope-barrel-1", "envelope-barrel-1", "", 0.0, -1e-4},
-          {"envelope-hyperbolic-2 middle", "envelope-hyperbolic-2", "", 0.0, -1e-4, 0.6},
-          {"r37_blade F1", "r37_blade.step", cylinder, 20.0, 0.05}};
+          {"envelope-barrel-1 1e-4", "envelope-barrel-1", "", 0.0, -1e-4},
+          {"envelope-barrel-1 1e-5", "envelope-barrel-1", "", 0.0, -1e-5},
+          {"envelope-hyperbolic-2 middle 1e-4", "envelope-hyperbolic-2", "", 0.0, -1e-4, 0.6},
+          {"envelope-hyperbolic-2 middle 1e-5", "envelope-hyperbolic-2", "", 0.0, -1e-5, 0.6},
+          {"r37_blade F1 0.05", "r37_blade.step", cylinder, 20.0, 0.05},
+          {"r37_blade F1 0.02", "r37_blade.step", cylinder, 20.0, 0.02}};
 }
 
 std::string scratch(const std::string& name) {
@@ -90,7 +93,7 @@ void row(const Scene& scene, CoverJob job, const std::string& strategy) {
   const std::clock_t start = std::clock();
   const FitOutcome outcome = run_cover(job, {});
   const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  std::printf("%-30s %-7s %7.4f %8.1f %8.1f %8.1f %7zu %9.0f %9.4f %8.1f\n", scene.name.c_str(), strategy.c_str(),
+  std::printf("%-34s %-7s %7.4f %8.1f %8.1f %8.1f %7zu %9.0f %9.4f %8.1f\n", scene.name.c_str(), strategy.c_str(),
               job.base.tolerance_mm, 100.0 * figure(outcome, "before"), 100.0 * figure(outcome, "after"),
               100.0 * outcome.verify.coverage, outcome.path.strips.size(), 100.0 * figure(outcome, "overlap"),
               outcome.verify.overcut_mm, seconds);
@@ -108,7 +111,7 @@ int main(int argc, char** argv) {
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
   const char* threads = std::getenv("FLANK_THREADS");
   set_thread_count(threads ? std::atoi(threads) : 1);
-  std::printf("%-30s %-7s %7s %8s %8s %8s %7s %9s %9s %8s\n", "face and tool", "by", "tol mm", "before %", "after %",
+  std::printf("%-34s %-7s %7s %8s %8s %8s %7s %9s %9s %8s\n", "face and tool", "by", "tol mm", "before %", "after %",
               "judged %", "strips", "overlap %", "overcut", "seconds");
   for (const Scene& scene : scenes()) {
     if (!asked_for(scene.name, argc, argv)) continue;
@@ -116,7 +119,7 @@ int main(int argc, char** argv) {
       const CoverJob job = job_of(scene);
       for (const char* strategy : {"grow", "curves"}) row(scene, job, strategy);
     } catch (const std::exception& e) {
-      std::printf("%-30s not measured: %s\n", scene.name.c_str(), e.what());
+      std::printf("%-34s not measured: %s\n", scene.name.c_str(), e.what());
     }
   }
   return 0;

@@ -77,6 +77,9 @@ TEST_F(Cli, CoverRefusesWrongUsage) {
     more.insert(more.end(), {option, value});
     refused(more, option);
   }
+  std::vector<std::string> unknown = tool;
+  unknown.insert(unknown.end(), {"--strategy", "guess"});
+  refused(unknown, "grow and curves");
 }
 
 }  // namespace

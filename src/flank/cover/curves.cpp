@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
+#include <cmath>
 #include <optional>
+#include <utility>
 
 #include "flank/base/parallel.h"
 #include "flank/cover/certify.h"
@@ -16,9 +17,8 @@ namespace flank {
 namespace {
 
 constexpr int kControlPoints = 48;  ///< most, of a rail through a group's poses
-/// Paper B's rule ends where every strip that is left overlaps by more than it allows, and leaves gaps. Then this factor
-/// widens it, as long as strips add their price.
-constexpr double kWiden = 2.0;
+constexpr int kFinePoses = 1000;
+constexpr double kFineShare = 0.98;  ///< of the tolerance, where depth is looked at that finely
 
 double limit_of(const TileScene& scene) {
   return (scene.options.curves.refine ? 1.0 : scene.options.curves.slack) * scene.options.tolerance_mm;
@@ -30,11 +30,20 @@ LineFitOptions loose_options(const TileScene& scene) {
   return options;
 }
 
+/// A line beside the curve by x across the normal is off by at most x^2 / (2 r) there, and a curve of length L that turns by
+/// phi has a line within x = L phi / 8: so much turning costs slack tolerances and no more.
+double straightness_of(const TileScene& scene) {
+  const CurvesOptions& from = scene.options.curves;
+  if (from.straightness_rad > 0.0) return from.straightness_rad;
+  const double length = scene.radial.axis_length(), r = scene.radial.at(0.5 * length).r;
+  return std::max(kStraightnessRad, 8.0 * std::sqrt(2.0 * r * from.slack * scene.options.tolerance_mm) / length);
+}
+
 IntegralCurveOptions curve_options(const TileScene& scene) {
   const CurvesOptions& from = scene.options.curves;
   IntegralCurveOptions options;
   options.steps = from.steps;
-  options.straightness_rad = from.straightness_rad;
+  options.straightness_rad = straightness_of(scene);
   options.step_by_step = from.step_by_step;
   options.filter = {scene.options.tolerance_mm, scene.radial.axis_length(), from.slack};
   return options;
@@ -94,25 +103,70 @@ std::vector<CoverStrip> strips_through(const TileScene& scene, const std::vector
   return strips;
 }
 
-/// Paper B's heuristic: the largest strip, then again and again the largest that overlaps those before it by less than a
-/// share of its area.
-std::vector<CoverStrip> chosen(const TileScene& scene, std::vector<CoverStrip> pool) {
+/// The strip that adds most, of those that overlap what is covered by at most a share of their area; -1: none is worth it.
+int next_strip(const std::vector<CoverStrip>& pool, const CellCount& covered, double area, double most_overlap,
+               double price) {
+  int best = -1;
+  double most = price;
+  for (std::size_t k = 0; k < pool.size(); ++k) {
+    const double gain = covered.gain(pool[k]);
+    if (gain <= most || gain * area < (1.0 - most_overlap) * pool[k].area) continue;
+    most = gain;
+    best = static_cast<int>(k);
+  }
+  return best;
+}
+
+/// Paper B's heuristic: the largest strip, then again and again the largest that hardly overlaps those before it. It ends
+/// with gaps, so what adds most follows as long as it is worth it.
+std::vector<CoverStrip> chosen(const TileScene& scene, const std::vector<CoverStrip>& pool) {
   const CoverOptions& options = scene.options;
-  std::stable_sort(pool.begin(), pool.end(), [](const CoverStrip& a, const CoverStrip& b) { return a.area > b.area; });
   CellCount covered(scene.samples);
   std::vector<CoverStrip> result;
-  std::vector<char> taken(pool.size(), 0);
-  for (double overlap = options.curves.most_overlap; overlap < kWiden; overlap *= kWiden) {
-    for (std::size_t k = 0; k < pool.size() && static_cast<int>(result.size()) < options.most_strips; ++k) {
-      const double gain = covered.gain(pool[k]);
-      const bool apart = gain * scene.samples.area >= (1.0 - overlap) * pool[k].area;
-      if (taken[k] != 0 || !apart || gain < options.strip_price) continue;
-      taken[k] = 1;
-      covered.add(pool[k]);
-      result.push_back(pool[k]);
+  for (const double overlap : {options.curves.most_overlap, 1.0}) {
+    while (static_cast<int>(result.size()) < options.most_strips) {
+      const int k = next_strip(pool, covered, scene.samples.area, overlap,
+                               std::max(options.strip_price, options.curves.least_gain));
+      if (k < 0) break;
+      result.push_back(pool[static_cast<std::size_t>(k)]);
+      covered.add(result.back());
     }
   }
   return result;
+}
+
+/// First and last of the longest run of fine steps that are not too deep; last < first: there is none.
+std::pair<int, int> longest_good(const RuledMotion& motion, LineFitter& fitter) {
+  const double limit = kFineShare * fitter.options().tolerance_mm;
+  std::pair<int, int> best = {0, -1};
+  fitter.forget();
+  for (int i = 0, first = 0; i <= kFinePoses; ++i) {
+    const Pose pose = motion.pose(static_cast<double>(i) / kFinePoses);
+    (void)fitter.measure(pose);
+    if (fitter.overcut(pose) > limit)
+      first = i + 1;
+    else if (i - first > best.second - best.first)
+      best = {first, i};
+  }
+  return best;
+}
+
+/// Past the last points of the target that hold them, rails may run off within one of the certificate's steps. Where a
+/// finer look finds that, the strip is cut short.
+CoverStrip cut_finely(const TileScene& dense, CoverStrip strip) {
+  constexpr int kTries = 3;
+  LineFitter fitter(dense.target, dense.radial, line_options(dense));
+  for (int k = 0; k < kTries; ++k) {
+    const auto [first, last] = longest_good(strip.motion, fitter);
+    if (first == 0 && last == kFinePoses) return strip;
+    if (last - first < kFinePoses / 10) return {};
+    const double step = 1.0 / kFinePoses;
+    strip = measure_strip(dense.samples, part_of_motion(strip.motion, (first + 1) * step, (last - 1) * step),
+                          dense.radial, fitter);
+    strip = cut_to_certified(dense.samples, dense.guard, std::move(strip), dense.radial, fitter);
+    if (strip.cells.empty()) return {};
+  }
+  return {};
 }
 
 }  // namespace
@@ -126,9 +180,9 @@ CurveStrips strips_of_curves(const TileScene& scene) {
   group_options.ends_alike = is_symmetric(scene.radial);
   const std::vector<LineGroup> groups = group_lines(lines, scene.radial.axis_length(), group_options);
   counts.groups = static_cast<int>(groups.size());
-  std::vector<CoverStrip> pool = strips_through(scene, groups);
+  const std::vector<CoverStrip> pool = strips_through(scene, groups);
   counts.strips = static_cast<int>(pool.size());
-  result.strips = chosen(scene, std::move(pool));
+  result.strips = chosen(scene, pool);
   return result;
 }
 
@@ -151,6 +205,9 @@ SmoothedCurves smoothed_curves(const TileScene& dense, const std::vector<CoverSt
     drop_empty(smooth.strips);
     if (covered_share(dense.samples, smooth.strips) > result.coverage_before) result.strips = std::move(smooth.strips);
   }
+  parallel_for(result.strips.size(),
+               [&](std::size_t k) { result.strips[k] = cut_finely(dense, std::move(result.strips[k])); });
+  drop_empty(result.strips);
   result.strips = pruned(dense, std::move(result.strips));
   return result;
 }
