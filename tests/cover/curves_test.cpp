@@ -27,8 +27,8 @@ void expect_certified(const Target& target, const RadialFunction& radial, const 
   LineFitter fitter(target, radial, options);
   for (const RuledMotion& motion : result.motions) {
     fitter.forget();
-    for (int i = 0; i <= 2000; ++i) {
-      const Pose pose = motion.pose(i / 2000.0);
+    for (int i = 0; i <= 1500; ++i) {
+      const Pose pose = motion.pose(i / 1500.0);
       (void)fitter.measure(pose);
       EXPECT_LE(fitter.overcut(pose), tolerance_mm);
     }
@@ -38,8 +38,9 @@ void expect_certified(const Target& target, const RadialFunction& radial, const 
 TEST(Curves, SmallPlane) {
   const auto target = testing::flat_target(0.0, 30.0, 0.0, 20.0);
   CoverOptions options = options_for(0.01);
-  options.curves.places = 80;
-  options.curves.clusters = 80;
+  options.curves.places = 60;
+  options.curves.clusters = 60;
+  options.smooth = false;
   const Tool tool = testing::cylinder(4.0, 16.0);
   const CoverResult result = cover(*target, tool, {}, options, {});
   ASSERT_EQ(result.status, CoverStatus::kCovered) << result.message;

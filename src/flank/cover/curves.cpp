@@ -191,8 +191,9 @@ SmoothedCurves smoothed_curves(const TileScene& dense, const std::vector<CoverSt
   parallel_for(strips.size(), [&](std::size_t k) {
     LineFitter fitter(dense.target, dense.radial, line_options(dense));
     start[k] = measure_strip(dense.samples, strips[k].motion, dense.radial, fitter);
-    certain[k] = cut_to_certified(dense.samples, dense.guard, lifted(dense.samples, start[k], dense.radial, fitter),
-                                  dense.radial, fitter);
+    certain[k] =
+        cut_to_certified(dense.samples, dense.guard, lifted(dense.samples, dense.guard, start[k], dense.radial, fitter),
+                         dense.radial, fitter);
     if (!is_certified(dense.guard, start[k], dense.options.tolerance_mm)) start[k].cells.clear();
   });
   const auto drop_empty = [](std::vector<CoverStrip>& all) {

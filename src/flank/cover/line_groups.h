@@ -13,7 +13,7 @@ struct LineGroupOptions {
   double most_deviation = 0.5;
   double deviation_weight = 4.0;  ///< the next line is the one of least way^2 + weight deviation^2
   int most_uses = 2;              ///< no group starts at a line that is in so many groups already
-  int least_lines = 4;            ///< of a group
+  int least_lines = 5;            ///< of a group; motion_through needs them
   bool ends_alike = false;        ///< lines may be turned round (line_clusters.h)
 };
 
