@@ -1,6 +1,7 @@
 // Strategy `grow` against `curves` (paper B's own pipeline; docs/algorithms/curves.md): the whole command on the same faces
 // with the same tools, side by side, the judge's figures. With arguments: only the faces whose name contains one of them.
 // FLANK_THREADS limits the threads (1 unless set). Time is the processor's, so that other programs do not count.
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -19,6 +20,8 @@
 namespace {
 
 using namespace flank;
+
+constexpr std::uint64_t kSeeds = 5;
 
 struct Scene {
   std::string name, part, tool;  ///< part: an example's name, or a file of FLANK_DATA
@@ -88,15 +91,25 @@ double figure(const FitOutcome& outcome, const std::string& name) {
   return 0.0;
 }
 
-void row(const Scene& scene, CoverJob job, const std::string& strategy) {
-  job.strategy = strategy;
+void row(const Scene& scene, const CoverJob& job, const std::string& label) {
   const std::clock_t start = std::clock();
   const FitOutcome outcome = run_cover(job, {});
   const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  std::printf("%-34s %-7s %7.4f %8.1f %8.1f %8.1f %7zu %9.0f %9.4f %8.1f\n", scene.name.c_str(), strategy.c_str(),
+  std::printf("%-34s %-9s %7.4f %8.1f %8.1f %8.1f %7zu %9.0f %9.4f %8.1f\n", scene.name.c_str(), label.c_str(),
               job.base.tolerance_mm, 100.0 * figure(outcome, "before"), 100.0 * figure(outcome, "after"),
               100.0 * outcome.verify.coverage, outcome.path.strips.size(), 100.0 * figure(outcome, "overlap"),
               outcome.verify.overcut_mm, seconds);
+}
+
+/// Clusters depend on where the clustering starts, and so does what becomes of them: one row a seed shows the scatter.
+void rows(const Scene& scene) {
+  CoverJob job = job_of(scene);
+  row(scene, job, "grow");
+  job.strategy = "curves";
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    job.options.curves.seed = seed;
+    row(scene, job, "curves " + std::to_string(seed));
+  }
 }
 
 bool asked_for(const std::string& name, int argc, char** argv) {
@@ -111,13 +124,12 @@ int main(int argc, char** argv) {
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
   const char* threads = std::getenv("FLANK_THREADS");
   set_thread_count(threads ? std::atoi(threads) : 1);
-  std::printf("%-34s %-7s %7s %8s %8s %8s %7s %9s %9s %8s\n", "face and tool", "by", "tol mm", "before %", "after %",
+  std::printf("%-34s %-9s %7s %8s %8s %8s %7s %9s %9s %8s\n", "face and tool", "by", "tol mm", "before %", "after %",
               "judged %", "strips", "overlap %", "overcut", "seconds");
   for (const Scene& scene : scenes()) {
     if (!asked_for(scene.name, argc, argv)) continue;
     try {
-      const CoverJob job = job_of(scene);
-      for (const char* strategy : {"grow", "curves"}) row(scene, job, strategy);
+      rows(scene);
     } catch (const std::exception& e) {
       std::printf("%-34s not measured: %s\n", scene.name.c_str(), e.what());
     }
