@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace flank {
@@ -131,6 +132,45 @@ CoverStrip cut_to_certified(const CoverSamples& samples, const LineGuard& guard,
     strip = measure_strip(samples, part_of_motion(strip.motion, t0, t1), radial, fitter);
   }
   return is_certified(guard, strip, tolerance) ? strip : CoverStrip{};
+}
+
+namespace {
+
+constexpr int kFinePoses = 1000;
+constexpr double kFineShare = 0.98;  ///< of the tolerance: nothing but the judge looks after this
+
+/// First and last of the longest run of fine steps that are not too deep; last < first: there is none.
+std::pair<int, int> longest_good(const RuledMotion& motion, LineFitter& fitter) {
+  const double limit = kFineShare * fitter.options().tolerance_mm;
+  std::pair<int, int> best = {0, -1};
+  fitter.forget();
+  for (int i = 0, first = 0; i <= kFinePoses; ++i) {
+    const Pose pose = motion.pose(static_cast<double>(i) / kFinePoses);
+    (void)fitter.measure(pose);
+    if (fitter.overcut(pose, limit) > limit)
+      first = i + 1;
+    else if (i - first > best.second - best.first)
+      best = {first, i};
+  }
+  return best;
+}
+
+}  // namespace
+
+CoverStrip cut_finely(const CoverSamples& samples, const LineGuard& guard, CoverStrip strip,
+                      const RadialFunction& radial, LineFitter& fitter) {
+  constexpr int kTries = 3;
+  for (int k = 0; k < kTries; ++k) {
+    const auto [first, last] = longest_good(strip.motion, fitter);
+    if (first == 0 && last == kFinePoses) return strip;
+    if (last - first < kFinePoses / 10) return {};
+    const double step = 1.0 / kFinePoses;
+    const double t0 = (first + (first > 0 ? 1 : 0)) * step, t1 = (last - (last < kFinePoses ? 1 : 0)) * step;
+    strip = measure_strip(samples, part_of_motion(strip.motion, t0, t1), radial, fitter);
+    strip = cut_to_certified(samples, guard, std::move(strip), radial, fitter);
+    if (strip.cells.empty()) return {};
+  }
+  return {};
 }
 
 }  // namespace flank

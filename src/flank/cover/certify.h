@@ -20,4 +20,9 @@ namespace flank {
 [[nodiscard]] CoverStrip cut_to_certified(const CoverSamples& samples, const LineGuard& guard, CoverStrip strip,
                                           const RadialFunction& radial, LineFitter& fitter);
 
+/// Past the last points of the target that hold them, rails may run off within one of the certificate's steps. Where a
+/// look in a thousand steps finds that, the strip is cut short. No cells where a tenth of it is not left.
+[[nodiscard]] CoverStrip cut_finely(const CoverSamples& samples, const LineGuard& guard, CoverStrip strip,
+                                    const RadialFunction& radial, LineFitter& fitter);
+
 }  // namespace flank

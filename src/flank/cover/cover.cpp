@@ -137,6 +137,16 @@ std::vector<CoverStrip> thinned(const TileScene& dense, std::vector<CoverStrip> 
   return strips;
 }
 
+/// The last look at each strip, the finest.
+std::vector<CoverStrip> finally_certain(const TileScene& dense, std::vector<CoverStrip> strips) {
+  parallel_for(strips.size(), [&](std::size_t k) {
+    LineFitter fitter(dense.target, dense.radial, line_options(dense));
+    strips[k] = cut_finely(dense.samples, dense.guard, std::move(strips[k]), dense.radial, fitter);
+  });
+  std::erase_if(strips, [](const CoverStrip& strip) { return strip.cells.empty(); });
+  return pruned(dense, std::move(strips));
+}
+
 /// Fills the result from the strips that are left.
 void describe(const TileScene& coarse, const TileScene& dense, const std::vector<CoverStrip>& strips,
               CoverResult& result) {
@@ -200,7 +210,7 @@ CoverResult curves_cover(const TileScene& scene, const LineGuard& guard, CoverRe
   const SmoothedCurves smooth = smoothed_curves(dense_scene, found.strips);
   result.coverage_before = smooth.coverage_before;
   watch.lap("smooth");
-  describe(scene, dense_scene, smooth.strips, result);
+  describe(scene, dense_scene, finally_certain(dense_scene, smooth.strips), result);
   watch.lap("order");
   return result;
 }
@@ -240,6 +250,7 @@ CoverResult cover(const Target& target, const Tool& tool, const CoverObstacles& 
   strips = thinned(dense_scene, smoothed(scene, dense_scene, pool.strips, strips, progress), progress);
   watch.lap("smooth");
 
+  strips = finally_certain(dense_scene, std::move(strips));
   describe(scene, dense_scene, strips, result);
   watch.lap("order");
   return result;

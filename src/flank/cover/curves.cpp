@@ -17,8 +17,6 @@ namespace flank {
 namespace {
 
 constexpr int kControlPoints = 48;  ///< most, of a rail through a group's poses
-constexpr int kFinePoses = 1000;
-constexpr double kFineShare = 0.98;  ///< of the tolerance, where depth is looked at that finely
 
 double limit_of(const TileScene& scene) {
   return (scene.options.curves.refine ? 1.0 : scene.options.curves.slack) * scene.options.tolerance_mm;
@@ -135,40 +133,6 @@ std::vector<CoverStrip> chosen(const TileScene& scene, const std::vector<CoverSt
   return result;
 }
 
-/// First and last of the longest run of fine steps that are not too deep; last < first: there is none.
-std::pair<int, int> longest_good(const RuledMotion& motion, LineFitter& fitter) {
-  const double limit = kFineShare * fitter.options().tolerance_mm;
-  std::pair<int, int> best = {0, -1};
-  fitter.forget();
-  for (int i = 0, first = 0; i <= kFinePoses; ++i) {
-    const Pose pose = motion.pose(static_cast<double>(i) / kFinePoses);
-    (void)fitter.measure(pose);
-    if (fitter.overcut(pose) > limit)
-      first = i + 1;
-    else if (i - first > best.second - best.first)
-      best = {first, i};
-  }
-  return best;
-}
-
-/// Past the last points of the target that hold them, rails may run off within one of the certificate's steps. Where a
-/// finer look finds that, the strip is cut short.
-CoverStrip cut_finely(const TileScene& dense, CoverStrip strip) {
-  constexpr int kTries = 3;
-  LineFitter fitter(dense.target, dense.radial, line_options(dense));
-  for (int k = 0; k < kTries; ++k) {
-    const auto [first, last] = longest_good(strip.motion, fitter);
-    if (first == 0 && last == kFinePoses) return strip;
-    if (last - first < kFinePoses / 10) return {};
-    const double step = 1.0 / kFinePoses;
-    strip = measure_strip(dense.samples, part_of_motion(strip.motion, (first + 1) * step, (last - 1) * step),
-                          dense.radial, fitter);
-    strip = cut_to_certified(dense.samples, dense.guard, std::move(strip), dense.radial, fitter);
-    if (strip.cells.empty()) return {};
-  }
-  return {};
-}
-
 }  // namespace
 
 CurveStrips strips_of_curves(const TileScene& scene) {
@@ -206,10 +170,6 @@ SmoothedCurves smoothed_curves(const TileScene& dense, const std::vector<CoverSt
     drop_empty(smooth.strips);
     if (covered_share(dense.samples, smooth.strips) > result.coverage_before) result.strips = std::move(smooth.strips);
   }
-  parallel_for(result.strips.size(),
-               [&](std::size_t k) { result.strips[k] = cut_finely(dense, std::move(result.strips[k])); });
-  drop_empty(result.strips);
-  result.strips = pruned(dense, std::move(result.strips));
   return result;
 }
 
