@@ -92,4 +92,15 @@ CoverObstacles other_faces(const Part& part, const std::vector<int>& faces, cons
   return obstacles;
 }
 
+std::vector<CheckSurface> own_faces(const Part& part, const std::vector<int>& faces, double deviation_mm,
+                                    double spare_mm) {
+  std::vector<CheckSurface> surfaces(faces.size());
+  parallel_for(faces.size(), [&](std::size_t k) {
+    surfaces[k] = as_triangles(part, faces[k], deviation_mm);
+    surfaces[k].slack_mm += spare_mm;
+    surfaces[k].flank_may_touch = true;
+  });
+  return surfaces;
+}
+
 }  // namespace flank

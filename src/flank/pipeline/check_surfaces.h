@@ -14,4 +14,9 @@ namespace flank {
 [[nodiscard]] CoverObstacles other_faces(const Part& part, const std::vector<int>& faces, const Target& target,
                                          double reach_mm, double deviation_mm);
 
+/// The target's own faces as what shank and holder keep clear of, to within a tolerance: `spare_mm` is held back besides
+/// the triangles' deviation, for a judge who wants it kept for sure.
+[[nodiscard]] std::vector<CheckSurface> own_faces(const Part& part, const std::vector<int>& faces, double deviation_mm,
+                                                  double spare_mm);
+
 }  // namespace flank

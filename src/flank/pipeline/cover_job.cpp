@@ -60,17 +60,23 @@ CoverOptions options_of(const CoverJob& job) {
   return options;
 }
 
-/// Other faces of the part; for shank and holder the target itself as well.
-CoverObstacles obstacles_of(const Part& part, const std::vector<int>& members, const Target& target, const Tool& tool,
-                            double tolerance_mm) {
+/// Other faces of the part; for shank and holder the target itself as well: by its triangles, finely, because a shank as
+/// thick as the flank touches what the flank touches.
+CoverObstacles obstacles_of(const Part& part, const std::vector<int>& members, const TargetGroup& group,
+                            const Tool& tool, double tolerance_mm) {
+  constexpr double kOwnDeviationShare = 0.1, kSpareShare = 0.2;  ///< of the tolerance
   double reach = 0.0;
   for (int j = 0; j <= 16; ++j)
     reach = std::max(reach, tool.radial.axis_length() + 2.0 * tool.radial.at(tool.radial.axis_length() * j / 16.0).r);
   for (const auto* profile : {&tool.shank, &tool.holder})
     for (const Vec2& p : *profile) reach = std::max(reach, p.x() + 2.0 * p.y());
-  CoverObstacles obstacles = other_faces(part, members, target, reach, std::clamp(0.3 * tolerance_mm, 1e-3, 0.05));
-  if (!tool.shank.empty() || !tool.holder.empty())
-    obstacles.surfaces.push_back(check_surface(target, std::sqrt(target.area()) / 60.0, true));
+  CoverObstacles obstacles =
+      other_faces(part, members, *group.target, reach, std::clamp(0.3 * tolerance_mm, 1e-3, 0.05));
+  if (!tool.shank.empty() || !tool.holder.empty()) {
+    const double deviation_mm = std::clamp(kOwnDeviationShare * tolerance_mm, 1e-3, 0.02);
+    for (CheckSurface& own : own_faces(part, group.indices, deviation_mm, kSpareShare * tolerance_mm))
+      obstacles.surfaces.push_back(std::move(own));
+  }
   return obstacles;
 }
 
@@ -121,7 +127,7 @@ std::vector<int> no_obstacles(const CoverJob& job, const Part& part, const Targe
 Covered cover_group(const CoverJob& job, const Part& part, TargetGroup group, const Tool& tool,
                     const Progress& progress) {
   const CoverObstacles obstacles =
-      obstacles_of(part, no_obstacles(job, part, group), *group.target, tool, job.base.tolerance_mm);
+      obstacles_of(part, no_obstacles(job, part, group), group, tool, job.base.tolerance_mm);
   CoverResult result = cover(*group.target, tool, obstacles, options_of(job), progress);
   return {std::move(group), std::move(result)};
 }
