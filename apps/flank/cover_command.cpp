@@ -8,6 +8,31 @@
 
 namespace flank {
 
+namespace {
+
+/// How a tool is chosen, for --tool catalogue and families with open parameters.
+void add_choice_options(CLI::App& app, CoverJob& job) {
+  const std::string group = "Choice of the tool";
+  app.add_option(
+         "--catalogue", job.catalogue,
+         "Folder of tool files (NAME.json) for --tool catalogue; default: $FLANK_CATALOGUE, else the tools that "
+         "come with flank (share/openflank/catalogue)")
+      ->group(group);
+  app.add_option("--finalists", job.finalists,
+                 "Tools that are covered in full, strips smoothed; the others are compared by strips as they grow")
+      ->capture_default_str()
+      ->group(group);
+  app.add_option("--feed", job.rates.feed_mm_min,
+                 "Feed along the strips, mm/min, for the machining time in the ranking")
+      ->capture_default_str()
+      ->group(group);
+  app.add_option("--rapid", job.rates.rapid_mm_min, "Rate between the strips, mm/min")
+      ->capture_default_str()
+      ->group(group);
+}
+
+}  // namespace
+
 Subcommand add_cover(CLI::App& parser) {
   CLI::App* app =
       parser.add_subcommand("cover", "Find the strips with which a given tool finishes a face, and judge them");
@@ -17,12 +42,18 @@ Subcommand add_cover(CLI::App& parser) {
   app->add_option("PART", job->base.part, "STEP, IGES, BREP, STL, OBJ or PLY file")->required();
   app->add_option("--face", job->base.faces, "Faces to machine: F1 or F1,F3 (see flank inspect)")
       ->capture_default_str();
-  app->add_option("--tool", job->base.tool,
-                  "A tool.json, or a family with all its parameters (barrel:arc=85,radius=5) and --axis-length")
+  app->add_option(
+         "--tool", job->base.tool,
+         "A tool.json; a family with all its parameters (barrel:arc=85,radius=5) and --axis-length; a family "
+         "with some or none (barrel, barrel:radius=5): the others are searched for this face; or catalogue: the "
+         "best of a folder of tools")
       ->required();
   app->add_option("-o,--output", *folder, "Folder for the results")->required();
   app->add_option("--tolerance", job->base.tolerance_mm, "Tolerance, mm")->capture_default_str();
-  app->add_option("--axis-length", job->base.axis_length_mm, "Length of the axis of a family, mm");
+  app->add_option(
+      "--axis-length", job->base.axis_length_mm,
+      "Length of the axis of a family, mm; where parameters are searched, default: the width of the face over 1, 2, 3 "
+      "and 4 strips, all tried");
   app->add_option("--strategy", job->strategy,
                   "How strips are found: grow, or curves (the published method, to compare)")
       ->capture_default_str();
@@ -34,13 +65,15 @@ Subcommand add_cover(CLI::App& parser) {
   app->add_option("--coverage", job->base.least_coverage, "Share of the face within tolerance that counts as done")
       ->capture_default_str();
   app->add_option("--sample", job->base.sample_mm, "Spacing of the judge's samples, mm");
+  add_choice_options(*app, *job);
   add_clearance_options(*app, job->base.clearance);
   add_check_options(*app, job->base.check, job->base.reach_radius_mm);
   app->add_option("--unit", job->base.unit, "Unit of a mesh: mm, cm, m or in")
       ->check(CLI::IsMember({"mm", "cm", "m", "in"}));
   app->footer(
       "Example: flank example twisted-blade -o blade.step && flank cover blade.step --face F1 --tool "
-      "barrel:arc=100,radius=5 --axis-length 20 --tolerance 0.05 -o out");
+      "barrel:arc=100,radius=5 --axis-length 20 --tolerance 0.05 -o out\n"
+      "The best tool of the catalogue: flank cover blade.step --face F1 --tool catalogue --tolerance 0.05 -o out");
   return {app, [job, folder, side](const CommonOptions& common) {
             if (*side) job->base.side = **side == "-" ? -1 : +1;
             return run_job(job->base, *folder, common,

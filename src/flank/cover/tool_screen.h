@@ -15,8 +15,10 @@ namespace flank {
 struct ScreenPlaces {
   std::vector<Footpoint> feet;
   std::vector<double> area;  ///< mm^2, one a footpoint
-  double width_mm = 0.0;     ///< across the target's longest extent: second principal extent of the footpoints
+  double diagonal_mm = 0.0;
+  double width_mm = 0.0;  ///< across the longest extent: the second principal extent of the footpoints
 };
+/// About `places` of them, spread evenly.
 [[nodiscard]] ScreenPlaces screen_places(const Target& target, int places);
 
 struct ScreenOptions {
@@ -26,27 +28,24 @@ struct ScreenOptions {
   int directions = 12;  ///< of the axis over half a turn, besides the admissible ones
 };
 
-/// Shares are of the target's area.
+/// Shares of the target's area, each of those places that the one before it leaves.
 struct ToolScreen {
   double reachable = 0.0;  ///< a ball of the tool's smallest radius touches and enters no obstacle (MATH section 9)
-  double fits = 0.0;       ///< reachable, and one of the tool's spheres fits the hollow
-  double accepted = 0.0;   ///< and in some direction the filter's error is at most slack * tolerance
-  double open = 0.0;       ///< and laid along such a direction the tool enters no obstacle: about what it can cover
-  double least_error_mm = 0.0;  ///< of the filter, over the places that are reachable
-  double mean_error_mm = 0.0;   ///< the same over those places, each with its own least error
-  std::string reason;           ///< why the tool cannot work, with its figure; empty where it may
+  double fits = 0.0;       ///< that ball fits the hollow, but for slack * tolerance
+  double accepted = 0.0;   ///< the filter accepts a direction for one of the tool's spheres
+  double open = 0.0;       ///< laid along such a direction the tool enters no obstacle: about what it can cover
+  double least_error_mm = 1e300;  ///< of the filter, over what is reachable; 1e300: nothing is
+  double mean_error_mm = 1e300;   ///< each place with its own least error, at most kMostErrorMm
+  std::string reason;             ///< why the tool cannot work, with its figure; empty where it may
 };
+inline constexpr double kMostErrorMm = 10.0;
 
-/// Error of the screen: the filter's (second order), and what lies between the directions and the places.
-[[nodiscard]] ToolScreen screen_tool(const ScreenPlaces& places, const Target& target, const Tool& tool,
-                                     const CoverObstacles& obstacles, const ScreenOptions& options);
+/// Second order and samples only: a promise in neither direction. Costs milliseconds to a second.
+[[nodiscard]] ToolScreen screen_tool(const ScreenPlaces& places, const Tool& tool, const CoverObstacles& obstacles,
+                                     const ScreenOptions& options);
 
-/// The same without obstacles and without the search for a free direction; microseconds a place. `reachable`, `fits` and
-/// `open` are left as if nothing were in the way.
-[[nodiscard]] ToolScreen screen_meridian(const ScreenPlaces& places, const Target& target, const RadialFunction& radial,
+/// The meridian alone, as if nothing were in the way: reachable and fits are 1 and open is accepted. Fast.
+[[nodiscard]] ToolScreen screen_meridian(const ScreenPlaces& places, const RadialFunction& radial,
                                          const ScreenOptions& options);
-
-/// Smallest radius of the flank, mm, over 101 samples.
-[[nodiscard]] double smallest_radius(const RadialFunction& radial);
 
 }  // namespace flank

@@ -53,6 +53,10 @@ void write_fit(const FitJob& job, const FitOutcome& outcome, const std::string& 
   write_file(file("job.json"), job_to_json(job));
   write_file(file("verify.json"), verify_to_json(outcome.verify, outcome.acceptance(job)));
   write_file(file("view.json"), outcome.view);
+  if (outcome.ranking.empty())
+    std::filesystem::remove(file("ranking.json"));
+  else
+    write_file(file("ranking.json"), outcome.ranking);
   write_file(file("summary.json"), summary_json(job, outcome));
 }
 

@@ -7,7 +7,9 @@
 
 #include "flank/base/error.h"
 #include "flank/cover/order.h"
+#include "flank/pipeline/catalogue_job.h"
 #include "flank/pipeline/check_surfaces.h"
+#include "flank/pipeline/cover_groups.h"
 #include "flank/pipeline/judge_job.h"
 #include "flank/pipeline/targets.h"
 #include "flank/pipeline/tool_command.h"
@@ -51,35 +53,6 @@ void check_job(const CoverJob& job) {
           "--strip-price: a share from 0 to 1 is needed");
 }
 
-CoverOptions options_of(const CoverJob& job) {
-  CoverOptions options = job.options;
-  options.strategy = strategy_of(job.strategy);
-  options.tolerance_mm = job.base.tolerance_mm;
-  if (job.most_strips) options.most_strips = *job.most_strips;
-  if (job.strip_price) options.strip_price = *job.strip_price;
-  return options;
-}
-
-/// Other faces of the part; for shank and holder the target itself as well: by its triangles, finely, because a shank as
-/// thick as the flank touches what the flank touches.
-CoverObstacles obstacles_of(const Part& part, const std::vector<int>& members, const TargetGroup& group,
-                            const Tool& tool, double tolerance_mm) {
-  constexpr double kOwnDeviationShare = 0.1, kSpareShare = 0.2;  ///< of the tolerance
-  double reach = 0.0;
-  for (int j = 0; j <= 16; ++j)
-    reach = std::max(reach, tool.radial.axis_length() + 2.0 * tool.radial.at(tool.radial.axis_length() * j / 16.0).r);
-  for (const auto* profile : {&tool.shank, &tool.holder})
-    for (const Vec2& p : *profile) reach = std::max(reach, p.x() + 2.0 * p.y());
-  CoverObstacles obstacles =
-      other_faces(part, members, *group.target, reach, std::clamp(0.3 * tolerance_mm, 1e-3, 0.05));
-  if (!tool.shank.empty() || !tool.holder.empty()) {
-    const double deviation_mm = std::clamp(kOwnDeviationShare * tolerance_mm, 1e-3, 0.02);
-    for (CheckSurface& own : own_faces(part, group.indices, deviation_mm, kSpareShare * tolerance_mm))
-      obstacles.surfaces.push_back(std::move(own));
-  }
-  return obstacles;
-}
-
 void keep(const CoverResult& result, const TargetGroup& group, FitOutcome& outcome) {
   outcome.fit.motions.insert(outcome.fit.motions.end(), result.motions.begin(), result.motions.end());
   outcome.fit.candidates += result.grown;
@@ -106,28 +79,9 @@ void keep(const CoverResult& result, const TargetGroup& group, FitOutcome& outco
   outcome.figures.emplace_back(prefix + "links mm", link_length(result.motions));
 }
 
-/// A group with its strips.
-struct Covered {
-  TargetGroup group;
-  CoverResult result;
-};
-
-/// Indices of the group's own faces, and of those that the user wants ignored.
-std::vector<int> no_obstacles(const CoverJob& job, const Part& part, const TargetGroup& group) {
-  std::vector<int> faces = group.indices;
-  const std::vector<int> targets = parse_face_list(part, job.base.faces);
-  const std::vector<int> checks = faces_to_check(part, targets, job.base.check);
-  for (int face = 0; face < part.face_count(); ++face) {
-    const bool target = std::find(targets.begin(), targets.end(), face) != targets.end();
-    if (!target && std::find(checks.begin(), checks.end(), face) == checks.end()) faces.push_back(face);
-  }
-  return faces;
-}
-
 Covered cover_group(const CoverJob& job, const Part& part, TargetGroup group, const Tool& tool,
                     const Progress& progress) {
-  const CoverObstacles obstacles =
-      obstacles_of(part, no_obstacles(job, part, group), group, tool, job.base.tolerance_mm);
+  const CoverObstacles obstacles = obstacles_of(job, part, group, extent_of(tool));
   CoverResult result = cover(*group.target, tool, obstacles, options_of(job), progress);
   return {std::move(group), std::move(result)};
 }
@@ -153,15 +107,64 @@ std::vector<Covered> cover_groups(const CoverJob& job, const Part& part, const s
   return all;
 }
 
+/// Indices of the group's own faces, and of those that the user wants ignored.
+std::vector<int> no_obstacles(const CoverJob& job, const Part& part, const TargetGroup& group) {
+  std::vector<int> faces = group.indices;
+  const std::vector<int> targets = parse_face_list(part, job.base.faces);
+  const std::vector<int> checks = faces_to_check(part, targets, job.base.check);
+  for (int face = 0; face < part.face_count(); ++face) {
+    const bool target = std::find(targets.begin(), targets.end(), face) != targets.end();
+    if (!target && std::find(checks.begin(), checks.end(), face) == checks.end()) faces.push_back(face);
+  }
+  return faces;
+}
+
 }  // namespace
+
+CoverOptions options_of(const CoverJob& job) {
+  CoverOptions options = job.options;
+  options.strategy = strategy_of(job.strategy);
+  options.tolerance_mm = job.base.tolerance_mm;
+  if (job.most_strips) options.most_strips = *job.most_strips;
+  if (job.strip_price) options.strip_price = *job.strip_price;
+  return options;
+}
+
+ToolExtent extent_of(const Tool& tool) {
+  ToolExtent extent;
+  const double length = tool.radial.axis_length();
+  for (int j = 0; j <= 16; ++j)
+    extent.reach_mm = std::max(extent.reach_mm, length + 2.0 * tool.radial.at(length * j / 16.0).r);
+  for (const auto* profile : {&tool.shank, &tool.holder}) {
+    extent.above = extent.above || !profile->empty();
+    for (const Vec2& p : *profile) extent.reach_mm = std::max(extent.reach_mm, p.x() + 2.0 * p.y());
+  }
+  return extent;
+}
+
+CoverObstacles obstacles_of(const CoverJob& job, const Part& part, const TargetGroup& group, const ToolExtent& extent) {
+  constexpr double kDeviationShare = 0.3, kOwnDeviationShare = 0.1, kSpareShare = 0.2;  ///< of the tolerance
+  const double tolerance_mm = job.base.tolerance_mm;
+  CoverObstacles obstacles = other_faces(part, no_obstacles(job, part, group), *group.target, extent.reach_mm,
+                                         std::clamp(kDeviationShare * tolerance_mm, 1e-3, 0.05));
+  if (!extent.above) return obstacles;
+  // By its triangles, finely: a shank as thick as the flank touches what the flank touches.
+  const double deviation_mm = std::clamp(kOwnDeviationShare * tolerance_mm, 1e-3, 0.02);
+  for (CheckSurface& own : own_faces(part, group.indices, deviation_mm, kSpareShare * tolerance_mm))
+    obstacles.surfaces.push_back(std::move(own));
+  return obstacles;
+}
 
 FitOutcome run_cover(const CoverJob& job, const Progress& progress) {
   check_job(job);
   const FitJob& base = job.base;
   FitOutcome outcome;
-  outcome.tool = tool_of(base);
-  check_clearance_job(base.clearance, &outcome.tool);
-  equip_tool(base.clearance, outcome.tool);
+  const std::optional<ToolChoice> choice = tool_choice(job);
+  if (!choice) {
+    outcome.tool = tool_of(base);
+    check_clearance_job(base.clearance, &outcome.tool);
+    equip_tool(base.clearance, outcome.tool);
+  }
   Stopwatch watch(outcome);
   progress.step("read", 0.0);
   const Part part = read_part(base.part, base.unit);
@@ -170,7 +173,8 @@ FitOutcome run_cover(const CoverJob& job, const Progress& progress) {
   outcome.notes = part.repairs;
   if (const std::string note = unchecked_note(part, faces, checks); !note.empty()) outcome.notes.push_back(note);
   watch.lap("read");
-  const std::vector<Covered> all = cover_groups(job, part, faces, outcome.tool, progress);
+  const std::vector<Covered> all = choice ? cover_with_best(job, *choice, part, faces, outcome, progress)
+                                          : cover_groups(job, part, faces, outcome.tool, progress);
   watch.lap("cover");
   outcome.fit.tool = outcome.tool.radial;
   outcome.diagonal_mm = all.front().group.target->diagonal();

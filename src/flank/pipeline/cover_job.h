@@ -2,18 +2,22 @@
 #pragma once
 
 #include "flank/cover/cover.h"
+#include "flank/cover/tool_ranking.h"
 #include "flank/pipeline/fit_job.h"
 
 namespace flank {
 
 /// What the user asked for. Of `base`: part, unit, faces, side, tool, tolerance, axis length (of a family), coverage,
-/// sample, clearance.
+/// sample, clearance. `base.tool` is a tool, "catalogue", or a family of which parameters are open.
 struct CoverJob {
   FitJob base;
   std::string strategy = "grow";  ///< or "curves"
   std::optional<int> most_strips;
-  std::optional<double> strip_price;  ///< share of the area
-  CoverOptions options;               ///< tolerance, strips and price are taken from the fields above
+  std::optional<double> strip_price;     ///< share of the area
+  std::optional<std::string> catalogue;  ///< folder of tool files, for "catalogue"
+  int finalists = 3;                     ///< tools that are covered in full
+  MachiningRates rates;
+  CoverOptions options;  ///< tolerance, strips and price are taken from the fields above
 
   CoverJob() {
     base.command = "cover";

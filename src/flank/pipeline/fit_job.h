@@ -50,6 +50,8 @@ struct FitOutcome {
   std::vector<StripSurface> strip_surfaces;  ///< one a strip of the path
   VerifyReport verify;
   std::string view;             ///< view.json, for `flank report`
+  std::string ranking;          ///< ranking.json, where tools were ranked; else empty
+  std::string ranking_text;     ///< the same as a table
   double chord_bound_mm = 0.0;  ///< between the motion and the joined poses
   double largest_c = 0.0;       ///< regularity of the envelope along the written path, < 1 needed
   double diagonal_mm = 0.0;     ///< of the target
@@ -86,7 +88,7 @@ void judge_outcome(const FitJob& job, const Part& part, const std::vector<int>& 
                    FitOutcome& outcome, Stopwatch& watch);
 
 /// Writes tool.json, tool.dxf, tool.step, tool.fctb, strips.step, path.json, path.cls, path.csv, verify.json, view.json,
-/// summary.json and job.json to a folder. A tool that is not legitimate has neither
+/// summary.json and job.json to a folder, and ranking.json where tools were ranked. A tool that is not legitimate has neither
 /// tool.step nor tool.fctb.
 void write_fit(const FitJob& job, const FitOutcome& outcome, const std::string& folder);
 

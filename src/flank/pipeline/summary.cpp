@@ -39,6 +39,7 @@ std::string summary_text(const FitJob& job, const FitOutcome& outcome) {
       fmt::format("  bound       between the judge's samples f is worse by at most {:.4f} mm\n", v.sampling_bound_mm);
   text += clearance_text(v.clearance);
   for (const auto& [name, value] : outcome.figures) text += fmt::format("  {:<11} {:.4g}\n", name, value);
+  text += outcome.ranking_text;
   for (const std::string& note : outcome.notes) text += "  note        " + note + "\n";
   text += "  time       ";
   for (const auto& [stage, seconds] : outcome.seconds) text += fmt::format(" {} {:.2f} s", stage, seconds);
@@ -82,6 +83,7 @@ std::string summary_json(const FitJob& job, const FitOutcome& outcome) {
   json["before"] = {{"coverage", outcome.fit.before.at_tolerance}, {"overcut", outcome.fit.before.overcut_mm}};
   json["after"] = {{"coverage", outcome.fit.after.at_tolerance}, {"overcut", outcome.fit.after.overcut_mm}};
   for (const auto& [name, value] : outcome.figures) json["figures"][name] = value;
+  if (!outcome.ranking.empty()) json["ranking"] = nlohmann::ordered_json::parse(outcome.ranking).at("tools");
   json["residuals"] = {{"rms", outcome.fit.residuals.rms_mm},
                        {"largest", outcome.fit.residuals.largest_mm},
                        {"inside_share", outcome.fit.residuals.inside_share}};

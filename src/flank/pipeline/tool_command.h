@@ -27,6 +27,9 @@ struct ToolSpec {
   [[nodiscard]] bool complete() const;
 };
 
+/// Is it a family of which make_tool needs more than is given? A barrel's s0 it does not need.
+[[nodiscard]] bool has_open_parameters(const ToolSpec& spec);
+
 /// Parses "free", "cone", "cylinder:diameter=8", "cone:radius=2,angle=3", "barrel:arc=85,radius=5", or the name of a
 /// tool.json (what ends in .json or .dxf or contains a slash). Lengths in mm, angles in degrees; "diameter" and
 /// "end_diameter" stand for twice a radius, spellings of a family with blank, hyphen or underscore are one. "spline"

@@ -67,6 +67,15 @@ bool is_plain_size(const std::string& name) { return name == "radius" || name ==
 
 bool ToolSpec::complete() const { return family && given.size() == parameter_names(*family).size(); }
 
+bool has_open_parameters(const ToolSpec& spec) {
+  if (!spec.family) return false;
+  const auto names = parameter_names(*spec.family);
+  return std::any_of(names.begin(), names.end(), [&](std::string_view name) {
+    const bool middle = *spec.family == ToolFamily::kBarrel && name == "s0";
+    return !middle && !spec.given.contains(std::string(name));
+  });
+}
+
 std::pair<std::string, double> parse_tool_parameter(ToolFamily family, const std::string& text,
                                                     const std::string& option) {
   const std::string place = option + " " + text;

@@ -1,0 +1,32 @@
+/// What covering with one tool and ranking many have in common: targets, what is in the way, and what is done with strips.
+#pragma once
+
+#include <vector>
+
+#include "flank/cover/cover.h"
+#include "flank/pipeline/cover_job.h"
+#include "flank/pipeline/targets.h"
+
+namespace flank {
+
+/// A group with its strips.
+struct Covered {
+  TargetGroup group;
+  CoverResult result;
+};
+
+/// How far a tool reaches from a place that it touches, mm, and whether anything stands above its flank.
+struct ToolExtent {
+  double reach_mm = 0.0;
+  bool above = false;
+};
+[[nodiscard]] ToolExtent extent_of(const Tool& tool);
+
+/// What is in the way of tools of this extent at a group of targets: other faces of the part; for shank and holder the
+/// target itself as well.
+[[nodiscard]] CoverObstacles obstacles_of(const CoverJob& job, const Part& part, const TargetGroup& group,
+                                          const ToolExtent& extent);
+
+[[nodiscard]] CoverOptions options_of(const CoverJob& job);
+
+}  // namespace flank
