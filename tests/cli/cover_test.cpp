@@ -67,7 +67,8 @@ TEST_F(Cli, CoverRefusesWrongUsage) {
   refused({}, "--tool");
   refused({"--tool", "free"}, "--tool");
   refused({"--tool", "cylinder:radius=5"}, "--axis-length");
-  refused({"--tool", "barrel:radius=5", "--axis-length", "20"}, "arc");
+  refused({"--tool", "power", "--axis-length", "20"}, "power");
+  refused({"--tool", "barrel:radius=5", "--axis-length", "-20"}, "--axis-length");
   for (const auto& [option, value] : std::vector<std::pair<std::string, std::string>>{{"--tolerance", "0"},
                                                                                       {"--coverage", "2"},
                                                                                       {"--strips", "0"},

@@ -34,7 +34,7 @@ class FamilyChart {
   /// The tool at x in [0, 1]^n, its parameters rounded: radii to 0.01 mm, arcs to four digits, angles to 0.01 degrees.
   /// Nothing where that is no legitimate tool.
   [[nodiscard]] std::optional<RadialFunction> at(const std::vector<double>& x) const;
-  /// "radius 2.4 to 13.2 mm, arc from -31.2 (concave) over straight to 45.6 mm": what was searched.
+  /// "radius from a tenth of the axis to 13.2 mm, arc from -31.2 mm (concave) over straight to 45.6 mm".
   [[nodiscard]] std::string text() const;
 
  private:
