@@ -7,11 +7,20 @@
 #include "flank/pipeline/cover_job.h"
 
 namespace flank {
-
 namespace {
 
-/// How a tool is chosen, for --tool catalogue and families with open parameters.
-void add_choice_options(CLI::App& app, CoverJob& job) {
+/// The tool, and how it is chosen for --tool catalogue and families with open parameters.
+void add_tool_options(CLI::App& app, CoverJob& job) {
+  app.add_option(
+         "--tool", job.base.tool,
+         "A tool.json; a family with all its parameters (barrel:arc=85,radius=5) and --axis-length; a family "
+         "with some or none (barrel, barrel:radius=5): the others are searched for this face; or catalogue: the "
+         "best of a folder of tools")
+      ->required();
+  app.add_option(
+      "--axis-length", job.base.axis_length_mm,
+      "Length of the axis of a family, mm; where parameters are searched, default: the width of the face over 1, 2, 3 "
+      "and 4 strips, all tried");
   const std::string group = "Choice of the tool";
   app.add_option(
          "--catalogue", job.catalogue,
@@ -34,26 +43,17 @@ void add_choice_options(CLI::App& app, CoverJob& job) {
 }  // namespace
 
 Subcommand add_cover(CLI::App& parser) {
-  CLI::App* app =
-      parser.add_subcommand("cover", "Find the strips with which a given tool finishes a face, and judge them");
+  CLI::App* app = parser.add_subcommand(
+      "cover", "Find the strips with which a tool finishes a face, and judge them; the tool is given, or chosen");
   auto job = std::make_shared<CoverJob>();
   auto folder = std::make_shared<std::string>();
   auto side = std::make_shared<std::optional<std::string>>();
   app->add_option("PART", job->base.part, "STEP, IGES, BREP, STL, OBJ or PLY file")->required();
   app->add_option("--face", job->base.faces, "Faces to machine: F1 or F1,F3 (see flank inspect)")
       ->capture_default_str();
-  app->add_option(
-         "--tool", job->base.tool,
-         "A tool.json; a family with all its parameters (barrel:arc=85,radius=5) and --axis-length; a family "
-         "with some or none (barrel, barrel:radius=5): the others are searched for this face; or catalogue: the "
-         "best of a folder of tools")
-      ->required();
+  add_tool_options(*app, *job);
   app->add_option("-o,--output", *folder, "Folder for the results")->required();
   app->add_option("--tolerance", job->base.tolerance_mm, "Tolerance, mm")->capture_default_str();
-  app->add_option(
-      "--axis-length", job->base.axis_length_mm,
-      "Length of the axis of a family, mm; where parameters are searched, default: the width of the face over 1, 2, 3 "
-      "and 4 strips, all tried");
   app->add_option("--strategy", job->strategy,
                   "How strips are found: grow, or curves (the published method, to compare)")
       ->capture_default_str();
@@ -65,7 +65,6 @@ Subcommand add_cover(CLI::App& parser) {
   app->add_option("--coverage", job->base.least_coverage, "Share of the face within tolerance that counts as done")
       ->capture_default_str();
   app->add_option("--sample", job->base.sample_mm, "Spacing of the judge's samples, mm");
-  add_choice_options(*app, *job);
   add_clearance_options(*app, job->base.clearance);
   add_check_options(*app, job->base.check, job->base.reach_radius_mm);
   app->add_option("--unit", job->base.unit, "Unit of a mesh: mm, cm, m or in")

@@ -105,6 +105,8 @@ TEST(FamilySearch, FindsTheBestTool) {
   EXPECT_NEAR(found.tools.front().radial.at(0.0).d1, std::sin(0.07), 0.002);
   EXPECT_NE(found.searched.find("axis 20 mm (given)"), std::string::npos) << found.searched;
   EXPECT_LT(found.covered, 70);
+  ASSERT_EQ(found.tools.size(), 3u);
+  for (std::size_t k = 1; k < 3; ++k) EXPECT_NE(found.tools[k].name, found.tools[k - 1].name);
 }
 
 TEST(FamilySearch, WhatIsGivenStays) {

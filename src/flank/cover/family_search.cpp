@@ -94,6 +94,40 @@ void keep_best(std::vector<Candidate>& candidates, std::size_t count) {
     candidates.erase(candidates.begin() + static_cast<std::ptrdiff_t>(count), candidates.end());
 }
 
+/// The same with as many of every chart: screens favour short tools, strips do not.
+void keep_best_of_each(const Search& search, std::vector<Candidate>& candidates, std::size_t count) {
+  std::vector<Candidate> kept;
+  for (std::size_t c = 0; c < search.charts.size(); ++c) {
+    std::vector<Candidate> of_chart;
+    for (const Candidate& candidate : candidates)
+      if (candidate.chart == c) of_chart.push_back(candidate);
+    keep_best(of_chart, std::max<std::size_t>(1, count / search.charts.size()));
+    kept.insert(kept.end(), of_chart.begin(), of_chart.end());
+  }
+  candidates = std::move(kept);
+  keep_best(candidates, candidates.size());
+}
+
+/// The best, no two of them nearly the same.
+std::vector<Tool> best_tools(const Search& search, std::vector<Candidate> candidates, std::size_t count) {
+  constexpr double kAlike = 0.03;  ///< in every coordinate
+  keep_best(candidates, candidates.size());
+  std::vector<const Candidate*> kept;
+  for (const Candidate& candidate : candidates) {
+    const auto alike = [&](const Candidate* other) {
+      if (other->chart != candidate.chart) return false;
+      for (std::size_t k = 0; k < candidate.x.size(); ++k)
+        if (std::abs(other->x[k] - candidate.x[k]) > kAlike) return false;
+      return true;
+    };
+    if (kept.size() == count || candidate.value == -1e300 || std::any_of(kept.begin(), kept.end(), alike)) continue;
+    kept.push_back(&candidate);
+  }
+  std::vector<Tool> tools;
+  for (const Candidate* candidate : kept) tools.push_back(search.tool(*candidate));
+  return tools;
+}
+
 void screen_free(const Search& search, Candidate& candidate) {
   const Tool tool = search.tool(candidate);
   candidate.screen = screen_all(search, [&](std::size_t k, std::size_t side) {
@@ -208,11 +242,11 @@ FamilySearchResult search_family(std::span<const RankingTarget> targets, ToolFam
     });
     candidates[i].value = search.estimate(candidates[i]);
   });
-  keep_best(candidates, options.screened);
+  keep_best_of_each(search, candidates, options.screened);
   progress.step("screen tools", kGridTo);
   parallel_for(candidates.size(), [&](std::size_t k) { screen_free(search, candidates[k]); });
   result.screened = static_cast<int>(candidates.size());
-  keep_best(candidates, options.tried);
+  keep_best_of_each(search, candidates, options.tried);
   if (candidates.empty())
     throw UsageError(
         fmt::format("--tool {}: none is a legitimate tool, over {}", family_name(family), result.searched));
@@ -221,9 +255,7 @@ FamilySearchResult search_family(std::span<const RankingTarget> targets, ToolFam
   keep_best(candidates, options.tried);
   if (candidates.front().value > -1e300) compass(search, candidates, progress);
   result.covered = static_cast<int>(candidates.size());
-  keep_best(candidates, options.kept);
-  std::erase_if(candidates, [](const Candidate& candidate) { return candidate.value == -1e300; });
-  for (const Candidate& candidate : candidates) result.tools.push_back(search.tool(candidate));
+  result.tools = best_tools(search, std::move(candidates), options.kept);
   if (result.tools.empty()) result.tools.push_back(nearest);
   return result;
 }
