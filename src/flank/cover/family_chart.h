@@ -49,7 +49,7 @@ class FamilyChart {
   double curvature_unit_ = 0.0;                        ///< 1/mm: what the tolerance sees along this axis
   double angle_low_ = 0.0, angle_high_ = 0.0;
 };
-inline constexpr double kMostConeAngle = 0.17453292519943295, kMostTaperAngle = 0.6981317007977318;  ///< rad
+inline constexpr double kMostConeAngle = 0.3490658503988659, kMostTaperAngle = 0.6981317007977318;  ///< rad
 inline constexpr double kMostSlope = 0.2;  ///< of `hyperbolic`, either way
 
 /// "barrel:arc=85,radius=5": as --tool takes it; angles in degrees.

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kTieShare = 0.01;  ///< of the face's area: what the smooth term is worth at most
 constexpr int kMostStripsAcross = 4;
+constexpr std::size_t kStarts = 2;  ///< of the compass search, of different lengths
 constexpr double kGridTo = 0.02, kScreenTo = 0.05, kTryTo = 0.2, kCompassTo = 0.4;  ///< shares of progress
 
 /// One tool of the search: where it is, and what is known of it.
@@ -170,17 +171,18 @@ std::vector<Candidate> neighbours(const Search& search, const Candidate& best, c
   return around;
 }
 
-/// All that were covered on the way join `tried`.
-void compass(const Search& search, std::vector<Candidate>& tried, const Progress& progress) {
-  Candidate best = tried.front();
+/// From one tool, in the share [first, last] of the compass' progress. All that were covered on the way join `tried`.
+void compass(const Search& search, Candidate best, double first, double last, std::vector<Candidate>& tried,
+             const Progress& progress) {
   std::vector<double> step;
   for (std::size_t k = 0; k < best.x.size(); ++k) step.push_back(0.5 / (search.charts[best.chart].levels(k) - 1));
   for (int round = 0; round < search.options.rounds && !progress.stop(); ++round) {
     std::vector<Candidate> around = neighbours(search, best, step);
     parallel_for(around.size(), [&](std::size_t k) { screen_free(search, around[k]); });
-    const double from = kTryTo + (kCompassTo - kTryTo) * round / search.options.rounds;
-    const double to = kTryTo + (kCompassTo - kTryTo) * (round + 1) / search.options.rounds;
-    cover_quickly(search, around, "refine the tool", from, to, progress);
+    const auto share = [&](int done) {
+      return kTryTo + (kCompassTo - kTryTo) * (first + (last - first) * done / search.options.rounds);
+    };
+    cover_quickly(search, around, "refine the tool", share(round), share(round + 1), progress);
     tried.insert(tried.end(), around.begin(), around.end());
     const auto top = std::max_element(around.begin(), around.end(),
                                       [](const Candidate& a, const Candidate& b) { return a.value < b.value; });
@@ -189,6 +191,17 @@ void compass(const Search& search, std::vector<Candidate>& tried, const Progress
     else
       for (double& s : step) s *= 0.5;
   }
+}
+
+/// A compass search from the best, and from the best of another length: which length wins shows only when both are refined.
+void refine(const Search& search, std::vector<Candidate>& tried, const Progress& progress) {
+  std::vector<Candidate> starts;
+  for (const Candidate& candidate : tried) {
+    const bool other_length = starts.empty() || candidate.chart != starts.front().chart;
+    if (candidate.value > -1e300 && other_length && starts.size() < kStarts) starts.push_back(candidate);
+  }
+  for (std::size_t k = 0; k < starts.size(); ++k)
+    compass(search, starts[k], double(k) / kStarts, double(k + 1) / kStarts, tried, progress);
 }
 
 Search prepare(std::span<const RankingTarget> targets, ToolFamily family, const std::map<std::string, double>& given,
@@ -253,7 +266,7 @@ FamilySearchResult search_family(std::span<const RankingTarget> targets, ToolFam
   const Tool nearest = search.tool(candidates.front());
   cover_quickly(search, candidates, "try tools", kScreenTo, kTryTo, progress);
   keep_best(candidates, options.tried);
-  if (candidates.front().value > -1e300) compass(search, candidates, progress);
+  refine(search, candidates, progress);
   result.covered = static_cast<int>(candidates.size());
   result.tools = best_tools(search, std::move(candidates), options.kept);
   if (result.tools.empty()) result.tools.push_back(nearest);

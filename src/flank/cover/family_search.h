@@ -32,7 +32,7 @@ struct FamilySearchResult {
 };
 
 /// Grid over the chart (meridians only), the best of it screened with all obstacles, the best of those covered quickly;
-/// from the best a compass search: one coordinate up or down by a step, which is halved where none is better. What it
+/// from the best, and from the best of another length, a compass search: one coordinate up or down by a step, which is halved where none is better. What it
 /// maximises is ranking_value plus a small term of the screen's mean error, which tells tools apart that cover alike.
 /// Deterministic, for any number of threads. Throws UsageError for a family without named sizes (power, spline),
 /// and where what is given leaves no legitimate tool.
