@@ -17,7 +17,7 @@ constexpr std::size_t kStarts = 2;  ///< of the compass search, of different len
 constexpr double kGridTo = 0.02, kScreenTo = 0.05, kTryTo = 0.2, kCompassTo = 0.4;  ///< shares of progress
 
 /// One tool of the search: where it is, and what is known of it.
-struct Candidate {
+struct Member {
   std::size_t chart = 0;
   std::vector<double> x;
   std::optional<RadialFunction> radial;
@@ -34,13 +34,13 @@ struct Search {
   std::vector<double> lengths;
   ScreenOptions screen_options;
 
-  [[nodiscard]] Tool tool(const Candidate& candidate) const {
+  [[nodiscard]] Tool tool(const Member& candidate) const {
     Tool tool = options.equip ? options.equip(*candidate.radial) : Tool{*candidate.radial, "", {}, {}};
     tool.name = family_text(*candidate.radial);
     return tool;
   }
   /// Covered share less the price of as many strips as lie side by side across the target.
-  [[nodiscard]] double estimate(const Candidate& candidate) const {
+  [[nodiscard]] double estimate(const Member& candidate) const {
     const double across = std::ceil(places.front().front().width_mm / candidate.radial->axis_length() - 0.1);
     return candidate.screen.open - options.ranking.cover.strip_price * across + tie(candidate.screen);
   }
@@ -67,14 +67,14 @@ ToolScreen screen_all(const Search& search, const Screen& screen) {
   return sum;
 }
 
-std::vector<Candidate> grid_of(const Search& search) {
-  std::vector<Candidate> grid;
+std::vector<Member> grid_of(const Search& search) {
+  std::vector<Member> grid;
   for (std::size_t c = 0; c < search.charts.size(); ++c) {
     const FamilyChart& chart = search.charts[c];
     const std::size_t n = chart.coordinates().size();
     std::vector<int> index(n, 0);
     for (bool more = true; more;) {
-      Candidate candidate{c, std::vector<double>(n), {}, {}};
+      Member candidate{c, std::vector<double>(n), {}, {}};
       for (std::size_t k = 0; k < n; ++k) candidate.x[k] = double(index[k]) / (chart.levels(k) - 1);
       candidate.radial = chart.at(candidate.x);
       if (candidate.radial) grid.push_back(std::move(candidate));
@@ -88,19 +88,19 @@ std::vector<Candidate> grid_of(const Search& search) {
   return grid;
 }
 
-void keep_best(std::vector<Candidate>& candidates, std::size_t count) {
+void keep_best(std::vector<Member>& candidates, std::size_t count) {
   std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.value > b.value; });
+                   [](const Member& a, const Member& b) { return a.value > b.value; });
   if (candidates.size() > count)
     candidates.erase(candidates.begin() + static_cast<std::ptrdiff_t>(count), candidates.end());
 }
 
 /// The same with as many of every chart: screens favour short tools, strips do not.
-void keep_best_of_each(const Search& search, std::vector<Candidate>& candidates, std::size_t count) {
-  std::vector<Candidate> kept;
+void keep_best_of_each(const Search& search, std::vector<Member>& candidates, std::size_t count) {
+  std::vector<Member> kept;
   for (std::size_t c = 0; c < search.charts.size(); ++c) {
-    std::vector<Candidate> of_chart;
-    for (const Candidate& candidate : candidates)
+    std::vector<Member> of_chart;
+    for (const Member& candidate : candidates)
       if (candidate.chart == c) of_chart.push_back(candidate);
     keep_best(of_chart, std::max<std::size_t>(1, count / search.charts.size()));
     kept.insert(kept.end(), of_chart.begin(), of_chart.end());
@@ -110,12 +110,12 @@ void keep_best_of_each(const Search& search, std::vector<Candidate>& candidates,
 }
 
 /// The best, no two of them nearly the same.
-std::vector<Tool> best_tools(const Search& search, std::vector<Candidate> candidates, std::size_t count) {
+std::vector<Tool> best_tools(const Search& search, std::vector<Member> candidates, std::size_t count) {
   constexpr double kAlike = 0.03;  ///< in every coordinate
   keep_best(candidates, candidates.size());
-  std::vector<const Candidate*> kept;
-  for (const Candidate& candidate : candidates) {
-    const auto alike = [&](const Candidate* other) {
+  std::vector<const Member*> kept;
+  for (const Member& candidate : candidates) {
+    const auto alike = [&](const Member* other) {
       if (other->chart != candidate.chart) return false;
       for (std::size_t k = 0; k < candidate.x.size(); ++k)
         if (std::abs(other->x[k] - candidate.x[k]) > kAlike) return false;
@@ -125,11 +125,11 @@ std::vector<Tool> best_tools(const Search& search, std::vector<Candidate> candid
     kept.push_back(&candidate);
   }
   std::vector<Tool> tools;
-  for (const Candidate* candidate : kept) tools.push_back(search.tool(*candidate));
+  for (const Member* candidate : kept) tools.push_back(search.tool(*candidate));
   return tools;
 }
 
-void screen_free(const Search& search, Candidate& candidate) {
+void screen_free(const Search& search, Member& candidate) {
   const Tool tool = search.tool(candidate);
   candidate.screen = screen_all(search, [&](std::size_t k, std::size_t side) {
     return screen_tool(search.places[k][side], tool, *search.targets[k][side].obstacles, search.screen_options);
@@ -138,14 +138,14 @@ void screen_free(const Search& search, Candidate& candidate) {
 }
 
 /// In batches of as many as there are threads; what is cancelled keeps a value below all others.
-void cover_quickly(const Search& search, std::vector<Candidate>& candidates, std::string_view stage, double from,
+void cover_quickly(const Search& search, std::vector<Member>& candidates, std::string_view stage, double from,
                    double to, const Progress& progress) {
   const Progress quiet{{}, progress.cancelled};
   const auto batch = static_cast<std::size_t>(thread_count());
   for (std::size_t first = 0; first < candidates.size(); first += batch) {
     progress.step(stage, from + (to - from) * double(first) / double(candidates.size()));
     parallel_for(std::min(batch, candidates.size() - first), [&](std::size_t k) {
-      Candidate& candidate = candidates[first + k];
+      Member& candidate = candidates[first + k];
       candidate.value = -1e300;
       if (progress.stop() || !candidate.screen.reason.empty()) return;
       const RankedTool covered =
@@ -157,11 +157,11 @@ void cover_quickly(const Search& search, std::vector<Candidate>& candidates, std
 }
 
 /// Neighbours of the best along every coordinate.
-std::vector<Candidate> neighbours(const Search& search, const Candidate& best, const std::vector<double>& step) {
-  std::vector<Candidate> around;
+std::vector<Member> neighbours(const Search& search, const Member& best, const std::vector<double>& step) {
+  std::vector<Member> around;
   for (std::size_t k = 0; k < best.x.size(); ++k) {
     for (const double sign : {-1.0, 1.0}) {
-      Candidate next{best.chart, best.x, {}, {}};
+      Member next{best.chart, best.x, {}, {}};
       next.x[k] = std::clamp(best.x[k] + sign * step[k], 0.0, 1.0);
       if (next.x[k] == best.x[k]) continue;
       next.radial = search.charts[best.chart].at(next.x);
@@ -172,12 +172,12 @@ std::vector<Candidate> neighbours(const Search& search, const Candidate& best, c
 }
 
 /// From one tool, in the share [first, last] of the compass' progress. All that were covered on the way join `tried`.
-void compass(const Search& search, Candidate best, double first, double last, std::vector<Candidate>& tried,
+void compass(const Search& search, Member best, double first, double last, std::vector<Member>& tried,
              const Progress& progress) {
   std::vector<double> step;
   for (std::size_t k = 0; k < best.x.size(); ++k) step.push_back(0.5 / (search.charts[best.chart].levels(k) - 1));
   for (int round = 0; round < search.options.rounds && !progress.stop(); ++round) {
-    std::vector<Candidate> around = neighbours(search, best, step);
+    std::vector<Member> around = neighbours(search, best, step);
     parallel_for(around.size(), [&](std::size_t k) { screen_free(search, around[k]); });
     const auto share = [&](int done) {
       return kTryTo + (kCompassTo - kTryTo) * (first + (last - first) * done / search.options.rounds);
@@ -185,7 +185,7 @@ void compass(const Search& search, Candidate best, double first, double last, st
     cover_quickly(search, around, "refine the tool", share(round), share(round + 1), progress);
     tried.insert(tried.end(), around.begin(), around.end());
     const auto top = std::max_element(around.begin(), around.end(),
-                                      [](const Candidate& a, const Candidate& b) { return a.value < b.value; });
+                                      [](const Member& a, const Member& b) { return a.value < b.value; });
     if (top != around.end() && top->value > best.value)
       best = *top;
     else
@@ -194,9 +194,9 @@ void compass(const Search& search, Candidate best, double first, double last, st
 }
 
 /// A compass search from the best, and from the best of another length: which length wins shows only when both are refined.
-void refine(const Search& search, std::vector<Candidate>& tried, const Progress& progress) {
-  std::vector<Candidate> starts;
-  for (const Candidate& candidate : tried) {
+void refine(const Search& search, std::vector<Member>& tried, const Progress& progress) {
+  std::vector<Member> starts;
+  for (const Member& candidate : tried) {
     const bool other_length = starts.empty() || candidate.chart != starts.front().chart;
     if (candidate.value > -1e300 && other_length && starts.size() < kStarts) starts.push_back(candidate);
   }
@@ -247,7 +247,7 @@ FamilySearchResult search_family(std::span<const RankingTarget> targets, ToolFam
   const Search search = prepare(targets, family, given, options);
   FamilySearchResult result;
   result.searched = searched_text(search);
-  std::vector<Candidate> candidates = grid_of(search);
+  std::vector<Member> candidates = grid_of(search);
   result.grid = static_cast<int>(candidates.size());
   parallel_for(candidates.size(), [&](std::size_t i) {
     candidates[i].screen = screen_all(search, [&](std::size_t k, std::size_t side) {
