@@ -64,9 +64,8 @@ struct Shifts {
 };
 
 /// What takes the poses of a strip out of the target where they are too deep in it, and out of other faces.
-Shifts shifts_of(const LineGuard& guard, const CoverStrip& strip, double depth_mm, LineFitter& fitter) {
+Shifts shifts_of(const LineGuard& guard, const CoverStrip& strip, double depth_mm, int poses, LineFitter& fitter) {
   constexpr double kReachShare = 0.25;  ///< of the axis: a slide that is longer is another strip
-  const int poses = depth_poses(strip.motion);
   Shifts shifts;
   fitter.forget();
   for (int i = 0; i <= poses; ++i) {
@@ -91,6 +90,11 @@ Shifts shifts_of(const LineGuard& guard, const CoverStrip& strip, double depth_m
   return shifts;
 }
 
+RuledMotion moved(const RuledMotion& motion, const Shifts& shifts) {
+  const int reach = std::max(1, static_cast<int>(shifts.tips.size()) / motion.tip.count());
+  return shifted(motion, ramped(shifts.tips, reach), ramped(shifts.holders, reach));
+}
+
 }  // namespace
 
 CoverStrip lifted(const CoverSamples& samples, const LineGuard& guard, CoverStrip strip, const RadialFunction& radial,
@@ -100,11 +104,9 @@ CoverStrip lifted(const CoverSamples& samples, const LineGuard& guard, CoverStri
   const double limit = kCertifiedShare * fitter.options().tolerance_mm;
   for (int k = 0; k < kTries && !strip.cells.empty(); ++k) {
     const double depth = strip.overcut_mm > limit ? kAim * limit : strip.overcut_mm;
-    const Shifts shifts = shifts_of(guard, strip, depth, fitter);
+    const Shifts shifts = shifts_of(guard, strip, depth, depth_poses(strip.motion), fitter);
     if (!shifts.any) break;
-    const int reach = std::max(1, depth_poses(strip.motion) / strip.motion.tip.count());
-    strip = measure_strip(samples, shifted(strip.motion, ramped(shifts.tips, reach), ramped(shifts.holders, reach)),
-                          radial, fitter);
+    strip = measure_strip(samples, moved(strip.motion, shifts), radial, fitter);
   }
   return strip;
 }
@@ -137,17 +139,18 @@ CoverStrip cut_to_certified(const CoverSamples& samples, const LineGuard& guard,
 namespace {
 
 constexpr int kFinePoses = 1000;
-constexpr double kFineShare = 0.98;  ///< of the tolerance: nothing but the judge looks after this
+/// Of the tolerance, for the target and for other faces: nothing but the judge looks after this.
+constexpr double kFineShare = 0.98, kFineFloorShare = 0.9;
 
-/// First and last of the longest run of fine steps that are not too deep; last < first: there is none.
-std::pair<int, int> longest_good(const RuledMotion& motion, LineFitter& fitter) {
+/// First and last of the longest run of fine steps that are not too deep, and clear; last < first: there is none.
+std::pair<int, int> longest_good(const LineGuard& guard, const RuledMotion& motion, LineFitter& fitter) {
   const double limit = kFineShare * fitter.options().tolerance_mm;
   std::pair<int, int> best = {0, -1};
   fitter.forget();
   for (int i = 0, first = 0; i <= kFinePoses; ++i) {
     const Pose pose = motion.pose(static_cast<double>(i) / kFinePoses);
     (void)fitter.measure(pose);
-    if (fitter.overcut(pose, limit) > limit)
+    if (fitter.overcut(pose, limit) > limit || !guard.clear(pose))
       first = i + 1;
     else if (i - first > best.second - best.first)
       best = {first, i};
@@ -159,10 +162,18 @@ std::pair<int, int> longest_good(const RuledMotion& motion, LineFitter& fitter) 
 
 CoverStrip cut_finely(const CoverSamples& samples, const LineGuard& guard, CoverStrip strip,
                       const RadialFunction& radial, LineFitter& fitter) {
-  constexpr int kTries = 3;
+  constexpr int kTries = 6, kLifts = 3;
+  const double tolerance = fitter.options().tolerance_mm;
+  const LineGuard last_guard =
+      guard.with_floor(guard.floor_mm() < 0.0 ? -kFineFloorShare * tolerance : guard.floor_mm());
   for (int k = 0; k < kTries; ++k) {
-    const auto [first, last] = longest_good(strip.motion, fitter);
+    const auto [first, last] = longest_good(last_guard, strip.motion, fitter);
     if (first == 0 && last == kFinePoses) return strip;
+    if (k < kLifts) {
+      const Shifts shifts = shifts_of(guard, strip, kCertifiedShare * tolerance, kFinePoses, fitter);
+      strip = measure_strip(samples, moved(strip.motion, shifts), radial, fitter);
+      continue;
+    }
     if (last - first < kFinePoses / 10) return {};
     const double step = 1.0 / kFinePoses;
     const double t0 = (first + (first > 0 ? 1 : 0)) * step, t1 = (last - (last < kFinePoses ? 1 : 0)) * step;

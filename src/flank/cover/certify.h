@@ -21,7 +21,7 @@ namespace flank {
                                           const RadialFunction& radial, LineFitter& fitter);
 
 /// Past the last points of the target that hold them, rails may run off within one of the certificate's steps. Where a
-/// look in a thousand steps finds that, the strip is cut short. No cells where a tenth of it is not left.
+/// look in a thousand steps finds that, or another face, the strip is lifted, and what does not help is cut off. No cells where a tenth of it is not left.
 [[nodiscard]] CoverStrip cut_finely(const CoverSamples& samples, const LineGuard& guard, CoverStrip strip,
                                     const RadialFunction& radial, LineFitter& fitter);
 

@@ -21,7 +21,7 @@ struct Pass {
 constexpr std::array<Pass, 2> kPasses = {{{0.6, 1e-4, 1e-3, 4.0, 8, 25}, {0.6, 1e-6, 1e-7, 10.0, 12, 32}}};
 /// Where a certificate fails: overcut counts above all.
 constexpr Pass kLimitPass = {0.6, 1e-6, 1e-5, 50.0, 6, 32};
-constexpr int kLimitRounds = 1;
+constexpr int kLimitRounds = 2;
 constexpr double kEnough = 0.9985;      ///< covered share at which no further pass is run
 constexpr double kCheckWeight = 300.0;  ///< of a point of another face against a point of the target
 constexpr double kMarginShare = 0.6;    ///< of the tolerance: what a fit aims at where a certificate asks for all of it
@@ -162,7 +162,7 @@ std::vector<FacePoint> points_to_fit(const TileScene& scene, const FitDraft& dra
 }
 
 std::vector<RuledMotion> run_pass(const TileScene& scene, const std::vector<CoverStrip>& strips, const Pass& pass,
-                                  bool limits) {
+                                  int control_points, bool limits) {
   const FitDraft draft = draft_of(scene, strips);
   std::vector<FacePoint> points = points_to_fit(scene, draft, pass.points_per_side);
   const double share = kCheckWeight / static_cast<double>(points.size());
@@ -172,7 +172,7 @@ std::vector<RuledMotion> run_pass(const TileScene& scene, const std::vector<Cove
     const std::vector<FacePoint> deep = deep_points(scene, strips, share);
     points.insert(points.end(), deep.begin(), deep.end());
   }
-  const FitStage stage = stage_of(pass, scene, scene.options.control_points);
+  const FitStage stage = stage_of(pass, scene, control_points);
   return run_swept(draft, RadiusBounds{}, stage, std::move(points), nullptr).motions;
 }
 
@@ -195,12 +195,15 @@ SmoothResult smooth_strips(const TileScene& scene, const std::vector<CoverStrip>
   SmoothResult best{strips, covered_share(scene.samples, strips)};
   std::vector<CoverStrip> now = strips;
   bool first = true;
+  int control_points = scene.options.control_points;
   for (const Pass& pass : kPasses) {
-    now = measured(scene, run_pass(scene, now, pass, false));
+    now = measured(scene, run_pass(scene, now, pass, control_points, false));
     int fallen = 0;
     std::vector<CoverStrip> trial = with_fallbacks(scene, now, best.strips, fallen);
     for (int round = 0; round < kLimitRounds && fallen > 0; ++round) {
-      now = measured(scene, run_pass(scene, now, kLimitPass, true));
+      // Rails that are too stiff for what they have to do get twice as many points, not a worse tolerance.
+      if (round > 0) control_points = 2 * scene.options.control_points;
+      now = measured(scene, run_pass(scene, now, kLimitPass, control_points, true));
       trial = with_fallbacks(scene, now, best.strips, fallen);
     }
     const double share = covered_share(scene.samples, trial);

@@ -110,7 +110,7 @@ RuledMotion motion_through(const std::vector<Pose>& poses, double axis_length, i
 }
 
 int depth_poses(const RuledMotion& motion) {
-  constexpr int kPerControlPoint = 8, kMost = 192;
+  constexpr int kPerControlPoint = 8, kMost = 384;
   return std::min(kPerControlPoint * motion.tip.count(), kMost);
 }
 
