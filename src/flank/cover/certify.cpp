@@ -65,13 +65,19 @@ struct Shifts {
 
 /// What takes the poses of a strip out of the target where they are too deep in it, and out of other faces.
 Shifts shifts_of(const LineGuard& guard, const CoverStrip& strip, double depth_mm, int poses, LineFitter& fitter) {
-  constexpr double kReachShare = 0.25;  ///< of the axis: a slide that is longer is another strip
+  constexpr double kReachShare = 0.25;                    ///< of the axis: a slide that is longer is another strip
+  const bool known = poses == depth_poses(strip.motion);  // how deep each pose is
   Shifts shifts;
   fitter.forget();
   for (int i = 0; i <= poses; ++i) {
     const Pose pose = strip.motion.pose(static_cast<double>(i) / poses);
-    (void)fitter.measure(pose);
-    const LineFitter::Lift lift = fitter.lift(pose, depth_mm);
+    LineFitter::Lift lift;
+    if (known && strip.depths[static_cast<std::size_t>(i)] <= depth_mm) {
+      fitter.forget();  // the next pose that is asked may be far
+    } else {
+      (void)fitter.measure(pose);
+      lift = fitter.lift(pose, depth_mm);
+    }
     const Vec3 slide = slid_clear(guard, pose, kReachShare * strip.motion.axis_length).tip - pose.tip;
     shifts.tips.push_back(lift.tip + slide);
     shifts.holders.push_back(lift.holder + slide);

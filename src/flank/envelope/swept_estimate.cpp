@@ -21,14 +21,19 @@ SweptEstimate::SweptEstimate(const std::vector<RuledMotion>& motions, const Radi
     std::vector<Pose>& table = poses_.emplace_back();
     for (int i = 0; i < poses; ++i) table.push_back(motion.pose(static_cast<double>(i) / (poses - 1)));
     double& stride = stride_.emplace_back(0.0);
-    for (std::size_t i = 0; i + 1 < table.size(); ++i)
-      for (const double s : {0.0, axis_length_})
-        stride = std::max(stride, (table[i + 1].at(s) - table[i].at(s)).norm());
+    std::vector<double>& way = way_.emplace_back(1, 0.0);
+    for (std::size_t i = 0; i + 1 < table.size(); ++i) {
+      double step = 0.0;
+      for (const double s : {0.0, axis_length_}) step = std::max(step, (table[i + 1].at(s) - table[i].at(s)).norm());
+      stride = std::max(stride, step);
+      way.push_back(way.back() + step);
+    }
   }
   for (int k = 0; k <= kTable; ++k) {
     const RadialJet jet = radial.at(axis_length_ * k / kTable);
     radius_.push_back(jet.r);
     least_radius_ = k == 0 ? jet.r : std::min(least_radius_, jet.r);
+    largest_radius_ = k == 0 ? jet.r : std::max(largest_radius_, jet.r);
     lean_.push_back(jet.d1 / std::sqrt(std::max(1e-6, 1.0 - jet.d1 * jet.d1)));
   }
 }
@@ -43,13 +48,28 @@ double SweptEstimate::at_pose(const Pose& pose, const Vec3& x) const {
   return std::sqrt(rho2 + (z - s) * (z - s)) - interpolate(radius_, s * per_length_);
 }
 
+double SweptEstimate::floor_at(const Pose& pose, const Vec3& x) const {
+  const Vec3 q = x - pose.tip;
+  const double z = q.dot(pose.axis), off = z - std::clamp(z, 0.0, axis_length_);
+  return std::sqrt(std::max(0.0, q.squaredNorm() - z * z) + off * off) - largest_radius_;
+}
+
+std::size_t SweptEstimate::next_pose(std::size_t motion, std::size_t at, double spare) const {
+  // What at_pose leaves to its two steps in s is held off by a tenth.
+  const std::vector<double>& way = way_[motion];
+  const auto first = way.begin() + static_cast<std::ptrdiff_t>(at) + 1;
+  return static_cast<std::size_t>(std::upper_bound(first, way.end(), way[at] + 0.9 * spare) - way.begin());
+}
+
 std::size_t SweptEstimate::nearest_pose(std::size_t motion, const Vec3& x, double& least) const {
   const std::vector<Pose>& poses = poses_[motion];
   constexpr std::size_t kCoarse = 12;
   std::size_t at = 0;
   least = std::numeric_limits<double>::infinity();
   const auto look = [&](std::size_t i) {
-    const double f = at_pose(poses[i], x);
+    double f = floor_at(poses[i], x);
+    if (f >= least) return f;
+    f = at_pose(poses[i], x);
     if (f < least) {
       least = f;
       at = i;
@@ -57,12 +77,10 @@ std::size_t SweptEstimate::nearest_pose(std::size_t motion, const Vec3& x, doubl
     return f;
   };
   for (std::size_t i = kCoarse / 2; i < poses.size(); i += kCoarse) look(i);
-  // From pose to pose f changes by no more than the stride: far poses are jumped over. What at_pose leaves to its two
-  // steps in s is held off by a tenth.
+  // From pose to pose f changes by no more than the way of the axis: far poses are jumped over.
   for (std::size_t i = 0; i < poses.size();) {
     const double f = look(i);
-    const double jump = stride_[motion] > 0.0 ? 0.9 * (f - least) / stride_[motion] : 0.0;
-    i += 1 + static_cast<std::size_t>(std::min(jump, static_cast<double>(poses.size())));
+    i = next_pose(motion, i, f - least);
   }
   return at;
 }
@@ -95,7 +113,8 @@ void SweptEstimate::places(const Vec3& x, const SweptContact& hint, std::vector<
   for (std::size_t m = 0; m < poses_.size(); ++m) {
     std::size_t last = poses_[m].size();
     for (std::size_t i = 0; i < poses_[m].size();) {
-      const double f = at_pose(poses_[m][i], x);
+      double f = floor_at(poses_[m][i], x);
+      if (f <= bound_f) f = at_pose(poses_[m][i], x);
       if (f <= bound_f) {
         bound_f = std::min(bound_f, f + slack(m));
         const bool same_run = last + 1 == i && !places.empty() && places.back().motion == static_cast<int>(m);
@@ -108,8 +127,7 @@ void SweptEstimate::places(const Vec3& x, const SweptContact& hint, std::vector<
         last = i++;
         continue;
       }
-      const double jump = stride_[m] > 0.0 ? 0.9 * (f - bound_f) / stride_[m] : 0.0;
-      i += 1 + static_cast<std::size_t>(std::min(jump, static_cast<double>(poses_[m].size())));
+      i = next_pose(m, i, f - bound_f);
     }
   }
   std::erase_if(places, [&](const SweptContact& place) { return place.f > bound_f; });

@@ -37,16 +37,21 @@ class SweptEstimate {
 
  private:
   [[nodiscard]] double at_pose(const Pose& pose, const Vec3& x) const;
+  /// At most at_pose, for a quarter of its time: what lies beyond a bound need not be known better.
+  [[nodiscard]] double floor_at(const Pose& pose, const Vec3& x) const;
+  /// The next pose after `at` where f may be lower by more than `spare`.
+  [[nodiscard]] std::size_t next_pose(std::size_t motion, std::size_t at, double spare) const;
   [[nodiscard]] std::size_t nearest_pose(std::size_t motion, const Vec3& x, double& least) const;
   [[nodiscard]] double slack(std::size_t motion) const;
   [[nodiscard]] double bound(const Vec3& x, const SweptContact& hint) const;
 
   std::vector<std::vector<Pose>> poses_;
-  std::vector<double> stride_;         ///< of each motion: no point of the axis moves farther from one pose to the next
-  std::vector<double> radius_, lean_;  ///< r and r'/sqrt(1-r'^2) at equal steps of s
+  std::vector<double> stride_;  ///< of each motion: no point of the axis moves farther from one pose to the next
+  std::vector<std::vector<double>> way_;  ///< of each motion, up to each pose: the sum of such steps
+  std::vector<double> radius_, lean_;     ///< r and r'/sqrt(1-r'^2) at equal steps of s
   double axis_length_;
   double per_length_;
-  double least_radius_;
+  double least_radius_ = 0.0, largest_radius_ = 0.0;
 };
 
 /// The contact at the local minimum over t near `t` (within `window` of it) and over s: exact to about 1e-9 mm where that
