@@ -54,6 +54,9 @@ Subcommand add_cover(CLI::App& parser) {
   add_tool_options(*app, *job);
   app->add_option("-o,--output", *folder, "Folder for the results")->required();
   app->add_option("--tolerance", job->base.tolerance_mm, "Tolerance, mm")->capture_default_str();
+  app->add_option("--seeds", job->seeds,
+                  "Where lines are begun: grid, spread evenly, or shape, more where the face bends more")
+      ->capture_default_str();
   app->add_option("--strategy", job->strategy,
                   "How strips are found: grow, or curves (the published method, to compare)")
       ->capture_default_str();

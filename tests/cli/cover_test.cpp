@@ -73,6 +73,7 @@ TEST_F(Cli, CoverRefusesWrongUsage) {
                                                                                       {"--coverage", "2"},
                                                                                       {"--strips", "0"},
                                                                                       {"--strip-price", "-1"},
+                                                                                      {"--seeds", "random"},
                                                                                       {"--strategy", "guess"}}) {
     std::vector<std::string> more = tool;
     more.insert(more.end(), {option, value});

@@ -41,12 +41,18 @@ CoverStrategy strategy_of(const std::string& name) {
   return name == "grow" ? CoverStrategy::kGrow : CoverStrategy::kCurves;
 }
 
+SeedPlaces places_of(const std::string& name) {
+  require(name == "grid" || name == "shape", "--seeds " + name + ": there are grid and shape");
+  return name == "grid" ? SeedPlaces::kGrid : SeedPlaces::kShape;
+}
+
 void check_job(const CoverJob& job) {
   const FitJob& base = job.base;
   require(base.tolerance_mm > 0.0 && std::isfinite(base.tolerance_mm), "--tolerance: a length > 0 mm is needed");
   require(base.least_coverage >= 0.0 && base.least_coverage <= 1.0, "--coverage: a share between 0 and 1 is needed");
   check_reach_radius(base);
   (void)strategy_of(job.strategy);
+  (void)places_of(job.seeds);
   require(!job.most_strips || (*job.most_strips >= 1 && *job.most_strips <= 200),
           "--strips: a number from 1 to 200 is needed");
   require(!job.strip_price || (*job.strip_price >= 0.0 && *job.strip_price < 1.0),
@@ -124,6 +130,7 @@ std::vector<int> no_obstacles(const CoverJob& job, const Part& part, const Targe
 CoverOptions options_of(const CoverJob& job) {
   CoverOptions options = job.options;
   options.strategy = strategy_of(job.strategy);
+  options.places = places_of(job.seeds);
   options.tolerance_mm = job.base.tolerance_mm;
   if (job.most_strips) options.most_strips = *job.most_strips;
   if (job.strip_price) options.strip_price = *job.strip_price;

@@ -12,6 +12,7 @@ namespace flank {
 struct CoverJob {
   FitJob base;
   std::string strategy = "grow";  ///< or "curves"
+  std::string seeds = "grid";     ///< or "shape": where `grow` begins its lines
   std::optional<int> most_strips;
   std::optional<double> strip_price;     ///< share of the area
   std::optional<std::string> catalogue;  ///< folder of tool files, for "catalogue"
