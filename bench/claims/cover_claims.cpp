@@ -176,6 +176,7 @@ struct Case {
   double length, tolerance;  // mm; tolerance below 0: a share of the diagonal
   double coverage;           // asked of the reachable share
   double strips;
+  double price = 0.005;  // of a strip: --strip-price
 };
 
 std::string example_part(const std::string& name) {
@@ -191,6 +192,7 @@ std::vector<Figure> command(const Case& c) {
   job.base.tool = c.tool;
   job.base.axis_length_mm = c.length;
   job.base.tolerance_mm = c.tolerance > 0.0 ? c.tolerance : -c.tolerance * make_example(c.part).diagonal_mm;
+  job.strip_price = c.price;
   FitOutcome outcome;
   const double seconds = seconds_of([&] { outcome = run_cover(job, {}); });
   const auto figure = [&](const std::string& what) {
@@ -226,8 +228,10 @@ void add_cover_claims(std::vector<Claim>& claims) {
         Case{"r37_blade F1 at 0.02", blade, "F1", cylinder, 20.0, 0.02, 0.93, 10.0},
         Case{"r37_blade F3 at 0.05", blade, "F3", cylinder, 20.0, 0.05, 0.95, 10.0},
         Case{"r37_blade F3 at 0.02", blade, "F3", cylinder, 20.0, 0.02, 0.90, 10.0},
-        Case{"kj66_impeller F1", wheel, "F1", "cylinder:radius=2", 25.0, 0.01, 0.999, 6.0},
-        Case{"kj66_impeller F3", wheel, "F3", "cylinder:radius=2", 25.0, 0.01, 0.999, 6.0},
+        Case{"kj66_impeller F1, strips at a tenth of their price", wheel, "F1", "cylinder:radius=2", 25.0, 0.01, 0.999,
+             6.0, 5e-4},
+        Case{"kj66_impeller F3, strips at a tenth of their price", wheel, "F3", "cylinder:radius=2", 25.0, 0.01, 0.999,
+             6.0, 5e-4},
         Case{"blisk F9", "r37_blisk_sector_2blades.step", "F9", cylinder, 20.0, 0.05, 0.90, 10.0},
         Case{"blisk F11", "r37_blisk_sector_2blades.step", "F11", cylinder, 20.0, 0.05, 0.90, 10.0}})
     claims.push_back({"cover/" + c.name, [c] { return command(c); }});
