@@ -53,6 +53,10 @@ TEST_F(CliCover, SaysWhyAToolCannotWork) {
                                "--side", "-", "--tolerance", "0.001", "-o", path("out")});
   EXPECT_EQ(cover.exit_code, 1) << cover.err;
   EXPECT_NE(cover.out.find("largest concave curvature needs r below"), std::string::npos) << cover.out;
+  EXPECT_NE(cover.out.find("no strip: nothing is machined"), std::string::npos) << cover.out;
+  EXPECT_TRUE(json::parse(read_file(root_ / "out/summary.json")).at("undercut").is_null());
+  const Outcome report = flank({"report", path("out")});
+  EXPECT_TRUE(report.exit_code == 0 || report.err.find("Node.js") != std::string::npos) << report.err;
 }
 
 TEST_F(Cli, CoverRefusesWrongUsage) {

@@ -11,6 +11,25 @@ namespace {
 
 std::string percent(double share) { return fmt::format("{:.2f} %", 100.0 * share); }
 
+/// What the path leaves, by the judge.
+std::string error_lines(const FitOutcome& outcome) {
+  const VerifyReport& v = outcome.verify;
+  std::string text;
+  text += fmt::format("  path        {} strip{}, {} poses, joined within {:.2g} mm of the motion, largest |c| {:.3f}\n",
+                      outcome.path.strips.size(), outcome.path.strips.size() == 1 ? "" : "s", outcome.path.pose_count(),
+                      outcome.chord_bound_mm, outcome.largest_c);
+  text += fmt::format("  coverage    {} of the target within {} mm\n", percent(v.coverage), v.tolerance_mm);
+  text += "  " + reach_text(v) + "\n";
+  text += fmt::format("  overcut     {:.6f} mm\n", v.overcut_mm);
+  text += fmt::format("  undercut    {:.6f} mm where the path touches, {:.4f} mm anywhere on the target\n",
+                      v.undercut_covered_mm, v.undercut_mm);
+  text += fmt::format("  rms         {:.6f} mm over the covered samples\n", v.rms_mm);
+  text += fmt::format("  other faces {:.6f} mm deepest overcut\n", v.gouge_mm);
+  text +=
+      fmt::format("  bound       between the judge's samples f is worse by at most {:.4f} mm\n", v.sampling_bound_mm);
+  return text;
+}
+
 }  // namespace
 
 std::string summary_text(const FitJob& job, const FitOutcome& outcome) {
@@ -25,18 +44,7 @@ std::string summary_text(const FitJob& job, const FitOutcome& outcome) {
   }
   text += fmt::format("  tool        {} ({}), axis {:.3f} mm, radius {:.3f} to {:.3f} mm\n", outcome.tool.name,
                       family_name(outcome.tool.radial.family()), length, low, high);
-  text += fmt::format("  path        {} strip{}, {} poses, joined within {:.2g} mm of the motion, largest |c| {:.3f}\n",
-                      outcome.path.strips.size(), outcome.path.strips.size() == 1 ? "" : "s", outcome.path.pose_count(),
-                      outcome.chord_bound_mm, outcome.largest_c);
-  text += fmt::format("  coverage    {} of the target within {} mm\n", percent(v.coverage), v.tolerance_mm);
-  text += "  " + reach_text(v) + "\n";
-  text += fmt::format("  overcut     {:.6f} mm\n", v.overcut_mm);
-  text += fmt::format("  undercut    {:.6f} mm where the path touches, {:.4f} mm anywhere on the target\n",
-                      v.undercut_covered_mm, v.undercut_mm);
-  text += fmt::format("  rms         {:.6f} mm over the covered samples\n", v.rms_mm);
-  text += fmt::format("  other faces {:.6f} mm deepest overcut\n", v.gouge_mm);
-  text +=
-      fmt::format("  bound       between the judge's samples f is worse by at most {:.4f} mm\n", v.sampling_bound_mm);
+  text += outcome.path.pose_count() > 0 ? error_lines(outcome) : "  path        no strip: nothing is machined\n";
   text += clearance_text(v.clearance);
   for (const auto& [name, value] : outcome.figures) text += fmt::format("  {:<11} {:.4g}\n", name, value);
   text += outcome.ranking_text;
@@ -67,7 +75,8 @@ std::string summary_json(const FitJob& job, const FitOutcome& outcome) {
   json["reach_radius"] = v.reach_radius_mm;
   json["least_coverage"] = job.least_coverage;
   json["overcut"] = v.overcut_mm;
-  json["undercut"] = v.undercut_mm;
+  // Without a path nothing is as far from the target as anything.
+  json["undercut"] = outcome.path.pose_count() > 0 ? nlohmann::ordered_json(v.undercut_mm) : nullptr;
   json["undercut_covered"] = v.undercut_covered_mm;
   json["rms"] = v.rms_mm;
   json["other_faces_overcut"] = v.gouge_mm;
