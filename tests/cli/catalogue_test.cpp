@@ -76,7 +76,8 @@ TEST_F(CliCatalogue, SaysOfEveryToolWhyItCannotWork) {
   const Outcome cover = flank(rank("out"));
   EXPECT_EQ(cover.exit_code, 1) << cover.err;
   EXPECT_NE(cover.out.find("none of 2 tools can work here"), std::string::npos) << cover.out;
-  for (const json& tool : json::parse(read_file(root_ / "out/ranking.json")).at("tools")) {
+  const json ranking = json::parse(read_file(root_ / "out/ranking.json"));
+  for (const json& tool : ranking.at("tools")) {
     EXPECT_FALSE(tool.at("works").get<bool>());
     EXPECT_NE(tool.at("reason").get<std::string>().find(" mm"), std::string::npos) << tool;
   }
