@@ -1,7 +1,7 @@
 // Whether the tests run under a sanitizer, where whole searches take minutes: their parts are tested there one by one.
 #pragma once
 
-namespace flank::testing {
+namespace flank {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool kSanitized = true;
@@ -9,4 +9,4 @@ inline constexpr bool kSanitized = true;
 inline constexpr bool kSanitized = false;
 #endif
 
-}  // namespace flank::testing
+}  // namespace flank

@@ -8,14 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/process.h"
+#include "sanitized.h"
 
 namespace flank::cli {
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr bool kSanitized = true;
-#else
-inline constexpr bool kSanitized = false;
-#endif
 
 /// File of the folder of real parts; empty if it is not there.
 inline fs::path real_part(const std::string& name) {

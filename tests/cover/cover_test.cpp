@@ -11,8 +11,6 @@
 namespace flank {
 namespace {
 
-using testing::kSanitized;
-
 CoverOptions options_for(double tolerance_mm) {
   CoverOptions options;
   options.tolerance_mm = tolerance_mm;
@@ -65,10 +63,7 @@ TEST(Cover, SameForAnyNumberOfThreads) {
 TEST(Cover, KeepsClearOfAWall) {
   if (kSanitized) GTEST_SKIP() << "minutes under a sanitizer; its parts are tested there by themselves";
   const auto target = testing::flat_target(0.0, 50.0, 0.0, 30.0);
-  CoverObstacles obstacles;
-  CheckSurface wall;
-  wall.mesh = {{Vec3(-90.0, 30.0, -1.0), Vec3(140.0, 30.0, -1.0), Vec3(25.0, 30.0, 120.0)}, {{0, 1, 2}}};
-  obstacles.surfaces.push_back(wall);
+  const CoverObstacles obstacles = testing::wall_at(30.0);
   const Tool tool = testing::cylinder(4.0, 16.0);
   const CoverResult result = cover(*target, tool, obstacles, options_for(0.01), {});
   ASSERT_EQ(result.status, CoverStatus::kCovered) << result.message;
@@ -92,10 +87,7 @@ TEST(Cover, SaysWhichCurvatureForbidsTheTool) {
 TEST(Cover, SaysThatNothingCanBeReached) {
   // A lid a millimetre above the sheet.
   const auto target = testing::flat_target(0.0, 20.0, 0.0, 20.0);
-  CoverObstacles obstacles;
-  CheckSurface lid;
-  lid.mesh = {{Vec3(-200.0, -200.0, 1.0), Vec3(300.0, -200.0, 1.0), Vec3(0.0, 400.0, 1.0)}, {{0, 1, 2}}};
-  obstacles.surfaces.push_back(lid);
+  const CoverObstacles obstacles = testing::lid_at(1.0);
   const CoverResult result = cover(*target, testing::cylinder(4.0, 10.0), obstacles, options_for(0.01), {});
   EXPECT_NE(result.status, CoverStatus::kCovered);
   EXPECT_EQ(result.reachable, 0.0);

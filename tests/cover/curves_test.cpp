@@ -10,8 +10,6 @@
 namespace flank {
 namespace {
 
-using testing::kSanitized;
-
 CoverOptions options_for(double tolerance_mm) {
   CoverOptions options;
   options.strategy = CoverStrategy::kCurves;
@@ -108,10 +106,7 @@ TEST(Curves, SameForAnyNumberOfThreads) {
 TEST(Curves, KeepsClearOfAWall) {
   if (kSanitized) GTEST_SKIP() << "minutes under a sanitizer; its parts are tested there by themselves";
   const auto target = testing::flat_target(0.0, 40.0, 0.0, 20.0);
-  CoverObstacles obstacles;
-  CheckSurface wall;
-  wall.mesh = {{Vec3(-90.0, 20.0, -1.0), Vec3(140.0, 20.0, -1.0), Vec3(25.0, 20.0, 120.0)}, {{0, 1, 2}}};
-  obstacles.surfaces.push_back(wall);
+  const CoverObstacles obstacles = testing::wall_at(20.0);
   const Tool tool = testing::cylinder(4.0, 12.0);
   const CoverResult result = cover(*target, tool, obstacles, options_for(0.01), {});
   ASSERT_EQ(result.status, CoverStatus::kCovered) << result.message;

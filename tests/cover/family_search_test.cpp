@@ -139,10 +139,7 @@ TEST(FamilySearch, SameForAnyNumberOfThreads) {
 TEST(FamilySearch, TheNearestWhereNoneWorks) {
   // A lid lower than twice the smallest radius that is searched.
   const auto target = testing::flat_target(0.0, 50.0, 0.0, 30.0);
-  CoverObstacles obstacles;
-  CheckSurface lid;
-  lid.mesh = {{Vec3(-200.0, -200.0, 1.0), Vec3(300.0, -200.0, 1.0), Vec3(0.0, 400.0, 1.0)}, {{0, 1, 2}}};
-  obstacles.surfaces.push_back(lid);
+  const CoverObstacles obstacles = testing::lid_at(1.0);
   const RankingTarget targets = {{target.get(), &obstacles}};
   const FamilySearchResult found =
       search_family(std::span(&targets, 1), ToolFamily::kCylinder, {}, options_with_best_at(3.0, 0.0), {});

@@ -73,10 +73,7 @@ TEST(StraightLine, IsRejectedForAReason) {
 
 TEST(StraightLine, SlidesClearOfAWall) {
   const auto target = testing::flat_target(0.0, 50.0, 0.0, 30.0);
-  CoverObstacles obstacles;
-  CheckSurface wall;
-  wall.mesh = {{Vec3(-90.0, 30.0, -1.0), Vec3(140.0, 30.0, -1.0), Vec3(25.0, 30.0, 120.0)}, {{0, 1, 2}}};
-  obstacles.surfaces.push_back(wall);
+  const CoverObstacles obstacles = testing::wall_at(30.0);
   const Tool tool = testing::cylinder(4.0, 16.0);
   const LineGuard guard(tool, obstacles, 0.0);
   LineFitter fitter(*target, tool.radial, {.tolerance_mm = 0.01});

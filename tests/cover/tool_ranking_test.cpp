@@ -13,21 +13,10 @@
 namespace flank {
 namespace {
 
-using testing::kSanitized;
-
 Tool barrel(double arc, double radius, double length) {
   Tool tool;
   tool.radial = RadialFunction(ToolFamily::kBarrel, length, Eigen::Vector3d(arc, radius, 0.5 * length));
   return tool;
-}
-
-/// A triangle that covers the whole sheet, this far above it.
-CoverObstacles lid(double height) {
-  CoverObstacles obstacles;
-  CheckSurface surface;
-  surface.mesh = {{Vec3(-200.0, -200.0, height), Vec3(300.0, -200.0, height), Vec3(0.0, 400.0, height)}, {{0, 1, 2}}};
-  obstacles.surfaces.push_back(surface);
-  return obstacles;
 }
 
 TEST(ToolScreen, ACylinderIsOpenAllOverAPlane) {
@@ -42,7 +31,8 @@ TEST(ToolScreen, ACylinderIsOpenAllOverAPlane) {
 
 TEST(ToolScreen, SaysThatABallTouchesNowhere) {
   const auto target = testing::flat_target(0.0, 20.0, 0.0, 20.0);
-  const ToolScreen screen = screen_tool(screen_places(*target, 60), testing::cylinder(4.0, 10.0), lid(1.0), {0.01});
+  const ToolScreen screen =
+      screen_tool(screen_places(*target, 60), testing::cylinder(4.0, 10.0), testing::lid_at(1.0), {0.01});
   EXPECT_EQ(screen.reachable, 0.0);
   EXPECT_NE(screen.reason.find("4 mm, touches the face nowhere"), std::string::npos) << screen.reason;
 }
@@ -52,9 +42,9 @@ TEST(ToolScreen, SaysThatTheToolStandsInTheWay) {
   const auto target = testing::flat_target(0.0, 20.0, 0.0, 20.0);
   Tool tool = testing::cylinder(2.0, 10.0);
   const ScreenPlaces places = screen_places(*target, 60);
-  EXPECT_EQ(screen_tool(places, tool, lid(5.0), {0.01}).reason, "");
+  EXPECT_EQ(screen_tool(places, tool, testing::lid_at(5.0), {0.01}).reason, "");
   tool.shank = {{10.0, 4.0}, {40.0, 4.0}};
-  const ToolScreen screen = screen_tool(places, tool, lid(5.0), {0.01});
+  const ToolScreen screen = screen_tool(places, tool, testing::lid_at(5.0), {0.01});
   EXPECT_NEAR(screen.reachable, 1.0, 1e-12);
   EXPECT_EQ(screen.open, 0.0);
   EXPECT_NE(screen.reason.find("100 % of it, flank, shank or holder would enter the part"), std::string::npos)

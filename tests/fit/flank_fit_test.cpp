@@ -9,8 +9,6 @@
 namespace flank {
 namespace {
 
-using testing::kSanitized;
-
 // Largest error, relative to the diagonal, on a grid three times denser than the fit's, footpoints cold.
 constexpr double kExactError = 2e-6;
 
