@@ -53,10 +53,6 @@ RuledMotion shifted(const RuledMotion& motion, const std::vector<Vec3>& tips, co
   return fit_motion(poses, times, motion.axis_length, motion.tip.count());
 }
 
-}  // namespace
-
-namespace {
-
 /// Shifts of the ends of the axis at equal steps of t.
 struct Shifts {
   std::vector<Vec3> tips, holders;

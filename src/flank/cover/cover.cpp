@@ -64,15 +64,6 @@ double overlap_of(const CoverSamples& samples, const std::vector<CoverStrip>& st
   return covered > 0.0 ? sum / covered - 1.0 : 0.0;
 }
 
-std::vector<CoverStrip> remeasured(const TileScene& scene, const std::vector<CoverStrip>& strips) {
-  std::vector<CoverStrip> result(strips.size());
-  parallel_for(strips.size(), [&](std::size_t k) {
-    LineFitter fitter(scene.target, scene.radial, line_options(scene));
-    result[k] = measure_strip(scene.samples, strips[k].motion, scene.radial, fitter);
-  });
-  return result;
-}
-
 /// What cuts too deep between the samples that chose it is lifted, or else cut short.
 std::vector<CoverStrip> made_certain(const TileScene& dense, std::vector<CoverStrip> strips) {
   parallel_for(strips.size(), [&](std::size_t k) {
@@ -162,24 +153,35 @@ void describe(const TileScene& coarse, const TileScene& dense, const std::vector
       reason_of(coarse.target, coarse.radial, coarse.samples, remeasured(coarse, strips), coarse.options.tolerance_mm);
 }
 
+CandidatePool counted_pool(const TileScene& scene, const std::vector<LineSeed>& seeds, CoverResult& result) {
+  CandidatePool pool = grow_pool(scene, seeds);
+  result.seeds = static_cast<int>(seeds.size());
+  result.lines = pool.lines;
+  return pool;
+}
+
 /// Strips of the first seeds. What the filter leaves is a third of all directions; where none of it leads to a strip, all
 /// are tried.
 CandidatePool first_pool(const TileScene& scene, CoverResult& result) {
   const CoverOptions& options = scene.options;
+  if (!options.seeds.empty()) return counted_pool(scene, options.seeds, result);
   const std::vector<SurfaceSample> places = options.places == SeedPlaces::kShape
                                                 ? shape_places(scene.target, options.seed_places)
                                                 : grid_places(scene.target, options.seed_places);
-  std::vector<LineSeed> seeds = options.seeds;
-  if (seeds.empty() && options.directions == SeedDirections::kAdmissible)
-    seeds = admissible_seeds(scene.target, places, scene.radial, options.seed_spheres, options.tolerance_mm);
-  CandidatePool pool = grow_pool(scene, seeds);
-  if (pool.strips.empty() && options.seeds.empty()) {
-    seeds = even_seeds(places, scene.radial, options.seed_directions);
-    pool = grow_pool(scene, seeds);
+  if (options.directions == SeedDirections::kAdmissible) {
+    CandidatePool pool = counted_pool(
+        scene, admissible_seeds(scene.target, places, scene.radial, options.seed_spheres, options.tolerance_mm),
+        result);
+    if (!pool.strips.empty()) return pool;
   }
-  result.seeds = static_cast<int>(seeds.size());
-  result.lines = pool.lines;
-  return pool;
+  return counted_pool(scene, even_seeds(places, scene.radial, options.seed_directions), result);
+}
+
+/// The samples by which strips are certified and reported.
+CoverSamples dense_samples(const TileScene& scene, const LineGuard& guard, CoverResult& result) {
+  CoverSamples dense = cover_samples(scene.target, scene.options.dense_share * std::sqrt(scene.target.area()));
+  result.reachable = keep_reachable(dense, guard);
+  return dense;
 }
 
 /// Nothing to choose from.
@@ -204,8 +206,7 @@ CoverResult curves_cover(const TileScene& scene, const LineGuard& guard, CoverRe
   if (found.strips.empty()) return nothing(scene, found.counts.lines, std::move(result));
 
   progress.step("smooth", 0.55);
-  CoverSamples dense = cover_samples(scene.target, scene.options.dense_share * std::sqrt(scene.target.area()));
-  result.reachable = keep_reachable(dense, guard);
+  const CoverSamples dense = dense_samples(scene, guard, result);
   const TileScene dense_scene{scene.target, scene.radial, dense, guard, scene.options, kCertifySamples};
   const SmoothedCurves smooth = smoothed_curves(dense_scene, found.strips);
   result.coverage_before = smooth.coverage_before;
@@ -244,8 +245,7 @@ CoverResult cover(const Target& target, const Tool& tool, const CoverObstacles& 
   watch.lap("tile");
 
   progress.step("smooth", 0.55);
-  CoverSamples dense = cover_samples(target, options.dense_share * std::sqrt(target.area()));
-  result.reachable = keep_reachable(dense, guard);
+  const CoverSamples dense = dense_samples(scene, guard, result);
   const TileScene dense_scene{target, tool.radial, dense, guard, options, kCertifySamples};
   strips = thinned(dense_scene, smoothed(scene, dense_scene, pool.strips, strips, progress), progress);
   watch.lap("smooth");

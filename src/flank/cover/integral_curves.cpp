@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/cover/seeds.h"
+
 namespace flank {
 namespace {
 
@@ -78,7 +80,7 @@ CurveEnd Tracer::run(const CurveSeed& seed, bool to_holder, std::vector<double>&
 std::vector<CurveSeed> curve_seeds(const Target& target, const RadialFunction& radial, int places, int spheres,
                                    const DirectionFilterOptions& filter) {
   std::vector<CurveSeed> seeds;
-  for (const SurfaceSample& sample : target.samples(std::sqrt(target.area() / places))) {
+  for (const SurfaceSample& sample : grid_places(target, places)) {
     const Footpoint foot = target.closest(sample.point);
     if (foot.location != Location::kInside) continue;
     for (int j = 0; j < spheres; ++j) {

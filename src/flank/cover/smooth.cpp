@@ -126,7 +126,8 @@ std::vector<CoverStrip> measured(const TileScene& scene, const std::vector<Ruled
   return strips;
 }
 
-/// Strips that cut too deep are lifted; those that fail their certificate all the same are cut short, or as they were before, whichever covers more besides the others.
+/// Strips that cut too deep are lifted; those that fail their certificate all the same are cut short, or as they were
+/// before, whichever covers more besides the others.
 std::vector<CoverStrip> with_fallbacks(const TileScene& scene, const std::vector<CoverStrip>& strips,
                                        const std::vector<CoverStrip>& before, int& fallen) {
   std::vector<CoverStrip> result(strips.size());
@@ -177,6 +178,10 @@ std::vector<RuledMotion> run_pass(const TileScene& scene, const std::vector<Cove
 }
 
 }  // namespace
+
+std::vector<CoverStrip> remeasured(const TileScene& scene, const std::vector<CoverStrip>& strips) {
+  return measured(scene, motions_of(strips));
+}
 
 double covered_share(const CoverSamples& samples, const std::vector<CoverStrip>& strips) {
   std::vector<char> covered(samples.cells.size(), 0);

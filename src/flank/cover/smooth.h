@@ -17,6 +17,9 @@ struct SmoothResult {
 /// are kept only where the covered share rises; a strip whose certificate fails falls back to the strip that it was.
 [[nodiscard]] SmoothResult smooth_strips(const TileScene& scene, const std::vector<CoverStrip>& strips);
 
+/// The strips measured afresh, with the scene's own samples.
+[[nodiscard]] std::vector<CoverStrip> remeasured(const TileScene& scene, const std::vector<CoverStrip>& strips);
+
 /// Covered share of the area.
 [[nodiscard]] double covered_share(const CoverSamples& samples, const std::vector<CoverStrip>& strips);
 
