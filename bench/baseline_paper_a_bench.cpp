@@ -14,7 +14,8 @@
 namespace {
 
 using namespace flank;
-using namespace flank::bench;
+using namespace flank::internal;
+using namespace flank::internal::bench;
 
 constexpr int kGridT = 298, kGridS = 88;
 constexpr int kRepeats = 3;

@@ -9,7 +9,7 @@
 
 namespace {
 
-using namespace flank::bench;
+using namespace flank::internal::bench;
 
 bool asked_for(const std::string& name, int argc, char** argv) {
   if (argc < 2) return true;
@@ -32,7 +32,7 @@ void print(const Figure& figure, bool& all) {
 int main(int argc, char** argv) {
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
   const char* threads = std::getenv("FLANK_THREADS");
-  flank::set_thread_count(threads ? std::atoi(threads) : 1);
+  flank::internal::set_thread_count(threads ? std::atoi(threads) : 1);
   std::vector<Claim> claims;
   add_envelope_claims(claims);
   add_mesh_claims(claims);

@@ -15,13 +15,14 @@
 
 #include "flank/base/parallel.h"
 #include "flank/base/random.h"
-#include "flank/clearance/pose_clearance.h"
-#include "flank/io/triangulate.h"
-#include "flank/verify/clearance_verdict.h"
+#include "flank/clearance.h"
+#include "flank/io/cad/triangulate.h"
+#include "flank/obstacle/pose_clearance.h"
 
 namespace {
 
 using namespace flank;
+using namespace flank::internal;
 
 constexpr double kShankRadius = 5.0, kShankLength = 30.0, kHolderRadius = 10.0, kHolderLength = 40.0, kLength = 60.0;
 

@@ -11,15 +11,16 @@
 #include <vector>
 
 #include "flank/base/atomic_file.h"
-#include "flank/base/error.h"
 #include "flank/base/parallel.h"
-#include "flank/io/tool_json.h"
+#include "flank/error.h"
+#include "flank/example/example.h"
+#include "flank/io/tool/tool_json.h"
 #include "flank/pipeline/cover_job.h"
-#include "flank/pipeline/example.h"
 
 namespace {
 
 using namespace flank;
+using namespace flank::internal;
 
 constexpr std::uint64_t kSeeds = 5;
 

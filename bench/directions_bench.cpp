@@ -9,12 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "flank/cover/direction_filter.h"
-#include "flank/pipeline/example.h"
+#include "flank/example/example.h"
+#include "flank/seed/direction/direction_filter.h"
 
 namespace {
 
 using namespace flank;
+using namespace flank::internal;
 
 constexpr double kLength = 30.0, kRadius = 5.0, kFootpoints = 2000.0;
 constexpr int kSpheres = 30;

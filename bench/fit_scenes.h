@@ -8,11 +8,11 @@
 #include <string>
 
 #include "flank/base/random.h"
-#include "flank/pipeline/example.h"
-#include "flank/pipeline/example_mesh.h"
-#include "flank/surface/target.h"
+#include "flank/example/example.h"
+#include "flank/example/example_mesh.h"
+#include "flank/target.h"
 
-namespace flank::bench {
+namespace flank::internal::bench {
 
 struct Scene {
   std::string name;
@@ -51,4 +51,4 @@ double fastest(int repeats, F&& f) {
   return best;
 }
 
-}  // namespace flank::bench
+}  // namespace flank::internal::bench

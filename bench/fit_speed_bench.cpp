@@ -9,7 +9,8 @@
 namespace {
 
 using namespace flank;
-using namespace flank::bench;
+using namespace flank::internal;
+using namespace flank::internal::bench;
 
 void time_stage(const char* what, const Target& target, const Scene& scene) {
   FlankFitOptions options;

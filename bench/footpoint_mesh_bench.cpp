@@ -13,7 +13,7 @@
 
 #include "flank/base/random.h"
 #include "flank/geom/triangle_bvh.h"
-#include "flank/surface/target.h"
+#include "flank/target.h"
 
 namespace {
 
@@ -164,7 +164,7 @@ void race(const std::string& name, const std::vector<Vec3>& points,
 void race_mesh(int n) {
   const TriangleMesh mesh = twisted_patch(n);
   const Embree embree(mesh);
-  const flank::TriangleBvh tree(mesh);
+  const flank::internal::TriangleBvh tree(mesh);
   const auto target = flank::make_target(mesh);
   const std::vector<std::function<double(const Vec3&)>> runners{
       [&](const Vec3& p) { return embree.distance(p); },
@@ -172,7 +172,7 @@ void race_mesh(int n) {
       [&](const Vec3& p) { return target->closest(p).distance; },
   };
   const std::vector<std::string> names{"Embree", "flat tree", "with jets"};
-  flank::Random random(7);
+  flank::internal::Random random(7);
   std::vector<Vec3> near, space;
   const flank::Box3 box = mesh.box();
   const Vec3 size = box.high - box.low;

@@ -18,12 +18,13 @@
 #include <vector>
 
 #include "flank/base/random.h"
-#include "flank/io/part.h"
-#include "flank/surface/target.h"
+#include "flank/part.h"
+#include "flank/target.h"
 
 namespace {
 
 using namespace flank;
+using namespace flank::internal;
 
 constexpr int kRepetitions = 5;
 constexpr int kWarmLines = 60, kWarmPoints = 50;

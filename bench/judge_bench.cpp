@@ -9,11 +9,12 @@
 #include <vector>
 
 #include "flank/base/parallel.h"
-#include "flank/verify/judge.h"
+#include "flank/judge.h"
 
 namespace {
 
 using namespace flank;
+using namespace flank::internal;
 
 constexpr double kLength = 40.0;
 constexpr int kPoses = 1000;

@@ -11,7 +11,7 @@
 
 #include "flank/base/random.h"
 
-namespace flank::bench {
+namespace flank::internal::bench {
 namespace {
 
 // CPU time: see fit_scenes.h.
@@ -309,4 +309,4 @@ void PaperA::optimise(PaperAResult& state) const {
   state.optimise_seconds = now() - begin;
 }
 
-}  // namespace flank::bench
+}  // namespace flank::internal::bench

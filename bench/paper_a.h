@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "flank/geom/bspline_curve.h"
+#include "flank/bspline_curve.h"
 #include "flank/geom/triangle_bvh.h"
-#include "flank/geom/triangle_mesh.h"
+#include "flank/triangle_mesh.h"
 
-namespace flank::bench {
+namespace flank::internal::bench {
 
 struct PaperAOptions {
   int samples_t = 100, samples_s = 30;
@@ -81,4 +81,4 @@ class PaperA {
   std::vector<double> s_;
 };
 
-}  // namespace flank::bench
+}  // namespace flank::internal::bench

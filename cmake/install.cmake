@@ -7,9 +7,8 @@ install(TARGETS flank EXPORT OpenFlankTargets)
 if(TARGET flank_app)
   install(TARGETS flank_app)
 endif()
-# Headers that show another library than Eigen are named for it (tests/layers) and stay here.
-install(DIRECTORY src/flank DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h"
-        REGEX "(occt|json)[^/]*\\.h$" EXCLUDE)
+# The front door and nothing else: what src/flank holds is the library's own.
+install(DIRECTORY include/flank DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY share/catalogue DESTINATION ${CMAKE_INSTALL_DATADIR}/openflank)
 install(FILES LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 

@@ -3,7 +3,8 @@
 
 #include "commands.h"
 
-namespace flank {
+namespace flank::cli {
+using namespace internal;
 
 void add_clearance_options(CLI::App& app, ClearanceJob& job) {
   const std::string group = "Clearance";
@@ -43,4 +44,4 @@ void add_check_options(CLI::App& app, CheckFaceChoice& choice, std::optional<dou
       ->group(group);
 }
 
-}  // namespace flank
+}  // namespace flank::cli

@@ -4,12 +4,13 @@
 #include <CLI/App.hpp>
 #include <functional>
 
-#include "flank/base/progress.h"
-#include "flank/pipeline/check_faces.h"
-#include "flank/pipeline/clearance_job.h"
 #include "flank/pipeline/fit_job.h"
+#include "flank/progress.h"
+#include "flank/setup/check_faces.h"
+#include "flank/setup/clearance_job.h"
 
-namespace flank {
+namespace flank::cli {
+using namespace internal;
 
 /// Options that every command shares.
 struct CommonOptions {
@@ -51,4 +52,4 @@ void add_check_options(CLI::App& app, CheckFaceChoice& choice, std::optional<dou
 /// A line on stderr that grows on a terminal, plain lines otherwise, nothing if quiet; cancelled by Ctrl-C.
 [[nodiscard]] Progress terminal_progress(const CommonOptions& options);
 
-}  // namespace flank
+}  // namespace flank::cli

@@ -6,7 +6,8 @@
 #include "commands.h"
 #include "flank/pipeline/cover_job.h"
 
-namespace flank {
+namespace flank::cli {
+using namespace internal;
 namespace {
 
 /// The tool, and how it is chosen for --tool catalogue and families with open parameters.
@@ -83,4 +84,4 @@ Subcommand add_cover(CLI::App& parser) {
           }};
 }
 
-}  // namespace flank
+}  // namespace flank::cli

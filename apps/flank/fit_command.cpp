@@ -5,11 +5,12 @@
 #include <memory>
 
 #include "commands.h"
-#include "flank/base/error.h"
+#include "flank/error.h"
+#include "flank/job/job_json.h"
 #include "flank/pipeline/fit_job.h"
-#include "flank/pipeline/job_json.h"
 
-namespace flank {
+namespace flank::cli {
+using namespace internal;
 namespace {
 
 /// Texts that need more than a number.
@@ -105,4 +106,4 @@ Subcommand add_fit(CLI::App& parser) {
           }};
 }
 
-}  // namespace flank
+}  // namespace flank::cli

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "commands.h"
-#include "flank/base/error.h"
 #include "flank/base/parallel.h"
+#include "flank/error.h"
 
 namespace {
 
@@ -30,7 +30,7 @@ void require_known_command(const CLI::App& parser, int argc, char** argv) {
   throw flank::UsageError(fmt::format("'{}' is no command; there are {}", argv[1], known));
 }
 
-void add_common(CLI::App& app, flank::CommonOptions& common) {
+void add_common(CLI::App& app, flank::cli::CommonOptions& common) {
   app.add_flag("--json", common.json, "Print the summary as JSON on stdout, and nothing else");
   app.add_flag("--quiet", common.quiet, "No progress and no summary");
   app.add_option("--threads", common.threads, "Threads to use; 0: all cores. The result does not depend on it")
@@ -48,11 +48,11 @@ int main(int argc, char** argv) {
   parser.footer(
       "Exit: 0 done and within what was asked; 1 done, but not within it; 2 wrong usage; 3 input refused; 4 our "
       "fault.");
-  flank::CommonOptions common;
-  std::vector<flank::Subcommand> commands = {
-      flank::add_inspect(parser), flank::add_example(parser), flank::add_tool(parser),   flank::add_fit(parser),
-      flank::add_cover(parser),   flank::add_verify(parser),  flank::add_report(parser), flank::add_view(parser)};
-  for (const flank::Subcommand& command : commands) add_common(*command.app, common);
+  flank::cli::CommonOptions common;
+  std::vector<flank::cli::Subcommand> commands = {
+      flank::cli::add_inspect(parser), flank::cli::add_example(parser), flank::cli::add_tool(parser),   flank::cli::add_fit(parser),
+      flank::cli::add_cover(parser),   flank::cli::add_verify(parser),  flank::cli::add_report(parser), flank::cli::add_view(parser)};
+  for (const flank::cli::Subcommand& command : commands) add_common(*command.app, common);
   try {
     require_known_command(parser, argc, argv);
     parser.parse(argc, argv);
@@ -63,8 +63,8 @@ int main(int argc, char** argv) {
     return complain(std::string(e.what()) + " (see flank --help)", 2);
   }
   try {
-    flank::set_thread_count(common.threads);
-    for (const flank::Subcommand& command : commands)
+    flank::internal::set_thread_count(common.threads);
+    for (const flank::cli::Subcommand& command : commands)
       if (command.app->parsed()) return command.run(common);
     return 2;
   } catch (const flank::Error& e) {

@@ -9,7 +9,8 @@
 
 #include "commands.h"
 
-namespace flank {
+namespace flank::cli {
+using namespace internal;
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
@@ -46,4 +47,4 @@ Progress terminal_progress(const CommonOptions& options) {
   return progress;
 }
 
-}  // namespace flank
+}  // namespace flank::cli

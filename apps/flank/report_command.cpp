@@ -8,10 +8,11 @@
 
 #include "commands.h"
 #include "flank/base/atomic_file.h"
+#include "flank/report.h"
 #include "flank/report/browser.h"
-#include "flank/report/report.h"
 
-namespace flank {
+namespace flank::cli {
+using namespace internal;
 namespace {
 
 struct ReportOptions {
@@ -94,4 +95,4 @@ Subcommand add_view(CLI::App& parser) {
           }};
 }
 
-}  // namespace flank
+}  // namespace flank::cli

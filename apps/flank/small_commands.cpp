@@ -7,14 +7,15 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
-#include "flank/io/part.h"
-#include "flank/pipeline/example.h"
-#include "flank/pipeline/inspect.h"
-#include "flank/pipeline/tool_command.h"
+#include "flank/artefact/verify_json.h"
+#include "flank/example/example.h"
+#include "flank/inspect/inspect.h"
+#include "flank/part.h"
 #include "flank/pipeline/verify_job.h"
-#include "flank/pipeline/verify_json.h"
+#include "flank/toolbox/tool_command.h"
 
-namespace flank {
+namespace flank::cli {
+using namespace internal;
 
 Subcommand add_inspect(CLI::App& parser) {
   CLI::App* app =
@@ -107,4 +108,4 @@ Subcommand add_verify(CLI::App& parser) {
           }};
 }
 
-}  // namespace flank
+}  // namespace flank::cli

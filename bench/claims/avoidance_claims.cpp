@@ -3,7 +3,7 @@
 
 #include "claims/claims_support.h"
 
-namespace flank::bench {
+namespace flank::internal::bench {
 namespace {
 
 struct Channel {
@@ -77,4 +77,4 @@ void add_avoidance_claims(std::vector<Claim>& claims) {
         {std::string("given tool/r37_blade F1 ") + tool, [tool = std::string(tool)] { return given_on_r37(tool); }});
 }
 
-}  // namespace flank::bench
+}  // namespace flank::internal::bench

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace flank::bench {
+namespace flank::internal::bench {
 
 /// One figure of a case. `wanted` is the bound that the project asks of itself; a figure without one is only shown.
 struct Figure {
@@ -40,4 +40,4 @@ void add_avoidance_claims(std::vector<Claim>& claims);
 void add_cover_claims(std::vector<Claim>& claims);
 void add_judge_claims(std::vector<Claim>& claims);
 
-}  // namespace flank::bench
+}  // namespace flank::internal::bench

@@ -7,17 +7,17 @@
 #include <string>
 
 #include "claims/claims.h"
-#include "flank/base/error.h"
 #include "flank/base/random.h"
-#include "flank/envelope/envelope.h"
+#include "flank/envelope.h"
+#include "flank/error.h"
+#include "flank/example/example.h"
 #include "flank/fit/flank_fit.h"
-#include "flank/motion/ruled_motion.h"
-#include "flank/pipeline/example.h"
+#include "flank/judge.h"
 #include "flank/pipeline/fit_job.h"
-#include "flank/surface/target.h"
-#include "flank/verify/judge.h"
+#include "flank/ruled_motion.h"
+#include "flank/target.h"
 
-namespace flank::bench {
+namespace flank::internal::bench {
 
 inline std::string scratch(const std::string& name) {
   const auto folder = std::filesystem::temp_directory_path() / "flank_claims";
@@ -82,4 +82,4 @@ inline VerifyReport judge_fit(const std::vector<Face>& faces, const FlankFitResu
   return judge(tool, path, samples, options);
 }
 
-}  // namespace flank::bench
+}  // namespace flank::internal::bench

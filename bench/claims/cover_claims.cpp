@@ -9,12 +9,12 @@
 
 #include "claims/claims_support.h"
 #include "flank/base/parallel.h"
-#include "flank/cover/line_fit.h"
+#include "flank/example/example_envelope.h"
+#include "flank/example/example_motions.h"
 #include "flank/pipeline/cover_job.h"
-#include "flank/pipeline/example_envelope.h"
-#include "flank/pipeline/example_motions.h"
+#include "flank/strip/line_fit.h"
 
-namespace flank::bench {
+namespace flank::internal::bench {
 namespace {
 
 /// A tool, and the piece of it that has to machine the envelope of the whole.
@@ -237,4 +237,4 @@ void add_cover_claims(std::vector<Claim>& claims) {
     claims.push_back({"cover/" + c.name, [c] { return command(c); }});
 }
 
-}  // namespace flank::bench
+}  // namespace flank::internal::bench

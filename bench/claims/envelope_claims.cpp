@@ -1,7 +1,7 @@
 // Exact envelopes of known tools under known motions: 4 tools x 3 motions.
 #include "claims/claims_support.h"
 
-namespace flank::bench {
+namespace flank::internal::bench {
 namespace {
 
 const char* const kTools[] = {"barrel", "hyperbolic", "cone", "spline"};
@@ -90,4 +90,4 @@ void add_envelope_claims(std::vector<Claim>& claims) {
   claims.push_back({"deformed/deformed-envelope", deformed});
 }
 
-}  // namespace flank::bench
+}  // namespace flank::internal::bench

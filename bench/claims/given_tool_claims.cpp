@@ -2,9 +2,9 @@
 // two-sided motion leaves as error.
 #include "claims/claims_support.h"
 #include "flank/fit/swept_polish.h"
-#include "flank/pipeline/tool_model.h"
+#include "flank/toolbox/tool_model.h"
 
-namespace flank::bench {
+namespace flank::internal::bench {
 namespace {
 
 /// The least largest |f| over the face that a motion of either sign reaches, from the one-sided result: passes whose dead
@@ -71,4 +71,4 @@ void add_given_tool_claims(std::vector<Claim>& claims) {
                         [part = std::string(part), tool = std::string(tool)] { return given(part, tool); }});
 }
 
-}  // namespace flank::bench
+}  // namespace flank::internal::bench

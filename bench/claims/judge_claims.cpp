@@ -1,11 +1,11 @@
 // The judge on a real part: two blades on a sector of a hub, every other face a check surface.
 #include "claims/claims_support.h"
 #include "flank/base/parallel.h"
-#include "flank/pipeline/check_faces.h"
 #include "flank/pipeline/judge_job.h"
-#include "flank/pipeline/targets.h"
+#include "flank/setup/check_faces.h"
+#include "flank/setup/targets.h"
 
-namespace flank::bench {
+namespace flank::internal::bench {
 namespace {
 
 constexpr double kSpacingMm = 0.25, kBoundSeconds = 5.0;
@@ -65,4 +65,4 @@ void add_judge_claims(std::vector<Claim>& claims) {
   claims.push_back({"judge/r37 blisk sector F9, 1000 poses", sector});
 }
 
-}  // namespace flank::bench
+}  // namespace flank::internal::bench

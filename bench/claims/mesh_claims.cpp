@@ -1,9 +1,9 @@
 // The exact envelope as a mesh of about 13,000 vertices: clean, noisy, with two holes. Errors are against the exact face.
 #include "claims/claims_support.h"
-#include "flank/pipeline/example_envelope.h"
-#include "flank/pipeline/targets.h"
+#include "flank/example/example_envelope.h"
+#include "flank/setup/targets.h"
 
-namespace flank::bench {
+namespace flank::internal::bench {
 namespace {
 
 std::vector<Figure> from_a_start(const std::string& name, double bound, double least_coverage) {
@@ -34,4 +34,4 @@ void add_mesh_claims(std::vector<Claim>& claims) {
   claims.push_back({"mesh/envelope-holes", [] { return from_a_start("envelope-holes", 5e-6, 0.95); }});
 }
 
-}  // namespace flank::bench
+}  // namespace flank::internal::bench

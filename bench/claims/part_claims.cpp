@@ -1,7 +1,7 @@
 // Real blades, and the generated ruled one: the whole command from the file.
 #include "claims/claims_support.h"
 
-namespace flank::bench {
+namespace flank::internal::bench {
 namespace {
 
 FitOutcome fit_file(FitJob job, double& seconds) {
@@ -90,4 +90,4 @@ void add_part_claims(std::vector<Claim>& claims) {
         {"custom against cylinder/" + cases[k].name, [c = cases[k]] { return custom_against_cylinder(c); }});
 }
 
-}  // namespace flank::bench
+}  // namespace flank::internal::bench

@@ -7,9 +7,9 @@
 #include <fstream>
 #include <iterator>
 
-#include "flank/base/error.h"
+#include "flank/error.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 namespace fs = std::filesystem;
@@ -80,4 +80,4 @@ TEST_F(AtomicFileTest, RefusesAFolderAndAnEmptyName) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

@@ -1,8 +1,8 @@
-#include "flank/base/error.h"
+#include "flank/error.h"
 
 #include <gtest/gtest.h>
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 template <class E>
@@ -22,4 +22,4 @@ TEST(Error, EveryKindHasItsExitCodeAndKeepsItsMessage) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

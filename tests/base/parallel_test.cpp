@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 class Parallel : public testing::Test {
@@ -100,4 +100,4 @@ TEST_F(Parallel, ReportsTheThreadCount) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 // The reference implementation of SplitMix64 with seed 1234567.
@@ -60,4 +60,4 @@ TEST(Random, NormalHasMeanZeroAndVarianceOne) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

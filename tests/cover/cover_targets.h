@@ -3,11 +3,11 @@
 
 #include <memory>
 
-#include "flank/cover/line_guard.h"
-#include "flank/pipeline/example.h"
+#include "flank/example/example.h"
+#include "flank/obstacle/line_guard.h"
 #include "seed/exact_targets.h"
 
-namespace flank::testing {
+namespace flank::internal::testing {
 
 /// The exact envelope of a barrel 40 mm long, and the middle 24 mm of that barrel: the surface is longer than the tool.
 struct LongSurface {
@@ -60,4 +60,4 @@ inline CoverObstacles lid_at(double z) {
   return triangle_obstacle(Vec3(-200.0, -200.0, z), Vec3(300.0, -200.0, z), Vec3(0.0, 400.0, z));
 }
 
-}  // namespace flank::testing
+}  // namespace flank::internal::testing

@@ -5,10 +5,10 @@
 
 #include "cover/cover_targets.h"
 #include "flank/base/parallel.h"
-#include "flank/cover/tile.h"
+#include "flank/cover/tiles/tile.h"
 #include "sanitized.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 CoverOptions options_for(double tolerance_mm) {
@@ -123,4 +123,4 @@ TEST(Tile, ASetIsWorthItsCoverLessItsPrice) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "flank/envelope/envelope.h"
+#include "flank/envelope.h"
 #include "motion/sample_motions.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 using testing::random_motion;
@@ -162,4 +162,4 @@ TEST(ContactSide, LooksTheWayItIsAsked) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

@@ -1,4 +1,4 @@
-#include "flank/envelope/envelope.h"
+#include "flank/envelope.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "flank/base/parallel.h"
 #include "motion/sample_motions.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 using testing::random_motion;
@@ -105,4 +105,4 @@ TEST(EnvelopeDeviation, DoesNotDependOnTheThreads) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

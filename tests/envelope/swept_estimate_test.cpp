@@ -5,7 +5,7 @@
 
 #include "seed/exact_targets.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 TEST(SweptEstimate, FindsPlacesForARadialFunctionThatIsNoTool) {
@@ -24,4 +24,4 @@ TEST(SweptEstimate, FindsPlacesForARadialFunctionThatIsNoTool) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include "flank/pipeline/example.h"
+#include "flank/example/example.h"
 #include "sanitized.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 // Largest error, relative to the diagonal, on a grid three times denser than the fit's, footpoints cold.
@@ -75,4 +75,4 @@ TEST(FlankFit, AutomaticStartCoversAnExactEnvelope) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

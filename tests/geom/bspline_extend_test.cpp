@@ -7,7 +7,7 @@
 
 #include "flank/base/random.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 /// z = quadratic in x and y over [0, 10] x [0, 4], as a bicubic surface with several cells.
@@ -80,4 +80,4 @@ TEST(BSplineExtend, NothingToExtendChangesNothing) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

@@ -6,7 +6,7 @@
 
 #include "flank/base/random.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 BSplineSurface random_surface(std::uint64_t seed, int p, int q, int nu, int nv, bool rational) {
@@ -87,4 +87,4 @@ TEST(BSplinePatches, HullsHoldTheirPart) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

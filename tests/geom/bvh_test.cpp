@@ -4,7 +4,7 @@
 
 #include "flank/base/random.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 TEST(OrientedBox, HoldsItsPointsAndIsTightOnATiltedPlate) {
@@ -57,4 +57,4 @@ TEST(BoxTree, AnEmptyTreeVisitsNothing) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

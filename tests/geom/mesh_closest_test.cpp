@@ -5,7 +5,7 @@
 #include "flank/geom/triangle_bvh.h"
 #include "surface/mesh_shapes.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -107,4 +107,4 @@ TEST(TriangleBvh, TiesHoldEveryTriangleWithinTheSlack) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

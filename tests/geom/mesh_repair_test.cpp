@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include "flank/base/error.h"
+#include "flank/error.h"
 #include "flank/geom/mesh_topology.h"
 #include "surface/mesh_shapes.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 double area(const TriangleMesh& mesh) {
@@ -117,4 +117,4 @@ TEST(MeshRepair, RefusesAMoebiusStrip) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

@@ -6,7 +6,7 @@
 
 #include "surface/mesh_shapes.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 TEST(MeshTopology, NeighboursAreMutual) {
@@ -74,4 +74,4 @@ TEST(MeshTopology, FinComesOffAndTheSurfaceCloses) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "flank/base/error.h"
+#include "flank/error.h"
 #include "flank/geom/trim.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 /// The quarter of a cylinder of radius 10 and height 20, exact; u around, v along z. The outward normal is the radial one.
@@ -125,4 +125,4 @@ TEST(Tessellate, RefusesLengthsThatAreNone) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

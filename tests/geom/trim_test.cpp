@@ -7,7 +7,7 @@
 
 #include "flank/base/random.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 /// Exact circle of four rational quarter arcs.
@@ -83,4 +83,4 @@ TEST(Trim, EndsThatDoNotMeetAreJoined) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

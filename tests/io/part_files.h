@@ -9,10 +9,10 @@
 #include <fstream>
 #include <string>
 
-#include "flank/base/error.h"
-#include "flank/io/part.h"
+#include "flank/error.h"
+#include "flank/part.h"
 
-namespace flank::testing_io {
+namespace flank::internal::testing_io {
 
 namespace fs = std::filesystem;
 
@@ -66,7 +66,7 @@ inline bool tells(const Part& part, const std::string& words) {
   return false;
 }
 
-}  // namespace flank::testing_io
+}  // namespace flank::internal::testing_io
 
 #define FLANK_REAL_PART(variable, name)                     \
   const std::string variable = testing_io::real_part(name); \

@@ -5,11 +5,11 @@
 #include <array>
 
 #include "flank/base/random.h"
-#include "flank/io/read_sniff.h"
-#include "flank/io/write_mesh.h"
+#include "flank/io/mesh/write_mesh.h"
+#include "flank/io/text/read_sniff.h"
 #include "io/part_files.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 using testing_io::corpus;
@@ -131,4 +131,4 @@ TEST(Refusals, LostReferencesOfStep) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 
-#include "flank/io/read_sniff.h"
-#include "flank/io/write_mesh.h"
-#include "flank/io/write_step.h"
+#include "flank/io/cad/write_step.h"
+#include "flank/io/mesh/write_mesh.h"
+#include "flank/io/text/read_sniff.h"
 #include "io/part_files.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 using testing_io::own_part;
@@ -77,4 +77,4 @@ TEST(WriteMesh, RefusesOtherExtensions) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

@@ -4,7 +4,7 @@
 
 #include "motion/sample_motions.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 using testing::random_motion;
@@ -52,4 +52,4 @@ TEST(RailBounds, AreExactForLinearPieces) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

@@ -1,11 +1,11 @@
-#include "flank/motion/ruled_motion.h"
+#include "flank/ruled_motion.h"
 
 #include <gtest/gtest.h>
 
-#include "flank/base/error.h"
+#include "flank/error.h"
 #include "motion/sample_motions.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 using testing::random_motion;
@@ -84,4 +84,4 @@ TEST(FitMotion, RefusesTooFewPoses) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
-#include "flank/base/error.h"
-#include "flank/motion/ruled_motion.h"
+#include "flank/error.h"
+#include "flank/ruled_motion.h"
 #include "motion/sample_motions.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 using testing::random_motion;
@@ -88,4 +88,4 @@ TEST(SampleMotion, ReportsARailThatVanishes) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

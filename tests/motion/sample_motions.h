@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "flank/base/random.h"
-#include "flank/motion/ruled_motion.h"
+#include "flank/ruled_motion.h"
 
-namespace flank::testing {
+namespace flank::internal::testing {
 
 /// A straight sweep with a constant axis: the tip runs from `from` by `travel`.
 inline RuledMotion translation(const Vec3& from, const Vec3& travel, const Vec3& u, double axis_length) {
@@ -39,4 +39,4 @@ inline RuledMotion random_motion(std::uint64_t seed, double axis_length = 40.0) 
   return motion;
 }
 
-}  // namespace flank::testing
+}  // namespace flank::internal::testing

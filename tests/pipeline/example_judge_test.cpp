@@ -1,10 +1,10 @@
 /// The judge shares no code with the generator of examples: where both agree, both are right.
 #include <gtest/gtest.h>
 
-#include "flank/pipeline/example.h"
-#include "flank/verify/judge.h"
+#include "flank/example/example.h"
+#include "flank/judge.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -41,4 +41,4 @@ TEST(DeformedEnvelope, TheBumpIsCutByTheTruth) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

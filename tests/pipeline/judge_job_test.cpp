@@ -5,11 +5,11 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "flank/base/error.h"
-#include "flank/pipeline/check_faces.h"
-#include "flank/pipeline/targets.h"
+#include "flank/error.h"
+#include "flank/setup/check_faces.h"
+#include "flank/setup/targets.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 std::string real_part(const std::string& name) {
@@ -97,4 +97,4 @@ TEST(JudgeJob, RefusesARadiusThatIsNone) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

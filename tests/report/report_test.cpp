@@ -1,4 +1,4 @@
-#include "flank/report/report.h"
+#include "flank/report.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <fstream>
 
-#include "flank/base/error.h"
+#include "flank/error.h"
 #include "flank/report/browser.h"
 #include "flank/report/page_template.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 namespace fs = std::filesystem;
@@ -101,4 +101,4 @@ TEST_F(Report, SaysThatThereIsNoBrowser) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "flank/base/error.h"
+#include "flank/error.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 TEST(AxisLine, ReadsCommasAndBlanks) {
@@ -36,4 +36,4 @@ TEST(AxisLine, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

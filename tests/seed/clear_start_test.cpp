@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "clearance/check_scene.h"
+#include "obstacle/check_scene.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 using testing::hub;
@@ -53,4 +53,4 @@ TEST(ClearStart, NothingIsFreeInsideTheHub) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

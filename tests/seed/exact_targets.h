@@ -5,12 +5,12 @@
 #include <memory>
 #include <vector>
 
-#include "flank/envelope/envelope.h"
-#include "flank/motion/ruled_motion.h"
-#include "flank/surface/target.h"
-#include "flank/tool/radial_function.h"
+#include "flank/envelope.h"
+#include "flank/radial_function.h"
+#include "flank/ruled_motion.h"
+#include "flank/target.h"
 
-namespace flank::testing {
+namespace flank::internal::testing {
 
 struct ExactTarget {
   RuledMotion motion;
@@ -88,4 +88,4 @@ inline Pose pose_off(const Pose& pose, double axis_length, const Vec3& tip_shift
   return {a, (b - a).normalized()};
 }
 
-}  // namespace flank::testing
+}  // namespace flank::internal::testing

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "exact_targets.h"
-#include "flank/base/error.h"
+#include "flank/error.h"
+#include "seed/exact_targets.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 using testing::barrel_target;
@@ -95,4 +95,4 @@ TEST(GuideStart, TellsItsSideOfTheTarget) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "exact_targets.h"
+#include "seed/exact_targets.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 using testing::barrel_target;
@@ -135,4 +135,4 @@ TEST(LineSearch, FindsAMovableLine) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

@@ -5,10 +5,10 @@
 #include <Eigen/Eigenvalues>
 #include <numbers>
 
-#include "exact_targets.h"
 #include "flank/base/random.h"
+#include "seed/exact_targets.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 using testing::barrel_target;
@@ -162,4 +162,4 @@ TEST(Movability, SteeringKeepsTheHeadingWhereTheFormLeavesIt) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "flank/base/random.h"
-#include "flank/geom/triangle_mesh.h"
+#include "flank/triangle_mesh.h"
 
-namespace flank::shapes {
+namespace flank::internal::shapes {
 
 /// Vertices exactly on S(u, v) over a grid of nu x nv cells of [0, 1]^2; `wrap_u`, `wrap_v`: the last row is the first
 /// one. Normal S_u x S_v.
@@ -103,4 +103,4 @@ inline void cut(TriangleMesh& mesh, const std::function<bool(const Vec3&)>& gone
   });
 }
 
-}  // namespace flank::shapes
+}  // namespace flank::internal::shapes

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "flank/base/random.h"
-#include "flank/geom/face.h"
-#include "flank/surface/target.h"
+#include "flank/face.h"
+#include "flank/target.h"
 
-namespace flank::test {
+namespace flank::internal::test {
 
 /// How many of n random points a test with dense search looks at: fewer under a sanitizer, which is 10 to 20 times
 /// slower.
@@ -169,4 +169,4 @@ inline Vec3 random_in(Random& random, const Box3& box, double margin) {
   return {random.uniform(low[0], high[0]), random.uniform(low[1], high[1]), random.uniform(low[2], high[2])};
 }
 
-}  // namespace flank::test
+}  // namespace flank::internal::test

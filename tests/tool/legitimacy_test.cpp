@@ -3,9 +3,9 @@
 #include <cmath>
 #include <string>
 
-#include "flank/tool/tool.h"
+#include "flank/tool.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 RadialFunction family(ToolFamily which, double length, std::initializer_list<double> list) {
@@ -92,4 +92,4 @@ TEST(Legitimacy, BarelyLegitimateAndBarelyNotAreToldApart) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

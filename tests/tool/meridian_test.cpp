@@ -5,10 +5,10 @@
 #include <cmath>
 #include <vector>
 
-#include "flank/base/error.h"
-#include "flank/tool/tool.h"
+#include "flank/error.h"
+#include "flank/tool.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 constexpr double kLength = 20.0;
@@ -107,4 +107,4 @@ TEST(RadialFromMeridian, RefusesProfilesThatNoSpheresFillAndNamesThePoint) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

@@ -1,16 +1,16 @@
-#include "flank/tool/radial_function.h"
+#include "flank/radial_function.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "flank/base/error.h"
 #include "flank/base/random.h"
-#include "flank/geom/bspline_basis.h"
-#include "flank/tool/tool.h"
+#include "flank/bspline_basis.h"
+#include "flank/error.h"
+#include "flank/tool.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 constexpr double kLength = 20.0;
@@ -174,4 +174,4 @@ TEST(RadialFunction, WrongUseIsRefused) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "flank/base/random.h"
-#include "flank/path/path.h"
-#include "flank/tool/tool.h"
-#include "flank/verify/judge.h"
+#include "flank/judge.h"
+#include "flank/path.h"
+#include "flank/tool.h"
 
-namespace flank::brute {
+namespace flank::internal::brute {
 
 template <class Function>
 double golden(double a, double b, const Function& f, double* where = nullptr) {
@@ -138,4 +138,4 @@ inline Path twisted_path(Random& random, int poses, double travel, double turn) 
   return {{strip}};
 }
 
-}  // namespace flank::brute
+}  // namespace flank::internal::brute

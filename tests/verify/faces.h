@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "flank/geom/face.h"
+#include "flank/face.h"
 
-namespace flank::test {
+namespace flank::internal::test {
 
 /// The rectangle [0, a] x [0, b] of the plane y = height, spanned by x and z.
 inline Face plane_face(const std::string& id, double a, double b, double height = 0.0) {
@@ -70,4 +70,4 @@ inline TrimLoop circle(const Vec2& center, double radius) {
   return loop;
 }
 
-}  // namespace flank::test
+}  // namespace flank::internal::test

@@ -1,16 +1,16 @@
-#include "flank/verify/judge.h"
+#include "flank/judge.h"
 
 #include <gtest/gtest.h>
 
 #include <cstring>
 #include <numeric>
 
-#include "brute_force.h"
-#include "faces.h"
-#include "flank/base/error.h"
 #include "flank/base/parallel.h"
+#include "flank/error.h"
+#include "verify/brute_force.h"
+#include "verify/faces.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 Tool cylinder(double radius, double length) {
@@ -220,4 +220,4 @@ TEST(Judge, RefusesOptionsThatAreNone) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

@@ -5,12 +5,12 @@
 #include <numbers>
 #include <numeric>
 
-#include "faces.h"
-#include "flank/base/error.h"
 #include "flank/base/parallel.h"
-#include "flank/verify/winding.h"
+#include "flank/error.h"
+#include "flank/verify/clearance/winding.h"
+#include "verify/faces.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 /// [0, 40] x [0, 20] of the plane y = 0, machined from y > 0; x and z span it.
@@ -190,4 +190,4 @@ TEST(Winding, IsOneInsideAndNoneOutside) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <numeric>
 
-#include "faces.h"
-#include "flank/base/error.h"
 #include "flank/base/random.h"
-#include "flank/verify/judge.h"
+#include "flank/error.h"
+#include "flank/judge.h"
+#include "verify/faces.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -100,4 +100,4 @@ TEST(SampleMesh, TrianglesKeepAreaAndSpacing) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "brute_force.h"
-#include "flank/base/error.h"
+#include "flank/error.h"
+#include "verify/brute_force.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -246,4 +246,4 @@ TEST(SweptVolume, RefusesPosesThatAreNone) {
 }
 
 }  // namespace
-}  // namespace flank
+}  // namespace flank::internal

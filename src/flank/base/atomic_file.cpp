@@ -9,9 +9,9 @@
 #include <filesystem>
 #include <utility>
 
-#include "flank/base/error.h"
+#include "flank/error.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 [[noreturn]] void refuse(const std::string& file, int error) {
@@ -67,4 +67,4 @@ void write_file(const std::string& file, std::string_view content) {
   atomic.commit();
 }
 
-}  // namespace flank
+}  // namespace flank::internal

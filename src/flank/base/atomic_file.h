@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace flank {
+namespace flank::internal {
 
 /// Owns the temporary name of a file that is being written by somebody else (a library that wants a path). The
 /// destructor removes what was not committed.
@@ -32,4 +32,4 @@ class AtomicFile {
 /// left, and what was there before stays until the new content is complete.
 void write_file(const std::string& file, std::string_view content);
 
-}  // namespace flank
+}  // namespace flank::internal

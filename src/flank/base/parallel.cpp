@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 std::unique_ptr<tbb::global_control>& control() {
@@ -85,4 +85,4 @@ void parallel_blocks(std::size_t count, std::size_t grain, const std::function<v
   run_blocks(blocks, run);
 }
 
-}  // namespace flank
+}  // namespace flank::internal

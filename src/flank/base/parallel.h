@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <functional>
 
-namespace flank {
+namespace flank::internal {
 
 /// Sets the number of threads that parallel loops use in this process; 0 means all cores. Call it once, at start-up.
 void set_thread_count(int threads);
@@ -18,4 +18,4 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& bod
 void parallel_blocks(std::size_t count, std::size_t grain,
                      const std::function<void(std::size_t begin, std::size_t end)>& body);
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace flank {
+namespace flank::internal {
 
 /// SplitMix64 (Steele, Lea, Flood 2014): small, fast, good enough for sampling. Local generators only; there is no
 /// global one.
@@ -31,4 +31,4 @@ class Random {
   std::uint64_t state_;
 };
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -5,14 +5,14 @@
 #include <cmath>
 
 #include "flank/base/parallel.h"
-#include "flank/cover/certify.h"
-#include "flank/cover/curves.h"
-#include "flank/cover/order.h"
+#include "flank/cover/curves/curves.h"
 #include "flank/cover/reasons.h"
-#include "flank/cover/shape_places.h"
-#include "flank/cover/smooth.h"
+#include "flank/cover/tiles/smooth.h"
+#include "flank/seed/direction/shape_places.h"
+#include "flank/strip/certify.h"
+#include "flank/strip/strip_order.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 constexpr double kSmoothWorth = 0.002;  ///< share of the area that smooth rails may cost
@@ -256,4 +256,4 @@ CoverResult cover(const Target& target, const Tool& tool, const CoverObstacles& 
   return result;
 }
 
-}  // namespace flank
+}  // namespace flank::internal

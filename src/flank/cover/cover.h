@@ -5,15 +5,15 @@
 #include <utility>
 #include <vector>
 
-#include "flank/base/progress.h"
-#include "flank/cover/curves_options.h"
-#include "flank/cover/line_guard.h"
-#include "flank/cover/seeds.h"
-#include "flank/motion/ruled_motion.h"
-#include "flank/surface/target.h"
-#include "flank/tool/tool.h"
+#include "flank/cover/curves/curves_options.h"
+#include "flank/obstacle/line_guard.h"
+#include "flank/progress.h"
+#include "flank/ruled_motion.h"
+#include "flank/seed/direction/seeds.h"
+#include "flank/target.h"
+#include "flank/tool.h"
 
-namespace flank {
+namespace flank::internal {
 
 /// Where on the target lines are begun.
 enum class SeedPlaces {
@@ -79,4 +79,4 @@ struct CoverResult {
 [[nodiscard]] CoverResult cover(const Target& target, const Tool& tool, const CoverObstacles& obstacles,
                                 const CoverOptions& options, const Progress& progress);
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 struct ThinPlace {
@@ -90,4 +90,4 @@ std::string reason_of(const Target& target, const RadialFunction& radial, const 
                      middle.y(), middle.z());
 }
 
-}  // namespace flank
+}  // namespace flank::internal

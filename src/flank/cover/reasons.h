@@ -3,11 +3,11 @@
 
 #include <string>
 
-#include "flank/cover/strip_cover.h"
-#include "flank/surface/target.h"
-#include "flank/tool/radial_function.h"
+#include "flank/radial_function.h"
+#include "flank/strip/strip_measure.h"
+#include "flank/target.h"
 
-namespace flank {
+namespace flank::internal {
 
 /// Largest concave curvature (1/mm, 0 where none is concave) over those cells that no strip covers, and where.
 struct ConcavePlace {
@@ -22,4 +22,4 @@ struct ConcavePlace {
 [[nodiscard]] std::string reason_of(const Target& target, const RadialFunction& radial, const CoverSamples& samples,
                                     const std::vector<CoverStrip>& strips, double tolerance_mm);
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -1,4 +1,4 @@
-#include "flank/envelope/envelope.h"
+#include "flank/envelope.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +7,7 @@
 #include "flank/base/parallel.h"
 
 namespace flank {
+using namespace internal;
 namespace {
 
 /// A unit vector across u where the motion gives none.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace flank {
+namespace flank::internal {
 
 namespace {
 constexpr int kTable = 256;
@@ -215,4 +215,4 @@ SweptContact refine_contact(const RuledMotion& motion, const RadialFunction& rad
   return best;
 }
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -4,10 +4,10 @@
 
 #include <vector>
 
-#include "flank/motion/ruled_motion.h"
-#include "flank/tool/radial_function.h"
+#include "flank/radial_function.h"
+#include "flank/ruled_motion.h"
 
-namespace flank {
+namespace flank::internal {
 
 /// Where a swept tool comes nearest to a point.
 struct SweptContact {
@@ -59,4 +59,4 @@ class SweptEstimate {
 [[nodiscard]] SweptContact refine_contact(const RuledMotion& motion, const RadialFunction& radial, const Vec3& x,
                                           double t, double window);
 
-}  // namespace flank
+}  // namespace flank::internal

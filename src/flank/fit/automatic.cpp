@@ -9,7 +9,7 @@
 #include "flank/seed/clear_start.h"
 #include "flank/seed/ruled_start.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 struct Candidate {
@@ -172,4 +172,4 @@ FlankFitResult fit_automatic(const Target& target, const ToolModel& tool, const 
   return finish(settled(without_overcut(polished[best], samples, options), options), options, std::move(result));
 }
 
-}  // namespace flank
+}  // namespace flank::internal

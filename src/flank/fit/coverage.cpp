@@ -5,7 +5,7 @@
 #include "flank/envelope/swept_estimate.h"
 #include "flank/fit/flank_fit.h"
 
-namespace flank {
+namespace flank::internal {
 
 double CoverageEstimate::score(double tolerance_mm) const {
   // Coverage first; among equals the lower overcut. Overcut beyond the tolerance fails the part: it costs ten percent of
@@ -122,4 +122,4 @@ ResidualSummary validate(const std::vector<FitTask>& tasks, const RadialFunction
   return summary;
 }
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -7,7 +7,7 @@
 
 #include "flank/fit/swept_polish.h"
 
-namespace flank {
+namespace flank::internal {
 
 FlankFitResult fit_from_starts(const std::vector<FitTask>& tasks, const ToolModel& tool, const FlankFitOptions& options,
                                const Progress& progress) {
@@ -22,4 +22,4 @@ FlankFitResult fit_from_starts(const std::vector<FitTask>& tasks, const ToolMode
   return finish(settled(polished, options), options, std::move(result));
 }
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "flank/base/progress.h"
-#include "flank/fit/fit_model.h"
-#include "flank/fit/minimise.h"
+#include "flank/fit/model/fit_model.h"
+#include "flank/fit/model/minimise.h"
+#include "flank/progress.h"
 
-namespace flank {
+namespace flank::internal {
 
 /// What is known of the tool and what may change.
 struct ToolModel {
@@ -88,4 +88,4 @@ struct FlankFitResult {
 [[nodiscard]] ResidualSummary validate(const std::vector<FitTask>& tasks, const RadialFunction& tool, int count_t,
                                        int count_s);
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -8,7 +8,7 @@
 #include "flank/base/parallel.h"
 #include "flank/fit/swept_polish.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 /// A residual below this share of the diagonal says that the target is an envelope of such a tool: go for the last
@@ -204,4 +204,4 @@ FlankFitResult finish(const Polished& polished, const FlankFitOptions& options, 
   return result;
 }
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -5,7 +5,7 @@
 
 #include "flank/fit/stages.h"
 
-namespace flank {
+namespace flank::internal {
 
 inline constexpr int kRankingPoses = 160;
 
@@ -50,4 +50,4 @@ struct Polished {
 /// Fills a result from the chosen draft: validation with cold footpoints, status.
 [[nodiscard]] FlankFitResult finish(const Polished& polished, const FlankFitOptions& options, FlankFitResult result);
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 RuledMotion with_control_points(const RuledMotion& motion, int count) {
@@ -144,4 +144,4 @@ RadialFunction clamp_tool(const RadialFunction& tool, const RadiusBounds& bounds
   return tool.with_parameters(tool.parameters().cwiseMax(bounds.smallest).cwiseMin(bounds.largest));
 }
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -5,7 +5,7 @@
 
 #include "flank/fit/flank_fit.h"
 
-namespace flank {
+namespace flank::internal {
 
 /// A tool and motions between passes, without footpoints.
 struct FitDraft {
@@ -44,4 +44,4 @@ struct FitDraft {
 /// Tool parameters clamped into the bounds (splines: coefficients, whose hull holds the function).
 [[nodiscard]] RadialFunction clamp_tool(const RadialFunction& tool, const RadiusBounds& bounds);
 
-}  // namespace flank
+}  // namespace flank::internal

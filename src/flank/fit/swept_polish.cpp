@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "flank/base/parallel.h"
-#include "flank/fit/constrained.h"
-#include "flank/fit/levenberg_marquardt.h"
+#include "flank/fit/model/constrained.h"
+#include "flank/fit/model/levenberg_marquardt.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 /// Passes in turn: dead zone in tolerances, fairness, anchor, control points, coefficients; points a side of the target
@@ -165,4 +165,4 @@ Polished without_overcut(const Polished& polished, const std::vector<SurfaceSamp
   return best;
 }
 
-}  // namespace flank
+}  // namespace flank::internal

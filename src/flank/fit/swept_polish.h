@@ -3,10 +3,10 @@
 
 #include <vector>
 
+#include "flank/fit/model/swept_model.h"
 #include "flank/fit/polish.h"
-#include "flank/fit/swept_model.h"
 
-namespace flank {
+namespace flank::internal {
 
 /// What of a target counts as out of reach: where a ball of this radius enters a check face by more than the depth.
 struct Reach {
@@ -35,4 +35,4 @@ struct Reach {
 [[nodiscard]] Polished without_overcut(const Polished& polished, const std::vector<SurfaceSample>& samples,
                                        const FlankFitOptions& options);
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -1,4 +1,4 @@
-#include "flank/geom/bspline_basis.h"
+#include "flank/bspline_basis.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "flank/geom/bspline_curve.h"
+#include "flank/bspline_curve.h"
 
 #include <Eigen/Cholesky>
 

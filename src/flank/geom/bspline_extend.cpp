@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic>;
@@ -142,4 +142,4 @@ BSplineSurface extend(const BSplineSurface& surface, const ParameterMargins& mar
   return transpose(extend_u(transpose(wide), margins.v_low, margins.v_high, fit_share));
 }
 
-}  // namespace flank
+}  // namespace flank::internal

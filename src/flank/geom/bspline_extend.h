@@ -1,9 +1,9 @@
 /// Smooth extrapolation of a B-spline surface past its borders.
 #pragma once
 
-#include "flank/geom/bspline_surface.h"
+#include "flank/bspline_surface.h"
 
-namespace flank {
+namespace flank::internal {
 
 /// How far to extend, in units of the surface's own parameters; 0: not at all on that side.
 struct ParameterMargins {
@@ -17,4 +17,4 @@ struct ParameterMargins {
 /// u first, then v of the result, so the corners come out.
 [[nodiscard]] BSplineSurface extend(const BSplineSurface& surface, const ParameterMargins& margins, double fit_share);
 
-}  // namespace flank
+}  // namespace flank::internal

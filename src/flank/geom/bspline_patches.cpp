@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxDegree + 1, kMaxDegree + 1>;
@@ -196,4 +196,4 @@ std::vector<Vec3> BSplinePatches::hull(int i, int j, double u0, double u1, doubl
   return points;
 }
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "flank/geom/bspline_surface.h"
+#include "flank/bspline_surface.h"
 
-namespace flank {
+namespace flank::internal {
 
 /// Every knot cell as a polynomial in powers of its own centred coordinates in [-1, 1]; homogeneous where the surface
 /// is rational. A bicubic point with all second derivatives takes about 0.1 microseconds. Round-off: a few 1e-15 of the
@@ -65,4 +65,4 @@ class BSplinePatches {
   Kernel kernel_ = nullptr;
 };
 
-}  // namespace flank
+}  // namespace flank::internal

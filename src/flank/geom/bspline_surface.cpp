@@ -1,4 +1,4 @@
-#include "flank/geom/bspline_surface.h"
+#include "flank/bspline_surface.h"
 
 #include <Eigen/LU>
 #include <array>

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 /// Above this many items a node is bounded by the boxes of its items instead of their hulls: the loss is small and
@@ -91,4 +91,4 @@ int BoxTree::build(const std::vector<std::vector<Vec3>>& hulls, std::vector<int>
   return index;
 }
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <vector>
 
-#include "flank/geom/vec.h"
+#include "flank/vec.h"
 
-namespace flank {
+namespace flank::internal {
 
 /// A box in its own frame.
 struct OrientedBox {
@@ -78,4 +78,4 @@ void BoxTree::nearest(const Vec3& p, double& best, Visit&& visit) const {
   }
 }
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -9,9 +9,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "flank/base/error.h"
+#include "flank/error.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 using Triangle = std::array<int, 3>;
@@ -309,4 +309,4 @@ RepairedMesh repair_mesh(TriangleMesh mesh, double weld_share) {
   return result;
 }
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "flank/geom/triangle_mesh.h"
+#include "flank/triangle_mesh.h"
 
-namespace flank {
+namespace flank::internal {
 
 /// What repair_mesh did. All zero: the mesh was sound.
 struct MeshRepair {
@@ -32,4 +32,4 @@ struct RepairedMesh {
 /// finite, no area at all, or a one-sided (Moebius) component.
 [[nodiscard]] RepairedMesh repair_mesh(TriangleMesh mesh, double weld_share = 0.0);
 
-}  // namespace flank
+}  // namespace flank::internal

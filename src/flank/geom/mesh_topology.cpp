@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 struct Edge {
@@ -220,4 +220,4 @@ std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {
   return normals;
 }
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "flank/geom/triangle_mesh.h"
+#include "flank/triangle_mesh.h"
 
-namespace flank {
+namespace flank::internal {
 
 /// Adjacency of an oriented manifold mesh. Side k of a triangle lies opposite its corner k and runs from corner k+1 to
 /// corner k+2.
@@ -55,4 +55,4 @@ struct TriangleSide {
 [[nodiscard]] std::vector<Vec3> triangle_normals(const TriangleMesh& mesh);
 [[nodiscard]] std::vector<Vec3> vertex_normals(const TriangleMesh& mesh);
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -5,10 +5,10 @@
 #include <map>
 #include <utility>
 
-#include "flank/base/error.h"
+#include "flank/error.h"
 #include "flank/geom/trim.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 constexpr int kProbes = 9;        ///< per direction, where the surface is asked how it bends
@@ -164,4 +164,4 @@ Tessellation tessellate(const Face& face, const TessellationOptions& options) {
   return out;
 }
 
-}  // namespace flank
+}  // namespace flank::internal

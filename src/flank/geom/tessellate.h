@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "flank/geom/face.h"
-#include "flank/geom/triangle_mesh.h"
+#include "flank/face.h"
+#include "flank/triangle_mesh.h"
 
-namespace flank {
+namespace flank::internal {
 
 struct TessellationOptions {
   double chord_mm = 0.05;  ///< the triangles aim to stay this near to the surface
@@ -24,4 +24,4 @@ struct Tessellation {
 /// not above 0.
 [[nodiscard]] Tessellation tessellate(const Face& face, const TessellationOptions& options);
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -377,4 +377,4 @@ BvhHit TriangleBvh::closest(const Vec3& p, double slack, BvhTies& ties) const {
   return found.best;
 }
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "flank/geom/triangle_mesh.h"
+#include "flank/triangle_mesh.h"
 
-namespace flank {
+namespace flank::internal {
 
 /// Closest point of the triangle (a, b, c) to p; barycentric weights of b and c are (u, v).
 struct TrianglePoint {
@@ -93,4 +93,4 @@ class TriangleBvh {
   std::vector<int> triangles_;    // four a group: number in the mesh, -1 in unused places
 };
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 /// Loops that stay this close to the rectangle's border (as a share of it) and enclose it bound the whole rectangle.
@@ -192,4 +192,4 @@ TrimLoop rectangle_loop(const ParameterRectangle& r) {
   return loop;
 }
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -4,9 +4,9 @@
 #include <array>
 #include <vector>
 
-#include "flank/geom/face.h"
+#include "flank/face.h"
 
-namespace flank {
+namespace flank::internal {
 
 struct ParameterRectangle {
   double u0 = 0.0, u1 = 1.0, v0 = 0.0, v1 = 1.0;
@@ -54,4 +54,4 @@ inline constexpr double kTrimDeviation = 1e-7;
 /// The border of a rectangle as a loop, u0 -> u1 along v0 first.
 [[nodiscard]] TrimLoop rectangle_loop(const ParameterRectangle& r);
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -1,4 +1,4 @@
-#include "flank/io/part.h"
+#include "flank/part.h"
 
 #include <fmt/format.h>
 
@@ -7,15 +7,16 @@
 #include <string_view>
 #include <utility>
 
-#include "flank/base/error.h"
-#include "flank/io/read_cad.h"
-#include "flank/io/read_mesh.h"
-#include "flank/io/read_mesh_regions.h"
-#include "flank/io/read_mesh_repair.h"
-#include "flank/io/read_sniff.h"
-#include "flank/io/read_unit.h"
+#include "flank/error.h"
+#include "flank/io/cad/read_cad.h"
+#include "flank/io/mesh/read_mesh.h"
+#include "flank/io/mesh/read_mesh_regions.h"
+#include "flank/io/mesh/read_mesh_repair.h"
+#include "flank/io/text/read_sniff.h"
+#include "flank/io/text/read_unit.h"
 
 namespace flank {
+using namespace internal;
 namespace {
 
 /// "cm: 42.8 x 74.4 x 48.4 mm" for every unit, so that the user recognises the right one.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 /// Blossom of the polynomial piece of `span` at p arguments: `low` p - k times and `high` k times (de Boor's triangle
@@ -62,4 +62,4 @@ double smallest_component(const BSplineCurve3& curve, const Vec3& direction, dou
   return smallest;
 }
 
-}  // namespace flank
+}  // namespace flank::internal

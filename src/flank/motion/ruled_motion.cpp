@@ -1,6 +1,6 @@
-#include "flank/motion/ruled_motion.h"
+#include "flank/ruled_motion.h"
 
-#include "flank/base/error.h"
+#include "flank/error.h"
 
 namespace flank {
 

@@ -2,11 +2,12 @@
 #include <cmath>
 #include <string>
 
-#include "flank/base/error.h"
+#include "flank/error.h"
 #include "flank/motion/rail_bounds.h"
-#include "flank/motion/ruled_motion.h"
+#include "flank/ruled_motion.h"
 
 namespace flank {
+using namespace internal;
 namespace {
 
 /// No motion on a part needs more: past it the bound is of no use and the steps are made equal.

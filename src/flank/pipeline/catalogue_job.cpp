@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flank/base/error.h"
-#include "flank/cover/family_search.h"
-#include "flank/pipeline/ranking_json.h"
+#include "flank/artefact/ranking_json.h"
+#include "flank/choose/family_search.h"
+#include "flank/error.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 /// Targets with all that is in the way of any of the tools, from every side that is asked for.
@@ -177,4 +177,4 @@ std::vector<Covered> cover_with_best(const CoverJob& job, const ToolChoice& choi
   return taken(scene, report.ranked.front(), job.base.side.has_value());
 }
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -4,11 +4,11 @@
 #include <optional>
 #include <vector>
 
-#include "flank/pipeline/catalogue.h"
 #include "flank/pipeline/cover_groups.h"
-#include "flank/pipeline/tool_command.h"
+#include "flank/toolbox/catalogue.h"
+#include "flank/toolbox/tool_command.h"
 
-namespace flank {
+namespace flank::internal {
 
 /// Among what a job chooses: the tools of a folder, or a family.
 struct ToolChoice {
@@ -26,4 +26,4 @@ struct ToolChoice {
                                                    const std::vector<int>& faces, FitOutcome& outcome,
                                                    const Progress& progress);
 
-}  // namespace flank
+}  // namespace flank::internal

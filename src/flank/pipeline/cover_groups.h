@@ -5,9 +5,9 @@
 
 #include "flank/cover/cover.h"
 #include "flank/pipeline/cover_job.h"
-#include "flank/pipeline/targets.h"
+#include "flank/setup/targets.h"
 
-namespace flank {
+namespace flank::internal {
 
 /// A group with its strips.
 struct Covered {
@@ -29,4 +29,4 @@ struct ToolExtent {
 
 [[nodiscard]] CoverOptions options_of(const CoverJob& job);
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -5,16 +5,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flank/base/error.h"
-#include "flank/cover/order.h"
+#include "flank/error.h"
 #include "flank/pipeline/catalogue_job.h"
-#include "flank/pipeline/check_surfaces.h"
 #include "flank/pipeline/cover_groups.h"
 #include "flank/pipeline/judge_job.h"
-#include "flank/pipeline/targets.h"
-#include "flank/pipeline/tool_command.h"
+#include "flank/setup/check_surfaces.h"
+#include "flank/setup/targets.h"
+#include "flank/strip/strip_order.h"
+#include "flank/toolbox/tool_command.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 void require(bool holds, const std::string& message) {
@@ -198,4 +198,4 @@ FitOutcome run_cover(const CoverJob& job, const Progress& progress) {
   return outcome;
 }
 
-}  // namespace flank
+}  // namespace flank::internal

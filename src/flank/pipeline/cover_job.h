@@ -1,11 +1,11 @@
 /// `flank cover` as one function: part and tool in, strips and verdict out.
 #pragma once
 
+#include "flank/choose/tool_ranking.h"
 #include "flank/cover/cover.h"
-#include "flank/cover/tool_ranking.h"
 #include "flank/pipeline/fit_job.h"
 
-namespace flank {
+namespace flank::internal {
 
 /// What the user asked for. Of `base`: part, unit, faces, side, tool, tolerance, axis length (of a family), coverage,
 /// sample, clearance. `base.tool` is a tool, "catalogue", or a family of which parameters are open.
@@ -30,4 +30,4 @@ struct CoverJob {
 /// outcome is written by write_fit and shown by summary_text, with `job.base`.
 [[nodiscard]] FitOutcome run_cover(const CoverJob& job, const Progress& progress);
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -6,19 +6,19 @@
 #include <chrono>
 #include <cmath>
 
-#include "flank/base/error.h"
-#include "flank/envelope/envelope.h"
+#include "flank/artefact/view.h"
+#include "flank/artefact/view_json.h"
+#include "flank/envelope.h"
+#include "flank/envelope/path_regularity.h"
+#include "flank/error.h"
+#include "flank/fit/lengthen.h"
 #include "flank/pipeline/fit_search.h"
 #include "flank/pipeline/judge_job.h"
-#include "flank/pipeline/lengthen.h"
-#include "flank/pipeline/path_regularity.h"
-#include "flank/pipeline/targets.h"
-#include "flank/pipeline/tool_model.h"
-#include "flank/pipeline/used_times.h"
-#include "flank/pipeline/view.h"
-#include "flank/pipeline/view_json.h"
+#include "flank/setup/targets.h"
+#include "flank/strip/used_times.h"
+#include "flank/toolbox/tool_model.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 void require(bool holds, const std::string& message) {
@@ -184,4 +184,4 @@ FitOutcome run_fit(const FitJob& job, const Progress& progress) {
   return outcome;
 }
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -6,18 +6,18 @@
 #include <string>
 #include <vector>
 
-#include "flank/base/progress.h"
+#include "flank/artefact/acceptance.h"
+#include "flank/envelope/strip_surface.h"
 #include "flank/fit/flank_fit.h"
-#include "flank/io/part.h"
-#include "flank/path/path.h"
-#include "flank/pipeline/acceptance.h"
-#include "flank/pipeline/check_faces.h"
-#include "flank/pipeline/clearance_job.h"
-#include "flank/pipeline/strip_surface.h"
-#include "flank/tool/tool.h"
-#include "flank/verify/judge.h"
+#include "flank/judge.h"
+#include "flank/part.h"
+#include "flank/path.h"
+#include "flank/progress.h"
+#include "flank/setup/check_faces.h"
+#include "flank/setup/clearance_job.h"
+#include "flank/tool.h"
 
-namespace flank {
+namespace flank::internal {
 
 /// What the user asked for. Lengths in mm.
 struct FitJob {
@@ -97,4 +97,4 @@ void write_fit(const FitJob& job, const FitOutcome& outcome, const std::string& 
 /// summary.json (schema openflank/summary/1).
 [[nodiscard]] std::string summary_json(const FitJob& job, const FitOutcome& outcome);
 
-}  // namespace flank
+}  // namespace flank::internal

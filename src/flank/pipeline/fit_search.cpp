@@ -7,12 +7,12 @@
 #include <cstdio>
 #include <sstream>
 
-#include "flank/base/error.h"
-#include "flank/pipeline/tool_model.h"
+#include "flank/error.h"
 #include "flank/seed/guide_start.h"
 #include "flank/seed/line_start.h"
+#include "flank/toolbox/tool_model.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 /// The two ends of "x,y,z,x,y,z".
@@ -170,4 +170,4 @@ FitSearch search_fit(const FitJob& job, const Part& part, const std::vector<int>
   return std::move(best);
 }
 
-}  // namespace flank
+}  // namespace flank::internal

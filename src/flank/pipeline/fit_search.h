@@ -4,10 +4,10 @@
 #include <functional>
 
 #include "flank/pipeline/fit_job.h"
-#include "flank/pipeline/targets.h"
-#include "flank/pipeline/tool_command.h"
+#include "flank/setup/targets.h"
+#include "flank/toolbox/tool_command.h"
 
-namespace flank {
+namespace flank::internal {
 
 struct FitSearch {
   std::vector<TargetGroup> targets;
@@ -21,4 +21,4 @@ struct FitSearch {
                                    const std::function<RadiusBounds(const FitJob&, double diagonal)>& bounds,
                                    const Progress& progress);
 
-}  // namespace flank
+}  // namespace flank::internal

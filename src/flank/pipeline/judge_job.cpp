@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flank/base/error.h"
 #include "flank/base/parallel.h"
+#include "flank/error.h"
 #include "flank/geom/tessellate.h"
-#include "flank/pipeline/targets.h"
+#include "flank/setup/targets.h"
 #include "flank/verify/reach.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 /// Of the triangles that the ball is held against, mm: a place of the border of the reachable part is as wrong as they
@@ -122,4 +122,4 @@ VerifyReport judge_job(const FitJob& job, const Part& part, const std::vector<in
   return report;
 }
 
-}  // namespace flank
+}  // namespace flank::internal

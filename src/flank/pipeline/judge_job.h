@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "flank/io/part.h"
+#include "flank/part.h"
 #include "flank/pipeline/fit_job.h"
 
-namespace flank {
+namespace flank::internal {
 
 /// Judges tool and path on the part: `targets` and `checks` are indices into its faces. Shank, holder and fixtures are
 /// not in it (measure_clearance). Throws UsageError for a --reach-radius that is not > 0.
@@ -23,4 +23,4 @@ void check_reach_radius(const FitJob& job);
 /// Spacing of the judge's samples on the target where none is given, mm.
 [[nodiscard]] double default_spacing(double diagonal_mm);
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -6,17 +6,17 @@
 #include <fstream>
 #include <sstream>
 
+#include "flank/artefact/verify_json.h"
+#include "flank/artefact/view.h"
+#include "flank/artefact/view_json.h"
 #include "flank/base/atomic_file.h"
-#include "flank/base/error.h"
-#include "flank/io/path_json.h"
-#include "flank/io/tool_json.h"
-#include "flank/pipeline/job_json.h"
+#include "flank/error.h"
+#include "flank/io/path/path_json.h"
+#include "flank/io/tool/tool_json.h"
+#include "flank/job/job_json.h"
 #include "flank/pipeline/judge_job.h"
-#include "flank/pipeline/verify_json.h"
-#include "flank/pipeline/view.h"
-#include "flank/pipeline/view_json.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 std::string read_text_file(const std::string& file) {
@@ -97,4 +97,4 @@ std::string verify_text(const VerifyOutcome& outcome) {
   return text;
 }
 
-}  // namespace flank
+}  // namespace flank::internal

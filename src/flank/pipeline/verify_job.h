@@ -6,7 +6,7 @@
 
 #include "flank/pipeline/fit_job.h"
 
-namespace flank {
+namespace flank::internal {
 
 struct VerifyJob {
   std::string folder;
@@ -29,4 +29,4 @@ struct VerifyOutcome {
 [[nodiscard]] VerifyOutcome run_verify(const VerifyJob& job);
 [[nodiscard]] std::string verify_text(const VerifyOutcome& outcome);
 
-}  // namespace flank
+}  // namespace flank::internal

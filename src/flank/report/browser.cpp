@@ -13,11 +13,11 @@
 #include <sstream>
 
 #include "flank/base/atomic_file.h"
-#include "flank/base/error.h"
+#include "flank/error.h"
 
 extern char** environ;
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 namespace fs = std::filesystem;
@@ -142,4 +142,4 @@ void open_page(const std::string& html_file) {
     throw UsageError("xdg-open found no browser (exit " + std::to_string(status) + "); open " + html_file + " in one");
 }
 
-}  // namespace flank
+}  // namespace flank::internal

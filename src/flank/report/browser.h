@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace flank {
+namespace flank::internal {
 
 /// Programs that can make a picture of a page, in the order in which they are looked for in PATH; FLANK_BROWSER of the
 /// environment comes before them.
@@ -24,4 +24,4 @@ void make_picture(const std::string& html_file, const std::string& png_file, con
 /// Hands a file to the user's browser (xdg-open) and returns. Throws UsageError if there is no way to open one.
 void open_page(const std::string& html_file);
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-namespace flank {
+namespace flank::internal {
 
 /// The whole HTML file; empty where the library was built without the page.
 [[nodiscard]] std::string_view page_template();
@@ -11,4 +11,4 @@ namespace flank {
 inline constexpr std::string_view kTitlePlace = "<!--FLANK_TITLE-->";
 inline constexpr std::string_view kDataPlace = "<!--FLANK_DATA-->";
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -1,4 +1,4 @@
-#include "flank/report/report.h"
+#include "flank/report.h"
 
 #include <filesystem>
 #include <fstream>
@@ -6,10 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "flank/base/error.h"
+#include "flank/error.h"
 #include "flank/report/page_template.h"
 
 namespace flank {
+using namespace internal;
 namespace {
 
 namespace fs = std::filesystem;

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <vector>
 
-#include "flank/base/error.h"
+#include "flank/error.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 constexpr std::string_view kSeparators = ", \t\r\n;";
@@ -57,4 +57,4 @@ AxisLine parse_start_line(std::string_view text) {
   return line;
 }
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -4,9 +4,9 @@
 #include <string>
 #include <string_view>
 
-#include "flank/geom/vec.h"
+#include "flank/vec.h"
 
-namespace flank {
+namespace flank::internal {
 
 struct AxisLine {
   Vec3 tip = Vec3::Zero(), holder = Vec3::UnitZ();  ///< mm
@@ -21,4 +21,4 @@ struct AxisLine {
 /// The value of `--start`. Throws UsageError that says what would be accepted.
 [[nodiscard]] AxisLine parse_start_line(std::string_view text);
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 /// Plane coordinates of every sample, scaled to the unit square.
@@ -105,4 +105,4 @@ ChartPoint Chart::at(double a, double b) const {
   return out;
 }
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "flank/surface/target.h"
+#include "flank/target.h"
 
-namespace flank {
+namespace flank::internal {
 
 struct ChartPoint {
   Vec3 point, normal;
@@ -33,4 +33,4 @@ class Chart {
   double length_a_ = 0.0, length_b_ = 0.0;
 };
 
-}  // namespace flank
+}  // namespace flank::internal

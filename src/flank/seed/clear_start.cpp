@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 constexpr int kSteps = 48;         ///< along a line
@@ -161,4 +161,4 @@ RuledMotion make_motion(const ClearStart& start, double axis_length, int count) 
   return fit_motion(poses, times, axis_length, count);
 }
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "flank/clearance/flank_checks.h"
+#include "flank/obstacle/flank_checks.h"
 #include "flank/seed/ruled_start.h"
 
-namespace flank {
+namespace flank::internal {
 
 /// A start of which every axis line was cut where its ball would enter a check face.
 struct ClearStart {
@@ -29,4 +29,4 @@ struct ClearStart {
 /// and the rest of the axis past the other end; lines without a wall are centred.
 [[nodiscard]] RuledMotion make_motion(const ClearStart& start, double axis_length, int count);
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -4,10 +4,10 @@
 #include <fstream>
 #include <sstream>
 
-#include "flank/base/error.h"
+#include "flank/error.h"
 #include "flank/seed/movability.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 constexpr int kDense = 400;
@@ -106,4 +106,4 @@ int side_of_motion(const Target& target, const RuledMotion& motion) {
   return sum < 0.0 ? -1 : 1;
 }
 
-}  // namespace flank
+}  // namespace flank::internal

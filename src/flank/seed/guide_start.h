@@ -7,11 +7,11 @@
 #include <string_view>
 #include <vector>
 
-#include "flank/motion/ruled_motion.h"
+#include "flank/ruled_motion.h"
 #include "flank/seed/axis_line.h"
-#include "flank/surface/target.h"
+#include "flank/target.h"
 
-namespace flank {
+namespace flank::internal {
 
 /// Lines in the order of the file. Each line of the file is "x y z x y z" in mm (commas or blanks; # starts a comment):
 /// tip and holder end of one axis. Throws InputError naming the file and the line; at least two axes are needed.
@@ -34,4 +34,4 @@ struct GuideStart {
 /// +1: the motion runs on the machining side of the target, -1: on the other side.
 [[nodiscard]] int side_of_motion(const Target& target, const RuledMotion& motion);
 
-}  // namespace flank
+}  // namespace flank::internal

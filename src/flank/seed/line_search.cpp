@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 /// Below this the form is round-off.
@@ -111,4 +111,4 @@ LineSearch search_line(const Target& target, const Pose& start, double axis_leng
   return result;
 }
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -2,10 +2,10 @@
 /// here the same four degrees of freedom are minimised instead of sampled).
 #pragma once
 
-#include "flank/geom/vec.h"
 #include "flank/seed/movability.h"
+#include "flank/vec.h"
 
-namespace flank {
+namespace flank::internal {
 
 struct LineSearchOptions {
   int samples = 24;
@@ -25,4 +25,4 @@ struct LineSearch {
 [[nodiscard]] LineSearch search_line(const Target& target, const Pose& start, double axis_length,
                                      const LineSearchOptions& options = {});
 
-}  // namespace flank
+}  // namespace flank::internal

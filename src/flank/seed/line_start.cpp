@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 /// Mean signed distance of an axis over the footpoints that count; 0 if none does.
@@ -126,4 +126,4 @@ LineStart start_from_line(const Target& target, const Pose& start, double axis_l
   return out;
 }
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -4,11 +4,11 @@
 
 #include <string>
 
-#include "flank/motion/ruled_motion.h"
+#include "flank/ruled_motion.h"
 #include "flank/seed/line_search.h"
 #include "flank/seed/propagate.h"
 
-namespace flank {
+namespace flank::internal {
 
 struct LineStartOptions {
   LineSearchOptions search;
@@ -51,4 +51,4 @@ struct LineStart {
 [[nodiscard]] LineStart start_from_line(const Target& target, const Pose& start, double axis_length,
                                         const LineStartOptions& options = {});
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 constexpr double kExtensionWeight = 0.05;
@@ -111,4 +111,4 @@ Movability movability(const Target& target, const Pose& pose, double axis_length
   return movability(feet, pose, axis_length, options);
 }
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -18,10 +18,10 @@
 #include <span>
 #include <vector>
 
-#include "flank/geom/vec.h"
-#include "flank/surface/target.h"
+#include "flank/target.h"
+#include "flank/vec.h"
 
-namespace flank {
+namespace flank::internal {
 
 /// Velocity field of a rigid axis, per unit of transversal travel of its middle: `middle` has no unit, `omega` is in
 /// 1/mm.
@@ -68,4 +68,4 @@ void track_axis(const Target& target, const Pose& pose, double axis_length, std:
 [[nodiscard]] Movability movability(const Target& target, const Pose& pose, double axis_length, int samples = 24,
                                     const MovabilityOptions& options = {});
 
-}  // namespace flank
+}  // namespace flank::internal

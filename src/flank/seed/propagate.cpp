@@ -6,7 +6,7 @@
 
 #include "flank/seed/movability.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 /// On the differences of slide and turn from those of the last step: where the normals leave them open they go on, and
@@ -198,4 +198,4 @@ Propagation propagate(const Target& target, const Pose& start, double axis_lengt
   return out;
 }
 
-}  // namespace flank
+}  // namespace flank::internal

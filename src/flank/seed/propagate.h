@@ -5,10 +5,10 @@
 
 #include <vector>
 
-#include "flank/geom/vec.h"
-#include "flank/surface/target.h"
+#include "flank/target.h"
+#include "flank/vec.h"
 
-namespace flank {
+namespace flank::internal {
 
 struct PropagationOptions {
   int samples = 24;                ///< footpoints along the axis
@@ -43,4 +43,4 @@ struct Propagation {
 [[nodiscard]] Propagation propagate(const Target& target, const Pose& start, double axis_length, const Vec3& heading,
                                     const PropagationOptions& options = {});
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
 double skew_share(const Chart& chart, const RuledStart& start) {
@@ -55,4 +55,4 @@ RuledMotion make_motion(const Chart& chart, const RuledStart& start, double axis
   return fit_motion(poses, times, axis_length, count);
 }
 
-}  // namespace flank
+}  // namespace flank::internal

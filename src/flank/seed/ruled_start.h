@@ -1,10 +1,10 @@
 /// Candidate ruled motions across a target for the automatic start.
 #pragma once
 
-#include "flank/motion/ruled_motion.h"
+#include "flank/ruled_motion.h"
 #include "flank/seed/chart.h"
 
-namespace flank {
+namespace flank::internal {
 
 /// One candidate: contact lines a = t + skew (b - 1/2), b in a band of [0, 1], offset by `radius` along the normals;
 /// the axis is the line fitted to the offset contact line.
@@ -33,4 +33,4 @@ inline constexpr int kStartTimes = 41;  ///< of which a start is made
 /// contact line.
 [[nodiscard]] RuledMotion make_motion(const Chart& chart, const RuledStart& start, double axis_length, int count);
 
-}  // namespace flank
+}  // namespace flank::internal

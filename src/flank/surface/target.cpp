@@ -1,8 +1,9 @@
-#include "flank/surface/target.h"
+#include "flank/target.h"
 
 #include "flank/base/parallel.h"
 
 namespace flank {
+using namespace internal;
 namespace {
 
 constexpr std::size_t kGrain = 64;

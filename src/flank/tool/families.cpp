@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace flank {
+namespace flank::internal {
 
 namespace {
 
@@ -150,4 +150,4 @@ void family_gradient(ToolFamily family, double axis_length, const double* p, dou
   }
 }
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <limits>
 
-#include "flank/tool/tool.h"
+#include "flank/tool.h"
 
 namespace flank {
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "flank/base/error.h"
+#include "flank/error.h"
 
-namespace flank {
+namespace flank::internal {
 
 namespace {
 
@@ -110,4 +110,4 @@ RadialFunction radial_from_meridian(std::span<const Vec2> profile, std::optional
   return polish(RadialFunction::spline_through(length, samples, coefficients), points, samples);
 }
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -4,9 +4,9 @@
 #include <optional>
 #include <span>
 
-#include "flank/tool/radial_function.h"
+#include "flank/radial_function.h"
 
-namespace flank {
+namespace flank::internal {
 
 /// Spline radial function with `coefficients` (at least 4) coefficients through a profile of points (z, rho), z along
 /// the axis and rho from it, in the order from the tip to the holder; points of one smooth curve, no repeated ones, at
@@ -20,4 +20,4 @@ namespace flank {
 [[nodiscard]] RadialFunction radial_from_meridian(std::span<const Vec2> profile, std::optional<double> axis_length,
                                                   int coefficients);
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -1,14 +1,15 @@
-#include "flank/tool/radial_function.h"
+#include "flank/radial_function.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
-#include "flank/base/error.h"
+#include "flank/error.h"
 #include "flank/tool/families.h"
 #include "flank/tool/uniform_cubic.h"
 
 namespace flank {
+using namespace internal;
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "flank/tool/tool.h"
+#include "flank/tool.h"
 
 #include <cmath>
 

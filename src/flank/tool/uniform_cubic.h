@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-namespace flank {
+namespace flank::internal {
 
 /// The four cubic, three quadratic and two linear basis functions that do not vanish on one knot span, and what their
 /// derivatives need. Knots in units of the span length h are whole numbers 0, 0, 0, 0, 1, 2, ..., spans, spans, spans,
@@ -44,4 +44,4 @@ struct UniformCubic {
   }
 };
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -1,14 +1,15 @@
 // What each figure means is written in docs/algorithms/judge.md.
-#include "flank/verify/judge.h"
+#include "flank/judge.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "flank/base/error.h"
 #include "flank/base/parallel.h"
+#include "flank/error.h"
 
 namespace flank {
+using namespace internal;
 namespace {
 
 constexpr std::size_t kBlock =

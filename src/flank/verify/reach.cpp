@@ -10,16 +10,16 @@
 #include <map>
 #include <span>
 
-#include "flank/base/error.h"
 #include "flank/base/parallel.h"
+#include "flank/error.h"
 #include "flank/geom/triangle_bvh.h"
-#include "flank/verify/obstacle_tree.h"
-#include "flank/verify/winding.h"
+#include "flank/verify/clearance/obstacle_tree.h"
+#include "flank/verify/clearance/winding.h"
 
-namespace flank {
+namespace flank::internal {
 namespace {
 
-using namespace verify;
+using namespace internal::verify;
 
 /// A cell on the border of the reachable part is measured at the places of a Fibonacci lattice: every line along a side
 /// of the cell holds one of them, so that a border along the sides is seen as finely as one across.
@@ -234,4 +234,4 @@ int side_of_tool(const Tool& tool, const Path& path, const FaceSamples& sheet) {
   return votes < 0 ? -1 : +1;
 }
 
-}  // namespace flank
+}  // namespace flank::internal

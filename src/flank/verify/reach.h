@@ -3,11 +3,11 @@
 
 #include <vector>
 
-#include "flank/path/path.h"
-#include "flank/tool/tool.h"
-#include "flank/verify/judge.h"
+#include "flank/judge.h"
+#include "flank/path.h"
+#include "flank/tool.h"
 
-namespace flank {
+namespace flank::internal {
 
 /// A face that is not the target, as triangles; counter-clockwise seen from outside where it belongs to a solid.
 struct ReachFace {
@@ -32,4 +32,4 @@ struct ReachOptions {
 /// +1 or -1: on which side of a sheet, by its samples' normals, the tool runs where it passes near; +1 if it does not.
 [[nodiscard]] int side_of_tool(const Tool& tool, const Path& path, const FaceSamples& sheet);
 
-}  // namespace flank
+}  // namespace flank::internal

@@ -2,14 +2,14 @@
 #include <array>
 #include <cmath>
 
-#include "flank/base/error.h"
-#include "flank/verify/judge.h"
+#include "flank/error.h"
+#include "flank/judge.h"
 #include "flank/verify/trim.h"
 
 namespace flank {
 namespace {
 
-using namespace verify;
+using namespace internal::verify;
 
 constexpr int kProbes = 8;        ///< per knot span and direction at most, to measure how the parameters stretch
 constexpr int kMostProbes = 192;  ///< per direction, but one a knot span

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flank/base/error.h"
-#include "flank/verify/judge.h"
+#include "flank/error.h"
+#include "flank/judge.h"
 
 namespace flank {
 

@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flank/verify/judge.h"
-#include "flank/verify/swept_search.h"
+#include "flank/judge.h"
+#include "flank/verify/swept/swept_search.h"
 
 namespace flank {
 namespace {
 
-using namespace verify;
+using namespace internal::verify;
 
 constexpr double kPieceReachRadii = 0.1;  ///< a piece moves the axis by at most this share of the smallest radius
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace flank::verify {
+namespace flank::internal::verify {
 namespace {
 
 constexpr int kPiecesPerSpan = 4;  ///< first cut of each knot span, so that no bend hides between samples
@@ -77,4 +77,4 @@ bool Trim::inside(const std::vector<double>& crossings, double u) const {
   return (std::upper_bound(crossings.begin(), crossings.end(), u) - crossings.begin()) % 2 == 1;
 }
 
-}  // namespace flank::verify
+}  // namespace flank::internal::verify

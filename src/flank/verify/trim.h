@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "flank/geom/face.h"
+#include "flank/face.h"
 
-namespace flank::verify {
+namespace flank::internal::verify {
 
 /// The loops as polylines; immutable. A face without loops has everything inside.
 class Trim {
@@ -34,4 +34,4 @@ class Trim {
   std::vector<Chord> chords_;
 };
 
-}  // namespace flank::verify
+}  // namespace flank::internal::verify

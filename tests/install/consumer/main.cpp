@@ -1,5 +1,5 @@
-#include <flank/io/part.h>
-#include <flank/tool/tool.h>
+#include <flank/part.h>
+#include <flank/tool.h>
 
 #include <iostream>
 

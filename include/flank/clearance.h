@@ -1,0 +1,74 @@
+/// What the judge says about collisions: how near shank and holder come to the part and to fixtures, and the flank to
+/// fixtures, along the whole motion (docs/algorithms/clearance.md).
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "flank/path.h"
+#include "flank/tool.h"
+#include "flank/triangle_mesh.h"
+
+namespace flank {
+
+/// What a triangle belongs to. The flank may touch the target and is judged on all of the part elsewhere (judge.h).
+enum class ObstacleRole { kTarget, kPart, kFixture };
+
+/// Triangles to keep clear of. Nothing is asked of them: they may be open, overlap and be oriented in any way.
+struct Obstacle {
+  std::string name;  ///< "F1", or a fixture's file
+  ObstacleRole role = ObstacleRole::kPart;
+  TriangleMesh mesh;
+  double deviation_mm = 0.0;  ///< the true surface is no farther than this from the triangles
+};
+
+enum class ToolBody { kFlank, kShank, kHolder };
+
+inline constexpr double kPoseClearanceMm = 0.01;
+
+struct ClearanceOptions {
+  double accuracy_mm = 1e-3;   ///< of the minimum over the motion
+  double tolerance_mm = 0.01;  ///< what the shank may enter the target by, and everything without a requirement
+  /// Least clearance of every pair but shank and target; negative: as `tolerance_mm` for the shank and flank, 0 for the
+  /// holder.
+  double required_mm = -1.0;
+};
+
+/// One body of the tool against all obstacles of one role.
+struct ClearanceFigure {
+  ToolBody body = ToolBody::kShank;
+  ObstacleRole role = ObstacleRole::kPart;
+  /// Least distance over the motion; negative: the depth of the deepest point of the obstacles, in one of the convex
+  /// bodies that the tool's body is a union of. Infinite: there are no such obstacles.
+  double clearance_mm = 0.0;
+  double bound_mm = 0.0;  ///< the true least distance is below clearance_mm by no more than this
+  double required_mm = 0.0;
+  bool kept = true;                 ///< clearance_mm - bound_mm >= required_mm
+  std::string obstacle;             ///< where it is least: name of the obstacle
+  Vec3 point = Vec3::Zero();        ///< on the obstacle
+  int strip = -1;                   ///< 0-based
+  double t = 0.0;                   ///< pose index + fraction
+  double z_mm = 0.0, rho_mm = 0.0;  ///< nearest point of the body: along the axis from s = 0, and from the axis
+};
+
+/// Empty: nothing was asked, or the tool has neither shank nor holder and there are no fixtures.
+struct ClearanceReport {
+  std::vector<ClearanceFigure> figures;  ///< in the order of body, then role
+  /// Least distance of any of these pairs but shank and target (which may touch) at every pose, by strip: for charts.
+  /// Infinite where there are no such pairs; above the truth by no more than kPoseClearanceMm or 2 percent of a depth.
+  std::vector<std::vector<double>> pose_clearance_mm;
+  [[nodiscard]] bool kept() const;
+  /// The figure with the least clearance less its requirement; nullptr if there is none.
+  [[nodiscard]] const ClearanceFigure* worst() const;
+};
+
+[[nodiscard]] std::string_view body_name(ToolBody body);      ///< "flank", "shank", "holder"
+[[nodiscard]] std::string_view role_name(ObstacleRole role);  ///< "target", "part", "fixture"
+
+/// Judges tool and path against the obstacles, continuous between the poses. Parallel; the same bits for any number of
+/// threads. Throws UsageError for an accuracy or tolerance that is not > 0, InputError for poses that are none.
+[[nodiscard]] ClearanceReport judge_clearance(const Tool& tool, const Path& path,
+                                              const std::vector<Obstacle>& obstacles, const ClearanceOptions& options);
+
+}  // namespace flank

@@ -1,0 +1,133 @@
+/// The judge (MATH section 9): what a tool really leaves when it runs along a path, from tool, poses and part alone.
+/// It shares no code with the planner above `tool` and `path`.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "flank/clearance.h"
+#include "flank/face.h"
+#include "flank/path.h"
+#include "flank/tool.h"
+#include "flank/triangle_mesh.h"
+
+namespace flank {
+
+/// Sample points of one face of the part, the judge's own.
+struct FaceSamples {
+  std::string face;     ///< "F1"
+  bool target = false;  ///< else a check surface
+  std::vector<Vec3> points;
+  std::vector<double> areas;       ///< mm^2 that each point stands for
+  double spacing_mm = 0.0;         ///< no point of the face is farther than this from a sample, up to the border cells
+  std::vector<double> reaches_mm;  ///< of each sample: the farthest point of its cell; empty: spacing_mm
+  std::vector<double> curvatures_per_mm;  ///< of each sample: largest |normal curvature|; empty: not known
+  std::vector<Vec3> normals;      ///< of each sample: unit, away from the material where `of_solid`; empty: not known
+  bool of_solid = false;          ///< the face bounds a solid; else it is a sheet, whose normals may point either way
+  std::vector<double> reachable;  ///< of each sample: share of its cell that is reachable (reach.h); empty: all of it
+};
+
+/// Samples a trimmed face at cells of about `spacing_mm` (centres of cells), by the judge's own code; points outside
+/// the trim are left out.
+[[nodiscard]] FaceSamples sample_face(const Face& face, double spacing_mm, bool target);
+/// Samples a mesh (or some of its triangles) likewise.
+[[nodiscard]] FaceSamples sample_mesh(const std::string& id, const TriangleMesh& mesh, double spacing_mm, bool target);
+
+/// f(x) = min over strips, t and s of |x - R(s,t)| - r(s), continuous in t and s.
+struct SweptDistance {
+  double f = 0.0;
+  int strip = -1;  ///< 0-based
+  double t = 0.0;  ///< pose index + fraction
+  double s = 0.0;
+};
+
+/// Answers f(x) for many points; immutable after construction.
+class SweptVolume {
+ public:
+  SweptVolume(const Tool& tool, const Path& path);
+  ~SweptVolume();
+  SweptVolume(SweptVolume&&) noexcept;
+  /// Exact to about 1e-9 mm for |f| below `horizon_mm`; farther points return some value >= horizon_mm (or <= -horizon
+  /// is exact too).
+  [[nodiscard]] SweptDistance distance(const Vec3& x, double horizon_mm = 1e300) const;
+  /// The same for many points into out[i]; faster when each point lies close to the one before it. Where two places of
+  /// the path are equally near the one named may differ from distance()'s.
+  void distances(std::span<const Vec3> points, double horizon_mm, std::span<SweptDistance> out) const;
+
+ private:
+  struct Data;
+  std::unique_ptr<const Data> data_;
+};
+
+/// f at every sample of a face, in parallel; the same bits for any number of threads.
+[[nodiscard]] std::vector<SweptDistance> swept_distances(const SweptVolume& volume, const FaceSamples& face,
+                                                         double horizon_mm);
+/// Indices of the samples with |f| <= tolerance.
+[[nodiscard]] std::vector<std::size_t> covered_samples(const SweptVolume& volume, const FaceSamples& face,
+                                                       double tolerance_mm);
+
+/// Smallest radius of the flank, mm, at 257 places of the axis.
+[[nodiscard]] double smallest_radius(const Tool& tool);
+
+struct JudgeOptions {
+  double tolerance_mm = 0.01;
+  double horizon_mm = 1e300;  ///< material left is measured up to this; beyond it is "not machined"
+  int histogram_bins = 41;    ///< over [-2, 2] tolerances, ends open
+  int worst_places = 5;
+};
+
+struct WorstPlace {
+  std::string face;
+  Vec3 point = Vec3::Zero();
+  double f = 0.0;
+  int strip = -1;
+  double t = 0.0, s = 0.0;
+};
+
+struct FaceVerdict {
+  std::string face;
+  bool target = false;
+  double area_mm2 = 0.0;
+  std::size_t samples = 0;
+  double overcut_mm = 0.0;           ///< max(0, -f) over the face
+  double undercut_mm = 0.0;          ///< max(0, f) over the face (target)
+  double undercut_covered_mm = 0.0;  ///< largest f over the samples that a strip sweeps past (see judge.md)
+  double rms_mm = 0.0;               ///< of f over the samples that a strip sweeps past
+  double coverage = 0.0;             ///< area share with |f| <= tolerance
+  double reachable_share = 0.0;      ///< of the area (target)
+  double coverage_reachable = 0.0;   ///< the same share of the reachable area alone; 0 where nothing is reachable
+  double spacing_mm = 0.0;
+  double sampling_bound_mm = 0.0;     ///< overcut between samples exceeds overcut_mm by no more (judge.md)
+  std::optional<WorstPlace> deepest;  ///< where overcut_mm is; none: nothing is cut
+};
+
+enum class Verdict {
+  kNotRun,
+  kPass,     ///< overcut <= tolerance on every face
+  kOvercut,  ///< overcut > tolerance on a target
+  kGouge,    ///< overcut > tolerance on a check surface
+};
+
+struct VerifyReport {
+  Verdict verdict = Verdict::kNotRun;
+  double tolerance_mm = 0.0;
+  double coverage = 0.0;                                   ///< area-weighted over the targets
+  double reachable_share = 0.0, coverage_reachable = 0.0;  ///< likewise
+  double reach_radius_mm = 0.0;  ///< of the ball that `reachable` of the samples is about; not filled by judge()
+  double overcut_mm = 0.0, undercut_mm = 0.0, undercut_covered_mm = 0.0, rms_mm = 0.0;  ///< over the targets
+  double gouge_mm = 0.0;           ///< largest overcut on a check surface
+  double sampling_bound_mm = 0.0;  ///< the largest of the targets'
+  std::vector<FaceVerdict> faces;
+  std::vector<WorstPlace> worst;  ///< most negative f first, over all faces
+  std::vector<double> histogram_edges_mm;
+  std::vector<double> histogram_area_mm2;  ///< of f over the targets
+  ClearanceReport clearance;               ///< of shank, holder and fixtures; not filled by judge()
+};
+
+[[nodiscard]] VerifyReport judge(const Tool& tool, const Path& path, const std::vector<FaceSamples>& faces,
+                                 const JudgeOptions& options);
+
+}  // namespace flank

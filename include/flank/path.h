@@ -1,0 +1,28 @@
+/// Path: poses in strips, pure data. A pose is joined to the next one by a straight line of the tip and of the
+/// unnormalised axis vector.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "flank/vec.h"
+
+namespace flank {
+
+struct Strip {
+  int id = 1;
+  std::string kind = "flank";  ///< flank, side, front, back, entry, link, ...
+  std::string face;            ///< the target, e.g. "F1" or "F1,F3"
+  std::vector<Pose> poses;
+};
+
+struct Path {
+  std::vector<Strip> strips;
+  [[nodiscard]] std::size_t pose_count() const {
+    std::size_t n = 0;
+    for (const Strip& s : strips) n += s.poses.size();
+    return n;
+  }
+};
+
+}  // namespace flank

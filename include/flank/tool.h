@@ -1,0 +1,34 @@
+/// A tool: radial function of the cutting flank, shank and holder above it; legitimacy; the meridian.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "flank/radial_function.h"
+
+namespace flank {
+
+struct Tool {
+  RadialFunction radial;
+  std::string name;
+  std::vector<Vec2> shank;   ///< profile (z, radius) above s = L, z along the axis from s = 0; may be empty
+  std::vector<Vec2> holder;  ///< likewise
+};
+
+/// Why a radial function is not a tool (MATH section 1): r > 0, |r'| < 1, 1 - r'^2 - r r'' > 0. First violation along
+/// s.
+struct Legitimacy {
+  bool legitimate = true;
+  double s = 0.0;       ///< where it is violated, or where the margin is smallest
+  double margin = 0.0;  ///< smallest of r / L, 1 - |r'| and 1 - r'^2 - r r''
+  std::string reason;   ///< one clear sentence, empty if legitimate
+};
+[[nodiscard]] Legitimacy check_legitimacy(const RadialFunction& radial);
+
+/// Meridian point (z, rho) of s: (s - r r', r sqrt(1 - r'^2)).
+[[nodiscard]] Vec2 meridian_point(const RadialFunction& radial, double s);
+/// Meridian polyline at `count` equal steps of s.
+[[nodiscard]] std::vector<Vec2> meridian(const RadialFunction& radial, int count);
+
+}  // namespace flank

@@ -1,0 +1,70 @@
+#include "flank/artefact/acceptance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace flank::internal {
+namespace {
+
+constexpr std::size_t kMostFacesNamed = 8;  ///< of entered faces, the deepest first
+
+std::string place(const FaceVerdict& face) {
+  if (!face.deepest) return "";
+  const Vec3& p = face.deepest->point;
+  return fmt::format(" at ({:.3f}, {:.3f}, {:.3f}), strip {}", p.x(), p.y(), p.z(), face.deepest->strip + 1);
+}
+
+/// The faces that are cut deeper than the tolerance, deepest first.
+std::vector<const FaceVerdict*> cut_faces(const VerifyReport& report, bool targets) {
+  std::vector<const FaceVerdict*> faces;
+  for (const FaceVerdict& face : report.faces)
+    if (face.target == targets && face.overcut_mm > report.tolerance_mm) faces.push_back(&face);
+  std::stable_sort(faces.begin(), faces.end(),
+                   [](const auto* a, const auto* b) { return a->overcut_mm > b->overcut_mm; });
+  return faces;
+}
+
+void add_cuts(const VerifyReport& report, bool targets, std::vector<Shortfall>& reasons) {
+  const std::string figure = targets ? "overcut_mm" : "gouge_mm";
+  const std::vector<const FaceVerdict*> faces = cut_faces(report, targets);
+  for (std::size_t k = 0; k < faces.size() && k < kMostFacesNamed; ++k)
+    reasons.push_back(
+        {figure, fmt::format("{} {} by {:.4f} mm > {} mm{}", faces[k]->face, targets ? "is overcut" : "is entered",
+                             faces[k]->overcut_mm, report.tolerance_mm, place(*faces[k]))});
+  if (faces.size() > kMostFacesNamed)
+    reasons.push_back({figure, fmt::format("and {} more faces", faces.size() - kMostFacesNamed)});
+}
+
+}  // namespace
+
+Acceptance accept(const Tool& tool, const VerifyReport& report, double least_coverage, bool complete) {
+  Acceptance out;
+  if (!complete) out.reasons.push_back({"complete", "interrupted: incomplete"});
+  if (const Legitimacy legitimacy = check_legitimacy(tool.radial); !legitimacy.legitimate)
+    out.reasons.push_back({"legitimate", "the tool is not legitimate: " + legitimacy.reason});
+  add_cuts(report, true, out.reasons);
+  add_cuts(report, false, out.reasons);
+  if (!(report.coverage_reachable >= least_coverage))
+    out.reasons.push_back(
+        {"coverage_reachable", fmt::format("coverage {:.3f} % < {:.3f} % of what is reachable",
+                                           100.0 * report.coverage_reachable, 100.0 * least_coverage)});
+  for (const ClearanceFigure& f : report.clearance.figures)
+    if (!f.kept)
+      out.reasons.push_back({"clearance", fmt::format("the {} does not keep {} mm from {} surely", body_name(f.body),
+                                                      f.required_mm, f.obstacle)});
+  return out;
+}
+
+std::string reach_text(const VerifyReport& report) {
+  return fmt::format("reachable   {:.2f} % of the target (ball of radius {:.4g} mm), of which {:.2f} % is covered",
+                     100.0 * report.reachable_share, report.reach_radius_mm, 100.0 * report.coverage_reachable);
+}
+
+std::string reason_lines(const Acceptance& acceptance) {
+  std::string text;
+  for (const Shortfall& reason : acceptance.reasons) text += "              " + reason.text + "\n";
+  return text;
+}
+
+}  // namespace flank::internal

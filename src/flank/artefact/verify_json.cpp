@@ -1,0 +1,218 @@
+#include "flank/artefact/verify_json.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "flank/error.h"
+
+namespace flank::internal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view kSchema = "openflank/verify/1";
+
+constexpr std::array<std::pair<Verdict, std::string_view>, 4> kVerdicts{{{Verdict::kNotRun, "not_run"},
+                                                                         {Verdict::kPass, "pass"},
+                                                                         {Verdict::kOvercut, "overcut"},
+                                                                         {Verdict::kGouge, "gouge"}}};
+
+/// JSON has no infinity: null stands for it.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+double to_number(const Json& j) { return j.is_null() ? std::numeric_limits<double>::infinity() : j.get<double>(); }
+
+Json to_json(const WorstPlace& w) {
+  return {{"face", w.face},      {"point", {number(w.point.x()), number(w.point.y()), number(w.point.z())}},
+          {"f_mm", number(w.f)}, {"strip", w.strip < 0 ? Json(nullptr) : Json(w.strip + 1)},
+          {"t", number(w.t)},    {"s_mm", number(w.s)}};
+}
+
+WorstPlace place_from(const Json& j) {
+  WorstPlace w;
+  w.face = j.at("face").get<std::string>();
+  const Json& p = j.at("point");
+  w.point = {to_number(p.at(0)), to_number(p.at(1)), to_number(p.at(2))};
+  w.f = to_number(j.at("f_mm"));
+  w.strip = j.at("strip").is_null() ? -1 : j.at("strip").get<int>() - 1;
+  w.t = to_number(j.at("t"));
+  w.s = to_number(j.at("s_mm"));
+  return w;
+}
+
+Json to_json(const FaceVerdict& f) {
+  Json j = {{"face", f.face},
+            {"target", f.target},
+            {"area_mm2", number(f.area_mm2)},
+            {"samples", f.samples},
+            {"spacing_mm", number(f.spacing_mm)},
+            {"overcut_mm", number(f.overcut_mm)},
+            {"undercut_mm", number(f.undercut_mm)},
+            {"undercut_covered_mm", number(f.undercut_covered_mm)},
+            {"rms_mm", number(f.rms_mm)},
+            {"coverage", number(f.coverage)},
+            {"reachable_share", number(f.reachable_share)},
+            {"coverage_reachable", number(f.coverage_reachable)},
+            {"sampling_bound_mm", number(f.sampling_bound_mm)}};
+  if (f.deepest) j["deepest"] = to_json(*f.deepest);
+  return j;
+}
+
+FaceVerdict face_from(const Json& j) {
+  FaceVerdict f;
+  f.face = j.at("face").get<std::string>();
+  f.target = j.at("target").get<bool>();
+  f.area_mm2 = to_number(j.at("area_mm2"));
+  f.samples = j.at("samples").get<std::size_t>();
+  f.spacing_mm = to_number(j.at("spacing_mm"));
+  f.overcut_mm = to_number(j.at("overcut_mm"));
+  f.undercut_mm = to_number(j.at("undercut_mm"));
+  f.undercut_covered_mm = to_number(j.at("undercut_covered_mm"));
+  f.rms_mm = to_number(j.at("rms_mm"));
+  f.coverage = to_number(j.at("coverage"));
+  f.reachable_share = to_number(j.at("reachable_share"));
+  f.coverage_reachable = to_number(j.at("coverage_reachable"));
+  f.sampling_bound_mm = to_number(j.at("sampling_bound_mm"));
+  if (j.contains("deepest")) f.deepest = place_from(j.at("deepest"));
+  return f;
+}
+
+Json to_json(const ClearanceFigure& f) {
+  return {{"body", body_name(f.body)},
+          {"against", role_name(f.role)},
+          {"clearance_mm", number(f.clearance_mm)},
+          {"bound_mm", number(f.bound_mm)},
+          {"required_mm", number(f.required_mm)},
+          {"kept", f.kept},
+          {"obstacle", f.obstacle},
+          {"point", {number(f.point.x()), number(f.point.y()), number(f.point.z())}},
+          {"strip", f.strip < 0 ? Json(nullptr) : Json(f.strip + 1)},
+          {"t", number(f.t)},
+          {"z_mm", number(f.z_mm)},
+          {"rho_mm", number(f.rho_mm)}};
+}
+
+Json to_json(const ClearanceReport& report) {
+  Json list = Json::array();
+  for (const ClearanceFigure& f : report.figures) list.push_back(to_json(f));
+  return list;
+}
+
+template <class Name, class Value, std::size_t N>
+Value value_named(const std::string& name, const std::array<Value, N>& values, const Name& name_of) {
+  for (Value value : values)
+    if (name_of(value) == name) return value;
+  throw InputError("clearance: \"" + name + "\" is not known here");
+}
+
+ClearanceFigure clearance_from(const Json& j) {
+  ClearanceFigure f;
+  f.body = value_named(j.at("body").get<std::string>(),
+                       std::array{ToolBody::kFlank, ToolBody::kShank, ToolBody::kHolder}, body_name);
+  f.role = value_named(j.at("against").get<std::string>(),
+                       std::array{ObstacleRole::kTarget, ObstacleRole::kPart, ObstacleRole::kFixture}, role_name);
+  f.clearance_mm = to_number(j.at("clearance_mm"));
+  f.bound_mm = to_number(j.at("bound_mm"));
+  f.required_mm = to_number(j.at("required_mm"));
+  f.kept = j.at("kept").get<bool>();
+  f.obstacle = j.at("obstacle").get<std::string>();
+  const Json& p = j.at("point");
+  f.point = {to_number(p.at(0)), to_number(p.at(1)), to_number(p.at(2))};
+  f.strip = j.at("strip").is_null() ? -1 : j.at("strip").get<int>() - 1;
+  f.t = to_number(j.at("t"));
+  f.z_mm = to_number(j.at("z_mm"));
+  f.rho_mm = to_number(j.at("rho_mm"));
+  return f;
+}
+
+Verdict verdict_from(const std::string& name) {
+  for (const auto& [verdict, known] : kVerdicts)
+    if (known == name) return verdict;
+  throw InputError("verdict \"" + name + "\"; not_run, pass, overcut or gouge is accepted");
+}
+
+VerifyReport report_from(const Json& j) {
+  const auto schema = j.at("schema").get<std::string>();
+  if (schema != kSchema) throw InputError("schema \"" + schema + "\"; " + std::string(kSchema) + " is accepted");
+  VerifyReport r;
+  r.verdict = verdict_from(j.at("verdict").get<std::string>());
+  r.tolerance_mm = to_number(j.at("tolerance_mm"));
+  r.coverage = to_number(j.at("coverage"));
+  r.reachable_share = to_number(j.at("reachable_share"));
+  r.coverage_reachable = to_number(j.at("coverage_reachable"));
+  r.reach_radius_mm = to_number(j.at("reach_radius_mm"));
+  r.overcut_mm = to_number(j.at("overcut_mm"));
+  r.undercut_mm = to_number(j.at("undercut_mm"));
+  r.undercut_covered_mm = to_number(j.at("undercut_covered_mm"));
+  r.rms_mm = to_number(j.at("rms_mm"));
+  r.gouge_mm = to_number(j.at("gouge_mm"));
+  r.sampling_bound_mm = to_number(j.at("sampling_bound_mm"));
+  for (const Json& f : j.at("faces")) r.faces.push_back(face_from(f));
+  for (const Json& w : j.at("worst_places")) r.worst.push_back(place_from(w));
+  for (const Json& e : j.at("histogram").at("edges_mm")) r.histogram_edges_mm.push_back(to_number(e));
+  for (const Json& a : j.at("histogram").at("area_mm2")) r.histogram_area_mm2.push_back(to_number(a));
+  if (!r.histogram_edges_mm.empty() && r.histogram_edges_mm.size() != r.histogram_area_mm2.size() + 1)
+    throw InputError("a histogram of " + std::to_string(r.histogram_area_mm2.size()) + " bins with " +
+                     std::to_string(r.histogram_edges_mm.size()) + " edges; one edge more than bins is accepted");
+  if (j.contains("clearance"))
+    for (const Json& c : j.at("clearance")) r.clearance.figures.push_back(clearance_from(c));
+  return r;
+}
+
+}  // namespace
+
+std::string_view verdict_name(Verdict verdict) {
+  for (const auto& [known, name] : kVerdicts)
+    if (known == verdict) return name;
+  return "not_run";
+}
+
+std::string clearance_to_json(const ClearanceReport& report) { return to_json(report).dump(2); }
+
+std::string verify_to_json(const VerifyReport& r, const Acceptance& acceptance) {
+  std::size_t samples = 0;
+  for (const FaceVerdict& f : r.faces) samples += f.samples;
+  Json j = {{"schema", kSchema},
+            {"units", "mm"},
+            {"verdict", verdict_name(r.verdict)},
+            {"pass", acceptance.pass()},
+            {"reasons", Json::array()},
+            {"tolerance_mm", number(r.tolerance_mm)},
+            {"coverage", number(r.coverage)},
+            {"reachable_share", number(r.reachable_share)},
+            {"coverage_reachable", number(r.coverage_reachable)},
+            {"reach_radius_mm", number(r.reach_radius_mm)},
+            {"overcut_mm", number(r.overcut_mm)},
+            {"undercut_mm", number(r.undercut_mm)},
+            {"undercut_covered_mm", number(r.undercut_covered_mm)},
+            {"rms_mm", number(r.rms_mm)},
+            {"gouge_mm", number(r.gouge_mm)},
+            {"sampling_bound_mm", number(r.sampling_bound_mm)},
+            {"samples", samples},
+            {"faces", Json::array()},
+            {"worst_places", Json::array()},
+            {"histogram", {{"edges_mm", Json::array()}, {"area_mm2", Json::array()}}}};
+  for (const Shortfall& reason : acceptance.reasons)
+    j["reasons"].push_back({{"figure", reason.figure}, {"text", reason.text}});
+  for (const FaceVerdict& f : r.faces) j["faces"].push_back(to_json(f));
+  for (const WorstPlace& w : r.worst) j["worst_places"].push_back(to_json(w));
+  for (double e : r.histogram_edges_mm) j["histogram"]["edges_mm"].push_back(number(e));
+  for (double a : r.histogram_area_mm2) j["histogram"]["area_mm2"].push_back(number(a));
+  if (!r.clearance.figures.empty()) j["clearance"] = to_json(r.clearance);
+  return j.dump(2) + "\n";
+}
+
+VerifyReport verify_from_json(const std::string& text, const std::string& source) {
+  try {
+    return report_from(Json::parse(text));
+  } catch (const InputError& e) {
+    throw InputError(source + ": " + e.what());
+  } catch (const nlohmann::json::exception& e) {
+    throw InputError(source + ": not a verify.json of schema " + std::string(kSchema) + " (" + e.what() + ")");
+  }
+}
+
+}  // namespace flank::internal

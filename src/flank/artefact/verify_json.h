@@ -1,0 +1,26 @@
+/// verify.json (docs/schema/verify.md, schema "openflank/verify/1"): a VerifyReport as text and back.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "flank/artefact/acceptance.h"
+#include "flank/judge.h"
+
+namespace flank::internal {
+
+/// "not_run", "pass", "overcut" or "gouge".
+[[nodiscard]] std::string_view verdict_name(Verdict verdict);
+
+/// The figures of a clearance report as a JSON array: "clearance" of verify.json and summary.json.
+[[nodiscard]] std::string clearance_to_json(const ClearanceReport& report);
+
+/// The report as indented JSON; every number is written so that reading it back gives the same bits. `acceptance` says
+/// whether it is what was asked for.
+[[nodiscard]] std::string verify_to_json(const VerifyReport& report, const Acceptance& acceptance);
+
+/// The report in `text`, without its acceptance. `source` names the file in messages. Throws InputError for text that is no JSON, another
+/// schema, or a field that is missing or of the wrong type.
+[[nodiscard]] VerifyReport verify_from_json(const std::string& text, const std::string& source);
+
+}  // namespace flank::internal

@@ -1,0 +1,160 @@
+#include "flank/artefact/view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <set>
+
+#include "flank/artefact/view_mesh.h"
+#include "flank/envelope/path_regularity.h"
+
+namespace flank::internal {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kProfilePoints = 161;
+/// Of a check surface only what is entered is of interest: beyond this many tolerances the judge need not be exact.
+constexpr double kCheckHorizon = 4.0;
+
+ViewStrip thinned(const Strip& strip) {
+  ViewStrip out;
+  out.id = strip.id;
+  out.face = strip.face;
+  out.pose_count = strip.poses.size();
+  const std::size_t stride = std::max<std::size_t>(1, (strip.poses.size() + kMostPosesShown - 2) / kMostPosesShown);
+  for (std::size_t k = 0; k < strip.poses.size(); k += stride) out.index.push_back(k);
+  if (!strip.poses.empty() && out.index.back() + 1 < strip.poses.size()) out.index.push_back(strip.poses.size() - 1);
+  for (std::size_t k : out.index) out.poses.push_back(strip.poses[k]);
+  return out;
+}
+
+std::vector<ViewPlace> places_of(const Strip& strip, const RadialFunction& radial) {
+  if (strip.poses.size() < 2) return {};
+  const std::size_t steps = strip.poses.size() - 1;
+  std::vector<ViewPlace> places(std::min(steps, kMostPlaces));
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    // Place k is the share [k, k + 1] / count of the steps; the steps that it overlaps count for it.
+    const std::size_t first = k * steps / places.size();
+    const std::size_t last = ((k + 1) * steps + places.size() - 1) / places.size();
+    const double middle = (static_cast<double>(k) + 0.5) * static_cast<double>(steps);
+    places[k] = {middle / static_cast<double>(places.size()), kInfinity, -kInfinity, 0.0, kInfinity};
+    for (std::size_t i = first; i < last; ++i)
+      places[k].largest_c = std::max(places[k].largest_c, largest_c(strip.poses[i], strip.poses[i + 1], radial));
+  }
+  return places;
+}
+
+/// A vertex counts for the place that is nearest to it, unless that is an end of the strip or of the axis: what lies
+/// beyond them is not swept past.
+void add_to_places(const SweptDistance& d, double axis_length, std::vector<ViewStrip>& strips) {
+  if (d.strip < 0 || !(d.s > 0.0) || !(d.s < axis_length)) return;
+  ViewStrip& strip = strips[static_cast<std::size_t>(d.strip)];
+  const double steps = static_cast<double>(strip.pose_count) - 1.0;
+  if (strip.places.empty() || !(d.t > 0.0) || !(d.t < steps)) return;
+  const auto count = static_cast<double>(strip.places.size());
+  ViewPlace& place = strip.places[static_cast<std::size_t>(std::min(count - 1.0, d.t / steps * count))];
+  place.lowest_f_mm = std::min(place.lowest_f_mm, d.f);
+  place.highest_f_mm = std::max(place.highest_f_mm, d.f);
+}
+
+/// The least clearance of the poses that a place covers.
+void add_clearance(const std::vector<double>& poses, std::vector<ViewPlace>& places) {
+  const std::size_t steps = poses.size() - 1;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const std::size_t first = k * steps / places.size();
+    const std::size_t last = ((k + 1) * steps + places.size() - 1) / places.size();
+    for (std::size_t i = first; i <= last; ++i) places[k].clearance_mm = std::min(places[k].clearance_mm, poses[i]);
+  }
+}
+
+std::set<std::string> entered_faces(const VerifyReport& verdict, double tolerance_mm) {
+  std::set<std::string> entered;
+  for (const FaceVerdict& face : verdict.faces)
+    if (!face.target && face.overcut_mm > kEnteredShare * tolerance_mm) entered.insert(face.face);
+  return entered;
+}
+
+void judge_faces(View& view, const Path& path, const std::set<std::string>& entered) {
+  if (path.pose_count() == 0) return;
+  const SweptVolume volume(view.tool, path);
+  for (ViewFace& body : view.bodies) {
+    if (!body.target && !entered.contains(body.face)) continue;
+    FaceSamples samples;
+    samples.face = body.face;
+    samples.points = body.mesh.vertices;
+    const double horizon = body.target ? 1e300 : kCheckHorizon * view.tolerance_mm;
+    for (const SweptDistance& d : swept_distances(volume, samples, horizon)) {
+      body.f_mm.push_back(d.f);
+      if (body.target) add_to_places(d, view.tool.radial.axis_length(), view.strips);
+    }
+  }
+}
+
+std::vector<ProfilePoint> profile_of(const RadialFunction& radial) {
+  std::vector<ProfilePoint> points;
+  for (int j = 0; j < kProfilePoints; ++j) {
+    const double s = radial.axis_length() * j / (kProfilePoints - 1);
+    const RadialJet r = radial.at(s);
+    const Vec2 q = meridian_point(radial, s);
+    // The meridian's tangent turns by r'' / q over an arc of (q^2 - r r'') / q, q^2 = 1 - r'^2.
+    points.push_back({s, q.x(), q.y(), -r.d2 / (1.0 - r.d1 * r.d1 - r.r * r.d2)});
+  }
+  return points;
+}
+
+std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
+
+}  // namespace
+
+std::string job_command(const FitJob& job) {
+  const FitJob usual;
+  std::string text = "flank " + job.command + " " + file_name(job.part) + " --face " + job.faces;
+  const auto add = [&](const char* option, const auto& value) { text += fmt::format(" {} {}", option, value); };
+  if (job.tool != usual.tool)
+    add("--tool", job.tool.find(".json") == std::string::npos ? job.tool : file_name(job.tool));
+  if (job.tolerance_mm != usual.tolerance_mm) add("--tolerance", job.tolerance_mm);
+  if (job.strips != usual.strips) add("--strips", job.strips == 0 ? "auto" : std::to_string(job.strips));
+  if (job.axis_length_mm) add("--axis-length", *job.axis_length_mm);
+  if (job.start) add("--start", *job.start);
+  if (job.guide) add("--guide", file_name(*job.guide));
+  if (job.side) add("--side", *job.side < 0 ? "-" : "+");
+  if (job.radius_min_mm) add("--radius-min", *job.radius_min_mm);
+  if (job.radius_max_mm) add("--radius-max", *job.radius_max_mm);
+  if (job.slope_max != usual.slope_max) add("--slope-max", job.slope_max);
+  if (job.least_coverage != usual.least_coverage) add("--coverage", job.least_coverage);
+  if (job.sample_mm) add("--sample", *job.sample_mm);
+  if (job.reach_radius_mm) add("--reach-radius", *job.reach_radius_mm);
+  if (job.check.only) add("--check-faces", *job.check.only);
+  if (job.check.ignored) add("--ignore-faces", *job.check.ignored);
+  if (!job.avoid) add("--avoid", "off");
+  if (job.unit) add("--unit", *job.unit);
+  return text;
+}
+
+View make_view(const FitJob& job, const Part& part, const std::vector<int>& faces, const Tool& tool, const Path& path,
+               const VerifyReport& verdict) {
+  View view;
+  view.part = file_name(job.part);
+  view.command = job_command(job);
+  view.faces = job.faces;
+  view.tolerance_mm = job.tolerance_mm;
+  view.least_coverage = job.least_coverage;
+  const std::set<std::string> entered = entered_faces(verdict, job.tolerance_mm);
+  view.bodies = view_faces(part, faces, entered);
+  view.tool = tool;
+  view.profile = profile_of(tool.radial);
+  for (const Strip& strip : path.strips) {
+    view.strips.push_back(thinned(strip));
+    view.strips.back().places = places_of(strip, tool.radial);
+    const std::size_t index = view.strips.size() - 1;
+    if (const auto& by_strip = verdict.clearance.pose_clearance_mm; index < by_strip.size())
+      add_clearance(by_strip[index], view.strips.back().places);
+  }
+  judge_faces(view, path, entered);
+  return view;
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,77 @@
+/// What a picture of a result needs: faces as triangles with the judge's signed distance, poses, the tool's profile.
+/// For looking at; the figures that count are those of verify.json.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "flank/part.h"
+#include "flank/pipeline/fit_job.h"
+
+namespace flank::internal {
+
+struct ViewFace {
+  std::string face;  ///< "F1"
+  bool target = false;
+  TriangleMesh mesh;
+  std::vector<std::vector<Vec3>> borders;  ///< polylines
+  /// Swept distance at the vertices, mm; empty for a check surface that the judge did not find entered.
+  std::vector<double> f_mm;
+};
+
+/// What happens about one place of a strip.
+struct ViewPlace {
+  double t = 0.0;          ///< pose index from 0, plus the fraction of the step
+  double lowest_f_mm = 0;  ///< over the target's vertices that this place sweeps past; infinite where there are none
+  double highest_f_mm = 0;
+  double largest_c = 0.0;  ///< regularity along the axis: plunges at 1
+  double clearance_mm =
+      0;  ///< least of the judge's at the poses of this place; infinite: nothing is near, or asked for
+};
+
+struct ViewStrip {
+  int id = 1;
+  std::string face;
+  std::size_t pose_count = 0;      ///< of the path
+  std::vector<std::size_t> index;  ///< of the poses shown, from 0; the first and the last are among them
+  std::vector<Pose> poses;
+  std::vector<ViewPlace> places;
+};
+
+/// The flank's meridian at one s.
+struct ProfilePoint {
+  double s = 0.0, z = 0.0, rho = 0.0;
+  double curvature_per_mm = 0.0;  ///< positive where the meridian is convex, as of a barrel
+};
+
+struct View {
+  std::string part;     ///< file name without folder
+  std::string command;  ///< that asked for this, with file names without folders
+  std::string faces;
+  double tolerance_mm = 0.0, least_coverage = 0.0;
+  std::vector<ViewFace> bodies;  ///< every face of the part, in the part's order
+  std::vector<ViewStrip> strips;
+  Tool tool;
+  std::vector<ProfilePoint> profile;
+};
+
+/// The targets get about kTargetTriangles triangles, the check surfaces that are entered kEnteredTriangles, all other
+/// faces together at most about kOtherTriangles.
+inline constexpr int kTargetTriangles = 60000;
+inline constexpr int kEnteredTriangles = 40000;
+inline constexpr int kOtherTriangles = 150000;
+/// A mesh of more triangles than this is drawn coarser.
+inline constexpr int kMostMeshTriangles = 300000;
+/// A check surface counts as entered from this share of the tolerance on: one that only touches the target is not.
+inline constexpr double kEnteredShare = 0.5;
+inline constexpr std::size_t kMostPosesShown = 1500;
+inline constexpr std::size_t kMostPlaces = 240;
+
+/// Triangulates the part, asks the judge at the vertices, and thins the path out.
+[[nodiscard]] View make_view(const FitJob& job, const Part& part, const std::vector<int>& faces, const Tool& tool,
+                             const Path& path, const VerifyReport& verdict);
+
+/// "flank fit blade.step --face F1 --tolerance 0.1": the command line that asks for a job.
+[[nodiscard]] std::string job_command(const FitJob& job);
+
+}  // namespace flank::internal

@@ -1,0 +1,212 @@
+#include "flank/choose/tool_ranking.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "flank/base/parallel.h"
+#include "flank/strip/strip_order.h"
+
+namespace flank::internal {
+namespace {
+
+/// Shares of the ranking's progress at which its rounds begin.
+constexpr double kQuickFrom = 0.05, kThoroughFrom = 0.2, kFullFrom = 0.4, kFullTo = 0.9;
+
+double total_area(std::span<const RankingTarget> targets) {
+  double area = 0.0;
+  for (const RankingTarget& sides : targets) area += sides.front().target->area();
+  return area;
+}
+
+/// Places of every side of every target.
+using AllPlaces = std::vector<std::vector<ScreenPlaces>>;
+
+AllPlaces all_places(std::span<const RankingTarget> targets, const RankingOptions& options) {
+  AllPlaces all;
+  for (const RankingTarget& sides : targets) {
+    all.emplace_back();
+    for (const RankingSide& side : sides) all.back().push_back(screen_places(*side.target, options.screen_places));
+  }
+  return all;
+}
+
+void add_share(ToolScreen& sum, const ToolScreen& part, double share) {
+  sum.reachable += share * part.reachable;
+  sum.fits += share * part.fits;
+  sum.accepted += share * part.accepted;
+  sum.open += share * part.open;
+}
+
+/// The better side of each target, all of them added up by area. A tool that works on one target may be used there.
+RankedTool screened(std::span<const RankingTarget> targets, const AllPlaces& places, const Tool& tool,
+                    const RankingOptions& options) {
+  RankedTool ranked;
+  ToolScreen& sum = ranked.screen;
+  sum.mean_error_mm = 0.0;
+  const ScreenOptions screen_options{options.cover.tolerance_mm};
+  const double area = total_area(targets);
+  bool works = false;
+  for (std::size_t k = 0; k < targets.size(); ++k) {
+    ToolScreen best;
+    for (std::size_t i = 0; i < targets[k].size(); ++i) {
+      const ToolScreen side = screen_tool(places[k][i], tool, *targets[k][i].obstacles, screen_options);
+      if (i == 0 || side.open > best.open) best = side;
+    }
+    const double share = targets[k].front().target->area() / area;
+    add_share(sum, best, share);
+    sum.least_error_mm = std::min(sum.least_error_mm, best.least_error_mm);
+    sum.mean_error_mm += share * std::min(best.mean_error_mm, kMostErrorMm);
+    works = works || best.reason.empty();
+    if (ranked.reason.empty()) ranked.reason = best.reason;
+  }
+  if (works) ranked.reason.clear();
+  sum.reason = ranked.reason;
+  return ranked;
+}
+
+CoverOptions options_of(RankingStage stage, const RankingOptions& options) {
+  CoverOptions out = options.cover;
+  out.smooth = stage == RankingStage::kFull && options.cover.smooth;
+  if (stage == RankingStage::kQuick) {
+    out.seed_places = std::min(out.seed_places, options.quick_places);
+    out.seed_directions = std::min(out.seed_directions, options.quick_directions);
+  }
+  return out;
+}
+
+void measure(std::span<const RankingTarget> targets, const RankingOptions& options, RankedTool& ranked) {
+  const double area = total_area(targets);
+  double covered = 0.0;
+  for (std::size_t k = 0; k < targets.size(); ++k) {
+    const CoverResult& result = ranked.results[k];
+    const double share = targets[k].front().target->area() / area;
+    ranked.reachable += share * result.reachable;
+    covered += share * result.reachable * result.coverage;
+    ranked.strips += static_cast<int>(result.motions.size());
+    for (const RuledMotion& motion : result.motions) ranked.strips_mm += strip_length(motion);
+    ranked.links_mm += link_length(result.motions);
+    if (ranked.reason.empty()) ranked.reason = result.message;
+  }
+  ranked.coverage = ranked.reachable > 0.0 ? covered / ranked.reachable : 0.0;
+  ranked.minutes = ranked.strips_mm / options.rates.feed_mm_min + ranked.links_mm / options.rates.rapid_mm_min;
+  if (ranked.strips > 0) ranked.reason.clear();
+}
+
+/// Runs `body` for every index of `which`, as many at a time as there are threads, with progress in between.
+template <class Body>
+void for_tools(const std::vector<std::size_t>& which, std::string_view stage, double from, double to,
+               const Progress& progress, const Body& body) {
+  const auto batch = static_cast<std::size_t>(thread_count());
+  for (std::size_t first = 0; first < which.size() && !progress.stop(); first += batch) {
+    const double done = static_cast<double>(first) / static_cast<double>(which.size());
+    progress.step(stage, from + (to - from) * done);
+    parallel_for(std::min(batch, which.size() - first), [&](std::size_t k) { body(which[first + k]); });
+  }
+}
+
+/// Less is better.
+struct RankingKey {
+  int stage;  ///< negative: what came farther is less; 1: covers nothing; 2: cannot work
+  double worth;
+  double minutes;
+  std::size_t tool;
+  auto operator<=>(const RankingKey&) const = default;
+};
+
+RankingKey key_of(const RankedTool& ranked, const RankingOptions& options) {
+  constexpr double kLeastStep = 1e-3;
+  if (ranked.strips == 0) return {ranked.reason.empty() ? 1 : 2, -ranked.screen.accepted, 0.0, ranked.tool};
+  const double step = std::max(options.cover.strip_price, kLeastStep);
+  return {-static_cast<int>(ranked.stage), -std::round(ranking_value(ranked, options) / step), ranked.minutes,
+          ranked.tool};
+}
+
+/// Those of `alive` that come first and cover something, at most `count`.
+std::vector<std::size_t> best_of(const std::vector<RankedTool>& ranked, std::vector<std::size_t> alive,
+                                 std::size_t count, const RankingOptions& options) {
+  std::erase_if(alive, [&](std::size_t k) { return ranked[k].strips == 0; });
+  std::sort(alive.begin(), alive.end(),
+            [&](std::size_t a, std::size_t b) { return key_of(ranked[a], options) < key_of(ranked[b], options); });
+  alive.resize(std::min(alive.size(), count));
+  return alive;
+}
+
+}  // namespace
+
+double strip_length(const RuledMotion& motion) {
+  constexpr int kSteps = 200;
+  double sum = 0.0;
+  Pose last = motion.pose(0.0);
+  for (int i = 1; i <= kSteps; ++i) {
+    const Pose pose = motion.pose(static_cast<double>(i) / kSteps);
+    sum += 0.5 * ((pose.tip - last.tip).norm() + (pose.at(motion.axis_length) - last.at(motion.axis_length)).norm());
+    last = pose;
+  }
+  return sum;
+}
+
+double ranking_value(const RankedTool& ranked, const RankingOptions& options) {
+  return ranked.covered() - options.cover.strip_price * ranked.strips;
+}
+
+RankedTool cover_stage(std::span<const RankingTarget> targets, const Tool& tool, RankingStage stage,
+                       const RankingOptions& options, const Progress& progress) {
+  RankedTool ranked;
+  ranked.stage = stage;
+  const CoverOptions cover_options = options_of(stage, options);
+  for (const RankingTarget& sides : targets) {
+    CoverResult best;
+    std::size_t side = 0;
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      CoverResult result = options.cover_with(*sides[i].target, tool, *sides[i].obstacles, cover_options, progress);
+      if (i > 0 && result.coverage * result.reachable <= best.coverage * best.reachable) continue;
+      best = std::move(result);
+      side = i;
+    }
+    ranked.results.push_back(std::move(best));
+    ranked.side.push_back(side);
+  }
+  measure(targets, options, ranked);
+  return ranked;
+}
+
+std::vector<RankedTool> rank_tools(std::span<const RankingTarget> targets, std::span<const Tool> tools,
+                                   const RankingOptions& options, const Progress& progress) {
+  std::vector<RankedTool> ranked(tools.size());
+  std::vector<std::size_t> alive(tools.size());
+  std::iota(alive.begin(), alive.end(), std::size_t{0});
+  for (const std::size_t k : alive) ranked[k].tool = k;
+  const AllPlaces places = all_places(targets, options);
+  for_tools(alive, "screen tools", 0.0, kQuickFrom, progress, [&](std::size_t k) {
+    ranked[k] = screened(targets, places, tools[k], options);
+    ranked[k].tool = k;
+  });
+  // Several covers at a time have no one line of progress; they can be cancelled.
+  const Progress quiet{{}, progress.cancelled};
+  const auto advance = [&](RankingStage stage, std::string_view name, double from, double to) {
+    for_tools(alive, name, from, to, progress, [&](std::size_t k) {
+      RankedTool next = cover_stage(targets, tools[k], stage, options, quiet);
+      if (progress.stop()) return;
+      next.tool = k;
+      next.screen = ranked[k].screen;
+      ranked[k] = std::move(next);
+    });
+  };
+  std::erase_if(alive, [&](std::size_t k) { return !ranked[k].reason.empty(); });
+  const auto finalists = static_cast<std::size_t>(options.finalists);
+  if (alive.size() > finalists) {
+    advance(RankingStage::kQuick, "try tools", kQuickFrom, kThoroughFrom);
+    alive = best_of(ranked, alive, std::max(2 * finalists, (alive.size() + 1) / 2), options);
+    advance(RankingStage::kThorough, "try the better half", kThoroughFrom, kFullFrom);
+    alive = best_of(ranked, alive, finalists, options);
+  }
+  advance(RankingStage::kFull, "cover with the best", kFullFrom, kFullTo);
+  std::sort(ranked.begin(), ranked.end(),
+            [&](const RankedTool& a, const RankedTool& b) { return key_of(a, options) < key_of(b, options); });
+  return ranked;
+}
+
+}  // namespace flank::internal

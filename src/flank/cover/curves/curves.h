@@ -1,0 +1,38 @@
+/// Strategy `curves`: paper B's own pipeline as far as it goes, for comparison with `grow` (docs/algorithms/curves.md).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "flank/cover/tiles/tile.h"
+
+namespace flank::internal {
+
+/// How many there were of each: what the next stage had to choose from.
+struct CurveCounts {
+  int seeds = 0;                             ///< pairs of a sphere at rest and an admissible direction
+  int straight = 0;                          ///< curves that run along enough of the axis
+  int lines = 0;                             ///< of those, with a line within slack tolerances
+  int clusters = 0, groups = 0, strips = 0;  ///< strips: groups that cover something
+};
+
+struct CurveStrips {
+  std::vector<CoverStrip> strips;  ///< chosen; measured with slack tolerances, not yet certified
+  CurveCounts counts;
+};
+
+/// Seeds, integral curves, lines, clusters, groups, choice: paper B's initial motions of the tool.
+[[nodiscard]] CurveStrips strips_of_curves(const TileScene& scene);
+
+/// The strips measured at the tolerance itself. Those that fail their certificate count for nothing before SMOOTH, but
+/// are what it starts from. What it leaves is certified, without strips that are not worth their price.
+struct SmoothedCurves {
+  double coverage_before = 0.0;  ///< by what could be certified as it was, cut short where that is needed
+  std::vector<CoverStrip> strips;
+};
+[[nodiscard]] SmoothedCurves smoothed_curves(const TileScene& dense, const std::vector<CoverStrip>& strips);
+
+/// "5321 curves, 1712 straight, ..."
+[[nodiscard]] std::string counts_text(const CurveCounts& counts);
+
+}  // namespace flank::internal

@@ -1,0 +1,303 @@
+#include "flank/cover/tiles/tile.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "flank/base/parallel.h"
+#include "flank/strip/certify.h"
+
+namespace flank::internal {
+namespace {
+
+constexpr std::size_t kTilings = 6;
+/// Two strips that share more than this of their cells are one as a first strip.
+constexpr double kAlike = 0.6;
+/// Places along a strip where a neighbour is tried, in this order; one that adds enough ends it.
+constexpr std::array<double, 5> kPlaces = {0.5, 0.25, 0.75, 0.1, 0.9};
+constexpr int kGuidePoses = 60;
+constexpr double kLeastInsideOfGaps = 0.25;
+constexpr double kLeastInside = 0.8;  ///< of a seed's line: what hangs over the border determines little
+
+/// The strip of a line near `pose`; no cells where there is none.
+CoverStrip strip_near(const TileScene& scene, LineFitter& fitter, const Pose& pose, const GrowGuide& guide,
+                      double least_inside, bool* is_line = nullptr) {
+  const double tolerance = scene.options.tolerance_mm, length = scene.radial.axis_length();
+  fitter.forget();
+  LineFit line = fitter.refine(pose);
+  if (line.touches() && line.largest_mm <= tolerance && !scene.guard.clear(line.pose))
+    line = fitter.refine(slid_clear(scene.guard, line.pose, length), {Vec3::Zero(), 4.0});
+  if (!line.touches() || line.largest_mm > tolerance || line.inside_share < least_inside ||
+      fitter.overcut(line.pose, tolerance) > tolerance)
+    return {};
+  if (is_line) *is_line = true;
+  if (!scene.guard.clear(line.pose)) return {};
+  const GrownStrip grown = grow(fitter, scene.guard, line, guide);
+  if (grown.poses.size() < 5) return {};
+  CoverStrip strip = measure_strip(scene.samples, motion_through(grown.poses, length, 48), scene.radial, fitter);
+  // Its poses are clear; what lies between them is looked at for the strips that are chosen.
+  return cut_to_certified(scene.samples, LineGuard(), std::move(strip), scene.radial, fitter);
+}
+
+/// Strips beside `strip`, past its tip and past its holder end, that add to what is covered.
+std::vector<CoverStrip> neighbours(const TileScene& scene, const CoverStrip& strip, const CellCount& covered) {
+  const double length = scene.radial.axis_length(), overlap = scene.options.overlap_share * length;
+  std::vector<Pose> poses;
+  for (int i = 0; i <= kGuidePoses; ++i) poses.push_back(strip.motion.pose(static_cast<double>(i) / kGuidePoses));
+  std::vector<CoverStrip> found;
+  LineFitter fitter(scene.target, scene.radial, line_options(scene));
+  for (const bool beyond_tip : {true, false}) {
+    const GrowGuide guide{&poses, beyond_tip, overlap};
+    CoverStrip best;
+    double most = 0.0;
+    for (const double place : kPlaces) {
+      Pose pose = strip.motion.pose(place);
+      pose.tip += (beyond_tip ? overlap - length : length - overlap) * pose.axis;
+      CoverStrip trial = strip_near(scene, fitter, pose, guide, 0.05);
+      const double gain = covered.gain(trial);
+      if (gain > most) {
+        most = gain;
+        best = std::move(trial);
+      }
+      if (most > 0.8 * strip.area / scene.samples.area) break;
+    }
+    if (most > 0.0) found.push_back(std::move(best));
+  }
+  return found;
+}
+
+/// Seeds at places that nothing covers, far from each other; also with such a place near an end of the axis, which
+/// reaches into corners.
+std::vector<LineSeed> gap_seeds(const TileScene& scene, const CellCount& covered) {
+  constexpr std::size_t kMostPlaces = 8;
+  std::vector<std::size_t> open = covered.open();
+  std::vector<double> far(open.size(), 1e300);
+  std::vector<LineSeed> seeds;
+  const auto cell = [&](std::size_t i) -> const SurfaceSample& { return scene.samples.cells[open[i]]; };
+  std::size_t next = 0;
+  for (std::size_t places = 0; places < kMostPlaces && next < open.size(); ++places) {
+    for (const double share : {0.5, 0.15, 0.85})
+      for (const Vec3& direction : seed_directions(cell(next).normal, scene.radial, scene.options.seed_directions))
+        seeds.push_back({cell(next).point, cell(next).normal, direction, share * scene.radial.axis_length()});
+    for (std::size_t i = 0; i < open.size(); ++i)
+      far[i] = std::min(far[i], (cell(i).point - cell(next).point).squaredNorm());
+    next = static_cast<std::size_t>(std::max_element(far.begin(), far.end()) - far.begin());
+    if (far[next] < std::pow(0.25 * scene.radial.axis_length(), 2)) break;
+  }
+  return seeds;
+}
+
+/// One tiling: the first strip, then again and again what adds most, until nothing is worth its price. `grown` are
+/// the strips that were grown on the way; the set's indices at or above pool.size() count into it.
+struct Tiling {
+  StripSet set;
+  std::vector<CoverStrip> grown;
+};
+
+Tiling tile_from(const TileScene& scene, const std::vector<CoverStrip>& pool, int first) {
+  Tiling tiling;
+  CellCount covered(scene.samples);
+  const auto strip_at = [&](int k) -> const CoverStrip& {
+    const auto i = static_cast<std::size_t>(k);
+    return i < pool.size() ? pool[i] : tiling.grown[i - pool.size()];
+  };
+  const auto take = [&](int k) {
+    tiling.set.push_back(k);
+    covered.add(strip_at(k));
+    for (CoverStrip& strip : neighbours(scene, strip_at(k), covered)) tiling.grown.push_back(std::move(strip));
+  };
+  take(first);
+  while (static_cast<int>(tiling.set.size()) < scene.options.most_strips &&
+         covered.covered() < scene.options.enough_coverage) {
+    int best = -1;
+    double most = scene.options.strip_price;
+    for (int k = 0; k < static_cast<int>(pool.size() + tiling.grown.size()); ++k) {
+      const double gain = covered.gain(strip_at(k));
+      if (gain <= most) continue;
+      most = gain;
+      best = k;
+    }
+    if (best < 0) break;
+    take(best);
+  }
+  return tiling;
+}
+
+double shared_cells(const CoverStrip& a, const CoverStrip& b) {
+  std::vector<int> both;
+  std::set_intersection(a.cells.begin(), a.cells.end(), b.cells.begin(), b.cells.end(), std::back_inserter(both));
+  return static_cast<double>(both.size()) / static_cast<double>(std::max<std::size_t>(1, a.cells.size()));
+}
+
+/// The strips of most area, no two alike.
+std::vector<int> first_strips(const std::vector<CoverStrip>& pool) {
+  std::vector<int> order(pool.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto at = [&](int k) -> const CoverStrip& { return pool[static_cast<std::size_t>(k)]; };
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return at(a).area > at(b).area; });
+  std::vector<int> firsts;
+  for (const int k : order) {
+    if (firsts.size() == kTilings) break;
+    if (std::none_of(firsts.begin(), firsts.end(), [&](int f) { return shared_cells(at(k), at(f)) > kAlike; }))
+      firsts.push_back(k);
+  }
+  return firsts;
+}
+
+/// Exchanges one for one, drops and adds while the value rises.
+StripSet improved(const TileScene& scene, const std::vector<CoverStrip>& pool, StripSet set) {
+  constexpr double kWorth = 1e-6;
+  CellCount covered(scene.samples);
+  const auto at = [&](int k) -> const CoverStrip& { return pool[static_cast<std::size_t>(k)]; };
+  for (const int k : set) covered.add(at(k));
+  const auto best_addition = [&](double& most) {
+    int best = -1;
+    for (int k = 0; k < static_cast<int>(pool.size()); ++k) {
+      const double gain = covered.gain(at(k));
+      if (gain <= most) continue;
+      most = gain;
+      best = k;
+    }
+    return best;
+  };
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t i = 0; i < set.size();) {
+      covered.add(at(set[i]), -1);
+      double most = std::max(covered.gain(at(set[i])), scene.options.strip_price) + kWorth;
+      const int better = best_addition(most);
+      if (better >= 0) {
+        set[i] = better;
+        changed = true;
+      } else if (covered.gain(at(set[i])) < scene.options.strip_price) {
+        set.erase(set.begin() + static_cast<std::ptrdiff_t>(i));
+        changed = true;
+        continue;
+      }
+      covered.add(at(set[i]));
+      ++i;
+    }
+    double most = scene.options.strip_price + kWorth;
+    const int more = static_cast<int>(set.size()) < scene.options.most_strips ? best_addition(most) : -1;
+    if (more >= 0) {
+      set.push_back(more);
+      covered.add(at(more));
+      changed = true;
+    }
+  }
+  return set;
+}
+
+/// Strips of the seeds, in their order, without those that came to nothing; `lines` counts seeds with a line.
+std::vector<CoverStrip> strips_of(const TileScene& scene, const std::vector<LineSeed>& seeds, double least_inside,
+                                  int* lines) {
+  std::vector<CoverStrip> strips(seeds.size());
+  std::vector<char> is_line(seeds.size(), 0);
+  parallel_for(seeds.size(), [&](std::size_t k) {
+    LineFitter fitter(scene.target, scene.radial, line_options(scene));
+    bool line = false;
+    strips[k] = strip_near(scene, fitter, seed_pose(seeds[k], scene.radial), {}, least_inside, &line);
+    is_line[k] = line ? 1 : 0;
+  });
+  if (lines) *lines = static_cast<int>(std::count(is_line.begin(), is_line.end(), 1));
+  std::erase_if(strips, [](const CoverStrip& strip) { return strip.cells.empty(); });
+  return strips;
+}
+
+}  // namespace
+
+LineFitOptions line_options(const TileScene& scene) {
+  LineFitOptions options;
+  options.tolerance_mm = scene.options.tolerance_mm;
+  options.samples = scene.line_samples;
+  return options;
+}
+
+CandidatePool grow_pool(const TileScene& scene, const std::vector<LineSeed>& seeds) {
+  CandidatePool pool;
+  pool.strips = strips_of(scene, seeds, kLeastInside, &pool.lines);
+  return pool;
+}
+
+double set_value(const TileScene& scene, const std::vector<CoverStrip>& pool, const StripSet& set) {
+  CellCount covered(scene.samples);
+  for (const int k : set) covered.add(pool[static_cast<std::size_t>(k)]);
+  return covered.covered() - scene.options.strip_price * static_cast<double>(set.size());
+}
+
+StripSet choose_set(const TileScene& scene, std::vector<CoverStrip>& pool) {
+  const std::vector<int> firsts = first_strips(pool);
+  std::vector<Tiling> tilings(firsts.size());
+  parallel_for(firsts.size(), [&](std::size_t k) { tilings[k] = tile_from(scene, pool, firsts[k]); });
+  const int seeded = static_cast<int>(pool.size());
+  for (Tiling& tiling : tilings) {
+    const int shift = static_cast<int>(pool.size()) - seeded;
+    for (int& k : tiling.set) k += k >= seeded ? shift : 0;
+    for (CoverStrip& strip : tiling.grown) pool.push_back(std::move(strip));
+  }
+  StripSet best;
+  double most = -1.0;
+  for (const Tiling& tiling : tilings) {
+    const StripSet set = improved(scene, pool, tiling.set);
+    const double value = set_value(scene, pool, set);
+    if (value <= most) continue;
+    most = value;
+    best = set;
+  }
+  return best;
+}
+
+std::vector<CoverStrip> additions(const TileScene& scene, const std::vector<CoverStrip>& pool,
+                                  const std::vector<CoverStrip>& strips) {
+  CellCount covered(scene.samples);
+  for (const CoverStrip& strip : strips) covered.add(strip);
+  std::vector<std::vector<CoverStrip>> beside(strips.size());
+  parallel_for(strips.size(), [&](std::size_t k) { beside[k] = neighbours(scene, strips[k], covered); });
+  const std::vector<CoverStrip> in_gaps = strips_of(scene, gap_seeds(scene, covered), kLeastInsideOfGaps, nullptr);
+  std::vector<const CoverStrip*> candidates;
+  for (const CoverStrip& strip : in_gaps) candidates.push_back(&strip);
+  for (const auto& found : beside)
+    for (const CoverStrip& strip : found) candidates.push_back(&strip);
+  for (const CoverStrip& strip : pool) candidates.push_back(&strip);
+  std::vector<CoverStrip> added;
+  while (strips.size() + added.size() < static_cast<std::size_t>(scene.options.most_strips)) {
+    const CoverStrip* best = nullptr;
+    double most = scene.options.strip_price;
+    for (const CoverStrip* strip : candidates) {
+      const double gain = covered.gain(*strip);
+      if (gain <= most) continue;
+      most = gain;
+      best = strip;
+    }
+    if (!best) break;
+    covered.add(*best);
+    added.push_back(*best);
+  }
+  return added;
+}
+
+std::vector<CoverStrip> pruned(const TileScene& scene, std::vector<CoverStrip> strips) {
+  CellCount covered(scene.samples);
+  for (const CoverStrip& strip : strips) covered.add(strip);
+  while (strips.size() > 1) {
+    std::size_t least = 0;
+    double worth = scene.options.strip_price;
+    bool found = false;
+    for (std::size_t k = 0; k < strips.size(); ++k) {
+      covered.add(strips[k], -1);
+      const double gain = covered.gain(strips[k]);
+      covered.add(strips[k]);
+      if (gain >= worth) continue;
+      worth = gain;
+      least = k;
+      found = true;
+    }
+    if (!found) break;
+    covered.add(strips[least], -1);
+    strips.erase(strips.begin() + static_cast<std::ptrdiff_t>(least));
+  }
+  return strips;
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,38 @@
+#include "flank/envelope/path_regularity.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "flank/envelope.h"
+
+namespace flank::internal {
+namespace {
+
+constexpr int kSamples = 24;  ///< steps along the axis
+
+}  // namespace
+
+double largest_c(const Pose& from, const Pose& to, const RadialFunction& radial) {
+  AxisJet axis;
+  axis.tip = 0.5 * (from.tip + to.tip);
+  axis.u = (from.axis + to.axis).normalized();
+  axis.tip_d1 = to.tip - from.tip;
+  axis.u_d1 = to.axis - from.axis;
+  axis.u_d1 -= axis.u_d1.dot(axis.u) * axis.u;
+  double largest = 0.0;
+  for (int j = 0; j <= kSamples; ++j) {
+    const double s = radial.axis_length() * j / kSamples;
+    largest = std::max(largest, std::abs(contact_point(axis, radial.at(s), s, +1).c));
+  }
+  return largest;
+}
+
+double largest_c(const Path& path, const RadialFunction& radial) {
+  double largest = 0.0;
+  for (const Strip& strip : path.strips)
+    for (std::size_t i = 0; i + 1 < strip.poses.size(); ++i)
+      largest = std::max(largest, largest_c(strip.poses[i], strip.poses[i + 1], radial));
+  return largest;
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,15 @@
+/// Regularity of the envelope along a path as it is written: one figure for the summary and for the report.
+#pragma once
+
+#include "flank/path.h"
+#include "flank/radial_function.h"
+
+namespace flank::internal {
+
+/// Largest |c| (docs/MATH.md, section 3) of the straight join from one pose to the next, at its middle, over the axis.
+[[nodiscard]] double largest_c(const Pose& from, const Pose& to, const RadialFunction& radial);
+
+/// The largest over all steps of all strips; 0 for a path without a step.
+[[nodiscard]] double largest_c(const Path& path, const RadialFunction& radial);
+
+}  // namespace flank::internal

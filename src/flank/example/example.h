@@ -1,0 +1,63 @@
+/// Parts that the project generates itself: what tests, benchmarks and `flank example` use. Deterministic.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "flank/base/random.h"
+#include "flank/face.h"
+#include "flank/path.h"
+#include "flank/ruled_motion.h"
+#include "flank/tool.h"
+#include "flank/triangle_mesh.h"
+
+namespace flank::internal {
+
+/// The tool and the motions whose envelopes the faces (or the mesh) are, contact side +1 each.
+struct ExampleTruth {
+  Tool tool;
+  std::vector<RuledMotion> motions;  ///< one a face, in the order of the faces
+  Path path;                         ///< the motions sampled, strip k for face "F" + k
+  double path_bound_mm = 0.0;        ///< between the motions and the joined poses
+  /// Largest distance found between a face at (u, v) and the exact contact point of t = u, s = v L, on a grid 3 times
+  /// denser than the interpolated one. Deformed, noisy: how far the part is from the envelope on purpose.
+  double face_error_mm = 0.0;
+};
+
+struct Example {
+  std::string name;
+  std::string description;           ///< one line
+  std::vector<Face> faces;           ///< open sheets; the machining side is the outward normal (reversed = false)
+  std::optional<TriangleMesh> mesh;  ///< instead of faces
+  std::optional<ExampleTruth> truth;
+  double diagonal_mm = 0.0;  ///< of the bounding box of faces or mesh, from dense points
+};
+
+struct ExampleOptions {
+  double relative_accuracy = 1e-9;  ///< of exact faces, share of the diagonal
+  int mesh_vertices = 13000;        ///< about; of mesh examples
+  double noise = 1e-4;              ///< length of the noise vectors of envelope-noisy, share of the diagonal
+  double bump = 0.01;               ///< height of the bump of deformed-envelope, share of the diagonal
+  std::uint64_t seed = 1;           ///< of the noise
+};
+
+/// Every name that make_example knows, in the order of the documentation.
+[[nodiscard]] std::vector<std::string> example_names();
+
+/// Throws UsageError for an unknown name (listing the known ones) and for options that make no sense.
+[[nodiscard]] Example make_example(const std::string& name, const ExampleOptions& options = {});
+
+/// Writes the part as `file`: faces as .step or .stp, a mesh as .stl, .obj or .ply (millimetres). Where the truth is
+/// known, FILE.truth.json (rails, error), FILE.tool.json and FILE.path.json are written beside it, FILE without its
+/// ending. Returns the names of the files written, the part first. Throws UsageError for an ending that does not suit,
+/// InputError if writing fails.
+std::vector<std::string> write_example(const Example& example, const std::string& file);
+
+/// The same motion off by a smooth rigid perturbation of low frequency (a slowly varying shift and turn about
+/// mid-axis): its largest displacement over both ends of the axis is `relative` times `diagonal_mm`, to about 1
+/// percent. For starts of fits.
+[[nodiscard]] RuledMotion perturb(const RuledMotion& motion, double relative, double diagonal_mm, Random& random);
+
+}  // namespace flank::internal

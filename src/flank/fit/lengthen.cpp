@@ -1,0 +1,41 @@
+#include "flank/fit/lengthen.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "flank/tool.h"
+
+namespace flank::internal {
+
+RadialFunction lengthened(const RadialFunction& radial, double more_mm) {
+  constexpr int kSamplesPerCoefficient = 12;
+  const RadialJet end = radial.at(radial.axis_length());
+  const double length = radial.axis_length(), longer = length + more_mm;
+  // Twice the coefficients: the old knots are not among the new ones.
+  const int count = 2 * static_cast<int>(std::ceil(radial.parameter_count() * longer / length));
+  std::vector<Vec2> samples;
+  for (int j = 0; j <= kSamplesPerCoefficient * count; ++j) {
+    const double s = longer * j / (kSamplesPerCoefficient * count);
+    const double past = std::max(0.0, s - length);
+    samples.emplace_back(s, radial.at(std::min(s, length)).r + end.d1 * (past - 0.5 * past * past / more_mm));
+  }
+  return RadialFunction::spline_through(longer, samples, count);
+}
+
+double lengthen_until_clear(FlankFitResult& fit, double step_mm,
+                            const std::function<bool(const FlankFitResult&)>& clear) {
+  if (fit.tool.family() != ToolFamily::kSpline || clear(fit)) return 0.0;
+  for (const double more : {step_mm, 2.0 * step_mm, 4.0 * step_mm, 8.0 * step_mm}) {
+    FlankFitResult longer = fit;
+    longer.tool = lengthened(fit.tool, more);
+    for (RuledMotion& motion : longer.motions) motion.axis_length += more;
+    // A steep end bends back sharply on a short way.
+    if (!check_legitimacy(longer.tool).legitimate || !clear(longer)) continue;
+    fit = std::move(longer);
+    return more;
+  }
+  return 0.0;
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,21 @@
+/// A shank that comes too near is lifted: the free tool's flank is lengthened above the face.
+#pragma once
+
+#include <functional>
+
+#include "flank/fit/flank_fit.h"
+#include "flank/radial_function.h"
+
+namespace flank::internal {
+
+/// The radial function on an axis longer by `more_mm`: as it was, then on with its slope, which fades to nothing. Splines
+/// only.
+[[nodiscard]] RadialFunction lengthened(const RadialFunction& radial, double more_mm);
+
+/// Lengthens tool and motions by 1, 2, 4, 8 times `step_mm`, until the tool is legitimate and `clear` says of the result
+/// that shank and holder keep their clearances; returns the millimetres that were added. 0 where it is clear as it is,
+/// and where nothing helps: then the result is as it was.
+[[nodiscard]] double lengthen_until_clear(FlankFitResult& fit, double step_mm,
+                                          const std::function<bool(const FlankFitResult&)>& clear);
+
+}  // namespace flank::internal

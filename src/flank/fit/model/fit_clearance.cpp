@@ -1,0 +1,96 @@
+// The terms of FitModel that keep the flank out of the other faces (MATH section 7): one-sided, at the points of the axis.
+#include <algorithm>
+
+#include "flank/base/parallel.h"
+#include "flank/fit/model/fit_model.h"
+
+namespace flank::internal {
+namespace {
+
+/// A distance is known this much beyond what is asked of it, so that it need not be asked again after a small step.
+constexpr double kSightMm = 1.0;
+
+}  // namespace
+
+void FitModel::locate_checks(FitState& state) const {
+  if (checks_.empty()) return;
+  const int n = stage_.samples_s;
+  state.checks.resize(targets_.size());
+  std::vector<double> needed(n);
+  for (int j = 0; j < n; ++j) needed[j] = std::max(0.0, state.tool.at(s_[j]).r);
+  for (std::size_t m = 0; m < targets_.size(); ++m) {
+    if (checks_[m] == nullptr) continue;
+    std::vector<CheckSample>& samples = state.checks[m];
+    samples.resize(static_cast<std::size_t>(n * stage_.samples_t));
+    parallel_blocks(static_cast<std::size_t>(stage_.samples_t), 8, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const PoseAt pose = pose_at(state.motions[m], times_[i]);
+        for (int j = 0; j < n; ++j) {
+          CheckSample& sample = samples[i * static_cast<std::size_t>(n) + static_cast<std::size_t>(j)];
+          const Vec3 p = pose.tip + s_[j] * pose.u;
+          // The distance changes by no more than the point moves.
+          if (sample.known && sample.nearest.distance_mm - (p - sample.at).norm() > needed[j]) continue;
+          sample = {stage_.clear_estimated ? checks_[m]->estimate(p) : checks_[m]->at(p, needed[j] + kSightMm), p,
+                    true};
+        }
+      }
+    });
+  }
+}
+
+double FitModel::intrusion(const FitState& state, std::size_t motion, std::size_t k, double radius) const {
+  const CheckDistance& nearest = state.checks[motion][k].nearest;
+  return nearest.face < 0 ? 0.0 : std::max(0.0, radius - checks_[motion]->allowance_mm() - nearest.distance_mm);
+}
+
+double FitModel::check_cost(const FitState& state) const {
+  const std::size_t n = static_cast<std::size_t>(stage_.samples_s);
+  double sum = 0.0;
+  for (std::size_t m = 0; m < checks_.size(); ++m) {
+    if (checks_[m] == nullptr) continue;
+    for (std::size_t k = 0; k < state.checks[m].size(); ++k) {
+      const double e = intrusion(state, m, k, state.tool.at(s_[k % n]).r);
+      sum += e * e;
+    }
+  }
+  return sum * check_weight();
+}
+
+double FitModel::check_weight() const {
+  return stage_.clear_weight / (static_cast<double>(targets_.size()) * stage_.samples_s * stage_.samples_t);
+}
+
+void FitModel::assemble_checks(const FitState& state, ArrowSystem& system) const {
+  const std::size_t n = static_cast<std::size_t>(stage_.samples_s);
+  if (checks_.empty()) return;
+  Eigen::MatrixXd b;
+  tool_gradients(state, b);
+  PoseTerms terms;
+  for (std::size_t m = 0; m < checks_.size(); ++m) {
+    for (std::size_t i = 0; checks_[m] != nullptr && i < times_.size(); ++i) {
+      const PoseAt pose = pose_at(state.motions[m], times_[i]);
+      terms.matrix.setZero();
+      terms.gradient.setZero();
+      terms.coupling.setZero(6, tool_parameters_);
+      bool any = false;
+      for (std::size_t j = 0; j < n; ++j) {
+        const double e = intrusion(state, m, i * n + j, state.tool.at(s_[j]).r), w = check_weight();
+        if (e == 0.0) continue;
+        any = true;
+        const Vec3& d = state.checks[m][i * n + j].nearest.gradient;
+        Vec6 g;
+        g << -d, (-s_[j] / (axis_length_ * pose.length_w)) * (d - d.dot(pose.u) * pose.u);
+        terms.matrix += w * g * g.transpose();
+        terms.gradient += w * e * g;
+        if (free_.empty()) continue;
+        const auto column = b.col(static_cast<Eigen::Index>(j));
+        terms.coupling += w * g * column.transpose();
+        system.tool_matrix += w * column * column.transpose();
+        system.gradient.tail(tool_parameters_) += w * e * column;
+      }
+      if (any) system.add_pose(static_cast<int>(m), times_[i].first, times_[i].basis.data(), terms, !free_.empty());
+    }
+  }
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,171 @@
+// The terms of FitModel that do not look at the targets: fairness and anchors of the rails, pins and bounds of the tool.
+#include <algorithm>
+#include <cmath>
+
+#include "flank/fit/model/fit_model.h"
+
+namespace flank::internal {
+namespace {
+
+/// Keeps |w| near one: the length of w is a gauge, this term only holds it (MATH section 2).
+constexpr double kUnitPenalty = 1e-9;
+/// Weight of the one-sided terms that keep the tool inside its bounds.
+constexpr double kBoundWeight = 10.0;
+
+}  // namespace
+
+double FitModel::regulariser_cost(const FitState& state) const {
+  double sum = tool_cost(state) + check_cost(state);
+  for (std::size_t m = 0; m < targets_.size(); ++m) sum += rail_cost(state, static_cast<int>(m));
+  return sum;
+}
+
+void FitModel::assemble_regularisers(const FitState& state, ArrowSystem& system) const {
+  for (std::size_t m = 0; m < targets_.size(); ++m) assemble_rails(state, static_cast<int>(m), system);
+  assemble_tool(state, system);
+  assemble_checks(state, system);
+}
+
+void FitModel::assemble_rails(const FitState& state, int motion, ArrowSystem& system) const {
+  const RuledMotion& rails = state.motions[motion];
+  const double share = 1.0 / (static_cast<double>(targets_.size()) * stage_.samples_t);
+  const double half = 0.5 * axis_length_;
+  PoseTerms terms;
+  for (int i = 0; i < stage_.samples_t; ++i) {
+    const TimeSample& time = times_[i];
+    terms.matrix = Mat6::Identity() * (stage_.fairness * share);
+    terms.gradient.setZero();
+    for (int k = 0; k < 4; ++k) {
+      terms.gradient.head<3>() += time.basis_d2[k] * rails.tip.poles.col(time.first + k);
+      terms.gradient.tail<3>() += time.basis_d2[k] * axis_length_ * rails.direction.poles.col(time.first + k);
+    }
+    terms.gradient *= stage_.fairness * share;
+    system.add_pose(motion, time.first, time.basis_d2.data(), terms, false);
+
+    const PoseAt pose = pose_at(rails, time);
+    const Anchor& anchor = anchors_[motion][static_cast<std::size_t>(i)];
+    terms.matrix.setZero();
+    terms.gradient.setZero();
+    const auto add = [&](const Vec6& g, double e, double weight) {
+      terms.matrix += weight * share * g * g.transpose();
+      terms.gradient += weight * share * e * g;
+    };
+    Vec6 g;
+    const Vec3 tangent = anchor.tangent;
+    g << tangent, (half / (axis_length_ * pose.length_w)) * (tangent - tangent.dot(pose.u) * pose.u);
+    add(g, tangent.dot(pose.tip + half * pose.u - anchor.middle), stage_.transversal_anchor);
+    g << anchor.axis, Vec3::Zero();
+    add(g, anchor.axis.dot(pose.tip - anchor.tip), stage_.axial_pin);
+    g << Vec3::Zero(), pose.u;
+    add(g, axis_length_ * (pose.length_w - 1.0), kUnitPenalty);
+    system.add_pose(motion, time.first, time.basis.data(), terms, false);
+  }
+}
+
+double FitModel::rail_cost(const FitState& state, int motion) const {
+  const RuledMotion& rails = state.motions[motion];
+  const double half = 0.5 * axis_length_;
+  double sum = 0.0;
+  for (int i = 0; i < stage_.samples_t; ++i) {
+    const TimeSample& time = times_[i];
+    Vec3 a = Vec3::Zero(), w = Vec3::Zero();
+    for (int k = 0; k < 4; ++k) {
+      a += time.basis_d2[k] * rails.tip.poles.col(time.first + k);
+      w += time.basis_d2[k] * axis_length_ * rails.direction.poles.col(time.first + k);
+    }
+    sum += stage_.fairness * (a.squaredNorm() + w.squaredNorm());
+    const PoseAt pose = pose_at(rails, time);
+    const Anchor& anchor = anchors_[motion][static_cast<std::size_t>(i)];
+    const double drift = anchor.tangent.dot(pose.tip + half * pose.u - anchor.middle);
+    const double slide = anchor.axis.dot(pose.tip - anchor.tip);
+    const double unit = axis_length_ * (pose.length_w - 1.0);
+    sum += stage_.transversal_anchor * drift * drift + stage_.axial_pin * slide * slide + kUnitPenalty * unit * unit;
+  }
+  return sum / (static_cast<double>(targets_.size()) * stage_.samples_t);
+}
+
+namespace {
+
+/// One-sided residuals of the tool's bounds at one s; zero inside the bounds. `slope_sign` tells the side of a slope
+/// residual.
+struct BoundResiduals {
+  double radius = 0.0;
+  double slope = 0.0;
+  double convexity = 0.0;
+};
+/// What 1 - r'^2 - r r'' is held above: at zero the spheres are no longer inscribed (MATH section 1).
+constexpr double kLeastConvexity = 0.05;
+BoundResiduals bound_residuals(const RadialJet& jet, const RadiusBounds& bounds, double axis_length) {
+  BoundResiduals out;
+  out.radius = std::max(0.0, jet.r - bounds.largest) - std::max(0.0, bounds.smallest - jet.r);
+  out.slope = (std::max(0.0, jet.d1 - bounds.steepest) - std::max(0.0, -bounds.steepest - jet.d1)) * axis_length;
+  out.convexity = std::max(0.0, kLeastConvexity - (1.0 - jet.d1 * jet.d1 - jet.r * jet.d2)) * axis_length;
+  return out;
+}
+
+}  // namespace
+
+void FitModel::assemble_tool(const FitState& state, ArrowSystem& system) const {
+  if (free_.empty()) return;
+  const int n = stage_.samples_s;
+  Eigen::MatrixXd b;
+  tool_gradients(state, b);
+  auto gradient = system.gradient.tail(tool_parameters_);
+  const double h = axis_length_ * 1e-4, h2 = axis_length_ * 5e-6;
+  for (int j = 0; j < n; ++j) {
+    const RadialJet jet = state.tool.at(s_[j]);
+    system.tool_matrix += (stage_.radius_pin / n) * b.col(j) * b.col(j).transpose();
+    gradient += (stage_.radius_pin / n) * (jet.r - start_radius_[j]) * b.col(j);
+    const BoundResiduals residuals = bound_residuals(jet, bounds_, axis_length_);
+    if (residuals.radius != 0.0) {
+      system.tool_matrix += (kBoundWeight / n) * b.col(j) * b.col(j).transpose();
+      gradient += (kBoundWeight / n) * residuals.radius * b.col(j);
+    }
+    if (residuals.slope == 0.0 && residuals.convexity == 0.0) continue;
+    // Central also at the ends, where the end polynomial goes on: one-sided differences are off by 1e-4.
+    const Eigen::VectorXd by_d1 =
+        (tool_gradient(state.tool, s_[j] + h) - tool_gradient(state.tool, s_[j] - h)) / (2.0 * h);
+    // A smaller step: at a knot r'' has a corner.
+    const Eigen::VectorXd by_d2 =
+        (tool_gradient(state.tool, s_[j] + h2) - 2.0 * b.col(j) + tool_gradient(state.tool, s_[j] - h2)) / (h2 * h2);
+    const auto add = [&](const Eigen::VectorXd& g, double residual) {
+      if (residual == 0.0) return;
+      system.tool_matrix += (kBoundWeight / n) * g * g.transpose();
+      gradient += (kBoundWeight / n) * residual * g;
+    };
+    add(axis_length_ * by_d1, residuals.slope);
+    add(axis_length_ * (2.0 * jet.d1 * by_d1 + jet.d2 * b.col(j) + jet.r * by_d2), residuals.convexity);
+  }
+  if (state.tool.family() != ToolFamily::kSpline) return;
+  const Eigen::VectorXd& r = state.tool.parameters();
+  for (int k = 1; k + 1 < tool_parameters_; ++k) {
+    const double e = r[k - 1] - 2.0 * r[k] + r[k + 1];
+    constexpr std::array<double, 3> d = {1.0, -2.0, 1.0};
+    for (int p = 0; p < 3; ++p) {
+      gradient[k - 1 + p] += stage_.tool_fairness * e * d[p];
+      for (int q = 0; q < 3; ++q) system.tool_matrix(k - 1 + p, k - 1 + q) += stage_.tool_fairness * d[p] * d[q];
+    }
+  }
+}
+
+double FitModel::tool_cost(const FitState& state) const {
+  if (free_.empty()) return 0.0;
+  double sum = 0.0;
+  for (std::size_t j = 0; j < s_.size(); ++j) {
+    const RadialJet jet = state.tool.at(s_[j]);
+    const BoundResiduals e = bound_residuals(jet, bounds_, axis_length_);
+    const double drift = jet.r - start_radius_[j];
+    sum += (kBoundWeight * (e.radius * e.radius + e.slope * e.slope + e.convexity * e.convexity) +
+            stage_.radius_pin * drift * drift) /
+           stage_.samples_s;
+  }
+  if (state.tool.family() != ToolFamily::kSpline) return sum;
+  const Eigen::VectorXd& r = state.tool.parameters();
+  for (int k = 1; k + 1 < tool_parameters_; ++k) {
+    const double e = r[k - 1] - 2.0 * r[k] + r[k + 1];
+    sum += stage_.tool_fairness * e * e;
+  }
+  return sum;
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,107 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "flank/inspect/inspect.h"
+
+namespace flank::internal {
+namespace {
+
+std::string size_of(const Box3& box) {
+  const Vec3 size = box.high - box.low;
+  return fmt::format("{:.1f} x {:.1f} x {:.1f}", size.x(), size.y(), size.z());
+}
+
+std::string extent_of(const InspectRow& row) {
+  return row.triangles > 0 ? size_of(row.box) : fmt::format("{:.2f} x {:.2f}", row.length_u_mm, row.length_v_mm);
+}
+
+std::string form_of(const InspectRow& row) {
+  if (row.triangles > 0) return fmt::format("{} triangles", row.triangles);
+  return fmt::format("{}x{} {}x{}{}", row.degree_u, row.degree_v, row.poles_u, row.poles_v,
+                     row.rational ? " rational" : "");
+}
+
+std::string trims_of(const InspectRow& row) {
+  if (row.triangles > 0) return "-";
+  if (row.trims == 0) return "whole";
+  return row.holes == 0 ? "trimmed" : fmt::format("trimmed, {} hole{}", row.holes, row.holes == 1 ? "" : "s");
+}
+
+/// "convex", or "convex 62% saddle 38%" where it is mixed.
+std::string bend_of(const InspectRow& row) {
+  if (row.bend != "mixed") return row.bend;
+  static constexpr std::array<const char*, 4> names = {"flat", "convex", "concave", "saddle"};
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (row.bend_share[i] >= 0.005)
+      text += fmt::format("{}{} {:.0f}%", text.empty() ? "" : " ", names[i], 100.0 * row.bend_share[i]);
+  return text;
+}
+
+nlohmann::json box_json(const Box3& box) {
+  return {{"low", {box.low.x(), box.low.y(), box.low.z()}}, {"high", {box.high.x(), box.high.y(), box.high.z()}}};
+}
+
+nlohmann::json row_json(const InspectRow& row) {
+  nlohmann::json json = {{"id", row.id}, {"type", row.type}, {"area", row.area_mm2}, {"box", box_json(row.box)}};
+  if (row.triangles > 0) {
+    json["triangles"] = row.triangles;
+  } else {
+    json["degree"] = {row.degree_u, row.degree_v};
+    json["poles"] = {row.poles_u, row.poles_v};
+    json["rational"] = row.rational;
+    json["length"] = {row.length_u_mm, row.length_v_mm};
+    json["trims"] = row.trims;
+    json["holes"] = row.holes;
+  }
+  json["bend"] = row.bend;
+  json["bend_share"] = {{"flat", row.bend_share[0]},
+                        {"convex", row.bend_share[1]},
+                        {"concave", row.bend_share[2]},
+                        {"saddle", row.bend_share[3]}};
+  json["smallest_concave_radius"] =
+      std::isfinite(row.smallest_concave_radius_mm) ? nlohmann::json(row.smallest_concave_radius_mm) : nlohmann::json();
+  json["solid"] = row.solid >= 0 ? nlohmann::json(row.solid + 1) : nlohmann::json();
+  return json;
+}
+
+}  // namespace
+
+std::string to_table(const InspectReport& report) {
+  std::string text = fmt::format("{}: {}, unit {}, {} solid{}, {} face{}, {} mm\n\n", report.file, report.format,
+                                 report.unit, report.solids, report.solids == 1 ? "" : "s", report.rows.size(),
+                                 report.rows.size() == 1 ? "" : "s", size_of(report.box));
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "{:<5} {:<10} {:<21} {:>10}  {:<22} {:<37} {:>12}  {:<17} {}\n", "face", "type", "degree, poles",
+                 "area mm2", "size mm", "bend", "concave r mm", "trims", "of");
+  for (const InspectRow& row : report.rows) {
+    const std::string radius =
+        std::isfinite(row.smallest_concave_radius_mm) ? fmt::format("{:.3f}", row.smallest_concave_radius_mm) : "-";
+    const std::string of = row.solid >= 0 ? fmt::format("solid {}", row.solid + 1) : "sheet";
+    fmt::format_to(out, "{:<5} {:<10} {:<21} {:>10.2f}  {:<22} {:<37} {:>12}  {:<17} {}\n", row.id, row.type,
+                   form_of(row), row.area_mm2, extent_of(row), bend_of(row), radius, trims_of(row), of);
+  }
+  if (!report.repairs.empty()) text += "\nnotes\n";
+  for (const std::string& repair : report.repairs) fmt::format_to(out, "- {}\n", repair);
+  return text;
+}
+
+std::string inspect_to_json(const InspectReport& report) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (const InspectRow& row : report.rows) rows.push_back(row_json(row));
+  const nlohmann::json json = {{"schema", "openflank/inspect/1"},
+                               {"units", "mm"},
+                               {"file", report.file},
+                               {"format", report.format},
+                               {"unit", report.unit},
+                               {"solids", report.solids},
+                               {"box", box_json(report.box)},
+                               {"faces", std::move(rows)},
+                               {"repairs", report.repairs}};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,122 @@
+#include "flank/io/cad/read_cad.h"
+
+#include <fmt/format.h>
+
+#include <BRepBndLib.hxx>
+#include <BRepMesh_IncrementalMesh.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <Poly_Triangulation.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <utility>
+
+#include "flank/error.h"
+#include "flank/io/cad/read_occt_face.h"
+#include "flank/io/cad/read_occt_shape.h"
+#include "flank/io/cad/read_occt_silence.h"
+
+namespace flank::internal {
+namespace {
+
+/// Tessellation for boxes and volumes only: chord error as a share of each edge's size, and in angle.
+constexpr double kRelativeDeflection = 0.01;
+constexpr double kAngularDeflection = 0.3;
+
+/// Adds the nodes of the face's triangulation to the box; returns six times the signed volume of the cone from the
+/// origin over it, with the face oriented as it stands in its solid.
+double add_triangulation(const TopoDS_Face& face, Box3& box) {
+  TopLoc_Location location;
+  const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, location);
+  if (mesh.IsNull()) return 0.0;
+  std::vector<Vec3> nodes;
+  for (int i = 1; i <= mesh->NbNodes(); ++i) {
+    const gp_Pnt p = mesh->Node(i).Transformed(location.Transformation());
+    nodes.emplace_back(p.X(), p.Y(), p.Z());
+    box.add(nodes.back());
+  }
+  double volume = 0.0;
+  for (int i = 1; i <= mesh->NbTriangles(); ++i) {
+    int a, b, c;
+    mesh->Triangle(i).Get(a, b, c);
+    volume += nodes[static_cast<std::size_t>(a - 1)].dot(
+        nodes[static_cast<std::size_t>(b - 1)].cross(nodes[static_cast<std::size_t>(c - 1)]));
+  }
+  return face.Orientation() == TopAbs_REVERSED ? -volume : volume;
+}
+
+/// The box of a face: exact where the surface is elementary and that is cheap, else that of the tessellation.
+void add_extent(const TopoDS_Face& face, const std::string& type, Box3& box) {
+  add_triangulation(face, box);
+  if (type != "plane" && type != "cylinder" && type != "cone" && type != "sphere" && type != "torus") return;
+  Bnd_Box exact;
+  BRepBndLib::AddOptimal(face, exact, false, false);
+  if (exact.IsVoid() || exact.IsOpen()) return;
+  double x0, y0, z0, x1, y1, z1;
+  exact.Get(x0, y0, z0, x1, y1, z1);
+  box.add(Vec3(x0, y0, z0));
+  box.add(Vec3(x1, y1, z1));
+}
+
+/// Tells every face its solid and its orientation in it; a solid of negative volume is inside out and all its faces are
+/// turned.
+void assign_solids(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& index, Part& part) {
+  TopTools_IndexedMapOfShape solids;
+  TopExp::MapShapes(shape, TopAbs_SOLID, solids);
+  part.solids = solids.Extent();
+  for (int k = 1; k <= solids.Extent(); ++k) {
+    double volume = 0.0;
+    Box3 ignored;
+    std::vector<Face*> members;
+    for (TopExp_Explorer it(solids(k), TopAbs_FACE); it.More(); it.Next()) {
+      const TopoDS_Face face = TopoDS::Face(it.Current());
+      volume += add_triangulation(face, ignored);
+      Face& member = part.faces[static_cast<std::size_t>(index.FindIndex(face) - 1)];
+      if (member.of_solid) continue;  // shared with an earlier solid
+      member.of_solid = true;
+      member.solid = k - 1;
+      member.reversed = face.Orientation() == TopAbs_REVERSED;
+      members.push_back(&member);
+    }
+    if (volume >= 0.0) continue;
+    for (Face* member : members) member->reversed = !member->reversed;
+    part.repairs.push_back("solid " + std::to_string(k) + " was inside out (negative volume): its " +
+                           std::to_string(members.size()) + " faces were turned");
+  }
+}
+
+}  // namespace
+
+Part read_cad(const std::string& file, const std::string& format, const std::optional<std::string>& unit) {
+  const OcctSilence silence;
+  OcctShape loaded = load_occt_shape(file, format, unit);
+  Part part;
+  part.file = file;
+  part.format = format;
+  part.unit = loaded.unit;
+  part.millimetres_per_unit = loaded.millimetres_per_unit;
+  part.repairs = std::move(loaded.notes);
+  TopTools_IndexedMapOfShape index;
+  TopExp::MapShapes(loaded.shape, TopAbs_FACE, index);
+  try {
+    BRepMesh_IncrementalMesh(loaded.shape, kRelativeDeflection, true, kAngularDeflection, false);
+    for (int i = 1; i <= index.Extent(); ++i) {
+      const std::string id = fmt::format("F{}", i);
+      OcctFace converted = convert_occt_face(TopoDS::Face(index(i)), file + ", face " + id);
+      converted.face.id = id;
+      part.faces.push_back(std::move(converted.face));
+      part.surface_types.push_back(std::move(converted.type));
+      part.repairs.insert(part.repairs.end(), converted.notes.begin(), converted.notes.end());
+      add_extent(TopoDS::Face(index(i)), part.surface_types.back(), part.box);
+    }
+    assign_solids(loaded.shape, index, part);
+  } catch (const Standard_Failure& failure) {
+    throw InputError(file + ": its geometry cannot be used (" + failure.GetMessageString() + "); export it again");
+  }
+  return part;
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,115 @@
+#include "flank/io/cad/read_occt_face.h"
+
+#include <BRepTools.hxx>
+#include <BRep_Tool.hxx>
+#include <Precision.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <algorithm>
+#include <cmath>
+
+#include "flank/error.h"
+#include "flank/io/cad/read_occt_surface.h"
+#include "flank/io/cad/read_occt_trim.h"
+
+namespace flank::internal {
+namespace {
+
+double mm_along(const Handle(Geom_Surface) & surface, const ParameterBox& b, bool along_u) {
+  double largest = 0.0;
+  for (int i = 0; i <= 4; ++i) {
+    for (int j = 0; j <= 4; ++j) {
+      gp_Pnt p;
+      gp_Vec du, dv;
+      surface->D1(b.u0 + (b.u1 - b.u0) * i / 4, b.v0 + (b.v1 - b.v0) * j / 4, p, du, dv);
+      largest = std::max(largest, (along_u ? du : dv).Magnitude());
+    }
+  }
+  return largest;
+}
+
+/// Where the face lies in the parameters of its surface; ends that differ from the surface's own by less than kBorderMm
+/// are the surface's.
+ParameterBox box_of(const TopoDS_Face& face, const Handle(Geom_Surface) & surface, const std::string& name) {
+  ParameterBox b;
+  BRepTools::UVBounds(face, b.u0, b.u1, b.v0, b.v1);
+  const auto bounded = [](double a, double z) {
+    return !Precision::IsInfinite(a) && !Precision::IsInfinite(z) && z > a;
+  };
+  if (!bounded(b.u0, b.u1) || !bounded(b.v0, b.v1))
+    throw InputError(name + ": has no finite extent; accepted are faces that trims bound on every side");
+  double u0, u1, v0, v1;
+  surface->Bounds(u0, u1, v0, v1);
+  const auto snap = [](double& t, double end, double mm) {
+    if (!Precision::IsInfinite(end) && std::abs(t - end) * mm < kBorderMm) t = end;
+  };
+  const double mm_u = mm_along(surface, b, true), mm_v = mm_along(surface, b, false);
+  if (!surface->IsUPeriodic()) snap(b.u0, u0, mm_u), snap(b.u1, u1, mm_u);
+  if (!surface->IsVPeriodic()) snap(b.v0, v0, mm_v), snap(b.v1, v1, mm_v);
+  if (surface->IsUPeriodic() && b.u1 - b.u0 > surface->UPeriod()) b.u1 = b.u0 + surface->UPeriod();
+  if (surface->IsVPeriodic() && b.v1 - b.v0 > surface->VPeriod()) b.v1 = b.v0 + surface->VPeriod();
+  return b;
+}
+
+void refuse_high_degree(const BSplineSurface& s, const std::string& name) {
+  if (s.degree_u > kMaxDegree || s.degree_v > kMaxDegree)
+    throw InputError(name + ": has degree " + std::to_string(s.degree_u) + " x " + std::to_string(s.degree_v) +
+                     "; accepted is up to " + std::to_string(kMaxDegree));
+}
+
+}  // namespace
+
+double ParameterMap::value(double t) const {
+  if (breaks.empty()) return t;
+  const auto after =
+      std::clamp(std::upper_bound(breaks.begin(), breaks.end(), t), breaks.begin() + 1, breaks.end() - 1);
+  const double middle = 0.5 * (*(after - 1) + *after), half = 0.5 * (*after - *(after - 1));
+  return middle + half * std::tan(0.5 * (t - middle)) / std::tan(0.5 * half);
+}
+
+double ParameterMap::derivative(double t) const {
+  if (breaks.empty()) return 1.0;
+  const auto after =
+      std::clamp(std::upper_bound(breaks.begin(), breaks.end(), t), breaks.begin() + 1, breaks.end() - 1);
+  const double middle = 0.5 * (*(after - 1) + *after), half = 0.5 * (*after - *(after - 1));
+  const double tangent = std::tan(0.5 * (t - middle));
+  return 0.5 * half * (1.0 + tangent * tangent) / std::tan(0.5 * half);
+}
+
+OcctFace convert_occt_face(const TopoDS_Face& face, const std::string& name) {
+  OcctFace result;
+  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
+  if (surface.IsNull())
+    throw InputError(name + ": has no surface; accepted are faces with a surface (not triangulations)");
+  result.type = surface_type(surface);
+  ConvertedSurface converted;
+  try {
+    converted = convert_surface(surface, box_of(face, surface, name));
+  } catch (const Standard_Failure& failure) {
+    throw InputError(name + ": its surface (" + result.type + ") has no B-spline form (" + failure.GetMessageString() +
+                     ")");
+  }
+  refuse_high_degree(converted.surface, name);
+  if (converted.approximation_mm > 0.0)
+    result.notes.push_back(name + ": " + result.type + " surface approximated within " +
+                           std::to_string(converted.approximation_mm) + " mm");
+  const TrimFrame frame = trim_frame(converted.surface, converted.map_u, converted.map_v);
+  const TopoDS_Face forward = TopoDS::Face(face.Oriented(TopAbs_FORWARD));
+  for (TopExp_Explorer it(forward, TopAbs_WIRE); it.More(); it.Next()) {
+    const std::optional<TrimLoop> loop = convert_wire(TopoDS::Wire(it.Current()), forward, frame);
+    if (!loop)
+      throw InputError(name +
+                       ": a border of the face does not lie on its surface; export it again with trims (p-curves)");
+    result.face.loops.push_back(*loop);
+  }
+  if (result.face.loops.size() == 1 && is_natural_border(result.face.loops.front(), converted.surface, frame))
+    result.face.loops.clear();
+  result.face.reversed = face.Orientation() == TopAbs_REVERSED;
+  result.face.surface = std::move(converted.surface);
+  result.map_u = std::move(converted.map_u);
+  result.map_v = std::move(converted.map_v);
+  return result;
+}
+
+}  // namespace flank::internal

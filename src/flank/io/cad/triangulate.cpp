@@ -1,0 +1,242 @@
+#include "flank/io/cad/triangulate.h"
+
+#include <BRepMesh_IncrementalMesh.hxx>
+#include <BRep_Tool.hxx>
+#include <Poly_Triangulation.hxx>
+#include <Standard_Failure.hxx>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "flank/base/parallel.h"
+#include "flank/error.h"
+#include "flank/geom/trim.h"
+#include "flank/io/cad/read_occt_silence.h"
+#include "flank/io/cad/write_occt_face.h"
+
+namespace flank::internal {
+namespace {
+
+constexpr double kAngle = 0.5;       ///< radians that neighbouring triangles turn by at most
+constexpr int kTries = 4;            ///< meshes of one face, each finer
+constexpr double kAreaShare = 0.02;  ///< of the trimmed parameter area that the triangles may miss or add
+constexpr int kCoarsestGrid = 8, kFinestGrid = 256;
+constexpr int kGradedTries = 3;
+
+/// Triangles with the parameters of their vertices.
+struct ParameterMesh {
+  TriangleMesh mesh;
+  std::vector<Vec2> parameters;
+};
+
+/// What Open CASCADE makes of a face; empty where it fails.
+ParameterMesh mesh_of(const Face& face, double deflection) {
+  const OcctSilence silence;
+  ParameterMesh out;
+  try {
+    const TopoDS_Face shape = occt_face(face);
+    BRepMesh_IncrementalMesh(shape, deflection, false, kAngle, false);
+    TopLoc_Location location;
+    const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(shape, location);
+    if (mesh.IsNull() || !mesh->HasUVNodes()) return {};
+    for (int i = 1; i <= mesh->NbNodes(); ++i) {
+      const gp_Pnt2d uv = mesh->UVNode(i);
+      out.parameters.emplace_back(uv.X(), uv.Y());
+      out.mesh.vertices.push_back(face.surface.value(uv.X(), uv.Y()));
+    }
+    for (int i = 1; i <= mesh->NbTriangles(); ++i) {
+      int a, b, c;
+      mesh->Triangle(i).Get(a, b, c);
+      out.mesh.triangles.push_back({a - 1, b - 1, c - 1});
+    }
+  } catch (const Standard_Failure&) {
+    return {};
+  } catch (const InternalError&) {
+    return {};
+  }
+  return out;
+}
+
+/// Distance between the surface and the triangles, at places of equal parameters.
+double deviation_of(const BSplineSurface& surface, const ParameterMesh& m) {
+  constexpr std::array<std::array<double, 2>, 7> kPlaces{
+      {{0.5, 0.0}, {0.0, 0.5}, {0.5, 0.5}, {1 / 3.0, 1 / 3.0}, {0.2, 0.2}, {0.6, 0.2}, {0.2, 0.6}}};
+  double most = 0.0;
+  for (const auto& t : m.mesh.triangles) {
+    const auto at = [&](const auto& values, std::size_t k) { return values[static_cast<std::size_t>(t[k])]; };
+    for (const auto& [b, c] : kPlaces) {
+      const double a = 1.0 - b - c;
+      const Vec2 uv = a * at(m.parameters, 0) + b * at(m.parameters, 1) + c * at(m.parameters, 2);
+      const Vec3 flat = a * at(m.mesh.vertices, 0) + b * at(m.mesh.vertices, 1) + c * at(m.mesh.vertices, 2);
+      const SurfaceJet jet = surface.jet(uv.x(), uv.y());
+      // What lies along the surface is no deviation of it.
+      const Vec3 off = flat - jet.p, n = jet.du.cross(jet.dv);
+      const double length = n.norm();
+      most = std::max(most, length > 0.0 ? std::abs(off.dot(n)) / length : off.norm());
+    }
+  }
+  return most;
+}
+
+double parameter_area(const ParameterMesh& m) {
+  double twice = 0.0;
+  for (const auto& t : m.mesh.triangles) {
+    const Vec2& a = m.parameters[static_cast<std::size_t>(t[0])];
+    const Vec2 ab = m.parameters[static_cast<std::size_t>(t[1])] - a,
+               ac = m.parameters[static_cast<std::size_t>(t[2])] - a;
+    twice += std::abs(ab.x() * ac.y() - ab.y() * ac.x());
+  }
+  return 0.5 * twice;
+}
+
+/// Area of the trimmed region in the parameter plane: the largest loop less the others.
+double trimmed_area(const Face& face) {
+  const BSplineSurface& s = face.surface;
+  if (face.loops.empty()) return (s.u_last() - s.u_first()) * (s.v_last() - s.v_first());
+  double largest = 0.0, all = 0.0;
+  for (const TrimLoop& loop : face.loops) {
+    const double area = std::abs(signed_area(loop));
+    largest = std::max(largest, area);
+    all += area;
+  }
+  return 2.0 * largest - all;
+}
+
+/// Parameters first to last in `cells` equal steps.
+std::vector<double> even_steps(double first, double last, int cells) {
+  std::vector<double> steps;
+  for (int i = 0; i <= cells; ++i) steps.push_back(first + (last - first) * i / cells);
+  return steps;
+}
+
+/// Cells of a grid that are not outside the trim: covers the face, and up to a cell more.
+ParameterMesh grid_mesh(const BSplineSurface& s, const TrimRegion& region, const std::vector<double>& u,
+                        const std::vector<double>& v) {
+  ParameterMesh out;
+  for (const double y : v) {
+    for (const double x : u) {
+      out.parameters.emplace_back(x, y);
+      out.mesh.vertices.push_back(s.value(x, y));
+    }
+  }
+  const int row = static_cast<int>(u.size());
+  for (int j = 0; j + 1 < static_cast<int>(v.size()); ++j) {
+    for (int i = 0; i + 1 < row; ++i) {
+      const auto k = static_cast<std::size_t>(i), l = static_cast<std::size_t>(j);
+      if (!region.whole() && region.classify({u[k], u[k + 1], v[l], v[l + 1]}) == TrimRegion::Side::kOutside) continue;
+      const int a = j * row + i, b = a + row;
+      out.mesh.triangles.push_back({a, a + 1, b + 1});
+      out.mesh.triangles.push_back({a, b + 1, b});
+    }
+  }
+  return out;
+}
+
+ParameterRectangle domain(const BSplineSurface& s) { return {s.u_first(), s.u_last(), s.v_first(), s.v_last()}; }
+
+/// Steps from `first` to `last`, short where the surface bends along them: what `at(x, y)` (y over the other direction)
+/// departs from its chords, across the surface, is at most a third of `wanted` and even.
+template <class At>
+std::vector<double> graded_steps(double first, double last, double other_first, double other_last, double wanted,
+                                 const At& at) {
+  constexpr int kProbes = 256, kLines = 16;
+  constexpr double kFewest = 2.0 / kProbes;  ///< cells a probe: at least two over all
+  const double h = (last - first) / kProbes;
+  std::vector<double> sum = {0.0};
+  for (int i = 0; i < kProbes; ++i) {
+    double off = 0.0;
+    for (int k = 0; k <= kLines; ++k) {
+      const double y = other_first + (other_last - other_first) * k / kLines, x = first + h * i;
+      const SurfaceJet jet = at(x + 0.5 * h, y);
+      const Vec3 n = jet.du.cross(jet.dv), chord = 0.5 * (at(x, y).p + at(x + h, y).p) - jet.p;
+      const double length = n.norm();
+      off = std::max(off, length > 0.0 ? std::abs(chord.dot(n)) / length : chord.norm());
+    }
+    sum.push_back(sum.back() + std::max(kFewest, std::sqrt(3.0 * off / wanted)));
+  }
+  const int cells = static_cast<int>(std::ceil(sum.back()));
+  std::vector<double> steps = {first};
+  for (int c = 1, i = 0; c < cells; ++c) {
+    const double place = sum.back() * c / cells;
+    while (sum[static_cast<std::size_t>(i) + 1] < place) ++i;
+    const auto k = static_cast<std::size_t>(i);
+    steps.push_back(first + h * (i + (place - sum[k]) / (sum[k + 1] - sum[k])));
+  }
+  steps.push_back(last);
+  return steps;
+}
+
+/// A face without trims, by a grid that follows its curvature: where a mesher fights with a pole or a long thin patch, this
+/// is a matter of milliseconds. Empty where it would take too many triangles.
+FaceTriangles by_graded_grid(const Face& face, double wanted) {
+  const BSplineSurface& s = face.surface;
+  const ParameterRectangle d = domain(s);
+  const TrimRegion region({}, d);
+  FaceTriangles out;
+  out.face = face.id;
+  double aim = wanted;
+  for (int k = 0; k < kGradedTries; ++k) {
+    const auto u = graded_steps(d.u0, d.u1, d.v0, d.v1, aim, [&](double x, double y) { return s.jet(x, y); });
+    const auto v = graded_steps(d.v0, d.v1, d.u0, d.u1, aim, [&](double x, double y) { return s.jet(y, x); });
+    if (2 * (u.size() - 1) * (v.size() - 1) > kMostTriangles) break;
+    ParameterMesh m = grid_mesh(s, region, u, v);
+    out.deviation_mm = deviation_of(s, m);
+    if (out.deviation_mm <= wanted) {
+      out.mesh = std::move(m.mesh);
+      break;
+    }
+    aim *= std::clamp(0.8 * wanted / out.deviation_mm, 0.1, 0.8);
+  }
+  return out;
+}
+
+FaceTriangles by_grid(const Face& face, double wanted) {
+  FaceTriangles out;
+  out.face = face.id;
+  out.beyond_border = !face.loops.empty();
+  const TrimRegion region(face.loops, domain(face.surface));
+  const ParameterRectangle box = region.whole() ? domain(face.surface) : region.box();
+  for (int cells = kCoarsestGrid; cells <= kFinestGrid; cells *= 2) {
+    ParameterMesh m =
+        grid_mesh(face.surface, region, even_steps(box.u0, box.u1, cells), even_steps(box.v0, box.v1, cells));
+    out.deviation_mm = deviation_of(face.surface, m);
+    out.mesh = std::move(m.mesh);
+    if (out.deviation_mm <= wanted) break;
+  }
+  return out;
+}
+
+}  // namespace
+
+FaceTriangles triangulate_face(const Face& face, double deviation_mm) {
+  if (!(deviation_mm > 0.0)) throw UsageError("triangulation: a deviation above 0 mm is accepted");
+  if (TrimRegion(face.loops, domain(face.surface)).whole())
+    if (FaceTriangles graded = by_graded_grid(face, deviation_mm); !graded.mesh.triangles.empty()) return graded;
+  const double area = trimmed_area(face);
+  FaceTriangles best;
+  best.face = face.id;
+  double deflection = deviation_mm;
+  for (int k = 0; k < kTries; ++k) {
+    ParameterMesh m = mesh_of(face, deflection);
+    // A mesher that gives up leaves holes: the areas tell.
+    if (m.mesh.triangles.empty() || std::abs(parameter_area(m) - area) > kAreaShare * area) break;
+    best.deviation_mm = deviation_of(face.surface, m);
+    best.mesh = std::move(m.mesh);
+    if (best.deviation_mm <= deviation_mm || static_cast<int>(best.mesh.triangles.size()) > kMostTriangles) break;
+    deflection *= std::clamp(0.7 * deviation_mm / best.deviation_mm, 0.1, 0.5);
+  }
+  return best.mesh.triangles.empty() ? by_grid(face, deviation_mm) : best;
+}
+
+std::vector<FaceTriangles> triangulate(const Part& part, double deviation_mm) {
+  std::vector<FaceTriangles> out(static_cast<std::size_t>(part.face_count()));
+  parallel_for(out.size(), [&](std::size_t k) {
+    if (part.is_mesh())
+      out[k] = {"F" + std::to_string(k + 1), extract_mesh(part, {static_cast<int>(k)}), 0.0, false};
+    else
+      out[k] = triangulate_face(part.faces[k], deviation_mm);
+  });
+  return out;
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,193 @@
+#include "flank/io/mesh/read_mesh_regions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "flank/geom/mesh_topology.h"
+
+namespace flank::internal {
+namespace {
+
+/// Most triangles that are looked at around one; a finer mesh is judged over a smaller neighbourhood.
+constexpr std::size_t kMostNeighbors = 250;
+
+using Links = std::vector<std::array<int, 3>>;
+
+/// Everything that the steps below read.
+struct Facets {
+  Links smooth;  ///< neighbours across edges that are not sharp
+  Links all;     ///< neighbours across manifold edges
+  std::vector<Vec3> normals, centers;
+  std::vector<double> areas;
+};
+
+Facets describe(const TriangleMesh& mesh, double sharp_rad) {
+  Facets f;
+  TriangleMesh copy = mesh;
+  f.smooth = link_triangles(copy, sharp_rad).neighbors;
+  copy = mesh;
+  f.all = link_triangles(copy, std::numbers::pi).neighbors;
+  for (const auto& t : mesh.triangles) {
+    const Vec3 a = mesh.vertices[static_cast<std::size_t>(t[0])], b = mesh.vertices[static_cast<std::size_t>(t[1])],
+               c = mesh.vertices[static_cast<std::size_t>(t[2])];
+    f.areas.push_back(0.5 * (b - a).cross(c - a).norm());
+    f.centers.push_back((a + b + c) / 3.0);
+  }
+  // Area-weighted over a triangle and its smooth neighbours: noise of the vertices must not look like an edge.
+  const std::vector<Vec3> raw = triangle_normals(mesh);
+  for (std::size_t t = 0; t < raw.size(); ++t) {
+    Vec3 sum = f.areas[t] * raw[t];
+    for (const int n : f.smooth[t])
+      if (n >= 0) sum += f.areas[static_cast<std::size_t>(n)] * raw[static_cast<std::size_t>(n)];
+    f.normals.push_back(sum.norm() > 0.0 ? sum.normalized() : raw[t]);
+  }
+  return f;
+}
+
+/// 1 for triangles within whose neighbourhood of the given radius the normal turns by a sharp angle. A finite set of
+/// directions within an angle is judged by the turn from the middle triangle, hence half the angle on either side.
+std::vector<char> find_edges(const Facets& f, double radius, double sharp_rad) {
+  const double cosine = std::cos(sharp_rad);
+  std::vector<char> edge(f.normals.size(), 0);
+  std::vector<std::size_t> seen_by(f.normals.size(), f.normals.size()), queue;
+  for (std::size_t t = 0; t < edge.size(); ++t) {
+    queue.assign(1, t);
+    seen_by[t] = t;
+    for (std::size_t i = 0; i < queue.size() && queue.size() < kMostNeighbors && !edge[t]; ++i) {
+      for (const int n : f.all[queue[i]]) {
+        const auto other = static_cast<std::size_t>(n);
+        if (n < 0 || seen_by[other] == t) continue;
+        seen_by[other] = t;
+        if ((f.centers[other] - f.centers[t]).squaredNorm() > radius * radius) continue;
+        edge[t] |= f.normals[other].dot(f.normals[t]) < cosine;
+        queue.push_back(other);
+      }
+    }
+  }
+  return edge;
+}
+
+void flood(const Facets& f, std::size_t start, int label, const std::vector<char>& eligible, std::vector<int>& labels) {
+  std::vector<std::size_t> stack{start};
+  labels[start] = label;
+  while (!stack.empty()) {
+    const std::size_t t = stack.back();
+    stack.pop_back();
+    for (const int n : f.smooth[t]) {
+      const auto other = static_cast<std::size_t>(n);
+      if (n < 0 || labels[other] >= 0 || !eligible[other]) continue;
+      labels[other] = label;
+      stack.push_back(other);
+    }
+  }
+}
+
+/// Regions of what is no edge. One that is smaller than the neighbourhood by which edges were found is a gap in an
+/// edge, and becomes part of it. Returns how many labels were used.
+int flood_cores(const Facets& f, double least_area, std::vector<char>& edge, std::vector<int>& labels) {
+  std::vector<char> core(edge.size());
+  std::transform(edge.begin(), edge.end(), core.begin(), [](char e) { return !e; });
+  int count = 0;
+  for (std::size_t t = 0; t < labels.size(); ++t)
+    if (core[t] && labels[t] < 0) flood(f, t, count++, core, labels);
+  std::vector<double> areas(static_cast<std::size_t>(count), 0.0);
+  for (std::size_t t = 0; t < labels.size(); ++t)
+    if (labels[t] >= 0) areas[static_cast<std::size_t>(labels[t])] += f.areas[t];
+  for (std::size_t t = 0; t < labels.size(); ++t) {
+    if (labels[t] < 0 || areas[static_cast<std::size_t>(labels[t])] >= least_area) continue;
+    labels[t] = -1;
+    edge[t] = 1;
+  }
+  return count;
+}
+
+/// Lets regions take in the triangles along their borders that still face as the region did where the border zone
+/// began. Breadth first, so that neighbours meet in the middle.
+void grow(const Facets& f, double turn_rad, std::vector<int>& labels) {
+  const double cosine = std::cos(turn_rad);
+  std::vector<Vec3> reference = f.normals;
+  std::vector<std::size_t> queue;
+  for (std::size_t t = 0; t < labels.size(); ++t)
+    if (labels[t] >= 0) queue.push_back(t);
+  for (std::size_t i = 0; i < queue.size(); ++i) {
+    for (const int n : f.smooth[queue[i]]) {
+      const auto other = static_cast<std::size_t>(n);
+      if (n < 0 || labels[other] >= 0 || f.normals[other].dot(reference[queue[i]]) < cosine) continue;
+      labels[other] = labels[queue[i]];
+      reference[other] = reference[queue[i]];
+      queue.push_back(other);
+    }
+  }
+}
+
+double shared_length(const TriangleMesh& mesh, std::size_t triangle, int side) {
+  const auto& t = mesh.triangles[triangle];
+  return (mesh.vertices[static_cast<std::size_t>(t[(side + 1) % 3])] -
+          mesh.vertices[static_cast<std::size_t>(t[(side + 2) % 3])])
+      .norm();
+}
+
+/// One round: every region below the least area joins its closest neighbour. Returns whether any did.
+bool absorb(const TriangleMesh& mesh, const Facets& f, double least_area, int count, std::vector<int>& labels) {
+  std::vector<double> areas(static_cast<std::size_t>(count), 0.0);
+  for (std::size_t t = 0; t < labels.size(); ++t) areas[static_cast<std::size_t>(labels[t])] += f.areas[t];
+  std::map<std::pair<int, int>, double> borders;
+  for (std::size_t t = 0; t < labels.size(); ++t)
+    for (int k = 0; k < 3; ++k)
+      if (const int n = f.all[t][k]; n >= 0 && labels[static_cast<std::size_t>(n)] != labels[t])
+        borders[{labels[t], labels[static_cast<std::size_t>(n)]}] += shared_length(mesh, t, k);
+  std::vector<int> into(static_cast<std::size_t>(count), -1);
+  std::vector<double> longest(static_cast<std::size_t>(count), 0.0);
+  for (const auto& [pair, length] : borders) {
+    const auto [small, large] = pair;
+    const double area = areas[static_cast<std::size_t>(small)], other = areas[static_cast<std::size_t>(large)];
+    const bool grows = other > area || (other == area && large < small);
+    if (area >= least_area || !grows || length <= longest[static_cast<std::size_t>(small)]) continue;
+    longest[static_cast<std::size_t>(small)] = length;
+    into[static_cast<std::size_t>(small)] = large;
+  }
+  bool any = false;
+  for (int& label : labels) {
+    // Chains end at the region of largest area: each link leads to a larger one.
+    while (into[static_cast<std::size_t>(label)] >= 0) label = into[static_cast<std::size_t>(label)], any = true;
+  }
+  return any;
+}
+
+std::vector<std::vector<int>> by_area(const Facets& f, const std::vector<int>& labels, int count) {
+  std::vector<std::vector<int>> regions(static_cast<std::size_t>(count));
+  std::vector<double> areas(regions.size(), 0.0);
+  for (std::size_t t = 0; t < labels.size(); ++t) {
+    regions[static_cast<std::size_t>(labels[t])].push_back(static_cast<int>(t));
+    areas[static_cast<std::size_t>(labels[t])] += f.areas[t];
+  }
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < regions.size(); ++i)
+    if (!regions[i].empty()) order.push_back(i);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return areas[a] > areas[b]; });
+  std::vector<std::vector<int>> sorted;
+  for (const std::size_t i : order) sorted.push_back(std::move(regions[i]));
+  return sorted;
+}
+
+}  // namespace
+
+std::vector<std::vector<int>> mesh_regions(const TriangleMesh& mesh, const RegionOptions& options) {
+  const Facets f = describe(mesh, options.sharp_rad);
+  const double radius = options.edge_width_share * mesh.box().diagonal();
+  std::vector<char> edge = find_edges(f, radius, options.sharp_rad);
+  std::vector<int> labels(mesh.triangles.size(), -1);
+  int count = flood_cores(f, std::numbers::pi * radius * radius, edge, labels);
+  grow(f, 0.5 * options.sharp_rad, labels);
+  for (std::size_t t = 0; t < labels.size(); ++t)
+    if (labels[t] < 0) flood(f, t, count++, edge, labels);
+  double total = 0.0;
+  for (const double area : f.areas) total += area;
+  while (absorb(mesh, f, options.least_area_share * total, count, labels)) {
+  }
+  return by_area(f, labels, count);
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,199 @@
+#include "flank/io/mesh/read_mesh_repair.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "flank/geom/mesh_repair.h"
+#include "flank/geom/mesh_topology.h"
+
+namespace flank::internal {
+namespace {
+
+using Triangle = std::array<int, 3>;
+
+/// Sum of the area vectors of a component this small, relative to its area, means that hardly anything is open.
+constexpr double kClosedShare = 0.05;
+/// Neighbours whose normals are this opposite lie on each other.
+constexpr double kFoldCosine = -0.9999;
+
+const Vec3& corner(const TriangleMesh& mesh, const Triangle& t, int k) {
+  return mesh.vertices[static_cast<std::size_t>(t[k])];
+}
+
+Vec3 area_vector(const TriangleMesh& mesh, const Triangle& t) {
+  return 0.5 * (corner(mesh, t, 1) - corner(mesh, t, 0)).cross(corner(mesh, t, 2) - corner(mesh, t, 0));
+}
+
+/// The triangles at each edge: one is a border, more than two is not manifold.
+using EdgeMap = std::map<std::pair<int, int>, std::vector<int>>;
+
+EdgeMap edges_of(const TriangleMesh& mesh) {
+  EdgeMap edges;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k)
+      edges[std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3])].push_back(static_cast<int>(t));
+  return edges;
+}
+
+long count_non_manifold(const EdgeMap& edges) {
+  return std::count_if(edges.begin(), edges.end(), [](const auto& e) { return e.second.size() > 2; });
+}
+
+/// Sets of numbers that hang together.
+class Groups {
+ public:
+  explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
+  int root(int i) {
+    while (parent_[static_cast<std::size_t>(i)] != i) {
+      parent_[static_cast<std::size_t>(i)] = parent_[static_cast<std::size_t>(parent_[static_cast<std::size_t>(i)])];
+      i = parent_[static_cast<std::size_t>(i)];
+    }
+    return i;
+  }
+  /// The smaller root stays, so that numbers do not depend on the order of joining.
+  void join(int a, int b) {
+    a = root(a), b = root(b);
+    parent_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+  }
+
+ private:
+  std::vector<int> parent_;
+};
+
+/// Components of triangles over edges of exactly two triangles, numbered from 0 in the order of the triangles.
+std::vector<int> component_numbers(const TriangleMesh& mesh, const EdgeMap& edges) {
+  Groups groups(mesh.triangles.size());
+  for (const auto& [edge, users] : edges)
+    if (users.size() == 2) groups.join(users[0], users[1]);
+  std::vector<int> number(mesh.triangles.size(), -1);
+  int count = 0;
+  for (std::size_t t = 0; t < number.size(); ++t) {
+    const int root = groups.root(static_cast<int>(t));
+    number[t] = root == static_cast<int>(t) ? count++ : number[static_cast<std::size_t>(root)];
+  }
+  return number;
+}
+
+struct Component {
+  double area = 0.0, volume = 0.0;
+  Vec3 vector = Vec3::Zero();
+  Box3 box;
+  bool at_non_manifold = false;
+  [[nodiscard]] bool closed() const { return vector.norm() < kClosedShare * area; }
+};
+
+std::vector<Component> describe(const TriangleMesh& mesh, const std::vector<int>& number) {
+  std::vector<Component> parts(
+      number.empty() ? 0 : static_cast<std::size_t>(*std::max_element(number.begin(), number.end())) + 1);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Vec3 area = area_vector(mesh, mesh.triangles[t]);
+    Component& part = parts[static_cast<std::size_t>(number[t])];
+    part.area += area.norm();
+    part.vector += area;
+    for (int k = 0; k < 3; ++k) part.box.add(corner(mesh, mesh.triangles[t], k));
+  }
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    Component& part = parts[static_cast<std::size_t>(number[t])];
+    part.volume +=
+        area_vector(mesh, mesh.triangles[t]).dot(corner(mesh, mesh.triangles[t], 0) - part.box.center()) / 3.0;
+  }
+  return parts;
+}
+
+/// Removes small components that hang on non-manifold edges. Returns how many triangles went.
+std::size_t remove_fins(TriangleMesh& mesh) {
+  const EdgeMap edges = edges_of(mesh);
+  const std::vector<int> number = component_numbers(mesh, edges);
+  std::vector<Component> parts = describe(mesh, number);
+  double total = 0.0;
+  for (const Component& part : parts) total += part.area;
+  for (const auto& [edge, users] : edges)
+    for (const int t : users)
+      if (users.size() > 2) parts[static_cast<std::size_t>(number[static_cast<std::size_t>(t)])].at_non_manifold = true;
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Component& part = parts[static_cast<std::size_t>(number[t])];
+    if (!part.at_non_manifold || part.area > kFinAreaShare * total) mesh.triangles[kept++] = mesh.triangles[t];
+  }
+  const std::size_t removed = mesh.triangles.size() - kept;
+  mesh.triangles.resize(kept);
+  return removed;
+}
+
+bool strictly_inside(const Box3& a, const Box3& b) {
+  return (b.low.array() < a.low.array()).all() && (a.high.array() < b.high.array()).all();
+}
+
+/// Turns components that are closed, or nearly, and have a negative volume; not those inside another one, which bound a
+/// cavity.
+void turn_outwards(TriangleMesh& mesh, std::vector<std::string>& account) {
+  const std::vector<int> number = component_numbers(mesh, edges_of(mesh));
+  const std::vector<Component> parts = describe(mesh, number);
+  std::vector<char> turn(parts.size(), 0);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const bool cavity = std::any_of(parts.begin(), parts.end(),
+                                    [&](const Component& p) { return strictly_inside(parts[i].box, p.box); });
+    turn[i] = parts[i].closed() && parts[i].volume < 0.0 && !cavity;
+  }
+  std::size_t turned = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (!turn[static_cast<std::size_t>(number[t])]) continue;
+    std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+    ++turned;
+  }
+  if (turned > 0) account.push_back(fmt::format("turned {} triangles of components that were inside out", turned));
+  if (parts.size() > 1) account.push_back(fmt::format("the mesh has {} components", parts.size()));
+}
+
+/// Holes, rims and folds stay as they are; the user is told.
+void tell_what_is_left(const TriangleMesh& mesh, std::vector<std::string>& account) {
+  const EdgeMap edges = edges_of(mesh);
+  const std::vector<Vec3> normals = triangle_normals(mesh);
+  Groups rims(mesh.vertices.size());
+  long folds = 0;
+  for (const auto& [edge, users] : edges) {
+    if (users.size() == 1) rims.join(edge.first, edge.second);
+    if (users.size() == 2)
+      folds +=
+          normals[static_cast<std::size_t>(users[0])].dot(normals[static_cast<std::size_t>(users[1])]) < kFoldCosine;
+  }
+  std::map<int, Box3> boxes;
+  for (const auto& [edge, users] : edges)
+    for (const int v : {edge.first, edge.second})
+      if (users.size() == 1) boxes[rims.root(v)].add(mesh.vertices[static_cast<std::size_t>(v)]);
+  double largest = 0.0;
+  for (const auto& [root, box] : boxes) largest = std::max(largest, box.diagonal());
+  if (const long left = count_non_manifold(edges); left > 0)
+    account.push_back(fmt::format("left {} non-manifold edges, as borders between faces", left));
+  if (!boxes.empty())
+    account.push_back(fmt::format("left {} holes or open rims (the largest {:.3g} mm across)", boxes.size(), largest));
+  if (folds > 0) account.push_back(fmt::format("left {} edges at which the surface folds back onto itself", folds));
+}
+
+}  // namespace
+
+ReadMesh repair_read_mesh(TriangleMesh mesh, bool soup) {
+  ReadMesh result;
+  RepairedMesh first = repair_mesh(std::move(mesh), kWeldShare);
+  if (soup) first.repair.welded_vertices = 0;
+  if (!first.repair.clean()) result.account.push_back(first.repair.account());
+  result.mesh = std::move(first.mesh);
+  const std::size_t fins = remove_fins(result.mesh);
+  if (fins > 0) {
+    result.account.push_back(fmt::format("removed {} triangles of fins that hang on non-manifold edges", fins));
+    // Without the fins more triangles are neighbours, so that more of them must agree.
+    RepairedMesh second = repair_mesh(std::move(result.mesh));
+    second.repair.isolated_vertices = 0;
+    if (!second.repair.clean()) result.account.push_back(second.repair.account());
+    result.mesh = std::move(second.mesh);
+  }
+  turn_outwards(result.mesh, result.account);
+  tell_what_is_left(result.mesh, result.account);
+  return result;
+}
+
+}  // namespace flank::internal

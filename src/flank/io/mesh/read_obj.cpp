@@ -1,0 +1,43 @@
+#include <fmt/format.h>
+
+#include "flank/io/mesh/read_mesh.h"
+#include "flank/io/text/read_text.h"
+
+namespace flank::internal {
+namespace {
+
+/// OBJ counts vertices from 1, or from the last one backwards.
+int vertex_index(const TextLines& lines, std::size_t word, std::size_t vertices) {
+  const long given = lines.integer(word), count = static_cast<long>(vertices);
+  const long index = given < 0 ? count + given : given - 1;
+  if (index < 0 || index >= count)
+    lines.refuse(fmt::format("vertex {} does not exist; there are {} so far", given, count));
+  return static_cast<int>(index);
+}
+
+}  // namespace
+
+void add_polygon(TriangleMesh& mesh, const int* corners, int count) {
+  for (int k = 2; k < count; ++k) mesh.triangles.push_back({corners[0], corners[k - 1], corners[k]});
+}
+
+TriangleMesh read_obj(const std::string& file, std::string_view content) {
+  TriangleMesh mesh;
+  TextLines lines(file, content);
+  std::vector<int> corners;
+  while (lines.next()) {
+    if (lines.word(0) == "v") {
+      if (lines.words().size() < 4) lines.refuse("a vertex needs three coordinates");
+      mesh.vertices.emplace_back(lines.number(1), lines.number(2), lines.number(3));
+    } else if (lines.word(0) == "f") {
+      if (lines.words().size() < 4) lines.refuse("a face needs at least three vertices");
+      corners.clear();
+      for (std::size_t i = 1; i < lines.words().size() && lines.word(i).front() != '#'; ++i)
+        corners.push_back(vertex_index(lines, i, mesh.vertices.size()));
+      add_polygon(mesh, corners.data(), static_cast<int>(corners.size()));
+    }
+  }
+  return mesh;
+}
+
+}  // namespace flank::internal

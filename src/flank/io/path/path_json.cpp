@@ -1,0 +1,75 @@
+#include "flank/io/path/path_json.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+
+#include "flank/io/text/json_input.h"
+
+namespace flank::internal {
+
+namespace {
+
+constexpr std::string_view kSchema = "openflank/path/1";
+
+Pose pose_from(const JsonInput& in) {
+  const std::vector<double> v = in.numbers(6);
+  Pose pose{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+  const double length = pose.axis.norm();
+  if (!(std::abs(length - 1.0) <= kAxisLengthRounded))
+    in.refuse(fmt::format("the axis vector (i, j, k) has length {}; must be 1", length));
+  if (std::abs(length - 1.0) > kAxisLengthExact) pose.axis /= length;
+  return pose;
+}
+
+Strip strip_from(const JsonInput& in) {
+  in.allow_keys({"id", "kind", "face", "poses"});
+  Strip strip;
+  strip.id = in.member("id").integer();
+  if (in.has("kind")) strip.kind = in.member("kind").text();
+  if (in.has("face")) strip.face = in.member("face").text();
+  const JsonInput poses = in.member("poses");
+  if (poses.size() == 0) poses.refuse("at least one pose [x, y, z, i, j, k] is needed");
+  strip.poses.reserve(poses.size());
+  for (std::size_t i = 0; i < poses.size(); ++i) strip.poses.push_back(pose_from(poses.element(i)));
+  return strip;
+}
+
+}  // namespace
+
+std::string path_to_json(const Path& path) {
+  std::string text = fmt::format("{{\n  \"schema\": \"{}\",\n  \"units\": \"mm\",\n  \"strips\": [", kSchema);
+  for (std::size_t k = 0; k < path.strips.size(); ++k) {
+    const Strip& strip = path.strips[k];
+    text += fmt::format("{}\n    {{\"id\": {}, \"kind\": {}, \"face\": {}, \"poses\": [", k == 0 ? "" : ",", strip.id,
+                        json_string(strip.kind), json_string(strip.face));
+    for (std::size_t i = 0; i < strip.poses.size(); ++i) {
+      const Pose& p = strip.poses[i];
+      text += fmt::format("{}\n      [{}, {}, {}, {}, {}, {}]", i == 0 ? "" : ",", exact_number(p.tip.x()),
+                          exact_number(p.tip.y()), exact_number(p.tip.z()), exact_number(p.axis.x()),
+                          exact_number(p.axis.y()), exact_number(p.axis.z()));
+    }
+    text += "\n    ]}";
+  }
+  return text + "\n  ]\n}\n";
+}
+
+Path path_from_json(std::string_view text, const std::string& file) {
+  const JsonInput in(file, text);
+  in.require_schema(kSchema);
+  in.allow_keys({"schema", "units", "strips"});
+  const JsonInput strips = in.member("strips");
+  Path path;
+  std::set<int> ids;
+  for (std::size_t i = 0; i < strips.size(); ++i) {
+    path.strips.push_back(strip_from(strips.element(i)));
+    if (!ids.insert(path.strips.back().id).second)
+      strips.element(i).refuse(fmt::format("id {} is used twice", path.strips.back().id));
+  }
+  return path;
+}
+
+Path read_path(const std::string& file) { return path_from_json(read_file(file), file); }
+
+}  // namespace flank::internal

@@ -1,0 +1,194 @@
+#include "flank/io/text/json_input.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <set>
+
+#include "flank/error.h"
+
+namespace flank::internal {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr std::uintmax_t kLargestFile = 512u << 20;
+constexpr int kDeepestNesting = 64;
+
+/// The parser's message without its internal prefix "[json.exception.parse_error.101] parse error at ".
+std::string plain_message(const json::exception& e) {
+  std::string message = e.what();
+  if (const std::size_t at = message.find("] "); at != std::string::npos) message.erase(0, at + 2);
+  if (message.rfind("parse error at ", 0) == 0) message.erase(0, std::string("parse error at ").size());
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  return message;
+}
+
+/// Watches the parse: the parser itself would silently keep the last of two equal keys.
+class DuplicateKeys {
+ public:
+  bool operator()(int depth, json::parse_event_t event, json& parsed) {
+    if (depth > kDeepestNesting) throw InputError("nested too deep");
+    if (event == json::parse_event_t::object_start) keys_.emplace_back();
+    if (event == json::parse_event_t::object_end && !keys_.empty()) keys_.pop_back();
+    if (event == json::parse_event_t::key && !keys_.empty() && !keys_.back().insert(parsed.get<std::string>()).second)
+      throw InputError("key \"" + parsed.get<std::string>() + "\" occurs twice");
+    return true;
+  }
+
+ private:
+  std::vector<std::set<std::string>> keys_;
+};
+
+std::shared_ptr<const json> parse(const std::string& file, std::string_view text) {
+  try {
+    DuplicateKeys watch;
+    const json::parser_callback_t callback = [&watch](int depth, json::parse_event_t event, json& parsed) {
+      return watch(depth, event, parsed);
+    };
+    return std::make_shared<const json>(json::parse(text.begin(), text.end(), callback));
+  } catch (const json::exception& e) {
+    throw InputError(file + ": not valid JSON, " + plain_message(e));
+  } catch (const InputError& e) {
+    throw InputError(file + ": " + e.what());
+  }
+}
+
+}  // namespace
+
+std::string read_file(const std::string& file) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) throw InputError(file + ": no such file");
+  if (!std::filesystem::is_regular_file(file, error)) throw InputError(file + ": is not a file");
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  if (error) throw InputError(file + ": cannot be read");
+  if (size == 0) throw InputError(file + ": is empty");
+  if (size > kLargestFile) throw InputError(file + ": is larger than 512 MB");
+  std::ifstream in(file, std::ios::binary);
+  std::string content(static_cast<std::size_t>(size), '\0');
+  if (!in.read(content.data(), static_cast<std::streamsize>(content.size())))
+    throw InputError(file + ": cannot be read");
+  return content;
+}
+
+JsonInput::JsonInput(const std::string& file, std::string_view text)
+    : document_(parse(file, text)), value_(document_.get()), file_(file) {
+  if (!value_->is_object()) refuse("must be a JSON object {...}");
+}
+
+void JsonInput::refuse(const std::string& why) const {
+  throw InputError(file_ + ": " + (place_.empty() ? "" : place_ + ": ") + why);
+}
+
+void JsonInput::require_schema(std::string_view schema) const {
+  if (!has("schema")) refuse(fmt::format("no \"schema\"; accepted: \"{}\"", schema));
+  const std::string found = member("schema").text();
+  if (found != schema) member("schema").refuse(fmt::format("is \"{}\"; accepted: \"{}\"", found, schema));
+  if (has("units") && member("units").text() != "mm")
+    member("units").refuse(fmt::format("is \"{}\"; accepted: \"mm\"", member("units").text()));
+}
+
+void JsonInput::allow_keys(std::initializer_list<std::string_view> known) const {
+  for (const std::string& key : keys())
+    if (std::find(known.begin(), known.end(), key) == known.end())
+      refuse(fmt::format("unknown key \"{}\"; accepted: {}", key, fmt::join(known, ", ")));
+}
+
+bool JsonInput::has(std::string_view key) const { return value_->is_object() && value_->contains(std::string(key)); }
+
+JsonInput JsonInput::member(std::string_view key) const {
+  if (!value_->is_object()) refuse("must be an object {...}");
+  const auto found = value_->find(std::string(key));
+  if (found == value_->end()) refuse(fmt::format("\"{}\" is missing", key));
+  return {document_, *found, file_, place_.empty() ? std::string(key) : fmt::format("{}.{}", place_, key)};
+}
+
+std::size_t JsonInput::size() const {
+  if (!value_->is_array()) refuse("must be an array [...]");
+  return value_->size();
+}
+
+JsonInput JsonInput::element(std::size_t i) const {
+  if (i >= size()) refuse("is too short");
+  return {document_, (*value_)[i], file_, fmt::format("{}[{}]", place_, i)};
+}
+
+std::vector<std::string> JsonInput::keys() const {
+  if (!value_->is_object()) refuse("must be an object {...}");
+  std::vector<std::string> names;
+  for (const auto& item : value_->items()) names.push_back(item.key());
+  return names;
+}
+
+bool JsonInput::is_array() const { return value_->is_array(); }
+
+double JsonInput::number() const {
+  if (!value_->is_number()) refuse("must be a number");
+  const double value = value_->get<double>();
+  if (!std::isfinite(value)) refuse("must be a finite number");
+  return value;
+}
+
+double JsonInput::positive() const {
+  const double value = number();
+  if (!(value > 0.0)) refuse(fmt::format("is {}; must be > 0", value));
+  return value;
+}
+
+int JsonInput::integer() const {
+  const double value = number();
+  if (value != std::floor(value) || std::abs(value) > std::numeric_limits<int>::max()) refuse("must be a whole number");
+  return static_cast<int>(value);
+}
+
+std::string JsonInput::text() const {
+  if (!value_->is_string()) refuse("must be a text \"...\"");
+  return value_->get<std::string>();
+}
+
+std::vector<double> JsonInput::numbers(std::size_t count) const {
+  if (size() != count) refuse(fmt::format("has {} entries; must have {}", size(), count));
+  std::vector<double> values(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const json& value = (*value_)[i];
+    values[i] = value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
+    if (!std::isfinite(values[i])) element(i).refuse("must be a finite number");
+  }
+  return values;
+}
+
+std::vector<Vec2> JsonInput::pairs() const {
+  std::vector<Vec2> points(size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::vector<double> pair = element(i).numbers(2);
+    points[i] = {pair[0], pair[1]};
+  }
+  return points;
+}
+
+std::string exact_number(double value) {
+  if (!std::isfinite(value)) throw InternalError("a number that is not finite was to be written to a file");
+  return fmt::format("{}", value);
+}
+
+std::string exact_decimal(double value) {
+  std::string text = exact_number(std::abs(value) < kSmallestDecimal ? 0.0 : value);
+  if (text.find('e') != std::string::npos) {
+    const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value))));
+    text = fmt::format("{:.{}f}", value, std::max(1, 17 - exponent));
+    while (text.back() == '0' && text[text.size() - 2] != '.') text.pop_back();
+  }
+  return text.find('.') == std::string::npos ? text + ".0" : text;
+}
+
+std::string json_string(std::string_view text) {
+  return json(text).dump(-1, ' ', true, json::error_handler_t::replace);
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,44 @@
+#include "flank/obstacle/check_tree.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace flank::internal {
+namespace {
+
+constexpr int kLeafTriangles = 4;
+
+Vec3 middle(const CheckTree::Triangle& t) { return (t.corners[0] + t.corners[1] + t.corners[2]) / 3.0; }
+
+}  // namespace
+
+CheckTree::CheckTree(std::vector<Triangle> triangles) : triangles_(std::move(triangles)) {
+  for (const Triangle& t : triangles_) slack_ = std::max(slack_, t.slack_mm);
+  if (!triangles_.empty()) build(0, static_cast<int>(triangles_.size()));
+}
+
+int CheckTree::build(int first, int end) {
+  Box3 box, middles;
+  for (int k = first; k < end; ++k) {
+    const Triangle& t = triangles_[static_cast<std::size_t>(k)];
+    for (const Vec3& x : t.corners) box.add(x);
+    middles.add(middle(t));
+  }
+  const int index = static_cast<int>(nodes_.size());
+  // Rounding of the centre must not let a corner out.
+  const Vec3 slack = Vec3::Constant(1e-14 * box.low.cwiseAbs().cwiseMax(box.high.cwiseAbs()).maxCoeff());
+  nodes_.push_back({box.center(), 0.5 * (box.high - box.low) + slack, -1, first, end});
+  if (end - first <= kLeafTriangles) return index;
+  int axis = 0;
+  (middles.high - middles.low).maxCoeff(&axis);
+  const int half = first + (end - first) / 2;
+  const auto begin = triangles_.begin();
+  std::stable_sort(begin + first, begin + end,
+                   [axis](const Triangle& a, const Triangle& b) { return middle(a)[axis] < middle(b)[axis]; });
+  build(first, half);
+  const int second = build(half, end);
+  nodes_[static_cast<std::size_t>(index)].second = second;
+  return index;
+}
+
+}  // namespace flank::internal

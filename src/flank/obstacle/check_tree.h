@@ -1,0 +1,40 @@
+/// Boxes over the triangles that a planned pose must keep clear of.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "flank/triangle_mesh.h"
+
+namespace flank::internal {
+
+class CheckTree {
+ public:
+  struct Node {
+    Vec3 center, half;
+    int second = -1;  ///< the first child follows its parent; -1: a leaf
+    int first = 0, end = 0;
+  };
+  struct Triangle {
+    std::array<Vec3, 3> corners;
+    int surface = 0;        ///< whose it is
+    double slack_mm = 0.0;  ///< the surface may come nearer than the triangle by this
+  };
+
+  CheckTree() = default;
+  explicit CheckTree(std::vector<Triangle> triangles);
+
+  [[nodiscard]] bool empty() const { return triangles_.empty(); }
+  [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
+  [[nodiscard]] const std::vector<Triangle>& triangles() const { return triangles_; }
+  [[nodiscard]] double largest_slack() const { return slack_; }
+
+ private:
+  int build(int first, int end);
+
+  std::vector<Triangle> triangles_;
+  std::vector<Node> nodes_;
+  double slack_ = 0.0;
+};
+
+}  // namespace flank::internal

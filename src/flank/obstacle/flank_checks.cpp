@@ -1,0 +1,216 @@
+#include "flank/obstacle/flank_checks.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+#include "flank/base/parallel.h"
+
+namespace flank::internal {
+namespace {
+
+constexpr int kVoters = 400;
+constexpr double kMajority = 0.55;  ///< a blade that is buried in its hub for a third still sees the hub from outside
+
+struct Vote {
+  int sign = 0;
+  bool behind = false;  ///< all of the target sees its material side: it lies behind the target or behind a wall
+};
+
+/// Which way a face must be turned so that the target's machining side is outside of it; 0 if that is not clear.
+Vote vote(const CheckFace& face, const std::vector<SurfaceSample>& samples, double offset_mm) {
+  double outside = 0.0, all = 0.0, area = 0.0;
+  for (const SurfaceSample& sample : samples) {
+    const Footpoint foot = face.surface->closest(sample.point + offset_mm * sample.normal);
+    area += sample.area;
+    if (foot.location != Location::kInside) continue;
+    all += sample.area;
+    if (foot.distance > 0.0) outside += sample.area;
+  }
+  if (all == 0.0) return {};
+  if (outside >= kMajority * all) return {+1, false};
+  if (face.oriented) return {0, outside == 0.0 && all >= 0.5 * area};
+  return {outside <= (1.0 - kMajority) * all ? -1 : 0, false};
+}
+
+}  // namespace
+
+/// A lattice around the target whose nodes are found when they are first asked for. Distances are true of the places
+/// nearby, less the way there: many questions need no more, the others ask fewer faces and look less far.
+struct FlankChecks::Lattice {
+  static constexpr int kPerSide = 48;  ///< along the longest side of the box
+  using Faces = std::vector<std::size_t>;
+
+  Lattice(const Box3& box, double margin) {
+    const Vec3 size = (box.high - box.low).array() + 2.0 * margin;
+    step = size.maxCoeff() / kPerSide;
+    low = box.low.array() - margin;
+    std::size_t all = 1;
+    for (int k = 0; k < 3; ++k) {
+      count[static_cast<std::size_t>(k)] = static_cast<int>(std::ceil(size[k] / step)) + 1;
+      all *= static_cast<std::size_t>(count[static_cast<std::size_t>(k)]);
+    }
+    distances = std::vector<std::atomic<double>>(all);
+    for (std::atomic<double>& distance : distances) distance.store(kUnknown, std::memory_order_relaxed);
+    faces = std::vector<std::atomic<const Faces*>>(all);
+  }
+  ~Lattice() {
+    for (std::atomic<const Faces*>& list : faces) delete list.load();
+  }
+
+  /// Index of the node nearest to p, and its place; -1 off the lattice.
+  std::ptrdiff_t index(const Vec3& p, Vec3& at) const {
+    std::ptrdiff_t sum = 0;
+    for (int k = 2; k >= 0; --k) {
+      const double x = std::round((p[k] - low[k]) / step);
+      const int n = count[static_cast<std::size_t>(k)];
+      if (!(x >= 0.0 && x < n)) return -1;
+      sum = sum * n + static_cast<std::ptrdiff_t>(x);
+      at[k] = low[k] + x * step;
+    }
+    return sum;
+  }
+  [[nodiscard]] Vec3 place(const std::array<int, 3>& corner) const {
+    return low + step * Vec3(corner[0], corner[1], corner[2]);
+  }
+  [[nodiscard]] std::ptrdiff_t index(const std::array<int, 3>& corner) const {
+    return (static_cast<std::ptrdiff_t>(corner[2]) * count[1] + corner[1]) * count[0] + corner[0];
+  }
+  /// The distance at a node, found by `find` where it is not known yet: two threads may find the same.
+  template <class Find>
+  double distance(std::ptrdiff_t index, Find&& find) {
+    std::atomic<double>& place = distances[static_cast<std::size_t>(index)];
+    double known = place.load(std::memory_order_relaxed);
+    if (known != kUnknown) return known;
+    known = find();
+    place.store(known, std::memory_order_relaxed);
+    return known;
+  }
+  /// The faces that can be nearest within half a cell of a node, likewise.
+  template <class Find>
+  const Faces& near(std::ptrdiff_t index, Find&& find) {
+    std::atomic<const Faces*>& place = faces[static_cast<std::size_t>(index)];
+    const Faces* known = place.load(std::memory_order_acquire);
+    if (known != nullptr) return *known;
+    auto found = std::make_unique<const Faces>(find());
+    if (place.compare_exchange_strong(known, found.get(), std::memory_order_acq_rel)) return *found.release();
+    return *known;
+  }
+
+  static constexpr double kUnknown = -1e300;
+  Vec3 low;
+  double step = 1.0;
+  std::array<int, 3> count{};
+  std::vector<std::atomic<double>> distances;
+  std::vector<std::atomic<const Faces*>> faces;
+};
+
+FlankChecks::FlankChecks(std::vector<CheckFace> faces, const Target& target, double offset_mm, double allowance_mm)
+    : faces_(std::move(faces)),
+      allowance_mm_(allowance_mm),
+      signs_(faces_.size(), 0),
+      lattice_(std::make_unique<Lattice>(target.box(), 2.0 * offset_mm)) {
+  const std::vector<SurfaceSample> samples = target.samples(std::sqrt(target.area() / kVoters));
+  std::vector<Vote> votes(faces_.size());
+  parallel_for(faces_.size(), [&](std::size_t k) { votes[k] = vote(faces_[k], samples, offset_mm); });
+  for (std::size_t k = 0; k < votes.size(); ++k) signs_[k] = votes[k].sign;
+  for (const bool walls : {true, false})
+    for (std::size_t k = 0; k < votes.size(); ++k)
+      if (!votes[k].behind && (votes[k].sign != 0) == walls) order_.push_back(k);
+}
+
+bool FlankChecks::reachable(const SurfaceSample& sample, double radius_mm, double depth_mm) const {
+  return at(sample.point + radius_mm * sample.normal, radius_mm).distance_mm >= radius_mm - depth_mm;
+}
+
+FlankChecks::~FlankChecks() = default;
+FlankChecks::FlankChecks(FlankChecks&&) noexcept = default;
+
+double FlankChecks::node_distance(std::ptrdiff_t index, const Vec3& place) const {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  return lattice_->distance(index, [&] { return search(order_, place, kFar, kFar).distance_mm; });
+}
+
+std::vector<std::size_t> FlankChecks::faces_near(const Vec3& place, double distance_mm) const {
+  constexpr double kRounding = 1.0 + 1e-9;
+  std::vector<std::size_t> near;
+  const double far = distance_mm + std::sqrt(3.0) * lattice_->step * kRounding;
+  for (const std::size_t k : order_) {
+    const double sight = signs_[k] != 0 ? std::max(std::abs(distance_mm), std::abs(far)) : far;
+    if (!(sight > 0.0)) continue;
+    const Footpoint foot = faces_[k].surface->closest_within(place, sight * kRounding);
+    if (foot.patch >= 0 && signed_distance(k, place, foot) <= far) near.push_back(k);
+  }
+  return near;
+}
+
+CheckDistance FlankChecks::estimate(const Vec3& p) const {
+  std::array<int, 3> corner{};
+  std::array<double, 3> share{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double x = (p[static_cast<Eigen::Index>(k)] - lattice_->low[static_cast<Eigen::Index>(k)]) / lattice_->step;
+    corner[k] = static_cast<int>(std::floor(x));
+    share[k] = x - corner[k];
+    if (!(x >= 0.0) || corner[k] + 1 >= lattice_->count[k]) return at(p, std::numeric_limits<double>::infinity());
+  }
+  CheckDistance sum;
+  sum.face = 0;
+  for (int c = 0; c < 8; ++c) {
+    const std::array<int, 3> at{corner[0] + (c & 1), corner[1] + (c >> 1 & 1), corner[2] + (c >> 2)};
+    const double distance = node_distance(lattice_->index(at), lattice_->place(at));
+    const double x = (c & 1) != 0 ? share[0] : 1.0 - share[0], y = (c & 2) != 0 ? share[1] : 1.0 - share[1],
+                 z = (c & 4) != 0 ? share[2] : 1.0 - share[2];
+    sum.distance_mm += x * y * z * distance;
+    sum.gradient += distance / lattice_->step *
+                    Vec3((c & 1) != 0 ? y * z : -y * z, (c & 2) != 0 ? x * z : -x * z, (c & 4) != 0 ? x * y : -x * y);
+  }
+  return sum;
+}
+
+double FlankChecks::signed_distance(std::size_t face, const Vec3& p, const Footpoint& foot) const {
+  const int sign = signs_[face];
+  return foot.location == Location::kInside && sign != 0 ? sign * foot.distance : (p - foot.point).norm();
+}
+
+CheckDistance FlankChecks::at(const Vec3& p, double horizon_mm) const {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  Vec3 place;
+  const std::ptrdiff_t index = lattice_->index(p, place);
+  if (index < 0) return search(order_, p, horizon_mm, kFar);
+  const double known = node_distance(index, place), way = (p - place).norm();
+  CheckDistance free;
+  free.distance_mm = horizon_mm;
+  if (known - way >= horizon_mm) return free;
+  const std::vector<std::size_t>& near = lattice_->near(index, [&] { return faces_near(place, known); });
+  return search(near, p, horizon_mm, (std::abs(known) + way) * (1.0 + 1e-9));
+}
+
+CheckDistance FlankChecks::search(const std::vector<std::size_t>& faces, const Vec3& p, double horizon_mm,
+                                  double sight_mm) const {
+  CheckDistance nearest;
+  nearest.distance_mm = horizon_mm;
+  for (const std::size_t k : faces) {
+    const Target& face = *faces_[k].surface;
+    // What is behind a wall is so at any depth.
+    const double sight = signs_[k] != 0 ? sight_mm : std::min(sight_mm, nearest.distance_mm);
+    if (sight <= 0.0 || face.box().squared_distance(p) >= sight * sight) continue;
+    const Footpoint foot = face.closest_within(p, sight);
+    if (foot.patch < 0) continue;
+    const double distance = signed_distance(k, p, foot);
+    if (distance >= nearest.distance_mm) continue;
+    nearest.distance_mm = distance;
+    nearest.face = static_cast<int>(k);
+    const Vec3 away = p - foot.point;
+    const double length = away.norm();
+    if (length > 1e-9) {
+      nearest.gradient = (distance < 0.0 ? -1.0 : 1.0) / length * away;
+    } else {
+      nearest.gradient = (signs_[k] < 0 ? -1.0 : 1.0) * foot.normal;
+    }
+  }
+  return nearest;
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,71 @@
+/// The other faces of a part, as the flank sees them: how far is a point of the axis from what its ball must not enter?
+///
+/// A signed answer (MATH section 7): an axis that has passed through the hub's surface must find its way back, so a face
+/// that the target's machining side sees from outside counts as a wall, negative behind it.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "flank/target.h"
+
+namespace flank::internal {
+
+/// A face that the flank must not enter.
+struct CheckFace {
+  std::unique_ptr<Target> surface;
+  bool oriented = false;  ///< its normal points out of the material (the face of a solid)
+};
+
+/// Distance of a point to the nearest check face.
+struct CheckDistance {
+  double distance_mm = 0.0;      ///< negative behind a wall; the horizon if nothing is nearer
+  Vec3 gradient = Vec3::Zero();  ///< of the distance, a unit vector; zero beyond the horizon
+  int face = -1;                 ///< index of the check face; -1 beyond the horizon; of an estimate: 0
+};
+
+/// Immutable after construction, for many threads at once.
+class FlankChecks {
+ public:
+  /// Faces that the flank of a tool on `target` must not enter by more than the allowance. Parts overlap and are open, so which side of a face is
+  /// material is settled by the points at `offset_mm` above the target: a wall is a face whose outside most of those see
+  /// that look at its inside, not its border. A face without orientation is turned to where most are. All others have a
+  /// distance without sign: the blade's own back, signed, would call every place in front of the blade forbidden. What
+  /// all of the target sees from the material's side lies behind it, and is left out.
+  FlankChecks(std::vector<CheckFace> faces, const Target& target, double offset_mm, double allowance_mm);
+
+  ~FlankChecks();
+  FlankChecks(FlankChecks&&) noexcept;
+
+  [[nodiscard]] CheckDistance at(const Vec3& p, double horizon_mm) const;
+  /// The distance (never a horizon) by interpolation in a lattice around the target: good to hundredths of its step, a
+  /// forty-eighth of the target, but near what is nearest to two faces; much faster, for searches that start rough.
+  [[nodiscard]] CheckDistance estimate(const Vec3& p) const;
+  /// Whether a ball of this radius that touches the target at the sample enters no check face by more than `depth_mm`
+  /// (MATH section 9).
+  [[nodiscard]] bool reachable(const SurfaceSample& sample, double radius_mm, double depth_mm) const;
+  /// How deep the flank may enter: the target's own border belongs to its neighbours, too, and a fit that is as often
+  /// above as below must be left alone there.
+  [[nodiscard]] double allowance_mm() const { return allowance_mm_; }
+  [[nodiscard]] int count() const { return static_cast<int>(faces_.size()); }
+  /// +1, -1: a wall as it is oriented, or turned; 0: its distance has no sign.
+  [[nodiscard]] int sign(int face) const { return signs_[static_cast<std::size_t>(face)]; }
+
+ private:
+  struct Lattice;
+  [[nodiscard]] double node_distance(std::ptrdiff_t index, const Vec3& place) const;
+  /// Faces that can be nearest within half a cell of a node with this distance.
+  [[nodiscard]] std::vector<std::size_t> faces_near(const Vec3& place, double distance_mm) const;
+  /// As at(), of these faces, where nothing that matters is farther than the sight.
+  [[nodiscard]] CheckDistance search(const std::vector<std::size_t>& faces, const Vec3& p, double horizon_mm,
+                                     double sight_mm) const;
+  [[nodiscard]] double signed_distance(std::size_t face, const Vec3& p, const Footpoint& foot) const;
+
+  std::vector<CheckFace> faces_;
+  double allowance_mm_;
+  std::vector<int> signs_;
+  std::vector<std::size_t> order_;  ///< in which they are asked: walls first; those behind the target not at all
+  std::unique_ptr<Lattice> lattice_;
+};
+
+}  // namespace flank::internal

@@ -1,0 +1,123 @@
+#include "flank/obstacle/line_guard.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flank::internal {
+namespace {
+
+constexpr int kRadiusSamples = 65;
+constexpr double kShortestStepShare = 1.0 / 32.0;  ///< of the axis, along it
+constexpr double kBallAxisShare = 1e-4;            ///< a ball is a very short cylinder with round ends
+
+/// Signed distance of a closed solid. A nearest point on a border is a gap between its faces: outside.
+double signed_distance(const Footpoint& foot) {
+  return foot.location == Location::kInside ? foot.distance : std::abs(foot.distance);
+}
+
+bool is_far(const Target& solid, const Vec3& p, double reach) {
+  return reach <= 0.0 || solid.box().squared_distance(p) >= reach * reach;
+}
+
+double thinnest(const RadialFunction& radial) {
+  double least = 1e300;
+  for (int j = 0; j < kRadiusSamples; ++j)
+    least = std::min(least, radial.at(radial.axis_length() * j / (kRadiusSamples - 1)).r);
+  return least;
+}
+
+double steepest(const RadialFunction& radial) {
+  double most = 0.0;
+  for (int j = 0; j < kRadiusSamples; ++j)
+    most = std::max(most, std::abs(radial.at(radial.axis_length() * j / (kRadiusSamples - 1)).d1));
+  return most;
+}
+
+}  // namespace
+
+LineGuard::LineGuard(const Tool& tool, const CoverObstacles& obstacles, double floor_mm)
+    : obstacles_(&obstacles),
+      ball_radius_(thinnest(tool.radial)),
+      radial_(tool.radial),
+      steepest_(steepest(tool.radial)),
+      floor_mm_(floor_mm) {
+  const bool above = !tool.shank.empty() || !tool.holder.empty();
+  if (std::any_of(obstacles.surfaces.begin(), obstacles.surfaces.end(),
+                  [&](const CheckSurface& c) { return above || !c.flank_may_touch; }))
+    checker_ = std::make_shared<const PoseChecker>(tool, obstacles.surfaces);
+  if (obstacles.surfaces.empty()) return;
+  Tool ball;
+  ball.radial =
+      RadialFunction(ToolFamily::kCylinder, kBallAxisShare * ball_radius_, Eigen::VectorXd::Constant(1, ball_radius_));
+  ball_checker_ = std::make_shared<const PoseChecker>(ball, obstacles.surfaces);
+}
+
+/// Lowers the result to the least clearance of the axis' spheres from a solid, as far as it is below `enough_mm`, to half the shortest step. A
+/// distance changes by no more than the way: from where there is room the walk along the axis takes long steps.
+void LineGuard::measure_solid(const Target& solid, const Pose& pose, double enough_mm, Ask ask,
+                              LineClearance& result) const {
+  const double length = radial_.axis_length(), shortest = kShortestStepShare * length;
+  for (double s = length, room = 0.0; s >= 0.0;) {
+    const Vec3 p = pose.at(s);
+    const double r = radial_.at(s).r, wanted = std::min(enough_mm, result.clearance_mm);
+    const double away = std::sqrt(solid.box().squared_distance(p));
+    if (away > 0.0 && away >= r + wanted) {
+      room = away - r - wanted;
+    } else {
+      const Footpoint foot = solid.closest(p);
+      const double clearance = signed_distance(foot) - r;
+      room = clearance - wanted;
+      if (clearance < wanted) result = {clearance, foot.normal.dot(pose.axis), foot.point};
+    }
+    if (s == 0.0 || (ask == Ask::kWhether && result.clearance_mm < enough_mm)) return;
+    s = std::max(0.0, s - std::max(shortest, room / (1.0 + steepest_)));
+  }
+}
+
+bool LineGuard::clear(const Pose& pose) const {
+  if (!obstacles_) return true;
+  for (const auto& solid : obstacles_->solids) {
+    LineClearance found;
+    measure_solid(*solid, pose, floor_mm_, Ask::kWhether, found);
+    if (found.clearance_mm < floor_mm_) return false;
+  }
+  return !checker_ || checker_->is_free(pose, floor_mm_);
+}
+
+LineClearance LineGuard::measure(const Pose& pose, double horizon_mm) const {
+  LineClearance result;
+  if (!obstacles_) return result;
+  for (const auto& solid : obstacles_->solids) measure_solid(*solid, pose, horizon_mm, Ask::kLeast, result);
+  if (!checker_) return result;
+  const PoseClearance found = checker_->measure(pose, horizon_mm);
+  if (found.surface >= 0 && found.clearance_mm < result.clearance_mm)
+    result = {found.clearance_mm, found.tip_gradient.dot(pose.axis), found.point};
+  return result;
+}
+
+bool LineGuard::ball_is_clear(const Vec3& center) const {
+  if (!obstacles_) return true;
+  const double reach = ball_radius_ + floor_mm_;
+  for (const auto& solid : obstacles_->solids)
+    if (!is_far(*solid, center, reach) && signed_distance(solid->closest(center)) < reach) return false;
+  return !ball_checker_ || ball_checker_->is_free({center, Vec3::UnitZ()}, floor_mm_);
+}
+
+Pose slid_clear(const LineGuard& guard, const Pose& pose, double reach_mm) {
+  constexpr int kSteps = 6;
+  constexpr double kLeastGain = 0.05;  ///< a slide that frees less than this per millimetre leads nowhere
+  if (guard.clear(pose)) return pose;
+  // A little more than needed: the refinement that follows moves the axis again.
+  const double wanted = guard.floor_mm() + 0.3 * std::abs(guard.floor_mm());
+  Pose at = pose;
+  double slide = 0.0;
+  for (int k = 0; k < kSteps; ++k) {
+    const LineClearance found = guard.measure(at, std::max(0.1, 4.0 * std::abs(guard.floor_mm())));
+    if (found.clearance_mm >= guard.floor_mm() || std::abs(found.slide_gain) < kLeastGain) return at;
+    slide = std::clamp(slide + (wanted - found.clearance_mm) / found.slide_gain, -reach_mm, reach_mm);
+    at.tip = pose.tip + slide * pose.axis;
+  }
+  return at;
+}
+
+}  // namespace flank::internal

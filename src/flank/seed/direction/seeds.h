@@ -1,0 +1,40 @@
+/// Seeds: first lines of strips, before refinement.
+#pragma once
+
+#include <vector>
+
+#include "flank/radial_function.h"
+#include "flank/target.h"
+
+namespace flank::internal {
+
+/// A line that touches the target at one footpoint, by the sphere of s, in one direction of the tangent plane.
+struct LineSeed {
+  Vec3 point = Vec3::Zero(), normal = Vec3::UnitZ();  ///< of the target, towards the machining side
+  Vec3 direction = Vec3::UnitX();                     ///< unit, across the normal: where the holder end lies
+  double s = 0.0;
+};
+
+/// The axis of a seed (MATH section 5): its sphere of s touches at the footpoint, <n, u> = r'(s).
+[[nodiscard]] Pose seed_pose(const LineSeed& seed, const RadialFunction& radial);
+
+/// At each place, `directions` directions over half a turn, or over the whole turn where the tool's ends differ; s is the
+/// middle of the axis.
+[[nodiscard]] std::vector<LineSeed> even_seeds(const std::vector<SurfaceSample>& places, const RadialFunction& radial,
+                                               int directions);
+
+/// At each place, for each of `spheres` values of s (the middles of equal pieces of the axis: over s, not over r, which may
+/// have a value at several s), the directions that the tolerance-aware filter leaves (direction_filter.h).
+[[nodiscard]] std::vector<LineSeed> admissible_seeds(const Target& target, const std::vector<SurfaceSample>& places,
+                                                     const RadialFunction& radial, int spheres, double tolerance_mm);
+
+/// About `count` places, spread evenly over the target.
+[[nodiscard]] std::vector<SurfaceSample> grid_places(const Target& target, int count);
+
+/// The directions of a grid at a point: `directions` over half a turn, twice as many over the whole.
+[[nodiscard]] std::vector<Vec3> seed_directions(const Vec3& normal, const RadialFunction& radial, int directions);
+
+/// Are both ends of the tool alike, r(s) = r(L - s)? Then a line turned round is the same line.
+[[nodiscard]] bool is_symmetric(const RadialFunction& radial);
+
+}  // namespace flank::internal

@@ -1,0 +1,155 @@
+#include "flank/setup/targets.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "flank/base/parallel.h"
+#include "flank/error.h"
+
+namespace flank::internal {
+namespace {
+
+constexpr double kTouchMm = 1e-3;  ///< faces whose borders come this near hang together
+
+/// Whether a stretch of the border of b lies on a: many of its samples nearest to the border of b touch a.
+bool hang_together(const Face& a, const Face& b) {
+  const std::unique_ptr<Target> target = make_target(std::vector<Face>{a}, +1);
+  constexpr int kPerEdge = 24;
+  int touching = 0;
+  const auto test = [&](double u, double v) {
+    const Vec3 p = b.surface.value(u, v);
+    if ((target->closest(p).point - p).norm() < kTouchMm) ++touching;
+  };
+  const BSplineSurface& s = b.surface;
+  for (int k = 0; k <= kPerEdge && b.loops.empty(); ++k) {
+    const double f = static_cast<double>(k) / kPerEdge;
+    const double u = s.u_first() + f * (s.u_last() - s.u_first()), v = s.v_first() + f * (s.v_last() - s.v_first());
+    test(u, s.v_first());
+    test(u, s.v_last());
+    test(s.u_first(), v);
+    test(s.u_last(), v);
+  }
+  for (const TrimLoop& loop : b.loops) {
+    for (const BSplineCurve2& edge : loop.edges) {
+      for (int k = 0; k <= kPerEdge; ++k) {
+        const Vec2 q = edge.value(edge.first() + (edge.last() - edge.first()) * k / kPerEdge);
+        test(q[0], q[1]);
+      }
+    }
+  }
+  return touching >= kPerEdge / 2;
+}
+
+std::vector<std::vector<int>> connected_groups(const Part& part, const std::vector<int>& faces) {
+  std::vector<int> group(faces.size());
+  std::iota(group.begin(), group.end(), 0);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    for (std::size_t j = i + 1; j < faces.size(); ++j) {
+      if (group[i] == group[j] || !hang_together(part.faces[faces[i]], part.faces[faces[j]])) continue;
+      const int from = group[j], to = group[i];
+      std::replace(group.begin(), group.end(), from, to);
+    }
+  }
+  std::vector<std::vector<int>> groups;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    std::vector<int> members;
+    for (std::size_t j = 0; j < faces.size(); ++j)
+      if (group[j] == static_cast<int>(i)) members.push_back(faces[j]);
+    if (!members.empty()) groups.push_back(members);
+  }
+  return groups;
+}
+
+}  // namespace
+
+std::vector<TargetGroup> make_targets(const Part& part, const std::vector<int>& faces, int side) {
+  std::vector<TargetGroup> targets;
+  if (part.is_mesh()) {
+    TriangleMesh mesh = extract_mesh(part, faces);
+    if (side < 0)
+      for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+    TargetGroup& group = targets.emplace_back();
+    group.indices = faces;
+    for (int f : faces) group.faces += (group.faces.empty() ? "F" : ",F") + std::to_string(f + 1);
+    group.target = make_target(std::move(mesh));
+    group.of_solid = false;
+    return targets;
+  }
+  for (const std::vector<int>& members : connected_groups(part, faces)) {
+    TargetGroup& group = targets.emplace_back();
+    group.indices = members;
+    std::vector<Face> values;
+    for (int f : members) {
+      values.push_back(part.faces[f]);
+      group.faces += (group.faces.empty() ? "" : ",") + part.faces[f].id;
+      group.of_solid = group.of_solid && part.faces[f].of_solid;
+    }
+    group.target = make_target(std::move(values), group.of_solid ? +1 : side);
+  }
+  return targets;
+}
+
+namespace {
+
+/// Least distance between the box of a face and the target.
+double box_gap(const Box3& box, const std::vector<SurfaceSample>& samples) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const SurfaceSample& sample : samples) least = std::min(least, box.squared_distance(sample.point));
+  return std::sqrt(least);
+}
+
+/// The face as a surface of its own; null where a mesh region is too small to be one.
+std::unique_ptr<Target> surface_of(const Part& part, int face) {
+  if (!part.is_mesh()) return make_target(std::vector<Face>{part.faces[static_cast<std::size_t>(face)]});
+  try {
+    return make_target(extract_mesh(part, {face}));
+  } catch (const InputError&) {
+    return nullptr;
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<FlankChecks> make_flank_checks(const Part& part, const Target& target, const std::vector<int>& checks,
+                                               double reach_mm, double allowance_mm, std::vector<std::string>& notes) {
+  constexpr int kSamples = 200;
+  const std::vector<SurfaceSample> samples = target.samples(std::sqrt(target.area() / kSamples));
+  std::vector<CheckFace> all(checks.size());
+  parallel_for(checks.size(), [&](std::size_t k) {
+    all[k].surface = surface_of(part, checks[k]);
+    all[k].oriented = !part.is_mesh() && part.faces[static_cast<std::size_t>(checks[k])].of_solid;
+  });
+  std::vector<CheckFace> near;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (!all[k].surface)
+      notes.push_back(fmt::format("F{}: too few triangles to steer clear of; the judge looks at it", checks[k] + 1));
+    else if (box_gap(all[k].surface->box(), samples) <= reach_mm)
+      near.push_back(std::move(all[k]));
+  }
+  if (near.empty()) return nullptr;
+  // Above the target by about a small tool's radius.
+  return std::make_unique<FlankChecks>(std::move(near), target, 0.25 * reach_mm, allowance_mm);
+}
+
+std::vector<FaceSamples> judge_samples(const Part& part, const std::vector<int>& targets,
+                                       const std::vector<int>& checks, double spacing_mm, double check_spacing_mm) {
+  std::vector<int> faces = targets;
+  faces.insert(faces.end(), checks.begin(), checks.end());
+  std::sort(faces.begin(), faces.end());
+  std::vector<FaceSamples> samples(faces.size());
+  parallel_for(samples.size(), [&](std::size_t k) {
+    const int face = faces[k];
+    const bool target = std::find(targets.begin(), targets.end(), face) != targets.end();
+    const double spacing = target ? spacing_mm : check_spacing_mm;
+    samples[k] = part.is_mesh()
+                     ? sample_mesh("F" + std::to_string(face + 1), extract_mesh(part, {face}), spacing, target)
+                     : sample_face(part.faces[static_cast<std::size_t>(face)], spacing, target);
+  });
+  return samples;
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,199 @@
+#include "flank/strip/grow.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "flank/seed/movability.h"
+
+namespace flank::internal {
+namespace {
+
+/// On changes of slide and turn from the last step's: where the normals leave them open they go on as they were.
+constexpr double kAxialPenalty = 1e-3, kTurnPenalty = 1e-4;
+/// Turn of the axis, times half its length, that one step may add, as a share of the step: a branch jump turns more.
+constexpr double kJump = 4.0;
+constexpr double kOffMean = 0.5;  ///< farthest that the middle of a step lies from the mean of its ends, in steps
+/// Stay of the corrector (LineFitOptions::stay_share): the predictor goes on smoothly, and within the tolerance that is
+/// worth more than the least error.
+constexpr double kStay = 0.5;
+constexpr double kAdvance = 0.1;  ///< least advance of the footpoints, as a share of the step
+
+Pose shifted(const Pose& pose, const AxisVelocity& v, double axis_length, double step) {
+  const Vec3 axis = (pose.axis + step * v.omega).normalized();
+  const Vec3 middle = pose.at(0.5 * axis_length) + step * v.middle;
+  return {middle - 0.5 * axis_length * axis, axis};
+}
+
+Pose half_way(const Pose& a, const Pose& b) { return {0.5 * (a.tip + b.tip), (a.axis + b.axis).normalized()}; }
+
+class Grower {
+ public:
+  Grower(LineFitter& fitter, const LineGuard& guard, const GrowGuide& guide, const GrowOptions& options)
+      : fitter_(fitter),
+        guard_(guard),
+        guide_(guide),
+        options_(options),
+        length_(fitter.axis_length()),
+        size_(fitter.target().diagonal()) {}
+
+  GrowEnd run(const LineFit& line, const Vec3& heading, std::vector<Pose>& poses);
+
+ private:
+  Movability velocity(const AxisVelocity& last) const;
+  bool step(double h, const AxisVelocity& v, LineFit& middle, LineFit& next);
+  bool between(double h, const Vec3& travel, const LineFit& next, LineFit& middle);
+  bool within(const LineFit& fit) const;
+  bool advanced(double h, const Vec3& direction) const;
+  void overrun(const AxisVelocity& last, std::vector<Pose>& poses);
+
+  LineFitter& fitter_;
+  const LineGuard& guard_;
+  const GrowGuide& guide_;
+  const GrowOptions& options_;
+  double length_, size_;
+  Pose pose_;
+  std::vector<Footpoint> feet_;
+  bool blocked_ = false;  ///< the last refusal was for another face
+};
+
+Movability Grower::velocity(const AxisVelocity& last) const {
+  MovabilityOptions form;
+  form.axial_penalty = kAxialPenalty;
+  form.turn_penalty = kTurnPenalty;
+  form.previous = last.middle;
+  form.centre = last;
+  return movability(feet_, pose_, length_, form);
+}
+
+bool Grower::within(const LineFit& fit) const {
+  const double tolerance = fitter_.options().tolerance_mm;
+  // A tool that has left the target still must not cut its border.
+  return (!fit.touches() || fit.largest_mm <= tolerance) && fitter_.overcut(fit.pose, tolerance) <= tolerance;
+}
+
+bool Grower::advanced(double h, const Vec3& direction) const {
+  const auto now = fitter_.feet();
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t j = 0; j < feet_.size(); ++j) {
+    if (feet_[j].location != Location::kInside || now[j].location != Location::kInside) continue;
+    sum += (now[j].point - feet_[j].point).dot(direction);
+    ++count;
+  }
+  return count == 0 || sum >= kAdvance * h * count;
+}
+
+bool Grower::step(double h, const AxisVelocity& v, LineFit& middle, LineFit& next) {
+  blocked_ = false;
+  fitter_.set_feet(feet_);
+  Pose predicted = shifted(pose_, v, length_, h);
+  LineHold hold{v.middle, 0.0, kStay};
+  if (guide_.neighbour) {
+    const double slide = guide_slide(guide_, predicted, length_);
+    predicted.tip += std::clamp(slide, -0.5 * h, 0.5 * h) * predicted.axis;
+    hold.slide_share = 1.0;
+  }
+  next = fitter_.refine(predicted, hold);
+  if (!guard_.clear(next.pose)) {
+    hold.slide_share = 4.0;
+    next = fitter_.refine(slid_clear(guard_, next.pose, 2.0 * h), hold);
+    blocked_ = !guard_.clear(next.pose);
+    if (blocked_) return false;
+  }
+  // Where the line leaves the target it does so by a short step: past it the way only follows an extrapolation.
+  if (!next.touches() && h > options_.first_step_share * size_) return false;
+  if (!within(next) || !advanced(h, v.middle.normalized())) return false;
+  const double jump = std::max((next.pose.tip - pose_.tip).norm(), (next.pose.at(length_) - pose_.at(length_)).norm());
+  if (jump > kJump * h) return false;
+  return between(h, v.middle, next, middle);
+}
+
+/// Certificate at the middle of a step. The mean of two poses is off a curved way by h^2 / 8 of its curvature, more than a
+/// fine tolerance allows; refined, it has to lie near the mean all the same.
+bool Grower::between(double h, const Vec3& travel, const LineFit& next, LineFit& middle) {
+  const std::vector<Footpoint> feet(fitter_.feet().begin(), fitter_.feet().end());
+  const Pose mean = half_way(pose_, next.pose);
+  middle = fitter_.measure(mean);
+  if (!within(middle)) middle = fitter_.refine(mean, {travel, 0.0, kStay});
+  const double off = std::max((middle.pose.tip - mean.tip).norm(), (middle.pose.at(length_) - mean.at(length_)).norm());
+  const bool held = off < kOffMean * h && within(middle);
+  blocked_ = held && !guard_.clear(middle.pose);
+  fitter_.set_feet(feet);
+  return held && !blocked_;
+}
+
+/// Past the border the last motion goes on as it is, as far as it is clear.
+void Grower::overrun(const AxisVelocity& last, std::vector<Pose>& poses) {
+  const Pose next = shifted(poses.back(), last, length_, options_.overrun_share * size_);
+  if (within(fitter_.measure(next)) && guard_.clear(next)) poses.push_back(next);
+}
+
+GrowEnd Grower::run(const LineFit& line, const Vec3& heading, std::vector<Pose>& poses) {
+  pose_ = line.pose;
+  feet_.assign(fitter_.feet().begin(), fitter_.feet().end());
+  AxisVelocity last{heading, Vec3::Zero()};
+  double h = options_.first_step_share * size_, travel = 0.0;
+  while (travel < options_.longest_travel_share * size_) {
+    const Movability at = velocity(last);
+    if (!at.valid()) return GrowEnd::kTolerance;
+    LineFit middle, next;
+    bool done = false;
+    for (; !done && h >= options_.shortest_step_share * size_; h *= done ? 1.0 : 0.5)
+      done = step(h, at.velocity, middle, next);
+    if (!done) return blocked_ ? GrowEnd::kCheck : GrowEnd::kTolerance;
+    last = {(next.pose.at(0.5 * length_) - pose_.at(0.5 * length_)) / h, (next.pose.axis - pose_.axis) / h};
+    pose_ = next.pose;
+    feet_.assign(fitter_.feet().begin(), fitter_.feet().end());
+    poses.push_back(middle.pose);
+    poses.push_back(pose_);
+    travel += h;
+    h = std::min(1.5 * h, options_.longest_step_share * size_);
+    if (!next.touches()) {
+      overrun(last, poses);
+      return GrowEnd::kBorder;
+    }
+  }
+  return GrowEnd::kTravel;
+}
+
+}  // namespace
+
+double guide_slide(const GrowGuide& guide, const Pose& pose, double axis_length) {
+  const std::vector<Pose>& poses = *guide.neighbour;
+  const Vec3 end = pose.at(guide.beyond_tip ? axis_length : 0.0);
+  const auto edge = [&](std::size_t i) { return poses[i].at(guide.beyond_tip ? 0.0 : axis_length); };
+  double least = 1e300, slide = 0.0;
+  for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
+    const Vec3 a = edge(i), b = edge(i + 1);
+    // Nearest across the axis: the slide is what is asked for.
+    const auto across = [&](const Vec3& v) { return Vec3(v - v.dot(pose.axis) * pose.axis); };
+    const Vec3 ab = across(b - a), to = across(end - a);
+    const double f = to.dot(ab) / std::max(1e-12, ab.squaredNorm());
+    if (f < -0.01 || f > 1.01) continue;
+    const Vec3 q = a + f * (b - a);
+    const double distance = (q - end).norm();
+    if (distance >= least) continue;
+    least = distance;
+    slide = (q - end).dot(pose.axis) + (guide.beyond_tip ? guide.overlap_mm : -guide.overlap_mm);
+  }
+  return slide;
+}
+
+GrownStrip grow(LineFitter& fitter, const LineGuard& guard, const LineFit& line, const GrowGuide& guide,
+                const GrowOptions& options) {
+  const std::vector<Footpoint> feet(fitter.feet().begin(), fitter.feet().end());
+  const Movability start = movability(feet, line.pose, fitter.axis_length());
+  GrownStrip strip;
+  if (!start.valid()) return strip;
+  const auto side = [&](double sign, std::vector<Pose>& poses) {
+    fitter.set_feet(feet);
+    return Grower(fitter, guard, guide, options).run(line, sign * start.velocity.middle, poses);
+  };
+  strip.first = side(-1.0, strip.poses);
+  std::reverse(strip.poses.begin(), strip.poses.end());
+  strip.poses.push_back(line.pose);
+  strip.last = side(1.0, strip.poses);
+  return strip;
+}
+
+}  // namespace flank::internal

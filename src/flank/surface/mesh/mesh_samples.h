@@ -1,0 +1,16 @@
+/// Samples of a mesh's blended surface.
+#pragma once
+
+#include <vector>
+
+#include "flank/surface/mesh/mesh_surface.h"
+#include "flank/target.h"
+
+namespace flank::internal {
+
+/// Triangles larger than a cell of the spacing are divided evenly into similar ones; smaller neighbours are put
+/// together into patches of about spacing_mm^2 whose normals keep within 60 degrees of each other, each with one sample
+/// near its centre. The areas add up to that of the surface.
+[[nodiscard]] std::vector<SurfaceSample> mesh_samples(const JetSurface& surface, double spacing_mm);
+
+}  // namespace flank::internal

@@ -1,0 +1,69 @@
+#include "flank/toolbox/tool_model.h"
+
+#include "flank/error.h"
+
+namespace flank::internal {
+namespace {
+
+std::map<std::string, double> defaults(ToolFamily family, double axis_length, double radius) {
+  switch (family) {
+    case ToolFamily::kCylinder:
+      return {{"radius", radius}};
+    case ToolFamily::kCone:
+      return {{"radius", radius}, {"angle", 0.01}};
+    case ToolFamily::kBarrel:
+      return {{"arc", radius + 4.0 * axis_length}, {"radius", radius}, {"s0", 0.5 * axis_length}};
+    case ToolFamily::kLens:
+      return {{"radius", radius}, {"end_radius", 0.95 * radius}};
+    case ToolFamily::kTaperedBarrel:
+      return {{"arc", radius + 4.0 * axis_length}, {"radius", radius}, {"angle", 0.02}};
+    case ToolFamily::kHyperbolic:
+      return {{"radius", radius}, {"slope", 0.0}, {"bend", 0.02 / axis_length}};
+    case ToolFamily::kPower:
+      return {{"a", radius * radius}, {"b", 0.01 * radius}, {"c", 1.0}, {"d", 2.0}};
+    case ToolFamily::kSpline:
+      break;
+  }
+  throw UsageError("--tool: a spline has no parameters by name; use free, or a tool.json");
+}
+
+}  // namespace
+
+Eigen::VectorXd start_parameters(ToolFamily family, const std::map<std::string, double>& given, double axis_length,
+                                 double radius) {
+  const std::map<std::string, double> others = defaults(family, axis_length, radius);
+  const auto names = parameter_names(family);
+  Eigen::VectorXd parameters(static_cast<Eigen::Index>(names.size()));
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const std::string name(names[k]);
+    const auto found = given.find(name);
+    parameters[static_cast<Eigen::Index>(k)] = found != given.end() ? found->second : others.at(name);
+  }
+  return parameters;
+}
+
+ToolModel make_tool_model(const ToolSpec& spec) {
+  ToolModel model;
+  if (spec.tool) {
+    const RadialFunction radial = spec.tool->radial;
+    model.make = [radial](double, double) { return radial; };
+    model.axis_length = radial.axis_length();
+    double sum = 0.0;
+    for (int j = 0; j <= 20; ++j) sum += radial.at(radial.axis_length() * j / 20.0).r / 21.0;
+    model.radius = sum;
+    return model;
+  }
+  if (!spec.family) return model;
+  const ToolFamily family = *spec.family;
+  model.make = [family, given = spec.given](double axis_length, double radius) {
+    return RadialFunction(family, axis_length, start_parameters(family, given, axis_length, radius));
+  };
+  const auto names = parameter_names(family);
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (!spec.given.contains(std::string(names[k]))) model.free_parameters.push_back(static_cast<int>(k));
+  const auto radius = spec.given.find("radius");
+  if (radius != spec.given.end()) model.radius = radius->second;
+  return model;
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,20 @@
+/// From what the user says of the tool to what the fit may change of it.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "flank/fit/flank_fit.h"
+#include "flank/toolbox/tool_command.h"
+
+namespace flank::internal {
+
+/// The family's parameters: the given ones, and for the others a start value of a tool with this axis length and
+/// typical radius (mm).
+[[nodiscard]] Eigen::VectorXd start_parameters(ToolFamily family, const std::map<std::string, double>& given,
+                                               double axis_length, double radius);
+
+/// `free`: a spline; a family: its parameters that are not given are free; a tool file: fixed.
+[[nodiscard]] ToolModel make_tool_model(const ToolSpec& spec);
+
+}  // namespace flank::internal

@@ -1,0 +1,161 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <vector>
+
+#include "flank/error.h"
+#include "flank/io/text/json_input.h"
+#include "flank/io/tool/tool_dxf.h"
+#include "flank/io/tool/tool_json.h"
+#include "flank/toolbox/tool_command.h"
+
+namespace flank::internal {
+
+namespace {
+
+constexpr double kRadiansPerDegree = 0.017453292519943295;
+
+std::string family_list() {
+  std::vector<std::string_view> names;
+  for (const ToolFamily family : kToolFamilies)
+    if (family != ToolFamily::kSpline) names.push_back(family_name(family));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// A spelling on the command line: capitals, blanks and underscores are no difference.
+std::string normalised(std::string name) {
+  for (char& c : name) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    if (c == '_' || c == ' ') c = '-';
+  }
+  return name;
+}
+
+bool names_a_file(const std::string& text) {
+  const std::string ending = normalised(std::filesystem::path(text).extension().string());
+  return ending == ".json" || ending == ".dxf" || text.find('/') != std::string::npos;
+}
+
+/// What a family's parameters are called on the command line, for messages.
+std::string accepted_parameters(ToolFamily family) {
+  std::vector<std::string> names;
+  for (int k = 0; k < static_cast<int>(parameter_names(family).size()); ++k) {
+    const std::string name(parameter_names(family)[static_cast<std::size_t>(k)]);
+    names.push_back(parameter_is_angle(family, k) ? name + " (degrees)" : name);
+    if (name == "radius") names.push_back("diameter");
+    if (name == "end_radius") names.push_back("end_diameter");
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+double parse_number(const std::string& text, const std::string& place) {
+  double value = 0.0;
+  const char* end = text.data() + text.size();
+  const char* begin = text.data() + (!text.empty() && text.front() == '+' ? 1 : 0);
+  const auto [stop, error] = std::from_chars(begin, end, value);
+  if (error != std::errc() || stop != end || !std::isfinite(value))
+    throw UsageError(fmt::format("{}: \"{}\" is not a number", place, text));
+  return value;
+}
+
+bool is_plain_size(const std::string& name) { return name == "radius" || name == "end_radius"; }
+
+}  // namespace
+
+bool ToolSpec::complete() const { return family && given.size() == parameter_names(*family).size(); }
+
+bool has_open_parameters(const ToolSpec& spec) {
+  if (!spec.family) return false;
+  const auto names = parameter_names(*spec.family);
+  return std::any_of(names.begin(), names.end(), [&](std::string_view name) {
+    const bool middle = *spec.family == ToolFamily::kBarrel && name == "s0";
+    return !middle && !spec.given.contains(std::string(name));
+  });
+}
+
+std::pair<std::string, double> parse_tool_parameter(ToolFamily family, const std::string& text,
+                                                    const std::string& option) {
+  const std::string place = option + " " + text;
+  const std::size_t equals = text.find('=');
+  const auto refuse = [&](const std::string& why) {
+    return UsageError(
+        fmt::format("{}: {}; a {} accepts {}", place, why, family_name(family), accepted_parameters(family)));
+  };
+  if (equals == std::string::npos) throw refuse("must be NAME=VALUE");
+  const std::string asked = text.substr(0, equals);
+  const double value = parse_number(text.substr(equals + 1), place);
+  const auto names = parameter_names(family);
+  for (int k = 0; k < static_cast<int>(names.size()); ++k) {
+    const std::string name(names[static_cast<std::size_t>(k)]);
+    const std::string whole = name == "radius" ? "diameter" : name == "end_radius" ? "end_diameter" : "";
+    if (normalised(asked) != normalised(name) && (whole.empty() || normalised(asked) != normalised(whole))) continue;
+    const double size = normalised(asked) == normalised(name) ? value : 0.5 * value;
+    if (is_plain_size(name) && !(size > 0.0)) throw UsageError(fmt::format("{}: must be > 0", place));
+    if (!parameter_is_angle(family, k)) return {name, size};
+    if (!(std::abs(value) < 90.0)) throw UsageError(fmt::format("{}: must lie between -90 and 90 degrees", place));
+    return {name, value * kRadiansPerDegree};
+  }
+  throw refuse("unknown parameter");
+}
+
+ToolSpec parse_tool_spec(const std::string& text, const std::string& option) {
+  ToolSpec spec;
+  if (names_a_file(text)) {
+    const bool drawing = normalised(std::filesystem::path(text).extension().string()) == ".dxf";
+    spec.tool = drawing ? tool_from_dxf(read_file(text), text) : read_tool(text);
+    return spec;
+  }
+  const std::size_t colon = text.find(':');
+  const std::string name = normalised(text.substr(0, colon));
+  if (name == "free" || name == "spline") {
+    if (colon != std::string::npos) throw UsageError(fmt::format("{} {}: a free tool has no parameters", option, text));
+    spec.free = true;
+    return spec;
+  }
+  spec.family = family_from_name(name);
+  if (!spec.family)
+    throw UsageError(fmt::format("{} {}: neither a family nor a tool file; accepted: free, {}, or a tool.json", option,
+                                 text, family_list()));
+  if (colon == std::string::npos) return spec;
+  for (std::size_t at = colon + 1; at <= text.size();) {
+    const std::size_t end = std::min(text.find(',', at), text.size());
+    const auto [key, value] = parse_tool_parameter(*spec.family, text.substr(at, end - at), option + " " + name + ":");
+    if (!spec.given.emplace(key, value).second)
+      throw UsageError(fmt::format("{} {}: {} is given twice", option, text, key));
+    at = end + 1;
+  }
+  return spec;
+}
+
+Tool make_tool(ToolFamily family, const std::map<std::string, double>& parameters, double axis_length) {
+  if (!(axis_length > 0.0 && std::isfinite(axis_length)))
+    throw UsageError(fmt::format("axis length: is {} mm; must be a finite number > 0", axis_length));
+  const auto names = parameter_names(family);
+  if (names.empty())
+    throw UsageError("a spline is given by its coefficients or samples in a tool.json, not by parameters");
+  Eigen::VectorXd values(static_cast<Eigen::Index>(names.size()));
+  std::vector<std::string> missing;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const auto found = parameters.find(std::string(names[k]));
+    const bool middle = family == ToolFamily::kBarrel && names[k] == "s0";
+    if (found == parameters.end() && !middle) missing.emplace_back(names[k]);
+    values[static_cast<Eigen::Index>(k)] = found != parameters.end() ? found->second : 0.5 * axis_length;
+  }
+  if (!missing.empty())
+    throw UsageError(fmt::format("{}: {} not given; it needs {}", family_name(family), fmt::join(missing, ", "),
+                                 accepted_parameters(family)));
+  for (const auto& [name, value] : parameters)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw UsageError(
+          fmt::format("{}: unknown parameter {}; it needs {}", family_name(family), name, accepted_parameters(family)));
+  Tool tool;
+  tool.radial = RadialFunction(family, axis_length, values);
+  if (const Legitimacy verdict = check_legitimacy(tool.radial); !verdict.legitimate)
+    throw UsageError(fmt::format("{}: not a tool, {}", family_name(family), verdict.reason));
+  return tool;
+}
+
+}  // namespace flank::internal

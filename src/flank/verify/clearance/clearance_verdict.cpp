@@ -1,0 +1,151 @@
+#include "flank/clearance.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "flank/base/parallel.h"
+#include "flank/error.h"
+#include "flank/verify/clearance/flank_profile.h"
+#include "flank/verify/clearance/motion_gap.h"
+#include "flank/verify/swept/pose_tree.h"
+
+namespace flank {
+using namespace internal;
+namespace {
+
+using namespace internal::verify;
+
+constexpr std::array kRoles{ObstacleRole::kTarget, ObstacleRole::kPart, ObstacleRole::kFixture};
+
+/// All obstacles of one role as one mesh that remembers where its triangles come from.
+struct Scene {
+  ObstacleRole role = ObstacleRole::kPart;
+  ObstacleTree tree;
+  std::vector<int> obstacle_of;  ///< of each triangle
+  double deviation_mm = 0.0;
+};
+
+Scene scene_of(const std::vector<Obstacle>& obstacles, ObstacleRole role) {
+  Scene scene;
+  scene.role = role;
+  TriangleMesh all;
+  for (std::size_t k = 0; k < obstacles.size(); ++k) {
+    const Obstacle& o = obstacles[k];
+    if (o.role != role || o.mesh.triangles.empty()) continue;
+    const int first = static_cast<int>(all.vertices.size());
+    all.vertices.insert(all.vertices.end(), o.mesh.vertices.begin(), o.mesh.vertices.end());
+    for (const auto& t : o.mesh.triangles) all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    scene.obstacle_of.resize(all.triangles.size(), static_cast<int>(k));
+    scene.deviation_mm = std::max(scene.deviation_mm, o.deviation_mm);
+  }
+  scene.tree = ObstacleTree(all);
+  return scene;
+}
+
+struct Body {
+  ToolBody name = ToolBody::kShank;
+  std::vector<Revolved> parts;
+  double deviation_mm = 0.0;
+};
+
+std::vector<Body> bodies_of(const Tool& tool) {
+  std::vector<Body> bodies;
+  bodies.push_back({ToolBody::kFlank, flank_bodies(tool.radial), kFlankProfileErrorMm});
+  bodies.push_back({ToolBody::kShank, convex_bodies(tool.shank), 0.0});
+  bodies.push_back({ToolBody::kHolder, convex_bodies(tool.holder), 0.0});
+  return bodies;
+}
+
+bool may_touch(ToolBody body, ObstacleRole role) { return body == ToolBody::kShank && role == ObstacleRole::kTarget; }
+
+double requirement(const ClearanceOptions& options, ToolBody body, ObstacleRole role) {
+  if (options.required_mm >= 0.0 && !may_touch(body, role)) return options.required_mm;
+  return body == ToolBody::kHolder ? 0.0 : -options.tolerance_mm;
+}
+
+ClearanceFigure measure(const Body& body, const Scene& scene, const std::vector<Obstacle>& obstacles,
+                        const std::vector<Segment>& segments, const ClearanceOptions& options) {
+  ClearanceFigure figure;
+  figure.body = body.name;
+  figure.role = scene.role;
+  figure.required_mm = requirement(options, body.name, scene.role);
+  const GapPlace place =
+      MotionGap(body.parts, scene.tree, segments).least(options.accuracy_mm, std::numeric_limits<double>::max());
+  if (place.segment < 0) {
+    figure.clearance_mm = std::numeric_limits<double>::infinity();
+    return figure;
+  }
+  const Segment& segment = segments[static_cast<std::size_t>(place.segment)];
+  figure.clearance_mm = place.value;
+  figure.bound_mm = gap_bound(place.value, options.accuracy_mm) + body.deviation_mm + scene.deviation_mm;
+  figure.kept = figure.clearance_mm - figure.bound_mm >= figure.required_mm;
+  const int obstacle = scene.obstacle_of[static_cast<std::size_t>(place.triangle)];
+  figure.obstacle = obstacles[static_cast<std::size_t>(obstacle)].name;
+  figure.point = place.point;
+  figure.strip = segment.strip;
+  figure.t = segment.pose + place.tau;
+  figure.z_mm = place.z;
+  figure.rho_mm = place.rho;
+  return figure;
+}
+
+/// Lowers the clearance of every pose to that of this pair.
+void lower_to(std::vector<std::vector<double>>& by_strip, const Body& body, const Scene& scene,
+              const std::vector<Segment>& segments) {
+  constexpr std::size_t kGrain = 16;
+  const MotionGap gap(body.parts, scene.tree, segments);
+  parallel_blocks(segments.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      std::vector<double>& poses = by_strip[static_cast<std::size_t>(segments[k].strip)];
+      const auto first = static_cast<std::size_t>(segments[k].pose);
+      const bool ends = k + 1 == segments.size() || segments[k + 1].strip != segments[k].strip;
+      for (std::size_t i = first; i < std::min(poses.size(), first + (ends ? 2 : 1)); ++i)
+        poses[i] = gap.at(static_cast<int>(k), i == first ? 0.0 : 1.0, kPoseClearanceMm, poses[i]);
+    }
+  });
+}
+
+}  // namespace
+
+std::string_view body_name(ToolBody body) {
+  return body == ToolBody::kFlank ? "flank" : body == ToolBody::kShank ? "shank" : "holder";
+}
+
+std::string_view role_name(ObstacleRole role) {
+  return role == ObstacleRole::kTarget ? "target" : role == ObstacleRole::kPart ? "part" : "fixture";
+}
+
+bool ClearanceReport::kept() const {
+  return std::all_of(figures.begin(), figures.end(), [](const ClearanceFigure& f) { return f.kept; });
+}
+
+const ClearanceFigure* ClearanceReport::worst() const {
+  const auto spare = [](const ClearanceFigure& f) { return f.clearance_mm - f.bound_mm - f.required_mm; };
+  const auto least = std::min_element(figures.begin(), figures.end(),
+                                      [&](const auto& a, const auto& b) { return spare(a) < spare(b); });
+  return least == figures.end() ? nullptr : &*least;
+}
+
+ClearanceReport judge_clearance(const Tool& tool, const Path& path, const std::vector<Obstacle>& obstacles,
+                                const ClearanceOptions& options) {
+  if (!(options.accuracy_mm > 0.0) || !(options.tolerance_mm > 0.0))
+    throw UsageError("clearance: an accuracy and a tolerance above 0 mm are accepted");
+  const std::vector<Segment> segments = PoseTree(path, tool.radial.axis_length(), 1e300).segments;
+  std::array<Scene, kRoles.size()> scenes;
+  for (std::size_t k = 0; k < kRoles.size(); ++k) scenes[k] = scene_of(obstacles, kRoles[k]);
+  ClearanceReport report;
+  for (const Strip& strip : path.strips)
+    report.pose_clearance_mm.emplace_back(strip.poses.size(), std::numeric_limits<double>::infinity());
+  for (const Body& body : bodies_of(tool)) {
+    if (body.parts.empty()) continue;
+    for (const Scene& scene : scenes) {
+      if (scene.tree.empty() || (body.name == ToolBody::kFlank && scene.role != ObstacleRole::kFixture)) continue;
+      report.figures.push_back(measure(body, scene, obstacles, segments, options));
+      if (!may_touch(body.name, scene.role)) lower_to(report.pose_clearance_mm, body, scene, segments);
+    }
+  }
+  return report;
+}
+
+}  // namespace flank

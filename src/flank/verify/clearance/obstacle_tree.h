@@ -1,0 +1,51 @@
+/// A tree of spheres over the triangles that a body must keep clear of. It asks nothing of the mesh: closed or open,
+/// overlapping itself, oriented in any way.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "flank/triangle_mesh.h"
+
+namespace flank::internal::verify {
+
+struct Sphere {
+  Vec3 center = Vec3::Zero();
+  double radius = 0.0;
+};
+
+class ObstacleTree {
+ public:
+  /// A node holds triangles [first, end); its children are the next node and `second` (-1: a leaf). All of it lies in the
+  /// slab low <= <normal, x> <= high.
+  struct Node {
+    Sphere sphere;
+    Vec3 normal = Vec3::UnitZ();
+    double low = 0.0, high = 0.0;
+    bool flat = false;  ///< the slab is thin for the node's size
+    int second = -1, first = 0, end = 0;
+  };
+
+  ObstacleTree() = default;
+  explicit ObstacleTree(const TriangleMesh& mesh);
+
+  [[nodiscard]] bool empty() const { return corners_.empty(); }
+  [[nodiscard]] int node_count() const { return static_cast<int>(nodes_.size()); }
+  [[nodiscard]] const Node& node(int i) const { return nodes_[static_cast<std::size_t>(i)]; }
+  /// Triangles are counted in the tree's order.
+  [[nodiscard]] const std::array<Vec3, 3>& corners(int i) const { return corners_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] const Sphere& sphere(int i) const { return spheres_[static_cast<std::size_t>(i)]; }
+  /// Its number in the mesh.
+  [[nodiscard]] int number(int i) const { return numbers_[static_cast<std::size_t>(i)]; }
+
+ private:
+  void enclose(const TriangleMesh& mesh, Node& node) const;
+  int build(const TriangleMesh& mesh, const std::vector<Vec3>& centers, int first, int end);
+
+  std::vector<Node> nodes_;
+  std::vector<int> numbers_;
+  std::vector<std::array<Vec3, 3>> corners_;
+  std::vector<Sphere> spheres_;
+};
+
+}  // namespace flank::internal::verify

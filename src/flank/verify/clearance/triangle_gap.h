@@ -1,0 +1,27 @@
+/// The signed distance between a triangle and a convex solid of revolution.
+#pragma once
+
+#include <array>
+
+#include "flank/verify/clearance/revolved.h"
+
+namespace flank::internal::verify {
+
+/// The closest (outside) or deepest (inside) place of a triangle.
+struct TriangleGap {
+  double value = 1e300;         ///< least signed distance of the triangle's points; negative: the depth of the deepest
+  Vec3 point = Vec3::Zero();    ///< of the triangle
+  Vec3 normal = Vec3::UnitX();  ///< gradient of the signed distance there: from the body to the triangle
+};
+
+/// Promised accuracy of triangle_gap, mm: of distances, and of depths where no more is allowed.
+inline constexpr double kTriangleGapErrorMm = 1e-9;
+inline constexpr double kDepthErrorMm = 1e-7;
+
+/// The triangle in the body's frame (axis of revolution z). Exact to kTriangleGapErrorMm where the value is below
+/// `cutoff`; else some value >= cutoff. A depth is the depth of `point` and short of the deepest by no more than
+/// `depth_error_mm`. Triangles without area are segments or points.
+[[nodiscard]] TriangleGap triangle_gap(const Revolved& body, const std::array<Vec3, 3>& triangle, double cutoff = 1e300,
+                                       double depth_error_mm = kDepthErrorMm);
+
+}  // namespace flank::internal::verify

@@ -1,0 +1,67 @@
+#include "flank/verify/clearance/winding.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace flank::internal::verify {
+namespace {
+
+constexpr double kFar = 2.5;  ///< of its radius: from here on a node counts as one area
+constexpr int kStackSize = 128;
+
+/// Signed solid angle of a triangle (Van Oosterom and Strackee, 1983).
+double solid_angle(const std::array<Vec3, 3>& v, const Vec3& x) {
+  const Vec3 a = v[0] - x, b = v[1] - x, c = v[2] - x;
+  const double la = a.norm(), lb = b.norm(), lc = c.norm();
+  return 2.0 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+}
+
+}  // namespace
+
+Winding::Winding(const TriangleMesh& mesh) : tree_(mesh) {
+  if (tree_.empty()) return;
+  for (int i = 0; i < tree_.node_count(); ++i) {
+    const ObstacleTree::Node& node = tree_.node(i);
+    Area area;
+    double weight = 0.0;
+    for (int k = node.first; k < node.end; ++k) {
+      const auto& v = tree_.corners(k);
+      const Vec3 vector = 0.5 * (v[1] - v[0]).cross(v[2] - v[0]);
+      area.vector += vector;
+      area.center += vector.norm() * (v[0] + v[1] + v[2]) / 3.0;
+      weight += vector.norm();
+    }
+    area.center = weight > 0.0 ? Vec3(area.center / weight) : node.sphere.center;
+    area.radius = (area.center - node.sphere.center).norm() + node.sphere.radius;
+    areas_.push_back(area);
+  }
+}
+
+double Winding::number(const Vec3& x) const {
+  if (tree_.empty()) return 0.0;
+  std::array<int, kStackSize> stack;
+  int size = 0;
+  stack[size++] = 0;
+  double sum = 0.0;
+  while (size > 0) {
+    const int index = stack[--size];
+    const ObstacleTree::Node& node = tree_.node(index);
+    const Area& area = areas_[static_cast<std::size_t>(index)];
+    const Vec3 d = area.center - x;
+    const double distance = d.norm();
+    if (distance > kFar * area.radius) {
+      sum += area.vector.dot(d) / (distance * distance * distance);
+    } else if (node.second < 0) {
+      for (int k = node.first; k < node.end; ++k) sum += solid_angle(tree_.corners(k), x);
+    } else {
+      stack[size++] = node.second;
+      stack[size++] = index + 1;
+    }
+  }
+  return sum / (4.0 * std::numbers::pi);
+}
+
+bool Winding::inside(const Vec3& x) const { return std::abs(number(x)) > 0.5; }
+
+}  // namespace flank::internal::verify

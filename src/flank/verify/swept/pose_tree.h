@@ -1,0 +1,43 @@
+/// A hierarchy over the pieces of a path: one pose stands for all poses of a node, with a bound on how far they move
+/// the axis.
+#pragma once
+
+#include <vector>
+
+#include "flank/path.h"
+#include "flank/verify/swept/segment.h"
+
+namespace flank::internal::verify {
+
+/// The poses of a node: every one takes the axis point R(s) = tip + s axis, 0 <= s <= L, to R(s) + y (half_tip + s
+/// half_turn) + e with some |y| <= 1 and |e| <= bend, and in all no farther than `reach`.
+struct PoseNode {
+  Vec3 tip, axis;
+  Vec3 half_tip = Vec3::Zero(), half_turn = Vec3::Zero();
+  double bend = 0.0, reach = 0.0, turn = 0.0;  ///< turn = |half_turn|
+  int second = -1;                     ///< index of the second child (the first one follows its parent); -1: a leaf
+  int first_piece = 0, end_piece = 0;  ///< the node's pieces
+};
+
+/// Part [low, high] of a segment: short enough for its minimum to be found by descent.
+struct Piece {
+  int segment = 0;
+  double low = 0.0, high = 1.0;
+};
+
+struct PoseTree {
+  std::vector<Segment> segments;
+  std::vector<Piece> pieces;
+  double piece_reach = 0.0;     ///< largest reach of a leaf
+  std::vector<PoseNode> nodes;  ///< in depth-first order; empty for an empty path
+
+  [[nodiscard]] const Segment& segment_of(int piece) const {
+    return segments[static_cast<std::size_t>(pieces[static_cast<std::size_t>(piece)].segment)];
+  }
+
+  /// Pieces move the axis by at most `reach_mm` from their middle. Throws InputError, naming strip and pose, for a pose
+  /// that is not finite or an axis that is no unit vector or turns round within one step.
+  PoseTree(const Path& path, double axis_length_mm, double reach_mm);
+};
+
+}  // namespace flank::internal::verify

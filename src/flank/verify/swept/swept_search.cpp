@@ -1,0 +1,183 @@
+// The node whose bound is lower first; a leaf is minimised by descent in (tau, s). docs/algorithms/judge.md derives the
+// bounds.
+#include "flank/verify/swept/swept_search.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace flank::internal::verify {
+namespace {
+
+constexpr double kSlackMm = 1e-11;  ///< a node must promise to be lower than the best by more than this to be opened
+constexpr double kLeastSingle =
+    0.1;  ///< from this share of the way before the focal curve on, several minima over s are reckoned with
+constexpr double kSafety = 1.5;          ///< on the term of second order in a node's bound
+constexpr double kCurvatureShare = 0.5;  ///< of the curvature across the motion that a node's bound counts on
+constexpr double kNearReaches =
+    4.0;                      ///< a point nearer to the axis than this many reaches of a piece is not left to descent
+constexpr int kMaxHops = 16;  ///< pieces that a descent follows
+constexpr int kStackSize = 128;  ///< two per level: enough for 2^40 pieces and as many strips
+
+}  // namespace
+
+bool SweptSearch::single(double rho) const { return 1.0 - rho * tool_.focal_curvature() > kLeastSingle; }
+
+double SweptSearch::bound(const PoseNode& node) const {
+  const Vec3 d = x_ - node.tip;
+  const double z = d.dot(node.axis);
+  const double squared_rho = std::max(0.0, d.squaredNorm() - z * z);
+  const double rho = std::sqrt(squared_rho);
+  const Estimate estimate = tool_.estimate(z, rho);
+  const double plain = estimate.bound - node.reach;
+  if (plain >= best_.f - kSlackMm) return plain;
+  const double distance = std::sqrt((z - estimate.s) * (z - estimate.s) + squared_rho);
+  if (!single(rho) || distance < 2.0 * node.reach) return plain;
+  // The sphere at about the minimiser is above g by no more than its curvature over s allows; closer than the grid's
+  // own bound.
+  double least = estimate.bound;
+  if (!estimate.near_end) {
+    const double bend = 1.0 / distance + tool_.radial().largest_bend();
+    least = std::max(least, distance - tool_.radial().radius(estimate.s) - bend * estimate.s_error * estimate.s_error);
+  }
+  const double inverse = 1.0 / distance;
+  const Vec3 n = inverse * (d - estimate.s * node.axis);
+  const Vec3 v = node.half_tip + estimate.s * node.half_turn;
+  const double nv = std::abs(n.dot(v)), nu = inverse * (z - estimate.s);
+  const double growth = (1.0 - rho * tool_.focal_curvature()) * squared_rho * inverse * inverse * inverse -
+                        kSafety * 2.0 * inverse * (node.reach * inverse + node.turn);
+  if (!(growth > 0.0)) return plain;
+  const double change = (std::abs(v.dot(node.axis)) + nu * nv) * inverse + std::abs(n.dot(node.half_turn));
+  const double slack =
+      kSafety * 0.5 * change * change / growth + (change + growth * estimate.s_error) * estimate.s_error;
+  const double rise = kCurvatureShare * (v.squaredNorm() - nv * nv) * inverse;
+  const double fall = nv < rise ? 0.5 * nv * nv / rise : nv - 0.5 * rise;
+  return std::max(plain, least - fall - node.bend - slack);
+}
+
+// Whether the model of second order at the middle of a piece, with half its curvature, stays above the best so far.
+bool SweptSearch::excluded(const DistanceJet& jet, double half) const {
+  if (!(jet.dss > 0.0)) return false;
+  const double curvature = jet.dtt - jet.dts * jet.dts / jet.dss;
+  double least = jet.f;
+  if (curvature > 0.0) {
+    const double y = std::min(half, std::abs(jet.dt) / (0.5 * curvature));
+    least += y * (0.25 * curvature * y - std::abs(jet.dt));
+  } else {
+    least += half * (curvature * half - std::abs(jet.dt));
+  }
+  return least >= best_.f - kSlackMm;
+}
+
+bool SweptSearch::neighbours(int k, int next) const {
+  return next >= 0 && next < static_cast<int>(tree_.pieces.size()) &&
+         segment(piece(k)).strip == segment(piece(next)).strip;
+}
+
+// A minimum at the end of its piece may go on in the next one.
+void SweptSearch::follow(int at, SegmentMinimum found) {
+  for (int hop = 0; hop < kMaxHops; ++hop) {
+    const Piece& here = piece(at);
+    const int next = found.tau >= here.high ? at + 1 : found.tau <= here.low ? at - 1 : -1;
+    if (next < 0 || !neighbours(at, next)) break;
+    const Piece& there = piece(next);
+    SegmentMinimum trial{found.f, next > at ? there.low : there.high, found.s};
+    if (!descend(segment(there), tool_.radial(), x_, there.low, there.high, trial) || trial.f >= found.f) break;
+    found = trial;
+    at = next;
+  }
+  if (found.f >= best_.f) return;
+  keep(found, at);
+  const Pose pose = segment(piece(at)).at(found.tau);
+  settled_ = single(plane_point(pose.tip, pose.axis, x_).rho + 2.0 * tree_.piece_reach) ? at : -1;
+}
+
+void SweptSearch::open_single(const PoseNode& node, const NearestSphere& sphere) {
+  const Piece& p = piece(node.first_piece);
+  SegmentMinimum found{sphere.g, 0.5 * (p.low + p.high), sphere.s};
+  const DistanceJet jet = distance_jet(segment(p), tool_.radial(), x_, found.tau, found.s);
+  if (excluded(jet, 0.5 * (p.high - p.low))) return;
+  if (descend(segment(p), tool_.radial(), x_, p.low, p.high, found)) {
+    follow(node.first_piece, found);
+  } else {
+    keep(bracketed_minimum(segment(p), tool_, x_, p.low, p.high), node.first_piece);
+  }
+}
+
+// Where several minima over s compete, each one seen at the ends or in the middle of the piece is followed down.
+void SweptSearch::open_forked(const PoseNode& node) {
+  const Piece& p = piece(node.first_piece);
+  std::array<double, ToolDistance::kMostMinima> starts;
+  for (double tau : {0.5 * (p.low + p.high), p.low, p.high}) {
+    const Pose pose = segment(p).at(tau);
+    const PlanePoint at = plane_point(pose.tip, pose.axis, x_);
+    const int count = tool_.minima(at.z, at.rho, best_.f + 2.0 * node.reach, starts);
+    for (int i = 0; i < count; ++i) {
+      SegmentMinimum found{0.0, tau, starts[static_cast<std::size_t>(i)]};
+      if (!descend(segment(p), tool_.radial(), x_, p.low, p.high, found)) {
+        keep(bracketed_minimum(segment(p), tool_, x_, p.low, p.high), node.first_piece);
+        return;
+      }
+      keep(found, node.first_piece);
+    }
+  }
+}
+
+void SweptSearch::open_leaf(const PoseNode& node) {
+  if (node.first_piece == settled_) return;
+  const PlanePoint at = plane_point(node.tip, node.axis, x_);
+  const NearestSphere sphere = tool_.nearest(at.z, at.rho);
+  if (sphere.g - node.reach >= best_.f - kSlackMm) return;
+  const double distance = std::hypot(at.z - sphere.s, at.rho);
+  if (distance < kNearReaches * node.reach) {
+    const Piece& p = piece(node.first_piece);
+    keep(bracketed_minimum(segment(p), tool_, x_, p.low, p.high), node.first_piece);
+  } else if (single(at.rho + node.reach)) {
+    open_single(node, sphere);
+  } else {
+    open_forked(node);
+  }
+}
+
+void SweptSearch::start_at(const SweptPlace& near) {
+  const Piece& p = piece(near.piece);
+  SegmentMinimum found{0.0, std::clamp(near.tau, p.low, p.high), near.s};
+  if (descend(segment(p), tool_.radial(), x_, p.low, p.high, found)) follow(near.piece, found);
+}
+
+SweptPlace SweptSearch::run(double horizon, const SweptPlace& near) {
+  best_ = {horizon, -1, 0.0, 0.0};
+  settled_ = -1;
+  if (tree_.nodes.empty()) return best_;
+  if (near.piece >= 0) start_at(near);
+  struct Open {
+    int node;
+    double promised;
+  };
+  const auto open = [&](int k) {
+    const PoseNode& node = tree_.nodes[static_cast<std::size_t>(k)];
+    // The node that holds the best place so far cannot be left out: its bound is not worth asking for.
+    const bool holds = best_.piece >= node.first_piece && best_.piece < node.end_piece;
+    return Open{k, holds ? -1e300 : bound(node)};
+  };
+  std::array<Open, kStackSize> stack;
+  int size = 0;
+  stack[size++] = {0, -1e300};
+  while (size > 0) {
+    const Open top = stack[--size];
+    if (top.promised >= best_.f - kSlackMm) continue;
+    const PoseNode& node = tree_.nodes[static_cast<std::size_t>(top.node)];
+    if (node.second < 0) {
+      open_leaf(node);
+      continue;
+    }
+    Open first = open(top.node + 1), second = open(node.second);
+    if (second.promised < first.promised) std::swap(first, second);
+    if (second.promised < best_.f - kSlackMm) stack[size++] = second;
+    if (first.promised < best_.f - kSlackMm) stack[size++] = first;
+  }
+  return best_;
+}
+
+}  // namespace flank::internal::verify

@@ -1,0 +1,49 @@
+/// One query of the swept distance: branch and bound over the pose tree.
+#pragma once
+
+#include "flank/verify/swept/pose_tree.h"
+#include "flank/verify/swept/segment_minimum.h"
+#include "flank/verify/swept/tool_distance.h"
+
+namespace flank::internal::verify {
+
+/// A place on the path: piece of the tree, parameter of its segment, axis arc length.
+struct SweptPlace {
+  double f = 0.0;
+  int piece = -1;  ///< -1: nothing below the horizon
+  double tau = 0.0, s = 0.0;
+};
+
+class SweptSearch {
+ public:
+  SweptSearch(const ToolDistance& tool, const PoseTree& tree, const Vec3& x) : tool_(tool), tree_(tree), x_(x) {}
+
+  /// The least f below `horizon`. `near` (piece -1: none) is where to look first: it changes the time, not the value.
+  [[nodiscard]] SweptPlace run(double horizon, const SweptPlace& near);
+
+ private:
+  [[nodiscard]] double bound(const PoseNode& node) const;
+  [[nodiscard]] bool excluded(const DistanceJet& jet, double half) const;
+  [[nodiscard]] bool single(double rho) const;
+  [[nodiscard]] const Piece& piece(int k) const { return tree_.pieces[static_cast<std::size_t>(k)]; }
+  [[nodiscard]] const Segment& segment(const Piece& p) const {
+    return tree_.segments[static_cast<std::size_t>(p.segment)];
+  }
+  [[nodiscard]] bool neighbours(int k, int next) const;
+  void start_at(const SweptPlace& near);
+  void open_leaf(const PoseNode& node);
+  void open_single(const PoseNode& node, const NearestSphere& sphere);
+  void open_forked(const PoseNode& node);
+  void follow(int at, SegmentMinimum found);
+  void keep(const SegmentMinimum& found, int at) {
+    if (found.f < best_.f) best_ = {found.f, at, found.tau, found.s};
+  }
+
+  const ToolDistance& tool_;
+  const PoseTree& tree_;
+  const Vec3& x_;
+  SweptPlace best_;
+  int settled_ = -1;  ///< a piece whose least value is already in best_
+};
+
+}  // namespace flank::internal::verify

@@ -1,0 +1,105 @@
+// The grids of ToolDistance: values of g at nodes, lowered so that interpolation between them never exceeds g.
+#include <cmath>
+
+#include "flank/verify/swept/tool_distance.h"
+
+namespace flank::internal::verify {
+namespace {
+
+constexpr int kNearColumns = 320, kNearRows = 56;
+constexpr int kFarColumns = 96, kFarRows = 40;
+constexpr double kNearMarginRadii =
+    1.25;                         ///< the finest grid reaches this many largest radii beyond the flank and the ends
+constexpr double kFarther = 3.0;  ///< each grid reaches this much farther than the last
+
+}  // namespace
+
+ToolDistance::ToolDistance(const RadialFunction& radial) : radial_(radial) {
+  for (int i = 0; i <= 4 * radial_.count(); ++i) {
+    const RadialJet j = radial_.at(0.25 * i * radial_.step());
+    const double q = std::max(1e-9, 1.0 - j.d1 * j.d1);
+    focal_curvature_ = std::max(focal_curvature_, j.d2 / (q * std::sqrt(q)));
+  }
+  const double radius = radial_.largest_radius();
+  double margin = kNearMarginRadii * radius;
+  for (int k = 0; k < kGrids; ++k, margin *= kFarther)
+    build_grid(grids_[static_cast<std::size_t>(k)], margin, radius + margin, k == 0 ? kNearColumns : kFarColumns,
+               k == 0 ? kNearRows : kFarRows);
+}
+
+// For each s the value is convex in (z, rho) with second derivatives at most 1/D, so g less |(z, rho)|^2/(2 D) is
+// concave while D, the distance to the axis segment, is bounded below; a bilinear interpolant of a concave function
+// lies below it. Hence the interpolant exceeds g by at most (dz^2 + d_rho^2)/(8 D) in a cell. Close to the axis the
+// slope, at most 1, bounds it instead.
+double ToolDistance::interpolation_error(const Grid& grid, double z, double rho) const {
+  const double beyond = std::max({-z - grid.z_step, z - grid.z_step - radial_.length(), 0.0});
+  const double distance = std::hypot(beyond, std::max(0.0, rho - grid.rho_step));
+  const double squares = grid.z_step * grid.z_step + grid.rho_step * grid.rho_step;
+  const double lipschitz = std::sqrt(squares);
+  return distance > 0.0 ? std::min(lipschitz, squares / (8.0 * distance)) : lipschitz;
+}
+
+// For a fixed rho the minimising s grows with z (the cost is convex in z - s), so the best nodes of a row are found by
+// halving.
+void ToolDistance::best_nodes(const Grid& grid, double rho, std::vector<int>& best) const {
+  best.assign(static_cast<std::size_t>(grid.columns), 0);
+  struct Range {
+    int first, last, low, high;
+  };
+  std::vector<Range> stack{{0, grid.columns - 1, 0, radial_.count()}};
+  while (!stack.empty()) {
+    const Range range = stack.back();
+    stack.pop_back();
+    const int middle = (range.first + range.last) / 2;
+    const double z = grid.z_first + middle * grid.z_step;
+    int argument = range.low;
+    double least = 1e300;
+    for (int k = range.low; k <= range.high; ++k) {
+      const double dz = z - radial_.node(k);
+      const double v = std::sqrt(dz * dz + rho * rho) - radial_.node_radius(k);
+      if (v < least) least = v, argument = k;
+    }
+    best[static_cast<std::size_t>(middle)] = argument;
+    if (range.first < middle) stack.push_back({range.first, middle - 1, range.low, argument});
+    if (middle < range.last) stack.push_back({middle + 1, range.last, argument, range.high});
+  }
+}
+
+void ToolDistance::build_grid(Grid& grid, double margin, double reach, int cells_z, int cells_rho) const {
+  grid.z_first = -margin;
+  grid.z_last = radial_.length() + margin;
+  grid.rho_last = reach;
+  grid.columns = cells_z + 1;
+  grid.rows = cells_rho + 1;
+  grid.z_step = (grid.z_last - grid.z_first) / cells_z;
+  grid.rho_step = reach / cells_rho;
+  grid.z_scale = 1.0 / grid.z_step;
+  grid.rho_scale = 1.0 / grid.rho_step;
+  grid.s_end = radial_.length() - 2.0 * grid.z_step;
+  grid.nodes.reserve(static_cast<std::size_t>(grid.columns * grid.rows));
+  const double h = radial_.step();
+  std::vector<int> best;
+  for (int row = 0; row < grid.rows; ++row) {
+    const double rho = row * grid.rho_step;
+    best_nodes(grid, rho, best);
+    for (int column = 0; column < grid.columns; ++column) {
+      const double z = grid.z_first + column * grid.z_step;
+      double s = radial_.node(best[static_cast<std::size_t>(column)]);
+      double g = value(z, rho, s);
+      // What the nodes of the radial table may miss between them: half a step of slope 2, or the bend of the value over
+      // a step.
+      double missed = h;
+      double polished = s;
+      if (polish(z, rho, polished) && value(z, rho, polished) <= g) {
+        s = polished, g = value(z, rho, polished);
+        const double distance = std::hypot(std::max({-z, z - radial_.length(), 0.0}), rho);
+        if (distance > 0.0) missed = std::min(h, h * h / 8.0 * (1.0 / distance + 2.0 * radial_.largest_bend()));
+      }
+      const double rounding = 1e-6 * (1.0 + std::abs(g));
+      grid.nodes.push_back(
+          {static_cast<float>(g - interpolation_error(grid, z, rho) - missed - rounding), static_cast<float>(s)});
+    }
+  }
+}
+
+}  // namespace flank::internal::verify

@@ -1,0 +1,86 @@
+#include "flank/artefact/acceptance.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "flank/artefact/verify_json.h"
+
+namespace flank::internal {
+namespace {
+
+Tool tool_of(std::initializer_list<double> coefficients) {
+  Tool tool;
+  tool.radial = RadialFunction::spline(
+      20.0, Eigen::Map<const Eigen::VectorXd>(coefficients.begin(), static_cast<Eigen::Index>(coefficients.size())));
+  return tool;
+}
+
+Tool cylinder() { return tool_of({3, 3, 3, 3}); }
+
+/// A report with nothing wrong, exactly at its limits.
+VerifyReport at_the_limits() {
+  VerifyReport r;
+  r.verdict = Verdict::kPass;
+  r.tolerance_mm = 0.01;
+  r.coverage = 0.8;
+  r.coverage_reachable = 0.95;
+  r.overcut_mm = r.gouge_mm = 0.01;
+  for (const char* name : {"F1", "F2", "F3"}) {
+    FaceVerdict face;
+    face.face = name;
+    face.target = r.faces.empty();
+    face.overcut_mm = 0.01;
+    r.faces.push_back(face);
+  }
+  return r;
+}
+
+TEST(Acceptance, PassesAtTheLimits) {
+  const Acceptance a = accept(cylinder(), at_the_limits(), 0.95);
+  EXPECT_TRUE(a.pass());
+  EXPECT_EQ(a.exit_code(), 0);
+  EXPECT_EQ(reason_lines(a), "");
+}
+
+void expect_one(const Acceptance& a, const std::string& figure, const std::string& text) {
+  ASSERT_EQ(a.reasons.size(), 1u);
+  EXPECT_EQ(a.reasons[0].figure, figure);
+  EXPECT_NE(a.reasons[0].text.find(text), std::string::npos) << a.reasons[0].text;
+  EXPECT_EQ(a.exit_code(), 1);
+}
+
+TEST(Acceptance, EachFigureAlone) {
+  expect_one(accept(cylinder(), at_the_limits(), 0.95, false), "complete", "interrupted");
+  expect_one(accept(cylinder(), at_the_limits(), 0.951), "coverage_reachable", "95.000 % < 95.100 %");
+  VerifyReport r = at_the_limits();
+  r.faces[0].overcut_mm = r.overcut_mm = 0.0101;
+  expect_one(accept(cylinder(), r, 0.95), "overcut_mm", "F1 is overcut by 0.0101 mm > 0.01 mm");
+  r = at_the_limits();
+  ClearanceFigure figure;
+  figure.kept = false;
+  figure.obstacle = "F7";
+  r.clearance.figures = {figure};
+  expect_one(accept(cylinder(), r, 0.95), "clearance", "the shank does not keep 0 mm from F7");
+  expect_one(accept(tool_of({1, 30, 1, 30}), at_the_limits(), 0.95), "legitimate", "not legitimate");
+}
+
+TEST(Acceptance, NamesTheFacesThatAreEnteredDeepestFirst) {
+  VerifyReport r = at_the_limits();
+  r.faces[1].overcut_mm = 0.02;
+  r.faces[2].overcut_mm = r.gouge_mm = 0.5;
+  r.faces[2].deepest = WorstPlace{"F3", Vec3(1, 2, -3), -0.5, 1, 4.0, 2.0};
+  const Acceptance a = accept(cylinder(), r, 0.95);
+  ASSERT_EQ(a.reasons.size(), 2u);
+  EXPECT_EQ(a.reasons[0].text, "F3 is entered by 0.5000 mm > 0.01 mm at (1.000, 2.000, -3.000), strip 2");
+  EXPECT_EQ(a.reasons[1].text, "F2 is entered by 0.0200 mm > 0.01 mm");
+  const auto json = nlohmann::json::parse(verify_to_json(r, a));
+  EXPECT_EQ(json.at("pass"), false);
+  EXPECT_EQ(json.at("reasons").at(0).at("figure"), "gouge_mm");
+  EXPECT_EQ(json.at("reasons").at(1).at("text"), a.reasons[1].text);
+  EXPECT_EQ(json.at("faces").at(2).at("deepest").at("strip"), 2);
+}
+
+}  // namespace
+}  // namespace flank::internal

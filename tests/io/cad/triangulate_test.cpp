@@ -1,0 +1,78 @@
+#include "flank/io/cad/triangulate.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "flank/error.h"
+
+namespace flank::internal {
+namespace {
+
+std::string real_part(const std::string& name) {
+  const char* folder = std::getenv("FLANK_DATA");
+  const auto file =
+      (folder != nullptr ? std::filesystem::path(folder) : std::filesystem::path(FLANK_SOURCE_DIR) / "../shared/data") /
+      name;
+  return std::filesystem::exists(file) ? file.string() : std::string();
+}
+
+double area_of(const TriangleMesh& m) {
+  double area = 0.0;
+  for (const auto& t : m.triangles) {
+    const Vec3& a = m.vertices[static_cast<std::size_t>(t[0])];
+    area +=
+        0.5 *
+        (m.vertices[static_cast<std::size_t>(t[1])] - a).cross(m.vertices[static_cast<std::size_t>(t[2])] - a).norm();
+  }
+  return area;
+}
+
+TEST(Triangulate, SaddleTrimmedToATriangle) {
+  Face face;
+  face.id = "F1";
+  BSplineSurface& s = face.surface;
+  s.degree_u = s.degree_v = 1;
+  s.count_u = s.count_v = 2;
+  s.knots_u = s.knots_v = {0, 0, 1, 1};
+  s.poles = {{0, 0, 0}, {0, 40, 10}, {40, 0, 10}, {40, 40, 0}};
+  const FaceTriangles whole = triangulate_face(face, 0.01);
+  EXPECT_LE(whole.deviation_mm, 0.01);
+  EXPECT_FALSE(whole.beyond_border);
+  const double all = area_of(whole.mesh);
+  TrimLoop loop;
+  const Vec2 corners[3] = {{0.1, 0.1}, {0.9, 0.1}, {0.1, 0.9}};
+  for (int k = 0; k < 3; ++k) {
+    BSplineCurve2 edge;
+    edge.degree = 1;
+    edge.knots = {0, 0, 1, 1};
+    edge.poles.resize(2, 2);
+    edge.poles.col(0) = corners[k];
+    edge.poles.col(1) = corners[(k + 1) % 3];
+    loop.edges.push_back(edge);
+  }
+  face.loops = {loop};
+  const FaceTriangles part = triangulate_face(face, 0.01);
+  EXPECT_LE(part.deviation_mm, 0.01);
+  EXPECT_FALSE(part.beyond_border);
+  EXPECT_NEAR(area_of(part.mesh) / all, 0.32, 0.02);
+  EXPECT_THROW((void)triangulate_face(face, 0.0), UsageError);
+}
+
+/// The propeller has a spline knot every half millimetre and a tip that is nearly a point: a coarser mesh will do.
+TEST(Triangulate, RealPartsKeepTheStatedDeviation) {
+  const std::vector<std::pair<const char*, double>> parts = {
+      {"kj66_impeller.step", 0.02}, {"r37_blisk_sector_2blades.step", 0.02}, {"bladex_propeller_shaft.iges", 0.5}};
+  for (const auto& [name, wanted] : parts) {
+    const std::string file = real_part(name);
+    if (file.empty()) GTEST_SKIP() << "no real parts in FLANK_DATA";
+    for (const FaceTriangles& face : triangulate(read_part(file), wanted)) {
+      EXPECT_FALSE(face.mesh.triangles.empty()) << name << ' ' << face.face;
+      EXPECT_LE(face.deviation_mm, wanted) << name << ' ' << face.face;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace flank::internal

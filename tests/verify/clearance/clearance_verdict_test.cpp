@@ -1,0 +1,245 @@
+#include "flank/clearance.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "flank/base/parallel.h"
+#include "flank/error.h"
+#include "flank/verify/clearance/flank_profile.h"
+#include "flank/verify/clearance/motion_gap.h"
+#include "flank/verify/swept/pose_tree.h"
+#include "verify/clearance/clearance_fixture.h"
+
+namespace flank::internal::verify {
+namespace {
+
+Tool cylinder(double radius, double length) {
+  Tool tool;
+  tool.radial = RadialFunction(ToolFamily::kCylinder, length, Eigen::VectorXd::Constant(1, radius));
+  return tool;
+}
+
+Tool with_holder() {
+  Tool tool = cylinder(4.0, 20.0);
+  tool.shank = {{20.0, 4.0}, {50.0, 4.0}};
+  tool.holder = {{50.0, 10.0}, {90.0, 14.0}};
+  return tool;
+}
+
+const ClearanceFigure& figure_of(const ClearanceReport& report, ToolBody body, ObstacleRole role) {
+  for (const ClearanceFigure& f : report.figures)
+    if (f.body == body && f.role == role) return f;
+  throw std::runtime_error("no such figure");
+}
+
+TEST(ClearanceVerdict, StillToolOverPlane) {
+  const Path path = path_of({{Vec3(0, 0, 10), Vec3::UnitZ()}, {Vec3(5, 0, 10), Vec3::UnitZ()}});
+  const std::vector<Obstacle> obstacles = {{"F2", ObstacleRole::kPart, square(200, 55.0), 0.0},
+                                           {"vice", ObstacleRole::kFixture, square(200, 3.0), 0.02}};
+  const ClearanceReport report = judge_clearance(with_holder(), path, obstacles, {});
+  ASSERT_EQ(report.figures.size(), 5u);
+  // The plane at z = 55 is 25 above the shank's lower end and 5 below the holder.
+  EXPECT_NEAR(figure_of(report, ToolBody::kHolder, ObstacleRole::kPart).clearance_mm, 5.0, 1e-9);
+  EXPECT_NEAR(figure_of(report, ToolBody::kShank, ObstacleRole::kPart).clearance_mm, -4.0, 0.09);
+  // The flank's round end reaches 4 below the tip.
+  const ClearanceFigure& flank = figure_of(report, ToolBody::kFlank, ObstacleRole::kFixture);
+  EXPECT_NEAR(flank.clearance_mm, 3.0, 1e-9);
+  EXPECT_NEAR(flank.bound_mm, 1e-3 + 0.02 + kFlankProfileErrorMm, 1e-12);
+  EXPECT_EQ(flank.obstacle, "vice");
+  EXPECT_FALSE(report.kept());
+  EXPECT_EQ(report.worst()->body, ToolBody::kShank);
+}
+
+TEST(ClearanceVerdict, RequirementsAndWhoMayTouch) {
+  // The shank touches the target at 0 and the holder keeps 5 from it.
+  const Path path = path_of({{Vec3::Zero(), Vec3::UnitZ()}, {Vec3(0, 5, 0), Vec3::UnitZ()}});
+  TriangleMesh wall{{{4, -50, 0}, {4, 50, 0}, {4, 50, 45}, {4, -50, 45}}, {{0, 1, 2}, {0, 2, 3}}};
+  ClearanceOptions options;
+  options.required_mm = 3.0;
+  ClearanceReport report = judge_clearance(with_holder(), path, {{"F1", ObstacleRole::kTarget, wall, 0.0}}, options);
+  EXPECT_TRUE(report.kept());
+  EXPECT_NEAR(figure_of(report, ToolBody::kShank, ObstacleRole::kTarget).clearance_mm, 0.0, 1e-9);
+  EXPECT_NEAR(figure_of(report, ToolBody::kHolder, ObstacleRole::kTarget).clearance_mm, 5.0, 1e-9);
+  options.required_mm = 5.5;
+  EXPECT_FALSE(judge_clearance(with_holder(), path, {{"F1", ObstacleRole::kTarget, wall, 0.0}}, options).kept());
+  // As another face of the part the shank must keep the clearance as well.
+  options.required_mm = 3.0;
+  EXPECT_FALSE(judge_clearance(with_holder(), path, {{"F1", ObstacleRole::kPart, wall, 0.0}}, options).kept());
+  options.required_mm = -1.0;
+  EXPECT_TRUE(judge_clearance(with_holder(), path, {{"F1", ObstacleRole::kPart, wall, 0.0}}, options).kept());
+}
+
+/// A post that stands between two poses: both ends are free.
+TEST(ClearanceVerdict, CollisionBetweenTwoFreePoses) {
+  const TriangleMesh post{{{0, -1, 60}, {0, 1, 60}, {0, 0, 62}}, {{0, 1, 2}}};
+  const std::vector<Obstacle> obstacles = {{"post", ObstacleRole::kFixture, post, 0.0}};
+  const Tool tool = with_holder();
+  const Pose left{Vec3(-300, 0, 0), Vec3::UnitZ()}, right{Vec3(411, 0, 0), Vec3(0.1, 0.2, 1).normalized()};
+  for (const Pose& end : {left, right}) {
+    EXPECT_TRUE(judge_clearance(tool, path_of({end}), obstacles, {}).kept());
+  }
+  const ClearanceReport report = judge_clearance(tool, path_of({left, right}), obstacles, {});
+  EXPECT_FALSE(report.kept());
+  const ClearanceFigure& holder = figure_of(report, ToolBody::kHolder, ObstacleRole::kFixture);
+  EXPECT_LT(holder.clearance_mm, -5.0);
+  EXPECT_GT(holder.t, 0.2);
+  EXPECT_LT(holder.t, 0.8);
+}
+
+/// Random motions against random triangles: the truth is sought by dense sampling in time.
+TEST(MotionGap, BoundHoldsAlongRandomMotions) {
+  Random random(3);
+  for (int k = 0; k < 40; ++k) {
+    TriangleMesh mesh;
+    for (int i = 0; i < 12; ++i) {
+      const Vec3 middle = random_point(random, 40.0);
+      for (int c = 0; c < 3; ++c) mesh.vertices.emplace_back(middle + random_point(random, 8.0));
+      mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    const Vec3 axis = random_unit(random), tip = 60.0 * random_unit(random);
+    std::vector<Pose> poses;
+    for (int i = 0; i < 4; ++i)
+      poses.push_back({tip + random_point(random, 15.0), (axis + 0.4 * random_unit(random)).normalized()});
+    const std::vector<Revolved> body = convex_bodies({{2, 3}, {12, 3}, {12, 6}, {20, 7}, {24, 5}});
+    const std::vector<Segment> segments = PoseTree(path_of(poses), 24.0, 1e300).segments;
+    const ObstacleTree tree(mesh);
+    const GapPlace found = MotionGap(body, tree, segments).least(1e-3, 1e300);
+    double truth = 1e300;
+    for (const Segment& segment : segments) {
+      for (int i = 0; i <= 400; ++i) {
+        const GapPlace still = MotionGap(body, tree,
+                                         std::vector<Segment>{{segment.at(i / 400.0).tip, Vec3::Zero(),
+                                                               segment.at(i / 400.0).axis, Vec3::Zero(), 0, 0}})
+                                   .least(1e-3, 1e300);
+        truth = std::min(truth, still.value);
+      }
+    }
+    EXPECT_GE(truth, found.value - gap_bound(found.value, 1e-3)) << k;
+    EXPECT_LE(found.value, truth + 0.4 * 0.2) << k;  // the samples lie up to a fifth of a millimetre apart
+    const Pose at = segments[static_cast<std::size_t>(found.segment)].at(found.tau);
+    const double z = at.axis.dot(found.point - at.tip);
+    double there = 1e300;
+    for (const Revolved& part : body)
+      there = std::min(there, profile_distance(part.corners(), z, (found.point - at.tip - z * at.axis).norm()));
+    EXPECT_NEAR(there, found.value, 1e-6) << k;
+  }
+}
+
+TEST(ClearanceVerdict, OrientationAndOverlapChangeNothing) {
+  Random random(11);
+  TriangleMesh mesh;
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 middle = Vec3(12, 0, 60) + random_point(random, 6.0) + Vec3(8, 0, 0);
+    for (int c = 0; c < 3; ++c) mesh.vertices.emplace_back(middle + random_point(random, 1.0));
+    mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  TriangleMesh turned = mesh;
+  for (std::size_t i = 0; i < turned.triangles.size(); i += 3)
+    std::swap(turned.triangles[i][1], turned.triangles[i][2]);
+  turned.triangles.insert(turned.triangles.end(), mesh.triangles.begin(), mesh.triangles.begin() + 50);
+  const Path path = path_of({{Vec3(-3, -9, 0), Vec3::UnitZ()}, {Vec3(-3, 9, 0), Vec3(0.02, 0, 1).normalized()}});
+  const auto least = [&](const TriangleMesh& m) {
+    return figure_of(judge_clearance(with_holder(), path, {{"m", ObstacleRole::kPart, m, 0.0}}, {}), ToolBody::kHolder,
+                     ObstacleRole::kPart)
+        .clearance_mm;
+  };
+  EXPECT_NEAR(least(mesh), least(turned), 1e-3);
+}
+
+TEST(ClearanceVerdict, SameBitsForAnyNumberOfThreads) {
+  Random random(5);
+  std::vector<Pose> poses;
+  for (int i = 0; i < 300; ++i)
+    poses.push_back({Vec3(0.2 * i, std::sin(0.05 * i), 0.0), Vec3(0.002 * i, 0.1, 1).normalized()});
+  TriangleMesh mesh;
+  for (int i = 0; i < 500; ++i) {
+    const Vec3 middle = Vec3(30, 25, 50) + random_point(random, 20.0);
+    for (int c = 0; c < 3; ++c) mesh.vertices.emplace_back(middle + random_point(random, 1.0));
+    mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  std::vector<ClearanceFigure> first;
+  for (int threads : {1, 2}) {
+    set_thread_count(threads);
+    const ClearanceReport report =
+        judge_clearance(with_holder(), path_of(poses), {{"m", ObstacleRole::kFixture, mesh, 0.0}}, {});
+    if (first.empty()) first = report.figures;
+    ASSERT_EQ(first.size(), report.figures.size());
+    for (std::size_t k = 0; k < first.size(); ++k) {
+      EXPECT_EQ(first[k].clearance_mm, report.figures[k].clearance_mm);
+      EXPECT_EQ(first[k].t, report.figures[k].t);
+      EXPECT_EQ(first[k].point, report.figures[k].point);
+    }
+  }
+  set_thread_count(0);
+}
+
+TEST(FlankProfile, HugsTheOutline) {
+  for (const RadialFunction& radial : {RadialFunction(ToolFamily::kBarrel, 40.0, Eigen::Vector3d(85.0, 5.0, 18.0)),
+                                       RadialFunction(ToolFamily::kBarrel, 40.0, Eigen::Vector3d(-60.0, 5.0, 18.0)),
+                                       RadialFunction(ToolFamily::kCone, 30.0, Eigen::Vector2d(2.0, 0.1))}) {
+    const std::vector<Vec2> profile = flank_profile(radial);
+    for (std::size_t i = 0; i + 1 < profile.size(); ++i) {
+      EXPECT_LE(profile[i].x(), profile[i + 1].x() + 1e-12);
+      // The middle of a chord against the union of the spheres, which it must not leave nor enter far.
+      const Vec2 middle = 0.5 * (profile[i] + profile[i + 1]);
+      double f = 1e300;
+      for (int j = 0; j <= 20000; ++j) {
+        const double s = radial.axis_length() * j / 20000;
+        f = std::min(f, std::hypot(middle.x() - s, middle.y()) - radial.at(s).r);
+      }
+      EXPECT_LE(f, 1.2 * kFlankProfileErrorMm);
+      EXPECT_GE(f, -1.2 * kFlankProfileErrorMm);
+    }
+    // The bodies against the spheres, from all sides.
+    const std::vector<Revolved> bodies = flank_bodies(radial);
+    Random random(2);
+    for (int k = 0; k < 300; ++k) {
+      const double z = random.uniform(-20.0, 60.0), rho = random.uniform(0.0, 20.0);
+      double truth = 1e300, ours = 1e300;
+      for (int j = 0; j <= 4000; ++j) {
+        const double s = radial.axis_length() * j / 4000;
+        truth = std::min(truth, std::hypot(z - s, rho) - radial.at(s).r);
+      }
+      for (const Revolved& body : bodies) ours = std::min(ours, body.value(z, rho));
+      if (truth > 0.0) {
+        EXPECT_NEAR(ours, truth, 2.0 * kFlankProfileErrorMm) << z << ' ' << rho;
+      } else {
+        EXPECT_LE(ours, 2.0 * kFlankProfileErrorMm) << z << ' ' << rho;
+      }
+    }
+  }
+}
+
+TEST(ClearanceVerdict, SaysHowNearEveryPoseIs) {
+  Tool tool;
+  tool.radial = RadialFunction(ToolFamily::kCylinder, 20.0, Eigen::VectorXd::Constant(1, 4.0));
+  tool.shank = {{20.0, 6.0}, {50.0, 6.0}};
+  // Standing upright over the plane z = -10, then lying with the shank 7 mm above it; the target at z = -30 is nearer to
+  // nothing, and a plane that only the part has is none of the flank's.
+  Path path;
+  path.strips.resize(2);
+  for (int k = 0; k < 5; ++k) path.strips[0].poses.push_back({Vec3(0.0, 0.0, 0.5 * k * k), Vec3::UnitZ()});
+  path.strips[1].poses = {{Vec3(0.0, 0.0, 3.0), Vec3::UnitX()}, {Vec3(1.0, 0.0, 3.5), Vec3::UnitX()}};
+  const std::vector<Obstacle> obstacles{{"vice", ObstacleRole::kFixture, square(200.0, -10.0), 0.0},
+                                        {"F1", ObstacleRole::kTarget, square(200.0, -9.0), 0.0}};
+  const ClearanceReport report = judge_clearance(tool, path, obstacles, {});
+  ASSERT_EQ(report.pose_clearance_mm.size(), 2u);
+  ASSERT_EQ(report.pose_clearance_mm[0].size(), 5u);
+  for (int k = 0; k < 5; ++k)
+    EXPECT_NEAR(report.pose_clearance_mm[0][static_cast<std::size_t>(k)], 6.0 + 0.5 * k * k, kPoseClearanceMm) << k;
+  ASSERT_EQ(report.pose_clearance_mm[1].size(), 2u);
+  EXPECT_NEAR(report.pose_clearance_mm[1][0], 7.0, kPoseClearanceMm);
+  EXPECT_NEAR(report.pose_clearance_mm[1][1], 7.5, kPoseClearanceMm);
+  const ClearanceReport touching = judge_clearance(tool, path, {obstacles[1]}, {});
+  EXPECT_TRUE(std::isinf(touching.pose_clearance_mm[0][0])) << "shank and target alone are not asked";
+}
+
+TEST(ClearanceVerdict, RefusesBadOptions) {
+  ClearanceOptions options;
+  options.accuracy_mm = 0.0;
+  EXPECT_THROW((void)judge_clearance(with_holder(), path_of({{Vec3::Zero(), Vec3::UnitZ()}}), {}, options), UsageError);
+}
+
+}  // namespace
+}  // namespace flank::internal::verify

@@ -1,0 +1,50 @@
+#include "flank/verify/swept/tool_distance.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "flank/base/random.h"
+
+namespace flank::internal::verify {
+namespace {
+
+/// Every node of the table that is no higher than its neighbours and below the limit, by looking at all of them.
+std::vector<double> minima_of_all_nodes(const RadialTable& radial, double z, double rho, double below) {
+  const auto at = [&](int i) { return std::hypot(z - radial.node(i), rho) - radial.node_radius(i); };
+  std::vector<double> found;
+  for (int i = 0; i <= radial.count(); ++i) {
+    const bool left = i == 0 || at(i) <= at(i - 1), right = i == radial.count() || at(i) < at(i + 1);
+    if (left && right && at(i) < below + radial.step()) found.push_back(radial.node(i));
+  }
+  return found;
+}
+
+TEST(ToolDistance, MinimaAreThoseOfAllNodes) {
+  const RadialFunction shapes[] = {
+      RadialFunction::spline(60.0, (Eigen::VectorXd(7) << 3.0, 1.0, 4.0, 0.8, 3.5, 1.2, 4.0).finished()),
+      RadialFunction(ToolFamily::kHyperbolic, 40.0, Eigen::Vector3d(2.0, 0.0, 0.02))};
+  for (const RadialFunction& shape : shapes) {
+    const ToolDistance tool(shape);
+    Random random(7);
+    int several = 0, none = 0;
+    for (int k = 0; k < 20000; ++k) {
+      const double z = random.uniform(-30.0, 90.0), rho = random.uniform(0.0, 40.0);
+      const double below = random.uniform(-5.0, 50.0);
+      const std::vector<double> wanted = minima_of_all_nodes(tool.radial(), z, rho, below);
+      std::array<double, ToolDistance::kMostMinima> s;
+      const int count = tool.minima(z, rho, below, s);
+      ASSERT_EQ(std::vector<double>(s.begin(), s.begin() + count), wanted) << z << ' ' << rho << ' ' << below;
+      several += count > 1;
+      none += count == 0;
+    }
+    EXPECT_GT(several, 100);
+    EXPECT_GT(none, 100);
+    std::array<double, ToolDistance::kMostMinima> s;
+    EXPECT_EQ(tool.minima(1.0, 2.0, 1e300, s),
+              static_cast<int>(minima_of_all_nodes(tool.radial(), 1.0, 2.0, 1e300).size()));
+  }
+}
+
+}  // namespace
+}  // namespace flank::internal::verify
