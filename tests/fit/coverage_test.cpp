@@ -1,5 +1,5 @@
-// The planner's own measures: the score that ranks, the swept estimate over samples, gouges, and the validation with cold
-// footpoints; all on scenes whose figures are known.
+// The planner's own measures: the score that ranks, the swept estimate over samples, gouges, and the validation with
+// cold footpoints; all on scenes whose figures are known.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// The fit under hard limits: a cylinder before a twisted blade, which it cannot touch everywhere, and single points that
-// it must not come near.
+// The fit under hard limits: a cylinder before a twisted blade, which it cannot touch everywhere, and single points
+// that it must not come near.
 #include "flank/fit/model/constrained.h"
 
 #include <gtest/gtest.h>

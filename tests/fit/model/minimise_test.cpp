@@ -1,5 +1,5 @@
-// The minimiser over the model of the fit, and the model's own figures: sample weights, moves, summaries. The target is a
-// plane, so that distances are known.
+// The minimiser over the model of the fit, and the model's own figures: sample weights, moves, summaries. The target is
+// a plane, so that distances are known.
 #include "flank/fit/model/minimise.h"
 
 #include <gtest/gtest.h>
@@ -66,13 +66,14 @@ TEST_F(Minimise, WeightsFallRobustlyWithTheResidualAndRiseForOvercut) {
   stage.robust_scale_mm = 0.1;
   stage.overcut_weight = 4.0;
   const double share = 1.0 / (21.0 * 11.0);
-  for (const double e : {-0.2, 0.0, 0.1, 0.3}) {
+  for (const double e : {-0.2, 0.1, 0.3}) {
     const FitState start = state_of({upright_motion({.y = 5.0 + e})}, cylinder(5.0));
     const FitModel model = model_of(start, stage);
     FitState state = start;
     model.locate(state);
     const double expected = share * (e < 0.0 ? 4.0 : 1.0) / std::pow(1.0 + e * e / 0.01, 2);
-    for (const double w : model.sample_weights(state)[0]) EXPECT_NEAR(w, expected, 1e-8 * share) << e;
+    const auto weights = model.sample_weights(state);
+    for (const double w : weights[0]) EXPECT_NEAR(w, expected, 1e-8 * share) << e;
   }
 }
 
