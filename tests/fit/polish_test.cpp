@@ -260,6 +260,23 @@ TEST(Polish, AnExactFitIsShiftedToATenthOfTheToleranceAndNoFurther) {
   EXPECT_EQ(last_passes(given, samples, options, nullptr).draft.tool.parameters()[0], 5.0);
 }
 
+TEST(Polish, AnExactFitThatCutsDeepIsNotShiftedOffTheFace) {
+  if (kSanitized) GTEST_SKIP() << "every pass of the swept polish";
+  const auto blade = standing_blade(0.0);
+  const FlankFitOptions options = small_options();
+  const auto samples = ranking_samples(*blade, nullptr, options);
+  // Too thick at the tip alone; elsewhere it lies on the blade.
+  FitDraft draft = draft_of(*blade, upright_motion(whole_blade(5.0)), even_spline(5.0), true);
+  draft.tool = draft.tool.with_parameters((Eigen::VectorXd(6) << 5.2, 5.0, 5.0, 5.0, 5.0, 5.0).finished());
+  Polished deep = assess(draft, samples, options);
+  deep.exact = true;
+  ASSERT_GT(deep.estimate.overcut_mm, 2.0 * kTolerance);
+  const Polished after = last_passes(deep, samples, options, nullptr);
+  EXPECT_GT(after.estimate.score(kTolerance), deep.estimate.score(kTolerance));
+  EXPECT_GT(after.estimate.at_tolerance, 0.99);
+  EXPECT_LE(after.estimate.overcut_mm, kTolerance);
+}
+
 TEST(Polish, SettlingTakesAFreeToolBackBelowTheTolerance) {
   const auto blade = standing_blade(0.0);
   const FlankFitOptions options = small_options();

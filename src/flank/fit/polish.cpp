@@ -159,8 +159,11 @@ Polished last_passes(const Polished& polished, const std::vector<SurfaceSample>&
   // passes below see it.
   const bool short_of_face = polished.estimate.at_tolerance < kExactCovers && !polished.draft.checks.empty() &&
                              polished.draft.checks.front() != nullptr;
-  if (polished.exact && !short_of_face) {
-    const double by = polished.estimate.overcut_mm - kExactOvercut * options.tolerance_mm;
+  const double by = polished.estimate.overcut_mm - kExactOvercut * options.tolerance_mm;
+  // Residuals at the axis can be exact while the tool cuts deep elsewhere: a shift by more than the tolerance would
+  // leave nothing covered.
+  const bool deep = polished.draft.free_tool && by > options.tolerance_mm;
+  if (polished.exact && !short_of_face && !deep) {
     if (!polished.draft.free_tool || by <= 0.0) return polished;
     Polished lower = shifted_by(polished.draft, by, samples, options);
     lower.exact = true;
