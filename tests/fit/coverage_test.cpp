@@ -190,6 +190,18 @@ TEST(FlankGouge, FindsTheOneBallOfABarrelThatEnters) {
   EXPECT_NEAR(flank_gouge({lying}, {&checks}, barrel, 12), 0.2, 2e-3);
 }
 
+TEST(FlankGouge, DoesNotStepOverANarrowBump) {
+  const auto blade = standing_blade(0.0);
+  const FlankChecks checks(only(hub(true)), *blade, 2.0, 0.0);
+  RuledMotion lying = upright_motion({.y = 12.0, .z = 6.9, .x_first = 5.0, .x_last = 15.0, .length = 60.0});
+  lying.direction.poles.colwise() = Vec3::UnitX();
+  Eigen::VectorXd radii = Eigen::VectorXd::Constant(12, 3.0);
+  radii[5] = 9.0;  // r = 3, but 3 + 2/3 6 at the bump's top, a knot of the spline
+  const double found = flank_gouge({lying}, {&checks}, RadialFunction::spline(60.0, radii), 4);
+  EXPECT_LE(found, 0.1 + 1e-9);
+  EXPECT_GT(found, 0.1 - 0.5 * 0.27 * 0.25) << "half a step of one millimetre off the top, r'' = 0.27";
+}
+
 TEST(FlankGouge, LooksOnlyAtMotionsThatHaveChecks) {
   const auto blade = standing_blade(0.0);
   const FlankChecks checks(only(hub(true)), *blade, 2.0, 0.0);

@@ -116,7 +116,7 @@ TEST_F(FitClearance, DistancesKeptFromAPlaceNearByCostTheSame) {
   const FitModel model = model_of(state, stage(), &checks);
   model.locate_checks(state);
   // Down to the hub and up again in steps that are short and long against what is remembered.
-  for (const double by : {-0.3, -0.3, -2.9, -0.4, -2.0, 0.2, -3.0, 1.5, 6.0}) {
+  for (const double by : {-0.3, -0.3, -2.35, -1.5, -0.4, -2.0, 0.2, -3.0, 1.5, 6.0}) {
     state.motions.front().tip.poles.row(2).array() += by;
     FitState fresh = state;
     fresh.checks.clear();

@@ -192,6 +192,15 @@ TEST(InteriorPoint, RandomProblemsEndAtTheOptimumOfBruteForce) {
   EXPECT_GT(bound, 20) << "too few problems have an active constraint";
 }
 
+TEST(InteriorPoint, FromAStartInsideItNeverLeaves) {
+  const Quadratic quadratic = nearest_to({30.0, 40.0, -50.0});
+  GapProblem problem{&quadratic.system, {}, {}};
+  for (const double side : {1.0, -1.0})
+    for (int k = 0; k < 3; ++k) add_half_space(problem, side * Eigen::Vector3d::Unit(k), 1.0 + 0.2 * k);
+  for (int iterations = 1; iterations <= 25; ++iterations)
+    EXPECT_GT(least_gap(problem, solve_gaps(problem, iterations)), 0.0) << iterations;
+}
+
 TEST(InteriorPoint, MoreIterationsComeNearer) {
   const Eigen::Vector3d wish(3.0, 4.0, 5.0);
   const Quadratic quadratic = nearest_to(wish);
