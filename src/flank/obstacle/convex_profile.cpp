@@ -45,7 +45,9 @@ ProfileJet ConvexProfile::at(double z, double rho) const {
     return sides_[i].normal_rho * z - sides_[i].normal_z * rho - sides_[i].start;
   };
   double t = share(k);
-  if (farthest <= 0.0 || (t >= 0.0 && t <= sides_[k].length))
+  // A disc without thickness has no inside: a point of its plane is as far from it as from its rim.
+  const bool is_disc = sides_.size() == 2 && sides_[0].normal_rho == 0.0 && sides_[1].normal_rho == 0.0;
+  if ((farthest <= 0.0 && !is_disc) || (t >= 0.0 && t <= sides_[k].length))
     return {farthest - rounding_, sides_[k].normal_z, sides_[k].normal_rho, 0.0};
   // Outside: from the side that faces the point most to the one that holds its foot.
   while (t < 0.0 && k > 0 && share(k - 1) <= sides_[k - 1].length) t = share(--k);
