@@ -179,7 +179,9 @@ StripSet improved(const TileScene& scene, const std::vector<CoverStrip>& pool, S
       ++i;
     }
     double most = scene.options.strip_price + kWorth;
-    const int more = static_cast<int>(set.size()) < scene.options.most_strips ? best_addition(most) : -1;
+    const bool may_add =
+        static_cast<int>(set.size()) < scene.options.most_strips && covered.covered() < scene.options.enough_coverage;
+    const int more = may_add ? best_addition(most) : -1;
     if (more >= 0) {
       set.push_back(more);
       covered.add(at(more));
@@ -261,7 +263,8 @@ std::vector<CoverStrip> additions(const TileScene& scene, const std::vector<Cove
     for (const CoverStrip& strip : found) candidates.push_back(&strip);
   for (const CoverStrip& strip : pool) candidates.push_back(&strip);
   std::vector<CoverStrip> added;
-  while (strips.size() + added.size() < static_cast<std::size_t>(scene.options.most_strips)) {
+  while (strips.size() + added.size() < static_cast<std::size_t>(scene.options.most_strips) &&
+         covered.covered() < scene.options.enough_coverage) {
     const CoverStrip* best = nullptr;
     double most = scene.options.strip_price;
     for (const CoverStrip* strip : candidates) {
