@@ -77,5 +77,69 @@ TEST(Grow, GuideSaysHowFarToSlide) {
   EXPECT_EQ(guide_slide({&neighbour, true, 0.5}, beside, 8.0), 0.0);
 }
 
+/// A cylinder over the plane 0 <= x <= 60, 0 <= y <= 40, its axis along y.
+class GrowOnAPlane : public ::testing::Test {
+ protected:
+  GrownStrip run(const LineGuard& guard, const Pose& pose, const GrowOptions& options = {}) {
+    LineFitter fitter(*target_, tool_.radial, {.tolerance_mm = 1e-3});
+    const LineFit line = fitter.refine(pose);
+    EXPECT_LE(line.largest_mm, 1e-3);
+    return grow(fitter, guard, line, {}, options);
+  }
+  std::unique_ptr<Target> target_ = testing::flat_target(0.0, 60.0, 0.0, 40.0);
+  Tool tool_ = testing::cylinder(5.0, 15.0);
+  Pose line_{Vec3(25.0, 12.0, 5.0), Vec3::UnitY()};
+};
+
+TEST_F(GrowOnAPlane, StepsAreWithinTheirBoundsAndGoOneWay) {
+  const GrownStrip strip = run({}, line_);
+  EXPECT_EQ(strip.first, GrowEnd::kBorder);
+  EXPECT_EQ(strip.last, GrowEnd::kBorder);
+  const double size = target_->diagonal();
+  const double way = (strip.poses.back().tip - strip.poses.front().tip).x() > 0.0 ? 1.0 : -1.0;
+  for (std::size_t k = 0; k + 1 < strip.poses.size(); ++k) {
+    const Vec3 step = strip.poses[k + 1].tip - strip.poses[k].tip;
+    EXPECT_GT(way * step.x(), 0.0);
+    EXPECT_LE(step.norm(), 0.5 * 0.06 * size * 1.01 + 1e-9) << "with the middle of each step";
+    EXPECT_NEAR(strip.poses[k].tip.z(), 5.0, 1e-3);
+  }
+  const double low = std::min(strip.poses.front().tip.x(), strip.poses.back().tip.x());
+  const double high = std::max(strip.poses.front().tip.x(), strip.poses.back().tip.x());
+  EXPECT_LT(low, 0.0);
+  EXPECT_GT(low, -0.031 * size) << "a first step and the overrun";
+  EXPECT_GT(high, 60.0);
+  EXPECT_LT(high, 60.0 + 0.031 * size);
+}
+
+TEST_F(GrowOnAPlane, StopsBeforeAWall) {
+  const CoverObstacles wall = testing::triangle_obstacle(Vec3(45, -60, -1), Vec3(45, 100, -1), Vec3(45, 20, 90));
+  const LineGuard guard(tool_, wall, -1e-4);
+  const GrownStrip strip = run(guard, line_);
+  const bool forward = strip.poses.back().tip.x() > strip.poses.front().tip.x();
+  EXPECT_EQ(forward ? strip.last : strip.first, GrowEnd::kCheck);
+  EXPECT_EQ(forward ? strip.first : strip.last, GrowEnd::kBorder);
+  for (const Pose& pose : strip.poses) EXPECT_TRUE(guard.clear(pose));
+  const double last = std::max(strip.poses.front().tip.x(), strip.poses.back().tip.x());
+  EXPECT_LE(last, 40.0 + 1e-3);
+  EXPECT_GT(last, 40.0 - 0.01 * target_->diagonal()) << "the shortest step is 0.004 of the diagonal";
+}
+
+TEST_F(GrowOnAPlane, EndsWhereItHasTravelledEnough) {
+  const GrownStrip strip = run({}, line_, {.longest_travel_share = 0.2});
+  EXPECT_EQ(strip.first, GrowEnd::kTravel);
+  EXPECT_EQ(strip.last, GrowEnd::kTravel);
+  const double way = (strip.poses.back().tip - strip.poses.front().tip).norm(), size = target_->diagonal();
+  EXPECT_GE(way, 2.0 * 0.2 * size - 1e-6);
+  EXPECT_LE(way, 2.0 * 0.26 * size + 1e-6);
+}
+
+TEST_F(GrowOnAPlane, TheLineItselfIsPartOfTheStrip) {
+  const GrownStrip strip = run({}, line_);
+  const auto same = [&](const Pose& pose) {
+    return (pose.tip - line_.tip).norm() + (pose.axis - line_.axis).norm() < 1e-6;
+  };
+  EXPECT_EQ(std::count_if(strip.poses.begin(), strip.poses.end(), same), 1);
+}
+
 }  // namespace
 }  // namespace flank::internal
