@@ -22,7 +22,7 @@ Face hollow_cylinder() {
   return sheet(at, 49, 5);
 }
 
-/// The inner half of a torus' outside: the tube has radius 6 and goes round the z axis at 20 mm. Along the inner equator
+/// The inner half of the outside of a torus: a tube of radius 6 round the z axis, at 20 mm. Along the inner equator
 /// it is hollow across the tube's plane, with 1 / 14 mm; half a radian up and down that is less.
 Face torus_waist() {
   return sheet([](double u, double v) {

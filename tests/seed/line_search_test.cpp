@@ -1,4 +1,4 @@
-// The local search for a movable line: against sampling, within its radius, and left alone where there is nothing to gain.
+// The local search for a movable line: against sampling, within its radius, and idle if there is nothing to gain.
 #include "flank/seed/line_search.h"
 
 #include <gtest/gtest.h>

@@ -125,7 +125,7 @@ TEST(RuledStart, RollsRoundACylinder) {
 }
 
 TEST(RuledStart, TheFittedLineSharesItsErrorEvenly) {
-  // Across a cylinder of radius 30 the offset contact line is an arc of radius 34 and half a radian to each side: the line
+  // Across a cylinder of radius 30 the offset contact line is an arc of radius 34, half a radian to each side: the line
   // fitted to it is parallel to its chord and lies between chord and crown.
   constexpr double kRadius = 30.0, kTool = 4.0;
   const Face face =

@@ -1,4 +1,4 @@
-// Places that follow the shape: one a plane where there are planes, samples of the target, and no lattice shows through.
+// Places that follow the shape: one on each plane, samples of the target, and the same wherever the target lies.
 #include "flank/seed/direction/shape_places.h"
 
 #include <gtest/gtest.h>
