@@ -2,7 +2,7 @@
 # On a bare Debian 12 `make demo` and `make test` need only make, git and root (or sudo).
 .DEFAULT_GOAL := build
 .NOTPARALLEL:
-.PHONY: build deps demo test test-clients sanitize bench install format format-check tidy clean help
+.PHONY: build command deps demo test test-clients sanitize asan tsan bench install format format-check tidy clean help
 
 JOBS ?= $(shell nproc)
 PREFIX ?= /usr/local
@@ -15,10 +15,14 @@ build:  ## build the release variant (command: build/release/apps/flank/flank)
 	cmake --preset release
 	cmake --build --preset release --parallel $(JOBS)
 
+command: deps  ## build the command with the report page alone, without the tests
+	cmake --preset release
+	cmake --build --preset command --parallel $(JOBS)
+
 deps:  ## install the Debian packages that a build needs, if any is missing
 	scripts/install-deps.sh build
 
-demo: deps build  ## make a twisted blade, fit a tool and its motion to it, and judge them
+demo: command  ## make a twisted blade, fit a tool and its motion to it, and judge them
 	mkdir -p out/demo
 	$(FLANK) example twisted-blade -o out/demo/blade.step
 	$(FLANK) fit out/demo/blade.step --face F1 -o out/demo
@@ -31,9 +35,10 @@ test-clients: deps build  ## open what we write in headless Chromium and FreeCAD
 	scripts/install-deps.sh clients
 	ctest --preset release --label-regex '^clients$$'
 
-sanitize: deps  ## run the tests under the address, undefined-behaviour and thread sanitizers
-	scripts/sanitize.sh asan
-	scripts/sanitize.sh tsan
+sanitize: asan tsan  ## run the tests under the address, undefined-behaviour and thread sanitizers
+
+asan tsan: deps
+	scripts/sanitize.sh $@
 
 bench:  ## build and run the benchmarks
 	scripts/install-deps.sh build bench
@@ -45,9 +50,11 @@ install: deps build  ## install the command, the library and its headers under P
 	cmake --install build/release --prefix $(PREFIX)
 
 format:  ## format the sources in place
+	scripts/install-deps.sh dev
 	scripts/check-format.sh --fix
 
-format-check:
+format-check:  ## check that the sources are formatted
+	scripts/install-deps.sh dev
 	scripts/check-format.sh
 
 tidy:  ## lint the sources (clang-tidy)
