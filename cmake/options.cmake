@@ -14,7 +14,9 @@ endif()
 
 find_program(FLANK_CCACHE ccache)
 if(FLANK_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${FLANK_CCACHE})
+  # ccache keeps what was compiled with precompiled headers only if it may ignore when these were written.
+  set(CMAKE_CXX_COMPILER_LAUNCHER
+      env CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime ${FLANK_CCACHE})
 endif()
 
 # Every target of our own links this one; third-party headers come in as SYSTEM, so it does not judge them.
