@@ -1,5 +1,5 @@
-/// Typed errors. A bug is an assertion; a numerical "no" is a status in a result; these are for bad input at the
-/// boundary.
+/// Typed errors. A bug is an assertion (assert.h); a numerical "no" is a status in a result; these are for bad input at
+/// the boundary.
 #pragma once
 
 #include <stdexcept>

@@ -11,6 +11,8 @@
 #include <thread>
 #include <vector>
 
+#include "flank/base/assert.h"
+
 namespace flank::internal {
 namespace {
 
@@ -56,6 +58,7 @@ void run_blocks(std::size_t blocks, const Run& run) {
 }  // namespace
 
 void set_thread_count(int threads) {
+  FLANK_ASSERT(threads >= 0);
   const int hardware = std::max(1u, std::thread::hardware_concurrency());
   count_setting() = threads > 0 ? threads : hardware;
   control() = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
@@ -68,12 +71,15 @@ int thread_count() {
 }
 
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body) {
+  FLANK_ASSERT(body != nullptr);
   parallel_blocks(count, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) body(i);
   });
 }
 
 void parallel_blocks(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {
+  FLANK_ASSERT(body != nullptr);
+  FLANK_ASSERT(grain > 0);
   if (count == 0) return;
   const std::size_t step = std::max<std::size_t>(1, grain);
   const std::size_t blocks = (count + step - 1) / step;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "flank/base/assert.h"
 #include "flank/tool.h"
 
 namespace flank::internal {
@@ -99,6 +100,7 @@ double FamilyChart::value(FamilyCoordinate coordinate, double x) const {
 }
 
 std::optional<RadialFunction> FamilyChart::at(const std::vector<double>& x) const {
+  FLANK_ASSERT(x.size() == coordinates_.size());
   std::map<std::string, double> parameters = given_;
   double curvature = 0.0;
   for (std::size_t k = 0; k < coordinates_.size(); ++k) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "flank/base/assert.h"
 #include "flank/base/parallel.h"
 
 namespace flank {
@@ -18,6 +19,7 @@ double share(int i, int count) { return count > 1 ? static_cast<double>(i) / (co
 }  // namespace
 
 ContactPoint contact_point(const AxisJet& axis, const RadialJet& radial, double s, int side) {
+  FLANK_ASSERT(side == 1 || side == -1);
   const Vec3 v = axis.velocity(s);
   const double v_par = v.dot(axis.u);
   const Vec3 v_perp = v - v_par * axis.u;
@@ -48,6 +50,7 @@ int contact_side(const RuledMotion& motion, const RadialFunction& radial, const 
 
 std::vector<ContactPoint> characteristic(const RuledMotion& motion, const RadialFunction& radial, double t, int side,
                                          int count_s) {
+  FLANK_ASSERT(count_s >= 2);
   const AxisJet axis = motion.jet(t);
   std::vector<ContactPoint> contacts;
   contacts.reserve(static_cast<std::size_t>(count_s));
@@ -59,6 +62,7 @@ std::vector<ContactPoint> characteristic(const RuledMotion& motion, const Radial
 }
 
 Regularity regularity(const RuledMotion& motion, const RadialFunction& radial, int count_t, int count_s) {
+  FLANK_ASSERT(count_t >= 1 && count_s >= 1);
   Regularity worst;
   for (int i = 0; i < count_t; ++i) {
     const AxisJet axis = motion.jet(share(i, count_t));
@@ -76,6 +80,7 @@ Regularity regularity(const RuledMotion& motion, const RadialFunction& radial, i
 
 std::vector<ContactPoint> sample_envelope(const RuledMotion& motion, const RadialFunction& radial, int side,
                                           int count_t, int count_s) {
+  FLANK_ASSERT(count_t >= 1 && count_s >= 1);
   std::vector<ContactPoint> contacts(static_cast<std::size_t>(count_t) * static_cast<std::size_t>(count_s));
   std::vector<RadialJet> radii;
   radii.reserve(static_cast<std::size_t>(count_s));
@@ -91,6 +96,7 @@ std::vector<ContactPoint> sample_envelope(const RuledMotion& motion, const Radia
 
 EnvelopeDeviation envelope_deviation(const RuledMotion& motion, const RadialFunction& radial, int side, int count_t,
                                      int count_s, const SignedDistance& distance) {
+  FLANK_ASSERT(distance != nullptr);
   constexpr std::size_t kGrain = 64;
   const std::vector<ContactPoint> contacts = sample_envelope(motion, radial, side, count_t, count_s);
   std::vector<double> deviations(contacts.size(), std::numeric_limits<double>::quiet_NaN());

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/base/assert.h"
+
 namespace flank::internal {
 
 namespace {
@@ -17,6 +19,7 @@ double interpolate(const std::vector<double>& table, double x) {
 
 SweptEstimate::SweptEstimate(const std::vector<RuledMotion>& motions, const RadialFunction& radial, int poses)
     : axis_length_(radial.axis_length()), per_length_(kTable / radial.axis_length()) {
+  FLANK_ASSERT(!motions.empty() && poses >= 2);
   for (const RuledMotion& motion : motions) {
     std::vector<Pose>& table = poses_.emplace_back();
     for (int i = 0; i < poses; ++i) table.push_back(motion.pose(static_cast<double>(i) / (poses - 1)));
@@ -190,6 +193,7 @@ SweptContact contact_at(const RuledMotion& motion, const RadialFunction& radial,
 
 SweptContact refine_contact(const RuledMotion& motion, const RadialFunction& radial, const Vec3& x, double t,
                             double window) {
+  FLANK_ASSERT(window > 0.0 && x.allFinite());
   const Pose pose = motion.pose(t);
   const double first_s = std::clamp((x - pose.tip).dot(pose.axis), 0.0, radial.axis_length());
   SweptContact best = contact_at(motion, radial, x, std::clamp(t, 0.0, 1.0), first_s);

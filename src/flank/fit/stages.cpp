@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "flank/base/assert.h"
+
 namespace flank::internal {
 namespace {
 
@@ -45,6 +47,8 @@ const FlankChecks* checks_of(const FitDraft& draft, const Target* target) {
 }
 
 FitState start_state(const FitDraft& draft, const FitStage& stage, FitDraft& next) {
+  FLANK_ASSERT(draft.targets.size() == draft.motions.size() && !draft.motions.empty());
+  FLANK_ASSERT(draft.checks.empty() || draft.checks.size() == draft.motions.size());
   FitState start;
   for (const RuledMotion& motion : draft.motions)
     start.motions.push_back(with_control_points(motion, stage.control_points));
@@ -140,6 +144,7 @@ FitStage tolerance_stage(double tolerance_mm, double robust_scale_mm) {
 }
 
 RadialFunction clamp_tool(const RadialFunction& tool, const RadiusBounds& bounds) {
+  FLANK_ASSERT(bounds.smallest <= bounds.largest);
   if (tool.family() != ToolFamily::kSpline) return tool;
   return tool.with_parameters(tool.parameters().cwiseMax(bounds.smallest).cwiseMin(bounds.largest));
 }

@@ -2,10 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+
+#include "flank/base/assert.h"
 
 namespace flank {
 
 std::vector<double> uniform_knots(int degree, int count, double a, double b) {
+  FLANK_ASSERT(degree >= 1 && degree <= kMaxDegree);
+  FLANK_ASSERT(count > degree);
+  FLANK_ASSERT(a < b);
   std::vector<double> knots(static_cast<std::size_t>(count + degree + 1));
   const int spans = count - degree;
   for (int i = 0; i < count + degree + 1; ++i) {
@@ -16,6 +22,9 @@ std::vector<double> uniform_knots(int degree, int count, double a, double b) {
 }
 
 int find_span(int degree, std::span<const double> knots, double u) {
+  FLANK_ASSERT(degree >= 0 && degree <= kMaxDegree);
+  FLANK_ASSERT(knots.size() >= 2 * static_cast<std::size_t>(degree) + 2);
+  FLANK_ASSERT(!std::isnan(u));
   const int count = static_cast<int>(knots.size()) - degree - 1;
   const auto first = knots.begin() + degree;
   const auto last = knots.begin() + count + 1;
@@ -27,6 +36,9 @@ int find_span(int degree, std::span<const double> knots, double u) {
 }
 
 void basis_derivatives(int degree, std::span<const double> knots, int span, double u, int order, double* out) {
+  FLANK_ASSERT(degree >= 0 && degree <= kMaxDegree);
+  FLANK_ASSERT(span >= degree && static_cast<std::size_t>(span + degree) < knots.size());
+  FLANK_ASSERT(order >= 0 && !std::isnan(u));
   constexpr int n = kMaxDegree + 1;
   // Not initialised: what is read below has been written, and clearing 2 kB would cost more than the evaluation.
   std::array<std::array<double, n>, n> ndu;

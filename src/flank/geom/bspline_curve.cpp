@@ -2,9 +2,13 @@
 
 #include <Eigen/Cholesky>
 
+#include "flank/base/assert.h"
+
 namespace flank {
 
 BSplineCurve3 fit_curve(const Eigen::Matrix3Xd& points, const std::vector<double>& t, int degree, int count) {
+  FLANK_ASSERT(points.cols() == static_cast<Eigen::Index>(t.size()));
+  FLANK_ASSERT(points.allFinite());
   BSplineCurve3 curve;
   curve.degree = degree;
   curve.knots = uniform_knots(degree, count);

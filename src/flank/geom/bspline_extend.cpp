@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "flank/base/assert.h"
+
 namespace flank::internal {
 namespace {
 
@@ -138,6 +140,7 @@ BSplineSurface extend_u(const BSplineSurface& b, double low, double high, double
 }  // namespace
 
 BSplineSurface extend(const BSplineSurface& surface, const ParameterMargins& margins, double fit_share) {
+  FLANK_ASSERT(fit_share > 0.0 && fit_share <= 1.0);
   const BSplineSurface wide = extend_u(surface, margins.u_low, margins.u_high, fit_share);
   return transpose(extend_u(transpose(wide), margins.v_low, margins.v_high, fit_share));
 }

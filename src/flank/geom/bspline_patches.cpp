@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "flank/base/assert.h"
+
 namespace flank::internal {
 namespace {
 
@@ -90,6 +92,7 @@ Matrix to_bernstein(int degree, double a, double b) {
 }  // namespace
 
 BSplinePatches::Axis::Axis(int degree_, int count, const std::vector<double>& knots) : degree(degree_) {
+  FLANK_ASSERT(knots.size() == static_cast<std::size_t>(count + degree + 1));
   for (int k = degree; k <= count; ++k) {
     const double knot = knots[static_cast<std::size_t>(k)];
     if (breaks.empty() || knot > breaks.back()) breaks.push_back(knot);
@@ -154,6 +157,7 @@ BSplinePatches::BSplinePatches(const BSplineSurface& surface)
 }
 
 void BSplinePatches::evaluate(int i, int j, double u, double v, SurfaceJet& jet) const {
+  FLANK_ASSERT(i >= 0 && i < cells_u() && j >= 0 && j < cells_v());
   const auto ku = static_cast<std::size_t>(i), kv = static_cast<std::size_t>(j);
   const double gu = u_.inverse_half[ku], gv = v_.inverse_half[kv];
   double o[24];
@@ -176,6 +180,7 @@ void BSplinePatches::evaluate(int i, int j, double u, double v, SurfaceJet& jet)
 }
 
 std::vector<Vec3> BSplinePatches::hull(int i, int j, double u0, double u1, double v0, double v1) const {
+  FLANK_ASSERT(i >= 0 && i < cells_u() && j >= 0 && j < cells_v());
   const auto ku = static_cast<std::size_t>(i), kv = static_cast<std::size_t>(j);
   const int p = u_.degree, q = v_.degree;
   const Matrix bu = to_bernstein(p, (u0 - u_.mid[ku]) * u_.inverse_half[ku], (u1 - u_.mid[ku]) * u_.inverse_half[ku]);

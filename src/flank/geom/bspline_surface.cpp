@@ -3,6 +3,8 @@
 #include <Eigen/LU>
 #include <array>
 
+#include "flank/base/assert.h"
+
 namespace flank {
 namespace {
 
@@ -14,6 +16,7 @@ struct Basis {
 };
 
 Basis basis(int degree, const std::vector<double>& knots, double t, int order) {
+  FLANK_ASSERT(order <= 2);
   Basis b;
   b.span = find_span(degree, knots, t);
   basis_derivatives(degree, knots, b.span, t, order, b.n.data());
@@ -56,6 +59,7 @@ Eigen::MatrixXd collocation(const std::vector<double>& t, const std::vector<doub
 
 /// Solves for the poles of a surface whose knots and counts are set, and whose poles are the points at (u, v).
 void solve_poles(BSplineSurface& s, const std::vector<double>& u, const std::vector<double>& v) {
+  FLANK_ASSERT(s.poles.size() == u.size() * v.size());
   const Eigen::PartialPivLU<Eigen::MatrixXd> lu_u(collocation(u, s.knots_u, s.degree_u));
   const Eigen::PartialPivLU<Eigen::MatrixXd> lu_v(collocation(v, s.knots_v, s.degree_v));
   for (int c = 0; c < 3; ++c) {
@@ -72,6 +76,8 @@ void solve_poles(BSplineSurface& s, const std::vector<double>& u, const std::vec
 }  // namespace
 
 Vec3 BSplineSurface::value(double u, double v) const {
+  FLANK_ASSERT(poles.size() == static_cast<std::size_t>(count_u * count_v));
+  FLANK_ASSERT(weights.empty() || weights.size() == poles.size());
   const Basis bu = basis(degree_u, knots_u, u, 0), bv = basis(degree_v, knots_v, v, 0);
   Vec3 sum = Vec3::Zero();
   double weight = 0.0;
@@ -87,6 +93,8 @@ Vec3 BSplineSurface::value(double u, double v) const {
 }
 
 SurfaceJet BSplineSurface::jet(double u, double v) const {
+  FLANK_ASSERT(poles.size() == static_cast<std::size_t>(count_u * count_v));
+  FLANK_ASSERT(weights.empty() || weights.size() == poles.size());
   const Basis bu = basis(degree_u, knots_u, u, 2), bv = basis(degree_v, knots_v, v, 2);
   const int wu = degree_u + 1, wv = degree_v + 1;
   SurfaceJet s;
@@ -136,6 +144,7 @@ BSplineSurface interpolate_grid(const std::vector<Vec3>& points, const std::vect
 }
 
 std::vector<double> greville_sites(const std::vector<double>& knots, int degree) {
+  FLANK_ASSERT(degree >= 1 && knots.size() > static_cast<std::size_t>(degree) + 1);
   std::vector<double> sites;
   for (std::size_t i = 0; i + static_cast<std::size_t>(degree) + 1 < knots.size(); ++i) {
     double sum = 0.0;

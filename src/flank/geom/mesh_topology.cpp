@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "flank/base/assert.h"
+
 namespace flank::internal {
 namespace {
 
@@ -151,6 +153,7 @@ std::vector<int> components(const MeshTopology& topology) {
 }
 
 std::vector<std::vector<TriangleSide>> border_loops(const TriangleMesh& mesh, const MeshTopology& topology) {
+  FLANK_ASSERT(topology.neighbors.size() == mesh.triangles.size());
   // After link_triangles a border vertex has one fan, so exactly one border side starts there.
   std::vector<TriangleSide> starting(mesh.vertices.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -174,6 +177,8 @@ std::vector<std::vector<TriangleSide>> border_loops(const TriangleMesh& mesh, co
 }
 
 double corner_angle(const TriangleMesh& mesh, int triangle, int corner) {
+  FLANK_ASSERT(corner >= 0 && corner < 3);
+  FLANK_ASSERT(triangle >= 0 && static_cast<std::size_t>(triangle) < mesh.triangles.size());
   const auto& t = mesh.triangles[static_cast<std::size_t>(triangle)];
   const auto point = [&](int k) -> const Vec3& { return mesh.vertices[static_cast<std::size_t>(t[k % 3])]; };
   const Vec3 a = point(corner + 1) - point(corner), b = point(corner + 2) - point(corner);

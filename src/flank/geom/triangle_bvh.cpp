@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "flank/base/assert.h"
+
 namespace flank::internal {
 namespace {
 
@@ -243,6 +245,7 @@ struct TriangleBvh::Builder {
 };
 
 TriangleBvh::TriangleBvh(const TriangleMesh& mesh) {
+  FLANK_ASSERT(!mesh.triangles.empty());
   Box3 box;
   Builder builder{*this, mesh, {}};
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -357,6 +360,7 @@ void TriangleBvh::measure(const Vec3& p, Candidates& found) const {
 }
 
 BvhHit TriangleBvh::closest(const Vec3& p) const {
+  FLANK_ASSERT(!nodes_.empty() && p.allFinite());
   Candidates found(float_error(p), 0.0);
   search(p, found);
   measure(p, found);
@@ -364,6 +368,8 @@ BvhHit TriangleBvh::closest(const Vec3& p) const {
 }
 
 BvhHit TriangleBvh::closest(const Vec3& p, double slack, BvhTies& ties) const {
+  FLANK_ASSERT(!nodes_.empty() && p.allFinite());
+  FLANK_ASSERT(slack >= 0.0);
   Candidates found(float_error(p), slack);
   search(p, found);
   found.keep(found.bound);

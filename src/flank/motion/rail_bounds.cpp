@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "flank/base/assert.h"
+
 namespace flank::internal {
 namespace {
 
@@ -37,6 +39,7 @@ void for_each_bezier_point(const BSplineCurve3& curve, double t0, double t1, Vis
 }  // namespace
 
 BSplineCurve3 derivative(const BSplineCurve3& curve) {
+  FLANK_ASSERT(curve.degree >= 1 && curve.weights.empty());
   const int p = curve.degree;
   BSplineCurve3 d;
   d.degree = p - 1;
@@ -51,12 +54,14 @@ BSplineCurve3 derivative(const BSplineCurve3& curve) {
 }
 
 double largest_norm(const BSplineCurve3& curve, double t0, double t1) {
+  FLANK_ASSERT(t0 <= t1 && curve.weights.empty());
   double largest = 0.0;
   for_each_bezier_point(curve, t0, t1, [&](const Vec3& b) { largest = std::max(largest, b.norm()); });
   return largest;
 }
 
 double smallest_component(const BSplineCurve3& curve, const Vec3& direction, double t0, double t1) {
+  FLANK_ASSERT(t0 <= t1 && curve.weights.empty());
   double smallest = std::numeric_limits<double>::infinity();
   for_each_bezier_point(curve, t0, t1, [&](const Vec3& b) { smallest = std::min(smallest, b.dot(direction)); });
   return smallest;

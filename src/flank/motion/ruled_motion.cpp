@@ -1,5 +1,6 @@
 #include "flank/ruled_motion.h"
 
+#include "flank/base/assert.h"
 #include "flank/error.h"
 
 namespace flank {
@@ -19,6 +20,7 @@ AxisJet RuledMotion::jet(double t) const {
 }
 
 RuledMotion fit_motion(const std::vector<Pose>& poses, const std::vector<double>& t, double axis_length, int count) {
+  FLANK_ASSERT(axis_length > 0.0);
   if (poses.size() != t.size()) throw InternalError("fit_motion needs one parameter for every pose");
   if (count < 4 || static_cast<int>(poses.size()) < count)
     throw InternalError("fit_motion needs at least 4 control points and at least as many poses, got " +

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/base/assert.h"
+
 namespace flank::internal {
 namespace {
 
@@ -15,6 +17,7 @@ double length_of(double x, double y) { return std::sqrt(x * x + y * y); }
 
 ConvexProfile::ConvexProfile(const std::vector<Vec2>& corners, double rounding)
     : first_(corners.front()), rounding_(rounding) {
+  FLANK_ASSERT(!corners.empty() && rounding >= 0.0);
   Vec2 at(corners.front().x(), 0.0);
   const auto add = [&](const Vec2& to) {
     const Vec2 step = to - at;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "flank/base/assert.h"
 #include "flank/base/parallel.h"
 
 namespace flank::internal {
@@ -122,6 +123,7 @@ FlankChecks::FlankChecks(std::vector<CheckFace> faces, const Target& target, dou
 }
 
 bool FlankChecks::reachable(const SurfaceSample& sample, double radius_mm, double depth_mm) const {
+  FLANK_ASSERT(radius_mm > 0.0 && depth_mm >= 0.0);
   return at(sample.point + radius_mm * sample.normal, radius_mm).distance_mm >= radius_mm - depth_mm;
 }
 

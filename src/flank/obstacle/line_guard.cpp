@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/base/assert.h"
+
 namespace flank::internal {
 namespace {
 
@@ -104,6 +106,7 @@ bool LineGuard::ball_is_clear(const Vec3& center) const {
 }
 
 Pose slid_clear(const LineGuard& guard, const Pose& pose, double reach_mm) {
+  FLANK_ASSERT(reach_mm >= 0.0);
   constexpr int kSteps = 6;
   constexpr double kLeastGain = 0.05;  ///< a slide that frees less than this per millimetre leads nowhere
   if (guard.clear(pose)) return pose;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "flank/base/assert.h"
 #include "flank/base/parallel.h"
 #include "flank/obstacle/check_tree.h"
 #include "flank/obstacle/convex_profile.h"
@@ -135,6 +136,7 @@ class Search {
 }  // namespace
 
 CheckSurface check_surface(const Target& target, double spacing_mm, bool flank_may_touch) {
+  FLANK_ASSERT(spacing_mm > 0.0);
   CheckSurface out;
   out.slack_mm = kSamplesApart * spacing_mm;
   out.flank_may_touch = flank_may_touch;
@@ -219,6 +221,7 @@ PoseClearance PoseChecker::measure(const Pose& pose, double horizon_mm) const {
 }
 
 void PoseChecker::free_batch(std::span<const Pose> poses, double margin_mm, std::span<char> out) const {
+  FLANK_ASSERT(out.size() == poses.size());
   parallel_blocks(poses.size(), kBlock, [&](std::size_t begin, std::size_t end) {
     Hit last;
     for (std::size_t k = begin; k < end; ++k) {
@@ -230,6 +233,7 @@ void PoseChecker::free_batch(std::span<const Pose> poses, double margin_mm, std:
 }
 
 void PoseChecker::measure_batch(std::span<const Pose> poses, double horizon_mm, std::span<PoseClearance> out) const {
+  FLANK_ASSERT(out.size() == poses.size());
   parallel_blocks(poses.size(), kBlock, [&](std::size_t begin, std::size_t end) {
     Hit last;
     for (std::size_t k = begin; k < end; ++k) {

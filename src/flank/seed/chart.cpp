@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/base/assert.h"
+
 namespace flank::internal {
 namespace {
 
@@ -86,6 +88,7 @@ Chart::Chart(const Target& target) {
 }
 
 ChartPoint Chart::at(double a, double b) const {
+  FLANK_ASSERT(std::isfinite(a) && std::isfinite(b));
   const double x = (a + kOverrun) / (1.0 + 2.0 * kOverrun) * (kNodes - 1);
   const double y = (b + kOverrun) / (1.0 + 2.0 * kOverrun) * (kNodes - 1);
   const int i = std::clamp(static_cast<int>(std::floor(x)), 0, kNodes - 2);

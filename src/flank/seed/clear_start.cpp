@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/base/assert.h"
+
 namespace flank::internal {
 namespace {
 
@@ -137,6 +139,8 @@ ClearStart clear_start(const Chart& chart, const RuledStart& start, const FlankC
 }
 
 RuledMotion make_motion(const ClearStart& start, double axis_length, int count) {
+  FLANK_ASSERT(axis_length > 0.0 && count >= 4);
+  FLANK_ASSERT(start.lines.size() == static_cast<std::size_t>(kStartTimes));
   int low = 0, high = 0;
   for (const Line& line : start.lines) {
     low += line.low_blocked ? 1 : 0;

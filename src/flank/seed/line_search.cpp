@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/base/assert.h"
+
 namespace flank::internal {
 namespace {
 
@@ -67,6 +69,7 @@ bool better(const Movability& a, const Movability& b) { return a.value < b.value
 }  // namespace
 
 LineSearch search_line(const Target& target, const Pose& start, double axis_length, const LineSearchOptions& options) {
+  FLANK_ASSERT(options.samples >= 2 && axis_length > 0.0);
   const Vec3 e1 = start.axis.unitOrthogonal();
   const Shifts shifts{start, axis_length, e1, start.axis.cross(e1)};
   Objective objective(target, shifts, options.samples);

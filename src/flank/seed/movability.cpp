@@ -2,6 +2,9 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "flank/base/assert.h"
 
 namespace flank::internal {
 namespace {
@@ -58,6 +61,8 @@ double footpoint_weight(Location location) {
 
 Movability movability(std::span<const Footpoint> feet, const Pose& pose, double axis_length,
                       const MovabilityOptions& options) {
+  FLANK_ASSERT(feet.size() >= 2 && axis_length > 0.0);
+  FLANK_ASSERT(std::abs(pose.axis.squaredNorm() - 1.0) < 1e-6);
   Movability result;
   const Frame frame(pose);
   const Form form = assemble(feet, frame);
@@ -93,6 +98,7 @@ Movability movability(std::span<const Footpoint> feet, const Pose& pose, double 
 }
 
 void track_axis(const Target& target, const Pose& pose, double axis_length, std::span<Footpoint> feet) {
+  FLANK_ASSERT(feet.size() >= 2);
   const std::size_t n = feet.size(), middle = n / 2;
   const double step = axis_length / (static_cast<double>(n) - 1.0);
   const auto find = [&](std::size_t j, std::size_t neighbour) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/base/assert.h"
 #include "flank/seed/movability.h"
 
 namespace flank::internal {
@@ -165,6 +166,8 @@ bool advance(Walker& walker, const Pose& pose, const AxisVelocity& velocity, dou
 
 Propagation propagate(const Target& target, const Pose& start, double axis_length, const Vec3& heading,
                       const PropagationOptions& options) {
+  FLANK_ASSERT(options.samples >= 2 && axis_length > 0.0);
+  FLANK_ASSERT(options.shortest_step_share <= options.longest_step_share);
   const double size = target.diagonal();
   Propagation out;
   out.poses.push_back(start);

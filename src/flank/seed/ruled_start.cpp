@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/base/assert.h"
+
 namespace flank::internal {
 namespace {
 
@@ -44,6 +46,7 @@ double longest_chord(const Chart& chart, const RuledStart& start) {
 }
 
 RuledMotion make_motion(const Chart& chart, const RuledStart& start, double axis_length, int count) {
+  FLANK_ASSERT(axis_length > 0.0 && count >= 4);
   std::vector<Pose> poses;
   std::vector<double> times;
   for (int i = 0; i < kStartTimes; ++i) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/base/assert.h"
 #include "flank/seed/movability.h"
 
 namespace flank::internal {
@@ -41,6 +42,7 @@ Vec5 distance_row(const LineFrame& frame, const Vec3& normal, double rho) {
 
 LineFitter::LineFitter(const Target& target, const RadialFunction& radial, const LineFitOptions& options)
     : target_(target), length_(radial.axis_length()), options_(options) {
+  FLANK_ASSERT(options.samples >= 2 && options.tolerance_mm > 0.0);
   const auto n = static_cast<std::size_t>(options.samples);
   for (std::size_t j = 0; j < n; ++j) {
     s_.push_back(length_ * static_cast<double>(j) / (static_cast<double>(n) - 1.0));
@@ -58,6 +60,7 @@ void LineFitter::forget() { std::fill(feet_.begin(), feet_.end(), Footpoint{}); 
 void LineFitter::set_feet(std::span<const Footpoint> feet) { std::copy(feet.begin(), feet.end(), feet_.begin()); }
 
 LineFit LineFitter::measure(const Pose& pose) {
+  FLANK_ASSERT(feet.size() == feet_.size());
   track_axis(target_, pose, length_, feet_);
   LineFit fit;
   fit.pose = pose;

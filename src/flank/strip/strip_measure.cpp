@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/base/assert.h"
 #include "flank/envelope/swept_estimate.h"
 
 namespace flank::internal {
@@ -75,6 +76,7 @@ SweptContact contact(const SweptEstimate& swept, const RuledMotion& motion, cons
 }  // namespace
 
 CoverSamples cover_samples(const Target& target, double spacing_mm) {
+  FLANK_ASSERT(spacing_mm > 0.0);
   CoverSamples samples;
   constexpr double kBorderShare = 0.25;
   samples.cells = target.samples(spacing_mm);
@@ -84,6 +86,7 @@ CoverSamples cover_samples(const Target& target, double spacing_mm) {
 }
 
 RuledMotion motion_through(const std::vector<Pose>& poses, double axis_length, int control_points) {
+  FLANK_ASSERT(poses.size() >= 5);
   std::vector<Vec3> tips, axes;
   std::vector<double> t = {0.0};
   for (std::size_t i = 0; i + 1 < poses.size(); ++i)
@@ -173,6 +176,7 @@ CoverStrip measure_strip(const CoverSamples& samples, RuledMotion motion, const 
 }
 
 RuledMotion part_of_motion(const RuledMotion& motion, double t0, double t1) {
+  FLANK_ASSERT(0.0 <= t0 && t0 < t1 && t1 <= 1.0);
   constexpr int kSamples = 160;
   std::vector<Pose> poses;
   std::vector<double> t;

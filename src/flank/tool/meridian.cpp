@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "flank/base/assert.h"
 #include "flank/error.h"
 
 namespace flank::internal {
@@ -91,6 +92,7 @@ RadialFunction polish(RadialFunction radial, std::span<const Vec2> profile, std:
 
 RadialFunction radial_from_meridian(std::span<const Vec2> profile, std::optional<double> axis_length,
                                     int coefficients) {
+  FLANK_ASSERT(coefficients >= 4);
   const std::vector<Vec2> all = spheres(profile);
   const double shift = axis_length ? 0.0 : all.front().x();
   const double length = axis_length.value_or(all.back().x() - all.front().x());

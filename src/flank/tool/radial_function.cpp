@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/base/assert.h"
 #include "flank/error.h"
 #include "flank/tool/families.h"
 #include "flank/tool/uniform_cubic.h"
@@ -126,6 +127,7 @@ RadialJet RadialFunction::at(double s) const {
 }
 
 void RadialFunction::active_gradient(double s, double* out) const {
+  FLANK_ASSERT(out != nullptr);
   if (family_ != ToolFamily::kSpline) return family_gradient(family_, axis_length_, parameters_.data(), s, out);
   const UniformCubic b = UniformCubic::at(axis_length_, parameter_count(), s);
   std::copy(b.n3.begin(), b.n3.end(), out);

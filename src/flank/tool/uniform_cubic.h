@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+
+#include "flank/base/assert.h"
 
 namespace flank::internal {
 
@@ -20,6 +23,8 @@ struct UniformCubic {
 
   /// Basis at s in [0, L] for `count` coefficients; outside, the end spans' polynomials.
   static UniformCubic at(double axis_length, int count, double s) {
+    FLANK_ASSERT(count >= 4 && axis_length > 0.0);
+    FLANK_ASSERT(!std::isnan(s));
     constexpr std::array<double, 4> inverse = {0.0, 1.0, 0.5, 1.0 / 3.0};
     const int spans = count - 3;
     UniformCubic b;

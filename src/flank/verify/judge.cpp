@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "flank/base/assert.h"
 #include "flank/base/parallel.h"
 #include "flank/error.h"
 
@@ -226,6 +227,7 @@ std::vector<SweptDistance> swept_distances(const SweptVolume& volume, const Face
 }
 
 std::vector<std::size_t> covered_samples(const SweptVolume& volume, const FaceSamples& face, double tolerance_mm) {
+  FLANK_ASSERT(tolerance_mm > 0.0);
   const double horizon = 1.01 * tolerance_mm;
   const std::vector<SweptDistance> distances = swept_distances(volume, face, horizon);
   std::vector<std::size_t> covered;

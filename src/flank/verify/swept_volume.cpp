@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/base/assert.h"
 #include "flank/judge.h"
 #include "flank/verify/swept/swept_search.h"
 
@@ -42,6 +43,7 @@ SweptDistance SweptVolume::distance(const Vec3& x, double horizon_mm) const {
 }
 
 void SweptVolume::distances(std::span<const Vec3> points, double horizon_mm, std::span<SweptDistance> out) const {
+  FLANK_ASSERT(out.size() == points.size());
   SweptPlace near;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const SweptPlace place = SweptSearch(data_->distance, data_->tree, points[i]).run(horizon_mm, near);

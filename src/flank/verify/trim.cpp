@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/base/assert.h"
+
 namespace flank::internal::verify {
 namespace {
 
@@ -12,6 +14,7 @@ constexpr int kMaxDepth = 12;
 }  // namespace
 
 Trim::Trim(const std::vector<TrimLoop>& loops, double tolerance_u, double tolerance_v) : everything_(loops.empty()) {
+  FLANK_ASSERT(tolerance_u > 0.0 && tolerance_v > 0.0);
   for (const TrimLoop& loop : loops) {
     const std::size_t start = chords_.size();
     for (const BSplineCurve2& edge : loop.edges) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/base/assert.h"
 #include "flank/seed/direction/seeds.h"
 
 namespace flank::internal {
@@ -94,6 +95,7 @@ std::vector<CurveSeed> curve_seeds(const Target& target, const RadialFunction& r
 
 IntegralCurve integral_curve(const Target& target, const RadialFunction& radial, const CurveSeed& seed,
                              const IntegralCurveOptions& options) {
+  FLANK_ASSERT(options.steps >= 2 && std::abs(seed.direction.squaredNorm() - 1.0) < 1e-6);
   IntegralCurve curve;
   Tracer tracer(target, radial, options);
   curve.s.reserve(static_cast<std::size_t>(options.steps) + 3);

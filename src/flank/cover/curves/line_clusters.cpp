@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/base/assert.h"
 #include "flank/base/parallel.h"
 #include "flank/base/random.h"
 
@@ -120,6 +121,7 @@ double squared_line_distance(const Pose& a, const Pose& b, double axis_length) {
 Pose turned_round(const Pose& pose, double axis_length) { return {pose.at(axis_length), -pose.axis}; }
 
 LineClusters cluster_lines(const std::vector<Pose>& lines, double axis_length, const LineClusterOptions& options) {
+  FLANK_ASSERT(options.clusters >= 1 && axis_length > 0.0);
   if (lines.empty()) return {};
   Clustering clustering(lines, axis_length, options);
   Random random(options.seed);

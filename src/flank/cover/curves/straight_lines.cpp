@@ -1,8 +1,11 @@
 #include "flank/cover/curves/straight_lines.h"
 
+#include "flank/base/assert.h"
+
 namespace flank::internal {
 
 Pose line_through(const IntegralCurve& curve) {
+  FLANK_ASSERT(curve.s.size() >= 2 && curve.centres.size() == curve.s.size());
   const auto count = static_cast<double>(curve.s.size());
   double mean_s = 0.0;
   Vec3 mean = Vec3::Zero(), sum = Vec3::Zero();

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/base/assert.h"
+
 namespace flank::internal {
 namespace {
 
@@ -33,6 +35,11 @@ FitModel::FitModel(std::vector<const Target*> targets, const FitState& start, st
       stage_(stage),
       axis_length_(start.motions.front().axis_length),
       tool_parameters_(static_cast<int>(free_.size())) {
+  FLANK_ASSERT(targets_.size() == start.motions.size());
+  FLANK_ASSERT(checks_.empty() || checks_.size() == targets_.size());
+  FLANK_ASSERT(stage.samples_t >= 2 && stage.samples_s >= 2);
+  FLANK_ASSERT(std::all_of(start.motions.begin(), start.motions.end(),
+                           [&](const RuledMotion& m) { return m.tip.count() == stage.control_points; }));
   const RuledMotion& first = start.motions.front();
   for (int i = 0; i < stage.samples_t; ++i) {
     TimeSample time{};
@@ -157,6 +164,7 @@ void FitModel::tool_gradients(const FitState& state, Eigen::MatrixXd& gradients)
 }
 
 double FitModel::cost(const FitState& state, const std::vector<std::vector<double>>& weights) const {
+  FLANK_ASSERT(weights.size() == targets_.size() && state.feet.size() == targets_.size());
   const int n = stage_.samples_s;
   std::vector<double> radius(n);
   for (int j = 0; j < n; ++j) radius[j] = state.tool.at(s_[j]).r;
@@ -172,6 +180,7 @@ double FitModel::cost(const FitState& state, const std::vector<std::vector<doubl
 
 void FitModel::assemble(const FitState& state, const std::vector<std::vector<double>>& weights,
                         ArrowSystem& system) const {
+  FLANK_ASSERT(weights.size() == targets_.size() && state.feet.size() == targets_.size());
   system.clear();
   const int n = stage_.samples_s;
   std::vector<double> radius(n), factors(static_cast<std::size_t>(n * stage_.samples_t)), matrix_weights;
@@ -218,6 +227,8 @@ void FitModel::assemble_rows(const FitState& state, int motion, const std::vecto
 }
 
 FitState FitModel::moved(const FitState& state, const Eigen::VectorXd& step) const {
+  FLANK_ASSERT(step.size() ==
+               static_cast<Eigen::Index>(6 * targets_.size()) * stage_.control_points + tool_parameters_);
   FitState next = state;
   for (std::size_t m = 0; m < next.motions.size(); ++m) {
     const int base = static_cast<int>(m) * 6 * stage_.control_points;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "flank/base/assert.h"
 #include "flank/fit/model/minimise.h"
 
 namespace flank::internal {
@@ -13,6 +14,7 @@ namespace flank::internal {
 /// Minimises the model from `start`. The initial damping is 1e-9 of the mean diagonal (1e-6 crawls, MATH section 7).
 template <class Model>
 MinimiseResult levenberg_marquardt(const Model& model, FitState start) {
+  FLANK_ASSERT(!start.motions.empty() && model.stage().iterations >= 0);
   constexpr double kFirstDamping = 1e-9, kLeastDamping = 1e-14, kMostDamping = 1e8;
   const auto trace = [&](const FitState& state, double cost, double damping) {
     const ResidualSummary summary = summarise_residuals(model, state);

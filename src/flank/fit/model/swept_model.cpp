@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/base/assert.h"
 #include "flank/base/parallel.h"
 #include "flank/bspline_basis.h"
 
@@ -68,6 +69,7 @@ std::vector<double> SweptModel::sample_weights(const FitState& state) const {
 }
 
 double SweptModel::cost(const FitState& state, const std::vector<double>& weights) const {
+  FLANK_ASSERT(weights.size() == points_.size() && state.contacts.size() == points_.size());
   double sum = base_.regulariser_cost(state);
   for (std::size_t k = 0; k < weights.size(); ++k) {
     const double e = residual(state, k);
@@ -77,6 +79,7 @@ double SweptModel::cost(const FitState& state, const std::vector<double>& weight
 }
 
 ResidualRow SweptModel::row(const FitState& state, std::size_t k) const {
+  FLANK_ASSERT(k < state.contacts.size());
   const SweptContact& contact = state.contacts[k];
   const RuledMotion& motion = state.motions[static_cast<std::size_t>(contact.motion)];
   ResidualRow row;
@@ -105,6 +108,7 @@ ResidualRow SweptModel::row(const FitState& state, std::size_t k) const {
 }
 
 void SweptModel::assemble(const FitState& state, const std::vector<double>& weights, ArrowSystem& system) const {
+  FLANK_ASSERT(weights.size() == points_.size() && state.contacts.size() == points_.size());
   /// Share of its weight that a point inside the dead zone keeps in the matrix: it holds the step, and pulls nowhere.
   constexpr double kDeadZoneDamping = 0.02;
   system.clear();

@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/base/assert.h"
+
 namespace flank::internal {
 
 ArrowSystem::ArrowSystem(std::vector<int> control_counts, int tool_parameters) : tool_parameters_(tool_parameters) {
+  FLANK_ASSERT(tool_parameters >= 0);
   int offset = 0;
   for (int count : control_counts) {
     offsets_.push_back(offset);
@@ -25,6 +28,9 @@ void ArrowSystem::clear() {
 }
 
 void ArrowSystem::add_pose(int motion, int first, const double* basis, const PoseTerms& terms, bool couples_tool) {
+  FLANK_ASSERT(motion >= 0 && static_cast<std::size_t>(motion) + 1 < offsets_.size());
+  FLANK_ASSERT(first >= 0 && motion_offset(motion) + 6 * (first + 4) <= motion_offset(motion + 1));
+  FLANK_ASSERT(!couples_tool || terms.coupling.cols() == tool_parameters_);
   const int base = motion_offset(motion) + 6 * first;
   for (int k = 0; k < 4; ++k) {
     for (int l = 0; l <= k; ++l) {
@@ -40,7 +46,14 @@ void ArrowSystem::add_pose(int motion, int first, const double* basis, const Pos
   }
 }
 
+bool ArrowSystem::fits(const ResidualRow& row) const {
+  if (row.motion < 0 || static_cast<std::size_t>(row.motion) + 1 >= offsets_.size() || row.first < 0) return false;
+  return motion_offset(row.motion) + 6 * (row.first + 4) <= motion_offset(row.motion + 1) && row.tool_first >= 0 &&
+         row.tool_count >= 0 && row.tool_count <= 4 && row.tool_first + row.tool_count <= tool_parameters_;
+}
+
 void ArrowSystem::add_row(const ResidualRow& row, double weight, double factor) {
+  FLANK_ASSERT(fits(row));
   const int base = motion_offset(row.motion) + 6 * row.first;
   const int tool = tool_offset() + row.tool_first;
   for (int l = 0; l < 4; ++l) {
@@ -63,6 +76,7 @@ void ArrowSystem::add_row(const ResidualRow& row, double weight, double factor) 
 }
 
 double ArrowSystem::product(const ResidualRow& row, const Eigen::VectorXd& x) const {
+  FLANK_ASSERT(fits(row) && x.size() == size());
   const int base = motion_offset(row.motion) + 6 * row.first;
   double sum = 0.0;
   for (int l = 0; l < 4; ++l) sum += row.basis[l] * row.pose.dot(x.segment<6>(base + 6 * l));
@@ -77,6 +91,7 @@ double ArrowSystem::mean_diagonal(int first, int last) const {
 }
 
 void ArrowSystem::add_damping(double damping) {
+  FLANK_ASSERT(damping >= 0.0);
   for (std::size_t m = 0; m + 1 < offsets_.size(); ++m) {
     const double added = damping * mean_diagonal(offsets_[m], offsets_[m + 1]);
     for (int c = offsets_[m]; c < offsets_[m + 1]; ++c) band_[static_cast<std::size_t>(c * kBand)] += added;
@@ -85,6 +100,7 @@ void ArrowSystem::add_damping(double damping) {
 }
 
 bool ArrowSystem::solve(double damping, Eigen::VectorXd& step) const {
+  FLANK_ASSERT(damping >= 0.0);
   const int n = offsets_.back();
   std::vector<double> factor = band_;
   for (std::size_t m = 0; m + 1 < offsets_.size(); ++m) {
@@ -142,6 +158,7 @@ bool ArrowSystem::solve(double damping, Eigen::VectorXd& step) const {
 }
 
 Eigen::VectorXd ArrowSystem::multiply(const Eigen::VectorXd& x) const {
+  FLANK_ASSERT(x.size() == size());
   const int n = offsets_.back();
   Eigen::VectorXd y = Eigen::VectorXd::Zero(size());
   for (int c = 0; c < n; ++c) {

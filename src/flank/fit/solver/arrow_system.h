@@ -61,6 +61,8 @@ class ArrowSystem {
 
  private:
   [[nodiscard]] double mean_diagonal(int first, int last) const;
+  /// Whether the control points and the tool parameters of the row are there.
+  [[nodiscard]] bool fits(const ResidualRow& row) const;
 
   static constexpr int kBand = 24;  ///< diagonal and 23 sub-diagonals
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/base/assert.h"
+
 namespace flank::internal {
 namespace {
 
@@ -41,6 +43,8 @@ double to_boundary(const std::vector<double>& value, const std::vector<double>& 
 }  // namespace
 
 Eigen::VectorXd solve_gaps(const GapProblem& problem, int iterations) {
+  FLANK_ASSERT(problem.quadratic != nullptr && problem.rows.size() == problem.gaps.size());
+  FLANK_ASSERT(std::none_of(problem.gaps.begin(), problem.gaps.end(), [](double gap) { return std::isnan(gap); }));
   const ArrowSystem& quadratic = *problem.quadratic;
   const std::size_t count = problem.gaps.size();
   Duals duals = first_duals(problem.gaps);

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "flank/base/assert.h"
+
 namespace flank::internal {
 namespace {
 
@@ -79,11 +81,13 @@ AdmissibleDirections admissible_directions(const Footpoint& foot, const RadialJe
 }
 
 Vec3 axis_direction(const Footpoint& foot, const RadialJet& radial, double theta) {
+  FLANK_ASSERT(std::abs(radial.d1) < 1.0);
   const double across = std::sqrt(1.0 - radial.d1 * radial.d1);
   return radial.d1 * foot.normal + across * (std::cos(theta) * foot.d1 + std::sin(theta) * foot.d2);
 }
 
 Pose contact_axis(const Footpoint& foot, double r, double s, const Vec3& direction) {
+  FLANK_ASSERT(std::abs(direction.squaredNorm() - 1.0) < 1e-6);
   return {foot.point + r * foot.normal - s * direction, direction};
 }
 

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "flank/base/assert.h"
+
 namespace flank::internal {
 namespace {
 
@@ -50,6 +52,7 @@ bool is_umbilic(const AdmissibleDirections& found, double r) {
 
 CandidateDirections candidate_directions(const Footpoint& foot, const RadialJet& radial,
                                          const DirectionFilterOptions& options) {
+  FLANK_ASSERT(options.contact_length_mm > 0.0 && options.tolerance_mm > 0.0);
   CandidateDirections out;
   const Fitted fitted = fit_into_hollow(foot, radial);
   const AdmissibleDirections found = admissible_directions(foot, fitted.radial);
@@ -74,6 +77,7 @@ CandidateDirections candidate_directions(const Footpoint& foot, const RadialJet&
 
 SearchSpace count_search_space(std::span<const Footpoint> feet, const RadialFunction& radial, int spheres,
                                const DirectionFilterOptions& options) {
+  FLANK_ASSERT(spheres >= 1);
   SearchSpace space;
   DirectionFilterOptions filled = options;
   if (filled.contact_length_mm <= 0.0) filled.contact_length_mm = radial.axis_length();

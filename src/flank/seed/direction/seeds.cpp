@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "flank/base/assert.h"
 #include "flank/seed/direction/direction_filter.h"
 
 namespace flank::internal {
@@ -24,6 +25,7 @@ bool is_symmetric(const RadialFunction& radial) {
 }
 
 std::vector<Vec3> seed_directions(const Vec3& normal, const RadialFunction& radial, int directions) {
+  FLANK_ASSERT(directions >= 1);
   const bool half = is_symmetric(radial);
   const int count = half ? directions : 2 * directions;
   const double step = (half ? 1.0 : 2.0) * std::numbers::pi / count;

@@ -6,6 +6,8 @@
 #include <queue>
 #include <unordered_map>
 
+#include "flank/base/assert.h"
+
 namespace flank::internal {
 namespace {
 
@@ -162,6 +164,7 @@ std::vector<int> Regions::best_samples(int count) {
 }  // namespace
 
 std::vector<SurfaceSample> shape_places(const Target& target, int count) {
+  FLANK_ASSERT(count >= 1);
   const double spacing = std::sqrt(target.area() / (kSamplesPerPlace * count));
   const std::vector<SurfaceSample> samples = target.samples(spacing);
   const Neighbours near = neighbours_of(samples, kNeighbours * spacing);

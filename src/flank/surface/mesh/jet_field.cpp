@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/base/assert.h"
 #include "flank/base/parallel.h"
 
 namespace flank::internal {
@@ -47,6 +48,7 @@ RingCollector::RingCollector(const TriangleMesh& mesh, const MeshTopology& topol
     : mesh_(mesh), topology_(topology), normals_(normals), stamp_(mesh.vertices.size(), 0) {}
 
 void RingCollector::start(int vertex) {
+  FLANK_ASSERT(vertex >= 0 && static_cast<std::size_t>(vertex) < mesh_.vertices.size());
   ++now_;
   found_.assign(1, vertex);
   points_.assign(1, mesh_.vertices[static_cast<std::size_t>(vertex)]);
@@ -99,6 +101,7 @@ const std::vector<int>& RingCollector::collect_within(int vertex, double radius)
 
 std::vector<JetFit> fit_jets(const TriangleMesh& mesh, const MeshTopology& topology, const std::vector<Vec3>& normals,
                              const JetOptions& options) {
+  FLANK_ASSERT(normals.size() == mesh.vertices.size());
   std::vector<JetFit> fits(mesh.vertices.size());
   constexpr std::size_t kGrain = 2048;
   parallel_blocks(fits.size(), kGrain, [&](std::size_t begin, std::size_t end) {

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <string>
 
+#include "flank/base/assert.h"
 #include "flank/error.h"
 #include "flank/geom/triangle_bvh.h"
 
@@ -160,6 +161,7 @@ class Grouper {
 }  // namespace
 
 std::vector<SurfaceSample> mesh_samples(const JetSurface& surface, double spacing_mm) {
+  FLANK_ASSERT(spacing_mm > 0.0);
   if (!(spacing_mm > 0.0))
     throw UsageError("sample spacing must be positive, got " + std::to_string(spacing_mm) + " mm");
   std::vector<SurfaceSample> samples;

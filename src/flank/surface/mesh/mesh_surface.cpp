@@ -1,5 +1,7 @@
 #include "flank/surface/mesh/mesh_surface.h"
 
+#include "flank/base/assert.h"
+
 namespace flank::internal {
 namespace {
 
@@ -37,6 +39,7 @@ std::array<BlendWeight, 3> weights(double u, double v) {
 SurfaceJet JetSurface::jet(int triangle, double u, double v) const { return blended(triangle, u, v, weights(u, v)); }
 
 SurfaceJet JetSurface::blended(int triangle, double u, double v, const std::array<BlendWeight, 3>& blend) const {
+  FLANK_ASSERT(triangle >= 0 && static_cast<std::size_t>(triangle) < mesh.triangles.size());
   const Vec3 &a = corner(triangle, 0), eu = corner(triangle, 1) - a, ev = corner(triangle, 2) - a;
   const Vec3 x = a + u * eu + v * ev;
   SurfaceJet s;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/base/assert.h"
 #include "flank/geom/mesh_repair.h"
 #include "flank/surface/mesh/jet_field.h"
 #include "flank/surface/mesh/mesh_extension.h"
@@ -99,6 +100,7 @@ Footpoint MeshTarget::track(const Vec3& p, const Footpoint& hint) const {
 }
 
 std::vector<Vec3> MeshTarget::border_points(double spacing_mm) const {
+  FLANK_ASSERT(spacing_mm > 0.0);
   std::vector<Vec3> points;
   for (int t = 0; t < surface_.real_triangles; ++t) {
     for (int side = 0; side < 3; ++side) {

@@ -3,6 +3,8 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "flank/base/assert.h"
+
 namespace flank::internal {
 namespace {
 
@@ -143,6 +145,7 @@ void finish(MeshWalk& walk, const Vec2& step) {
 }  // namespace
 
 MeshWalk walk_to_footpoint(const JetSurface& surface, const Vec3& p, MeshPlace start, Reach reach) {
+  FLANK_ASSERT(start.triangle >= 0 && static_cast<std::size_t>(start.triangle) < surface.mesh.triangles.size());
   const Walker walker{surface, p, reach};
   MeshWalk best;
   best.place = start;

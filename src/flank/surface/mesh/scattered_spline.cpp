@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "flank/base/assert.h"
+
 namespace flank::internal {
 namespace {
 
@@ -77,6 +79,7 @@ void add_smoothing(BandMatrix& m, int nu, int nv, double weight) {
 
 BSplineSurface fit_scattered(std::span<const Vec3> points, std::span<const Vec2> parameters,
                              const ScatteredSplineOptions& options) {
+  FLANK_ASSERT(!points.empty() && parameters.size() == points.size());
   BSplineSurface s;
   const int p = options.degree;
   s.degree_u = s.degree_v = p;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "flank/base/assert.h"
 #include "flank/error.h"
 #include "flank/surface/nurbs/nurbs_samples.h"
 
@@ -51,6 +52,7 @@ void NurbsTarget::check(const Face& face) {
 }
 
 NurbsTarget::NurbsTarget(const std::vector<Face>& faces, int side, const ExtensionOptions& options) {
+  FLANK_ASSERT(side == 1 || side == -1);
   if (faces.empty()) throw InputError("a target needs at least one face");
   FlatCells cells;
   for (const Face& one : faces) {
@@ -230,12 +232,14 @@ Footpoint NurbsTarget::track(const Vec3& p, const Footpoint& hint) const {
 }
 
 std::vector<SurfaceSample> NurbsTarget::samples(double spacing_mm) const {
+  FLANK_ASSERT(spacing_mm > 0.0);
   std::vector<SurfaceSample> result;
   for (std::size_t k = 0; k < faces_.size(); ++k) append_samples(faces_[k], static_cast<int>(k), spacing_mm, result);
   return result;
 }
 
 std::vector<Vec3> NurbsTarget::border_points(double spacing_mm) const {
+  FLANK_ASSERT(spacing_mm > 0.0);
   std::vector<Vec3> points;
   const auto& pieces = borders_.pieces();
   for (int k = 0; k < static_cast<int>(pieces.size()); ++k) {

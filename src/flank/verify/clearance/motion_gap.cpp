@@ -15,6 +15,7 @@
 #include <array>
 #include <cmath>
 
+#include "flank/base/assert.h"
 #include "flank/base/parallel.h"
 #include "flank/verify/clearance/triangle_gap.h"
 
@@ -241,6 +242,8 @@ void GapSearch::split(const Interval& interval, std::size_t begin) {
 }
 
 double MotionGap::at(int segment, double tau, double accuracy_mm, double limit_mm) const {
+  FLANK_ASSERT(segment >= 0 && static_cast<std::size_t>(segment) < segments_.size());
+  FLANK_ASSERT(0.0 <= tau && tau <= 1.0);
   GapPlace start;
   start.value = limit_mm;
   if (body_.empty() || tree_.empty()) return limit_mm;
@@ -250,6 +253,7 @@ double MotionGap::at(int segment, double tau, double accuracy_mm, double limit_m
 }
 
 GapPlace MotionGap::least(double accuracy_mm, double limit_mm) const {
+  FLANK_ASSERT(accuracy_mm > 0.0);
   GapPlace start;
   start.value = limit_mm;
   if (body_.empty() || tree_.empty() || segments_.empty()) return start;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "flank/base/assert.h"
+
 namespace flank::internal::verify {
 namespace {
 
@@ -18,6 +20,7 @@ bool turns_outwards(const Vec2& a, const Vec2& b, const Vec2& c) {
 }  // namespace
 
 Revolved::Revolved(std::vector<Vec2> corners, double rounding) : corners_(std::move(corners)), rounding_(rounding) {
+  FLANK_ASSERT(!corners_.empty() && rounding >= 0.0);
   std::vector<Vec2> outline{Vec2(corners_.front().x(), 0.0)};
   outline.insert(outline.end(), corners_.begin(), corners_.end());
   outline.emplace_back(corners_.back().x(), 0.0);

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/base/assert.h"
+
 namespace flank::internal::verify {
 namespace {
 
@@ -142,6 +144,7 @@ double tangent_bound(double value, const Vec3& gradient, const Vec3& x, const st
 }  // namespace
 
 TriangleGap triangle_gap(const Revolved& body, const std::array<Vec3, 3>& v, double cutoff, double depth_error_mm) {
+  FLANK_ASSERT(depth_error_mm > 0.0);
   const Vec3 middle = (v[0] + v[1] + v[2]) / 3.0;
   const Vec3 slope = gradient_at(body, middle);
   const double far = tangent_bound(body.value(middle.z(), std::hypot(middle.x(), middle.y())), slope, middle, v);

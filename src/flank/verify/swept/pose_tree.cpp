@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "flank/base/assert.h"
 #include "flank/error.h"
 
 namespace flank::internal::verify {
@@ -141,6 +142,7 @@ class Builder {
 }  // namespace
 
 PoseTree::PoseTree(const Path& path, double axis_length_mm, double reach_mm) {
+  FLANK_ASSERT(axis_length_mm > 0.0 && reach_mm > 0.0);
   Builder builder(*this, axis_length_mm);
   builder.add_segments(path);
   builder.add_pieces(reach_mm);

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "flank/base/assert.h"
+
 namespace flank::internal::verify {
 namespace {
 
@@ -42,6 +44,7 @@ Step newton_step(const DistanceJet& j, bool hold_tau, bool hold_s) {
 
 bool descend(const Segment& segment, const RadialTable& radial, const Vec3& x, double low, double high,
              SegmentMinimum& best) {
+  FLANK_ASSERT(low <= best.tau && best.tau <= high);
   const double length = radial.length();
   const double least_distance = 1e-3 * std::max(1e-6, radial.least_radius());
   DistanceJet j = distance_jet(segment, radial, x, best.tau, best.s);
@@ -83,6 +86,7 @@ bool descend(const Segment& segment, const RadialTable& radial, const Vec3& x, d
 
 SegmentMinimum bracketed_minimum(const Segment& segment, const ToolDistance& tool, const Vec3& x, double low,
                                  double high) {
+  FLANK_ASSERT(low <= high);
   constexpr int kPieces = 8;
   constexpr double kGolden = 0.6180339887498949;
   const auto evaluate = [&](double tau) {
