@@ -60,7 +60,7 @@ format-check:  ## check that the sources are formatted
 tidy:  ## lint the sources (clang-tidy)
 	scripts/install-deps.sh build dev
 	cmake --preset release
-	scripts/tidy.sh build/release
+	scripts/tidy.py build/release
 
 clean:
 	rm -rf build out

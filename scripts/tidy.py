@@ -1,0 +1,143 @@
+#!/usr/bin/env python3
+"""Lints the sources of the library and of the command with .clang-tidy, and fails on any finding.
+
+usage: tidy.py BUILD_DIR [--deep] [FILE...]
+
+Most of clang-tidy's time goes into the headers of third parties, which it walks through anew for every source. So sources
+are put together in batches, each of which is read as one: only sources whose unnamed namespaces share no name go together.
+A batch that does not compile is done source by source. --deep adds the static analyser (clang-analyzer-*), which looks at
+one source at a time and takes many times as long; so does naming the files.
+"""
+import json
+import os
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+FOLDERS = ("src/flank", "apps")
+BATCH = 20
+TIDY = next((name for name in ("clang-tidy-14", "clang-tidy") if subprocess.run(
+    ["which", name], capture_output=True).returncode == 0), None)
+
+
+def compile_arguments(build):
+    """Of each source of ours what clang must know: definitions, folders of headers, language. No precompiled headers."""
+    arguments = {}
+    for entry in json.loads((build / "compile_commands.json").read_text()):
+        file = pathlib.Path(entry["file"])
+        if not any(file.is_relative_to(ROOT / folder) for folder in FOLDERS):
+            continue
+        words, kept = iter(shlex.split(entry["command"])), []
+        for word in words:
+            if word == "-include" or word == "-o" or word == "-c":
+                next(words)
+            elif word.startswith(("-I", "-D", "-std=", "-fPI")):
+                kept.append(word)
+            elif word == "-isystem":
+                kept += [word, next(words)]
+        arguments[file] = kept
+    return arguments
+
+
+def unnamed_names(file):
+    """Names that the unnamed namespaces of a source declare, by what its lines look like."""
+    names, inside = set(), False
+    for line in file.read_text().splitlines():
+        if line == "namespace {":
+            inside = True
+        elif line.startswith("}  // namespace"):
+            inside = False
+        elif inside and re.match(r"[A-Za-z]", line):
+            found = re.match(r"(?:struct|class|enum class|using)\s+(\w+)", line) or re.search(r"(\w+)\s*[({=;\[]", line)
+            if found:
+                names.add(found.group(1))
+    return names
+
+
+def header_types():
+    """Names of the types that the headers declare."""
+    types = set()
+    for header in (ROOT / "src").rglob("*.h"):
+        types.update(re.findall(r"^(?:struct|class|enum class|using) (\w+)", header.read_text(), re.MULTILINE))
+    return types
+
+
+def batches_of(files):
+    """Batches, none with two sources that declare the same name in an unnamed namespace; the sources with most names first.
+    A source that declares a name of its own that a header gives to a type stays alone."""
+    types, alone, batches = header_types(), [], []
+    for names, file in sorted(((unnamed_names(file), file) for file in files), key=lambda pair: (-len(pair[0]), pair[1])):
+        if names & types:
+            alone.append([file])
+            continue
+        for batch in batches:
+            if len(batch["files"]) < BATCH and not names & batch["names"]:
+                break
+        else:
+            batch = {"files": [], "names": set()}
+            batches.append(batch)
+        batch["files"].append(file)
+        batch["names"] |= names
+    return [batch["files"] for batch in batches] + alone
+
+
+def tidy(file, arguments, deep):
+    """Exit status and findings of one file."""
+    options = ["--quiet", f"--config-file={ROOT / '.clang-tidy'}"] + ([] if deep else ["--checks=-clang-analyzer-*"])
+    words = [TIDY, *options, r"--header-filter=/(src/flank|apps)/.*\.(h|cpp)$", str(file), "--", *arguments,
+             "-w"]
+    done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True)
+    return done.returncode, done.stdout
+
+
+def lint(batch, arguments, folder, number, deep):
+    """Findings of a batch."""
+    if len(batch) > 1:
+        source = folder / f"batch_{number}.cpp"
+        source.write_text("".join(f'#include "{file}"\n' for file in batch))
+        together = list(dict.fromkeys(word for file in batch for word in arguments[file] if word != "-isystem"
+                                      and not word.startswith("/")))
+        for file in batch:
+            system = [w for w in arguments[file] if w.startswith("/")]
+            together += [word for path in system for word in ("-isystem", path)]
+        status, text = tidy(source, together, deep)
+        if "clang-diagnostic-error" not in text:
+            return status, text
+        print(f"batch {number} does not compile as one; its {len(batch)} sources are read one by one", flush=True)
+    results = [tidy(file, arguments[file], deep) for file in batch]
+    return max(status for status, _ in results), "".join(text for _, text in results)
+
+
+def main():
+    if TIDY is None:
+        sys.exit("tidy.py: clang-tidy is not installed (on Debian 12, scripts/install-deps.sh dev installs it)")
+    words = [word for word in sys.argv[1:] if word != "--deep"]
+    deep = "--deep" in sys.argv
+    if not words:
+        sys.exit(__doc__)
+    arguments = compile_arguments(pathlib.Path(words[0]).resolve())
+    named = [pathlib.Path(word).resolve() for word in words[1:]]
+    files = named or sorted(arguments)
+    if not files or any(file not in arguments for file in files):
+        sys.exit(f"tidy.py: {words[0]} does not say how to compile {[str(f) for f in files if f not in arguments]}")
+    batches = [[file] for file in files] if deep or named else batches_of(files)
+    failed = False
+    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(int(os.environ.get("JOBS", os.cpu_count()))) as pool:
+        jobs = [pool.submit(lint, batch, arguments, pathlib.Path(folder), number, deep)
+                for number, batch in enumerate(batches)]
+        for job in jobs:
+            status, text = job.result()
+            failed = failed or status != 0
+            sys.stdout.write(text)
+    if failed:
+        sys.exit(1)
+    print(f"{len(files)} files are tidy ({len(batches)} batches)")
+
+
+if __name__ == "__main__":
+    main()
