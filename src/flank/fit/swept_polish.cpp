@@ -51,7 +51,7 @@ FitStage swept_stage(const Pass& pass, const FlankFitOptions& options) {
   return stage;
 }
 
-Reach reach_of(const FlankFitOptions& options) { return {reach_radius(options), options.tolerance_mm}; }
+ReachLimits reach_of(const FlankFitOptions& options) { return {reach_radius(options), options.tolerance_mm}; }
 
 double smallest_radius(const RadialFunction& tool) {
   constexpr int kSamples = 64;
@@ -62,7 +62,7 @@ double smallest_radius(const RadialFunction& tool) {
 
 }  // namespace
 
-std::vector<FacePoint> target_points(const FitDraft& draft, int per_side, const Reach& reach) {
+std::vector<FacePoint> target_points(const FitDraft& draft, int per_side, const ReachLimits& reach) {
   const std::vector<const Target*> targets = distinct_targets(draft);
   double area = 0.0;
   for (const Target* target : targets) area += target->area();
@@ -116,7 +116,7 @@ Polished swept_polish(const Polished& polished, const std::vector<SurfaceSample>
 }
 
 FitDraft run_constrained(const FitDraft& draft, const RadiusBounds& bounds, const FitStage& stage, double band_mm,
-                         const Reach& reach) {
+                         const ReachLimits& reach) {
   constexpr int kFirstPerSide = 40, kDensePerSide = 200;
   FitDraft next;
   const FitState start = start_state(draft, stage, next);

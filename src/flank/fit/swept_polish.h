@@ -9,13 +9,13 @@
 namespace flank::internal {
 
 /// What of a target counts as out of reach: where a ball of this radius enters a check face by more than the depth.
-struct Reach {
+struct ReachLimits {
   double radius_mm = 0.0, depth_mm = 0.0;
 };
 
 /// Points of the draft's targets, each target once, spacing about sqrt(area) / `per_side`; shares sum to one. Points out
 /// of reach count for overcut alone.
-[[nodiscard]] std::vector<FacePoint> target_points(const FitDraft& draft, int per_side, const Reach& reach = {});
+[[nodiscard]] std::vector<FacePoint> target_points(const FitDraft& draft, int per_side, const ReachLimits& reach = {});
 
 /// One pass at the stage's resolution over these points.
 [[nodiscard]] FitDraft run_swept(const FitDraft& draft, const RadiusBounds& bounds, const FitStage& stage,
@@ -24,7 +24,7 @@ struct Reach {
 /// The same under a hard limit on overcut (constrained.h), with a margin for what lies between the points; points beyond
 /// `band_mm` from the tool are not held.
 [[nodiscard]] FitDraft run_constrained(const FitDraft& draft, const RadiusBounds& bounds, const FitStage& stage,
-                                       double band_mm, const Reach& reach);
+                                       double band_mm, const ReachLimits& reach);
 
 /// Passes with a dead zone that narrows while the rails grow softer; each is kept only if it scores better.
 [[nodiscard]] Polished swept_polish(const Polished& polished, const std::vector<SurfaceSample>& samples,

@@ -16,13 +16,13 @@ using Line = ClearStart::Line;
 
 /// Distance of the ball on a line to the walls; also a bound of how far along the line nothing changes. A ball on the
 /// border of the target touches what begins there, and the chart is good to a few hundredths of a radius: as good as free.
-double gap_at(const AxisLine& axis, double sigma, double radius, const FlankChecks& checks) {
+double gap_at(const ContactLine& axis, double sigma, double radius, const FlankChecks& checks) {
   constexpr double kSight = 4.0, kGood = 0.995;  ///< radii
   return checks.at(axis.middle + sigma * axis.direction, kSight * radius).distance_mm - kGood * radius;
 }
 
 /// Where between a free and a blocked place the ball touches.
-double touch(const AxisLine& axis, double free, double blocked, double radius, const FlankChecks& checks) {
+double touch(const ContactLine& axis, double free, double blocked, double radius, const FlankChecks& checks) {
   for (int k = 0; k < 12; ++k) {
     const double middle = 0.5 * (free + blocked);
     (gap_at(axis, middle, radius, checks) >= 0.0 ? free : blocked) = middle;
@@ -31,7 +31,7 @@ double touch(const AxisLine& axis, double free, double blocked, double radius, c
 }
 
 /// The longest free stretch of the line over its own length.
-Line free_stretch(const AxisLine& axis, double radius, const FlankChecks& checks) {
+Line free_stretch(const ContactLine& axis, double radius, const FlankChecks& checks) {
   Line line{axis};
   const double step = axis.length / kSteps, end = 0.5 * axis.length;
   // `begin`: of the present stretch; `seen`: the last free place of it; `wall`: the last blocked place.

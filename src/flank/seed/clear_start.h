@@ -12,7 +12,7 @@ namespace flank::internal {
 /// A start of which every axis line was cut where its ball would enter a check face.
 struct ClearStart {
   struct Line {
-    AxisLine axis;                 ///< fitted to the free stretch of its contact line
+    ContactLine axis;              ///< fitted to the free stretch of its contact line
     double low = 0.0, high = 0.0;  ///< of the free stretch, mm from the line's middle along its direction
     bool low_blocked = false, high_blocked = false;  ///< a wall ends the stretch
     bool free = false;                               ///< false: no stretch is free; taken from its neighbours

@@ -17,7 +17,7 @@ double skew_share(const Chart& chart, const RuledStart& start) {
 
 }  // namespace
 
-AxisLine axis_line(const Chart& chart, const RuledStart& start, double t) {
+ContactLine axis_line(const Chart& chart, const RuledStart& start, double t) {
   constexpr int kSamples = 17;
   const double skew = skew_share(chart, start);
   const double reach = 1.0 + std::abs(skew) * (start.band_high - start.band_low) + 0.04;
@@ -51,7 +51,7 @@ RuledMotion make_motion(const Chart& chart, const RuledStart& start, double axis
   std::vector<double> times;
   for (int i = 0; i < kStartTimes; ++i) {
     const double t = i / (kStartTimes - 1.0);
-    const AxisLine line = axis_line(chart, start, t);
+    const ContactLine line = axis_line(chart, start, t);
     poses.push_back({line.middle - 0.5 * axis_length * line.direction, line.direction});
     times.push_back(t);
   }

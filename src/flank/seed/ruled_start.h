@@ -17,13 +17,13 @@ struct RuledStart {
 };
 
 /// A line of the axis through the middle of what it is to touch.
-struct AxisLine {
+struct ContactLine {
   Vec3 middle, direction;
   double length = 0.0;
 };
 
 /// The line fitted to the offset contact line of time t (least squares), directed along increasing b.
-[[nodiscard]] AxisLine axis_line(const Chart& chart, const RuledStart& start, double t);
+[[nodiscard]] ContactLine axis_line(const Chart& chart, const RuledStart& start, double t);
 inline constexpr int kStartTimes = 41;  ///< of which a start is made
 
 /// The longest offset contact line of a start, mm: the axis length to use where none is given (times 1.02).

@@ -16,7 +16,7 @@
 namespace flank::internal {
 namespace {
 
-double mm_along(const Handle(Geom_Surface) & surface, const ParameterBox& b, bool along_u) {
+double mm_along(const Handle(Geom_Surface) & surface, const ParameterWindow& b, bool along_u) {
   double largest = 0.0;
   for (int i = 0; i <= 4; ++i) {
     for (int j = 0; j <= 4; ++j) {
@@ -31,8 +31,8 @@ double mm_along(const Handle(Geom_Surface) & surface, const ParameterBox& b, boo
 
 /// Where the face lies in the parameters of its surface; ends that differ from the surface's own by less than kBorderMm
 /// are the surface's.
-ParameterBox box_of(const TopoDS_Face& face, const Handle(Geom_Surface) & surface, const std::string& name) {
-  ParameterBox b;
+ParameterWindow box_of(const TopoDS_Face& face, const Handle(Geom_Surface) & surface, const std::string& name) {
+  ParameterWindow b;
   BRepTools::UVBounds(face, b.u0, b.u1, b.v0, b.v1);
   const auto bounded = [](double a, double z) {
     return !Precision::IsInfinite(a) && !Precision::IsInfinite(z) && z > a;

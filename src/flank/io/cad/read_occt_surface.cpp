@@ -141,7 +141,7 @@ SplineRows transposed(const SplineRows& rows, int degree, std::vector<double> kn
   return other;
 }
 
-ConvertedSurface convert_spline(Handle(Geom_BSplineSurface) s, const ParameterBox& box) {
+ConvertedSurface convert_spline(Handle(Geom_BSplineSurface) s, const ParameterWindow& box) {
   const double period_u = s->IsUPeriodic() ? s->UPeriod() : 0.0, period_v = s->IsVPeriodic() ? s->VPeriod() : 0.0;
   s = Handle(Geom_BSplineSurface)::DownCast(s->Copy());
   s->SetUNotPeriodic();
@@ -190,7 +190,8 @@ void fill_poles(BSplineSurface& s, const BSplineCurve3& section, const std::vect
 
 /// Surfaces of revolution (cylinder, cone, sphere, torus, general): u is the angle about the axis from the meridian at
 /// u = 0.
-ConvertedSurface convert_revolution(const Handle(Geom_Surface) & surface, const gp_Ax1& axis, const ParameterBox& box) {
+ConvertedSurface convert_revolution(const Handle(Geom_Surface) & surface, const gp_Ax1& axis,
+                                    const ParameterWindow& box) {
   const ConvertedCurve meridian = convert_curve(surface->UIso(0.0), box.v0, box.v1);
   // The turn of the parameter u may go either way round the axis that the surface states (left-handed frames): ask the
   // surface.
@@ -225,7 +226,7 @@ ConvertedSurface convert_revolution(const Handle(Geom_Surface) & surface, const 
 
 /// Surfaces that are straight in v with the same direction and parameter everywhere (planes, extrusions): base(u) + v
 /// direction.
-ConvertedSurface convert_extrusion(const Handle(Geom_Surface) & surface, const ParameterBox& box) {
+ConvertedSurface convert_extrusion(const Handle(Geom_Surface) & surface, const ParameterWindow& box) {
   const ConvertedCurve base = convert_curve(surface->VIso(box.v0), box.u0, box.u1);
   const Vec3 step = vec(surface->Value(box.u0, box.v1)) - vec(surface->Value(box.u0, box.v0));
   ConvertedSurface r;
@@ -241,7 +242,7 @@ ConvertedSurface convert_extrusion(const Handle(Geom_Surface) & surface, const P
   return r;
 }
 
-ConvertedSurface approximate(const Handle(Geom_Surface) & surface, const ParameterBox& box) {
+ConvertedSurface approximate(const Handle(Geom_Surface) & surface, const ParameterWindow& box) {
   const Handle(Geom_Surface) part = new Geom_RectangularTrimmedSurface(surface, box.u0, box.u1, box.v0, box.v1);
   const GeomConvert_ApproxSurface approximation(part, kApproximationMm, GeomAbs_C2, GeomAbs_C2, 9, 9, 400, 0);
   if (!approximation.HasResult()) throw Standard_Failure("the surface cannot be approximated by a B-spline");
@@ -299,7 +300,7 @@ std::string surface_type(const Handle(Geom_Surface) & surface) {
   }
 }
 
-ConvertedSurface convert_surface(const Handle(Geom_Surface) & surface, const ParameterBox& box) {
+ConvertedSurface convert_surface(const Handle(Geom_Surface) & surface, const ParameterWindow& box) {
   if (const auto trimmed = Handle(Geom_RectangularTrimmedSurface)::DownCast(surface))
     return convert_surface(trimmed->BasisSurface(), box);
   if (const auto spline = Handle(Geom_BSplineSurface)::DownCast(surface)) return convert_spline(spline, box);

@@ -12,7 +12,7 @@
 namespace flank::internal {
 
 /// The part of a surface over [u0, u1] x [v0, v1] of its own parameters.
-struct ParameterBox {
+struct ParameterWindow {
   double u0 = 0.0, u1 = 0.0, v0 = 0.0, v1 = 0.0;
 };
 
@@ -31,7 +31,7 @@ struct ConvertedCurve {
 
 /// Exact where the surface has an exact form (all elementary, swept, Bezier and B-spline surfaces), else approximated
 /// with the same parameters. Periodic surfaces are cut at u0, v0. Throws Standard_Failure.
-[[nodiscard]] ConvertedSurface convert_surface(const Handle(Geom_Surface) & surface, const ParameterBox& box);
+[[nodiscard]] ConvertedSurface convert_surface(const Handle(Geom_Surface) & surface, const ParameterWindow& box);
 
 /// The part of a curve over [a, b] of its own parameter; periodic curves are cut at a. Throws Standard_Failure.
 [[nodiscard]] ConvertedCurve convert_curve(const Handle(Geom_Curve) & curve, double a, double b);
