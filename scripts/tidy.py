@@ -60,11 +60,15 @@ def unnamed_names(file):
 
 
 def header_types():
-    """Names of the types that the headers declare."""
-    types = set()
-    for header in (ROOT / "src").rglob("*.h"):
-        types.update(re.findall(r"^(?:struct|class|enum class|using) (\w+)", header.read_text(), re.MULTILINE))
-    return types
+    """Names of the types that the headers define. Two headers that define one name would give a program two types of that
+    name, and the linker would take the code of either for both."""
+    headers = {}
+    for header in sorted((ROOT / "src").rglob("*.h")):
+        text = header.read_text()
+        for name in re.findall(r"^(?:struct|class|enum class|using) (\w+)(?=[ :{=][^;]*(?:\{|= ))", text, re.MULTILINE):
+            if headers.setdefault(name, (header, text))[0] != header and not re.search(rf"^using {name} =", text, re.MULTILINE):
+                sys.exit(f"tidy.py: {name} is defined in {headers[name][0].name} and in {header.name}")
+    return set(headers)
 
 
 def batches_of(files):
