@@ -59,6 +59,15 @@ class RadialFunction {
   /// How many consecutive parameters may act at one s: 4 for splines, parameter_count() else.
   [[nodiscard]] int active_count() const;
 
+  /// Smallest r over [0, L]. Exact to round-off, not sampled: the least of r at both ends, at the knots of a spline and
+  /// at the zeros of r', which have a closed form for every knot span and every family. NaN if the formula has no value
+  /// somewhere in [0, L]. Nothing is stored: a call takes a few evaluations per knot span.
+  [[nodiscard]] double smallest() const;
+  /// Largest r over [0, L], in the same way.
+  [[nodiscard]] double largest() const;
+  /// Largest |r'| over [0, L], in the same way with the zeros of r''.
+  [[nodiscard]] double steepest() const;
+
   [[nodiscard]] ToolFamily family() const { return family_; }
   [[nodiscard]] double axis_length() const { return axis_length_; }
   [[nodiscard]] const Eigen::VectorXd& parameters() const { return parameters_; }

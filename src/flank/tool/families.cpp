@@ -150,4 +150,25 @@ void family_gradient(ToolFamily family, double axis_length, const double* p, dou
   }
 }
 
+double family_turning_point(ToolFamily family, double axis_length, const double* p) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  const double middle = 0.5 * axis_length;
+  switch (family) {
+    case ToolFamily::kBarrel:
+      return p[2];
+    case ToolFamily::kLens:
+      return middle;
+    case ToolFamily::kTaperedBarrel:  // sigma - k x = 0
+      return middle + std::sin(p[2]) * (p[0] - p[1]);
+    case ToolFamily::kHyperbolic:
+      return p[2] != 0.0 ? middle - 0.5 * p[1] / p[2] : kNone;
+    case ToolFamily::kCylinder:
+    case ToolFamily::kCone:
+    case ToolFamily::kPower:
+    case ToolFamily::kSpline:
+      break;
+  }
+  return kNone;
+}
+
 }  // namespace flank::internal

@@ -9,5 +9,8 @@ namespace flank::internal {
 [[nodiscard]] RadialJet family_jet(ToolFamily family, double axis_length, const double* p, double s);
 /// dr/dparameter_k into out.
 void family_gradient(ToolFamily family, double axis_length, const double* p, double s, double* out);
+/// The only s, inside [0, L] or not, at which r' of a family changes its sign; NaN if there is none. No family's r''
+/// changes its sign, so that r' is steepest at one of the ends.
+[[nodiscard]] double family_turning_point(ToolFamily family, double axis_length, const double* p);
 
 }  // namespace flank::internal

@@ -48,6 +48,60 @@ void require_length(double axis_length) {
     throw InternalError("a radial function needs a finite axis length > 0");
 }
 
+struct Range {
+  double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
+
+  /// A value that is not a number stays, so that it is not lost among the others.
+  void add(double value) {
+    if (value < low || std::isnan(value)) low = value;
+    if (value > high || std::isnan(value)) high = value;
+  }
+};
+
+/// One polynomial piece of a spline.
+struct Span {
+  double start, length;
+  RadialJet left, right;  ///< at its ends; r'' is continuous, so that neither end's piece matters
+};
+
+template <class Visit>
+void each_span(const RadialFunction& spline, Visit&& visit) {
+  const int spans = spline.parameter_count() - 3;
+  const double length = spline.axis_length() / spans;
+  RadialJet left = spline.at(0.0);
+  for (int i = 0; i < spans; ++i) {
+    const RadialJet right = spline.at(i + 1 < spans ? length * (i + 1) : spline.axis_length());
+    visit(Span{length * i, length, left, right});
+    left = right;
+  }
+}
+
+/// Zeros of r' within a span as shares of its length: r' is quadratic there. Not numbers, or outside (0, 1), if there
+/// are none; near a double zero, where round-off decides, r does not turn.
+std::array<double, 2> turns(const Span& span) {
+  const double a = 0.5 * (span.right.d2 - span.left.d2) * span.length, b = span.left.d2 * span.length, c = span.left.d1;
+  const double q = -0.5 * (b + std::copysign(std::sqrt(b * b - 4.0 * a * c), b));
+  return {q / a, c / q};
+}
+
+Range radius_range(const RadialFunction& radial) {
+  Range radii;
+  if (radial.family() != ToolFamily::kSpline) {
+    const double length = radial.axis_length();
+    for (const double s : {0.0, length}) radii.add(radial.at(s).r);
+    const double turn = family_turning_point(radial.family(), length, radial.parameters().data());
+    if (turn > 0.0 && turn < length) radii.add(radial.at(turn).r);
+    return radii;
+  }
+  each_span(radial, [&](const Span& span) {
+    radii.add(span.left.r);
+    radii.add(span.right.r);
+    for (const double t : turns(span))
+      if (t > 0.0 && t < 1.0) radii.add(radial.at(span.start + t * span.length).r);
+  });
+  return radii;
+}
+
 }  // namespace
 
 std::string_view family_name(ToolFamily family) { return info(family).name; }
@@ -145,6 +199,26 @@ int RadialFunction::first_active(double s) const {
 }
 
 int RadialFunction::active_count() const { return family_ == ToolFamily::kSpline ? 4 : parameter_count(); }
+
+double RadialFunction::smallest() const { return radius_range(*this).low; }
+
+double RadialFunction::largest() const { return radius_range(*this).high; }
+
+double RadialFunction::steepest() const {
+  Range slopes;
+  if (family_ != ToolFamily::kSpline) {
+    for (const double s : {0.0, axis_length_}) slopes.add(std::abs(at(s).d1));
+    return slopes.high;
+  }
+  each_span(*this, [&](const Span& span) {
+    slopes.add(std::abs(span.left.d1));
+    slopes.add(std::abs(span.right.d1));
+    // r'' is linear between the knots.
+    const double t = span.left.d2 / (span.left.d2 - span.right.d2);
+    if (t > 0.0 && t < 1.0) slopes.add(std::abs(at(span.start + t * span.length).d1));
+  });
+  return slopes.high;
+}
 
 RadialFunction RadialFunction::with_parameters(const Eigen::VectorXd& parameters) const {
   return {family_, axis_length_, parameters};
