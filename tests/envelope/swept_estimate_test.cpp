@@ -1,12 +1,116 @@
-// The planner's swept distance: there is always a nearest place, whatever the radial function.
+// The planner's swept distance against closed forms and dense search: there is always a nearest place, whatever the
+// radial function.
 #include "flank/envelope/swept_estimate.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
+#include "flank/base/random.h"
+#include "motion/sample_motions.h"
 #include "seed/exact_targets.h"
 
 namespace flank::internal {
 namespace {
+
+const RadialFunction& bumpy() {
+  static const RadialFunction radial =
+      RadialFunction::spline(40.0, (Eigen::VectorXd(8) << 3.0, 3.3, 4.1, 4.6, 4.2, 3.9, 4.8, 5.4).finished());
+  return radial;
+}
+
+/// min over t and s of |x - R(s, t)| - r(s) on a dense grid, and a little less than what it can miss.
+double dense(const RuledMotion& motion, const RadialFunction& radial, const Vec3& x) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= 300; ++i) {
+    const Pose pose = motion.pose(i / 300.0);
+    for (int j = 0; j <= 150; ++j) {
+      const double s = radial.axis_length() * j / 150.0;
+      least = std::min(least, (x - pose.at(s)).norm() - radial.at(s).r);
+    }
+  }
+  return least;
+}
+
+std::vector<Vec3> points_near(const RuledMotion& motion, int count, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<Vec3> points;
+  for (int k = 0; k < count; ++k)
+    points.push_back(motion.pose(random.uniform()).at(random.uniform(-5.0, 45.0)) +
+                     7.0 * Vec3(random.normal(), random.normal(), random.normal()));
+  return points;
+}
+
+TEST(SweptEstimate, OfACylinderMovedSidewaysIsTheDistanceToItsSlab) {
+  const RuledMotion motion = testing::translation({0, 0, 0}, {60, 0, 0}, {0, 0, 1}, 40.0);
+  const RadialFunction cylinder(ToolFamily::kCylinder, 40.0, Eigen::VectorXd::Constant(1, 4.0));
+  const SweptEstimate swept({motion}, cylinder, 121);
+  EXPECT_NEAR(swept.spacing(), 1.0 / 120.0, 1e-15);
+  for (const Vec3& x : points_near(motion, 300, 1)) {
+    const Vec3 nearest(std::clamp(x[0], 0.0, 60.0), 0.0, std::clamp(x[2], 0.0, 40.0));
+    const double f = (x - nearest).norm() - 4.0;
+    // Poses are half a millimetre apart; the parabola is exact where the distance is large beside that.
+    if (f > -3.0) {
+      EXPECT_NEAR(swept.distance(x), f, 1e-3) << x.transpose();
+    }
+    const SweptContact exact = refine_contact(motion, cylinder, x, std::clamp(x[0] / 60.0, 0.0, 1.0), 0.05);
+    if (f > -3.9) {
+      EXPECT_NEAR(exact.f, f, 1e-8) << x.transpose();
+    }
+  }
+}
+
+TEST(SweptEstimate, IsThatOfDenseSearch) {
+  const RuledMotion motion = testing::random_motion(3);
+  const SweptEstimate swept({motion}, bumpy(), 161);
+  for (const Vec3& x : points_near(motion, 25, 2)) {
+    const double expected = dense(motion, bumpy(), x);
+    const SweptContact estimate = swept.nearest(x), exact = refine_contact(motion, bumpy(), x, estimate.t, 0.02);
+    EXPECT_NEAR(estimate.f, expected, 0.02) << x.transpose();
+    EXPECT_LE(exact.f, expected + 1e-9) << "the least of all, not of a grid";
+    EXPECT_GT(exact.f, expected - 0.02);
+    // The contact is what it says: a distance to an axis point less its radius, and the way there.
+    const Vec3 axis_point = motion.pose(exact.t).at(exact.s);
+    EXPECT_NEAR((x - axis_point).norm() - bumpy().at(exact.s).r, exact.f, 1e-9);
+    EXPECT_LT((exact.to_axis - (axis_point - x).normalized()).norm(), 1e-9);
+  }
+}
+
+TEST(SweptEstimate, ItsGradientIsTheWayFromTheAxis) {
+  const RuledMotion motion = testing::random_motion(4);
+  constexpr double h = 1e-4;
+  for (const Vec3& x : points_near(motion, 20, 3)) {
+    const SweptEstimate swept({motion}, bumpy(), 161);
+    const double t = swept.nearest(x).t;
+    const SweptContact at = refine_contact(motion, bumpy(), x, t, 0.02);
+    if (at.f < -2.0 || at.t < 0.01 || at.t > 0.99) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double ahead = refine_contact(motion, bumpy(), x + h * Vec3::Unit(axis), t, 0.02).f;
+      const double behind = refine_contact(motion, bumpy(), x - h * Vec3::Unit(axis), t, 0.02).f;
+      EXPECT_NEAR((ahead - behind) / (2 * h), -at.to_axis[axis], 1e-4);
+    }
+  }
+}
+
+TEST(SweptEstimate, OfSeveralMotionsIsTheLeastOfEach) {
+  const std::vector<RuledMotion> motions{testing::random_motion(5), testing::random_motion(6)};
+  const SweptEstimate both(motions, bumpy(), 81), first({motions[0]}, bumpy(), 81), second({motions[1]}, bumpy(), 81);
+  std::vector<SweptContact> places;
+  for (const Vec3& x : points_near(motions[0], 15, 4)) {
+    const SweptContact found = both.nearest(x);
+    EXPECT_EQ(found.f, std::min(first.distance(x), second.distance(x)));
+    EXPECT_EQ(found.motion, first.distance(x) <= second.distance(x) ? 0 : 1);
+    both.places(x, SweptContact{}, places);
+    double least = std::numeric_limits<double>::infinity();
+    for (const SweptContact& place : places) {
+      const RuledMotion& motion = motions[static_cast<std::size_t>(place.motion)];
+      least = std::min(least, refine_contact(motion, bumpy(), x, place.t, 2.0 * both.spacing()).f);
+    }
+    const double expected = std::min(dense(motions[0], bumpy(), x), dense(motions[1], bumpy(), x));
+    EXPECT_LE(least, expected + 1e-9) << "the least f is reached from one of the places";
+  }
+}
 
 TEST(SweptEstimate, FindsPlacesForARadialFunctionThatIsNoTool) {
   // A barrel on an axis that is too long for it: r < 0 at both ends.

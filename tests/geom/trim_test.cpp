@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -80,6 +81,60 @@ TEST(Trim, EndsThatDoNotMeetAreJoined) {
   EXPECT_TRUE(region.inside(5, 5));
   EXPECT_FALSE(region.inside(1, 5));
   EXPECT_FALSE(region.inside(9, 2 + 1e-6));
+}
+
+TEST(Trim, LoopsWithinLoopsAlternate) {
+  const TrimRegion rings({circle(5, 5, 4), circle(5, 5, 3), circle(5, 5, 2), circle(5, 5, 1)}, {0, 10, 0, 10});
+  for (const double angle : {0.1, 1.7, 3.2, 5.9})
+    for (const auto& [rho, in] : {std::pair(0.5, false), std::pair(1.5, true), std::pair(2.5, false),
+                                  std::pair(3.5, true), std::pair(4.5, false)})
+      EXPECT_EQ(rings.inside(5 + rho * std::cos(angle), 5 + rho * std::sin(angle)), in) << rho;
+}
+
+TEST(Trim, TheDirectionAndTheOrderOfLoopsDoNotMatter) {
+  TrimLoop outer = circle(5, 5, 4), back = outer;
+  BSplineCurve2& edge = back.edges[0];
+  edge.poles = edge.poles.rowwise().reverse().eval();
+  std::reverse(edge.weights.begin(), edge.weights.end());
+  const ParameterRectangle r{0, 10, 0, 10};
+  const TrimRegion a({outer, circle(4, 5, 1)}, r), b({circle(4, 5, 1), back}, r);
+  Random random(3);
+  for (int k = 0; k < 5000; ++k) {
+    const double u = random.uniform(0, 10), v = random.uniform(0, 10);
+    EXPECT_EQ(a.inside(u, v), b.inside(u, v));
+  }
+  EXPECT_NEAR(a.box().u0, b.box().u0, 1e-12);
+}
+
+/// Areas by counting: what is inside, and what cells that are inside or outside leave to those that are cut.
+TEST(Trim, CutCellsHoldTheBorderAndNothingElse) {
+  const TrimRegion region({circle(5, 5, 3)}, {0, 10, 0, 10});
+  constexpr int kCells = 100;
+  double inside = 0.0, cut = 0.0;
+  for (int i = 0; i < kCells; ++i)
+    for (int j = 0; j < kCells; ++j) {
+      const ParameterRectangle cell{0.1 * i, 0.1 * (i + 1), 0.1 * j, 0.1 * (j + 1)};
+      const TrimRegion::Side side = region.classify(cell);
+      (side == TrimRegion::Side::kInside ? inside : cut) += side == TrimRegion::Side::kOutside ? 0.0 : 0.01;
+      if (side != TrimRegion::Side::kCut) continue;
+      const double near =
+          std::hypot(std::max({cell.u0 - 5, 5 - cell.u1, 0.0}), std::max({cell.v0 - 5, 5 - cell.v1, 0.0}));
+      const double far = std::hypot(std::max(std::abs(cell.u0 - 5), std::abs(cell.u1 - 5)),
+                                    std::max(std::abs(cell.v0 - 5), std::abs(cell.v1 - 5)));
+      EXPECT_LE(near, 3.0 + 1e-5);
+      EXPECT_GE(far, 3.0 - 1e-5);
+    }
+  EXPECT_LT(inside, 9 * std::numbers::pi);
+  EXPECT_GT(inside + cut, 9 * std::numbers::pi);
+  EXPECT_LT(cut, 0.1 * 8 * 3 * 1.5) << "a line of cells";
+}
+
+TEST(Trim, WhatSticksOutOfTheRectangleIsClipped) {
+  const TrimRegion region({circle(0, 5, 3)}, {0, 10, 0, 10});
+  EXPECT_DOUBLE_EQ(region.box().u0, 0.0);
+  EXPECT_NEAR(region.box().u1, 3.0, 1e-5);
+  EXPECT_TRUE(region.inside(1, 5));
+  EXPECT_FALSE(region.inside(-1, 5));
 }
 
 }  // namespace
