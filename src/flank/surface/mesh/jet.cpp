@@ -130,6 +130,8 @@ JetFit fit_jet(std::span<const Vec3> points, const Vec3& origin, const Vec3& nor
     w.weight.push_back(std::exp(-falloff * (w.x[i] * w.x[i] + w.y[i] * w.y[i]) / farthest));
   Basis solution;
   fit.degree = solve_best(degree, w, solution, fit.residual);
+  // A plane: the coefficients stay zero. Of points that are all the origin there is no extent to scale them with.
+  if (fit.degree == 0) return fit;
   const double sx = 1.0 / extent[0], sy = 1.0 / extent[1];
   const Basis scale = monomials(sx, sy);
   for (int k = 0; k < Jet::kTerms; ++k) fit.jet.c[static_cast<std::size_t>(k)] = solution[k] * scale[k];
