@@ -60,8 +60,8 @@ TEST(NurbsNewton, ConvergesToRoundOffOnASphere) {
     EXPECT_LT((x.jet.p - 10.0 * direction).norm(), 1e-12);
     EXPECT_NEAR(gradient_u(x.jet, radius * direction), 0.0, 1e-10);
     EXPECT_NEAR(gradient_v(x.jet, radius * direction), 0.0, 1e-10);
-    // Inside, the Hessian over the metric is (1 - d k)^2 = (radius / 10)^2, or 1 - d k if the last, tiny step counted as
-    // clipped in one direction because of round-off.
+    // Inside, the Hessian over the metric is (1 - d k)^2 = (radius / 10)^2, or 1 - d k if the last, tiny step counted
+    // as clipped in one direction because of round-off.
     if (radius < 9.0) {
       EXPECT_GE(x.stiffness, std::pow(radius / 10.0, 2) - 1e-3);
       EXPECT_LE(x.stiffness, radius / 10.0 + 1e-3);
