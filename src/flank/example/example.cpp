@@ -9,6 +9,7 @@
 #include "flank/example/example_envelope.h"
 #include "flank/example/example_mesh.h"
 #include "flank/example/example_motions.h"
+#include "flank/example/example_rotor37.h"
 #include "flank/example/example_tools.h"
 
 namespace flank::internal {
@@ -84,6 +85,14 @@ Example blade(Face face) {
   return example;
 }
 
+Example solid(SolidModel model) {
+  Example example;
+  example.faces = std::move(model.faces);
+  example.step = std::move(model.step);
+  example.diagonal_mm = diagonal(example.faces);
+  return example;
+}
+
 /// An exact envelope with a smooth bump towards the axis over the middle.
 Example deformed(const ExampleOptions& options) {
   Example example = single(kBaseTool, kBaseMotion, options);
@@ -147,6 +156,9 @@ std::vector<Recipe> all_recipes() {
       {"twisted-blade", "free-form compressor blade side, 30 degrees of twist",
        [](Options) { return blade(twisted_blade()); }},
       {"elliptic-side", "slightly elliptic side, almost a cone", [](Options) { return blade(elliptic_side()); }},
+      {"rotor37", "blade of NASA Rotor 37, a solid: sides F1 and F3", [](Options) { return solid(rotor37_blade()); }},
+      {"rotor37-blisk", "two blades of NASA Rotor 37 on a piece of the hub, a solid: cavity between F9 and F11",
+       [](Options) { return solid(rotor37_blisk()); }},
       {"deformed-envelope", "exact barrel envelope with a smooth bump", deformed},
       {"envelope-mesh", "exact barrel envelope as a mesh",
        [](Options options) { return mesh(MeshFault::kNone, options); }},

@@ -28,8 +28,10 @@ struct ExampleTruth {
 
 struct Example {
   std::string name;
-  std::string description;           ///< one line
-  std::vector<Face> faces;           ///< open sheets; the machining side is the outward normal (reversed = false)
+  std::string description;  ///< one line
+  /// Open sheets, the machining side is the outward normal (reversed = false); or the faces of one solid.
+  std::vector<Face> faces;
+  std::string step;                  ///< of a solid: the text of its file; empty for sheets
   std::optional<TriangleMesh> mesh;  ///< instead of faces
   std::optional<ExampleTruth> truth;
   double diagonal_mm = 0.0;  ///< of the bounding box of faces or mesh, from dense points

@@ -69,6 +69,8 @@ std::vector<std::string> write_example(const Example& example, const std::string
   std::vector<std::string> written{file};
   if (example.mesh)
     write_mesh(file, *example.mesh);
+  else if (!example.step.empty())
+    write_file(file, example.step);
   else
     write_step(file, example.faces);
   if (!example.truth) return written;

@@ -1,0 +1,32 @@
+/// NASA Rotor 37, made from its published coordinates: a real compressor blade, and two of them on a piece of their hub.
+#pragma once
+
+#include <vector>
+
+#include "flank/face.h"
+#include "flank/io/write_solid.h"
+
+namespace flank::internal {
+
+/// The blade's border faces at the hub: where the published coordinates begin, or a quarter of a section deeper, so that
+/// the blade ends inside the hub.
+enum class Rotor37Root { kAtTheHub, kInsideTheHub };
+
+/// The six faces of the blade, normals S_u x S_v or their opposite (`reversed`) outward. F1 is side 1 from the leading to
+/// the trailing edge and F3 side 2 back; F2 is the trailing and F4 the leading edge; v runs from the hub to the shroud.
+/// F5 closes the blade at the hub, F6 at the shroud. Degree 3 x 3 through 36 of the 100 stations of each section on a
+/// side and 9 at an edge; the stations between them lie within 0.14 mm.
+[[nodiscard]] std::vector<Face> rotor37_faces(Rotor37Root root = Rotor37Root::kAtTheHub);
+
+/// The blade as a solid, faces as above: 42.8 x 74.4 x 48.4 mm.
+[[nodiscard]] SolidModel rotor37_blade();
+
+/// Angle about the X axis between the two blades of the blisk, as between the 36 of the rotor.
+inline constexpr double kRotor37PitchRad = 10.0 * 3.14159265358979323846 / 180.0;
+
+/// 49 degrees of the hub with two blades, no fillets, one solid of 16 faces: F1 the hub's skin; F2, F5 its front and
+/// back; F3, F4 its cuts; F14 its bore; F9, F6, F7, F8 are F1 to F4 of the blade where it was published, F13, F10, F11,
+/// F12 those of the next; F15, F16 their tips. The cavity lies between F9 and F11.
+[[nodiscard]] SolidModel rotor37_blisk();
+
+}  // namespace flank::internal
