@@ -44,7 +44,10 @@ Subcommand add_example(CLI::App& parser) {
   for (const std::string& known : example_names()) names += (names.empty() ? "" : ", ") + known;
   app->add_option("NAME", *name, "One of: " + names)->required();
   app->add_option("-o,--output", *file, "File to write: .step for faces, .stl, .obj or .ply for meshes")->required();
-  app->footer("Example: flank example envelope-barrel-1 -o barrel.step");
+  app->footer(
+      "Examples: flank example envelope-barrel-1 -o barrel.step; flank example rotor37 -o blade.step (a real "
+      "compressor "
+      "blade)");
   return {
       app, [name, file](const CommonOptions& common) {
         ExampleOptions options;

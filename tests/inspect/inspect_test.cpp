@@ -8,6 +8,7 @@
 
 #include "flank/inspect/inspect_mesh.h"
 #include "io/part_files.h"
+#include "rotor37_file.h"
 
 namespace flank::internal {
 namespace {
@@ -96,8 +97,7 @@ TEST(Inspect, Kj66Blades) {
 }
 
 TEST(Inspect, Rotor37Blade) {
-  FLANK_REAL_PART(file, "r37_blade.step");
-  const InspectReport report = inspect(read_part(file));
+  const InspectReport report = inspect(read_part(test::rotor37_file("rotor37")));
   EXPECT_NEAR(report.rows[0].area_mm2, 3700.0, 60.0);
   EXPECT_NEAR(report.rows[2].area_mm2, 3700.0, 60.0);
   EXPECT_GT(report.rows[2].smallest_concave_radius_mm, 27.0);

@@ -7,6 +7,7 @@
 #include "flank/io/mesh/write_mesh.h"
 #include "flank/io/text/read_sniff.h"
 #include "io/part_files.h"
+#include "rotor37_file.h"
 
 namespace flank::internal {
 namespace {
@@ -47,12 +48,12 @@ void expect_round_trip(const std::string& file) {
 }
 
 TEST(WriteStep, Rotor37Blade) {
-  FLANK_REAL_PART(file, "r37_blade.step");
+  const std::string file = test::rotor37_file("rotor37");
   expect_round_trip(file);
 }
 
 TEST(WriteStep, Rotor37BliskWithTrims) {
-  FLANK_REAL_PART(file, "r37_blisk_sector_2blades.step");
+  const std::string file = test::rotor37_file("rotor37-blisk");
   expect_round_trip(file);
 }
 

@@ -8,6 +8,7 @@
 #include "flank/error.h"
 #include "flank/setup/check_faces.h"
 #include "flank/setup/targets.h"
+#include "rotor37_file.h"
 
 namespace flank::internal {
 namespace {
@@ -77,9 +78,7 @@ TEST(JudgeJob, ReachableShareOfAnImpellerBladeThatRunsOnInTheHub) {
 }
 
 TEST(JudgeJob, ReachableShareBetweenTwoBladesOfOneSolid) {
-  const std::string file = real_part("r37_blisk_sector_2blades.step");
-  if (file.empty()) GTEST_SKIP() << "no real parts in FLANK_DATA";
-  const Part part = read_part(file);
+  const Part part = read_part(test::rotor37_file("rotor37-blisk"));
   for (int target : {8, 10}) {
     const FaceSamples coarse = reach_of(part, target, 5.0, 0.1, 1.0), fine = reach_of(part, target, 5.0, 0.1, 0.4);
     EXPECT_NEAR(share_of(coarse), share_of(fine), 1e-3);

@@ -18,13 +18,14 @@ constexpr int kSideFirst = 12, kSideLast = 87;
 constexpr int kSidePoints = 36;
 /// Stations from one to the next point of an edge; there are four of them between a side and the tip of the edge.
 constexpr int kEdgeStep = 3;
-/// How deep the blade of the blisk reaches into the hub, in steps from the first section to the second: 1.7 mm.
+/// How deep the blade of the blisk reaches into the hub, in steps from the first section to the second.
 constexpr double kRootDepth = 0.25;
-/// The hub's ends are these points of its outline.
+/// The points of the hub's outline at which the blisk ends.
 constexpr int kHubFirst = 5, kHubLast = 20;
 constexpr double kBoreRadiusMm = 150.0;
 constexpr double kSectorFromRad = -22.0 * kDegreesToRad, kSectorToRad = 27.0 * kDegreesToRad;
-/// A lid's poles leave the lines across it as (1 - u)^12 and u^12: only its ends know of the edges' curves.
+/// A lid is ruled from side to side except near its ends, where it bends to the curves of the edges: the difference
+/// fades as (1 - u)^12 from the leading and as u^12 from the trailing edge.
 constexpr int kLidPower = 12;
 
 /// The points of one section's stations, of side 1 and side 2.

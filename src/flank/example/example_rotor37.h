@@ -1,4 +1,4 @@
-/// NASA Rotor 37, made from its published coordinates: a real compressor blade, and two of them on a piece of their hub.
+/// NASA Rotor 37, made from its published coordinates: a real compressor blade, and two of them on part of their hub.
 #pragma once
 
 #include <vector>
@@ -8,14 +8,14 @@
 
 namespace flank::internal {
 
-/// The blade's border faces at the hub: where the published coordinates begin, or a quarter of a section deeper, so that
-/// the blade ends inside the hub.
+/// Where the blade begins: at the first published section, which runs along the hub, or inside the hub, below the first
+/// section by a quarter of the step to the second (1.7 mm).
 enum class Rotor37Root { kAtTheHub, kInsideTheHub };
 
-/// The six faces of the blade, normals S_u x S_v or their opposite (`reversed`) outward. F1 is side 1 from the leading to
-/// the trailing edge and F3 side 2 back; F2 is the trailing and F4 the leading edge; v runs from the hub to the shroud.
-/// F5 closes the blade at the hub, F6 at the shroud. Degree 3 x 3 through 36 of the 100 stations of each section on a
-/// side and 9 at an edge; the stations between them lie within 0.14 mm.
+/// The six faces of the blade; their normals point outward (F5 is reversed). F1 is side 1, u from the leading to the
+/// trailing edge, F3 is side 2, u back again; F2 is the trailing and F4 the leading edge; v runs from the hub to the
+/// shroud. F5 closes the blade at the hub, F6 at the shroud. The splines of degree 3 x 3 go through 36 stations of each
+/// section on a side and 9 points at an edge, to 1e-9 mm; the stations between them lie within 0.14 mm.
 [[nodiscard]] std::vector<Face> rotor37_faces(Rotor37Root root = Rotor37Root::kAtTheHub);
 
 /// The blade as a solid, faces as above: 42.8 x 74.4 x 48.4 mm.

@@ -27,9 +27,10 @@ struct HubSector {
   double from_rad = 0.0, to_rad = 0.0;  ///< about X, from +Y towards +Z
 };
 
-/// The hub and all blades as one solid. Each blade has six faces as rotor37_faces gives them: two sides and two edges
-/// round about, F5 buried in the hub, F6 the tip. Order of the faces: skin of the hub, its front, its two cuts, its
-/// back; of each blade F2, F3, F4, F1; the bore; the tips. Throws InternalError if that is not what comes out.
+/// The hub and all blades as one solid. Each blade is a closed skin of six faces: F1 to F4 stand round about, F5 lies
+/// inside the hub, F6 is the tip. The faces of the solid, in order: the skin of the hub, its front, its cuts at
+/// from_rad and to_rad, its back; F2, F3, F4, F1 of each blade; the bore; the tips. Throws InternalError if the result
+/// has other faces, for example if a blade does not reach the hub.
 [[nodiscard]] SolidModel fuse_blisk(const std::string& name, const HubSector& hub,
                                     const std::vector<std::vector<Face>>& blades);
 

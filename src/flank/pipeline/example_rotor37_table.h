@@ -1,5 +1,5 @@
-/// The published coordinates of NASA Rotor 37 (NASA TP 1337 and later reports; share/examples/rotor37*.csv), a transonic
-/// compressor rotor. They are the metal when cold; the rotor turns about the X axis.
+/// The published coordinates of NASA Rotor 37, a transonic compressor rotor (NASA TP 1337 and later reports; the
+/// numbers are in share/examples/rotor37*.csv). The rotor turns about the X axis.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@ namespace flank::internal {
 inline constexpr int kRotor37Sections = 13;   ///< from the hub to the shroud
 inline constexpr int kRotor37Stations = 100;  ///< of each section, from the leading to the trailing edge
 
-/// One station of a section: a point of each side, at the same Z and R. Angles about the axis. At the first and the last
-/// station the two points are one.
+/// One station of a section: a point on each side, both at the same Z and R. At the first and the last station the two
+/// points are one, to the last digit of the table.
 struct Rotor37Station {
   double z_mm = 0.0, radius_mm = 0.0;
   std::array<double, 2> theta_rad{};  ///< of side 1 and side 2

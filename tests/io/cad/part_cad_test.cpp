@@ -6,6 +6,7 @@
 
 #include "flank/io/cad/read_cad.h"
 #include "io/part_files.h"
+#include "rotor37_file.h"
 
 namespace flank::internal {
 namespace {
@@ -61,7 +62,7 @@ void expect_clamped(const Part& part) {
 }
 
 TEST(PartCad, Rotor37Blade) {
-  FLANK_REAL_PART(file, "r37_blade.step");
+  const std::string file = test::rotor37_file("rotor37");
   const Part part = read_part(file);
   EXPECT_EQ(part.format, "STEP");
   EXPECT_EQ(part.unit, "mm");
@@ -77,12 +78,12 @@ TEST(PartCad, Rotor37Blade) {
 }
 
 TEST(PartCad, Rotor37BladeIsTrueToItsFile) {
-  FLANK_REAL_PART(file, "r37_blade.step");
+  const std::string file = test::rotor37_file("rotor37");
   expect_true_to_file(file, "STEP");
 }
 
 TEST(PartCad, Rotor37BliskSector) {
-  FLANK_REAL_PART(file, "r37_blisk_sector_2blades.step");
+  const std::string file = test::rotor37_file("rotor37-blisk");
   const Part part = read_part(file);
   EXPECT_EQ(part.solids, 1);
   ASSERT_EQ(part.faces.size(), 16u);
@@ -99,7 +100,7 @@ TEST(PartCad, Rotor37BliskSector) {
 }
 
 TEST(PartCad, Rotor37BliskSectorIsTrueToItsFile) {
-  FLANK_REAL_PART(file, "r37_blisk_sector_2blades.step");
+  const std::string file = test::rotor37_file("rotor37-blisk");
   expect_true_to_file(file, "STEP");
 }
 
