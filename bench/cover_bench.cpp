@@ -16,6 +16,7 @@
 #include "flank/example/example.h"
 #include "flank/io/tool/tool_json.h"
 #include "flank/pipeline/cover_job.h"
+#include "part_file.h"
 
 namespace {
 
@@ -51,10 +52,7 @@ std::string scratch(const std::string& name) {
 }
 
 std::string real_part(const std::string& name) {
-  const char* data = std::getenv("FLANK_DATA");
-  const std::string file = std::string(data ? data : FLANK_SOURCE_DIR "/../shared/data") + "/" + name;
-  if (!std::filesystem::exists(file)) throw InputError(file + " is not there (set FLANK_DATA)");
-  return file;
+  return bench::part_file(name, std::filesystem::path(scratch(name)).parent_path());
 }
 
 /// The middle of an example's own tool, as a file.

@@ -16,6 +16,7 @@
 #include "flank/pipeline/fit_job.h"
 #include "flank/ruled_motion.h"
 #include "flank/target.h"
+#include "part_file.h"
 
 namespace flank::internal::bench {
 
@@ -27,10 +28,7 @@ inline std::string scratch(const std::string& name) {
 
 /// File of one of the real parts.
 inline std::string real_part(const std::string& name) {
-  const char* data = std::getenv("FLANK_DATA");
-  const std::string file = std::string(data ? data : FLANK_SOURCE_DIR "/../shared/data") + "/" + name;
-  if (!std::filesystem::exists(file)) throw InputError(file + " is not there (set FLANK_DATA)");
-  return file;
+  return part_file(name, std::filesystem::path(scratch(name)).parent_path());
 }
 
 inline double seconds_of(const std::function<void()>& f) {
