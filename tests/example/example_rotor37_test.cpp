@@ -30,6 +30,12 @@ Vec3 outward(const Face& face, double u, double v) {
   return (face.reversed ? -1.0 : 1.0) * jet.du.cross(jet.dv).normalized();
 }
 
+/// Made once: it takes a second.
+const Example& blisk() {
+  static const Example example = make_example("rotor37-blisk");
+  return example;
+}
+
 /// Distance of a point from the surface, from a dense search that is polished by halving steps.
 double distance(const BSplineSurface& s, const Vec3& p) {
   double best = 1e300, u = 0.0, v = 0.0;
@@ -151,10 +157,14 @@ TEST(Rotor37, IsAValidSolidOfSixFacesWithItsMaterialInside) {
   EXPECT_EQ(part.solids, 1);
   EXPECT_TRUE(part.repairs.empty()) << part.repairs.front();
   ASSERT_EQ(part.faces.size(), 6u);
-  const Vec3 size = part.box.high - part.box.low;
-  EXPECT_NEAR(size.x(), 42.78, 0.01);
-  EXPECT_NEAR(size.y(), 74.40, 0.01);
-  EXPECT_NEAR(size.z(), 48.43, 0.01);
+  Box3 box;  // of dense points: the part's own is that of a coarse tessellation
+  for (const Face& face : part.faces)
+    for (int i = 0; i <= 200; ++i)
+      for (int j = 0; j <= 60; ++j) box.add(face.surface.value(i / 200.0, j / 60.0));
+  const Vec3 size = box.high - box.low;
+  EXPECT_NEAR(size.x(), 42.767, 2e-3);
+  EXPECT_NEAR(size.y(), 74.404, 2e-3);
+  EXPECT_NEAR(size.z(), 48.419, 2e-3);
   const std::vector<Face> faces = rotor37_faces();
   const Vec3 middle = 0.5 * (surface(faces, 1).value(0.5, 0.5) + surface(faces, 3).value(0.5, 0.5));
   for (std::size_t k = 0; k < 6; ++k) {
@@ -189,11 +199,10 @@ TEST(Rotor37, SidesTwistAndAreNotRuled) {
       for (int j = 1; j < 10; ++j)
         bulge = std::max(bulge, (face.surface.value(u, j / 10.0) - a).cross(b - a).norm() / (b - a).norm());
     }
-    EXPECT_GT(least, 20.0) << side;
-    EXPECT_LT(most, 45.0) << side;
-    EXPECT_GT(most, 31.0) << side;
+    EXPECT_NEAR(least, side == 1 ? 12.0 : 16.7, 0.1) << side;
+    EXPECT_NEAR(most, side == 1 ? 37.6 : 29.7, 0.1) << side;
   }
-  EXPECT_GT(bulge, 0.7);
+  EXPECT_NEAR(bulge, 0.757, 2e-3);
 }
 
 TEST(Rotor37Blisk, IsAValidSolidOfSixteenFacesInTheirOrder) {
@@ -213,17 +222,18 @@ TEST(Rotor37Blisk, IsAValidSolidOfSixteenFacesInTheirOrder) {
 }
 
 TEST(Rotor37Blisk, BladesAreTheBladeAndTheBladeTurned) {
-  const std::vector<Face> faces = make_example("rotor37-blisk").faces;
+  const std::vector<Face>& faces = blisk().faces;
   const std::vector<Face> blade = rotor37_faces();
   const Eigen::AngleAxisd turn(kRotor37PitchRad, Vec3::UnitX());
-  // Face of the blade, of the first and of the second on the hub. Each ends at the hub instead of the first section.
+  // Face of the blade, of the first and of the second on the hub. Each ends at the hub instead of the first section, and
+  // its spline goes through one section more: between the sections it differs from the blade's by up to 0.014 mm.
   for (const auto& [own, first, second] : {std::tuple(1, 9, 13), std::tuple(3, 7, 11)}) {
     const auto target = make_target({blade[static_cast<std::size_t>(own - 1)]});
     for (int i = 1; i < 20; ++i)
       for (int j = 1; j < 20; ++j) {
         const double u = i / 20.0, v = 0.05 + 0.9 * j / 20.0;
         const Vec3 p = surface(faces, first).value(u, v);
-        EXPECT_LT((target->closest(p).point - p).norm(), 0.01) << first;
+        EXPECT_LT((target->closest(p).point - p).norm(), 0.015) << first;
         EXPECT_LT((surface(faces, second).value(u, v) - turn * p).norm(), 1e-9) << second;
       }
   }
@@ -234,7 +244,7 @@ TEST(Rotor37Blisk, BladesAreTheBladeAndTheBladeTurned) {
 }
 
 TEST(Rotor37Blisk, HubGoesThroughItsPublishedOutline) {
-  const BSplineSurface skin = make_example("rotor37-blisk").faces[0].surface;
+  const BSplineSurface& skin = blisk().faces[0].surface;
   const std::vector<Vec2> outline = rotor37_hub();
   for (std::size_t k = 5; k <= 20; ++k) {
     const Vec3 p(outline[k].x(), outline[k].y() * std::cos(0.2), outline[k].y() * std::sin(0.2));
@@ -253,7 +263,7 @@ TEST(Rotor37Blisk, HubGoesThroughItsPublishedOutline) {
 
 TEST(Rotor37, TheSameBytesEveryTime) {
   EXPECT_TRUE(rotor37_blade().step == make_example("rotor37").step);
-  EXPECT_TRUE(rotor37_blisk().step == make_example("rotor37-blisk").step);
+  EXPECT_TRUE(rotor37_blisk().step == blisk().step);
 }
 
 TEST(SewSolid, RefusesFacesThatLeaveAGap) {
