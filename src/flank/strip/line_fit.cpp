@@ -57,10 +57,12 @@ LineFitter::LineFitter(const Target& target, const RadialFunction& radial, const
 
 void LineFitter::forget() { std::fill(feet_.begin(), feet_.end(), Footpoint{}); }
 
-void LineFitter::set_feet(std::span<const Footpoint> feet) { std::copy(feet.begin(), feet.end(), feet_.begin()); }
+void LineFitter::set_feet(std::span<const Footpoint> feet) {
+  FLANK_ASSERT(feet.size() == feet_.size());
+  std::copy(feet.begin(), feet.end(), feet_.begin());
+}
 
 LineFit LineFitter::measure(const Pose& pose) {
-  FLANK_ASSERT(feet.size() == feet_.size());
   track_axis(target_, pose, length_, feet_);
   LineFit fit;
   fit.pose = pose;
