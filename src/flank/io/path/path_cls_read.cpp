@@ -158,6 +158,7 @@ class Reader {
     const std::vector<double> v = in_.numbers();
     if (v.size() != 3 && v.size() != 6) in_.refuse("GOTO has 3 or 6 numbers");
     Pose pose{scale_ * Vec3(v[0], v[1], v[2]), Vec3::UnitZ()};
+    if (!pose.tip.allFinite()) in_.refuse("the point is not finite in millimetres");
     if (v.size() == 6) pose.axis = Vec3(v[3], v[4], v[5]);
     const double length = pose.axis.norm();
     if (!(std::abs(length - 1.0) <= kAxisLengthRounded))
@@ -170,7 +171,11 @@ class Reader {
       open_ = false;
       return;
     }
-    if (!named_ && !open_) path_.strips.push_back({static_cast<int>(path_.strips.size()) + 1, "flank", "", {}});
+    if (!named_ && !open_) {
+      const int id = static_cast<int>(path_.strips.size()) + 1;
+      ids_.insert(id);
+      path_.strips.push_back({id, "flank", "", {}});
+    }
     open_ = true;
     path_.strips.back().poses.push_back(pose);
   }
