@@ -17,6 +17,7 @@ namespace {
 
 constexpr const char* kAccepted =
     "STEP (.step .stp), IGES (.iges .igs), BREP (.brep .brp), STL (.stl), OBJ (.obj) or PLY (.ply)";
+constexpr long kLargestStepId = 100'000'000'000'000'000;  ///< longer numbers of a damaged file all count as this one
 
 std::string lower_extension(const std::string& file) {
   std::string extension = std::filesystem::path(file).extension().string();
@@ -146,12 +147,17 @@ std::vector<long> undefined_step_references(const std::string& content) {
   bool in_string = false;
   for (std::size_t i = content.find("DATA;"); i < content.size(); ++i) {
     const char c = content[i];
+    if (!in_string && content.compare(i, 2, "/*") == 0) {
+      // A comment may hold an apostrophe, or a # that refers to nothing.
+      i = std::min(content.find("*/", i + 2), content.size() - 2) + 1;
+      continue;
+    }
     if (c == '\'') in_string = !in_string;
     if (in_string || c != '#') continue;
     long id = 0;
     std::size_t k = i + 1;
-    while (k < content.size() && std::isdigit(static_cast<unsigned char>(content[k])))
-      id = 10 * id + (content[k++] - '0');
+    for (; k < content.size() && std::isdigit(static_cast<unsigned char>(content[k])); ++k)
+      id = std::min(10 * id + (content[k] - '0'), kLargestStepId);
     while (k < content.size() && std::isspace(static_cast<unsigned char>(content[k]))) ++k;
     (k < content.size() && content[k] == '=' ? defined : used).insert(id);
   }
