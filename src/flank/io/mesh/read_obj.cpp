@@ -34,6 +34,7 @@ TriangleMesh read_obj(const std::string& file, std::string_view content) {
       corners.clear();
       for (std::size_t i = 1; i < lines.words().size() && lines.word(i).front() != '#'; ++i)
         corners.push_back(vertex_index(lines, i, mesh.vertices.size()));
+      if (corners.size() < 3) lines.refuse("a face needs at least three vertices");
       add_polygon(mesh, corners.data(), static_cast<int>(corners.size()));
     }
   }

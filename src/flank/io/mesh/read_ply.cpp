@@ -78,6 +78,10 @@ Header read_header(TextLines& lines) {
   if (header.encoding != "ascii" && header.encoding != "binary_little_endian" && header.encoding != "binary_big_endian")
     lines.refuse(fmt::format("format \"{}\" is not read; accepted: ascii, binary_little_endian, binary_big_endian",
                              header.encoding));
+  // Rows of no bytes would never reach the end of the file.
+  for (const Element& element : header.elements)
+    if (element.properties.empty() && element.count > 0)
+      lines.refuse(fmt::format("the element \"{}\" has no properties", element.name));
   return header;
 }
 
