@@ -31,6 +31,7 @@ void require_schema(const nlohmann::json& json, const std::string& file, const s
 
 std::optional<std::string> read_checked(const fs::path& file, const std::string& schema) {
   if (!fs::exists(file)) return std::nullopt;
+  if (!fs::is_regular_file(file)) throw InputError(file.string() + ": is not a file");
   std::ifstream stream(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   if (!stream.good() && !stream.eof()) throw InputError(file.string() + ": cannot be read");
@@ -41,9 +42,13 @@ std::optional<std::string> read_checked(const fs::path& file, const std::string&
 }
 
 std::string title_of(const nlohmann::json& json) {
-  const std::string part = json.value("part", "");
+  const auto word = [&](const char* key) {
+    const auto found = json.find(key);
+    return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
+  };
+  const std::string part = word("part");
   if (part.empty()) return "OpenFlank report";
-  return json.value("faces", "") + " of " + fs::path(part).filename().string() + " - OpenFlank";
+  return word("faces") + " of " + fs::path(part).filename().string() + " - OpenFlank";
 }
 
 }  // namespace
