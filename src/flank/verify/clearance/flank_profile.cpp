@@ -40,6 +40,7 @@ std::vector<Vec2> flank_profile(const RadialFunction& radial) {
   // A radial function that is no tool (a fit that failed) still makes bodies.
   for (std::size_t k = 0; k < out.size(); ++k) {
     out[k].y() = std::isfinite(out[k].y()) ? std::max(0.0, out[k].y()) : 0.0;
+    if (!std::isfinite(out[k].x())) out[k].x() = k > 0 ? out[k - 1].x() : 0.0;
     if (k > 0) out[k].x() = std::max(out[k].x(), out[k - 1].x());
   }
   return out;
