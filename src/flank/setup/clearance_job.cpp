@@ -21,6 +21,12 @@ void require_length(const std::optional<double>& value, const char* option) {
     throw UsageError(fmt::format("{} {}: a length > 0 mm is needed", option, *value));
 }
 
+/// Words that are too long for the name of a file are none, and no reason to give up.
+bool is_there(const std::string& file) {
+  std::error_code error;
+  return std::filesystem::exists(file, error);
+}
+
 /// "30:10,70:12", or lines of "30 10", "30,10" or "30:10" (# starts a comment) when it came from a file.
 std::vector<Vec2> pairs_of(std::string text, const std::string& what) {
   std::vector<double> numbers;
@@ -100,15 +106,17 @@ const char* role_words(ObstacleRole role) {
 
 std::vector<Vec2> holder_profile(const std::string& text) {
   const std::string what = "--holder " + text;
-  const bool inline_text = text.find(':') != std::string::npos && !std::filesystem::exists(text);
+  const bool inline_text = text.find(':') != std::string::npos && !is_there(text);
   std::vector<Vec2> profile;
   if (inline_text) {
     profile = pairs_of(text, what);
   } else {
     const std::string content = read_file(text);
     const std::size_t first = content.find_first_not_of(" \t\r\n");
-    profile = first != std::string::npos && content[first] == '[' ? JsonInput(text, content).pairs()
-                                                                  : pairs_of(content, what);
+    // The reader of JSON takes objects only.
+    profile = first != std::string::npos && content[first] == '['
+                  ? JsonInput(text, "{\"holder\":" + content + "}").member("holder").pairs()
+                  : pairs_of(content, what);
   }
   if (profile.size() < 2) throw UsageError(what + ": two or more pairs z:radius are needed");
   check_profile(profile, what);
@@ -128,7 +136,7 @@ void check_clearance_job(const ClearanceJob& job, const Tool* tool) {
     throw UsageError(
         "--clearance: of what? --shank-length, --holder or --fixture is needed, or a tool that has a shank");
   for (const std::string& file : job.fixtures)
-    if (!std::filesystem::exists(file))
+    if (!is_there(file))
       throw InputError(file + ": no such fixture file; STEP, IGES, BREP, STL, OBJ and PLY are accepted");
 }
 
