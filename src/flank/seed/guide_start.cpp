@@ -1,6 +1,7 @@
 #include "flank/seed/guide_start.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -74,6 +75,8 @@ GuideStart start_from_guide(const std::string& file, const std::vector<AxisLine>
     const Vec3 tip_step = tips.back() - tips[tips.size() - 2];
     travel.push_back(travel.back() + (tip_step + 0.5 * (arms.back() - arms[arms.size() - 2])).norm());
   }
+  if (!std::isfinite(travel.back()) || !std::isfinite(out.mean_length_mm))
+    throw InputError(file + ": the lines of the guide are too long or too far apart to be measured");
   for (const Vec3& arm : arms)
     if (arm.norm() < kShortest * out.mean_length_mm)
       throw InputError(file +
