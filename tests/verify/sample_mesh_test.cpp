@@ -64,9 +64,12 @@ TEST(SampleMesh, ATriangleIsCutIntoSquaresOfWholeNumbers) {
     EXPECT_LT(s.spacing_mm, spacing);
     EXPECT_FALSE(s.target);
   }
-  const FaceSamples one = sample_mesh("F1", mesh, 6.0, false);
-  EXPECT_LT((one.points[0] - Vec3(1, 4.0 / 3.0, 0)).norm(), 1e-15);
-  EXPECT_NEAR(one.spacing_mm, Vec2(1, 4.0 / 3.0 - 4.0).norm(), 1e-15) << "to the farthest corner";
+  for (const auto& triangle : {std::array{0, 1, 2}, std::array{1, 2, 0}, std::array{2, 0, 1}}) {
+    mesh.triangles = {triangle};
+    const FaceSamples one = sample_mesh("F1", mesh, 6.0, false);
+    EXPECT_LT((one.points[0] - Vec3(1, 4.0 / 3.0, 0)).norm(), 1e-15);
+    EXPECT_NEAR(one.spacing_mm, Vec2(1, 4.0 / 3.0 - 4.0).norm(), 1e-15) << "to the farthest corner, whichever it is";
+  }
 }
 
 TEST(SampleMesh, NoPointIsFartherFromASampleThanTheSpacingItStates) {

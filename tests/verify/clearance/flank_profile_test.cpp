@@ -43,6 +43,17 @@ TEST(FlankProfile, PointsLieOnTheMeridianAndNothingIsFarFromThem) {
   }
 }
 
+TEST(FlankProfile, AnSWhoseMiddleLiesOnItsChordIsCutAllTheSame) {
+  // r = 40 + b (s - s0)^3 with s0 in the middle of one of the first pieces.
+  std::vector<Vec2> samples;
+  for (int i = 0; i <= 20; ++i) samples.emplace_back(20.0 * i, 40.0 + 2e-6 * std::pow(20.0 * i - 212.5, 3));
+  const RadialFunction radial = RadialFunction::spline_through(400.0, samples, 4);
+  const std::vector<Vec2> profile = flank_profile(radial), exact = meridian(radial, 4001);
+  double worst = 0.0;
+  for (const Vec2& p : exact) worst = std::max(worst, off_polyline(profile, p));
+  EXPECT_LE(worst, kFlankProfileErrorMm);
+}
+
 TEST(FlankProfile, StraightToolsNeedNoMorePointsThanTheFirst) {
   const RadialFunction cone(ToolFamily::kCone, 30.0, Eigen::Vector2d(2.0, 0.1));
   EXPECT_EQ(flank_profile(cone).size(), 17u);

@@ -105,10 +105,18 @@ TEST(MotionGap, ATurningBallMovesOnACircle) {
   const Vec3 left(-std::sin(a), 0, std::cos(a)), right(std::sin(a), 0, std::cos(a));
   Segment turn;
   turn.w0 = left, turn.dw = right - left;
-  const ObstacleTree above(points({{0, 0, 53}})), behind(points({{0, 5, 40}}));
-  EXPECT_NEAR(MotionGap(body, above, {turn}).least(kAccuracyMm, kNoLimit).value, 10.0, kAccuracyMm)
-      << "at the top of the circle; the chord would say " << 53 - 40 * std::cos(a) - 3;
+  const ObstacleTree behind(points({{0, 5, 40}}));
   EXPECT_NEAR(MotionGap(body, behind, {turn}).least(kAccuracyMm, kNoLimit).value, 2.0, kAccuracyMm);
+  // Above the circle, at any place of it: the chord would say up to 9 mm more.
+  for (int i = -19; i <= 19; ++i) {
+    const double at = 0.05 * i * a;
+    const Vec3 n(std::sin(at), 0, std::cos(at)), e = 200.0 * Vec3::UnitY(), f = 200.0 * n.cross(Vec3::UnitY());
+    const ObstacleTree point(points({53.0 * n}));
+    EXPECT_NEAR(MotionGap(body, point, {turn}).least(kAccuracyMm, kNoLimit).value, 10.0, kAccuracyMm) << i;
+    // A plane across the way out: nearest where the circle touches its parallel, between the ends of any interval.
+    const ObstacleTree plane(TriangleMesh{{53.0 * n + e, 53.0 * n - e + f, 53.0 * n - e - f}, {{0, 1, 2}}});
+    EXPECT_NEAR(MotionGap(body, plane, {turn}).least(kAccuracyMm, kNoLimit).value, 10.0, kAccuracyMm) << i;
+  }
 }
 
 TEST(MotionGap, APlaneBesideTheWayIsSettledWithItsDistance) {
