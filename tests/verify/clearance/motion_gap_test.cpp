@@ -99,7 +99,7 @@ TEST(MotionGap, ABallAlongALineKeepsTheDistanceOfTheLine) {
 }
 
 TEST(MotionGap, ATurningBallMovesOnACircle) {
-  // The ball sits 40 above the tip, which stands still: from 40 degrees on one side to 40 on the other, through the top.
+  // The ball sits 40 above the tip, which stands still: from 40 degrees on one side through the top to the other.
   const std::vector<Revolved> body{Revolved({{40.0, 0.0}}, 3.0)};
   const double a = 40.0 / 57.29577951308232;
   const Vec3 left(-std::sin(a), 0, std::cos(a)), right(std::sin(a), 0, std::cos(a));
