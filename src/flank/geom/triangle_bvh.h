@@ -25,10 +25,10 @@ struct BvhHit : TrianglePoint {
   int triangle = -1;
 };
 
-/// Triangles that may be nearest within a slack: up to `kCapacity` of them, with lower bounds of their distances.
+/// Triangles that may be nearest within a slack: up to `kCapacity` of them, in the order in which they were found.
 struct BvhTies {
   static constexpr int kCapacity = 68;
-  std::array<int, kCapacity> triangle;
+  std::array<int, kCapacity> triangle;  ///< indices; only the first `count` are set
   int count = 0;
   bool complete = true;  ///< false: more triangles than fit were that near
 };
