@@ -11,48 +11,133 @@
 namespace flank::internal {
 namespace {
 
-/// Passes in turn: dead zone in tolerances, fairness, anchor, control points, coefficients; points a side of the target
-/// (the judge's samples are several times denser).
+/// What differs between the passes.
 struct Pass {
-  double dead_zone, fairness, anchor;
-  int control_points, coefficients, iterations, points_per_side;
+  double dead_zone;     ///< in tolerances
+  double fairness;      ///< FitStage::fairness at kSamplesT samples
+  double anchor;        ///< FitStage::transversal_anchor
+  int control_points;   ///< per rail
+  int coefficients;     ///< of a free tool
+  int iterations;       ///< at most
+  int points_per_side;  ///< of the target; the judge's samples are several times denser
 };
-constexpr double kFair = 1e-3, kSoft = 1e-6;
-constexpr std::array<Pass, 6> kPasses = {{{0.6, kFair, 1e-2, 32, 16, 12, 25},
-                                          {0.6, kFair, 1e-7, 48, 24, 25, 30},
-                                          {0.6, kSoft, 1e-7, 48, 24, 40, 30},
-                                          {0.6, kSoft, 1e-7, 48, 24, 15, 50},
-                                          {0.3, kSoft, 1e-7, 48, 24, 15, 50},
-                                          {0.0, kSoft, 1e-7, 48, 24, 12, 50}}};
-/// Where rails that are fair cover this much, none are made softer: a machine runs them better.
-constexpr double kFairCovers = 0.998;
-/// Where less is covered, the pass without a dead zone is left out.
-constexpr double kCovered = 0.995;
-/// Overcut below this share of the diagonal is settled: the constrained pass would not improve it.
-constexpr double kSettledOvercutShare = 1e-6;
 
+/// Grid of the regularisers (the residuals are at points of the face), as the tolerance pass has it: 2.5 times for each
+/// of 48 control points.
+constexpr int kSamplesT = 120, kSamplesS = 36;
+
+/// Fairness of rails that a machine runs well, and of rails that only just do not wave. Rails that bend by the target's
+/// size D cost as much as residuals of sqrt(fairness) D / (kSamplesT - 1)^2: 2e-6 D and 7e-8 D.
+constexpr double kFair = 1e-3, kSoft = 1e-6;
+
+/// The dead zone of most passes: below the tolerance, so that the face between the points, where the error is a little
+/// larger than at them, keeps the tolerance, too.
+constexpr double kWideZone = 0.6;
+
+/// The first pass keeps the anchor of the passes at the axis. The others need none, because a motion that shrinks
+/// leaves points of the face uncovered; what is left of it fixes the timing, to which the swept distance is blind.
+constexpr double kFirstAnchor = 1e-2, kNoAnchor = 1e-7;
+
+/// First the change of residual, cheap: few points, few iterations, control points as after the tolerance pass.
+constexpr Pass kArrive = {.dead_zone = kWideZone,
+                          .fairness = kFair,
+                          .anchor = kFirstAnchor,
+                          .control_points = 32,
+                          .coefficients = 16,
+                          .iterations = 12,
+                          .points_per_side = 25};
+/// More control points, but fair. If that is enough, all later passes stay fair.
+constexpr Pass kFairRails = {.dead_zone = kWideZone,
+                             .fairness = kFair,
+                             .anchor = kNoAnchor,
+                             .control_points = 48,
+                             .coefficients = 24,
+                             .iterations = 25,
+                             .points_per_side = 30};
+/// If it is not, soft ones.
+constexpr Pass kSoftRails = {.dead_zone = kWideZone,
+                             .fairness = kSoft,
+                             .anchor = kNoAnchor,
+                             .control_points = 48,
+                             .coefficients = 24,
+                             .iterations = 40,
+                             .points_per_side = 30};
+/// The same on points dense enough (2,500) to see what 48 control points can do between them.
+constexpr Pass kDense = {.dead_zone = kWideZone,
+                         .fairness = kSoft,
+                         .anchor = kNoAnchor,
+                         .control_points = 48,
+                         .coefficients = 24,
+                         .iterations = 15,
+                         .points_per_side = 50};
+/// Half the dead zone: lowers the largest error (docs/algorithms/fit.md).
+constexpr Pass kNarrow = {.dead_zone = 0.5 * kWideZone,
+                          .fairness = kSoft,
+                          .anchor = kNoAnchor,
+                          .control_points = 48,
+                          .coefficients = 24,
+                          .iterations = 15,
+                          .points_per_side = 50};
+/// No dead zone: plain least squares, which lowers the mean error where nothing more is to be covered.
+constexpr Pass kMean = {.dead_zone = 0.0,
+                        .fairness = kSoft,
+                        .anchor = kNoAnchor,
+                        .control_points = 48,
+                        .coefficients = 24,
+                        .iterations = 12,
+                        .points_per_side = 50};
+constexpr std::array<Pass, 6> kPasses = {kArrive, kFairRails, kSoftRails, kDense, kNarrow, kMean};
+
+/// If fair rails cover this much, none are made softer: a machine runs them better, and what softness could gain is 4
+/// of the 2,000 samples that rank drafts.
+constexpr double kFairCovers = 0.998;
+/// If less is covered, the pass without a dead zone is left out: it gives up coverage for the mean.
+constexpr double kCovered = 0.995;
+/// Overcut below this share of the diagonal is settled: the constrained pass would not improve it, whose own fairness
+/// of kConstrainedFairness costs residuals of that size (7e-7 D, see kFair).
+constexpr double kSettledOvercutShare = 1e-6;
+/// Of an exact fit, so is overcut below this share of the tolerance: its last digits are worth more.
+constexpr double kExactOvercutShare = 0.1;
+constexpr double kConstrainedFairness = 1e-4;
+
+/// What the passes have in common.
 FitStage swept_stage(const Pass& pass, const FlankFitOptions& options) {
+  /// A slide of 1 mm costs as much as a mean error of 1e-4 mm: it decides only what the face leaves open, as the slide
+  /// of a cone on itself.
+  constexpr double kAxialPin = 1e-8;
+  /// A second difference of 1 mm between a free tool's coefficients costs as much as a mean error of a tenth of the
+  /// tolerance. Where the tool touches nothing it goes on as it came; where it touches, this is far below what the face
+  /// asks.
+  constexpr double kToolFairness = 1e-2;
+  /// In tolerances. At this distance material left has a quarter of its weight: what a strip cannot reach must not pull
+  /// it off what it can.
+  constexpr double kOutOfSight = 20.0;
+  /// Overcut of one length costs as much as material left of two: what is left can be finished by hand, what is cut is
+  /// gone.
+  constexpr double kOvercutWeight = 4.0;
+  /// Where two places of the motion are equally near the cost has kinks, and a minimum is crept to: the last digits are
+  /// not worth the contacts.
+  constexpr double kStepTolerance = 3e-4;
   FitStage stage;
-  stage.samples_t = 120;  // of the regularisers
-  stage.samples_s = 36;
+  stage.samples_t = kSamplesT;
+  stage.samples_s = kSamplesS;
   stage.control_points = pass.control_points;
   stage.tool_coefficients = pass.coefficients;
   stage.iterations = pass.iterations;
   stage.fairness = pass.fairness;
   stage.transversal_anchor = pass.anchor;
-  stage.axial_pin = 1e-8;
-  // Where the tool touches nothing it goes on as it came; where it touches, this is far below what the face asks.
-  stage.tool_fairness = 1e-2 * options.tolerance_mm * options.tolerance_mm;
+  stage.axial_pin = kAxialPin;
+  stage.tool_fairness = kToolFairness * options.tolerance_mm * options.tolerance_mm;
   stage.dead_zone_mm = pass.dead_zone * options.tolerance_mm;
-  // What a strip cannot reach must not pull it off what it can.
-  stage.robust_scale_mm = 20.0 * options.tolerance_mm;
-  stage.overcut_weight = 4.0;
-  stage.step_tolerance = 3e-4;
+  stage.robust_scale_mm = kOutOfSight * options.tolerance_mm;
+  stage.overcut_weight = kOvercutWeight;
+  stage.step_tolerance = kStepTolerance;
   return stage;
 }
 
 ReachLimits reach_of(const FlankFitOptions& options) { return {reach_radius(options), options.tolerance_mm}; }
 
+/// Least r(s). Sampled: it sets a margin, for which a percent is good enough.
 double smallest_radius(const RadialFunction& tool) {
   constexpr int kSamples = 64;
   double least = tool.at(0.0).r;
@@ -71,14 +156,16 @@ std::vector<FacePoint> target_points(const FitDraft& draft, int per_side, const 
     const double spacing = std::sqrt(target->area()) / per_side;
     std::vector<SurfaceSample> samples = target->samples(spacing);
     // The samples are middles of cells; a tool cuts deepest at the rim. A rim point stands for half a cell.
+    constexpr double kRimCell = 0.5;  // of a cell's area
     for (const Vec3& point : target->border_points(spacing))
-      samples.push_back({point, target->closest(point).normal, 0.5 * spacing * spacing});
+      samples.push_back({point, target->closest(point).normal, kRimCell * spacing * spacing});
     const std::size_t first = points.size();
     points.resize(first + samples.size());
     const FlankChecks* checks = checks_of(draft, target);
     parallel_for(samples.size(), [&](std::size_t k) {
       const bool out = checks != nullptr && !checks->reachable(samples[k], reach.radius_mm, reach.depth_mm);
-      points[first + k] = {samples[k].point, samples[k].area / area, out};
+      points[first + k] = {samples[k].point, samples[k].area / area,
+                           out ? FacePoint::Role::kOutOfReach : FacePoint::Role::kTouch};
     });
   }
   return points;
@@ -99,14 +186,15 @@ FitDraft run_swept(const FitDraft& draft, const RadiusBounds& bounds, const FitS
 Polished swept_polish(const Polished& polished, const std::vector<SurfaceSample>& samples,
                       const FlankFitOptions& options, std::vector<IterationTrace>* trace) {
   Polished best = polished;
-  bool fair = false;
+  bool fair = false;  // fair rails are enough
   for (Pass pass : kPasses) {
     if (pass.fairness == kSoft && fair) pass.fairness = kFair;
-    // The last one lowers what is left of the mean where nothing more is to be covered.
+    // The last one lowers what is left of the mean, if nothing more is to be covered.
     if (pass.dead_zone == 0.0 && best.estimate.at_tolerance < kCovered) continue;
     const std::vector<FacePoint> points = target_points(best.draft, pass.points_per_side, reach_of(options));
     Polished trial =
         assess(run_swept(best.draft, options.bounds, swept_stage(pass, options), points, trace), samples, options);
+    // A pass minimises its own cost, not the score: its result counts only if the score agrees.
     if (trial.estimate.score(options.tolerance_mm) > best.estimate.score(options.tolerance_mm)) best = std::move(trial);
     const CoverageEstimate& now = best.estimate;
     if (pass.fairness == kFair)
@@ -117,6 +205,9 @@ Polished swept_polish(const Polished& polished, const std::vector<SurfaceSample>
 
 FitDraft run_constrained(const FitDraft& draft, const RadiusBounds& bounds, const FitStage& stage, double band_mm,
                          const ReachLimits& reach) {
+  // The dense set sets the margin below: at 200 a side it is spacing^2 / (8 r) = 2e-4 mm for a face of 40 mm and a tool
+  // of 25 mm radius, 1e-3 mm for one of 5. The first set is the objective and the first limits; dense points join where
+  // their limit breaks.
   constexpr int kFirstPerSide = 40, kDensePerSide = 200;
   FitDraft next;
   const FitState start = start_state(draft, stage, next);
@@ -131,6 +222,7 @@ FitDraft run_constrained(const FitDraft& draft, const RadiusBounds& bounds, cons
   // A sphere of radius r that touches half-way between two points is deeper there by spacing^2 / (8 r).
   const double spacing = std::sqrt(draft.targets.front()->area()) / kDensePerSide;
   options.allowed_overcut_mm = -spacing * spacing / (8.0 * smallest_radius(draft.tool));
+  // So at most half of the margin is left as overcut half-way between two points.
   options.settled_mm = -0.5 * options.allowed_overcut_mm;
   options.band_mm = band_mm;
   ConstrainedResult result = minimise_constrained(problem, start, options);
@@ -142,24 +234,33 @@ FitDraft run_constrained(const FitDraft& draft, const RadiusBounds& bounds, cons
 Polished without_overcut(const Polished& polished, const std::vector<SurfaceSample>& samples,
                          const FlankFitOptions& options) {
   const double diagonal = polished.draft.targets.front()->diagonal();
-  // An exact fit would pay for its last digits of overcut with all of its error.
-  const double settled = polished.exact ? std::max(kSettledOvercutShare * diagonal, 0.1 * options.tolerance_mm)
-                                        : kSettledOvercutShare * diagonal;
+  // To take the last digits of overcut out of an exact fit costs it the last digits of everything else.
+  const double settled = polished.exact
+                             ? std::max(kSettledOvercutShare * diagonal, kExactOvercutShare * options.tolerance_mm)
+                             : kSettledOvercutShare * diagonal;
   if (polished.draft.free_tool || polished.estimate.overcut_mm < settled) return polished;
-  FitStage stage = swept_stage(kPasses[1], options);
+  /// In tolerances. Points farther from the tool do not limit a step; a step that all the same makes one of them
+  /// overcut is refused by its merit (constrained.cpp).
+  constexpr double kBand = 10.0;
+  /// The dead zone of the second run: half of the largest material left, but not more than the tolerance pass has.
+  constexpr double kUndercutShare = 0.5, kMostZone = 0.7;
+  /// Coverage that evening out may cost: 2 of the 2,000 samples that rank.
+  constexpr double kCost = 1e-3;
+  // No overcut to weigh, and no dead zone: the limits are hard, and the objective is the material left.
+  FitStage stage = swept_stage(kFairRails, options);
   stage.dead_zone_mm = 0.0;
   stage.overcut_weight = 1.0;
-  stage.fairness = 1e-4;
-  const double band = 10.0 * options.tolerance_mm;
+  stage.fairness = kConstrainedFairness;
+  const double band = kBand * options.tolerance_mm;
   Polished best =
       assess(run_constrained(polished.draft, options.bounds, stage, band, reach_of(options)), samples, options);
   if (best.estimate.overcut_mm >= polished.estimate.overcut_mm) return polished;
   // Least squares leaves up to three times the least possible material in places: once more, with what counts for
   // nothing taken out.
-  stage.dead_zone_mm = std::min(0.5 * best.estimate.undercut_mm, 0.7 * options.tolerance_mm);
+  stage.dead_zone_mm = std::min(kUndercutShare * best.estimate.undercut_mm, kMostZone * options.tolerance_mm);
   Polished evened =
       assess(run_constrained(best.draft, options.bounds, stage, band, reach_of(options)), samples, options);
-  const bool kept = evened.estimate.at_tolerance > best.estimate.at_tolerance - 1e-3 &&
+  const bool kept = evened.estimate.at_tolerance > best.estimate.at_tolerance - kCost &&
                     evened.estimate.overcut_mm <= best.estimate.overcut_mm + kSettledOvercutShare * diagonal;
   if (kept && evened.estimate.undercut_mm < best.estimate.undercut_mm) best = std::move(evened);
   return best;

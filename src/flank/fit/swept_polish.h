@@ -1,4 +1,5 @@
-/// The last passes of a fit that is no exact envelope: on the swept distance at fixed points of the faces (swept_model.h).
+/// The last passes of a fit that is no exact envelope: on the swept distance at fixed points of the faces
+/// (swept_model.h).
 #pragma once
 
 #include <vector>
@@ -8,30 +9,34 @@
 
 namespace flank::internal {
 
-/// What of a target counts as out of reach: where a ball of this radius enters a check face by more than the depth.
+/// What of a target counts as out of reach: points where a ball of this radius, touching the target, enters a check
+/// face by more than the depth (MATH section 9). Not used without check faces.
 struct ReachLimits {
   double radius_mm = 0.0, depth_mm = 0.0;
 };
 
-/// Points of the draft's targets, each target once, spacing about sqrt(area) / `per_side`; shares sum to one. Points out
-/// of reach count for overcut alone.
+/// Points of the draft's targets, each target once, spacing about sqrt(area) / `per_side` (>= 1), rim included; shares
+/// are by area. Points out of reach have that role, the others are to be touched.
 [[nodiscard]] std::vector<FacePoint> target_points(const FitDraft& draft, int per_side, const ReachLimits& reach = {});
 
-/// One pass at the stage's resolution over these points.
+/// One pass of a SweptModel at the stage's resolution over these points; `trace` grows if given. Returns the result
+/// whether it is better or not.
 [[nodiscard]] FitDraft run_swept(const FitDraft& draft, const RadiusBounds& bounds, const FitStage& stage,
                                  std::vector<FacePoint> points, std::vector<IterationTrace>* trace);
 
-/// The same under a hard limit on overcut (constrained.h), with a margin for what lies between the points; points beyond
-/// `band_mm` from the tool are not held.
+/// The same under a hard limit on overcut (constrained.h), with a margin for what lies between the points; points
+/// farther than `band_mm` from the tool are not held.
 [[nodiscard]] FitDraft run_constrained(const FitDraft& draft, const RadiusBounds& bounds, const FitStage& stage,
                                        double band_mm, const ReachLimits& reach);
 
-/// Passes with a dead zone that narrows while the rails grow softer; each is kept only if it scores better.
+/// Passes with a dead zone that narrows while the rails grow softer; each is kept only if it scores better on
+/// `samples`.
 [[nodiscard]] Polished swept_polish(const Polished& polished, const std::vector<SurfaceSample>& samples,
                                     const FlankFitOptions& options, std::vector<IterationTrace>* trace);
 
-/// A tool whose shape is given cannot shrink: its overcut is taken out by the constrained pass, at the price of material
-/// left.
+/// A tool whose shape is given cannot shrink: its overcut is taken out by the constrained pass, at the price of
+/// material left. Returns its argument for a free tool, if there is no overcut worth removing, or if the pass did not
+/// lower it.
 [[nodiscard]] Polished without_overcut(const Polished& polished, const std::vector<SurfaceSample>& samples,
                                        const FlankFitOptions& options);
 

@@ -95,7 +95,7 @@ TEST_F(SweptModelTest, CheckPointsActFromOneSideOnly) {
   const SweptModel target_only(points, draft_.targets, state, next.free_parameters, bounds_, stage_);
   FacePoint far = points.front();
   far.point += Vec3(0.0, 0.0, 500.0);
-  far.one_sided = true;
+  far.role = FacePoint::Role::kAvoid;
   far.share = 1.0;
   points.push_back(far);
   const SweptModel with_far(points, draft_.targets, state, next.free_parameters, bounds_, stage_);

@@ -84,7 +84,8 @@ std::vector<FacePoint> check_points(const TileScene& scene, const std::vector<Co
     const int poses = depth_poses(motion);
     for (int i = 0; i <= poses; ++i) {
       const LineClearance at = scene.guard.measure(motion.pose(static_cast<double>(i) / poses), kNear * tolerance);
-      if (at.clearance_mm < kNear * tolerance) found[k].push_back({at.point, share, true, -kMarginShare * tolerance});
+      if (at.clearance_mm < kNear * tolerance)
+        found[k].push_back({at.point, share, FacePoint::Role::kAvoid, -kMarginShare * tolerance});
     }
   });
   std::vector<FacePoint> points;
@@ -113,7 +114,7 @@ std::vector<FacePoint> deep_points(const TileScene& scene, const std::vector<Cov
   const std::size_t stride = 1 + count / kMostCheckPoints;
   for (const auto& of_strip : found)
     for (const Vec3& x : of_strip)
-      if (seen++ % stride == 0) points.push_back({x, share, true, -kDeepAimShare * tolerance});
+      if (seen++ % stride == 0) points.push_back({x, share, FacePoint::Role::kHold, -kDeepAimShare * tolerance});
   return points;
 }
 
@@ -157,7 +158,8 @@ std::vector<FacePoint> points_to_fit(const TileScene& scene, const FitDraft& dra
   std::vector<FacePoint> points = target_points(draft, per_side);
   parallel_for(points.size(), [&](std::size_t k) {
     const Vec3& x = points[k].point;
-    points[k].one_sided = !scene.guard.ball_is_clear(x + scene.guard.ball_radius() * scene.target.closest(x).normal);
+    if (!scene.guard.ball_is_clear(x + scene.guard.ball_radius() * scene.target.closest(x).normal))
+      points[k].role = FacePoint::Role::kOutOfReach;
   });
   return points;
 }

@@ -10,13 +10,29 @@
 namespace flank::internal {
 namespace {
 
-/// Most points that join the constraints in one exchange, the worst first.
+/// Most points that join the constraints in one exchange, the worst first: a quarter of the 1,600 that it begins with.
+/// Neighbours of the worst mostly come right with them, and each row costs time in every interior point.
 constexpr std::size_t kMostExchanged = 400;
 
+/// Damping of the quadratic, as a share of its diagonal; it makes the matrix positive definite, which the interior
+/// point needs. Steps that do not lower the merit are tried again with kMore times as much, up to kMost, where a step
+/// is a thousandth of a gradient step; a good one lets it fall by kLess.
+constexpr double kFirstDamping = 1e-6, kLeastDamping = 1e-9, kMostDamping = 1e3, kMore = 30.0, kLess = 0.2;
+
+/// Weight of v^2 + v sqrt(c) in the merit, v the largest violation and c the cost, a mean of squares: one point that
+/// violates its limit costs as much as all points off by ten times that. The linear term is what makes a penalty exact
+/// (a limit is not traded for cost near the minimum), the square is for the start, where c may be near zero.
+constexpr double kPenalty = 100.0;
+
+/// A step that lowers the merit by less than this share ends the descent: the next exchange changes more.
+constexpr double kSettledShare = 1e-4;
+
+/// What must stay >= 0 at a point, mm.
 double gap(const FacePoint& point, const SweptContact& contact, double allowed) {
-  return point.one_sided ? contact.f - point.margin_mm : contact.f + allowed;
+  return point.one_sided() ? contact.f - point.margin_mm : contact.f + allowed;
 }
 
+/// The largest of all points that the model has.
 double violation(const SweptModel& model, const FitState& state, double allowed) {
   double worst = 0.0;
   for (std::size_t k = 0; k < state.contacts.size(); ++k)
@@ -24,6 +40,8 @@ double violation(const SweptModel& model, const FitState& state, double allowed)
   return worst;
 }
 
+/// The limits linearised at the state. Points far above theirs are left out: their rows would cost time and bind
+/// nothing.
 GapProblem gap_problem(const SweptModel& model, const FitState& state, const ArrowSystem& quadratic,
                        const ConstrainedOptions& options) {
   GapProblem problem;
@@ -37,17 +55,16 @@ GapProblem gap_problem(const SweptModel& model, const FitState& state, const Arr
   return problem;
 }
 
-/// One run of sequential quadratic programming for fixed points.
+/// One run of sequential quadratic programming for fixed points: robust weights are frozen, steps accepted by a merit.
 int descend(const SweptModel& model, FitState& state, const ConstrainedOptions& options) {
   const double allowed = options.allowed_overcut_mm;
   model.locate(state);
   const auto weights = model.sample_weights(state);
   ArrowSystem quadratic = model.make_system();
-  double damping = 1e-6;
-  // A violation of one length unit weighs like the cost of all samples being off by it a hundredfold.
+  double damping = kFirstDamping;
   const auto merit = [&](const FitState& at) {
     const double c = model.cost(at, weights), v = violation(model, at, allowed);
-    return c + 100.0 * v * (v + std::sqrt(c));
+    return c + kPenalty * v * (v + std::sqrt(c));
   };
   double before = merit(state);
   int steps = 0;
@@ -59,20 +76,20 @@ int descend(const SweptModel& model, FitState& state, const ConstrainedOptions& 
     model.locate(trial);
     const double after = merit(trial);
     if (!(after < before)) {
-      damping *= 30.0;
-      if (damping > 1e3) break;
+      damping *= kMore;
+      if (damping > kMostDamping) break;
       continue;
     }
-    damping = std::max(1e-9, 0.2 * damping);
+    damping = std::max(kLeastDamping, kLess * damping);
     state = std::move(trial);
-    const bool settled = before - after < 1e-4 * before;
+    const bool settled = before - after < kSettledShare * before;
     before = after;
     if (settled) break;
   }
   return steps;
 }
 
-/// Appends the dense points that break their limit, worst first; returns the largest violation.
+/// Appends the dense points that violate their limit, worst first; returns the largest violation.
 double exchange(const ConstrainedProblem& problem, const SweptModel& probe, const FitState& state, double allowed,
                 std::vector<FacePoint>& points) {
   FitState at = state;
@@ -88,6 +105,7 @@ double exchange(const ConstrainedProblem& problem, const SweptModel& probe, cons
     return gap(problem.dense[a], at.contacts[a], allowed) < gap(problem.dense[b], at.contacts[b], allowed);
   });
   broken.resize(std::min(broken.size(), kMostExchanged));
+  // They limit, they do not pull: the objective stays that of the first, evenly spread points.
   for (const std::size_t k : broken) {
     points.push_back(problem.dense[k]);
     points.back().share = 0.0;
@@ -116,6 +134,7 @@ ConstrainedResult minimise_constrained(const ConstrainedProblem& problem, const 
     const std::size_t before = points.size();
     const double worst = exchange(problem, probe, state, options.allowed_overcut_mm, points);
     result.exchanged += static_cast<int>(points.size() - before);
+    // Rounds need not improve: new limits can push the motion over old ones that were left out as far away.
     if (worst < result.violation_mm) {
       result.violation_mm = worst;
       result.state = state;

@@ -10,12 +10,13 @@
 namespace flank::internal {
 namespace {
 
-/// Poses tabulated for each control point of a rail to find the nearest place, which is then refined continuously: enough
-/// to see every wave that the rails can make.
+/// Poses tabulated for each control point of a rail to find the nearest place, which is then refined continuously:
+/// enough to see every wave that the rails can make.
 constexpr int kPosesPerControlPoint = 4;
-/// Points one task of the parallel search takes.
+/// Points that one task of the parallel search takes: a point costs microseconds, a task must not.
 constexpr std::size_t kChunk = 64;
 
+/// The residual with its dead zone cut out.
 double cut(double e, double dead_zone) { return e > 0.0 ? std::max(0.0, e - dead_zone) : std::min(0.0, e + dead_zone); }
 
 }  // namespace
@@ -29,7 +30,7 @@ SweptModel::SweptModel(std::vector<FacePoint> points, std::vector<const Target*>
       axis_length_(start.motions.front().axis_length) {}
 
 void SweptModel::locate(FitState& state) const {
-  base_.locate_checks(state);
+  base_.locate_checks(state);  // of the base model only this: it has no residuals here, so it needs no footpoints
   const SweptEstimate swept(state.motions, state.tool, kPosesPerControlPoint * stage().control_points);
   state.contacts.resize(points_.size());
   parallel_blocks(points_.size(), kChunk, [&](std::size_t begin, std::size_t end) {
@@ -39,6 +40,7 @@ void SweptModel::locate(FitState& state) const {
       swept.places(points_[k].point, contact, places);
       for (std::size_t i = 0; i < places.size(); ++i) {
         const RuledMotion& motion = state.motions[static_cast<std::size_t>(places[i].motion)];
+        // f is the least over all places: every one that might be it is refined before they are compared.
         SweptContact refined = refine_contact(motion, state.tool, points_[k].point, places[i].t, swept.spacing());
         refined.motion = places[i].motion;
         if (i == 0 || refined.f < contact.f) contact = refined;
@@ -49,7 +51,7 @@ void SweptModel::locate(FitState& state) const {
 
 double SweptModel::residual(const FitState& state, std::size_t k) const {
   const double f = state.contacts[k].f;
-  if (points_[k].one_sided) return std::min(0.0, f - points_[k].margin_mm);
+  if (points_[k].one_sided()) return std::min(0.0, f - points_[k].margin_mm);
   return cut(f, stage().dead_zone_mm);
 }
 
@@ -59,8 +61,9 @@ std::vector<double> SweptModel::sample_weights(const FitState& state) const {
   for (std::size_t k = 0; k < weights.size(); ++k) {
     double w = points_[k].share;
     const double f = state.contacts[k].f;
-    if (!points_[k].one_sided) {
+    if (!points_[k].one_sided()) {
       if (f < 0.0) w *= stage().overcut_weight;
+      // Geman-McClure, on material left alone: deep overcut must never become an outlier.
       if (f > 0.0 && scale > 0.0) w /= std::pow(1.0 + f * f / (scale * scale), 2);
     }
     weights[k] = w;
@@ -93,6 +96,7 @@ ResidualRow SweptModel::row(const FitState& state, std::size_t k) const {
   const Vec3 u = w / length, n = contact.to_axis;
   row.pose << n, (contact.s / (axis_length_ * length)) * (n - n.dot(u) * u);
   if (free_.empty()) return row;
+  // A spline: its four active coefficients. A family: its free parameters, of at most four.
   if (state.tool.family() == ToolFamily::kSpline) {
     row.tool_first = state.tool.first_active(contact.s);
     row.tool_count = 4;
@@ -103,7 +107,7 @@ ResidualRow SweptModel::row(const FitState& state, std::size_t k) const {
     row.tool_count = static_cast<int>(free_.size());
     for (int j = 0; j < row.tool_count; ++j) row.tool[j] = all[free_[static_cast<std::size_t>(j)]];
   }
-  for (double& x : row.tool) x = -x;
+  for (double& x : row.tool) x = -x;  // f = |x - R| - r
   return row;
 }
 
@@ -114,7 +118,8 @@ void SweptModel::assemble(const FitState& state, const std::vector<double>& weig
   system.clear();
   for (std::size_t k = 0; k < weights.size(); ++k) {
     const double e = residual(state, k);
-    if (e == 0.0 && points_[k].one_sided) continue;
+    // A limit that holds is none: it must not even damp. A point in its dead zone does.
+    if (e == 0.0 && points_[k].one_sided()) continue;
     system.add_row(row(state, k), e == 0.0 ? kDeadZoneDamping * weights[k] : weights[k], weights[k] * e);
   }
   base_.assemble_regularisers(state, system);
@@ -125,7 +130,7 @@ ResidualSummary summarise_residuals(const SweptModel& model, const FitState& sta
   double squares = 0.0, shares = 0.0;
   for (std::size_t k = 0; k < model.points().size(); ++k) {
     const FacePoint& point = model.points()[k];
-    if (point.one_sided) continue;
+    if (point.one_sided()) continue;
     const double f = state.contacts[k].f;
     squares += point.share * f * f;
     shares += point.share;
