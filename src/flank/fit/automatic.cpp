@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -12,28 +13,47 @@
 namespace flank::internal {
 namespace {
 
+/// Tolerances at which quick fits are ranked (MATH section 7): rough as they are, at one tolerance most would cover
+/// nothing, and by residual the wrong directions come first.
+constexpr double kQuickTolerances = 4.0;
+/// Poses per motion for that ranking: 6 for each of the 8 control points of a quick fit, half as dense again as
+/// SweptModel's table.
+constexpr int kQuickPoses = 48;
+/// Their sample spacing, in square roots of the area: 400 samples tell fifty candidates apart, in a fifth of the time
+/// that the samples of the later ranking take.
+constexpr double kQuickSampleShare = 1.0 / 20.0;
+/// Control points of a start's rails. The quick fit brings them to its own 8 at once; these only carry the start there.
+constexpr int kStartControlPoints = 12;
+
 struct Candidate {
   RuledStart start;
   FitDraft draft;
   CoverageEstimate estimate;
-  double score = -1.0;
+  double score = -1.0;  // below that of any fit
 };
 
+/// Radii to try, equally spaced in logarithm in the middles of kRadii parts of the range: what differs between a thin
+/// tool and a thick one is the ratio.
 std::vector<double> start_radii(const ToolModel& tool, const RadiusBounds& bounds) {
   if (tool.radius) return {*tool.radius};
-  constexpr int kRadii = 5;
+  constexpr int kRadii = 5;             // MATH section 7
+  constexpr double kLeastRatio = 1e-3;  // of the largest: a lower bound of zero has no logarithm
   std::vector<double> radii;
-  const double low = std::max(bounds.smallest, 1e-3 * bounds.largest);
+  const double low = std::max(bounds.smallest, kLeastRatio * bounds.largest);
   for (int k = 0; k < kRadii; ++k) radii.push_back(low * std::pow(bounds.largest / low, (k + 0.5) / kRadii));
   return radii;
 }
 
 std::vector<RuledStart> enumerate_starts(const ToolModel& tool, const RadiusBounds& bounds) {
   constexpr double kDegree = std::numbers::pi / 180.0;
+  // Degrees between contact lines and the chart's lines. Five (MATH section 7), of either sign, because nothing tells
+  // which way a blade twists. No start is farther than 6.5 degrees from a direction up to 31 degrees; the fit turns the
+  // rest.
+  constexpr std::array<double, 5> kSkews = {0.0, 12.0, -12.0, 25.0, -25.0};
   std::vector<RuledStart> starts;
   for (bool swapped : {false, true})
     for (double radius : start_radii(tool, bounds))
-      for (double skew : {0.0, 12.0, -12.0, 25.0, -25.0}) {
+      for (double skew : kSkews) {
         RuledStart start;
         start.swapped = swapped;
         start.radius_mm = radius;
@@ -43,7 +63,7 @@ std::vector<RuledStart> enumerate_starts(const ToolModel& tool, const RadiusBoun
   return starts;
 }
 
-/// The start cut into bands side by side, one a strip.
+/// The start cut into bands of equal width side by side, one per strip.
 std::vector<RuledStart> bands_of(const RuledStart& start, int strips) {
   std::vector<RuledStart> bands(static_cast<std::size_t>(strips), start);
   for (int k = 0; k < strips; ++k) {
@@ -53,28 +73,30 @@ std::vector<RuledStart> bands_of(const RuledStart& start, int strips) {
   return bands;
 }
 
-/// The motions of a start beside walls: the tips on the spine of the ball that rolls along target and wall. None where
-/// no wall is in the way of the lines.
+/// The motions of a start beside walls: the tips on the spine of the ball that rolls along target and wall. None if no
+/// wall is in the way of the lines.
 std::vector<FitTask> make_clear_tasks(const Target& target, const Chart& chart, const RuledStart& start, int strips,
                                       std::optional<double> axis_length, const FlankChecks& checks) {
-  constexpr int kFewBlocked = kStartTimes / 4;  // where a wall only grazes the lines, the fit does better than a cut
+  constexpr int kFewBlocked = kStartTimes / 4;  // if a wall only grazes the lines, the fit does better than a cut
+  constexpr double kLonger = 1.03;              // the axis past the longest stretch from spine to rim (MATH section 7)
   std::vector<ClearStart> bands;
   double length = 0.0;
   bool blocked = false;
   for (const RuledStart& band : bands_of(start, strips)) {
     ClearStart clear = clear_start(chart, band, checks);
-    length = std::max(length, 1.03 * clear.longest_mm);
+    length = std::max(length, kLonger * clear.longest_mm);
     blocked = blocked || clear.blocked_lines > kFewBlocked || clear.free_lines < kStartTimes - kFewBlocked;
     if (clear.free_lines > 0) bands.push_back(std::move(clear));
   }
   if (!blocked) return {};
   if (axis_length) length = *axis_length;
   std::vector<FitTask> tasks;
-  for (const ClearStart& band : bands) tasks.push_back({&target, make_motion(band, length, 12), &checks});
+  for (const ClearStart& band : bands)
+    tasks.push_back({&target, make_motion(band, length, kStartControlPoints), &checks});
   return tasks;
 }
 
-/// The motions of a start, one a strip, bands side by side.
+/// The motions of a start, one per strip, bands side by side, all of one axis length.
 std::vector<FitTask> make_tasks(const Target& target, const Chart& chart, const RuledStart& start, int strips,
                                 std::optional<double> axis_length, const FlankChecks* checks) {
   if (checks != nullptr) {
@@ -82,14 +104,18 @@ std::vector<FitTask> make_tasks(const Target& target, const Chart& chart, const 
     if (!tasks.empty()) return tasks;
   }
   const std::vector<RuledStart> bands = bands_of(start, strips);
+  constexpr double kLonger = 1.02;  // the axis past the longest offset contact line (MATH section 7)
   double length = 0.0;
-  for (const RuledStart& band : bands) length = std::max(length, 1.02 * longest_chord(chart, band));
+  for (const RuledStart& band : bands) length = std::max(length, kLonger * longest_chord(chart, band));
   if (axis_length) length = *axis_length;
   std::vector<FitTask> tasks;
-  for (const RuledStart& band : bands) tasks.push_back({&target, make_motion(chart, band, length, 12), checks});
+  for (const RuledStart& band : bands)
+    tasks.push_back({&target, make_motion(chart, band, length, kStartControlPoints), checks});
   return tasks;
 }
 
+/// A draft of these tasks for the quick pass: a free tool starts as a cylinder with the number of coefficients that the
+/// pass has. (make_draft measures the radius instead; here it is what tells the candidates apart.)
 FitDraft start_draft(const std::vector<FitTask>& tasks, const ToolModel& tool, double radius) {
   FitDraft draft;
   for (const FitTask& task : tasks) {
@@ -105,6 +131,7 @@ FitDraft start_draft(const std::vector<FitTask>& tasks, const ToolModel& tool, d
   return draft;
 }
 
+/// Fits and ranks one candidate. Left without motions if no line of its start is free.
 void quick_fit(Candidate& candidate, const Target& target, const Chart& chart, const ToolModel& tool,
                const FlankFitOptions& options, const std::vector<SurfaceSample>& samples) {
   const std::optional<double> length = tool.axis_length ? tool.axis_length : options.axis_length_mm;
@@ -112,12 +139,15 @@ void quick_fit(Candidate& candidate, const Target& target, const Chart& chart, c
   if (tasks.empty()) return;
   const FitDraft draft = start_draft(tasks, tool, candidate.start.radius_mm);
   candidate.draft = run_stage(draft, options.bounds, quick_stage(robust_scale(target, options)));
+  const double tolerance = kQuickTolerances * options.tolerance_mm;
   candidate.estimate =
-      estimate_coverage(samples, candidate.draft.motions, candidate.draft.tool, 4.0 * options.tolerance_mm, 48);
-  candidate.estimate.gouge_mm = flank_gouge(candidate.draft.motions, candidate.draft.checks, candidate.draft.tool, 48);
-  candidate.score = candidate.estimate.score(4.0 * options.tolerance_mm);
+      estimate_coverage(samples, candidate.draft.motions, candidate.draft.tool, tolerance, kQuickPoses);
+  candidate.estimate.gouge_mm =
+      flank_gouge(candidate.draft.motions, candidate.draft.checks, candidate.draft.tool, kQuickPoses);
+  candidate.score = candidate.estimate.score(tolerance);
 }
 
+/// Stable, so that equal scores keep the order of the starts on every machine.
 void sort_by_score(std::vector<Candidate>& candidates) {
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
@@ -131,7 +161,7 @@ FlankFitResult fit_automatic(const Target& target, const ToolModel& tool, const 
   const Chart chart(target);
   const std::vector<SurfaceSample> samples = ranking_samples(target, options.checks, options);
   FlankFitOptions coarse = options;
-  coarse.sample_share = 1.0 / 20.0;
+  coarse.sample_share = kQuickSampleShare;
   const std::vector<SurfaceSample> few = ranking_samples(target, options.checks, coarse);
   std::vector<Candidate> candidates;
   for (const RuledStart& start : enumerate_starts(tool, options.bounds)) candidates.push_back({start, {}, {}, -1.0});
@@ -147,6 +177,7 @@ FlankFitResult fit_automatic(const Target& target, const ToolModel& tool, const 
   }
   candidates.resize(std::min<std::size_t>(candidates.size(), static_cast<std::size_t>(options.kept_after_quick)));
   progress.step("polish", 0.5);
+  // The user has had enough: the best start alone is still worth a polish, so that there is a result.
   if (progress.stop()) candidates.resize(1);
   std::vector<Polished> polished(candidates.size());
   std::vector<std::vector<IterationTrace>> traces(candidates.size());
@@ -160,7 +191,8 @@ FlankFitResult fit_automatic(const Target& target, const ToolModel& tool, const 
   std::stable_sort(order.begin(), order.end(), by_score);
   order.resize(std::min<std::size_t>(order.size(), static_cast<std::size_t>(options.kept_after_polish)));
   progress.step("polish", 0.75);
-  const bool promising = polished[order.front()].estimate.at_tolerance >= options.promising;
+  // The last passes cost more than all before; hopeless fits are left without them if the caller says what is hopeless.
+  const bool promising = polished[order.front()].estimate.at_tolerance >= options.least_coverage_for_last_passes;
   parallel_for(promising ? order.size() : 0, [&](std::size_t k) {
     polished[order[k]] = last_passes(polished[order[k]], samples, options, &traces[order[k]]);
   });

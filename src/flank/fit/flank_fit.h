@@ -1,4 +1,5 @@
-/// The flank fit: from a target (and, if the user gives one, a start) to a tool and its motions.
+/// The flank fit: from a target (and, if the user gives one, a start) to a tool and its motions. The passes are
+/// described in docs/algorithms/fit.md. Lengths in mm.
 #pragma once
 
 #include <functional>
@@ -14,77 +15,102 @@ namespace flank::internal {
 
 /// What is known of the tool and what may change.
 struct ToolModel {
-  /// Radial function for an axis length and a typical radius (used where the radius is open). Empty: a free spline that
-  /// the fit starts from a cylinder.
+  /// Radial function for an axis length and a typical radius (used if the radius is open). Empty: a free spline that
+  /// the fit starts from a cylinder. Called from several threads at once.
   std::function<RadialFunction(double axis_length, double radius)> make;
-  std::vector<int> free_parameters;   ///< of what `make` returns; empty: the tool is fixed
-  std::optional<double> radius;       ///< typical radius, where it is known
-  std::optional<double> axis_length;  ///< where the tool fixes it
+  std::vector<int> free_parameters;   ///< of what `make` returns; empty: the tool is given
+  std::optional<double> radius;       ///< typical radius, mm, if it is known: starts then try this one alone
+  std::optional<double> axis_length;  ///< mm, if the tool fixes it; goes before FlankFitOptions::axis_length_mm
+  /// A spline that may take any form within the bounds (not a family with free parameters).
   [[nodiscard]] bool free() const { return !make; }
 };
 
 struct FlankFitOptions {
+  /// mm, > 0: the |f| that counts as finished. It sets dead zones, robust scales and the score, so a fit at 0.1 is not
+  /// a coarser fit at 0.01 but another one.
   double tolerance_mm = 0.01;
-  std::optional<double> axis_length_mm;  ///< none: 1.02 times the longest offset contact line of the start
+  /// mm, > 0. None: 1.02 times the longest offset contact line of the start (1.03 times the longest free stretch beside
+  /// walls). Set it if the tool's flank has a length to keep.
+  std::optional<double> axis_length_mm;
+  /// Of the radial function; the smallest radius is also the default of reach_radius_mm.
   RadiusBounds bounds;
-  int strips = 1;                                   ///< motions side by side on one target, one tool
-  int kept_after_quick = 6, kept_after_polish = 3;  ///< candidates
-  double promising = 0.0;  ///< the last passes are left out where the best candidate covers less before them
-  const FlankChecks* checks = nullptr;  ///< fit_automatic: what the flank must not enter; outlives the call
-  double reach_radius_mm =
-      0.0;  ///< with checks: the target is what a ball of this radius reaches; 0: the smallest radius
-  double sample_share =
-      1.0 / 45.0;  ///< spacing of the samples that rank candidates, as a share of the square root of the area
+  /// >= 1: motions side by side on one target, one tool. More if one strip covers too little; time grows in proportion.
+  int strips = 1;
+  /// >= 1: of 50 starts, how many are polished, and how many of those get the last passes (the second at most the
+  /// first). Raise them if another start is suspected to win after all; most of the time goes into the last passes.
+  int kept_after_quick = 6, kept_after_polish = 3;
+  /// Covered share in [0, 1]: if the best candidate covers less than this after the polish, the last passes are
+  /// skipped. 0: never. For a caller that would try more strips in that case anyway.
+  double least_coverage_for_last_passes = 0.0;
+  /// fit_automatic: what the flank must not enter; outlives the call. Null: nothing is in the way. fit_from_starts
+  /// takes it from its tasks instead.
+  const FlankChecks* checks = nullptr;
+  /// mm, >= 0; with checks: only what a ball of this radius can touch without entering them counts as target. 0: the
+  /// smallest radius. Raise it to the radius of the tool that will be used.
+  double reach_radius_mm = 0.0;
+  /// > 0: spacing of the samples that rank candidates, as a share of the square root of the area: 1/45 gives about
+  /// 2,000 samples, so coverage is known to about a tenth of a percent. Lower it for a face that is long and thin.
+  double sample_share = 1.0 / 45.0;
 };
 
-/// How much of the target a state covers, by the planner's own estimate of the swept distance.
+/// How much of the target a state covers, by the planner's own estimate of the swept distance f. An estimate: the judge
+/// decides, and it is stricter.
 struct CoverageEstimate {
-  double at_tolerance = 0.0, at_four_tolerances = 0.0;  ///< area shares
-  double overcut_mm = 0.0;
-  double gouge_mm = 0.0;     ///< deepest that the flank enters a check face
-  double undercut_mm = 0.0;  ///< largest material left anywhere on the target
-  double rms_mm = 0.0;       ///< of f over samples within four tolerances
+  double at_tolerance = 0.0;        ///< area share with |f| <= tolerance, in [0, 1]
+  double at_four_tolerances = 0.0;  ///< area share with |f| <= 4 tolerances
+  double overcut_mm = 0.0;          ///< largest max(0, -f), rim included
+  double gouge_mm = 0.0;            ///< deepest that the flank enters a check face; estimate_coverage leaves it 0
+  double undercut_mm = 0.0;         ///< largest material left anywhere on the target, max(0, f)
+  double rms_mm = 0.0;              ///< root mean square of f, by area, over samples within four tolerances
+  /// What candidates are ranked by, larger is better, at most 1.2; no unit. Coverage, less a price for overcut and
+  /// gouge (10 % of coverage for the first tolerance of excess), with the mean error as tie-break.
   [[nodiscard]] double score(double tolerance_mm) const;
 };
 
 enum class FitStatus {
   kNotRun,
-  kWithinTolerance,  ///< estimated coverage >= 99 % and overcut <= tolerance
-  kPartial,          ///< a motion was found, but it covers less or cuts deeper
-  kNoStart,          ///< no candidate touched the target
+  kWithinTolerance,  ///< estimated coverage >= 99 %, overcut <= tolerance and gouge <= tolerance
+  kPartial,          ///< a motion was found, but it covers less, cuts deeper, or enters a check face deeper
+  kNoStart,          ///< no start gave a motion; the result has none
 };
 
 struct FlankFitResult {
   FitStatus status = FitStatus::kNotRun;
-  std::string message;
+  std::string message;  ///< one line for the user
   RadialFunction tool;
   std::vector<RuledMotion> motions;
-  CoverageEstimate before, after;  ///< of the chosen start, of the result
-  ResidualSummary residuals;       ///< on a 3 times denser grid with fresh cold footpoints
-  std::vector<IterationTrace> trace;
-  std::vector<std::string> notes;
-  int candidates = 0;
+  CoverageEstimate before, after;     ///< of the chosen start, of the result
+  ResidualSummary residuals;          ///< on a grid of its own with cold footpoints: no sample of a pass is among them
+  std::vector<IterationTrace> trace;  ///< of the chosen candidate, all passes from the polish on
+  std::vector<std::string> notes;     ///< for the user, added by callers
+  int candidates = 0;                 ///< starts that were tried
 };
 
 /// Automatic start: many ruled candidates across the target, each fitted briefly, ranked by swept coverage, the best
-/// polished (MATH section 7). One target; options.strips motions.
+/// polished (MATH section 7). One target; options.strips motions. Needs tool.radius or a finite options.bounds.largest.
+/// The same bytes for any number of threads.
 [[nodiscard]] FlankFitResult fit_automatic(const Target& target, const ToolModel& tool, const FlankFitOptions& options,
                                            const Progress& progress);
 
-/// Polishes given starts: one motion and one target per task, one tool for all.
+/// Polishes given starts: one motion and one target per task (at least one; all of one axis length), one tool for all.
+/// Ranks by the first task's target and checks.
 [[nodiscard]] FlankFitResult fit_from_starts(const std::vector<FitTask>& tasks, const ToolModel& tool,
                                              const FlankFitOptions& options, const Progress& progress);
 
-/// The estimate for a set of motions over one target's samples.
+/// The estimate for a set of motions over one target's samples, `poses` axis positions per motion tabulated. Samples
+/// with area 0 count for overcut and undercut alone. A sample with f < 0 is refined exactly, others to third order in
+/// the spacing of the poses.
 [[nodiscard]] CoverageEstimate estimate_coverage(const std::vector<SurfaceSample>& samples,
                                                  const std::vector<RuledMotion>& motions, const RadialFunction& tool,
                                                  double tolerance_mm, int poses);
 
-/// The deepest that the flank enters a check face, mm; checks as in FitDraft.
+/// The deepest that the flank enters a check face, mm, >= 0, at poses + 1 times per motion and at least 60 places along
+/// the axis; checks as in FitDraft (one per motion, null: none, or none at all).
 [[nodiscard]] double flank_gouge(const std::vector<RuledMotion>& motions, const std::vector<const FlankChecks*>& checks,
                                  const RadialFunction& tool, int poses);
 
-/// Residuals on a grid of count_t x count_s with fresh cold footpoints; samples beyond the border are left out.
+/// Residuals on a grid of count_t x count_s (both >= 2) per motion with cold footpoints, so a footpoint that a pass
+/// followed onto a wrong branch shows. Samples whose footpoint is on the border are left out of all but inside_share.
 [[nodiscard]] ResidualSummary validate(const std::vector<FitTask>& tasks, const RadialFunction& tool, int count_t,
                                        int count_s);
 

@@ -41,7 +41,7 @@ FlankFitResult fit_group(const Target& target, const ToolModel& tool, FlankFitOp
   double best_score = -1.0;
   for (int count : {1, 2, 3, 4, 6, 8, 10, kMostStrips}) {
     options.strips = count;
-    options.promising = count < kMostStrips ? 0.7 : 0.0;
+    options.least_coverage_for_last_passes = count < kMostStrips ? 0.7 : 0.0;
     FlankFitResult result = fit_automatic(target, tool, options, progress);
     const double score = result.after.score(options.tolerance_mm);
     if (score > best_score) {
