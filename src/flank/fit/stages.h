@@ -1,4 +1,5 @@
-/// One pass of the fit after another: coarse and robust first, then fine.
+/// One pass of the fit after another, coarse and robust first, then fine: the presets of FitStage, and how a pass is
+/// run. Which pass follows which is decided in automatic.cpp, polish.cpp and swept_polish.cpp.
 #pragma once
 
 #include <vector>
@@ -7,33 +8,35 @@
 
 namespace flank::internal {
 
-/// A tool and motions between passes, without footpoints.
+/// A tool and motions between passes, without footpoints. A value but for targets and checks, which are not owned.
 struct FitDraft {
-  std::vector<const Target*> targets;
+  std::vector<const Target*> targets;      ///< of each motion
   std::vector<const FlankChecks*> checks;  ///< of each motion; empty: nothing is in the way
-  std::vector<RuledMotion> motions;
-  RadialFunction tool;
-  std::vector<int> free_parameters;  ///< of the tool; ignored where `free_tool`
-  bool free_tool = false;            ///< a spline whose number of coefficients a pass may change
+  std::vector<RuledMotion> motions;        ///< all of one axis length
+  RadialFunction tool;                     ///< over that length
+  std::vector<int> free_parameters;        ///< of the tool; empty: given. Ignored if `free_tool`
+  bool free_tool = false;                  ///< a spline whose number of coefficients a pass may change
 };
 
 /// The draft's targets, each once (strips side by side share one), in their order.
 [[nodiscard]] std::vector<const Target*> distinct_targets(const FitDraft& draft);
 
-/// What the flank must not enter on this target; null: nothing.
+/// What the flank must not enter when it is on this target; null: nothing.
 [[nodiscard]] const FlankChecks* checks_of(const FitDraft& draft, const Target* target);
 
-/// Start of a pass: rails and spline at the stage's resolution; `next` becomes the draft with its list of free
+/// Start of a pass: rails and spline at the stage's resolution (least squares through dense samples if it differs, so
+/// the motion changes a little when control points become fewer). `next` becomes the draft with its list of free
 /// parameters.
 [[nodiscard]] FitState start_state(const FitDraft& draft, const FitStage& stage, FitDraft& next);
 
-/// Brings the draft to the stage's number of control points and coefficients and minimises; `trace` grows if given.
+/// Brings the draft to the stage's number of control points and coefficients and minimises a FitModel. Returns the
+/// result whether it is better or not: the caller assesses it. `trace` grows and `summary` is set if given.
 [[nodiscard]] FitDraft run_stage(const FitDraft& draft, const RadiusBounds& bounds, const FitStage& stage,
                                  std::vector<IterationTrace>* trace = nullptr, ResidualSummary* summary = nullptr);
 
-/// Short robust pass for ranking starts.
+/// Short robust pass for ranking starts: 8 control points per rail, milliseconds.
 [[nodiscard]] FitStage quick_stage(double robust_scale_mm);
-/// Least squares at the resolution of the papers (100 x 30, 24 control points).
+/// Least squares at the resolution of the papers (100 x 30, 24 control points). Robust past the border alone.
 [[nodiscard]] FitStage polish_stage(double robust_scale_mm);
 /// For targets that are envelopes (residual near zero): no fairness that would bias, no pull from extensions; the last
 /// of them has more control points and all but no anchors.
@@ -41,7 +44,8 @@ struct FitDraft {
 /// For targets that are not: residuals count beyond 0.7 tolerances, so that coverage grows instead of the mean falling.
 [[nodiscard]] FitStage tolerance_stage(double tolerance_mm, double robust_scale_mm);
 
-/// Tool parameters clamped into the bounds (splines: coefficients, whose hull holds the function).
+/// A spline's coefficients clamped to [smallest, largest]: the function lies in their hull, so it keeps the bounds too.
+/// `steepest` is not enforced. A family is returned as it is: its parameters are no radii.
 [[nodiscard]] RadialFunction clamp_tool(const RadialFunction& tool, const RadiusBounds& bounds);
 
 }  // namespace flank::internal
