@@ -7,28 +7,49 @@
 
 namespace flank::internal {
 
+namespace {
+
+// The score in one unit, shares of coverage. Coverage first; among fits that cover the same, the lower overcut.
+
+/// Of a share that is only within four tolerances, against one that is finished (which has both, 1.2). It leads fits
+/// that cover little to those whose rest is near; a finished share is worth six near ones, so it is never given up for
+/// one.
+constexpr double kNearWorth = 0.2;
+/// Per tolerance of overcut, or of depth in a check face, beyond the first one, which is allowed. The first tolerance
+/// of excess fails the part, so it costs kFirstExcess times that on top: 10 % of coverage. From kMostExcess on it is
+/// the same failure, however deep: 28 % at most.
+constexpr double kExcessPrice = 0.02, kFirstExcess = 4.0, kMostExcess = 10.0;
+/// Depths in check faces go far beyond that: a start can lie across the hub, hundreds of tolerances deep. So that less
+/// deep is still better, their price grows on, to another 20 % (kGougeExcess times kExcessPrice) at kDeepest
+/// tolerances.
+constexpr double kGougeExcess = 10.0, kDeepest = 100.0;
+/// Of overcut that the tolerance allows, and of the root mean square error, each per tolerance. Both only break ties: a
+/// percent of coverage is worth more than both. Radii reduced by a length lower the overcut by it and raise the mean
+/// error by up to as much; with the mean dearer than the overcut, a tool in the middle of the tolerance is not shifted
+/// off it.
+constexpr double kAllowedOvercutPrice = 0.005, kMeanPrice = 0.006;
+
+}  // namespace
+
 double CoverageEstimate::score(double tolerance_mm) const {
-  // Coverage first; among equals the lower overcut. Overcut beyond the tolerance fails the part: it costs ten percent of
-  // coverage for the first tolerance, two for each one more.
   const auto excess_of = [&](double depth) {
-    const double beyond = std::clamp(depth / tolerance_mm - 1.0, 0.0, 10.0);
-    return beyond + 4.0 * std::min(1.0, beyond);
+    const double beyond = std::clamp(depth / tolerance_mm - 1.0, 0.0, kMostExcess);
+    return beyond + kFirstExcess * std::min(1.0, beyond);
   };
-  // Into other faces it can go so deep that ten tolerances are nothing; less deep is still better.
-  const double depth = 10.0 * std::min(1.0, gouge_mm / (100.0 * tolerance_mm));
+  const double depth = kGougeExcess * std::min(1.0, gouge_mm / (kDeepest * tolerance_mm));
   const double excess = excess_of(overcut_mm) + excess_of(gouge_mm) + depth;
-  // Within the tolerance the mean error counts for more, so that no tool is shifted off the middle of the face.
-  const double within = 0.005 * std::min(1.0, overcut_mm / tolerance_mm);
-  return at_tolerance + 0.2 * at_four_tolerances - 0.02 * excess - within -
-         0.006 * std::min(1.0, rms_mm / tolerance_mm);
+  const double within = kAllowedOvercutPrice * std::min(1.0, overcut_mm / tolerance_mm);
+  return at_tolerance + kNearWorth * at_four_tolerances - kExcessPrice * excess - within -
+         kMeanPrice * std::min(1.0, rms_mm / tolerance_mm);
 }
 
 namespace {
 
-/// f at the samples. The estimate is good enough to rank coverage; what would be called overcut is looked at closely.
+/// f at the samples. The estimate is good enough to rank coverage, which is an average. Overcut is a maximum: one
+/// sample that is off would decide it, so samples that seem cut are refined.
 std::vector<double> estimate_distances(const std::vector<SurfaceSample>& samples,
                                        const std::vector<RuledMotion>& motions, const RadialFunction& tool, int poses) {
-  constexpr std::size_t kGrain = 256;
+  constexpr std::size_t kGrain = 256;  // samples per task: the estimate takes microseconds each
   const SweptEstimate swept(motions, tool, poses);
   std::vector<double> distances(samples.size());
   parallel_blocks(samples.size(), kGrain, [&](std::size_t begin, std::size_t end) {
@@ -47,6 +68,7 @@ std::vector<double> estimate_distances(const std::vector<SurfaceSample>& samples
 
 CoverageEstimate estimate_coverage(const std::vector<SurfaceSample>& samples, const std::vector<RuledMotion>& motions,
                                    const RadialFunction& tool, double tolerance_mm, int poses) {
+  constexpr double kNearTolerances = 4.0;  // by the field's name
   const std::vector<double> distances = estimate_distances(samples, motions, tool, poses);
   CoverageEstimate estimate;
   double area = 0.0, near_area = 0.0, squares = 0.0;
@@ -55,7 +77,8 @@ CoverageEstimate estimate_coverage(const std::vector<SurfaceSample>& samples, co
     const double f = distances[k];
     area += sample.area;
     if (std::abs(f) <= tolerance_mm) estimate.at_tolerance += sample.area;
-    if (std::abs(f) <= 4.0 * tolerance_mm) {
+    // The root mean square is that of what may still be finished: places out of reach would drown it.
+    if (std::abs(f) <= kNearTolerances * tolerance_mm) {
       estimate.at_four_tolerances += sample.area;
       near_area += sample.area;
       squares += sample.area * f * f;
@@ -73,7 +96,10 @@ CoverageEstimate estimate_coverage(const std::vector<SurfaceSample>& samples, co
 
 double flank_gouge(const std::vector<RuledMotion>& motions, const std::vector<const FlankChecks*>& checks,
                    const RadialFunction& tool, int poses) {
-  constexpr int kSteps = 60;  ///< along the axis, at most
+  constexpr int kSteps = 60;  // along the axis, at most: balls a sixtieth of the axis apart overlap almost wholly
+  // Of the axis length: about the step of the lattice of distances (1/48 of the target's size). If the estimate is
+  // nearer than that, the ball may touch, and the exact distance is asked for.
+  constexpr double kClose = 0.02;
   double deepest = 0.0;
   for (std::size_t m = 0; m < checks.size(); ++m) {
     if (checks[m] == nullptr) continue;
@@ -83,9 +109,8 @@ double flank_gouge(const std::vector<RuledMotion>& motions, const std::vector<co
       const Pose pose = motions[m].pose(static_cast<double>(i) / poses);
       for (double s = 0.0;; s = std::min(s, length)) {
         const double r = tool.at(s).r;
-        // What the estimate calls far is not looked at closely.
         double gap = checks[m]->estimate(pose.at(s)).distance_mm - r;
-        if (gap < 0.02 * length) gap = checks[m]->at(pose.at(s), r + 0.02 * length).distance_mm - r;
+        if (gap < kClose * length) gap = checks[m]->at(pose.at(s), r + kClose * length).distance_mm - r;
         depths[i] = std::max(depths[i], -gap);
         if (s >= length) break;
         // The gap changes by at most twice the step (|r'| < 1): what is clear by it stays so for half of it.
@@ -106,6 +131,7 @@ ResidualSummary validate(const std::vector<FitTask>& tasks, const RadialFunction
       const Pose pose = task.motion.pose(static_cast<double>(i) / (count_t - 1));
       for (int j = 0; j < count_s; ++j) {
         const double s = tool.axis_length() * j / (count_s - 1);
+        // Cold: a footpoint tracked from its neighbour would repeat the mistake that this is to find.
         const Footpoint foot = task.target->closest(pose.at(s));
         ++all;
         if (foot.location != Location::kInside) continue;
