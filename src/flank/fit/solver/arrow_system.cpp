@@ -13,7 +13,7 @@ ArrowSystem::ArrowSystem(std::vector<int> control_counts, int tool_parameters) :
   int offset = 0;
   for (int count : control_counts) {
     offsets_.push_back(offset);
-    offset += 6 * count;
+    offset += 6 * count;  // tip and scaled direction
   }
   offsets_.push_back(offset);
   clear();
@@ -32,11 +32,13 @@ void ArrowSystem::add_pose(int motion, int first, const double* basis, const Pos
   FLANK_ASSERT(first >= 0 && motion_offset(motion) + 6 * (first + 4) <= motion_offset(motion + 1));
   FLANK_ASSERT(!couples_tool || terms.coupling.cols() == tool_parameters_);
   const int base = motion_offset(motion) + 6 * first;
+  // Block (k, l) of the lower triangle is basis[k] basis[l] times the 6 x 6 matrix; of diagonal blocks the lower half.
   for (int k = 0; k < 4; ++k) {
     for (int l = 0; l <= k; ++l) {
       const double weight = basis[k] * basis[l];
       for (int c = 0; c < 6; ++c) {
         const int column = base + 6 * l + c;
+        // Row r of a column is at its start + (r - column): columns are stored from their diagonal down.
         double* to = band_.data() + column * kBand - column + base + 6 * k;
         for (int r = k == l ? c : 0; r < 6; ++r) to[r] += weight * terms.matrix(r, c);
       }
@@ -53,7 +55,8 @@ bool ArrowSystem::fits(const ResidualRow& row) const {
 }
 
 void ArrowSystem::add_row(const ResidualRow& row, double weight, double factor) {
-  FLANK_ASSERT(fits(row));
+  // The row is (basis[0] pose, ..., basis[3] pose | tool): 24 entries in the band, tool_count in the border. This is
+  // the inner loop of the swept passes, hence the outer product written out.
   const int base = motion_offset(row.motion) + 6 * row.first;
   const int tool = tool_offset() + row.tool_first;
   for (int l = 0; l < 4; ++l) {
@@ -107,7 +110,8 @@ bool ArrowSystem::solve(double damping, Eigen::VectorXd& step) const {
     const double added = damping * mean_diagonal(offsets_[m], offsets_[m + 1]);
     for (int c = offsets_[m]; c < offsets_[m + 1]; ++c) factor[static_cast<std::size_t>(c * kBand)] += added;
   }
-  // Banded Cholesky, column by column; the bands of different motions do not touch.
+  // Banded Cholesky, column by column. Motions need no loop of their own: entries that would couple the last control
+  // points of one with the first of the next are zero and stay zero.
   for (int c = 0; c < n; ++c) {
     double* column = factor.data() + c * kBand;
     if (!(column[0] > 0.0)) return false;
@@ -116,12 +120,13 @@ bool ArrowSystem::solve(double damping, Eigen::VectorXd& step) const {
     for (int r = 0; r < rows; ++r) column[r] *= inverse;
     for (int k = 1; k < rows; ++k) {
       const double value = column[k];
-      if (value == 0.0) continue;
+      if (value == 0.0) continue;  // as beyond the end of a motion
       double* to = factor.data() + (c + k) * kBand;
       for (int r = k; r < rows; ++r) to[r - k] -= value * column[r];
     }
   }
-  // Forward substitution of the gradient and the border together: y = L^-1 [g, C].
+  // Forward substitution of the gradient and the border together: y = L^-1 [C, g]. By rows, so that one pass over the
+  // factor serves all columns.
   const int k = tool_parameters_;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> y(n, k + 1);
   y.leftCols(k) = border_;
@@ -133,17 +138,22 @@ bool ArrowSystem::solve(double damping, Eigen::VectorXd& step) const {
     for (int r = 1; r < rows; ++r)
       if (column[r] != 0.0) y.row(c + r) -= column[r] * y.row(c);
   }
+  // Schur complement of the tool: (T - C' H^-1 C) tool_step = -(g_tool - C' H^-1 g).
   step.resize(size());
   Eigen::VectorXd tool_step(k);
   if (k > 0) {
     Eigen::MatrixXd schur = tool_matrix - y.leftCols(k).transpose() * y.leftCols(k);
-    for (int i = 0; i < k; ++i) schur(i, i) += damping * tool_matrix(i, i) + 1e-300;
+    // A parameter that no residual sees (a coefficient past the last footpoint that counts) has a zero row: kTiny keeps
+    // it at a zero step instead of a failed factorisation.
+    constexpr double kTiny = 1e-300;
+    for (int i = 0; i < k; ++i) schur(i, i) += damping * tool_matrix(i, i) + kTiny;
     const Eigen::VectorXd rhs = gradient.tail(k) - y.leftCols(k).transpose() * y.col(k);
     const Eigen::LDLT<Eigen::MatrixXd> ldlt(schur);
     if (ldlt.info() != Eigen::Success || !ldlt.isPositive()) return false;
     tool_step = -ldlt.solve(rhs);
     step.tail(k) = tool_step;
   }
+  // Backward substitution with what the tool has taken: L' x = -(y_g + y_C tool_step).
   Eigen::VectorXd x = -y.col(k);
   if (k > 0) x -= y.leftCols(k) * tool_step;
   for (int c = n - 1; c >= 0; --c) {
@@ -158,7 +168,7 @@ bool ArrowSystem::solve(double damping, Eigen::VectorXd& step) const {
 }
 
 Eigen::VectorXd ArrowSystem::multiply(const Eigen::VectorXd& x) const {
-  FLANK_ASSERT(x.size() == size());
+  // The lower triangle stands for both: every entry below the diagonal acts twice.
   const int n = offsets_.back();
   Eigen::VectorXd y = Eigen::VectorXd::Zero(size());
   for (int c = 0; c < n; ++c) {
