@@ -18,6 +18,7 @@ ResidualSummary summarise_residuals(const FitModel& model, const FitState& state
   for (const std::vector<Footpoint>& feet : state.feet) {
     for (std::size_t k = 0; k < feet.size(); ++k) {
       ++all;
+      // Past the border a residual is against an extrapolated surface: no error of the part.
       if (feet[k].location != Location::kInside) continue;
       ++inside;
       const double e = feet[k].distance - radius[k % n];

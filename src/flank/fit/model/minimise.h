@@ -1,4 +1,4 @@
-/// Levenberg-Marquardt over a FitModel, with iteratively reweighted samples.
+/// What a minimiser of the fit returns, and Levenberg-Marquardt over a FitModel (the loop is in levenberg_marquardt.h).
 #pragma once
 
 #include <vector>
@@ -9,33 +9,37 @@ namespace flank::internal {
 
 enum class MinimiseStatus {
   kNotRun,
-  kConverged,       ///< the last accepted step changed the cost by less than FitStage::step_tolerance of it
-  kIterationLimit,  ///< FitStage::iterations accepted steps were made
-  kStalled,         ///< no damping up to 1e8 gave a lower cost
+  kConverged,       ///< two accepted steps in a row lowered the cost by less than FitStage::step_tolerance, or cost = 0
+  kIterationLimit,  ///< FitStage::iterations steps were accepted before that
+  kStalled,  ///< no damping up to 1e8 lowered the cost, the step was round-off, or the start's cost is not finite
 };
 
-/// What one iteration did: lengths in mm, over samples whose footpoint is inside the target.
+/// What one iteration did, over samples whose footpoint is inside the target (of a SweptModel: points to be touched).
 struct IterationTrace {
-  double cost = 0.0;
-  double rms_mm = 0.0;
-  double largest_mm = 0.0;
-  double damping = 0.0;
+  double cost = 0.0;        ///< mm^2: weighted squares and regularisers, under the weights in force at that iteration
+  double rms_mm = 0.0;      ///< of the residuals, unweighted, without dead zone
+  double largest_mm = 0.0;  ///< |residual|, unweighted
+  double damping = 0.0;     ///< for the next step; no unit
 };
 
 struct MinimiseResult {
-  FitState state;
+  FitState state;  ///< the last accepted one
   MinimiseStatus status = MinimiseStatus::kNotRun;
   std::vector<IterationTrace> trace;  ///< first: the start; last: the result
 };
 
-/// Minimises the model from `start`. The initial damping is 1e-9 of the mean diagonal (1e-6 crawls, MATH section 7).
+/// levenberg_marquardt.h on a FitModel, compiled once.
 [[nodiscard]] MinimiseResult minimise(const FitModel& model, FitState start);
 
-/// Root mean square and largest |e| over samples inside the target; share of the samples that are inside.
+/// Residuals e = d - r over samples inside the target. These are errors at the axis: on a target that is no envelope
+/// the real error can be 20 times larger (MATH section 7). All zero if no sample is inside.
 struct ResidualSummary {
-  double rms_mm = 0.0, largest_mm = 0.0, inside_share = 0.0;
-  double largest_overcut_mm = 0.0;  ///< max(0, r - d)
+  double rms_mm = 0.0;              ///< root mean square of e
+  double largest_mm = 0.0;          ///< |e|
+  double inside_share = 0.0;        ///< of all samples, in [0, 1]; of a SweptModel: 1
+  double largest_overcut_mm = 0.0;  ///< max(0, -e)
 };
+/// Of a located state (its feet filled by FitModel::locate).
 [[nodiscard]] ResidualSummary summarise_residuals(const FitModel& model, const FitState& state);
 
 }  // namespace flank::internal
