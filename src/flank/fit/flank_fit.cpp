@@ -13,6 +13,7 @@ FlankFitResult fit_from_starts(const std::vector<FitTask>& tasks, const ToolMode
                                const Progress& progress) {
   FlankFitResult result;
   const std::vector<SurfaceSample> samples = ranking_samples(*tasks.front().target, tasks.front().checks, options);
+  // The start is the user's: no quick fit, which would move it towards what ranks best, and no other candidates.
   FitDraft draft = make_draft(tasks, tool, options);
   progress.step("fit", 0.1);
   result.before = estimate_coverage(samples, draft.motions, draft.tool, options.tolerance_mm, kRankingPoses);

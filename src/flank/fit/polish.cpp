@@ -11,11 +11,17 @@
 namespace flank::internal {
 namespace {
 
-/// A residual below this share of the diagonal says that the target is an envelope of such a tool: go for the last
-/// digits.
+/// A residual (root mean square) below this share of the diagonal says that the target is an envelope of such a tool:
+/// go for the last digits. Above what the polish pass's weights can leave on an exact envelope (1e-6 of the size by
+/// fairness, 3e-3 of a slide of a few thousandths by the pin: polish_stage); on a face of 100 mm it is 2e-3 mm.
 constexpr double kExactShare = 2e-5;
+/// Of a free tool's first spline, as the quick pass has: an average over the motion shows no finer profile.
+constexpr int kFirstCoefficients = 6;
+/// Coverage is known to one of about 2,000 samples (FlankFitOptions::sample_share); two of them are no difference.
+constexpr double kSameCoverage = 1e-3;
 
-/// Distances of the axes' points to their targets, averaged over time: the first radial function.
+/// Distances of the axes' points to their targets, averaged over time: the first radial function. Cold footpoints at
+/// kS x kT places: four for each coefficient along the axis; over time an average does not need many.
 RadialFunction mean_distance_tool(const std::vector<FitTask>& tasks, const RadiusBounds& bounds) {
   constexpr int kS = 25, kT = 15;
   const double length = tasks.front().motion.axis_length;
@@ -33,14 +39,16 @@ RadialFunction mean_distance_tool(const std::vector<FitTask>& tasks, const Radiu
     }
     samples.emplace_back(s, std::clamp(sum / count, bounds.smallest, bounds.largest));
   }
-  return RadialFunction::spline_through(length, samples, 6);
+  return RadialFunction::spline_through(length, samples, kFirstCoefficients);
 }
 
-/// Largest residual against the target itself, between the samples of the passes.
+/// Largest residual against the target itself, between the samples of the passes: 96 intervals share no place with the
+/// 119 and 179 of the exact passes but the ends.
 double validated_error(const FitDraft& draft) {
+  constexpr int kT = 97, kS = 29;
   std::vector<FitTask> tasks;
   for (std::size_t m = 0; m < draft.motions.size(); ++m) tasks.push_back({draft.targets[m], draft.motions[m]});
-  return validate(tasks, draft.tool, 97, 29).largest_mm;
+  return validate(tasks, draft.tool, kT, kS).largest_mm;
 }
 
 /// For targets that are envelopes: passes of growing resolution, the one kept whose error off the samples is least.
@@ -49,11 +57,12 @@ Polished exact_polish(const Polished& start, const std::vector<SurfaceSample>& s
   Polished best = start;
   double least = validated_error(start.draft);
   FitDraft draft = start.draft;
+  // The last stage twice: its pins hold to its own start, which the first of the two has moved.
   for (bool last : {false, true, true}) {
     draft = run_stage(draft, options.bounds, exact_stage(last), trace);
     const double error = validated_error(draft);
     Polished trial = assess(draft, samples, options);
-    const bool covers = trial.estimate.at_tolerance > best.estimate.at_tolerance - 1e-3;
+    const bool covers = trial.estimate.at_tolerance > best.estimate.at_tolerance - kSameCoverage;
     if (!covers || error > least) continue;
     least = error;
     best = std::move(trial);
@@ -61,6 +70,7 @@ Polished exact_polish(const Polished& start, const std::vector<SurfaceSample>& s
   return best;
 }
 
+/// The draft with all radii of its free spline smaller by a length (not below the bound): r(s) - by, exactly.
 Polished shifted_by(FitDraft draft, double by, const std::vector<SurfaceSample>& samples,
                     const FlankFitOptions& options) {
   const Eigen::VectorXd radii = (draft.tool.parameters().array() - by).max(options.bounds.smallest);
@@ -68,11 +78,15 @@ Polished shifted_by(FitDraft draft, double by, const std::vector<SurfaceSample>&
   return assess(std::move(draft), samples, options);
 }
 
-/// A free tool's radii reduced against overcut, as far as that scores better.
+/// A free tool's radii reduced against overcut, as far as that scores better: every length less on the radius is one
+/// less of overcut and one more of material left.
 Polished shifted(const Polished& polished, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
   if (!polished.draft.free_tool) return polished;
   Polished best = polished;
-  const double overcut = polished.estimate.overcut_mm, excess = overcut - 0.95 * options.tolerance_mm;
+  // Just enough to be within the tolerance, with 5 % for what lies between the samples; and quarters of all, because
+  // the score has steps (samples that leave the tolerance) and no derivative to follow.
+  constexpr double kWithin = 0.95;
+  const double overcut = polished.estimate.overcut_mm, excess = overcut - kWithin * options.tolerance_mm;
   for (double by : {excess, 0.25 * overcut, 0.5 * overcut, 0.75 * overcut, overcut}) {
     if (by <= 0.0) continue;
     Polished trial = shifted_by(polished.draft, by, samples, options);
@@ -93,7 +107,11 @@ Polished assess(FitDraft draft, const std::vector<SurfaceSample>& samples, const
 }
 
 double robust_scale(const Target& target, const FlankFitOptions& options) {
-  return std::max(4.0 * options.tolerance_mm, 1e-3 * target.diagonal());
+  // A robust weight is a quarter at the scale, so at four tolerances, which is what quick fits are ranked by, a sample
+  // still pulls. With a tight tolerance everything about a start would be an outlier, and nothing pull: hence the
+  // floor.
+  constexpr double kTolerances = 4.0, kLeastShare = 1e-3;
+  return std::max(kTolerances * options.tolerance_mm, kLeastShare * target.diagonal());
 }
 
 double reach_radius(const FlankFitOptions& options) {
@@ -132,7 +150,7 @@ FitDraft make_draft(const std::vector<FitTask>& tasks, const ToolModel& tool, co
 
 Polished polish(const FitDraft& draft, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options,
                 std::vector<IterationTrace>* trace) {
-  ResidualSummary summary;
+  ResidualSummary summary;  // of the first pass, which decides between the two ways
   Polished best = assess(draft, samples, options);
   const auto keep = [&](Polished&& trial) {
     if (trial.estimate.score(options.tolerance_mm) > best.estimate.score(options.tolerance_mm)) best = std::move(trial);
@@ -153,7 +171,8 @@ Polished polish(const FitDraft& draft, const std::vector<SurfaceSample>& samples
 
 Polished last_passes(const Polished& polished, const std::vector<SurfaceSample>& samples,
                      const FlankFitOptions& options, std::vector<IterationTrace>* trace) {
-  /// An exact fit with more overcut than this share of the tolerance is shifted down to it; its last digits stay.
+  /// A free, exact fit with more overcut than this share of the tolerance has its radii reduced until it has that; its
+  /// motion, and so its last digits, stay. It covers the face if no more than one of 2,000 samples is missing.
   constexpr double kExactOvercut = 0.1, kExactCovers = 0.9995;
   // An exact fit has its residuals at the axis, and beside a wall some of the face may lie past the axis' end: the
   // passes below see it.
@@ -173,7 +192,7 @@ Polished last_passes(const Polished& polished, const std::vector<SurfaceSample>&
 }
 
 Polished settled(const Polished& polished, const FlankFitOptions& options) {
-  constexpr double kDenser = 4.0;
+  constexpr double kDenser = 4.0;  // in each direction: 16 times as many
   FlankFitOptions dense = options;
   dense.sample_share = options.sample_share / kDenser;
   std::vector<SurfaceSample> samples;
@@ -183,7 +202,8 @@ Polished settled(const Polished& polished, const FlankFitOptions& options) {
   }
   const Polished again = assess(polished.draft, samples, options);
   if (again.estimate.overcut_mm > options.tolerance_mm) return shifted(again, samples, options);
-  // Between these samples, too, nothing may be cut deeper than the tolerance: a little room, where it costs little.
+  // Between these samples, too, nothing may be cut deeper than the tolerance: a little room (of the tolerance), if it
+  // costs little (of the covered share).
   constexpr double kRoom = 0.06, kCost = 0.005;
   const double by = again.estimate.overcut_mm - (1.0 - kRoom) * options.tolerance_mm;
   if (!again.draft.free_tool || by <= 0.0) return again;
@@ -198,8 +218,12 @@ FlankFitResult finish(const Polished& polished, const FlankFitOptions& options, 
   std::vector<FitTask> tasks;
   for (std::size_t m = 0; m < result.motions.size(); ++m)
     tasks.push_back({polished.draft.targets[m], result.motions[m]});
-  result.residuals = validate(tasks, result.tool, 60, 24);
-  const bool good = result.after.at_tolerance >= 0.99 && result.after.overcut_mm <= options.tolerance_mm &&
+  // A grid of its own: 59 and 23 are primes, so it has nothing in common with the passes' grids but the ends.
+  constexpr int kT = 60, kS = 24;
+  result.residuals = validate(tasks, result.tool, kT, kS);
+  // Not all of it: these samples are dense, and a rim that is a little short is for the judge to call.
+  constexpr double kCovered = 0.99;
+  const bool good = result.after.at_tolerance >= kCovered && result.after.overcut_mm <= options.tolerance_mm &&
                     result.after.gouge_mm <= options.tolerance_mm;
   result.status = good ? FitStatus::kWithinTolerance : FitStatus::kPartial;
   result.message = fmt::format("estimated coverage {:.2f} % at {:.4g} mm, overcut {:.4g} mm",

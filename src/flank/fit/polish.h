@@ -1,4 +1,7 @@
 /// From a draft that a start or a quick fit gave to a result: the passes, the choice among them, the last corrections.
+///
+/// A pass is kept only if its result scores better on the same samples, so one that goes wrong costs time and nothing
+/// else.
 #pragma once
 
 #include <vector>
@@ -7,47 +10,53 @@
 
 namespace flank::internal {
 
+/// Poses per motion at which the estimate of the swept distance is tabulated when drafts are ranked: 2.5 for each of
+/// the 64 control points that a rail can have, at least 3.3 for each of the 48 of all but the exact passes.
 inline constexpr int kRankingPoses = 160;
 
-/// Residuals far beyond this are outliers to a robust pass.
+/// Residuals far beyond this are outliers to a robust pass; mm.
 [[nodiscard]] double robust_scale(const Target& target, const FlankFitOptions& options);
 
-/// Samples of the target that rank drafts. Those that check faces put out of reach have no area: they count for overcut
-/// alone.
+/// Samples of the target that rank drafts, spacing options.sample_share sqrt(area). Samples out of reach because of
+/// check faces, and points of the rim, have no area: they count for overcut alone.
 [[nodiscard]] std::vector<SurfaceSample> ranking_samples(const Target& target, const FlankChecks* checks,
                                                          const FlankFitOptions& options);
 
-/// Radius of the ball that says what is in reach.
+/// Radius of the ball that says what is in reach, mm: the one given, else the smallest allowed to the tool.
 [[nodiscard]] double reach_radius(const FlankFitOptions& options);
 
-/// A draft for these tasks: the tool given, or a free spline of the mean distance of the axes to their targets.
+/// A draft for these tasks: the tool given, or a free spline of the mean distance of the axes to their targets (clamped
+/// into the bounds). tasks is not empty; all motions have the axis length of the first.
 [[nodiscard]] FitDraft make_draft(const std::vector<FitTask>& tasks, const ToolModel& tool,
                                   const FlankFitOptions& options);
 
 struct Polished {
   FitDraft draft;
-  CoverageEstimate estimate;
-  bool exact = false;  ///< the target is an envelope of such a tool
+  CoverageEstimate estimate;  ///< of this draft
+  bool exact = false;         ///< the target is an envelope of such a tool, by the residual after the polish
 };
 
 /// The draft with a free tool clamped into its bounds, and what it covers.
 [[nodiscard]] Polished assess(FitDraft draft, const std::vector<SurfaceSample>& samples,
                               const FlankFitOptions& options);
 
-/// Least squares, then either the exact passes (residual near zero) or the tolerance passes. Never returns worse than
-/// the best it saw.
+/// Least squares, then either the exact passes (residual near zero) or the tolerance pass, then `shifted` radii for a
+/// free tool. Returns the best that it saw by score, at worst the draft itself; `trace` grows if given.
 [[nodiscard]] Polished polish(const FitDraft& draft, const std::vector<SurfaceSample>& samples,
                               const FlankFitOptions& options, std::vector<IterationTrace>* trace);
 
-/// The passes of swept_polish.h where the target is no envelope, and a free tool shifted against overcut.
+/// The passes of swept_polish.h if the target is no envelope, and a free tool's radii reduced against overcut. An exact
+/// fit keeps its motion; a free tool's radii are reduced until a tenth of the tolerance of overcut is left.
 [[nodiscard]] Polished last_passes(const Polished& polished, const std::vector<SurfaceSample>& samples,
                                    const FlankFitOptions& options, std::vector<IterationTrace>* trace);
 
-/// Looked at again with samples several times denser than those that ranked it, and a free tool shifted if its overcut
-/// turns out to be beyond the tolerance.
+/// The same draft, assessed with samples four times denser than those that ranked it; a free tool's radii are reduced
+/// if its overcut turns out to be above, or just below, the tolerance. Without this the ranking's samples, which the
+/// passes have been chosen by, would flatter the result.
 [[nodiscard]] Polished settled(const Polished& polished, const FlankFitOptions& options);
 
-/// Fills a result from the chosen draft: validation with cold footpoints, status.
+/// Fills a result from the chosen draft: validation with cold footpoints, status, message. What `result` holds already
+/// (before, trace, candidates) stays.
 [[nodiscard]] FlankFitResult finish(const Polished& polished, const FlankFitOptions& options, FlankFitResult result);
 
 }  // namespace flank::internal
