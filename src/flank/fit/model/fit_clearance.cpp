@@ -1,4 +1,4 @@
-// The terms of FitModel that keep the flank out of the other faces (MATH section 7): one-sided, at the points of the axis.
+// The terms of FitModel that keep the flank out of other faces (MATH section 7): one-sided, at points of the axis.
 #include <algorithm>
 
 #include "flank/base/parallel.h"
@@ -7,8 +7,11 @@
 namespace flank::internal {
 namespace {
 
-/// A distance is known this much beyond what is asked of it, so that it need not be asked again after a small step.
+/// A distance is measured this much beyond the radius, so that it need not be measured again until the sample has moved
+/// that far. More would make each measurement slower, less would make more of them.
 constexpr double kSightMm = 1.0;
+/// Poses that one task of the parallel loop takes: some hundred distances, long against the cost of starting a task.
+constexpr std::size_t kPosesPerTask = 8;
 
 }  // namespace
 
@@ -22,13 +25,13 @@ void FitModel::locate_checks(FitState& state) const {
     if (checks_[m] == nullptr) continue;
     std::vector<CheckSample>& samples = state.checks[m];
     samples.resize(static_cast<std::size_t>(n * stage_.samples_t));
-    parallel_blocks(static_cast<std::size_t>(stage_.samples_t), 8, [&](std::size_t begin, std::size_t end) {
+    parallel_blocks(static_cast<std::size_t>(stage_.samples_t), kPosesPerTask, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const PoseAt pose = pose_at(state.motions[m], times_[i]);
         for (int j = 0; j < n; ++j) {
           CheckSample& sample = samples[i * static_cast<std::size_t>(n) + static_cast<std::size_t>(j)];
           const Vec3 p = pose.tip + s_[j] * pose.u;
-          // The distance changes by no more than the point moves.
+          // The distance changes by no more than the point moves: what was far enough may still be.
           if (sample.known && sample.nearest.distance_mm - (p - sample.at).norm() > needed[j]) continue;
           sample = {stage_.clear_estimated ? checks_[m]->estimate(p) : checks_[m]->at(p, needed[j] + kSightMm), p,
                     true};
@@ -40,6 +43,7 @@ void FitModel::locate_checks(FitState& state) const {
 
 double FitModel::intrusion(const FitState& state, std::size_t motion, std::size_t k, double radius) const {
   const CheckDistance& nearest = state.checks[motion][k].nearest;
+  // Beyond the horizon nothing is near: distance_mm is the horizon then, which must not be taken for a distance.
   return nearest.face < 0 ? 0.0 : std::max(0.0, radius - checks_[motion]->allowance_mm() - nearest.distance_mm);
 }
 
@@ -72,13 +76,14 @@ void FitModel::assemble_checks(const FitState& state, ArrowSystem& system) const
       terms.matrix.setZero();
       terms.gradient.setZero();
       terms.coupling.setZero(6, tool_parameters_);
-      bool any = false;
+      bool any = false;  // most poses are clear of everything: they add nothing
       for (std::size_t j = 0; j < n; ++j) {
         const double e = intrusion(state, m, i * n + j, state.tool.at(s_[j]).r), w = check_weight();
         if (e == 0.0) continue;
         any = true;
         const Vec3& d = state.checks[m][i * n + j].nearest.gradient;
         Vec6 g;
+        // e = r - allowance - D: de/dpoint = -gradient D, de/dtool = +b; by the pose as in FitModel::row.
         g << -d, (-s_[j] / (axis_length_ * pose.length_w)) * (d - d.dot(pose.u) * pose.u);
         terms.matrix += w * g * g.transpose();
         terms.gradient += w * e * g;

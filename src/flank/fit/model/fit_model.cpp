@@ -8,13 +8,18 @@
 namespace flank::internal {
 namespace {
 
-/// The residual with its dead zone cut out.
+/// The residual with its dead zone cut out: continuous, with slope 0 inside and 1 outside.
 double effective(double e, double dead_zone) {
   if (dead_zone <= 0.0) return e;
   return e > 0.0 ? std::max(0.0, e - dead_zone) : std::min(0.0, e + dead_zone);
 }
-/// Share of its weight that a sample inside the dead zone keeps in the matrix: it holds the step, and pulls nowhere.
+/// Share of its weight that a sample inside the dead zone keeps in the matrix, but not in the gradient: it pulls
+/// nowhere, but holds the step. Without it the samples outside, which may be few, would be followed by a Gauss-Newton
+/// step that throws the others out; with 1, the step would be as short as that of plain least squares. SweptModel has
+/// the same.
 constexpr double kDeadZoneDamping = 0.02;
+/// mm: a query point this near to a border footpoint lies on the border, and has no direction to it.
+constexpr double kOnBorderMm = 1e-12;
 
 }  // namespace
 
@@ -22,7 +27,7 @@ Vec3 distance_gradient(const Vec3& p, const Footpoint& foot) {
   if (foot.location != Location::kBorder) return foot.normal;
   const Vec3 away = p - foot.point;
   const double length = away.norm();
-  if (length < 1e-12) return foot.normal;
+  if (length < kOnBorderMm) return foot.normal;
   return (foot.distance < 0.0 ? -away : away) / length;
 }
 
@@ -49,6 +54,7 @@ FitModel::FitModel(std::vector<const Target*> targets, const FitState& start, st
     basis_derivatives(3, first.tip.knots, span, time.t, 2, n.data());
     time.first = span - 3;
     std::copy_n(n.data(), 4, time.basis.data());
+    // From second derivatives to second differences from sample to sample: what fairness weighs.
     const double h = 1.0 / (stage.samples_t - 1);
     for (int k = 0; k < 4; ++k) time.basis_d2[k] = n[8 + k] * h * h;
     times_.push_back(time);
@@ -57,6 +63,7 @@ FitModel::FitModel(std::vector<const Target*> targets, const FitState& start, st
     s_.push_back(axis_length_ * j / (stage.samples_s - 1));
     start_radius_.push_back(start.tool.at(s_.back()).r);
   }
+  // Drift is counted along the velocity that the start has at each time, so moving sideways off the path is free.
   for (const RuledMotion& motion : start.motions) {
     std::vector<Anchor> anchors;
     for (const TimeSample& time : times_) {
@@ -92,6 +99,8 @@ void FitModel::locate(FitState& state) const {
   state.feet.resize(targets_.size());
   for (std::size_t m = 0; m < targets_.size(); ++m) {
     std::vector<Footpoint>& feet = state.feet[m];
+    // Warm: each sample follows its own last footpoint. Cold (the first time, or another grid): each follows its
+    // neighbour, so that all lie on one branch of the target and only the very first is searched for.
     const bool warm = static_cast<int>(feet.size()) == n * stage_.samples_t;
     if (!warm) feet.assign(static_cast<std::size_t>(n * stage_.samples_t), Footpoint{});
     for (int i = 0; i < stage_.samples_t; ++i) {
@@ -131,6 +140,7 @@ std::vector<std::vector<double>> FitModel::sample_weights(const FitState& state)
       const bool inside = feet[k].location == Location::kInside;
       double w = inside ? 1.0 : stage_.extension_weight;
       const double scale = inside ? stage_.robust_scale_mm : stage_.extension_scale_mm;
+      // Geman-McClure: the weight whose least squares minimise e^2 / (1 + e^2 / scale^2).
       if (scale > 0.0) {
         const double q = 1.0 + e * e / (scale * scale);
         w /= q * q;
@@ -146,7 +156,8 @@ Vec6 FitModel::row(const PoseAt& pose, double s, const Footpoint& foot) const {
   const Vec3 n = distance_gradient(pose.tip + s * pose.u, foot);
   Vec6 g;
   g.head<3>() = n;
-  // The direction is scaled by the axis length, so that all six coordinates are lengths.
+  // u = w / |w|: du = (I - u u') dw / |w|, so only the part of n across the axis turns it. The direction is scaled by
+  // the axis length, so that all six coordinates are lengths and one damping fits them.
   g.tail<3>() = (s / (axis_length_ * pose.length_w)) * (n - n.dot(pose.u) * pose.u);
   return g;
 }
@@ -183,6 +194,7 @@ void FitModel::assemble(const FitState& state, const std::vector<std::vector<dou
   FLANK_ASSERT(weights.size() == targets_.size() && state.feet.size() == targets_.size());
   system.clear();
   const int n = stage_.samples_s;
+  // r depends on s alone: once per s, not once per sample.
   std::vector<double> radius(n), factors(static_cast<std::size_t>(n * stage_.samples_t)), matrix_weights;
   for (int j = 0; j < n; ++j) radius[j] = state.tool.at(s_[j]).r;
   for (std::size_t m = 0; m < targets_.size(); ++m) {
@@ -218,6 +230,7 @@ void FitModel::assemble_rows(const FitState& state, int motion, const std::vecto
       column_weight[j] += weights[k];
       column_factor[j] += gradient_factors[k];
     }
+    // e = d - r, so de/dtool = -b.
     if (!free_.empty()) terms.coupling.noalias() = -weighted * b.transpose();
     system.add_pose(motion, times_[i].first, times_[i].basis.data(), terms, !free_.empty());
   }
@@ -231,7 +244,7 @@ FitState FitModel::moved(const FitState& state, const Eigen::VectorXd& step) con
                static_cast<Eigen::Index>(6 * targets_.size()) * stage_.control_points + tool_parameters_);
   FitState next = state;
   for (std::size_t m = 0; m < next.motions.size(); ++m) {
-    const int base = static_cast<int>(m) * 6 * stage_.control_points;
+    const int base = static_cast<int>(m) * 6 * stage_.control_points;  // ArrowSystem's order of the unknowns
     for (int k = 0; k < stage_.control_points; ++k) {
       next.motions[m].tip.poles.col(k) += step.segment<3>(base + 6 * k);
       next.motions[m].direction.poles.col(k) += step.segment<3>(base + 6 * k + 3) / axis_length_;

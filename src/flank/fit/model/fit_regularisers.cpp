@@ -1,4 +1,4 @@
-// The terms of FitModel that do not look at the targets: fairness and anchors of the rails, pins and bounds of the tool.
+// The terms of FitModel that do not look at the targets: fairness and anchors of rails, pins and bounds of the tool.
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +9,8 @@ namespace {
 
 /// Keeps |w| near one: the length of w is a gauge, this term only holds it (MATH section 2).
 constexpr double kUnitPenalty = 1e-9;
-/// Weight of the one-sided terms that keep the tool inside its bounds.
+/// Weight of the one-sided terms that keep the tool inside its bounds, against 1 for the residuals: a bound is broken
+/// by a tenth of the error that breaking it would save. What is left is clamped at the end (clamp_tool).
 constexpr double kBoundWeight = 10.0;
 
 }  // namespace
@@ -28,11 +29,13 @@ void FitModel::assemble_regularisers(const FitState& state, ArrowSystem& system)
 
 void FitModel::assemble_rails(const FitState& state, int motion, ArrowSystem& system) const {
   const RuledMotion& rails = state.motions[motion];
+  // Means over the samples, as the residuals are, so that weights mean the same on any grid and any number of motions.
   const double share = 1.0 / (static_cast<double>(targets_.size()) * stage_.samples_t);
   const double half = 0.5 * axis_length_;
   PoseTerms terms;
   for (int i = 0; i < stage_.samples_t; ++i) {
     const TimeSample& time = times_[i];
+    // Fairness is linear in the control points, with the second derivatives of the basis in the place of its values.
     terms.matrix = Mat6::Identity() * (stage_.fairness * share);
     terms.gradient.setZero();
     for (int k = 0; k < 4; ++k) {
@@ -42,6 +45,7 @@ void FitModel::assemble_rails(const FitState& state, int motion, ArrowSystem& sy
     terms.gradient *= stage_.fairness * share;
     system.add_pose(motion, time.first, time.basis_d2.data(), terms, false);
 
+    // Anchor, pin and |w| = 1: one row each, derivatives as in FitModel::row.
     const PoseAt pose = pose_at(rails, time);
     const Anchor& anchor = anchors_[motion][static_cast<std::size_t>(i)];
     terms.matrix.setZero();
@@ -86,14 +90,15 @@ double FitModel::rail_cost(const FitState& state, int motion) const {
 
 namespace {
 
-/// One-sided residuals of the tool's bounds at one s; zero inside the bounds. `slope_sign` tells the side of a slope
-/// residual.
+/// One-sided residuals of the tool's bounds at one s, all lengths in mm; zero inside the bounds. Radius and slope have
+/// the sign of the side on which the bound is broken: positive above, negative below.
 struct BoundResiduals {
   double radius = 0.0;
-  double slope = 0.0;
-  double convexity = 0.0;
+  double slope = 0.0;      ///< times the axis length
+  double convexity = 0.0;  ///< times the axis length
 };
-/// What 1 - r'^2 - r r'' is held above: at zero the spheres are no longer inscribed (MATH section 1).
+/// What 1 - r'^2 - r r'' is held above: at zero the spheres are no longer inscribed (MATH section 1). A little more,
+/// because a soft term gives a little, and is seen at the samples of s only.
 constexpr double kLeastConvexity = 0.05;
 BoundResiduals bound_residuals(const RadialJet& jet, const RadiusBounds& bounds, double axis_length) {
   BoundResiduals out;
@@ -111,7 +116,10 @@ void FitModel::assemble_tool(const FitState& state, ArrowSystem& system) const {
   Eigen::MatrixXd b;
   tool_gradients(state, b);
   auto gradient = system.gradient.tail(tool_parameters_);
-  const double h = axis_length_ * 1e-4, h2 = axis_length_ * 5e-6;
+  // Steps of the differences below, shares of the axis length. First derivatives: the error of a central difference is
+  // h^2 / 6 of the third, 1e-8 here, far more digits than normal equations need.
+  constexpr double kStep = 1e-4, kStep2 = 5e-6;
+  const double h = axis_length_ * kStep, h2 = axis_length_ * kStep2;
   for (int j = 0; j < n; ++j) {
     const RadialJet jet = state.tool.at(s_[j]);
     system.tool_matrix += (stage_.radius_pin / n) * b.col(j) * b.col(j).transpose();
@@ -125,7 +133,8 @@ void FitModel::assemble_tool(const FitState& state, ArrowSystem& system) const {
     // Central also at the ends, where the end polynomial goes on: one-sided differences are off by 1e-4.
     const Eigen::VectorXd by_d1 =
         (tool_gradient(state.tool, s_[j] + h) - tool_gradient(state.tool, s_[j] - h)) / (2.0 * h);
-    // A smaller step: at a knot r'' has a corner.
+    // A smaller step: at a knot r'' has a corner, and the difference is wrong within a step of it. Round-off is
+    // 1e-16 / kStep2^2, 1e-5 of the second derivative: enough.
     const Eigen::VectorXd by_d2 =
         (tool_gradient(state.tool, s_[j] + h2) - 2.0 * b.col(j) + tool_gradient(state.tool, s_[j] - h2)) / (h2 * h2);
     const auto add = [&](const Eigen::VectorXd& g, double residual) {
@@ -136,6 +145,7 @@ void FitModel::assemble_tool(const FitState& state, ArrowSystem& system) const {
     add(axis_length_ * by_d1, residuals.slope);
     add(axis_length_ * (2.0 * jet.d1 * by_d1 + jet.d2 * b.col(j) + jet.r * by_d2), residuals.convexity);
   }
+  // Second differences of a spline's coefficients; a family has nothing that could wave.
   if (state.tool.family() != ToolFamily::kSpline) return;
   const Eigen::VectorXd& r = state.tool.parameters();
   for (int k = 1; k + 1 < tool_parameters_; ++k) {
