@@ -8,22 +8,25 @@
 namespace flank::internal {
 namespace {
 
-constexpr int kSteps = 48;         ///< along a line
-constexpr int kRefits = 2;         ///< of a line to its free stretch
-constexpr double kOverrun = 0.03;  ///< a free end is passed by this share of the stretch
+constexpr int kSteps = 48;  ///< along a line at most; a free stretch shorter than one step is none
+constexpr int kRefits = 2;  ///< of a line to its free stretch: each moves the line, and so the wall's place on it
+constexpr double kOverrun = 0.03;  ///< a free end is passed by this share of the axis length at most (1.03 stretches)
 
 using Line = ClearStart::Line;
 
 /// Distance of the ball on a line to the walls; also a bound of how far along the line nothing changes. A ball on the
-/// border of the target touches what begins there, and the chart is good to a few hundredths of a radius: as good as free.
-double gap_at(const ContactLine& axis, double sigma, double radius, const FlankChecks& checks) {
-  constexpr double kSight = 4.0, kGood = 0.995;  ///< radii
+/// border of the target touches what begins there, and the chart is good to a few hundredths of a radius: as good as
+/// free.
+double gap_at(const FittedLine& axis, double sigma, double radius, const FlankChecks& checks) {
+  constexpr double kSight = 4.0;   // radii: how far walls are asked for, which bounds the steps along a free line
+  constexpr double kGood = 0.995;  // radii: see above
   return checks.at(axis.middle + sigma * axis.direction, kSight * radius).distance_mm - kGood * radius;
 }
 
 /// Where between a free and a blocked place the ball touches.
-double touch(const ContactLine& axis, double free, double blocked, double radius, const FlankChecks& checks) {
-  for (int k = 0; k < 12; ++k) {
+double touch(const FittedLine& axis, double free, double blocked, double radius, const FlankChecks& checks) {
+  constexpr int kHalvings = 12;  // of one step of 48: 5e-6 of the line
+  for (int k = 0; k < kHalvings; ++k) {
     const double middle = 0.5 * (free + blocked);
     (gap_at(axis, middle, radius, checks) >= 0.0 ? free : blocked) = middle;
   }
@@ -31,7 +34,7 @@ double touch(const ContactLine& axis, double free, double blocked, double radius
 }
 
 /// The longest free stretch of the line over its own length.
-Line free_stretch(const ContactLine& axis, double radius, const FlankChecks& checks) {
+Line free_stretch(const FittedLine& axis, double radius, const FlankChecks& checks) {
   Line line{axis};
   const double step = axis.length / kSteps, end = 0.5 * axis.length;
   // `begin`: of the present stretch; `seen`: the last free place of it; `wall`: the last blocked place.
@@ -62,6 +65,7 @@ Line free_stretch(const ContactLine& axis, double radius, const FlankChecks& che
       wall = sigma;
     }
     if (sigma >= end) break;
+    // A distance is 1-Lipschitz: for |gap| along the line nothing changes, neither free nor blocked.
     sigma = std::min(end, sigma + std::max(step, std::abs(gap)));
   }
   if (inside) close(end, false);
@@ -78,7 +82,7 @@ Line clear_line(const Chart& chart, const RuledStart& start, double t, const Fla
     const double low = band.band_low + width * (line.low / line.axis.length + 0.5);
     const double high = band.band_low + width * (line.high / line.axis.length + 0.5);
     // A little of what is blocked stays in, so that the next search finds the wall again.
-    constexpr double kKept = 0.04;
+    constexpr double kKept = 0.04;  // of the target's width
     if (line.low_blocked) band.band_low = std::max(start.band_low, low - kKept);
     if (line.high_blocked) band.band_high = std::min(start.band_high, high + kKept);
     const Line next = free_stretch(axis_line(chart, band, t), start.radius_mm, checks);
@@ -146,6 +150,7 @@ RuledMotion make_motion(const ClearStart& start, double axis_length, int count) 
     low += line.low_blocked ? 1 : 0;
     high += line.high_blocked ? 1 : 0;
   }
+  // The tip goes to the wall, the holder to the open side.
   const bool reversed = high > low;
   std::vector<Pose> poses;
   std::vector<double> times;

@@ -9,10 +9,11 @@
 
 namespace flank::internal {
 
-/// A start of which every axis line was cut where its ball would enter a check face.
+/// A start of which every axis line was cut at the place where its ball would enter a check face.
 struct ClearStart {
+  /// The line of one time.
   struct Line {
-    ContactLine axis;              ///< fitted to the free stretch of its contact line
+    FittedLine axis;               ///< fitted to the free stretch of its contact line
     double low = 0.0, high = 0.0;  ///< of the free stretch, mm from the line's middle along its direction
     bool low_blocked = false, high_blocked = false;  ///< a wall ends the stretch
     bool free = false;                               ///< false: no stretch is free; taken from its neighbours
@@ -23,10 +24,13 @@ struct ClearStart {
   int blocked_lines = 0;  ///< lines with a wall at an end
 };
 
+/// Without a free line (free_lines = 0) there is no motion to make. If lines at the ends of the motion are blocked
+/// altogether, the times are squeezed into what is free and 4 percent past it.
 [[nodiscard]] ClearStart clear_start(const Chart& chart, const RuledStart& start, const FlankChecks& checks);
 
-/// The motion with its tip at the blocked end of each line (walls at most lines' low end: as directed, else reversed)
-/// and the rest of the axis past the other end; lines without a wall are centred.
+/// The motion with its tip at the blocked end of each line and the rest of the axis past the other end. The tip is at
+/// the lines' low end if most walls are there, else the lines are reversed. A line without a wall starts a little
+/// before its free stretch; if no line has one, all are centred. Needs a start with free lines.
 [[nodiscard]] RuledMotion make_motion(const ClearStart& start, double axis_length, int count);
 
 }  // namespace flank::internal

@@ -9,18 +9,23 @@
 namespace flank::internal {
 namespace {
 
+/// The skew in chart units: shift of a contact line in the direction of motion from one of its ends to the other, as a
+/// share of the way. Clamped, because a contact line that crosses most of the way leaves no room for others beside it.
 double skew_share(const Chart& chart, const RuledStart& start) {
   const double across = start.swapped ? chart.length_a() : chart.length_b();
   const double along = start.swapped ? chart.length_b() : chart.length_a();
-  return std::clamp(std::tan(start.skew_rad) * across / along, -0.6, 0.6);
+  constexpr double kMost = 0.6;
+  return std::clamp(std::tan(start.skew_rad) * across / along, -kMost, kMost);
 }
 
 }  // namespace
 
-ContactLine axis_line(const Chart& chart, const RuledStart& start, double t) {
-  constexpr int kSamples = 17;
+FittedLine axis_line(const Chart& chart, const RuledStart& start, double t) {
+  constexpr int kSamples = 17;       // on the contact line, which is curved once or twice at most
+  constexpr double kPastEnd = 0.04;  // of the way: first and last line together lie this much past the border
   const double skew = skew_share(chart, start);
-  const double reach = 1.0 + std::abs(skew) * (start.band_high - start.band_low) + 0.04;
+  // A skewed line sweeps the corners of the chart only if it starts before it and ends behind it.
+  const double reach = 1.0 + std::abs(skew) * (start.band_high - start.band_low) + kPastEnd;
   const double middle = 0.5 * (start.band_low + start.band_high);
   Eigen::Matrix<double, 3, kSamples> q;
   for (int k = 0; k < kSamples; ++k) {
@@ -29,10 +34,12 @@ ContactLine axis_line(const Chart& chart, const RuledStart& start, double t) {
     const ChartPoint at = start.swapped ? chart.at(b, a) : chart.at(a, b);
     q.col(k) = at.point + start.radius_mm * at.normal;
   }
+  // Total least squares: the direction of the largest spread.
   const Vec3 mean = q.rowwise().mean();
   const Eigen::Matrix<double, 3, kSamples> centred = q.colwise() - mean;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(centred * centred.transpose());
   Vec3 u = eigen.eigenvectors().col(2);
+  // An eigenvector has no sign: along increasing b, so that neighbouring times agree.
   if (u.dot(q.col(kSamples - 1) - q.col(0)) < 0.0) u = -u;
   const Eigen::Matrix<double, 1, kSamples> along = u.transpose() * centred;
   return {mean + 0.5 * (along.minCoeff() + along.maxCoeff()) * u, u, along.maxCoeff() - along.minCoeff()};
@@ -51,7 +58,7 @@ RuledMotion make_motion(const Chart& chart, const RuledStart& start, double axis
   std::vector<double> times;
   for (int i = 0; i < kStartTimes; ++i) {
     const double t = i / (kStartTimes - 1.0);
-    const ContactLine line = axis_line(chart, start, t);
+    const FittedLine line = axis_line(chart, start, t);
     poses.push_back({line.middle - 0.5 * axis_length * line.direction, line.direction});
     times.push_back(t);
   }

@@ -1,4 +1,4 @@
-/// Candidate ruled motions across a target for the automatic start.
+/// Candidate ruled motions across a target for the automatic start (MATH section 7).
 #pragma once
 
 #include "flank/ruled_motion.h"
@@ -9,27 +9,26 @@ namespace flank::internal {
 /// One candidate: contact lines a = t + skew (b - 1/2), b in a band of [0, 1], offset by `radius` along the normals;
 /// the axis is the line fitted to the offset contact line.
 struct RuledStart {
-  bool swapped = false;   ///< axis along the chart's a direction, motion along b
-  double skew_rad = 0.0;  ///< angle of the contact lines against the chart's lines, in the surface
-  double radius_mm = 1.0;
+  bool swapped = false;    ///< axis along the chart's a direction, motion along b
+  double skew_rad = 0.0;   ///< angle of the contact lines against the chart's lines, in the surface; |skew| < pi/2
+  double radius_mm = 1.0;  ///< of the tool, mm, > 0
   double band_low = 0.0, band_high = 1.0;  ///< share of the width that this strip covers
-  double overrun = 0.03;                   ///< of the axis past both ends of the contact line
 };
 
-/// A line of the axis through the middle of what it is to touch.
-struct ContactLine {
-  Vec3 middle, direction;
-  double length = 0.0;
+/// An axis position, by the middle of what it is to touch. (AxisLine of axis_line.h is a line as a user gives it.)
+struct FittedLine {
+  Vec3 middle, direction;  ///< mm; unit vector, from tip to holder
+  double length = 0.0;     ///< mm, of the offset contact line
 };
 
 /// The line fitted to the offset contact line of time t (least squares), directed along increasing b.
-[[nodiscard]] ContactLine axis_line(const Chart& chart, const RuledStart& start, double t);
+[[nodiscard]] FittedLine axis_line(const Chart& chart, const RuledStart& start, double t);
 inline constexpr int kStartTimes = 41;  ///< of which a start is made
 
-/// The longest offset contact line of a start, mm: the axis length to use where none is given (times 1.02).
+/// The longest offset contact line of a start, mm: the axis length to use if none is given (times 1.02).
 [[nodiscard]] double longest_chord(const Chart& chart, const RuledStart& start);
 
-/// The motion of the start with `count` control points a rail; the axis has the given length and is centred on the
+/// The motion of the start with `count` control points per rail; the axis has the given length and is centred on the
 /// contact line.
 [[nodiscard]] RuledMotion make_motion(const Chart& chart, const RuledStart& start, double axis_length, int count);
 
