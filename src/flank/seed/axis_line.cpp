@@ -22,6 +22,7 @@ std::vector<std::string_view> split(std::string_view text) {
 }
 
 bool parse_number(std::string_view word, double& value) {
+  // from_chars knows no plus sign and, good for us, no locale.
   if (!word.empty() && word.front() == '+') word.remove_prefix(1);
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   return error == std::errc() && end == word.data() + word.size() && std::isfinite(value);
@@ -42,8 +43,10 @@ bool parse_axis_line(std::string_view text, AxisLine& line, std::string& why) {
     why = "'" + std::string(words[static_cast<std::size_t>(k)]) + "' is not a finite number";
     return false;
   }
+  // Relative, so that a line of a micrometre near the origin is as good as one of a metre far from it.
+  constexpr double kSamePlace = 1e-9;
   const double scale = std::max(line.tip.norm(), line.holder.norm());
-  if (line.length() > 1e-9 * scale) return true;
+  if (line.length() > kSamePlace * scale) return true;
   why = "the two ends of the line are the same point";
   return false;
 }

@@ -8,14 +8,16 @@
 
 namespace flank::internal {
 
+/// One axis position as a user gives it: two points, whose distance may be the axis length or may not.
 struct AxisLine {
   Vec3 tip = Vec3::Zero(), holder = Vec3::UnitZ();  ///< mm
   [[nodiscard]] double length() const { return (holder - tip).norm(); }
+  /// Needs length() > 0.
   [[nodiscard]] Pose pose() const { return {tip, (holder - tip).normalized()}; }
 };
 
-/// Reads "x y z x y z", numbers apart by commas or blanks. Returns false and says why not in `why`: another count of
-/// numbers, something that is not a finite number, two ends at the same place.
+/// Reads "x y z x y z", numbers separated by commas or blanks. Returns false and says why not in `why`: another count
+/// of numbers, something that is not a finite number, two ends at the same place.
 [[nodiscard]] bool parse_axis_line(std::string_view text, AxisLine& line, std::string& why);
 
 /// The value of `--start`. Throws UsageError that says what would be accepted.

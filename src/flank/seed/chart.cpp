@@ -10,9 +10,16 @@
 namespace flank::internal {
 namespace {
 
+/// Samples of the target from which the chart is made: 40 a side, about as many as there are nodes.
+constexpr double kSamples = 1600.0;
+/// Against a division by zero where the target has no extent in a direction, or all neighbours are one point.
+constexpr double kTiny = 1e-300;
+
 /// Plane coordinates of every sample, scaled to the unit square.
 std::vector<Vec2> plane_coordinates(const Target& target, const std::vector<SurfaceSample>& samples) {
   std::vector<Vec2> plane;
+  // Parameters of one face follow its shape even if it is bent to a tube; of several faces there are none in common,
+  // and the plane of the two largest spreads has to do.
   if (target.patch_count() == 1) {
     for (const SurfaceSample& s : samples) plane.emplace_back(s.u, s.v);
   } else {
@@ -33,7 +40,7 @@ std::vector<Vec2> plane_coordinates(const Target& target, const std::vector<Surf
   // Samples are cell centres: the border lies half a cell further out.
   const double cell = 0.5 / std::sqrt(static_cast<double>(samples.size()));
   for (Vec2& p : plane) {
-    for (int k = 0; k < 2; ++k) p[k] = cell + (1.0 - 2.0 * cell) * (p[k] - low[k]) / std::max(1e-300, high[k] - low[k]);
+    for (int k = 0; k < 2; ++k) p[k] = cell + (1.0 - 2.0 * cell) * (p[k] - low[k]) / std::max(kTiny, high[k] - low[k]);
   }
   return plane;
 }
@@ -41,18 +48,20 @@ std::vector<Vec2> plane_coordinates(const Target& target, const std::vector<Surf
 /// Local linear regression of the points over the plane, at q.
 Vec3 regress(const std::vector<Vec2>& plane, const std::vector<SurfaceSample>& samples, const Vec2& q,
              std::size_t& nearest) {
-  constexpr std::size_t kNeighbours = 12;
+  constexpr std::size_t kNeighbours = 12;  // four times the unknowns: a ring or two around q, one-sided at the border
+  constexpr double kNearest = 0.05;        // of the farthest squared distance: bounds the weight at a sample
+  constexpr double kRidge = 1e-9;          // keeps three neighbours on one line solvable
   std::vector<std::pair<double, std::size_t>> order(plane.size());
   for (std::size_t i = 0; i < plane.size(); ++i) order[i] = {(plane[i] - q).squaredNorm(), i};
   const std::size_t count = std::min(kNeighbours, order.size());
   std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end());
   nearest = order.front().second;
-  const double scale = order[count - 1].first + 1e-300;
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Identity() * 1e-9;
+  const double scale = order[count - 1].first + kTiny;
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Identity() * kRidge;
   Eigen::Matrix3d rhs = Eigen::Matrix3d::Zero();
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t i = order[k].second;
-    const double w = 1.0 / (0.05 + order[k].first / scale);
+    const double w = 1.0 / (kNearest + order[k].first / scale);
     const Vec3 row(1.0, (plane[i] - q)[0], (plane[i] - q)[1]);
     normal += w * row * row.transpose();
     rhs += w * row * samples[i].point.transpose();
@@ -63,7 +72,7 @@ Vec3 regress(const std::vector<Vec2>& plane, const std::vector<SurfaceSample>& s
 }  // namespace
 
 Chart::Chart(const Target& target) {
-  const std::vector<SurfaceSample> samples = target.samples(std::sqrt(target.area() / 1600.0));
+  const std::vector<SurfaceSample> samples = target.samples(std::sqrt(target.area() / kSamples));
   const std::vector<Vec2> plane = plane_coordinates(target, samples);
   std::vector<Footpoint> hints(samples.size());
   nodes_.resize(kNodes * kNodes);
@@ -71,6 +80,8 @@ Chart::Chart(const Target& target) {
     for (int j = 0; j < kNodes; ++j) {
       const Vec2 q(-kOverrun + (1.0 + 2.0 * kOverrun) * i / (kNodes - 1),
                    -kOverrun + (1.0 + 2.0 * kOverrun) * j / (kNodes - 1));
+      // The regression comes near the surface, the footpoint lies on it; warm from the nearest sample's, so that it
+      // stays on this sheet of the target, and past the border on its extension.
       std::size_t nearest = 0;
       const Vec3 p = regress(plane, samples, q, nearest);
       if (hints[nearest].patch < 0) hints[nearest] = target.closest(samples[nearest].point);
@@ -78,11 +89,13 @@ Chart::Chart(const Target& target) {
       nodes_[static_cast<std::size_t>(i * kNodes + j)] = {foot.point, foot.normal};
     }
   }
-  for (int k = 0; k < 8; ++k) {
-    const double b = (k + 0.5) / 8.0;
-    for (int i = 0; i < 16; ++i) {
-      length_a_ += (at((i + 1) / 16.0, b).point - at(i / 16.0, b).point).norm() / 8.0;
-      length_b_ += (at(b, (i + 1) / 16.0).point - at(b, i / 16.0).point).norm() / 8.0;
+  // Lengths of polylines: they turn a skew in degrees into one of the chart, for which a percent is plenty.
+  constexpr int kLines = 8, kSteps = 16;
+  for (int k = 0; k < kLines; ++k) {
+    const double b = (k + 0.5) / kLines;
+    for (int i = 0; i < kSteps; ++i) {
+      length_a_ += (at((i + 1.0) / kSteps, b).point - at(static_cast<double>(i) / kSteps, b).point).norm() / kLines;
+      length_b_ += (at(b, (i + 1.0) / kSteps).point - at(b, static_cast<double>(i) / kSteps).point).norm() / kLines;
     }
   }
 }

@@ -8,14 +8,16 @@
 
 namespace flank::internal {
 
+/// A point on (or near) the target, mm, and the unit normal there, towards the machining side.
 struct ChartPoint {
   Vec3 point, normal;
 };
 
+/// Immutable after construction. Good to a few hundredths of a tool's radius, not to a tolerance: for starts alone.
 class Chart {
  public:
   /// One NURBS face: its own parameter directions. Several faces or a mesh: the two long principal directions of its
-  /// samples.
+  /// samples, so a target that bends by more than half a turn folds onto itself.
   explicit Chart(const Target& target);
 
   /// Point and unit normal at (a, b), [0, 1] x [0, 1] over the target's extent; beyond it the target's extension, then
@@ -26,10 +28,10 @@ class Chart {
   [[nodiscard]] double length_b() const { return length_b_; }
 
  private:
-  static constexpr int kNodes = 37;  ///< a side; the outer ones lie past the border
-  static constexpr double kOverrun = 0.08;
+  static constexpr int kNodes = 37;         ///< per side; the outer ones lie past the border
+  static constexpr double kOverrun = 0.08;  ///< of the extent, on each side: inside the target's extension (0.10)
 
-  std::vector<ChartPoint> nodes_;
+  std::vector<ChartPoint> nodes_;  ///< [i * kNodes + j], i along a
   double length_a_ = 0.0, length_b_ = 0.0;
 };
 

@@ -11,10 +11,16 @@
 namespace flank::internal {
 namespace {
 
+/// Intervals at which the two rails are sampled: many for each of a guide's lines (tens) and of the motion's control
+/// points (24), so that the motion is that of the rails, not of the samples.
 constexpr int kDense = 400;
 /// An axis shorter than this share of the guide's mean length has no direction worth following.
 constexpr double kShortest = 0.05;
+/// A guide whose travel is below this share of its axis' length stands still.
+constexpr double kLeastTravel = 1e-6;
 
+/// The ends of the lines as control polygon: the rail begins and ends at the guide's first and last line and smooths
+/// what is between. Two or three lines allow degree one or two only.
 BSplineCurve3 rail(const std::vector<AxisLine>& lines, bool holder) {
   BSplineCurve3 curve;
   const int count = static_cast<int>(lines.size());
@@ -72,6 +78,7 @@ GuideStart start_from_guide(const std::string& file, const std::vector<AxisLine>
     arms.push_back(holder.value(t) - tips.back());
     out.mean_length_mm += arms.back().norm() / (kDense + 1);
     if (i == 0) continue;
+    // Travel of the middle of the axis: of a fan, one end travels farther and the other stands still.
     const Vec3 tip_step = tips.back() - tips[tips.size() - 2];
     travel.push_back(travel.back() + (tip_step + 0.5 * (arms.back() - arms[arms.size() - 2])).norm());
   }
@@ -81,7 +88,7 @@ GuideStart start_from_guide(const std::string& file, const std::vector<AxisLine>
     if (arm.norm() < kShortest * out.mean_length_mm)
       throw InputError(file +
                        ": the axis turns over between two lines of the guide; give more lines, all from tip to holder");
-  if (travel.back() < 1e-6 * out.mean_length_mm)
+  if (travel.back() < kLeastTravel * out.mean_length_mm)
     throw InputError(file + ": the lines of the guide lie at the same place");
 
   const double length = axis_length_mm.value_or(out.mean_length_mm);
@@ -98,11 +105,13 @@ GuideStart start_from_guide(const std::string& file, const std::vector<AxisLine>
 }
 
 int side_of_motion(const Target& target, const RuledMotion& motion) {
-  constexpr int kTimes = 9;
-  std::vector<Footpoint> feet(12);
+  // A vote: the sum of distances is far from zero on the right motion's side, so a coarse grid decides as well as a
+  // fine one.
+  constexpr int kTimes = 9, kPlaces = 12;
+  std::vector<Footpoint> feet(kPlaces);
   double sum = 0.0;
   for (int i = 0; i < kTimes; ++i) {
-    for (Footpoint& foot : feet) foot.patch = -1;
+    for (Footpoint& foot : feet) foot.patch = -1;  // times are far apart: no hints from the last one
     track_axis(target, motion.pose((i + 0.5) / kTimes), motion.axis_length, feet);
     for (const Footpoint& foot : feet) sum += footpoint_weight(foot.location) * foot.distance;
   }
