@@ -9,9 +9,16 @@
 namespace flank::internal {
 namespace {
 
-/// Below this the form is round-off.
+/// A movability, squared sine of an angle, that is round-off of the normals.
 constexpr double kExact = 1e-15;
-constexpr double kDifference = 1e-5;  ///< of the axis length, for the derivatives
+/// Of the axis length, for central differences: their error is 2e-11 of the third derivative, and round-off, 1e-16 / kDifference, about as much.
+constexpr double kDifference = 1e-5;
+/// Damping in mean diagonals: the first makes a step that is nearly Gauss-Newton's, the most one that is nothing. Up by
+/// ten after a refusal, down by a hundred after a success, since the problem has four unknowns and every trial is cheap
+/// against the eight of a derivative.
+constexpr double kFirstDamping = 1e-3, kMostDamping = 1e6, kMore = 10.0, kLess = 1e-2;
+/// A line may not become better by losing footpoints; this is round-off of their weight.
+constexpr double kSameWeight = 1e-9;
 
 using Vec4 = Eigen::Vector4d;
 
@@ -53,6 +60,7 @@ class Objective {
     }
     return m;
   }
+  /// Keeps the sign of the velocity, which the form leaves open: else residuals of two evaluations could differ in it.
   void keep_heading(const Vec3& heading) { heading_ = heading; }
   [[nodiscard]] int evaluations() const { return evaluations_; }
 
@@ -64,7 +72,7 @@ class Objective {
   int evaluations_ = 0;
 };
 
-bool better(const Movability& a, const Movability& b) { return a.value < b.value && a.weight > b.weight - 1e-9; }
+bool better(const Movability& a, const Movability& b) { return a.value < b.value && a.weight > b.weight - kSameWeight; }
 
 }  // namespace
 
@@ -80,7 +88,7 @@ LineSearch search_line(const Target& target, const Pose& start, double axis_leng
   LineSearch result{start, best, best, 0.0, 0};
   objective.keep_heading(best.velocity.middle);
   Eigen::MatrixXd jacobian(options.samples, 4);
-  double damping = 1e-3;
+  double damping = kFirstDamping;
   for (int iteration = 0; iteration < options.iterations && best.valid() && best.value > kExact; ++iteration) {
     for (int k = 0; k < 4; ++k) {
       Eigen::VectorXd low, high;
@@ -90,7 +98,7 @@ LineSearch search_line(const Target& target, const Pose& start, double axis_leng
     }
     const Eigen::Matrix4d normal = jacobian.transpose() * jacobian;
     bool accepted = false;
-    for (; damping < 1e6 && !accepted; damping *= 10.0) {
+    for (; damping < kMostDamping && !accepted; damping *= kMore) {
       const Eigen::Matrix4d damped = normal + damping * normal.trace() / 4.0 * Eigen::Matrix4d::Identity();
       Vec4 trial = x - damped.ldlt().solve(jacobian.transpose() * e);
       if (!trial.allFinite()) break;
@@ -103,7 +111,7 @@ LineSearch search_line(const Target& target, const Pose& start, double axis_leng
       x = trial;
       e = e_trial;
       best = m;
-      damping *= 1e-2;
+      damping *= kLess;
     }
     if (!accepted) break;
   }

@@ -9,7 +9,8 @@ namespace {
 
 /// Mean signed distance of an axis over the footpoints that count; 0 if none does.
 double mean_distance(const Target& target, const Pose& pose, double axis_length) {
-  std::vector<Footpoint> feet(24);
+  constexpr int kPlaces = 24;  // along the axis
+  std::vector<Footpoint> feet(kPlaces);
   track_axis(target, pose, axis_length, feet);
   double sum = 0.0, weight = 0.0;
   for (const Footpoint& foot : feet) {
@@ -77,11 +78,13 @@ RuledMotion join(const Propagation& backward, const Propagation& forward, double
     axes.push_back(pose.axis);
     travel.push_back(at);
   };
+  // Backwards first, from its end; both begin with the line itself, which is taken once.
   for (std::size_t k = backward.poses.size(); k-- > 1;) add(backward.poses[k], -backward.travel_mm[k]);
   for (std::size_t k = 0; k < forward.poses.size(); ++k) add(forward.poses[k], forward.travel_mm[k]);
   std::vector<Pose> dense;
   std::vector<double> times;
-  const int samples = 8 * count;
+  constexpr int kPerControlPoint = 8;  // so that least squares does not see where the samples lie
+  const int samples = kPerControlPoint * count;
   std::size_t k = 0;
   for (int i = 0; i <= samples; ++i) {
     times.push_back(static_cast<double>(i) / samples);

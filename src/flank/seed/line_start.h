@@ -13,6 +13,7 @@ namespace flank::internal {
 struct LineStartOptions {
   LineSearchOptions search;
   PropagationOptions propagation;
+  /// >= 4, per rail of the motion. As the first pass of a fit has it (polish_stage); more are lost there.
   int control_points = 24;
 };
 
@@ -38,7 +39,7 @@ struct LineStartReport {
 };
 
 struct LineStart {
-  RuledMotion motion;  ///< meaningless (no poses) where the status is kNoMotion
+  RuledMotion motion;  ///< meaningless (no poses) if the status is kNoMotion
   LineStartReport report;
 };
 

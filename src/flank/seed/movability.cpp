@@ -9,6 +9,8 @@
 namespace flank::internal {
 namespace {
 
+/// As FitStage::extension_weight: an extrapolated normal says little, but without it a line that has half left the
+/// target would be free to turn.
 constexpr double kExtensionWeight = 0.05;
 
 using Vec5 = Eigen::Matrix<double, 5, 1>;
@@ -20,10 +22,11 @@ struct Frame {
   explicit Frame(const Pose& pose) : u(pose.axis), e1(u.unitOrthogonal()), e2(u.cross(e1)) {}
 };
 
+/// E as a quadratic form in the unknowns; turns are scaled by L/2, so that all five are of the size of a velocity.
 struct Form {
   Mat5 matrix = Mat5::Zero();
-  double weight = 0.0;
-  Vec3 normal = Vec3::Zero();
+  double weight = 0.0;         ///< sum of the footpoints' weights
+  Vec3 normal = Vec3::Zero();  ///< weighted sum of normals: which way the machining side is
 };
 
 Form assemble(std::span<const Footpoint> feet, const Frame& frame) {
@@ -69,6 +72,7 @@ Movability movability(std::span<const Footpoint> feet, const Pose& pose, double 
   result.weight = form.weight / static_cast<double>(feet.size());
   if (form.weight == 0.0) return result;
 
+  // Minimise over slide and turns for a given velocity across the axis: the penalties make this block regular.
   Eigen::Matrix3d inner = form.matrix.bottomRightCorner<3, 3>();
   const Vec3 penalty(options.axial_penalty, options.turn_penalty, options.turn_penalty);
   inner.diagonal() += penalty;
@@ -84,7 +88,7 @@ Movability movability(std::span<const Footpoint> feet, const Pose& pose, double 
   Vec5 x;
   x.head<2>() = best_direction(schur, previous, options.steering);
   const Vec3 across = x[0] * frame.e1 + x[1] * frame.e2;
-  // Without a direction to keep: to the right of the axis, seen from the machining side.
+  // The form has no sign. Without a direction to keep: to the right of the axis, seen from the machining side.
   const bool backward =
       previous.norm() > 0.0 ? x.head<2>().dot(previous) < 0.0 : across.dot(frame.u.cross(form.normal)) < 0.0;
   if (backward) x.head<2>() *= -1.0;

@@ -6,7 +6,7 @@
 /// themselves.) Slide along the axis and omega are eliminated by a Schur complement; what remains is a symmetric 2 x 2
 /// eigenproblem.
 ///
-/// Sliding along the axis: where r' = 0 all along the axis it changes no distance, where the tool is a cone over a
+/// Sliding along the axis: if r' = 0 all along the axis it changes no distance; if the tool is a cone over a
 /// plane it makes up for a motion along the normal. A small penalty on it chooses the motion with the least slide; it
 /// is left out of the value.
 ///
@@ -32,12 +32,16 @@ struct AxisVelocity {
 };
 
 struct MovabilityOptions {
-  double axial_penalty = 1e-8;  ///< on the squared slide along the axis; raise it (1e-3) where slide is unwelcome
-  double turn_penalty =
-      1e-8;  ///< on (L/2 |omega|)^2: decides turns that the target leaves open (a cylinder on a plane)
+  /// > 0, on the squared slide along the axis. 1e-8 only decides between motions of the same value; raise it (1e-3) if
+  /// slide is unwelcome.
+  double axial_penalty = 1e-8;
+  /// > 0, on (L/2 |omega|)^2: decides turns that the target leaves open (a cylinder on a plane).
+  double turn_penalty = 1e-8;
   /// Direction of travel to stay near, any length; zero: none. Decides the sign, and by `steering` between directions
   /// of nearly the same value.
   Vec3 previous = Vec3::Zero();
+  /// >= 0, in units of the value: directions whose values differ by less than this follow `previous`. 1e-3 is an angle
+  /// of 0.03 rad between motion and surface. 0: the smallest value decides alone.
   double steering = 1e-3;
   /// The penalties are on the differences from this velocity's slide and turn: zero, or those of the last step.
   AxisVelocity centre;
@@ -60,7 +64,7 @@ struct Movability {
 [[nodiscard]] Movability movability(std::span<const Footpoint> feet, const Pose& pose, double axis_length,
                                     const MovabilityOptions& options = {});
 
-/// Footpoints of the points s_j = L j / (n - 1) of an axis, n = feet.size(): warm from feet where they have a patch,
+/// Footpoints of the points s_j = L j / (n - 1) of an axis, n = feet.size(): warm from feet if they have a patch,
 /// else marched outwards from a cold query at the middle, so that they lie on one branch.
 void track_axis(const Target& target, const Pose& pose, double axis_length, std::span<Footpoint> feet);
 

@@ -10,15 +10,21 @@
 namespace flank::internal {
 namespace {
 
-/// On the differences of slide and turn from those of the last step: where the normals leave them open they go on, and
+/// On the differences of slide and turn from those of the last step: if the normals leave them open they go on, and
 /// the corrections, which see the distances over a whole step, decide.
 constexpr double kAxialPenalty = 1e-3, kTurnPenalty = 1e-4;
 /// Share of the trace that holds a coordinate of a correction which the distances hardly see: shift out of the surface,
 /// slide, turn out of the surface, turn in it.
 const Eigen::Vector4d kCorrectionDamping(1e-6, 1e-5, 1e-6, 1e-5);
+/// Gauss-Newton passes of a correction: the first leaves the square of a small drift, the second nothing.
 constexpr int kCorrections = 2;
-constexpr double kGrowShare = 0.05;  ///< a correction below this share of the step lets the next one be longer
+/// A correction below this share of the step lets the next one be longer, by kGrow; refused steps are halved, so that
+/// what was too long is not tried again at once.
+constexpr double kGrowShare = 0.05, kGrow = 1.5;
+/// In traces, on slide and turns: so stiff that only the mean distance is corrected.
+constexpr double kHeld = 1e12;
 
+/// The rigid axis after a step with this velocity: the middle moves on a line, the direction on its circle.
 Pose moved(const Pose& pose, const AxisVelocity& v, double axis_length, double step) {
   const Vec3 axis = (pose.axis + step * v.omega).normalized();
   const Vec3 middle = pose.at(0.5 * axis_length) + step * v.middle;
@@ -54,7 +60,7 @@ class Walker {
     return movability(trial_, pose, length_, form);
   }
 
-  /// One classical Runge-Kutta step of length h; false where the velocity is not defined on the way.
+  /// One classical Runge-Kutta step of length h; false if the velocity is not defined on the way.
   bool step(const Pose& pose, const AxisVelocity& k1, double h, Pose& next) {
     const Movability k2 = velocity(moved(pose, k1, length_, 0.5 * h), k1);
     if (!k2.valid()) return false;
@@ -105,6 +111,8 @@ double Walker::correct(Pose& pose, const Vec3& heading, bool whole) {
     Vec4 rhs = Vec4::Zero();
     for (std::size_t j = 0; j < trial_.size(); ++j) {
       const double w = footpoint_weight(trial_[j].location);
+      // Distance's derivative by: shift out of the surface, slide, turn out of the surface, turn in it. rho in [-1, 1]
+      // makes turns lengths at the ends of the axis. Shift along the heading is the travel, which is held.
       const double rho = 2.0 * static_cast<double>(j) / last - 1.0;
       const Vec3& n = trial_[j].normal;
       const Vec4 row(n.dot(up), n.dot(pose.axis), rho * n.dot(up), rho * n.dot(along));
@@ -114,7 +122,7 @@ double Walker::correct(Pose& pose, const Vec3& heading, bool whole) {
     const double trace = normal.trace();
     if (!(trace > 0.0)) break;
     normal.diagonal() += trace * kCorrectionDamping;
-    if (!whole) normal.diagonal().tail<3>().setConstant(1e12 * trace);
+    if (!whole) normal.diagonal().tail<3>().setConstant(kHeld * trace);
     const Vec4 x = normal.ldlt().solve(rhs);
     const AxisVelocity change{x[0] * up + x[1] * pose.axis, (2.0 / length_) * (x[2] * up + x[3] * along)};
     pose = moved(pose, change, length_, 1.0);
@@ -124,6 +132,7 @@ double Walker::correct(Pose& pose, const Vec3& heading, bool whole) {
 }
 
 double Walker::trial_drift() const {
+  // Past the border the distances are those of an extrapolation: no drift of anything.
   double sum = 0.0;
   int count = 0;
   for (std::size_t j = 0; j < trial_.size(); ++j) {
@@ -136,7 +145,7 @@ double Walker::trial_drift() const {
 
 /// Past the border the surface is only extrapolated: the last motion goes on as it is.
 void add_overrun(const AxisVelocity& velocity, double axis_length, double length, Propagation& out) {
-  constexpr int kSteps = 4;
+  constexpr int kSteps = 4;  // poses, so that a spline through them goes straight on
   for (int k = 0; k < kSteps; ++k) {
     out.poses.push_back(moved(out.poses.back(), velocity, axis_length, length / kSteps));
     out.travel_mm.push_back(out.travel_mm.back() + length / kSteps);
@@ -153,7 +162,7 @@ bool advance(Walker& walker, const Pose& pose, const AxisVelocity& velocity, dou
     const bool is_short = h <= options.first_step_share * size;
     // Where the line leaves the target it does so by a short step.
     if (walker.trial_inside_share() == 0.0 && !is_short) continue;
-    next_h = std::min((done < kGrowShare * h ? 1.5 : 1.0) * h, options.longest_step_share * size);
+    next_h = std::min((done < kGrowShare * h ? kGrow : 1.0) * h, options.longest_step_share * size);
     if (done <= allowed) return true;
     if (!is_short) continue;
     // The distances cannot all be kept without turning away: their mean can.
