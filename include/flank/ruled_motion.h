@@ -18,34 +18,42 @@ struct AxisJet {
   [[nodiscard]] Vec3 velocity(double s) const { return tip_d1 + s * u_d1; }
 };
 
+/// A value. Rigid by construction: u is normalised when it is evaluated, so |w| has no effect but on the
+/// parametrisation.
 struct RuledMotion {
   double axis_length = 0.0;  ///< mm
   BSplineCurve3 tip;         ///< clamped cubic over [0, 1], mm
   BSplineCurve3 direction;   ///< clamped cubic over [0, 1], near unit length
 
+  /// Tip and u at t in [0, 1]. NaN if the direction rail vanishes there.
   [[nodiscard]] Pose pose(double t) const;
+  /// The same with exact derivatives by t.
   [[nodiscard]] AxisJet jet(double t) const;
 };
 
-/// Least-squares motion with `count` control points a rail through poses at parameters t in [0, 1] (poses.size() >=
-/// count).
+/// Least-squares motion with `count` (>= 4) control points per rail through poses at parameters t in [0, 1]; the knots
+/// are equally spaced. Throws InternalError if there are fewer poses than control points, or not one parameter for
+/// each.
 [[nodiscard]] RuledMotion fit_motion(const std::vector<Pose>& poses, const std::vector<double>& t, double axis_length,
                                      int count);
 
 struct SamplingOptions {
-  double chord_tolerance_mm =
-      1e-4;  ///< largest distance between the motion and the joined poses, at both ends of the axis
+  /// mm, > 0: largest distance between the motion and the joined poses, at both ends of the axis (and so between them).
+  /// The number of poses grows as its inverse square root. Well below the tolerance of the part, which pays for it.
+  double chord_tolerance_mm = 1e-4;
+  /// >= 2. Raise it if something else than the chord needs poses that are close together.
   int minimum_poses = 2;
+  /// >= minimum_poses: what the controller or the file can take. If it is too few, the tolerance gives way.
   int maximum_poses = 100000;
 };
 struct SampledMotion {
   std::vector<Pose> poses;
-  std::vector<double> t;
-  double chord_bound_mm =
-      0.0;  ///< bound of the distance between the motion and the joined poses, reached by construction
+  std::vector<double> t;        ///< of each pose, rising from 0 to 1
+  double chord_bound_mm = 0.0;  ///< proven bound of the distance between the motion and the joined poses
 };
 /// Samples a motion adaptively in t. The bound comes from the second derivatives of the rails over each step, not from
-/// sampling alone.
+/// sampling (docs/algorithms/envelope.md). Throws UsageError if the options contradict each other, InternalError if a
+/// rail is rational or of degree below 2, or if the direction rail vanishes.
 [[nodiscard]] SampledMotion sample_motion(const RuledMotion& motion, const SamplingOptions& options);
 
 }  // namespace flank

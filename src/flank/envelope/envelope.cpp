@@ -11,9 +11,10 @@ namespace flank {
 using namespace internal;
 namespace {
 
-/// A unit vector across u where the motion gives none.
+/// A unit vector across u if the motion gives none.
 Vec3 any_across(const Vec3& u) { return u.unitOrthogonal(); }
 
+/// Place i of `count` over [0, 1], ends included; a single one is in the middle.
 double share(int i, int count) { return count > 1 ? static_cast<double>(i) / (count - 1) : 0.5; }
 
 }  // namespace
@@ -24,14 +25,16 @@ ContactPoint contact_point(const AxisJet& axis, const RadialJet& radial, double 
   const double v_par = v.dot(axis.u);
   const Vec3 v_perp = v - v_par * axis.u;
   const double speed = v_perp.norm();
+  // Cosine of the meridian's slope; 0 for a radial function that is no tool.
   const double q = std::sqrt(std::max(0.0, 1.0 - radial.d1 * radial.d1));
   const double numerator = radial.d1 * v_par, denominator = q * speed;
   ContactPoint contact;
-  if (numerator != 0.0) contact.c = numerator / denominator;  // infinite where the axis point moves along u
+  if (numerator != 0.0) contact.c = numerator / denominator;  // infinite if the axis point moves along u
   contact.exists = std::abs(contact.c) < 1.0 && denominator > 0.0;
   const double c = std::clamp(contact.c, -1.0, 1.0);
   const Vec3 e1 = speed > 0.0 ? Vec3(v_perp / speed) : any_across(axis.u);
   const Vec3 e2 = axis.u.cross(e1);
+  // (1 - c)(1 + c) keeps digits that 1 - c^2 loses near the limit.
   contact.normal = -radial.d1 * axis.u + q * (c * e1 + side * std::sqrt((1.0 - c) * (1.0 + c)) * e2);
   contact.point = axis.at(s) + radial.r * contact.normal;
   return contact;
@@ -68,10 +71,12 @@ Regularity regularity(const RuledMotion& motion, const RadialFunction& radial, i
     const AxisJet axis = motion.jet(share(i, count_t));
     for (int j = 0; j < count_s; ++j) {
       const double s = radial.axis_length() * share(j, count_s);
+      // c does not depend on the side.
       const ContactPoint contact = contact_point(axis, radial.at(s), s, +1);
       if (!contact.exists) ++worst.failures;
       // A pose at rest has no contact though c = 0 there (r' = 0): it is the worst there is.
       const double c = contact.exists ? std::abs(contact.c) : std::max(1.0, std::abs(contact.c));
+      // Written so that a NaN counts as the worst, too.
       if (!(c <= worst.largest_c)) worst = {c, s, share(i, count_t), worst.failures};
     }
   }
@@ -96,8 +101,8 @@ std::vector<ContactPoint> sample_envelope(const RuledMotion& motion, const Radia
 
 EnvelopeDeviation envelope_deviation(const RuledMotion& motion, const RadialFunction& radial, int side, int count_t,
                                      int count_s, const SignedDistance& distance) {
-  FLANK_ASSERT(distance != nullptr);
-  constexpr std::size_t kGrain = 64;
+  // Distances in parallel, sums in a fixed order after that: the same bits for any number of threads.
+  constexpr std::size_t kGrain = 64;  // contacts per task; a footpoint costs microseconds
   const std::vector<ContactPoint> contacts = sample_envelope(motion, radial, side, count_t, count_s);
   std::vector<double> deviations(contacts.size(), std::numeric_limits<double>::quiet_NaN());
   parallel_blocks(contacts.size(), kGrain, [&](std::size_t begin, std::size_t end) {

@@ -8,7 +8,14 @@
 namespace flank::internal {
 
 namespace {
+
+/// Intervals of s at which r is tabulated: linear between them, so off by (L / 256)^2 / 8 of r'', 2e-6 L^2 r''. An
+/// estimate needs no more, and it is asked for millions of times.
 constexpr int kTable = 256;
+/// Least 1 - r'^2: |r'| >= 1 is no tool, but a fit may pass through it.
+constexpr double kLeastCosineSquared = 1e-6;
+/// Against a division by zero for a point on the axis.
+constexpr double kTiny = 1e-300;
 
 double interpolate(const std::vector<double>& table, double x) {
   const int k = std::min(static_cast<int>(x), kTable - 1);
@@ -24,12 +31,13 @@ SweptEstimate::SweptEstimate(const std::vector<RuledMotion>& motions, const Radi
     std::vector<Pose>& table = poses_.emplace_back();
     for (int i = 0; i < poses; ++i) table.push_back(motion.pose(static_cast<double>(i) / (poses - 1)));
     double& stride = stride_.emplace_back(0.0);
-    std::vector<double>& way = way_.emplace_back(1, 0.0);
+    std::vector<double>& travel = travel_.emplace_back(1, 0.0);
     for (std::size_t i = 0; i + 1 < table.size(); ++i) {
+      // The farthest that a point of the axis moves between two poses joined by straight lines is at an end.
       double step = 0.0;
       for (const double s : {0.0, axis_length_}) step = std::max(step, (table[i + 1].at(s) - table[i].at(s)).norm());
       stride = std::max(stride, step);
-      way.push_back(way.back() + step);
+      travel.push_back(travel.back() + step);
     }
   }
   for (int k = 0; k <= kTable; ++k) {
@@ -37,7 +45,7 @@ SweptEstimate::SweptEstimate(const std::vector<RuledMotion>& motions, const Radi
     radius_.push_back(jet.r);
     least_radius_ = k == 0 ? jet.r : std::min(least_radius_, jet.r);
     largest_radius_ = k == 0 ? jet.r : std::max(largest_radius_, jet.r);
-    lean_.push_back(jet.d1 / std::sqrt(std::max(1e-6, 1.0 - jet.d1 * jet.d1)));
+    slope_over_cosine_.push_back(jet.d1 / std::sqrt(std::max(kLeastCosineSquared, 1.0 - jet.d1 * jet.d1)));
   }
 }
 
@@ -46,26 +54,33 @@ double SweptEstimate::at_pose(const Pose& pose, const Vec3& x) const {
   const double z = q.dot(pose.axis);
   const double rho2 = std::max(0.0, q.squaredNorm() - z * z);
   const double rho = std::sqrt(rho2);
+  // The sphere that touches x is at s = z + r' rho / sqrt(1 - r'^2). Two fixed-point steps: r' varies little over the
+  // second.
   double s = std::clamp(z, 0.0, axis_length_);
-  for (int k = 0; k < 2; ++k) s = std::clamp(z + rho * interpolate(lean_, s * per_length_), 0.0, axis_length_);
+  for (int k = 0; k < 2; ++k)
+    s = std::clamp(z + rho * interpolate(slope_over_cosine_, s * per_length_), 0.0, axis_length_);
   return std::sqrt(rho2 + (z - s) * (z - s)) - interpolate(radius_, s * per_length_);
 }
 
 double SweptEstimate::floor_at(const Pose& pose, const Vec3& x) const {
+  // As if the tool had its largest radius everywhere: the distance to the axis, no radial function.
   const Vec3 q = x - pose.tip;
   const double z = q.dot(pose.axis), off = z - std::clamp(z, 0.0, axis_length_);
   return std::sqrt(std::max(0.0, q.squaredNorm() - z * z) + off * off) - largest_radius_;
 }
 
 std::size_t SweptEstimate::next_pose(std::size_t motion, std::size_t at, double spare) const {
-  // What at_pose leaves to its two steps in s is held off by a tenth.
-  const std::vector<double>& way = way_[motion];
-  const auto first = way.begin() + static_cast<std::ptrdiff_t>(at) + 1;
-  return static_cast<std::size_t>(std::upper_bound(first, way.end(), way[at] + 0.9 * spare) - way.begin());
+  // f is 1-Lipschitz in the travel of the axis. at_pose is f but for what its two steps in s leave: a tenth is kept for
+  // it.
+  constexpr double kSure = 0.9;
+  const std::vector<double>& travel = travel_[motion];
+  const auto first = travel.begin() + static_cast<std::ptrdiff_t>(at) + 1;
+  return static_cast<std::size_t>(std::upper_bound(first, travel.end(), travel[at] + kSure * spare) - travel.begin());
 }
 
 std::size_t SweptEstimate::nearest_pose(std::size_t motion, const Vec3& x, double& least) const {
   const std::vector<Pose>& poses = poses_[motion];
+  // Every twelfth pose first: a low value early lets the walk below take long jumps.
   constexpr std::size_t kCoarse = 12;
   std::size_t at = 0;
   least = std::numeric_limits<double>::infinity();
@@ -80,7 +95,7 @@ std::size_t SweptEstimate::nearest_pose(std::size_t motion, const Vec3& x, doubl
     return f;
   };
   for (std::size_t i = kCoarse / 2; i < poses.size(); i += kCoarse) look(i);
-  // From pose to pose f changes by no more than the way of the axis: far poses are jumped over.
+  // From pose to pose f changes by no more than the axis travels: far poses are jumped over.
   for (std::size_t i = 0; i < poses.size();) {
     const double f = look(i);
     i = next_pose(motion, i, f - least);
@@ -91,7 +106,8 @@ std::size_t SweptEstimate::nearest_pose(std::size_t motion, const Vec3& x, doubl
 double SweptEstimate::slack(std::size_t motion) const {
   // A sphere of radius r that passes x half-way between two poses comes nearer by about stride^2 / (8 r).
   // A radial function that is no tool (r <= 0 somewhere) must not make it negative: then nothing would be nearest.
-  const double radius = std::max(least_radius_, 1e-3 * axis_length_);
+  constexpr double kLeastRadiusShare = 1e-3;
+  const double radius = std::max(least_radius_, kLeastRadiusShare * axis_length_);
   return stride_[motion] * stride_[motion] / (8.0 * radius);
 }
 
@@ -119,6 +135,7 @@ void SweptEstimate::places(const Vec3& x, const SweptContact& hint, std::vector<
       double f = floor_at(poses_[m][i], x);
       if (f <= bound_f) f = at_pose(poses_[m][i], x);
       if (f <= bound_f) {
+        // A lower value lowers the bound for what follows; what came before it is sifted at the end.
         bound_f = std::min(bound_f, f + slack(m));
         const bool same_run = last + 1 == i && !places.empty() && places.back().motion == static_cast<int>(m);
         if (!same_run) places.emplace_back();
@@ -143,6 +160,7 @@ SweptContact SweptEstimate::nearest(const Vec3& x) const {
     const std::vector<Pose>& poses = poses_[m];
     double least = 0.0;
     const std::size_t at = nearest_pose(m, x, least);
+    // Vertex of the parabola through the least pose and its neighbours: at a minimum f is smooth in t.
     double t = static_cast<double>(at);
     if (at > 0 && at + 1 < poses.size()) {
       const double a = at_pose(poses[at - 1], x), b = at_pose(poses[at + 1], x);
@@ -168,24 +186,30 @@ SweptContact contact_at(const RuledMotion& motion, const RadialFunction& radial,
   const Vec3 q = x - pose.tip;
   const double length = radial.axis_length(), z = q.dot(pose.axis);
   const double rho2 = std::max(0.0, q.squaredNorm() - z * z);
+  constexpr int kSteps = 5;  // Newton's method squares the error: from 1e-2 of the length to round-off in four
+  // Flatter than this the Newton step is not trusted (the slope is -1 on a cylinder, 0 where two spheres are equally
+  // near), and the fixed-point step is taken.
+  constexpr double kSteepEnough = -0.05;
+  constexpr double kSettled = 1e-10;  // of the axis length
   SweptContact contact;
   contact.t = t;
   RadialJet jet;
-  for (int k = 0; k < 5; ++k) {
+  for (int k = 0; k < kSteps; ++k) {
     jet = radial.at(s);
-    const double d = std::sqrt(rho2 + (z - s) * (z - s)) + 1e-300;
+    const double d = std::sqrt(rho2 + (z - s) * (z - s)) + kTiny;
     // d/ds (D - r) = (s - z) / D - r' = 0, by Newton's method on (z - s) + r' D.
     const double value = (z - s) + jet.d1 * d, slope = -1.0 + jet.d2 * d - jet.d1 * (z - s) / d;
-    const double next = std::clamp(slope < -0.05 ? s - value / slope : s + value, 0.0, length);
+    const double next = std::clamp(slope < kSteepEnough ? s - value / slope : s + value, 0.0, length);
     const double moved = std::abs(next - s);
     s = next;
-    if (moved < 1e-10 * length) break;
+    if (moved < kSettled * length) break;
   }
   const Vec3 away = pose.at(s) - x;
+  constexpr double kOnAxisMm = 1e-12;  // a point on the axis has no direction to it: the default stays
   const double d = away.norm();
   contact.s = s;
   contact.f = d - radial.at(s).r;
-  if (d > 1e-12) contact.to_axis = away / d;
+  if (d > kOnAxisMm) contact.to_axis = away / d;
   return contact;
 }
 
@@ -197,9 +221,12 @@ SweptContact refine_contact(const RuledMotion& motion, const RadialFunction& rad
   const Pose pose = motion.pose(t);
   const double first_s = std::clamp((x - pose.tip).dot(pose.axis), 0.0, radial.axis_length());
   SweptContact best = contact_at(motion, radial, x, std::clamp(t, 0.0, 1.0), first_s);
-  // Parabolas through three points, sixteen times narrower once the least of them is not at an end.
-  double h = 0.5 * window;
-  for (int k = 0; k < 10 && h > 1e-2 * window; ++k) {
+  // Parabolas through three points, sixteen times narrower once the least of them is not at an end: the vertex is off
+  // by h^2, so the next one has to look h / 16 around it, and two rounds are enough (kNarrow).
+  constexpr double kFirst = 0.5, kNarrow = 1e-2, kNarrower = 16.0;  // of the window; of the last step
+  constexpr int kRounds = 10;  // a minimum that runs out of the window is followed by steps of h, this many at most
+  double h = kFirst * window;
+  for (int k = 0; k < kRounds && h > kNarrow * window; ++k) {
     const double middle = std::clamp(best.t, h, 1.0 - h);
     const SweptContact a = contact_at(motion, radial, x, middle - h, best.s);
     const SweptContact b = contact_at(motion, radial, x, middle + h, best.s);
@@ -214,7 +241,7 @@ SweptContact refine_contact(const RuledMotion& motion, const RadialFunction& rad
       const SweptContact v = contact_at(motion, radial, x, vertex, best.s);
       if (v.f < best.f) best = v;
     }
-    if (bracketed || at_rim) h /= 16.0;
+    if (bracketed || at_rim) h /= kNarrower;
   }
   return best;
 }

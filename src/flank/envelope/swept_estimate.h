@@ -9,17 +9,19 @@
 
 namespace flank::internal {
 
-/// Where a swept tool comes nearest to a point.
+/// The place at which a swept tool comes nearest to a point.
 struct SweptContact {
-  int motion = -1;
-  double t = 0.0, s = 0.0;
+  int motion = -1;               ///< index; -1: none known
+  double t = 0.0, s = 0.0;       ///< time in [0, 1]; along the axis, mm
   double f = 0.0;                ///< |x - R(s,t)| - r(s), mm: > 0 material left at x, < 0 overcut
   Vec3 to_axis = Vec3::UnitZ();  ///< unit direction from x to the axis point: df/dR
 };
 
+/// Immutable after construction, for many threads at once. Keeps copies of poses and radii, not of the motions.
 class SweptEstimate {
  public:
-  /// `poses` axis positions a motion are tabulated.
+  /// `poses` (>= 2) axis positions per motion are tabulated; there is at least one motion. Waves of a rail between two
+  /// poses are not seen: four for each control point of a rail are enough.
   SweptEstimate(const std::vector<RuledMotion>& motions, const RadialFunction& radial, int poses);
 
   /// Estimate of f: least over the tabulated poses, improved by a parabola through its neighbours; the axis parameter
@@ -30,7 +32,8 @@ class SweptEstimate {
   [[nodiscard]] SweptContact nearest(const Vec3& x) const;
   /// Tabulated poses that may lead to the least f: of every run of poses near the least value its best one, all motions
   /// together (motion, t and f). Between poses f can be lower by what a step along the path allows: values within that
-  /// of the least count. `places` is cleared first. `hint` is a place near which the least is expected (motion -1: none).
+  /// of the least count. `places` is cleared first. `hint` is a place near which the least is expected (motion -1:
+  /// none).
   void places(const Vec3& x, const SweptContact& hint, std::vector<SweptContact>& places) const;
   /// Spacing of the poses in t.
   [[nodiscard]] double spacing() const { return 1.0 / (static_cast<double>(poses_.front().size()) - 1.0); }
@@ -47,15 +50,16 @@ class SweptEstimate {
 
   std::vector<std::vector<Pose>> poses_;
   std::vector<double> stride_;  ///< of each motion: no point of the axis moves farther from one pose to the next
-  std::vector<std::vector<double>> way_;  ///< of each motion, up to each pose: the sum of such steps
-  std::vector<double> radius_, lean_;     ///< r and r'/sqrt(1-r'^2) at equal steps of s
+  std::vector<std::vector<double>> travel_;         ///< of each motion, up to each pose: the sum of such steps
+  std::vector<double> radius_, slope_over_cosine_;  ///< r and r'/sqrt(1-r'^2) at equal steps of s
   double axis_length_;
-  double per_length_;
+  double per_length_;  ///< table intervals per mm
   double least_radius_ = 0.0, largest_radius_ = 0.0;
 };
 
-/// The contact at the local minimum over t near `t` (within `window` of it) and over s: exact to about 1e-9 mm where that
-/// minimum is smooth in t.
+/// The contact at the local minimum over t near `t` (within `window` of it) and over s: exact to about 1e-9 mm if that
+/// minimum is smooth in t. `motion` is not filled. A radial function that is no tool (|r'| >= 1) gives some stationary
+/// place.
 [[nodiscard]] SweptContact refine_contact(const RuledMotion& motion, const RadialFunction& radial, const Vec3& x,
                                           double t, double window);
 

@@ -13,6 +13,14 @@ namespace {
 /// No motion on a part needs more: past it the bound is of no use and the steps are made equal.
 constexpr double kHopelessToleranceMm = 1e6;
 
+/// The bound goes with the square of the step. kSafe keeps the next try from failing by round-off; kShortest keeps one
+/// bad bound (infinite while the direction turns too far) from making the step vanish at once.
+constexpr double kSafe = 0.98, kShortest = 0.1;
+constexpr double kNoStep = 1e-12;  ///< of t: so short a step means that no step has a bound
+constexpr double kLonger = 1.25;   ///< how much longer the next step is tried than the last one was
+constexpr double kSliver = 1e-9;   ///< of what is left of t: no step of its own
+constexpr double kGiveWay = 1.5;   ///< of the tolerance, when the poses run out: a fifth fewer poses each time
+
 /// Bounds how far the joined poses leave the motion over one step.
 ///
 /// Joined poses at share x of a step: tip (1-x) a0 + x a1, axis the normalised m = (1-x) u0 + x u1. Linear
@@ -27,7 +35,7 @@ class ChordBound {
         direction_d1_(derivative(motion.direction)),
         direction_d2_(derivative(direction_d1_)) {}
 
-  /// The larger of the bounds at s = 0 and s = L, which bounds every s between; infinity where none can be given.
+  /// The larger of the bounds at s = 0 and s = L, which bounds every s between; infinity if none can be given.
   [[nodiscard]] double over(double t0, double t1) const {
     const double factor = (t1 - t0) * (t1 - t0) / 8.0;
     const Vec3 middle = motion_.direction.value(0.5 * (t0 + t1)).normalized();
@@ -50,9 +58,8 @@ double accepted_step(const ChordBound& bound, double t, double step, double tole
   for (;;) {
     const double b = bound.over(t, t + step);
     if (b <= tolerance_mm) return step;
-    // The bound goes with the square of the step; 0.98 keeps the next try from failing by round-off.
-    step *= std::clamp(0.98 * std::sqrt(tolerance_mm / b), 0.1, 0.98);
-    if (step < 1e-12) throw InternalError("the direction rail vanishes near t = " + std::to_string(t));
+    step *= std::clamp(kSafe * std::sqrt(tolerance_mm / b), kShortest, kSafe);
+    if (step < kNoStep) throw InternalError("the direction rail vanishes near t = " + std::to_string(t));
   }
 }
 
@@ -62,8 +69,8 @@ std::vector<double> march(const ChordBound& bound, double tolerance_mm, double l
   double step = largest_step;
   while (t.back() < 1.0 && static_cast<int>(t.size()) <= most) {
     const double rest = 1.0 - t.back();
-    step = std::min({1.25 * step, largest_step, rest});
-    if (rest - step < 1e-9 * rest) step = rest;
+    step = std::min({kLonger * step, largest_step, rest});
+    if (rest - step < kSliver * rest) step = rest;
     step = accepted_step(bound, t.back(), step, tolerance_mm);
     // Two equal last steps instead of a long one and a sliver.
     if (step < rest && rest < 2.0 * step) step = 0.5 * rest;
@@ -98,7 +105,7 @@ SampledMotion sample_motion(const RuledMotion& motion, const SamplingOptions& op
   std::vector<double> t = march(bound, tolerance_mm, largest_step, options.maximum_poses);
   // Too many poses: the tolerance gives way and chord_bound_mm says what was reached.
   while (static_cast<int>(t.size()) > options.maximum_poses && tolerance_mm < kHopelessToleranceMm) {
-    tolerance_mm *= 1.5;
+    tolerance_mm *= kGiveWay;
     t = march(bound, tolerance_mm, largest_step, options.maximum_poses);
   }
   if (static_cast<int>(t.size()) > options.maximum_poses) t = equal_steps(options.maximum_poses);

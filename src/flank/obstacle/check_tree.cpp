@@ -6,7 +6,8 @@
 namespace flank::internal {
 namespace {
 
-constexpr int kLeafTriangles = 4;
+constexpr int kLeafTriangles = 4;    ///< a node of this few is measured triangle by triangle
+constexpr double kRounding = 1e-14;  ///< of the largest coordinate: several units in the last place
 
 Vec3 middle(const CheckTree::Triangle& t) { return (t.corners[0] + t.corners[1] + t.corners[2]) / 3.0; }
 
@@ -26,9 +27,11 @@ int CheckTree::build(int first, int end) {
   }
   const int index = static_cast<int>(nodes_.size());
   // Rounding of the centre must not let a corner out.
-  const Vec3 slack = Vec3::Constant(1e-14 * box.low.cwiseAbs().cwiseMax(box.high.cwiseAbs()).maxCoeff());
+  const Vec3 slack = Vec3::Constant(kRounding * box.low.cwiseAbs().cwiseMax(box.high.cwiseAbs()).maxCoeff());
   nodes_.push_back({box.center(), 0.5 * (box.high - box.low) + slack, -1, first, end});
   if (end - first <= kLeafTriangles) return index;
+  // By the median along the longest side: half the triangles each, whatever their sizes. Stable, so the tree is the
+  // same on every machine.
   int axis = 0;
   (middles.high - middles.low).maxCoeff(&axis);
   const int half = first + (end - first) / 2;

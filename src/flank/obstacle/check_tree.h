@@ -8,12 +8,13 @@
 
 namespace flank::internal {
 
+/// Immutable after construction. Its users walk the nodes themselves, since what bounds a node depends on the body.
 class CheckTree {
  public:
   struct Node {
-    Vec3 center, half;
-    int second = -1;  ///< the first child follows its parent; -1: a leaf
-    int first = 0, end = 0;
+    Vec3 center, half;       ///< the box: centre and half its sides, mm
+    int second = -1;         ///< index of the second child; the first child follows its parent; -1: a leaf
+    int first = 0, end = 0;  ///< its triangles: [first, end)
   };
   struct Triangle {
     std::array<Vec3, 3> corners;
@@ -21,12 +22,14 @@ class CheckTree {
     double slack_mm = 0.0;  ///< the surface may come nearer than the triangle by this
   };
 
-  CheckTree() = default;
+  CheckTree() = default;  ///< empty
+  /// Takes the triangles and sorts them; node 0 is the root.
   explicit CheckTree(std::vector<Triangle> triangles);
 
   [[nodiscard]] bool empty() const { return triangles_.empty(); }
   [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
   [[nodiscard]] const std::vector<Triangle>& triangles() const { return triangles_; }
+  /// Of all triangles: to be taken off the distance of any box.
   [[nodiscard]] double largest_slack() const { return slack_; }
 
  private:

@@ -8,16 +8,18 @@
 namespace flank::internal {
 namespace {
 
+/// Sine of the angle up to which two sides count as one line: a corner that round-off bends inwards must not split a
+/// body.
 constexpr double kSameSlope = 1e-12;
 
-/// Millimetres neither overflow nor vanish: std::hypot takes care of that and a tenth of a query's time.
+/// Plain, because millimetres neither overflow nor vanish; std::hypot guards against both and costs a tenth of a query.
 double length_of(double x, double y) { return std::sqrt(x * x + y * y); }
 
 }  // namespace
 
 ConvexProfile::ConvexProfile(const std::vector<Vec2>& corners, double rounding)
     : first_(corners.front()), rounding_(rounding) {
-  FLANK_ASSERT(!corners.empty() && rounding >= 0.0);
+  // The outline is closed over the axis, so that both ends are faces of the body.
   Vec2 at(corners.front().x(), 0.0);
   const auto add = [&](const Vec2& to) {
     const Vec2 step = to - at;
@@ -38,6 +40,8 @@ ProfileJet ConvexProfile::at(double z, double rho) const {
     if (!(d > 0.0)) return {-rounding_, 0.0, 1.0, 0.0};
     return {d - rounding_, (z - first_.x()) / d, rho / d, 1.0 / d};
   }
+  // Inside, the distance is that to the nearest side's line; outside, that side is where the search for the foot
+  // begins.
   std::size_t k = 0;
   double farthest = -1e300;
   for (std::size_t i = 0; i < sides_.size(); ++i) {
@@ -77,6 +81,7 @@ BodyJet body_jet(const ConvexProfile& body, const Pose& pose, const Vec3& x) {
 std::vector<ConvexProfile> split_convex(const std::vector<Vec2>& profile) {
   std::vector<ConvexProfile> bodies;
   std::vector<Vec2> corners;
+  // A body ends where the outline turns inwards or jumps: a step down in z, or a slope that grows.
   double widest = 0.0;
   for (std::size_t i = 0; i < profile.size(); ++i) {
     const Vec2& next = profile[i];
@@ -99,6 +104,7 @@ std::vector<ConvexProfile> split_convex(const std::vector<Vec2>& profile) {
     corners.push_back(next);
   }
   if (corners.size() > 1) bodies.emplace_back(corners);
+  // A profile without length is a disc.
   if (bodies.empty() && profile.size() > 1) bodies.emplace_back(std::vector<Vec2>{Vec2(profile.front().x(), widest)});
   return bodies;
 }

@@ -29,12 +29,15 @@ struct BodyJet : ProfileJet {
   }
 };
 
+/// The outline of the body in the half plane. Immutable.
 class ConvexProfile {
  public:
   /// Corners (z, r) from the lower to the upper end: z not falling, r >= 0, slopes not growing. The body grows by
   /// `rounding`; one corner on the axis makes a ball.
   explicit ConvexProfile(const std::vector<Vec2>& corners, double rounding = 0.0);
 
+  /// Signed distance of (z, rho), rho >= 0. Walks from the side that faces the point: O(sides), no search structure,
+  /// since bodies have a handful.
   [[nodiscard]] ProfileJet at(double z, double rho) const;
 
  private:

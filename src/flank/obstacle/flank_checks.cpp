@@ -12,8 +12,18 @@
 namespace flank::internal {
 namespace {
 
+/// Samples of the target that vote, about: shares of the area are then good to some hundredths.
 constexpr int kVoters = 400;
-constexpr double kMajority = 0.55;  ///< a blade that is buried in its hub for a third still sees the hub from outside
+/// Share of the votes that settles a side. A blade that is buried in its hub for a third still sees the hub from
+/// outside; the rest above a half keeps faces that are seen from both sides without sign (docs/decisions/0010).
+constexpr double kMajority = 0.55;
+/// Share of the target that must look at a face before it can be called behind: what few see says nothing of the
+/// others.
+constexpr double kSeenByMost = 0.5;
+/// A bound that was rounded down must not lose the face that it is about.
+constexpr double kRounding = 1.0 + 1e-9;
+/// mm: a point this near to a face has no direction away from it; the face's normal stands for it.
+constexpr double kOnFaceMm = 1e-9;
 
 struct Vote {
   int sign = 0;
@@ -26,22 +36,24 @@ Vote vote(const CheckFace& face, const std::vector<SurfaceSample>& samples, doub
   for (const SurfaceSample& sample : samples) {
     const Footpoint foot = face.surface->closest(sample.point + offset_mm * sample.normal);
     area += sample.area;
+    // From its border a face shows no side.
     if (foot.location != Location::kInside) continue;
     all += sample.area;
     if (foot.distance > 0.0) outside += sample.area;
   }
   if (all == 0.0) return {};
   if (outside >= kMajority * all) return {+1, false};
-  if (face.oriented) return {0, outside == 0.0 && all >= 0.5 * area};
+  if (face.oriented) return {0, outside == 0.0 && all >= kSeenByMost * area};
   return {outside <= (1.0 - kMajority) * all ? -1 : 0, false};
 }
 
 }  // namespace
 
-/// A lattice around the target whose nodes are found when they are first asked for. Distances are true of the places
-/// nearby, less the way there: many questions need no more, the others ask fewer faces and look less far.
+/// A lattice around the target whose nodes are measured when they are first asked for. A distance also bounds those
+/// nearby, less how far away they are: many questions need no more, the others ask fewer faces and look less far.
 struct FlankChecks::Lattice {
-  static constexpr int kPerSide = 48;  ///< along the longest side of the box
+  /// Along the longest side of the box. At most 120,000 nodes in a cube, found only where a fit asks.
+  static constexpr int kPerSide = 48;
   using Faces = std::vector<std::size_t>;
 
   Lattice(const Box3& box, double margin) {
@@ -79,7 +91,8 @@ struct FlankChecks::Lattice {
   [[nodiscard]] std::ptrdiff_t index(const std::array<int, 3>& corner) const {
     return (static_cast<std::ptrdiff_t>(corner[2]) * count[1] + corner[1]) * count[0] + corner[0];
   }
-  /// The distance at a node, found by `find` where it is not known yet: two threads may find the same.
+  /// The distance at a node, by `find` if it is not known yet. Two threads may both find it: the value is the same, so
+  /// the order of the stores does not matter, and nothing else is published with it (relaxed).
   template <class Find>
   double distance(std::ptrdiff_t index, Find&& find) {
     std::atomic<double>& place = distances[static_cast<std::size_t>(index)];
@@ -89,7 +102,8 @@ struct FlankChecks::Lattice {
     place.store(known, std::memory_order_relaxed);
     return known;
   }
-  /// The faces that can be nearest within half a cell of a node, likewise.
+  /// The faces that can be nearest within half a cell of a node, likewise. A list is published by its pointer
+  /// (acquire-release); who comes second throws his own away.
   template <class Find>
   const Faces& near(std::ptrdiff_t index, Find&& find) {
     std::atomic<const Faces*>& place = faces[static_cast<std::size_t>(index)];
@@ -100,7 +114,7 @@ struct FlankChecks::Lattice {
     return *known;
   }
 
-  static constexpr double kUnknown = -1e300;
+  static constexpr double kUnknown = -1e300;  ///< no distance is that far behind a wall
   Vec3 low;
   double step = 1.0;
   std::array<int, 3> count{};
@@ -117,6 +131,7 @@ FlankChecks::FlankChecks(std::vector<CheckFace> faces, const Target& target, dou
   std::vector<Vote> votes(faces_.size());
   parallel_for(faces_.size(), [&](std::size_t k) { votes[k] = vote(faces_[k], samples, offset_mm); });
   for (std::size_t k = 0; k < votes.size(); ++k) signs_[k] = votes[k].sign;
+  // Walls first: they have to be looked for at any depth, and what they leave is a shorter horizon for the others.
   for (const bool walls : {true, false})
     for (std::size_t k = 0; k < votes.size(); ++k)
       if (!votes[k].behind && (votes[k].sign != 0) == walls) order_.push_back(k);
@@ -136,10 +151,12 @@ double FlankChecks::node_distance(std::ptrdiff_t index, const Vec3& place) const
 }
 
 std::vector<std::size_t> FlankChecks::faces_near(const Vec3& place, double distance_mm) const {
-  constexpr double kRounding = 1.0 + 1e-9;
+  // A point of the cell is within sqrt(3)/2 steps of the node. So its nearest face is at most that much farther from
+  // the node than `distance_mm` plus that much again.
   std::vector<std::size_t> near;
   const double far = distance_mm + std::sqrt(3.0) * lattice_->step * kRounding;
   for (const std::size_t k : order_) {
+    // A wall counts at any depth, so it is looked for at least as far as the node is deep.
     const double sight = signs_[k] != 0 ? std::max(std::abs(distance_mm), std::abs(far)) : far;
     if (!(sight > 0.0)) continue;
     const Footpoint foot = faces_[k].surface->closest_within(place, sight * kRounding);
@@ -157,6 +174,7 @@ CheckDistance FlankChecks::estimate(const Vec3& p) const {
     share[k] = x - corner[k];
     if (!(x >= 0.0) || corner[k] + 1 >= lattice_->count[k]) return at(p, std::numeric_limits<double>::infinity());
   }
+  // Trilinear, and its own gradient: not of unit length where the distance bends, but right for what is minimised.
   CheckDistance sum;
   sum.face = 0;
   for (int c = 0; c < 8; ++c) {
@@ -181,12 +199,12 @@ CheckDistance FlankChecks::at(const Vec3& p, double horizon_mm) const {
   Vec3 place;
   const std::ptrdiff_t index = lattice_->index(p, place);
   if (index < 0) return search(order_, p, horizon_mm, kFar);
-  const double known = node_distance(index, place), way = (p - place).norm();
+  const double known = node_distance(index, place), off = (p - place).norm();
   CheckDistance free;
   free.distance_mm = horizon_mm;
-  if (known - way >= horizon_mm) return free;
+  if (known - off >= horizon_mm) return free;
   const std::vector<std::size_t>& near = lattice_->near(index, [&] { return faces_near(place, known); });
-  return search(near, p, horizon_mm, (std::abs(known) + way) * (1.0 + 1e-9));
+  return search(near, p, horizon_mm, (std::abs(known) + off) * kRounding);
 }
 
 CheckDistance FlankChecks::search(const std::vector<std::size_t>& faces, const Vec3& p, double horizon_mm,
@@ -195,7 +213,7 @@ CheckDistance FlankChecks::search(const std::vector<std::size_t>& faces, const V
   nearest.distance_mm = horizon_mm;
   for (const std::size_t k : faces) {
     const Target& face = *faces_[k].surface;
-    // What is behind a wall is so at any depth.
+    // The deepest wall is the nearest, so a wall is looked for beyond what was found; other faces only nearer than it.
     const double sight = signs_[k] != 0 ? sight_mm : std::min(sight_mm, nearest.distance_mm);
     if (sight <= 0.0 || face.box().squared_distance(p) >= sight * sight) continue;
     const Footpoint foot = face.closest_within(p, sight);
@@ -206,7 +224,7 @@ CheckDistance FlankChecks::search(const std::vector<std::size_t>& faces, const V
     nearest.face = static_cast<int>(k);
     const Vec3 away = p - foot.point;
     const double length = away.norm();
-    if (length > 1e-9) {
+    if (length > kOnFaceMm) {
       nearest.gradient = (distance < 0.0 ? -1.0 : 1.0) / length * away;
     } else {
       nearest.gradient = (signs_[k] < 0 ? -1.0 : 1.0) * foot.normal;

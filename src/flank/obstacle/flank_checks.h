@@ -1,7 +1,7 @@
 /// The other faces of a part, as the flank sees them: how far is a point of the axis from what its ball must not enter?
 ///
-/// A signed answer (MATH section 7): an axis that has passed through the hub's surface must find its way back, so a face
-/// that the target's machining side sees from outside counts as a wall, negative behind it.
+/// A signed answer (MATH section 7): an axis that has passed through the hub's surface must find its way back, so a
+/// face that the target's machining side sees from outside counts as a wall, negative behind it.
 #pragma once
 
 #include <memory>
@@ -24,28 +24,32 @@ struct CheckDistance {
   int face = -1;                 ///< index of the check face; -1 beyond the horizon; of an estimate: 0
 };
 
-/// Immutable after construction, for many threads at once.
+/// The faces, and a lattice of distances around the target that is filled when a place is first asked for. Every const
+/// function may be called from many threads at once: nodes are atomics, and every thread computes the same value.
 class FlankChecks {
  public:
-  /// Faces that the flank of a tool on `target` must not enter by more than the allowance. Parts overlap and are open, so which side of a face is
-  /// material is settled by the points at `offset_mm` above the target: a wall is a face whose outside most of those see
-  /// that look at its inside, not its border. A face without orientation is turned to where most are. All others have a
-  /// distance without sign: the blade's own back, signed, would call every place in front of the blade forbidden. What
-  /// all of the target sees from the material's side lies behind it, and is left out.
+  /// Faces that the flank of a tool on `target` must not enter by more than the allowance. Parts overlap and are open,
+  /// so a vote settles which side of a face is material. Voters are points `offset_mm` above the target, where the tool
+  /// is free; a voter counts if its nearest point on the face is interior to it, not on its border. A face is a wall if
+  /// most voters see its outer side (docs/decisions/0010); a face without orientation is first turned to where most
+  /// are. All other faces have a distance without sign: the blade's own back, signed, would forbid every place in front
+  /// of the blade. A face that all voters see from the material's side lies behind the target, and is left out.
   FlankChecks(std::vector<CheckFace> faces, const Target& target, double offset_mm, double allowance_mm);
 
   ~FlankChecks();
   FlankChecks(FlankChecks&&) noexcept;
 
+  /// Exact distance, if it is below the horizon; asking for less is faster.
   [[nodiscard]] CheckDistance at(const Vec3& p, double horizon_mm) const;
-  /// The distance (never a horizon) by interpolation in a lattice around the target: good to hundredths of its step, a
-  /// forty-eighth of the target, but near what is nearest to two faces; much faster, for searches that start rough.
+  /// The distance (never a horizon) by interpolation in a lattice around the target: accurate to a few hundredths of
+  /// the lattice step (1/48 of the target's size), except near points equidistant from two faces. Much faster; for
+  /// searches that start rough.
   [[nodiscard]] CheckDistance estimate(const Vec3& p) const;
   /// Whether a ball of this radius that touches the target at the sample enters no check face by more than `depth_mm`
   /// (MATH section 9).
   [[nodiscard]] bool reachable(const SurfaceSample& sample, double radius_mm, double depth_mm) const;
-  /// How deep the flank may enter: the target's own border belongs to its neighbours, too, and a fit that is as often
-  /// above as below must be left alone there.
+  /// How deep the flank may enter, mm, >= 0. Not zero, because the target's border belongs to its neighbours, too: a
+  /// fit lies as often below the target as above it, and must not be pushed off there.
   [[nodiscard]] double allowance_mm() const { return allowance_mm_; }
   [[nodiscard]] int count() const { return static_cast<int>(faces_.size()); }
   /// +1, -1: a wall as it is oriented, or turned; 0: its distance has no sign.

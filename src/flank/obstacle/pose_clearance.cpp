@@ -14,10 +14,18 @@
 namespace flank::internal {
 namespace {
 
-constexpr std::size_t kBlock = 16;  ///< poses of a task; fixed, so that threads change nothing
+constexpr std::size_t kBlock = 16;  ///< poses per task; fixed, so that threads change nothing
+/// Entries of a depth-first search: one per level and one more. The tree is halved at each level, so 2^255 triangles
+/// fit.
 constexpr int kStack = 256;
+/// Of the flank's meridian before it is simplified: a chord over a two-thousandth of the axis is far within
+/// kPlannedFlankErrorMm.
 constexpr int kMeridianPoints = 2049;
-constexpr double kSamplesApart = 1.5;  ///< spacings from a sample to the corner of its cell
+/// Share of kPlannedFlankErrorMm that simplifying may take; the rest is for the fine polyline.
+constexpr double kPolylineShare = 0.9;
+/// Spacings from a sample to the corner of its cell, at most: 0.7 of a square one, more where the parametrisation is
+/// sheared or stretched.
+constexpr double kSamplesApart = 1.5;
 
 /// Every point of `fine` that a polyline within the error needs (Douglas and Peucker).
 void simplify(const std::vector<Vec2>& fine, std::size_t a, std::size_t b, std::vector<Vec2>& out) {
@@ -25,12 +33,13 @@ void simplify(const std::vector<Vec2>& fine, std::size_t a, std::size_t b, std::
   const double length = d.norm();
   double most = 0.0;
   std::size_t at = a;
+  // The point farthest off the chord is kept, and both halves are looked at in turn.
   for (std::size_t k = a + 1; k < b; ++k) {
     const Vec2 x = fine[k] - fine[a];
     const double off = length > 0.0 ? std::abs(d.x() * x.y() - d.y() * x.x()) / length : x.norm();
     if (off > most) most = off, at = k;
   }
-  if (most <= 0.9 * kPlannedFlankErrorMm) {
+  if (most <= kPolylineShare * kPlannedFlankErrorMm) {
     out.push_back(fine[b]);
     return;
   }
@@ -95,6 +104,7 @@ class Search {
       const ConvexProfile& body = bodies_[b];
       const TriangleDistance found =
           triangle_distance(body, pose_, triangle.corners, hit.value + triangle.slack_mm, any);
+      // found.value is below hit.value + slack, so the clearance is below hit.value.
       if (found.below) hit = {found.value - triangle.slack_mm, hit.side, k, found};
     }
   }
@@ -107,7 +117,7 @@ class Search {
   };
 
   static constexpr std::uint64_t kAll = ~std::uint64_t{0};
-  /// Bodies from the 64th on share the last bit.
+  /// Bodies from the 64th on share the last bit: they are then measured together, never left out.
   static std::uint64_t bit(std::size_t body) { return std::uint64_t{1} << std::min<std::size_t>(body, 63); }
 
   /// The node `index` below `parent`: bodies that were too far from that are too far from this.
@@ -118,6 +128,7 @@ class Search {
     Entry entry{1e300, 1e300, index, 0};
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       if ((parent.bodies & bit(b)) == 0) continue;
+      // Over the box a convex function lies above its tangent plane: value less sum of |gradient_k| half_k.
       const ProfileJet jet = bodies_[b].at(at.z, at.rho);
       const Vec3 gradient = jet.along * pose_.axis + jet.out * across;
       entry.middle = std::min(entry.middle, jet.value);
@@ -181,8 +192,8 @@ struct PoseChecker::Data {
         sides[static_cast<std::size_t>(hit.side)].tree.triangles()[static_cast<std::size_t>(hit.triangle)].surface;
     out.point = hit.found.point;
     out.tool_point = hit.found.point - hit.found.value * jet.gradient;
-    // The nearest point of the tool, a + z u + rho e, moves by da + z du - rho <e, du> u, and the clearance falls by that
-    // along the gradient.
+    // The nearest point of the tool, a + z u + rho e, moves by da + z du - rho <e, du> u, and the clearance falls by
+    // that along the gradient.
     const double z = jet.z - hit.found.value * jet.along, rho = jet.rho - hit.found.value * jet.out;
     out.tip_gradient = -jet.gradient;
     out.axis_gradient = (rho * jet.along - z * jet.out) * jet.across;
@@ -223,6 +234,7 @@ PoseClearance PoseChecker::measure(const Pose& pose, double horizon_mm) const {
 void PoseChecker::free_batch(std::span<const Pose> poses, double margin_mm, std::span<char> out) const {
   FLANK_ASSERT(out.size() == poses.size());
   parallel_blocks(poses.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+    // Poses of a path follow each other: the last hit is tried first, and most of the tree is then too far.
     Hit last;
     for (std::size_t k = begin; k < end; ++k) {
       const Hit hit = data_->search(poses[k], margin_mm, true, last);

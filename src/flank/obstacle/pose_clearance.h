@@ -44,9 +44,9 @@ class PoseChecker {
 
   /// Whether the clearance is at least `margin_mm`; faster than measuring it.
   [[nodiscard]] bool is_free(const Pose& pose, double margin_mm = 0.0) const;
-  /// The clearance and its gradients, exact to 1e-6 mm (depths: to a thousandth of them besides, and the depth is that in
-  /// one of the convex bodies of the tool; the flank as a polyline within kPlannedFlankErrorMm). Where two places are
-  /// equally near the gradients are those of one of them.
+  /// The clearance and its gradients, exact to 1e-6 mm (depths: to a thousandth of them besides, and the depth is that
+  /// in one of the convex bodies of the tool; the flank as a polyline within kPlannedFlankErrorMm). Where two places
+  /// are equally near the gradients are those of one of them.
   [[nodiscard]] PoseClearance measure(const Pose& pose, double horizon_mm = 1e300) const;
 
   /// The same for many poses into out[i], in parallel; the same bits for any number of threads.

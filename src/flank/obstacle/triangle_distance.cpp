@@ -6,10 +6,15 @@
 namespace flank::internal {
 namespace {
 
+/// Newton steps: outside the body the second derivative is exact, and a handful closes the bound. Inside it has kinks,
+/// and what has not closed by then is divided.
 constexpr int kMostSteps = 24;
-constexpr int kMostHalvings = 12;
-constexpr int kMostParts = 6000;      ///< of a divided triangle
-constexpr double kEnoughFall = 1e-3;  ///< of what a step's slope promises
+constexpr int kMostHalvings = 12;  ///< of a step that does not lower the value: 2e-4 of it is no step any more
+/// Of a divided triangle: a limit of time. The value found stands, its proof does not.
+constexpr int kMostParts = 6000;
+constexpr double kEnoughFall = 1e-3;  ///< of what a step's slope promises: Armijo's rule, which keeps steps from idling
+/// Determinant against the product of the diagonal at which a two-dimensional quadratic is one-dimensional.
+constexpr double kFlat = 1e-12;
 
 using Corners = std::array<Vec3, 3>;
 
@@ -31,10 +36,11 @@ struct Model {
   /// Steps (a, b) from (p, q); p + a >= 0, q + b >= 0, p + a + q + b <= 1.
   [[nodiscard]] Vec2 least(double p, double q) const {
     const double det = h11 * h22 - h12 * h12;
-    if (det > 1e-12 * (h11 * h22)) {
+    if (det > kFlat * (h11 * h22)) {
       const double a = (h12 * g2 - h22 * g1) / det, b = (h12 * g1 - h11 * g2) / det;
       if (p + a >= 0.0 && q + b >= 0.0 && p + a + q + b <= 1.0) return {a, b};
     }
+    // Else the least is on the triangle's border: the least of three quadratics of one variable.
     Vec2 best(0.0, 0.0);
     const auto side = [&](double a, double b, double da, double db) {
       // Along (a, b) + t (da, db), 0 <= t <= 1.
@@ -56,6 +62,7 @@ class Descent {
       : body_(body), pose_(pose), v_(v), cutoff_(cutoff), any_(any), side1_(v[1] - v[0]), side2_(v[2] - v[0]) {}
 
   TriangleDistance run() {
+    // From the middle: its tangent plane alone shows of most triangles that they are too far.
     double p = 1.0 / 3.0, q = 1.0 / 3.0;
     move_to(p, q);
     for (int k = 0; k < kMostSteps; ++k) {
@@ -107,7 +114,8 @@ class Descent {
 
   /// Quarters, depth first, without those whose tangent bound shows that they hold nothing lower.
   void divide() {
-    std::array<Part, 128> stack;
+    constexpr std::size_t kStack = 128;  // three entries stay behind per level: 42 halvings, which no double needs
+    std::array<Part, kStack> stack;
     std::size_t top = 0;
     stack[top++] = {v_, lower_};
     for (int parts = 0; top > 0 && parts < kMostParts; ++parts) {
@@ -118,7 +126,7 @@ class Descent {
       const Vec3 a = 0.5 * (t[1] + t[2]), b = 0.5 * (t[2] + t[0]), c = 0.5 * (t[0] + t[1]);
       for (const Corners& quarter : {Corners{t[0], c, b}, Corners{c, t[1], a}, Corners{b, a, t[2]}, Corners{a, b, c}})
         stack[top++] = {quarter, std::max(part.bound, look_at(quarter))};
-      // The most promising one on top.
+      // The one that may hold the least on top.
       std::sort(stack.begin() + static_cast<std::ptrdiff_t>(top) - 4, stack.begin() + static_cast<std::ptrdiff_t>(top),
                 [](const Part& x, const Part& y) { return x.bound > y.bound; });
     }
@@ -138,6 +146,7 @@ class Descent {
 
   TriangleDistance finished() {
     best_.below = best_.value < cutoff_;
+    // Not below: what is promised is a bound of all values, and the place is of no interest.
     if (!best_.below) best_.value = std::max(lower_, cutoff_);
     return best_;
   }

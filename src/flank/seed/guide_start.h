@@ -21,12 +21,12 @@ namespace flank::internal {
 
 struct GuideStart {
   RuledMotion motion;
-  double mean_length_mm = 0.0;      ///< of the two rails' distance: the axis length where none is given
+  double mean_length_mm = 0.0;      ///< of the two rails' distance: the axis length if none is given
   double largest_stretch_mm = 0.0;  ///< how far the holder end was moved to make the axis rigid
 };
 
 /// The rigid motion of a guide: its tip rail is the guide's, its axis points to the guide's holder rail. Fewer than
-/// four lines give rails of a lower degree. Throws InputError naming the file where the guide has no extent or an axis
+/// four lines give rails of a lower degree. Throws InputError naming the file if the guide has no extent or an axis
 /// of it vanishes on the way.
 [[nodiscard]] GuideStart start_from_guide(const std::string& file, const std::vector<AxisLine>& lines,
                                           std::optional<double> axis_length_mm, int control_points = 24);

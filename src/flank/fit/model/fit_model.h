@@ -46,7 +46,7 @@ struct RadiusBounds {
 /// defaults are those of a least-squares pass on a good start (MATH section 7); the passes that the fit runs are the
 /// presets of stages.h.
 struct FitStage {
-  /// Grid over every motion: times and places along the axis, both >= 2, ends included. The grid of paper A's examples.
+  /// Grid over every motion: times and places along the axis, both >= 2, ends included. The resolution of the papers.
   /// More than twice as many times as control points, else the rails can swing between samples. Time per step grows in
   /// proportion.
   int samples_t = 100, samples_s = 30;
@@ -59,7 +59,7 @@ struct FitStage {
   int iterations = 30;
   /// >= 0: of second differences, from sample to sample in time, of tip rail and axis_length times direction rail (A
   /// (11)). A second difference falls as 1 / samples_t^2, so the same value is (n1 / n2)^4 times softer on n1 samples
-  /// than on n2. 1e-4 to 1e-3 on exact data, 1e-2 to 1e-1 on noisy data; nearly 0 for the last digits of an exact
+  /// than on n2. 1e-4 to 1e-3 on exact data, 1e-2 to 1e-1 otherwise; nearly 0 for the last digits of an exact
   /// envelope.
   double fairness = 1e-3;
   /// >= 0: of second differences of a free tool's coefficients, mm. Holds r where no footpoint counts; raise it if the
