@@ -15,10 +15,12 @@ namespace {
 // with infeasible = J x + c - z: rows of weight y/z are added to the arrow, whose shape stays. Slacks let the start
 // violate limits.
 
-/// Of the present complementarity, what a step aims at. Fixed, where Mehrotra predicts it: a prediction costs a second
-/// solution, and here a full step gains nearly a digit. Ten full steps reach kConverged.
+/// Of the present complementarity, what a step aims at. Fixed, where Mehrotra predicts it, which costs a second
+/// solution. Not critical: with 1,600 limits over one motion of 32 control points, 0.02 to 0.3 take 20 to 23
+/// iterations, 0.5 takes 32.
 constexpr double kCentring = 0.15;
-/// Of the way to the boundary: the usual fraction (Mehrotra 1992; Nocedal and Wright, 14.2, let it come near 1).
+/// Of the way to the boundary, as usual near 1 (Nocedal and Wright, section 14.2). In the same measurement 0.99 to
+/// 0.999 make no difference, 0.9 takes two iterations more.
 constexpr double kToBoundary = 0.995;
 /// Complementarity, against its start, at which the limits hold to more digits than the linearisation does.
 constexpr double kConverged = 1e-8;
