@@ -11,7 +11,8 @@ namespace {
 
 /// A movability, squared sine of an angle, that is round-off of the normals.
 constexpr double kExact = 1e-15;
-/// Of the axis length, for central differences: their error is 2e-11 of the third derivative, and round-off, 1e-16 / kDifference, about as much.
+/// Of the axis length, for central differences: their error is 2e-11 of the third derivative, and round-off, 1e-16 /
+/// kDifference, about as much.
 constexpr double kDifference = 1e-5;
 /// Damping in mean diagonals: the first makes a step that is nearly Gauss-Newton's, the most one that is nothing. Up by
 /// ten after a refusal, down by a hundred after a success, since the problem has four unknowns and every trial is cheap
