@@ -101,6 +101,7 @@ std::vector<ContactPoint> sample_envelope(const RuledMotion& motion, const Radia
 
 EnvelopeDeviation envelope_deviation(const RuledMotion& motion, const RadialFunction& radial, int side, int count_t,
                                      int count_s, const SignedDistance& distance) {
+  FLANK_ASSERT(distance != nullptr);
   // Distances in parallel, sums in a fixed order after that: the same bits for any number of threads.
   constexpr std::size_t kGrain = 64;  // contacts per task; a footpoint costs microseconds
   const std::vector<ContactPoint> contacts = sample_envelope(motion, radial, side, count_t, count_s);

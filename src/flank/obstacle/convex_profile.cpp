@@ -19,6 +19,7 @@ double length_of(double x, double y) { return std::sqrt(x * x + y * y); }
 
 ConvexProfile::ConvexProfile(const std::vector<Vec2>& corners, double rounding)
     : first_(corners.front()), rounding_(rounding) {
+  FLANK_ASSERT(!corners.empty() && rounding >= 0.0);
   // The outline is closed over the axis, so that both ends are faces of the body.
   Vec2 at(corners.front().x(), 0.0);
   const auto add = [&](const Vec2& to) {

@@ -18,6 +18,7 @@ namespace flank::internal {
 /// with kStalled. Deterministic.
 template <class Model>
 MinimiseResult levenberg_marquardt(const Model& model, FitState start) {
+  FLANK_ASSERT(!start.motions.empty() && model.stage().iterations >= 0);
   // Dampings have no unit: shares of the diagonal (ArrowSystem::solve). The first is small, because the problem is
   // nearly quadratic near a good start: 1e-6 crawls (MATH section 7). The least keeps the diagonal above round-off of
   // the factorisation; at the most, a step is 1e-8 of a gradient step and nothing is to be gained any more.

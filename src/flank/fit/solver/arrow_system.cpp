@@ -55,6 +55,7 @@ bool ArrowSystem::fits(const ResidualRow& row) const {
 }
 
 void ArrowSystem::add_row(const ResidualRow& row, double weight, double factor) {
+  FLANK_ASSERT(fits(row));
   // The row is (basis[0] pose, ..., basis[3] pose | tool): 24 entries in the band, tool_count in the border. This is
   // the inner loop of the swept passes, hence the outer product written out.
   const int base = motion_offset(row.motion) + 6 * row.first;
@@ -168,6 +169,7 @@ bool ArrowSystem::solve(double damping, Eigen::VectorXd& step) const {
 }
 
 Eigen::VectorXd ArrowSystem::multiply(const Eigen::VectorXd& x) const {
+  FLANK_ASSERT(x.size() == size());
   // The lower triangle stands for both: every entry below the diagonal acts twice.
   const int n = offsets_.back();
   Eigen::VectorXd y = Eigen::VectorXd::Zero(size());
