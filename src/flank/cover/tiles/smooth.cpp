@@ -13,21 +13,81 @@
 namespace flank::internal {
 namespace {
 
-/// Passes in turn: dead zone in tolerances, fairness, anchor, weight of overcut, iterations, points a side of the target.
+/// One pass of the fit. The values below are settings that work on the faces of docs/algorithms/cover.md; none is
+/// derived.
 struct Pass {
-  double dead_zone, fairness, anchor, overcut_weight;
-  int iterations, points_per_side;
+  /// Share of the tolerance. Residuals below it count for nothing, so the fit spends its freedom on what is near the
+  /// tolerance or beyond it. The rest of the tolerance is room for what lies between the points.
+  double dead_zone;
+  double fairness;        ///< FitStage::fairness: price of rails that bend
+  double anchor;          ///< FitStage::transversal_anchor: price of drift along the strip
+  double overcut_weight;  ///< factor on points with f < 0: undercut costs cells, overcut costs the certificate
+  int iterations;         ///< most steps of Levenberg-Marquardt
+  int points_per_side;    ///< of the target: their spacing is sqrt(area) / points_per_side
 };
-constexpr std::array<Pass, 2> kPasses = {{{0.6, 1e-4, 1e-3, 4.0, 8, 25}, {0.6, 1e-6, 1e-7, 10.0, 12, 32}}};
-/// Where a certificate fails: overcut counts above all.
-constexpr Pass kLimitPass = {0.6, 1e-6, 1e-5, 50.0, 6, 32};
+constexpr double kDeadZone = 0.6;
+/// First stiff and on few points, to straighten what was grown step by step; then with rails a hundred times softer and
+/// on more points. The points of the face are fixed, so a motion gains nothing by shrinking (fit/swept_model.h): the
+/// anchor only removes drift that changes no envelope, and the second pass hardly needs it.
+constexpr std::array<Pass, 2> kPasses = {{{.dead_zone = kDeadZone,
+                                           .fairness = 1e-4,
+                                           .anchor = 1e-3,
+                                           .overcut_weight = 4.0,
+                                           .iterations = 8,
+                                           .points_per_side = 25},
+                                          {.dead_zone = kDeadZone,
+                                           .fairness = 1e-6,
+                                           .anchor = 1e-7,
+                                           .overcut_weight = 10.0,
+                                           .iterations = 12,
+                                           .points_per_side = 32}}};
+/// After a failed certificate: overcut counts above all, and a stronger anchor keeps the strip in its place meanwhile.
+constexpr Pass kLimitPass = {.dead_zone = kDeadZone,
+                             .fairness = 1e-6,
+                             .anchor = 1e-5,
+                             .overcut_weight = 50.0,
+                             .iterations = 6,
+                             .points_per_side = 32};
+/// Passes of limits: one with the rails as they are, one with twice as many control points.
 constexpr int kLimitRounds = 2;
-constexpr double kEnough = 0.9985;      ///< covered share at which no further pass is run
-constexpr double kCheckWeight = 300.0;  ///< of a point of another face against a point of the target
-constexpr double kMarginShare = 0.6;    ///< of the tolerance: what a fit aims at where a certificate asks for all of it
-constexpr double kDeepShare = 0.9, kDeepAimShare = 0.8;  ///< deeper places are held, to the latter, by a pass of limits
-constexpr double kNear = 2.0;  ///< tolerances: how near another face is to be, to be looked at in a pass
-constexpr std::size_t kMostCheckPoints = 800;
+/// Covered share at which no further pass is run: the 0.15 % that are left are less than a third of a strip's default
+/// price.
+constexpr double kEnoughCoverage = 0.9985;
+/// Weight of a point of another face, or of a deep point, as a multiple of the mean weight of a target point. These
+/// points are few and their limits are hard, so one of them has to outweigh the target points around it. MATH section 7
+/// uses 30 to 100 for such one-sided terms when every sample of the axis has one; here a pose has a single point, so it
+/// weighs more.
+constexpr double kLimitWeight = 300.0;
+/// Share of the tolerance by which the fit lets the tool enter another face. The certificate allows 0.65 (kFloorShare
+/// in cover.cpp): the fit has to aim below what it is judged by, because a penalty is never met exactly.
+constexpr double kObstacleAimShare = 0.6;
+/// Share of the tolerance: places of the target that are cut deeper than the first are held by a pass of limits, at the
+/// second. 0.9 is below kCertifiedShare (0.94), so places about to fail are held as well; 0.8 is the margin of the
+/// penalty.
+constexpr double kHeldDepthShare = 0.9, kHeldDepthAimShare = 0.8;
+/// Tolerances. Another face farther than this from a pose gets no point in the pass: its term would be zero, unless the
+/// pass moved the pose by more than two tolerances.
+constexpr double kObstacleHorizon = 2.0;
+/// Most deep points of one pass. With more, the limits would decide the fit by their number; every n-th is taken
+/// instead.
+constexpr std::size_t kMostDeepPoints = 800;
+/// Grid of the regularisers over t and s: about three samples per control point of a rail, which resolves its bends.
+constexpr int kRegulariserSamplesT = 80, kRegulariserSamplesS = 24;
+/// Weight of the slide of the tip along the axis. Zero lets a cone or a cylinder slide along itself (MATH section 7);
+/// much more is too stiff. This only makes the system regular.
+constexpr double kAxialPin = 1e-8;
+/// Tolerances: scale of the robust weights. Points that no strip comes near must not pull: beyond about 20 tolerances
+/// they are out of reach of a pass that is there to gain one.
+constexpr double kRobustScale = 20.0;
+/// A step that lowers the cost by less than a thousandth ends a pass: what counts is the share within tolerance, not
+/// the digits of the optimum.
+constexpr double kStepTolerance = 1e-3;
+/// Poses per strip of the estimate that looks for deep border points, and points per task (enough work to be worth
+/// handing out).
+constexpr int kBorderPoses = 60;
+constexpr std::size_t kBorderGrain = 256;
+/// Covered share that the first pass may lose and still be kept: fairer rails are worth that to whoever mills them.
+constexpr double kFairnessWorth = 2e-3;
 
 FitDraft draft_of(const TileScene& scene, const std::vector<CoverStrip>& strips) {
   FitDraft draft;
@@ -41,17 +101,17 @@ FitDraft draft_of(const TileScene& scene, const std::vector<CoverStrip>& strips)
 
 FitStage stage_of(const Pass& pass, const TileScene& scene, int control_points) {
   FitStage stage;
-  stage.samples_t = 80;  // of the regularisers
-  stage.samples_s = 24;
+  stage.samples_t = kRegulariserSamplesT;
+  stage.samples_s = kRegulariserSamplesS;
   stage.control_points = control_points;
   stage.iterations = pass.iterations;
   stage.fairness = pass.fairness;
   stage.transversal_anchor = pass.anchor;
-  stage.axial_pin = 1e-8;
+  stage.axial_pin = kAxialPin;
   stage.dead_zone_mm = pass.dead_zone * scene.options.tolerance_mm;
-  stage.robust_scale_mm = 20.0 * scene.options.tolerance_mm;
+  stage.robust_scale_mm = kRobustScale * scene.options.tolerance_mm;
   stage.overcut_weight = pass.overcut_weight;
-  stage.step_tolerance = 1e-3;
+  stage.step_tolerance = kStepTolerance;
   return stage;
 }
 
@@ -61,12 +121,12 @@ std::vector<RuledMotion> motions_of(const std::vector<CoverStrip>& strips) {
   return motions;
 }
 
-/// Those of the points whose f is below a bound, in their order.
+/// The points whose swept distance f is below a bound (mm), in their order.
 std::vector<Vec3> points_below(const TileScene& scene, const std::vector<CoverStrip>& strips,
                                const std::vector<Vec3>& points, double bound) {
-  const SweptEstimate swept(motions_of(strips), scene.radial, 60);
+  const SweptEstimate swept(motions_of(strips), scene.radial, kBorderPoses);
   std::vector<char> below(points.size(), 0);
-  parallel_blocks(points.size(), 256, [&](std::size_t begin, std::size_t end) {
+  parallel_blocks(points.size(), kBorderGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) below[k] = swept.distance(points[k]) < bound ? 1 : 0;
   });
   std::vector<Vec3> result;
@@ -75,7 +135,8 @@ std::vector<Vec3> points_below(const TileScene& scene, const std::vector<CoverSt
   return result;
 }
 
-/// Points of other faces that the tool of these strips enters, or nearly: the nearest one of each pose.
+/// Points of other faces that the tool of these strips enters or nearly enters: for each pose the point that it enters
+/// most or comes nearest to. `share` is the weight of each.
 std::vector<FacePoint> check_points(const TileScene& scene, const std::vector<CoverStrip>& strips, double share) {
   const double tolerance = scene.options.tolerance_mm;
   std::vector<std::vector<FacePoint>> found(strips.size());
@@ -83,9 +144,13 @@ std::vector<FacePoint> check_points(const TileScene& scene, const std::vector<Co
     const RuledMotion& motion = strips[k].motion;
     const int poses = depth_poses(motion);
     for (int i = 0; i <= poses; ++i) {
-      const LineClearance at = scene.guard.measure(motion.pose(static_cast<double>(i) / poses), kNear * tolerance);
-      if (at.clearance_mm < kNear * tolerance)
-        found[k].push_back({at.point, share, FacePoint::Role::kAvoid, -kMarginShare * tolerance});
+      const LineClearance at =
+          scene.guard.measure(motion.pose(static_cast<double>(i) / poses), kObstacleHorizon * tolerance);
+      if (at.clearance_mm < kObstacleHorizon * tolerance)
+        found[k].push_back({.point = at.point,
+                            .share = share,
+                            .role = FacePoint::Role::kAvoid,
+                            .margin_mm = -kObstacleAimShare * tolerance});
     }
   });
   std::vector<FacePoint> points;
@@ -93,7 +158,10 @@ std::vector<FacePoint> check_points(const TileScene& scene, const std::vector<Co
   return points;
 }
 
-/// Points of the target where the tool of these strips cuts nearly as deep as the tolerance allows, or deeper.
+/// Points of the target where the tool of these strips cuts nearly as deep as the tolerance allows, or deeper. Two
+/// searches, because neither sees everything: the spheres of the axis against the inside of the target, and points of
+/// the border against the swept tool, since at the border f has ridges that the spheres step over
+/// (docs/algorithms/cover.md).
 std::vector<FacePoint> deep_points(const TileScene& scene, const std::vector<CoverStrip>& strips, double share) {
   const double tolerance = scene.options.tolerance_mm;
   std::vector<std::vector<Vec3>> found(strips.size());
@@ -104,17 +172,19 @@ std::vector<FacePoint> deep_points(const TileScene& scene, const std::vector<Cov
     for (int i = 0; i <= poses; ++i) {
       const Pose pose = motion.pose(static_cast<double>(i) / poses);
       (void)fitter.measure(pose);
-      fitter.deep_points(pose, kDeepShare * tolerance, found[k]);
+      fitter.deep_points(pose, kHeldDepthShare * tolerance, found[k]);
     }
   });
   std::vector<FacePoint> points;
-  found.push_back(points_below(scene, strips, scene.samples.border, -kDeepShare * tolerance));
+  found.push_back(points_below(scene, strips, scene.samples.border, -kHeldDepthShare * tolerance));
   std::size_t count = 0, seen = 0;
   for (const auto& of_strip : found) count += of_strip.size();
-  const std::size_t stride = 1 + count / kMostCheckPoints;
+  const std::size_t stride = 1 + count / kMostDeepPoints;
   for (const auto& of_strip : found)
     for (const Vec3& x : of_strip)
-      if (seen++ % stride == 0) points.push_back({x, share, FacePoint::Role::kHold, -kDeepAimShare * tolerance});
+      if (seen++ % stride == 0)
+        points.push_back(
+            {.point = x, .share = share, .role = FacePoint::Role::kHold, .margin_mm = -kHeldDepthAimShare * tolerance});
   return points;
 }
 
@@ -127,8 +197,8 @@ std::vector<CoverStrip> measured(const TileScene& scene, const std::vector<Ruled
   return strips;
 }
 
-/// Strips that cut too deep are lifted; those that fail their certificate all the same are cut short, or as they were
-/// before, whichever covers more besides the others.
+/// Strips that cut too deep are lifted. One that still fails its certificate is replaced by what can be certified of it
+/// or by its predecessor in `before`, whichever adds more to what the other strips cover. `fallen`: how many failed.
 std::vector<CoverStrip> with_fallbacks(const TileScene& scene, const std::vector<CoverStrip>& strips,
                                        const std::vector<CoverStrip>& before, int& fallen) {
   std::vector<CoverStrip> result(strips.size());
@@ -142,6 +212,7 @@ std::vector<CoverStrip> with_fallbacks(const TileScene& scene, const std::vector
   });
   CellCount covered(scene.samples);
   for (const CoverStrip& strip : result) covered.add(strip);
+  // One after the other, in their order: each choice changes what is a gain for the next.
   fallen = 0;
   for (std::size_t k = 0; k < strips.size(); ++k) {
     if (good[k] != 0) continue;
@@ -153,7 +224,8 @@ std::vector<CoverStrip> with_fallbacks(const TileScene& scene, const std::vector
   return result;
 }
 
-/// Points of the target, spread evenly; those that the tool cannot reach count for overcut alone.
+/// Points of the target, spread evenly. Those that the tool cannot reach count for overcut alone: as ordinary points
+/// they would ask for contact, and on a blade they pulled the tips into the hub.
 std::vector<FacePoint> points_to_fit(const TileScene& scene, const FitDraft& draft, int per_side) {
   std::vector<FacePoint> points = target_points(draft, per_side);
   parallel_for(points.size(), [&](std::size_t k) {
@@ -164,11 +236,12 @@ std::vector<FacePoint> points_to_fit(const TileScene& scene, const FitDraft& dra
   return points;
 }
 
+/// One pass over all strips together. `limits`: places that are too deep already are held as well.
 std::vector<RuledMotion> run_pass(const TileScene& scene, const std::vector<CoverStrip>& strips, const Pass& pass,
                                   int control_points, bool limits) {
   const FitDraft draft = draft_of(scene, strips);
   std::vector<FacePoint> points = points_to_fit(scene, draft, pass.points_per_side);
-  const double share = kCheckWeight / static_cast<double>(points.size());
+  const double share = kLimitWeight / static_cast<double>(points.size());  // target points have 1 / size each
   const std::vector<FacePoint> others = check_points(scene, strips, share);
   points.insert(points.end(), others.begin(), others.end());
   if (limits) {
@@ -198,6 +271,8 @@ double covered_share(const CoverSamples& samples, const std::vector<CoverStrip>&
   return samples.area > 0.0 ? area / samples.area : 0.0;
 }
 
+// `now` is what the fit goes on from, certified or not; `best` is what could be certified. They are apart because a fit
+// from strips that were cut short would start with their gaps.
 SmoothResult smooth_strips(const TileScene& scene, const std::vector<CoverStrip>& strips) {
   SmoothResult best{strips, covered_share(scene.samples, strips)};
   std::vector<CoverStrip> now = strips;
@@ -214,14 +289,12 @@ SmoothResult smooth_strips(const TileScene& scene, const std::vector<CoverStrip>
       trial = with_fallbacks(scene, now, best.strips, fallen);
     }
     const double share = covered_share(scene.samples, trial);
-    // The first pass is kept for its fair rails as well, where it costs next to nothing.
-    constexpr double kFairnessWorth = 2e-3;
     if (share > best.coverage - (first ? kFairnessWorth : 0.0)) {
       best.coverage = share;
       best.strips = std::move(trial);
     }
     first = false;
-    if (best.coverage >= kEnough) break;
+    if (best.coverage >= kEnoughCoverage) break;
   }
   return best;
 }
