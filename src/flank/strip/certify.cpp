@@ -6,6 +6,13 @@
 #include <vector>
 
 namespace flank::internal {
+namespace {
+
+/// Share of a motion's parameter range: what is left of a strip after cutting must be at least this long, else it is
+/// dropped. A shorter one is hardly worth the moves to and from it.
+constexpr double kShortestStretch = 0.1;
+
+}  // namespace
 
 bool is_certified(const LineGuard& guard, const CoverStrip& strip, double tolerance_mm) {
   if (strip.cells.empty() || strip.overcut_mm > kCertifiedShare * tolerance_mm) return false;
@@ -17,7 +24,9 @@ bool is_certified(const LineGuard& guard, const CoverStrip& strip, double tolera
 
 namespace {
 
-/// The largest of the shifts within `reach` steps, then the mean over as many: a ramp up before it is needed.
+/// The largest of the shifts within `reach` steps, then the mean over as many. The maximum first, because a mean alone
+/// would flatten the peak that is needed: after both, the largest shift within 2 `reach` steps is kept whole, and the
+/// ramps on both sides of it are 2 `reach` long.
 std::vector<Vec3> ramped(const std::vector<Vec3>& shifts, int reach) {
   const int n = static_cast<int>(shifts.size());
   const auto window = [&](int i, const auto& visit) {
@@ -59,17 +68,18 @@ struct Shifts {
   bool any = false;
 };
 
-/// What takes the poses of a strip out of the target where they are too deep in it, and out of other faces.
+/// Shifts that take the poses of a strip out of the target, if they are too deep in it, and out of other faces.
 Shifts shifts_of(const LineGuard& guard, const CoverStrip& strip, double depth_mm, int poses, LineFitter& fitter) {
-  constexpr double kReachShare = 0.25;                    ///< of the axis: a slide that is longer is another strip
-  const bool known = poses == depth_poses(strip.motion);  // how deep each pose is
+  constexpr double kReachShare = 0.25;  ///< of the axis: a slide that is longer makes another strip of it
+  // Depths are known at depth_poses(motion) steps: at those, poses that are not too deep are not measured again.
+  const bool known = poses == depth_poses(strip.motion);
   Shifts shifts;
   fitter.forget();
   for (int i = 0; i <= poses; ++i) {
     const Pose pose = strip.motion.pose(static_cast<double>(i) / poses);
     LineFitter::Lift lift;
     if (known && strip.depths[static_cast<std::size_t>(i)] <= depth_mm) {
-      fitter.forget();  // the next pose that is asked may be far
+      fitter.forget();  // the next pose that is measured may be far from the last: its footpoints are no hints
     } else {
       (void)fitter.measure(pose);
       lift = fitter.lift(pose, depth_mm);
@@ -78,6 +88,8 @@ Shifts shifts_of(const LineGuard& guard, const CoverStrip& strip, double depth_m
     shifts.tips.push_back(lift.tip + slide);
     shifts.holders.push_back(lift.holder + slide);
   }
+  // Depths seen from the target's points: the sphere of s has to move by the excess, and the other end is the hinge, so
+  // the end that is nearer to s moves by excess * L / (its distance from the hinge), at most twice the excess.
   for (const SweptContact& at : strip.deep) {
     if (-at.f <= depth_mm) continue;
     const double length = strip.motion.axis_length;
@@ -92,6 +104,7 @@ Shifts shifts_of(const LineGuard& guard, const CoverStrip& strip, double depth_m
   return shifts;
 }
 
+/// Ramps as long as a knot span: shorter ones are no motion that the rails can follow, and would come back as ripples.
 RuledMotion moved(const RuledMotion& motion, const Shifts& shifts) {
   const int reach = std::max(1, static_cast<int>(shifts.tips.size()) / motion.tip.count());
   return shifted(motion, ramped(shifts.tips, reach), ramped(shifts.holders, reach));
@@ -101,10 +114,14 @@ RuledMotion moved(const RuledMotion& motion, const Shifts& shifts) {
 
 CoverStrip lifted(const CoverSamples& samples, const LineGuard& guard, CoverStrip strip, const RadialFunction& radial,
                   LineFitter& fitter) {
-  constexpr int kTries = 4;
-  constexpr double kAim = 0.97;  ///< of what is certified
+  constexpr int kTries = 4;  ///< the rails follow a shift only nearly, so what is left is lifted again
+  /// Share of the certified depth that a lift aims at: aimed at the limit itself, the approximation by the rails would
+  /// leave places just beyond it. Above kRememberedDepthShare / kCertifiedShare (strip_cover.cpp), so all contacts that
+  /// have to be lifted are known.
+  constexpr double kAim = 0.97;
   const double limit = kCertifiedShare * fitter.options().tolerance_mm;
   for (int k = 0; k < kTries && !strip.cells.empty(); ++k) {
+    // Not too deep anywhere: then only slides out of other faces are left to do.
     const double depth = strip.overcut_mm > limit ? kAim * limit : strip.overcut_mm;
     const Shifts shifts = shifts_of(guard, strip, depth, depth_poses(strip.motion), fitter);
     if (!shifts.any) break;
@@ -115,8 +132,7 @@ CoverStrip lifted(const CoverSamples& samples, const LineGuard& guard, CoverStri
 
 CoverStrip cut_to_certified(const CoverSamples& samples, const LineGuard& guard, CoverStrip strip,
                             const RadialFunction& radial, LineFitter& fitter) {
-  constexpr int kTries = 3;
-  constexpr double kShortest = 0.1;
+  constexpr int kTries = 3;  ///< the shorter motion is a new approximation, which has to be certified itself
   const double tolerance = fitter.options().tolerance_mm;
   for (int k = 0; k < kTries && !strip.cells.empty() && !is_certified(guard, strip, tolerance); ++k) {
     const int poses = depth_poses(strip.motion);
@@ -132,7 +148,7 @@ CoverStrip cut_to_certified(const CoverSamples& samples, const LineGuard& guard,
     // The new ends lie a step within: right at the edge of what is allowed the next step may be beyond it.
     const double t0 = (first + (first > 0 ? 1.0 : 0.0)) / poses;
     const double t1 = (first + longest - (first + longest <= poses ? 2.0 : 1.0)) / poses;
-    if (t1 - t0 < kShortest) return {};
+    if (t1 - t0 < kShortestStretch) return {};
     strip = measure_strip(samples, part_of_motion(strip.motion, t0, t1), radial, fitter);
   }
   return is_certified(guard, strip, tolerance) ? strip : CoverStrip{};
@@ -140,8 +156,14 @@ CoverStrip cut_to_certified(const CoverSamples& samples, const LineGuard& guard,
 
 namespace {
 
+/// Steps of the last look: several times those of the certificate (depth_poses: at most 384).
 constexpr int kFinePoses = 1000;
-/// Of the tolerance, for the target and for other faces: nothing but the judge looks after this.
+/// Fewest fine steps of a stretch that is kept.
+constexpr int kShortestFineRun = kFinePoses / 10;
+static_assert(kShortestFineRun == static_cast<int>(kShortestStretch * kFinePoses));
+/// Shares of the tolerance: how deep a fine pose may be in the target and in another face. Larger than those of the
+/// certificate (0.94, and 0.65 in cover.cpp), because less is left between the samples; nothing but the judge looks
+/// after this. Triangles stand for other faces, so these keep the greater reserve.
 constexpr double kFineShare = 0.98, kFineFloorShare = 0.9;
 
 /// First and last of the longest run of fine steps that are not too deep, and clear; last < first: there is none.
@@ -164,8 +186,10 @@ std::pair<int, int> longest_good(const LineGuard& guard, const RuledMotion& moti
 
 CoverStrip cut_finely(const CoverSamples& samples, const LineGuard& guard, CoverStrip strip,
                       const RadialFunction& radial, LineFitter& fitter) {
+  // Lifts keep coverage, cuts lose it: half of the tries are for lifting, the others for cutting what that leaves.
   constexpr int kTries = 6, kLifts = 3;
   const double tolerance = fitter.options().tolerance_mm;
+  // Without a tolerance for other faces (floor 0) there is none to use up here.
   const LineGuard last_guard =
       guard.with_floor(guard.floor_mm() < 0.0 ? -kFineFloorShare * tolerance : guard.floor_mm());
   for (int k = 0; k < kTries; ++k) {
@@ -176,7 +200,7 @@ CoverStrip cut_finely(const CoverSamples& samples, const LineGuard& guard, Cover
       strip = measure_strip(samples, moved(strip.motion, shifts), radial, fitter);
       continue;
     }
-    if (last - first < kFinePoses / 10) return {};
+    if (last - first < kShortestFineRun) return {};
     const double step = 1.0 / kFinePoses;
     const double t0 = (first + (first > 0 ? 1 : 0)) * step, t1 = (last - (last < kFinePoses ? 1 : 0)) * step;
     strip = measure_strip(samples, part_of_motion(strip.motion, t0, t1), radial, fitter);

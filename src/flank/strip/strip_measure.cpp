@@ -9,11 +9,26 @@
 namespace flank::internal {
 namespace {
 
-constexpr int kLeastControlPoints = 4;
+constexpr int kLeastControlPoints = 4;  ///< of a cubic
+/// Poses to which the rails are fitted, per control point: enough that least squares smooths the joints and every knot
+/// span has several poses to hold it.
 constexpr int kSamplesPerControlPoint = 4;
-constexpr int kPosesPerControlPoint = 5;
+/// Poses of the table of the swept estimate, per control point and at least. The estimate's error is of third order in
+/// their spacing, and contacts that matter are refined: see contact().
+constexpr int kPosesPerControlPoint = 5, kLeastTablePoses = 40;
+/// Pieces of the axis for the smallest and the largest radius: an extremum between two samples is missed by at most
+/// |r''| (L / 64)^2 / 2.
+constexpr int kRadiusPieces = 32;
+/// Shares of the tolerance: a contact is refined if the estimate of |f| is nearer than the first to the tolerance, or f
+/// below minus the second. Elsewhere the estimate's own error cannot change whether a cell counts, nor a depth that
+/// matters (kRememberedDepthShare).
+constexpr double kRefineBand = 0.3, kRefineDepth = 0.5;
+/// Samples of the part of a motion that is kept: with at most 48 control points, three or more for each.
+constexpr int kPartSamples = 160;
 
-int table_poses(const RuledMotion& motion) { return std::max(40, kPosesPerControlPoint * motion.tip.count()); }
+int table_poses(const RuledMotion& motion) {
+  return std::max(kLeastTablePoses, kPosesPerControlPoint * motion.tip.count());
+}
 
 /// Box of the swept tool.
 Box3 swept_box(const RuledMotion& motion, const RadialFunction& radial, double margin, int poses) {
@@ -24,7 +39,8 @@ Box3 swept_box(const RuledMotion& motion, const RadialFunction& radial, double m
     box.add(pose.at(motion.axis_length));
   }
   double largest = 0.0;
-  for (int j = 0; j <= 32; ++j) largest = std::max(largest, radial.at(motion.axis_length * j / 32.0).r);
+  for (int j = 0; j <= kRadiusPieces; ++j)
+    largest = std::max(largest, radial.at(motion.axis_length * j / double(kRadiusPieces)).r);
   box.low.array() -= largest + margin;
   box.high.array() += largest + margin;
   return box;
@@ -47,11 +63,14 @@ Vec3 hermite(const std::vector<Vec3>& x, const std::vector<double>& t, std::size
 
 double smallest_radius(const RadialFunction& radial) {
   double least = 1e300;
-  for (int j = 0; j <= 32; ++j) least = std::min(least, radial.at(radial.axis_length() * j / 32.0).r);
+  for (int j = 0; j <= kRadiusPieces; ++j)
+    least = std::min(least, radial.at(radial.axis_length() * j / double(kRadiusPieces)).r);
   return least;
 }
 
-/// How much nearer than at the tabulated poses a sphere may come to a point between two of them.
+/// How much nearer than at the tabulated poses a sphere may come to a point between two of them, mm. A centre that
+/// passes at the distance r, with the nearest tabulated place x away along its path, is sqrt(r^2 + x^2) - r <= x^2 / (2
+/// r) nearer there. x is at most half a stride; the whole one is used, as paths bend.
 double table_slack(const RuledMotion& motion, const RadialFunction& radial) {
   const int poses = table_poses(motion);
   double stride = 0.0;
@@ -65,8 +84,8 @@ double table_slack(const RuledMotion& motion, const RadialFunction& radial) {
 SweptContact contact(const SweptEstimate& swept, const RuledMotion& motion, const RadialFunction& radial, const Vec3& x,
                      double tolerance_mm) {
   SweptContact near = swept.nearest(x);
-  // The estimate ranks; what would count as overcut, or as just within tolerance, is looked at closely.
-  if (std::abs(std::abs(near.f) - tolerance_mm) < 0.3 * tolerance_mm || near.f < -0.5 * tolerance_mm) {
+  // The estimate ranks; what would count as overcut, or as just within tolerance, is refined.
+  if (std::abs(std::abs(near.f) - tolerance_mm) < kRefineBand * tolerance_mm || near.f < -kRefineDepth * tolerance_mm) {
     const double t = near.t;
     near = refine_contact(motion, radial, x, t, swept.spacing());
   }
@@ -78,6 +97,7 @@ SweptContact contact(const SweptEstimate& swept, const RuledMotion& motion, cons
 CoverSamples cover_samples(const Target& target, double spacing_mm) {
   FLANK_ASSERT(spacing_mm > 0.0);
   CoverSamples samples;
+  /// Of the cells' spacing. Ridges of f at the border are narrow along it, and points on a curve cost little.
   constexpr double kBorderShare = 0.25;
   samples.cells = target.samples(spacing_mm);
   samples.border = target.border_points(kBorderShare * spacing_mm);
@@ -113,15 +133,23 @@ RuledMotion motion_through(const std::vector<Pose>& poses, double axis_length, i
 }
 
 int depth_poses(const RuledMotion& motion) {
+  // A knot span has at most about one wave; of that, samples an eighth apart miss 2 sin^2(pi/16) = 8 % of the height at
+  // most. 384 are those of 48 control points, the most that smoothed rails have by default; more would only cost time.
   constexpr int kPerControlPoint = 8, kMost = 384;
   return std::min(kPerControlPoint * motion.tip.count(), kMost);
 }
 
 namespace {
 
-constexpr double kDeepShare = 0.8;  ///< of the tolerance: what a strip remembers as deep
+/// Share of the tolerance: contacts that are deeper are kept in CoverStrip::deep. A lift aims at 0.97 * kCertifiedShare
+/// = 0.91 tolerances (certify.cpp) and can only lift what is kept, so this must be less. (Not to be confused with the
+/// depth at which smooth.cpp holds a place in its fit.)
+constexpr double kRememberedDepthShare = 0.8;
+/// Tolerances: a border point whose estimated f is above this, and above what the table may miss, cannot be too deep.
+constexpr double kBorderBand = 2.0;
 
-/// Depths by the spheres of the axis.
+/// Depths by the spheres of the axis: inside the target only, which is cheap. What happens past the border is seen from
+/// the points of the border (measure_border).
 void measure_axis(CoverStrip& strip, LineFitter& fitter) {
   const int poses = depth_poses(strip.motion);
   fitter.forget();
@@ -136,12 +164,12 @@ void count_contact(CoverStrip& strip, const SweptContact& at, double tolerance_m
   const auto steps = static_cast<double>(strip.depths.size() - 1);
   double& depth = strip.depths[static_cast<std::size_t>(std::lround(at.t * steps))];
   depth = std::max(depth, -at.f);
-  if (at.f < -kDeepShare * tolerance_mm) strip.deep.push_back(at);
+  if (at.f < -kRememberedDepthShare * tolerance_mm) strip.deep.push_back(at);
 }
 
 void measure_border(const CoverSamples& samples, const SweptEstimate& swept, const Box3& box,
                     const RadialFunction& radial, double tolerance_mm, CoverStrip& strip) {
-  const double slack = 2.0 * tolerance_mm + table_slack(strip.motion, radial);
+  const double slack = kBorderBand * tolerance_mm + table_slack(strip.motion, radial);
   for (const Vec3& x : samples.border) {
     if (box.squared_distance(x) > 0.0) continue;
     const SweptContact at = swept.nearest(x);
@@ -165,7 +193,7 @@ CoverStrip measure_strip(const CoverSamples& samples, RuledMotion motion, const 
     const SurfaceSample& cell = samples.cells[k];
     if (box.squared_distance(cell.point) > 0.0) continue;
     const SweptContact at = contact(swept, strip.motion, radial, cell.point, tolerance);
-    if (at.f < -kDeepShare * tolerance) count_contact(strip, at, tolerance);
+    if (at.f < -kRememberedDepthShare * tolerance) count_contact(strip, at, tolerance);
     if (std::abs(at.f) > tolerance) continue;
     strip.cells.push_back(static_cast<int>(k));
     strip.area += cell.area;
@@ -177,11 +205,10 @@ CoverStrip measure_strip(const CoverSamples& samples, RuledMotion motion, const 
 
 RuledMotion part_of_motion(const RuledMotion& motion, double t0, double t1) {
   FLANK_ASSERT(0.0 <= t0 && t0 < t1 && t1 <= 1.0);
-  constexpr int kSamples = 160;
   std::vector<Pose> poses;
   std::vector<double> t;
-  for (int i = 0; i <= kSamples; ++i) {
-    t.push_back(static_cast<double>(i) / kSamples);
+  for (int i = 0; i <= kPartSamples; ++i) {
+    t.push_back(static_cast<double>(i) / kPartSamples);
     poses.push_back(motion.pose(t0 + t.back() * (t1 - t0)));
   }
   return fit_motion(poses, t, motion.axis_length, motion.tip.count());
