@@ -10,19 +10,36 @@
 namespace flank::internal {
 namespace {
 
+/// Rounds of Lawson's weights in a step. They converge linearly, and the best round is kept; each is a 5 x 5 solve,
+/// which costs little beside the footpoints. The next step of Gauss-Newton goes on where this one stopped.
 constexpr int kLawsonSteps = 14;
 /// Errors beyond this share of the tolerance are evened out by Lawson's weights; below it least squares is as good.
 constexpr double kLawsonFrom = 0.4;
-constexpr double kHeld = 1e9;  ///< weight of a coordinate that is not to change
+/// Added to the factor of each of Lawson's weights: a sample whose error is zero in one round would otherwise have
+/// weight zero for ever, whatever its error becomes.
+constexpr double kLawsonFloor = 1e-3;
+/// Weight of a coordinate that must not change. All others are at most about 1, since the samples' weights sum to one
+/// and no entry of a row exceeds 1: so the coordinate moves by 1e-9 of what it would.
+constexpr double kHeld = 1e9;
 /// A step moves no end by more than this share of the axis: the distances are not linear over more.
 constexpr double kLongestStep = 0.15;
 constexpr double kSettled = 1e-3;  ///< a step below this share of the tolerance ends the iteration
+/// So does a step that lowers the error by less than this share: what it still may gain is not worth its footpoints.
+constexpr double kLeastGain = 0.01;
+/// A step that makes the error larger than this many times the last plus a tolerance has lost the line.
+constexpr double kLost = 2.0;
+/// Damping tried one after the other until a step is short enough: from what changes no digit of a well-posed problem
+/// (whose matrix has a trace of about 1) to what leaves a step of 1e-4 of the error. Thirtyfold steps: nine trials at
+/// most.
+constexpr double kFirstDamping = 1e-8, kMostDamping = 1e4, kDampingFactor = 30.0;
+/// Length of travel across the axis below which it gives no direction (travel is of the order of 1).
+constexpr double kNoTravel = 1e-9;
 
 }  // namespace
 
 LineFrame line_frame(const Pose& pose, const Vec3& travel) {
   Vec3 e1 = travel - travel.dot(pose.axis) * pose.axis;
-  if (e1.norm() < 1e-9) e1 = pose.axis.unitOrthogonal();
+  if (e1.norm() < kNoTravel) e1 = pose.axis.unitOrthogonal();
   e1.normalize();
   return {e1, pose.axis.cross(e1), pose.axis};
 }
@@ -81,16 +98,19 @@ LineFit LineFitter::measure(const Pose& pose) {
 
 Footpoint LineFitter::trimmed_foot(const Pose& pose, std::size_t j, double depth_mm) const {
   if (feet_[j].location == Location::kInside) return feet_[j];
-  // Past the border nothing is deep that is not near: a horizon spares most of the search.
+  // Past the border only what is near can be deep: a horizon spares most of the search.
   const double horizon = radius_[j] - depth_mm;
   return horizon > 0.0 ? target_.closest_within(pose.at(s_[j]), horizon) : Footpoint{};
 }
 
+// Beside the border the sign of the distance says only on which side of the tangent plane the point lies: a sphere that
+// reaches round the border cuts it from either side.
 double LineFitter::depth(const Footpoint& foot, std::size_t j) const {
   return radius_[j] - (foot.location == Location::kInside ? foot.distance : std::abs(foot.distance));
 }
 
 double LineFitter::overcut(const Pose& pose, double least_mm) const {
+  // What was found deep already is the horizon of the next search, so most samples cost nothing.
   double worst = least_mm;
   for (std::size_t j = 0; j < feet_.size(); ++j) {
     const Footpoint foot = trimmed_foot(pose, j, worst);
@@ -126,6 +146,8 @@ void LineFitter::load_weights() {
   weights_ = base_weights_;
 }
 
+// min over x of sum w_j (e_j + row_j x)^2 + sum stay_i (x_i + offset_i)^2 + damping |x|^2. `offset` is how far the line
+// has come from its start, so `stay` holds it to the start and not to the last step.
 Vec5 LineFitter::solve(const Vec5& stay, const Vec5& offset, double damping) const {
   Eigen::Matrix<double, 5, 5> normal = (stay + Vec5::Constant(damping)).asDiagonal();
   Vec5 rhs = -stay.cwiseProduct(offset);
@@ -136,6 +158,8 @@ Vec5 LineFitter::solve(const Vec5& stay, const Vec5& offset, double damping) con
   return normal.ldlt().solve(rhs);
 }
 
+// Lawson (1961): weighted least squares whose weights are multiplied by the errors that it leaves tends to the minimax
+// solution. Rounds are not monotonous, so the best of them is kept.
 Vec5 LineFitter::best_step(const Vec5& stay, const Vec5& offset, double damping) {
   load_weights();
   const auto largest = [&](const Vec5& x) {
@@ -149,11 +173,11 @@ Vec5 LineFitter::best_step(const Vec5& stay, const Vec5& offset, double damping)
   if (least < kLawsonFrom * options_.tolerance_mm) return best;
   Vec5 x = best;
   for (int k = 0; k < kLawsonSteps; ++k) {
-    double worst = 1e-300, sum = 0.0;
+    double worst = 1e-300, sum = 0.0;  // worst > 0: it divides
     for (std::size_t j = 0; j < rows_.size(); ++j) worst = std::max(worst, std::abs(errors_[j] + rows_[j].dot(x)));
     for (std::size_t j = 0; j < rows_.size(); ++j) {
       const bool inside = feet_[j].location == Location::kInside;
-      if (inside) weights_[j] *= std::abs(errors_[j] + rows_[j].dot(x)) / worst + 1e-3;
+      if (inside) weights_[j] *= std::abs(errors_[j] + rows_[j].dot(x)) / worst + kLawsonFloor;
       sum += weights_[j];
     }
     if (!(sum > 0.0)) break;
@@ -172,7 +196,8 @@ Vec5 LineFitter::limited_step(const Vec5& stay, const Vec5& offset) {
   const double longest = kLongestStep * length_;
   Vec5 x = best_step(stay, offset, 0.0);
   // What the distances hardly see runs away first: damped, not scaled, the rest of the step stays what it is.
-  for (double damping = 1e-8; x.cwiseAbs().maxCoeff() > longest && damping < 1e4; damping *= 30.0)
+  for (double damping = kFirstDamping; x.cwiseAbs().maxCoeff() > longest && damping < kMostDamping;
+       damping *= kDampingFactor)
     x = best_step(stay, offset, damping);
   return x;
 }
@@ -183,6 +208,8 @@ LineFitter::Lift LineFitter::lift(const Pose& pose, double depth_mm) const {
     const Footpoint foot = trimmed_foot(pose, j, depth_mm);
     const double excess = foot.patch >= 0 ? depth(foot, j) - depth_mm : 0.0;
     if (excess <= 0.0) continue;
+    // A turn about the other end moves the sphere by s / L of what it moves this end: at least half, so none divides by
+    // zero.
     const bool upper = 2.0 * s_[j] > length_;
     const Vec3 away = foot.location == Location::kInside ? foot.normal : (pose.at(s_[j]) - foot.point).normalized();
     const Vec3 shift = excess * length_ / (upper ? s_[j] : length_ - s_[j]) * away;
@@ -193,6 +220,7 @@ LineFitter::Lift LineFitter::lift(const Pose& pose, double depth_mm) const {
 }
 
 LineFit LineFitter::refine(const Pose& start, const LineHold& hold) {
+  // So that moving an end by L/4 adds (share * tolerance)^2 to the mean squared error.
   const auto stay_of = [&](double share) { return std::pow(4.0 * share * options_.tolerance_mm / length_, 2); };
   Vec5 stay = Vec5::Constant(stay_of(hold.stay_share > 0.0 ? hold.stay_share : options_.stay_share));
   if (hold.slide_share > 0.0) stay[2] = stay_of(hold.slide_share);
@@ -208,7 +236,7 @@ LineFit LineFitter::refine(const Pose& start, const LineHold& hold) {
     const double size = x.cwiseAbs().maxCoeff();
     const LineFit trial = measure(moved_line(best.pose, length_, frame, x));
     const bool better = trial.touches() && trial.largest_mm < best.largest_mm;
-    const bool lost = !trial.touches() || trial.largest_mm > 2.0 * best.largest_mm + options_.tolerance_mm;
+    const bool lost = !trial.touches() || trial.largest_mm > kLost * best.largest_mm + options_.tolerance_mm;
     if (!better && (lost || k > 0)) {
       feet_ = best_feet_;
       return best;
@@ -216,7 +244,7 @@ LineFit LineFitter::refine(const Pose& start, const LineHold& hold) {
     const double gained = best.largest_mm - trial.largest_mm;
     best = trial;
     offset += x;
-    if (size < kSettled * options_.tolerance_mm || (k > 0 && gained < 0.01 * best.largest_mm)) break;
+    if (size < kSettled * options_.tolerance_mm || (k > 0 && gained < kLeastGain * best.largest_mm)) break;
   }
   return best;
 }
