@@ -8,7 +8,8 @@
 namespace flank::internal {
 namespace {
 
-/// On changes of slide and turn from the last step's: where the normals leave them open they go on as they were.
+/// Weights of changes of slide and turn from the last step's, against squared sines: small, so they decide only what
+/// the normals leave open, which goes on as it was. The same as in the walk of seed/propagate.cpp.
 constexpr double kAxialPenalty = 1e-3, kTurnPenalty = 1e-4;
 /// Turn of the axis, times half its length, that one step may add, as a share of the step: a branch jump turns more.
 constexpr double kJump = 4.0;
@@ -16,8 +17,24 @@ constexpr double kOffMean = 0.5;  ///< farthest that the middle of a step lies f
 /// Stay of the corrector (LineFitOptions::stay_share): the predictor goes on smoothly, and within the tolerance that is
 /// worth more than the least error.
 constexpr double kStay = 0.5;
-constexpr double kAdvance = 0.1;  ///< least advance of the footpoints, as a share of the step
+/// Least mean advance of the footpoints, as a share of the step. On a convex target of radius R they move by R / (R +
+/// r) of what the axis does: a tenth is an edge rounded by r / 9. A line whose footpoints move less turns on the spot.
+constexpr double kAdvance = 0.1;
+/// LineHold::slide_share of the corrector: with a guide the slide is held as by an error of one tolerance, so that the
+/// strip follows the edge; after a slide out of another face by four, or the corrector would slide back in.
+constexpr double kGuidedSlide = 1.0, kClearedSlide = 4.0;
+/// Shares of the step: most slide towards the guide in one step, so that edges are followed without kinks; and farthest
+/// slide out of another face, beyond which a strip had better end.
+constexpr double kGuideReach = 0.5, kClearReach = 2.0;
+/// Steps grow by this after each that is accepted, and are halved otherwise: after a halving two good steps make up for
+/// it.
+constexpr double kStepGrowth = 1.5;
+/// Overlap of the neighbour's segments, as a share of each: at a joint that bends, a pose may project onto neither.
+constexpr double kJointOverlap = 0.01;
+/// mm^2: keeps a segment that lies along the axis from dividing by zero.
+constexpr double kLeastSegment = 1e-12;
 
+/// The pose after `step` of travel with a velocity, the axis kept at unit length.
 Pose shifted(const Pose& pose, const AxisVelocity& v, double axis_length, double step) {
   const Vec3 axis = (pose.axis + step * v.omega).normalized();
   const Vec3 middle = pose.at(0.5 * axis_length) + step * v.middle;
@@ -71,6 +88,7 @@ bool Grower::within(const LineFit& fit) const {
   return (!fit.touches() || fit.largest_mm <= tolerance) && fitter_.overcut(fit.pose, tolerance) <= tolerance;
 }
 
+/// Whether the footpoints moved on along the target. A line can travel while its footpoints stay, round a sharp edge.
 bool Grower::advanced(double h, const Vec3& direction) const {
   const auto now = fitter_.feet();
   double sum = 0.0;
@@ -90,17 +108,17 @@ bool Grower::step(double h, const AxisVelocity& v, LineFit& middle, LineFit& nex
   LineHold hold{v.middle, 0.0, kStay};
   if (guide_.neighbour) {
     const double slide = guide_slide(guide_, predicted, length_);
-    predicted.tip += std::clamp(slide, -0.5 * h, 0.5 * h) * predicted.axis;
-    hold.slide_share = 1.0;
+    predicted.tip += std::clamp(slide, -kGuideReach * h, kGuideReach * h) * predicted.axis;
+    hold.slide_share = kGuidedSlide;
   }
   next = fitter_.refine(predicted, hold);
   if (!guard_.clear(next.pose)) {
-    hold.slide_share = 4.0;
-    next = fitter_.refine(slid_clear(guard_, next.pose, 2.0 * h), hold);
+    hold.slide_share = kClearedSlide;
+    next = fitter_.refine(slid_clear(guard_, next.pose, kClearReach * h), hold);
     blocked_ = !guard_.clear(next.pose);
     if (blocked_) return false;
   }
-  // Where the line leaves the target it does so by a short step: past it the way only follows an extrapolation.
+  // A line may leave the target by a short step only: past the border its path follows an extrapolation.
   if (!next.touches() && h > options_.first_step_share * size_) return false;
   if (!within(next) || !advanced(h, v.middle.normalized())) return false;
   const double jump = std::max((next.pose.tip - pose_.tip).norm(), (next.pose.at(length_) - pose_.at(length_)).norm());
@@ -108,8 +126,8 @@ bool Grower::step(double h, const AxisVelocity& v, LineFit& middle, LineFit& nex
   return between(h, v.middle, next, middle);
 }
 
-/// Certificate at the middle of a step. The mean of two poses is off a curved way by h^2 / 8 of its curvature, more than a
-/// fine tolerance allows; refined, it has to lie near the mean all the same.
+/// Certificate at the middle of a step. The mean of two poses is off a curved path by h^2 / 8 times its curvature, more
+/// than a fine tolerance allows. So the middle is refined if the mean fails, and has to lie near the mean all the same.
 bool Grower::between(double h, const Vec3& travel, const LineFit& next, LineFit& middle) {
   const std::vector<Footpoint> feet(fitter_.feet().begin(), fitter_.feet().end());
   const Pose mean = half_way(pose_, next.pose);
@@ -118,7 +136,7 @@ bool Grower::between(double h, const Vec3& travel, const LineFit& next, LineFit&
   const double off = std::max((middle.pose.tip - mean.tip).norm(), (middle.pose.at(length_) - mean.at(length_)).norm());
   const bool held = off < kOffMean * h && within(middle);
   blocked_ = held && !guard_.clear(middle.pose);
-  fitter_.set_feet(feet);
+  fitter_.set_feet(feet);  // of `next` again: they are what the walk goes on from
   return held && !blocked_;
 }
 
@@ -141,13 +159,14 @@ GrowEnd Grower::run(const LineFit& line, const Vec3& heading, std::vector<Pose>&
     for (; !done && h >= options_.shortest_step_share * size_; h *= done ? 1.0 : 0.5)
       done = step(h, at.velocity, middle, next);
     if (!done) return blocked_ ? GrowEnd::kCheck : GrowEnd::kTolerance;
+    // The velocity that was, not the one predicted: it is what the next step is to continue smoothly.
     last = {(next.pose.at(0.5 * length_) - pose_.at(0.5 * length_)) / h, (next.pose.axis - pose_.axis) / h};
     pose_ = next.pose;
     feet_.assign(fitter_.feet().begin(), fitter_.feet().end());
     poses.push_back(middle.pose);
     poses.push_back(pose_);
     travel += h;
-    h = std::min(1.5 * h, options_.longest_step_share * size_);
+    h = std::min(kStepGrowth * h, options_.longest_step_share * size_);
     if (!next.touches()) {
       overrun(last, poses);
       return GrowEnd::kBorder;
@@ -165,11 +184,11 @@ double guide_slide(const GrowGuide& guide, const Pose& pose, double axis_length)
   double least = 1e300, slide = 0.0;
   for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
     const Vec3 a = edge(i), b = edge(i + 1);
-    // Nearest across the axis: the slide is what is asked for.
+    // Nearest across the axis: the slide is what is wanted.
     const auto across = [&](const Vec3& v) { return Vec3(v - v.dot(pose.axis) * pose.axis); };
     const Vec3 ab = across(b - a), to = across(end - a);
-    const double f = to.dot(ab) / std::max(1e-12, ab.squaredNorm());
-    if (f < -0.01 || f > 1.01) continue;
+    const double f = to.dot(ab) / std::max(kLeastSegment, ab.squaredNorm());
+    if (f < -kJointOverlap || f > 1.0 + kJointOverlap) continue;
     const Vec3 q = a + f * (b - a);
     const double distance = (q - end).norm();
     if (distance >= least) continue;
