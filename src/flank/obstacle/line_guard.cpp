@@ -8,9 +8,24 @@
 namespace flank::internal {
 namespace {
 
+/// Samples of r(s) for its least value and its steepest slope: an extremum of r between two of them is missed by at
+/// most |r''| (L / 128)^2 / 2, half a micrometre for an arc of 50 mm and an axis of 30 mm.
 constexpr int kRadiusSamples = 65;
-constexpr double kShortestStepShare = 1.0 / 32.0;  ///< of the axis, along it
-constexpr double kBallAxisShare = 1e-4;            ///< a ball is a very short cylinder with round ends
+/// Shortest step of the walk along the axis, as a share of it: used if it is near a solid. At most 33 queries a pose.
+constexpr double kShortestStepShare = 1.0 / 32.0;
+/// Axis of the ball, in radii: a tool needs an axis, so a ball is a very short cylinder with round ends. The error is
+/// half the axis, far below any tolerance.
+constexpr double kBallAxisShare = 1e-4;
+/// Most steps of Newton in slid_clear: the clearance along the slide is nearly linear, a concave obstacle needs a few
+/// more.
+constexpr int kSlideSteps = 6;
+/// A slide that clears less than this per millimetre leads nowhere: the obstacle lies beside the axis, not along it.
+constexpr double kLeastGain = 0.05;
+/// A slide aims above the floor by this share of it: the refinement that follows moves the axis again.
+constexpr double kSlideMargin = 0.3;
+/// Horizon of a slide's measurements: as many floors, and at least so many mm where the floor is 0. Only a clearance
+/// below the floor is used, so the horizon just has to lie safely above it.
+constexpr double kHorizonFloors = 4.0, kLeastHorizonMm = 0.1;
 
 /// Signed distance of a closed solid. A nearest point on a border is a gap between its faces: outside.
 double signed_distance(const Footpoint& foot) {
@@ -43,6 +58,8 @@ LineGuard::LineGuard(const Tool& tool, const CoverObstacles& obstacles, double f
       radial_(tool.radial),
       steepest_(steepest(tool.radial)),
       floor_mm_(floor_mm) {
+  // A checker costs memory and a query for every pose. Surfaces that the flank may touch matter for shank and holder
+  // only.
   const bool above = !tool.shank.empty() || !tool.holder.empty();
   if (std::any_of(obstacles.surfaces.begin(), obstacles.surfaces.end(),
                   [&](const CheckSurface& c) { return above || !c.flank_may_touch; }))
@@ -54,8 +71,9 @@ LineGuard::LineGuard(const Tool& tool, const CoverObstacles& obstacles, double f
   ball_checker_ = std::make_shared<const PoseChecker>(ball, obstacles.surfaces);
 }
 
-/// Lowers the result to the least clearance of the axis' spheres from a solid, as far as it is below `enough_mm`, to half the shortest step. A
-/// distance changes by no more than the way: from where there is room the walk along the axis takes long steps.
+/// Replaces `result` if some sphere on the axis is closer to `solid` than `enough_mm` and than what `result` has. A
+/// distance is 1-Lipschitz, so where there is room the walk along the axis takes longer steps. Accuracy: half the
+/// shortest step. kWhether ends at the first sphere that is too close.
 void LineGuard::measure_solid(const Target& solid, const Pose& pose, double enough_mm, Ask ask,
                               LineClearance& result) const {
   const double length = radial_.axis_length(), shortest = kShortestStepShare * length;
@@ -63,6 +81,7 @@ void LineGuard::measure_solid(const Target& solid, const Pose& pose, double enou
     const Vec3 p = pose.at(s);
     const double r = radial_.at(s).r, wanted = std::min(enough_mm, result.clearance_mm);
     const double away = std::sqrt(solid.box().squared_distance(p));
+    // The distance to the solid's box is a lower bound and costs next to nothing.
     if (away > 0.0 && away >= r + wanted) {
       room = away - r - wanted;
     } else {
@@ -72,6 +91,8 @@ void LineGuard::measure_solid(const Target& solid, const Pose& pose, double enou
       if (clearance < wanted) result = {clearance, foot.normal.dot(pose.axis), foot.point};
     }
     if (s == 0.0 || (ask == Ask::kWhether && result.clearance_mm < enough_mm)) return;
+    // d(l(s)) changes by at most ds and r(s) by steepest * ds, so the clearance cannot fall to `wanted` within a
+    // shorter step.
     s = std::max(0.0, s - std::max(shortest, room / (1.0 + steepest_)));
   }
 }
@@ -107,15 +128,13 @@ bool LineGuard::ball_is_clear(const Vec3& center) const {
 
 Pose slid_clear(const LineGuard& guard, const Pose& pose, double reach_mm) {
   FLANK_ASSERT(reach_mm >= 0.0);
-  constexpr int kSteps = 6;
-  constexpr double kLeastGain = 0.05;  ///< a slide that frees less than this per millimetre leads nowhere
   if (guard.clear(pose)) return pose;
-  // A little more than needed: the refinement that follows moves the axis again.
-  const double wanted = guard.floor_mm() + 0.3 * std::abs(guard.floor_mm());
+  const double wanted = guard.floor_mm() + kSlideMargin * std::abs(guard.floor_mm());
   Pose at = pose;
   double slide = 0.0;
-  for (int k = 0; k < kSteps; ++k) {
-    const LineClearance found = guard.measure(at, std::max(0.1, 4.0 * std::abs(guard.floor_mm())));
+  for (int k = 0; k < kSlideSteps; ++k) {
+    const LineClearance found =
+        guard.measure(at, std::max(kLeastHorizonMm, kHorizonFloors * std::abs(guard.floor_mm())));
     if (found.clearance_mm >= guard.floor_mm() || std::abs(found.slide_gain) < kLeastGain) return at;
     slide = std::clamp(slide + (wanted - found.clearance_mm) / found.slide_gain, -reach_mm, reach_mm);
     at.tip = pose.tip + slide * pose.axis;

@@ -1,4 +1,4 @@
-/// Poses that keep clear of the other faces of the part, by sliding along the axis where that helps.
+/// Poses that keep clear of the other faces of the part, by sliding along the axis if that helps.
 #pragma once
 
 #include <memory>
@@ -12,9 +12,11 @@ namespace flank::internal {
 
 /// What the tool must not enter.
 struct CoverObstacles {
-  std::vector<CheckSurface> surfaces;  ///< triangles: faces of the target's own solid, neighbours, fixtures
-  /// Closed solids that the target touches or runs into (a hub): by their exact signed distance, so that a tool that lies
-  /// wholly within one is seen as well.
+  /// Triangles: other faces of the target's own solid, faces of solids near it, and the target itself for shank and
+  /// holder. Fixtures are not among them: the planner does not know those, only the judge does.
+  std::vector<CheckSurface> surfaces;
+  /// Closed solids that the target touches or runs into (a hub): by their exact signed distance, so that a tool that
+  /// lies wholly within one is seen as well.
   std::vector<std::shared_ptr<const Target>> solids;
   [[nodiscard]] bool empty() const { return surfaces.empty() && solids.empty(); }
 };
@@ -22,24 +24,29 @@ struct CoverObstacles {
 /// How clear a pose is.
 struct LineClearance {
   double clearance_mm = 1e300;  ///< negative: depth
-  double slide_gain = 0.0;      ///< its derivative by a slide of the tool along its axis, towards the holder
-  Vec3 point = Vec3::Zero();    ///< of the obstacle
+  double slide_gain = 0.0;    ///< its derivative by a slide of the tool along its axis, towards the holder, in [-1, 1]
+  Vec3 point = Vec3::Zero();  ///< of the obstacle: the one that is entered most, or nearest
 };
 
-/// The planner's question, pose by pose, for one tool; immutable. Everything else must outlive it.
+/// Answers for one tool whether a pose is clear of obstacles. Immutable, and safe to use from many threads. It keeps a
+/// pointer to the obstacles, which must outlive it and its copies; the tool is copied.
 class LineGuard {
  public:
   LineGuard() = default;  ///< every pose is clear
+  /// floor_mm: least clearance that counts as clear; negative: a depth that the tolerance allows.
   LineGuard(const Tool& tool, const CoverObstacles& obstacles, double floor_mm);
 
-  /// Whether no obstacle is nearer than the floor.
+  /// Whether no obstacle is nearer than the floor: flank against solids and surfaces, shank and holder against
+  /// surfaces. Solids are asked at points of the axis no closer than a 32nd of it, so a spike of a solid between two
+  /// may be missed by up to a 64th of the axis.
   [[nodiscard]] bool clear(const Pose& pose) const;
-  /// Exact up to `horizon_mm`, beyond it some value above.
+  /// The least clearance, if it is below `horizon_mm`; else some value above that. The same accuracy as clear().
   [[nodiscard]] LineClearance measure(const Pose& pose, double horizon_mm) const;
-  /// Whether a ball of the tool's smallest radius is clear.
+  /// Whether a ball of the tool's smallest radius is clear. Where it is not, no pose of the tool can touch (MATH
+  /// section 9).
   [[nodiscard]] bool ball_is_clear(const Vec3& center) const;
-  [[nodiscard]] double ball_radius() const { return ball_radius_; }
-  /// The same with another floor.
+  [[nodiscard]] double ball_radius() const { return ball_radius_; }  ///< smallest radius of the tool, mm
+  /// A guard against the same obstacles with another floor; cheap.
   [[nodiscard]] LineGuard with_floor(double floor_mm) const {
     LineGuard other = *this;
     other.floor_mm_ = floor_mm;
@@ -59,7 +66,9 @@ class LineGuard {
   double floor_mm_ = 0.0;
 };
 
-/// The pose slid along its own axis, by at most `reach_mm`, until it is clear; the best found if it never is.
+/// The pose slid along its own axis, by at most `reach_mm` either way, until it is clear: returned as it is if it is
+/// clear already. If six steps of Newton do not clear it, the last of them is returned: ask guard.clear() of the
+/// result.
 [[nodiscard]] Pose slid_clear(const LineGuard& guard, const Pose& pose, double reach_mm);
 
 }  // namespace flank::internal
