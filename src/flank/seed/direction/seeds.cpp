@@ -8,6 +8,18 @@
 #include "flank/seed/direction/direction_filter.h"
 
 namespace flank::internal {
+namespace {
+
+/// Pairs s, L - s at which the two ends of a tool are compared, over half the axis.
+constexpr int kSymmetryPairs = 16;
+/// Of the axis length: radii that differ by less are equal. Round-off is 1e-16 of it; no real tool is this nearly
+/// symmetric.
+constexpr double kSameRadius = 1e-9;
+/// Cosine of the angle at which two directions count as opposite: within sqrt(2e-6) = 0.08 degrees. Roots come in such
+/// pairs up to round-off.
+constexpr double kOpposite = -1.0 + 1e-6;
+
+}  // namespace
 
 Pose seed_pose(const LineSeed& seed, const RadialFunction& radial) {
   const RadialJet jet = radial.at(seed.s);
@@ -17,9 +29,9 @@ Pose seed_pose(const LineSeed& seed, const RadialFunction& radial) {
 
 bool is_symmetric(const RadialFunction& radial) {
   const double length = radial.axis_length();
-  for (int j = 0; j <= 16; ++j) {
-    const double s = length * j / 32.0;
-    if (std::abs(radial.at(s).r - radial.at(length - s).r) > 1e-9 * length) return false;
+  for (int j = 0; j <= kSymmetryPairs; ++j) {
+    const double s = length * j / (2.0 * kSymmetryPairs);
+    if (std::abs(radial.at(s).r - radial.at(length - s).r) > kSameRadius * length) return false;
   }
   return true;
 }
@@ -52,12 +64,14 @@ std::vector<LineSeed> admissible_seeds(const Target& target, const std::vector<S
                                        const RadialFunction& radial, int spheres, double tolerance_mm) {
   DirectionFilterOptions options;
   options.tolerance_mm = tolerance_mm;
+  // A tool longer than the target hangs over: what is beyond the border need not touch.
   options.contact_length_mm = std::min(radial.axis_length(), target.diagonal());
   const bool half = is_symmetric(radial);
   std::vector<LineSeed> seeds;
   for (const SurfaceSample& place : places) {
     const Footpoint foot = target.closest(place.point);
     for (int j = 0; j < spheres; ++j) {
+      // Middles of equal pieces: the ends of the axis would see the target on one side only.
       const double s = (j + 0.5) / spheres * radial.axis_length();
       const CandidateDirections found = candidate_directions(foot, radial.at(s), options);
       std::vector<Vec3> taken;
@@ -65,7 +79,7 @@ std::vector<LineSeed> admissible_seeds(const Target& target, const std::vector<S
         const Vec3 direction = (axis - axis.dot(foot.normal) * foot.normal).normalized();
         // A tool with equal ends turned round is the same line, from the other sphere.
         const bool known = half && std::any_of(taken.begin(), taken.end(),
-                                               [&](const Vec3& d) { return d.dot(direction) < -1.0 + 1e-6; });
+                                               [&](const Vec3& d) { return d.dot(direction) < kOpposite; });
         if (known) continue;
         taken.push_back(direction);
         seeds.push_back({foot.point, foot.normal, direction, s});

@@ -1,4 +1,5 @@
-/// Seeds: first lines of strips, before refinement.
+/// Seeds: first lines of strips, before refinement. They need not be within tolerance; REFINE (line_fit.h) decides
+/// that.
 #pragma once
 
 #include <vector>
@@ -12,29 +13,31 @@ namespace flank::internal {
 struct LineSeed {
   Vec3 point = Vec3::Zero(), normal = Vec3::UnitZ();  ///< of the target, towards the machining side
   Vec3 direction = Vec3::UnitX();                     ///< unit, across the normal: where the holder end lies
-  double s = 0.0;
+  double s = 0.0;                                     ///< arc length of the sphere that touches, mm, in [0, L]
 };
 
-/// The axis of a seed (MATH section 5): its sphere of s touches at the footpoint, <n, u> = r'(s).
+/// The axis of a seed (MATH section 5): its sphere of s touches at the footpoint, <n, u> = r'(s). Needs |r'(s)| < 1.
+/// Contact of first order: whether the target's curvature suits the tool there is not checked.
 [[nodiscard]] Pose seed_pose(const LineSeed& seed, const RadialFunction& radial);
 
-/// At each place, `directions` directions over half a turn, or over the whole turn where the tool's ends differ; s is the
-/// middle of the axis.
+/// At each place the directions of seed_directions(.., directions), touching with the middle of the axis.
 [[nodiscard]] std::vector<LineSeed> even_seeds(const std::vector<SurfaceSample>& places, const RadialFunction& radial,
                                                int directions);
 
-/// At each place, for each of `spheres` values of s (the middles of equal pieces of the axis: over s, not over r, which may
-/// have a value at several s), the directions that the tolerance-aware filter leaves (direction_filter.h).
+/// At each place, for each of `spheres` values of s (the middles of equal pieces of the axis: over s, not over r, which
+/// may have a value at several s), the directions that the tolerance-aware filter leaves (direction_filter.h).
 [[nodiscard]] std::vector<LineSeed> admissible_seeds(const Target& target, const std::vector<SurfaceSample>& places,
                                                      const RadialFunction& radial, int spheres, double tolerance_mm);
 
-/// About `count` places, spread evenly over the target.
+/// About `count` > 0 places, spread evenly over the target, in a fixed order.
 [[nodiscard]] std::vector<SurfaceSample> grid_places(const Target& target, int count);
 
-/// The directions of a grid at a point: `directions` over half a turn, twice as many over the whole.
+/// Unit directions across `normal`, at equal angles: `directions` over half a turn if both ends of the tool are alike,
+/// else twice as many over the whole turn.
 [[nodiscard]] std::vector<Vec3> seed_directions(const Vec3& normal, const RadialFunction& radial, int directions);
 
-/// Are both ends of the tool alike, r(s) = r(L - s)? Then a line turned round is the same line.
+/// Whether both ends of the tool are alike, r(s) = r(L - s) to 1e-9 of L at 17 places. Then a line turned round is the
+/// same line, and half of all directions are enough.
 [[nodiscard]] bool is_symmetric(const RadialFunction& radial);
 
 }  // namespace flank::internal

@@ -11,21 +11,31 @@
 namespace flank::internal {
 namespace {
 
+/// Samples of the target per place: a region of 40 is about six across, enough to have a shape of its own.
 constexpr int kSamplesPerPlace = 40;
+/// Rounds of Lloyd's iteration after the last region was added. Not run to the end: the places are seeds, and nothing
+/// depends on where exactly they lie.
 constexpr int kRounds = 12;
-constexpr double kNeighbours = 1.7;  ///< spacings: samples nearer than this hang together
+/// Spacings: samples that are closer than this count as connected. Between sqrt(2) and 2: on a square grid the eight
+/// neighbours around a sample, and none of the next ring.
+constexpr double kNeighbours = 1.7;
+/// Lattice numbers are packed into 63 bits, 21 for each coordinate; farther places wrap round, which costs time only,
+/// as distances are compared all the same.
+constexpr int kLatticeBits = 21;
+constexpr std::int64_t kLatticeMask = (std::int64_t{1} << kLatticeBits) - 1;
 /// What a place counts against a normal, over the size of a region: ties of flat targets are broken by distance.
 constexpr double kPlaceShare = 1e-3;
 
 using Neighbours = std::vector<std::vector<int>>;
 
-/// The cube of a lattice that holds p, or its k-th neighbour; k = 13: itself. Whole numbers are added, not lengths: a place on
-/// the wall between two cubes would skip one.
+/// The cube of a lattice that holds p, or its k-th neighbour; k = 13: itself. Whole numbers are added, not lengths: a
+/// place on the wall between two cubes would skip one.
 std::int64_t bucket_of(const Vec3& p, double width, int k = 13) {
   const auto index = [&](double x, int shift) {
-    return (static_cast<std::int64_t>(std::floor(x / width)) + shift) & 0x1fffff;
+    return (static_cast<std::int64_t>(std::floor(x / width)) + shift) & kLatticeMask;
   };
-  return index(p.x(), k % 3 - 1) | index(p.y(), k / 3 % 3 - 1) << 21 | index(p.z(), k / 9 - 1) << 42;
+  return index(p.x(), k % 3 - 1) | index(p.y(), k / 3 % 3 - 1) << kLatticeBits |
+         index(p.z(), k / 9 - 1) << 2 * kLatticeBits;
 }
 
 /// Samples that are near and look the same way: not those of the other side of a thin blade.
@@ -45,7 +55,7 @@ Neighbours neighbours_of(const std::vector<SurfaceSample>& samples, double reach
           near[k].push_back(other);
       }
     }
-    std::sort(near[k].begin(), near[k].end());
+    std::sort(near[k].begin(), near[k].end());  // the order of a hash map is nobody's promise
   }
   return near;
 }
@@ -105,6 +115,8 @@ void Regions::flood(const std::vector<int>& seeds, const std::vector<Proxy>& pro
   }
 }
 
+/// Area-weighted mean normals: for the metric L^{2,1} they are the best planes (Cohen-Steiner et al. 2004). A
+/// region without samples keeps what it had.
 std::vector<Proxy> Regions::proxies_of(std::vector<Proxy> proxies) const {
   std::vector<Proxy> sums(proxies.size(), {Vec3::Zero(), Vec3::Zero()});
   std::vector<double> areas(proxies.size(), 0.0);
@@ -120,6 +132,7 @@ std::vector<Proxy> Regions::proxies_of(std::vector<Proxy> proxies) const {
   return proxies;
 }
 
+/// One round of Lloyd: regions from proxies, proxies from regions, and the best sample of each region as its next seed.
 void Regions::settle(std::vector<int>& seeds, std::vector<Proxy>& proxies) {
   flood(seeds, proxies);
   proxies = proxies_of(std::move(proxies));
