@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+/// Written so that NaN is refused as well: every comparison with it is false.
 bool is_a_tool(const Footpoint& foot, const RadialJet& radial) {
   return radial.r > 0.0 && std::abs(radial.d1) < 1.0 && std::isfinite(radial.r) && std::isfinite(radial.d2) &&
          std::isfinite(foot.k1) && std::isfinite(foot.k2);
@@ -32,6 +33,8 @@ void at_focal_point(const Footpoint& foot, const RadialJet& radial, AdmissibleDi
   out.gap = std::abs(out.mu - out.lambda1);
 }
 
+/// lambda1 = lambda2: mu fits all directions or none. The test is relative to 1/r, the scale of every curvature that
+/// matters.
 void at_umbilic(AdmissibleDirections& out, double r) {
   const bool fits = r * out.gap <= kUmbilicSpread;
   out.status = fits ? DirectionStatus::kEvery : DirectionStatus::kNone;
@@ -44,10 +47,12 @@ void at_ordinary_point(const Footpoint& foot, const RadialJet& radial, Admissibl
   const double margin = kMergedRoots * (foot.k2 - foot.k1), half_turn = std::numbers::pi;
   if (std::min(along, across) > margin) {
     out.status = DirectionStatus::kFour;
+    // From both squares: acos of one alone would lose half the digits beside its end of [0, pi/2].
     out.theta = std::atan2(std::sqrt(across), std::sqrt(along));
     add_roots(foot, radial, {out.theta, -out.theta, half_turn - out.theta, half_turn + out.theta}, out);
     return;
   }
+  // Merged or missing root: the principal direction on whose side it lies.
   out.theta = along > across ? 0.0 : 0.5 * half_turn;
   out.status = std::min(along, across) < -margin ? DirectionStatus::kNone : DirectionStatus::kTwo;
   if (out.status == DirectionStatus::kTwo) add_roots(foot, radial, {out.theta, half_turn + out.theta}, out);
@@ -61,6 +66,7 @@ AdmissibleDirections admissible_directions(const Footpoint& foot, const RadialJe
   if (!is_a_tool(foot, radial)) return out;
   out.centre = foot.point + radial.r * foot.normal;
   out.mu = radial.d2 / (1.0 - radial.d1 * radial.d1);
+  // Focal points before anything is divided by 1 - r k2.
   const double focal = radial.r * foot.k2 - 1.0;
   if (focal > kFocalBand) {
     out.status = DirectionStatus::kGouge;

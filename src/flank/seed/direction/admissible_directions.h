@@ -26,7 +26,7 @@ namespace flank::internal {
 /// By how much cos^2(theta) may leave [0, 1] and still count as its end, and by how much it may stay inside and do so:
 /// the principal direction then solves the second-order equation to this share of lambda1 - lambda2. No unit.
 inline constexpr double kMergedRoots = 1e-12;
-/// A footpoint is umbilic where r (lambda1 - lambda2) is at most this; there mu fits where r |mu - lambda| is. No unit.
+/// A footpoint is umbilic if r (lambda1 - lambda2) is at most this; there mu fits if r |mu - lambda| is. No unit.
 inline constexpr double kUmbilicSpread = 1e-9;
 /// Half-width in r k2 of the band that counts as focal. No unit.
 inline constexpr double kFocalBand = 1e-9;
@@ -49,11 +49,11 @@ struct AdmissibleDirections {
   double lambda1 = 0.0;        ///< second derivative of d along d1, 1/mm
   double lambda2 = 0.0;        ///< the same along d2; minus infinity at a focal point. Both 0 for kNotATool, kGouge
   double gap = 0.0;  ///< distance of mu to [lambda2, lambda1], 1/mm; to lambda1: kFocal; infinite: kNotATool, kGouge
-  double theta =
-      0.0;  ///< of the first root, in [0, pi/2]; kNone: of the principal direction nearest to one; kFocal: 0, of d1
+  /// Of the first root, in [0, pi/2]; kNone: of the principal direction nearest to one; kFocal: 0, of d1.
+  double theta = 0.0;
   int count = 0;  ///< 4, 2 or 0 roots; 0 for kEvery: ask axis_direction
-  std::array<Vec3, 4>
-      directions;  ///< unit, tip to holder, at theta, -theta, pi - theta, pi + theta; kTwo: theta, pi + theta
+  /// Unit, tip to holder, at theta, -theta, pi - theta, pi + theta; kTwo: theta, pi + theta.
+  std::array<Vec3, 4> directions;
 
   [[nodiscard]] std::span<const Vec3> roots() const&& = delete;  // it would outlive the directions
   [[nodiscard]] std::span<const Vec3> roots() const& { return {directions.data(), static_cast<std::size_t>(count)}; }

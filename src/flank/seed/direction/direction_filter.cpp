@@ -30,20 +30,22 @@ void take_angles(const Footpoint& foot, const RadialJet& radial, std::initialize
     out.directions[static_cast<std::size_t>(out.count++)] = axis_direction(foot, radial, theta);
 }
 
-/// No root, but near: d1 and d2 are the ends of the range of lambda; at an umbilic all directions are alike.
+/// No root, but near: d1 and d2 are the ends of the range of lambda, so one of them is off least. At an umbilic all
+/// directions are alike, and four even ones stand for them.
 void clamp(const Footpoint& foot, const RadialJet& radial, const AdmissibleDirections& fitted,
            CandidateDirections& out) {
-  constexpr double kTurn = std::numbers::pi;
+  constexpr double kHalfTurn = std::numbers::pi;
   if (out.every)
-    take_angles(foot, radial, {0.0, 0.5 * kTurn, kTurn, 1.5 * kTurn}, out);
+    take_angles(foot, radial, {0.0, 0.5 * kHalfTurn, kHalfTurn, 1.5 * kHalfTurn}, out);
   else
-    take_angles(foot, radial, {fitted.theta, fitted.theta + kTurn}, out);
+    take_angles(foot, radial, {fitted.theta, fitted.theta + kHalfTurn}, out);
 }
 
 bool has_roots(DirectionStatus status) {
   return status == DirectionStatus::kFour || status == DirectionStatus::kTwo || status == DirectionStatus::kEvery;
 }
 
+/// The first test is for a focal point of a sphere, where both are minus infinity and their difference is no number.
 bool is_umbilic(const AdmissibleDirections& found, double r) {
   return found.lambda1 == found.lambda2 || r * (found.lambda1 - found.lambda2) <= kUmbilicSpread;
 }
@@ -60,9 +62,10 @@ CandidateDirections candidate_directions(const Footpoint& foot, const RadialJet&
     out.error_mm = std::numeric_limits<double>::infinity();
     return out;
   }
+  // The slope of the fitted sphere is that of the tool: only its radius was changed.
   const double q = 1.0 - radial.d1 * radial.d1, length = options.contact_length_mm;
   out.every = is_umbilic(found, fitted.radial.r);
-  out.error_mm = fitted.excess_mm + q * found.gap * length * length / 16.0;
+  out.error_mm = fitted.excess_mm + q * found.gap * length * length / kParabolaShare;
   if (has_roots(found.status)) {
     out.candidate = Candidate::kReal;
     out.count = found.count;
