@@ -8,14 +8,21 @@
 namespace flank::internal {
 namespace {
 
+/// Pieces of the axis for the thinnest place: the message gives its s to three digits.
+constexpr int kRadiusPieces = 100;
+/// Mean spacings: uncovered cells that are closer than this belong to one patch. Cells are not square, so their
+/// diagonals may reach over sqrt(2) spacings; 2.5 also joins patches that one row of covered cells divides, which read
+/// as one gap.
+constexpr double kPatchReach = 2.5;
+
 struct ThinPlace {
   double s = 0.0, radius = 1e300;
 };
 
 ThinPlace thinnest(const RadialFunction& radial) {
   ThinPlace thin;
-  for (int j = 0; j <= 100; ++j) {
-    const double s = radial.axis_length() * j / 100.0, r = radial.at(s).r;
+  for (int j = 0; j <= kRadiusPieces; ++j) {
+    const double s = radial.axis_length() * j / double(kRadiusPieces), r = radial.at(s).r;
     if (r < thin.radius) thin = {s, r};
   }
   return thin;
@@ -28,11 +35,11 @@ std::vector<char> covered_cells(const CoverSamples& samples, const std::vector<C
   return covered;
 }
 
-/// Uncovered samples that hang together, the largest such patch: its area and its middle.
+/// The largest connected patch of uncovered samples: its area and its middle (the mean of its samples).
 std::pair<double, Vec3> largest_gap(const CoverSamples& samples, const std::vector<CoverStrip>& strips) {
   std::vector<char> covered = covered_cells(samples, strips);
   const double reach =
-      2.5 * std::sqrt(samples.area / static_cast<double>(std::max<std::size_t>(1, samples.cells.size())));
+      kPatchReach * std::sqrt(samples.area / static_cast<double>(std::max<std::size_t>(1, samples.cells.size())));
   std::pair<double, Vec3> largest{0.0, Vec3::Zero()};
   for (std::size_t first = 0; first < samples.cells.size(); ++first) {
     if (covered[first] != 0) continue;
@@ -72,6 +79,7 @@ ConcavePlace most_concave(const Target& target, const CoverSamples& samples, con
 
 std::string reason_of(const Target& target, const RadialFunction& radial, const CoverSamples& samples,
                       const std::vector<CoverStrip>& strips, double tolerance_mm) {
+  // The hollow first: if it is too tight, no path can help, and every other reason would only follow from it.
   const ConcavePlace concave = most_concave(target, samples, strips);
   const ThinPlace thin = thinnest(radial);
   if (thin.radius * concave.curvature > 1.0)

@@ -1,4 +1,4 @@
-/// Why a tool does not cover what was asked: the sentence for the user, with its figures.
+/// Why a tool does not cover the whole target: the sentence for the user, with its figures.
 #pragma once
 
 #include <string>
@@ -9,16 +9,20 @@
 
 namespace flank::internal {
 
-/// Largest concave curvature (1/mm, 0 where none is concave) over those cells that no strip covers, and where.
+/// The most concave place of a target.
 struct ConcavePlace {
+  /// Larger principal curvature, 1/mm; a sphere of radius above 1/curvature does not fit there
   double curvature = 0.0;
-  Vec3 point = Vec3::Zero();
+  Vec3 point = Vec3::Zero();  ///< of the target; meaningless if the curvature is 0
 };
+/// The largest concave curvature over the cells that no strip covers; 0 if none of them is concave. Strips must have
+/// been measured with `samples`.
 [[nodiscard]] ConcavePlace most_concave(const Target& target, const CoverSamples& samples,
                                         const std::vector<CoverStrip>& strips);
 
-/// One sentence. The tool's radius against the most concave place that is not covered, where that forbids it; else the
-/// largest uncovered patch; empty where all is covered.
+/// One sentence without a full stop, in mm. In this order: the tool's smallest radius is too large for the most concave
+/// place that is not covered; there is no strip, so no line of the tool suits the target; the largest patch that is not
+/// covered, with its area and its middle. Empty if all is covered. Strips must have been measured with `samples`.
 [[nodiscard]] std::string reason_of(const Target& target, const RadialFunction& radial, const CoverSamples& samples,
                                     const std::vector<CoverStrip>& strips, double tolerance_mm);
 

@@ -7,6 +7,10 @@
 namespace flank::internal {
 namespace {
 
+/// mm. An order has to be shorter by this: else round-off, which differs with the order of a sum, could make 2-opt go
+/// round in circles, and ties would not go to the first.
+constexpr double kShorter = 1e-9;
+
 double way(const Pose& a, const Pose& b, double axis_length) {
   return 0.5 * ((a.tip - b.tip).norm() + (a.at(axis_length) - b.at(axis_length)).norm());
 }
@@ -51,6 +55,8 @@ StripOrder nearest_neighbours(const Ends& ends, std::size_t first, char turned) 
   return order;
 }
 
+/// 2-opt: a stretch reversed as a whole, each of its strips turned, changes only the two links at its ends. i = j turns
+/// one strip. The whole length is computed anew: there are few strips, and a sum of differences would drift.
 void improve(const Ends& ends, StripOrder& order) {
   const auto n = static_cast<std::ptrdiff_t>(order.index.size());
   double length = ends.length(order);
@@ -63,7 +69,7 @@ void improve(const Ends& ends, StripOrder& order) {
         std::reverse(trial.turned.begin() + i, trial.turned.begin() + j + 1);
         for (std::ptrdiff_t k = i; k <= j; ++k) trial.turned[static_cast<std::size_t>(k)] ^= 1;
         const double d = ends.length(trial);
-        if (d >= length - 1e-9) continue;
+        if (d >= length - kShorter) continue;
         length = d;
         order = trial;
         changed = true;
@@ -76,6 +82,7 @@ void improve(const Ends& ends, StripOrder& order) {
 
 RuledMotion reversed(const RuledMotion& motion) {
   RuledMotion back = motion;
+  // t -> a + b - t on a B-spline: control points and knots in reverse order.
   for (BSplineCurve3* rail : {&back.tip, &back.direction}) {
     rail->poles = rail->poles.rowwise().reverse().eval();
     const double sum = rail->knots.front() + rail->knots.back();
@@ -101,13 +108,14 @@ StripOrder strip_order(const std::vector<RuledMotion>& motions) {
   Ends ends;
   ends.axis_length = motions.front().axis_length;
   for (const RuledMotion& motion : motions) ends.poses.push_back({motion.pose(0.0), motion.pose(1.0)});
+  // Nearest neighbours depend much on where they begin, so every beginning is tried.
   double least = 1e300;
   for (std::size_t first = 0; first < motions.size(); ++first) {
     for (const char turned : {char{0}, char{1}}) {
       StripOrder order = nearest_neighbours(ends, first, turned);
       improve(ends, order);
       const double length = ends.length(order);
-      if (length >= least - 1e-9) continue;
+      if (length >= least - kShorter) continue;
       least = length;
       best = order;
     }
