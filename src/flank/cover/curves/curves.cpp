@@ -16,25 +16,32 @@
 namespace flank::internal {
 namespace {
 
-constexpr int kControlPoints = 48;  ///< most, of a rail through a group's poses
+/// Most control points of a rail through a group's poses: as many as smoothed rails have at most by default. Fewer than
+/// the group has lines showed no gain (docs/algorithms/curves.md).
+constexpr int kControlPoints = 48;
+/// An arc of length L that turns by phi leaves its chord by the sagitta L phi / 8.
+constexpr double kSagitta = 8.0;
+/// Seeds per task: enough for a fitter's memory to be worth setting up.
+constexpr std::size_t kSeedGrain = 16;
 
 double limit_of(const TileScene& scene) {
   return (scene.options.curves.refine ? 1.0 : scene.options.curves.slack) * scene.options.tolerance_mm;
 }
 
+/// Lines are refined and measured with what they may be off, not with the tolerance: SMOOTH takes the rest.
 LineFitOptions loose_options(const TileScene& scene) {
   LineFitOptions options = line_options(scene);
   options.tolerance_mm = limit_of(scene);
   return options;
 }
 
-/// A line beside the curve by x across the normal is off by at most x^2 / (2 r) there, and a curve of length L that turns by
-/// phi has a line within x = L phi / 8: so much turning costs slack tolerances and no more.
+/// A line beside the curve by x across the normal is off by at most x^2 / (2 r) there, and a curve of length L that
+/// turns by phi has a line within x = L phi / 8: so much turning costs slack tolerances and no more.
 double straightness_of(const TileScene& scene) {
   const CurvesOptions& from = scene.options.curves;
   if (from.straightness_rad > 0.0) return from.straightness_rad;
   const double length = scene.radial.axis_length(), r = scene.radial.at(0.5 * length).r;
-  return std::max(kStraightnessRad, 8.0 * std::sqrt(2.0 * r * from.slack * scene.options.tolerance_mm) / length);
+  return std::max(kStraightnessRad, kSagitta * std::sqrt(2.0 * r * from.slack * scene.options.tolerance_mm) / length);
 }
 
 IntegralCurveOptions curve_options(const TileScene& scene) {
@@ -58,8 +65,7 @@ std::vector<StraightLine> lines_of(const TileScene& scene, CurveCounts& counts) 
       curve_seeds(scene.target, scene.radial, from.places, from.spheres, options.filter);
   std::vector<std::optional<StraightLine>> found(seeds.size());
   std::vector<char> straight(seeds.size(), 0);
-  constexpr std::size_t kGrain = 16;
-  parallel_blocks(seeds.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  parallel_blocks(seeds.size(), kSeedGrain, [&](std::size_t begin, std::size_t end) {
     LineFitter fitter(scene.target, scene.radial, loose_options(scene));
     for (std::size_t k = begin; k < end; ++k) {
       const IntegralCurve curve = integral_curve(scene.target, scene.radial, seeds[k], options);
@@ -101,13 +107,15 @@ std::vector<CoverStrip> strips_through(const TileScene& scene, const std::vector
   return strips;
 }
 
-/// The strip that adds most, of those that overlap what is covered by at most a share of their area; -1: none is worth it.
+/// The strip that adds most, of those that overlap what is covered by at most a share of their area; -1: none is worth
+/// it.
 int next_strip(const std::vector<CoverStrip>& pool, const CellCount& covered, double area, double most_overlap,
                double price) {
   int best = -1;
   double most = price;
   for (std::size_t k = 0; k < pool.size(); ++k) {
     const double gain = covered.gain(pool[k]);
+    // gain * area: what it adds, mm^2. So this says: at most the share `most_overlap` of the strip is covered already.
     if (gain <= most || gain * area < (1.0 - most_overlap) * pool[k].area) continue;
     most = gain;
     best = static_cast<int>(k);
@@ -115,13 +123,13 @@ int next_strip(const std::vector<CoverStrip>& pool, const CellCount& covered, do
   return best;
 }
 
-/// Paper B's heuristic: the largest strip, then again and again the largest that hardly overlaps those before it. It ends
-/// with gaps, so what adds most follows as long as it is worth it.
+/// Paper B's heuristic: the largest strip, then again and again the largest that hardly overlaps those before it. It
+/// ends with gaps, so what adds most follows as long as it is worth it.
 std::vector<CoverStrip> chosen(const TileScene& scene, const std::vector<CoverStrip>& pool) {
   const CoverOptions& options = scene.options;
   CellCount covered(scene.samples);
   std::vector<CoverStrip> result;
-  for (const double overlap : {options.curves.most_overlap, 1.0}) {
+  for (const double overlap : {options.curves.most_overlap, 1.0}) {  // 1: any overlap
     while (static_cast<int>(result.size()) < options.most_strips) {
       const int k = next_strip(pool, covered, scene.samples.area, overlap,
                                std::max(options.strip_price, options.curves.least_gain));
@@ -158,6 +166,7 @@ SmoothedCurves smoothed_curves(const TileScene& dense, const std::vector<CoverSt
     certain[k] =
         cut_to_certified(dense.samples, dense.guard, lifted(dense.samples, dense.guard, start[k], dense.radial, fitter),
                          dense.radial, fitter);
+    // Not certified, so it must not count as something to fall back to; its motion is still what SMOOTH starts from.
     if (!is_certified(dense.guard, start[k], dense.options.tolerance_mm)) start[k].cells.clear();
   });
   const auto drop_empty = [](std::vector<CoverStrip>& all) {

@@ -1,4 +1,6 @@
 /// Strategy `curves`: paper B's own pipeline as far as it goes, for comparison with `grow` (docs/algorithms/curves.md).
+///
+/// Deterministic for any number of threads; CurvesOptions::seed decides the clusters.
 #pragma once
 
 #include <string>
@@ -21,18 +23,19 @@ struct CurveStrips {
   CurveCounts counts;
 };
 
-/// Seeds, integral curves, lines, clusters, groups, choice: paper B's initial motions of the tool.
+/// Seeds, integral curves, lines, clusters, groups, choice: paper B's initial motions of the tool. No strips if no line
+/// is within slack tolerances, or fewer than five of them follow each other; the counts say which.
 [[nodiscard]] CurveStrips strips_of_curves(const TileScene& scene);
 
 /// The strips measured at the tolerance itself. Those that fail their certificate count for nothing before SMOOTH, but
 /// are what it starts from. What it leaves is certified, without strips that are not worth their price.
 struct SmoothedCurves {
-  double coverage_before = 0.0;  ///< by what could be certified as it was, cut short where that is needed
+  double coverage_before = 0.0;  ///< by the strips as they were, cut short to what could be certified
   std::vector<CoverStrip> strips;
 };
 [[nodiscard]] SmoothedCurves smoothed_curves(const TileScene& dense, const std::vector<CoverStrip>& strips);
 
-/// "5321 curves, 1712 straight, ..."
+/// The counts as a note for the user: "5321 integral curves, 1712 long enough, ...".
 [[nodiscard]] std::string counts_text(const CurveCounts& counts);
 
 }  // namespace flank::internal

@@ -9,6 +9,9 @@
 namespace flank::internal {
 namespace {
 
+/// Of the axis length: a rest of the axis that is shorter than this is round-off, not a step.
+constexpr double kShortestStep = 1e-9;
+
 /// One side of a curve, from the seed towards the tip or the holder.
 class Tracer {
  public:
@@ -32,8 +35,8 @@ class Tracer {
   const IntegralCurveOptions& options_;
 };
 
-/// The admissible direction nearest to the last one. At an umbilic of the right curvature all are admissible: the last one
-/// goes on, laid into the cone of first-order contact.
+/// The admissible direction nearest to the last one. At an umbilic of the right curvature all are admissible: the last
+/// one goes on, laid into the cone of first-order contact.
 CurveEnd Tracer::continued(const Footpoint& foot, const RadialJet& jet, Vec3& direction) const {
   const CandidateDirections found = candidate_directions(foot, jet, options_.filter);
   if (found.candidate == Candidate::kRejected) return foot.k2 * jet.r > 1.0 ? CurveEnd::kFocal : CurveEnd::kLost;
@@ -60,13 +63,15 @@ CurveEnd Tracer::moved(const State& from, const Vec3& slope, double step, State&
 
 CurveEnd Tracer::run(const CurveSeed& seed, bool to_holder, std::vector<double>& s, std::vector<Vec3>& centres) {
   const double length = radial_.axis_length(), end = to_holder ? length : 0.0;
-  const double most = std::cos(options_.straightness_rad), shortest = 1e-9 * length;
+  const double most = std::cos(options_.straightness_rad), shortest = kShortestStep * length;
   State now{seed.foot, seed.s, seed.direction}, middle, next;
   while (std::abs(end - now.s) > shortest) {
     const double reach = std::min(length / options_.steps, std::abs(end - now.s));
     const double step = to_holder ? reach : -reach;
+    // Midpoint rule: half a step to learn the direction there, then the whole step along it.
     if (const CurveEnd why = moved(now, now.direction, 0.5 * step, middle); why != CurveEnd::kNotRun) return why;
     if (const CurveEnd why = moved(now, middle.direction, step, next); why != CurveEnd::kNotRun) return why;
+    // Counted from the seed, the turn bounds how far the curve is from a line whatever the number of steps.
     const Vec3& reference = options_.step_by_step ? now.direction : seed.direction;
     if (next.direction.dot(reference) < most) return CurveEnd::kStraightness;
     now = next;
@@ -98,8 +103,9 @@ IntegralCurve integral_curve(const Target& target, const RadialFunction& radial,
   FLANK_ASSERT(options.steps >= 2 && std::abs(seed.direction.squaredNorm() - 1.0) < 1e-6);
   IntegralCurve curve;
   Tracer tracer(target, radial, options);
-  curve.s.reserve(static_cast<std::size_t>(options.steps) + 3);
-  curve.centres.reserve(static_cast<std::size_t>(options.steps) + 3);
+  const std::size_t most = static_cast<std::size_t>(options.steps) + 3;  // a shorter last step each way, and the seed
+  curve.s.reserve(most);
+  curve.centres.reserve(most);
   curve.tip = tracer.run(seed, false, curve.s, curve.centres);
   std::reverse(curve.s.begin(), curve.s.end());
   std::reverse(curve.centres.begin(), curve.centres.end());

@@ -1,29 +1,34 @@
 /// Integral curves of the admissible directions (paper B, section 4.2): where the axis would run if the tool touched to
 /// second order all along it. Where such a curve is straight it is an axis.
 ///
-/// The state is (footpoint, s); the axis point is c(s) = p + r(s) n. dc/ds is the admissible direction that continues the
-/// last one, so d(c(s)) = r(s) all along, and r(s) = h is never solved for s: a radius that occurs twice needs no memory
-/// of r', as in paper B.
+/// The state is (footpoint, s); the axis point is c(s) = p + r(s) n. dc/ds is the admissible direction that continues
+/// the last one, so d(c(s)) = r(s) all along, and r(s) = h is never solved for s: a radius that occurs twice needs no
+/// memory of r', as in paper B.
 #pragma once
 
+#include <numbers>
 #include <vector>
 
 #include "flank/seed/direction/direction_filter.h"
 
 namespace flank::internal {
 
-/// Paper B's epsilon_linear, 2 degrees.
-inline constexpr double kStraightnessRad = 2.0 * 3.14159265358979323846 / 180.0;
+/// Paper B's epsilon_linear, 2 degrees. It is published, not derived: what a turn costs is in straightness_of
+/// (curves.cpp).
+inline constexpr double kStraightnessRad = 2.0 * std::numbers::pi / 180.0;
 
 struct IntegralCurveOptions {
-  int steps = 16;  ///< of the midpoint rule over the whole axis, >= 2
+  /// Steps of the midpoint rule over the whole axis, >= 2. Its error is of second order: on curvatures that change
+  /// within a sixteenth of the axis, raise it; the time is proportional to it.
+  int steps = 16;
   /// Largest angle between the direction at the seed and any other of the curve. That bounds the curve's distance to a
   /// line whatever the number of steps.
   double straightness_rad = kStraightnessRad;
-  /// Paper B (13) as printed: the angle is that between the directions of two successive steps. Then the curve may turn by
-  /// `steps` times as much.
+  /// Paper B (13) as printed: the angle is that between the directions of two successive steps. Then the curve may turn
+  /// by `steps` times as much.
   bool step_by_step = false;
-  DirectionFilterOptions filter;  ///< contact_length_mm > 0; directions that are near to a root go on, too
+  /// contact_length_mm > 0. A curve also goes on along directions that are only near a root (Candidate::kNear).
+  DirectionFilterOptions filter;
 };
 
 /// Why a curve ended on one side.
@@ -36,22 +41,25 @@ enum class CurveEnd {
   kStraightness  ///< the direction turned by more than straightness_rad
 };
 
-/// A sphere of the tool at rest on the target, and one way for the axis to go on.
+/// A sphere of the tool at rest on the target, and one direction for the axis to go on.
 struct CurveSeed {
   Footpoint foot;  ///< kInside
   double s = 0.0;
   Vec3 direction = Vec3::UnitZ();  ///< unit, tip to holder: one of candidate_directions(foot, r(s))
 };
 
+/// As many points as steps could be made, the seed's own among them. `tip` and `holder` say why it ended towards either
+/// end.
 struct IntegralCurve {
   std::vector<double> s;      ///< ascending, within [0, L]
   std::vector<Vec3> centres;  ///< c(s), mm
   CurveEnd tip = CurveEnd::kNotRun, holder = CurveEnd::kNotRun;
+  /// Length of the piece of the axis that the curve runs along, mm.
   [[nodiscard]] double span() const { return s.empty() ? 0.0 : s.back() - s.front(); }
 };
 
-/// Footpoints spread evenly over the target (about `places`) times the middles of `spheres` equal pieces of [0, L], with
-/// every direction that the filter leaves.
+/// Footpoints spread evenly over the target (about `places`) times the middles of `spheres` equal pieces of [0, L],
+/// with every direction that the filter leaves.
 [[nodiscard]] std::vector<CurveSeed> curve_seeds(const Target& target, const RadialFunction& radial, int places,
                                                  int spheres, const DirectionFilterOptions& filter);
 

@@ -10,7 +10,10 @@
 namespace flank::internal {
 namespace {
 
+/// Lines per task: each costs a distance to every centre, some hundred of them.
 constexpr std::size_t kGrain = 64;
+/// Mean of (s - L/2)^2 over [0, L], over L^2: what a difference of the axes weighs against one of the middles.
+constexpr double kTurnVariance = 12.0;
 
 /// A mean of lines: its axis is not of unit length.
 struct Centre {
@@ -20,7 +23,7 @@ struct Centre {
 class Clustering {
  public:
   Clustering(const std::vector<Pose>& lines, double axis_length, const LineClusterOptions& options)
-      : weight_(axis_length * axis_length / 12.0), ends_alike_(options.ends_alike) {
+      : weight_(axis_length * axis_length / kTurnVariance), ends_alike_(options.ends_alike) {
     for (const Pose& line : lines) lines_.push_back({line.at(0.5 * axis_length), line.axis});
     cluster_.assign(lines.size(), -1);
     distance_.assign(lines.size(), 1e300);
@@ -63,6 +66,7 @@ void Clustering::spread(int count, Random& random) {
   }
 }
 
+/// Every line to its nearest centre, the first of equals; returns whether anything changed.
 bool Clustering::assign() {
   std::vector<int> nearest(lines_.size());
   parallel_blocks(lines_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
@@ -81,6 +85,8 @@ bool Clustering::assign() {
   return changed;
 }
 
+/// Means of the clusters. A mean axis is shorter than 1 if the axes differ: as a point of the six-dimensional space it
+/// is right like that, and normalising it would make Lloyd's rounds lose their descent.
 void Clustering::update() {
   std::vector<Centre> sums(centres_.size());
   std::vector<int> counts(centres_.size(), 0);
@@ -94,6 +100,7 @@ void Clustering::update() {
     if (counts[c] > 0) centres_[c] = {sums[c].middle / counts[c], sums[c].axis / counts[c]};
 }
 
+/// Clusters numbered without the empty ones. Of lines equally near to their mean the first stands for them.
 LineClusters Clustering::result() const {
   std::vector<int> best(centres_.size(), -1), number(centres_.size(), -1);
   for (std::size_t k = 0; k < lines_.size(); ++k) {
@@ -115,7 +122,7 @@ LineClusters Clustering::result() const {
 
 double squared_line_distance(const Pose& a, const Pose& b, double axis_length) {
   return (a.at(0.5 * axis_length) - b.at(0.5 * axis_length)).squaredNorm() +
-         axis_length * axis_length / 12.0 * (a.axis - b.axis).squaredNorm();
+         axis_length * axis_length / kTurnVariance * (a.axis - b.axis).squaredNorm();
 }
 
 Pose turned_round(const Pose& pose, double axis_length) { return {pose.at(axis_length), -pose.axis}; }

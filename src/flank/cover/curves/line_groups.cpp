@@ -10,7 +10,7 @@
 namespace flank::internal {
 namespace {
 
-/// A line on its way: `velocity` in the sense of the group's motion.
+/// A line of a group: `velocity` in the sense of the group's motion.
 struct Step {
   int line = -1;
   Pose pose;
@@ -41,6 +41,7 @@ class Grouper {
   const LineGroupOptions& options_;
 };
 
+/// mm: root mean square over the axis, the smaller one of both senses if the tool's ends are alike.
 double Grouper::distance(std::size_t a, std::size_t b) const {
   double d = squared_line_distance(lines_[a].pose, lines_[b].pose, length_);
   if (options_.ends_alike)
@@ -48,6 +49,7 @@ double Grouper::distance(std::size_t a, std::size_t b) const {
   return std::sqrt(d);
 }
 
+/// Median, not mean: lines that stand alone must not widen the reach of all others.
 double Grouper::median_distance() const {
   std::vector<double> nearest(lines_.size(), 1e300);
   parallel_for(lines_.size(), [&](std::size_t a) {
@@ -59,7 +61,8 @@ double Grouper::median_distance() const {
   return *middle;
 }
 
-/// The line turned round and its velocity reversed where that fits the last line better.
+/// The line turned round, and its velocity reversed, if that fits the last line better. Turning round keeps the
+/// velocity of the middle and changes the sign of omega, the derivative of an axis that has changed its own.
 Step Grouper::facing(std::size_t line, const Step& last) const {
   Step step = at(line);
   if (options_.ends_alike && step.pose.axis.dot(last.pose.axis) < 0.0) {
@@ -71,6 +74,8 @@ Step Grouper::facing(std::size_t line, const Step& last) const {
   return step;
 }
 
+/// The line that the motion meets next; line -1: none lies that way. Its distance is measured across the axis, since a
+/// slide along it is no travel.
 Step Grouper::next(const Step& last, const std::vector<char>& used) const {
   const Vec3 middle = last.pose.at(0.5 * length_);
   const Vec3 heading = (last.velocity.middle - last.velocity.middle.dot(last.pose.axis) * last.pose.axis).normalized();
@@ -102,6 +107,7 @@ std::vector<Step> Grouper::follow(Step start, std::vector<char>& used) const {
   return steps;
 }
 
+/// Both ways from one line, without meeting any line twice: `used` is shared by both.
 LineGroup group_from(const Grouper& grouper, std::size_t line, std::size_t lines) {
   std::vector<char> used(lines, 0);
   used[line] = 1;
