@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,20 +20,23 @@ enum class FamilyCoordinate {
   kAngle       ///< `angle`, or `slope` as its sine
 };
 
-/// The space of one family with one axis length. Values of a coordinate: low at 0, high at 1.
+/// The space of one family with one axis length. Values of a coordinate: low at 0, high at 1. Coordinates are chosen so
+/// that equal steps are about equally different tools: radii by ratio, curvatures by what the tolerance can tell apart.
+/// Immutable.
 class FamilyChart {
  public:
   /// `given`: names of parameter_names(family), mm and radians. A barrel's s0 is the middle of the axis unless given.
-  /// Radii reach from a tenth of the axis (five diameters long) to 15 hundredths of the target's diagonal, curvatures over
-  /// those of the target, angles to kMostAngle.
+  /// Radii reach from a tenth of the axis (five diameters long) to 15 hundredths of the target's diagonal, curvatures
+  /// over those of the target, angles to kMostAngle.
   FamilyChart(ToolFamily family, std::map<std::string, double> given, double axis_length, const ScreenPlaces& places,
               double tolerance_mm);
 
+  /// The open parameters, in the order of the family's names; empty if all are given.
   [[nodiscard]] const std::vector<FamilyCoordinate>& coordinates() const { return coordinates_; }
-  /// Grid levels of a coordinate that see every different tool, roughly.
+  /// Grid levels of a coordinate that see every different tool, roughly; >= 2.
   [[nodiscard]] int levels(std::size_t coordinate) const;
   /// The tool at x in [0, 1]^n, its parameters rounded: radii to 0.01 mm, arcs to four digits, angles to 0.01 degrees.
-  /// Nothing where that is no legitimate tool.
+  /// Nothing if that is no legitimate tool (MATH section 1). Rounded, so that what is printed is what was tried.
   [[nodiscard]] std::optional<RadialFunction> at(const std::vector<double>& x) const;
   /// "radius from a tenth of the axis to 13.2 mm, arc from -31.2 mm (concave) over straight to 45.6 mm".
   [[nodiscard]] std::string text() const;
@@ -44,13 +48,16 @@ class FamilyChart {
   std::map<std::string, double> given_;
   double axis_length_ = 0.0;
   std::vector<FamilyCoordinate> coordinates_;
-  double radius_low_ = 0.0, radius_high_ = 0.0;
+  double radius_low_ = 0.0, radius_high_ = 0.0;        ///< mm
   double curvature_low_ = 0.0, curvature_high_ = 0.0;  ///< 1/mm, positive: the tool bulges
   double curvature_unit_ = 0.0;                        ///< 1/mm: what the tolerance sees along this axis
   double angle_low_ = 0.0, angle_high_ = 0.0;
 };
-inline constexpr double kMostConeAngle = 0.3490658503988659, kMostTaperAngle = 0.6981317007977318;  ///< rad
-inline constexpr double kMostSlope = 0.2;  ///< of `hyperbolic`, either way
+/// Ends of the coordinate kAngle. No limits of mathematics (any |r'| < 1 is a tool): wider than tools that are sold,
+/// and a compass search that ended at its edge, when cones went to 10 degrees only, found less.
+inline constexpr double kMostConeAngle = 20.0 * std::numbers::pi / 180.0;   ///< of the meridian to the axis, rad
+inline constexpr double kMostTaperAngle = 40.0 * std::numbers::pi / 180.0;  ///< of a tapered barrel, rad
+inline constexpr double kMostSlope = 0.2;                                   ///< of `hyperbolic`, dr/ds, either way
 
 /// "barrel:arc=85,radius=5": as --tool takes it; angles in degrees.
 [[nodiscard]] std::string family_text(const RadialFunction& radial);

@@ -11,9 +11,21 @@
 namespace flank::internal {
 namespace {
 
-constexpr double kTieShare = 0.01;  ///< of the face's area: what the smooth term is worth at most
+/// Share of the face's area that the smooth term is worth at most: two strip prices, so it decides between tools that
+/// cover alike and hardly against one that covers more.
+constexpr double kTieShare = 0.01;
+/// Axis lengths that are tried: the width of the face over 1 to so many strips. Shorter tools are always found to fit
+/// by a screen, and need ever more strips.
 constexpr int kMostStripsAcross = 4;
 constexpr std::size_t kStarts = 2;  ///< of the compass search, of different lengths
+/// Of the axis: a face that is wider than n axes by less than this still counts as n strips wide. Lengths are rounded
+/// to 0.1 mm, and neighbours overlap, so exact multiples would fall on either side by chance.
+constexpr double kWidthSlack = 0.1;
+constexpr double kLengthStepMm = 0.1;  ///< what axis lengths are rounded to, and the shortest
+/// First step of the compass search, in steps of the grid: half of one, as its neighbours in the grid were screened
+/// before.
+constexpr double kFirstStep = 0.5;
+constexpr double kNotTried = -1e300;                                                ///< value below all others
 constexpr double kGridTo = 0.02, kScreenTo = 0.05, kTryTo = 0.2, kCompassTo = 0.4;  ///< shares of progress
 
 /// One tool of the search: where it is, and what is known of it.
@@ -22,7 +34,7 @@ struct Member {
   std::vector<double> x;
   std::optional<RadialFunction> radial;
   ToolScreen screen;
-  double value = -1e300;
+  double value = kNotTried;
 };
 
 struct Search {
@@ -39,11 +51,12 @@ struct Search {
     tool.name = family_text(*candidate.radial);
     return tool;
   }
-  /// Covered share less the price of as many strips as lie side by side across the target.
+  /// Covered share minus the price of as many strips as lie side by side across the target.
   [[nodiscard]] double estimate(const Member& candidate) const {
-    const double across = std::ceil(places.front().front().width_mm / candidate.radial->axis_length() - 0.1);
+    const double across = std::ceil(places.front().front().width_mm / candidate.radial->axis_length() - kWidthSlack);
     return candidate.screen.open - options.ranking.cover.strip_price * across + tie(candidate.screen);
   }
+  /// In (0, kTieShare], falling with the screen's mean error; half of it where the error is what the filter allows.
   [[nodiscard]] double tie(const ToolScreen& screen) const {
     const double slack = screen_options.slack * screen_options.tolerance_mm;
     return kTieShare * slack / (slack + screen.mean_error_mm);
@@ -67,6 +80,8 @@ ToolScreen screen_all(const Search& search, const Screen& screen) {
   return sum;
 }
 
+/// All legitimate tools at the levels of all coordinates of all charts: counts up in mixed radix, the first coordinate
+/// fastest.
 std::vector<Member> grid_of(const Search& search) {
   std::vector<Member> grid;
   for (std::size_t c = 0; c < search.charts.size(); ++c) {
@@ -88,6 +103,7 @@ std::vector<Member> grid_of(const Search& search) {
   return grid;
 }
 
+/// Stable, so equal values stay in the order of the grid whatever the number of threads.
 void keep_best(std::vector<Member>& candidates, std::size_t count) {
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Member& a, const Member& b) { return a.value > b.value; });
@@ -111,7 +127,9 @@ void keep_best_of_each(const Search& search, std::vector<Member>& candidates, st
 
 /// The best, no two of them nearly the same.
 std::vector<Tool> best_tools(const Search& search, std::vector<Member> candidates, std::size_t count) {
-  constexpr double kAlike = 0.03;  ///< in every coordinate
+  /// In every coordinate: about half of the first step of the compass along the curvature, 1/16. Finalists that are all
+  /// the same tool would waste the full covers.
+  constexpr double kAlike = 0.03;
   keep_best(candidates, candidates.size());
   std::vector<const Member*> kept;
   for (const Member& candidate : candidates) {
@@ -121,7 +139,7 @@ std::vector<Tool> best_tools(const Search& search, std::vector<Member> candidate
         if (std::abs(other->x[k] - candidate.x[k]) > kAlike) return false;
       return true;
     };
-    if (kept.size() == count || candidate.value == -1e300 || std::any_of(kept.begin(), kept.end(), alike)) continue;
+    if (kept.size() == count || candidate.value == kNotTried || std::any_of(kept.begin(), kept.end(), alike)) continue;
     kept.push_back(&candidate);
   }
   std::vector<Tool> tools;
@@ -134,6 +152,7 @@ void screen_free(const Search& search, Member& candidate) {
   candidate.screen = screen_all(search, [&](std::size_t k, std::size_t side) {
     return screen_tool(search.places[k][side], tool, *search.targets[k][side].obstacles, search.screen_options);
   });
+  // A tool that cannot work is below all that may, but in the order of how near it came.
   candidate.value = candidate.screen.reason.empty() ? search.estimate(candidate) : candidate.screen.open - 1.0;
 }
 
@@ -146,7 +165,7 @@ void cover_quickly(const Search& search, std::vector<Member>& candidates, std::s
     progress.step(stage, from + (to - from) * double(first) / double(candidates.size()));
     parallel_for(std::min(batch, candidates.size() - first), [&](std::size_t k) {
       Member& candidate = candidates[first + k];
-      candidate.value = -1e300;
+      candidate.value = kNotTried;
       if (progress.stop() || !candidate.screen.reason.empty()) return;
       const RankedTool covered =
           cover_stage(search.targets, search.tool(candidate), RankingStage::kQuick, search.options.ranking, quiet);
@@ -171,11 +190,12 @@ std::vector<Member> neighbours(const Search& search, const Member& best, const s
   return around;
 }
 
-/// From one tool, in the share [first, last] of the compass' progress. All that were covered on the way join `tried`.
+/// From one tool, in the share [first, last] of the compass' progress. All tools that it covers join `tried`.
 void compass(const Search& search, Member best, double first, double last, std::vector<Member>& tried,
              const Progress& progress) {
   std::vector<double> step;
-  for (std::size_t k = 0; k < best.x.size(); ++k) step.push_back(0.5 / (search.charts[best.chart].levels(k) - 1));
+  for (std::size_t k = 0; k < best.x.size(); ++k)
+    step.push_back(kFirstStep / (search.charts[best.chart].levels(k) - 1));
   for (int round = 0; round < search.options.rounds && !progress.stop(); ++round) {
     std::vector<Member> around = neighbours(search, best, step);
     parallel_for(around.size(), [&](std::size_t k) { screen_free(search, around[k]); });
@@ -193,12 +213,13 @@ void compass(const Search& search, Member best, double first, double last, std::
   }
 }
 
-/// A compass search from the best, and from the best of another length: which length wins shows only when both are refined.
+/// A compass search from the best, and from the best of another length: which length wins shows only when both are
+/// refined.
 void refine(const Search& search, std::vector<Member>& tried, const Progress& progress) {
   std::vector<Member> starts;
   for (const Member& candidate : tried) {
     const bool other_length = starts.empty() || candidate.chart != starts.front().chart;
-    if (candidate.value > -1e300 && other_length && starts.size() < kStarts) starts.push_back(candidate);
+    if (candidate.value > kNotTried && other_length && starts.size() < kStarts) starts.push_back(candidate);
   }
   for (std::size_t k = 0; k < starts.size(); ++k)
     compass(search, starts[k], double(k) / kStarts, double(k + 1) / kStarts, tried, progress);
@@ -218,7 +239,8 @@ Search prepare(std::span<const RankingTarget> targets, ToolFamily family, const 
   for (double& share : search.share) share /= area;
   const double width = search.places.front().front().width_mm * (1.0 + options.ranking.cover.overlap_share);
   for (int n = 1; n <= (options.axis_length_mm ? 1 : kMostStripsAcross); ++n) {
-    search.lengths.push_back(options.axis_length_mm.value_or(std::max(0.1, std::round(10.0 * width / n) / 10.0)));
+    const double over_n = std::round(10.0 * width / n) / 10.0;  // tenths of a millimetre, exact as decimals
+    search.lengths.push_back(options.axis_length_mm.value_or(std::max(kLengthStepMm, over_n)));
     for (const ScreenPlaces& side : search.places.front())
       search.charts.emplace_back(family, given, search.lengths.back(), side, search.screen_options.tolerance_mm);
   }
@@ -263,6 +285,7 @@ FamilySearchResult search_family(std::span<const RankingTarget> targets, ToolFam
   if (candidates.empty())
     throw UsageError(
         fmt::format("--tool {}: none is a legitimate tool, over {}", family_name(family), result.searched));
+  // If nothing covers anything, the user still gets a tool to look at, with the reason why it does not.
   const Tool nearest = search.tool(candidates.front());
   cover_quickly(search, candidates, "try tools", kScreenTo, kTryTo, progress);
   keep_best(candidates, options.tried);
