@@ -12,8 +12,16 @@
 namespace flank::internal {
 namespace {
 
-/// Shares of the ranking's progress at which its rounds begin.
+/// Shares of the ranking's progress at which its rounds begin, rough guesses at their times. Shown only.
 constexpr double kQuickFrom = 0.05, kThoroughFrom = 0.2, kFullFrom = 0.4, kFullTo = 0.9;
+/// Share of the area: steps of the worth if strips are free. Covers differ by this much through their samples alone.
+constexpr double kLeastWorthStep = 1e-3;
+/// Chords of a strip's length. They are too short by their share of (turn)^2 / 24, nothing beside the feeds that are
+/// assumed.
+constexpr int kLengthChords = 200;
+/// After the quick round this share of the tools goes on (1 / kHalving), but never fewer than this many times the
+/// finalists: a quick cover may be wrong about the order of tools that are close (decision 0011).
+constexpr std::size_t kHalving = 2, kLeastPerFinalist = 2;
 
 double total_area(std::span<const RankingTarget> targets) {
   double area = 0.0;
@@ -95,7 +103,8 @@ void measure(std::span<const RankingTarget> targets, const RankingOptions& optio
   if (ranked.strips > 0) ranked.reason.clear();
 }
 
-/// Runs `body` for every index of `which`, as many at a time as there are threads, with progress in between.
+/// Runs `body` for every index of `which`, as many at a time as there are threads: progress and cancelling come between
+/// the batches, while one loop over all would show nothing for minutes.
 template <class Body>
 void for_tools(const std::vector<std::size_t>& which, std::string_view stage, double from, double to,
                const Progress& progress, const Body& body) {
@@ -117,9 +126,8 @@ struct RankingKey {
 };
 
 RankingKey key_of(const RankedTool& ranked, const RankingOptions& options) {
-  constexpr double kLeastStep = 1e-3;
   if (ranked.strips == 0) return {ranked.reason.empty() ? 1 : 2, -ranked.screen.accepted, 0.0, ranked.tool};
-  const double step = std::max(options.cover.strip_price, kLeastStep);
+  const double step = std::max(options.cover.strip_price, kLeastWorthStep);
   return {-static_cast<int>(ranked.stage), -std::round(ranking_value(ranked, options) / step), ranked.minutes,
           ranked.tool};
 }
@@ -137,11 +145,10 @@ std::vector<std::size_t> best_of(const std::vector<RankedTool>& ranked, std::vec
 }  // namespace
 
 double strip_length(const RuledMotion& motion) {
-  constexpr int kSteps = 200;
   double sum = 0.0;
   Pose last = motion.pose(0.0);
-  for (int i = 1; i <= kSteps; ++i) {
-    const Pose pose = motion.pose(static_cast<double>(i) / kSteps);
+  for (int i = 1; i <= kLengthChords; ++i) {
+    const Pose pose = motion.pose(static_cast<double>(i) / kLengthChords);
     sum += 0.5 * ((pose.tip - last.tip).norm() + (pose.at(motion.axis_length) - last.at(motion.axis_length)).norm());
     last = pose;
   }
@@ -196,10 +203,12 @@ std::vector<RankedTool> rank_tools(std::span<const RankingTarget> targets, std::
     });
   };
   std::erase_if(alive, [&](std::size_t k) { return !ranked[k].reason.empty(); });
+  // With no more tools than finalists there is nothing to sort out: they go to the full cover at once.
   const auto finalists = static_cast<std::size_t>(options.finalists);
   if (alive.size() > finalists) {
     advance(RankingStage::kQuick, "try tools", kQuickFrom, kThoroughFrom);
-    alive = best_of(ranked, alive, std::max(2 * finalists, (alive.size() + 1) / 2), options);
+    const std::size_t half = (alive.size() + kHalving - 1) / kHalving;
+    alive = best_of(ranked, alive, std::max(kLeastPerFinalist * finalists, half), options);
     advance(RankingStage::kThorough, "try the better half", kThoroughFrom, kFullFrom);
     alive = best_of(ranked, alive, finalists, options);
   }

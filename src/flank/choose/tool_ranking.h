@@ -13,27 +13,35 @@
 
 namespace flank::internal {
 
-/// One side of a target and what is in the tool's way there.
+/// One side of a target and what is in the tool's way there. Both must outlive the call; neither may be null.
 struct RankingSide {
   const Target* target = nullptr;
   const CoverObstacles* obstacles = nullptr;
 };
-/// What is to be machined: one side, or the better of two (an open sheet).
+/// What is to be machined: one side, or the better of two (an open sheet). Never empty.
 using RankingTarget = std::vector<RankingSide>;
 
+/// What machining time is reckoned with. It breaks ties between tools only, so the ratio of the two matters more than
+/// the values. Set them to those of the machine and the material.
 struct MachiningRates {
-  double feed_mm_min = 1000.0;   ///< of the contact along a strip
-  double rapid_mm_min = 5000.0;  ///< along links
+  double feed_mm_min = 1000.0;   ///< mm/min, > 0: along a strip, of the mean of both ends of the axis
+  double rapid_mm_min = 5000.0;  ///< mm/min, > 0: along links
 };
 
 struct RankingOptions {
-  CoverOptions cover;  ///< of the full covers
+  CoverOptions cover;  ///< of the full covers; the stages before them take fewer seeds and do not smooth
   MachiningRates rates;
-  int finalists = 3;      ///< tools that get a full cover
-  int quick_places = 16;  ///< seeds of the first round: places and directions of the grid
+  /// Tools that get a full cover, >= 1. The time of a ranking is mostly theirs. 3 had the best three of 37 tools; raise
+  /// it if the first ones of a ranking are close.
+  int finalists = 3;
+  /// Seeds of the first round: places, and directions of the grid where no admissible one leads on; >= 1. About half of
+  /// what a cover has (CoverOptions), since this round only has to find the better half.
+  int quick_places = 16;
   int quick_directions = 8;
+  /// Places of each side at which tools are screened, >= 1. Raise it for targets with small hollows: the screen sees
+  /// one place in so many of the area.
   int screen_places = 150;
-  /// cover(), unless a caller has another way to find strips.
+  /// cover(), unless a caller has another way to find strips. Called from several threads at once.
   std::function<CoverResult(const Target&, const Tool&, const CoverObstacles&, const CoverOptions&, const Progress&)>
       cover_with = flank::internal::cover;
 };
@@ -50,34 +58,35 @@ struct RankedTool {
   std::size_t tool = 0;  ///< index into the tools that were given
   RankingStage stage = RankingStage::kScreened;
   ToolScreen screen;                 ///< shares of all targets together; the better side of each
-  std::vector<CoverResult> results;  ///< one a target
-  std::vector<std::size_t> side;     ///< of each target
-  double reachable = 0.0;            ///< share of the area of all targets
-  double coverage = 0.0;             ///< share of that
+  std::vector<CoverResult> results;  ///< one per target
+  std::vector<std::size_t> side;     ///< of each target: the side that was better
+  double reachable = 0.0;            ///< share of the area of all targets, in [0, 1]
+  double coverage = 0.0;             ///< share of that, in [0, 1], by the planner's own estimate
   int strips = 0;
-  double strips_mm = 0.0, links_mm = 0.0;  ///< ways of the mean of both ends of the axis
-  double minutes = 0.0;
-  std::string reason;  ///< why it cannot work; empty for a tool that covers something, or may
+  double strips_mm = 0.0, links_mm = 0.0;  ///< travel, as strip_length and link_length have it
+  double minutes = 0.0;                    ///< at the rates; no lead-in and no retract
+  std::string reason;                      ///< why it cannot work; empty for a tool that covers something, or may
   [[nodiscard]] double covered() const { return reachable * coverage; }  ///< share of all
 };
 
-/// Way of the axis along a motion, mm: the mean of both of its ends (as link_length).
+/// Travel of the axis along a motion, mm: the mean of its two ends, by 200 chords.
 [[nodiscard]] double strip_length(const RuledMotion& motion);
 
-/// Best first, in this order: those that came farthest (a full cover before a quick one); most covered share of all
-/// targets, less the price of the strips, in steps of that price: less than a strip is worth is no difference; shortest
-/// time; the order in which they were given. Tools with a reason come last, those that are nearest to working first.
+/// Best first, sorted by (1) the stage reached (a full cover before a quick one), (2) ranking_value, rounded to steps
+/// of one strip price, so that smaller differences tie, (3) machining time, (4) the order in which they were given.
+/// Tools with a reason come last, those that are nearest to working first.
 ///
-/// Screens every tool, covers those that may work with few seeds and without smoothing, the better half of them with all
-/// seeds, and the best `finalists` in full: successive halving. Same result for any number of threads. A ranking that is
-/// cancelled has what it got to.
+/// Screens every tool, covers those that may work with few seeds and without smoothing, the better half of them with
+/// all seeds, and the best `finalists` in full: successive halving. Same result for any number of threads. A ranking
+/// that is cancelled has what it got to.
 [[nodiscard]] std::vector<RankedTool> rank_tools(std::span<const RankingTarget> targets, std::span<const Tool> tools,
                                                  const RankingOptions& options, const Progress& progress);
 
-/// What rank_tools is made of, for a search over tools: one tool, covered as a stage does it.
+/// One tool covered as a stage of rank_tools does it, for searches over tools. kFull smooths if the cover's options say
+/// so. The result has no index and no screen.
 [[nodiscard]] RankedTool cover_stage(std::span<const RankingTarget> targets, const Tool& tool, RankingStage stage,
                                      const RankingOptions& options, const Progress& progress);
-/// Covered share less the price of the strips.
+/// Covered share of all targets minus the price of the strips: what rankings sort by. May be negative.
 [[nodiscard]] double ranking_value(const RankedTool& ranked, const RankingOptions& options);
 
 }  // namespace flank::internal

@@ -14,6 +14,11 @@
 namespace flank::internal {
 namespace {
 
+/// Pieces of the axis for the thinnest radius, which decides what is reachable at all.
+constexpr int kRadiusPieces = 100;
+/// mm: radius of a hollow where there is none.
+constexpr double kAnyRoom = 1e300;
+
 /// What a place says of a tool.
 struct PlaceScreen {
   bool reachable = false, fits = false, accepted = false, open = false;
@@ -35,17 +40,18 @@ Spheres spheres_of(const RadialFunction& radial, const ScreenPlaces& places, con
     out.s.push_back((j + 0.5) / options.spheres * length);
     out.jets.push_back(radial.at(out.s.back()));
   }
-  for (int j = 0; j <= 100; ++j) out.thinnest = std::min(out.thinnest, radial.at(length * j / 100.0).r);
+  for (int j = 0; j <= kRadiusPieces; ++j)
+    out.thinnest = std::min(out.thinnest, radial.at(length * j / double(kRadiusPieces)).r);
   out.filter = {options.tolerance_mm, std::min(length, places.diagonal_mm), options.slack};
   return out;
 }
 
-/// The filter's error along any direction of the tangent plane, as candidate_directions has it for the best: by how much
-/// the second derivative of d is off there.
+/// The filter's error along any direction of the tangent plane, as candidate_directions has it for the best: by how
+/// much the second derivative of d is off there.
 double direction_error(const AdmissibleDirections& at, const RadialJet& jet, double excess_mm, double theta,
                        double length) {
   const double c = std::cos(theta), lambda = at.lambda1 * c * c + at.lambda2 * (1.0 - c * c);
-  return excess_mm + (1.0 - jet.d1 * jet.d1) * std::abs(at.mu - lambda) * length * length / 16.0;
+  return excess_mm + (1.0 - jet.d1 * jet.d1) * std::abs(at.mu - lambda) * length * length / kParabolaShare;
 }
 
 /// Is the tool free along one of the directions that the filter accepts? The admissible ones first, then a grid: a tool
@@ -55,6 +61,8 @@ bool is_open(const Footpoint& foot, const Spheres& spheres, std::size_t j, const
   const RadialJet& jet = spheres.jets[j];
   for (const Vec3& direction : found.all())
     if (guard.clear(contact_axis(foot, jet.r, spheres.s[j], direction))) return true;
+  // A sphere too large for the hollow is judged as one that just fits (direction_filter.h): within the focal band by
+  // two of its widths, so that its directions have second derivatives.
   RadialJet fitted = jet;
   if (foot.k2 * jet.r > 1.0 - kFocalBand) fitted.r = (1.0 - 2.0 * kFocalBand) / foot.k2;
   const AdmissibleDirections at = admissible_directions(foot, fitted);
@@ -72,7 +80,7 @@ PlaceScreen screen_place(const Footpoint& foot, const Spheres& spheres, const Li
   PlaceScreen place;
   place.reachable = !guard || guard->ball_is_clear(foot.point + guard->ball_radius() * foot.normal);
   if (!place.reachable) return place;
-  const double room = foot.k2 > 0.0 ? 1.0 / foot.k2 : 1e300;
+  const double room = foot.k2 > 0.0 ? 1.0 / foot.k2 : kAnyRoom;
   place.fits = spheres.thinnest - room <= options.slack * options.tolerance_mm;
   for (std::size_t j = 0; j < spheres.s.size() && place.fits; ++j) {
     const CandidateDirections found = candidate_directions(foot, spheres.jets[j], spheres.filter);
@@ -80,11 +88,12 @@ PlaceScreen screen_place(const Footpoint& foot, const Spheres& spheres, const Li
     if (found.candidate == Candidate::kRejected) continue;
     place.accepted = true;
     place.open = place.open || !guard || is_open(foot, spheres, j, found, *guard, options);
-    if (place.open && place.error_mm == 0.0) break;
+    if (place.open && place.error_mm == 0.0) break;  // no other sphere can do better
   }
   return place;
 }
 
+/// The first of the shares that is zero says why the tool cannot work; none: it may.
 std::string reason_of(const ToolScreen& screen, const ScreenPlaces& places, const Spheres& spheres,
                       const RadialFunction& radial, const ScreenOptions& options) {
   if (screen.reachable == 0.0)
@@ -145,6 +154,7 @@ ScreenPlaces screen_places(const Target& target, int places) {
   mean /= static_cast<double>(out.feet.size());
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const Footpoint& foot : out.feet) spread += (foot.point - mean) * (foot.point - mean).transpose();
+  // Eigenvalues ascend: column 0 is about the normal, 2 the longest extent, 1 the width.
   const Vec3 across = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(1);
   double low = 1e300, high = -1e300;
   for (const Footpoint& foot : out.feet) {
