@@ -11,36 +11,62 @@
 namespace flank::internal {
 namespace {
 
+/// Tilings that are tried, each from another first strip. Greedy choice depends on where it begins; each costs the
+/// growing of its neighbours, and they run in parallel.
 constexpr std::size_t kTilings = 6;
-/// Two strips that share more than this of their cells are one as a first strip.
+/// Two strips that share more than this of their cells are one as a first strip: their tilings would be the same.
 constexpr double kAlike = 0.6;
-/// Places along a strip where a neighbour is tried, in this order; one that adds enough ends it.
+/// Places along a strip (in t) where a neighbour is tried, in this order: the middle first, as a line there is most
+/// likely to grow along the whole edge. One that adds enough ends it: kGoodNeighbour of what the strip itself covers.
 constexpr std::array<double, 5> kPlaces = {0.5, 0.25, 0.75, 0.1, 0.9};
+constexpr double kGoodNeighbour = 0.8;
+/// Poses of a strip's edge that a neighbour follows: polygon segments a sixtieth long are straight beside the overlap.
 constexpr int kGuidePoses = 60;
-constexpr double kLeastInsideOfGaps = 0.25;
-constexpr double kLeastInside = 0.8;  ///< of a seed's line: what hangs over the border determines little
+/// Least share of a line's footpoints that lie inside the target. A seed's line: what hangs over the border determines
+/// little (MATH section 8). A line in a gap: gaps lie along borders and in corners, where lines hang over. A neighbour:
+/// it starts an axis length further, often mostly past the border, and is led by the edge.
+constexpr double kLeastInside = 0.8, kLeastInsideOfGaps = 0.25, kLeastInsideOfNeighbours = 0.05;
+/// LineHold::slide_share of a line that was slid out of another face: firm enough that the correction leaves it there.
+constexpr double kClearedSlide = 4.0;
+/// Fewest poses of a strip (motion_through needs them), and most control points of its rails: those of grown strips are
+/// many, so that little of what was certified is lost.
+constexpr std::size_t kLeastPoses = 5;
+constexpr int kGrownControlPoints = 48;
+/// Places of gaps that get seeds in one round, and how near to each other (in axis lengths) they may be: a line through
+/// one sees what is nearer.
+constexpr std::size_t kMostGapPlaces = 8;
+constexpr double kGapSpacing = 0.25;
+/// Shares of the axis that touch at a gap's place: the middle, and near either end, which reaches into corners.
+constexpr std::array<double, 3> kGapSpheres = {0.5, 0.15, 0.85};
+/// Share of the area by which an exchange must be better: round-off of the sums of areas must not make it go round in
+/// circles.
+constexpr double kLeastImprovement = 1e-6;
 
-/// The strip of a line near `pose`; no cells where there is none.
+/// The strip of a line near `pose`; no cells if there is none. `is_line`: set if a line within tolerance was found,
+/// whether or not it is clear and grows.
 CoverStrip strip_near(const TileScene& scene, LineFitter& fitter, const Pose& pose, const GrowGuide& guide,
                       double least_inside, bool* is_line = nullptr) {
   const double tolerance = scene.options.tolerance_mm, length = scene.radial.axis_length();
   fitter.forget();
   LineFit line = fitter.refine(pose);
   if (line.touches() && line.largest_mm <= tolerance && !scene.guard.clear(line.pose))
-    line = fitter.refine(slid_clear(scene.guard, line.pose, length), {Vec3::Zero(), 4.0});
+    line = fitter.refine(slid_clear(scene.guard, line.pose, length), {Vec3::Zero(), kClearedSlide});
   if (!line.touches() || line.largest_mm > tolerance || line.inside_share < least_inside ||
       fitter.overcut(line.pose, tolerance) > tolerance)
     return {};
   if (is_line) *is_line = true;
   if (!scene.guard.clear(line.pose)) return {};
   const GrownStrip grown = grow(fitter, scene.guard, line, guide);
-  if (grown.poses.size() < 5) return {};
-  CoverStrip strip = measure_strip(scene.samples, motion_through(grown.poses, length, 48), scene.radial, fitter);
-  // Its poses are clear; what lies between them is looked at for the strips that are chosen.
+  if (grown.poses.size() < kLeastPoses) return {};
+  CoverStrip strip =
+      measure_strip(scene.samples, motion_through(grown.poses, length, kGrownControlPoints), scene.radial, fitter);
+  // Its poses are clear; what lies between them is checked for the strips that are chosen: a guard without obstacles
+  // here.
   return cut_to_certified(scene.samples, LineGuard(), std::move(strip), scene.radial, fitter);
 }
 
-/// Strips beside `strip`, past its tip and past its holder end, that add to what is covered.
+/// Strips beside `strip`, past its tip and past its holder end, that add to what is covered: the best of each side, two
+/// at most. They start from the strip's own axis, shifted along itself by its length less the overlap.
 std::vector<CoverStrip> neighbours(const TileScene& scene, const CoverStrip& strip, const CellCount& covered) {
   const double length = scene.radial.axis_length(), overlap = scene.options.overlap_share * length;
   std::vector<Pose> poses;
@@ -54,42 +80,41 @@ std::vector<CoverStrip> neighbours(const TileScene& scene, const CoverStrip& str
     for (const double place : kPlaces) {
       Pose pose = strip.motion.pose(place);
       pose.tip += (beyond_tip ? overlap - length : length - overlap) * pose.axis;
-      CoverStrip trial = strip_near(scene, fitter, pose, guide, 0.05);
+      CoverStrip trial = strip_near(scene, fitter, pose, guide, kLeastInsideOfNeighbours);
       const double gain = covered.gain(trial);
       if (gain > most) {
         most = gain;
         best = std::move(trial);
       }
-      if (most > 0.8 * strip.area / scene.samples.area) break;
+      if (most > kGoodNeighbour * strip.area / scene.samples.area) break;
     }
     if (most > 0.0) found.push_back(std::move(best));
   }
   return found;
 }
 
-/// Seeds at places that nothing covers, far from each other; also with such a place near an end of the axis, which
-/// reaches into corners.
+/// Seeds at places that nothing covers, in even directions. The next place is the open cell farthest from those before
+/// it (farthest-point sampling), so large gaps and far ones come first.
 std::vector<LineSeed> gap_seeds(const TileScene& scene, const CellCount& covered) {
-  constexpr std::size_t kMostPlaces = 8;
   std::vector<std::size_t> open = covered.open();
   std::vector<double> far(open.size(), 1e300);
   std::vector<LineSeed> seeds;
   const auto cell = [&](std::size_t i) -> const SurfaceSample& { return scene.samples.cells[open[i]]; };
   std::size_t next = 0;
-  for (std::size_t places = 0; places < kMostPlaces && next < open.size(); ++places) {
-    for (const double share : {0.5, 0.15, 0.85})
+  for (std::size_t places = 0; places < kMostGapPlaces && next < open.size(); ++places) {
+    for (const double share : kGapSpheres)
       for (const Vec3& direction : seed_directions(cell(next).normal, scene.radial, scene.options.seed_directions))
         seeds.push_back({cell(next).point, cell(next).normal, direction, share * scene.radial.axis_length()});
     for (std::size_t i = 0; i < open.size(); ++i)
       far[i] = std::min(far[i], (cell(i).point - cell(next).point).squaredNorm());
     next = static_cast<std::size_t>(std::max_element(far.begin(), far.end()) - far.begin());
-    if (far[next] < std::pow(0.25 * scene.radial.axis_length(), 2)) break;
+    if (far[next] < std::pow(kGapSpacing * scene.radial.axis_length(), 2)) break;
   }
   return seeds;
 }
 
-/// One tiling: the first strip, then again and again what adds most, until nothing is worth its price. `grown` are
-/// the strips that were grown on the way; the set's indices at or above pool.size() count into it.
+/// One tiling: the first strip, then always the one that adds most, until none is worth its price. `grown` are
+/// the strips that were grown meanwhile; the set's indices at or above pool.size() count into it.
 struct Tiling {
   StripSet set;
   std::vector<CoverStrip> grown;
@@ -124,6 +149,7 @@ Tiling tile_from(const TileScene& scene, const std::vector<CoverStrip>& pool, in
   return tiling;
 }
 
+/// Share of a's cells that b covers as well. Cells ascend in both.
 double shared_cells(const CoverStrip& a, const CoverStrip& b) {
   std::vector<int> both;
   std::set_intersection(a.cells.begin(), a.cells.end(), b.cells.begin(), b.cells.end(), std::back_inserter(both));
@@ -145,9 +171,9 @@ std::vector<int> first_strips(const std::vector<CoverStrip>& pool) {
   return firsts;
 }
 
-/// Exchanges one for one, drops and adds while the value rises.
+/// Exchanges one for one, drops and adds while the value rises. It ends: every change raises the value by at least
+/// kLeastImprovement, or takes away a strip.
 StripSet improved(const TileScene& scene, const std::vector<CoverStrip>& pool, StripSet set) {
-  constexpr double kWorth = 1e-6;
   CellCount covered(scene.samples);
   const auto at = [&](int k) -> const CoverStrip& { return pool[static_cast<std::size_t>(k)]; };
   for (const int k : set) covered.add(at(k));
@@ -165,7 +191,7 @@ StripSet improved(const TileScene& scene, const std::vector<CoverStrip>& pool, S
     changed = false;
     for (std::size_t i = 0; i < set.size();) {
       covered.add(at(set[i]), -1);
-      double most = std::max(covered.gain(at(set[i])), scene.options.strip_price) + kWorth;
+      double most = std::max(covered.gain(at(set[i])), scene.options.strip_price) + kLeastImprovement;
       const int better = best_addition(most);
       if (better >= 0) {
         set[i] = better;
@@ -178,10 +204,8 @@ StripSet improved(const TileScene& scene, const std::vector<CoverStrip>& pool, S
       covered.add(at(set[i]));
       ++i;
     }
-    double most = scene.options.strip_price + kWorth;
-    const bool may_add =
-        static_cast<int>(set.size()) < scene.options.most_strips && covered.covered() < scene.options.enough_coverage;
-    const int more = may_add ? best_addition(most) : -1;
+    double most = scene.options.strip_price + kLeastImprovement;
+    const int more = static_cast<int>(set.size()) < scene.options.most_strips ? best_addition(most) : -1;
     if (more >= 0) {
       set.push_back(more);
       covered.add(at(more));
@@ -232,6 +256,7 @@ StripSet choose_set(const TileScene& scene, std::vector<CoverStrip>& pool) {
   const std::vector<int> firsts = first_strips(pool);
   std::vector<Tiling> tilings(firsts.size());
   parallel_for(firsts.size(), [&](std::size_t k) { tilings[k] = tile_from(scene, pool, firsts[k]); });
+  // Each tiling numbers its own strips from the pool's size on: they are shifted as the pools are joined.
   const int seeded = static_cast<int>(pool.size());
   for (Tiling& tiling : tilings) {
     const int shift = static_cast<int>(pool.size()) - seeded;
@@ -257,6 +282,7 @@ std::vector<CoverStrip> additions(const TileScene& scene, const std::vector<Cove
   std::vector<std::vector<CoverStrip>> beside(strips.size());
   parallel_for(strips.size(), [&](std::size_t k) { beside[k] = neighbours(scene, strips[k], covered); });
   const std::vector<CoverStrip> in_gaps = strips_of(scene, gap_seeds(scene, covered), kLeastInsideOfGaps, nullptr);
+  // Those from the gaps first: of equal gains the first wins, and they were made for what is open.
   std::vector<const CoverStrip*> candidates;
   for (const CoverStrip& strip : in_gaps) candidates.push_back(&strip);
   for (const auto& found : beside)
