@@ -15,13 +15,29 @@
 namespace flank::internal {
 namespace {
 
-constexpr double kSmoothWorth = 0.002;  ///< share of the area that smooth rails may cost
-/// Of the tolerance: how deep a pose may enter another face, in a certificate and while a strip grows. What lies between
-/// the poses of a strip, once they are joined smoothly, has the difference.
+/// Share of the area that smooth rails may cost: the same as smooth.cpp lets its first pass cost, less than half a
+/// strip's default price.
+constexpr double kSmoothWorth = 0.002;
+/// Of the tolerance: how deep a pose may enter another face, in a certificate and while a strip grows. What lies
+/// between the poses of a strip, once they are joined smoothly, has the difference.
 constexpr double kFloorShare = 0.65, kGrowFloorShare = 0.35;
 
 /// Axis samples of certificates. Surfaces may ripple at their borders within a fraction of a millimetre.
+/// 17 found 0.008 mm of depth on a real blade where there were 0.022 mm (docs/algorithms/cover.md).
 constexpr int kCertifySamples = 81;
+
+/// Most rounds of smoothing and adding. Each costs a whole SMOOTH, so this balances time against the last gaps; rounds
+/// end before if no gap is worth a strip.
+constexpr int kSmoothRounds = 3;
+/// Most strips that are taken away again one after the other; each try costs a whole SMOOTH.
+constexpr int kDrops = 2;
+/// Share of the area that neighbours may be able to take over: a strip that adds more is not tried, as a try costs a
+/// whole SMOOTH. A balance again: the more a strip adds, the less likely are the others to take it over.
+constexpr double kTakenOver = 0.06;
+
+/// Progress shown at the beginning of each stage, about its share of the time.
+constexpr double kSamplesAt = 0.05, kGrowAt = 0.1, kTileAt = 0.35, kSmoothAt = 0.55, kSmoothRoundStep = 0.1,
+                 kThinAt = 0.8;
 
 class Stopwatch {
  public:
@@ -37,8 +53,8 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// Leaves out the cells that a ball of the tool's smallest radius cannot touch without entering an obstacle; returns the
-/// area share of the others.
+/// Leaves out the cells that a ball of the tool's smallest radius cannot touch without entering an obstacle; returns
+/// the area share of the others.
 double keep_reachable(CoverSamples& samples, const LineGuard& guard) {
   std::vector<char> open(samples.cells.size());
   parallel_for(samples.cells.size(), [&](std::size_t k) {
@@ -64,7 +80,7 @@ double overlap_of(const CoverSamples& samples, const std::vector<CoverStrip>& st
   return covered > 0.0 ? sum / covered - 1.0 : 0.0;
 }
 
-/// What cuts too deep between the samples that chose it is lifted, or else cut short.
+/// Strips were chosen by coarse samples: what cuts too deep between those is lifted, or else cut short.
 std::vector<CoverStrip> made_certain(const TileScene& dense, std::vector<CoverStrip> strips) {
   parallel_for(strips.size(), [&](std::size_t k) {
     LineFitter fitter(dense.target, dense.radial, line_options(dense));
@@ -79,17 +95,17 @@ double value_of(const TileScene& scene, const std::vector<CoverStrip>& strips) {
   return covered_share(scene.samples, strips) - scene.options.strip_price * static_cast<double>(strips.size());
 }
 
-/// Smooths; where that leaves gaps that are worth a strip, adds it and smooths again. The best that was seen.
+/// Smooths; if that leaves gaps that are worth a strip, adds it and smooths again. Returns the best set on the way.
 std::vector<CoverStrip> smoothed(const TileScene& coarse, const TileScene& dense, const std::vector<CoverStrip>& pool,
                                  std::vector<CoverStrip> strips, const Progress& progress) {
-  constexpr int kRounds = 3;
   strips = made_certain(dense, remeasured(dense, strips));
   std::vector<CoverStrip> best = strips;
-  for (int round = 0; round < kRounds && dense.options.smooth && !progress.stop(); ++round) {
-    progress.step("smooth", 0.55 + 0.1 * round);
+  for (int round = 0; round < kSmoothRounds && dense.options.smooth && !progress.stop(); ++round) {
+    progress.step("smooth", kSmoothAt + kSmoothRoundStep * round);
     strips = pruned(dense, smooth_strips(dense, strips).strips);
+    // The first round may cost a little: rails that were fitted are fairer than rails that were grown.
     if (value_of(dense, strips) > value_of(dense, best) - (round == 0 ? kSmoothWorth : 0.0)) best = strips;
-    if (round + 1 == kRounds) break;
+    if (round + 1 == kSmoothRounds) break;
     const std::vector<CoverStrip> more =
         made_certain(dense, remeasured(dense, additions(coarse, pool, remeasured(coarse, strips))));
     if (more.empty()) break;
@@ -98,12 +114,10 @@ std::vector<CoverStrip> smoothed(const TileScene& coarse, const TileScene& dense
   return best;
 }
 
-/// Without the strip that adds least, where the others, smoothed again, take over what it did.
+/// Drops the strip that adds least if the others, smoothed again, take over what it covered.
 std::vector<CoverStrip> thinned(const TileScene& dense, std::vector<CoverStrip> strips, const Progress& progress) {
-  constexpr int kDrops = 2;
-  constexpr double kTakenOver = 0.06;  ///< share of the area that neighbours may be able to take over
   for (int k = 0; k < kDrops && dense.options.smooth && !progress.stop(); ++k) {
-    progress.step("thin out", 0.8);
+    progress.step("thin out", kThinAt);
     CellCount covered(dense.samples);
     for (const CoverStrip& strip : strips) covered.add(strip);
     std::size_t least = 0;
@@ -128,7 +142,7 @@ std::vector<CoverStrip> thinned(const TileScene& dense, std::vector<CoverStrip> 
   return strips;
 }
 
-/// The last look at each strip, the finest.
+/// The last and finest check of each strip.
 std::vector<CoverStrip> finally_certain(const TileScene& dense, std::vector<CoverStrip> strips) {
   parallel_for(strips.size(), [&](std::size_t k) {
     LineFitter fitter(dense.target, dense.radial, line_options(dense));
@@ -160,7 +174,7 @@ CandidatePool counted_pool(const TileScene& scene, const std::vector<LineSeed>& 
   return pool;
 }
 
-/// Strips of the first seeds. What the filter leaves is a third of all directions; where none of it leads to a strip, all
+/// Strips of the first seeds. What the filter leaves is a third of all directions; if none of it leads to a strip, all
 /// are tried.
 CandidatePool first_pool(const TileScene& scene, CoverResult& result) {
   const CoverOptions& options = scene.options;
@@ -196,7 +210,7 @@ CoverResult nothing(const TileScene& scene, int lines, CoverResult result) {
 /// Strategy `curves`, once there are samples.
 CoverResult curves_cover(const TileScene& scene, const LineGuard& guard, CoverResult result, const Progress& progress) {
   Stopwatch watch(result);
-  progress.step("curves", 0.1);
+  progress.step("curves", kGrowAt);
   const CurveStrips found = strips_of_curves(scene);
   result.seeds = found.counts.seeds;
   result.lines = found.counts.lines;
@@ -205,7 +219,7 @@ CoverResult curves_cover(const TileScene& scene, const LineGuard& guard, CoverRe
   watch.lap("curves");
   if (found.strips.empty()) return nothing(scene, found.counts.lines, std::move(result));
 
-  progress.step("smooth", 0.55);
+  progress.step("smooth", kSmoothAt);
   const CoverSamples dense = dense_samples(scene, guard, result);
   const TileScene dense_scene{scene.target, scene.radial, dense, guard, scene.options, kCertifySamples};
   const SmoothedCurves smooth = smoothed_curves(dense_scene, found.strips);
@@ -222,7 +236,7 @@ CoverResult cover(const Target& target, const Tool& tool, const CoverObstacles& 
                   const Progress& progress) {
   CoverResult result;
   Stopwatch watch(result);
-  progress.step("samples", 0.05);
+  progress.step("samples", kSamplesAt);
   const LineGuard guard(tool, obstacles, -kFloorShare * options.tolerance_mm);
   const LineGuard grow_guard = guard.with_floor(-kGrowFloorShare * options.tolerance_mm);
   CoverSamples samples = cover_samples(target, options.sample_share * std::sqrt(target.area()));
@@ -231,12 +245,12 @@ CoverResult cover(const Target& target, const Tool& tool, const CoverObstacles& 
   watch.lap("samples");
   if (options.strategy == CoverStrategy::kCurves) return curves_cover(scene, guard, std::move(result), progress);
 
-  progress.step("grow", 0.1);
+  progress.step("grow", kGrowAt);
   CandidatePool pool = first_pool(scene, result);
   watch.lap("grow");
   if (pool.strips.empty() || samples.cells.empty()) return nothing(scene, pool.lines, std::move(result));
 
-  progress.step("tile", 0.35);
+  progress.step("tile", kTileAt);
   const StripSet set = choose_set(scene, pool.strips);
   result.grown = static_cast<int>(pool.strips.size());
   std::vector<CoverStrip> strips;
@@ -244,7 +258,7 @@ CoverResult cover(const Target& target, const Tool& tool, const CoverObstacles& 
   result.coverage_before = covered_share(samples, strips);
   watch.lap("tile");
 
-  progress.step("smooth", 0.55);
+  progress.step("smooth", kSmoothAt);
   const CoverSamples dense = dense_samples(scene, guard, result);
   const TileScene dense_scene{target, tool.radial, dense, guard, options, kCertifySamples};
   strips = thinned(dense_scene, smoothed(scene, dense_scene, pool.strips, strips, progress), progress);

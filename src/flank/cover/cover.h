@@ -1,4 +1,7 @@
 /// A given tool: the strips with which it finishes a target (MATH section 8; docs/algorithms/cover.md).
+///
+/// The planner's own estimates decide here; what counts as truth is the judge's (verify/judge.h), which shares no code
+/// with it.
 #pragma once
 
 #include <string>
@@ -21,7 +24,7 @@ enum class SeedPlaces {
   kShape,  ///< more where the target bends more (shape_places.h)
 };
 
-/// In which directions of the tangent plane.
+/// In which directions of the tangent plane they are begun.
 enum class SeedDirections {
   kEven,        ///< seed_directions over half a turn
   kAdmissible,  ///< those that the tolerance-aware filter leaves, at seed_spheres values of s (direction_filter.h)
@@ -33,49 +36,68 @@ enum class CoverStrategy {
 };
 
 struct CoverOptions {
+  /// kGrow covers more at fine tolerances; kCurves takes about half the time and is there to compare
+  /// (docs/algorithms/curves.md).
   CoverStrategy strategy = CoverStrategy::kGrow;
-  CurvesOptions curves;
+  CurvesOptions curves;  ///< of kCurves alone
+  /// mm, > 0: the largest |f| that counts as finished, and the deepest that the tool may enter the target or another
+  /// face. Time grows as it falls: about threefold from 0.05 to 0.02 mm on a blade.
   double tolerance_mm = 0.01;
-  std::vector<LineSeed> seeds;  ///< empty: as the next lines say
-  SeedPlaces places = SeedPlaces::kGrid;
-  SeedDirections directions = SeedDirections::kAdmissible;
-  int seed_places = 30, seed_directions = 12,
-      seed_spheres = 3;  ///< even directions also where no admissible one leads on
-  int most_strips = 16;
-  double strip_price = 0.005;    ///< share of the area that a strip must add, to be worth its time
-  double overlap_share = 0.04;   ///< of neighbouring strips, in axis lengths
-  double sample_share = 0.02;    ///< spacing of the samples that measure strips, as a share of the root of the area
-  double dense_share = 0.013;    ///< the same of those that certify and report them
-  int control_points = 24;       ///< of a smoothed strip, a rail; doubled where the certificate fails
-  double enough_coverage = 1.0;  ///< no strip is added beyond this share of the area
+  std::vector<LineSeed> seeds;            ///< where strips of kGrow begin; empty: as the next five options say
+  SeedPlaces places = SeedPlaces::kGrid;  ///< neither is ahead; kShape suits a target that bends strongly in few places
+  SeedDirections directions = SeedDirections::kAdmissible;  ///< kEven: twice as many seeds for the same coverage
+  int seed_places = 30;  ///< places, >= 1. Raise it if a face falls into many parts that need strips of their own
+  /// Even directions over half a turn, >= 1; also used if no admissible one leads to a strip.
+  int seed_directions = 12;
+  /// Values of s for admissible directions, >= 1. Raise it for a tool whose curvature varies along s.
+  int seed_spheres = 3;
+  int most_strips = 16;  ///< >= 1. A safeguard: strip_price ends the search long before on most faces
+  /// Share of the area in [0, 1) that a strip must add, to be worth its time. Lower it for the last parts of a percent:
+  /// 0.0005 takes an impeller from 99.0 % in 2 strips to 99.6 % in 6.
+  double strip_price = 0.005;
+  /// Overlap of a strip with the neighbour that it is grown beside, in axis lengths, in [0, 1). It is room for rails
+  /// that do not follow an edge exactly; SMOOTH closes what gaps it leaves.
+  double overlap_share = 0.04;
+  /// Spacing of the samples that measure strips, as a share of the root of the area, > 0: 1 / 0.02^2 = 2500 cells. What
+  /// is narrower is not seen while strips are chosen. Time grows with its inverse square.
+  double sample_share = 0.02;
+  /// The same of those that certify and report strips: about 5900 cells; at most sample_share.
+  double dense_share = 0.013;
+  /// Of a smoothed strip, for each rail, >= 4; doubled if a certificate fails. Raise it for long strips on targets with
+  /// ripples; time of SMOOTH grows with it.
+  int control_points = 24;
+  double enough_coverage = 1.0;  ///< tilings stop at this share of the area, in (0, 1]; below 1 for quick looks
+  /// Whether strips are fitted together at the end. Off: as they grew, certified, in a fraction of the time and with
+  /// more ripples; for rankings.
   bool smooth = true;
 };
 
 enum class CoverStatus {
   kNotRun,
-  kCovered,  ///< strips were found, and they cover something
+  kCovered,  ///< strips were found, and they cover something; how much is in `coverage`
   kNoLine,   ///< no line touches the target within the tolerance over its whole length
   kNoStrip,  ///< lines do, but none can move, or every strip would enter another face
 };
 
 struct CoverResult {
   CoverStatus status = CoverStatus::kNotRun;
-  std::string message;
-  std::vector<RuledMotion> motions;  ///< one a strip, in the order of machining
-  double reachable =
-      1.0;  ///< area share where a ball of the tool's smallest radius enters no obstacle (MATH section 9)
+  std::string message;               ///< what limits the coverage (reasons.h); empty if nothing does
+  std::vector<RuledMotion> motions;  ///< one per strip, in the order and the direction of machining
+  /// Area share where a ball of the tool's smallest radius enters no obstacle (MATH section 9).
+  double reachable = 1.0;
   /// Area share of the reachable part that is within tolerance before smoothing, by the planner's own estimate.
   double coverage_before = 0.0;
-  double coverage = 0.0;                ///< and of `motions`
-  double overlap = 0.0;                 ///< sum of the strips' covered areas over that of their union, less 1
-  double overcut_mm = 0.0;              ///< largest depth of a strip in the target
+  double coverage = 0.0;                ///< the same of `motions`; `reachable` times this is the share of the whole
+  double overlap = 0.0;                 ///< sum of the strips' covered areas over that of their union, minus 1
+  double overcut_mm = 0.0;              ///< largest depth of a strip in the target, by the planner's own estimate
   int seeds = 0, lines = 0, grown = 0;  ///< lines: seeds that refine to within tolerance; grown: candidates
-  std::vector<std::string> notes;
-  std::vector<std::pair<std::string, double>> seconds;  ///< wall time of the stages
+  std::vector<std::string> notes;       ///< for the user, besides the message
+  std::vector<std::pair<std::string, double>> seconds;  ///< wall time of the stages; differs from run to run
 };
 
-/// Finds the strips. The tool enters no obstacle by more than the tolerance; a strip that would is cut short or dropped.
-/// Same result for any number of threads.
+/// Finds the strips. The tool enters no obstacle by more than the tolerance; a strip that would is cut short or
+/// dropped. Same result for any number of threads. A cover that is cancelled returns what it has, still certified.
+/// Nothing is thrown for a target that cannot be covered: status and message say it.
 [[nodiscard]] CoverResult cover(const Target& target, const Tool& tool, const CoverObstacles& obstacles,
                                 const CoverOptions& options, const Progress& progress);
 
