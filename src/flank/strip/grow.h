@@ -29,7 +29,7 @@ struct GrowOptions {
 
 /// A neighbour whose edge a strip follows: the strip's end beside it stays `overlap_mm` within the neighbour's edge.
 struct GrowGuide {
-  /// Poses in their order, two or more; must outlive the guide; null: none
+  /// Poses in their order, two or more; must outlive the guide; null: none.
   const std::vector<Pose>* neighbour = nullptr;
   bool beyond_tip = true;   ///< the new strip lies past the neighbour's tip, else past its holder end
   double overlap_mm = 0.0;  ///< along the axis, >= 0

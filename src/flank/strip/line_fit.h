@@ -65,11 +65,9 @@ struct LineFrame {
 /// contract:
 /// - measure(pose) and refine(start) set it: afterwards it is the pose of the LineFit that they return.
 /// - They start from the footpoints of the line before, as hints. A hint from far away may lead to another branch of
-/// the
-///   target, so call forget() before a line that is not near the last one; set_feet() puts hints back that were saved.
+///   the target, so call forget() before a line that is not near the last one; set_feet() puts saved hints back.
 /// - overcut, inside_overcut, deep_points and lift read the current line. Those that take a pose take *its* pose: the
-/// fitter
-///   does not store it, and another pose gives nonsense without a warning.
+///   fitter does not store it, and another pose gives nonsense without a warning.
 /// - forget() and set_feet() leave no current line: measure before you ask.
 class LineFitter {
  public:

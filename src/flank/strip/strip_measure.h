@@ -41,7 +41,7 @@ struct CoverStrip {
   /// what (1) misses. Negative: clear by as much.
   std::vector<double> depths;
   double overcut_mm = 0.0;  ///< the largest of them
-  /// Contacts of points of the target that are about as deep as the tolerance, or more
+  /// Contacts of points of the target that are deeper than 0.8 tolerances: what a lift has to take out (certify.h).
   std::vector<SweptContact> deep;
 };
 

@@ -20,7 +20,7 @@ struct LineGroupOptions {
   /// The next line is the one of least distance^2 + weight * deviation^2; >= 0. 0: the nearest, whatever its direction;
   /// larger: straighter.
   double deviation_weight = 4.0;
-  /// No group starts at a line that is in so many groups already, >= 1; more groups, and more alike
+  /// No group starts at a line that is in so many groups already, >= 1; more groups, and more alike.
   int most_uses = 2;
   int least_lines = 5;      ///< of a group, >= 5: motion_through needs them
   bool ends_alike = false;  ///< lines may be turned round (line_clusters.h)
