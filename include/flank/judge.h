@@ -1,5 +1,9 @@
 /// The judge (MATH section 9): what a tool really leaves when it runs along a path, from tool, poses and part alone.
 /// It shares no code with the planner above `tool` and `path`.
+///
+/// The order of use: samples of every face that matters (sample_face, sample_mesh), judge() over all of them, and
+/// beside it judge_clearance for shank, holder and fixtures (clearance_verdict.h) and reachable_shares (reach.h). All
+/// lengths in mm, in the part's frame. All of it gives the same bits for any number of threads.
 #pragma once
 
 #include <memory>
@@ -16,14 +20,16 @@
 
 namespace flank {
 
-/// Sample points of one face of the part, the judge's own.
+/// Sample points of one face of the part, the judge's own. The vectors are as long as `points`, or empty if they may
+/// be.
 struct FaceSamples {
   std::string face;     ///< "F1"
   bool target = false;  ///< else a check surface
   std::vector<Vec3> points;
-  std::vector<double> areas;       ///< mm^2 that each point stands for
-  double spacing_mm = 0.0;         ///< no point of the face is farther than this from a sample, up to the border cells
-  std::vector<double> reaches_mm;  ///< of each sample: the farthest point of its cell; empty: spacing_mm
+  std::vector<double> areas;  ///< mm^2 that each point stands for
+  /// No point of the face is farther than this from a sample, except in cells cut by the border
+  double spacing_mm = 0.0;
+  std::vector<double> reaches_mm;         ///< of each sample: the farthest point of its cell; empty: spacing_mm
   std::vector<double> curvatures_per_mm;  ///< of each sample: largest |normal curvature|; empty: not known
   std::vector<Vec3> normals;      ///< of each sample: unit, away from the material where `of_solid`; empty: not known
   bool of_solid = false;          ///< the face bounds a solid; else it is a sheet, whose normals may point either way
@@ -31,20 +37,25 @@ struct FaceSamples {
 };
 
 /// Samples a trimmed face at cells of about `spacing_mm` (centres of cells), by the judge's own code; points outside
-/// the trim are left out.
+/// the trim are left out. Throws UsageError for a spacing that is not > 0, InputError for a control point that is not
+/// finite. The area is that of the face up to the second order in the spacing; cells on the trim count with their share
+/// inside.
 [[nodiscard]] FaceSamples sample_face(const Face& face, double spacing_mm, bool target);
-/// Samples a mesh (or some of its triangles) likewise.
+/// Samples a mesh (or some of its triangles) likewise: each triangle cut into n^2 similar ones, and their centroids.
+/// Areas are exact. Curvatures stay unknown, so the sampling bound is of first order. Throws as sample_face.
 [[nodiscard]] FaceSamples sample_mesh(const std::string& id, const TriangleMesh& mesh, double spacing_mm, bool target);
 
-/// f(x) = min over strips, t and s of |x - R(s,t)| - r(s), continuous in t and s.
+/// f(x) = min over strips, t and s of |x - R(s,t)| - r(s), continuous in t and s, and where it is taken.
 struct SweptDistance {
-  double f = 0.0;
-  int strip = -1;  ///< 0-based
+  double f = 0.0;  ///< mm; negative: overcut, positive: material left
+  int strip = -1;  ///< 0-based; -1: nothing below the horizon
   double t = 0.0;  ///< pose index + fraction
-  double s = 0.0;
+  double s = 0.0;  ///< arc length on the axis, mm, in [0, L]
 };
 
-/// Answers f(x) for many points; immutable after construction.
+/// Answers f(x) for many points; immutable after construction, so many threads may ask at once. Tool and path are
+/// copied. Throws InputError for poses that are none (pose_tree.h) and for a radial function that is none
+/// (radial_table.h).
 class SweptVolume {
  public:
   SweptVolume(const Tool& tool, const Path& path);
@@ -69,24 +80,29 @@ class SweptVolume {
 [[nodiscard]] std::vector<std::size_t> covered_samples(const SweptVolume& volume, const FaceSamples& face,
                                                        double tolerance_mm);
 
-/// Smallest radius of the flank, mm, at 257 places of the axis.
+/// Smallest radius of the flank, mm, over 257 places of the axis.
 [[nodiscard]] double smallest_radius(const Tool& tool);
 
 struct JudgeOptions {
-  double tolerance_mm = 0.01;
-  double horizon_mm = 1e300;  ///< material left is measured up to this; beyond it is "not machined"
-  int histogram_bins = 41;    ///< over [-2, 2] tolerances, ends open
-  int worst_places = 5;
+  double tolerance_mm = 0.01;  ///< > 0
+  /// > 0: material left is measured up to this; beyond it is "not machined" and reads as the horizon. A few millimetres
+  /// save most of the time on targets that are mostly not machined; coverage and overcut do not depend on it above the
+  /// tolerance.
+  double horizon_mm = 1e300;
+  int histogram_bins = 41;  ///< >= 1, over [-2, 2] tolerances, ends open; odd: one bin is centred at 0
+  int worst_places = 5;     ///< most of them, of each face and of all together, >= 0
 };
 
+/// A place that is cut too deep, as SweptDistance names it.
 struct WorstPlace {
   std::string face;
-  Vec3 point = Vec3::Zero();
-  double f = 0.0;
+  Vec3 point = Vec3::Zero();  ///< the sample
+  double f = 0.0;             ///< mm, negative
   int strip = -1;
   double t = 0.0, s = 0.0;
 };
 
+/// What was found on one face. Figures that say (target) are 0 on a check surface.
 struct FaceVerdict {
   std::string face;
   bool target = false;
@@ -104,6 +120,7 @@ struct FaceVerdict {
   std::optional<WorstPlace> deepest;  ///< where overcut_mm is; none: nothing is cut
 };
 
+/// Figures of the samples decide, not figures and bound: the bound says how fine the samples were.
 enum class Verdict {
   kNotRun,
   kPass,     ///< overcut <= tolerance on every face
@@ -111,6 +128,7 @@ enum class Verdict {
   kGouge,    ///< overcut > tolerance on a check surface
 };
 
+/// Coverage and undercut have no part in the verdict: how much is enough is for the caller to say .
 struct VerifyReport {
   Verdict verdict = Verdict::kNotRun;
   double tolerance_mm = 0.0;
@@ -127,6 +145,9 @@ struct VerifyReport {
   ClearanceReport clearance;               ///< of shank, holder and fixtures; not filled by judge()
 };
 
+/// Judges a path by the samples of all its faces, targets and check surfaces. Parallel; the same bits for any number of
+/// threads. Throws UsageError for a tolerance that is not > 0 or no bins, InputError for poses or a tool that are none.
+/// Does not fill `clearance` and `reach_radius_mm`; `reachable` of the samples is taken as it is.
 [[nodiscard]] VerifyReport judge(const Tool& tool, const Path& path, const std::vector<FaceSamples>& faces,
                                  const JudgeOptions& options);
 

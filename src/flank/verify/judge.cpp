@@ -13,13 +13,21 @@ namespace flank {
 using namespace internal;
 namespace {
 
-constexpr std::size_t kBlock =
-    256;  ///< samples a task measures, from the first to the last: fixed, so that threads change nothing
-constexpr std::size_t kLeastBlock = 16;  ///< so few samples are measured one by one
-constexpr double kRounding = 1e-9;
+/// Samples per task, measured from the first to the last. Fixed, so that the number of threads changes nothing: each
+/// search starts from the place of the sample before, and of two equally near places that may decide which one is
+/// named.
+constexpr std::size_t kBlock = 256;
+/// So few samples are measured one by one: a query of their ball would cost as much as it may spare.
+constexpr std::size_t kLeastBlock = 16;
+constexpr double kRounding = 1e-9;  ///< relative: widens the ball around samples by more than round-off can shrink it
 constexpr double kFarHorizonMm = 1e6;  ///< beyond any part: nothing is farther
 constexpr double kEndShare = 1e-9;     ///< of a step or of the axis: nearer to an end than this counts as at the end
-constexpr double kWorstSeparation = 0.05;  ///< of the face's size: how far worst places keep from one another
+/// Of the face's size: how far worst places keep from one another. Else all of them would lie in one scratch.
+constexpr double kWorstSeparation = 0.05;
+/// Tolerances: the histogram runs from minus to plus this; its outer bins take what is beyond.
+constexpr double kHistogramReach = 2.0;
+/// Horizon of covered_samples, in tolerances: just above 1, so that |f| = tolerance is still measured exactly.
+constexpr double kCoveredHorizon = 1.01;
 
 /// Whether the strip sweeps past the sample: its nearest sphere belongs to the inside of a strip's path and of the
 /// axis.
@@ -30,6 +38,7 @@ bool swept_past(const SweptDistance& d, const Tool& tool, const Path& path) {
   return d.t > kEndShare && d.t < last - kEndShare && d.s > kEndShare * length && d.s < (1.0 - kEndShare) * length;
 }
 
+/// Sums over the samples of a face, in their order, so that the same bits come out every time. Areas in mm^2.
 struct Sums {
   double area = 0.0, covered = 0.0, reachable = 0.0, covered_reachable = 0.0, touched = 0.0, squares = 0.0;
 };
@@ -94,7 +103,8 @@ void add_histogram(VerifyReport& report, const FaceSamples& face, const std::vec
 
 void prepare_histogram(VerifyReport& report, const JudgeOptions& options) {
   const int bins = options.histogram_bins;
-  for (int i = 0; i <= bins; ++i) report.histogram_edges_mm.push_back(options.tolerance_mm * (4.0 * i / bins - 2.0));
+  for (int i = 0; i <= bins; ++i)
+    report.histogram_edges_mm.push_back(options.tolerance_mm * (2.0 * kHistogramReach * i / bins - kHistogramReach));
   report.histogram_area_mm2.assign(static_cast<std::size_t>(bins), 0.0);
 }
 
@@ -105,6 +115,7 @@ void prepare_histogram(VerifyReport& report, const JudgeOptions& options) {
 // it. y lies in the cell of one of the samples: the deepest that any cell allows, less the deepest sample.
 double between_samples(const FaceSamples& face, const std::vector<SweptDistance>& distances, double least_radius,
                        double overcut) {
+  // The radius r - o of the derivation, less the way from y to its sample: the ball must still be one there.
   const double inner = least_radius - overcut - face.spacing_mm;
   double deepest = overcut;
   for (std::size_t i = 0; i < distances.size(); ++i) {
@@ -175,6 +186,8 @@ void keep_worst(std::vector<WorstPlace>& worst, int count) {
   if (static_cast<int>(worst.size()) > count) worst.resize(static_cast<std::size_t>(std::max(0, count)));
 }
 
+/// A gouge is named first: it spoils a face that nobody meant to touch. Compared without the sampling bound, which is
+/// reported.
 Verdict verdict_of(const VerifyReport& report) {
   if (report.gouge_mm > report.tolerance_mm) return Verdict::kGouge;
   return report.overcut_mm > report.tolerance_mm ? Verdict::kOvercut : Verdict::kPass;
@@ -183,7 +196,7 @@ Verdict verdict_of(const VerifyReport& report) {
 }  // namespace
 
 double smallest_radius(const Tool& tool) {
-  constexpr int kSteps = 256;
+  constexpr int kSteps = 256;  // an extremum between two samples is missed by at most |r''| (L / 512)^2 / 2
   double least = tool.radial.at(0.0).r;
   for (int i = 1; i <= kSteps; ++i) least = std::min(least, tool.radial.at(tool.radial.axis_length() * i / kSteps).r);
   return least;
@@ -191,8 +204,8 @@ double smallest_radius(const Tool& tool) {
 
 namespace {
 
-/// distances() of neighbouring points, in halves: f has slope 1, so that one place may tell that all of them are farther
-/// than the horizon.
+/// distances() of neighbouring points, in halves: f has slope 1, so that one place may tell that all of them are
+/// farther than the horizon.
 void measure_near(const SweptVolume& volume, std::span<const Vec3> points, double horizon,
                   std::span<SweptDistance> out) {
   if (points.size() <= kLeastBlock) {
@@ -228,7 +241,7 @@ std::vector<SweptDistance> swept_distances(const SweptVolume& volume, const Face
 
 std::vector<std::size_t> covered_samples(const SweptVolume& volume, const FaceSamples& face, double tolerance_mm) {
   FLANK_ASSERT(tolerance_mm > 0.0);
-  const double horizon = 1.01 * tolerance_mm;
+  const double horizon = kCoveredHorizon * tolerance_mm;
   const std::vector<SweptDistance> distances = swept_distances(volume, face, horizon);
   std::vector<std::size_t> covered;
   for (std::size_t i = 0; i < distances.size(); ++i)

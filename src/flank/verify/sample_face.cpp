@@ -11,9 +11,12 @@ namespace {
 
 using namespace internal::verify;
 
-constexpr int kProbes = 8;        ///< per knot span and direction at most, to measure how the parameters stretch
-constexpr int kMostProbes = 192;  ///< per direction, but one a knot span
-constexpr int kMaxCellsPerSide = 20000;
+constexpr int kProbes = 8;               ///< per knot span and direction at most, to measure how the parameters stretch
+constexpr int kMostProbes = 192;         ///< per direction, but one a knot span
+constexpr int kMaxCellsPerSide = 20000;  ///< bounds memory if the spacing is absurdly small for the face
+/// Of |S_u|^2 + |S_v|^2: a tangent parallelogram with less area is degenerate (a pole), and has no curvature to
+/// compute.
+constexpr double kDegenerate = 1e-12;
 constexpr int kSubRows = 6;            ///< a cell on the trim is measured along this many lines of constant v
 constexpr double kFlatCell = 0.01;     ///< bend by size up to which the middle of a cell gives its area
 constexpr double kBorderShare = 1e-6;  ///< of the parameter range: chords that tell how far the loops reach
@@ -117,7 +120,7 @@ RowCrossings row_crossings(const Trim& trim, Range v) {
 double largest_curvature(const SurfaceJet& j) {
   const Vec3 cross = j.du.cross(j.dv);
   const double area = cross.norm();
-  if (!(area > 1e-12 * (j.du.squaredNorm() + j.dv.squaredNorm()))) return 0.0;
+  if (!(area > kDegenerate * (j.du.squaredNorm() + j.dv.squaredNorm()))) return 0.0;
   const Vec3 n = cross / area;
   const double e = j.du.squaredNorm(), f = j.du.dot(j.dv), g = j.dv.squaredNorm();
   const double l = n.dot(j.duu), m = n.dot(j.duv), k = n.dot(j.dvv);
@@ -128,7 +131,8 @@ double largest_curvature(const SurfaceJet& j) {
 
 /// Mean of |S_u x S_v| over a cell, by Gauss's rule of two by two places.
 double mean_stretch(const BSplineSurface& s, Range u, Range v) {
-  constexpr double kGauss = 0.28867513459481287;
+  constexpr double kGauss =
+      0.28867513459481287;  // 1 / (2 sqrt(3)): places of the rule, from the middle, over the width
   const double uc = 0.5 * (u.low + u.high), vc = 0.5 * (v.low + v.high);
   const double du = kGauss * (u.high - u.low), dv = kGauss * (v.high - v.low);
   double sum = 0.0;
@@ -154,6 +158,7 @@ void add_cell(FaceSamples& out, const BSplineSurface& s, const CellPart& part, R
   const SurfaceJet jet = s.jet(part.u, part.v);
   const Vec3 a = 0.5 * du * jet.du, b = 0.5 * dv * jet.dv;
   const double half_diagonal = std::max((a + b).norm(), (a - b).norm());
+  // Taylor's second-order term at the corners of the cell, half a side away in u and in v.
   const double bend = 0.125 * (jet.duu.norm() * du * du + 2.0 * jet.duv.norm() * du * dv + jet.dvv.norm() * dv * dv);
   const double stretch = bend < kFlatCell * half_diagonal ? jet.du.cross(jet.dv).norm() : mean_stretch(s, u, v);
   out.points.push_back(jet.p);
