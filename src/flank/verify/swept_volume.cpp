@@ -10,10 +10,13 @@ namespace {
 
 using namespace internal::verify;
 
-constexpr double kPieceReachRadii = 0.1;  ///< a piece moves the axis by at most this share of the smallest radius
+/// A piece moves the axis by at most this share of the smallest radius: so short that one minimum over time belongs to
+/// each minimum over s (tested, not proved: docs/algorithms/judge.md). For needles, a share of the axis bounds the
+/// number of pieces.
+constexpr double kPieceReachRadii = 0.1, kPieceReachLengths = 1e-3;
 
 double piece_reach(const RadialTable& radial) {
-  return std::max(kPieceReachRadii * radial.least_radius(), 1e-3 * radial.length());
+  return std::max(kPieceReachRadii * radial.least_radius(), kPieceReachLengths * radial.length());
 }
 
 }  // namespace

@@ -11,7 +11,12 @@ namespace flank::internal::verify {
 namespace {
 
 constexpr double kUnitTolerance = 1e-3;  ///< |axis| may differ from 1 by this much (rounded files); it is normalised
-constexpr int kMaxPieces = 4096;         ///< of one segment
+constexpr int kMaxPieces = 4096;         ///< of one segment: bounds memory if a path jumps across the room
+/// Cosine of the largest turn between two poses, 172 degrees: beyond it the straight join of the axis vectors passes
+/// near zero, and what the controller would do is anybody's guess.
+constexpr double kLeastCosine = -0.99;
+/// Least |w|^2 that a bound divides by; kLeastCosine keeps it above 0.005.
+constexpr double kLeastSquaredAxis = 1e-3;
 
 std::string place(std::size_t strip, std::size_t pose) {
   return "path: strip " + std::to_string(strip + 1) + ", pose " + std::to_string(pose + 1);
@@ -41,7 +46,7 @@ class Builder {
       }
       for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
         const Pose p = checked(poses[i], k, i), q = checked(poses[i + 1], k, i + 1);
-        if (p.axis.dot(q.axis) < -0.99)
+        if (p.axis.dot(q.axis) < kLeastCosine)
           throw InputError(place(k, i + 1) +
                            " turns the axis round within one step; steps under 170 degrees are accepted");
         tree_.segments.push_back({p.tip, q.tip - p.tip, p.axis, q.axis - p.axis, strip, static_cast<int>(i)});
@@ -84,6 +89,8 @@ class Builder {
     return tree_.segments[static_cast<std::size_t>(piece(k).segment)];
   }
 
+  /// Bounds of PoseNode for the pieces: linear motion from the first pose to the last is taken off, what is left is
+  /// `bend`.
   [[nodiscard]] PoseNode enclose(int first, int last) const {
     const Piece& middle = piece((first + last) / 2);
     const double tau = (last - first) % 2 == 1 ? 0.5 * (middle.low + middle.high) : middle.low;
@@ -120,10 +127,10 @@ class Builder {
   [[nodiscard]] double turning_slack(const Segment& g, const Pose& p, const Pose& q) const {
     const double squared_turn = (q.axis - p.axis).squaredNorm();
     const double least = std::min(1.0, (g.w0 + 0.5 * g.dw).squaredNorm());
-    return length_ * squared_turn / (4.0 * std::max(least, 1e-3));
+    return length_ * squared_turn / (4.0 * std::max(least, kLeastSquaredAxis));
   }
 
-  /// At a change of strips nearest to the middle, else in the middle.
+  /// At the change of strips nearest to the middle, else in the middle: a node over two strips has poses far apart.
   [[nodiscard]] int split_at(int first, int last) const {
     const int middle = (first + last) / 2;
     const auto strip = [&](int k) { return segment(k).strip; };

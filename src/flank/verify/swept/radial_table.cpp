@@ -8,6 +8,7 @@
 namespace flank::internal::verify {
 namespace {
 
+/// Cells of the table. Error of the quintic: r^(6) h^6 / 46080, below 1e-12 mm for an arc of 50 mm and 0.2 mm cells.
 constexpr int kCells = 192;
 
 /// Quintic on [0, 1] with value, first and second derivative p at 0 and q at 1 (derivatives already per cell).
@@ -18,6 +19,7 @@ std::array<double, 6> quintic(const RadialJet& p, const RadialJet& q) {
   return {p.r, p.d1, 0.5 * p.d2, 10 * d - 4 * e + 0.5 * g, -15 * d + 7 * e - g, 6 * d - 3 * e + 0.5 * g};
 }
 
+/// A cubic spline's cells end on its knots: across a knot its third derivative jumps, and no quintic would follow that.
 int cell_count(const RadialFunction& radial) {
   if (radial.family() != ToolFamily::kSpline) return kCells;
   const int spans = std::max(1, radial.parameter_count() - 3);
@@ -41,6 +43,7 @@ RadialTable::RadialTable(const RadialFunction& radial) : count_(cell_count(radia
   }
   for (int i = 0; i < count_; ++i) cells_.push_back(quintic(nodes[i], nodes[i + 1]));
   const auto [low, high] = std::minmax_element(node_radii_.begin(), node_radii_.end());
+  // |r'| < 1, so between two nodes, at most half a cell from either, r leaves their values by at most that.
   least_radius_ = *low - 0.5 * h;
   largest_radius_ = *high + 0.5 * h;
 }

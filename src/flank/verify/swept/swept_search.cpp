@@ -11,19 +11,24 @@ namespace flank::internal::verify {
 namespace {
 
 constexpr double kSlackMm = 1e-11;  ///< a node must promise to be lower than the best by more than this to be opened
-constexpr double kLeastSingle =
-    0.1;  ///< from this share of the way before the focal curve on, several minima over s are reckoned with
+/// 1 - rho max q' (docs/algorithms/judge.md) has to be above this for one minimum over s to be relied on; at 0 a second
+/// one appears. The reserve is for the moves of a piece.
+constexpr double kLeastSingle = 0.1;
 constexpr double kSafety = 1.5;          ///< on the term of second order in a node's bound
 constexpr double kCurvatureShare = 0.5;  ///< of the curvature across the motion that a node's bound counts on
-constexpr double kNearReaches =
-    4.0;                      ///< a point nearer to the axis than this many reaches of a piece is not left to descent
-constexpr int kMaxHops = 16;  ///< pieces that a descent follows
+/// A point nearer to the axis than this many reaches of a piece is not left to descent: its direction to the axis may
+/// turn round.
+constexpr double kNearReaches = 4.0;
+/// Reaches of a node below which the second-order bound is not used: its terms divide by the distance.
+constexpr double kFarReaches = 2.0;
+constexpr int kMaxHops = 16;     ///< pieces that a descent follows
 constexpr int kStackSize = 128;  ///< two per level: enough for 2^40 pieces and as many strips
 
 }  // namespace
 
 bool SweptSearch::single(double rho) const { return 1.0 - rho * tool_.focal_curvature() > kLeastSingle; }
 
+// The second-order bound of docs/algorithms/judge.md, or the first-order one where that does not hold or is not needed.
 double SweptSearch::bound(const PoseNode& node) const {
   const Vec3 d = x_ - node.tip;
   const double z = d.dot(node.axis);
@@ -33,7 +38,7 @@ double SweptSearch::bound(const PoseNode& node) const {
   const double plain = estimate.bound - node.reach;
   if (plain >= best_.f - kSlackMm) return plain;
   const double distance = std::sqrt((z - estimate.s) * (z - estimate.s) + squared_rho);
-  if (!single(rho) || distance < 2.0 * node.reach) return plain;
+  if (!single(rho) || distance < kFarReaches * node.reach) return plain;
   // The sphere at about the minimiser is above g by no more than its curvature over s allows; closer than the grid's
   // own bound.
   double least = estimate.bound;

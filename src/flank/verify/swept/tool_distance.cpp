@@ -7,6 +7,15 @@ namespace {
 
 constexpr double kPolishedMm = 1e-6;     ///< last step of s; what is left of the value is its square
 constexpr double kSingleMinimum = 0.95;  ///< of rho times the focal curvature: up to here there is one minimum only
+/// Steps of Newton's method for s, least q = 1 - r'^2, and least slope: with less the root is nearly double, and steps
+/// run away. Whoever fails any of these is searched for without the grid.
+constexpr int kMostSteps = 16;
+constexpr double kLeastQ = 1e-6, kLeastSlope = 0.02;
+/// Of a step of the radial table: where golden section stops and Newton's method goes on.
+constexpr double kNarrowed = 1e-3;
+/// The corners of a cell agree on one minimum if their s differ by less than so many steps of the grid, and this share
+/// of L.
+constexpr double kAgreedSteps = 4.0, kAgreedShare = 0.05;
 
 }  // namespace
 
@@ -17,11 +26,10 @@ double ToolDistance::value(double z, double rho, double s) const {
 // A stationary s solves (s - z)/D = r', that is s - z - rho r'/sqrt(1 - r'^2) = 0. This form has no pole at D = 0 and
 // its slope 1 - rho r''/(1 - r'^2)^(3/2) is positive exactly at minima.
 bool ToolDistance::polish(double z, double rho, double& s) const {
-  constexpr double kLeastSlope = 0.02;
-  for (int i = 0; i < 16; ++i) {
+  for (int i = 0; i < kMostSteps; ++i) {
     const RadialJet j = radial_.at(s);
     const double q = 1.0 - j.d1 * j.d1;
-    if (q < 1e-6) return false;
+    if (q < kLeastQ) return false;
     const double w = 1.0 / std::sqrt(q);
     const double residual = s - z - rho * j.d1 * w;
     const double slope = 1.0 - rho * j.d2 * w * w * w;
@@ -40,7 +48,7 @@ NearestSphere ToolDistance::narrow(double z, double rho, int node) const {
   double a = radial_.node(std::max(0, node - 1)), b = radial_.node(std::min(radial_.count(), node + 1));
   double c = b - kGolden * (b - a), d = a + kGolden * (b - a);
   double vc = value(z, rho, c), vd = value(z, rho, d);
-  while (b - a > 1e-3 * radial_.step()) {
+  while (b - a > kNarrowed * radial_.step()) {
     if (vc < vd) {
       b = d, d = c, vd = vc, c = b - kGolden * (b - a), vc = value(z, rho, c);
     } else {
@@ -68,6 +76,7 @@ NearestSphere ToolDistance::search(double z, double rho) const {
   NearestSphere best{1e300, 0.0, false};
   for (int i = 0; i <= radial_.count(); ++i) {
     const double here = at_node(i);
+    // Ties count as minima on both sides: better one search too many than a minimum missed.
     if (here > least + radial_.step()) continue;
     if (i > 0 && at_node(i - 1) < here) continue;
     if (i < radial_.count() && at_node(i + 1) < here) continue;
@@ -111,7 +120,7 @@ NearestSphere ToolDistance::nearest(double z, double rho) const {
     const Node* upper = lower + grid->columns;
     const auto [low, high] = std::minmax({lower[0].s, lower[1].s, upper[0].s, upper[1].s});
     // With several minima the grid is trusted only where all corners of the cell agree on one.
-    const double agreed = std::min(4.0 * (grid->z_step + grid->rho_step), 0.05 * radial_.length());
+    const double agreed = std::min(kAgreedSteps * (grid->z_step + grid->rho_step), kAgreedShare * radial_.length());
     if (single || high - low < agreed) {
       double s = single ? grid->interpolate(z, rho).s : 0.5 * (static_cast<double>(low) + high);
       if (polish(z, rho, s)) return {value(z, rho, s), s, false};

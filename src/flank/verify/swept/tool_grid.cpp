@@ -6,18 +6,23 @@
 namespace flank::internal::verify {
 namespace {
 
+/// Cells of the grids along z and across. The finest is where samples lie that the tool touches; farther away the error
+/// of the interpolation, cell^2 / (8 D), grows no faster than the distance D, so fewer cells do. All of it takes some
+/// 300 kB.
 constexpr int kNearColumns = 320, kNearRows = 56;
 constexpr int kFarColumns = 96, kFarRows = 40;
-constexpr double kNearMarginRadii =
-    1.25;                         ///< the finest grid reaches this many largest radii beyond the flank and the ends
-constexpr double kFarther = 3.0;  ///< each grid reaches this much farther than the last
+constexpr double kNearMarginRadii = 1.25;  ///< the finest grid reaches this many largest radii beyond flank and ends
+constexpr double kFarther = 3.0;           ///< each grid reaches this much farther than the last
+/// Relative rounding of the nodes, which are floats (6e-8), with a reserve: bounds must not exceed g.
+constexpr double kFloatRounding = 1e-6;
+constexpr double kLeastQ = 1e-9;  ///< of 1 - r'^2: a radial function that is no tool must not divide by zero
 
 }  // namespace
 
 ToolDistance::ToolDistance(const RadialFunction& radial) : radial_(radial) {
   for (int i = 0; i <= 4 * radial_.count(); ++i) {
     const RadialJet j = radial_.at(0.25 * i * radial_.step());
-    const double q = std::max(1e-9, 1.0 - j.d1 * j.d1);
+    const double q = std::max(kLeastQ, 1.0 - j.d1 * j.d1);
     focal_curvature_ = std::max(focal_curvature_, j.d2 / (q * std::sqrt(q)));
   }
   const double radius = radial_.largest_radius();
@@ -95,7 +100,7 @@ void ToolDistance::build_grid(Grid& grid, double margin, double reach, int cells
         const double distance = std::hypot(std::max({-z, z - radial_.length(), 0.0}), rho);
         if (distance > 0.0) missed = std::min(h, h * h / 8.0 * (1.0 / distance + 2.0 * radial_.largest_bend()));
       }
-      const double rounding = 1e-6 * (1.0 + std::abs(g));
+      const double rounding = kFloatRounding * (1.0 + std::abs(g));
       grid.nodes.push_back(
           {static_cast<float>(g - interpolation_error(grid, z, rho) - missed - rounding), static_cast<float>(s)});
     }
