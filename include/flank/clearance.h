@@ -15,7 +15,8 @@ namespace flank {
 /// What a triangle belongs to. The flank may touch the target and is judged on all of the part elsewhere (judge.h).
 enum class ObstacleRole { kTarget, kPart, kFixture };
 
-/// Triangles to keep clear of. Nothing is asked of them: they may be open, overlap and be oriented in any way.
+/// Triangles to keep clear of. They may be open, overlap and be oriented in any way: only their distance counts, so a
+/// tool that is wholly inside a closed obstacle, and touches none of its triangles, is not seen.
 struct Obstacle {
   std::string name;  ///< "F1", or a fixture's file
   ObstacleRole role = ObstacleRole::kPart;
@@ -23,13 +24,17 @@ struct Obstacle {
   double deviation_mm = 0.0;  ///< the true surface is no farther than this from the triangles
 };
 
+/// Flank and shank or holder are measured apart: they may touch different things.
 enum class ToolBody { kFlank, kShank, kHolder };
 
+/// mm: accuracy of the clearance at single poses, which is for charts only and costs less like that.
 inline constexpr double kPoseClearanceMm = 0.01;
 
 struct ClearanceOptions {
-  double accuracy_mm = 1e-3;   ///< of the minimum over the motion
-  double tolerance_mm = 0.01;  ///< what the shank may enter the target by, and everything without a requirement
+  /// > 0: of the minimum over the motion. It counts against the tool, so lower it if a clearance is kept by little;
+  /// time grows slowly, as only intervals near the minimum are halved.
+  double accuracy_mm = 1e-3;
+  double tolerance_mm = 0.01;  ///< > 0: what the shank may enter the target by, and everything without a requirement
   /// Least clearance of every pair but shank and target; negative: as `tolerance_mm` for the shank and flank, 0 for the
   /// holder.
   double required_mm = -1.0;
@@ -52,14 +57,14 @@ struct ClearanceFigure {
   double z_mm = 0.0, rho_mm = 0.0;  ///< nearest point of the body: along the axis from s = 0, and from the axis
 };
 
-/// Empty: nothing was asked, or the tool has neither shank nor holder and there are no fixtures.
+/// Empty: nothing was requested, or the tool has neither shank nor holder and there are no fixtures.
 struct ClearanceReport {
   std::vector<ClearanceFigure> figures;  ///< in the order of body, then role
   /// Least distance of any of these pairs but shank and target (which may touch) at every pose, by strip: for charts.
   /// Infinite where there are no such pairs; above the truth by no more than kPoseClearanceMm or 2 percent of a depth.
   std::vector<std::vector<double>> pose_clearance_mm;
   [[nodiscard]] bool kept() const;
-  /// The figure with the least clearance less its requirement; nullptr if there is none.
+  /// The figure with the least clearance minus its bound and its requirement; nullptr if there is none.
   [[nodiscard]] const ClearanceFigure* worst() const;
 };
 

@@ -24,11 +24,12 @@ using namespace internal::verify;
 /// A cell on the border of the reachable part is measured at the places of a Fibonacci lattice: every line along a side
 /// of the cell holds one of them, so that a border along the sides is seen as finely as one across.
 constexpr int kPlaces = 89, kTurn = 55;
-constexpr std::size_t kBlock = 256;
+constexpr std::size_t kBlock = 256;     ///< samples per task; fixed, so that threads change nothing
 constexpr std::size_t kLeastBlock = 8;  ///< so few balls are measured one by one
-constexpr double kRounding = 1e-9;
-constexpr int kStackSize = 128;
-constexpr std::size_t kVotes = 512;  ///< samples that tell the side of a sheet
+constexpr double kRounding = 1e-9;      ///< relative: widens a ball by more than round-off can shrink it
+constexpr int kStackSize =
+    128;  ///< each level leaves one node behind, and a tree that halves is 31 levels deep at most
+constexpr std::size_t kVotes = 512;  ///< samples that vote on the side of a sheet: plenty, if it is not even
 
 void append(TriangleMesh& all, const TriangleMesh& mesh) {
   const int first = static_cast<int>(all.vertices.size());
@@ -149,7 +150,7 @@ class Surroundings {
   }
 
  private:
-  /// Share of a cell that the ball can touch.
+  /// Share of a cell that the ball can touch: 0 or 1 if the distance of its centre decides, else counted at places.
   [[nodiscard]] double share(const Ball& ball) const {
     const auto& [center, normal, area, slack] = ball;
     if (normal.isZero()) return 1.0;  // degenerate: such a cell has no area

@@ -17,8 +17,8 @@ struct ReachFace {
 };
 
 struct ReachOptions {
-  double radius_mm = 1.0;      ///< of the ball
-  double tolerance_mm = 0.01;  ///< it may enter other faces by this much
+  double radius_mm = 1.0;      ///< > 0, of the ball: the tool's smallest radius, or what the user names
+  double tolerance_mm = 0.01;  ///< > 0: it may enter other faces by this much
 };
 
 /// Share of each sample's cell, 0 to 1, whose points x are reachable: the ball about c = x + radius n(x) enters no

@@ -59,6 +59,8 @@ std::vector<Body> bodies_of(const Tool& tool) {
 
 bool may_touch(ToolBody body, ObstacleRole role) { return body == ToolBody::kShank && role == ObstacleRole::kTarget; }
 
+/// A requirement of the user holds for every pair but shank and target, which touch where the flank does. Without one,
+/// the holder must not touch anything, and the others have the tolerance.
 double requirement(const ClearanceOptions& options, ToolBody body, ObstacleRole role) {
   if (options.required_mm >= 0.0 && !may_touch(body, role)) return options.required_mm;
   return body == ToolBody::kHolder ? 0.0 : -options.tolerance_mm;
@@ -93,12 +95,13 @@ ClearanceFigure measure(const Body& body, const Scene& scene, const std::vector<
 /// Lowers the clearance of every pose to that of this pair.
 void lower_to(std::vector<std::vector<double>>& by_strip, const Body& body, const Scene& scene,
               const std::vector<Segment>& segments) {
-  constexpr std::size_t kGrain = 16;
+  constexpr std::size_t kGrain = 16;  // segments per task; each is one query of a tree
   const MotionGap gap(body.parts, scene.tree, segments);
   parallel_blocks(segments.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       std::vector<double>& poses = by_strip[static_cast<std::size_t>(segments[k].strip)];
       const auto first = static_cast<std::size_t>(segments[k].pose);
+      // Each segment answers for its first pose, the last one of a strip for both of its ends.
       const bool ends = k + 1 == segments.size() || segments[k + 1].strip != segments[k].strip;
       for (std::size_t i = first; i < std::min(poses.size(), first + (ends ? 2 : 1)); ++i)
         poses[i] = gap.at(static_cast<int>(k), i == first ? 0.0 : 1.0, kPoseClearanceMm, poses[i]);

@@ -8,8 +8,10 @@
 namespace flank::internal::verify {
 namespace {
 
-constexpr int kDeepest = 10;  ///< halvings of one of the first pieces
-constexpr int kFirstPieces = 16;
+/// First cut of the axis, so that no bend hides between samples, and most halvings of one of the pieces: 16 * 2^10
+/// pieces are more than 5e-4 mm asks of a smooth meridian. The limit ends the recursion where the meridian has a
+/// kink.
+constexpr int kFirstPieces = 16, kDeepest = 10;
 
 double off_chord(const Vec2& a, const Vec2& b, const Vec2& x) {
   const Vec2 d = b - a;
@@ -22,6 +24,7 @@ void append(const RadialFunction& radial, double s0, double s1, int depth, std::
   const Vec2 a = meridian_point(radial, s0), b = meridian_point(radial, s1);
   double off = 0.0;
   for (double f : {0.25, 0.5, 0.75}) off = std::max(off, off_chord(a, b, meridian_point(radial, s0 + f * (s1 - s0))));
+  // Half of what is promised: between the three places the outline may be off by a little more than at them.
   if (off > 0.5 * kFlankProfileErrorMm && depth < kDeepest) {
     append(radial, s0, 0.5 * (s0 + s1), depth + 1, out);
     append(radial, 0.5 * (s0 + s1), s1, depth + 1, out);

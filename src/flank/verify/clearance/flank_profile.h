@@ -11,8 +11,8 @@ namespace flank::internal::verify {
 /// Largest distance between the polyline and the flank, mm.
 inline constexpr double kFlankProfileErrorMm = 5e-4;
 
-/// Meridian (z, radius) of `radial` as a polyline whose points lie on it, z growing; no point of the meridian is farther
-/// than kFlankProfileErrorMm from it.
+/// Meridian (z, radius) of `radial` as a polyline whose points lie on it, z growing; no point of the meridian is
+/// farther than kFlankProfileErrorMm from it.
 [[nodiscard]] std::vector<Vec2> flank_profile(const RadialFunction& radial);
 
 /// The flank, a union of spheres, as convex bodies: what turns below the meridian, and the balls that round its ends.

@@ -22,7 +22,9 @@
 namespace flank::internal::verify {
 namespace {
 
-constexpr double kFirstReachMm = 0.5;  ///< a segment is cut at once into intervals that move the body by no more
+/// A segment is cut at once into intervals that move the body by no more than this: on longer ones the first-order
+/// bound would open most of the tree, to no use. And into no more than so many, whatever a path's steps are.
+constexpr double kFirstReachMm = 0.5;
 constexpr int kMostIntervals = 1024;
 constexpr double kDepthSlack = 0.25;      ///< of the bound that is allowed: error of the depth at one pose ...
 constexpr double kFirstDepthReach = 0.7;  ///< ... and first intervals once there is a collision
@@ -81,7 +83,7 @@ class GapSearch {
 
   [[nodiscard]] const GapPlace& best() const { return best_; }
 
-  /// One pose alone.
+  /// One pose alone: an interval of length 0, which gather() decides.
   void look_at(int segment, double tau) { gather({segment, tau, tau}); }
 
   void search(int segment) {
@@ -142,7 +144,7 @@ double GapSearch::node_bound(const Frame& frame, const Sphere& sphere) const {
   return least - sphere.radius;
 }
 
-/// Upper bound of the body's support along n over the interval.
+/// Upper bound of the body's support along n over the interval: h of the derivation on top, ends and curvature.
 double GapSearch::later_support(const Interval& interval, const Revolved& body, const Vec3& n) const {
   const Segment& g = segment(interval);
   double ends = -1e300, sizes = 0.0;
@@ -257,6 +259,7 @@ GapPlace MotionGap::least(double accuracy_mm, double limit_mm) const {
   GapPlace start;
   start.value = limit_mm;
   if (body_.empty() || tree_.empty() || segments_.empty()) return start;
+  // A good value early makes the bounds of all tasks bite: a few poses spread over the path, before any interval.
   GapSearch first(*this, accuracy_mm, start);
   const std::size_t poses = std::min<std::size_t>(kFirstPoses, segments_.size());
   for (std::size_t k = 0; k < poses; ++k) first.look_at(static_cast<int>(k * segments_.size() / poses), 0.5);

@@ -6,8 +6,9 @@
 namespace flank::internal::verify {
 namespace {
 
-constexpr int kLeaf = 3;
-constexpr double kFlat = 0.25;             ///< of the radius: thickness of a slab that is worth asking
+constexpr int kLeaf = 3;  ///< most triangles of a leaf: a test of one costs about as much as two nodes
+/// Of the radius: thickness of a slab that is worth testing. A thicker one is hardly a better bound than the sphere.
+constexpr double kFlat = 0.25;
 constexpr double kOutwards = 1.0 + 1e-12;  ///< rounding must not let a corner out of its sphere
 
 std::array<Vec3, 3> corners_of(const TriangleMesh& mesh, int triangle) {
@@ -48,7 +49,8 @@ ObstacleTree::ObstacleTree(const TriangleMesh& mesh) {
   }
 }
 
-/// Sphere and slab of the node's triangles. The slab lies across their mean normal, whichever way each of them is oriented.
+/// Sphere and slab of the node's triangles. The slab lies across their mean normal, whichever way each of them is
+/// oriented.
 void ObstacleTree::enclose(const TriangleMesh& mesh, Node& node) const {
   Box3 box;
   Vec3 sum = Vec3::Zero();
@@ -72,6 +74,8 @@ void ObstacleTree::enclose(const TriangleMesh& mesh, Node& node) const {
   node.flat = node.high - node.low < kFlat * node.sphere.radius;
 }
 
+/// Halves by the middles of the triangles along their longest extent. Ties go by number: the tree, and with it every
+/// answer, is the same each time.
 int ObstacleTree::build(const TriangleMesh& mesh, const std::vector<Vec3>& centers, int first, int end) {
   const int index = static_cast<int>(nodes_.size());
   nodes_.emplace_back();

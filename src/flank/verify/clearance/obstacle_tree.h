@@ -14,10 +14,11 @@ struct Sphere {
   double radius = 0.0;
 };
 
+/// Built once, then immutable. Nodes are in depth-first order, node 0 is the root; an empty mesh has none.
 class ObstacleTree {
  public:
-  /// A node holds triangles [first, end); its children are the next node and `second` (-1: a leaf). All of it lies in the
-  /// slab low <= <normal, x> <= high.
+  /// A node holds triangles [first, end); its children are the next node and `second` (-1: a leaf). All of it lies in
+  /// the slab low <= <normal, x> <= high.
   struct Node {
     Sphere sphere;
     Vec3 normal = Vec3::UnitZ();
@@ -27,6 +28,7 @@ class ObstacleTree {
   };
 
   ObstacleTree() = default;
+  /// Copies what it needs of the mesh.
   explicit ObstacleTree(const TriangleMesh& mesh);
 
   [[nodiscard]] bool empty() const { return corners_.empty(); }

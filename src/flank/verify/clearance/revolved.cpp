@@ -31,6 +31,8 @@ Revolved::Revolved(std::vector<Vec2> corners, double rounding) : corners_(std::m
   }
 }
 
+// Inside a convex body the distance to the surface is that to the nearest side's line, so the largest over the sides;
+// outside it is that to the nearest point of a side.
 double Revolved::value(double z, double rho) const { return distance(z, rho).value; }
 
 ProfileDistance Revolved::distance(double z, double rho) const {
@@ -76,6 +78,8 @@ const Vec2& Revolved::support(double along, double across) const {
   return *best;
 }
 
+// A profile is cut where it turns outwards: a convex chain turned about the axis is a convex body, and the union of all
+// of them is the solid, as neighbours share the disc at which they were cut.
 std::vector<Revolved> convex_bodies(const std::vector<Vec2>& profile) {
   std::vector<Revolved> bodies;
   std::vector<Vec2> chain;

@@ -14,18 +14,19 @@ struct ProfileDistance {
   double corner = 0.0;  ///< 1 / distance where a corner is nearest, else 0: the second derivative across the gradient
 };
 
-/// The convex hull of circles of radius r_i about the z axis at z_i. Its signed distance is convex in space, outside and
-/// inside: the largest over unit n of <n, x> - support(n).
+/// The convex hull of circles of radius r_i about the z axis at z_i. Its signed distance is convex in space, outside
+/// and inside: the largest over unit n of <n, x> - support(n).
 class Revolved {
  public:
-  /// Corners (z, r) with z not falling, r >= 0, whose slopes do not grow. At least one. All of it grows by `rounding`: a
-  /// single corner on the axis makes a ball.
+  /// Corners (z, r) with z not falling, r >= 0, whose slopes do not grow. At least one. All of it grows by `rounding`:
+  /// a single corner on the axis makes a ball.
   explicit Revolved(std::vector<Vec2> corners, double rounding = 0.0);
 
   [[nodiscard]] ProfileDistance distance(double z, double rho) const;
   /// The same without the gradient.
   [[nodiscard]] double value(double z, double rho) const;
-  /// Corner (before the rounding) that is farthest in the direction that has `along` to the axis and `across` >= 0 from it.
+  /// Corner (before the rounding) that is farthest in the direction that has `along` to the axis and `across` >= 0 from
+  /// it.
   [[nodiscard]] const Vec2& support(double along, double across) const;
   [[nodiscard]] const std::vector<Vec2>& corners() const { return corners_; }
   [[nodiscard]] double rounding() const { return rounding_; }

@@ -11,7 +11,10 @@
 namespace flank::internal::verify {
 namespace {
 
-constexpr int kMostSteps = 80;
+constexpr int kMostSteps = 80;  ///< of a line search: bisection alone takes 50 to the last bit
+/// Of the squared longest side: a triangle with less doubled area is a segment, whose plane is round-off.
+constexpr double kNoArea = 1e-14;
+constexpr double kNoBracket = 1e-15;  ///< a bracket of [0, 1] that cannot be halved any more
 constexpr double kGolden = 0.6180339887498949;
 
 /// Value and slopes of the signed distance along x = from + t step.
@@ -69,7 +72,9 @@ LineMinimum line_minimum(const Revolved& body, const Line& line, double error = 
       low = t;
       slope_low = at.slope;
     }
-    if (std::abs(at.slope) * (high - low) <= error || !(high - low > 1e-15)) break;
+    if (std::abs(at.slope) * (high - low) <= error || !(high - low > kNoBracket)) break;
+    // Newton's step, but every third one bisects unless the bracket was halved: corners have no second derivative to
+    // trust.
     const double newton = at.bend > 0.0 ? t - at.slope / at.bend : -1.0;
     const bool shrinks = high - low < 0.5 * open;
     t = newton > low && newton < high && (shrinks || i % 3 != 2) ? newton : 0.5 * (low + high);
@@ -152,15 +157,15 @@ TriangleGap triangle_gap(const Revolved& body, const std::array<Vec3, 3>& v, dou
   const Vec3 cross = (v[1] - v[0]).cross(v[2] - v[0]);
   const double doubled = cross.norm();
   const double longest = std::max((v[1] - v[0]).squaredNorm(), (v[2] - v[0]).squaredNorm());
-  if (!(doubled > 1e-14 * longest)) return best_side(body, v, cutoff);
+  if (!(doubled > kNoArea * longest)) return best_side(body, v, cutoff);
   const Vec3 n = cross / doubled;
   const double offset = n.dot(v[0]);
   const Vec3 above = support_point(body, n), below = support_point(body, -n);
   const double over = offset - n.dot(above), under = n.dot(below) - offset;
   const double apart = std::max(over, under);
   if (apart >= cutoff) return {apart, v[0], n};
-  // No point of the plane is lower than `apart`; outside the body the foot of its support point is as low, inside it may
-  // be.
+  // No point of the plane is lower than `apart`; outside the body the foot of its support point is as low, inside it
+  // may be.
   const Vec3 direction = over > under ? n : Vec3(-n);
   const Vec3 foot = (over > under ? above : below) + apart * direction;
   if (holds(v, cross, foot)) {
