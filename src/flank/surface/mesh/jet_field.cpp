@@ -72,6 +72,8 @@ void RingCollector::add_ring(std::size_t begin, std::size_t end, const Accept& a
   }
 }
 
+// Ring after ring over edges, so that points of another sheet that is near in space are not taken; normals that turn
+// away by more than 60 degrees end it at creases.
 const std::vector<int>& RingCollector::collect(int vertex, int least) {
   start(vertex);
   const Vec3& normal = normals_[static_cast<std::size_t>(vertex)];
@@ -103,7 +105,7 @@ std::vector<JetFit> fit_jets(const TriangleMesh& mesh, const MeshTopology& topol
                              const JetOptions& options) {
   FLANK_ASSERT(normals.size() == mesh.vertices.size());
   std::vector<JetFit> fits(mesh.vertices.size());
-  constexpr std::size_t kGrain = 2048;
+  constexpr std::size_t kGrain = 2048;  // large: each task has a stamp for every vertex of the mesh
   parallel_blocks(fits.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     RingCollector rings(mesh, topology, normals);
     JetWorkspace workspace;

@@ -93,6 +93,8 @@ void fill_notches(JetSurface& surface, Rim& rim) {
   }
 }
 
+/// Normals and outward directions along a border. A loop that turns right all in all, seen along the normals, is that
+/// of a hole.
 Rim make_rim(JetSurface& surface, std::vector<TriangleSide> sides) {
   Rim rim;
   rim.sides = std::move(sides);
@@ -150,6 +152,8 @@ std::vector<Vec3> surroundings(const JetSurface& surface, RingCollector& rings, 
   return points;
 }
 
+/// 0 to 1 with two vanishing derivatives at either end: blended jets keep their second order where the blend begins and
+/// ends.
 double smooth_step(double x) {
   const double t = std::clamp(x, 0.0, 1.0);
   return t * t * t * (10.0 + t * (6.0 * t - 15.0));
@@ -245,6 +249,9 @@ class Extender {
   JetWorkspace workspace_;
 };
 
+/// Rows outwards from a border, ever wider, over the border's own jets that fade into wide fits of the surroundings:
+/// the jets are exact at the border and run away with its ripples, the wide fits are off at the border (so they are
+/// shifted to it) and steady.
 void extend_rim(JetSurface& surface, const Rim& rim, const std::vector<Vec3>& normals,
                 const std::vector<double>& extent, const ExtensionOptions& options) {
   const std::size_t n = rim.points.size();

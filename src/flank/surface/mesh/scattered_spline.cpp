@@ -63,6 +63,8 @@ void add_square(BandMatrix& m, const std::array<int, N>& index, const std::array
       if (index[b] <= index[a]) m.at(index[a], index[b]) += weight * c[a] * c[b];
 }
 
+/// Squares of second differences along u, along v and across: the thin plate's energy on the control net. It decides
+/// control points that no data reaches, and leaves linear nets alone.
 void add_smoothing(BandMatrix& m, int nu, int nv, double weight) {
   const std::array<double, 3> second{1.0, -2.0, 1.0};
   for (int i = 0; i < nu; ++i) {
@@ -112,6 +114,8 @@ BSplineSurface fit_scattered(std::span<const Vec3> points, std::span<const Vec2>
       }
     }
   }
+  // Relative to the mean diagonal, so that smoothing means the same for any number of points. Never quite zero, or
+  // control points without data would make the matrix singular.
   double trace = 0.0;
   for (int i = 0; i < size; ++i) trace += normal.at(i, i);
   add_smoothing(normal, s.count_u, s.count_v, std::max(options.smoothing, 1e-14) * trace / size);

@@ -19,7 +19,7 @@ constexpr int kCreaseScan = 64;  ///< samples a knot span in which crossings of 
 /// Borders nearer than this share of the face's size are one and the same edge of the part.
 constexpr double kSharedGap = 1e-5;
 
-/// The octahedron around c that holds the ball of radius r.
+/// The octahedron around c that holds the ball of radius r: its faces lie at reach / sqrt(3) from c.
 void append_ball(const Vec3& c, double r, std::vector<Vec3>& out) {
   const double reach = r * std::sqrt(3.0);
   for (int axis = 0; axis < 3; ++axis) {
@@ -60,6 +60,8 @@ NurbsBorders::NurbsBorders(const std::vector<Face>& faces, const std::vector<Nur
   find_partners(prepared);
 }
 
+/// Parameters at which the curve on the surface is not smooth: its own knots, and where it crosses creases of the face.
+/// Between them it is, so that a piece may be searched by Newton's method.
 std::vector<double> NurbsBorders::breaks(const NurbsFace& face, const BSplineCurve2& curve) const {
   std::vector<double> knots{curve.first()};
   for (double k : curve.knots)
@@ -88,6 +90,7 @@ std::vector<double> NurbsBorders::breaks(const NurbsFace& face, const BSplineCur
   return result;
 }
 
+/// Pieces of a loop, linked round: a footpoint at the end of one looks at the next.
 void NurbsBorders::add_loop(const TrimLoop& loop, const std::vector<NurbsFace>& faces, int face) {
   const int first = static_cast<int>(pieces_.size());
   for (const BSplineCurve2& curve : loop.edges) {
@@ -120,6 +123,8 @@ NurbsBorders::CurveJet3 NurbsBorders::jet(const NurbsFace& face, int edge, doubl
   return r;
 }
 
+/// Halves until a piece is nearly straight and evenly run through: then the squared distance along it has one minimum
+/// for points that are not far away, and Newton's method finds it from the middle.
 void NurbsBorders::split(const std::vector<NurbsFace>& faces, int face, int edge, double t0, double t1, int depth) {
   const NurbsFace& prepared = faces[static_cast<std::size_t>(face)];
   std::array<Vec3, kSamples + 1> p;
@@ -160,6 +165,7 @@ Vec3 NurbsBorders::point(const std::vector<NurbsFace>& faces, int index, double 
   return jet(faces[static_cast<std::size_t>(p.face)], p.edge, p.t0 + share * (p.t1 - p.t0)).p;
 }
 
+/// From the middle, and from both ends as well if the descent met a place so soft that it may have missed a minimum.
 BorderPoint NurbsBorders::closest(const std::vector<NurbsFace>& faces, int index, const Vec3& p) const {
   const BorderPiece& one = piece(index);
   const NurbsFace& face = faces[static_cast<std::size_t>(one.face)];
@@ -173,6 +179,8 @@ BorderPoint NurbsBorders::closest(const std::vector<NurbsFace>& faces, int index
   return best;
 }
 
+/// Minimum of the squared distance over a piece by Newton's method, or by Gauss-Newton's where that is not convex, with
+/// halved steps if it goes uphill. `stiffness`: least second derivative on the way, over that of a straight line.
 BorderPoint NurbsBorders::descend(const NurbsFace& face, int index, const Vec3& p, double t, double& stiffness) const {
   const BorderPiece& piece = pieces_[static_cast<std::size_t>(index)];
   const double range = piece.t1 - piece.t0;
@@ -222,6 +230,8 @@ int NurbsBorders::piece_at(const NurbsFace& face, int face_index, int border, do
   return *it;
 }
 
+/// Finds pieces that lie on another edge, of a neighbouring face or the other side of a seam: there the target goes on.
+/// Asked at three places inside the piece, since its ends may touch edges that only meet it.
 void NurbsBorders::find_partners(const std::vector<NurbsFace>& faces) {
   const BoxTree tree(hulls_);
   for (std::size_t k = 0; k < pieces_.size(); ++k) {

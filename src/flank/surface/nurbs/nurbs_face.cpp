@@ -27,6 +27,7 @@ double iso_length(const BSplineSurface& s, double u0, double v0, double u1, doub
   return length;
 }
 
+/// Cells of a rectangle. One that only touches its upper side does not belong to it.
 ParameterBox box_of(const BSplinePatches& s, double u0, double u1, double v0, double v1) {
   ParameterBox b{u0, u1, v0, v1, s.cell_u(u0), s.cell_u(u1), s.cell_v(v0), s.cell_v(v1)};
   if (b.i1 > b.i0 && s.breaks_u()[static_cast<std::size_t>(b.i1)] >= u1) --b.i1;
@@ -62,6 +63,7 @@ NurbsFace::NurbsFace(const Face& face, int side, const ExtensionOptions& options
   find_zones(wide);
 }
 
+/// Size, seams and poles, judged by samples: a border is closed if it is its opposite one, a pole if it is one point.
 void NurbsFace::find_borders(const BSplineSurface& s) {
   Box3 box;
   for (int i = 0; i <= kProbes; ++i)
@@ -109,6 +111,7 @@ ParameterMargins NurbsFace::margins(const BSplineSurface& s, const ExtensionOpti
   const auto margin = [&](int border, double range, double length) {
     const bool closed = border < 2 ? closed_u_ : closed_v_;
     if (closed || pole_[static_cast<std::size_t>(border)] || options.length_share <= 0.0) return 0.0;
+    // Files with uneven parameters: the range near the border may stand for much more or less length than its share.
     const double speed_share = outer[static_cast<std::size_t>(border)] / (options.fit_share * length);
     return options.length_share * range / std::clamp(speed_share, 0.2, 5.0);
   };
@@ -216,6 +219,7 @@ bool NurbsFace::at_pole(double u, double v) const {
   return (pole_[0] && u <= d.u0) || (pole_[1] && u >= d.u1) || (pole_[2] && v <= d.v0) || (pole_[3] && v >= d.v1);
 }
 
+// A descent within one zone, which is smooth. Held by a crease, it goes on in the next zone if that leads down.
 Footpoint NurbsFace::track(const Vec3& p, double u, double v, bool& ok) const {
   Descent x;
   x.u = u;
@@ -239,6 +243,7 @@ Footpoint NurbsFace::track(const Vec3& p, double u, double v, bool& ok) const {
   return footpoint(p, x.u, x.v, x.jet, !held, location);
 }
 
+/// At a pole the cross product vanishes: the normal a little towards the middle of the face stands for it.
 Vec3 NurbsFace::normal(const SurfaceJet& jet, double u, double v) const {
   const Vec3 n = jet.du.cross(jet.dv);
   const double length = n.norm();
@@ -268,7 +273,7 @@ Footpoint NurbsFace::footpoint(const Vec3& p, double u, double v, const SurfaceJ
   const double a = jet.du.squaredNorm(), b = jet.du.dot(jet.dv), c = jet.dv.squaredNorm(), det = a * c - b * b;
   f.d1 = a > 0.0 ? Vec3(jet.du / std::sqrt(a)) : n.unitOrthogonal();
   f.d2 = n.cross(f.d1);
-  if (!(det > 1e-18 * a * c) || at_pole(u, v)) return f;  // a pole: no curvature is told
+  if (!(det > 1e-18 * a * c) || at_pole(u, v)) return f;  // a pole: curvature is undefined
   // Second fundamental form in the orthonormal frame (Su / |Su|, n x that), then the eigenvalues of a symmetric 2 x 2.
   const double l = jet.duu.dot(n), m = jet.duv.dot(n), q = jet.dvv.dot(n), ratio = b / a;
   const Vec3 e1 = f.d1, e2 = n.cross(e1);

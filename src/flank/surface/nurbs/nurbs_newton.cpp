@@ -37,6 +37,9 @@ struct Quadratic {
     return a * du * du + 2.0 * b * du * dv + c * dv * dv;
   }
 
+  /// Newton's step where f is convex enough for it, else Gauss-Newton's, which always goes down, else one parameter at
+  /// a time (the tangents are parallel: a pole). 1e-6 of the metric: below it the minimum is so soft that Newton's step
+  /// runs away.
   [[nodiscard]] Step both() const {
     const double metric = a * c - b * b, hessian = huu * hvv - huv * huv;
     if (huu > 0.0 && hessian > 1e-6 * metric && hessian > 0.0) {
@@ -59,7 +62,9 @@ struct Quadratic {
   }
 };
 
-/// The step within the box from x, which tells what it is held by.
+/// The step within the box from x, and what holds x at the box. At a bound that the gradient presses against, the
+/// parameter is held and the other one moves alone; a step that leaves the box is clipped where it hits, and the other
+/// parameter answers.
 Step clipped_step(const Quadratic& q, const ParameterBox& box, Descent& x) {
   x.side_u = x.u <= box.u0 && q.gu > 0.0 ? -1 : x.u >= box.u1 && q.gu < 0.0 ? 1 : 0;
   x.side_v = x.v <= box.v0 && q.gv > 0.0 ? -1 : x.v >= box.v1 && q.gv < 0.0 ? 1 : 0;
@@ -113,6 +118,7 @@ void descend(const BSplinePatches& surface, const Vec3& p, const ParameterBox& b
     const int j = std::clamp(surface.cell_v(trial.v), box.j0, box.j1);
     surface.evaluate(i, j, trial.u, trial.v, trial.jet);
     trial.squared = (trial.jet.p - p).squaredNorm();
+    // Uphill, by more than round-off: half the step, as often as it takes.
     if (iteration > 0 && trial.squared > x.squared * (1.0 + 1e-13)) {
       trial.u = 0.5 * (trial.u + x.u);
       trial.v = 0.5 * (trial.v + x.v);
@@ -123,6 +129,7 @@ void descend(const BSplinePatches& surface, const Vec3& p, const ParameterBox& b
     const Step s = clipped_step(q, box, trial);
     x = trial;
     if (zone != nullptr) {
+      // Twice, since the first step from a start at the box's side may still turn back.
       held = held_inside_zone(x, box, *zone) ? held + 1 : 0;
       if (held >= 2) {
         x.end = Descent::End::kAbandoned;
@@ -136,6 +143,7 @@ void descend(const BSplinePatches& surface, const Vec3& p, const ParameterBox& b
     trial.v = x.v + s.dv;
     if (length * std::max(s.shrink, 1.0) > last * last * size * size) continue;
     x.end = Descent::End::kConverged;
+    // The last step is so short that the jet is moved by Taylor's formula instead of being evaluated once more.
     const bool same_cell = std::clamp(surface.cell_u(trial.u), box.i0, box.i1) == i &&
                            std::clamp(surface.cell_v(trial.v), box.j0, box.j1) == j;
     if (s.du == 0.0 && s.dv == 0.0) return;

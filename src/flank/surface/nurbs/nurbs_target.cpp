@@ -76,6 +76,8 @@ NurbsTarget::NurbsTarget(const std::vector<Face>& faces, int side, const Extensi
   measure();
 }
 
+/// Area and box. A cell on the trim is quartered until a piece is a small share of the face: an area error of the
+/// second order.
 void NurbsTarget::measure_cell(const FlatCell& cell) {
   const NurbsFace& f = face(cell.face);
   const double width = cell.u1 - cell.u0, height = cell.v1 - cell.v0;
@@ -97,6 +99,8 @@ void NurbsTarget::measure() {
     for (double share : {0.0, 0.25, 0.5, 0.75, 1.0}) box_.add(borders_.point(faces_, k, share));
 }
 
+/// One descent from a start in the cell. It may leave the cell for as far as `reach`; once something was found, it is
+/// given up as soon as it is held outside the zone in which this cell can win.
 Descent NurbsTarget::descend_cell(const FlatCell& cell, const Vec3& p, double u, double v, Best& best) const {
   const NurbsFace& f = face(cell.face);
   Descent x;
@@ -118,6 +122,8 @@ Descent NurbsTarget::descend_cell(const FlatCell& cell, const Vec3& p, double u,
   return x;
 }
 
+/// The start is the foot of p on the cell's tangent plane. Several minima are possible only beyond the focal distance,
+/// so only there, or where the first descent met a soft place, is the cell searched from a grid.
 void NurbsTarget::search_cell(const FlatCell& cell, const Vec3& p, Best& best) const {
   const Vec3 r = p - cell.center;
   const double du = cell.u1 - cell.u0, dv = cell.v1 - cell.v0;
@@ -153,6 +159,8 @@ Footpoint NurbsTarget::closest_within(const Vec3& p, double horizon_mm) const {
   return finish(p, best);
 }
 
+/// Whether the target goes on past all border pieces that meet at this place: then the place is no border of it.
+/// `partner`: the piece on the other side, if there is one.
 bool NurbsTarget::leads_on(const Best& best, int& partner) const {
   const NurbsFace& f = face(best.face);
   int count = 0;
@@ -178,6 +186,8 @@ bool NurbsTarget::leads_on(const Best& best, int& partner) const {
   return all;
 }
 
+/// The footpoint of the best place. p - point may be off the normal for two reasons: a real border, or a sharp edge
+/// inside the target, which counts as inside and needs a sign of its own.
 Footpoint NurbsTarget::finish(const Vec3& p, const Best& best) const {
   if (best.face < 0) {  // nothing within the horizon, or p is not finite
     Footpoint nothing;
