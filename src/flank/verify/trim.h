@@ -7,7 +7,8 @@
 
 namespace flank::internal::verify {
 
-/// The loops as polylines; immutable. A face without loops has everything inside.
+/// The loops as polylines; immutable. A face without loops has everything inside. Loops may be oriented in any way, and
+/// holes are loops like others: even-odd needs neither. All of it in the surface's parameters, which have no unit.
 class Trim {
  public:
   /// Chords stay within `tolerance_u`, `tolerance_v` of the trimming curves (parameter units).
@@ -15,10 +16,10 @@ class Trim {
 
   /// Where the line v = constant crosses the loops, ascending in u: inside between the 1st and 2nd, 3rd and 4th, ...
   [[nodiscard]] std::vector<double> crossings(double v) const;
-  [[nodiscard]] bool everything() const { return everything_; }
+  [[nodiscard]] bool everything() const { return everything_; }  ///< there are no loops
   /// Even-odd test of u against the crossings of its line.
   [[nodiscard]] bool inside(const std::vector<double>& crossings, double u) const;
-  /// Smallest rectangle around the loops.
+  /// Smallest rectangle around the loops; meaningless without any.
   [[nodiscard]] Vec2 low() const { return low_; }
   [[nodiscard]] Vec2 high() const { return high_; }
 

@@ -8,7 +8,8 @@
 
 namespace flank::internal::verify {
 
-/// Largest distance between the polyline and the flank, mm.
+/// Largest distance between the polyline and the flank, mm. It is added to the bound of every clearance of the flank,
+/// so it is half of ClearanceOptions::accuracy_mm.
 inline constexpr double kFlankProfileErrorMm = 5e-4;
 
 /// Meridian (z, radius) of `radial` as a polyline whose points lie on it, z growing; no point of the meridian is

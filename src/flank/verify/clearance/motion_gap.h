@@ -12,20 +12,22 @@ namespace flank::internal::verify {
 /// Where it is least.
 struct GapPlace {
   double value = 1e300;       ///< signed: negative is the depth of the deepest point of a triangle in one convex body
-  int segment = -1;           ///< -1: nothing nearer than the value asked for
-  double tau = 0.0;           ///< on the segment
+  int segment = -1;           ///< index into the segments; -1: nothing is nearer than the limit
+  double tau = 0.0;           ///< on the segment, in [0, 1]
   int triangle = -1;          ///< number in the mesh
   Vec3 point = Vec3::Zero();  ///< of the triangle, in the part's frame
-  double z = 0.0, rho = 0.0;  ///< of the nearest point of the body
+  double z = 0.0, rho = 0.0;  ///< of the nearest point of the body, mm, in its own frame
 };
 
-/// A collision's depth is refined to this share of it, if that is more than the accuracy asked for.
+/// A collision's depth is refined to this share of it, if that is more than the accuracy: how deep a collision is
+/// matters less than that it is one, and only the first-order bound holds inside a body.
 inline constexpr double kDepthShare = 0.02;
 
-/// How far below the value found the true minimum may lie.
+/// How far below the value found the true minimum may lie, mm: the larger one of accuracy and kDepthShare of the depth.
 [[nodiscard]] double gap_bound(double value, double accuracy_mm);
 
-/// One body (a union of convex ones) along segments, against one tree.
+/// One body (a union of convex ones) along segments, against one tree. Immutable; its functions may be called from many
+/// threads.
 class MotionGap {
  public:
   /// The arguments must outlive this.
@@ -34,7 +36,7 @@ class MotionGap {
   /// The least value over all segments: found.value - gap_bound(found.value, accuracy) <= truth <= found.value. Values
   /// of `limit` and above need not be told apart. Parallel; the same bits for any number of threads.
   [[nodiscard]] GapPlace least(double accuracy_mm, double limit_mm) const;
-  /// The value at one place of one segment; `limit_mm` where it is not below that.
+  /// The value at one place of one segment, to the same accuracy; `limit_mm` if it is not below that.
   [[nodiscard]] double at(int segment, double tau, double accuracy_mm, double limit_mm) const;
 
  private:

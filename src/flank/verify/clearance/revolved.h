@@ -22,14 +22,16 @@ class Revolved {
   /// a single corner on the axis makes a ball.
   explicit Revolved(std::vector<Vec2> corners, double rounding = 0.0);
 
+  /// Signed distance of the point (z, rho), rho >= 0, mm, with its gradient. On edges of the inside, where two sides
+  /// are equally near, one of the possible gradients.
   [[nodiscard]] ProfileDistance distance(double z, double rho) const;
   /// The same without the gradient.
   [[nodiscard]] double value(double z, double rho) const;
   /// Corner (before the rounding) that is farthest in the direction that has `along` to the axis and `across` >= 0 from
   /// it.
   [[nodiscard]] const Vec2& support(double along, double across) const;
-  [[nodiscard]] const std::vector<Vec2>& corners() const { return corners_; }
-  [[nodiscard]] double rounding() const { return rounding_; }
+  [[nodiscard]] const std::vector<Vec2>& corners() const { return corners_; }  ///< before the rounding
+  [[nodiscard]] double rounding() const { return rounding_; }                  ///< mm
 
  private:
   struct Side {
@@ -41,7 +43,8 @@ class Revolved {
   std::vector<Side> sides_;  ///< from the axis over the lower end, the outside and the upper end back to the axis
 };
 
-/// Profile (z, radius), z not falling, as convex bodies whose union it is. Empty for fewer than two points.
+/// Profile (z, radius), z not falling, radii >= 0, as convex bodies whose union is the solid that it turns. Empty for
+/// fewer than two points.
 [[nodiscard]] std::vector<Revolved> convex_bodies(const std::vector<Vec2>& profile);
 
 }  // namespace flank::internal::verify

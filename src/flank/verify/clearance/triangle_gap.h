@@ -14,7 +14,8 @@ struct TriangleGap {
   Vec3 normal = Vec3::UnitX();  ///< gradient of the signed distance there: from the body to the triangle
 };
 
-/// Promised accuracy of triangle_gap, mm: of distances, and of depths where no more is allowed.
+/// Promised accuracy of triangle_gap, mm: of distances, and of depths if no more is allowed. Depths are dearer: inside,
+/// the distance is convex but not smooth, and its minimum over a triangle is searched for in two dimensions.
 inline constexpr double kTriangleGapErrorMm = 1e-9;
 inline constexpr double kDepthErrorMm = 1e-7;
 

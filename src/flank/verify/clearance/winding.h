@@ -12,6 +12,7 @@ namespace flank::internal::verify {
 /// change it little. Far parts count as one area each (Barill et al., 2018).
 class Winding {
  public:
+  /// Copies what it needs of the mesh; an empty one winds round nothing.
   explicit Winding(const TriangleMesh& mesh);
 
   /// Good to about 0.05 for points that are farther from the triangles than their gaps are wide.

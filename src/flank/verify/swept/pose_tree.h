@@ -25,12 +25,15 @@ struct Piece {
   double low = 0.0, high = 1.0;
 };
 
+/// Immutable after construction. A strip of one pose is one segment without length; links between strips are in no
+/// segment, since nothing is cut along them.
 struct PoseTree {
-  std::vector<Segment> segments;
-  std::vector<Piece> pieces;
-  double piece_reach = 0.0;     ///< largest reach of a leaf
-  std::vector<PoseNode> nodes;  ///< in depth-first order; empty for an empty path
+  std::vector<Segment> segments;  ///< in the order of strips and poses
+  std::vector<Piece> pieces;      ///< in the order of the segments
+  double piece_reach = 0.0;       ///< largest reach of a leaf
+  std::vector<PoseNode> nodes;    ///< in depth-first order; empty for an empty path
 
+  /// The segment that a piece is a part of.
   [[nodiscard]] const Segment& segment_of(int piece) const {
     return segments[static_cast<std::size_t>(pieces[static_cast<std::size_t>(piece)].segment)];
   }

@@ -20,7 +20,8 @@ struct Segment {
 
 /// F(tau, s) = |x - R(tau, s)| - r(s) with its first and second derivatives.
 struct DistanceJet {
-  double f = 0.0, distance = 0.0;
+  double f = 0.0, distance = 0.0;  ///< mm; distance = |x - R(tau, s)|
+  /// Derivatives by tau (t here) and s: mm, none, mm, none, 1/mm.
   double dt = 0.0, ds = 0.0, dtt = 0.0, dts = 0.0, dss = 0.0;
 };
 

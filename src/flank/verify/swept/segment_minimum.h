@@ -7,8 +7,9 @@
 namespace flank::internal::verify {
 
 struct SegmentMinimum {
-  double f = 1e300;
-  double tau = 0.0, s = 0.0;
+  double f = 1e300;  ///< mm
+  double tau = 0.0;  ///< on the segment, in [low, high]
+  double s = 0.0;    ///< on the axis, mm, in [0, L]
 };
 
 /// Newton's method with bounds tau in [low, high], s in [0, L] from `start`, never uphill. Returns false (and the best

@@ -7,13 +7,15 @@
 
 namespace flank::internal::verify {
 
-/// A place on the path: piece of the tree, parameter of its segment, axis arc length.
+/// A place on the path: piece of the tree, parameter of its segment, axis arc length; and f there, mm.
 struct SweptPlace {
   double f = 0.0;
   int piece = -1;  ///< -1: nothing below the horizon
   double tau = 0.0, s = 0.0;
 };
 
+/// One object per query; it keeps references, so tool, tree and x must outlive it. What is proved of its bounds, and
+/// what is only tested, is in docs/algorithms/judge.md.
 class SweptSearch {
  public:
   SweptSearch(const ToolDistance& tool, const PoseTree& tree, const Vec3& x) : tool_(tool), tree_(tree), x_(x) {}
@@ -22,9 +24,9 @@ class SweptSearch {
   [[nodiscard]] SweptPlace run(double horizon, const SweptPlace& near);
 
  private:
-  [[nodiscard]] double bound(const PoseNode& node) const;
-  [[nodiscard]] bool excluded(const DistanceJet& jet, double half) const;
-  [[nodiscard]] bool single(double rho) const;
+  [[nodiscard]] double bound(const PoseNode& node) const;                  ///< <= f over all poses of the node
+  [[nodiscard]] bool excluded(const DistanceJet& jet, double half) const;  ///< no place within `half` of tau is lower
+  [[nodiscard]] bool single(double rho) const;                             ///< one minimum over s is certain
   [[nodiscard]] const Piece& piece(int k) const { return tree_.pieces[static_cast<std::size_t>(k)]; }
   [[nodiscard]] const Segment& segment(const Piece& p) const {
     return tree_.segments[static_cast<std::size_t>(p.segment)];

@@ -12,8 +12,8 @@ namespace flank::internal::verify {
 
 /// The sphere that is nearest to a point of the tool plane.
 struct NearestSphere {
-  double g = 0.0;
-  double s = 0.0;
+  double g = 0.0;  ///< signed distance to the tool, mm
+  double s = 0.0;  ///< centre of the sphere on the axis, mm, in [0, L]
   /// Another local minimum over s may be as good a small step away from (z, rho): the caller must not follow s by
   /// continuity.
   bool contested = false;
@@ -21,12 +21,14 @@ struct NearestSphere {
 
 /// What the grid knows without evaluating the tool: a lower bound of g, and about where the nearest sphere sits.
 struct Estimate {
-  double bound = 0.0;
-  double s = 0.0;
-  double s_error = 0.0;  ///< s is this near to the minimiser where there is one only
+  double bound = 0.0;    ///< <= g
+  double s = 0.0;        ///< about the minimiser
+  double s_error = 0.0;  ///< s is this near to the minimiser if there is only one
   bool near_end = true;  ///< s may be held by an end of the axis
 };
 
+/// z and rho >= 0 are the point's place in the tool's own frame: along the axis from the tip, and from the axis
+/// (plane_point). Immutable after construction, so many threads may ask at once.
 class ToolDistance {
  public:
   explicit ToolDistance(const RadialFunction& radial);
@@ -37,12 +39,13 @@ class ToolDistance {
     const Grid* grid = grid_around(z, rho);
     return grid != nullptr ? grid->interpolate(z, rho) : beyond_grids(z, rho);
   }
-  /// The global minimum over s.
+  /// The global minimum over s, to about 1e-12 mm: by the grid and Newton's method if one minimum is certain, else by
+  /// search().
   [[nodiscard]] NearestSphere nearest(double z, double rho) const;
   /// The global minimum over s by a search through all of [0, L] that uses no grid.
   [[nodiscard]] NearestSphere search(double z, double rho) const;
 
-  static constexpr int kMostMinima = 16;
+  static constexpr int kMostMinima = 16;  ///< more are left out: no real meridian has as many waves
   /// Where the local minima over s below a value are, about: nodes of the radial table. Returns how many.
   [[nodiscard]] int minima(double z, double rho, double below, std::array<double, kMostMinima>& s) const;
 
