@@ -59,9 +59,9 @@ function(flank_report_page target)
     set(source ${PROJECT_BINARY_DIR}/web/page_missing.cpp)
     file(CONFIGURE OUTPUT ${source} @ONLY CONTENT
 "#include \"flank/report/page_template.h\"
-namespace flank {
+namespace flank::internal {
 std::string_view page_template() { return {}; }
-}  // namespace flank
+}  // namespace flank::internal
 ")
   endif()
   target_sources(${target} PRIVATE ${source})

@@ -51,6 +51,6 @@ const page = readFileSync(join(source, 'index.html'), 'utf8')
 writeFileSync(html, page);
 writeFileSync(
   cpp,
-  `// Made by web/build.mjs.\n#include "flank/report/page_template.h"\n\nnamespace flank {\n\nstd::string_view page_template() {\n` +
-    `  static constexpr char kPage[] =\n${literals(page)};\n  return {kPage, sizeof kPage - 1};\n}\n\n}  // namespace flank\n`,
+  `// Made by web/build.mjs.\n#include "flank/report/page_template.h"\n\nnamespace flank::internal {\n\nstd::string_view page_template() {\n` +
+    `  static constexpr char kPage[] =\n${literals(page)};\n  return {kPage, sizeof kPage - 1};\n}\n\n}  // namespace flank::internal\n`,
 );

@@ -10,7 +10,7 @@
 #include "flank/example/example.h"
 #include "flank/io/cad/read_cad.h"
 #include "flank/part.h"
-#include "flank/pipeline/example_rotor37_table.h"
+#include "flank/example/example_rotor37_table.h"
 #include "flank/target.h"
 #include "rotor37_file.h"
 

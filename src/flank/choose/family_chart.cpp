@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "flank/base/assert.h"
 #include "flank/seed/direction/direction_filter.h"
 #include "flank/tool.h"
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "flank/pipeline/example_rotor37_table.h"
+#include "flank/example/example_rotor37_table.h"
 
 namespace flank::internal {
 namespace {

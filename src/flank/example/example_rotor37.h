@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "flank/face.h"
-#include "flank/io/write_solid.h"
+#include "flank/io/cad/write_solid.h"
 
 namespace flank::internal {
 

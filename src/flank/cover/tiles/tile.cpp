@@ -205,7 +205,9 @@ StripSet improved(const TileScene& scene, const std::vector<CoverStrip>& pool, S
       ++i;
     }
     double most = scene.options.strip_price + kLeastImprovement;
-    const int more = static_cast<int>(set.size()) < scene.options.most_strips ? best_addition(most) : -1;
+    const bool may_add =
+        static_cast<int>(set.size()) < scene.options.most_strips && covered.covered() < scene.options.enough_coverage;
+    const int more = may_add ? best_addition(most) : -1;
     if (more >= 0) {
       set.push_back(more);
       covered.add(at(more));

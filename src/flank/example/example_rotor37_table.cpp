@@ -1,4 +1,4 @@
-#include "flank/pipeline/example_rotor37_table.h"
+#include "flank/example/example_rotor37_table.h"
 
 #include <cmath>
 #include <iterator>

@@ -1,4 +1,4 @@
-#include "flank/io/write_solid.h"
+#include "flank/io/cad/write_solid.h"
 
 #include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
