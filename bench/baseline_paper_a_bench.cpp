@@ -6,9 +6,9 @@
 #include <cstdio>
 
 #include "fit_scenes.h"
-#include "flank/base/parallel.h"
 #include "flank/fit/polish.h"
 #include "flank/seed/line_start.h"
+#include "flank/threads.h"
 #include "paper_a.h"
 
 namespace {

@@ -5,7 +5,7 @@
 #include <exception>
 
 #include "claims/claims.h"
-#include "flank/base/parallel.h"
+#include "flank/threads.h"
 
 namespace {
 
@@ -32,7 +32,7 @@ void print(const Figure& figure, bool& all) {
 int main(int argc, char** argv) {
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
   const char* threads = std::getenv("FLANK_THREADS");
-  flank::internal::set_thread_count(threads ? std::atoi(threads) : 1);
+  flank::set_thread_count(threads ? std::atoi(threads) : 1);
   std::vector<Claim> claims;
   add_envelope_claims(claims);
   add_mesh_claims(claims);

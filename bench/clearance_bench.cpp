@@ -13,11 +13,11 @@
 #include <memory>
 #include <vector>
 
-#include "flank/base/parallel.h"
 #include "flank/base/random.h"
 #include "flank/clearance.h"
 #include "flank/io/cad/triangulate.h"
 #include "flank/obstacle/pose_clearance.h"
+#include "flank/threads.h"
 
 namespace {
 

@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "flank/base/atomic_file.h"
-#include "flank/base/parallel.h"
 #include "flank/error.h"
 #include "flank/example/example.h"
-#include "flank/io/tool/tool_json.h"
 #include "flank/pipeline/cover_job.h"
+#include "flank/threads.h"
+#include "flank/tool_file.h"
 #include "part_file.h"
 
 namespace {

@@ -3,8 +3,8 @@
 #include <cstdio>
 
 #include "fit_scenes.h"
-#include "flank/base/parallel.h"
 #include "flank/fit/polish.h"
+#include "flank/threads.h"
 
 namespace {
 

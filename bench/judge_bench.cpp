@@ -8,13 +8,12 @@
 #include <ctime>
 #include <vector>
 
-#include "flank/base/parallel.h"
 #include "flank/judge.h"
+#include "flank/threads.h"
 
 namespace {
 
 using namespace flank;
-using namespace flank::internal;
 
 constexpr double kLength = 40.0;
 constexpr int kPoses = 1000;

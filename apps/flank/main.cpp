@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "commands.h"
-#include "flank/base/parallel.h"
 #include "flank/error.h"
+#include "flank/threads.h"
+#include "flank/version.h"
 
 namespace {
 
@@ -43,15 +44,16 @@ void add_common(CLI::App& app, flank::cli::CommonOptions& common) {
 int main(int argc, char** argv) {
   CLI::App parser{"flank: custom-shaped milling tools and the five-axis motions whose flank finishes a surface",
                   "flank"};
-  parser.set_version_flag("--version", FLANK_VERSION);
+  parser.set_version_flag("--version", flank::kVersion);
   parser.require_subcommand(1);
   parser.footer(
       "Exit: 0 done and within what was asked; 1 done, but not within it; 2 wrong usage; 3 input refused; 4 our "
       "fault.");
   flank::cli::CommonOptions common;
-  std::vector<flank::cli::Subcommand> commands = {
-      flank::cli::add_inspect(parser), flank::cli::add_example(parser), flank::cli::add_tool(parser),   flank::cli::add_fit(parser),
-      flank::cli::add_cover(parser),   flank::cli::add_verify(parser),  flank::cli::add_report(parser), flank::cli::add_view(parser)};
+  std::vector<flank::cli::Subcommand> commands = {flank::cli::add_inspect(parser), flank::cli::add_example(parser),
+                                                  flank::cli::add_tool(parser),    flank::cli::add_fit(parser),
+                                                  flank::cli::add_cover(parser),   flank::cli::add_verify(parser),
+                                                  flank::cli::add_report(parser),  flank::cli::add_view(parser)};
   for (const flank::cli::Subcommand& command : commands) add_common(*command.app, common);
   try {
     require_known_command(parser, argc, argv);
@@ -63,7 +65,7 @@ int main(int argc, char** argv) {
     return complain(std::string(e.what()) + " (see flank --help)", 2);
   }
   try {
-    flank::internal::set_thread_count(common.threads);
+    flank::set_thread_count(common.threads);
     for (const flank::cli::Subcommand& command : commands)
       if (command.app->parsed()) return command.run(common);
     return 2;

@@ -1,4 +1,5 @@
 #include "flank/base/parallel.h"
+#include "flank/threads.h"
 
 #include <gtest/gtest.h>
 

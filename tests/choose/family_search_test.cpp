@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "cover/cover_targets.h"
-#include "flank/base/parallel.h"
 #include "flank/error.h"
+#include "flank/threads.h"
 
 namespace flank::internal {
 namespace {

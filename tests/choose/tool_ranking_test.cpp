@@ -7,7 +7,7 @@
 #include <span>
 
 #include "cover/cover_targets.h"
-#include "flank/base/parallel.h"
+#include "flank/threads.h"
 #include "sanitized.h"
 
 namespace flank::internal {

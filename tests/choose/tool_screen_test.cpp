@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "cover/cover_targets.h"
-#include "flank/base/parallel.h"
+#include "flank/threads.h"
 #include "seed/sheet.h"
 
 namespace flank::internal {

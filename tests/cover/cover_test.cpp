@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "cover/cover_targets.h"
-#include "flank/base/parallel.h"
 #include "flank/cover/tiles/tile.h"
+#include "flank/threads.h"
 #include "sanitized.h"
 
 namespace flank::internal {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "cover/cover_targets.h"
-#include "flank/base/parallel.h"
 #include "flank/cover/cover.h"
+#include "flank/threads.h"
 
 namespace flank::internal {
 namespace {

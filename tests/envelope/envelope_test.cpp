@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "flank/base/parallel.h"
+#include "flank/threads.h"
 #include "motion/sample_motions.h"
 
 namespace flank::internal {

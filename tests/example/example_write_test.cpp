@@ -7,9 +7,9 @@
 
 #include "flank/error.h"
 #include "flank/example/example.h"
-#include "flank/io/path/path_json.h"
-#include "flank/io/tool/tool_json.h"
 #include "flank/part.h"
+#include "flank/path_file.h"
+#include "flank/tool_file.h"
 
 namespace flank::internal {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "fit/flat_scene.h"
-#include "flank/base/parallel.h"
 #include "flank/fit/flank_fit.h"
+#include "flank/threads.h"
 #include "sanitized.h"
 
 namespace flank::internal {

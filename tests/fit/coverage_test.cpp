@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "fit/flat_scene.h"
-#include "flank/base/parallel.h"
 #include "flank/fit/flank_fit.h"
+#include "flank/threads.h"
 #include "seed/exact_targets.h"
 
 namespace flank::internal {

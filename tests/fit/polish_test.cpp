@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "fit/flat_scene.h"
-#include "flank/base/parallel.h"
+#include "flank/threads.h"
 #include "sanitized.h"
 #include "seed/exact_targets.h"
 

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "fit/flat_scene.h"
-#include "flank/base/parallel.h"
+#include "flank/threads.h"
 #include "sanitized.h"
 
 namespace flank::internal {
@@ -52,7 +52,7 @@ TEST(TargetPoints, SharesInsideSumToOneAndARimPointCountsHalfACell) {
   int rim = 0;
   for (const FacePoint& point : target_points(draft, per_side)) {
     EXPECT_NEAR(point.point.y(), 0.0, 1e-12);
-    EXPECT_FALSE(point.one_sided);
+    EXPECT_FALSE(point.one_sided());
     if (on_rim(point.point)) {
       ++rim;
       EXPECT_NEAR(point.share, 0.5 / (per_side * per_side), 1e-12);
@@ -90,8 +90,8 @@ TEST(TargetPoints, WhatTheBallCannotReachBesideTheHubCountsFromOneSide) {
   int out = 0;
   for (const FacePoint& point : target_points(draft, 15, {5.0, 0.1})) {
     if (on_rim(point.point)) continue;
-    EXPECT_EQ(point.one_sided, point.point.z() < 4.9) << point.point.transpose();
-    out += point.one_sided ? 1 : 0;
+    EXPECT_EQ(point.one_sided(), point.point.z() < 4.9) << point.point.transpose();
+    out += point.one_sided() ? 1 : 0;
   }
   EXPECT_GT(out, 10);
 }

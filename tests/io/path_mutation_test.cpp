@@ -6,7 +6,7 @@
 
 #include "flank/io/path/path_cls.h"
 #include "flank/io/path/path_csv.h"
-#include "flank/io/path/path_json.h"
+#include "flank/path_file.h"
 #include "io/path/path_samples.h"
 #include "mutations.h"
 

@@ -7,6 +7,7 @@
 
 #include "flank/base/parallel.h"
 #include "flank/base/random.h"
+#include "flank/threads.h"
 #include "obstacle/check_scene.h"
 
 namespace flank::internal {

@@ -6,9 +6,9 @@
 #include <array>
 #include <cmath>
 
-#include "flank/base/parallel.h"
 #include "flank/base/random.h"
 #include "flank/obstacle/triangle_distance.h"
+#include "flank/threads.h"
 
 namespace flank::internal {
 namespace {

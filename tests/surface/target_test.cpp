@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "flank/base/parallel.h"
+#include "flank/threads.h"
 #include "surface/mesh_shapes.h"
 #include "surface/nurbs_fixtures.h"
 

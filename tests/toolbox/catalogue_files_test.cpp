@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "flank/io/tool/tool_json.h"
+#include "flank/tool_file.h"
 
 namespace flank::internal {
 namespace {

@@ -10,7 +10,7 @@
 #include <functional>
 
 #include "flank/error.h"
-#include "flank/io/tool/tool_json.h"
+#include "flank/tool_file.h"
 
 namespace flank::internal {
 namespace {

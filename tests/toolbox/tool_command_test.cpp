@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "flank/error.h"
-#include "flank/io/tool/tool_json.h"
+#include "flank/tool_file.h"
 
 namespace flank::internal {
 namespace {

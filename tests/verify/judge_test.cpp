@@ -5,8 +5,8 @@
 #include <cstring>
 #include <numeric>
 
-#include "flank/base/parallel.h"
 #include "flank/error.h"
+#include "flank/threads.h"
 #include "verify/brute_force.h"
 #include "verify/faces.h"
 

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <numeric>
 
-#include "flank/base/parallel.h"
 #include "flank/error.h"
+#include "flank/threads.h"
 #include "flank/verify/clearance/winding.h"
 #include "verify/faces.h"
 

@@ -7,13 +7,13 @@
 #include "flank/error.h"
 #include "flank/io/path/path_cls.h"
 #include "flank/io/path/path_csv.h"
-#include "flank/io/path/path_json.h"
 #include "flank/io/tool/tool_dxf.h"
 #include "flank/io/tool/tool_fctb.h"
-#include "flank/io/tool/tool_json.h"
 #include "flank/io/tool/tool_step.h"
 #include "flank/job/job_json.h"
+#include "flank/path_file.h"
 #include "flank/pipeline/fit_job.h"
+#include "flank/tool_file.h"
 
 namespace flank::internal {
 

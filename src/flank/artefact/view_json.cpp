@@ -1,4 +1,5 @@
 #include "flank/artefact/view_json.h"
+#include "flank/version.h"
 
 #include <bit>
 #include <cmath>
@@ -154,7 +155,7 @@ std::vector<std::uint8_t> as_floats(const std::vector<double>& values) {
 std::string view_to_json(const View& view) {
   Json j = {{"schema", "openflank/view/1"},
             {"units", "mm"},
-            {"program", std::string("OpenFlank ") + FLANK_VERSION},
+            {"program", std::string("OpenFlank ") + kVersion},
             {"command", view.command},
             {"part", view.part},
             {"faces", view.faces},

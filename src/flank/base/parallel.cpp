@@ -1,30 +1,19 @@
 #include "flank/base/parallel.h"
 
-#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
 #include <exception>
-#include <memory>
 #include <mutex>
 #include <thread>
 #include <vector>
 
 #include "flank/base/assert.h"
+#include "flank/threads.h"
 
 namespace flank::internal {
 namespace {
-
-std::unique_ptr<tbb::global_control>& control() {
-  static std::unique_ptr<tbb::global_control> instance;
-  return instance;
-}
-
-int& count_setting() {
-  static int count = 0;
-  return count;
-}
 
 #ifdef __SANITIZE_THREAD__
 // oneTBB comes without instrumentation, so the thread sanitizer cannot see it hand work over and reports every loop.
@@ -56,19 +45,6 @@ void run_blocks(std::size_t blocks, const Run& run) {
 #endif
 
 }  // namespace
-
-void set_thread_count(int threads) {
-  FLANK_ASSERT(threads >= 0);
-  const int hardware = std::max(1u, std::thread::hardware_concurrency());
-  count_setting() = threads > 0 ? threads : hardware;
-  control() = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
-                                                    static_cast<std::size_t>(count_setting()));
-}
-
-int thread_count() {
-  if (count_setting() == 0) set_thread_count(0);
-  return count_setting();
-}
 
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body) {
   FLANK_ASSERT(body != nullptr);

@@ -6,10 +6,6 @@
 
 namespace flank::internal {
 
-/// Sets the number of threads that parallel loops use in this process; 0 means all cores. Call it once, at start-up.
-void set_thread_count(int threads);
-[[nodiscard]] int thread_count();
-
 /// Calls body(i) for every i in [0, count), in any order and from any thread. Each call writes only to what belongs to
 /// i, so the outcome is the same for any number of threads. The first exception thrown is rethrown here.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body);

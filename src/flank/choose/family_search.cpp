@@ -7,6 +7,7 @@
 
 #include "flank/base/parallel.h"
 #include "flank/error.h"
+#include "flank/threads.h"
 
 namespace flank::internal {
 namespace {

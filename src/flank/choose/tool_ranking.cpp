@@ -8,6 +8,7 @@
 
 #include "flank/base/parallel.h"
 #include "flank/strip/strip_order.h"
+#include "flank/threads.h"
 
 namespace flank::internal {
 namespace {

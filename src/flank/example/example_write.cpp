@@ -8,8 +8,8 @@
 #include "flank/example/example.h"
 #include "flank/io/cad/write_step.h"
 #include "flank/io/mesh/write_mesh.h"
-#include "flank/io/path/path_json.h"
-#include "flank/io/tool/tool_json.h"
+#include "flank/path_file.h"
+#include "flank/tool_file.h"
 
 namespace flank::internal {
 namespace {

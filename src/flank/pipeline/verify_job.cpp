@@ -11,10 +11,10 @@
 #include "flank/artefact/view_json.h"
 #include "flank/base/atomic_file.h"
 #include "flank/error.h"
-#include "flank/io/path/path_json.h"
-#include "flank/io/tool/tool_json.h"
 #include "flank/job/job_json.h"
+#include "flank/path_file.h"
 #include "flank/pipeline/judge_job.h"
+#include "flank/tool_file.h"
 
 namespace flank::internal {
 namespace {

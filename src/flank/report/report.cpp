@@ -8,6 +8,7 @@
 
 #include "flank/error.h"
 #include "flank/report/page_template.h"
+#include "flank/version.h"
 
 namespace flank {
 using namespace internal;
@@ -98,7 +99,7 @@ std::string make_report(const std::string& folder) {
     throw UsageError("this flank was built without its report page; build it where npm is, with -D FLANK_REPORT=ON");
   if (!fs::is_directory(folder))
     throw InputError(folder + ": no such folder; a folder written by `flank fit` is needed");
-  std::string data = "<meta name=\"generator\" content=\"OpenFlank " FLANK_VERSION "\">\n", title;
+  std::string data = std::string("<meta name=\"generator\" content=\"OpenFlank ") + kVersion + "\">\n", title;
   bool found = false;
   for (const std::string& name : report_files()) {
     const auto text = read_checked(fs::path(folder) / name, schema_of(name));

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "flank/error.h"
-#include "flank/io/tool/tool_json.h"
+#include "flank/tool_file.h"
 
 namespace flank::internal {
 namespace {

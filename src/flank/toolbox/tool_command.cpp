@@ -11,9 +11,9 @@
 #include "flank/io/text/json_input.h"
 #include "flank/io/tool/tool_dxf.h"
 #include "flank/io/tool/tool_fctb.h"
-#include "flank/io/tool/tool_json.h"
 #include "flank/io/tool/tool_step.h"
 #include "flank/io/tool/tool_svg.h"
+#include "flank/tool_file.h"
 
 namespace flank::internal {
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "cover/cover_targets.h"
-#include "flank/base/parallel.h"
+#include "flank/threads.h"
 #include "sanitized.h"
 
 namespace flank::internal {

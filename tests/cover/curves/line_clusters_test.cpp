@@ -5,8 +5,8 @@
 
 #include <set>
 
-#include "flank/base/parallel.h"
 #include "flank/base/random.h"
+#include "flank/threads.h"
 
 namespace flank::internal {
 namespace {

@@ -7,8 +7,8 @@
 #include <functional>
 
 #include "cover/cover_targets.h"
-#include "flank/base/parallel.h"
 #include "flank/strip/certify.h"
+#include "flank/threads.h"
 
 namespace flank::internal {
 namespace {

@@ -8,9 +8,9 @@
 #include <set>
 
 #include "cover/cover_targets.h"
-#include "flank/base/parallel.h"
 #include "flank/base/random.h"
 #include "flank/cover/tiles/smooth.h"
+#include "flank/threads.h"
 
 namespace flank::internal {
 namespace {

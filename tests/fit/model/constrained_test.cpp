@@ -110,7 +110,7 @@ TEST_F(Constrained, PointsOfOtherFacesKeepTheirMargin) {
   ConstrainedProblem with_point = problem();
   FacePoint guard;
   guard.point = Vec3(30.0, -0.05, 20.0);  // f there is 0.05 while the tool lies on the blade
-  guard.one_sided = true;
+  guard.role = FacePoint::Role::kAvoid;
   guard.margin_mm = 0.2;
   with_point.points.push_back(guard);
   with_point.dense.push_back(guard);

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "fit/flat_scene.h"
-#include "flank/base/parallel.h"
 #include "flank/fit/model/fit_model.h"
+#include "flank/threads.h"
 
 namespace flank::internal {
 namespace {

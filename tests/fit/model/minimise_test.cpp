@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "fit/flat_scene.h"
-#include "flank/base/parallel.h"
+#include "flank/threads.h"
 
 namespace flank::internal {
 namespace {

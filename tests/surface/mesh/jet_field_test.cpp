@@ -7,8 +7,8 @@
 #include <cmath>
 #include <set>
 
-#include "flank/base/parallel.h"
 #include "flank/geom/mesh_repair.h"
+#include "flank/threads.h"
 #include "surface/mesh_shapes.h"
 
 namespace flank::internal {

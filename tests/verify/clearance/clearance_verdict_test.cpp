@@ -4,8 +4,8 @@
 
 #include <limits>
 
-#include "flank/base/parallel.h"
 #include "flank/error.h"
+#include "flank/threads.h"
 #include "flank/verify/clearance/flank_profile.h"
 #include "flank/verify/clearance/motion_gap.h"
 #include "flank/verify/swept/pose_tree.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flank/base/parallel.h"
+#include "flank/threads.h"
 #include "flank/verify/clearance/triangle_gap.h"
 #include "flank/verify/swept/pose_tree.h"
 #include "sanitized.h"

@@ -10,7 +10,7 @@
 
 #include "flank/error.h"
 #include "flank/io/path/path_cls.h"
-#include "flank/io/path/path_json.h"
+#include "flank/path_file.h"
 
 namespace flank::internal {
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "flank/error.h"
-#include "flank/io/path/path_json.h"
 #include "flank/io/text/json_input.h"
+#include "flank/path_file.h"
 
 namespace flank::internal {
 

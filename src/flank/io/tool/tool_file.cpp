@@ -1,4 +1,4 @@
-#include "flank/io/tool/tool_json.h"
+#include "flank/tool_file.h"
 
 #include <fmt/format.h>
 
@@ -6,10 +6,12 @@
 #include <array>
 #include <cmath>
 
+#include "flank/base/atomic_file.h"
 #include "flank/error.h"
 #include "flank/io/text/json_input.h"
 
-namespace flank::internal {
+namespace flank {
+using namespace internal;
 
 namespace {
 
@@ -206,4 +208,6 @@ Tool tool_from_json(std::string_view text, const std::string& file) {
 
 Tool read_tool(const std::string& file) { return tool_from_json(read_file(file), file); }
 
-}  // namespace flank::internal
+void write_tool(const Tool& tool, const std::string& file) { write_file(file, tool_to_json(tool)); }
+
+}  // namespace flank

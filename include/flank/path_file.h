@@ -6,7 +6,7 @@
 
 #include "flank/path.h"
 
-namespace flank::internal {
+namespace flank {
 
 /// How far an axis vector in a file may be from unit length: within the first it is taken as it stands, within the
 /// second it is normalised (files with rounded numbers), beyond it is refused.
@@ -24,4 +24,7 @@ inline constexpr double kAxisLengthRounded = 1e-3;
 /// The same for a file on disk.
 [[nodiscard]] Path read_path(const std::string& file);
 
-}  // namespace flank::internal
+/// Writes the file whole or not at all. Throws InputError naming the file if it cannot be written.
+void write_path(const Path& path, const std::string& file);
+
+}  // namespace flank

@@ -6,7 +6,7 @@
 
 #include "flank/tool.h"
 
-namespace flank::internal {
+namespace flank {
 
 /// Fewest samples (s, r) that a tool.json is written with.
 inline constexpr int kToolSamples = 201;
@@ -28,4 +28,7 @@ inline constexpr double kToolSplineErrorMm = 1e-3;
 /// The same for a file on disk.
 [[nodiscard]] Tool read_tool(const std::string& file);
 
-}  // namespace flank::internal
+/// Writes the file whole or not at all. Throws InputError naming the file if it cannot be written.
+void write_tool(const Tool& tool, const std::string& file);
+
+}  // namespace flank

@@ -1,4 +1,4 @@
-#include "flank/io/tool/tool_json.h"
+#include "flank/tool_file.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,15 @@
-#include "flank/io/path/path_json.h"
+#include "flank/path_file.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <set>
 
+#include "flank/base/atomic_file.h"
 #include "flank/io/text/json_input.h"
 
-namespace flank::internal {
+namespace flank {
+using namespace internal;
 
 namespace {
 
@@ -72,4 +74,6 @@ Path path_from_json(std::string_view text, const std::string& file) {
 
 Path read_path(const std::string& file) { return path_from_json(read_file(file), file); }
 
-}  // namespace flank::internal
+void write_path(const Path& path, const std::string& file) { write_file(file, path_to_json(path)); }
+
+}  // namespace flank

@@ -1,4 +1,4 @@
-#include "flank/io/path/path_json.h"
+#include "flank/path_file.h"
 
 #include <gtest/gtest.h>
 
