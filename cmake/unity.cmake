@@ -1,0 +1,27 @@
+# Unity builds: sources of a target whose unnamed namespaces share no name are compiled together, which reads the headers of third
+# parties once for all of them. What is computed does not change.
+option(FLANK_UNITY "Compile several sources as one (needs Python 3 while configuring)" ON)
+find_package(Python3 COMPONENTS Interpreter QUIET)
+
+# flank_unity(TARGET SIZE [ALONE...]): groups of at most SIZE of the target's sources; those named after SIZE stay alone.
+function(flank_unity target size)
+  if(NOT FLANK_UNITY OR NOT Python3_FOUND)
+    return()
+  endif()
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources EXCLUDE REGEX "\\$<|${PROJECT_BINARY_DIR}")
+  foreach(file IN LISTS ARGN)
+    list(FILTER sources EXCLUDE REGEX "/${file}$")
+  endforeach()
+  execute_process(COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/scripts/unity.py ${size} ${sources}
+                  OUTPUT_VARIABLE groups COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX MATCHALL "[^\n]+" groups "${groups}")
+  foreach(line IN LISTS groups)
+    if(line MATCHES "^(.+)=([0-9]+)$")
+      set_source_files_properties("${CMAKE_MATCH_1}" TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${CMAKE_MATCH_2})
+    endif()
+  endforeach()
+  # A type of an unnamed namespace in a class that is seen by this source alone: said of any source that is included.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+endfunction()

@@ -1,0 +1,76 @@
+#!/usr/bin/env python3
+"""Groups the sources of a target for a unity build: prints "SOURCE=GROUP" for each, or "SOURCE=" for one that stays alone.
+
+usage: unity.py SIZE SOURCE...
+
+Sources of a group are compiled as one, so no two of them may give the same name to different things in their unnamed
+namespaces, and none may hide a type of a header. Lines are read as clang-format leaves them; no compiler is asked. The same
+sources give the same groups.
+"""
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+
+
+def unnamed_names(file):
+    """Names that the unnamed namespaces of a source declare, by what its lines look like."""
+    names, inside = set(), False
+    for line in file.read_text().splitlines():
+        if line == "namespace {":
+            inside = True
+        elif line.startswith("}  // namespace"):
+            inside = False
+        elif re.match(r"(?:namespace|using) (?!namespace)(\w+) =", line):
+            names.add(line.split()[1])
+        elif inside and re.match(r"[A-Za-z]", line):
+            found = re.match(r"(?:struct|class|enum class|using)\s+(\w+)", line)
+            if found:
+                names.add(found.group(1))
+                continue
+            # A function, or the constants of one declaration: `constexpr int kA = 1, kB = 2;`
+            names |= set(re.findall(r"(\w+)\s*[({=;\[]", line)) - {"if", "for", "while", "return", "TEST", "TEST_F", "TEST_P"}
+    return names
+
+
+def header_types():
+    """Names of the types that the headers define. Two headers that define one name would give a program two types of that
+    name, and the linker would take the code of either for both."""
+    headers = {}
+    for header in sorted([*(ROOT / "src").rglob("*.h"), *(ROOT / "include").rglob("*.h")]):
+        text = header.read_text()
+        for name in re.findall(r"^(?:struct|class|enum class|using) (\w+)(?=[ :{=][^;]*(?:\{|= ))", text, re.MULTILINE):
+            if headers.setdefault(name, (header, text))[0] != header and not re.search(rf"^using {name} =", text, re.MULTILINE):
+                sys.exit(f"{name} is defined in {headers[name][0].name} and in {header.name}")
+    return set(headers)
+
+
+def groups_of(files, size):
+    """Groups of at most `size`, no two sources of which share a name of an unnamed namespace; the sources with most names
+    first. A source that declares a name of its own that a header gives to a type stays alone."""
+    types, alone, groups = header_types(), [], []
+    for names, file in sorted(((unnamed_names(file), file) for file in files), key=lambda pair: (-len(pair[0]), pair[1])):
+        if names & types:
+            alone.append([file])
+            continue
+        for group in groups:
+            if len(group["files"]) < size and not names & group["names"]:
+                break
+        else:
+            group = {"files": [], "names": set()}
+            groups.append(group)
+        group["files"].append(file)
+        group["names"] |= names
+    return [sorted(group["files"]) for group in groups] + alone
+
+
+def main():
+    size, files = int(sys.argv[1]), [pathlib.Path(word) for word in sys.argv[2:]]
+    for number, group in enumerate(groups_of(files, size)):
+        for file in group:
+            print(f"{file}={number if len(group) > 1 else ''}")
+
+
+if __name__ == "__main__":
+    main()
