@@ -103,7 +103,7 @@ inline MutationCount mutate(const std::string& good, const std::string& file, st
                             const std::function<bool(const std::string&)>& read) {
   MutationCount count;
   Random random(seed);
-  for (int i = 0; i < kMutants && !testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < kMutants && !::testing::Test::HasFailure(); ++i) {
     const std::string bad = damaged(random, good);
     const auto refused = [&](const std::string& message) {
       ++count.refused;

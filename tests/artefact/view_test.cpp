@@ -62,7 +62,7 @@ TEST(ViewJson, FloatsAreLittleEndian) {
 }
 
 /// A part whose truth is known: the tool and the path leave it exactly.
-class ViewOfExample : public testing::Test {
+class ViewOfExample : public ::testing::Test {
  protected:
   void SetUp() override {
     const Example example = make_example("envelope-barrel-1");

@@ -12,7 +12,7 @@
 namespace flank::internal {
 namespace {
 
-class Parallel : public testing::Test {
+class Parallel : public ::testing::Test {
  protected:
   void TearDown() override { set_thread_count(0); }
 };

@@ -19,13 +19,13 @@ inline fs::path real_part(const std::string& name) {
   return fs::exists(file) ? file : fs::path();
 }
 
-class Cli : public testing::Test {
+class Cli : public ::testing::Test {
  protected:
   void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
     std::string name = std::string(info->test_suite_name()) + "_" + info->name();
     std::replace(name.begin(), name.end(), '/', '_');
-    root_ = fs::path(testing::TempDir()) / ("flank_cli_" + std::to_string(::getpid()) + "_" + name);
+    root_ = fs::path(::testing::TempDir()) / ("flank_cli_" + std::to_string(::getpid()) + "_" + name);
     fs::remove_all(root_);
     fs::create_directories(root_ / "streams");
   }

@@ -20,7 +20,7 @@ constexpr int kCount = 37;  ///< places a direction, prime to the grids
 
 double share(int i) { return (i + 0.37) / kCount; }
 
-class StripSurfaces : public testing::TestWithParam<int> {
+class StripSurfaces : public ::testing::TestWithParam<int> {
  protected:
   const RadialFunction radial = example_tool("barrel").radial;
   const StripMotion strip{7, example_motion(std::abs(GetParam()), radial.axis_length()), 0.125, 0.8,
@@ -96,7 +96,7 @@ TEST_P(StripSurfaces, ReadBackFromTheFile) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Motions, StripSurfaces, testing::Values(1, -1, 2, -2, 3));
+INSTANTIATE_TEST_SUITE_P(Motions, StripSurfaces, ::testing::Values(1, -1, 2, -2, 3));
 
 TEST(StripSurface, SaysWhereTheToolPlunges) {
   // Along its own axis: no sphere of a tool that grows has a contact.

@@ -22,7 +22,7 @@ struct BadFile {
   const char* says;  ///< part of the message
 };
 
-class Corpus : public testing::TestWithParam<BadFile> {};
+class Corpus : public ::testing::TestWithParam<BadFile> {};
 
 TEST_P(Corpus, IsRefused) {
   const std::string message =
@@ -32,21 +32,21 @@ TEST_P(Corpus, IsRefused) {
 
 INSTANTIATE_TEST_SUITE_P(
     BadFiles, Corpus,
-    testing::Values(BadFile{"empty.step", "is empty"}, BadFile{"prose.step", "not STEP"},
-                    BadFile{"stl_named.step", "content is STL"}, BadFile{"step_named.stl", "content is STEP"},
-                    BadFile{"unknown.xyz", "accepted: STEP"}, BadFile{"truncated.step", "truncated"},
-                    BadFile{"no_faces.step", "no faces"}, BadFile{"lost_entity.step", "not defined"},
-                    BadFile{"truncated.iges", "truncated"}, BadFile{"no_faces.iges", ""},
-                    BadFile{"old_brep_version.brep", "BREP"}, BadFile{"truncated.brep", ""},
-                    BadFile{"mesh_nan.stl", "line 5"}, BadFile{"mesh_two_corners.stl", "line 6"},
-                    BadFile{"mesh_four_corners.stl", "line 7"}, BadFile{"mesh_truncated.stl", "truncated"},
-                    BadFile{"mesh_word.stl", "not a word"}, BadFile{"mesh_empty.stl", "no triangles"},
-                    BadFile{"mesh_zero_area.stl", "area"}, BadFile{"mesh_index.obj", "line 4"},
-                    BadFile{"mesh_zero_index.obj", "line 4"}, BadFile{"mesh_not_a_number.obj", "line 2"},
-                    BadFile{"mesh_infinite.obj", "finite"}, BadFile{"mesh_no_faces.obj", "no triangles"},
-                    BadFile{"mesh_index.ply", "does not exist"}, BadFile{"mesh_truncated.ply", "truncated"},
-                    BadFile{"mesh_format.ply", "ascii"}, BadFile{"mesh_header.ply", "end_header"},
-                    BadFile{"mesh_type.ply", "not a type"}, BadFile{"mesh_huge_count.ply", "truncated"}),
+    ::testing::Values(BadFile{"empty.step", "is empty"}, BadFile{"prose.step", "not STEP"},
+                      BadFile{"stl_named.step", "content is STL"}, BadFile{"step_named.stl", "content is STEP"},
+                      BadFile{"unknown.xyz", "accepted: STEP"}, BadFile{"truncated.step", "truncated"},
+                      BadFile{"no_faces.step", "no faces"}, BadFile{"lost_entity.step", "not defined"},
+                      BadFile{"truncated.iges", "truncated"}, BadFile{"no_faces.iges", ""},
+                      BadFile{"old_brep_version.brep", "BREP"}, BadFile{"truncated.brep", ""},
+                      BadFile{"mesh_nan.stl", "line 5"}, BadFile{"mesh_two_corners.stl", "line 6"},
+                      BadFile{"mesh_four_corners.stl", "line 7"}, BadFile{"mesh_truncated.stl", "truncated"},
+                      BadFile{"mesh_word.stl", "not a word"}, BadFile{"mesh_empty.stl", "no triangles"},
+                      BadFile{"mesh_zero_area.stl", "area"}, BadFile{"mesh_index.obj", "line 4"},
+                      BadFile{"mesh_zero_index.obj", "line 4"}, BadFile{"mesh_not_a_number.obj", "line 2"},
+                      BadFile{"mesh_infinite.obj", "finite"}, BadFile{"mesh_no_faces.obj", "no triangles"},
+                      BadFile{"mesh_index.ply", "does not exist"}, BadFile{"mesh_truncated.ply", "truncated"},
+                      BadFile{"mesh_format.ply", "ascii"}, BadFile{"mesh_header.ply", "end_header"},
+                      BadFile{"mesh_type.ply", "not a type"}, BadFile{"mesh_huge_count.ply", "truncated"}),
     [](const auto& test) {
       std::string name = test.param.name;
       for (char& c : name)

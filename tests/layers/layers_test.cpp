@@ -34,10 +34,10 @@ TEST(Layers, TheJudgeSeesNothingOfThePlanner) {
 }
 
 /// A small tree of its own, removed at the end.
-class PlantedTree : public testing::Test {
+class PlantedTree : public ::testing::Test {
  protected:
   void SetUp() override {
-    root_ = fs::path(testing::TempDir()) / ("flank_layers_" + std::to_string(::getpid()));
+    root_ = fs::path(::testing::TempDir()) / ("flank_layers_" + std::to_string(::getpid()));
     fs::remove_all(root_);
     write("src/flank/layers.txt", "# comment\nlow:\nhigh: low\nio: low\n");
     write("src/flank/low/a.h", "#pragma once\n#include <vector>\n");

@@ -80,10 +80,10 @@ TEST(JobMutations, JobsAreReadOrRefused) {
   EXPECT_GT(count.refused, kMutants / 10);
 }
 
-class HolderFiles : public testing::Test {
+class HolderFiles : public ::testing::Test {
  protected:
   void SetUp() override {
-    file_ = fs::path(testing::TempDir()) / ("flank_holder_" + std::to_string(::getpid()) + ".txt");
+    file_ = fs::path(::testing::TempDir()) / ("flank_holder_" + std::to_string(::getpid()) + ".txt");
   }
   void TearDown() override { fs::remove(file_); }
   std::vector<Vec2> read(const std::string& text) const {

@@ -18,10 +18,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Browser : public testing::Test {
+class Browser : public ::testing::Test {
  protected:
   void SetUp() override {
-    root_ = fs::path(testing::TempDir()) / ("flank_browser_" + std::to_string(::getpid()));
+    root_ = fs::path(::testing::TempDir()) / ("flank_browser_" + std::to_string(::getpid()));
     fs::remove_all(root_);
     fs::create_directories(root_);
   }

@@ -20,11 +20,11 @@ constexpr const char* kView = R"({"schema": "openflank/view/1", "part": "/a/hub.
 constexpr const char* kVerify = R"({"schema": "openflank/verify/1", "verdict": "pass"})";
 constexpr const char* kSummary = R"({"schema": "openflank/summary/1", "part": "/a/blade.step", "faces": "F1,F3"})";
 
-class ReportFolder : public testing::Test {
+class ReportFolder : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!page_is_built()) GTEST_SKIP() << "built without the page (no npm)";
-    root_ = fs::path(testing::TempDir()) / ("flank_report_folder_" + std::to_string(::getpid()));
+    root_ = fs::path(::testing::TempDir()) / ("flank_report_folder_" + std::to_string(::getpid()));
     fs::remove_all(root_);
     fs::create_directories(root_);
   }

@@ -15,10 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Report : public testing::Test {
+class Report : public ::testing::Test {
  protected:
   void SetUp() override {
-    root_ = fs::path(testing::TempDir()) / ("flank_report_" + std::to_string(::getpid()));
+    root_ = fs::path(::testing::TempDir()) / ("flank_report_" + std::to_string(::getpid()));
     fs::remove_all(root_);
     fs::create_directories(root_);
   }

@@ -25,11 +25,11 @@ std::string refusal(const std::string& spec) {
   return "accepted";
 }
 
-class ToolCommand : public testing::Test {
+class ToolCommand : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
-              (std::string("flank_tool_") + testing::UnitTest::GetInstance()->current_test_info()->name() +
+    folder_ = fs::path(::testing::TempDir()) /
+              (std::string("flank_tool_") + ::testing::UnitTest::GetInstance()->current_test_info()->name() +
                std::to_string(::getpid()));
     fs::create_directories(folder_);
   }

@@ -110,7 +110,7 @@ TEST(SweptVolume, TurningAboutItsTipSweepsAFan) {
         ASSERT_NEAR(volume.distance({radius * std::cos(a), radius * std::sin(a), z}).f, z - 1.5, kExactMm);
 }
 
-class AgainstBruteForce : public testing::TestWithParam<int> {};
+class AgainstBruteForce : public ::testing::TestWithParam<int> {};
 
 TEST_P(AgainstBruteForce, AgreesOnTwistedPathsOfSplineTools) {
   Random random(100 + GetParam());
@@ -138,7 +138,7 @@ TEST_P(AgainstBruteForce, AgreesOnTwistedPathsOfSplineTools) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Random, AgainstBruteForce, testing::Range(0, 24));
+INSTANTIATE_TEST_SUITE_P(Random, AgainstBruteForce, ::testing::Range(0, 24));
 
 TEST(SweptVolume, DeeplyWaistedToolIsMinimisedGlobally) {
   // Far from a waist both shoulders are local minima.

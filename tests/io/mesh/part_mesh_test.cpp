@@ -64,7 +64,7 @@ double region_area(const TriangleMesh& mesh, const std::vector<int>& region) {
   return sum;
 }
 
-class MeshFormat : public testing::TestWithParam<const char*> {};
+class MeshFormat : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(MeshFormat, RoundTrip) {
   const Scratch scratch;
@@ -80,7 +80,7 @@ TEST_P(MeshFormat, RoundTrip) {
   EXPECT_LT((part.box.high - part.box.low - Vec3(20.0, 30.0, 40.0)).norm(), 1e-5);
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, MeshFormat, testing::Values(".stl", ".obj", ".ply"));
+INSTANTIATE_TEST_SUITE_P(Formats, MeshFormat, ::testing::Values(".stl", ".obj", ".ply"));
 
 TEST(PartMesh, ReadsTextStlAsciiPlyAndBigEndianPly) {
   const Scratch scratch;
