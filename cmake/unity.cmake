@@ -21,7 +21,7 @@ function(flank_unity target size)
       set_source_files_properties("${CMAKE_MATCH_1}" TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${CMAKE_MATCH_2})
     endif()
   endforeach()
-  # A type of an unnamed namespace in a class that is seen by this source alone: said of any source that is included.
-  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  # Said by GCC of sources that are included, which it takes for headers, and of Eigen where it inlines a great deal.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage -Wno-maybe-uninitialized>)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
 endfunction()

@@ -46,6 +46,12 @@ def header_types():
     return set(headers)
 
 
+def opened_namespaces(file):
+    """Namespaces that a source opens with `using namespace`: to the sources after it, too, so only those that open the
+    same ones go with it."""
+    return tuple(sorted(set(re.findall(r"^ *using namespace ([\w:]+);", file.read_text(), re.MULTILINE))))
+
+
 def groups_of(files, size):
     """Groups of at most `size`, no two sources of which share a name of an unnamed namespace; the sources with most names
     first. A source that declares a name of its own that a header gives to a type stays alone."""
@@ -55,10 +61,10 @@ def groups_of(files, size):
             alone.append([file])
             continue
         for group in groups:
-            if len(group["files"]) < size and not names & group["names"]:
+            if len(group["files"]) < size and group["opened"] == opened_namespaces(file) and not names & group["names"]:
                 break
         else:
-            group = {"files": [], "names": set()}
+            group = {"files": [], "names": set(), "opened": opened_namespaces(file)}
             groups.append(group)
         group["files"].append(file)
         group["names"] |= names
