@@ -29,6 +29,9 @@ struct TriangleSide {
   int triangle = -1, side = 0;
 };
 
+/// Sides whose triangles' normals differ by more are edges of the part: each side of them ends there like at a border.
+inline constexpr double kCreaseRad = 0.9;
+
 /// Sides that belong to exactly two triangles, in opposite directions, and whose triangles' normals differ by less than
 /// `crease_rad`, are linked; all others are borders. Vertices where several fans of linked triangles meet are doubled
 /// in `mesh`, one vertex a fan, appended at the end, so that creases, fins and bow ties come apart.

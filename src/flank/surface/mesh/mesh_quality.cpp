@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "flank/geom/mesh_repair.h"
-#include "flank/surface/mesh/mesh_target.h"
 
 namespace flank::internal {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "flank/base/parallel.h"
 #include "flank/geom/mesh_repair.h"
+#include "flank/geom/mesh_topology.h"
 #include "flank/surface/mesh/mesh_parameters.h"
-#include "flank/surface/mesh/mesh_target.h"
 #include "flank/surface/mesh/scattered_spline.h"
 
 namespace flank::internal {

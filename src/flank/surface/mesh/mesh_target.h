@@ -10,9 +10,6 @@
 
 namespace flank::internal {
 
-/// Sides whose triangles' normals differ by more are edges of the part: each side of them ends there like at a border.
-inline constexpr double kCreaseRad = 0.9;
-
 /// The mesh is repaired (mesh_repair.h), cut at its creases and given jets; where its noise (mesh_quality.h) asks for
 /// it, the jets are fitted to as many neighbours as the noise allows. Footpoint::patch is the triangle in the repaired
 /// mesh (the mesh itself, if it was sound), or, from its triangle count on, one of the extension; u and v are the
