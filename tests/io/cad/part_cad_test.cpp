@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <set>
 
-#include "flank/io/cad/read_cad.h"
+#include "flank/io/cad/read_cad_check.h"
 #include "io/part_files.h"
 #include "rotor37_file.h"
 

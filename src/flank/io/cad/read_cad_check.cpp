@@ -1,3 +1,5 @@
+#include "flank/io/cad/read_cad_check.h"
+
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepClass3d_SolidClassifier.hxx>
 #include <BRepClass_FaceClassifier.hxx>

@@ -7,10 +7,8 @@
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <algorithm>
-#include <cmath>
 
 #include "flank/error.h"
-#include "flank/io/cad/read_occt_surface.h"
 #include "flank/io/cad/read_occt_trim.h"
 
 namespace flank::internal {
@@ -59,23 +57,6 @@ void refuse_high_degree(const BSplineSurface& s, const std::string& name) {
 }
 
 }  // namespace
-
-double ParameterMap::value(double t) const {
-  if (breaks.empty()) return t;
-  const auto after =
-      std::clamp(std::upper_bound(breaks.begin(), breaks.end(), t), breaks.begin() + 1, breaks.end() - 1);
-  const double middle = 0.5 * (*(after - 1) + *after), half = 0.5 * (*after - *(after - 1));
-  return middle + half * std::tan(0.5 * (t - middle)) / std::tan(0.5 * half);
-}
-
-double ParameterMap::derivative(double t) const {
-  if (breaks.empty()) return 1.0;
-  const auto after =
-      std::clamp(std::upper_bound(breaks.begin(), breaks.end(), t), breaks.begin() + 1, breaks.end() - 1);
-  const double middle = 0.5 * (*(after - 1) + *after), half = 0.5 * (*after - *(after - 1));
-  const double tangent = std::tan(0.5 * (t - middle));
-  return 0.5 * half * (1.0 + tangent * tangent) / std::tan(0.5 * half);
-}
 
 OcctFace convert_occt_face(const TopoDS_Face& face, const std::string& name) {
   OcctFace result;

@@ -255,6 +255,23 @@ ConvertedSurface approximate(const Handle(Geom_Surface) & surface, const Paramet
 
 }  // namespace
 
+double ParameterMap::value(double t) const {
+  if (breaks.empty()) return t;
+  const auto after =
+      std::clamp(std::upper_bound(breaks.begin(), breaks.end(), t), breaks.begin() + 1, breaks.end() - 1);
+  const double middle = 0.5 * (*(after - 1) + *after), half = 0.5 * (*after - *(after - 1));
+  return middle + half * std::tan(0.5 * (t - middle)) / std::tan(0.5 * half);
+}
+
+double ParameterMap::derivative(double t) const {
+  if (breaks.empty()) return 1.0;
+  const auto after =
+      std::clamp(std::upper_bound(breaks.begin(), breaks.end(), t), breaks.begin() + 1, breaks.end() - 1);
+  const double middle = 0.5 * (*(after - 1) + *after), half = 0.5 * (*after - *(after - 1));
+  const double tangent = std::tan(0.5 * (t - middle));
+  return 0.5 * half * (1.0 + tangent * tangent) / std::tan(0.5 * half);
+}
+
 ConvertedCurve convert_curve(const Handle(Geom_Curve) & curve, double a, double b) {
   if (const auto trimmed = Handle(Geom_TrimmedCurve)::DownCast(curve))
     return convert_curve(trimmed->BasisCurve(), a, b);

@@ -7,9 +7,21 @@
 #include <vector>
 
 #include "flank/bspline_curve.h"
-#include "flank/io/cad/read_occt_face.h"
+#include "flank/bspline_surface.h"
 
 namespace flank::internal {
+
+/// How a parameter of the file's surface becomes the parameter of the B-spline that is exactly the same surface.
+/// Circular sections become rational arcs, whose parameter is not the angle: on an arc of half angle h about its middle
+/// m,
+///   t = m + h tan((angle - m) / 2) / tan(h / 2)
+/// (standard rational quadratic, Piegl and Tiller 7.3). Empty breaks: the parameters are the same.
+struct ParameterMap {
+  std::vector<double> breaks;  ///< the angles where the arcs join, ascending
+  [[nodiscard]] bool identity() const { return breaks.empty(); }
+  [[nodiscard]] double value(double t) const;
+  [[nodiscard]] double derivative(double t) const;
+};
 
 /// The part of a surface over [u0, u1] x [v0, v1] of its own parameters.
 struct ParameterWindow {

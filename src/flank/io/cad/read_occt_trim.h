@@ -8,9 +8,15 @@
 #include <string>
 #include <vector>
 
+#include "flank/face.h"
 #include "flank/io/cad/read_occt_surface.h"
 
 namespace flank::internal {
+
+/// The largest distance in mm between a converted trim and the file's own trim on the surface.
+inline constexpr double kTrimConversionErrorMm = 1e-7;
+/// Trims closer than this to the border of the parameter rectangle count as lying on it.
+inline constexpr double kBorderMm = 1e-5;
 
 /// The rule by which trims follow the surface: parameters of the file -> parameters of the B-spline surface, and what
 /// one unit of either parameter is at most in mm.
