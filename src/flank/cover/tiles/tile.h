@@ -7,9 +7,12 @@
 
 #include <vector>
 
-#include "flank/cover/cover.h"
+#include "flank/cover/options/cover_options.h"
+#include "flank/obstacle/line_guard.h"
+#include "flank/radial_function.h"
 #include "flank/strip/grow.h"
 #include "flank/strip/strip_measure.h"
+#include "flank/target.h"
 
 namespace flank::internal {
 

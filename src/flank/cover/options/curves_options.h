@@ -4,8 +4,6 @@
 
 #include <cstdint>
 
-#include "flank/cover/curves/integral_curves.h"
-
 namespace flank::internal {
 
 struct CurvesOptions {
