@@ -1,17 +1,13 @@
-// The surfaces of a strip are those of its motion, from its first pose to its last, and read back from strips.step.
+// The surfaces of a strip are those of its motion, from its first pose to its last.
 #include "flank/envelope/strip_surface.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
 
-#include "flank/base/atomic_file.h"
 #include "flank/envelope.h"
 #include "flank/example/example_motions.h"
 #include "flank/example/example_tools.h"
-#include "flank/part.h"
 
 namespace flank::internal {
 namespace {
@@ -77,23 +73,6 @@ TEST_P(StripSurfaces, NormalsLookToTheTool) {
   const SurfaceJet jet = made.envelope.jet(0.4, 0.6);
   const Vec3 center = strip.motion.pose(t(0.4)).at(0.6 * radial.axis_length());
   EXPECT_EQ(jet.du.cross(jet.dv).dot(center - jet.p) > 0.0, made.towards_tool);
-}
-
-TEST_P(StripSurfaces, ReadBackFromTheFile) {
-  const std::string text = strips_to_step({made, made});
-  EXPECT_EQ(text, strips_to_step({made, made}));
-  for (const char* name : {"'strip 7'", "'strip 7 axis'"}) EXPECT_NE(text.find(name), std::string::npos) << name;
-  const auto file = std::filesystem::temp_directory_path() / ("flank_strips-" + std::to_string(::getpid()) + ".step");
-  write_file(file.string(), text);
-  const Part part = read_part(file.string());
-  std::filesystem::remove(file);
-  ASSERT_EQ(part.faces.size(), 4u);
-  for (int k = 0; k < 4; ++k) {
-    const BSplineSurface &before = k < 2 ? made.envelope : made.axis,
-                         &after = part.faces[static_cast<std::size_t>(k)].surface;
-    EXPECT_LT((before.value(0.3, 0.7) - after.value(0.3, 0.7)).norm(), 1e-9) << k;
-    EXPECT_EQ(part.faces[static_cast<std::size_t>(k)].reversed, k < 2 && !made.towards_tool) << k;
-  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Motions, StripSurfaces, ::testing::Values(1, -1, 2, -2, 3));

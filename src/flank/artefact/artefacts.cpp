@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "flank/artefact/strips_step.h"
 #include "flank/artefact/verify_json.h"
 #include "flank/base/atomic_file.h"
 #include "flank/error.h"

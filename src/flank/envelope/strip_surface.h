@@ -44,7 +44,4 @@ inline constexpr int kMostStripPoints = 400;
 /// A sentence for every strip whose surfaces are not what they should be: plunging, or farther off than kStripSurfaceMm.
 void note_strip_surfaces(const std::vector<StripSurface>& strips, std::vector<std::string>& notes);
 
-/// strips.step (docs/schema/step.md): the objects "strip 1", ... and then "strip 1 axis", ..., each of one face.
-[[nodiscard]] std::string strips_to_step(const std::vector<StripSurface>& strips);
-
 }  // namespace flank::internal
