@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <string_view>
 
 #include "flank/base/random.h"
 #include "flank/io/mesh/write_mesh.h"
 #include "flank/io/text/read_sniff.h"
 #include "io/part_files.h"
-#include "rotor37_file.h"
 
 namespace flank::internal {
 namespace {
@@ -26,31 +26,32 @@ class Corpus : public ::testing::TestWithParam<BadFile> {};
 
 TEST_P(Corpus, IsRefused) {
   const std::string message =
-      refusal(corpus(GetParam().name), GetParam().name[0] == 'm' ? std::optional<std::string>("mm") : std::nullopt);
+      refusal(corpus(GetParam().name),
+              std::string_view(GetParam().name).starts_with("mesh/") ? std::optional<std::string>("mm") : std::nullopt);
   EXPECT_NE(message.find(GetParam().says), std::string::npos) << message;
 }
 
 INSTANTIATE_TEST_SUITE_P(
     BadFiles, Corpus,
-    ::testing::Values(BadFile{"empty.step", "is empty"}, BadFile{"prose.step", "not STEP"},
-                      BadFile{"stl_named.step", "content is STL"}, BadFile{"step_named.stl", "content is STEP"},
-                      BadFile{"unknown.xyz", "accepted: STEP"}, BadFile{"truncated.step", "truncated"},
-                      BadFile{"no_faces.step", "no faces"}, BadFile{"lost_entity.step", "not defined"},
-                      BadFile{"truncated.iges", "truncated"}, BadFile{"no_faces.iges", ""},
-                      BadFile{"old_brep_version.brep", "BREP"}, BadFile{"truncated.brep", ""},
-                      BadFile{"mesh_nan.stl", "line 5"}, BadFile{"mesh_two_corners.stl", "line 6"},
-                      BadFile{"mesh_four_corners.stl", "line 7"}, BadFile{"mesh_truncated.stl", "truncated"},
-                      BadFile{"mesh_word.stl", "not a word"}, BadFile{"mesh_empty.stl", "no triangles"},
-                      BadFile{"mesh_zero_area.stl", "area"}, BadFile{"mesh_index.obj", "line 4"},
-                      BadFile{"mesh_zero_index.obj", "line 4"}, BadFile{"mesh_not_a_number.obj", "line 2"},
-                      BadFile{"mesh_infinite.obj", "finite"}, BadFile{"mesh_no_faces.obj", "no triangles"},
-                      BadFile{"mesh_index.ply", "does not exist"}, BadFile{"mesh_truncated.ply", "truncated"},
-                      BadFile{"mesh_format.ply", "ascii"}, BadFile{"mesh_header.ply", "end_header"},
-                      BadFile{"mesh_type.ply", "not a type"}, BadFile{"mesh_huge_count.ply", "truncated"}),
+    ::testing::Values(BadFile{"cad/empty.step", "is empty"}, BadFile{"cad/prose.step", "not STEP"},
+                      BadFile{"cad/stl_named.step", "content is STL"}, BadFile{"cad/step_named.stl", "content is STEP"},
+                      BadFile{"cad/unknown.xyz", "accepted: STEP"}, BadFile{"cad/truncated.step", "truncated"},
+                      BadFile{"cad/no_faces.step", "no faces"}, BadFile{"cad/lost_entity.step", "not defined"},
+                      BadFile{"cad/truncated.iges", "truncated"}, BadFile{"cad/no_faces.iges", ""},
+                      BadFile{"cad/old_brep_version.brep", "BREP"}, BadFile{"cad/truncated.brep", ""},
+                      BadFile{"mesh/nan.stl", "line 5"}, BadFile{"mesh/two_corners.stl", "line 6"},
+                      BadFile{"mesh/four_corners.stl", "line 7"}, BadFile{"mesh/truncated.stl", "truncated"},
+                      BadFile{"mesh/word.stl", "not a word"}, BadFile{"mesh/empty.stl", "no triangles"},
+                      BadFile{"mesh/zero_area.stl", "area"}, BadFile{"mesh/index.obj", "line 4"},
+                      BadFile{"mesh/zero_index.obj", "line 4"}, BadFile{"mesh/not_a_number.obj", "line 2"},
+                      BadFile{"mesh/infinite.obj", "finite"}, BadFile{"mesh/no_faces.obj", "no triangles"},
+                      BadFile{"mesh/index.ply", "does not exist"}, BadFile{"mesh/truncated.ply", "truncated"},
+                      BadFile{"mesh/format.ply", "ascii"}, BadFile{"mesh/header.ply", "end_header"},
+                      BadFile{"mesh/type.ply", "not a type"}, BadFile{"mesh/huge_count.ply", "truncated"}),
     [](const auto& test) {
       std::string name = test.param.name;
       for (char& c : name)
-        if (c == '.') c = '_';
+        if (c == '.' || c == '/') c = '_';
       return name;
     });
 
@@ -60,9 +61,7 @@ TEST(Refusals, MissingFileAndFolder) {
 }
 
 TEST(Refusals, TruncatedRotor37) {
-  const Scratch scratch;
-  const std::string whole = read_bytes(test::rotor37_file("rotor37"));
-  const std::string file = scratch.write("truncated.step", whole.substr(0, whole.size() * 6 / 10));
+  FLANK_REAL_PART(file, "nasty_r37_truncated.step");
   EXPECT_NE(refusal(file).find("truncated"), std::string::npos);
 }
 
@@ -83,7 +82,7 @@ TEST(Refusals, BinaryStlWithInfinity) {
 }
 
 TEST(Refusals, UnknownUnitIsWrongUsage) {
-  EXPECT_THROW((void)read_part(corpus("mesh_zero_area.stl"), "furlong"), UsageError);
+  EXPECT_THROW((void)read_part(corpus("mesh/zero_area.stl"), "furlong"), UsageError);
 }
 
 // Every prefix of a good file is refused or read, never a crash or another kind of exception.

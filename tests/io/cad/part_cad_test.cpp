@@ -200,7 +200,7 @@ TEST(PartCad, PrintsNothing) {
   ::testing::internal::CaptureStdout();
   ::testing::internal::CaptureStderr();
   (void)read_part(own_part("inch_cylinder.step"));
-  (void)refusal(testing_io::corpus("old_brep_version.brep"));
+  (void)refusal(testing_io::corpus("cad/old_brep_version.brep"));
   const std::string out = ::testing::internal::GetCapturedStdout(), error = ::testing::internal::GetCapturedStderr();
   EXPECT_EQ(out, "");
   EXPECT_EQ(error, "");
