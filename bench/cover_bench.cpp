@@ -13,6 +13,8 @@
 #include "flank/base/atomic_file.h"
 #include "flank/error.h"
 #include "flank/example/example.h"
+#include "flank/example/example_write.h"
+#include "flank/tool_file.h"
 #include "flank/pipeline/cover_job.h"
 #include "flank/threads.h"
 #include "flank/tool_file.h"

@@ -10,6 +10,7 @@
 #include "flank/base/random.h"
 #include "flank/example/example.h"
 #include "flank/example/example_mesh.h"
+#include "flank/example/example_perturb.h"
 #include "flank/target.h"
 
 namespace flank::internal::bench {

@@ -11,6 +11,7 @@
 #include "flank/envelope.h"
 #include "flank/error.h"
 #include "flank/example/example.h"
+#include "flank/example/example_perturb.h"
 #include "flank/fit/flank_fit.h"
 #include "flank/judge.h"
 #include "flank/pipeline/fit_job.h"

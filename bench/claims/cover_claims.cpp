@@ -11,6 +11,7 @@
 #include "flank/base/parallel.h"
 #include "flank/example/example_envelope.h"
 #include "flank/example/example_motions.h"
+#include "flank/example/example_write.h"
 #include "flank/pipeline/cover_job.h"
 #include "flank/strip/line_fit.h"
 

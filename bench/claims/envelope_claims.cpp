@@ -1,6 +1,8 @@
 // Exact envelopes of known tools under known motions: 4 tools x 3 motions.
 #include "claims/claims_support.h"
 
+#include "flank/example/example_write.h"
+
 namespace flank::internal::bench {
 namespace {
 

@@ -1,6 +1,7 @@
 // A tool that is given, on faces that are not its envelope: no overcut, and not much more material left than the best
 // two-sided motion leaves as error.
 #include "claims/claims_support.h"
+#include "flank/example/example_write.h"
 #include "flank/fit/swept_polish.h"
 #include "flank/toolbox/tool_model.h"
 

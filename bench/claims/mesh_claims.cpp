@@ -1,6 +1,7 @@
 // The exact envelope as a mesh of about 13,000 vertices: clean, noisy, with two holes. Errors are against the exact face.
 #include "claims/claims_support.h"
 #include "flank/example/example_envelope.h"
+#include "flank/example/example_write.h"
 #include "flank/setup/targets.h"
 
 namespace flank::internal::bench {

@@ -1,6 +1,8 @@
 // Real blades, and the generated ruled one: the whole command from the file.
 #include "claims/claims_support.h"
 
+#include "flank/example/example_write.h"
+
 namespace flank::internal::bench {
 namespace {
 

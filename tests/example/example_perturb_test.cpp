@@ -4,6 +4,7 @@
 
 #include "flank/example/example.h"
 #include "flank/example/example_motions.h"
+#include "flank/example/example_perturb.h"
 
 namespace flank::internal {
 namespace {

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "flank/example/example.h"
+#include "flank/example/example_perturb.h"
+#include "flank/fit/automatic.h"
 #include "sanitized.h"
 
 namespace flank::internal {

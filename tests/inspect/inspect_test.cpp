@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "flank/inspect/inspect_mesh.h"
+#include "flank/inspect/inspect_text.h"
 #include "io/part_files.h"
 #include "rotor37_file.h"
 

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "flank/base/random.h"
 #include "flank/face.h"
 #include "flank/path.h"
 #include "flank/ruled_motion.h"
@@ -50,16 +49,5 @@ struct ExampleOptions {
 
 /// Throws UsageError for an unknown name (listing the known ones) and for options that make no sense.
 [[nodiscard]] Example make_example(const std::string& name, const ExampleOptions& options = {});
-
-/// Writes the part as `file`: faces as .step or .stp, a mesh as .stl, .obj or .ply (millimetres). Where the truth is
-/// known, FILE.truth.json (rails, error), FILE.tool.json and FILE.path.json are written beside it, FILE without its
-/// ending. Returns the names of the files written, the part first. Throws UsageError for an ending that does not suit,
-/// InputError if writing fails.
-std::vector<std::string> write_example(const Example& example, const std::string& file);
-
-/// The same motion off by a smooth rigid perturbation of low frequency (a slowly varying shift and turn about
-/// mid-axis): its largest displacement over both ends of the axis is `relative` times `diagonal_mm`, to about 1
-/// percent. For starts of fits.
-[[nodiscard]] RuledMotion perturb(const RuledMotion& motion, double relative, double diagonal_mm, Random& random);
 
 }  // namespace flank::internal

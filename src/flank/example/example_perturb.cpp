@@ -1,8 +1,8 @@
+#include "flank/example/example_perturb.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-
-#include "flank/example/example.h"
 
 namespace flank::internal {
 namespace {

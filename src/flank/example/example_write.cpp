@@ -1,3 +1,5 @@
+#include "flank/example/example_write.h"
+
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -5,7 +7,6 @@
 
 #include "flank/base/atomic_file.h"
 #include "flank/error.h"
-#include "flank/example/example.h"
 #include "flank/io/cad/write_step.h"
 #include "flank/io/mesh/write_mesh.h"
 #include "flank/path_file.h"

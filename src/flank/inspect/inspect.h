@@ -54,10 +54,4 @@ inline constexpr int kInspectGrid = 48;
 
 [[nodiscard]] InspectReport inspect(const Part& part);
 
-/// For people: a header, one line a face, then what was repaired.
-[[nodiscard]] std::string to_table(const InspectReport& report);
-
-/// Indented JSON, schema "openflank/inspect/1"; lengths in mm, an infinite radius is null.
-[[nodiscard]] std::string inspect_to_json(const InspectReport& report);
-
 }  // namespace flank::internal

@@ -1,10 +1,10 @@
+#include "flank/inspect/inspect_text.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
-
-#include "flank/inspect/inspect.h"
 
 namespace flank::internal {
 namespace {

@@ -9,9 +9,11 @@
 
 #include "flank/error.h"
 #include "flank/io/cad/read_cad.h"
-#include "flank/io/mesh/read_mesh.h"
 #include "flank/io/mesh/read_mesh_regions.h"
 #include "flank/io/mesh/read_mesh_repair.h"
+#include "flank/io/mesh/read_obj.h"
+#include "flank/io/mesh/read_ply.h"
+#include "flank/io/mesh/read_stl.h"
 #include "flank/io/text/read_sniff.h"
 #include "flank/io/text/read_unit.h"
 

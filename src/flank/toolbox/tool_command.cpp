@@ -10,6 +10,7 @@
 #include "flank/error.h"
 #include "flank/io/text/json_input.h"
 #include "flank/io/tool/tool_dxf.h"
+#include "flank/io/tool/tool_dxf_read.h"
 #include "flank/io/tool/tool_fctb.h"
 #include "flank/io/tool/tool_step.h"
 #include "flank/io/tool/tool_svg.h"

@@ -9,6 +9,8 @@
 #include "flank/error.h"
 #include "flank/io/text/json_input.h"
 #include "flank/io/tool/tool_dxf.h"
+#include "flank/io/tool/tool_dxf_read.h"
+#include "flank/tool_file.h"
 #include "flank/tool_file.h"
 #include "flank/toolbox/tool_command.h"
 

@@ -8,6 +8,7 @@
 
 #include "flank/base/random.h"
 #include "flank/example/example.h"
+#include "flank/example/example_perturb.h"
 #include "obstacle/check_scene.h"
 
 namespace flank::internal {

@@ -9,6 +9,8 @@
 
 #include "flank/base/random.h"
 #include "flank/example/example.h"
+#include "flank/example/example_perturb.h"
+#include "flank/fit/automatic.h"
 #include "flank/fit/model/levenberg_marquardt.h"
 #include "flank/fit/swept_polish.h"
 

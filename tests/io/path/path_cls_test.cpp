@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "flank/error.h"
+#include "flank/io/path/path_cls_read.h"
 #include "io/path/path_samples.h"
 
 namespace flank::internal {

@@ -11,6 +11,7 @@
 
 #include "flank/base/random.h"
 #include "flank/error.h"
+#include "flank/io/tool/tool_dxf_read.h"
 #include "flank/io/tool/tool_svg.h"
 
 namespace flank::internal {

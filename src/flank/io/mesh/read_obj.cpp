@@ -1,6 +1,8 @@
+#include "flank/io/mesh/read_obj.h"
+
 #include <fmt/format.h>
 
-#include "flank/io/mesh/read_mesh.h"
+#include "flank/io/mesh/add_polygon.h"
 #include "flank/io/text/read_text.h"
 
 namespace flank::internal {
@@ -16,10 +18,6 @@ int vertex_index(const TextLines& lines, std::size_t word, std::size_t vertices)
 }
 
 }  // namespace
-
-void add_polygon(TriangleMesh& mesh, const int* corners, int count) {
-  for (int k = 2; k < count; ++k) mesh.triangles.push_back({corners[0], corners[k - 1], corners[k]});
-}
 
 TriangleMesh read_obj(const std::string& file, std::string_view content) {
   TriangleMesh mesh;

@@ -1,3 +1,5 @@
+#include "flank/io/mesh/read_ply.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +11,7 @@
 #include <optional>
 
 #include "flank/error.h"
-#include "flank/io/mesh/read_mesh.h"
+#include "flank/io/mesh/add_polygon.h"
 #include "flank/io/text/read_text.h"
 
 namespace flank::internal {

@@ -1,3 +1,5 @@
+#include "flank/io/mesh/read_stl.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -5,7 +7,6 @@
 #include <cstring>
 
 #include "flank/error.h"
-#include "flank/io/mesh/read_mesh.h"
 #include "flank/io/text/read_sniff.h"
 #include "flank/io/text/read_text.h"
 

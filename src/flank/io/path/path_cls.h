@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 #include "flank/path.h"
 #include "flank/tool.h"
@@ -35,11 +34,5 @@ struct NearestCutter {
 /// the tip's sphere (s = 0) and the unit vector towards the holder; CUTTER's f = 0 says so. Numbers read back as the
 /// same doubles. Throws UsageError for options that are not finite or <= 0.
 [[nodiscard]] std::string path_to_cls(const Path& path, const Tool& tool, const ClsOptions& options = {});
-
-/// The strips of a cutter-location file: cutting moves, grouped by this project's PPRINT/STRIP lines or, in other
-/// files, by RAPID. Moves under RAPID are links and left out unless their strip's kind is "link". UNITS/INCHES is
-/// honoured; without MULTAX the axis is +z. Words that mean nothing here are skipped; motion that is not points
-/// (CIRCLE, CYCLE, GODLTA, TRACUT, ...) is refused. Throws InputError naming file and line.
-[[nodiscard]] Path path_from_cls(std::string_view text, const std::string& file);
 
 }  // namespace flank::internal

@@ -1,3 +1,5 @@
+#include "flank/io/path/path_cls_read.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +12,7 @@
 
 #include "flank/error.h"
 #include "flank/io/path/path_cls.h"
+#include "flank/path_file.h"
 #include "flank/path_file.h"
 
 namespace flank::internal {

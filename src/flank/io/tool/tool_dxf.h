@@ -1,10 +1,7 @@
 /// tool.dxf (docs/schema/dxf.md): half profile, centreline and dimensions for the tool grinder, as ASCII DXF of AutoCAD R12.
 #pragma once
 
-#include <optional>
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include "flank/tool.h"
 
@@ -18,15 +15,5 @@ inline constexpr double kDxfChordMm = 1e-4;
 /// TEXT (length and radii), DIMENSION (linear dimensions: of flank, axis, whole tool, shank and holder the lengths, of
 /// both ends of the flank, shank and holder the diameters, and the flank's largest radius).
 [[nodiscard]] std::string tool_to_dxf(const Tool& tool);
-
-/// Points (z, rho) of the profile in a DXF: the polyline on layer FLANK, else the only polyline in the file (POLYLINE
-/// or LWPOLYLINE, ASCII, straight segments, millimetres). Throws InputError naming file and line.
-[[nodiscard]] std::vector<Vec2> profile_from_dxf(std::string_view text, const std::string& file);
-
-/// The tool of such a profile (radial_from_meridian; kDxfCoefficients or as many as the points allow). `axis_length` as
-/// there. Throws InputError.
-[[nodiscard]] Tool tool_from_dxf(std::string_view text, const std::string& file,
-                                 std::optional<double> axis_length = {});
-inline constexpr int kDxfCoefficients = 48;
 
 }  // namespace flank::internal

@@ -1,3 +1,5 @@
+#include "flank/io/tool/tool_dxf_read.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -5,7 +7,6 @@
 #include <cmath>
 
 #include "flank/error.h"
-#include "flank/io/tool/tool_dxf.h"
 #include "flank/tool/meridian.h"
 
 namespace flank::internal {
