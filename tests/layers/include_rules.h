@@ -1,172 +1,160 @@
-/// The rules of the source tree that a compiler does not check: which folder may include which, and where third parties
-/// may show.
+/// The rules of the house that a compiler does not check: which room may include which, what the front door shows, where
+/// third parties may show, how files, folders and namespaces are named, and how many there may be.
 #pragma once
 
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <map>
-#include <regex>
 #include <set>
-#include <sstream>
-#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "layers/layer_table.h"
+#include "layers/source_tree.h"
 
 namespace flank::layers {
 
-namespace fs = std::filesystem;
+inline constexpr int kMostFilesInAFolder = 25;
+inline constexpr int kMostFrontDoorHeaders = 30;
 
-/// Folder of src/flank -> the folders that it may include, besides itself.
-using LayerTable = std::map<std::string, std::set<std::string>>;
-
-inline std::vector<std::string> read_lines(const fs::path& file) {
-  std::ifstream in(file);
-  if (!in) throw std::runtime_error("cannot read " + file.string());
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  return lines;
-}
-
-inline std::set<std::string> split_words(const std::string& text) {
-  std::istringstream in(text);
-  std::set<std::string> words;
-  for (std::string word; in >> word;) words.insert(word);
-  return words;
-}
-
-/// Lines "folder: folder folder"; # starts a comment. A folder may name only folders of earlier lines, so the table has
-/// no cycle.
-inline LayerTable read_layer_table(const fs::path& file) {
-  LayerTable table;
-  for (const std::string& line : read_lines(file)) {
-    if (line.empty() || line.front() == '#') continue;
-    const std::size_t colon = line.find(':');
-    if (colon == std::string::npos) throw std::runtime_error("no colon in '" + line + "'");
-    const std::set<std::string> allowed = split_words(line.substr(colon + 1));
-    for (const std::string& name : allowed) {
-      if (!table.contains(name))
-        throw std::runtime_error("'" + line + "' names " + name + ", which no earlier line defines");
-    }
-    table[line.substr(0, colon)] = allowed;
-  }
-  return table;
-}
-
-/// The table of ARCHITECTURE.md: rows "| `folder` | what it is | folders |" (- for none).
-inline LayerTable read_documented_table(const fs::path& file) {
-  static const std::regex kRow(R"(\| `(\w+)` \|.*\| ([a-z -]+) \|)");
-  LayerTable table;
-  for (const std::string& line : read_lines(file)) {
-    std::smatch row;
-    if (!std::regex_match(line, row, kRow)) continue;
-    std::set<std::string> allowed = split_words(row[2]);
-    allowed.erase("-");
-    table[row[1]] = allowed;
-  }
-  return table;
-}
-
-struct Include {
-  int line = 0;
-  std::string path;
-  bool quoted = false;
-};
-
-inline std::vector<Include> includes_of(const fs::path& file) {
-  static const std::regex kInclude(R"re(\s*#\s*include\s*([<"])([^>"]+)[>"].*)re");
-  std::vector<Include> includes;
-  int number = 0;
-  for (const std::string& line : read_lines(file)) {
-    ++number;
-    std::smatch match;
-    if (std::regex_match(line, match, kInclude)) includes.push_back({number, match[2], match[1] == "\""});
-  }
-  return includes;
-}
-
-inline bool is_header(const fs::path& file) { return file.extension() == ".h"; }
-inline bool is_source(const fs::path& file) { return is_header(file) || file.extension() == ".cpp"; }
-
-/// Sources below a folder, sorted; none if there is no such folder.
-inline std::vector<fs::path> sources_below(const fs::path& folder) {
-  std::vector<fs::path> files;
-  if (!fs::exists(folder)) return files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.is_regular_file() && is_source(entry.path())) files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-/// Checks a tree `root`/src/flank and `root`/apps against a table. Every violation is one sentence "file:line: what".
+/// Checks the tree below `root` against a table. Every violation is one sentence "file:line: what".
 class TreeCheck {
  public:
   TreeCheck(fs::path root, LayerTable table) : root_(std::move(root)), table_(std::move(table)) {}
 
   [[nodiscard]] std::vector<std::string> violations() {
     found_.clear();
-    for (const fs::path& file : sources_below(root_ / "src/flank")) check_layer_file(file);
+    used_.clear();
+    modules_.clear();
+    for (const fs::path& file : sources_below(root_ / "include/flank")) check_front_door_file(file);
+    for (const fs::path& file : sources_below(root_ / "src/flank")) check_room_file(file);
     for (const fs::path& file : sources_below(root_ / "apps")) check_app_file(file);
+    for (const char* folder : {"tests", "bench"})
+      for (const fs::path& file : sources_below(root_ / folder)) add_to_modules(file, includes_of(file));
+    check_circles();
+    check_counts();
+    check_exceptions();
     return found_;
   }
 
  private:
-  void report(const fs::path& file, int line, const std::string& what) {
-    found_.push_back(fs::relative(file, root_).string() + ":" + std::to_string(line) + ": " + what);
+  [[nodiscard]] std::string name_of(const fs::path& file) const { return fs::relative(file, root_).generic_string(); }
+
+  void report(const std::string& file, int line, const std::string& what) {
+    found_.push_back(file + ":" + std::to_string(line) + ": " + what);
+  }
+  void report(const fs::path& file, int line, const std::string& what) { report(name_of(file), line, what); }
+
+  /// The includes of a file but those that are excepted.
+  std::vector<Include> checked_includes(const fs::path& file) {
+    std::vector<Include> includes = includes_of(file);
+    const auto excepted = table_.excepted.find(name_of(file));
+    if (excepted == table_.excepted.end()) return includes;
+    std::erase_if(includes, [&](const Include& include) {
+      if (!excepted->second.contains(include.path)) return false;
+      used_.insert(name_of(file) + " " + include.path);
+      return true;
+    });
+    return includes;
   }
 
-  void check_layer_file(const fs::path& file) {
-    const std::string folder = fs::relative(file, root_ / "src/flank").begin()->string();
-    if (!table_.contains(folder)) return report(file, 1, "the folder " + folder + " is not in layers.txt");
-    const std::vector<Include> includes = includes_of(file);
+  void check_room_file(const fs::path& file) {
+    const std::string room = fs::relative(file.parent_path(), root_ / "src/flank").generic_string();
+    if (!table_.rooms.contains(room)) return report(file, 1, "the folder " + room + " is not in layers.txt");
+    const std::vector<Include> includes = checked_includes(file);
+    add_to_modules(file, includes);
     for (const Include& include : includes) {
-      check_own(file, folder, include);
-      check_third_party(file, folder, include);
+      check_own(file, room, include);
+      check_third_party(file, layer_of(room), include);
     }
     if (is_header(file)) {
       check_pragma_once(file);
+      check_namespaces(file, "flank::internal", true);
     } else {
-      check_own_header_first(file, includes);
+      check_own_header(file, room, includes);
     }
+  }
+
+  /// The front door shows nothing but itself, the standard library and Eigen.
+  void check_front_door_file(const fs::path& file) {
+    const std::vector<Include> includes = checked_includes(file);
+    const std::string name = file.stem().string();
+    add_to_modules(file, includes);
+    if (!is_header(file)) return report(file, 1, "the front door has headers only");
+    if (!table_.front_door.contains(name)) return report(file, 1, "the header " + name + " is not in layers.txt");
+    check_pragma_once(file);
+    check_namespaces(file, "flank", false);
+    for (const Include& include : includes) {
+      const bool standard = !include.quoted && include.path.find_first_of("./") == std::string::npos;
+      if (standard || include.path.starts_with("Eigen/")) continue;
+      if (!is_front_door(include.path)) {
+        report(file, include.line,
+               include.path + " is neither of the front door nor of the standard library nor of Eigen");
+      } else {
+        check_front_door_order(file, table_.front_door.at(name), include);
+      }
+    }
+  }
+
+  /// A header of one layer includes headers of another only if a room of the one may look into the other.
+  void check_front_door_order(const fs::path& file, const std::string& layer, const Include& include) {
+    check_exists(file, include);
+    const auto other = table_.front_door.find(fs::path(include.path).stem().string());
+    if (other == table_.front_door.end()) return;  // reported at the header itself
+    for (const auto& [room, unused] : table_.rooms)
+      if (layer_of(room) == layer && table_.sees(room, other->second)) return;
+    report(file, include.line, layer + " may not include " + include.path + " of " + other->second);
   }
 
   void check_app_file(const fs::path& file) {
-    for (const Include& include : includes_of(file)) {
+    const std::vector<Include> includes = checked_includes(file);
+    add_to_modules(file, includes);
+    for (const Include& include : includes) {
       if (include.path.starts_with("flank/")) check_exists(file, include);
       if (is_cad_kernel(include.path)) report(file, include.line, "the CAD kernel's " + include.path + " outside io");
     }
+    if (is_header(file)) check_namespaces(file, "flank::cli", false);
   }
 
   void check_exists(const fs::path& file, const Include& include) {
-    if (!fs::exists(root_ / "src" / include.path)) report(file, include.line, "there is no " + include.path);
+    if (fs::exists(root_ / "src" / include.path) || fs::exists(root_ / "include" / include.path)) return;
+    report(file, include.line, "there is no " + include.path);
   }
 
-  /// Our own headers: by their full path, from this folder or one that the table allows.
-  void check_own(const fs::path& file, const std::string& folder, const Include& include) {
+  /// "flank/vec.h", but not "flank/geom/bvh.h".
+  static bool is_front_door(const std::string& path) {
+    return path.starts_with("flank/") && path.find('/', 6) == std::string::npos;
+  }
+
+  /// Our own headers: by their full path, from this room, from one that the table allows, or from the front door of a
+  /// layer that the room may look into.
+  void check_own(const fs::path& file, const std::string& room, const Include& include) {
     if (!include.path.starts_with("flank/")) {
       if (include.quoted) report(file, include.line, "\"" + include.path + "\" is not a path below src (flank/...)");
       return;
     }
     check_exists(file, include);
-    const std::string other = std::next(fs::path(include.path).begin())->string();
-    if (other == folder || table_.at(folder).contains(other)) return;
+    if (is_front_door(include.path)) {
+      const auto layer = table_.front_door.find(fs::path(include.path).stem().string());
+      if (layer == table_.front_door.end() || table_.sees(room, layer->second)) return;
+      return report(file, include.line, room + " may not include " + include.path + " of " + layer->second);
+    }
+    const std::string other = fs::path(include.path.substr(6)).parent_path().generic_string();
+    if (other == room || table_.rooms.at(room).contains(other)) return;
     report(file, include.line,
-           folder + " may not include " + other + (table_.contains(other) ? "" : ", an unknown folder"));
+           room + " may not include " + other + (table_.rooms.contains(other) ? "" : ", an unknown folder"));
   }
 
   /// Open CASCADE stays in io; headers show the standard library and Eigen, except internal ones that say so in their
   /// name.
-  void check_third_party(const fs::path& file, const std::string& folder, const Include& include) {
+  void check_third_party(const fs::path& file, const std::string& layer, const Include& include) {
     const std::string name = file.stem().string();
     if (is_cad_kernel(include.path)) {
-      if (folder != "io") report(file, include.line, "the CAD kernel's " + include.path + " outside io");
+      if (layer != "io") report(file, include.line, "the CAD kernel's " + include.path + " outside io");
       if (is_header(file) && name.find("occt") == std::string::npos) {
         report(file, include.line, include.path + " in a header that is not named for it (..occt..)");
       }
     }
     if (include.path.starts_with("tbb/") || include.path.starts_with("oneapi/")) {
-      if (folder != "base") report(file, include.line, include.path + " outside base: use base/parallel.h");
+      if (layer != "base") report(file, include.line, include.path + " outside base: use base/parallel.h");
     }
     if (!is_header(file)) return;
     if (include.path.starts_with("nlohmann/") && name.find("json") == std::string::npos) {
@@ -182,15 +170,90 @@ class TreeCheck {
     if (std::find(lines.begin(), lines.end(), "#pragma once") == lines.end()) report(file, 1, "no #pragma once");
   }
 
-  /// A source that includes its own header first proves that the header needs nothing before it.
-  void check_own_header_first(const fs::path& file, const std::vector<Include>& includes) {
-    fs::path header = file;
-    header.replace_extension(".h");
-    if (!fs::exists(header)) return;
-    const std::string wanted = fs::relative(header, root_ / "src").string();
+  /// Every namespace that a header opens is written in full: `wanted`, or, where that is allowed, one inside it.
+  void check_namespaces(const fs::path& file, const std::string& wanted, bool or_inside) {
+    for (const OpenedNamespace& opened : namespaces_of(file)) {
+      if (opened.name == wanted || (or_inside && opened.name.starts_with(wanted + "::"))) continue;
+      report(file, opened.line,
+             "opens namespace " + (opened.name.empty() ? "without a name" : opened.name) + "; here it is " + wanted +
+                 (or_inside ? " or one inside it" : ""));
+    }
+  }
+
+  /// A source has a header of its own name, beside it or in the front door of its layer, so that what is declared there is
+  /// found. It includes that header first, which proves that the header needs nothing before it.
+  void check_own_header(const fs::path& file, const std::string& room, const std::vector<Include>& includes) {
+    const std::string stem = file.stem().string();
+    const auto front = table_.front_door.find(stem);
+    std::string wanted;
+    if (fs::exists(fs::path(file).replace_extension(".h"))) {
+      wanted = "flank/" + room + "/" + stem + ".h";
+    } else if (front != table_.front_door.end() && front->second == layer_of(room)) {
+      wanted = "flank/" + stem + ".h";
+    } else if (table_.headerless.contains(name_of(file))) {
+      used_.insert(name_of(file) + " -");
+      return;
+    } else {
+      return report(file, 1, "there is no header " + stem + ".h for it");
+    }
     if (includes.empty() || includes.front().path != wanted) {
       report(file, includes.empty() ? 1 : includes.front().line, "the first include is not " + wanted);
     }
+  }
+
+  /// A module is a header and the source of its name beside it: "src/flank/geom/bvh".
+  void add_to_modules(const fs::path& file, const std::vector<Include>& includes) {
+    const std::string module = name_of(fs::path(file).replace_extension());
+    std::set<std::string>& others = modules_[module];
+    for (const Include& include : includes) {
+      for (const fs::path& start :
+           {root_ / "include", root_ / "src", root_ / "tests", root_ / "bench", file.parent_path()}) {
+        if (!include.path.ends_with(".h") || !fs::exists(start / include.path)) continue;
+        const std::string other = name_of((start / include.path).lexically_normal().replace_extension());
+        if (other != module) others.insert(other);
+        break;
+      }
+    }
+  }
+
+  void check_circles() {
+    for (const std::vector<std::string>& circle : circles_of(modules_)) {
+      std::string names;
+      for (const std::string& name : circle) names += (names.empty() ? "" : " -> ") + name;
+      report(circle.front() + ".h", 1, "a circle of files: " + names);
+    }
+  }
+
+  /// The front door has a number of its own: all of it is one concept, and a user should be able to read it through.
+  void check_counts() {
+    const fs::path front_door = root_ / "include/flank";
+    for (const char* folder : {"src", "include", "tests", "apps", "bench"}) {
+      for (const auto& [path, count] : files_by_folder(root_ / folder)) {
+        if (path != front_door && count > kMostFilesInAFolder)
+          report(path, 1, std::to_string(count) + " files; a folder holds " + std::to_string(kMostFilesInAFolder));
+      }
+    }
+    int headers = 0;
+    for (const fs::path& file : sources_below(front_door)) headers += is_header(file) ? 1 : 0;
+    if (headers > kMostFrontDoorHeaders)
+      report(front_door, 1,
+             std::to_string(headers) + " headers; the front door holds " + std::to_string(kMostFrontDoorHeaders));
+  }
+
+  /// What layers.txt names must be there, and what it excepts must still need it.
+  void check_exceptions() {
+    const std::string table = "src/flank/layers.txt";
+    for (const auto& [header, unused] : table_.front_door) {
+      if (!fs::exists(root_ / "include/flank" / (header + ".h")) &&
+          !fs::exists(root_ / "include/flank" / (header + ".h.in")))
+        report(table, 1, "there is no include/flank/" + header + ".h");
+    }
+    for (const auto& [file, includes] : table_.excepted) {
+      for (const std::string& include : includes)
+        if (!used_.contains(file + " " + include)) report(table, 1, file + " no longer includes " + include);
+    }
+    for (const std::string& file : table_.headerless)
+      if (!used_.contains(file + " -")) report(table, 1, file + " is gone or has its header");
   }
 
   static bool is_cad_kernel(const std::string& path) { return path.ends_with(".hxx"); }
@@ -198,6 +261,8 @@ class TreeCheck {
   fs::path root_;
   LayerTable table_;
   std::vector<std::string> found_;
+  std::set<std::string> used_;  ///< exceptions that were needed
+  Graph modules_;
 };
 
 }  // namespace flank::layers
