@@ -80,7 +80,7 @@ class SweptVolume {
 [[nodiscard]] std::vector<std::size_t> covered_samples(const SweptVolume& volume, const FaceSamples& face,
                                                        double tolerance_mm);
 
-/// Smallest radius of the flank, mm, over 257 places of the axis.
+/// Smallest radius of the flank, mm: RadialFunction::smallest().
 [[nodiscard]] double smallest_radius(const Tool& tool);
 
 struct JudgeOptions {

@@ -14,8 +14,6 @@
 namespace flank::internal {
 namespace {
 
-/// Pieces of the axis for the thinnest radius, which decides what is reachable at all.
-constexpr int kRadiusPieces = 100;
 /// mm: radius of a hollow where there is none.
 constexpr double kAnyRoom = 1e300;
 
@@ -25,11 +23,11 @@ struct PlaceScreen {
   double error_mm = kMostErrorMm;
 };
 
-/// Radial function at the middles of equal pieces of the axis.
+/// Radial function at the middles of equal pieces of the axis, and its smallest radius.
 struct Spheres {
   std::vector<double> s;
   std::vector<RadialJet> jets;
-  double thinnest = 1e300;
+  double thinnest = 0.0;
   DirectionFilterOptions filter;
 };
 
@@ -40,8 +38,7 @@ Spheres spheres_of(const RadialFunction& radial, const ScreenPlaces& places, con
     out.s.push_back((j + 0.5) / options.spheres * length);
     out.jets.push_back(radial.at(out.s.back()));
   }
-  for (int j = 0; j <= kRadiusPieces; ++j)
-    out.thinnest = std::min(out.thinnest, radial.at(length * j / double(kRadiusPieces)).r);
+  out.thinnest = radial.smallest();
   out.filter = {options.tolerance_mm, std::min(length, places.diagonal_mm), options.slack};
   return out;
 }

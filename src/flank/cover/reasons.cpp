@@ -8,24 +8,23 @@
 namespace flank::internal {
 namespace {
 
-/// Pieces of the axis for the thinnest place: the message gives its s to three digits.
+/// Pieces of the axis among whose ends the thinnest place is named.
 constexpr int kRadiusPieces = 100;
 /// Mean spacings: uncovered cells that are closer than this belong to one patch. Cells are not square, so their
 /// diagonals may reach over sqrt(2) spacings; 2.5 also joins patches that one row of covered cells divides, which read
 /// as one gap.
 constexpr double kPatchReach = 2.5;
 
-struct ThinPlace {
-  double s = 0.0, radius = 1e300;
-};
-
-ThinPlace thinnest(const RadialFunction& radial) {
-  ThinPlace thin;
-  for (int j = 0; j <= kRadiusPieces; ++j) {
+/// s, to a hundredth of the axis, of the smallest radius: enough to find the place, the radius itself is exact.
+double thinnest_at(const RadialFunction& radial) {
+  double at = 0.0, least = radial.at(0.0).r;
+  for (int j = 1; j <= kRadiusPieces; ++j) {
     const double s = radial.axis_length() * j / double(kRadiusPieces), r = radial.at(s).r;
-    if (r < thin.radius) thin = {s, r};
+    if (r >= least) continue;
+    at = s;
+    least = r;
   }
-  return thin;
+  return at;
 }
 
 std::vector<char> covered_cells(const CoverSamples& samples, const std::vector<CoverStrip>& strips) {
@@ -81,12 +80,13 @@ std::string reason_of(const Target& target, const RadialFunction& radial, const 
                       const std::vector<CoverStrip>& strips, double tolerance_mm) {
   // The hollow first: if it is too tight, no path can help, and every other reason would only follow from it.
   const ConcavePlace concave = most_concave(target, samples, strips);
-  const ThinPlace thin = thinnest(radial);
-  if (thin.radius * concave.curvature > 1.0)
+  const double thinnest = radial.smallest();
+  if (thinnest * concave.curvature > 1.0)
     return fmt::format(
         "largest concave curvature needs r below {:.3g} mm at ({:.1f}, {:.1f}, {:.1f}); this tool has {:.3g} mm at "
         "its thinnest, s = {:.3g}",
-        1.0 / concave.curvature, concave.point.x(), concave.point.y(), concave.point.z(), thin.radius, thin.s);
+        1.0 / concave.curvature, concave.point.x(), concave.point.y(), concave.point.z(), thinnest,
+        thinnest_at(radial));
   if (strips.empty())
     return fmt::format(
         "no line of this tool's {:.3g} mm stays within {:.3g} mm of the face over its whole length: a shorter tool, or "

@@ -43,9 +43,16 @@ SweptEstimate::SweptEstimate(const std::vector<RuledMotion>& motions, const Radi
   for (int k = 0; k <= kTable; ++k) {
     const RadialJet jet = radial.at(axis_length_ * k / kTable);
     radius_.push_back(jet.r);
-    least_radius_ = k == 0 ? jet.r : std::min(least_radius_, jet.r);
-    largest_radius_ = k == 0 ? jet.r : std::max(largest_radius_, jet.r);
     slope_over_cosine_.push_back(jet.d1 / std::sqrt(std::max(kLeastCosineSquared, 1.0 - jet.d1 * jet.d1)));
+  }
+  least_radius_ = radial.smallest();
+  largest_radius_ = radial.largest();
+  if (!std::isnan(least_radius_)) return;
+  // A fit may pass through parameters that leave r without a value somewhere: the range of the table's values then.
+  least_radius_ = largest_radius_ = radius_.front();
+  for (const double r : radius_) {
+    least_radius_ = std::min(least_radius_, r);
+    largest_radius_ = std::max(largest_radius_, r);
   }
 }
 

@@ -137,8 +137,11 @@ FitStage swept_stage(const Pass& pass, const FlankFitOptions& options) {
 
 ReachLimits reach_of(const FlankFitOptions& options) { return {reach_radius(options), options.tolerance_mm}; }
 
-/// Least r(s). Sampled: it sets a margin, for which a percent is good enough.
+/// Least r(s). The parameters of a family may leave it without a value past what touches the face: then the least of
+/// those that it has, by samples, because it only sets a margin.
 double smallest_radius(const RadialFunction& tool) {
+  const double exact = tool.smallest();
+  if (!std::isnan(exact)) return exact;
   constexpr int kSamples = 64;
   double least = tool.at(0.0).r;
   for (int j = 1; j <= kSamples; ++j) least = std::min(least, tool.at(tool.axis_length() * j / kSamples).r);

@@ -8,9 +8,6 @@
 namespace flank::internal {
 namespace {
 
-/// Samples of r(s) for its least value and its steepest slope: an extremum of r between two of them is missed by at
-/// most |r''| (L / 128)^2 / 2, half a micrometre for an arc of 50 mm and an axis of 30 mm.
-constexpr int kRadiusSamples = 65;
 /// Shortest step of the walk along the axis, as a share of it: used if it is near a solid. At most 33 queries a pose.
 constexpr double kShortestStepShare = 1.0 / 32.0;
 /// Axis of the ball, in radii: a tool needs an axis, so a ball is a very short cylinder with round ends. The error is
@@ -36,27 +33,13 @@ bool is_far(const Target& solid, const Vec3& p, double reach) {
   return reach <= 0.0 || solid.box().squared_distance(p) >= reach * reach;
 }
 
-double thinnest(const RadialFunction& radial) {
-  double least = 1e300;
-  for (int j = 0; j < kRadiusSamples; ++j)
-    least = std::min(least, radial.at(radial.axis_length() * j / (kRadiusSamples - 1)).r);
-  return least;
-}
-
-double steepest(const RadialFunction& radial) {
-  double most = 0.0;
-  for (int j = 0; j < kRadiusSamples; ++j)
-    most = std::max(most, std::abs(radial.at(radial.axis_length() * j / (kRadiusSamples - 1)).d1));
-  return most;
-}
-
 }  // namespace
 
 LineGuard::LineGuard(const Tool& tool, const CoverObstacles& obstacles, double floor_mm)
     : obstacles_(&obstacles),
-      ball_radius_(thinnest(tool.radial)),
+      ball_radius_(tool.radial.smallest()),
       radial_(tool.radial),
-      steepest_(steepest(tool.radial)),
+      steepest_(tool.radial.steepest()),
       floor_mm_(floor_mm) {
   // A checker costs memory and a query for every pose. Surfaces that the flank may touch matter for shank and holder
   // only.

@@ -16,9 +16,6 @@ constexpr int kSamplesPerControlPoint = 4;
 /// Poses of the table of the swept estimate, per control point and at least. The estimate's error is of third order in
 /// their spacing, and contacts that matter are refined: see contact().
 constexpr int kPosesPerControlPoint = 5, kLeastTablePoses = 40;
-/// Pieces of the axis for the smallest and the largest radius: an extremum between two samples is missed by at most
-/// |r''| (L / 64)^2 / 2.
-constexpr int kRadiusPieces = 32;
 /// Shares of the tolerance: a contact is refined if the estimate of |f| is nearer than the first to the tolerance, or f
 /// below minus the second. Elsewhere the estimate's own error cannot change whether a cell counts, nor a depth that
 /// matters (kRememberedDepthShare).
@@ -38,11 +35,9 @@ Box3 swept_box(const RuledMotion& motion, const RadialFunction& radial, double m
     box.add(pose.tip);
     box.add(pose.at(motion.axis_length));
   }
-  double largest = 0.0;
-  for (int j = 0; j <= kRadiusPieces; ++j)
-    largest = std::max(largest, radial.at(motion.axis_length * j / double(kRadiusPieces)).r);
-  box.low.array() -= largest + margin;
-  box.high.array() += largest + margin;
+  const double reach = radial.largest() + margin;
+  box.low.array() -= reach;
+  box.high.array() += reach;
   return box;
 }
 
@@ -61,13 +56,6 @@ Vec3 hermite(const std::vector<Vec3>& x, const std::vector<double>& t, std::size
          h * f * g * (g * slope(x, t, i) - f * slope(x, t, i + 1));
 }
 
-double smallest_radius(const RadialFunction& radial) {
-  double least = 1e300;
-  for (int j = 0; j <= kRadiusPieces; ++j)
-    least = std::min(least, radial.at(radial.axis_length() * j / double(kRadiusPieces)).r);
-  return least;
-}
-
 /// How much nearer than at the tabulated poses a sphere may come to a point between two of them, mm. A centre that
 /// passes at the distance r, with the nearest tabulated place x away along its path, is sqrt(r^2 + x^2) - r <= x^2 / (2
 /// r) nearer there. x is at most half a stride; the whole one is used, as paths bend.
@@ -78,7 +66,7 @@ double table_slack(const RuledMotion& motion, const RadialFunction& radial) {
     const Pose a = motion.pose(static_cast<double>(i) / (poses - 1)), b = motion.pose((i + 1.0) / (poses - 1));
     stride = std::max({stride, (b.tip - a.tip).norm(), (b.at(motion.axis_length) - a.at(motion.axis_length)).norm()});
   }
-  return stride * stride / (2.0 * smallest_radius(radial));
+  return stride * stride / (2.0 * radial.smallest());
 }
 
 SweptContact contact(const SweptEstimate& swept, const RuledMotion& motion, const RadialFunction& radial, const Vec3& x,

@@ -195,12 +195,7 @@ Verdict verdict_of(const VerifyReport& report) {
 
 }  // namespace
 
-double smallest_radius(const Tool& tool) {
-  constexpr int kSteps = 256;  // an extremum between two samples is missed by at most |r''| (L / 512)^2 / 2
-  double least = tool.radial.at(0.0).r;
-  for (int i = 1; i <= kSteps; ++i) least = std::min(least, tool.radial.at(tool.radial.axis_length() * i / kSteps).r);
-  return least;
-}
+double smallest_radius(const Tool& tool) { return tool.radial.smallest(); }
 
 namespace {
 
