@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "cover/cover_targets.h"
+#include "flank/base/tolerance_budget.h"
 
 namespace flank::internal {
 namespace {
@@ -59,7 +60,7 @@ class Certify : public ::testing::Test {
 double bump(double x, double middle, double width) { return std::exp(-std::pow((x - middle) / width, 2)); }
 
 TEST_F(Certify, AllowsItsShareOfTheToleranceAndNoMore) {
-  const double limit = kCertifiedShare * kTolerance;
+  const double limit = kToleranceBudget.target.certified * kTolerance;
   EXPECT_TRUE(is_certified({}, strip([=](double) { return limit - 1e-5; }), kTolerance));
   EXPECT_FALSE(is_certified({}, strip([=](double) { return limit + 1e-5; }), kTolerance));
   EXPECT_FALSE(is_certified({}, CoverStrip{}, kTolerance)) << "a strip without cells is none";
@@ -92,7 +93,7 @@ TEST_F(Certify, TheLongestOfThreeStretchesRemains) {
   const CoverStrip left = cut(bad);
   ASSERT_TRUE(is_certified({}, left, kTolerance));
   // The bump is below the limit where exp(-(x/2)^2) < 0.188: from 2.6 mm on.
-  const double off = 2.0 * std::sqrt(std::log(0.05 / (kCertifiedShare * kTolerance)));
+  const double off = 2.0 * std::sqrt(std::log(0.05 / (kToleranceBudget.target.certified * kTolerance)));
   EXPECT_NEAR(left.motion.pose(0.0).tip.x(), 12.0 + off, 0.6);
   EXPECT_NEAR(left.motion.pose(1.0).tip.x(), 40.0 - off, 0.6);
   EXPECT_LE(deepest(left.motion), kTolerance);

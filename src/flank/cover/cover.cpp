@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "flank/base/parallel.h"
+#include "flank/base/tolerance_budget.h"
 #include "flank/cover/curves/curves.h"
 #include "flank/cover/reasons.h"
 #include "flank/cover/tiles/smooth.h"
@@ -18,9 +19,6 @@ namespace {
 /// Share of the area that smooth rails may cost: the same as smooth.cpp lets its first pass cost, less than half a
 /// strip's default price.
 constexpr double kSmoothWorth = 0.002;
-/// Of the tolerance: how deep a pose may enter another face, in a certificate and while a strip grows. What lies
-/// between the poses of a strip, once they are joined smoothly, has the difference.
-constexpr double kFloorShare = 0.65, kGrowFloorShare = 0.35;
 
 /// Axis samples of certificates. Surfaces may ripple at their borders within a fraction of a millimetre.
 /// 17 found 0.008 mm of depth on a real blade where there were 0.022 mm (docs/algorithms/cover.md).
@@ -237,8 +235,8 @@ CoverResult cover(const Target& target, const Tool& tool, const CoverObstacles& 
   CoverResult result;
   Stopwatch watch(result);
   progress.step("samples", kSamplesAt);
-  const LineGuard guard(tool, obstacles, -kFloorShare * options.tolerance_mm);
-  const LineGuard grow_guard = guard.with_floor(-kGrowFloorShare * options.tolerance_mm);
+  const LineGuard guard(tool, obstacles, -kToleranceBudget.others.certified * options.tolerance_mm);
+  const LineGuard grow_guard = guard.with_floor(-kToleranceBudget.others.growing * options.tolerance_mm);
   CoverSamples samples = cover_samples(target, options.sample_share * std::sqrt(target.area()));
   result.reachable = keep_reachable(samples, guard);
   const TileScene scene{target, tool.radial, samples, grow_guard, options};

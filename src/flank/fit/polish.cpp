@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "flank/base/parallel.h"
+#include "flank/base/tolerance_budget.h"
 #include "flank/fit/swept_polish.h"
 
 namespace flank::internal {
@@ -83,10 +84,10 @@ Polished shifted_by(FitDraft draft, double by, const std::vector<SurfaceSample>&
 Polished shifted(const Polished& polished, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
   if (!polished.draft.free_tool) return polished;
   Polished best = polished;
-  // Just enough to be within the tolerance, with 5 % for what lies between the samples; and quarters of all, because
+  // Just enough to be within the tolerance, with room for what lies between the samples; and quarters of all, because
   // the score has steps (samples that leave the tolerance) and no derivative to follow.
-  constexpr double kWithin = 0.95;
-  const double overcut = polished.estimate.overcut_mm, excess = overcut - kWithin * options.tolerance_mm;
+  const double overcut = polished.estimate.overcut_mm,
+               excess = overcut - kToleranceBudget.fit.overcut * options.tolerance_mm;
   for (double by : {excess, 0.25 * overcut, 0.5 * overcut, 0.75 * overcut, overcut}) {
     if (by <= 0.0) continue;
     Polished trial = shifted_by(polished.draft, by, samples, options);
@@ -171,14 +172,15 @@ Polished polish(const FitDraft& draft, const std::vector<SurfaceSample>& samples
 
 Polished last_passes(const Polished& polished, const std::vector<SurfaceSample>& samples,
                      const FlankFitOptions& options, std::vector<IterationTrace>* trace) {
-  /// A free, exact fit with more overcut than this share of the tolerance has its radii reduced until it has that; its
-  /// motion, and so its last digits, stay. It covers the face if no more than one of 2,000 samples is missing.
-  constexpr double kExactOvercut = 0.1, kExactCovers = 0.9995;
+  /// An exact fit covers the face if no more than one of 2,000 samples is missing.
+  constexpr double kExactCovers = 0.9995;
   // An exact fit has its residuals at the axis, and beside a wall some of the face may lie past the axis' end: the
   // passes below see it.
   const bool short_of_face = polished.estimate.at_tolerance < kExactCovers && !polished.draft.checks.empty() &&
                              polished.draft.checks.front() != nullptr;
-  const double by = polished.estimate.overcut_mm - kExactOvercut * options.tolerance_mm;
+  // A free, exact fit with more overcut than it may have has its radii reduced until it has that; its motion, and so its
+  // last digits, stay.
+  const double by = polished.estimate.overcut_mm - kToleranceBudget.fit.exact_overcut * options.tolerance_mm;
   // Residuals at the axis can be exact while the tool cuts deep elsewhere: a shift by more than the tolerance would
   // leave nothing covered.
   const bool deep = polished.draft.free_tool && by > options.tolerance_mm;
@@ -202,10 +204,10 @@ Polished settled(const Polished& polished, const FlankFitOptions& options) {
   }
   const Polished again = assess(polished.draft, samples, options);
   if (again.estimate.overcut_mm > options.tolerance_mm) return shifted(again, samples, options);
-  // Between these samples, too, nothing may be cut deeper than the tolerance: a little room (of the tolerance), if it
-  // costs little (of the covered share).
-  constexpr double kRoom = 0.06, kCost = 0.005;
-  const double by = again.estimate.overcut_mm - (1.0 - kRoom) * options.tolerance_mm;
+  // Between these samples, too, nothing may be cut deeper than the tolerance: a little room, if it costs little of the
+  // covered share.
+  constexpr double kCost = 0.005;
+  const double by = again.estimate.overcut_mm - kToleranceBudget.fit.settled_overcut * options.tolerance_mm;
   if (!again.draft.free_tool || by <= 0.0) return again;
   Polished lower = shifted_by(again.draft, by, samples, options);
   return lower.estimate.at_tolerance >= again.estimate.at_tolerance - kCost ? lower : again;

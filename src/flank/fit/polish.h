@@ -46,7 +46,7 @@ struct Polished {
                               const FlankFitOptions& options, std::vector<IterationTrace>* trace);
 
 /// The passes of swept_polish.h if the target is no envelope, and a free tool's radii reduced against overcut. An exact
-/// fit keeps its motion; a free tool's radii are reduced until a tenth of the tolerance of overcut is left.
+/// fit keeps its motion; a free tool's radii are reduced until FitBudget::exact_overcut is left.
 [[nodiscard]] Polished last_passes(const Polished& polished, const std::vector<SurfaceSample>& samples,
                                    const FlankFitOptions& options, std::vector<IterationTrace>* trace);
 

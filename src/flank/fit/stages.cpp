@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "flank/base/assert.h"
+#include "flank/base/tolerance_budget.h"
 
 namespace flank::internal {
 namespace {
@@ -153,8 +154,6 @@ FitStage exact_stage(bool last) {
 }
 
 FitStage tolerance_stage(double tolerance_mm, double robust_scale_mm) {
-  // Below the tolerance, so that what lies between the samples and is a little worse than they are still keeps it.
-  constexpr double kDeadZoneShare = 0.7;
   return {
       // Finer than the polish: the resolution at which MATH section 7 had its last candidates polished.
       .samples_t = 120,
@@ -166,7 +165,7 @@ FitStage tolerance_stage(double tolerance_mm, double robust_scale_mm) {
       .transversal_anchor = 1e-2,
       .axial_pin = 1e-6,
       .extension_scale_mm = robust_scale_mm,
-      .dead_zone_mm = kDeadZoneShare * tolerance_mm,
+      .dead_zone_mm = kToleranceBudget.fit.dead_zone_axis * tolerance_mm,
       .step_tolerance = 1e-4,
   };
 }

@@ -41,7 +41,7 @@ struct FitDraft {
 /// For targets that are envelopes (residual near zero): no fairness that would bias, no pull from extensions; the last
 /// of them has more control points and all but no anchors.
 [[nodiscard]] FitStage exact_stage(bool last);
-/// For targets that are not: residuals count beyond 0.7 tolerances, so that coverage grows instead of the mean falling.
+/// For targets that are not: residuals count beyond FitBudget::dead_zone_axis, so that coverage grows instead of the mean falling.
 [[nodiscard]] FitStage tolerance_stage(double tolerance_mm, double robust_scale_mm);
 
 /// A spline's coefficients clamped to [smallest, largest]: the function lies in their hull, so it keeps the bounds too.

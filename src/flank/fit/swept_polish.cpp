@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "flank/base/parallel.h"
+#include "flank/base/tolerance_budget.h"
 #include "flank/fit/model/constrained.h"
 #include "flank/fit/model/levenberg_marquardt.h"
 
@@ -30,9 +31,8 @@ constexpr int kSamplesT = 120, kSamplesS = 36;
 /// size D cost as much as residuals of sqrt(fairness) D / (kSamplesT - 1)^2: 2e-6 D and 7e-8 D.
 constexpr double kFair = 1e-3, kSoft = 1e-6;
 
-/// The dead zone of most passes: below the tolerance, so that the face between the points, where the error is a little
-/// larger than at them, keeps the tolerance, too.
-constexpr double kWideZone = 0.6;
+/// The dead zone of most passes.
+constexpr double kWideZone = kToleranceBudget.fit.dead_zone;
 
 /// The first pass keeps the anchor of the passes at the axis. The others need none, because a motion that shrinks
 /// leaves points of the face uncovered; what is left of it fixes the timing, to which the swept distance is blind.
@@ -96,8 +96,6 @@ constexpr double kCovered = 0.995;
 /// Overcut below this share of the diagonal is settled: the constrained pass would not improve it, whose own fairness
 /// of kConstrainedFairness costs residuals of that size (7e-7 D, see kFair).
 constexpr double kSettledOvercutShare = 1e-6;
-/// Of an exact fit, so is overcut below this share of the tolerance: its last digits are worth more.
-constexpr double kExactOvercutShare = 0.1;
 constexpr double kConstrainedFairness = 1e-4;
 
 /// What the passes have in common.
@@ -238,15 +236,15 @@ Polished without_overcut(const Polished& polished, const std::vector<SurfaceSamp
                          const FlankFitOptions& options) {
   const double diagonal = polished.draft.targets.front()->diagonal();
   // To take the last digits of overcut out of an exact fit costs it the last digits of everything else.
-  const double settled = polished.exact
-                             ? std::max(kSettledOvercutShare * diagonal, kExactOvercutShare * options.tolerance_mm)
-                             : kSettledOvercutShare * diagonal;
+  const double settled = polished.exact ? std::max(kSettledOvercutShare * diagonal,
+                                                   kToleranceBudget.fit.exact_overcut * options.tolerance_mm)
+                                        : kSettledOvercutShare * diagonal;
   if (polished.draft.free_tool || polished.estimate.overcut_mm < settled) return polished;
   /// In tolerances. Points farther from the tool do not limit a step; a step that all the same makes one of them
   /// overcut is refused by its merit (constrained.cpp).
   constexpr double kBand = 10.0;
   /// The dead zone of the second run: half of the largest material left, but not more than the tolerance pass has.
-  constexpr double kUndercutShare = 0.5, kMostZone = 0.7;
+  constexpr double kUndercutShare = 0.5, kMostZone = kToleranceBudget.fit.dead_zone_axis;
   /// Coverage that evening out may cost: 2 of the 2,000 samples that rank.
   constexpr double kCost = 1e-3;
   // No overcut to weigh, and no dead zone: the limits are hard, and the objective is the material left.

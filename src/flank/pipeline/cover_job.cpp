@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/base/tolerance_budget.h"
 #include "flank/error.h"
 #include "flank/pipeline/catalogue_job.h"
 #include "flank/pipeline/cover_groups.h"
@@ -150,14 +151,13 @@ ToolExtent extent_of(const Tool& tool) {
 }
 
 CoverObstacles obstacles_of(const CoverJob& job, const Part& part, const TargetGroup& group, const ToolExtent& extent) {
-  constexpr double kDeviationShare = 0.3, kOwnDeviationShare = 0.1, kSpareShare = 0.2;  ///< of the tolerance
   const double tolerance_mm = job.base.tolerance_mm;
   CoverObstacles obstacles = other_faces(part, no_obstacles(job, part, group), *group.target, extent.reach_mm,
-                                         std::clamp(kDeviationShare * tolerance_mm, 1e-3, 0.05));
+                                         std::clamp(kToleranceBudget.others.triangles * tolerance_mm, 1e-3, 0.05));
   if (!extent.above) return obstacles;
   // By its triangles, finely: a shank as thick as the flank touches what the flank touches.
-  const double deviation_mm = std::clamp(kOwnDeviationShare * tolerance_mm, 1e-3, 0.02);
-  for (CheckSurface& own : own_faces(part, group.indices, deviation_mm, kSpareShare * tolerance_mm))
+  const double deviation_mm = std::clamp(kToleranceBudget.shank.triangles * tolerance_mm, 1e-3, 0.02);
+  for (CheckSurface& own : own_faces(part, group.indices, deviation_mm, kToleranceBudget.shank.spare * tolerance_mm))
     obstacles.surfaces.push_back(std::move(own));
   return obstacles;
 }

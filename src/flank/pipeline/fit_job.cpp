@@ -8,6 +8,7 @@
 
 #include "flank/artefact/view.h"
 #include "flank/artefact/view_json.h"
+#include "flank/base/tolerance_budget.h"
 #include "flank/envelope.h"
 #include "flank/envelope/path_regularity.h"
 #include "flank/error.h"
@@ -78,7 +79,7 @@ void lift_shank(const FitJob& job, const Part& part, const std::vector<int>& fac
     Path path;
     for (const RuledMotion& motion : fit.motions) {
       SamplingOptions options;
-      options.chord_tolerance_mm = 0.02 * job.tolerance_mm;
+      options.chord_tolerance_mm = kToleranceBudget.chord * job.tolerance_mm;
       path.strips.push_back({});
       path.strips.back().poses = sample_motion(motion, options).poses;
     }
@@ -113,7 +114,7 @@ void add_strips(const FitJob& job, const std::vector<RuledMotion>& motions,
   const std::vector<TimeRange> used = used_times(motions, radial, targets, job.tolerance_mm);
   for (std::size_t m = 0; m < motions.size(); ++m) {
     SamplingOptions options;
-    options.chord_tolerance_mm = 0.02 * job.tolerance_mm;
+    options.chord_tolerance_mm = kToleranceBudget.chord * job.tolerance_mm;
     const SampledMotion sampled = sample_motion(motions[m], options);
     outcome.chord_bound_mm = std::max(outcome.chord_bound_mm, sampled.chord_bound_mm);
     Strip strip;

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <sstream>
 
+#include "flank/base/tolerance_budget.h"
 #include "flank/error.h"
 #include "flank/seed/guide_start.h"
 #include "flank/seed/line_start.h"
@@ -88,15 +89,13 @@ void add_checks(const FitJob& job, const Part& part, const std::vector<int>& fac
                 double largest_radius, FitSearch& search) {
   /// The flank lies within a diameter of its target, and the walls of a channel beyond it count.
   constexpr double kReach = 2.0;
-  /// A soft term gives a little; the judge allows one tolerance.
-  constexpr double kAllowance = 0.8;
   for (TargetGroup& group : search.targets) {
     std::vector<int> others = checks;
     for (const int face : faces)
       if (std::find(group.indices.begin(), group.indices.end(), face) == group.indices.end()) others.push_back(face);
     std::sort(others.begin(), others.end());
     group.checks = make_flank_checks(part, *group.target, others, kReach * largest_radius,
-                                     kAllowance * job.tolerance_mm, search.fit.notes);
+                                     kToleranceBudget.others.fit_allowance * job.tolerance_mm, search.fit.notes);
   }
 }
 

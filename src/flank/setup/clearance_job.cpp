@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "flank/base/tolerance_budget.h"
 #include "flank/error.h"
 #include "flank/io/cad/triangulate.h"
 #include "flank/io/text/json_input.h"
@@ -154,7 +155,7 @@ ClearanceReport measure_clearance(const ClearanceJob& job, const Tool& tool, con
                                   const std::optional<std::string>& unit, double tolerance_mm,
                                   std::vector<std::string>& notes) {
   if (tool.shank.empty() && tool.holder.empty() && job.fixtures.empty()) return {};
-  const double deviation = std::clamp(0.5 * tolerance_mm, kFinestMm, kCoarsestMm);
+  const double deviation = std::clamp(kToleranceBudget.shank.judge_triangles * tolerance_mm, kFinestMm, kCoarsestMm);
   std::vector<Obstacle> obstacles;
   if (!tool.shank.empty() || !tool.holder.empty())
     add_obstacles(part, ObstacleRole::kPart, target_faces, check_faces, deviation, obstacles, notes);

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "flank/base/tolerance_budget.h"
+
 namespace flank::internal {
 namespace {
 
@@ -15,7 +17,7 @@ constexpr double kShortestStretch = 0.1;
 }  // namespace
 
 bool is_certified(const LineGuard& guard, const CoverStrip& strip, double tolerance_mm) {
-  if (strip.cells.empty() || strip.overcut_mm > kCertifiedShare * tolerance_mm) return false;
+  if (strip.cells.empty() || strip.overcut_mm > kToleranceBudget.target.certified * tolerance_mm) return false;
   const int poses = depth_poses(strip.motion);
   for (int i = 0; i <= poses; ++i)
     if (!guard.clear(strip.motion.pose(static_cast<double>(i) / poses))) return false;
@@ -115,14 +117,11 @@ RuledMotion moved(const RuledMotion& motion, const Shifts& shifts) {
 CoverStrip lifted(const CoverSamples& samples, const LineGuard& guard, CoverStrip strip, const RadialFunction& radial,
                   LineFitter& fitter) {
   constexpr int kTries = 4;  ///< the rails follow a shift only nearly, so what is left is lifted again
-  /// Share of the certified depth that a lift aims at: aimed at the limit itself, the approximation by the rails would
-  /// leave places just beyond it. Above kRememberedDepthShare / kCertifiedShare (strip_cover.cpp), so all contacts that
-  /// have to be lifted are known.
-  constexpr double kAim = 0.97;
-  const double limit = kCertifiedShare * fitter.options().tolerance_mm;
+  const double limit = kToleranceBudget.target.certified * fitter.options().tolerance_mm;
   for (int k = 0; k < kTries && !strip.cells.empty(); ++k) {
     // Not too deep anywhere: then only slides out of other faces are left to do.
-    const double depth = strip.overcut_mm > limit ? kAim * limit : strip.overcut_mm;
+    const double depth =
+        strip.overcut_mm > limit ? kToleranceBudget.target.lift_of_certified * limit : strip.overcut_mm;
     const Shifts shifts = shifts_of(guard, strip, depth, depth_poses(strip.motion), fitter);
     if (!shifts.any) break;
     strip = measure_strip(samples, moved(strip.motion, shifts), radial, fitter);
@@ -138,7 +137,7 @@ CoverStrip cut_to_certified(const CoverSamples& samples, const LineGuard& guard,
     const int poses = depth_poses(strip.motion);
     int first = 0, longest = 0;
     for (int i = 0, run = 0; i <= poses; ++i) {
-      const bool good = strip.depths[static_cast<std::size_t>(i)] <= kCertifiedShare * tolerance &&
+      const bool good = strip.depths[static_cast<std::size_t>(i)] <= kToleranceBudget.target.certified * tolerance &&
                         guard.clear(strip.motion.pose(static_cast<double>(i) / poses));
       run = good ? run + 1 : 0;
       if (run <= longest) continue;
@@ -161,14 +160,10 @@ constexpr int kFinePoses = 1000;
 /// Fewest fine steps of a stretch that is kept.
 constexpr int kShortestFineRun = kFinePoses / 10;
 static_assert(kShortestFineRun == static_cast<int>(kShortestStretch * kFinePoses));
-/// Shares of the tolerance: how deep a fine pose may be in the target and in another face. Larger than those of the
-/// certificate (0.94, and 0.65 in cover.cpp), because less is left between the samples; nothing but the judge looks
-/// after this. Triangles stand for other faces, so these keep the greater reserve.
-constexpr double kFineShare = 0.98, kFineFloorShare = 0.9;
 
 /// First and last of the longest run of fine steps that are not too deep, and clear; last < first: there is none.
 std::pair<int, int> longest_good(const LineGuard& guard, const RuledMotion& motion, LineFitter& fitter) {
-  const double limit = kFineShare * fitter.options().tolerance_mm;
+  const double limit = kToleranceBudget.target.last_look() * fitter.options().tolerance_mm;
   std::pair<int, int> best = {0, -1};
   fitter.forget();
   for (int i = 0, first = 0; i <= kFinePoses; ++i) {
@@ -191,12 +186,12 @@ CoverStrip cut_finely(const CoverSamples& samples, const LineGuard& guard, Cover
   const double tolerance = fitter.options().tolerance_mm;
   // Without a tolerance for other faces (floor 0) there is none to use up here.
   const LineGuard last_guard =
-      guard.with_floor(guard.floor_mm() < 0.0 ? -kFineFloorShare * tolerance : guard.floor_mm());
+      guard.with_floor(guard.floor_mm() < 0.0 ? -kToleranceBudget.others.last_look * tolerance : guard.floor_mm());
   for (int k = 0; k < kTries; ++k) {
     const auto [first, last] = longest_good(last_guard, strip.motion, fitter);
     if (first == 0 && last == kFinePoses) return strip;
     if (k < kLifts) {
-      const Shifts shifts = shifts_of(guard, strip, kCertifiedShare * tolerance, kFinePoses, fitter);
+      const Shifts shifts = shifts_of(guard, strip, kToleranceBudget.target.certified * tolerance, kFinePoses, fitter);
       strip = measure_strip(samples, moved(strip.motion, shifts), radial, fitter);
       continue;
     }

@@ -1,8 +1,8 @@
 /// CERTIFY, as far as the planner can: the judge has the last word.
 ///
 /// A certificate is a set of samples, not a proof: depths at depth_poses(motion) poses and at the points of
-/// CoverSamples, clearances at the same poses. Limits below the tolerance (kCertifiedShare, the guard's floor) leave
-/// room for what lies between the samples. All functions here are deterministic; `fitter` is scratch memory of the
+/// CoverSamples, clearances at the same poses. Limits below the tolerance (base/tolerance_budget.h, the guard's floor)
+/// leave room for what lies between the samples. All functions here are deterministic; `fitter` is scratch memory of the
 /// calling thread, must belong to the same target and tool, and carries the tolerance (fitter.options().tolerance_mm).
 #pragma once
 
@@ -11,8 +11,8 @@
 
 namespace flank::internal {
 
-/// Whether the strip has cells, cuts the target no deeper than kCertifiedShare of the tolerance, and has no pose that
-/// is deeper in an obstacle than the guard's floor. The depth is strip.overcut_mm, so the strip must be measured.
+/// Whether the strip has cells, cuts the target no deeper than TargetDepthBudget::certified tolerances, and has no
+/// pose that is deeper in an obstacle than the guard's floor. The depth is strip.overcut_mm, so the strip must be measured.
 [[nodiscard]] bool is_certified(const LineGuard& guard, const CoverStrip& strip, double tolerance_mm);
 
 /// The strip lifted out of the target wherever it is too deep, by as much as it is too deep, and slid along its axis

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "flank/base/assert.h"
+#include "flank/base/tolerance_budget.h"
 #include "flank/envelope/swept_estimate.h"
 
 namespace flank::internal {
@@ -18,7 +19,7 @@ constexpr int kSamplesPerControlPoint = 4;
 constexpr int kPosesPerControlPoint = 5, kLeastTablePoses = 40;
 /// Shares of the tolerance: a contact is refined if the estimate of |f| is nearer than the first to the tolerance, or f
 /// below minus the second. Elsewhere the estimate's own error cannot change whether a cell counts, nor a depth that
-/// matters (kRememberedDepthShare).
+/// matters (TargetDepthBudget::remembered).
 constexpr double kRefineBand = 0.3, kRefineDepth = 0.5;
 /// Samples of the part of a motion that is kept: with at most 48 control points, three or more for each.
 constexpr int kPartSamples = 160;
@@ -129,10 +130,6 @@ int depth_poses(const RuledMotion& motion) {
 
 namespace {
 
-/// Share of the tolerance: contacts that are deeper are kept in CoverStrip::deep. A lift aims at 0.97 * kCertifiedShare
-/// = 0.91 tolerances (certify.cpp) and can only lift what is kept, so this must be less. (Not to be confused with the
-/// depth at which smooth.cpp holds a place in its fit.)
-constexpr double kRememberedDepthShare = 0.8;
 /// Tolerances: a border point whose estimated f is above this, and above what the table may miss, cannot be too deep.
 constexpr double kBorderBand = 2.0;
 
@@ -152,7 +149,7 @@ void count_contact(CoverStrip& strip, const SweptContact& at, double tolerance_m
   const auto steps = static_cast<double>(strip.depths.size() - 1);
   double& depth = strip.depths[static_cast<std::size_t>(std::lround(at.t * steps))];
   depth = std::max(depth, -at.f);
-  if (at.f < -kRememberedDepthShare * tolerance_mm) strip.deep.push_back(at);
+  if (at.f < -kToleranceBudget.target.remembered * tolerance_mm) strip.deep.push_back(at);
 }
 
 void measure_border(const CoverSamples& samples, const SweptEstimate& swept, const Box3& box,
@@ -181,7 +178,7 @@ CoverStrip measure_strip(const CoverSamples& samples, RuledMotion motion, const 
     const SurfaceSample& cell = samples.cells[k];
     if (box.squared_distance(cell.point) > 0.0) continue;
     const SweptContact at = contact(swept, strip.motion, radial, cell.point, tolerance);
-    if (at.f < -kRememberedDepthShare * tolerance) count_contact(strip, at, tolerance);
+    if (at.f < -kToleranceBudget.target.remembered * tolerance) count_contact(strip, at, tolerance);
     if (std::abs(at.f) > tolerance) continue;
     strip.cells.push_back(static_cast<int>(k));
     strip.area += cell.area;

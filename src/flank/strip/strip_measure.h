@@ -21,10 +21,6 @@ struct CoverSamples {
 /// Cells about `spacing_mm` apart, border points a quarter of that, both in a fixed order. spacing_mm > 0.
 [[nodiscard]] CoverSamples cover_samples(const Target& target, double spacing_mm);
 
-/// Overcut is certified to this share of the tolerance: what lies between the samples has the rest. Not derived: with
-/// it the judge's overcut stays below the tolerance on all faces of docs/algorithms/cover.md.
-inline constexpr double kCertifiedShare = 0.94;
-
 /// Number of equal steps of t that see every wave that the rails can make: eight per control point, at most 384.
 [[nodiscard]] int depth_poses(const RuledMotion& motion);
 
@@ -41,7 +37,8 @@ struct CoverStrip {
   /// what (1) misses. Negative: clear by as much.
   std::vector<double> depths;
   double overcut_mm = 0.0;  ///< the largest of them
-  /// Contacts of points of the target that are deeper than 0.8 tolerances: what a lift has to take out (certify.h).
+  /// Contacts of points of the target that are deeper than TargetDepthBudget::remembered tolerances: what a lift has to
+  /// take out (certify.h).
   std::vector<SweptContact> deep;
 };
 

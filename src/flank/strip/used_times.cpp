@@ -12,6 +12,8 @@ namespace {
 constexpr int kPerSide = 120;  ///< places looked at, along a side of a target
 constexpr int kPoses = 400;    ///< of a motion, tabulated
 constexpr double kMore = 0.01;
+/// Tolerances: contacts farther than this by the estimate are not refined, the estimate is better than that.
+constexpr double kNear = 2.0;
 
 std::vector<Vec3> places_on(const std::vector<const Target*>& targets) {
   std::vector<Vec3> places;
@@ -32,7 +34,7 @@ std::vector<TimeRange> used_times(const std::vector<RuledMotion>& motions, const
   std::vector<SweptContact> contacts(places.size());
   parallel_for(places.size(), [&](std::size_t k) {
     contacts[k] = swept.nearest(places[k]);
-    if (std::abs(contacts[k].f) > 2.0 * tolerance_mm) return;
+    if (std::abs(contacts[k].f) > kNear * tolerance_mm) return;
     const int motion = contacts[k].motion;
     contacts[k] =
         refine_contact(motions[static_cast<std::size_t>(motion)], tool, places[k], contacts[k].t, swept.spacing());

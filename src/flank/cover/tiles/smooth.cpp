@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "flank/base/parallel.h"
+#include "flank/base/tolerance_budget.h"
 #include "flank/envelope/swept_estimate.h"
 #include "flank/fit/model/levenberg_marquardt.h"
 #include "flank/fit/swept_polish.h"
@@ -25,7 +26,7 @@ struct Pass {
   int iterations;         ///< most steps of Levenberg-Marquardt
   int points_per_side;    ///< of the target: their spacing is sqrt(area) / points_per_side
 };
-constexpr double kDeadZone = 0.6;
+constexpr double kDeadZone = kToleranceBudget.fit.dead_zone;
 /// First stiff and on few points, to straighten what was grown step by step; then with rails a hundred times softer and
 /// on more points. The points of the face are fixed, so a motion gains nothing by shrinking (fit/swept_model.h): the
 /// anchor only removes drift that changes no envelope, and the second pass hardly needs it.
@@ -58,13 +59,6 @@ constexpr double kEnoughCoverage = 0.9985;
 /// uses 30 to 100 for such one-sided terms when every sample of the axis has one; here a pose has a single point, so it
 /// weighs more.
 constexpr double kLimitWeight = 300.0;
-/// Share of the tolerance by which the fit lets the tool enter another face. The certificate allows 0.65 (kFloorShare
-/// in cover.cpp): the fit has to aim below what it is judged by, because a penalty is never met exactly.
-constexpr double kObstacleAimShare = 0.6;
-/// Share of the tolerance: places of the target that are cut deeper than the first are held by a pass of limits, at the
-/// second. 0.9 is below kCertifiedShare (0.94), so places about to fail are held as well; 0.8 is the margin of the
-/// penalty.
-constexpr double kHeldDepthShare = 0.9, kHeldDepthAimShare = 0.8;
 /// Tolerances. Another face farther than this from a pose gets no point in the pass: its term would be zero, unless the
 /// pass moved the pose by more than two tolerances.
 constexpr double kObstacleHorizon = 2.0;
@@ -150,7 +144,7 @@ std::vector<FacePoint> check_points(const TileScene& scene, const std::vector<Co
         found[k].push_back({.point = at.point,
                             .share = share,
                             .role = FacePoint::Role::kAvoid,
-                            .margin_mm = -kObstacleAimShare * tolerance});
+                            .margin_mm = -kToleranceBudget.others.aim * tolerance});
     }
   });
   std::vector<FacePoint> points;
@@ -172,19 +166,21 @@ std::vector<FacePoint> deep_points(const TileScene& scene, const std::vector<Cov
     for (int i = 0; i <= poses; ++i) {
       const Pose pose = motion.pose(static_cast<double>(i) / poses);
       (void)fitter.measure(pose);
-      fitter.deep_points(pose, kHeldDepthShare * tolerance, found[k]);
+      fitter.deep_points(pose, kToleranceBudget.target.held * tolerance, found[k]);
     }
   });
   std::vector<FacePoint> points;
-  found.push_back(points_below(scene, strips, scene.samples.border, -kHeldDepthShare * tolerance));
+  found.push_back(points_below(scene, strips, scene.samples.border, -kToleranceBudget.target.held * tolerance));
   std::size_t count = 0, seen = 0;
   for (const auto& of_strip : found) count += of_strip.size();
   const std::size_t stride = 1 + count / kMostDeepPoints;
   for (const auto& of_strip : found)
     for (const Vec3& x : of_strip)
       if (seen++ % stride == 0)
-        points.push_back(
-            {.point = x, .share = share, .role = FacePoint::Role::kHold, .margin_mm = -kHeldDepthAimShare * tolerance});
+        points.push_back({.point = x,
+                          .share = share,
+                          .role = FacePoint::Role::kHold,
+                          .margin_mm = -kToleranceBudget.target.held_aim * tolerance});
   return points;
 }
 
