@@ -81,6 +81,14 @@ TEST(LineGuard, SlidesOutAlongTheAxis) {
   EXPECT_FALSE(guard.clear(slid_clear(guard, deep, 0.5))) << "no further than allowed";
 }
 
+// The reachable part of a target is asked for with this ball: at the waist of a tool, not at a sample of its axis.
+TEST(LineGuard, TheBallHasTheSmallestRadius) {
+  const double radius = 5.0, slope = 0.00731, bend = 0.01;
+  Tool tool;
+  tool.radial = RadialFunction(ToolFamily::kHyperbolic, 20.0, Eigen::Vector3d(radius, slope, bend));
+  EXPECT_NEAR(LineGuard(tool, CoverObstacles{}, 0.0).ball_radius(), radius - slope * slope / (4.0 * bend), 1e-12);
+}
+
 TEST(LineGuard, AsksTriangles) {
   CoverObstacles obstacles;
   CheckSurface wall;

@@ -210,6 +210,14 @@ TEST(Judge, SameBitsForOneAndTwoThreads) {
   }
 }
 
+// Samples of the axis would step over the waist by micrometres.
+TEST(Judge, SmallestRadiusIsThatOfTheWaist) {
+  const double radius = 5.0, slope = 0.00731, bend = 0.01;
+  Tool tool;
+  tool.radial = RadialFunction(ToolFamily::kHyperbolic, 20.0, Eigen::Vector3d(radius, slope, bend));
+  EXPECT_NEAR(smallest_radius(tool), radius - slope * slope / (4.0 * bend), 1e-12);
+}
+
 TEST(Judge, RefusesOptionsThatAreNone) {
   JudgeOptions options;
   options.tolerance_mm = -1.0;
