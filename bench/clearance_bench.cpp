@@ -148,7 +148,7 @@ class Rival {
 
 void race(const char* name, const TriangleMesh& mesh) {
   const std::vector<Pose> poses = poses_near(mesh, 2000);
-  CheckSurface surface;
+  ObstacleMesh surface;
   surface.mesh = mesh;
   surface.flank_may_touch = true;
   std::unique_ptr<PoseChecker> checker;

@@ -79,7 +79,7 @@ FamilySearchOptions options_with_best_at(double radius, double sine) {
   FamilySearchOptions options;
   options.axis_length_mm = 20.0;
   options.rounds = 12;
-  options.ranking.cover_with = [=](const Target&, const Tool& tool, const CoverObstacles&, const CoverOptions&,
+  options.ranking.cover_with = [=](const Target&, const Tool& tool, const Obstacles&, const CoverOptions&,
                                    const Progress&) {
     CoverResult result;
     const RadialJet tip = tool.radial.at(0.0);
@@ -93,7 +93,7 @@ FamilySearchOptions options_with_best_at(double radius, double sine) {
 FamilySearchResult search_flat(ToolFamily family, const std::map<std::string, double>& given,
                                const FamilySearchOptions& options) {
   const auto target = testing::flat_target(0.0, 50.0, 0.0, 30.0);
-  const CoverObstacles none;
+  const Obstacles none;
   const RankingTarget targets = {{target.get(), &none}};
   return search_family(std::span(&targets, 1), family, given, options, {});
 }
@@ -139,7 +139,7 @@ TEST(FamilySearch, SameForAnyNumberOfThreads) {
 TEST(FamilySearch, TheNearestWhereNoneWorks) {
   // A lid lower than twice the smallest radius that is searched.
   const auto target = testing::flat_target(0.0, 50.0, 0.0, 30.0);
-  const CoverObstacles obstacles = testing::lid_at(1.0);
+  const Obstacles obstacles = testing::lid_at(1.0);
   const RankingTarget targets = {{target.get(), &obstacles}};
   const FamilySearchResult found =
       search_family(std::span(&targets, 1), ToolFamily::kCylinder, {}, options_with_best_at(3.0, 0.0), {});

@@ -77,7 +77,7 @@ class FakeRanking : public ::testing::Test {
  protected:
   FakeRanking() {
     options_.cover.tolerance_mm = 0.01;
-    options_.cover_with = [this](const Target&, const Tool& tool, const CoverObstacles&, const CoverOptions& options,
+    options_.cover_with = [this](const Target&, const Tool& tool, const Obstacles&, const CoverOptions& options,
                                  const Progress&) {
       ++(options.smooth ? full_ : options.seed_places == options_.quick_places ? quick_ : thorough_);
       CoverResult result;
@@ -96,7 +96,7 @@ class FakeRanking : public ::testing::Test {
   }
 
   std::unique_ptr<Target> target_ = testing::flat_target(0.0, 50.0, 0.0, 30.0);
-  CoverObstacles none_;
+  Obstacles none_;
   RankingOptions options_;
   std::atomic<int> quick_{0}, thorough_{0}, full_{0};
 };
@@ -146,7 +146,7 @@ TEST_F(FakeRanking, ThoseThatCannotWorkAreLastAndNotTried) {
 }
 
 TEST_F(FakeRanking, TheBetterSideOfASheet) {
-  options_.cover_with = [&](const Target& target, const Tool& tool, const CoverObstacles&, const CoverOptions&,
+  options_.cover_with = [&](const Target& target, const Tool& tool, const Obstacles&, const CoverOptions&,
                             const Progress&) {
     CoverResult result;
     result.coverage = &target == target_.get() ? 0.3 : 0.8;
@@ -176,7 +176,7 @@ TEST_F(FakeRanking, AnInterruptedRankingKeepsWhatItHas) {
 TEST(ToolRanking, SameForAnyNumberOfThreads) {
   if (kSanitized) GTEST_SKIP() << "minutes under a sanitizer; its parts are tested there by themselves";
   const auto target = testing::flat_target(0.0, 50.0, 0.0, 30.0);
-  const CoverObstacles none;
+  const Obstacles none;
   const RankingTarget targets = {{target.get(), &none}};
   const std::vector<Tool> tools = {testing::cylinder(4.0, 16.0), testing::cylinder(3.0, 16.0), barrel(50.0, 5.0, 20.0)};
   RankingOptions options;

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "flank/example/example.h"
-#include "flank/obstacle/line_guard.h"
+#include "flank/obstacle/pose_guard.h"
 #include "seed/exact_targets.h"
 
 namespace flank::internal::testing {
@@ -44,19 +44,19 @@ inline std::unique_ptr<Target> flat_target(double x0, double x1, double y0, doub
 }
 
 /// One large triangle.
-inline CoverObstacles triangle_obstacle(const Vec3& a, const Vec3& b, const Vec3& c) {
-  CoverObstacles obstacles;
-  CheckSurface surface;
+inline Obstacles triangle_obstacle(const Vec3& a, const Vec3& b, const Vec3& c) {
+  Obstacles obstacles;
+  ObstacleMesh surface;
   surface.mesh = {{a, b, c}, {{0, 1, 2}}};
   obstacles.surfaces.push_back(surface);
   return obstacles;
 }
 /// A wall across a flat target, at this y.
-inline CoverObstacles wall_at(double y) {
+inline Obstacles wall_at(double y) {
   return triangle_obstacle(Vec3(-90.0, y, -1.0), Vec3(140.0, y, -1.0), Vec3(25.0, y, 120.0));
 }
 /// A lid over a flat target, at this z.
-inline CoverObstacles lid_at(double z) {
+inline Obstacles lid_at(double z) {
   return triangle_obstacle(Vec3(-200.0, -200.0, z), Vec3(300.0, -200.0, z), Vec3(0.0, 400.0, z));
 }
 

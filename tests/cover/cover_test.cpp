@@ -63,7 +63,7 @@ TEST(Cover, SameForAnyNumberOfThreads) {
 TEST(Cover, KeepsClearOfAWall) {
   if (kSanitized) GTEST_SKIP() << "minutes under a sanitizer; its parts are tested there by themselves";
   const auto target = testing::flat_target(0.0, 50.0, 0.0, 30.0);
-  const CoverObstacles obstacles = testing::wall_at(30.0);
+  const Obstacles obstacles = testing::wall_at(30.0);
   const Tool tool = testing::cylinder(4.0, 16.0);
   const CoverResult result = cover(*target, tool, obstacles, options_for(0.01), {});
   ASSERT_EQ(result.status, CoverStatus::kCovered) << result.message;
@@ -87,7 +87,7 @@ TEST(Cover, SaysWhichCurvatureForbidsTheTool) {
 TEST(Cover, SaysThatNothingCanBeReached) {
   // A lid a millimetre above the sheet.
   const auto target = testing::flat_target(0.0, 20.0, 0.0, 20.0);
-  const CoverObstacles obstacles = testing::lid_at(1.0);
+  const Obstacles obstacles = testing::lid_at(1.0);
   const CoverResult result = cover(*target, testing::cylinder(4.0, 10.0), obstacles, options_for(0.01), {});
   EXPECT_NE(result.status, CoverStatus::kCovered);
   EXPECT_EQ(result.reachable, 0.0);
@@ -108,7 +108,7 @@ TEST(Cover, TakesTheUsersSeeds) {
 TEST(Tile, ASetIsWorthItsCoverLessItsPrice) {
   const auto target = testing::flat_target(0.0, 10.0, 0.0, 10.0);
   CoverSamples samples = cover_samples(*target, 1.0);
-  const LineGuard guard;
+  const PoseGuard guard;
   CoverOptions options;
   options.strip_price = 0.1;
   const RadialFunction radial = testing::cylinder(1.0, 5.0).radial;

@@ -22,7 +22,7 @@ class SmallCover : public ::testing::Test {
     options_.control_points = 8;
     options_.most_strips = 3;
   }
-  CoverResult run(const CoverObstacles& obstacles = {}, int threads = 0) const {
+  CoverResult run(const Obstacles& obstacles = {}, int threads = 0) const {
     set_thread_count(threads);
     CoverResult result = cover(*target_, tool_, obstacles, options_, {});
     set_thread_count(0);
@@ -82,7 +82,7 @@ TEST_F(SmallCover, SameBytesForAnyNumberOfThreads) {
 
 TEST_F(SmallCover, NoStripEntersAWall) {
   options_.smooth = false;
-  const CoverObstacles wall = testing::wall_at(16.0);
+  const Obstacles wall = testing::wall_at(16.0);
   const CoverResult result = run(wall);
   ASSERT_EQ(result.status, CoverStatus::kCovered) << result.message;
   EXPECT_NEAR(result.reachable, 13.0 / 16.0, 0.05) << "a ball of 3 mm keeps its radius from the wall";

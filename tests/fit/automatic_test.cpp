@@ -108,13 +108,13 @@ TEST(FitAutomatic, StripsSideBySideShareTheBlade) {
 
 TEST(FitAutomatic, BesideAHubItStaysOutOfIt) {
   const auto blade = standing_blade(0.0);
-  const FlankChecks checks(testing::only(testing::hub(true)), *blade, 2.0, 0.0);
+  const ObstacleField obstacles(testing::only(testing::hub(true)), *blade, 2.0, 0.0);
   FlankFitOptions options = small_options();
-  options.checks = &checks;
+  options.obstacles = &obstacles;
   options.reach_radius_mm = 5.0;
   const FlankFitResult result = fit_automatic(*blade, given_cylinder(5.0), options, {});
   EXPECT_LE(result.after.gouge_mm, kTolerance) << result.message;
-  EXPECT_LE(flank_gouge(result.motions, {&checks}, result.tool, 400), 1.1 * kTolerance);
+  EXPECT_LE(flank_gouge(result.motions, {&obstacles}, result.tool, 400), 1.1 * kTolerance);
   EXPECT_GT(result.after.at_tolerance, 0.9) << result.message;
 }
 

@@ -174,41 +174,41 @@ TEST(EstimateCoverage, ThreadsChangeNothing) {
 
 TEST(FlankGouge, IsTheDeepestBallInTheHub) {
   const auto blade = standing_blade(0.0);
-  const FlankChecks checks(only(hub(true)), *blade, 2.0, 0.0);
+  const ObstacleField obstacles(only(hub(true)), *blade, 2.0, 0.0);
   for (const double z : {8.0, 5.0, 4.9, 3.0, -6.0})
-    EXPECT_NEAR(flank_gouge({upright_motion({.z = z})}, {&checks}, cylinder(5.0), 20), std::max(0.0, 5.0 - z), 1e-6)
+    EXPECT_NEAR(flank_gouge({upright_motion({.z = z})}, {&obstacles}, cylinder(5.0), 20), std::max(0.0, 5.0 - z), 1e-6)
         << z;
 }
 
 TEST(FlankGouge, FindsTheOneBallOfABarrelThatEnters) {
   // The axis lies over the hub, the barrel's belly hangs down in its middle.
   const auto blade = standing_blade(0.0);
-  const FlankChecks checks(only(hub(true)), *blade, 2.0, 0.0);
+  const ObstacleField obstacles(only(hub(true)), *blade, 2.0, 0.0);
   RuledMotion lying = upright_motion({.y = 12.0, .z = 6.0, .x_first = 10.0, .x_last = 20.0});
   lying.direction.poles.colwise() = Vec3::UnitX();
   const RadialFunction barrel(ToolFamily::kBarrel, 30.0, Eigen::Vector3d(60.0, 6.2, 17.3));
-  EXPECT_NEAR(flank_gouge({lying}, {&checks}, barrel, 12), 0.2, 2e-3);
+  EXPECT_NEAR(flank_gouge({lying}, {&obstacles}, barrel, 12), 0.2, 2e-3);
 }
 
 TEST(FlankGouge, DoesNotStepOverANarrowBump) {
   const auto blade = standing_blade(0.0);
-  const FlankChecks checks(only(hub(true)), *blade, 2.0, 0.0);
+  const ObstacleField obstacles(only(hub(true)), *blade, 2.0, 0.0);
   RuledMotion lying = upright_motion({.y = 12.0, .z = 6.9, .x_first = 5.0, .x_last = 15.0, .length = 60.0});
   lying.direction.poles.colwise() = Vec3::UnitX();
   Eigen::VectorXd radii = Eigen::VectorXd::Constant(12, 3.0);
   radii[5] = 9.0;  // r = 3, but 3 + 2/3 6 at the bump's top, a knot of the spline
-  const double found = flank_gouge({lying}, {&checks}, RadialFunction::spline(60.0, radii), 4);
+  const double found = flank_gouge({lying}, {&obstacles}, RadialFunction::spline(60.0, radii), 4);
   EXPECT_LE(found, 0.1 + 1e-9);
   EXPECT_GT(found, 0.1 - 0.5 * 0.27 * 0.25) << "half a step of one millimetre off the top, r'' = 0.27";
 }
 
 TEST(FlankGouge, LooksOnlyAtMotionsThatHaveChecks) {
   const auto blade = standing_blade(0.0);
-  const FlankChecks checks(only(hub(true)), *blade, 2.0, 0.0);
+  const ObstacleField obstacles(only(hub(true)), *blade, 2.0, 0.0);
   const std::vector<RuledMotion> motions = {upright_motion({.z = 0.0}), upright_motion({.z = 4.0})};
   EXPECT_EQ(flank_gouge(motions, {}, cylinder(5.0), 12), 0.0);
-  EXPECT_NEAR(flank_gouge(motions, {nullptr, &checks}, cylinder(5.0), 12), 1.0, 1e-6);
-  EXPECT_NEAR(flank_gouge(motions, {&checks, &checks}, cylinder(5.0), 12), 5.0, 1e-6);
+  EXPECT_NEAR(flank_gouge(motions, {nullptr, &obstacles}, cylinder(5.0), 12), 1.0, 1e-6);
+  EXPECT_NEAR(flank_gouge(motions, {&obstacles, &obstacles}, cylinder(5.0), 12), 5.0, 1e-6);
 }
 
 TEST(Validate, AnExactEnvelopeHasNoError) {

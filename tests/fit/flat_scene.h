@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "flank/fit/stages.h"
-#include "obstacle/check_scene.h"
+#include "obstacle/obstacle_scene.h"
 
 namespace flank::internal::testing {
 
@@ -78,7 +78,7 @@ inline FitStage bare_stage(int control_points = 8) {
 /// `accuracy` of the gradient's length.
 inline void expect_regulariser_gradient(const FitModel& model, const FitState& state, double accuracy) {
   FitState at = state;
-  model.locate_checks(at);
+  model.locate_obstacles(at);
   ArrowSystem system = model.make_system();
   model.assemble_regularisers(at, system);
   const double h = 1e-4;
@@ -86,8 +86,8 @@ inline void expect_regulariser_gradient(const FitModel& model, const FitState& s
   for (int k = 0; k < system.size(); ++k) {
     FitState plus = model.moved(at, h * Eigen::VectorXd::Unit(system.size(), k));
     FitState minus = model.moved(at, -h * Eigen::VectorXd::Unit(system.size(), k));
-    model.locate_checks(plus);
-    model.locate_checks(minus);
+    model.locate_obstacles(plus);
+    model.locate_obstacles(minus);
     numeric[k] = (model.regulariser_cost(plus) - model.regulariser_cost(minus)) / (4.0 * h);
   }
   ASSERT_GT(numeric.norm(), 0.0);

@@ -80,10 +80,10 @@ TEST(Polish, RankingSamplesStandForTheWholeAreaAndTheRimForNone) {
 
 TEST(Polish, RankingSamplesOutOfReachHaveNoArea) {
   const auto blade = standing_blade(0.0);
-  const FlankChecks checks(testing::only(testing::hub(true)), *blade, 2.0, 0.0);
+  const ObstacleField obstacles(testing::only(testing::hub(true)), *blade, 2.0, 0.0);
   FlankFitOptions options = small_options();
   options.reach_radius_mm = 6.0;  // its ball touches the blade down to z = 6 less the tolerance
-  for (const SurfaceSample& sample : ranking_samples(*blade, &checks, options)) {
+  for (const SurfaceSample& sample : ranking_samples(*blade, &obstacles, options)) {
     const double z = sample.point.z();
     const bool rim = std::min({sample.point.x(), 60.0 - sample.point.x(), z, 40.0 - z}) < 1e-9;
     EXPECT_EQ(sample.area > 0.0, !rim && z > 6.0 - kTolerance) << sample.point.transpose();

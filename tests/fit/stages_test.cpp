@@ -24,13 +24,13 @@ TEST(Stages, StripsThatShareATargetCountItOnceInTheirOrder) {
 
 TEST(Stages, ChecksBelongToTheirTarget) {
   const auto a = standing_blade(0.0), b = standing_blade(-5.0);
-  const FlankChecks checks(testing::only(testing::hub(true)), *a, 2.0, 0.0);
+  const ObstacleField obstacles(testing::only(testing::hub(true)), *a, 2.0, 0.0);
   FitDraft draft;
   draft.targets = {b.get(), a.get()};
-  EXPECT_EQ(checks_of(draft, a.get()), nullptr) << "no checks at all";
-  draft.checks = {nullptr, &checks};
-  EXPECT_EQ(checks_of(draft, a.get()), &checks);
-  EXPECT_EQ(checks_of(draft, b.get()), nullptr);
+  EXPECT_EQ(obstacles_of(draft, a.get()), nullptr) << "no obstacles at all";
+  draft.obstacles = {nullptr, &obstacles};
+  EXPECT_EQ(obstacles_of(draft, a.get()), &obstacles);
+  EXPECT_EQ(obstacles_of(draft, b.get()), nullptr);
 }
 
 FitDraft barrel_draft(const testing::ExactTarget& exact) {

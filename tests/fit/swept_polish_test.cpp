@@ -83,10 +83,10 @@ TEST(TargetPoints, ATargetThatStripsShareIsSampledOnceAndSeveralShareByArea) {
 
 TEST(TargetPoints, WhatTheBallCannotReachBesideTheHubCountsFromOneSide) {
   const auto blade = standing_blade(0.0);
-  const FlankChecks checks(testing::only(testing::hub(true)), *blade, 2.0, 0.0);
+  const ObstacleField obstacles(testing::only(testing::hub(true)), *blade, 2.0, 0.0);
   FitDraft draft;
   draft.targets = {blade.get()};
-  draft.checks = {&checks};
+  draft.obstacles = {&obstacles};
   int out = 0;
   for (const FacePoint& point : target_points(draft, 15, {5.0, 0.1})) {
     if (on_rim(point.point)) continue;

@@ -21,8 +21,8 @@ Tool cylinder_tool() {
   return tool;
 }
 
-CheckSurface triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
-  CheckSurface out;
+ObstacleMesh triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
+  ObstacleMesh out;
   out.mesh = {{a, b, c}, {{0, 1, 2}}};
   return out;
 }
@@ -103,9 +103,9 @@ TEST(TriangleDistance, AgreesWithBruteForce) {
 TEST(PoseChecker, ClosedForms) {
   const Pose upright{Vec3::Zero(), Vec3::UnitZ()};
   // A plane beside the shank, and one below the round end.
-  const CheckSurface beside = triangle({9, -90, 30}, {9, 90, 30}, {9, 0, 45});
-  const CheckSurface below = triangle({-90, -90, -7}, {90, -90, -7}, {0, 90, -7});
-  const std::array<CheckSurface, 2> both{beside, below};
+  const ObstacleMesh beside = triangle({9, -90, 30}, {9, 90, 30}, {9, 0, 45});
+  const ObstacleMesh below = triangle({-90, -90, -7}, {90, -90, -7}, {0, 90, -7});
+  const std::array<ObstacleMesh, 2> both{beside, below};
   const PoseChecker checker(cylinder_tool(), both);
   const PoseClearance found = checker.measure(upright);
   EXPECT_NEAR(found.clearance_mm, 3.0, 1e-6);
@@ -120,11 +120,11 @@ TEST(PoseChecker, ClosedForms) {
   EXPECT_EQ(one.measure(upright, 2.0).surface, -1);
   EXPECT_EQ(one.measure(upright, 2.0).clearance_mm, 2.0);
   // The flank may touch a target, shank and holder may not.
-  CheckSurface target = below;
+  ObstacleMesh target = below;
   target.flank_may_touch = true;
   EXPECT_NEAR(PoseChecker(cylinder_tool(), std::span(&target, 1)).measure(upright).clearance_mm, 27.0, 1e-6);
   // Slack counts as nearness.
-  CheckSurface rough = below;
+  ObstacleMesh rough = below;
   rough.slack_mm = 0.5;
   EXPECT_NEAR(PoseChecker(cylinder_tool(), std::span(&rough, 1)).measure(upright).clearance_mm, 2.5, 1e-6);
 }
@@ -137,7 +137,7 @@ TEST(PoseChecker, GradientAgainstFiniteDifferences) {
   int checked = 0, kinks = 0;
   for (int k = 0; k < 200; ++k) {
     const Pose pose{random_point(random, 5.0), (Vec3::UnitZ() + random_point(random, 0.3)).normalized()};
-    std::vector<CheckSurface> surfaces;
+    std::vector<ObstacleMesh> surfaces;
     double brute = 1e300;
     for (int i = 0; i < 3; ++i) {
       const Vec3 middle = pose.at(random.uniform(10.0, 100.0)) + random_point(random, 25.0);
@@ -175,7 +175,7 @@ TEST(PoseChecker, GradientAgainstFiniteDifferences) {
 }
 
 TEST(PoseChecker, FollowingTheGradientFreesAPose) {
-  const CheckSurface wall = triangle({8, -200, 0}, {8, 200, 0}, {8, 0, 300});
+  const ObstacleMesh wall = triangle({8, -200, 0}, {8, 200, 0}, {8, 0, 300});
   const PoseChecker checker(cylinder_tool(), std::span(&wall, 1));
   Pose pose{Vec3::Zero(), Vec3::UnitZ()};
   const double before = checker.measure(pose).clearance_mm;
@@ -190,7 +190,7 @@ TEST(PoseChecker, FollowingTheGradientFreesAPose) {
 
 TEST(PoseChecker, BatchesAgreeForAnyNumberOfThreads) {
   Random random(31);
-  CheckSurface cloud;
+  ObstacleMesh cloud;
   for (int i = 0; i < 600; ++i) {
     const Vec3 middle = Vec3(25, 0, 45) + random_point(random, 25.0);
     for (int c = 0; c < 3; ++c) cloud.mesh.vertices.emplace_back(middle + random_point(random, 1.0));
@@ -230,11 +230,11 @@ TEST(PoseChecker, SamplesOfATargetAreNearerThanItIs) {
   s.knots_u = s.knots_v = {0, 0, 1, 1};
   s.poles = {{12, -40, 0}, {12, -40, 80}, {12, 40, 0}, {12, 40, 80}};
   const auto target = make_target(std::vector<Face>{face});
-  const CheckSurface samples = check_surface(*target, 0.5, false);
+  const ObstacleMesh samples = obstacle_points(*target, 0.5, false);
   const PoseClearance found =
       PoseChecker(cylinder_tool(), std::span(&samples, 1)).measure({Vec3::Zero(), Vec3::UnitZ()});
   EXPECT_LE(found.clearance_mm, -1.0);  // the holder, 10 to 14 wide, reaches past x = 12 at z = 75
-  CheckSurface far = samples;
+  ObstacleMesh far = samples;
   for (Vec3& p : far.mesh.vertices) p.x() += 30.0;
   const PoseClearance apart = PoseChecker(cylinder_tool(), std::span(&far, 1)).measure({Vec3::Zero(), Vec3::UnitZ()});
   const double truth = 42.0 - (10.0 + 4.0 * 20.0 / 30.0);

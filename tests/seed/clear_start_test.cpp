@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "obstacle/check_scene.h"
+#include "obstacle/obstacle_scene.h"
 
 namespace flank::internal {
 namespace {
@@ -19,14 +19,14 @@ INSTANTIATE_TEST_SUITE_P(Bottoms, ClearStartTest, ::testing::Values(0.0, -10.0))
 
 TEST_P(ClearStartTest, TipRollsAlongTheHub) {
   const auto blade = standing_blade(GetParam());
-  const FlankChecks checks(only(hub(true)), *blade, 2.0, 0.0);
+  const ObstacleField obstacles(only(hub(true)), *blade, 2.0, 0.0);
   const Chart chart(*blade);
   int upright = 0;
   for (const bool swapped : {false, true}) {
     RuledStart start;
     start.swapped = swapped;
     start.radius_mm = 3.0;
-    const ClearStart clear = clear_start(chart, start, checks);
+    const ClearStart clear = clear_start(chart, start, obstacles);
     ASSERT_GT(clear.free_lines, 0);
     if (!clear.lines.front().low_blocked && !clear.lines.front().high_blocked) continue;  // lines along the hub
     ++upright;
@@ -45,11 +45,11 @@ TEST_P(ClearStartTest, TipRollsAlongTheHub) {
 
 TEST(ClearStart, NothingIsFreeInsideTheHub) {
   const auto blade = standing_blade(0.0);
-  const FlankChecks checks(only(hub(true)), *blade, 2.0, 0.0);
+  const ObstacleField obstacles(only(hub(true)), *blade, 2.0, 0.0);
   const Chart chart(*blade);
   RuledStart start;
   start.radius_mm = 60.0;  // larger than the blade is high
-  EXPECT_EQ(clear_start(chart, start, checks).free_lines, 0);
+  EXPECT_EQ(clear_start(chart, start, obstacles).free_lines, 0);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ TEST(CheckSurfaces, AShankMayTouchWhatItsFlankTouches) {
   constexpr double kTolerance = 0.05, kDeviation = 0.005, kSpare = 0.01;
   Part part;
   part.faces = {testing::flat_face(0.0, 60.0, 0.0, 40.0, 0.0)};
-  const std::vector<CheckSurface> own = own_faces(part, {0}, kDeviation, kSpare);
+  const std::vector<ObstacleMesh> own = own_faces(part, {0}, kDeviation, kSpare);
   ASSERT_EQ(own.size(), 1u);
   EXPECT_TRUE(own[0].flank_may_touch);
 

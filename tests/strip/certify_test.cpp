@@ -26,13 +26,13 @@ class Certify : public ::testing::Test {
     }
     return measure_strip(samples_, fit_motion(poses, t, kLength, control_points), radial_, fitter_);
   }
-  CoverStrip cut(const CoverStrip& strip, const LineGuard& guard = {}) {
+  CoverStrip cut(const CoverStrip& strip, const PoseGuard& guard = {}) {
     return cut_to_certified(samples_, guard, strip, radial_, fitter_);
   }
-  CoverStrip lift(const CoverStrip& strip, const LineGuard& guard = {}) {
+  CoverStrip lift(const CoverStrip& strip, const PoseGuard& guard = {}) {
     return lifted(samples_, guard, strip, radial_, fitter_);
   }
-  CoverStrip cut_fine(const CoverStrip& strip, const LineGuard& guard = {}) {
+  CoverStrip cut_fine(const CoverStrip& strip, const PoseGuard& guard = {}) {
     return cut_finely(samples_, guard, strip, radial_, fitter_);
   }
   /// The deepest place over many poses, from the plane itself.
@@ -70,11 +70,11 @@ TEST_F(Certify, AsksForClearanceFromEndToEnd) {
   const CoverStrip fine = strip([](double) { return 0.0; });
   // A post at the very start, one at the very end, one in the middle, and one beside the way.
   for (const double x : {-2.0, 30.0, 62.0}) {
-    const CoverObstacles post = testing::triangle_obstacle(Vec3(x, 20.0, 1.0), Vec3(x, 21.0, 1.0), Vec3(x, 20.0, 30.0));
-    EXPECT_FALSE(is_certified(LineGuard(tool_, post, -0.005), fine, kTolerance)) << x;
+    const Obstacles post = testing::triangle_obstacle(Vec3(x, 20.0, 1.0), Vec3(x, 21.0, 1.0), Vec3(x, 20.0, 30.0));
+    EXPECT_FALSE(is_certified(PoseGuard(tool_, post, -0.005), fine, kTolerance)) << x;
   }
-  const CoverObstacles beside = testing::triangle_obstacle(Vec3(30, 36, 1), Vec3(30, 37, 1), Vec3(30, 36, 30));
-  EXPECT_TRUE(is_certified(LineGuard(tool_, beside, -0.005), fine, kTolerance));
+  const Obstacles beside = testing::triangle_obstacle(Vec3(30, 36, 1), Vec3(30, 37, 1), Vec3(30, 36, 30));
+  EXPECT_TRUE(is_certified(PoseGuard(tool_, beside, -0.005), fine, kTolerance));
 }
 
 TEST_F(Certify, WhatIsFineIsUnchanged) {
@@ -116,8 +116,8 @@ TEST_F(Certify, LessThanATenthIsDropped) {
 }
 
 TEST_F(Certify, AnObstacleCutsAsDepthDoes) {
-  const CoverObstacles wall = testing::triangle_obstacle(Vec3(20, -50, -50), Vec3(20, 80, -50), Vec3(20, 0, 90));
-  const LineGuard guard(tool_, wall, -0.005);
+  const Obstacles wall = testing::triangle_obstacle(Vec3(20, -50, -50), Vec3(20, 80, -50), Vec3(20, 0, 90));
+  const PoseGuard guard(tool_, wall, -0.005);
   const CoverStrip left = cut(strip([](double) { return 0.0; }), guard);
   ASSERT_TRUE(is_certified(guard, left, kTolerance));
   EXPECT_NEAR(left.motion.pose(0.0).tip.x(), 20.0 + kRadius, 0.6);
@@ -161,8 +161,8 @@ TEST_F(Certify, TheFineLookLiftsWhatIsALittleTooDeep) {
 }
 
 TEST_F(Certify, TheFineLookCutsWhatCannotSlideAway) {
-  const CoverObstacles wall = testing::triangle_obstacle(Vec3(50, -50, -50), Vec3(50, 80, -50), Vec3(50, 0, 90));
-  const LineGuard guard(tool_, wall, -0.0065);
+  const Obstacles wall = testing::triangle_obstacle(Vec3(50, -50, -50), Vec3(50, 80, -50), Vec3(50, 0, 90));
+  const PoseGuard guard(tool_, wall, -0.0065);
   const CoverStrip left = cut_fine(strip([](double) { return 0.0; }), guard);
   ASSERT_FALSE(left.cells.empty());
   EXPECT_NEAR(left.motion.pose(1.0).tip.x(), 50.0 - kRadius, 0.6);

@@ -17,7 +17,7 @@ TEST(Grow, RunsFromBorderToBorder) {
   for (const double t : {0.3, 0.7}) {
     fitter.forget();
     const LineFit line = fitter.refine(surface.pose(t));
-    const GrownStrip strip = grow(fitter, LineGuard(), line, {});
+    const GrownStrip strip = grow(fitter, PoseGuard(), line, {});
     EXPECT_EQ(strip.first, GrowEnd::kBorder);
     EXPECT_EQ(strip.last, GrowEnd::kBorder);
     fitter.forget();
@@ -29,9 +29,9 @@ TEST(Grow, RunsFromBorderToBorder) {
     // or cut off.
     const CoverSamples samples = cover_samples(*surface.exact.target, 1.5);
     const CoverStrip joined = measure_strip(samples, motion_through(strip.poses, 24.0, 48), surface.tool, fitter);
-    const CoverStrip raised = lifted(samples, LineGuard(), joined, surface.tool, fitter);
-    const CoverStrip covered = cut_to_certified(samples, LineGuard(), raised, surface.tool, fitter);
-    EXPECT_TRUE(is_certified(LineGuard(), covered, 1e-3)) << covered.overcut_mm;
+    const CoverStrip raised = lifted(samples, PoseGuard(), joined, surface.tool, fitter);
+    const CoverStrip covered = cut_to_certified(samples, PoseGuard(), raised, surface.tool, fitter);
+    EXPECT_TRUE(is_certified(PoseGuard(), covered, 1e-3)) << covered.overcut_mm;
     EXPECT_GT(covered.area / samples.area, 0.92 * 24.0 / 40.0);
   }
 }
@@ -43,7 +43,7 @@ TEST(Grow, StopsWhereTheToleranceEnds) {
   LineFitter fitter(*surface.exact.target, radial, {.tolerance_mm = 1e-5});
   const LineFit line = fitter.refine(surface.pose(0.5));
   ASSERT_GT(line.largest_mm, 1e-4);
-  const GrownStrip strip = grow(fitter, LineGuard(), line, {});
+  const GrownStrip strip = grow(fitter, PoseGuard(), line, {});
   EXPECT_EQ(strip.poses.size(), 1u);
   EXPECT_EQ(strip.first, GrowEnd::kTolerance);
   EXPECT_EQ(strip.last, GrowEnd::kTolerance);
@@ -58,7 +58,7 @@ TEST(Grow, FollowsTheEdgeOfItsNeighbour) {
   const GrowGuide guide{&neighbour, false, 0.5};
   LineFitter fitter(*target, radial, {.tolerance_mm = 1e-3});
   const LineFit line = fitter.refine({Vec3(30.0, 18.5, 5.0), Vec3::UnitY()});
-  const GrownStrip strip = grow(fitter, LineGuard(), line, guide);
+  const GrownStrip strip = grow(fitter, PoseGuard(), line, guide);
   ASSERT_GT(strip.poses.size(), 10u);
   for (const Pose& pose : strip.poses) {
     if (pose.tip.x() < 5.0 || pose.tip.x() > 55.0) continue;
@@ -80,7 +80,7 @@ TEST(Grow, GuideSaysHowFarToSlide) {
 /// A cylinder over the plane 0 <= x <= 60, 0 <= y <= 40, its axis along y.
 class GrowOnAPlane : public ::testing::Test {
  protected:
-  GrownStrip run(const LineGuard& guard, const Pose& pose, const GrowOptions& options = {}) {
+  GrownStrip run(const PoseGuard& guard, const Pose& pose, const GrowOptions& options = {}) {
     LineFitter fitter(*target_, tool_.radial, {.tolerance_mm = 1e-3});
     const LineFit line = fitter.refine(pose);
     EXPECT_LE(line.largest_mm, 1e-3);
@@ -112,8 +112,8 @@ TEST_F(GrowOnAPlane, StepsAreWithinTheirBoundsAndGoOneWay) {
 }
 
 TEST_F(GrowOnAPlane, StopsBeforeAWall) {
-  const CoverObstacles wall = testing::triangle_obstacle(Vec3(45, -60, -1), Vec3(45, 100, -1), Vec3(45, 20, 90));
-  const LineGuard guard(tool_, wall, -1e-4);
+  const Obstacles wall = testing::triangle_obstacle(Vec3(45, -60, -1), Vec3(45, 100, -1), Vec3(45, 20, 90));
+  const PoseGuard guard(tool_, wall, -1e-4);
   const GrownStrip strip = run(guard, line_);
   const bool forward = strip.poses.back().tip.x() > strip.poses.front().tip.x();
   EXPECT_EQ(forward ? strip.last : strip.first, GrowEnd::kCheck);

@@ -65,15 +65,15 @@ TEST(MeasureStrip, SeesARidgeBetweenTheSamplesOfTheAxis) {
   const CoverSamples samples = cover_samples(*target, 0.1);
   const CoverStrip strip = measure_strip(samples, fit_motion(poses, t, 20.0, 8), radial, fitter);
   EXPECT_NEAR(strip.overcut_mm, 0.05, 3e-3);
-  const CoverStrip up = lifted(samples, LineGuard(), strip, radial, fitter);
+  const CoverStrip up = lifted(samples, PoseGuard(), strip, radial, fitter);
   EXPECT_LE(up.overcut_mm, 0.02);
 }
 
 TEST_F(StripCover, CutsOvercutOff) {
   const CoverStrip whole = measure_strip(samples_, over_plane(0.05), radial_, fitter_);
-  EXPECT_FALSE(is_certified(LineGuard(), whole, 0.01));
-  const CoverStrip strip = cut_to_certified(samples_, LineGuard(), whole, radial_, fitter_);
-  EXPECT_TRUE(is_certified(LineGuard(), strip, 0.01));
+  EXPECT_FALSE(is_certified(PoseGuard(), whole, 0.01));
+  const CoverStrip strip = cut_to_certified(samples_, PoseGuard(), whole, radial_, fitter_);
+  EXPECT_TRUE(is_certified(PoseGuard(), strip, 0.01));
   EXPECT_LE(strip.overcut_mm, 0.0101);
   EXPECT_LT(strip.motion.pose(1.0).tip.x(), 36.0) << "the longer stretch is the one before the middle";
   EXPECT_GT(strip.motion.pose(1.0).tip.x(), 30.0);
@@ -82,17 +82,17 @@ TEST_F(StripCover, CutsOvercutOff) {
 
 TEST_F(StripCover, LiftsWhatIsALittleTooDeep) {
   const CoverStrip whole = measure_strip(samples_, over_plane(0.014), radial_, fitter_);
-  ASSERT_FALSE(is_certified(LineGuard(), whole, 0.01));
-  const CoverStrip strip = lifted(samples_, LineGuard(), whole, radial_, fitter_);
-  EXPECT_TRUE(is_certified(LineGuard(), strip, 0.01)) << strip.overcut_mm;
+  ASSERT_FALSE(is_certified(PoseGuard(), whole, 0.01));
+  const CoverStrip strip = lifted(samples_, PoseGuard(), whole, radial_, fitter_);
+  EXPECT_TRUE(is_certified(PoseGuard(), strip, 0.01)) << strip.overcut_mm;
   EXPECT_GT(strip.area, 0.99 * whole.area);
   EXPECT_NEAR(strip.motion.pose(0.1).tip.z(), 5.0, 1e-4) << "nothing is lifted elsewhere";
 }
 
 TEST_F(StripCover, SlidesAwayFromAnObstacleThatATipEnters) {
   // A block whose wall bulges towards the tips, by 0.05 mm about x = 40.
-  CoverObstacles obstacles;
-  CheckSurface wall;
+  Obstacles obstacles;
+  ObstacleMesh wall;
   for (int i = 0; i <= 120; ++i) {
     const double x = 0.5 * i, y = 5.0 - 0.05 * (1.0 - std::exp(-std::pow((x - 40.0) / 4.0, 2)));
     wall.mesh.vertices.emplace_back(x, y, -1.0);
@@ -103,7 +103,7 @@ TEST_F(StripCover, SlidesAwayFromAnObstacleThatATipEnters) {
     wall.mesh.triangles.push_back({k - 1, k + 1, k});
   }
   obstacles.surfaces.push_back(wall);
-  const LineGuard guard(testing::cylinder(5.0, 20.0), obstacles, -0.005);
+  const PoseGuard guard(testing::cylinder(5.0, 20.0), obstacles, -0.005);
   const CoverStrip whole = measure_strip(samples_, over_plane(0.0, 9.98), radial_, fitter_);
   ASSERT_FALSE(is_certified(guard, whole, 0.01)) << "0.02 mm into the bulge";
   const CoverStrip strip = lifted(samples_, guard, whole, radial_, fitter_);
@@ -114,11 +114,11 @@ TEST_F(StripCover, SlidesAwayFromAnObstacleThatATipEnters) {
 }
 
 TEST_F(StripCover, CutsOffWhatEntersAnObstacle) {
-  CoverObstacles obstacles;
-  CheckSurface wall;
+  Obstacles obstacles;
+  ObstacleMesh wall;
   wall.mesh = {{Vec3(50.0, -50.0, -50.0), Vec3(50.0, 80.0, -50.0), Vec3(50.0, 0.0, 90.0)}, {{0, 1, 2}}};
   obstacles.surfaces.push_back(wall);
-  const LineGuard guard(testing::cylinder(5.0, 20.0), obstacles, -0.005);
+  const PoseGuard guard(testing::cylinder(5.0, 20.0), obstacles, -0.005);
   const CoverStrip whole = measure_strip(samples_, over_plane(0.0), radial_, fitter_);
   const CoverStrip strip = cut_to_certified(samples_, guard, whole, radial_, fitter_);
   ASSERT_FALSE(strip.cells.empty());

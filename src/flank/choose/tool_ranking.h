@@ -16,7 +16,7 @@ namespace flank::internal {
 /// One side of a target and what is in the tool's way there. Both must outlive the call; neither may be null.
 struct RankingSide {
   const Target* target = nullptr;
-  const CoverObstacles* obstacles = nullptr;
+  const Obstacles* obstacles = nullptr;
 };
 /// What is to be machined: one side, or the better of two (an open sheet). Never empty.
 using RankingTarget = std::vector<RankingSide>;
@@ -42,7 +42,7 @@ struct RankingOptions {
   /// one place in so many of the area.
   int screen_places = 150;
   /// cover(), unless a caller has another way to find strips. Called from several threads at once.
-  std::function<CoverResult(const Target&, const Tool&, const CoverObstacles&, const CoverOptions&, const Progress&)>
+  std::function<CoverResult(const Target&, const Tool&, const Obstacles&, const CoverOptions&, const Progress&)>
       cover_with = flank::internal::cover;
 };
 

@@ -54,7 +54,7 @@ double direction_error(const AdmissibleDirections& at, const RadialJet& jet, dou
 /// Is the tool free along one of the directions that the filter accepts? The admissible ones first, then a grid: a tool
 /// that is off in all of them may turn as far as the tolerance lets it.
 bool is_open(const Footpoint& foot, const Spheres& spheres, std::size_t j, const CandidateDirections& found,
-             const LineGuard& guard, const ScreenOptions& options) {
+             const PoseGuard& guard, const ScreenOptions& options) {
   const RadialJet& jet = spheres.jets[j];
   for (const Vec3& direction : found.all())
     if (guard.clear(contact_axis(foot, jet.r, spheres.s[j], direction))) return true;
@@ -72,7 +72,7 @@ bool is_open(const Footpoint& foot, const Spheres& spheres, std::size_t j, const
   return false;
 }
 
-PlaceScreen screen_place(const Footpoint& foot, const Spheres& spheres, const LineGuard* guard,
+PlaceScreen screen_place(const Footpoint& foot, const Spheres& spheres, const PoseGuard* guard,
                          const ScreenOptions& options) {
   PlaceScreen place;
   place.reachable = !guard || guard->ball_is_clear(foot.point + guard->ball_radius() * foot.normal);
@@ -112,7 +112,7 @@ std::string reason_of(const ToolScreen& screen, const ScreenPlaces& places, cons
   return "";
 }
 
-ToolScreen screen(const ScreenPlaces& places, const RadialFunction& radial, const LineGuard* guard,
+ToolScreen screen(const ScreenPlaces& places, const RadialFunction& radial, const PoseGuard* guard,
                   const ScreenOptions& options) {
   ToolScreen out;
   const Spheres spheres = spheres_of(radial, places, options);
@@ -162,10 +162,10 @@ ScreenPlaces screen_places(const Target& target, int places) {
   return out;
 }
 
-ToolScreen screen_tool(const ScreenPlaces& places, const Tool& tool, const CoverObstacles& obstacles,
+ToolScreen screen_tool(const ScreenPlaces& places, const Tool& tool, const Obstacles& obstacles,
                        const ScreenOptions& options) {
   // A line that is refined moves by about what the filter lets it be off.
-  const LineGuard guard(tool, obstacles, -options.slack * options.tolerance_mm);
+  const PoseGuard guard(tool, obstacles, -options.slack * options.tolerance_mm);
   return screen(places, tool.radial, &guard, options);
 }
 

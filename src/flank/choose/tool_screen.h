@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "flank/obstacle/line_guard.h"
+#include "flank/obstacle/pose_guard.h"
 #include "flank/target.h"
 #include "flank/tool.h"
 
@@ -47,7 +47,7 @@ inline constexpr double kMostErrorMm = 10.0;
 
 /// The screen of a tool among obstacles. Second order and samples only: a promise in neither direction, and rather too
 /// kind, most of all to short tools. Costs milliseconds to a second. `places` must not be empty.
-[[nodiscard]] ToolScreen screen_tool(const ScreenPlaces& places, const Tool& tool, const CoverObstacles& obstacles,
+[[nodiscard]] ToolScreen screen_tool(const ScreenPlaces& places, const Tool& tool, const Obstacles& obstacles,
                                      const ScreenOptions& options);
 
 /// The meridian alone, as if nothing were in the way: reachable is 1 and open equals accepted. Fast.

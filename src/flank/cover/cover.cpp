@@ -53,7 +53,7 @@ class Stopwatch {
 
 /// Leaves out the cells that a ball of the tool's smallest radius cannot touch without entering an obstacle; returns
 /// the area share of the others.
-double keep_reachable(CoverSamples& samples, const LineGuard& guard) {
+double keep_reachable(CoverSamples& samples, const PoseGuard& guard) {
   std::vector<char> open(samples.cells.size());
   parallel_for(samples.cells.size(), [&](std::size_t k) {
     const SurfaceSample& cell = samples.cells[k];
@@ -190,7 +190,7 @@ CandidatePool first_pool(const TileScene& scene, CoverResult& result) {
 }
 
 /// The samples by which strips are certified and reported.
-CoverSamples dense_samples(const TileScene& scene, const LineGuard& guard, CoverResult& result) {
+CoverSamples dense_samples(const TileScene& scene, const PoseGuard& guard, CoverResult& result) {
   CoverSamples dense = cover_samples(scene.target, scene.options.dense_share * std::sqrt(scene.target.area()));
   result.reachable = keep_reachable(dense, guard);
   return dense;
@@ -206,7 +206,7 @@ CoverResult nothing(const TileScene& scene, int lines, CoverResult result) {
 }
 
 /// Strategy `curves`, once there are samples.
-CoverResult curves_cover(const TileScene& scene, const LineGuard& guard, CoverResult result, const Progress& progress) {
+CoverResult curves_cover(const TileScene& scene, const PoseGuard& guard, CoverResult result, const Progress& progress) {
   Stopwatch watch(result);
   progress.step("curves", kGrowAt);
   const CurveStrips found = strips_of_curves(scene);
@@ -230,13 +230,13 @@ CoverResult curves_cover(const TileScene& scene, const LineGuard& guard, CoverRe
 
 }  // namespace
 
-CoverResult cover(const Target& target, const Tool& tool, const CoverObstacles& obstacles, const CoverOptions& options,
+CoverResult cover(const Target& target, const Tool& tool, const Obstacles& obstacles, const CoverOptions& options,
                   const Progress& progress) {
   CoverResult result;
   Stopwatch watch(result);
   progress.step("samples", kSamplesAt);
-  const LineGuard guard(tool, obstacles, -kToleranceBudget.others.certified * options.tolerance_mm);
-  const LineGuard grow_guard = guard.with_floor(-kToleranceBudget.others.growing * options.tolerance_mm);
+  const PoseGuard guard(tool, obstacles, -kToleranceBudget.others.certified * options.tolerance_mm);
+  const PoseGuard grow_guard = guard.with_floor(-kToleranceBudget.others.growing * options.tolerance_mm);
   CoverSamples samples = cover_samples(target, options.sample_share * std::sqrt(target.area()));
   result.reachable = keep_reachable(samples, guard);
   const TileScene scene{target, tool.radial, samples, grow_guard, options};

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "flank/cover/options/cover_options.h"
-#include "flank/obstacle/line_guard.h"
+#include "flank/obstacle/pose_guard.h"
 #include "flank/progress.h"
 #include "flank/ruled_motion.h"
 #include "flank/target.h"
@@ -43,7 +43,7 @@ struct CoverResult {
 /// Finds the strips. The tool enters no obstacle by more than the tolerance; a strip that would is cut short or
 /// dropped. Same result for any number of threads. A cover that is cancelled returns what it has, still certified.
 /// Nothing is thrown for a target that cannot be covered: status and message say it.
-[[nodiscard]] CoverResult cover(const Target& target, const Tool& tool, const CoverObstacles& obstacles,
+[[nodiscard]] CoverResult cover(const Target& target, const Tool& tool, const Obstacles& obstacles,
                                 const CoverOptions& options, const Progress& progress);
 
 }  // namespace flank::internal

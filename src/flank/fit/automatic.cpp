@@ -76,14 +76,14 @@ std::vector<RuledStart> bands_of(const RuledStart& start, int strips) {
 /// The motions of a start beside walls: the tips on the spine of the ball that rolls along target and wall. None if no
 /// wall is in the way of the lines.
 std::vector<FitTask> make_clear_tasks(const Target& target, const Chart& chart, const RuledStart& start, int strips,
-                                      std::optional<double> axis_length, const FlankChecks& checks) {
+                                      std::optional<double> axis_length, const ObstacleField& obstacles) {
   constexpr int kFewBlocked = kStartTimes / 4;  // if a wall only grazes the lines, the fit does better than a cut
   constexpr double kLonger = 1.03;              // the axis past the longest stretch from spine to rim (MATH section 7)
   std::vector<ClearStart> bands;
   double length = 0.0;
   bool blocked = false;
   for (const RuledStart& band : bands_of(start, strips)) {
-    ClearStart clear = clear_start(chart, band, checks);
+    ClearStart clear = clear_start(chart, band, obstacles);
     length = std::max(length, kLonger * clear.longest_mm);
     blocked = blocked || clear.blocked_lines > kFewBlocked || clear.free_lines < kStartTimes - kFewBlocked;
     if (clear.free_lines > 0) bands.push_back(std::move(clear));
@@ -92,15 +92,15 @@ std::vector<FitTask> make_clear_tasks(const Target& target, const Chart& chart, 
   if (axis_length) length = *axis_length;
   std::vector<FitTask> tasks;
   for (const ClearStart& band : bands)
-    tasks.push_back({&target, make_motion(band, length, kStartControlPoints), &checks});
+    tasks.push_back({&target, make_motion(band, length, kStartControlPoints), &obstacles});
   return tasks;
 }
 
 /// The motions of a start, one per strip, bands side by side, all of one axis length.
 std::vector<FitTask> make_tasks(const Target& target, const Chart& chart, const RuledStart& start, int strips,
-                                std::optional<double> axis_length, const FlankChecks* checks) {
-  if (checks != nullptr) {
-    std::vector<FitTask> tasks = make_clear_tasks(target, chart, start, strips, axis_length, *checks);
+                                std::optional<double> axis_length, const ObstacleField* obstacles) {
+  if (obstacles != nullptr) {
+    std::vector<FitTask> tasks = make_clear_tasks(target, chart, start, strips, axis_length, *obstacles);
     if (!tasks.empty()) return tasks;
   }
   const std::vector<RuledStart> bands = bands_of(start, strips);
@@ -110,7 +110,7 @@ std::vector<FitTask> make_tasks(const Target& target, const Chart& chart, const 
   if (axis_length) length = *axis_length;
   std::vector<FitTask> tasks;
   for (const RuledStart& band : bands)
-    tasks.push_back({&target, make_motion(chart, band, length, kStartControlPoints), checks});
+    tasks.push_back({&target, make_motion(chart, band, length, kStartControlPoints), obstacles});
   return tasks;
 }
 
@@ -121,7 +121,7 @@ FitDraft start_draft(const std::vector<FitTask>& tasks, const ToolModel& tool, d
   for (const FitTask& task : tasks) {
     draft.targets.push_back(task.target);
     draft.motions.push_back(task.motion);
-    draft.checks.push_back(task.checks);
+    draft.obstacles.push_back(task.obstacles);
   }
   const double length = tasks.front().motion.axis_length;
   draft.free_tool = tool.free();
@@ -135,7 +135,8 @@ FitDraft start_draft(const std::vector<FitTask>& tasks, const ToolModel& tool, d
 void quick_fit(Candidate& candidate, const Target& target, const Chart& chart, const ToolModel& tool,
                const FlankFitOptions& options, const std::vector<SurfaceSample>& samples) {
   const std::optional<double> length = tool.axis_length ? tool.axis_length : options.axis_length_mm;
-  const std::vector<FitTask> tasks = make_tasks(target, chart, candidate.start, options.strips, length, options.checks);
+  const std::vector<FitTask> tasks =
+      make_tasks(target, chart, candidate.start, options.strips, length, options.obstacles);
   if (tasks.empty()) return;
   const FitDraft draft = start_draft(tasks, tool, candidate.start.radius_mm);
   candidate.draft = run_stage(draft, options.bounds, quick_stage(robust_scale(target, options)));
@@ -143,7 +144,7 @@ void quick_fit(Candidate& candidate, const Target& target, const Chart& chart, c
   candidate.estimate =
       estimate_coverage(samples, candidate.draft.motions, candidate.draft.tool, tolerance, kQuickPoses);
   candidate.estimate.gouge_mm =
-      flank_gouge(candidate.draft.motions, candidate.draft.checks, candidate.draft.tool, kQuickPoses);
+      flank_gouge(candidate.draft.motions, candidate.draft.obstacles, candidate.draft.tool, kQuickPoses);
   candidate.score = candidate.estimate.score(tolerance);
 }
 
@@ -159,10 +160,10 @@ FlankFitResult fit_automatic(const Target& target, const ToolModel& tool, const 
                              const Progress& progress) {
   FlankFitResult result;
   const Chart chart(target);
-  const std::vector<SurfaceSample> samples = ranking_samples(target, options.checks, options);
+  const std::vector<SurfaceSample> samples = ranking_samples(target, options.obstacles, options);
   FlankFitOptions coarse = options;
   coarse.sample_share = kQuickSampleShare;
-  const std::vector<SurfaceSample> few = ranking_samples(target, options.checks, coarse);
+  const std::vector<SurfaceSample> few = ranking_samples(target, options.obstacles, coarse);
   std::vector<Candidate> candidates;
   for (const RuledStart& start : enumerate_starts(tool, options.bounds)) candidates.push_back({start, {}, {}, -1.0});
   result.candidates = static_cast<int>(candidates.size());

@@ -15,11 +15,11 @@ namespace {
 /// that cover little to those whose rest is near; a finished share is worth six near ones, so it is never given up for
 /// one.
 constexpr double kNearWorth = 0.2;
-/// Per tolerance of overcut, or of depth in a check face, beyond the first one, which is allowed. The first tolerance
+/// Per tolerance of overcut, or of depth in an obstacle, beyond the first one, which is allowed. The first tolerance
 /// of excess fails the part, so it costs kFirstExcess times that on top: 10 % of coverage. From kMostExcess on it is
 /// the same failure, however deep: 28 % at most.
 constexpr double kExcessPrice = 0.02, kFirstExcess = 4.0, kMostExcess = 10.0;
-/// Depths in check faces go far beyond that: a start can lie across the hub, hundreds of tolerances deep. So that less
+/// Depths in obstacles go far beyond that: a start can lie across the hub, hundreds of tolerances deep. So that less
 /// deep is still better, their price grows on, to another 20 % (kGougeExcess times kExcessPrice) at kDeepest
 /// tolerances.
 constexpr double kGougeExcess = 10.0, kDeepest = 100.0;
@@ -94,23 +94,23 @@ CoverageEstimate estimate_coverage(const std::vector<SurfaceSample>& samples, co
   return estimate;
 }
 
-double flank_gouge(const std::vector<RuledMotion>& motions, const std::vector<const FlankChecks*>& checks,
+double flank_gouge(const std::vector<RuledMotion>& motions, const std::vector<const ObstacleField*>& obstacles,
                    const RadialFunction& tool, int poses) {
   constexpr int kSteps = 60;  // along the axis, at most: balls a sixtieth of the axis apart overlap almost wholly
   // Of the axis length: about the step of the lattice of distances (1/48 of the target's size). If the estimate is
   // nearer than that, the ball may touch, and the exact distance is asked for.
   constexpr double kClose = 0.02;
   double deepest = 0.0;
-  for (std::size_t m = 0; m < checks.size(); ++m) {
-    if (checks[m] == nullptr) continue;
+  for (std::size_t m = 0; m < obstacles.size(); ++m) {
+    if (obstacles[m] == nullptr) continue;
     std::vector<double> depths(static_cast<std::size_t>(poses) + 1, 0.0);
     const double length = motions[m].axis_length;
     parallel_for(depths.size(), [&](std::size_t i) {
       const Pose pose = motions[m].pose(static_cast<double>(i) / poses);
       for (double s = 0.0;; s = std::min(s, length)) {
         const double r = tool.at(s).r;
-        double gap = checks[m]->estimate(pose.at(s)).distance_mm - r;
-        if (gap < kClose * length) gap = checks[m]->at(pose.at(s), r + kClose * length).distance_mm - r;
+        double gap = obstacles[m]->estimate(pose.at(s)).distance_mm - r;
+        if (gap < kClose * length) gap = obstacles[m]->at(pose.at(s), r + kClose * length).distance_mm - r;
         depths[i] = std::max(depths[i], -gap);
         if (s >= length) break;
         // The gap changes by at most twice the step (|r'| < 1): what is clear by it stays so for half of it.

@@ -12,7 +12,7 @@ namespace flank::internal {
 FlankFitResult fit_from_starts(const std::vector<FitTask>& tasks, const ToolModel& tool, const FlankFitOptions& options,
                                const Progress& progress) {
   FlankFitResult result;
-  const std::vector<SurfaceSample> samples = ranking_samples(*tasks.front().target, tasks.front().checks, options);
+  const std::vector<SurfaceSample> samples = ranking_samples(*tasks.front().target, tasks.front().obstacles, options);
   // The start is the user's: no quick fit, which would move it towards what ranks best, and no other candidates.
   FitDraft draft = make_draft(tasks, tool, options);
   progress.step("fit", 0.1);

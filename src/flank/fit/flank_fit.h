@@ -44,8 +44,8 @@ struct FlankFitOptions {
   double least_coverage_for_last_passes = 0.0;
   /// fit_automatic: what the flank must not enter; outlives the call. Null: nothing is in the way. fit_from_starts
   /// takes it from its tasks instead.
-  const FlankChecks* checks = nullptr;
-  /// mm, >= 0; with checks: only what a ball of this radius can touch without entering them counts as target. 0: the
+  const ObstacleField* obstacles = nullptr;
+  /// mm, >= 0; with obstacles: only what a ball of this radius can touch without entering them counts as target. 0: the
   /// smallest radius. Raise it to the radius of the tool that will be used.
   double reach_radius_mm = 0.0;
   /// > 0: spacing of the samples that rank candidates, as a share of the square root of the area: 1/45 gives about
@@ -59,7 +59,7 @@ struct CoverageEstimate {
   double at_tolerance = 0.0;        ///< area share with |f| <= tolerance, in [0, 1]
   double at_four_tolerances = 0.0;  ///< area share with |f| <= 4 tolerances
   double overcut_mm = 0.0;          ///< largest max(0, -f), rim included
-  double gouge_mm = 0.0;            ///< deepest that the flank enters a check face; estimate_coverage leaves it 0
+  double gouge_mm = 0.0;            ///< deepest that the flank enters an obstacle; estimate_coverage leaves it 0
   double undercut_mm = 0.0;         ///< largest material left anywhere on the target, max(0, f)
   double rms_mm = 0.0;              ///< root mean square of f, by area, over samples within four tolerances
   /// What candidates are ranked by, larger is better, at most 1.2; no unit. Coverage, less a price for overcut and
@@ -70,7 +70,7 @@ struct CoverageEstimate {
 enum class FitStatus {
   kNotRun,
   kWithinTolerance,  ///< estimated coverage >= 99 %, overcut <= tolerance and gouge <= tolerance
-  kPartial,          ///< a motion was found, but it covers less, cuts deeper, or enters a check face deeper
+  kPartial,          ///< a motion was found, but it covers less, cuts deeper, or enters an obstacle deeper
   kNoStart,          ///< no start gave a motion; the result has none
 };
 
@@ -93,7 +93,7 @@ struct FlankFitResult {
                                            const Progress& progress);
 
 /// Polishes given starts: one motion and one target per task (at least one; all of one axis length), one tool for all.
-/// Ranks by the first task's target and checks.
+/// Ranks by the first task's target and obstacles.
 [[nodiscard]] FlankFitResult fit_from_starts(const std::vector<FitTask>& tasks, const ToolModel& tool,
                                              const FlankFitOptions& options, const Progress& progress);
 
@@ -104,10 +104,11 @@ struct FlankFitResult {
                                                  const std::vector<RuledMotion>& motions, const RadialFunction& tool,
                                                  double tolerance_mm, int poses);
 
-/// The deepest that the flank enters a check face, mm, >= 0, at poses + 1 times per motion and at least 60 places along
-/// the axis; checks as in FitDraft (one per motion, null: none, or none at all).
-[[nodiscard]] double flank_gouge(const std::vector<RuledMotion>& motions, const std::vector<const FlankChecks*>& checks,
-                                 const RadialFunction& tool, int poses);
+/// The deepest that the flank enters an obstacle, mm, >= 0, at poses + 1 times per motion and at least 60 places along
+/// the axis; obstacles as in FitDraft (one per motion, null: none, or none at all).
+[[nodiscard]] double flank_gouge(const std::vector<RuledMotion>& motions,
+                                 const std::vector<const ObstacleField*>& obstacles, const RadialFunction& tool,
+                                 int poses);
 
 /// Residuals on a grid of count_t x count_s (both >= 2) per motion with cold footpoints, so a footpoint that a pass
 /// followed onto a wrong branch shows. Samples whose footpoint is on the border are left out of all but inside_share.

@@ -102,7 +102,7 @@ Polished assess(FitDraft draft, const std::vector<SurfaceSample>& samples, const
   Polished polished;
   if (draft.free_tool) draft.tool = clamp_tool(draft.tool, options.bounds);
   polished.estimate = estimate_coverage(samples, draft.motions, draft.tool, options.tolerance_mm, kRankingPoses);
-  polished.estimate.gouge_mm = flank_gouge(draft.motions, draft.checks, draft.tool, kRankingPoses);
+  polished.estimate.gouge_mm = flank_gouge(draft.motions, draft.obstacles, draft.tool, kRankingPoses);
   polished.draft = std::move(draft);
   return polished;
 }
@@ -119,13 +119,13 @@ double reach_radius(const FlankFitOptions& options) {
   return options.reach_radius_mm > 0.0 ? options.reach_radius_mm : options.bounds.smallest;
 }
 
-std::vector<SurfaceSample> ranking_samples(const Target& target, const FlankChecks* checks,
+std::vector<SurfaceSample> ranking_samples(const Target& target, const ObstacleField* obstacles,
                                            const FlankFitOptions& options) {
   const double spacing = std::sqrt(target.area()) * options.sample_share;
   std::vector<SurfaceSample> samples = target.samples(spacing);
-  if (checks != nullptr) {
+  if (obstacles != nullptr) {
     parallel_for(samples.size(), [&](std::size_t k) {
-      if (!checks->reachable(samples[k], reach_radius(options), options.tolerance_mm)) samples[k].area = 0.0;
+      if (!obstacles->reachable(samples[k], reach_radius(options), options.tolerance_mm)) samples[k].area = 0.0;
     });
   }
   // The rim, where a tool cuts deepest, counts for overcut alone: it has no area.
@@ -138,7 +138,7 @@ FitDraft make_draft(const std::vector<FitTask>& tasks, const ToolModel& tool, co
   for (const FitTask& task : tasks) {
     draft.targets.push_back(task.target);
     draft.motions.push_back(task.motion);
-    draft.checks.push_back(task.checks);
+    draft.obstacles.push_back(task.obstacles);
   }
   draft.free_tool = tool.free();
   draft.tool = mean_distance_tool(tasks, options.bounds);
@@ -176,8 +176,8 @@ Polished last_passes(const Polished& polished, const std::vector<SurfaceSample>&
   constexpr double kExactCovers = 0.9995;
   // An exact fit has its residuals at the axis, and beside a wall some of the face may lie past the axis' end: the
   // passes below see it.
-  const bool short_of_face = polished.estimate.at_tolerance < kExactCovers && !polished.draft.checks.empty() &&
-                             polished.draft.checks.front() != nullptr;
+  const bool short_of_face = polished.estimate.at_tolerance < kExactCovers && !polished.draft.obstacles.empty() &&
+                             polished.draft.obstacles.front() != nullptr;
   // A free, exact fit with more overcut than it may have has its radii reduced until it has that; its motion, and so its
   // last digits, stay.
   const double by = polished.estimate.overcut_mm - kToleranceBudget.fit.exact_overcut * options.tolerance_mm;
@@ -199,7 +199,7 @@ Polished settled(const Polished& polished, const FlankFitOptions& options) {
   dense.sample_share = options.sample_share / kDenser;
   std::vector<SurfaceSample> samples;
   for (const Target* target : distinct_targets(polished.draft)) {
-    const std::vector<SurfaceSample> more = ranking_samples(*target, checks_of(polished.draft, target), dense);
+    const std::vector<SurfaceSample> more = ranking_samples(*target, obstacles_of(polished.draft, target), dense);
     samples.insert(samples.end(), more.begin(), more.end());
   }
   const Polished again = assess(polished.draft, samples, options);

@@ -18,8 +18,8 @@ inline constexpr int kRankingPoses = 160;
 [[nodiscard]] double robust_scale(const Target& target, const FlankFitOptions& options);
 
 /// Samples of the target that rank drafts, spacing options.sample_share sqrt(area). Samples out of reach because of
-/// check faces, and points of the rim, have no area: they count for overcut alone.
-[[nodiscard]] std::vector<SurfaceSample> ranking_samples(const Target& target, const FlankChecks* checks,
+/// obstacles, and points of the rim, have no area: they count for overcut alone.
+[[nodiscard]] std::vector<SurfaceSample> ranking_samples(const Target& target, const ObstacleField* obstacles,
                                                          const FlankFitOptions& options);
 
 /// Radius of the ball that says what is in reach, mm: the one given, else the smallest allowed to the tool.

@@ -48,15 +48,15 @@ std::vector<const Target*> distinct_targets(const FitDraft& draft) {
   return targets;
 }
 
-const FlankChecks* checks_of(const FitDraft& draft, const Target* target) {
-  for (std::size_t m = 0; m < draft.checks.size(); ++m)
-    if (draft.targets[m] == target) return draft.checks[m];
+const ObstacleField* obstacles_of(const FitDraft& draft, const Target* target) {
+  for (std::size_t m = 0; m < draft.obstacles.size(); ++m)
+    if (draft.targets[m] == target) return draft.obstacles[m];
   return nullptr;
 }
 
 FitState start_state(const FitDraft& draft, const FitStage& stage, FitDraft& next) {
   FLANK_ASSERT(draft.targets.size() == draft.motions.size() && !draft.motions.empty());
-  FLANK_ASSERT(draft.checks.empty() || draft.checks.size() == draft.motions.size());
+  FLANK_ASSERT(draft.obstacles.empty() || draft.obstacles.size() == draft.motions.size());
   FitState start;
   for (const RuledMotion& motion : draft.motions)
     start.motions.push_back(with_control_points(motion, stage.control_points));
@@ -74,7 +74,7 @@ FitDraft run_stage(const FitDraft& draft, const RadiusBounds& bounds, const FitS
                    std::vector<IterationTrace>* trace, ResidualSummary* summary) {
   FitDraft next;
   FitState start = start_state(draft, stage, next);
-  const FitModel model(draft.targets, start, next.free_parameters, bounds, stage, draft.checks);
+  const FitModel model(draft.targets, start, next.free_parameters, bounds, stage, draft.obstacles);
   MinimiseResult result = minimise(model, std::move(start));
   if (trace) trace->insert(trace->end(), result.trace.begin(), result.trace.end());
   if (summary) *summary = summarise_residuals(model, result.state);

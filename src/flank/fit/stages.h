@@ -8,21 +8,21 @@
 
 namespace flank::internal {
 
-/// A tool and motions between passes, without footpoints. A value but for targets and checks, which are not owned.
+/// A tool and motions between passes, without footpoints. A value but for targets and obstacles, which are not owned.
 struct FitDraft {
-  std::vector<const Target*> targets;      ///< of each motion
-  std::vector<const FlankChecks*> checks;  ///< of each motion; empty: nothing is in the way
-  std::vector<RuledMotion> motions;        ///< all of one axis length
-  RadialFunction tool;                     ///< over that length
-  std::vector<int> free_parameters;        ///< of the tool; empty: given. Ignored if `free_tool`
-  bool free_tool = false;                  ///< a spline whose number of coefficients a pass may change
+  std::vector<const Target*> targets;           ///< of each motion
+  std::vector<const ObstacleField*> obstacles;  ///< of each motion; empty: nothing is in the way
+  std::vector<RuledMotion> motions;             ///< all of one axis length
+  RadialFunction tool;                          ///< over that length
+  std::vector<int> free_parameters;             ///< of the tool; empty: given. Ignored if `free_tool`
+  bool free_tool = false;                       ///< a spline whose number of coefficients a pass may change
 };
 
 /// The draft's targets, each once (strips side by side share one), in their order.
 [[nodiscard]] std::vector<const Target*> distinct_targets(const FitDraft& draft);
 
 /// What the flank must not enter when it is on this target; null: nothing.
-[[nodiscard]] const FlankChecks* checks_of(const FitDraft& draft, const Target* target);
+[[nodiscard]] const ObstacleField* obstacles_of(const FitDraft& draft, const Target* target);
 
 /// Start of a pass: rails and spline at the stage's resolution (least squares through dense samples if it differs, so
 /// the motion changes a little when control points become fewer). `next` becomes the draft with its list of free

@@ -162,9 +162,9 @@ std::vector<FacePoint> target_points(const FitDraft& draft, int per_side, const 
       samples.push_back({point, target->closest(point).normal, kRimCell * spacing * spacing});
     const std::size_t first = points.size();
     points.resize(first + samples.size());
-    const FlankChecks* checks = checks_of(draft, target);
+    const ObstacleField* obstacles = obstacles_of(draft, target);
     parallel_for(samples.size(), [&](std::size_t k) {
-      const bool out = checks != nullptr && !checks->reachable(samples[k], reach.radius_mm, reach.depth_mm);
+      const bool out = obstacles != nullptr && !obstacles->reachable(samples[k], reach.radius_mm, reach.depth_mm);
       points[first + k] = {samples[k].point, samples[k].area / area,
                            out ? FacePoint::Role::kOutOfReach : FacePoint::Role::kTouch};
     });
@@ -176,7 +176,7 @@ FitDraft run_swept(const FitDraft& draft, const RadiusBounds& bounds, const FitS
                    std::vector<FacePoint> points, std::vector<IterationTrace>* trace) {
   FitDraft next;
   FitState start = start_state(draft, stage, next);
-  const SweptModel model(std::move(points), draft.targets, start, next.free_parameters, bounds, stage, draft.checks);
+  const SweptModel model(std::move(points), draft.targets, start, next.free_parameters, bounds, stage, draft.obstacles);
   MinimiseResult result = levenberg_marquardt(model, std::move(start));
   if (trace) trace->insert(trace->end(), result.trace.begin(), result.trace.end());
   next.motions = std::move(result.state.motions);
@@ -213,7 +213,7 @@ FitDraft run_constrained(const FitDraft& draft, const RadiusBounds& bounds, cons
   FitDraft next;
   const FitState start = start_state(draft, stage, next);
   ConstrainedProblem problem{draft.targets,
-                             draft.checks,
+                             draft.obstacles,
                              next.free_parameters,
                              bounds,
                              stage,

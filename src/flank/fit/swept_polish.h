@@ -10,7 +10,7 @@
 namespace flank::internal {
 
 /// What of a target counts as out of reach: points where a ball of this radius, touching the target, enters a check
-/// face by more than the depth (MATH section 9). Not used without check faces.
+/// face by more than the depth (MATH section 9). Not used without obstacles.
 struct ReachLimits {
   double radius_mm = 0.0, depth_mm = 0.0;
 };

@@ -7,9 +7,9 @@
 
 #include "flank/base/assert.h"
 #include "flank/base/parallel.h"
-#include "flank/obstacle/check_tree.h"
 #include "flank/obstacle/convex_profile.h"
 #include "flank/obstacle/triangle_distance.h"
+#include "flank/obstacle/triangle_tree.h"
 
 namespace flank::internal {
 namespace {
@@ -69,7 +69,7 @@ struct Hit {
 /// bounds it on the box.
 class Search {
  public:
-  Search(const std::vector<ConvexProfile>& bodies, const CheckTree& tree, const Pose& pose)
+  Search(const std::vector<ConvexProfile>& bodies, const TriangleTree& tree, const Pose& pose)
       : bodies_(bodies), tree_(tree), pose_(pose) {}
 
   /// Lowers `hit` to the least clearance below hit.value; stops at the first one found if `any`.
@@ -81,7 +81,7 @@ class Search {
     while (top > 0) {
       const Entry entry = stack[static_cast<std::size_t>(--top)];
       if (entry.bound >= hit.value) continue;
-      const CheckTree::Node& node = tree_.nodes()[static_cast<std::size_t>(entry.node)];
+      const TriangleTree::Node& node = tree_.nodes()[static_cast<std::size_t>(entry.node)];
       if (node.second < 0) {
         for (int k = node.first; k < node.end; ++k) {
           measure(k, hit, any, entry.bodies);
@@ -98,7 +98,7 @@ class Search {
   }
 
   void measure(int k, Hit& hit, bool any, std::uint64_t which = kAll) const {
-    const CheckTree::Triangle& triangle = tree_.triangles()[static_cast<std::size_t>(k)];
+    const TriangleTree::Triangle& triangle = tree_.triangles()[static_cast<std::size_t>(k)];
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       if ((which & bit(b)) == 0) continue;
       const ConvexProfile& body = bodies_[b];
@@ -122,7 +122,7 @@ class Search {
 
   /// The node `index` below `parent`: bodies that were too far from that are too far from this.
   [[nodiscard]] Entry entry_of(const Entry& parent, int index, double below) const {
-    const CheckTree::Node& node = tree_.nodes()[static_cast<std::size_t>(index)];
+    const TriangleTree::Node& node = tree_.nodes()[static_cast<std::size_t>(index)];
     const PosedPoint at(pose_, node.center);
     const Vec3 across = at.rho > 0.0 ? Vec3(at.perpendicular / at.rho) : pose_.axis.unitOrthogonal();
     Entry entry{1e300, 1e300, index, 0};
@@ -140,15 +140,15 @@ class Search {
   }
 
   const std::vector<ConvexProfile>& bodies_;
-  const CheckTree& tree_;
+  const TriangleTree& tree_;
   const Pose& pose_;
 };
 
 }  // namespace
 
-CheckSurface check_surface(const Target& target, double spacing_mm, bool flank_may_touch) {
+ObstacleMesh obstacle_points(const Target& target, double spacing_mm, bool flank_may_touch) {
   FLANK_ASSERT(spacing_mm > 0.0);
-  CheckSurface out;
+  ObstacleMesh out;
   out.slack_mm = kSamplesApart * spacing_mm;
   out.flank_may_touch = flank_may_touch;
   for (const SurfaceSample& sample : target.samples(spacing_mm)) {
@@ -163,7 +163,7 @@ CheckSurface check_surface(const Target& target, double spacing_mm, bool flank_m
 struct PoseChecker::Data {
   struct Side {
     std::vector<ConvexProfile> bodies;
-    CheckTree tree;
+    TriangleTree tree;
   };
   static constexpr std::size_t kSides = 2;
   std::array<Side, kSides> sides;
@@ -201,22 +201,22 @@ struct PoseChecker::Data {
   }
 };
 
-PoseChecker::PoseChecker(const Tool& tool, std::span<const CheckSurface> surfaces) {
+PoseChecker::PoseChecker(const Tool& tool, std::span<const ObstacleMesh> surfaces) {
   auto data = std::make_unique<Data>();
   for (const std::vector<Vec2>* profile : {&tool.shank, &tool.holder})
     for (ConvexProfile& body : split_convex(*profile)) data->sides[0].bodies.push_back(std::move(body));
   data->sides[1].bodies = flank_shapes(tool.radial);
-  std::array<std::vector<CheckTree::Triangle>, Data::kSides> triangles;
+  std::array<std::vector<TriangleTree::Triangle>, Data::kSides> triangles;
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
-    const CheckSurface& surface = surfaces[k];
+    const ObstacleMesh& surface = surfaces[k];
     for (const auto& t : surface.mesh.triangles) {
       const auto corner = [&](std::size_t c) { return surface.mesh.vertices[static_cast<std::size_t>(t[c])]; };
-      const CheckTree::Triangle triangle{{corner(0), corner(1), corner(2)}, static_cast<int>(k), surface.slack_mm};
+      const TriangleTree::Triangle triangle{{corner(0), corner(1), corner(2)}, static_cast<int>(k), surface.slack_mm};
       if (!data->sides[0].bodies.empty()) triangles[0].push_back(triangle);
       if (!surface.flank_may_touch) triangles[1].push_back(triangle);
     }
   }
-  for (std::size_t s = 0; s < Data::kSides; ++s) data->sides[s].tree = CheckTree(std::move(triangles[s]));
+  for (std::size_t s = 0; s < Data::kSides; ++s) data->sides[s].tree = TriangleTree(std::move(triangles[s]));
   data_ = std::move(data);
 }
 

@@ -13,7 +13,7 @@
 namespace flank::internal {
 
 /// A surface that the tool must keep clear of.
-struct CheckSurface {
+struct ObstacleMesh {
   TriangleMesh mesh;      ///< open, overlapping or oriented in any way; points are triangles with three equal corners
   double slack_mm = 0.0;  ///< the true surface may come nearer than the mesh by this
   bool flank_may_touch = false;  ///< a target: only shank and holder keep clear of it
@@ -21,12 +21,12 @@ struct CheckSurface {
 
 /// The samples of a target as points. Its slack is one and a half spacings: about the farthest that a cell reaches from
 /// its sample.
-[[nodiscard]] CheckSurface check_surface(const Target& target, double spacing_mm, bool flank_may_touch);
+[[nodiscard]] ObstacleMesh obstacle_points(const Target& target, double spacing_mm, bool flank_may_touch);
 
 /// One pose, measured.
 struct PoseClearance {
   double clearance_mm = 0.0;  ///< least distance, less the slack; negative: depth of the deepest point
-  int surface = -1;           ///< index of the CheckSurface; -1: nothing nearer than the horizon, and all else is zero
+  int surface = -1;           ///< index of the ObstacleMesh; -1: nothing nearer than the horizon, and all else is zero
   Vec3 point = Vec3::Zero();  ///< on that surface
   Vec3 tool_point = Vec3::Zero();  ///< of the tool, nearest to it
   /// d clearance / d tip: the tip moves and the axis keeps its direction. A unit vector: the way that frees fastest.
@@ -38,7 +38,7 @@ struct PoseClearance {
 /// Answers for one tool and one set of surfaces; immutable, for many threads at once.
 class PoseChecker {
  public:
-  PoseChecker(const Tool& tool, std::span<const CheckSurface> surfaces);
+  PoseChecker(const Tool& tool, std::span<const ObstacleMesh> surfaces);
   ~PoseChecker();
   PoseChecker(PoseChecker&&) noexcept;
 

@@ -15,7 +15,7 @@ namespace {
 /// Targets with all that is in the way of any of the tools, from every side that is asked for.
 struct Scene {
   std::vector<std::vector<TargetGroup>> groups;  ///< [target][side]
-  std::vector<std::vector<CoverObstacles>> obstacles;
+  std::vector<std::vector<Obstacles>> obstacles;
   std::vector<RankingTarget> targets;
 };
 

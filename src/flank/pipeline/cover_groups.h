@@ -24,8 +24,8 @@ struct ToolExtent {
 
 /// What is in the way of tools of this extent at a group of targets: other faces of the part; for shank and holder the
 /// target itself as well.
-[[nodiscard]] CoverObstacles obstacles_of(const CoverJob& job, const Part& part, const TargetGroup& group,
-                                          const ToolExtent& extent);
+[[nodiscard]] Obstacles obstacles_of(const CoverJob& job, const Part& part, const TargetGroup& group,
+                                     const ToolExtent& extent);
 
 [[nodiscard]] CoverOptions options_of(const CoverJob& job);
 

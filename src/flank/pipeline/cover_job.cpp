@@ -88,7 +88,7 @@ void keep(const CoverResult& result, const TargetGroup& group, FitOutcome& outco
 
 Covered cover_group(const CoverJob& job, const Part& part, TargetGroup group, const Tool& tool,
                     const Progress& progress) {
-  const CoverObstacles obstacles = obstacles_of(job, part, group, extent_of(tool));
+  const Obstacles obstacles = obstacles_of(job, part, group, extent_of(tool));
   CoverResult result = cover(*group.target, tool, obstacles, options_of(job), progress);
   return {std::move(group), std::move(result)};
 }
@@ -150,14 +150,14 @@ ToolExtent extent_of(const Tool& tool) {
   return extent;
 }
 
-CoverObstacles obstacles_of(const CoverJob& job, const Part& part, const TargetGroup& group, const ToolExtent& extent) {
+Obstacles obstacles_of(const CoverJob& job, const Part& part, const TargetGroup& group, const ToolExtent& extent) {
   const double tolerance_mm = job.base.tolerance_mm;
-  CoverObstacles obstacles = other_faces(part, no_obstacles(job, part, group), *group.target, extent.reach_mm,
+  Obstacles obstacles = other_faces(part, no_obstacles(job, part, group), *group.target, extent.reach_mm,
                                          std::clamp(kToleranceBudget.others.triangles * tolerance_mm, 1e-3, 0.05));
   if (!extent.above) return obstacles;
   // By its triangles, finely: a shank as thick as the flank touches what the flank touches.
   const double deviation_mm = std::clamp(kToleranceBudget.shank.triangles * tolerance_mm, 1e-3, 0.02);
-  for (CheckSurface& own : own_faces(part, group.indices, deviation_mm, kToleranceBudget.shank.spare * tolerance_mm))
+  for (ObstacleMesh& own : own_faces(part, group.indices, deviation_mm, kToleranceBudget.shank.spare * tolerance_mm))
     obstacles.surfaces.push_back(std::move(own));
   return obstacles;
 }

@@ -64,10 +64,10 @@ void fit_groups(const FitJob& job, FitSearch& search, const ToolModel& tool, con
   for (std::size_t g = 0; g < search.targets.size(); ++g) {
     const Target& target = *search.targets[g].target;
     FlankFitOptions own = options;
-    own.checks = search.targets[g].checks.get();
+    own.obstacles = search.targets[g].obstacles.get();
     FlankFitResult result = fit_group(target, shared, own, job.strips, job.least_coverage, progress);
     for (const RuledMotion& motion : result.motions) {
-      tasks.push_back({&target, motion, own.checks});
+      tasks.push_back({&target, motion, own.obstacles});
       search.group_of_motion.push_back(g);
     }
     if (g == 0) {
@@ -85,8 +85,8 @@ void fit_groups(const FitJob& job, FitSearch& search, const ToolModel& tool, con
 double mean_score(const FitSearch& search, double tolerance_mm) { return search.fit.after.score(tolerance_mm); }
 
 /// Gives every target the faces that its flank keeps clear of: the check faces and the other targets.
-void add_checks(const FitJob& job, const Part& part, const std::vector<int>& faces, const std::vector<int>& checks,
-                double largest_radius, FitSearch& search) {
+void add_obstacles(const FitJob& job, const Part& part, const std::vector<int>& faces, const std::vector<int>& checks,
+                   double largest_radius, FitSearch& search) {
   /// The flank lies within a diameter of its target, and the walls of a channel beyond it count.
   constexpr double kReach = 2.0;
   for (TargetGroup& group : search.targets) {
@@ -94,7 +94,7 @@ void add_checks(const FitJob& job, const Part& part, const std::vector<int>& fac
     for (const int face : faces)
       if (std::find(group.indices.begin(), group.indices.end(), face) == group.indices.end()) others.push_back(face);
     std::sort(others.begin(), others.end());
-    group.checks = make_flank_checks(part, *group.target, others, kReach * largest_radius,
+    group.obstacles = make_obstacle_field(part, *group.target, others, kReach * largest_radius,
                                      kToleranceBudget.others.fit_allowance * job.tolerance_mm, search.fit.notes);
   }
 }
@@ -110,14 +110,14 @@ FitSearch search_side(const FitJob& job, const Part& part, const std::vector<int
   options.bounds = bounds(job, search.targets.front().target->diagonal());
   options.reach_radius_mm = job.reach_radius_mm.value_or(0.0);
   const ToolModel tool = make_tool_model(spec);
-  if (job.avoid) add_checks(job, part, faces, checks, options.bounds.largest, search);
+  if (job.avoid) add_obstacles(job, part, faces, checks, options.bounds.largest, search);
   if (!job.start && !job.guide) {
     fit_groups(job, search, tool, options, progress);
     return search;
   }
   if (search.targets.size() > 1) throw UsageError("--start and --guide take faces that hang together");
   const Target& target = *search.targets.front().target;
-  FitTask task{&target, {}, search.targets.front().checks.get()};
+  FitTask task{&target, {}, search.targets.front().obstacles.get()};
   if (job.start) {
     const auto [tip, end] = parse_line(*job.start);
     const double length = tool.axis_length.value_or(job.axis_length_mm.value_or((end - tip).norm()));

@@ -17,31 +17,31 @@ using Line = ClearStart::Line;
 /// Distance of the ball on a line to the walls; also a bound of how far along the line nothing changes. A ball on the
 /// border of the target touches what begins there, and the chart is good to a few hundredths of a radius: as good as
 /// free.
-double gap_at(const FittedLine& axis, double sigma, double radius, const FlankChecks& checks) {
+double gap_at(const FittedLine& axis, double sigma, double radius, const ObstacleField& obstacles) {
   constexpr double kSight = 4.0;   // radii: how far walls are asked for, which bounds the steps along a free line
   constexpr double kGood = 0.995;  // radii: see above
-  return checks.at(axis.middle + sigma * axis.direction, kSight * radius).distance_mm - kGood * radius;
+  return obstacles.at(axis.middle + sigma * axis.direction, kSight * radius).distance_mm - kGood * radius;
 }
 
 /// Where between a free and a blocked place the ball touches.
-double touch(const FittedLine& axis, double free, double blocked, double radius, const FlankChecks& checks) {
+double touch(const FittedLine& axis, double free, double blocked, double radius, const ObstacleField& obstacles) {
   constexpr int kHalvings = 12;  // of one step of 48: 5e-6 of the line
   for (int k = 0; k < kHalvings; ++k) {
     const double middle = 0.5 * (free + blocked);
-    (gap_at(axis, middle, radius, checks) >= 0.0 ? free : blocked) = middle;
+    (gap_at(axis, middle, radius, obstacles) >= 0.0 ? free : blocked) = middle;
   }
   return free;
 }
 
 /// The longest free stretch of the line over its own length.
-Line free_stretch(const FittedLine& axis, double radius, const FlankChecks& checks) {
+Line free_stretch(const FittedLine& axis, double radius, const ObstacleField& obstacles) {
   Line line{axis};
   const double step = axis.length / kSteps, end = 0.5 * axis.length;
   // `begin`: of the present stretch; `seen`: the last free place of it; `wall`: the last blocked place.
   double begin = end, seen = end, wall = -2.0 * end;
   bool inside = false, blocked_before = false;
   const auto close = [&](double blocked, bool by_wall) {
-    const double high = by_wall ? touch(axis, seen, blocked, radius, checks) : end;
+    const double high = by_wall ? touch(axis, seen, blocked, radius, obstacles) : end;
     if (high - begin > line.high - line.low) {
       line.low = begin;
       line.high = high;
@@ -52,11 +52,11 @@ Line free_stretch(const FittedLine& axis, double radius, const FlankChecks& chec
     inside = false;
   };
   for (double sigma = -end;;) {
-    const double gap = gap_at(axis, sigma, radius, checks);
+    const double gap = gap_at(axis, sigma, radius, obstacles);
     if (gap >= 0.0) {
       if (!inside) {
         blocked_before = wall >= -end;
-        begin = blocked_before ? touch(axis, sigma, wall, radius, checks) : -end;
+        begin = blocked_before ? touch(axis, sigma, wall, radius, obstacles) : -end;
         inside = true;
       }
       seen = sigma;
@@ -74,9 +74,9 @@ Line free_stretch(const FittedLine& axis, double radius, const FlankChecks& chec
 }
 
 /// The line of time t, fitted again to what is free of its contact line.
-Line clear_line(const Chart& chart, const RuledStart& start, double t, const FlankChecks& checks) {
+Line clear_line(const Chart& chart, const RuledStart& start, double t, const ObstacleField& obstacles) {
   RuledStart band = start;
-  Line line = free_stretch(axis_line(chart, band, t), start.radius_mm, checks);
+  Line line = free_stretch(axis_line(chart, band, t), start.radius_mm, obstacles);
   for (int k = 0; k < kRefits && line.free && (line.low_blocked || line.high_blocked); ++k) {
     const double width = band.band_high - band.band_low;
     const double low = band.band_low + width * (line.low / line.axis.length + 0.5);
@@ -85,7 +85,7 @@ Line clear_line(const Chart& chart, const RuledStart& start, double t, const Fla
     constexpr double kKept = 0.04;  // of the target's width
     if (line.low_blocked) band.band_low = std::max(start.band_low, low - kKept);
     if (line.high_blocked) band.band_high = std::min(start.band_high, high + kKept);
-    const Line next = free_stretch(axis_line(chart, band, t), start.radius_mm, checks);
+    const Line next = free_stretch(axis_line(chart, band, t), start.radius_mm, obstacles);
     if (!next.free) break;
     line = next;
   }
@@ -109,20 +109,20 @@ void fill(std::vector<Line>& lines) {
 }
 
 /// Lines at kStartTimes times in [first, last].
-std::vector<Line> lines_between(const Chart& chart, const RuledStart& start, const FlankChecks& checks, double first,
-                                double last) {
+std::vector<Line> lines_between(const Chart& chart, const RuledStart& start, const ObstacleField& obstacles,
+                                double first, double last) {
   std::vector<Line> lines;
   for (int i = 0; i < kStartTimes; ++i)
-    lines.push_back(clear_line(chart, start, first + (last - first) * i / (kStartTimes - 1.0), checks));
+    lines.push_back(clear_line(chart, start, first + (last - first) * i / (kStartTimes - 1.0), obstacles));
   return lines;
 }
 
 }  // namespace
 
-ClearStart clear_start(const Chart& chart, const RuledStart& start, const FlankChecks& checks) {
+ClearStart clear_start(const Chart& chart, const RuledStart& start, const ObstacleField& obstacles) {
   constexpr double kPast = 0.04;  ///< of the times, past the first and the last line that is free
   ClearStart clear;
-  clear.lines = lines_between(chart, start, checks, 0.0, 1.0);
+  clear.lines = lines_between(chart, start, obstacles, 0.0, 1.0);
   const auto is_free = [](const Line& line) { return line.free; };
   const auto first = std::find_if(clear.lines.begin(), clear.lines.end(), is_free);
   if (first == clear.lines.end()) return clear;
@@ -131,7 +131,7 @@ ClearStart clear_start(const Chart& chart, const RuledStart& start, const FlankC
   const double begin = step * static_cast<double>(first - clear.lines.begin());
   const double end = 1.0 - step * static_cast<double>(last - clear.lines.rbegin());
   if (begin > kPast || end < 1.0 - kPast)
-    clear.lines = lines_between(chart, start, checks, std::max(0.0, begin - kPast), std::min(1.0, end + kPast));
+    clear.lines = lines_between(chart, start, obstacles, std::max(0.0, begin - kPast), std::min(1.0, end + kPast));
   for (const Line& line : clear.lines) {
     if (!line.free) continue;
     clear.longest_mm = std::max(clear.longest_mm, line.high - line.low);

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "flank/obstacle/flank_checks.h"
+#include "flank/obstacle/obstacle_field.h"
 #include "flank/seed/ruled_start.h"
 
 namespace flank::internal {
@@ -26,7 +26,7 @@ struct ClearStart {
 
 /// Without a free line (free_lines = 0) there is no motion to make. If lines at the ends of the motion are blocked
 /// altogether, the times are squeezed into what is free and 4 percent past it.
-[[nodiscard]] ClearStart clear_start(const Chart& chart, const RuledStart& start, const FlankChecks& checks);
+[[nodiscard]] ClearStart clear_start(const Chart& chart, const RuledStart& start, const ObstacleField& obstacles);
 
 /// The motion with its tip at the blocked end of each line and the rest of the axis past the other end. The tip is at
 /// the lines' low end if most walls are there, else the lines are reversed. A line without a wall starts a little

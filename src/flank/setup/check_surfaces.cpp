@@ -54,8 +54,8 @@ bool touches(const Target& target, const Target& solid, double within_mm) {
   return false;
 }
 
-CheckSurface as_triangles(const Part& part, int face, double deviation_mm) {
-  CheckSurface check;
+ObstacleMesh as_triangles(const Part& part, int face, double deviation_mm) {
+  ObstacleMesh check;
   if (part.is_mesh()) {
     check.mesh = extract_mesh(part, {face});
     return check;
@@ -68,10 +68,10 @@ CheckSurface as_triangles(const Part& part, int face, double deviation_mm) {
 
 }  // namespace
 
-CoverObstacles other_faces(const Part& part, const std::vector<int>& faces, const Target& target, double reach_mm,
-                           double deviation_mm) {
+Obstacles other_faces(const Part& part, const std::vector<int>& faces, const Target& target, double reach_mm,
+                      double deviation_mm) {
   constexpr double kTouchMm = 0.5;
-  CoverObstacles obstacles;
+  Obstacles obstacles;
   std::vector<char> left_out(static_cast<std::size_t>(part.face_count()), 0);
   for (const int k : faces) left_out[static_cast<std::size_t>(k)] = 1;
   for (const int solid : part.is_mesh() ? std::vector<int>{} : other_solids(part, faces)) {
@@ -92,9 +92,9 @@ CoverObstacles other_faces(const Part& part, const std::vector<int>& faces, cons
   return obstacles;
 }
 
-std::vector<CheckSurface> own_faces(const Part& part, const std::vector<int>& faces, double deviation_mm,
+std::vector<ObstacleMesh> own_faces(const Part& part, const std::vector<int>& faces, double deviation_mm,
                                     double spare_mm) {
-  std::vector<CheckSurface> surfaces(faces.size());
+  std::vector<ObstacleMesh> surfaces(faces.size());
   parallel_for(faces.size(), [&](std::size_t k) {
     surfaces[k] = as_triangles(part, faces[k], deviation_mm);
     surfaces[k].slack_mm += spare_mm;

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "flank/obstacle/line_guard.h"
+#include "flank/obstacle/pose_guard.h"
 #include "flank/part.h"
 
 namespace flank::internal {
@@ -11,12 +11,12 @@ namespace flank::internal {
 /// Every face of the part but `faces` that a tool within `reach_mm` of the target could touch. Solids that the target
 /// touches, other than its own, are taken whole; all else as triangles within `deviation_mm` of the face, or where that
 /// takes too many, with the deviation that is left as slack.
-[[nodiscard]] CoverObstacles other_faces(const Part& part, const std::vector<int>& faces, const Target& target,
-                                         double reach_mm, double deviation_mm);
+[[nodiscard]] Obstacles other_faces(const Part& part, const std::vector<int>& faces, const Target& target,
+                                    double reach_mm, double deviation_mm);
 
 /// The target's own faces as what shank and holder keep clear of, to within a tolerance: `spare_mm` is held back besides
 /// the triangles' deviation, for a judge who wants it kept for sure.
-[[nodiscard]] std::vector<CheckSurface> own_faces(const Part& part, const std::vector<int>& faces, double deviation_mm,
+[[nodiscard]] std::vector<ObstacleMesh> own_faces(const Part& part, const std::vector<int>& faces, double deviation_mm,
                                                   double spare_mm);
 
 }  // namespace flank::internal

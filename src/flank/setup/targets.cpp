@@ -114,16 +114,17 @@ std::unique_ptr<Target> surface_of(const Part& part, int face) {
 
 }  // namespace
 
-std::unique_ptr<FlankChecks> make_flank_checks(const Part& part, const Target& target, const std::vector<int>& checks,
-                                               double reach_mm, double allowance_mm, std::vector<std::string>& notes) {
+std::unique_ptr<ObstacleField> make_obstacle_field(const Part& part, const Target& target,
+                                                   const std::vector<int>& checks, double reach_mm, double allowance_mm,
+                                                   std::vector<std::string>& notes) {
   constexpr int kSamples = 200;
   const std::vector<SurfaceSample> samples = target.samples(std::sqrt(target.area() / kSamples));
-  std::vector<CheckFace> all(checks.size());
+  std::vector<ObstacleFace> all(checks.size());
   parallel_for(checks.size(), [&](std::size_t k) {
     all[k].surface = surface_of(part, checks[k]);
     all[k].oriented = !part.is_mesh() && part.faces[static_cast<std::size_t>(checks[k])].of_solid;
   });
-  std::vector<CheckFace> near;
+  std::vector<ObstacleFace> near;
   for (std::size_t k = 0; k < all.size(); ++k) {
     if (!all[k].surface)
       notes.push_back(fmt::format("F{}: too few triangles to steer clear of; the judge looks at it", checks[k] + 1));
@@ -132,7 +133,7 @@ std::unique_ptr<FlankChecks> make_flank_checks(const Part& part, const Target& t
   }
   if (near.empty()) return nullptr;
   // Above the target by about a small tool's radius.
-  return std::make_unique<FlankChecks>(std::move(near), target, 0.25 * reach_mm, allowance_mm);
+  return std::make_unique<ObstacleField>(std::move(near), target, 0.25 * reach_mm, allowance_mm);
 }
 
 std::vector<FaceSamples> judge_samples(const Part& part, const std::vector<int>& targets,

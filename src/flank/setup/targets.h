@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "flank/judge.h"
-#include "flank/obstacle/flank_checks.h"
+#include "flank/obstacle/obstacle_field.h"
 #include "flank/part.h"
 #include "flank/target.h"
 
@@ -16,9 +16,9 @@ namespace flank::internal {
 struct TargetGroup {
   std::string faces;  ///< "F1" or "F1,F2"
   std::unique_ptr<Target> target;
-  std::vector<int> indices;             ///< of these faces
-  std::unique_ptr<FlankChecks> checks;  ///< what the flank keeps clear of; null: nothing is near, or --avoid off
-  bool of_solid = true;                 ///< the machining side is known from the solid
+  std::vector<int> indices;                  ///< of these faces
+  std::unique_ptr<ObstacleField> obstacles;  ///< what the flank keeps clear of; null: nothing is near, or --avoid off
+  bool of_solid = true;                      ///< the machining side is known from the solid
 };
 
 /// side = -1 turns the machining side of open sheets.
@@ -27,9 +27,9 @@ struct TargetGroup {
 /// The faces that the flank on one target must keep clear of, as the planner sees them: of `checks` (indices) those
 /// within `reach_mm` of it. Null where there are none. Regions of a mesh that are too small for a surface are left to the
 /// judge, and named in `notes`.
-[[nodiscard]] std::unique_ptr<FlankChecks> make_flank_checks(const Part& part, const Target& target,
-                                                             const std::vector<int>& checks, double reach_mm,
-                                                             double allowance_mm, std::vector<std::string>& notes);
+[[nodiscard]] std::unique_ptr<ObstacleField> make_obstacle_field(const Part& part, const Target& target,
+                                                                 const std::vector<int>& checks, double reach_mm,
+                                                                 double allowance_mm, std::vector<std::string>& notes);
 
 /// Samples of the targets and of the check faces (coarser) for the judge, in the order of the part's faces.
 [[nodiscard]] std::vector<FaceSamples> judge_samples(const Part& part, const std::vector<int>& targets,

@@ -16,7 +16,7 @@ constexpr double kShortestStretch = 0.1;
 
 }  // namespace
 
-bool is_certified(const LineGuard& guard, const CoverStrip& strip, double tolerance_mm) {
+bool is_certified(const PoseGuard& guard, const CoverStrip& strip, double tolerance_mm) {
   if (strip.cells.empty() || strip.overcut_mm > kToleranceBudget.target.certified * tolerance_mm) return false;
   const int poses = depth_poses(strip.motion);
   for (int i = 0; i <= poses; ++i)
@@ -71,7 +71,7 @@ struct Shifts {
 };
 
 /// Shifts that take the poses of a strip out of the target, if they are too deep in it, and out of other faces.
-Shifts shifts_of(const LineGuard& guard, const CoverStrip& strip, double depth_mm, int poses, LineFitter& fitter) {
+Shifts shifts_of(const PoseGuard& guard, const CoverStrip& strip, double depth_mm, int poses, LineFitter& fitter) {
   constexpr double kReachShare = 0.25;  ///< of the axis: a slide that is longer makes another strip of it
   // Depths are known at depth_poses(motion) steps: at those, poses that are not too deep are not measured again.
   const bool known = poses == depth_poses(strip.motion);
@@ -114,7 +114,7 @@ RuledMotion moved(const RuledMotion& motion, const Shifts& shifts) {
 
 }  // namespace
 
-CoverStrip lifted(const CoverSamples& samples, const LineGuard& guard, CoverStrip strip, const RadialFunction& radial,
+CoverStrip lifted(const CoverSamples& samples, const PoseGuard& guard, CoverStrip strip, const RadialFunction& radial,
                   LineFitter& fitter) {
   constexpr int kTries = 4;  ///< the rails follow a shift only nearly, so what is left is lifted again
   const double limit = kToleranceBudget.target.certified * fitter.options().tolerance_mm;
@@ -129,7 +129,7 @@ CoverStrip lifted(const CoverSamples& samples, const LineGuard& guard, CoverStri
   return strip;
 }
 
-CoverStrip cut_to_certified(const CoverSamples& samples, const LineGuard& guard, CoverStrip strip,
+CoverStrip cut_to_certified(const CoverSamples& samples, const PoseGuard& guard, CoverStrip strip,
                             const RadialFunction& radial, LineFitter& fitter) {
   constexpr int kTries = 3;  ///< the shorter motion is a new approximation, which has to be certified itself
   const double tolerance = fitter.options().tolerance_mm;
@@ -162,7 +162,7 @@ constexpr int kShortestFineRun = kFinePoses / 10;
 static_assert(kShortestFineRun == static_cast<int>(kShortestStretch * kFinePoses));
 
 /// First and last of the longest run of fine steps that are not too deep, and clear; last < first: there is none.
-std::pair<int, int> longest_good(const LineGuard& guard, const RuledMotion& motion, LineFitter& fitter) {
+std::pair<int, int> longest_good(const PoseGuard& guard, const RuledMotion& motion, LineFitter& fitter) {
   const double limit = kToleranceBudget.target.last_look() * fitter.options().tolerance_mm;
   std::pair<int, int> best = {0, -1};
   fitter.forget();
@@ -179,13 +179,13 @@ std::pair<int, int> longest_good(const LineGuard& guard, const RuledMotion& moti
 
 }  // namespace
 
-CoverStrip cut_finely(const CoverSamples& samples, const LineGuard& guard, CoverStrip strip,
+CoverStrip cut_finely(const CoverSamples& samples, const PoseGuard& guard, CoverStrip strip,
                       const RadialFunction& radial, LineFitter& fitter) {
   // Lifts keep coverage, cuts lose it: half of the tries are for lifting, the others for cutting what that leaves.
   constexpr int kTries = 6, kLifts = 3;
   const double tolerance = fitter.options().tolerance_mm;
   // Without a tolerance for other faces (floor 0) there is none to use up here.
-  const LineGuard last_guard =
+  const PoseGuard last_guard =
       guard.with_floor(guard.floor_mm() < 0.0 ? -kToleranceBudget.others.last_look * tolerance : guard.floor_mm());
   for (int k = 0; k < kTries; ++k) {
     const auto [first, last] = longest_good(last_guard, strip.motion, fitter);

@@ -6,32 +6,32 @@
 /// calling thread, must belong to the same target and tool, and carries the tolerance (fitter.options().tolerance_mm).
 #pragma once
 
-#include "flank/obstacle/line_guard.h"
+#include "flank/obstacle/pose_guard.h"
 #include "flank/strip/strip_measure.h"
 
 namespace flank::internal {
 
 /// Whether the strip has cells, cuts the target no deeper than TargetDepthBudget::certified tolerances, and has no
 /// pose that is deeper in an obstacle than the guard's floor. The depth is strip.overcut_mm, so the strip must be measured.
-[[nodiscard]] bool is_certified(const LineGuard& guard, const CoverStrip& strip, double tolerance_mm);
+[[nodiscard]] bool is_certified(const PoseGuard& guard, const CoverStrip& strip, double tolerance_mm);
 
 /// The strip lifted out of the target wherever it is too deep, by as much as it is too deep, and slid along its axis
 /// wherever it enters another face, both with ramps that its rails can follow; measured again. Returned as it is if
 /// nothing is too deep. At most four rounds, so the result may still fail its certificate: check with is_certified.
 /// Material that the lift leaves is within the tolerance as long as the excess was small.
-[[nodiscard]] CoverStrip lifted(const CoverSamples& samples, const LineGuard& guard, CoverStrip strip,
+[[nodiscard]] CoverStrip lifted(const CoverSamples& samples, const PoseGuard& guard, CoverStrip strip,
                                 const RadialFunction& radial, LineFitter& fitter);
 
 /// The strip cut to its longest stretch that passes the certificate; as it is if all of it does. Always certified, or
 /// without cells: then less than a tenth of the strip passed, or three cuts were not enough.
-[[nodiscard]] CoverStrip cut_to_certified(const CoverSamples& samples, const LineGuard& guard, CoverStrip strip,
+[[nodiscard]] CoverStrip cut_to_certified(const CoverSamples& samples, const PoseGuard& guard, CoverStrip strip,
                                           const RadialFunction& radial, LineFitter& fitter);
 
 /// The last look. Beyond the last points of the target nothing holds the rails between two steps of the certificate, so
 /// each strip is checked again at a thousand steps. What is too deep, or in another face, is lifted, and cut off if
 /// that does not help. Returns a strip without cells if less than a tenth of it is left. A thousand poses cost several
 /// certificates: for the strips that are kept, once.
-[[nodiscard]] CoverStrip cut_finely(const CoverSamples& samples, const LineGuard& guard, CoverStrip strip,
+[[nodiscard]] CoverStrip cut_finely(const CoverSamples& samples, const PoseGuard& guard, CoverStrip strip,
                                     const RadialFunction& radial, LineFitter& fitter);
 
 }  // namespace flank::internal

@@ -45,7 +45,7 @@ Pose half_way(const Pose& a, const Pose& b) { return {0.5 * (a.tip + b.tip), (a.
 
 class Grower {
  public:
-  Grower(LineFitter& fitter, const LineGuard& guard, const GrowGuide& guide, const GrowOptions& options)
+  Grower(LineFitter& fitter, const PoseGuard& guard, const GrowGuide& guide, const GrowOptions& options)
       : fitter_(fitter),
         guard_(guard),
         guide_(guide),
@@ -64,7 +64,7 @@ class Grower {
   void overrun(const AxisVelocity& last, std::vector<Pose>& poses);
 
   LineFitter& fitter_;
-  const LineGuard& guard_;
+  const PoseGuard& guard_;
   const GrowGuide& guide_;
   const GrowOptions& options_;
   double length_, size_;
@@ -198,7 +198,7 @@ double guide_slide(const GrowGuide& guide, const Pose& pose, double axis_length)
   return slide;
 }
 
-GrownStrip grow(LineFitter& fitter, const LineGuard& guard, const LineFit& line, const GrowGuide& guide,
+GrownStrip grow(LineFitter& fitter, const PoseGuard& guard, const LineFit& line, const GrowGuide& guide,
                 const GrowOptions& options) {
   const std::vector<Footpoint> feet(fitter.feet().begin(), fitter.feet().end());
   const Movability start = movability(feet, line.pose, fitter.axis_length());

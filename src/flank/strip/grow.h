@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "flank/obstacle/line_guard.h"
+#include "flank/obstacle/pose_guard.h"
 #include "flank/strip/line_fit.h"
 
 namespace flank::internal {
@@ -58,7 +58,7 @@ struct GrownStrip {
 /// line (line_fit.h). Every step: predictor (the most movable transversal velocity), slide to the guide, corrector
 /// (refine with the travel held), certificates at its end and its middle; halved until they hold. Always has at least
 /// the pose of the line, unless its movability is not valid.
-[[nodiscard]] GrownStrip grow(LineFitter& fitter, const LineGuard& guard, const LineFit& line, const GrowGuide& guide,
+[[nodiscard]] GrownStrip grow(LineFitter& fitter, const PoseGuard& guard, const LineFit& line, const GrowGuide& guide,
                               const GrowOptions& options = {});
 
 }  // namespace flank::internal

@@ -106,7 +106,7 @@ TEST(Curves, SameForAnyNumberOfThreads) {
 TEST(Curves, KeepsClearOfAWall) {
   if (kSanitized) GTEST_SKIP() << "minutes under a sanitizer; its parts are tested there by themselves";
   const auto target = testing::flat_target(0.0, 40.0, 0.0, 20.0);
-  const CoverObstacles obstacles = testing::wall_at(20.0);
+  const Obstacles obstacles = testing::wall_at(20.0);
   const Tool tool = testing::cylinder(4.0, 12.0);
   const CoverResult result = cover(*target, tool, obstacles, options_for(0.01), {});
   ASSERT_EQ(result.status, CoverStatus::kCovered) << result.message;

@@ -54,7 +54,7 @@ TEST(StraightLine, IsRejectedForAReason) {
   StraightLineOptions options;
   options.most_error_mm = 1e-3;
   const Pose pose = surface.pose(0.5);
-  const auto line = straight_line(curve_of(pose, 0.0, length, 0.0), fitter, LineGuard(), options);
+  const auto line = straight_line(curve_of(pose, 0.0, length, 0.0), fitter, PoseGuard(), options);
   ASSERT_TRUE(line.has_value());
   EXPECT_LE(line->error_mm, 1e-4);
   // It can move on the way that the envelope was made, up to the slide along itself.
@@ -62,20 +62,20 @@ TEST(StraightLine, IsRejectedForAReason) {
   const Vec3 velocity = jet.velocity(surface.first + 0.5 * length);
   const Vec3 across = (velocity - velocity.dot(jet.u) * jet.u).normalized();
   EXPECT_GE(std::abs(across.dot(line->velocity.middle)), 0.99);
-  EXPECT_FALSE(straight_line(curve_of(pose, 0.0, 0.4 * length, 0.0), fitter, LineGuard(), options)) << "too short";
+  EXPECT_FALSE(straight_line(curve_of(pose, 0.0, 0.4 * length, 0.0), fitter, PoseGuard(), options)) << "too short";
   const Pose off{pose.tip + Vec3(0.0, 0.01, 0.0), pose.axis};
-  EXPECT_FALSE(straight_line(curve_of(off, 0.0, length, 0.0), fitter, LineGuard(), options)) << "too far off";
+  EXPECT_FALSE(straight_line(curve_of(off, 0.0, length, 0.0), fitter, PoseGuard(), options)) << "too far off";
   options.refine = true;
-  const auto refined = straight_line(curve_of(off, 0.0, length, 0.0), fitter, LineGuard(), options);
+  const auto refined = straight_line(curve_of(off, 0.0, length, 0.0), fitter, PoseGuard(), options);
   ASSERT_TRUE(refined.has_value());
   EXPECT_LE(refined->error_mm, 1e-3);
 }
 
 TEST(StraightLine, SlidesClearOfAWall) {
   const auto target = testing::flat_target(0.0, 50.0, 0.0, 30.0);
-  const CoverObstacles obstacles = testing::wall_at(30.0);
+  const Obstacles obstacles = testing::wall_at(30.0);
   const Tool tool = testing::cylinder(4.0, 16.0);
-  const LineGuard guard(tool, obstacles, 0.0);
+  const PoseGuard guard(tool, obstacles, 0.0);
   LineFitter fitter(*target, tool.radial, {.tolerance_mm = 0.01});
   StraightLineOptions options;
   options.most_error_mm = 0.01;

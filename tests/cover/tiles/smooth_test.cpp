@@ -52,7 +52,7 @@ class Smooth : public ::testing::Test {
   std::unique_ptr<Target> target_ = testing::flat_target(0.0, 40.0, 0.0, 20.0);
   Tool tool_ = testing::cylinder(kRadius, kLength);
   CoverSamples samples_ = cover_samples(*target_, 0.8);
-  LineGuard guard_;
+  PoseGuard guard_;
   CoverOptions options_;
 };
 
@@ -120,11 +120,11 @@ TEST_F(Smooth, StripsShareTheWork) {
 
 TEST_F(Smooth, KeepsClearOfAWallBesideTheTips) {
   // The tips' balls, from y = -2 on, run along a wall at y = -2.02.
-  CoverObstacles wall;
-  CheckSurface surface;
+  Obstacles wall;
+  ObstacleMesh surface;
   surface.mesh = {{Vec3(-90.0, -2.02, -1.0), Vec3(140.0, -2.02, -1.0), Vec3(25.0, -2.02, 120.0)}, {{0, 1, 2}}};
   wall.surfaces.push_back(surface);
-  guard_ = LineGuard(tool_, wall, -0.0065);
+  guard_ = PoseGuard(tool_, wall, -0.0065);
   const CoverStrip high = strip([](double x) { return 0.02 * std::exp(-std::pow((x - 20.0) / 4.0, 2)); });
   ASSERT_TRUE(is_certified(guard_, high, kTolerance));
   const SmoothResult result = smooth_strips(scene(), {high});

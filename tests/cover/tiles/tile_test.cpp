@@ -74,8 +74,8 @@ class Choice : public ::testing::Test {
 
   std::unique_ptr<Target> target_ = testing::flat_target(0.0, 10.0, 0.0, 10.0);
   Tool tool_ = testing::cylinder(1.0, 5.0);
-  CoverObstacles lid_ = testing::lid_at(0.5);
-  LineGuard guard_{tool_, lid_, -0.001};
+  Obstacles lid_ = testing::lid_at(0.5);
+  PoseGuard guard_{tool_, lid_, -0.001};
   CoverSamples samples_;
   CoverOptions options_;
 };
@@ -275,7 +275,7 @@ class Sheet : public ::testing::Test {
   std::unique_ptr<Target> target_ = testing::flat_target(0.0, 50.0, 0.0, 30.0);
   Tool tool_ = testing::cylinder(4.0, 16.0);
   CoverSamples samples_ = cover_samples(*target_, 1.0);
-  LineGuard guard_;
+  PoseGuard guard_;
   CoverOptions options_;
 };
 
@@ -295,8 +295,8 @@ TEST_F(Sheet, ALineThatHangsOverTheBorderIsNone) {
 }
 
 TEST_F(Sheet, ALineThatIsBlockedCountsAndGivesNoStrip) {
-  const CoverObstacles lid = testing::lid_at(3.0);
-  guard_ = LineGuard(tool_, lid, -0.005);
+  const Obstacles lid = testing::lid_at(3.0);
+  guard_ = PoseGuard(tool_, lid, -0.005);
   const CandidatePool pool = grow_pool(scene(), {seed(20.0, 15.0), seed(30.0, 15.0)});
   EXPECT_EQ(pool.lines, 2);
   EXPECT_TRUE(pool.strips.empty());

@@ -1,4 +1,4 @@
-// The terms that keep the flank out of check faces: a blade on a flat hub, where depths are known.
+// The terms that keep the flank out of obstacles: a blade on a flat hub, where depths are known.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,14 +30,14 @@ class FitClearance : public ::testing::Test {
     stage.clear_weight = 7.0;
     return stage;
   }
-  FitModel model_of(const FitState& start, const FitStage& stage, const FlankChecks* checks) const {
+  FitModel model_of(const FitState& start, const FitStage& stage, const ObstacleField* obstacles) const {
     const std::size_t count = start.motions.size();
-    std::vector<const FlankChecks*> all(count, nullptr);
-    all.front() = checks;
+    std::vector<const ObstacleField*> all(count, nullptr);
+    all.front() = obstacles;
     return {std::vector<const Target*>(count, blade_.get()), start, all_parameters(start.tool), {}, stage, all};
   }
   static double cost_of(const FitModel& model, FitState state) {
-    model.locate_checks(state);
+    model.locate_obstacles(state);
     return model.regulariser_cost(state);
   }
   /// The mean square over the samples of a cylinder upright at height z, by how much its balls enter the hub z = 0.
@@ -52,36 +52,36 @@ class FitClearance : public ::testing::Test {
 
 TEST_F(FitClearance, CostIsTheMeanSquareOfTheDepthBeyondTheAllowance) {
   for (const double allowance : {0.0, 0.5}) {
-    const FlankChecks checks(only(hub(true)), *blade_, 2.0, allowance);
+    const ObstacleField obstacles(only(hub(true)), *blade_, 2.0, allowance);
     for (const double z : {7.0, 4.8, 3.0, 0.5, -2.0}) {
       const FitState state = state_of({upright_motion({.z = z})}, cylinder(kRadius));
-      EXPECT_NEAR(cost_of(model_of(state, stage(), &checks), state), expected(z, allowance), 1e-9) << z;
+      EXPECT_NEAR(cost_of(model_of(state, stage(), &obstacles), state), expected(z, allowance), 1e-9) << z;
     }
   }
 }
 
 TEST_F(FitClearance, OnlyMotionsThatHaveChecksPay) {
-  const FlankChecks checks(only(hub(true)), *blade_, 2.0, 0.0);
+  const ObstacleField obstacles(only(hub(true)), *blade_, 2.0, 0.0);
   const FitState state = state_of({upright_motion({.z = 2.0}), upright_motion({.z = -9.0})}, cylinder(kRadius));
-  EXPECT_NEAR(cost_of(model_of(state, stage(), &checks), state), 0.5 * expected(2.0, 0.0), 1e-9);
+  EXPECT_NEAR(cost_of(model_of(state, stage(), &obstacles), state), 0.5 * expected(2.0, 0.0), 1e-9);
   EXPECT_NEAR(cost_of(model_of(state, stage(), nullptr), state), 0.0, 1e-18);
 }
 
 TEST_F(FitClearance, AFlankThatIsClearPullsNowhere) {
-  const FlankChecks checks(only(hub(true)), *blade_, 2.0, 0.0);
+  const ObstacleField obstacles(only(hub(true)), *blade_, 2.0, 0.0);
   FitState state = state_of({upright_motion({.z = 5.5})}, cylinder(kRadius));
-  const FitModel model = model_of(state, stage(), &checks);
-  model.locate_checks(state);
+  const FitModel model = model_of(state, stage(), &obstacles);
+  model.locate_obstacles(state);
   ArrowSystem system = model.make_system();
   model.assemble_regularisers(state, system);
   EXPECT_NEAR(system.gradient.norm(), 0.0, 1e-12);
 }
 
 TEST_F(FitClearance, ThePullIsUpAndTowardsALesserRadius) {
-  const FlankChecks checks(only(hub(true)), *blade_, 2.0, 0.0);
+  const ObstacleField obstacles(only(hub(true)), *blade_, 2.0, 0.0);
   FitState state = state_of({upright_motion({.z = 3.0})}, cylinder(kRadius));
-  const FitModel model = model_of(state, stage(), &checks);
-  model.locate_checks(state);
+  const FitModel model = model_of(state, stage(), &obstacles);
+  model.locate_obstacles(state);
   ArrowSystem system = model.make_system();
   model.assemble_regularisers(state, system);
   // Half the derivative of 7/31 (sum of (r - z - s)^2 over the depths 2 and 1): by r it is 7/31 (2 + 1), by z the
@@ -93,52 +93,52 @@ TEST_F(FitClearance, ThePullIsUpAndTowardsALesserRadius) {
 }
 
 /// A hub and a wall beside the blade, so that balls enter either.
-std::vector<CheckFace> hub_and_wall() {
-  std::vector<CheckFace> faces = only(hub(true));
+std::vector<ObstacleFace> hub_and_wall() {
+  std::vector<ObstacleFace> faces = only(hub(true));
   faces.push_back(
       {make_target({quad(Vec3(0, 12, -5), Vec3(60, 12, -5), Vec3(0, 8, 45), Vec3(60, 8, 45), "F3")}), true});
   return faces;
 }
 
 TEST_F(FitClearance, GradientAgreesWithDifferencesBesideTwoFaces) {
-  const FlankChecks checks(hub_and_wall(), *blade_, 2.0, 0.0);
+  const ObstacleField obstacles(hub_and_wall(), *blade_, 2.0, 0.0);
   FitState state = state_of({upright_motion({.z = 2.3})},
                             RadialFunction(ToolFamily::kBarrel, kLength, Eigen::Vector3d(120.0, 6.0, 14.0)));
   state.motions.front().direction.poles.colwise() += Vec3(0.03, 0.05, 0.0);
-  const FitModel model = model_of(state, stage(), &checks);
+  const FitModel model = model_of(state, stage(), &obstacles);
   ASSERT_GT(cost_of(model, state), 0.1);
   testing::expect_regulariser_gradient(model, state, 1e-4);
 }
 
 TEST_F(FitClearance, DistancesKeptFromAPlaceNearByCostTheSame) {
-  const FlankChecks checks(hub_and_wall(), *blade_, 2.0, 0.0);
+  const ObstacleField obstacles(hub_and_wall(), *blade_, 2.0, 0.0);
   FitState state = state_of({upright_motion({.z = 9.0})}, cylinder(kRadius));
-  const FitModel model = model_of(state, stage(), &checks);
-  model.locate_checks(state);
+  const FitModel model = model_of(state, stage(), &obstacles);
+  model.locate_obstacles(state);
   // Down to the hub and up again in steps that are short and long against what is remembered.
   for (const double by : {-0.3, -0.3, -2.35, -1.5, -0.4, -2.0, 0.2, -3.0, 1.5, 6.0}) {
     state.motions.front().tip.poles.row(2).array() += by;
     FitState fresh = state;
-    fresh.checks.clear();
-    model.locate_checks(state);
-    model.locate_checks(fresh);
+    fresh.obstacles.clear();
+    model.locate_obstacles(state);
+    model.locate_obstacles(fresh);
     EXPECT_DOUBLE_EQ(model.regulariser_cost(state), model.regulariser_cost(fresh)) << by;
   }
 }
 
 TEST_F(FitClearance, EstimatedDistancesCostNearlyTheSame) {
-  const FlankChecks checks(only(hub(true)), *blade_, 2.0, 0.0);
+  const ObstacleField obstacles(only(hub(true)), *blade_, 2.0, 0.0);
   FitStage rough = stage();
   rough.clear_estimated = true;
   const FitState state = state_of({upright_motion({.z = 1.0})}, cylinder(kRadius));
-  const double exact = cost_of(model_of(state, stage(), &checks), state);
-  EXPECT_NEAR(cost_of(model_of(state, rough, &checks), state), exact, 0.01 * exact);
+  const double exact = cost_of(model_of(state, stage(), &obstacles), state);
+  EXPECT_NEAR(cost_of(model_of(state, rough, &obstacles), state), exact, 0.01 * exact);
 }
 
 TEST_F(FitClearance, ThreadsChangeNothing) {
-  const FlankChecks checks(hub_and_wall(), *blade_, 2.0, 0.0);
+  const ObstacleField obstacles(hub_and_wall(), *blade_, 2.0, 0.0);
   const FitState state = state_of({upright_motion({.z = 2.3})}, cylinder(kRadius));
-  const FitModel model = model_of(state, stage(), &checks);
+  const FitModel model = model_of(state, stage(), &obstacles);
   set_thread_count(1);
   const double one = cost_of(model, state);
   set_thread_count(3);

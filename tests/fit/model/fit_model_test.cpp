@@ -9,7 +9,7 @@
 #include "flank/base/random.h"
 #include "flank/example/example.h"
 #include "flank/example/example_perturb.h"
-#include "obstacle/check_scene.h"
+#include "obstacle/obstacle_scene.h"
 
 namespace flank::internal {
 namespace {
@@ -98,11 +98,11 @@ TEST_F(FitModelTest, GradientHoldsBesideCheckFaces) {
   const Vec3 x = pose.axis.unitOrthogonal(), y = pose.axis.cross(x), tip = pose.at(3.0);
   const Face wall =
       testing::quad(tip - 90 * x - 90 * y, tip + 90 * x - 90 * y, tip - 90 * x + 90 * y, tip + 90 * x + 90 * y, "F2");
-  const FlankChecks checks(testing::only({make_target({wall}), true}), *target_, 2.0, 0.01);
-  ASSERT_EQ(checks.sign(0), +1);
+  const ObstacleField obstacles(testing::only({make_target({wall}), true}), *target_, 2.0, 0.01);
+  ASSERT_EQ(obstacles.sign(0), +1);
   std::vector<int> all(static_cast<std::size_t>(state_.tool.parameter_count()));
   std::iota(all.begin(), all.end(), 0);
-  const FitModel model({target_.get()}, state_, all, {6.1, 6.3, 0.02}, stage_, {&checks});
+  const FitModel model({target_.get()}, state_, all, {6.1, 6.3, 0.02}, stage_, {&obstacles});
   const FitModel without({target_.get()}, state_, all, {6.1, 6.3, 0.02}, stage_);
   FitState state = state_;
   model.locate(state);

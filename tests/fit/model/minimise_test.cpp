@@ -170,9 +170,9 @@ TEST_F(Minimise, IsTheSameForOneAndThreeThreads) {
   FitStage stage = bare_stage();
   stage.iterations = 4;
   stage.transversal_anchor = stage.axial_pin = 1e-2;
-  const FlankChecks checks(testing::only(testing::hub(true)), *blade_, 2.0, 0.0);
+  const ObstacleField obstacles(testing::only(testing::hub(true)), *blade_, 2.0, 0.0);
   const FitState start = state_of({upright_motion({.y = 5.7, .z = 4.0})}, cylinder(5.0));
-  const FitModel model({blade_.get()}, start, {0}, {}, stage, {&checks});
+  const FitModel model({blade_.get()}, start, {0}, {}, stage, {&obstacles});
   set_thread_count(1);
   const MinimiseResult one = minimise(model, start);
   set_thread_count(3);

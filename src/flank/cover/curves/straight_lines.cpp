@@ -21,7 +21,7 @@ Pose line_through(const IntegralCurve& curve) {
   return {mean - mean_s * axis, axis};
 }
 
-std::optional<StraightLine> straight_line(const IntegralCurve& curve, LineFitter& fitter, const LineGuard& guard,
+std::optional<StraightLine> straight_line(const IntegralCurve& curve, LineFitter& fitter, const PoseGuard& guard,
                                           const StraightLineOptions& options) {
   const double length = fitter.axis_length();
   if (curve.s.size() < 2 || curve.span() < options.least_span * length) return std::nullopt;

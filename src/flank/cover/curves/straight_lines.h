@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "flank/cover/curves/integral_curves.h"
-#include "flank/obstacle/line_guard.h"
+#include "flank/obstacle/pose_guard.h"
 #include "flank/seed/movability.h"
 #include "flank/strip/line_fit.h"
 
@@ -39,6 +39,6 @@ struct StraightLine {
 /// The line of a curve, or nothing if it is rejected. Lines that another face forbids slide along themselves until
 /// they are clear, and are measured there. `fitter` is scratch.
 [[nodiscard]] std::optional<StraightLine> straight_line(const IntegralCurve& curve, LineFitter& fitter,
-                                                        const LineGuard& guard, const StraightLineOptions& options);
+                                                        const PoseGuard& guard, const StraightLineOptions& options);
 
 }  // namespace flank::internal

@@ -138,7 +138,7 @@ std::vector<FacePoint> check_points(const TileScene& scene, const std::vector<Co
     const RuledMotion& motion = strips[k].motion;
     const int poses = depth_poses(motion);
     for (int i = 0; i <= poses; ++i) {
-      const LineClearance at =
+      const SlideClearance at =
           scene.guard.measure(motion.pose(static_cast<double>(i) / poses), kObstacleHorizon * tolerance);
       if (at.clearance_mm < kObstacleHorizon * tolerance)
         found[k].push_back({.point = at.point,

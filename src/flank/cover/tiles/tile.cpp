@@ -62,7 +62,7 @@ CoverStrip strip_near(const TileScene& scene, LineFitter& fitter, const Pose& po
       measure_strip(scene.samples, motion_through(grown.poses, length, kGrownControlPoints), scene.radial, fitter);
   // Its poses are clear; what lies between them is checked for the strips that are chosen: a guard without obstacles
   // here.
-  return cut_to_certified(scene.samples, LineGuard(), std::move(strip), scene.radial, fitter);
+  return cut_to_certified(scene.samples, PoseGuard(), std::move(strip), scene.radial, fitter);
 }
 
 /// Strips beside `strip`, past its tip and past its holder end, that add to what is covered: the best of each side, two

@@ -21,7 +21,7 @@ struct TileScene {
   const Target& target;
   const RadialFunction& radial;
   const CoverSamples& samples;
-  const LineGuard& guard;
+  const PoseGuard& guard;
   const CoverOptions& options;
   /// Of the axis, where lines and depths are measured, >= 2. Few while candidates are grown; certificates take 81
   /// (cover.cpp), because ripples of a spline at its border slip between few.

@@ -121,7 +121,7 @@ ConstrainedResult minimise_constrained(const ConstrainedProblem& problem, const 
   FLANK_ASSERT(options.allowed_overcut_mm >= 0.0 && options.interior_iterations > 0);
   const auto model_of = [&](const std::vector<FacePoint>& points) {
     return SweptModel(points, problem.targets, start, problem.free_parameters, problem.bounds, problem.stage,
-                      problem.checks);
+                      problem.obstacles);
   };
   const SweptModel probe = model_of(problem.dense);
   std::vector<FacePoint> points = problem.points;

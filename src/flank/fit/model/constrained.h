@@ -32,13 +32,13 @@ struct ConstrainedOptions {
 
 /// What stays the same while points are exchanged.
 struct ConstrainedProblem {
-  std::vector<const Target*> targets;      ///< of each motion; not owned
-  std::vector<const FlankChecks*> checks;  ///< as FitDraft; soft terms of the objective, not limits
-  std::vector<int> free_parameters;        ///< of the tool; empty: the tool is given
-  RadiusBounds bounds;                     ///< soft, as in FitModel
-  FitStage stage;                          ///< weights of the objective; its iterations are not used
-  std::vector<FacePoint> points;           ///< of the objective, and the first constraints
-  std::vector<FacePoint> dense;            ///< where the limits are checked; shares are not used
+  std::vector<const Target*> targets;           ///< of each motion; not owned
+  std::vector<const ObstacleField*> obstacles;  ///< as FitDraft; soft terms of the objective, not limits
+  std::vector<int> free_parameters;             ///< of the tool; empty: the tool is given
+  RadiusBounds bounds;                          ///< soft, as in FitModel
+  FitStage stage;                               ///< weights of the objective; its iterations are not used
+  std::vector<FacePoint> points;                ///< of the objective, and the first constraints
+  std::vector<FacePoint> dense;                 ///< where the limits are checked; shares are not used
 };
 
 struct ConstrainedResult {

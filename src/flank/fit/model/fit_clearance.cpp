@@ -15,25 +15,25 @@ constexpr std::size_t kPosesPerTask = 8;
 
 }  // namespace
 
-void FitModel::locate_checks(FitState& state) const {
-  if (checks_.empty()) return;
+void FitModel::locate_obstacles(FitState& state) const {
+  if (obstacles_.empty()) return;
   const int n = stage_.samples_s;
-  state.checks.resize(targets_.size());
+  state.obstacles.resize(targets_.size());
   std::vector<double> needed(n);
   for (int j = 0; j < n; ++j) needed[j] = std::max(0.0, state.tool.at(s_[j]).r);
   for (std::size_t m = 0; m < targets_.size(); ++m) {
-    if (checks_[m] == nullptr) continue;
-    std::vector<CheckSample>& samples = state.checks[m];
+    if (obstacles_[m] == nullptr) continue;
+    std::vector<ObstacleSample>& samples = state.obstacles[m];
     samples.resize(static_cast<std::size_t>(n * stage_.samples_t));
     parallel_blocks(static_cast<std::size_t>(stage_.samples_t), kPosesPerTask, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const PoseAt pose = pose_at(state.motions[m], times_[i]);
         for (int j = 0; j < n; ++j) {
-          CheckSample& sample = samples[i * static_cast<std::size_t>(n) + static_cast<std::size_t>(j)];
+          ObstacleSample& sample = samples[i * static_cast<std::size_t>(n) + static_cast<std::size_t>(j)];
           const Vec3 p = pose.tip + s_[j] * pose.u;
           // The distance changes by no more than the point moves: what was far enough may still be.
           if (sample.known && sample.nearest.distance_mm - (p - sample.at).norm() > needed[j]) continue;
-          sample = {stage_.clear_estimated ? checks_[m]->estimate(p) : checks_[m]->at(p, needed[j] + kSightMm), p,
+          sample = {stage_.clear_estimated ? obstacles_[m]->estimate(p) : obstacles_[m]->at(p, needed[j] + kSightMm), p,
                     true};
         }
       }
@@ -42,46 +42,46 @@ void FitModel::locate_checks(FitState& state) const {
 }
 
 double FitModel::intrusion(const FitState& state, std::size_t motion, std::size_t k, double radius) const {
-  const CheckDistance& nearest = state.checks[motion][k].nearest;
+  const ObstacleDistance& nearest = state.obstacles[motion][k].nearest;
   // Beyond the horizon nothing is near: distance_mm is the horizon then, which must not be taken for a distance.
-  return nearest.face < 0 ? 0.0 : std::max(0.0, radius - checks_[motion]->allowance_mm() - nearest.distance_mm);
+  return nearest.face < 0 ? 0.0 : std::max(0.0, radius - obstacles_[motion]->allowance_mm() - nearest.distance_mm);
 }
 
-double FitModel::check_cost(const FitState& state) const {
+double FitModel::obstacle_cost(const FitState& state) const {
   const std::size_t n = static_cast<std::size_t>(stage_.samples_s);
   double sum = 0.0;
-  for (std::size_t m = 0; m < checks_.size(); ++m) {
-    if (checks_[m] == nullptr) continue;
-    for (std::size_t k = 0; k < state.checks[m].size(); ++k) {
+  for (std::size_t m = 0; m < obstacles_.size(); ++m) {
+    if (obstacles_[m] == nullptr) continue;
+    for (std::size_t k = 0; k < state.obstacles[m].size(); ++k) {
       const double e = intrusion(state, m, k, state.tool.at(s_[k % n]).r);
       sum += e * e;
     }
   }
-  return sum * check_weight();
+  return sum * obstacle_weight();
 }
 
-double FitModel::check_weight() const {
+double FitModel::obstacle_weight() const {
   return stage_.clear_weight / (static_cast<double>(targets_.size()) * stage_.samples_s * stage_.samples_t);
 }
 
-void FitModel::assemble_checks(const FitState& state, ArrowSystem& system) const {
+void FitModel::assemble_obstacles(const FitState& state, ArrowSystem& system) const {
   const std::size_t n = static_cast<std::size_t>(stage_.samples_s);
-  if (checks_.empty()) return;
+  if (obstacles_.empty()) return;
   Eigen::MatrixXd b;
   tool_gradients(state, b);
   PoseTerms terms;
-  for (std::size_t m = 0; m < checks_.size(); ++m) {
-    for (std::size_t i = 0; checks_[m] != nullptr && i < times_.size(); ++i) {
+  for (std::size_t m = 0; m < obstacles_.size(); ++m) {
+    for (std::size_t i = 0; obstacles_[m] != nullptr && i < times_.size(); ++i) {
       const PoseAt pose = pose_at(state.motions[m], times_[i]);
       terms.matrix.setZero();
       terms.gradient.setZero();
       terms.coupling.setZero(6, tool_parameters_);
       bool any = false;  // most poses are clear of everything: they add nothing
       for (std::size_t j = 0; j < n; ++j) {
-        const double e = intrusion(state, m, i * n + j, state.tool.at(s_[j]).r), w = check_weight();
+        const double e = intrusion(state, m, i * n + j, state.tool.at(s_[j]).r), w = obstacle_weight();
         if (e == 0.0) continue;
         any = true;
-        const Vec3& d = state.checks[m][i * n + j].nearest.gradient;
+        const Vec3& d = state.obstacles[m][i * n + j].nearest.gradient;
         Vec6 g;
         // e = r - allowance - D: de/dpoint = -gradient D, de/dtool = +b; by the pose as in FitModel::row.
         g << -d, (-s_[j] / (axis_length_ * pose.length_w)) * (d - d.dot(pose.u) * pose.u);

@@ -32,16 +32,16 @@ Vec3 distance_gradient(const Vec3& p, const Footpoint& foot) {
 }
 
 FitModel::FitModel(std::vector<const Target*> targets, const FitState& start, std::vector<int> free_parameters,
-                   const RadiusBounds& bounds, const FitStage& stage, std::vector<const FlankChecks*> checks)
+                   const RadiusBounds& bounds, const FitStage& stage, std::vector<const ObstacleField*> obstacles)
     : targets_(std::move(targets)),
-      checks_(std::move(checks)),
+      obstacles_(std::move(obstacles)),
       free_(std::move(free_parameters)),
       bounds_(bounds),
       stage_(stage),
       axis_length_(start.motions.front().axis_length),
       tool_parameters_(static_cast<int>(free_.size())) {
   FLANK_ASSERT(targets_.size() == start.motions.size());
-  FLANK_ASSERT(checks_.empty() || checks_.size() == targets_.size());
+  FLANK_ASSERT(obstacles_.empty() || obstacles_.size() == targets_.size());
   FLANK_ASSERT(stage.samples_t >= 2 && stage.samples_s >= 2);
   FLANK_ASSERT(std::all_of(start.motions.begin(), start.motions.end(),
                            [&](const RuledMotion& m) { return m.tip.count() == stage.control_points; }));
@@ -94,7 +94,7 @@ FitModel::PoseAt FitModel::pose_at(const RuledMotion& motion, const TimeSample& 
 }
 
 void FitModel::locate(FitState& state) const {
-  locate_checks(state);
+  locate_obstacles(state);
   const int n = stage_.samples_s;
   state.feet.resize(targets_.size());
   for (std::size_t m = 0; m < targets_.size(); ++m) {

@@ -15,7 +15,7 @@
 
 #include "flank/envelope/swept_estimate.h"
 #include "flank/fit/solver/arrow_system.h"
-#include "flank/obstacle/flank_checks.h"
+#include "flank/obstacle/obstacle_field.h"
 #include "flank/radial_function.h"
 #include "flank/ruled_motion.h"
 #include "flank/target.h"
@@ -25,8 +25,8 @@ namespace flank::internal {
 /// One motion and the target that its envelope is to be. The pointers are not owned and must outlive the fit.
 struct FitTask {
   const Target* target = nullptr;
-  RuledMotion motion;                   ///< the start
-  const FlankChecks* checks = nullptr;  ///< what its flank must not enter; null: nothing
+  RuledMotion motion;                        ///< the start
+  const ObstacleField* obstacles = nullptr;  ///< what its flank must not enter; null: nothing
 };
 
 /// Bounds on the tool, kept by one-sided terms in the fit; a spline's radii are clamped exactly at the end of a pass.
@@ -90,48 +90,48 @@ struct FitStage {
   /// > 0: factor on the weight of residuals below zero (the tool enters the target). Above 1 if cutting too deep is
   /// worse than leaving material.
   double overcut_weight = 1.0;
-  /// >= 0: of the mean square depth by which the flank enters check faces. MATH section 7 found 30 to 100 to work.
+  /// >= 0: of the mean square depth by which the flank enters obstacles. MATH section 7 found 30 to 100 to work.
   double clear_weight = 30.0;
-  /// Distances to check faces by interpolation (FlankChecks::estimate): faster, good enough for ranking starts.
+  /// Distances to obstacles by interpolation (ObstacleField::estimate): faster, good enough for ranking starts.
   bool clear_estimated = false;
   /// > 0, no unit: the pass ends after two steps in a row that lower the cost by less than this share of it.
   double step_tolerance = 1e-9;
 };
 
-/// The distance from a point of the axis to the check faces, kept between steps: a place nearby is as far from them,
+/// The distance from a point of the axis to the obstacles, kept between steps: a place nearby is as far from them,
 /// less how far it is from `at`.
-struct CheckSample {
-  CheckDistance nearest;
+struct ObstacleSample {
+  ObstacleDistance nearest;
   Vec3 at = Vec3::Zero();  ///< where it was measured, mm
   bool known = false;      ///< false: never measured
 };
 
-/// Everything that changes during a fit. Footpoints, checks and contacts are caches of the last `locate`: they are
+/// Everything that changes during a fit. Footpoints, obstacles and contacts are caches of the last `locate`: they are
 /// hints for the next one, and wrong for anything else once motions or tool have changed.
 struct FitState {
-  std::vector<RuledMotion> motions;              ///< control points are the unknowns
-  RadialFunction tool;                           ///< its free parameters are the others
-  std::vector<std::vector<Footpoint>> feet;      ///< of a FitModel: [motion][i * samples_s + j]
-  std::vector<std::vector<CheckSample>> checks;  ///< [motion][i * samples_s + j]; empty without check faces
-  std::vector<SweptContact> contacts;            ///< of a SweptModel: of each of its points
+  std::vector<RuledMotion> motions;                    ///< control points are the unknowns
+  RadialFunction tool;                                 ///< its free parameters are the others
+  std::vector<std::vector<Footpoint>> feet;            ///< of a FitModel: [motion][i * samples_s + j]
+  std::vector<std::vector<ObstacleSample>> obstacles;  ///< [motion][i * samples_s + j]; empty without obstacles
+  std::vector<SweptContact> contacts;                  ///< of a SweptModel: of each of its points
 };
 
-/// The model: what stays the same during a pass. Immutable after construction; targets and checks are not owned.
+/// The model: what stays the same during a pass. Immutable after construction; targets and obstacles are not owned.
 /// The order of calls for a state is locate, then anything else.
 class FitModel {
  public:
   /// free_parameters: indices of the tool's parameters that may change (none: the tool is given). The motions' rails
-  /// must be clamped cubic over [0, 1] with stage.control_points control points each, all of one axis length. checks:
+  /// must be clamped cubic over [0, 1] with stage.control_points control points each, all of one axis length. obstacles:
   /// of each motion, or none. Anchors and pins hold to `start`.
   FitModel(std::vector<const Target*> targets, const FitState& start, std::vector<int> free_parameters,
-           const RadiusBounds& bounds, const FitStage& stage, std::vector<const FlankChecks*> checks = {});
+           const RadiusBounds& bounds, const FitStage& stage, std::vector<const ObstacleField*> obstacles = {});
 
   /// An empty system of the right size.
   [[nodiscard]] ArrowSystem make_system() const;
   /// Footpoints of all samples, warm from state.feet if it has them, else marched from one cold query per motion.
   void locate(FitState& state) const;
-  /// The part of `locate` that belongs to check faces.
-  void locate_checks(FitState& state) const;
+  /// The part of `locate` that belongs to obstacles.
+  void locate_obstacles(FitState& state) const;
   /// Weight of each sample at this state, [motion][i * samples_s + j]: its share of the mean, by location (inside or
   /// past the border), robust scale and sign. They add up to at most 1 without overcut_weight.
   [[nodiscard]] std::vector<std::vector<double>> sample_weights(const FitState& state) const;
@@ -143,7 +143,7 @@ class FitModel {
   /// State after a step in the system's unknowns; footpoints are kept as hints only.
   [[nodiscard]] FitState moved(const FitState& state, const Eigen::VectorXd& step) const;
 
-  /// The terms that do not look at the targets: fairness, anchors, pins, the tool's bounds, check faces.
+  /// The terms that do not look at the targets: fairness, anchors, pins, the tool's bounds, obstacles.
   [[nodiscard]] double regulariser_cost(const FitState& state) const;
   /// Adds them to the normal equations.
   void assemble_regularisers(const FitState& state, ArrowSystem& system) const;
@@ -186,16 +186,16 @@ class FitModel {
   void tool_gradients(const FitState& state, Eigen::MatrixXd& gradients) const;
   void assemble_rails(const FitState& state, int motion, ArrowSystem& system) const;
   void assemble_tool(const FitState& state, ArrowSystem& system) const;
-  /// By how much the ball of a sample enters a check face beyond the allowance, mm; 0 if it is clear.
+  /// By how much the ball of a sample enters an obstacle beyond the allowance, mm; 0 if it is clear.
   [[nodiscard]] double intrusion(const FitState& state, std::size_t motion, std::size_t k, double radius) const;
-  [[nodiscard]] double check_weight() const;
-  [[nodiscard]] double check_cost(const FitState& state) const;
-  void assemble_checks(const FitState& state, ArrowSystem& system) const;
+  [[nodiscard]] double obstacle_weight() const;
+  [[nodiscard]] double obstacle_cost(const FitState& state) const;
+  void assemble_obstacles(const FitState& state, ArrowSystem& system) const;
   [[nodiscard]] double rail_cost(const FitState& state, int motion) const;
   [[nodiscard]] double tool_cost(const FitState& state) const;
 
   std::vector<const Target*> targets_;
-  std::vector<const FlankChecks*> checks_;  ///< of each motion; empty: none has any
+  std::vector<const ObstacleField*> obstacles_;  ///< of each motion; empty: none has any
   std::vector<int> free_;
   RadiusBounds bounds_;
   FitStage stage_;

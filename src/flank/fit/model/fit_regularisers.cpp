@@ -16,7 +16,7 @@ constexpr double kBoundWeight = 10.0;
 }  // namespace
 
 double FitModel::regulariser_cost(const FitState& state) const {
-  double sum = tool_cost(state) + check_cost(state);
+  double sum = tool_cost(state) + obstacle_cost(state);
   for (std::size_t m = 0; m < targets_.size(); ++m) sum += rail_cost(state, static_cast<int>(m));
   return sum;
 }
@@ -24,7 +24,7 @@ double FitModel::regulariser_cost(const FitState& state) const {
 void FitModel::assemble_regularisers(const FitState& state, ArrowSystem& system) const {
   for (std::size_t m = 0; m < targets_.size(); ++m) assemble_rails(state, static_cast<int>(m), system);
   assemble_tool(state, system);
-  assemble_checks(state, system);
+  assemble_obstacles(state, system);
 }
 
 void FitModel::assemble_rails(const FitState& state, int motion, ArrowSystem& system) const {

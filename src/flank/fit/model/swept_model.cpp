@@ -23,14 +23,14 @@ double cut(double e, double dead_zone) { return e > 0.0 ? std::max(0.0, e - dead
 
 SweptModel::SweptModel(std::vector<FacePoint> points, std::vector<const Target*> targets, const FitState& start,
                        std::vector<int> free_parameters, const RadiusBounds& bounds, const FitStage& stage,
-                       std::vector<const FlankChecks*> checks)
+                       std::vector<const ObstacleField*> obstacles)
     : points_(std::move(points)),
-      base_(std::move(targets), start, free_parameters, bounds, stage, std::move(checks)),
+      base_(std::move(targets), start, free_parameters, bounds, stage, std::move(obstacles)),
       free_(std::move(free_parameters)),
       axis_length_(start.motions.front().axis_length) {}
 
 void SweptModel::locate(FitState& state) const {
-  base_.locate_checks(state);  // of the base model only this: it has no residuals here, so it needs no footpoints
+  base_.locate_obstacles(state);  // of the base model only this: it has no residuals here, so it needs no footpoints
   const SweptEstimate swept(state.motions, state.tool, kPosesPerControlPoint * stage().control_points);
   state.contacts.resize(points_.size());
   parallel_blocks(points_.size(), kChunk, [&](std::size_t begin, std::size_t end) {

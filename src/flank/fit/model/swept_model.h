@@ -30,7 +30,7 @@ struct FacePoint {
   [[nodiscard]] bool one_sided() const { return role != Role::kTouch; }
 };
 
-/// The model; FitModel's other terms (fairness, anchors, pins, bounds, check faces) are the same. Immutable after
+/// The model; FitModel's other terms (fairness, anchors, pins, bounds, obstacles) are the same. Immutable after
 /// construction. The order of calls for a state is locate, then anything else.
 class SweptModel {
  public:
@@ -38,7 +38,7 @@ class SweptModel {
   /// of material that cannot be reached (f > 0), overcut_weight multiplies points to be touched with f < 0.
   SweptModel(std::vector<FacePoint> points, std::vector<const Target*> targets, const FitState& start,
              std::vector<int> free_parameters, const RadiusBounds& bounds, const FitStage& stage,
-             std::vector<const FlankChecks*> checks = {});
+             std::vector<const ObstacleField*> obstacles = {});
 
   [[nodiscard]] ArrowSystem make_system() const { return base_.make_system(); }
   /// Fills state.contacts: the nearest place of the swept tool to each point, refined; the last contacts are hints.

@@ -1,5 +1,5 @@
 // Boxes over triangles: nothing outside its box, nothing twice, and a search through them finds what brute force finds.
-#include "flank/obstacle/check_tree.h"
+#include "flank/obstacle/triangle_tree.h"
 
 #include <gtest/gtest.h>
 
@@ -16,12 +16,12 @@ Vec3 random_point(Random& random, double size) {
 }
 
 /// `count` small triangles; `surface` numbers them in the order in which they are handed over.
-std::vector<CheckTree::Triangle> scattered(int count, const Vec3& middle, std::uint64_t seed) {
+std::vector<TriangleTree::Triangle> scattered(int count, const Vec3& middle, std::uint64_t seed) {
   Random random(seed);
-  std::vector<CheckTree::Triangle> triangles;
+  std::vector<TriangleTree::Triangle> triangles;
   for (int k = 0; k < count; ++k) {
     const Vec3 at = middle + random_point(random, 40.0);
-    CheckTree::Triangle triangle;
+    TriangleTree::Triangle triangle;
     for (Vec3& corner : triangle.corners) corner = at + random_point(random, 2.0);
     triangle.surface = k;
     triangle.slack_mm = 0.001 * ((7 * k) % count);
@@ -30,13 +30,13 @@ std::vector<CheckTree::Triangle> scattered(int count, const Vec3& middle, std::u
   return triangles;
 }
 
-bool is_in(const CheckTree::Node& node, const Vec3& x) {
+bool is_in(const TriangleTree::Node& node, const Vec3& x) {
   return ((x - node.center).cwiseAbs().array() <= node.half.array()).all();
 }
 
 /// A node's triangles lie in its box, its children share them out between them, and leaves are small.
-void expect_sound(const CheckTree& tree, int index) {
-  const CheckTree::Node& node = tree.nodes()[static_cast<std::size_t>(index)];
+void expect_sound(const TriangleTree& tree, int index) {
+  const TriangleTree::Node& node = tree.nodes()[static_cast<std::size_t>(index)];
   for (int k = node.first; k < node.end; ++k)
     for (const Vec3& corner : tree.triangles()[static_cast<std::size_t>(k)].corners)
       ASSERT_TRUE(is_in(node, corner)) << "node " << index << ", triangle " << k;
@@ -45,8 +45,8 @@ void expect_sound(const CheckTree& tree, int index) {
     EXPECT_GT(node.end, node.first);
     return;
   }
-  const CheckTree::Node& left = tree.nodes()[static_cast<std::size_t>(index) + 1];
-  const CheckTree::Node& right = tree.nodes()[static_cast<std::size_t>(node.second)];
+  const TriangleTree::Node& left = tree.nodes()[static_cast<std::size_t>(index) + 1];
+  const TriangleTree::Node& right = tree.nodes()[static_cast<std::size_t>(node.second)];
   EXPECT_EQ(left.first, node.first);
   EXPECT_EQ(left.end, right.first);
   EXPECT_EQ(right.end, node.end);
@@ -55,24 +55,24 @@ void expect_sound(const CheckTree& tree, int index) {
   expect_sound(tree, node.second);
 }
 
-double box_distance(const CheckTree::Node& node, const Vec3& x) {
+double box_distance(const TriangleTree::Node& node, const Vec3& x) {
   return ((x - node.center).cwiseAbs() - node.half).cwiseMax(0.0).norm();
 }
 
-double corner_distance(const CheckTree::Triangle& triangle, const Vec3& x) {
+double corner_distance(const TriangleTree::Triangle& triangle, const Vec3& x) {
   double least = 1e300;
   for (const Vec3& corner : triangle.corners) least = std::min(least, (corner - x).norm());
   return least;
 }
 
 /// The nearest corner by the boxes; `visited` counts the triangles that were looked at.
-double nearest_by_tree(const CheckTree& tree, const Vec3& x, int& visited) {
+double nearest_by_tree(const TriangleTree& tree, const Vec3& x, int& visited) {
   double least = 1e300;
   std::vector<int> stack = {0};
   while (!stack.empty()) {
     const int index = stack.back();
     stack.pop_back();
-    const CheckTree::Node& node = tree.nodes()[static_cast<std::size_t>(index)];
+    const TriangleTree::Node& node = tree.nodes()[static_cast<std::size_t>(index)];
     if (box_distance(node, x) > least) continue;
     if (node.second >= 0) {
       std::array<int, 2> children = {index + 1, node.second};
@@ -87,17 +87,17 @@ double nearest_by_tree(const CheckTree& tree, const Vec3& x, int& visited) {
   return least;
 }
 
-TEST(CheckTree, IsEmptyWithoutTriangles) {
-  EXPECT_TRUE(CheckTree().empty());
-  const CheckTree tree{std::vector<CheckTree::Triangle>{}};
+TEST(TriangleTree, IsEmptyWithoutTriangles) {
+  EXPECT_TRUE(TriangleTree().empty());
+  const TriangleTree tree{std::vector<TriangleTree::Triangle>{}};
   EXPECT_TRUE(tree.empty());
   EXPECT_TRUE(tree.nodes().empty());
   EXPECT_EQ(tree.largest_slack(), 0.0);
 }
 
-TEST(CheckTree, EveryTriangleIsInTheBoxesAboveItAndInOneLeaf) {
+TEST(TriangleTree, EveryTriangleIsInTheBoxesAboveItAndInOneLeaf) {
   for (const int count : {1, 4, 5, 8, 9, 100, 777}) {
-    const CheckTree tree(scattered(count, Vec3::Zero(), 5));
+    const TriangleTree tree(scattered(count, Vec3::Zero(), 5));
     ASSERT_FALSE(tree.empty());
     EXPECT_EQ(tree.nodes().front().first, 0);
     EXPECT_EQ(tree.nodes().front().end, count);
@@ -105,10 +105,10 @@ TEST(CheckTree, EveryTriangleIsInTheBoxesAboveItAndInOneLeaf) {
   }
 }
 
-TEST(CheckTree, KeepsEveryTriangleAsItWas) {
-  const std::vector<CheckTree::Triangle> given = scattered(300, Vec3::Zero(), 9);
-  const CheckTree tree(given);
-  std::vector<CheckTree::Triangle> kept = tree.triangles();
+TEST(TriangleTree, KeepsEveryTriangleAsItWas) {
+  const std::vector<TriangleTree::Triangle> given = scattered(300, Vec3::Zero(), 9);
+  const TriangleTree tree(given);
+  std::vector<TriangleTree::Triangle> kept = tree.triangles();
   ASSERT_EQ(kept.size(), given.size());
   std::sort(kept.begin(), kept.end(), [](const auto& a, const auto& b) { return a.surface < b.surface; });
   for (std::size_t k = 0; k < given.size(); ++k) {
@@ -119,42 +119,43 @@ TEST(CheckTree, KeepsEveryTriangleAsItWas) {
   EXPECT_EQ(tree.largest_slack(), 0.299);
 }
 
-TEST(CheckTree, RoundingLetsNoCornerOutFarFromTheOrigin) {
+TEST(TriangleTree, RoundingLetsNoCornerOutFarFromTheOrigin) {
   for (const double far : {1e3, 1e6, 1e9}) {
-    const CheckTree tree(scattered(200, Vec3(far, -0.3 * far, 0.7 * far), 21));
+    const TriangleTree tree(scattered(200, Vec3(far, -0.3 * far, 0.7 * far), 21));
     expect_sound(tree, 0);
   }
 }
 
-TEST(CheckTree, ASearchThroughItFindsTheNearest) {
-  const CheckTree tree(scattered(1000, Vec3(10.0, 0.0, -5.0), 33));
+TEST(TriangleTree, ASearchThroughItFindsTheNearest) {
+  const TriangleTree tree(scattered(1000, Vec3(10.0, 0.0, -5.0), 33));
   Random random(2);
   int visited = 0;
   constexpr int kQueries = 100;
   for (int i = 0; i < kQueries; ++i) {
     const Vec3 x = Vec3(10.0, 0.0, -5.0) + random_point(random, 60.0);
     double brute = 1e300;
-    for (const CheckTree::Triangle& triangle : tree.triangles()) brute = std::min(brute, corner_distance(triangle, x));
+    for (const TriangleTree::Triangle& triangle : tree.triangles())
+      brute = std::min(brute, corner_distance(triangle, x));
     EXPECT_EQ(nearest_by_tree(tree, x, visited), brute);
   }
   EXPECT_LT(visited, kQueries * 200) << "a fifth of all triangles at most: else the boxes are of no use";
 }
 
-TEST(CheckTree, DividesTrianglesThatShareTheirMiddle) {
+TEST(TriangleTree, DividesTrianglesThatShareTheirMiddle) {
   // All alike: no direction separates them, and the halves are halves all the same.
-  std::vector<CheckTree::Triangle> triangles(50);
-  for (CheckTree::Triangle& triangle : triangles) triangle.corners = {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
-  const CheckTree tree(triangles);
+  std::vector<TriangleTree::Triangle> triangles(50);
+  for (TriangleTree::Triangle& triangle : triangles) triangle.corners = {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
+  const TriangleTree tree(triangles);
   expect_sound(tree, 0);
 }
 
-TEST(CheckTree, TakesPointsAsTriangles) {
-  std::vector<CheckTree::Triangle> triangles;
+TEST(TriangleTree, TakesPointsAsTriangles) {
+  std::vector<TriangleTree::Triangle> triangles;
   for (int k = 0; k < 64; ++k) {
     const Vec3 x(k % 4, k / 4 % 4, k / 16);
     triangles.push_back({{x, x, x}, k, 0.25});
   }
-  const CheckTree tree(triangles);
+  const TriangleTree tree(triangles);
   expect_sound(tree, 0);
   EXPECT_EQ(tree.largest_slack(), 0.25);
   int visited = 0;

@@ -1,4 +1,4 @@
-#include "flank/obstacle/line_guard.h"
+#include "flank/obstacle/pose_guard.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,7 +35,7 @@ bool is_far(const Target& solid, const Vec3& p, double reach) {
 
 }  // namespace
 
-LineGuard::LineGuard(const Tool& tool, const CoverObstacles& obstacles, double floor_mm)
+PoseGuard::PoseGuard(const Tool& tool, const Obstacles& obstacles, double floor_mm)
     : obstacles_(&obstacles),
       ball_radius_(tool.radial.smallest()),
       radial_(tool.radial),
@@ -45,7 +45,7 @@ LineGuard::LineGuard(const Tool& tool, const CoverObstacles& obstacles, double f
   // only.
   const bool above = !tool.shank.empty() || !tool.holder.empty();
   if (std::any_of(obstacles.surfaces.begin(), obstacles.surfaces.end(),
-                  [&](const CheckSurface& c) { return above || !c.flank_may_touch; }))
+                  [&](const ObstacleMesh& c) { return above || !c.flank_may_touch; }))
     checker_ = std::make_shared<const PoseChecker>(tool, obstacles.surfaces);
   if (obstacles.surfaces.empty()) return;
   Tool ball;
@@ -57,8 +57,8 @@ LineGuard::LineGuard(const Tool& tool, const CoverObstacles& obstacles, double f
 /// Replaces `result` if some sphere on the axis is closer to `solid` than `enough_mm` and than what `result` has. A
 /// distance is 1-Lipschitz, so where there is room the walk along the axis takes longer steps. Accuracy: half the
 /// shortest step. kWhether ends at the first sphere that is too close.
-void LineGuard::measure_solid(const Target& solid, const Pose& pose, double enough_mm, Ask ask,
-                              LineClearance& result) const {
+void PoseGuard::measure_solid(const Target& solid, const Pose& pose, double enough_mm, Ask ask,
+                              SlideClearance& result) const {
   const double length = radial_.axis_length(), shortest = kShortestStepShare * length;
   for (double s = length, room = 0.0; s >= 0.0;) {
     const Vec3 p = pose.at(s);
@@ -80,18 +80,18 @@ void LineGuard::measure_solid(const Target& solid, const Pose& pose, double enou
   }
 }
 
-bool LineGuard::clear(const Pose& pose) const {
+bool PoseGuard::clear(const Pose& pose) const {
   if (!obstacles_) return true;
   for (const auto& solid : obstacles_->solids) {
-    LineClearance found;
+    SlideClearance found;
     measure_solid(*solid, pose, floor_mm_, Ask::kWhether, found);
     if (found.clearance_mm < floor_mm_) return false;
   }
   return !checker_ || checker_->is_free(pose, floor_mm_);
 }
 
-LineClearance LineGuard::measure(const Pose& pose, double horizon_mm) const {
-  LineClearance result;
+SlideClearance PoseGuard::measure(const Pose& pose, double horizon_mm) const {
+  SlideClearance result;
   if (!obstacles_) return result;
   for (const auto& solid : obstacles_->solids) measure_solid(*solid, pose, horizon_mm, Ask::kLeast, result);
   if (!checker_) return result;
@@ -101,7 +101,7 @@ LineClearance LineGuard::measure(const Pose& pose, double horizon_mm) const {
   return result;
 }
 
-bool LineGuard::ball_is_clear(const Vec3& center) const {
+bool PoseGuard::ball_is_clear(const Vec3& center) const {
   if (!obstacles_) return true;
   const double reach = ball_radius_ + floor_mm_;
   for (const auto& solid : obstacles_->solids)
@@ -109,14 +109,14 @@ bool LineGuard::ball_is_clear(const Vec3& center) const {
   return !ball_checker_ || ball_checker_->is_free({center, Vec3::UnitZ()}, floor_mm_);
 }
 
-Pose slid_clear(const LineGuard& guard, const Pose& pose, double reach_mm) {
+Pose slid_clear(const PoseGuard& guard, const Pose& pose, double reach_mm) {
   FLANK_ASSERT(reach_mm >= 0.0);
   if (guard.clear(pose)) return pose;
   const double wanted = guard.floor_mm() + kSlideMargin * std::abs(guard.floor_mm());
   Pose at = pose;
   double slide = 0.0;
   for (int k = 0; k < kSlideSteps; ++k) {
-    const LineClearance found =
+    const SlideClearance found =
         guard.measure(at, std::max(kLeastHorizonMm, kHorizonFloors * std::abs(guard.floor_mm())));
     if (found.clearance_mm >= guard.floor_mm() || std::abs(found.slide_gain) < kLeastGain) return at;
     slide = std::clamp(slide + (wanted - found.clearance_mm) / found.slide_gain, -reach_mm, reach_mm);

@@ -1,5 +1,5 @@
 // Poses against closed solids and faces: depth, slide, and the tool that lies wholly inside.
-#include "flank/obstacle/line_guard.h"
+#include "flank/obstacle/pose_guard.h"
 
 #include <gtest/gtest.h>
 
@@ -33,44 +33,44 @@ std::shared_ptr<const Target> ball() {
   return make_target(std::move(mesh));
 }
 
-TEST(LineGuard, WithoutObstaclesEverythingIsClear) {
-  const LineGuard guard;
+TEST(PoseGuard, WithoutObstaclesEverythingIsClear) {
+  const PoseGuard guard;
   EXPECT_TRUE(guard.clear(Pose{}));
   EXPECT_TRUE(guard.ball_is_clear(Vec3::Zero()));
 }
 
-TEST(LineGuard, SeesDepthInAClosedSolid) {
-  CoverObstacles obstacles;
+TEST(PoseGuard, SeesDepthInAClosedSolid) {
+  Obstacles obstacles;
   obstacles.solids.push_back(ball());
   const Tool tool = testing::cylinder(2.0, 10.0);
-  const LineGuard guard(tool, obstacles, -0.01);
+  const PoseGuard guard(tool, obstacles, -0.01);
   const Vec3 x = Vec3::UnitX();
   EXPECT_TRUE(guard.clear({22.1 * x, x}));
   EXPECT_FALSE(guard.clear({21.9 * x, x}));
   EXPECT_FALSE(guard.clear({-3.0 * x, x})) << "a tool wholly inside touches no face, and is not clear";
-  const LineClearance found = guard.measure({21.5 * x, x}, 1.0);
+  const SlideClearance found = guard.measure({21.5 * x, x}, 1.0);
   EXPECT_NEAR(found.clearance_mm, -0.5, 0.02);
   EXPECT_NEAR(found.slide_gain, 1.0, 1e-3);
   EXPECT_TRUE(guard.ball_is_clear(22.1 * x));
   EXPECT_FALSE(guard.ball_is_clear(21.9 * x));
 }
 
-TEST(LineGuard, FindsTheDeepestPlaceOfTheAxis) {
-  CoverObstacles obstacles;
+TEST(PoseGuard, FindsTheDeepestPlaceOfTheAxis) {
+  Obstacles obstacles;
   obstacles.solids.push_back(ball());
-  const LineGuard guard(testing::cylinder(2.0, 60.0), obstacles, -0.01);
+  const PoseGuard guard(testing::cylinder(2.0, 60.0), obstacles, -0.01);
   // Grazing the ball and deep in it: the middle of the axis is deepest, not an end.
   for (const double height : {21.0, 15.0, 10.0}) {
-    const LineClearance found = guard.measure({Vec3(-33.0, height, 0.0), Vec3::UnitX()}, 5.0);
+    const SlideClearance found = guard.measure({Vec3(-33.0, height, 0.0), Vec3::UnitX()}, 5.0);
     EXPECT_NEAR(found.clearance_mm, height - 22.0, 0.1) << height;
     EXPECT_NEAR(found.slide_gain, 0.0, 0.1) << height;
   }
 }
 
-TEST(LineGuard, SlidesOutAlongTheAxis) {
-  CoverObstacles obstacles;
+TEST(PoseGuard, SlidesOutAlongTheAxis) {
+  Obstacles obstacles;
   obstacles.solids.push_back(ball());
-  const LineGuard guard(testing::cylinder(2.0, 10.0), obstacles, -0.01);
+  const PoseGuard guard(testing::cylinder(2.0, 10.0), obstacles, -0.01);
   const Vec3 axis = Vec3(1.0, 0.2, 0.0).normalized();
   const Pose deep{Vec3(20.5, 0.0, 0.0), axis};
   ASSERT_FALSE(guard.clear(deep));
@@ -82,19 +82,19 @@ TEST(LineGuard, SlidesOutAlongTheAxis) {
 }
 
 // The reachable part of a target is asked for with this ball: at the waist of a tool, not at a sample of its axis.
-TEST(LineGuard, TheBallHasTheSmallestRadius) {
+TEST(PoseGuard, TheBallHasTheSmallestRadius) {
   const double radius = 5.0, slope = 0.00731, bend = 0.01;
   Tool tool;
   tool.radial = RadialFunction(ToolFamily::kHyperbolic, 20.0, Eigen::Vector3d(radius, slope, bend));
-  EXPECT_NEAR(LineGuard(tool, CoverObstacles{}, 0.0).ball_radius(), radius - slope * slope / (4.0 * bend), 1e-12);
+  EXPECT_NEAR(PoseGuard(tool, Obstacles{}, 0.0).ball_radius(), radius - slope * slope / (4.0 * bend), 1e-12);
 }
 
-TEST(LineGuard, AsksTriangles) {
-  CoverObstacles obstacles;
-  CheckSurface wall;
+TEST(PoseGuard, AsksTriangles) {
+  Obstacles obstacles;
+  ObstacleMesh wall;
   wall.mesh = {{Vec3(-50.0, -50.0, 0.0), Vec3(50.0, -50.0, 0.0), Vec3(0.0, 80.0, 0.0)}, {{0, 1, 2}}};
   obstacles.surfaces.push_back(wall);
-  const LineGuard guard(testing::cylinder(2.0, 10.0), obstacles, -0.01);
+  const PoseGuard guard(testing::cylinder(2.0, 10.0), obstacles, -0.01);
   EXPECT_TRUE(guard.clear({Vec3(0.0, 0.0, 2.1), Vec3::UnitZ()}));
   EXPECT_FALSE(guard.clear({Vec3(0.0, 0.0, 1.9), Vec3::UnitZ()}));
   EXPECT_TRUE(guard.ball_is_clear(Vec3(0.0, 0.0, 2.1)));

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "flank/obstacle/flank_checks.h"
+#include "flank/obstacle/obstacle_field.h"
 
 namespace flank::internal::testing {
 
@@ -25,14 +25,14 @@ inline std::unique_ptr<Target> standing_blade(double bottom) {
 }
 
 /// The hub: the plane z = 0 with its normal up, far past the blade; `turned` points it down.
-inline CheckFace hub(bool oriented, bool turned = false) {
+inline ObstacleFace hub(bool oriented, bool turned = false) {
   Face face = quad(Vec3(-50, -50, 0), Vec3(110, -50, 0), Vec3(-50, 50, 0), Vec3(110, 50, 0), "F2");
   face.reversed = turned;
   return {make_target({face}), oriented};
 }
 
-inline std::vector<CheckFace> only(CheckFace face) {
-  std::vector<CheckFace> faces;
+inline std::vector<ObstacleFace> only(ObstacleFace face) {
+  std::vector<ObstacleFace> faces;
   faces.push_back(std::move(face));
   return faces;
 }

@@ -1,5 +1,5 @@
 // What the flank must not enter: which faces are walls, distances against every face asked alone, gradients, reach.
-#include "flank/obstacle/flank_checks.h"
+#include "flank/obstacle/obstacle_field.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "flank/base/parallel.h"
 #include "flank/base/random.h"
 #include "flank/threads.h"
-#include "obstacle/check_scene.h"
+#include "obstacle/obstacle_scene.h"
 
 namespace flank::internal {
 namespace {
@@ -20,45 +20,45 @@ using testing::standing_blade;
 
 constexpr double kFar = 1e3;
 
-TEST(FlankChecks, HubIsAWallBehindWhichDistancesAreNegative) {
+TEST(ObstacleField, HubIsAWallBehindWhichDistancesAreNegative) {
   const auto blade = standing_blade(0.0);
-  const FlankChecks checks(only(hub(true)), *blade, 2.0, 0.0);
-  EXPECT_EQ(checks.sign(0), +1);
-  EXPECT_NEAR(checks.at(Vec3(30, 5, 4), kFar).distance_mm, 4.0, 1e-9);
-  EXPECT_NEAR(checks.at(Vec3(30, 5, -7), kFar).distance_mm, -7.0, 1e-9);
+  const ObstacleField obstacles(only(hub(true)), *blade, 2.0, 0.0);
+  EXPECT_EQ(obstacles.sign(0), +1);
+  EXPECT_NEAR(obstacles.at(Vec3(30, 5, 4), kFar).distance_mm, 4.0, 1e-9);
+  EXPECT_NEAR(obstacles.at(Vec3(30, 5, -7), kFar).distance_mm, -7.0, 1e-9);
   // However deep, and however short the sight.
-  EXPECT_NEAR(checks.at(Vec3(30, 5, -7), 1.0).distance_mm, -7.0, 1e-9);
-  EXPECT_EQ(checks.at(Vec3(30, 5, 9), 3.0).face, -1);
+  EXPECT_NEAR(obstacles.at(Vec3(30, 5, -7), 1.0).distance_mm, -7.0, 1e-9);
+  EXPECT_EQ(obstacles.at(Vec3(30, 5, 9), 3.0).face, -1);
 }
 
-TEST(FlankChecks, BladeBuriedForAThirdStillSeesTheHubFromOutside) {
+TEST(ObstacleField, BladeBuriedForAThirdStillSeesTheHubFromOutside) {
   const auto blade = standing_blade(-18.0);
-  const FlankChecks checks(only(hub(true)), *blade, 2.0, 0.0);
-  EXPECT_EQ(checks.sign(0), +1);
+  const ObstacleField obstacles(only(hub(true)), *blade, 2.0, 0.0);
+  EXPECT_EQ(obstacles.sign(0), +1);
 }
 
-TEST(FlankChecks, FaceWithoutOrientationIsTurnedToTheTarget) {
+TEST(ObstacleField, FaceWithoutOrientationIsTurnedToTheTarget) {
   const auto blade = standing_blade(0.0);
   for (const bool turned : {false, true}) {
-    const FlankChecks checks(only(hub(false, turned)), *blade, 2.0, 0.0);
-    EXPECT_EQ(checks.sign(0), turned ? -1 : +1);
-    EXPECT_NEAR(checks.at(Vec3(30, 5, 4), kFar).distance_mm, 4.0, 1e-9);
-    EXPECT_NEAR(checks.at(Vec3(30, 5, -7), kFar).distance_mm, -7.0, 1e-9);
+    const ObstacleField obstacles(only(hub(false, turned)), *blade, 2.0, 0.0);
+    EXPECT_EQ(obstacles.sign(0), turned ? -1 : +1);
+    EXPECT_NEAR(obstacles.at(Vec3(30, 5, 4), kFar).distance_mm, 4.0, 1e-9);
+    EXPECT_NEAR(obstacles.at(Vec3(30, 5, -7), kFar).distance_mm, -7.0, 1e-9);
   }
 }
 
-TEST(FlankChecks, TheBladesOwnBackIsLeftOut) {
+TEST(ObstacleField, TheBladesOwnBackIsLeftOut) {
   const auto blade = standing_blade(0.0);
   // One millimetre behind the target, its normal away from it.
   const Face back = quad(Vec3(0, -1, 0), Vec3(60, -1, 0), Vec3(0, -1, 40), Vec3(60, -1, 40), "F3");
-  const FlankChecks checks(only({make_target({back}), true}), *blade, 2.0, 0.0);
-  EXPECT_EQ(checks.sign(0), 0);
-  EXPECT_EQ(checks.at(Vec3(30, 0.5, 20), kFar).face, -1);
+  const ObstacleField obstacles(only({make_target({back}), true}), *blade, 2.0, 0.0);
+  EXPECT_EQ(obstacles.sign(0), 0);
+  EXPECT_EQ(obstacles.at(Vec3(30, 0.5, 20), kFar).face, -1);
 }
 
 /// Hub, a neighbour that leans over, and a small face beside both.
-std::vector<CheckFace> channel() {
-  std::vector<CheckFace> faces = only(hub(true));
+std::vector<ObstacleFace> channel() {
+  std::vector<ObstacleFace> faces = only(hub(true));
   const Face neighbour = quad(Vec3(0, 12, 0), Vec3(60, 14, 0), Vec3(0, 9, 40), Vec3(60, 16, 40), "F3");
   faces.push_back({make_target({neighbour}), true});
   const Face fin = quad(Vec3(-5, 0, 5), Vec3(-5, 8, 5), Vec3(-5, 0, 20), Vec3(-4, 8, 20), "F4");
@@ -66,34 +66,34 @@ std::vector<CheckFace> channel() {
   return faces;
 }
 
-TEST(FlankChecks, LatticeAnswersAsEveryFaceAskedAlone) {
+TEST(ObstacleField, LatticeAnswersAsEveryFaceAskedAlone) {
   const auto blade = standing_blade(0.0);
-  const FlankChecks checks(channel(), *blade, 2.0, 0.0);
-  std::vector<FlankChecks> alone;
-  for (CheckFace& face : channel()) alone.emplace_back(only(std::move(face)), *blade, 2.0, 0.0);
+  const ObstacleField obstacles(channel(), *blade, 2.0, 0.0);
+  std::vector<ObstacleField> alone;
+  for (ObstacleFace& face : channel()) alone.emplace_back(only(std::move(face)), *blade, 2.0, 0.0);
   Random random(7);
   for (int k = 0; k < 4000; ++k) {
     const Vec3 p(random.uniform(-3.0, 63.0), random.uniform(0.5, 20.0), random.uniform(-4.0, 44.0));
     double least = kFar;
-    for (const FlankChecks& one : alone) least = std::min(least, one.at(p, kFar).distance_mm);
-    EXPECT_NEAR(checks.at(p, kFar).distance_mm, least, 1e-9);
+    for (const ObstacleField& one : alone) least = std::min(least, one.at(p, kFar).distance_mm);
+    EXPECT_NEAR(obstacles.at(p, kFar).distance_mm, least, 1e-9);
     const double horizon = random.uniform(0.5, 6.0);
-    EXPECT_NEAR(checks.at(p, horizon).distance_mm, std::min(least, horizon), 1e-9);
+    EXPECT_NEAR(obstacles.at(p, horizon).distance_mm, std::min(least, horizon), 1e-9);
   }
 }
 
-TEST(FlankChecks, GradientIsTheDerivative) {
+TEST(ObstacleField, GradientIsTheDerivative) {
   const auto blade = standing_blade(0.0);
-  const FlankChecks checks(channel(), *blade, 2.0, 0.0);
+  const ObstacleField obstacles(channel(), *blade, 2.0, 0.0);
   Random random(9);
   constexpr double kStep = 1e-5;
   int tried = 0;
   for (int k = 0; k < 500; ++k) {
     const Vec3 p(random.uniform(2.0, 58.0), random.uniform(1.0, 8.0), random.uniform(-4.0, 38.0));
-    const CheckDistance here = checks.at(p, kFar);
+    const ObstacleDistance here = obstacles.at(p, kFar);
     for (int axis = 0; axis < 3; ++axis) {
       const Vec3 d = kStep * Vec3::Unit(axis);
-      const CheckDistance plus = checks.at(p + d, kFar), minus = checks.at(p - d, kFar);
+      const ObstacleDistance plus = obstacles.at(p + d, kFar), minus = obstacles.at(p - d, kFar);
       if (plus.face != minus.face) continue;  // as near to two faces
       EXPECT_NEAR(here.gradient[axis], (plus.distance_mm - minus.distance_mm) / (2.0 * kStep), 1e-5);
       ++tried;
@@ -102,40 +102,40 @@ TEST(FlankChecks, GradientIsTheDerivative) {
   EXPECT_GT(tried, 1000);
 }
 
-TEST(FlankChecks, EstimateIsNearTheDistance) {
+TEST(ObstacleField, EstimateIsNearTheDistance) {
   const auto blade = standing_blade(0.0);
-  const FlankChecks checks(only(hub(true)), *blade, 2.0, 0.0);
+  const ObstacleField obstacles(only(hub(true)), *blade, 2.0, 0.0);
   Random random(4);
   for (int k = 0; k < 300; ++k) {
     const Vec3 p(random.uniform(0.0, 60.0), random.uniform(0.5, 3.0), random.uniform(-3.0, 39.0));
-    const CheckDistance near = checks.estimate(p);
+    const ObstacleDistance near = obstacles.estimate(p);
     EXPECT_NEAR(near.distance_mm, p.z(), 1e-9);  // a plane: interpolation is exact
     EXPECT_LT((near.gradient - Vec3::UnitZ()).norm(), 1e-9);
   }
 }
 
-TEST(FlankChecks, ReachEndsWhereTheBallTouchesTheHub) {
+TEST(ObstacleField, ReachEndsWhereTheBallTouchesTheHub) {
   const auto blade = standing_blade(0.0);
-  const FlankChecks checks(only(hub(true)), *blade, 2.0, 0.0);
+  const ObstacleField obstacles(only(hub(true)), *blade, 2.0, 0.0);
   SurfaceSample sample{Vec3(30, 0, 2.0), Vec3(0, 1, 0)};
-  EXPECT_TRUE(checks.reachable(sample, 1.999, 0.0));
-  EXPECT_FALSE(checks.reachable(sample, 2.001, 0.0));
-  EXPECT_TRUE(checks.reachable(sample, 2.005, 0.01));
+  EXPECT_TRUE(obstacles.reachable(sample, 1.999, 0.0));
+  EXPECT_FALSE(obstacles.reachable(sample, 2.001, 0.0));
+  EXPECT_TRUE(obstacles.reachable(sample, 2.005, 0.01));
   sample.point.z() = -5.0;  // inside the hub
-  EXPECT_FALSE(checks.reachable(sample, 0.5, 0.01));
+  EXPECT_FALSE(obstacles.reachable(sample, 0.5, 0.01));
 }
 
-TEST(FlankChecks, SameAnswersForAnyNumberOfThreads) {
+TEST(ObstacleField, SameAnswersForAnyNumberOfThreads) {
   const auto blade = standing_blade(0.0);
   std::vector<std::vector<double>> answers;
   for (const int threads : {1, 4}) {
     set_thread_count(threads);
-    const FlankChecks checks(channel(), *blade, 2.0, 0.0);
+    const ObstacleField obstacles(channel(), *blade, 2.0, 0.0);
     std::vector<double>& distances = answers.emplace_back(2000);
     parallel_for(distances.size(), [&](std::size_t k) {
       const double a = static_cast<double>(k);
-      distances[k] =
-          checks.at(Vec3(30 + 28 * std::sin(a), 5 + 4 * std::cos(3 * a), 15 + 14 * std::sin(7 * a)), 6.0).distance_mm;
+      distances[k] = obstacles.at(Vec3(30 + 28 * std::sin(a), 5 + 4 * std::cos(3 * a), 15 + 14 * std::sin(7 * a)), 6.0)
+                         .distance_mm;
     });
   }
   set_thread_count(0);

@@ -1,4 +1,4 @@
-#include "flank/obstacle/check_tree.h"
+#include "flank/obstacle/triangle_tree.h"
 
 #include <algorithm>
 #include <utility>
@@ -9,16 +9,16 @@ namespace {
 constexpr int kLeafTriangles = 4;    ///< a node of this few is measured triangle by triangle
 constexpr double kRounding = 1e-14;  ///< of the largest coordinate: several units in the last place
 
-Vec3 middle(const CheckTree::Triangle& t) { return (t.corners[0] + t.corners[1] + t.corners[2]) / 3.0; }
+Vec3 middle(const TriangleTree::Triangle& t) { return (t.corners[0] + t.corners[1] + t.corners[2]) / 3.0; }
 
 }  // namespace
 
-CheckTree::CheckTree(std::vector<Triangle> triangles) : triangles_(std::move(triangles)) {
+TriangleTree::TriangleTree(std::vector<Triangle> triangles) : triangles_(std::move(triangles)) {
   for (const Triangle& t : triangles_) slack_ = std::max(slack_, t.slack_mm);
   if (!triangles_.empty()) build(0, static_cast<int>(triangles_.size()));
 }
 
-int CheckTree::build(int first, int end) {
+int TriangleTree::build(int first, int end) {
   Box3 box, middles;
   for (int k = first; k < end; ++k) {
     const Triangle& t = triangles_[static_cast<std::size_t>(k)];

@@ -9,7 +9,7 @@
 namespace flank::internal {
 
 /// Immutable after construction. Its users walk the nodes themselves, since what bounds a node depends on the body.
-class CheckTree {
+class TriangleTree {
  public:
   struct Node {
     Vec3 center, half;       ///< the box: centre and half its sides, mm
@@ -22,9 +22,9 @@ class CheckTree {
     double slack_mm = 0.0;  ///< the surface may come nearer than the triangle by this
   };
 
-  CheckTree() = default;  ///< empty
+  TriangleTree() = default;  ///< empty
   /// Takes the triangles and sorts them; node 0 is the root.
-  explicit CheckTree(std::vector<Triangle> triangles);
+  explicit TriangleTree(std::vector<Triangle> triangles);
 
   [[nodiscard]] bool empty() const { return triangles_.empty(); }
   [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }

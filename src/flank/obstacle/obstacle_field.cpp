@@ -1,4 +1,4 @@
-#include "flank/obstacle/flank_checks.h"
+#include "flank/obstacle/obstacle_field.h"
 
 #include <algorithm>
 #include <array>
@@ -31,7 +31,7 @@ struct Vote {
 };
 
 /// Which way a face must be turned so that the target's machining side is outside of it; 0 if that is not clear.
-Vote vote(const CheckFace& face, const std::vector<SurfaceSample>& samples, double offset_mm) {
+Vote vote(const ObstacleFace& face, const std::vector<SurfaceSample>& samples, double offset_mm) {
   double outside = 0.0, all = 0.0, area = 0.0;
   for (const SurfaceSample& sample : samples) {
     const Footpoint foot = face.surface->closest(sample.point + offset_mm * sample.normal);
@@ -51,7 +51,7 @@ Vote vote(const CheckFace& face, const std::vector<SurfaceSample>& samples, doub
 
 /// A lattice around the target whose nodes are measured when they are first asked for. A distance also bounds those
 /// nearby, less how far away they are: many questions need no more, the others ask fewer faces and look less far.
-struct FlankChecks::Lattice {
+struct ObstacleField::Lattice {
   /// Along the longest side of the box. At most 120,000 nodes in a cube, found only where a fit asks.
   static constexpr int kPerSide = 48;
   using Faces = std::vector<std::size_t>;
@@ -122,7 +122,8 @@ struct FlankChecks::Lattice {
   std::vector<std::atomic<const Faces*>> faces;
 };
 
-FlankChecks::FlankChecks(std::vector<CheckFace> faces, const Target& target, double offset_mm, double allowance_mm)
+ObstacleField::ObstacleField(std::vector<ObstacleFace> faces, const Target& target, double offset_mm,
+                             double allowance_mm)
     : faces_(std::move(faces)),
       allowance_mm_(allowance_mm),
       signs_(faces_.size(), 0),
@@ -137,20 +138,20 @@ FlankChecks::FlankChecks(std::vector<CheckFace> faces, const Target& target, dou
       if (!votes[k].behind && (votes[k].sign != 0) == walls) order_.push_back(k);
 }
 
-bool FlankChecks::reachable(const SurfaceSample& sample, double radius_mm, double depth_mm) const {
+bool ObstacleField::reachable(const SurfaceSample& sample, double radius_mm, double depth_mm) const {
   FLANK_ASSERT(radius_mm > 0.0 && depth_mm >= 0.0);
   return at(sample.point + radius_mm * sample.normal, radius_mm).distance_mm >= radius_mm - depth_mm;
 }
 
-FlankChecks::~FlankChecks() = default;
-FlankChecks::FlankChecks(FlankChecks&&) noexcept = default;
+ObstacleField::~ObstacleField() = default;
+ObstacleField::ObstacleField(ObstacleField&&) noexcept = default;
 
-double FlankChecks::node_distance(std::ptrdiff_t index, const Vec3& place) const {
+double ObstacleField::node_distance(std::ptrdiff_t index, const Vec3& place) const {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   return lattice_->distance(index, [&] { return search(order_, place, kFar, kFar).distance_mm; });
 }
 
-std::vector<std::size_t> FlankChecks::faces_near(const Vec3& place, double distance_mm) const {
+std::vector<std::size_t> ObstacleField::faces_near(const Vec3& place, double distance_mm) const {
   // A point of the cell is within sqrt(3)/2 steps of the node. So its nearest face is at most that much farther from
   // the node than `distance_mm` plus that much again.
   std::vector<std::size_t> near;
@@ -165,7 +166,7 @@ std::vector<std::size_t> FlankChecks::faces_near(const Vec3& place, double dista
   return near;
 }
 
-CheckDistance FlankChecks::estimate(const Vec3& p) const {
+ObstacleDistance ObstacleField::estimate(const Vec3& p) const {
   std::array<int, 3> corner{};
   std::array<double, 3> share{};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -175,7 +176,7 @@ CheckDistance FlankChecks::estimate(const Vec3& p) const {
     if (!(x >= 0.0) || corner[k] + 1 >= lattice_->count[k]) return at(p, std::numeric_limits<double>::infinity());
   }
   // Trilinear, and its own gradient: not of unit length where the distance bends, but right for what is minimised.
-  CheckDistance sum;
+  ObstacleDistance sum;
   sum.face = 0;
   for (int c = 0; c < 8; ++c) {
     const std::array<int, 3> at{corner[0] + (c & 1), corner[1] + (c >> 1 & 1), corner[2] + (c >> 2)};
@@ -189,27 +190,27 @@ CheckDistance FlankChecks::estimate(const Vec3& p) const {
   return sum;
 }
 
-double FlankChecks::signed_distance(std::size_t face, const Vec3& p, const Footpoint& foot) const {
+double ObstacleField::signed_distance(std::size_t face, const Vec3& p, const Footpoint& foot) const {
   const int sign = signs_[face];
   return foot.location == Location::kInside && sign != 0 ? sign * foot.distance : (p - foot.point).norm();
 }
 
-CheckDistance FlankChecks::at(const Vec3& p, double horizon_mm) const {
+ObstacleDistance ObstacleField::at(const Vec3& p, double horizon_mm) const {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   Vec3 place;
   const std::ptrdiff_t index = lattice_->index(p, place);
   if (index < 0) return search(order_, p, horizon_mm, kFar);
   const double known = node_distance(index, place), off = (p - place).norm();
-  CheckDistance free;
+  ObstacleDistance free;
   free.distance_mm = horizon_mm;
   if (known - off >= horizon_mm) return free;
   const std::vector<std::size_t>& near = lattice_->near(index, [&] { return faces_near(place, known); });
   return search(near, p, horizon_mm, (std::abs(known) + off) * kRounding);
 }
 
-CheckDistance FlankChecks::search(const std::vector<std::size_t>& faces, const Vec3& p, double horizon_mm,
-                                  double sight_mm) const {
-  CheckDistance nearest;
+ObstacleDistance ObstacleField::search(const std::vector<std::size_t>& faces, const Vec3& p, double horizon_mm,
+                                       double sight_mm) const {
+  ObstacleDistance nearest;
   nearest.distance_mm = horizon_mm;
   for (const std::size_t k : faces) {
     const Target& face = *faces_[k].surface;

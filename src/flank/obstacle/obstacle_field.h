@@ -12,21 +12,21 @@
 namespace flank::internal {
 
 /// A face that the flank must not enter.
-struct CheckFace {
+struct ObstacleFace {
   std::unique_ptr<Target> surface;
   bool oriented = false;  ///< its normal points out of the material (the face of a solid)
 };
 
-/// Distance of a point to the nearest check face.
-struct CheckDistance {
+/// Distance of a point to the nearest face.
+struct ObstacleDistance {
   double distance_mm = 0.0;      ///< negative behind a wall; the horizon if nothing is nearer
   Vec3 gradient = Vec3::Zero();  ///< of the distance, a unit vector; zero beyond the horizon
-  int face = -1;                 ///< index of the check face; -1 beyond the horizon; of an estimate: 0
+  int face = -1;                 ///< index of the face; -1 beyond the horizon; of an estimate: 0
 };
 
 /// The faces, and a lattice of distances around the target that is filled when a place is first asked for. Every const
 /// function may be called from many threads at once: nodes are atomics, and every thread computes the same value.
-class FlankChecks {
+class ObstacleField {
  public:
   /// Faces that the flank of a tool on `target` must not enter by more than the allowance. Parts overlap and are open,
   /// so a vote settles which side of a face is material. Voters are points `offset_mm` above the target, where the tool
@@ -34,18 +34,18 @@ class FlankChecks {
   /// most voters see its outer side (docs/decisions/0010); a face without orientation is first turned to where most
   /// are. All other faces have a distance without sign: the blade's own back, signed, would forbid every place in front
   /// of the blade. A face that all voters see from the material's side lies behind the target, and is left out.
-  FlankChecks(std::vector<CheckFace> faces, const Target& target, double offset_mm, double allowance_mm);
+  ObstacleField(std::vector<ObstacleFace> faces, const Target& target, double offset_mm, double allowance_mm);
 
-  ~FlankChecks();
-  FlankChecks(FlankChecks&&) noexcept;
+  ~ObstacleField();
+  ObstacleField(ObstacleField&&) noexcept;
 
   /// Exact distance, if it is below the horizon; asking for less is faster.
-  [[nodiscard]] CheckDistance at(const Vec3& p, double horizon_mm) const;
+  [[nodiscard]] ObstacleDistance at(const Vec3& p, double horizon_mm) const;
   /// The distance (never a horizon) by interpolation in a lattice around the target: accurate to a few hundredths of
   /// the lattice step (1/48 of the target's size), except near points equidistant from two faces. Much faster; for
   /// searches that start rough.
-  [[nodiscard]] CheckDistance estimate(const Vec3& p) const;
-  /// Whether a ball of this radius that touches the target at the sample enters no check face by more than `depth_mm`
+  [[nodiscard]] ObstacleDistance estimate(const Vec3& p) const;
+  /// Whether a ball of this radius that touches the target at the sample enters no obstacle by more than `depth_mm`
   /// (MATH section 9).
   [[nodiscard]] bool reachable(const SurfaceSample& sample, double radius_mm, double depth_mm) const;
   /// How deep the flank may enter, mm, >= 0. Not zero, because the target's border belongs to its neighbours, too: a
@@ -61,11 +61,11 @@ class FlankChecks {
   /// Faces that can be nearest within half a cell of a node with this distance.
   [[nodiscard]] std::vector<std::size_t> faces_near(const Vec3& place, double distance_mm) const;
   /// As at(), of these faces, where nothing that matters is farther than the sight.
-  [[nodiscard]] CheckDistance search(const std::vector<std::size_t>& faces, const Vec3& p, double horizon_mm,
-                                     double sight_mm) const;
+  [[nodiscard]] ObstacleDistance search(const std::vector<std::size_t>& faces, const Vec3& p, double horizon_mm,
+                                        double sight_mm) const;
   [[nodiscard]] double signed_distance(std::size_t face, const Vec3& p, const Footpoint& foot) const;
 
-  std::vector<CheckFace> faces_;
+  std::vector<ObstacleFace> faces_;
   double allowance_mm_;
   std::vector<int> signs_;
   std::vector<std::size_t> order_;  ///< in which they are asked: walls first; those behind the target not at all
