@@ -48,7 +48,7 @@ inline Obstacles triangle_obstacle(const Vec3& a, const Vec3& b, const Vec3& c) 
   Obstacles obstacles;
   ObstacleMesh surface;
   surface.mesh = {{a, b, c}, {{0, 1, 2}}};
-  obstacles.surfaces.push_back(surface);
+  obstacles.meshes.push_back(surface);
   return obstacles;
 }
 /// A wall across a flat target, at this y.

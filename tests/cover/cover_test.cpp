@@ -69,7 +69,7 @@ TEST(Cover, KeepsClearOfAWall) {
   ASSERT_EQ(result.status, CoverStatus::kCovered) << result.message;
   EXPECT_NEAR(result.reachable, 26.0 / 30.0, 0.02);
   EXPECT_GE(result.coverage, 0.97);
-  const PoseChecker checker(tool, obstacles.surfaces);
+  const PoseChecker checker(tool, obstacles.meshes);
   for (const RuledMotion& motion : result.motions)
     for (int i = 0; i <= 400; ++i) EXPECT_TRUE(checker.is_free(motion.pose(i / 400.0), -0.01));
 }

@@ -87,7 +87,7 @@ TEST_F(SmallCover, NoStripEntersAWall) {
   ASSERT_EQ(result.status, CoverStatus::kCovered) << result.message;
   EXPECT_NEAR(result.reachable, 13.0 / 16.0, 0.05) << "a ball of 3 mm keeps its radius from the wall";
   EXPECT_GE(result.coverage, 0.9);
-  const PoseChecker checker(tool_, wall.surfaces);
+  const PoseChecker checker(tool_, wall.meshes);
   for (const RuledMotion& motion : result.motions)
     for (int i = 0; i <= 400; ++i) EXPECT_TRUE(checker.is_free(motion.pose(i / 400.0), -options_.tolerance_mm));
 }

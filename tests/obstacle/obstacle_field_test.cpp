@@ -57,20 +57,20 @@ TEST(ObstacleField, TheBladesOwnBackIsLeftOut) {
 }
 
 /// Hub, a neighbour that leans over, and a small face beside both.
-std::vector<ObstacleFace> channel() {
-  std::vector<ObstacleFace> faces = only(hub(true));
+Obstacles channel() {
+  Obstacles obstacles = only(hub(true));
   const Face neighbour = quad(Vec3(0, 12, 0), Vec3(60, 14, 0), Vec3(0, 9, 40), Vec3(60, 16, 40), "F3");
-  faces.push_back({make_target({neighbour}), true});
+  obstacles.faces.push_back({make_target({neighbour}), true});
   const Face fin = quad(Vec3(-5, 0, 5), Vec3(-5, 8, 5), Vec3(-5, 0, 20), Vec3(-4, 8, 20), "F4");
-  faces.push_back({make_target({fin}), false});
-  return faces;
+  obstacles.faces.push_back({make_target({fin}), false});
+  return obstacles;
 }
 
 TEST(ObstacleField, LatticeAnswersAsEveryFaceAskedAlone) {
   const auto blade = standing_blade(0.0);
   const ObstacleField obstacles(channel(), *blade, 2.0, 0.0);
   std::vector<ObstacleField> alone;
-  for (ObstacleFace& face : channel()) alone.emplace_back(only(std::move(face)), *blade, 2.0, 0.0);
+  for (const ObstacleFace& face : channel().faces) alone.emplace_back(only(face), *blade, 2.0, 0.0);
   Random random(7);
   for (int k = 0; k < 4000; ++k) {
     const Vec3 p(random.uniform(-3.0, 63.0), random.uniform(0.5, 20.0), random.uniform(-4.0, 44.0));

@@ -31,10 +31,10 @@ inline ObstacleFace hub(bool oriented, bool turned = false) {
   return {make_target({face}), oriented};
 }
 
-inline std::vector<ObstacleFace> only(ObstacleFace face) {
-  std::vector<ObstacleFace> faces;
-  faces.push_back(std::move(face));
-  return faces;
+inline Obstacles only(ObstacleFace face) {
+  Obstacles obstacles;
+  obstacles.faces.push_back(std::move(face));
+  return obstacles;
 }
 
 }  // namespace flank::internal::testing

@@ -93,7 +93,7 @@ TEST(PoseGuard, AsksTriangles) {
   Obstacles obstacles;
   ObstacleMesh wall;
   wall.mesh = {{Vec3(-50.0, -50.0, 0.0), Vec3(50.0, -50.0, 0.0), Vec3(0.0, 80.0, 0.0)}, {{0, 1, 2}}};
-  obstacles.surfaces.push_back(wall);
+  obstacles.meshes.push_back(wall);
   const PoseGuard guard(testing::cylinder(2.0, 10.0), obstacles, -0.01);
   EXPECT_TRUE(guard.clear({Vec3(0.0, 0.0, 2.1), Vec3::UnitZ()}));
   EXPECT_FALSE(guard.clear({Vec3(0.0, 0.0, 1.9), Vec3::UnitZ()}));

@@ -102,7 +102,7 @@ TEST_F(StripCover, SlidesAwayFromAnObstacleThatATipEnters) {
     wall.mesh.triangles.push_back({k - 2, k - 1, k});
     wall.mesh.triangles.push_back({k - 1, k + 1, k});
   }
-  obstacles.surfaces.push_back(wall);
+  obstacles.meshes.push_back(wall);
   const PoseGuard guard(testing::cylinder(5.0, 20.0), obstacles, -0.005);
   const CoverStrip whole = measure_strip(samples_, over_plane(0.0, 9.98), radial_, fitter_);
   ASSERT_FALSE(is_certified(guard, whole, 0.01)) << "0.02 mm into the bulge";
@@ -117,7 +117,7 @@ TEST_F(StripCover, CutsOffWhatEntersAnObstacle) {
   Obstacles obstacles;
   ObstacleMesh wall;
   wall.mesh = {{Vec3(50.0, -50.0, -50.0), Vec3(50.0, 80.0, -50.0), Vec3(50.0, 0.0, 90.0)}, {{0, 1, 2}}};
-  obstacles.surfaces.push_back(wall);
+  obstacles.meshes.push_back(wall);
   const PoseGuard guard(testing::cylinder(5.0, 20.0), obstacles, -0.005);
   const CoverStrip whole = measure_strip(samples_, over_plane(0.0), radial_, fitter_);
   const CoverStrip strip = cut_to_certified(samples_, guard, whole, radial_, fitter_);

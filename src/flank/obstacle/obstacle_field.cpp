@@ -122,9 +122,8 @@ struct ObstacleField::Lattice {
   std::vector<std::atomic<const Faces*>> faces;
 };
 
-ObstacleField::ObstacleField(std::vector<ObstacleFace> faces, const Target& target, double offset_mm,
-                             double allowance_mm)
-    : faces_(std::move(faces)),
+ObstacleField::ObstacleField(const Obstacles& obstacles, const Target& target, double offset_mm, double allowance_mm)
+    : faces_(obstacles.faces),
       allowance_mm_(allowance_mm),
       signs_(faces_.size(), 0),
       lattice_(std::make_unique<Lattice>(target.box(), 2.0 * offset_mm)) {
@@ -158,10 +157,11 @@ std::vector<std::size_t> ObstacleField::faces_near(const Vec3& place, double dis
   const double far = distance_mm + std::sqrt(3.0) * lattice_->step * kRounding;
   for (const std::size_t k : order_) {
     // A wall counts at any depth, so it is looked for at least as far as the node is deep.
-    const double sight = signs_[k] != 0 ? std::max(std::abs(distance_mm), std::abs(far)) : far;
+    const double clearance = faces_[k].clearance_mm;
+    const double sight = (signs_[k] != 0 ? std::max(std::abs(distance_mm), std::abs(far)) : far) + clearance;
     if (!(sight > 0.0)) continue;
     const Footpoint foot = faces_[k].surface->closest_within(place, sight * kRounding);
-    if (foot.patch >= 0 && signed_distance(k, place, foot) <= far) near.push_back(k);
+    if (foot.patch >= 0 && signed_distance(k, place, foot) - clearance <= far) near.push_back(k);
   }
   return near;
 }
@@ -215,13 +215,14 @@ ObstacleDistance ObstacleField::search(const std::vector<std::size_t>& faces, co
   for (const std::size_t k : faces) {
     const Target& face = *faces_[k].surface;
     // The deepest wall is the nearest, so a wall is looked for beyond what was found; other faces only nearer than it.
-    const double sight = signs_[k] != 0 ? sight_mm : std::min(sight_mm, nearest.distance_mm);
+    const double clearance = faces_[k].clearance_mm;
+    const double sight = (signs_[k] != 0 ? sight_mm : std::min(sight_mm, nearest.distance_mm)) + clearance;
     if (sight <= 0.0 || face.box().squared_distance(p) >= sight * sight) continue;
     const Footpoint foot = face.closest_within(p, sight);
     if (foot.patch < 0) continue;
     const double distance = signed_distance(k, p, foot);
-    if (distance >= nearest.distance_mm) continue;
-    nearest.distance_mm = distance;
+    if (distance - clearance >= nearest.distance_mm) continue;
+    nearest.distance_mm = distance - clearance;
     nearest.face = static_cast<int>(k);
     const Vec3 away = p - foot.point;
     const double length = away.norm();

@@ -1,4 +1,4 @@
-/// The other faces of a part, as the flank sees them: how far is a point of the axis from what its ball must not enter?
+/// Obstacles as the flank sees them: how far is a point of the axis from what its ball must not enter?
 ///
 /// A signed answer (MATH section 7): an axis that has passed through the hub's surface must find its way back, so a
 /// face that the target's machining side sees from outside counts as a wall, negative behind it.
@@ -7,19 +7,14 @@
 #include <memory>
 #include <vector>
 
+#include "flank/obstacle/obstacles.h"
 #include "flank/target.h"
 
 namespace flank::internal {
 
-/// A face that the flank must not enter.
-struct ObstacleFace {
-  std::unique_ptr<Target> surface;
-  bool oriented = false;  ///< its normal points out of the material (the face of a solid)
-};
-
-/// Distance of a point to the nearest face.
+/// Distance of a point to the nearest face, less the clearance that this face wants.
 struct ObstacleDistance {
-  double distance_mm = 0.0;      ///< negative behind a wall; the horizon if nothing is nearer
+  double distance_mm = 0.0;  ///< negative behind a wall, or nearer than its clearance; the horizon if nothing is nearer
   Vec3 gradient = Vec3::Zero();  ///< of the distance, a unit vector; zero beyond the horizon
   int face = -1;                 ///< index of the face; -1 beyond the horizon; of an estimate: 0
 };
@@ -28,13 +23,13 @@ struct ObstacleDistance {
 /// function may be called from many threads at once: nodes are atomics, and every thread computes the same value.
 class ObstacleField {
  public:
-  /// Faces that the flank of a tool on `target` must not enter by more than the allowance. Parts overlap and are open,
+  /// The faces of `obstacles`, which the flank of a tool on `target` must not enter by more than the allowance. Parts overlap and are open,
   /// so a vote settles which side of a face is material. Voters are points `offset_mm` above the target, where the tool
   /// is free; a voter counts if its nearest point on the face is interior to it, not on its border. A face is a wall if
   /// most voters see its outer side (docs/decisions/0010); a face without orientation is first turned to where most
   /// are. All other faces have a distance without sign: the blade's own back, signed, would forbid every place in front
   /// of the blade. A face that all voters see from the material's side lies behind the target, and is left out.
-  ObstacleField(std::vector<ObstacleFace> faces, const Target& target, double offset_mm, double allowance_mm);
+  ObstacleField(const Obstacles& obstacles, const Target& target, double offset_mm, double allowance_mm);
 
   ~ObstacleField();
   ObstacleField(ObstacleField&&) noexcept;
@@ -63,6 +58,7 @@ class ObstacleField {
   /// As at(), of these faces, where nothing that matters is farther than the sight.
   [[nodiscard]] ObstacleDistance search(const std::vector<std::size_t>& faces, const Vec3& p, double horizon_mm,
                                         double sight_mm) const;
+  /// Without the clearance.
   [[nodiscard]] double signed_distance(std::size_t face, const Vec3& p, const Footpoint& foot) const;
 
   std::vector<ObstacleFace> faces_;

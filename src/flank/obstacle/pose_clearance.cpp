@@ -211,8 +211,10 @@ PoseChecker::PoseChecker(const Tool& tool, std::span<const ObstacleMesh> surface
     const ObstacleMesh& surface = surfaces[k];
     for (const auto& t : surface.mesh.triangles) {
       const auto corner = [&](std::size_t c) { return surface.mesh.vertices[static_cast<std::size_t>(t[c])]; };
-      const TriangleTree::Triangle triangle{{corner(0), corner(1), corner(2)}, static_cast<int>(k), surface.slack_mm};
+      TriangleTree::Triangle triangle{{corner(0), corner(1), corner(2)}, static_cast<int>(k)};
+      triangle.slack_mm = surface.slack_mm + surface.above_clearance_mm;
       if (!data->sides[0].bodies.empty()) triangles[0].push_back(triangle);
+      triangle.slack_mm = surface.slack_mm + surface.flank_clearance_mm;
       if (!surface.flank_may_touch) triangles[1].push_back(triangle);
     }
   }

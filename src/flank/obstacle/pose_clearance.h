@@ -6,18 +6,12 @@
 #include <span>
 #include <vector>
 
+#include "flank/obstacle/obstacles.h"
 #include "flank/target.h"
 #include "flank/tool.h"
 #include "flank/triangle_mesh.h"
 
 namespace flank::internal {
-
-/// A surface that the tool must keep clear of.
-struct ObstacleMesh {
-  TriangleMesh mesh;      ///< open, overlapping or oriented in any way; points are triangles with three equal corners
-  double slack_mm = 0.0;  ///< the true surface may come nearer than the mesh by this
-  bool flank_may_touch = false;  ///< a target: only shank and holder keep clear of it
-};
 
 /// The samples of a target as points. Its slack is one and a half spacings: about the farthest that a cell reaches from
 /// its sample.
@@ -25,9 +19,10 @@ struct ObstacleMesh {
 
 /// One pose, measured.
 struct PoseClearance {
-  double clearance_mm = 0.0;  ///< least distance, less the slack; negative: depth of the deepest point
-  int surface = -1;           ///< index of the ObstacleMesh; -1: nothing nearer than the horizon, and all else is zero
-  Vec3 point = Vec3::Zero();  ///< on that surface
+  double clearance_mm =
+      0.0;           ///< least distance, less slack and clearance of the mesh; negative: depth of the deepest point
+  int surface = -1;  ///< index of the ObstacleMesh; -1: nothing nearer than the horizon, and all else is zero
+  Vec3 point = Vec3::Zero();       ///< on that surface
   Vec3 tool_point = Vec3::Zero();  ///< of the tool, nearest to it
   /// d clearance / d tip: the tip moves and the axis keeps its direction. A unit vector: the way that frees fastest.
   Vec3 tip_gradient = Vec3::Zero();

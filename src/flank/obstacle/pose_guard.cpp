@@ -44,14 +44,14 @@ PoseGuard::PoseGuard(const Tool& tool, const Obstacles& obstacles, double floor_
   // A checker costs memory and a query for every pose. Surfaces that the flank may touch matter for shank and holder
   // only.
   const bool above = !tool.shank.empty() || !tool.holder.empty();
-  if (std::any_of(obstacles.surfaces.begin(), obstacles.surfaces.end(),
+  if (std::any_of(obstacles.meshes.begin(), obstacles.meshes.end(),
                   [&](const ObstacleMesh& c) { return above || !c.flank_may_touch; }))
-    checker_ = std::make_shared<const PoseChecker>(tool, obstacles.surfaces);
-  if (obstacles.surfaces.empty()) return;
+    checker_ = std::make_shared<const PoseChecker>(tool, obstacles.meshes);
+  if (obstacles.meshes.empty()) return;
   Tool ball;
   ball.radial =
       RadialFunction(ToolFamily::kCylinder, kBallAxisShare * ball_radius_, Eigen::VectorXd::Constant(1, ball_radius_));
-  ball_checker_ = std::make_shared<const PoseChecker>(ball, obstacles.surfaces);
+  ball_checker_ = std::make_shared<const PoseChecker>(ball, obstacles.meshes);
 }
 
 /// Replaces `result` if some sphere on the axis is closer to `solid` than `enough_mm` and than what `result` has. A

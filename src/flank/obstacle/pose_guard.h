@@ -10,17 +10,6 @@
 
 namespace flank::internal {
 
-/// What the tool must not enter.
-struct Obstacles {
-  /// Triangles: other faces of the target's own solid, faces of solids near it, and the target itself for shank and
-  /// holder. Fixtures are not among them: the planner does not know those, only the judge does.
-  std::vector<ObstacleMesh> surfaces;
-  /// Closed solids that the target touches or runs into (a hub): by their exact signed distance, so that a tool that
-  /// lies wholly within one is seen as well.
-  std::vector<std::shared_ptr<const Target>> solids;
-  [[nodiscard]] bool empty() const { return surfaces.empty() && solids.empty(); }
-};
-
 /// How clear a pose is.
 struct SlideClearance {
   double clearance_mm = 1e300;  ///< negative: depth

@@ -19,7 +19,7 @@ class TriangleTree {
   struct Triangle {
     std::array<Vec3, 3> corners;
     int surface = 0;        ///< whose it is
-    double slack_mm = 0.0;  ///< the surface may come nearer than the triangle by this
+    double slack_mm = 0.0;  ///< this much is taken off the distance of the triangle
   };
 
   TriangleTree() = default;  ///< empty

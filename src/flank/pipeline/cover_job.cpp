@@ -10,7 +10,7 @@
 #include "flank/pipeline/catalogue_job.h"
 #include "flank/pipeline/cover_groups.h"
 #include "flank/pipeline/judge_job.h"
-#include "flank/setup/check_surfaces.h"
+#include "flank/setup/make_obstacles.h"
 #include "flank/setup/targets.h"
 #include "flank/strip/strip_order.h"
 #include "flank/toolbox/tool_command.h"
@@ -114,18 +114,6 @@ std::vector<Covered> cover_groups(const CoverJob& job, const Part& part, const s
   return all;
 }
 
-/// Indices of the group's own faces, and of those that the user wants ignored.
-std::vector<int> no_obstacles(const CoverJob& job, const Part& part, const TargetGroup& group) {
-  std::vector<int> faces = group.indices;
-  const std::vector<int> targets = parse_face_list(part, job.base.faces);
-  const std::vector<int> checks = faces_to_check(part, targets, job.base.check);
-  for (int face = 0; face < part.face_count(); ++face) {
-    const bool target = std::find(targets.begin(), targets.end(), face) != targets.end();
-    if (!target && std::find(checks.begin(), checks.end(), face) == checks.end()) faces.push_back(face);
-  }
-  return faces;
-}
-
 }  // namespace
 
 CoverOptions options_of(const CoverJob& job) {
@@ -152,14 +140,17 @@ ToolExtent extent_of(const Tool& tool) {
 
 Obstacles obstacles_of(const CoverJob& job, const Part& part, const TargetGroup& group, const ToolExtent& extent) {
   const double tolerance_mm = job.base.tolerance_mm;
-  Obstacles obstacles = other_faces(part, no_obstacles(job, part, group), *group.target, extent.reach_mm,
-                                         std::clamp(kToleranceBudget.others.triangles * tolerance_mm, 1e-3, 0.05));
-  if (!extent.above) return obstacles;
-  // By its triangles, finely: a shank as thick as the flank touches what the flank touches.
-  const double deviation_mm = std::clamp(kToleranceBudget.shank.triangles * tolerance_mm, 1e-3, 0.02);
-  for (ObstacleMesh& own : own_faces(part, group.indices, deviation_mm, kToleranceBudget.shank.spare * tolerance_mm))
-    obstacles.surfaces.push_back(std::move(own));
-  return obstacles;
+  const std::vector<int> targets = parse_face_list(part, job.base.faces);
+  const ObstacleChoice choice = choose_obstacles(group.indices, targets, faces_to_check(part, targets, job.base.check));
+  ObstacleDetail detail;
+  detail.meshes_within_mm = extent.reach_mm;
+  detail.deviation_mm = std::clamp(kToleranceBudget.others.triangles * tolerance_mm, 1e-3, 0.05);
+  if (extent.above) {
+    detail.own_deviation_mm = std::clamp(kToleranceBudget.shank.triangles * tolerance_mm, 1e-3, 0.02);
+    detail.own_spare_mm = kToleranceBudget.shank.spare * tolerance_mm;
+  }
+  std::vector<std::string> notes;  // triangles are always to be had
+  return make_obstacles(part, *group.target, choice, detail, notes);
 }
 
 FitOutcome run_cover(const CoverJob& job, const Progress& progress) {

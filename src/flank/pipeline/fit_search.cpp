@@ -11,6 +11,7 @@
 #include "flank/error.h"
 #include "flank/seed/guide_start.h"
 #include "flank/seed/line_start.h"
+#include "flank/setup/make_obstacles.h"
 #include "flank/toolbox/tool_model.h"
 
 namespace flank::internal {
@@ -89,13 +90,16 @@ void add_obstacles(const FitJob& job, const Part& part, const std::vector<int>& 
                    double largest_radius, FitSearch& search) {
   /// The flank lies within a diameter of its target, and the walls of a channel beyond it count.
   constexpr double kReach = 2.0;
+  /// Above the target by about a small tool's radius.
+  constexpr double kVoterHeight = 0.5;
   for (TargetGroup& group : search.targets) {
-    std::vector<int> others = checks;
-    for (const int face : faces)
-      if (std::find(group.indices.begin(), group.indices.end(), face) == group.indices.end()) others.push_back(face);
-    std::sort(others.begin(), others.end());
-    group.obstacles = make_obstacle_field(part, *group.target, others, kReach * largest_radius,
-                                     kToleranceBudget.others.fit_allowance * job.tolerance_mm, search.fit.notes);
+    ObstacleChoice choice = choose_obstacles(group.indices, faces, checks);
+    ObstacleDetail detail;
+    detail.faces_within_mm = kReach * largest_radius;
+    const Obstacles obstacles = make_obstacles(part, *group.target, choice, detail, search.fit.notes);
+    if (!obstacles.faces.empty())
+      group.obstacles = std::make_unique<ObstacleField>(obstacles, *group.target, kVoterHeight * largest_radius,
+                                                        kToleranceBudget.others.fit_allowance * job.tolerance_mm);
   }
 }
 

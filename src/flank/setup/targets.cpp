@@ -1,10 +1,6 @@
 #include "flank/setup/targets.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "flank/base/parallel.h"
@@ -91,49 +87,6 @@ std::vector<TargetGroup> make_targets(const Part& part, const std::vector<int>& 
     group.target = make_target(std::move(values), group.of_solid ? +1 : side);
   }
   return targets;
-}
-
-namespace {
-
-/// Least distance between the box of a face and the target.
-double box_gap(const Box3& box, const std::vector<SurfaceSample>& samples) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const SurfaceSample& sample : samples) least = std::min(least, box.squared_distance(sample.point));
-  return std::sqrt(least);
-}
-
-/// The face as a surface of its own; null where a mesh region is too small to be one.
-std::unique_ptr<Target> surface_of(const Part& part, int face) {
-  if (!part.is_mesh()) return make_target(std::vector<Face>{part.faces[static_cast<std::size_t>(face)]});
-  try {
-    return make_target(extract_mesh(part, {face}));
-  } catch (const InputError&) {
-    return nullptr;
-  }
-}
-
-}  // namespace
-
-std::unique_ptr<ObstacleField> make_obstacle_field(const Part& part, const Target& target,
-                                                   const std::vector<int>& checks, double reach_mm, double allowance_mm,
-                                                   std::vector<std::string>& notes) {
-  constexpr int kSamples = 200;
-  const std::vector<SurfaceSample> samples = target.samples(std::sqrt(target.area() / kSamples));
-  std::vector<ObstacleFace> all(checks.size());
-  parallel_for(checks.size(), [&](std::size_t k) {
-    all[k].surface = surface_of(part, checks[k]);
-    all[k].oriented = !part.is_mesh() && part.faces[static_cast<std::size_t>(checks[k])].of_solid;
-  });
-  std::vector<ObstacleFace> near;
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    if (!all[k].surface)
-      notes.push_back(fmt::format("F{}: too few triangles to steer clear of; the judge looks at it", checks[k] + 1));
-    else if (box_gap(all[k].surface->box(), samples) <= reach_mm)
-      near.push_back(std::move(all[k]));
-  }
-  if (near.empty()) return nullptr;
-  // Above the target by about a small tool's radius.
-  return std::make_unique<ObstacleField>(std::move(near), target, 0.25 * reach_mm, allowance_mm);
 }
 
 std::vector<FaceSamples> judge_samples(const Part& part, const std::vector<int>& targets,

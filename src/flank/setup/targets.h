@@ -24,13 +24,6 @@ struct TargetGroup {
 /// side = -1 turns the machining side of open sheets.
 [[nodiscard]] std::vector<TargetGroup> make_targets(const Part& part, const std::vector<int>& faces, int side);
 
-/// The faces that the flank on one target must keep clear of, as the planner sees them: of `checks` (indices) those
-/// within `reach_mm` of it. Null where there are none. Regions of a mesh that are too small for a surface are left to the
-/// judge, and named in `notes`.
-[[nodiscard]] std::unique_ptr<ObstacleField> make_obstacle_field(const Part& part, const Target& target,
-                                                                 const std::vector<int>& checks, double reach_mm,
-                                                                 double allowance_mm, std::vector<std::string>& notes);
-
 /// Samples of the targets and of the check faces (coarser) for the judge, in the order of the part's faces.
 [[nodiscard]] std::vector<FaceSamples> judge_samples(const Part& part, const std::vector<int>& targets,
                                                      const std::vector<int>& checks, double spacing_mm,

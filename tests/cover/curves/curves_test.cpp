@@ -111,7 +111,7 @@ TEST(Curves, KeepsClearOfAWall) {
   const CoverResult result = cover(*target, tool, obstacles, options_for(0.01), {});
   ASSERT_EQ(result.status, CoverStatus::kCovered) << result.message;
   EXPECT_GE(result.coverage, 0.8);
-  const PoseChecker checker(tool, obstacles.surfaces);
+  const PoseChecker checker(tool, obstacles.meshes);
   for (const RuledMotion& motion : result.motions)
     for (int i = 0; i <= 400; ++i) EXPECT_TRUE(checker.is_free(motion.pose(i / 400.0), -0.01));
 }

@@ -123,7 +123,7 @@ TEST_F(Smooth, KeepsClearOfAWallBesideTheTips) {
   Obstacles wall;
   ObstacleMesh surface;
   surface.mesh = {{Vec3(-90.0, -2.02, -1.0), Vec3(140.0, -2.02, -1.0), Vec3(25.0, -2.02, 120.0)}, {{0, 1, 2}}};
-  wall.surfaces.push_back(surface);
+  wall.meshes.push_back(surface);
   guard_ = PoseGuard(tool_, wall, -0.0065);
   const CoverStrip high = strip([](double x) { return 0.02 * std::exp(-std::pow((x - 20.0) / 4.0, 2)); });
   ASSERT_TRUE(is_certified(guard_, high, kTolerance));

@@ -93,11 +93,11 @@ TEST_F(FitClearance, ThePullIsUpAndTowardsALesserRadius) {
 }
 
 /// A hub and a wall beside the blade, so that balls enter either.
-std::vector<ObstacleFace> hub_and_wall() {
-  std::vector<ObstacleFace> faces = only(hub(true));
-  faces.push_back(
+Obstacles hub_and_wall() {
+  Obstacles obstacles = only(hub(true));
+  obstacles.faces.push_back(
       {make_target({quad(Vec3(0, 12, -5), Vec3(60, 12, -5), Vec3(0, 8, 45), Vec3(60, 8, 45), "F3")}), true});
-  return faces;
+  return obstacles;
 }
 
 TEST_F(FitClearance, GradientAgreesWithDifferencesBesideTwoFaces) {

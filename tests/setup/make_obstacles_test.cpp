@@ -1,18 +1,25 @@
-// The target as what a shank keeps clear of.
-#include "flank/setup/check_surfaces.h"
+// From faces of a part to what a tool must not enter.
+#include "flank/setup/make_obstacles.h"
 
 #include <gtest/gtest.h>
 
 #include "cover/cover_targets.h"
+#include "flank/obstacle/pose_clearance.h"
 
 namespace flank::internal {
 namespace {
 
-TEST(CheckSurfaces, AShankMayTouchWhatItsFlankTouches) {
+TEST(MakeObstacles, AShankMayTouchWhatItsFlankTouches) {
   constexpr double kTolerance = 0.05, kDeviation = 0.005, kSpare = 0.01;
   Part part;
   part.faces = {testing::flat_face(0.0, 60.0, 0.0, 40.0, 0.0)};
-  const std::vector<ObstacleMesh> own = own_faces(part, {0}, kDeviation, kSpare);
+  ObstacleDetail detail;
+  detail.own_deviation_mm = kDeviation;
+  detail.own_spare_mm = kSpare;
+  std::vector<std::string> notes;
+  const auto target = make_target(part.faces);
+  const std::vector<ObstacleMesh> own =
+      make_obstacles(part, *target, choose_obstacles({0}, {0}, {}), detail, notes).meshes;
   ASSERT_EQ(own.size(), 1u);
   EXPECT_TRUE(own[0].flank_may_touch);
 

@@ -1,0 +1,173 @@
+#include "flank/setup/make_obstacles.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "flank/base/parallel.h"
+#include "flank/error.h"
+#include "flank/io/cad/triangulate.h"
+
+namespace flank::internal {
+namespace {
+
+/// Least distance between the box of a face and the target.
+double box_gap(const Box3& box, const std::vector<SurfaceSample>& samples) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const SurfaceSample& sample : samples) least = std::min(least, box.squared_distance(sample.point));
+  return std::sqrt(least);
+}
+
+/// The face as a surface of its own; null if a mesh region is too small to be one.
+std::unique_ptr<Target> surface_of(const Part& part, int face) {
+  if (!part.is_mesh()) return make_target(std::vector<Face>{part.faces[static_cast<std::size_t>(face)]});
+  try {
+    return make_target(extract_mesh(part, {face}));
+  } catch (const InputError&) {
+    return nullptr;
+  }
+}
+
+/// Those of `faces` within reach of the target's samples, as surfaces.
+void add_surfaces(const Part& part, const std::vector<int>& faces, const std::vector<SurfaceSample>& samples,
+                  double reach_mm, Obstacles& obstacles, std::vector<std::string>& notes) {
+  std::vector<ObstacleFace> all(faces.size());
+  parallel_for(faces.size(), [&](std::size_t k) {
+    all[k].surface = surface_of(part, faces[k]);
+    all[k].oriented = !part.is_mesh() && part.faces[static_cast<std::size_t>(faces[k])].of_solid;
+  });
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (!all[k].surface)
+      notes.push_back(fmt::format("F{}: too few triangles to steer clear of; the judge looks at it", faces[k] + 1));
+    else if (box_gap(all[k].surface->box(), samples) <= reach_mm)
+      obstacles.faces.push_back(std::move(all[k]));
+  }
+}
+
+/// Is any of a face within reach of the target? Judged by points of its surface, so by a little more than its trimmed part.
+bool is_near(const BSplineSurface& surface, const Target& target, double reach_mm) {
+  constexpr int kPoints = 24;
+  std::vector<Vec3> points;
+  Box3 face;
+  for (int i = 0; i <= kPoints; ++i) {
+    for (int j = 0; j <= kPoints; ++j) {
+      const double u = surface.u_first() + (surface.u_last() - surface.u_first()) * i / kPoints;
+      const double v = surface.v_first() + (surface.v_last() - surface.v_first()) * j / kPoints;
+      points.push_back(surface.value(u, v));
+      face.add(points.back());
+    }
+  }
+  const double slack = reach_mm + face.diagonal() / kPoints;
+  return std::any_of(points.begin(), points.end(), [&](const Vec3& p) {
+    return target.box().squared_distance(p) <= slack * slack && target.closest_within(p, slack).patch >= 0;
+  });
+}
+
+/// Solids all of whose faces are in `faces`.
+std::vector<int> whole_solids(const Part& part, const std::vector<int>& faces) {
+  std::vector<char> whole(static_cast<std::size_t>(part.solids), 1);
+  for (int k = 0; k < static_cast<int>(part.faces.size()); ++k) {
+    const int solid = part.faces[static_cast<std::size_t>(k)].solid;
+    if (solid >= 0 && !std::binary_search(faces.begin(), faces.end(), k)) whole[static_cast<std::size_t>(solid)] = 0;
+  }
+  std::vector<int> solids;
+  for (int solid = 0; solid < part.solids; ++solid)
+    if (whole[static_cast<std::size_t>(solid)] != 0) solids.push_back(solid);
+  return solids;
+}
+
+std::shared_ptr<const Target> solid_target(const Part& part, int solid) {
+  std::vector<Face> faces;
+  for (const Face& face : part.faces)
+    if (face.solid == solid) faces.push_back(face);
+  return faces.empty() ? nullptr : make_target(std::move(faces), +1);
+}
+
+/// Does the target touch the solid, or run into it?
+bool touches(const Target& target, const Target& solid, double within_mm) {
+  constexpr double kSpacingShare = 0.02;
+  for (const SurfaceSample& sample : target.samples(kSpacingShare * target.diagonal())) {
+    if (solid.box().squared_distance(sample.point) > within_mm * within_mm) continue;
+    if (solid.closest(sample.point).distance < within_mm) return true;
+  }
+  return false;
+}
+
+ObstacleMesh as_triangles(const Part& part, int face, double deviation_mm) {
+  ObstacleMesh obstacle;
+  if (part.is_mesh()) {
+    obstacle.mesh = extract_mesh(part, {face});
+    return obstacle;
+  }
+  FaceTriangles triangles = triangulate_face(part.faces[static_cast<std::size_t>(face)], deviation_mm);
+  if (triangles.deviation_mm > 1.5 * deviation_mm) obstacle.slack_mm = triangles.deviation_mm;
+  obstacle.mesh = std::move(triangles.mesh);
+  return obstacle;
+}
+
+/// Appends `faces` as triangles, made in parallel.
+std::vector<ObstacleMesh> meshes_of(const Part& part, const std::vector<int>& faces, double deviation_mm) {
+  std::vector<ObstacleMesh> meshes(faces.size());
+  parallel_for(faces.size(), [&](std::size_t k) { meshes[k] = as_triangles(part, faces[k], deviation_mm); });
+  return meshes;
+}
+
+/// Solids that the target touches, other than its own, whole; the rest of the faces within reach as triangles.
+void add_meshes(const Part& part, const Target& target, const ObstacleChoice& choice, const ObstacleDetail& detail,
+                Obstacles& obstacles) {
+  constexpr double kTouchMm = 0.5;
+  std::vector<char> in_solid(static_cast<std::size_t>(part.face_count()), 0);
+  for (const int solid : part.is_mesh() ? std::vector<int>{} : whole_solids(part, choice.others)) {
+    std::shared_ptr<const Target> whole = solid_target(part, solid);
+    if (!whole || !touches(target, *whole, kTouchMm)) continue;
+    obstacles.solids.push_back(std::move(whole));
+    for (std::size_t k = 0; k < in_solid.size(); ++k)
+      if (part.faces[k].solid == solid) in_solid[k] = 1;
+  }
+  std::vector<int> near;
+  for (const int k : choice.others) {
+    const auto i = static_cast<std::size_t>(k);
+    if (in_solid[i] == 0 && (part.is_mesh() || is_near(part.faces[i].surface, target, *detail.meshes_within_mm)))
+      near.push_back(k);
+  }
+  for (ObstacleMesh& mesh : meshes_of(part, near, detail.deviation_mm)) obstacles.meshes.push_back(std::move(mesh));
+}
+
+/// The target's own faces for shank and holder, finely: a shank as thick as the flank touches what the flank touches.
+void add_own(const Part& part, const ObstacleChoice& choice, const ObstacleDetail& detail, Obstacles& obstacles) {
+  for (ObstacleMesh& mesh : meshes_of(part, choice.own, *detail.own_deviation_mm)) {
+    mesh.slack_mm += detail.own_spare_mm;
+    mesh.flank_may_touch = true;
+    obstacles.meshes.push_back(std::move(mesh));
+  }
+}
+
+}  // namespace
+
+ObstacleChoice choose_obstacles(const std::vector<int>& own, const std::vector<int>& targets,
+                                const std::vector<int>& checks) {
+  ObstacleChoice choice;
+  choice.own = own;
+  choice.others = checks;
+  for (const int face : targets)
+    if (std::find(own.begin(), own.end(), face) == own.end()) choice.others.push_back(face);
+  std::sort(choice.others.begin(), choice.others.end());
+  return choice;
+}
+
+Obstacles make_obstacles(const Part& part, const Target& target, const ObstacleChoice& choice,
+                         const ObstacleDetail& detail, std::vector<std::string>& notes) {
+  constexpr int kSamples = 200;
+  Obstacles obstacles;
+  if (detail.faces_within_mm) {
+    const std::vector<SurfaceSample> samples = target.samples(std::sqrt(target.area() / kSamples));
+    add_surfaces(part, choice.others, samples, *detail.faces_within_mm, obstacles, notes);
+  }
+  if (detail.meshes_within_mm) add_meshes(part, target, choice, detail, obstacles);
+  if (detail.own_deviation_mm) add_own(part, choice, detail, obstacles);
+  return obstacles;
+}
+
+}  // namespace flank::internal

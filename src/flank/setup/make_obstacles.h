@@ -1,0 +1,39 @@
+/// What a tool must not enter at one target: other faces of the part.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "flank/obstacle/obstacles.h"
+#include "flank/part.h"
+
+namespace flank::internal {
+
+/// What is in the way, as the user says it.
+struct ObstacleChoice {
+  std::vector<int> own;     ///< indices of the target's faces
+  std::vector<int> others;  ///< ascending: faces that must not be entered, other targets among them
+};
+
+/// How much of it a planner looks at, and in which form. Forms that are not wanted cost nothing.
+struct ObstacleDetail {
+  std::optional<double> faces_within_mm;   ///< as surfaces, if their box is this near to the target
+  std::optional<double> meshes_within_mm;  ///< as triangles and solids, if they are this near
+  double deviation_mm = 0.01;              ///< of the triangles
+  /// Given: the target as triangles as well, of this deviation, for shank and holder, with `own_spare_mm` held back
+  /// besides, for a judge who wants it kept for sure.
+  std::optional<double> own_deviation_mm;
+  double own_spare_mm = 0.0;
+};
+
+/// For the target `own`, one of `targets`: the faces to check and the other targets.
+[[nodiscard]] ObstacleChoice choose_obstacles(const std::vector<int>& own, const std::vector<int>& targets,
+                                              const std::vector<int>& checks);
+
+/// The obstacles at `target`. Regions of a mesh that are too small for a surface are left to the judge, and named in
+/// `notes`.
+[[nodiscard]] Obstacles make_obstacles(const Part& part, const Target& target, const ObstacleChoice& choice,
+                                       const ObstacleDetail& detail, std::vector<std::string>& notes);
+
+}  // namespace flank::internal
