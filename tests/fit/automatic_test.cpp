@@ -118,6 +118,27 @@ TEST(FitAutomatic, BesideAHubItStaysOutOfIt) {
   EXPECT_GT(result.after.at_tolerance, 0.9) << result.message;
 }
 
+TEST(FitAutomatic, BesideAFixtureItKeepsTheClearance) {
+  if (kSanitized) GTEST_SKIP() << "the same path as beside a hub";
+  constexpr double kClearance = 2.0;
+  const auto blade = standing_blade(0.0);
+  ObstacleFace fixture = testing::hub(true);
+  fixture.clearance_mm = kClearance;
+  const ObstacleField obstacles(testing::only(fixture), *blade, 2.0, 0.0);
+  FlankFitOptions options = small_options();
+  options.obstacles = &obstacles;
+  options.reach_radius_mm = 5.0;
+  const FlankFitResult result = fit_automatic(*blade, given_cylinder(5.0), options, {});
+  EXPECT_GT(result.after.at_tolerance, 0.9) << result.message;
+  // The fixture is the plane z = 0: the lowest end of the axis says how near the flank comes.
+  for (const RuledMotion& motion : result.motions) {
+    for (int i = 0; i <= 400; ++i) {
+      const Pose pose = motion.pose(i / 400.0);
+      EXPECT_GE(std::min(pose.tip.z(), pose.at(motion.axis_length).z()) - 5.0, kClearance - 1.1 * kTolerance) << i;
+    }
+  }
+}
+
 TEST(FitAutomatic, AFreeToolCoversATwistedBladeWithinItsBounds) {
   if (kSanitized) GTEST_SKIP() << "fifty candidates and every pass";
   const auto target = twisted_blade(10.0);

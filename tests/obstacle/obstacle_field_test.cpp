@@ -82,6 +82,28 @@ TEST(ObstacleField, LatticeAnswersAsEveryFaceAskedAlone) {
   }
 }
 
+TEST(ObstacleField, EveryFaceKeepsItsOwnClearance) {
+  const auto blade = standing_blade(0.0);
+  const std::vector<double> clearances{1.5, 0.0, 6.0};
+  Obstacles obstacles = channel();
+  std::vector<ObstacleField> alone;
+  for (std::size_t k = 0; k < obstacles.faces.size(); ++k) {
+    alone.emplace_back(only(obstacles.faces[k]), *blade, 2.0, 0.0);
+    obstacles.faces[k].clearance_mm = clearances[k];
+  }
+  const ObstacleField field(obstacles, *blade, 2.0, 0.0);
+  Random random(11);
+  for (int k = 0; k < 4000; ++k) {
+    const Vec3 p(random.uniform(-8.0, 68.0), random.uniform(0.5, 20.0), random.uniform(-4.0, 44.0));
+    double least = kFar;
+    for (std::size_t i = 0; i < alone.size(); ++i)
+      least = std::min(least, alone[i].at(p, kFar).distance_mm - clearances[i]);
+    EXPECT_NEAR(field.at(p, kFar).distance_mm, least, 1e-9);
+    const double horizon = random.uniform(-2.0, 6.0);
+    EXPECT_NEAR(field.at(p, horizon).distance_mm, std::min(least, horizon), 1e-9);
+  }
+}
+
 TEST(ObstacleField, GradientIsTheDerivative) {
   const auto blade = standing_blade(0.0);
   const ObstacleField obstacles(channel(), *blade, 2.0, 0.0);

@@ -28,9 +28,9 @@ struct ObstacleMesh {
 
 /// Faces of the part and of fixtures, in the forms that the planners measure. A value: copies share the surfaces.
 struct Obstacles {
-  /// Every face near the target, for the fit; also what says where a ball can reach.
+  /// Every face near the target: what the fit asks.
   std::vector<ObstacleFace> faces;
-  /// The same faces as triangles, but for those of `solids`; for shank and holder the target as well.
+  /// The same faces as triangles, but for those of `solids`; for shank and holder these and the target as well.
   std::vector<ObstacleMesh> meshes;
   /// Closed solids that the target touches or runs into (a hub): by their exact signed distance, so that a tool that
   /// lies wholly within one is seen as well.

@@ -8,6 +8,7 @@
 #include "flank/artefact/ranking_json.h"
 #include "flank/choose/family_search.h"
 #include "flank/error.h"
+#include "flank/setup/make_obstacles.h"
 
 namespace flank::internal {
 namespace {
@@ -21,6 +22,7 @@ struct Scene {
 
 Scene make_scene(const CoverJob& job, const Part& part, const std::vector<int>& faces, const ToolExtent& extent) {
   Scene scene;
+  const std::vector<Part> fixtures = read_fixtures(job.base.clearance.fixtures, job.base.unit);
   std::vector<TargetGroup> other_side;
   if (!job.base.side) other_side = make_targets(part, faces, -1);
   for (TargetGroup& group : make_targets(part, faces, job.base.side.value_or(+1))) {
@@ -31,7 +33,7 @@ Scene make_scene(const CoverJob& job, const Part& part, const std::vector<int>& 
     if (both) scene.groups.back().push_back(std::move(other_side[k]));
     scene.obstacles.emplace_back();
     for (const TargetGroup& side : scene.groups.back())
-      scene.obstacles.back().push_back(obstacles_of(job, part, side, extent));
+      scene.obstacles.back().push_back(obstacles_of(job, part, fixtures, side, extent));
   }
   for (std::size_t k = 0; k < scene.groups.size(); ++k) {
     scene.targets.emplace_back();

@@ -22,10 +22,10 @@ struct ToolExtent {
 };
 [[nodiscard]] ToolExtent extent_of(const Tool& tool);
 
-/// What is in the way of tools of this extent at a group of targets: other faces of the part; for shank and holder the
+/// What is in the way of tools of this extent at a group of targets: other faces of the part, and fixtures; for shank and holder the
 /// target itself as well.
-[[nodiscard]] Obstacles obstacles_of(const CoverJob& job, const Part& part, const TargetGroup& group,
-                                     const ToolExtent& extent);
+[[nodiscard]] Obstacles obstacles_of(const CoverJob& job, const Part& part, std::span<const Part> fixtures,
+                                     const TargetGroup& group, const ToolExtent& extent);
 
 [[nodiscard]] CoverOptions options_of(const CoverJob& job);
 

@@ -86,9 +86,9 @@ void keep(const CoverResult& result, const TargetGroup& group, FitOutcome& outco
   outcome.figures.emplace_back(prefix + "links mm", link_length(result.motions));
 }
 
-Covered cover_group(const CoverJob& job, const Part& part, TargetGroup group, const Tool& tool,
-                    const Progress& progress) {
-  const Obstacles obstacles = obstacles_of(job, part, group, extent_of(tool));
+Covered cover_group(const CoverJob& job, const Part& part, std::span<const Part> fixtures, TargetGroup group,
+                    const Tool& tool, const Progress& progress) {
+  const Obstacles obstacles = obstacles_of(job, part, fixtures, group, extent_of(tool));
   CoverResult result = cover(*group.target, tool, obstacles, options_of(job), progress);
   return {std::move(group), std::move(result)};
 }
@@ -96,14 +96,15 @@ Covered cover_group(const CoverJob& job, const Part& part, TargetGroup group, co
 /// Every group; open sheets from both sides, where none is asked for, and the better one kept.
 std::vector<Covered> cover_groups(const CoverJob& job, const Part& part, const std::vector<int>& faces,
                                   const Tool& tool, const Progress& progress) {
+  const std::vector<Part> fixtures = read_fixtures(job.base.clearance.fixtures, job.base.unit);
   std::vector<Covered> all;
   for (TargetGroup& group : make_targets(part, faces, job.base.side.value_or(+1)))
-    all.push_back(cover_group(job, part, std::move(group), tool, progress));
+    all.push_back(cover_group(job, part, fixtures, std::move(group), tool, progress));
   if (job.base.side) return all;
   std::vector<TargetGroup> other_side = make_targets(part, faces, -1);
   for (std::size_t k = 0; k < all.size(); ++k) {
     if (all[k].group.of_solid) continue;
-    Covered other = cover_group(job, part, std::move(other_side[k]), tool, progress);
+    Covered other = cover_group(job, part, fixtures, std::move(other_side[k]), tool, progress);
     const bool better =
         other.result.coverage * other.result.reachable > all[k].result.coverage * all[k].result.reachable;
     if (better) all[k] = std::move(other);
@@ -138,10 +139,14 @@ ToolExtent extent_of(const Tool& tool) {
   return extent;
 }
 
-Obstacles obstacles_of(const CoverJob& job, const Part& part, const TargetGroup& group, const ToolExtent& extent) {
-  const double tolerance_mm = job.base.tolerance_mm;
+Obstacles obstacles_of(const CoverJob& job, const Part& part, std::span<const Part> fixtures, const TargetGroup& group,
+                       const ToolExtent& extent) {
+    const double tolerance_mm = job.base.tolerance_mm;
   const std::vector<int> targets = parse_face_list(part, job.base.faces);
-  const ObstacleChoice choice = choose_obstacles(group.indices, targets, faces_to_check(part, targets, job.base.check));
+  ObstacleChoice choice = choose_obstacles(group.indices, targets, faces_to_check(part, targets, job.base.check));
+  choice.fixtures = fixtures;
+  choice.clearance_mm = job.base.clearance.required_mm;
+  choice.tolerance_mm = tolerance_mm;
   ObstacleDetail detail;
   detail.meshes_within_mm = extent.reach_mm;
   detail.deviation_mm = std::clamp(kToleranceBudget.others.triangles * tolerance_mm, 1e-3, 0.05);

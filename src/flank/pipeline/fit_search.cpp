@@ -85,15 +85,19 @@ void fit_groups(const FitJob& job, FitSearch& search, const ToolModel& tool, con
 
 double mean_score(const FitSearch& search, double tolerance_mm) { return search.fit.after.score(tolerance_mm); }
 
-/// Gives every target the faces that its flank keeps clear of: the check faces and the other targets.
+/// Gives every target the faces that its flank keeps clear of: the check faces, the other targets and fixtures.
 void add_obstacles(const FitJob& job, const Part& part, const std::vector<int>& faces, const std::vector<int>& checks,
                    double largest_radius, FitSearch& search) {
   /// The flank lies within a diameter of its target, and the walls of a channel beyond it count.
   constexpr double kReach = 2.0;
   /// Above the target by about a small tool's radius.
   constexpr double kVoterHeight = 0.5;
+  const std::vector<Part> fixtures = read_fixtures(job.clearance.fixtures, job.unit);
   for (TargetGroup& group : search.targets) {
     ObstacleChoice choice = choose_obstacles(group.indices, faces, checks);
+    choice.fixtures = fixtures;
+    choice.clearance_mm = job.clearance.required_mm;
+    choice.tolerance_mm = job.tolerance_mm;
     ObstacleDetail detail;
     detail.faces_within_mm = kReach * largest_radius;
     const Obstacles obstacles = make_obstacles(part, *group.target, choice, detail, search.fit.notes);

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <limits>
+#include <numeric>
 
 #include "flank/base/parallel.h"
 #include "flank/error.h"
@@ -12,6 +15,21 @@
 
 namespace flank::internal {
 namespace {
+
+/// Tolerances by which a planner keeps farther from a fixture than the judge asks: it steers by soft terms and by
+/// floors below zero (0.8 and 0.65 tolerances), and the judge's bound holds half a tolerance of triangles.
+constexpr double kSpareTolerances = 2.0;
+
+/// What a planner keeps where the judge asks for `required_mm`; none: no deeper than the tolerance.
+double planned_clearance(const ObstacleChoice& choice) {
+  return choice.clearance_mm.value_or(-choice.tolerance_mm) + kSpareTolerances * choice.tolerance_mm;
+}
+
+bool is_mesh_file(const std::string& file) {
+  std::string end = std::filesystem::path(file).extension().string();
+  std::transform(end.begin(), end.end(), end.begin(), [](unsigned char c) { return std::tolower(c); });
+  return end == ".stl" || end == ".obj" || end == ".ply";
+}
 
 /// Least distance between the box of a face and the target.
 double box_gap(const Box3& box, const std::vector<SurfaceSample>& samples) {
@@ -32,16 +50,17 @@ std::unique_ptr<Target> surface_of(const Part& part, int face) {
 
 /// Those of `faces` within reach of the target's samples, as surfaces.
 void add_surfaces(const Part& part, const std::vector<int>& faces, const std::vector<SurfaceSample>& samples,
-                  double reach_mm, Obstacles& obstacles, std::vector<std::string>& notes) {
+                  double reach_mm, double clearance_mm, Obstacles& obstacles, std::vector<std::string>& notes) {
   std::vector<ObstacleFace> all(faces.size());
   parallel_for(faces.size(), [&](std::size_t k) {
     all[k].surface = surface_of(part, faces[k]);
+    all[k].clearance_mm = clearance_mm;
     all[k].oriented = !part.is_mesh() && part.faces[static_cast<std::size_t>(faces[k])].of_solid;
   });
   for (std::size_t k = 0; k < all.size(); ++k) {
     if (!all[k].surface)
       notes.push_back(fmt::format("F{}: too few triangles to steer clear of; the judge looks at it", faces[k] + 1));
-    else if (box_gap(all[k].surface->box(), samples) <= reach_mm)
+    else if (box_gap(all[k].surface->box(), samples) <= reach_mm + clearance_mm)
       obstacles.faces.push_back(std::move(all[k]));
   }
 }
@@ -114,7 +133,16 @@ std::vector<ObstacleMesh> meshes_of(const Part& part, const std::vector<int>& fa
   return meshes;
 }
 
-/// Solids that the target touches, other than its own, whole; the rest of the faces within reach as triangles.
+/// Of `faces`, those within reach.
+std::vector<int> near_faces(const Part& part, const std::vector<int>& faces, const Target& target, double reach_mm) {
+  std::vector<int> near;
+  for (const int k : faces)
+    if (part.is_mesh() || is_near(part.faces[static_cast<std::size_t>(k)].surface, target, reach_mm)) near.push_back(k);
+  return near;
+}
+
+/// Solids that the target touches, other than its own, whole; the rest of the faces within reach as triangles. Solids
+/// are asked for the flank alone, so shank and holder see their triangles.
 void add_meshes(const Part& part, const Target& target, const ObstacleChoice& choice, const ObstacleDetail& detail,
                 Obstacles& obstacles) {
   constexpr double kTouchMm = 0.5;
@@ -126,13 +154,34 @@ void add_meshes(const Part& part, const Target& target, const ObstacleChoice& ch
     for (std::size_t k = 0; k < in_solid.size(); ++k)
       if (part.faces[k].solid == solid) in_solid[k] = 1;
   }
-  std::vector<int> near;
-  for (const int k : choice.others) {
-    const auto i = static_cast<std::size_t>(k);
-    if (in_solid[i] == 0 && (part.is_mesh() || is_near(part.faces[i].surface, target, *detail.meshes_within_mm)))
-      near.push_back(k);
+  const bool above = detail.own_deviation_mm.has_value();
+  std::vector<int> others = choice.others;
+  if (!above) std::erase_if(others, [&](int k) { return in_solid[static_cast<std::size_t>(k)] != 0; });
+  const std::vector<int> near = near_faces(part, others, target, *detail.meshes_within_mm);
+  std::vector<ObstacleMesh> meshes = meshes_of(part, near, detail.deviation_mm);
+  for (std::size_t k = 0; k < near.size(); ++k) {
+    meshes[k].flank_may_touch = in_solid[static_cast<std::size_t>(near[k])] != 0;
+    if (choice.clearance_mm) meshes[k].above_clearance_mm = planned_clearance(choice);
+    obstacles.meshes.push_back(std::move(meshes[k]));
   }
-  for (ObstacleMesh& mesh : meshes_of(part, near, detail.deviation_mm)) obstacles.meshes.push_back(std::move(mesh));
+}
+
+/// All faces of the fixtures: nothing of the tool comes nearer than the clearance.
+void add_fixtures(const Target& target, const ObstacleChoice& choice, const ObstacleDetail& detail,
+                  const std::vector<SurfaceSample>& samples, Obstacles& obstacles, std::vector<std::string>& notes) {
+  const double clearance_mm = planned_clearance(choice);
+  for (const Part& fixture : choice.fixtures) {
+    std::vector<int> faces(static_cast<std::size_t>(fixture.face_count()));
+    std::iota(faces.begin(), faces.end(), 0);
+    if (detail.faces_within_mm)
+      add_surfaces(fixture, faces, samples, *detail.faces_within_mm, clearance_mm, obstacles, notes);
+    if (!detail.meshes_within_mm) continue;
+    const std::vector<int> near = near_faces(fixture, faces, target, *detail.meshes_within_mm + clearance_mm);
+    for (ObstacleMesh& mesh : meshes_of(fixture, near, detail.deviation_mm)) {
+      mesh.flank_clearance_mm = mesh.above_clearance_mm = clearance_mm;
+      obstacles.meshes.push_back(std::move(mesh));
+    }
+  }
 }
 
 /// The target's own faces for shank and holder, finely: a shank as thick as the flank touches what the flank touches.
@@ -161,13 +210,21 @@ Obstacles make_obstacles(const Part& part, const Target& target, const ObstacleC
                          const ObstacleDetail& detail, std::vector<std::string>& notes) {
   constexpr int kSamples = 200;
   Obstacles obstacles;
+  std::vector<SurfaceSample> samples;
   if (detail.faces_within_mm) {
-    const std::vector<SurfaceSample> samples = target.samples(std::sqrt(target.area() / kSamples));
-    add_surfaces(part, choice.others, samples, *detail.faces_within_mm, obstacles, notes);
+    samples = target.samples(std::sqrt(target.area() / kSamples));
+    add_surfaces(part, choice.others, samples, *detail.faces_within_mm, 0.0, obstacles, notes);
   }
   if (detail.meshes_within_mm) add_meshes(part, target, choice, detail, obstacles);
   if (detail.own_deviation_mm) add_own(part, choice, detail, obstacles);
+  add_fixtures(target, choice, detail, samples, obstacles, notes);
   return obstacles;
+}
+
+std::vector<Part> read_fixtures(const std::vector<std::string>& files, const std::optional<std::string>& unit) {
+  std::vector<Part> fixtures;
+  for (const std::string& file : files) fixtures.push_back(read_part(file, is_mesh_file(file) ? unit : std::nullopt));
+  return fixtures;
 }
 
 }  // namespace flank::internal

@@ -1,7 +1,8 @@
-/// What a tool must not enter at one target: other faces of the part.
+/// What a tool must not enter at one target: other faces of the part, and fixtures.
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,8 +13,11 @@ namespace flank::internal {
 
 /// What is in the way, as the user says it.
 struct ObstacleChoice {
-  std::vector<int> own;     ///< indices of the target's faces
-  std::vector<int> others;  ///< ascending: faces that must not be entered, other targets among them
+  std::vector<int> own;                ///< indices of the target's faces
+  std::vector<int> others;             ///< ascending: faces that must not be entered, other targets among them
+  std::span<const Part> fixtures;      ///< not owned
+  std::optional<double> clearance_mm;  ///< --clearance: all of the tool from fixtures, shank and holder from `others`
+  double tolerance_mm = 0.01;          ///< of the job: how deep the judge lets a tool go if no clearance is given
 };
 
 /// How much of it a planner looks at, and in which form. Forms that are not wanted cost nothing.
@@ -21,7 +25,7 @@ struct ObstacleDetail {
   std::optional<double> faces_within_mm;   ///< as surfaces, if their box is this near to the target
   std::optional<double> meshes_within_mm;  ///< as triangles and solids, if they are this near
   double deviation_mm = 0.01;              ///< of the triangles
-  /// Given: the target as triangles as well, of this deviation, for shank and holder, with `own_spare_mm` held back
+  /// Given if the tool has a shank or holder: the target as triangles as well, of this deviation, for these, with `own_spare_mm` held back
   /// besides, for a judge who wants it kept for sure.
   std::optional<double> own_deviation_mm;
   double own_spare_mm = 0.0;
@@ -35,5 +39,9 @@ struct ObstacleDetail {
 /// `notes`.
 [[nodiscard]] Obstacles make_obstacles(const Part& part, const Target& target, const ObstacleChoice& choice,
                                        const ObstacleDetail& detail, std::vector<std::string>& notes);
+
+/// Reads fixtures; `unit` is that of meshes, whose files say none. Throws InputError as read_part does.
+[[nodiscard]] std::vector<Part> read_fixtures(const std::vector<std::string>& files,
+                                              const std::optional<std::string>& unit);
 
 }  // namespace flank::internal
