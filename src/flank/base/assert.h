@@ -14,8 +14,9 @@
 /// FLANK_ASSERT(condition): if the condition is false, prints it with file, line and function to the standard error
 /// output, and aborts. A release build does not evaluate the condition, but it must compile there, too.
 #if FLANK_ASSERTIONS
-#define FLANK_ASSERT(...) \
-  (static_cast<bool>(__VA_ARGS__) ? void() : ::flank::internal::assertion_failed(#__VA_ARGS__, __FILE__, __LINE__, __func__))
+#define FLANK_ASSERT(...)                  \
+  (static_cast<bool>(__VA_ARGS__) ? void() \
+                                  : ::flank::internal::assertion_failed(#__VA_ARGS__, __FILE__, __LINE__, __func__))
 #else
 #define FLANK_ASSERT(...) static_cast<void>(sizeof(static_cast<bool>(__VA_ARGS__)))
 #endif
