@@ -62,8 +62,8 @@ struct Names {
 /// The names in one quoted text that ought to be in `names` and are not. Options, numbers, files that the program
 /// writes and plain words are no names.
 std::vector<std::string> unknown_names(const Names& names, const std::string& quoted) {
-  static const std::regex path(
-      R"((?!build/|out/)[\w-]+(/[\w.-]+)*(/|/[\w.-]*\*[\w.]*|\.h|\.cpp)|(?:src|tests|docs|bench|share|examples)/[\w/.-]+)");
+  static const std::regex path(R"((?!build/|out/)[\w-]+(/[\w.-]+)*(/|/[\w.-]*\*[\w.]*|\.h|\.cpp)|)"
+                               R"((?:src|tests|docs|bench|share|examples)/[\w/.-]+)");
   static const std::regex name(R"(\w+((::|\.)\w+)*(\.\*)?(\(\))?)");
   static const std::regex part(R"(\w+)");
   static const std::regex telling(
