@@ -13,7 +13,7 @@ class CliReport : public Cli {
   void SetUp() override {
     Cli::SetUp();
     write_file(root_ / "out/summary.json", kSummary);
-    if (flank({"report", path("out")}).err.find("without its report page") != std::string::npos)
+    if (flank({"report", path("out")}).err.find("without the report page") != std::string::npos)
       GTEST_SKIP() << "built without the page (no npm)";
   }
 };
@@ -29,7 +29,7 @@ TEST_F(CliReport, WritesThePageIntoTheFolderOrElsewhere) {
 TEST_F(CliReport, RefusesWrongFoldersAndSizes) {
   fs::remove_all(root_ / "out");
   fs::create_directories(root_ / "empty");
-  expect_refused({"report", path("empty")}, 3, "holds none of");
+  expect_refused({"report", path("empty")}, 3, "contains none of");
   expect_refused({"report", path("nowhere")}, 3, "no such folder");
   write_file(root_ / "bad/verify.json", "nonsense");
   expect_refused({"report", path("bad")}, 3, "verify.json: not JSON");

@@ -13,7 +13,7 @@ function skip(why) {
 }
 if (!BINARY) skip('FLANK_BINARY does not name the command');
 if (!findBrowser()) skip('no Chromium here; `make test-clients` installs it');
-if (/without its report page/.test(flank('report', '/').stderr)) skip('built without the report page');
+if (/without the report page/.test(flank('report', '/').stderr)) skip('built without the report page');
 
 let browser, folder;
 before(() => {

@@ -62,7 +62,7 @@ TEST(ReportPieces, ThePageHasItsPlacesAndAsksForNothingElse) {
 
 TEST_F(Report, SaysWhatIsWrongWithTheFolder) {
   if (!page_is_built()) GTEST_SKIP() << "built without the page (no npm)";
-  EXPECT_NE(complaint().find("holds none of view.json"), std::string::npos);
+  EXPECT_NE(complaint().find("contains none of view.json"), std::string::npos);
   write("view.json", "{");
   EXPECT_NE(complaint().find("view.json: not JSON"), std::string::npos);
   write("view.json", R"({"schema": "openflank/view/2"})");

@@ -145,7 +145,7 @@ std::vector<Vec3> border(const Face& face, const TrimLoop& loop) {
 
 Tessellation tessellate(const Face& face, const TessellationOptions& options) {
   if (!(options.chord_mm > 0.0) || !(options.edge_mm > 0.0) || options.most_steps < 1)
-    throw UsageError("a tessellation needs a chord and an edge above 0 mm and at least one step");
+    throw UsageError("a tessellation needs a chord and an edge > 0 mm and at least one step");
   const BSplineSurface& s = face.surface;
   const ParameterRectangle domain{s.u_first(), s.u_last(), s.v_first(), s.v_last()};
   const TrimRegion region(face.loops, domain);

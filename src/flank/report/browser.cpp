@@ -131,13 +131,14 @@ void make_picture(const std::string& html_file, const std::string& png_file, con
   std::ifstream stream(picture, std::ios::binary);
   const std::string png{std::istreambuf_iterator<char>(stream), {}};
   if (status != 0 || png.empty())
-    throw InternalError(browser + ": made no picture of " + html_file + " (exit " + std::to_string(status) + ")");
+    throw InternalError(browser + ": did not make a picture of " + html_file + " (exit " + std::to_string(status) +
+                        ")");
   write_file(png_file, png);
 }
 
 void open_page(const std::string& html_file) {
   const std::string opener = in_path("xdg-open");
-  if (opener.empty()) throw UsageError("xdg-open is not here; open " + html_file + " in a browser");
+  if (opener.empty()) throw UsageError("xdg-open is not installed; open " + html_file + " in a browser");
   if (const int status = run_quietly({opener, fs::absolute(html_file).lexically_normal().string()}); status != 0)
     throw UsageError("xdg-open found no browser (exit " + std::to_string(status) + "); open " + html_file + " in one");
 }

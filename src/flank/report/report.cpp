@@ -37,7 +37,7 @@ std::optional<std::string> read_checked(const fs::path& file, const std::string&
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   if (!stream.good() && !stream.eof()) throw InputError(file.string() + ": cannot be read");
   const auto json = nlohmann::json::parse(text, nullptr, false);
-  if (json.is_discarded()) throw InputError(file.string() + ": not JSON; a file written by `flank fit` is needed");
+  if (json.is_discarded()) throw InputError(file.string() + ": not JSON; give a file written by `flank fit`");
   require_schema(json, file.string(), schema);
   return text;
 }
@@ -96,10 +96,9 @@ std::string fill_page(std::string_view page, std::string_view title, std::string
 
 std::string make_report(const std::string& folder) {
   if (!page_is_built())
-    throw UsageError("this flank was built without its report page; build it where npm is, with -D FLANK_REPORT=ON");
-  if (!fs::is_directory(folder))
-    throw InputError(folder + ": no such folder; a folder written by `flank fit` is needed");
-  std::string data = std::string("<meta name=\"generator\" content=\"OpenFlank ") + kVersion + "\">\n", title;
+    throw UsageError("this flank was built without the report page; install npm and build it with -D FLANK_REPORT=ON");
+  if (!fs::is_directory(folder)) throw InputError(folder + ": no such folder; give a folder written by `flank fit`");
+  std::string data = "<meta name=\"generator\" content=\"OpenFlank " FLANK_VERSION "\">\n", title;
   bool found = false;
   for (const std::string& name : report_files()) {
     const auto text = read_checked(fs::path(folder) / name, schema_of(name));
@@ -110,7 +109,7 @@ std::string make_report(const std::string& folder) {
   }
   if (!found)
     throw InputError(folder +
-                     ": holds none of view.json, verify.json, summary.json; a folder written by `flank fit` is needed");
+                     ": contains none of view.json, verify.json, summary.json; give a folder written by `flank fit`");
   return fill_page(page_template(), title, data);
 }
 

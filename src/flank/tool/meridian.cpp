@@ -39,11 +39,12 @@ std::vector<Vec2> spheres(std::span<const Vec2> profile) {
     if (!profile[i].allFinite()) throw InputError(at_point(i) + "coordinates must be finite numbers");
     if (!(profile[i].y() > 0.0)) throw InputError(at_point(i) + "the radius must be > 0");
     if (i > 0 && !(profile[i].x() > profile[i - 1].x()))
-      throw InputError(at_point(i) + "z must grow from the tip towards the holder");
+      throw InputError(at_point(i) + "z must increase from the tip towards the holder");
   }
   for (std::size_t i = 0; i < profile.size(); ++i) {
     const Vec2 t = tangent(profile, i);
-    if (!(t.x() > 0.0)) throw InputError(at_point(i) + "the profile stands across the axis; its z must grow steadily");
+    if (!(t.x() > 0.0))
+      throw InputError(at_point(i) + "the profile is perpendicular to the axis here; z must increase");
     const double slope = t.y() / t.x();
     samples[i] = {profile[i].x() + profile[i].y() * slope, profile[i].y() * std::hypot(1.0, slope)};
     if (i > 0 && !(samples[i].x() > samples[i - 1].x()))

@@ -130,7 +130,7 @@ double between_samples(const FaceSamples& face, const std::vector<SweptDistance>
 
 void require_usable(const JudgeOptions& options) {
   if (!(options.tolerance_mm > 0.0))
-    throw UsageError("tolerance " + std::to_string(options.tolerance_mm) + " mm; more than 0 is accepted");
+    throw UsageError("tolerance " + std::to_string(options.tolerance_mm) + " mm: must be > 0");
   if (options.histogram_bins < 1) throw UsageError("a histogram needs at least one bin");
 }
 

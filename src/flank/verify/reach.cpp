@@ -189,8 +189,8 @@ class Surroundings {
 
 void require_usable(const FaceSamples& target, const ReachOptions& options) {
   if (!(options.radius_mm > 0.0 && std::isfinite(options.radius_mm)))
-    throw UsageError("reach: a radius > 0 mm is accepted");
-  if (!(options.tolerance_mm > 0.0)) throw UsageError("reach: a tolerance > 0 mm is accepted");
+    throw UsageError("reach: the radius must be > 0 mm");
+  if (!(options.tolerance_mm > 0.0)) throw UsageError("reach: the tolerance must be > 0 mm");
   if (target.normals.size() != target.points.size()) throw InternalError("reach: a target's samples need normals");
 }
 

@@ -170,10 +170,9 @@ void add_cell(FaceSamples& out, const BSplineSurface& s, const CellPart& part, R
 }
 
 void require_usable(const Face& face, double spacing_mm) {
-  if (!(spacing_mm > 0.0))
-    throw UsageError("sample spacing " + std::to_string(spacing_mm) + " mm; more than 0 is accepted");
+  if (!(spacing_mm > 0.0)) throw UsageError("sample spacing " + std::to_string(spacing_mm) + " mm: must be > 0");
   for (const Vec3& p : face.surface.poles)
-    if (!p.allFinite()) throw InputError("face " + face.id + " has a control point that is not a number");
+    if (!p.allFinite()) throw InputError("face " + face.id + " has a control point that is not finite");
 }
 
 }  // namespace

@@ -9,10 +9,9 @@ namespace flank {
 // A triangle is cut into n^2 similar ones, each as large as the spacing allows; a centroid is farthest from its own
 // corners.
 FaceSamples sample_mesh(const std::string& id, const TriangleMesh& mesh, double spacing_mm, bool target) {
-  if (!(spacing_mm > 0.0))
-    throw UsageError("sample spacing " + std::to_string(spacing_mm) + " mm; more than 0 is accepted");
+  if (!(spacing_mm > 0.0)) throw UsageError("sample spacing " + std::to_string(spacing_mm) + " mm: must be > 0");
   for (const Vec3& v : mesh.vertices)
-    if (!v.allFinite()) throw InputError("mesh " + id + " has a vertex that is not a number");
+    if (!v.allFinite()) throw InputError("mesh " + id + " has a vertex that is not finite");
   FaceSamples out;
   out.face = id;
   out.target = target;

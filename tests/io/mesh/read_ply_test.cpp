@@ -102,11 +102,11 @@ TEST(ReadPly, BadHeadsAreRefused) {
       {start + "element vertex 3\n", "the header does not end with \"end_header\""},
       {start + "element vertex -3\nend_header\n", "line 3: an element count is negative"},
       {start + "element vertex many\nend_header\n", "line 3: \"many\" is not a whole number"},
-      {start + "property float x\nend_header\n", "line 3: a property stands before its element"},
+      {start + "property float x\nend_header\n", "line 3: a property comes before its element"},
       {start + "element vertex 1\nproperty half x\nend_header\n", "line 4: \"half\" is not a type"},
       {start + "element vertex 1\nproperty list float\nend_header\n", "line 4: \"\" is not a type"},
-      {"ply\nformat binary 1.0\nend_header\n", "format \"binary\" is not read"},
-      {"ply\nend_header\n", "format \"\" is not read"}};
+      {"ply\nformat binary 1.0\nend_header\n", "format \"binary\" is not supported"},
+      {"ply\nend_header\n", "format \"\" is not supported"}};
   for (const auto& [text, expected] : cases)
     EXPECT_NE(refusal(text).find(expected), std::string::npos) << refusal(text) << "\n for " << text;
 }

@@ -54,9 +54,9 @@ TEST(SniffFormat, IsWhatTheContentIsWhateverTheNamesCase) {
 }
 
 TEST(SniffFormat, ANameThatSaysSomethingElseIsRefusedWithBothNamed) {
-  EXPECT_EQ(refusal("a.stl", kStep), "a.stl: the name says STL but the content is STEP; rename it to what it is");
-  EXPECT_EQ(refusal("a.step", kObj), "a.step: the name says STEP but the content is OBJ; rename it to what it is");
-  EXPECT_EQ(refusal("a.igs", kPly), "a.igs: the name says IGES but the content is PLY; rename it to what it is");
+  EXPECT_EQ(refusal("a.stl", kStep), "a.stl: the name says STL but the content is STEP; rename it to match");
+  EXPECT_EQ(refusal("a.step", kObj), "a.step: the name says STEP but the content is OBJ; rename it to match");
+  EXPECT_EQ(refusal("a.igs", kPly), "a.igs: the name says IGES but the content is PLY; rename it to match");
 }
 
 TEST(SniffFormat, ANameThatIsNotReadIsRefusedWithWhatIs) {

@@ -176,7 +176,7 @@ TEST(ToolDxf, BadFilesAreRefusedByName) {
       {light_polyline(line, "10\nwide\n"), "\"wide\" is not a finite number"},
       {light_polyline({{0, 2}, {1, 2}}), "at least 4"},
       {light_polyline({{0, 2}, {1, 2}, {2, -2}, {3, 2}}), "point 3"},
-      {light_polyline({{0, 2}, {1, 2}, {1, 4}, {3, 4}}), "z must grow"}};
+      {light_polyline({{0, 2}, {1, 2}, {1, 4}, {3, 4}}), "z must increase"}};
   for (const auto& [text, expected] : corpus) {
     const std::string message = refusal(text);
     EXPECT_EQ(message.rfind("t.dxf: ", 0), 0u) << message;

@@ -170,7 +170,7 @@ TEST(ToolJson, BadFilesAreRefusedByName) {
       {R"({"schema":"openflank/tool/1","axis_length":20,"family":"cylinder","parameters":{"radius":4},"holder":[[0,1]]})",
        "holder: at least two"},
       {R"({"schema":"openflank/tool/1","axis_length":20,"family":"cylinder","parameters":{"radius":4},"holder":[[5,1],[4,1]]})",
-       "holder[1]: z must not fall"},
+       "holder[1]: z must not decrease"},
       {R"({"schema":"openflank/tool/1","axis_length":20,"family":"cylinder","parameters":{"radius":4},"shank":[[5,1]]})",
        "shank: must be an object"},
       {R"({"schema":"openflank/tool/1","axis_length":20,"family":"cylinder","parameters":{"radius":4},"shank":{"diameter":8}})",

@@ -209,7 +209,7 @@ FaceTriangles by_grid(const Face& face, double wanted) {
 }  // namespace
 
 FaceTriangles triangulate_face(const Face& face, double deviation_mm) {
-  if (!(deviation_mm > 0.0)) throw UsageError("triangulation: a deviation above 0 mm is accepted");
+  if (!(deviation_mm > 0.0)) throw UsageError("triangulation: the deviation must be > 0 mm");
   if (TrimRegion(face.loops, domain(face.surface)).whole())
     if (FaceTriangles graded = by_graded_grid(face, deviation_mm); !graded.mesh.triangles.empty()) return graded;
   const double area = trimmed_area(face);

@@ -55,7 +55,7 @@ std::string step_text(const std::string& title, const std::vector<OcctProduct>& 
   StepData_StepWriter text(model);
   text.SendModel(Handle(StepData_Protocol)::DownCast(writer.WS()->Protocol()));
   std::ostringstream out;
-  if (!text.Print(out)) throw InternalError(title + ": cannot be put into words as STEP");
+  if (!text.Print(out)) throw InternalError(title + ": cannot be written as STEP text");
   return out.str();
 }
 

@@ -73,7 +73,7 @@ TopoDS_Solid solid_in_order(const TopoDS_Shape& shape, const std::vector<TopoDS_
   builder.MakeSolid(solid);
   builder.Add(solid, shell);
   if (!shell.Closed() || !BRepCheck_Analyzer(solid).IsValid() || volume_of(solid) <= 0.0)
-    throw InternalError(name + ": the faces make no valid solid");
+    throw InternalError(name + ": the faces do not form a valid solid");
   return solid;
 }
 
@@ -123,7 +123,7 @@ Hub hub_solid(const HubSector& hub) {
   }
   GeomAPI_Interpolate outline(points, Standard_False, kSamePointMm);
   outline.Perform();
-  if (!outline.IsDone()) throw InternalError("no curve goes through the outline of the hub");
+  if (!outline.IsDone()) throw InternalError("no curve could be interpolated through the outline of the hub");
   const TopoDS_Vertex front_out = BRepBuilderAPI_MakeVertex(points->First()),
                       back_out = BRepBuilderAPI_MakeVertex(points->Last()),
                       front_in = BRepBuilderAPI_MakeVertex(at(points->First().X(), hub.bore_radius_mm)),

@@ -168,7 +168,7 @@ void tell_what_is_left(const TriangleMesh& mesh, std::vector<std::string>& accou
   double largest = 0.0;
   for (const auto& [root, box] : boxes) largest = std::max(largest, box.diagonal());
   if (const long left = count_non_manifold(edges); left > 0)
-    account.push_back(fmt::format("left {} non-manifold edges, as borders between faces", left));
+    account.push_back(fmt::format("left {} non-manifold edges as borders between faces", left));
   if (!boxes.empty())
     account.push_back(fmt::format("left {} holes or open rims (the largest {:.3g} mm across)", boxes.size(), largest));
   if (folds > 0) account.push_back(fmt::format("left {} edges at which the surface folds back onto itself", folds));
@@ -184,7 +184,7 @@ ReadMesh repair_read_mesh(TriangleMesh mesh, bool soup) {
   result.mesh = std::move(first.mesh);
   const std::size_t fins = remove_fins(result.mesh);
   if (fins > 0) {
-    result.account.push_back(fmt::format("removed {} triangles of fins that hang on non-manifold edges", fins));
+    result.account.push_back(fmt::format("removed {} triangles of fins attached to non-manifold edges", fins));
     // Without the fins more triangles are neighbours, so that more of them must agree.
     RepairedMesh second = repair_mesh(std::move(result.mesh));
     second.repair.isolated_vertices = 0;

@@ -72,13 +72,13 @@ Header read_header(TextLines& lines) {
       header.elements.push_back({std::string(lines.word(1)), static_cast<std::size_t>(count), {}});
     }
     if (word == "property") {
-      if (header.elements.empty()) lines.refuse("a property stands before its element");
+      if (header.elements.empty()) lines.refuse("a property comes before its element");
       header.elements.back().properties.push_back(property(lines));
     }
   }
   if (lines.word(0) != "end_header") lines.refuse("the header does not end with \"end_header\"; the file is truncated");
   if (header.encoding != "ascii" && header.encoding != "binary_little_endian" && header.encoding != "binary_big_endian")
-    lines.refuse(fmt::format("format \"{}\" is not read; accepted: ascii, binary_little_endian, binary_big_endian",
+    lines.refuse(fmt::format("format \"{}\" is not supported; accepted: ascii, binary_little_endian, binary_big_endian",
                              header.encoding));
   // Rows of no bytes would never reach the end of the file.
   for (const Element& element : header.elements)

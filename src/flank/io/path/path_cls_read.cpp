@@ -107,7 +107,7 @@ class Reader {
   Path read() {
     while (in_.next() && in_.word() != "FINI") take();
     std::erase_if(path_.strips, [](const Strip& s) { return s.poses.empty(); });
-    if (!seen_motion_) throw InputError(file_ + ": no GOTO in it; an APT cutter-location file is accepted");
+    if (!seen_motion_) throw InputError(file_ + ": contains no GOTO; an APT cutter-location file is accepted");
     return std::move(path_);
   }
 
@@ -123,7 +123,7 @@ class Reader {
     else if (word == "PPRINT")
       take_print();
     else if (std::find(kRefused.begin(), kRefused.end(), word) != kRefused.end())
-      in_.refuse(word + " is not read; accepted are points, GOTO/x,y,z,i,j,k");
+      in_.refuse(word + " is not supported; accepted are points, GOTO/x,y,z,i,j,k");
   }
 
   void take_units() {

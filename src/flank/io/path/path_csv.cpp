@@ -126,7 +126,7 @@ Path path_from_csv(std::string_view text, const std::string& file) {
     const int id = std::abs(number) < 1e9 ? static_cast<int>(number) : 0;
     if (id != number) in.refuse("the strip's number must be a whole number");
     if (path.strips.empty() || path.strips.back().id != id) {
-      if (!ids.insert(id).second) in.refuse(fmt::format("strip {} goes on after another one", id));
+      if (!ids.insert(id).second) in.refuse(fmt::format("strip {} continues after another one", id));
       path.strips.push_back({id, (*fields)[1], (*fields)[2], {}});
     }
     path.strips.back().poses.push_back(pose_from(in, *fields));

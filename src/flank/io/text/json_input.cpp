@@ -173,7 +173,7 @@ std::vector<Vec2> JsonInput::pairs() const {
 }
 
 std::string exact_number(double value) {
-  if (!std::isfinite(value)) throw InternalError("a number that is not finite was to be written to a file");
+  if (!std::isfinite(value)) throw InternalError("a number to be written to a file is not finite");
   return fmt::format("{}", value);
 }
 

@@ -32,7 +32,8 @@ std::string format_of_extension(const std::string& file) {
       {".brep", "BREP"}, {".brp", "BREP"}, {".stl", "STL"},  {".obj", "OBJ"},   {".ply", "PLY"}};
   const auto found = formats.find(lower_extension(file));
   if (found == formats.end())
-    throw InputError(file + ": the extension \"" + lower_extension(file) + "\" is not read; accepted: " + kAccepted);
+    throw InputError(file + ": the extension \"" + lower_extension(file) +
+                     "\" is not supported; accepted: " + kAccepted);
   return found->second;
 }
 
@@ -136,8 +137,7 @@ std::string sniff_format(const std::string& file, std::string_view content) {
   if (found.empty())
     throw InputError(file + ": the content is not " + claimed + " as the name says; accepted: " + kAccepted);
   if (found != claimed)
-    throw InputError(file + ": the name says " + claimed + " but the content is " + found +
-                     "; rename it to what it is");
+    throw InputError(file + ": the name says " + claimed + " but the content is " + found + "; rename it to match");
   refuse_truncated(file, found, content);
   return found;
 }

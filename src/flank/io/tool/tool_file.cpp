@@ -91,7 +91,8 @@ std::vector<Vec2> checked_samples(const JsonInput& list, double length) {
   if (samples.size() < 4) list.refuse("at least 4 pairs [s, r] are needed");
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (!(samples[i].y() > 0.0)) list.element(i).refuse(fmt::format("r is {}; must be > 0", samples[i].y()));
-    if (i > 0 && !(samples[i].x() > samples[i - 1].x())) list.element(i).refuse("s must grow from sample to sample");
+    if (i > 0 && !(samples[i].x() > samples[i - 1].x()))
+      list.element(i).refuse("s must increase from sample to sample");
   }
   const double slack = 1e-6 * length;
   if (std::abs(samples.front().x()) > slack || std::abs(samples.back().x() - length) > slack)
@@ -153,7 +154,7 @@ RadialFunction radial_from(const JsonInput& file) {
 void check_profile(const JsonInput& list, const std::vector<Vec2>& profile) {
   for (std::size_t i = 0; i < profile.size(); ++i) {
     if (profile[i].y() < 0.0) list.element(i).refuse("the radius must be >= 0");
-    if (i > 0 && profile[i].x() < profile[i - 1].x()) list.element(i).refuse("z must not fall from point to point");
+    if (i > 0 && profile[i].x() < profile[i - 1].x()) list.element(i).refuse("z must not decrease from point to point");
   }
   if (profile.size() == 1) list.refuse("at least two points [z, radius] are needed");
 }
@@ -162,7 +163,7 @@ std::vector<Vec2> shank_from(const JsonInput& shank, const RadialFunction& radia
   shank.allow_keys({"profile", "diameter", "length"});
   if (shank.has("profile")) {
     if (shank.has("diameter") || shank.has("length"))
-      shank.refuse("has either \"profile\" or \"diameter\" and \"length\"");
+      shank.refuse("must have either \"profile\" or \"diameter\" and \"length\"");
     const std::vector<Vec2> profile = shank.member("profile").pairs();
     check_profile(shank.member("profile"), profile);
     return profile;

@@ -94,7 +94,7 @@ Handle(Geom_BSplineCurve) interpolated(const RadialFunction& radial, int count) 
   fit.Load(in_space_vector(meridian_tangent(radial, 0.0)),
            in_space_vector(meridian_tangent(radial, radial.axis_length())), Standard_False);
   fit.Perform();
-  if (!fit.IsDone()) throw InternalError("tool.step: no curve goes through the meridian");
+  if (!fit.IsDone()) throw InternalError("tool.step: no curve could be interpolated through the meridian");
   return fit.Curve();
 }
 

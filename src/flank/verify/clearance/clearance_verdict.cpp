@@ -133,7 +133,7 @@ const ClearanceFigure* ClearanceReport::worst() const {
 ClearanceReport judge_clearance(const Tool& tool, const Path& path, const std::vector<Obstacle>& obstacles,
                                 const ClearanceOptions& options) {
   if (!(options.accuracy_mm > 0.0) || !(options.tolerance_mm > 0.0))
-    throw UsageError("clearance: an accuracy and a tolerance above 0 mm are accepted");
+    throw UsageError("clearance: accuracy and tolerance must be > 0 mm");
   const std::vector<Segment> segments = PoseTree(path, tool.radial.axis_length(), 1e300).segments;
   std::array<Scene, kRoles.size()> scenes;
   for (std::size_t k = 0; k < kRoles.size(); ++k) scenes[k] = scene_of(obstacles, kRoles[k]);

@@ -24,11 +24,10 @@ std::string place(std::size_t strip, std::size_t pose) {
 
 Pose checked(const Pose& pose, std::size_t strip, std::size_t index) {
   if (!pose.tip.allFinite() || !pose.axis.allFinite())
-    throw InputError(place(strip, index) + " is not a number; six finite numbers are accepted");
+    throw InputError(place(strip, index) + " is not finite; six finite numbers are needed");
   const double length = pose.axis.norm();
   if (std::abs(length - 1.0) > kUnitTolerance)
-    throw InputError(place(strip, index) + " has an axis of length " + std::to_string(length) +
-                     "; a unit vector is accepted");
+    throw InputError(place(strip, index) + " has an axis of length " + std::to_string(length) + "; it must be 1");
   return {pose.tip, pose.axis / length};
 }
 
@@ -48,7 +47,7 @@ class Builder {
         const Pose p = checked(poses[i], k, i), q = checked(poses[i + 1], k, i + 1);
         if (p.axis.dot(q.axis) < kLeastCosine)
           throw InputError(place(k, i + 1) +
-                           " turns the axis round within one step; steps under 170 degrees are accepted");
+                           " turns the axis by more than 170 degrees in one step; insert poses between");
         tree_.segments.push_back({p.tip, q.tip - p.tip, p.axis, q.axis - p.axis, strip, static_cast<int>(i)});
       }
     }

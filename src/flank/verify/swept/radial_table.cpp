@@ -29,14 +29,13 @@ int cell_count(const RadialFunction& radial) {
 }  // namespace
 
 RadialTable::RadialTable(const RadialFunction& radial) : count_(cell_count(radial)), length_(radial.axis_length()) {
-  if (!(length_ > 0.0)) throw InputError("tool: the axis length is not positive; a length in mm above 0 is accepted");
+  if (!(length_ > 0.0)) throw InputError("tool: the axis length must be > 0 mm");
   cells_per_mm_ = count_ / length_;
   const double h = 1.0 / cells_per_mm_;
   std::vector<RadialJet> nodes;
   for (int i = 0; i <= count_; ++i) {
     RadialJet j = radial.at(std::min(length_, i * h));
-    if (!std::isfinite(j.r))
-      throw InputError("tool: the radius is not a number at s = " + std::to_string(i * h) + " mm");
+    if (!std::isfinite(j.r)) throw InputError("tool: the radius is not finite at s = " + std::to_string(i * h) + " mm");
     node_radii_.push_back(j.r);
     largest_bend_ = std::max(largest_bend_, std::abs(j.d2));
     nodes.push_back({j.r, j.d1 * h, j.d2 * h * h});
