@@ -21,13 +21,18 @@ template <int Dim>
 struct BSplineCurve {
   using Point = Eigen::Matrix<double, Dim, 1>;
   int degree = 3;
+  /// count() + degree + 1 of them, never falling; the first and the last degree + 1 are equal.
   std::vector<double> knots;
   Eigen::Matrix<double, Dim, Eigen::Dynamic> poles;  ///< one column a control point
+  /// One per control point, > 0; empty: polynomial.
   std::vector<double> weights;
 
+  /// Number of control points.
   [[nodiscard]] int count() const { return static_cast<int>(poles.cols()); }
+  /// Domain [first(), last()]; outside it value() and jet() extrapolate the end polynomials.
   [[nodiscard]] double first() const { return knots[static_cast<std::size_t>(degree)]; }
   [[nodiscard]] double last() const { return knots[static_cast<std::size_t>(count())]; }
+  /// The point at t; allocates nothing.
   [[nodiscard]] Point value(double t) const {
     const int span = find_span(degree, knots, t);
     std::array<double, kMaxDegree + 1> n;

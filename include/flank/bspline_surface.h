@@ -14,6 +14,7 @@ struct SurfaceJet {
   Vec3 duu = Vec3::Zero(), duv = Vec3::Zero(), dvv = Vec3::Zero();
 };
 
+/// A value. Points in mm, parameters without unit; the outward side is given by Face::reversed.
 struct BSplineSurface {
   int degree_u = 0, degree_v = 0;
   std::vector<double> knots_u, knots_v;
@@ -21,13 +22,16 @@ struct BSplineSurface {
   std::vector<Vec3> poles;      ///< pole (i, j) at i * count_v + j
   std::vector<double> weights;  ///< empty: polynomial
 
+  /// Control point i along u, j along v; not checked.
   [[nodiscard]] const Vec3& pole(int i, int j) const { return poles[static_cast<std::size_t>(i * count_v + j)]; }
   [[nodiscard]] Vec3& pole(int i, int j) { return poles[static_cast<std::size_t>(i * count_v + j)]; }
+  /// Ends of the domain.
   [[nodiscard]] double u_first() const { return knots_u[static_cast<std::size_t>(degree_u)]; }
   [[nodiscard]] double u_last() const { return knots_u[static_cast<std::size_t>(count_u)]; }
   [[nodiscard]] double v_first() const { return knots_v[static_cast<std::size_t>(degree_v)]; }
   [[nodiscard]] double v_last() const { return knots_v[static_cast<std::size_t>(count_v)]; }
 
+  /// The point at (u, v); cheaper than jet().
   [[nodiscard]] Vec3 value(double u, double v) const;
   /// Derivatives up to second order; outside the domain the end spans' polynomials are extrapolated.
   [[nodiscard]] SurfaceJet jet(double u, double v) const;

@@ -11,6 +11,7 @@ namespace flank {
 class Error : public std::runtime_error {
  public:
   Error(int exit_code, const std::string& what) : std::runtime_error(what), exit_code_(exit_code) {}
+  /// 2, 3 or 4: see the classes below.
   [[nodiscard]] int exit_code() const { return exit_code_; }
 
  private:

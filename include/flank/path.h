@@ -9,13 +9,16 @@
 
 namespace flank {
 
+/// One pass of the flank. Within a strip the tool cuts; between strips it moves clear (links are not planned here).
 struct Strip {
   int id = 1;
   std::string kind = "flank";  ///< flank, side, front, back, entry, link, ...
   std::string face;            ///< the target, e.g. "F1" or "F1,F3"
+  /// In the order of machining, at least one; every axis a unit vector.
   std::vector<Pose> poses;
 };
 
+/// Strips in the order of machining. How it is written: docs/schema/path.md.
 struct Path {
   std::vector<Strip> strips;
   [[nodiscard]] std::size_t pose_count() const {

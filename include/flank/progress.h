@@ -8,7 +8,9 @@ namespace flank {
 
 /// Called from the calling thread between steps. Any member may be empty.
 struct Progress {
+  /// The stage that runs, and the finished share of the whole calculation in [0, 1].
   std::function<void(std::string_view stage, double share)> report;
+  /// True ends the calculation early; the result says that it is incomplete.
   std::function<bool()> cancelled;
 
   void step(std::string_view stage, double share) const {

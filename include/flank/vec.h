@@ -7,7 +7,9 @@
 
 namespace flank {
 
+/// Plane: a parameter plane (u, v), or a tool profile (z, radius).
 using Vec2 = Eigen::Vector2d;
+/// Space: the frame of the part, mm.
 using Vec3 = Eigen::Vector3d;
 
 /// Axis-aligned box; empty until something is added.
@@ -24,6 +26,7 @@ struct Box3 {
     high = high.cwiseMax(b.high);
   }
   [[nodiscard]] bool empty() const { return !(low.array() <= high.array()).all(); }
+  /// Length of the diagonal, the "size" that relative errors are divided by; 0 if empty.
   [[nodiscard]] double diagonal() const { return empty() ? 0.0 : (high - low).norm(); }
   [[nodiscard]] Vec3 center() const { return 0.5 * (low + high); }
   /// Squared distance from p to the box, 0 inside.

@@ -12,6 +12,7 @@ class AtomicFile {
  public:
   /// Throws InputError when the folder does not exist, or the file cannot be created there, or `file` is a folder.
   explicit AtomicFile(std::string file);
+  /// Without commit() the temporary file is removed, and the real one is as before.
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
@@ -23,7 +24,9 @@ class AtomicFile {
   void commit();
 
  private:
+  /// The name that readers know; the temporary one lies in the same folder, so that a rename is enough.
   std::string file_;
+  /// Unique, so that two writers of one file do not meet.
   std::string temporary_;
   bool committed_ = false;
 };

@@ -28,8 +28,10 @@ int find_span(int degree, std::span<const double> knots, double u) {
   const int count = static_cast<int>(knots.size()) - degree - 1;
   const auto first = knots.begin() + degree;
   const auto last = knots.begin() + count + 1;
+  // upper_bound: a knot belongs to the span on its right.
   int span = static_cast<int>(std::upper_bound(first, last, u) - knots.begin()) - 1;
   span = std::clamp(span, degree, count - 1);
+  // Past empty spans: at the end of the domain to the left, else to the right.
   while (span > degree && knots[span] == knots[span + 1]) --span;
   while (span < count - 1 && knots[span] == knots[span + 1]) ++span;
   return span;
@@ -43,6 +45,7 @@ void basis_derivatives(int degree, std::span<const double> knots, int span, doub
   // Not initialised: what is read below has been written, and clearing 2 kB would cost more than the evaluation.
   std::array<std::array<double, n>, n> ndu;
   std::array<double, n> left, right;
+  // A2.3 of the book. ndu: basis functions of all lower degrees (upper triangle) and knot differences (lower one).
   ndu[0][0] = 1.0;
   for (int j = 1; j <= degree; ++j) {
     left[j] = u - knots[span + 1 - j];
@@ -57,11 +60,13 @@ void basis_derivatives(int degree, std::span<const double> knots, int span, doub
     ndu[j][j] = saved;
   }
   for (int j = 0; j <= degree; ++j) out[j] = ndu[j][degree];
+  // Derivatives beyond the degree are 0.
   const int top = std::min(order, degree);
   for (int k = top + 1; k <= order; ++k) std::fill_n(out + k * (degree + 1), degree + 1, 0.0);
   if (top == 0) return;
   for (int r = 0; r <= degree; ++r) {
     int s1 = 0, s2 = 1;
+    // Rows a[s1] and a[s2] hold the coefficients of the last and of this derivative, in turn.
     std::array<std::array<double, n>, 2> a;
     a[0][0] = 1.0;
     for (int k = 1; k <= top; ++k) {
@@ -85,6 +90,7 @@ void basis_derivatives(int degree, std::span<const double> knots, int span, doub
       std::swap(s1, s2);
     }
   }
+  // degree (degree - 1) ... (degree - k + 1), left out above.
   double factor = degree;
   for (int k = 1; k <= top; ++k) {
     for (int j = 0; j <= degree; ++j) out[k * (degree + 1) + j] *= factor;

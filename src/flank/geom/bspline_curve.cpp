@@ -12,6 +12,7 @@ BSplineCurve3 fit_curve(const Eigen::Matrix3Xd& points, const std::vector<double
   BSplineCurve3 curve;
   curve.degree = degree;
   curve.knots = uniform_knots(degree, count);
+  // Normal equations: parameters spread over all spans keep them well conditioned, and they are small.
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(count, count);
   Eigen::MatrixX3d rhs = Eigen::MatrixX3d::Zero(count, 3);
   std::array<double, kMaxDegree + 1> n;
@@ -23,6 +24,7 @@ BSplineCurve3 fit_curve(const Eigen::Matrix3Xd& points, const std::vector<double
       rhs.row(span - degree + i) += n[i] * points.col(static_cast<Eigen::Index>(k)).transpose();
     }
   }
+  // Second differences, so weak that data are followed to 1e-12; a control point without data continues its neighbours.
   const double mu = 1e-12 * normal.trace() / count;
   for (int i = 1; i + 1 < count; ++i) {
     const double d[3] = {1.0, -2.0, 1.0};

@@ -43,6 +43,7 @@ void horner(const double* c, int p_run, int q, double s, double t, double* out) 
   }
 }
 
+/// Degrees 1 to 3 are compiled in, because nearly all CAD faces have them.
 auto select_kernel(int p) {
   switch (p) {
     case 1:
@@ -102,6 +103,7 @@ BSplinePatches::Axis::Axis(int degree_, int count, const std::vector<double>& kn
     mid.push_back(0.5 * (breaks[k] + breaks[k + 1]));
     inverse_half.push_back(2.0 / (breaks[k + 1] - breaks[k]));
   }
+  // Twice as many slots as cells: on evenly spaced knots find() needs one comparison each way.
   const std::size_t slots = 2 * n;
   slots_per_unit = static_cast<double>(slots) / (breaks.back() - breaks.front());
   for (std::size_t s = 0, k = 0; s < slots; ++s) {
@@ -114,6 +116,7 @@ BSplinePatches::Axis::Axis(int degree_, int count, const std::vector<double>& kn
 int BSplinePatches::Axis::find(double u) const {
   const int n = static_cast<int>(mid.size());
   const double slot = (u - breaks.front()) * slots_per_unit;
+  // NaN, too.
   if (!(slot > 0.0)) return 0;
   int k = slot >= static_cast<double>(start.size()) ? n - 1 : start[static_cast<std::size_t>(slot)];
   while (k > 0 && u < breaks[static_cast<std::size_t>(k)]) --k;
@@ -147,6 +150,7 @@ BSplinePatches::BSplinePatches(const BSplineSurface& surface)
             const double w = surface.weights.empty() ? 1.0 : surface.weights[k];
             poles(a, b) = d < 3 ? w * surface.poles[k][d] : w;
           }
+        // Taylor coefficients at the middle of the cell, in powers of its coordinates.
         const Matrix c = basis_u * poles * basis_v[static_cast<std::size_t>(j)].transpose();
         for (int b = 0; b <= q; ++b)
           for (int a = 0; a <= p; ++a) out[(a * (q + 1) + b) * 4 + d] = c(a, b);
@@ -160,6 +164,7 @@ void BSplinePatches::evaluate(int i, int j, double u, double v, SurfaceJet& jet)
   FLANK_ASSERT(i >= 0 && i < cells_u() && j >= 0 && j < cells_v());
   const auto ku = static_cast<std::size_t>(i), kv = static_cast<std::size_t>(j);
   const double gu = u_.inverse_half[ku], gv = v_.inverse_half[kv];
+  // Six derivatives of x, y, z and weight, by the cell's own coordinates: the chain rule multiplies by 1 / half width.
   double o[24];
   kernel_(cell(i, j), u_.degree, v_.degree, (u - u_.mid[ku]) * gu, (v - v_.mid[kv]) * gv, o);
   jet.p = Vec3(o[0], o[1], o[2]);
@@ -169,6 +174,7 @@ void BSplinePatches::evaluate(int i, int j, double u, double v, SurfaceJet& jet)
   jet.duv = gu * gv * Vec3(o[16], o[17], o[18]);
   jet.dvv = gv * gv * Vec3(o[20], o[21], o[22]);
   if (!rational_) return;
+  // Quotient rule (Piegl and Tiller, A4.4).
   const double iw = 1.0 / o[3], wu = gu * o[7], wv = gv * o[11];
   const double wuu = gu * gu * o[15], wuv = gu * gv * o[19], wvv = gv * gv * o[23];
   jet.p *= iw;

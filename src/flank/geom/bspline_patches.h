@@ -13,11 +13,13 @@ namespace flank::internal {
 class BSplinePatches {
  public:
   BSplinePatches() = default;
+  /// Takes degrees up to kMaxDegree; the cost is that of one basis evaluation per cell.
   explicit BSplinePatches(const BSplineSurface& surface);
 
   /// Ends of the cells: cell (i, j) is [breaks_u()[i], breaks_u()[i + 1]] x [breaks_v()[j], breaks_v()[j + 1]].
   [[nodiscard]] const std::vector<double>& breaks_u() const { return u_.breaks; }
   [[nodiscard]] const std::vector<double>& breaks_v() const { return v_.breaks; }
+  /// Number of cells per direction; empty knot spans make none.
   [[nodiscard]] int cells_u() const { return static_cast<int>(u_.breaks.size()) - 1; }
   [[nodiscard]] int cells_v() const { return static_cast<int>(v_.breaks.size()) - 1; }
 
@@ -28,6 +30,7 @@ class BSplinePatches {
 
   /// Point and derivatives of cell (i, j)'s polynomial at (u, v), which may lie outside the cell.
   void evaluate(int i, int j, double u, double v, SurfaceJet& jet) const;
+  /// The same by the cell that holds (u, v): outside the domain, the polynomial of the nearest end cell.
   [[nodiscard]] SurfaceJet jet(double u, double v) const {
     SurfaceJet result;
     evaluate(cell_u(u), cell_v(v), u, v, result);
@@ -42,24 +45,31 @@ class BSplinePatches {
   [[nodiscard]] int degree_v() const { return v_.degree; }
 
  private:
+  /// One direction: its cells, and a table that finds the cell of a parameter in constant time.
   struct Axis {
     int degree = 0;
+    /// Ends of the cells; middle and 1 / half width of each cell.
     std::vector<double> breaks, mid, inverse_half;
     std::vector<int> start;  ///< first cell of each slot of a uniform table
+    /// Slots of the table per unit of the parameter: two per cell on average.
     double slots_per_unit = 0.0;
 
     Axis() = default;
     Axis(int degree_, int count, const std::vector<double>& knots);
     [[nodiscard]] int find(double u) const;
   };
+  /// The Horner scheme for one degree in u (bspline_patches.cpp): chosen once, not per evaluation.
   using Kernel = void (*)(const double* c, int p, int q, double s, double t, double* out);
 
+  /// Coefficients of cell (i, j).
   [[nodiscard]] const double* cell(int i, int j) const {
     return coefficients_.data() + static_cast<std::size_t>(i * cells_v() + j) * cell_size_;
   }
 
+  /// The two directions.
   Axis u_, v_;
   bool rational_ = false;
+  /// Doubles per cell: 4 (degree_u + 1) (degree_v + 1).
   std::size_t cell_size_ = 0;
   std::vector<double> coefficients_;  ///< of a cell: [power of u][power of v][x, y, z, weight]
   Kernel kernel_ = nullptr;

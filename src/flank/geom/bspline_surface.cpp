@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kWidth = kMaxDegree + 1;
 
+/// Basis functions of one direction: value, first and second derivatives, kMaxDegree + 1 apart at most.
 struct Basis {
   int span;
   std::array<double, 3 * kWidth> n;
@@ -35,6 +36,7 @@ SurfaceJet project(const SurfaceJet& a, const std::array<double, 6>& w) {
   return s;
 }
 
+/// Inner knots as means of `degree` parameters (Piegl and Tiller, 9.8): the collocation matrix stays well conditioned.
 std::vector<double> averaged_knots(const std::vector<double>& t, int degree) {
   const int count = static_cast<int>(t.size());
   std::vector<double> knots(static_cast<std::size_t>(count + degree + 1), 0.0);
@@ -47,6 +49,7 @@ std::vector<double> averaged_knots(const std::vector<double>& t, int degree) {
   return knots;
 }
 
+/// Row k: the basis functions at t[k].
 Eigen::MatrixXd collocation(const std::vector<double>& t, const std::vector<double>& knots, int degree) {
   const int count = static_cast<int>(t.size());
   Eigen::MatrixXd m = Eigen::MatrixXd::Zero(count, count);
@@ -100,6 +103,7 @@ SurfaceJet BSplineSurface::jet(double u, double v) const {
   SurfaceJet s;
   std::array<double, 6> w{};
   for (int i = 0; i < wu; ++i) {
+    // A row of poles along v first: its point and derivatives, homogeneous if the surface is rational.
     Vec3 r0 = Vec3::Zero(), r1 = Vec3::Zero(), r2 = Vec3::Zero();
     double w0 = 0.0, w1 = 0.0, w2 = 0.0;
     for (int j = 0; j < wv; ++j) {
@@ -151,6 +155,7 @@ std::vector<double> greville_sites(const std::vector<double>& knots, int degree)
     for (int j = 1; j <= degree; ++j) sum += knots[i + static_cast<std::size_t>(j)];
     sites.push_back(sum / degree);
   }
+  // Their sums can be off by a rounding error, and a site outside the domain would be extrapolated.
   sites.front() = knots.front();
   sites.back() = knots.back();
   return sites;

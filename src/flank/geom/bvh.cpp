@@ -13,6 +13,7 @@ namespace {
 /// building stays quick.
 constexpr int kExactItems = 48;
 
+/// The eight corners of a box.
 void append_corners(const OrientedBox& box, std::vector<Vec3>& points) {
   for (int k = 0; k < 8; ++k) {
     const Vec3 sign((k & 1) ? 1.0 : -1.0, (k & 2) ? 1.0 : -1.0, (k & 4) ? 1.0 : -1.0);
@@ -60,6 +61,7 @@ int BoxTree::build(const std::vector<std::vector<Vec3>>& hulls, std::vector<int>
     return index;
   }
   Box3 centers;
+  // A hull's first and last point stand for its place: opposite corners of a patch of control points.
   const auto key = [&](int item, int axis) {
     const auto& hull = hulls[static_cast<std::size_t>(item)];
     return hull.front()[axis] + hull.back()[axis];
@@ -69,6 +71,7 @@ int BoxTree::build(const std::vector<std::vector<Vec3>>& hulls, std::vector<int>
     centers.add(Vec3(key(item, 0), key(item, 1), key(item, 2)));
   }
   int axis = 0;
+  // Halves of equal count across the longest side: the depth is the logarithm of the number, which kStack relies on.
   (centers.high - centers.low).maxCoeff(&axis);
   const int middle = begin + (end - begin) / 2;
   std::nth_element(items.begin() + begin, items.begin() + middle, items.begin() + end, [&](int a, int b) {

@@ -12,8 +12,10 @@ namespace flank::internal {
 struct OrientedBox {
   Vec3 center = Vec3::Zero();
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< one unit axis a row
+  /// Half lengths along the axes, >= 0.
   Vec3 half = Vec3::Zero();
 
+  /// Squared distance from p to the box, 0 inside.
   [[nodiscard]] double squared_distance(const Vec3& p) const {
     const Vec3 d = p - center;
     double sum = 0.0;
@@ -32,6 +34,7 @@ struct OrientedBox {
 class BoxTree {
  public:
   BoxTree() = default;
+  /// Item k is hulls[k], at least one point each. Each must lie within the convex hull of its points.
   explicit BoxTree(const std::vector<std::vector<Vec3>>& hulls);
 
   /// Visits the items that can be nearer to p than the squared distance `best`, nearest boxes first. visit(item) may
@@ -43,17 +46,21 @@ class BoxTree {
   struct Node {
     OrientedBox box;
     int left = -1, right = -1;  ///< children; left < 0: a leaf
+    /// Of a leaf.
     int item = -1;
   };
+  /// Builds the subtree over items [begin, end) and returns its node.
   int build(const std::vector<std::vector<Vec3>>& hulls, std::vector<int>& items, int begin, int end);
 
   static constexpr int kStack = 128;  ///< the tree is balanced: its depth is the logarithm of its size
+  /// Node 0 is the root.
   std::vector<Node> nodes_;
 };
 
 template <class Visit>
 void BoxTree::nearest(const Vec3& p, double& best, Visit&& visit) const {
   if (nodes_.empty()) return;
+  // Depth first, the nearer child first: the farther one waits on the stack with its bound.
   struct Entry {
     double bound;
     int node;
@@ -63,6 +70,7 @@ void BoxTree::nearest(const Vec3& p, double& best, Visit&& visit) const {
   stack[size++] = {nodes_[0].box.squared_distance(p), 0};
   while (size > 0) {
     Entry entry = stack[--size];
+    // `best` may have fallen since the entry was pushed, so it is compared again here.
     while (entry.bound < best) {
       const Node& node = nodes_[static_cast<std::size_t>(entry.node)];
       if (node.left < 0) {

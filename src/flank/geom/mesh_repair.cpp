@@ -19,6 +19,7 @@ using Triangle = std::array<int, 3>;
 /// Twice the area over the longest side squared; below this a triangle counts as having no area.
 constexpr double kFlatness = 1e-12;
 
+/// Throws InputError for what no repair can mend.
 void check(const TriangleMesh& mesh) {
   if (mesh.triangles.empty()) throw InputError("mesh has no triangles; expected at least one");
   const int count = static_cast<int>(mesh.vertices.size());
@@ -32,6 +33,7 @@ void check(const TriangleMesh& mesh) {
       throw InputError("mesh vertex " + std::to_string(v) + " has a coordinate that is not a finite number");
 }
 
+/// A cube of the grid that vertices are sorted into, or, if only equal ones are welded, the bits of the coordinates.
 using Cell = std::array<std::int64_t, 3>;
 
 struct CellHash {
@@ -46,6 +48,7 @@ struct CellHash {
 std::vector<int> representatives(const std::vector<Vec3>& vertices, double tolerance, const Vec3& low) {
   std::vector<int> first(vertices.size());
   std::unordered_map<Cell, std::vector<int>, CellHash> cells;
+  // Two vertices within the tolerance are in the same cell or in neighbouring ones.
   const double cell = tolerance > 0.0 ? 2.0 * tolerance : 1.0;
   const auto find = [&](std::size_t v, const Cell& c) {
     const auto it = cells.find(c);
@@ -62,6 +65,7 @@ std::vector<int> representatives(const std::vector<Vec3>& vertices, double toler
           tolerance > 0.0 ? static_cast<std::int64_t>(std::floor((x - low[k]) / cell)) : std::bit_cast<std::int64_t>(x);
     }
     int found = find(v, c);
+    // All 27 neighbours (the cell itself among them).
     for (int near = 0; tolerance > 0.0 && found < 0 && near < 27; ++near)
       found = find(v, {c[0] + near % 3 - 1, c[1] + near / 3 % 3 - 1, c[2] + near / 9 - 1});
     first[v] = found < 0 ? static_cast<int>(v) : found;
@@ -70,6 +74,7 @@ std::vector<int> representatives(const std::vector<Vec3>& vertices, double toler
   return first;
 }
 
+/// Triangles use the first vertex at each place from here on; the others stay until drop_unused().
 void weld(TriangleMesh& mesh, double weld_share, MeshRepair& repair) {
   const Box3 box = mesh.box();
   const std::vector<int> first = representatives(mesh.vertices, weld_share * box.diagonal(), box.low);
@@ -78,6 +83,7 @@ void weld(TriangleMesh& mesh, double weld_share, MeshRepair& repair) {
     for (int& v : t) v = first[static_cast<std::size_t>(v)];
 }
 
+/// Removes triangles with two equal corners, and those with the corners of an earlier one, however they are turned.
 void drop_repeats(TriangleMesh& mesh, MeshRepair& repair) {
   std::vector<std::pair<Triangle, std::size_t>> keys;
   keys.reserve(mesh.triangles.size());
@@ -105,6 +111,7 @@ void drop_repeats(TriangleMesh& mesh, MeshRepair& repair) {
 }
 
 using Side = std::pair<int, int>;
+/// The same for both directions.
 Side side_of(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
 /// The corner opposite the longest side, and whether the triangle has no area to speak of.
@@ -129,6 +136,7 @@ bool mend_flat(TriangleMesh& mesh, MeshRepair& repair) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     if (flatness(mesh, mesh.triangles[t]).second) flat.push_back(t);
   if (flat.empty()) return false;
+  // Only sides of flat triangles are of interest.
   std::map<Side, std::vector<std::size_t>> users;
   for (std::size_t t : flat) {
     const int c = flatness(mesh, mesh.triangles[t]).first;
@@ -141,6 +149,7 @@ bool mend_flat(TriangleMesh& mesh, MeshRepair& repair) {
     }
   std::vector<char> touched(mesh.triangles.size(), 0), dead(mesh.triangles.size(), 0);
   for (std::size_t t : flat) {
+    // Two flat triangles in a row: the second one waits for the next round, when the first one has its new corners.
     if (touched[t]) continue;
     Triangle& a = mesh.triangles[t];
     const int c = flatness(mesh, a).first;
@@ -154,6 +163,7 @@ bool mend_flat(TriangleMesh& mesh, MeshRepair& repair) {
     }
     if (touched[other]) continue;
     Triangle& b = mesh.triangles[other];
+    // The quadrilateral (from, tip, to, far corner of b) is cut along tip to far corner instead of from to to.
     const Triangle old = b;
     for (int k = 0; k < 3; ++k)
       if (b[k] == to) b[k] = tip;
@@ -170,11 +180,13 @@ bool mend_flat(TriangleMesh& mesh, MeshRepair& repair) {
   return true;
 }
 
+/// A triangle across a side that exactly two share.
 struct Link {
   int other;
   bool agree;  // the two run their common side in opposite directions
 };
 
+/// Neighbours of every triangle; sides of three or more triangles link nothing, since they say nothing of orientation.
 std::vector<std::vector<Link>> links(const TriangleMesh& mesh) {
   struct Use {
     Side side;
@@ -204,6 +216,7 @@ std::vector<std::vector<Link>> links(const TriangleMesh& mesh) {
   return result;
 }
 
+/// Twice the area, mm^2.
 double doubled_area(const TriangleMesh& mesh, const Triangle& t) {
   const Vec3& a = mesh.vertices[static_cast<std::size_t>(t[0])];
   return (mesh.vertices[static_cast<std::size_t>(t[1])] - a)
@@ -219,6 +232,7 @@ void orient(TriangleMesh& mesh, MeshRepair& repair) {
     if (turn[start] >= 0) continue;
     std::vector<std::size_t> members{start};
     turn[start] = 0;
+    // Of the members that keep their orientation, and of those that would be turned.
     std::array<double, 2> area{};
     for (std::size_t i = 0; i < members.size(); ++i) {
       const std::size_t t = members[i];
@@ -244,6 +258,7 @@ void orient(TriangleMesh& mesh, MeshRepair& repair) {
   }
 }
 
+/// Removes vertices without triangles. Those that were welded away are counted already and are not "isolated".
 void drop_unused(TriangleMesh& mesh, const std::vector<char>& welded, MeshRepair& repair) {
   std::vector<int> number(mesh.vertices.size(), -1);
   for (const Triangle& t : mesh.triangles)

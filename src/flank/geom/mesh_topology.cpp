@@ -15,6 +15,7 @@ struct Edge {
   bool ascending;  // whether the triangle runs from low to high
 };
 
+/// Sides of all triangles, those of one edge side by side. Sorted, not hashed: the order must not depend on a library.
 std::vector<Edge> sorted_edges(const TriangleMesh& mesh) {
   std::vector<Edge> edges;
   edges.reserve(3 * mesh.triangles.size());
@@ -32,6 +33,7 @@ std::vector<Edge> sorted_edges(const TriangleMesh& mesh) {
   return edges;
 }
 
+/// Fills the neighbours. Three or more triangles at an edge, or two that run it in the same direction, stay unlinked.
 void link(const TriangleMesh& mesh, double crease_rad, MeshTopology& topology) {
   const std::vector<Vec3> normals = triangle_normals(mesh);
   const std::vector<Edge> edges = sorted_edges(mesh);
@@ -51,6 +53,7 @@ void link(const TriangleMesh& mesh, double crease_rad, MeshTopology& topology) {
   }
 }
 
+/// Triangles around each vertex, by counting: sizes, then their sums, then the entries.
 void collect_fans(const TriangleMesh& mesh, MeshTopology& topology) {
   const std::size_t count = mesh.vertices.size();
   topology.fan_begin.assign(count + 1, 0);
@@ -64,6 +67,7 @@ void collect_fans(const TriangleMesh& mesh, MeshTopology& topology) {
       topology.fans[static_cast<std::size_t>(next[static_cast<std::size_t>(v)]++)] = static_cast<int>(t);
 }
 
+/// Which corner of the triangle the vertex is; it must be one of them.
 int corner_of(const TriangleMesh& mesh, int triangle, int vertex) {
   const auto& t = mesh.triangles[static_cast<std::size_t>(triangle)];
   return t[0] == vertex ? 0 : t[1] == vertex ? 1 : 2;
@@ -97,6 +101,7 @@ bool separate_vertices(TriangleMesh& mesh, const MeshTopology& topology) {
     while (!rest.empty()) {
       const std::size_t fan = gather_fan(mesh, topology, vertex, rest);
       const int copy = static_cast<int>(mesh.vertices.size());
+      // A copy first: push_back may move the vector that its argument is part of.
       mesh.vertices.push_back(Vec3(mesh.vertices[v]));
       for (int t : rest.first(fan)) {
         const int corner = corner_of(mesh, t, vertex);
@@ -182,6 +187,7 @@ double corner_angle(const TriangleMesh& mesh, int triangle, int corner) {
   const auto& t = mesh.triangles[static_cast<std::size_t>(triangle)];
   const auto point = [&](int k) -> const Vec3& { return mesh.vertices[static_cast<std::size_t>(t[k % 3])]; };
   const Vec3 a = point(corner + 1) - point(corner), b = point(corner + 2) - point(corner);
+  // atan2, not acos: exact for angles near 0 and pi, and 0 for a side without length.
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
@@ -216,6 +222,7 @@ std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {
       normals[static_cast<std::size_t>(mesh.triangles[t][k])] += corner_angle(mesh, static_cast<int>(t), k) * flat[t];
   for (Vec3& n : normals) {
     const double length = n.norm();
+    // Weights are angles, so the sum is of the order of 1 unless the normals cancel.
     n = length > 1e-9 ? Vec3(n / length) : Vec3(Vec3::Zero());
   }
   // Where they cancel (a sheet folded onto itself) one of them has to do.

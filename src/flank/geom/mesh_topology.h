@@ -18,6 +18,7 @@ struct MeshTopology {
   std::vector<int> fans;
   std::vector<char> on_border;  ///< per vertex: 1 where a border side starts or ends
 
+  /// The triangles around a vertex, ascending.
   [[nodiscard]] std::span<const int> around(int vertex) const {
     const auto v = static_cast<std::size_t>(vertex);
     return {fans.data() + fan_begin[v], fans.data() + fan_begin[v + 1]};

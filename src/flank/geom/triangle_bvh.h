@@ -52,19 +52,27 @@ class TriangleBvh {
   [[nodiscard]] BvhHit closest(const Vec3& p, double slack, BvhTies& ties) const;
 
  private:
+  /// What one search has found so far; how the tree is built. Both are in the source.
   struct Candidates;
   struct Builder;
+  /// In double precision, for the final measurement.
   struct Corners {
     Vec3 a, b, c;
   };
 
+  /// Bound of the error of a distance from p that is computed in single precision, mm.
   [[nodiscard]] double float_error(const Vec3& p) const;
+  /// Measures the candidates in double precision.
   void measure(const Vec3& p, Candidates& found) const;
+  /// Measures early if too many candidates are as near as the nearest.
   void make_room(const Vec3& p, Candidates& found) const;
+  /// Collects the candidates; visit() asks one group of four triangles.
   void search(const Vec3& p, Candidates& found) const;
+  /// q: p relative to center_, in single precision.
   void visit(const Vec3& p, const Eigen::Array3f& q, int group, Candidates& found) const;
 
   using Four = Eigen::Array4f;
+  /// Children per node: what one vector instruction handles.
   static constexpr int kWidth = 8;
   using Wide = Eigen::Array<float, kWidth, 1>;
   // Round discs that hold the surface below them: centre, unit axis, radius and half thickness; child >= 0: node, < 0:
@@ -85,6 +93,7 @@ class TriangleBvh {
   /// Lower bounds of the squared distances to the children.
   static Wide bounds(const Node& n, const Eigen::Array3f& q);
 
+  // Coordinates are taken relative to it, so that single precision is enough.
   Vec3 center_ = Vec3::Zero();
   double radius_ = 0.0;  // largest coordinate relative to the centre
   std::vector<Node> nodes_;

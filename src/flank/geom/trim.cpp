@@ -8,9 +8,12 @@ namespace {
 
 /// Loops that stay this close to the rectangle's border (as a share of it) and enclose it bound the whole rectangle.
 constexpr double kOnBorder = 1e-6;
+/// Halvings of one knot span at most: 16,384 chords, so that a curve with a kink comes to an end.
 constexpr int kMaxFlattenDepth = 14;
+/// Rows at most, so that a loop of many thousand segments takes no more memory.
 constexpr int kMaxRows = 4096;
 
+/// Distance of p from the line through a and b; from a if they are one point.
 double deviation(const Vec2& a, const Vec2& b, const Vec2& p) {
   const Vec2 d = b - a, r = p - a;
   const double length = d.norm();
@@ -35,6 +38,7 @@ void flatten(const Value& value, double t0, const Vec2& p0, double t1, const Vec
   flatten(value, middle, q, t1, p1, depth - 1, out);
 }
 
+/// Positive if the closed polyline runs counter-clockwise.
 double signed_area(const std::vector<Vec2>& polyline) {
   double sum = 0.0;
   for (std::size_t k = 0; k < polyline.size(); ++k) {
@@ -44,6 +48,7 @@ double signed_area(const std::vector<Vec2>& polyline) {
   return sum;
 }
 
+/// Points are scaled to the rectangle, so its border is that of the unit square.
 bool on_unit_border(const Vec2& p) {
   const Vec2 gap = p.cwiseAbs().cwiseMin((p - Vec2::Ones()).cwiseAbs());
   const bool within = p.minCoeff() > -kOnBorder && p.maxCoeff() < 1.0 + kOnBorder;
@@ -69,6 +74,7 @@ bool meets(double x0, double y0, double x1, double y1, const ParameterRectangle&
 void TrimRegion::append(const BSplineCurve2& edge, std::vector<Vec2>& polyline) const {
   const Vec2 low(rectangle_.u0, rectangle_.v0), size(rectangle_.u1 - rectangle_.u0, rectangle_.v1 - rectangle_.v0);
   const auto value = [&](double t) -> Vec2 { return (edge.value(t) - low).cwiseQuotient(size); };
+  // Span by span: across a knot the curve may have a kink, which flatten() would have to find by halving.
   std::vector<double> knots{edge.first()};
   for (double k : edge.knots)
     if (k > knots.back() && k <= edge.last()) knots.push_back(k);
@@ -125,6 +131,7 @@ void TrimRegion::find_whole(const std::vector<std::vector<Vec2>>& polylines) {
     area += signed_area(polyline);
     whole_ = whole_ && std::all_of(polyline.begin(), polyline.end(), on_unit_border);
   }
+  // The area tells a loop round the whole rectangle from one that runs along a part of its border and back.
   whole_ = polylines.empty() || (whole_ && std::abs(std::abs(area) - 1.0) < 16.0 * kOnBorder);
 }
 
@@ -157,6 +164,7 @@ bool TrimRegion::inside(double u, double v) const {
   bool odd = false;
   for (int k = row_start_[r]; k < row_start_[r + 1]; ++k) {
     const Segment& s = segments_[static_cast<std::size_t>(row_items_[static_cast<std::size_t>(k)])];
+    // Half-open in v: a vertex of the polyline on the line v counts once, a horizontal side not at all.
     if ((s.v0 > v) == (s.v1 > v)) continue;
     if (u < s.u0 + (s.u1 - s.u0) * (v - s.v0) / (s.v1 - s.v0)) odd = !odd;
   }
@@ -175,6 +183,7 @@ TrimRegion::Side TrimRegion::classify(const ParameterRectangle& r) const {
     const Segment& s = segments_[static_cast<std::size_t>(row_items_[static_cast<std::size_t>(k)])];
     if (meets(s.u0, s.v0, s.u1, s.v1, r)) return Side::kCut;
   }
+  // No loop passes through it, so one point decides for all of it.
   return inside(0.5 * (r.u0 + r.u1), 0.5 * (r.v0 + r.v1)) ? Side::kInside : Side::kOutside;
 }
 

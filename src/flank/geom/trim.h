@@ -8,6 +8,7 @@
 
 namespace flank::internal {
 
+/// [u0, u1] x [v0, v1] in the parameters of a surface, which have no unit.
 struct ParameterRectangle {
   double u0 = 0.0, u1 = 1.0, v0 = 0.0, v1 = 1.0;
 };
@@ -17,6 +18,7 @@ struct ParameterRectangle {
 /// joined by straight lines.
 class TrimRegion {
  public:
+  /// Of a rectangle: all of it inside or outside the region, or cut by a loop.
   enum class Side { kInside, kOutside, kCut };
 
   TrimRegion() = default;
@@ -28,23 +30,30 @@ class TrimRegion {
   /// The smallest rectangle that holds the region.
   [[nodiscard]] const ParameterRectangle& box() const { return box_; }
 
+  /// Even-odd rule along the line v = constant; a point on a loop may fall on either side.
   [[nodiscard]] bool inside(double u, double v) const;
   /// Whether the given rectangle is all inside, all outside, or touched by a loop.
   [[nodiscard]] Side classify(const ParameterRectangle& r) const;
 
  private:
+  /// A chord of a loop.
   struct Segment {
     double u0, v0, u1, v1;
   };
+  /// Adds the polyline of an edge.
   void append(const BSplineCurve2& edge, std::vector<Vec2>& polyline) const;
+  /// Sets whole_: every loop follows the border of the rectangle, and they enclose all of it.
   void find_whole(const std::vector<std::vector<Vec2>>& polylines);
+  /// Sorts the segments into rows, so that inside() looks at few of them.
   void fill_rows();
+  /// The row that holds v, clamped to the first and the last.
   [[nodiscard]] int row(double v) const;
 
   ParameterRectangle rectangle_, box_;
   bool whole_ = true;
   std::vector<Segment> segments_;
   std::vector<int> row_start_, row_items_;  ///< segments that overlap each of the horizontal rows that box_ is cut into
+  /// Rows per unit of v.
   double rows_per_unit_ = 0.0;
 };
 

@@ -31,6 +31,7 @@ std::string sizes_by_unit(const Vec3& size) {
   return text;
 }
 
+/// In the unit of the file.
 TriangleMesh parse_mesh(const std::string& file, const std::string& format, std::string_view content) {
   TriangleMesh mesh = format == "STL"   ? read_stl(file, content)
                       : format == "OBJ" ? read_obj(file, content)
@@ -58,6 +59,7 @@ Part read_mesh(const std::string& file, const std::string& format, std::string_v
   part.format = format;
   part.unit = *unit;
   part.millimetres_per_unit = millimetres_per(*unit);
+  // Before the repair: its tolerances and the messages are in millimetres.
   for (Vec3& v : raw.vertices) v *= part.millimetres_per_unit;
   try {
     ReadMesh repaired = repair_read_mesh(std::move(raw), format == "STL");
@@ -72,6 +74,7 @@ Part read_mesh(const std::string& file, const std::string& format, std::string_v
   return part;
 }
 
+/// 0-based index of "F3" or "f3".
 int face_index(const Part& part, std::string_view name) {
   int index = 0;
   const char* end = name.data() + name.size();
@@ -87,6 +90,7 @@ int face_index(const Part& part, std::string_view name) {
 }  // namespace
 
 Part read_part(const std::string& file, const std::optional<std::string>& unit) {
+  // A wrong unit is refused before a large file is read.
   if (unit) (void)millimetres_per(*unit);
   const std::string content = read_bytes(file);
   const std::string format = sniff_format(file, content);
@@ -113,6 +117,7 @@ std::vector<int> parse_face_list(const Part& part, const std::string& list) {
 
 TriangleMesh extract_mesh(const Part& part, const std::vector<int>& faces) {
   TriangleMesh mesh;
+  // New number of each vertex, in the order of first use: the same mesh whatever else the part holds.
   std::vector<int> number(part.mesh.vertices.size(), -1);
   for (const int face : faces) {
     for (const int t : part.mesh_faces[static_cast<std::size_t>(face)]) {

@@ -24,13 +24,16 @@ class Trim {
   [[nodiscard]] Vec2 high() const { return high_; }
 
  private:
+  /// A side of a polyline; its ends in parameters.
   struct Chord {
     Vec2 a, b;
   };
   void add(const BSplineCurve2& edge, double tolerance_u, double tolerance_v);
+  /// Joins edges whose ends do not meet.
   void close(const Vec2& from, const Vec2& to) { chords_.push_back({from, to}); }
 
   bool everything_ = true;
+  /// Of all chords; low > high while there are none.
   Vec2 low_ = Vec2::Constant(1e300), high_ = Vec2::Constant(-1e300);
   std::vector<Chord> chords_;
 };

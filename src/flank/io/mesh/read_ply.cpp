@@ -17,16 +17,19 @@
 namespace flank::internal {
 namespace {
 
+/// Types of a property; kSize has their bytes in this order.
 enum class Scalar { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat, kDouble };
 
 constexpr std::array<std::size_t, 8> kSize = {1, 1, 2, 2, 4, 4, 4, 8};
 
+/// One column of an element; a list has a count before its values.
 struct Property {
   std::string name;
   Scalar type = Scalar::kFloat;
   std::optional<Scalar> count;  ///< of a list
 };
 
+/// A table of the file: "vertex", "face", or one that is skipped.
 struct Element {
   std::string name;
   std::size_t count = 0;
@@ -38,6 +41,7 @@ struct Header {
   std::vector<Element> elements;
 };
 
+/// Both sets of names are in use: those of the first description of the format, and those with sizes.
 Scalar scalar(const TextLines& lines, std::string_view name) {
   static const std::array<std::array<std::string_view, 2>, 8> names = {{{"char", "int8"},
                                                                         {"uchar", "uint8"},
@@ -52,6 +56,7 @@ Scalar scalar(const TextLines& lines, std::string_view name) {
   lines.refuse(fmt::format("\"{}\" is not a type of a PLY file", name));
 }
 
+/// "property TYPE NAME" or "property list COUNT_TYPE TYPE NAME".
 Property property(const TextLines& lines) {
   const bool list = lines.word(1) == "list";
   Property p;
@@ -61,6 +66,7 @@ Property property(const TextLines& lines) {
   return p;
 }
 
+/// Lines up to "end_header"; comments and unknown words are passed over. Refuses what the body could not be read by.
 Header read_header(TextLines& lines) {
   Header header;
   while (lines.next() && lines.word(0) != "end_header") {
@@ -98,6 +104,7 @@ class Values {
         text_(encoding == "ascii"),
         swap_((encoding == "binary_big_endian") == (std::endian::native == std::endian::little)) {}
 
+  /// A row of an element; in text it is a line.
   void begin_row(const std::string& element, std::size_t row) {
     element_ = &element;
     row_ = row;
@@ -105,6 +112,7 @@ class Values {
     if (text_ && !lines_.next()) truncated();
   }
 
+  /// Every type fits a double exactly.
   double next(Scalar type) {
     if (text_) {
       if (word_ >= lines_.words().size()) lines_.refuse(fmt::format("too few values for a {}", *element_));
@@ -125,6 +133,7 @@ class Values {
 
  private:
   template <class T>
+  /// memcpy, because the bytes of a file are not aligned.
   static double as(const char* bytes) {
     T value;
     std::memcpy(&value, bytes, sizeof value);
@@ -161,6 +170,7 @@ class Values {
   std::size_t row_ = 0, word_ = 0;
 };
 
+/// x, y and z count; normals, colours and lists are passed over.
 void read_vertex(const Element& element, Values& values, TriangleMesh& mesh) {
   Vec3 p = Vec3::Zero();
   for (const Property& q : element.properties) {
@@ -175,6 +185,7 @@ void read_vertex(const Element& element, Values& values, TriangleMesh& mesh) {
   mesh.vertices.push_back(p);
 }
 
+/// Polygons become fans of triangles. Indices come as doubles, so 1e9 or -1 is refused before it is used.
 void read_face(const Element& element, Values& values, std::vector<int>& corners, TriangleMesh& mesh) {
   for (const Property& q : element.properties) {
     if (!q.count) {
@@ -195,6 +206,7 @@ void read_face(const Element& element, Values& values, std::vector<int>& corners
   }
 }
 
+/// An element that means nothing here still has to be read over: its rows can differ in length.
 void skip(const Element& element, Values& values) {
   for (const Property& q : element.properties)
     for (double n = q.count ? values.next(*q.count) : 1.0; n > 0.0; --n) (void)values.next(q.type);

@@ -38,6 +38,7 @@ class Statements {
  public:
   Statements(std::string_view text, std::string file) : text_(text), file_(std::move(file)) {}
 
+  /// The next statement that is not empty; false at the end.
   bool next() {
     statement_.clear();
     bool open = false;
@@ -46,6 +47,7 @@ class Statements {
       std::string_view line = text_.substr(at_, end - at_);
       at_ = end + 1;
       ++line_;
+      // A binary file given by mistake.
       if (line.find('\0') != std::string_view::npos) refuse("is not text");
       line = line.substr(0, line.find("$$"));
       std::string piece = trimmed(line);
@@ -89,6 +91,7 @@ class Statements {
     return values;
   }
 
+  /// Names the line where the statement ends.
   [[noreturn]] void refuse(const std::string& why) const {
     throw InputError(fmt::format("{}: line {}: {}", file_, line_, why));
   }
@@ -100,6 +103,7 @@ class Statements {
   long line_ = 0;
 };
 
+/// The state of a cutter-location file: unit, whether a rapid move is under way, and the strip that is open.
 class Reader {
  public:
   Reader(std::string_view text, const std::string& file) : in_(text, file), file_(file) {}
@@ -112,6 +116,7 @@ class Reader {
   }
 
  private:
+  /// Words that are not listed (FEDRAT, SPINDL, LOADTL, ...) do not move the tool.
   void take() {
     const std::string word = in_.word();
     if (word == "GOTO")
@@ -167,6 +172,7 @@ class Reader {
     if (!(std::abs(length - 1.0) <= kAxisLengthRounded))
       in_.refuse(fmt::format("the axis vector i, j, k has length {}; must be 1", length));
     if (std::abs(length - 1.0) > kAxisLengthExact) pose.axis /= length;
+    // RAPID holds for one motion.
     const bool link = rapid_;
     rapid_ = false;
     const bool keeps_links = named_ && !path_.strips.empty() && path_.strips.back().kind == "link";

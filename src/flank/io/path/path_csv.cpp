@@ -19,6 +19,7 @@ namespace {
 constexpr std::string_view kHead = "strip,kind,face,x,y,z,i,j,k";
 constexpr std::size_t kColumns = 9;
 
+/// Quoted if it has to be (RFC 4180): quotes inside are doubled.
 std::string field(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
@@ -55,6 +56,7 @@ class Records {
   }
 
  private:
+  /// One record; a quoted field may contain line breaks, so records and lines are counted apart.
   std::vector<std::string> record() {
     std::vector<std::string> fields(1);
     bool quoted = false;
@@ -91,6 +93,7 @@ class Records {
   long line_ = 1, next_line_ = 1;
 };
 
+/// Columns x, y, z, i, j, k. An axis with rounded digits is normalised, as in path.json.
 Pose pose_from(const Records& in, const std::vector<std::string>& f) {
   Pose pose{{in.number(f[3]), in.number(f[4]), in.number(f[5])}, {in.number(f[6]), in.number(f[7]), in.number(f[8])}};
   const double length = pose.axis.norm();
@@ -123,6 +126,7 @@ Path path_from_csv(std::string_view text, const std::string& file) {
   while (const auto fields = in.next()) {
     if (fields->size() != kColumns) in.refuse(fmt::format("has {} columns; must have {}", fields->size(), kColumns));
     const double number = in.number((*fields)[0]);
+    // Compared after the cast: 1.5 and 1e300 are no whole numbers.
     const int id = std::abs(number) < 1e9 ? static_cast<int>(number) : 0;
     if (id != number) in.refuse("the strip's number must be a whole number");
     if (path.strips.empty() || path.strips.back().id != id) {

@@ -18,7 +18,9 @@ namespace {
 
 using nlohmann::json;
 
+/// Bytes. More is a wrong file, and its document would need several times as much memory.
 constexpr std::uintmax_t kLargestFile = 512u << 20;
+/// Far more than any of our files needs; a document that is deeper could exhaust the stack.
 constexpr int kDeepestNesting = 64;
 
 /// The parser's message without its internal prefix "[json.exception.parse_error.101] parse error at ".
@@ -46,6 +48,7 @@ class DuplicateKeys {
   std::vector<std::set<std::string>> keys_;
 };
 
+/// Shared: members and elements keep the document alive that they are part of.
 std::shared_ptr<const json> parse(const std::string& file, std::string_view text) {
   try {
     DuplicateKeys watch;
@@ -90,6 +93,7 @@ void JsonInput::require_schema(std::string_view schema) const {
   if (!has("schema")) refuse(fmt::format("no \"schema\"; accepted: \"{}\"", schema));
   const std::string found = member("schema").text();
   if (found != schema) member("schema").refuse(fmt::format("is \"{}\"; accepted: \"{}\"", found, schema));
+  // "units" may be left out, but must not contradict.
   if (has("units") && member("units").text() != "mm")
     member("units").refuse(fmt::format("is \"{}\"; accepted: \"mm\"", member("units").text()));
 }
@@ -141,6 +145,7 @@ double JsonInput::positive() const {
   return value;
 }
 
+/// 3.0 is a whole number in JSON.
 int JsonInput::integer() const {
   const double value = number();
   if (value != std::floor(value) || std::abs(value) > std::numeric_limits<int>::max()) refuse("must be a whole number");
@@ -156,6 +161,7 @@ std::vector<double> JsonInput::numbers(std::size_t count) const {
   if (size() != count) refuse(fmt::format("has {} entries; must have {}", size(), count));
   std::vector<double> values(count);
   for (std::size_t i = 0; i < count; ++i) {
+    // No element() per number: its name would be formatted a million times for a long path.
     const json& value = (*value_)[i];
     values[i] = value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
     if (!std::isfinite(values[i])) element(i).refuse("must be a finite number");
@@ -178,6 +184,7 @@ std::string exact_number(double value) {
 }
 
 std::string exact_decimal(double value) {
+  // Readers of DXF and APT do not all take exponents.
   std::string text = exact_number(std::abs(value) < kSmallestDecimal ? 0.0 : value);
   if (text.find('e') != std::string::npos) {
     const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value))));

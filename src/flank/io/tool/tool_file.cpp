@@ -42,6 +42,7 @@ std::string parameters_text(const RadialFunction& radial) {
   return radial.family() == ToolFamily::kSpline ? "{\"coefficients\": [" + all + "]}" : "{" + all + "}";
 }
 
+/// At least kToolSamples, and four per knot span, so that a reader that has only the samples gets the same tool.
 std::vector<Vec2> samples_of(const RadialFunction& radial) {
   const int steps = std::max(kToolSamples - 1, 4 * (radial.parameter_count() - 3));
   std::vector<Vec2> samples(static_cast<std::size_t>(steps + 1));
@@ -52,6 +53,7 @@ std::vector<Vec2> samples_of(const RadialFunction& radial) {
   return samples;
 }
 
+/// Every parameter is needed, and no other key is accepted: a misspelt one must not be ignored.
 RadialFunction family_from_parameters(const JsonInput& file, ToolFamily family, double length) {
   const JsonInput parameters = file.member("parameters");
   const int count = static_cast<int>(parameter_names(family).size());
@@ -79,6 +81,7 @@ RadialFunction spline_from_coefficients(const JsonInput& file, double length) {
                                 Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<int>(values.size())));
 }
 
+/// mm.
 double largest_error(const RadialFunction& radial, const std::vector<Vec2>& samples) {
   double largest = 0.0;
   for (const Vec2& p : samples) largest = std::max(largest, std::abs(radial.at(p.x()).r - p.y()));
@@ -94,6 +97,7 @@ std::vector<Vec2> checked_samples(const JsonInput& list, double length) {
     if (i > 0 && !(samples[i].x() > samples[i - 1].x()))
       list.element(i).refuse("s must increase from sample to sample");
   }
+  // Rounded files: the ends may be off in their last digit.
   const double slack = 1e-6 * length;
   if (std::abs(samples.front().x()) > slack || std::abs(samples.back().x() - length) > slack)
     list.refuse(fmt::format("s runs from {} to {}; it must run from 0 to axis_length = {}", samples.front().x(),
@@ -109,6 +113,7 @@ RadialFunction spline_from_samples(const JsonInput& list, const std::vector<Vec2
   std::vector<double> errors;
   const int most = std::min<int>(static_cast<int>(samples.size()), 403);
   for (int count = 4; count <= most;
+       // An eighth more each time: 40 least-squares problems at most instead of 400.
        count = count == most ? most + 1 : std::min(most, count + std::max(1, count / 8))) {
     splines.push_back(RadialFunction::spline_through(length, samples, count));
     errors.push_back(largest_error(splines.back(), samples));
@@ -128,6 +133,7 @@ RadialFunction spline_from_samples(const JsonInput& list, const std::vector<Vec2
                           kToolSplineErrorMm));
 }
 
+/// Family and parameters go before samples; if both are there, they must agree.
 RadialFunction radial_from(const JsonInput& file) {
   const double length = file.member("axis_length").positive();
   const bool has_parameters = file.has("parameters"), has_samples = file.has("samples");
@@ -159,6 +165,7 @@ void check_profile(const JsonInput& list, const std::vector<Vec2>& profile) {
   if (profile.size() == 1) list.refuse("at least two points [z, radius] are needed");
 }
 
+/// A profile, or a cylinder on top of the flank.
 std::vector<Vec2> shank_from(const JsonInput& shank, const RadialFunction& radial) {
   shank.allow_keys({"profile", "diameter", "length"});
   if (shank.has("profile")) {

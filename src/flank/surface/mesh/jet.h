@@ -14,6 +14,7 @@ namespace flank::internal {
 /// the third is the direction of the height, on the machining side.
 struct Jet {
   static constexpr int kDegree = 4;
+  /// Monomials of two variables up to that degree.
   static constexpr int kTerms = 15;
 
   Vec3 origin = Vec3::Zero();
@@ -21,6 +22,7 @@ struct Jet {
   /// Of 1, x, y, x^2, xy, y^2, x^3, x^2 y, ..., y^4, lengths in mm.
   std::array<double, kTerms> c{};
 
+  /// z (mm) and its partial derivatives.
   struct Heights {
     double z, x, y, xx, xy, yy;
   };
@@ -35,6 +37,7 @@ struct Jet {
     const double b0 = c[2] + y * (2.0 * c[5] + y * (3.0 * c[9] + y * 4.0 * c[14]));
     const double b1 = c[4] + y * (2.0 * c[8] + y * 3.0 * c[13]);
     const double b2 = c[7] + y * 2.0 * c[12];
+    // The same for the second derivatives in y.
     const double d0 = 2.0 * c[5] + 6.0 * y * c[9] + 12.0 * y2 * c[14];
     const double d1 = 2.0 * c[8] + 6.0 * y * c[13];
     return {a0 + x * (a1 + x * (a2 + x * (a3 + x * c[10]))),
@@ -50,6 +53,7 @@ struct Jet {
     const Vec3 local = frame.transpose() * (q - origin);
     return origin + local[0] * frame.col(0) + local[1] * frame.col(1) + heights(local[0], local[1]).z * frame.col(2);
   }
+  /// Unit normal there, on the machining side.
   [[nodiscard]] Vec3 normal(const Vec3& q) const {
     const Vec3 local = frame.transpose() * (q - origin);
     const Heights h = heights(local[0], local[1]);

@@ -10,6 +10,7 @@ namespace flank::internal {
 
 /// From which neighbours a jet is fitted.
 struct JetOptions {
+  /// Of the polynomials, 1 to Jet::kDegree.
   int degree = 4;
   /// Whole rings of neighbours are taken until at least this many points are there. 30: three rings inside, four to
   /// five at a corner.
@@ -24,6 +25,7 @@ struct JetOptions {
 /// Collects rings of vertices around a vertex; keep one per thread.
 class RingCollector {
  public:
+  /// Keeps references: mesh, topology and vertex normals must outlive it.
   RingCollector(const TriangleMesh& mesh, const MeshTopology& topology, const std::vector<Vec3>& normals);
 
   /// `vertex` and whole rings around it, until `least` points are there or no more can be reached. Vertices whose
@@ -36,12 +38,14 @@ class RingCollector {
 
  private:
   void start(int vertex);
+  /// Adds the neighbours of found_[begin, end) that are accepted and not yet found.
   template <class Accept>
   void add_ring(std::size_t begin, std::size_t end, const Accept& accept);
 
   const TriangleMesh& mesh_;
   const MeshTopology& topology_;
   const std::vector<Vec3>& normals_;
+  /// A vertex is found already if its stamp is now_: nothing has to be cleared between calls.
   std::vector<int> stamp_;
   int now_ = 0;
   std::vector<int> found_;

@@ -25,14 +25,18 @@ class MeshTarget final : public Target {
   [[nodiscard]] std::vector<Vec3> border_points(double spacing_mm) const override;
   [[nodiscard]] int patch_count() const override { return surface_.real_triangles; }
 
+  /// The smooth surface that footpoints lie on, and what was found out about the noise of the mesh.
   [[nodiscard]] const JetSurface& surface() const { return surface_; }
   [[nodiscard]] const MeshQuality& quality() const { return quality_; }
 
  private:
+  /// The cold query: candidates of the tree within flat_error_, each refined by a walk on the smooth surface.
   [[nodiscard]] MeshWalk closest_walk(const Vec3& p) const;
+  /// Box, area and flat_error_.
   void measure();
 
   JetSurface surface_;
+  /// Over the flat triangles, without the extension.
   TriangleBvh tree_;
   MeshQuality quality_;
   double flat_error_ = 0.0;  // largest distance seen between a flat triangle and the blended surface

@@ -13,6 +13,7 @@ namespace flank::internal {
 /// A nearly straight part [t0, t1] of an edge of a loop.
 struct BorderPiece {
   int face = 0, edge = 0;  ///< edge: index into the curves of all faces
+  /// Range of the edge curve's parameter.
   double t0 = 0.0, t1 = 0.0;
   int previous = -1, next = -1;  ///< along the loop
   /// A seam, a pole of a closed surface, or shared with another face: the target goes on past it.
@@ -28,6 +29,8 @@ struct BorderPoint {
   double squared = 0.0;  ///< |point - p|^2
 };
 
+/// Pieces of all borders of a target. Immutable; the prepared faces are passed to every query and must be those of the
+/// constructor.
 class NurbsBorders {
  public:
   NurbsBorders() = default;
@@ -50,21 +53,27 @@ class NurbsBorders {
   [[nodiscard]] int piece_at(const NurbsFace& face, int face_index, int border, double u, double v) const;
 
  private:
+  /// Point of the curve S(c(t)) in space with two derivatives by t, and its parameters c(t).
   struct CurveJet3 {
     Vec3 p, d1, d2;
     double u, v;
   };
   void add_loop(const TrimLoop& loop, const std::vector<NurbsFace>& faces, int face);
+  /// Halves a part of an edge until it is nearly straight.
   void split(const std::vector<NurbsFace>& faces, int face, int edge, double t0, double t1, int depth);
+  /// Links pieces that coincide: seams, and borders shared by two faces.
   void find_partners(const std::vector<NurbsFace>& faces);
+  /// Parameters at which the curve or the surface below it is not smooth.
   [[nodiscard]] std::vector<double> breaks(const NurbsFace& face, const BSplineCurve2& curve) const;
   [[nodiscard]] BorderPoint descend(const NurbsFace& face, int piece, const Vec3& p, double t, double& stiffness) const;
   [[nodiscard]] CurveJet3 jet(const NurbsFace& face, int edge, double t) const;
 
+  /// In parameters of the faces.
   std::vector<BSplineCurve2> edges_;
   std::vector<BorderPiece> pieces_;
   std::vector<std::vector<Vec3>> hulls_;
   std::vector<std::array<int, 4>> rectangle_edges_;  ///< of each face; -1 where it is trimmed
+  /// In the order of the edge's parameter.
   std::vector<std::vector<int>> pieces_of_edge_;
 };
 

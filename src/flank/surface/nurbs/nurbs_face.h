@@ -11,6 +11,7 @@
 
 namespace flank::internal {
 
+/// Immutable after construction; safe to use from many threads. Lengths in mm, parameters those of the face's surface.
 class NurbsFace {
  public:
   /// side: +1 machines the side that the face's outward normal points to.
@@ -27,11 +28,13 @@ class NurbsFace {
   [[nodiscard]] Footpoint footpoint(const Vec3& p, double u, double v, const SurfaceJet& jet, bool along_normal,
                                     Location location) const;
 
+  /// The extended surface, cell by cell.
   [[nodiscard]] const BSplinePatches& patches() const { return patches_; }
   /// Parameter rectangle of the face itself (of its trims), without extension.
   [[nodiscard]] const ParameterBox& domain() const { return domain_; }
   /// The same with its extensions.
   [[nodiscard]] const ParameterBox& extended() const { return extended_; }
+  /// Whether the parameters are inside the trims (even-odd rule).
   [[nodiscard]] bool inside(double u, double v) const { return trim_.inside(u, v); }
   /// Whether the face is all of its domain.
   [[nodiscard]] bool whole() const { return trim_.whole(); }
@@ -41,6 +44,7 @@ class NurbsFace {
   [[nodiscard]] SurfaceJet jet_within(double u, double v) const;
   /// Length scale of convergence: the diagonal of the face, mm.
   [[nodiscard]] double size() const { return size_; }
+  /// Whether the borders u = u0 and u = u1 (v = v0 and v = v1) are one curve: a seam.
   [[nodiscard]] bool closed_u() const { return closed_u_; }
   [[nodiscard]] bool closed_v() const { return closed_v_; }
   /// Parameters within the domain across which the surface is not smooth.
@@ -53,14 +57,18 @@ class NurbsFace {
 
  private:
   static std::vector<double> within(const std::vector<double>& ends, double low, double high);
+  /// Finds seams and poles.
   void find_borders(const BSplineSurface& surface);
+  /// How far to extend past each border, in parameters.
   [[nodiscard]] ParameterMargins margins(const BSplineSurface& surface, const ExtensionOptions& options) const;
   void find_zones(const BSplineSurface& surface);
+  /// Index of the zone that holds a parameter.
   [[nodiscard]] int zone_u(double u) const;
   [[nodiscard]] int zone_v(double v) const;
   [[nodiscard]] const ParameterBox& zone(int i, int j) const {
     return zones_[static_cast<std::size_t>(i) * (ends_v_.size() - 1) + static_cast<std::size_t>(j)];
   }
+  /// Goes on in the neighbouring zone if the descent was held at their common end and the gradient leads across.
   bool hop_u(const Vec3& p, int& zone_i, int zone_j, Descent& x) const;
   bool hop_v(const Vec3& p, int zone_i, int& zone_j, Descent& x) const;
   [[nodiscard]] bool at_pole(double u, double v) const;
@@ -70,6 +78,7 @@ class NurbsFace {
   ParameterBox domain_, extended_;
   std::vector<double> ends_u_, ends_v_;  ///< ends of the zones
   std::vector<ParameterBox> zones_;
+  /// sign_: of S_u x S_v towards the machining side.
   double sign_ = 1.0, size_ = 0.0;
   bool closed_u_ = false, closed_v_ = false;
   std::array<bool, 4> pole_{};

@@ -7,6 +7,7 @@
 
 namespace flank::internal {
 
+/// How the queries work: docs/algorithms/nurbs_footpoints.md.
 class NurbsTarget : public Target {
  public:
   /// Throws InputError naming the face whose surface is degenerate (a weight that is not positive, no extent) or whose
@@ -21,13 +22,18 @@ class NurbsTarget : public Target {
   [[nodiscard]] int patch_count() const override { return static_cast<int>(faces_.size()); }
 
  private:
+  /// The closest point found so far by one query.
   struct Best;
+  /// Throws InputError for a face that cannot be a target.
   static void check(const Face& face);
+  /// Box and area of the trimmed faces.
   void measure();
   void measure_cell(const FlatCell& cell);
   Descent descend_cell(const FlatCell& cell, const Vec3& p, double u, double v, Best& best) const;
+  /// Lowers `best` by what one cell, or one piece of a border, holds.
   void search_cell(const FlatCell& cell, const Vec3& p, Best& best) const;
   void search_border(int piece, const Vec3& p, Best& best) const;
+  /// The footpoint of the best place, with its location and sign.
   [[nodiscard]] Footpoint finish(const Vec3& p, const Best& best) const;
   /// Whether all border pieces that meet at the point lead on into the target; `partner` is one that does, -1 without
   /// any.

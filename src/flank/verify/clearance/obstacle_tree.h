@@ -9,6 +9,7 @@
 
 namespace flank::internal::verify {
 
+/// mm, in the part's frame.
 struct Sphere {
   Vec3 center = Vec3::Zero();
   double radius = 0.0;
@@ -31,20 +32,25 @@ class ObstacleTree {
   /// Copies what it needs of the mesh.
   explicit ObstacleTree(const TriangleMesh& mesh);
 
+  /// No triangles: nothing to keep clear of.
   [[nodiscard]] bool empty() const { return corners_.empty(); }
   [[nodiscard]] int node_count() const { return static_cast<int>(nodes_.size()); }
   [[nodiscard]] const Node& node(int i) const { return nodes_[static_cast<std::size_t>(i)]; }
   /// Triangles are counted in the tree's order.
   [[nodiscard]] const std::array<Vec3, 3>& corners(int i) const { return corners_[static_cast<std::size_t>(i)]; }
+  /// The sphere around one triangle.
   [[nodiscard]] const Sphere& sphere(int i) const { return spheres_[static_cast<std::size_t>(i)]; }
   /// Its number in the mesh.
   [[nodiscard]] int number(int i) const { return numbers_[static_cast<std::size_t>(i)]; }
 
  private:
+  /// Sets sphere and slab of a node from its triangles.
   void enclose(const TriangleMesh& mesh, Node& node) const;
+  /// Builds the subtree over triangles [first, end) and returns its node.
   int build(const TriangleMesh& mesh, const std::vector<Vec3>& centers, int first, int end);
 
   std::vector<Node> nodes_;
+  /// The last three: per triangle, in the tree's order.
   std::vector<int> numbers_;
   std::vector<std::array<Vec3, 3>> corners_;
   std::vector<Sphere> spheres_;

@@ -14,10 +14,12 @@ namespace flank::internal::verify {
 /// reported values come from the tool itself.
 class RadialTable {
  public:
+  /// Throws InputError if the length is not > 0 or r is not finite.
   explicit RadialTable(const RadialFunction& radial);
 
   /// r, r', r'' at s in [0, L].
   [[nodiscard]] RadialJet at(double s) const {
+    // Outside [0, L] the end cell's quintic is extrapolated: Newton steps may leave the axis for a moment.
     const double x = s * cells_per_mm_;
     const int i = x > 0.0 ? std::min(static_cast<int>(x), count_ - 1) : 0;
     const double t = x - i;
@@ -38,7 +40,9 @@ class RadialTable {
   }
   /// r at the lower end of cell i, 0 <= i <= count().
   [[nodiscard]] double node_radius(int i) const { return node_radii_[static_cast<std::size_t>(i)]; }
+  /// s of the lower end of cell i, mm.
   [[nodiscard]] double node(int i) const { return i / cells_per_mm_; }
+  /// Number of cells, their length (mm), and the axis length (mm).
   [[nodiscard]] int count() const { return count_; }
   [[nodiscard]] double step() const { return 1.0 / cells_per_mm_; }
   [[nodiscard]] double length() const { return length_; }
@@ -51,6 +55,7 @@ class RadialTable {
   int count_ = 0;
   double length_ = 0.0, cells_per_mm_ = 0.0;
   double least_radius_ = 0.0, largest_radius_ = 0.0, largest_bend_ = 0.0;
+  /// Coefficients by powers of the place in the cell, from 0 to 1.
   std::vector<std::array<double, 6>> cells_;
   std::vector<double> node_radii_;
 };

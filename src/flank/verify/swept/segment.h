@@ -15,6 +15,7 @@ struct Segment {
   int strip = 0;  ///< 0-based
   int pose = 0;   ///< index of the first pose in its strip
 
+  /// The pose at tau; the axis vector must not vanish between (pose_tree.h refuses such steps).
   [[nodiscard]] Pose at(double tau) const { return {a0 + tau * da, (w0 + tau * dw).normalized()}; }
 };
 
@@ -31,9 +32,11 @@ struct DistanceJet {
   const Vec3 w = g.w0 + tau * g.dw;
   const double m = 1.0 / w.norm();
   const Vec3 u = w * m;
+  // u' and u'' of u = w / |w| with w linear in tau.
   const double along = u.dot(g.dw);
   const Vec3 u1 = (g.dw - along * u) * m;
   const Vec3 u2 = -(2.0 * along * m) * u1 - u1.squaredNorm() * u;
+  // R' and x - R; then F' and F'' by the chain rule, with n = (x - R) / |x - R|.
   const Vec3 v = g.da + s * u1;
   const Vec3 d = x - g.a0 - tau * g.da - s * u;
   const RadialJet j = radial.at(s);

@@ -31,16 +31,21 @@ class SweptSearch {
   [[nodiscard]] const Segment& segment(const Piece& p) const {
     return tree_.segments[static_cast<std::size_t>(p.segment)];
   }
+  /// Whether piece `next` continues piece k without a gap.
   [[nodiscard]] bool neighbours(int k, int next) const;
+  /// A first value to prune with, by a descent from `near`.
   void start_at(const SweptPlace& near);
+  /// Minimises F on a piece: from one start if one minimum over s is certain, else from every one.
   void open_leaf(const PoseNode& node);
   void open_single(const PoseNode& node, const NearestSphere& sphere);
   void open_forked(const PoseNode& node);
+  /// Continues a minimum that was found at an end of a piece into the next piece.
   void follow(int at, SegmentMinimum found);
   void keep(const SegmentMinimum& found, int at) {
     if (found.f < best_.f) best_ = {found.f, at, found.tau, found.s};
   }
 
+  /// Not owned.
   const ToolDistance& tool_;
   const PoseTree& tree_;
   const Vec3& x_;

@@ -31,6 +31,7 @@ struct Estimate {
 /// (plane_point). Immutable after construction, so many threads may ask at once.
 class ToolDistance {
  public:
+  /// Tabulates the tool; throws as RadialTable does.
   explicit ToolDistance(const RadialFunction& radial);
 
   /// Cheap; the bound falls short of g by about 0.001 of the distance to the axis. Why it is a bound: see
@@ -67,7 +68,9 @@ class ToolDistance {
     int columns = 0, rows = 0;  ///< nodes along z and along rho
     std::vector<Node> nodes;    ///< node (row, column) at row * columns + column
 
+    /// Whether the point is inside the grid.
     [[nodiscard]] bool contains(double z, double rho) const { return z > z_first && z < z_last && rho < rho_last; }
+    /// The lower corner of the cell that holds the point, and the point's place in it, from 0 to 1.
     [[nodiscard]] const Node* cell(double z, double rho, double& fz, double& fr) const {
       const double x = (z - z_first) * z_scale, y = rho * rho_scale;
       const int column = std::min(static_cast<int>(x), columns - 2);
@@ -76,6 +79,7 @@ class ToolDistance {
       fr = y - row;
       return &nodes[static_cast<std::size_t>(row * columns + column)];
     }
+    /// Bilinear.
     [[nodiscard]] Estimate interpolate(double z, double rho) const {
       double fz, fr;
       const Node* a = cell(z, rho, fz, fr);
@@ -89,7 +93,9 @@ class ToolDistance {
     }
   };
 
+  /// Distance to the sphere of s.
   [[nodiscard]] double value(double z, double rho, double s) const;
+  /// Newton's method on s; false if it does not converge.
   [[nodiscard]] bool polish(double z, double rho, double& s) const;
   [[nodiscard]] NearestSphere narrow(double z, double rho, int node) const;
   [[nodiscard]] const Grid* grid_around(double z, double rho) const {
@@ -100,6 +106,7 @@ class ToolDistance {
   [[nodiscard]] Estimate beyond_grids(double z, double rho) const;
   void build_grid(Grid& grid, double margin, double reach, int cells_z, int cells_rho) const;
   void best_nodes(const Grid& grid, double rho, std::vector<int>& best) const;
+  /// How much a bilinear interpolant may exceed g beside a node.
   [[nodiscard]] double interpolation_error(const Grid& grid, double z, double rho) const;
 
   static constexpr int kGrids = 5;
