@@ -98,7 +98,7 @@ std::string make_report(const std::string& folder) {
   if (!page_is_built())
     throw UsageError("this flank was built without the report page; install npm and build it with -D FLANK_REPORT=ON");
   if (!fs::is_directory(folder)) throw InputError(folder + ": no such folder; give a folder written by `flank fit`");
-  std::string data = "<meta name=\"generator\" content=\"OpenFlank " FLANK_VERSION "\">\n", title;
+  std::string data = std::string("<meta name=\"generator\" content=\"OpenFlank ") + kVersion + "\">\n", title;
   bool found = false;
   for (const std::string& name : report_files()) {
     const auto text = read_checked(fs::path(folder) / name, schema_of(name));

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "flank/cover/options/cover_options.h"
-#include "flank/obstacle/line_guard.h"
+#include "flank/obstacle/pose_guard.h"
 #include "flank/radial_function.h"
 #include "flank/strip/grow.h"
 #include "flank/strip/strip_measure.h"
