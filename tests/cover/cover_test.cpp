@@ -1,5 +1,5 @@
 // The whole: strips that cover what they can, keep clear of what they must, and say why they cannot.
-#include "flank/cover/cover.h"
+#include "flank/cover.h"
 
 #include <gtest/gtest.h>
 

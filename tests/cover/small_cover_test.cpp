@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "cover/cover_targets.h"
-#include "flank/cover/cover.h"
+#include "flank/cover.h"
 #include "flank/threads.h"
 
 namespace flank::internal {

@@ -4,7 +4,8 @@
 #include <string>
 
 #include "fit/flat_scene.h"
-#include "flank/fit/flank_fit.h"
+#include "flank/fit.h"
+#include "flank/fit/coverage.h"
 #include "flank/threads.h"
 #include "sanitized.h"
 

@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "fit/flat_scene.h"
-#include "flank/fit/flank_fit.h"
+#include "flank/fit.h"
+#include "flank/fit/coverage.h"
 #include "flank/threads.h"
 #include "seed/exact_targets.h"
 

@@ -1,6 +1,7 @@
 // The last passes on the swept distance: which points of the faces count and how much, and that each pass keeps or
 // improves what it was given. The blades are flat or slightly twisted.
 #include "flank/fit/swept_polish.h"
+#include "flank/fit/coverage.h"
 
 #include <gtest/gtest.h>
 

@@ -79,6 +79,7 @@ class TreeCheck {
     const std::string name = file.stem().string();
     add_to_modules(file, includes);
     if (!is_header(file)) return report(file, 1, "the front door has headers only");
+    if (name == "flank") return check_umbrella(file, includes);
     if (!table_.front_door.contains(name)) return report(file, 1, "the header " + name + " is not in layers.txt");
     check_pragma_once(file);
     check_namespaces(file, "flank", false);
@@ -92,6 +93,15 @@ class TreeCheck {
         check_front_door_order(file, table_.front_door.at(name), include);
       }
     }
+  }
+
+  /// flank.h belongs to no layer: it includes every other header of the front door and nothing else.
+  void check_umbrella(const fs::path& file, const std::vector<Include>& includes) {
+    std::set<std::string> missing;
+    for (const auto& [header, unused] : table_.front_door) missing.insert("flank/" + header + ".h");
+    for (const Include& include : includes)
+      if (missing.erase(include.path) == 0) report(file, include.line, include.path + " is not of the front door");
+    for (const std::string& header : missing) report(file, 1, "all of the front door is in it, but for " + header);
   }
 
   /// A header of one layer includes headers of another only if a room of the one may look into the other.
@@ -115,7 +125,10 @@ class TreeCheck {
   }
 
   void check_exists(const fs::path& file, const Include& include) {
-    if (fs::exists(root_ / "src" / include.path) || fs::exists(root_ / "include" / include.path)) return;
+    // version.h is made from version.h.in.
+    for (const char* place : {"src/", "include/"})
+      for (const char* ending : {"", ".in"})
+        if (fs::exists(root_ / (place + include.path + ending))) return;
     report(file, include.line, "there is no " + include.path);
   }
 

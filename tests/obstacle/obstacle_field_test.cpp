@@ -1,5 +1,5 @@
 // What the flank must not enter: which faces are walls, distances against every face asked alone, gradients, reach.
-#include "flank/obstacle/obstacle_field.h"
+#include "flank/obstacle_field.h"
 
 #include <gtest/gtest.h>
 

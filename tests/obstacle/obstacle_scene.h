@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "flank/obstacle/obstacle_field.h"
+#include "flank/obstacle_field.h"
 
 namespace flank::internal::testing {
 

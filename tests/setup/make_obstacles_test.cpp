@@ -5,10 +5,10 @@
 
 #include "cover/cover_targets.h"
 #include "flank/clearance.h"
-#include "flank/cover/cover.h"
-#include "flank/ruled_motion.h"
-#include "flank/obstacle/obstacle_field.h"
+#include "flank/cover.h"
 #include "flank/obstacle/pose_guard.h"
+#include "flank/obstacle_field.h"
+#include "flank/ruled_motion.h"
 #include "obstacle/obstacle_scene.h"
 
 namespace flank::internal {

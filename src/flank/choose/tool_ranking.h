@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "flank/choose/tool_screen.h"
-#include "flank/cover/cover.h"
+#include "flank/cover.h"
 #include "flank/progress.h"
 
 namespace flank::internal {
@@ -43,7 +43,7 @@ struct RankingOptions {
   int screen_places = 150;
   /// cover(), unless a caller has another way to find strips. Called from several threads at once.
   std::function<CoverResult(const Target&, const Tool&, const Obstacles&, const CoverOptions&, const Progress&)>
-      cover_with = flank::internal::cover;
+      cover_with = flank::cover;
 };
 
 /// The farthest that a tool came.

@@ -1,4 +1,4 @@
-#include "flank/cover/cover.h"
+#include "flank/cover.h"
 
 #include <algorithm>
 #include <chrono>
@@ -9,11 +9,14 @@
 #include "flank/cover/curves/curves.h"
 #include "flank/cover/reasons.h"
 #include "flank/cover/tiles/smooth.h"
+#include "flank/seed/direction/seeds.h"
 #include "flank/seed/direction/shape_places.h"
 #include "flank/strip/certify.h"
 #include "flank/strip/strip_order.h"
 
-namespace flank::internal {
+namespace flank {
+using namespace internal;
+
 namespace {
 
 /// Share of the area that smooth rails may cost: the same as smooth.cpp lets its first pass cost, less than half a
@@ -268,4 +271,4 @@ CoverResult cover(const Target& target, const Tool& tool, const Obstacles& obsta
   return result;
 }
 
-}  // namespace flank::internal
+}  // namespace flank

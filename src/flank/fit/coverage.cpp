@@ -1,12 +1,12 @@
+#include "flank/fit/coverage.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "flank/base/parallel.h"
 #include "flank/envelope/swept_estimate.h"
-#include "flank/fit/flank_fit.h"
 
-namespace flank::internal {
-
+namespace flank {
 namespace {
 
 // The score in one unit, shares of coverage. Coverage first; among fits that cover the same, the lower overcut.
@@ -43,6 +43,9 @@ double CoverageEstimate::score(double tolerance_mm) const {
          kMeanPrice * std::min(1.0, rms_mm / tolerance_mm);
 }
 
+}  // namespace flank
+
+namespace flank::internal {
 namespace {
 
 /// f at the samples. The estimate is good enough to rank coverage, which is an average. Overcut is a maximum: one

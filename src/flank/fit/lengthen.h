@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "flank/fit/flank_fit.h"
+#include "flank/fit.h"
 #include "flank/radial_function.h"
 
 namespace flank::internal {

@@ -7,6 +7,7 @@
 
 #include "flank/base/parallel.h"
 #include "flank/base/tolerance_budget.h"
+#include "flank/fit/coverage.h"
 #include "flank/fit/swept_polish.h"
 
 namespace flank::internal {
@@ -97,41 +98,6 @@ Polished shifted(const Polished& polished, const std::vector<SurfaceSample>& sam
 }
 
 }  // namespace
-
-Polished assess(FitDraft draft, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
-  Polished polished;
-  if (draft.free_tool) draft.tool = clamp_tool(draft.tool, options.bounds);
-  polished.estimate = estimate_coverage(samples, draft.motions, draft.tool, options.tolerance_mm, kRankingPoses);
-  polished.estimate.gouge_mm = flank_gouge(draft.motions, draft.obstacles, draft.tool, kRankingPoses);
-  polished.draft = std::move(draft);
-  return polished;
-}
-
-double robust_scale(const Target& target, const FlankFitOptions& options) {
-  // A robust weight is a quarter at the scale, so at four tolerances, which is what quick fits are ranked by, a sample
-  // still pulls. With a tight tolerance everything about a start would be an outlier, and nothing pull: hence the
-  // floor.
-  constexpr double kTolerances = 4.0, kLeastShare = 1e-3;
-  return std::max(kTolerances * options.tolerance_mm, kLeastShare * target.diagonal());
-}
-
-double reach_radius(const FlankFitOptions& options) {
-  return options.reach_radius_mm > 0.0 ? options.reach_radius_mm : options.bounds.smallest;
-}
-
-std::vector<SurfaceSample> ranking_samples(const Target& target, const ObstacleField* obstacles,
-                                           const FlankFitOptions& options) {
-  const double spacing = std::sqrt(target.area()) * options.sample_share;
-  std::vector<SurfaceSample> samples = target.samples(spacing);
-  if (obstacles != nullptr) {
-    parallel_for(samples.size(), [&](std::size_t k) {
-      if (!obstacles->reachable(samples[k], reach_radius(options), options.tolerance_mm)) samples[k].area = 0.0;
-    });
-  }
-  // The rim, where a tool cuts deepest, counts for overcut alone: it has no area.
-  for (const Vec3& point : target.border_points(spacing)) samples.push_back({point, Vec3::UnitZ()});
-  return samples;
-}
 
 FitDraft make_draft(const std::vector<FitTask>& tasks, const ToolModel& tool, const FlankFitOptions& options) {
   FitDraft draft;

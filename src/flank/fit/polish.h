@@ -6,39 +6,14 @@
 
 #include <vector>
 
-#include "flank/fit/stages.h"
+#include "flank/fit/polished.h"
 
 namespace flank::internal {
-
-/// Poses per motion at which the estimate of the swept distance is tabulated when drafts are ranked: 2.5 for each of
-/// the 64 control points that a rail can have, at least 3.3 for each of the 48 of all but the exact passes.
-inline constexpr int kRankingPoses = 160;
-
-/// Residuals far beyond this are outliers to a robust pass; mm.
-[[nodiscard]] double robust_scale(const Target& target, const FlankFitOptions& options);
-
-/// Samples of the target that rank drafts, spacing options.sample_share sqrt(area). Samples out of reach because of
-/// obstacles, and points of the rim, have no area: they count for overcut alone.
-[[nodiscard]] std::vector<SurfaceSample> ranking_samples(const Target& target, const ObstacleField* obstacles,
-                                                         const FlankFitOptions& options);
-
-/// Radius of the ball that says what is in reach, mm: the one given, else the smallest allowed to the tool.
-[[nodiscard]] double reach_radius(const FlankFitOptions& options);
 
 /// A draft for these tasks: the tool given, or a free spline of the mean distance of the axes to their targets (clamped
 /// into the bounds). tasks is not empty; all motions have the axis length of the first.
 [[nodiscard]] FitDraft make_draft(const std::vector<FitTask>& tasks, const ToolModel& tool,
                                   const FlankFitOptions& options);
-
-struct Polished {
-  FitDraft draft;
-  CoverageEstimate estimate;  ///< of this draft
-  bool exact = false;         ///< the target is an envelope of such a tool, by the residual after the polish
-};
-
-/// The draft with a free tool clamped into its bounds, and what it covers.
-[[nodiscard]] Polished assess(FitDraft draft, const std::vector<SurfaceSample>& samples,
-                              const FlankFitOptions& options);
 
 /// Least squares, then either the exact passes (residual near zero) or the tolerance pass, then `shifted` radii for a
 /// free tool. Returns the best that it saw by score, at worst the draft itself; `trace` grows if given.

@@ -5,6 +5,7 @@
 
 #include "flank/base/assert.h"
 #include "flank/base/tolerance_budget.h"
+#include "flank/fit/model/minimise.h"
 
 namespace flank::internal {
 namespace {

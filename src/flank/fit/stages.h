@@ -4,7 +4,8 @@
 
 #include <vector>
 
-#include "flank/fit/flank_fit.h"
+#include "flank/fit.h"
+#include "flank/fit/model/fit_model.h"
 
 namespace flank::internal {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "flank/fit/model/swept_model.h"
-#include "flank/fit/polish.h"
+#include "flank/fit/polished.h"
 
 namespace flank::internal {
 

@@ -1,4 +1,4 @@
-#include "flank/obstacle/obstacle_field.h"
+#include "flank/obstacle_field.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,9 @@
 #include "flank/base/assert.h"
 #include "flank/base/parallel.h"
 
-namespace flank::internal {
+namespace flank {
+using namespace internal;
+
 namespace {
 
 /// Samples of the target that vote, about: shares of the area are then good to some hundredths.
@@ -235,4 +237,4 @@ ObstacleDistance ObstacleField::search(const std::vector<std::size_t>& faces, co
   return nearest;
 }
 
-}  // namespace flank::internal
+}  // namespace flank

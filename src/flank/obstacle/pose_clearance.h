@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "flank/obstacle/obstacles.h"
+#include "flank/obstacles.h"
 #include "flank/target.h"
 #include "flank/tool.h"
 #include "flank/triangle_mesh.h"

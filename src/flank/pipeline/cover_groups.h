@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "flank/cover/cover.h"
+#include "flank/cover.h"
 #include "flank/pipeline/cover_job.h"
 #include "flank/setup/targets.h"
 

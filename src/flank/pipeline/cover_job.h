@@ -2,7 +2,7 @@
 #pragma once
 
 #include "flank/choose/tool_ranking.h"
-#include "flank/cover/cover.h"
+#include "flank/cover.h"
 #include "flank/pipeline/fit_job.h"
 
 namespace flank::internal {

@@ -8,7 +8,7 @@
 
 #include "flank/artefact/acceptance.h"
 #include "flank/envelope/strip_surface.h"
-#include "flank/fit/flank_fit.h"
+#include "flank/fit.h"
 #include "flank/judge.h"
 #include "flank/part.h"
 #include "flank/path.h"

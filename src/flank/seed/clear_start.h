@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "flank/obstacle/obstacle_field.h"
+#include "flank/obstacle_field.h"
 #include "flank/seed/ruled_start.h"
 
 namespace flank::internal {

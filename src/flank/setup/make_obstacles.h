@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "flank/obstacle/obstacles.h"
+#include "flank/obstacles.h"
 #include "flank/part.h"
 
 namespace flank::internal {

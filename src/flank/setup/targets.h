@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "flank/judge.h"
-#include "flank/obstacle/obstacle_field.h"
+#include "flank/obstacle_field.h"
 #include "flank/part.h"
 #include "flank/target.h"
 

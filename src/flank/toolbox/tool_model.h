@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "flank/fit/flank_fit.h"
+#include "flank/fit.h"
 #include "flank/toolbox/tool_command.h"
 
 namespace flank::internal {

@@ -1,6 +1,7 @@
 // The fit under hard limits: a cylinder before a twisted blade, which it cannot touch everywhere, and single points
 // that it must not come near.
 #include "flank/fit/model/constrained.h"
+#include "flank/fit/coverage.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 // The model on the swept distance: its rows against finite differences, its contacts against brute force, the
 // constrained step on a face that the tool does not fit.
 #include "flank/fit/model/swept_model.h"
+#include "flank/fit/coverage.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include "flank/base/random.h"
 #include "flank/bspline_curve.h"
-#include "flank/io/cad/read_spline_segment.h"
+#include "flank/geom/spline_segment.h"
 
 namespace flank::internal {
 namespace {

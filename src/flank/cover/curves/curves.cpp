@@ -11,6 +11,7 @@
 #include "flank/cover/curves/line_clusters.h"
 #include "flank/cover/curves/line_groups.h"
 #include "flank/cover/tiles/smooth.h"
+#include "flank/seed/direction/seeds.h"
 #include "flank/strip/certify.h"
 
 namespace flank::internal {

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "flank/base/parallel.h"
+#include "flank/seed/direction/seeds.h"
 #include "flank/strip/certify.h"
 
 namespace flank::internal {

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "flank/cover/options/cover_options.h"
+#include "flank/cover_options.h"
 #include "flank/obstacle/pose_guard.h"
 #include "flank/radial_function.h"
 #include "flank/strip/grow.h"

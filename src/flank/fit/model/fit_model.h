@@ -14,33 +14,14 @@
 #include <vector>
 
 #include "flank/envelope/swept_estimate.h"
+#include "flank/fit.h"
 #include "flank/fit/solver/arrow_system.h"
-#include "flank/obstacle/obstacle_field.h"
+#include "flank/obstacle_field.h"
 #include "flank/radial_function.h"
 #include "flank/ruled_motion.h"
 #include "flank/target.h"
 
 namespace flank::internal {
-
-/// One motion and the target that its envelope is to be. The pointers are not owned and must outlive the fit.
-struct FitTask {
-  const Target* target = nullptr;
-  RuledMotion motion;                        ///< the start
-  const ObstacleField* obstacles = nullptr;  ///< what its flank must not enter; null: nothing
-};
-
-/// Bounds on the tool, kept by one-sided terms in the fit; a spline's radii are clamped exactly at the end of a pass.
-struct RadiusBounds {
-  /// mm, >= 0: least r(s), and so the core radius that gives the tool its stiffness. Raise it if the tool comes out too
-  /// slender: an exact envelope does not determine the radius (1 to 10 mm fit the same face to 1e-4 mm).
-  double smallest = 0.0;
-  /// mm, > smallest: largest r(s). 1e300 is "no bound". fit_automatic spreads its radii between the two bounds, so it
-  /// needs a finite one, about what fits between the target and its neighbours, unless the tool's radius is known.
-  double largest = 1e300;
-  /// Largest |r'|, no unit, in (0, 1): spheres stay inscribed only below 1 (MATH section 1). 0.95 is a cone of 72
-  /// degrees half angle; lower it for a tool that is to be ground easily.
-  double steepest = 0.95;
-};
 
 /// Weights and sizes of one pass of the fit. Weights have no unit: they multiply mean squares of lengths in mm. The
 /// defaults are those of a least-squares pass on a good start (MATH section 7); the passes that the fit runs are the

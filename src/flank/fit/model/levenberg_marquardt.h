@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "flank/base/assert.h"
-#include "flank/fit/model/minimise.h"
+#include "flank/fit/model/minimise_result.h"
 
 namespace flank::internal {
 

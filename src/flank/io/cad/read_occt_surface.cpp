@@ -21,7 +21,7 @@
 #include <numbers>
 #include <utility>
 
-#include "flank/io/cad/read_spline_segment.h"
+#include "flank/geom/spline_segment.h"
 
 namespace flank::internal {
 namespace {

@@ -4,17 +4,11 @@
 
 #include <vector>
 
+#include "flank/cover_options.h"
 #include "flank/radial_function.h"
 #include "flank/target.h"
 
 namespace flank::internal {
-
-/// A line that touches the target at one footpoint, by the sphere of s, in one direction of the tangent plane.
-struct LineSeed {
-  Vec3 point = Vec3::Zero(), normal = Vec3::UnitZ();  ///< of the target, towards the machining side
-  Vec3 direction = Vec3::UnitX();                     ///< unit, across the normal: where the holder end lies
-  double s = 0.0;                                     ///< arc length of the sphere that touches, mm, in [0, L]
-};
 
 /// The axis of a seed (MATH section 5): its sphere of s touches at the footpoint, <n, u> = r'(s). Needs |r'(s)| < 1.
 /// Contact of first order: whether the target's curvature suits the tool there is not checked.

@@ -7,12 +7,50 @@
 #include <string>
 #include <vector>
 
-#include "flank/fit/model/fit_model.h"
-#include "flank/fit/model/minimise.h"
+#include "flank/obstacle_field.h"
 #include "flank/progress.h"
+#include "flank/radial_function.h"
+#include "flank/ruled_motion.h"
+#include "flank/target.h"
 
-namespace flank::internal {
+namespace flank {
 
+/// One motion and the target that its envelope is to be. The pointers are not owned and must outlive the fit.
+struct FitTask {
+  const Target* target = nullptr;
+  RuledMotion motion;                        ///< the start
+  const ObstacleField* obstacles = nullptr;  ///< what its flank must not enter; null: nothing
+};
+
+/// Bounds on the tool, kept by one-sided terms in the fit; a spline's radii are clamped exactly at the end of a pass.
+struct RadiusBounds {
+  /// mm, >= 0: least r(s), and so the core radius that gives the tool its stiffness. Raise it if the tool comes out too
+  /// slender: an exact envelope does not determine the radius (1 to 10 mm fit the same face to 1e-4 mm).
+  double smallest = 0.0;
+  /// mm, > smallest: largest r(s). 1e300 is "no bound". fit_automatic spreads its radii between the two bounds, so it
+  /// needs a finite one, about what fits between the target and its neighbours, unless the tool's radius is known.
+  double largest = 1e300;
+  /// Largest |r'|, no unit, in (0, 1): spheres stay inscribed only below 1 (MATH section 1). 0.95 is a cone of 72
+  /// degrees half angle; lower it for a tool that is to be ground easily.
+  double steepest = 0.95;
+};
+
+/// What one iteration did, over samples whose footpoint is inside the target (of a SweptModel: points to be touched).
+struct IterationTrace {
+  double cost = 0.0;        ///< mm^2: weighted squares and regularisers, under the weights in force at that iteration
+  double rms_mm = 0.0;      ///< of the residuals, unweighted, without dead zone
+  double largest_mm = 0.0;  ///< |residual|, unweighted
+  double damping = 0.0;     ///< for the next step; no unit
+};
+
+/// Residuals e = d - r over samples inside the target. These are errors at the axis: on a target that is no envelope
+/// the real error can be 20 times larger (MATH section 7). All zero if no sample is inside.
+struct ResidualSummary {
+  double rms_mm = 0.0;              ///< root mean square of e
+  double largest_mm = 0.0;          ///< |e|
+  double inside_share = 0.0;        ///< of all samples, in [0, 1]; of a SweptModel: 1
+  double largest_overcut_mm = 0.0;  ///< max(0, -e)
+};
 /// What is known of the tool and what may change.
 struct ToolModel {
   /// Radial function for an axis length and a typical radius (used if the radius is open). Empty: a free spline that
@@ -97,22 +135,4 @@ struct FlankFitResult {
 [[nodiscard]] FlankFitResult fit_from_starts(const std::vector<FitTask>& tasks, const ToolModel& tool,
                                              const FlankFitOptions& options, const Progress& progress);
 
-/// The estimate for a set of motions over one target's samples, `poses` axis positions per motion tabulated. Samples
-/// with area 0 count for overcut and undercut alone. A sample with f < 0 is refined exactly, others to third order in
-/// the spacing of the poses.
-[[nodiscard]] CoverageEstimate estimate_coverage(const std::vector<SurfaceSample>& samples,
-                                                 const std::vector<RuledMotion>& motions, const RadialFunction& tool,
-                                                 double tolerance_mm, int poses);
-
-/// The deepest that the flank enters an obstacle, mm, >= 0, at poses + 1 times per motion and at least 60 places along
-/// the axis; obstacles as in FitDraft (one per motion, null: none, or none at all).
-[[nodiscard]] double flank_gouge(const std::vector<RuledMotion>& motions,
-                                 const std::vector<const ObstacleField*>& obstacles, const RadialFunction& tool,
-                                 int poses);
-
-/// Residuals on a grid of count_t x count_s (both >= 2) per motion with cold footpoints, so a footpoint that a pass
-/// followed onto a wrong branch shows. Samples whose footpoint is on the border are left out of all but inside_share.
-[[nodiscard]] ResidualSummary validate(const std::vector<FitTask>& tasks, const RadialFunction& tool, int count_t,
-                                       int count_s);
-
-}  // namespace flank::internal
+}  // namespace flank

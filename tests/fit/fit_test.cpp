@@ -1,5 +1,6 @@
 // The fit end to end on exact envelopes, whose truth is known.
-#include "flank/fit/flank_fit.h"
+#include "flank/fit.h"
+#include "flank/fit/coverage.h"
 
 #include <gtest/gtest.h>
 

@@ -7,10 +7,10 @@
 #include <memory>
 #include <vector>
 
-#include "flank/obstacle/obstacles.h"
+#include "flank/obstacles.h"
 #include "flank/target.h"
 
-namespace flank::internal {
+namespace flank {
 
 /// Distance of a point to the nearest face, less the clearance that this face wants.
 struct ObstacleDistance {
@@ -68,4 +68,4 @@ class ObstacleField {
   std::unique_ptr<Lattice> lattice_;
 };
 
-}  // namespace flank::internal
+}  // namespace flank

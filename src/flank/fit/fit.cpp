@@ -1,3 +1,5 @@
+#include "flank/fit.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -6,11 +8,15 @@
 #include <optional>
 
 #include "flank/base/parallel.h"
+#include "flank/fit/coverage.h"
+#include "flank/fit/polish.h"
 #include "flank/fit/swept_polish.h"
 #include "flank/seed/clear_start.h"
 #include "flank/seed/ruled_start.h"
 
-namespace flank::internal {
+namespace flank {
+using namespace internal;
+
 namespace {
 
 /// Tolerances at which quick fits are ranked (MATH section 7): rough as they are, at one tolerance most would cover
@@ -205,4 +211,18 @@ FlankFitResult fit_automatic(const Target& target, const ToolModel& tool, const 
   return finish(settled(without_overcut(polished[best], samples, options), options), options, std::move(result));
 }
 
-}  // namespace flank::internal
+FlankFitResult fit_from_starts(const std::vector<FitTask>& tasks, const ToolModel& tool, const FlankFitOptions& options,
+                               const Progress& progress) {
+  FlankFitResult result;
+  const std::vector<SurfaceSample> samples = ranking_samples(*tasks.front().target, tasks.front().obstacles, options);
+  // The start is the user's: no quick fit, which would move it towards what ranks best, and no other candidates.
+  FitDraft draft = make_draft(tasks, tool, options);
+  progress.step("fit", 0.1);
+  result.before = estimate_coverage(samples, draft.motions, draft.tool, options.tolerance_mm, kRankingPoses);
+  const Polished polished = without_overcut(
+      last_passes(polish(draft, samples, options, &result.trace), samples, options, &result.trace), samples, options);
+  progress.step("fit", 0.9);
+  return finish(settled(polished, options), options, std::move(result));
+}
+
+}  // namespace flank

@@ -1,4 +1,4 @@
-#include "flank/io/cad/read_spline_segment.h"
+#include "flank/geom/spline_segment.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,14 +8,14 @@
 #include <utility>
 #include <vector>
 
-#include "flank/cover/options/cover_options.h"
-#include "flank/obstacle/pose_guard.h"
+#include "flank/cover_options.h"
+#include "flank/obstacles.h"
 #include "flank/progress.h"
 #include "flank/ruled_motion.h"
 #include "flank/target.h"
 #include "flank/tool.h"
 
-namespace flank::internal {
+namespace flank {
 
 enum class CoverStatus {
   kNotRun,
@@ -46,4 +46,4 @@ struct CoverResult {
 [[nodiscard]] CoverResult cover(const Target& target, const Tool& tool, const Obstacles& obstacles,
                                 const CoverOptions& options, const Progress& progress);
 
-}  // namespace flank::internal
+}  // namespace flank

@@ -8,7 +8,7 @@
 #include "flank/target.h"
 #include "flank/triangle_mesh.h"
 
-namespace flank::internal {
+namespace flank {
 
 /// A face as a surface: for distances with a sign (ObstacleField).
 struct ObstacleFace {
@@ -39,4 +39,4 @@ struct Obstacles {
   [[nodiscard]] bool empty() const { return faces.empty() && meshes.empty() && solids.empty(); }
 };
 
-}  // namespace flank::internal
+}  // namespace flank

@@ -1,0 +1,28 @@
+/// What a state of the fit covers, by the planner's own estimate, and what it leaves at the axis.
+#pragma once
+
+#include <vector>
+
+#include "flank/fit.h"
+
+namespace flank::internal {
+
+/// The estimate for a set of motions over one target's samples, `poses` axis positions per motion tabulated. Samples
+/// with area 0 count for overcut and undercut alone. A sample with f < 0 is refined exactly, others to third order in
+/// the spacing of the poses.
+[[nodiscard]] CoverageEstimate estimate_coverage(const std::vector<SurfaceSample>& samples,
+                                                 const std::vector<RuledMotion>& motions, const RadialFunction& tool,
+                                                 double tolerance_mm, int poses);
+
+/// The deepest that the flank enters an obstacle, mm, >= 0, at poses + 1 times per motion and at least 60 places along
+/// the axis; obstacles as in FitDraft (one per motion, null: none, or none at all).
+[[nodiscard]] double flank_gouge(const std::vector<RuledMotion>& motions,
+                                 const std::vector<const ObstacleField*>& obstacles, const RadialFunction& tool,
+                                 int poses);
+
+/// Residuals on a grid of count_t x count_s (both >= 2) per motion with cold footpoints, so a footpoint that a pass
+/// followed onto a wrong branch shows. Samples whose footpoint is on the border are left out of all but inside_share.
+[[nodiscard]] ResidualSummary validate(const std::vector<FitTask>& tasks, const RadialFunction& tool, int count_t,
+                                       int count_s);
+
+}  // namespace flank::internal

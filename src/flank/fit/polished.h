@@ -1,0 +1,35 @@
+/// A draft of the fit and what it covers: what passes hand on to one another.
+#pragma once
+
+#include <vector>
+
+#include "flank/fit/stages.h"
+
+namespace flank::internal {
+
+/// Poses per motion at which the estimate of the swept distance is tabulated when drafts are ranked: 2.5 for each of
+/// the 64 control points that a rail can have, at least 3.3 for each of the 48 of all but the exact passes.
+inline constexpr int kRankingPoses = 160;
+
+/// Residuals far beyond this are outliers to a robust pass; mm.
+[[nodiscard]] double robust_scale(const Target& target, const FlankFitOptions& options);
+
+/// Samples of the target that rank drafts, spacing options.sample_share sqrt(area). Samples out of reach because of
+/// obstacles, and points of the rim, have no area: they count for overcut alone.
+[[nodiscard]] std::vector<SurfaceSample> ranking_samples(const Target& target, const ObstacleField* obstacles,
+                                                         const FlankFitOptions& options);
+
+/// Radius of the ball that says what is in reach, mm: the one given, else the smallest allowed to the tool.
+[[nodiscard]] double reach_radius(const FlankFitOptions& options);
+
+struct Polished {
+  FitDraft draft;
+  CoverageEstimate estimate;  ///< of this draft
+  bool exact = false;         ///< the target is an envelope of such a tool, by the residual after the polish
+};
+
+/// The draft with a free tool clamped into its bounds, and what it covers.
+[[nodiscard]] Polished assess(FitDraft draft, const std::vector<SurfaceSample>& samples,
+                              const FlankFitOptions& options);
+
+}  // namespace flank::internal
