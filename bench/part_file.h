@@ -7,6 +7,7 @@
 
 #include "flank/error.h"
 #include "flank/example/example.h"
+#include "flank/example/example_write.h"
 
 namespace flank::internal::bench {
 

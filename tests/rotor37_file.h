@@ -7,6 +7,7 @@
 #include <string>
 
 #include "flank/example/example.h"
+#include "flank/example/example_write.h"
 
 namespace flank::internal::test {
 

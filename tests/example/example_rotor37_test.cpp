@@ -10,6 +10,7 @@
 #include "flank/example/example.h"
 #include "flank/example/example_rotor37_table.h"
 #include "flank/io/cad/read_cad.h"
+#include "flank/io/cad/read_cad_check.h"
 #include "flank/part.h"
 #include "flank/target.h"
 #include "rotor37_file.h"

@@ -6,7 +6,6 @@
 
 #include "flank/example/example.h"
 #include "flank/example/example_perturb.h"
-#include "flank/fit/automatic.h"
 #include "sanitized.h"
 
 namespace flank::internal {

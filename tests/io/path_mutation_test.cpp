@@ -5,6 +5,7 @@
 #include <set>
 
 #include "flank/io/path/path_cls.h"
+#include "flank/io/path/path_cls_read.h"
 #include "flank/io/path/path_csv.h"
 #include "flank/path_file.h"
 #include "io/path/path_samples.h"

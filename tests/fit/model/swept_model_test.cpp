@@ -11,7 +11,7 @@
 #include "flank/base/random.h"
 #include "flank/example/example.h"
 #include "flank/example/example_perturb.h"
-#include "flank/fit/automatic.h"
+#include "flank/fit.h"
 #include "flank/fit/model/levenberg_marquardt.h"
 #include "flank/fit/swept_polish.h"
 
