@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "cover/cover_targets.h"
+#include "flank/cover.h"
 #include "flank/threads.h"
 #include "sanitized.h"
 
