@@ -52,6 +52,12 @@ def opened_namespaces(file):
     return tuple(sorted(set(re.findall(r"^ *using namespace ([\w:]+);", file.read_text(), re.MULTILINE))))
 
 
+def used_names(file):
+    """Names that a source takes from other namespaces (`using that::name;`): two sources may take the same one, but none
+    may declare it."""
+    return set(re.findall(r"^ *using [\w:]*::(\w+);", file.read_text(), re.MULTILINE))
+
+
 def groups_of(files, size):
     """Groups of at most `size`, no two sources of which share a name of an unnamed namespace; the sources with most names
     first. A source that declares a name of its own that a header gives to a type stays alone."""
@@ -60,14 +66,17 @@ def groups_of(files, size):
         if names & types:
             alone.append([file])
             continue
+        used, opened = used_names(file), opened_namespaces(file)
         for group in groups:
-            if len(group["files"]) < size and group["opened"] == opened_namespaces(file) and not names & group["names"]:
+            fits = not (names & group["names"] or names & group["used"] or used & group["names"])
+            if len(group["files"]) < size and group["opened"] == opened and fits:
                 break
         else:
-            group = {"files": [], "names": set(), "opened": opened_namespaces(file)}
+            group = {"files": [], "names": set(), "used": set(), "opened": opened}
             groups.append(group)
         group["files"].append(file)
         group["names"] |= names
+        group["used"] |= used
     return [sorted(group["files"]) for group in groups] + alone
 
 

@@ -2,6 +2,7 @@
 
 #include "flank/base/random.h"
 #include "flank/error.h"
+#include "flank/io/mesh/add_polygon.h"
 #include "flank/io/mesh/read_obj.h"
 #include "flank/io/mesh/write_mesh.h"
 #include "flank/io/text/read_sniff.h"
