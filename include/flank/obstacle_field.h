@@ -23,12 +23,13 @@ struct ObstacleDistance {
 /// function may be called from many threads at once: nodes are atomics, and every thread computes the same value.
 class ObstacleField {
  public:
-  /// The faces of `obstacles`, which the flank of a tool on `target` must not enter by more than the allowance. Parts overlap and are open,
-  /// so a vote settles which side of a face is material. Voters are points `offset_mm` above the target, where the tool
-  /// is free; a voter counts if its nearest point on the face is interior to it, not on its border. A face is a wall if
-  /// most voters see its outer side (docs/decisions/0010); a face without orientation is first turned to where most
-  /// are. All other faces have a distance without sign: the blade's own back, signed, would forbid every place in front
-  /// of the blade. A face that all voters see from the material's side lies behind the target, and is left out.
+  /// The faces of `obstacles`, which the flank of a tool on `target` must not enter by more than the allowance. Parts
+  /// overlap and are open, so a vote settles which side of a face is material. Voters are points `offset_mm` above the
+  /// target, where the tool is free; a voter counts if its nearest point on the face is interior to it, not on its
+  /// border. A face is a wall if most voters see its outer side (docs/decisions/0010); a face without orientation is
+  /// first turned to where most are. All other faces have a distance without sign: the blade's own back, signed, would
+  /// forbid every place in front of the blade. A face that all voters see from the material's side lies behind the
+  /// target, and is left out.
   ObstacleField(const Obstacles& obstacles, const Target& target, double offset_mm, double allowance_mm);
 
   ~ObstacleField();

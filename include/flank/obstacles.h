@@ -1,5 +1,5 @@
-/// What a tool must not enter at one target: the value from which both planners work (docs/decisions/0013). The judge has
-/// an idea of its own (decision 0003).
+/// What a tool must not enter at one target: the value from which both planners work (docs/decisions/0013). The judge
+/// has an idea of its own (decision 0003).
 #pragma once
 
 #include <memory>

@@ -65,7 +65,8 @@ void add_surfaces(const Part& part, const std::vector<int>& faces, const std::ve
   }
 }
 
-/// Is any of a face within reach of the target? Judged by points of its surface, so by a little more than its trimmed part.
+/// Is any of a face within reach of the target? Judged by points of its surface, so by a little more than its trimmed
+/// part.
 bool is_near(const BSplineSurface& surface, const Target& target, double reach_mm) {
   constexpr int kPoints = 24;
   std::vector<Vec3> points;

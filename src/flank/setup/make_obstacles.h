@@ -25,8 +25,8 @@ struct ObstacleDetail {
   std::optional<double> faces_within_mm;   ///< as surfaces, if their box is this near to the target
   std::optional<double> meshes_within_mm;  ///< as triangles and solids, if they are this near
   double deviation_mm = 0.01;              ///< of the triangles
-  /// Given if the tool has a shank or holder: the target as triangles as well, of this deviation, for these, with `own_spare_mm` held back
-  /// besides, for a judge who wants it kept for sure.
+  /// Given if the tool has a shank or holder: the target as triangles as well, of this deviation, for these, with
+  /// `own_spare_mm` held back besides, for a judge who wants it kept for sure.
   std::optional<double> own_deviation_mm;
   double own_spare_mm = 0.0;
 };
