@@ -102,8 +102,8 @@ TEST_F(BesideAVice, WithoutAClearanceAFixtureMayBeTouched) {
 }
 
 TEST_F(BesideAVice, FixturesFartherThanToolAndClearanceAreLeftOut) {
-  // The plane ends at y = 16: 12 and 20 mm away is where surfaces and triangles end.
-  EXPECT_EQ(obstacles_with({wall_at(28.5)}, kClearance).faces.size(), 1u);
+  // The plane ends at y = 16, its last samples lie a millimetre before: surfaces end 12 mm farther, triangles 20.
+  EXPECT_EQ(obstacles_with({wall_at(27.5)}, kClearance).faces.size(), 1u);
   EXPECT_EQ(obstacles_with({wall_at(32.0)}, kClearance).faces.size(), 0u);
   EXPECT_EQ(obstacles_with({wall_at(36.5)}, kClearance).meshes.size(), 1u);
   EXPECT_EQ(obstacles_with({wall_at(50.0)}, kClearance).meshes.size(), 0u);
