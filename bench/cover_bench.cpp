@@ -14,7 +14,6 @@
 #include "flank/error.h"
 #include "flank/example/example.h"
 #include "flank/example/example_write.h"
-#include "flank/tool_file.h"
 #include "flank/pipeline/cover_job.h"
 #include "flank/threads.h"
 #include "flank/tool_file.h"

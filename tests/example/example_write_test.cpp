@@ -8,8 +8,6 @@
 #include "flank/error.h"
 #include "flank/example/example.h"
 #include "flank/example/example_write.h"
-#include "flank/path_file.h"
-#include "flank/tool_file.h"
 #include "flank/part.h"
 #include "flank/path_file.h"
 #include "flank/tool_file.h"

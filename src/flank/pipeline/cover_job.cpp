@@ -141,7 +141,7 @@ ToolExtent extent_of(const Tool& tool) {
 
 Obstacles obstacles_of(const CoverJob& job, const Part& part, std::span<const Part> fixtures, const TargetGroup& group,
                        const ToolExtent& extent) {
-    const double tolerance_mm = job.base.tolerance_mm;
+  const double tolerance_mm = job.base.tolerance_mm;
   const std::vector<int> targets = parse_face_list(part, job.base.faces);
   ObstacleChoice choice = choose_obstacles(group.indices, targets, faces_to_check(part, targets, job.base.check));
   choice.fixtures = fixtures;

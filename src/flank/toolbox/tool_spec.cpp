@@ -11,7 +11,6 @@
 #include "flank/io/tool/tool_dxf.h"
 #include "flank/io/tool/tool_dxf_read.h"
 #include "flank/tool_file.h"
-#include "flank/tool_file.h"
 #include "flank/toolbox/tool_command.h"
 
 namespace flank::internal {

@@ -13,7 +13,6 @@
 #include "flank/error.h"
 #include "flank/io/path/path_cls.h"
 #include "flank/path_file.h"
-#include "flank/path_file.h"
 
 namespace flank::internal {
 
