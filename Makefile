@@ -59,8 +59,8 @@ format-check:  ## check that the sources are formatted
 
 tidy:  ## lint the sources (clang-tidy)
 	scripts/install-deps.sh build dev
-	cmake --preset release
-	scripts/tidy.py build/release
+	cmake --preset release -B build/tidy -D FLANK_BUILD_TESTS=OFF -D FLANK_UNITY=OFF -D FLANK_PRECOMPILE=OFF
+	scripts/tidy.py build/tidy
 
 clean:
 	rm -rf build out
