@@ -11,12 +11,13 @@ one source at a time and takes many times as long; so does naming the files.
 import json
 import os
 import pathlib
-import re
 import shlex
 import subprocess
 import sys
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
+
+from unity import groups_of
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 FOLDERS = ("src/flank", "apps")
@@ -42,52 +43,6 @@ def compile_arguments(build):
                 kept += [word, next(words)]
         arguments[file] = kept
     return arguments
-
-
-def unnamed_names(file):
-    """Names that the unnamed namespaces of a source declare, by what its lines look like."""
-    names, inside = set(), False
-    for line in file.read_text().splitlines():
-        if line == "namespace {":
-            inside = True
-        elif line.startswith("}  // namespace"):
-            inside = False
-        elif inside and re.match(r"[A-Za-z]", line):
-            found = re.match(r"(?:struct|class|enum class|using)\s+(\w+)", line) or re.search(r"(\w+)\s*[({=;\[]", line)
-            if found:
-                names.add(found.group(1))
-    return names
-
-
-def header_types():
-    """Names of the types that the headers define. Two headers that define one name would give a program two types of that
-    name, and the linker would take the code of either for both."""
-    headers = {}
-    for header in sorted((ROOT / "src").rglob("*.h")):
-        text = header.read_text()
-        for name in re.findall(r"^(?:struct|class|enum class|using) (\w+)(?=[ :{=][^;]*(?:\{|= ))", text, re.MULTILINE):
-            if headers.setdefault(name, (header, text))[0] != header and not re.search(rf"^using {name} =", text, re.MULTILINE):
-                sys.exit(f"tidy.py: {name} is defined in {headers[name][0].name} and in {header.name}")
-    return set(headers)
-
-
-def batches_of(files):
-    """Batches, none with two sources that declare the same name in an unnamed namespace; the sources with most names first.
-    A source that declares a name of its own that a header gives to a type stays alone."""
-    types, alone, batches = header_types(), [], []
-    for names, file in sorted(((unnamed_names(file), file) for file in files), key=lambda pair: (-len(pair[0]), pair[1])):
-        if names & types:
-            alone.append([file])
-            continue
-        for batch in batches:
-            if len(batch["files"]) < BATCH and not names & batch["names"]:
-                break
-        else:
-            batch = {"files": [], "names": set()}
-            batches.append(batch)
-        batch["files"].append(file)
-        batch["names"] |= names
-    return [batch["files"] for batch in batches] + alone
 
 
 def tidy(file, arguments, deep):
@@ -129,7 +84,7 @@ def main():
     files = named or sorted(arguments)
     if not files or any(file not in arguments for file in files):
         sys.exit(f"tidy.py: {words[0]} does not say how to compile {[str(f) for f in files if f not in arguments]}")
-    batches = [[file] for file in files] if deep or named else batches_of(files)
+    batches = [[file] for file in files] if deep or named else groups_of(files, BATCH)
     failed = False
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(int(os.environ.get("JOBS", os.cpu_count()))) as pool:
         jobs = [pool.submit(lint, batch, arguments, pathlib.Path(folder), number, deep)
