@@ -4,9 +4,9 @@
 set -euo pipefail
 
 build=(g++ cmake ninja-build libeigen3-dev libtbb-dev libfmt-dev nlohmann-json3-dev libcli11-dev
-       libocct-data-exchange-dev libgtest-dev)
+       libocct-data-exchange-dev libgtest-dev python3)
 bench=(libbenchmark-dev libembree-dev libfcl-dev)
-dev=(clang-format clang-tidy python3)
+dev=(clang-format clang-tidy)
 clients=(chromium freecad-python3)
 # Node.js and npm bundle the report page; a newer one from elsewhere will do, and then the packages would get in its way.
 command -v node > /dev/null || build+=(nodejs)
