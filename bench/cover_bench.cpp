@@ -14,7 +14,7 @@
 #include "flank/error.h"
 #include "flank/example/example.h"
 #include "flank/example/example_write.h"
-#include "flank/pipeline/cover_job.h"
+#include "flank/run.h"
 #include "flank/threads.h"
 #include "flank/tool_file.h"
 #include "part_file.h"
@@ -68,37 +68,31 @@ std::string own_tool(const Example& example, double share) {
 
 CoverJob job_of(const Scene& scene) {
   CoverJob job;
-  job.base.least_coverage = 0.0;
-  job.base.tool = scene.tool;
-  if (scene.axis_length > 0.0) job.base.axis_length_mm = scene.axis_length;
-  job.base.tolerance_mm = scene.tolerance;
+  job.judge.least_coverage = 0.0;
+  job.tool.spec = scene.tool;
+  if (scene.axis_length > 0.0) job.tool.axis_length_mm = scene.axis_length;
+  job.tolerance_mm = scene.tolerance;
   if (scene.part.ends_with(".step")) {
-    job.base.part = real_part(scene.part);
+    job.part.file = real_part(scene.part);
     return job;
   }
   const Example example = make_example(scene.part);
-  job.base.part = scratch(scene.part + ".step");
-  job.base.side = +1;
-  write_example(example, job.base.part);
-  if (scene.axis_length <= 0.0) job.base.tool = own_tool(example, scene.middle_share);
-  if (scene.tolerance < 0.0) job.base.tolerance_mm = -scene.tolerance * example.diagonal_mm;
+  job.part.file = scratch(scene.part + ".step");
+  job.part.side = +1;
+  write_example(example, job.part.file);
+  if (scene.axis_length <= 0.0) job.tool.spec = own_tool(example, scene.middle_share);
+  if (scene.tolerance < 0.0) job.tolerance_mm = -scene.tolerance * example.diagonal_mm;
   return job;
-}
-
-double figure(const FitOutcome& outcome, const std::string& name) {
-  for (const auto& [key, value] : outcome.figures)
-    if (key.ends_with(" " + name)) return value;
-  return 0.0;
 }
 
 void row(const Scene& scene, const CoverJob& job, const std::string& label) {
   const std::clock_t start = std::clock();
-  const FitOutcome outcome = run_cover(job, {});
+  const Result outcome = run_cover(job, {});
+  const TargetCover cover = std::get<CoverSummary>(outcome.plan).whole();
   const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   std::printf("%-34s %-9s %7.4f %8.1f %8.1f %8.1f %7zu %9.0f %9.4f %8.1f\n", scene.name.c_str(), label.c_str(),
-              job.base.tolerance_mm, 100.0 * figure(outcome, "before"), 100.0 * figure(outcome, "after"),
-              100.0 * outcome.verify.coverage, outcome.path.strips.size(), 100.0 * figure(outcome, "overlap"),
-              outcome.verify.overcut_mm, seconds);
+              job.tolerance_mm, 100.0 * cover.before, 100.0 * cover.after, 100.0 * outcome.verify.coverage,
+              outcome.path.strips.size(), 100.0 * cover.overlap, outcome.verify.overcut_mm, seconds);
 }
 
 /// Clusters depend on where the clustering starts, and so does what becomes of them: one row a seed shows the scatter.
@@ -107,7 +101,7 @@ void rows(const Scene& scene) {
   row(scene, job, "grow");
   job.strategy = "curves";
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    job.options.curves.seed = seed;
+    job.seed = seed;
     row(scene, job, "curves " + std::to_string(seed));
   }
 }

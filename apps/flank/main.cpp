@@ -1,4 +1,4 @@
-// The command line: parses arguments, calls the pipeline, turns errors into exit codes.
+// The command line: parses arguments, calls the library, turns errors into exit codes.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
@@ -8,8 +8,13 @@
 #include "flank/error.h"
 #include "flank/threads.h"
 #include "flank/version.h"
+#include "messages.h"
 
 namespace {
+
+using flank::cli::kOurFault;
+using flank::cli::kRefusedInput;
+using flank::cli::kWrongUsage;
 
 /// One line on stderr, whatever the message holds.
 int complain(const std::string& message, int code) {
@@ -36,7 +41,6 @@ void add_common(CLI::App& app, flank::cli::CommonOptions& common) {
   app.add_flag("--quiet", common.quiet, "No progress and no summary");
   app.add_option("--threads", common.threads, "Threads to use; 0: all cores. The result does not depend on it")
       ->check(CLI::Range(0, 1024));
-  app.add_option("--seed", common.seed, "Seed of everything random");
 }
 
 }  // namespace
@@ -47,7 +51,7 @@ int main(int argc, char** argv) {
   parser.set_version_flag("--version", flank::kVersion);
   parser.require_subcommand(1);
   parser.footer(
-      "Exit: 0 done and within what was asked; 1 done, but not within it; 2 wrong usage; 3 input refused; 4 our "
+      "Exit: 0 done, and the result meets the request; 1 done, but it does not; 2 wrong usage; 3 input refused; 4 our "
       "fault.");
   flank::cli::CommonOptions common;
   std::vector<flank::cli::Subcommand> commands = {flank::cli::add_inspect(parser), flank::cli::add_example(parser),
@@ -55,25 +59,30 @@ int main(int argc, char** argv) {
                                                   flank::cli::add_cover(parser),   flank::cli::add_verify(parser),
                                                   flank::cli::add_report(parser),  flank::cli::add_view(parser)};
   for (const flank::cli::Subcommand& command : commands) add_common(*command.app, common);
+  const auto chosen = [&]() -> const flank::cli::Subcommand* {
+    for (const flank::cli::Subcommand& command : commands)
+      if (command.app->parsed() || (argc > 1 && command.app->get_name() == argv[1])) return &command;
+    return nullptr;
+  };
+  const auto in_flags = [&](const flank::Error& error) {
+    const flank::cli::Subcommand* command = chosen();
+    return command != nullptr ? flank::cli::in_flags(error, command->flags) : std::string(error.what());
+  };
   try {
     require_known_command(parser, argc, argv);
     parser.parse(argc, argv);
-  } catch (const flank::UsageError& e) {
-    return complain(e.what(), e.exit_code());
+    flank::set_thread_count(common.threads);
+    return chosen()->run(common);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return parser.exit(e);
-    return complain(std::string(e.what()) + " (see flank --help)", 2);
-  }
-  try {
-    flank::set_thread_count(common.threads);
-    for (const flank::cli::Subcommand& command : commands)
-      if (command.app->parsed()) return command.run(common);
-    return 2;
-  } catch (const flank::Error& e) {
-    return complain(e.what(), e.exit_code());
+    return complain(std::string(e.what()) + " (see flank --help)", kWrongUsage);
+  } catch (const flank::UsageError& e) {
+    return complain(in_flags(e), kWrongUsage);
+  } catch (const flank::InputError& e) {
+    return complain(in_flags(e), kRefusedInput);
   } catch (const std::bad_alloc&) {
-    return complain("out of memory", 4);
+    return complain("out of memory", kOurFault);
   } catch (const std::exception& e) {
-    return complain(std::string("internal error: ") + e.what(), 4);
+    return complain(std::string("internal error: ") + e.what(), kOurFault);
   }
 }

@@ -10,7 +10,6 @@
 #include "commands.h"
 
 namespace flank::cli {
-using namespace internal;
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;

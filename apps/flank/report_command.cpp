@@ -78,7 +78,7 @@ Subcommand add_report(CLI::App& parser) {
   app->footer(
       "Example: flank example twisted-blade -o blade.step && flank fit blade.step --face F1 -o out --tolerance 0.1; "
       "flank report out");
-  return {app, [options](const CommonOptions& common) { return report(*options, common); }};
+  return {app, [options](const CommonOptions& common) { return report(*options, common); }, {{"png", "--png"}}};
 }
 
 Subcommand add_view(CLI::App& parser) {
@@ -88,11 +88,13 @@ Subcommand add_view(CLI::App& parser) {
   app->footer(
       "Example: flank example twisted-blade -o blade.step && flank fit blade.step --face F1 -o out --tolerance 0.1; "
       "flank view out");
-  return {app, [options](const CommonOptions& common) {
+  return {app,
+          [options](const CommonOptions& common) {
             const int code = report(*options, common);
             open_page(options->page());
             return code;
-          }};
+          },
+          {}};
 }
 
 }  // namespace flank::cli

@@ -14,21 +14,21 @@ struct Channel {
 
 FitJob job_of(const Channel& c) {
   FitJob job;
-  job.part = real_part(c.file);
-  job.faces = c.face;
+  job.part.file = real_part(c.file);
+  job.part.faces = c.face;
   job.tolerance_mm = c.tolerance;
-  job.reach_radius_mm = c.reach;
+  job.judge.reach_radius_mm = c.reach;
   return job;
 }
 
 std::vector<Figure> beside_walls(const Channel& c, bool holder) {
   FitJob job = job_of(c);
   if (holder) {
-    job.clearance.shank_length_mm = 30.0;
-    job.clearance.holder = "30:10,60:10";
-    job.clearance.required_mm = 0.5;
+    job.obstacles.shank_length_mm = 30.0;
+    job.obstacles.holder = "30:10,60:10";
+    job.obstacles.clearance_mm = 0.5;
   }
-  FitOutcome outcome;
+  Result outcome;
   const double seconds = seconds_of([&] { outcome = run_fit(job, {}); });
   std::vector<Figure> figures{
       shown("reachable share", outcome.verify.reachable_share),
@@ -49,11 +49,11 @@ std::vector<Figure> beside_walls(const Channel& c, bool holder) {
 /// A given tool on a real blade leaves no overcut.
 std::vector<Figure> given_on_r37(const std::string& tool) {
   FitJob job;
-  job.part = real_part("r37_blade.step");
-  job.tool = tool;
+  job.part.file = real_part("r37_blade.step");
+  job.tool.spec = tool;
   job.tolerance_mm = 0.1;
-  job.least_coverage = 0.0;
-  FitOutcome outcome;
+  job.judge.least_coverage = 0.0;
+  Result outcome;
   const double seconds = seconds_of([&] { outcome = run_fit(job, {}); });
   return {at_most("overcut", outcome.verify.overcut_mm / outcome.diagonal_mm, 2e-5),
           at_most("deepest in another face, mm", outcome.verify.gouge_mm, job.tolerance_mm),

@@ -15,7 +15,7 @@
 #include "flank/fit.h"
 #include "flank/fit/coverage.h"
 #include "flank/judge.h"
-#include "flank/pipeline/fit_job.h"
+#include "flank/run.h"
 #include "flank/ruled_motion.h"
 #include "flank/target.h"
 #include "part_file.h"

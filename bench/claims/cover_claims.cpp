@@ -11,8 +11,9 @@
 #include "flank/base/parallel.h"
 #include "flank/example/example_envelope.h"
 #include "flank/example/example_motions.h"
+#include "flank/cover.h"
 #include "flank/example/example_write.h"
-#include "flank/pipeline/cover_job.h"
+#include "flank/run.h"
 #include "flank/strip/line_fit.h"
 
 namespace flank::internal::bench {
@@ -188,27 +189,23 @@ std::string example_part(const std::string& name) {
 
 std::vector<Figure> command(const Case& c) {
   CoverJob job;
-  job.base.part = c.part.find('.') == std::string::npos ? example_part(c.part) : real_part(c.part);
-  job.base.faces = c.face;
-  job.base.tool = c.tool;
-  job.base.axis_length_mm = c.length;
-  job.base.tolerance_mm = c.tolerance > 0.0 ? c.tolerance : -c.tolerance * make_example(c.part).diagonal_mm;
+  job.part.file = c.part.find('.') == std::string::npos ? example_part(c.part) : real_part(c.part);
+  job.part.faces = c.face;
+  job.tool.spec = c.tool;
+  job.tool.axis_length_mm = c.length;
+  job.tolerance_mm = c.tolerance > 0.0 ? c.tolerance : -c.tolerance * make_example(c.part).diagonal_mm;
   job.strip_price = c.price;
-  FitOutcome outcome;
+  Result outcome;
   const double seconds = seconds_of([&] { outcome = run_cover(job, {}); });
-  const auto figure = [&](const std::string& what) {
-    for (const auto& [name, value] : outcome.figures)
-      if (name.ends_with(what)) return value;
-    return 0.0;
-  };
-  return {shown("coverage before smoothing, by the planner", figure(" before")),
+  const TargetCover cover = std::get<CoverSummary>(outcome.plan).whole();
+  return {shown("coverage before smoothing, by the planner", cover.before),
           shown("coverage of the whole face", outcome.verify.coverage),
           shown("reachable share", outcome.verify.reachable_share),
           at_least("coverage of the reachable share", outcome.verify.coverage_reachable, c.coverage),
-          at_most("strips", static_cast<double>(outcome.fit.motions.size()), c.strips),
-          shown("overlap", figure(" overlap")),
-          at_most("overcut, mm", outcome.verify.overcut_mm, job.base.tolerance_mm),
-          at_most("deepest in another face, mm", outcome.verify.gouge_mm, job.base.tolerance_mm),
+          at_most("strips", static_cast<double>(outcome.motions.size()), c.strips),
+          shown("overlap", cover.overlap),
+          at_most("overcut, mm", outcome.verify.overcut_mm, job.tolerance_mm),
+          at_most("deepest in another face, mm", outcome.verify.gouge_mm, job.tolerance_mm),
           at_most("seconds", seconds, 30.0)};
 }
 

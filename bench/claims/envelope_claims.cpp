@@ -30,11 +30,11 @@ std::vector<Figure> from_the_face(const std::string& name, bool with_length) {
   const double d = example.diagonal_mm;
   write_example(example, scratch(name + ".step"));
   FitJob job;
-  job.part = scratch(name + ".step");
-  job.side = +1;
+  job.part.file = scratch(name + ".step");
+  job.part.side = +1;
   job.tolerance_mm = 5e-5 * d;
-  if (with_length) job.axis_length_mm = example.truth->motions.front().axis_length;
-  FitOutcome outcome;
+  if (with_length) job.tool.axis_length_mm = example.truth->motions.front().axis_length;
+  Result outcome;
   const double seconds = seconds_of([&] { outcome = run_fit(job, {}); });
   return {at_least("coverage", outcome.verify.coverage, 0.97), at_most("overcut", outcome.verify.overcut_mm / d, 1e-5),
           at_most("seconds", seconds, 5.0)};
@@ -61,10 +61,10 @@ std::vector<Figure> deformed() {
   const double d = example.diagonal_mm;
   write_example(example, scratch("deformed.step"));
   FitJob job;
-  job.part = scratch("deformed.step");
-  job.side = +1;
+  job.part.file = scratch("deformed.step");
+  job.part.side = +1;
   job.tolerance_mm = 1e-3 * d;
-  const FitOutcome outcome = run_fit(job, {});
+  const Result outcome = run_fit(job, {});
   return {at_most("real error", std::max(outcome.verify.overcut_mm, outcome.verify.undercut_mm) / d, 1.5e-3),
           shown("overcut", outcome.verify.overcut_mm / d), shown("undercut", outcome.verify.undercut_mm / d),
           at_least("coverage", outcome.verify.coverage, 0.95)};

@@ -10,11 +10,11 @@ namespace {
 
 /// The least largest |f| over the face that a motion of either sign reaches, from the one-sided result: passes whose dead
 /// zone narrows, the best by the judge kept.
-double two_sided(const Example& example, const FitOutcome& outcome) {
+double two_sided(const Example& example, const Result& outcome) {
   const std::unique_ptr<Target> target = make_target(std::vector<Face>{example.faces.front()});
   FitDraft draft;
-  draft.tool = outcome.fit.tool;
-  for (const RuledMotion& motion : outcome.fit.motions) {
+  draft.tool = outcome.tool.radial;
+  for (const RuledMotion& motion : outcome.motions) {
     draft.motions.push_back(motion);
     draft.targets.push_back(target.get());
   }
@@ -46,12 +46,12 @@ std::vector<Figure> given(const std::string& part, const std::string& tool) {
   const double d = example.diagonal_mm;
   write_example(example, scratch(part + ".step"));
   FitJob job;
-  job.part = scratch(part + ".step");
-  job.tool = tool;
-  job.side = +1;
+  job.part.file = scratch(part + ".step");
+  job.tool.spec = tool;
+  job.part.side = +1;
   job.tolerance_mm = 0.1;
-  job.least_coverage = 0.0;
-  FitOutcome outcome;
+  job.judge.least_coverage = 0.0;
+  Result outcome;
   const double seconds = seconds_of([&] { outcome = run_fit(job, {}); });
   const double rival = two_sided(example, outcome);
   return {at_most("overcut", outcome.verify.overcut_mm / d, 2e-5),

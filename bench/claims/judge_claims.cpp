@@ -30,24 +30,22 @@ Strip with_poses(const Strip& strip, std::size_t count) {
 
 std::vector<Figure> sector() {
   FitJob job;
-  job.part = real_part("r37_blisk_sector_2blades.step");
-  job.faces = "F9";
+  job.part.file = real_part("r37_blisk_sector_2blades.step");
+  job.part.faces = "F9";
   job.tolerance_mm = 0.1;
   job.avoid = false;
-  FitOutcome outcome = run_fit(job, {});
+  Result outcome = run_fit(job, {});
   for (Strip& strip : outcome.path.strips) strip = with_poses(strip, kPoses);
-  const Part part = read_part(job.part);
-  const std::vector<int> targets = parse_face_list(part, job.faces), checks = faces_to_check(part, targets, {});
+  std::vector<std::string> notes;
+  const Setup setup = read_setup(job.part, job.obstacles, job.tolerance_mm, notes);
   const int threads = thread_count();
   set_thread_count(kThreads);
   std::vector<FaceSamples> samples;
   VerifyReport report;
-  const double sampling =
-      seconds_of([&] { samples = judge_samples(part, targets, checks, kSpacingMm, 2 * kSpacingMm); });
+  const double sampling = seconds_of([&] { samples = judge_samples(setup, kSpacingMm, 2 * kSpacingMm); });
   const double judging =
       seconds_of([&] { report = judge(outcome.tool, outcome.path, samples, {.tolerance_mm = 0.1}); });
-  const double reaching = seconds_of(
-      [&] { measure_reach(part, targets, checks, outcome.tool, outcome.path, 5.0, job.tolerance_mm, samples); });
+  const double reaching = seconds_of([&] { measure_reach(setup, outcome.tool, outcome.path, 5.0, samples); });
   set_thread_count(threads);
   std::size_t points = 0;
   for (const FaceSamples& face : samples) points += face.points.size();

@@ -6,8 +6,8 @@
 namespace flank::internal::bench {
 namespace {
 
-FitOutcome fit_file(FitJob job, double& seconds) {
-  FitOutcome outcome;
+Result fit_file(FitJob job, double& seconds) {
+  Result outcome;
   seconds = seconds_of([&] { outcome = run_fit(job, {}); });
   return outcome;
 }
@@ -21,11 +21,11 @@ struct PartCase {
 
 FitJob job_of(const PartCase& c) {
   FitJob job;
-  job.part = real_part(c.file);
-  job.faces = c.faces;
+  job.part.file = real_part(c.file);
+  job.part.faces = c.faces;
   job.tolerance_mm = c.tolerance;
-  job.radius_min_mm = c.radius_min;
-  job.radius_max_mm = c.radius_max;
+  job.radius.min_mm = c.radius_min;
+  job.radius.max_mm = c.radius_max;
   job.strips = c.strips;
   job.avoid = false;  // the face alone: what its neighbours allow is in avoidance_claims
   return job;
@@ -33,7 +33,7 @@ FitJob job_of(const PartCase& c) {
 
 std::vector<Figure> real(const PartCase& c) {
   double seconds = 0.0;
-  const FitOutcome outcome = fit_file(job_of(c), seconds);
+  const Result outcome = fit_file(job_of(c), seconds);
   return {at_least("coverage", outcome.verify.coverage, c.coverage),
           at_most("overcut, mm", outcome.verify.overcut_mm, c.overcut),
           shown("undercut over the covered strip, mm", outcome.verify.undercut_covered_mm),
@@ -46,11 +46,11 @@ std::vector<Figure> ruled_blade() {
   const Example example = make_example("ruled-blade");
   write_example(example, scratch("ruled.step"));
   FitJob job;
-  job.part = scratch("ruled.step");
+  job.part.file = scratch("ruled.step");
   job.tolerance_mm = 0.1;
-  job.side = +1;
+  job.part.side = +1;
   double seconds = 0.0;
-  const FitOutcome outcome = fit_file(job, seconds);
+  const Result outcome = fit_file(job, seconds);
   return {at_least("coverage", outcome.verify.coverage, 0.99), at_most("overcut, mm", outcome.verify.overcut_mm, 0.01),
           shown("largest material left, mm", outcome.verify.undercut_mm), shown("seconds", seconds)};
 }
@@ -59,9 +59,9 @@ std::vector<Figure> ruled_blade() {
 std::vector<Figure> custom_against_cylinder(const PartCase& c) {
   FitJob job = job_of(c);
   double seconds = 0.0;
-  const FitOutcome custom = fit_file(job, seconds);
-  job.tool = "cylinder";
-  const FitOutcome cylinder = fit_file(job, seconds);
+  const Result custom = fit_file(job, seconds);
+  job.tool.spec = "cylinder";
+  const Result cylinder = fit_file(job, seconds);
   return {shown("rms of the custom tool, mm", custom.verify.rms_mm),
           shown("coverage of the custom tool", custom.verify.coverage),
           shown("rms of the best cylinder, mm", cylinder.verify.rms_mm),

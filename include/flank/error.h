@@ -7,33 +7,41 @@
 
 namespace flank {
 
-/// Base of every error that the command line turns into an exit code.
+/// Base of every error that the library throws on purpose.
+///
+/// A message may be about one field of a request (job.h): then it begins with the field's name, as in
+/// "tolerance_mm: a length > 0 mm is needed". Further fields that it mentions stand in backquotes. A program with another
+/// name for a field, as the command line has, can put that in its place.
 class Error : public std::runtime_error {
  public:
-  Error(int exit_code, const std::string& what) : std::runtime_error(what), exit_code_(exit_code) {}
-  /// 2, 3 or 4: see the classes below.
-  [[nodiscard]] int exit_code() const { return exit_code_; }
+  explicit Error(const std::string& what) : std::runtime_error(what) {}
+  Error(const std::string& field, const std::string& text) : std::runtime_error(field + ": " + text), field_(field) {}
+  Error(const std::string& field, const std::string& value, const std::string& text)
+      : std::runtime_error(field + " " + value + ": " + text), field_(field) {}
+
+  /// Name of the field that the message is about and begins with; empty if it is about none.
+  [[nodiscard]] const std::string& field() const { return field_; }
 
  private:
-  int exit_code_;
+  std::string field_;
 };
 
-/// The command or an option is wrong (exit 2). The message names the option and says what would be accepted.
+/// A request is wrong. The message names the field and says what would be accepted.
 class UsageError : public Error {
  public:
-  explicit UsageError(const std::string& what) : Error(2, what) {}
+  using Error::Error;
 };
 
-/// A file or a part is refused (exit 3). The message names the file, line or face and says what would be accepted.
+/// A file or a part is refused. The message names the file, line or face and says what would be accepted.
 class InputError : public Error {
  public:
-  explicit InputError(const std::string& what) : Error(3, what) {}
+  using Error::Error;
 };
 
-/// Our own fault (exit 4).
+/// Our own fault.
 class InternalError : public Error {
  public:
-  explicit InternalError(const std::string& what) : Error(4, what) {}
+  using Error::Error;
 };
 
 }  // namespace flank

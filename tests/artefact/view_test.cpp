@@ -10,6 +10,7 @@
 #include "flank/artefact/view_json.h"
 #include "flank/envelope/path_regularity.h"
 #include "flank/example/example.h"
+#include "flank/setup/setup.h"
 #include "flank/setup/targets.h"
 
 namespace flank::internal {
@@ -71,13 +72,15 @@ class ViewOfExample : public ::testing::Test {
       for (const Vec3& p : face.surface.poles) part_.box.add(p);
     tool_ = example.truth->tool;
     path_ = example.truth->path;
-    job_.part = "/somewhere/barrel.step";
+    job_.part.file = "/somewhere/barrel.step";
     job_.tolerance_mm = 0.01;
     JudgeOptions options;
     options.tolerance_mm = job_.tolerance_mm;
-    verdict_ = judge(tool_, path_, judge_samples(part_, {0}, {}, 0.5, 1.0), options);
-    view_ = make_view(job_, part_, {0}, tool_, path_, verdict_);
+    verdict_ = judge(tool_, path_, judge_samples(setup(), 0.5, 1.0), options);
+    view_ = make_view(job_, setup(), tool_, path_, verdict_);
   }
+
+  [[nodiscard]] internal::Setup setup() const { return {part_, {0}, {}, job_.tolerance_mm, {}}; }
 
   FitJob job_;
   Part part_;
@@ -117,7 +120,7 @@ TEST_F(ViewOfExample, TheSwingAlongThePathIsThatOfTheVertices) {
 
 TEST_F(ViewOfExample, ClearanceAlongThePathWhereItWasAsked) {
   const auto json = [&] {
-    return nlohmann::json::parse(view_to_json(make_view(job_, part_, {0}, tool_, path_, verdict_)));
+    return nlohmann::json::parse(view_to_json(make_view(job_, setup(), tool_, path_, verdict_)));
   };
   EXPECT_FALSE(json().at("strips").at(0).at("places").contains("clearance_mm"));
   std::vector<double> poses;
@@ -157,7 +160,7 @@ TEST_F(ViewOfExample, TheProfileIsTheMeridianWithItsCurvature) {
 
 TEST_F(ViewOfExample, TheFileIsTheSameAgainAndHidesTheFolder) {
   const std::string text = view_to_json(view_);
-  EXPECT_EQ(text, view_to_json(make_view(job_, part_, {0}, tool_, path_, verdict_)));
+  EXPECT_EQ(text, view_to_json(make_view(job_, setup(), tool_, path_, verdict_)));
   EXPECT_EQ(text.find("/somewhere"), std::string::npos);
   const auto json = nlohmann::json::parse(text);
   EXPECT_EQ(json.at("schema"), "openflank/view/1");
@@ -182,8 +185,9 @@ TEST_F(ViewOfExample, AFaceThatIsEnteredIsColoured) {
   for (Vec3& p : far.surface.poles) p -= 50.0 * normal;
   part.faces = {part.faces.front(), raised, far};
   JudgeOptions options;
-  const VerifyReport verdict = judge(tool_, path_, judge_samples(part, {0}, {1, 2}, 0.5, 1.0), options);
-  const View view = make_view(job_, part, {0}, tool_, path_, verdict);
+  const internal::Setup raised_setup{part, {0}, {1, 2}, job_.tolerance_mm, {}};
+  const VerifyReport verdict = judge(tool_, path_, judge_samples(raised_setup, 0.5, 1.0), options);
+  const View view = make_view(job_, raised_setup, tool_, path_, verdict);
   ASSERT_EQ(view.bodies.size(), 3u);
   ASSERT_FALSE(view.bodies[1].f_mm.empty());
   EXPECT_LT(*std::min_element(view.bodies[1].f_mm.begin(), view.bodies[1].f_mm.end()), -0.4);
@@ -197,16 +201,16 @@ TEST(View, AMeshKeepsItsFacesAndACoarseTargetIsDivided) {
   part.mesh_faces = {{0}, {1}};
   part.box = part.mesh.box();
   FitJob job;
-  job.part = "two.stl";
-  job.unit = "mm";
+  job.part.file = "two.stl";
+  job.part.unit = "mm";
   Tool tool;
   tool.radial = RadialFunction(ToolFamily::kCylinder, 10.0, Eigen::VectorXd::Constant(1, 2.0));
-  const View view = make_view(job, part, {0}, tool, {}, {});
+  const View view = make_view(job, {part, {0}, {}, 0.01, {}}, tool, {}, {});
   ASSERT_EQ(view.bodies.size(), 2u);
   EXPECT_GT(view.bodies[0].mesh.triangles.size(), kTargetTriangles / 4);
   EXPECT_EQ(view.bodies[1].mesh.triangles.size(), 1u);
   EXPECT_TRUE(view.bodies[0].f_mm.empty()) << "there is no path, so there is no error";
-  EXPECT_EQ(view.command, "flank fit two.stl --face F1 --unit mm");
+  EXPECT_EQ(view.command, "flank fit two.stl --unit mm --face F1");
 }
 
 TEST(View, AVeryFineMeshIsDrawnCoarser) {
@@ -225,10 +229,10 @@ TEST(View, AVeryFineMeshIsDrawnCoarser) {
     }
   part.box = part.mesh.box();
   FitJob job;
-  job.part = "fine.stl";
+  job.part.file = "fine.stl";
   Tool tool;
   tool.radial = RadialFunction(ToolFamily::kCylinder, 10.0, Eigen::VectorXd::Constant(1, 2.0));
-  const View view = make_view(job, part, {0}, tool, {}, {});
+  const View view = make_view(job, {part, {0}, {}, 0.01, {}}, tool, {}, {});
   const TriangleMesh& mesh = view.bodies[0].mesh;
   EXPECT_LE(mesh.triangles.size(), kMostMeshTriangles);
   EXPECT_GT(mesh.triangles.size(), kMostMeshTriangles / 4);

@@ -5,20 +5,26 @@
 namespace flank::internal {
 namespace {
 
-template <class E>
-int exit_code_of(const E& error) {
-  try {
-    throw error;
-  } catch (const Error& caught) {
-    EXPECT_STREQ(caught.what(), "what went wrong");
-    return caught.exit_code();
+TEST(Error, EveryKindKeepsItsMessageAndIsAnError) {
+  for (const auto& raise : {+[] { throw UsageError("what went wrong"); }, +[] { throw InputError("what went wrong"); },
+                            +[] { throw InternalError("what went wrong"); }}) {
+    try {
+      raise();
+      FAIL() << "nothing was thrown";
+    } catch (const Error& caught) {
+      EXPECT_STREQ(caught.what(), "what went wrong");
+      EXPECT_EQ(caught.field(), "");
+    }
   }
 }
 
-TEST(Error, EveryKindHasItsExitCodeAndKeepsItsMessage) {
-  EXPECT_EQ(exit_code_of(UsageError("what went wrong")), 2);
-  EXPECT_EQ(exit_code_of(InputError("what went wrong")), 3);
-  EXPECT_EQ(exit_code_of(InternalError("what went wrong")), 4);
+TEST(Error, AMessageAboutAFieldBeginsWithItsName) {
+  const UsageError plain("tolerance_mm", "a length > 0 mm is needed");
+  EXPECT_STREQ(plain.what(), "tolerance_mm: a length > 0 mm is needed");
+  EXPECT_EQ(plain.field(), "tolerance_mm");
+  const InputError with_value("catalogue", "/nowhere", "no such folder");
+  EXPECT_STREQ(with_value.what(), "catalogue /nowhere: no such folder");
+  EXPECT_EQ(with_value.field(), "catalogue");
 }
 
 }  // namespace

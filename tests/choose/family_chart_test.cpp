@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "cover/cover_targets.h"
-#include "flank/toolbox/tool_command.h"
+#include "flank/toolbox/tool_spec.h"
 #include "seed/sheet.h"
 
 namespace flank::internal {

@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "flank/error.h"
 #include "flank/setup/check_faces.h"
 #include "flank/setup/targets.h"
 #include "rotor37_file.h"
@@ -22,9 +21,9 @@ std::string real_part(const std::string& name) {
 
 /// Samples of one target with its reachable shares.
 FaceSamples reach_of(const Part& part, int target, double radius, double tolerance, double spacing) {
-  const std::vector<int> checks = faces_to_check(part, {target}, {});
-  std::vector<FaceSamples> samples = judge_samples(part, {target}, checks, spacing, 10.0);
-  measure_reach(part, {target}, checks, {}, {}, radius, tolerance, samples);
+  const Setup setup{part, {target}, faces_to_check(part, {target}, {}), tolerance, {}};
+  std::vector<FaceSamples> samples = judge_samples(setup, spacing, 10.0);
+  measure_reach(setup, {}, {}, radius, samples);
   return samples[static_cast<std::size_t>(target)];
 }
 
@@ -84,14 +83,6 @@ TEST(JudgeJob, ReachableShareBetweenTwoBladesOfOneSolid) {
     EXPECT_NEAR(share_of(coarse), share_of(fine), 1e-3);
     EXPECT_GT(share_of(fine), 0.9) << "all but a strip along the hub";
     EXPECT_LT(share_of(fine), 0.97);
-  }
-}
-
-TEST(JudgeJob, RefusesARadiusThatIsNone) {
-  FitJob job;
-  for (double radius : {0.0, -1.0, 1e300 * 1e300}) {
-    job.reach_radius_mm = radius;
-    EXPECT_THROW(check_reach_radius(job), UsageError);
   }
 }
 

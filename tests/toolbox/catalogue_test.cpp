@@ -78,7 +78,7 @@ TEST_F(Catalogue, WhatIsAskedForComesFirst) {
   ::setenv("FLANK_CATALOGUE", "/nowhere/at/all", 1);
   const std::string why = refusal([&] { (void)catalogue_folder({}); });
   EXPECT_NE(why.find("FLANK_CATALOGUE=/nowhere/at/all"), std::string::npos) << why;
-  EXPECT_NE(refusal([&] { (void)catalogue_folder("/nowhere"); }).find("--catalogue /nowhere"), std::string::npos);
+  EXPECT_NE(refusal([&] { (void)catalogue_folder("/nowhere"); }).find("catalogue /nowhere"), std::string::npos);
 }
 
 TEST_F(Catalogue, TheOneThatComesWithTheProgramIsFound) {

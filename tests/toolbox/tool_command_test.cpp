@@ -64,7 +64,7 @@ TEST(ToolSpec, ParsesTheDocumentedForms) {
 TEST(ToolSpec, RefusesWithTheAcceptedNames) {
   for (const auto& [spec, expected] : std::vector<std::pair<std::string, std::string>>{
            {"", "accepted: free, cylinder, cone"},
-           {"spoon", "--tool spoon: neither a family nor a tool file; accepted: free, cylinder, cone, barrel"},
+           {"spoon", "tool spoon: neither a family nor a tool file; accepted: free, cylinder, cone, barrel"},
            {"cone:edge=3", "unknown parameter; a cone accepts radius, diameter, angle (degrees)"},
            {"cone:radius", "must be NAME=VALUE"},
            {"cone:", "must be NAME=VALUE"},
@@ -76,7 +76,7 @@ TEST(ToolSpec, RefusesWithTheAcceptedNames) {
            {"cylinder:diameter=8,radius=4", "radius is given twice"},
            {"free:radius=3", "has no parameters"}}) {
     EXPECT_NE(refusal(spec).find(expected), std::string::npos) << refusal(spec) << "\n for " << spec;
-    EXPECT_EQ(refusal(spec).rfind("--tool", 0), 0u) << refusal(spec);
+    EXPECT_EQ(refusal(spec).rfind("tool ", 0), 0u) << refusal(spec);
   }
   EXPECT_THROW((void)parse_tool_spec("no/such.json"), InputError);
   EXPECT_THROW((void)parse_tool_spec("missing.json"), InputError);
@@ -97,7 +97,7 @@ TEST(MakeTool, NeedsEveryParameterButTheBarrelsMiddle) {
   EXPECT_NE(message(ToolFamily::kCone, {{"radius", 2.0}}, 30.0).find("angle not given"), std::string::npos);
   EXPECT_NE(message(ToolFamily::kCylinder, {{"radius", 2.0}, {"arc", 3.0}}, 30.0).find("unknown parameter arc"),
             std::string::npos);
-  EXPECT_NE(message(ToolFamily::kCylinder, {{"radius", 2.0}}, -1.0).find("axis length"), std::string::npos);
+  EXPECT_NE(message(ToolFamily::kCylinder, {{"radius", 2.0}}, -1.0).find("axis_length_mm"), std::string::npos);
   EXPECT_NE(message(ToolFamily::kCone, {{"radius", 1.0}, {"angle", -0.1}}, 30.0).find("not a tool, r = "),
             std::string::npos);
   EXPECT_NE(message(ToolFamily::kSpline, {}, 30.0).find("tool.json"), std::string::npos);
@@ -110,19 +110,13 @@ TEST_F(ToolCommand, WritesEveryFormatAndReadsItsOwn) {
   options.axis_length_mm = 30.0;
   options.shank_diameter_mm = 8.0;
   options.outputs = {file("a.json"), file("a.dxf"), file("a.svg"), file("a.csv")};
-  std::ostringstream out;
-  EXPECT_EQ(run_tool_command(options, out), 0);
-  for (const std::string& name : options.outputs) {
-    EXPECT_GT(fs::file_size(name), 1000u) << name;
-    EXPECT_NE(out.str().find("wrote " + name), std::string::npos);
-  }
+  const Tool made = run_tool_command(options);
+  EXPECT_EQ(made.radial.axis_length(), 30.0);
+  for (const std::string& name : options.outputs) EXPECT_GT(fs::file_size(name), 1000u) << name;
   ToolCommandOptions convert;
   convert.source = file("a.json");
   convert.outputs = {file("b.json"), file("b.dxf")};
-  convert.quiet = true;
-  std::ostringstream silent;
-  EXPECT_EQ(run_tool_command(convert, silent), 0);
-  EXPECT_EQ(silent.str(), "");
+  run_tool_command(convert);
   for (const char* ending : {".json", ".dxf"}) {
     std::ifstream a(file(std::string("a") + ending)), b(file(std::string("b") + ending));
     std::stringstream first, second;
@@ -133,43 +127,40 @@ TEST_F(ToolCommand, WritesEveryFormatAndReadsItsOwn) {
   convert.source = file("a.dxf");
   convert.axis_length_mm = 30.0;
   convert.outputs = {file("c.json")};
-  EXPECT_EQ(run_tool_command(convert, silent), 0);
+  run_tool_command(convert);
   const Tool truth = read_tool(file("a.json")), read = read_tool(file("c.json"));
   for (double s = 0.0; s <= 30.0; s += 0.5) EXPECT_NEAR(read.radial.at(s).r, truth.radial.at(s).r, 1e-8);
 }
 
-TEST_F(ToolCommand, ShowsTheToolWhenThereIsNoOutput) {
+TEST_F(ToolCommand, ToldInJson) {
   ToolCommandOptions options;
   options.source = "cone:radius=2,angle=3";
-  std::ostringstream out;
-  EXPECT_EQ(run_tool_command(options, out), 0);
-  EXPECT_NE(out.str().find("cone, axis length 30 mm"), std::string::npos) << out.str();
-  options.json = true;
-  std::ostringstream summary;
-  EXPECT_EQ(run_tool_command(options, summary), 0);
-  EXPECT_EQ(nlohmann::json::parse(summary.str()).at("family"), "cone");
+  const auto json = nlohmann::json::parse(tool_summary_json(run_tool_command(options), {"a \"quoted\" name.json"}));
+  EXPECT_EQ(json.at("family"), "cone");
+  EXPECT_EQ(json.at("axis_length_mm"), kDefaultToolLengthMm);
+  EXPECT_EQ(json.at("radius_min_mm"), 2.0);
+  EXPECT_NEAR(json.at("radius_max_mm").get<double>(), 2.0 + 30.0 * std::sin(3.0 * std::acos(-1.0) / 180.0), 0.01);
+  EXPECT_EQ(json.at("files").at(0), "a \"quoted\" name.json");
 }
 
 TEST_F(ToolCommand, RefusesBeforeItWrites) {
   ToolCommandOptions options;
   options.source = "cylinder:radius=4";
   options.outputs = {file("a.json"), file("a.exe")};
-  std::ostringstream out;
-  EXPECT_THROW(run_tool_command(options, out), UsageError);
+  EXPECT_THROW(run_tool_command(options), UsageError);
   EXPECT_FALSE(fs::exists(file("a.json")));
   options.outputs = {file("no/such/folder/a.json")};
-  EXPECT_THROW(run_tool_command(options, out), InputError);
+  EXPECT_THROW(run_tool_command(options), InputError);
   options.outputs.clear();
   options.axis_length_mm = NAN;
-  EXPECT_THROW(run_tool_command(options, out), UsageError);
+  EXPECT_THROW(run_tool_command(options), UsageError);
   options.axis_length_mm.reset();
   options.source = "free";
-  EXPECT_THROW(run_tool_command(options, out), UsageError);
+  EXPECT_THROW(run_tool_command(options), UsageError);
   options.source = "nothing.json";
-  EXPECT_THROW(run_tool_command(options, out), InputError);
+  EXPECT_THROW(run_tool_command(options), InputError);
   options.parameters = {"radius=3"};
-  EXPECT_THROW(run_tool_command(options, out), UsageError);
-  EXPECT_EQ(out.str(), "");
+  EXPECT_THROW(run_tool_command(options), UsageError);
 }
 
 }  // namespace

@@ -3,21 +3,26 @@
 
 #include <nlohmann/json.hpp>
 
+#include "flank/artefact/acceptance.h"
+#include "flank/artefact/clearance_text.h"
+#include "flank/artefact/ranking_json.h"
 #include "flank/artefact/verify_json.h"
-#include "flank/pipeline/fit_job.h"
+#include "flank/job/command_line.h"
+#include "flank/run.h"
 
-namespace flank::internal {
+namespace flank {
+using namespace internal;
 namespace {
 
 std::string percent(double share) { return fmt::format("{:.2f} %", 100.0 * share); }
 
 /// What the path leaves, by the judge.
-std::string error_lines(const FitOutcome& outcome) {
-  const VerifyReport& v = outcome.verify;
+std::string error_lines(const Result& result) {
+  const VerifyReport& v = result.verify;
   std::string text;
   text += fmt::format("  path        {} strip{}, {} poses, joined within {:.2g} mm of the motion, largest |c| {:.3f}\n",
-                      outcome.path.strips.size(), outcome.path.strips.size() == 1 ? "" : "s", outcome.path.pose_count(),
-                      outcome.chord_bound_mm, outcome.largest_c);
+                      result.path.strips.size(), result.path.strips.size() == 1 ? "" : "s", result.path.pose_count(),
+                      result.chord_bound_mm, result.largest_c);
   text += fmt::format("  coverage    {} of the target within {} mm\n", percent(v.coverage), v.tolerance_mm);
   text += "  " + reach_text(v) + "\n";
   text += fmt::format("  overcut     {:.6f} mm\n", v.overcut_mm);
@@ -30,78 +35,119 @@ std::string error_lines(const FitOutcome& outcome) {
   return text;
 }
 
-}  // namespace
+const PartRequest& part_of(const PlanJob& job) {
+  return std::visit([](const auto& plan) -> const PartRequest& { return plan.part; }, job);
+}
 
-std::string summary_text(const FitJob& job, const FitOutcome& outcome) {
-  const VerifyReport& v = outcome.verify;
-  const double length = outcome.tool.radial.axis_length();
-  std::string text = fmt::format("{} {}\n", job.part, job.faces);
+std::string tool_line(const Tool& tool) {
+  const double length = tool.radial.axis_length();
   double low = 1e300, high = 0.0;
   for (int j = 0; j <= 100; ++j) {
-    const double r = outcome.tool.radial.at(length * j / 100.0).r;
+    const double r = tool.radial.at(length * j / 100.0).r;
     low = std::min(low, r);
     high = std::max(high, r);
   }
-  text += fmt::format("  tool        {} ({}), axis {:.3f} mm, radius {:.3f} to {:.3f} mm\n", outcome.tool.name,
-                      family_name(outcome.tool.radial.family()), length, low, high);
-  text += outcome.path.pose_count() > 0 ? error_lines(outcome) : "  path        no strip: nothing is machined\n";
-  text += clearance_text(v.clearance);
-  for (const auto& [name, value] : outcome.figures) text += fmt::format("  {:<11} {:.4g}\n", name, value);
-  text += outcome.ranking_text;
-  for (const std::string& note : outcome.notes) text += "  note        " + note + "\n";
+  return fmt::format("  tool        {} ({}), axis {:.3f} mm, radius {:.3f} to {:.3f} mm\n", tool.name,
+                     family_name(tool.radial.family()), length, low, high);
+}
+
+std::string plan_lines(const CoverSummary& cover) {
+  std::string text;
+  for (const TargetCover& t : cover.targets)
+    text += fmt::format(
+        "  cover       {}: {} strip{} from {} seeds, {} lines and {} candidates; {} of what is reachable before "
+        "smoothing, {} after, overlap {}, links {:.1f} mm\n",
+        t.faces, t.strips, t.strips == 1 ? "" : "s", t.seeds, t.lines, t.grown, percent(t.before), percent(t.after),
+        percent(t.overlap), t.links_mm);
+  return text;
+}
+std::string plan_lines(const FitSummary&) { return ""; }
+
+nlohmann::ordered_json share_json(const PlannedShare& share) {
+  return {{"coverage", share.coverage}, {"overcut", share.overcut_mm}};
+}
+
+void add_plan(const FitSummary& fit, nlohmann::ordered_json& json) {
+  json["candidates"] = fit.candidates;
+  json["before"] = share_json(fit.before);
+  json["after"] = share_json(fit.after);
+  json["residuals"] = {{"rms", fit.rms_mm}, {"largest", fit.largest_mm}, {"inside_share", fit.inside_share}};
+  auto& trace = json["trace"] = nlohmann::ordered_json::array();
+  for (const FitStep& step : fit.trace)
+    trace.push_back(
+        {{"cost", step.cost}, {"rms", step.rms_mm}, {"largest", step.largest_mm}, {"damping", step.damping}});
+}
+
+nlohmann::ordered_json target_json(const TargetCover& t) {
+  return {{"faces", t.faces}, {"area", t.area_mm2},   {"seeds", t.seeds},         {"lines", t.lines},
+          {"grown", t.grown}, {"strips", t.strips},   {"reachable", t.reachable}, {"before", t.before},
+          {"after", t.after}, {"overlap", t.overlap}, {"links", t.links_mm},      {"overcut", t.overcut_mm}};
+}
+
+void add_plan(const CoverSummary& cover, nlohmann::ordered_json& json) {
+  const TargetCover whole = cover.whole();
+  json["candidates"] = whole.grown;
+  json["before"] = share_json({whole.before, 0.0});
+  json["after"] = share_json({whole.after, whole.overcut_mm});
+  json["cover"] = target_json(whole);
+  auto& targets = json["targets"] = nlohmann::ordered_json::array();
+  for (const TargetCover& t : cover.targets) targets.push_back(target_json(t));
+}
+
+}  // namespace
+
+std::string summary_text(const Result& result) {
+  const PartRequest& part = part_of(result.job);
+  std::string text = fmt::format("{} {}\n", part.file, part.faces);
+  text += fmt::format("  asked for   {}\n", fmt::join(asked_for(result.job), ", "));
+  text += tool_line(result.tool);
+  text += result.path.pose_count() > 0 ? error_lines(result) : "  path        no strip: nothing is machined\n";
+  text += clearance_text(result.verify.clearance);
+  text += std::visit([](const auto& plan) { return plan_lines(plan); }, result.plan);
+  if (result.ranking) text += ranking_table(*result.ranking);
+  for (const std::string& note : result.notes) text += "  note        " + note + "\n";
   text += "  time       ";
-  for (const auto& [stage, seconds] : outcome.seconds) text += fmt::format(" {} {:.2f} s", stage, seconds);
-  const Acceptance acceptance = outcome.acceptance(job);
-  text +=
-      fmt::format("\n  verdict     {}{}\n", acceptance.pass() ? "within what was asked" : "NOT within what was asked",
-                  outcome.complete ? "" : " (interrupted: incomplete)");
+  for (const auto& [stage, seconds] : result.seconds) text += fmt::format(" {} {:.2f} s", stage, seconds);
+  const Acceptance acceptance = result.acceptance();
+  text += fmt::format("\n  verdict     {}{}\n", acceptance.pass() ? "meets the request" : "does NOT meet the request",
+                      result.complete ? "" : " (interrupted: incomplete)");
   text += reason_lines(acceptance);
   return text;
 }
 
-std::string summary_json(const FitJob& job, const FitOutcome& outcome) {
-  const VerifyReport& v = outcome.verify;
+std::string summary_json(const Result& result) {
+  const VerifyReport& v = result.verify;
   nlohmann::ordered_json json;
   json["schema"] = "openflank/summary/1";
   json["units"] = "mm";
-  json["part"] = job.part;
-  json["faces"] = job.faces;
-  json["complete"] = outcome.complete;
-  json["within"] = outcome.acceptance(job).pass();
-  json["tolerance"] = job.tolerance_mm;
+  json["part"] = part_of(result.job).file;
+  json["faces"] = part_of(result.job).faces;
+  json["complete"] = result.complete;
+  json["within"] = result.acceptance().pass();
+  json["tolerance"] = v.tolerance_mm;
   json["coverage"] = v.coverage;
   json["reachable_share"] = v.reachable_share;
   json["coverage_reachable"] = v.coverage_reachable;
   json["reach_radius"] = v.reach_radius_mm;
-  json["least_coverage"] = job.least_coverage;
+  json["least_coverage"] = std::visit([](const auto& plan) { return plan.judge.least_coverage; }, result.job);
   json["overcut"] = v.overcut_mm;
   // Without a path nothing is as far from the target as anything.
-  json["undercut"] = outcome.path.pose_count() > 0 ? nlohmann::ordered_json(v.undercut_mm) : nullptr;
+  json["undercut"] = result.path.pose_count() > 0 ? nlohmann::ordered_json(v.undercut_mm) : nullptr;
   json["undercut_covered"] = v.undercut_covered_mm;
   json["rms"] = v.rms_mm;
   json["other_faces_overcut"] = v.gouge_mm;
   json["sampling_bound"] = v.sampling_bound_mm;
-  if (!v.clearance.figures.empty()) json["clearance"] = nlohmann::ordered_json::parse(clearance_to_json(v.clearance));
-  json["chord_bound"] = outcome.chord_bound_mm;
-  json["largest_c"] = outcome.largest_c;
-  json["diagonal"] = outcome.diagonal_mm;
-  json["axis_length"] = outcome.tool.radial.axis_length();
-  json["strips"] = outcome.path.strips.size();
-  json["poses"] = outcome.path.pose_count();
-  json["candidates"] = outcome.fit.candidates;
-  json["before"] = {{"coverage", outcome.fit.before.at_tolerance}, {"overcut", outcome.fit.before.overcut_mm}};
-  json["after"] = {{"coverage", outcome.fit.after.at_tolerance}, {"overcut", outcome.fit.after.overcut_mm}};
-  for (const auto& [name, value] : outcome.figures) json["figures"][name] = value;
-  if (!outcome.ranking.empty()) json["ranking"] = nlohmann::ordered_json::parse(outcome.ranking).at("tools");
-  json["residuals"] = {{"rms", outcome.fit.residuals.rms_mm},
-                       {"largest", outcome.fit.residuals.largest_mm},
-                       {"inside_share", outcome.fit.residuals.inside_share}};
-  auto& trace = json["trace"] = nlohmann::ordered_json::array();
-  for (const IterationTrace& entry : outcome.fit.trace)
-    trace.push_back(
-        {{"cost", entry.cost}, {"rms", entry.rms_mm}, {"largest", entry.largest_mm}, {"damping", entry.damping}});
-  json["notes"] = outcome.notes;
+  if (!v.clearance.figures.empty()) json["clearance"] = clearance_to_json(v.clearance);
+  json["chord_bound"] = result.chord_bound_mm;
+  json["largest_c"] = result.largest_c;
+  json["diagonal"] = result.diagonal_mm;
+  json["axis_length"] = result.tool.radial.axis_length();
+  json["strips"] = result.path.strips.size();
+  json["poses"] = result.path.pose_count();
+  std::visit([&](const auto& plan) { add_plan(plan, json); }, result.plan);
+  if (result.ranking) json["ranking"] = ranking_entries(*result.ranking);
+  json["notes"] = result.notes;
   return json.dump(2) + "\n";
 }
 
-}  // namespace flank::internal
+}  // namespace flank

@@ -170,7 +170,7 @@ std::string_view verdict_name(Verdict verdict) {
   return "not_run";
 }
 
-std::string clearance_to_json(const ClearanceReport& report) { return to_json(report).dump(2); }
+Json clearance_to_json(const ClearanceReport& report) { return to_json(report); }
 
 std::string verify_to_json(const VerifyReport& r, const Acceptance& acceptance) {
   std::size_t samples = 0;

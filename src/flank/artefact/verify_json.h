@@ -1,19 +1,19 @@
 /// verify.json (docs/schema/verify.md, schema "openflank/verify/1"): a VerifyReport as text and back.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 
 #include "flank/artefact/acceptance.h"
-#include "flank/judge.h"
 
 namespace flank::internal {
 
 /// "not_run", "pass", "overcut" or "gouge".
 [[nodiscard]] std::string_view verdict_name(Verdict verdict);
 
-/// The figures of a clearance report as a JSON array: "clearance" of verify.json and summary.json.
-[[nodiscard]] std::string clearance_to_json(const ClearanceReport& report);
+/// The figures of a clearance report: "clearance" of verify.json and summary.json.
+[[nodiscard]] nlohmann::ordered_json clearance_to_json(const ClearanceReport& report);
 
 /// The report as indented JSON; every number is written so that reading it back gives the same bits. `acceptance` says
 /// whether it is what was asked for.

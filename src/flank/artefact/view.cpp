@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <set>
 
 #include "flank/artefact/view_mesh.h"
 #include "flank/envelope/path_regularity.h"
+#include "flank/job/command_line.h"
 
 namespace flank::internal {
 namespace {
@@ -105,45 +105,23 @@ std::vector<ProfilePoint> profile_of(const RadialFunction& radial) {
   return points;
 }
 
-std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
-
 }  // namespace
 
-std::string job_command(const FitJob& job) {
-  const FitJob usual;
-  std::string text = "flank " + job.command + " " + file_name(job.part) + " --face " + job.faces;
-  const auto add = [&](const char* option, const auto& value) { text += fmt::format(" {} {}", option, value); };
-  if (job.tool != usual.tool)
-    add("--tool", job.tool.find(".json") == std::string::npos ? job.tool : file_name(job.tool));
-  if (job.tolerance_mm != usual.tolerance_mm) add("--tolerance", job.tolerance_mm);
-  if (job.strips != usual.strips) add("--strips", job.strips == 0 ? "auto" : std::to_string(job.strips));
-  if (job.axis_length_mm) add("--axis-length", *job.axis_length_mm);
-  if (job.start) add("--start", *job.start);
-  if (job.guide) add("--guide", file_name(*job.guide));
-  if (job.side) add("--side", *job.side < 0 ? "-" : "+");
-  if (job.radius_min_mm) add("--radius-min", *job.radius_min_mm);
-  if (job.radius_max_mm) add("--radius-max", *job.radius_max_mm);
-  if (job.slope_max != usual.slope_max) add("--slope-max", job.slope_max);
-  if (job.least_coverage != usual.least_coverage) add("--coverage", job.least_coverage);
-  if (job.sample_mm) add("--sample", *job.sample_mm);
-  if (job.reach_radius_mm) add("--reach-radius", *job.reach_radius_mm);
-  if (job.check.only) add("--check-faces", *job.check.only);
-  if (job.check.ignored) add("--ignore-faces", *job.check.ignored);
-  if (!job.avoid) add("--avoid", "off");
-  if (job.unit) add("--unit", *job.unit);
-  return text;
-}
-
-View make_view(const FitJob& job, const Part& part, const std::vector<int>& faces, const Tool& tool, const Path& path,
+View make_view(const PlanJob& job, const Setup& setup, const Tool& tool, const Path& path,
                const VerifyReport& verdict) {
   View view;
-  view.part = file_name(job.part);
-  view.command = job_command(job);
-  view.faces = job.faces;
-  view.tolerance_mm = job.tolerance_mm;
-  view.least_coverage = job.least_coverage;
-  const std::set<std::string> entered = entered_faces(verdict, job.tolerance_mm);
-  view.bodies = view_faces(part, faces, entered);
+  const PlanJob shown = without_folders(job);
+  view.command = command_line(shown);
+  std::visit(
+      [&](const auto& plan) {
+        view.part = plan.part.file;
+        view.faces = plan.part.faces;
+        view.tolerance_mm = plan.tolerance_mm;
+        view.least_coverage = plan.judge.least_coverage;
+      },
+      shown);
+  const std::set<std::string> entered = entered_faces(verdict, view.tolerance_mm);
+  view.bodies = view_faces(setup.part, setup.targets, entered);
   view.tool = tool;
   view.profile = profile_of(tool.radial);
   for (const Strip& strip : path.strips) {

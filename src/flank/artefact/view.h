@@ -5,8 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "flank/part.h"
-#include "flank/pipeline/fit_job.h"
+#include "flank/envelope/strip_surface.h"
+#include "flank/run.h"
+#include "flank/setup/setup.h"
 
 namespace flank::internal {
 
@@ -68,10 +69,13 @@ inline constexpr std::size_t kMostPosesShown = 1500;
 inline constexpr std::size_t kMostPlaces = 240;
 
 /// Triangulates the part, asks the judge at the vertices, and thins the path out.
-[[nodiscard]] View make_view(const FitJob& job, const Part& part, const std::vector<int>& faces, const Tool& tool,
-                             const Path& path, const VerifyReport& verdict);
+[[nodiscard]] View make_view(const PlanJob& job, const Setup& setup, const Tool& tool, const Path& path,
+                             const VerifyReport& verdict);
 
-/// "flank fit blade.step --face F1 --tolerance 0.1": the command line that asks for a job.
-[[nodiscard]] std::string job_command(const FitJob& job);
+/// What of a result is only drawn.
+struct Drawings {
+  std::vector<StripSurface> strips;  ///< one per strip of the path
+  View view;
+};
 
 }  // namespace flank::internal

@@ -59,7 +59,7 @@ inline constexpr double kMostConeAngle = 20.0 * std::numbers::pi / 180.0;   ///<
 inline constexpr double kMostTaperAngle = 40.0 * std::numbers::pi / 180.0;  ///< of a tapered barrel, rad
 inline constexpr double kMostSlope = 0.2;                                   ///< of `hyperbolic`, dr/ds, either way
 
-/// "barrel:arc=85,radius=5": as --tool takes it; angles in degrees.
+/// "barrel:arc=85,radius=5": as a request for a tool names it; angles in degrees.
 [[nodiscard]] std::string family_text(const RadialFunction& radial);
 
 }  // namespace flank::internal

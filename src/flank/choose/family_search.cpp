@@ -263,9 +263,8 @@ FamilySearchResult search_family(std::span<const RankingTarget> targets, ToolFam
                                  const std::map<std::string, double>& given, const FamilySearchOptions& options,
                                  const Progress& progress) {
   if (family == ToolFamily::kPower || family == ToolFamily::kSpline)
-    throw UsageError(
-        fmt::format("--tool {}: its parameters name no sizes to search; give all of them, or use another family",
-                    family_name(family)));
+    throw UsageError("tool", std::string(family_name(family)),
+                     "its parameters name no sizes to search; give all of them, or use another family");
   progress.step("grid of tools", 0.0);
   const Search search = prepare(targets, family, given, options);
   FamilySearchResult result;
@@ -284,8 +283,7 @@ FamilySearchResult search_family(std::span<const RankingTarget> targets, ToolFam
   result.screened = static_cast<int>(candidates.size());
   keep_best_of_each(search, candidates, options.tried);
   if (candidates.empty())
-    throw UsageError(
-        fmt::format("--tool {}: none is a legitimate tool, over {}", family_name(family), result.searched));
+    throw UsageError("tool", std::string(family_name(family)), "none is a legitimate tool, over " + result.searched);
   // If nothing covers anything, the user still gets a tool to look at, with the reason why it does not.
   const Tool nearest = search.tool(candidates.front());
   cover_quickly(search, candidates, "try tools", kScreenTo, kTryTo, progress);

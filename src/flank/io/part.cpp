@@ -53,7 +53,7 @@ Part read_mesh(const std::string& file, const std::string& format, std::string_v
   TriangleMesh raw = parse_mesh(file, format, content);
   if (!unit)
     throw InputError(
-        fmt::format("{}: a mesh file has no unit; say which with --unit: {}", file, sizes_by_unit(used_size(raw))));
+        fmt::format("{}: a mesh file has no unit; say which by `unit`: {}", file, sizes_by_unit(used_size(raw))));
   Part part;
   part.file = file;
   part.format = format;

@@ -2,102 +2,134 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "flank/error.h"
+#include "flank/job/check_fields.h"
+#include "flank/job/fields.h"
 
 namespace flank::internal {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 constexpr const char* kSchema = "openflank/job/1";
 
-template <typename T>
-void put(nlohmann::ordered_json& json, const char* key, const std::optional<T>& value) {
-  if (value) json[key] = *value;
+/// Earlier versions wrote the fields of a fit into the job of a cover, where they mean nothing; `strips` was not the most
+/// strips of the cover. They always wrote "avoid", which a cover has not.
+constexpr const char* kOnlyInOldCovers = "avoid";
+constexpr const char* kIgnoredInOldCovers[] = {"avoid",      "strips",     "start",    "guide",
+                                               "radius_min", "radius_max", "slope_max"};
+
+std::string absolute(const std::string& file) { return std::filesystem::absolute(file).lexically_normal().string(); }
+
+Json to_json(const FieldInfo& info, const std::string& value) {
+  return info.spelling == Spelling::kFile && !value.empty() ? absolute(value) : value;
+}
+Json to_json(const FieldInfo& info, const std::vector<std::string>& values) {
+  Json list = Json::array();
+  for (const std::string& value : values) list.push_back(to_json(info, value));
+  return list;
+}
+template <class T>
+Json to_json(const FieldInfo&, const T& value) {
+  return value;
 }
 
-template <typename T>
-std::optional<T> take(const nlohmann::json& json, const char* key) {
-  if (!json.contains(key)) return std::nullopt;
-  return json.at(key).get<T>();
+template <class T>
+bool is_set(const T&) {
+  return true;
+}
+template <class T>
+bool is_set(const std::optional<T>& value) {
+  return value.has_value();
+}
+bool is_set(const std::vector<std::string>& values) { return !values.empty(); }
+
+template <class T>
+const T& plain(const T& value) {
+  return value;
+}
+template <class T>
+const T& plain(const std::optional<T>& value) {
+  return *value;
 }
 
-void put_clearance(nlohmann::ordered_json& json, const ClearanceJob& job) {
-  put(json, "shank_radius", job.shank_radius_mm);
-  put(json, "shank_length", job.shank_length_mm);
-  put(json, "holder", job.holder);
-  put(json, "clearance", job.required_mm);
-  for (const std::string& file : job.fixtures)
-    json["fixtures"].push_back(std::filesystem::absolute(file).lexically_normal().string());
+/// Numbers that JSON would round or wrap are refused, too.
+template <class T>
+void from_json(const Json& json, T& value) {
+  if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
+    const bool fits = json.is_number_integer() && json.get<T>() == json;
+    if (!fits) throw InputError("a whole number is needed");
+  }
+  if constexpr (std::is_same_v<T, double>) {
+    if (!json.is_number()) throw InputError("a number is needed");
+  }
+  value = json.get<T>();
+}
+template <class T>
+void from_json(const Json& json, std::optional<T>& value) {
+  T read{};
+  from_json(json, read);
+  value = std::move(read);
 }
 
-ClearanceJob take_clearance(const nlohmann::json& json) {
-  ClearanceJob job;
-  job.shank_radius_mm = take<double>(json, "shank_radius");
-  job.shank_length_mm = take<double>(json, "shank_length");
-  job.holder = take<std::string>(json, "holder");
-  job.required_mm = take<double>(json, "clearance");
-  if (json.contains("fixtures")) job.fixtures = json.at("fixtures").get<std::vector<std::string>>();
+template <class Job>
+Job read_job(const Json& json, const std::set<std::string>& ignored) {
+  Job job;
+  std::set<std::string> known{"schema", "units", "command"};
+  visit_fields(job, [&](const FieldInfo& info, auto& value) {
+    const std::string key(info.key);
+    known.insert(key);
+    const bool needed = key == "part" || key == "faces" || key == "tolerance";
+    if (ignored.contains(key) || (!needed && !json.contains(key))) return;
+    if (!json.contains(key)) throw InputError(key + ": is missing");
+    try {
+      from_json(json.at(key), value);
+    } catch (const std::exception& e) {
+      throw InputError(key + ": " + e.what());
+    }
+  });
+  for (const auto& [key, value] : json.items())
+    if (!known.contains(key) && !ignored.contains(key)) throw InputError(key + ": is no key of a job file");
+  check_fields(job);
   return job;
+}
+
+PlanJob read_plan(const Json& json) {
+  if (!json.is_object() || json.value("schema", "") != kSchema)
+    throw InputError(std::string("schema \"") + kSchema + "\" is needed");
+  const std::string command = json.value("command", "fit");
+  if (command == "fit") return read_job<FitJob>(json, {});
+  if (command != "cover") throw InputError("command \"" + command + "\"; there are fit and cover");
+  if (!json.contains(kOnlyInOldCovers)) return read_job<CoverJob>(json, {});
+  return read_job<CoverJob>(json, {std::begin(kIgnoredInOldCovers), std::end(kIgnoredInOldCovers)});
 }
 
 }  // namespace
 
-std::string job_to_json(const FitJob& job) {
-  nlohmann::ordered_json json;
+std::string job_to_json(const PlanJob& job) {
+  Json json;
   json["schema"] = kSchema;
   json["units"] = "mm";
-  json["command"] = job.command;
-  json["part"] = std::filesystem::absolute(job.part).lexically_normal().string();
-  put(json, "unit", job.unit);
-  json["faces"] = job.faces;
-  put(json, "side", job.side);
-  json["tool"] = job.tool;
-  put(json, "start", job.start);
-  put(json, "guide", job.guide);
-  json["strips"] = job.strips;
-  json["tolerance"] = job.tolerance_mm;
-  put(json, "axis_length", job.axis_length_mm);
-  put(json, "radius_min", job.radius_min_mm);
-  put(json, "radius_max", job.radius_max_mm);
-  json["slope_max"] = job.slope_max;
-  json["coverage"] = job.least_coverage;
-  put(json, "sample", job.sample_mm);
-  put(json, "reach_radius", job.reach_radius_mm);
-  put(json, "check_faces", job.check.only);
-  put(json, "ignore_faces", job.check.ignored);
-  json["avoid"] = job.avoid;
-  put_clearance(json, job.clearance);
+  std::visit(
+      [&](const auto& plan) {
+        json["command"] = command_name(plan);
+        visit_fields(plan, [&](const FieldInfo& info, const auto& value) {
+          if (is_set(value)) json[std::string(info.key)] = to_json(info, plain(value));
+        });
+      },
+      job);
   return json.dump(2) + "\n";
 }
 
-FitJob job_from_json(const std::string& text, const std::string& file) {
+PlanJob job_from_json(const std::string& text, const std::string& file) {
   try {
-    const nlohmann::json json = nlohmann::json::parse(text);
-    if (json.value("schema", "") != kSchema) throw InputError(file + ": schema \"" + kSchema + "\" is needed");
-    FitJob job;
-    job.command = json.value("command", job.command);
-    job.part = json.at("part").get<std::string>();
-    job.unit = take<std::string>(json, "unit");
-    job.faces = json.at("faces").get<std::string>();
-    job.side = take<int>(json, "side");
-    job.tool = json.value("tool", job.tool);
-    job.start = take<std::string>(json, "start");
-    job.guide = take<std::string>(json, "guide");
-    job.strips = json.value("strips", job.strips);
-    job.tolerance_mm = json.at("tolerance").get<double>();
-    job.axis_length_mm = take<double>(json, "axis_length");
-    job.radius_min_mm = take<double>(json, "radius_min");
-    job.radius_max_mm = take<double>(json, "radius_max");
-    job.slope_max = json.value("slope_max", job.slope_max);
-    job.least_coverage = json.value("coverage", job.least_coverage);
-    job.sample_mm = take<double>(json, "sample");
-    job.reach_radius_mm = take<double>(json, "reach_radius");
-    job.check = {take<std::string>(json, "check_faces"), take<std::string>(json, "ignore_faces")};
-    job.avoid = json.value("avoid", job.avoid);
-    job.clearance = take_clearance(json);
-    return job;
+    return read_plan(Json::parse(text));
   } catch (const nlohmann::json::exception& e) {
     throw InputError(file + ": not a job file: " + e.what());
+  } catch (const Error& e) {
+    throw InputError(file + ": " + e.what());
   }
 }
 

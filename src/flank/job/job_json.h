@@ -1,19 +1,18 @@
-/// job.json (schema "openflank/job/1"): what was asked for, so that `flank verify DIR` can judge what lies in the
-/// folder.
+/// job.json (docs/schema/job.md, schema "openflank/job/1"): what was asked for, so that `flank verify DIR` can judge what
+/// lies in the folder.
 #pragma once
 
 #include <string>
-#include <string_view>
 
-#include "flank/pipeline/fit_job.h"
+#include "flank/job.h"
 
 namespace flank::internal {
 
-[[nodiscard]] std::string job_to_json(const FitJob& job);
-/// Throws InputError naming the file and the key.
-[[nodiscard]] FitJob job_from_json(const std::string& text, const std::string& file);
+/// Every field that is set, by its key in the table of fields. Files are written with absolute paths.
+[[nodiscard]] std::string job_to_json(const PlanJob& job);
 
-/// Makes the folder if it is not there and proves that it can be written. Throws InputError.
-void ensure_folder(const std::string& folder);
+/// Throws InputError naming the file and the key: no JSON, another schema or command, a key that is missing or not known,
+/// a value of the wrong type or out of its range.
+[[nodiscard]] PlanJob job_from_json(const std::string& text, const std::string& file);
 
 }  // namespace flank::internal

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "flank/cover.h"
-#include "flank/pipeline/cover_job.h"
+#include "flank/setup/setup.h"
 #include "flank/setup/targets.h"
 
 namespace flank::internal {
@@ -22,11 +22,12 @@ struct ToolExtent {
 };
 [[nodiscard]] ToolExtent extent_of(const Tool& tool);
 
-/// What is in the way of tools of this extent at a group of targets: other faces of the part, and fixtures; for shank and holder the
-/// target itself as well.
-[[nodiscard]] Obstacles obstacles_of(const CoverJob& job, const Part& part, std::span<const Part> fixtures,
-                                     const TargetGroup& group, const ToolExtent& extent);
+/// What is in the way of tools of this extent at a group of targets: other faces of the part, and fixtures; for shank and
+/// holder the target itself as well.
+[[nodiscard]] Obstacles obstacles_of(const CoverJob& job, const Setup& setup, const TargetGroup& group,
+                                     const ToolExtent& extent);
 
+/// The job's wishes as options of the search. Throws UsageError for a seed that its strategy has no use for.
 [[nodiscard]] CoverOptions options_of(const CoverJob& job);
 
 }  // namespace flank::internal

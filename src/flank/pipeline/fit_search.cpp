@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <sstream>
+#include <optional>
 
 #include "flank/base/tolerance_budget.h"
 #include "flank/error.h"
+#include "flank/seed/axis_line.h"
 #include "flank/seed/guide_start.h"
 #include "flank/seed/line_start.h"
 #include "flank/setup/make_obstacles.h"
@@ -17,19 +16,27 @@
 namespace flank::internal {
 namespace {
 
-/// The two ends of "x,y,z,x,y,z".
-std::pair<Vec3, Vec3> parse_line(const std::string& text) {
-  std::stringstream stream(text);
-  double v[6];
-  char comma = ',';
-  for (int k = 0; k < 6; ++k) {
-    if (k > 0 && (!(stream >> comma) || comma != ',')) comma = 0;
-    if (comma != ',' || !(stream >> v[k]) || !std::isfinite(v[k]))
-      throw UsageError("--start '" + text +
-                       "': six numbers x,y,z,x,y,z are needed (tip and holder end of the axis, mm)");
-  }
-  if (stream >> comma) throw UsageError("--start '" + text + "': more than six numbers");
-  return {Vec3(v[0], v[1], v[2]), Vec3(v[3], v[4], v[5])};
+/// The start that a user gives: one line, or the lines of a guide; both may be missing.
+struct UserStart {
+  std::optional<AxisLine> line;
+  std::vector<AxisLine> guide;
+  [[nodiscard]] bool given() const { return line || !guide.empty(); }
+};
+
+UserStart user_start(const FitJob& job) {
+  UserStart start;
+  if (job.start) start.line = parse_start_line(*job.start);
+  if (job.guide) start.guide = read_guide(*job.guide);
+  return start;
+}
+
+/// Open bounds: a hundredth of the target's diagonal to 15 hundredths of it.
+RadiusBounds bounds_of(const RadiusRequest& radius, double diagonal) {
+  RadiusBounds bounds;
+  bounds.largest = radius.max_mm.value_or(std::max(0.15 * diagonal, 2.0 * radius.min_mm.value_or(0.0)));
+  bounds.smallest = radius.min_mm.value_or(std::min(0.01 * diagonal, 0.5 * bounds.largest));
+  bounds.steepest = radius.slope_max;
+  return bounds;
 }
 
 /// One group: automatic, or with the strips that the tolerance needs.
@@ -66,7 +73,7 @@ void fit_groups(const FitJob& job, FitSearch& search, const ToolModel& tool, con
     const Target& target = *search.targets[g].target;
     FlankFitOptions own = options;
     own.obstacles = search.targets[g].obstacles.get();
-    FlankFitResult result = fit_group(target, shared, own, job.strips, job.least_coverage, progress);
+    FlankFitResult result = fit_group(target, shared, own, job.strips, job.judge.least_coverage, progress);
     for (const RuledMotion& motion : result.motions) {
       tasks.push_back({&target, motion, own.obstacles});
       search.group_of_motion.push_back(g);
@@ -85,95 +92,89 @@ void fit_groups(const FitJob& job, FitSearch& search, const ToolModel& tool, con
 
 double mean_score(const FitSearch& search, double tolerance_mm) { return search.fit.after.score(tolerance_mm); }
 
-/// Gives every target the faces that its flank keeps clear of: the check faces, the other targets and fixtures.
-void add_obstacles(const FitJob& job, const Part& part, const std::vector<int>& faces, const std::vector<int>& checks,
-                   double largest_radius, FitSearch& search) {
+/// Gives every target what its flank keeps clear of: the check faces, the other targets and fixtures.
+void add_obstacles(const FitJob& job, const Setup& setup, double largest_radius, FitSearch& search) {
   /// The flank lies within a diameter of its target, and the walls of a channel beyond it count.
   constexpr double kReach = 2.0;
   /// Above the target by about a small tool's radius.
   constexpr double kVoterHeight = 0.5;
-  const std::vector<Part> fixtures = read_fixtures(job.clearance.fixtures, job.unit);
   for (TargetGroup& group : search.targets) {
-    ObstacleChoice choice = choose_obstacles(group.indices, faces, checks);
-    choice.fixtures = fixtures;
-    choice.clearance_mm = job.clearance.required_mm;
+    ObstacleChoice choice = choose_obstacles(group.indices, setup.targets, setup.checks);
+    choice.fixtures = setup.fixtures;
+    choice.clearance_mm = job.obstacles.clearance_mm;
     choice.tolerance_mm = job.tolerance_mm;
     ObstacleDetail detail;
     detail.faces_within_mm = kReach * largest_radius;
-    const Obstacles obstacles = make_obstacles(part, *group.target, choice, detail, search.fit.notes);
+    const Obstacles obstacles = make_obstacles(setup.part, *group.target, choice, detail, search.fit.notes);
     if (!obstacles.faces.empty())
       group.obstacles = std::make_unique<ObstacleField>(obstacles, *group.target, kVoterHeight * largest_radius,
                                                         kToleranceBudget.others.fit_allowance * job.tolerance_mm);
   }
 }
 
-FitSearch search_side(const FitJob& job, const Part& part, const std::vector<int>& faces,
-                      const std::vector<int>& checks, const ToolSpec& spec, int side,
-                      const std::function<RadiusBounds(const FitJob&, double)>& bounds, const Progress& progress) {
+/// The motion of a start over the target; `notes` gets what its propagation says.
+RuledMotion motion_of(const FitJob& job, const UserStart& start, const ToolModel& tool, const Target& target,
+                      std::vector<std::string>& notes) {
+  const std::optional<double> length = tool.axis_length ? tool.axis_length : job.tool.axis_length_mm;
+  if (!start.line) return start_from_guide(*job.guide, start.guide, length).motion;
+  const LineStart found = start_from_line(target, start.line->pose(), length.value_or(start.line->length()));
+  notes.push_back(found.report.message);
+  if (found.report.status == LineStartStatus::kNoMotion)
+    throw InputError("start", "this line cannot move along the face: " + found.report.message);
+  return found.motion;
+}
+
+FitSearch search_side(const FitJob& job, const Setup& setup, const ToolSpec& spec, const UserStart& start, int side,
+                      const Progress& progress) {
   FitSearch search;
-  search.targets = make_targets(part, faces, side);
+  search.targets = make_targets(setup, side);
   FlankFitOptions options;
   options.tolerance_mm = job.tolerance_mm;
-  options.axis_length_mm = job.axis_length_mm;
-  options.bounds = bounds(job, search.targets.front().target->diagonal());
-  options.reach_radius_mm = job.reach_radius_mm.value_or(0.0);
+  options.axis_length_mm = job.tool.axis_length_mm;
+  options.bounds = bounds_of(job.radius, search.targets.front().target->diagonal());
+  options.reach_radius_mm = job.judge.reach_radius_mm.value_or(0.0);
   const ToolModel tool = make_tool_model(spec);
-  if (job.avoid) add_obstacles(job, part, faces, checks, options.bounds.largest, search);
-  if (!job.start && !job.guide) {
+  if (job.avoid) add_obstacles(job, setup, options.bounds.largest, search);
+  if (!start.given()) {
     fit_groups(job, search, tool, options, progress);
     return search;
   }
-  if (search.targets.size() > 1) throw UsageError("--start and --guide take faces that hang together");
-  const Target& target = *search.targets.front().target;
-  FitTask task{&target, {}, search.targets.front().obstacles.get()};
-  if (job.start) {
-    const auto [tip, end] = parse_line(*job.start);
-    const double length = tool.axis_length.value_or(job.axis_length_mm.value_or((end - tip).norm()));
-    if (!(length > 0.0)) throw UsageError("--start: the two ends of the axis coincide");
-    const LineStart start = start_from_line(target, {tip, (end - tip).normalized()}, length);
-    search.fit.notes.push_back(start.report.message);
-    if (start.report.status == LineStartStatus::kNoMotion)
-      throw InputError("--start: this line cannot move along the face: " + start.report.message);
-    task.motion = start.motion;
-  } else {
-    const std::optional<double> length = tool.axis_length ? tool.axis_length : job.axis_length_mm;
-    const GuideStart start = start_from_guide(*job.guide, read_guide(*job.guide), length);
-    task.motion = start.motion;
-  }
-  const std::vector<std::string> notes = search.fit.notes;
+  if (search.targets.size() > 1)
+    throw UsageError(start.line ? "start" : "guide", "goes with faces that are connected, as one target");
+  const TargetGroup& group = search.targets.front();
+  std::vector<std::string> notes = search.fit.notes;
+  const FitTask task{group.target.get(), motion_of(job, start, tool, *group.target, notes), group.obstacles.get()};
   search.fit = fit_from_starts({task}, tool, options, progress);
   search.fit.notes.insert(search.fit.notes.begin(), notes.begin(), notes.end());
   search.group_of_motion = {0};
   return search;
 }
 
-/// The side of an open sheet on which the user's line lies.
-int side_of_start(const FitJob& job, const Part& part, const std::vector<int>& faces) {
-  const std::vector<TargetGroup> targets = make_targets(part, faces, +1);
-  if (job.start) {
-    const auto [tip, end] = parse_line(*job.start);
-    return side_of_line(*targets.front().target, {tip, (end - tip).normalized()}, (end - tip).norm());
-  }
-  const GuideStart start = start_from_guide(*job.guide, read_guide(*job.guide), job.axis_length_mm);
-  return side_of_motion(*targets.front().target, start.motion);
+/// The side of an open sheet on which the user's start lies.
+int side_of_start(const FitJob& job, const Setup& setup, const UserStart& start) {
+  const std::vector<TargetGroup> targets = make_targets(setup, +1);
+  const Target& target = *targets.front().target;
+  if (start.line) return side_of_line(target, start.line->pose(), start.line->length());
+  return side_of_motion(target, start_from_guide(*job.guide, start.guide, job.tool.axis_length_mm).motion);
+}
+
+bool is_sheet(const Setup& setup) {
+  return setup.part.is_mesh() || std::any_of(setup.targets.begin(), setup.targets.end(),
+                                             [&](int face) { return !setup.part.faces[face].of_solid; });
 }
 
 }  // namespace
 
-FitSearch search_fit(const FitJob& job, const Part& part, const std::vector<int>& faces, const std::vector<int>& checks,
-                     const ToolSpec& spec, const std::function<RadiusBounds(const FitJob&, double diagonal)>& bounds,
-                     const Progress& progress) {
-  const bool sheet =
-      part.is_mesh() || std::any_of(faces.begin(), faces.end(), [&](int f) { return !part.faces[f].of_solid; });
-  if (!sheet || job.side) return search_side(job, part, faces, checks, spec, job.side.value_or(+1), bounds, progress);
-  if (job.start || job.guide)
-    return search_side(job, part, faces, checks, spec, side_of_start(job, part, faces), bounds, progress);
-  FitSearch plus = search_side(job, part, faces, checks, spec, +1, bounds, progress);
-  FitSearch minus = search_side(job, part, faces, checks, spec, -1, bounds, progress);
+FitSearch search_fit(const FitJob& job, const Setup& setup, const ToolSpec& spec, const Progress& progress) {
+  const UserStart start = user_start(job);
+  if (!is_sheet(setup) || job.part.side)
+    return search_side(job, setup, spec, start, job.part.side.value_or(+1), progress);
+  if (start.given()) return search_side(job, setup, spec, start, side_of_start(job, setup, start), progress);
+  FitSearch plus = search_side(job, setup, spec, start, +1, progress);
+  FitSearch minus = search_side(job, setup, spec, start, -1, progress);
   const bool first = mean_score(plus, job.tolerance_mm) >= mean_score(minus, job.tolerance_mm);
   FitSearch& best = first ? plus : minus;
-  best.fit.notes.push_back(
-      fmt::format("open sheet: both sides were tried, side {} covers more; choose with --side", first ? "+" : "-"));
+  best.fit.notes.push_back(fmt::format("open sheet: both sides were tried, side {} covers more", first ? "+" : "-"));
   return std::move(best);
 }
 

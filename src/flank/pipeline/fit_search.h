@@ -1,13 +1,15 @@
 /// The search of a fit: starts, sides of open sheets, number of strips, several targets with one tool.
 #pragma once
 
-#include <functional>
-
-#include "flank/pipeline/fit_job.h"
+#include "flank/fit.h"
+#include "flank/setup/setup.h"
 #include "flank/setup/targets.h"
-#include "flank/toolbox/tool_command.h"
+#include "flank/toolbox/tool_spec.h"
 
 namespace flank::internal {
+
+/// The largest number of strips that "as many as the tolerance needs" tries.
+inline constexpr int kMostStrips = 12;
 
 struct FitSearch {
   std::vector<TargetGroup> targets;
@@ -15,10 +17,8 @@ struct FitSearch {
   std::vector<std::size_t> group_of_motion;  ///< index into targets
 };
 
-/// faces: of the targets; checks: the faces that are no targets and must not be entered.
-[[nodiscard]] FitSearch search_fit(const FitJob& job, const Part& part, const std::vector<int>& faces,
-                                   const std::vector<int>& checks, const ToolSpec& spec,
-                                   const std::function<RadiusBounds(const FitJob&, double diagonal)>& bounds,
+/// Searches. `spec`: the job's tool. Throws UsageError and InputError.
+[[nodiscard]] FitSearch search_fit(const FitJob& job, const Setup& setup, const ToolSpec& spec,
                                    const Progress& progress);
 
 }  // namespace flank::internal

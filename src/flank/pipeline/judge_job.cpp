@@ -1,10 +1,8 @@
 #include "flank/pipeline/judge_job.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "flank/base/parallel.h"
-#include "flank/error.h"
 #include "flank/geom/tessellate.h"
 #include "flank/setup/targets.h"
 #include "flank/verify/reach.h"
@@ -70,15 +68,12 @@ double default_spacing(double diagonal_mm) {
   return std::clamp(diagonal_mm / 300.0, 0.05, std::max(0.5, diagonal_mm / 1000.0));
 }
 
-void check_reach_radius(const FitJob& job) {
-  if (job.reach_radius_mm && !(*job.reach_radius_mm > 0.0 && std::isfinite(*job.reach_radius_mm)))
-    throw UsageError("--reach-radius: a radius > 0 mm is needed");
-}
-
-void measure_reach(const Part& part, const std::vector<int>& targets, const std::vector<int>& checks, const Tool& tool,
-                   const Path& path, double radius_mm, double tolerance_mm, std::vector<FaceSamples>& samples) {
-  std::vector<int> judged = targets;
-  judged.insert(judged.end(), checks.begin(), checks.end());
+void measure_reach(const Setup& setup, const Tool& tool, const Path& path, double radius_mm,
+                   std::vector<FaceSamples>& samples) {
+  const Part& part = setup.part;
+  const double tolerance_mm = setup.tolerance_mm;
+  std::vector<int> judged = setup.targets;
+  judged.insert(judged.end(), setup.checks.begin(), setup.checks.end());
   if (judged.size() < 2) return;
   std::sort(judged.begin(), judged.end());
   const std::vector<int> around = faces_around(part, judged);
@@ -107,16 +102,14 @@ void measure_reach(const Part& part, const std::vector<int>& targets, const std:
   }
 }
 
-VerifyReport judge_job(const FitJob& job, const Part& part, const std::vector<int>& targets,
-                       const std::vector<int>& checks, const Tool& tool, const Path& path) {
-  check_reach_radius(job);
-  const double spacing = job.sample_mm.value_or(default_spacing(part.box.diagonal()));
-  std::vector<FaceSamples> samples = judge_samples(part, targets, checks, spacing, 2.0 * spacing);
-  const double radius = job.reach_radius_mm.value_or(smallest_radius(tool));
+VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const Tool& tool, const Path& path) {
+  const double spacing = request.sample_mm.value_or(default_spacing(setup.part.box.diagonal()));
+  std::vector<FaceSamples> samples = judge_samples(setup, spacing, 2.0 * spacing);
+  const double radius = request.reach_radius_mm.value_or(smallest_radius(tool));
   // A tool that is none (a fit that failed) has nothing to reach with.
-  if (radius > 0.0) measure_reach(part, targets, checks, tool, path, radius, job.tolerance_mm, samples);
+  if (radius > 0.0) measure_reach(setup, tool, path, radius, samples);
   JudgeOptions options;
-  options.tolerance_mm = job.tolerance_mm;
+  options.tolerance_mm = setup.tolerance_mm;
   VerifyReport report = judge(tool, path, samples, options);
   report.reach_radius_mm = radius;
   return report;

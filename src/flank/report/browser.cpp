@@ -103,8 +103,8 @@ std::string find_browser() {
 void make_picture(const std::string& html_file, const std::string& png_file, const PictureOptions& options) {
   const std::string browser = find_browser();
   if (browser.empty())
-    throw UsageError(
-        "--png needs Chromium or Chrome in PATH (Debian: apt install chromium), or its path in FLANK_BROWSER");
+    throw UsageError("png",
+                     "needs Chromium or Chrome in PATH (Debian: apt install chromium), or its path in FLANK_BROWSER");
   const Profile profile;
   // The browser tells the format by the ending, so it writes to a name of ours.
   const fs::path picture = fs::path(profile.folder()) / "page.png";

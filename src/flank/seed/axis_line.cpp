@@ -55,8 +55,8 @@ AxisLine parse_start_line(std::string_view text) {
   AxisLine line;
   std::string why;
   if (!parse_axis_line(text, line, why))
-    throw UsageError("--start " + std::string(text) + ": " + why +
-                     "; give the two ends of an axis in mm, for example --start 0,0,5,0,0,45");
+    throw UsageError("start", std::string(text),
+                     why + "; give the two ends of an axis in mm, for example 0,0,5,0,0,45");
   return line;
 }
 

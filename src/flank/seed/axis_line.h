@@ -20,7 +20,7 @@ struct AxisLine {
 /// of numbers, something that is not a finite number, two ends at the same place.
 [[nodiscard]] bool parse_axis_line(std::string_view text, AxisLine& line, std::string& why);
 
-/// The value of `--start`. Throws UsageError that says what would be accepted.
+/// A first axis as a user gives it. Throws UsageError that says what would be accepted.
 [[nodiscard]] AxisLine parse_start_line(std::string_view text);
 
 }  // namespace flank::internal

@@ -9,16 +9,15 @@
 namespace flank::internal {
 namespace {
 
-constexpr double kTouchMm = 1e-3;  ///< faces whose borders come this near hang together
+constexpr double kTouchMm = 1e-3;  ///< faces whose borders are closer than this are connected
 
-/// Whether a stretch of the border of b lies on a: many of its samples nearest to the border of b touch a.
-bool hang_together(const Face& a, const Face& b) {
-  const std::unique_ptr<Target> target = make_target(std::vector<Face>{a}, +1);
+/// Whether a stretch of the border of b lies on a: enough of the points along it touch a.
+bool are_connected(const Target& a, const Face& b) {
   constexpr int kPerEdge = 24;
   int touching = 0;
   const auto test = [&](double u, double v) {
     const Vec3 p = b.surface.value(u, v);
-    if ((target->closest(p).point - p).norm() < kTouchMm) ++touching;
+    if ((a.closest(p).point - p).norm() < kTouchMm) ++touching;
   };
   const BSplineSurface& s = b.surface;
   for (int k = 0; k <= kPerEdge && b.loops.empty(); ++k) {
@@ -43,9 +42,10 @@ bool hang_together(const Face& a, const Face& b) {
 std::vector<std::vector<int>> connected_groups(const Part& part, const std::vector<int>& faces) {
   std::vector<int> group(faces.size());
   std::iota(group.begin(), group.end(), 0);
-  for (std::size_t i = 0; i < faces.size(); ++i) {
+  for (std::size_t i = 0; i + 1 < faces.size(); ++i) {
+    const std::unique_ptr<Target> target = make_target({part.faces[faces[i]]}, +1);
     for (std::size_t j = i + 1; j < faces.size(); ++j) {
-      if (group[i] == group[j] || !hang_together(part.faces[faces[i]], part.faces[faces[j]])) continue;
+      if (group[i] == group[j] || !are_connected(*target, part.faces[faces[j]])) continue;
       const int from = group[j], to = group[i];
       std::replace(group.begin(), group.end(), from, to);
     }
@@ -62,7 +62,9 @@ std::vector<std::vector<int>> connected_groups(const Part& part, const std::vect
 
 }  // namespace
 
-std::vector<TargetGroup> make_targets(const Part& part, const std::vector<int>& faces, int side) {
+std::vector<TargetGroup> make_targets(const Setup& setup, int side) {
+  const Part& part = setup.part;
+  const std::vector<int>& faces = setup.targets;
   std::vector<TargetGroup> targets;
   if (part.is_mesh()) {
     TriangleMesh mesh = extract_mesh(part, faces);
@@ -89,10 +91,11 @@ std::vector<TargetGroup> make_targets(const Part& part, const std::vector<int>& 
   return targets;
 }
 
-std::vector<FaceSamples> judge_samples(const Part& part, const std::vector<int>& targets,
-                                       const std::vector<int>& checks, double spacing_mm, double check_spacing_mm) {
+std::vector<FaceSamples> judge_samples(const Setup& setup, double spacing_mm, double check_spacing_mm) {
+  const Part& part = setup.part;
+  const std::vector<int>& targets = setup.targets;
   std::vector<int> faces = targets;
-  faces.insert(faces.end(), checks.begin(), checks.end());
+  faces.insert(faces.end(), setup.checks.begin(), setup.checks.end());
   std::sort(faces.begin(), faces.end());
   std::vector<FaceSamples> samples(faces.size());
   parallel_for(samples.size(), [&](std::size_t k) {

@@ -8,25 +8,24 @@
 #include "flank/judge.h"
 #include "flank/obstacle_field.h"
 #include "flank/part.h"
+#include "flank/setup/setup.h"
 #include "flank/target.h"
 
 namespace flank::internal {
 
-/// Faces that hang together are one target; faces that do not are several, to be machined with one tool.
+/// Faces whose borders meet are one target; faces whose borders do not are several, to be machined with one tool.
 struct TargetGroup {
   std::string faces;  ///< "F1" or "F1,F2"
   std::unique_ptr<Target> target;
   std::vector<int> indices;                  ///< of these faces
-  std::unique_ptr<ObstacleField> obstacles;  ///< what the flank keeps clear of; null: nothing is near, or --avoid off
+  std::unique_ptr<ObstacleField> obstacles;  ///< what the flank keeps clear of; null: nothing near, or none is avoided
   bool of_solid = true;                      ///< the machining side is known from the solid
 };
 
 /// side = -1 turns the machining side of open sheets.
-[[nodiscard]] std::vector<TargetGroup> make_targets(const Part& part, const std::vector<int>& faces, int side);
+[[nodiscard]] std::vector<TargetGroup> make_targets(const Setup& setup, int side);
 
 /// Samples of the targets and of the check faces (coarser) for the judge, in the order of the part's faces.
-[[nodiscard]] std::vector<FaceSamples> judge_samples(const Part& part, const std::vector<int>& targets,
-                                                     const std::vector<int>& checks, double spacing_mm,
-                                                     double check_spacing_mm);
+[[nodiscard]] std::vector<FaceSamples> judge_samples(const Setup& setup, double spacing_mm, double check_spacing_mm);
 
 }  // namespace flank::internal

@@ -30,7 +30,7 @@ fs::path beside_program() {
 
 std::string catalogue_folder(const std::optional<std::string>& asked) {
   if (asked) {
-    if (!is_folder(*asked)) throw InputError("--catalogue " + *asked + ": no such folder; one of tool files is needed");
+    if (!is_folder(*asked)) throw InputError("catalogue", *asked, "no such folder; one of tool files is needed");
     return *asked;
   }
   if (const char* wanted = std::getenv("FLANK_CATALOGUE"); wanted != nullptr && *wanted != '\0') {
@@ -45,7 +45,7 @@ std::string catalogue_folder(const std::optional<std::string>& asked) {
     if (is_folder(place)) return place.string();
     tried.push_back(place.string());
   }
-  throw InputError(fmt::format("no tool catalogue: tried {}; name its folder with --catalogue or FLANK_CATALOGUE",
+  throw InputError(fmt::format("no tool catalogue: tried {}; name its folder by `catalogue` or FLANK_CATALOGUE",
                                fmt::join(tried, ", ")));
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <ostream>
 
 #include "flank/base/atomic_file.h"
 #include "flank/error.h"
@@ -44,7 +43,7 @@ std::string profile_csv(const RadialFunction& radial) {
 Tool read_tool_file(const ToolCommandOptions& options) {
   if (ending_of(options.source) == ".dxf")
     return tool_from_dxf(read_file(options.source), options.source, options.axis_length_mm);
-  if (options.axis_length_mm) throw UsageError("--axis-length: " + options.source + " has its own");
+  if (options.axis_length_mm) throw UsageError("axis_length_mm", options.source + " has its own");
   return read_tool(options.source);
 }
 
@@ -53,42 +52,24 @@ bool is_file(const ToolCommandOptions& options) {
   return ending == ".json" || ending == ".dxf" || options.source.find('/') != std::string::npos;
 }
 
-std::string summary(const Tool& tool, const std::vector<std::string>& files) {
-  const Legitimacy verdict = check_legitimacy(tool.radial);
-  std::vector<std::string> names;
-  for (const std::string& file : files) names.push_back(json_string(file));
-  double least = tool.radial.at(0.0).r, most = least;
-  for (int i = 1; i < kProfilePoints; ++i) {
-    const double r = tool.radial.at(tool.radial.axis_length() * i / (kProfilePoints - 1)).r;
-    least = std::min(least, r), most = std::max(most, r);
-  }
-  return fmt::format(
-      "{{\"family\": \"{}\", \"axis_length_mm\": {}, \"radius_min_mm\": {}, \"radius_max_mm\": {}, \"margin\": {}, "
-      "\"files\": [{}]}}\n",
-      family_name(tool.radial.family()), exact_number(tool.radial.axis_length()), exact_number(least),
-      exact_number(most), exact_number(verdict.margin), fmt::join(names, ", "));
-}
-
 }  // namespace
 
 Tool tool_of_command(const ToolCommandOptions& options) {
-  for (const auto& [value, option] :
-       {std::pair(options.axis_length_mm, "--axis-length"), std::pair(options.shank_diameter_mm, "--shank-diameter")})
+  for (const auto& [value, field] :
+       {std::pair(options.axis_length_mm, "axis_length_mm"), std::pair(options.shank_diameter_mm, "shank_diameter_mm")})
     if (value && !(*value > 0.0 && *value < 1e6))
-      throw UsageError(fmt::format("{} {}: must be a number of mm > 0", option, *value));
+      throw UsageError(field, fmt::format("{}", *value), "a length > 0 mm is needed");
   Tool tool;
   if (is_file(options)) {
     if (!options.parameters.empty())
-      throw UsageError("--param: only for a family; " + options.source + " has its own parameters");
+      throw UsageError("param", "only for a family; " + options.source + " has its own parameters");
     tool = read_tool_file(options);
   } else {
-    ToolSpec spec = parse_tool_spec(options.source, "tool");
-    if (!spec.family)
-      throw UsageError("tool " + options.source + ": name a family with its parameters, or a tool.json");
+    ToolSpec spec = parse_tool_spec(options.source, "source");
+    if (!spec.family) throw UsageError("source", options.source, "name a family with its parameters, or a tool.json");
     for (const std::string& text : options.parameters) {
       const auto [name, value] = parse_tool_parameter(*spec.family, text);
-      if (!spec.given.emplace(name, value).second)
-        throw UsageError("--param " + text + ": " + name + " is given twice");
+      if (!spec.given.emplace(name, value).second) throw UsageError("param", text, name + " is given twice");
     }
     tool = make_tool(*spec.family, spec.given, options.axis_length_mm.value_or(kDefaultToolLengthMm));
   }
@@ -109,22 +90,31 @@ std::string tool_as(const Tool& tool, const std::string& file) {
   if (ending == ".fctb") return tool_to_fctb(tool);
   if (ending == ".svg") return tool_to_svg(tool);
   if (ending == ".csv") return profile_csv(tool.radial);
-  throw UsageError(fmt::format("-o {}: unknown ending; accepted: .json, .dxf, .step, .fctb, .svg, .csv", file));
+  throw UsageError("output", file, "unknown ending; accepted: .json, .dxf, .step, .fctb, .svg, .csv");
 }
 
-int run_tool_command(const ToolCommandOptions& options, std::ostream& out) {
+std::string tool_summary_json(const Tool& tool, const std::vector<std::string>& files) {
+  const Legitimacy verdict = check_legitimacy(tool.radial);
+  std::vector<std::string> names;
+  for (const std::string& file : files) names.push_back(json_string(file));
+  double least = tool.radial.at(0.0).r, most = least;
+  for (int i = 1; i < kProfilePoints; ++i) {
+    const double r = tool.radial.at(tool.radial.axis_length() * i / (kProfilePoints - 1)).r;
+    least = std::min(least, r), most = std::max(most, r);
+  }
+  return fmt::format(
+      "{{\"family\": \"{}\", \"axis_length_mm\": {}, \"radius_min_mm\": {}, \"radius_max_mm\": {}, \"margin\": {}, "
+      "\"files\": [{}]}}\n",
+      family_name(tool.radial.family()), exact_number(tool.radial.axis_length()), exact_number(least),
+      exact_number(most), exact_number(verdict.margin), fmt::join(names, ", "));
+}
+
+Tool run_tool_command(const ToolCommandOptions& options) {
   const Tool tool = tool_of_command(options);
   std::vector<std::string> contents;
   for (const std::string& file : options.outputs) contents.push_back(tool_as(tool, file));
   for (std::size_t i = 0; i < contents.size(); ++i) write_file(options.outputs[i], contents[i]);
-  if (options.json) {
-    out << summary(tool, options.outputs);
-    return 0;
-  }
-  if (options.outputs.empty() || options.show) out << tool_to_ascii(tool);
-  if (!options.quiet)
-    for (const std::string& file : options.outputs) out << "wrote " << file << "\n";
-  return 0;
+  return tool;
 }
 
 }  // namespace flank::internal

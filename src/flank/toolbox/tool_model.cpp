@@ -24,7 +24,7 @@ std::map<std::string, double> defaults(ToolFamily family, double axis_length, do
     case ToolFamily::kSpline:
       break;
   }
-  throw UsageError("--tool: a spline has no parameters by name; use free, or a tool.json");
+  throw UsageError("tool", "a spline has no parameters by name; use free, or a tool.json");
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "flank/fit.h"
-#include "flank/toolbox/tool_command.h"
+#include "flank/toolbox/tool_spec.h"
 
 namespace flank::internal {
 

@@ -1,3 +1,5 @@
+#include "flank/toolbox/tool_spec.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +13,6 @@
 #include "flank/io/tool/tool_dxf.h"
 #include "flank/io/tool/tool_dxf_read.h"
 #include "flank/tool_file.h"
-#include "flank/toolbox/tool_command.h"
 
 namespace flank::internal {
 
@@ -52,13 +53,13 @@ std::string accepted_parameters(ToolFamily family) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-double parse_number(const std::string& text, const std::string& place) {
+double parse_number(const std::string& text, const std::string& field, const std::string& place) {
   double value = 0.0;
   const char* end = text.data() + text.size();
   const char* begin = text.data() + (!text.empty() && text.front() == '+' ? 1 : 0);
   const auto [stop, error] = std::from_chars(begin, end, value);
   if (error != std::errc() || stop != end || !std::isfinite(value))
-    throw UsageError(fmt::format("{}: \"{}\" is not a number", place, text));
+    throw UsageError(field, place, fmt::format("\"{}\" is not a number", text));
   return value;
 }
 
@@ -78,31 +79,30 @@ bool has_open_parameters(const ToolSpec& spec) {
 }
 
 std::pair<std::string, double> parse_tool_parameter(ToolFamily family, const std::string& text,
-                                                    const std::string& option) {
-  const std::string place = option + " " + text;
+                                                    const std::string& field) {
   const std::size_t equals = text.find('=');
   const auto refuse = [&](const std::string& why) {
-    return UsageError(
-        fmt::format("{}: {}; a {} accepts {}", place, why, family_name(family), accepted_parameters(family)));
+    return UsageError(field, text,
+                      fmt::format("{}; a {} accepts {}", why, family_name(family), accepted_parameters(family)));
   };
   if (equals == std::string::npos) throw refuse("must be NAME=VALUE");
   const std::string asked = text.substr(0, equals);
-  const double value = parse_number(text.substr(equals + 1), place);
+  const double value = parse_number(text.substr(equals + 1), field, text);
   const auto names = parameter_names(family);
   for (int k = 0; k < static_cast<int>(names.size()); ++k) {
     const std::string name(names[static_cast<std::size_t>(k)]);
     const std::string whole = name == "radius" ? "diameter" : name == "end_radius" ? "end_diameter" : "";
     if (normalised(asked) != normalised(name) && (whole.empty() || normalised(asked) != normalised(whole))) continue;
     const double size = normalised(asked) == normalised(name) ? value : 0.5 * value;
-    if (is_plain_size(name) && !(size > 0.0)) throw UsageError(fmt::format("{}: must be > 0", place));
+    if (is_plain_size(name) && !(size > 0.0)) throw UsageError(field, text, "must be > 0");
     if (!parameter_is_angle(family, k)) return {name, size};
-    if (!(std::abs(value) < 90.0)) throw UsageError(fmt::format("{}: must lie between -90 and 90 degrees", place));
+    if (!(std::abs(value) < 90.0)) throw UsageError(field, text, "must lie between -90 and 90 degrees");
     return {name, value * kRadiansPerDegree};
   }
   throw refuse("unknown parameter");
 }
 
-ToolSpec parse_tool_spec(const std::string& text, const std::string& option) {
+ToolSpec parse_tool_spec(const std::string& text, const std::string& field) {
   ToolSpec spec;
   if (names_a_file(text)) {
     const bool drawing = normalised(std::filesystem::path(text).extension().string()) == ".dxf";
@@ -112,20 +112,20 @@ ToolSpec parse_tool_spec(const std::string& text, const std::string& option) {
   const std::size_t colon = text.find(':');
   const std::string name = normalised(text.substr(0, colon));
   if (name == "free" || name == "spline") {
-    if (colon != std::string::npos) throw UsageError(fmt::format("{} {}: a free tool has no parameters", option, text));
+    if (colon != std::string::npos) throw UsageError(field, text, "a free tool has no parameters");
     spec.free = true;
     return spec;
   }
   spec.family = family_from_name(name);
   if (!spec.family)
-    throw UsageError(fmt::format("{} {}: neither a family nor a tool file; accepted: free, {}, or a tool.json", option,
-                                 text, family_list()));
+    throw UsageError(
+        field, text,
+        fmt::format("neither a family nor a tool file; accepted: free, {}, or a tool.json", family_list()));
   if (colon == std::string::npos) return spec;
   for (std::size_t at = colon + 1; at <= text.size();) {
     const std::size_t end = std::min(text.find(',', at), text.size());
-    const auto [key, value] = parse_tool_parameter(*spec.family, text.substr(at, end - at), option + " " + name + ":");
-    if (!spec.given.emplace(key, value).second)
-      throw UsageError(fmt::format("{} {}: {} is given twice", option, text, key));
+    const auto [key, value] = parse_tool_parameter(*spec.family, text.substr(at, end - at), field);
+    if (!spec.given.emplace(key, value).second) throw UsageError(field, text, key + " is given twice");
     at = end + 1;
   }
   return spec;
@@ -133,7 +133,7 @@ ToolSpec parse_tool_spec(const std::string& text, const std::string& option) {
 
 Tool make_tool(ToolFamily family, const std::map<std::string, double>& parameters, double axis_length) {
   if (!(axis_length > 0.0 && std::isfinite(axis_length)))
-    throw UsageError(fmt::format("axis length: is {} mm; must be a finite number > 0", axis_length));
+    throw UsageError("axis_length_mm", fmt::format("is {}; must be a finite number > 0", axis_length));
   const auto names = parameter_names(family);
   if (names.empty())
     throw UsageError("a spline is given by its coefficients or samples in a tool.json, not by parameters");

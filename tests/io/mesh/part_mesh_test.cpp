@@ -220,7 +220,7 @@ TEST(PartMesh, NoisyRotor37BladeIsRepaired) {
   FLANK_REAL_PART(file, "nasty_r37_blade_cm_noisy.stl");
   const std::string message = testing_io::refusal(file);
   for (const char* unit :
-       {"--unit", "mm (4.28 x 7.45 x 4.85 mm)", "cm (42.8 x 74.5 x 48.5 mm)", "in (109 x 189 x 123 mm)"})
+       {"`unit`", "mm (4.28 x 7.45 x 4.85 mm)", "cm (42.8 x 74.5 x 48.5 mm)", "in (109 x 189 x 123 mm)"})
     EXPECT_NE(message.find(unit), std::string::npos) << message;
   const Part part = read_part(file, "cm");
   EXPECT_TRUE(tells(part, "20 duplicate"));

@@ -34,8 +34,8 @@ namespace {
 
 void refuse_other_unit(const std::string& file, const std::optional<std::string>& asked, double millimetres) {
   if (asked && std::abs(millimetres_per(*asked) - millimetres) > 1e-6 * millimetres)
-    throw InputError(file + ": states its own unit (" + unit_of(millimetres) + "), which --unit " + *asked +
-                     " contradicts; omit --unit");
+    throw InputError(file + ": states its own unit (" + unit_of(millimetres) + "), which `unit` " + *asked +
+                     " contradicts; omit `unit`");
 }
 
 /// Millimetres of a unit as Open CASCADE names those of a STEP file: SI names with prefix, or the name of a

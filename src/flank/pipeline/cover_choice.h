@@ -2,11 +2,13 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "flank/pipeline/cover_groups.h"
+#include "flank/run.h"
 #include "flank/toolbox/catalogue.h"
-#include "flank/toolbox/tool_command.h"
+#include "flank/toolbox/tool_spec.h"
 
 namespace flank::internal {
 
@@ -17,13 +19,12 @@ struct ToolChoice {
   ToolSpec family;
 };
 
-/// Nothing where the job names one tool. Throws UsageError and InputError for what cannot be chosen from.
+/// Nothing if the job names one tool. Throws UsageError and InputError for what cannot be chosen from.
 [[nodiscard]] std::optional<ToolChoice> tool_choice(const CoverJob& job);
 
-/// Ranks, covers with the best and returns that; outcome.tool, ranking and ranking_text are set. Where no tool works
-/// that is the one that came nearest, without strips, and outcome.notes says why.
-[[nodiscard]] std::vector<Covered> cover_with_best(const CoverJob& job, const ToolChoice& choice, const Part& part,
-                                                   const std::vector<int>& faces, FitOutcome& outcome,
-                                                   const Progress& progress);
+/// Ranks, covers with the best and returns that; result.tool and result.ranking are set. If no tool works that is the one
+/// that came nearest, without strips, and result.notes says why.
+[[nodiscard]] std::vector<Covered> cover_with_best(const CoverJob& job, const ToolChoice& choice, const Setup& setup,
+                                                   Result& result, const Progress& progress);
 
 }  // namespace flank::internal

@@ -1,0 +1,91 @@
+// fit, cover, verify: their options are the table of fields.
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <memory>
+
+#include "commands.h"
+#include "flank/artefact/verify_json.h"
+#include "flank/run.h"
+#include "job_options.h"
+
+namespace flank::cli {
+namespace {
+
+/// Makes the folder, works, writes what came out, prints the summary. A folder that it made is removed if the work is
+/// refused.
+int run_into(const std::string& folder, const CommonOptions& common,
+             const std::function<Result(const Progress&)>& work) {
+  const bool existed = std::filesystem::exists(folder);
+  ensure_folder(folder);
+  try {
+    const Progress progress = terminal_progress(common);
+    const Result result = work(progress);
+    write_result(result, folder);
+    progress.step("done", 1.0);
+    if (common.json)
+      fmt::print("{}", summary_json(result));
+    else if (!common.quiet)
+      fmt::print("{}  written to  {}\n", summary_text(result), folder);
+    return result.acceptance().pass() ? kMeetsRequest : kFallsShort;
+  } catch (...) {
+    std::error_code ignored;
+    if (!existed) std::filesystem::remove(folder, ignored);
+    throw;
+  }
+}
+
+/// A command that makes a folder of results from a job.
+template <class Job>
+Subcommand job_command(CLI::App* app, Result (*work)(const Job&, const Progress&)) {
+  auto job = std::make_shared<Job>();
+  auto folder = std::make_shared<std::string>();
+  FlagNames names = add_job_options(*app, *job);
+  app->add_option("-o,--output", *folder, "Folder for the results")->required();
+  const auto run = [job, folder, work](const CommonOptions& common) {
+    return run_into(*folder, common, [&](const Progress& progress) { return work(*job, progress); });
+  };
+  return {app, run, std::move(names)};
+}
+
+}  // namespace
+
+Subcommand add_fit(CLI::App& parser) {
+  CLI::App* app =
+      parser.add_subcommand("fit", "Find a tool and a five-axis motion whose flank is the face, and judge them");
+  app->footer(
+      "Example: flank example twisted-blade -o blade.step && flank fit blade.step --face F1 --tolerance 0.1 -o out");
+  return job_command<FitJob>(app, run_fit);
+}
+
+Subcommand add_cover(CLI::App& parser) {
+  CLI::App* app = parser.add_subcommand(
+      "cover", "Find the strips with which a tool finishes a face, and judge them; the tool is given, or chosen");
+  app->footer(
+      "Example: flank example twisted-blade -o blade.step && flank cover blade.step --face F1 --tool "
+      "barrel:arc=100,radius=5 --axis-length 20 --tolerance 0.05 -o out\n"
+      "The best tool of the catalogue: flank cover blade.step --face F1 --tool catalogue --tolerance 0.05 -o out");
+  return job_command<CoverJob>(app, run_cover);
+}
+
+Subcommand add_verify(CLI::App& parser) {
+  CLI::App* app = parser.add_subcommand(
+      "verify", "Judge the tool and the path that lie in a folder, from tool, poses and part alone");
+  auto job = std::make_shared<VerifyJob>();
+  FlagNames names = add_job_options(*app, *job);
+  app->footer(
+      "Example: flank example twisted-blade -o blade.step && flank fit blade.step --face F1 -o out --tolerance 0.1; "
+      "flank verify out");
+  const auto run = [job](const CommonOptions& common) {
+    const Verification outcome = run_verify(*job);
+    if (common.json)
+      fmt::print("{}\n", internal::verify_to_json(outcome.report, outcome.acceptance));
+    else if (!common.quiet)
+      fmt::print("{}", verify_text(outcome));
+    return outcome.acceptance.pass() ? kMeetsRequest : kFallsShort;
+  };
+  return {app, run, std::move(names)};
+}
+
+}  // namespace flank::cli

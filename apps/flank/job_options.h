@@ -1,0 +1,76 @@
+/// The table of fields (flank/job/fields.h) as options of a command.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "flank/job/field_text.h"
+#include "flank/job/fields.h"
+
+namespace flank::cli {
+
+/// What messages of the library call a field -> how the command line calls it: "tolerance_mm" -> "--tolerance".
+using FlagNames = std::map<std::string, std::string>;
+
+namespace job_options {
+
+template <class T>
+struct IsList : std::false_type {};
+template <>
+struct IsList<std::vector<std::string>> : std::true_type {};
+
+template <class Member>
+CLI::Option* add_option(CLI::App& app, const std::string& flag, const internal::FieldInfo& info, Member& member) {
+  const std::string help(info.help);
+  if constexpr (IsList<Member>::value) {
+    const auto read = [info, &member](const std::vector<std::string>& words) {
+      member.clear();
+      for (const std::string& word : words) internal::read_word(info, word, member);
+    };
+    return app.add_option_function<std::vector<std::string>>(flag, read, help)->allow_extra_args(false);
+  } else {
+    return app.add_option_function<std::string>(
+        flag, [info, &member](const std::string& word) { internal::read_word(info, word, member); }, help);
+  }
+}
+
+template <class Member>
+std::string type_name(const internal::FieldInfo& info, const Member&) {
+  if (info.unit == "mm") return "MM";
+  if (info.unit == "mm/min") return "MM/MIN";
+  constexpr bool number = std::is_arithmetic_v<Member> || std::is_same_v<Member, std::optional<double>> ||
+                          std::is_same_v<Member, std::optional<std::uint64_t>>;
+  return number && info.spelling == internal::Spelling::kPlain ? "NUMBER" : "TEXT";
+}
+
+}  // namespace job_options
+
+/// Adds an option for every field of the job, which must outlive the parsing, and --shank-diameter. Words that are no
+/// value throw UsageError while they are parsed.
+template <class Job>
+FlagNames add_job_options(CLI::App& app, Job& job) {
+  FlagNames names;
+  CLI::Option* radius = nullptr;
+  internal::visit_fields(job, [&](const internal::FieldInfo& info, auto& member) {
+    const std::string flag = internal::flag_of(info);
+    CLI::Option* option = job_options::add_option(app, flag, info, member);
+    const std::vector<std::string> usual = internal::field_words(info, member);
+    const bool needed = info.always && (usual.empty() || usual.front().empty());
+    option->required(needed)->type_name(job_options::type_name(info, member));
+    if (usual.size() == 1 && !usual.front().empty()) option->default_str(usual.front());
+    if (!info.group.empty()) option->group(std::string(info.group));
+    if (info.key == "shank_radius") radius = option;
+    names[internal::field_name(info)] = flag;
+  });
+  app.add_option_function<double>(
+         "--shank-diameter", [&job](double diameter) { job.obstacles.shank_radius_mm = 0.5 * diameter; },
+         "Its diameter")
+      ->group("Clearance")
+      ->type_name("MM")
+      ->excludes(radius);
+  return names;
+}
+
+}  // namespace flank::cli

@@ -1,0 +1,113 @@
+/// What can be asked of the library, one struct per command. Data only: run.h does the work.
+///
+/// Every member that a user may set is described once, in the table of src/flank/job/fields.h: its name, unit, range and
+/// help text. The options of the command line, job.json (docs/schema/job.md) and the command that a report shows come
+/// from there.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace flank {
+
+/// Which faces of which part are machined.
+struct PartRequest {
+  std::string file;                 ///< STEP, IGES, BREP, STL, OBJ or PLY
+  std::optional<std::string> unit;  ///< of a mesh, whose file states none: "mm", "cm", "m" or "in"
+  std::string faces = "F1";         ///< "F1" or "F1,F3"
+  std::optional<int> side;          ///< +1 or -1: the machined side of an open sheet; none: both are tried
+  bool operator==(const PartRequest&) const = default;
+};
+
+/// The tool, or what is known of it.
+struct ToolRequest {
+  std::string spec;  ///< "free", a family with parameters ("cone:radius=2,angle=3"), a tool.json, "catalogue" (cover)
+  std::optional<double> axis_length_mm;
+  bool operator==(const ToolRequest&) const = default;
+};
+
+/// Limits of the radius that a fit may find.
+struct RadiusRequest {
+  std::optional<double> min_mm;  ///< none: 1 % of the target's diagonal
+  std::optional<double> max_mm;  ///< none: 15 % of the target's diagonal
+  double slope_max = 0.95;       ///< of |r'|, below 1
+  bool operator==(const RadiusRequest&) const = default;
+};
+
+/// What the tool must not enter, and what stands above its flank. Heights count from the upper end of the flank.
+struct ObstacleRequest {
+  std::optional<std::string> check_faces;   ///< "F88,F12": only these; none: every face that is not machined
+  std::optional<std::string> ignore_faces;  ///< "F5": not these
+  std::optional<double> shank_radius_mm;    ///< none: that of the flank's upper end
+  std::optional<double> shank_length_mm;    ///< a cylinder on the upper end of the flank
+  std::optional<std::string> holder;        ///< "z:r,z:r,...", or a file of such pairs
+  std::vector<std::string> fixtures;        ///< part files
+  std::optional<double> clearance_mm;       ///< least distance of shank and holder from the part, of all from fixtures
+  bool operator==(const ObstacleRequest&) const = default;
+};
+
+/// How the result is judged.
+struct JudgeRequest {
+  double least_coverage = 0.95;           ///< share of what is reachable of the target that must be within tolerance
+  std::optional<double> sample_mm;        ///< spacing of the samples; none: by the size of the part
+  std::optional<double> reach_radius_mm;  ///< of the ball that says what is reachable; none: the tool's smallest radius
+  bool operator==(const JudgeRequest&) const = default;
+};
+
+/// Find a tool and motions whose flank is the face.
+struct FitJob {
+  PartRequest part;
+  ToolRequest tool{.spec = "free", .axis_length_mm = {}};
+  RadiusRequest radius;
+  ObstacleRequest obstacles;
+  JudgeRequest judge;
+  double tolerance_mm = 0.01;
+  std::optional<std::string> start;  ///< "x,y,z,x,y,z": tip and holder end of a first axis, mm
+  std::optional<std::string> guide;  ///< file of several such lines
+  int strips = 1;                    ///< motions side by side; 0: as many as the tolerance needs
+  bool avoid = true;                 ///< keep clear of the other faces already in planning; they are judged either way
+  bool operator==(const FitJob&) const = default;
+};
+
+/// How `cover` chooses among several tools.
+struct ChoiceRequest {
+  std::optional<std::string> catalogue;  ///< folder of tool files; none: the one that comes with the program
+  int finalists = 3;                     ///< tools that are covered in full
+  double feed_mm_min = 1000.0;           ///< along strips, for the machining time
+  double rapid_mm_min = 5000.0;          ///< between strips
+  bool operator==(const ChoiceRequest&) const = default;
+};
+
+/// Find the strips with which a tool finishes a face. The tool is given, or chosen: from a catalogue, or from a family of
+/// which parameters are open.
+struct CoverJob {
+  PartRequest part;
+  ToolRequest tool;
+  ChoiceRequest choice;
+  ObstacleRequest obstacles;
+  JudgeRequest judge;
+  double tolerance_mm = 0.01;
+  std::string strategy = "grow";      ///< or "curves"
+  std::optional<std::uint64_t> seed;  ///< of the clustering; strategy "curves" only
+  std::string seeds = "grid";         ///< or "shape": where `grow` begins its lines
+  std::optional<int> most_strips;     ///< on one target; none: as many as are worth their price
+  std::optional<double> strip_price;  ///< share of the area that a strip must add; none: 0.005
+  bool operator==(const CoverJob&) const = default;
+};
+
+/// Judge again what fit or cover left in a folder. What is given takes the place of the job's own.
+struct VerifyJob {
+  std::string folder;
+  std::optional<std::string> part;  ///< file
+  std::optional<double> tolerance_mm, sample_mm, reach_radius_mm;
+  ObstacleRequest obstacles;
+  bool operator==(const VerifyJob&) const = default;
+};
+
+/// What makes a tool and a path.
+using PlanJob = std::variant<FitJob, CoverJob>;
+
+}  // namespace flank

@@ -1,0 +1,154 @@
+/// The commands as functions: a job in (job.h), a result out, and the folder that holds it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "flank/job.h"
+#include "flank/judge.h"
+#include "flank/path.h"
+#include "flank/progress.h"
+#include "flank/ruled_motion.h"
+#include "flank/tool.h"
+
+namespace flank {
+
+namespace internal {
+struct Drawings;
+}
+
+/// What is not as requested, and in which figure it shows.
+struct Shortfall {
+  /// Name of the figure in verify.json ("overcut_mm", "gouge_mm", ...), "legitimate" or "complete".
+  std::string figure;
+  std::string text;  ///< one line for people: face, place, depth, strip
+};
+
+/// Whether a result meets its request. Exit codes, summaries, verify.json and the report all go by this.
+struct Acceptance {
+  std::vector<Shortfall> reasons;
+  [[nodiscard]] bool pass() const { return reasons.empty(); }
+};
+
+/// What a planner estimates of a state of its work. The judge's figures are the ones that count.
+struct PlannedShare {
+  double coverage = 0.0;  ///< area share within tolerance
+  double overcut_mm = 0.0;
+};
+
+/// One iteration of a fit: over samples whose footpoint is inside the target.
+struct FitStep {
+  double cost = 0.0, rms_mm = 0.0, largest_mm = 0.0, damping = 0.0;
+};
+
+/// How a fit went.
+struct FitSummary {
+  int candidates = 0;                     ///< starts that were tried
+  PlannedShare before, after;             ///< of the chosen start, of the result
+  double rms_mm = 0.0, largest_mm = 0.0;  ///< of the residuals, on a denser grid
+  double inside_share = 0.0;              ///< of that grid: samples whose footpoint is inside the target
+  std::vector<FitStep> trace;
+};
+
+/// How one target was covered.
+struct TargetCover {
+  std::string faces;      ///< "F1" or "F1,F2"
+  double area_mm2 = 0.0;  ///< of the target
+  int seeds = 0;          ///< where lines were begun
+  int lines = 0;          ///< seeds that touch within tolerance
+  int grown = 0;          ///< candidates for strips
+  int strips = 0;
+  double reachable = 0.0;            ///< share of the area
+  double before = 0.0, after = 0.0;  ///< covered share of what is reachable, before and after the strips are smoothed
+  double overlap = 0.0;              ///< sum of the strips' covered areas over that of their union, minus 1
+  double links_mm = 0.0, overcut_mm = 0.0;  ///< way between the strips; deepest in the target
+};
+
+/// How a cover went.
+struct CoverSummary {
+  std::vector<TargetCover> targets;
+  /// All targets as one: counts and ways are sums, shares are weighted by the areas that they are shares of.
+  [[nodiscard]] TargetCover whole() const;
+};
+
+/// One tool of a ranking.
+struct RankedChoice {
+  std::string tool;   ///< how it is asked for: a name in the catalogue, or a family with its parameters
+  std::string name;   ///< of the tool itself
+  std::string stage;  ///< how far it came: screened, quick, thorough, full
+  ToolFamily family = ToolFamily::kSpline;
+  double axis_length_mm = 0.0;
+  bool works = false;
+  double reachable_share = 0.0, coverage_reachable = 0.0, coverage = 0.0;  ///< of the area of all targets
+  int strips = 0;
+  double strips_mm = 0.0, links_mm = 0.0, minutes = 0.0;
+  double fits = 0.0, accepted = 0.0, open = 0.0;  ///< of the screen (docs/algorithms/catalogue.md)
+  std::string reason;                             ///< why it cannot work
+};
+
+/// The tools that were compared, best first (docs/schema/ranking.md).
+struct Ranking {
+  std::string source;  ///< "catalogue FOLDER", or what was searched
+  double tolerance_mm = 0.0, strip_price = 0.0, feed_mm_min = 0.0, rapid_mm_min = 0.0;
+  std::vector<RankedChoice> tools;
+};
+
+/// What fit and cover make.
+struct Result {
+  PlanJob job;
+  Tool tool;
+  Path path;
+  std::vector<RuledMotion> motions;  ///< motion k is strip k of the path
+  std::variant<FitSummary, CoverSummary> plan;
+  VerifyReport verify;
+  std::optional<Ranking> ranking;  ///< if the tool was chosen
+  double chord_bound_mm = 0.0;     ///< between the motions and the joined poses
+  double largest_c = 0.0;          ///< regularity of the envelope along the written path, < 1 needed
+  double diagonal_mm = 0.0;        ///< of the first target
+  std::vector<std::string> notes;  ///< repairs of the part, warnings
+  std::vector<std::pair<std::string, double>> seconds;  ///< stage, wall time
+  bool complete = true;                                 ///< false: cancelled, what is here is unfinished
+  std::shared_ptr<const internal::Drawings> drawings;   ///< surfaces of the strips and what a report shows
+
+  [[nodiscard]] Acceptance acceptance() const;
+};
+
+/// `flank fit`. Throws UsageError and InputError before any work is done.
+[[nodiscard]] Result run_fit(const FitJob& job, const Progress& progress = {});
+
+/// `flank cover`. Throws likewise.
+[[nodiscard]] Result run_cover(const CoverJob& job, const Progress& progress = {});
+
+/// Writes tool.json, tool.dxf, tool.step, tool.fctb, strips.step, path.json, path.cls, path.csv, verify.json, view.json,
+/// summary.json and job.json to a folder, and ranking.json if there is a ranking. A tool that is not legitimate has
+/// neither tool.step nor tool.fctb. Throws InputError if the folder cannot be written.
+void write_result(const Result& result, const std::string& folder);
+
+/// Makes the folder if it is not there and proves that it can be written, so that nobody learns it after the work. Throws
+/// InputError.
+void ensure_folder(const std::string& folder);
+
+/// The result as a table for a terminal.
+[[nodiscard]] std::string summary_text(const Result& result);
+/// summary.json (docs/schema/summary.md).
+[[nodiscard]] std::string summary_json(const Result& result);
+
+/// What verify finds.
+struct Verification {
+  PlanJob job;  ///< of the folder, with what the request replaces
+  VerifyReport report;
+  Acceptance acceptance;
+  std::vector<std::string> notes;
+};
+
+/// `flank verify`: reads job.json, tool.json and path.json of a folder, judges, and writes verify.json and view.json.
+[[nodiscard]] Verification run_verify(const VerifyJob& job);
+
+/// The verdict as a table for a terminal.
+[[nodiscard]] std::string verify_text(const Verification& outcome);
+
+}  // namespace flank

@@ -1,0 +1,115 @@
+#include "flank/job/command_line.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include "flank/job/field_text.h"
+#include "flank/job/fields.h"
+
+namespace flank::internal {
+namespace {
+
+struct FieldWords {
+  FieldInfo info;
+  std::vector<std::string> words;
+};
+
+template <class Job>
+std::vector<FieldWords> words_of(const Job& job) {
+  std::vector<FieldWords> all;
+  visit_fields(job, [&](const FieldInfo& info, const auto& value) { all.push_back({info, field_words(info, value)}); });
+  return all;
+}
+
+/// The fields that differ from their defaults, and those that are always shown.
+template <class Job>
+std::vector<FieldWords> told_fields(const Job& job) {
+  const std::vector<FieldWords> usual = words_of(Job{});
+  std::vector<FieldWords> told;
+  std::size_t k = 0;
+  for (FieldWords& field : words_of(job)) {
+    if (field.info.always || field.words != usual[k].words) told.push_back(std::move(field));
+    ++k;
+  }
+  return told;
+}
+
+template <class Job>
+std::string command(const Job& job) {
+  std::string text = "flank " + std::string(command_name(job));
+  for (const FieldWords& field : told_fields(job)) {
+    const std::string flag = flag_of(field.info);
+    for (const std::string& word : field.words) {
+      if (!flag.starts_with('-')) {
+        text += " " + shell_quoted(word);
+      } else {
+        // A value that begins with a minus could be taken for an option.
+        text += " " + flag + (word.starts_with('-') || word.empty() ? "=" : " ") + shell_quoted(word);
+      }
+    }
+  }
+  return text;
+}
+
+std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
+
+void cut_folder(std::string& value) {
+  if (value.find('/') != std::string::npos) value = file_name(value);
+}
+void cut_folder(std::optional<std::string>& value) {
+  if (value) cut_folder(*value);
+}
+void cut_folder(std::vector<std::string>& values) {
+  for (std::string& value : values) cut_folder(value);
+}
+template <class T>
+void cut_folder(T&) {}
+
+}  // namespace
+
+std::string shell_quoted(const std::string& word) {
+  constexpr std::string_view kPlain = "_-./:=,+@%";
+  const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [&](unsigned char c) {
+    return (c < 128 && std::isalnum(c)) || kPlain.find(static_cast<char>(c)) != std::string_view::npos;
+  });
+  if (plain) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string command_line(const FitJob& job) { return command(job); }
+std::string command_line(const CoverJob& job) { return command(job); }
+std::string command_line(const VerifyJob& job) { return command(job); }
+std::string command_line(const PlanJob& job) {
+  return std::visit([](const auto& plan) { return command(plan); }, job);
+}
+
+PlanJob without_folders(const PlanJob& job) {
+  PlanJob shown = job;
+  const auto cut = [](const FieldInfo& info, auto& value) {
+    if (info.spelling == Spelling::kFile || info.spelling == Spelling::kFileOrText) cut_folder(value);
+  };
+  std::visit([&](auto& plan) { visit_fields(plan, cut); }, shown);
+  return shown;
+}
+
+std::vector<std::string> asked_for(const PlanJob& job) {
+  std::vector<std::string> lines;
+  const auto tell = [&](const FieldWords& field) {
+    if (field.info.key == "part" || field.info.key == "faces") return;
+    std::string name(field.info.key);
+    std::replace(name.begin(), name.end(), '_', ' ');
+    for (const std::string& word : field.words)
+      lines.push_back(name + " " + word + (field.info.unit.empty() ? "" : " " + std::string(field.info.unit)));
+  };
+  std::visit(
+      [&](const auto& plan) {
+        for (const FieldWords& field : told_fields(plan)) tell(field);
+      },
+      job);
+  return lines;
+}
+
+}  // namespace flank::internal

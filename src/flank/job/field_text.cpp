@@ -1,0 +1,85 @@
+#include "flank/job/field_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "flank/error.h"
+
+namespace flank::internal {
+namespace {
+
+/// All of the word as a number; a plus in front is no difference.
+template <class T>
+bool parse_number(const std::string& word, T& value) {
+  const char* begin = word.data() + (word.starts_with('+') ? 1 : 0);
+  const char* end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(begin, end, value);
+  return error == std::errc() && stop == end && begin != end;
+}
+
+[[noreturn]] void refuse(const FieldInfo& info, const std::string& word, std::string_view otherwise) {
+  throw UsageError(field_name(info), word, std::string(info.accepted.words.empty() ? otherwise : info.accepted.words));
+}
+
+}  // namespace
+
+std::string field_name(const FieldInfo& info) {
+  std::string name(info.key);
+  if (info.unit.empty()) return name;
+  name += "_" + std::string(info.unit);
+  std::replace(name.begin(), name.end(), '/', '_');
+  return name;
+}
+
+std::string flag_of(const FieldInfo& info) {
+  if (!info.option.empty()) return std::string(info.option);
+  std::string flag = "--" + std::string(info.key);
+  std::replace(flag.begin(), flag.end(), '_', '-');
+  return flag;
+}
+
+std::vector<std::string> field_words(const FieldInfo&, const std::string& value) { return {value}; }
+std::vector<std::string> field_words(const FieldInfo&, double value) { return {fmt::format("{}", value)}; }
+std::vector<std::string> field_words(const FieldInfo&, std::uint64_t value) { return {std::to_string(value)}; }
+std::vector<std::string> field_words(const FieldInfo&, bool value) { return {value ? "on" : "off"}; }
+std::vector<std::string> field_words(const FieldInfo&, const std::vector<std::string>& value) { return value; }
+std::vector<std::string> field_words(const FieldInfo& info, int value) {
+  if (info.spelling == Spelling::kSign) return {value < 0 ? "-" : "+"};
+  if (info.spelling == Spelling::kAutoOrCount && value == 0) return {"auto"};
+  return {std::to_string(value)};
+}
+
+void read_word(const FieldInfo&, const std::string& word, std::string& value) { value = word; }
+void read_word(const FieldInfo&, const std::string& word, std::vector<std::string>& value) { value.push_back(word); }
+
+void read_word(const FieldInfo& info, const std::string& word, double& value) {
+  if (!parse_number(word, value)) refuse(info, word, "a number is needed");
+}
+
+void read_word(const FieldInfo& info, const std::string& word, std::uint64_t& value) {
+  if (!parse_number(word, value)) refuse(info, word, "a whole number >= 0 is needed");
+}
+
+void read_word(const FieldInfo& info, const std::string& word, bool& value) {
+  if (word != "on" && word != "off") refuse(info, word, "on or off is needed");
+  value = word == "on";
+}
+
+void read_word(const FieldInfo& info, const std::string& word, int& value) {
+  if (info.spelling == Spelling::kSign) {
+    if (word != "+" && word != "-") refuse(info, word, "+ or - is needed");
+    value = word == "-" ? -1 : +1;
+  } else if (info.spelling == Spelling::kAutoOrCount) {
+    // 0 stands for auto in the job, but is no count.
+    if (word == "auto")
+      value = 0;
+    else if (!parse_number(word, value) || value < 1)
+      refuse(info, word, "auto or a number is needed");
+  } else if (!parse_number(word, value)) {
+    refuse(info, word, "a whole number is needed");
+  }
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,239 @@
+/// The one table of what a user may ask for: every member of the jobs of job.h with its name, unit, range and help text.
+///
+/// A new member of a job is one line here, and has then an option of the command line, a key of job.json, a check, and a
+/// place in the command that the report shows. tests/job changes every member and looks for it in all of these.
+#pragma once
+
+#include <concepts>
+#include <string_view>
+#include <type_traits>
+
+#include "flank/job.h"
+
+namespace flank::internal {
+
+/// Which values a field takes. `words` says it in messages: "... is needed".
+struct Accepted {
+  std::string_view words;
+  bool (*number)(double) = nullptr;          ///< null: any
+  bool (*text)(std::string_view) = nullptr;  ///< null: any
+};
+
+/// How a value is written on a command line, if not as it is.
+enum class Spelling {
+  kPlain,
+  kFile,         ///< the name of a file or folder: absolute in job.json
+  kFileOrText,   ///< a file if there is a slash in it
+  kOnOff,        ///< of a bool
+  kSign,         ///< of a side: + or -
+  kAutoOrCount,  ///< 0 is "auto"
+};
+
+struct FieldInfo {
+  std::string_view key;    ///< of job.json, and, by flag_of(), of the option: "axis_length" is --axis-length
+  std::string_view unit;   ///< "mm", "mm/min"; empty: none
+  std::string_view group;  ///< of the help text; empty: the first
+  std::string_view help;
+  Accepted accepted{};
+  Spelling spelling = Spelling::kPlain;
+  std::string_view option{};  ///< not by the rule: "--face", or "PART" for a word without option
+  bool always = false;        ///< is given, or shown, even if it has its default value
+};
+
+namespace accepted {
+inline bool positive(double x) { return x > 0.0 && x < 1e300; }
+inline bool not_negative(double x) { return x >= 0.0 && x < 1e300; }
+inline constexpr Accepted kAny{};
+inline constexpr Accepted kLength{"a length > 0 mm is needed", positive};
+inline constexpr Accepted kDistance{"a length >= 0 mm is needed", not_negative};
+inline constexpr Accepted kRadius{"a radius > 0 mm is needed", positive};
+inline constexpr Accepted kRate{"a rate > 0 mm/min is needed", positive};
+inline constexpr Accepted kShare{"a share between 0 and 1 is needed", [](double x) { return x >= 0.0 && x <= 1.0; }};
+inline constexpr Accepted kPrice{"a share from 0 to 1 is needed", [](double x) { return x >= 0.0 && x < 1.0; }};
+inline constexpr Accepted kSlope{"a number between 0 and 1 is needed", [](double x) { return x > 0.0 && x < 1.0; }};
+inline constexpr Accepted kPasses{"auto or a number from 1 to 64 is needed",
+                                  [](double x) { return x >= 0.0 && x <= 64.0; }};
+inline constexpr Accepted kStrips{"a number from 1 to 200 is needed", [](double x) { return x >= 1.0 && x <= 200.0; }};
+inline constexpr Accepted kFinalists{"a number from 1 to 100 is needed",
+                                     [](double x) { return x >= 1.0 && x <= 100.0; }};
+inline constexpr Accepted kSide{"+ or - is needed", [](double x) { return x == 1.0 || x == -1.0; }};
+inline constexpr Accepted kUnit{"accepted are mm, cm, m, in", nullptr,
+                                [](std::string_view x) { return x == "mm" || x == "cm" || x == "m" || x == "in"; }};
+inline constexpr Accepted kStrategy{"there are grow and curves", nullptr,
+                                    [](std::string_view x) { return x == "grow" || x == "curves"; }};
+inline constexpr Accepted kSeeds{"there are grid and shape", nullptr,
+                                 [](std::string_view x) { return x == "grid" || x == "shape"; }};
+}  // namespace accepted
+
+/// T or const T.
+template <class Job, class T>
+concept Is = std::same_as<std::remove_const_t<Job>, T>;
+
+template <class Visitor, Is<PartRequest> Request>
+void visit_part(Request& part, Visitor& visit) {
+  using namespace accepted;
+  visit(FieldInfo{"part", "", "", "STEP, IGES, BREP, STL, OBJ or PLY file", kAny, Spelling::kFile, "PART", true},
+        part.file);
+  visit(FieldInfo{"unit", "", "", "Unit of a mesh: mm, cm, m or in", kUnit}, part.unit);
+  visit(FieldInfo{"faces", "", "", "Faces to machine: F1 or F1,F3 (see flank inspect)", kAny, Spelling::kPlain,
+                  "--face", true},
+        part.faces);
+  visit(FieldInfo{"side", "", "", "Machined side of an open sheet, + or -; default: of the start, else both are tried",
+                  kSide, Spelling::kSign},
+        part.side);
+}
+
+template <class Visitor, Is<ObstacleRequest> Request>
+void visit_obstacles(Request& obstacles, Visitor& visit) {
+  using namespace accepted;
+  constexpr std::string_view kFaces = "Other faces", kAbove = "Clearance";
+  visit(
+      FieldInfo{"check_faces", "", kFaces,
+                "The tool must not enter these faces, F88,F12; default: any face that is not machined. Entering one by "
+                "more than the tolerance is exit 1"},
+      obstacles.check_faces);
+  visit(FieldInfo{"ignore_faces", "", kFaces, "It may enter these: they are not checked"}, obstacles.ignore_faces);
+  visit(FieldInfo{"shank_length", "mm", kAbove, "A cylindrical shank above the flank, of this length", kLength},
+        obstacles.shank_length_mm);
+  visit(FieldInfo{"shank_radius", "mm", kAbove, "Its radius; default: that of the flank's upper end", kLength},
+        obstacles.shank_radius_mm);
+  visit(
+      FieldInfo{
+          "holder", "", kAbove,
+          "Outline of the holder: z:r,z:r,... (z above the flank's upper end, radius, mm), or a file of such pairs",
+          kAny, Spelling::kFileOrText},
+      obstacles.holder);
+  visit(FieldInfo{"fixtures", "", kAbove,
+                  "Part file that shank, holder and flank must not touch; may be given several times", kAny,
+                  Spelling::kFile, "--fixture"},
+        obstacles.fixtures);
+  visit(FieldInfo{"clearance", "mm", kAbove,
+                  "Least distance of shank and holder from the part, and of all from fixtures; default: no collision",
+                  kDistance},
+        obstacles.clearance_mm);
+}
+
+inline constexpr std::string_view kReachHelp =
+    "A place of the face counts as reachable if a ball of this radius touches it without entering another face; "
+    "--coverage is about those; default: the tool's smallest radius";
+
+template <class Visitor, Is<JudgeRequest> Request>
+void visit_judge(Request& judge, Visitor& visit) {
+  using namespace accepted;
+  visit(FieldInfo{"coverage", "", "", "Share of what is reachable of the face, within tolerance, that counts as done",
+                  kShare},
+        judge.least_coverage);
+  visit(FieldInfo{"sample", "mm", "", "Spacing of the judge's samples", kLength}, judge.sample_mm);
+  visit(FieldInfo{"reach_radius", "mm", "Other faces", kReachHelp, kRadius}, judge.reach_radius_mm);
+}
+
+/// Calls visit(FieldInfo, member) for every field of the job, in the order of the help text.
+template <class Visitor, Is<FitJob> Job>
+void visit_fields(Job& job, Visitor&& visit) {
+  using namespace accepted;
+  visit_part(job.part, visit);
+  visit(FieldInfo{"tool", "", "", "free, a family with any of its parameters (cone:radius=2,angle=3), or a tool.json",
+                  kAny, Spelling::kFileOrText},
+        job.tool.spec);
+  visit(FieldInfo{"tolerance", "mm", "", "Tolerance", kLength}, job.tolerance_mm);
+  visit(FieldInfo{"axis_length", "mm", "", "Length of the tool's axis; default: as the face needs", kLength},
+        job.tool.axis_length_mm);
+  visit(FieldInfo{"strips", "", "", "Passes side by side with one tool: a number, or auto", kPasses,
+                  Spelling::kAutoOrCount},
+        job.strips);
+  visit(FieldInfo{"start", "", "", "First axis x,y,z,x,y,z (tip, holder end), mm; default: automatic"}, job.start);
+  visit(FieldInfo{"guide", "", "", "File of several such lines: the axis follows them", kAny, Spelling::kFile},
+        job.guide);
+  visit(FieldInfo{"radius_min", "mm", "", "Smallest radius of a free tool (core); default: 1 % of the face's diagonal",
+                  kRadius},
+        job.radius.min_mm);
+  visit(
+      FieldInfo{"radius_max", "mm", "", "Largest radius of a free tool; default: 15 % of the face's diagonal", kRadius},
+      job.radius.max_mm);
+  visit(FieldInfo{"slope_max", "", "", "Largest |r'| of a free tool", kSlope}, job.radius.slope_max);
+  visit_judge(job.judge, visit);
+  visit_obstacles(job.obstacles, visit);
+  visit(
+      FieldInfo{"avoid", "", "Other faces",
+                "on: steer the tool clear of the other faces; off: fit as if they were not there (they are judged all "
+                "the same)",
+                kAny, Spelling::kOnOff},
+      job.avoid);
+}
+
+template <class Visitor, Is<ChoiceRequest> Request>
+void visit_choice(Request& choice, Visitor& visit) {
+  using namespace accepted;
+  constexpr std::string_view kGroup = "Choice of the tool";
+  visit(
+      FieldInfo{"catalogue", "", kGroup,
+                "Folder of tool files (NAME.json) for --tool catalogue; default: $FLANK_CATALOGUE, else the tools that "
+                "come with flank (share/openflank/catalogue)",
+                kAny, Spelling::kFile},
+      choice.catalogue);
+  visit(FieldInfo{"finalists", "", kGroup,
+                  "Tools that are covered in full, strips smoothed; the others are compared by strips as they grow",
+                  kFinalists},
+        choice.finalists);
+  visit(FieldInfo{"feed", "mm/min", kGroup, "Feed along the strips, for the machining time in the ranking", kRate},
+        choice.feed_mm_min);
+  visit(FieldInfo{"rapid", "mm/min", kGroup, "Rate between the strips", kRate}, choice.rapid_mm_min);
+}
+
+template <class Visitor, Is<CoverJob> Job>
+void visit_fields(Job& job, Visitor&& visit) {
+  using namespace accepted;
+  visit_part(job.part, visit);
+  visit(
+      FieldInfo{
+          "tool", "", "",
+          "A tool.json; a family with all its parameters (barrel:arc=85,radius=5) and --axis-length; a family with "
+          "some or none (barrel, barrel:radius=5): the others are searched for this face; or catalogue: the best "
+          "of a folder of tools",
+          kAny, Spelling::kFileOrText, "", true},
+      job.tool.spec);
+  visit(
+      FieldInfo{
+          "axis_length", "mm", "",
+          "Length of the axis of a family; if parameters are searched, default: the width of the face over 1, 2, 3 "
+          "and 4 strips, all tried",
+          kLength},
+      job.tool.axis_length_mm);
+  visit(FieldInfo{"tolerance", "mm", "", "Tolerance", kLength}, job.tolerance_mm);
+  visit(FieldInfo{"strategy", "", "", "How strips are found: grow, or curves (the published method, to compare)",
+                  kStrategy},
+        job.strategy);
+  visit(FieldInfo{"seed", "", "", "Seed of the random numbers of --strategy curves; default: 1"}, job.seed);
+  visit(FieldInfo{"seeds", "", "",
+                  "Where lines are begun: grid, spread evenly, or shape, more where the face bends more", kSeeds},
+        job.seeds);
+  visit(FieldInfo{"strips", "", "", "Most strips on one target; default: as many as are worth their price", kStrips},
+        job.most_strips);
+  visit(FieldInfo{"strip_price", "", "", "Share of the face that a strip must add to be worth it; default: 0.005",
+                  kPrice},
+        job.strip_price);
+  visit_judge(job.judge, visit);
+  visit_choice(job.choice, visit);
+  visit_obstacles(job.obstacles, visit);
+}
+
+template <class Visitor, Is<VerifyJob> Job>
+void visit_fields(Job& job, Visitor&& visit) {
+  using namespace accepted;
+  visit(FieldInfo{"folder", "", "", "A folder written by flank fit or flank cover", kAny, Spelling::kFile, "DIR", true},
+        job.folder);
+  visit(
+      FieldInfo{"part", "", "", "Judge against this part instead of the one named in job.json", kAny, Spelling::kFile},
+      job.part);
+  visit(FieldInfo{"tolerance", "mm", "", "Tolerance instead of the job's", kLength}, job.tolerance_mm);
+  visit(FieldInfo{"sample", "mm", "", "Spacing of the samples", kLength}, job.sample_mm);
+  visit(FieldInfo{"reach_radius", "mm", "Other faces", kReachHelp, kRadius}, job.reach_radius_mm);
+  visit_obstacles(job.obstacles, visit);
+}
+
+/// The word of the command line that asks for such a job.
+inline std::string_view command_name(const FitJob&) { return "fit"; }
+inline std::string_view command_name(const CoverJob&) { return "cover"; }
+inline std::string_view command_name(const VerifyJob&) { return "verify"; }
+
+}  // namespace flank::internal

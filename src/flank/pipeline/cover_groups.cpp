@@ -1,0 +1,53 @@
+#include "flank/pipeline/cover_groups.h"
+
+#include <algorithm>
+
+#include "flank/base/tolerance_budget.h"
+#include "flank/error.h"
+#include "flank/setup/make_obstacles.h"
+
+namespace flank::internal {
+
+CoverOptions options_of(const CoverJob& job) {
+  CoverOptions options;
+  options.strategy = job.strategy == "curves" ? CoverStrategy::kCurves : CoverStrategy::kGrow;
+  options.places = job.seeds == "shape" ? SeedPlaces::kShape : SeedPlaces::kGrid;
+  options.tolerance_mm = job.tolerance_mm;
+  if (job.most_strips) options.most_strips = *job.most_strips;
+  if (job.strip_price) options.strip_price = *job.strip_price;
+  if (job.seed && options.strategy != CoverStrategy::kCurves)
+    throw UsageError("seed", "goes with `strategy` curves; nothing else is random");
+  if (job.seed) options.curves.seed = *job.seed;
+  return options;
+}
+
+ToolExtent extent_of(const Tool& tool) {
+  ToolExtent extent;
+  const double length = tool.radial.axis_length();
+  for (int j = 0; j <= 16; ++j)
+    extent.reach_mm = std::max(extent.reach_mm, length + 2.0 * tool.radial.at(length * j / 16.0).r);
+  for (const auto* profile : {&tool.shank, &tool.holder}) {
+    extent.above = extent.above || !profile->empty();
+    for (const Vec2& p : *profile) extent.reach_mm = std::max(extent.reach_mm, p.x() + 2.0 * p.y());
+  }
+  return extent;
+}
+
+Obstacles obstacles_of(const CoverJob& job, const Setup& setup, const TargetGroup& group, const ToolExtent& extent) {
+  const double tolerance_mm = job.tolerance_mm;
+  ObstacleChoice choice = choose_obstacles(group.indices, setup.targets, setup.checks);
+  choice.fixtures = setup.fixtures;
+  choice.clearance_mm = job.obstacles.clearance_mm;
+  choice.tolerance_mm = tolerance_mm;
+  ObstacleDetail detail;
+  detail.meshes_within_mm = extent.reach_mm;
+  detail.deviation_mm = std::clamp(kToleranceBudget.others.triangles * tolerance_mm, 1e-3, 0.05);
+  if (extent.above) {
+    detail.own_deviation_mm = std::clamp(kToleranceBudget.shank.triangles * tolerance_mm, 1e-3, 0.02);
+    detail.own_spare_mm = kToleranceBudget.shank.spare * tolerance_mm;
+  }
+  std::vector<std::string> notes;  // triangles are always to be had
+  return make_obstacles(setup.part, *group.target, choice, detail, notes);
+}
+
+}  // namespace flank::internal

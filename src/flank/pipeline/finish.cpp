@@ -1,0 +1,82 @@
+#include "flank/pipeline/finish.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "flank/artefact/view.h"
+#include "flank/base/tolerance_budget.h"
+#include "flank/envelope.h"
+#include "flank/envelope/path_regularity.h"
+#include "flank/pipeline/judge_job.h"
+#include "flank/strip/used_times.h"
+
+namespace flank::internal {
+namespace {
+
+/// The poses [first, last) of a range of times, and one more at each end.
+std::pair<std::size_t, std::size_t> poses_between(const std::vector<double>& t, const TimeRange& range) {
+  const auto after_first = std::upper_bound(t.begin(), t.end(), range.first);
+  const auto not_before_last = std::lower_bound(t.begin(), t.end(), range.last);
+  return {after_first == t.begin() ? 0 : static_cast<std::size_t>(after_first - t.begin()) - 1,
+          not_before_last == t.end() ? t.size() : static_cast<std::size_t>(not_before_last - t.begin()) + 1};
+}
+
+/// The side of the contact points that look from the middle of the motion to the target.
+int machining_contact(const RuledMotion& motion, const RadialFunction& radial, const Target& target) {
+  const Vec3 middle = motion.pose(0.5).at(0.5 * radial.axis_length());
+  return contact_side(motion, radial, target.closest(middle).point - middle);
+}
+
+}  // namespace
+
+void Stopwatch::lap(const std::string& stage) {
+  const auto now = std::chrono::steady_clock::now();
+  result_.seconds.emplace_back(stage, std::chrono::duration<double>(now - last_).count());
+  last_ = now;
+}
+
+std::vector<StripSurface> add_strips(double tolerance_mm, const std::vector<const TargetGroup*>& groups,
+                                     Result& result) {
+  const std::vector<RuledMotion>& motions = result.motions;
+  std::vector<StripSurface> surfaces;
+  std::vector<const Target*> targets;
+  for (const TargetGroup* group : groups)
+    if (std::find(targets.begin(), targets.end(), group->target.get()) == targets.end())
+      targets.push_back(group->target.get());
+  const RadialFunction& radial = result.tool.radial;
+  const std::vector<TimeRange> used = used_times(motions, radial, targets, tolerance_mm);
+  for (std::size_t m = 0; m < motions.size(); ++m) {
+    SamplingOptions options;
+    options.chord_tolerance_mm = kToleranceBudget.chord * tolerance_mm;
+    const SampledMotion sampled = sample_motion(motions[m], options);
+    result.chord_bound_mm = std::max(result.chord_bound_mm, sampled.chord_bound_mm);
+    Strip strip;
+    strip.id = static_cast<int>(m) + 1;
+    strip.face = groups[m]->faces;
+    const auto [first, last] = poses_between(sampled.t, used[m]);
+    strip.poses.assign(sampled.poses.begin() + static_cast<std::ptrdiff_t>(first),
+                       sampled.poses.begin() + static_cast<std::ptrdiff_t>(last));
+    surfaces.push_back(strip_surface({strip.id, motions[m], sampled.t[first], sampled.t[last - 1],
+                                      machining_contact(motions[m], radial, *groups[m]->target)},
+                                     radial));
+    result.path.strips.push_back(std::move(strip));
+  }
+  result.largest_c = largest_c(result.path, radial);
+  note_strip_surfaces(surfaces, result.notes);
+  return surfaces;
+}
+
+void judge_result(const Setup& setup, const ClearanceScene& scene, std::vector<StripSurface> surfaces, Result& result,
+                  Stopwatch& watch) {
+  const JudgeRequest& request =
+      std::visit([](const auto& plan) -> const JudgeRequest& { return plan.judge; }, result.job);
+  result.verify = judge_job(setup, request, result.tool, result.path);
+  watch.lap("verify");
+  result.verify.clearance = measure_clearance(scene, result.tool, result.path);
+  watch.lap("clearance");
+  result.drawings = std::make_shared<const Drawings>(
+      Drawings{std::move(surfaces), make_view(result.job, setup, result.tool, result.path, result.verify)});
+  watch.lap("view");
+}
+
+}  // namespace flank::internal

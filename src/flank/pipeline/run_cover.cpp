@@ -1,0 +1,139 @@
+// `flank cover` as one function: part and tool in, strips and verdict out.
+#include <fmt/format.h>
+
+#include "flank/error.h"
+#include "flank/job/check_fields.h"
+#include "flank/pipeline/cover_choice.h"
+#include "flank/pipeline/cover_groups.h"
+#include "flank/pipeline/finish.h"
+#include "flank/run.h"
+#include "flank/setup/tool_body.h"
+#include "flank/strip/strip_order.h"
+#include "flank/toolbox/tool_spec.h"
+
+namespace flank {
+using namespace internal;
+namespace {
+
+void require(bool holds, const std::string& field, const std::string& text) {
+  if (!holds) throw UsageError(field, text);
+}
+
+/// A whole tool: a file, or a family with all its parameters and an axis length.
+Tool tool_of(const ToolRequest& request) {
+  require(!request.spec.empty(), "tool",
+          "a tool.json, or a family with all its parameters and `axis_length_mm`, is needed");
+  const ToolSpec spec = parse_tool_spec(request.spec);
+  if (spec.tool) {
+    require(!request.axis_length_mm, "axis_length_mm", "the tool's file has its length; it goes with a family");
+    const Legitimacy legitimacy = check_legitimacy(spec.tool->radial);
+    require(legitimacy.legitimate, "tool", request.spec + ": this is no tool: " + legitimacy.reason);
+    return *spec.tool;
+  }
+  require(!spec.free, "tool", "a cover takes a given tool; a fit finds one");
+  require(request.axis_length_mm.has_value(), "axis_length_mm", "a family needs the length of its axis");
+  return make_tool(*spec.family, spec.given, *request.axis_length_mm);
+}
+
+TargetCover summary_of(const Covered& covered) {
+  const CoverResult& result = covered.result;
+  TargetCover summary;
+  summary.faces = covered.group.faces;
+  summary.area_mm2 = covered.group.target->area();
+  summary.seeds = result.seeds;
+  summary.lines = result.lines;
+  summary.grown = result.grown;
+  summary.strips = static_cast<int>(result.motions.size());
+  summary.reachable = result.reachable;
+  summary.before = result.coverage_before;
+  summary.after = result.coverage;
+  summary.overlap = result.overlap;
+  summary.links_mm = link_length(result.motions);
+  summary.overcut_mm = result.overcut_mm;
+  return summary;
+}
+
+void add_notes(const Covered& covered, Result& result) {
+  const CoverResult& cover = covered.result;
+  result.notes.insert(result.notes.end(), cover.notes.begin(), cover.notes.end());
+  if (!cover.message.empty()) result.notes.push_back(covered.group.faces + ": " + cover.message);
+  if (cover.reachable < 0.9995)
+    result.notes.push_back(fmt::format(
+        "{}: {:.1f} % can be reached: elsewhere a ball of the tool's smallest radius would enter another face; of "
+        "that, {:.1f} % is covered",
+        covered.group.faces, 100.0 * cover.reachable, 100.0 * cover.coverage));
+  result.seconds.insert(result.seconds.end(), cover.seconds.begin(), cover.seconds.end());
+}
+
+Covered cover_group(const CoverJob& job, const Setup& setup, TargetGroup group, const Tool& tool,
+                    const Progress& progress) {
+  const Obstacles obstacles = obstacles_of(job, setup, group, extent_of(tool));
+  CoverResult result = cover(*group.target, tool, obstacles, options_of(job), progress);
+  return {std::move(group), std::move(result)};
+}
+
+/// Every group; open sheets from both sides, if none is asked for, and the better one kept.
+std::vector<Covered> cover_groups(const CoverJob& job, const Setup& setup, const Tool& tool, const Progress& progress) {
+  std::vector<Covered> all;
+  for (TargetGroup& group : make_targets(setup, job.part.side.value_or(+1)))
+    all.push_back(cover_group(job, setup, std::move(group), tool, progress));
+  if (job.part.side) return all;
+  std::vector<TargetGroup> other_side = make_targets(setup, -1);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (all[k].group.of_solid) continue;
+    Covered other = cover_group(job, setup, std::move(other_side[k]), tool, progress);
+    const bool better =
+        other.result.coverage * other.result.reachable > all[k].result.coverage * all[k].result.reachable;
+    if (better) all[k] = std::move(other);
+    all[k].result.notes.push_back(fmt::format("{}: open sheet: both sides were tried, side {} covers more",
+                                              all[k].group.faces, better ? "-" : "+"));
+  }
+  return all;
+}
+
+/// The strips of all targets, in the result and as surfaces.
+std::vector<StripSurface> collect(const CoverJob& job, const std::vector<Covered>& all, Result& result) {
+  CoverSummary summary;
+  std::vector<const TargetGroup*> groups;
+  for (const Covered& covered : all) {
+    summary.targets.push_back(summary_of(covered));
+    add_notes(covered, result);
+    const std::vector<RuledMotion>& motions = covered.result.motions;
+    result.motions.insert(result.motions.end(), motions.begin(), motions.end());
+    groups.insert(groups.end(), motions.size(), &covered.group);
+  }
+  result.plan = std::move(summary);
+  result.diagonal_mm = all.front().group.target->diagonal();
+  return add_strips(job.tolerance_mm, groups, result);
+}
+
+}  // namespace
+
+Result run_cover(const CoverJob& job, const Progress& progress) {
+  check_fields(job);
+  (void)options_of(job);
+  Result result;
+  result.job = job;
+  const std::optional<ToolChoice> choice = tool_choice(job);
+  if (!choice) {
+    result.tool = tool_of(job.tool);
+    check_obstacles(job.obstacles, &result.tool);
+    equip_tool(job.obstacles, result.tool);
+  }
+  Stopwatch watch(result);
+  progress.step("read", 0.0);
+  const Setup setup = read_setup(job.part, job.obstacles, job.tolerance_mm, result.notes);
+  watch.lap("read");
+  const std::vector<Covered> all =
+      choice ? cover_with_best(job, *choice, setup, result, progress) : cover_groups(job, setup, result.tool, progress);
+  watch.lap("cover");
+  std::vector<StripSurface> surfaces = collect(job, all, result);
+  watch.lap("sample");
+  result.complete = !progress.stop();
+  progress.step("verify", 0.9);
+  const ClearanceScene scene = make_clearance_scene(setup, job.obstacles, has_body(result.tool), result.notes);
+  judge_result(setup, scene, std::move(surfaces), result, watch);
+  return result;
+}
+
+}  // namespace flank

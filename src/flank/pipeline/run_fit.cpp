@@ -1,0 +1,125 @@
+// `flank fit` as one function: part file in, tool, path and verdict out.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "flank/base/tolerance_budget.h"
+#include "flank/error.h"
+#include "flank/fit/lengthen.h"
+#include "flank/job/check_fields.h"
+#include "flank/pipeline/finish.h"
+#include "flank/pipeline/fit_search.h"
+#include "flank/run.h"
+#include "flank/setup/tool_body.h"
+
+namespace flank {
+using namespace internal;
+namespace {
+
+void check_job(const FitJob& job) {
+  check_fields(job);
+  if (job.radius.max_mm && !(*job.radius.max_mm > job.radius.min_mm.value_or(0.0)))
+    throw UsageError("radius_max_mm", "a radius above `radius_min_mm` is needed");
+  if (job.start && job.guide) throw UsageError("start", "goes without `guide`; give one of them");
+}
+
+void check_axis_length(const FitJob& job, const Part& part) {
+  const double longest = 1.5 * part.box.diagonal();
+  if (job.tool.axis_length_mm.value_or(0.0) > longest)
+    throw UsageError("axis_length_mm", fmt::format("{}", *job.tool.axis_length_mm),
+                     fmt::format("is longer than the part ({:.1f} mm); lengths up to {:.1f} mm are accepted",
+                                 part.box.diagonal(), longest));
+}
+
+/// Lifts a shank or holder that comes too near, if the flank's length is open (lengthen.h).
+void lift_shank(const FitJob& job, const ClearanceScene& scene, FlankFitResult& fit, std::vector<std::string>& notes) {
+  if (job.tool.axis_length_mm || (!job.obstacles.shank_length_mm && !job.obstacles.holder)) return;
+  const auto clear = [&](const FlankFitResult& tried) {
+    Tool tool;
+    tool.radial = tried.tool;
+    equip_tool(job.obstacles, tool);
+    Path path;
+    for (const RuledMotion& motion : tried.motions) {
+      SamplingOptions options;
+      options.chord_tolerance_mm = kToleranceBudget.chord * job.tolerance_mm;
+      path.strips.push_back({});
+      path.strips.back().poses = sample_motion(motion, options).poses;
+    }
+    return measure_clearance(scene, tool, path).kept();
+  };
+  const double more = lengthen_until_clear(fit, std::max(1.0, job.obstacles.clearance_mm.value_or(0.0)), clear);
+  if (more > 0.0)
+    notes.push_back(
+        fmt::format("the flank was lengthened by {} mm, so that shank and holder keep their clearances", more));
+}
+
+FitSummary summary_of(const FlankFitResult& fit) {
+  FitSummary summary;
+  summary.candidates = fit.candidates;
+  summary.before = {fit.before.at_tolerance, fit.before.overcut_mm};
+  summary.after = {fit.after.at_tolerance, fit.after.overcut_mm};
+  summary.rms_mm = fit.residuals.rms_mm;
+  summary.largest_mm = fit.residuals.largest_mm;
+  summary.inside_share = fit.residuals.inside_share;
+  for (const IterationTrace& step : fit.trace)
+    summary.trace.push_back({step.cost, step.rms_mm, step.largest_mm, step.damping});
+  return summary;
+}
+
+Tool tool_of(const FitJob& job, const ToolSpec& spec, const RadialFunction& found) {
+  Tool tool;
+  tool.radial = found;
+  tool.name = spec.free ? "free" : std::string(family_name(found.family()));
+  if (spec.tool) tool = *spec.tool;
+  equip_tool(job.obstacles, tool);
+  return tool;
+}
+
+/// Strips of the path, with the notes of what is wrong with them.
+std::vector<StripSurface> sample_path(const FitSearch& search, double tolerance_mm, Result& result) {
+  const Legitimacy legitimacy = check_legitimacy(result.tool.radial);
+  if (!legitimacy.legitimate) result.notes.push_back("the tool is not legitimate: " + legitimacy.reason);
+  std::vector<const TargetGroup*> groups;
+  for (const std::size_t g : search.group_of_motion) groups.push_back(&search.targets[g]);
+  std::vector<StripSurface> surfaces = add_strips(tolerance_mm, groups, result);
+  if (result.largest_c >= 1.0)
+    result.notes.push_back(
+        fmt::format("the tool plunges: |c| = {:.3f} >= 1 somewhere along the path", result.largest_c));
+  return surfaces;
+}
+
+}  // namespace
+
+Result run_fit(const FitJob& job, const Progress& progress) {
+  check_job(job);
+  const ToolSpec spec = parse_tool_spec(job.tool.spec);
+  check_obstacles(job.obstacles, spec.tool ? &*spec.tool : nullptr);
+  Result result;
+  result.job = job;
+  Stopwatch watch(result);
+  progress.step("read", 0.0);
+  const Setup setup = read_setup(job.part, job.obstacles, job.tolerance_mm, result.notes);
+  check_axis_length(job, setup.part);
+  const bool with_body = job.obstacles.shank_length_mm || job.obstacles.holder || (spec.tool && has_body(*spec.tool));
+  const ClearanceScene scene = make_clearance_scene(setup, job.obstacles, with_body, result.notes);
+  watch.lap("read");
+
+  FitSearch search = search_fit(job, setup, spec, progress);
+  if (spec.free) lift_shank(job, scene, search.fit, result.notes);
+  result.plan = summary_of(search.fit);
+  result.motions = search.fit.motions;
+  result.diagonal_mm = search.targets.front().target->diagonal();
+  result.notes.insert(result.notes.end(), search.fit.notes.begin(), search.fit.notes.end());
+  result.complete = !progress.stop();
+  watch.lap("fit");
+
+  result.tool = tool_of(job, spec, search.fit.tool);
+  std::vector<StripSurface> surfaces = sample_path(search, job.tolerance_mm, result);
+  watch.lap("sample");
+
+  progress.step("verify", 0.9);
+  judge_result(setup, scene, std::move(surfaces), result, watch);
+  return result;
+}
+
+}  // namespace flank

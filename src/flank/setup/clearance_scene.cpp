@@ -1,0 +1,70 @@
+#include "flank/setup/clearance_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "flank/base/tolerance_budget.h"
+#include "flank/io/cad/triangulate.h"
+
+namespace flank::internal {
+namespace {
+
+constexpr double kFinestMm = 0.002, kCoarsestMm = 0.02;  ///< deviation of the triangles, about half the tolerance
+
+bool holds(const std::vector<int>& faces, std::size_t face) {
+  return std::find(faces.begin(), faces.end(), static_cast<int>(face)) != faces.end();
+}
+
+/// The triangles as an obstacle; `notes` gets what is wrong with them.
+Obstacle as_obstacle(FaceTriangles face, const std::string& name, ObstacleRole role, double deviation,
+                     std::vector<std::string>& notes) {
+  if (face.deviation_mm > 2.0 * deviation)
+    notes.push_back(fmt::format("{}: its triangles for clearances are up to {:.3g} mm off (counted in the bound)", name,
+                                face.deviation_mm));
+  if (face.beyond_border)
+    notes.push_back(name + ": its triangles for clearances may go past its border, which could not be followed");
+  return {name, role, std::move(face.mesh), face.deviation_mm};
+}
+
+void add_part(const Setup& setup, double deviation, std::vector<Obstacle>& obstacles, std::vector<std::string>& notes) {
+  std::vector<FaceTriangles> faces = triangulate(setup.part, deviation);
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    const bool target = holds(setup.targets, k);
+    if (!target && !holds(setup.checks, k)) continue;
+    const std::string name = faces[k].face;
+    const ObstacleRole role = target ? ObstacleRole::kTarget : ObstacleRole::kPart;
+    obstacles.push_back(as_obstacle(std::move(faces[k]), name, role, deviation, notes));
+  }
+}
+
+void add_fixture(const Part& fixture, double deviation, std::vector<Obstacle>& obstacles,
+                 std::vector<std::string>& notes) {
+  for (const std::string& repair : fixture.repairs) notes.push_back(fixture.file + ": " + repair);
+  const std::string short_name = std::filesystem::path(fixture.file).filename().string();
+  for (FaceTriangles& face : triangulate(fixture, deviation)) {
+    const std::string name = short_name + " " + face.face;
+    obstacles.push_back(as_obstacle(std::move(face), name, ObstacleRole::kFixture, deviation, notes));
+  }
+}
+
+}  // namespace
+
+ClearanceScene make_clearance_scene(const Setup& setup, const ObstacleRequest& request, bool has_body,
+                                    std::vector<std::string>& notes) {
+  ClearanceScene scene;
+  scene.options.tolerance_mm = setup.tolerance_mm;
+  scene.options.required_mm = request.clearance_mm.value_or(-1.0);
+  const double deviation =
+      std::clamp(kToleranceBudget.shank.judge_triangles * setup.tolerance_mm, kFinestMm, kCoarsestMm);
+  if (has_body) add_part(setup, deviation, scene.obstacles, notes);
+  for (const Part& fixture : setup.fixtures) add_fixture(fixture, deviation, scene.obstacles, notes);
+  return scene;
+}
+
+ClearanceReport measure_clearance(const ClearanceScene& scene, const Tool& tool, const Path& path) {
+  return scene.obstacles.empty() ? ClearanceReport() : judge_clearance(tool, path, scene.obstacles, scene.options);
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,25 @@
+/// A part with the faces that are machined and those that must not be entered: what every command begins with.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "flank/job.h"
+#include "flank/part.h"
+
+namespace flank::internal {
+
+struct Setup {
+  Part part;
+  std::vector<int> targets;  ///< indices of faces
+  std::vector<int> checks;   ///< of the faces that must not be entered, ascending
+  std::vector<Part> fixtures;
+  double tolerance_mm = 0.01;
+};
+
+/// Reads the part, finds its faces, and reads the fixtures. `notes` gets what was repaired, and which faces are not checked. Throws UsageError
+/// and InputError.
+[[nodiscard]] Setup read_setup(const PartRequest& part, const ObstacleRequest& obstacles, double tolerance_mm,
+                               std::vector<std::string>& notes);
+
+}  // namespace flank::internal

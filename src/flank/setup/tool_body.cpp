@@ -1,0 +1,111 @@
+#include "flank/setup/tool_body.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+
+#include "flank/error.h"
+#include "flank/io/text/json_input.h"
+
+namespace flank::internal {
+namespace {
+
+/// Words that are too long for the name of a file are none, and no reason to give up.
+bool is_there(const std::string& file) {
+  std::error_code error;
+  return std::filesystem::exists(file, error);
+}
+
+/// "30:10,70:12", or lines of "30 10", "30,10" or "30:10" (# starts a comment) when it came from a file.
+std::vector<Vec2> pairs_of(std::string text, const std::string& what) {
+  std::vector<double> numbers;
+  bool comment = false;
+  for (char& c : text) {
+    if (c == '#') comment = true;
+    if (c == '\n') comment = false;
+    if (comment || c == ',' || c == ';' || c == ':' || c == '\n' || c == '\r' || c == '\t') c = ' ';
+  }
+  const char *at = text.data(), *end = at + text.size();
+  for (;;) {
+    while (at < end && *at == ' ') ++at;
+    if (at == end) break;
+    double value = 0.0;
+    const auto [stop, error] = std::from_chars(at, end, value);
+    if (error != std::errc() || (stop < end && *stop != ' ') || !std::isfinite(value))
+      throw UsageError("holder", what,
+                       fmt::format("\"{}\" is not a number; z:radius,z:radius,... is accepted",
+                                   std::string(at, std::find(at, end, ' '))));
+    numbers.push_back(value);
+    at = stop;
+  }
+  if (numbers.size() % 2 != 0 || numbers.size() < 4)
+    throw UsageError("holder", what,
+                     fmt::format("has {} numbers; two or more pairs z:radius are needed", numbers.size()));
+  std::vector<Vec2> profile;
+  for (std::size_t k = 0; k < numbers.size(); k += 2) profile.emplace_back(numbers[k], numbers[k + 1]);
+  return profile;
+}
+
+void check_profile(const std::vector<Vec2>& profile, const std::string& what) {
+  for (std::size_t i = 0; i < profile.size(); ++i) {
+    if (profile[i].x() < 0.0 || profile[i].y() < 0.0)
+      throw UsageError("holder", what,
+                       fmt::format("{}:{} is negative; heights above the flank and radii >= 0 are accepted",
+                                   profile[i].x(), profile[i].y()));
+    if (i > 0 && profile[i].x() < profile[i - 1].x())
+      throw UsageError("holder", what,
+                       fmt::format("z falls from {} to {}; z must not fall from point to point", profile[i - 1].x(),
+                                   profile[i].x()));
+  }
+}
+
+std::vector<Vec2> lifted(std::vector<Vec2> profile, double by) {
+  for (Vec2& p : profile) p.x() += by;
+  return profile;
+}
+
+}  // namespace
+
+std::vector<Vec2> holder_profile(const std::string& text) {
+  const bool inline_text = text.find(':') != std::string::npos && !is_there(text);
+  std::vector<Vec2> profile;
+  if (inline_text) {
+    profile = pairs_of(text, text);
+  } else {
+    const std::string content = read_file(text);
+    const std::size_t first = content.find_first_not_of(" \t\r\n");
+    // The reader of JSON takes objects only.
+    profile = first != std::string::npos && content[first] == '['
+                  ? JsonInput(text, "{\"holder\":" + content + "}").member("holder").pairs()
+                  : pairs_of(content, text);
+  }
+  if (profile.size() < 2) throw UsageError("holder", text, "two or more pairs z:radius are needed");
+  check_profile(profile, text);
+  return profile;
+}
+
+void check_obstacles(const ObstacleRequest& request, const Tool* tool) {
+  if (request.shank_radius_mm && !request.shank_length_mm)
+    throw UsageError("shank_radius_mm", "needs `shank_length_mm`: how far the shank reaches above the flank");
+  if (request.holder) (void)holder_profile(*request.holder);
+  const bool something = request.shank_length_mm || request.holder || !request.fixtures.empty();
+  if (request.clearance_mm && !something && (tool == nullptr || !has_body(*tool)))
+    throw UsageError("clearance_mm", "needs `shank_length_mm`, `holder`, `fixtures`, or a tool with a shank");
+  for (const std::string& file : request.fixtures)
+    if (!is_there(file))
+      throw InputError(file + ": no such fixture file; STEP, IGES, BREP, STL, OBJ and PLY are accepted");
+}
+
+void equip_tool(const ObstacleRequest& request, Tool& tool) {
+  const Vec2 top = meridian_point(tool.radial, tool.radial.axis_length());
+  if (request.shank_length_mm) {
+    const double radius = request.shank_radius_mm.value_or(top.y());
+    tool.shank = lifted({{0.0, radius}, {*request.shank_length_mm, radius}}, top.x());
+  }
+  if (request.holder) tool.holder = lifted(holder_profile(*request.holder), top.x());
+}
+
+}  // namespace flank::internal
