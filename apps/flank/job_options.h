@@ -14,8 +14,6 @@ namespace flank::cli {
 /// What messages of the library call a field -> how the command line calls it: "tolerance_mm" -> "--tolerance".
 using FlagNames = std::map<std::string, std::string>;
 
-namespace job_options {
-
 template <class T>
 struct IsList : std::false_type {};
 template <>
@@ -45,8 +43,6 @@ std::string type_name(const internal::FieldInfo& info, const Member&) {
   return number && info.spelling == internal::Spelling::kPlain ? "NUMBER" : "TEXT";
 }
 
-}  // namespace job_options
-
 /// Adds an option for every field of the job, which must outlive the parsing, and --shank-diameter. Words that are no
 /// value throw UsageError while they are parsed.
 template <class Job>
@@ -55,10 +51,10 @@ FlagNames add_job_options(CLI::App& app, Job& job) {
   CLI::Option* radius = nullptr;
   internal::visit_fields(job, [&](const internal::FieldInfo& info, auto& member) {
     const std::string flag = internal::flag_of(info);
-    CLI::Option* option = job_options::add_option(app, flag, info, member);
+    CLI::Option* option = add_option(app, flag, info, member);
     const std::vector<std::string> usual = internal::field_words(info, member);
     const bool needed = info.always && (usual.empty() || usual.front().empty());
-    option->required(needed)->type_name(job_options::type_name(info, member));
+    option->required(needed)->type_name(type_name(info, member));
     if (usual.size() == 1 && !usual.front().empty()) option->default_str(usual.front());
     if (!info.group.empty()) option->group(std::string(info.group));
     if (info.key == "shank_radius") radius = option;

@@ -17,10 +17,6 @@
 
 namespace flank {
 
-namespace internal {
-struct Drawings;
-}
-
 /// What is not as requested, and in which figure it shows.
 struct Shortfall {
   /// Name of the figure in verify.json ("overcut_mm", "gouge_mm", ...), "legitimate" or "complete".
@@ -112,7 +108,8 @@ struct Result {
   std::vector<std::string> notes;  ///< repairs of the part, warnings
   std::vector<std::pair<std::string, double>> seconds;  ///< stage, wall time
   bool complete = true;                                 ///< false: cancelled, what is here is unfinished
-  std::shared_ptr<const internal::Drawings> drawings;   ///< surfaces of the strips and what a report shows
+  struct Drawings;
+  std::shared_ptr<const Drawings> drawings;  ///< surfaces of the strips and what a report shows
 
   [[nodiscard]] Acceptance acceptance() const;
 };

@@ -5,9 +5,10 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <variant>
 
 #include "flank/job/job_json.h"
-#include "flank/setup/clearance_job.h"
+#include "flank/setup/tool_body.h"
 #include "mutations.h"
 
 namespace flank::internal {
@@ -17,59 +18,46 @@ namespace fs = std::filesystem;
 
 FitJob full_job() {
   FitJob job;
-  job.part = "/parts/blade.step";
-  job.unit = "mm";
-  job.faces = "F1,F3";
-  job.side = -1;
-  job.tool = "barrel:arc=85,radius=5,s0=7";
+  job.part = {"/parts/blade.step", "mm", "F1,F3", -1};
+  job.tool = {"barrel:arc=85,radius=5,s0=7", 40.5};
+  job.radius = {2.25, 9.75, 0.75};
+  job.obstacles = {{}, {}, 4.5, 30.25, "0:10,30:12.5", {"/parts/vice.stl"}, 0.75};
+  job.judge = {0.9, 0.375, 3.5};
+  job.tolerance_mm = 0.0125;
   job.start = "0,0,5,0,0,45";
   job.guide = "/parts/guide.txt";
   job.strips = 3;
-  job.tolerance_mm = 0.0125;
-  job.axis_length_mm = 40.5;
-  job.radius_min_mm = 2.25;
-  job.radius_max_mm = 9.75;
-  job.slope_max = 0.75;
-  job.sample_mm = 0.375;
-  job.reach_radius_mm = 3.5;
   job.avoid = false;
-  job.clearance = {4.5, 30.25, "0:10,30:12.5", {"/parts/vice.stl"}, 0.75};
   return job;
 }
 
 bool finite(const std::optional<double>& value) { return !value || std::isfinite(*value); }
 
+/// The numbers that fit and cover have in common.
+template <class Job>
+bool sound_request(const Job& job) {
+  return std::isfinite(job.tolerance_mm) && std::isfinite(job.judge.least_coverage) && finite(job.judge.sample_mm) &&
+         finite(job.judge.reach_radius_mm) && finite(job.tool.axis_length_mm) &&
+         finite(job.obstacles.shank_radius_mm) && finite(job.obstacles.shank_length_mm) &&
+         finite(job.obstacles.clearance_mm);
+}
+
 bool sound(const FitJob& job) {
-  return std::isfinite(job.tolerance_mm) && std::isfinite(job.slope_max) && std::isfinite(job.least_coverage) &&
-         finite(job.axis_length_mm) && finite(job.radius_min_mm) && finite(job.radius_max_mm) &&
-         finite(job.sample_mm) && finite(job.reach_radius_mm) && finite(job.clearance.shank_radius_mm) &&
-         finite(job.clearance.shank_length_mm) && finite(job.clearance.required_mm);
+  return sound_request(job) && std::isfinite(job.radius.slope_max) && finite(job.radius.min_mm) &&
+         finite(job.radius.max_mm);
+}
+bool sound(const CoverJob& job) {
+  return sound_request(job) && std::isfinite(job.choice.feed_mm_min) && std::isfinite(job.choice.rapid_mm_min) &&
+         finite(job.strip_price);
+}
+bool sound(const PlanJob& plan) {
+  return std::visit([](const auto& job) { return sound(job); }, plan);
 }
 
 TEST(JobMutations, EveryFieldComesBack) {
-  const FitJob job = full_job(), back = job_from_json(job_to_json(job), "job.json");
-  EXPECT_EQ(back.part, job.part);
-  EXPECT_EQ(back.unit, job.unit);
-  EXPECT_EQ(back.faces, job.faces);
-  EXPECT_EQ(back.side, job.side);
-  EXPECT_EQ(back.tool, job.tool);
-  EXPECT_EQ(back.start, job.start);
-  EXPECT_EQ(back.guide, job.guide);
-  EXPECT_EQ(back.strips, job.strips);
-  EXPECT_EQ(back.tolerance_mm, job.tolerance_mm);
-  EXPECT_EQ(back.axis_length_mm, job.axis_length_mm);
-  EXPECT_EQ(back.radius_min_mm, job.radius_min_mm);
-  EXPECT_EQ(back.radius_max_mm, job.radius_max_mm);
-  EXPECT_EQ(back.slope_max, job.slope_max);
-  EXPECT_EQ(back.least_coverage, job.least_coverage);
-  EXPECT_EQ(back.sample_mm, job.sample_mm);
-  EXPECT_EQ(back.reach_radius_mm, job.reach_radius_mm);
-  EXPECT_EQ(back.avoid, job.avoid);
-  EXPECT_EQ(back.clearance.shank_radius_mm, job.clearance.shank_radius_mm);
-  EXPECT_EQ(back.clearance.shank_length_mm, job.clearance.shank_length_mm);
-  EXPECT_EQ(back.clearance.holder, job.clearance.holder);
-  EXPECT_EQ(back.clearance.fixtures, job.clearance.fixtures);
-  EXPECT_EQ(back.clearance.required_mm, job.clearance.required_mm);
+  const FitJob job = full_job();
+  const PlanJob back = job_from_json(job_to_json(job), "job.json");
+  EXPECT_EQ(std::get<FitJob>(back), job);
   EXPECT_EQ(job_to_json(back), job_to_json(job));
 }
 
@@ -135,16 +123,16 @@ TEST(HolderProfile, AnOutlineOfManyPointsMayBeLongerThanANameOfAFile) {
   std::string words = "0:10";
   for (int i = 1; i < 500; ++i) words += "," + std::to_string(i) + ":10.125";
   EXPECT_EQ(holder_profile(words).size(), 500u);
-  ClearanceJob job;
+  ObstacleRequest job;
   job.holder = words;
-  EXPECT_NO_THROW(check_clearance_job(job, nullptr));
+  EXPECT_NO_THROW(check_obstacles(job, nullptr));
 }
 
-TEST(ClearanceJobCheck, AFixtureWithANameTooLongForAFileIsNoSuchFile) {
-  ClearanceJob job;
+TEST(ObstacleCheck, AFixtureWithANameTooLongForAFileIsNoSuchFile) {
+  ObstacleRequest job;
   job.fixtures = {std::string(5000, 'x') + ".stl"};
   try {
-    check_clearance_job(job, nullptr);
+    check_obstacles(job, nullptr);
     FAIL();
   } catch (const InputError& e) {
     EXPECT_NE(std::string(e.what()).find("no such fixture"), std::string::npos);

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "flank/error.h"
-#include "flank/setup/setup.h"
 
 namespace flank::internal {
 namespace {
@@ -51,9 +50,9 @@ TEST(CheckFaces, RefusesWhatIsNotThere) {
 }
 
 TEST(CheckFaces, SaysWhatIsLeftOut) {
-  EXPECT_EQ(unchecked_note({part_of(5), {1}, {0, 2, 3, 4}, 0.01, {}}), "");
-  EXPECT_EQ(unchecked_note({part_of(5), {1}, {0, 2}, 0.01, {}}), "not checked, as asked: F4, F5");
-  EXPECT_EQ(unchecked_note({part_of(20), {0}, {1}, 0.01, {}}),
+  EXPECT_EQ(unchecked_note(part_of(5), {1}, {0, 2, 3, 4}), "");
+  EXPECT_EQ(unchecked_note(part_of(5), {1}, {0, 2}), "not checked, as asked: F4, F5");
+  EXPECT_EQ(unchecked_note(part_of(20), {0}, {1}),
             "not checked, as asked: F3, F4, F5, F6, F7, F8, F9, F10 and 10 more faces");
 }
 

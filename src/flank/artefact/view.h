@@ -72,10 +72,10 @@ inline constexpr std::size_t kMostPlaces = 240;
 [[nodiscard]] View make_view(const PlanJob& job, const Setup& setup, const Tool& tool, const Path& path,
                              const VerifyReport& verdict);
 
-/// What of a result is only drawn.
-struct Drawings {
-  std::vector<StripSurface> strips;  ///< one per strip of the path
-  View view;
-};
-
 }  // namespace flank::internal
+
+/// What of a result is only drawn.
+struct flank::Result::Drawings {
+  std::vector<internal::StripSurface> strips;  ///< one per strip of the path
+  internal::View view;
+};

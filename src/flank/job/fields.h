@@ -40,7 +40,10 @@ struct FieldInfo {
   bool always = false;        ///< is given, or shown, even if it has its default value
 };
 
-namespace accepted {
+}  // namespace flank::internal
+
+namespace flank::internal::accepted {
+
 inline bool positive(double x) { return x > 0.0 && x < 1e300; }
 inline bool not_negative(double x) { return x >= 0.0 && x < 1e300; }
 inline constexpr Accepted kAny{};
@@ -63,7 +66,10 @@ inline constexpr Accepted kStrategy{"there are grow and curves", nullptr,
                                     [](std::string_view x) { return x == "grow" || x == "curves"; }};
 inline constexpr Accepted kSeeds{"there are grid and shape", nullptr,
                                  [](std::string_view x) { return x == "grid" || x == "shape"; }};
-}  // namespace accepted
+
+}  // namespace flank::internal::accepted
+
+namespace flank::internal {
 
 /// T or const T.
 template <class Job, class T>

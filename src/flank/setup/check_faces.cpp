@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "flank/error.h"
-#include "flank/setup/setup.h"
+#include "flank/setup/h"
 
 namespace flank::internal {
 namespace {
@@ -46,11 +46,11 @@ std::vector<int> faces_to_check(const Part& part, const std::vector<int>& target
   return checks;
 }
 
-std::string unchecked_note(const Setup& setup) {
+std::string unchecked_note(const Part& part, const std::vector<int>& targets, const std::vector<int>& checks) {
   constexpr std::size_t kNamed = 8;
   std::vector<std::string> names;
-  for (int face = 0; face < setup.part.face_count(); ++face)
-    if (!holds(setup.targets, face) && !holds(setup.checks, face)) names.push_back("F" + std::to_string(face + 1));
+  for (int face = 0; face < part.face_count(); ++face)
+    if (!holds(targets, face) && !holds(checks, face)) names.push_back("F" + std::to_string(face + 1));
   if (names.empty()) return {};
   const std::size_t count = names.size();
   names.resize(std::min(count, kNamed));

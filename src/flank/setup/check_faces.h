@@ -9,8 +9,6 @@
 
 namespace flank::internal {
 
-struct Setup;
-
 /// Indices of the part's check faces, ascending; `targets` are indices too. If the request names none, every face that is
 /// no target is one. Throws UsageError naming the field for a
 /// face that the part does not have (and those that it has), for a target, and for a face that is named twice or in
@@ -19,6 +17,7 @@ struct Setup;
                                               const ObstacleRequest& request);
 
 /// What to tell the user about faces that are left out; empty if there are none.
-[[nodiscard]] std::string unchecked_note(const Setup& setup);
+[[nodiscard]] std::string unchecked_note(const Part& part, const std::vector<int>& targets,
+                                         const std::vector<int>& checks);
 
 }  // namespace flank::internal

@@ -13,8 +13,8 @@ struct Setup {
   Part part;
   std::vector<int> targets;  ///< indices of faces
   std::vector<int> checks;   ///< of the faces that must not be entered, ascending
-  std::vector<Part> fixtures;
   double tolerance_mm = 0.01;
+  std::vector<Part> fixtures;
 };
 
 /// Reads the part, finds its faces, and reads the fixtures. `notes` gets what was repaired, and which faces are not checked. Throws UsageError

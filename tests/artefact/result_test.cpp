@@ -1,0 +1,124 @@
+// The figures of a cover of several targets are of all of them, and both summaries say so.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "flank/run.h"
+
+namespace flank::internal {
+namespace {
+
+CoverSummary two_targets() {
+  TargetCover large, small;
+  large.faces = "F1";
+  large.area_mm2 = 300.0;
+  large.seeds = 10, large.lines = 5, large.grown = 4, large.strips = 2;
+  large.reachable = 0.8;                                        // 240 mm^2
+  large.before = 0.5, large.after = 0.75, large.overlap = 0.1;  // 120, 180, 198
+  large.links_mm = 7.0, large.overcut_mm = 0.02;
+  small.faces = "F3,F4";
+  small.area_mm2 = 100.0;
+  small.seeds = 1, small.lines = 1, small.grown = 1, small.strips = 1;
+  small.reachable = 0.6;  // 60 mm^2
+  small.before = 1.0, small.after = 1.0, small.overlap = 0.0;
+  small.links_mm = 3.0, small.overcut_mm = 0.01;
+  return {{large, small}};
+}
+
+TEST(CoverSummary, WeightsSharesByTheAreasThatTheyAreSharesOf) {
+  const TargetCover whole = two_targets().whole();
+  EXPECT_EQ(whole.faces, "F1,F3,F4");
+  EXPECT_EQ(whole.area_mm2, 400.0);
+  EXPECT_NEAR(whole.reachable, 300.0 / 400.0, 1e-15);
+  EXPECT_NEAR(whole.before, 180.0 / 300.0, 1e-15);
+  EXPECT_NEAR(whole.after, 240.0 / 300.0, 1e-15);
+  EXPECT_NEAR(whole.overlap, 258.0 / 240.0 - 1.0, 1e-15);
+  EXPECT_EQ(whole.seeds, 11);
+  EXPECT_EQ(whole.lines, 6);
+  EXPECT_EQ(whole.grown, 5);
+  EXPECT_EQ(whole.strips, 3);
+  EXPECT_EQ(whole.links_mm, 10.0);
+  EXPECT_EQ(whole.overcut_mm, 0.02);
+}
+
+TEST(CoverSummary, DoesNotDependOnTheOrderAndOneTargetIsItself) {
+  CoverSummary turned = two_targets();
+  std::swap(turned.targets[0], turned.targets[1]);
+  EXPECT_NEAR(turned.whole().after, two_targets().whole().after, 1e-15);
+  CoverSummary one = two_targets();
+  one.targets.pop_back();
+  EXPECT_NEAR(one.whole().before, 0.5, 1e-15);
+  EXPECT_NEAR(one.whole().overlap, 0.1, 1e-15);
+}
+
+TEST(CoverSummary, OfNothingIsZero) {
+  EXPECT_EQ(CoverSummary().whole().after, 0.0);
+  CoverSummary unreachable{{TargetCover()}};
+  unreachable.targets[0].area_mm2 = 5.0;
+  EXPECT_EQ(unreachable.whole().after, 0.0);
+  EXPECT_EQ(unreachable.whole().overlap, 0.0);
+}
+
+Result covered() {
+  Result result;
+  CoverJob job;
+  job.part.file = "parts/blade.step";
+  job.part.faces = "F1,F3,F4";
+  job.tool.spec = "barrel";
+  job.tolerance_mm = 0.05;
+  job.judge.least_coverage = 0.9;
+  result.job = job;
+  result.plan = two_targets();
+  result.tool.radial = RadialFunction(ToolFamily::kCylinder, 20.0, Eigen::VectorXd::Constant(1, 5.0));
+  result.verify.tolerance_mm = 0.05;
+  result.verify.coverage_reachable = 0.95;
+  return result;
+}
+
+TEST(Summary, SaysWhatWasAskedAndTheFiguresOfAllTargets) {
+  const auto json = nlohmann::json::parse(summary_json(covered()));
+  EXPECT_EQ(json.at("schema"), "openflank/summary/1");
+  EXPECT_EQ(json.at("part"), "parts/blade.step");
+  EXPECT_EQ(json.at("least_coverage"), 0.9);
+  EXPECT_EQ(json.at("within"), true);
+  EXPECT_NEAR(json.at("before").at("coverage").get<double>(), 0.6, 1e-15);
+  EXPECT_NEAR(json.at("after").at("coverage").get<double>(), 0.8, 1e-15);
+  EXPECT_EQ(json.at("after").at("overcut"), 0.02);
+  EXPECT_EQ(json.at("cover").at("strips"), 3);
+  ASSERT_EQ(json.at("targets").size(), 2u);
+  EXPECT_EQ(json.at("targets").at(1).at("faces"), "F3,F4");
+  EXPECT_FALSE(json.contains("ranking"));
+  const std::string text = summary_text(covered());
+  EXPECT_NE(text.find("asked for   tool barrel, tolerance 0.05 mm, coverage 0.9"), std::string::npos) << text;
+  EXPECT_NE(text.find("F3,F4: 1 strip from 1 seeds"), std::string::npos) << text;
+  EXPECT_NE(text.find("meets the request"), std::string::npos) << text;
+}
+
+TEST(Summary, AcceptanceGoesByTheJobsCoverage) {
+  Result result = covered();
+  EXPECT_TRUE(result.acceptance().pass());
+  std::get<CoverJob>(result.job).judge.least_coverage = 0.96;
+  EXPECT_FALSE(result.acceptance().pass());
+  EXPECT_NE(summary_text(result).find("does NOT meet the request"), std::string::npos);
+  result = covered();
+  result.complete = false;
+  EXPECT_FALSE(result.acceptance().pass());
+}
+
+TEST(Summary, HasTheRankingOfTheTools) {
+  Result result = covered();
+  Ranking ranking;
+  ranking.source = "catalogue tools";
+  ranking.tools = {{.tool = "long", .stage = "full", .works = true, .coverage = 0.9, .strips = 3},
+                   {.tool = "stout", .stage = "screened", .works = false, .reason = "too stout"}};
+  result.ranking = ranking;
+  const auto json = nlohmann::json::parse(summary_json(result));
+  ASSERT_EQ(json.at("ranking").size(), 2u);
+  EXPECT_EQ(json.at("ranking").at(0).at("rank"), 1);
+  EXPECT_FALSE(json.at("ranking").at(0).contains("reason"));
+  EXPECT_EQ(json.at("ranking").at(1).at("reason"), "too stout");
+  EXPECT_NE(summary_text(result).find("2 tools: catalogue tools"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace flank::internal
