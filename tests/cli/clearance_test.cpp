@@ -115,7 +115,7 @@ TEST_F(CliClearanceFit, AFixtureInTheWayIsExitOneAndNamed) {
     return job.dump();
   }());
   fs::rename(root_ / "out", root_ / "judged");
-  expect_refused({"verify", path("judged")}, 3, "--unit");
+  expect_refused({"verify", path("judged")}, 3, "`unit`");
 }
 
 TEST_F(CliClearanceFit, AWideHolderHitsTheRealImpeller) {

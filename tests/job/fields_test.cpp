@@ -88,7 +88,8 @@ TYPED_TEST(Fields, EveryMemberIsInTheTableOnce) {
 
 TYPED_TEST(Fields, KeysFlagsAndNamesAreUniqueAndEveryFieldHasHelp) {
   std::set<std::string> keys, flags, names;
-  visit_fields(TypeParam{}, [&](const FieldInfo& info, const auto&) {
+  const TypeParam usual_job;
+  visit_fields(usual_job, [&](const FieldInfo& info, const auto&) {
     EXPECT_TRUE(keys.insert(std::string(info.key)).second) << info.key;
     EXPECT_TRUE(flags.insert(flag_of(info)).second) << info.key;
     EXPECT_TRUE(names.insert(field_name(info)).second) << info.key;

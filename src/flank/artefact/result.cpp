@@ -7,7 +7,7 @@
 namespace flank {
 
 Acceptance Result::acceptance() const {
-  const double least_coverage = std::visit([](const auto& plan) { return plan.judge.least_coverage; }, job);
+  const double least_coverage = std::visit([](const auto& request) { return request.judge.least_coverage; }, job);
   return internal::accept(tool, verify, least_coverage, complete);
 }
 

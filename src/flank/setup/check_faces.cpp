@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "flank/error.h"
-#include "flank/setup/h"
 
 namespace flank::internal {
 namespace {

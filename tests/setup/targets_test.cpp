@@ -1,0 +1,49 @@
+// Faces whose borders meet are one target.
+#include "flank/setup/targets.h"
+
+#include <gtest/gtest.h>
+
+#include "cover/cover_targets.h"
+
+namespace flank::internal {
+namespace {
+
+/// Three plates side by side, of which the middle one is missing at first, and one elsewhere.
+internal::Setup plates() {
+  internal::Setup setup;
+  for (const double x : {0.0, 40.0, 20.0, 200.0}) {
+    setup.part.faces.push_back(testing::flat_face(x, x + 20.0, 0.0, 30.0, 0.0));
+    setup.part.faces.back().id = "F" + std::to_string(setup.part.faces.size());
+  }
+  return setup;
+}
+
+std::vector<std::string> groups_of(const std::vector<int>& targets) {
+  internal::Setup setup = plates();
+  setup.targets = targets;
+  std::vector<std::string> names;
+  for (const TargetGroup& group : make_targets(setup, +1)) names.push_back(group.faces);
+  return names;
+}
+
+TEST(MakeTargets, FacesThatMeetAreOneTarget) {
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(groups_of({0}), Names{"F1"});
+  EXPECT_EQ(groups_of({0, 1}), (Names{"F1", "F2"}));
+  EXPECT_EQ(groups_of({0, 2}), Names{"F1,F3"});
+  EXPECT_EQ(groups_of({0, 1, 2}), Names{"F1,F2,F3"}) << "by way of the third";
+  EXPECT_EQ(groups_of({0, 1, 2, 3}), (Names{"F1,F2,F3", "F4"}));
+  EXPECT_EQ(groups_of({3, 2, 0}), (Names{"F4", "F3,F1"}));
+}
+
+TEST(MakeTargets, AreasAreThoseOfTheFaces) {
+  internal::Setup setup = plates();
+  setup.targets = {0, 2, 3};
+  const std::vector<TargetGroup> groups = make_targets(setup, +1);
+  ASSERT_EQ(groups.size(), 2u);
+  EXPECT_NEAR(groups[0].target->area(), 1200.0, 1.0);
+  EXPECT_NEAR(groups[1].target->area(), 600.0, 0.5);
+}
+
+}  // namespace
+}  // namespace flank::internal
