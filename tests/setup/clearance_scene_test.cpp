@@ -57,7 +57,7 @@ class Scene : public ::testing::Test {
   }
 
   fs::path folder_;
-  Setup setup_;
+  internal::Setup setup_;
 };
 
 TEST_F(Scene, HasTargetsCheckFacesAndFixtures) {
