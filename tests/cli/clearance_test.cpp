@@ -50,7 +50,7 @@ TEST_F(CliClearance, RefusesBadInputBeforeAnyWork) {
   refused({"--shank-radius", "4"}, 2, "--shank-length");
   refused({"--shank-length", "0"}, 2, "--shank-length");
   refused({"--shank-length", "30", "--shank-diameter=-8"}, 2, "--shank");
-  refused({"--holder", "30:10,20:10"}, 2, "z must not decrease");
+  refused({"--holder", "30:10,20:10"}, 2, "z must not fall");
   refused({"--holder", "30:10,40:-1"}, 2, "negative");
   refused({"--holder", "30:10"}, 2, "pairs");
   refused({"--holder", "30:10,40"}, 2, "pairs");

@@ -35,7 +35,7 @@ TEST(Example, EveryNameMakesAPart) {
     EXPECT_FALSE(example.description.empty());
     EXPECT_NE(example.faces.empty(), !example.mesh.has_value()) << name;
     EXPECT_GT(example.diagonal_mm, 50.0) << name;
-    EXPECT_LT(example.diagonal_mm, name == "rotor37-blisk" ? 250.0 : 150.0) << name;
+    EXPECT_LT(example.diagonal_mm, name == "rotor37-blisk" ? 300.0 : 150.0) << name;
     EXPECT_EQ(example.step.empty(), !name.starts_with("rotor37")) << name;
     for (std::size_t k = 0; k < example.faces.size(); ++k) EXPECT_EQ(example.faces[k].id, "F" + std::to_string(k + 1));
     const bool known = name.starts_with("envelope") || name.starts_with("cavity") || name.starts_with("deformed");

@@ -33,7 +33,7 @@ std::string readme() {
   return text.str();
 }
 
-TEST(Catalogue, EveryToolReadsAndIsLegitimate) {
+TEST(CatalogueFiles, EveryToolReadsAndIsLegitimate) {
   const std::vector<fs::path> files = catalogue_files();
   ASSERT_FALSE(files.empty());
   for (const fs::path& file : files) {
@@ -45,7 +45,7 @@ TEST(Catalogue, EveryToolReadsAndIsLegitimate) {
   }
 }
 
-TEST(Catalogue, EveryToolHasARowWithItsSource) {
+TEST(CatalogueFiles, EveryToolHasARowWithItsSource) {
   const std::string text = readme();
   for (const fs::path& file : catalogue_files()) {
     const std::size_t row = text.find("| `" + file.filename().string() + "` |");
@@ -55,7 +55,7 @@ TEST(Catalogue, EveryToolHasARowWithItsSource) {
 }
 
 /// The published figures come back from the file: tip to top of the cutting length, diameter, overall length.
-TEST(Catalogue, ABallNosedMillHasItsPublishedFigures) {
+TEST(CatalogueFiles, ABallNosedMillHasItsPublishedFigures) {
   const Tool tool = read_tool((kFolder / "dormer-s239-ball-4.json").string());
   const double radius = tool.radial.at(0.0).r;
   EXPECT_EQ(2.0 * radius, 4.0);
@@ -76,7 +76,7 @@ Figures figures_of(const char* file) {
 }
 
 /// APMX 2 inch, OAL 4 inch; R 1/8 inch and 3 degrees a side.
-TEST(Catalogue, ATaperedBallNosedMillHasItsPublishedFigures) {
+TEST(CatalogueFiles, ATaperedBallNosedMillHasItsPublishedFigures) {
   const Figures found = figures_of("amana-46283-cone.json");
   EXPECT_NEAR(found.cutting_length, 50.8, 1e-6);
   EXPECT_NEAR(found.overall, 101.6, 1e-6);
@@ -86,7 +86,7 @@ TEST(Catalogue, ATaperedBallNosedMillHasItsPublishedFigures) {
 }
 
 /// DC 16, APMX 12.5, OAL 90 mm; arc 1000 mm, 27 degrees in the middle.
-TEST(Catalogue, ATaperedBarrelHasItsPublishedFigures) {
+TEST(CatalogueFiles, ATaperedBarrelHasItsPublishedFigures) {
   const Figures found = figures_of("garant-207534-tapered-barrel-16-1000.json");
   EXPECT_NEAR(found.cutting_length, 12.5, 1e-5);
   EXPECT_NEAR(found.top_radius, 8.0, 1e-5);

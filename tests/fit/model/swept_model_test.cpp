@@ -122,7 +122,7 @@ TEST_F(SweptModelTest, FitsTheEnvelopeFromTheFace) {
   EXPECT_LT(result.trace.back().rms_mm / diagonal_, 2e-5);
 }
 
-TEST(Constrained, TakesTheOvercutOutOfAGivenTool) {
+TEST(ConstrainedSwept, TakesTheOvercutOutOfAGivenTool) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "minutes under a sanitizer";
 #endif
