@@ -138,6 +138,7 @@ class Grouper {
     return std::clamp(middle, begin + 1, end - 1);
   }
 
+  /// One sample for a range of pieces: the point of their triangles that is nearest to their centre.
   void emit(std::size_t begin, std::size_t end, double area, const Vec3& center) {
     TrianglePoint best;
     int triangle = -1;
