@@ -23,6 +23,7 @@ struct Piece {
   Vec3 center, normal;
 };
 
+/// The sample at a place of the smooth surface; area in mm^2.
 SurfaceSample sample_at(const JetSurface& surface, int triangle, double u, double v, double area) {
   const SurfaceJet s = surface.jet(triangle, u, v);
   SurfaceSample sample;
