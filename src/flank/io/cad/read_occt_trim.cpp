@@ -160,6 +160,7 @@ std::vector<BSplineCurve2> chain(std::vector<BSplineCurve2> edges, const TrimFra
   return edges;
 }
 
+/// Ends that nearly meet are made equal, wider gaps are closed by a straight line.
 TrimLoop closed(const std::vector<BSplineCurve2>& edges, const TrimFrame& frame) {
   TrimLoop loop;
   for (std::size_t i = 0; i < edges.size(); ++i) {
@@ -193,6 +194,7 @@ TrimFrame trim_frame(const BSplineSurface& s, ParameterMap map_u, ParameterMap m
 std::optional<BSplineCurve2> convert_edge(const TopoDS_Edge& edge, const TopoDS_Face& face, const TrimFrame& frame) {
   double first = 0.0, last = 0.0;
   Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face, first, last);
+  // IGES and BREP files may lack curves in the parameter plane: the kernel projects the edge.
   if (curve.IsNull() && ShapeFix_Edge().FixAddPCurve(edge, face, false))
     curve = BRep_Tool::CurveOnSurface(edge, face, first, last);
   if (curve.IsNull() || !(last > first)) return std::nullopt;
@@ -214,6 +216,7 @@ std::optional<TrimLoop> convert_wire(const TopoDS_Wire& wire, const TopoDS_Face&
     return curves;
   };
   std::vector<BSplineCurve2> curves = convert(ordered);
+  // The explorer stops at the first gap that is wider than the edges' tolerances. Whatever closes better counts.
   if (ordered.size() != all.size() || largest_gap(curves, frame) > kOrderGapMm) {
     std::vector<BSplineCurve2> other = chain(convert(all), frame);
     if (other.size() > curves.size() || largest_gap(other, frame) < largest_gap(curves, frame))
