@@ -54,7 +54,7 @@ inline constexpr Accepted kRate{"a rate > 0 mm/min is needed", positive};
 inline constexpr Accepted kShare{"a share between 0 and 1 is needed", [](double x) { return x >= 0.0 && x <= 1.0; }};
 inline constexpr Accepted kPrice{"a share from 0 to 1 is needed", [](double x) { return x >= 0.0 && x < 1.0; }};
 inline constexpr Accepted kSlope{"a number between 0 and 1 is needed", [](double x) { return x > 0.0 && x < 1.0; }};
-inline constexpr Accepted kPasses{"auto or a number from 1 to 64 is needed",
+inline constexpr Accepted kPassCount{"auto or a number from 1 to 64 is needed",
                                   [](double x) { return x >= 0.0 && x <= 64.0; }};
 inline constexpr Accepted kStrips{"a number from 1 to 200 is needed", [](double x) { return x >= 1.0 && x <= 200.0; }};
 inline constexpr Accepted kFinalists{"a number from 1 to 100 is needed",
@@ -144,7 +144,7 @@ void visit_fields(Job& job, Visitor&& visit) {
   visit(FieldInfo{"tolerance", "mm", "", "Tolerance", kLength}, job.tolerance_mm);
   visit(FieldInfo{"axis_length", "mm", "", "Length of the tool's axis; default: as the face needs", kLength},
         job.tool.axis_length_mm);
-  visit(FieldInfo{"strips", "", "", "Passes side by side with one tool: a number, or auto", kPasses,
+  visit(FieldInfo{"strips", "", "", "Passes side by side with one tool: a number, or auto", kPassCount,
                   Spelling::kAutoOrCount},
         job.strips);
   visit(FieldInfo{"start", "", "", "First axis x,y,z,x,y,z (tip, holder end), mm; default: automatic"}, job.start);
