@@ -81,6 +81,8 @@ std::size_t SweptEstimate::next_pose(std::size_t motion, std::size_t at, double 
   // it.
   constexpr double kSure = 0.9;
   const std::vector<double>& travel = travel_[motion];
+  // A pose without a value says nothing of the others.
+  if (std::isnan(spare)) return at + 1;
   const auto first = travel.begin() + static_cast<std::ptrdiff_t>(at) + 1;
   return static_cast<std::size_t>(std::upper_bound(first, travel.end(), travel[at] + kSure * spare) - travel.begin());
 }
