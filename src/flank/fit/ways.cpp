@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "flank/base/parallel.h"
+#include "flank/base/tolerance_budget.h"
 #include "flank/fit/polish.h"
 #include "flank/fit/swept_polish.h"
 
@@ -31,36 +32,78 @@ FitDraft draft_of(const Target& target, const ToolModel& tool, const FlankFitRes
   return draft;
 }
 
-/// The deepest that the flank enters an obstacle at `count` places along the axis, over all motions and times, mm.
-std::vector<double> depths_along(const FitDraft& draft, int count) {
+/// Places along the axis and times at which a flank is asked how deep it enters something.
+constexpr int kPlaces = 61;
+constexpr int kTimes = kRankingPoses + 1;
+
+/// How deep the flank of one motion enters obstacles, mm: the most of each place of the axis, and of each time.
+struct Depths {
+  std::vector<double> along = std::vector<double>(kPlaces, 0.0), over = std::vector<double>(kTimes, 0.0);
+};
+
+Depths depths_of(const FitDraft& draft, std::size_t motion) {
   constexpr double kSight = 1.02;  // radii: what is farther than that is not entered
-  constexpr std::size_t kPoses = kRankingPoses;
-  std::vector<double> deepest(static_cast<std::size_t>(count), 0.0);
-  parallel_for(deepest.size(), [&](std::size_t j) {
-    const double s = draft.tool.axis_length() * static_cast<double>(j) / (count - 1.0), r = draft.tool.at(s).r;
-    for (std::size_t m = 0; m < draft.motions.size(); ++m) {
-      if (draft.obstacles[m] == nullptr) continue;
-      for (std::size_t i = 0; i <= kPoses; ++i) {
-        const Vec3 p = draft.motions[m].pose(static_cast<double>(i) / kPoses).at(s);
-        deepest[j] = std::max(deepest[j], r - draft.obstacles[m]->at(p, kSight * r).distance_mm);
-      }
+  std::vector<std::array<double, kPlaces>> all(kTimes);
+  parallel_for(all.size(), [&](std::size_t i) {
+    const Pose pose = draft.motions[motion].pose(static_cast<double>(i) / (kTimes - 1.0));
+    for (std::size_t j = 0; j < kPlaces; ++j) {
+      const double s = draft.tool.axis_length() * static_cast<double>(j) / (kPlaces - 1.0), r = draft.tool.at(s).r;
+      all[i][j] = r - draft.obstacles[motion]->at(pose.at(s), kSight * r).distance_mm;
     }
   });
-  return deepest;
+  Depths depths;
+  for (std::size_t i = 0; i < kTimes; ++i) {
+    for (std::size_t j = 0; j < kPlaces; ++j) {
+      depths.along[j] = std::max(depths.along[j], all[i][j]);
+      depths.over[i] = std::max(depths.over[i], all[i][j]);
+    }
+  }
+  return depths;
 }
 
-/// The motion of the axis' part from `from` on, `length` long.
-RuledMotion part_of(const RuledMotion& motion, double from, double length) {
+/// A part of the whole, as first and last share of it.
+struct Stretch {
+  double from = 0.0, to = 0.0;
+};
+
+/// Where between a place within the limit and one beyond it, as a share of the way, the limit is reached.
+double crossing(double within, double beyond, double limit) { return (limit - within) / (beyond - within); }
+
+/// The longest run that is no deeper than the limit, to the places between two depths where that is reached.
+Stretch longest_free(const std::vector<double>& depths, double limit) {
+  const std::size_t n = depths.size();
+  const auto last = static_cast<double>(n - 1);
+  Stretch longest;
+  for (std::size_t begin = 0; begin < n;) {
+    std::size_t end = begin;
+    while (end < n && depths[end] <= limit) ++end;
+    if (end > begin + 1) {
+      const double before = begin > 0 ? crossing(depths[begin], depths[begin - 1], limit) : 0.0;
+      const double after = end < n ? crossing(depths[end - 1], depths[end], limit) : 0.0;
+      const double from = (static_cast<double>(begin) - before) / last;
+      const double to = (static_cast<double>(end - 1) + after) / last;
+      if (to - from > longest.to - longest.from) longest = {from, to};
+    }
+    begin = end + 1;
+  }
+  return longest;
+}
+
+/// Less than this of the axis or of the path is not the same fit any more.
+constexpr double kLeastLeft = 1.0 / 3.0;
+
+/// The motion from one time to another, of the axis' part that begins at `from_s` and is `length` long.
+RuledMotion part_of(const RuledMotion& motion, const Stretch& times, double from_s, double length) {
   constexpr int kPerControlPoint = 8;  // poses, as stages.cpp has them
   std::vector<Pose> poses;
-  std::vector<double> times;
+  std::vector<double> t;
   const int samples = kPerControlPoint * motion.tip.count();
   for (int i = 0; i <= samples; ++i) {
-    times.push_back(static_cast<double>(i) / samples);
-    const Pose pose = motion.pose(times.back());
-    poses.push_back({pose.at(from), pose.axis});
+    t.push_back(static_cast<double>(i) / samples);
+    const Pose pose = motion.pose(times.from + (times.to - times.from) * t.back());
+    poses.push_back({pose.at(from_s), pose.axis});
   }
-  return fit_motion(poses, times, length, motion.tip.count());
+  return fit_motion(poses, t, length, motion.tip.count());
 }
 
 RadialFunction part_of(const RadialFunction& tool, double from, double length) {
@@ -72,12 +115,6 @@ RadialFunction part_of(const RadialFunction& tool, double from, double length) {
     samples.emplace_back(s, tool.at(std::min(from + s, tool.axis_length())).r);
   }
   return RadialFunction::spline_through(length, samples, count);
-}
-
-/// The last passes with obstacles in the way, from a draft that was found without them.
-Polished led_clear(const FitDraft& draft, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
-  const Polished start = assess(draft, samples, options);
-  return settled(without_overcut(last_passes(start, samples, options, nullptr), samples, options), options);
 }
 
 struct Way {
@@ -101,28 +138,33 @@ bool is_better(const CoverageEstimate& a, const CoverageEstimate& b, double tole
   return a.score(tolerance_mm) > b.score(tolerance_mm);
 }
 
-std::optional<FitDraft> shortened(const FitDraft& draft, double tolerance_mm) {
-  constexpr int kPlaces = 61;
-  constexpr double kLeastLeft = 1.0 / 3.0;  // of the axis
+std::optional<FitDraft> shortened_axis(const FitDraft& draft, double depth_mm) {
   if (!draft.free_tool) return std::nullopt;
-  const std::vector<double> depths = depths_along(draft, kPlaces);
-  // The longest stretch of the axis that enters nothing.
-  int from = 0, to = -1;
-  for (int begin = 0; begin < kPlaces;) {
-    int end = begin;
-    while (end < kPlaces && depths[static_cast<std::size_t>(end)] <= tolerance_mm) ++end;
-    if (end - 1 - begin > to - from) {
-      from = begin;
-      to = end - 1;
-    }
-    begin = end + 1;
+  std::vector<double> deepest(kPlaces, 0.0);
+  for (std::size_t m = 0; m < draft.motions.size(); ++m) {
+    const Depths depths = depths_of(draft, m);
+    for (std::size_t j = 0; j < kPlaces; ++j) deepest[j] = std::max(deepest[j], depths.along[j]);
   }
-  const double length = draft.tool.axis_length(), step = length / (kPlaces - 1);
-  if (to - from == kPlaces - 1 || (to - from) * step < kLeastLeft * length) return std::nullopt;
+  const Stretch free = longest_free(deepest, depth_mm);
+  const double share = free.to - free.from, length = draft.tool.axis_length();
+  if (share >= 1.0 || share < kLeastLeft) return std::nullopt;
   FitDraft part = draft;
-  part.tool = part_of(draft.tool, from * step, (to - from) * step);
-  for (RuledMotion& motion : part.motions) motion = part_of(motion, from * step, (to - from) * step);
+  part.tool = part_of(draft.tool, free.from * length, share * length);
+  for (RuledMotion& motion : part.motions) motion = part_of(motion, {0.0, 1.0}, free.from * length, share * length);
   return part;
+}
+
+std::optional<FitDraft> shortened_path(const FitDraft& draft, double depth_mm) {
+  FitDraft part = draft;
+  bool any = false;
+  for (std::size_t m = 0; m < draft.motions.size(); ++m) {
+    const Stretch free = longest_free(depths_of(draft, m).over, depth_mm);
+    if (free.to - free.from < kLeastLeft) return std::nullopt;
+    if (free.to - free.from >= 1.0) continue;
+    part.motions[m] = part_of(draft.motions[m], free, 0.0, draft.motions[m].axis_length);
+    any = true;
+  }
+  return any ? std::optional(part) : std::nullopt;
 }
 
 FlankFitResult best_way(const Target& target, const ToolModel& tool, const FlankFitOptions& options,
@@ -136,13 +178,30 @@ FlankFitResult best_way(const Target& target, const ToolModel& tool, const Flank
   const FitDraft draft = draft_of(target, tool, free, options.obstacles);
   const std::vector<SurfaceSample> samples = ranking_samples(target, options.obstacles, options);
   std::vector<Way> ways;
-  ways.push_back({"found without the other faces", settled(assess(draft, samples, options), options)});
+  ways.push_back({"found without the other faces", assess(draft, samples, options)});
   if (!is_clean(ways.front().polished.estimate, tolerance) && !progress.stop()) {
-    ways.push_back({"found without the other faces and then led clear of them", led_clear(draft, samples, options)});
     const bool fixed_length = tool.axis_length || options.axis_length_mm;
-    std::optional<FitDraft> part;
-    if (!fixed_length && !is_clean(ways.back().polished.estimate, tolerance)) part = shortened(draft, tolerance);
-    if (part) ways.push_back({"found without the other faces and then shortened", led_clear(*part, samples, options)});
+    const double depth = kToleranceBudget.others.last_look * tolerance;
+    std::optional<FitDraft> shorter = fixed_length ? std::nullopt : shortened_axis(draft, depth);
+    if (shorter)
+      ways.push_back({"found without the other faces, on a shorter axis", assess(*shorter, samples, options)});
+    shorter = shortened_path(draft, depth);
+    if (shorter)
+      ways.push_back({"found without the other faces, on a shorter path", assess(*shorter, samples, options)});
+    const Way start = *std::min_element(ways.begin(), ways.end(), [&](const Way& a, const Way& b) {
+      return is_better(a.polished.estimate, b.polished.estimate, tolerance);
+    });
+    const Polished clear = last_passes(start.polished, samples, options, nullptr);
+    ways.push_back({start.name, without_overcut(clear, samples, options)});
+  }
+  for (Way& way : ways) way.polished = settled(way.polished, options);
+  if (getenv("AVD")) {
+    auto pr = [&](std::string_view n, const CoverageEstimate& e) {
+      fprintf(stderr, "WAY %-60s cov %.4f over %.4f gouge %.4f score %.3f\n", std::string(n).c_str(), e.at_tolerance,
+              e.overcut_mm, e.gouge_mm, e.score(tolerance));
+    };
+    pr("first", first.after);
+    for (auto& w : ways) pr(w.name, w.polished.estimate);
   }
   const Way* best = nullptr;
   for (const Way& way : ways) {

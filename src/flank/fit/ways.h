@@ -3,7 +3,7 @@
 /// A fit that avoids the other faces from the start finds motions that a fit without them cannot (a channel, a hub). It
 /// can also be driven off a motion that was all but clear. So where it does not give what was asked, others follow:
 /// the fit as if nothing were in the way, which is free where it enters nothing; the same led clear by the last
-/// passes; the same with the end of the tool cut off that enters something.
+/// passes; and the same on the part of the axis, or of the path, that enters nothing.
 #pragma once
 
 #include <functional>
@@ -24,9 +24,12 @@ using StartSearch = std::function<FlankFitResult(const FlankFitOptions&)>;
 /// than half as much; of two that are clean the one that covers more, of two that are not the one that scores higher.
 [[nodiscard]] bool is_better(const CoverageEstimate& a, const CoverageEstimate& b, double tolerance_mm);
 
-/// The draft without what of its free tool enters obstacles near an end of the axis. None if nothing is entered there,
-/// if less than a third of the axis would be left, or if the tool is given.
-[[nodiscard]] std::optional<FitDraft> shortened(const FitDraft& draft, double tolerance_mm);
+/// The draft on the longest part of the axis that enters obstacles by no more than a depth, mm. None if that is all of
+/// it or less than a third, or if the tool is given. The draft has an obstacle field for every motion.
+[[nodiscard]] std::optional<FitDraft> shortened_axis(const FitDraft& draft, double depth_mm);
+
+/// The same of each motion's path, from time to time; the tool stays.
+[[nodiscard]] std::optional<FitDraft> shortened_path(const FitDraft& draft, double depth_mm);
 
 /// The best of `first`, which was found with options.obstacles (not null) in the way, and the other ways. The result's
 /// notes say which it is if it is not the first.
