@@ -160,6 +160,11 @@ void SweptEstimate::places(const Vec3& x, const SweptContact& hint, std::vector<
     }
   }
   std::erase_if(places, [&](const SweptContact& place) { return place.f > bound_f; });
+  if (!places.empty()) return;
+  // A radial function steeper than any tool, as a step of a fit may have it, is not 1-Lipschitz: the walk may have
+  // jumped over all that is near.
+  const SweptContact best = nearest(x);
+  if (best.motion >= 0 && std::isfinite(best.f)) places.push_back(best);
 }
 
 SweptContact SweptEstimate::nearest(const Vec3& x) const {

@@ -1,8 +1,6 @@
 #include "flank/fit.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -150,7 +148,6 @@ void quick_fit(Candidate& candidate, const Target& target, const Chart& chart, c
   const FitDraft draft = start_draft(tasks, tool, candidate.start.radius_mm);
   candidate.draft = run_stage(draft, options.bounds, quick_stage(robust_scale(target, options)));
   if (!has_values(candidate.draft)) {
-    if (getenv("AVD")) fprintf(stderr,"NAN quick draft tool %d start %d r %g\n",(int)candidate.draft.tool.parameters().allFinite(),(int)has_values(draft),candidate.start.radius_mm);
     candidate.draft.motions.clear();  // a numerical no: one candidate less
     return;
   }

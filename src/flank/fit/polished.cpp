@@ -1,8 +1,6 @@
 #include "flank/fit/polished.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 #include <cmath>
 #include <limits>
 
@@ -15,7 +13,6 @@ namespace flank::internal {
 Polished assess(FitDraft draft, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
   Polished polished;
   if (!has_values(draft)) {
-    if (getenv("AVD")) fprintf(stderr,"NAN draft tool %d\n",(int)draft.tool.parameters().allFinite());
     constexpr double kNever = std::numeric_limits<double>::infinity();
     polished.estimate.overcut_mm = polished.estimate.gouge_mm = polished.estimate.undercut_mm = kNever;
     polished.draft = std::move(draft);

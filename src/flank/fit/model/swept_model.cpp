@@ -49,7 +49,8 @@ void SweptModel::locate(FitState& state) const {
     for (std::size_t k = begin; k < end; ++k) {
       SweptContact& contact = state.contacts[k];
       swept.places(points_[k].point, contact, places);
-      // Rails or radii without a value are near to nothing: then f has no value, and neither has the cost.
+      // Rails or radii without a value are near to nothing: then f has no value, and neither has the cost. To keep the
+      // last contact would be to look up the place of another state, or of none.
       if (places.empty()) contact = no_contact();
       for (std::size_t i = 0; i < places.size(); ++i) {
         const RuledMotion& motion = state.motions[static_cast<std::size_t>(places[i].motion)];
