@@ -167,6 +167,51 @@ std::optional<FitDraft> shortened_path(const FitDraft& draft, double depth_mm) {
   return any ? std::optional(part) : std::nullopt;
 }
 
+namespace {
+
+/// The draft as it was found without the other faces, and, if it enters them, what can be made of it.
+std::vector<Way> ways_from(const FitDraft& draft, bool fixed_length, const FlankFitOptions& options,
+                           const Progress& progress) {
+  const std::vector<SurfaceSample> samples = ranking_samples(*draft.targets.front(), options.obstacles, options);
+  const double tolerance = options.tolerance_mm, depth = kToleranceBudget.others.last_look * tolerance;
+  std::vector<Way> ways;
+  ways.push_back({"found without the other faces", assess(draft, samples, options)});
+  if (!is_clean(ways.front().polished.estimate, tolerance) && !progress.stop()) {
+    std::optional<FitDraft> shorter = fixed_length ? std::nullopt : shortened_axis(draft, depth);
+    if (shorter)
+      ways.push_back({"found without the other faces and put on a shorter axis", assess(*shorter, samples, options)});
+    shorter = shortened_path(draft, depth);
+    if (shorter)
+      ways.push_back({"found without the other faces and put on a shorter path", assess(*shorter, samples, options)});
+    const Way start = *std::min_element(ways.begin(), ways.end(), [&](const Way& a, const Way& b) {
+      return is_better(a.polished.estimate, b.polished.estimate, tolerance);
+    });
+    const Polished clear = last_passes(start.polished, samples, options, nullptr);
+    ways.push_back({start.name, without_overcut(clear, samples, options)});
+  }
+  for (Way& way : ways) way.polished = settled(way.polished, options);
+  return ways;
+}
+
+/// What forbids more, with the figures; nothing if the result covers nearly what can be covered without other faces.
+void note_limits(const CoverageEstimate& free, double tolerance_mm, FlankFitResult& result) {
+  constexpr double kMore = 0.01;  // of the face: less is not worth a sentence
+  const CoverageEstimate& found = result.after;
+  if (found.gouge_mm > tolerance_mm) {
+    result.notes.push_back(
+        fmt::format("no motion was found that covers as much and enters no other face: this one covers {:.1f} % "
+                    "(estimate) and enters them by {:.3g} mm",
+                    100.0 * found.at_tolerance, found.gouge_mm));
+  } else if (free.at_tolerance > found.at_tolerance + kMore && free.gouge_mm > tolerance_mm) {
+    result.notes.push_back(
+        fmt::format("the other faces forbid more: as if they were not there {:.1f} % can be covered (estimate), {:.3g} "
+                    "mm deep in them",
+                    100.0 * free.at_tolerance, free.gouge_mm));
+  }
+}
+
+}  // namespace
+
 FlankFitResult best_way(const Target& target, const ToolModel& tool, const FlankFitOptions& options,
                         FlankFitResult first, const StartSearch& search, const Progress& progress) {
   FlankFitOptions free_options = options;
@@ -175,49 +220,26 @@ FlankFitResult best_way(const Target& target, const ToolModel& tool, const Flank
   const FlankFitResult free = search(free_options);
   if (free.motions.empty()) return first;
   const double tolerance = options.tolerance_mm;
-  const FitDraft draft = draft_of(target, tool, free, options.obstacles);
-  const std::vector<SurfaceSample> samples = ranking_samples(target, options.obstacles, options);
-  std::vector<Way> ways;
-  ways.push_back({"found without the other faces", assess(draft, samples, options)});
-  if (!is_clean(ways.front().polished.estimate, tolerance) && !progress.stop()) {
-    const bool fixed_length = tool.axis_length || options.axis_length_mm;
-    const double depth = kToleranceBudget.others.last_look * tolerance;
-    std::optional<FitDraft> shorter = fixed_length ? std::nullopt : shortened_axis(draft, depth);
-    if (shorter)
-      ways.push_back({"found without the other faces, on a shorter axis", assess(*shorter, samples, options)});
-    shorter = shortened_path(draft, depth);
-    if (shorter)
-      ways.push_back({"found without the other faces, on a shorter path", assess(*shorter, samples, options)});
-    const Way start = *std::min_element(ways.begin(), ways.end(), [&](const Way& a, const Way& b) {
-      return is_better(a.polished.estimate, b.polished.estimate, tolerance);
-    });
-    const Polished clear = last_passes(start.polished, samples, options, nullptr);
-    ways.push_back({start.name, without_overcut(clear, samples, options)});
-  }
-  for (Way& way : ways) way.polished = settled(way.polished, options);
-  if (getenv("AVD")) {
-    auto pr = [&](std::string_view n, const CoverageEstimate& e) {
-      fprintf(stderr, "WAY %-60s cov %.4f over %.4f gouge %.4f score %.3f\n", std::string(n).c_str(), e.at_tolerance,
-              e.overcut_mm, e.gouge_mm, e.score(tolerance));
-    };
-    pr("first", first.after);
-    for (auto& w : ways) pr(w.name, w.polished.estimate);
-  }
+  const bool fixed_length = tool.axis_length || options.axis_length_mm;
+  const std::vector<Way> ways =
+      ways_from(draft_of(target, tool, free, options.obstacles), fixed_length, options, progress);
   const Way* best = nullptr;
   for (const Way& way : ways) {
     const CoverageEstimate& rival = best != nullptr ? best->polished.estimate : first.after;
     if ((best == nullptr && first.motions.empty()) || is_better(way.polished.estimate, rival, tolerance)) best = &way;
   }
-  if (best == nullptr) return first;
-  FlankFitResult result;
-  result.before = free.before;
-  result.trace = free.trace;
-  result.candidates = first.candidates + free.candidates;
-  result.notes = first.notes;
-  result.notes.push_back(
-      fmt::format("the motion was {}: it covers {:.1f} % (estimate); keeping clear from the start, {:.1f} %",
-                  best->name, 100.0 * best->polished.estimate.at_tolerance, 100.0 * first.after.at_tolerance));
-  return finish(best->polished, options, std::move(result));
+  FlankFitResult result = first;
+  if (best != nullptr) {
+    result.before = free.before;
+    result.trace = free.trace;
+    result.candidates = first.candidates + free.candidates;
+    result.notes.push_back(
+        fmt::format("the motion was {}: it covers {:.1f} % (estimate); one that keeps clear from the start, {:.1f} %",
+                    best->name, 100.0 * best->polished.estimate.at_tolerance, 100.0 * first.after.at_tolerance));
+    result = finish(best->polished, options, std::move(result));
+  }
+  note_limits(ways.front().polished.estimate, tolerance, result);
+  return result;
 }
 
 }  // namespace flank::internal
