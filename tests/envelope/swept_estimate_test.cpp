@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -132,7 +133,9 @@ TEST(SweptEstimate, FindsPlacesForARadialFunctionSteeperThanAnyTool) {
   const std::vector<RuledMotion> motions{testing::translation({0, 0, 0}, {60, 20, 0}, {0, 0.2, 1}, 60.0)};
   const RadialFunction radial =
       RadialFunction::spline(60.0, (Eigen::VectorXd(12) << 28, 42, 31, 39, 29, 40, 32, 38, 30, 41, 28, 43).finished());
-  ASSERT_GT(std::abs(radial.at(4.0).d1), 1.0);
+  double steepest = 0.0;
+  for (int j = 0; j <= 200; ++j) steepest = std::max(steepest, std::abs(radial.at(0.3 * j).d1));
+  ASSERT_GT(steepest, 1.5);
   const SweptEstimate swept(motions, radial, 192);
   Random random(0);
   std::vector<SweptContact> places;
@@ -158,6 +161,7 @@ TEST(SweptEstimate, HasNoPlacesWhereNothingHasAValue) {
   std::vector<SweptContact> places(3);
   swept.places(Vec3(1, 2, 3), SweptContact{}, places);
   EXPECT_TRUE(places.empty());
+  EXPECT_EQ(refine_contact(motion, bumpy(), Vec3(1, 2, 3), 0.5, 0.02).f, std::numeric_limits<double>::infinity());
 }
 
 }  // namespace

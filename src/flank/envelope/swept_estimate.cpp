@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "flank/base/assert.h"
 
@@ -18,6 +19,7 @@ constexpr double kLeastCosineSquared = 1e-6;
 constexpr double kTiny = 1e-300;
 
 double interpolate(const std::vector<double>& table, double x) {
+  if (std::isnan(x)) return x;  // of a pose without a value: no place of the table
   const int k = std::min(static_cast<int>(x), kTable - 1);
   const double f = x - k;
   return table[k] + f * (table[k + 1] - table[k]);
@@ -207,6 +209,11 @@ SweptContact contact_at(const RuledMotion& motion, const RadialFunction& radial,
   constexpr double kSettled = 1e-10;  // of the axis length
   SweptContact contact;
   contact.t = t;
+  if (!std::isfinite(rho2 + z)) {
+    // The direction rail vanishes here, or the rails have no values: nothing is near to that.
+    contact.f = std::numeric_limits<double>::infinity();
+    return contact;
+  }
   RadialJet jet;
   for (int k = 0; k < kSteps; ++k) {
     jet = radial.at(s);

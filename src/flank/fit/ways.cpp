@@ -42,7 +42,7 @@ struct Depths {
 };
 
 Depths depths_of(const FitDraft& draft, std::size_t motion) {
-  constexpr double kSight = 1.02;  // radii: what is farther than that is not entered
+  constexpr double kSight = 2.0;  // radii: what is farther than that decides nothing, not even between two places
   std::vector<std::array<double, kPlaces>> all(kTimes);
   parallel_for(all.size(), [&](std::size_t i) {
     const Pose pose = draft.motions[motion].pose(static_cast<double>(i) / (kTimes - 1.0));
