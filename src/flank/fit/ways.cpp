@@ -36,9 +36,12 @@ FitDraft draft_of(const Target& target, const ToolModel& tool, const FlankFitRes
 constexpr int kPlaces = 61;
 constexpr int kTimes = kRankingPoses + 1;
 
+/// Less than any depth. Depths below zero count: where one is reached lies between two of them.
+constexpr double kFree = -1e300;
+
 /// How deep the flank of one motion enters obstacles, mm: the most of each place of the axis, and of each time.
 struct Depths {
-  std::vector<double> along = std::vector<double>(kPlaces, 0.0), over = std::vector<double>(kTimes, 0.0);
+  std::vector<double> along = std::vector<double>(kPlaces, kFree), over = std::vector<double>(kTimes, kFree);
 };
 
 Depths depths_of(const FitDraft& draft, std::size_t motion) {
@@ -140,7 +143,7 @@ bool is_better(const CoverageEstimate& a, const CoverageEstimate& b, double tole
 
 std::optional<FitDraft> shortened_axis(const FitDraft& draft, double depth_mm) {
   if (!draft.free_tool) return std::nullopt;
-  std::vector<double> deepest(kPlaces, 0.0);
+  std::vector<double> deepest(kPlaces, kFree);
   for (std::size_t m = 0; m < draft.motions.size(); ++m) {
     const Depths depths = depths_of(draft, m);
     for (std::size_t j = 0; j < kPlaces; ++j) deepest[j] = std::max(deepest[j], depths.along[j]);
