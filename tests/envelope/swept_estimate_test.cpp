@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -125,6 +126,42 @@ TEST(SweptEstimate, FindsPlacesForARadialFunctionThatIsNoTool) {
     EXPECT_FALSE(places.empty()) << k;
     EXPECT_EQ(swept.nearest(x).motion, 0);
   }
+}
+
+TEST(SweptEstimate, FindsPlacesForARadialFunctionSteeperThanAnyTool) {
+  // The swept distance is no longer 1-Lipschitz, and poses that are jumped over may be the near ones.
+  const std::vector<RuledMotion> motions{testing::translation({0, 0, 0}, {60, 20, 0}, {0, 0.2, 1}, 60.0)};
+  const RadialFunction radial =
+      RadialFunction::spline(60.0, (Eigen::VectorXd(12) << 28, 42, 31, 39, 29, 40, 32, 38, 30, 41, 28, 43).finished());
+  double steepest = 0.0;
+  for (int j = 0; j <= 200; ++j) steepest = std::max(steepest, std::abs(radial.at(0.3 * j).d1));
+  ASSERT_GT(steepest, 1.5);
+  const SweptEstimate swept(motions, radial, 192);
+  Random random(0);
+  std::vector<SweptContact> places;
+  for (int k = 0; k < 3000; ++k) {
+    const Vec3 x(random.uniform(-40, 100), random.uniform(-40, 80), random.uniform(-20, 80));
+    for (const int hinted : {-1, 0}) {
+      SweptContact hint;
+      hint.motion = hinted;
+      hint.t = random.uniform();
+      swept.places(x, hint, places);
+      ASSERT_FALSE(places.empty()) << x.transpose();
+      EXPECT_EQ(places.front().motion, 0);
+      EXPECT_TRUE(std::isfinite(places.front().f));
+    }
+  }
+}
+
+TEST(SweptEstimate, HasNoPlacesWhereNothingHasAValue) {
+  RuledMotion motion = testing::translation({0, 0, 0}, {60, 20, 0}, {0, 0.2, 1}, 60.0);
+  motion.tip.poles.setConstant(std::numeric_limits<double>::quiet_NaN());
+  const SweptEstimate swept({motion}, RadialFunction(ToolFamily::kCylinder, 60.0, Eigen::VectorXd::Constant(1, 4.0)),
+                            60);
+  std::vector<SweptContact> places(3);
+  swept.places(Vec3(1, 2, 3), SweptContact{}, places);
+  EXPECT_TRUE(places.empty());
+  EXPECT_EQ(refine_contact(motion, bumpy(), Vec3(1, 2, 3), 0.5, 0.02).f, std::numeric_limits<double>::infinity());
 }
 
 }  // namespace

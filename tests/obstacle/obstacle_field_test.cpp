@@ -56,6 +56,17 @@ TEST(ObstacleField, TheBladesOwnBackIsLeftOut) {
   EXPECT_EQ(obstacles.at(Vec3(30, 0.5, 20), kFar).face, -1);
 }
 
+TEST(ObstacleField, WhatAFewOfTheTargetSeeIsNoWall) {
+  const auto blade = standing_blade(0.0);
+  // A shelf one millimetre above the foot of the blade, seen from above by as much of the blade as it is wide.
+  for (const double width : {4.0, 12.0}) {
+    const Face shelf = quad(Vec3(20, 0, 1), Vec3(20 + width, 0, 1), Vec3(20, 8, 1), Vec3(20 + width, 8, 1), "F4");
+    const ObstacleField obstacles(only({make_target({shelf}), true}), *blade, 2.0, 0.0);
+    EXPECT_EQ(obstacles.sign(0), width > 6.0 ? +1 : 0) << width;
+    EXPECT_NEAR(obstacles.at(Vec3(22, 4, -5), kFar).distance_mm, width > 6.0 ? -6.0 : 6.0, 1e-9);
+  }
+}
+
 /// Hub, a neighbour that leans over, and a small face beside both.
 Obstacles channel() {
   Obstacles obstacles = only(hub(true));

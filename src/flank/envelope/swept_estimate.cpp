@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "flank/base/assert.h"
 
@@ -18,6 +19,7 @@ constexpr double kLeastCosineSquared = 1e-6;
 constexpr double kTiny = 1e-300;
 
 double interpolate(const std::vector<double>& table, double x) {
+  if (std::isnan(x)) return x;  // of a pose without a value: no place of the table
   const int k = std::min(static_cast<int>(x), kTable - 1);
   const double f = x - k;
   return table[k] + f * (table[k + 1] - table[k]);
@@ -81,6 +83,8 @@ std::size_t SweptEstimate::next_pose(std::size_t motion, std::size_t at, double 
   // it.
   constexpr double kSure = 0.9;
   const std::vector<double>& travel = travel_[motion];
+  // A pose without a value says nothing of the others.
+  if (std::isnan(spare)) return at + 1;
   const auto first = travel.begin() + static_cast<std::ptrdiff_t>(at) + 1;
   return static_cast<std::size_t>(std::upper_bound(first, travel.end(), travel[at] + kSure * spare) - travel.begin());
 }
@@ -158,6 +162,11 @@ void SweptEstimate::places(const Vec3& x, const SweptContact& hint, std::vector<
     }
   }
   std::erase_if(places, [&](const SweptContact& place) { return place.f > bound_f; });
+  if (!places.empty()) return;
+  // A radial function steeper than any tool, as a step of a fit may have it, is not 1-Lipschitz: the walk may have
+  // jumped over all that is near.
+  const SweptContact best = nearest(x);
+  if (best.motion >= 0 && std::isfinite(best.f)) places.push_back(best);
 }
 
 SweptContact SweptEstimate::nearest(const Vec3& x) const {
@@ -200,6 +209,11 @@ SweptContact contact_at(const RuledMotion& motion, const RadialFunction& radial,
   constexpr double kSettled = 1e-10;  // of the axis length
   SweptContact contact;
   contact.t = t;
+  if (!std::isfinite(rho2 + z)) {
+    // The direction rail vanishes here, or the rails have no values: nothing is near to that.
+    contact.f = std::numeric_limits<double>::infinity();
+    return contact;
+  }
   RadialJet jet;
   for (int k = 0; k < kSteps; ++k) {
     jet = radial.at(s);

@@ -32,7 +32,7 @@ class SweptEstimate {
   [[nodiscard]] SweptContact nearest(const Vec3& x) const;
   /// Tabulated poses that may lead to the least f: of every run of poses near the least value its best one, all motions
   /// together (motion, t and f). Between poses f can be lower by what a step along the path allows: values within that
-  /// of the least count. `places` is cleared first. `hint` is a place near which the least is expected (motion -1:
+  /// of the least count. `places` is cleared first; it stays empty only if no pose has a distance. `hint` is a place near which the least is expected (motion -1:
   /// none).
   void places(const Vec3& x, const SweptContact& hint, std::vector<SweptContact>& places) const;
   /// Spacing of the poses in t.

@@ -11,6 +11,7 @@
 #include "flank/fit/coverage.h"
 #include "flank/fit/polish.h"
 #include "flank/fit/swept_polish.h"
+#include "flank/fit/ways.h"
 #include "flank/seed/clear_start.h"
 #include "flank/seed/ruled_start.h"
 
@@ -137,7 +138,7 @@ FitDraft start_draft(const std::vector<FitTask>& tasks, const ToolModel& tool, d
   return draft;
 }
 
-/// Fits and ranks one candidate. Left without motions if no line of its start is free.
+/// Fits and ranks one candidate. Left without motions if no line of its start is free, or if it loses its values.
 void quick_fit(Candidate& candidate, const Target& target, const Chart& chart, const ToolModel& tool,
                const FlankFitOptions& options, const std::vector<SurfaceSample>& samples) {
   const std::optional<double> length = tool.axis_length ? tool.axis_length : options.axis_length_mm;
@@ -146,6 +147,10 @@ void quick_fit(Candidate& candidate, const Target& target, const Chart& chart, c
   if (tasks.empty()) return;
   const FitDraft draft = start_draft(tasks, tool, candidate.start.radius_mm);
   candidate.draft = run_stage(draft, options.bounds, quick_stage(robust_scale(target, options)));
+  if (!has_values(candidate.draft)) {
+    candidate.draft.motions.clear();  // a numerical no: one candidate less
+    return;
+  }
   const double tolerance = kQuickTolerances * options.tolerance_mm;
   candidate.estimate =
       estimate_coverage(samples, candidate.draft.motions, candidate.draft.tool, tolerance, kQuickPoses);
@@ -160,9 +165,8 @@ void sort_by_score(std::vector<Candidate>& candidates) {
                    [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
 }
 
-}  // namespace
-
-FlankFitResult fit_automatic(const Target& target, const ToolModel& tool, const FlankFitOptions& options,
+/// From all starts to one result, with options.obstacles in the way from the beginning.
+FlankFitResult search_starts(const Target& target, const ToolModel& tool, const FlankFitOptions& options,
                              const Progress& progress) {
   FlankFitResult result;
   const Chart chart(target);
@@ -209,6 +213,16 @@ FlankFitResult fit_automatic(const Target& target, const ToolModel& tool, const 
                                     options.tolerance_mm, kRankingPoses);
   result.trace = traces[best];
   return finish(settled(without_overcut(polished[best], samples, options), options), options, std::move(result));
+}
+
+}  // namespace
+
+FlankFitResult fit_automatic(const Target& target, const ToolModel& tool, const FlankFitOptions& options,
+                             const Progress& progress) {
+  FlankFitResult first = search_starts(target, tool, options, progress);
+  if (options.obstacles == nullptr || first.status == FitStatus::kWithinTolerance || progress.stop()) return first;
+  const auto search = [&](const FlankFitOptions& other) { return search_starts(target, tool, other, progress); };
+  return best_way(target, tool, options, std::move(first), search, progress);
 }
 
 FlankFitResult fit_from_starts(const std::vector<FitTask>& tasks, const ToolModel& tool, const FlankFitOptions& options,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "flank/base/parallel.h"
 #include "flank/base/tolerance_budget.h"
@@ -11,6 +12,12 @@ namespace flank::internal {
 
 Polished assess(FitDraft draft, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
   Polished polished;
+  if (!has_values(draft)) {
+    constexpr double kNever = std::numeric_limits<double>::infinity();
+    polished.estimate.overcut_mm = polished.estimate.gouge_mm = polished.estimate.undercut_mm = kNever;
+    polished.draft = std::move(draft);
+    return polished;
+  }
   if (draft.free_tool) draft.tool = clamp_tool(draft.tool, options.bounds);
   polished.estimate = estimate_coverage(samples, draft.motions, draft.tool, options.tolerance_mm, kRankingPoses);
   polished.estimate.gouge_mm = flank_gouge(draft.motions, draft.obstacles, draft.tool, kRankingPoses);

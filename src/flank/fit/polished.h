@@ -28,7 +28,8 @@ struct Polished {
   bool exact = false;         ///< the target is an envelope of such a tool, by the residual after the polish
 };
 
-/// The draft with a free tool clamped into its bounds, and what it covers.
+/// The draft with a free tool clamped into its bounds, and what it covers: nothing, at an infinite depth, if it has lost
+/// its values.
 [[nodiscard]] Polished assess(FitDraft draft, const std::vector<SurfaceSample>& samples,
                               const FlankFitOptions& options);
 

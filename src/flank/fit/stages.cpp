@@ -55,6 +55,11 @@ const ObstacleField* obstacles_of(const FitDraft& draft, const Target* target) {
   return nullptr;
 }
 
+bool has_values(const FitDraft& draft) {
+  const auto finite = [](const RuledMotion& m) { return m.tip.poles.allFinite() && m.direction.poles.allFinite(); };
+  return std::all_of(draft.motions.begin(), draft.motions.end(), finite) && draft.tool.parameters().allFinite();
+}
+
 FitState start_state(const FitDraft& draft, const FitStage& stage, FitDraft& next) {
   FLANK_ASSERT(draft.targets.size() == draft.motions.size() && !draft.motions.empty());
   FLANK_ASSERT(draft.obstacles.empty() || draft.obstacles.size() == draft.motions.size());

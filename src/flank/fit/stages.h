@@ -25,6 +25,9 @@ struct FitDraft {
 /// What the flank must not enter when it is on this target; null: nothing.
 [[nodiscard]] const ObstacleField* obstacles_of(const FitDraft& draft, const Target* target);
 
+/// All control points and radii are numbers. A draft that has lost its values is no candidate.
+[[nodiscard]] bool has_values(const FitDraft& draft);
+
 /// Start of a pass: rails and spline at the stage's resolution (least squares through dense samples if it differs, so
 /// the motion changes a little when control points become fewer). `next` becomes the draft with its list of free
 /// parameters.

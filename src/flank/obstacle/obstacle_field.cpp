@@ -22,6 +22,9 @@ constexpr double kMajority = 0.55;
 /// Share of the target that must look at a face before it can be called behind: what few see says nothing of the
 /// others.
 constexpr double kSeenByMost = 0.5;
+/// Share of the target that must look at a face before it can be a wall: behind a wall there is material for as far as
+/// anybody asks, and only a face that a good part of the target looks at (a hub, another blade) is that large.
+constexpr double kSeenBySome = 0.1;
 /// A bound that was rounded down must not lose the face that it is about.
 constexpr double kRounding = 1.0 + 1e-9;
 /// mm: a point this near to a face has no direction away from it; the face's normal stands for it.
@@ -43,7 +46,9 @@ Vote vote(const ObstacleFace& face, const std::vector<SurfaceSample>& samples, d
     all += sample.area;
     if (foot.distance > 0.0) outside += sample.area;
   }
-  if (all == 0.0) return {};
+  // Most of a face's few voters look past its edge from a corner of the target: a cap of a blade's end, signed by them,
+  // would forbid the air beside the blade that lies below its plane.
+  if (all < kSeenBySome * area) return {};
   if (outside >= kMajority * all) return {+1, false};
   if (face.oriented) return {0, outside == 0.0 && all >= kSeenByMost * area};
   return {outside <= (1.0 - kMajority) * all ? -1 : 0, false};

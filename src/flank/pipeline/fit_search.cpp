@@ -7,6 +7,7 @@
 
 #include "flank/base/tolerance_budget.h"
 #include "flank/error.h"
+#include "flank/fit/ways.h"
 #include "flank/seed/axis_line.h"
 #include "flank/seed/guide_start.h"
 #include "flank/seed/line_start.h"
@@ -39,28 +40,47 @@ RadiusBounds bounds_of(const RadiusRequest& radius, double diagonal) {
   return bounds;
 }
 
-/// One group: automatic, or with the strips that the tolerance needs.
+/// Covers what was asked, by the planner's estimate, and enters nothing.
+bool is_done(const FlankFitResult& result, double least_coverage, double tolerance_mm) {
+  constexpr double kLeastEstimate = 0.97;  // the judge is stricter than the estimate
+  return result.after.at_tolerance >= std::max(least_coverage, kLeastEstimate) && is_clean(result.after, tolerance_mm);
+}
+
+/// Keeps the better of two results; one without a motion is none.
+void keep_better(FlankFitResult& best, FlankFitResult&& other, double tolerance_mm) {
+  if (other.motions.empty()) return;
+  if (best.motions.empty() || is_better(other.after, best.after, tolerance_mm)) best = std::move(other);
+}
+
+/// One group with a number of strips. A strip more must not make it worse: where they do not give what was asked, one
+/// strip is tried, too.
+FlankFitResult fit_strips(const Target& target, const ToolModel& tool, FlankFitOptions options, int strips,
+                          double least_coverage, const Progress& progress) {
+  options.strips = strips;
+  FlankFitResult best = fit_automatic(target, tool, options, progress);
+  if (strips == 1 || is_done(best, least_coverage, options.tolerance_mm) || progress.stop()) return best;
+  options.strips = 1;
+  keep_better(best, fit_automatic(target, tool, options, progress), options.tolerance_mm);
+  return best;
+}
+
+/// One group: with the strips that were asked for, or with those that the tolerance needs.
 FlankFitResult fit_group(const Target& target, const ToolModel& tool, FlankFitOptions options, int strips,
                          double least_coverage, const Progress& progress) {
-  if (strips > 0) {
-    options.strips = strips;
-    return fit_automatic(target, tool, options, progress);
-  }
+  if (strips > 0) return fit_strips(target, tool, options, strips, least_coverage, progress);
   FlankFitResult best;
-  double best_score = -1.0;
+  double one_covers = 0.0;
   for (int count : {1, 2, 3, 4, 6, 8, 10, kMostStrips}) {
     options.strips = count;
     options.least_coverage_for_last_passes = count < kMostStrips ? 0.7 : 0.0;
     FlankFitResult result = fit_automatic(target, tool, options, progress);
-    const double score = result.after.score(options.tolerance_mm);
-    if (score > best_score) {
-      best_score = score;
-      best = std::move(result);
-    }
-    const bool done =
-        best.after.at_tolerance >= std::max(least_coverage, 0.97) && best.after.overcut_mm <= options.tolerance_mm;
-    if (done || progress.stop()) break;
+    if (count == 1) one_covers = result.after.at_tolerance;
+    keep_better(best, std::move(result), options.tolerance_mm);
+    if (is_done(best, least_coverage, options.tolerance_mm) || progress.stop()) break;
   }
+  if (best.motions.size() > 1)
+    best.notes.push_back(fmt::format("{} strips cover {:.1f} % (estimate), one strip {:.1f} %", best.motions.size(),
+                                     100.0 * best.after.at_tolerance, 100.0 * one_covers));
   return best;
 }
 
@@ -85,7 +105,9 @@ void fit_groups(const FitJob& job, FitSearch& search, const ToolModel& tool, con
       shared.axis_length = radial.axis_length();
       shared.radius = radial.at(0.5 * radial.axis_length()).r;
     }
-    if (search.targets.size() == 1) search.fit = std::move(result);
+    if (search.targets.size() > 1) continue;
+    result.notes.insert(result.notes.begin(), search.fit.notes.begin(), search.fit.notes.end());
+    search.fit = std::move(result);
   }
   if (search.targets.size() > 1) search.fit = fit_from_starts(tasks, tool, options, progress);
 }

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "flank/base/random.h"
@@ -120,6 +121,30 @@ TEST_F(SweptModelTest, FitsTheEnvelopeFromTheFace) {
   const MinimiseResult result = levenberg_marquardt(model, start);
   EXPECT_GT(result.trace.front().rms_mm / diagonal_, 5e-4);
   EXPECT_LT(result.trace.back().rms_mm / diagonal_, 2e-5);
+}
+
+TEST_F(SweptModelTest, AToolThatIsNoneStillHasContacts) {
+  FitState state;
+  const SweptModel model = make_model(12, state);
+  Eigen::VectorXd radii(12);
+  for (int k = 0; k < 12; ++k) radii[k] = k % 2 == 0 ? 5.0 : 25.0;
+  state.tool = RadialFunction::spline(state.motions.front().axis_length, radii);
+  model.locate(state);
+  for (std::size_t k = 0; k < model.points().size(); ++k) {
+    ASSERT_EQ(state.contacts[k].motion, 0) << k;
+    EXPECT_TRUE(std::isfinite(state.contacts[k].f));
+  }
+}
+
+TEST_F(SweptModelTest, AStateWithoutValuesHasNoCostAndIsNoStep) {
+  FitState state;
+  const SweptModel model = make_model(12, state);
+  FitState lost = state;
+  lost.motions.front().direction.poles.setConstant(std::numeric_limits<double>::quiet_NaN());
+  model.locate(lost);
+  EXPECT_TRUE(std::isnan(model.cost(lost, std::vector<double>(model.points().size(), 1.0))));
+  const MinimiseResult result = levenberg_marquardt(model, lost);
+  EXPECT_EQ(result.status, MinimiseStatus::kStalled);
 }
 
 TEST(ConstrainedSwept, TakesTheOvercutOutOfAGivenTool) {

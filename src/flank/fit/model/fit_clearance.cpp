@@ -1,5 +1,7 @@
 // The terms of FitModel that keep the flank out of other faces (MATH section 7): one-sided, at points of the axis.
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "flank/base/parallel.h"
 #include "flank/fit/model/fit_model.h"
@@ -12,6 +14,15 @@ namespace {
 constexpr double kSightMm = 1.0;
 /// Poses that one task of the parallel loop takes: some hundred distances, long against the cost of starting a task.
 constexpr std::size_t kPosesPerTask = 8;
+
+/// Of a point that has no place: such a state has no cost, and the next one is measured anew.
+ObstacleSample no_sample(const Vec3& p) {
+  ObstacleSample sample;
+  sample.at = p;
+  sample.nearest.distance_mm = std::numeric_limits<double>::quiet_NaN();
+  sample.nearest.face = 0;
+  return sample;
+}
 
 }  // namespace
 
@@ -31,6 +42,10 @@ void FitModel::locate_obstacles(FitState& state) const {
         for (int j = 0; j < n; ++j) {
           ObstacleSample& sample = samples[i * static_cast<std::size_t>(n) + static_cast<std::size_t>(j)];
           const Vec3 p = pose.tip + s_[j] * pose.u;
+          if (!p.allFinite() || !std::isfinite(needed[j])) {
+            sample = no_sample(p);
+            continue;
+          }
           // The distance changes by no more than the point moves: what was far enough may still be.
           if (sample.known && sample.nearest.distance_mm - (p - sample.at).norm() > needed[j]) continue;
           sample = {stage_.clear_estimated ? obstacles_[m]->estimate(p) : obstacles_[m]->at(p, needed[j] + kSightMm), p,
@@ -44,7 +59,9 @@ void FitModel::locate_obstacles(FitState& state) const {
 double FitModel::intrusion(const FitState& state, std::size_t motion, std::size_t k, double radius) const {
   const ObstacleDistance& nearest = state.obstacles[motion][k].nearest;
   // Beyond the horizon nothing is near: distance_mm is the horizon then, which must not be taken for a distance.
-  return nearest.face < 0 ? 0.0 : std::max(0.0, radius - obstacles_[motion]->allowance_mm() - nearest.distance_mm);
+  if (nearest.face < 0) return 0.0;
+  const double depth = radius - obstacles_[motion]->allowance_mm() - nearest.distance_mm;
+  return std::isnan(depth) ? depth : std::max(0.0, depth);
 }
 
 double FitModel::obstacle_cost(const FitState& state) const {

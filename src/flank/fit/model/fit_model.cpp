@@ -2,15 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "flank/base/assert.h"
 
 namespace flank::internal {
 namespace {
 
-/// The residual with its dead zone cut out: continuous, with slope 0 inside and 1 outside.
+/// The residual with its dead zone cut out: continuous, with slope 0 inside and 1 outside. Not a number stays what it
+/// is: a state without a value must not be cheap.
 double effective(double e, double dead_zone) {
-  if (dead_zone <= 0.0) return e;
+  if (dead_zone <= 0.0 || std::isnan(e)) return e;
   return e > 0.0 ? std::max(0.0, e - dead_zone) : std::min(0.0, e + dead_zone);
 }
 /// Share of its weight that a sample inside the dead zone keeps in the matrix, but not in the gradient: it pulls
@@ -20,6 +22,13 @@ double effective(double e, double dead_zone) {
 constexpr double kDeadZoneDamping = 0.02;
 /// mm: a query point this near to a border footpoint lies on the border, and has no direction to it.
 constexpr double kOnBorderMm = 1e-12;
+
+/// Of a point that has no place: a step through a direction rail that vanishes. Such a state has no cost.
+Footpoint nowhere() {
+  Footpoint foot;
+  foot.distance = std::numeric_limits<double>::quiet_NaN();
+  return foot;
+}
 
 }  // namespace
 
@@ -110,7 +119,12 @@ void FitModel::locate(FitState& state) const {
         const Footpoint* hint = &foot;
         if (!warm && j > 0) hint = &foot - 1;
         if (!warm && j == 0 && i > 0) hint = &foot - n;
-        foot = targets_[m]->track(pose.tip + s_[j] * pose.u, *hint);
+        const Vec3 p = pose.tip + s_[j] * pose.u;
+        if (p.allFinite()) {
+          foot = targets_[m]->track(p, *hint);
+        } else {
+          foot = nowhere();
+        }
       }
     }
   }

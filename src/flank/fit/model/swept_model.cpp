@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "flank/base/assert.h"
 #include "flank/base/parallel.h"
@@ -16,8 +17,18 @@ constexpr int kPosesPerControlPoint = 4;
 /// Points that one task of the parallel search takes: a point costs microseconds, a task must not.
 constexpr std::size_t kChunk = 64;
 
-/// The residual with its dead zone cut out.
-double cut(double e, double dead_zone) { return e > 0.0 ? std::max(0.0, e - dead_zone) : std::min(0.0, e + dead_zone); }
+/// The residual with its dead zone cut out. Not a number stays what it is: a state without a value must not be cheap.
+double cut(double e, double dead_zone) {
+  if (std::isnan(e)) return e;
+  return e > 0.0 ? std::max(0.0, e - dead_zone) : std::min(0.0, e + dead_zone);
+}
+
+/// Where nothing of the swept tool has a distance.
+SweptContact no_contact() {
+  SweptContact contact;
+  contact.f = std::numeric_limits<double>::quiet_NaN();
+  return contact;
+}
 
 }  // namespace
 
@@ -38,6 +49,9 @@ void SweptModel::locate(FitState& state) const {
     for (std::size_t k = begin; k < end; ++k) {
       SweptContact& contact = state.contacts[k];
       swept.places(points_[k].point, contact, places);
+      // Rails or radii without a value are near to nothing: then f has no value, and neither has the cost. To keep the
+      // last contact would be to look up the place of another state, or of none.
+      if (places.empty()) contact = no_contact();
       for (std::size_t i = 0; i < places.size(); ++i) {
         const RuledMotion& motion = state.motions[static_cast<std::size_t>(places[i].motion)];
         // f is the least over all places: every one that might be it is refined before they are compared.
@@ -51,7 +65,7 @@ void SweptModel::locate(FitState& state) const {
 
 double SweptModel::residual(const FitState& state, std::size_t k) const {
   const double f = state.contacts[k].f;
-  if (points_[k].one_sided()) return std::min(0.0, f - points_[k].margin_mm);
+  if (points_[k].one_sided() && !std::isnan(f)) return std::min(0.0, f - points_[k].margin_mm);
   return cut(f, stage().dead_zone_mm);
 }
 
@@ -84,6 +98,7 @@ double SweptModel::cost(const FitState& state, const std::vector<double>& weight
 ResidualRow SweptModel::row(const FitState& state, std::size_t k) const {
   FLANK_ASSERT(k < state.contacts.size());
   const SweptContact& contact = state.contacts[k];
+  FLANK_ASSERT(contact.motion >= 0 && std::isfinite(contact.t) && std::isfinite(contact.s));
   const RuledMotion& motion = state.motions[static_cast<std::size_t>(contact.motion)];
   ResidualRow row;
   row.motion = contact.motion;

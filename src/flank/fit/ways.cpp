@@ -1,0 +1,248 @@
+#include "flank/fit/ways.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "flank/base/parallel.h"
+#include "flank/base/tolerance_budget.h"
+#include "flank/fit/polish.h"
+#include "flank/fit/swept_polish.h"
+
+namespace flank::internal {
+namespace {
+
+/// Coverage is known to one of about 2,000 samples: nearer than that the score decides.
+constexpr double kSameCoverage = 1e-3;
+/// A clean result that covers less than this share of what another one covers is not what anybody asked for.
+constexpr double kWorthHaving = 0.5;
+
+/// The draft of a result, with what is in the way.
+FitDraft draft_of(const Target& target, const ToolModel& tool, const FlankFitResult& result,
+                  const ObstacleField* obstacles) {
+  FitDraft draft;
+  draft.targets.assign(result.motions.size(), &target);
+  draft.obstacles.assign(result.motions.size(), obstacles);
+  draft.motions = result.motions;
+  draft.tool = result.tool;
+  draft.free_tool = tool.free();
+  draft.free_parameters = tool.free_parameters;
+  return draft;
+}
+
+/// Places along the axis and times at which a flank is asked how deep it enters something.
+constexpr int kPlaces = 61;
+constexpr int kTimes = kRankingPoses + 1;
+
+/// Less than any depth. Depths below zero count: where one is reached lies between two of them.
+constexpr double kFree = -1e300;
+
+/// How deep the flank of one motion enters obstacles, mm: the most of each place of the axis, and of each time.
+struct Depths {
+  std::vector<double> along = std::vector<double>(kPlaces, kFree), over = std::vector<double>(kTimes, kFree);
+};
+
+Depths depths_of(const FitDraft& draft, std::size_t motion) {
+  constexpr double kSight = 2.0;  // radii: what is farther than that decides nothing, not even between two places
+  std::vector<std::array<double, kPlaces>> all(kTimes);
+  parallel_for(all.size(), [&](std::size_t i) {
+    const Pose pose = draft.motions[motion].pose(static_cast<double>(i) / (kTimes - 1.0));
+    for (std::size_t j = 0; j < kPlaces; ++j) {
+      const double s = draft.tool.axis_length() * static_cast<double>(j) / (kPlaces - 1.0), r = draft.tool.at(s).r;
+      all[i][j] = r - draft.obstacles[motion]->at(pose.at(s), kSight * r).distance_mm;
+    }
+  });
+  Depths depths;
+  for (std::size_t i = 0; i < kTimes; ++i) {
+    for (std::size_t j = 0; j < kPlaces; ++j) {
+      depths.along[j] = std::max(depths.along[j], all[i][j]);
+      depths.over[i] = std::max(depths.over[i], all[i][j]);
+    }
+  }
+  return depths;
+}
+
+/// A part of the whole, as first and last share of it.
+struct Stretch {
+  double from = 0.0, to = 0.0;
+};
+
+/// Where between a place within the limit and one beyond it, as a share of the way, the limit is reached.
+double crossing(double within, double beyond, double limit) { return (limit - within) / (beyond - within); }
+
+/// The longest run that is no deeper than the limit, to the places between two depths where that is reached.
+Stretch longest_free(const std::vector<double>& depths, double limit) {
+  const std::size_t n = depths.size();
+  const auto last = static_cast<double>(n - 1);
+  Stretch longest;
+  for (std::size_t begin = 0; begin < n;) {
+    std::size_t end = begin;
+    while (end < n && depths[end] <= limit) ++end;
+    if (end > begin + 1) {
+      const double before = begin > 0 ? crossing(depths[begin], depths[begin - 1], limit) : 0.0;
+      const double after = end < n ? crossing(depths[end - 1], depths[end], limit) : 0.0;
+      const double from = (static_cast<double>(begin) - before) / last;
+      const double to = (static_cast<double>(end - 1) + after) / last;
+      if (to - from > longest.to - longest.from) longest = {from, to};
+    }
+    begin = end + 1;
+  }
+  return longest;
+}
+
+/// Less than this of the axis or of the path is not the same fit any more.
+constexpr double kLeastLeft = 1.0 / 3.0;
+
+/// The motion from one time to another, of the axis' part that begins at `from_s` and is `length` long.
+RuledMotion part_of(const RuledMotion& motion, const Stretch& times, double from_s, double length) {
+  constexpr int kPerControlPoint = 8;  // poses, as stages.cpp has them
+  std::vector<Pose> poses;
+  std::vector<double> t;
+  const int samples = kPerControlPoint * motion.tip.count();
+  for (int i = 0; i <= samples; ++i) {
+    t.push_back(static_cast<double>(i) / samples);
+    const Pose pose = motion.pose(times.from + (times.to - times.from) * t.back());
+    poses.push_back({pose.at(from_s), pose.axis});
+  }
+  return fit_motion(poses, t, length, motion.tip.count());
+}
+
+RadialFunction part_of(const RadialFunction& tool, double from, double length) {
+  constexpr int kSamples = 24;  // a coefficient
+  const int count = tool.parameter_count();
+  std::vector<Vec2> samples;
+  for (int j = 0; j <= kSamples * count; ++j) {
+    const double s = length * j / (kSamples * count);
+    samples.emplace_back(s, tool.at(std::min(from + s, tool.axis_length())).r);
+  }
+  return RadialFunction::spline_through(length, samples, count);
+}
+
+struct Way {
+  std::string_view name;
+  Polished polished;
+};
+
+}  // namespace
+
+bool is_clean(const CoverageEstimate& estimate, double tolerance_mm) {
+  return estimate.overcut_mm <= tolerance_mm && estimate.gouge_mm <= tolerance_mm;
+}
+
+bool is_better(const CoverageEstimate& a, const CoverageEstimate& b, double tolerance_mm) {
+  const bool clean_a = is_clean(a, tolerance_mm), clean_b = is_clean(b, tolerance_mm);
+  if (clean_a != clean_b) {
+    const double clean = clean_a ? a.at_tolerance : b.at_tolerance, other = clean_a ? b.at_tolerance : a.at_tolerance;
+    return (clean >= kWorthHaving * other) == clean_a;
+  }
+  if (clean_a && std::abs(a.at_tolerance - b.at_tolerance) > kSameCoverage) return a.at_tolerance > b.at_tolerance;
+  return a.score(tolerance_mm) > b.score(tolerance_mm);
+}
+
+std::optional<FitDraft> shortened_axis(const FitDraft& draft, double depth_mm) {
+  if (!draft.free_tool) return std::nullopt;
+  std::vector<double> deepest(kPlaces, kFree);
+  for (std::size_t m = 0; m < draft.motions.size(); ++m) {
+    const Depths depths = depths_of(draft, m);
+    for (std::size_t j = 0; j < kPlaces; ++j) deepest[j] = std::max(deepest[j], depths.along[j]);
+  }
+  const Stretch free = longest_free(deepest, depth_mm);
+  const double share = free.to - free.from, length = draft.tool.axis_length();
+  if (share >= 1.0 || share < kLeastLeft) return std::nullopt;
+  FitDraft part = draft;
+  part.tool = part_of(draft.tool, free.from * length, share * length);
+  for (RuledMotion& motion : part.motions) motion = part_of(motion, {0.0, 1.0}, free.from * length, share * length);
+  return part;
+}
+
+std::optional<FitDraft> shortened_path(const FitDraft& draft, double depth_mm) {
+  FitDraft part = draft;
+  bool any = false;
+  for (std::size_t m = 0; m < draft.motions.size(); ++m) {
+    const Stretch free = longest_free(depths_of(draft, m).over, depth_mm);
+    if (free.to - free.from < kLeastLeft) return std::nullopt;
+    if (free.to - free.from >= 1.0) continue;
+    part.motions[m] = part_of(draft.motions[m], free, 0.0, draft.motions[m].axis_length);
+    any = true;
+  }
+  return any ? std::optional(part) : std::nullopt;
+}
+
+namespace {
+
+/// The draft as it was found without the other faces, and, if it enters them, what can be made of it.
+std::vector<Way> ways_from(const FitDraft& draft, bool fixed_length, const FlankFitOptions& options,
+                           const Progress& progress) {
+  const std::vector<SurfaceSample> samples = ranking_samples(*draft.targets.front(), options.obstacles, options);
+  const double tolerance = options.tolerance_mm, depth = kToleranceBudget.others.last_look * tolerance;
+  std::vector<Way> ways;
+  ways.push_back({"found without the other faces", assess(draft, samples, options)});
+  if (!is_clean(ways.front().polished.estimate, tolerance) && !progress.stop()) {
+    std::optional<FitDraft> shorter = fixed_length ? std::nullopt : shortened_axis(draft, depth);
+    if (shorter)
+      ways.push_back({"found without the other faces and put on a shorter axis", assess(*shorter, samples, options)});
+    shorter = shortened_path(draft, depth);
+    if (shorter)
+      ways.push_back({"found without the other faces and put on a shorter path", assess(*shorter, samples, options)});
+    const Way start = *std::min_element(ways.begin(), ways.end(), [&](const Way& a, const Way& b) {
+      return is_better(a.polished.estimate, b.polished.estimate, tolerance);
+    });
+    const Polished clear = last_passes(start.polished, samples, options, nullptr);
+    ways.push_back({start.name, without_overcut(clear, samples, options)});
+  }
+  for (Way& way : ways) way.polished = settled(way.polished, options);
+  return ways;
+}
+
+/// What forbids more, with the figures; nothing if the result covers nearly what can be covered without other faces.
+void note_limits(const CoverageEstimate& free, double tolerance_mm, FlankFitResult& result) {
+  constexpr double kMore = 0.01;  // of the face: less is not worth a sentence
+  const CoverageEstimate& found = result.after;
+  if (found.gouge_mm > tolerance_mm) {
+    result.notes.push_back(
+        fmt::format("no motion was found that covers as much and enters no other face: this one covers {:.1f} % "
+                    "(estimate) and enters them by {:.3g} mm",
+                    100.0 * found.at_tolerance, found.gouge_mm));
+  } else if (free.at_tolerance > found.at_tolerance + kMore && free.gouge_mm > tolerance_mm) {
+    result.notes.push_back(
+        fmt::format("the other faces forbid more: as if they were not there {:.1f} % can be covered (estimate), {:.3g} "
+                    "mm deep in them",
+                    100.0 * free.at_tolerance, free.gouge_mm));
+  }
+}
+
+}  // namespace
+
+FlankFitResult best_way(const Target& target, const ToolModel& tool, const FlankFitOptions& options,
+                        FlankFitResult first, const StartSearch& search, const Progress& progress) {
+  FlankFitOptions free_options = options;
+  free_options.obstacles = nullptr;
+  free_options.kept_after_polish = 1;  // a start for what follows, not a result
+  const FlankFitResult free = search(free_options);
+  if (free.motions.empty()) return first;
+  const double tolerance = options.tolerance_mm;
+  const bool fixed_length = tool.axis_length || options.axis_length_mm;
+  const std::vector<Way> ways =
+      ways_from(draft_of(target, tool, free, options.obstacles), fixed_length, options, progress);
+  const Way* best = nullptr;
+  for (const Way& way : ways) {
+    const CoverageEstimate& rival = best != nullptr ? best->polished.estimate : first.after;
+    if ((best == nullptr && first.motions.empty()) || is_better(way.polished.estimate, rival, tolerance)) best = &way;
+  }
+  FlankFitResult result = first;
+  if (best != nullptr) {
+    result.before = free.before;
+    result.trace = free.trace;
+    result.candidates = first.candidates + free.candidates;
+    result.notes.push_back(
+        fmt::format("the motion was {}: it covers {:.1f} % (estimate); one that keeps clear from the start, {:.1f} %",
+                    best->name, 100.0 * best->polished.estimate.at_tolerance, 100.0 * first.after.at_tolerance));
+    result = finish(best->polished, options, std::move(result));
+  }
+  note_limits(ways.front().polished.estimate, tolerance, result);
+  return result;
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,105 @@
+// The ways beside other faces: what is cut off an axis or a path, and which of two results is the better one.
+#include "flank/fit/ways.h"
+
+#include <gtest/gtest.h>
+
+#include "fit/flat_scene.h"
+#include "flank/fit/coverage.h"
+
+namespace flank::internal {
+namespace {
+
+using testing::hub;
+using testing::only;
+using testing::quad;
+using testing::standing_blade;
+
+constexpr double kDepth = 0.02;
+
+/// A free tool of radius 5, upright before the flat blade, from x = 4 to 56, its axis from z = 2 to 32.
+FitDraft upright_draft(const Target& blade, const ObstacleField& obstacles) {
+  FitDraft draft;
+  draft.targets = {&blade};
+  draft.obstacles = {&obstacles};
+  draft.motions = {testing::upright_motion()};
+  draft.tool = RadialFunction::spline(30.0, Eigen::VectorXd::Constant(6, 5.0));
+  draft.free_tool = true;
+  return draft;
+}
+
+/// The plane x = 50, seen from smaller x.
+ObstacleFace end_wall() {
+  return {make_target({quad(Vec3(50, 50, -20), Vec3(50, -50, -20), Vec3(50, 50, 60), Vec3(50, -50, 60), "F3")}), true};
+}
+
+double deepest(const FitDraft& draft) { return flank_gouge(draft.motions, draft.obstacles, draft.tool, 400); }
+
+TEST(ShortenedPath, EndsWhereTheFlankTouchesTheWall) {
+  const auto blade = standing_blade(0.0);
+  const ObstacleField obstacles(only(end_wall()), *blade, 2.0, 0.0);
+  ASSERT_NE(obstacles.sign(0), 0);
+  const FitDraft draft = upright_draft(*blade, obstacles);
+  ASSERT_GT(deepest(draft), 10.0);
+  const std::optional<FitDraft> part = shortened_path(draft, kDepth);
+  ASSERT_TRUE(part.has_value());
+  EXPECT_LE(deepest(*part), 1.1 * kDepth);
+  EXPECT_NEAR(part->motions.front().pose(1.0).tip.x(), 45.0 + kDepth, 1e-3) << "no shorter than the wall asks";
+  EXPECT_NEAR(part->motions.front().pose(0.0).tip.x(), 4.0, 1e-9);
+  EXPECT_EQ(part->motions.front().axis_length, 30.0);
+}
+
+TEST(ShortenedAxis, BeginsWhereTheFlankTouchesTheHub) {
+  const auto blade = standing_blade(0.0);
+  const ObstacleField obstacles(only(hub(true)), *blade, 2.0, 0.0);
+  const FitDraft draft = upright_draft(*blade, obstacles);
+  ASSERT_NEAR(deepest(draft), 3.0, 1e-6) << "a ball of radius 5 at z = 2";
+  const std::optional<FitDraft> part = shortened_axis(draft, kDepth);
+  ASSERT_TRUE(part.has_value());
+  EXPECT_LE(deepest(*part), 1.1 * kDepth);
+  EXPECT_NEAR(part->motions.front().pose(0.5).tip.z(), 5.0 - kDepth, 1e-3);
+  EXPECT_NEAR(part->motions.front().axis_length, 27.0 + kDepth, 1e-3);
+  EXPECT_NEAR(part->tool.axis_length(), part->motions.front().axis_length, 1e-12);
+  EXPECT_NEAR(part->tool.at(10.0).r, 5.0, 1e-9);
+}
+
+TEST(Shortened, NothingIsCutOffWhatIsFreeNorOffAGivenTool) {
+  const auto blade = standing_blade(0.0);
+  const ObstacleField hub_only(only(hub(true)), *blade, 2.0, 0.0);
+  FitDraft draft = upright_draft(*blade, hub_only);
+  draft.motions = {testing::upright_motion({.z = 6.0})};
+  EXPECT_FALSE(shortened_path(draft, kDepth).has_value());
+  EXPECT_FALSE(shortened_axis(draft, kDepth).has_value());
+  FitDraft given = upright_draft(*blade, hub_only);
+  given.free_tool = false;
+  EXPECT_FALSE(shortened_axis(given, kDepth).has_value());
+}
+
+TEST(Shortened, ATrunkIsNoResult) {
+  const auto blade = standing_blade(0.0);
+  const ObstacleField obstacles(only(hub(true)), *blade, 2.0, 0.0);
+  FitDraft draft = upright_draft(*blade, obstacles);
+  draft.motions = {testing::upright_motion({.z = -20.0})};
+  EXPECT_FALSE(shortened_axis(draft, kDepth).has_value());
+  EXPECT_FALSE(shortened_path(draft, kDepth).has_value());
+}
+
+CoverageEstimate covering(double share, double gouge_mm, double overcut_mm = 0.0) {
+  CoverageEstimate estimate;
+  estimate.at_tolerance = estimate.at_four_tolerances = share;
+  estimate.gouge_mm = gouge_mm;
+  estimate.overcut_mm = overcut_mm;
+  return estimate;
+}
+
+TEST(IsBetter, WhatEntersNothingGoesFirstUnlessItCoversNextToNothing) {
+  EXPECT_TRUE(is_better(covering(0.6, 0.0), covering(1.0, 0.5), 0.05));
+  EXPECT_FALSE(is_better(covering(1.0, 0.5), covering(0.6, 0.0), 0.05));
+  EXPECT_TRUE(is_better(covering(0.999, 0.44), covering(0.007, 0.0), 0.05));
+  EXPECT_FALSE(is_better(covering(0.007, 0.0), covering(0.999, 0.44), 0.05));
+  EXPECT_TRUE(is_better(covering(0.98, 0.0), covering(0.97, 0.0), 0.05));
+  EXPECT_FALSE(is_better(covering(0.97, 0.0), covering(0.98, 0.0), 0.05));
+  EXPECT_TRUE(is_better(covering(0.9, 0.0), covering(1.0, 0.0, 0.2), 0.05)) << "overcut is no price for coverage";
+}
+
+}  // namespace
+}  // namespace flank::internal
