@@ -146,11 +146,13 @@ ConvertedSurface convert_spline(Handle(Geom_BSplineSurface) s, const ParameterWi
   s = Handle(Geom_BSplineSurface)::DownCast(s->Copy());
   s->SetUNotPeriodic();
   s->SetVNotPeriodic();
+  // A polynomial surface that was periodic keeps weights of zero from the library: they mean nothing.
+  const bool rational = s->IsURational() || s->IsVRational();
   SplineRows rows{s->UDegree(), flat_knots(s->UKnots(), s->UMultiplicities()),
                   Eigen::MatrixXd(4 * s->NbVPoles(), s->NbUPoles())};
   for (int i = 0; i < s->NbUPoles(); ++i)
     for (int j = 0; j < s->NbVPoles(); ++j)
-      rows.poles.block<4, 1>(4 * j, i) = homogeneous(s->Pole(i + 1, j + 1), s->Weight(i + 1, j + 1));
+      rows.poles.block<4, 1>(4 * j, i) = homogeneous(s->Pole(i + 1, j + 1), rational ? s->Weight(i + 1, j + 1) : 1.0);
   rows = piece(std::move(rows), box.u0, box.u1, period_u);
   ConvertedSurface r;
   r.surface.degree_u = rows.degree;
