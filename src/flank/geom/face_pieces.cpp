@@ -88,7 +88,7 @@ Section section_at(const View& view, double w, bool closed) {
     }
   }
   if (closed) section.samples.push_back({view.last(), start->point, start->normal});
-  const std::size_t stride = std::max<std::size_t>(1, section.samples.size() / 200);
+  const std::size_t stride = std::max<std::size_t>(1, section.samples.size() / 64);
   for (std::size_t i = 0; i < section.samples.size(); i += stride) {
     for (std::size_t j = 0; j < i; j += stride) {
       section.width = std::max(section.width, (section.samples[i].point - section.samples[j].point).norm());

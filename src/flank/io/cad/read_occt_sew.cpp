@@ -3,20 +3,19 @@
 #include <fmt/format.h>
 
 #include <BRepBuilderAPI_Sewing.hxx>
-#include <BRepLib.hxx>
-#include <BRep_Builder.hxx>
+#include <BRepGProp.hxx>
 #include <BRep_Tool.hxx>
-#include <ShapeFix_Shell.hxx>
+#include <GProp_GProps.hxx>
+#include <Poly_Triangulation.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_DataMapOfShapeInteger.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopoDS.hxx>
-#include <TopoDS_Shell.hxx>
-#include <TopoDS_Solid.hxx>
 #include <algorithm>
 #include <map>
+#include <utility>
 
 namespace flank::internal {
 namespace {
@@ -54,86 +53,155 @@ Sewn sew_by_steps(const TopTools_IndexedMapOfShape& faces, double size_mm) {
   return best;
 }
 
-/// Every edge of the shell lies between two of its faces.
-bool is_closed(const TopoDS_Shell& shell) {
+/// Two faces along one edge, or one alone along a free one.
+struct Joint {
+  double length = 0.0;  ///< of the edge, mm
+  int a = -1, b = -1;
+  bool same_way = false;  ///< the edge runs the same way round in both, so that one of the two is to be turned
+};
+
+/// Which way the edge runs in the face, were it oriented forward: +1 or -1; 0: both, a seam.
+int way_of(const TopoDS_Shape& edge, const TopoDS_Shape& face) {
+  int way = 0;
+  for (TopExp_Explorer it(face.Oriented(TopAbs_FORWARD), TopAbs_EDGE); it.More(); it.Next())
+    if (it.Current().IsSame(edge)) way += it.Current().Orientation() == TopAbs_FORWARD ? 1 : -1;
+  return way;
+}
+
+/// All edges of the sewn shape but seams and those where more than two faces meet, the longest first: what short ones say
+/// is often a slip of the sewing.
+std::vector<Joint> joints_of(const Sewn& sewn) {
+  TopTools_DataMapOfShapeInteger numbers;
+  for (std::size_t k = 0; k < sewn.faces.size(); ++k)
+    if (!sewn.faces[k].IsNull()) numbers.Bind(sewn.faces[k], static_cast<int>(k));
   TopTools_IndexedDataMapOfShapeListOfShape owners;
-  TopExp::MapShapesAndAncestors(shell, TopAbs_EDGE, TopAbs_FACE, owners);
-  int real = 0;
+  TopExp::MapShapesAndAncestors(sewn.shape, TopAbs_EDGE, TopAbs_FACE, owners);
+  std::vector<Joint> joints;
   for (int i = 1; i <= owners.Extent(); ++i) {
-    if (BRep_Tool::Degenerated(TopoDS::Edge(owners.FindKey(i)))) continue;
-    ++real;
-    // The seam of a closed surface is twice in the list of one face.
-    if (owners(i).Extent() != 2) return false;
+    const TopoDS_Shape& edge = owners.FindKey(i);
+    if (BRep_Tool::Degenerated(TopoDS::Edge(edge))) continue;
+    std::vector<std::pair<int, int>> sides;
+    for (const TopoDS_Shape& face : owners(i))
+      if (const int* k = numbers.Seek(face)) sides.emplace_back(*k, way_of(edge, face));
+    const bool seam = !sides.empty() && sides.front().second == 0;
+    if (sides.empty() || sides.size() > 2 || seam || (sides.size() == 2 && sides[0].first == sides[1].first)) continue;
+    GProp_GProps properties;
+    BRepGProp::LinearProperties(edge, properties);
+    const bool free = sides.size() == 1;
+    joints.push_back({properties.Mass(), sides[0].first, free ? -1 : sides[1].first,
+                      !free && sides[0].second == sides[1].second});
   }
-  return real > 0;
+  std::stable_sort(joints.begin(), joints.end(), [](const Joint& x, const Joint& y) { return x.length > y.length; });
+  return joints;
 }
 
-/// The shells of the sewn shape, with faces that agree with their neighbours, and faces that were sewn to nothing.
-std::vector<TopoDS_Shell> consistent_shells(const TopoDS_Shape& sewn) {
-  std::vector<TopoDS_Shell> shells;
-  for (TopExp_Explorer it(sewn, TopAbs_SHELL); it.More(); it.Next()) {
-    ShapeFix_Shell fix(TopoDS::Shell(it.Current()));
-    fix.FixFaceOrientation(TopoDS::Shell(it.Current()));
-    for (TopExp_Explorer part(fix.Shape(), TopAbs_SHELL); part.More(); part.Next())
-      shells.push_back(TopoDS::Shell(part.Current()));
-  }
-  for (TopExp_Explorer it(sewn, TopAbs_FACE, TopAbs_SHELL); it.More(); it.Next()) {
-    TopoDS_Shell shell;
-    BRep_Builder().MakeShell(shell);
-    BRep_Builder().Add(shell, it.Current());
-    shells.push_back(shell);
-  }
-  return shells;
-}
-
-class Sides {
+/// Faces joined to sheets, each turned or not against the first of its sheet.
+class Sheets {
  public:
-  explicit Sides(const TopTools_IndexedMapOfShape& faces) {
-    for (int i = 1; i <= faces.Extent(); ++i) {
-      result_.solid.push_back(-1);
-      result_.reversed.push_back(faces(i).Orientation() == TopAbs_REVERSED);
-    }
+  explicit Sheets(std::size_t count) : parent_(count), turned_(count, false) {
+    for (std::size_t k = 0; k < count; ++k) parent_[k] = static_cast<int>(k);
   }
 
-  void take(const Sewn& sewn, const std::vector<TopoDS_Shell>& shells) {
-    for (std::size_t k = 0; k < sewn.faces.size(); ++k)
-      if (!sewn.faces[k].IsNull()) numbers_.Bind(sewn.faces[k], static_cast<int>(k));
-    for (const TopoDS_Shell& shell : shells) {
-      TopoDS_Shape sides = shell;
-      bool closed = is_closed(shell);
-      if (closed) {
-        TopoDS_Solid solid;
-        BRep_Builder().MakeSolid(solid);
-        BRep_Builder().Add(solid, shell);
-        closed = BRepLib::OrientClosedSolid(solid);
-        if (closed) sides = solid;
-      }
-      take_faces(sides, closed ? result_.solids++ : -1);
-    }
+  void join(const Joint& joint) {
+    const int a = root(joint.a), b = root(joint.b);
+    if (a == b) return;
+    const bool turn = joint.same_way != (turned(joint.a) != turned(joint.b));
+    parent_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    turned_[static_cast<std::size_t>(std::max(a, b))] = turn;
   }
 
-  [[nodiscard]] SewnFaces& result() { return result_; }
+  [[nodiscard]] int root(int face) const {
+    while (parent_[static_cast<std::size_t>(face)] != face) face = parent_[static_cast<std::size_t>(face)];
+    return face;
+  }
+  [[nodiscard]] bool turned(int face) const {
+    bool turn = false;
+    for (; parent_[static_cast<std::size_t>(face)] != face; face = parent_[static_cast<std::size_t>(face)])
+      turn = turn != turned_[static_cast<std::size_t>(face)];
+    return turn;
+  }
 
  private:
-  void take_faces(const TopoDS_Shape& sides, int solid) {
-    std::map<std::size_t, bool> found;
-    for (TopExp_Explorer it(sides, TopAbs_FACE); it.More(); it.Next())
-      if (const int* k = numbers_.Seek(it.Current()))
-        found[static_cast<std::size_t>(*k)] = it.Current().Orientation() == TopAbs_REVERSED;
-    std::size_t turned = 0;
-    for (const auto& [k, reversed] : found) turned += reversed != result_.reversed[k];
-    // Of an open shell nothing says which side is out: most of its faces stay as they stand, or the first.
-    const bool tie = 2 * turned == found.size() && !found.empty() && found.begin()->second != result_.reversed[found.begin()->first];
-    const bool flip = solid < 0 && (2 * turned > found.size() || tie);
-    for (const auto& [k, reversed] : found) {
-      result_.reversed[k] = reversed != flip;
-      result_.solid[k] = solid;
-    }
-  }
-
-  SewnFaces result_;
-  TopTools_DataMapOfShapeInteger numbers_;  ///< of the sewn faces, whichever way they are oriented
+  std::vector<int> parent_;
+  std::vector<bool> turned_;
 };
+
+/// Six times the volume between the triangles of a face, oriented forward, and the origin; they are those of the file's
+/// face.
+double volume_under(const TopoDS_Face& face) {
+  TopLoc_Location location;
+  const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, location);
+  if (mesh.IsNull()) return 0.0;
+  const auto node = [&](int i) { return mesh->Node(i).Transformed(location.Transformation()).XYZ(); };
+  double volume = 0.0;
+  for (int i = 1; i <= mesh->NbTriangles(); ++i) {
+    int a, b, c;
+    mesh->Triangle(i).Get(a, b, c);
+    volume += node(a).Dot(node(b).Crossed(node(c)));
+  }
+  return volume;
+}
+
+/// What is known of the faces before they are sewn: each as it stands.
+SewnFaces as_they_stand(const TopTools_IndexedMapOfShape& faces) {
+  SewnFaces result;
+  for (int i = 1; i <= faces.Extent(); ++i) {
+    result.solid.push_back(-1);
+    result.reversed.push_back(faces(i).Orientation() == TopAbs_REVERSED);
+  }
+  return result;
+}
+
+/// Orients the members of one sheet; a closed one becomes the next solid.
+void orient(const TopTools_IndexedMapOfShape& faces, const Sheets& sheets, const std::vector<int>& members, bool closed,
+            SewnFaces& result) {
+  bool flip = false;
+  if (closed) {
+    double volume = 0.0;
+    for (const int k : members) {
+      const double part = volume_under(TopoDS::Face(faces(k + 1)));
+      volume += sheets.turned(k) ? -part : part;
+    }
+    flip = volume < 0.0;
+  } else {
+    // Nothing says which side of an open sheet is out: most of its faces stay as they stand, or the first.
+    std::size_t others = 0;
+    for (const int k : members) others += sheets.turned(k) != result.reversed[static_cast<std::size_t>(k)];
+    const auto first = static_cast<std::size_t>(members.front());
+    const bool tie = 2 * others == members.size();
+    flip = tie ? sheets.turned(members.front()) != result.reversed[first] : 2 * others > members.size();
+  }
+  for (const int k : members) {
+    result.reversed[static_cast<std::size_t>(k)] = sheets.turned(k) != flip;
+    if (closed) result.solid[static_cast<std::size_t>(k)] = result.solids;
+  }
+  result.solids += closed ? 1 : 0;
+}
+
+/// The sheets that the sewn faces form; returns how many of them are open.
+std::size_t take_sides(const TopTools_IndexedMapOfShape& faces, const Sewn& sewn, SewnFaces& result) {
+  const std::vector<Joint> joints = joints_of(sewn);
+  Sheets sheets(sewn.faces.size());
+  for (const Joint& joint : joints)
+    if (joint.b >= 0) sheets.join(joint);
+  std::vector<bool> open(sewn.faces.size(), false), joined(sewn.faces.size(), false);
+  for (const Joint& joint : joints) {
+    const auto root = static_cast<std::size_t>(sheets.root(joint.a));
+    joined[root] = true;
+    if (joint.b < 0 && joint.length > sewn.gap_mm) open[root] = true;
+  }
+  std::map<int, std::vector<int>> members;
+  for (std::size_t k = 0; k < sewn.faces.size(); ++k) members[sheets.root(static_cast<int>(k))].push_back(static_cast<int>(k));
+  std::size_t count = 0;
+  for (const auto& [root, all] : members) {
+    // A face without any border but seams is closed by itself: a ball, a torus.
+    const bool closed = !open[static_cast<std::size_t>(root)] && sewn.free_edges == 0 ? true
+                        : !open[static_cast<std::size_t>(root)] && joined[static_cast<std::size_t>(root)];
+    orient(faces, sheets, all, closed, result);
+    count += closed ? 0 : 1;
+  }
+  return count;
+}
 
 std::string account(const SewnFaces& sides, const Sewn& sewn, std::size_t open) {
   const std::string gap = fmt::format("over gaps of up to {:.2g} mm", sewn.gap_mm);
@@ -151,19 +219,17 @@ std::string account(const SewnFaces& sides, const Sewn& sewn, std::size_t open) 
 }  // namespace
 
 SewnFaces sew_loose_faces(const TopTools_IndexedMapOfShape& faces, double size_mm) {
-  Sides sides(faces);
-  SewnFaces& result = sides.result();
+  SewnFaces result = as_they_stand(faces);
   if (faces.Extent() > kMostSewnFaces) {
     result.notes.push_back(fmt::format("the file has {} loose faces, more than the {} that are sewn", faces.Extent(), kMostSewnFaces));
     return result;
   }
   try {
     const Sewn sewn = sew_by_steps(faces, size_mm);
-    const std::vector<TopoDS_Shell> shells = consistent_shells(sewn.shape);
-    sides.take(sewn, shells);
-    result.notes.push_back(account(result, sewn, shells.size() - static_cast<std::size_t>(result.solids)));
+    const std::size_t open = take_sides(faces, sewn, result);
+    result.notes.push_back(account(result, sewn, open));
   } catch (const Standard_Failure& failure) {
-    result = Sides(faces).result();
+    result = as_they_stand(faces);
     result.notes.push_back(fmt::format("the file has loose faces, which could not be sewn ({})", failure.GetMessageString()));
   }
   return result;

@@ -21,9 +21,9 @@ struct SewnFaces {
   std::vector<std::string> notes;
 };
 
-/// Sews the faces of the map, in millimetres, `size_mm` across. The faces of a shell that closes get the orientation that they have in its
-/// solid; those of an open one agree with one another along shared borders, most of them as they stand. What fails
-/// leaves the faces as they stand, with a note; throws nothing.
+/// Sews the faces of the map, in millimetres, `size_mm` across, which must have been triangulated. The faces of a shell
+/// that closes get the orientation that they have in its solid; those of an open one agree with one another along shared
+/// borders, most of them as they stand. What fails leaves the faces as they stand, with a note; throws nothing.
 [[nodiscard]] SewnFaces sew_loose_faces(const TopTools_IndexedMapOfShape& faces, double size_mm);
 
 }  // namespace flank::internal
