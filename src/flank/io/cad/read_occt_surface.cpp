@@ -46,7 +46,11 @@ SplineRows piece(SplineRows rows, double a, double b, double period) {
   const double shift = std::floor((a - rows.first()) / period + 5e-10) * period;
   a -= shift;
   b = std::min(b - shift, a + period);
-  if (b > rows.last() + 1e-9 * period) rows = two_turns(rows, period);
+  // The library leaves the knots of a spline that was periodic as they were: not clamped.
+  if (b > rows.last() + 1e-9 * period) {
+    const double first = rows.first(), last = rows.last();
+    rows = two_turns(spline_segment(std::move(rows), first, last), period);
+  }
   rows = spline_segment(std::move(rows), a, b);
   for (double& knot : rows.knots) knot += shift;
   return rows;
