@@ -25,7 +25,8 @@ std::vector<int> named_faces(const Part& part, const std::vector<int>& targets, 
       const std::vector<int> members = parse_face_item(part, item);
       if (std::all_of(members.begin(), members.end(), [&](int face) { return holds(targets, face); }))
         throw UsageError(field, list,
-                         fmt::format("{} is a target; other faces of F1 to F{} are accepted", item, part.face_count()));
+                         fmt::format("{} is a target; other faces of F1 to F{} are accepted", item,
+                                     parse_face_name(part.face_id(part.face_count() - 1)).number));
     }
   } catch (const InputError& e) {
     throw UsageError(field, list, e.what());
