@@ -6,8 +6,10 @@
 #include <memory>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include "flank/base/parallel.h"
+#include "flank/geom/face_pieces.h"
 #include "flank/geom/trim.h"
 #include "flank/target.h"
 
@@ -24,7 +26,10 @@ struct BorderPoint {
 };
 
 /// Points of one edge of a face, with the face's normal.
-using BorderEdge = std::vector<BorderPoint>;
+struct BorderEdge {
+  std::vector<BorderPoint> points;
+  Box3 box;  ///< of the edge, with a margin for what it does between the points
+};
 
 std::vector<BorderEdge> border_of(const Face& face) {
   const BSplineSurface& s = face.surface;
@@ -39,8 +44,12 @@ std::vector<BorderEdge> border_of(const Face& face) {
         const Vec2 q = curve.value(curve.first() + (curve.last() - curve.first()) * (i + 0.5) / kPerEdge);
         const SurfaceJet jet = s.jet(q.x(), q.y());
         const Vec3 cross = jet.du.cross(jet.dv);
-        if (cross.norm() > 0.0) edge.push_back({jet.p, (face.reversed ? -1.0 : 1.0) * cross.normalized()});
+        if (cross.norm() > 0.0) edge.points.push_back({jet.p, (face.reversed ? -1.0 : 1.0) * cross.normalized()});
+        edge.box.add(jet.p);
       }
+      const double margin = edge.box.diagonal() / kPerEdge;
+      edge.box.low.array() -= margin;
+      edge.box.high.array() += margin;
     }
   }
   return edges;
@@ -51,7 +60,7 @@ bool joins(const std::vector<BorderEdge>& border, const Target& target, double n
   const double least = std::cos(kSkinAngleDeg * std::numbers::pi / 180.0);
   for (const BorderEdge& edge : border) {
     int touching = 0, smooth = 0;
-    for (const BorderPoint& b : edge) {
+    for (const BorderPoint& b : edge.points) {
       if (target.box().squared_distance(b.point) > near_mm * near_mm) continue;
       const Footpoint foot = target.closest_within(b.point, near_mm);
       if (foot.patch < 0) continue;
@@ -64,27 +73,43 @@ bool joins(const std::vector<BorderEdge>& border, const Target& target, double n
   return false;
 }
 
+bool meet(const Box3& p, const Box3& q, double near_mm) {
+  return (p.low.array() <= q.high.array() + near_mm).all() && (q.low.array() <= p.high.array() + near_mm).all();
+}
+
+/// Larger principal curvature, 1/mm, that half of the face exceeds.
+double bend_of(const Target& target) {
+  constexpr double kSamples = 60.0;
+  std::vector<double> bends;
+  for (const SurfaceSample& sample : target.samples(std::sqrt(target.area() / kSamples))) {
+    const Footpoint foot = target.closest(sample.point);
+    bends.push_back(std::max(std::abs(foot.k1), std::abs(foot.k2)));
+  }
+  if (bends.empty()) return 0.0;
+  const auto middle = bends.begin() + static_cast<std::ptrdiff_t>(bends.size() / 2);
+  std::nth_element(bends.begin(), middle, bends.end());
+  return *middle;
+}
+
 /// Which faces are joined, with what that takes made once for each face.
 class Joints {
  public:
   explicit Joints(const Part& part) : part_(part), near_(std::max(kTouchMm, kTouchShare * part.box.diagonal())) {
     borders_.resize(part.faces.size());
-    boxes_.resize(part.faces.size());
     targets_.resize(part.faces.size());
+    bends_.resize(part.faces.size());
     parallel_for(part.faces.size(), [&](std::size_t k) {
-      if (part.is_left_out(static_cast<int>(k))) return;
-      borders_[k] = border_of(part.faces[k]);
-      for (const BorderEdge& edge : borders_[k])
-        for (const BorderPoint& b : edge) boxes_[k].add(b.point);
+      if (!part.is_left_out(static_cast<int>(k))) borders_[k] = border_of(part.faces[k]);
     });
   }
 
-  [[nodiscard]] std::vector<int> joined_to(int face) {
+  /// Those of the faces that are not in `known`.
+  [[nodiscard]] std::vector<int> joined_to(int face, const std::set<int>& known) {
     std::vector<int> others;
     for (int k = 0; k < part_.face_count(); ++k)
-      if (k != face && !part_.is_left_out(k) && boxes_meet(face, k)) others.push_back(k);
-    target(face);
-    for (const int k : others) target(k);
+      if (known.count(k) == 0 && borders_meet(face, k)) others.push_back(k);
+    prepare(face);
+    parallel_for(others.size(), [&](std::size_t i) { prepare(others[i]); });
     std::vector<char> yes(others.size(), 0);
     parallel_for(others.size(), [&](std::size_t i) {
       const int k = others[i];
@@ -98,38 +123,84 @@ class Joints {
     return joined;
   }
 
+  /// How strongly the face bends, and its surface.
+  [[nodiscard]] double bend(int face) {
+    prepare(face);
+    return bends_[index(face)];
+  }
+  [[nodiscard]] const Target& target(int face) {
+    prepare(face);
+    return *targets_[index(face)];
+  }
+
  private:
   static std::size_t index(int face) { return static_cast<std::size_t>(face); }
   [[nodiscard]] const Face& value(int face) const { return part_.faces[index(face)]; }
-  void target(int face) {
-    if (!targets_[index(face)]) targets_[index(face)] = make_target({value(face)}, +1);
+  void prepare(int face) {
+    if (targets_[index(face)]) return;
+    targets_[index(face)] = make_target({value(face)}, +1);
+    bends_[index(face)] = bend_of(*targets_[index(face)]);
   }
-  [[nodiscard]] bool boxes_meet(int a, int b) const {
-    const Box3 &p = boxes_[index(a)], &q = boxes_[index(b)];
-    return (p.low.array() <= q.high.array() + near_).all() && (q.low.array() <= p.high.array() + near_).all();
+  /// A border that two faces share is an edge of both.
+  [[nodiscard]] bool borders_meet(int a, int b) const {
+    for (const BorderEdge& p : borders_[index(a)])
+      for (const BorderEdge& q : borders_[index(b)])
+        if (meet(p.box, q.box, near_)) return true;
+    return false;
   }
 
   const Part& part_;
   double near_;
   std::vector<std::vector<BorderEdge>> borders_;
-  std::vector<Box3> boxes_;
   std::vector<std::unique_ptr<Target>> targets_;
+  std::vector<double> bends_;
+};
+
+/// A skin that grows.
+struct Skin {
+  std::set<int> faces;
+  double area = 0.0;
+  Box3 box;
+
+  void add(int face, const Target& target) {
+    if (!faces.insert(face).second) return;
+    area += target.area();
+    box.add(target.box().low);
+    box.add(target.box().high);
+  }
+  /// Its mean width across its longest extent, mm.
+  [[nodiscard]] double width() const { return area / std::max(box.diagonal(), 1e-9); }
 };
 
 }  // namespace
 
 std::vector<int> smooth_skin(const Part& part, const std::vector<int>& faces) {
-  std::set<int> skin(faces.begin(), faces.end());
-  if (part.is_mesh()) return {skin.begin(), skin.end()};
-  Joints joints(part);
-  std::vector<int> open(skin.begin(), skin.end());
-  while (!open.empty()) {
-    const int face = open.back();
-    open.pop_back();
-    for (const int other : joints.joined_to(face))
-      if (skin.insert(other).second) open.push_back(other);
+  if (part.is_mesh()) {
+    const std::set<int> all(faces.begin(), faces.end());
+    return {all.begin(), all.end()};
   }
-  return {skin.begin(), skin.end()};
+  Joints joints(part);
+  Skin skin;
+  // What is joined to the skin, by how strongly it bends: the calm ones first, so that the skin is as wide as it can be
+  // when the edges are looked at.
+  std::set<std::pair<double, int>> open;
+  std::set<int> known(faces.begin(), faces.end());
+  const auto look_around = [&](int face) {
+    for (const int other : joints.joined_to(face, known)) {
+      known.insert(other);
+      open.insert({joints.bend(other), other});
+    }
+  };
+  for (const int face : faces) skin.add(face, joints.target(face));
+  for (const int face : faces) look_around(face);
+  while (!open.empty()) {
+    const auto [bend, face] = *open.begin();
+    open.erase(open.begin());
+    if (bend * skin.width() > kEdgeBend) break;
+    skin.add(face, joints.target(face));
+    look_around(face);
+  }
+  return {skin.faces.begin(), skin.faces.end()};
 }
 
 }  // namespace flank::internal
