@@ -30,7 +30,8 @@ TEST(FaceCut, APieceIsTheSameSurface) {
   for (const bool rational : {false, true}) {
     BSplineSurface s = testing::elliptic_skin(40.0, 4.0, 30.0).surface;
     if (rational)
-      for (std::size_t k = 0; k < s.poles.size(); ++k) s.weights.push_back(1.0 + 0.3 * std::sin(0.7 * static_cast<double>(k)));
+      for (std::size_t k = 0; k < s.poles.size(); ++k)
+        s.weights.push_back(1.0 + 0.3 * std::sin(0.7 * static_cast<double>(k)));
     expect_same_points(s, cut_surface(s, true, 0.21, 0.83), 0.0, 0.0);
     expect_same_points(s, cut_surface(s, false, 0.0, 0.37), 0.0, 0.0);
   }

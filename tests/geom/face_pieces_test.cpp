@@ -29,8 +29,7 @@ double area_of(const BSplineSurface& s) {
 double turn_of(const BSplineSurface& s) {
   std::vector<Vec3> normals;
   for (int i = 0; i <= 40; ++i) {
-    const SurfaceJet jet =
-        s.jet(s.u_first() + (s.u_last() - s.u_first()) * i / 40, 0.5 * (s.v_first() + s.v_last()));
+    const SurfaceJet jet = s.jet(s.u_first() + (s.u_last() - s.u_first()) * i / 40, 0.5 * (s.v_first() + s.v_last()));
     normals.push_back(jet.du.cross(jet.dv).normalized());
   }
   double least = 1.0;

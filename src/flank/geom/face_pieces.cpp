@@ -16,9 +16,9 @@ constexpr int kSections = 33;                  ///< lines across the face that a
 constexpr double kSectionShare = 0.8;          ///< of them have to agree about the number of edges
 constexpr double kFinestTurn = 4.0 * kDegree;  ///< between neighbouring samples of a section
 constexpr int kHalvings = 14;                  ///< of a knot span, towards that
-constexpr double kLeastSide = 0.1;             ///< shorter sides, as a share of the width, belong to the edges about them
-constexpr double kGap = 0.03;                  ///< shorter calm stretches within an edge are part of it
-constexpr double kSharp = 1e-4;                ///< an edge that is shorter is a cut and no piece
+constexpr double kLeastSide = 0.1;  ///< shorter sides, as a share of the width, belong to the edges about them
+constexpr double kGap = 0.03;       ///< shorter calm stretches within an edge are part of it
+constexpr double kSharp = 1e-4;     ///< an edge that is shorter is a cut and no piece
 
 struct Sample {
   double t;

@@ -43,9 +43,11 @@ std::vector<int> faces_to_check(const Part& part, const std::vector<int>& target
   if (request.ignore_faces) ignored = named_faces(part, targets, "ignore_faces", *request.ignore_faces);
   for (int face : only)
     if (holds(ignored, face))
-      throw UsageError("check_faces", fmt::format("`ignore_faces` names {}, too; it may be in one of them", part.face_id(face)));
+      throw UsageError("check_faces",
+                       fmt::format("`ignore_faces` names {}, too; it may be in one of them", part.face_id(face)));
   for (int face = 0; face < part.face_count(); ++face)
-    if (!part.is_left_out(face) && !holds(targets, face) && !holds(ignored, face) && (!request.check_faces || holds(only, face)))
+    if (!part.is_left_out(face) && !holds(targets, face) && !holds(ignored, face) &&
+        (!request.check_faces || holds(only, face)))
       checks.push_back(face);
   return checks;
 }

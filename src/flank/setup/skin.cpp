@@ -16,8 +16,8 @@
 namespace flank::internal {
 namespace {
 
-constexpr int kPerEdge = 24;      ///< points along an edge that are looked at
-constexpr int kLeastTouching = 4; ///< of them lie on the other face, if the two share a stretch of the edge
+constexpr int kPerEdge = 24;       ///< points along an edge that are looked at
+constexpr int kLeastTouching = 4;  ///< of them lie on the other face, if the two share a stretch of the edge
 constexpr double kTouchMm = 2e-3, kTouchShare = 1e-5;  ///< how near that is; the share is of the part
 constexpr double kSmoothShare = 0.9;  ///< of the points on a shared stretch: at its ends other faces may come in
 

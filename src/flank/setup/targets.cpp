@@ -102,9 +102,8 @@ std::vector<FaceSamples> judge_samples(const Setup& setup, double spacing_mm, do
     const int face = faces[k];
     const bool target = std::find(targets.begin(), targets.end(), face) != targets.end();
     const double spacing = target ? spacing_mm : check_spacing_mm;
-    samples[k] = part.is_mesh()
-                     ? sample_mesh(part.face_id(face), extract_mesh(part, {face}), spacing, target)
-                     : sample_face(part.faces[static_cast<std::size_t>(face)], spacing, target);
+    samples[k] = part.is_mesh() ? sample_mesh(part.face_id(face), extract_mesh(part, {face}), spacing, target)
+                                : sample_face(part.faces[static_cast<std::size_t>(face)], spacing, target);
   });
   return samples;
 }

@@ -40,7 +40,8 @@ Handle(Geom_BSplineSurface) tube(bool periodic_u, bool rational, double far_mm =
   TColStd_Array1OfInteger round_times(1, kRound + 1), along_times(1, 2);
   for (int i = 1; i <= kRound + 1; ++i) round.SetValue(i, 0.3 * i), round_times.SetValue(i, 1);
   for (int i = 1; i <= 2; ++i) along.SetValue(i, i), along_times.SetValue(i, 2);
-  if (periodic_u) return new Geom_BSplineSurface(poles, weights, round, along, round_times, along_times, 3, 1, true, false);
+  if (periodic_u)
+    return new Geom_BSplineSurface(poles, weights, round, along, round_times, along_times, 3, 1, true, false);
   return new Geom_BSplineSurface(poles, weights, along, round, along_times, round_times, 1, 3, false, true);
 }
 
@@ -65,7 +66,8 @@ TEST(PartPeriodic, SurfacesAreThoseOfTheFile) {
       const Scratch scratch;
       // The whole tube, a part of it, and a part across the seam.
       const std::string file = write_faces(
-          scratch, {BRepBuilderAPI_MakeFace(surface, 1e-7), BRepBuilderAPI_MakeFace(surface, u0 + 0.2 * du, u0 + 0.7 * du, v0 + 0.1 * dv, v0 + 0.8 * dv, 1e-7),
+          scratch, {BRepBuilderAPI_MakeFace(surface, 1e-7),
+                    BRepBuilderAPI_MakeFace(surface, u0 + 0.2 * du, u0 + 0.7 * du, v0 + 0.1 * dv, v0 + 0.8 * dv, 1e-7),
                     periodic_u ? BRepBuilderAPI_MakeFace(surface, u0 + 0.8 * du, u0 + 1.3 * du, v0, v1, 1e-7)
                                : BRepBuilderAPI_MakeFace(surface, u0, u1, v0 + 0.8 * dv, v0 + 1.3 * dv, 1e-7)});
       const Part part = read_part(file);
@@ -95,9 +97,9 @@ TEST(PartPeriodic, OfRealFiles) {
 
 TEST(PartLeftOut, AFaceThatCannotBeReadDoesNotLoseThePart) {
   const Scratch scratch;
-  const std::string file =
-      write_faces(scratch, {BRepBuilderAPI_MakeFace(tube(true, false), 1e-7), BRepBuilderAPI_MakeFace(tube(true, false, 1e9), 1e-7),
-                            BRepBuilderAPI_MakeFace(tube(false, false), 1e-7)});
+  const std::string file = write_faces(
+      scratch, {BRepBuilderAPI_MakeFace(tube(true, false), 1e-7), BRepBuilderAPI_MakeFace(tube(true, false, 1e9), 1e-7),
+                BRepBuilderAPI_MakeFace(tube(false, false), 1e-7)});
   const Part part = read_part(file);
   ASSERT_EQ(part.faces.size(), 3u);
   EXPECT_EQ(part.faces[2].id, "F3") << "the others keep their names";

@@ -80,7 +80,8 @@ TEST(LooseFaces, ThatCloseAreASolid) {
 TEST(LooseFaces, SurfacesAndTrimsAreThoseOfTheFile) {
   Loose loose(0.005);
   loose.add(BRepPrimAPI_MakeBox(30.0, 20.0, 10.0).Shape());
-  for (const Face& face : loose.read().faces) EXPECT_TRUE(face.loops.empty()) << face.id << ": still the whole rectangle";
+  for (const Face& face : loose.read().faces)
+    EXPECT_TRUE(face.loops.empty()) << face.id << ": still the whole rectangle";
 }
 
 TEST(LooseFaces, ThatDoNotCloseAgree) {

@@ -88,8 +88,8 @@ std::vector<Joint> joints_of(const Sewn& sewn) {
     GProp_GProps properties;
     BRepGProp::LinearProperties(edge, properties);
     const bool free = sides.size() == 1;
-    joints.push_back({properties.Mass(), sides[0].first, free ? -1 : sides[1].first,
-                      !free && sides[0].second == sides[1].second});
+    joints.push_back(
+        {properties.Mass(), sides[0].first, free ? -1 : sides[1].first, !free && sides[0].second == sides[1].second});
   }
   std::stable_sort(joints.begin(), joints.end(), [](const Joint& x, const Joint& y) { return x.length > y.length; });
   return joints;
@@ -191,12 +191,14 @@ std::size_t take_sides(const TopTools_IndexedMapOfShape& faces, const Sewn& sewn
     if (joint.b < 0 && joint.length > sewn.gap_mm) open[root] = true;
   }
   std::map<int, std::vector<int>> members;
-  for (std::size_t k = 0; k < sewn.faces.size(); ++k) members[sheets.root(static_cast<int>(k))].push_back(static_cast<int>(k));
+  for (std::size_t k = 0; k < sewn.faces.size(); ++k)
+    members[sheets.root(static_cast<int>(k))].push_back(static_cast<int>(k));
   std::size_t count = 0;
   for (const auto& [root, all] : members) {
     // A face without any border but seams is closed by itself: a ball, a torus.
-    const bool closed = !open[static_cast<std::size_t>(root)] && sewn.free_edges == 0 ? true
-                        : !open[static_cast<std::size_t>(root)] && joined[static_cast<std::size_t>(root)];
+    const bool closed = !open[static_cast<std::size_t>(root)] && sewn.free_edges == 0
+                            ? true
+                            : !open[static_cast<std::size_t>(root)] && joined[static_cast<std::size_t>(root)];
     orient(faces, sheets, all, closed, result);
     count += closed ? 0 : 1;
   }
@@ -212,7 +214,8 @@ std::string account(const SewnFaces& sides, const Sewn& sewn, std::size_t open) 
     return fmt::format("the file has loose faces: they were sewn to {} solid{} and {} open sheet{}, {}", sides.solids,
                        sides.solids == 1 ? "" : "s", open, open == 1 ? "" : "s", gap);
   return fmt::format(
-      "the file has loose faces, which do not close: {} open sheet{} when sewn, {}, {} borders free; on which side the material is, is not known",
+      "the file has loose faces, which do not close: {} open sheet{} when sewn, {}, {} borders free; on which side the "
+      "material is, is not known",
       open, open == 1 ? "" : "s", gap, sewn.free_edges);
 }
 
@@ -221,7 +224,8 @@ std::string account(const SewnFaces& sides, const Sewn& sewn, std::size_t open) 
 SewnFaces sew_loose_faces(const TopTools_IndexedMapOfShape& faces, double size_mm) {
   SewnFaces result = as_they_stand(faces);
   if (faces.Extent() > kMostSewnFaces) {
-    result.notes.push_back(fmt::format("the file has {} loose faces, more than the {} that are sewn", faces.Extent(), kMostSewnFaces));
+    result.notes.push_back(
+        fmt::format("the file has {} loose faces, more than the {} that are sewn", faces.Extent(), kMostSewnFaces));
     return result;
   }
   try {
@@ -230,7 +234,8 @@ SewnFaces sew_loose_faces(const TopTools_IndexedMapOfShape& faces, double size_m
     result.notes.push_back(account(result, sewn, open));
   } catch (const Standard_Failure& failure) {
     result = as_they_stand(faces);
-    result.notes.push_back(fmt::format("the file has loose faces, which could not be sewn ({})", failure.GetMessageString()));
+    result.notes.push_back(
+        fmt::format("the file has loose faces, which could not be sewn ({})", failure.GetMessageString()));
   }
   return result;
 }
