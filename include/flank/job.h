@@ -17,9 +17,12 @@ namespace flank {
 struct PartRequest {
   std::string file;                 ///< STEP, IGES, BREP, STL, OBJ or PLY
   std::optional<std::string> unit;  ///< of a mesh, whose file states none: "mm", "cm", "m" or "in"
-  std::string faces = "F1";         ///< "F1" or "F1,F3"
+  std::string faces = "F1";         ///< "F1", "F1,F3", "F143-F160", "F1a" (a piece)
+  std::optional<std::string> skin;  ///< "F143": that face and all that is joined smoothly to it, instead of `faces`
   std::optional<int> side;          ///< +1 or -1: the machined side of an open sheet; none: both are tried
   bool operator==(const PartRequest&) const = default;
+  /// For titles: "F1,F3", or "skin of F143".
+  [[nodiscard]] std::string target_text() const { return skin ? "skin of " + *skin : faces; }
 };
 
 /// The tool, or what is known of it.

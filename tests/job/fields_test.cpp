@@ -24,8 +24,8 @@ void add(Addresses& all, const Members&... members) {
 
 // A new member of a job does not compile here until it is named, and then has to be in the table.
 void add_members(const PartRequest& request, Addresses& all) {
-  const auto& [file, unit, faces, side] = request;
-  add(all, file, unit, faces, side);
+  const auto& [file, unit, faces, skin, side] = request;
+  add(all, file, unit, faces, skin, side);
 }
 void add_members(const ToolRequest& request, Addresses& all) {
   const auto& [spec, axis_length] = request;

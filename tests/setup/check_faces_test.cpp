@@ -10,7 +10,7 @@ namespace {
 Part part_of(int faces) {
   Part part;
   part.file = "part.step";
-  part.faces.resize(static_cast<std::size_t>(faces));
+  for (int k = 1; k <= faces; ++k) part.faces.emplace_back().id = "F" + std::to_string(k);
   return part;
 }
 
@@ -36,6 +36,17 @@ std::string refusal(const ObstacleRequest& request) {
     return e.what();
   }
   return {};
+}
+
+TEST(CheckFaces, OfRangesTheRestIsMeant) {
+  Part part = part_of(6);
+  EXPECT_EQ(faces_to_check(part, {1}, faces("F1-F3", {})), (std::vector<int>{0, 2}));
+  EXPECT_EQ(faces_to_check(part, {1}, faces({}, "F2-F4")), (std::vector<int>{0, 4, 5}));
+  part.faces[1].id = "F2a", part.faces[2].id = "F2b";
+  part.faces[3].id = "F3", part.faces[4].id = "F4", part.faces[5].id = "F5";
+  EXPECT_EQ(faces_to_check(part, {1}, faces({}, "F2")), (std::vector<int>{0, 3, 4, 5})) << "the other piece";
+  part.left_out[4] = "why";
+  EXPECT_EQ(faces_to_check(part, {1}, {}), (std::vector<int>{0, 2, 3, 5})) << "nobody looks at what was left out";
 }
 
 TEST(CheckFaces, RefusesWhatIsNotThere) {

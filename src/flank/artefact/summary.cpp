@@ -98,7 +98,7 @@ void add_plan(const CoverSummary& cover, nlohmann::ordered_json& json) {
 
 std::string summary_text(const Result& result) {
   const PartRequest& part = part_of(result.job);
-  std::string text = fmt::format("{} {}\n", part.file, part.faces);
+  std::string text = fmt::format("{} {}\n", part.file, part.target_text());
   text += fmt::format("  asked for   {}\n", fmt::join(asked_for(result.job), ", "));
   text += tool_line(result.tool);
   text += result.path.pose_count() > 0 ? error_lines(result) : "  path        no strip: nothing is machined\n";
@@ -121,7 +121,7 @@ std::string summary_json(const Result& result) {
   json["schema"] = "openflank/summary/1";
   json["units"] = "mm";
   json["part"] = part_of(result.job).file;
-  json["faces"] = part_of(result.job).faces;
+  json["faces"] = part_of(result.job).target_text();
   json["complete"] = result.complete;
   json["within"] = result.acceptance().pass();
   json["tolerance"] = v.tolerance_mm;

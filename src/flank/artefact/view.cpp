@@ -115,7 +115,7 @@ View make_view(const PlanJob& job, const Setup& setup, const Tool& tool, const P
   std::visit(
       [&](const auto& plan) {
         view.part = plan.part.file;
-        view.faces = plan.part.faces;
+        view.faces = plan.part.target_text();
         view.tolerance_mm = plan.tolerance_mm;
         view.least_coverage = plan.judge.least_coverage;
       },

@@ -47,6 +47,7 @@ void tessellate_all(const Part& part, std::vector<ViewFace>& bodies) {
   double chord = kCoarseChord * diagonal;
   for (int k = 0; k < kCoarsenings; ++k, chord *= 4.0) {
     parallel_for(bodies.size(), [&](std::size_t i) {
+      if (part.is_left_out(static_cast<int>(i))) return;
       if (k == 0 || !bodies[i].target) tessellate_into(bodies[i], part.faces[i], chord, 0.2 * diagonal);
     });
     if (triangles_of_others(bodies) <= static_cast<std::size_t>(kOtherTriangles)) break;
@@ -140,7 +141,7 @@ std::vector<ViewFace> view_faces(const Part& part, const std::vector<int>& targe
                                  const std::set<std::string>& entered) {
   std::vector<ViewFace> bodies(static_cast<std::size_t>(part.face_count()));
   for (std::size_t k = 0; k < bodies.size(); ++k) {
-    bodies[k].face = part.is_mesh() ? "F" + std::to_string(k + 1) : part.faces[k].id;
+    bodies[k].face = part.face_id(static_cast<int>(k));
     bodies[k].target = is_target(targets, k);
   }
   if (part.is_mesh()) {

@@ -9,6 +9,7 @@
 #include "flank/base/parallel.h"
 #include "flank/geom/trim.h"
 #include "flank/inspect/inspect_mesh.h"
+#include "flank/io/face_groups.h"
 
 namespace flank::internal {
 namespace {
@@ -222,8 +223,15 @@ InspectReport inspect(const Part& part) {
   report.rows.resize(static_cast<std::size_t>(part.face_count()));
   const double total_area = mesh_area(part.mesh);
   parallel_for(report.rows.size(), [&](std::size_t i) {
+    if (part.is_left_out(static_cast<int>(i))) {
+      report.rows[i].id = part.face_id(static_cast<int>(i));
+      report.rows[i].type = report.rows[i].bend = "left out";
+      return;
+    }
     report.rows[i] = part.is_mesh() ? inspect_mesh_face(part, static_cast<int>(i), total_area)
                                     : inspect_face(part.faces[i], part.surface_types[i]);
+    for (const NamedPiece& piece : pieces_of_face(part, static_cast<int>(i)))
+      report.rows[i].pieces.push_back(inspect_face(piece.face, piece.edge ? "edge" : "side"));
   });
   return report;
 }

@@ -38,6 +38,8 @@ struct InspectRow {
   double smallest_concave_radius_mm = std::numeric_limits<double>::infinity();
   int trims = 0;  ///< loops; 0: the whole parameter rectangle
   int holes = 0;
+  /// Of a face that wraps round an edge: its sides and edges, which can be named like faces. `type` says which.
+  std::vector<InspectRow> pieces;
   int solid = -1;  ///< 0-based, -1: a sheet, whose machining side is taken as the side of its own normal
 };
 

@@ -41,6 +41,15 @@ std::string bend_of(const InspectRow& row) {
   return text;
 }
 
+/// One line of the table.
+void add_line(const InspectRow& row, std::string& text) {
+  const std::string radius =
+      std::isfinite(row.smallest_concave_radius_mm) ? fmt::format("{:.3f}", row.smallest_concave_radius_mm) : "-";
+  const std::string of = row.solid >= 0 ? fmt::format("solid {}", row.solid + 1) : "sheet";
+  fmt::format_to(std::back_inserter(text), "{:<5} {:<10} {:<21} {:>10.2f}  {:<22} {:<37} {:>12}  {:<17} {}\n", row.id,
+                 row.type, form_of(row), row.area_mm2, extent_of(row), bend_of(row), radius, trims_of(row), of);
+}
+
 nlohmann::json box_json(const Box3& box) {
   return {{"low", {box.low.x(), box.low.y(), box.low.z()}}, {"high", {box.high.x(), box.high.y(), box.high.z()}}};
 }
@@ -64,6 +73,7 @@ nlohmann::json row_json(const InspectRow& row) {
                         {"saddle", row.bend_share[3]}};
   json["smallest_concave_radius"] =
       std::isfinite(row.smallest_concave_radius_mm) ? nlohmann::json(row.smallest_concave_radius_mm) : nlohmann::json();
+  for (const InspectRow& piece : row.pieces) json["pieces"].push_back(row_json(piece));
   json["solid"] = row.solid >= 0 ? nlohmann::json(row.solid + 1) : nlohmann::json();
   return json;
 }
@@ -78,11 +88,8 @@ std::string to_table(const InspectReport& report) {
   fmt::format_to(out, "{:<5} {:<10} {:<21} {:>10}  {:<22} {:<37} {:>12}  {:<17} {}\n", "face", "type", "degree, poles",
                  "area mm2", "size mm", "bend", "concave r mm", "trims", "of");
   for (const InspectRow& row : report.rows) {
-    const std::string radius =
-        std::isfinite(row.smallest_concave_radius_mm) ? fmt::format("{:.3f}", row.smallest_concave_radius_mm) : "-";
-    const std::string of = row.solid >= 0 ? fmt::format("solid {}", row.solid + 1) : "sheet";
-    fmt::format_to(out, "{:<5} {:<10} {:<21} {:>10.2f}  {:<22} {:<37} {:>12}  {:<17} {}\n", row.id, row.type,
-                   form_of(row), row.area_mm2, extent_of(row), bend_of(row), radius, trims_of(row), of);
+    add_line(row, text);
+    for (const InspectRow& piece : row.pieces) add_line(piece, text);
   }
   if (!report.repairs.empty()) text += "\nnotes\n";
   for (const std::string& repair : report.repairs) fmt::format_to(out, "- {}\n", repair);

@@ -74,17 +74,13 @@ Part read_mesh(const std::string& file, const std::string& format, std::string_v
   return part;
 }
 
-/// 0-based index of "F3" or "f3".
-int face_index(const Part& part, std::string_view name) {
-  int index = 0;
-  const char* end = name.data() + name.size();
-  const bool named = name.size() > 1 && (name.front() == 'F' || name.front() == 'f');
-  const auto [stop, error] =
-      named ? std::from_chars(name.data() + 1, end, index) : std::from_chars_result{end, std::errc::invalid_argument};
-  if (error != std::errc() || stop != end || index < 1 || index > part.face_count())
-    throw InputError(
-        fmt::format("{}: there is no face \"{}\"; accepted are F1 to F{}", part.file, name, part.face_count()));
-  return index - 1;
+/// A unit that is wrong by 10, 25.4 or 1000 is the commonest fault of a file, and everything else looks right.
+void note_doubtful_size(Part& part) {
+  const double size = part.box.diagonal();
+  if (size <= kLargestPartMm && size >= kSmallestPartMm) return;
+  part.repairs.push_back(fmt::format("the part is {:.3g} mm across, {} {:g} mm: is its unit ({}) right?", size,
+                                     size > kLargestPartMm ? "more than" : "less than",
+                                     size > kLargestPartMm ? kLargestPartMm : kSmallestPartMm, part.unit));
 }
 
 }  // namespace
@@ -94,25 +90,10 @@ Part read_part(const std::string& file, const std::optional<std::string>& unit) 
   if (unit) (void)millimetres_per(*unit);
   const std::string content = read_bytes(file);
   const std::string format = sniff_format(file, content);
-  if (format == "STL" || format == "OBJ" || format == "PLY") return read_mesh(file, format, content, unit);
-  return read_cad(file, format, unit);
-}
-
-std::vector<int> parse_face_list(const Part& part, const std::string& list) {
-  std::vector<int> faces;
-  for (std::size_t begin = 0; begin <= list.size();) {
-    const std::size_t end = std::min(list.find(',', begin), list.size());
-    std::string_view name = std::string_view(list).substr(begin, end - begin);
-    while (!name.empty() && name.front() == ' ') name.remove_prefix(1);
-    while (!name.empty() && name.back() == ' ') name.remove_suffix(1);
-    const int index = face_index(part, name);
-    if (std::find(faces.begin(), faces.end(), index) != faces.end())
-      throw InputError(
-          fmt::format("{}: face \"{}\" is named twice in \"{}\"; name each face once", part.file, name, list));
-    faces.push_back(index);
-    begin = end + 1;
-  }
-  return faces;
+  const bool mesh = format == "STL" || format == "OBJ" || format == "PLY";
+  Part part = mesh ? read_mesh(file, format, content, unit) : read_cad(file, format, unit);
+  note_doubtful_size(part);
+  return part;
 }
 
 TriangleMesh extract_mesh(const Part& part, const std::vector<int>& faces) {

@@ -81,9 +81,10 @@ void visit_part(Request& part, Visitor& visit) {
   visit(FieldInfo{"part", "", "", "STEP, IGES, BREP, STL, OBJ or PLY file", kAny, Spelling::kFile, "PART", true},
         part.file);
   visit(FieldInfo{"unit", "", "", "Unit of a mesh: mm, cm, m or in", kUnit}, part.unit);
-  visit(FieldInfo{"faces", "", "", "Faces to machine: F1 or F1,F3 (see flank inspect)", kAny, Spelling::kPlain,
-                  "--face", true},
+  visit(FieldInfo{"faces", "", "", "Faces to machine: F1, F1,F3, F143-F160, or a piece F1a (see flank inspect)", kAny,
+                  Spelling::kPlain, "--face", true},
         part.faces);
+  visit(FieldInfo{"skin", "", "", "Instead: this face with all that is joined smoothly to it, F143", kAny}, part.skin);
   visit(FieldInfo{"side", "", "", "Machined side of an open sheet, + or -; default: of the start, else both are tried",
                   kSide, Spelling::kSign},
         part.side);

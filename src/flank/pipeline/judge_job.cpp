@@ -56,6 +56,7 @@ std::vector<int> faces_around(const Part& part, const std::vector<int>& judged) 
   for (int face : judged) solids.push_back(solid_of(part, face));
   for (int face = 0; face < part.face_count(); ++face) {
     const int solid = solid_of(part, face);
+    if (part.is_left_out(face)) continue;
     if (holds(judged, face) || (solid >= 0 && holds(solids, solid))) around.push_back(face);
   }
   return around;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "flank/error.h"
+#include "flank/io/face_names.h"
 
 namespace flank::internal {
 namespace {
@@ -19,14 +20,18 @@ std::vector<int> named_faces(const Part& part, const std::vector<int>& targets, 
   std::vector<int> faces;
   try {
     faces = parse_face_list(part, list);
+    // Of a range, or of a face in pieces, the rest is meant.
+    for (const std::string& item : face_list_items(list)) {
+      const std::vector<int> members = parse_face_item(part, item);
+      if (std::all_of(members.begin(), members.end(), [&](int face) { return holds(targets, face); }))
+        throw UsageError(field, list,
+                         fmt::format("{} is a target; other faces of F1 to F{} are accepted", item,
+                                     parse_face_name(part.face_id(part.face_count() - 1)).number));
+    }
   } catch (const InputError& e) {
     throw UsageError(field, list, e.what());
   }
-  for (int face : faces)
-    if (holds(targets, face))
-      throw UsageError(
-          field, list,
-          fmt::format("F{} is a target; other faces of F1 to F{} are accepted", face + 1, part.face_count()));
+  std::erase_if(faces, [&](int face) { return holds(targets, face); });
   return faces;
 }
 
@@ -38,9 +43,11 @@ std::vector<int> faces_to_check(const Part& part, const std::vector<int>& target
   if (request.ignore_faces) ignored = named_faces(part, targets, "ignore_faces", *request.ignore_faces);
   for (int face : only)
     if (holds(ignored, face))
-      throw UsageError("check_faces", fmt::format("`ignore_faces` names F{}, too; it may be in one of them", face + 1));
+      throw UsageError("check_faces",
+                       fmt::format("`ignore_faces` names {}, too; it may be in one of them", part.face_id(face)));
   for (int face = 0; face < part.face_count(); ++face)
-    if (!holds(targets, face) && !holds(ignored, face) && (!request.check_faces || holds(only, face)))
+    if (!part.is_left_out(face) && !holds(targets, face) && !holds(ignored, face) &&
+        (!request.check_faces || holds(only, face)))
       checks.push_back(face);
   return checks;
 }
@@ -49,7 +56,7 @@ std::string unchecked_note(const Part& part, const std::vector<int>& targets, co
   constexpr std::size_t kNamed = 8;
   std::vector<std::string> names;
   for (int face = 0; face < part.face_count(); ++face)
-    if (!holds(targets, face) && !holds(checks, face)) names.push_back("F" + std::to_string(face + 1));
+    if (!part.is_left_out(face) && !holds(targets, face) && !holds(checks, face)) names.push_back(part.face_id(face));
   if (names.empty()) return {};
   const std::size_t count = names.size();
   names.resize(std::min(count, kNamed));

@@ -44,6 +44,7 @@ void add_fixture(const Part& fixture, double deviation, std::vector<Obstacle>& o
   for (const std::string& repair : fixture.repairs) notes.push_back(fixture.file + ": " + repair);
   const std::string short_name = std::filesystem::path(fixture.file).filename().string();
   for (FaceTriangles& face : triangulate(fixture, deviation)) {
+    if (face.mesh.triangles.empty()) continue;
     const std::string name = short_name + " " + face.face;
     obstacles.push_back(as_obstacle(std::move(face), name, ObstacleRole::kFixture, deviation, notes));
   }

@@ -59,7 +59,7 @@ void add_surfaces(const Part& part, const std::vector<int>& faces, const std::ve
   });
   for (std::size_t k = 0; k < all.size(); ++k) {
     if (!all[k].surface)
-      notes.push_back(fmt::format("F{}: too few triangles to steer clear of; the judge looks at it", faces[k] + 1));
+      notes.push_back(part.face_id(faces[k]) + ": too few triangles to steer clear of; the judge looks at it");
     else if (box_gap(all[k].surface->box(), samples) <= reach_mm + clearance_mm)
       obstacles.faces.push_back(std::move(all[k]));
   }
@@ -174,6 +174,7 @@ void add_fixtures(const Target& target, const ObstacleChoice& choice, const Obst
   for (const Part& fixture : choice.fixtures) {
     std::vector<int> faces(static_cast<std::size_t>(fixture.face_count()));
     std::iota(faces.begin(), faces.end(), 0);
+    std::erase_if(faces, [&](int face) { return fixture.is_left_out(face); });
     if (detail.faces_within_mm)
       add_surfaces(fixture, faces, samples, *detail.faces_within_mm, clearance_mm, obstacles, notes);
     if (!detail.meshes_within_mm) continue;

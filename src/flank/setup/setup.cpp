@@ -1,15 +1,40 @@
 #include "flank/setup/setup.h"
 
+#include "flank/error.h"
 #include "flank/setup/check_faces.h"
 #include "flank/setup/make_obstacles.h"
+#include "flank/setup/skin.h"
 
 namespace flank::internal {
+namespace {
+
+/// A wrong face is a wrong request here, not a wrong part.
+void split_checks(Part& part, const std::string& field, const std::optional<std::string>& list) {
+  if (!list) return;
+  try {
+    split_faces(part, *list);
+  } catch (const InputError& e) {
+    throw UsageError(field, *list, e.what());
+  }
+}
+
+std::vector<int> targets_of(const Part& part, const PartRequest& request) {
+  if (!request.skin) return parse_face_list(part, request.faces);
+  if (request.faces != PartRequest().faces)
+    throw UsageError("skin", *request.skin, "`faces` names faces, too; one of them is needed");
+  return smooth_skin(part, parse_face_list(part, *request.skin));
+}
+
+}  // namespace
 
 Setup read_setup(const PartRequest& part, const ObstacleRequest& obstacles, double tolerance_mm,
                  std::vector<std::string>& notes) {
   Setup setup;
   setup.part = read_part(part.file, part.unit);
-  setup.targets = parse_face_list(setup.part, part.faces);
+  split_faces(setup.part, part.skin.value_or(part.faces));
+  split_checks(setup.part, "check_faces", obstacles.check_faces);
+  split_checks(setup.part, "ignore_faces", obstacles.ignore_faces);
+  setup.targets = targets_of(setup.part, part);
   setup.checks = faces_to_check(setup.part, setup.targets, obstacles);
   setup.tolerance_mm = tolerance_mm;
   setup.fixtures = read_fixtures(obstacles.fixtures, part.unit);

@@ -72,7 +72,7 @@ std::vector<TargetGroup> make_targets(const Setup& setup, int side) {
       for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
     TargetGroup& group = targets.emplace_back();
     group.indices = faces;
-    for (int f : faces) group.faces += (group.faces.empty() ? "F" : ",F") + std::to_string(f + 1);
+    for (int f : faces) group.faces += (group.faces.empty() ? "" : ",") + part.face_id(f);
     group.target = make_target(std::move(mesh));
     group.of_solid = false;
     return targets;
@@ -102,9 +102,8 @@ std::vector<FaceSamples> judge_samples(const Setup& setup, double spacing_mm, do
     const int face = faces[k];
     const bool target = std::find(targets.begin(), targets.end(), face) != targets.end();
     const double spacing = target ? spacing_mm : check_spacing_mm;
-    samples[k] = part.is_mesh()
-                     ? sample_mesh("F" + std::to_string(face + 1), extract_mesh(part, {face}), spacing, target)
-                     : sample_face(part.faces[static_cast<std::size_t>(face)], spacing, target);
+    samples[k] = part.is_mesh() ? sample_mesh(part.face_id(face), extract_mesh(part, {face}), spacing, target)
+                                : sample_face(part.faces[static_cast<std::size_t>(face)], spacing, target);
   });
   return samples;
 }

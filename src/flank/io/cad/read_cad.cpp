@@ -16,6 +16,7 @@
 
 #include "flank/error.h"
 #include "flank/io/cad/read_occt_face.h"
+#include "flank/io/cad/read_occt_sew.h"
 #include "flank/io/cad/read_occt_shape.h"
 #include "flank/io/cad/read_occt_silence.h"
 
@@ -88,6 +89,49 @@ void assign_solids(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& 
   }
 }
 
+/// A file without solids: its faces are sewn, and where they close the sides are those of the solid.
+void sew_sheets(const TopTools_IndexedMapOfShape& index, Part& part) {
+  const SewnFaces sewn = sew_loose_faces(index, part.box.diagonal());
+  part.solids = sewn.solids;
+  for (std::size_t k = 0; k < part.faces.size(); ++k) {
+    part.faces[k].solid = sewn.solid[k];
+    part.faces[k].of_solid = sewn.solid[k] >= 0;
+    part.faces[k].reversed = sewn.reversed[k];
+  }
+  // A face that is all there is, is a sheet on purpose.
+  if (part.faces.size() > 1) part.repairs.insert(part.repairs.end(), sewn.notes.begin(), sewn.notes.end());
+}
+
+/// Converts a face, or leaves it out with the reason: one face that nobody asked for must not lose the part.
+void add_face(const TopoDS_Face& face, Part& part) {
+  const std::string id = fmt::format("F{}", part.faces.size() + 1);
+  const std::string name = part.file + ", face " + id;
+  OcctFace converted;
+  converted.type = "unknown";
+  try {
+    converted = convert_occt_face(face, name);
+    part.repairs.insert(part.repairs.end(), converted.notes.begin(), converted.notes.end());
+    add_extent(face, converted.type, part.box);
+  } catch (const InputError& error) {
+    converted.face = {};
+    part.left_out[static_cast<int>(part.faces.size())] = error.what();
+  } catch (const Standard_Failure& failure) {
+    converted.face = {};
+    part.left_out[static_cast<int>(part.faces.size())] =
+        fmt::format("{}: its geometry cannot be used ({})", name, failure.GetMessageString());
+  }
+  converted.face.id = id;
+  part.faces.push_back(std::move(converted.face));
+  part.surface_types.push_back(std::move(converted.type));
+}
+
+/// Notes for what is left out; a part of which nothing is left is refused.
+void refuse_unreadable(Part& part) {
+  if (part.left_out.size() == part.faces.size()) throw InputError(part.left_out.begin()->second);
+  for (const auto& [face, why] : part.left_out)
+    part.repairs.push_back(why + "; the face is left out, nothing is known of what enters it");
+}
+
 }  // namespace
 
 Part read_cad(const std::string& file, const std::string& format, const std::optional<std::string>& unit) {
@@ -103,16 +147,10 @@ Part read_cad(const std::string& file, const std::string& format, const std::opt
   TopExp::MapShapes(loaded.shape, TopAbs_FACE, index);
   try {
     BRepMesh_IncrementalMesh(loaded.shape, kRelativeDeflection, true, kAngularDeflection, false);
-    for (int i = 1; i <= index.Extent(); ++i) {
-      const std::string id = fmt::format("F{}", i);
-      OcctFace converted = convert_occt_face(TopoDS::Face(index(i)), file + ", face " + id);
-      converted.face.id = id;
-      part.faces.push_back(std::move(converted.face));
-      part.surface_types.push_back(std::move(converted.type));
-      part.repairs.insert(part.repairs.end(), converted.notes.begin(), converted.notes.end());
-      add_extent(TopoDS::Face(index(i)), part.surface_types.back(), part.box);
-    }
+    for (int i = 1; i <= index.Extent(); ++i) add_face(TopoDS::Face(index(i)), part);
+    refuse_unreadable(part);
     assign_solids(loaded.shape, index, part);
+    if (part.solids == 0) sew_sheets(index, part);
   } catch (const Standard_Failure& failure) {
     throw InputError(file + ": its geometry cannot be used (" + failure.GetMessageString() + "); export it again");
   }

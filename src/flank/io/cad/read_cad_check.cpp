@@ -132,7 +132,8 @@ std::vector<CadCheck> check_cad(const std::string& file, const std::string& form
     compare_surfaces(face, ours, check);
     for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next())
       compare_edge(TopoDS::Edge(it.Current()), face, ours, check);
-    if (part_face.of_solid)
+    // Solids that were sewn out of loose faces are not in the file.
+    if (part_face.of_solid && static_cast<std::size_t>(part_face.solid) < classifiers.size())
       look_outside(face, ours, part_face, classifiers[static_cast<std::size_t>(part_face.solid)], check);
     checks.push_back(check);
   }

@@ -1,5 +1,7 @@
 #include "flank/io/cad/read_occt_face.h"
 
+#include <fmt/format.h>
+
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
 #include <Precision.hxx>
@@ -7,9 +9,11 @@
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <algorithm>
+#include <cmath>
 
 #include "flank/error.h"
 #include "flank/io/cad/read_occt_trim.h"
+#include "flank/part.h"
 
 namespace flank::internal {
 namespace {
@@ -56,6 +60,32 @@ void refuse_high_degree(const BSplineSurface& s, const std::string& name) {
                      "; accepted is up to " + std::to_string(kMaxDegree));
 }
 
+bool usable(double x) { return std::abs(x) <= kLargestCoordinateMm; }
+
+template <class Numbers>
+bool all_finite(const Numbers& numbers) {
+  return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
+}
+
+/// What everything else takes for granted. Damaged files, and the kernel itself, make surfaces that break it.
+void refuse_unusable(const BSplineSurface& s, const std::string& name) {
+  if (!all_finite(s.knots_u) || !all_finite(s.knots_v) || !(s.u_last() > s.u_first()) || !(s.v_last() > s.v_first()))
+    throw InputError(name + ": the knots of its surface are not finite numbers that rise");
+  for (const double w : s.weights)
+    if (!(w > 0.0) || !std::isfinite(w))
+      throw InputError(fmt::format("{}: a weight of its surface is {}; accepted are numbers > 0", name, w));
+  for (const Vec3& p : s.poles)
+    if (!usable(p.x()) || !usable(p.y()) || !usable(p.z()))
+      throw InputError(fmt::format("{}: a control point of its surface is at ({}, {}, {}); accepted are up to {} mm",
+                                   name, p.x(), p.y(), p.z(), kLargestCoordinateMm));
+}
+
+void refuse_unusable(const TrimLoop& loop, const std::string& name) {
+  for (const BSplineCurve2& edge : loop.edges)
+    if (!edge.poles.allFinite() || !all_finite(edge.knots) || !all_finite(edge.weights))
+      throw InputError(name + ": a trim of it has control points or knots that are not finite");
+}
+
 }  // namespace
 
 OcctFace convert_occt_face(const TopoDS_Face& face, const std::string& name) {
@@ -72,6 +102,7 @@ OcctFace convert_occt_face(const TopoDS_Face& face, const std::string& name) {
                      ")");
   }
   refuse_high_degree(converted.surface, name);
+  refuse_unusable(converted.surface, name);
   if (converted.approximation_mm > 0.0)
     result.notes.push_back(name + ": " + result.type + " surface approximated within " +
                            std::to_string(converted.approximation_mm) + " mm");
@@ -82,6 +113,7 @@ OcctFace convert_occt_face(const TopoDS_Face& face, const std::string& name) {
     if (!loop)
       throw InputError(name +
                        ": a border of the face does not lie on its surface; export it again with trims (p-curves)");
+    refuse_unusable(*loop, name);
     result.face.loops.push_back(*loop);
   }
   if (result.face.loops.size() == 1 && is_natural_border(result.face.loops.front(), converted.surface, frame))

@@ -48,7 +48,11 @@ SplineRows piece(SplineRows rows, double a, double b, double period) {
   const double shift = std::floor((a - rows.first()) / period + 5e-10) * period;
   a -= shift;
   b = std::min(b - shift, a + period);
-  if (b > rows.last() + 1e-9 * period) rows = two_turns(rows, period);
+  // The library leaves the knots of a spline that was periodic as they were: not clamped.
+  if (b > rows.last() + 1e-9 * period) {
+    const double first = rows.first(), last = rows.last();
+    rows = two_turns(spline_segment(std::move(rows), first, last), period);
+  }
   rows = spline_segment(std::move(rows), a, b);
   for (double& knot : rows.knots) knot += shift;
   return rows;
@@ -157,11 +161,13 @@ ConvertedSurface convert_spline(Handle(Geom_BSplineSurface) s, const ParameterWi
   s = Handle(Geom_BSplineSurface)::DownCast(s->Copy());
   s->SetUNotPeriodic();
   s->SetVNotPeriodic();
+  // A polynomial surface that was periodic keeps weights of zero from the library: they mean nothing.
+  const bool rational = s->IsURational() || s->IsVRational();
   SplineRows rows{s->UDegree(), flat_knots(s->UKnots(), s->UMultiplicities()),
                   Eigen::MatrixXd(4 * s->NbVPoles(), s->NbUPoles())};
   for (int i = 0; i < s->NbUPoles(); ++i)
     for (int j = 0; j < s->NbVPoles(); ++j)
-      rows.poles.block<4, 1>(4 * j, i) = homogeneous(s->Pole(i + 1, j + 1), s->Weight(i + 1, j + 1));
+      rows.poles.block<4, 1>(4 * j, i) = homogeneous(s->Pole(i + 1, j + 1), rational ? s->Weight(i + 1, j + 1) : 1.0);
   rows = piece(std::move(rows), box.u0, box.u1, period_u);
   ConvertedSurface r;
   r.surface.degree_u = rows.degree;

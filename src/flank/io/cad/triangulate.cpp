@@ -232,7 +232,9 @@ std::vector<FaceTriangles> triangulate(const Part& part, double deviation_mm) {
   std::vector<FaceTriangles> out(static_cast<std::size_t>(part.face_count()));
   parallel_for(out.size(), [&](std::size_t k) {
     if (part.is_mesh())
-      out[k] = {"F" + std::to_string(k + 1), extract_mesh(part, {static_cast<int>(k)}), 0.0, false};
+      out[k] = {part.face_id(static_cast<int>(k)), extract_mesh(part, {static_cast<int>(k)}), 0.0, false};
+    else if (part.is_left_out(static_cast<int>(k)))
+      out[k].face = part.face_id(static_cast<int>(k));
     else
       out[k] = triangulate_face(part.faces[k], deviation_mm);
   });

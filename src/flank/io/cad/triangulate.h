@@ -19,7 +19,7 @@ struct FaceTriangles {
   bool beyond_border = false;  ///< the trim could not be followed: the triangles cover the face and up to a cell more
 };
 
-/// Every face of a part, in its order. A mesh gives its own triangles; a CAD face is refined until its deviation is at
+/// Every face of a part, in its order; none for faces that were left out. A mesh gives its own triangles; a CAD face is refined until its deviation is at
 /// most `deviation_mm` or it has kMostTriangles, so that the result says more than what was asked. Throws UsageError for
 /// a deviation that is not > 0.
 [[nodiscard]] std::vector<FaceTriangles> triangulate(const Part& part, double deviation_mm);

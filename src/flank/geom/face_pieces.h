@@ -1,0 +1,27 @@
+/// A face that wraps round an edge, as the skin of an aerofoil does, told apart into its sides and its edges.
+#pragma once
+
+#include <vector>
+
+#include "flank/face.h"
+
+namespace flank::internal {
+
+/// Where the surface's curvature across is larger than this over its width, it is an edge: a radius below a tenth of the
+/// chord. A round bar has 2, an elliptic section of axes 2 : 1 has 8 at its ends.
+inline constexpr double kEdgeBend = 10.0;
+/// An edge turns the normal by at least this much: less is a ripple, or a crease.
+inline constexpr double kEdgeTurnDeg = 45.0;
+/// Only a face whose normals turn by more than this is told apart: one tool on one side cannot see all of it.
+inline constexpr double kWrapTurnDeg = 120.0;
+
+struct FacePiece {
+  Face face;          ///< without an id of its own: that of the whole face
+  bool edge = false;  ///< else a side
+};
+
+/// The sides, then the edges, each in the order of the parameters; empty for a face that is not to be told apart. Cuts run
+/// along parameter lines. A closed surface is cut at its edges and not at its seam. Together the pieces are the face.
+[[nodiscard]] std::vector<FacePiece> face_pieces(const Face& face);
+
+}  // namespace flank::internal

@@ -1,0 +1,116 @@
+#include "flank/io/face_names.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+
+#include "flank/error.h"
+
+namespace flank {
+using namespace internal;
+namespace {
+
+/// The number of the last face of the file.
+int last_number(const Part& part) {
+  return part.face_count() == 0 ? 0 : parse_face_name(part.face_id(part.face_count() - 1)).number;
+}
+
+[[noreturn]] void refuse_name(const Part& part, std::string_view name) {
+  throw InputError(fmt::format("{}: there is no face \"{}\"; accepted are F1 to F{}, as in F1,F3 or F2-F5", part.file,
+                               name, last_number(part)));
+}
+
+void refuse_left_out(const Part& part, int face) {
+  if (const auto why = part.left_out.find(face); why != part.left_out.end()) throw InputError(why->second);
+}
+
+/// Faces of numbers from `first` to `last`, whole or in pieces.
+std::vector<int> numbered(const Part& part, int first, int last) {
+  std::vector<int> faces;
+  for (int face = 0; face < part.face_count(); ++face) {
+    const int number = parse_face_name(part.face_id(face)).number;
+    if (number >= first && number <= last) faces.push_back(face);
+  }
+  return faces;
+}
+
+}  // namespace
+
+namespace internal {
+
+FaceName parse_face_name(std::string_view text) {
+  FaceName name;
+  if (text.size() < 2 || (text.front() != 'F' && text.front() != 'f')) return name;
+  int number = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data() + 1, end, number);
+  if (error != std::errc() || number < 1) return name;
+  for (const char* at = stop; at != end; ++at) {
+    const unsigned char letter = static_cast<unsigned char>(*at);
+    if (!std::isalpha(letter)) return {};
+    name.piece += static_cast<char>(std::tolower(letter));
+  }
+  name.number = number;
+  return name;
+}
+
+std::string piece_name(int piece) {
+  const std::string last(1, static_cast<char>('a' + piece % 26));
+  return piece < 26 ? last : piece_name(piece / 26 - 1) + last;
+}
+
+std::vector<std::string> face_list_items(const std::string& list) {
+  std::vector<std::string> items;
+  for (std::size_t begin = 0; begin <= list.size();) {
+    const std::size_t end = std::min(list.find(',', begin), list.size());
+    std::string_view item = std::string_view(list).substr(begin, end - begin);
+    while (!item.empty() && item.front() == ' ') item.remove_prefix(1);
+    while (!item.empty() && item.back() == ' ') item.remove_suffix(1);
+    items.emplace_back(item);
+    begin = end + 1;
+  }
+  return items;
+}
+
+std::vector<int> parse_face_item(const Part& part, const std::string& item) {
+  const std::size_t dash = item.find('-');
+  const FaceName first = parse_face_name(std::string_view(item).substr(0, dash));
+  if (first.number < 1 || first.number > last_number(part)) refuse_name(part, item);
+  std::vector<int> faces;
+  if (dash != std::string::npos) {
+    const FaceName last = parse_face_name(std::string_view(item).substr(dash + 1));
+    const bool whole = first.piece.empty() && last.piece.empty();
+    if (!whole || last.number < first.number || last.number > last_number(part)) refuse_name(part, item);
+    faces = numbered(part, first.number, last.number);
+  } else if (first.piece.empty()) {
+    faces = numbered(part, first.number, first.number);
+  } else {
+    const std::string id = fmt::format("F{}{}", first.number, first.piece);
+    for (int face = 0; face < part.face_count(); ++face)
+      if (part.face_id(face) == id) faces.push_back(face);
+    if (faces.empty())
+      throw InputError(fmt::format("{}: there is no piece \"{}\" of F{}; flank inspect lists the pieces", part.file,
+                                   item, first.number));
+  }
+  for (const int face : faces) refuse_left_out(part, face);
+  return faces;
+}
+
+}  // namespace internal
+
+std::vector<int> parse_face_list(const Part& part, const std::string& list) {
+  std::vector<int> faces;
+  for (const std::string& item : face_list_items(list)) {
+    for (const int face : parse_face_item(part, item)) {
+      if (std::find(faces.begin(), faces.end(), face) != faces.end())
+        throw InputError(fmt::format("{}: face \"{}\" is named twice in \"{}\"; name each face once", part.file,
+                                     part.face_id(face), list));
+      faces.push_back(face);
+    }
+  }
+  return faces;
+}
+
+}  // namespace flank

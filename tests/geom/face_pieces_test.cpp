@@ -1,0 +1,140 @@
+#include "flank/geom/face_pieces.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "geom/skins.h"
+
+namespace flank::internal {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// By a fine grid of the surface.
+double area_of(const BSplineSurface& s) {
+  constexpr int kCells = 200;
+  double area = 0.0;
+  const double du = (s.u_last() - s.u_first()) / kCells, dv = (s.v_last() - s.v_first()) / kCells;
+  for (int i = 0; i < kCells; ++i) {
+    for (int j = 0; j < kCells; ++j) {
+      const SurfaceJet jet = s.jet(s.u_first() + (i + 0.5) * du, s.v_first() + (j + 0.5) * dv);
+      area += jet.du.cross(jet.dv).norm() * du * dv;
+    }
+  }
+  return area;
+}
+
+/// Largest angle between two normals.
+double turn_of(const BSplineSurface& s) {
+  std::vector<Vec3> normals;
+  for (int i = 0; i <= 40; ++i) {
+    const SurfaceJet jet = s.jet(s.u_first() + (s.u_last() - s.u_first()) * i / 40, 0.5 * (s.v_first() + s.v_last()));
+    normals.push_back(jet.du.cross(jet.dv).normalized());
+  }
+  double least = 1.0;
+  for (const Vec3& a : normals)
+    for (const Vec3& b : normals) least = std::min(least, a.dot(b));
+  return std::acos(std::clamp(least, -1.0, 1.0));
+}
+
+Face elliptic_skin_of(double scale, double thickness) {
+  return testing::elliptic_skin(40.0 * scale, thickness * scale, 30.0 * scale, 0.3);
+}
+
+std::string kinds_of(const std::vector<FacePiece>& pieces) {
+  std::string kinds;
+  for (const FacePiece& piece : pieces) kinds += piece.edge ? 'e' : 's';
+  return kinds;
+}
+
+TEST(FacePieces, AClosedSkinHasTwoSidesAndTwoEdges) {
+  for (const double scale : {0.01, 1.0, 100.0}) {
+    for (const double thickness : {1.0, 4.0}) {
+      const Face skin = elliptic_skin_of(scale, thickness);
+      const std::vector<FacePiece> pieces = face_pieces(skin);
+      ASSERT_EQ(kinds_of(pieces), "ssee") << scale << " " << thickness;
+      double sum = 0.0;
+      for (const FacePiece& piece : pieces) sum += area_of(piece.face.surface);
+      EXPECT_NEAR(sum, area_of(skin.surface), 1e-3 * sum);
+      for (const FacePiece& piece : pieces) {
+        EXPECT_EQ(piece.face.reversed, skin.reversed);
+        if (piece.edge) continue;
+        EXPECT_LT(turn_of(piece.face.surface), kPi / 2);
+        EXPECT_GT(area_of(piece.face.surface), 0.4 * sum) << "a side goes across the seam";
+      }
+    }
+  }
+}
+
+TEST(FacePieces, DoNotDependOnWhichParameterGoesRound) {
+  const Face skin = testing::elliptic_skin(40.0, 4.0, 30.0, 0.3);
+  Face turned = skin;
+  BSplineSurface& s = turned.surface;
+  std::swap(s.degree_u, s.degree_v);
+  std::swap(s.knots_u, s.knots_v);
+  std::swap(s.count_u, s.count_v);
+  for (int i = 0; i < s.count_u; ++i)
+    for (int j = 0; j < s.count_v; ++j) s.pole(i, j) = skin.surface.pole(j, i);
+  const std::vector<FacePiece> pieces = face_pieces(skin), others = face_pieces(turned);
+  ASSERT_EQ(kinds_of(pieces), "ssee");
+  ASSERT_EQ(kinds_of(others), "ssee");
+  for (std::size_t k = 0; k < pieces.size(); ++k)
+    EXPECT_NEAR(area_of(pieces[k].face.surface), area_of(others[k].face.surface), 1e-9 * area_of(skin.surface));
+}
+
+/// Two flat sides and the half circle between them: a skin that is wrapped round one edge only.
+Face wrapped(double length, double radius, double share_of_second) {
+  const double arc = kPi * radius, total = length + arc + share_of_second * length;
+  return testing::drawn_skin(
+      [=](double f) {
+        const double s = f * total;
+        if (s < length) return Vec3(s - length, radius, 0.0);
+        if (s > length + arc) return Vec3(-(s - length - arc), -radius, 0.0);
+        const double angle = (s - length) / radius;
+        return Vec3(radius * std::sin(angle), radius * std::cos(angle), 0.0);
+      },
+      25.0, 0.2, 400);
+}
+
+TEST(FacePieces, ASkinWrappedRoundOneEdge) {
+  EXPECT_EQ(kinds_of(face_pieces(wrapped(40.0, 0.5, 1.0))), "sse");
+  EXPECT_EQ(kinds_of(face_pieces(wrapped(40.0, 0.5, 0.4))), "sse");
+  EXPECT_EQ(kinds_of(face_pieces(wrapped(40.0, 0.5, 0.02))), "se") << "what is left of the other side is none";
+}
+
+TEST(FacePieces, WhatWrapsRoundNothingStaysWhole) {
+  EXPECT_TRUE(face_pieces(testing::elliptic_skin(40.0, 40.0, 30.0)).empty()) << "a round bar";
+  EXPECT_TRUE(face_pieces(testing::elliptic_skin(40.0, 25.0, 30.0)).empty()) << "nearly one";
+  const auto arc = [](double f) { return Vec3(30.0 * std::sin(2.0 * f), 30.0 * std::cos(2.0 * f), 0.0); };
+  EXPECT_TRUE(face_pieces(testing::drawn_skin(arc, 30.0, 0.4)).empty()) << "a cambered side";
+  const auto ripples = [](double f) { return Vec3(60.0 * f, 0.01 * std::sin(200.0 * f), 0.0); };
+  EXPECT_TRUE(face_pieces(testing::drawn_skin(ripples, 30.0, 0.4, 800)).empty()) << "ripples";
+}
+
+TEST(FacePieces, ASharpTrailingEdgeIsACut) {
+  // A lens of two arcs: closed, with a kink at the seam and another in the middle.
+  BSplineSurface s;
+  s.degree_u = 2, s.degree_v = 1, s.count_u = 5, s.count_v = 2;
+  s.knots_u = {0, 0, 0, 0.5, 0.5, 1, 1, 1}, s.knots_v = {0, 0, 1, 1};
+  for (const Vec2& p : {Vec2(0, 0), Vec2(20, 5), Vec2(40, 0), Vec2(20, -5), Vec2(0, 0)})
+    for (const double z : {0.0, 30.0}) s.poles.emplace_back(p.x(), p.y(), z);
+  Face lens;
+  lens.surface = s;
+  const std::vector<FacePiece> pieces = face_pieces(lens);
+  ASSERT_EQ(kinds_of(pieces), "ss");
+  EXPECT_NEAR(pieces[0].face.surface.u_last(), 0.5, 1e-8);
+  EXPECT_NEAR(area_of(pieces[0].face.surface), area_of(pieces[1].face.surface), 1e-6);
+}
+
+TEST(FacePieces, TrimsAreCutWithTheFace) {
+  Face skin = testing::elliptic_skin(40.0, 2.0, 30.0);
+  skin.loops = {testing::circle_loop(0.5, 0.5, 0.45)};
+  const std::vector<FacePiece> pieces = face_pieces(skin);
+  // The seam, in the middle of a side, is a border of a trimmed face.
+  ASSERT_EQ(kinds_of(pieces), "sssee");
+  for (const FacePiece& piece : pieces) EXPECT_FALSE(piece.face.loops.empty());
+}
+
+}  // namespace
+}  // namespace flank::internal
