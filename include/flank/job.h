@@ -29,11 +29,15 @@ struct ToolRequest {
   bool operator==(const ToolRequest&) const = default;
 };
 
-/// Limits of the radius that a fit may find.
+/// Limits of the tool that a fit may find: what can be ground, and clamped.
 struct RadiusRequest {
-  std::optional<double> min_mm;  ///< none: 1 % of the target's diagonal
-  std::optional<double> max_mm;  ///< none: 15 % of the target's diagonal
-  double slope_max = 0.95;       ///< of |r'|, below 1
+  std::optional<double> min_mm;           ///< none: 1 % of the target's diagonal
+  std::optional<double> max_mm;           ///< none: 15 % of the target's diagonal
+  double slope_max = 0.95;                ///< of |r'|, below 1
+  double slenderness_max = 8.0;           ///< Stiffness (tool.h) of flank and shank
+  std::string profile = "tapered";        ///< or "any": radii may fall towards the holder by any share
+  double neck = 0.1;                      ///< "tapered": by at most this share of a radius farther down
+  std::optional<double> wheel_radius_mm;  ///< least radius of a concave meridian; none: any
   bool operator==(const RadiusRequest&) const = default;
 };
 

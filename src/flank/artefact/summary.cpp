@@ -51,6 +51,14 @@ std::string tool_line(const Tool& tool) {
                      family_name(tool.radial.family()), length, low, high);
 }
 
+std::string stiffness_line(const Tool& tool) {
+  const Stiffness bent = stiffness(tool);
+  return fmt::format(
+      "  stiffness   slenderness {:.2f}: as a cylinder of diameter {:.3f} mm, {:.3f} mm long; its tip gives "
+      "way by {:.2f} um under {:.0f} N in carbide\n",
+      bent.slenderness, bent.equivalent_diameter_mm, bent.length_mm, bent.deflection_um, kStiffnessForce);
+}
+
 std::string plan_lines(const CoverSummary& cover) {
   std::string text;
   for (const TargetCover& t : cover.targets)
@@ -100,7 +108,7 @@ std::string summary_text(const Result& result) {
   const PartRequest& part = part_of(result.job);
   std::string text = fmt::format("{} {}\n", part.file, part.faces);
   text += fmt::format("  asked for   {}\n", fmt::join(asked_for(result.job), ", "));
-  text += tool_line(result.tool);
+  text += tool_line(result.tool) + stiffness_line(result.tool);
   text += result.path.pose_count() > 0 ? error_lines(result) : "  path        no strip: nothing is machined\n";
   text += clearance_text(result.verify.clearance);
   text += std::visit([](const auto& plan) { return plan_lines(plan); }, result.plan);
@@ -142,6 +150,10 @@ std::string summary_json(const Result& result) {
   json["largest_c"] = result.largest_c;
   json["diagonal"] = result.diagonal_mm;
   json["axis_length"] = result.tool.radial.axis_length();
+  const Stiffness bent = stiffness(result.tool);
+  json["slenderness"] = bent.slenderness;
+  json["equivalent_diameter"] = bent.equivalent_diameter_mm;
+  json["tip_deflection_um_per_100N"] = bent.deflection_um;
   json["strips"] = result.path.strips.size();
   json["poses"] = result.path.pose_count();
   std::visit([&](const auto& plan) { add_plan(plan, json); }, result.plan);

@@ -7,6 +7,7 @@
 
 #include "flank/base/tolerance_budget.h"
 #include "flank/error.h"
+#include "flank/pipeline/stiff_fit.h"
 #include "flank/seed/axis_line.h"
 #include "flank/seed/guide_start.h"
 #include "flank/seed/line_start.h"
@@ -31,11 +32,17 @@ UserStart user_start(const FitJob& job) {
 }
 
 /// Open bounds: a hundredth of the target's diagonal to 15 hundredths of it.
-RadiusBounds bounds_of(const RadiusRequest& radius, double diagonal) {
+RadiusBounds bounds_of(const FitJob& job, double diagonal) {
+  const RadiusRequest& radius = job.radius;
   RadiusBounds bounds;
   bounds.largest = radius.max_mm.value_or(std::max(0.15 * diagonal, 2.0 * radius.min_mm.value_or(0.0)));
   bounds.smallest = radius.min_mm.value_or(std::min(0.01 * diagonal, 0.5 * bounds.largest));
   bounds.steepest = radius.slope_max;
+  bounds.slenderest = radius.slenderness_max;
+  bounds.neck = radius.profile == "any" ? 1.0 : radius.neck;
+  bounds.wheel_radius = radius.wheel_radius_mm.value_or(0.0);
+  bounds.shank_length = job.obstacles.shank_length_mm.value_or(0.0);
+  bounds.shank_radius = job.obstacles.shank_radius_mm.value_or(0.0);
   return bounds;
 }
 
@@ -44,14 +51,14 @@ FlankFitResult fit_group(const Target& target, const ToolModel& tool, FlankFitOp
                          double least_coverage, const Progress& progress) {
   if (strips > 0) {
     options.strips = strips;
-    return fit_automatic(target, tool, options, progress);
+    return fit_stiff(target, tool, options, least_coverage, progress);
   }
   FlankFitResult best;
   double best_score = -1.0;
   for (int count : {1, 2, 3, 4, 6, 8, 10, kMostStrips}) {
     options.strips = count;
     options.least_coverage_for_last_passes = count < kMostStrips ? 0.7 : 0.0;
-    FlankFitResult result = fit_automatic(target, tool, options, progress);
+    FlankFitResult result = fit_stiff(target, tool, options, least_coverage, progress);
     const double score = result.after.score(options.tolerance_mm);
     if (score > best_score) {
       best_score = score;
@@ -131,7 +138,7 @@ FitSearch search_side(const FitJob& job, const Setup& setup, const ToolSpec& spe
   FlankFitOptions options;
   options.tolerance_mm = job.tolerance_mm;
   options.axis_length_mm = job.tool.axis_length_mm;
-  options.bounds = bounds_of(job.radius, search.targets.front().target->diagonal());
+  options.bounds = bounds_of(job, search.targets.front().target->diagonal());
   options.reach_radius_mm = job.judge.reach_radius_mm.value_or(0.0);
   const ToolModel tool = make_tool_model(spec);
   if (job.avoid) add_obstacles(job, setup, options.bounds.largest, search);
