@@ -15,8 +15,8 @@
 #include "flank/fit.h"
 #include "flank/fit/coverage.h"
 #include "flank/judge.h"
-#include "flank/run.h"
 #include "flank/ruled_motion.h"
+#include "flank/run.h"
 #include "flank/target.h"
 #include "part_file.h"
 

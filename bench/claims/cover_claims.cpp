@@ -9,9 +9,9 @@
 
 #include "claims/claims_support.h"
 #include "flank/base/parallel.h"
+#include "flank/cover.h"
 #include "flank/example/example_envelope.h"
 #include "flank/example/example_motions.h"
-#include "flank/cover.h"
 #include "flank/example/example_write.h"
 #include "flank/run.h"
 #include "flank/strip/line_fit.h"

@@ -109,8 +109,11 @@ TEST(Summary, HasTheRankingOfTheTools) {
   Result result = covered();
   Ranking ranking;
   ranking.source = "catalogue tools";
-  ranking.tools = {{.tool = "long", .stage = "full", .works = true, .coverage = 0.9, .strips = 3},
-                   {.tool = "stout", .stage = "screened", .works = false, .reason = "too stout"}};
+  ranking.tools.resize(2);
+  RankedChoice& works = ranking.tools.front();
+  works.tool = "long", works.stage = "full", works.works = true, works.coverage = 0.9, works.strips = 3;
+  RankedChoice& fails = ranking.tools.back();
+  fails.tool = "stout", fails.stage = "screened", fails.reason = "too stout";
   result.ranking = ranking;
   const auto json = nlohmann::json::parse(summary_json(result));
   ASSERT_EQ(json.at("ranking").size(), 2u);

@@ -14,9 +14,12 @@ namespace flank::internal::jobs {
 
 /// Text with all that a shell could take for something else.
 inline std::string nasty_text(Random& random) {
-  static const std::string kLetters = "aZ09 '\"$`\\*;&|<>()#~!?=,:.@+-_\n\xc3\xbc";
+  static const std::vector<std::string> kLetters = {"a", "Z", "0", "9", " ", "'", "\"", "$", "`",  "\\",      "*",
+                                                    ";", "&", "|", "<", ">", "(", ")",  "#", "~",  "!",       "?",
+                                                    "=", ",", ":", ".", "@", "+", "-",  "_", "\n", "\xc3\xbc"};
   std::string text;
-  for (int k = 0; k < 8; ++k) text += kLetters[static_cast<std::size_t>(random.uniform() * 0.999 * kLetters.size())];
+  for (int k = 0; k < 8; ++k)
+    text += kLetters[static_cast<std::size_t>(random.uniform() * 0.999 * static_cast<double>(kLetters.size()))];
   return text;
 }
 

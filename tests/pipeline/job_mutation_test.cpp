@@ -110,7 +110,7 @@ TEST_F(HolderFiles, OutlinesOfJsonAreReadOrRefused) {
 
 TEST(HolderProfile, WordsOnTheCommandLineAreReadOrRefused) {
   EXPECT_EQ(holder_profile("0:10,30:12.5"), (std::vector<Vec2>{{0, 10}, {30, 12.5}}));
-  const MutationCount count = mutate("0:10,30:12.5,30.25:14,60:9", "--holder", 4, [](const std::string& text) {
+  const MutationCount count = mutate("0:10,30:12.5,30.25:14,60:9", "holder", 4, [](const std::string& text) {
     if (text.find(':') == std::string::npos) return true;  // the name of a file
     for (const Vec2& p : holder_profile(text))
       if (!p.allFinite()) return false;

@@ -25,6 +25,7 @@ std::string temporary_name(const std::string& file) {
   return file + ".part-" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
 }
 
+/// write() may take fewer bytes than it is given, and a signal may interrupt it.
 void write_all(int descriptor, std::string_view content, const std::string& file) {
   while (!content.empty()) {
     const ssize_t written = ::write(descriptor, content.data(), content.size());
@@ -40,6 +41,7 @@ void write_all(int descriptor, std::string_view content, const std::string& file
 
 }  // namespace
 
+// The file is made at once, so that a wrong folder is noticed before anything is computed for it.
 AtomicFile::AtomicFile(std::string file) : file_(std::move(file)), temporary_(temporary_name(file_)) {
   std::error_code ignored;
   if (file_.empty()) throw InputError("cannot write a file without a name; give a path");

@@ -20,7 +20,9 @@ struct Sheaf {
   Rows poles;  ///< 4 * curves rows, one column a control point
 };
 
+/// Samples per iso-line of the least-squares fit.
 constexpr int kFitSamples = 32;
+/// An extrapolated weight below this share of the border's would pull the surface towards a pole: no extension then.
 constexpr double kSmallestWeightShare = 0.1;
 
 /// Coefficients c_1, c_2 (columns) of the least-squares polynomial p(x) = p(0) + c_1 x + c_2 x^2, x being the distance
@@ -65,6 +67,7 @@ void extend_upper(Sheaf& s, double margin, double fit_share) {
   s.knots.insert(s.knots.end(), static_cast<std::size_t>(s.degree) + 1, end + margin);
 }
 
+/// The same curves from the other end, so that only the upper end has to be extended.
 void reverse(Sheaf& s) {
   std::reverse(s.knots.begin(), s.knots.end());
   for (double& k : s.knots) k = -k;
@@ -90,6 +93,7 @@ void extend_both(Sheaf& s, double low, double high, double fit_share) {
   reverse(s);
 }
 
+/// The curves along u, one for each row of control points along v.
 Sheaf sheaf_u(const BSplineSurface& b) {
   Sheaf s{b.degree_u, b.knots_u, Rows(4 * b.count_v, b.count_u)};
   for (int i = 0; i < b.count_u; ++i)
@@ -115,6 +119,7 @@ BSplineSurface from_sheaf_u(const Sheaf& s, const BSplineSurface& like) {
   return b;
 }
 
+/// u and v swapped.
 BSplineSurface transpose(const BSplineSurface& b) {
   BSplineSurface t;
   t.degree_u = b.degree_v;

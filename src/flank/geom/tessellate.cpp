@@ -42,6 +42,7 @@ struct Need {
   }
 };
 
+/// Sampled, so a picture only: nothing is promised between the samples.
 std::pair<Need, Need> needs(const BSplineSurface& s, const ParameterRectangle& box) {
   Need u, v;
   const double width = box.u1 - box.u0, height = box.v1 - box.v0;
@@ -56,10 +57,12 @@ std::pair<Need, Need> needs(const BSplineSurface& s, const ParameterRectangle& b
   return {u, v};
 }
 
+/// Triangles of the cells. Vertices at equal parameters are one, so that neighbours share them.
 class Builder {
  public:
   Builder(const Face& face, const TrimRegion& region) : face_(face), region_(region) {}
 
+  /// Whole if inside, left out if outside, in finer cells if a loop passes through.
   void add_cell(const ParameterRectangle& cell) {
     const TrimRegion::Side side = region_.classify(cell);
     if (side == TrimRegion::Side::kOutside) return;
@@ -104,6 +107,7 @@ class Builder {
     if (kept.size() > 2) add_polygon(kept);
   }
 
+  /// A fan: the polygons are convex, or nearly.
   void add_polygon(const std::vector<Vec2>& polygon) {
     std::vector<int> index;
     for (const Vec2& q : polygon) index.push_back(vertex(q));
@@ -129,6 +133,7 @@ class Builder {
   std::map<std::pair<double, double>, int> index_;
 };
 
+/// The points of a loop on the surface, in its order.
 std::vector<Vec3> border(const Face& face, const TrimLoop& loop) {
   std::vector<Vec3> points;
   for (const BSplineCurve2& edge : loop.edges) {

@@ -16,6 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Replaces the first occurrence; a template without it is a fault of the build.
 std::string replaced(std::string_view text, std::string_view what, std::string_view with) {
   const std::size_t at = text.find(what);
   if (at == std::string_view::npos) throw InternalError("the page has no place for " + std::string(what));
@@ -25,11 +26,13 @@ std::string replaced(std::string_view text, std::string_view what, std::string_v
 /// "view.json" has schema "openflank/view/1".
 std::string schema_of(const std::string& name) { return "openflank/" + name.substr(0, name.find('.')) + "/1"; }
 
+/// Throws InputError unless the file states this schema.
 void require_schema(const nlohmann::json& json, const std::string& file, const std::string& schema) {
   if (json.is_object() && json.contains("schema") && json["schema"] == schema) return;
   throw InputError(file + ": schema \"" + schema + "\" is needed");
 }
 
+/// The text of a file that is JSON of its schema; nothing if there is no such file.
 std::optional<std::string> read_checked(const fs::path& file, const std::string& schema) {
   if (!fs::exists(file)) return std::nullopt;
   if (!fs::is_regular_file(file)) throw InputError(file.string() + ": is not a file");
@@ -42,6 +45,7 @@ std::optional<std::string> read_checked(const fs::path& file, const std::string&
   return text;
 }
 
+/// "F1 of blade.step - OpenFlank", from the first file that names the part.
 std::string title_of(const nlohmann::json& json) {
   const auto word = [&](const char* key) {
     const auto found = json.find(key);
@@ -64,6 +68,7 @@ bool page_is_built() { return !page_template().empty(); }
 std::string script_safe(std::string_view json) {
   std::string text;
   text.reserve(json.size());
+  // "</script>" inside a string would end the element.
   for (char c : json) c == '<' ? text += "\\u003c" : text += c;
   return text;
 }

@@ -14,7 +14,8 @@ Setup read_setup(const PartRequest& part, const ObstacleRequest& obstacles, doub
   setup.tolerance_mm = tolerance_mm;
   setup.fixtures = read_fixtures(obstacles.fixtures, part.unit);
   notes.insert(notes.end(), setup.part.repairs.begin(), setup.part.repairs.end());
-  if (const std::string note = unchecked_note(setup.part, setup.targets, setup.checks); !note.empty()) notes.push_back(note);
+  if (const std::string note = unchecked_note(setup.part, setup.targets, setup.checks); !note.empty())
+    notes.push_back(note);
   return setup;
 }
 

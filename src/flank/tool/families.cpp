@@ -31,8 +31,10 @@ struct Arc {
   [[nodiscard]] double by_sigma() const { return x / w(); }
 };
 
+/// Parameters: arc radius, largest radius, place of the largest radius along the axis.
 Arc barrel_arc(const double* p, double s) { return {s - p[2], 1.0 / (p[0] - p[1]), 0.0}; }
 
+/// Parameters: arc radius, radius at the middle of the axis, angle there.
 Arc tapered_arc(double length, const double* p, double s) {
   return {s - 0.5 * length, 1.0 / (p[0] - p[1]), std::sin(p[2])};
 }
@@ -45,12 +47,14 @@ Arc lens_arc(double length, const double* p, double s) {
   return {s - half, 2.0 * drop / room, 0.0};
 }
 
+/// dk/dh of the above.
 double lens_curvature_by_drop(double length, const double* p) {
   const double half = 0.5 * length, drop = p[0] - p[1];
   const double room = half * half - drop * drop;
   return 2.0 * (half * half + drop * drop) / (room * room);
 }
 
+/// r = (p0 + p1 s)^(1 / p3) / p2; NaN if the base is not positive.
 RadialJet power_jet(const double* p, double s) {
   const double base = p[0] + p[1] * s, e = 1.0 / p[3];
   if (!(base > 0.0)) {
@@ -71,6 +75,7 @@ void power_gradient(const double* p, double s, double* out) {
   out[3] = -r * std::log(base) * e * e;
 }
 
+/// k = 1 / (p0 - p1), so dk/dp0 = -k^2 and dk/dp1 = k^2; the largest radius acts on r directly, too.
 void barrel_gradient(const double* p, double s, double* out) {
   const Arc arc = barrel_arc(p, s);
   const double by_k = arc.by_k() * arc.k * arc.k;

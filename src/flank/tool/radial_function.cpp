@@ -14,8 +14,10 @@ using namespace internal;
 
 namespace {
 
+/// Coefficients of a cubic with one knot span.
 constexpr int kSmallestSpline = 4;
 
+/// One row per family, in the order of the enumeration; names are those of files and of the command line.
 struct FamilyInfo {
   std::string_view name;
   std::array<std::string_view, 4> parameters;
@@ -48,6 +50,7 @@ void require_length(double axis_length) {
     throw InternalError("a radial function needs a finite axis length > 0");
 }
 
+/// Least and largest of the values added.
 struct Range {
   double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
 
@@ -64,6 +67,7 @@ struct Span {
   RadialJet left, right;  ///< at its ends; r'' is continuous, so that neither end's piece matters
 };
 
+/// The spans in order; each end is evaluated once.
 template <class Visit>
 void each_span(const RadialFunction& spline, Visit&& visit) {
   const int spans = spline.parameter_count() - 3;
@@ -80,10 +84,12 @@ void each_span(const RadialFunction& spline, Visit&& visit) {
 /// are none; near a double zero, where round-off decides, r does not turn.
 std::array<double, 2> turns(const Span& span) {
   const double a = 0.5 * (span.right.d2 - span.left.d2) * span.length, b = span.left.d2 * span.length, c = span.left.d1;
+  // Without the difference of nearly equal numbers that the textbook formula has.
   const double q = -0.5 * (b + std::copysign(std::sqrt(b * b - 4.0 * a * c), b));
   return {q / a, c / q};
 }
 
+/// r turns only where r' = 0; beside the ends and these places there is nothing to look at.
 Range radius_range(const RadialFunction& radial) {
   Range radii;
   if (radial.family() != ToolFamily::kSpline) {
@@ -155,6 +161,7 @@ RadialFunction RadialFunction::spline_through(double axis_length, std::span<cons
   const Eigen::LDLT<Eigen::MatrixXd> solver(normal);
   RadialFunction f = spline(axis_length, Eigen::VectorXd::Zero(count));
   for (int step = 0; step < 4; ++step) {
+    // Residuals of the samples alone: the weak term above is in the matrix, but not in what is solved for.
     Eigen::VectorXd gradient = Eigen::VectorXd::Zero(count);
     for (const Vec2& p : samples) {
       const UniformCubic b = UniformCubic::at(axis_length, count, p.x());
@@ -170,6 +177,7 @@ RadialJet RadialFunction::at(double s) const {
   if (family_ != ToolFamily::kSpline) return family_jet(family_, axis_length_, parameters_.data(), s);
   const UniformCubic b = UniformCubic::at(axis_length_, parameter_count(), s);
   const double* c = parameters_.data() + b.first;
+  // Differences of the coefficients over their knots: control points of r', then of r''.
   const std::array<double, 3> d = {3.0 * b.inverse_gap3[0] * (c[1] - c[0]), 3.0 * b.inverse_gap3[1] * (c[2] - c[1]),
                                    3.0 * b.inverse_gap3[2] * (c[3] - c[2])};
   const double e0 = 2.0 * b.inverse_gap2[0] * (d[1] - d[0]), e1 = 2.0 * b.inverse_gap2[1] * (d[2] - d[1]);

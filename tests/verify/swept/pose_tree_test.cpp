@@ -139,7 +139,8 @@ TEST(PoseTree, RefusesPosesThatAreNoneNamingStripAndPose) {
   EXPECT_NE(complaint(bad).find("strip 1, pose 17 has an axis of length 1.01"), std::string::npos) << complaint(bad);
   bad = good;
   bad.strips[0].poses[5].axis *= -1.0;
-  EXPECT_NE(complaint(bad).find("strip 1, pose 6 turns the axis by more than 170 degrees"), std::string::npos) << complaint(bad);
+  EXPECT_NE(complaint(bad).find("strip 1, pose 6 turns the axis by more than 170 degrees"), std::string::npos)
+      << complaint(bad);
   bad = good;
   bad.strips[0].poses[2].axis *= 1.0005;
   EXPECT_EQ(complaint(bad), "accepted") << "files have rounded numbers";

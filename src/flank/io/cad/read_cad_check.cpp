@@ -20,13 +20,16 @@
 namespace flank::internal {
 namespace {
 
+/// Samples per direction of a surface, per edge, and per direction for the question which side is outside.
 constexpr int kSurfaceSamples = 24, kEdgeSamples = 16, kSideSamples = 3;
+/// Step along the outward normal: far beyond the errors of the conversion, and far less than walls are thick.
 constexpr double kStepOffMm = 0.01;
 
 Vec3 vec(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
 
 double between(double a, double b, int i, int count) { return a + (b - a) * i / count; }
 
+/// Largest distance between our surface and that of the kernel at equal parameters.
 void compare_surfaces(const TopoDS_Face& face, const OcctFace& ours, CadCheck& check) {
   const Handle(Geom_Surface) theirs = BRep_Tool::Surface(face);
   const BSplineSurface& s = ours.face.surface;
@@ -58,6 +61,7 @@ double distance(const Adaptor3d_Curve& curve, double first, double last, const V
     gp_Vec d1, d2;
     curve.D2(t, c, d1, d2);
     const Vec3 off = vec(c) - p, a(d1.X(), d1.Y(), d1.Z()), b(d2.X(), d2.Y(), d2.Z());
+    // Half of the second derivative of the squared distance; Gauss-Newton if it is not convex here.
     double slope = a.squaredNorm() + off.dot(b);
     if (slope <= 0.0) slope = a.squaredNorm();
     if (slope <= 0.0) break;
@@ -67,6 +71,8 @@ double distance(const Adaptor3d_Curve& curve, double first, double last, const V
   return best;
 }
 
+/// Our trims and those of the file, each mapped into space, against the edge's curve in space. The gap of the file
+/// itself says how much of ours is inherited.
 void compare_edge(const TopoDS_Edge& edge, const TopoDS_Face& face, const OcctFace& ours, CadCheck& check) {
   double first = 0.0, last = 0.0, first_2d = 0.0, last_2d = 0.0;
   const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, first, last);
@@ -87,6 +93,7 @@ void compare_edge(const TopoDS_Edge& edge, const TopoDS_Face& face, const OcctFa
   }
 }
 
+/// Whether a point just off the face along its outward normal is outside the solid, by the kernel's own classifier.
 void look_outside(const TopoDS_Face& face, const OcctFace& ours, const Face& part_face,
                   BRepClass3d_SolidClassifier& solid, CadCheck& check) {
   const BSplineSurface& s = ours.face.surface;

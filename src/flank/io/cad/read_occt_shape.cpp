@@ -32,6 +32,7 @@ namespace {
                    "); export it again, as STEP AP203, AP214 or AP242 if there is a choice");
 }
 
+/// CAD files state their unit: a user who names another one has the wrong file, or would get the wrong size.
 void refuse_other_unit(const std::string& file, const std::optional<std::string>& asked, double millimetres) {
   if (asked && std::abs(millimetres_per(*asked) - millimetres) > 1e-6 * millimetres)
     throw InputError(file + ": states its own unit (" + unit_of(millimetres) + "), which `unit` " + *asked +
@@ -51,11 +52,13 @@ double millimetres_of_step_unit(std::string name) {
   return found == known.end() ? 0.0 : found->second;
 }
 
+/// Of the file, for reports; the shape itself is in millimetres.
 void state_unit(OcctShape& result, double millimetres) {
   result.millimetres_per_unit = millimetres;
   result.unit = unit_of(millimetres);
 }
 
+/// References are checked first: the kernel drops what it cannot resolve and says nothing.
 OcctShape load_step(const std::string& file, const std::optional<std::string>& unit) {
   const std::string content = read_bytes(file);
   const std::vector<long> lost = undefined_step_references(content);
@@ -83,6 +86,7 @@ OcctShape load_step(const std::string& file, const std::optional<std::string>& u
   return result;
 }
 
+/// The unit is stated in the global section.
 OcctShape load_iges(const std::string& file, const std::optional<std::string>& unit) {
   IGESControl_Reader reader;
   if (reader.ReadFile(file.c_str()) != IFSelect_RetDone) refuse_content(file, "IGES", "its structure is damaged");
@@ -95,6 +99,7 @@ OcctShape load_iges(const std::string& file, const std::optional<std::string>& u
   return result;
 }
 
+/// BREP files state no unit: millimetres unless the user names another one.
 OcctShape load_brep(const std::string& file, const std::optional<std::string>& unit) {
   OcctShape result;
   if (!BRepTools::Read(result.shape, file.c_str(), BRep_Builder()))
@@ -128,6 +133,7 @@ int count_faces(const TopoDS_Shape& shape) {
 }  // namespace
 
 OcctShape load_occt_shape(const std::string& file, const std::string& format, const std::optional<std::string>& unit) {
+  // The kernel prints its own messages to the standard output, which belongs to the caller.
   const OcctSilence silence;
   OcctShape result;
   try {
@@ -143,6 +149,7 @@ OcctShape load_occt_shape(const std::string& file, const std::string& format, co
     throw InputError(file + ": has no faces; accepted are solids, shells and faces (not curves or meshes) in " +
                      format);
   if (format == "STEP") {
+    // Faces that fail are left out silently, so the text of the file is counted.
     const int listed = count_step_faces(read_bytes(file));
     if (faces < listed)
       result.notes.push_back(

@@ -27,10 +27,12 @@ namespace flank::internal {
 namespace {
 
 constexpr double kApproximationMm = 1e-6;  ///< asked of surfaces and curves that have no exact B-spline form
+/// A rational quadratic holds less than half a turn; a quarter keeps its parameter close to the angle.
 constexpr double kLargestArc = 0.5 * std::numbers::pi;
 
 Vec3 vec(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
 
+/// Every knot as often as it counts.
 std::vector<double> flat_knots(const TColStd_Array1OfReal& values, const TColStd_Array1OfInteger& multiplicities) {
   std::vector<double> knots;
   for (int i = values.Lower(); i <= values.Upper(); ++i)
@@ -52,18 +54,22 @@ SplineRows piece(SplineRows rows, double a, double b, double period) {
   return rows;
 }
 
+/// A surface with equal weights is polynomial, which is cheaper to evaluate.
 void drop_equal_weights(std::vector<double>& weights) {
   const auto [low, high] = std::minmax_element(weights.begin(), weights.end());
   if (weights.empty() || *high - *low <= 1e-14 * *high) weights.clear();
 }
 
+/// Knots are inserted into homogeneous control points: only these are splines.
 Eigen::Vector4d homogeneous(const gp_Pnt& p, double weight) {
   return {weight * p.X(), weight * p.Y(), weight * p.Z(), weight};
 }
 
+/// Exact: cut at a and b by inserting knots.
 BSplineCurve3 convert_spline(Handle(Geom_BSplineCurve) c, double a, double b) {
   const double period = c->IsPeriodic() ? c->Period() : 0.0;
   if (c->IsPeriodic()) {
+    // A copy: the curve belongs to the shape, and other faces share it.
     c = Handle(Geom_BSplineCurve)::DownCast(c->Copy());
     c->SetNotPeriodic();
   }
@@ -79,6 +85,7 @@ BSplineCurve3 convert_spline(Handle(Geom_BSplineCurve) c, double a, double b) {
   return r;
 }
 
+/// Angles from a to b at most kLargestArc apart.
 std::vector<double> arc_breaks(double a, double b) {
   const int arcs = std::max(1, static_cast<int>(std::ceil((b - a) / kLargestArc - 1e-9)));
   std::vector<double> breaks;
@@ -86,6 +93,7 @@ std::vector<double> arc_breaks(double a, double b) {
   return breaks;
 }
 
+/// Knots of quadratic arcs that meet with a common tangent.
 std::vector<double> arc_knots(const std::vector<double>& breaks) {
   std::vector<double> knots(3, breaks.front());
   for (std::size_t i = 1; i + 1 < breaks.size(); ++i) knots.insert(knots.end(), 2, breaks[i]);
@@ -109,6 +117,7 @@ std::vector<ArcPole> arc_poles(const std::vector<double>& breaks) {
   return poles;
 }
 
+/// centre + cos t x + sin t y, t in [a, b]. The parameter of the spline is not the angle; the map says how they relate.
 ConvertedCurve convert_conic(const Vec3& center, const Vec3& x, const Vec3& y, double a, double b) {
   ConvertedCurve r;
   r.map.breaks = arc_breaks(a, b);
@@ -123,6 +132,7 @@ ConvertedCurve convert_conic(const Vec3& center, const Vec3& x, const Vec3& y, d
   return r;
 }
 
+/// The straight line from p to q over [a, b].
 BSplineCurve3 segment(const Vec3& p, const Vec3& q, double a, double b) {
   BSplineCurve3 c;
   c.degree = 1;
@@ -141,6 +151,7 @@ SplineRows transposed(const SplineRows& rows, int degree, std::vector<double> kn
   return other;
 }
 
+/// Exact, first along u, then along v on the swapped rows.
 ConvertedSurface convert_spline(Handle(Geom_BSplineSurface) s, const ParameterWindow& box) {
   const double period_u = s->IsUPeriodic() ? s->UPeriod() : 0.0, period_v = s->IsVPeriodic() ? s->VPeriod() : 0.0;
   s = Handle(Geom_BSplineSurface)::DownCast(s->Copy());

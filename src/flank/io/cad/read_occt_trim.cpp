@@ -20,10 +20,12 @@ namespace {
 constexpr double kSnapMm = 1e-9;  ///< ends of trims closer than this become the same point
 constexpr double kOrderGapMm =
     1e-3;  ///< a larger gap in the order of the file makes the edges be ordered by their ends
+/// Halvings of one smooth piece of a trim at most: a bound for curves that the mapping makes singular.
 constexpr int kMostHalvings = 14;
 
 using Point2 = Eigen::Vector2d;
 
+/// The straight line from p to q over [0, 1].
 BSplineCurve2 line(const Point2& p, const Point2& q) {
   BSplineCurve2 c;
   c.degree = 1;
@@ -36,6 +38,7 @@ BSplineCurve2 line(const Point2& p, const Point2& q) {
 Point2 start(const BSplineCurve2& c) { return c.poles.col(0); }
 Point2 end(const BSplineCurve2& c) { return c.poles.col(c.poles.cols() - 1); }
 
+/// The same points in the opposite direction, over the same range of the parameter.
 BSplineCurve2 reversed(const BSplineCurve2& c) {
   BSplineCurve2 r = c;
   const double sum = c.knots.front() + c.knots.back();
@@ -71,11 +74,13 @@ Node node(const Geom2dAdaptor_Curve& curve, const TrimFrame& frame, double t) {
   return {t, frame.map({p.X(), p.Y()}), {d.X() * frame.map_u.derivative(p.X()), d.Y() * frame.map_v.derivative(p.Y())}};
 }
 
+/// The cubic between two nodes, at share x of the way.
 Point2 hermite(const Node& a, const Node& b, double x) {
   const double h = b.t - a.t, y = 1.0 - x;
   return (1.0 + 2.0 * x) * y * y * a.p + x * y * y * h * a.d + x * x * (3.0 - 2.0 * x) * b.p - x * x * y * h * b.d;
 }
 
+/// Largest distance of the cubic from the mapped trim at three places, mm on the surface.
 double hermite_error(const Geom2dAdaptor_Curve& curve, const TrimFrame& frame, const Node& a, const Node& b) {
   double error = 0.0;
   for (const double x : {0.25, 0.5, 0.75}) {
@@ -85,6 +90,7 @@ double hermite_error(const Geom2dAdaptor_Curve& curve, const TrimFrame& frame, c
   return error;
 }
 
+/// Appends nodes up to b, halving until half of the promised error holds: it is measured at three places only.
 void refine(const Geom2dAdaptor_Curve& curve, const TrimFrame& frame, const Node& b, int halvings,
             std::vector<Node>& nodes) {
   const Node a = nodes.back();
@@ -116,6 +122,8 @@ BSplineCurve2 hermite_spline(const std::vector<Node>& nodes) {
   return c;
 }
 
+/// A trim of a face whose parameters had to be mapped (arcs as rational splines): the map is not polynomial, so the
+/// trim is approximated. Lines along a parameter direction stay lines.
 BSplineCurve2 mapped(const Handle(Geom2d_Curve) & curve, double first, double last, const TrimFrame& frame) {
   const Geom2dAdaptor_Curve adaptor(curve, first, last);
   const gp_Pnt2d p = adaptor.Value(first), q = adaptor.Value(last);
@@ -123,6 +131,7 @@ BSplineCurve2 mapped(const Handle(Geom2d_Curve) & curve, double first, double la
   if (straight &&
       (std::abs(q.X() - p.X()) * frame.mm_per_u < kSnapMm || std::abs(q.Y() - p.Y()) * frame.mm_per_v < kSnapMm))
     return line(frame.map({p.X(), p.Y()}), frame.map({q.X(), q.Y()}));
+  // Kinks of the file's curve are ends of pieces; a cubic cannot follow them.
   TColStd_Array1OfReal breaks(1, adaptor.NbIntervals(GeomAbs_C2) + 1);
   adaptor.Intervals(breaks, GeomAbs_C2);
   std::vector<Node> nodes{node(adaptor, frame, first)};
@@ -131,6 +140,7 @@ BSplineCurve2 mapped(const Handle(Geom2d_Curve) & curve, double first, double la
   return hermite_spline(nodes);
 }
 
+/// Largest distance from the end of an edge to the start of the next one, mm.
 double largest_gap(const std::vector<BSplineCurve2>& edges, const TrimFrame& frame) {
   double gap = 0.0;
   for (std::size_t i = 0; i < edges.size(); ++i)
@@ -150,6 +160,7 @@ std::vector<BSplineCurve2> chain(std::vector<BSplineCurve2> edges, const TrimFra
   return edges;
 }
 
+/// Ends that nearly meet are made equal, wider gaps are closed by a straight line.
 TrimLoop closed(const std::vector<BSplineCurve2>& edges, const TrimFrame& frame) {
   TrimLoop loop;
   for (std::size_t i = 0; i < edges.size(); ++i) {
@@ -183,6 +194,7 @@ TrimFrame trim_frame(const BSplineSurface& s, ParameterMap map_u, ParameterMap m
 std::optional<BSplineCurve2> convert_edge(const TopoDS_Edge& edge, const TopoDS_Face& face, const TrimFrame& frame) {
   double first = 0.0, last = 0.0;
   Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face, first, last);
+  // IGES and BREP files may lack curves in the parameter plane: the kernel projects the edge.
   if (curve.IsNull() && ShapeFix_Edge().FixAddPCurve(edge, face, false))
     curve = BRep_Tool::CurveOnSurface(edge, face, first, last);
   if (curve.IsNull() || !(last > first)) return std::nullopt;
@@ -204,6 +216,7 @@ std::optional<TrimLoop> convert_wire(const TopoDS_Wire& wire, const TopoDS_Face&
     return curves;
   };
   std::vector<BSplineCurve2> curves = convert(ordered);
+  // The explorer stops at the first gap that is wider than the edges' tolerances. Whatever closes better counts.
   if (ordered.size() != all.size() || largest_gap(curves, frame) > kOrderGapMm) {
     std::vector<BSplineCurve2> other = chain(convert(all), frame);
     if (other.size() > curves.size() || largest_gap(other, frame) < largest_gap(curves, frame))

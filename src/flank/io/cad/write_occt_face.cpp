@@ -20,8 +20,10 @@
 namespace flank::internal {
 namespace {
 
+/// What the kernel may assume of edges and corners; the conversion itself is exact.
 constexpr double kEdgeToleranceMm = 1e-6;
 
+/// Distinct knots and how often each occurs.
 struct KnotTable {
   std::vector<double> values;
   std::vector<int> multiplicities;
@@ -81,6 +83,7 @@ bool is_degenerate(const BSplineCurve2& c, const BSplineSurface& s) {
   return true;
 }
 
+/// Edges of a loop as curves on the surface and in space. Corners are shared, or the wire would not be closed.
 TopoDS_Wire occt_wire(const TrimLoop& loop, const Face& face, const Handle(Geom_BSplineSurface) & surface) {
   const BRep_Builder builder;
   std::vector<TopoDS_Vertex> corners;

@@ -36,6 +36,7 @@ namespace {
 
 constexpr double kSamePointMm = 1e-7;  ///< Open CASCADE's own confusion
 
+/// mm^3; negative if the faces look inwards.
 double volume_of(const TopoDS_Shape& shape) {
   GProp_GProps volume;
   BRepGProp::VolumeProperties(shape, volume);
@@ -91,12 +92,14 @@ SolidModel model_of(const std::string& name, const TopoDS_Solid& solid) {
   return model;
 }
 
+/// The faces as the kernel has them, in the same order.
 std::vector<TopoDS_Face> occt_faces(const std::vector<Face>& faces) {
   std::vector<TopoDS_Face> all;
   for (const Face& face : faces) all.push_back(occt_face(face));
   return all;
 }
 
+/// One solid of faces whose borders coincide within kSewingMm.
 TopoDS_Solid sewn(const std::string& name, const std::vector<TopoDS_Face>& faces) {
   BRepBuilderAPI_Sewing sewing(kSewingMm);
   for (const TopoDS_Face& face : faces) sewing.Add(face);
@@ -106,6 +109,7 @@ TopoDS_Solid sewn(const std::string& name, const std::vector<TopoDS_Face>& faces
   return solid_in_order(sewing.SewedShape(), faces, name);
 }
 
+/// The sector of a hub, and its faces by name for the order of the result.
 struct Hub {
   TopoDS_Shape solid;
   TopoDS_Face skin, front, from, to, back, bore;
@@ -146,6 +150,7 @@ Hub hub_solid(const HubSector& hub) {
           swept(bore)};
 }
 
+/// Hub and blades as one solid. A blade's sixth face is its tip; its fifth, the lid inside the hub, disappears.
 TopoDS_Solid fused(const std::string& name, const Hub& hub, const std::vector<std::vector<TopoDS_Face>>& blades) {
   TopTools_ListOfShape arguments, tools;
   arguments.Append(hub.solid);

@@ -20,6 +20,7 @@ void add_facet(TriangleMesh& mesh) {
   mesh.triangles.push_back({n - 3, n - 2, n - 1});
 }
 
+/// 80 bytes of header, a count, and for each facet a normal (not used), three vertices and two bytes.
 TriangleMesh read_binary(const std::string& file, std::string_view content) {
   std::uint32_t count = 0;
   if (content.size() >= kHeader) std::memcpy(&count, content.data() + 80, sizeof count);
@@ -45,6 +46,7 @@ TriangleMesh read_binary(const std::string& file, std::string_view content) {
   return mesh;
 }
 
+/// Line by line; normals are not used. A file may hold several solids one after another: they make one mesh.
 TriangleMesh read_text_stl(const std::string& file, std::string_view content) {
   TriangleMesh mesh;
   TextLines lines(file, content);
@@ -78,6 +80,7 @@ TriangleMesh read_text_stl(const std::string& file, std::string_view content) {
 
 TriangleMesh read_stl(const std::string& file, std::string_view content) {
   const std::size_t first = content.find_first_not_of(" \t\r\n");
+  // Binary files may begin with "solid" as well, so the size that the count asks for decides first.
   const bool text = !is_binary_stl(content) && first != std::string_view::npos && content.substr(first, 5) == "solid" &&
                     content.substr(0, 4096).find('\0') == std::string_view::npos;
   return text ? read_text_stl(file, content) : read_binary(file, content);

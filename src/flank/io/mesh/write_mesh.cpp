@@ -13,6 +13,7 @@
 namespace flank::internal {
 namespace {
 
+/// The bytes of a value; all machines that this is built for are little-endian, as the formats want.
 template <class T>
 void append(std::string& bytes, T value) {
   char raw[sizeof value];
@@ -20,10 +21,12 @@ void append(std::string& bytes, T value) {
   bytes.append(raw, sizeof value);
 }
 
+/// STL has single precision only.
 void append_single(std::string& bytes, const Vec3& p) {
   for (int k = 0; k < 3; ++k) append(bytes, static_cast<float>(p[k]));
 }
 
+/// Must not begin with "solid", or some readers take it for text.
 std::string stl(const TriangleMesh& mesh) {
   std::string bytes = "binary STL";
   bytes.resize(80, ' ');
@@ -38,6 +41,7 @@ std::string stl(const TriangleMesh& mesh) {
   return bytes;
 }
 
+/// Vertices are counted from 1. Numbers read back as the same doubles.
 std::string obj(const TriangleMesh& mesh) {
   std::string text;
   const auto out = std::back_inserter(text);
@@ -46,6 +50,7 @@ std::string obj(const TriangleMesh& mesh) {
   return text;
 }
 
+/// Binary, double precision.
 std::string ply(const TriangleMesh& mesh) {
   std::string bytes = fmt::format(
       "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double "

@@ -44,6 +44,7 @@ std::string statement(const std::string& word, const std::vector<std::string>& v
   return text + line + "\n";
 }
 
+/// Exact numbers, so that a path read back is the same.
 std::string go_to(const Vec3& tip, const Vec3& axis) {
   return statement("GOTO", {exact_decimal(tip.x()), exact_decimal(tip.y()), exact_decimal(tip.z()),
                             exact_decimal(axis.x()), exact_decimal(axis.y()), exact_decimal(axis.z())});
@@ -52,6 +53,7 @@ std::string go_to(const Vec3& tip, const Vec3& axis) {
 /// For people, not for reading back; never "-0.0000".
 std::string rounded(double value) { return fmt::format("{:.4f}", std::abs(value) < 5e-5 ? 0.0 : value); }
 
+/// Everything before the first motion.
 std::string head(const Tool& tool, const ClsOptions& options) {
   const NearestCutter c = nearest_cutter(tool);
   std::string text = fmt::format("PARTNO {}\n", plain(options.part));
@@ -66,6 +68,7 @@ std::string head(const Tool& tool, const ClsOptions& options) {
   return text;
 }
 
+/// A rapid move to above the first pose, down along the axis and along the strip at feed, and up again.
 std::string strip_text(const Strip& strip, const ClsOptions& options) {
   if (strip.poses.empty()) return {};
   std::string text = fmt::format("PPRINT STRIP {} {} {}\n", strip.id, plain(strip.kind), plain(strip.face, 1000));
@@ -84,6 +87,7 @@ std::string strip_text(const Strip& strip, const ClsOptions& options) {
 
 NearestCutter nearest_cutter(const Tool& tool) {
   const std::vector<Vec2> points = meridian(tool.radial, kMeridianPoints);
+  // Least-squares line through the meridian: it is the side of the cutter.
   Vec2 mean = Vec2::Zero();
   for (const Vec2& p : points) mean += p / kMeridianPoints;
   double zz = 0.0, zr = 0.0;
@@ -94,6 +98,7 @@ NearestCutter nearest_cutter(const Tool& tool) {
   NearestCutter c;
   c.side_angle = std::atan2(zr, zz);
   const Vec2 normal(-std::sin(c.side_angle), std::cos(c.side_angle));
+  // Largest distance from the line, not the root mean square: it is a promise.
   for (const Vec2& p : points) c.error_mm = std::max(c.error_mm, std::abs(normal.dot(p - mean)));
   c.corner_radius = tool.radial.at(0.0).r;
   c.diameter = 2.0 * normal.dot(mean) / std::cos(c.side_angle);

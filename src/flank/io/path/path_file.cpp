@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::string_view kSchema = "openflank/path/1";
 
+/// [x, y, z, i, j, k]. An axis with rounded digits is normalised; one that is no unit vector at all is refused.
 Pose pose_from(const JsonInput& in) {
   const std::vector<double> v = in.numbers(6);
   Pose pose{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
@@ -25,6 +26,7 @@ Pose pose_from(const JsonInput& in) {
   return pose;
 }
 
+/// "kind" and "face" may be left out.
 Strip strip_from(const JsonInput& in) {
   in.allow_keys({"id", "kind", "face", "poses"});
   Strip strip;

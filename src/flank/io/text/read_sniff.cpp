@@ -19,6 +19,7 @@ constexpr const char* kAccepted =
     "STEP (.step .stp), IGES (.iges .igs), BREP (.brep .brp), STL (.stl), OBJ (.obj) or PLY (.ply)";
 constexpr long kLargestStepId = 100'000'000'000'000'000;  ///< longer numbers of a damaged file all count as this one
 
+/// With its dot.
 std::string lower_extension(const std::string& file) {
   std::string extension = std::filesystem::path(file).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -26,6 +27,7 @@ std::string lower_extension(const std::string& file) {
   return extension;
 }
 
+/// Throws InputError for an extension that no reader has.
 std::string format_of_extension(const std::string& file) {
   static const std::map<std::string, std::string> formats = {
       {".step", "STEP"}, {".stp", "STEP"}, {".p21", "STEP"}, {".iges", "IGES"}, {".igs", "IGES"},
@@ -39,6 +41,7 @@ std::string format_of_extension(const std::string& file) {
 
 bool begins_with(std::string_view content, std::string_view word) { return content.substr(0, word.size()) == word; }
 
+/// Without a byte order mark and blanks in front.
 std::string_view skip_space(std::string_view content) {
   if (begins_with(content, "\xEF\xBB\xBF")) content.remove_prefix(3);
   while (!content.empty() && std::isspace(static_cast<unsigned char>(content.front()))) content.remove_prefix(1);
@@ -53,6 +56,7 @@ bool looks_iges(std::string_view content) {
   return std::all_of(line.begin() + 73, line.end(), [](unsigned char c) { return std::isdigit(c) || c == ' '; });
 }
 
+/// The word "solid" alone is not enough: binary STL files may begin with it, too.
 bool looks_text_stl(std::string_view content) {
   const std::string_view text = skip_space(content);
   if (!begins_with(text, "solid")) return false;
@@ -81,6 +85,7 @@ bool looks_obj(std::string_view content) {
   return vertex;
 }
 
+/// Empty: none that is known. The order goes from marks that cannot be chance to those that can.
 std::string format_of_content(std::string_view content) {
   const std::string_view text = skip_space(content);
   if (begins_with(text, "ISO-10303-21")) return "STEP";
@@ -92,6 +97,7 @@ std::string format_of_content(std::string_view content) {
   return {};
 }
 
+/// STEP and IGES end with a mark; the kernel reads a file without it and leaves out what is missing.
 void refuse_truncated(const std::string& file, const std::string& format, std::string_view content) {
   const std::string_view tail = content.substr(content.size() - std::min<std::size_t>(content.size(), 2000));
   if (format == "STEP" && tail.find("END-ISO-10303-21") == std::string_view::npos)
@@ -125,6 +131,7 @@ bool is_binary_stl(std::string_view content) {
   if (content.size() < 84) return false;
   std::uint32_t count = 0;
   std::memcpy(&count, content.data() + 80, sizeof count);
+  // Header, count, and 50 bytes per facet: the size fits the count only in a binary STL.
   return content.size() == 84 + 50 * static_cast<std::size_t>(count);
 }
 

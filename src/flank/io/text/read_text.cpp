@@ -14,6 +14,7 @@ constexpr std::string_view kSpace = " \t\r\v\f";
 
 }  // namespace
 
+// Words are views into the content: nothing is copied, which makes large meshes quick to read.
 bool TextLines::next() {
   while (at_ < content_.size()) {
     const std::size_t end = std::min(content_.find('\n', at_), content_.size());
@@ -46,6 +47,7 @@ double TextLines::number(std::size_t i) const {
 
 long TextLines::integer(std::size_t i) const {
   std::string_view text = word(i);
+  // "7/3/1" of an OBJ face: vertex, texture, normal.
   text = text.substr(0, text.find('/'));
   long value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -14,6 +14,7 @@ namespace flank::internal {
 namespace {
 
 constexpr double kDegrees = 57.29577951308232;
+/// AutoCAD's colour numbers.
 constexpr int kRed = 1, kGreen = 3, kCyan = 4, kWhite = 7, kGrey = 8;
 
 /// Equal steps in s, fine enough that no chord is farther than kDxfChordMm from the meridian (measured at the steps'
@@ -32,6 +33,7 @@ std::vector<Vec2> flank_points(const RadialFunction& radial) {
   }
 }
 
+/// A dash pattern: lengths in drawing units, negative for gaps.
 void line_type(DxfText& out, std::string_view name, std::string_view look, const std::vector<double>& dashes) {
   double length = 0.0;
   for (const double d : dashes) length += std::abs(d);
@@ -40,6 +42,7 @@ void line_type(DxfText& out, std::string_view name, std::string_view look, const
   for (const double d : dashes) out.add(49, d);
 }
 
+/// Line types and layers; readers refuse entities on a layer that is not declared.
 void tables(DxfText& out, double height) {
   out.add(0, "SECTION").add(2, "TABLES");
   out.add(0, "TABLE").add(2, "LTYPE").add(70, 2);
@@ -62,6 +65,7 @@ void tables(DxfText& out, double height) {
   out.add(0, "ENDSEC");
 }
 
+/// The old POLYLINE with vertices: R12 has no other.
 void polyline(DxfText& out, std::string_view layer, const std::vector<Vec2>& points) {
   if (points.empty()) return;
   out.add(0, "POLYLINE").add(8, layer).add(66, 1).point(10, 0.0, 0.0).add(70, 0);
@@ -80,6 +84,7 @@ void tip_arc(DxfText& out, const RadialFunction& radial) {
   out.add(50, std::atan2(p.y(), p.x()) * kDegrees).add(51, 180.0);
 }
 
+/// mm: readable beside the profile on one sheet.
 double text_height(const Tool& tool) { return std::max(0.5, tool.radial.axis_length() / 40.0); }
 
 /// Where the drawing ends: along the axis, and the largest radius of flank, shank and holder.

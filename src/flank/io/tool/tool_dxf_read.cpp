@@ -18,6 +18,7 @@ class DxfPairs {
  public:
   DxfPairs(std::string_view text, std::string file) : text_(text), file_(std::move(file)) {}
 
+  /// The next pair; false at the end.
   bool next() {
     std::string_view code;
     if (!line(code)) return false;
@@ -67,6 +68,7 @@ class DxfPairs {
   std::string_view value_;
 };
 
+/// Of either kind, in the order of the file.
 struct Polyline {
   std::string layer;
   std::vector<Vec2> points;
@@ -97,6 +99,7 @@ class PolylineReader {
   }
 
  private:
+  /// A new entity: POLYLINE is followed by VERTEX entities up to SEQEND, LWPOLYLINE holds its points itself.
   void begin(const std::string& entity) {
     if (entity == "POLYLINE" || entity == "LWPOLYLINE") {
       found_.emplace_back();
@@ -108,6 +111,7 @@ class PolylineReader {
     }
   }
 
+  /// Codes: 8 layer, 10 and 20 x and y, 42 bulge.
   void group(const std::string& entity) {
     const bool light = entity == "LWPOLYLINE", vertex = entity == "VERTEX" && open_;
     if ((entity == "POLYLINE" || light) && in_.code() == 8) found_.back().layer = std::string(in_.value());
@@ -134,12 +138,14 @@ std::vector<Vec2> profile_from_dxf(std::string_view text, const std::string& fil
     throw InputError(fmt::format(
         "{}: {} polylines and none on layer FLANK; accepted is one polyline, or one on that layer", file, all.size()));
   std::vector<Vec2> points = flank != all.end() ? flank->points : all.front().points;
+  // Drawn from the holder to the tip.
   if (points.size() >= 2 && points.front().x() > points.back().x()) std::reverse(points.begin(), points.end());
   return points;
 }
 
 Tool tool_from_dxf(std::string_view text, const std::string& file, std::optional<double> axis_length) {
   const std::vector<Vec2> profile = profile_from_dxf(text, file);
+  // Four points per coefficient: the spline smooths the chords of the drawing instead of following them.
   const int coefficients = std::clamp(static_cast<int>(profile.size()) / 4, 4, kDxfCoefficients);
   Tool tool;
   try {

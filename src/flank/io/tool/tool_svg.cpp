@@ -56,11 +56,13 @@ Extent extent(const Tool& tool, const std::vector<Vec2>& flank, bool whole) {
   return e;
 }
 
+/// "name, family, axis length".
 std::string title(const Tool& tool) {
   const std::string name = tool.name.empty() ? "" : tool.name + ", ";
   return fmt::format("{}{}, axis length {:.6g} mm", name, family_name(tool.radial.family()), tool.radial.axis_length());
 }
 
+/// The ends of the axis below the drawing of characters, at its left and right margin.
 std::string ruler(double low, double high, int columns, int margin) {
   const std::string left = fmt::format("{:.4g}", low), right = fmt::format("{:.4g} mm", high);
   const int gap = std::max(1, columns - static_cast<int>(left.size() + right.size()));
@@ -68,6 +70,7 @@ std::string ruler(double low, double high, int columns, int margin) {
          right + "\n";
 }
 
+/// Radius, slope and meridian at five equal steps of s.
 std::string table(const RadialFunction& radial) {
   std::string text = "      s mm         r mm   r'        slope deg   meridian z, radius mm\n";
   constexpr int rows = 5;

@@ -22,6 +22,7 @@ constexpr double kGraphCosine = 0.25;
 /// Share of the square left free around a patch that does not fill it.
 constexpr double kMargin = 0.02;
 
+/// The vertex at which each side of the loop starts.
 std::vector<int> loop_vertices(const TriangleMesh& mesh, const std::vector<TriangleSide>& loop) {
   std::vector<int> vertices;
   for (const TriangleSide& s : loop)
@@ -29,6 +30,7 @@ std::vector<int> loop_vertices(const TriangleMesh& mesh, const std::vector<Trian
   return vertices;
 }
 
+/// A closed polyline with its arc length, mm.
 struct Path {
   std::vector<Vec3> points;
   std::vector<double> length;  // up to each point; one more for the closed whole
@@ -62,11 +64,13 @@ Vec3 direction(const Path& path, std::size_t i, double reach, int sign) {
 /// The four corners in the order of the loop, if there are exactly four.
 std::optional<std::array<std::size_t, 4>> corners(const Path& path) {
   const std::size_t n = path.points.size();
+  // A corner is a turn between the directions over a stretch on either side, not between two edges: rims are ragged.
   const double reach = kCornerChord * path.length.back();
   std::vector<double> turn(n);
   for (std::size_t i = 0; i < n; ++i)
     turn[i] = std::acos(std::clamp(-direction(path, i, reach, -1).dot(direction(path, i, reach, 1)), -1.0, 1.0));
   std::vector<std::size_t> found;
+  // Sharpest turn first; its surroundings turn as well and are not corners of their own.
   std::vector<char> taken(n, 0);
   for (;;) {
     std::size_t best = n;
@@ -84,6 +88,7 @@ std::optional<std::array<std::size_t, 4>> corners(const Path& path) {
   return std::array<std::size_t, 4>{found[0], found[1], found[2], found[3]};
 }
 
+/// Cotangent of the angle at a corner: the weight of the side opposite to it in the harmonic map.
 double cotangent(const TriangleMesh& mesh, int triangle, int corner) {
   const auto& t = mesh.triangles[static_cast<std::size_t>(triangle)];
   const auto point = [&](int k) -> const Vec3& { return mesh.vertices[static_cast<std::size_t>(t[k % 3])]; };
@@ -94,6 +99,7 @@ double cotangent(const TriangleMesh& mesh, int triangle, int corner) {
 
 /// Harmonic values inside for given values at the vertices marked in `fixed`.
 void solve_harmonic(const TriangleMesh& mesh, const std::vector<char>& fixed, std::vector<Vec2>& uv) {
+  // Only free vertices are unknowns; the fixed ones go to the right-hand side.
   std::vector<int> number(mesh.vertices.size(), -1);
   int count = 0;
   for (std::size_t v = 0; v < number.size(); ++v)

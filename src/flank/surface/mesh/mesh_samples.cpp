@@ -23,6 +23,7 @@ struct Piece {
   Vec3 center, normal;
 };
 
+/// The sample at a place of the smooth surface; area in mm^2.
 SurfaceSample sample_at(const JetSurface& surface, int triangle, double u, double v, double area) {
   const SurfaceJet s = surface.jet(triangle, u, v);
   SurfaceSample sample;
@@ -138,6 +139,7 @@ class Grouper {
     return std::clamp(middle, begin + 1, end - 1);
   }
 
+  /// One sample for a range of pieces: the point of their triangles that is nearest to their centre.
   void emit(std::size_t begin, std::size_t end, double area, const Vec3& center) {
     TrianglePoint best;
     int triangle = -1;

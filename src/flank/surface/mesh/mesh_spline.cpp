@@ -47,6 +47,7 @@ struct Fit {
   double validation = INFINITY;  // generalised cross-validation error
 };
 
+/// Sum of the squared distances along the normal: those along the surface are changes of the parameters, not errors.
 double normal_squares(const BSplineSurface& surface, const std::vector<Vec3>& points, const std::vector<Vec2>& uv) {
   double sum = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -116,6 +117,7 @@ TrimLoop square() {
   return loop;
 }
 
+/// Whether the spline's normals mostly point against those of the mesh, at about 500 vertices.
 bool against_mesh(const TriangleMesh& mesh, const Fit& fit) {
   double sum = 0.0;
   const std::vector<Vec3> normals = vertex_normals(mesh);

@@ -67,6 +67,7 @@ double largest_curvature(const SurfaceJet& jet, const Vec3& n) {
   return mean + std::sqrt(std::max(0.0, mean * mean - gauss));
 }
 
+/// The part of a zone within [u0, u1] x [v0, v1]; its cells stay those of the zone.
 ParameterBox clip(const ParameterBox& zone, double u0, double u1, double v0, double v1) {
   ParameterBox b = zone;
   b.u0 = std::max(zone.u0, u0);
@@ -156,6 +157,7 @@ constexpr double kFocalLow = 0.75, kFocalHigh = 1.3;
 
 }  // namespace
 
+// 1 - d k = 0 for some curvature k of the cell: then minima may lie side by side.
 bool can_be_focal(const FlatCell& cell, const Vec3& r) {
   const std::size_t side = r.dot(cell.normal) >= 0.0 ? 0 : 1;
   const double distance = r.norm();

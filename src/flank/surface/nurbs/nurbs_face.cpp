@@ -35,6 +35,7 @@ ParameterBox box_of(const BSplinePatches& s, double u0, double u1, double v0, do
   return b;
 }
 
+/// Index of the interval that holds x; outside, that of the nearest end.
 int interval(const std::vector<double>& ends, double x) {
   const auto it = std::upper_bound(ends.begin() + 1, ends.end() - 1, x);
   return static_cast<int>(it - ends.begin()) - 1;
@@ -168,6 +169,7 @@ std::vector<double> NurbsFace::within(const std::vector<double>& ends, double lo
   return result;
 }
 
+// Cells of the domain only: beside the border the cells of the extension are other polynomials.
 SurfaceJet NurbsFace::jet_within(double u, double v) const {
   SurfaceJet jet;
   patches_.evaluate(std::clamp(patches_.cell_u(u), domain_.i0, domain_.i1),
@@ -182,6 +184,7 @@ bool NurbsFace::hop_u(const Vec3& p, int& zone_i, int zone_j, Descent& x) const 
   const int count = static_cast<int>(ends_u_.size()) - 1;
   int next = zone_i + x.side_u;
   double u = x.u;
+  // Round the seam of a closed surface.
   if (next < 0 || next >= count) {
     if (!closed_u_) return false;
     next = next < 0 ? count - 1 : 0;

@@ -15,6 +15,7 @@ constexpr double kMaxLines = 20000.0;
 /// derivative on iso-line k.
 template <class Speed>
 std::vector<double> grid_lines(double low, double high, double spacing, const Speed& speed) {
+  // Arc length up to each cell, as the mean over several iso-lines.
   std::vector<double> cumulated{0.0};
   for (int k = 0; k < kSpeedCells; ++k) {
     double sum = 0.0;
@@ -25,6 +26,7 @@ std::vector<double> grid_lines(double low, double high, double spacing, const Sp
   const int count = static_cast<int>(std::clamp(std::ceil(cumulated.back() / spacing), 1.0, kMaxLines));
   std::vector<double> lines{low};
   for (int k = 1, cell = 0; k < count; ++k) {
+    // The parameter at which the arc length reaches k of `count` equal shares, linear within a cell.
     const double target = cumulated.back() * k / count;
     while (cell + 1 < kSpeedCells && cumulated[static_cast<std::size_t>(cell) + 1] < target) ++cell;
     const double c0 = cumulated[static_cast<std::size_t>(cell)], c1 = cumulated[static_cast<std::size_t>(cell) + 1];
@@ -54,6 +56,7 @@ void append_cell(const NurbsFace& face, int index, const ParameterRectangle& r, 
       inside.push_back(q);
     }
     if (inside.empty()) return;
+    // The sample must lie on the face: the inner subcell nearest to their mean.
     if (!face.inside(middle[0], middle[1])) {
       Vec2 mean = Vec2::Zero();
       for (const Vec2& q : inside) mean += q / static_cast<double>(inside.size());
@@ -68,6 +71,7 @@ void append_cell(const NurbsFace& face, int index, const ParameterRectangle& r, 
 
 }  // namespace
 
+// Cells that a trim cuts are quartered `depth` times; the rest is a matter of the Gauss points.
 double trimmed_area(const NurbsFace& face, const ParameterRectangle& r, int depth) {
   const double du = r.u1 - r.u0, dv = r.v1 - r.v0, mid_u = r.u0 + 0.5 * du, mid_v = r.v0 + 0.5 * dv;
   const TrimRegion::Side side = face.trim().classify(r);
