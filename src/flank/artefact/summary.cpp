@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "flank/artefact/acceptance.h"
 #include "flank/artefact/clearance_text.h"
@@ -20,9 +21,11 @@ std::string percent(double share) { return fmt::format("{:.2f} %", 100.0 * share
 std::string error_lines(const Result& result) {
   const VerifyReport& v = result.verify;
   std::string text;
-  text += fmt::format("  path        {} strip{}, {} poses, joined within {:.2g} mm of the motion, largest |c| {:.3f}\n",
-                      result.path.strips.size(), result.path.strips.size() == 1 ? "" : "s", result.path.pose_count(),
-                      result.chord_bound_mm, result.largest_c);
+  text += fmt::format(
+      "  path        {} strip{}, {} poses, joined within {:.2g} mm of the motion, largest |c| {:.3f}, largest turn "
+      "{:.1f} degrees\n",
+      result.path.strips.size(), result.path.strips.size() == 1 ? "" : "s", result.path.pose_count(),
+      result.chord_bound_mm, result.largest_c, result.largest_turn_rad * 180.0 / std::numbers::pi);
   text += fmt::format("  coverage    {} of the target within {} mm\n", percent(v.coverage), v.tolerance_mm);
   text += "  " + reach_text(v) + "\n";
   text += fmt::format("  overcut     {:.6f} mm\n", v.overcut_mm);
@@ -148,6 +151,7 @@ std::string summary_json(const Result& result) {
   if (!v.clearance.figures.empty()) json["clearance"] = clearance_to_json(v.clearance);
   json["chord_bound"] = result.chord_bound_mm;
   json["largest_c"] = result.largest_c;
+  json["largest_turn"] = result.largest_turn_rad * 180.0 / std::numbers::pi;
   json["diagonal"] = result.diagonal_mm;
   json["axis_length"] = result.tool.radial.axis_length();
   const Stiffness bent = stiffness(result.tool);
