@@ -55,7 +55,6 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& bod
 
 void parallel_blocks(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {
   FLANK_ASSERT(body != nullptr);
-  FLANK_ASSERT(grain > 0);
   if (count == 0) return;
   const std::size_t step = std::max<std::size_t>(1, grain);
   const std::size_t blocks = (count + step - 1) / step;

@@ -26,7 +26,7 @@ double interpolate(const std::vector<double>& table, double x) {
 
 SweptEstimate::SweptEstimate(const std::vector<RuledMotion>& motions, const RadialFunction& radial, int poses)
     : axis_length_(radial.axis_length()), per_length_(kTable / radial.axis_length()) {
-  FLANK_ASSERT(!motions.empty() && poses >= 2);
+  FLANK_ASSERT(poses >= 2);
   for (const RuledMotion& motion : motions) {
     std::vector<Pose>& table = poses_.emplace_back();
     for (int i = 0; i < poses; ++i) table.push_back(motion.pose(static_cast<double>(i) / (poses - 1)));

@@ -9,7 +9,7 @@
 namespace flank {
 
 std::vector<double> uniform_knots(int degree, int count, double a, double b) {
-  FLANK_ASSERT(degree >= 1 && degree <= kMaxDegree);
+  FLANK_ASSERT(degree >= 0 && degree <= kMaxDegree);
   FLANK_ASSERT(count > degree);
   FLANK_ASSERT(a < b);
   std::vector<double> knots(static_cast<std::size_t>(count + degree + 1));

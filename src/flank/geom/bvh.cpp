@@ -24,7 +24,6 @@ void append_corners(const OrientedBox& box, std::vector<Vec3>& points) {
 }  // namespace
 
 OrientedBox bounding_box(const std::vector<Vec3>& points) {
-  FLANK_ASSERT(!points.empty());
   OrientedBox box;
   if (points.empty()) return box;
   Vec3 mean = Vec3::Zero();

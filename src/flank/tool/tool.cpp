@@ -16,7 +16,7 @@ Vec2 meridian_point(const RadialFunction& radial, double s) {
 }
 
 std::vector<Vec2> meridian(const RadialFunction& radial, int count) {
-  FLANK_ASSERT(count >= 1);
+  FLANK_ASSERT(count >= 0);
   std::vector<Vec2> points(static_cast<std::size_t>(count));
   const double length = radial.axis_length();
   for (int i = 0; i < count; ++i)

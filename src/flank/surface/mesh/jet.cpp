@@ -107,7 +107,7 @@ int solve_best(int degree, const JetWorkspace& w, Basis& solution, double& resid
 
 JetFit fit_jet(std::span<const Vec3> points, const Vec3& origin, const Vec3& normal, int degree, double falloff,
                JetWorkspace& workspace) {
-  FLANK_ASSERT(degree >= 1 && degree <= Jet::kDegree);
+  FLANK_ASSERT(degree >= 0 && degree <= Jet::kDegree);
   FLANK_ASSERT(falloff >= 0.0);
   JetFit fit;
   fit.jet.origin = origin;

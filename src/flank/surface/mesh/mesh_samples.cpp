@@ -163,7 +163,6 @@ class Grouper {
 }  // namespace
 
 std::vector<SurfaceSample> mesh_samples(const JetSurface& surface, double spacing_mm) {
-  FLANK_ASSERT(spacing_mm > 0.0);
   if (!(spacing_mm > 0.0))
     throw UsageError("sample spacing must be positive, got " + std::to_string(spacing_mm) + " mm");
   std::vector<SurfaceSample> samples;

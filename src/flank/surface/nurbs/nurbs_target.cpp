@@ -149,6 +149,8 @@ void NurbsTarget::search_border(int piece, const Vec3& p, Best& best) const {
 Footpoint NurbsTarget::closest_within(const Vec3& p, double horizon_mm) const {
   Best best;
   best.squared = std::min(best.squared, horizon_mm * horizon_mm);
+  // A point that is not finite is near nothing.
+  if (!p.allFinite()) return finish(p, best);
   tree_.nearest(p, best.squared, [&](int item) {
     const auto k = static_cast<std::size_t>(item);
     if (k < cells_.size())
