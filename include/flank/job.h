@@ -55,9 +55,11 @@ struct ObstacleRequest {
 
 /// How the result is judged.
 struct JudgeRequest {
-  double least_coverage = 0.95;           ///< share of what is reachable of the target that must be within tolerance
-  std::optional<double> sample_mm;        ///< spacing of the samples; none: by the size of the part
-  std::optional<double> reach_radius_mm;  ///< of the ball that says what is reachable; none: the tool's smallest radius
+  double least_coverage = 0.95;     ///< share of what is reachable of the target that must be within tolerance
+  std::optional<double> sample_mm;  ///< spacing of the samples; none: by the size of the part
+  std::optional<double>
+      reach_radius_mm;  ///< of the ball that says what is reachable; none: the tool's smallest radius,
+                        ///< of a free tool half its demanded length over slenderness_max
   bool operator==(const JudgeRequest&) const = default;
 };
 

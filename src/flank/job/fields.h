@@ -124,7 +124,8 @@ void visit_obstacles(Request& obstacles, Visitor& visit) {
 
 inline constexpr std::string_view kReachHelp =
     "A place of the face counts as reachable if a ball of this radius touches it without entering another face; "
-    "--coverage is about those; default: the tool's smallest radius";
+    "--coverage is about those; default: the tool's smallest radius, of a free tool half of the axis length (or of the "
+    "root of the face's area) over --slenderness-max";
 
 template <class Visitor, Is<JudgeRequest> Request>
 void visit_judge(Request& judge, Visitor& visit) {

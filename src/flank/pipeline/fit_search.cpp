@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "flank/base/tolerance_budget.h"
@@ -44,6 +45,14 @@ RadiusBounds bounds_of(const FitJob& job, double diagonal) {
   bounds.shank_length = job.obstacles.shank_length_mm.value_or(0.0);
   bounds.shank_radius = job.obstacles.shank_radius_mm.value_or(0.0);
   return bounds;
+}
+
+/// The ball that says what a free tool is to reach: of the part and of the demand, not of the tool, or a thick one would
+/// bring its own excuse. It is as thick as a cylinder as long as the target is wide that is just stiff enough.
+double demanded_reach(const FitJob& job, const Target& target, const RadiusBounds& bounds) {
+  if (job.judge.reach_radius_mm) return *job.judge.reach_radius_mm;
+  const double length = job.tool.axis_length_mm.value_or(std::sqrt(target.area()));
+  return std::clamp(0.5 * length / bounds.slenderest, bounds.smallest, bounds.largest);
 }
 
 /// One group: automatic, or with the strips that the tolerance needs.
@@ -139,8 +148,9 @@ FitSearch search_side(const FitJob& job, const Setup& setup, const ToolSpec& spe
   options.tolerance_mm = job.tolerance_mm;
   options.axis_length_mm = job.tool.axis_length_mm;
   options.bounds = bounds_of(job, search.targets.front().target->diagonal());
-  options.reach_radius_mm = job.judge.reach_radius_mm.value_or(0.0);
   const ToolModel tool = make_tool_model(spec);
+  if (tool.free()) search.reach_radius_mm = demanded_reach(job, *search.targets.front().target, options.bounds);
+  options.reach_radius_mm = job.judge.reach_radius_mm.value_or(search.reach_radius_mm.value_or(0.0));
   if (job.avoid) add_obstacles(job, setup, options.bounds.largest, search);
   if (!start.given()) {
     fit_groups(job, search, tool, options, progress);
