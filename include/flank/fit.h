@@ -33,6 +33,18 @@ struct RadiusBounds {
   /// Largest |r'|, no unit, in (0, 1): spheres stay inscribed only below 1 (MATH section 1). 0.95 is a cone of 72
   /// degrees half angle; lower it for a tool that is to be ground easily.
   double steepest = 0.95;
+  /// > 0, no unit: largest slenderness (Stiffness, tool.h) of flank and shank. 1e300 is "no bound". An error alone
+  /// chooses thin tools, which fit anywhere and cannot be used: 8 is what a machinist clamps without a second thought.
+  double slenderest = 1e300;
+  /// In [0, 1], no unit: going up from the tip, r falls below what it was farther down by at most this share. 0: it
+  /// never falls; 1: any profile.
+  double neck = 1.0;
+  /// mm, >= 0: a concave part of the meridian has at least this radius of curvature, that of the grinding wheel which
+  /// is to get into it. 0: any.
+  double wheel_radius = 0.0;
+  /// mm, >= 0: a cylindrical shank above the flank bends too, as `slenderest` counts. Radius 0: that of the flank's
+  /// upper end.
+  double shank_length = 0.0, shank_radius = 0.0;
 };
 
 /// What one iteration did, over samples whose footpoint is inside the target (of a SweptModel: points to be touched).

@@ -32,11 +32,15 @@ struct ToolRequest {
   bool operator==(const ToolRequest&) const = default;
 };
 
-/// Limits of the radius that a fit may find.
+/// Limits of the tool that a fit may find: what can be ground, and clamped.
 struct RadiusRequest {
-  std::optional<double> min_mm;  ///< none: 1 % of the target's diagonal
-  std::optional<double> max_mm;  ///< none: 15 % of the target's diagonal
-  double slope_max = 0.95;       ///< of |r'|, below 1
+  std::optional<double> min_mm;           ///< none: 1 % of the target's diagonal
+  std::optional<double> max_mm;           ///< none: 15 % of the target's diagonal
+  double slope_max = 0.95;                ///< of |r'|, below 1
+  double slenderness_max = 8.0;           ///< Stiffness (tool.h) of flank and shank
+  std::string profile = "tapered";        ///< or "any": radii may fall towards the holder by any share
+  double neck = 0.1;                      ///< "tapered": by at most this share of a radius farther down
+  std::optional<double> wheel_radius_mm;  ///< least radius of a concave meridian; none: any
   bool operator==(const RadiusRequest&) const = default;
 };
 
@@ -54,9 +58,11 @@ struct ObstacleRequest {
 
 /// How the result is judged.
 struct JudgeRequest {
-  double least_coverage = 0.95;           ///< share of what is reachable of the target that must be within tolerance
-  std::optional<double> sample_mm;        ///< spacing of the samples; none: by the size of the part
-  std::optional<double> reach_radius_mm;  ///< of the ball that says what is reachable; none: the tool's smallest radius
+  double least_coverage = 0.95;     ///< share of what is reachable of the target that must be within tolerance
+  std::optional<double> sample_mm;  ///< spacing of the samples; none: by the size of the part
+  std::optional<double>
+      reach_radius_mm;  ///< of the ball that says what is reachable; none: the tool's smallest radius,
+                        ///< of a free tool half its demanded length over slenderness_max
   bool operator==(const JudgeRequest&) const = default;
 };
 

@@ -43,6 +43,9 @@ struct SamplingOptions {
   double chord_tolerance_mm = 1e-4;
   /// >= 2. Raise it if something else than the chord needs poses that are close together.
   int minimum_poses = 2;
+  /// Radians, > 0: between two poses the path of no point of the axis turns by more than this, where it moves by more
+  /// than the chord tolerance. Slow corners get more poses than the chord needs; a cusp keeps its turn.
+  double largest_turn_rad = 1e300;
   /// >= minimum_poses: what the controller or the file can take. If it is too few, the tolerance gives way.
   int maximum_poses = 100000;
 };

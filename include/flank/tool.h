@@ -26,6 +26,20 @@ struct Legitimacy {
 };
 [[nodiscard]] Legitimacy check_legitimacy(const RadialFunction& radial);
 
+/// How a tool bends under a force across its tip: an elastic beam of the inscribed spheres' radii and the shank, clamped
+/// where its holder begins, without a holder at its upper end.
+struct Stiffness {
+  double length_mm = 0.0;               ///< from the tip to where it is clamped
+  double equivalent_diameter_mm = 0.0;  ///< of the cylinder of this length that bends as much
+  double slenderness = 0.0;             ///< length over that diameter, lambda
+  double deflection_um = 0.0;           ///< of the tip under kStiffnessForce, in cemented carbide
+};
+inline constexpr double kStiffnessForce = 100.0;  ///< N
+/// Elastic modulus of cemented carbide, N/mm^2.
+inline constexpr double kCarbideModulus = 6e5;
+/// Infinite slenderness and deflection if the radius is not positive everywhere.
+[[nodiscard]] Stiffness stiffness(const Tool& tool);
+
 /// Meridian point (z, rho) of s: (s - r r', r sqrt(1 - r'^2)).
 [[nodiscard]] Vec2 meridian_point(const RadialFunction& radial, double s);
 /// Meridian polyline at `count` equal steps of s.

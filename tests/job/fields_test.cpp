@@ -32,8 +32,8 @@ void add_members(const ToolRequest& request, Addresses& all) {
   add(all, spec, axis_length);
 }
 void add_members(const RadiusRequest& request, Addresses& all) {
-  const auto& [min, max, slope] = request;
-  add(all, min, max, slope);
+  const auto& [min, max, slope, slenderness, profile, neck, wheel] = request;
+  add(all, min, max, slope, slenderness, profile, neck, wheel);
 }
 void add_members(const ObstacleRequest& request, Addresses& all) {
   const auto& [check, ignore, shank_radius, shank_length, holder, fixtures, clearance] = request;

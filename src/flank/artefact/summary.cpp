@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "flank/artefact/acceptance.h"
 #include "flank/artefact/clearance_text.h"
@@ -20,9 +21,11 @@ std::string percent(double share) { return fmt::format("{:.2f} %", 100.0 * share
 std::string error_lines(const Result& result) {
   const VerifyReport& v = result.verify;
   std::string text;
-  text += fmt::format("  path        {} strip{}, {} poses, joined within {:.2g} mm of the motion, largest |c| {:.3f}\n",
-                      result.path.strips.size(), result.path.strips.size() == 1 ? "" : "s", result.path.pose_count(),
-                      result.chord_bound_mm, result.largest_c);
+  text += fmt::format(
+      "  path        {} strip{}, {} poses, joined within {:.2g} mm of the motion, largest |c| {:.3f}, largest turn "
+      "{:.1f} degrees\n",
+      result.path.strips.size(), result.path.strips.size() == 1 ? "" : "s", result.path.pose_count(),
+      result.chord_bound_mm, result.largest_c, result.largest_turn_rad * 180.0 / std::numbers::pi);
   text += fmt::format("  coverage    {} of the target within {} mm\n", percent(v.coverage), v.tolerance_mm);
   text += "  " + reach_text(v) + "\n";
   text += fmt::format("  overcut     {:.6f} mm\n", v.overcut_mm);
@@ -49,6 +52,14 @@ std::string tool_line(const Tool& tool) {
   }
   return fmt::format("  tool        {} ({}), axis {:.3f} mm, radius {:.3f} to {:.3f} mm\n", tool.name,
                      family_name(tool.radial.family()), length, low, high);
+}
+
+std::string stiffness_line(const Tool& tool) {
+  const Stiffness bent = stiffness(tool);
+  return fmt::format(
+      "  stiffness   slenderness {:.2f}: as a cylinder of diameter {:.3f} mm, {:.3f} mm long; its tip gives "
+      "way by {:.2f} um under {:.0f} N in carbide\n",
+      bent.slenderness, bent.equivalent_diameter_mm, bent.length_mm, bent.deflection_um, kStiffnessForce);
 }
 
 std::string plan_lines(const CoverSummary& cover) {
@@ -100,7 +111,7 @@ std::string summary_text(const Result& result) {
   const PartRequest& part = part_of(result.job);
   std::string text = fmt::format("{} {}\n", part.file, part.target_text());
   text += fmt::format("  asked for   {}\n", fmt::join(asked_for(result.job), ", "));
-  text += tool_line(result.tool);
+  text += tool_line(result.tool) + stiffness_line(result.tool);
   text += result.path.pose_count() > 0 ? error_lines(result) : "  path        no strip: nothing is machined\n";
   text += clearance_text(result.verify.clearance);
   text += std::visit([](const auto& plan) { return plan_lines(plan); }, result.plan);
@@ -140,8 +151,13 @@ std::string summary_json(const Result& result) {
   if (!v.clearance.figures.empty()) json["clearance"] = clearance_to_json(v.clearance);
   json["chord_bound"] = result.chord_bound_mm;
   json["largest_c"] = result.largest_c;
+  json["largest_turn"] = result.largest_turn_rad * 180.0 / std::numbers::pi;
   json["diagonal"] = result.diagonal_mm;
   json["axis_length"] = result.tool.radial.axis_length();
+  const Stiffness bent = stiffness(result.tool);
+  json["slenderness"] = bent.slenderness;
+  json["equivalent_diameter"] = bent.equivalent_diameter_mm;
+  json["tip_deflection_um_per_100N"] = bent.deflection_um;
   json["strips"] = result.path.strips.size();
   json["poses"] = result.path.pose_count();
   std::visit([&](const auto& plan) { add_plan(plan, json); }, result.plan);

@@ -41,25 +41,31 @@ struct Candidate {
 
 /// Radii to try, equally spaced in logarithm in the middles of kRadii parts of the range: what differs between a thin
 /// tool and a thick one is the ratio.
-std::vector<double> start_radii(const ToolModel& tool, const RadiusBounds& bounds) {
+std::vector<double> start_radii(const ToolModel& tool, const RadiusBounds& bounds, double length) {
   if (tool.radius) return {*tool.radius};
   constexpr int kRadii = 5;             // MATH section 7
   constexpr double kLeastRatio = 1e-3;  // of the largest: a lower bound of zero has no logarithm
   std::vector<double> radii;
-  const double low = std::max(bounds.smallest, kLeastRatio * bounds.largest);
+  // A cylinder that is too slender is no start for a tool that may not be.
+  constexpr double kMostRatio = 0.8;
+  const double stiff = std::min(0.5 * length / bounds.slenderest, kMostRatio * bounds.largest);
+  const double low = std::max({bounds.smallest, kLeastRatio * bounds.largest, tool.free() ? stiff : 0.0});
   for (int k = 0; k < kRadii; ++k) radii.push_back(low * std::pow(bounds.largest / low, (k + 0.5) / kRadii));
   return radii;
 }
 
-std::vector<RuledStart> enumerate_starts(const ToolModel& tool, const RadiusBounds& bounds) {
+std::vector<RuledStart> enumerate_starts(const Chart& chart, const ToolModel& tool, const FlankFitOptions& options) {
   constexpr double kDegree = std::numbers::pi / 180.0;
   // Degrees between contact lines and the chart's lines. Five (MATH section 7), of either sign, because nothing tells
   // which way a blade twists. No start is farther than 6.5 degrees from a direction up to 31 degrees; the fit turns the
   // rest.
   constexpr std::array<double, 5> kSkews = {0.0, 12.0, -12.0, 25.0, -25.0};
   std::vector<RuledStart> starts;
-  for (bool swapped : {false, true})
-    for (double radius : start_radii(tool, bounds))
+  for (bool swapped : {false, true}) {
+    RuledStart across;
+    across.swapped = swapped;
+    const double length = options.axis_length_mm.value_or(longest_chord(chart, across));
+    for (double radius : start_radii(tool, options.bounds, length))
       for (double skew : kSkews) {
         RuledStart start;
         start.swapped = swapped;
@@ -67,6 +73,7 @@ std::vector<RuledStart> enumerate_starts(const ToolModel& tool, const RadiusBoun
         start.skew_rad = skew * kDegree;
         starts.push_back(start);
       }
+  }
   return starts;
 }
 
@@ -175,7 +182,7 @@ FlankFitResult search_starts(const Target& target, const ToolModel& tool, const 
   coarse.sample_share = kQuickSampleShare;
   const std::vector<SurfaceSample> few = ranking_samples(target, options.obstacles, coarse);
   std::vector<Candidate> candidates;
-  for (const RuledStart& start : enumerate_starts(tool, options.bounds)) candidates.push_back({start, {}, {}, -1.0});
+  for (const RuledStart& start : enumerate_starts(chart, tool, options)) candidates.push_back({start, {}, {}, -1.0});
   result.candidates = static_cast<int>(candidates.size());
   progress.step("starts", 0.0);
   parallel_for(candidates.size(), [&](std::size_t k) { quick_fit(candidates[k], target, chart, tool, options, few); });

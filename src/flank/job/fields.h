@@ -54,8 +54,11 @@ inline constexpr Accepted kRate{"a rate > 0 mm/min is needed", positive};
 inline constexpr Accepted kShare{"a share between 0 and 1 is needed", [](double x) { return x >= 0.0 && x <= 1.0; }};
 inline constexpr Accepted kPrice{"a share from 0 to 1 is needed", [](double x) { return x >= 0.0 && x < 1.0; }};
 inline constexpr Accepted kSlope{"a number between 0 and 1 is needed", [](double x) { return x > 0.0 && x < 1.0; }};
+inline constexpr Accepted kRatio{"a number > 0 is needed", positive};
+inline constexpr Accepted kProfile{"there are tapered and any", nullptr,
+                                   [](std::string_view x) { return x == "tapered" || x == "any"; }};
 inline constexpr Accepted kPassCount{"auto or a number from 1 to 64 is needed",
-                                  [](double x) { return x >= 0.0 && x <= 64.0; }};
+                                     [](double x) { return x >= 0.0 && x <= 64.0; }};
 inline constexpr Accepted kStrips{"a number from 1 to 200 is needed", [](double x) { return x >= 1.0 && x <= 200.0; }};
 inline constexpr Accepted kFinalists{"a number from 1 to 100 is needed",
                                      [](double x) { return x >= 1.0 && x <= 100.0; }};
@@ -122,7 +125,8 @@ void visit_obstacles(Request& obstacles, Visitor& visit) {
 
 inline constexpr std::string_view kReachHelp =
     "A place of the face counts as reachable if a ball of this radius touches it without entering another face; "
-    "--coverage is about those; default: the tool's smallest radius";
+    "--coverage is about those; default: the tool's smallest radius, of a free tool half of the axis length (or of the "
+    "root of the face's area) over --slenderness-max";
 
 template <class Visitor, Is<JudgeRequest> Request>
 void visit_judge(Request& judge, Visitor& visit) {
@@ -138,6 +142,7 @@ void visit_judge(Request& judge, Visitor& visit) {
 template <class Visitor, Is<FitJob> Job>
 void visit_fields(Job& job, Visitor&& visit) {
   using namespace accepted;
+  constexpr std::string_view kStiff = "Stiffness";
   visit_part(job.part, visit);
   visit(FieldInfo{"tool", "", "", "free, a family with any of its parameters (cone:radius=2,angle=3), or a tool.json",
                   kAny, Spelling::kFileOrText},
@@ -158,6 +163,19 @@ void visit_fields(Job& job, Visitor&& visit) {
       FieldInfo{"radius_max", "mm", "", "Largest radius of a free tool; default: 15 % of the face's diagonal", kRadius},
       job.radius.max_mm);
   visit(FieldInfo{"slope_max", "", "", "Largest |r'| of a free tool", kSlope}, job.radius.slope_max);
+  visit(FieldInfo{"slenderness_max", "", kStiff,
+                  "Largest slenderness of a free tool, flank and shank: length over the diameter of the cylinder that "
+                  "bends as much. Where the part does not allow it, the least that does",
+                  kRatio},
+        job.radius.slenderness_max);
+  visit(FieldInfo{"profile", "", kStiff, "tapered: a free tool has no neck; any: it may", kProfile},
+        job.radius.profile);
+  visit(FieldInfo{"neck", "", kStiff,
+                  "By which share the radius of a tapered tool may fall below what it was farther down", kShare},
+        job.radius.neck);
+  visit(FieldInfo{"wheel_radius", "mm", kStiff,
+                  "Least radius of a concave meridian: of the wheel that grinds it; default: any", kRadius},
+        job.radius.wheel_radius_mm);
   visit_judge(job.judge, visit);
   visit_obstacles(job.obstacles, visit);
   visit(

@@ -110,6 +110,33 @@ std::vector<double> march(const ChordBound& bound, double tolerance_mm, double l
   return t;
 }
 
+/// Halves the steps over which the path of the tip, the middle or the end of the axis turns too far.
+std::vector<double> with_turns(const RuledMotion& motion, const SamplingOptions& options,
+                               const std::vector<double>& t) {
+  constexpr int kHalvings = 10;  // of a step: a path that still turns has a cusp there
+  std::vector<double> out{t.front()};
+  const auto turns = [&](const AxisJet& from, const AxisJet& to) {
+    for (const double share : {0.0, 0.5, 1.0}) {
+      const double s = share * motion.axis_length;
+      if ((to.at(s) - from.at(s)).norm() <= options.chord_tolerance_mm) continue;
+      const Vec3 a = from.velocity(s), b = to.velocity(s);
+      if (std::atan2(a.cross(b).norm(), a.dot(b)) > options.largest_turn_rad) return true;
+    }
+    return false;
+  };
+  const auto add = [&](const auto& self, double t0, double t1, int depth) -> void {
+    if (depth < kHalvings && turns(motion.jet(t0), motion.jet(t1))) {
+      const double middle = 0.5 * (t0 + t1);
+      self(self, t0, middle, depth + 1);
+      self(self, middle, t1, depth + 1);
+      return;
+    }
+    out.push_back(t1);
+  };
+  for (std::size_t i = 1; i < t.size(); ++i) add(add, t[i - 1], t[i], 0);
+  return out;
+}
+
 std::vector<double> equal_steps(int count) {
   std::vector<double> t(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) t[static_cast<std::size_t>(i)] = static_cast<double>(i) / (count - 1);
@@ -140,6 +167,10 @@ SampledMotion sample_motion(const RuledMotion& motion, const SamplingOptions& op
     t = march(bound, tolerance_mm, largest_step, options.maximum_poses);
   }
   if (static_cast<int>(t.size()) > options.maximum_poses) t = equal_steps(options.maximum_poses);
+  if (options.largest_turn_rad < 1e300) {
+    std::vector<double> finer = with_turns(motion, options, t);
+    if (static_cast<int>(finer.size()) <= options.maximum_poses) t = std::move(finer);
+  }
   SampledMotion out;
   out.t = std::move(t);
   out.poses.reserve(out.t.size());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <numbers>
 
 #include "flank/artefact/view.h"
 #include "flank/base/tolerance_budget.h"
@@ -12,6 +13,10 @@
 
 namespace flank::internal {
 namespace {
+
+/// Between poses, of the path of any point of the axis: a control that joins them straight leaves corners of up to twice
+/// this, below 10 degrees.
+constexpr double kLargestTurn = 4.5 * std::numbers::pi / 180.0;
 
 /// The poses [first, last) of a range of times, and one more at each end.
 std::pair<std::size_t, std::size_t> poses_between(const std::vector<double>& t, const TimeRange& range) {
@@ -48,6 +53,7 @@ std::vector<StripSurface> add_strips(double tolerance_mm, const std::vector<cons
   for (std::size_t m = 0; m < motions.size(); ++m) {
     SamplingOptions options;
     options.chord_tolerance_mm = kToleranceBudget.chord * tolerance_mm;
+    options.largest_turn_rad = kLargestTurn;
     const SampledMotion sampled = sample_motion(motions[m], options);
     result.chord_bound_mm = std::max(result.chord_bound_mm, sampled.chord_bound_mm);
     Strip strip;
@@ -62,6 +68,7 @@ std::vector<StripSurface> add_strips(double tolerance_mm, const std::vector<cons
     result.path.strips.push_back(std::move(strip));
   }
   result.largest_c = largest_c(result.path, radial);
+  result.largest_turn_rad = largest_turn(result.path, radial.axis_length(), kToleranceBudget.chord * tolerance_mm);
   note_strip_surfaces(surfaces, result.notes);
   return surfaces;
 }

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "flank/base/tolerance_budget.h"
 #include "flank/error.h"
 #include "flank/fit/ways.h"
+#include "flank/pipeline/stiff_fit.h"
 #include "flank/seed/axis_line.h"
 #include "flank/seed/guide_start.h"
 #include "flank/seed/line_start.h"
@@ -32,11 +34,17 @@ UserStart user_start(const FitJob& job) {
 }
 
 /// Open bounds: a hundredth of the target's diagonal to 15 hundredths of it.
-RadiusBounds bounds_of(const RadiusRequest& radius, double diagonal) {
+RadiusBounds bounds_of(const FitJob& job, double diagonal) {
+  const RadiusRequest& radius = job.radius;
   RadiusBounds bounds;
   bounds.largest = radius.max_mm.value_or(std::max(0.15 * diagonal, 2.0 * radius.min_mm.value_or(0.0)));
   bounds.smallest = radius.min_mm.value_or(std::min(0.01 * diagonal, 0.5 * bounds.largest));
   bounds.steepest = radius.slope_max;
+  bounds.slenderest = radius.slenderness_max;
+  bounds.neck = radius.profile == "any" ? 1.0 : radius.neck;
+  bounds.wheel_radius = radius.wheel_radius_mm.value_or(0.0);
+  bounds.shank_length = job.obstacles.shank_length_mm.value_or(0.0);
+  bounds.shank_radius = job.obstacles.shank_radius_mm.value_or(0.0);
   return bounds;
 }
 
@@ -57,10 +65,10 @@ void keep_better(FlankFitResult& best, FlankFitResult&& other, double tolerance_
 FlankFitResult fit_strips(const Target& target, const ToolModel& tool, FlankFitOptions options, int strips,
                           double least_coverage, const Progress& progress) {
   options.strips = strips;
-  FlankFitResult best = fit_automatic(target, tool, options, progress);
+  FlankFitResult best = fit_stiff(target, tool, options, least_coverage, progress);
   if (strips == 1 || is_done(best, least_coverage, options.tolerance_mm) || progress.stop()) return best;
   options.strips = 1;
-  keep_better(best, fit_automatic(target, tool, options, progress), options.tolerance_mm);
+  keep_better(best, fit_stiff(target, tool, options, least_coverage, progress), options.tolerance_mm);
   return best;
 }
 
@@ -73,7 +81,7 @@ FlankFitResult fit_group(const Target& target, const ToolModel& tool, FlankFitOp
   for (int count : {1, 2, 3, 4, 6, 8, 10, kMostStrips}) {
     options.strips = count;
     options.least_coverage_for_last_passes = count < kMostStrips ? 0.7 : 0.0;
-    FlankFitResult result = fit_automatic(target, tool, options, progress);
+    FlankFitResult result = fit_stiff(target, tool, options, least_coverage, progress);
     if (count == 1) one_covers = result.after.at_tolerance;
     keep_better(best, std::move(result), options.tolerance_mm);
     if (is_done(best, least_coverage, options.tolerance_mm) || progress.stop()) break;
@@ -153,9 +161,10 @@ FitSearch search_side(const FitJob& job, const Setup& setup, const ToolSpec& spe
   FlankFitOptions options;
   options.tolerance_mm = job.tolerance_mm;
   options.axis_length_mm = job.tool.axis_length_mm;
-  options.bounds = bounds_of(job.radius, search.targets.front().target->diagonal());
-  options.reach_radius_mm = job.judge.reach_radius_mm.value_or(0.0);
+  options.bounds = bounds_of(job, search.targets.front().target->diagonal());
   const ToolModel tool = make_tool_model(spec);
+  if (tool.free()) search.reach_radius_mm = demanded_reach(job, *search.targets.front().target, options.bounds);
+  options.reach_radius_mm = job.judge.reach_radius_mm.value_or(search.reach_radius_mm.value_or(0.0));
   if (job.avoid) add_obstacles(job, setup, options.bounds.largest, search);
   if (!start.given()) {
     fit_groups(job, search, tool, options, progress);

@@ -1,6 +1,8 @@
 /// The search of a fit: starts, sides of open sheets, number of strips, several targets with one tool.
 #pragma once
 
+#include <optional>
+
 #include "flank/fit.h"
 #include "flank/setup/setup.h"
 #include "flank/setup/targets.h"
@@ -15,6 +17,7 @@ struct FitSearch {
   std::vector<TargetGroup> targets;
   FlankFitResult fit;                        ///< motions of all groups, one tool
   std::vector<std::size_t> group_of_motion;  ///< index into targets
+  std::optional<double> reach_radius_mm;     ///< of the ball that a free tool was asked to reach with
 };
 
 /// Searches. `spec`: the job's tool. Throws UsageError and InputError.

@@ -105,6 +105,8 @@ Result run_fit(const FitJob& job, const Progress& progress) {
   watch.lap("read");
 
   FitSearch search = search_fit(job, setup, spec, progress);
+  // The verdict, now and later, is about what was searched for.
+  if (search.reach_radius_mm) std::get<FitJob>(result.job).judge.reach_radius_mm = search.reach_radius_mm;
   if (spec.free) lift_shank(job, scene, search.fit, result.notes);
   result.plan = summary_of(search.fit);
   result.motions = search.fit.motions;

@@ -3,13 +3,14 @@
 #include <cmath>
 
 #include "flank/fit/model/fit_model.h"
+#include "flank/fit/model/tool_excess.h"
 
 namespace flank::internal {
 namespace {
 
 /// Keeps |w| near one: the length of w is a gauge, this term only holds it (MATH section 2).
 constexpr double kUnitPenalty = 1e-9;
-/// Weight of the one-sided terms that keep the tool inside its bounds, against 1 for the residuals: a bound is broken
+/// Weight of the one-sided terms (tool_excess.h) that keep the tool inside its bounds, against 1 for the residuals: a bound is broken
 /// by a tenth of the error that breaking it would save. What is left is clamped at the end (clamp_tool).
 constexpr double kBoundWeight = 10.0;
 
@@ -88,62 +89,21 @@ double FitModel::rail_cost(const FitState& state, int motion) const {
   return sum / (static_cast<double>(targets_.size()) * stage_.samples_t);
 }
 
-namespace {
-
-/// One-sided residuals of the tool's bounds at one s, all lengths in mm; zero inside the bounds. Radius and slope have
-/// the sign of the side on which the bound is broken: positive above, negative below.
-struct BoundResiduals {
-  double radius = 0.0;
-  double slope = 0.0;      ///< times the axis length
-  double convexity = 0.0;  ///< times the axis length
-};
-/// What 1 - r'^2 - r r'' is held above: at zero the spheres are no longer inscribed (MATH section 1). A little more,
-/// because a soft term gives a little, and is seen at the samples of s only.
-constexpr double kLeastConvexity = 0.05;
-BoundResiduals bound_residuals(const RadialJet& jet, const RadiusBounds& bounds, double axis_length) {
-  BoundResiduals out;
-  out.radius = std::max(0.0, jet.r - bounds.largest) - std::max(0.0, bounds.smallest - jet.r);
-  out.slope = (std::max(0.0, jet.d1 - bounds.steepest) - std::max(0.0, -bounds.steepest - jet.d1)) * axis_length;
-  out.convexity = std::max(0.0, kLeastConvexity - (1.0 - jet.d1 * jet.d1 - jet.r * jet.d2)) * axis_length;
-  return out;
-}
-
-}  // namespace
-
 void FitModel::assemble_tool(const FitState& state, ArrowSystem& system) const {
   if (free_.empty()) return;
   const int n = stage_.samples_s;
   Eigen::MatrixXd b;
   tool_gradients(state, b);
   auto gradient = system.gradient.tail(tool_parameters_);
-  // Steps of the differences below, shares of the axis length. First derivatives: the error of a central difference is
-  // h^2 / 6 of the third, 1e-8 here, far more digits than normal equations need.
-  constexpr double kStep = 1e-4, kStep2 = 5e-6;
-  const double h = axis_length_ * kStep, h2 = axis_length_ * kStep2;
   for (int j = 0; j < n; ++j) {
-    const RadialJet jet = state.tool.at(s_[j]);
+    const double drift = state.tool.at(s_[j]).r - start_radius_[j];
     system.tool_matrix += (stage_.radius_pin / n) * b.col(j) * b.col(j).transpose();
-    gradient += (stage_.radius_pin / n) * (jet.r - start_radius_[j]) * b.col(j);
-    const BoundResiduals residuals = bound_residuals(jet, bounds_, axis_length_);
-    if (residuals.radius != 0.0) {
-      system.tool_matrix += (kBoundWeight / n) * b.col(j) * b.col(j).transpose();
-      gradient += (kBoundWeight / n) * residuals.radius * b.col(j);
-    }
-    if (residuals.slope == 0.0 && residuals.convexity == 0.0) continue;
-    // Central also at the ends, where the end polynomial goes on: one-sided differences are off by 1e-4.
-    const Eigen::VectorXd by_d1 =
-        (tool_gradient(state.tool, s_[j] + h) - tool_gradient(state.tool, s_[j] - h)) / (2.0 * h);
-    // A smaller step: at a knot r'' has a corner, and the difference is wrong within a step of it. Round-off is
-    // 1e-16 / kStep2^2, 1e-5 of the second derivative: enough.
-    const Eigen::VectorXd by_d2 =
-        (tool_gradient(state.tool, s_[j] + h2) - 2.0 * b.col(j) + tool_gradient(state.tool, s_[j] - h2)) / (h2 * h2);
-    const auto add = [&](const Eigen::VectorXd& g, double residual) {
-      if (residual == 0.0) return;
-      system.tool_matrix += (kBoundWeight / n) * g * g.transpose();
-      gradient += (kBoundWeight / n) * residual * g;
-    };
-    add(axis_length_ * by_d1, residuals.slope);
-    add(axis_length_ * (2.0 * jet.d1 * by_d1 + jet.d2 * b.col(j) + jet.r * by_d2), residuals.convexity);
+    gradient += (stage_.radius_pin / n) * drift * b.col(j);
+  }
+  for (const ToolExcess& excess : tool_excesses(state.tool, bounds_, s_)) {
+    const Eigen::VectorXd row = excess.gradient(free_);
+    system.tool_matrix += (kBoundWeight * excess.share) * row * row.transpose();
+    gradient += (kBoundWeight * excess.share * excess.mm) * row;
   }
   // Second differences of a spline's coefficients; a family has nothing that could wave.
   if (state.tool.family() != ToolFamily::kSpline) return;
@@ -160,14 +120,10 @@ void FitModel::assemble_tool(const FitState& state, ArrowSystem& system) const {
 
 double FitModel::tool_cost(const FitState& state) const {
   if (free_.empty()) return 0.0;
-  double sum = 0.0;
+  double sum = kBoundWeight * tool_excess_square(state.tool, bounds_, s_);
   for (std::size_t j = 0; j < s_.size(); ++j) {
-    const RadialJet jet = state.tool.at(s_[j]);
-    const BoundResiduals e = bound_residuals(jet, bounds_, axis_length_);
-    const double drift = jet.r - start_radius_[j];
-    sum += (kBoundWeight * (e.radius * e.radius + e.slope * e.slope + e.convexity * e.convexity) +
-            stage_.radius_pin * drift * drift) /
-           stage_.samples_s;
+    const double drift = state.tool.at(s_[j]).r - start_radius_[j];
+    sum += stage_.radius_pin * drift * drift / stage_.samples_s;
   }
   if (state.tool.family() != ToolFamily::kSpline) return sum;
   const Eigen::VectorXd& r = state.tool.parameters();

@@ -1,0 +1,70 @@
+#include "flank/envelope/path_regularity.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "flank/ruled_motion.h"
+#include "motion/sample_motions.h"
+
+namespace flank::internal {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+Path path_of(std::vector<Pose> poses) {
+  Path path;
+  path.strips.push_back({});
+  path.strips.back().poses = std::move(poses);
+  return path;
+}
+
+TEST(PathRegularity, ACornerIsTheAngleBetweenItsLegs) {
+  const Vec3 up = Vec3::UnitZ();
+  const double a = 25.0 * kDegree;
+  const Path path = path_of({{{0, 0, 0}, up}, {{10, 0, 0}, up}, {{10 + 5 * std::cos(a), 5 * std::sin(a), 0}, up}});
+  EXPECT_NEAR(largest_turn(path, 30.0, 1e-3), a, 1e-12);
+}
+
+TEST(PathRegularity, ThePathOfTheUpperEndCountsToo) {
+  // The tip goes straight on, the upper end turns back.
+  const auto tilted = [](double degrees) {
+    return Vec3(std::sin(degrees * kDegree), 0.0, std::cos(degrees * kDegree));
+  };
+  const Path path = path_of({{{0, 0, 0}, tilted(0)}, {{1, 0, 0}, tilted(20)}, {{2, 0, 0}, tilted(0)}});
+  EXPECT_NEAR(largest_turn(path, 0.0, 1e-3), 0.0, 1e-12);
+  EXPECT_GT(largest_turn(path, 30.0, 1e-3), 150.0 * kDegree);
+}
+
+TEST(PathRegularity, APointThatStandsStillHasNoCorner) {
+  const Vec3 up = Vec3::UnitZ();
+  const Path path = path_of({{{0, 0, 0}, up}, {{1e-4, 0, 0}, up}, {{0, 0, 0}, up}});
+  EXPECT_EQ(largest_turn(path, 30.0, 1e-3), 0.0);
+  EXPECT_NEAR(largest_turn(path, 30.0, 1e-5), std::numbers::pi, 1e-12);
+}
+
+TEST(PathRegularity, PosesAreAsDenseAsTheTurnAllows) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const RuledMotion motion = testing::random_motion(seed);
+    SamplingOptions options;
+    options.chord_tolerance_mm = 1.0;
+    const SampledMotion coarse = sample_motion(motion, options);
+    options.largest_turn_rad = 3.0 * kDegree;
+    const SampledMotion fine = sample_motion(motion, options);
+    EXPECT_GE(fine.poses.size(), coarse.poses.size());
+    EXPECT_LE(fine.chord_bound_mm, coarse.chord_bound_mm);
+    EXPECT_LT(largest_turn(path_of(fine.poses), motion.axis_length, 1.0), 6.0 * kDegree) << seed;
+  }
+}
+
+TEST(PathRegularity, AConeThatMovesAlongItselfPlunges) {
+  const RadialFunction cone(ToolFamily::kCone, 40.0, Eigen::Vector2d(3.0, 0.3));
+  const Path across = path_of({{{0, 0, 0}, Vec3::UnitZ()}, {{1, 0, 0}, Vec3::UnitZ()}});
+  const Path along = path_of({{{0, 0, 0}, Vec3::UnitZ()}, {{0.1, 0, -1}, Vec3::UnitZ()}});
+  EXPECT_NEAR(largest_c(across, cone), 0.0, 1e-12);
+  EXPECT_GT(largest_c(along, cone), 1.0);
+}
+
+}  // namespace
+}  // namespace flank::internal
