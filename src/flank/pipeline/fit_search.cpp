@@ -48,6 +48,14 @@ RadiusBounds bounds_of(const FitJob& job, double diagonal) {
   return bounds;
 }
 
+/// The ball that says what a free tool is to reach: of the part and of the demand, not of the tool, or a thick one would
+/// bring its own excuse. It is as thick as a cylinder as long as the target is wide that is just stiff enough.
+double demanded_reach(const FitJob& job, const Target& target, const RadiusBounds& bounds) {
+  if (job.judge.reach_radius_mm) return *job.judge.reach_radius_mm;
+  const double length = job.tool.axis_length_mm.value_or(std::sqrt(target.area()));
+  return std::clamp(0.5 * length / bounds.slenderest, bounds.smallest, bounds.largest);
+}
+
 /// Covers what was asked, by the planner's estimate, and enters nothing.
 bool is_done(const FlankFitResult& result, double least_coverage, double tolerance_mm) {
   constexpr double kLeastEstimate = 0.97;  // the judge is stricter than the estimate
