@@ -14,6 +14,7 @@ struct Channel {
 
 FitJob job_of(const Channel& c) {
   FitJob job;
+  job.strips = 1;
   job.part.file = real_part(c.file);
   job.part.faces = c.face;
   job.tolerance_mm = c.tolerance;
@@ -49,6 +50,7 @@ std::vector<Figure> beside_walls(const Channel& c, bool holder) {
 /// A given tool on a real blade leaves no overcut.
 std::vector<Figure> given_on_r37(const std::string& tool) {
   FitJob job;
+  job.strips = 1;
   job.part.file = real_part("r37_blade.step");
   job.tool.spec = tool;
   job.tolerance_mm = 0.1;

@@ -30,6 +30,7 @@ std::vector<Figure> from_the_face(const std::string& name, bool with_length) {
   const double d = example.diagonal_mm;
   write_example(example, scratch(name + ".step"));
   FitJob job;
+  job.strips = 1;
   job.part.file = scratch(name + ".step");
   job.part.side = +1;
   job.tolerance_mm = 5e-5 * d;
@@ -61,6 +62,7 @@ std::vector<Figure> deformed() {
   const double d = example.diagonal_mm;
   write_example(example, scratch("deformed.step"));
   FitJob job;
+  job.strips = 1;
   job.part.file = scratch("deformed.step");
   job.part.side = +1;
   job.tolerance_mm = 1e-3 * d;

@@ -46,6 +46,7 @@ std::vector<Figure> given(const std::string& part, const std::string& tool) {
   const double d = example.diagonal_mm;
   write_example(example, scratch(part + ".step"));
   FitJob job;
+  job.strips = 1;
   job.part.file = scratch(part + ".step");
   job.tool.spec = tool;
   job.part.side = +1;

@@ -30,6 +30,7 @@ Strip with_poses(const Strip& strip, std::size_t count) {
 
 std::vector<Figure> sector() {
   FitJob job;
+  job.strips = 1;
   job.part.file = real_part("r37_blisk_sector_2blades.step");
   job.part.faces = "F9";
   job.tolerance_mm = 0.1;

@@ -168,12 +168,17 @@ Polished settled(const Polished& polished, const FlankFitOptions& options) {
     const std::vector<SurfaceSample> more = ranking_samples(*target, obstacles_of(polished.draft, target), dense);
     samples.insert(samples.end(), more.begin(), more.end());
   }
-  const Polished again = assess(polished.draft, samples, options);
+  Polished again = assess(polished.draft, samples, options);
+  /// Times as many poses: a path that runs past an edge is deepest there for a moment.
+  constexpr int kOften = 4;
+  again.estimate.gouge_mm =
+      flank_gouge(again.draft.motions, again.draft.obstacles, again.draft.tool, kOften * kRankingPoses);
   if (again.estimate.overcut_mm > options.tolerance_mm) return shifted(again, samples, options);
   // Between these samples, too, nothing may be cut deeper than the tolerance: a little room, if it costs little of the
   // covered share.
   constexpr double kCost = 0.005;
-  const double by = again.estimate.overcut_mm - kToleranceBudget.fit.settled_overcut * options.tolerance_mm;
+  const double by = std::max(again.estimate.overcut_mm - kToleranceBudget.fit.settled_overcut * options.tolerance_mm,
+                             again.estimate.gouge_mm - kToleranceBudget.others.last_look * options.tolerance_mm);
   if (!again.draft.free_tool || by <= 0.0) return again;
   Polished lower = shifted_by(again.draft, by, samples, options);
   return lower.estimate.at_tolerance >= again.estimate.at_tolerance - kCost ? lower : again;

@@ -68,36 +68,47 @@ void keep_better(FlankFitResult& best, FlankFitResult&& other, double tolerance_
   if (best.motions.empty() || is_better(other.after, best.after, tolerance_mm)) best = std::move(other);
 }
 
-/// One group with a number of strips. A strip more must not make it worse: where they do not give what was asked, one
-/// strip is tried, too.
-FlankFitResult fit_strips(const Target& target, const ToolModel& tool, FlankFitOptions options, int strips,
-                          double least_coverage, const Progress& progress) {
-  options.strips = strips;
-  FlankFitResult best = fit_stiff(target, tool, options, least_coverage, progress);
-  if (strips == 1 || is_done(best, least_coverage, options.tolerance_mm) || progress.stop()) return best;
-  options.strips = 1;
-  keep_better(best, fit_stiff(target, tool, options, least_coverage, progress), options.tolerance_mm);
-  return best;
-}
-
-/// One group: with the strips that were asked for, or with those that the tolerance needs.
-FlankFitResult fit_group(const Target& target, const ToolModel& tool, FlankFitOptions options, int strips,
-                         double least_coverage, const Progress& progress) {
-  if (strips > 0) return fit_strips(target, tool, options, strips, least_coverage, progress);
+/// One group with as many strips as its tolerance needs: a strip more as long as that is not met, and gains something.
+FlankFitResult fit_auto(const Target& target, const ToolModel& tool, FlankFitOptions options, double least_coverage,
+                        const Progress& progress) {
+  /// Of the covered share: less is not worth a strip, and two counts in a row that gain less end the search.
+  constexpr double kGain = 0.01;
   FlankFitResult best;
   double one_covers = 0.0;
+  int without_gain = 0;
   for (int count : {1, 2, 3, 4, 6, 8, 10, kMostStrips}) {
     options.strips = count;
     options.least_coverage_for_last_passes = count < kMostStrips ? 0.7 : 0.0;
-    FlankFitResult result = fit_stiff(target, tool, options, least_coverage, progress);
+    FlankFitResult result = fit_automatic(target, tool, options, progress);
     if (count == 1) one_covers = result.after.at_tolerance;
+    const double before = best.after.at_tolerance;
     keep_better(best, std::move(result), options.tolerance_mm);
-    if (is_done(best, least_coverage, options.tolerance_mm) || progress.stop()) break;
+    without_gain = best.after.at_tolerance > before + kGain ? 0 : without_gain + 1;
+    if (is_done(best, least_coverage, options.tolerance_mm) || without_gain == 2 || progress.stop()) break;
   }
   if (best.motions.size() > 1)
     best.notes.push_back(fmt::format("{} strips cover {:.1f} % (estimate), one strip {:.1f} %", best.motions.size(),
                                      100.0 * best.after.at_tolerance, 100.0 * one_covers));
   return best;
+}
+
+/// One group: with the strips that were asked for, or with those that the tolerance needs (0). A strip more must not make
+/// it worse: where several do not give what was asked, one is tried, too. Last, the bounds on stiffness give way.
+FlankFitResult fit_group(const Target& target, const ToolModel& tool, FlankFitOptions options, int strips,
+                         double least_coverage, const Progress& progress) {
+  const auto done = [&](const FlankFitResult& result) {
+    return is_done(result, least_coverage, options.tolerance_mm) || progress.stop();
+  };
+  options.strips = std::max(1, strips);
+  FlankFitResult best = strips > 0 ? fit_automatic(target, tool, options, progress)
+                                   : fit_auto(target, tool, options, least_coverage, progress);
+  if (strips > 1 && !done(best)) {
+    options.strips = 1;
+    keep_better(best, fit_automatic(target, tool, options, progress), options.tolerance_mm);
+  }
+  if (done(best)) return best;
+  options.strips = std::max<int>(1, static_cast<int>(best.motions.size()));
+  return soften(target, tool, options, std::move(best), progress);
 }
 
 /// All groups with one tool: the first finds it, the others are fitted to it, then all are polished together.

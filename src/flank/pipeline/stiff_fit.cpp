@@ -66,12 +66,10 @@ FlankFitResult stiffened(const Target& target, const ToolModel& tool, const Flan
 
 }  // namespace
 
-FlankFitResult fit_stiff(const Target& target, const ToolModel& tool, const FlankFitOptions& options,
-                         double least_coverage, const Progress& progress) {
-  FlankFitResult within = fit_automatic(target, tool, options, progress);
+FlankFitResult soften(const Target& target, const ToolModel& tool, const FlankFitOptions& options,
+                      FlankFitResult within, const Progress& progress) {
   const bool bounded = options.bounds.slenderest < 1e300 || options.bounds.neck < 1.0;
-  const bool done = within.after.at_tolerance >= least_coverage && is_clean(within.after, options.tolerance_mm);
-  if (!tool.free() || !bounded || done || progress.stop()) return within;
+  if (!tool.free() || !bounded || progress.stop()) return within;
   FlankFitOptions lifted = options;
   lifted.bounds.slenderest = 1e300;
   lifted.bounds.neck = 1.0;
