@@ -72,11 +72,11 @@ struct FitJob {
   ToolRequest tool{.spec = "free", .axis_length_mm = {}};
   RadiusRequest radius;
   ObstacleRequest obstacles;
-  JudgeRequest judge;
+  JudgeRequest judge{.least_coverage = 0.99, .sample_mm = {}, .reach_radius_mm = {}};
   double tolerance_mm = 0.01;
   std::optional<std::string> start;  ///< "x,y,z,x,y,z": tip and holder end of a first axis, mm
   std::optional<std::string> guide;  ///< file of several such lines
-  int strips = 1;                    ///< motions side by side; 0: as many as the tolerance needs
+  int strips = 0;                    ///< motions side by side; 0: as many as the tolerance needs
   bool avoid = true;                 ///< keep clear of the other faces already in planning; they are judged either way
   bool operator==(const FitJob&) const = default;
 };

@@ -24,15 +24,16 @@ TEST_P(StripsStep, ReadsBackAsTheSameSurfaces) {
   EXPECT_EQ(text, strips_to_step({made, made}));
   for (const char* name : {"'strip 7'", "'strip 7 axis'"}) EXPECT_NE(text.find(name), std::string::npos) << name;
   const auto file = std::filesystem::temp_directory_path() / ("flank_strips-" + std::to_string(::getpid()) + ".step");
-  write_file(file.string(), text);
+  // Alone: coinciding sheets would be taken for one.
+  write_file(file.string(), strips_to_step({made}));
   const Part part = read_part(file.string());
   std::filesystem::remove(file);
-  ASSERT_EQ(part.faces.size(), 4u);
-  for (int k = 0; k < 4; ++k) {
-    const BSplineSurface &before = k < 2 ? made.envelope : made.axis,
+  ASSERT_EQ(part.faces.size(), 2u);
+  for (int k = 0; k < 2; ++k) {
+    const BSplineSurface &before = k < 1 ? made.envelope : made.axis,
                          &after = part.faces[static_cast<std::size_t>(k)].surface;
     EXPECT_LT((before.value(0.3, 0.7) - after.value(0.3, 0.7)).norm(), 1e-9) << k;
-    EXPECT_EQ(part.faces[static_cast<std::size_t>(k)].reversed, k < 2 && !made.towards_tool) << k;
+    EXPECT_EQ(part.faces[static_cast<std::size_t>(k)].reversed, k < 1 && !made.towards_tool) << k;
   }
 }
 

@@ -12,7 +12,7 @@ TEST(CommandLine, SaysWhatDiffersFromTheDefaults) {
   EXPECT_EQ(command_line(fit), "flank fit parts/blade.step --face F1");
   fit.tool.spec = "cone:radius=2,angle=3";
   fit.tolerance_mm = 0.1;
-  fit.strips = 0;
+  fit.strips = 3;
   fit.part.side = -1;
   fit.avoid = false;
   fit.obstacles.shank_length_mm = 30.0;
@@ -20,7 +20,7 @@ TEST(CommandLine, SaysWhatDiffersFromTheDefaults) {
   fit.obstacles.fixtures = {"vice.step", "my clamp.stl"};
   fit.obstacles.clearance_mm = 0.5;
   EXPECT_EQ(command_line(fit),
-            "flank fit parts/blade.step --face F1 --side=- --tool cone:radius=2,angle=3 --tolerance 0.1 --strips auto "
+            "flank fit parts/blade.step --face F1 --side=- --tool cone:radius=2,angle=3 --tolerance 0.1 --strips 3 "
             "--shank-length 30 --holder 30:10,70:10 --fixture vice.step --fixture 'my clamp.stl' --clearance 0.5 "
             "--avoid off");
   CoverJob cover;
@@ -65,9 +65,9 @@ TEST(AskedFor, SaysItWithUnits) {
   FitJob job;
   job.tolerance_mm = 0.1;
   job.tool.axis_length_mm = 20.0;
-  job.strips = 0;
+  job.strips = 3;
   job.obstacles.fixtures = {"a", "b"};
-  EXPECT_EQ(asked_for(job), (std::vector<std::string>{"tolerance 0.1 mm", "axis length 20 mm", "strips auto",
+  EXPECT_EQ(asked_for(job), (std::vector<std::string>{"tolerance 0.1 mm", "axis length 20 mm", "strips 3",
                                                       "fixtures a", "fixtures b"}));
 }
 

@@ -112,6 +112,7 @@ FitStage quick_stage(double robust_scale_mm) {
       .robust_scale_mm = robust_scale_mm,
       .extension_scale_mm = robust_scale_mm,
       .clear_estimated = true,
+      .plunge_weight = kPlungeWeight,
       .step_tolerance = 1e-3,  // more digits do not change a ranking by coverage
   };
 }
@@ -127,6 +128,7 @@ FitStage polish_stage(double robust_scale_mm) {
       .radius_pin = 1e-6,
       // Inside the target plain least squares: robust weights would hide overcut.
       .extension_scale_mm = robust_scale_mm,
+      .plunge_weight = kPlungeWeight,
       .step_tolerance = 1e-4,
   };
 }
@@ -172,6 +174,7 @@ FitStage tolerance_stage(double tolerance_mm, double robust_scale_mm) {
       .axial_pin = 1e-6,
       .extension_scale_mm = robust_scale_mm,
       .dead_zone_mm = kToleranceBudget.fit.dead_zone_axis * tolerance_mm,
+      .plunge_weight = kPlungeWeight,
       .step_tolerance = 1e-4,
   };
 }

@@ -129,6 +129,7 @@ FitStage swept_stage(const Pass& pass, const FlankFitOptions& options) {
   stage.dead_zone_mm = pass.dead_zone * options.tolerance_mm;
   stage.robust_scale_mm = kOutOfSight * options.tolerance_mm;
   stage.overcut_weight = kOvercutWeight;
+  stage.plunge_weight = kPlungeWeight;
   stage.step_tolerance = kStepTolerance;
   return stage;
 }

@@ -63,6 +63,7 @@ FitModel::FitModel(std::vector<const Target*> targets, const FitState& start, st
     basis_derivatives(3, first.tip.knots, span, time.t, 2, n.data());
     time.first = span - 3;
     std::copy_n(n.data(), 4, time.basis.data());
+    std::copy_n(n.data() + 4, 4, time.basis_d1.data());
     // From second derivatives to second differences from sample to sample: what fairness weighs.
     const double h = 1.0 / (stage.samples_t - 1);
     for (int k = 0; k < 4; ++k) time.basis_d2[k] = n[8 + k] * h * h;
@@ -70,7 +71,9 @@ FitModel::FitModel(std::vector<const Target*> targets, const FitState& start, st
   }
   for (int j = 0; j < stage.samples_s; ++j) {
     s_.push_back(axis_length_ * j / (stage.samples_s - 1));
-    start_radius_.push_back(start.tool.at(s_.back()).r);
+    const RadialJet jet = start.tool.at(s_.back());
+    start_radius_.push_back(jet.r);
+    start_slope_.push_back(jet.d1);
   }
   // Drift is counted along the velocity that the start has at each time, so moving sideways off the path is free.
   for (const RuledMotion& motion : start.motions) {

@@ -75,6 +75,10 @@ struct FitStage {
   double clear_weight = 30.0;
   /// Distances to obstacles by interpolation (ObstacleField::estimate): faster, good enough for ranking starts.
   bool clear_estimated = false;
+  /// >= 0: of the mean square by which points of the axis plunge (plunge.h), velocities counted for the whole motion.
+  /// Axis and slopes are those of the start. 1e-4 outweighs what plunging saves on a face that can be had without; 0 where
+  /// the motion is known.
+  double plunge_weight = 0.0;
   /// > 0, no unit: the pass ends after two steps in a row that lower the cost by less than this share of it.
   double step_tolerance = 1e-9;
 };
@@ -144,8 +148,9 @@ class FitModel {
   struct TimeSample {
     double t;
     int first;
-    /// Values of the four active basis functions, and their second derivatives times the squared step in time.
-    std::array<double, 4> basis, basis_d2;
+    /// Values of the four active basis functions, their derivatives, and their second derivatives times the squared step
+    /// in time.
+    std::array<double, 4> basis, basis_d1, basis_d2;
   };
   /// The start's axis at one time: its middle and that point's unit transversal velocity, its tip and direction.
   struct Anchor {
@@ -173,6 +178,9 @@ class FitModel {
   [[nodiscard]] double obstacle_cost(const FitState& state) const;
   void assemble_obstacles(const FitState& state, ArrowSystem& system) const;
   [[nodiscard]] double rail_cost(const FitState& state, int motion) const;
+  /// By how much the points of the axis plunge at one time: visit(s, Plunge).
+  template <class Visit>
+  void visit_plunges(const RuledMotion& rails, const TimeSample& time, const Vec3& axis, const Visit& visit) const;
   [[nodiscard]] double tool_cost(const FitState& state) const;
 
   std::vector<const Target*> targets_;
@@ -184,7 +192,7 @@ class FitModel {
   std::vector<TimeSample> times_;
   std::vector<double> s_;
   std::vector<std::vector<Anchor>> anchors_;
-  std::vector<double> start_radius_;  ///< r(s_j) at the start
+  std::vector<double> start_radius_, start_slope_;  ///< r(s_j) and r'(s_j) at the start
   int tool_parameters_;
 };
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "flank/fit/model/fit_model.h"
+#include "flank/fit/model/plunge.h"
 #include "flank/fit/model/tool_excess.h"
 
 namespace flank::internal {
@@ -26,6 +27,17 @@ void FitModel::assemble_regularisers(const FitState& state, ArrowSystem& system)
   for (std::size_t m = 0; m < targets_.size(); ++m) assemble_rails(state, static_cast<int>(m), system);
   assemble_tool(state, system);
   assemble_obstacles(state, system);
+}
+
+template <class Visit>
+void FitModel::visit_plunges(const RuledMotion& rails, const TimeSample& time, const Vec3& axis,
+                             const Visit& visit) const {
+  Vec3 tip = Vec3::Zero(), direction = Vec3::Zero();
+  for (int k = 0; k < 4; ++k) {
+    tip += time.basis_d1[k] * rails.tip.poles.col(time.first + k);
+    direction += time.basis_d1[k] * rails.direction.poles.col(time.first + k);
+  }
+  for (std::size_t j = 0; j < s_.size(); ++j) visit(s_[j], plunge(tip + s_[j] * direction, axis, start_slope_[j]));
 }
 
 void FitModel::assemble_rails(const FitState& state, int motion, ArrowSystem& system) const {
@@ -64,6 +76,16 @@ void FitModel::assemble_rails(const FitState& state, int motion, ArrowSystem& sy
     g << Vec3::Zero(), pose.u;
     add(g, axis_length_ * (pose.length_w - 1.0), kUnitPenalty);
     system.add_pose(motion, time.first, time.basis.data(), terms, false);
+
+    if (stage_.plunge_weight <= 0.0) continue;
+    terms.matrix.setZero();
+    terms.gradient.setZero();
+    visit_plunges(rails, time, anchor.axis, [&](double s, const Plunge& p) {
+      if (p.excess <= 0.0) return;
+      g << p.gradient, s / axis_length_ * p.gradient;
+      add(g, p.excess, stage_.plunge_weight / static_cast<double>(s_.size()));
+    });
+    system.add_pose(motion, time.first, time.basis_d1.data(), terms, false);
   }
 }
 
@@ -85,6 +107,10 @@ double FitModel::rail_cost(const FitState& state, int motion) const {
     const double slide = anchor.axis.dot(pose.tip - anchor.tip);
     const double unit = axis_length_ * (pose.length_w - 1.0);
     sum += stage_.transversal_anchor * drift * drift + stage_.axial_pin * slide * slide + kUnitPenalty * unit * unit;
+    if (stage_.plunge_weight <= 0.0) continue;
+    visit_plunges(rails, time, anchor.axis, [&](double, const Plunge& p) {
+      sum += stage_.plunge_weight / static_cast<double>(s_.size()) * p.excess * p.excess;
+    });
   }
   return sum / (static_cast<double>(targets_.size()) * stage_.samples_t);
 }
