@@ -177,8 +177,9 @@ Polished settled(const Polished& polished, const FlankFitOptions& options) {
   // Between these samples, too, nothing may be cut deeper than the tolerance: a little room, if it costs little of the
   // covered share.
   constexpr double kCost = 0.005;
+  constexpr double deepest = kToleranceBudget.others.fit_allowance + kToleranceBudget.others.soft_term;
   const double by = std::max(again.estimate.overcut_mm - kToleranceBudget.fit.settled_overcut * options.tolerance_mm,
-                             again.estimate.gouge_mm - kToleranceBudget.others.last_look * options.tolerance_mm);
+                             again.estimate.gouge_mm - deepest * options.tolerance_mm);
   if (!again.draft.free_tool || by <= 0.0) return again;
   Polished lower = shifted_by(again.draft, by, samples, options);
   return lower.estimate.at_tolerance >= again.estimate.at_tolerance - kCost ? lower : again;
