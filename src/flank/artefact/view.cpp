@@ -7,7 +7,6 @@
 #include <limits>
 #include <set>
 
-#include "flank/artefact/view_mesh.h"
 #include "flank/envelope/path_regularity.h"
 #include "flank/job/command_line.h"
 

@@ -5,20 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "flank/artefact/view_mesh.h"
 #include "flank/envelope/strip_surface.h"
 #include "flank/run.h"
 #include "flank/setup/setup.h"
 
 namespace flank::internal {
-
-struct ViewFace {
-  std::string face;  ///< "F1"
-  bool target = false;
-  TriangleMesh mesh;
-  std::vector<std::vector<Vec3>> borders;  ///< polylines
-  /// Swept distance at the vertices, mm; empty for a check surface that the judge did not find entered.
-  std::vector<double> f_mm;
-};
 
 /// What happens about one place of a strip.
 struct ViewPlace {
@@ -56,13 +48,6 @@ struct View {
   std::vector<ProfilePoint> profile;
 };
 
-/// The targets get about kTargetTriangles triangles, the check surfaces that are entered kEnteredTriangles, all other
-/// faces together at most about kOtherTriangles.
-inline constexpr int kTargetTriangles = 60000;
-inline constexpr int kEnteredTriangles = 40000;
-inline constexpr int kOtherTriangles = 150000;
-/// A mesh of more triangles than this is drawn coarser.
-inline constexpr int kMostMeshTriangles = 300000;
 /// A check surface counts as entered from this share of the tolerance on: one that only touches the target is not.
 inline constexpr double kEnteredShare = 0.5;
 inline constexpr std::size_t kMostPosesShown = 1500;

@@ -5,10 +5,27 @@
 #include <string>
 #include <vector>
 
-#include "flank/artefact/view.h"
+#include "flank/part.h"
+#include "flank/triangle_mesh.h"
 
 namespace flank::internal {
 
+struct ViewFace {
+  std::string face;  ///< "F1"
+  bool target = false;
+  TriangleMesh mesh;
+  std::vector<std::vector<Vec3>> borders;  ///< polylines
+  /// Swept distance at the vertices, mm; empty for a check surface that the judge did not find entered.
+  std::vector<double> f_mm;
+};
+
+/// The targets get about kTargetTriangles triangles, the check surfaces that are entered kEnteredTriangles, all other
+/// faces together at most about kOtherTriangles.
+inline constexpr int kTargetTriangles = 60000;
+inline constexpr int kEnteredTriangles = 40000;
+inline constexpr int kOtherTriangles = 150000;
+/// A mesh of more triangles than this is drawn coarser.
+inline constexpr int kMostMeshTriangles = 300000;
 /// Every face of the part: `targets` (indices) finely, those named in `entered` nearly so, the others as coarsely as they
 /// may look.
 [[nodiscard]] std::vector<ViewFace> view_faces(const Part& part, const std::vector<int>& targets,
