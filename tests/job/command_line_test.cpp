@@ -67,8 +67,8 @@ TEST(AskedFor, SaysItWithUnits) {
   job.tool.axis_length_mm = 20.0;
   job.strips = 3;
   job.obstacles.fixtures = {"a", "b"};
-  EXPECT_EQ(asked_for(job), (std::vector<std::string>{"tolerance 0.1 mm", "axis length 20 mm", "strips 3",
-                                                      "fixtures a", "fixtures b"}));
+  EXPECT_EQ(asked_for(job), (std::vector<std::string>{"tolerance 0.1 mm", "axis length 20 mm", "strips 3", "fixtures a",
+                                                      "fixtures b"}));
 }
 
 }  // namespace

@@ -150,7 +150,8 @@ void visit_fields(Job& job, Visitor&& visit) {
   visit(FieldInfo{"tolerance", "mm", "", "Tolerance", kLength}, job.tolerance_mm);
   visit(FieldInfo{"axis_length", "mm", "", "Length of the tool's axis; default: as the face needs", kLength},
         job.tool.axis_length_mm);
-  visit(FieldInfo{"strips", "", "", "Passes side by side with one tool: a number, or auto: as many as the tolerance needs", kPassCount,
+  visit(FieldInfo{"strips", "", "",
+                  "Passes side by side with one tool: a number, or auto: as many as the tolerance needs", kPassCount,
                   Spelling::kAutoOrCount},
         job.strips);
   visit(FieldInfo{"start", "", "", "First axis x,y,z,x,y,z (tip, holder end), mm; default: automatic"}, job.start);
