@@ -29,8 +29,10 @@ function bodyOf({ samples, axis_length: length }) {
       fine.push([0, 1].map((c) => samples[k][c] + ((samples[k + 1][c] - samples[k][c]) * i) / 8));
   fine.push(samples.at(-1));
   const radius = (z) => Math.sqrt(Math.max(0, ...fine.map(([s, r]) => r * r - (z - s) ** 2)));
-  const [a, b, c] = samples.slice(-3), slope = (3 * c[1] - 4 * b[1] + a[1]) / (c[0] - a[0]);
-  const low = -samples[0][1], high = length - c[1] * slope;
+  // One-sided difference of the fourth order: steep ends bend between the samples.
+  const last = samples.slice(-5), slope =
+    (25 * last[4][1] - 48 * last[3][1] + 36 * last[2][1] - 16 * last[1][1] + 3 * last[0][1]) / (3 * (last[4][0] - last[0][0]));
+  const low = -samples[0][1], high = length - last[4][1] * slope;
   const widest = Math.max(...Array.from({ length: 2001 }, (_, k) => radius(low + ((high - low) * k) / 2000)));
   return { low, high, radius, widest };
 }
