@@ -53,7 +53,10 @@ RadiusBounds bounds_of(const FitJob& job, double diagonal) {
 double demanded_reach(const FitJob& job, const Target& target, const RadiusBounds& bounds) {
   if (job.judge.reach_radius_mm) return *job.judge.reach_radius_mm;
   const double length = job.tool.axis_length_mm.value_or(std::sqrt(target.area()));
-  return std::clamp(0.5 * length / bounds.slenderest, bounds.smallest, bounds.largest);
+  const double radius = std::clamp(0.5 * length / bounds.slenderest, bounds.smallest, bounds.largest);
+  // Three digits: it is shown to people, and written into the command that makes the result again.
+  const double unit = std::pow(10.0, std::floor(std::log10(radius)) - 2.0);
+  return std::round(radius / unit) * unit;
 }
 
 /// Covers what was asked, by the planner's estimate, and enters nothing.
