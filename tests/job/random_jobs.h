@@ -32,7 +32,7 @@ inline void randomise(const FieldInfo& info, std::string& value, Random& random)
         if (info.accepted.text(word)) value = word;
     return;
   }
-  value = (info.spelling == Spelling::kFile ? "/tmp/" : "") + nasty_text(random);
+  value = (info.spelling == Spelling::kFile ? "/parts/" : "") + nasty_text(random);
   if (info.spelling == Spelling::kFile) value += "x";
 }
 
