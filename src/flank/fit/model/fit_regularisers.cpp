@@ -11,8 +11,9 @@ namespace {
 
 /// Keeps |w| near one: the length of w is a gauge, this term only holds it (MATH section 2).
 constexpr double kUnitPenalty = 1e-9;
-/// Weight of the one-sided terms (tool_excess.h) that keep the tool inside its bounds, against 1 for the residuals: a bound is broken
-/// by a tenth of the error that breaking it would save. What is left is clamped at the end (clamp_tool).
+/// Weight of the one-sided terms (tool_excess.h) that keep the tool inside its bounds, against 1 for the residuals: a
+/// bound is broken by a tenth of the error that breaking it would save. Radii that are left out of bounds are clamped at
+/// the end (clamp_tool); slenderness and neck are held a little inside theirs.
 constexpr double kBoundWeight = 10.0;
 
 }  // namespace
