@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "flank/clearance.h"
@@ -67,6 +68,8 @@ class SweptVolume {
   /// The same for many points into out[i]; faster when each point lies close to the one before it. Where two places of
   /// the path are equally near the one named may differ from distance()'s.
   void distances(std::span<const Vec3> points, double horizon_mm, std::span<SweptDistance> out) const;
+  /// The same with a horizon for each point.
+  void distances(std::span<const Vec3> points, std::span<const double> horizons_mm, std::span<SweptDistance> out) const;
 
  private:
   struct Data;
@@ -83,6 +86,15 @@ class SweptVolume {
 /// Smallest radius of the flank, mm: RadialFunction::smallest().
 [[nodiscard]] double smallest_radius(const Tool& tool);
 
+/// How hard a proof tries. The limits are counts, not seconds, so that the answer does not depend on the machine.
+struct ProofOptions {
+  /// Of the tolerance (of the depth where that is larger): so near does the bound come to the deepest place that was
+  /// found, where that costs no more than the proof itself.
+  double gap_share = 0.02;
+  std::size_t evaluations = 4'000'000;  ///< of f on one face, at most about so many
+  std::size_t cells = 1'000'000;        ///< held at once, about 150 bytes each
+};
+
 struct JudgeOptions {
   double tolerance_mm = 0.01;  ///< > 0
   /// > 0: material left is measured up to this; beyond it is "not machined" and reads as the horizon. A few millimetres
@@ -91,6 +103,7 @@ struct JudgeOptions {
   double horizon_mm = 1e300;
   int histogram_bins = 41;  ///< >= 1, over [-2, 2] tolerances, ends open; odd: one bin is centred at 0
   int worst_places = 5;     ///< most of them, of each face and of all together, >= 0
+  ProofOptions proof;
 };
 
 /// A place that is cut too deep, as SweptDistance names it.
@@ -116,16 +129,28 @@ struct FaceVerdict {
   double reachable_share = 0.0;      ///< of the area (target)
   double coverage_reachable = 0.0;   ///< the same share of the reachable area alone; 0 where nothing is reachable
   double spacing_mm = 0.0;
-  double sampling_bound_mm = 0.0;     ///< overcut between samples exceeds overcut_mm by no more (judge.md)
+  double sampling_bound_mm = 0.0;  ///< overcut between samples exceeds overcut_mm by no more (judge.md)
+  /// Nothing of the face, its borders included, is cut deeper: proved. Of samples alone: overcut_mm + sampling_bound_mm,
+  /// which does not hold at borders.
+  double overcut_bound_mm = 0.0;
+  Vec3 bound_point = Vec3::Zero();    ///< about where the face may be cut so deep, if overcut_bound_mm > overcut_mm
+  std::size_t proof_cells = 0;        ///< places that the proof looked at
   std::optional<WorstPlace> deepest;  ///< where overcut_mm is; none: nothing is cut
 };
 
-/// Figures of the samples decide, not figures and bound: the bound says how fine the samples were.
+/// A cut that was found decides; without one, proofs do.
 enum class Verdict {
   kNotRun,
-  kPass,     ///< overcut <= tolerance on every face
-  kOvercut,  ///< overcut > tolerance on a target
-  kGouge,    ///< overcut > tolerance on a check surface
+  kPass,      ///< overcut_bound <= tolerance on every face; of samples alone: overcut <= tolerance
+  kOvercut,   ///< overcut > tolerance on a target
+  kGouge,     ///< overcut > tolerance on a check surface
+  kUnproved,  ///< no deeper place was found, nor was it proved that there is none
+};
+
+/// How the depth of cuts was judged.
+enum class DepthProof {
+  kSampled,  ///< at the samples only: what lies between them was not seen
+  kProved,   ///< up to a bound that holds everywhere on the faces, up to their borders
 };
 
 /// Coverage and undercut have no part in the verdict: how much is enough is for the caller to say .
@@ -138,6 +163,9 @@ struct VerifyReport {
   double overcut_mm = 0.0, undercut_mm = 0.0, undercut_covered_mm = 0.0, rms_mm = 0.0;  ///< over the targets
   double gouge_mm = 0.0;           ///< largest overcut on a check surface
   double sampling_bound_mm = 0.0;  ///< the largest of the targets'
+  DepthProof depth = DepthProof::kSampled;
+  double overcut_bound_mm = 0.0,
+         gouge_bound_mm = 0.0;  ///< nothing of the targets, of the check surfaces, is cut deeper
   std::vector<FaceVerdict> faces;
   std::vector<WorstPlace> worst;  ///< most negative f first, over all faces
   std::vector<double> histogram_edges_mm;
@@ -150,5 +178,14 @@ struct VerifyReport {
 /// Does not fill `clearance` and `reach_radius_mm`; `reachable` of the samples is taken as it is.
 [[nodiscard]] VerifyReport judge(const Tool& tool, const Path& path, const std::vector<FaceSamples>& faces,
                                  const JudgeOptions& options);
+
+/// A face as it is, for proofs; not owned.
+using FaceShape = std::variant<const Face*, const TriangleMesh*>;
+
+/// The same, and a proof of how deep the faces are cut, in cells that hold every place of them, borders included
+/// (docs/algorithms/judge.md): shapes[k] is what faces[k] samples. Samples of check surfaces give their area only. Throws
+/// InternalError if there are not as many shapes as faces.
+[[nodiscard]] VerifyReport judge(const Tool& tool, const Path& path, const std::vector<FaceSamples>& faces,
+                                 const std::vector<FaceShape>& shapes, const JudgeOptions& options);
 
 }  // namespace flank

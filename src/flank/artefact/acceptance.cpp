@@ -36,6 +36,26 @@ void add_cuts(const VerifyReport& report, bool targets, std::vector<Shortfall>& 
     reasons.push_back({figure, fmt::format("and {} more faces", faces.size() - kMostFacesNamed)});
 }
 
+/// Faces where no cut over the tolerance was found, nor was it proved that there is none.
+void add_unproved(const VerifyReport& report, std::vector<Shortfall>& reasons) {
+  std::vector<const FaceVerdict*> faces;
+  for (const FaceVerdict& face : report.faces)
+    if (face.overcut_mm <= report.tolerance_mm && !(face.overcut_bound_mm <= report.tolerance_mm))
+      faces.push_back(&face);
+  std::stable_sort(faces.begin(), faces.end(),
+                   [](const auto* a, const auto* b) { return a->overcut_bound_mm > b->overcut_bound_mm; });
+  for (std::size_t k = 0; k < faces.size() && k < kMostFacesNamed; ++k) {
+    const Vec3& p = faces[k]->bound_point;
+    reasons.push_back({faces[k]->target ? "overcut_bound_mm" : "gouge_bound_mm",
+                       fmt::format("{} is not proved: cut by {:.4f} mm, but it may be {:.4f} mm > {} mm about "
+                                   "({:.3f}, {:.3f}, {:.3f})",
+                                   faces[k]->face, faces[k]->overcut_mm, faces[k]->overcut_bound_mm,
+                                   report.tolerance_mm, p.x(), p.y(), p.z())});
+  }
+  if (faces.size() > kMostFacesNamed)
+    reasons.push_back({"overcut_bound_mm", fmt::format("and {} more faces", faces.size() - kMostFacesNamed)});
+}
+
 }  // namespace
 
 Acceptance accept(const Tool& tool, const VerifyReport& report, double least_coverage, bool complete) {
@@ -45,6 +65,7 @@ Acceptance accept(const Tool& tool, const VerifyReport& report, double least_cov
     out.reasons.push_back({"legitimate", "the tool is not legitimate: " + legitimacy.reason});
   add_cuts(report, true, out.reasons);
   add_cuts(report, false, out.reasons);
+  if (report.depth == DepthProof::kProved) add_unproved(report, out.reasons);
   if (!(report.coverage_reachable >= least_coverage))
     out.reasons.push_back(
         {"coverage_reachable", fmt::format("coverage {:.3f} % < {:.3f} % of what is reachable",
@@ -59,6 +80,14 @@ Acceptance accept(const Tool& tool, const VerifyReport& report, double least_cov
 std::string reach_text(const VerifyReport& report) {
   return fmt::format("reachable   {:.2f} % of the target (ball of radius {:.4g} mm), of which {:.2f} % is covered",
                      100.0 * report.reachable_share, report.reach_radius_mm, 100.0 * report.coverage_reachable);
+}
+
+std::string depth_text(const VerifyReport& report) {
+  if (report.depth == DepthProof::kSampled)
+    return fmt::format("sampled: only the samples were looked at; between them the target may be cut {:.4f} mm deeper",
+                       report.sampling_bound_mm);
+  return fmt::format("proved: no place of the target is cut deeper than {:.4f} mm, none of other faces {:.4f} mm",
+                     report.overcut_bound_mm, report.gouge_bound_mm);
 }
 
 std::string reason_lines(const Acceptance& acceptance) {

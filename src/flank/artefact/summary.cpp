@@ -33,8 +33,7 @@ std::string error_lines(const Result& result) {
                       v.undercut_covered_mm, v.undercut_mm);
   text += fmt::format("  rms         {:.6f} mm over the covered samples\n", v.rms_mm);
   text += fmt::format("  other faces {:.6f} mm deepest overcut\n", v.gouge_mm);
-  text +=
-      fmt::format("  bound       between the judge's samples f is worse by at most {:.4f} mm\n", v.sampling_bound_mm);
+  text += "  judged      " + depth_text(v) + "\n";
   return text;
 }
 
@@ -148,6 +147,9 @@ std::string summary_json(const Result& result) {
   json["rms"] = v.rms_mm;
   json["other_faces_overcut"] = v.gouge_mm;
   json["sampling_bound"] = v.sampling_bound_mm;
+  json["depth"] = depth_name(v.depth);
+  json["overcut_bound"] = v.overcut_bound_mm;
+  json["other_faces_overcut_bound"] = v.gouge_bound_mm;
   if (!v.clearance.figures.empty()) json["clearance"] = clearance_to_json(v.clearance);
   json["chord_bound"] = result.chord_bound_mm;
   json["largest_c"] = result.largest_c;

@@ -15,10 +15,11 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kSchema = "openflank/verify/1";
 
-constexpr std::array<std::pair<Verdict, std::string_view>, 4> kVerdicts{{{Verdict::kNotRun, "not_run"},
+constexpr std::array<std::pair<Verdict, std::string_view>, 5> kVerdicts{{{Verdict::kNotRun, "not_run"},
                                                                          {Verdict::kPass, "pass"},
                                                                          {Verdict::kOvercut, "overcut"},
-                                                                         {Verdict::kGouge, "gouge"}}};
+                                                                         {Verdict::kGouge, "gouge"},
+                                                                         {Verdict::kUnproved, "unproved"}}};
 
 /// JSON has no infinity: null stands for it.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
@@ -56,7 +57,10 @@ Json to_json(const FaceVerdict& f) {
             {"coverage", number(f.coverage)},
             {"reachable_share", number(f.reachable_share)},
             {"coverage_reachable", number(f.coverage_reachable)},
-            {"sampling_bound_mm", number(f.sampling_bound_mm)}};
+            {"sampling_bound_mm", number(f.sampling_bound_mm)},
+            {"overcut_bound_mm", number(f.overcut_bound_mm)},
+            {"bound_point", {number(f.bound_point.x()), number(f.bound_point.y()), number(f.bound_point.z())}},
+            {"proof_cells", f.proof_cells}};
   if (f.deepest) j["deepest"] = to_json(*f.deepest);
   return j;
 }
@@ -76,6 +80,10 @@ FaceVerdict face_from(const Json& j) {
   f.reachable_share = to_number(j.at("reachable_share"));
   f.coverage_reachable = to_number(j.at("coverage_reachable"));
   f.sampling_bound_mm = to_number(j.at("sampling_bound_mm"));
+  f.overcut_bound_mm = to_number(j.at("overcut_bound_mm"));
+  const Json& p = j.at("bound_point");
+  f.bound_point = {to_number(p.at(0)), to_number(p.at(1)), to_number(p.at(2))};
+  f.proof_cells = j.at("proof_cells").get<std::size_t>();
   if (j.contains("deepest")) f.deepest = place_from(j.at("deepest"));
   return f;
 }
@@ -131,7 +139,13 @@ ClearanceFigure clearance_from(const Json& j) {
 Verdict verdict_from(const std::string& name) {
   for (const auto& [verdict, known] : kVerdicts)
     if (known == name) return verdict;
-  throw InputError("verdict \"" + name + "\"; not_run, pass, overcut or gouge is accepted");
+  throw InputError("verdict \"" + name + "\"; not_run, pass, overcut, gouge or unproved is accepted");
+}
+
+DepthProof depth_from(const std::string& name) {
+  for (DepthProof depth : {DepthProof::kSampled, DepthProof::kProved})
+    if (name == depth_name(depth)) return depth;
+  throw InputError("depth \"" + name + "\"; proved or sampled is accepted");
 }
 
 VerifyReport report_from(const Json& j) {
@@ -150,6 +164,9 @@ VerifyReport report_from(const Json& j) {
   r.rms_mm = to_number(j.at("rms_mm"));
   r.gouge_mm = to_number(j.at("gouge_mm"));
   r.sampling_bound_mm = to_number(j.at("sampling_bound_mm"));
+  r.depth = depth_from(j.at("depth").get<std::string>());
+  r.overcut_bound_mm = to_number(j.at("overcut_bound_mm"));
+  r.gouge_bound_mm = to_number(j.at("gouge_bound_mm"));
   for (const Json& f : j.at("faces")) r.faces.push_back(face_from(f));
   for (const Json& w : j.at("worst_places")) r.worst.push_back(place_from(w));
   for (const Json& e : j.at("histogram").at("edges_mm")) r.histogram_edges_mm.push_back(to_number(e));
@@ -169,6 +186,8 @@ std::string_view verdict_name(Verdict verdict) {
     if (known == verdict) return name;
   return "not_run";
 }
+
+std::string_view depth_name(DepthProof depth) { return depth == DepthProof::kProved ? "proved" : "sampled"; }
 
 Json clearance_to_json(const ClearanceReport& report) { return to_json(report); }
 
@@ -191,6 +210,9 @@ std::string verify_to_json(const VerifyReport& r, const Acceptance& acceptance) 
             {"rms_mm", number(r.rms_mm)},
             {"gouge_mm", number(r.gouge_mm)},
             {"sampling_bound_mm", number(r.sampling_bound_mm)},
+            {"depth", depth_name(r.depth)},
+            {"overcut_bound_mm", number(r.overcut_bound_mm)},
+            {"gouge_bound_mm", number(r.gouge_bound_mm)},
             {"samples", samples},
             {"faces", Json::array()},
             {"worst_places", Json::array()},

@@ -9,8 +9,10 @@
 
 namespace flank::internal {
 
-/// "not_run", "pass", "overcut" or "gouge".
+/// "not_run", "pass", "overcut", "gouge" or "unproved".
 [[nodiscard]] std::string_view verdict_name(Verdict verdict);
+/// "proved" or "sampled".
+[[nodiscard]] std::string_view depth_name(DepthProof depth);
 
 /// The figures of a clearance report: "clearance" of verify.json and summary.json.
 [[nodiscard]] nlohmann::ordered_json clearance_to_json(const ClearanceReport& report);

@@ -35,6 +35,30 @@ TriangleMesh triangles_of(const Part& part, int face, const Box3& near, double f
   return tessellate(value, {.chord_mm = meets ? fine : coarse, .edge_mm = meets ? kLongestCellMm : 1e300}).mesh;
 }
 
+/// The first `count` of the judged faces, in the order of the samples, for the proof.
+struct JudgedShapes {
+  std::vector<TriangleMesh> meshes;
+  std::vector<FaceShape> list;
+  JudgedShapes(const Setup& setup, std::size_t count);
+};
+
+JudgedShapes::JudgedShapes(const Setup& setup, std::size_t count) {
+  std::vector<int> judged = setup.targets;
+  judged.insert(judged.end(), setup.checks.begin(), setup.checks.end());
+  std::sort(judged.begin(), judged.end());
+  judged.resize(std::min(judged.size(), count));
+  const Part& part = setup.part;
+  meshes.reserve(judged.size());
+  for (int face : judged) {
+    if (!part.is_mesh()) {
+      list.emplace_back(&part.faces[static_cast<std::size_t>(face)]);
+      continue;
+    }
+    meshes.push_back(extract_mesh(part, {face}));
+    list.emplace_back(&meshes.back());
+  }
+}
+
 /// No ball that touches the samples, nor anything that it could enter, is outside of this.
 Box3 balls_of(const std::vector<FaceSamples>& samples, double radius) {
   Box3 box;
@@ -111,7 +135,8 @@ VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const To
   if (radius > 0.0) measure_reach(setup, tool, path, radius, samples);
   JudgeOptions options;
   options.tolerance_mm = setup.tolerance_mm;
-  VerifyReport report = judge(tool, path, samples, options);
+  const JudgedShapes shapes(setup, request.sample_mm ? 0 : samples.size());
+  VerifyReport report = judge(tool, path, samples, shapes.list, options);
   report.reach_radius_mm = radius;
   return report;
 }

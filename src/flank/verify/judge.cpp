@@ -8,9 +8,11 @@
 #include "flank/base/assert.h"
 #include "flank/base/parallel.h"
 #include "flank/error.h"
+#include "flank/verify/prove.h"
 
 namespace flank {
 using namespace internal;
+using namespace internal::verify;
 namespace {
 
 /// Samples per task, measured from the first to the last. Fixed, so that the number of threads changes nothing: each
@@ -91,6 +93,19 @@ std::vector<WorstPlace> worst_of(const FaceSamples& face, const std::vector<Swep
   return out;
 }
 
+double size_of(const FaceSamples& face) {
+  Box3 box;
+  for (const Vec3& p : face.points) box.add(p);
+  return box.diagonal();
+}
+
+/// Puts a place first that is at least as deep as all others, and takes out those near it.
+void add_place(const WorstPlace& deepest, double separation, int count, std::vector<WorstPlace>& worst) {
+  std::erase_if(worst, [&](const WorstPlace& w) { return (w.point - deepest.point).norm() < separation; });
+  worst.insert(worst.begin(), deepest);
+  if (static_cast<int>(worst.size()) > count) worst.resize(static_cast<std::size_t>(std::max(0, count)));
+}
+
 void add_histogram(VerifyReport& report, const FaceSamples& face, const std::vector<SweptDistance>& distances) {
   const auto& edges = report.histogram_edges_mm;
   const int bins = static_cast<int>(report.histogram_area_mm2.size());
@@ -143,12 +158,18 @@ struct FaceResult {
   std::vector<WorstPlace> worst;
 };
 
+/// f at the samples of a face. On a check surface only overcut matters, at the samples and between them; where the depth
+/// is proved anyway, not even that.
+std::vector<SweptDistance> measure(const SweptVolume& volume, const FaceSamples& face, const JudgeOptions& options,
+                                   bool proved) {
+  if (face.target) return swept_distances(volume, face, options.horizon_mm);
+  if (proved) return std::vector<SweptDistance>(face.points.size());
+  return swept_distances(volume, face, std::min(options.horizon_mm, std::max(options.tolerance_mm, face.spacing_mm)));
+}
+
 FaceResult judge_face(const SweptVolume& volume, const Tool& tool, const Path& path, const FaceSamples& face,
-                      const JudgeOptions& options, VerifyReport& report) {
-  // On a check surface only overcut matters, at the samples and between them.
-  const double horizon =
-      face.target ? options.horizon_mm : std::min(options.horizon_mm, std::max(options.tolerance_mm, face.spacing_mm));
-  const std::vector<SweptDistance> distances = swept_distances(volume, face, horizon);
+                      const FaceShape* shape, const JudgeOptions& options, VerifyReport& report) {
+  const std::vector<SweptDistance> distances = measure(volume, face, options, shape != nullptr);
   FaceResult result;
   FaceVerdict& verdict = result.verdict;
   verdict.face = face.face;
@@ -161,9 +182,17 @@ FaceResult judge_face(const SweptVolume& volume, const Tool& tool, const Path& p
   verdict.reachable_share = share_of(sums.reachable, sums.area);
   verdict.coverage_reachable = share_of(sums.covered_reachable, sums.reachable);
   verdict.rms_mm = sums.touched > 0.0 ? std::sqrt(sums.squares / sums.touched) : 0.0;
-  verdict.sampling_bound_mm = between_samples(face, distances, smallest_radius(tool), verdict.overcut_mm);
+  // Without distances there is nothing between samples to speak of.
+  if (face.target || shape == nullptr)
+    verdict.sampling_bound_mm = between_samples(face, distances, smallest_radius(tool), verdict.overcut_mm);
+  verdict.overcut_bound_mm = verdict.overcut_mm + verdict.sampling_bound_mm;
   result.worst = worst_of(face, distances, options.worst_places);
   if (!result.worst.empty()) verdict.deepest = result.worst.front();
+  if (shape != nullptr) {
+    const double separation = kWorstSeparation * size_of(face);
+    prove_depth(volume, smallest_radius(tool), *shape, options.tolerance_mm, options.proof, verdict);
+    if (verdict.deepest) add_place(*verdict.deepest, separation, options.worst_places, result.worst);
+  }
   if (face.target) add_histogram(report, face, distances);
   return result;
 }
@@ -179,6 +208,7 @@ void add_target(VerifyReport& report, Sums& totals, const FaceResult& face) {
   report.undercut_mm = std::max(report.undercut_mm, face.verdict.undercut_mm);
   report.undercut_covered_mm = std::max(report.undercut_covered_mm, face.verdict.undercut_covered_mm);
   report.sampling_bound_mm = std::max(report.sampling_bound_mm, face.verdict.sampling_bound_mm);
+  report.overcut_bound_mm = std::max(report.overcut_bound_mm, face.verdict.overcut_bound_mm);
 }
 
 void keep_worst(std::vector<WorstPlace>& worst, int count) {
@@ -186,11 +216,12 @@ void keep_worst(std::vector<WorstPlace>& worst, int count) {
   if (static_cast<int>(worst.size()) > count) worst.resize(static_cast<std::size_t>(std::max(0, count)));
 }
 
-/// A gouge is named first: it spoils a face that nobody meant to touch. Compared without the sampling bound, which is
-/// reported.
+/// A gouge is named first: it spoils a face that nobody meant to touch.
 Verdict verdict_of(const VerifyReport& report) {
   if (report.gouge_mm > report.tolerance_mm) return Verdict::kGouge;
-  return report.overcut_mm > report.tolerance_mm ? Verdict::kOvercut : Verdict::kPass;
+  if (report.overcut_mm > report.tolerance_mm) return Verdict::kOvercut;
+  const bool proved = std::max(report.overcut_bound_mm, report.gouge_bound_mm) <= report.tolerance_mm;
+  return proved || report.depth == DepthProof::kSampled ? Verdict::kPass : Verdict::kUnproved;
 }
 
 }  // namespace
@@ -246,18 +277,27 @@ std::vector<std::size_t> covered_samples(const SweptVolume& volume, const FaceSa
 
 VerifyReport judge(const Tool& tool, const Path& path, const std::vector<FaceSamples>& faces,
                    const JudgeOptions& options) {
+  return judge(tool, path, faces, {}, options);
+}
+
+VerifyReport judge(const Tool& tool, const Path& path, const std::vector<FaceSamples>& faces,
+                   const std::vector<FaceShape>& shapes, const JudgeOptions& options) {
   require_usable(options);
+  FLANK_ASSERT(shapes.empty() || shapes.size() == faces.size());
   VerifyReport report;
+  report.depth = shapes.empty() ? DepthProof::kSampled : DepthProof::kProved;
   report.tolerance_mm = options.tolerance_mm;
   prepare_histogram(report, options);
   const SweptVolume volume(tool, path);
   Sums totals;
-  for (const FaceSamples& face : faces) {
-    FaceResult result = judge_face(volume, tool, path, face, options, report);
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    const FaceSamples& face = faces[k];
+    FaceResult result = judge_face(volume, tool, path, face, shapes.empty() ? nullptr : &shapes[k], options, report);
     if (face.target) {
       add_target(report, totals, result);
     } else {
       report.gouge_mm = std::max(report.gouge_mm, result.verdict.overcut_mm);
+      report.gouge_bound_mm = std::max(report.gouge_bound_mm, result.verdict.overcut_bound_mm);
     }
     report.worst.insert(report.worst.end(), result.worst.begin(), result.worst.end());
     report.faces.push_back(std::move(result.verdict));

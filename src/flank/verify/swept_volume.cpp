@@ -46,10 +46,15 @@ SweptDistance SweptVolume::distance(const Vec3& x, double horizon_mm) const {
 }
 
 void SweptVolume::distances(std::span<const Vec3> points, double horizon_mm, std::span<SweptDistance> out) const {
-  FLANK_ASSERT(out.size() == points.size());
+  distances(points, std::vector<double>(points.size(), horizon_mm), out);
+}
+
+void SweptVolume::distances(std::span<const Vec3> points, std::span<const double> horizons_mm,
+                            std::span<SweptDistance> out) const {
+  FLANK_ASSERT(out.size() == points.size() && horizons_mm.size() == points.size());
   SweptPlace near;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const SweptPlace place = SweptSearch(data_->distance, data_->tree, points[i]).run(horizon_mm, near);
+    const SweptPlace place = SweptSearch(data_->distance, data_->tree, points[i]).run(horizons_mm[i], near);
     out[i] = data_->at(points[i], place);
     if (place.piece >= 0) near = place;
   }

@@ -1,0 +1,182 @@
+#include "flank/verify/proof/patch_bounds.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace flank::internal::verify {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr int kWidth = kMaxDegree + 1;
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kWidth, kWidth>;
+
+/// Row i: how the i-th Bezier control point over [low, high] is made of the degree + 1 control points that act on the
+/// span. By the blossom: de Boor's recursion with another argument in each of its levels.
+Matrix bezier_matrix(const std::vector<double>& knots, int degree, int span, double low, double high) {
+  const int width = degree + 1;
+  Matrix out(width, width);
+  for (int i = 0; i < width; ++i) {
+    Matrix rows = Matrix::Identity(width, width);
+    for (int level = 1; level <= degree; ++level) {
+      const double t = level <= degree - i ? low : high;
+      for (int j = degree; j >= level; --j) {
+        const auto k = static_cast<std::size_t>(span - degree + j);
+        const double alpha = (t - knots[k]) / (knots[k + static_cast<std::size_t>(degree - level + 1)] - knots[k]);
+        rows.row(j) = (1.0 - alpha) * rows.row(j - 1) + alpha * rows.row(j);
+      }
+    }
+    out.row(i) = rows.row(degree);
+  }
+  return out;
+}
+
+/// A Bezier net in homogeneous coordinates, its points relative to an origin.
+struct Net {
+  std::array<Matrix, 4> c;  ///< w (P - origin), and w
+
+  [[nodiscard]] int rows() const { return static_cast<int>(c[3].rows()); }
+  [[nodiscard]] int columns() const { return static_cast<int>(c[3].cols()); }
+  [[nodiscard]] Vec3 point(int i, int j) const { return {c[0](i, j), c[1](i, j), c[2](i, j)}; }
+};
+
+Net net_of(const BSplineSurface& s, const Rectangle& where, const Vec3& origin) {
+  const Vec2 middle = where.middle();
+  const int span_u = find_span(s.degree_u, s.knots_u, middle.x());
+  const int span_v = find_span(s.degree_v, s.knots_v, middle.y());
+  std::array<Matrix, 4> poles;
+  for (Matrix& m : poles) m.resize(s.degree_u + 1, s.degree_v + 1);
+  for (int i = 0; i <= s.degree_u; ++i) {
+    for (int j = 0; j <= s.degree_v; ++j) {
+      const int at_u = span_u - s.degree_u + i, at_v = span_v - s.degree_v + j;
+      const double w = s.weights.empty() ? 1.0 : s.weights[static_cast<std::size_t>(at_u * s.count_v + at_v)];
+      const Vec3 p = w * (s.pole(at_u, at_v) - origin);
+      for (int k = 0; k < 3; ++k) poles[static_cast<std::size_t>(k)](i, j) = p[k];
+      poles[3](i, j) = w;
+    }
+  }
+  const Matrix u = bezier_matrix(s.knots_u, s.degree_u, span_u, where.low.x(), where.high.x());
+  const Matrix v = bezier_matrix(s.knots_v, s.degree_v, span_v, where.low.y(), where.high.y());
+  Net net;
+  for (std::size_t k = 0; k < 4; ++k) net.c[k] = u * poles[k] * v.transpose();
+  return net;
+}
+
+/// Largest norms of a net's control points, of points and weights.
+struct Norms {
+  double point = 0.0, weight = 0.0;
+};
+Norms norms(const Net& net) {
+  Norms n;
+  for (int i = 0; i < net.rows(); ++i)
+    for (int j = 0; j < net.columns(); ++j) n.point = std::max(n.point, net.point(i, j).squaredNorm());
+  n.point = std::sqrt(n.point);
+  if (net.c[3].size() > 0) n.weight = net.c[3].cwiseAbs().maxCoeff();
+  return n;
+}
+
+/// The net of the derivative in one direction.
+Net derived(const Net& net, bool along_u) {
+  Net out;
+  const int rows = net.rows() - (along_u ? 1 : 0), columns = net.columns() - (along_u ? 0 : 1);
+  const double degree = along_u ? rows : columns;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Matrix& m = net.c[k];
+    out.c[k] = degree * (m.bottomRightCorner(rows, columns) - m.topLeftCorner(rows, columns));
+  }
+  return out;
+}
+
+}  // namespace
+
+bool one_piece(const BSplineSurface& s, const Rectangle& where) {
+  const auto whole = [](int degree, const std::vector<double>& knots, double low, double high) {
+    const auto span = static_cast<std::size_t>(find_span(degree, knots, 0.5 * (low + high)));
+    return (low >= knots[span] || span == static_cast<std::size_t>(degree)) &&
+           (high <= knots[span + 1] || span + static_cast<std::size_t>(degree) + 2 >= knots.size());
+  };
+  return whole(s.degree_u, s.knots_u, where.low.x(), where.high.x()) &&
+         whole(s.degree_v, s.knots_v, where.low.y(), where.high.y());
+}
+
+// S = A / w, so w S_u = A_u - w_u S and so on; with the middle as origin |S| is at most `reach`. The control points of a
+// derivative hold the derivative.
+PatchBounds patch_bounds(const BSplineSurface& s, const Rectangle& where) {
+  PatchBounds out;
+  out.middle = s.value(where.middle().x(), where.middle().y());
+  const Net net = net_of(s, where, out.middle);
+  const double least = net.c[3].minCoeff();
+  if (!(least > 0.0)) {
+    out.reach = out.du = out.dv = out.duu = out.duv = out.dvv = kInfinite;
+    return out;
+  }
+  for (int i = 0; i < net.rows(); ++i)
+    for (int j = 0; j < net.columns(); ++j) out.reach = std::max(out.reach, net.point(i, j).norm() / net.c[3](i, j));
+  const Net net_u = derived(net, true), net_v = derived(net, false);
+  const Norms u = norms(net_u), v = norms(net_v);
+  const Norms uu = norms(derived(net_u, true)), uv = norms(derived(net_u, false)), vv = norms(derived(net_v, false));
+  const double e = out.reach;
+  out.du = (u.point + u.weight * e) / least;
+  out.dv = (v.point + v.weight * e) / least;
+  out.duu = (uu.point + 2.0 * u.weight * out.du + uu.weight * e) / least;
+  out.duv = (uv.point + u.weight * out.dv + v.weight * out.du + uv.weight * e) / least;
+  out.dvv = (vv.point + 2.0 * v.weight * out.dv + vv.weight * e) / least;
+  return out;
+}
+
+PatchBounds loose_bounds(const BSplineSurface& s, const Rectangle& where) {
+  PatchBounds out;
+  const int first_u = find_span(s.degree_u, s.knots_u, where.low.x()) - s.degree_u;
+  const int first_v = find_span(s.degree_v, s.knots_v, where.low.y()) - s.degree_v;
+  const int last_u = find_span(s.degree_u, s.knots_u, where.high.x());
+  const int last_v = find_span(s.degree_v, s.knots_v, where.high.y());
+  Box3 box;
+  for (int i = first_u; i <= last_u; ++i)
+    for (int j = first_v; j <= last_v; ++j) box.add(s.pole(i, j));
+  out.middle = box.center();
+  out.reach = 0.5 * box.diagonal() * (1.0 + 1e-12);
+  if (!s.weights.empty() && !(*std::min_element(s.weights.begin(), s.weights.end()) > 0.0)) out.reach = kInfinite;
+  out.du = out.dv = out.duu = out.duv = out.dvv = kInfinite;
+  return out;
+}
+
+CurveBounds curve_bounds(const BSplineCurve2& curve, double low, double high) {
+  const int span = find_span(curve.degree, curve.knots, 0.5 * (low + high));
+  const Matrix m = bezier_matrix(curve.knots, curve.degree, span, low, high);
+  const int width = curve.degree + 1;
+  const Vec2 origin = curve.value(0.5 * (low + high));
+  Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kWidth, 3> poles(width, 3);
+  for (int j = 0; j < width; ++j) {
+    const int at = span - curve.degree + j;
+    const double w = curve.weights.empty() ? 1.0 : curve.weights[static_cast<std::size_t>(at)];
+    const Vec2 p = w * (curve.poles.col(at) - origin);
+    poles.row(j) << p.x(), p.y(), w;
+  }
+  const Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kWidth, 3> net = m * poles;
+  CurveBounds out;
+  Vec2 least = Vec2::Zero(), most = Vec2::Zero(), far = Vec2::Zero();
+  const double weight = net.col(2).minCoeff();
+  if (!(weight > 0.0)) {
+    out.box = {Vec2::Constant(-kInfinite), Vec2::Constant(kInfinite)};
+    out.d1 = out.d2 = Vec2::Constant(kInfinite);
+    return out;
+  }
+  for (int j = 0; j < width; ++j) {
+    const Vec2 p = net.row(j).head<2>().transpose() / net(j, 2);
+    least = least.cwiseMin(p), most = most.cwiseMax(p), far = far.cwiseMax(p.cwiseAbs());
+  }
+  out.box = {origin + least, origin + most};
+  Eigen::Vector3d first = Eigen::Vector3d::Zero(), second = Eigen::Vector3d::Zero();
+  const double degree = curve.degree;
+  for (int j = 0; j + 1 < width; ++j)
+    first = first.cwiseMax(degree * (net.row(j + 1) - net.row(j)).cwiseAbs().transpose());
+  for (int j = 0; j + 2 < width; ++j)
+    second = second.cwiseMax(degree * (degree - 1.0) *
+                             (net.row(j + 2) - 2.0 * net.row(j + 1) + net.row(j)).cwiseAbs().transpose());
+  out.d1 = (first.head<2>() + first.z() * far) / weight;
+  out.d2 = (second.head<2>() + 2.0 * first.z() * out.d1 + second.z() * far) / weight;
+  return out;
+}
+
+}  // namespace flank::internal::verify
