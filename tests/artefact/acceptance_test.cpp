@@ -65,6 +65,22 @@ TEST(Acceptance, EachFigureAlone) {
   expect_one(accept(tool_of({1, 30, 1, 30}), at_the_limits(), 0.95), "legitimate", "not legitimate");
 }
 
+// A face that nobody found cut is not good for that: it has to be proved, unless only samples were asked for.
+TEST(Acceptance, WhatIsNotProvedDoesNotPass) {
+  VerifyReport r = at_the_limits();
+  for (FaceVerdict& face : r.faces) face.overcut_bound_mm = 0.01;
+  r.overcut_bound_mm = r.gouge_bound_mm = 0.01;
+  r.depth = DepthProof::kProved;
+  EXPECT_TRUE(accept(cylinder(), r, 0.95).pass());
+  r.faces[1].overcut_bound_mm = r.gouge_bound_mm = 0.0123;
+  r.faces[1].bound_point = Vec3(1, 2, -3);
+  expect_one(accept(cylinder(), r, 0.95), "gouge_bound_mm",
+             "F2 is not proved: cut by 0.0100 mm, but it may be 0.0123 mm > 0.01 mm about (1.000, 2.000, -3.000)");
+  r.depth = DepthProof::kSampled;
+  EXPECT_TRUE(accept(cylinder(), r, 0.95).pass());
+  EXPECT_EQ(depth_text(r).substr(0, 7), "sampled");
+}
+
 TEST(Acceptance, NamesTheFacesThatAreEnteredDeepestFirst) {
   VerifyReport r = at_the_limits();
   r.faces[1].overcut_mm = 0.02;

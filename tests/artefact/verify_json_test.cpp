@@ -23,8 +23,11 @@ VerifyReport full_report() {
   r.rms_mm = 0.1;
   r.gouge_mm = 0.25;
   r.sampling_bound_mm = 3e-4;
-  r.faces = {{"F1", true, 120.5, 4000, 1.0 / 3.0, 1e300, 2e-7, 0.1, 0.97, 0.9, 0.99, 0.2, 3e-4, {}},
-             {"F2", false, 7.0, 12, 0.25, 0, 0, 0, 0, 0, 0, 0.2, 0.01,
+  r.depth = DepthProof::kProved;
+  r.overcut_bound_mm = 0.35;
+  r.gouge_bound_mm = 0.26;
+  r.faces = {{"F1", true, 120.5, 4000, 1.0 / 3.0, 1e300, 2e-7, 0.1, 0.97, 0.9, 0.99, 0.2, 3e-4, 0.35, Vec3(1.0 / 7.0, 5, 6), 77, {}},
+             {"F2", false, 7.0, 12, 0.25, 0, 0, 0, 0, 0, 0, 0.2, 0.01, 0.26, Vec3::Zero(), 9,
               WorstPlace{"F2", Vec3(4, 5, 1.0 / 3.0), -0.25, 0, 1.5, 2.5}}};
   r.worst = {{"F1", Vec3(1.0 / 7.0, 2, 3), -1.0 / 3.0, 2, 12.25, 7.5}, {"F2", Vec3(4, 5, 6), -0.25, -1, 0, 0}};
   r.histogram_edges_mm = {-0.02, 0.0, 0.02};
@@ -52,6 +55,10 @@ TEST(VerifyJson, ReadsBackWhatItWrote) {
   EXPECT_EQ(b.faces[0].samples, 4000u);
   EXPECT_FALSE(b.faces[1].target);
   EXPECT_EQ(b.faces[1].sampling_bound_mm, 0.01);
+  EXPECT_EQ(b.depth, DepthProof::kProved);
+  EXPECT_EQ(b.faces[0].overcut_bound_mm, 0.35);
+  EXPECT_EQ(b.faces[0].bound_point, a.faces[0].bound_point);
+  EXPECT_EQ(b.faces[0].proof_cells, 77u);
   EXPECT_FALSE(b.faces[0].deepest);
   ASSERT_TRUE(b.faces[1].deepest);
   EXPECT_EQ(b.faces[1].deepest->point, a.faces[1].deepest->point);

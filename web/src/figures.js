@@ -55,7 +55,12 @@ export function rows(files) {
     v('undercut_covered_mm', 'Undercut where swept', format.error(verify.undercut_covered_mm), '', '', 'most material left where the tool sweeps past');
     v('undercut_mm', 'Undercut anywhere', format.error(verify.undercut_mm), '', '', 'most material left anywhere on the target');
     v('rms_mm', 'Root mean square', format.error(verify.rms_mm), '', '', 'of the error where the tool sweeps past');
-    v('sampling_bound_mm', 'Between the samples', format.error(verify.sampling_bound_mm), '', '',
+    if (verify.depth === 'proved') {
+      v('overcut_bound_mm', 'Overcut, proved', format.error(verify.overcut_bound_mm), `≤ ${tolerance}`,
+        judged('overcut_bound_mm', verify.overcut_bound_mm <= verify.tolerance_mm), 'no place of the target is cut deeper, up to its borders');
+      v('gouge_bound_mm', 'Of other faces, proved', format.error(verify.gouge_bound_mm), `≤ ${tolerance}`,
+        judged('gouge_bound_mm', verify.gouge_bound_mm <= verify.tolerance_mm), 'no place of another face is cut deeper');
+    } else v('sampling_bound_mm', 'Between the samples', format.error(verify.sampling_bound_mm), '', '',
       `overcut may be deeper than stated by no more than this; ${verify.samples.toLocaleString('en')} samples`);
   }
   const tool = files.view?.tool;
