@@ -144,6 +144,29 @@ TEST(Judge, ACutIntoACheckFaceIsAGouge) {
   EXPECT_NEAR(r.worst.at(0).s, 0.0, 1e-12);
 }
 
+// Samples stand in the middle of cells: a cut at a border is between them.
+TEST(Judge, ACutAtABorderIsMissedBySamplesAndFoundByTheProof) {
+  const Face target = test::plane_face("F1", 40.0, 20.0), check = test::plane_face("F2", 40.0, 20.0, -1.0);
+  const std::vector<FaceSamples> samples = {sample_face(target, 0.5, true), sample_face(check, 1.0, false)};
+  Path path = pass(-1.0, 41.0, 5.0);
+  path.strips.push_back(
+      {2, "flank", "", {{Vec3(40.0, 4.985, -3.0), Vec3::UnitZ()}, {Vec3(40.01, 4.985, -3.0), Vec3::UnitZ()}}});
+  const Tool tool = cylinder(5.0, 20.0);
+  EXPECT_EQ(judge(tool, path, samples, {}).depth, DepthProof::kSampled);
+  const VerifyReport r = judge(tool, path, samples, {&target, &check}, {});
+  EXPECT_EQ(r.depth, DepthProof::kProved);
+  EXPECT_EQ(r.verdict, Verdict::kOvercut);
+  EXPECT_NEAR(r.overcut_mm, 0.015, 1e-7);
+  EXPECT_GE(r.overcut_bound_mm, 0.015 - 1e-9);
+  EXPECT_EQ(r.gouge_bound_mm, 0.0);
+  ASSERT_TRUE(r.faces.at(0).deepest);
+  EXPECT_NEAR(r.faces.at(0).deepest->point.x(), 40.0, 0.1);
+  EXPECT_EQ(r.worst.at(0).f, -r.overcut_mm);
+  const VerifyReport good = judge(tool, pass(-1.0, 41.0, 5.0), samples, {&target, &check}, {});
+  EXPECT_EQ(good.verdict, Verdict::kPass);
+  EXPECT_LE(good.overcut_bound_mm, 0.01);
+}
+
 TEST(Judge, BetweenSamplesItIsNoWorseThanTheBoundSays) {
   Random random(17);
   const Tool tool = brute::random_tool(random, 20.0);

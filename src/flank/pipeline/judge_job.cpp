@@ -1,8 +1,12 @@
 #include "flank/pipeline/judge_job.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 
 #include "flank/base/parallel.h"
+#include "flank/error.h"
 #include "flank/geom/tessellate.h"
 #include "flank/setup/targets.h"
 #include "flank/verify/reach.h"
@@ -33,6 +37,29 @@ TriangleMesh triangles_of(const Part& part, int face, const Box3& near, double f
   for (const Vec3& p : value.surface.poles) box.add(p);
   const bool meets = (box.low.array() <= near.high.array()).all() && (box.high.array() >= near.low.array()).all();
   return tessellate(value, {.chord_mm = meets ? fine : coarse, .edge_mm = meets ? kLongestCellMm : 1e300}).mesh;
+}
+
+/// Samples that a spacing may give on all faces together (about 100 bytes each), and that it has to give on a target.
+constexpr double kMostSamples = 3e6, kFewestSamples = 300.0;
+
+/// Refuses a spacing that is out of all proportion to the faces, from the numbers at the usual spacing.
+void require_sensible(const Setup& setup, double spacing) {
+  if (!(spacing > 0.0)) throw UsageError(fmt::format("sample spacing {} mm: must be > 0", spacing));
+  const double usual = default_spacing(setup.part.box.diagonal());
+  const double more = usual / spacing * (usual / spacing);
+  double all = 0.0;
+  for (const FaceSamples& face : judge_samples(setup, usual, 2.0 * usual)) {
+    const double here = more * static_cast<double>(face.points.size());
+    all += here;
+    if (face.target && here < kFewestSamples)
+      throw UsageError(fmt::format(
+          "a sample spacing of {} mm gives about {:.0f} samples on {}; {:.0f} are needed, which {:.3g} mm give",
+          spacing, here, face.face, kFewestSamples, spacing * std::sqrt(here / kFewestSamples)));
+  }
+  if (all > kMostSamples)
+    throw UsageError(
+        fmt::format("a sample spacing of {} mm gives about {:.3g} samples; {:.3g} are accepted, which {:.3g} mm give",
+                    spacing, all, kMostSamples, spacing * std::sqrt(all / kMostSamples)));
 }
 
 /// The first `count` of the judged faces, in the order of the samples, for the proof.
@@ -128,6 +155,7 @@ void measure_reach(const Setup& setup, const Tool& tool, const Path& path, doubl
 }
 
 VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const Tool& tool, const Path& path) {
+  if (request.sample_mm) require_sensible(setup, *request.sample_mm);
   const double spacing = request.sample_mm.value_or(default_spacing(setup.part.box.diagonal()));
   std::vector<FaceSamples> samples = judge_samples(setup, spacing, 2.0 * spacing);
   const double radius = request.reach_radius_mm.value_or(smallest_radius(tool));

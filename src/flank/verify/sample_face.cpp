@@ -49,7 +49,8 @@ std::vector<double> cell_borders(const std::vector<double>& along, Range range, 
     lengths.push_back(lengths.back() + (end - borders.back()) * speed(along[i]));
     borders.push_back(end);
   }
-  const int cells = std::clamp(static_cast<int>(std::ceil(lengths.back() / spacing)), 1, kMaxCellsPerSide);
+  // Held in bounds as a real number: beyond them it need not fit into an integer.
+  const int cells = static_cast<int>(std::clamp(std::ceil(lengths.back() / spacing), 1.0, 1.0 * kMaxCellsPerSide));
   std::vector<double> out{range.low};
   std::size_t k = 1;
   for (int i = 1; i < cells; ++i) {

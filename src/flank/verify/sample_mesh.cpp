@@ -5,6 +5,12 @@
 #include "flank/judge.h"
 
 namespace flank {
+namespace {
+
+/// Of a triangle's sides: bounds the number of samples if the spacing is absurdly small.
+constexpr double kMostParts = 20000.0;
+
+}  // namespace
 
 // A triangle is cut into n^2 similar ones, each as large as the spacing allows; a centroid is farthest from its own
 // corners.
@@ -20,7 +26,7 @@ FaceSamples sample_mesh(const std::string& id, const TriangleMesh& mesh, double 
     const Vec3 ab = mesh.vertices[static_cast<std::size_t>(t[1])] - a;
     const Vec3 ac = mesh.vertices[static_cast<std::size_t>(t[2])] - a;
     const double longest = std::max({ab.norm(), ac.norm(), (ac - ab).norm()});
-    const int n = std::max(1, static_cast<int>(std::ceil(longest / spacing_mm)));
+    const int n = static_cast<int>(std::clamp(std::ceil(longest / spacing_mm), 1.0, kMostParts));
     const double area = 0.5 * ab.cross(ac).norm() / (n * n);
     const Vec3 normal = area > 0.0 ? ab.cross(ac).normalized() : Vec3(Vec3::Zero());
     const Vec3 centroid = (ab + ac) / 3.0;

@@ -85,8 +85,8 @@ class Brute {
   [[nodiscard]] double deepest() const {
     const auto last = static_cast<double>(strip_.poses.size() - 1);
     const Spot high{1.0, places_.parameters == 2 ? 1.0 : 0.0, last, tool_.radial.axis_length()};
-    const int nu = places_.parameters == 2 ? 24 : 120, nv = places_.parameters == 2 ? 24 : 0;
-    const int nt = static_cast<int>(last) * 2, ns = 16;
+    const int nu = places_.parameters == 2 ? 16 : 80, nv = places_.parameters == 2 ? 16 : 0;
+    const int nt = static_cast<int>(last) * 2, ns = 12;
     std::vector<std::pair<double, Spot>> best;
     for (int i = 0; i <= nu; ++i) {
       for (int j = 0; j <= nv; ++j) {
@@ -208,7 +208,7 @@ Path random_path(Random& random, const Face& face, double radius, double length)
 
 int trial_count() {
   const char* asked = std::getenv("FLANK_PROOF_TRIALS");
-  return asked != nullptr ? std::atoi(asked) : 150;
+  return asked != nullptr ? std::atoi(asked) : 200;
 }
 
 DepthLimits usual_limits() { return {0.01, 0.0002, 400000, 200000}; }
@@ -234,6 +234,87 @@ TEST(DepthSearch, NothingIsDeeperThanTheBoundOnMutatedPaths) {
   }
   EXPECT_GT(found, trial_count() / 3) << "most paths are meant to cut";
   EXPECT_GT(tight, trial_count() / 2);
+}
+
+/// A ball-ended stick that dips into the plane y = 0 by `depth` at (x, z), and stands above it elsewhere.
+Path dip(double x, double z, double depth, double radius) {
+  return {{{1, "flank", "", {{Vec3(x, radius - depth, z), Vec3::UnitY()}}}}};
+}
+
+Tool stick(double radius) {
+  Tool tool;
+  tool.radial = RadialFunction::spline(10.0, Eigen::VectorXd::Constant(6, radius));
+  return tool;
+}
+
+void expect_depth(const Shape& shape, const Path& path, double depth, const char* where) {
+  const Tool tool = stick(1.0);
+  const SweptVolume volume(tool, path);
+  const ProvedDepth proved = search_depth(volume, smallest_radius(tool), shape, 0.0, usual_limits());
+  EXPECT_LE(proved.deepest_mm, depth + 1e-9) << where;
+  EXPECT_GE(proved.bound_mm, depth - 1e-9) << where;
+  EXPECT_LT(proved.bound_mm - proved.deepest_mm, 0.0003) << where;
+}
+
+TEST(DepthSearch, CutsOfMicrometresAtBordersEdgesAndCornersAreFound) {
+  const Face plane = test::plane_face("F1", 40.0, 20.0);
+  TriangleMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {40, 0, 0}, {40, 0, 20}, {0, 0, 20}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  const auto face = make_shape(plane), triangles = make_shape(mesh);
+  for (double depth : {0.001, 0.005, 0.03}) {
+    for (const Shape* shape : {face.get(), triangles.get()}) {
+      expect_depth(*shape, dip(13.7, 7.1, depth, 1.0), depth, "inside");
+      expect_depth(*shape, dip(20.0, 10.0, depth, 1.0), depth, "on the diagonal");
+      expect_depth(*shape, dip(0.0, 3.3, depth, 1.0), depth, "on a border");
+      expect_depth(*shape, dip(40.0, 20.0, depth, 1.0), depth, "on a corner");
+      // Beside the face: the ball's side reaches over the border by a little.
+      const double away = 0.5;
+      const double beside = 1.0 - std::hypot(away, 1.0 - depth - 0.2);
+      expect_depth(*shape, dip(-away, 3.3, depth + 0.2, 1.0), std::max(0.0, beside), "from beyond a border");
+    }
+  }
+}
+
+TEST(DepthSearch, AHoleIsNotCut) {
+  Face face = test::plane_face("F1", 40.0, 20.0);
+  face.loops = {test::polygon({{0, 0}, {1, 0}, {1, 1}, {0, 1}}), test::circle({0.5, 0.5}, 0.2)};
+  // The circle is an ellipse of 8 by 4 mm in space.
+  const Tool tool = stick(1.0);
+  const SweptVolume volume(tool, dip(20.0, 10.0, 0.9, 1.0));
+  const ProvedDepth proved = search_depth(volume, 1.0, *make_shape(face), 0.0, usual_limits());
+  EXPECT_EQ(proved.deepest_mm, 0.0);
+  EXPECT_LE(proved.bound_mm, 0.01);
+  expect_depth(*make_shape(face), dip(28.0, 10.0, 0.02, 1.0), 0.02, "on the border of the hole");
+}
+
+TEST(DepthSearch, WhatTheLimitsForbidIsNotProved) {
+  Random random(5);
+  const Face face = random_face(random);
+  const Tool tool = stick(1.0);
+  const SweptVolume volume(tool, random_path(random, face, 1.0, 10.0));
+  DepthLimits limits = usual_limits();
+  limits.tolerance_mm = 1e-9;
+  limits.evaluations = 100;
+  const ProvedDepth proved = search_depth(volume, 1.0, *make_shape(face), 0.0, limits);
+  EXPECT_TRUE(proved.exhausted || proved.deepest_mm > limits.tolerance_mm);
+  EXPECT_LT(proved.evaluations, 1000u);
+}
+
+TEST(DepthSearch, SameBitsForOneAndTwoThreads) {
+  Random random(7003);
+  const Face face = random_face(random);
+  const Tool tool = brute::random_tool(random, 12.0);
+  const SweptVolume volume(tool, random_path(random, face, smallest_radius(tool), 12.0));
+  std::vector<ProvedDepth> proved;
+  for (int threads : {1, 2}) {
+    set_thread_count(threads);
+    proved.push_back(search_depth(volume, smallest_radius(tool), *make_shape(face), 0.0, usual_limits()));
+  }
+  set_thread_count(0);
+  EXPECT_EQ(proved[0].deepest_mm, proved[1].deepest_mm);
+  EXPECT_EQ(proved[0].bound_mm, proved[1].bound_mm);
+  EXPECT_EQ(proved[0].evaluations, proved[1].evaluations);
 }
 
 }  // namespace

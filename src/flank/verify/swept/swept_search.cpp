@@ -14,6 +14,9 @@ constexpr double kSlackMm = 1e-11;  ///< a node must promise to be lower than th
 /// 1 - rho max q' (docs/algorithms/judge.md) has to be above this for one minimum over s to be relied on; at 0 a second
 /// one appears. The reserve is for the moves of a piece.
 constexpr double kLeastSingle = 0.1;
+/// Least 1 - rho max q' at which the grid's s is as near to the minimiser as it says: nearer to 0 the minimiser moves ever
+/// faster from node to node.
+constexpr double kLeastSteady = 0.7;
 constexpr double kSafety = 1.5;          ///< on the term of second order in a node's bound
 constexpr double kCurvatureShare = 0.5;  ///< of the curvature across the motion that a node's bound counts on
 /// A point nearer to the axis than this many reaches of a piece is not left to descent: its direction to the axis may
@@ -38,7 +41,8 @@ double SweptSearch::bound(const PoseNode& node) const {
   const double plain = estimate.bound - node.reach;
   if (plain >= best_.f - kSlackMm) return plain;
   const double distance = std::sqrt((z - estimate.s) * (z - estimate.s) + squared_rho);
-  if (!single(rho) || distance < kFarReaches * node.reach) return plain;
+  const bool steady = 1.0 - rho * tool_.focal_curvature() > kLeastSteady;
+  if (!steady || distance < kFarReaches * node.reach) return plain;
   // The sphere at about the minimiser is above g by no more than its curvature over s allows; closer than the grid's
   // own bound.
   double least = estimate.bound;
