@@ -103,7 +103,7 @@ struct JudgeOptions {
   double horizon_mm = 1e300;
   int histogram_bins = 41;  ///< >= 1, over [-2, 2] tolerances, ends open; odd: one bin is centred at 0
   int worst_places = 5;     ///< most of them, of each face and of all together, >= 0
-  ProofOptions proof;
+  ProofOptions proof = {};
 };
 
 /// A place that is cut too deep, as SweptDistance names it.

@@ -66,5 +66,23 @@ TEST(PathRegularity, AConeThatMovesAlongItselfPlunges) {
   EXPECT_GT(largest_c(along, cone), 1.0);
 }
 
+TEST(PathRegularity, OnlyPlacesThatTouchCount) {
+  // The axis turns about a point on itself: below it the cone goes one way, above it the other, and there it plunges.
+  const RadialFunction cone(ToolFamily::kCone, 40.0, Eigen::Vector2d(3.0, 0.3));
+  const Vec3 tilted = Vec3(0.05, 0.0, 1.0).normalized();
+  const Vec3 centre(0.0, 0.0, 30.0);
+  const Path path = path_of({{centre - 30.0 * Vec3::UnitZ(), Vec3::UnitZ()}, {centre - 30.05 * tilted, tilted}});
+  EXPECT_GT(largest_c(path, cone), 1.0);
+  EXPECT_LT(largest_c(path, cone, [](const Vec3& at, double) { return at.z() < 20.0; }), 0.1);
+  EXPECT_EQ(largest_c(path, cone, [](const Vec3&, double) { return false; }), 0.0);
+  // The ball of a place lies on the axis and touches the flank along the place's circle.
+  const auto on_the_axis = [&](const Vec3& at, double radius) {
+    EXPECT_LT(Vec3(at - centre).cross((Vec3::UnitZ() + tilted).normalized()).norm(), 0.1);
+    EXPECT_GT(radius, 3.0);
+    return true;
+  };
+  EXPECT_EQ(largest_c(path, cone, on_the_axis), largest_c(path, cone));
+}
+
 }  // namespace
 }  // namespace flank::internal

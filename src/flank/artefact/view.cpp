@@ -9,6 +9,8 @@
 
 #include "flank/envelope/path_regularity.h"
 #include "flank/job/command_line.h"
+#include "flank/setup/targets.h"
+#include "flank/surface/ball_touch.h"
 
 namespace flank::internal {
 namespace {
@@ -30,7 +32,7 @@ ViewStrip thinned(const Strip& strip) {
   return out;
 }
 
-std::vector<ViewPlace> places_of(const Strip& strip, const RadialFunction& radial) {
+std::vector<ViewPlace> places_of(const Strip& strip, const RadialFunction& radial, const Touches& touches) {
   if (strip.poses.size() < 2) return {};
   const std::size_t steps = strip.poses.size() - 1;
   std::vector<ViewPlace> places(std::min(steps, kMostPlaces));
@@ -41,7 +43,7 @@ std::vector<ViewPlace> places_of(const Strip& strip, const RadialFunction& radia
     const double middle = (static_cast<double>(k) + 0.5) * static_cast<double>(steps);
     places[k] = {middle / static_cast<double>(places.size()), kInfinity, -kInfinity, 0.0, kInfinity};
     for (std::size_t i = first; i < last; ++i)
-      places[k].largest_c = std::max(places[k].largest_c, largest_c(strip.poses[i], strip.poses[i + 1], radial));
+      places[k].largest_c = std::max(places[k].largest_c, largest_c(strip.poses[i], strip.poses[i + 1], radial, touches));
   }
   return places;
 }
@@ -123,9 +125,15 @@ View make_view(const PlanJob& job, const Setup& setup, const Tool& tool, const P
   view.bodies = view_faces(setup.part, setup.targets, entered);
   view.tool = tool;
   view.profile = profile_of(tool.radial);
+  const std::vector<TargetGroup> groups = make_targets(setup, +1);
+  std::vector<const Target*> targets;
+  for (const TargetGroup& group : groups) targets.push_back(group.target.get());
+  const Touches touches = [&](const Vec3& centre, double radius) {
+    return ball_touches(targets, centre, radius, view.tolerance_mm);
+  };
   for (const Strip& strip : path.strips) {
     view.strips.push_back(thinned(strip));
-    view.strips.back().places = places_of(strip, tool.radial);
+    view.strips.back().places = places_of(strip, tool.radial, touches);
     const std::size_t index = view.strips.size() - 1;
     if (const auto& by_strip = verdict.clearance.pose_clearance_mm; index < by_strip.size())
       add_clearance(by_strip[index], view.strips.back().places);

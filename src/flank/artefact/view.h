@@ -17,7 +17,7 @@ struct ViewPlace {
   double t = 0.0;          ///< pose index from 0, plus the fraction of the step
   double lowest_f_mm = 0;  ///< over the target's vertices that this place sweeps past; infinite where there are none
   double highest_f_mm = 0;
-  double largest_c = 0.0;  ///< regularity along the axis: plunges at 1
+  double largest_c = 0.0;  ///< regularity where the flank touches a target: plunges at 1
   double clearance_mm =
       0;  ///< least of the judge's at the poses of this place; infinite: nothing is near, or asked for
 };

@@ -12,7 +12,7 @@ constexpr int kSamples = 24;  ///< steps along the axis
 
 }  // namespace
 
-double largest_c(const Pose& from, const Pose& to, const RadialFunction& radial) {
+double largest_c(const Pose& from, const Pose& to, const RadialFunction& radial, const Touches& touches) {
   AxisJet axis;
   axis.tip = 0.5 * (from.tip + to.tip);
   axis.u = (from.axis + to.axis).normalized();
@@ -22,16 +22,20 @@ double largest_c(const Pose& from, const Pose& to, const RadialFunction& radial)
   double largest = 0.0;
   for (int j = 0; j <= kSamples; ++j) {
     const double s = radial.axis_length() * j / kSamples;
-    largest = std::max(largest, std::abs(contact_point(axis, radial.at(s), s, +1).c));
+    const RadialJet r = radial.at(s);
+    const double c = std::abs(contact_point(axis, r, s, +1).c);
+    if (c <= largest) continue;
+    const Vec3 centre = axis.tip + (s + r.r * r.d1) * axis.u;
+    if (!touches || touches(centre, r.r * std::sqrt(1.0 + r.d1 * r.d1))) largest = c;
   }
   return largest;
 }
 
-double largest_c(const Path& path, const RadialFunction& radial) {
+double largest_c(const Path& path, const RadialFunction& radial, const Touches& touches) {
   double largest = 0.0;
   for (const Strip& strip : path.strips)
     for (std::size_t i = 0; i + 1 < strip.poses.size(); ++i)
-      largest = std::max(largest, largest_c(strip.poses[i], strip.poses[i + 1], radial));
+      largest = std::max(largest, largest_c(strip.poses[i], strip.poses[i + 1], radial, touches));
   return largest;
 }
 

@@ -1,16 +1,24 @@
 /// Regularity of the envelope along a path as it is written: one figure for the summary and for the report.
 #pragma once
 
+#include <functional>
+
 #include "flank/path.h"
 #include "flank/radial_function.h"
 
 namespace flank::internal {
 
-/// Largest |c| (docs/MATH.md, section 3) of the straight join from one pose to the next, at its middle, over the axis.
-[[nodiscard]] double largest_c(const Pose& from, const Pose& to, const RadialFunction& radial);
+/// Does the ball of this centre and radius, mm, touch what is to be machined? Left empty: everything counts as touched.
+using Touches = std::function<bool(const Vec3& centre, double radius_mm)>;
+
+/// Largest |c| (docs/MATH.md, section 3) of the straight join from one pose to the next, at its middle, over the places of
+/// the axis whose inscribed ball (that touches the flank along the circle of s) touches; 0 if none does. Where the flank
+/// is in the air, or beside the target, it leaves no surface that could be wrong.
+[[nodiscard]] double largest_c(const Pose& from, const Pose& to, const RadialFunction& radial,
+                               const Touches& touches = {});
 
 /// The largest over all steps of all strips; 0 for a path without a step.
-[[nodiscard]] double largest_c(const Path& path, const RadialFunction& radial);
+[[nodiscard]] double largest_c(const Path& path, const RadialFunction& radial, const Touches& touches = {});
 
 /// The sharpest corner of the path of a point of the axis (tip, middle, end; of length axis_length) at a pose, radians;
 /// 0 for a path without corners. Points that move by less than `still_mm` from one pose to the next have none.

@@ -10,6 +10,7 @@
 #include "flank/envelope/path_regularity.h"
 #include "flank/pipeline/judge_job.h"
 #include "flank/strip/used_times.h"
+#include "flank/surface/ball_touch.h"
 
 namespace flank::internal {
 namespace {
@@ -67,7 +68,9 @@ std::vector<StripSurface> add_strips(double tolerance_mm, const std::vector<cons
                                      radial));
     result.path.strips.push_back(std::move(strip));
   }
-  result.largest_c = largest_c(result.path, radial);
+  result.largest_c = largest_c(result.path, radial, [&](const Vec3& centre, double ball_mm) {
+    return ball_touches(targets, centre, ball_mm, tolerance_mm);
+  });
   result.largest_turn_rad = largest_turn(result.path, radial.axis_length(), kToleranceBudget.chord * tolerance_mm);
   note_strip_surfaces(surfaces, result.notes);
   return surfaces;

@@ -1,0 +1,14 @@
+#include "flank/surface/ball_touch.h"
+
+#include <algorithm>
+
+namespace flank::internal {
+
+bool ball_touches(std::span<const Target* const> targets, const Vec3& centre, double radius_mm, double reach_mm) {
+  return std::any_of(targets.begin(), targets.end(), [&](const Target* target) {
+    const Footpoint foot = target->closest_within(centre, radius_mm + reach_mm);
+    return foot.patch >= 0 && foot.location == Location::kInside;
+  });
+}
+
+}  // namespace flank::internal

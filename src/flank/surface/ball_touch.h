@@ -1,0 +1,16 @@
+/// Whether a ball of the tool touches a target.
+#pragma once
+
+#include <span>
+
+#include "flank/target.h"
+
+namespace flank::internal {
+
+/// Is a ball of this centre and radius within reach_mm, all in mm, of the interior of one of the targets? A footpoint on a
+/// border does not count: there the ball runs past the target. Of either side, so that it does not matter which one is
+/// machined.
+[[nodiscard]] bool ball_touches(std::span<const Target* const> targets, const Vec3& centre, double radius_mm,
+                                double reach_mm);
+
+}  // namespace flank::internal

@@ -1,0 +1,44 @@
+#include "flank/surface/ball_touch.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "surface/mesh_shapes.h"
+
+namespace flank::internal {
+namespace {
+
+/// The square [0, 10] x [0, 10] at z = 0.
+std::unique_ptr<Target> square() {
+  return make_target(shapes::grid(8, 8, [](double u, double v) { return Vec3(10 * u, 10 * v, 0.0); }));
+}
+
+TEST(BallTouch, ABallTouchesFromEitherSideWithinTheReach) {
+  const std::unique_ptr<Target> target = square();
+  const std::array<const Target*, 1> targets = {target.get()};
+  for (const double side : {+1.0, -1.0}) {
+    EXPECT_TRUE(ball_touches(targets, {5, 5, side * 2.05}, 2.0, 0.1));
+    EXPECT_TRUE(ball_touches(targets, {5, 5, side * 1.5}, 2.0, 0.1)) << "what is entered is touched";
+    EXPECT_FALSE(ball_touches(targets, {5, 5, side * 2.15}, 2.0, 0.1));
+  }
+}
+
+TEST(BallTouch, WhatRunsPastTheBorderTouchesNothing) {
+  const std::unique_ptr<Target> target = square();
+  const std::array<const Target*, 1> targets = {target.get()};
+  EXPECT_TRUE(ball_touches(targets, {9.9, 5, 2}, 2.0, 0.1));
+  EXPECT_FALSE(ball_touches(targets, {10.1, 5, 2}, 2.0, 0.1));
+}
+
+TEST(BallTouch, OneOfSeveralTargetsIsEnough) {
+  const std::unique_ptr<Target> target = square();
+  const std::unique_ptr<Target> far =
+      make_target(shapes::grid(4, 4, [](double u, double v) { return Vec3(10 * u + 100, 10 * v, 0.0); }));
+  const std::array<const Target*, 2> targets = {far.get(), target.get()};
+  EXPECT_TRUE(ball_touches(targets, {5, 5, 2}, 2.0, 0.1));
+  EXPECT_FALSE(ball_touches({}, {5, 5, 2}, 2.0, 0.1));
+}
+
+}  // namespace
+}  // namespace flank::internal
