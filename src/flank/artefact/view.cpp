@@ -43,7 +43,8 @@ std::vector<ViewPlace> places_of(const Strip& strip, const RadialFunction& radia
     const double middle = (static_cast<double>(k) + 0.5) * static_cast<double>(steps);
     places[k] = {middle / static_cast<double>(places.size()), kInfinity, -kInfinity, 0.0, kInfinity};
     for (std::size_t i = first; i < last; ++i)
-      places[k].largest_c = std::max(places[k].largest_c, largest_c(strip.poses[i], strip.poses[i + 1], radial, touches));
+      places[k].largest_c =
+          std::max(places[k].largest_c, largest_c(strip.poses[i], strip.poses[i + 1], radial, touches));
   }
   return places;
 }

@@ -83,8 +83,8 @@ std::vector<StripSurface> sample_path(const FitSearch& search, double tolerance_
   for (const std::size_t g : search.group_of_motion) groups.push_back(&search.targets[g]);
   std::vector<StripSurface> surfaces = add_strips(tolerance_mm, groups, result);
   if (result.largest_c >= 1.0)
-    result.notes.push_back(
-        fmt::format("the tool plunges where it touches the target: |c| = {:.3f} >= 1 somewhere along the path", result.largest_c));
+    result.notes.push_back(fmt::format(
+        "the tool plunges where it touches the target: |c| = {:.3f} >= 1 somewhere along the path", result.largest_c));
   return surfaces;
 }
 
