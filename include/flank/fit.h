@@ -86,9 +86,14 @@ struct FlankFitOptions {
   RadiusBounds bounds;
   /// >= 1: motions side by side on one target, one tool. More if one strip covers too little; time grows in proportion.
   int strips = 1;
-  /// >= 1: of 50 starts, how many are polished, and how many of those get the last passes (the second at most the
-  /// first). Raise them if another start is suspected to win after all; most of the time goes into the last passes.
+  /// >= 1: of 50 starts, how many are polished at most, and how many of those get the last passes (the second at most
+  /// the first). Raise them if another start is suspected to win after all; most of the time goes into the last passes.
   int kept_after_quick = 6, kept_after_polish = 3;
+  /// Covered share (estimate) at which a candidate that cuts and enters nothing too deep ends the search. Above 1: all
+  /// that are kept are tried to the end.
+  double enough_coverage = 0.999;
+  /// Beside walls, where a fit that avoids them from the start falls short: try other ways, too (fit/ways.h).
+  bool ways = true;
   /// Covered share in [0, 1]: if the best candidate covers less than this after the polish, the last passes are
   /// skipped. 0: never. For a caller that would try more strips in that case anyway.
   double least_coverage_for_last_passes = 0.0;
@@ -112,8 +117,10 @@ struct CoverageEstimate {
   double gouge_mm = 0.0;            ///< deepest that the flank enters an obstacle; estimate_coverage leaves it 0
   double undercut_mm = 0.0;         ///< largest material left anywhere on the target, max(0, f)
   double rms_mm = 0.0;              ///< root mean square of f, by area, over samples within four tolerances
+  /// |c| where the flank touches the target: it plunges from 1 on. estimate_coverage leaves it 0.
+  double largest_c = 0.0;
   /// What candidates are ranked by, larger is better, at most 1.2; no unit. Coverage, less a price for overcut and
-  /// gouge (10 % of coverage for the first tolerance of excess), with the mean error as tie-break.
+  /// gouge (10 % of coverage for the first tolerance of excess) and for plunging, with the mean error as tie-break.
   [[nodiscard]] double score(double tolerance_mm) const;
 };
 

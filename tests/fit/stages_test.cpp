@@ -137,12 +137,29 @@ TEST(Stages, LaterPassesAreFinerAndFreer) {
   EXPECT_EQ(quick.robust_scale_mm, 0.5);
   EXPECT_TRUE(quick.clear_estimated);
   EXPECT_FALSE(fine.clear_estimated);
-  EXPECT_DOUBLE_EQ(tolerance_stage(0.02, 0.5).dead_zone_mm, 0.014);
+  EXPECT_DOUBLE_EQ(tolerance_stage(0.02, 0.5, 50.0).dead_zone_mm, 0.014);
+}
+
+TEST(Stages, FairnessIsCountedInTolerancesAndBendsOfTheTarget) {
+  // Rails that bend by the size over the motion have second differences of size / (n - 1)^2.
+  const double size = 80.0, tolerance = 0.05, share = 0.01;
+  for (const int n : {40, 120}) {
+    const double bend = size / ((n - 1.0) * (n - 1.0));
+    EXPECT_NEAR(fairness_of(share, tolerance, size, n) * bend * bend, share * tolerance * tolerance, 1e-15);
+  }
+  // The same part in other units is fitted in the same way.
+  EXPECT_DOUBLE_EQ(fairness_of(share, tolerance, size, 120), fairness_of(share, 1e-3 * tolerance, 1e-3 * size, 120));
+  FitStage small, large;
+  keep_going(small, tolerance, size);
+  keep_going(large, 1e3 * tolerance, 1e3 * size);
+  EXPECT_DOUBLE_EQ(small.plunge_weight, large.plunge_weight);
+  EXPECT_DOUBLE_EQ(small.lag_weight, large.lag_weight);
+  EXPECT_GT(small.lag_weight, 0.0);
 }
 
 TEST(Stages, EveryPassHasSamplesEnoughForItsUnknowns) {
   for (const FitStage& stage :
-       {quick_stage(1.0), polish_stage(1.0), exact_stage(false), exact_stage(true), tolerance_stage(0.01, 1.0)}) {
+       {quick_stage(1.0), polish_stage(1.0), exact_stage(false), exact_stage(true), tolerance_stage(0.01, 1.0, 50.0)}) {
     EXPECT_GE(stage.samples_t, 2 * stage.control_points);
     EXPECT_GT(stage.samples_s, stage.tool_coefficients);
     EXPECT_GE(stage.tool_coefficients, 4);

@@ -29,6 +29,10 @@ constexpr double kGougeExcess = 10.0, kDeepest = 100.0;
 /// off it.
 constexpr double kAllowedOvercutPrice = 0.005, kMeanPrice = 0.006;
 
+/// Of a motion that plunges where it touches, by what |c| is above 1, at most kMostPlunging: there the machine wobbles on
+/// the spot. A percent of coverage is worth half of it.
+constexpr double kPlungingPrice = 0.02, kMostPlunging = 1.0;
+
 }  // namespace
 
 double CoverageEstimate::score(double tolerance_mm) const {
@@ -40,7 +44,8 @@ double CoverageEstimate::score(double tolerance_mm) const {
   const double excess = excess_of(overcut_mm) + excess_of(gouge_mm) + depth;
   const double within = kAllowedOvercutPrice * std::min(1.0, overcut_mm / tolerance_mm);
   return at_tolerance + kNearWorth * at_four_tolerances - kExcessPrice * excess - within -
-         kMeanPrice * std::min(1.0, rms_mm / tolerance_mm);
+         kMeanPrice * std::min(1.0, rms_mm / tolerance_mm) -
+         kPlungingPrice * std::clamp(largest_c - 1.0, 0.0, kMostPlunging);
 }
 
 }  // namespace flank

@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <optional>
 
 #include "flank/base/parallel.h"
 #include "flank/fit/coverage.h"
 #include "flank/fit/polish.h"
+#include "flank/fit/race.h"
 #include "flank/fit/swept_polish.h"
 #include "flank/fit/ways.h"
 #include "flank/seed/clear_start.h"
@@ -153,7 +153,9 @@ void quick_fit(Candidate& candidate, const Target& target, const Chart& chart, c
       make_tasks(target, chart, candidate.start, options.strips, length, options.obstacles);
   if (tasks.empty()) return;
   const FitDraft draft = start_draft(tasks, tool, candidate.start.radius_mm);
-  candidate.draft = run_stage(draft, options.bounds, quick_stage(robust_scale(target, options)));
+  FitStage stage = quick_stage(robust_scale(target, options));
+  keep_going(stage, kQuickTolerances * options.tolerance_mm, target.diagonal());
+  candidate.draft = run_stage(draft, options.bounds, stage);
   if (!has_values(candidate.draft)) {
     candidate.draft.motions.clear();  // a numerical no: one candidate less
     return;
@@ -193,33 +195,13 @@ FlankFitResult search_starts(const Target& target, const ToolModel& tool, const 
     result.message = "no ruled start touches the target within four tolerances";
     if (candidates.empty()) return result;
   }
-  candidates.resize(std::min<std::size_t>(candidates.size(), static_cast<std::size_t>(options.kept_after_quick)));
   progress.step("polish", 0.5);
-  // The user has had enough: the best start alone is still worth a polish, so that there is a result.
-  if (progress.stop()) candidates.resize(1);
-  std::vector<Polished> polished(candidates.size());
-  std::vector<std::vector<IterationTrace>> traces(candidates.size());
-  parallel_for(candidates.size(),
-               [&](std::size_t k) { polished[k] = polish(candidates[k].draft, samples, options, &traces[k]); });
-  std::vector<std::size_t> order(polished.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto by_score = [&](std::size_t a, std::size_t b) {
-    return polished[a].estimate.score(options.tolerance_mm) > polished[b].estimate.score(options.tolerance_mm);
-  };
-  std::stable_sort(order.begin(), order.end(), by_score);
-  order.resize(std::min<std::size_t>(order.size(), static_cast<std::size_t>(options.kept_after_polish)));
-  progress.step("polish", 0.75);
-  // The last passes cost more than all before; hopeless fits are left without them if the caller says what is hopeless.
-  const bool promising = polished[order.front()].estimate.at_tolerance >= options.least_coverage_for_last_passes;
-  parallel_for(promising ? order.size() : 0, [&](std::size_t k) {
-    polished[order[k]] = last_passes(polished[order[k]], samples, options, &traces[order[k]]);
-  });
-  std::stable_sort(order.begin(), order.end(), by_score);
-  const std::size_t best = order.front();
-  result.before = estimate_coverage(samples, candidates[best].draft.motions, candidates[best].draft.tool,
-                                    options.tolerance_mm, kRankingPoses);
-  result.trace = traces[best];
-  return finish(settled(without_overcut(polished[best], samples, options), options), options, std::move(result));
+  std::vector<FitDraft> starts;
+  for (Candidate& candidate : candidates) starts.push_back(std::move(candidate.draft));
+  const Runner best = race(starts, samples, options, progress);
+  result.before = estimate_coverage(samples, best.start.motions, best.start.tool, options.tolerance_mm, kRankingPoses);
+  result.trace = best.trace;
+  return finish(settled(without_overcut(best.polished, samples, options), options), options, std::move(result));
 }
 
 }  // namespace
@@ -227,7 +209,8 @@ FlankFitResult search_starts(const Target& target, const ToolModel& tool, const 
 FlankFitResult fit_automatic(const Target& target, const ToolModel& tool, const FlankFitOptions& options,
                              const Progress& progress) {
   FlankFitResult first = search_starts(target, tool, options, progress);
-  if (options.obstacles == nullptr || first.status == FitStatus::kWithinTolerance || progress.stop()) return first;
+  if (options.obstacles == nullptr || !options.ways || first.status == FitStatus::kWithinTolerance || progress.stop())
+    return first;
   const auto search = [&](const FlankFitOptions& other) { return search_starts(target, tool, other, progress); };
   return best_way(target, tool, options, std::move(first), search, progress);
 }
@@ -240,10 +223,10 @@ FlankFitResult fit_from_starts(const std::vector<FitTask>& tasks, const ToolMode
   FitDraft draft = make_draft(tasks, tool, options);
   progress.step("fit", 0.1);
   result.before = estimate_coverage(samples, draft.motions, draft.tool, options.tolerance_mm, kRankingPoses);
-  const Polished polished = without_overcut(
-      last_passes(polish(draft, samples, options, &result.trace), samples, options, &result.trace), samples, options);
+  Polished polished = polish(draft, samples, options, &result.trace);
+  if (!is_enough(polished.estimate, options)) polished = last_passes(polished, samples, options, &result.trace);
   progress.step("fit", 0.9);
-  return finish(settled(polished, options), options, std::move(result));
+  return finish(settled(without_overcut(polished, samples, options), options), options, std::move(result));
 }
 
 }  // namespace flank

@@ -124,13 +124,16 @@ Polished polish(const FitDraft& draft, const std::vector<SurfaceSample>& samples
   };
   const double diagonal = draft.targets.front()->diagonal();
   const double scale = robust_scale(*draft.targets.front(), options);
-  keep(assess(run_stage(draft, options.bounds, polish_stage(scale), trace, &summary), samples, options));
+  FitStage first = polish_stage(scale);
+  keep_going(first, options.tolerance_mm, diagonal);
+  keep(assess(run_stage(draft, options.bounds, first, trace, &summary), samples, options));
   if (summary.rms_mm < kExactShare * diagonal) {
     best = exact_polish(best, samples, options, trace);
     best.exact = true;
-    return best;
+    // An exact motion that plunges where it touches is worth less than one within the tolerance that does not.
+    if (best.estimate.largest_c < 1.0) return best;
   }
-  const FitStage stage = tolerance_stage(options.tolerance_mm, scale);
+  const FitStage stage = tolerance_stage(options.tolerance_mm, scale, diagonal);
   if (draft.free_tool || !draft.free_parameters.empty())
     keep(assess(run_stage(best.draft, options.bounds, stage, trace), samples, options));
   return shifted(best, samples, options);

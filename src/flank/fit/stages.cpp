@@ -112,7 +112,6 @@ FitStage quick_stage(double robust_scale_mm) {
       .robust_scale_mm = robust_scale_mm,
       .extension_scale_mm = robust_scale_mm,
       .clear_estimated = true,
-      .plunge_weight = kPlungeWeight,
       .step_tolerance = 1e-3,  // more digits do not change a ranking by coverage
   };
 }
@@ -128,7 +127,6 @@ FitStage polish_stage(double robust_scale_mm) {
       .radius_pin = 1e-6,
       // Inside the target plain least squares: robust weights would hide overcut.
       .extension_scale_mm = robust_scale_mm,
-      .plunge_weight = kPlungeWeight,
       .step_tolerance = 1e-4,
   };
 }
@@ -161,22 +159,37 @@ FitStage exact_stage(bool last) {
   return stage;
 }
 
-FitStage tolerance_stage(double tolerance_mm, double robust_scale_mm) {
-  return {
+void keep_going(FitStage& stage, double tolerance_mm, double size_mm) {
+  const double unit = (tolerance_mm / size_mm) * (tolerance_mm / size_mm);
+  stage.plunge_weight = kPlungeShare * unit;
+  stage.lag_weight = kLagShare * unit;
+}
+
+double fairness_of(double share, double tolerance_mm, double size_mm, int samples) {
+  const double bend = size_mm / ((samples - 1.0) * (samples - 1.0));
+  return share * (tolerance_mm / bend) * (tolerance_mm / bend);
+}
+
+FitStage tolerance_stage(double tolerance_mm, double robust_scale_mm, double size_mm) {
+  constexpr int kSamples = 120;
+  /// In the dead zone no residual stands against it (MATH section 7).
+  constexpr double kFairness = 1e-3;
+  FitStage stage{
       // Finer than the polish: the resolution at which MATH section 7 had its last candidates polished.
-      .samples_t = 120,
+      .samples_t = kSamples,
       .samples_s = 36,
       .control_points = 32,
       .tool_coefficients = 16,
       .iterations = 40,
-      .fairness = 1e-5,  // a tenth of the polish's: in the dead zone no residual stands against it (MATH section 7)
+      .fairness = fairness_of(kFairness, tolerance_mm, size_mm, kSamples),
       .transversal_anchor = 1e-2,
       .axial_pin = 1e-6,
       .extension_scale_mm = robust_scale_mm,
       .dead_zone_mm = kToleranceBudget.fit.dead_zone_axis * tolerance_mm,
-      .plunge_weight = kPlungeWeight,
       .step_tolerance = 1e-4,
   };
+  keep_going(stage, tolerance_mm, size_mm);
+  return stage;
 }
 
 RadialFunction clamp_tool(const RadialFunction& tool, const RadiusBounds& bounds) {

@@ -9,9 +9,18 @@
 
 namespace flank::internal {
 
-/// FitStage::plunge_weight of all passes but the exact ones: a tenth of a blade's length too much on a tenth of the axis
-/// costs as much as a mean error of 0.03 mm.
-inline constexpr double kPlungeWeight = 1e-4;
+/// FitStage::plunge_weight and lag_weight of all passes but the exact ones, in squares of tolerance over the target's
+/// size: a motion that plunges or stands still for a twentieth of its time costs as much as a mean error of half the
+/// tolerance.
+inline constexpr double kPlungeShare = 100.0, kLagShare = 100.0;
+
+/// Sets both for a target of this size.
+void keep_going(FitStage& stage, double tolerance_mm, double size_mm);
+
+/// FitStage::fairness at which rails that bend by the target's size over the motion (second differences of
+/// size / (samples - 1)^2) cost as much as `share` of a mean square error of one tolerance. A weight of its own, mm against
+/// mm, would leave rails free to wave at a loose tolerance, and stiffen them at a fine one.
+[[nodiscard]] double fairness_of(double share, double tolerance_mm, double size_mm, int samples);
 
 /// A tool and motions between passes, without footpoints. A value but for targets and obstacles, which are not owned.
 struct FitDraft {
@@ -49,8 +58,8 @@ struct FitDraft {
 /// For targets that are envelopes (residual near zero): no fairness that would bias, no pull from extensions; the last
 /// of them has more control points and all but no anchors.
 [[nodiscard]] FitStage exact_stage(bool last);
-/// For targets that are not: residuals count beyond FitBudget::dead_zone_axis, so that coverage grows instead of the mean falling.
-[[nodiscard]] FitStage tolerance_stage(double tolerance_mm, double robust_scale_mm);
+/// For targets that are not: residuals count beyond FitBudget::dead_zone_axis, so that coverage grows instead of the mean falling. `size_mm` is that of the target.
+[[nodiscard]] FitStage tolerance_stage(double tolerance_mm, double robust_scale_mm, double size_mm);
 
 /// A spline's coefficients clamped to [smallest, largest]: the function lies in their hull, so it keeps the bounds too.
 /// `steepest` is not enforced. A family is returned as it is: its parameters are no radii.

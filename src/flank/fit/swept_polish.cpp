@@ -15,7 +15,7 @@ namespace {
 /// What differs between the passes.
 struct Pass {
   double dead_zone;     ///< in tolerances
-  double fairness;      ///< FitStage::fairness at kSamplesT samples
+  double fairness;      ///< share of a tolerance's square (fairness_of)
   double anchor;        ///< FitStage::transversal_anchor
   int control_points;   ///< per rail
   int coefficients;     ///< of a free tool
@@ -27,9 +27,9 @@ struct Pass {
 /// of 48 control points.
 constexpr int kSamplesT = 120, kSamplesS = 36;
 
-/// Fairness of rails that a machine runs well, and of rails that only just do not wave. Rails that bend by the target's
-/// size D cost as much as residuals of sqrt(fairness) D / (kSamplesT - 1)^2: 2e-6 D and 7e-8 D.
-constexpr double kFair = 1e-3, kSoft = 1e-6;
+/// Fairness of rails that a machine runs well, and of rails that only just do not wave: rails that bend by the target's
+/// size cost as much as a mean error of a tenth of the tolerance, and of 0.003 of it.
+constexpr double kFair = 1e-2, kSoft = 1e-5;
 
 /// The dead zone of most passes.
 constexpr double kWideZone = kToleranceBudget.fit.dead_zone;
@@ -94,12 +94,12 @@ constexpr double kFairCovers = 0.998;
 /// If less is covered, the pass without a dead zone is left out: it gives up coverage for the mean.
 constexpr double kCovered = 0.995;
 /// Overcut below this share of the diagonal is settled: the constrained pass would not improve it, whose own fairness
-/// of kConstrainedFairness costs residuals of that size (7e-7 D, see kFair).
+/// of kConstrainedFairness costs residuals of that size: sqrt(fairness) D / (kSamplesT - 1)^2 = 7e-7 D.
 constexpr double kSettledOvercutShare = 1e-6;
 constexpr double kConstrainedFairness = 1e-4;
 
 /// What the passes have in common.
-FitStage swept_stage(const Pass& pass, const FlankFitOptions& options) {
+FitStage swept_stage(const Pass& pass, const FlankFitOptions& options, double size_mm) {
   /// A slide of 1 mm costs as much as a mean error of 1e-4 mm: it decides only what the face leaves open, as the slide
   /// of a cone on itself.
   constexpr double kAxialPin = 1e-8;
@@ -122,14 +122,14 @@ FitStage swept_stage(const Pass& pass, const FlankFitOptions& options) {
   stage.control_points = pass.control_points;
   stage.tool_coefficients = pass.coefficients;
   stage.iterations = pass.iterations;
-  stage.fairness = pass.fairness;
+  stage.fairness = fairness_of(pass.fairness, options.tolerance_mm, size_mm, kSamplesT);
   stage.transversal_anchor = pass.anchor;
   stage.axial_pin = kAxialPin;
   stage.tool_fairness = kToolFairness * options.tolerance_mm * options.tolerance_mm;
   stage.dead_zone_mm = pass.dead_zone * options.tolerance_mm;
   stage.robust_scale_mm = kOutOfSight * options.tolerance_mm;
   stage.overcut_weight = kOvercutWeight;
-  stage.plunge_weight = kPlungeWeight;
+  keep_going(stage, options.tolerance_mm, size_mm);
   stage.step_tolerance = kStepTolerance;
   return stage;
 }
@@ -188,14 +188,15 @@ FitDraft run_swept(const FitDraft& draft, const RadiusBounds& bounds, const FitS
 Polished swept_polish(const Polished& polished, const std::vector<SurfaceSample>& samples,
                       const FlankFitOptions& options, std::vector<IterationTrace>* trace) {
   Polished best = polished;
+  const double size = best.draft.targets.front()->diagonal();
   bool fair = false;  // fair rails are enough
   for (Pass pass : kPasses) {
     if (pass.fairness == kSoft && fair) pass.fairness = kFair;
     // The last one lowers what is left of the mean, if nothing more is to be covered.
     if (pass.dead_zone == 0.0 && best.estimate.at_tolerance < kCovered) continue;
     const std::vector<FacePoint> points = target_points(best.draft, pass.points_per_side, reach_of(options));
-    Polished trial =
-        assess(run_swept(best.draft, options.bounds, swept_stage(pass, options), points, trace), samples, options);
+    Polished trial = assess(run_swept(best.draft, options.bounds, swept_stage(pass, options, size), points, trace),
+                            samples, options);
     // A pass minimises its own cost, not the score: its result counts only if the score agrees.
     if (trial.estimate.score(options.tolerance_mm) > best.estimate.score(options.tolerance_mm)) best = std::move(trial);
     const CoverageEstimate& now = best.estimate;
@@ -249,7 +250,7 @@ Polished without_overcut(const Polished& polished, const std::vector<SurfaceSamp
   /// Coverage that evening out may cost: 2 of the 2,000 samples that rank.
   constexpr double kCost = 1e-3;
   // No overcut to weigh, and no dead zone: the limits are hard, and the objective is the material left.
-  FitStage stage = swept_stage(kFairRails, options);
+  FitStage stage = swept_stage(kFairRails, options, diagonal);
   stage.dead_zone_mm = 0.0;
   stage.overcut_weight = 1.0;
   stage.fairness = kConstrainedFairness;

@@ -141,6 +141,12 @@ bool is_better(const CoverageEstimate& a, const CoverageEstimate& b, double tole
   return a.score(tolerance_mm) > b.score(tolerance_mm);
 }
 
+double least_to_win(const CoverageEstimate& rival, const FlankFitOptions& options) {
+  constexpr double kLastPassesGain = 0.1;  // of the face: they rarely gain more
+  const double behind = is_clean(rival, options.tolerance_mm) ? rival.at_tolerance - kLastPassesGain : 0.0;
+  return std::max(options.least_coverage_for_last_passes, behind);
+}
+
 std::optional<FitDraft> shortened_axis(const FitDraft& draft, double depth_mm) {
   if (!draft.free_tool) return std::nullopt;
   std::vector<double> deepest(kPlaces, kFree);
@@ -220,6 +226,7 @@ FlankFitResult best_way(const Target& target, const ToolModel& tool, const Flank
   FlankFitOptions free_options = options;
   free_options.obstacles = nullptr;
   free_options.kept_after_polish = 1;  // a start for what follows, not a result
+  free_options.least_coverage_for_last_passes = least_to_win(first.after, options);
   const FlankFitResult free = search(free_options);
   if (free.motions.empty()) return first;
   const double tolerance = options.tolerance_mm;

@@ -24,6 +24,9 @@ using StartSearch = std::function<FlankFitResult(const FlankFitOptions&)>;
 /// than half as much; of two that are clean the one that covers more, of two that are not the one that scores higher.
 [[nodiscard]] bool is_better(const CoverageEstimate& a, const CoverageEstimate& b, double tolerance_mm);
 
+/// FlankFitOptions::least_coverage_for_last_passes for a search that is only to beat this rival.
+[[nodiscard]] double least_to_win(const CoverageEstimate& rival, const FlankFitOptions& options);
+
 /// The draft on the longest part of the axis that enters obstacles by no more than a depth, mm. None if that is all of
 /// it or less than a third, or if the tool is given. The draft has an obstacle field for every motion.
 [[nodiscard]] std::optional<FitDraft> shortened_axis(const FitDraft& draft, double depth_mm);

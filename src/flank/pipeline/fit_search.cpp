@@ -59,6 +59,17 @@ double demanded_reach(const FitJob& job, const Target& target, const RadiusBound
   return std::round(radius / unit) * unit;
 }
 
+/// `free_tool`: what is reachable is asked with the ball of the demand.
+FlankFitOptions options_of(const FitJob& job, const Target& target, bool free_tool) {
+  FlankFitOptions options;
+  options.tolerance_mm = job.tolerance_mm;
+  options.axis_length_mm = job.tool.axis_length_mm;
+  options.bounds = bounds_of(job, target.diagonal());
+  const double demanded = free_tool ? demanded_reach(job, target, options.bounds) : 0.0;
+  options.reach_radius_mm = job.judge.reach_radius_mm.value_or(demanded);
+  return options;
+}
+
 /// Covers what was asked, by the planner's estimate, and enters nothing.
 bool is_done(const FlankFitResult& result, double least_coverage, double tolerance_mm) {
   constexpr double kLeastEstimate = 0.97;  // the judge is stricter than the estimate
@@ -76,12 +87,14 @@ FlankFitResult fit_auto(const Target& target, const ToolModel& tool, FlankFitOpt
                         const Progress& progress) {
   /// Of the covered share: less is not worth a strip, and two counts in a row that gain less end the search.
   constexpr double kGain = 0.01;
+  /// Of the face, before the last passes, which rarely gain more than a tenth: a strip more is tried instead.
+  constexpr double kPromising = 0.85;
   FlankFitResult best;
   double one_covers = 0.0;
   int without_gain = 0;
   for (int count : {1, 2, 3, 4, 6, 8, 10, kMostStrips}) {
     options.strips = count;
-    options.least_coverage_for_last_passes = count < kMostStrips ? 0.7 : 0.0;
+    options.least_coverage_for_last_passes = count < kMostStrips ? kPromising : 0.0;
     FlankFitResult result = fit_automatic(target, tool, options, progress);
     if (count == 1) one_covers = result.after.at_tolerance;
     const double before = best.after.at_tolerance;
@@ -142,8 +155,6 @@ void fit_groups(const FitJob& job, FitSearch& search, const ToolModel& tool, con
   if (search.targets.size() > 1) search.fit = fit_from_starts(tasks, tool, options, progress);
 }
 
-double mean_score(const FitSearch& search, double tolerance_mm) { return search.fit.after.score(tolerance_mm); }
-
 /// Gives every target what its flank keeps clear of: the check faces, the other targets and fixtures.
 void add_obstacles(const FitJob& job, const Setup& setup, double largest_radius, FitSearch& search) {
   /// The flank lies within a diameter of its target, and the walls of a channel beyond it count.
@@ -180,13 +191,9 @@ FitSearch search_side(const FitJob& job, const Setup& setup, const ToolSpec& spe
                       const Progress& progress) {
   FitSearch search;
   search.targets = make_targets(setup, side);
-  FlankFitOptions options;
-  options.tolerance_mm = job.tolerance_mm;
-  options.axis_length_mm = job.tool.axis_length_mm;
-  options.bounds = bounds_of(job, search.targets.front().target->diagonal());
   const ToolModel tool = make_tool_model(spec);
-  if (tool.free()) search.reach_radius_mm = demanded_reach(job, *search.targets.front().target, options.bounds);
-  options.reach_radius_mm = job.judge.reach_radius_mm.value_or(search.reach_radius_mm.value_or(0.0));
+  const FlankFitOptions options = options_of(job, *search.targets.front().target, tool.free());
+  if (tool.free()) search.reach_radius_mm = options.reach_radius_mm;
   if (job.avoid) add_obstacles(job, setup, options.bounds.largest, search);
   if (!start.given()) {
     fit_groups(job, search, tool, options, progress);
@@ -216,6 +223,42 @@ bool is_sheet(const Setup& setup) {
                                              [&](int face) { return !setup.part.faces[face].of_solid; });
 }
 
+/// What a side of a sheet promises: the score of the best quick fit of one strip, polished.
+double scout(const FitJob& job, const Setup& setup, const ToolSpec& spec, int side, const Progress& progress) {
+  FitSearch search;
+  search.targets = make_targets(setup, side);
+  const TargetGroup& group = search.targets.front();
+  const ToolModel tool = make_tool_model(spec);
+  FlankFitOptions options = options_of(job, *group.target, tool.free());
+  if (job.avoid) add_obstacles(job, setup, options.bounds.largest, search);
+  options.obstacles = group.obstacles.get();
+  options.ways = false;
+  options.kept_after_quick = options.kept_after_polish = 1;
+  options.least_coverage_for_last_passes = 2.0;  // none
+  return fit_automatic(*group.target, tool, options, progress).after.score(job.tolerance_mm);
+}
+
+/// A sheet can be machined from either side: first from the one that promises more. From the other, too, where that one
+/// does not give what was asked and the other is not far behind.
+FitSearch search_sheet(const FitJob& job, const Setup& setup, const ToolSpec& spec, const Progress& progress) {
+  constexpr double kNotFar = 0.3;  // of the score, about a share of coverage
+  const double plus = scout(job, setup, spec, +1, progress), minus = scout(job, setup, spec, -1, progress);
+  int side = plus >= minus ? +1 : -1;
+  FitSearch best = search_side(job, setup, spec, {}, side, progress);
+  const bool done = is_done(best.fit, job.judge.least_coverage, job.tolerance_mm) || progress.stop();
+  if (done || std::abs(plus - minus) > kNotFar) {
+    best.fit.notes.push_back(fmt::format("open sheet: side {} was chosen, which promises more", side > 0 ? "+" : "-"));
+    return best;
+  }
+  FitSearch other = search_side(job, setup, spec, {}, -side, progress);
+  if (other.fit.after.score(job.tolerance_mm) > best.fit.after.score(job.tolerance_mm)) {
+    side = -side;
+    best = std::move(other);
+  }
+  best.fit.notes.push_back(fmt::format("open sheet: both sides were tried, side {} covers more", side > 0 ? "+" : "-"));
+  return best;
+}
+
 }  // namespace
 
 FitSearch search_fit(const FitJob& job, const Setup& setup, const ToolSpec& spec, const Progress& progress) {
@@ -223,12 +266,7 @@ FitSearch search_fit(const FitJob& job, const Setup& setup, const ToolSpec& spec
   if (!is_sheet(setup) || job.part.side)
     return search_side(job, setup, spec, start, job.part.side.value_or(+1), progress);
   if (start.given()) return search_side(job, setup, spec, start, side_of_start(job, setup, start), progress);
-  FitSearch plus = search_side(job, setup, spec, start, +1, progress);
-  FitSearch minus = search_side(job, setup, spec, start, -1, progress);
-  const bool first = mean_score(plus, job.tolerance_mm) >= mean_score(minus, job.tolerance_mm);
-  FitSearch& best = first ? plus : minus;
-  best.fit.notes.push_back(fmt::format("open sheet: both sides were tried, side {} covers more", first ? "+" : "-"));
-  return std::move(best);
+  return search_sheet(job, setup, spec, progress);
 }
 
 }  // namespace flank::internal

@@ -73,8 +73,11 @@ FlankFitResult soften(const Target& target, const ToolModel& tool, const FlankFi
   FlankFitOptions lifted = options;
   lifted.bounds.slenderest = 1e300;
   lifted.bounds.neck = 1.0;
+  lifted.least_coverage_for_last_passes = least_to_win(within.after, options);
   const FlankFitResult open = fit_automatic(target, tool, lifted, progress);
   if (open.motions.empty() || as_good(within, open, options.tolerance_mm)) return within;
+  // What enters other faces is no reason to take a thinner tool.
+  if (!is_better(open.after, within.after, options.tolerance_mm)) return within;
   FlankFitResult result = stiffened(target, tool, options, open, progress);
   result.notes.push_back(
       fmt::format("a slenderness of {:.1f} is the least that was found here: within {:.1f}, {:.1f} % of the face is "

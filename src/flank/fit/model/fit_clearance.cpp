@@ -9,9 +9,12 @@
 namespace flank::internal {
 namespace {
 
-/// A distance is measured this much beyond the radius, so that it need not be measured again until the sample has moved
-/// that far. More would make each measurement slower, less would make more of them.
-constexpr double kSightMm = 1.0;
+/// A distance is measured this many radii far, so that it need not be measured again until the sample has moved by what
+/// is more than one. More would make each measurement slower, less would make more of them.
+constexpr double kSight = 1.2;
+/// A distance d bends by at most moved^2 / (2 d): where that is below half of this share of the allowance, it is carried
+/// on by its gradient instead of being measured again. Steps become small long before a fit ends.
+constexpr double kStraightShare = 0.1;
 /// Poses that one task of the parallel loop takes: some hundred distances, long against the cost of starting a task.
 constexpr std::size_t kPosesPerTask = 8;
 
@@ -22,6 +25,22 @@ ObstacleSample no_sample(const Vec3& p) {
   sample.nearest.distance_mm = std::numeric_limits<double>::quiet_NaN();
   sample.nearest.face = 0;
   return sample;
+}
+
+/// Whether the sample still tells the distance at p, where the flank needs `needed_mm`: carried on if it does.
+bool carried_on(ObstacleSample& sample, const Vec3& p, double needed_mm, double allowance_mm) {
+  if (!sample.known) return false;
+  const Vec3 way = p - sample.at;
+  const double moved = way.norm();
+  // The distance changes by no more than the point moves: what was far enough may still be.
+  if (sample.measured_mm - moved > needed_mm) {
+    sample.nearest.distance_mm = sample.measured_mm;
+    return true;
+  }
+  const bool straight =
+      sample.nearest.face >= 0 && moved * moved <= kStraightShare * allowance_mm * std::abs(sample.measured_mm);
+  if (straight) sample.nearest.distance_mm = sample.measured_mm + sample.nearest.gradient.dot(way);
+  return straight;
 }
 
 }  // namespace
@@ -46,10 +65,12 @@ void FitModel::locate_obstacles(FitState& state) const {
             sample = no_sample(p);
             continue;
           }
-          // The distance changes by no more than the point moves: what was far enough may still be.
-          if (sample.known && sample.nearest.distance_mm - (p - sample.at).norm() > needed[j]) continue;
-          sample = {stage_.clear_estimated ? obstacles_[m]->estimate(p) : obstacles_[m]->at(p, needed[j] + kSightMm), p,
-                    true};
+          if (carried_on(sample, p, needed[j], obstacles_[m]->allowance_mm())) continue;
+          sample.nearest =
+              stage_.clear_estimated ? obstacles_[m]->estimate(p) : obstacles_[m]->at(p, kSight * needed[j]);
+          sample.measured_mm = sample.nearest.distance_mm;
+          sample.at = p;
+          sample.known = true;
         }
       }
     });

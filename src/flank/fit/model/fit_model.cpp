@@ -75,17 +75,33 @@ FitModel::FitModel(std::vector<const Target*> targets, const FitState& start, st
     start_radius_.push_back(jet.r);
     start_slope_.push_back(jet.d1);
   }
+  for (const RuledMotion& motion : start.motions) add_anchors(motion);
+}
+
+void FitModel::add_anchors(const RuledMotion& motion) {
+  constexpr int kAround = 20;  // an average over a twentieth of the motion to either side
+  std::vector<Anchor> anchors;
+  std::vector<Vec3> across;
   // Drift is counted along the velocity that the start has at each time, so moving sideways off the path is free.
-  for (const RuledMotion& motion : start.motions) {
-    std::vector<Anchor> anchors;
-    for (const TimeSample& time : times_) {
-      const AxisJet axis = motion.jet(time.t);
-      const Vec3 v = axis.velocity(0.5 * axis_length_);
-      const Vec3 across = v - v.dot(axis.u) * axis.u;
-      anchors.push_back({axis.at(0.5 * axis_length_), across.normalized(), axis.tip, axis.u});
-    }
-    anchors_.push_back(std::move(anchors));
+  for (const TimeSample& time : times_) {
+    const AxisJet axis = motion.jet(time.t);
+    const Vec3 v = axis.velocity(0.5 * axis_length_);
+    across.push_back(v - v.dot(axis.u) * axis.u);
+    anchors.push_back({axis.at(0.5 * axis_length_), across.back().normalized(), axis.tip, axis.u, Vec3::Zero()});
   }
+  const int n = stage_.samples_t, around = std::max(1, n / kAround);
+  std::vector<double> speeds(s_.size(), 0.0);
+  for (int i = 0; i < n; ++i) {
+    Vec3 sum = Vec3::Zero();
+    for (int k = std::max(0, i - around); k <= std::min(n - 1, i + around); ++k) sum += across[k];
+    Anchor& anchor = anchors[static_cast<std::size_t>(i)];
+    anchor.way = sum.normalized();
+    const AxisJet axis = motion.jet(times_[static_cast<std::size_t>(i)].t);
+    for (std::size_t j = 0; j < s_.size(); ++j) speeds[j] += axis.velocity(s_[j]).dot(anchor.way) / n;
+  }
+  for (double& speed : speeds) speed = std::max(0.0, speed);
+  anchors_.push_back(std::move(anchors));
+  speeds_.push_back(std::move(speeds));
 }
 
 ArrowSystem FitModel::make_system() const {

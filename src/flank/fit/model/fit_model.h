@@ -79,6 +79,10 @@ struct FitStage {
   /// Axis and slopes are those of the start. 1e-4 outweighs what plunging saves on a face that can be had without; 0 where
   /// the motion is known.
   double plunge_weight = 0.0;
+  /// >= 0: of the mean square by which points of the axis lag: move along the start's way by less than kLeastSpeed of
+  /// their mean speed, velocities counted for the whole motion. Where a motion stands still, the axis can rock and slide
+  /// on the spot, and what is left over is cut by that and not by going on.
+  double lag_weight = 0.0;
   /// > 0, no unit: the pass ends after two steps in a row that lower the cost by less than this share of it.
   double step_tolerance = 1e-9;
 };
@@ -86,9 +90,10 @@ struct FitStage {
 /// The distance from a point of the axis to the obstacles, kept between steps: a place nearby is as far from them,
 /// less how far it is from `at`.
 struct ObstacleSample {
-  ObstacleDistance nearest;
-  Vec3 at = Vec3::Zero();  ///< where it was measured, mm
-  bool known = false;      ///< false: never measured
+  ObstacleDistance nearest;  ///< here, by its gradient where that is good enough
+  double measured_mm = 0.0;  ///< the distance where it was measured
+  Vec3 at = Vec3::Zero();    ///< that place, mm
+  bool known = false;        ///< false: never measured
 };
 
 /// Everything that changes during a fit. Footpoints, obstacles and contacts are caches of the last `locate`: they are
@@ -152,9 +157,10 @@ class FitModel {
     /// in time.
     std::array<double, 4> basis, basis_d1, basis_d2;
   };
-  /// The start's axis at one time: its middle and that point's unit transversal velocity, its tip and direction.
+  /// The start's axis at one time: its middle and that point's unit transversal velocity, its tip and direction; and
+  /// which way it goes on, averaged over the times around it.
   struct Anchor {
-    Vec3 middle, tangent, tip, axis;
+    Vec3 middle, tangent, tip, axis, way;
   };
   /// A pose with the direction rail's own value w, u = w / |w|.
   struct PoseAt {
@@ -181,6 +187,11 @@ class FitModel {
   /// By how much the points of the axis plunge at one time: visit(s, Plunge).
   template <class Visit>
   void visit_plunges(const RuledMotion& rails, const TimeSample& time, const Vec3& axis, const Visit& visit) const;
+  /// By how much they lag, and that by their velocity: visit(s, mm, gradient).
+  template <class Visit>
+  void visit_lags(const RuledMotion& rails, int motion, std::size_t time, const Visit& visit) const;
+  /// Anchors and mean speeds of one motion of the start.
+  void add_anchors(const RuledMotion& motion);
   [[nodiscard]] double tool_cost(const FitState& state) const;
 
   std::vector<const Target*> targets_;
@@ -192,6 +203,7 @@ class FitModel {
   std::vector<TimeSample> times_;
   std::vector<double> s_;
   std::vector<std::vector<Anchor>> anchors_;
+  std::vector<std::vector<double>> speeds_;  ///< [motion][j]: mean speed of the axis' point s_j along the way, >= 0
   std::vector<double> start_radius_, start_slope_;  ///< r(s_j) and r'(s_j) at the start
   int tool_parameters_;
 };

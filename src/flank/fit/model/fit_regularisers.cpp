@@ -15,6 +15,8 @@ constexpr double kUnitPenalty = 1e-9;
 /// bound is broken by a tenth of the error that breaking it would save. Radii that are left out of bounds are clamped at
 /// the end (clamp_tool); slenderness and neck are held a little inside theirs.
 constexpr double kBoundWeight = 10.0;
+/// Of the mean speed of a point of the axis. A fan stands still at its foot, which has no mean speed either.
+constexpr double kLeastSpeed = 0.25;
 
 }  // namespace
 
@@ -39,6 +41,21 @@ void FitModel::visit_plunges(const RuledMotion& rails, const TimeSample& time, c
     direction += time.basis_d1[k] * rails.direction.poles.col(time.first + k);
   }
   for (std::size_t j = 0; j < s_.size(); ++j) visit(s_[j], plunge(tip + s_[j] * direction, axis, start_slope_[j]));
+}
+
+template <class Visit>
+void FitModel::visit_lags(const RuledMotion& rails, int motion, std::size_t i, const Visit& visit) const {
+  const TimeSample& time = times_[i];
+  const Vec3& way = anchors_[motion][i].way;
+  double tip = 0.0, direction = 0.0;
+  for (int k = 0; k < 4; ++k) {
+    tip += time.basis_d1[k] * way.dot(rails.tip.poles.col(time.first + k));
+    direction += time.basis_d1[k] * way.dot(rails.direction.poles.col(time.first + k));
+  }
+  for (std::size_t j = 0; j < s_.size(); ++j) {
+    const double lag = kLeastSpeed * speeds_[motion][j] - (tip + s_[j] * direction);
+    if (lag > 0.0) visit(s_[j], lag, -way);
+  }
 }
 
 void FitModel::assemble_rails(const FitState& state, int motion, ArrowSystem& system) const {
@@ -78,14 +95,18 @@ void FitModel::assemble_rails(const FitState& state, int motion, ArrowSystem& sy
     add(g, axis_length_ * (pose.length_w - 1.0), kUnitPenalty);
     system.add_pose(motion, time.first, time.basis.data(), terms, false);
 
-    if (stage_.plunge_weight <= 0.0) continue;
+    if (stage_.plunge_weight <= 0.0 && stage_.lag_weight <= 0.0) continue;
     terms.matrix.setZero();
     terms.gradient.setZero();
+    const auto add_velocity = [&](double s, double mm, const Vec3& by_velocity, double weight) {
+      g << by_velocity, s / axis_length_ * by_velocity;
+      add(g, mm, weight / static_cast<double>(s_.size()));
+    };
     visit_plunges(rails, time, anchor.axis, [&](double s, const Plunge& p) {
-      if (p.excess <= 0.0) return;
-      g << p.gradient, s / axis_length_ * p.gradient;
-      add(g, p.excess, stage_.plunge_weight / static_cast<double>(s_.size()));
+      if (p.excess > 0.0) add_velocity(s, p.excess, p.gradient, stage_.plunge_weight);
     });
+    visit_lags(rails, motion, static_cast<std::size_t>(i),
+               [&](double s, double lag, const Vec3& by) { add_velocity(s, lag, by, stage_.lag_weight); });
     system.add_pose(motion, time.first, time.basis_d1.data(), terms, false);
   }
 }
@@ -108,10 +129,12 @@ double FitModel::rail_cost(const FitState& state, int motion) const {
     const double slide = anchor.axis.dot(pose.tip - anchor.tip);
     const double unit = axis_length_ * (pose.length_w - 1.0);
     sum += stage_.transversal_anchor * drift * drift + stage_.axial_pin * slide * slide + kUnitPenalty * unit * unit;
-    if (stage_.plunge_weight <= 0.0) continue;
-    visit_plunges(rails, time, anchor.axis, [&](double, const Plunge& p) {
-      sum += stage_.plunge_weight / static_cast<double>(s_.size()) * p.excess * p.excess;
-    });
+    if (stage_.plunge_weight <= 0.0 && stage_.lag_weight <= 0.0) continue;
+    const double places = static_cast<double>(s_.size());
+    visit_plunges(rails, time, anchor.axis,
+                  [&](double, const Plunge& p) { sum += stage_.plunge_weight / places * p.excess * p.excess; });
+    visit_lags(rails, motion, static_cast<std::size_t>(i),
+               [&](double, double lag, const Vec3&) { sum += stage_.lag_weight / places * lag * lag; });
   }
   return sum / (static_cast<double>(targets_.size()) * stage_.samples_t);
 }

@@ -1,0 +1,94 @@
+#include "flank/fit/race.h"
+
+#include <algorithm>
+
+#include "flank/base/assert.h"
+#include "flank/base/parallel.h"
+#include "flank/fit/ways.h"
+#include "flank/tool/compliance.h"
+
+namespace flank::internal {
+namespace {
+
+/// Candidates that are polished side by side before anybody asks whether one is enough.
+constexpr std::size_t kAbreast = 2;
+/// Of the slenderness: less makes no tool stiffer.
+constexpr double kSameStiffness = 0.02;
+
+/// Infinite for a tool whose radius is not positive everywhere.
+double slenderness_of(const Runner& runner) {
+  const RadialFunction& tool = runner.polished.draft.tool;
+  return slenderness(tool.axis_length(), compliance(tool));
+}
+
+/// Stable, so that equal ones keep the order of their promise.
+void sort_by_merit(std::vector<Runner>& runners, const FlankFitOptions& options) {
+  std::stable_sort(runners.begin(), runners.end(), [&](const Runner& a, const Runner& b) {
+    const bool enough_a = is_enough(a.polished.estimate, options), enough_b = is_enough(b.polished.estimate, options);
+    if (enough_a != enough_b) return enough_a;
+    if (enough_a) return slenderness_of(a) < (1.0 - kSameStiffness) * slenderness_of(b);
+    return a.polished.estimate.score(options.tolerance_mm) > b.polished.estimate.score(options.tolerance_mm);
+  });
+}
+
+std::vector<Runner> polish_until_enough(const std::vector<FitDraft>& starts, const std::vector<SurfaceSample>& samples,
+                                        const FlankFitOptions& options, const Progress& progress) {
+  const std::size_t most = std::min(starts.size(), static_cast<std::size_t>(options.kept_after_quick));
+  std::vector<Runner> runners;
+  const auto enough = [&](const Runner& runner) { return is_enough(runner.polished.estimate, options); };
+  while (runners.size() < most && std::none_of(runners.begin(), runners.end(), enough)) {
+    // The user has had enough: the best start alone is still worth a polish, so that there is a result.
+    if (progress.stop() && !runners.empty()) break;
+    const std::size_t first = runners.size(), count = progress.stop() ? 1 : std::min(kAbreast, most - first);
+    runners.resize(first + count);
+    parallel_for(count, [&](std::size_t k) {
+      Runner& runner = runners[first + k];
+      runner.start = starts[first + k];
+      runner.polished = polish(runner.start, samples, options, &runner.trace);
+    });
+    progress.step("polish", 0.5 + 0.2 * static_cast<double>(runners.size()) / static_cast<double>(most));
+  }
+  return runners;
+}
+
+/// The last passes cost more than all before.
+void pass_until_enough(std::vector<Runner>& runners, const std::vector<SurfaceSample>& samples,
+                       const FlankFitOptions& options, const Progress& progress) {
+  // Hopeless fits are left without them if the caller says what is hopeless.
+  if (runners.front().polished.estimate.at_tolerance < options.least_coverage_for_last_passes) return;
+  const auto score = [&](const Runner& runner) { return runner.polished.estimate.score(options.tolerance_mm); };
+  /// Who is behind by more than this many times what the passes gained so far, and this share of coverage, cannot win.
+  constexpr double kGains = 2.0, kBehind = 0.02;
+  double best = -1.0, gained = 0.0;
+  const std::size_t most = std::min(runners.size(), static_cast<std::size_t>(options.kept_after_polish));
+  for (std::size_t k = 0; k < most; ++k) {
+    Runner& runner = runners[k];
+    const double before = score(runner);
+    if (k > 0 && (progress.stop() || before + kGains * gained + kBehind < best)) continue;
+    runner.polished = last_passes(runner.polished, samples, options, &runner.trace);
+    if (is_enough(runner.polished.estimate, options)) return;
+    gained = std::max(gained, score(runner) - before);
+    best = std::max(best, score(runner));
+    progress.step("polish", 0.7 + 0.2 * static_cast<double>(k + 1) / static_cast<double>(most));
+  }
+}
+
+}  // namespace
+
+bool is_enough(const CoverageEstimate& estimate, const FlankFitOptions& options) {
+  return estimate.at_tolerance >= options.enough_coverage && estimate.largest_c < 1.0 &&
+         is_clean(estimate, options.tolerance_mm);
+}
+
+Runner race(const std::vector<FitDraft>& starts, const std::vector<SurfaceSample>& samples,
+            const FlankFitOptions& options, const Progress& progress) {
+  FLANK_ASSERT(!starts.empty() && options.kept_after_quick >= 1 && options.kept_after_polish >= 1);
+  std::vector<Runner> runners = polish_until_enough(starts, samples, options, progress);
+  sort_by_merit(runners, options);
+  if (is_enough(runners.front().polished.estimate, options)) return runners.front();
+  pass_until_enough(runners, samples, options, progress);
+  sort_by_merit(runners, options);
+  return runners.front();
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,29 @@
+/// The candidates of a fit against each other: who promises most gets the dear passes first, and nobody gets any more once
+/// one of them does what was asked.
+#pragma once
+
+#include <vector>
+
+#include "flank/fit/polish.h"
+#include "flank/progress.h"
+
+namespace flank::internal {
+
+/// A candidate on its way.
+struct Runner {
+  FitDraft start;                     ///< as it came from its quick fit
+  Polished polished;                  ///< as far as it has come
+  std::vector<IterationTrace> trace;  ///< of its passes
+};
+
+/// Does this do what was asked, so that no other candidate need be tried? Covers options.enough_coverage,
+/// is clean, and does not plunge where it touches.
+[[nodiscard]] bool is_enough(const CoverageEstimate& estimate, const FlankFitOptions& options);
+
+/// The winner: among those that do what was asked the one with the stiffest tool, else the one with the best score.
+/// `starts` is not empty and in the order of their promise; at most options.kept_after_quick of them are polished,
+/// kept_after_polish get the last passes. The same for any number of threads.
+[[nodiscard]] Runner race(const std::vector<FitDraft>& starts, const std::vector<SurfaceSample>& samples,
+                          const FlankFitOptions& options, const Progress& progress);
+
+}  // namespace flank::internal

@@ -1,0 +1,93 @@
+// Candidates against each other on a flat blade, where any upright cylinder is exact: who is tried, and who wins.
+#include "flank/fit/race.h"
+
+#include <gtest/gtest.h>
+
+#include "fit/flat_scene.h"
+#include "flank/threads.h"
+#include "flank/tool/compliance.h"
+
+namespace flank::internal {
+namespace {
+
+using testing::standing_blade;
+using testing::Upright;
+using testing::upright_motion;
+
+class Racing : public ::testing::Test {
+ protected:
+  Racing() {
+    options_.tolerance_mm = 0.02;
+    options_.bounds = {1.0, 9.0, 0.5};
+    options_.sample_share = 1.0 / 15.0;
+  }
+  /// Upright before the blade, `off` mm too far from it, with a free tool of this radius.
+  [[nodiscard]] FitDraft start(double radius, double off = 0.0, double x_last = 63.0) const {
+    FitDraft draft;
+    draft.targets = {blade_.get()};
+    draft.motions = {upright_motion({.y = radius + off, .z = -1.0, .x_first = -3.0, .x_last = x_last, .length = 42.0})};
+    draft.tool = RadialFunction::spline(42.0, Eigen::VectorXd::Constant(6, radius));
+    draft.free_tool = true;
+    return draft;
+  }
+  [[nodiscard]] Runner run(const std::vector<FitDraft>& starts) const {
+    return race(starts, ranking_samples(*blade_, nullptr, options_), options_, {});
+  }
+
+  std::unique_ptr<Target> blade_ = standing_blade(0.0);
+  FlankFitOptions options_;
+};
+
+TEST_F(Racing, OfTwoThatDoWhatWasAskedTheStifferToolWins) {
+  for (const auto& order : {std::vector{2.0, 6.0}, std::vector{6.0, 2.0}}) {
+    const Runner winner = run({start(order[0]), start(order[1])});
+    EXPECT_TRUE(is_enough(winner.polished.estimate, options_));
+    EXPECT_NEAR(winner.polished.draft.tool.at(21.0).r, 6.0, 0.5);
+  }
+}
+
+TEST_F(Racing, NobodyIsTriedOnceOneIsEnough) {
+  // The third would win: it is stiffer than both.
+  const std::vector<FitDraft> starts = {start(2.0), start(3.0), start(8.0)};
+  EXPECT_NEAR(run(starts).polished.draft.tool.at(21.0).r, 3.0, 0.5);
+  options_.enough_coverage = 1.1;  // never
+  options_.kept_after_polish = 1;
+  EXPECT_TRUE(run(starts).polished.estimate.at_tolerance > 0.99);
+}
+
+TEST_F(Racing, WhoCoversMoreWinsWhereNobodyDoesWhatWasAsked) {
+  // Half of the path each: neither a polish nor the last passes make it longer.
+  options_.kept_after_polish = 1;
+  options_.bounds.largest = 3.0;
+  const Runner winner = run({start(3.0, 0.0, 10.0), start(3.0, 0.0, 40.0)});
+  EXPECT_GT(winner.start.motions.front().tip.poles(0, 7), 39.0);
+}
+
+TEST_F(Racing, IsTheSameForOneAndThreeThreads) {
+  const std::vector<FitDraft> starts = {start(4.0, 0.3), start(5.0, -0.2), start(6.0, 0.1)};
+  set_thread_count(1);
+  const Runner one = run(starts);
+  set_thread_count(3);
+  const Runner three = run(starts);
+  set_thread_count(0);
+  EXPECT_EQ(one.polished.draft.tool.parameters(), three.polished.draft.tool.parameters());
+  EXPECT_EQ(one.polished.draft.motions.front().tip.poles, three.polished.draft.motions.front().tip.poles);
+  EXPECT_EQ(one.trace.size(), three.trace.size());
+}
+
+TEST_F(Racing, WhoPlungesOrCutsIsNotEnough) {
+  CoverageEstimate estimate;
+  estimate.at_tolerance = 1.0;
+  EXPECT_TRUE(is_enough(estimate, options_));
+  estimate.largest_c = 1.01;
+  EXPECT_FALSE(is_enough(estimate, options_));
+  estimate.largest_c = 0.5;
+  estimate.gouge_mm = 1.1 * options_.tolerance_mm;
+  EXPECT_FALSE(is_enough(estimate, options_));
+  estimate = {};
+  estimate.at_tolerance = options_.enough_coverage - 1e-6;
+  EXPECT_FALSE(is_enough(estimate, options_));
+}
+
+}  // namespace
+}  // namespace flank::internal
