@@ -41,6 +41,7 @@ class Racing : public ::testing::Test {
 TEST_F(Racing, OfTwoThatDoWhatWasAskedTheStifferToolWins) {
   for (const auto& order : {std::vector{2.0, 6.0}, std::vector{6.0, 2.0}}) {
     const Runner winner = run({start(order[0]), start(order[1])});
+    EXPECT_TRUE(winner.enough);
     EXPECT_TRUE(is_enough(winner.polished.estimate, options_));
     EXPECT_NEAR(winner.polished.draft.tool.at(21.0).r, 6.0, 0.5);
   }

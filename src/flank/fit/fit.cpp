@@ -198,10 +198,11 @@ FlankFitResult search_starts(const Target& target, const ToolModel& tool, const 
   progress.step("polish", 0.5);
   std::vector<FitDraft> starts;
   for (Candidate& candidate : candidates) starts.push_back(std::move(candidate.draft));
-  const Runner best = race(starts, samples, options, progress);
+  Runner best = race(starts, samples, options, progress);
   result.before = estimate_coverage(samples, best.start.motions, best.start.tool, options.tolerance_mm, kRankingPoses);
   result.trace = best.trace;
-  return finish(settled(without_overcut(best.polished, samples, options), options), options, std::move(result));
+  if (!best.enough) best.polished = settled(without_overcut(best.polished, samples, options), options);
+  return finish(best.polished, options, std::move(result));
 }
 
 }  // namespace
@@ -223,10 +224,16 @@ FlankFitResult fit_from_starts(const std::vector<FitTask>& tasks, const ToolMode
   FitDraft draft = make_draft(tasks, tool, options);
   progress.step("fit", 0.1);
   result.before = estimate_coverage(samples, draft.motions, draft.tool, options.tolerance_mm, kRankingPoses);
-  Polished polished = polish(draft, samples, options, &result.trace);
-  if (!is_enough(polished.estimate, options)) polished = last_passes(polished, samples, options, &result.trace);
+  Runner only;
+  only.polished = polish(draft, samples, options, &result.trace);
+  settle_if_enough(only, samples, options);
+  progress.step("fit", 0.5);
+  if (!only.enough) {
+    only.polished = last_passes(only.polished, samples, options, &result.trace);
+    only.polished = settled(without_overcut(only.polished, samples, options), options);
+  }
   progress.step("fit", 0.9);
-  return finish(settled(without_overcut(polished, samples, options), options), options, std::move(result));
+  return finish(only.polished, options, std::move(result));
 }
 
 }  // namespace flank

@@ -141,12 +141,8 @@ Polished polish(const FitDraft& draft, const std::vector<SurfaceSample>& samples
 
 Polished last_passes(const Polished& polished, const std::vector<SurfaceSample>& samples,
                      const FlankFitOptions& options, std::vector<IterationTrace>* trace) {
-  /// An exact fit covers the face if no more than one of 2,000 samples is missing.
-  constexpr double kExactCovers = 0.9995;
-  // An exact fit has its residuals at the axis, and beside a wall some of the face may lie past the axis' end: the
-  // passes below see it.
-  const bool short_of_face = polished.estimate.at_tolerance < kExactCovers && !polished.draft.obstacles.empty() &&
-                             polished.draft.obstacles.front() != nullptr;
+  // An exact fit has its residuals at the axis; some of the face may lie past the axis' end: the passes below see it.
+  const bool short_of_face = polished.estimate.at_tolerance < options.enough_coverage;
   // A free, exact fit with more overcut than it may have has its radii reduced until it has that; its motion, and so its
   // last digits, stay.
   const double by = polished.estimate.overcut_mm - kToleranceBudget.fit.exact_overcut * options.tolerance_mm;

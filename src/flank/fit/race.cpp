@@ -4,6 +4,7 @@
 
 #include "flank/base/assert.h"
 #include "flank/base/parallel.h"
+#include "flank/fit/swept_polish.h"
 #include "flank/fit/ways.h"
 #include "flank/tool/compliance.h"
 
@@ -24,9 +25,8 @@ double slenderness_of(const Runner& runner) {
 /// Stable, so that equal ones keep the order of their promise.
 void sort_by_merit(std::vector<Runner>& runners, const FlankFitOptions& options) {
   std::stable_sort(runners.begin(), runners.end(), [&](const Runner& a, const Runner& b) {
-    const bool enough_a = is_enough(a.polished.estimate, options), enough_b = is_enough(b.polished.estimate, options);
-    if (enough_a != enough_b) return enough_a;
-    if (enough_a) return slenderness_of(a) < (1.0 - kSameStiffness) * slenderness_of(b);
+    if (a.enough != b.enough) return a.enough;
+    if (a.enough) return slenderness_of(a) < (1.0 - kSameStiffness) * slenderness_of(b);
     return a.polished.estimate.score(options.tolerance_mm) > b.polished.estimate.score(options.tolerance_mm);
   });
 }
@@ -35,7 +35,7 @@ std::vector<Runner> polish_until_enough(const std::vector<FitDraft>& starts, con
                                         const FlankFitOptions& options, const Progress& progress) {
   const std::size_t most = std::min(starts.size(), static_cast<std::size_t>(options.kept_after_quick));
   std::vector<Runner> runners;
-  const auto enough = [&](const Runner& runner) { return is_enough(runner.polished.estimate, options); };
+  const auto enough = [](const Runner& runner) { return runner.enough; };
   while (runners.size() < most && std::none_of(runners.begin(), runners.end(), enough)) {
     // The user has had enough: the best start alone is still worth a polish, so that there is a result.
     if (progress.stop() && !runners.empty()) break;
@@ -45,6 +45,7 @@ std::vector<Runner> polish_until_enough(const std::vector<FitDraft>& starts, con
       Runner& runner = runners[first + k];
       runner.start = starts[first + k];
       runner.polished = polish(runner.start, samples, options, &runner.trace);
+      settle_if_enough(runner, samples, options);
     });
     progress.step("polish", 0.5 + 0.2 * static_cast<double>(runners.size()) / static_cast<double>(most));
   }
@@ -66,7 +67,8 @@ void pass_until_enough(std::vector<Runner>& runners, const std::vector<SurfaceSa
     const double before = score(runner);
     if (k > 0 && (progress.stop() || before + kGains * gained + kBehind < best)) continue;
     runner.polished = last_passes(runner.polished, samples, options, &runner.trace);
-    if (is_enough(runner.polished.estimate, options)) return;
+    settle_if_enough(runner, samples, options);
+    if (runner.enough) return;
     gained = std::max(gained, score(runner) - before);
     best = std::max(best, score(runner));
     progress.step("polish", 0.7 + 0.2 * static_cast<double>(k + 1) / static_cast<double>(most));
@@ -80,12 +82,19 @@ bool is_enough(const CoverageEstimate& estimate, const FlankFitOptions& options)
          is_clean(estimate, options.tolerance_mm);
 }
 
+void settle_if_enough(Runner& runner, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
+  if (!is_enough(runner.polished.estimate, options)) return;
+  Polished close = settled(without_overcut(runner.polished, samples, options), options);
+  runner.enough = is_enough(close.estimate, options);
+  if (runner.enough) runner.polished = std::move(close);
+}
+
 Runner race(const std::vector<FitDraft>& starts, const std::vector<SurfaceSample>& samples,
             const FlankFitOptions& options, const Progress& progress) {
   FLANK_ASSERT(!starts.empty() && options.kept_after_quick >= 1 && options.kept_after_polish >= 1);
   std::vector<Runner> runners = polish_until_enough(starts, samples, options, progress);
   sort_by_merit(runners, options);
-  if (is_enough(runners.front().polished.estimate, options)) return runners.front();
+  if (runners.front().enough) return runners.front();
   pass_until_enough(runners, samples, options, progress);
   sort_by_merit(runners, options);
   return runners.front();

@@ -14,11 +14,16 @@ struct Runner {
   FitDraft start;                     ///< as it came from its quick fit
   Polished polished;                  ///< as far as it has come
   std::vector<IterationTrace> trace;  ///< of its passes
+  bool enough = false;                ///< does what was asked, looked at closely; `polished` is settled then
 };
 
 /// Does this do what was asked, so that no other candidate need be tried? Covers options.enough_coverage,
 /// is clean, and does not plunge where it touches.
 [[nodiscard]] bool is_enough(const CoverageEstimate& estimate, const FlankFitOptions& options);
+
+/// Settles the runner if it seems to be enough, and keeps that if it still is: samples that rank see no rim that is a
+/// little short.
+void settle_if_enough(Runner& runner, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options);
 
 /// The winner: among those that do what was asked the one with the stiffest tool, else the one with the best score.
 /// `starts` is not empty and in the order of their promise; at most options.kept_after_quick of them are polished,
