@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -75,10 +76,11 @@ TEST(PathRegularity, OnlyPlacesThatTouchCount) {
   EXPECT_GT(largest_c(path, cone), 1.0);
   EXPECT_LT(largest_c(path, cone, [](const Vec3& at, double) { return at.z() < 20.0; }), 0.1);
   EXPECT_EQ(largest_c(path, cone, [](const Vec3&, double) { return false; }), 0.0);
-  // The ball of a place lies on the axis and touches the flank along the place's circle.
+  // The ball of a place is inscribed there.
   const auto on_the_axis = [&](const Vec3& at, double radius) {
     EXPECT_LT(Vec3(at - centre).cross((Vec3::UnitZ() + tilted).normalized()).norm(), 0.1);
-    EXPECT_GT(radius, 3.0);
+    const double s = 30.0 + (at.z() < 30.0 ? -1.0 : 1.0) * (at - centre).norm();
+    EXPECT_NEAR(radius, cone.at(std::clamp(s, 0.0, 40.0)).r, 0.02);
     return true;
   };
   EXPECT_EQ(largest_c(path, cone, on_the_axis), largest_c(path, cone));

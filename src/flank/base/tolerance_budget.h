@@ -69,6 +69,8 @@ struct FitBudget {
   double overcut = 0.95, settled_overcut = 0.94;
   /// Overcut of an exact fit that is left alone: its last digits are worth more than that.
   double exact_overcut = 0.1;
+  /// The deepest that a candidate may be, looked at closely, to end the search.
+  double seen = 0.97;
   /// What may lie between the samples of the estimate.
   double between_samples = 0.03;
 };

@@ -25,8 +25,7 @@ double largest_c(const Pose& from, const Pose& to, const RadialFunction& radial,
     const RadialJet r = radial.at(s);
     const double c = std::abs(contact_point(axis, r, s, +1).c);
     if (c <= largest) continue;
-    const Vec3 centre = axis.tip + (s + r.r * r.d1) * axis.u;
-    if (!touches || touches(centre, r.r * std::sqrt(1.0 + r.d1 * r.d1))) largest = c;
+    if (!touches || touches(axis.tip + s * axis.u, r.r)) largest = c;
   }
   return largest;
 }

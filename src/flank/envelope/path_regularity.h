@@ -12,7 +12,7 @@ namespace flank::internal {
 using Touches = std::function<bool(const Vec3& centre, double radius_mm)>;
 
 /// Largest |c| (docs/MATH.md, section 3) of the straight join from one pose to the next, at its middle, over the places of
-/// the axis whose inscribed ball (that touches the flank along the circle of s) touches; 0 if none does. Where the flank
+/// the axis whose inscribed ball touches; 0 if none does. Where the flank
 /// is in the air, or beside the target, it leaves no surface that could be wrong.
 [[nodiscard]] double largest_c(const Pose& from, const Pose& to, const RadialFunction& radial,
                                const Touches& touches = {});

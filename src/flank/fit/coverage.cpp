@@ -74,6 +74,49 @@ std::vector<double> estimate_distances(const std::vector<SurfaceSample>& samples
 
 }  // namespace
 
+namespace {
+
+/// Along the axis, at most: balls a sixtieth of the axis apart overlap almost wholly.
+constexpr int kGougeSteps = 60;
+
+/// How deep the flank of a pose enters an obstacle, >= 0, and where.
+struct Deepest {
+  double mm = 0.0, s = 0.0;
+};
+
+Deepest deepest_place(const Pose& pose, const ObstacleField& obstacles, const RadialFunction& tool) {
+  // Of the axis length: about the step of the lattice of distances (1/48 of the target's size). If the estimate is
+  // nearer than that, the ball may touch, and the exact distance is asked for.
+  constexpr double kClose = 0.02;
+  const double length = tool.axis_length();
+  Deepest deepest;
+  for (double s = 0.0;; s = std::min(s, length)) {
+    const double r = tool.at(s).r;
+    double gap = obstacles.estimate(pose.at(s)).distance_mm - r;
+    if (gap < kClose * length) gap = obstacles.at(pose.at(s), r + kClose * length).distance_mm - r;
+    if (-gap > deepest.mm) deepest = {-gap, s};
+    if (s >= length) return deepest;
+    // The gap changes by at most twice the step (|r'| < 1): what is clear by it stays so for half of it.
+    s += std::max(length / kGougeSteps, 0.5 * gap);
+  }
+}
+
+/// The depth about the deepest place, closer: balls h apart leave up to h^2 / (8 r) of the flank between them.
+double between_places(const Pose& pose, const ObstacleField& obstacles, const RadialFunction& tool,
+                      const Deepest& found) {
+  constexpr int kCloser = 8;  // times: a 64th of what lies between is left
+  if (found.mm <= 0.0) return 0.0;
+  const double step = tool.axis_length() / kGougeSteps;
+  double deepest = found.mm;
+  for (int k = -kCloser; k <= kCloser; ++k) {
+    const double s = std::clamp(found.s + step * k / kCloser, 0.0, tool.axis_length()), r = tool.at(s).r;
+    deepest = std::max(deepest, r - obstacles.at(pose.at(s), r).distance_mm);
+  }
+  return deepest;
+}
+
+}  // namespace
+
 CoverageEstimate estimate_coverage(const std::vector<SurfaceSample>& samples, const std::vector<RuledMotion>& motions,
                                    const RadialFunction& tool, double tolerance_mm, int poses) {
   constexpr double kNearTolerances = 4.0;  // by the field's name
@@ -103,27 +146,16 @@ CoverageEstimate estimate_coverage(const std::vector<SurfaceSample>& samples, co
 }
 
 double flank_gouge(const std::vector<RuledMotion>& motions, const std::vector<const ObstacleField*>& obstacles,
-                   const RadialFunction& tool, int poses) {
-  constexpr int kSteps = 60;  // along the axis, at most: balls a sixtieth of the axis apart overlap almost wholly
-  // Of the axis length: about the step of the lattice of distances (1/48 of the target's size). If the estimate is
-  // nearer than that, the ball may touch, and the exact distance is asked for.
-  constexpr double kClose = 0.02;
+                   const RadialFunction& tool, int poses, GougeLook look) {
   double deepest = 0.0;
   for (std::size_t m = 0; m < obstacles.size(); ++m) {
     if (obstacles[m] == nullptr) continue;
     std::vector<double> depths(static_cast<std::size_t>(poses) + 1, 0.0);
-    const double length = motions[m].axis_length;
     parallel_for(depths.size(), [&](std::size_t i) {
       const Pose pose = motions[m].pose(static_cast<double>(i) / poses);
-      for (double s = 0.0;; s = std::min(s, length)) {
-        const double r = tool.at(s).r;
-        double gap = obstacles[m]->estimate(pose.at(s)).distance_mm - r;
-        if (gap < kClose * length) gap = obstacles[m]->at(pose.at(s), r + kClose * length).distance_mm - r;
-        depths[i] = std::max(depths[i], -gap);
-        if (s >= length) break;
-        // The gap changes by at most twice the step (|r'| < 1): what is clear by it stays so for half of it.
-        s += std::max(length / kSteps, 0.5 * gap);
-      }
+      const Deepest found = deepest_place(pose, *obstacles[m], tool);
+      depths[i] = found.mm;
+      if (look == GougeLook::kClose) depths[i] = between_places(pose, *obstacles[m], tool, found);
     });
     deepest = std::max(deepest, *std::max_element(depths.begin(), depths.end()));
   }

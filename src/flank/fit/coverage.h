@@ -14,11 +14,15 @@ namespace flank::internal {
                                                  const std::vector<RuledMotion>& motions, const RadialFunction& tool,
                                                  double tolerance_mm, int poses);
 
+/// Balls h apart leave up to h^2 / (8 r) of the flank between them: a close look sees most of that, about the deepest place
+/// of each pose.
+enum class GougeLook { kQuick, kClose };
+
 /// The deepest that the flank enters an obstacle, mm, >= 0, at poses + 1 times per motion and at least 60 places along
 /// the axis; obstacles as in FitDraft (one per motion, null: none, or none at all).
 [[nodiscard]] double flank_gouge(const std::vector<RuledMotion>& motions,
                                  const std::vector<const ObstacleField*>& obstacles, const RadialFunction& tool,
-                                 int poses);
+                                 int poses, GougeLook look = GougeLook::kQuick);
 
 /// Residuals on a grid of count_t x count_s (both >= 2) per motion with cold footpoints, so a footpoint that a pass
 /// followed onto a wrong branch shows. Samples whose footpoint is on the border are left out of all but inside_share.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "flank/base/parallel.h"
 #include "flank/base/tolerance_budget.h"
@@ -72,12 +73,19 @@ Polished exact_polish(const Polished& start, const std::vector<SurfaceSample>& s
   return best;
 }
 
-/// The draft with all radii of its free spline smaller by a length (not below the bound): r(s) - by, exactly.
-Polished shifted_by(FitDraft draft, double by, const std::vector<SurfaceSample>& samples,
+/// The polished draft with all radii of its free spline smaller by a length (not below the bound): r(s) - by, exactly.
+Polished shifted_by(const Polished& polished, double by, const std::vector<SurfaceSample>& samples,
                     const FlankFitOptions& options) {
-  const Eigen::VectorXd radii = (draft.tool.parameters().array() - by).max(options.bounds.smallest);
-  draft.tool = draft.tool.with_parameters(radii);
-  return assess(std::move(draft), samples, options);
+  FitDraft draft = polished.draft;
+  const Eigen::VectorXd radii = draft.tool.parameters().array() - by;
+  draft.tool = draft.tool.with_parameters(radii.cwiseMax(options.bounds.smallest));
+  if (radii.minCoeff() < options.bounds.smallest) return assess(std::move(draft), samples, options);
+  // Every ball is smaller by that length, and enters obstacles less deep by it: nothing to measure again.
+  const std::vector<const ObstacleField*> obstacles = std::exchange(draft.obstacles, {});
+  Polished shifted = assess(std::move(draft), samples, options);
+  shifted.draft.obstacles = obstacles;
+  shifted.estimate.gouge_mm = std::max(0.0, polished.estimate.gouge_mm - by);
+  return shifted;
 }
 
 /// A free tool's radii reduced against overcut, as far as that scores better: every length less on the radius is one
@@ -91,7 +99,7 @@ Polished shifted(const Polished& polished, const std::vector<SurfaceSample>& sam
                excess = overcut - kToleranceBudget.fit.overcut * options.tolerance_mm;
   for (double by : {excess, 0.25 * overcut, 0.5 * overcut, 0.75 * overcut, overcut}) {
     if (by <= 0.0) continue;
-    Polished trial = shifted_by(polished.draft, by, samples, options);
+    Polished trial = shifted_by(polished, by, samples, options);
     if (trial.estimate.score(options.tolerance_mm) > best.estimate.score(options.tolerance_mm)) best = std::move(trial);
   }
   return best;
@@ -151,7 +159,7 @@ Polished last_passes(const Polished& polished, const std::vector<SurfaceSample>&
   const bool deep = polished.draft.free_tool && by > options.tolerance_mm;
   if (polished.exact && !short_of_face && !deep) {
     if (!polished.draft.free_tool || by <= 0.0) return polished;
-    Polished lower = shifted_by(polished.draft, by, samples, options);
+    Polished lower = shifted_by(polished, by, samples, options);
     lower.exact = true;
     return lower;
   }
@@ -166,12 +174,15 @@ Polished settled(const Polished& polished, const FlankFitOptions& options) {
   for (const Target* target : distinct_targets(polished.draft)) {
     const std::vector<SurfaceSample> more = ranking_samples(*target, obstacles_of(polished.draft, target), dense);
     samples.insert(samples.end(), more.begin(), more.end());
+    // The rim once more as dense: a tool that runs past it is deepest there, in a narrow place.
+    const double spacing = std::sqrt(target->area()) * dense.sample_share / kDenser;
+    for (const Vec3& point : target->border_points(spacing)) samples.push_back({point, Vec3::UnitZ()});
   }
   Polished again = assess(polished.draft, samples, options);
   /// Times as many poses: a path that runs past an edge is deepest there for a moment.
   constexpr int kOften = 4;
-  again.estimate.gouge_mm =
-      flank_gouge(again.draft.motions, again.draft.obstacles, again.draft.tool, kOften * kRankingPoses);
+  again.estimate.gouge_mm = flank_gouge(again.draft.motions, again.draft.obstacles, again.draft.tool,
+                                        kOften * kRankingPoses, GougeLook::kClose);
   if (again.estimate.overcut_mm > options.tolerance_mm) return shifted(again, samples, options);
   // Between these samples, too, nothing may be cut deeper than the tolerance: a little room, if it costs little of the
   // covered share.
@@ -180,7 +191,7 @@ Polished settled(const Polished& polished, const FlankFitOptions& options) {
   const double by = std::max(again.estimate.overcut_mm - kToleranceBudget.fit.settled_overcut * options.tolerance_mm,
                              again.estimate.gouge_mm - deepest * options.tolerance_mm);
   if (!again.draft.free_tool || by <= 0.0) return again;
-  Polished lower = shifted_by(again.draft, by, samples, options);
+  Polished lower = shifted_by(again, by, samples, options);
   return lower.estimate.at_tolerance >= again.estimate.at_tolerance - kCost ? lower : again;
 }
 

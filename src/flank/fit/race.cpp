@@ -4,6 +4,7 @@
 
 #include "flank/base/assert.h"
 #include "flank/base/parallel.h"
+#include "flank/base/tolerance_budget.h"
 #include "flank/fit/swept_polish.h"
 #include "flank/fit/ways.h"
 #include "flank/tool/compliance.h"
@@ -85,7 +86,8 @@ bool is_enough(const CoverageEstimate& estimate, const FlankFitOptions& options)
 void settle_if_enough(Runner& runner, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
   if (!is_enough(runner.polished.estimate, options)) return;
   Polished close = settled(without_overcut(runner.polished, samples, options), options);
-  runner.enough = is_enough(close.estimate, options);
+  const double deepest = std::max(close.estimate.overcut_mm, close.estimate.gouge_mm);
+  runner.enough = is_enough(close.estimate, options) && deepest <= kToleranceBudget.fit.seen * options.tolerance_mm;
   if (runner.enough) runner.polished = std::move(close);
 }
 

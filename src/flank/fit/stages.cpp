@@ -127,6 +127,7 @@ FitStage polish_stage(double robust_scale_mm) {
       .radius_pin = 1e-6,
       // Inside the target plain least squares: robust weights would hide overcut.
       .extension_scale_mm = robust_scale_mm,
+      .clear_stride = 2,
       .step_tolerance = 1e-4,
   };
 }
@@ -186,6 +187,7 @@ FitStage tolerance_stage(double tolerance_mm, double robust_scale_mm, double siz
       .axial_pin = 1e-6,
       .extension_scale_mm = robust_scale_mm,
       .dead_zone_mm = kToleranceBudget.fit.dead_zone_axis * tolerance_mm,
+      .clear_stride = 2,
       .step_tolerance = 1e-4,
   };
   keep_going(stage, tolerance_mm, size_mm);

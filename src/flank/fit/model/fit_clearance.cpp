@@ -50,6 +50,7 @@ void FitModel::locate_obstacles(FitState& state) const {
   const int n = stage_.samples_s;
   state.obstacles.resize(targets_.size());
   std::vector<double> needed(n);
+  const auto stride = static_cast<std::size_t>(stage_.clear_stride);
   for (int j = 0; j < n; ++j) needed[j] = std::max(0.0, state.tool.at(s_[j]).r);
   for (std::size_t m = 0; m < targets_.size(); ++m) {
     if (obstacles_[m] == nullptr) continue;
@@ -57,6 +58,8 @@ void FitModel::locate_obstacles(FitState& state) const {
     samples.resize(static_cast<std::size_t>(n * stage_.samples_t));
     parallel_blocks(static_cast<std::size_t>(stage_.samples_t), kPosesPerTask, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
+        // First and last always: an end is where a flank is deepest in a wall.
+        if (i % stride != 0 && i + 1 < times_.size()) continue;
         const PoseAt pose = pose_at(state.motions[m], times_[i]);
         for (int j = 0; j < n; ++j) {
           ObstacleSample& sample = samples[i * static_cast<std::size_t>(n) + static_cast<std::size_t>(j)];
@@ -99,7 +102,8 @@ double FitModel::obstacle_cost(const FitState& state) const {
 }
 
 double FitModel::obstacle_weight() const {
-  return stage_.clear_weight / (static_cast<double>(targets_.size()) * stage_.samples_s * stage_.samples_t);
+  const double asked = static_cast<double>(stage_.samples_s) * stage_.samples_t / stage_.clear_stride;
+  return stage_.clear_weight / (static_cast<double>(targets_.size()) * asked);
 }
 
 void FitModel::assemble_obstacles(const FitState& state, ArrowSystem& system) const {

@@ -75,6 +75,9 @@ struct FitStage {
   double clear_weight = 30.0;
   /// Distances to obstacles by interpolation (ObstacleField::estimate): faster, good enough for ranking starts.
   bool clear_estimated = false;
+  /// >= 1: at every so many samples along the path, obstacles are asked for. Their distance changes slowly along it, and
+  /// to measure it costs more than all else of a sample.
+  int clear_stride = 1;
   /// >= 0: of the mean square by which points of the axis plunge (plunge.h), velocities counted for the whole motion.
   /// Axis and slopes are those of the start. 1e-4 outweighs what plunging saves on a face that can be had without; 0 where
   /// the motion is known.
