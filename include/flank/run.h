@@ -96,6 +96,7 @@ struct Ranking {
 /// What fit and cover make.
 struct Result {
   PlanJob job;
+  std::string part_sha256;  ///< Part::sha256 of the part that was read
   Tool tool;
   Path path;
   std::vector<RuledMotion> motions;  ///< motion k is strip k of the path

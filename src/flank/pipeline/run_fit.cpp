@@ -99,6 +99,7 @@ Result run_fit(const FitJob& job, const Progress& progress) {
   Stopwatch watch(result);
   progress.step("read", 0.0);
   const Setup setup = read_setup(job.part, job.obstacles, job.tolerance_mm, result.notes);
+  result.part_sha256 = setup.part.sha256;
   check_axis_length(job, setup.part);
   const bool with_body = job.obstacles.shank_length_mm || job.obstacles.holder || (spec.tool && has_body(*spec.tool));
   const ClearanceScene scene = make_clearance_scene(setup, job.obstacles, with_body, result.notes);
