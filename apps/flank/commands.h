@@ -4,6 +4,7 @@
 #include <CLI/App.hpp>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "flank/progress.h"
@@ -15,6 +16,7 @@ struct CommonOptions {
   bool json = false;
   bool quiet = false;
   int threads = 0;
+  std::optional<double> read_limit_s;  ///< for reading a CAD file; none: by its size
 };
 
 /// Exit codes of the command.

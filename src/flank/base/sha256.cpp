@@ -12,7 +12,8 @@ constexpr std::size_t kBlock = 64;
 using State = std::array<std::uint32_t, 8>;
 
 /// First 32 bits of the fractions of the square roots of the first primes (section 5.3.3).
-constexpr State kBegin = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a, 0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
+constexpr State kBegin = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
+                          0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
 
 /// The same of the cube roots (section 4.2.2).
 constexpr std::array<std::uint32_t, 64> kRound = {

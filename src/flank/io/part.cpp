@@ -96,8 +96,7 @@ Part read_part(const std::string& file, const std::optional<std::string>& unit) 
   const std::string content = read_bytes(file);
   const std::string format = sniff_format(file, content);
   const bool mesh = format == "STL" || format == "OBJ" || format == "PLY";
-  Part part = mesh ? read_mesh(file, format, content, unit) 
-                   : cad_reader()(file, format, unit);
+  Part part = mesh ? read_mesh(file, format, content, unit) : cad_reader()(file, format, unit);
   part.sha256 = sha256(content);
   require_part_in_range(part);
   note_doubtful_size(part);

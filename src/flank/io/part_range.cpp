@@ -31,18 +31,20 @@ bool finite(const Face& face) {
 void require_part_in_range(const Part& part) {
   for (const Face& face : part.faces)
     if (!finite(face))
-      throw InputError(fmt::format("{}, face {}: has numbers that are not finite; export the part again", part.file,
-                                   face.id));
+      throw InputError(
+          fmt::format("{}, face {}: has numbers that are not finite; export the part again", part.file, face.id));
   const bool some = (part.box.low.array() <= part.box.high.array()).all();
   if (!some || !part.box.low.allFinite() || !part.box.high.allFinite())
     throw InputError(part.file + ": has no finite extent; export the part again");
   const double reach = std::max(part.box.low.cwiseAbs().maxCoeff(), part.box.high.cwiseAbs().maxCoeff());
   if (reach > kLargestCoordinateMm)
-    throw InputError(fmt::format("{}: reaches to {:.3g} mm; coordinates up to {:g} mm are accepted: is its unit ({}) right?",
-                                 part.file, reach, kLargestCoordinateMm, part.unit));
+    throw InputError(
+        fmt::format("{}: reaches to {:.3g} mm; coordinates up to {:g} mm are accepted: is its unit ({}) right?",
+                    part.file, reach, kLargestCoordinateMm, part.unit));
   if (part.box.diagonal() < kSmallestBoxMm)
-    throw InputError(fmt::format("{}: is {:.3g} mm across; parts of at least {:g} mm are accepted: is its unit ({}) right?",
-                                 part.file, part.box.diagonal(), kSmallestBoxMm, part.unit));
+    throw InputError(
+        fmt::format("{}: is {:.3g} mm across; parts of at least {:g} mm are accepted: is its unit ({}) right?",
+                    part.file, part.box.diagonal(), kSmallestBoxMm, part.unit));
 }
 
 }  // namespace flank::internal

@@ -14,10 +14,8 @@ class Out {
  public:
   static constexpr bool kReads = false;
   template <class T>
-    requires std::is_arithmetic_v<T>
-  void operator()(const T& value) {
-    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
-  }
+  requires std::is_arithmetic_v<T>
+  void operator()(const T& value) { bytes_.append(reinterpret_cast<const char*>(&value), sizeof value); }
   void operator()(const std::string& text) {
     (*this)(static_cast<std::uint64_t>(text.size()));
     bytes_ += text;
@@ -39,7 +37,7 @@ class In {
   static constexpr bool kReads = true;
   explicit In(std::string_view bytes) : bytes_(bytes) {}
   template <class T>
-    requires std::is_arithmetic_v<T>
+  requires std::is_arithmetic_v<T>
   void operator()(T& value) {
     require(sizeof value <= bytes_.size());
     std::memcpy(&value, bytes_.data(), sizeof value);
