@@ -43,5 +43,7 @@ struct Subcommand {
 
 /// A line on stderr that grows on a terminal, plain lines otherwise, nothing if quiet; cancelled by Ctrl-C.
 [[nodiscard]] Progress terminal_progress(const CommonOptions& options);
+/// After a work that a signal has stopped, also if quiet: which signal it was, and where the best so far lies.
+void say_stopped(const std::string& folder);
 
 }  // namespace flank::cli

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "commands.h"
+#include "flank/base/printable.h"
 
 namespace flank::cli {
 namespace {
@@ -17,7 +18,7 @@ volatile std::sig_atomic_t interrupted = 0;
 void on_interrupt(int signal) {
   // A second one ends at once.
   if (interrupted != 0) std::_Exit(128 + signal);
-  interrupted = 1;
+  interrupted = signal;
 }
 
 std::string time_left(double seconds, double share) {
@@ -26,6 +27,14 @@ std::string time_left(double seconds, double share) {
 }
 
 }  // namespace
+
+void say_stopped(const std::string& folder) {
+  const int signal = interrupted;
+  const char* name = signal == SIGTERM ? "SIGTERM" : signal == SIGHUP ? "SIGHUP" : "SIGINT";
+  const std::string line =
+      fmt::format("flank: stopped by {}; the best so far is in {}\n", name, internal::printable(folder));
+  (void)std::fwrite(line.data(), 1, line.size(), stderr);
+}
 
 Progress terminal_progress(const CommonOptions& options) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, on_interrupt);

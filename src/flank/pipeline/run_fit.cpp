@@ -24,11 +24,18 @@ void check_job(const FitJob& job) {
 }
 
 void check_axis_length(const FitJob& job, const Part& part) {
-  const double longest = 1.5 * part.box.diagonal();
-  if (job.tool.axis_length_mm.value_or(0.0) > longest)
-    throw UsageError("axis_length_mm", fmt::format("{}", *job.tool.axis_length_mm),
-                     fmt::format("is longer than the part ({:.1f} mm); lengths up to {:.1f} mm are accepted",
-                                 part.box.diagonal(), longest));
+  if (!job.tool.axis_length_mm) return;
+  const double size = part.box.diagonal(), length = *job.tool.axis_length_mm;
+  // A thousandth of the part would take a million passes.
+  const double longest = 1.5 * size, shortest = 1e-3 * size;
+  if (length > longest)
+    throw UsageError(
+        "axis_length_mm", fmt::format("{}", length),
+        fmt::format("is longer than the part ({:.1f} mm); lengths up to {:.1f} mm are accepted", size, longest));
+  if (length < shortest)
+    throw UsageError(
+        "axis_length_mm", fmt::format("{}", length),
+        fmt::format("is nothing beside the part ({:.3g} mm); lengths from {:.3g} mm are accepted", size, shortest));
 }
 
 /// Lifts a shank or holder that comes too near, if the flank's length is open (lengthen.h).

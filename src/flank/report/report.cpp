@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "flank/base/sha256.h"
 #include "flank/error.h"
+#include "flank/manifest/result_folder.h"
 #include "flank/report/page_template.h"
 #include "flank/version.h"
 
@@ -32,6 +34,24 @@ void require_schema(const nlohmann::json& json, const std::string& file, const s
   throw InputError(file + ": schema \"" + schema + "\" is needed");
 }
 
+/// Throws InputError where a key that the page reads has a value of another type. Files by hand leave keys out.
+void require_types(const nlohmann::json& json, const std::string& file) {
+  const auto require = [&](const char* key, const char* type, bool right) {
+    if (!right) throw InputError(file + ": " + key + ": " + type + " is needed");
+  };
+  for (const auto& [key, value] : json.items()) {
+    // In verify.json the faces are a list of verdicts.
+    const bool list = key == "faces" && json["schema"] == schema_of("verify.json");
+    if (key == "part" || key == "program" || key == "command" || (key == "faces" && !list))
+      require(key.c_str(), "a text", value.is_string());
+    if (key == "strips" && json["schema"] == schema_of("view.json")) require("strips", "a list", value.is_array());
+    if (list || key == "bodies" || key == "reasons" || key == "worst_places")
+      require(key.c_str(), "a list", value.is_array());
+    if (key == "tolerance_mm" || key == "least_coverage") require(key.c_str(), "a number", value.is_number());
+    if (key == "pass" || key == "within") require(key.c_str(), "true or false", value.is_boolean());
+  }
+}
+
 /// The text of a file that is JSON of its schema; nothing if there is no such file.
 std::optional<std::string> read_checked(const fs::path& file, const std::string& schema) {
   if (!fs::exists(file)) return std::nullopt;
@@ -42,6 +62,7 @@ std::optional<std::string> read_checked(const fs::path& file, const std::string&
   const auto json = nlohmann::json::parse(text, nullptr, false);
   if (json.is_discarded()) throw InputError(file.string() + ": not JSON; give a file written by `flank fit`");
   require_schema(json, file.string(), schema);
+  require_types(json, file.string());
   return text;
 }
 
@@ -99,10 +120,27 @@ std::string fill_page(std::string_view page, std::string_view title, std::string
   return replaced(replaced(page, kTitlePlace, html_safe(title)), kDataPlace, data);
 }
 
+namespace {
+
+/// Throws InputError if the part that the verdict is about is there, and is another one by now.
+void require_same_part(const ResultFolder& folder) {
+  const std::string file = moved_with(*folder.manifest(), folder.path(), folder.manifest()->judged.file);
+  if (!fs::is_regular_file(file)) return;
+  std::ifstream stream(file, std::ios::binary);
+  const std::string content{std::istreambuf_iterator<char>(stream), {}};
+  if (stream && sha256(content) != folder.manifest()->judged.sha256)
+    throw InputError(file + ": has changed since the verdict in " + folder.path() +
+                     " was made; run `flank fit` or `flank verify` again");
+}
+
+}  // namespace
+
 std::string make_report(const std::string& folder) {
   if (!page_is_built())
     throw UsageError("this flank was built without the report page; install npm and build it with -D FLANK_REPORT=ON");
-  if (!fs::is_directory(folder)) throw InputError(folder + ": no such folder; give a folder written by `flank fit`");
+  const ResultFolder held(folder, ResultFolder::Use::kRead);
+  held.require_whole();
+  if (held.manifest()) require_same_part(held);
   std::string data = std::string("<meta name=\"generator\" content=\"OpenFlank ") + kVersion + "\">\n", title;
   bool found = false;
   for (const std::string& name : report_files()) {

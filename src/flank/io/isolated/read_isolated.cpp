@@ -14,6 +14,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <vector>
 
@@ -28,12 +29,14 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kSecondsAtLeast = 20.0, kSecondsPerMegabyte = 10.0;
+constexpr double kSecondsAtLeast = 10.0, kSecondsPerMegabyte = 10.0;
 /// Bytes of address space: the kernel's libraries alone take a third of the first.
 constexpr double kMemoryAtLeast = 1.5e9, kMemoryPerByte = 100.0;
 /// The limit is on processor time, which a busy machine gives slowly; by the clock, a child is stuck after so many times
 /// as much.
 constexpr double kClockPerProcessor = 30.0;
+/// One that gets no processor time at all for so long sleeps for ever.
+constexpr double kSleepSeconds = 10.0;
 
 /// Closes at the end of its life.
 struct Descriptor {
@@ -81,16 +84,41 @@ pid_t start(std::vector<std::string> words, int pipe) {
   return child;
 }
 
+double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+/// Tells a child that sleeps for ever from one that waits for a processor.
+class Pulse {
+ public:
+  explicit Pulse(pid_t child) : known_(::clock_getcpuclockid(child, &clock_) == 0) {}
+  [[nodiscard]] bool stopped() {
+    timespec used{};
+    if (!known_ || ::clock_gettime(clock_, &used) != 0) return false;
+    if (used.tv_sec != used_.tv_sec || used.tv_nsec != used_.tv_nsec) {
+      used_ = used;
+      since_ = Clock::now();
+    }
+    return seconds_since(since_) > kSleepSeconds;
+  }
+
+ private:
+  clockid_t clock_{};
+  bool known_;
+  timespec used_{};
+  Clock::time_point since_ = Clock::now();
+};
+
 /// All that the child writes; nothing more once the time is over, or beyond `most` bytes.
-std::string receive(int pipe, Clock::time_point end, double most, bool& over) {
+std::string receive(int pipe, pid_t child, double patience, double most, bool& over) {
+  constexpr int kLookMs = 500;
+  const auto begin = Clock::now();
+  Pulse pulse(child);
   std::string bytes;
   std::array<char, 1 << 16> block;
   while (true) {
-    const double left = std::chrono::duration<double>(end - Clock::now()).count();
-    over = left <= 0.0 || static_cast<double>(bytes.size()) > most;
+    over = seconds_since(begin) > patience || static_cast<double>(bytes.size()) > most || pulse.stopped();
     if (over) return bytes;
     pollfd wait{pipe, POLLIN, 0};
-    if (::poll(&wait, 1, static_cast<int>(std::min(left * 1000.0 + 1.0, 1e6))) <= 0) continue;
+    if (::poll(&wait, 1, kLookMs) <= 0) continue;
     const ssize_t got = ::read(pipe, block.data(), block.size());
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) return bytes;
@@ -141,11 +169,9 @@ Part read_cad_isolated(const std::string& file, const std::string& format, const
                             to.number);
   to.close();
   bool over = false;
-  const auto patience = std::chrono::duration<double>(std::min(kClockPerProcessor * seconds, 1e8));
   std::string bytes;
   try {
-    const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(patience);
-    bytes = receive(from.number, end, memory, over);
+    bytes = receive(from.number, child, kClockPerProcessor * seconds, memory, over);
   } catch (...) {
     ::kill(child, SIGKILL);
     (void)wait_for(child);

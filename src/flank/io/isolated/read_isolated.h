@@ -1,5 +1,5 @@
 /// CAD files read in a child process with limits of time and memory: a damaged file can bring down the CAD kernel, or keep
-/// it busy for ever, but not this program (docs/decisions/0016-cad-files-in-a-child-process.md).
+/// it busy for ever, but not this program (docs/decisions/0017-cad-files-in-a-child-process.md).
 #pragma once
 
 #include <optional>
