@@ -110,7 +110,7 @@ AtomicFile::AtomicFile(std::string file) : file_(followed(file)), temporary_(tem
 }
 
 AtomicFile::~AtomicFile() {
-  if (!committed_) ::unlink(temporary_.c_str());
+  if (!committed_ && ::unlink(temporary_.c_str()) != 0) ::unlink(temporary_.c_str());
 }
 
 void AtomicFile::commit() {

@@ -45,13 +45,13 @@ struct FieldInfo {
 namespace flank::internal::accepted {
 
 inline bool positive(double x) { return x > 0.0 && x < 1e300; }
-/// Of anything that is milled: what lies outside is a slip, or the work of a program.
-inline bool length(double x) { return x >= 1e-6 && x <= 1e7; }
+/// What is far below an atom counts as nothing.
+inline bool length(double x) { return x >= 1e-9 && x < 1e300; }
 inline bool not_negative(double x) { return x >= 0.0 && x < 1e300; }
 inline constexpr Accepted kAny{};
-inline constexpr Accepted kLength{"a length > 0 mm (1e-6 to 1e7) is needed", length};
+inline constexpr Accepted kLength{"a length > 0 mm is needed", length};
 inline constexpr Accepted kDistance{"a length >= 0 mm is needed", not_negative};
-inline constexpr Accepted kRadius{"a radius > 0 mm (1e-6 to 1e7) is needed", length};
+inline constexpr Accepted kRadius{"a radius > 0 mm is needed", length};
 inline constexpr Accepted kRate{"a rate > 0 mm/min is needed", positive};
 inline constexpr Accepted kShare{"a share between 0 and 1 is needed", [](double x) { return x >= 0.0 && x <= 1.0; }};
 inline constexpr Accepted kCoverage{"a share above 0, at most 1, is needed",

@@ -95,12 +95,20 @@ void ResultFolder::lock() {
     throw InputError(folder_ + ": another flank is writing to this folder; wait for it, or give another folder");
 }
 
-void ResultFolder::require_writable() {
-  // What a killed run left unfinished never was a result.
+/// Anew: what a killed run left unfinished never was a result.
+void ResultFolder::make_unfinished() const {
+  const std::string unfinished = in(kUnfinished);
   std::error_code ignored;
-  fs::remove_all(in(kUnfinished), ignored);
-  // Made and removed again.
-  const AtomicFile probe(in("job.json"));
+  fs::remove_all(unfinished, ignored);
+  if (::mkdir(unfinished.c_str(), 0777) != 0)
+    throw InputError(folder_ + ": cannot be written (" + std::strerror(errno) + "); give a folder that is writable");
+}
+
+// Nobody is to learn it after the work.
+void ResultFolder::require_writable() {
+  make_unfinished();
+  std::error_code ignored;
+  fs::remove(in(kUnfinished), ignored);
 }
 
 void ResultFolder::require_plain_names() const {
@@ -134,9 +142,7 @@ void ResultFolder::add(const std::map<std::string, std::string>& files, Manifest
 void ResultFolder::publish(const std::map<std::string, std::string>& files, const Manifest& manifest) {
   const std::string unfinished = in(kUnfinished);
   try {
-    if (::mkdir(unfinished.c_str(), 0777) != 0)
-      throw InputError(unfinished + ": cannot be made (" + std::strerror(errno) +
-                       "); free space and rights are needed");
+    make_unfinished();
     for (const auto& [name, content] : files) write_new_file((fs::path(unfinished) / name).string(), content);
     write_new_file((fs::path(unfinished) / kManifestFile).string(), manifest_to_json(manifest));
     sync_folder(unfinished);

@@ -53,6 +53,7 @@ class ResultFolder {
  private:
   [[nodiscard]] std::string in(const std::string& name) const;
   void lock();
+  void make_unfinished() const;
   void require_writable();
   void require_plain_names() const;
   void read_manifest();

@@ -10,6 +10,7 @@
 #include "flank/error.h"
 #include "flank/manifest/result_folder.h"
 #include "flank/report/page_template.h"
+#include "flank/report/report_file.h"
 #include "flank/version.h"
 
 namespace flank {
@@ -25,33 +26,6 @@ std::string replaced(std::string_view text, std::string_view what, std::string_v
   return std::string(text.substr(0, at)) + std::string(with) + std::string(text.substr(at + what.size()));
 }
 
-/// "view.json" has schema "openflank/view/1".
-std::string schema_of(const std::string& name) { return "openflank/" + name.substr(0, name.find('.')) + "/1"; }
-
-/// Throws InputError unless the file states this schema.
-void require_schema(const nlohmann::json& json, const std::string& file, const std::string& schema) {
-  if (json.is_object() && json.contains("schema") && json["schema"] == schema) return;
-  throw InputError(file + ": schema \"" + schema + "\" is needed");
-}
-
-/// Throws InputError where a key that the page reads has a value of another type. Files by hand leave keys out.
-void require_types(const nlohmann::json& json, const std::string& file) {
-  const auto require = [&](const char* key, const char* type, bool right) {
-    if (!right) throw InputError(file + ": " + key + ": " + type + " is needed");
-  };
-  for (const auto& [key, value] : json.items()) {
-    // In verify.json the faces are a list of verdicts.
-    const bool list = key == "faces" && json["schema"] == schema_of("verify.json");
-    if (key == "part" || key == "program" || key == "command" || (key == "faces" && !list))
-      require(key.c_str(), "a text", value.is_string());
-    if (key == "strips" && json["schema"] == schema_of("view.json")) require("strips", "a list", value.is_array());
-    if (list || key == "bodies" || key == "reasons" || key == "worst_places")
-      require(key.c_str(), "a list", value.is_array());
-    if (key == "tolerance_mm" || key == "least_coverage") require(key.c_str(), "a number", value.is_number());
-    if (key == "pass" || key == "within") require(key.c_str(), "true or false", value.is_boolean());
-  }
-}
-
 /// The text of a file that is JSON of its schema; nothing if there is no such file.
 std::optional<std::string> read_checked(const fs::path& file, const std::string& schema) {
   if (!fs::exists(file)) return std::nullopt;
@@ -59,10 +33,7 @@ std::optional<std::string> read_checked(const fs::path& file, const std::string&
   std::ifstream stream(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   if (!stream.good() && !stream.eof()) throw InputError(file.string() + ": cannot be read");
-  const auto json = nlohmann::json::parse(text, nullptr, false);
-  if (json.is_discarded()) throw InputError(file.string() + ": not JSON; give a file written by `flank fit`");
-  require_schema(json, file.string(), schema);
-  require_types(json, file.string());
+  check_report_file(text, file.string(), schema);
   return text;
 }
 

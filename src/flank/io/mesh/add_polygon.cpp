@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <vector>
 
 #include "flank/error.h"
@@ -13,8 +14,10 @@ namespace {
 /// Ears are found in the square of the corners at best, in the cube at worst.
 constexpr int kMostConcaveCorners = 2000;
 
-/// The corners in the plane of the polygon, counter-clockwise.
+/// The corners in the plane of the polygon, counter-clockwise; none if it has no area, or corners that the mesh has not.
 std::vector<Eigen::Vector2d> in_plane(const TriangleMesh& mesh, const int* corners, int count) {
+  const auto known = static_cast<int>(mesh.vertices.size());
+  if (std::any_of(corners, corners + count, [&](int v) { return v < 0 || v >= known; })) return {};
   const auto corner = [&](int k) { return mesh.vertices[static_cast<std::size_t>(corners[k % count])]; };
   Vec3 normal = Vec3::Zero();  // twice the area (Newell); from the first corner, so that nothing large cancels
   for (int k = 1; k + 1 < count; ++k) normal += (corner(k) - corner(0)).cross(corner(k + 1) - corner(0));

@@ -161,7 +161,7 @@ class Section {
     std::string word(text_.substr(begin, end - begin));
     const std::string shown = word.substr(0, 40);
     std::replace(word.begin(), word.end(), 'D', 'e');
-    if (word.starts_with('+')) word.erase(0, 1);
+    if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.erase(0, 1);
     double value = 0.0;
     const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     const bool whole = stop == word.data() + word.size() && word.find_first_of("0123456789") <= 2;
@@ -184,7 +184,13 @@ class Section {
 void check_step_syntax(const std::string& file, std::string_view content) {
   constexpr std::string_view kBegin = "DATA;";
   for (std::size_t at = content.find(kBegin); at != std::string_view::npos; at = content.find(kBegin, at)) {
-    at = Section(file, content, at + kBegin.size()).walk();
+    // The word may stand in a text of the header, too.
+    const std::size_t next = content.find_first_not_of(" \t\r\n", at + kBegin.size());
+    const bool begins_line = at == 0 || content[at - 1] == '\n' || content[at - 1] == '\r' || content[at - 1] == ';';
+    const bool section = next == std::string_view::npos || content[next] == '#' || content[next] == '/' ||
+                         content.substr(next, 6) == "ENDSEC";
+    at += kBegin.size();
+    if (begins_line || section) at = Section(file, content, at).walk();
   }
 }
 
