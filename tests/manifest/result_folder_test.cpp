@@ -89,6 +89,22 @@ TEST_F(ResultFolderTest, WhatIsAddedStaysUntilTheNextResult) {
   EXPECT_FALSE(fs::exists(root_ / "out/verify.json"));
 }
 
+TEST_F(ResultFolderTest, WhatOtherProgramsWroteStaysWhenAVerdictIsAdded) {
+  write("out/tool.json", "a");
+  write("out/path.json", "b");
+  write("out/mine.txt", "mine");
+  Manifest verdict = manifest();
+  verdict.made_by = kMadeByVerify;
+  ResultFolder(folder(), Use::kWriteOrRead).add({{"verify.json", "v"}}, verdict);
+  EXPECT_EQ(content("tool.json") + content("path.json") + content("verify.json") + content("mine.txt"), "abvmine");
+  EXPECT_EQ(refusal([&] { ResultFolder(folder(), Use::kRead).require_whole(); }), "accepted");
+  write("out/path.json", "c");
+  EXPECT_NE(refusal([&] { ResultFolder(folder(), Use::kRead).require_whole(); }), "accepted");
+  ResultFolder(folder(), Use::kWriteOrRead).add({{"verify.json", "w"}}, verdict);
+  EXPECT_EQ(refusal([&] { ResultFolder(folder(), Use::kRead).require_whole(); }), "accepted");
+  EXPECT_EQ(content("tool.json") + content("path.json") + content("verify.json"), "acw");
+}
+
 TEST_F(ResultFolderTest, APageThatSomebodyElseWroteIsTheirs) {
   replace({{"tool.json", "a"}, {"report.html", "page"}});
   write("out/report.html", "my own");

@@ -8,6 +8,8 @@
 namespace flank::internal {
 
 inline constexpr const char* kManifestFile = "manifest.json";
+/// Of a folder whose tool and path other programs have written, and may write again.
+inline constexpr const char* kMadeByVerify = "verify";
 
 /// A part as it was when it was read.
 struct PartStamp {
@@ -18,7 +20,7 @@ struct PartStamp {
 
 struct Manifest {
   std::string made_by;                       ///< "fit", "cover", or "verify": tool and path came from elsewhere
-  std::string folder;                        ///< absolute, where it was written
+  std::string folder;                        ///< absolute, where job.json was written
   PartStamp part;                            ///< that the tool and the path were made for
   PartStamp judged;                          ///< that verify.json is about
   std::map<std::string, std::string> files;  ///< name in the folder, sha256

@@ -134,7 +134,12 @@ void ResultFolder::replace(const std::map<std::string, std::string>& files, Mani
 }
 
 void ResultFolder::add(const std::map<std::string, std::string>& files, Manifest manifest) {
-  if (manifest_) manifest.files.insert(manifest_->files.begin(), manifest_->files.end());
+  if (manifest_) manifest.files = manifest_->files;
+  // What other programs wrote is taken as it is now.
+  for (const std::string& name : result_names())
+    if (name != kManifestFile && is_file(in(name)) &&
+        (manifest.made_by == kMadeByVerify || !manifest.files.contains(name)))
+      manifest.files[name] = sha256(content_of(in(name)));
   for (const auto& [name, content] : files) manifest.files[name] = sha256(content);
   publish(files, manifest);
 }

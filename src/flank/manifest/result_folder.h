@@ -39,7 +39,7 @@ class ResultFolder {
   /// Puts files (name, content) and a manifest in the place of all that was there of an earlier result: at once, and on
   /// the disk. Files of others stay. Throws InputError; what was there is whole then.
   void replace(const std::map<std::string, std::string>& files, Manifest manifest);
-  /// The same, but files of the manifest that are not named stay, too.
+  /// The same, but nothing that is not named is removed, and the manifest names all files of a result that are there.
   void add(const std::map<std::string, std::string>& files, Manifest manifest);
 
   /// Throws InputError, naming the first file of the result that is not the one of the manifest. Nothing without a

@@ -26,8 +26,6 @@ namespace flank {
 using namespace internal;
 namespace {
 
-constexpr const char* kVerifyMade = "verify";
-
 /// What is given takes the place of what was there.
 template <class T, class From>
 void replace(T& value, const From& by) {
@@ -101,12 +99,14 @@ void check_origin(const VerifyJob& request, const ResultFolder& folder, const Pa
     return;
   }
   // Where tool and path came from elsewhere, they may come from there again; the verdict is made anew.
-  if (manifest->made_by == kVerifyMade) return;
+  if (manifest->made_by == kMadeByVerify) return;
   folder.require_whole({"verify.json", "view.json"});
   if (!request.part && part.sha256 != manifest->part.sha256)
     throw InputError(part.file + ": has changed since the result in " + folder.path() +
                      " was made for it; make the result again, or name a part to judge it against by `part`");
 }
+
+std::string absolute(const std::string& file) { return std::filesystem::absolute(file).lexically_normal().string(); }
 
 /// The verdict, tied to what it is about.
 void write_verdict(ResultFolder& folder, const PartStamp& part, std::map<std::string, std::string> files,
@@ -115,20 +115,18 @@ void write_verdict(ResultFolder& folder, const PartStamp& part, std::map<std::st
     outcome.notes.push_back(folder.path() + " may not be written: the verdict is not in it");
     return;
   }
-  Manifest manifest;
-  if (folder.manifest() && folder.manifest()->made_by != kVerifyMade) {
-    manifest = *folder.manifest();
-  } else {
-    manifest.made_by = kVerifyMade;
-    manifest.part = part;
-  }
-  manifest.folder = std::filesystem::absolute(folder.path()).lexically_normal().string();
+  Manifest manifest{
+      .made_by = kMadeByVerify, .folder = absolute(folder.path()), .part = part, .judged = {}, .files = {}};
+  // The folder stays that to which job.json's paths belong: both may have moved since, more than once.
+  if (folder.manifest()) manifest = *folder.manifest();
+  if (manifest.made_by == kMadeByVerify) manifest.part = part;
   manifest.judged = part;
   folder.add(files, std::move(manifest));
 }
 
+/// `named`: the part, as job.json has it.
 template <class Job>
-Verification judge_folder(const VerifyJob& request, const Job& job, ResultFolder& folder) {
+Verification judge_folder(const VerifyJob& request, const Job& job, const std::string& named, ResultFolder& folder) {
   const auto file = [&](const char* name) { return (std::filesystem::path(request.folder) / name).string(); };
   Verification outcome;
   outcome.job = job;
@@ -143,7 +141,7 @@ Verification judge_folder(const VerifyJob& request, const Job& job, ResultFolder
   const ClearanceScene scene = make_clearance_scene(setup, job.obstacles, has_body(tool), outcome.notes);
   outcome.report.clearance = measure_clearance(scene, tool, path);
   outcome.acceptance = accept(tool, outcome.report, job.judge.least_coverage);
-  write_verdict(folder, {std::filesystem::absolute(job.part.file).lexically_normal().string(), setup.part.sha256},
+  write_verdict(folder, {absolute(request.part ? *request.part : named), setup.part.sha256},
                 {{"verify.json", verify_to_json(outcome.report, outcome.acceptance)},
                  {"view.json", view_to_json(make_view(outcome.job, setup, tool, path, outcome.report))}},
                 outcome);
@@ -161,9 +159,10 @@ Verification run_verify(const VerifyJob& request) {
   PlanJob plan = job_from_json(read_file(file), file);
   return std::visit(
       [&](auto& job) {
+        const std::string named = job.part.file;
         follow_moved(folder, job);
         apply(request, job);
-        return judge_folder(request, job, folder);
+        return judge_folder(request, job, named, folder);
       },
       plan);
 }
