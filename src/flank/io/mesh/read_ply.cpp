@@ -93,25 +93,6 @@ Header read_header(TextLines& lines) {
   return header;
 }
 
-/// Bytes of a row at the least: of a line a digit and its end.
-std::size_t least_bytes(const Element& element, bool text) {
-  std::size_t bytes = text ? 2 : 0;
-  for (const Property& q : element.properties)
-    if (!text) bytes += kSize[static_cast<std::size_t>(q.count.value_or(q.type))];
-  return bytes;
-}
-
-/// Counts that the rest of the file cannot hold are refused before anything is made for them.
-void require_rows(const Header& header, const TextLines& lines, std::size_t bytes) {
-  for (const Element& element : header.elements) {
-    const std::size_t least = std::max<std::size_t>(1, least_bytes(element, header.encoding == "ascii"));
-    // The last line of a text may lack its end.
-    if (element.count > (bytes + 1) / least)
-      lines.refuse(fmt::format("{} rows of \"{}\" are announced, {} bytes follow; the file is truncated", element.count,
-                               element.name, bytes));
-  }
-}
-
 /// The values of the body one after another, from text or from bytes.
 class Values {
  public:
@@ -241,7 +222,6 @@ void skip(const Element& element, Values& values) {
 TriangleMesh read_ply(const std::string& file, std::string_view content) {
   TextLines lines(file, content);
   const Header header = read_header(lines);
-  require_rows(header, lines, content.size() - lines.position());
   Values values(file, content, lines, header.encoding);
   TriangleMesh mesh;
   std::vector<int> corners;
