@@ -2,9 +2,10 @@
 # On a bare Debian 12 `make demo` and `make test` need only make, git and root (or sudo).
 .DEFAULT_GOAL := build
 .NOTPARALLEL:
-.PHONY: build command deps demo test test-clients sanitize asan tsan bench install format format-check tidy clean help
+.PHONY: build command deps demo test test-clients sanitize asan tsan bench fuzz install format format-check tidy clean help
 
 JOBS ?= $(shell nproc)
+SECONDS ?= 60
 PREFIX ?= /usr/local
 FLANK_DATA ?= $(CURDIR)/../shared/data
 export FLANK_DATA
@@ -39,6 +40,15 @@ sanitize: asan tsan  ## run the tests under the address, undefined-behaviour and
 
 asan tsan: deps
 	scripts/sanitize.sh $@
+
+fuzz:  ## fuzz every reader of our own for SECONDS (default 60); what is found lies in build/fuzz/found
+	cmake --preset fuzz
+	cmake --build --preset fuzz --parallel $(JOBS)
+	mkdir -p build/fuzz/found
+	set -e; for program in build/fuzz/tests/fuzz_*; do name=$${program##*/fuzz_}; \
+	  mkdir -p build/fuzz/corpus/$$name; echo "== $$name"; \
+	  $$program -max_total_time=$(SECONDS) -timeout=10 -rss_limit_mb=2000 -verbosity=0 -print_final_stats=1 \
+	    -artifact_prefix=build/fuzz/found/$$name- build/fuzz/corpus/$$name $$(ls -d tests/fuzz/corpus/$$name 2>/dev/null); done
 
 bench:  ## build and run the benchmarks
 	scripts/install-deps.sh build bench

@@ -3,6 +3,9 @@ option(FLANK_BUILD_BENCH "Build the benchmarks" OFF)
 option(FLANK_WARNINGS_AS_ERRORS "Let no compiler warning pass in our own code" ${PROJECT_IS_TOP_LEVEL})
 set(FLANK_SANITIZE "" CACHE STRING "Sanitizers to compile with, e.g. address,undefined or thread")
 
+option(FLANK_FUZZ "Build the readers as libFuzzer programs (clang)" OFF)
+option(FLANK_HARDENING "Stack protector, checked C functions, read-only relocations, position-independent programs" ON)
+
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
@@ -33,6 +36,20 @@ endif()
 
 # The same input gives the same bytes: no fused multiply-add that depends on the optimiser (decision 0002).
 add_compile_options(-ffp-contract=off)
+# A fault in a reader is to end the program, not to be used. A distributor who sets such flags for all packages switches this
+# off. FORTIFY needs the optimiser, and is not for sanitizers, which check more.
+if(FLANK_HARDENING)
+  include(CheckPIESupported)
+  check_pie_supported(LANGUAGES CXX)
+  add_compile_options(-fstack-protector-strong)
+  add_link_options(-Wl,-z,relro,-z,now,-z,noexecstack)
+  if(NOT FLANK_SANITIZE)
+    add_compile_options("$<$<CONFIG:Release,RelWithDebInfo,MinSizeRel>:-U_FORTIFY_SOURCE;-D_FORTIFY_SOURCE=2>")
+  endif()
+endif()
+if(FLANK_FUZZ)
+  add_compile_options(-fsanitize=fuzzer-no-link)
+endif()
 # A program that reads no part does not load the CAD kernel: it starts at once, and so does every test.
 add_link_options(-Wl,--as-needed)
 if(FLANK_SANITIZE)

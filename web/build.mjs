@@ -1,5 +1,6 @@
 // Bundles the page (esbuild) and writes it as one HTML template, and as a C++ source that holds it.
 // usage: node build.mjs NODE_MODULES OUTPUT.html OUTPUT.cpp
+import { createHash } from 'node:crypto';
 import { createRequire } from 'node:module';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
@@ -45,9 +46,12 @@ function literals(text) {
 
 const script = await bundle('main.js', { format: 'iife', target: 'es2020' });
 const style = await bundle('style.css', { target: 'es2020' });
+const code = inline(script.trim());
+// The page runs this one script and fetches nothing: what a name in a file could bring in does not run.
 const page = readFileSync(join(source, 'index.html'), 'utf8')
+  .replace('SCRIPT_HASH', () => createHash('sha256').update(code, 'utf8').digest('base64'))
   .replace('/*STYLE*/', () => inline(style.trim()))
-  .replace('/*SCRIPT*/', () => inline(script.trim()));
+  .replace('/*SCRIPT*/', () => code);
 writeFileSync(html, page);
 writeFileSync(
   cpp,

@@ -4,6 +4,7 @@
 #include <CLI/App.hpp>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "flank/progress.h"
@@ -15,6 +16,7 @@ struct CommonOptions {
   bool json = false;
   bool quiet = false;
   int threads = 0;
+  std::optional<double> read_limit_s;  ///< for reading a CAD file; none: by its size
 };
 
 /// Exit codes of the command.
@@ -41,5 +43,7 @@ struct Subcommand {
 
 /// A line on stderr that grows on a terminal, plain lines otherwise, nothing if quiet; cancelled by Ctrl-C.
 [[nodiscard]] Progress terminal_progress(const CommonOptions& options);
+/// After a work that a signal has stopped, also if quiet: which signal it was, and where the best so far lies.
+void say_stopped(const std::string& folder);
 
 }  // namespace flank::cli

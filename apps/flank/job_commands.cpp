@@ -2,38 +2,36 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <filesystem>
 #include <memory>
 
 #include "commands.h"
 #include "flank/artefact/verify_json.h"
+#include "flank/artefact/write_result.h"
+#include "flank/base/printable.h"
+#include "flank/job/input_files.h"
 #include "flank/run.h"
 #include "job_options.h"
 
 namespace flank::cli {
+using namespace internal;
 namespace {
 
-/// Makes the folder, works, writes what came out, prints the summary. A folder that it made is removed if the work is
-/// refused.
-int run_into(const std::string& folder, const CommonOptions& common,
+/// Makes the folder and holds it, works, writes what came out, prints the summary. A folder that it made is removed if
+/// the work is refused.
+int run_into(const std::string& name, const CommonOptions& common, const PlanJob& job,
              const std::function<Result(const Progress&)>& work) {
-  const bool existed = std::filesystem::exists(folder);
-  ensure_folder(folder);
-  try {
-    const Progress progress = terminal_progress(common);
-    const Result result = work(progress);
-    write_result(result, folder);
-    progress.step("done", 1.0);
-    if (common.json)
-      fmt::print("{}", summary_json(result));
-    else if (!common.quiet)
-      fmt::print("{}  written to  {}\n", summary_text(result), folder);
-    return result.acceptance().pass() ? kMeetsRequest : kFallsShort;
-  } catch (...) {
-    std::error_code ignored;
-    if (!existed) std::filesystem::remove(folder, ignored);
-    throw;
-  }
+  ResultFolder folder(name, ResultFolder::Use::kWrite);
+  folder.require_not_inputs(input_files(job));
+  const Progress progress = terminal_progress(common);
+  const Result result = work(progress);
+  write_result(result, folder);
+  progress.step("done", 1.0);
+  if (!result.complete) say_stopped(name);
+  if (common.json)
+    fmt::print("{}", summary_json(result));
+  else if (!common.quiet)
+    fmt::print("{}  written to  {}\n", printable(summary_text(result), true), printable(name));
+  return result.acceptance().pass() ? kMeetsRequest : kFallsShort;
 }
 
 /// A command that makes a folder of results from a job.
@@ -44,7 +42,7 @@ Subcommand job_command(CLI::App* app, Result (*work)(const Job&, const Progress&
   FlagNames names = add_job_options(*app, *job);
   app->add_option("-o,--output", *folder, "Folder for the results")->required();
   const auto run = [job, folder, work](const CommonOptions& common) {
-    return run_into(*folder, common, [&](const Progress& progress) { return work(*job, progress); });
+    return run_into(*folder, common, *job, [&](const Progress& progress) { return work(*job, progress); });
   };
   return {app, run, std::move(names)};
 }
@@ -82,7 +80,7 @@ Subcommand add_verify(CLI::App& parser) {
     if (common.json)
       fmt::print("{}\n", internal::verify_to_json(outcome.report, outcome.acceptance));
     else if (!common.quiet)
-      fmt::print("{}", verify_text(outcome));
+      fmt::print("{}", printable(verify_text(outcome), true));
     return outcome.acceptance.pass() ? kMeetsRequest : kFallsShort;
   };
   return {app, run, std::move(names)};

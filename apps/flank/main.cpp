@@ -2,10 +2,21 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <map>
+#include <string>
+#include <system_error>
 #include <vector>
 
 #include "commands.h"
+#include "flank/base/printable.h"
 #include "flank/error.h"
+#include "flank/io/isolated/cad_reader.h"
+#include "flank/io/isolated/read_isolated.h"
+#include "flank/io/isolated/serve_cad.h"
 #include "flank/threads.h"
 #include "flank/version.h"
 #include "messages.h"
@@ -21,7 +32,9 @@ int complain(const std::string& message, int code) {
   std::string line = message;
   for (char& c : line)
     if (c == '\n') c = ' ';
-  fmt::print(stderr, "flank: {}\n", line);
+  line = "flank: " + flank::internal::printable(line) + "\n";
+  // Nothing can be said where standard error is closed or full; the exit code says it.
+  (void)std::fwrite(line.data(), 1, line.size(), stderr);
   return code;
 }
 
@@ -41,11 +54,38 @@ void add_common(CLI::App& app, flank::cli::CommonOptions& common) {
   app.add_flag("--quiet", common.quiet, "No progress and no summary");
   app.add_option("--threads", common.threads, "Threads to use; 0: all cores. The result does not depend on it")
       ->check(CLI::Range(0, 1024));
+  app.add_option("--read-limit", common.read_limit_s,
+                 "Processor time for reading a CAD file, seconds; default: 10 and 10 more for each MB of it")
+      ->check(CLI::Range(0.1, 1e6));
+}
+
+/// The flags of a command, and those that all have.
+std::map<std::string, std::string> with_common(std::map<std::string, std::string> flags) {
+  flags["read_limit"] = "--read-limit";
+  return flags;
+}
+
+/// What was printed must have arrived: a full disk or a closed pipe is noticed when it is flushed.
+int flushed(int code) {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  return complain(std::string("standard output cannot be written (") + std::strerror(errno) + ")", kRefusedInput);
+}
+
+/// The command's threads are still to come, so it can be told now how CAD files are read.
+void read_in_children(const flank::cli::CommonOptions& common) {
+  flank::internal::set_cad_reader([limits = flank::internal::ReadLimits{common.read_limit_s}](
+                                      const auto& file, const auto& format, const auto& unit) {
+    return flank::internal::read_cad_isolated(file, format, unit, limits);
+  });
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc > 1 && std::strcmp(argv[1], flank::internal::kReadCadCommand) == 0)
+    return flank::internal::serve_cad(argc - 2, argv + 2);
+  // A reader that has gone away is an error of the write, not our end.
+  std::signal(SIGPIPE, SIG_IGN);
   CLI::App parser{"flank: custom-shaped milling tools and the five-axis motions whose flank finishes a surface",
                   "flank"};
   parser.set_version_flag("--version", flank::kVersion);
@@ -66,15 +106,16 @@ int main(int argc, char** argv) {
   };
   const auto in_flags = [&](const flank::Error& error) {
     const flank::cli::Subcommand* command = chosen();
-    return command != nullptr ? flank::cli::in_flags(error, command->flags) : std::string(error.what());
+    return command != nullptr ? flank::cli::in_flags(error, with_common(command->flags)) : std::string(error.what());
   };
   try {
     require_known_command(parser, argc, argv);
     parser.parse(argc, argv);
     flank::set_thread_count(common.threads);
-    return chosen()->run(common);
+    read_in_children(common);
+    return flushed(chosen()->run(common));
   } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) return parser.exit(e);
+    if (e.get_exit_code() == 0) return flushed(parser.exit(e));
     return complain(std::string(e.what()) + " (see flank --help)", kWrongUsage);
   } catch (const flank::UsageError& e) {
     return complain(in_flags(e), kWrongUsage);
@@ -82,6 +123,9 @@ int main(int argc, char** argv) {
     return complain(in_flags(e), kRefusedInput);
   } catch (const std::bad_alloc&) {
     return complain("out of memory", kOurFault);
+  } catch (const std::system_error& e) {
+    // fmt says so when a stream cannot be written.
+    return complain(std::string("cannot write (") + e.what() + ")", kRefusedInput);
   } catch (const std::exception& e) {
     return complain(std::string("internal error: ") + e.what(), kOurFault);
   }

@@ -8,16 +8,17 @@
 #include <string>
 
 #include "commands.h"
+#include "flank/base/printable.h"
 
 namespace flank::cli {
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
 
-void on_interrupt(int) {
-  // A second Ctrl-C ends at once.
-  if (interrupted != 0) std::_Exit(130);
-  interrupted = 1;
+void on_interrupt(int signal) {
+  // A second one ends at once.
+  if (interrupted != 0) std::_Exit(128 + signal);
+  interrupted = signal;
 }
 
 std::string time_left(double seconds, double share) {
@@ -27,8 +28,16 @@ std::string time_left(double seconds, double share) {
 
 }  // namespace
 
+void say_stopped(const std::string& folder) {
+  const int signal = interrupted;
+  const char* name = signal == SIGTERM ? "SIGTERM" : signal == SIGHUP ? "SIGHUP" : "SIGINT";
+  const std::string line =
+      fmt::format("flank: stopped by {}; the best so far is in {}\n", name, internal::printable(folder));
+  (void)std::fwrite(line.data(), 1, line.size(), stderr);
+}
+
 Progress terminal_progress(const CommonOptions& options) {
-  std::signal(SIGINT, on_interrupt);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, on_interrupt);
   Progress progress;
   progress.cancelled = [] { return interrupted != 0; };
   if (options.quiet || options.json) return progress;
@@ -36,11 +45,14 @@ Progress terminal_progress(const CommonOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   progress.report = [terminal, start](std::string_view stage, double share) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    std::string line;
     if (terminal)
-      fmt::print(stderr, "\r\x1b[K{} {:3.0f} %{}{}", stage, 100.0 * share, time_left(seconds, share),
-                 share >= 1.0 ? "\r\x1b[K" : "");
+      line = fmt::format("\r\x1b[K{} {:3.0f} %{}{}", stage, 100.0 * share, time_left(seconds, share),
+                         share >= 1.0 ? "\r\x1b[K" : "");
     else if (share < 1.0)
-      fmt::print(stderr, "{} {:.0f} %\n", stage, 100.0 * share);
+      line = fmt::format("{} {:.0f} %\n", stage, 100.0 * share);
+    // A standard error that is closed or full costs the progress, not the work.
+    (void)std::fwrite(line.data(), 1, line.size(), stderr);
     std::fflush(stderr);
   };
   return progress;

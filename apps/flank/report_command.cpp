@@ -8,12 +8,18 @@
 
 #include "commands.h"
 #include "flank/base/atomic_file.h"
+#include "flank/base/printable.h"
+#include "flank/error.h"
+#include "flank/io/text/json_dump.h"
+#include "flank/manifest/result_folder.h"
 #include "flank/report.h"
 #include "flank/report/browser.h"
 
 namespace flank::cli {
 using namespace internal;
 namespace {
+
+constexpr const char* kPageFile = "report.html";
 
 struct ReportOptions {
   std::string folder;
@@ -23,7 +29,7 @@ struct ReportOptions {
   std::string size = "1600x1000";
   std::string theme;
   [[nodiscard]] std::string page() const {
-    return html.empty() ? (std::filesystem::path(folder) / "report.html").string() : html;
+    return html.empty() ? (std::filesystem::path(folder) / kPageFile).string() : html;
   }
 };
 
@@ -35,9 +41,9 @@ void add_page(CLI::App* app, ReportOptions& options) {
 int say(const std::vector<std::string>& written, const CommonOptions& common) {
   if (common.json) {
     nlohmann::ordered_json json = {{"schema", "openflank/report/1"}, {"files", written}};
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", dumped(json, 2));
   } else if (!common.quiet) {
-    for (const std::string& file : written) fmt::print("{}\n", file);
+    for (const std::string& file : written) fmt::print("{}\n", printable(file));
   }
   return 0;
 }
@@ -51,8 +57,37 @@ std::string read_size(const std::string& text, PictureOptions& picture) {
   return sensible ? "" : text + ": WIDTHxHEIGHT in pixels, each from 200 to 10000, is needed";
 }
 
+/// The same file, by whatever name, or the same name to be.
+bool same_file(const std::string& a, const std::string& b) {
+  std::error_code error;
+  if (std::filesystem::equivalent(a, b, error)) return true;
+  const auto clean = [&](const std::string& name) { return std::filesystem::weakly_canonical(name, error); };
+  return clean(a) == clean(b);
+}
+
+/// What the page is made of is not overwritten by it, nor any other file of the result.
+void require_own_name(const std::string& folder, const std::string& output) {
+  for (const std::string& name : result_names())
+    if (same_file((std::filesystem::path(folder) / name).string(), output))
+      throw InputError(output + ": is a file of the result; give another name");
+}
+
+/// In its folder the page belongs to the result, so that it goes when a new one comes.
+void write_page(const ReportOptions& options, const std::string& page) {
+  if (options.html.empty()) {
+    ResultFolder folder(options.folder, ResultFolder::Use::kWriteOrRead);
+    if (folder.manifest() && folder.writable()) {
+      folder.add({{kPageFile, page}}, *folder.manifest());
+      return;
+    }
+  }
+  write_file(options.page(), page);
+}
+
 int report(ReportOptions& options, const CommonOptions& common) {
-  write_file(options.page(), make_report(options.folder));
+  require_own_name(options.folder, options.page());
+  if (!options.png.empty()) require_own_name(options.folder, options.png);
+  write_page(options, make_report(options.folder));
   std::vector<std::string> written{options.page()};
   if (!options.png.empty()) {
     if (!options.theme.empty()) options.picture.fragment = "theme=" + options.theme;

@@ -6,10 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "flank/base/printable.h"
 #include "flank/example/example.h"
 #include "flank/example/example_write.h"
 #include "flank/inspect/inspect.h"
 #include "flank/inspect/inspect_text.h"
+#include "flank/io/text/json_dump.h"
 #include "flank/io/tool/tool_svg.h"
 #include "flank/part.h"
 #include "flank/toolbox/tool_command.h"
@@ -31,7 +33,7 @@ Subcommand add_inspect(CLI::App& parser) {
             if (common.json)
               fmt::print("{}", inspect_to_json(report));
             else
-              fmt::print("{}", to_table(report));
+              fmt::print("{}", printable(to_table(report), true));
             return 0;
           },
           {{"unit", "--unit"}}};
@@ -58,10 +60,10 @@ Subcommand add_example(CLI::App& parser) {
         const std::vector<std::string> written = write_example(example, *file);
         if (common.json) {
           nlohmann::ordered_json json = {{"schema", "openflank/example/1"}, {"name", example.name}, {"files", written}};
-          fmt::print("{}\n", json.dump(2));
+          fmt::print("{}\n", dumped(json, 2));
         } else if (!common.quiet) {
           fmt::print("{}: {}\n", example.name, example.description);
-          for (const std::string& path : written) fmt::print("  {}\n", path);
+          for (const std::string& path : written) fmt::print("  {}\n", printable(path));
         }
         return 0;
       },
@@ -93,7 +95,7 @@ Subcommand add_tool(CLI::App& parser) {
     }
     if (options->outputs.empty() || *show) fmt::print("{}", tool_to_ascii(tool));
     if (!common.quiet)
-      for (const std::string& file : options->outputs) fmt::print("wrote {}\n", file);
+      for (const std::string& file : options->outputs) fmt::print("wrote {}\n", printable(file));
     return kMeetsRequest;
   };
   return {app,

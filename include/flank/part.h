@@ -14,6 +14,7 @@ namespace flank {
 /// A file as values, in millimetres. Either `faces` (CAD) or `mesh` with `mesh_faces` is filled.
 struct Part {
   std::string file;
+  std::string sha256;  ///< of the bytes of the file, 64 hexadecimal digits
   std::string format;  ///< STEP, IGES, BREP, STL, OBJ, PLY
   std::string unit;    ///< of the file: mm, cm, m, in
   double millimetres_per_unit = 1.0;
@@ -45,9 +46,12 @@ inline constexpr double kSmallestPartMm = 1.0;
 /// Coordinates beyond this are refused: they are no lengths of a part, and doubles resolve nanometres only up to it.
 inline constexpr double kLargestCoordinateMm = 1e7;
 
+/// A part whose box is smaller is refused: its details would be below what any machine and any judge resolves.
+inline constexpr double kSmallestBoxMm = 1e-3;
+
 /// Reads a part. `unit` ("mm", "cm", "m", "in") is needed for meshes, whose files have none, and refused for CAD files
 /// that state another. Throws InputError naming the file and what would be accepted (missing, empty, truncated, not the
-/// format that it claims, no unit, NaN coordinates, ...).
+/// format that it claims, no unit, coordinates that are NaN or no lengths of a part, ...).
 [[nodiscard]] Part read_part(const std::string& file, const std::optional<std::string>& unit = {});
 
 /// Replaces each face of which `list` names a piece ("F1a") by its pieces F1a, F1b, ...: the sides of an aerofoil and

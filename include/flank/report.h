@@ -14,8 +14,8 @@ namespace flank {
 [[nodiscard]] bool page_is_built();
 
 /// The page of what lies in `folder`. A file that is missing is left out, and the page says so. Throws UsageError if the
-/// library was built without the page; InputError if there is no such folder, if it holds none of the files, or if one
-/// of them is no JSON of the schema that belongs to it.
+/// library was built without the page; InputError if there is no such folder, if it holds none of the files, if one of
+/// them is no JSON of the schema that belongs to it, and if files or part are not those of manifest.json.
 [[nodiscard]] std::string make_report(const std::string& folder);
 
 /// The same from a given template: title and data are put in their places.

@@ -96,6 +96,7 @@ struct Ranking {
 /// What fit and cover make.
 struct Result {
   PlanJob job;
+  std::string part_sha256;  ///< Part::sha256 of the part that was read
   Tool tool;
   Path path;
   std::vector<RuledMotion> motions;  ///< motion k is strip k of the path
@@ -123,12 +124,10 @@ struct Result {
 
 /// Writes tool.json, tool.dxf, tool.step, tool.fctb, strips.step, path.json, path.cls, path.csv, verify.json, view.json,
 /// summary.json and job.json to a folder, and ranking.json if there is a ranking. A tool that is not legitimate has
-/// neither tool.step nor tool.fctb. Throws InputError if the folder cannot be written.
+/// neither tool.step nor tool.fctb. All of them take the place of an earlier result at once, with a manifest.json that ties
+/// them together and to the part (docs/schema/manifest.md); other files in the folder stay. Throws InputError if the folder
+/// cannot be written, or another process writes to it; what was there is whole then.
 void write_result(const Result& result, const std::string& folder);
-
-/// Makes the folder if it is not there and proves that it can be written, so that nobody learns it after the work. Throws
-/// InputError.
-void ensure_folder(const std::string& folder);
 
 /// The result as a table for a terminal.
 [[nodiscard]] std::string summary_text(const Result& result);

@@ -79,5 +79,23 @@ TEST_F(AtomicFileTest, RefusesAFolderAndAnEmptyName) {
   EXPECT_EQ(count(), 1);
 }
 
+TEST_F(AtomicFileTest, WritesWhereALinkLeads) {
+  write_file(path("real"), "old");
+  fs::create_symlink("real", folder_ / "link");
+  write_file(path("link"), "new");
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link"));
+  EXPECT_EQ(content(path("real")), "new");
+  fs::create_symlink("not-yet", folder_ / "dangling");
+  write_file(path("dangling"), "x");
+  EXPECT_EQ(content(path("not-yet")), "x");
+  fs::create_symlink("circle", folder_ / "circle");
+  EXPECT_THROW(write_file(path("circle"), "x"), InputError);
+}
+
+TEST_F(AtomicFileTest, RefusesDevices) {
+  EXPECT_THROW(write_file("/dev/null", "x"), InputError);
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
 }  // namespace
 }  // namespace flank::internal

@@ -111,6 +111,18 @@ TEST_F(ReportFolder, AFileWhosePartIsNoTextHasNoTitleOfItsOwn) {
   EXPECT_EQ(title(), " of a.step - OpenFlank");
 }
 
+TEST_F(ReportFolder, RefusesFiguresOfAnotherType) {
+  for (const char* wrong : {R"("bodies": 3)", R"("strips": "none")", R"("tolerance_mm": "0.1")"}) {
+    write("view.json", std::string(R"({"schema": "openflank/view/1", )") + wrong + "}");
+    expect_refused("view.json", "is needed");
+  }
+  write("view.json", kView);
+  for (const char* wrong : {R"("faces": "F1")", R"("pass": "yes")", R"("worst_places": {})"}) {
+    write("verify.json", std::string(R"({"schema": "openflank/verify/1", )") + wrong + "}");
+    expect_refused("verify.json", "is needed");
+  }
+}
+
 TEST_F(ReportFolder, AFileIsNoFolder) {
   write("view.json", kView);
   try {

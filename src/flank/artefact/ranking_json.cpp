@@ -1,4 +1,5 @@
 #include "flank/artefact/ranking_json.h"
+#include "flank/io/text/json_dump.h"
 
 #include <fmt/format.h>
 
@@ -53,7 +54,7 @@ std::string ranking_to_json(const Ranking& ranking) {
   json["feed_mm_min"] = ranking.feed_mm_min;
   json["rapid_mm_min"] = ranking.rapid_mm_min;
   json["tools"] = ranking_entries(ranking);
-  return json.dump(2) + "\n";
+  return dumped(json, 2) + "\n";
 }
 
 std::string ranking_table(const Ranking& ranking) {

@@ -8,6 +8,7 @@
 #include "flank/artefact/clearance_text.h"
 #include "flank/artefact/ranking_json.h"
 #include "flank/artefact/verify_json.h"
+#include "flank/io/text/json_dump.h"
 #include "flank/job/command_line.h"
 #include "flank/run.h"
 
@@ -165,7 +166,7 @@ std::string summary_json(const Result& result) {
   std::visit([&](const auto& plan) { add_plan(plan, json); }, result.plan);
   if (result.ranking) json["ranking"] = ranking_entries(*result.ranking);
   json["notes"] = result.notes;
-  return json.dump(2) + "\n";
+  return dumped(json, 2) + "\n";
 }
 
 }  // namespace flank

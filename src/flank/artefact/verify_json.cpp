@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "flank/error.h"
+#include "flank/io/text/json_dump.h"
 
 namespace flank::internal {
 namespace {
@@ -224,7 +225,7 @@ std::string verify_to_json(const VerifyReport& r, const Acceptance& acceptance) 
   for (double e : r.histogram_edges_mm) j["histogram"]["edges_mm"].push_back(number(e));
   for (double a : r.histogram_area_mm2) j["histogram"]["area_mm2"].push_back(number(a));
   if (!r.clearance.figures.empty()) j["clearance"] = to_json(r.clearance);
-  return j.dump(2) + "\n";
+  return dumped(j, 2) + "\n";
 }
 
 VerifyReport verify_from_json(const std::string& text, const std::string& source) {

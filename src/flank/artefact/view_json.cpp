@@ -1,4 +1,5 @@
 #include "flank/artefact/view_json.h"
+#include "flank/io/text/json_dump.h"
 #include "flank/version.h"
 
 #include <bit>
@@ -166,7 +167,7 @@ std::string view_to_json(const View& view) {
             {"bodies", Json::array()}};
   for (const ViewStrip& strip : view.strips) j["strips"].push_back(to_json(strip));
   for (const ViewFace& body : view.bodies) j["bodies"].push_back(to_json(body));
-  return j.dump() + "\n";
+  return dumped(j) + "\n";
 }
 
 }  // namespace flank::internal

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <utility>
@@ -13,6 +14,8 @@
 
 namespace flank::internal {
 namespace {
+
+namespace fs = std::filesystem;
 
 [[noreturn]] void refuse(const std::string& file, int error) {
   throw InputError(file + ": cannot be written (" + std::strerror(error) +
@@ -25,48 +28,115 @@ std::string temporary_name(const std::string& file) {
   return file + ".part-" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
 }
 
-/// write() may take fewer bytes than it is given, and a signal may interrupt it.
-void write_all(int descriptor, std::string_view content, const std::string& file) {
-  while (!content.empty()) {
-    const ssize_t written = ::write(descriptor, content.data(), content.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) {
-      const int error = errno;
-      ::close(descriptor);
-      refuse(file, error);
-    }
-    content.remove_prefix(static_cast<std::size_t>(written));
+/// Where a link leads, even if nothing is there yet.
+std::string followed(const std::string& file) {
+  constexpr int kMostLinks = 40;
+  std::error_code error;
+  fs::path at = file;
+  for (int k = 0; k < kMostLinks; ++k) {
+    if (!fs::is_symlink(at, error)) return at.string();
+    at = at.parent_path() / fs::read_symlink(at, error);
+    if (error) refuse(file, error.value());
   }
+  refuse(file, ELOOP);
+}
+
+void require_place(const std::string& file) {
+  if (file.empty()) throw InputError("cannot write a file without a name; give a path");
+  std::error_code ignored;
+  const auto status = fs::status(file, ignored);
+  if (fs::is_directory(status)) refuse(file, EISDIR);
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    throw InputError(file + ": is a device or a pipe; give the path of a file");
+}
+
+/// An open file; closed at the end of its life. Messages call it `shown`.
+class Descriptor {
+ public:
+  Descriptor(const std::string& file, int flags, const std::string& shown)
+      : file_(shown), number_(::open(file.c_str(), flags | O_CLOEXEC, 0666)) {
+    if (number_ < 0) refuse(shown, errno);
+  }
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  /// write() may take fewer bytes than it is given, and a signal may interrupt it.
+  void write(std::string_view content) const {
+    while (!content.empty()) {
+      const ssize_t written = ::write(number_, content.data(), content.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) refuse(file_, errno);
+      content.remove_prefix(static_cast<std::size_t>(written));
+    }
+  }
+  /// Down to the disk. Some file systems have nothing to do then, and say so.
+  void sync() const {
+    while (::fsync(number_) != 0) {
+      if (errno == EINVAL || errno == ENOTSUP || errno == EROFS) return;
+      if (errno != EINTR) refuse(file_, errno);
+    }
+  }
+  void close() {
+    if (::close(std::exchange(number_, -1)) != 0 && errno != EINTR) refuse(file_, errno);
+  }
+
+ private:
+  const std::string file_;
+  int number_;
+};
+
+void write_open(Descriptor& descriptor, std::string_view content) {
+  descriptor.write(content);
+  descriptor.sync();
+  descriptor.close();
+}
+
+std::string folder_of(const std::string& file) {
+  const std::string folder = fs::path(file).parent_path().string();
+  return folder.empty() ? "." : folder;
 }
 
 }  // namespace
 
 // The file is made at once, so that a wrong folder is noticed before anything is computed for it.
-AtomicFile::AtomicFile(std::string file) : file_(std::move(file)), temporary_(temporary_name(file_)) {
-  std::error_code ignored;
-  if (file_.empty()) throw InputError("cannot write a file without a name; give a path");
-  if (std::filesystem::is_directory(file_, ignored)) refuse(file_, EISDIR);
+AtomicFile::AtomicFile(std::string file) : file_(followed(file)), temporary_(temporary_name(file_)) {
+  require_place(file_);
   const int descriptor = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (descriptor < 0) refuse(file_, errno);
+  if (descriptor < 0) refuse(file, errno);
   ::close(descriptor);
 }
 
 AtomicFile::~AtomicFile() {
-  if (!committed_) ::unlink(temporary_.c_str());
+  if (!committed_ && ::unlink(temporary_.c_str()) != 0) ::unlink(temporary_.c_str());
 }
 
 void AtomicFile::commit() {
-  if (std::rename(temporary_.c_str(), file_.c_str()) != 0) refuse(file_, errno);
+  Descriptor(temporary_, O_RDONLY, file_).sync();
+  rename_file(temporary_, file_);
   committed_ = true;
+  sync_folder(folder_of(file_));
 }
 
 void write_file(const std::string& file, std::string_view content) {
   AtomicFile atomic(file);
-  const int descriptor = ::open(atomic.temporary().c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
-  if (descriptor < 0) refuse(file, errno);
-  write_all(descriptor, content, file);
-  if (::close(descriptor) != 0) refuse(file, errno);
+  Descriptor descriptor(atomic.temporary(), O_WRONLY | O_TRUNC, file);
+  write_open(descriptor, content);
   atomic.commit();
+}
+
+void write_new_file(const std::string& file, std::string_view content) {
+  Descriptor descriptor(file, O_WRONLY | O_CREAT | O_EXCL, file);
+  write_open(descriptor, content);
+}
+
+void sync_folder(const std::string& folder) { Descriptor(folder, O_RDONLY | O_DIRECTORY, folder).sync(); }
+
+void rename_file(const std::string& from, const std::string& to) {
+  if (std::rename(from.c_str(), to.c_str()) == 0) return;
+  if (std::rename(from.c_str(), to.c_str()) != 0) refuse(to, errno);
 }
 
 }  // namespace flank::internal

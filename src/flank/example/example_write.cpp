@@ -9,6 +9,7 @@
 #include "flank/error.h"
 #include "flank/io/cad/write_step.h"
 #include "flank/io/mesh/write_mesh.h"
+#include "flank/io/text/json_dump.h"
 #include "flank/path_file.h"
 #include "flank/tool_file.h"
 
@@ -60,7 +61,7 @@ std::string truth_json(const Example& example, const std::string& tool_file, con
                                {"tip", rail_json(motion.tip)},
                                {"direction", rail_json(motion.direction)}});
   }
-  return json.dump(1) + "\n";
+  return dumped(json, 1) + "\n";
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include "flank/inspect/inspect_text.h"
+#include "flank/io/text/json_dump.h"
 
 #include <fmt/format.h>
 
@@ -108,7 +109,7 @@ std::string inspect_to_json(const InspectReport& report) {
                                {"box", box_json(report.box)},
                                {"faces", std::move(rows)},
                                {"repairs", report.repairs}};
-  return json.dump(2) + "\n";
+  return dumped(json, 2) + "\n";
 }
 
 }  // namespace flank::internal

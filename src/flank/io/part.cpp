@@ -7,13 +7,15 @@
 #include <string_view>
 #include <utility>
 
+#include "flank/base/sha256.h"
 #include "flank/error.h"
-#include "flank/io/cad/read_cad.h"
+#include "flank/io/isolated/cad_reader.h"
 #include "flank/io/mesh/read_mesh_regions.h"
 #include "flank/io/mesh/read_mesh_repair.h"
 #include "flank/io/mesh/read_obj.h"
 #include "flank/io/mesh/read_ply.h"
 #include "flank/io/mesh/read_stl.h"
+#include "flank/io/part_range.h"
 #include "flank/io/text/read_sniff.h"
 #include "flank/io/text/read_unit.h"
 
@@ -41,19 +43,20 @@ TriangleMesh parse_mesh(const std::string& file, const std::string& format, std:
 }
 
 /// The box of what the triangles use: a stray vertex is not part of the part.
-Vec3 used_size(const TriangleMesh& mesh) {
+Box3 used_box(const TriangleMesh& mesh) {
   Box3 box;
   for (const auto& t : mesh.triangles)
     for (const int v : t) box.add(mesh.vertices[static_cast<std::size_t>(v)]);
-  return box.high - box.low;
+  return box;
 }
 
 Part read_mesh(const std::string& file, const std::string& format, std::string_view content,
                const std::optional<std::string>& unit) {
   TriangleMesh raw = parse_mesh(file, format, content);
+  const Box3 box = used_box(raw);
   if (!unit)
     throw InputError(
-        fmt::format("{}: a mesh file has no unit; say which by `unit`: {}", file, sizes_by_unit(used_size(raw))));
+        fmt::format("{}: a mesh file has no unit; say which by `unit`: {}", file, sizes_by_unit(box.high - box.low)));
   Part part;
   part.file = file;
   part.format = format;
@@ -61,6 +64,8 @@ Part read_mesh(const std::string& file, const std::string& format, std::string_v
   part.millimetres_per_unit = millimetres_per(*unit);
   // Before the repair: its tolerances and the messages are in millimetres.
   for (Vec3& v : raw.vertices) v *= part.millimetres_per_unit;
+  part.box = used_box(raw);
+  require_part_in_range(part);
   try {
     ReadMesh repaired = repair_read_mesh(std::move(raw), format == "STL");
     part.mesh = std::move(repaired.mesh);
@@ -91,7 +96,9 @@ Part read_part(const std::string& file, const std::optional<std::string>& unit) 
   const std::string content = read_bytes(file);
   const std::string format = sniff_format(file, content);
   const bool mesh = format == "STL" || format == "OBJ" || format == "PLY";
-  Part part = mesh ? read_mesh(file, format, content, unit) : read_cad(file, format, unit);
+  Part part = mesh ? read_mesh(file, format, content, unit) : cad_reader()(file, format, unit);
+  part.sha256 = sha256(content);
+  require_part_in_range(part);
   note_doubtful_size(part);
   return part;
 }

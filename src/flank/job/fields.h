@@ -45,13 +45,17 @@ struct FieldInfo {
 namespace flank::internal::accepted {
 
 inline bool positive(double x) { return x > 0.0 && x < 1e300; }
+/// What is far below an atom counts as nothing.
+inline bool length(double x) { return x >= 1e-9 && x < 1e300; }
 inline bool not_negative(double x) { return x >= 0.0 && x < 1e300; }
 inline constexpr Accepted kAny{};
-inline constexpr Accepted kLength{"a length > 0 mm is needed", positive};
+inline constexpr Accepted kLength{"a length > 0 mm is needed", length};
 inline constexpr Accepted kDistance{"a length >= 0 mm is needed", not_negative};
-inline constexpr Accepted kRadius{"a radius > 0 mm is needed", positive};
+inline constexpr Accepted kRadius{"a radius > 0 mm is needed", length};
 inline constexpr Accepted kRate{"a rate > 0 mm/min is needed", positive};
 inline constexpr Accepted kShare{"a share between 0 and 1 is needed", [](double x) { return x >= 0.0 && x <= 1.0; }};
+inline constexpr Accepted kCoverage{"a share above 0, at most 1, is needed",
+                                    [](double x) { return x > 0.0 && x <= 1.0; }};
 inline constexpr Accepted kPrice{"a share from 0 to 1 is needed", [](double x) { return x >= 0.0 && x < 1.0; }};
 inline constexpr Accepted kSlope{"a number between 0 and 1 is needed", [](double x) { return x > 0.0 && x < 1.0; }};
 inline constexpr Accepted kRatio{"a number > 0 is needed", positive};
@@ -132,7 +136,7 @@ template <class Visitor, Is<JudgeRequest> Request>
 void visit_judge(Request& judge, Visitor& visit) {
   using namespace accepted;
   visit(FieldInfo{"coverage", "", "", "Share of what is reachable of the face, within tolerance, that counts as done",
-                  kShare},
+                  kCoverage},
         judge.least_coverage);
   visit(FieldInfo{"sample", "mm", "", "Spacing of the judge's samples", kLength}, judge.sample_mm);
   visit(FieldInfo{"reach_radius", "mm", "Other faces", kReachHelp, kRadius}, judge.reach_radius_mm);

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "flank/base/file_name.h"
 #include "flank/error.h"
 #include "flank/job/check_fields.h"
 #include "flank/job/fields.h"
@@ -23,8 +24,14 @@ constexpr const char* kIgnoredInOldCovers[] = {"avoid",      "strips",     "star
 
 std::string absolute(const std::string& file) { return std::filesystem::absolute(file).lexically_normal().string(); }
 
+/// Names of files may be any bytes, JSON is UTF-8.
+bool names_file(const FieldInfo& info) {
+  return info.spelling == Spelling::kFile || info.spelling == Spelling::kFileOrText;
+}
+
 Json to_json(const FieldInfo& info, const std::string& value) {
-  return info.spelling == Spelling::kFile && !value.empty() ? absolute(value) : value;
+  if (!names_file(info)) return value;
+  return text_of_name(info.spelling == Spelling::kFile && !value.empty() ? absolute(value) : value);
 }
 Json to_json(const FieldInfo& info, const std::vector<std::string>& values) {
   Json list = Json::array();
@@ -54,6 +61,16 @@ template <class T>
 const T& plain(const std::optional<T>& value) {
   return *value;
 }
+
+void decode_names(std::string& value) { value = name_of_text(value); }
+void decode_names(std::vector<std::string>& values) {
+  for (std::string& value : values) value = name_of_text(value);
+}
+void decode_names(std::optional<std::string>& value) {
+  if (value) value = name_of_text(*value);
+}
+template <class T>
+void decode_names(T&) {}
 
 /// Numbers that JSON would round or wrap are refused, too.
 template <class T>
@@ -86,6 +103,7 @@ Job read_job(const Json& json, const std::set<std::string>& ignored) {
     if (!json.contains(key)) throw InputError(key + ": is missing");
     try {
       from_json(json.at(key), value);
+      if (names_file(info)) decode_names(value);
     } catch (const std::exception& e) {
       throw InputError(key + ": " + e.what());
     }
@@ -120,7 +138,7 @@ std::string job_to_json(const PlanJob& job) {
         });
       },
       job);
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 PlanJob job_from_json(const std::string& text, const std::string& file) {

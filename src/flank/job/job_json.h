@@ -8,7 +8,8 @@
 
 namespace flank::internal {
 
-/// Every field that is set, by its key in the table of fields. Files are written with absolute paths.
+/// Every field that is set, by its key in the table of fields. Files are written with absolute paths; names that are not
+/// UTF-8 are encoded and read back as they were (base/file_name.h).
 [[nodiscard]] std::string job_to_json(const PlanJob& job);
 
 /// Throws InputError naming the file and the key: no JSON, another schema or command, a key that is missing or not known,

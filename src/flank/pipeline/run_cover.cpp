@@ -123,6 +123,7 @@ Result run_cover(const CoverJob& job, const Progress& progress) {
   Stopwatch watch(result);
   progress.step("read", 0.0);
   const Setup setup = read_setup(job.part, job.obstacles, job.tolerance_mm, result.notes);
+  result.part_sha256 = setup.part.sha256;
   watch.lap("read");
   const std::vector<Covered> all =
       choice ? cover_with_best(job, *choice, setup, result, progress) : cover_groups(job, setup, result.tool, progress);

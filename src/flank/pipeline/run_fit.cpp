@@ -24,11 +24,18 @@ void check_job(const FitJob& job) {
 }
 
 void check_axis_length(const FitJob& job, const Part& part) {
-  const double longest = 1.5 * part.box.diagonal();
-  if (job.tool.axis_length_mm.value_or(0.0) > longest)
-    throw UsageError("axis_length_mm", fmt::format("{}", *job.tool.axis_length_mm),
-                     fmt::format("is longer than the part ({:.1f} mm); lengths up to {:.1f} mm are accepted",
-                                 part.box.diagonal(), longest));
+  if (!job.tool.axis_length_mm) return;
+  const double size = part.box.diagonal(), length = *job.tool.axis_length_mm;
+  // A thousandth of the part would take a million passes.
+  const double longest = 1.5 * size, shortest = 1e-3 * size;
+  if (length > longest)
+    throw UsageError(
+        "axis_length_mm", fmt::format("{}", length),
+        fmt::format("is longer than the part ({:.1f} mm); lengths up to {:.1f} mm are accepted", size, longest));
+  if (length < shortest)
+    throw UsageError(
+        "axis_length_mm", fmt::format("{}", length),
+        fmt::format("is nothing beside the part ({:.3g} mm); lengths from {:.3g} mm are accepted", size, shortest));
 }
 
 /// Lifts a shank or holder that comes too near, if the flank's length is open (lengthen.h).
@@ -99,6 +106,7 @@ Result run_fit(const FitJob& job, const Progress& progress) {
   Stopwatch watch(result);
   progress.step("read", 0.0);
   const Setup setup = read_setup(job.part, job.obstacles, job.tolerance_mm, result.notes);
+  result.part_sha256 = setup.part.sha256;
   check_axis_length(job, setup.part);
   const bool with_body = job.obstacles.shank_length_mm || job.obstacles.holder || (spec.tool && has_body(*spec.tool));
   const ClearanceScene scene = make_clearance_scene(setup, job.obstacles, with_body, result.notes);

@@ -6,8 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "flank/base/sha256.h"
 #include "flank/error.h"
+#include "flank/manifest/result_folder.h"
 #include "flank/report/page_template.h"
+#include "flank/report/report_file.h"
 #include "flank/version.h"
 
 namespace flank {
@@ -23,15 +26,6 @@ std::string replaced(std::string_view text, std::string_view what, std::string_v
   return std::string(text.substr(0, at)) + std::string(with) + std::string(text.substr(at + what.size()));
 }
 
-/// "view.json" has schema "openflank/view/1".
-std::string schema_of(const std::string& name) { return "openflank/" + name.substr(0, name.find('.')) + "/1"; }
-
-/// Throws InputError unless the file states this schema.
-void require_schema(const nlohmann::json& json, const std::string& file, const std::string& schema) {
-  if (json.is_object() && json.contains("schema") && json["schema"] == schema) return;
-  throw InputError(file + ": schema \"" + schema + "\" is needed");
-}
-
 /// The text of a file that is JSON of its schema; nothing if there is no such file.
 std::optional<std::string> read_checked(const fs::path& file, const std::string& schema) {
   if (!fs::exists(file)) return std::nullopt;
@@ -39,9 +33,7 @@ std::optional<std::string> read_checked(const fs::path& file, const std::string&
   std::ifstream stream(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   if (!stream.good() && !stream.eof()) throw InputError(file.string() + ": cannot be read");
-  const auto json = nlohmann::json::parse(text, nullptr, false);
-  if (json.is_discarded()) throw InputError(file.string() + ": not JSON; give a file written by `flank fit`");
-  require_schema(json, file.string(), schema);
+  check_report_file(text, file.string(), schema);
   return text;
 }
 
@@ -99,10 +91,27 @@ std::string fill_page(std::string_view page, std::string_view title, std::string
   return replaced(replaced(page, kTitlePlace, html_safe(title)), kDataPlace, data);
 }
 
+namespace {
+
+/// Throws InputError if the part that the verdict is about is there, and is another one by now.
+void require_same_part(const ResultFolder& folder) {
+  const std::string file = moved_with(*folder.manifest(), folder.path(), folder.manifest()->judged.file);
+  if (!fs::is_regular_file(file)) return;
+  std::ifstream stream(file, std::ios::binary);
+  const std::string content{std::istreambuf_iterator<char>(stream), {}};
+  if (stream && sha256(content) != folder.manifest()->judged.sha256)
+    throw InputError(file + ": has changed since the verdict in " + folder.path() +
+                     " was made; run `flank fit` or `flank verify` again");
+}
+
+}  // namespace
+
 std::string make_report(const std::string& folder) {
   if (!page_is_built())
     throw UsageError("this flank was built without the report page; install npm and build it with -D FLANK_REPORT=ON");
-  if (!fs::is_directory(folder)) throw InputError(folder + ": no such folder; give a folder written by `flank fit`");
+  const ResultFolder held(folder, ResultFolder::Use::kRead);
+  held.require_whole();
+  if (held.manifest()) require_same_part(held);
   std::string data = std::string("<meta name=\"generator\" content=\"OpenFlank ") + kVersion + "\">\n", title;
   bool found = false;
   for (const std::string& name : report_files()) {

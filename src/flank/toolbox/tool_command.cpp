@@ -112,6 +112,11 @@ std::string tool_summary_json(const Tool& tool, const std::vector<std::string>& 
 Tool run_tool_command(const ToolCommandOptions& options) {
   const Tool tool = tool_of_command(options);
   std::vector<std::string> contents;
+  for (const std::string& file : options.outputs) {
+    std::error_code not_there;
+    if (std::filesystem::equivalent(options.source, file, not_there))
+      throw InputError(file + ": is what is read, and would be overwritten; give another name");
+  }
   for (const std::string& file : options.outputs) contents.push_back(tool_as(tool, file));
   for (std::size_t i = 0; i < contents.size(); ++i) write_file(options.outputs[i], contents[i]);
   return tool;

@@ -44,6 +44,47 @@ TEST(ReadObj, PolygonsBecomeFansAboutTheirFirstCorner) {
   EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}}));
 }
 
+double area(const TriangleMesh& mesh) {
+  double sum = 0.0;
+  for (const Triangle& t : mesh.triangles) {
+    const auto corner = [&](int k) { return mesh.vertices[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])]; };
+    sum += 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
+  }
+  return sum;
+}
+
+TEST(ReadObj, ConcavePolygonsKeepTheirArea) {
+  // An L, from every corner, both ways round.
+  for (int first = 0; first < 6; ++first)
+    for (const int way : {1, -1}) {
+      std::string face = "f";
+      for (int k = 0; k < 6; ++k) face += " " + std::to_string(1 + (first + way * k + 12) % 6);
+      const TriangleMesh mesh =
+          read_obj("a.obj", "v 0 0 0\nv 3 0 0\nv 3 1 0\nv 1 1 0\nv 1 3 0\nv 0 3 0\n" + face + "\n");
+      EXPECT_EQ(mesh.triangles.size(), 4u);
+      EXPECT_NEAR(area(mesh), 5.0, 1e-12) << face;
+      for (const Triangle& t : mesh.triangles) {
+        const Vec3 a = mesh.vertices[static_cast<std::size_t>(t[0])], b = mesh.vertices[static_cast<std::size_t>(t[1])],
+                   c = mesh.vertices[static_cast<std::size_t>(t[2])];
+        EXPECT_GE(way * (b - a).cross(c - a).z(), 0.0) << "turned over";
+      }
+    }
+}
+
+TEST(ReadObj, ACombOfManyTeethKeepsItsArea) {
+  std::string text, face = "f";
+  int count = 0;
+  const auto corner = [&](double x, double y) {
+    text += "v " + std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(0.5 * x) + "\n";
+    face += " " + std::to_string(++count);
+  };
+  constexpr int kTeeth = 30;
+  for (int k = 0; k < kTeeth; ++k) corner(2 * k, 1), corner(2 * k, 9), corner(2 * k + 1, 9), corner(2 * k + 1, 1);
+  corner(2 * kTeeth - 1, 0), corner(0, 0);
+  const TriangleMesh mesh = read_obj("a.obj", text + face + "\n");
+  EXPECT_NEAR(area(mesh), (kTeeth * 8.0 + 2.0 * kTeeth - 1.0) * std::sqrt(1.25), 1e-4);
+}
+
 TEST(ReadObj, NegativeIndicesCountBackFromWhatIsThereSoFar) {
   const TriangleMesh mesh = read_obj("a.obj", kFour + "f -4 -3 -1\nv 5 5 5\nf -1 -2 -3\n");
   EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 3}, {4, 3, 2}}));

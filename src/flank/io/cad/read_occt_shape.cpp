@@ -23,9 +23,13 @@
 #include "flank/io/cad/read_occt_silence.h"
 #include "flank/io/text/read_sniff.h"
 #include "flank/io/text/read_unit.h"
+#include "flank/io/text/step_syntax.h"
 
 namespace flank::internal {
 namespace {
+
+/// A micrometre and a kilometre, and a little more.
+constexpr double kSmallestUnitMm = 1e-4, kLargestUnitMm = 1e7;
 
 [[noreturn]] void refuse_content(const std::string& file, const std::string& format, const std::string& why) {
   throw InputError(file + ": cannot be read as " + format + " (" + why +
@@ -52,6 +56,13 @@ double millimetres_of_step_unit(std::string name) {
   return found == known.end() ? 0.0 : found->second;
 }
 
+/// Exametres and the like: SI has them, no part is measured in them. The kernel does not scale by all of them.
+void refuse_absurd_unit(const std::string& file, std::string name) {
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (name.ends_with("metre") && millimetres_of_step_unit(name) == 0.0)
+    refuse_content(file, "STEP", "its unit of length, " + name + ", is none of parts");
+}
+
 /// Of the file, for reports; the shape itself is in millimetres.
 void state_unit(OcctShape& result, double millimetres) {
   result.millimetres_per_unit = millimetres;
@@ -61,6 +72,7 @@ void state_unit(OcctShape& result, double millimetres) {
 /// References are checked first: the kernel drops what it cannot resolve and says nothing.
 OcctShape load_step(const std::string& file, const std::optional<std::string>& unit) {
   const std::string content = read_bytes(file);
+  check_step_syntax(file, content);
   const std::vector<long> lost = undefined_step_references(content);
   if (!lost.empty())
     refuse_content(
@@ -71,6 +83,7 @@ OcctShape load_step(const std::string& file, const std::optional<std::string>& u
   OcctShape result;
   TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
   reader.FileUnits(lengths, angles, solid_angles);
+  for (Standard_Integer i = 1; i <= lengths.Length(); ++i) refuse_absurd_unit(file, lengths.Value(i).ToCString());
   double millimetres = lengths.IsEmpty() ? 0.0 : millimetres_of_step_unit(lengths.First().ToCString());
   if (millimetres == 0.0) {
     result.notes.push_back("the file's unit of length is not one that is known by name; millimetres are reported");
@@ -92,6 +105,8 @@ OcctShape load_iges(const std::string& file, const std::optional<std::string>& u
   if (reader.ReadFile(file.c_str()) != IFSelect_RetDone) refuse_content(file, "IGES", "its structure is damaged");
   OcctShape result;
   const double millimetres = reader.IGESModel()->GlobalSection().UnitValue();
+  if (!(millimetres >= kSmallestUnitMm && millimetres <= kLargestUnitMm))
+    refuse_content(file, "IGES", fmt::format("its unit of length, {:g} mm, is none of parts", millimetres));
   refuse_other_unit(file, unit, millimetres);
   state_unit(result, millimetres);
   reader.TransferRoots();

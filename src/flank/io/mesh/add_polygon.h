@@ -5,7 +5,9 @@
 
 namespace flank::internal {
 
-/// Adds a polygon of 0-based vertex indices as a fan; polygons of fewer than three corners add nothing.
+/// Adds a polygon of 0-based vertex indices, in the plane that fits it: a convex one as a fan, another one by clipping its
+/// ears. Polygons of fewer than three corners add nothing. Throws InputError, without the file's name, for one of more
+/// than 2,000 corners that is not convex.
 void add_polygon(TriangleMesh& mesh, const int* corners, int count);
 
 }  // namespace flank::internal

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "flank/error.h"
 #include "flank/io/mesh/add_polygon.h"
 #include "flank/io/text/read_text.h"
 
@@ -33,7 +34,11 @@ TriangleMesh read_obj(const std::string& file, std::string_view content) {
       for (std::size_t i = 1; i < lines.words().size() && lines.word(i).front() != '#'; ++i)
         corners.push_back(vertex_index(lines, i, mesh.vertices.size()));
       if (corners.size() < 3) lines.refuse("a face needs at least three vertices");
-      add_polygon(mesh, corners.data(), static_cast<int>(corners.size()));
+      try {
+        add_polygon(mesh, corners.data(), static_cast<int>(corners.size()));
+      } catch (const InputError& error) {
+        lines.refuse(error.what());
+      }
     }
   }
   return mesh;

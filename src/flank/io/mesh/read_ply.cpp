@@ -202,7 +202,12 @@ void read_face(const Element& element, Values& values, std::vector<int>& corners
         values.refuse(fmt::format("vertex {} does not exist; there are {}", index, mesh.vertices.size()));
       corners.push_back(static_cast<int>(index));
     }
-    if (corner_list) add_polygon(mesh, corners.data(), static_cast<int>(corners.size()));
+    if (!corner_list) continue;
+    try {
+      add_polygon(mesh, corners.data(), static_cast<int>(corners.size()));
+    } catch (const InputError& error) {
+      values.refuse(error.what());
+    }
   }
 }
 

@@ -119,6 +119,9 @@ std::string read_bytes(const std::string& file) {
   const auto status = std::filesystem::status(file, error);
   if (!std::filesystem::exists(status)) throw InputError(file + ": no such file; accepted: " + kAccepted);
   if (std::filesystem::is_directory(status)) throw InputError(file + ": is a folder; give a file: " + kAccepted);
+  // A pipe would make us wait, a device may never end.
+  if (!std::filesystem::is_regular_file(status))
+    throw InputError(file + ": is a device or a pipe; give a file: " + kAccepted);
   std::ifstream in(file, std::ios::binary);
   if (!in) throw InputError(file + ": cannot be opened; check its permissions");
   std::string content{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};

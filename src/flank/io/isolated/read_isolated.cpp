@@ -1,0 +1,192 @@
+#include "flank/io/isolated/read_isolated.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/personality.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <ctime>
+#include <filesystem>
+#include <vector>
+
+#include "flank/error.h"
+#include "flank/io/isolated/part_bytes.h"
+#include "flank/io/isolated/reader_message.h"
+
+extern char** environ;
+
+namespace flank::internal {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kSecondsAtLeast = 10.0, kSecondsPerMegabyte = 10.0;
+/// Bytes of address space: the kernel's libraries alone take a third of the first.
+constexpr double kMemoryAtLeast = 1.5e9, kMemoryPerByte = 100.0;
+/// The limit is on processor time, which a busy machine gives slowly; by the clock, a child is stuck after so many times
+/// as much.
+constexpr double kClockPerProcessor = 30.0;
+/// One that gets no processor time at all for so long sleeps for ever.
+constexpr double kSleepSeconds = 10.0;
+
+/// Closes at the end of its life.
+struct Descriptor {
+  int number = -1;
+  ~Descriptor() { close(); }
+  void close() {
+    if (number >= 0) ::close(number);
+    number = -1;
+  }
+};
+
+/// While this lives, programs that are started get the same addresses each time, so that what a damaged file makes the
+/// kernel do is the same each time. Where the system does not allow that, it stays as it was.
+class SameAddresses {
+ public:
+  SameAddresses() : before_(::personality(0xffffffff)) {
+    if (before_ >= 0) ::personality(static_cast<unsigned long>(before_) | ADDR_NO_RANDOMIZE);
+  }
+  ~SameAddresses() {
+    if (before_ >= 0) ::personality(static_cast<unsigned long>(before_));
+  }
+  SameAddresses(const SameAddresses&) = delete;
+  SameAddresses& operator=(const SameAddresses&) = delete;
+
+ private:
+  int before_;
+};
+
+/// Starts the child with the pipe as its descriptor 3 and nothing on the others.
+pid_t start(std::vector<std::string> words, int pipe) {
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&files, 1, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addopen(&files, 2, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_adddup2(&files, pipe, kReaderPipe);
+  pid_t child = -1;
+  const SameAddresses same;
+  const int failure = ::posix_spawn(&child, "/proc/self/exe", &files, nullptr, argv.data(), environ);
+  posix_spawn_file_actions_destroy(&files);
+  if (failure != 0) throw InternalError(std::string("cannot start the reader of CAD files: ") + std::strerror(failure));
+  return child;
+}
+
+double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+/// Tells a child that sleeps for ever from one that waits for a processor.
+class Pulse {
+ public:
+  explicit Pulse(pid_t child) : known_(::clock_getcpuclockid(child, &clock_) == 0) {}
+  [[nodiscard]] bool stopped() {
+    timespec used{};
+    if (!known_ || ::clock_gettime(clock_, &used) != 0) return false;
+    if (used.tv_sec != used_.tv_sec || used.tv_nsec != used_.tv_nsec) {
+      used_ = used;
+      since_ = Clock::now();
+    }
+    return seconds_since(since_) > kSleepSeconds;
+  }
+
+ private:
+  clockid_t clock_{};
+  bool known_;
+  timespec used_{};
+  Clock::time_point since_ = Clock::now();
+};
+
+/// All that the child writes; nothing more once the time is over, or beyond `most` bytes.
+std::string receive(int pipe, pid_t child, double patience, double most, bool& over) {
+  constexpr int kLookMs = 500;
+  const auto begin = Clock::now();
+  Pulse pulse(child);
+  std::string bytes;
+  std::array<char, 1 << 16> block;
+  while (true) {
+    over = seconds_since(begin) > patience || static_cast<double>(bytes.size()) > most || pulse.stopped();
+    if (over) return bytes;
+    pollfd wait{pipe, POLLIN, 0};
+    if (::poll(&wait, 1, kLookMs) <= 0) continue;
+    const ssize_t got = ::read(pipe, block.data(), block.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return bytes;
+    bytes.append(block.data(), static_cast<std::size_t>(got));
+  }
+}
+
+int wait_for(pid_t child) {
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
+}
+
+[[noreturn]] void refuse_slow(const std::string& file, double seconds) {
+  throw InputError(fmt::format(
+      "{}: reading it takes more than {:g} s; it is damaged, or larger than that (`read_limit` sets another limit)",
+      file, seconds));
+}
+
+[[noreturn]] void refuse_large(const std::string& file, double bytes) {
+  throw InputError(fmt::format("{}: reading it takes more than {:.1f} GB of memory; it is damaged, export it again",
+                               file, 1e-9 * bytes));
+}
+
+[[noreturn]] void refuse_crash(const std::string& file, int status) {
+  throw InputError(fmt::format("{}: the CAD kernel breaks down on it ({} {}); it is damaged, export it again", file,
+                               WIFSIGNALED(status) ? "signal" : "exit",
+                               WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status)));
+}
+
+}  // namespace
+
+double default_seconds(double bytes) { return kSecondsAtLeast + kSecondsPerMegabyte * 1e-6 * bytes; }
+
+Part read_cad_isolated(const std::string& file, const std::string& format, const std::optional<std::string>& unit,
+                       const ReadLimits& limits) {
+  std::error_code ignored;
+  const auto size = static_cast<double>(std::filesystem::file_size(file, ignored));
+  const double seconds = limits.seconds.value_or(default_seconds(ignored ? 0.0 : size));
+  const double memory = kMemoryAtLeast + kMemoryPerByte * (ignored ? 0.0 : size);
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0)
+    throw InternalError(std::string("cannot start the reader of CAD files: ") + std::strerror(errno));
+  Descriptor from{ends[0]}, to{ends[1]};
+  const pid_t child = start({"flank", kReadCadCommand, file, format, unit.value_or(""), fmt::format("{}", seconds),
+                             fmt::format("{:.0f}", memory)},
+                            to.number);
+  to.close();
+  bool over = false;
+  std::string bytes;
+  try {
+    bytes = receive(from.number, child, kClockPerProcessor * seconds, memory, over);
+  } catch (...) {
+    ::kill(child, SIGKILL);
+    (void)wait_for(child);
+    throw;
+  }
+  if (over) ::kill(child, SIGKILL);
+  const int status = wait_for(child);
+  if (over && static_cast<double>(bytes.size()) > memory) refuse_large(file, memory);
+  if (over || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)) refuse_slow(file, seconds);
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || bytes.empty()) refuse_crash(file, status);
+  const std::string_view text = std::string_view(bytes).substr(1);
+  if (bytes[0] == kReaderPart) return decode_part(text);
+  if (bytes[0] == kReaderMemory) refuse_large(file, memory);
+  if (bytes[0] == kReaderRefuses) throw InputError(std::string(text));
+  throw InternalError("reading " + file + ": " + std::string(text));
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,222 @@
+#include "flank/manifest/result_folder.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+#include "flank/base/atomic_file.h"
+#include "flank/base/sha256.h"
+#include "flank/error.h"
+
+namespace flank::internal {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What is being written, and what is complete and only has to be moved into its place. The second is made of the first
+/// by one rename: that is the moment from which the new result is there.
+constexpr const char* kUnfinished = ".flank-unfinished";
+constexpr const char* kComplete = ".flank-complete";
+
+std::string content_of(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw InputError(file + ": cannot be read (" + std::strerror(errno) + ")");
+  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  if (stream.bad()) throw InputError(file + ": cannot be read");
+  return text;
+}
+
+bool is_file(const std::string& file) {
+  std::error_code ignored;
+  return fs::is_regular_file(file, ignored);
+}
+
+}  // namespace
+
+const std::vector<std::string>& result_names() {
+  static const std::vector<std::string> kNames{
+      "job.json", "tool.json", "tool.dxf",     "tool.step",    "tool.fctb",   "strips.step", "path.json",
+      "path.cls", "path.csv",  "ranking.json", "summary.json", "verify.json", "view.json",   kManifestFile,
+  };
+  return kNames;
+}
+
+ResultFolder::ResultFolder(std::string folder, Use use) : folder_(std::move(folder)) {
+  std::error_code error;
+  if (use == Use::kWrite) {
+    made_ = fs::create_directories(folder_, error);
+    if (error || !fs::is_directory(folder_))
+      throw InputError(folder_ + ": cannot make this folder (" + (error ? error.message() : "a file is there") +
+                       "); a folder that can be written is needed");
+  }
+  if (!fs::is_directory(folder_, error))
+    throw InputError(folder_ + ": no such folder; a folder written by `flank fit` is needed");
+  writable_ = use == Use::kWrite || ::access(folder_.c_str(), W_OK | X_OK) == 0;
+  try {
+    if (use != Use::kRead && writable_) {
+      lock();
+      require_plain_names();
+      require_writable();
+    }
+    if (fs::exists(in(kComplete), error) && writable_) {
+      if (lock_ < 0) lock();
+      move_into_place();
+    }
+    read_manifest();
+  } catch (...) {
+    clean_up();
+    throw;
+  }
+}
+
+ResultFolder::~ResultFolder() { clean_up(); }
+
+void ResultFolder::clean_up() const {
+  // An empty folder only: rmdir refuses any other.
+  if (made_) ::rmdir(folder_.c_str());
+  if (lock_ >= 0) ::close(lock_);
+}
+
+std::string ResultFolder::in(const std::string& name) const { return (fs::path(folder_) / name).string(); }
+
+void ResultFolder::lock() {
+  lock_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  // File systems without locks have none to offer; there, only the manifest tells a mixture.
+  if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    throw InputError(folder_ + ": another flank is writing to this folder; wait for it, or give another folder");
+}
+
+/// Anew: what a killed run left unfinished never was a result.
+void ResultFolder::make_unfinished() const {
+  const std::string unfinished = in(kUnfinished);
+  std::error_code ignored;
+  fs::remove_all(unfinished, ignored);
+  if (::mkdir(unfinished.c_str(), 0777) != 0)
+    throw InputError(folder_ + ": cannot be written (" + std::strerror(errno) + "); give a folder that is writable");
+}
+
+// Nobody is to learn it after the work.
+void ResultFolder::require_writable() {
+  make_unfinished();
+  std::error_code ignored;
+  fs::remove(in(kUnfinished), ignored);
+}
+
+void ResultFolder::require_plain_names() const {
+  for (const std::string& name : result_names()) {
+    std::error_code ignored;
+    const auto status = fs::symlink_status(in(name), ignored);
+    if (fs::exists(status) && !fs::is_regular_file(status))
+      throw InputError(in(name) + ": is a link or no file, and a result has a file of this name; remove it, or give " +
+                       "another folder");
+  }
+}
+
+void ResultFolder::read_manifest() {
+  manifest_.reset();
+  const std::string file = in(kManifestFile);
+  if (is_file(file)) manifest_ = manifest_from_json(content_of(file), file);
+}
+
+void ResultFolder::replace(const std::map<std::string, std::string>& files, Manifest manifest) {
+  manifest.files.clear();
+  for (const auto& [name, content] : files) manifest.files[name] = sha256(content);
+  publish(files, manifest);
+}
+
+void ResultFolder::add(const std::map<std::string, std::string>& files, Manifest manifest) {
+  if (manifest_) manifest.files = manifest_->files;
+  // What other programs wrote is taken as it is now.
+  for (const std::string& name : result_names())
+    if (name != kManifestFile && is_file(in(name)) &&
+        (manifest.made_by == kMadeByVerify || !manifest.files.contains(name)))
+      manifest.files[name] = sha256(content_of(in(name)));
+  for (const auto& [name, content] : files) manifest.files[name] = sha256(content);
+  publish(files, manifest);
+}
+
+void ResultFolder::publish(const std::map<std::string, std::string>& files, const Manifest& manifest) {
+  const std::string unfinished = in(kUnfinished);
+  try {
+    make_unfinished();
+    for (const auto& [name, content] : files) write_new_file((fs::path(unfinished) / name).string(), content);
+    write_new_file((fs::path(unfinished) / kManifestFile).string(), manifest_to_json(manifest));
+    sync_folder(unfinished);
+    rename_file(unfinished, in(kComplete));
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove_all(unfinished, ignored);
+    throw;
+  }
+  sync_folder(folder_);
+  move_into_place();
+  read_manifest();
+}
+
+// Whatever was done of this before is not done again, so it may end at any point and be taken up later. The manifest goes
+// last: as long as the old one is there, it says which files are of the old result.
+void ResultFolder::move_into_place() {
+  const fs::path complete = in(kComplete);
+  const std::string manifest = (complete / kManifestFile).string();
+  if (is_file(manifest)) {
+    read_manifest();
+    remove_stale(manifest_from_json(content_of(manifest), manifest));
+    std::vector<std::string> names;
+    for (const fs::directory_entry& entry : fs::directory_iterator(complete))
+      if (entry.path().filename() != kManifestFile) names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    for (const std::string& name : names) rename_file((complete / name).string(), in(name));
+    sync_folder(folder_);
+    rename_file(manifest, in(kManifestFile));
+  }
+  if (::rmdir(complete.c_str()) != 0 && ::rmdir(complete.c_str()) != 0)
+    throw InputError(complete.string() + ": cannot be removed (" + std::strerror(errno) + ")");
+  sync_folder(folder_);
+}
+
+/// Files of the old result that the new one has not. A file that the old manifest names and somebody has changed since is
+/// theirs, unless a result has a file of that name.
+void ResultFolder::remove_stale(const Manifest& next) const {
+  std::map<std::string, std::string> old = manifest_ ? manifest_->files : std::map<std::string, std::string>();
+  for (const std::string& name : result_names()) old[name] = "";
+  for (const auto& [name, hash] : old) {
+    if (next.files.contains(name) || name == kManifestFile || !is_file(in(name))) continue;
+    if (!hash.empty() && sha256(content_of(in(name))) != hash) continue;
+    if (::unlink(in(name).c_str()) != 0 && ::unlink(in(name).c_str()) != 0)
+      throw InputError(in(name) + ": cannot be removed (" + std::strerror(errno) + ")");
+  }
+}
+
+void ResultFolder::require_whole(const std::vector<std::string>& but) const {
+  if (!manifest_) return;
+  for (const std::string& name : result_names()) {
+    if (name == kManifestFile || std::find(but.begin(), but.end(), name) != but.end() || !is_file(in(name))) continue;
+    const auto found = manifest_->files.find(name);
+    if (found != manifest_->files.end() && sha256(content_of(in(name))) == found->second) continue;
+    throw InputError(in(name) + ": is not of the same result as the other files (" + kManifestFile + " of `flank " +
+                     manifest_->made_by + "` says so); make the result again, or, if it is meant so, remove " +
+                     kManifestFile + " and run `flank verify`");
+  }
+}
+
+void ResultFolder::require_not_inputs(const std::vector<std::string>& inputs) const {
+  std::error_code error;
+  for (const std::string& input : inputs) {
+    if (input.empty() || !is_file(input)) continue;
+    for (const std::string& name : result_names())
+      if (fs::equivalent(input, in(name), error) && !error)
+        throw InputError(input + ": is read, and would be overwritten by the result in " + folder_ +
+                         "; give another folder");
+  }
+}
+
+}  // namespace flank::internal

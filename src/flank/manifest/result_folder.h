@@ -1,0 +1,71 @@
+/// A folder of results as one thing: who writes to it, how its files are exchanged all at once, whether they belong
+/// together (docs/decisions/0018-a-result-is-one-thing.md).
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "flank/manifest/manifest.h"
+
+namespace flank::internal {
+
+/// The names that fit, cover and verify write.
+[[nodiscard]] const std::vector<std::string>& result_names();
+
+/// A folder that is being read or written.
+class ResultFolder {
+ public:
+  enum class Use {
+    kWrite,        ///< the folder is made if there is none; refused while another process writes to it
+    kWriteOrRead,  ///< the same, but a folder that may not be written is read
+    kRead,         ///< never refused
+  };
+
+  /// Completes what a run that was killed has left. Throws InputError: no such folder, no folder, another process works
+  /// in it, it may not be written, one of the result's names is a link or no file.
+  ResultFolder(std::string folder, Use use);
+  /// A folder that it made and that is still empty is removed.
+  ~ResultFolder();
+  ResultFolder(const ResultFolder&) = delete;
+  ResultFolder& operator=(const ResultFolder&) = delete;
+
+  [[nodiscard]] const std::string& path() const { return folder_; }
+  [[nodiscard]] bool writable() const { return writable_; }
+  /// None: a folder that other programs wrote, or an earlier version.
+  [[nodiscard]] const std::optional<Manifest>& manifest() const { return manifest_; }
+
+  /// Puts files (name, content) and a manifest in the place of all that was there of an earlier result: at once, and on
+  /// the disk. Files of others stay. Throws InputError; what was there is whole then.
+  void replace(const std::map<std::string, std::string>& files, Manifest manifest);
+  /// The same, but nothing that is not named is removed, and the manifest names all files of a result that are there.
+  void add(const std::map<std::string, std::string>& files, Manifest manifest);
+
+  /// Throws InputError, naming the first file of the result that is not the one of the manifest. Nothing without a
+  /// manifest. `but`: names that may have changed.
+  void require_whole(const std::vector<std::string>& but = {}) const;
+
+  /// Throws InputError if one of these files would be overwritten by a result in this folder. Names that are no files
+  /// are passed over.
+  void require_not_inputs(const std::vector<std::string>& inputs) const;
+
+ private:
+  [[nodiscard]] std::string in(const std::string& name) const;
+  void lock();
+  void make_unfinished() const;
+  void require_writable();
+  void require_plain_names() const;
+  void read_manifest();
+  void publish(const std::map<std::string, std::string>& files, const Manifest& manifest);
+  void move_into_place();
+  void remove_stale(const Manifest& next) const;
+  void clean_up() const;
+
+  std::string folder_;
+  bool made_ = false, writable_ = false;
+  int lock_ = -1;  ///< descriptor of the folder, whose lock ends with it
+  std::optional<Manifest> manifest_;
+};
+
+}  // namespace flank::internal

@@ -1,0 +1,44 @@
+#include "flank/report/report_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include "flank/error.h"
+
+namespace flank::internal {
+namespace {
+
+/// Throws InputError unless the file states this schema.
+void require_schema(const nlohmann::json& json, const std::string& file, const std::string& schema) {
+  if (json.is_object() && json.contains("schema") && json["schema"] == schema) return;
+  throw InputError(file + ": schema \"" + schema + "\" is needed");
+}
+
+/// Throws InputError where the page would look for a list or a figure and find something else. Files by hand leave keys
+/// out; texts are only shown.
+void require_types(const nlohmann::json& json, const std::string& file) {
+  const auto require = [&](const std::string& key, const char* type, bool right) {
+    if (!right) throw InputError(file + ": " + key + ": " + type + " is needed");
+  };
+  for (const auto& [key, value] : json.items()) {
+    // In the other files, `faces` is a text and `strips` a number.
+    const bool list = (key == "faces" && json["schema"] == schema_of("verify.json")) ||
+                      (key == "strips" && json["schema"] == schema_of("view.json"));
+    if (list || key == "bodies" || key == "reasons" || key == "worst_places") require(key, "a list", value.is_array());
+    if (key == "tolerance_mm" || key == "least_coverage")
+      require(key, "a number", value.is_number() || value.is_null());
+    if (key == "pass" || key == "within") require(key, "true or false", value.is_boolean());
+  }
+}
+
+}  // namespace
+
+std::string schema_of(const std::string& name) { return "openflank/" + name.substr(0, name.find('.')) + "/1"; }
+
+void check_report_file(std::string_view text, const std::string& file, const std::string& schema) {
+  const auto json = nlohmann::json::parse(text, nullptr, false);
+  if (json.is_discarded()) throw InputError(file + ": not JSON; give a file written by `flank fit`");
+  require_schema(json, file, schema);
+  require_types(json, file);
+}
+
+}  // namespace flank::internal

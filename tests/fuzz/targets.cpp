@@ -1,0 +1,86 @@
+#include "fuzz/targets.h"
+
+#include <cmath>
+
+#include "flank/error.h"
+#include "flank/io/isolated/part_bytes.h"
+#include "flank/io/mesh/read_obj.h"
+#include "flank/io/mesh/read_ply.h"
+#include "flank/io/mesh/read_stl.h"
+#include "flank/io/path/path_cls_read.h"
+#include "flank/io/text/step_syntax.h"
+#include "flank/io/tool/tool_dxf_read.h"
+#include "flank/job/job_json.h"
+#include "flank/manifest/manifest.h"
+#include "flank/path_file.h"
+#include "flank/report/report_file.h"
+#include "flank/seed/guide_start.h"
+#include "flank/setup/tool_body.h"
+#include "flank/tool_file.h"
+#include "flank/toolbox/tool_spec.h"
+
+namespace flank::fuzz {
+namespace {
+
+using namespace internal;
+
+/// What was read must hold what every later step takes for granted.
+void require(bool right) {
+  if (!right) throw InternalError("read, but not sound");
+}
+
+void sound(const TriangleMesh& mesh) {
+  const auto count = static_cast<int>(mesh.vertices.size());
+  for (const auto& t : mesh.triangles)
+    for (const int v : t) require(v >= 0 && v < count);
+  for (const Vec3& v : mesh.vertices) require(v.allFinite());
+}
+
+void sound(const Tool& tool) { require(tool.radial.axis_length() > 0.0 && std::isfinite(tool.radial.at(0.0).r)); }
+
+void sound(const Path& path) {
+  for (const Strip& strip : path.strips)
+    for (const Pose& pose : strip.poses) require(pose.tip.allFinite() && std::abs(pose.axis.norm() - 1.0) < 1e-6);
+}
+
+template <class Read>
+void refused_or(const Read& read) {
+  try {
+    read();
+  } catch (const InputError&) {
+  } catch (const UsageError&) {
+  }
+}
+
+/// Bytes between the two processes of a CAD file: they are our own, so a refusal is an InternalError.
+void part_bytes(std::string_view bytes) {
+  try {
+    (void)decode_part(bytes);
+  } catch (const InternalError&) {
+  }
+}
+
+}  // namespace
+
+const std::map<std::string, Target>& targets() {
+  static const std::map<std::string, Target> kTargets{
+      {"stl", [](std::string_view b) { refused_or([&] { sound(read_stl("f", b)); }); }},
+      {"obj", [](std::string_view b) { refused_or([&] { sound(read_obj("f", b)); }); }},
+      {"ply", [](std::string_view b) { refused_or([&] { sound(read_ply("f", b)); }); }},
+      {"tool", [](std::string_view b) { refused_or([&] { sound(tool_from_json(b, "f")); }); }},
+      {"path", [](std::string_view b) { refused_or([&] { sound(path_from_json(b, "f")); }); }},
+      {"job", [](std::string_view b) { refused_or([&] { (void)job_from_json(std::string(b), "f"); }); }},
+      {"view", [](std::string_view b) { refused_or([&] { check_report_file(b, "f", "openflank/view/1"); }); }},
+      {"manifest", [](std::string_view b) { refused_or([&] { (void)manifest_from_json(b, "f"); }); }},
+      {"cls", [](std::string_view b) { refused_or([&] { sound(path_from_cls(b, "f")); }); }},
+      {"dxf", [](std::string_view b) { refused_or([&] { (void)profile_from_dxf(b, "f"); }); }},
+      {"guide", [](std::string_view b) { refused_or([&] { (void)parse_guide("f", b); }); }},
+      {"holder", [](std::string_view b) { refused_or([&] { (void)holder_profile(std::string(b)); }); }},
+      {"spec", [](std::string_view b) { refused_or([&] { (void)parse_tool_spec(std::string(b), "tool"); }); }},
+      {"step", [](std::string_view b) { refused_or([&] { check_step_syntax("f", b); }); }},
+      {"part_bytes", part_bytes},
+  };
+  return kTargets;
+}
+
+}  // namespace flank::fuzz
