@@ -30,11 +30,11 @@ export function makeBlade() {
   return folder;
 }
 
-/** A copy of a folder without some of its files. */
+/** A copy of a folder without some of its files, to be changed by hand: without the manifest that would tell of it. */
 export function without(folder, name, ...files) {
   const copy = join(root, name);
   cpSync(folder, copy, { recursive: true });
-  for (const file of ['report.html', ...files]) rmSync(join(copy, file), { force: true });
+  for (const file of ['report.html', 'manifest.json', ...files]) rmSync(join(copy, file), { force: true });
   return copy;
 }
 

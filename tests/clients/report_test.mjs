@@ -95,7 +95,7 @@ test('the figures are those of verify.json', async () => {
   const verify = json(folder, 'verify.json');
   const shown = await page.value('[...document.querySelectorAll("[data-key]")].map((e) => [e.dataset.key, JSON.parse(e.dataset.value)])');
   const keys = shown.map(([key]) => key);
-  for (const key of ['coverage', 'coverage_reachable', 'overcut_mm', 'undercut_mm', 'undercut_covered_mm', 'rms_mm', 'gouge_mm', 'sampling_bound_mm'])
+  for (const key of ['coverage', 'coverage_reachable', 'overcut_mm', 'undercut_mm', 'undercut_covered_mm', 'rms_mm', 'gouge_mm', 'overcut_bound_mm', 'gouge_bound_mm'])
     assert.ok(keys.includes(key), key);
   for (const [key, value] of shown) if (key in verify) assert.equal(value, verify[key], key);
   await page.close();
