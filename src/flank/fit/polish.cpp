@@ -105,6 +105,16 @@ Polished shifted(const Polished& polished, const std::vector<SurfaceSample>& sam
   return best;
 }
 
+/// A free, exact fit with more overcut than it may have: its radii are reduced until it has that; its motion, and so its
+/// last digits, stay. Not where it would cost coverage: then the residuals at the axis hide a deep cut elsewhere.
+Polished lowered(const Polished& exact, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
+  const double by = exact.estimate.overcut_mm - kToleranceBudget.fit.exact_overcut * options.tolerance_mm;
+  if (!exact.draft.free_tool || by <= 0.0 || by > options.tolerance_mm) return exact;
+  Polished lower = shifted_by(exact, by, samples, options);
+  lower.exact = true;
+  return lower.estimate.at_tolerance > exact.estimate.at_tolerance - kSameCoverage ? lower : exact;
+}
+
 }  // namespace
 
 FitDraft make_draft(const std::vector<FitTask>& tasks, const ToolModel& tool, const FlankFitOptions& options) {
@@ -139,7 +149,7 @@ Polished polish(const FitDraft& draft, const std::vector<SurfaceSample>& samples
     best = exact_polish(best, samples, options, trace);
     best.exact = true;
     // An exact motion that plunges where it touches is worth less than one within the tolerance that does not.
-    if (best.estimate.largest_c < 1.0) return best;
+    if (best.estimate.largest_c < 1.0) return lowered(best, samples, options);
   }
   const FitStage stage = tolerance_stage(options.tolerance_mm, scale, diagonal);
   if (draft.free_tool || !draft.free_parameters.empty())
@@ -151,18 +161,9 @@ Polished last_passes(const Polished& polished, const std::vector<SurfaceSample>&
                      const FlankFitOptions& options, std::vector<IterationTrace>* trace) {
   // An exact fit has its residuals at the axis; some of the face may lie past the axis' end: the passes below see it.
   const bool short_of_face = polished.estimate.at_tolerance < options.enough_coverage;
-  // A free, exact fit with more overcut than it may have has its radii reduced until it has that; its motion, and so its
-  // last digits, stay.
-  const double by = polished.estimate.overcut_mm - kToleranceBudget.fit.exact_overcut * options.tolerance_mm;
-  // Residuals at the axis can be exact while the tool cuts deep elsewhere: a shift by more than the tolerance would
-  // leave nothing covered.
-  const bool deep = polished.draft.free_tool && by > options.tolerance_mm;
-  if (polished.exact && !short_of_face && !deep) {
-    if (!polished.draft.free_tool || by <= 0.0) return polished;
-    Polished lower = shifted_by(polished, by, samples, options);
-    lower.exact = true;
-    return lower;
-  }
+  // Residuals at the axis can be exact while the tool cuts deep elsewhere.
+  const bool deep = polished.draft.free_tool && polished.estimate.overcut_mm > options.tolerance_mm;
+  if (polished.exact && !short_of_face && !deep) return lowered(polished, samples, options);
   return shifted(swept_polish(polished, samples, options, trace), samples, options);
 }
 

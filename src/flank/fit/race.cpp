@@ -88,6 +88,7 @@ void settle_if_enough(Runner& runner, const std::vector<SurfaceSample>& samples,
   Polished close = settled(without_overcut(runner.polished, samples, options), options);
   const double deepest = std::max(close.estimate.overcut_mm, close.estimate.gouge_mm);
   runner.enough = is_enough(close.estimate, options) && deepest <= kToleranceBudget.fit.seen * options.tolerance_mm;
+  close.exact = runner.polished.exact;
   if (runner.enough) runner.polished = std::move(close);
 }
 
