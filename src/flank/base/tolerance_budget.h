@@ -66,7 +66,7 @@ struct FitBudget {
   double dead_zone_axis = 0.7, dead_zone = 0.6;
   /// Overcut to which a free tool's radii are reduced: while candidates are compared, and of the chosen one, which is
   /// looked at with denser samples.
-  double overcut = 0.95, settled_overcut = 0.94;
+  double overcut = 0.95, settled_overcut = 0.92;
   /// Overcut of an exact fit that is left alone: its last digits are worth more than that.
   double exact_overcut = 0.1;
   /// The deepest that a candidate may be, looked at closely, to end the search.

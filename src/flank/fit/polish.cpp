@@ -184,7 +184,7 @@ Polished settled(const Polished& polished, const FlankFitOptions& options) {
   constexpr int kOften = 4;
   again.estimate.gouge_mm = flank_gouge(again.draft.motions, again.draft.obstacles, again.draft.tool,
                                         kOften * kRankingPoses, GougeLook::kClose);
-  if (again.estimate.overcut_mm > options.tolerance_mm) return shifted(again, samples, options);
+  if (again.estimate.overcut_mm > options.tolerance_mm) again = shifted(again, samples, options);
   // Between these samples, too, nothing may be cut deeper than the tolerance: a little room, if it costs little of the
   // covered share.
   constexpr double kCost = 0.005;
