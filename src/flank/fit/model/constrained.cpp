@@ -118,7 +118,7 @@ double exchange(const ConstrainedProblem& problem, const SweptModel& probe, cons
 ConstrainedResult minimise_constrained(const ConstrainedProblem& problem, const FitState& start,
                                        const ConstrainedOptions& options) {
   FLANK_ASSERT(problem.targets.size() == start.motions.size());
-  FLANK_ASSERT(options.allowed_overcut_mm >= 0.0 && options.interior_iterations > 0);
+  FLANK_ASSERT(options.interior_iterations > 0);
   const auto model_of = [&](const std::vector<FacePoint>& points) {
     return SweptModel(points, problem.targets, start, problem.free_parameters, problem.bounds, problem.stage,
                       problem.obstacles);
