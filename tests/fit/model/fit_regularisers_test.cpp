@@ -257,8 +257,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Term{"Fairness", &FitStage::fairness, {}}, Term{"Anchor", &FitStage::transversal_anchor, {}},
                       Term{"AxialPin", &FitStage::axial_pin, {}}, Term{"RadiusPin", &FitStage::radius_pin, {}},
                       Term{"ToolFairness", &FitStage::tool_fairness, {}}, Term{"Plunge", &FitStage::plunge_weight, {}},
-                      Term{"Lag", &FitStage::lag_weight, {}},
-                      Term{"UnitLength", nullptr, {}}, Term{"SmallestRadius", nullptr, {7.0, 1e3, 0.95}},
+                      Term{"Lag", &FitStage::lag_weight, {}}, Term{"UnitLength", nullptr, {}},
+                      Term{"SmallestRadius", nullptr, {7.0, 1e3, 0.95}},
                       Term{"LargestRadius", nullptr, {0.0, 5.5, 0.95}},
                       Term{"SteepestSlope", nullptr, {0.0, 1e3, 0.01}}),
     [](const auto& term) { return std::string(term.param.name); });
