@@ -23,7 +23,8 @@ double slenderness_of(const Runner& runner) {
   return slenderness(tool.axis_length(), compliance(tool));
 }
 
-/// Stable, so that equal ones keep the order of their promise.
+/// Stable, so that equal ones keep the order of their promise. At most the two of a pair are enough, so "about as stiff"
+/// compares no three of them.
 void sort_by_merit(std::vector<Runner>& runners, const FlankFitOptions& options) {
   std::stable_sort(runners.begin(), runners.end(), [&](const Runner& a, const Runner& b) {
     if (a.enough != b.enough) return a.enough;

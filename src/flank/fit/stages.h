@@ -1,5 +1,5 @@
 /// One pass of the fit after another, coarse and robust first, then fine: the presets of FitStage, and how a pass is
-/// run. Which pass follows which is decided in automatic.cpp, polish.cpp and swept_polish.cpp.
+/// run. Which pass follows which is decided in race.cpp, polish.cpp and swept_polish.cpp.
 #pragma once
 
 #include <vector>
