@@ -10,7 +10,6 @@
 #include "flank/fit/coverage.h"
 #include "flank/fit/polish.h"
 #include "flank/fit/race.h"
-#include "flank/fit/swept_polish.h"
 #include "flank/fit/ways.h"
 #include "flank/seed/clear_start.h"
 #include "flank/seed/ruled_start.h"
@@ -201,7 +200,7 @@ FlankFitResult search_starts(const Target& target, const ToolModel& tool, const 
   Runner best = race(starts, samples, options, progress);
   result.before = estimate_coverage(samples, best.start.motions, best.start.tool, options.tolerance_mm, kRankingPoses);
   result.trace = best.trace;
-  if (!best.enough) best.polished = settled(without_overcut(best.polished, samples, options), options);
+  if (!best.enough) best.polished = looked_at_closely(best.polished, samples, options);
   return finish(best.polished, options, std::move(result));
 }
 
@@ -230,7 +229,7 @@ FlankFitResult fit_from_starts(const std::vector<FitTask>& tasks, const ToolMode
   progress.step("fit", 0.5);
   if (!only.enough) {
     only.polished = last_passes(only.polished, samples, options, &result.trace);
-    only.polished = settled(without_overcut(only.polished, samples, options), options);
+    only.polished = looked_at_closely(only.polished, samples, options);
   }
   progress.step("fit", 0.9);
   return finish(only.polished, options, std::move(result));

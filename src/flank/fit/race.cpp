@@ -84,9 +84,14 @@ bool is_enough(const CoverageEstimate& estimate, const FlankFitOptions& options)
          is_clean(estimate, options.tolerance_mm);
 }
 
+Polished looked_at_closely(const Polished& polished, const std::vector<SurfaceSample>& samples,
+                           const FlankFitOptions& options) {
+  return settled(without_overcut(polished, samples, options), options);
+}
+
 void settle_if_enough(Runner& runner, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
   if (!is_enough(runner.polished.estimate, options)) return;
-  Polished close = settled(without_overcut(runner.polished, samples, options), options);
+  Polished close = looked_at_closely(runner.polished, samples, options);
   const double deepest = std::max(close.estimate.overcut_mm, close.estimate.gouge_mm);
   runner.enough = is_enough(close.estimate, options) && deepest <= kToleranceBudget.fit.seen * options.tolerance_mm;
   close.exact = runner.polished.exact;

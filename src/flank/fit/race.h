@@ -21,6 +21,10 @@ struct Runner {
 /// is clean, and does not plunge where it touches.
 [[nodiscard]] bool is_enough(const CoverageEstimate& estimate, const FlankFitOptions& options);
 
+/// The last word on a fit: overcut of a given tool taken out, and settled (swept_polish.h, polish.h).
+[[nodiscard]] Polished looked_at_closely(const Polished& polished, const std::vector<SurfaceSample>& samples,
+                                         const FlankFitOptions& options);
+
 /// Settles the runner if it seems to be enough, and keeps that if it still is: samples that rank see no rim that is a
 /// little short.
 void settle_if_enough(Runner& runner, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options);
