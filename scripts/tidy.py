@@ -47,7 +47,7 @@ def compile_arguments(build):
 
 def tidy(file, arguments, deep):
     """Exit status and findings of one file."""
-    options = ["--quiet", f"--config-file={ROOT / '.clang-tidy'}"] + ([] if deep else ["--checks=-clang-analyzer-*"])
+    options = ["--quiet", f"--config-file={ROOT / '.clang-tidy'}"] + ([] if deep else ["--checks=-clang-analyzer-*,-bugprone-suspicious-include"])
     words = [TIDY, *options, r"--header-filter=/(include/flank|src/flank|apps)/.*\.(h|cpp)$", str(file), "--", *arguments,
              "-w"]
     done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True)

@@ -102,7 +102,7 @@ std::string folder_of(const std::string& file) {
 }  // namespace
 
 // The file is made at once, so that a wrong folder is noticed before anything is computed for it.
-AtomicFile::AtomicFile(std::string file) : file_(followed(file)), temporary_(temporary_name(file_)) {
+AtomicFile::AtomicFile(const std::string& file) : file_(followed(file)), temporary_(temporary_name(file_)) {
   require_place(file_);
   const int descriptor = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (descriptor < 0) refuse(file, errno);

@@ -123,7 +123,7 @@ struct RankingKey {
   double worth;
   double minutes;
   std::size_t tool;
-  auto operator<=>(const RankingKey&) const = default;
+  auto operator<=>(const RankingKey&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 misreads it
 };
 
 RankingKey key_of(const RankedTool& ranked, const RankingOptions& options) {

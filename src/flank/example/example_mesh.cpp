@@ -74,8 +74,9 @@ TriangleMesh with_two_holes(const TriangleMesh& mesh, int count_t, int count_s) 
   for (const auto& triangle : mesh.triangles) {
     double t = 0.0, s = 0.0;
     for (const int vertex : triangle) {
-      t += (vertex / count_s) / (3.0 * (count_t - 1));
-      s += (vertex % count_s) / (3.0 * (count_s - 1));
+      const int row = vertex / count_s, column = vertex % count_s;
+      t += row / (3.0 * (count_t - 1));
+      s += column / (3.0 * (count_s - 1));
     }
     if (!kHoles[0].holds(t, s) && !kHoles[1].holds(t, s)) kept.triangles.push_back(triangle);
   }

@@ -84,7 +84,7 @@ struct Deepest {
   double mm = 0.0, s = 0.0;
 };
 
-Deepest deepest_place(const Pose& pose, const ObstacleField& obstacles, const RadialFunction& tool) {
+Deepest deepest_place(const Pose& pose, const ObstacleField& obstacles, const RadialFunction& tool, GougeLook look) {
   // Of the axis length: about the step of the lattice of distances (1/48 of the target's size). If the estimate is
   // nearer than that, the ball may touch, and the exact distance is asked for.
   constexpr double kClose = 0.02;
@@ -93,7 +93,13 @@ Deepest deepest_place(const Pose& pose, const ObstacleField& obstacles, const Ra
   for (double s = 0.0;; s = std::min(s, length)) {
     const double r = tool.at(s).r;
     double gap = obstacles.estimate(pose.at(s)).distance_mm - r;
-    if (gap < kClose * length) gap = obstacles.at(pose.at(s), r + kClose * length).distance_mm - r;
+    if (gap < kClose * length) {
+      const double horizon = r + kClose * length;
+      gap =
+          (look == GougeLook::kClose ? obstacles.at(pose.at(s), horizon) : obstacles.interpolated(pose.at(s), horizon))
+              .distance_mm -
+          r;
+    }
     if (-gap > deepest.mm) deepest = {-gap, s};
     if (s >= length) return deepest;
     // The gap changes by at most twice the step (|r'| < 1): what is clear by it stays so for half of it.
@@ -153,7 +159,7 @@ double flank_gouge(const std::vector<RuledMotion>& motions, const std::vector<co
     std::vector<double> depths(static_cast<std::size_t>(poses) + 1, 0.0);
     parallel_for(depths.size(), [&](std::size_t i) {
       const Pose pose = motions[m].pose(static_cast<double>(i) / poses);
-      const Deepest found = deepest_place(pose, *obstacles[m], tool);
+      const Deepest found = deepest_place(pose, *obstacles[m], tool, look);
       depths[i] = found.mm;
       if (look == GougeLook::kClose) depths[i] = between_places(pose, *obstacles[m], tool, found);
     });

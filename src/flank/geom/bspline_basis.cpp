@@ -41,10 +41,10 @@ void basis_derivatives(int degree, std::span<const double> knots, int span, doub
   FLANK_ASSERT(degree >= 0 && degree <= kMaxDegree);
   FLANK_ASSERT(span >= degree && static_cast<std::size_t>(span + degree) < knots.size());
   FLANK_ASSERT(order >= 0 && !std::isnan(u));
-  constexpr int n = kMaxDegree + 1;
+  constexpr int kOrder = kMaxDegree + 1;
   // Not initialised: what is read below has been written, and clearing 2 kB would cost more than the evaluation.
-  std::array<std::array<double, n>, n> ndu;
-  std::array<double, n> left, right;
+  std::array<std::array<double, kOrder>, kOrder> ndu;
+  std::array<double, kOrder> left, right;
   // A2.3 of the book. ndu: basis functions of all lower degrees (upper triangle) and knot differences (lower one).
   ndu[0][0] = 1.0;
   for (int j = 1; j <= degree; ++j) {
@@ -67,7 +67,7 @@ void basis_derivatives(int degree, std::span<const double> knots, int span, doub
   for (int r = 0; r <= degree; ++r) {
     int s1 = 0, s2 = 1;
     // Rows a[s1] and a[s2] hold the coefficients of the last and of this derivative, in turn.
-    std::array<std::array<double, n>, 2> a;
+    std::array<std::array<double, kOrder>, 2> a;
     a[0][0] = 1.0;
     for (int k = 1; k <= top; ++k) {
       double d = 0.0;

@@ -42,13 +42,13 @@ struct Bends {
 };
 
 void conclude(Bends bends, double quantile, InspectRow& row) {
-  static constexpr std::array<const char*, 4> names = {"flat", "convex", "concave", "saddle"};
+  static constexpr std::array<const char*, 4> kNames = {"flat", "convex", "concave", "saddle"};
   long total = 0;
   for (const long n : bends.count) total += n;
   row.bend = total > 0 ? "mixed" : "unknown";
-  for (std::size_t i = 0; i < names.size() && total > 0; ++i) {
+  for (std::size_t i = 0; i < kNames.size() && total > 0; ++i) {
     row.bend_share[i] = static_cast<double>(bends.count[i]) / static_cast<double>(total);
-    if (row.bend_share[i] >= kPureShare) row.bend = names[i];
+    if (row.bend_share[i] >= kPureShare) row.bend = kNames[i];
   }
   if (bends.concave.empty()) return;
   std::sort(bends.concave.begin(), bends.concave.end());
@@ -72,10 +72,10 @@ bool curvatures(const SurfaceJet& jet, const Vec2& least, double sign, double& l
 
 /// Area of one cell by Gauss' rule with `points` (2 or 4) in each direction.
 double gauss_area(const BSplineSurface& s, const ParameterRectangle& r, int points) {
-  static constexpr double x2[] = {-0.5773502691896257, 0.5773502691896257}, w2[] = {1.0, 1.0};
-  static constexpr double x4[] = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563, 0.8611363115940526};
-  static constexpr double w4[] = {0.3478548451374538, 0.6521451548625461, 0.6521451548625461, 0.3478548451374538};
-  const double *x = points == 2 ? x2 : x4, *w = points == 2 ? w2 : w4;
+  static constexpr double kX2[] = {-0.5773502691896257, 0.5773502691896257}, kW2[] = {1.0, 1.0};
+  static constexpr double kX4[] = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563, 0.8611363115940526};
+  static constexpr double kW4[] = {0.3478548451374538, 0.6521451548625461, 0.6521451548625461, 0.3478548451374538};
+  const double *x = points == 2 ? kX2 : kX4, *w = points == 2 ? kW2 : kW4;
   const double hu = 0.5 * (r.u1 - r.u0), hv = 0.5 * (r.v1 - r.v0);
   double sum = 0.0;
   for (int i = 0; i < points; ++i) {

@@ -34,11 +34,11 @@ std::string trims_of(const InspectRow& row) {
 /// "convex", or "convex 62% saddle 38%" where it is mixed.
 std::string bend_of(const InspectRow& row) {
   if (row.bend != "mixed") return row.bend;
-  static constexpr std::array<const char*, 4> names = {"flat", "convex", "concave", "saddle"};
+  static constexpr std::array<const char*, 4> kNames = {"flat", "convex", "concave", "saddle"};
   std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i)
+  for (std::size_t i = 0; i < kNames.size(); ++i)
     if (row.bend_share[i] >= 0.005)
-      text += fmt::format("{}{} {:.0f}%", text.empty() ? "" : " ", names[i], 100.0 * row.bend_share[i]);
+      text += fmt::format("{}{} {:.0f}%", text.empty() ? "" : " ", kNames[i], 100.0 * row.bend_share[i]);
   return text;
 }
 

@@ -84,8 +84,7 @@ std::vector<ConvexProfile> split_convex(const std::vector<Vec2>& profile) {
   std::vector<Vec2> corners;
   // A body ends where the outline turns inwards or jumps: a step down in z, or a slope that grows.
   double widest = 0.0;
-  for (std::size_t i = 0; i < profile.size(); ++i) {
-    const Vec2& next = profile[i];
+  for (const Vec2& next : profile) {
     widest = std::max(widest, next.y());
     if (!corners.empty()) {
       const Vec2 step = next - corners.back();

@@ -8,6 +8,7 @@
 
 #include "flank/base/assert.h"
 #include "flank/base/parallel.h"
+#include "flank/obstacle/distance_cells.h"
 
 namespace flank {
 using namespace internal;
@@ -29,6 +30,9 @@ constexpr double kSeenBySome = 0.1;
 constexpr double kRounding = 1.0 + 1e-9;
 /// mm: a point this near to a face has no direction away from it; the face's normal stands for it.
 constexpr double kOnFaceMm = 1e-9;
+/// Of the allowance: how far interpolated distances may be off. Ten of them are half of what the allowance leaves of the
+/// tolerance (base/tolerance_budget).
+constexpr double kInterpolationShare = 0.02;
 
 struct Vote {
   int sign = 0;
@@ -63,7 +67,7 @@ struct ObstacleField::Lattice {
   static constexpr int kPerSide = 48;
   using Faces = std::vector<std::size_t>;
 
-  Lattice(const Box3& box, double margin) {
+  Lattice(const Box3& box, double margin, double cell_error_mm) {
     const Vec3 size = (box.high - box.low).array() + 2.0 * margin;
     step = size.maxCoeff() / kPerSide;
     low = box.low.array() - margin;
@@ -75,6 +79,7 @@ struct ObstacleField::Lattice {
     distances = std::vector<std::atomic<double>>(all);
     for (std::atomic<double>& distance : distances) distance.store(kUnknown, std::memory_order_relaxed);
     faces = std::vector<std::atomic<const Faces*>>(all);
+    cells = std::make_unique<DistanceCells>(all, low, step, cell_error_mm);
   }
   ~Lattice() {
     for (std::atomic<const Faces*>& list : faces) delete list.load();
@@ -94,6 +99,10 @@ struct ObstacleField::Lattice {
   }
   [[nodiscard]] Vec3 place(const std::array<int, 3>& corner) const {
     return low + step * Vec3(corner[0], corner[1], corner[2]);
+  }
+  [[nodiscard]] std::array<int, 3> coordinates(std::ptrdiff_t index) const {
+    const std::ptrdiff_t x = index % count[0], rest = index / count[0];
+    return {static_cast<int>(x), static_cast<int>(rest % count[1]), static_cast<int>(rest / count[1])};
   }
   [[nodiscard]] std::ptrdiff_t index(const std::array<int, 3>& corner) const {
     return (static_cast<std::ptrdiff_t>(corner[2]) * count[1] + corner[1]) * count[0] + corner[0];
@@ -127,13 +136,32 @@ struct ObstacleField::Lattice {
   std::array<int, 3> count{};
   std::vector<std::atomic<double>> distances;
   std::vector<std::atomic<const Faces*>> faces;
+  std::unique_ptr<DistanceCells> cells;
+};
+
+struct ObstacleField::Exact final : ExactDistances {
+  explicit Exact(const ObstacleField& of) : field(of) {}
+  [[nodiscard]] FaceDistance of(std::size_t face, const Vec3& place, double within_mm) const override {
+    const Target& surface = *field.faces_[face].surface;
+    Footpoint foot = surface.closest_within(place, (within_mm + field.faces_[face].clearance_mm) * kRounding);
+    // A wall's distance is not Lipschitz where its sign ends.
+    if (foot.patch < 0) foot = surface.closest(place);
+    const ObstacleDistance distance = field.to_face(face, place, foot);
+    return {distance.distance_mm, distance.gradient};
+  }
+  [[nodiscard]] std::span<const std::size_t> near(std::ptrdiff_t node) const override {
+    Lattice& lattice = *field.lattice_;
+    const Vec3 place = lattice.place(lattice.coordinates(node));
+    return lattice.near(node, [&] { return field.faces_near(place, field.node_distance(node, place)); });
+  }
+  const ObstacleField& field;
 };
 
 ObstacleField::ObstacleField(const Obstacles& obstacles, const Target& target, double offset_mm, double allowance_mm)
     : faces_(obstacles.faces),
       allowance_mm_(allowance_mm),
       signs_(faces_.size(), 0),
-      lattice_(std::make_unique<Lattice>(target.box(), 2.0 * offset_mm)) {
+      lattice_(std::make_unique<Lattice>(target.box(), 2.0 * offset_mm, kInterpolationShare * allowance_mm)) {
   const std::vector<SurfaceSample> samples = target.samples(std::sqrt(target.area() / kVoters));
   std::vector<Vote> votes(faces_.size());
   parallel_for(faces_.size(), [&](std::size_t k) { votes[k] = vote(faces_[k], samples, offset_mm); });
@@ -215,6 +243,34 @@ ObstacleDistance ObstacleField::at(const Vec3& p, double horizon_mm) const {
   return search(near, p, horizon_mm, (std::abs(known) + off) * kRounding);
 }
 
+ObstacleDistance ObstacleField::interpolated(const Vec3& p, double horizon_mm) const {
+  Vec3 place;
+  const std::ptrdiff_t index = lattice_->index(p, place);
+  if (index < 0) return at(p, horizon_mm);
+  const double known = node_distance(index, place);
+  ObstacleDistance found;
+  found.distance_mm = horizon_mm;
+  if (known - (p - place).norm() >= horizon_mm) return found;
+  const CellDistance here = lattice_->cells->at(p, {index, lattice_->coordinates(index), known}, Exact(*this));
+  if (here.face < 0) return at(p, horizon_mm);
+  if (here.distance.mm < horizon_mm) found = {here.distance.mm, here.distance.gradient, here.face};
+  return found;
+}
+
+ObstacleDistance ObstacleField::to_face(std::size_t face, const Vec3& p, const Footpoint& foot) const {
+  const double distance = signed_distance(face, p, foot);
+  const Vec3 away = p - foot.point;
+  const double length = away.norm();
+  ObstacleDistance result;
+  result.distance_mm = distance - faces_[face].clearance_mm;
+  result.face = static_cast<int>(face);
+  if (length > kOnFaceMm)
+    result.gradient = (distance < 0.0 ? -1.0 : 1.0) / length * away;
+  else
+    result.gradient = (signs_[face] < 0 ? -1.0 : 1.0) * foot.normal;
+  return result;
+}
+
 ObstacleDistance ObstacleField::search(const std::vector<std::size_t>& faces, const Vec3& p, double horizon_mm,
                                        double sight_mm) const {
   ObstacleDistance nearest;
@@ -227,17 +283,8 @@ ObstacleDistance ObstacleField::search(const std::vector<std::size_t>& faces, co
     if (sight <= 0.0 || face.box().squared_distance(p) >= sight * sight) continue;
     const Footpoint foot = face.closest_within(p, sight);
     if (foot.patch < 0) continue;
-    const double distance = signed_distance(k, p, foot);
-    if (distance - clearance >= nearest.distance_mm) continue;
-    nearest.distance_mm = distance - clearance;
-    nearest.face = static_cast<int>(k);
-    const Vec3 away = p - foot.point;
-    const double length = away.norm();
-    if (length > kOnFaceMm) {
-      nearest.gradient = (distance < 0.0 ? -1.0 : 1.0) / length * away;
-    } else {
-      nearest.gradient = (signs_[k] < 0 ? -1.0 : 1.0) * foot.normal;
-    }
+    const ObstacleDistance found = to_face(k, p, foot);
+    if (found.distance_mm < nearest.distance_mm) nearest = found;
   }
   return nearest;
 }

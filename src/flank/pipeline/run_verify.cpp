@@ -109,7 +109,7 @@ void check_origin(const VerifyJob& request, const ResultFolder& folder, const Pa
 std::string absolute(const std::string& file) { return std::filesystem::absolute(file).lexically_normal().string(); }
 
 /// The verdict, tied to what it is about.
-void write_verdict(ResultFolder& folder, const PartStamp& part, std::map<std::string, std::string> files,
+void write_verdict(ResultFolder& folder, const PartStamp& part, const std::map<std::string, std::string>& files,
                    Verification& outcome) {
   if (!folder.writable()) {
     outcome.notes.push_back(folder.path() + " may not be written: the verdict is not in it");

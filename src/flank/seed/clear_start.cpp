@@ -20,7 +20,7 @@ using Line = ClearStart::Line;
 double gap_at(const FittedLine& axis, double sigma, double radius, const ObstacleField& obstacles) {
   constexpr double kSight = 4.0;   // radii: how far walls are asked for, which bounds the steps along a free line
   constexpr double kGood = 0.995;  // radii: see above
-  return obstacles.at(axis.middle + sigma * axis.direction, kSight * radius).distance_mm - kGood * radius;
+  return obstacles.interpolated(axis.middle + sigma * axis.direction, kSight * radius).distance_mm - kGood * radius;
 }
 
 /// Where between a free and a blocked place the ball touches.

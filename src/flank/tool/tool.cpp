@@ -39,20 +39,20 @@ Margins margins(const RadialFunction& radial, double s) {
   return m;
 }
 
-/// Where one margin has its minimum in [a, b], by golden section; good to sqrt(machine precision) of the step, its
+/// Where one margin has its minimum in [a, b], by kGolden section; good to sqrt(machine precision) of the step, its
 /// value to machine precision.
 double minimise(const RadialFunction& radial, int which, double a, double b) {
-  constexpr double golden = 0.6180339887498949;
-  constexpr int steps = 40;  // 0.618^40 = 4e-9
-  double x1 = b - golden * (b - a), x2 = a + golden * (b - a);
+  constexpr double kGolden = 0.6180339887498949;
+  constexpr int kSteps = 40;  // 0.618^40 = 4e-9
+  double x1 = b - kGolden * (b - a), x2 = a + kGolden * (b - a);
   double f1 = margins(radial, x1)[which], f2 = margins(radial, x2)[which];
-  for (int i = 0; i < steps; ++i) {
+  for (int i = 0; i < kSteps; ++i) {
     if (f1 < f2) {
       b = x2, x2 = x1, f2 = f1;
-      x1 = b - golden * (b - a), f1 = margins(radial, x1)[which];
+      x1 = b - kGolden * (b - a), f1 = margins(radial, x1)[which];
     } else {
       a = x1, x1 = x2, f1 = f2;
-      x2 = a + golden * (b - a), f2 = margins(radial, x2)[which];
+      x2 = a + kGolden * (b - a), f2 = margins(radial, x2)[which];
     }
   }
   return f1 < f2 ? x1 : x2;
@@ -89,10 +89,10 @@ std::string reason(const RadialFunction& radial, int which, double s) {
 
 /// Equal steps that include every knot of a spline, so that each step is smooth.
 int step_count(const RadialFunction& radial) {
-  constexpr int smallest = 512;
-  if (radial.family() != ToolFamily::kSpline) return smallest;
+  constexpr int kSmallest = 512;
+  if (radial.family() != ToolFamily::kSpline) return kSmallest;
   const int spans = radial.parameter_count() - 3;
-  return spans * std::max(16, (smallest + spans - 1) / spans);
+  return spans * std::max(16, (kSmallest + spans - 1) / spans);
 }
 
 struct Place {

@@ -25,7 +25,7 @@ struct UniformCubic {
   static UniformCubic at(double axis_length, int count, double s) {
     FLANK_ASSERT(count >= 4 && axis_length > 0.0);
     FLANK_ASSERT(!std::isnan(s));
-    constexpr std::array<double, 4> inverse = {0.0, 1.0, 0.5, 1.0 / 3.0};
+    constexpr std::array<double, 4> kInverse = {0.0, 1.0, 0.5, 1.0 / 3.0};
     const int spans = count - 3;
     UniformCubic b;
     b.inverse_h = spans / axis_length;
@@ -38,10 +38,10 @@ struct UniformCubic {
     const double l1 = u - m, l2 = u - k1, l3 = u - k0;
     const double r1 = m + 1 - u, r2 = k4 - u, r3 = k5 - u;
     b.n1 = {r1, l1};
-    const double g20 = inverse[m + 1 - k1], g21 = inverse[k4 - m];
+    const double g20 = kInverse[m + 1 - k1], g21 = kInverse[k4 - m];
     b.inverse_gap2 = {g20, g21};
     b.n2 = {r1 * b.n1[0] * g20, l2 * b.n1[0] * g20 + r2 * b.n1[1] * g21, l1 * b.n1[1] * g21};
-    const double g30 = inverse[m + 1 - k0], g31 = inverse[k4 - k1], g32 = inverse[k5 - m];
+    const double g30 = kInverse[m + 1 - k0], g31 = kInverse[k4 - k1], g32 = kInverse[k5 - m];
     b.inverse_gap3 = {g30, g31, g32};
     b.n3 = {r1 * b.n2[0] * g30, l3 * b.n2[0] * g30 + r2 * b.n2[1] * g31, l2 * b.n2[1] * g31 + r3 * b.n2[2] * g32,
             l1 * b.n2[2] * g32};

@@ -25,7 +25,7 @@ class Grouper {
   }
 
   /// Follows the motion from `start` until no line lies that way; `used` are the lines of the group.
-  [[nodiscard]] std::vector<Step> follow(Step start, std::vector<char>& used) const;
+  [[nodiscard]] std::vector<Step> follow(const Step& start, std::vector<char>& used) const;
   [[nodiscard]] Step at(std::size_t line) const {
     return {static_cast<int>(line), lines_[line].pose, lines_[line].velocity};
   }
@@ -98,7 +98,7 @@ Step Grouper::next(const Step& last, const std::vector<char>& used) const {
   return best;
 }
 
-std::vector<Step> Grouper::follow(Step start, std::vector<char>& used) const {
+std::vector<Step> Grouper::follow(const Step& start, std::vector<char>& used) const {
   std::vector<Step> steps;
   for (Step step = next(start, used); step.line >= 0; step = next(step, used)) {
     used[static_cast<std::size_t>(step.line)] = 1;

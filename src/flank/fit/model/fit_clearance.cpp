@@ -70,7 +70,7 @@ void FitModel::locate_obstacles(FitState& state) const {
           }
           if (carried_on(sample, p, needed[j], obstacles_[m]->allowance_mm())) continue;
           sample.nearest =
-              stage_.clear_estimated ? obstacles_[m]->estimate(p) : obstacles_[m]->at(p, kSight * needed[j]);
+              stage_.clear_estimated ? obstacles_[m]->estimate(p) : obstacles_[m]->interpolated(p, kSight * needed[j]);
           sample.measured_mm = sample.nearest.distance_mm;
           sample.at = p;
           sample.known = true;

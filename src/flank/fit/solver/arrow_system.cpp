@@ -8,7 +8,8 @@
 
 namespace flank::internal {
 
-ArrowSystem::ArrowSystem(std::vector<int> control_counts, int tool_parameters) : tool_parameters_(tool_parameters) {
+ArrowSystem::ArrowSystem(const std::vector<int>& control_counts, int tool_parameters)
+    : tool_parameters_(tool_parameters) {
   FLANK_ASSERT(tool_parameters >= 0);
   int offset = 0;
   for (int count : control_counts) {

@@ -39,7 +39,7 @@ struct ResidualRow {
 class ArrowSystem {
  public:
   /// An empty system: control points of each motion, free parameters of the tool (0 if the tool is given).
-  ArrowSystem(std::vector<int> control_counts, int tool_parameters);
+  ArrowSystem(const std::vector<int>& control_counts, int tool_parameters);
 
   /// H = 0, gradient = 0; the sizes stay.
   void clear();

@@ -41,7 +41,7 @@ double add_triangulation(const TopoDS_Face& face, Box3& box) {
   }
   double volume = 0.0;
   for (int i = 1; i <= mesh->NbTriangles(); ++i) {
-    int a, b, c;
+    int a = 0, b = 0, c = 0;
     mesh->Triangle(i).Get(a, b, c);
     volume += nodes[static_cast<std::size_t>(a - 1)].dot(
         nodes[static_cast<std::size_t>(b - 1)].cross(nodes[static_cast<std::size_t>(c - 1)]));
@@ -56,7 +56,7 @@ void add_extent(const TopoDS_Face& face, const std::string& type, Box3& box) {
   Bnd_Box exact;
   BRepBndLib::AddOptimal(face, exact, false, false);
   if (exact.IsVoid() || exact.IsOpen()) return;
-  double x0, y0, z0, x1, y1, z1;
+  double x0 = 0.0, y0 = 0.0, z0 = 0.0, x1 = 0.0, y1 = 0.0, z1 = 0.0;
   exact.Get(x0, y0, z0, x1, y1, z1);
   box.add(Vec3(x0, y0, z0));
   box.add(Vec3(x1, y1, z1));
@@ -146,7 +146,7 @@ Part read_cad(const std::string& file, const std::string& format, const std::opt
   TopTools_IndexedMapOfShape index;
   TopExp::MapShapes(loaded.shape, TopAbs_FACE, index);
   try {
-    BRepMesh_IncrementalMesh(loaded.shape, kRelativeDeflection, true, kAngularDeflection, false);
+    const BRepMesh_IncrementalMesh meshed(loaded.shape, kRelativeDeflection, true, kAngularDeflection, false);
     for (int i = 1; i <= index.Extent(); ++i) add_face(TopoDS::Face(index(i)), part);
     refuse_unreadable(part);
     assign_solids(loaded.shape, index, part);

@@ -41,7 +41,7 @@ ParameterWindow box_of(const TopoDS_Face& face, const Handle(Geom_Surface) & sur
   };
   if (!bounded(b.u0, b.u1) || !bounded(b.v0, b.v1))
     throw InputError(name + ": has no finite extent; accepted are faces that trims bound on every side");
-  double u0, u1, v0, v1;
+  double u0 = 0.0, u1 = 0.0, v0 = 0.0, v1 = 0.0;
   surface->Bounds(u0, u1, v0, v1);
   const auto snap = [](double& t, double end, double mm) {
     if (!Precision::IsInfinite(end) && std::abs(t - end) * mm < kBorderMm) t = end;

@@ -135,7 +135,7 @@ double volume_under(const TopoDS_Face& face) {
   const auto node = [&](int i) { return mesh->Node(i).Transformed(location.Transformation()).XYZ(); };
   double volume = 0.0;
   for (int i = 1; i <= mesh->NbTriangles(); ++i) {
-    int a, b, c;
+    int a = 0, b = 0, c = 0;
     mesh->Triangle(i).Get(a, b, c);
     volume += node(a).Dot(node(b).Crossed(node(c)));
   }

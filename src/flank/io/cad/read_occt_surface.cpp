@@ -263,7 +263,7 @@ ConvertedSurface approximate(const Handle(Geom_Surface) & surface, const Paramet
   const Handle(Geom_Surface) part = new Geom_RectangularTrimmedSurface(surface, box.u0, box.u1, box.v0, box.v1);
   const GeomConvert_ApproxSurface approximation(part, kApproximationMm, GeomAbs_C2, GeomAbs_C2, 9, 9, 400, 0);
   if (!approximation.HasResult()) throw Standard_Failure("the surface cannot be approximated by a B-spline");
-  double u0, u1, v0, v1;
+  double u0 = 0.0, u1 = 0.0, v0 = 0.0, v1 = 0.0;
   approximation.Surface()->Bounds(u0, u1, v0, v1);
   ConvertedSurface r = convert_spline(approximation.Surface(), {u0, u1, v0, v1});
   r.approximation_mm = std::max(approximation.MaxError(), kApproximationMm);

@@ -35,7 +35,7 @@ ParameterMesh mesh_of(const Face& face, double deflection) {
   ParameterMesh out;
   try {
     const TopoDS_Face shape = occt_face(face);
-    BRepMesh_IncrementalMesh(shape, deflection, false, kAngle, false);
+    const BRepMesh_IncrementalMesh meshed(shape, deflection, false, kAngle, false);
     TopLoc_Location location;
     const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(shape, location);
     if (mesh.IsNull() || !mesh->HasUVNodes()) return {};
@@ -45,7 +45,7 @@ ParameterMesh mesh_of(const Face& face, double deflection) {
       out.mesh.vertices.push_back(face.surface.value(uv.X(), uv.Y()));
     }
     for (int i = 1; i <= mesh->NbTriangles(); ++i) {
-      int a, b, c;
+      int a = 0, b = 0, c = 0;
       mesh->Triangle(i).Get(a, b, c);
       out.mesh.triangles.push_back({a - 1, b - 1, c - 1});
     }

@@ -108,7 +108,7 @@ std::vector<Vec2> checked_samples(const JsonInput& list, double length) {
 /// The spline of fewest coefficients that reproduces the samples to the finest accuracy at which it is a tool: samples
 /// that were rounded or measured must not be followed into their last digit, or r'' turns to noise.
 RadialFunction spline_from_samples(const JsonInput& list, const std::vector<Vec2>& samples, double length) {
-  constexpr std::array<double, 5> accuracies = {1e-9, 1e-7, 1e-5, 1e-4, kToolSplineErrorMm};
+  constexpr std::array<double, 5> kAccuracies = {1e-9, 1e-7, 1e-5, 1e-4, kToolSplineErrorMm};
   std::vector<RadialFunction> splines;
   std::vector<double> errors;
   const int most = std::min<int>(static_cast<int>(samples.size()), 403);
@@ -117,10 +117,10 @@ RadialFunction spline_from_samples(const JsonInput& list, const std::vector<Vec2
        count = count == most ? most + 1 : std::min(most, count + std::max(1, count / 8))) {
     splines.push_back(RadialFunction::spline_through(length, samples, count));
     errors.push_back(largest_error(splines.back(), samples));
-    if (errors.back() <= accuracies.front()) break;
+    if (errors.back() <= kAccuracies.front()) break;
   }
   std::string why;
-  for (const double accuracy : accuracies) {
+  for (const double accuracy : kAccuracies) {
     const auto found = std::find_if(errors.begin(), errors.end(), [&](double e) { return e <= accuracy; });
     if (found == errors.end()) continue;
     const RadialFunction& spline = splines[static_cast<std::size_t>(found - errors.begin())];

@@ -129,7 +129,8 @@ bool is_straight(const std::vector<Vec2>& points) {
 TopoDS_Shape flank_solid(const RadialFunction& radial) {
   const double radius = radial.at(0.0).r;
   const std::vector<Vec2> points = meridian(radial, kFirstPoints);
-  const Vec2 pole(-radius, 0.0), begin = points.front(), end = points.back();
+  const Vec2 pole(-radius, 0.0);
+  const Vec2 &begin = points.front(), &end = points.back();
   // The middle of the arc: it may be longer than a quarter of a circle, where the tool grows thinner from its tip on.
   const Vec2 middle = radius * (0.5 * (begin / radius + Vec2(-1.0, 0.0))).normalized();
   Outline outline(pole);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <vector>
 
 namespace flank::internal {
@@ -32,7 +33,7 @@ std::string escaped(const std::string& text) {
 std::string outline(const std::vector<Vec2>& upper, bool round_tip, double tip_radius) {
   std::string d = fmt::format("M{:.4f} {:.4f}", upper.front().x(), -upper.front().y());
   for (const Vec2& p : upper) d += fmt::format("L{:.4f} {:.4f}", p.x(), -p.y());
-  for (auto p = upper.rbegin(); p != upper.rend(); ++p) d += fmt::format("L{:.4f} {:.4f}", p->x(), p->y());
+  for (const Vec2& p : std::views::reverse(upper)) d += fmt::format("L{:.4f} {:.4f}", p.x(), p.y());
   // The round tip runs from the lower to the upper side around the axis, the long way if the flank starts above the
   // sphere's centre.
   if (round_tip)
@@ -73,9 +74,9 @@ std::string ruler(double low, double high, int columns, int margin) {
 /// Radius, slope and meridian at five equal steps of s.
 std::string table(const RadialFunction& radial) {
   std::string text = "      s mm         r mm   r'        slope deg   meridian z, radius mm\n";
-  constexpr int rows = 5;
-  for (int i = 0; i < rows; ++i) {
-    const double s = radial.axis_length() * i / (rows - 1);
+  constexpr int kRows = 5;
+  for (int i = 0; i < kRows; ++i) {
+    const double s = radial.axis_length() * i / (kRows - 1);
     const RadialJet f = radial.at(s);
     const Vec2 p = meridian_point(radial, s);
     text += fmt::format("{:10.4f} {:12.6f} {:9.6f} {:10.4f}  {:11.4f} {:11.6f}\n", s, f.r, f.d1,

@@ -8,13 +8,13 @@ namespace {
 /// w_i = q_i / q with q_i = b_i^3, by the quotient rule; b = (1 - u - v, u, v).
 std::array<BlendWeight, 3> weights(double u, double v) {
   const std::array<double, 3> b{1.0 - u - v, u, v};
-  constexpr std::array<double, 3> bu{-1.0, 1.0, 0.0}, bv{-1.0, 0.0, 1.0};
+  constexpr std::array<double, 3> kBu{-1.0, 1.0, 0.0}, kBv{-1.0, 0.0, 1.0};
   std::array<BlendWeight, 3> q;
   BlendWeight sum{};
   for (std::size_t i = 0; i < 3; ++i) {
     const double first = 3.0 * b[i] * b[i], second = 6.0 * b[i];
-    q[i] = {b[i] * b[i] * b[i],     first * bu[i],          first * bv[i],
-            second * bu[i] * bu[i], second * bu[i] * bv[i], second * bv[i] * bv[i]};
+    q[i] = {b[i] * b[i] * b[i],       first * kBu[i],           first * kBv[i],
+            second * kBu[i] * kBu[i], second * kBu[i] * kBv[i], second * kBv[i] * kBv[i]};
     sum.w += q[i].w;
     sum.u += q[i].u;
     sum.v += q[i].v;
@@ -72,8 +72,8 @@ SurfaceJet JetSurface::blended(int triangle, double u, double v, const std::arra
 
 double JetSurface::area(int triangle) const {
   // Radon's seven points.
-  constexpr double a = 0.101286507323456, b = 0.470142064105115;
-  constexpr double wa = 0.125939180544827 / 2.0, wb = 0.132394152788506 / 2.0, wc = 0.225 / 2.0;
+  const double a = 0.101286507323456, b = 0.470142064105115;
+  const double wa = 0.125939180544827 / 2.0, wb = 0.132394152788506 / 2.0, wc = 0.225 / 2.0;
   const auto density = [&](double u, double v) {
     // With linear weights the same surface is run through more evenly than with the cubic ones.
     const std::array<BlendWeight, 3> linear{

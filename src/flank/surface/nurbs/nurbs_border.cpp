@@ -234,8 +234,7 @@ int NurbsBorders::piece_at(const NurbsFace& face, int face_index, int border, do
 /// Asked at three places inside the piece, since its ends may touch edges that only meet it.
 void NurbsBorders::find_partners(const std::vector<NurbsFace>& faces) {
   const BoxTree tree(hulls_);
-  for (std::size_t k = 0; k < pieces_.size(); ++k) {
-    BorderPiece& piece = pieces_[k];
+  for (BorderPiece& piece : pieces_) {
     const NurbsFace& face = faces[static_cast<std::size_t>(piece.face)];
     const double gap = kSharedGap * face.size();
     const Vec3 start = jet(face, piece.edge, piece.t0).p, end = jet(face, piece.edge, piece.t1).p;

@@ -51,7 +51,8 @@ class MeshShape final : public Shape {
         for (std::size_t k = first; k < last; ++k) add_triangle(order_[k], cell.bound, parts);
         return;
       }
-      const double middle = static_cast<double>((first + last) / 2);
+      const std::size_t half = (first + last) / 2;
+      const auto middle = static_cast<double>(half);
       part.at = {cell.at[0], middle, 0.0, 0.0};
       parts.push_back(part);
       part.at = {middle, cell.at[1], 0.0, 0.0};

@@ -115,7 +115,7 @@ int ToolDistance::minima(double z, double rho, double below, std::array<double, 
 NearestSphere ToolDistance::nearest(double z, double rho) const {
   const bool single = rho * focal_curvature_ < kSingleMinimum;
   if (const Grid* grid = grid_around(z, rho)) {
-    double fz, fr;
+    double fz = 0.0, fr = 0.0;
     const Node* lower = grid->cell(z, rho, fz, fr);
     const Node* upper = lower + grid->columns;
     const auto [low, high] = std::minmax({lower[0].s, lower[1].s, upper[0].s, upper[1].s});

@@ -81,7 +81,7 @@ class ToolDistance {
     }
     /// Bilinear.
     [[nodiscard]] Estimate interpolate(double z, double rho) const {
-      double fz, fr;
+      double fz = 0.0, fr = 0.0;
       const Node* a = cell(z, rho, fz, fr);
       const Node* b = a + columns;
       const double w00 = (1.0 - fz) * (1.0 - fr), w01 = fz * (1.0 - fr), w10 = (1.0 - fz) * fr, w11 = fz * fr;
