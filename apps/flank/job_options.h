@@ -38,9 +38,9 @@ template <class Member>
 std::string type_name(const internal::FieldInfo& info, const Member&) {
   if (info.unit == "mm") return "MM";
   if (info.unit == "mm/min") return "MM/MIN";
-  constexpr bool number = std::is_arithmetic_v<Member> || std::is_same_v<Member, std::optional<double>> ||
+  constexpr bool kNumber = std::is_arithmetic_v<Member> || std::is_same_v<Member, std::optional<double>> ||
                           std::is_same_v<Member, std::optional<std::uint64_t>>;
-  return number && info.spelling == internal::Spelling::kPlain ? "NUMBER" : "TEXT";
+  return kNumber && info.spelling == internal::Spelling::kPlain ? "NUMBER" : "TEXT";
 }
 
 /// Adds an option for every field of the job, which must outlive the parsing, and --shank-diameter. Words that are no

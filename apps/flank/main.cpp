@@ -79,9 +79,8 @@ void read_in_children(const flank::cli::CommonOptions& common) {
   });
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+/// What main does; throws only what nobody can report.
+int run_command(int argc, char** argv) {
   if (argc > 1 && std::strcmp(argv[1], flank::internal::kReadCadCommand) == 0)
     return flank::internal::serve_cad(argc - 2, argv + 2);
   // A reader that has gone away is an error of the write, not our end.
@@ -128,5 +127,15 @@ int main(int argc, char** argv) {
     return complain(std::string("cannot write (") + e.what() + ")", kRefusedInput);
   } catch (const std::exception& e) {
     return complain(std::string("internal error: ") + e.what(), kOurFault);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run_command(argc, argv);
+  } catch (...) {
+    return kOurFault;
   }
 }

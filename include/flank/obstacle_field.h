@@ -37,7 +37,7 @@ class ObstacleField {
 
   /// Exact distance, if it is below the horizon; asking for less is faster.
   [[nodiscard]] ObstacleDistance at(const Vec3& p, double horizon_mm) const;
-  /// As at(), but interpolated where that is accurate to a few hundredths of the allowance, which is checked place by
+  /// As at(), but interpolated where that is accurate to a twentieth of the allowance, which is checked place by
   /// place (obstacle/distance_cells). Many times as fast once a neighbourhood is known: for the iterations of a fit, not
   /// for its verdict.
   [[nodiscard]] ObstacleDistance interpolated(const Vec3& p, double horizon_mm) const;

@@ -281,7 +281,7 @@ TEST(Polish, SettlingTakesAFreeToolBackBelowTheTolerance) {
   const auto blade = standing_blade(0.0);
   const FlankFitOptions options = small_options();
   const auto samples = ranking_samples(*blade, nullptr, options);
-  for (const double tolerances : {0.5, 0.97, 1.7}) {
+  for (const double tolerances : {0.5, 0.97}) {
     const Polished before = on_plane(*blade, tolerances * kTolerance, true, samples, options);
     const Polished after = settled(before, options);
     EXPECT_LE(after.estimate.overcut_mm, kTolerance) << tolerances;
@@ -291,8 +291,22 @@ TEST(Polish, SettlingTakesAFreeToolBackBelowTheTolerance) {
     EXPECT_GE(shift, least) << tolerances;
     EXPECT_EQ(shift > 0.0, tolerances > 0.92) << "only if it must";
   }
-  const Polished given = on_plane(*blade, 1.7 * kTolerance, false, samples, options);
-  EXPECT_NEAR(settled(given, options).estimate.overcut_mm, 1.7 * kTolerance, 1e-6);
+}
+
+TEST(Polish, WhatTheLastLookFindsTooDeepIsLedOut) {
+  const auto blade = standing_blade(0.0);
+  const FlankFitOptions options = small_options();
+  const auto samples = ranking_samples(*blade, nullptr, options);
+  for (const bool free : {true, false}) {
+    const Polished before = on_plane(*blade, 1.7 * kTolerance, free, samples, options);
+    ASSERT_GT(before.estimate.overcut_mm, kTolerance);
+    const Polished after = settled(before, options);
+    EXPECT_LE(after.estimate.overcut_mm, kTolerance) << free;
+    EXPECT_EQ(after.estimate.at_tolerance, 1.0) << free;
+  }
+  // Far too deep is no matter of a last pass.
+  const Polished lost = on_plane(*blade, 20.0 * kTolerance, false, samples, options);
+  EXPECT_NEAR(settled(lost, options).estimate.overcut_mm, 20.0 * kTolerance, 1e-6);
 }
 
 TEST(Polish, TheVerdictAsksForCoverageOvercutAndGouge) {

@@ -1,4 +1,5 @@
 // The ways beside other faces: what is cut off an axis or a path, and which of two results is the better one.
+#include "flank/fit/coverage.h"
 #include "flank/fit/ways.h"
 
 #include <gtest/gtest.h>

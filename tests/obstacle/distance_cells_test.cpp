@@ -91,7 +91,7 @@ std::vector<Vec3> centres(const Target& target, int count) {
 
 constexpr double kHorizonMm = 12.0;
 
-TEST(DistanceCells, BetweenBladesAreWithinAFewHundredthsOfTheAllowance) {
+TEST(DistanceCells, BetweenBladesAreWithinATenthOfTheAllowance) {
   constexpr double kAllowanceMm = 0.08;
   const Channel scene = channel(kAllowanceMm);
   std::size_t asked = 0, off = 0;
@@ -102,7 +102,7 @@ TEST(DistanceCells, BetweenBladesAreWithinAFewHundredthsOfTheAllowance) {
     ++asked;
     const double error = std::abs(found.distance_mm - known.distance_mm);
     worst = std::max(worst, error);
-    if (error > 0.05 * kAllowanceMm) ++off;
+    if (error > 0.1 * kAllowanceMm) ++off;
   }
   EXPECT_GT(asked, 500U);
   EXPECT_LT(static_cast<double>(off), 0.01 * static_cast<double>(asked));

@@ -56,6 +56,17 @@ TEST(ObstacleField, TheBladesOwnBackIsLeftOut) {
   EXPECT_EQ(obstacles.at(Vec3(30, 0.5, 20), kFar).face, -1);
 }
 
+TEST(ObstacleField, TheBackOfASheetIsNoWall) {
+  const auto blade = standing_blade(0.0);
+  // It ends farther out than the target: past the target's end there is air on both sides of it.
+  for (const double y : {-1.0, 1.0}) {
+    const Face back = quad(Vec3(0, -1, 0), Vec3(80, -1, 0), Vec3(0, -1, 40 * y), Vec3(80, -1, 40 * y), "F3");
+    const ObstacleField obstacles(only({make_target({back}), false}), *blade, 2.0, 0.0);
+    EXPECT_EQ(obstacles.sign(0), 0);
+    EXPECT_NEAR(obstacles.at(Vec3(70, -4, 20 * y), kFar).distance_mm, 3.0, 1e-9);
+  }
+}
+
 TEST(ObstacleField, WhatAFewOfTheTargetSeeIsNoWall) {
   const auto blade = standing_blade(0.0);
   // A shelf one millimetre above the foot of the blade, seen from above by as much of the blade as it is wide.

@@ -76,6 +76,11 @@ std::vector<double> estimate_distances(const std::vector<SurfaceSample>& samples
 
 namespace {
 
+/// Coverage is known to one of about 2,000 samples: nearer than that the score decides.
+constexpr double kSameCoverage = 1e-3;
+/// A clean result that covers less than this share of what another one covers is not what anybody asked for.
+constexpr double kWorthHaving = 0.5;
+
 /// Along the axis, at most: balls a sixtieth of the axis apart overlap almost wholly.
 constexpr int kGougeSteps = 60;
 
@@ -122,6 +127,29 @@ double between_places(const Pose& pose, const ObstacleField& obstacles, const Ra
 }
 
 }  // namespace
+
+std::vector<Vec3> cut_deeper_than(double depth_mm, const std::vector<SurfaceSample>& samples,
+                                  const std::vector<RuledMotion>& motions, const RadialFunction& tool, int poses) {
+  const std::vector<double> distances = estimate_distances(samples, motions, tool, poses);
+  std::vector<Vec3> deep;
+  for (std::size_t k = 0; k < samples.size(); ++k)
+    if (distances[k] < -depth_mm) deep.push_back(samples[k].point);
+  return deep;
+}
+
+bool is_clean(const CoverageEstimate& estimate, double tolerance_mm) {
+  return estimate.overcut_mm <= tolerance_mm && estimate.gouge_mm <= tolerance_mm;
+}
+
+bool is_better(const CoverageEstimate& a, const CoverageEstimate& b, double tolerance_mm) {
+  const bool clean_a = is_clean(a, tolerance_mm), clean_b = is_clean(b, tolerance_mm);
+  if (clean_a != clean_b) {
+    const double clean = clean_a ? a.at_tolerance : b.at_tolerance, other = clean_a ? b.at_tolerance : a.at_tolerance;
+    return (clean >= kWorthHaving * other) == clean_a;
+  }
+  if (clean_a && std::abs(a.at_tolerance - b.at_tolerance) > kSameCoverage) return a.at_tolerance > b.at_tolerance;
+  return a.score(tolerance_mm) > b.score(tolerance_mm);
+}
 
 CoverageEstimate estimate_coverage(const std::vector<SurfaceSample>& samples, const std::vector<RuledMotion>& motions,
                                    const RadialFunction& tool, double tolerance_mm, int poses) {

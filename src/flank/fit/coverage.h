@@ -14,6 +14,18 @@ namespace flank::internal {
                                                  const std::vector<RuledMotion>& motions, const RadialFunction& tool,
                                                  double tolerance_mm, int poses);
 
+/// Those of the samples that are cut deeper than this, mm, by the estimate's own figures.
+[[nodiscard]] std::vector<Vec3> cut_deeper_than(double depth_mm, const std::vector<SurfaceSample>& samples,
+                                                const std::vector<RuledMotion>& motions, const RadialFunction& tool,
+                                                int poses);
+
+/// Enters and cuts nothing by more than the tolerance, by the planner's estimate.
+[[nodiscard]] bool is_clean(const CoverageEstimate& estimate, double tolerance_mm);
+
+/// Is `a` to be returned rather than `b`? One that enters nothing goes before one that does, unless it covers less
+/// than half as much; of two that are clean the one that covers more, of two that are not the one that scores higher.
+[[nodiscard]] bool is_better(const CoverageEstimate& a, const CoverageEstimate& b, double tolerance_mm);
+
 /// Balls h apart leave up to h^2 / (8 r) of the flank between them: a close look sees most of that, about the deepest place
 /// of each pose.
 enum class GougeLook { kQuick, kClose };

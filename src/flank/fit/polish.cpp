@@ -167,33 +167,67 @@ Polished last_passes(const Polished& polished, const std::vector<SurfaceSample>&
   return shifted(swept_polish(polished, samples, options, trace), samples, options);
 }
 
-Polished settled(const Polished& polished, const FlankFitOptions& options) {
-  constexpr double kDenser = 4.0;  // in each direction: 16 times as many
+namespace {
+
+/// The samples of the last look: of the targets, 16 times as many as rank drafts.
+std::vector<SurfaceSample> close_samples(const FitDraft& draft, const FlankFitOptions& options) {
+  constexpr double kDenser = 4.0;  // in each direction
   FlankFitOptions dense = options;
   dense.sample_share = options.sample_share / kDenser;
   std::vector<SurfaceSample> samples;
-  for (const Target* target : distinct_targets(polished.draft)) {
-    const std::vector<SurfaceSample> more = ranking_samples(*target, obstacles_of(polished.draft, target), dense);
+  for (const Target* target : distinct_targets(draft)) {
+    const std::vector<SurfaceSample> more = ranking_samples(*target, obstacles_of(draft, target), dense);
     samples.insert(samples.end(), more.begin(), more.end());
     // The rim once more as dense: a tool that runs past it is deepest there, in a narrow place.
     const double spacing = std::sqrt(target->area()) * dense.sample_share / kDenser;
     for (const Vec3& point : target->border_points(spacing)) samples.push_back({point, Vec3::UnitZ()});
   }
-  Polished again = assess(polished.draft, samples, options);
+  return samples;
+}
+
+Polished seen_closely(FitDraft draft, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
+  Polished seen = assess(std::move(draft), samples, options);
   /// Times as many poses: a path that runs past an edge is deepest there for a moment.
   constexpr int kOften = 4;
-  again.estimate.gouge_mm = flank_gouge(again.draft.motions, again.draft.obstacles, again.draft.tool,
-                                        kOften * kRankingPoses, GougeLook::kClose);
+  seen.estimate.gouge_mm =
+      flank_gouge(seen.draft.motions, seen.draft.obstacles, seen.draft.tool, kOften * kRankingPoses, GougeLook::kClose);
+  return seen;
+}
+
+/// A fit that the last look finds a little deeper than allowed, led out of what it cuts.
+Polished mended(const Polished& polished, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
+  constexpr int kMost = 3;          // times: each brings places that the one before has made deep
+  constexpr double kALittle = 5.0;  // tolerances: beyond, another motion is needed, not a better one
+  const double tolerance = options.tolerance_mm;
+  Polished best = polished;
+  for (int k = 0; k < kMost && !is_clean(best.estimate, tolerance); ++k) {
+    if (std::max(best.estimate.overcut_mm, best.estimate.gouge_mm) > kALittle * tolerance) return best;
+    const std::vector<Vec3> deep = cut_deeper_than(kToleranceBudget.fit.settled_overcut * tolerance, samples,
+                                                   best.draft.motions, best.draft.tool, kRankingPoses);
+    Polished trial = seen_closely(pass_at(best.draft, deep, options), samples, options);
+    if (!is_better(trial.estimate, best.estimate, tolerance)) return best;
+    best = std::move(trial);
+  }
+  return best;
+}
+
+}  // namespace
+
+Polished settled(const Polished& polished, const FlankFitOptions& options) {
+  const std::vector<SurfaceSample> samples = close_samples(polished.draft, options);
+  Polished again = mended(seen_closely(polished.draft, samples, options), samples, options);
   if (again.estimate.overcut_mm > options.tolerance_mm) again = shifted(again, samples, options);
   // Between these samples, too, nothing may be cut deeper than the tolerance: a little room, if it costs little of the
   // covered share.
   constexpr double kCost = 0.005;
-  constexpr double deepest = kToleranceBudget.others.fit_allowance + kToleranceBudget.others.soft_term;
+  constexpr double kDeepest = kToleranceBudget.others.fit_allowance + kToleranceBudget.others.soft_term;
   const double by = std::max(again.estimate.overcut_mm - kToleranceBudget.fit.settled_overcut * options.tolerance_mm,
-                             again.estimate.gouge_mm - deepest * options.tolerance_mm);
+                             again.estimate.gouge_mm - kDeepest * options.tolerance_mm);
   if (!again.draft.free_tool || by <= 0.0) return again;
   Polished lower = shifted_by(again, by, samples, options);
-  return lower.estimate.at_tolerance >= again.estimate.at_tolerance - kCost ? lower : again;
+  const bool cheap = lower.estimate.at_tolerance >= again.estimate.at_tolerance - kCost;
+  // What is deeper than allowed may cost more: a clean result is worth it, unless little is left.
+  return cheap || is_better(lower.estimate, again.estimate, options.tolerance_mm) ? lower : again;
 }
 
 FlankFitResult finish(const Polished& polished, const FlankFitOptions& options, FlankFitResult result) {

@@ -5,8 +5,8 @@
 #include "flank/base/assert.h"
 #include "flank/base/parallel.h"
 #include "flank/base/tolerance_budget.h"
+#include "flank/fit/coverage.h"
 #include "flank/fit/swept_polish.h"
-#include "flank/fit/ways.h"
 #include "flank/tool/compliance.h"
 
 namespace flank::internal {

@@ -206,6 +206,14 @@ Polished swept_polish(const Polished& polished, const std::vector<SurfaceSample>
   return best;
 }
 
+FitDraft pass_at(const FitDraft& draft, const std::vector<Vec3>& deep, const FlankFitOptions& options) {
+  std::vector<FacePoint> points = target_points(draft, kDense.points_per_side, reach_of(options));
+  const double share = 1.0 / static_cast<double>(points.size());
+  for (const Vec3& place : deep) points.push_back({place, share, FacePoint::Role::kTouch});
+  const double size = draft.targets.front()->diagonal();
+  return run_swept(draft, options.bounds, swept_stage(kDense, options, size), std::move(points), nullptr);
+}
+
 FitDraft run_constrained(const FitDraft& draft, const RadiusBounds& bounds, const FitStage& stage, double band_mm,
                          const ReachLimits& reach) {
   // The dense set sets the margin below: at 200 a side it is spacing^2 / (8 r) = 2e-4 mm for a face of 40 mm and a tool

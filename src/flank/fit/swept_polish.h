@@ -40,4 +40,9 @@ struct ReachLimits {
 [[nodiscard]] Polished without_overcut(const Polished& polished, const std::vector<SurfaceSample>& samples,
                                        const FlankFitOptions& options);
 
+/// One more pass of a draft that cuts deeper than allowed at `deep`, places of the target that no pass has seen (the
+/// passes see 2,500 points, a last look many more): they join the points. Not assessed: by which samples it is measured
+/// is for the caller to say.
+[[nodiscard]] FitDraft pass_at(const FitDraft& draft, const std::vector<Vec3>& deep, const FlankFitOptions& options);
+
 }  // namespace flank::internal

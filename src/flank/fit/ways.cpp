@@ -8,16 +8,12 @@
 
 #include "flank/base/parallel.h"
 #include "flank/base/tolerance_budget.h"
+#include "flank/fit/coverage.h"
 #include "flank/fit/polish.h"
 #include "flank/fit/swept_polish.h"
 
 namespace flank::internal {
 namespace {
-
-/// Coverage is known to one of about 2,000 samples: nearer than that the score decides.
-constexpr double kSameCoverage = 1e-3;
-/// A clean result that covers less than this share of what another one covers is not what anybody asked for.
-constexpr double kWorthHaving = 0.5;
 
 /// The draft of a result, with what is in the way.
 FitDraft draft_of(const Target& target, const ToolModel& tool, const FlankFitResult& result,
@@ -126,20 +122,6 @@ struct Way {
 };
 
 }  // namespace
-
-bool is_clean(const CoverageEstimate& estimate, double tolerance_mm) {
-  return estimate.overcut_mm <= tolerance_mm && estimate.gouge_mm <= tolerance_mm;
-}
-
-bool is_better(const CoverageEstimate& a, const CoverageEstimate& b, double tolerance_mm) {
-  const bool clean_a = is_clean(a, tolerance_mm), clean_b = is_clean(b, tolerance_mm);
-  if (clean_a != clean_b) {
-    const double clean = clean_a ? a.at_tolerance : b.at_tolerance, other = clean_a ? b.at_tolerance : a.at_tolerance;
-    return (clean >= kWorthHaving * other) == clean_a;
-  }
-  if (clean_a && std::abs(a.at_tolerance - b.at_tolerance) > kSameCoverage) return a.at_tolerance > b.at_tolerance;
-  return a.score(tolerance_mm) > b.score(tolerance_mm);
-}
 
 double least_to_win(const CoverageEstimate& rival, const FlankFitOptions& options) {
   constexpr double kLastPassesGain = 0.1;  // of the face: they rarely gain more

@@ -17,13 +17,6 @@ namespace flank::internal {
 /// What a search from all starts gives under these options; their obstacles may be null.
 using StartSearch = std::function<FlankFitResult(const FlankFitOptions&)>;
 
-/// Enters and cuts nothing by more than the tolerance, by the planner's estimate.
-[[nodiscard]] bool is_clean(const CoverageEstimate& estimate, double tolerance_mm);
-
-/// Is `a` to be returned rather than `b`? One that enters nothing goes before one that does, unless it covers less
-/// than half as much; of two that are clean the one that covers more, of two that are not the one that scores higher.
-[[nodiscard]] bool is_better(const CoverageEstimate& a, const CoverageEstimate& b, double tolerance_mm);
-
 /// FlankFitOptions::least_coverage_for_last_passes for a search that is only to beat this rival.
 [[nodiscard]] double least_to_win(const CoverageEstimate& rival, const FlankFitOptions& options);
 

@@ -8,7 +8,7 @@ namespace flank::internal {
 namespace {
 
 /// Halvings of a lattice's cube at most; what is not good enough then (a break, an edge) is not interpolated.
-constexpr int kLevels = 4;
+constexpr int kLevels = 3;
 constexpr std::int64_t kUnits = 1 << kLevels;  ///< of the finest cells along the side of a cube
 /// Interpolation is of the third order: its error is about this share of h^3 / d^2 in a cell of side h at a distance d
 /// from a point, an edge or a surface of that radius. Only spares cells that would be halved anyway.

@@ -30,9 +30,9 @@ constexpr double kSeenBySome = 0.1;
 constexpr double kRounding = 1.0 + 1e-9;
 /// mm: a point this near to a face has no direction away from it; the face's normal stands for it.
 constexpr double kOnFaceMm = 1e-9;
-/// Of the allowance: how far interpolated distances may be off. Ten of them are half of what the allowance leaves of the
-/// tolerance (base/tolerance_budget).
-constexpr double kInterpolationShare = 0.02;
+/// Of the allowance: how far interpolated distances may be off: a fifth of what the allowance leaves of the tolerance
+/// (base/tolerance_budget). A tenth of it would need ten times the cells.
+constexpr double kInterpolationShare = 0.05;
 
 struct Vote {
   int sign = 0;
@@ -47,6 +47,8 @@ Vote vote(const ObstacleFace& face, const std::vector<SurfaceSample>& samples, d
     area += sample.area;
     // From its border a face shows no side.
     if (foot.location != Location::kInside) continue;
+    // What is seen through the target tells nothing of a face without orientation: as likely its other side of a sheet.
+    if (!face.oriented && (foot.point - sample.point).dot(sample.normal) < 0.0) continue;
     all += sample.area;
     if (foot.distance > 0.0) outside += sample.area;
   }

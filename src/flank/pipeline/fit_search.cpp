@@ -8,6 +8,7 @@
 
 #include "flank/base/tolerance_budget.h"
 #include "flank/error.h"
+#include "flank/fit/coverage.h"
 #include "flank/fit/ways.h"
 #include "flank/pipeline/stiff_fit.h"
 #include "flank/seed/axis_line.h"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/fit/coverage.h"
 #include "flank/fit/ways.h"
 #include "flank/tool.h"
 

@@ -19,8 +19,8 @@ TEST(Plunge, ACylinderMayMoveAsItLikes) {
 TEST(Plunge, AConeMayMoveAlongItsAxisAsFarAsItsEnvelopeIsThere) {
   const double slope = 0.3, factor = slope / std::sqrt(1.0 - slope * slope);
   // |c| = factor |v_u| / |v_across|.
-  EXPECT_EQ(plunge({1.0, 0.0, 0.89 / factor}, kAxis, slope).excess, 0.0);
-  EXPECT_NEAR(plunge({1.0, 0.0, -1.2 / factor}, kAxis, slope).excess, 1.2 - 0.9, 1e-12);
+  EXPECT_EQ(plunge({1.0, 0.0, 0.99 * kMostPlunge / factor}, kAxis, slope).excess, 0.0);
+  EXPECT_NEAR(plunge({1.0, 0.0, -1.2 / factor}, kAxis, slope).excess, 1.2 - kMostPlunge, 1e-12);
   EXPECT_NEAR(plunge({0.0, 0.0, 2.0}, kAxis, -slope).excess, 2.0 * factor, 1e-12);
 }
 

@@ -160,7 +160,7 @@ void FitModel::assemble_tool(const FitState& state, ArrowSystem& system) const {
   const Eigen::VectorXd& r = state.tool.parameters();
   for (int k = 1; k + 1 < tool_parameters_; ++k) {
     const double e = r[k - 1] - 2.0 * r[k] + r[k + 1];
-    constexpr std::array<double, 3> d = {1.0, -2.0, 1.0};
+    const std::array<double, 3> d = {1.0, -2.0, 1.0};
     for (int p = 0; p < 3; ++p) {
       gradient[k - 1 + p] += stage_.tool_fairness * e * d[p];
       for (int q = 0; q < 3; ++q) system.tool_matrix(k - 1 + p, k - 1 + q) += stage_.tool_fairness * d[p] * d[q];

@@ -11,8 +11,8 @@ struct Plunge {
   Vec3 gradient = Vec3::Zero();  ///< of the excess by the velocity
 };
 
-/// |c| that is left alone: a little below 1, because a soft term gives a little and is seen at samples only.
-inline constexpr double kMostPlunge = 0.9;
+/// |c| that is left alone: below 1, because a soft term gives a little and is seen at samples only.
+inline constexpr double kMostPlunge = 0.8;
 
 /// With |c| = |r'| |v_u| / (sqrt(1 - r'^2) |v_across|), v_u along the axis and v_across across it: the excess is
 /// |r'| |v_u| / sqrt(1 - r'^2) - kMostPlunge |v_across|, where that is positive. `axis` has unit length, |slope| is below 1.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 #include <vector>
 
 namespace flank::internal {
@@ -33,7 +32,7 @@ std::string escaped(const std::string& text) {
 std::string outline(const std::vector<Vec2>& upper, bool round_tip, double tip_radius) {
   std::string d = fmt::format("M{:.4f} {:.4f}", upper.front().x(), -upper.front().y());
   for (const Vec2& p : upper) d += fmt::format("L{:.4f} {:.4f}", p.x(), -p.y());
-  for (const Vec2& p : std::views::reverse(upper)) d += fmt::format("L{:.4f} {:.4f}", p.x(), p.y());
+  for (std::size_t k = upper.size(); k-- > 0;) d += fmt::format("L{:.4f} {:.4f}", upper[k].x(), upper[k].y());
   // The round tip runs from the lower to the upper side around the axis, the long way if the flank starts above the
   // sphere's centre.
   if (round_tip)

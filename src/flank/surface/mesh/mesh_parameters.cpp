@@ -152,7 +152,7 @@ MeshParameters spread_square(const TriangleMesh& mesh, const std::vector<int>& r
   std::vector<char> fixed(mesh.vertices.size(), 0);
   // Counter-clockwise: v = 0, u = 1, v = 1, u = 0.
   const std::array<Vec2, 4> from{Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)};
-  constexpr std::array<char, 4> bit{4, 2, 8, 1};
+  const std::array<char, 4> bit{4, 2, 8, 1};
   const std::size_t n = rim.size();
   for (std::size_t s = 0; s < 4; ++s) {
     const std::size_t first = corner[s], last = corner[(s + 1) % 4] + (s == 3 ? n : 0);

@@ -57,7 +57,7 @@ struct Walker {
     for (int k = 0; k < 3; ++k) {
       if (b[k] > kOnSide || db[k] >= 0.0 || !open(at.triangle, k)) continue;
       // Along side k only; at a corner of two open sides, the one that is left wins the second time round.
-      constexpr std::array<double, 3> along_u{-1.0, 0.0, 1.0}, along_v{1.0, -1.0, 0.0};
+      const std::array<double, 3> along_u{-1.0, 0.0, 1.0}, along_v{1.0, -1.0, 0.0};
       const Vec2 along(along_u[k], along_v[k]);
       held = true;
       return -(along.dot(gradient) / along.dot(hessian * along)) * along;

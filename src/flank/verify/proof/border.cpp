@@ -63,7 +63,7 @@ void Border::add(const BSplineCurve2& curve, double low, double high, int depth)
 int Border::row(double v) const {
   const double share = (v - box_.low.y()) / std::max(box_.high.y() - box_.low.y(), 1e-300);
   const int count = static_cast<int>(rows_.size());
-  return static_cast<int>(std::clamp(share, 0.0, 1.0) * (count - 1) + 0.5);
+  return static_cast<int>(std::lround(std::clamp(share, 0.0, 1.0) * (count - 1)));
 }
 
 bool Border::meets(const Chord& c, const Rectangle& where) const {
