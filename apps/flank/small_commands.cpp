@@ -85,6 +85,7 @@ Subcommand add_tool(CLI::App& parser) {
   app->add_option("--name", options->name, "Name of the tool");
   app->add_option("-o,--output", options->outputs, "Files to write: .json, .dxf, .step, .fctb, .svg, .csv")
       ->allow_extra_args(false);
+  app->add_flag("--arcs", options->arcs, "A .dxf holds the profile as arcs and lines without corners, within 0.001 mm");
   app->add_flag("--show", *show, "Draw the profile also when files are written");
   app->footer("Example: flank tool barrel --param arc=85 --param radius=5 --axis-length 30 -o tool.json -o tool.dxf");
   const auto run = [options, show](const CommonOptions& common) {

@@ -82,10 +82,10 @@ Tool tool_of_command(const ToolCommandOptions& options) {
   return tool;
 }
 
-std::string tool_as(const Tool& tool, const std::string& file) {
+std::string tool_as(const Tool& tool, const std::string& file, bool arcs) {
   const std::string ending = ending_of(file);
   if (ending == ".json") return tool_to_json(tool);
-  if (ending == ".dxf") return tool_to_dxf(tool);
+  if (ending == ".dxf") return tool_to_dxf(tool, arcs);
   if (ending == ".step" || ending == ".stp") return tool_to_step(tool);
   if (ending == ".fctb") return tool_to_fctb(tool);
   if (ending == ".svg") return tool_to_svg(tool);
@@ -112,12 +112,15 @@ std::string tool_summary_json(const Tool& tool, const std::vector<std::string>& 
 Tool run_tool_command(const ToolCommandOptions& options) {
   const Tool tool = tool_of_command(options);
   std::vector<std::string> contents;
+  const auto is_dxf = [](const std::string& file) { return ending_of(file) == ".dxf"; };
+  if (options.arcs && std::none_of(options.outputs.begin(), options.outputs.end(), is_dxf))
+    throw UsageError("arcs", "only for a .dxf; name one as output");
   for (const std::string& file : options.outputs) {
     std::error_code not_there;
     if (std::filesystem::equivalent(options.source, file, not_there))
       throw InputError(file + ": is what is read, and would be overwritten; give another name");
   }
-  for (const std::string& file : options.outputs) contents.push_back(tool_as(tool, file));
+  for (const std::string& file : options.outputs) contents.push_back(tool_as(tool, file, options.arcs));
   for (std::size_t i = 0; i < contents.size(); ++i) write_file(options.outputs[i], contents[i]);
   return tool;
 }

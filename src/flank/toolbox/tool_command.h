@@ -21,14 +21,15 @@ struct ToolCommandOptions {
   std::optional<double> shank_diameter_mm;  ///< a plain cylinder above the flank, as long as the axis
   std::optional<std::string> name;          ///< of the tool
   std::vector<std::string> outputs;  ///< files, by their endings: .json, .dxf, .step, .fctb, .svg, .csv (meridian)
+  bool arcs = false;                 ///< a .dxf holds the profile as arcs and lines, not as a polygon
 };
 
 /// The tool that the options describe. Throws UsageError and InputError.
 [[nodiscard]] Tool tool_of_command(const ToolCommandOptions& options);
 
 /// A tool as the content of a file of this ending (".json", ".dxf", ".step" or ".stp", ".fctb", ".svg", ".csv"). Throws
-/// UsageError naming the endings.
-[[nodiscard]] std::string tool_as(const Tool& tool, const std::string& file);
+/// UsageError naming the endings. `arcs`: ToolCommandOptions::arcs.
+[[nodiscard]] std::string tool_as(const Tool& tool, const std::string& file, bool arcs = false);
 
 /// Makes or reads the tool and writes every output, each whole or not at all. Throws UsageError and InputError, before
 /// anything is written if the request itself is wrong.

@@ -172,7 +172,7 @@ TEST(ToolDxf, BadFilesAreRefusedByName) {
       {"0\nSECTION\n2\nENTITIES\nx\ny\n", "line 5: \"x\" is not a group code"},
       {"0\nSECTION\n2\nENTITIES\n0\nENDSEC\n0\nEOF\n", "0 polylines"},
       {light_polyline(line, "0\nLWPOLYLINE\n8\nother\n"), "2 polylines"},
-      {light_polyline(line, "42\n0.5\n"), "bulge"},
+      {light_polyline(line, "42\n1.5\n"), "more than a half circle"},
       {light_polyline(line, "10\nwide\n"), "\"wide\" is not a finite number"},
       {light_polyline({{0, 2}, {1, 2}}), "at least 4"},
       {light_polyline({{0, 2}, {1, 2}, {2, -2}, {3, 2}}), "point 3"},

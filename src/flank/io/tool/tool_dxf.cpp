@@ -7,6 +7,7 @@
 
 #include "flank/error.h"
 #include "flank/io/text/dxf_dimension.h"
+#include "flank/io/tool/profile_arcs.h"
 #include "flank/tool/meridian.h"
 
 namespace flank::internal {
@@ -70,6 +71,15 @@ void polyline(DxfText& out, std::string_view layer, const std::vector<Vec2>& poi
   if (points.empty()) return;
   out.add(0, "POLYLINE").add(8, layer).add(66, 1).point(10, 0.0, 0.0).add(70, 0);
   for (const Vec2& p : points) out.add(0, "VERTEX").add(8, layer).point(10, p.x(), p.y());
+  out.add(0, "SEQEND").add(8, layer);
+}
+
+/// The same of arcs: the bulge of a vertex is that of what begins there.
+void polyline(DxfText& out, std::string_view layer, const std::vector<ProfileArc>& arcs) {
+  out.add(0, "POLYLINE").add(8, layer).add(66, 1).point(10, 0.0, 0.0).add(70, 0);
+  for (const ProfileArc& arc : arcs)
+    out.add(0, "VERTEX").add(8, layer).point(10, arc.from.x(), arc.from.y()).add(42, arc.bulge);
+  out.add(0, "VERTEX").add(8, layer).point(10, arcs.back().to.x(), arcs.back().to.y());
   out.add(0, "SEQEND").add(8, layer);
 }
 
@@ -150,7 +160,7 @@ void notes(DxfText& out, const Tool& tool, const std::vector<Vec2>& flank, doubl
 
 }  // namespace
 
-std::string tool_to_dxf(const Tool& tool) {
+std::string tool_to_dxf(const Tool& tool, bool arcs) {
   const std::vector<Vec2> flank = flank_points(tool.radial);
   const Extent e = extent_of(tool, flank);
   const double overhang = 0.05 * (e.high - e.low), height = text_height(tool);
@@ -165,7 +175,10 @@ std::string tool_to_dxf(const Tool& tool) {
   dxf_dimension_blocks(out, dimensions, height);
   out.add(0, "SECTION").add(2, "ENTITIES");
   tip_arc(out, tool.radial);
-  polyline(out, "FLANK", flank);
+  if (arcs)
+    polyline(out, "FLANK", profile_arcs(tool.radial, kDxfArcsMm));
+  else
+    polyline(out, "FLANK", flank);
   polyline(out, "SHANK", tool.shank);
   polyline(out, "HOLDER", tool.holder);
   out.add(0, "LINE").add(8, "CENTRELINE").add(6, "CENTER");

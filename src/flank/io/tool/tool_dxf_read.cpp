@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "flank/error.h"
+#include "flank/io/tool/profile_arcs.h"
+#include "flank/io/tool/tool_dxf.h"
 #include "flank/tool/meridian.h"
 
 namespace flank::internal {
@@ -72,6 +74,30 @@ class DxfPairs {
 struct Polyline {
   std::string layer;
   std::vector<Vec2> points;
+  std::vector<double> bulges;  ///< of what begins at each point; shorter than the points: the rest is straight
+
+  /// A point more in the middle of every segment.
+  [[nodiscard]] static std::vector<Vec2> halved(const std::vector<Vec2>& points) {
+    std::vector<Vec2> more{points.front()};
+    for (std::size_t k = 1; k < points.size(); ++k) {
+      more.emplace_back(0.5 * (points[k - 1] + points[k]));
+      more.push_back(points[k]);
+    }
+    return more;
+  }
+  /// Arcs as fine polygons.
+  [[nodiscard]] std::vector<Vec2> polygon() const {
+    std::vector<Vec2> all;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const bool arc = k + 1 < points.size() && k < bulges.size() && bulges[k] != 0.0;
+      const std::vector<Vec2> part =
+          arc ? points_of({points[k], points[k + 1], bulges[k]}, kDxfChordMm) : std::vector{points[k]};
+      all.insert(all.end(), part.begin(), part.end());
+    }
+    if (all.size() < 4 && all.size() >= 2 && !bulges.empty())
+      return halved(halved(all));  // a few lines of arcs and lines
+    return all;
+  }
 };
 
 /// Every polyline of the ENTITIES section.
@@ -116,12 +142,15 @@ class PolylineReader {
     const bool light = entity == "LWPOLYLINE", vertex = entity == "VERTEX" && open_;
     if ((entity == "POLYLINE" || light) && in_.code() == 8) found_.back().layer = std::string(in_.value());
     if (!light && !vertex) return;
-    if (in_.code() == 42 && in_.number() != 0.0)
-      in_.refuse("an arc segment (bulge); accepted are straight segments, fine enough to follow the profile");
     if (in_.code() == 10 && light) found_.back().points.emplace_back(0.0, 0.0);
     if (found_.back().points.empty()) return;
     if (in_.code() == 10) found_.back().points.back().x() = in_.number();
     if (in_.code() == 20) found_.back().points.back().y() = in_.number();
+    if (in_.code() != 42) return;
+    constexpr double kMostBulge = 1.0;  // a half circle: more of one is no profile of a tool
+    if (!(std::abs(in_.number()) <= kMostBulge)) in_.refuse("an arc of more than a half circle");
+    found_.back().bulges.resize(found_.back().points.size(), 0.0);
+    found_.back().bulges.back() = in_.number();
   }
 
   DxfPairs in_;
@@ -137,7 +166,7 @@ std::vector<Vec2> profile_from_dxf(std::string_view text, const std::string& fil
   if (flank == all.end() && all.size() != 1)
     throw InputError(fmt::format(
         "{}: {} polylines and none on layer FLANK; accepted is one polyline, or one on that layer", file, all.size()));
-  std::vector<Vec2> points = flank != all.end() ? flank->points : all.front().points;
+  std::vector<Vec2> points = flank != all.end() ? flank->polygon() : all.front().polygon();
   // Drawn from the holder to the tip.
   if (points.size() >= 2 && points.front().x() > points.back().x()) std::reverse(points.begin(), points.end());
   return points;
