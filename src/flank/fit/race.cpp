@@ -80,7 +80,8 @@ void pass_until_enough(std::vector<Runner>& runners, const std::vector<SurfaceSa
 }  // namespace
 
 bool is_enough(const CoverageEstimate& estimate, const FlankFitOptions& options) {
-  return estimate.at_tolerance >= options.enough_coverage && estimate.largest_c < 1.0 &&
+  constexpr double kMostC = 0.95;  // the poses of the path lie closer than those of the estimate, and see a little more
+  return estimate.at_tolerance >= options.enough_coverage && estimate.largest_c < kMostC &&
          is_clean(estimate, options.tolerance_mm);
 }
 

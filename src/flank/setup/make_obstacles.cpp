@@ -38,6 +38,13 @@ double box_gap(const Box3& box, const std::vector<SurfaceSample>& samples) {
   return std::sqrt(least);
 }
 
+/// A surface lies in the hull of its control points.
+Box3 hull_of(const Face& face) {
+  Box3 box;
+  for (const Vec3& pole : face.surface.poles) box.add(pole);
+  return box;
+}
+
 /// The face as a surface of its own; null if a mesh region is too small to be one.
 std::unique_ptr<Target> surface_of(const Part& part, int face) {
   if (!part.is_mesh()) return make_target(std::vector<Face>{part.faces[static_cast<std::size_t>(face)]});
@@ -51,16 +58,23 @@ std::unique_ptr<Target> surface_of(const Part& part, int face) {
 /// Those of `faces` within reach of the target's samples, as surfaces.
 void add_surfaces(const Part& part, const std::vector<int>& faces, const std::vector<SurfaceSample>& samples,
                   double reach_mm, double clearance_mm, Obstacles& obstacles, std::vector<std::string>& notes) {
+  const double reach = reach_mm + clearance_mm;
   std::vector<ObstacleFace> all(faces.size());
+  std::vector<char> far(faces.size(), 0);
   parallel_for(faces.size(), [&](std::size_t k) {
+    const Face* face = part.is_mesh() ? nullptr : &part.faces[static_cast<std::size_t>(faces[k])];
+    // To make a surface that can be asked costs more than all that is asked of most of them.
+    far[k] = face != nullptr && box_gap(hull_of(*face), samples) > reach;
+    if (far[k]) return;
     all[k].surface = surface_of(part, faces[k]);
     all[k].clearance_mm = clearance_mm;
-    all[k].oriented = !part.is_mesh() && part.faces[static_cast<std::size_t>(faces[k])].of_solid;
+    all[k].oriented = face != nullptr && face->of_solid;
   });
   for (std::size_t k = 0; k < all.size(); ++k) {
+    if (far[k]) continue;
     if (!all[k].surface)
       notes.push_back(part.face_id(faces[k]) + ": too few triangles to steer clear of; the judge looks at it");
-    else if (box_gap(all[k].surface->box(), samples) <= reach_mm + clearance_mm)
+    else if (box_gap(all[k].surface->box(), samples) <= reach)
       obstacles.faces.push_back(std::move(all[k]));
   }
 }
