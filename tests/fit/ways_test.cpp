@@ -1,6 +1,6 @@
 // The ways beside other faces: what is cut off an axis or a path, and which of two results is the better one.
-#include "flank/fit/coverage.h"
 #include "flank/fit/ways.h"
+#include "flank/fit/coverage.h"
 
 #include <gtest/gtest.h>
 
@@ -97,6 +97,10 @@ TEST(IsBetter, WhatEntersNothingGoesFirstUnlessItCoversNextToNothing) {
   EXPECT_FALSE(is_better(covering(1.0, 0.5), covering(0.6, 0.0), 0.05));
   EXPECT_TRUE(is_better(covering(0.999, 0.44), covering(0.007, 0.0), 0.05));
   EXPECT_FALSE(is_better(covering(0.007, 0.0), covering(0.999, 0.44), 0.05));
+  CoverageEstimate plunging = covering(0.99, 0.0);
+  plunging.largest_c = 1.5;
+  EXPECT_TRUE(is_better(covering(0.98, 0.0), plunging, 0.05)) << "a motion that no machine runs well";
+  EXPECT_FALSE(is_better(covering(0.96, 0.0), plunging, 0.05));
   EXPECT_TRUE(is_better(covering(0.98, 0.0), covering(0.97, 0.0), 0.05));
   EXPECT_FALSE(is_better(covering(0.97, 0.0), covering(0.98, 0.0), 0.05));
   EXPECT_TRUE(is_better(covering(0.9, 0.0), covering(1.0, 0.0, 0.2), 0.05)) << "overcut is no price for coverage";

@@ -141,13 +141,24 @@ bool is_clean(const CoverageEstimate& estimate, double tolerance_mm) {
   return estimate.overcut_mm <= tolerance_mm && estimate.gouge_mm <= tolerance_mm;
 }
 
+namespace {
+
+/// Coverage, less what a motion costs that no machine runs well: where it plunges it wobbles on the spot.
+double worth(const CoverageEstimate& estimate) {
+  constexpr double kPlunging = 0.02;
+  return estimate.at_tolerance - (estimate.largest_c < 1.0 ? 0.0 : kPlunging);
+}
+
+}  // namespace
+
 bool is_better(const CoverageEstimate& a, const CoverageEstimate& b, double tolerance_mm) {
   const bool clean_a = is_clean(a, tolerance_mm), clean_b = is_clean(b, tolerance_mm);
   if (clean_a != clean_b) {
     const double clean = clean_a ? a.at_tolerance : b.at_tolerance, other = clean_a ? b.at_tolerance : a.at_tolerance;
     return (clean >= kWorthHaving * other) == clean_a;
   }
-  if (clean_a && std::abs(a.at_tolerance - b.at_tolerance) > kSameCoverage) return a.at_tolerance > b.at_tolerance;
+  const double worth_a = worth(a), worth_b = worth(b);
+  if (clean_a && std::abs(worth_a - worth_b) > kSameCoverage) return worth_a > worth_b;
   return a.score(tolerance_mm) > b.score(tolerance_mm);
 }
 

@@ -23,7 +23,8 @@ namespace flank::internal {
 [[nodiscard]] bool is_clean(const CoverageEstimate& estimate, double tolerance_mm);
 
 /// Is `a` to be returned rather than `b`? One that enters nothing goes before one that does, unless it covers less
-/// than half as much; of two that are clean the one that covers more, of two that are not the one that scores higher.
+/// than half as much; of two that are clean the one that covers more (a motion that plunges has to cover 2 % more than one
+/// that does not), of two that are not the one that scores higher.
 [[nodiscard]] bool is_better(const CoverageEstimate& a, const CoverageEstimate& b, double tolerance_mm);
 
 /// Balls h apart leave up to h^2 / (8 r) of the flank between them: a close look sees most of that, about the deepest place

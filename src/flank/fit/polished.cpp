@@ -12,26 +12,21 @@
 
 namespace flank::internal {
 
-namespace {
-
-/// Largest |c| where the flank touches its target, between kRankingPoses poses and the next ones.
-double touching_c(const FitDraft& draft, double tolerance_mm) {
+double touching_c(const FitDraft& draft, double tolerance_mm, int poses) {
   double largest = 0.0;
   for (std::size_t m = 0; m < draft.motions.size(); ++m) {
     const Touches touches = [&](const Vec3& centre, double ball_mm) {
       return ball_touches({&draft.targets[m], 1}, centre, ball_mm, tolerance_mm);
     };
     Pose from = draft.motions[m].pose(0.0);
-    for (int i = 1; i <= kRankingPoses; ++i) {
-      const Pose to = draft.motions[m].pose(static_cast<double>(i) / kRankingPoses);
+    for (int i = 1; i <= poses; ++i) {
+      const Pose to = draft.motions[m].pose(static_cast<double>(i) / poses);
       largest = std::max(largest, largest_c(from, to, draft.tool, touches));
       from = to;
     }
   }
   return largest;
 }
-
-}  // namespace
 
 Polished assess(FitDraft draft, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
   Polished polished;
@@ -44,7 +39,7 @@ Polished assess(FitDraft draft, const std::vector<SurfaceSample>& samples, const
   if (draft.free_tool) draft.tool = clamp_tool(draft.tool, options.bounds);
   polished.estimate = estimate_coverage(samples, draft.motions, draft.tool, options.tolerance_mm, kRankingPoses);
   polished.estimate.gouge_mm = flank_gouge(draft.motions, draft.obstacles, draft.tool, kRankingPoses);
-  polished.estimate.largest_c = touching_c(draft, options.tolerance_mm);
+  polished.estimate.largest_c = touching_c(draft, options.tolerance_mm, kRankingPoses);
   polished.draft = std::move(draft);
   return polished;
 }

@@ -11,6 +11,9 @@ namespace flank::internal {
 /// the 64 control points that a rail can have, at least 3.3 for each of the 48 of all but the exact passes.
 inline constexpr int kRankingPoses = 160;
 
+/// Largest |c| where the flank touches its target, between this many poses of each motion and the next ones.
+[[nodiscard]] double touching_c(const FitDraft& draft, double tolerance_mm, int poses);
+
 /// Residuals far beyond this are outliers to a robust pass; mm.
 [[nodiscard]] double robust_scale(const Target& target, const FlankFitOptions& options);
 

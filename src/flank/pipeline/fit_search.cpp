@@ -71,10 +71,11 @@ FlankFitOptions options_of(const FitJob& job, const Target& target, bool free_to
   return options;
 }
 
-/// Covers what was asked, by the planner's estimate, and enters nothing.
+/// Covers what was asked, by the planner's estimate, enters nothing and does not plunge.
 bool is_done(const FlankFitResult& result, double least_coverage, double tolerance_mm) {
   constexpr double kLeastEstimate = 0.97;  // the judge is stricter than the estimate
-  return result.after.at_tolerance >= std::max(least_coverage, kLeastEstimate) && is_clean(result.after, tolerance_mm);
+  return result.after.at_tolerance >= std::max(least_coverage, kLeastEstimate) &&
+         is_clean(result.after, tolerance_mm) && result.after.largest_c < 1.0;
 }
 
 /// Keeps the better of two results; one without a motion is none.
