@@ -32,7 +32,7 @@ demo: command  ## make a twisted blade, fit a tool and its motion to it, and jud
 test: deps build  ## build and run all tests
 	ctest --preset release --parallel $(JOBS)
 
-test-clients: deps build  ## open what we write in headless Chromium and FreeCAD, which are installed if they are missing
+test-clients: deps build  ## open what we write in Chromium, FreeCAD and LinuxCNC, which are installed if they are missing
 	scripts/install-deps.sh clients
 	ctest --preset release --label-regex '^clients$$'
 

@@ -10,7 +10,7 @@ endif()
 # The front door and nothing else: what src/flank holds is the library's own.
 install(DIRECTORY include/flank DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(FILES ${PROJECT_BINARY_DIR}/include/flank/version.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/flank)
-install(DIRECTORY share/catalogue DESTINATION ${CMAKE_INSTALL_DATADIR}/openflank)
+install(DIRECTORY share/catalogue share/machines DESTINATION ${CMAKE_INSTALL_DATADIR}/openflank)
 install(FILES LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 install(EXPORT OpenFlankTargets NAMESPACE OpenFlank:: DESTINATION ${FLANK_CMAKE_DIR})

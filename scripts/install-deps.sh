@@ -3,11 +3,11 @@
 # usage: install-deps.sh [build] [bench] [dev] [clients]
 set -euo pipefail
 
-build=(g++ cmake ninja-build libeigen3-dev libtbb-dev libfmt-dev nlohmann-json3-dev libcli11-dev
+build=(g++ cmake ninja-build libeigen3-dev libtbb-dev libfmt-dev nlohmann-json3-dev libcli11-dev libtomlplusplus-dev
        libocct-data-exchange-dev libgtest-dev python3)
 bench=(libbenchmark-dev libembree-dev libfcl-dev)
 dev=(clang-format clang-tidy)
-clients=(chromium freecad-python3)
+clients=(chromium freecad-python3 linuxcnc-uspace)
 # Node.js and npm bundle the report page; a newer one from elsewhere will do, and then the packages would get in its way.
 command -v node > /dev/null || build+=(nodejs)
 command -v npm > /dev/null || build+=(npm)

@@ -74,7 +74,9 @@ Subcommand add_verify(CLI::App& parser) {
   FlagNames names = add_job_options(*app, *job);
   app->footer(
       "Example: flank example twisted-blade -o blade.step && flank fit blade.step --face F1 -o out --tolerance 0.1; "
-      "flank verify out");
+      "flank verify out\n"
+      "A program: flank post out --machine linuxcnc-xyzac-trt -o part.ngc; flank verify out --nc part.ngc --machine "
+      "linuxcnc-xyzac-trt");
   const auto run = [job](const CommonOptions& common) {
     const Verification outcome = run_verify(*job);
     if (common.json)

@@ -43,7 +43,7 @@ std::string type_name(const internal::FieldInfo& info, const Member&) {
   return kNumber && info.spelling == internal::Spelling::kPlain ? "NUMBER" : "TEXT";
 }
 
-/// Adds an option for every field of the job, which must outlive the parsing, and --shank-diameter. Words that are no
+/// Adds an option for every field of the job, which must outlive the parsing, and --shank-diameter where it has obstacles. Words that are no
 /// value throw UsageError while they are parsed.
 template <class Job>
 FlagNames add_job_options(CLI::App& app, Job& job) {
@@ -60,12 +60,13 @@ FlagNames add_job_options(CLI::App& app, Job& job) {
     if (info.key == "shank_radius") radius = option;
     names[internal::field_name(info)] = flag;
   });
-  app.add_option_function<double>(
-         "--shank-diameter", [&job](double diameter) { job.obstacles.shank_radius_mm = 0.5 * diameter; },
-         "Its diameter")
-      ->group("Clearance")
-      ->type_name("MM")
-      ->excludes(radius);
+  if constexpr (requires { job.obstacles; })
+    app.add_option_function<double>(
+           "--shank-diameter", [&job](double diameter) { job.obstacles.shank_radius_mm = 0.5 * diameter; },
+           "Its diameter")
+        ->group("Clearance")
+        ->type_name("MM")
+        ->excludes(radius);
   return names;
 }
 

@@ -57,21 +57,6 @@ std::string read_size(const std::string& text, PictureOptions& picture) {
   return sensible ? "" : text + ": WIDTHxHEIGHT in pixels, each from 200 to 10000, is needed";
 }
 
-/// The same file, by whatever name, or the same name to be.
-bool same_file(const std::string& a, const std::string& b) {
-  std::error_code error;
-  if (std::filesystem::equivalent(a, b, error)) return true;
-  const auto clean = [&](const std::string& name) { return std::filesystem::weakly_canonical(name, error); };
-  return clean(a) == clean(b);
-}
-
-/// What the page is made of is not overwritten by it, nor any other file of the result.
-void require_own_name(const std::string& folder, const std::string& output) {
-  for (const std::string& name : result_names())
-    if (same_file((std::filesystem::path(folder) / name).string(), output))
-      throw InputError(output + ": is a file of the result; give another name");
-}
-
 /// In its folder the page belongs to the result, so that it goes when a new one comes.
 void write_page(const ReportOptions& options, const std::string& page) {
   if (options.html.empty()) {
@@ -85,8 +70,8 @@ void write_page(const ReportOptions& options, const std::string& page) {
 }
 
 int report(ReportOptions& options, const CommonOptions& common) {
-  require_own_name(options.folder, options.page());
-  if (!options.png.empty()) require_own_name(options.folder, options.png);
+  require_not_a_result(options.folder, options.page());
+  if (!options.png.empty()) require_not_a_result(options.folder, options.png);
   write_page(options, make_report(options.folder));
   std::vector<std::string> written{options.page()};
   if (!options.png.empty()) {

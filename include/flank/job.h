@@ -107,13 +107,40 @@ struct CoverJob {
   bool operator==(const CoverJob&) const = default;
 };
 
+/// The program that a machine runs, judged instead of a folder's path.
+struct NcRequest {
+  std::optional<std::string> file;     ///< the program
+  std::optional<std::string> machine;  ///< name or file; needed with a program
+  std::optional<std::string> setup;    ///< "x,y,z,a,b,c"; none: the program's own
+  std::optional<std::string> tool;     ///< tool.json; none: the folder's
+  std::optional<std::string> faces;    ///< as in PartRequest; none: the folder's, else F1
+  bool operator==(const NcRequest&) const = default;
+};
+
 /// Judge again what fit or cover left in a folder. What is given takes the place of the job's own.
 struct VerifyJob {
-  std::string folder;
+  std::string folder;  ///< may be empty if a program, its part and its tool are given
+  NcRequest nc;
   std::optional<std::string> part;  ///< file
   std::optional<double> tolerance_mm, sample_mm, reach_radius_mm;
   ObstacleRequest obstacles;
   bool operator==(const VerifyJob&) const = default;
+};
+
+/// Write the program with which a machine runs the path of a folder.
+struct PostJob {
+  std::string folder;
+  std::string machine;                   ///< name of a machine that comes with the program, or a file
+  std::optional<std::string> part;       ///< file; none: the job's
+  std::optional<std::string> setup;      ///< "x,y,z,a,b,c": where the part sits; none: searched
+  double feed_mm_min = 1000.0;           ///< of the contact along strips
+  std::string speed = "feed";            ///< or "optimal": as fast as the machine can
+  std::optional<double> deviation_mm;    ///< of the control's motion from the path; none: 0.5 % of the tolerance
+  std::optional<double> tool_length_mm;  ///< from the gauge line to the controlled point; none: the machine's
+  double link_clearance_mm = 5.0;        ///< of the tool from the part's surroundings on links
+  double lift_mm = 2.0;                  ///< off the surface, before and after each strip
+  double spindle_rpm = 0.0;              ///< 0: the spindle is not started
+  bool operator==(const PostJob&) const = default;
 };
 
 /// What makes a tool and a path.

@@ -142,10 +142,42 @@ struct Verification {
   std::vector<std::string> notes;
 };
 
-/// `flank verify`: reads job.json, tool.json and path.json of a folder, judges, and writes verify.json and view.json.
+/// `flank verify`: reads job.json, tool.json and path.json of a folder, judges, and writes verify.json and view.json. With
+/// a program (VerifyJob::nc) that is judged instead of the path, as its machine runs it, and nothing is written.
 [[nodiscard]] Verification run_verify(const VerifyJob& job);
 
 /// The verdict as a table for a terminal.
 [[nodiscard]] std::string verify_text(const Verification& outcome);
+
+/// The range that a joint uses, and how fast and how hard it is driven: mm or degrees, and seconds.
+struct JointRange {
+  std::string joint, unit;
+  double low = 0.0, high = 0.0, speed = 0.0, acceleration = 0.0;
+};
+
+/// A program and what it does.
+struct PostOutcome {
+  std::string program;           ///< the text
+  std::string machine, nesting;  ///< name; "table-table", "head-table" or "head-head"
+  std::string setup;             ///< "x,y,z,a,b,c", as it was given or found
+  bool setup_found = false;      ///< it was searched
+  int strips = 0;
+  std::size_t poses = 0, moves = 0, inserted = 0, left_out = 0;  ///< planned poses of strips; blocks; points
+  double deviation_mm = 0.0;    ///< the control's motion is nowhere farther from the path: proved
+  double rounding_mm = 0.0;     ///< the most that the program's digits add
+  double least_tilt_deg = 0.0;  ///< between the tool and the first rotary axis
+  double minutes = 0.0, cutting_minutes = 0.0;
+  std::vector<JointRange> joints;
+  Acceptance acceptance;  ///< collisions of links
+  std::vector<std::string> notes;
+};
+
+/// `flank post`: reads job.json, tool.json and path.json of a folder. Throws UsageError and InputError: also where the
+/// machine cannot run the path, naming strip, pose and joint.
+[[nodiscard]] PostOutcome run_post(const PostJob& job);
+
+/// The figures as a table for a terminal, and as JSON (docs/schema/post.md).
+[[nodiscard]] std::string post_text(const PostOutcome& outcome);
+[[nodiscard]] std::string post_json(const PostOutcome& outcome);
 
 }  // namespace flank

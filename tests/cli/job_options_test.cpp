@@ -50,6 +50,7 @@ class JobOptions : public Cli {
 TEST_F(JobOptions, AFitIsTheSameAgain) { expect_the_same_again<FitJob>(); }
 TEST_F(JobOptions, ACoverIsTheSameAgain) { expect_the_same_again<CoverJob>(); }
 TEST_F(JobOptions, AVerifyIsTheSameAgain) { expect_the_same_again<VerifyJob>(); }
+TEST_F(JobOptions, APostIsTheSameAgain) { expect_the_same_again<PostJob>(); }
 
 TEST_F(JobOptions, ADiameterIsTwiceARadius) {
   const auto job = parsed<FitJob>({"blade.step", "--shank-length", "30", "--shank-diameter", "8"});

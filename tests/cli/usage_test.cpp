@@ -7,7 +7,7 @@ namespace {
 TEST_F(Cli, HelpNamesTheCommands) {
   const Outcome help = flank({"--help"});
   EXPECT_EQ(help.exit_code, 0);
-  for (const char* command : {"inspect", "example", "tool", "fit", "cover", "verify", "report", "view"}) {
+  for (const char* command : {"inspect", "example", "tool", "fit", "cover", "verify", "report", "view", "machine", "post"}) {
     EXPECT_NE(help.out.find(command), std::string::npos) << command;
     EXPECT_EQ(flank({command, "--help"}).exit_code, 0) << command;
   }

@@ -11,6 +11,11 @@
 #include "flank/io/text/step_syntax.h"
 #include "flank/io/tool/tool_dxf_read.h"
 #include "flank/job/job_json.h"
+#include "flank/machine/kinematics.h"
+#include "flank/machine/model/machine_file.h"
+#include "flank/machine/nc/read/read_nc.h"
+#include "flank/machine/nc/write/write_nc.h"
+#include "flank/machine/work_setup.h"
 #include "flank/manifest/manifest.h"
 #include "flank/path_file.h"
 #include "flank/report/report_file.h"
@@ -41,6 +46,58 @@ void sound(const Tool& tool) { require(tool.radial.axis_length() > 0.0 && std::i
 void sound(const Path& path) {
   for (const Strip& strip : path.strips)
     for (const Pose& pose : strip.poses) require(pose.tip.allFinite() && std::abs(pose.axis.norm() - 1.0) < 1e-6);
+}
+
+/// A machine that was read can hold a tool: its linear joints span space.
+void sound(const Machine& machine) {
+  const Kinematics kinematics(machine, machine.tool_length);
+  require(kinematics.forward(kinematics.joints(Vec3(1, 2, 3), {0.3, 0.4})).tip.allFinite());
+}
+
+void sound(const NcProgram& program) {
+  require(!program.moves.empty() && !program.moves.front().joined);
+  for (const NcMove& m : program.moves) {
+    require(m.position.allFinite() && m.orientation.allFinite());
+    require(m.kind == NcKind::kFeed ? m.feed > 0.0 && std::isfinite(m.feed) : m.feed == 0.0);
+    require(m.strip >= -1 && m.strip < static_cast<std::int32_t>(program.strips.size()));
+    if (program.positions == NcPositions::kTipVector) require(std::abs(m.orientation.norm() - 1.0) < 1e-9);
+  }
+}
+
+/// What was read is sound, and what can be written of it reads back.
+void nc(std::string_view bytes, NcDialect dialect) {
+  NcProgram program;
+  std::string text;
+  try {
+    program = read_nc(bytes, "f", dialect);
+    sound(program);
+    text = write_nc(program, dialect);
+  } catch (const InputError&) {
+    return;
+  } catch (const UsageError&) {
+    return;
+  }
+  try {
+    require(read_nc(text, "f", dialect).moves.size() == program.moves.size());
+  } catch (const InputError& e) {
+    throw InternalError(std::string("written, but not read again: ") + e.what());
+  }
+}
+
+void nc_linuxcnc(std::string_view bytes) {
+  NcDialect dialect;
+  nc(bytes, dialect);
+  dialect.positions = NcPositions::kJoint;
+  nc(bytes, dialect);
+  dialect.tcp_on = "M428";
+  dialect.tcp_off = "M429";
+  nc(bytes, dialect);
+}
+
+void nc_of(std::string_view bytes, NcLanguage language) {
+  NcDialect dialect;
+  dialect.language = language;
+  nc(bytes, dialect);
 }
 
 template <class Read>
@@ -79,6 +136,14 @@ const std::map<std::string, Target>& targets() {
       {"spec", [](std::string_view b) { refused_or([&] { (void)parse_tool_spec(std::string(b), "tool"); }); }},
       {"step", [](std::string_view b) { refused_or([&] { check_step_syntax("f", b); }); }},
       {"part_bytes", part_bytes},
+      {"machine", [](std::string_view b) { refused_or([&] { sound(machine_from_toml(b, "f")); }); }},
+      {"setup", [](std::string_view b) { refused_or([&] { (void)parse_setup(std::string(b)); }); }},
+
+      {"nc_linuxcnc", nc_linuxcnc},
+      {"nc_fanuc", [](std::string_view b) { nc_of(b, NcLanguage::kFanuc); }},
+      {"nc_siemens", [](std::string_view b) { nc_of(b, NcLanguage::kSiemens); }},
+      {"nc_heidenhain", [](std::string_view b) { nc_of(b, NcLanguage::kHeidenhain); }},
+      {"nc_apt", [](std::string_view b) { nc_of(b, NcLanguage::kApt); }},
   };
   return kTargets;
 }

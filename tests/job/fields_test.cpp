@@ -63,9 +63,20 @@ Addresses members(const CoverJob& job) {
   add(all, tolerance, strategy, seed, seeds, most_strips, price);
   return all;
 }
-Addresses members(const VerifyJob& job) {
-  const auto& [folder, part, tolerance, sample, reach, obstacles] = job;
+void add_members(const NcRequest& request, Addresses& all) {
+  const auto& [file, machine, setup, tool, faces] = request;
+  add(all, file, machine, setup, tool, faces);
+}
+Addresses members(const PostJob& job) {
+  const auto& [folder, machine, part, setup, feed, speed, deviation, tool_length, clearance, lift, spindle] = job;
   Addresses all;
+  add(all, folder, machine, part, setup, feed, speed, deviation, tool_length, clearance, lift, spindle);
+  return all;
+}
+Addresses members(const VerifyJob& job) {
+  const auto& [folder, nc, part, tolerance, sample, reach, obstacles] = job;
+  Addresses all;
+  add_members(nc, all);
   add_members(obstacles, all);
   add(all, folder, part, tolerance, sample, reach);
   return all;
@@ -73,7 +84,7 @@ Addresses members(const VerifyJob& job) {
 
 template <class Job>
 class Fields : public testing::Test {};
-using Jobs = testing::Types<FitJob, CoverJob, VerifyJob>;
+using Jobs = testing::Types<FitJob, CoverJob, VerifyJob, PostJob>;
 TYPED_TEST_SUITE(Fields, Jobs);
 
 TYPED_TEST(Fields, EveryMemberIsInTheTableOnce) {

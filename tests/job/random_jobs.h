@@ -25,10 +25,10 @@ inline std::string nasty_text(Random& random) {
 
 inline void randomise(const FieldInfo& info, std::string& value, Random& random) {
   if (info.accepted.text) {
-    for (const char* word : {"mm", "cm", "m", "in", "grow", "curves", "grid", "shape", "tapered", "any"})
+    for (const char* word : {"mm", "cm", "m", "in", "grow", "curves", "grid", "shape", "tapered", "any", "feed", "optimal"})
       if (info.accepted.text(word) && random.uniform() < 0.5) value = word;
     if (!info.accepted.text(value))
-      for (const char* word : {"in", "curves", "shape", "any"})
+      for (const char* word : {"in", "curves", "shape", "any", "optimal"})
         if (info.accepted.text(word)) value = word;
     return;
   }

@@ -35,5 +35,6 @@ void check(const Job& job) {
 void check_fields(const FitJob& job) { check(job); }
 void check_fields(const CoverJob& job) { check(job); }
 void check_fields(const VerifyJob& job) { check(job); }
+void check_fields(const PostJob& job) { check(job); }
 
 }  // namespace flank::internal

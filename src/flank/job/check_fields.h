@@ -10,5 +10,6 @@ namespace flank::internal {
 void check_fields(const FitJob& job);
 void check_fields(const CoverJob& job);
 void check_fields(const VerifyJob& job);
+void check_fields(const PostJob& job);
 
 }  // namespace flank::internal

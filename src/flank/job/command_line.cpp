@@ -82,6 +82,7 @@ std::string shell_quoted(const std::string& word) {
 std::string command_line(const FitJob& job) { return command(job); }
 std::string command_line(const CoverJob& job) { return command(job); }
 std::string command_line(const VerifyJob& job) { return command(job); }
+std::string command_line(const PostJob& job) { return command(job); }
 std::string command_line(const PlanJob& job) {
   return std::visit([](const auto& plan) { return command(plan); }, job);
 }

@@ -13,6 +13,7 @@ namespace flank::internal {
 [[nodiscard]] std::string command_line(const FitJob& job);
 [[nodiscard]] std::string command_line(const CoverJob& job);
 [[nodiscard]] std::string command_line(const VerifyJob& job);
+[[nodiscard]] std::string command_line(const PostJob& job);
 [[nodiscard]] std::string command_line(const PlanJob& job);
 
 /// The job with its files named without their folders, for showing it to others.

@@ -71,6 +71,9 @@ inline constexpr Accepted kUnit{"accepted are mm, cm, m, in", nullptr,
                                 [](std::string_view x) { return x == "mm" || x == "cm" || x == "m" || x == "in"; }};
 inline constexpr Accepted kStrategy{"there are grow and curves", nullptr,
                                     [](std::string_view x) { return x == "grow" || x == "curves"; }};
+inline constexpr Accepted kSpeed{"there are feed and optimal", nullptr,
+                                 [](std::string_view x) { return x == "feed" || x == "optimal"; }};
+inline constexpr Accepted kTurns{"a number >= 0 is needed", not_negative};
 inline constexpr Accepted kSeeds{"there are grid and shape", nullptr,
                                  [](std::string_view x) { return x == "grid" || x == "shape"; }};
 
@@ -247,11 +250,62 @@ void visit_fields(Job& job, Visitor&& visit) {
   visit_obstacles(job.obstacles, visit);
 }
 
+inline constexpr std::string_view kMachineHelp = "The machine: a name (flank machine --list) or a file NAME.toml";
+
+template <class Visitor, Is<NcRequest> Request>
+void visit_nc(Request& nc, Visitor& visit) {
+  using namespace accepted;
+  constexpr std::string_view kGroup = "Program";
+  visit(FieldInfo{"nc", "", kGroup, "Judge this NC program, run on --machine, instead of the path of DIR", kAny,
+                  Spelling::kFile},
+        nc.file);
+  visit(FieldInfo{"machine", "", kGroup, kMachineHelp, kAny, Spelling::kFileOrText}, nc.machine);
+  visit(FieldInfo{"setup", "", kGroup,
+                  "Where the part sits: x,y,z,a,b,c (mm, degrees); default: as the program's header says", kAny},
+        nc.setup);
+  visit(FieldInfo{"tool", "", kGroup, "The tool.json of the program; default: that of DIR", kAny, Spelling::kFile},
+        nc.tool);
+  visit(FieldInfo{"faces", "", kGroup, "Faces that it machines; default: those of DIR, else F1", kAny, Spelling::kPlain,
+                  "--face"},
+        nc.faces);
+}
+
+template <class Visitor, Is<PostJob> Job>
+void visit_fields(Job& job, Visitor&& visit) {
+  using namespace accepted;
+  constexpr std::string_view kLinks = "Links";
+  visit(FieldInfo{"folder", "", "", "A folder written by flank fit or flank cover", kAny, Spelling::kFile, "DIR", true},
+        job.folder);
+  visit(FieldInfo{"machine", "", "", kMachineHelp, kAny, Spelling::kFileOrText, "", true}, job.machine);
+  visit(FieldInfo{"part", "", "", "Part instead of the one named in job.json", kAny, Spelling::kFile}, job.part);
+  visit(
+      FieldInfo{"setup", "", "",
+                "Where the part sits on the table: x,y,z,a,b,c: its origin, mm, and its turn about X, then Y, then Z, "
+                "degrees; default: searched so that the machine reaches all of it",
+                kAny},
+      job.setup);
+  visit(FieldInfo{"feed", "mm/min", "", "Feed of the contact along the strips", kRate}, job.feed_mm_min);
+  visit(FieldInfo{"speed", "", "", "feed: at the feed wherever the axes can; optimal: as fast as the axes can", kSpeed},
+        job.speed);
+  visit(FieldInfo{"deviation", "mm", "",
+                  "How far the control's own motion may leave the path; default: 0.5 % of the tolerance", kLength},
+        job.deviation_mm);
+  visit(FieldInfo{"tool_length", "mm", "", "From the gauge line to the controlled point; default: the machine's",
+                  kLength},
+        job.tool_length_mm);
+  visit(FieldInfo{"spindle", "", "", "Spindle speed, 1/min; 0: the spindle is not started", kTurns}, job.spindle_rpm);
+  visit(FieldInfo{"link_clearance", "mm", kLinks, "Distance from the part's surroundings between strips", kLength},
+        job.link_clearance_mm);
+  visit(FieldInfo{"lift", "mm", kLinks, "Way off the surface before and after each strip", kLength}, job.lift_mm);
+}
+
 template <class Visitor, Is<VerifyJob> Job>
 void visit_fields(Job& job, Visitor&& visit) {
   using namespace accepted;
-  visit(FieldInfo{"folder", "", "", "A folder written by flank fit or flank cover", kAny, Spelling::kFile, "DIR", true},
+  visit(FieldInfo{"folder", "", "", "A folder written by flank fit or flank cover; not needed with --nc", kAny,
+                  Spelling::kFile, "DIR"},
         job.folder);
+  visit_nc(job.nc, visit);
   visit(
       FieldInfo{"part", "", "", "Judge against this part instead of the one named in job.json", kAny, Spelling::kFile},
       job.part);
@@ -265,5 +319,6 @@ void visit_fields(Job& job, Visitor&& visit) {
 inline std::string_view command_name(const FitJob&) { return "fit"; }
 inline std::string_view command_name(const CoverJob&) { return "cover"; }
 inline std::string_view command_name(const VerifyJob&) { return "verify"; }
+inline std::string_view command_name(const PostJob&) { return "post"; }
 
 }  // namespace flank::internal

@@ -219,4 +219,15 @@ void ResultFolder::require_not_inputs(const std::vector<std::string>& inputs) co
   }
 }
 
+void require_not_a_result(const std::string& folder, const std::string& output) {
+  std::error_code error;
+  const auto clean = [&](const std::string& name) { return fs::weakly_canonical(name, error); };
+  for (const std::string& name : result_names()) {
+    const std::string result = (fs::path(folder) / name).string();
+    // The same file, by whatever name, or the same name to be.
+    if (fs::equivalent(result, output, error) || clean(result) == clean(output))
+      throw InputError(output + ": is a file of the result; give another name");
+  }
+}
+
 }  // namespace flank::internal

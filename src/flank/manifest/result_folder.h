@@ -14,6 +14,9 @@ namespace flank::internal {
 /// The names that fit, cover and verify write.
 [[nodiscard]] const std::vector<std::string>& result_names();
 
+/// Throws InputError if `output` is, or would become, one of the files of a result in the folder.
+void require_not_a_result(const std::string& folder, const std::string& output);
+
 /// A folder that is being read or written.
 class ResultFolder {
  public:

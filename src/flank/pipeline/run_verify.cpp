@@ -11,58 +11,19 @@
 #include "flank/artefact/view_json.h"
 #include "flank/error.h"
 #include "flank/io/face_names.h"
-#include "flank/io/text/json_input.h"
 #include "flank/job/check_fields.h"
-#include "flank/job/job_json.h"
 #include "flank/manifest/result_folder.h"
 #include "flank/path_file.h"
+#include "flank/pipeline/folder_job.h"
 #include "flank/pipeline/judge_job.h"
+#include "flank/pipeline/judge_program.h"
 #include "flank/run.h"
 #include "flank/setup/clearance_scene.h"
 #include "flank/setup/tool_body.h"
-#include "flank/tool_file.h"
 
 namespace flank {
 using namespace internal;
 namespace {
-
-/// What is given takes the place of what was there.
-template <class T, class From>
-void replace(T& value, const From& by) {
-  if (by) value = *by;
-}
-template <class T>
-void replace(std::optional<T>& value, const std::optional<T>& by) {
-  if (by) value = by;
-}
-
-template <class Job>
-void apply(const VerifyJob& request, Job& job) {
-  replace(job.part.file, request.part);
-  replace(job.tolerance_mm, request.tolerance_mm);
-  replace(job.judge.sample_mm, request.sample_mm);
-  replace(job.judge.reach_radius_mm, request.reach_radius_mm);
-  const ObstacleRequest& asked = request.obstacles;
-  ObstacleRequest& obstacles = job.obstacles;
-  if (asked.check_faces || asked.ignore_faces) {
-    obstacles.check_faces = asked.check_faces;
-    obstacles.ignore_faces = asked.ignore_faces;
-  }
-  if (!asked.fixtures.empty()) obstacles.fixtures = asked.fixtures;
-  replace(obstacles.clearance_mm, asked.clearance_mm);
-  replace(obstacles.shank_radius_mm, asked.shank_radius_mm);
-  replace(obstacles.shank_length_mm, asked.shank_length_mm);
-  replace(obstacles.holder, asked.holder);
-}
-
-/// The files of a job that moved together with the folder.
-template <class Job>
-void follow_moved(const ResultFolder& folder, Job& job) {
-  if (!folder.manifest()) return;
-  const auto follow = [&](std::string& file) { file = moved_with(*folder.manifest(), folder.path(), file); };
-  follow(job.part.file);
-  for (std::string& fixture : job.obstacles.fixtures) follow(fixture);
-}
 
 /// A path may only be about faces that the part has.
 void require_known_faces(const Path& path, const Part& part, const std::string& file) {
@@ -73,21 +34,6 @@ void require_known_faces(const Path& path, const Part& part, const std::string& 
       if (parse_face_name(item).number > last)
         throw InputError(fmt::format("{}: strip {} is of face {}, but {} has the faces F1 to F{} only", file, strip.id,
                                      item, part.file, last));
-}
-
-/// Shank and holder as asked for now, fixtures and clearance of the merged job: tool.json has the job's shank and holder.
-ObstacleRequest body_of(const ObstacleRequest& asked, const ObstacleRequest& merged) {
-  ObstacleRequest request = asked;
-  request.fixtures = merged.fixtures;
-  request.clearance_mm = merged.clearance_mm;
-  return request;
-}
-
-Tool read_and_equip(const std::string& file, const ObstacleRequest& request) {
-  Tool tool = read_tool(file);
-  check_obstacles(request, &tool);
-  equip_tool(request, tool);
-  return tool;
 }
 
 /// Whether tool, path and part are those that the result was made of: throws InputError where they are not, notes where
@@ -130,7 +76,7 @@ Verification judge_folder(const VerifyJob& request, const Job& job, const std::s
   const auto file = [&](const char* name) { return (std::filesystem::path(request.folder) / name).string(); };
   Verification outcome;
   outcome.job = job;
-  const Tool tool = read_and_equip(file("tool.json"), body_of(request.obstacles, job.obstacles));
+  const Tool tool = read_and_equip(file("tool.json"), request.obstacles, job.obstacles);
   const Path path = read_path(file("path.json"));
   std::vector<std::string> repairs;  // told when the folder was made
   const Setup setup = read_setup(job.part, job.obstacles, job.tolerance_mm, repairs);
@@ -152,19 +98,11 @@ Verification judge_folder(const VerifyJob& request, const Job& job, const std::s
 
 Verification run_verify(const VerifyJob& request) {
   check_fields(request);
+  if (request.nc.file) return judge_program(request);
+  if (request.folder.empty()) throw UsageError("folder", "is needed, or a program by `nc`");
   ResultFolder folder(request.folder, ResultFolder::Use::kWriteOrRead);
-  const std::string file = (std::filesystem::path(request.folder) / "job.json").string();
-  if (!std::filesystem::exists(file))
-    throw InputError(file + ": is not there; a folder written by `flank fit` is needed");
-  PlanJob plan = job_from_json(read_file(file), file);
-  return std::visit(
-      [&](auto& job) {
-        const std::string named = job.part.file;
-        follow_moved(folder, job);
-        apply(request, job);
-        return judge_folder(request, job, named, folder);
-      },
-      plan);
+  FolderJob found = read_folder_job(request, folder);
+  return std::visit([&](auto& job) { return judge_folder(request, job, found.named_part, folder); }, found.job);
 }
 
 }  // namespace flank

@@ -1,0 +1,69 @@
+// machine and post.
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "flank/base/atomic_file.h"
+#include "flank/base/printable.h"
+#include "flank/error.h"
+#include "flank/machine/model/machine_file.h"
+#include "flank/machine/model/machine_text.h"
+#include "flank/manifest/result_folder.h"
+#include "flank/run.h"
+#include "job_options.h"
+
+namespace flank::cli {
+using namespace internal;
+
+Subcommand add_machine(CLI::App& parser) {
+  CLI::App* app = parser.add_subcommand("machine", "Show and check a machine: its joints, limits and control");
+  auto name = std::make_shared<std::string>();
+  auto list = std::make_shared<bool>(false);
+  app->add_option("MACHINE", *name, "A machine that comes with flank, or a file NAME.toml (docs/schema/machine.md)");
+  app->add_flag("--list", *list, "List the machines that come with flank");
+  app->footer("Examples: flank machine --list; flank machine linuxcnc-xyzac-trt");
+  const auto run = [name, list](const CommonOptions& common) {
+    if (name->empty() && !*list) throw UsageError("machine", "a name or a file is needed, or `list`");
+    if (*list) {
+      fmt::print("{}", common.json ? machine_list_json() : printable(machine_list_text(), true));
+      return kMeetsRequest;
+    }
+    const Machine machine = read_machine(*name);
+    if (common.json)
+      fmt::print("{}", machine_to_json(machine));
+    else if (!common.quiet)
+      fmt::print("{}", printable(machine_to_text(machine), true));
+    return kMeetsRequest;
+  };
+  return {app, run, {{"machine", "MACHINE"}, {"list", "--list"}}};
+}
+
+Subcommand add_post(CLI::App& parser) {
+  CLI::App* app = parser.add_subcommand("post", "Write the program with which a machine runs the path of a folder");
+  auto job = std::make_shared<PostJob>();
+  auto output = std::make_shared<std::string>();
+  FlagNames names = add_job_options(*app, *job);
+  app->add_option("-o,--output", *output, "The program to write")->required();
+  app->footer(
+      "Example: flank example twisted-blade -o blade.step && flank fit blade.step --face F1 --tolerance 0.1 -o out; "
+      "flank post out --machine linuxcnc-xyzac-trt -o blade.ngc && flank verify out --nc blade.ngc --machine "
+      "linuxcnc-xyzac-trt");
+  const auto run = [job, output](const CommonOptions& common) {
+    require_not_a_result(job->folder, *output);
+    const PostOutcome outcome = run_post(*job);
+    write_file(*output, outcome.program);
+    if (common.json)
+      fmt::print("{}", post_json(outcome));
+    else if (!common.quiet)
+      fmt::print("{}  written to  {}\n", printable(post_text(outcome), true), printable(*output));
+    return outcome.acceptance.pass() ? kMeetsRequest : kFallsShort;
+  };
+  return {app, run, std::move(names)};
+}
+
+}  // namespace flank::cli

@@ -1,0 +1,67 @@
+#include "flank/artefact/post_text.h"
+
+#include <fmt/format.h>
+
+#include "flank/artefact/acceptance.h"
+#include "flank/io/text/json_dump.h"
+#include "flank/run.h"
+
+namespace flank {
+using namespace internal;
+
+std::string internal::minutes_text(double minutes) {
+  const double seconds = minutes * 60.0;
+  return seconds < 60.0 ? fmt::format("{:.1f} s", seconds) : fmt::format("{:.2f} min", minutes);
+}
+
+std::string post_text(const PostOutcome& o) {
+  std::string text = fmt::format("machine {} ({}), the part sits at {}{}\n", o.machine, o.nesting, o.setup,
+                                 o.setup_found ? " (found)" : "");
+  text += fmt::format("{} strips of {} poses: {} blocks with links, {} points inserted, {} left out\n", o.strips,
+                      o.poses, o.moves, o.inserted, o.left_out);
+  text += fmt::format("the control's motion leaves the path by at most {:.6f} mm, and digits add at most {:.6f} mm\n",
+                      o.deviation_mm, o.rounding_mm);
+  text += fmt::format("{:<6} {:>11} {:>11} {:>11} {:>14}\n", "joint", "from", "to", "largest /s", "largest /s^2");
+  for (const JointRange& j : o.joints)
+    text += fmt::format("{:<2}{:<4} {:>11.3f} {:>11.3f} {:>11.3f} {:>14.2f}\n", j.joint, j.unit, j.low, j.high, j.speed,
+                        j.acceleration);
+  text += fmt::format("nearest to singular {:.2f} degrees; time {}, of which cutting {}\n", o.least_tilt_deg,
+                      minutes_text(o.minutes), minutes_text(o.cutting_minutes));
+  for (const std::string& note : o.notes) text += "note: " + note + "\n";
+  text += reason_lines(o.acceptance);
+  return text;
+}
+
+std::string post_json(const PostOutcome& o) {
+  nlohmann::ordered_json json = {{"schema", "openflank/post/1"},
+                                 {"units", "mm"},
+                                 {"pass", o.acceptance.pass()},
+                                 {"machine", o.machine},
+                                 {"nesting", o.nesting},
+                                 {"setup", o.setup},
+                                 {"setup_found", o.setup_found},
+                                 {"strips", o.strips},
+                                 {"poses", o.poses},
+                                 {"moves", o.moves},
+                                 {"inserted", o.inserted},
+                                 {"left_out", o.left_out},
+                                 {"deviation_mm", o.deviation_mm},
+                                 {"rounding_mm", o.rounding_mm},
+                                 {"least_tilt_deg", o.least_tilt_deg},
+                                 {"minutes", o.minutes},
+                                 {"cutting_minutes", o.cutting_minutes}};
+  json["joints"] = nlohmann::ordered_json::array();
+  for (const JointRange& j : o.joints)
+    json["joints"].push_back({{"joint", j.joint},
+                              {"unit", j.unit},
+                              {"low", j.low},
+                              {"high", j.high},
+                              {"speed", j.speed},
+                              {"acceleration", j.acceleration}});
+  json["reasons"] = nlohmann::ordered_json::array();
+  for (const Shortfall& r : o.acceptance.reasons) json["reasons"].push_back({{"figure", r.figure}, {"text", r.text}});
+  json["notes"] = o.notes;
+  return dumped(json, 2) + "\n";
+}
+
+}  // namespace flank

@@ -1,0 +1,300 @@
+#include "flank/machine/feed.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "flank/error.h"
+
+namespace flank::internal {
+namespace {
+
+constexpr double kTick = 1e-3;  ///< s: what a servo sees
+/// A way without contact length (a joint turns, the tool stays) still passes: this much length a second of its joints.
+constexpr double kIdle = 1e-3;
+constexpr int kMostPasses = 12;
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+/// low <= u <= high, both linear in x: low(x) = low0 + low1 x.
+struct Line {
+  double at0, slope;
+};
+
+class Planner {
+ public:
+  Planner(const Machine& machine, std::span<const FeedNode> nodes, double rounding) : machine_(machine), nodes_(nodes) {
+    const std::size_t n = nodes.size();
+    step_.assign(n, 0.0);
+    rate_.assign(n, JointValues{});
+    cap_.assign(n, kInfinite);
+    for (std::size_t i = 1; i < n; ++i) measure(i);
+    bend_.assign(n, 0.0);
+    for (std::size_t i = 1; i + 1 < n; ++i) bend_[i] = bend_length(i, rounding);
+    for (std::size_t i = 0; i < n; ++i) cap_[i] = speed_cap(i);
+    cap_.front() = cap_.back() = 0.0;
+  }
+
+  FeedPlan run() {
+    FeedPlan plan = solve();
+    for (int pass = 0; pass < kMostPasses; ++pass)
+      if (!slow_down_where_needed(plan))
+        return plan;
+      else
+        plan = solve();
+    stretch(plan);
+    return plan;
+  }
+
+  /// Of every node: the squared speed that the joints' speeds and the bend of their way allow, without speeding up.
+  double constant() const {
+    double x = kInfinite;
+    for (std::size_t i = 1; i + 1 < nodes_.size(); ++i) {
+      x = std::min(x, cap_[i]);
+      for (std::size_t k = 0; k < kJointCount; ++k) {
+        const double bend = std::abs(bend_at(i, k));
+        if (bend > 0.0) x = std::min(x, machine_.joints[k].acceleration / bend);
+      }
+    }
+    return std::sqrt(x);
+  }
+
+ private:
+  /// Length and the joints' change per length of the way to node i.
+  void measure(std::size_t i) {
+    double idle = 0.0;
+    for (std::size_t k = 0; k < kJointCount; ++k)
+      idle = std::max(idle, std::abs(nodes_[i].joints[k] - nodes_[i - 1].joints[k]) / machine_.joints[k].speed);
+    step_[i] = std::max(nodes_[i].length + kIdle * idle, 1e-12);
+    for (std::size_t k = 0; k < kJointCount; ++k)
+      rate_[i][k] = (nodes_[i].joints[k] - nodes_[i - 1].joints[k]) / step_[i];
+  }
+
+  double speed_cap_of_way(std::size_t i) const {
+    double v = nodes_[i].cap;
+    for (std::size_t k = 0; k < kJointCount; ++k)
+      if (rate_[i][k] != 0.0) v = std::min(v, machine_.joints[k].speed / std::abs(rate_[i][k]));
+    return v * v;
+  }
+
+  double speed_cap(std::size_t i) const {
+    double x = kInfinite;
+    if (i > 0) x = std::min(x, speed_cap_of_way(i));
+    if (i + 1 < nodes_.size()) x = std::min(x, speed_cap_of_way(i + 1));
+    return x;
+  }
+
+  /// Of the parabola at a node: a corner whose rates jump by d is left by length d / 8.
+  double bend_length(std::size_t i, double rounding) const {
+    double jump = 0.0;
+    for (std::size_t k = 0; k < kJointCount; ++k) {
+      const double lever = machine_.joints[k].kind == JointKind::kRotary ? kFeedLeverMm : 1.0;
+      jump = std::max(jump, lever * std::abs(rate_[i + 1][k] - rate_[i][k]));
+    }
+    const double room = std::min(step_[i], step_[i + 1]);
+    return jump > 0.0 ? std::min(room, 8.0 * rounding / jump) : room;
+  }
+
+  double bend_at(std::size_t i, std::size_t k) const { return (rate_[i + 1][k] - rate_[i][k]) / bend_[i]; }
+
+  /// The limits of u at node i: |q' u + q'' x| <= a of each joint, on both sides of the parabola. Lines from below and
+  /// from above; `cap` where a joint does not depend on u.
+  struct Bounds {
+    std::array<Line, 2 * kJointCount + 1> low, high;
+    std::size_t count = 0;
+    double cap = kInfinite;
+  };
+  Bounds bounds_at(std::size_t i) const {
+    Bounds b;
+    for (std::size_t k = 0; k < kJointCount; ++k) {
+      const double a = machine_.joints[k].acceleration, bend = i == 0 ? 0.0 : bend_at(i, k);
+      if (bend != 0.0) b.cap = std::min(b.cap, a / std::abs(bend));
+      add_side(b, rate_[i + 1][k], bend, a);
+      if (i > 0) add_side(b, rate_[i][k], bend, a);
+    }
+    return b;
+  }
+  static void add_side(Bounds& b, double rate, double bend, double a) {
+    if (std::abs(rate) < 1e-12) return;  // no u of ours moves this joint
+    const double half = a / std::abs(rate), slope = -bend / rate;
+    b.low[b.count] = {-half, slope};
+    b.high[b.count] = {half, slope};
+    ++b.count;
+  }
+
+  /// The largest x <= cap for which some u lies above all low lines and below all high lines.
+  static double largest_feasible(const Bounds& b, std::size_t low_count, std::size_t high_count, double cap) {
+    double x = std::min(cap, b.cap);
+    for (std::size_t j = 0; j < low_count; ++j)
+      for (std::size_t k = 0; k < high_count; ++k) {
+        const double closing = b.low[j].slope - b.high[k].slope, room = b.high[k].at0 - b.low[j].at0;
+        if (closing > 0.0) x = std::min(x, std::max(0.0, room) / closing);
+      }
+    return x;
+  }
+
+  FeedPlan solve() const {
+    const std::size_t n = nodes_.size();
+    // Backward: the largest squared speed from which the end can be reached.
+    std::vector<double> reach(n, 0.0);
+    for (std::size_t i = n - 1; i-- > 0;) {
+      Bounds b = bounds_at(i);
+      // 0 <= x + 2 step u <= reach of the next node.
+      const double inverse = 1.0 / (2.0 * step_[i + 1]);
+      b.low[b.count] = {0.0, -inverse};
+      b.high[b.count] = {reach[i + 1] * inverse, -inverse};
+      reach[i] = largest_feasible(b, b.count + 1, b.count + 1, cap_[i]);
+    }
+    // Forward: as fast as the joints speed up, never beyond what was found.
+    std::vector<double> x(n, 0.0);
+    for (std::size_t i = 0; i + 1 < n; ++i) {
+      const Bounds b = bounds_at(i);
+      double u = kInfinite;
+      for (std::size_t k = 0; k < b.count; ++k) u = std::min(u, b.high[k].at0 + b.high[k].slope * x[i]);
+      x[i + 1] = std::clamp(x[i] + 2.0 * step_[i + 1] * u, 0.0, reach[i + 1]);
+    }
+    FeedPlan plan;
+    plan.step = step_;
+    plan.bend = bend_;
+    plan.speed.resize(n);
+    plan.seconds.assign(n, 0.0);
+    for (std::size_t i = 0; i < n; ++i) plan.speed[i] = std::sqrt(x[i]);
+    for (std::size_t i = 1; i < n; ++i) {
+      const double sum = plan.speed[i] + plan.speed[i - 1];
+      // From rest to rest over one way: as fast as it could be run up to its middle and stopped again.
+      plan.seconds[i] = sum > 0.0 ? 2.0 * step_[i] / sum : rest_to_rest(i);
+      plan.time_s += plan.seconds[i];
+    }
+    return plan;
+  }
+
+  double rest_to_rest(std::size_t i) const {
+    double seconds = step_[i] / std::sqrt(speed_cap_of_way(i));
+    for (std::size_t k = 0; k < kJointCount; ++k)
+      seconds = std::max(seconds, 2.0 * std::sqrt(std::abs(rate_[i][k]) * step_[i] / machine_.joints[k].acceleration));
+    return 2.0 * seconds;
+  }
+
+  /// Lowers the caps where a millisecond shows more than a limit; false if none does.
+  bool slow_down_where_needed(const FeedPlan& plan);
+  /// Slows the whole down until the limits hold: speeds by the factor, accelerations by its square.
+  void stretch(FeedPlan& plan) const;
+
+  const Machine& machine_;
+  std::span<const FeedNode> nodes_;
+  std::vector<double> step_, cap_;  ///< length of the way to each node; largest squared speed at it
+  std::vector<double> bend_;        ///< length of the parabola at each node
+  std::vector<JointValues> rate_;   ///< of the joints per length, on the way to each node
+};
+
+/// The joints at a share of the way to node i, on the parabolas at its ends.
+JointValues place(std::span<const FeedNode> nodes, const FeedPlan& plan, std::size_t i, double share) {
+  const std::size_t near = share < 0.5 ? i - 1 : i;
+  const double off = (share < 0.5 ? share : 1.0 - share) * plan.step[i], half = 0.5 * plan.bend[near];
+  const double lift = off < half ? (half - off) * (half - off) / (4.0 * half) : 0.0;
+  JointValues q{};
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    q[j] = nodes[i - 1].joints[j] + share * (nodes[i].joints[j] - nodes[i - 1].joints[j]);
+    if (lift > 0.0)
+      q[j] += lift * ((nodes[near + 1].joints[j] - nodes[near].joints[j]) / plan.step[near + 1] -
+                      (nodes[near].joints[j] - nodes[near - 1].joints[j]) / plan.step[near]);
+  }
+  return q;
+}
+
+/// The joints every millisecond. visit(first, last node around, joints at t - tick, t, t + tick).
+template <class Visit>
+void sample(std::span<const FeedNode> nodes, const FeedPlan& plan, const Visit& visit) {
+  std::size_t i = 1;
+  double start = 0.0;  // time at node i - 1
+  JointValues before = nodes.front().joints, here = before;
+  std::size_t node_before = 0, node_here = 0;
+  const auto ticks = static_cast<std::size_t>(std::ceil(plan.time_s / kTick)) + 2;
+  for (std::size_t k = 1; k <= ticks; ++k) {
+    const double t = static_cast<double>(k) * kTick;
+    while (i < nodes.size() && start + plan.seconds[i] <= t) start += plan.seconds[i++];
+    JointValues next = nodes.back().joints;
+    if (i < nodes.size()) {
+      // The speed runs linearly in time: the share of the way is quadratic.
+      const double tau = (t - start) / plan.seconds[i], v0 = plan.speed[i - 1], v1 = plan.speed[i];
+      const double share = v0 + v1 > 0.0 ? tau * (2.0 * v0 + (v1 - v0) * tau) / (v0 + v1)
+                                         : (tau < 0.5 ? 2.0 * tau * tau : 1.0 - 2.0 * (1.0 - tau) * (1.0 - tau));
+      next = place(nodes, plan, i, std::clamp(share, 0.0, 1.0));
+    }
+    visit(node_before, std::min(i, nodes.size() - 1), before, here, next);
+    before = here;
+    here = next;
+    node_before = node_here;
+    node_here = std::min(i, nodes.size() - 1) - (i < nodes.size() ? 1 : 0);
+  }
+}
+
+struct Shares {
+  double speed = 0.0, acceleration = 0.0;
+};
+Shares shares(const Machine& machine, const JointValues& before, const JointValues& here, const JointValues& next) {
+  Shares s;
+  for (std::size_t k = 0; k < kJointCount; ++k) {
+    s.speed = std::max(s.speed, std::abs(next[k] - here[k]) / kTick / machine.joints[k].speed);
+    s.acceleration = std::max(s.acceleration, std::abs(next[k] - 2.0 * here[k] + before[k]) / (kTick * kTick) /
+                                                  machine.joints[k].acceleration);
+  }
+  return s;
+}
+
+/// What counts as more than a limit: rounding of the differences.
+constexpr double kSlack = 1e-6;
+
+bool Planner::slow_down_where_needed(const FeedPlan& plan) {
+  bool any = false;
+  sample(nodes_, plan,
+         [&](std::size_t first, std::size_t last, const JointValues& b, const JointValues& h, const JointValues& n) {
+           const Shares s = shares(machine_, b, h, n);
+           const double over = std::max(s.speed * s.speed, s.acceleration);
+           if (over <= 1.0 + kSlack) return;
+           any = true;
+           for (std::size_t i = std::max<std::size_t>(first, 1); i <= last && i + 1 < nodes_.size(); ++i)
+             cap_[i] = std::min(cap_[i], plan.speed[i] * plan.speed[i] / (1.02 * over));
+         });
+  return any;
+}
+
+void Planner::stretch(FeedPlan& plan) const {
+  const FeedCheck check = check_feed(machine_, nodes_, plan);
+  const double over = std::max(check.worst_speed, std::sqrt(check.worst_acceleration));
+  if (over <= 1.0) return;
+  const double factor = over * (1.0 + 1e-3);
+  plan.time_s = 0.0;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    plan.seconds[i] *= factor;
+    plan.speed[i] /= factor;
+    plan.time_s += plan.seconds[i];
+  }
+}
+
+}  // namespace
+
+FeedPlan plan_feed(const Machine& machine, std::span<const FeedNode> nodes, double rounding) {
+  if (nodes.size() < 2 || !(rounding > 0.0)) throw InternalError("a feed needs two nodes, and room to round corners");
+  return Planner(machine, nodes, rounding).run();
+}
+
+FeedCheck check_feed(const Machine& machine, std::span<const FeedNode> nodes, const FeedPlan& plan) {
+  FeedCheck check;
+  sample(nodes, plan, [&](std::size_t, std::size_t, const JointValues& b, const JointValues& h, const JointValues& n) {
+    ++check.samples;
+    const Shares s = shares(machine, b, h, n);
+    check.worst_speed = std::max(check.worst_speed, s.speed);
+    check.worst_acceleration = std::max(check.worst_acceleration, s.acceleration);
+    for (std::size_t k = 0; k < kJointCount; ++k) {
+      check.speed[k] = std::max(check.speed[k], std::abs(n[k] - h[k]) / kTick);
+      check.acceleration[k] = std::max(check.acceleration[k], std::abs(n[k] - 2.0 * h[k] + b[k]) / (kTick * kTick));
+    }
+  });
+  return check;
+}
+
+double constant_speed(const Machine& machine, std::span<const FeedNode> nodes, double rounding) {
+  return Planner(machine, nodes, rounding).constant();
+}
+
+}  // namespace flank::internal

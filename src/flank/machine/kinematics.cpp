@@ -1,0 +1,137 @@
+#include "flank/machine/kinematics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace flank::internal {
+namespace {
+
+/// How far beyond the border of what is reachable a direction may lie and count as on it: rounding.
+constexpr double kReachSlack = 1e-12;
+/// Below this the border of what is reachable is the first rotary axis itself.
+constexpr double kExactly = 1e-12;
+
+struct Turn {
+  double c, s;
+  explicit Turn(double angle) : c(std::cos(angle)), s(std::sin(angle)) {}
+};
+
+/// v turned about the unit vector n (Rodrigues).
+Vec3 turned(const Vec3& v, const Vec3& n, const Turn& t) {
+  return t.c * v + t.s * n.cross(v) + ((1.0 - t.c) * n.dot(v)) * n;
+}
+
+double wrapped(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
+
+}  // namespace
+
+Kinematics::Kinematics(const Machine& machine, double tool_length) {
+  std::size_t linear = 0, rotary = 0;
+  for (std::size_t k = 0; k < kJointCount; ++k) {
+    const Joint& joint = machine.joints[k];
+    const bool turns = joint.kind == JointKind::kRotary;
+    links_[k] = {turns, joint.reversed ? Vec3(-joint.direction) : joint.direction, joint.point};
+    if (turns)
+      rotary_[rotary++] = k;
+    else
+      linear_[linear++] = k;
+  }
+  axis_ = machine.tool_axis;
+  tip_ = machine.gauge - tool_length * axis_;
+  const Vec3 &a = links_[rotary_[0]].direction, &b = links_[rotary_[1]].direction;
+  mean_ = a.dot(b) * b.dot(axis_);
+  cosine_ = a.dot(axis_) - mean_;
+  sine_ = a.dot(b.cross(axis_));
+  swing_ = std::hypot(cosine_, sine_);
+  const auto exact = [](double x) { return std::abs(x) < kExactly ? 0.0 : x; };
+  short_of_a_ = exact(1.0 - mean_ - swing_);
+  short_of_minus_a_ = exact(1.0 + mean_ - swing_);
+}
+
+Kinematics::Frame Kinematics::frame(const RotaryValues& rotary) const {
+  const std::array<Turn, 2> turn{Turn(rotary[0]), Turn(rotary[1])};
+  Frame f;
+  f.origin = tip_;
+  f.axis = axis_;
+  std::size_t r = 2, l = 3;
+  for (std::size_t k = kJointCount; k-- > 0;) {
+    const Link& link = links_[k];
+    if (!link.rotary) {
+      f.linear[--l] = link.direction;
+      continue;
+    }
+    const Turn& t = turn[--r];
+    f.origin = link.point + turned(f.origin - link.point, link.direction, t);
+    f.axis = turned(f.axis, link.direction, t);
+    for (std::size_t i = l; i < 3; ++i) f.linear[i] = turned(f.linear[i], link.direction, t);
+  }
+  return f;
+}
+
+Pose Kinematics::forward(const JointValues& q) const {
+  const Frame f = frame(rotary_of(q));
+  Vec3 tip = f.origin;
+  for (std::size_t k = 0; k < 3; ++k) tip += q[linear_[k]] * f.linear[k];
+  return {tip, f.axis};
+}
+
+Vec3 Kinematics::direction(const RotaryValues& rotary) const {
+  const Vec3 near = turned(axis_, links_[rotary_[1]].direction, Turn(rotary[1]));
+  return turned(near, links_[rotary_[0]].direction, Turn(rotary[0]));
+}
+
+JointValues Kinematics::joints(const Vec3& point, const RotaryValues& rotary) const {
+  const Frame f = frame(rotary);
+  const Vec3 d = point - f.origin;
+  const Vec3 bc = f.linear[1].cross(f.linear[2]);
+  const double determinant = f.linear[0].dot(bc);
+  JointValues q{};
+  q[linear_[0]] = d.dot(bc) / determinant;
+  q[linear_[1]] = f.linear[0].dot(d.cross(f.linear[2])) / determinant;
+  q[linear_[2]] = f.linear[0].dot(f.linear[1].cross(d)) / determinant;
+  q[rotary_[0]] = rotary[0];
+  q[rotary_[1]] = rotary[1];
+  return q;
+}
+
+RotarySolutions Kinematics::rotary(const Vec3& direction, double first) const {
+  const Vec3 &a = links_[rotary_[0]].direction, &b = links_[rotary_[1]].direction;
+  // swing cos(t - phase) = a u - mean. The two factors of its sine are taken from |u - a| and |u + a|, which keep their
+  // digits where the sine vanishes.
+  const double toward = 0.5 * (direction - a).squaredNorm() - short_of_a_;
+  const double away = 0.5 * (direction + a).squaredNorm() - short_of_minus_a_;
+  RotarySolutions solutions;
+  solutions.sine = direction.cross(a).norm();
+  if (toward < -kReachSlack || away < -kReachSlack) return solutions;
+  const double sine = std::sqrt(std::max(toward, 0.0) * std::max(away, 0.0));
+  const double swing = std::atan2(sine, a.dot(direction) - mean_), phase = std::atan2(sine_, cosine_);
+  solutions.count = 2;
+  solutions.singular = solutions.sine < kSingularSine;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double near_tool = wrapped(phase + (k == 0 ? swing : -swing));
+    const Vec3 v = turned(axis_, b, Turn(near_tool));
+    const Vec3 across = a.cross(v);
+    const double near_work =
+        solutions.singular ? first : std::atan2(across.dot(direction), v.dot(direction) - a.dot(v) * a.dot(direction));
+    solutions.values[k] = {near_work, near_tool};
+  }
+  return solutions;
+}
+
+double Kinematics::lever(const JointValues& q) const {
+  double lever = 0.0;
+  Vec3 p = tip_;
+  for (std::size_t k = kJointCount; k-- > 0;) {
+    const Link& link = links_[k];
+    if (!link.rotary) {
+      p += q[k] * link.direction;
+      continue;
+    }
+    lever = std::max(lever, (p - link.point).cross(link.direction).norm());
+    p = link.point + turned(p - link.point, link.direction, Turn(q[k]));
+  }
+  return lever;
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,130 @@
+#include "flank/machine/links.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "flank/error.h"
+
+namespace flank::internal {
+namespace {
+
+/// Largest turn between two poses of a link.
+constexpr double kStep = 5.0 * std::numbers::pi / 180.0;
+/// By how much chords of that step would cut a sphere short.
+constexpr double kChordRoom = 1.002;
+
+Vec3 on_circle(const Vec3& from, const Vec3& to, double t) {
+  const double angle = 2.0 * std::atan2((to - from).norm(), (to + from).norm());
+  if (angle < 1e-9) return (from + t * (to - from)).normalized();
+  if (angle > std::numbers::pi - 1e-6) {
+    // Opposite: any way round will do.
+    const Vec3 side = from.unitOrthogonal();
+    return t < 0.5 ? on_circle(from, side, 2.0 * t) : on_circle(side, to, 2.0 * t - 1.0);
+  }
+  return (std::sin((1.0 - t) * angle) * from + std::sin(t * angle) * to).normalized();
+}
+
+double angle_of(const Vec3& a, const Vec3& b) { return 2.0 * std::atan2((a - b).norm(), (a + b).norm()); }
+
+/// A place on the sphere: outward normal, and the tool there.
+struct Safe {
+  Vec3 outward = Vec3::UnitZ(), axis = Vec3::UnitZ();
+};
+
+class Linker {
+ public:
+  explicit Linker(const LinkOptions& options)
+      : center_(options.keep_out.center()),
+        radius_(kChordRoom * (0.5 * options.keep_out.diagonal() + options.tool_radius + options.clearance)) {}
+
+  /// From a pose of contact, lifted off it, out along the axis to the sphere.
+  std::vector<Pose> way_out(const Pose& contact, const Vec3& lift, Safe& safe) const {
+    std::vector<Pose> way{contact};
+    Pose p = contact;
+    if (lift.norm() > 0.0) {
+      p.tip += lift;
+      way.push_back(p);
+    }
+    const Vec3 d = p.tip - center_;
+    const double along = d.dot(p.axis), inside = radius_ * radius_ - d.squaredNorm() + along * along;
+    // Where the line leaves the sphere; where it misses it, its nearest point: the rest of the tool is clear from there.
+    const double run = std::max(0.0, -along + (inside > 0.0 ? std::sqrt(inside) : 0.0));
+    if (run > 0.0) {
+      p.tip += run * p.axis;
+      way.push_back(p);
+    }
+    safe.outward = (p.tip - center_).normalized();
+    safe.axis = p.axis;
+    const Pose there = at(safe);
+    if ((there.tip - p.tip).norm() > 1e-9) way.push_back(there);
+    return way;
+  }
+
+  [[nodiscard]] Pose at(const Safe& s) const { return {center_ + radius_ * s.outward, s.axis}; }
+
+  /// Round the sphere: both turn at once where the tool points outward all the way, else the tool is first turned outward.
+  void round(const Safe& from, const Safe& to, std::vector<Pose>& way) const {
+    if (points_outward(from, to)) {
+      turn(from, to, way);
+      return;
+    }
+    const Safe a{from.outward, from.outward}, b{to.outward, to.outward};
+    turn(from, a, way);
+    turn(a, b, way);
+    turn(b, to, way);
+  }
+
+ private:
+  static constexpr int kLooks = 64;
+
+  static Safe between(const Safe& from, const Safe& to, double t) {
+    return {on_circle(from.outward, to.outward, t), on_circle(from.axis, to.axis, t)};
+  }
+  static bool points_outward(const Safe& from, const Safe& to) {
+    for (int k = 0; k <= kLooks; ++k) {
+      const Safe s = between(from, to, static_cast<double>(k) / kLooks);
+      if (s.outward.dot(s.axis) < 0.0) return false;
+    }
+    return true;
+  }
+  void turn(const Safe& from, const Safe& to, std::vector<Pose>& way) const {
+    const double angle = std::max(angle_of(from.outward, to.outward), angle_of(from.axis, to.axis));
+    const int steps = static_cast<int>(std::ceil(angle / kStep));
+    for (int k = 1; k <= steps; ++k) way.push_back(at(between(from, to, static_cast<double>(k) / steps)));
+  }
+
+  Vec3 center_;
+  double radius_;
+};
+
+}  // namespace
+
+Path with_links(const Path& path, const LinkOptions& options) {
+  const std::size_t count = path.strips.size();
+  if (options.keep_out.empty() || !(options.clearance > 0.0) || options.lift_at_start.size() != count ||
+      options.lift_at_end.size() != count)
+    throw InternalError("links need a box, a clearance and a lift for each strip");
+  const Linker linker(options);
+  int id = 0;
+  for (const Strip& strip : path.strips) id = std::max(id, strip.id);
+  Path result;
+  std::vector<Pose> way;
+  Safe here;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Strip& strip = path.strips[k];
+    Safe there;
+    std::vector<Pose> in = linker.way_out(strip.poses.front(), options.lift_at_start[k], there);
+    if (k > 0) linker.round(here, there, way);
+    // The way in is the way out backwards; on the sphere the two meet in the same pose.
+    std::reverse(in.begin(), in.end());
+    way.insert(way.end(), in.begin() + (k > 0 ? 1 : 0), in.end());
+    result.strips.push_back({++id, kLinkKind, "", way});
+    result.strips.push_back(strip);
+    way = linker.way_out(strip.poses.back(), options.lift_at_end[k], here);
+  }
+  if (count > 0) result.strips.push_back({++id, kLinkKind, "", way});
+  return result;
+}
+
+}  // namespace flank::internal

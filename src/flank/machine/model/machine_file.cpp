@@ -1,0 +1,277 @@
+#include "flank/machine/model/machine_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+
+#include "flank/error.h"
+#include "flank/machine/model/toml_table.h"
+
+namespace flank::internal {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kSchema = "openflank/machine/1";
+constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
+constexpr double kFarMm = 1e6;       ///< no machine is larger
+constexpr double kFarDegrees = 1e6;  ///< rotary travels: "many turns"
+constexpr double kLeastSine = 1e-6;  ///< of axes that count as not parallel
+constexpr std::size_t kMostBytes = 1u << 20;
+
+Vec3 read_direction(const TomlTable& table, const std::string& key) {
+  const Vec3 d = table.vector(key, {-1e6, 1e6});
+  if (!(d.norm() > 1e-9)) table.refuse(key, "a direction is needed, not (0, 0, 0)");
+  return d.normalized();
+}
+
+/// [low, high] with low < high.
+std::vector<double> read_travel(const TomlTable& table, const std::string& key, double far) {
+  std::vector<double> travel = table.numbers(key, 2, {-far, far});
+  if (!(travel[0] < travel[1])) table.refuse(key, "[lower, upper] with lower < upper is needed");
+  return travel;
+}
+
+void read_linear(const TomlTable& table, Joint& joint) {
+  const std::vector<double> travel = read_travel(table, "travel_mm", kFarMm);
+  joint.low = travel[0];
+  joint.high = travel[1];
+  joint.speed = table.number("speed_mm_min", {1e-3, 1e7}) / 60.0;
+  joint.acceleration = table.number("acceleration_mm_s2", {1e-3, 1e7});
+}
+
+void read_rotary(const TomlTable& table, Joint& joint) {
+  if (table.has("point_mm")) joint.point = table.vector("point_mm", {-kFarMm, kFarMm});
+  if (table.has("travel_deg")) {
+    const std::vector<double> travel = read_travel(table, "travel_deg", kFarDegrees);
+    joint.low = travel[0] * kRadiansPerDegree;
+    joint.high = travel[1] * kRadiansPerDegree;
+  }
+  joint.speed = table.number("speed_deg_s", {1e-3, 1e6}) * kRadiansPerDegree;
+  joint.acceleration = table.number("acceleration_deg_s2", {1e-3, 1e7}) * kRadiansPerDegree;
+}
+
+Joint read_joint(const TomlTable& table, bool on_table) {
+  Joint joint;
+  joint.table = on_table;
+  joint.kind = table.word("kind", {"linear", "rotary"}) == "rotary" ? JointKind::kRotary : JointKind::kLinear;
+  const bool rotary = joint.kind == JointKind::kRotary;
+  joint.name = rotary ? table.word("name", {"A", "B", "C"}) : table.word("name", {"X", "Y", "Z"});
+  joint.direction = read_direction(table, "direction");
+  if (table.has("positive")) joint.reversed = on_table && table.word("positive", {"tool", "link"}) == "link";
+  if (rotary)
+    read_rotary(table, joint);
+  else
+    read_linear(table, joint);
+  table.require_all_known();
+  return joint;
+}
+
+/// Five joints from the work to the tool, with the tables that they were read from.
+struct Chain {
+  std::vector<Joint> joints;
+  std::vector<TomlTable> tables;
+};
+
+Chain read_chain(const TomlTable& file) {
+  Chain chain;
+  std::vector<TomlTable> tables = file.tables("table");
+  // The file goes from the bed outward.
+  std::reverse(tables.begin(), tables.end());
+  for (const TomlTable& table : tables) {
+    chain.joints.push_back(read_joint(table, true));
+    chain.tables.push_back(table);
+  }
+  for (const TomlTable& table : file.tables("head")) {
+    chain.joints.push_back(read_joint(table, false));
+    chain.tables.push_back(table);
+  }
+  for (std::size_t i = 0; i < chain.joints.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (chain.joints[i].name == chain.joints[j].name)
+        chain.tables[i].refuse("name", chain.joints[i].name + " is used twice");
+  return chain;
+}
+
+/// Puts the joints into the machine; refuses chains that are none.
+void place_joints(const TomlTable& file, const Chain& chain, Machine& machine) {
+  const auto count = [&](JointKind kind) {
+    return std::count_if(chain.joints.begin(), chain.joints.end(), [&](const Joint& j) { return j.kind == kind; });
+  };
+  if (chain.joints.size() != kJointCount || count(JointKind::kRotary) != 2)
+    file.refuse(
+        chain.tables.empty() || file.has("head") ? "head" : "table",
+        fmt::format("the chain has {} linear and {} rotary joints; [[table]] and [[head]] with the three linear "
+                    "joints X, Y, Z and two of A, B, C are needed",
+                    count(JointKind::kLinear), count(JointKind::kRotary)));
+  for (std::size_t k = 0; k < kJointCount; ++k) {
+    machine.joints[k] = chain.joints[k];
+    const std::string& name = chain.joints[k].name;
+    if (name == "X" || name == "Y" || name == "Z") machine.linear[static_cast<std::size_t>(name[0] - 'X')] = k;
+  }
+}
+
+/// The two rotary joints in the order of programs, and that they can turn the tool anywhere.
+void place_rotary(const TomlTable& control, const Chain& chain, Machine& machine) {
+  std::vector<std::size_t> rotary;
+  for (std::size_t k = 0; k < kJointCount; ++k)
+    if (machine.joints[k].kind == JointKind::kRotary) rotary.push_back(k);
+  const Joint &near_work = machine.joints[rotary[0]], &near_tool = machine.joints[rotary[1]];
+  if (near_work.direction.cross(near_tool.direction).norm() < kLeastSine)
+    chain.tables[rotary[1]].refuse("direction", "the two rotary joints are parallel; two directions are needed");
+  if (near_tool.direction.cross(machine.tool_axis).norm() < kLeastSine)
+    chain.tables[rotary[1]].refuse(
+        "direction", "this joint turns the tool about itself; its direction must not be that of the spindle");
+  Eigen::Matrix3d directions;
+  for (int k = 0; k < 3; ++k) directions.col(k) = machine.linear_joint(static_cast<std::size_t>(k)).direction;
+  if (std::abs(directions.determinant()) < kLeastSine)
+    chain.tables[machine.linear[2]].refuse("direction", "the directions of X, Y and Z lie in one plane");
+  std::sort(rotary.begin(), rotary.end(),
+            [&](std::size_t i, std::size_t j) { return machine.joints[i].name < machine.joints[j].name; });
+  machine.rotary = {rotary[0], rotary[1]};
+  const std::string forward = machine.joints[rotary[0]].name + machine.joints[rotary[1]].name;
+  const std::string backward = machine.joints[rotary[1]].name + machine.joints[rotary[0]].name;
+  machine.dialect.rotary = control.has("rotary") ? control.word("rotary", {forward, backward}) : forward;
+  if (machine.dialect.rotary == backward) std::swap(machine.rotary[0], machine.rotary[1]);
+}
+
+void read_spindle(const TomlTable& table, Machine& machine) {
+  if (table.has("gauge_mm")) machine.gauge = table.vector("gauge_mm", {-kFarMm, kFarMm});
+  if (table.has("direction")) machine.tool_axis = read_direction(table, "direction");
+  if (table.has("tool_length_mm")) machine.tool_length = table.number("tool_length_mm", {0.0, 1e4});
+  if (table.has("rapid_mm_min")) machine.rapid = table.number("rapid_mm_min", {1.0, 1e6}) / 60.0;
+  if (table.has("controlled_point"))
+    machine.controlled = table.word("controlled_point", {"lowest", "centre"}) == "lowest" ? ControlledPoint::kLowest
+                                                                                          : ControlledPoint::kCentre;
+  table.require_all_known();
+}
+
+void read_digits(const TomlTable& table, const char* key, int& digits) {
+  if (table.has(key)) digits = table.whole(key, 0, 9);
+}
+
+/// How the program is written; what it means is read_meaning's.
+void read_dialect(const TomlTable& table, Machine& machine) {
+  NcDialect& dialect = machine.dialect;
+  dialect.language = nc_language(table.word("language", {"linuxcnc", "fanuc", "siemens", "heidenhain", "apt"}));
+  if (table.has("tcp_on")) dialect.tcp_on = table.text("tcp_on");
+  if (table.has("tcp_off")) dialect.tcp_off = table.text("tcp_off");
+  if (table.has("function_tcpm")) dialect.function_tcpm = table.flag("function_tcpm");
+  if (table.has("decimal_comma")) dialect.decimal_comma = table.flag("decimal_comma");
+  if (table.has("line_numbers")) dialect.line_numbers = table.flag("line_numbers");
+  if (table.has("smoothing_mm")) dialect.smoothing_mm = table.number("smoothing_mm", {0.0, 10.0});
+  if (table.has("smoothing_deg")) dialect.smoothing_deg = table.number("smoothing_deg", {0.0, 10.0});
+  read_digits(table, "length_decimals", dialect.length_decimals);
+  read_digits(table, "angle_decimals", dialect.angle_decimals);
+  read_digits(table, "vector_decimals", dialect.vector_decimals);
+  read_digits(table, "feed_decimals", dialect.feed_decimals);
+  if (table.has("work_offset")) machine.work_offset = table.whole("work_offset", 1, 6);
+}
+
+void read_meaning(const TomlTable& table, Machine& machine) {
+  const std::string positions = table.word("positions", {"tip-rotary", "tip-vector", "joint"});
+  machine.positions = positions == "joint"        ? NcPositions::kJoint
+                      : positions == "tip-vector" ? NcPositions::kTipVector
+                                                  : NcPositions::kTipRotary;
+  machine.dialect.positions = machine.positions;
+  machine.join = table.word("join", {"axes", "great-circle"}) == "axes" ? NcJoin::kAxes : NcJoin::kGreatCircle;
+  machine.feed_mode = table.word("feed", {"per-minute", "inverse-time"}) == "inverse-time" ? NcFeedMode::kInverseTime
+                                                                                           : NcFeedMode::kPerMinute;
+  machine.dialect.join = machine.join;
+  const NcLanguage language = machine.dialect.language;
+  if (machine.positions == NcPositions::kJoint && machine.join != NcJoin::kAxes)
+    table.refuse("join", "joint coordinates are joined by \"axes\"");
+  if (language == NcLanguage::kLinuxCnc && machine.join != NcJoin::kAxes)
+    table.refuse("join", "LinuxCNC joins blocks by \"axes\"");
+  if (language == NcLanguage::kLinuxCnc && machine.positions == NcPositions::kTipVector)
+    table.refuse("positions", "LinuxCNC has no vectors; accepted are \"tip-rotary\", \"joint\"");
+  if (language == NcLanguage::kHeidenhain && machine.feed_mode == NcFeedMode::kInverseTime)
+    table.refuse("feed", "Heidenhain's feeds are \"per-minute\"");
+}
+
+std::string read_text(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  if (in) text << in.rdbuf();
+  if (!in || fs::is_directory(file))
+    throw InputError("machine", file, "cannot be read; a file as docs/schema/machine.md describes is needed");
+  return text.str();
+}
+
+bool is_folder(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_directory(path, ignored);
+}
+
+/// Beside the folder of the running program: an install tree may have been moved. Empty where the system does not tell.
+fs::path beside_program() {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  return error ? fs::path() : program.parent_path().parent_path() / "share" / "openflank" / "machines";
+}
+
+}  // namespace
+
+Machine machine_from_toml(std::string_view text, const std::string& file) {
+  if (text.size() > kMostBytes)
+    throw InputError(fmt::format("{}: {} bytes; a machine's file has at most {}", file, text.size(), kMostBytes));
+  const TomlTable table = TomlTable::parse(text, file);
+  (void)table.word("schema", {kSchema});
+  Machine machine;
+  machine.name = table.text("name");
+  if (table.has("description")) machine.description = table.text("description");
+  const Chain chain = read_chain(table);
+  place_joints(table, chain, machine);
+  read_spindle(table.table("spindle"), machine);
+  if (!table.has("control")) table.refuse("control", "is missing; a table [control] is needed");
+  const TomlTable control = table.table("control");
+  read_dialect(control, machine);
+  read_meaning(control, machine);
+  place_rotary(control, chain, machine);
+  control.require_all_known();
+  table.require_all_known();
+  return machine;
+}
+
+std::string machine_folder() {
+  if (const char* wanted = std::getenv("FLANK_MACHINES"); wanted != nullptr && *wanted != '\0') {
+    if (!is_folder(wanted))
+      throw InputError(fmt::format("FLANK_MACHINES={}: no such folder; one of machine files is needed", wanted));
+    return wanted;
+  }
+  const std::vector<fs::path> places = {beside_program(), FLANK_MACHINES_INSTALLED, FLANK_MACHINES_SOURCE};
+  std::vector<std::string> tried;
+  for (const fs::path& place : places) {
+    if (place.empty()) continue;
+    if (is_folder(place)) return place.string();
+    tried.push_back(place.string());
+  }
+  throw InputError(fmt::format("no machines: tried {}; name their folder by FLANK_MACHINES", fmt::join(tried, ", ")));
+}
+
+std::vector<std::string> machine_names() {
+  std::vector<std::string> names;
+  for (const fs::directory_entry& entry : fs::directory_iterator(machine_folder()))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+Machine read_machine(const std::string& name_or_file) {
+  if (name_or_file.find('/') != std::string::npos || fs::path(name_or_file).extension() == ".toml")
+    return machine_from_toml(read_text(name_or_file), name_or_file);
+  const std::vector<std::string> names = machine_names();
+  if (std::find(names.begin(), names.end(), name_or_file) == names.end())
+    throw InputError("machine", name_or_file,
+                     fmt::format("no such machine; there are {}, or a file NAME.toml", fmt::join(names, ", ")));
+  const std::string file = (fs::path(machine_folder()) / (name_or_file + ".toml")).string();
+  return machine_from_toml(read_text(file), file);
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,100 @@
+#include "flank/machine/model/machine_text.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "flank/machine/model/machine_file.h"
+
+namespace flank::internal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* unit_of(const Joint& joint) { return joint.kind == JointKind::kRotary ? "deg" : "mm"; }
+
+std::string travel_text(const Joint& joint) {
+  if (!std::isfinite(joint.low)) return "endless";
+  return fmt::format("{:g} to {:g} {}", in_units(joint, joint.low), in_units(joint, joint.high), unit_of(joint));
+}
+
+std::string positions_word(NcPositions positions) {
+  return positions == NcPositions::kJoint       ? "joint"
+         : positions == NcPositions::kTipVector ? "tip-vector"
+                                                : "tip-rotary";
+}
+
+std::string join_word(NcJoin join) { return join == NcJoin::kAxes ? "axes" : "great-circle"; }
+std::string feed_word(NcFeedMode mode) { return mode == NcFeedMode::kPerMinute ? "per-minute" : "inverse-time"; }
+
+Json triple(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+}  // namespace
+
+std::string machine_to_text(const Machine& machine) {
+  std::string text = fmt::format("{}: {}, {}\n", machine.name, machine.nesting(), machine.description);
+  text += fmt::format("{:<6} {:<6} {:<7} {:>24} {:<24} {:>9} {:>12}\n", "joint", "moves", "kind", "direction",
+                      "  travel", "speed /s", "acc. /s^2");
+  for (const Joint& j : machine.joints) {
+    const Vec3& d = j.direction;
+    text += fmt::format("{:<6} {:<6} {:<7} {:>24}   {:<22} {:>9.4g} {:>12.4g}{}\n", j.name, j.table ? "work" : "tool",
+                        j.kind == JointKind::kRotary ? "rotary" : "linear",
+                        fmt::format("({:.3g}, {:.3g}, {:.3g})", d.x() + 0.0, d.y() + 0.0, d.z() + 0.0), travel_text(j),
+                        in_units(j, j.speed), in_units(j, j.acceleration), j.reversed ? "  positive: link" : "");
+  }
+  text += fmt::format("control {}: positions {}, join {}, feed {}, rotary axes {}{}\n",
+                      nc_language_name(machine.dialect.language), positions_word(machine.positions),
+                      join_word(machine.join), feed_word(machine.feed_mode), machine.rotary_joint(0).name,
+                      machine.rotary_joint(1).name);
+  text += fmt::format("tool length {:g} mm to {}\n", machine.tool_length,
+                      machine.controlled == ControlledPoint::kLowest ? "its lowest point" : "the centre of its tip");
+  return text;
+}
+
+std::string machine_to_json(const Machine& machine) {
+  Json json = {{"schema", "openflank/machine-summary/1"},
+               {"name", machine.name},
+               {"description", machine.description},
+               {"nesting", machine.nesting()},
+               {"language", nc_language_name(machine.dialect.language)},
+               {"positions", positions_word(machine.positions)},
+               {"join", join_word(machine.join)},
+               {"feed", feed_word(machine.feed_mode)},
+               {"rotary", machine.rotary_joint(0).name + machine.rotary_joint(1).name},
+               {"tool_length_mm", machine.tool_length}};
+  json["joints"] = Json::array();
+  for (const Joint& j : machine.joints) {
+    Json joint = {{"name", j.name},
+                  {"kind", j.kind == JointKind::kRotary ? "rotary" : "linear"},
+                  {"moves", j.table ? "work" : "tool"},
+                  {"unit", unit_of(j)},
+                  {"direction", triple(j.direction)}};
+    if (j.kind == JointKind::kRotary) joint["point_mm"] = triple(j.point);
+    if (std::isfinite(j.low)) joint["travel"] = {in_units(j, j.low), in_units(j, j.high)};
+    joint["speed"] = in_units(j, j.speed);
+    joint["acceleration"] = in_units(j, j.acceleration);
+    json["joints"].push_back(std::move(joint));
+  }
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string machine_list_text() {
+  std::string text;
+  for (const std::string& name : machine_names()) {
+    const Machine machine = read_machine(name);
+    text += fmt::format("{:<26} {:<12} {}\n", name, machine.nesting(), machine.description);
+  }
+  return text;
+}
+
+std::string machine_list_json() {
+  Json json = {{"schema", "openflank/machine-list/1"}, {"folder", machine_folder()}, {"machines", Json::array()}};
+  for (const std::string& name : machine_names()) {
+    const Machine machine = read_machine(name);
+    json["machines"].push_back({{"name", name}, {"nesting", machine.nesting()}, {"description", machine.description}});
+  }
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace flank::internal

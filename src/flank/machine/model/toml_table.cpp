@@ -1,0 +1,162 @@
+#include "flank/machine/model/toml_table.h"
+
+#include <fmt/format.h>
+
+#include <toml++/toml.h>
+#include <cmath>
+#include <set>
+
+#include "flank/error.h"
+
+namespace flank::internal {
+namespace {
+
+std::string place(const std::string& file, const toml::source_position& at) {
+  return fmt::format("{}: line {}, column {}", file, at.line, at.column);
+}
+
+std::string range_text(NumberRange range) { return fmt::format("a number from {:g} to {:g}", range.low, range.high); }
+
+bool inside(double x, NumberRange range) { return std::isfinite(x) && x >= range.low && x <= range.high; }
+
+}  // namespace
+
+struct TomlTable::Data {
+  std::shared_ptr<const toml::table> document;  ///< keeps `values` alive
+  const toml::table* values = nullptr;          ///< null: a table that is missing
+  std::string file;
+  mutable std::set<std::string> asked;
+
+  const toml::node* find(const std::string& key) const {
+    asked.insert(key);
+    return values != nullptr ? values->get(key) : nullptr;
+  }
+};
+
+TomlTable TomlTable::parse(std::string_view text, const std::string& file) {
+  auto data = std::make_shared<Data>();
+  data->file = file;
+  try {
+    data->document = std::make_shared<const toml::table>(toml::parse(text, file));
+  } catch (const toml::parse_error& e) {
+    throw InputError(place(file, e.source().begin) + ": " + std::string(e.description()));
+  }
+  data->values = data->document.get();
+  TomlTable table;
+  table.data_ = std::move(data);
+  return table;
+}
+
+void TomlTable::refuse(const std::string& key, const std::string& text) const {
+  const toml::node* node = data_->find(key);
+  if (node == nullptr && data_->values == nullptr) throw InputError(fmt::format("{}: {}: {}", data_->file, key, text));
+  const toml::source_region& where = node != nullptr ? node->source() : data_->values->source();
+  throw InputError(fmt::format("{}: {}: {}", place(data_->file, where.begin), key, text));
+}
+
+bool TomlTable::has(const std::string& key) const { return data_->find(key) != nullptr; }
+
+double TomlTable::number(const std::string& key, NumberRange range) const {
+  const toml::node* node = data_->find(key);
+  if (node == nullptr) refuse(key, "is missing; " + range_text(range) + " is needed");
+  // Not `1`, where a whole number stands for itself, but `true` and "1" are none.
+  const std::optional<double> value = node->is_number() ? node->value<double>() : std::nullopt;
+  if (!value || !inside(*value, range)) refuse(key, range_text(range) + " is needed");
+  return *value;
+}
+
+int TomlTable::whole(const std::string& key, int low, int high) const {
+  const toml::node* node = data_->find(key);
+  const std::optional<std::int64_t> value =
+      node != nullptr && node->is_integer() ? node->value<std::int64_t>() : std::nullopt;
+  if (!value || *value < low || *value > high)
+    refuse(key, fmt::format("a whole number from {} to {} is needed", low, high));
+  return static_cast<int>(*value);
+}
+
+bool TomlTable::flag(const std::string& key) const {
+  const toml::node* node = data_->find(key);
+  if (node == nullptr || !node->is_boolean()) refuse(key, "true or false is needed");
+  return *node->value<bool>();
+}
+
+std::string TomlTable::text(const std::string& key) const {
+  const toml::node* node = data_->find(key);
+  if (node == nullptr || !node->is_string()) refuse(key, "a text in quotes is needed");
+  return *node->value<std::string>();
+}
+
+std::string TomlTable::word(const std::string& key, const std::vector<std::string>& accepted) const {
+  const toml::node* node = data_->find(key);
+  const std::optional<std::string> value =
+      node != nullptr && node->is_string() ? node->value<std::string>() : std::nullopt;
+  if (value)
+    for (const std::string& word : accepted)
+      if (*value == word) return word;
+  refuse(key, fmt::format("accepted are \"{}\"", fmt::join(accepted, "\", \"")));
+}
+
+std::vector<double> TomlTable::numbers(const std::string& key, std::size_t count, NumberRange range) const {
+  const std::string needed = fmt::format("[{} numbers from {:g} to {:g}] are needed", count, range.low, range.high);
+  const toml::node* node = data_->find(key);
+  const toml::array* array = node != nullptr ? node->as_array() : nullptr;
+  if (array == nullptr || array->size() != count) refuse(key, needed);
+  std::vector<double> values;
+  for (const toml::node& element : *array) {
+    const std::optional<double> value = element.is_number() ? element.value<double>() : std::nullopt;
+    if (!value || !inside(*value, range))
+      throw InputError(fmt::format("{}: {}: {}", place(data_->file, element.source().begin), key, needed));
+    values.push_back(*value);
+  }
+  return values;
+}
+
+Vec3 TomlTable::vector(const std::string& key, NumberRange range) const {
+  const std::vector<double> values = numbers(key, 3, range);
+  return {values[0], values[1], values[2]};
+}
+
+TomlTable TomlTable::table(const std::string& key) const {
+  const toml::node* node = data_->find(key);
+  if (node != nullptr && !node->is_table()) refuse(key, "a table [" + key + "] is needed");
+  auto data = std::make_shared<Data>();
+  data->document = data_->document;
+  data->values = node != nullptr ? node->as_table() : nullptr;
+  data->file = data_->file;
+  TomlTable table;
+  table.data_ = std::move(data);
+  return table;
+}
+
+std::vector<TomlTable> TomlTable::tables(const std::string& key) const {
+  const toml::node* node = data_->find(key);
+  if (node == nullptr) return {};
+  const std::string needed = "tables [[" + key + "]] are needed";
+  const toml::array* array = node->as_array();
+  if (array == nullptr) refuse(key, needed);
+  std::vector<TomlTable> list;
+  for (const toml::node& element : *array) {
+    if (!element.is_table()) refuse(key, needed);
+    auto data = std::make_shared<Data>();
+    data->document = data_->document;
+    data->values = element.as_table();
+    data->file = data_->file;
+    TomlTable table;
+    table.data_ = std::move(data);
+    list.push_back(std::move(table));
+  }
+  return list;
+}
+
+void TomlTable::require_all_known() const {
+  if (data_->values == nullptr) return;
+  const std::set<std::string> known = data_->asked;
+  for (const auto& [key, value] : *data_->values) {
+    const std::string name(key.str());
+    if (known.contains(name)) continue;
+    throw InputError(fmt::format("{}: {}: is no key here; there are {}", place(data_->file, key.source().begin), name,
+                                 fmt::join(known, ", ")));
+  }
+}
+
+}  // namespace flank::internal

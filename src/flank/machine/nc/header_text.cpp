@@ -1,0 +1,127 @@
+#include "flank/machine/nc/header_text.h"
+
+#include <charconv>
+
+#include "flank/machine/nc/nc_number.h"
+
+namespace flank::internal {
+
+namespace {
+
+constexpr int kHeaderDecimals = 6;
+
+/// What follows the keyword and a space; nothing if the text does not begin with them.
+std::optional<std::string_view> after(std::string_view text, std::string_view keyword) {
+  if (text.size() <= keyword.size() || !text.starts_with(keyword) || text[keyword.size()] != ' ') return std::nullopt;
+  return text.substr(keyword.size() + 1);
+}
+
+/// Takes the first word off the text.
+std::string_view take_word(std::string_view& text) {
+  const std::size_t end = std::min(text.find(' '), text.size());
+  const std::string_view word = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return word;
+}
+
+std::optional<int> whole(std::string_view word) {
+  int value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (word.empty() || error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+  return value;
+}
+
+/// The value after "KEYWORD " where the text begins with it; takes both off.
+std::optional<double> take_value(std::string_view& text, std::string_view keyword) {
+  const auto rest = after(text, keyword);
+  if (!rest) return std::nullopt;
+  const auto number = leading_number(*rest);
+  if (!number || number->value < 0.0) return std::nullopt;
+  text = rest->substr(number->length);
+  if (text.starts_with(' ')) text.remove_prefix(1);
+  return number->value;
+}
+
+bool read_dimensions(std::string_view text, NcTool& tool) {
+  const auto diameter = take_value(text, "DIAMETER");
+  const auto length = take_value(text, "LENGTH");
+  const auto offset = take_value(text, "TIP OFFSET");
+  if (!diameter || !length || !offset || !text.empty()) return false;
+  tool.diameter = *diameter;
+  tool.length = *length;
+  tool.tip_offset = *offset;
+  return true;
+}
+
+/// A word of a comment: no spaces, never empty.
+std::string one_word(std::string_view text) {
+  std::string word = safe_comment(text);
+  for (char& c : word)
+    if (c == ' ') c = '_';
+  return word.empty() ? "-" : word;
+}
+
+}  // namespace
+
+std::string safe_comment(std::string_view name) {
+  constexpr std::string_view kSpecial = "();%~$\"";
+  std::string out(name.substr(0, kLongestNcComment));
+  for (char& c : out)
+    if (c < ' ' || c > '~' || kSpecial.find(c) != std::string_view::npos) c = '_';
+  while (out.ends_with(' ')) out.pop_back();
+  return out;
+}
+
+std::vector<std::string> header_comments(const NcHeader& header) {
+  std::vector<std::string> comments;
+  if (!header.part.empty()) comments.push_back(safe_comment("PART " + header.part));
+  if (!header.machine.empty()) comments.push_back(safe_comment("MACHINE " + header.machine));
+  if (!header.setup.empty()) comments.push_back(safe_comment("SETUP " + header.setup));
+  const NcTool& tool = header.tool;
+  std::string named = "TOOL " + std::to_string(tool.number);
+  if (!tool.name.empty()) named += " " + tool.name;
+  comments.push_back(safe_comment(named));
+  std::string size = "TOOL DIAMETER ";
+  append_decimal(size, tool.diameter, kHeaderDecimals);
+  append_decimal(size += " LENGTH ", tool.length, kHeaderDecimals);
+  append_decimal(size += " TIP OFFSET ", tool.tip_offset, kHeaderDecimals);
+  comments.push_back(size);
+  return comments;
+}
+
+bool read_header_comment(std::string_view comment, NcHeader& header) {
+  if (const auto part = after(comment, "PART")) {
+    header.part = *part;
+  } else if (const auto machine = after(comment, "MACHINE")) {
+    header.machine = *machine;
+  } else if (const auto setup = after(comment, "SETUP")) {
+    header.setup = *setup;
+  } else if (auto tool = after(comment, "TOOL")) {
+    if (read_dimensions(*tool, header.tool)) return true;
+    const auto number = whole(take_word(*tool));
+    if (!number || *number < 0) return false;
+    header.tool.number = *number;
+    header.tool.name = *tool;
+  } else {
+    return false;
+  }
+  return true;
+}
+
+std::string strip_comment(const NcStrip& strip) {
+  std::string text = "STRIP " + std::to_string(strip.id) + " " + one_word(strip.kind);
+  if (!strip.face.empty()) text += " " + one_word(strip.face);
+  return safe_comment(text);
+}
+
+std::optional<NcStrip> read_strip_comment(std::string_view comment) {
+  auto rest = after(comment, "STRIP");
+  if (!rest) return std::nullopt;
+  const auto id = whole(take_word(*rest));
+  if (!id) return std::nullopt;
+  const std::string_view kind = take_word(*rest);
+  if (kind.empty()) return std::nullopt;
+  return NcStrip{*id, std::string(kind), std::string(*rest)};
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,93 @@
+/// An NC program without its dialect: what stands between a machine and the text of a program.
+///
+/// Lengths are in millimetres and rotary values in degrees, as programs state them (an inch program is converted when it
+/// is read). Nothing here knows a machine's kinematics: what a rotary value or a joint coordinate means is the machine's.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "flank/vec.h"
+
+namespace flank::internal {
+
+/// What the words of a move state.
+enum class NcPositions : std::uint8_t {
+  kTipRotary,  ///< tool-centre control: the controlled point in the frame of the part, and the two rotary axes
+  kTipVector,  ///< tool-centre control: the controlled point and the unit vector towards the holder, in that frame
+  kJoint,      ///< no tool-centre control and no length compensation: the joints themselves, linear and rotary
+};
+
+/// How the control joins two blocks. The controlled point (joint coordinates: the linear joints) always runs straight.
+enum class NcJoin : std::uint8_t {
+  kAxes,         ///< the rotary axes run linearly
+  kGreatCircle,  ///< the tool axis turns in the plane of the two vectors, at constant speed of its angle
+};
+
+enum class NcFeedMode : std::uint8_t {
+  kPerMinute,    ///< mm/min of the controlled point
+  kInverseTime,  ///< 1/min: a block takes 1/F minutes; stated on every feed move
+};
+
+/// The tool as the header names it; what is not known is 0 or empty.
+struct NcTool {
+  int number = 1;
+  std::string name = {};
+  double diameter = 0.0;  ///< largest, mm
+  double length = 0.0;    ///< from the gauge line to the controlled point, mm
+  /// From the controlled point along the axis to the axis point s = 0, mm: 0 where the controlled point is the centre of
+  /// the tip's sphere, r(0) where it is the tool's lowest point.
+  double tip_offset = 0.0;
+};
+
+/// Facts that a header states. No dates: the same program is the same bytes.
+struct NcHeader {
+  std::string program = "FLANK";  ///< name of the program
+  int number = 1;                 ///< where programs have numbers (Fanuc), 1 to 9999
+  std::string part = {};          ///< file of the part
+  std::string machine = {};       ///< the machine that it is for
+  std::string setup = {};         ///< where the part sits, "x,y,z,a,b,c" (work_setup.h); empty: not known
+  NcTool tool;
+  double spindle_rpm = 0.0;  ///< 0: the spindle is not started
+  int work_offset = 1;       ///< 1 is G54 (or the first preset)
+};
+
+/// What moves belong to; ids and kinds as in Path.
+struct NcStrip {
+  int id = 1;
+  std::string kind = "flank", face = {};
+};
+
+enum class NcKind : std::uint8_t { kRapid, kFeed };
+
+/// One block that moves.
+struct NcMove {
+  NcKind kind = NcKind::kFeed;
+  /// False where the machine comes from its reference position and not from the move before: always so of the first
+  /// move, and of the first one after tool-centre control was off.
+  bool joined = true;
+  std::int32_t strip = -1;  ///< index into NcProgram::strips; -1: none
+  std::int32_t line = 0;    ///< line of the text that it was read from, from 1; 0: made here
+  Vec3 position = Vec3::Zero();
+  /// Rotary values in the order of NcProgram::rotary (degrees, third component 0), or the unit vector towards the holder.
+  Vec3 orientation = Vec3::Zero();
+  double feed = 0.0;  ///< as the feed mode has it, > 0 of a feed move; 0 of a rapid
+};
+
+/// A program. Every move states position and orientation in full; which words a text leaves out is the dialect's.
+struct NcProgram {
+  NcHeader header;
+  NcPositions positions = NcPositions::kTipRotary;
+  NcJoin join = NcJoin::kAxes;
+  NcFeedMode feed_mode = NcFeedMode::kPerMinute;
+  std::string rotary = "AC";  ///< letters of the two rotary axes, in the machine's order
+  /// Where the rotary axes stand before tool-centre control is switched on, degrees. Of programs with vectors it decides
+  /// which of its solutions the control begins with; of others it is the first move's unless it is stated.
+  std::optional<Vec2> start_rotary;
+  std::vector<NcStrip> strips;
+  std::vector<NcMove> moves;
+};
+
+}  // namespace flank::internal

@@ -1,0 +1,74 @@
+#include "flank/machine/nc/read/gcode_words.h"
+
+#include <cmath>
+
+#include "flank/machine/nc/nc_number.h"
+
+namespace flank::internal {
+
+namespace {
+
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+
+/// Letters that a block states once.
+void refuse_twice(const GBlock& block, const GWord& word, const NcPlace& place) {
+  if (word.letter != 'G' && word.letter != 'M' && block.find(word.letter) != nullptr)
+    place.refuse(std::string("the block states ") + word.letter + " twice");
+}
+
+}  // namespace
+
+int GWord::code() const {
+  const double tenths = value * 10.0;
+  const double rounded = std::round(tenths);
+  return value >= 0.0 && value < 1000.0 && std::abs(tenths - rounded) < 1e-6 ? static_cast<int>(rounded) : -1;
+}
+
+int GWord::whole() const {
+  return value >= 0.0 && value <= 99999999.0 && value == std::floor(value) ? static_cast<int>(value) : -1;
+}
+
+const GWord* GBlock::find(char letter) const {
+  for (const GWord& word : words)
+    if (word.letter == letter) return &word;
+  return nullptr;
+}
+
+bool GBlock::has_code(char letter, int code) const {
+  for (const GWord& word : words)
+    if (word.letter == letter && word.code() == code) return true;
+  return false;
+}
+
+void split_gcode(std::string_view line, std::string_view upper, const NcPlace& place, GBlock& block) {
+  block.words.clear();
+  block.comments.clear();
+  block.percent = trimmed(line) == "%";
+  if (block.percent) return;
+  for (std::size_t i = 0; i < upper.size();) {
+    const char c = upper[i];
+    if (is_space(c)) {
+      ++i;
+    } else if (c == '(') {
+      const std::size_t end = upper.find(')', i);
+      if (end == std::string_view::npos) place.refuse("a comment is not closed");
+      block.comments.push_back(line.substr(i + 1, end - i - 1));
+      i = end + 1;
+    } else if (c == ';') {
+      block.comments.push_back(line.substr(i + 1));
+      return;
+    } else {
+      std::size_t at = i + 1;
+      while (at < upper.size() && is_space(upper[at])) ++at;
+      const auto number = c >= 'A' && c <= 'Z' ? leading_number(upper.substr(at)) : std::nullopt;
+      if (!number) place.refuse(quoted(line.substr(i)) + " does not begin with a letter and a number");
+      const GWord word{c, number->value, number->point, line.substr(i, at + number->length - i)};
+      refuse_twice(block, word, place);
+      if (block.words.size() == kMostNcWords) place.refuse("a block of more than 100 words");
+      block.words.push_back(word);
+      i = at + number->length;
+    }
+  }
+}
+
+}  // namespace flank::internal

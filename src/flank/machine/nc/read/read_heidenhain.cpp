@@ -1,0 +1,276 @@
+#include "flank/machine/nc/read/read_heidenhain.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "flank/machine/nc/nc_number.h"
+#include "flank/machine/nc/read/program_builder.h"
+
+namespace flank::internal {
+
+namespace {
+
+constexpr std::string_view kName = "Heidenhain";
+constexpr double kInch = 25.4;
+
+using Words = std::vector<std::string_view>;
+
+/// Words between spaces; a comment, from a semicolon on, is none of them.
+void split_words(std::string_view line, Words& words) {
+  words.clear();
+  line = line.substr(0, line.find(';'));
+  for (std::size_t i = line.find_first_not_of(" \t"); i != std::string_view::npos;) {
+    const std::size_t end = std::min(line.find_first_of(" \t", i), line.size());
+    words.push_back(line.substr(i, end - i));
+    i = line.find_first_not_of(" \t", end);
+  }
+}
+
+bool is_number(std::string_view word) {
+  return !word.empty() && std::all_of(word.begin(), word.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+class HeidenhainReader {
+ public:
+  HeidenhainReader(const std::string& file, const NcDialect& dialect) : builder_(file, dialect) {
+    builder_.allow_joint(false);
+  }
+
+  NcProgram read(std::string_view text) {
+    NcLines lines(text);
+    while (lines.next()) {
+      builder_.at(lines.number());
+      const std::size_t comment = lines.line().find(';');
+      if (comment != std::string_view::npos) builder_.comment(lines.line().substr(comment + 1));
+      split_words(lines.upper(), words_);
+      if (words_.size() > kMostNcWords) builder_.place().refuse("a block of more than 100 words");
+      const bool continued = continues_;
+      continues_ = !words_.empty() && words_.back().ends_with('~');
+      if (continues_) drop_tilde();
+      if (!continued && !words_.empty() && is_number(words_.front())) words_.erase(words_.begin());
+      if (words_.empty() || words_.front().starts_with('*')) continue;
+      if (continued)
+        cycle_parameters(0);
+      else
+        block(lines.line());
+    }
+    return builder_.finish();
+  }
+
+ private:
+  void drop_tilde() {
+    words_.back().remove_suffix(1);
+    if (words_.back().empty()) words_.pop_back();
+  }
+
+  [[noreturn]] void refuse(std::string_view word) const { builder_.place().refuse_word(word, kName); }
+  [[nodiscard]] std::string_view word(std::size_t i) const {
+    return i < words_.size() ? words_[i] : std::string_view{};
+  }
+
+  /// The number that a word consists of behind its address.
+  [[nodiscard]] double value(std::string_view word, std::size_t address) const {
+    const auto number = leading_number(word.substr(address), true);
+    if (!number || address + number->length != word.size()) refuse(word);
+    return number->value;
+  }
+  [[nodiscard]] int whole(std::string_view word, std::size_t address) const {
+    const double v = value(word, address);
+    if (v < 0.0 || v > 1e6 || v != std::floor(v)) refuse(word);
+    return static_cast<int>(v);
+  }
+
+  void block(std::string_view line) {
+    const std::string_view first = word(0);
+    if (finished_) builder_.place().refuse("a block after the end of the program");
+    if (first == "BEGIN" || first == "END") return frame(line);
+    if (!begun_) builder_.place().refuse(quoted(first) + " before BEGIN PGM");
+    if (builder_.ended()) builder_.place().refuse("a block after the end of the program");
+    if (first == "TOOL")
+      tool(line);
+    else if (first == "CYCL")
+      cycle();
+    else if (first == "FUNCTION")
+      function();
+    else if (first == "L" || first == "LN" || first.starts_with('M'))
+      motion();
+    else if (first != "BLK" && first != "STOP")
+      refuse(first);
+  }
+
+  /// BEGIN PGM NAME MM ... END PGM NAME MM.
+  void frame(std::string_view line) {
+    if (word(1) != "PGM") refuse(word(0));
+    if (word(0) == "END") {
+      builder_.end_program();
+      finished_ = true;
+      return;
+    }
+    if (begun_) builder_.place().refuse("BEGIN PGM a second time");
+    if (word(3) != "MM" && word(3) != "INCH") builder_.place().refuse("BEGIN PGM needs a name, and MM or INCH");
+    begun_ = true;
+    builder_.unit(word(3) == "MM" ? 1.0 : kInch);
+    Words as_written;
+    split_words(line, as_written);
+    const auto name = std::find(words_.begin(), words_.end(), "PGM") - words_.begin() + 1;
+    builder_.header().program = as_written[as_written.size() - words_.size() + static_cast<std::size_t>(name)];
+  }
+
+  void tool(std::string_view line) {
+    if (word(1) == "DEF") return;
+    if (word(1) != "CALL") refuse(word(0));
+    std::size_t i = 2;
+    if (word(2).starts_with('"')) {
+      const std::size_t from = line.find('"') + 1, to = line.find('"', from);
+      if (to == std::string_view::npos) builder_.place().refuse("a name is not closed");
+      builder_.header().tool.name = line.substr(from, to - from);
+      while (i < words_.size() && !words_[i++].ends_with('"')) {
+      }
+    } else if (is_number(word(2))) {
+      builder_.header().tool.number = whole(word(2), 0);
+      i = 3;
+    }
+    for (; i < words_.size(); ++i) tool_word(words_[i]);
+  }
+
+  /// Oversizes of the tool move its point; a program that has them means another tool than it names.
+  void tool_word(std::string_view w) {
+    if (w.starts_with('S'))
+      builder_.header().spindle_rpm = std::max(0.0, value(w, 1));
+    else if (w.starts_with("DL") || w.starts_with("DR")) {
+      if (value(w, 2) != 0.0) builder_.place().refuse(quoted(w) + " is an oversize of the tool; accepted is none");
+    } else if (w != "Z" && !w.starts_with('F'))
+      refuse(w);
+  }
+
+  void cycle() {
+    if (word(1) != "DEF") refuse(word(1).empty() ? word(0) : word(1));
+    const std::string_view number = word(2);
+    if (number == "247")
+      cycle_parameters(3);
+    else if (!number.starts_with("32."))
+      refuse(number);
+  }
+
+  /// Parameters of the cycle that presets the datum; its words in a language of the operator say nothing.
+  void cycle_parameters(std::size_t from) {
+    for (std::size_t i = from; i < words_.size(); ++i)
+      if (words_[i].starts_with("Q339=")) {
+        const int preset = whole(words_[i], 5);
+        if (preset < 1) refuse(words_[i]);
+        builder_.work_offset(preset);
+      } else if (words_[i].starts_with('Q')) {
+        refuse(words_[i]);
+      }
+  }
+
+  void function() {
+    if (word(1) == "RESET" && word(2) == "TCPM" && words_.size() == 3) return builder_.tool_centre(false);
+    if (word(1) != "TCPM") refuse(word(1).empty() ? word(0) : word(1));
+    const auto one_of = [&](std::size_t i, std::string_view key, std::string_view a, std::string_view b) {
+      if (word(i) != key || (word(i + 1) != a && word(i + 1) != b))
+        builder_.place().refuse("FUNCTION TCPM is accepted as F TCP AXIS POS|SPAT PATHCTRL AXIS|VECTOR REFPNT TIP-TIP");
+      return word(i + 1) == a;
+    };
+    (void)one_of(2, "F", "TCP", "TCP");
+    spatial_ = !one_of(4, "AXIS", "POS", "SPAT");
+    builder_.join(one_of(6, "PATHCTRL", "AXIS", "VECTOR") ? NcJoin::kAxes : NcJoin::kGreatCircle);
+    if (words_.size() > 8) (void)one_of(8, "REFPNT", "TIP-TIP", "TIP-TIP");
+    if (words_.size() > 10) refuse(word(10));
+    builder_.tool_centre(true);
+  }
+
+  /// M128 holds from the beginning of its block, M129 and the end of the program from its end.
+  void motion() {
+    const bool switches = std::find(words_.begin(), words_.end(), "M128") != words_.end();
+    if (switches) {
+      builder_.join(NcJoin::kAxes);
+      spatial_ = false;
+      builder_.tool_centre(true);
+    }
+    builder_.motion(NcKind::kFeed);
+    bool off = false, end = false, of_m128 = false;
+    for (std::size_t i = word(0).starts_with('M') ? 0 : 1; i < words_.size(); ++i) {
+      const std::string_view w = words_[i];
+      if (w == "M128") {
+        of_m128 = true;
+      } else if (w == "M129") {
+        off = true;
+      } else if (w == "M2" || w == "M30" || w == "M02") {
+        end = true;
+      } else if (of_m128 && w.starts_with('F')) {
+        of_m128 = false;  // the largest feed of the control's own compensation
+      } else {
+        motion_word(w);
+      }
+    }
+    if (off) builder_.tool_centre(false);
+    builder_.end_block();
+    if (end) builder_.end_program();
+  }
+
+  void motion_word(std::string_view w) {
+    const char c = w[0];
+    if (c == 'M') {
+      miscellaneous(w);
+    } else if (c >= 'X' && c <= 'Z') {
+      builder_.linear(static_cast<std::size_t>(c - 'X'), value(w, 1));
+    } else if (c >= 'A' && c <= 'C') {
+      if (spatial_ && word(0) == "L") builder_.place().refuse(quoted(w) + " is a spatial angle; accepted is AXIS POS");
+      builder_.rotary(c, value(w, 1));
+    } else if ((c == 'T' || c == 'N') && word(0) == "LN" && w.size() > 2 && w[1] >= 'X' && w[1] <= 'Z') {
+      const double v = value(w, 2);  // normals matter to a radius compensation only
+      if (c == 'T') builder_.vector(static_cast<std::size_t>(w[1] - 'X'), v);
+    } else if (w == "FMAX") {
+      builder_.rapid();
+    } else if (c == 'F') {
+      builder_.feed(value(w, 1));
+    } else if (w != "R0") {
+      refuse(w);
+    }
+  }
+
+  void miscellaneous(std::string_view w) {
+    if (w == "MB") return;
+    if (w == "MAX") {
+      if (std::find(words_.begin(), words_.end(), "M140") == words_.end()) refuse(w);
+      return;
+    }
+    switch (whole(w, 1)) {
+      case 0:
+      case 1:
+      case 3:
+      case 4:
+      case 5:
+      case 8:
+      case 9:
+      case 13:
+      case 14:
+      case 126:
+      case 127:
+        break;
+      case 91:
+      case 92:
+      case 140:
+        builder_.to_reference();
+        break;
+      default:
+        refuse(w);
+    }
+  }
+
+  ProgramBuilder builder_;
+  Words words_;
+  bool begun_ = false, finished_ = false, continues_ = false, spatial_ = false;
+};
+
+}  // namespace
+
+NcProgram read_heidenhain(std::string_view text, const std::string& file, const NcDialect& dialect) {
+  return HeidenhainReader(file, dialect).read(text);
+}
+
+}  // namespace flank::internal

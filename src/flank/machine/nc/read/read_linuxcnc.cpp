@@ -1,0 +1,187 @@
+#include "flank/machine/nc/read/read_linuxcnc.h"
+
+#include "flank/machine/nc/read/gcode_words.h"
+#include "flank/machine/nc/read/program_builder.h"
+
+namespace flank::internal {
+
+namespace {
+
+constexpr std::string_view kName = "LinuxCNC";
+constexpr double kInch = 25.4;
+
+class LinuxCncReader {
+ public:
+  LinuxCncReader(const std::string& file, const NcDialect& dialect)
+      : builder_(file, dialect), tcp_on_(upper_case(dialect.tcp_on)), tcp_off_(upper_case(dialect.tcp_off)) {
+    builder_.join(NcJoin::kAxes);
+    builder_.length_compensation(false);
+    builder_.allow_joint(!tcp_on_.empty() || dialect.positions == NcPositions::kJoint);
+    if (tcp_on_.empty() && dialect.positions != NcPositions::kJoint) builder_.tool_centre(true);
+  }
+
+  NcProgram read(std::string_view text) {
+    NcLines lines(text);
+    while (lines.next()) {
+      builder_.at(lines.number());
+      split_gcode(lines.line(), lines.upper(), builder_.place(), block_);
+      for (const std::string_view comment : block_.comments) builder_.comment(comment);
+      if (block_.percent) percent();
+      if (block_.words.empty()) continue;
+      if (builder_.ended()) builder_.place().refuse("a block after the end of the program");
+      block();
+    }
+    return builder_.finish();
+  }
+
+ private:
+  /// A file between two percent signs ends with the second.
+  void percent() {
+    if (opened_) builder_.end_program();
+    opened_ = true;
+  }
+
+  void block() {
+    opened_ = opened_ || !block_.words.empty();
+    for (const GWord& word : block_.words) {
+      if (switches(word)) continue;
+      switch (word.letter) {
+        case 'G':
+          preparatory(word);
+          break;
+        case 'M':
+          miscellaneous(word);
+          break;
+        default:
+          other(word);
+      }
+    }
+    builder_.end_block();
+    if (ends_) builder_.end_program();
+  }
+
+  /// The machine's own words for its kinematics.
+  bool switches(const GWord& word) {
+    const auto is = [&](const std::string& name) {
+      return !name.empty() && name[0] == word.letter && name.substr(1) == std::to_string(word.whole());
+    };
+    if (!is(tcp_on_) && !is(tcp_off_)) return false;
+    if (block_.words.size() > (block_.find('N') != nullptr ? 2u : 1u))
+      builder_.place().refuse(quoted(word.text) + " switches the kinematics; accepted is a block of its own");
+    builder_.tool_centre(is(tcp_on_));
+    return true;
+  }
+
+  void preparatory(const GWord& word) {
+    const int code = word.code();
+    if (code >= 540 && code <= 593 && (code % 10 == 0 || code > 590)) {
+      builder_.work_offset(code > 590 ? code - 590 + 6 : code / 10 - 53);
+      return;
+    }
+    switch (code) {
+      case 0:
+      case 10:
+        builder_.motion(code == 0 ? NcKind::kRapid : NcKind::kFeed);
+        break;
+      case 40:  // dwell
+      case 170:
+      case 400:
+      case 610:
+      case 640:
+      case 800:
+      case 900:
+      case 910:
+        if (code >= 900) builder_.incremental(code == 910);
+        break;
+      case 200:
+      case 210:
+        builder_.unit(code == 200 ? kInch : 1.0);
+        break;
+      case 280:
+      case 300:
+        if (!block_.has_code('G', 910))
+          builder_.place().refuse(quoted(word.text) + " passes a point of the part; accepted is G91 G28");
+        builder_.to_reference();
+        break;
+      case 430:
+      case 490:
+        builder_.length_compensation(code == 430);
+        break;
+      case 530:
+        builder_.to_reference();
+        break;
+      case 930:
+      case 940:
+        builder_.feed_mode(code == 930 ? NcFeedMode::kInverseTime : NcFeedMode::kPerMinute);
+        break;
+      default:
+        builder_.place().refuse_word(word.text, kName);
+    }
+  }
+
+  void miscellaneous(const GWord& word) {
+    switch (word.whole()) {
+      case 0:
+      case 1:
+      case 3:
+      case 4:
+      case 5:
+      case 6:
+      case 7:
+      case 8:
+      case 9:
+        break;
+      case 2:
+      case 30:
+        ends_ = true;
+        break;
+      default:
+        builder_.place().refuse_word(word.text, kName);
+    }
+  }
+
+  void other(const GWord& word) {
+    if (is_linear(word.letter)) {
+      builder_.linear(static_cast<std::size_t>(word.letter - 'X'), word.value);
+    } else if (is_rotary(word.letter)) {
+      builder_.rotary(word.letter, word.value);
+    } else if (word.letter == 'F') {
+      builder_.feed(word.value);
+    } else if (word.letter == 'S' && word.value >= 0.0) {
+      builder_.header().spindle_rpm = word.value;
+    } else if (word.letter == 'T' && word.whole() >= 0) {
+      builder_.header().tool.number = word.whole();
+    } else if (!parameter(word)) {
+      builder_.place().refuse_word(word.text, kName);
+    }
+  }
+
+  /// Letters that belong to other words of the block.
+  [[nodiscard]] bool parameter(const GWord& word) const {
+    switch (word.letter) {
+      case 'N':
+        return true;
+      case 'H':
+        return block_.has_code('G', 430);
+      case 'P':
+        return block_.has_code('G', 640) || block_.has_code('G', 40);
+      case 'Q':
+        return block_.has_code('G', 640);
+      default:
+        return false;
+    }
+  }
+
+  ProgramBuilder builder_;
+  std::string tcp_on_, tcp_off_;
+  GBlock block_;
+  bool opened_ = false, ends_ = false;
+};
+
+}  // namespace
+
+NcProgram read_linuxcnc(std::string_view text, const std::string& file, const NcDialect& dialect) {
+  return LinuxCncReader(file, dialect).read(text);
+}
+
+}  // namespace flank::internal

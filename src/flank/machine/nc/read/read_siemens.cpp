@@ -1,0 +1,183 @@
+#include "flank/machine/nc/read/read_siemens.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "flank/machine/nc/read/program_builder.h"
+#include "flank/machine/nc/read/siemens_words.h"
+
+namespace flank::internal {
+
+namespace {
+
+constexpr std::string_view kName = "Siemens";
+constexpr double kInch = 25.4;
+constexpr int kMostFrames = 99, kMostEdges = 9;
+
+/// They smooth within a tolerance, compress, look ahead or move no axis of ours: what is verified is the program's own
+/// polyline.
+constexpr std::array<std::string_view, 19> kIgnored = {
+    "COMPCAD", "COMPCURV", "COMPON", "COMPOF",   "COMPSURF", "FFWON", "FFWOF", "SOFT", "BRISK", "CTOL",
+    "OTOL",    "CYCLE832", "FGROUP", "FIFOCTRL", "STOPRE",   "MSG",   "UPATH", "ADIS", "ORISON"};
+
+bool is_ignored(std::string_view name) { return std::find(kIgnored.begin(), kIgnored.end(), name) != kIgnored.end(); }
+
+class SiemensReader {
+ public:
+  SiemensReader(const std::string& file, const NcDialect& dialect) : builder_(file, dialect) {}
+
+  NcProgram read(std::string_view text) {
+    NcLines lines(text);
+    while (lines.next()) {
+      builder_.at(lines.number());
+      if (lines.upper().starts_with("%_N_")) continue;  // the name of a file in a transfer
+      split_siemens(lines.line(), lines.upper(), builder_.place(), block_);
+      builder_.comment(block_.comment);
+      if (block_.words.empty()) continue;
+      if (builder_.ended()) builder_.place().refuse("a block after the end of the program");
+      block();
+    }
+    return builder_.finish();
+  }
+
+ private:
+  void block() {
+    for (const SiemensWord& word : block_.words) {
+      if (word.name.size() == 1 && word.value && !word.string)
+        letter(word);
+      else
+        named(word);
+    }
+    builder_.end_block();
+    if (ends_) builder_.end_program();
+  }
+
+  [[noreturn]] void refuse(const SiemensWord& word) const { builder_.place().refuse_word(word.text, kName); }
+
+  /// The value as a whole number from 0; refused if it is none.
+  [[nodiscard]] int whole(const SiemensWord& word) const {
+    if (!word.value || *word.value < 0.0 || *word.value > 1e6 || *word.value != std::floor(*word.value)) refuse(word);
+    return static_cast<int>(*word.value);
+  }
+
+  void letter(const SiemensWord& word) {
+    const char c = word.name[0];
+    if (c >= 'X' && c <= 'Z') {
+      builder_.linear(static_cast<std::size_t>(c - 'X'), *word.value);
+    } else if (c >= 'A' && c <= 'C') {
+      builder_.rotary(c, *word.value);
+    } else if (c == 'G') {
+      preparatory(word, whole(word));
+    } else if (c == 'M') {
+      miscellaneous(word, whole(word));
+    } else if (c == 'F') {
+      if (!dwell()) builder_.feed(*word.value);
+    } else if (c == 'S') {
+      if (*word.value < 0.0) refuse(word);
+      if (!dwell()) builder_.header().spindle_rpm = *word.value;
+    } else if (c == 'T') {
+      builder_.header().tool.number = whole(word);
+    } else if (c == 'D') {
+      if (whole(word) > kMostEdges) refuse(word);
+      builder_.length_compensation(whole(word) > 0);
+    } else if (c != 'N') {
+      refuse(word);
+    }
+  }
+
+  /// G4 F and G4 S: a time, not a feed.
+  [[nodiscard]] bool dwell() const {
+    return std::any_of(block_.words.begin(), block_.words.end(),
+                       [](const SiemensWord& w) { return w.name == "G" && w.value == 4.0; });
+  }
+
+  void preparatory(const SiemensWord& word, int code) {
+    if ((code >= 54 && code <= 57) || (code > 504 && code <= 500 + kMostFrames)) {
+      builder_.work_offset(code > 500 ? code - 500 : code - 53);
+      return;
+    }
+    switch (code) {
+      case 0:
+      case 1:
+        builder_.motion(code == 0 ? NcKind::kRapid : NcKind::kFeed);
+        break;
+      case 4:
+      case 9:
+      case 17:
+      case 40:
+      case 60:
+      case 64:
+      case 90:
+      case 601:
+      case 602:
+      case 603:
+      case 641:
+      case 642:
+      case 643:
+      case 645:
+        break;
+      case 53:
+      case 153:
+        builder_.to_reference();
+        break;
+      case 70:
+      case 700:
+        builder_.unit(kInch);
+        break;
+      case 71:
+      case 710:
+        builder_.unit(1.0);
+        break;
+      case 93:
+      case 94:
+        builder_.feed_mode(code == 93 ? NcFeedMode::kInverseTime : NcFeedMode::kPerMinute);
+        break;
+      default:
+        refuse(word);
+    }
+  }
+
+  void miscellaneous(const SiemensWord& word, int code) {
+    if (code == 2 || code == 30 || code == 17)
+      ends_ = true;
+    else if (code > 9)
+      refuse(word);
+  }
+
+  void named(const SiemensWord& word) {
+    const std::string_view name = word.name;
+    if (name == "TRAORI") {
+      if (word.arguments && trimmed(*word.arguments) != "1" && !trimmed(*word.arguments).empty()) refuse(word);
+      builder_.tool_centre(true);
+    } else if (name == "TRAFOOF") {
+      builder_.tool_centre(false);
+    } else if (name == "ORIAXES") {
+      builder_.join(NcJoin::kAxes);
+    } else if (name == "ORIVECT" || name == "ORIPLANE") {
+      builder_.join(NcJoin::kGreatCircle);
+    } else if (name == "SUPA") {
+      builder_.to_reference();
+    } else if (name == "A3" || name == "B3" || name == "C3") {
+      if (!word.value) refuse(word);
+      builder_.vector(static_cast<std::size_t>(name[0] - 'A'), *word.value);
+    } else if (name == "T" && word.string) {
+      // A comment of ours says it with its spaces.
+      if (builder_.header().tool.name.empty()) builder_.header().tool.name = *word.string;
+    } else if (name != "ORIWKS" && !is_ignored(name)) {
+      refuse(word);
+    }
+  }
+
+  ProgramBuilder builder_;
+  SiemensBlock block_;
+  bool ends_ = false;
+};
+
+}  // namespace
+
+NcProgram read_siemens(std::string_view text, const std::string& file, const NcDialect& dialect) {
+  return SiemensReader(file, dialect).read(text);
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,119 @@
+#include "flank/machine/nc/write/gcode_writer.h"
+
+#include <cctype>
+
+#include "flank/machine/nc/header_text.h"
+#include "flank/machine/nc/nc_number.h"
+
+namespace flank::internal {
+
+namespace {
+
+constexpr long kNumberStep = 10, kLargestNumber = 99990;
+constexpr std::size_t kBytesOfMove = 80;
+
+}  // namespace
+
+GCodeWriter::GCodeWriter(const NcProgram& program, const NcDialect& dialect, GCodeStyle style)
+    : program_(program), dialect_(dialect), style_(style) {
+  text_.reserve(1000 + kBytesOfMove * program.moves.size());
+}
+
+void GCodeWriter::raw(std::string_view line) { (text_ += line) += '\n'; }
+
+std::string GCodeWriter::comment_text(std::string_view text) const {
+  std::string out(text);
+  if (style_.upper_comments)
+    for (char& c : out) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return std::string(style_.comment_begin) + out + std::string(style_.comment_end);
+}
+
+void GCodeWriter::comment(std::string_view text) { raw(comment_text(text)); }
+
+void GCodeWriter::begin() {
+  if (!dialect_.line_numbers) return;
+  number_ = number_ + kNumberStep > kLargestNumber ? kNumberStep : number_ + kNumberStep;
+  ((text_ += 'N') += std::to_string(number_)) += ' ';
+}
+
+void GCodeWriter::block(std::string_view words) {
+  begin();
+  text_ += words;
+  end();
+  motion_ = "";
+}
+
+void GCodeWriter::rotary(double first, double second) {
+  begin();
+  text_ += "G0 ";
+  motion_ = "G0";
+  append_decimal(text_ += program_.rotary[0], first, dialect_.angle_decimals);
+  append_decimal((text_ += ' ') += program_.rotary[1], second, dialect_.angle_decimals);
+  end();
+}
+
+void GCodeWriter::start_rotary() {
+  if (program_.start_rotary)
+    rotary(program_.start_rotary->x(), program_.start_rotary->y());
+  else
+    rotary_of(program_.moves.front());
+}
+
+void GCodeWriter::rotary_of(const NcMove& move) {
+  if (program_.positions != NcPositions::kTipVector) rotary(move.orientation.x(), move.orientation.y());
+}
+
+void GCodeWriter::feed(const NcMove& move) {
+  const bool inverse = program_.feed_mode == NcFeedMode::kInverseTime;
+  std::string feed = " F";
+  append_decimal(feed, move.feed, nc_feed_decimals(program_.feed_mode, move.feed, dialect_));
+  if (!inverse && feed == feed_) return;
+  text_ += feed;
+  feed_ = std::move(feed);
+}
+
+void GCodeWriter::move(const NcMove& move) {
+  begin();
+  const char* const motion = move.kind == NcKind::kRapid ? "G0" : "G1";
+  if (std::string_view(motion) != motion_) (text_ += motion) += ' ';
+  motion_ = motion;
+  append_decimal(text_ += "X", move.position.x(), dialect_.length_decimals);
+  append_decimal(text_ += " Y", move.position.y(), dialect_.length_decimals);
+  append_decimal(text_ += " Z", move.position.z(), dialect_.length_decimals);
+  if (program_.positions == NcPositions::kTipVector) {
+    for (int i = 0; i < 3; ++i)
+      append_decimal((text_ += ' ') += style_.vector[static_cast<std::size_t>(i)], move.orientation[i],
+                     dialect_.vector_decimals);
+  } else {
+    for (int i = 0; i < 2; ++i)
+      append_decimal((text_ += ' ') += program_.rotary[static_cast<std::size_t>(i)], move.orientation[i],
+                     dialect_.angle_decimals);
+  }
+  if (move.kind == NcKind::kFeed) feed(move);
+  end();
+}
+
+void GCodeWriter::moves(const std::function<void(const NcMove&)>& from_reference) {
+  std::int32_t strip = -1;
+  for (std::size_t i = 0; i < program_.moves.size(); ++i) {
+    const NcMove& m = program_.moves[i];
+    if (m.strip != strip)
+      comment(m.strip < 0 ? std::string(kEndOfStrip)
+                          : strip_comment(program_.strips[static_cast<std::size_t>(m.strip)]));
+    strip = m.strip;
+    if (!m.joined && i > 0) {
+      from_reference(m);
+      feed_.clear();
+    }
+    move(m);
+  }
+}
+
+std::string spindle_words(const NcHeader& header) {
+  if (header.spindle_rpm <= 0.0) return {};
+  std::string words = "S";
+  append_short_decimal(words, header.spindle_rpm, 3);
+  return words + " M3";
+}
+
+}  // namespace flank::internal

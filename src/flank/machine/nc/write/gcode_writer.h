@@ -1,0 +1,60 @@
+/// Blocks of letters and numbers, as LinuxCNC, Fanuc and Siemens have them.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "flank/machine/nc/dialect.h"
+
+namespace flank::internal {
+
+/// What differs between these dialects.
+struct GCodeStyle {
+  std::string_view comment_begin = "(", comment_end = ")";
+  bool upper_comments = false;
+  std::array<std::string_view, 3> vector;  ///< addresses of the tool vector
+};
+
+/// Writes blocks one after the other. Motion words and feeds are modal: they are written where they change.
+class GCodeWriter {
+ public:
+  /// Both must outlive this.
+  GCodeWriter(const NcProgram& program, const NcDialect& dialect, GCodeStyle style);
+
+  /// A line as it stands, without a number.
+  void raw(std::string_view line);
+  void comment(std::string_view text);
+  [[nodiscard]] std::string comment_text(std::string_view text) const;
+  /// A block of these words; the next move states its motion word again.
+  void block(std::string_view words);
+  /// The two rotary axes at rapid, where the program says where they begin.
+  void start_rotary();
+  /// The rotary axes of a move at rapid; nothing where moves state vectors.
+  void rotary_of(const NcMove& move);
+  /// All moves. `from_reference` writes what stands before a move that comes from the reference position, but the first.
+  void moves(const std::function<void(const NcMove&)>& from_reference);
+
+  [[nodiscard]] std::string take() { return std::move(text_); }
+
+ private:
+  void begin();
+  void end() { text_ += '\n'; }
+  void rotary(double first, double second);
+  void move(const NcMove& move);
+  void feed(const NcMove& move);
+
+  const NcProgram& program_;
+  const NcDialect& dialect_;
+  GCodeStyle style_;
+  std::string text_;
+  long number_ = 0;
+  const char* motion_ = "";
+  std::string feed_;
+};
+
+/// " S5000 M3" of the header; empty without a spindle.
+[[nodiscard]] std::string spindle_words(const NcHeader& header);
+
+}  // namespace flank::internal

@@ -1,0 +1,174 @@
+#include "flank/machine/nc/write/write_heidenhain.h"
+
+#include <array>
+#include <cctype>
+#include <string_view>
+
+#include "flank/error.h"
+#include "flank/machine/nc/header_text.h"
+#include "flank/machine/nc/nc_number.h"
+
+namespace flank::internal {
+
+namespace {
+
+constexpr std::size_t kBytesOfMove = 80;
+
+/// The name of a program is the name of its file: letters, digits and _.
+std::string program_name(const std::string& name) {
+  std::string out = name.substr(0, 32);
+  for (char& c : out)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+  return out.empty() ? "FLANK" : out;
+}
+
+class HeidenhainWriter {
+ public:
+  HeidenhainWriter(const NcProgram& program, const NcDialect& dialect)
+      : program_(program), dialect_(dialect), style_{dialect.decimal_comma ? ',' : '.', true} {
+    unsigned_ = style_;
+    unsigned_.plus = false;
+    text_.reserve(1000 + kBytesOfMove * program.moves.size());
+  }
+
+  std::string write() {
+    const std::string name = program_name(program_.header.program) + " MM";
+    block("BEGIN PGM " + name);
+    header();
+    start_rotary();
+    tool_centre(true);
+    moves();
+    tool_centre(false);
+    block("L M140 MB MAX FMAX");
+    block("M5");
+    block("M30");
+    block("END PGM " + name);
+    return std::move(text_);
+  }
+
+ private:
+  [[nodiscard]] bool function() const { return dialect_.function_tcpm || program_.join == NcJoin::kGreatCircle; }
+
+  void begin() { (text_ += std::to_string(number_++)) += ' '; }
+  void block(std::string_view words) {
+    begin();
+    (text_ += words) += '\n';
+  }
+
+  void header() {
+    const NcHeader& h = program_.header;
+    for (const std::string& line : header_comments(h)) block("; " + line);
+    std::string call = "TOOL CALL " + std::to_string(h.tool.number) + " Z";
+    if (h.spindle_rpm > 0.0) append_short_decimal(call += " S", h.spindle_rpm, 3, unsigned_);
+    block(call);
+    block("CYCL DEF 247 Q339=" + std::to_string(h.work_offset));
+    if (dialect_.smoothing_mm > 0.0) tolerance();
+    if (h.spindle_rpm > 0.0) block("M3");
+    block("M126");
+  }
+
+  void tolerance() {
+    block("CYCL DEF 32.0 TOLERANCE");
+    std::string words = "CYCL DEF 32.1 T";
+    append_decimal(words, dialect_.smoothing_mm, kMostNcDecimals, unsigned_);
+    block(words);
+    words = "CYCL DEF 32.2 HSC-MODE:0 TA";
+    append_decimal(words, dialect_.smoothing_deg, kMostNcDecimals, unsigned_);
+    if (dialect_.smoothing_deg > 0.0) block(words);
+  }
+
+  void tool_centre(bool on) {
+    if (!on)
+      block(function() ? "FUNCTION RESET TCPM" : "M129");
+    else if (!function())
+      block("M128");
+    else
+      block(program_.join == NcJoin::kGreatCircle ? "FUNCTION TCPM F TCP AXIS POS PATHCTRL VECTOR"
+                                                  : "FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS");
+  }
+
+  void rotary(double first, double second) {
+    append_decimal((text_ += ' ') += program_.rotary[0], first, dialect_.angle_decimals, style_);
+    append_decimal((text_ += ' ') += program_.rotary[1], second, dialect_.angle_decimals, style_);
+  }
+  void rotary_block(double first, double second) {
+    begin();
+    text_ += 'L';
+    rotary(first, second);
+    text_ += " R0 FMAX\n";
+  }
+  void rotary_of(const NcMove& m) {
+    if (program_.positions != NcPositions::kTipVector) rotary_block(m.orientation.x(), m.orientation.y());
+  }
+  void start_rotary() {
+    if (program_.start_rotary)
+      rotary_block(program_.start_rotary->x(), program_.start_rotary->y());
+    else
+      rotary_of(program_.moves.front());
+  }
+
+  void moves() {
+    std::int32_t strip = -1;
+    for (std::size_t i = 0; i < program_.moves.size(); ++i) {
+      const NcMove& m = program_.moves[i];
+      if (m.strip != strip)
+        block("; " + (m.strip < 0 ? std::string(kEndOfStrip)
+                                  : strip_comment(program_.strips[static_cast<std::size_t>(m.strip)])));
+      strip = m.strip;
+      if (!m.joined && i > 0) {
+        tool_centre(false);
+        block("L M140 MB MAX FMAX");
+        rotary_of(m);
+        tool_centre(true);
+      }
+      move(m);
+    }
+  }
+
+  void move(const NcMove& m) {
+    static constexpr std::array<std::string_view, 3> kLinear = {"X", " Y", " Z"}, kVector = {" TX", " TY", " TZ"};
+    const bool vector = program_.positions == NcPositions::kTipVector;
+    begin();
+    text_ += vector ? "LN " : "L ";
+    for (int i = 0; i < 3; ++i)
+      append_decimal(text_ += kLinear[static_cast<std::size_t>(i)], m.position[i], dialect_.length_decimals, style_);
+    if (vector)
+      for (int i = 0; i < 3; ++i)
+        append_decimal(text_ += kVector[static_cast<std::size_t>(i)], m.orientation[i], dialect_.vector_decimals,
+                       style_);
+    else
+      rotary(m.orientation.x(), m.orientation.y());
+    if (m.kind == NcKind::kRapid)
+      text_ += " FMAX";
+    else
+      feed(m);
+    text_ += '\n';
+  }
+
+  void feed(const NcMove& m) {
+    std::string feed = " F";
+    append_short_decimal(feed, m.feed, nc_feed_decimals(program_.feed_mode, m.feed, dialect_), unsigned_);
+    if (feed == feed_) return;
+    text_ += feed;
+    feed_ = std::move(feed);
+  }
+
+  const NcProgram& program_;
+  const NcDialect& dialect_;
+  NcNumberStyle style_, unsigned_;
+  std::string text_, feed_;
+  long number_ = 0;
+};
+
+}  // namespace
+
+std::string write_heidenhain(const NcProgram& program, const NcDialect& dialect) {
+  if (program.feed_mode == NcFeedMode::kInverseTime)
+    throw UsageError("dialect", "heidenhain", "has no inverse time; accepted is a feed in mm/min");
+  if (program.positions == NcPositions::kJoint)
+    throw UsageError("dialect", "heidenhain",
+                     "always compensates the tool's length; accepted are programs of the controlled point");
+  return HeidenhainWriter(program, dialect).write();
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,71 @@
+#include "flank/machine/nc/write/write_nc.h"
+
+#include <cmath>
+
+#include "flank/error.h"
+#include "flank/machine/nc/nc_number.h"
+#include "flank/machine/nc/write/write_apt.h"
+#include "flank/machine/nc/write/write_fanuc.h"
+#include "flank/machine/nc/write/write_heidenhain.h"
+#include "flank/machine/nc/write/write_linuxcnc.h"
+#include "flank/machine/nc/write/write_siemens.h"
+
+namespace flank::internal {
+
+namespace {
+
+constexpr double kUnitVectorError = 1e-6;
+constexpr double kSmallestFeed = 1e-6;  // keeps four digits of what nine decimals can say
+
+void check_decimals(const NcDialect& dialect) {
+  for (const int decimals :
+       {dialect.length_decimals, dialect.angle_decimals, dialect.vector_decimals, dialect.feed_decimals})
+    if (decimals < 0 || decimals > kMostNcDecimals)
+      throw UsageError("decimals", std::to_string(decimals), "accepted are 0 to 9");
+}
+
+void check_move(const NcProgram& program, const NcMove& move) {
+  if (move.strip < -1 || move.strip >= static_cast<std::int32_t>(program.strips.size()))
+    throw InternalError("a move of a program belongs to a strip that it does not have");
+  if (!move.position.allFinite() || !move.orientation.allFinite() || !std::isfinite(move.feed))
+    throw InternalError("a program has a number that is not finite");
+  if (program.positions == NcPositions::kTipVector && std::abs(move.orientation.norm() - 1.0) > kUnitVectorError)
+    throw InternalError("a program has a tool vector that is not of unit length");
+  if (move.kind == NcKind::kFeed && !(move.feed >= kSmallestFeed))
+    throw UsageError("feed", std::to_string(move.feed), "accepted are feeds of at least 0.000001");
+}
+
+void check_program(const NcProgram& program) {
+  if (program.moves.empty()) throw UsageError("program: has no moves");
+  const std::string& r = program.rotary;
+  const auto letter = [](char c) { return c == 'A' || c == 'B' || c == 'C'; };
+  if (r.size() != 2 || !letter(r[0]) || !letter(r[1]) || r[0] == r[1])
+    throw UsageError("rotary axes", "\"" + r + "\"", "accepted are two different letters of A, B and C");
+  if (program.header.tool.number < 0 || program.header.work_offset < 1)
+    throw UsageError("program: the tool's number is at least 0, that of the work offset at least 1");
+  if (program.positions == NcPositions::kJoint && program.join == NcJoin::kGreatCircle)
+    throw UsageError("program: joint coordinates are joined linearly, not on a great circle");
+  for (const NcMove& move : program.moves) check_move(program, move);
+}
+
+}  // namespace
+
+std::string write_nc(const NcProgram& program, const NcDialect& dialect) {
+  check_decimals(dialect);
+  check_program(program);
+  switch (dialect.language) {
+    case NcLanguage::kFanuc:
+      return write_fanuc(program, dialect);
+    case NcLanguage::kSiemens:
+      return write_siemens(program, dialect);
+    case NcLanguage::kHeidenhain:
+      return write_heidenhain(program, dialect);
+    case NcLanguage::kApt:
+      return write_apt(program, dialect);
+    case NcLanguage::kLinuxCnc:
+      break;
+  }
+  return write_linuxcnc(program, dialect);
+}
+
+}  // namespace flank::internal

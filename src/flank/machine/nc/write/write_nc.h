@@ -1,0 +1,16 @@
+/// NC programs as text.
+#pragma once
+
+#include <string>
+
+#include "flank/machine/nc/dialect.h"
+
+namespace flank::internal {
+
+/// The program in the words of the dialect. The same program gives the same bytes; numbers are decimals of the
+/// dialect's digits without exponents, names of the header are made safe for its comments.
+/// Throws UsageError where the dialect cannot say it (a great circle in LinuxCNC, inverse time in Heidenhain, vectors in
+/// joint mode), InternalError for numbers that are not finite.
+[[nodiscard]] std::string write_nc(const NcProgram& program, const NcDialect& dialect);
+
+}  // namespace flank::internal

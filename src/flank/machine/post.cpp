@@ -1,0 +1,252 @@
+#include "flank/machine/post.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "flank/error.h"
+#include "flank/machine/feed.h"
+#include "flank/machine/links.h"
+
+namespace flank::internal {
+namespace {
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+/// Places of a block at which its feed is planned: this far apart, at least so many where the machine starts and stops.
+constexpr double kFeedStepMm = 1.0, kFeedStepRad = 0.02;
+constexpr int kMostFeedSteps = 200, kFeedStepsAtEnds = 32;
+
+bool is_link(const Strip& strip) { return strip.kind == kLinkKind; }
+
+class Poster {
+ public:
+  Poster(const Machine& machine, const Path& path, const PostTool& tool, const PostOptions& options)
+      : machine_(machine),
+        path_(path),
+        tool_(tool),
+        options_(options),
+        kinematics_(machine, machine.tool_length),
+        control_(machine, kinematics_),
+        span_{tip_offset(machine, tool), tip_offset(machine, tool) + tool.axis_length} {}
+
+  Post run() {
+    place_poses();
+    const JointChoice choice = choose_joints(machine_, kinematics_, poses_);
+    post_.least_sine = choice.least_sine;
+    post_.flips = choice.flips;
+    if (choice.unreachable) return refused(*choice.unreachable);
+    for (std::size_t k = 0; k < path_.strips.size(); ++k)
+      if (!linearise_strip(k, choice.joints)) return std::move(post_);
+    plan_feeds();
+    write_program();
+    return std::move(post_);
+  }
+
+ private:
+  /// Poses of the controlled point in the frame of the work; the first pose of all comes from anywhere.
+  void place_poses() {
+    const Eigen::Matrix3d r = options_.setup.rotation();
+    for (const Strip& strip : path_.strips) {
+      first_.push_back(poses_.size());
+      for (const Pose& p : strip.poses) {
+        const Pose work{r * p.tip + options_.setup.translation, (r * p.axis).normalized()};
+        poses_.push_back({{work.at(-span_.low), work.axis}, !poses_.empty()});
+      }
+    }
+    first_.push_back(poses_.size());
+    if (poses_.empty()) throw InternalError("a path without poses");
+  }
+
+  Post refused(const Unreachable& why) {
+    post_.unreachable = why;
+    for (std::size_t k = 0; k < path_.strips.size(); ++k)
+      if (why.pose >= first_[k] && why.pose < first_[k + 1]) {
+        post_.unreachable_strip = path_.strips[k].id;
+        post_.unreachable->pose = why.pose - first_[k];
+      }
+    return std::move(post_);
+  }
+
+  bool linearise_strip(std::size_t k, const std::vector<JointValues>& joints) {
+    const bool link = is_link(path_.strips[k]);
+    const std::size_t begin = first_[k], count = first_[k + 1] - begin;
+    std::vector<Pose> poses;
+    for (std::size_t i = begin; i < begin + count; ++i) poses.push_back(poses_[i].pose);
+    LineariseOptions options;
+    options.deviation = link ? std::max(options_.link_deviation, options_.deviation) : options_.deviation;
+    LinearisedStrip strip = linearise(kinematics_, control_, poses, {joints.data() + begin, count}, span_, options);
+    if (!strip.complete || !std::isfinite(strip.deviation_mm)) {
+      post_.unreachable = Unreachable{
+          0, {}, "no number of points keeps the control's own motion within the deviation that is asked for"};
+      post_.unreachable_strip = path_.strips[k].id;
+      return false;
+    }
+    if (!link) {
+      post_.planned += count;
+      post_.inserted += strip.inserted;
+      post_.left_out += strip.left_out;
+      post_.deviation_mm = std::max(post_.deviation_mm, strip.deviation_mm);
+    }
+    strips_.push_back(std::move(strip));
+    return true;
+  }
+
+  double contact_way(const Pose& a, const Pose& b) const {
+    return std::max((b.at(span_.low) - a.at(span_.low)).norm(), (b.at(span_.high) - a.at(span_.high)).norm());
+  }
+
+  /// The nodes of one block, its beginning left out.
+  void add_block(const BlockEnd& from, const BlockEnd& to, double cap, bool at_end) {
+    const RotaryValues a = kinematics_.rotary_of(from.joints), b = kinematics_.rotary_of(to.joints);
+    const double turn = std::abs(b[0] - a[0]) + std::abs(b[1] - a[1]), way = contact_way(from.pose, to.pose);
+    const double wanted = std::ceil(std::max(way / kFeedStepMm, turn / kFeedStepRad));
+    const int least = at_end ? kFeedStepsAtEnds : 1;
+    const int steps = std::clamp(static_cast<int>(std::min(wanted, 1e6)), least, kMostFeedSteps);
+    Pose before = from.pose;
+    for (int k = 1; k <= steps; ++k) {
+      const double t = static_cast<double>(k) / steps;
+      const bool last = k == steps;
+      const Pose here = last ? to.pose : control_.pose(from, to, t);
+      nodes_.push_back({last ? to.joints : control_.joints(from, to, t), contact_way(before, here), cap, blocks_});
+      before = here;
+    }
+    ++blocks_;
+  }
+
+  void plan_feeds() {
+    nodes_.push_back({strips_.front().blocks.front().joints, 0.0, machine_.rapid, -1});
+    std::size_t total = 0, done = 0;
+    for (const LinearisedStrip& strip : strips_) total += strip.blocks.size() - 1;
+    for (std::size_t k = 0; k < strips_.size(); ++k) {
+      const std::vector<BlockEnd>& ends = strips_[k].blocks;
+      const bool fast = is_link(path_.strips[k]) || options_.time_optimal;
+      for (std::size_t i = 1; i < ends.size(); ++i, ++done)
+        add_block(ends[i - 1], ends[i], fast ? machine_.rapid : options_.feed, done == 0 || done + 1 == total);
+    }
+    block_seconds_.assign(static_cast<std::size_t>(blocks_), 0.0);
+    if (blocks_ == 0) return;
+    const FeedPlan plan = plan_feed(machine_, nodes_, options_.deviation);
+    for (std::size_t i = 1; i < nodes_.size(); ++i)
+      block_seconds_[static_cast<std::size_t>(nodes_[i].block)] += plan.seconds[i];
+    post_.time_s = plan.time_s;
+    note_use(check_feed(machine_, nodes_, plan));
+  }
+
+  void note_use(const FeedCheck& check) {
+    for (std::size_t k = 0; k < kJointCount; ++k) {
+      const Joint& joint = machine_.joints[k];
+      double low = nodes_.front().joints[k], high = low;
+      for (const FeedNode& node : nodes_) {
+        low = std::min(low, node.joints[k]);
+        high = std::max(high, node.joints[k]);
+      }
+      post_.use.push_back({joint.name, in_units(joint, low), in_units(joint, high), in_units(joint, check.speed[k]),
+                           in_units(joint, check.acceleration[k])});
+    }
+  }
+
+  NcMove move_to(const BlockEnd& end) const {
+    NcMove move;
+    if (machine_.positions == NcPositions::kJoint) {
+      for (std::size_t k = 0; k < 3; ++k) move.position(static_cast<int>(k)) = end.joints[machine_.linear[k]];
+    } else {
+      // The origin of the part is the work offset's; the program has the part's turn.
+      move.position = end.pose.tip - options_.setup.translation;
+    }
+    if (machine_.positions == NcPositions::kTipVector)
+      move.orientation = end.pose.axis;
+    else
+      for (std::size_t k = 0; k < 2; ++k)
+        move.orientation(static_cast<int>(k)) = end.joints[machine_.rotary[k]] * kDegrees;
+    return move;
+  }
+
+  /// What the program states as the feed of a block that takes so long.
+  double feed_of(const NcMove& from, const NcMove& to, const BlockEnd& a, const BlockEnd& b, double seconds) const {
+    if (machine_.feed_mode == NcFeedMode::kInverseTime) return 60.0 / std::max(seconds, 1e-6);
+    const double way = (to.position - from.position).norm();
+    // Where the controlled point stands still, controls take the feed for that of the rotary axes, degrees per minute.
+    double turn = 0.0;
+    for (const std::size_t k : machine_.rotary) turn = std::max(turn, std::abs(b.joints[k] - a.joints[k]) * kDegrees);
+    const double per_minute = (way > 1e-6 ? way : turn) / std::max(seconds, 1e-9) * 60.0;
+    return std::max(per_minute, 1e-3);
+  }
+
+  void write_program() {
+    NcProgram& program = post_.program;
+    program.header.machine = machine_.name;
+    program.header.work_offset = machine_.work_offset;
+    program.header.tool.name = tool_.name;
+    program.header.tool.diameter = 2.0 * tool_.largest_radius;
+    program.header.tool.length = machine_.tool_length;
+    program.header.tool.tip_offset = span_.low;
+    program.positions = machine_.positions;
+    program.join = machine_.join;
+    program.feed_mode = machine_.feed_mode;
+    program.rotary = machine_.rotary_joint(0).name + machine_.rotary_joint(1).name;
+    std::size_t block = 0;
+    const BlockEnd* before = nullptr;
+    for (std::size_t k = 0; k < strips_.size(); ++k) {
+      program.strips.push_back({path_.strips[k].id, path_.strips[k].kind, path_.strips[k].face});
+      const std::vector<BlockEnd>& ends = strips_[k].blocks;
+      for (std::size_t i = before == nullptr ? 0 : 1; i < ends.size(); ++i) {
+        NcMove move = move_to(ends[i]);
+        move.strip = static_cast<std::int32_t>(k);
+        if (before == nullptr) {
+          move.kind = NcKind::kRapid;
+          move.joined = false;
+          program.start_rotary =
+              Vec2(ends[i].joints[machine_.rotary[0]], ends[i].joints[machine_.rotary[1]]) * kDegrees;
+        } else {
+          const double seconds = block_seconds_[block++];
+          move.feed = feed_of(program.moves.back(), move, *before, ends[i], seconds);
+          if (!is_link(path_.strips[k])) post_.cutting_s += seconds;
+        }
+        program.moves.push_back(move);
+        before = &ends[i];
+      }
+    }
+    post_.rounding_mm = rounding();
+  }
+
+  /// What the digits of the program move the tool by, at most.
+  double rounding() const {
+    const NcDialect& dialect = machine_.dialect;
+    const auto half = [](int decimals) { return 0.5 * std::pow(10.0, -decimals); };
+    const double height = std::max(std::abs(span_.low), std::abs(span_.high));
+    double lever = height;
+    if (machine_.positions == NcPositions::kJoint)
+      for (const LinearisedStrip& strip : strips_)
+        for (const BlockEnd& end : strip.blocks) lever = std::max(lever, height + kinematics_.lever(end.joints));
+    const double turn = machine_.positions == NcPositions::kTipVector ? std::sqrt(3.0) * half(dialect.vector_decimals)
+                                                                      : 2.0 * half(dialect.angle_decimals) / kDegrees;
+    return std::sqrt(3.0) * half(dialect.length_decimals) + lever * turn;
+  }
+
+  const Machine& machine_;
+  const Path& path_;
+  const PostTool& tool_;
+  const PostOptions& options_;
+  Kinematics kinematics_;
+  ControlMotion control_;
+  ToolSpan span_;
+  std::vector<MachinePose> poses_;
+  std::vector<std::size_t> first_;  ///< pose of each strip, and their number
+  std::vector<LinearisedStrip> strips_;
+  std::vector<FeedNode> nodes_;
+  std::int32_t blocks_ = 0;
+  std::vector<double> block_seconds_;
+  Post post_;
+};
+
+}  // namespace
+
+double tip_offset(const Machine& machine, const PostTool& tool) {
+  return machine.controlled == ControlledPoint::kLowest ? tool.tip_radius : 0.0;
+}
+
+Post post(const Machine& machine, const Path& path, const PostTool& tool, const PostOptions& options) {
+  return Poster(machine, path, tool, options).run();
+}
+
+}  // namespace flank::internal

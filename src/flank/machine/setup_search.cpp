@@ -1,0 +1,175 @@
+#include "flank/machine/setup_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace flank::internal {
+namespace {
+
+constexpr std::size_t kMostPoses = 200;
+/// Far enough from the singular direction: beyond it more is no better.
+constexpr double kEnoughSine = 0.5;
+/// A joint that comes as near to the end of its travel as this is not worth less: mm, and radians.
+constexpr double kEnoughRoomMm = 50.0, kEnoughRoomRad = 0.35;
+
+std::vector<Pose> thinned(const std::vector<Pose>& poses) {
+  if (poses.size() <= kMostPoses) return poses;
+  std::vector<Pose> few;
+  for (std::size_t k = 0; k < kMostPoses; ++k) few.push_back(poses[k * (poses.size() - 1) / (kMostPoses - 1)]);
+  return few;
+}
+
+/// a, b, c of Rz(c) Ry(b) Rx(a), degrees, to 1e-6.
+std::array<double, 3> angles_of(const Eigen::Matrix3d& r) {
+  const double degrees = 180.0 / std::numbers::pi;
+  const double flat = std::hypot(r(0, 0), r(1, 0));
+  std::array<double, 3> a{};
+  a[1] = std::atan2(-r(2, 0), flat);
+  if (flat > 1e-9) {
+    a[0] = std::atan2(r(2, 1), r(2, 2));
+    a[2] = std::atan2(r(1, 0), r(0, 0));
+  } else {
+    a[0] = std::atan2(-r(1, 2), r(1, 1));
+  }
+  for (double& angle : a) angle = std::round(angle * degrees * 1e6) / 1e6 + 0.0;
+  return a;
+}
+
+std::vector<std::array<double, 3>> square_turns() {
+  std::vector<std::array<double, 3>> turns;
+  for (int x = 0; x < 3; ++x)
+    for (int sx = -1; sx <= 1; sx += 2)
+      for (int y = 0; y < 3; ++y)
+        for (int sy = -1; sy <= 1; sy += 2) {
+          if (x == y) continue;
+          Eigen::Matrix3d r;
+          r.col(0) = sx * Vec3::Unit(x);
+          r.col(1) = sy * Vec3::Unit(y);
+          r.col(2) = r.col(0).cross(r.col(1));
+          turns.push_back(angles_of(r));
+        }
+  // As it is in its file comes first: of equal turns the first wins.
+  std::stable_sort(turns.begin(), turns.end(), [](const auto& a, const auto& b) {
+    const auto size = [](const auto& t) { return std::abs(t[0]) + std::abs(t[1]) + std::abs(t[2]); };
+    return size(a) < size(b);
+  });
+  return turns;
+}
+
+/// Turns that bring the path's middle direction to several tilts from the spindle, in several azimuths.
+std::vector<std::array<double, 3>> tilted_turns(const Vec3& spindle, const std::vector<Pose>& poses) {
+  Vec3 middle = Vec3::Zero();
+  for (const Pose& p : poses) middle += p.axis;
+  if (middle.norm() < 1e-6) return {};
+  std::vector<std::array<double, 3>> turns;
+  const double radians = std::numbers::pi / 180.0;
+  for (const double tilt : {20.0, 35.0, 50.0, 65.0, 80.0, 5.0})
+    for (double azimuth = 0.0; azimuth < 360.0; azimuth += 45.0)
+      for (double spin = 0.0; spin < 360.0; spin += 90.0) {
+        const Eigen::Quaterniond up = Eigen::Quaterniond::FromTwoVectors(middle, spindle);
+        const Vec3 side = Eigen::AngleAxisd(azimuth * radians, spindle) * spindle.unitOrthogonal();
+        turns.push_back(
+            angles_of((Eigen::AngleAxisd(tilt * radians, side) * Eigen::AngleAxisd(spin * radians, spindle) * up)
+                          .toRotationMatrix()));
+      }
+  return turns;
+}
+
+class Search {
+ public:
+  Search(const Machine& machine, const Kinematics& kinematics, const std::vector<Pose>& poses)
+      : machine_(machine), kinematics_(kinematics), poses_(thinned(poses)) {
+    for (const Pose& p : poses_) box_.add(p.tip);
+  }
+
+  FoundSetup run() {
+    try_all(square_turns());
+    if (!found_.setup || found_.least_sine < std::sin(5.0 * std::numbers::pi / 180.0))
+      try_all(tilted_turns(machine_.tool_axis, poses_));
+    return found_;
+  }
+
+ private:
+  void try_all(const std::vector<std::array<double, 3>>& turns) {
+    for (const auto& angles : turns) {
+      WorkSetup setup;
+      setup.angles_deg = angles;
+      const Vec3 middle = setup.rotation() * box_.center();
+      for (const Vec3& place : places()) {
+        setup.translation = place - middle;
+        for (int k = 0; k < 3; ++k) setup.translation(k) = std::round(setup.translation(k) * 1e3) / 1e3 + 0.0;
+        if (try_one(setup) == Outcome::kDirection) break;  // no place helps
+      }
+    }
+  }
+
+  /// Where the middle of the path could be, in the frame of the work: over the rotary joint that carries it, at several
+  /// heights; without one, in the middle of the travels.
+  std::vector<Vec3> places() const {
+    const Joint& near_work = machine_.joints[kinematics_.rotary_joints()[0]];
+    if (!near_work.table) return {middle_of_travels()};
+    std::vector<Vec3> list;
+    const double lift = machine_.tool_axis.dot(near_work.direction) < 0.0 ? -1.0 : 1.0;
+    for (const double height : {50.0, 100.0, 0.0, 150.0, 200.0, 300.0, -50.0, -100.0})
+      list.push_back(near_work.point + lift * height * near_work.direction);
+    return list;
+  }
+
+  Vec3 middle_of_travels() const {
+    JointValues q{};
+    for (const std::size_t k : machine_.linear) q[k] = 0.5 * (machine_.joints[k].low + machine_.joints[k].high);
+    return kinematics_.forward(q).tip;
+  }
+
+  enum class Outcome { kFits, kPlace, kDirection };
+  Outcome try_one(const WorkSetup& setup) {
+    ++found_.tried;
+    std::vector<MachinePose> placed;
+    for (const Pose& p : poses_) placed.push_back({setup.to_work(p), !placed.empty()});
+    const JointChoice choice = choose_joints(machine_, kinematics_, placed);
+    if (choice.unreachable) {
+      found_.reason = choice.unreachable->reason;
+      return kinematics_.rotary(placed[choice.unreachable->pose].pose.axis, 0.0).count == 0 ? Outcome::kDirection
+                                                                                            : Outcome::kPlace;
+    }
+    const double worth = worth_of(choice);
+    if (!found_.setup || worth > worth_ + 1e-9) {
+      worth_ = worth;
+      found_.setup = setup;
+      found_.least_sine = choice.least_sine;
+    }
+    return Outcome::kFits;
+  }
+
+  /// Away from the singular direction, well inside the travels, tilted little.
+  double worth_of(const JointChoice& choice) const {
+    double room = 1.0, tilt = 0.0;
+    const std::size_t near_tool = kinematics_.rotary_joints()[1];
+    for (const JointValues& q : choice.joints) {
+      for (std::size_t k = 0; k < kJointCount; ++k) {
+        const Joint& joint = machine_.joints[k];
+        const double enough = joint.kind == JointKind::kRotary ? kEnoughRoomRad : kEnoughRoomMm;
+        room = std::min({room, (q[k] - joint.low) / enough, (joint.high - q[k]) / enough});
+      }
+      tilt = std::max(tilt, std::abs(q[near_tool]));
+    }
+    return 2.0 * std::min(choice.least_sine, kEnoughSine) / kEnoughSine + std::max(room, 0.0) -
+           0.5 * tilt / std::numbers::pi;
+  }
+
+  const Machine& machine_;
+  const Kinematics& kinematics_;
+  std::vector<Pose> poses_;
+  Box3 box_;
+  double worth_ = 0.0;
+  FoundSetup found_;
+};
+
+}  // namespace
+
+FoundSetup search_setup(const Machine& machine, const Kinematics& kinematics, const std::vector<Pose>& poses) {
+  return Search(machine, kinematics, poses).run();
+}
+
+}  // namespace flank::internal

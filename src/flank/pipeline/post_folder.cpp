@@ -1,0 +1,205 @@
+#include "flank/pipeline/post_folder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "flank/artefact/acceptance.h"
+#include "flank/error.h"
+#include "flank/job/check_fields.h"
+#include "flank/machine/links.h"
+#include "flank/machine/model/machine_file.h"
+#include "flank/machine/nc/write/write_nc.h"
+#include "flank/machine/post.h"
+#include "flank/machine/setup_search.h"
+#include "flank/path_file.h"
+#include "flank/pipeline/folder_job.h"
+#include "flank/pipeline/judge_job.h"
+#include "flank/pipeline/link_lift.h"
+#include "flank/setup/clearance_scene.h"
+#include "flank/setup/targets.h"
+#include "flank/setup/tool_body.h"
+
+namespace flank {
+namespace internal {
+namespace {
+
+/// Of the tolerance, for what the control's motion adds to the path: small beside all that the planner spends.
+constexpr double kDeviationShare = 0.005;
+/// Steps of a program are not worth less than this, mm.
+constexpr double kLeastDeviation = 1e-6;
+/// Of the samples from which a tool is lifted: of the part's diagonal.
+constexpr double kLiftSampleShare = 1.0 / 100.0;
+
+struct Input {
+  Setup setup;
+  Tool tool;
+  Path path;
+  ObstacleRequest obstacles;
+  JudgeRequest judge;
+};
+
+template <class Job>
+Input read_input(const PostJob& request, const Job& job, const ResultFolder& folder, std::vector<std::string>& notes) {
+  const auto file = [&](const char* name) { return (std::filesystem::path(request.folder) / name).string(); };
+  Input input;
+  input.tool = read_and_equip(file("tool.json"), {}, job.obstacles);
+  input.path = read_path(file("path.json"));
+  input.setup = read_setup(job.part, job.obstacles, job.tolerance_mm, notes);
+  input.obstacles = job.obstacles;
+  input.judge = job.judge;
+  notes.clear();  // told when the folder was made
+  if (folder.manifest() && !request.part && input.setup.part.sha256 != folder.manifest()->part.sha256)
+    throw InputError(input.setup.part.file + ": has changed since the result in " + folder.path() +
+                     " was made for it; make the result again, or name a part by `part`");
+  return input;
+}
+
+PostTool post_tool(const Tool& tool) {
+  PostTool facts{.name = tool.name, .axis_length = tool.radial.axis_length(), .tip_radius = tool.radial.at(0.0).r};
+  constexpr int kLooks = 200;
+  for (int k = 0; k <= kLooks; ++k)
+    facts.largest_radius = std::max(facts.largest_radius, tool.radial.at(facts.axis_length * k / kLooks).r);
+  return facts;
+}
+
+/// Of all that could touch: flank, shank and holder.
+double body_radius(const Tool& tool, const PostTool& facts) {
+  double radius = facts.largest_radius;
+  for (const auto* profile : {&tool.shank, &tool.holder})
+    for (const Vec2& p : *profile) radius = std::max(radius, p.y());
+  return radius;
+}
+
+Path link_strips(const Input& input, const PostTool& facts, const PostJob& request) {
+  std::vector<Pose> ends;
+  for (const Strip& strip : input.path.strips) {
+    ends.push_back(strip.poses.front());
+    ends.push_back(strip.poses.back());
+  }
+  const double spacing = kLiftSampleShare * input.setup.part.box.diagonal();
+  const std::vector<Vec3> lifts = lifts_off(input.tool, ends, judge_samples(input.setup, spacing, spacing),
+                                            request.lift_mm, input.setup.part.box.diagonal());
+  LinkOptions options;
+  options.keep_out = input.setup.part.box;
+  for (const Part& fixture : input.setup.fixtures) options.keep_out.add(fixture.box);
+  options.tool_radius = body_radius(input.tool, facts);
+  options.clearance = request.link_clearance_mm;
+  for (std::size_t k = 0; k < lifts.size(); k += 2) {
+    options.lift_at_start.push_back(lifts[k]);
+    options.lift_at_end.push_back(lifts[k + 1]);
+  }
+  return with_links(input.path, options);
+}
+
+WorkSetup find_setup(const PostJob& request, const Machine& machine, const Path& path, const PostTool& facts,
+                     PostOutcome& outcome) {
+  if (request.setup) return parse_setup(*request.setup);
+  std::vector<Pose> poses;
+  const double below = tip_offset(machine, facts);
+  for (const Strip& strip : path.strips)
+    for (const Pose& p : strip.poses) poses.push_back({p.at(-below), p.axis});
+  const FoundSetup found = search_setup(machine, Kinematics(machine, machine.tool_length), poses);
+  if (!found.setup)
+    throw InputError("setup", fmt::format("none of {} places and turns of the part fits machine {}: {}", found.tried,
+                                          machine.name, found.reason));
+  outcome.setup_found = true;
+  return *found.setup;
+}
+
+/// The links are judged like the strips: how deep they cut, and how near shank and holder come.
+void judge_links(const Input& input, const Path& linked, PostOutcome& outcome) {
+  Path links;
+  for (const Strip& strip : linked.strips)
+    if (strip.kind == kLinkKind) links.strips.push_back(strip);
+  JudgeRequest sampled = input.judge;
+  sampled.reach_radius_mm = {};
+  VerifyReport report = judge_job(input.setup, sampled, input.tool, links);
+  const double depth = std::max(report.overcut_mm, report.gouge_mm), tolerance = input.setup.tolerance_mm;
+  if (depth > tolerance) {
+    const WorstPlace* worst = report.worst.empty() ? nullptr : &report.worst.front();
+    outcome.acceptance.reasons.push_back(
+        {"gouge_mm", fmt::format("link {} cuts {} by {:.4f} mm; more than the tolerance of {} mm",
+                                 worst != nullptr ? worst->strip + 1 : 0, worst != nullptr ? worst->face : "the part",
+                                 depth, tolerance)});
+  }
+  const ClearanceScene scene = make_clearance_scene(input.setup, input.obstacles, has_body(input.tool), outcome.notes);
+  report.clearance = measure_clearance(scene, input.tool, links);
+  if (!report.clearance.kept())
+    outcome.acceptance.reasons.push_back({"clearance", "shank, holder or a fixture comes too near on a link"});
+}
+
+[[noreturn]] void refuse(const Post& result, const PostOutcome& outcome) {
+  const Unreachable& why = *result.unreachable;
+  throw InputError("machine", outcome.machine,
+                   fmt::format("strip {}, pose {}: {}; the part sits at {}; another place or turn is given by `setup`",
+                               result.unreachable_strip, why.pose + 1, why.reason, outcome.setup));
+}
+
+void fill(const Machine& machine, const Post& result, PostOutcome& outcome) {
+  outcome.poses = result.planned;
+  outcome.inserted = result.inserted;
+  outcome.left_out = result.left_out;
+  outcome.moves = result.program.moves.size();
+  outcome.deviation_mm = result.deviation_mm;
+  outcome.rounding_mm = result.rounding_mm;
+  outcome.least_tilt_deg = std::asin(std::min(1.0, result.least_sine)) * 180.0 / std::numbers::pi;
+  outcome.minutes = result.time_s / 60.0;
+  outcome.cutting_minutes = result.cutting_s / 60.0;
+  for (std::size_t k = 0; k < result.use.size(); ++k) {
+    const JointUse& use = result.use[k];
+    outcome.joints.push_back({use.name, machine.joints[k].kind == JointKind::kRotary ? "deg" : "mm", use.low, use.high,
+                              use.speed, use.acceleration});
+  }
+}
+
+PostOutcome post_input(const PostJob& request, Machine machine, const Input& input, PostOutcome outcome) {
+  if (request.tool_length_mm) machine.tool_length = *request.tool_length_mm;
+  const PostTool facts = post_tool(input.tool);
+  const Path linked = link_strips(input, facts, request);
+  PostOptions options;
+  options.setup = find_setup(request, machine, linked, facts, outcome);
+  options.deviation =
+      std::max(kLeastDeviation, request.deviation_mm.value_or(kDeviationShare * input.setup.tolerance_mm));
+  options.feed = request.feed_mm_min / 60.0;
+  options.time_optimal = request.speed == "optimal";
+  outcome.machine = machine.name;
+  outcome.nesting = machine.nesting();
+  outcome.setup = setup_text(options.setup);
+  outcome.strips = static_cast<int>(input.path.strips.size());
+  Post result = post(machine, linked, facts, options);
+  if (result.unreachable) refuse(result, outcome);
+  fill(machine, result, outcome);
+  judge_links(input, linked, outcome);
+  result.program.header.part = std::filesystem::path(input.setup.part.file).filename().string();
+  result.program.header.setup = outcome.setup;
+  result.program.header.spindle_rpm = request.spindle_rpm;
+  outcome.program = write_nc(result.program, machine.dialect);
+  return outcome;
+}
+
+}  // namespace
+
+PostOutcome post_folder(const PostJob& request) {
+  check_fields(request);
+  const Machine machine = read_machine(request.machine);
+  if (request.setup) (void)parse_setup(*request.setup);
+  const ResultFolder folder(request.folder, ResultFolder::Use::kRead);
+  VerifyJob wanted;
+  wanted.folder = request.folder;
+  wanted.part = request.part;
+  const FolderJob found = read_folder_job(wanted, folder);
+  PostOutcome outcome;
+  const Input input =
+      std::visit([&](const auto& job) { return read_input(request, job, folder, outcome.notes); }, found.job);
+  return post_input(request, machine, input, std::move(outcome));
+}
+
+}  // namespace internal
+
+PostOutcome run_post(const PostJob& job) { return internal::post_folder(job); }
+
+}  // namespace flank

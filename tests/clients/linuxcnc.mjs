@@ -1,0 +1,152 @@
+// LinuxCNC without a display: its interpreter, its kinematics, and a whole simulated run whose joints come back.
+import { spawnSync } from 'node:child_process';
+import { chmodSync, copyFileSync, existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { userInfo } from 'node:os';
+import { dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+const MODULES = '/usr/lib/linuxcnc/modules';
+const KINEMATICS = process.env.FLANK_LINUXCNC_KINEMATICS;
+const HERE = dirname(fileURLToPath(import.meta.url));
+const SWITCHES = { M428: 1, M429: 0 };  // words of its sample configurations, and the type of kinematics that each switches to
+
+/** Why LinuxCNC cannot be asked here; empty if it can. */
+export function whyNot() {
+  for (const command of ['linuxcnc', 'rs274', 'halsampler'])
+    if (spawnSync('sh', ['-c', `command -v ${command}`]).status !== 0) return `no ${command} here; \`make test-clients\` installs it`;
+  if (!KINEMATICS) return 'FLANK_LINUXCNC_KINEMATICS does not name the program beside this test';
+  return '';
+}
+
+/** A folder with the words that switch the kinematics, as LinuxCNC's sample configurations have them. */
+function writeSwitches(folder) {
+  mkdirSync(join(folder, 'words'), { recursive: true });
+  for (const [word, type] of Object.entries(SWITCHES)) {
+    const name = `${word.toLowerCase()}`;
+    writeFileSync(join(folder, 'words', `${name}.ngc`), `o<${name}>sub\nM68 E3 Q${type}\nM66 E0 L0\no<${name}>endsub\n`);
+  }
+  return { SUBROUTINE_PATH: './words', HAL_PIN_VARS: 1, PARAMETER_FILE: 'sim.var',
+    REMAP: Object.keys(SWITCHES).map((word) => `${word} modalgroup=10 ngc=${word.toLowerCase()}`) };
+}
+
+/** What the interpreter makes of a program: exit status, moves [kind, x, y, z, a, b, c], message. */
+export function interpret(folder, text, tool) {
+  mkdirSync(folder, { recursive: true });
+  writeFileSync(join(folder, 'sim.ini'), section('RS274NGC', writeSwitches(folder)) +
+    section('TRAJ', { COORDINATES: 'XYZABC', LINEAR_UNITS: 'mm', ANGULAR_UNITS: 'degree' }) + section('EMCIO', { TOOL_TABLE: 'sim.tbl' }));
+  writeFileSync(join(folder, 'sim.tbl'), `T${tool.number} P1 D10 Z${tool.length}\n`);
+  writeFileSync(join(folder, 'program.ngc'), text);
+  const { status, stdout, stderr } = spawnSync('rs274', ['-i', 'sim.ini', '-g', 'program.ngc'], { encoding: 'utf8', maxBuffer: 2 ** 30, cwd: folder });
+  const moves = [...stdout.matchAll(/STRAIGHT_(FEED|TRAVERSE)\(([^)]*)\)/g)].map((m) => [m[1], ...m[2].split(',').map(Number)]);
+  return { status, moves, message: stderr + stdout };
+}
+
+/** The moves that the words of a program state, read in the simplest way: modal G0 or G1, modal axes; null where none was stated yet. */
+export function stated(text, letters = 'XYZABC') {
+  const at = Object.fromEntries([...letters].map((l) => [l, null])), moves = [];
+  let kind = 'TRAVERSE';
+  for (const line of text.split('\n')) {
+    const code = line.replace(/\([^)]*\)/g, '');
+    let axes = false;
+    for (const [, letter, number] of code.matchAll(/([A-Z])(-?[0-9.]+)/g)) {
+      if (letter === 'G' && (number === '0' || number === '1')) kind = number === '0' ? 'TRAVERSE' : 'FEED';
+      if (!letters.includes(letter)) continue;
+      at[letter] = Number(number);
+      axes = true;
+    }
+    if (axes) moves.push([kind, ...[...letters].map((l) => at[l])]);
+  }
+  return moves;
+}
+
+/** Rows through LinuxCNC's kinematics: 'forward' (joints to X Y Z A B C) or 'inverse'. */
+export function kinematics(module, coordinates, direction, pins, rows) {
+  const { status, stdout, stderr } = spawnSync(KINEMATICS, [join(MODULES, `${module}.so`), coordinates, '-', direction, ...pins],
+    { input: rows.map((r) => r.join(' ')).join('\n'), encoding: 'utf8', maxBuffer: 2 ** 30 });
+  if (status !== 0) throw new Error(`${module}: ${stderr}`);
+  return stdout.trim().split('\n').map((l) => l.split(' ').map(Number));
+}
+
+const section = (name, entries) =>
+  `[${name}]\n${Object.entries(entries).flatMap(([k, v]) => [v].flat().map((one) => `${k} = ${one}\n`)).join('')}`;
+
+/** The configuration of a machine: what `simulate` is given, as LinuxCNC reads it. */
+function configuration(folder, { kinematics: kins, joints }) {
+  const letters = joints.map((j) => j.name).join(''), fastest = Math.max(...joints.map((j) => j.speed)), hardest = Math.max(...joints.map((j) => j.acceleration));
+  let ini = section('EMC', { VERSION: '1.1', MACHINE: 'headless' }) + section('DISPLAY', { DISPLAY: './linuxcnc_ui.py' }) +
+    section('TASK', { TASK: 'milltask', CYCLE_TIME: 0.001 }) + section('RS274NGC', writeSwitches(folder)) +
+    section('EMCMOT', { EMCMOT: 'motmod', COMM_TIMEOUT: '4.0', SERVO_PERIOD: 1000000 }) +
+    section('EMCIO', { EMCIO: 'io', CYCLE_TIME: 0.01, TOOL_TABLE: 'sim.tbl' }) + section('HAL', { HALFILE: 'sim.hal' }) +
+    section('TRAJ', { NO_FORCE_HOMING: 1, COORDINATES: letters, LINEAR_UNITS: 'mm', ANGULAR_UNITS: 'degree', DEFAULT_LINEAR_VELOCITY: 100,
+      MAX_LINEAR_VELOCITY: fastest, DEFAULT_LINEAR_ACCELERATION: hardest, MAX_LINEAR_ACCELERATION: hardest }) +
+    section('KINS', { KINEMATICS: kins === 'trivkins' ? `trivkins coordinates=${letters}` : `${kins} coordinates=${letters} sparm=identityfirst`, JOINTS: letters.length });
+  joints.forEach((j, i) => {
+    const [low, high] = j.travel ?? [-1e6, 1e6];
+    const axis = { TYPE: j.kind === 'rotary' ? 'ANGULAR' : 'LINEAR', HOME: 0, MAX_VELOCITY: j.speed, MAX_ACCELERATION: j.acceleration, MIN_LIMIT: low, MAX_LIMIT: high };
+    ini += section(`JOINT_${i}`, { ...axis, FERROR: 5, MIN_FERROR: 1, HOME_SEARCH_VEL: 0, HOME_LATCH_VEL: 0, HOME_SEQUENCE: 0 });
+    // Limits of the world's axes say nothing of joints where the two differ.
+    const same = j.kind === 'rotary' || kins === 'trivkins';
+    ini += section(`AXIS_${j.name}`, { ...axis, MIN_LIMIT: same ? low : -1e6, MAX_LIMIT: same ? high : 1e6 });
+  });
+  return ini;
+}
+
+/** What is loaded and joined: joints to themselves and to the log, the tool's length to the kinematics, the switch of the kinematics. */
+function hal({ kinematics: kins, joints, pins }) {
+  return ['loadrt [KINS]KINEMATICS', 'loadrt [EMCMOT]EMCMOT servo_period_nsec=[EMCMOT]SERVO_PERIOD num_joints=[KINS]JOINTS',
+    `loadrt sampler depth=20000 cfg=${'f'.repeat(joints.length)}`,
+    'addf motion-command-handler servo-thread', 'addf motion-controller servo-thread', 'addf sampler.0 servo-thread',
+    ...joints.map((_, i) => `net j${i} joint.${i}.motor-pos-cmd => joint.${i}.motor-pos-fb sampler.0.pin.${i}`),
+    ...(kins === 'trivkins' ? [] : [`net length motion.tooloffset.z => ${kins}.tool-offset`, 'net kinstype motion.analog-out-03 => motion.switchkins-type']),
+    ...pins.map((p) => `setp ${kins}.${p.replace('=', ' ')}`),
+    'net estop iocontrol.0.user-enable-out => iocontrol.0.emc-enable-in', 'net prepare iocontrol.0.tool-prepare => iocontrol.0.tool-prepared',
+    'net change iocontrol.0.tool-change => iocontrol.0.tool-changed', ''].join('\n');
+}
+
+/**
+ * Runs a program to its end in a simulated machine: { outcome, messages, line, joints }. It takes as long as the machine would.
+ * machine: { kinematics, pins, joints: [{ name, kind, travel, speed, acceleration }], tool: { number, length } }; offset: where G54 is.
+ * LinuxCNC does not run as root; then it runs as nobody.
+ */
+export function simulate(folder, text, machine, offset = [0, 0, 0], limit = 250) {
+  mkdirSync(folder);
+  const file = (name) => join(folder, name);
+  writeFileSync(file('sim.ini'), configuration(folder, machine));
+  writeFileSync(file('sim.hal'), hal(machine));
+  writeFileSync(file('sim.tbl'), `T${machine.tool.number} P1 D10 Z${machine.tool.length}\n`);
+  writeFileSync(file('program.ngc'), text);
+  copyFileSync(join(HERE, 'linuxcnc_ui.py'), file('linuxcnc_ui.py'));
+  chmodSync(file('linuxcnc_ui.py'), 0o755);
+  const root = userInfo().uid === 0;
+  if (root) spawnSync('chown', ['-R', 'nobody', folder]);
+  const environment = { ...process.env, NGC: file('program.ngc'), RESULT: file('result.json'), JOINT_LOG: file('joints.log'),
+    LIMIT_S: `${limit}`, OFFSET: `G10 L2 P1 ${offset.map((v, i) => `${'XYZ'[i]}${v}`).join(' ')}` };
+  const words = ['env', `HOME=${folder}`, 'linuxcnc', '-r', 'sim.ini'];
+  const run = spawnSync(root ? 'runuser' : words[0], root ? ['-u', 'nobody', '--', ...words] : words.slice(1),
+    { cwd: folder, env: environment, encoding: 'utf8', timeout: 1000 * (limit + 30), maxBuffer: 2 ** 28 });
+  if (!existsSync(environment.RESULT)) throw new Error(`LinuxCNC did not start:\n${run.stdout}${run.stderr}`);
+  const joints = readFileSync(environment.JOINT_LOG, 'utf8').trim().split('\n').map((l) => l.trim().split(/\s+/).slice(0, machine.joints.length).map(Number));
+  return { ...JSON.parse(readFileSync(environment.RESULT, 'utf8')), joints };
+}
+
+const apart = (a, b) => Math.max(...a.map((v, i) => Math.abs(v - b[i])));
+
+/** Samples without those at which the machine stood still. */
+export const moving = (rows) => rows.filter((r, i) => i === 0 || apart(r, rows[i - 1]) > 0);
+
+/**
+ * Joints to poses of the tool in the frame of the work: the controlled point, and the unit vector towards the holder, found by moving
+ * the spindle's joint Z and asking the kinematics again. `forward` maps rows of joints to rows of X Y Z.
+ */
+export function poses(joints, forward) {
+  const low = forward(joints), high = forward(joints.map((j) => j.map((v, i) => (i === 2 ? v + 1 : v))));
+  return low.map((p, i) => {
+    const axis = [0, 1, 2].map((k) => high[i][k] - p[k]), length = Math.hypot(...axis);
+    return [...p.slice(0, 3), ...axis.map((v) => v / length)];
+  });
+}
+
+/** The forward kinematics of a machine of LinuxCNC's own modules; a tool's length lies in the world's Z. */
+export const forwardOf = ({ kinematics: module, pins, joints, tool }) => (rows) =>
+  kinematics(module, joints.map((j) => j.name).join(''), 'forward', [...pins, `tool-offset=${tool.length}`], rows)
+    .map(([x, y, z]) => [x, y, z - tool.length]);

@@ -1,0 +1,158 @@
+// What we write for LinuxCNC, in LinuxCNC: its interpreter accepts every program with the same moves, a simulated machine without a
+// display runs it to its end, and what its joints did, sampled at 1 kHz, is judged as the planned path was. Broken programs and
+// paths past a soft limit are reported. Run by ctest (label clients); exit 77 means skipped.
+import assert from 'node:assert/strict';
+import { chmodSync, existsSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
+import { dirname, join } from 'node:path';
+import { before, test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+import { BINARY, flank, json, must, root, without } from './folder.mjs';
+import { forwardOf, interpret, moving, poses, simulate, stated, whyNot } from './linuxcnc.mjs';
+
+const why = BINARY ? whyNot() : 'FLANK_BINARY does not name the command';
+if (why) {
+  console.log(`skipped: ${why}`);
+  process.exit(77);
+}
+
+const EXTRA_OVERCUT = 0.002;  // mm beyond the planned path's
+const SAME = 1e-4;            // mm and degrees: the interpreter prints four decimals
+const GOLDEN = join(dirname(fileURLToPath(import.meta.url)), '../machine/nc/golden');
+const TOOL = { number: 3, length: 62.5 };  // of the golden programs
+const golden = (name) => readFileSync(join(GOLDEN, `${name}.txt`), 'utf8');
+let count = 0;
+const fresh = () => join(root, `linuxcnc-${++count}`);
+
+/** A machine of ours as LinuxCNC has it: its kinematics with their pins, its joints with their travel and limits. */
+function machineOf(name, kinematics, pins, tool) {
+  const { joints } = JSON.parse(must('machine', name, '--json'));
+  const at = (letter) => joints.find((j) => j.name === letter);
+  return { kinematics, pins, tool, joints: [...'XYZ', ...joints.filter((j) => j.kind === 'rotary').map((j) => j.name).sort()].map(at) };
+}
+const XYZAC = ['xyzac-trt-kins', ['y-offset=20', 'z-offset=10']], XYZBC = ['xyzbc-trt-kins', ['x-offset=20', 'z-offset=10']];
+
+function expectSameMoves(text, tool) {
+  const { status, moves, message } = interpret(fresh(), text, tool);
+  assert.equal(status, 0, message);
+  const want = stated(text);
+  assert.equal(moves.length, want.length);
+  moves.forEach((move, i) => {
+    assert.equal(move[0], want[i][0], `move ${i}`);
+    want[i].slice(1).forEach((v, k) => assert.ok(v === null || Math.abs(v - move[k + 1]) <= SAME, `move ${i}: ${move} is not ${want[i]}`));
+  });
+}
+
+before(() => chmodSync(root, 0o755));  // the simulated machine runs as another user
+
+for (const file of readdirSync(GOLDEN).filter((f) => f.startsWith('linuxcnc')))
+  test(`${file} is accepted with the same moves`, () => expectSameMoves(golden(file.replace('.txt', '')), TOOL));
+
+const BROKEN = {
+  'a number with an exponent': (t) => t.replace('F12.5', 'F1.25e1'),
+  'a block in inverse time without a feed': (t) => t.replace(/^(X14.*) F[0-9.]+$/m, '$1'),
+  'a word twice': (t) => t.replace('Z12.5', 'Z12.5 Z13.0'),
+  'a number that is none': (t) => t.replace('Z12.5', 'Znan'),
+  'no end': (t) => t.replaceAll('%\n', '').replace('M2', ''),
+  'a word of another control': (t) => t.replace('G43 H3', 'G43.4 H3'),
+};
+for (const [name, breakIt] of Object.entries(BROKEN))
+  test(`${name} is reported`, () => {
+    const text = golden('linuxcnc_switched'), broken = breakIt(text);
+    assert.notEqual(broken, text);
+    const { status } = interpret(fresh(), broken, TOOL);
+    assert.notEqual(status, 0);
+  });
+
+test('a path past a soft limit is reported with its joint', () => {
+  const machine = machineOf('linuxcnc-xyzac-trt', ...XYZAC, TOOL);
+  machine.joints[0].travel = [-5, 5];
+  const { outcome, messages } = simulate(fresh(), golden('linuxcnc_switched'), machine);
+  assert.equal(outcome, 'error');
+  assert.match(messages.join('\n'), /joint 0|X/);
+});
+
+test('a golden program runs to its end through every point that it states', () => {
+  const machine = machineOf('linuxcnc-xyzac-trt', ...XYZAC, TOOL);
+  const { outcome, messages, joints } = simulate(fresh(), golden('linuxcnc_switched').replace(/^G64.*$/m, 'G61'), machine);
+  assert.equal(outcome, 'end', messages.join('\n'));
+  const done = poses(moving(joints), forwardOf(machine));
+  for (const [kind, x, y, z] of stated(golden('linuxcnc_switched')).filter((m) => m[0] === 'FEED'))
+    assert.ok(Math.min(...done.map((p) => Math.hypot(p[0] - x, p[1] - y, p[2] - z))) < 0.05, `${kind} ${x} ${y} ${z}`);
+});
+
+/** What the header of a program says: [x, y, z, a, b, c] of the set-up, length of the tool, distance from the controlled point to s = 0. */
+function header(text) {
+  const [, , length, offset] = /TOOL DIAMETER (\S+) LENGTH (\S+) TIP OFFSET ([^\s)]+)/.exec(text).map(Number);
+  return { setup: /\(SETUP ([^)]*)\)/.exec(text)[1].split(',').map(Number), number: Number(/\(TOOL (\d+)/.exec(text)[1]), length, offset };
+}
+
+/** From the frame of the work to that of the part, of x_work = Rz(c) Ry(b) Rx(a) x_part + (x, y, z), and from the controlled point to s = 0. */
+function toPart([x, y, z, ...angles], offset, pose) {
+  const [a, b, c] = angles.map((v) => (v * Math.PI) / 180);
+  const back = (v) => {
+    const turn = ([p, q], angle) => [p * Math.cos(angle) + q * Math.sin(angle), q * Math.cos(angle) - p * Math.sin(angle)];
+    let [vx, vy, vz] = v;
+    [vx, vy] = turn([vx, vy], c);
+    [vz, vx] = turn([vz, vx], b);
+    [vy, vz] = turn([vy, vz], a);
+    return [vx, vy, vz];
+  };
+  const tip = back([pose[0] - x, pose[1] - y, pose[2] - z]), axis = back(pose.slice(3));
+  return [...tip.map((v, k) => v + offset * axis[k]), ...axis];
+}
+
+/** The samples from the first to the last point that the program reaches at feed; `rows` are what its words state. */
+function cutting(rows, text, letters) {
+  const feeds = stated(text, letters).filter((m) => m[0] === 'FEED').map((m) => m.slice(1));
+  const near = (target) => (row) => Math.max(...row.map((v, k) => Math.abs(v - target[k]))) < 0.02;
+  const first = rows.findIndex(near(feeds[0])), last = rows.findLastIndex(near(feeds.at(-1)));
+  assert.ok(first >= 0 && last > first, `the machine was not seen at the first and the last point: ${first}, ${last}`);
+  return [first, last];
+}
+
+/** What the machine did, in the place of the planned path, judged: [planned, done] of verify.json. */
+function judged(folder, name, rows) {
+  const copy = without(folder, name, 'verify.json'), path = json(copy, 'path.json');
+  path.strips = [{ ...path.strips[0], poses: rows }];
+  writeFileSync(join(copy, 'path.json'), JSON.stringify(path));
+  flank('verify', copy, '--quiet');  // its verdict is compared below
+  return [json(folder, 'verify.json'), json(copy, 'verify.json')];
+}
+
+/** Posts the folder's path for a machine, lets LinuxCNC run it, and compares what it cut with what was planned. */
+function expectAsPlanned(folder, name, [kinematics, pins], options = []) {
+  const file = join(root, `program-${++count}.ngc`);
+  must('post', folder, '--machine', name, '-o', file, '--quiet', ...options);
+  const text = readFileSync(file, 'utf8'), { setup, number, length, offset } = header(text);
+  const tool = { number, length }, joints = name === 'joint-ac', machine = machineOf(name, kinematics, pins, tool);
+  expectSameMoves(text, tool);
+  const run = simulate(fresh(), text, joints ? { ...machine, kinematics: 'trivkins', pins: [] } : machine, joints ? [0, 0, 0] : setup.slice(0, 3));
+  assert.equal(run.outcome, 'end', `${run.line}: ${run.messages.join('\n')}`);
+  const rows = moving(run.joints), letters = machine.joints.map((j) => j.name).join('');
+  // joint-ac counts its rotary axes the other way round.
+  const done = poses(joints ? rows.map(([x, y, z, a, c]) => [x, y, z, -a, -c]) : rows, forwardOf(machine));
+  const words = joints ? rows : done.map((p, i) => [...p.slice(0, 3).map((v, k) => v - setup[k]), ...rows[i].slice(3)]);
+  const [first, last] = cutting(words, text, letters);
+  const [planned, real] = judged(folder, `done-${count}`, done.slice(first, last + 1).map((p) => toPart(setup, offset, p)));
+  const extra = real.overcut_mm - planned.overcut_mm, bound = real.overcut_bound_mm - planned.overcut_bound_mm;
+  console.log(`# ${name}: ${rows.length} samples; overcut ${(1000 * planned.overcut_mm).toFixed(3)} um planned, ${(1000 * extra).toFixed(3)} um more done ` +
+    `(bounds ${(1000 * planned.overcut_bound_mm).toFixed(3)}, ${(1000 * bound).toFixed(3)}), coverage ${planned.coverage} and ${real.coverage}`);
+  assert.ok(extra <= EXTRA_OVERCUT && bound <= EXTRA_OVERCUT, `overcut ${extra} mm, bound ${bound} mm beyond the planned path's`);
+  assert.ok(real.coverage >= planned.coverage - 0.001, `coverage ${real.coverage}, planned ${planned.coverage}`);
+}
+
+const blade = join(root, 'blade');
+test('a blade is planned', () => {
+  must('example', 'twisted-blade', '-o', `${blade}.step`, '--quiet');
+  must('fit', `${blade}.step`, '--face', 'F1', '--tolerance', '0.1', '-o', blade, '--quiet');
+});
+test('the blade on a trunnion of A and C', () => expectAsPlanned(blade, 'linuxcnc-xyzac-trt', XYZAC));
+test('the blade on a trunnion of B and C', () => expectAsPlanned(blade, 'linuxcnc-xyzbc-trt', XYZBC));
+test('the blade in joint coordinates', () => expectAsPlanned(blade, 'joint-ac', ['xyzac-trt-kins', []]));
+
+const data = process.env.FLANK_DATA ?? join(dirname(fileURLToPath(import.meta.url)), '../../../shared/data'), r37 = join(data, 'r37_blade.step');
+test('the blade of a compressor', { skip: existsSync(r37) ? false : `no ${r37}` }, () => {
+  const folder = join(root, 'r37');
+  flank('fit', r37, '--face', 'F1', '-o', folder, '--quiet');  // whether it falls short of its tolerance is no matter here
+  expectAsPlanned(folder, 'linuxcnc-xyzac-trt', XYZAC);
+});

@@ -1,0 +1,148 @@
+// Feeds: limits are kept at every millisecond, and what is found is near what an independent search finds.
+#include "flank/machine/feed.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "flank/base/random.h"
+#include "flank/machine/model/machine_file.h"
+
+namespace flank::internal {
+namespace {
+
+/// Corners of smooth ways are smooth again.
+constexpr double kRounding = 0.1;
+
+/// Joint 2 alone, from 0 to `length` in `count` ways.
+std::vector<FeedNode> straight(double length, int count, double cap) {
+  std::vector<FeedNode> nodes;
+  for (int k = 0; k <= count; ++k) {
+    FeedNode node;
+    node.joints[2] = length * k / count;
+    node.length = k == 0 ? 0.0 : length / count;
+    node.cap = cap;
+    node.block = k - 1;
+    nodes.push_back(node);
+  }
+  return nodes;
+}
+
+Machine machine_of(double speed, double acceleration) {
+  Machine machine = read_machine("fanuc-ac");
+  for (Joint& joint : machine.joints) joint.speed = speed, joint.acceleration = acceleration;
+  return machine;
+}
+
+/// A bent way in two joints, smooth.
+std::vector<FeedNode> bent(int count, double cap) {
+  std::vector<FeedNode> nodes;
+  for (int k = 0; k <= count; ++k) {
+    const double t = static_cast<double>(k) / count;
+    FeedNode node;
+    node.joints[2] = 60.0 * t;
+    node.joints[3] = 15.0 * std::sin(5.0 * t) + 4.0 * std::sin(17.0 * t);
+    node.cap = cap;
+    if (k > 0)
+      node.length = std::hypot(node.joints[2] - nodes.back().joints[2], node.joints[3] - nodes.back().joints[3]);
+    nodes.push_back(node);
+  }
+  return nodes;
+}
+
+TEST(Feed, AStraightWayIsATrapezoid) {
+  // 100 mm at 50 mm/s with 500 mm/s^2: 0.1 s up, 0.1 s down, 2.5 mm in each; 95 mm at full speed.
+  const Machine machine = machine_of(50.0, 500.0);
+  const auto nodes = straight(100.0, 400, 1e9);
+  const FeedPlan plan = plan_feed(machine, nodes, kRounding);
+  EXPECT_NEAR(plan.time_s, 2.1, 0.02);
+  EXPECT_GE(plan.time_s, 2.1 - 1e-9);
+  EXPECT_LE(check_feed(machine, nodes, plan).worst_acceleration, 1.0 + 1e-5);
+  // Too short to reach full speed: two parabolas.
+  const auto little = straight(2.0, 400, 1e9);
+  EXPECT_NEAR(plan_feed(machine, little, kRounding).time_s, 2.0 * std::sqrt(2.0 / 500.0), 0.005);
+  // A cap is a speed that is not exceeded.
+  EXPECT_NEAR(plan_feed(machine, straight(100.0, 400, 20.0), kRounding).time_s, 100.0 / 20.0 + 20.0 / 500.0, 0.02);
+}
+
+TEST(Feed, LimitsHoldEveryMillisecondOnAnyWay) {
+  Random random(4);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Machine machine = machine_of(random.uniform(20, 300), random.uniform(100, 4000));
+    std::vector<FeedNode> nodes;
+    JointValues at{};
+    for (int k = 0; k < 200; ++k) {
+      FeedNode node;
+      const double step = std::pow(10.0, random.uniform(-4, -0.5));
+      for (double& q : at) q += step * random.uniform(-1, 1);
+      node.joints = at;
+      node.length = k == 0 ? 0.0 : random.uniform() < 0.1 ? 0.0 : step;
+      node.cap = random.uniform(5, 500);
+      nodes.push_back(node);
+    }
+    const FeedPlan plan = plan_feed(machine, nodes, std::pow(10.0, random.uniform(-4, -1)));
+    const FeedCheck check = check_feed(machine, nodes, plan);
+    EXPECT_LE(check.worst_speed, 1.0 + 1e-5) << trial;
+    EXPECT_LE(check.worst_acceleration, 1.0 + 1e-5) << trial;
+    EXPECT_TRUE(std::isfinite(plan.time_s));
+    EXPECT_EQ(plan.speed.front(), 0.0);
+    EXPECT_EQ(plan.speed.back(), 0.0);
+  }
+}
+
+/// The least time of a way by brute force: dynamic programming over speeds at every node, each step within the limits as
+/// the definition has them. It shares nothing with the planner.
+double searched_time(const Machine& machine, const std::vector<FeedNode>& nodes, double top, int levels) {
+  const std::size_t n = nodes.size();
+  std::vector<double> time(static_cast<std::size_t>(levels + 1), 1e300);
+  time[0] = 0.0;
+  const auto rate = [&](std::size_t i, std::size_t k) {
+    return (nodes[i].joints[k] - nodes[i - 1].joints[k]) / nodes[i].length;
+  };
+  for (std::size_t i = 1; i < n; ++i) {
+    std::vector<double> next(time.size(), 1e300);
+    const double h = nodes[i].length;
+    for (int a = 0; a <= levels; ++a) {
+      if (time[static_cast<std::size_t>(a)] > 1e299) continue;
+      for (int b = 0; b <= levels; ++b) {
+        if (a + b == 0) continue;
+        const double v0 = top * a / levels, v1 = top * b / levels, u = (v1 * v1 - v0 * v0) / (2.0 * h);
+        bool allowed = true;
+        for (std::size_t k = 0; k < kJointCount && allowed; ++k) {
+          const Joint& joint = machine.joints[k];
+          const double q1 = rate(i, k), v = std::max(v0, v1);
+          const double q2 = i > 1 ? (q1 - rate(i - 1, k)) / std::min(h, nodes[i - 1].length) : 0.0;
+          allowed = std::abs(q1) * v <= joint.speed && std::abs(q1 * u + q2 * v0 * v0) <= joint.acceleration;
+        }
+        if (allowed)
+          next[static_cast<std::size_t>(b)] =
+              std::min(next[static_cast<std::size_t>(b)], time[static_cast<std::size_t>(a)] + 2.0 * h / (v0 + v1));
+      }
+    }
+    time = next;
+  }
+  return time[0];
+}
+
+TEST(Feed, IsNearWhatASearchOfAllSpeedsFinds) {
+  const Machine machine = machine_of(80.0, 800.0);
+  const auto nodes = bent(60, 1e9);
+  const double best = searched_time(machine, nodes, 100.0, 400);
+  const FeedPlan plan = plan_feed(machine, nodes, kRounding);
+  EXPECT_LT(plan.time_s, 1.10 * best);
+  RecordProperty("share_above_search", std::to_string(plan.time_s / best - 1.0));
+}
+
+TEST(Feed, OptimalBeatsTheBestConstantSpeed) {
+  const Machine machine = machine_of(80.0, 800.0);
+  const auto fast = bent(300, 1e9);
+  const double constant = constant_speed(machine, fast, kRounding);
+  const double optimal = plan_feed(machine, fast, kRounding).time_s,
+               steady = plan_feed(machine, bent(300, constant), kRounding).time_s;
+  EXPECT_LT(optimal, 0.95 * steady);
+  RecordProperty("optimal_s", std::to_string(optimal));
+  RecordProperty("constant_s", std::to_string(steady));
+}
+
+}  // namespace
+}  // namespace flank::internal

@@ -1,0 +1,113 @@
+// Programs of others within the documented subset; the same files begin the fuzzers' corpus.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "flank/machine/nc/read/read_nc.h"
+
+namespace flank::internal {
+namespace {
+
+NcProgram read_corpus(const std::string& name, NcLanguage language, const std::string& rotary = "AC") {
+  std::ifstream in(std::filesystem::path(FLANK_SOURCE_DIR) / "tests/fuzz/corpus" / name, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  NcDialect dialect;
+  dialect.language = language;
+  dialect.rotary = rotary;
+  return read_nc(text, name, dialect);
+}
+
+void expect_move(const NcMove& m, NcKind kind, const Vec3& position, const Vec3& orientation, double feed) {
+  EXPECT_EQ(m.kind, kind);
+  EXPECT_LE((m.position - position).norm(), 1e-12) << m.position.transpose();
+  EXPECT_LE((m.orientation - orientation).norm(), 1e-12) << m.orientation.transpose();
+  EXPECT_NEAR(m.feed, feed, 1e-9);
+}
+
+TEST(ReadNc, LinuxCncInInchesAndSmallLetters) {
+  const NcProgram p = read_corpus("nc_linuxcnc/other.ngc", NcLanguage::kLinuxCnc);
+  EXPECT_EQ(p.positions, NcPositions::kTipRotary);
+  EXPECT_EQ(p.header.tool.number, 2);
+  ASSERT_EQ(p.moves.size(), 3u);
+  expect_move(p.moves[0], NcKind::kRapid, {0, 0, 50.8}, {0, 0, 0}, 0);
+  expect_move(p.moves[1], NcKind::kFeed, {0, 0, 12.7}, {0, 0, 0}, 508);
+  expect_move(p.moves[2], NcKind::kFeed, {38.1, 0, 12.7}, {0, 10, 0}, 508);
+  EXPECT_EQ(p.moves[2].line, 6);
+}
+
+TEST(ReadNc, FanucWithOtherAxesAndAnExtendedOffset) {
+  const NcProgram p = read_corpus("nc_fanuc/other.nc", NcLanguage::kFanuc, "BC");
+  EXPECT_EQ(p.header.number, 1234);
+  EXPECT_EQ(p.header.program, "SIDE 2");
+  EXPECT_EQ(p.header.work_offset, 9);
+  ASSERT_TRUE(p.start_rotary);
+  EXPECT_EQ(*p.start_rotary, Vec2(0, 90));
+  ASSERT_EQ(p.moves.size(), 3u);
+  expect_move(p.moves[0], NcKind::kRapid, {25.4, -12.7, 76.2}, {0, 90, 0}, 0);
+  expect_move(p.moves[2], NcKind::kFeed, {38.1, -12.7, 6.35}, {0, 91.25, 0}, 1016);
+}
+
+TEST(ReadNc, SiemensWithVectorsOfAnyLength) {
+  const NcProgram p = read_corpus("nc_siemens/other.mpf", NcLanguage::kSiemens);
+  EXPECT_EQ(p.positions, NcPositions::kTipVector);
+  EXPECT_EQ(p.join, NcJoin::kAxes);
+  EXPECT_EQ(p.header.tool.name, "CUTTER");
+  EXPECT_EQ(p.header.spindle_rpm, 8000.0);
+  ASSERT_EQ(p.moves.size(), 3u);
+  expect_move(p.moves[0], NcKind::kRapid, {10, 0, 50}, {0, 0, 1}, 0);
+  expect_move(p.moves[2], NcKind::kFeed, {20, 0, 0.5}, Vec3(0, 0.1, 1).normalized(), 400);
+}
+
+TEST(ReadNc, HeidenhainOfAnOperator) {
+  const NcProgram p = read_corpus("nc_heidenhain/other.h", NcLanguage::kHeidenhain);
+  EXPECT_EQ(p.join, NcJoin::kGreatCircle);
+  EXPECT_EQ(p.header.program, "4711");
+  EXPECT_EQ(p.header.tool.name, "BALL 8");
+  EXPECT_EQ(p.header.work_offset, 2);
+  ASSERT_EQ(p.moves.size(), 3u);
+  expect_move(p.moves[0], NcKind::kRapid, {0, 0, 50}, {0, 12.5, 0}, 0);
+  expect_move(p.moves[1], NcKind::kFeed, {0, 0, 0.5}, {0, 12.5, 0}, 300);
+  expect_move(p.moves[2], NcKind::kFeed, {10, 0, 0.5}, {0, 20, 0}, 300);
+}
+
+TEST(ReadNc, AptInInchesWithContinuedStatements) {
+  const NcProgram p = read_corpus("nc_apt/other.cls", NcLanguage::kApt);
+  EXPECT_EQ(p.header.part, "SIDE 2");
+  EXPECT_EQ(p.join, NcJoin::kGreatCircle);
+  ASSERT_EQ(p.moves.size(), 4u);
+  expect_move(p.moves[0], NcKind::kRapid, {0, 0, 101.6}, {0, 0, 1}, 0);
+  expect_move(p.moves[2], NcKind::kFeed, {0, 0, 6.35}, {0, 0, 1}, 508);
+  expect_move(p.moves[3], NcKind::kFeed, {25.4, 0, 6.35}, Vec3(0.1, 0, 0.9949874).normalized(), 508);
+}
+
+TEST(ReadNc, AProgramInPiecesIsNotJoinedAcrossItsReference) {
+  const std::string text =
+      "O1\nG21 G90\nG0 A0. C0.\nG43.4 H1\nG0 X0. Y0. Z9.\nG1 Z1. F100.\nG49\nG91 G28 Z0.\nG90\nG0 C90.\n"
+      "G43.4 H1\nX5. Y0. Z9.\nG1 Z2.\nG49\nM30\n";
+  NcDialect fanuc;
+  fanuc.language = NcLanguage::kFanuc;
+  const NcProgram p = read_nc(text, "f", fanuc);
+  ASSERT_EQ(p.moves.size(), 4u);
+  EXPECT_FALSE(p.moves[0].joined);
+  EXPECT_TRUE(p.moves[1].joined);
+  EXPECT_FALSE(p.moves[2].joined);
+  EXPECT_EQ(p.moves[2].orientation.y(), 90.0);
+}
+
+TEST(ReadNc, TheApproachBeforeToolVectorsIsNoMove) {
+  const std::string text =
+      "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1\n2 L A+10 C+5 R0 FMAX\n3 M128\n4 L X+0 Y+0 Z+99 FMAX\n"
+      "5 LN X+0 Y+0 Z+9 TX+0 TY+0 TZ+1 FMAX\n6 LN X+0 Y+0 Z+1 TX+0 TY+0 TZ+1 F100\n7 M129\n8 M30\n9 END PGM A MM\n";
+  NcDialect heidenhain;
+  heidenhain.language = NcLanguage::kHeidenhain;
+  const NcProgram p = read_nc(text, "f", heidenhain);
+  EXPECT_EQ(p.positions, NcPositions::kTipVector);
+  ASSERT_EQ(p.moves.size(), 2u);
+  ASSERT_TRUE(p.start_rotary);
+  EXPECT_EQ(*p.start_rotary, Vec2(10, 5));
+}
+
+}  // namespace
+}  // namespace flank::internal
