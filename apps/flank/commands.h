@@ -37,6 +37,7 @@ struct Subcommand {
 [[nodiscard]] Subcommand add_tool(CLI::App& parser);
 [[nodiscard]] Subcommand add_fit(CLI::App& parser);
 [[nodiscard]] Subcommand add_cover(CLI::App& parser);
+[[nodiscard]] Subcommand add_trochoid(CLI::App& parser);
 [[nodiscard]] Subcommand add_verify(CLI::App& parser);
 [[nodiscard]] Subcommand add_report(CLI::App& parser);
 [[nodiscard]] Subcommand add_view(CLI::App& parser);

@@ -1,4 +1,4 @@
-// fit, cover, verify: their options are the table of fields.
+// fit, cover, trochoid, verify: their options are the table of fields.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
@@ -65,6 +65,15 @@ Subcommand add_cover(CLI::App& parser) {
       "barrel:arc=100,radius=5 --axis-length 20 --tolerance 0.05 -o out\n"
       "The best tool of the catalogue: flank cover blade.step --face F1 --tool catalogue --tolerance 0.05 -o out");
   return job_command<CoverJob>(app, run_cover);
+}
+
+Subcommand add_trochoid(CLI::App& parser) {
+  CLI::App* app = parser.add_subcommand(
+      "trochoid", "Rough and finish the cavity between two sides with one tool: trochoidal cycles and side paths");
+  app->footer(
+      "Example: flank example cavity-barrel -o cavity.step && flank trochoid cavity.step --left F1 --right F2 "
+      "--tolerance 0.02 -o out");
+  return job_command<TrochoidJob>(app, run_trochoid);
 }
 
 Subcommand add_verify(CLI::App& parser) {

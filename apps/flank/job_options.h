@@ -39,7 +39,7 @@ std::string type_name(const internal::FieldInfo& info, const Member&) {
   if (info.unit == "mm") return "MM";
   if (info.unit == "mm/min") return "MM/MIN";
   constexpr bool kNumber = std::is_arithmetic_v<Member> || std::is_same_v<Member, std::optional<double>> ||
-                          std::is_same_v<Member, std::optional<std::uint64_t>>;
+                           std::is_same_v<Member, std::optional<std::uint64_t>>;
   return kNumber && info.spelling == internal::Spelling::kPlain ? "NUMBER" : "TEXT";
 }
 

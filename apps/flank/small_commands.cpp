@@ -50,6 +50,14 @@ Subcommand add_example(CLI::App& parser) {
   app->add_option("NAME", *name, "One of: " + names)->required();
   app->add_option("-o,--output", *file, "File to write: .step for faces, .stl, .obj or .ply for meshes")->required();
   app->add_option("--seed", options->seed, "Seed of the noise of noisy examples")->capture_default_str();
+  CavityShape& cavity = options->cavity;
+  app->add_option("--width", cavity.width_mm, "Of the cavity: across both walls, mm")->capture_default_str();
+  app->add_option("--depth", cavity.depth_mm, "Of the cavity: of a wall, mm")->capture_default_str();
+  app->add_option("--length", cavity.length_mm, "Of the cavity: along its walls, mm")->capture_default_str();
+  app->add_option("--twist", cavity.twist_deg, "Of the cavity: of its walls from end to end, degrees")
+      ->capture_default_str();
+  app->add_option("--hollow", cavity.hollow_mm, "Of the cavity: how deep its walls are hollow, mm")
+      ->capture_default_str();
   app->footer(
       "Examples: flank example envelope-barrel-1 -o barrel.step; flank example rotor37 -o blade.step (a real "
       "compressor blade)");

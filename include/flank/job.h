@@ -117,12 +117,49 @@ struct NcRequest {
   bool operator==(const NcRequest&) const = default;
 };
 
-/// Judge again what fit or cover left in a folder. What is given takes the place of the job's own.
+/// How the cycles of a cavity are planned.
+struct CycleRequest {
+  double most_engagement_deg = 60.0;    ///< of the cutter, fronts and backs
+  std::string cut = "climb";            ///< or "conventional"; the spindle turns clockwise seen from the holder
+  int layers = 0;                       ///< 0: as many as the tolerance needs
+  std::string strategy = "volume";      ///< shapes optimised for removed volume per way; or "plain": steps alone
+  double feed_mm_min = 1000.0;          ///< of all but links, for the machining time
+  double rapid_mm_min = 5000.0;         ///< of links
+  std::optional<double> stock_cell_mm;  ///< of the stock in which the judge replays the program; none: by its size
+  bool operator==(const CycleRequest&) const = default;
+};
+
+/// Rough and finish the cavity between two sides with one tool.
+struct TrochoidJob {
+  PartRequest part;                  ///< its `faces` are not used: `left` and `right` are
+  std::string left = "F1";           ///< faces of one side, joined to one another
+  std::string right = "F2";          ///< of the facing side
+  std::optional<std::string> floor;  ///< a face at the bottom: the tip is towards it
+  ToolRequest tool{.spec = "free", .axis_length_mm = {}};
+  RadiusRequest radius;
+  CycleRequest cycles;
+  ObstacleRequest obstacles;
+  JudgeRequest judge;
+  double tolerance_mm = 0.01;
+  bool avoid = true;  ///< keep clear of the other faces already in planning
+  bool operator==(const TrochoidJob&) const = default;
+};
+
+/// The part and the faces that a job machines.
+[[nodiscard]] inline PartRequest machined(const FitJob& job) { return job.part; }
+[[nodiscard]] inline PartRequest machined(const CoverJob& job) { return job.part; }
+[[nodiscard]] inline PartRequest machined(const TrochoidJob& job) {
+  PartRequest part = job.part;
+  part.faces = job.left + "," + job.right;
+  return part;
+}
+
+/// Judge again what fit, cover or trochoid left in a folder. What is given takes the place of the job's own.
 struct VerifyJob {
   std::string folder;  ///< may be empty if a program, its part and its tool are given
   NcRequest nc;
   std::optional<std::string> part;  ///< file
-  std::optional<double> tolerance_mm, sample_mm, reach_radius_mm;
+  std::optional<double> tolerance_mm, sample_mm, reach_radius_mm, stock_cell_mm;
   ObstacleRequest obstacles;
   bool operator==(const VerifyJob&) const = default;
 };
@@ -144,6 +181,6 @@ struct PostJob {
 };
 
 /// What makes a tool and a path.
-using PlanJob = std::variant<FitJob, CoverJob>;
+using PlanJob = std::variant<FitJob, CoverJob, TrochoidJob>;
 
 }  // namespace flank

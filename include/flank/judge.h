@@ -153,6 +153,30 @@ enum class DepthProof {
   kProved,   ///< up to a bound that holds everywhere on the faces, up to their borders
 };
 
+/// What the strips of one kind did in the replay of a program.
+struct StockKind {
+  std::string kind;             ///< entry, front, back, side, link, ...
+  double engagement_deg = 0.0;  ///< the largest, over poses and contact circles
+  int strip = -1;               ///< where: 0-based
+  std::size_t pose = 0;
+  double s = 0.0;  ///< mm, along the axis
+  double way_mm = 0.0, volume_mm3 = 0.0;
+};
+
+/// A whole program replayed in a stock of lines of material, in its order (docs/algorithms/judge.md).
+struct StockReport {
+  double cell_mm = 0.0;         ///< between lines
+  double resolution_deg = 0.0;  ///< what a cell is as engagement at the limit, where the tool is thinnest
+  double before_mm3 = 0.0, left_mm3 = 0.0;
+  std::vector<StockKind> kinds;
+  double uncut_mm = 0.0;  ///< longest stretch of material on a ray from a covered place of a target to mid-cavity
+  Vec3 uncut_point = Vec3::Zero();                     ///< where that ray begins
+  double entered_mm = 0.0;                             ///< deepest that the stock's surface lies inside a judged face
+  std::vector<double> strip_deg, strip_mm3, strip_mm;  ///< of every strip: largest engagement, volume, way
+  /// The largest of cycles and entries: kinds front, back and entry.
+  [[nodiscard]] double cycles_deg() const;
+};
+
 /// Coverage and undercut have no part in the verdict: how much is enough is for the caller to say .
 struct VerifyReport {
   Verdict verdict = Verdict::kNotRun;
@@ -171,6 +195,7 @@ struct VerifyReport {
   std::vector<double> histogram_edges_mm;
   std::vector<double> histogram_area_mm2;  ///< of f over the targets
   ClearanceReport clearance;               ///< of shank, holder and fixtures; not filled by judge()
+  std::optional<StockReport> stock;        ///< of a program with a blank; not filled by judge()
 };
 
 /// Judges a path by the samples of all its faces, targets and check surfaces. Parallel; the same bits for any number of

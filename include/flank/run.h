@@ -71,6 +71,33 @@ struct CoverSummary {
   [[nodiscard]] TargetCover whole() const;
 };
 
+/// One layer of a cavity, by the planner's measure (docs/algorithms/trochoid.md).
+struct LayerSummary {
+  int cycles = 0;
+  std::string status;  ///< done, stuck, cancelled
+  double fronts_mm = 0.0, backs_mm = 0.0, sides_mm = 0.0, links_mm = 0.0;
+  double volume_mm3 = 0.0;  ///< removed by fronts and backs
+  double side_volume_mm3 = 0.0;
+  double front_deg = 0.0, back_deg = 0.0;  ///< largest engagement
+  double side_deg = 0.0;                   ///< of the finishing sweeps
+  double entered_mm = 0.0;                 ///< deepest that a half enters a face
+  std::vector<double> cycle_deg;           ///< largest engagement of each cycle
+  std::vector<double> cycle_mm3;           ///< removed volume of each cycle
+  std::vector<double> cycle_mm;            ///< way of each cycle
+};
+
+/// How a cavity went.
+struct TrochoidSummary {
+  FitSummary sides;
+  double most_engagement_deg = 60.0;
+  double narrowest_mm = 0.0;  ///< between the sides
+  double minutes = 0.0;       ///< at the job's rates
+  std::vector<LayerSummary> layers;
+  [[nodiscard]] double largest_deg() const;  ///< of fronts and backs
+  [[nodiscard]] double way_mm() const;       ///< of fronts, backs and sides
+  [[nodiscard]] bool done() const;           ///< every layer is
+};
+
 /// One tool of a ranking.
 struct RankedChoice {
   std::string tool;   ///< how it is asked for: a name in the catalogue, or a family with its parameters
@@ -99,8 +126,8 @@ struct Result {
   std::string part_sha256;  ///< Part::sha256 of the part that was read
   Tool tool;
   Path path;
-  std::vector<RuledMotion> motions;  ///< motion k is strip k of the path
-  std::variant<FitSummary, CoverSummary> plan;
+  std::vector<RuledMotion> motions;  ///< motion k is strip k of the path; of a cavity: the side paths
+  std::variant<FitSummary, CoverSummary, TrochoidSummary> plan;
   VerifyReport verify;
   std::optional<Ranking> ranking;  ///< if the tool was chosen
   double chord_bound_mm = 0.0;     ///< between the motions and the joined poses
@@ -121,6 +148,9 @@ struct Result {
 
 /// `flank cover`. Throws likewise.
 [[nodiscard]] Result run_cover(const CoverJob& job, const Progress& progress = {});
+
+/// `flank trochoid`. Throws likewise.
+[[nodiscard]] Result run_trochoid(const TrochoidJob& job, const Progress& progress = {});
 
 /// Writes tool.json, tool.dxf, tool.step, tool.fctb, strips.step, path.json, path.cls, path.csv, verify.json, view.json,
 /// summary.json and job.json to a folder, and ranking.json if there is a ranking. A tool that is not legitimate has

@@ -52,6 +52,17 @@ VerifyReport full_report() {
       {ToolBody::kShank, ObstacleRole::kTarget, 1.0 / 7.0, 1e-3, -0.01, true, "F1", Vec3(1, 2, 1.0 / 3.0), 0, 3.25,
        70.5, 4.0},
       {ToolBody::kHolder, ObstacleRole::kFixture, 1e300 * 1e300, 0.0, 2.0, true, "", Vec3::Zero(), -1, 0.0, 0.0, 0.0}};
+  r.stock = StockReport{.cell_mm = 0.1,
+                        .resolution_deg = 1.0 / 3.0,
+                        .before_mm3 = 100.0,
+                        .left_mm3 = 1.0 / 7.0,
+                        .kinds = {{"front", 59.5, 3, 12, 7.25, 100.0, 55.0}, {"link", 0.0, -1, 0, 0.0, 20.0, 0.0}},
+                        .uncut_mm = 0.05,
+                        .uncut_point = Vec3(1.0 / 3.0, 2, 3),
+                        .entered_mm = 0.002,
+                        .strip_deg = {59.5, 0.0},
+                        .strip_mm3 = {55.0, 0.0},
+                        .strip_mm = {100.0, 20.0}};
   return r;
 }
 
@@ -93,6 +104,14 @@ TEST(VerifyJson, ReadsBackWhatItWrote) {
   EXPECT_EQ(shank.t, 3.25);
   EXPECT_TRUE(std::isinf(holder.clearance_mm));
   EXPECT_EQ(holder.strip, -1);
+  ASSERT_TRUE(b.stock);
+  EXPECT_EQ(b.stock->left_mm3, 1.0 / 7.0);
+  EXPECT_EQ(b.stock->uncut_point, a.stock->uncut_point);
+  ASSERT_EQ(b.stock->kinds.size(), 2u);
+  EXPECT_EQ(b.stock->kinds[0].strip, 3);
+  EXPECT_EQ(b.stock->kinds[1].strip, -1);
+  EXPECT_EQ(b.stock->cycles_deg(), 59.5);
+  EXPECT_EQ(b.stock->strip_mm3, a.stock->strip_mm3);
 }
 
 TEST(VerifyJson, NothingRunIsReadableToo) {

@@ -7,7 +7,8 @@ namespace {
 TEST_F(Cli, HelpNamesTheCommands) {
   const Outcome help = flank({"--help"});
   EXPECT_EQ(help.exit_code, 0);
-  for (const char* command : {"inspect", "example", "tool", "fit", "cover", "verify", "report", "view", "machine", "post"}) {
+  for (const char* command :
+       {"inspect", "example", "tool", "fit", "cover", "verify", "report", "view", "machine", "post"}) {
     EXPECT_NE(help.out.find(command), std::string::npos) << command;
     EXPECT_EQ(flank({command, "--help"}).exit_code, 0) << command;
   }

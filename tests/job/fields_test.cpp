@@ -67,6 +67,15 @@ void add_members(const NcRequest& request, Addresses& all) {
   const auto& [file, machine, setup, tool, faces] = request;
   add(all, file, machine, setup, tool, faces);
 }
+Addresses members(const TrochoidJob& job) {
+  const auto& [part, left, right, floor, tool, radius, cycles, obstacles, judge, tolerance, avoid] = job;
+  const auto& [file, unit, faces, skin, side] = part;
+  const auto& [engagement, cut, layers, strategy, feed, rapid, cell] = cycles;
+  Addresses all;
+  add_members(tool, all), add_members(radius, all), add_members(obstacles, all), add_members(judge, all);
+  add(all, file, left, right, floor, engagement, cut, layers, strategy, feed, rapid, cell, tolerance, avoid);
+  return all;
+}
 Addresses members(const PostJob& job) {
   const auto& [folder, machine, part, setup, feed, speed, deviation, tool_length, clearance, lift, spindle] = job;
   Addresses all;
@@ -74,17 +83,17 @@ Addresses members(const PostJob& job) {
   return all;
 }
 Addresses members(const VerifyJob& job) {
-  const auto& [folder, nc, part, tolerance, sample, reach, obstacles] = job;
+  const auto& [folder, nc, part, tolerance, sample, reach, cell, obstacles] = job;
   Addresses all;
   add_members(nc, all);
   add_members(obstacles, all);
-  add(all, folder, part, tolerance, sample, reach);
+  add(all, folder, part, tolerance, sample, reach, cell);
   return all;
 }
 
 template <class Job>
 class Fields : public testing::Test {};
-using Jobs = testing::Types<FitJob, CoverJob, VerifyJob, PostJob>;
+using Jobs = testing::Types<FitJob, CoverJob, TrochoidJob, VerifyJob, PostJob>;
 TYPED_TEST_SUITE(Fields, Jobs);
 
 TYPED_TEST(Fields, EveryMemberIsInTheTableOnce) {

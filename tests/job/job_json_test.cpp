@@ -37,7 +37,7 @@ std::string changed(const std::string& key, const json& value) {
 
 template <class Job>
 class JobJson : public testing::Test {};
-using Jobs = testing::Types<FitJob, CoverJob>;
+using Jobs = testing::Types<FitJob, CoverJob, TrochoidJob>;
 TYPED_TEST_SUITE(JobJson, Jobs);
 
 TYPED_TEST(JobJson, ReadsBackAsItWas) {
@@ -149,7 +149,7 @@ TEST(JobFile, RefusesWhatIsWrongByItsName) {
   EXPECT_NE(refusal(changed("side", 2)).find("side"), std::string::npos);
   EXPECT_NE(refusal(changed("fixtures", "vice.step")).find("fixtures: "), std::string::npos);
   EXPECT_NE(refusal(changed("schema", "openflank/path/1")).find("openflank/job/1"), std::string::npos);
-  EXPECT_NE(refusal(changed("command", "polish")).find("fit and cover"), std::string::npos);
+  EXPECT_NE(refusal(changed("command", "polish")).find("fit, cover and trochoid"), std::string::npos);
   EXPECT_NE(refusal("{\"schema\": ").find("not a job file"), std::string::npos);
   EXPECT_NE(refusal("[]").find("schema"), std::string::npos);
 }

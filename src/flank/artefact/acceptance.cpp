@@ -77,6 +77,38 @@ Acceptance accept(const Tool& tool, const VerifyReport& report, double least_cov
   return out;
 }
 
+void accept_stock(const StockReport& stock, double most_engagement_deg, double tolerance_mm, Acceptance& acceptance) {
+  constexpr double kSpareCells = 0.1;
+  const double most = most_engagement_deg + stock.resolution_deg;
+  for (const StockKind& kind : stock.kinds)
+    if ((kind.kind == "front" || kind.kind == "back" || kind.kind == "entry") && kind.engagement_deg > most)
+      acceptance.reasons.push_back(
+          {"stock", fmt::format("replayed, a {} has an engagement of {:.3f} degrees > {} + {:.2f}, strip {}", kind.kind,
+                                kind.engagement_deg, most_engagement_deg, stock.resolution_deg, kind.strip + 1)});
+  if (stock.uncut_mm > std::max(kMostUncutMm, 2.0 * stock.cell_mm)) {
+    const Vec3& p = stock.uncut_point;
+    acceptance.reasons.push_back(
+        {"stock", fmt::format("replayed, {:.3f} mm of material are left between the sides, before ({:.3f}, {:.3f}, "
+                              "{:.3f})",
+                              stock.uncut_mm, p.x(), p.y(), p.z())});
+  }
+  if (stock.entered_mm > tolerance_mm + kSpareCells * stock.cell_mm)
+    acceptance.reasons.push_back(
+        {"stock", fmt::format("replayed, a face is entered by {:.4f} mm > {} mm", stock.entered_mm, tolerance_mm)});
+}
+
+void accept_cavity(const TrochoidSummary& cavity, Acceptance& acceptance) {
+  constexpr double kSpareDeg = 1e-6;
+  if (cavity.largest_deg() > cavity.most_engagement_deg + kSpareDeg)
+    acceptance.reasons.push_back({"engagement", fmt::format("engagement {:.3f} degrees > {} degrees",
+                                                            cavity.largest_deg(), cavity.most_engagement_deg)});
+  for (std::size_t k = 0; k < cavity.layers.size(); ++k)
+    if (cavity.layers[k].status != "done")
+      acceptance.reasons.push_back({"cycles", fmt::format("layer {} is {} after {} cycles", k + 1,
+                                                          cavity.layers[k].status, cavity.layers[k].cycles)});
+  if (cavity.layers.empty()) acceptance.reasons.push_back({"cycles", "no cycle was planned"});
+}
+
 std::string reach_text(const VerifyReport& report) {
   return fmt::format("reachable   {:.2f} % of the target (ball of radius {:.4g} mm), of which {:.2f} % is covered",
                      100.0 * report.reachable_share, report.reach_radius_mm, 100.0 * report.coverage_reachable);

@@ -14,6 +14,14 @@ namespace flank::internal {
 [[nodiscard]] Acceptance accept(const Tool& tool, const VerifyReport& report, double least_coverage,
                                 bool complete = true);
 
+/// Adds what the replay of a cavity's program finds against it: engagement above the limit by more than its resolution,
+/// material of more than kMostUncutMm (and two cells) left between the sides, faces entered by more than the tolerance and a tenth of a cell.
+inline constexpr double kMostUncutMm = 0.1;
+void accept_stock(const StockReport& stock, double most_engagement_deg, double tolerance_mm, Acceptance& acceptance);
+
+/// Adds what is not as asked of a cavity's cycles: their engagement, and that they are all there.
+void accept_cavity(const TrochoidSummary& cavity, Acceptance& acceptance);
+
 /// "reachable   93.10 % of the target (ball of radius 1.5 mm), of which 99.20 % is covered".
 [[nodiscard]] std::string reach_text(const VerifyReport& report);
 

@@ -8,7 +8,28 @@ namespace flank {
 
 Acceptance Result::acceptance() const {
   const double least_coverage = std::visit([](const auto& request) { return request.judge.least_coverage; }, job);
-  return internal::accept(tool, verify, least_coverage, complete);
+  Acceptance out = internal::accept(tool, verify, least_coverage, complete);
+  if (const auto* cavity = std::get_if<TrochoidSummary>(&plan)) internal::accept_cavity(*cavity, out);
+  if (const auto* cavity = std::get_if<TrochoidJob>(&job); cavity && verify.stock)
+    internal::accept_stock(*verify.stock, cavity->cycles.most_engagement_deg, verify.tolerance_mm, out);
+  return out;
+}
+
+double TrochoidSummary::largest_deg() const {
+  double largest = 0.0;
+  for (const LayerSummary& layer : layers) largest = std::max({largest, layer.front_deg, layer.back_deg});
+  return largest;
+}
+
+double TrochoidSummary::way_mm() const {
+  double way = 0.0;
+  for (const LayerSummary& layer : layers) way += layer.fronts_mm + layer.backs_mm + layer.sides_mm;
+  return way;
+}
+
+bool TrochoidSummary::done() const {
+  return !layers.empty() &&
+         std::all_of(layers.begin(), layers.end(), [](const LayerSummary& layer) { return layer.status == "done"; });
 }
 
 TargetCover CoverSummary::whole() const {

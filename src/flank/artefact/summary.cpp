@@ -7,6 +7,8 @@
 #include "flank/artefact/acceptance.h"
 #include "flank/artefact/clearance_text.h"
 #include "flank/artefact/ranking_json.h"
+#include "flank/artefact/stock_json.h"
+#include "flank/artefact/trochoid_json.h"
 #include "flank/artefact/verify_json.h"
 #include "flank/io/text/json_dump.h"
 #include "flank/job/command_line.h"
@@ -38,8 +40,8 @@ std::string error_lines(const Result& result) {
   return text;
 }
 
-const PartRequest& part_of(const PlanJob& job) {
-  return std::visit([](const auto& plan) -> const PartRequest& { return plan.part; }, job);
+PartRequest part_of(const PlanJob& job) {
+  return std::visit([](const auto& plan) { return machined(plan); }, job);
 }
 
 std::string tool_line(const Tool& tool) {
@@ -73,6 +75,7 @@ std::string plan_lines(const CoverSummary& cover) {
   return text;
 }
 std::string plan_lines(const FitSummary&) { return ""; }
+std::string plan_lines(const TrochoidSummary& cavity) { return trochoid_lines(cavity); }
 
 nlohmann::ordered_json share_json(const PlannedShare& share) {
   return {{"coverage", share.coverage}, {"overcut", share.overcut_mm}};
@@ -87,6 +90,11 @@ void add_plan(const FitSummary& fit, nlohmann::ordered_json& json) {
   for (const FitStep& step : fit.trace)
     trace.push_back(
         {{"cost", step.cost}, {"rms", step.rms_mm}, {"largest", step.largest_mm}, {"damping", step.damping}});
+}
+
+void add_plan(const TrochoidSummary& cavity, nlohmann::ordered_json& json) {
+  add_plan(cavity.sides, json);
+  json["cavity"] = trochoid_to_json(cavity);
 }
 
 nlohmann::ordered_json target_json(const TargetCover& t) {
@@ -108,12 +116,13 @@ void add_plan(const CoverSummary& cover, nlohmann::ordered_json& json) {
 }  // namespace
 
 std::string summary_text(const Result& result) {
-  const PartRequest& part = part_of(result.job);
+  const PartRequest part = part_of(result.job);
   std::string text = fmt::format("{} {}\n", part.file, part.target_text());
   text += fmt::format("  asked for   {}\n", fmt::join(asked_for(result.job), ", "));
   text += tool_line(result.tool) + stiffness_line(result.tool);
   text += result.path.pose_count() > 0 ? error_lines(result) : "  path        no strip: nothing is machined\n";
   text += clearance_text(result.verify.clearance);
+  if (result.verify.stock) text += stock_text(*result.verify.stock);
   text += std::visit([](const auto& plan) { return plan_lines(plan); }, result.plan);
   if (result.ranking) text += ranking_table(*result.ranking);
   for (const std::string& note : result.notes) text += "  note        " + note + "\n";

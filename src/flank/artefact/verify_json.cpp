@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "flank/artefact/stock_json.h"
 #include "flank/error.h"
 #include "flank/io/text/json_dump.h"
 
@@ -177,6 +178,7 @@ VerifyReport report_from(const Json& j) {
                      std::to_string(r.histogram_edges_mm.size()) + " edges; one edge more than bins is accepted");
   if (j.contains("clearance"))
     for (const Json& c : j.at("clearance")) r.clearance.figures.push_back(clearance_from(c));
+  if (j.contains("stock")) r.stock = stock_from_json(j.at("stock"));
   return r;
 }
 
@@ -225,6 +227,7 @@ std::string verify_to_json(const VerifyReport& r, const Acceptance& acceptance) 
   for (double e : r.histogram_edges_mm) j["histogram"]["edges_mm"].push_back(number(e));
   for (double a : r.histogram_area_mm2) j["histogram"]["area_mm2"].push_back(number(a));
   if (!r.clearance.figures.empty()) j["clearance"] = to_json(r.clearance);
+  if (r.stock) j["stock"] = stock_to_json(*r.stock);
   return dumped(j, 2) + "\n";
 }
 

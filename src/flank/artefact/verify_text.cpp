@@ -3,6 +3,7 @@
 
 #include "flank/artefact/acceptance.h"
 #include "flank/artefact/clearance_text.h"
+#include "flank/artefact/stock_json.h"
 #include "flank/run.h"
 
 namespace flank {
@@ -25,6 +26,7 @@ std::string verify_text(const Verification& outcome) {
     text += fmt::format("worst: {} at ({:.3f}, {:.3f}, {:.3f}) f = {:.6f} mm, strip {}, pose {:.2f}, s {:.3f}\n",
                         w.face, w.point.x(), w.point.y(), w.point.z(), w.f, w.strip + 1, w.t, w.s);
   text += clearance_text(v.clearance);
+  if (v.stock) text += stock_text(*v.stock);
   for (const std::string& note : outcome.notes) text += "note: " + note + "\n";
   text += reach_text(v) + "\n";
   text += depth_text(v) + "\n";

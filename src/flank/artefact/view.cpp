@@ -116,8 +116,8 @@ View make_view(const PlanJob& job, const Setup& setup, const Tool& tool, const P
   view.command = command_line(shown);
   std::visit(
       [&](const auto& plan) {
-        view.part = plan.part.file;
-        view.faces = plan.part.target_text();
+        view.part = machined(plan).file;
+        view.faces = machined(plan).target_text();
         view.tolerance_mm = plan.tolerance_mm;
         view.least_coverage = plan.judge.least_coverage;
       },

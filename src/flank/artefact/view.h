@@ -7,6 +7,7 @@
 
 #include "flank/artefact/view_mesh.h"
 #include "flank/envelope/strip_surface.h"
+#include "flank/geom/half_space.h"
 #include "flank/run.h"
 #include "flank/setup/setup.h"
 
@@ -63,4 +64,6 @@ inline constexpr std::size_t kMostPlaces = 240;
 struct flank::Result::Drawings {
   std::vector<internal::StripSurface> strips;  ///< one per strip of the path
   internal::View view;
+  std::vector<internal::HalfSpace> blank;  ///< of a program that is replayed
+  TriangleMesh left;                       ///< of the stock, after it
 };

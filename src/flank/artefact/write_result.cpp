@@ -9,6 +9,8 @@
 #include "flank/artefact/verify_json.h"
 #include "flank/artefact/view.h"
 #include "flank/artefact/view_json.h"
+#include "flank/io/mesh/write_mesh.h"
+#include "flank/io/path/blank_json.h"
 #include "flank/io/path/path_cls.h"
 #include "flank/io/path/path_csv.h"
 #include "flank/io/tool/tool_dxf.h"
@@ -25,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string part_of(const PlanJob& job) {
-  return std::visit([](const auto& plan) { return plan.part.file; }, job);
+  return std::visit([](const auto& plan) { return machined(plan).file; }, job);
 }
 
 /// Name, content.
@@ -47,6 +49,9 @@ std::map<std::string, std::string> files_of(const Result& result) {
   files["job.json"] = job_to_json(result.job);
   files["verify.json"] = verify_to_json(result.verify, result.acceptance());
   if (result.drawings) files["view.json"] = view_to_json(result.drawings->view);
+  if (result.drawings && !result.drawings->blank.empty()) files["blank.json"] = blank_to_json(result.drawings->blank);
+  if (result.drawings && !result.drawings->left.triangles.empty())
+    files["stock.stl"] = mesh_to_stl(result.drawings->left);
   if (result.ranking) files["ranking.json"] = ranking_to_json(*result.ranking);
   files["summary.json"] = summary_json(result);
   return files;

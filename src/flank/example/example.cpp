@@ -85,6 +85,13 @@ Example blade(Face face) {
   return example;
 }
 
+Example channel(const CavityShape& shape) {
+  Example example;
+  example.faces = cavity_walls(shape);
+  example.diagonal_mm = diagonal(example.faces);
+  return example;
+}
+
 Example solid(SolidModel model) {
   Example example;
   example.faces = std::move(model.faces);
@@ -159,6 +166,8 @@ std::vector<Recipe> all_recipes() {
       {"rotor37", "blade of NASA Rotor 37, a solid: sides F1 and F3", [](Options) { return solid(rotor37_blade()); }},
       {"rotor37-blisk", "two blades of NASA Rotor 37 on a piece of the hub, a solid: cavity between F9 and F11",
        [](Options) { return solid(rotor37_blisk()); }},
+      {"cavity", "two facing free-form walls of a twisted channel, of any size: F1 and F2",
+       [](Options options) { return channel(options.cavity); }},
       {"deformed-envelope", "exact barrel envelope with a smooth bump", deformed},
       {"envelope-mesh", "exact barrel envelope as a mesh",
        [](Options options) { return mesh(MeshFault::kNone, options); }},

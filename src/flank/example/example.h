@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "flank/example/example_cavity.h"
 #include "flank/face.h"
 #include "flank/path.h"
 #include "flank/ruled_motion.h"
@@ -42,6 +43,7 @@ struct ExampleOptions {
   double noise = 1e-4;              ///< length of the noise vectors of envelope-noisy, share of the diagonal
   double bump = 0.01;               ///< height of the bump of deformed-envelope, share of the diagonal
   std::uint64_t seed = 1;           ///< of the noise
+  CavityShape cavity = {};          ///< of the example `cavity`
 };
 
 /// Every name that make_example knows, in the order of the documentation.

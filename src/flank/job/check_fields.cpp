@@ -34,6 +34,7 @@ void check(const Job& job) {
 
 void check_fields(const FitJob& job) { check(job); }
 void check_fields(const CoverJob& job) { check(job); }
+void check_fields(const TrochoidJob& job) { check(job); }
 void check_fields(const VerifyJob& job) { check(job); }
 void check_fields(const PostJob& job) { check(job); }
 

@@ -9,6 +9,7 @@ namespace flank::internal {
 /// the command that uses them.
 void check_fields(const FitJob& job);
 void check_fields(const CoverJob& job);
+void check_fields(const TrochoidJob& job);
 void check_fields(const VerifyJob& job);
 void check_fields(const PostJob& job);
 

@@ -81,6 +81,7 @@ std::string shell_quoted(const std::string& word) {
 
 std::string command_line(const FitJob& job) { return command(job); }
 std::string command_line(const CoverJob& job) { return command(job); }
+std::string command_line(const TrochoidJob& job) { return command(job); }
 std::string command_line(const VerifyJob& job) { return command(job); }
 std::string command_line(const PostJob& job) { return command(job); }
 std::string command_line(const PlanJob& job) {
@@ -99,7 +100,8 @@ PlanJob without_folders(const PlanJob& job) {
 std::vector<std::string> asked_for(const PlanJob& job) {
   std::vector<std::string> lines;
   const auto tell = [&](const FieldWords& field) {
-    if (field.info.key == "part" || field.info.key == "faces") return;
+    for (const std::string_view key : {"part", "faces", "left", "right"})
+      if (field.info.key == key) return;
     std::string name(field.info.key);
     std::replace(name.begin(), name.end(), '_', ' ');
     for (const std::string& word : field.words)

@@ -12,6 +12,7 @@ namespace flank::internal {
 /// Given to the command it asks for the same job; only the folder of the results is not in it.
 [[nodiscard]] std::string command_line(const FitJob& job);
 [[nodiscard]] std::string command_line(const CoverJob& job);
+[[nodiscard]] std::string command_line(const TrochoidJob& job);
 [[nodiscard]] std::string command_line(const VerifyJob& job);
 [[nodiscard]] std::string command_line(const PostJob& job);
 [[nodiscard]] std::string command_line(const PlanJob& job);

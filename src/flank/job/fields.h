@@ -74,6 +74,14 @@ inline constexpr Accepted kStrategy{"there are grow and curves", nullptr,
 inline constexpr Accepted kSpeed{"there are feed and optimal", nullptr,
                                  [](std::string_view x) { return x == "feed" || x == "optimal"; }};
 inline constexpr Accepted kTurns{"a number >= 0 is needed", not_negative};
+inline constexpr Accepted kEngagement{"an angle above 5 and up to 180 degrees is needed",
+                                      [](double x) { return x > 5.0 && x <= 180.0; }};
+inline constexpr Accepted kCut{"there are climb and conventional", nullptr,
+                               [](std::string_view x) { return x == "climb" || x == "conventional"; }};
+inline constexpr Accepted kLayers{"auto or a number from 1 to 12 is needed",
+                                  [](double x) { return x >= 0.0 && x <= 12.0; }};
+inline constexpr Accepted kCycles{"there are volume and plain", nullptr,
+                                  [](std::string_view x) { return x == "volume" || x == "plain"; }};
 inline constexpr Accepted kSeeds{"there are grid and shape", nullptr,
                                  [](std::string_view x) { return x == "grid" || x == "shape"; }};
 
@@ -135,6 +143,9 @@ inline constexpr std::string_view kReachHelp =
     "--coverage is about those; default: the tool's smallest radius, of a free tool half of the axis length (or of the "
     "root of the face's area) over --slenderness-max";
 
+inline constexpr std::string_view kCellHelp =
+    "Between the lines of the stock in which the judge replays a cavity's program; default: by the size of the cavity";
+
 template <class Visitor, Is<JudgeRequest> Request>
 void visit_judge(Request& judge, Visitor& visit) {
   using namespace accepted;
@@ -145,11 +156,36 @@ void visit_judge(Request& judge, Visitor& visit) {
   visit(FieldInfo{"reach_radius", "mm", "Other faces", kReachHelp, kRadius}, judge.reach_radius_mm);
 }
 
+/// Bounds of a free tool.
+template <class Visitor, Is<RadiusRequest> Request>
+void visit_radius(Request& radius, Visitor& visit) {
+  using namespace accepted;
+  constexpr std::string_view kStiff = "Stiffness";
+  visit(FieldInfo{"radius_min", "mm", "", "Smallest radius of a free tool (core); default: 1 % of the face's diagonal",
+                  kRadius},
+        radius.min_mm);
+  visit(
+      FieldInfo{"radius_max", "mm", "", "Largest radius of a free tool; default: 15 % of the face's diagonal", kRadius},
+      radius.max_mm);
+  visit(FieldInfo{"slope_max", "", "", "Largest |r'| of a free tool", kSlope}, radius.slope_max);
+  visit(FieldInfo{"slenderness_max", "", kStiff,
+                  "Largest slenderness of a free tool, flank and shank: length over the diameter of the cylinder that "
+                  "bends as much. Where the part does not allow it, the least that does",
+                  kRatio},
+        radius.slenderness_max);
+  visit(FieldInfo{"profile", "", kStiff, "tapered: a free tool has no neck; any: it may", kProfile}, radius.profile);
+  visit(FieldInfo{"neck", "", kStiff,
+                  "By which share the radius of a tapered tool may fall below what it was farther down", kShare},
+        radius.neck);
+  visit(FieldInfo{"wheel_radius", "mm", kStiff,
+                  "Least radius of a concave meridian: of the wheel that grinds it; default: any", kRadius},
+        radius.wheel_radius_mm);
+}
+
 /// Calls visit(FieldInfo, member) for every field of the job, in the order of the help text.
 template <class Visitor, Is<FitJob> Job>
 void visit_fields(Job& job, Visitor&& visit) {
   using namespace accepted;
-  constexpr std::string_view kStiff = "Stiffness";
   visit_part(job.part, visit);
   visit(FieldInfo{"tool", "", "", "free, a family with any of its parameters (cone:radius=2,angle=3), or a tool.json",
                   kAny, Spelling::kFileOrText},
@@ -164,26 +200,7 @@ void visit_fields(Job& job, Visitor&& visit) {
   visit(FieldInfo{"start", "", "", "First axis x,y,z,x,y,z (tip, holder end), mm; default: automatic"}, job.start);
   visit(FieldInfo{"guide", "", "", "File of several such lines: the axis follows them", kAny, Spelling::kFile},
         job.guide);
-  visit(FieldInfo{"radius_min", "mm", "", "Smallest radius of a free tool (core); default: 1 % of the face's diagonal",
-                  kRadius},
-        job.radius.min_mm);
-  visit(
-      FieldInfo{"radius_max", "mm", "", "Largest radius of a free tool; default: 15 % of the face's diagonal", kRadius},
-      job.radius.max_mm);
-  visit(FieldInfo{"slope_max", "", "", "Largest |r'| of a free tool", kSlope}, job.radius.slope_max);
-  visit(FieldInfo{"slenderness_max", "", kStiff,
-                  "Largest slenderness of a free tool, flank and shank: length over the diameter of the cylinder that "
-                  "bends as much. Where the part does not allow it, the least that does",
-                  kRatio},
-        job.radius.slenderness_max);
-  visit(FieldInfo{"profile", "", kStiff, "tapered: a free tool has no neck; any: it may", kProfile},
-        job.radius.profile);
-  visit(FieldInfo{"neck", "", kStiff,
-                  "By which share the radius of a tapered tool may fall below what it was farther down", kShare},
-        job.radius.neck);
-  visit(FieldInfo{"wheel_radius", "mm", kStiff,
-                  "Least radius of a concave meridian: of the wheel that grinds it; default: any", kRadius},
-        job.radius.wheel_radius_mm);
+  visit_radius(job.radius, visit);
   visit_judge(job.judge, visit);
   visit_obstacles(job.obstacles, visit);
   visit(
@@ -299,10 +316,61 @@ void visit_fields(Job& job, Visitor&& visit) {
   visit(FieldInfo{"lift", "mm", kLinks, "Way off the surface before and after each strip", kLength}, job.lift_mm);
 }
 
+template <class Visitor, Is<CycleRequest> Request>
+void visit_cycles(Request& cycles, Visitor& visit) {
+  using namespace accepted;
+  constexpr std::string_view kGroup = "Cycles";
+  visit(FieldInfo{"max_engagement", "", kGroup, "Largest engagement angle of the cutter, degrees", kEngagement},
+        cycles.most_engagement_deg);
+  visit(FieldInfo{"cut", "", kGroup, "climb or conventional; the spindle turns clockwise seen from the holder", kCut},
+        cycles.cut);
+  visit(FieldInfo{"layers", "", kGroup, "Layers, one tool for all: a number, or auto: as many as the tolerance needs",
+                  kLayers, Spelling::kAutoOrCount},
+        cycles.layers);
+  visit(FieldInfo{"strategy", "", kGroup,
+                  "volume: the shape of every cycle is optimised for removed volume per way; plain: its step alone",
+                  kCycles},
+        cycles.strategy);
+  visit(FieldInfo{"feed", "mm/min", kGroup, "Feed of the cycles and sides, for the machining time", kRate},
+        cycles.feed_mm_min);
+  visit(FieldInfo{"rapid", "mm/min", kGroup, "Rate of the links", kRate}, cycles.rapid_mm_min);
+  visit(FieldInfo{"stock_cell", "mm", kGroup, kCellHelp, kLength}, cycles.stock_cell_mm);
+}
+
+template <class Visitor, Is<TrochoidJob> Job>
+void visit_fields(Job& job, Visitor&& visit) {
+  using namespace accepted;
+  visit(FieldInfo{"part", "", "", "STEP, IGES or BREP file", kAny, Spelling::kFile, "PART", true}, job.part.file);
+  visit(FieldInfo{"left", "", "", "Faces of one side of the cavity: F9, or several that are joined, F9,F10", kAny,
+                  Spelling::kPlain, "", true},
+        job.left);
+  visit(FieldInfo{"right", "", "", "Faces of the side that faces it", kAny, Spelling::kPlain, "", true}, job.right);
+  visit(FieldInfo{"floor", "", "",
+                  "A face at the bottom of the cavity: the tool's tip is towards it; default: the walls "
+                  "say so, else the narrower end is the bottom"},
+        job.floor);
+  visit(FieldInfo{"tool", "", "", "free, a family with any of its parameters (cone:radius=2,angle=3), or a tool.json",
+                  kAny, Spelling::kFileOrText},
+        job.tool.spec);
+  visit(FieldInfo{"tolerance", "mm", "", "Tolerance of both sides", kLength}, job.tolerance_mm);
+  visit(FieldInfo{"axis_length", "mm", "", "Length of the tool's axis; default: as a layer needs", kLength},
+        job.tool.axis_length_mm);
+  visit_cycles(job.cycles, visit);
+  visit_radius(job.radius, visit);
+  visit_judge(job.judge, visit);
+  visit_obstacles(job.obstacles, visit);
+  visit(
+      FieldInfo{"avoid", "", "Other faces",
+                "on: steer the tool clear of the other faces; off: plan as if they were not there (they are judged all "
+                "the same)",
+                kAny, Spelling::kOnOff},
+      job.avoid);
+}
+
 template <class Visitor, Is<VerifyJob> Job>
 void visit_fields(Job& job, Visitor&& visit) {
   using namespace accepted;
-  visit(FieldInfo{"folder", "", "", "A folder written by flank fit or flank cover; not needed with --nc", kAny,
+  visit(FieldInfo{"folder", "", "", "A folder written by flank fit, cover or trochoid; not needed with --nc", kAny,
                   Spelling::kFile, "DIR"},
         job.folder);
   visit_nc(job.nc, visit);
@@ -312,12 +380,14 @@ void visit_fields(Job& job, Visitor&& visit) {
   visit(FieldInfo{"tolerance", "mm", "", "Tolerance instead of the job's", kLength}, job.tolerance_mm);
   visit(FieldInfo{"sample", "mm", "", "Spacing of the samples", kLength}, job.sample_mm);
   visit(FieldInfo{"reach_radius", "mm", "Other faces", kReachHelp, kRadius}, job.reach_radius_mm);
+  visit(FieldInfo{"stock_cell", "mm", "", kCellHelp, kLength}, job.stock_cell_mm);
   visit_obstacles(job.obstacles, visit);
 }
 
 /// The word of the command line that asks for such a job.
 inline std::string_view command_name(const FitJob&) { return "fit"; }
 inline std::string_view command_name(const CoverJob&) { return "cover"; }
+inline std::string_view command_name(const TrochoidJob&) { return "trochoid"; }
 inline std::string_view command_name(const VerifyJob&) { return "verify"; }
 inline std::string_view command_name(const PostJob&) { return "post"; }
 

@@ -98,7 +98,7 @@ Job read_job(const Json& json, const std::set<std::string>& ignored) {
   visit_fields(job, [&](const FieldInfo& info, auto& value) {
     const std::string key(info.key);
     known.insert(key);
-    const bool needed = key == "part" || key == "faces" || key == "tolerance";
+    const bool needed = key == "part" || key == "faces" || key == "left" || key == "right" || key == "tolerance";
     if (ignored.contains(key) || (!needed && !json.contains(key))) return;
     if (!json.contains(key)) throw InputError(key + ": is missing");
     try {
@@ -119,7 +119,8 @@ PlanJob read_plan(const Json& json) {
     throw InputError(std::string("schema \"") + kSchema + "\" is needed");
   const std::string command = json.value("command", "fit");
   if (command == "fit") return read_job<FitJob>(json, {});
-  if (command != "cover") throw InputError("command \"" + command + "\"; there are fit and cover");
+  if (command == "trochoid") return read_job<TrochoidJob>(json, {});
+  if (command != "cover") throw InputError("command \"" + command + "\"; there are fit, cover and trochoid");
   if (!json.contains(kOnlyInOldCovers)) return read_job<CoverJob>(json, {});
   return read_job<CoverJob>(json, {std::begin(kIgnoredInOldCovers), std::end(kIgnoredInOldCovers)});
 }

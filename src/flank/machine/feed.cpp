@@ -12,7 +12,7 @@ namespace {
 constexpr double kTick = 1e-3;  ///< s: what a servo sees
 /// A way without contact length (a joint turns, the tool stays) still passes: this much length a second of its joints.
 constexpr double kIdle = 1e-3;
-constexpr int kMostPasses = 12;
+constexpr int kMostPasses = 30;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// low <= u <= high, both linear in x: low(x) = low0 + low1 x.
@@ -176,7 +176,7 @@ class Planner {
 
   /// Lowers the caps where a millisecond shows more than a limit; false if none does.
   bool slow_down_where_needed(const FeedPlan& plan);
-  /// Slows the whole down until the limits hold: speeds by the factor, accelerations by its square.
+  /// Slows the whole down until the limits hold.
   void stretch(FeedPlan& plan) const;
 
   const Machine& machine_;
@@ -253,21 +253,24 @@ bool Planner::slow_down_where_needed(const FeedPlan& plan) {
            if (over <= 1.0 + kSlack) return;
            any = true;
            for (std::size_t i = std::max<std::size_t>(first, 1); i <= last && i + 1 < nodes_.size(); ++i)
-             cap_[i] = std::min(cap_[i], plan.speed[i] * plan.speed[i] / (1.02 * over));
+             // A jump that is shorter than a tick falls with the speed, not with its square.
+             cap_[i] = std::min(cap_[i], plan.speed[i] * plan.speed[i] / (1.02 * over * over));
          });
   return any;
 }
 
 void Planner::stretch(FeedPlan& plan) const {
-  const FeedCheck check = check_feed(machine_, nodes_, plan);
-  const double over = std::max(check.worst_speed, std::sqrt(check.worst_acceleration));
-  if (over <= 1.0) return;
-  const double factor = over * (1.0 + 1e-3);
-  plan.time_s = 0.0;
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    plan.seconds[i] *= factor;
-    plan.speed[i] /= factor;
-    plan.time_s += plan.seconds[i];
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    const FeedCheck check = check_feed(machine_, nodes_, plan);
+    const double over = std::max(check.worst_speed, check.worst_acceleration);
+    if (over <= 1.0 + kSlack) return;
+    const double factor = over * (1.0 + 1e-3);
+    plan.time_s = 0.0;
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      plan.seconds[i] *= factor;
+      plan.speed[i] /= factor;
+      plan.time_s += plan.seconds[i];
+    }
   }
 }
 

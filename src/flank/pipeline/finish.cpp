@@ -84,8 +84,10 @@ void judge_result(const Setup& setup, const ClearanceScene& scene, std::vector<S
   watch.lap("verify");
   result.verify.clearance = measure_clearance(scene, result.tool, result.path);
   watch.lap("clearance");
-  result.drawings = std::make_shared<const Result::Drawings>(
-      Result::Drawings{std::move(surfaces), make_view(result.job, setup, result.tool, result.path, result.verify)});
+  auto drawings = std::make_shared<Result::Drawings>();
+  drawings->strips = std::move(surfaces);
+  drawings->view = make_view(result.job, setup, result.tool, result.path, result.verify);
+  result.drawings = std::move(drawings);
   watch.lap("view");
 }
 

@@ -6,15 +6,14 @@
 #include <cmath>
 #include <optional>
 
-#include "flank/base/tolerance_budget.h"
 #include "flank/error.h"
 #include "flank/fit/coverage.h"
 #include "flank/fit/ways.h"
+#include "flank/pipeline/search_setup.h"
 #include "flank/pipeline/stiff_fit.h"
 #include "flank/seed/axis_line.h"
 #include "flank/seed/guide_start.h"
 #include "flank/seed/line_start.h"
-#include "flank/setup/make_obstacles.h"
 #include "flank/toolbox/tool_model.h"
 
 namespace flank::internal {
@@ -34,21 +33,6 @@ UserStart user_start(const FitJob& job) {
   return start;
 }
 
-/// Open bounds: a hundredth of the target's diagonal to 15 hundredths of it.
-RadiusBounds bounds_of(const FitJob& job, double diagonal) {
-  const RadiusRequest& radius = job.radius;
-  RadiusBounds bounds;
-  bounds.largest = radius.max_mm.value_or(std::max(0.15 * diagonal, 2.0 * radius.min_mm.value_or(0.0)));
-  bounds.smallest = radius.min_mm.value_or(std::min(0.01 * diagonal, 0.5 * bounds.largest));
-  bounds.steepest = radius.slope_max;
-  bounds.slenderest = radius.slenderness_max;
-  bounds.neck = radius.profile == "any" ? 1.0 : radius.neck;
-  bounds.wheel_radius = radius.wheel_radius_mm.value_or(0.0);
-  bounds.shank_length = job.obstacles.shank_length_mm.value_or(0.0);
-  bounds.shank_radius = job.obstacles.shank_radius_mm.value_or(0.0);
-  return bounds;
-}
-
 /// The ball that says what a free tool is to reach: of the part and of the demand, not of the tool, or a thick one would
 /// bring its own excuse. It is as thick as a cylinder as long as the target is wide that is just stiff enough.
 double demanded_reach(const FitJob& job, const Target& target, const RadiusBounds& bounds) {
@@ -65,7 +49,7 @@ FlankFitOptions options_of(const FitJob& job, const Target& target, bool free_to
   FlankFitOptions options;
   options.tolerance_mm = job.tolerance_mm;
   options.axis_length_mm = job.tool.axis_length_mm;
-  options.bounds = bounds_of(job, target.diagonal());
+  options.bounds = radius_bounds(job.radius, job.obstacles, target.diagonal());
   const double demanded = free_tool ? demanded_reach(job, target, options.bounds) : 0.0;
   options.reach_radius_mm = job.judge.reach_radius_mm.value_or(demanded);
   return options;
@@ -157,26 +141,6 @@ void fit_groups(const FitJob& job, FitSearch& search, const ToolModel& tool, con
   if (search.targets.size() > 1) search.fit = fit_from_starts(tasks, tool, options, progress);
 }
 
-/// Gives every target what its flank keeps clear of: the check faces, the other targets and fixtures.
-void add_obstacles(const FitJob& job, const Setup& setup, double largest_radius, FitSearch& search) {
-  /// The flank lies within a diameter of its target, and the walls of a channel beyond it count.
-  constexpr double kReach = 2.0;
-  /// Above the target by about a small tool's radius.
-  constexpr double kVoterHeight = 0.5;
-  for (TargetGroup& group : search.targets) {
-    ObstacleChoice choice = choose_obstacles(group.indices, setup.targets, setup.checks);
-    choice.fixtures = setup.fixtures;
-    choice.clearance_mm = job.obstacles.clearance_mm;
-    choice.tolerance_mm = job.tolerance_mm;
-    ObstacleDetail detail;
-    detail.faces_within_mm = kReach * largest_radius;
-    const Obstacles obstacles = make_obstacles(setup.part, *group.target, choice, detail, search.fit.notes);
-    if (!obstacles.faces.empty())
-      group.obstacles = std::make_unique<ObstacleField>(obstacles, *group.target, kVoterHeight * largest_radius,
-                                                        kToleranceBudget.others.fit_allowance * job.tolerance_mm);
-  }
-}
-
 /// The motion of a start over the target; `notes` gets what its propagation says.
 RuledMotion motion_of(const FitJob& job, const UserStart& start, const ToolModel& tool, const Target& target,
                       std::vector<std::string>& notes) {
@@ -196,7 +160,8 @@ FitSearch search_side(const FitJob& job, const Setup& setup, const ToolSpec& spe
   const ToolModel tool = make_tool_model(spec);
   const FlankFitOptions options = options_of(job, *search.targets.front().target, tool.free());
   if (tool.free()) search.reach_radius_mm = options.reach_radius_mm;
-  if (job.avoid) add_obstacles(job, setup, options.bounds.largest, search);
+  if (job.avoid)
+    add_group_obstacles(setup, job.obstacles.clearance_mm, options.bounds.largest, search.targets, search.fit.notes);
   if (!start.given()) {
     fit_groups(job, search, tool, options, progress);
     return search;
@@ -232,7 +197,8 @@ double scout(const FitJob& job, const Setup& setup, const ToolSpec& spec, int si
   const TargetGroup& group = search.targets.front();
   const ToolModel tool = make_tool_model(spec);
   FlankFitOptions options = options_of(job, *group.target, tool.free());
-  if (job.avoid) add_obstacles(job, setup, options.bounds.largest, search);
+  if (job.avoid)
+    add_group_obstacles(setup, job.obstacles.clearance_mm, options.bounds.largest, search.targets, search.fit.notes);
   options.obstacles = group.obstacles.get();
   options.ways = false;
   options.kept_after_quick = options.kept_after_polish = 1;

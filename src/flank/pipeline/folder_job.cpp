@@ -28,6 +28,7 @@ void apply(const VerifyJob& request, Job& job) {
   replace(job.tolerance_mm, request.tolerance_mm);
   replace(job.judge.sample_mm, request.sample_mm);
   replace(job.judge.reach_radius_mm, request.reach_radius_mm);
+  if constexpr (std::is_same_v<Job, TrochoidJob>) replace(job.cycles.stock_cell_mm, request.stock_cell_mm);
   const ObstacleRequest& asked = request.obstacles;
   ObstacleRequest& obstacles = job.obstacles;
   if (asked.check_faces || asked.ignore_faces) {

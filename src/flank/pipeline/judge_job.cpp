@@ -169,4 +169,15 @@ VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const To
   return report;
 }
 
+ProgramStock judge_stock(const Setup& setup, const TrochoidJob& job, const Tool& tool, const Path& path,
+                         const std::vector<HalfSpace>& blank, double most_triangles) {
+  const double spacing = default_spacing(setup.part.box.diagonal());
+  ProgramStockOptions options;
+  options.cell_mm = job.cycles.stock_cell_mm;
+  options.most_engagement_deg = job.cycles.most_engagement_deg;
+  options.tolerance_mm = setup.tolerance_mm;
+  options.most_triangles = most_triangles;
+  return replay_program(tool, path, blank, judge_samples(setup, spacing, 2.0 * spacing), options);
+}
+
 }  // namespace flank::internal

@@ -6,12 +6,17 @@
 
 #include "flank/judge.h"
 #include "flank/setup/setup.h"
+#include "flank/verify/program_stock.h"
 
 namespace flank::internal {
 
 /// Judges tool and path on the targets and check faces. Shank, holder and fixtures are not in it (clearance_scene.h).
 [[nodiscard]] VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const Tool& tool,
                                      const Path& path);
+
+/// Replays the program of a cavity in the judge's stock. `most_triangles`: of the mesh of what is left; 0: none.
+[[nodiscard]] ProgramStock judge_stock(const Setup& setup, const TrochoidJob& job, const Tool& tool, const Path& path,
+                                       const std::vector<HalfSpace>& blank, double most_triangles);
 
 /// Fills `reachable` of the targets' samples for a ball of the radius.
 void measure_reach(const Setup& setup, const Tool& tool, const Path& path, double radius_mm,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <type_traits>
 
 #include "flank/artefact/acceptance.h"
 #include "flank/artefact/verify_json.h"
@@ -11,6 +12,8 @@
 #include "flank/artefact/view_json.h"
 #include "flank/error.h"
 #include "flank/io/face_names.h"
+#include "flank/io/path/blank_json.h"
+#include "flank/io/text/json_input.h"
 #include "flank/job/check_fields.h"
 #include "flank/manifest/result_folder.h"
 #include "flank/path_file.h"
@@ -70,6 +73,27 @@ void write_verdict(ResultFolder& folder, const PartStamp& part, const std::map<s
   folder.add(files, std::move(manifest));
 }
 
+/// The program of a cavity in the stock that blank.json describes. Other jobs have none.
+template <class Job>
+void replay_stock(const Job& job, const Setup& setup, const Tool& tool, const Path& path, const std::string& file,
+                  Verification& outcome) {
+  if constexpr (std::is_same_v<Job, TrochoidJob>) {
+    if (!std::filesystem::exists(file)) {
+      outcome.notes.push_back("no blank.json: the program is not replayed");
+      return;
+    }
+    outcome.report.stock = judge_stock(setup, job, tool, path, blank_from_json(read_file(file), file), 0.0).report;
+  }
+}
+
+template <class Job>
+void accept_program(const Job& job, Verification& outcome) {
+  if constexpr (std::is_same_v<Job, TrochoidJob>)
+    if (outcome.report.stock)
+      accept_stock(*outcome.report.stock, job.cycles.most_engagement_deg, outcome.report.tolerance_mm,
+                   outcome.acceptance);
+}
+
 /// `named`: the part, as job.json has it.
 template <class Job>
 Verification judge_folder(const VerifyJob& request, const Job& job, const std::string& named, ResultFolder& folder) {
@@ -79,14 +103,16 @@ Verification judge_folder(const VerifyJob& request, const Job& job, const std::s
   const Tool tool = read_and_equip(file("tool.json"), request.obstacles, job.obstacles);
   const Path path = read_path(file("path.json"));
   std::vector<std::string> repairs;  // told when the folder was made
-  const Setup setup = read_setup(job.part, job.obstacles, job.tolerance_mm, repairs);
+  const Setup setup = read_setup(machined(job), job.obstacles, job.tolerance_mm, repairs);
   outcome.notes.assign(repairs.begin() + static_cast<std::ptrdiff_t>(setup.part.repairs.size()), repairs.end());
   check_origin(request, folder, setup.part, outcome);
   require_known_faces(path, setup.part, file("path.json"));
   outcome.report = judge_job(setup, job.judge, tool, path);
   const ClearanceScene scene = make_clearance_scene(setup, job.obstacles, has_body(tool), outcome.notes);
   outcome.report.clearance = measure_clearance(scene, tool, path);
+  replay_stock(job, setup, tool, path, file("blank.json"), outcome);
   outcome.acceptance = accept(tool, outcome.report, job.judge.least_coverage);
+  accept_program(job, outcome);
   write_verdict(folder, {absolute(request.part ? *request.part : named), setup.part.sha256},
                 {{"verify.json", verify_to_json(outcome.report, outcome.acceptance)},
                  {"view.json", view_to_json(make_view(outcome.job, setup, tool, path, outcome.report))}},

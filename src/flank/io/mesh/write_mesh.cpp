@@ -68,6 +68,8 @@ std::string ply(const TriangleMesh& mesh) {
 
 }  // namespace
 
+std::string mesh_to_stl(const TriangleMesh& mesh) { return stl(mesh); }
+
 void write_mesh(const std::string& file, const TriangleMesh& mesh) {
   const std::string extension = std::filesystem::path(file).extension().string();
   if (extension != ".stl" && extension != ".obj" && extension != ".ply")

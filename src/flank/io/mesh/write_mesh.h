@@ -12,4 +12,7 @@ namespace flank::internal {
 /// left.
 void write_mesh(const std::string& file, const TriangleMesh& mesh);
 
+/// The bytes of a binary STL.
+[[nodiscard]] std::string mesh_to_stl(const TriangleMesh& mesh);
+
 }  // namespace flank::internal

@@ -17,8 +17,9 @@ void refuse_others(std::string_view text, const std::string& file, NcLanguage la
   const auto mark = recognised_language(text);
   const std::string wanted(nc_language_name(language));
   if (mark && mark->language != language)
-    NcPlace{file, mark->line}.refuse(internal::quoted(mark->word) + " is of a " + std::string(nc_language_name(mark->language)) +
-                                     " program; accepted is one for " + wanted);
+    NcPlace{file, mark->line}.refuse(internal::quoted(mark->word) + " is of a " +
+                                     std::string(nc_language_name(mark->language)) + " program; accepted is one for " +
+                                     wanted);
   if (!mark && language == NcLanguage::kFanuc)
     NcPlace{file}.refuse(
         "no program number (O0001), G43.4 or G43.5 in the first lines; accepted is a program for fanuc");

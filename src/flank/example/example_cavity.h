@@ -1,0 +1,26 @@
+/// The free-form cavity: two facing walls given by a formula, of any size.
+#pragma once
+
+#include <vector>
+
+#include "flank/face.h"
+
+namespace flank::internal {
+
+/// A channel along x, open at both ends and at the top (+z).
+struct CavityShape {
+  double width_mm = 35.0;   ///< across (y), of the bounding box of both walls
+  double depth_mm = 42.0;   ///< along a wall, from its bottom to its top
+  double length_mm = 50.0;  ///< along the channel
+  double twist_deg = 16.0;  ///< of both walls about x, from one end to the other
+  /// How deep a wall is hollow between its bottom and its top, mm. A cone leaves about half of it.
+  double hollow_mm = 1.0;
+};
+
+/// Both walls, F1 at +y and F2 at -y, open sheets that look at each other; half a turn about z carries each into the other.
+/// Every section across the channel is the same hollow profile, leaning outwards towards the top, turned by the twist and
+/// shifted along an S: smooth, not ruled, and no envelope of a tool. Throws UsageError for sizes that are not > 0, a twist
+/// beyond 60 degrees and walls that would meet.
+[[nodiscard]] std::vector<Face> cavity_walls(const CavityShape& shape);
+
+}  // namespace flank::internal

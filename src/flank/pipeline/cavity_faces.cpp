@@ -1,0 +1,67 @@
+#include "flank/pipeline/cavity_faces.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "flank/error.h"
+#include "flank/trochoid/side_fit.h"
+
+namespace flank::internal {
+namespace {
+
+/// Index of the group that has the face.
+std::size_t group_of(const std::vector<TargetGroup>& groups, int face) {
+  std::size_t g = 0;
+  while (g < groups.size() &&
+         std::find(groups[g].indices.begin(), groups[g].indices.end(), face) == groups[g].indices.end())
+    ++g;
+  return g;
+}
+
+/// Share of the samples of `side` from which the other one lies in front.
+double looks_at(const Target& side, const Target& other) {
+  double front = 0.0, all = 0.0;
+  for (const SurfaceSample& sample : side.samples(std::sqrt(side.area()) / 15.0)) {
+    all += sample.area;
+    if (sample.normal.dot(other.closest(sample.point).point - sample.point) > 0.0) front += sample.area;
+  }
+  return all > 0.0 ? front / all : 0.0;
+}
+
+void check_facing(const TrochoidJob& job, const Target& left, const Target& right) {
+  constexpr double kLeastFacing = 0.5;  ///< cosine: at most 60 degrees between the walls
+  const double cosine = facing(left, right);
+  if (cosine < -kLeastFacing && looks_at(left, right) > 0.5 && looks_at(right, left) > 0.5) return;
+  const double degrees = std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / std::numbers::pi;
+  throw InputError("right",
+                   fmt::format("{} does not face {}: their normals are {:.1f} degrees apart on average (180 is "
+                               "face to face); the two sides of one cavity are needed",
+                               job.right, job.left, degrees));
+}
+
+}  // namespace
+
+CavityFaces cavity_faces(const TrochoidJob& job, const Setup& setup) {
+  if (setup.part.is_mesh())
+    throw InputError("part", setup.part.file + ": is a mesh; a cavity needs faces (STEP, IGES or BREP)");
+  CavityFaces out;
+  std::vector<TargetGroup> plus = make_targets(setup, +1), minus = make_targets(setup, -1);
+  const std::size_t left = group_of(plus, parse_face_list(setup.part, job.left).front());
+  const std::size_t right = group_of(plus, parse_face_list(setup.part, job.right).front());
+  if (plus.size() != 2 || left == right || std::max(left, right) > 1)
+    throw InputError("right", fmt::format("{} and {} make {} connected side{}; two are needed, that do not touch each "
+                                          "other",
+                                          job.left, job.right, plus.size(), plus.size() == 1 ? "" : "s"));
+  bool turn[2];
+  for (const std::size_t g : {left, right})
+    turn[g] = !plus[g].of_solid && looks_at(*plus[g].target, *plus[1 - g].target) < 0.5;
+  for (const std::size_t g : {left, right}) out.sides.push_back(std::move(turn[g] ? minus[g] : plus[g]));
+  check_facing(job, *out.sides[0].target, *out.sides[1].target);
+  out.narrowest_mm = narrowest(*out.sides[0].target, *out.sides[1].target);
+  return out;
+}
+
+}  // namespace flank::internal

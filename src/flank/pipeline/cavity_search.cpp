@@ -1,0 +1,100 @@
+#include "flank/pipeline/cavity_search.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "flank/base/tolerance_budget.h"
+#include "flank/tool.h"
+
+namespace flank::internal {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+/// Bounds of the radius, as shares of the largest: a thick tool makes a short path.
+constexpr double kBounds[] = {1.0, 0.75, 0.55, 0.4};
+/// Where a search begins below its bound, and the least radius there may be as a share of that: the engagement of a thin
+/// end bounds the steps of the whole tool, so a stout one comes first.
+constexpr double kBegin = 0.92, kStout = 0.55, kThin = 0.3;
+constexpr int kMostLayers = 5;
+
+bool sides_are_done(const SideFit& sides, const TrochoidJob& job) {
+  const CoverageEstimate& e = sides.fit.after;
+  return !sides.fit.motions.empty() && (sides.fit.status == FitStatus::kWithinTolerance ||
+                                        (e.at_tolerance >= job.judge.least_coverage &&
+                                         e.overcut_mm <= job.tolerance_mm && e.gouge_mm <= job.tolerance_mm));
+}
+
+/// As many layers as the tolerance needs, or as many as are asked for.
+SideFit search_sides(const TrochoidJob& job, const CavityFaces& faces, const ToolModel& tool, SideFitOptions options,
+                     const Progress& progress) {
+  const CavitySide left{faces.sides[0].target.get(), faces.sides[0].obstacles.get()};
+  const CavitySide right{faces.sides[1].target.get(), faces.sides[1].obstacles.get()};
+  SideFit best;
+  const int first = job.cycles.layers > 0 ? job.cycles.layers : 1, last = job.cycles.layers > 0 ? first : kMostLayers;
+  for (int layers = first; layers <= last; ++layers) {
+    options.layers = layers;
+    SideFit tried = fit_sides(left, right, tool, options, progress);
+    const bool better = best.fit.motions.empty() ||
+                        tried.fit.after.score(job.tolerance_mm) > best.fit.after.score(job.tolerance_mm) + 0.002;
+    const bool done = sides_are_done(tried, job);
+    if (better) best = std::move(tried);
+    if (done || !better || progress.stop()) break;
+  }
+  return best;
+}
+
+CavityProgram plan(const TrochoidJob& job, const CavityFaces& faces, const SideFit& sides, const Progress& progress) {
+  if (sides.fit.motions.empty() || !check_legitimacy(sides.fit.tool).legitimate) return {};
+  ProgramOptions options;
+  options.cycles.largest_rad = job.cycles.most_engagement_deg * kDegree;
+  options.cycles.tolerance_mm = job.tolerance_mm;
+  options.cycles.optimise = job.cycles.strategy == "volume";
+  options.climb = job.cycles.cut == "climb";
+  options.chord_mm = kToleranceBudget.chord * job.tolerance_mm;
+  options.left = faces.sides[0].faces;
+  options.right = faces.sides[1].faces;
+  GuardedFaces guarded;
+  for (const TargetGroup& side : faces.sides) {
+    guarded.sides.push_back(side.target.get());
+    guarded.others.push_back(side.obstacles.get());
+  }
+  return plan_program(sides.fit.motions, sides.fit.tool, *faces.sides[0].target, *faces.sides[1].target, guarded,
+                      options, progress);
+}
+
+/// What is better comes first: cycles that get through, then sides.
+bool is_better(const CavityPlan& a, const CavityPlan& b, double tolerance) {
+  if (a.sides.fit.motions.empty() != b.sides.fit.motions.empty()) return b.sides.fit.motions.empty();
+  if (a.program.done() != b.program.done()) return a.program.done();
+  return a.sides.fit.after.score(tolerance) > b.sides.fit.after.score(tolerance);
+}
+
+}  // namespace
+
+CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const ToolModel& tool,
+                         const SideFitOptions& options, const Progress& progress) {
+  CavityPlan best;
+  const bool given = !tool.free() && tool.radius;
+  for (const double share : kBounds) {
+    SideFitOptions here = options;
+    here.fit.bounds.largest *= share;
+    here.fit.bounds.smallest = std::min(here.fit.bounds.smallest, 0.5 * here.fit.bounds.largest);
+    const double radius = given ? *tool.radius : kBegin * here.fit.bounds.largest;
+    here.starts = {{radius, kStout}};
+    if (tool.free()) here.starts.push_back({radius, kThin});
+    CavityPlan tried;
+    tried.sides = search_sides(job, faces, tool, here, progress);
+    tried.program = plan(job, faces, tried.sides, progress);
+    tried.largest_radius_mm = here.fit.bounds.largest;
+    const bool done = sides_are_done(tried.sides, job) && tried.program.done();
+    const int tools = best.tools + 1;
+    const bool better = tools == 1 || is_better(tried, best, job.tolerance_mm);
+    if (better) best = std::move(tried);
+    best.tools = tools;
+    // Thinner ones are slower, too: the search ends where they stop to gain.
+    if (done || given || !better || progress.stop()) break;
+  }
+  return best;
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,221 @@
+#include "flank/pipeline/run_trochoid.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "flank/artefact/view.h"
+#include "flank/error.h"
+#include "flank/job/check_fields.h"
+#include "flank/pipeline/cavity_faces.h"
+#include "flank/pipeline/cavity_search.h"
+#include "flank/pipeline/finish.h"
+#include "flank/pipeline/judge_job.h"
+#include "flank/pipeline/search_setup.h"
+#include "flank/run.h"
+#include "flank/setup/clearance_scene.h"
+#include "flank/setup/tool_body.h"
+#include "flank/toolbox/tool_model.h"
+#include "flank/trochoid/program.h"
+#include "flank/trochoid/side_fit.h"
+
+namespace flank::internal {
+namespace {
+
+constexpr double kRadian = 180.0 / std::numbers::pi;
+
+std::string status_word(CycleStatus status) {
+  switch (status) {
+    case CycleStatus::kDone:
+      return "done";
+    case CycleStatus::kStuck:
+      return "stuck";
+    default:
+      return "cancelled";
+  }
+}
+
+}  // namespace
+
+LayerSummary summary_of(const PlannedLayer& planned) {
+  LayerSummary out;
+  out.cycles = static_cast<int>(planned.cycles.cycles.size());
+  out.status = status_word(planned.cycles.status);
+  out.sides_mm = planned.sides_mm;
+  out.links_mm = planned.links_mm;
+  out.side_volume_mm3 = planned.side_volume_mm3;
+  out.side_deg = std::max(planned.first_side_rad, planned.second_side_rad) * kRadian;
+  out.entered_mm = planned.cycles.entered_mm;
+  for (const Cycle& cycle : planned.cycles.cycles) {
+    const Half& front = cycle.front;
+    double angle = front.peak.angle_rad, volume = front.engagement.volume_mm3, way = front.way_mm;
+    out.front_deg = std::max(out.front_deg, angle * kRadian);
+    out.fronts_mm += front.way_mm;
+    if (cycle.back) {
+      angle = std::max(angle, cycle.back->peak.angle_rad);
+      volume += cycle.back->engagement.volume_mm3;
+      way += cycle.back->way_mm;
+      out.back_deg = std::max(out.back_deg, cycle.back->peak.angle_rad * kRadian);
+      out.backs_mm += cycle.back->way_mm;
+    }
+    out.cycle_deg.push_back(angle * kRadian);
+    out.cycle_mm3.push_back(volume);
+    out.cycle_mm.push_back(way);
+    out.volume_mm3 += volume;
+  }
+  return out;
+}
+
+}  // namespace flank::internal
+
+namespace flank {
+using namespace internal;
+namespace {
+
+/// Largest radius of a tool, as a share of the width of the cavity: thicker, and no cycle has room.
+constexpr double kMostOfWidth = 0.38;
+
+void check_job(const TrochoidJob& job) {
+  check_fields(job);
+  if (job.radius.max_mm && !(*job.radius.max_mm > job.radius.min_mm.value_or(0.0)))
+    throw UsageError("radius_max_mm", "a radius above `radius_min_mm` is needed");
+}
+
+SideFitOptions side_options(const TrochoidJob& job, const CavityFaces& faces) {
+  SideFitOptions options;
+  options.fit.tolerance_mm = job.tolerance_mm;
+  options.fit.axis_length_mm = job.tool.axis_length_mm;
+  options.fit.bounds = radius_bounds(job.radius, job.obstacles, faces.sides.front().target->diagonal());
+  options.fit.bounds.largest = job.radius.max_mm.value_or(kMostOfWidth * faces.narrowest_mm);
+  options.fit.bounds.smallest = std::min(options.fit.bounds.smallest, 0.5 * options.fit.bounds.largest);
+  options.fit.reach_radius_mm = job.judge.reach_radius_mm.value_or(0.0);
+  options.least_coverage = job.judge.least_coverage;
+  return options;
+}
+
+/// From the floor to the middle of the sides.
+std::optional<Vec3> up_from_floor(const TrochoidJob& job, const Setup& setup, const CavityFaces& faces) {
+  if (!job.floor) return {};
+  std::vector<Face> floor;
+  for (const int face : parse_face_list(setup.part, *job.floor))
+    floor.push_back(setup.part.faces[static_cast<std::size_t>(face)]);
+  const std::unique_ptr<Target> target = make_target(std::move(floor), +1);
+  Vec3 up = Vec3::Zero();
+  for (const TargetGroup& side : faces.sides) {
+    const Vec3 centre = side.target->box().center();
+    up += (centre - target->closest(centre).point).normalized();
+  }
+  return up.normalized();
+}
+
+TrochoidSummary summary_of(const TrochoidJob& job, const SideFit& sides, const CavityProgram& program,
+                           double narrowest_mm) {
+  TrochoidSummary out;
+  const FlankFitResult& fit = sides.fit;
+  out.sides.candidates = fit.candidates;
+  out.sides.before = {fit.before.at_tolerance, fit.before.overcut_mm};
+  out.sides.after = {fit.after.at_tolerance, fit.after.overcut_mm};
+  out.sides.rms_mm = fit.residuals.rms_mm;
+  out.sides.largest_mm = fit.residuals.largest_mm;
+  out.sides.inside_share = fit.residuals.inside_share;
+  for (const IterationTrace& step : fit.trace)
+    out.sides.trace.push_back({step.cost, step.rms_mm, step.largest_mm, step.damping});
+  out.most_engagement_deg = job.cycles.most_engagement_deg;
+  out.narrowest_mm = narrowest_mm;
+  double links = 0.0;
+  for (const PlannedLayer& layer : program.layers) {
+    out.layers.push_back(summary_of(layer));
+    links += layer.links_mm;
+  }
+  out.minutes = out.way_mm() / job.cycles.feed_mm_min + links / job.cycles.rapid_mm_min;
+  return out;
+}
+
+void note_what_is_open(const TrochoidJob& job, const CavityProgram& program, std::vector<std::string>& notes) {
+  for (std::size_t k = 0; k < program.layers.size(); ++k) {
+    const LayerCycles& cycles = program.layers[k].cycles;
+    if (cycles.status == CycleStatus::kStuck)
+      notes.push_back(fmt::format("layer {}: no step is possible within {} degrees: a step of {:.4f} mm exceeds them",
+                                  k + 1, job.cycles.most_engagement_deg, cycles.stuck_step_mm));
+    if (cycles.entered_mm > job.tolerance_mm)
+      notes.push_back(fmt::format("layer {}: a half path enters a face by {:.4f} mm, by the planner's samples", k + 1,
+                                  cycles.entered_mm));
+  }
+  notes.push_back("the cavity is taken as open at both ends: cycles start and end outside of the blank");
+}
+
+/// Tool, path and figures of a plan.
+void take(const CavityPlan& plan, const TrochoidJob& job, const ToolSpec& spec, const CavityFaces& faces,
+          Result& result) {
+  const FlankFitResult& fit = plan.sides.fit;
+  result.motions = fit.motions;
+  result.tool.radial = fit.tool;
+  result.tool.name = spec.free ? "free" : std::string(family_name(fit.tool.family()));
+  if (spec.tool) result.tool = *spec.tool;
+  equip_tool(job.obstacles, result.tool);
+  result.diagonal_mm = faces.sides.front().target->diagonal();
+  const Legitimacy legitimacy = check_legitimacy(result.tool.radial);
+  if (!legitimacy.legitimate) result.notes.push_back("the tool is not legitimate: " + legitimacy.reason);
+  result.path = plan.program.path;
+  result.chord_bound_mm = plan.program.chord_bound_mm;
+  result.plan = summary_of(job, plan.sides, plan.program, faces.narrowest_mm);
+  if (plan.tools > 1)
+    result.notes.push_back(
+        fmt::format("{} bounds of the radius were tried, from thick to thin: this tool was found "
+                    "under {:.4g} mm",
+                    plan.tools, plan.largest_radius_mm));
+  note_what_is_open(job, plan.program, result.notes);
+}
+
+/// The judge's stock, into the verdict and what is drawn.
+void replay(const Setup& setup, const TrochoidJob& job, const std::vector<HalfSpace>& blank, Result& result) {
+  constexpr double kMostTriangles = 3e5;
+  if (result.path.strips.empty()) return;
+  ProgramStock stock = judge_stock(setup, job, result.tool, result.path, blank, kMostTriangles);
+  result.verify.stock = std::move(stock.report);
+  auto drawings = std::make_shared<Result::Drawings>(*result.drawings);
+  drawings->blank = blank;
+  drawings->left = std::move(stock.left);
+  result.drawings = std::move(drawings);
+}
+
+}  // namespace
+
+Result run_trochoid(const TrochoidJob& job, const Progress& progress) {
+  check_job(job);
+  const ToolSpec spec = parse_tool_spec(job.tool.spec);
+  check_obstacles(job.obstacles, spec.tool ? &*spec.tool : nullptr);
+  Result result;
+  result.job = job;
+  Stopwatch watch(result);
+  progress.step("read", 0.0);
+  const Setup setup = read_setup(machined(job), job.obstacles, job.tolerance_mm, result.notes);
+  result.part_sha256 = setup.part.sha256;
+  CavityFaces faces = cavity_faces(job, setup);
+  const bool with_body = job.obstacles.shank_length_mm || job.obstacles.holder || (spec.tool && has_body(*spec.tool));
+  const ClearanceScene scene = make_clearance_scene(setup, job.obstacles, with_body, result.notes);
+  SideFitOptions options = side_options(job, faces);
+  options.up = up_from_floor(job, setup, faces);
+  if (job.avoid)
+    add_group_obstacles(setup, job.obstacles.clearance_mm, options.fit.bounds.largest, faces.sides, result.notes);
+  watch.lap("read");
+
+  const CavityPlan plan = search_cavity(job, faces, make_tool_model(spec), options, progress);
+  if (plan.sides.fit.motions.empty())
+    throw InputError("left", fmt::format("no tool of radius up to {:.4g} mm finds an axis that is free in the cavity, "
+                                         "{:.3f} mm wide at its narrowest",
+                                         options.fit.bounds.largest, faces.narrowest_mm));
+  take(plan, job, spec, faces, result);
+  watch.lap("cycles");
+  result.complete = !progress.stop();
+
+  progress.step("verify", 0.9);
+  judge_result(setup, scene, {}, result, watch);
+  replay(setup, job, plan.program.blank, result);
+  watch.lap("stock");
+  return result;
+}
+
+}  // namespace flank

@@ -1,0 +1,22 @@
+/// What every search of a tool begins with: bounds of its radius, and what its flank keeps clear of.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "flank/fit.h"
+#include "flank/setup/setup.h"
+#include "flank/setup/targets.h"
+
+namespace flank::internal {
+
+/// Open bounds: a hundredth of the target's diagonal to 15 hundredths of it.
+[[nodiscard]] RadiusBounds radius_bounds(const RadiusRequest& radius, const ObstacleRequest& obstacles,
+                                         double diagonal);
+
+/// Gives every target what its flank keeps clear of: the check faces, the other targets and fixtures.
+void add_group_obstacles(const Setup& setup, const std::optional<double>& clearance_mm, double largest_radius,
+                         std::vector<TargetGroup>& targets, std::vector<std::string>& notes);
+
+}  // namespace flank::internal

@@ -1,0 +1,75 @@
+#include "flank/trochoid/arc_end.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace flank::internal {
+namespace {
+
+/// Gaps and times to which ends are solved: mm, intervals.
+constexpr double kGapMm = 1e-9, kInterval = 1e-7;
+/// For second derivatives, of an interval and radians.
+constexpr double kProbe = 1e-4;
+/// An end is looked for this near to the guess, radians; a step goes no farther.
+constexpr double kFarthest = 0.3;
+
+struct EndStep {
+  double angle = 0.0, place = 0.0;
+};
+
+/// Newton's step for gap = 0 and d gap / dt = 0, or for the gap alone where time is at its bounds.
+EndStep step_of(const ToolProfile& profile, const RingCircle& circle, const SweepPlace& cover, double angle, double t) {
+  const auto jet = [&](double a, double place) { return gap_at(profile, cover.sweep->at(place), circle.at(a)); };
+  const GapJet g = jet(angle, t);
+  if (!g.inside) return {};
+  const double by_angle = circle.radius * g.gradient.dot(circle.direction(angle + 0.5 * std::numbers::pi));
+  const double back = t + kProbe > cover.last ? -kProbe : kProbe;
+  const double tt = (jet(angle, t + back).dt - g.dt) / back, ta = (jet(angle + kProbe, t).dt - g.dt) / kProbe;
+  const bool low = t <= 0.0 && g.dt >= 0.0, high = t >= cover.last && g.dt <= 0.0;
+  const double determinant = by_angle * tt - g.dt * ta;
+  EndStep step;
+  if (!low && !high && tt > 0.0 && std::abs(determinant) > 1e-12) {
+    step.angle = (-g.gap * tt + g.dt * g.dt) / determinant;
+    step.place = (-by_angle * g.dt + ta * g.gap) / determinant;
+  } else if (std::abs(by_angle) > 1e-12) {
+    step.angle = -g.gap / by_angle;
+    // Downhill in time as far as half an interval, if the curvature says nothing.
+    if (!low && !high && !(tt > 0.0)) step.place = g.dt > 0.0 ? -0.5 : 0.5;
+  }
+  return {std::clamp(step.angle, -kFarthest, kFarthest), std::clamp(step.place, -1.0, 1.0)};
+}
+
+}  // namespace
+
+double arc_end(const ToolProfile& profile, const RingCircle& circle, const SweepPlace& cover, double angle) {
+  constexpr int kIterations = 12;
+  double at = angle, t = cover.place;
+  for (int k = 0; k < kIterations; ++k) {
+    const EndStep step = step_of(profile, circle, cover, at, t);
+    const double moved = std::clamp(t + step.place, 0.0, cover.last) - t;
+    at += step.angle;
+    t += moved;
+    if (std::abs(step.angle) * circle.radius < kGapMm && std::abs(moved) < kInterval) break;
+  }
+  return std::abs(at - angle) < kFarthest ? at : angle;
+}
+
+bool is_taken_near(const ToolProfile& profile, const SweepPlace& cover, const Vec3& x) {
+  constexpr int kIterations = 8;
+  double t = cover.place;
+  for (int k = 0; k < kIterations; ++k) {
+    const GapJet g = gap_at(profile, cover.sweep->at(t), x);
+    if (!g.inside) return false;
+    if (g.gap <= 0.0) return true;
+    const double back = t + kProbe > cover.last ? -kProbe : kProbe;
+    const double tt = (gap_at(profile, cover.sweep->at(t + back), x).dt - g.dt) / back;
+    const double step = tt > 0.0 ? std::clamp(-g.dt / tt, -1.0, 1.0) : (g.dt > 0.0 ? -0.5 : 0.5);
+    const double next = std::clamp(t + step, 0.0, cover.last);
+    if (std::abs(next - t) < 1e-6) return false;
+    t = next;
+  }
+  return false;
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,36 @@
+#include "flank/trochoid/half_guard.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flank::internal {
+
+void HalfGuard::look(const Pose& pose, int places, GuardDepth& out) const {
+  const double length = radial_.axis_length();
+  for (int j = 0; j < places; ++j) {
+    const double s = length * j / (places - 1), r = radial_.at(s).r, horizon = 1.01 * r;
+    const Vec3 p = pose.at(s);
+    for (const Target* side : faces_.sides) {
+      const Footpoint foot = side->closest_within(p, horizon);
+      if (foot.patch < 0) continue;
+      // Behind a border's tangent plane a point is not yet in the material.
+      const double d = foot.location == Location::kInside ? foot.distance : std::abs(foot.distance);
+      out.sides = std::max(out.sides, r - d);
+    }
+    for (const ObstacleField* field : faces_.others) {
+      if (field == nullptr) continue;
+      const ObstacleDistance d = field->at(p, horizon);
+      if (d.face < 0) continue;
+      out.others = std::max(out.others, r - d.distance_mm);
+      if (j <= places / 2) out.tip = std::max(out.tip, r - d.distance_mm);
+    }
+  }
+}
+
+GuardDepth HalfGuard::depth(const RuledMotion& motion, int times, int places) const {
+  GuardDepth out;
+  for (int i = 0; i < times; ++i) look(motion.pose(static_cast<double>(i) / (times - 1)), places, out);
+  return out;
+}
+
+}  // namespace flank::internal

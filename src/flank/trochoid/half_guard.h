@@ -1,0 +1,40 @@
+/// How deep a half path goes into the sides, the floor and whatever else must not be entered.
+#pragma once
+
+#include <vector>
+
+#include "flank/obstacle_field.h"
+#include "flank/radial_function.h"
+#include "flank/ruled_motion.h"
+#include "flank/target.h"
+
+namespace flank::internal {
+
+/// Not owned; they outlive the guard.
+struct GuardedFaces {
+  std::vector<const Target*> sides;
+  std::vector<const ObstacleField*> others;  ///< may hold null
+};
+
+/// Depths at sampled places of a motion, mm.
+struct GuardDepth {
+  double sides = 0.0;   ///< deepest in a side, >= 0
+  double others = 0.0;  ///< in another face
+  double tip = 0.0;     ///< of those, what the lower half of the axis enters: lifting the tool helps
+  [[nodiscard]] double deepest() const { return sides > others ? sides : others; }
+};
+
+class HalfGuard {
+ public:
+  HalfGuard(GuardedFaces faces, const RadialFunction& radial) : faces_(std::move(faces)), radial_(radial) {}
+  /// At `times` x `places` samples. A place that projects onto a side's border counts by its distance alone.
+  [[nodiscard]] GuardDepth depth(const RuledMotion& motion, int times, int places) const;
+  /// Adds what one pose enters.
+  void look(const Pose& pose, int places, GuardDepth& out) const;
+
+ private:
+  GuardedFaces faces_;
+  RadialFunction radial_;
+};
+
+}  // namespace flank::internal

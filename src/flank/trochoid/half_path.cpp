@@ -1,0 +1,92 @@
+#include "flank/trochoid/half_path.h"
+
+#include <Eigen/Dense>
+#include <array>
+#include <cmath>
+
+namespace flank::internal {
+namespace {
+
+constexpr int kPoles = 6, kDegree = 3;
+/// Weight of the second derivatives against the first ones: a half circle of length l has |c'| = l and |c''| = pi l, so
+/// both terms of it are alike.
+constexpr double kFairness = 0.1;
+
+using Gram = Eigen::Matrix<double, kPoles, kPoles>;
+
+/// Integrals of kFairness B_i'' B_j'' + B_i' B_j' over [0, 1].
+Gram energy() {
+  constexpr std::array<double, 3> kNodes = {-0.7745966692414834, 0.0, 0.7745966692414834};
+  constexpr std::array<double, 3> kWeights = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};  // Gauss, exact up to degree 5
+  const std::vector<double> knots = uniform_knots(kDegree, kPoles);
+  Gram gram = Gram::Zero();
+  constexpr int kSpans = kPoles - kDegree;
+  for (int span = 0; span < kSpans; ++span) {
+    for (int k = 0; k < 3; ++k) {
+      const double t = (span + 0.5 + 0.5 * kNodes[static_cast<std::size_t>(k)]) / kSpans;
+      const double weight = 0.5 * kWeights[static_cast<std::size_t>(k)] / kSpans;
+      std::array<double, 3 * (kDegree + 1)> b{};
+      basis_derivatives(kDegree, knots, span + kDegree, t, 2, b.data());
+      for (int i = 0; i <= kDegree; ++i)
+        for (int j = 0; j <= kDegree; ++j)
+          gram(span + i, span + j) +=
+              weight * (kFairness * b[static_cast<std::size_t>(8 + i)] * b[static_cast<std::size_t>(8 + j)] +
+                        b[static_cast<std::size_t>(4 + i)] * b[static_cast<std::size_t>(4 + j)]);
+    }
+  }
+  return gram;
+}
+
+/// Control points 2 and 3 as combinations of 0, 1, 4 and 5.
+Eigen::Matrix<double, 2, 4> inner_of_outer() {
+  const Gram gram = energy();
+  const Eigen::Matrix2d inner = gram.block<2, 2>(2, 2);
+  Eigen::Matrix<double, 2, 4> outer;
+  outer << gram.block<2, 2>(2, 0), gram.block<2, 2>(2, 4);
+  return -inner.inverse() * outer;
+}
+
+BSplineCurve3 rail(const Vec3& from, const Vec3& leave, const Vec3& arrive, const Vec3& to, const Vec3& shift) {
+  static const Eigen::Matrix<double, 2, 4> kInner = inner_of_outer();
+  static const std::vector<double> kKnots = uniform_knots(kDegree, kPoles);
+  Eigen::Matrix<double, 3, 4> outer;
+  outer << from, leave, arrive, to;
+  BSplineCurve3 curve;
+  curve.degree = kDegree;
+  curve.knots = kKnots;
+  curve.poles.resize(3, kPoles);
+  curve.poles.leftCols<2>() = outer.leftCols<2>();
+  curve.poles.rightCols<2>() = outer.rightCols<2>();
+  curve.poles.middleCols<2>(2) = (outer * kInner.transpose()).colwise() + shift;
+  return curve;
+}
+
+}  // namespace
+
+RuledMotion half_path(double axis_length, const AxisPlace& from, const AxisPlace& to, const HalfShape& shape) {
+  const double middle = 0.5 * axis_length;
+  const Vec3 forward = (from.velocity(middle) - to.velocity(middle)).normalized();
+  const Vec3 up = (from.u + to.u).normalized();
+  const Vec3 shift = shape.bulge_mm * forward + shape.lift_mm * up;
+  RuledMotion motion;
+  motion.axis_length = axis_length;
+  motion.tip =
+      rail(from.tip, from.tip + shape.leave_mm * from.tip_dx, to.tip - shape.arrive_mm * to.tip_dx, to.tip, shift);
+  motion.direction =
+      rail(from.u, from.u + shape.leave_mm * from.u_dx, to.u - shape.arrive_mm * to.u_dx, to.u, Vec3::Zero());
+  return motion;
+}
+
+double way_of_middle(const RuledMotion& motion) {
+  constexpr int kSteps = 24;
+  double way = 0.0;
+  Vec3 before = motion.pose(0.0).at(0.5 * motion.axis_length);
+  for (int i = 1; i <= kSteps; ++i) {
+    const Vec3 now = motion.pose(static_cast<double>(i) / kSteps).at(0.5 * motion.axis_length);
+    way += (now - before).norm();
+    before = now;
+  }
+  return way;
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,34 @@
+/// Half paths: from a place beside one side of a cavity to a place beside the other, tangential to both side paths.
+///
+/// Tip and direction are clamped cubic rails of six control points, so the tool is exactly rigid (MATH section 2). The
+/// outer two of each end are given by place and velocity there, the inner two by least fairness and length.
+#pragma once
+
+#include "flank/ruled_motion.h"
+
+namespace flank::internal {
+
+/// An axis position and its velocity per mm of way of the axis' middle.
+struct AxisPlace {
+  Vec3 tip, u;
+  Vec3 tip_dx, u_dx;
+  [[nodiscard]] Vec3 at(double s) const { return tip + s * u; }
+  [[nodiscard]] Vec3 velocity(double s) const { return tip_dx + s * u_dx; }
+  /// The same place, run through backwards.
+  [[nodiscard]] AxisPlace reversed() const { return {tip, u, -tip_dx, -u_dx}; }
+};
+
+struct HalfShape {
+  double leave_mm = 1.0, arrive_mm = 1.0;  ///< handles: how far the second and the last but one control points are off
+  double bulge_mm = 0.0;                   ///< of the inner points, in the direction in which the path leaves
+  double lift_mm = 0.0;                    ///< of the inner points, along the axis
+};
+
+/// From one place to another, leaving and arriving with their velocities.
+[[nodiscard]] RuledMotion half_path(double axis_length, const AxisPlace& from, const AxisPlace& to,
+                                    const HalfShape& shape);
+
+/// Length of the way of the axis' middle, mm.
+[[nodiscard]] double way_of_middle(const RuledMotion& motion);
+
+}  // namespace flank::internal

@@ -1,0 +1,178 @@
+#include "flank/trochoid/program.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "flank/trochoid/blank.h"
+
+namespace flank::internal {
+namespace {
+
+constexpr int kSideRows = 201, kSideRings = 21;
+/// Way before and behind the sides, in the tool's radii: there the tool is out of the blank.
+constexpr double kRunOut = 1.5;
+/// Of a half path, which finishes nothing: how far its joined poses may be off, in tolerances.
+constexpr double kHalfChord = 0.1;
+constexpr double kLargestTurn = 4.5 * std::numbers::pi / 180.0;
+
+/// Left and right side path of a layer, in the order in which fronts use them. Milling is climb where a front goes to the
+/// left seen along the feed with the holder up.
+LayerSides order_sides(const RuledMotion& left, const RuledMotion& right, bool climb, double radius) {
+  SidePath a(left, false), b(right, false);
+  join_run_outs(a, b, radius);
+  const double middle = 0.5 * a.axis_length();
+  const AxisPlace p = a.at(0.5 * a.length()), q = b.at(0.5 * b.length());
+  const Vec3 forward = p.velocity(middle) + q.velocity(middle);
+  const bool a_to_b = (p.u + q.u).cross(forward).dot(q.at(middle) - p.at(middle)) > 0.0;
+  return a_to_b == climb ? LayerSides{a, b} : LayerSides{b, a};
+}
+
+Pose pose_of(const AxisPlace& place) { return {place.tip, place.u}; }
+
+/// Poses from one to the other, turning evenly, both included.
+std::vector<Pose> between(const Pose& from, const Pose& to, double axis_length) {
+  const double middle = 0.5 * axis_length, turn = std::acos(std::clamp(from.axis.dot(to.axis), -1.0, 1.0));
+  const int steps = std::max(1, static_cast<int>(std::ceil(turn / kLargestTurn)));
+  std::vector<Pose> poses;
+  for (int k = 0; k <= steps; ++k) {
+    const double x = static_cast<double>(k) / steps;
+    const Vec3 u = ((1.0 - x) * from.axis + x * to.axis).normalized();
+    const Vec3 at = (1.0 - x) * from.at(middle) + x * to.at(middle);
+    poses.push_back({at - middle * u, u});
+  }
+  return poses;
+}
+
+double way_of(const std::vector<Pose>& poses, double s) {
+  double way = 0.0;
+  for (std::size_t k = 1; k < poses.size(); ++k) way += (poses[k].at(s) - poses[k - 1].at(s)).norm();
+  return way;
+}
+
+class ProgramWriter {
+ public:
+  ProgramWriter(const RadialFunction& radial, const ProgramOptions& options, CavityProgram& out)
+      : radial_(radial), options_(options), out_(out) {}
+
+  void add(const std::string& kind, const std::string& face, std::vector<Pose> poses) {
+    if (poses.size() < 2) return;
+    Strip strip;
+    strip.id = static_cast<int>(out_.path.strips.size()) + 1;
+    strip.kind = kind;
+    strip.face = face;
+    strip.poses = std::move(poses);
+    out_.path.strips.push_back(std::move(strip));
+  }
+  void add(const std::string& kind, const RuledMotion& motion) {
+    SamplingOptions sampling;
+    sampling.chord_tolerance_mm = std::max(options_.chord_mm, kHalfChord * options_.cycles.tolerance_mm);
+    sampling.largest_turn_rad = kLargestTurn;
+    SampledMotion sampled = sample_motion(motion, sampling);
+    out_.chord_bound_mm = std::max(out_.chord_bound_mm, sampled.chord_bound_mm);
+    add(kind, both(), std::move(sampled.poses));
+  }
+  void layer(const LayerSides& sides, const LayerCycles& cycles, PlannedLayer& planned);
+  /// Up along the axis, over, and down to where the next layer begins.
+  void link(const Pose& to, const Vec3& top, double height, PlannedLayer& planned);
+  [[nodiscard]] const Pose& last() const { return out_.path.strips.back().poses.back(); }
+  [[nodiscard]] std::string both() const { return options_.left + "," + options_.right; }
+
+ private:
+  const RadialFunction& radial_;
+  const ProgramOptions& options_;
+  CavityProgram& out_;
+};
+
+void ProgramWriter::layer(const LayerSides& sides, const LayerCycles& cycles, PlannedLayer& planned) {
+  const double length = radial_.axis_length(), run = kRunOut * radial_.largest();
+  if (cycles.cycles.empty()) return;
+  const AxisPlace first = sides.from.at(cycles.cycles.front().from_x);
+  const Pose before{first.tip - run * first.tip_dx, first.u};
+  add("entry", both(), {before, pose_of(first)});
+  for (const Cycle& cycle : cycles.cycles) {
+    if (cycle.back) add("back", cycle.back->motion);
+    add("front", cycle.front.motion);
+  }
+  if (cycles.status != CycleStatus::kDone) return;
+  // Back along the side where the last front ended, across before the start, and on along the other side.
+  const Cycle& end = cycles.cycles.back();
+  std::vector<Pose> returning = sides.to.poses(-run, std::max(end.to_x, sides.to.length() + run), options_.chord_mm);
+  std::reverse(returning.begin(), returning.end());
+  planned.sides_mm += way_of(returning, 0.5 * length);
+  add("side", both(), std::move(returning));
+  const AxisPlace from = sides.from.at(-run);
+  const double gap = (from.at(0.5 * length) - sides.to.at(-run).at(0.5 * length)).norm();
+  add("link", half_path(length, sides.to.at(-run).reversed(), from, {0.12 * gap, 0.12 * gap, 0.0, 0.0}));
+  planned.links_mm += way_of(out_.path.strips.back().poses, 0.5 * length);
+  std::vector<Pose> onwards = sides.from.poses(-run, sides.from.length() + run, options_.chord_mm);
+  planned.sides_mm += way_of(onwards, 0.5 * length);
+  add("side", both(), std::move(onwards));
+}
+
+void ProgramWriter::link(const Pose& to, const Vec3& top, double height, PlannedLayer& planned) {
+  const double length = radial_.axis_length();
+  const auto raised = [&](const Pose& pose) {
+    const double climb = std::max(0.0, (height - top.dot(pose.tip)) / std::max(0.2, top.dot(pose.axis)));
+    return Pose{pose.tip + climb * pose.axis, pose.axis};
+  };
+  std::vector<Pose> poses{last()};
+  for (const Pose& pose : between(raised(last()), raised(to), length)) poses.push_back(pose);
+  poses.push_back(to);
+  planned.links_mm += way_of(poses, 0.5 * length);
+  add("link", both(), std::move(poses));
+}
+
+/// Largest engagement and volume of a finishing sweep, which is then swept.
+double sweep_side(const SidePath& path, bool backwards, SweptStock& stock, double& volume) {
+  const SidePath way(path.motion(), backwards);
+  EngagementMeter meter(stock);
+  const Engagement e = meter.measure(way.motion(), tool_rings(stock.radial(), kSideRings, 5), kSideRows);
+  volume += e.volume_mm3;
+  const double largest = meter.refine(way.motion(), e, kSideRings).angle_rad;
+  stock.add(Sweep::of(way.motion(), 6 * kHalfIntervals));
+  return largest;
+}
+
+}  // namespace
+
+bool CavityProgram::done() const {
+  return !layers.empty() && std::all_of(layers.begin(), layers.end(), [](const PlannedLayer& layer) {
+    return layer.cycles.status == CycleStatus::kDone;
+  });
+}
+
+CavityProgram plan_program(const std::vector<RuledMotion>& sides, const RadialFunction& radial, const Target& left,
+                           const Target& right, const GuardedFaces& faces, const ProgramOptions& options,
+                           const Progress& progress) {
+  CavityProgram out;
+  ProgramWriter writer(radial, options, out);
+  const HalfGuard guard(faces, radial);
+  std::vector<LayerSides> layers;
+  for (std::size_t k = 0; k + 1 < sides.size(); k += 2)
+    layers.push_back(order_sides(sides[k], sides[k + 1], options.climb, radial.largest()));
+  if (layers.empty()) return out;
+  out.blank = cavity_blank(layers.front(), left, right);
+  const HalfSpace& top = out.blank.back();
+  SweptStock stock(radial, out.blank);
+  for (const LayerSides& layer : layers) {
+    PlannedLayer planned;
+    planned.cycles = plan_cycles(layer, guard, stock, options.cycles, progress);
+    if (!out.path.strips.empty() && !planned.cycles.cycles.empty()) {
+      const AxisPlace first = layer.from.at(planned.cycles.cycles.front().from_x);
+      const Pose before{first.tip - kRunOut * radial.largest() * first.tip_dx, first.u};
+      writer.link(before, top.normal, top.offset + 2.0 * radial.largest(), planned);
+    }
+    writer.layer(layer, planned.cycles, planned);
+    const bool done = planned.cycles.status == CycleStatus::kDone;
+    if (done) {
+      planned.first_side_rad = sweep_side(layer.to, true, stock, planned.side_volume_mm3);
+      planned.second_side_rad = sweep_side(layer.from, false, stock, planned.side_volume_mm3);
+    }
+    out.layers.push_back(std::move(planned));
+    if (!done) break;
+  }
+  return out;
+}
+
+}  // namespace flank::internal

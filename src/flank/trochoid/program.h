@@ -1,0 +1,40 @@
+/// The whole program of a cavity: layers of cycles, finishing sweeps along both sides, entries and links, as one path.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "flank/path.h"
+#include "flank/trochoid/cycles.h"
+
+namespace flank::internal {
+
+struct ProgramOptions {
+  CycleOptions cycles;
+  bool climb = true;                      ///< else conventional; the spindle turns clockwise seen from the holder
+  double chord_mm = 1e-3;                 ///< of the joined poses
+  std::string left = "F1", right = "F2";  ///< names for the strips
+};
+
+/// A layer as it was planned.
+struct PlannedLayer {
+  LayerCycles cycles;
+  double first_side_rad = 0.0, second_side_rad = 0.0;  ///< largest engagement of the finishing sweeps, in their order
+  double sides_mm = 0.0, links_mm = 0.0;
+  double side_volume_mm3 = 0.0;
+};
+
+struct CavityProgram {
+  Path path;
+  std::vector<PlannedLayer> layers;
+  std::vector<HalfSpace> blank;
+  double chord_bound_mm = 0.0;
+  [[nodiscard]] bool done() const;
+};
+
+/// `sides`: motions as fit_sides returns them. `faces[k]` guards layer k.
+[[nodiscard]] CavityProgram plan_program(const std::vector<RuledMotion>& sides, const RadialFunction& radial,
+                                         const Target& left, const Target& right, const GuardedFaces& faces,
+                                         const ProgramOptions& options, const Progress& progress);
+
+}  // namespace flank::internal

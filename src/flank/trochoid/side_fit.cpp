@@ -1,0 +1,201 @@
+#include "flank/trochoid/side_fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "flank/base/parallel.h"
+#include "flank/fit/coverage.h"
+#include "flank/fit/polish.h"
+#include "flank/fit/swept_polish.h"
+
+namespace flank::internal {
+namespace {
+
+constexpr double kQuickTolerances = 4.0;
+constexpr int kQuickPoses = 48;
+constexpr int kQuickCoefficients = 6;
+constexpr double kQuickSampleShare = 1.0 / 20.0;
+constexpr std::size_t kPolished = 2;  ///< of the starts of one radius
+
+struct Candidate {
+  FitDraft draft;
+  double score = -1.0;
+};
+
+FitDraft draft_of(const std::vector<FitTask>& tasks, const ToolModel& tool, double radius) {
+  FitDraft draft;
+  for (const FitTask& task : tasks) {
+    draft.targets.push_back(task.target);
+    draft.motions.push_back(task.motion);
+    draft.obstacles.push_back(task.obstacles);
+  }
+  const double length = tasks.front().motion.axis_length;
+  draft.free_tool = tool.free();
+  draft.free_parameters = tool.free_parameters;
+  draft.tool = tool.free() ? RadialFunction::spline(length, Eigen::VectorXd::Constant(kQuickCoefficients, radius))
+                           : tool.make(length, radius);
+  return draft;
+}
+
+/// By how much the axis is longer than a third more than its way: then it most likely lies along the cavity.
+double lying(const RuledMotion& motion) {
+  constexpr double kUpright = 1.3;
+  const double middle = 0.5 * motion.axis_length;
+  const double way = (motion.pose(1.0).at(middle) - motion.pose(0.0).at(middle)).norm();
+  return std::max(0.0, motion.axis_length / std::max(way, 1e-9) - kUpright);
+}
+
+/// Score of a draft, less a price for axes that are not parallel across the cavity, or lie along it.
+double worth(const FitDraft& draft, const CoverageEstimate& estimate, double tolerance) {
+  constexpr double kPrice = 2.0;  // of coverage, for a stagger of the whole axis length: 12 degrees cost a fifth
+  double sum = 0.0;
+  for (std::size_t k = 0; k + 1 < draft.motions.size(); k += 2)
+    sum += stagger(draft.motions[k], draft.motions[k + 1]) + 0.25 * std::min(4.0, lying(draft.motions[k]));
+  return estimate.score(tolerance) - kPrice * sum / std::max(1.0, 0.5 * static_cast<double>(draft.motions.size()));
+}
+
+std::vector<SurfaceSample> samples_of(const CavitySide& left, const CavitySide& right, const FlankFitOptions& options) {
+  std::vector<SurfaceSample> samples = ranking_samples(*left.target, left.obstacles, options);
+  const std::vector<SurfaceSample> more = ranking_samples(*right.target, right.obstacles, options);
+  samples.insert(samples.end(), more.begin(), more.end());
+  return samples;
+}
+
+class SideFitter {
+ public:
+  SideFitter(const CavitySide& left, const CavitySide& right, const ToolModel& tool, const SideFitOptions& options)
+      : left_(left),
+        right_(right),
+        tool_(tool),
+        options_(options),
+        left_chart_(*left.target),
+        right_chart_(*right.target),
+        samples_(samples_of(left, right, options.fit)) {
+    FlankFitOptions coarse = options.fit;
+    coarse.sample_share = kQuickSampleShare;
+    few_ = samples_of(left, right, coarse);
+  }
+
+  /// The best that starts of one radius give, polished.
+  [[nodiscard]] Polished polished(const RadiusStart& first, std::vector<IterationTrace>& trace, int& starts) const;
+  [[nodiscard]] const std::vector<SurfaceSample>& samples() const { return samples_; }
+
+ private:
+  [[nodiscard]] Candidate quick(const SideStart& start, const FlankFitOptions& fit) const;
+
+  const CavitySide &left_, &right_;
+  const ToolModel& tool_;
+  const SideFitOptions& options_;
+  Chart left_chart_, right_chart_;
+  std::vector<SurfaceSample> samples_, few_;
+};
+
+Candidate SideFitter::quick(const SideStart& start, const FlankFitOptions& fit) const {
+  Candidate candidate;
+  const std::optional<double> length = tool_.axis_length ? tool_.axis_length : options_.fit.axis_length_mm;
+  const std::vector<FitTask> tasks =
+      side_tasks(left_, right_, left_chart_, right_chart_, start, options_.layers, length, options_.up);
+  if (tasks.empty()) return candidate;
+  const FitDraft draft = draft_of(tasks, tool_, start.radius_mm);
+  candidate.draft = run_stage(draft, fit.bounds, quick_stage(robust_scale(*left_.target, fit)));
+  if (!has_values(candidate.draft)) return candidate;
+  const double tolerance = kQuickTolerances * options_.fit.tolerance_mm;
+  CoverageEstimate estimate =
+      estimate_coverage(few_, candidate.draft.motions, candidate.draft.tool, tolerance, kQuickPoses);
+  estimate.gouge_mm =
+      flank_gouge(candidate.draft.motions, candidate.draft.obstacles, candidate.draft.tool, kQuickPoses);
+  candidate.score = worth(candidate.draft, estimate, tolerance);
+  return candidate;
+}
+
+Polished SideFitter::polished(const RadiusStart& first, std::vector<IterationTrace>& trace, int& starts) const {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  constexpr std::array<double, 5> kSkews = {0.0, 12.0, -12.0, 25.0, -25.0};
+  const double radius = first.radius_mm;
+  FlankFitOptions fit = options_.fit;
+  if (tool_.free()) fit.bounds.smallest = std::max(fit.bounds.smallest, first.least_share * radius);
+  std::vector<SideStart> all;
+  for (const bool swapped : {false, true})
+    for (const double skew : kSkews) all.push_back({swapped, skew * kDegree, radius});
+  std::vector<Candidate> candidates(all.size());
+  parallel_for(all.size(), [&](std::size_t k) { candidates[k] = quick(all[k], fit); });
+  starts += static_cast<int>(all.size());
+  std::erase_if(candidates, [](const Candidate& c) { return c.draft.motions.empty() || !has_values(c.draft); });
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+  candidates.resize(std::min(candidates.size(), kPolished));
+  std::vector<Polished> polished(candidates.size());
+  std::vector<std::vector<IterationTrace>> traces(candidates.size());
+  parallel_for(candidates.size(),
+               [&](std::size_t k) { polished[k] = polish(candidates[k].draft, samples_, fit, &traces[k]); });
+  const auto value = [&](std::size_t k) {
+    return worth(polished[k].draft, polished[k].estimate, options_.fit.tolerance_mm);
+  };
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < polished.size(); ++k)
+    if (value(k) > value(best)) best = k;
+  if (polished.empty()) return {};
+  trace = std::move(traces[best]);
+  return last_passes(polished[best], samples_, fit, &trace);
+}
+
+bool is_done(const CoverageEstimate& e, const SideFitOptions& options) {
+  return e.at_tolerance >= options.least_coverage && e.overcut_mm <= options.fit.tolerance_mm &&
+         e.gouge_mm <= options.fit.tolerance_mm;
+}
+
+}  // namespace
+
+double narrowest(const Target& left, const Target& right) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const SurfaceSample& sample : left.samples(std::sqrt(left.area()) / 30.0))
+    least = std::min(least, (right.closest(sample.point).point - sample.point).norm());
+  return least;
+}
+
+double facing(const Target& left, const Target& right) {
+  double sum = 0.0, area = 0.0;
+  for (const SurfaceSample& sample : left.samples(std::sqrt(left.area()) / 15.0)) {
+    const Footpoint foot = right.closest(sample.point);
+    sum += sample.area * sample.normal.dot(foot.normal);
+    area += sample.area;
+  }
+  return area > 0.0 ? sum / area : 1.0;
+}
+
+SideFit fit_sides(const CavitySide& left, const CavitySide& right, const ToolModel& tool, const SideFitOptions& options,
+                  const Progress& progress) {
+  SideFit out;
+  const SideFitter fitter(left, right, tool, options);
+  Polished best;
+  const double tolerance = options.fit.tolerance_mm;
+  for (const RadiusStart& start : options.starts) {
+    progress.step("sides", 0.5 * out.tried_radii / static_cast<double>(options.starts.size()));
+    if (progress.stop() && !best.draft.motions.empty()) break;
+    std::vector<IterationTrace> trace;
+    Polished tried = fitter.polished(start, trace, out.fit.candidates);
+    ++out.tried_radii;
+    if (tried.draft.motions.empty()) continue;
+    const bool better = best.draft.motions.empty() ||
+                        worth(tried.draft, tried.estimate, tolerance) > worth(best.draft, best.estimate, tolerance);
+    const bool done = is_done(tried.estimate, options);
+    if (better) {
+      best = std::move(tried);
+      out.fit.trace = std::move(trace);
+      out.start_radius_mm = start.radius_mm;
+    }
+    if (done) break;
+  }
+  if (best.draft.motions.empty()) {
+    out.fit.status = FitStatus::kNoStart;
+    out.fit.message = "no axis that touches both sides is free";
+    return out;
+  }
+  out.fit = finish(settled(without_overcut(best, fitter.samples(), options.fit), options.fit), options.fit,
+                   std::move(out.fit));
+  return out;
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,43 @@
+/// Side paths of a cavity: one tool for both sides and all layers, by the flank fit (docs/algorithms/fit.md), started on
+/// both sides at once.
+#pragma once
+
+#include <optional>
+
+#include "flank/trochoid/side_start.h"
+
+namespace flank::internal {
+
+/// A radius to start with, mm, and the least radius that a free tool may then have, as a share of it.
+struct RadiusStart {
+  double radius_mm = 1.0, least_share = 0.3;
+};
+
+struct SideFitOptions {
+  FlankFitOptions fit;
+  int layers = 1;
+  /// What to start with, the best first: the first with which the sides are done is kept, else the best of them.
+  std::vector<RadiusStart> starts;
+  double least_coverage = 0.97;  ///< planner's estimate, that counts as done
+  std::optional<Vec3> up;        ///< from the floor to the open top, if it is known
+};
+
+struct SideFit {
+  /// motions[2 k] of the left side, [2 k + 1] of the right one, in layer k, the top one first. Both run in the same
+  /// direction along the cavity, tips at the same end. Empty: no start.
+  FlankFitResult fit;
+  double start_radius_mm = 0.0;
+  int tried_radii = 0;
+};
+
+/// Least distance of the two sides from each other, mm: over samples of the left one.
+[[nodiscard]] double narrowest(const Target& left, const Target& right);
+
+/// Cosine of the angle between the normals of sides that face each other, mean over samples: -1 for parallel walls, above
+/// 0 they do not face.
+[[nodiscard]] double facing(const Target& left, const Target& right);
+
+[[nodiscard]] SideFit fit_sides(const CavitySide& left, const CavitySide& right, const ToolModel& tool,
+                                const SideFitOptions& options, const Progress& progress);
+
+}  // namespace flank::internal

@@ -1,0 +1,135 @@
+#include "flank/trochoid/side_path.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flank::internal {
+namespace {
+
+constexpr int kSteps = 512;
+
+/// The curve run through backwards; knots over [0, 1].
+BSplineCurve3 backwards_of(const BSplineCurve3& curve) {
+  BSplineCurve3 out = curve;
+  out.poles = curve.poles.rowwise().reverse();
+  std::reverse(out.knots.begin(), out.knots.end());
+  for (double& k : out.knots) k = 1.0 - k;
+  return out;
+}
+
+}  // namespace
+
+SidePath::SidePath(RuledMotion motion, bool backwards) : motion_(std::move(motion)) {
+  if (backwards) {
+    motion_.tip = backwards_of(motion_.tip);
+    motion_.direction = backwards_of(motion_.direction);
+  }
+  way_.assign(1, 0.0);
+  Vec3 before = motion_.pose(0.0).at(0.5 * motion_.axis_length);
+  for (int k = 1; k <= kSteps; ++k) {
+    const Vec3 now = motion_.pose(static_cast<double>(k) / kSteps).at(0.5 * motion_.axis_length);
+    way_.push_back(way_.back() + (now - before).norm());
+    before = now;
+  }
+  const double middle = 0.5 * motion_.axis_length;
+  const Vec3 first = inside(0.0).velocity(middle), last = inside(1.0).velocity(middle);
+  before_ = {first, first, 1.0};
+  after_ = {last, last, 1.0};
+}
+
+AxisPlace SidePath::inside(double t) const {
+  const AxisJet jet = motion_.jet(t);
+  const double speed = jet.velocity(0.5 * motion_.axis_length).norm();
+  return {jet.tip, jet.u, jet.tip_d1 / speed, jet.u_d1 / speed};
+}
+
+AxisPlace SidePath::at(double x) const {
+  if (x >= 0.0 && x <= length()) {
+    const auto after = std::upper_bound(way_.begin() + 1, way_.end() - 1, x);
+    const auto k = static_cast<std::size_t>(after - way_.begin());
+    const double share = (x - way_[k - 1]) / (way_[k] - way_[k - 1]);
+    return inside((static_cast<double>(k) - 1.0 + share) / kSteps);
+  }
+  const AxisPlace end = inside(x < 0.0 ? 0.0 : 1.0);
+  const RunOut& out = x < 0.0 ? before_ : after_;
+  const double by = x < 0.0 ? -x : x - length(), bent = std::min(by, out.over);
+  const Vec3 turn = out.to - out.from;
+  const Vec3 way = by * out.from + (0.5 * bent * bent / out.over + by - bent) * turn;
+  return {end.tip + (x < 0.0 ? -1.0 : 1.0) * way, end.u, out.from + bent / out.over * turn, Vec3::Zero()};
+}
+
+void SidePath::bend_run_out(bool at_end, const Vec3& direction, double over_mm) {
+  RunOut& out = at_end ? after_ : before_;
+  out.to = direction;
+  out.over = over_mm;
+}
+
+std::vector<Pose> SidePath::poses(double from, double to, double chord_mm) const {
+  SamplingOptions options;
+  options.chord_tolerance_mm = chord_mm;
+  const SampledMotion sampled = sample_motion(motion_, options);
+  std::vector<Pose> out;
+  const auto add = [&](double x) {
+    const AxisPlace place = at(x);
+    out.push_back({place.tip, place.u});
+  };
+  if (from < 0.0) add(from);
+  for (std::size_t k = 0; k < sampled.poses.size(); ++k) {
+    const double x = way_[static_cast<std::size_t>(std::lround(sampled.t[k] * kSteps))];
+    if (x > from && x < to) out.push_back(sampled.poses[k]);
+  }
+  if (from >= 0.0) {
+    const AxisPlace place = at(from);
+    out.insert(out.begin(), Pose{place.tip, place.u});
+  }
+  add(to);
+  return out;
+}
+
+namespace {
+
+/// Mean direction of both ways over their last quarter at an end, along x, across the axis.
+Vec3 common_direction(const SidePath& a, const SidePath& b, bool end) {
+  constexpr double kShare = 0.25;  // the last velocities of a fitted motion alone may be off
+  const double middle = 0.5 * a.axis_length();
+  Vec3 sum = Vec3::Zero(), up = Vec3::Zero();
+  for (const SidePath* path : {&a, &b}) {
+    const double x = end ? path->length() : 0.0, inner = end ? (1.0 - kShare) * x : kShare * path->length();
+    const AxisPlace outer = path->at(x);
+    const Vec3 way = outer.at(middle) - path->at(inner).at(middle);
+    sum += (end ? way : Vec3(-way)).normalized();
+    up += outer.u;
+  }
+  up.normalize();
+  return (sum - sum.dot(up) * up).normalized();
+}
+
+}  // namespace
+
+void join_run_outs(SidePath& a, SidePath& b, double radius_mm) {
+  for (const bool end : {false, true}) {
+    const Vec3 direction = common_direction(a, b, end);
+    a.bend_run_out(end, direction, radius_mm);
+    b.bend_run_out(end, direction, radius_mm);
+  }
+}
+
+double across_from(const SidePath& path, double x, const SidePath& other, double guess) {
+  const double middle = 0.5 * path.axis_length();
+  const AxisPlace here = path.at(x);
+  const auto ahead = [&](double y) {
+    const AxisPlace there = other.at(y);
+    const Vec3 forward = here.velocity(middle) + there.velocity(middle);
+    return (there.at(middle) - here.at(middle)).dot(forward) / std::max(1e-9, forward.norm());
+  };
+  // Secant steps: the value grows by about one a millimetre.
+  double a = guess, fa = ahead(a), b = a - fa, fb = ahead(b);
+  for (int k = 0; k < 30 && std::abs(fb) > 1e-9 && fb != fa; ++k) {
+    const double next = b - std::clamp(fb * (b - a) / (fb - fa), -10.0, 10.0);
+    a = b, fa = fb;
+    b = next, fb = ahead(b);
+  }
+  return b;
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,47 @@
+/// A side path as the cycles see it: by the way of the axis' middle, and straight on past both its ends.
+#pragma once
+
+#include <vector>
+
+#include "flank/trochoid/half_path.h"
+
+namespace flank::internal {
+
+class SidePath {
+ public:
+  /// `backwards`: run through from its end to its start.
+  SidePath(RuledMotion motion, bool backwards);
+
+  /// Way of the axis' middle, mm.
+  [[nodiscard]] double length() const { return way_.back(); }
+  [[nodiscard]] double axis_length() const { return motion_.axis_length; }
+  /// Place and velocity at x mm from the start; beyond [0, length()] the axis is shifted on.
+  [[nodiscard]] AxisPlace at(double x) const;
+  [[nodiscard]] const RuledMotion& motion() const { return motion_; }
+  /// Beyond an end the axis is shifted on, along its middle's last direction; this bends the way towards another direction,
+  /// a unit vector along x, evenly over a length. Over no less than the tool's radius: then the tool, which rounds the edge
+  /// of the side, keeps clear of it for directions up to 45 degrees off.
+  void bend_run_out(bool at_end, const Vec3& direction, double over_mm);
+  /// Poses from x = from to x = to: those of the motion within the chord tolerance, and the ends beyond it.
+  [[nodiscard]] std::vector<Pose> poses(double from, double to, double chord_mm) const;
+
+ private:
+  [[nodiscard]] AxisPlace inside(double t) const;
+  RuledMotion motion_;  ///< in the direction of the cycles
+  struct RunOut {
+    Vec3 from, to;  ///< directions at the end of the side, and `over` beyond it
+    double over = 1.0;
+  };
+  RunOut before_, after_;
+  std::vector<double> way_;  ///< at equal steps of t
+};
+
+/// Beyond their ends both paths bend over a radius towards one direction, the mean of their last quarters across the axis:
+/// from there on they neither meet nor part.
+void join_run_outs(SidePath& a, SidePath& b, double radius_mm);
+
+/// The place of `other` that lies across from x of `path`: the axes' middles are joined at right angles to the mean
+/// direction of motion. `guess` is near it, mm.
+[[nodiscard]] double across_from(const SidePath& path, double x, const SidePath& other, double guess);
+
+}  // namespace flank::internal

@@ -1,0 +1,170 @@
+#include "flank/trochoid/side_start.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flank::internal {
+namespace {
+
+constexpr int kControlPoints = 12;
+constexpr double kOverlap = 0.05;  ///< of a layer's height, shared with its neighbours
+constexpr double kLonger = 1.02;   ///< the axis past the longest offset contact line (MATH section 7)
+
+struct Laid {
+  std::vector<RuledMotion> motions;  ///< a layer each, in the order of the chart's bands
+  bool walled = false;               ///< a wall says where the tips are
+};
+
+/// Layer k of n on the chart, and what it shares with its neighbours.
+RuledStart band_of(const RuledStart& start, int k, int n) {
+  RuledStart band = start;
+  const double overlap = n > 1 ? 0.5 * kOverlap / n : 0.0;
+  band.band_low = std::max(0.0, static_cast<double>(k) / n - overlap);
+  band.band_high = std::min(1.0, (k + 1.0) / n + overlap);
+  return band;
+}
+
+/// Axis turned end for end.
+RuledMotion upside_down(const RuledMotion& motion) {
+  constexpr int kTimes = 81;
+  std::vector<Pose> poses;
+  std::vector<double> t;
+  for (int i = 0; i < kTimes; ++i) {
+    t.push_back(i / (kTimes - 1.0));
+    const Pose pose = motion.pose(t.back());
+    poses.push_back({pose.at(motion.axis_length), -pose.axis});
+  }
+  return fit_motion(poses, t, motion.axis_length, motion.tip.count());
+}
+
+/// Time run backwards.
+RuledMotion backwards(const RuledMotion& motion) {
+  constexpr int kTimes = 81;
+  std::vector<Pose> poses;
+  std::vector<double> t;
+  for (int i = 0; i < kTimes; ++i) {
+    t.push_back(i / (kTimes - 1.0));
+    poses.push_back(motion.pose(1.0 - t.back()));
+  }
+  return fit_motion(poses, t, motion.axis_length, motion.tip.count());
+}
+
+Vec3 travel(const RuledMotion& motion) {
+  const double middle = 0.5 * motion.axis_length;
+  return motion.pose(1.0).at(middle) - motion.pose(0.0).at(middle);
+}
+
+double longest_line(const CavitySide& side, const Chart& chart, const RuledStart& start, int layers) {
+  double longest = 0.0;
+  for (int k = 0; k < layers; ++k) {
+    const RuledStart band = band_of(start, k, layers);
+    double length = kLonger * longest_chord(chart, band);
+    if (side.obstacles != nullptr) {
+      const ClearStart clear = clear_start(chart, band, *side.obstacles);
+      if (clear.free_lines > 0 && clear.blocked_lines > kStartTimes / 4) length = kLonger * clear.longest_mm;
+    }
+    longest = std::max(longest, length);
+  }
+  return longest;
+}
+
+Laid lay(const CavitySide& side, const Chart& chart, const RuledStart& start, int layers, double length) {
+  Laid out;
+  for (int k = 0; k < layers; ++k) {
+    const RuledStart band = band_of(start, k, layers);
+    if (side.obstacles != nullptr) {
+      const ClearStart clear = clear_start(chart, band, *side.obstacles);
+      if (clear.free_lines == 0) return {};
+      if (clear.blocked_lines > kStartTimes / 4) {
+        out.motions.push_back(make_motion(clear, length, kControlPoints));
+        out.walled = true;
+        continue;
+      }
+    }
+    out.motions.push_back(make_motion(chart, band, length, kControlPoints));
+  }
+  return out;
+}
+
+/// Layers of one side with tips and travel as wanted.
+void turn(Laid& laid, const Vec3& up, const Vec3& along) {
+  for (RuledMotion& motion : laid.motions) {
+    if (motion.pose(0.5).axis.dot(up) < 0.0) motion = upside_down(motion);
+    if (travel(motion).dot(along) < 0.0) motion = backwards(motion);
+  }
+  std::stable_sort(laid.motions.begin(), laid.motions.end(), [&](const RuledMotion& a, const RuledMotion& b) {
+    return a.pose(0.5).tip.dot(up) > b.pose(0.5).tip.dot(up);
+  });
+}
+
+/// The lines of the right chart that are most nearly parallel to a direction.
+RuledStart like(const Chart& chart, const SideStart& start, const Vec3& direction) {
+  RuledStart best;
+  double most = -1.0;
+  for (const bool swapped : {false, true}) {
+    for (const double sign : {1.0, -1.0}) {
+      RuledStart tried;
+      tried.swapped = swapped;
+      tried.skew_rad = sign * start.skew_rad;
+      tried.radius_mm = start.radius_mm;
+      const double parallel = std::abs(axis_line(chart, tried, 0.5).direction.dot(direction));
+      if (parallel <= most + 1e-9) continue;
+      most = parallel;
+      best = tried;
+    }
+  }
+  return best;
+}
+
+/// Up where nothing says so: towards the wider end.
+Vec3 towards_wider(const RuledMotion& left, const RuledMotion& right) {
+  const Pose a = left.pose(0.5), b = right.pose(0.5);
+  const double sign = b.axis.dot(a.axis) < 0.0 ? -1.0 : 1.0;
+  const auto width = [&](double s) { return (a.at(s) - b.at(sign > 0.0 ? s : right.axis_length - s)).norm(); };
+  return width(left.axis_length) >= width(0.0) ? a.axis : Vec3(-a.axis);
+}
+
+}  // namespace
+
+double stagger(const RuledMotion& left, const RuledMotion& right) {
+  constexpr int kTimes = 9;
+  double sum = 0.0;
+  for (int i = 0; i < kTimes; ++i) {
+    const double t = (i + 0.5) / kTimes, middle = 0.5 * left.axis_length;
+    const AxisJet a = left.jet(t), b = right.jet(t);
+    const Vec3 forward = (a.velocity(middle).normalized() + b.velocity(middle).normalized()).normalized();
+    sum += 0.5 * std::abs((a.u - b.u).dot(forward));
+  }
+  return sum / kTimes;
+}
+
+std::vector<FitTask> side_tasks(const CavitySide& left, const CavitySide& right, const Chart& left_chart,
+                                const Chart& right_chart, const SideStart& start, int layers,
+                                const std::optional<double>& axis_length, const std::optional<Vec3>& up) {
+  RuledStart on_left;
+  on_left.swapped = start.swapped;
+  on_left.skew_rad = start.skew_rad;
+  on_left.radius_mm = start.radius_mm;
+  const RuledStart on_right = like(right_chart, start, axis_line(left_chart, on_left, 0.5).direction);
+  const double length = axis_length ? *axis_length
+                                    : std::max(longest_line(left, left_chart, on_left, layers),
+                                               longest_line(right, right_chart, on_right, layers));
+  Laid a = lay(left, left_chart, on_left, layers, length), b = lay(right, right_chart, on_right, layers, length);
+  if (a.motions.empty() || b.motions.empty()) return {};
+  Vec3 above = up.value_or(towards_wider(a.motions.front(), b.motions.front()));
+  if (a.walled)
+    above = a.motions.front().pose(0.5).axis;
+  else if (b.walled)
+    above = b.motions.front().pose(0.5).axis;
+  const Vec3 along = travel(a.motions.front());
+  turn(a, above, along);
+  turn(b, above, along);
+  std::vector<FitTask> tasks;
+  for (std::size_t k = 0; k < a.motions.size(); ++k) {
+    tasks.push_back({left.target, a.motions[k], left.obstacles});
+    tasks.push_back({right.target, b.motions[k], right.obstacles});
+  }
+  return tasks;
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,36 @@
+/// Where the axis begins on both sides of a cavity, before anything is fitted.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "flank/fit.h"
+#include "flank/seed/clear_start.h"
+
+namespace flank::internal {
+
+/// Not owned; they outlive the fit. Obstacles may be null: nothing is in the way.
+struct CavitySide {
+  const Target* target = nullptr;
+  const ObstacleField* obstacles = nullptr;
+};
+
+/// One way to lay the axis: along the lines of the left side's chart (or across them), turned by a skew.
+struct SideStart {
+  bool swapped = false;
+  double skew_rad = 0.0;
+  double radius_mm = 1.0;
+};
+
+/// Starts of all layers, two motions each (left, right), the top layer first. The right side's lines are those of its
+/// chart that are most nearly parallel to the left one's. Tips are at the walls, else away from `up`, else where the cavity
+/// is narrower. Empty: no line is free.
+[[nodiscard]] std::vector<FitTask> side_tasks(const CavitySide& left, const CavitySide& right, const Chart& left_chart,
+                                              const Chart& right_chart, const SideStart& start, int layers,
+                                              const std::optional<double>& axis_length, const std::optional<Vec3>& up);
+
+/// How far the ends of the axes of two motions that face each other lie apart along the way while the middles are across
+/// from each other, as a share of the axis length: mean over the way. A cycle must make up for it in every half.
+[[nodiscard]] double stagger(const RuledMotion& left, const RuledMotion& right);
+
+}  // namespace flank::internal

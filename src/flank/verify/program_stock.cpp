@@ -1,0 +1,176 @@
+#include "flank/verify/program_stock.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "flank/base/parallel.h"
+#include "flank/error.h"
+#include "flank/verify/reach.h"
+#include "flank/verify/stock/replay.h"
+#include "flank/verify/stock/stock_mesh.h"
+
+namespace flank::internal {
+namespace {
+
+constexpr double kRadian = 180.0 / std::numbers::pi;
+/// Lines of a stock whose cell is not given: they cost time in proportion.
+constexpr double kUsualLines = 1.5e5;
+/// Places of the faces from which rays are sent, of all together.
+constexpr std::size_t kMostRays = 6000;
+/// This near to a plane of the blank the stock has an edge, and no distance.
+constexpr double kEdgeCells = 3.0;
+
+/// Holds every ball of the axis that meets the blank.
+Box3 box_of(const Tool& tool, const Path& path, const std::vector<HalfSpace>& blank) {
+  constexpr int kBalls = 33;
+  const double length = tool.radial.axis_length();
+  Box3 box;
+  for (const Strip& strip : path.strips)
+    for (const Pose& pose : strip.poses)
+      for (int k = 0; k < kBalls; ++k) {
+        const double s = length * k / (kBalls - 1.0), r = tool.radial.at(s).r;
+        const Vec3 p = pose.at(s);
+        if (std::any_of(blank.begin(), blank.end(), [&](const HalfSpace& h) { return h.normal.dot(p) - r > h.offset; }))
+          continue;
+        box.add(p - Vec3::Constant(r));
+        box.add(p + Vec3::Constant(r));
+      }
+  return box;
+}
+
+/// What an axis-parallel plane of the blank cuts off need not be in the box.
+void clip(Box3& box, const std::vector<HalfSpace>& blank) {
+  for (const HalfSpace& h : blank)
+    for (int k = 0; k < 3; ++k) {
+      if (h.normal[k] > 1.0 - 1e-12) box.high[k] = std::min(box.high[k], h.offset);
+      if (h.normal[k] < -1.0 + 1e-12) box.low[k] = std::max(box.low[k], -h.offset);
+    }
+}
+
+double usual_cell(const Box3& box) {
+  const Vec3 size = box.high - box.low;
+  return std::sqrt((size.x() * size.y() + size.y() * size.z() + size.z() * size.x()) / kUsualLines);
+}
+
+/// By kinds in the order in which they first come.
+void add_strips(const verify::StockReplay& replay, StockReport& out) {
+  for (std::size_t k = 0; k < replay.strips.size(); ++k) {
+    const verify::StripReplay& strip = replay.strips[k];
+    auto kind = std::find_if(out.kinds.begin(), out.kinds.end(), [&](const auto& x) { return x.kind == strip.kind; });
+    if (kind == out.kinds.end()) kind = out.kinds.insert(kind, StockKind{.kind = strip.kind});
+    kind->way_mm += strip.way_mm;
+    kind->volume_mm3 += strip.volume_mm3;
+    const double angle = strip.angle_rad * kRadian;
+    if (angle > kind->engagement_deg) {
+      kind->engagement_deg = angle;
+      kind->strip = static_cast<int>(k);
+      kind->pose = strip.pose;
+      kind->s = strip.poses[strip.pose].s;
+    }
+    out.strip_deg.push_back(angle);
+    out.strip_mm3.push_back(strip.volume_mm3);
+    out.strip_mm.push_back(strip.way_mm);
+  }
+}
+
+/// A place of a face from which a ray goes to the middle of the cavity.
+struct Ray {
+  Vec3 point, normal;
+  double reach = 0.0;
+  bool covered = false;
+};
+
+/// Half of the distance from a place of one target to the nearest sample of the others.
+double half_way(const Vec3& point, std::size_t own, const std::vector<FaceSamples>& faces, std::size_t stride) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    if (f == own || !faces[f].target) continue;
+    for (std::size_t k = 0; k < faces[f].points.size(); k += stride)
+      least = std::min(least, (faces[f].points[k] - point).norm());
+  }
+  return std::isfinite(least) ? 0.5 * least : 0.0;
+}
+
+std::vector<Ray> rays_from(const Tool& tool, const Path& path, const std::vector<HalfSpace>& blank,
+                           const verify::DexelStock& stock, std::vector<FaceSamples>& faces, double tolerance) {
+  std::size_t all = 0;
+  for (const FaceSamples& face : faces) all += face.points.size();
+  const std::size_t stride = std::max<std::size_t>(1, all / kMostRays);
+  const double edge = kEdgeCells * stock.cell();
+  const SweptVolume volume(tool, path);
+  std::vector<Ray> rays;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    FaceSamples& face = faces[f];
+    if (face.normals.size() != face.points.size()) continue;
+    const int side = face.of_solid ? 1 : side_of_tool(tool, path, face);
+    for (std::size_t k = 0; k < face.points.size(); k += stride) {
+      const Vec3& p = face.points[k];
+      const bool in_box = ((p - stock.box().low).array() > edge).all() && ((stock.box().high - p).array() > edge).all();
+      if (!in_box || std::any_of(blank.begin(), blank.end(),
+                                 [&](const HalfSpace& h) { return h.normal.dot(p) > h.offset - edge; }))
+        continue;
+      Ray ray{p, side * face.normals[k], 0.0, false};
+      if (face.target) {
+        ray.covered = std::abs(volume.distance(p, 1.01 * tolerance).f) <= tolerance;
+        if (ray.covered) ray.reach = half_way(p, f, faces, stride);
+      }
+      rays.push_back(ray);
+    }
+  }
+  return rays;
+}
+
+void look_along(const std::vector<Ray>& rays, const verify::DexelStock& stock, StockReport& out) {
+  std::vector<verify::RayLeft> left(rays.size());
+  parallel_for(rays.size(), [&](std::size_t k) {
+    left[k] = verify::left_along(stock, rays[k].point, rays[k].normal, rays[k].reach);
+  });
+  for (std::size_t k = 0; k < rays.size(); ++k) {
+    out.entered_mm = std::max(out.entered_mm, left[k].entered_mm);
+    if (!rays[k].covered || left[k].over_mm <= out.uncut_mm) continue;
+    out.uncut_mm = left[k].over_mm;
+    out.uncut_point = rays[k].point;
+  }
+}
+
+}  // namespace
+
+ProgramStock replay_program(const Tool& tool, const Path& path, const std::vector<HalfSpace>& blank,
+                            std::vector<FaceSamples> faces, const ProgramStockOptions& options) {
+  Box3 box = box_of(tool, path, blank);
+  if (!((box.high - box.low).minCoeff() > 0.0)) throw InputError("the path never meets the blank");
+  const double cell = options.cell_mm.value_or(usual_cell(box));
+  // The faces that the tool finishes are where its balls end: they must not be where the stock ends.
+  box.low.array() -= (kEdgeCells + 1.0) * cell;
+  box.high.array() += (kEdgeCells + 1.0) * cell;
+  clip(box, blank);
+  if (!((box.high - box.low).minCoeff() > 0.0)) throw InputError("the path never meets the blank");
+  verify::DexelStock stock(box, blank, cell);
+  const verify::StockReplay replay = verify::replay(stock, tool.radial, path);
+  ProgramStock out;
+  out.report.cell_mm = stock.cell();
+  out.report.resolution_deg =
+      stock.cell() / (smallest_radius(tool) * std::max(0.1, std::sin(options.most_engagement_deg / kRadian))) * kRadian;
+  out.report.before_mm3 = replay.before_mm3;
+  out.report.left_mm3 = replay.after_mm3;
+  add_strips(replay, out.report);
+  look_along(rays_from(tool, path, blank, stock, faces, options.tolerance_mm), stock, out.report);
+  if (options.most_triangles > 0.0)
+    out.left = verify::stock_mesh(stock, verify::stride_for(stock, options.most_triangles));
+  return out;
+}
+
+}  // namespace flank::internal
+
+namespace flank {
+
+double StockReport::cycles_deg() const {
+  double largest = 0.0;
+  for (const StockKind& kind : kinds)
+    if (kind.kind == "front" || kind.kind == "back" || kind.kind == "entry")
+      largest = std::max(largest, kind.engagement_deg);
+  return largest;
+}
+
+}  // namespace flank

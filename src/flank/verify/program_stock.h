@@ -1,0 +1,30 @@
+/// A whole program replayed by the judge in a stock of its own, and what is left of it (MATH section 10).
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "flank/geom/half_space.h"
+#include "flank/judge.h"
+
+namespace flank::internal {
+
+struct ProgramStockOptions {
+  std::optional<double> cell_mm;      ///< none: so that there are about as many lines as a second or two a metre allow
+  double most_engagement_deg = 60.0;  ///< the limit, for the resolution
+  double tolerance_mm = 0.01;         ///< what counts as a covered place of a target
+  double most_triangles = 0.0;        ///< of what is left; 0: no mesh
+};
+
+struct ProgramStock {
+  StockReport report;
+  TriangleMesh left;  ///< closed; empty if none was asked for
+};
+
+/// Cuts the blank (the points that all half spaces hold, as far as the tool goes) by all strips in their order, and measures.
+/// `faces` are the judge's samples of targets and check surfaces. Throws UsageError for a cell that is not > 0 and
+/// InputError for a tool that is none, poses that are none, and a path that never meets the blank. The same bits for any number of threads.
+[[nodiscard]] ProgramStock replay_program(const Tool& tool, const Path& path, const std::vector<HalfSpace>& blank,
+                                          std::vector<FaceSamples> faces, const ProgramStockOptions& options);
+
+}  // namespace flank::internal

@@ -1,0 +1,210 @@
+#include "flank/verify/stock/dexel_stock.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "flank/base/parallel.h"
+#include "flank/error.h"
+
+namespace flank::internal::verify {
+namespace {
+
+constexpr double kMostLines = 1e9;
+
+/// The surface along four lines around a point: bilinear, where all four have it.
+struct Surface {
+  double distance = std::numeric_limits<double>::infinity();  ///< signed, mm, > 0 in the material
+  bool found = false;
+  bool any = false;     ///< one of the lines has material
+  bool inside = false;  ///< of the nearest line
+};
+
+/// The nearest end of a line's material: where it is, and whether material lies above it.
+struct LineEnd {
+  double place = 0.0;
+  bool lower = true, found = false, inside = false;
+};
+
+LineEnd nearest_end(const DexelField& field, int row, int line, double x) {
+  LineEnd out;
+  double best = std::numeric_limits<double>::infinity();
+  if (row < 0 || row >= field.rows() || line < 0 || line >= field.width()) return out;
+  field.visit(row, line, [&](const DexelSpan& span) {
+    out.inside = out.inside || (span.low <= x && x <= span.high);
+    for (const bool lower : {true, false}) {
+      const double place = lower ? span.low : span.high, off = std::abs(x - place);
+      if (off >= best) continue;
+      best = off;
+      out.place = place;
+      out.lower = lower;
+      out.found = true;
+    }
+  });
+  return out;
+}
+
+Surface surface_along(const DexelField& field, const Vec3& x, double cell) {
+  /// Steeper than this many cells a cell, another direction sees the surface better.
+  constexpr double kSteepest = 2.5;
+  const double line = field.line_at(x[field.across()]), row = field.row_at(x[field.up()]);
+  const int i = static_cast<int>(std::floor(line)), j = static_cast<int>(std::floor(row));
+  const double fi = line - i, fj = row - j, place = x[field.axis()];
+  std::array<LineEnd, 4> ends;
+  Surface out;
+  for (int k = 0; k < 4; ++k) {
+    LineEnd& end = ends[static_cast<std::size_t>(k)];
+    end = nearest_end(field, j + k / 2, i + k % 2, place);
+    out.any = out.any || end.found;
+  }
+  out.inside = ends[static_cast<std::size_t>((fj > 0.5 ? 2 : 0) + (fi > 0.5 ? 1 : 0))].inside;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const LineEnd& end : ends) {
+    if (!end.found || end.lower != ends[0].lower) return out;
+    low = std::min(low, end.place);
+    high = std::max(high, end.place);
+  }
+  if (high - low > kSteepest * cell) return out;
+  const double a = std::lerp(ends[0].place, ends[1].place, fi), b = std::lerp(ends[2].place, ends[3].place, fi);
+  const double across = std::lerp(ends[1].place - ends[0].place, ends[3].place - ends[2].place, fj) / cell;
+  const double up = (b - a) / cell;
+  const double along = (place - std::lerp(a, b, fj)) * (ends[0].lower ? 1.0 : -1.0);
+  out.distance = along / std::sqrt(1.0 + across * across + up * up);
+  out.found = true;
+  return out;
+}
+
+/// Takes away what is beyond the planes.
+void cut_by_planes(DexelField& field, const std::vector<HalfSpace>& planes, int row, int line) {
+  constexpr double kFar = 1e30;
+  Vec3 x = Vec3::Zero();
+  x[field.up()] = field.place_up(row);
+  x[field.across()] = field.place_across(line);
+  for (const HalfSpace& plane : planes) {
+    const double along = plane.normal[field.axis()], room = plane.offset - plane.normal.dot(x);
+    if (std::abs(along) < 1e-12) {
+      if (room < 0.0) field.subtract(row, line, -kFar, kFar);
+    } else if (along > 0.0) {
+      field.subtract(row, line, room / along, kFar);
+    } else {
+      field.subtract(row, line, -kFar, room / along);
+    }
+  }
+}
+
+int clipped(double x, int count) { return static_cast<int>(std::clamp(x, -1.0, static_cast<double>(count))); }
+
+/// Takes the tool away from a row of lines; returns the length that was material, mm.
+double cut_row(DexelField& field, const ToolSolid& tool, const Pose& pose, int row) {
+  const int b = field.across(), c = field.up();
+  const double radius = tool.largest();
+  Vec3 x = Vec3::Zero();
+  x[c] = field.place_up(row);
+  // The heights at which the axis is near enough to the row, and there the places across.
+  double from = tool.low(), to = tool.high();
+  if (std::abs(pose.axis[c]) > 1e-12) {
+    double p = (x[c] - radius - pose.tip[c]) / pose.axis[c], q = (x[c] + radius - pose.tip[c]) / pose.axis[c];
+    if (p > q) std::swap(p, q);
+    from = std::max(from, p), to = std::min(to, q);
+    if (from > to) return 0.0;
+  }
+  const double u = pose.at(from)[b], v = pose.at(to)[b];
+  const int left = std::max(0, clipped(std::ceil(field.line_at(std::min(u, v) - radius)), field.width()));
+  const int right =
+      std::min(field.width() - 1, clipped(std::floor(field.line_at(std::max(u, v) + radius)), field.width()));
+  const Vec3 direction = Vec3::Unit(field.axis());
+  double removed = 0.0;
+  for (int line = left; line <= right; ++line) {
+    if (field.is_empty(row, line)) continue;
+    x[b] = field.place_across(line);
+    const ToolLine seen = ToolSolid::line(pose, x, direction);
+    LineCut within;
+    if (!tool.reach(seen, within) || !field.meets(row, line, within.low, within.high)) continue;
+    const LineCuts cuts = tool.cut(seen, within);
+    for (int n = 0; n < cuts.count; ++n) {
+      const LineCut& stretch = cuts.cuts[static_cast<std::size_t>(n)];
+      removed += field.subtract(row, line, stretch.low, stretch.high);
+    }
+  }
+  return removed;
+}
+
+}  // namespace
+
+DexelStock::DexelStock(const Box3& box, const std::vector<HalfSpace>& planes, double cell_mm)
+    : box_(box), cell_(cell_mm) {
+  if (!(cell_mm > 0.0)) throw UsageError("cell_mm", "a length > 0 mm is needed");
+  const Vec3 size = box.high - box.low;
+  if (!(size.minCoeff() > 0.0)) throw InputError("the box of the stock is empty");
+  const double lines = (size.x() * size.y() + size.y() * size.z() + size.z() * size.x()) / (cell_ * cell_);
+  if (!(lines < kMostLines)) throw InputError("the stock has too many cells: take larger ones");
+  for (int axis = 0; axis < 3; ++axis) {
+    DexelField& field = fields_.emplace_back(axis, box_, cell_);
+    parallel_for(static_cast<std::size_t>(field.rows()), [&](std::size_t row) {
+      for (int line = 0; line < field.width(); ++line) cut_by_planes(field, planes, static_cast<int>(row), line);
+    });
+  }
+}
+
+double DexelStock::cut(const ToolSolid& tool, const Pose& pose) {
+  double sum = 0.0;
+  for (DexelField& field : fields_) sum += cut_field(field, tool, pose);
+  return sum / 3.0;
+}
+
+double DexelStock::cut_field(DexelField& field, const ToolSolid& tool, const Pose& pose) {
+  const int c = field.up();
+  const double radius = tool.largest(), low = pose.at(tool.low())[c], high = pose.at(tool.high())[c];
+  const int first = std::max(0, clipped(std::ceil(field.row_at(std::min(low, high) - radius)), field.rows()));
+  const int last =
+      std::min(field.rows() - 1, clipped(std::floor(field.row_at(std::max(low, high) + radius)), field.rows()));
+  if (first > last) return 0.0;
+  std::vector<double> removed(static_cast<std::size_t>(last - first + 1), 0.0);
+  constexpr std::size_t kRows = 32;
+  parallel_blocks(removed.size(), kRows, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) removed[k] = cut_row(field, tool, pose, first + static_cast<int>(k));
+  });
+  double sum = 0.0;
+  for (const double length : removed) sum += length;
+  return sum * cell_ * cell_;
+}
+
+std::array<double, 3> DexelStock::volumes() const {
+  std::array<double, 3> out{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (int row = 0; row < fields_[axis].rows(); ++row) out[axis] += fields_[axis].length(row);
+    out[axis] *= cell_ * cell_;
+  }
+  return out;
+}
+
+double DexelStock::volume() const {
+  const std::array<double, 3> all = volumes();
+  return (all[0] + all[1] + all[2]) / 3.0;
+}
+
+std::optional<double> DexelStock::distance(const Vec3& x) const {
+  Surface best;
+  for (const DexelField& field : fields_) {
+    const Surface surface = surface_along(field, x, cell_);
+    if (surface.found && std::abs(surface.distance) < std::abs(best.distance)) best = surface;
+  }
+  return best.found ? std::optional(best.distance) : std::nullopt;
+}
+
+double DexelStock::depth(const Vec3& x) const {
+  Surface best;
+  int inside = 0;
+  bool any = false;
+  for (const DexelField& field : fields_) {
+    const Surface surface = surface_along(field, x, cell_);
+    inside += surface.inside ? 1 : -1;
+    any = any || surface.any;
+    if (surface.found && std::abs(surface.distance) < std::abs(best.distance)) best = surface;
+  }
+  if (best.found) return best.distance;
+  if (!any) return -std::numeric_limits<double>::infinity();
+  return inside > 0 ? 0.5 * cell_ : -0.5 * cell_;
+}
+
+}  // namespace flank::internal::verify

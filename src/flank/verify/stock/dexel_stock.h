@@ -1,0 +1,47 @@
+/// A tri-dexel stock: the judge's own model of the workpiece, cut by tool poses in their order. It shares no code with the
+/// planner's stock, which is made of sweeps and closed forms.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "flank/geom/half_space.h"
+#include "flank/triangle_mesh.h"
+#include "flank/verify/stock/dexel_field.h"
+#include "flank/verify/stock/tool_solid.h"
+
+namespace flank::internal::verify {
+
+/// Not for several threads at once, but for reading; works in parallel itself, with the same bits for any number of threads.
+class DexelStock {
+ public:
+  /// The part of the box that all planes hold. Throws UsageError for a cell that is not > 0, and
+  /// InputError for an empty box or one of more than a thousand million cells across its lines.
+  DexelStock(const Box3& box, const std::vector<HalfSpace>& planes, double cell_mm);
+
+  /// Takes the tool at a pose away; returns the volume that was material, mm^3: the mean of the three directions.
+  double cut(const ToolSolid& tool, const Pose& pose);
+  /// What is left, mm^3, as the mean of the three directions, and as each of them has it.
+  [[nodiscard]] double volume() const;
+  [[nodiscard]] std::array<double, 3> volumes() const;
+
+  /// Signed distance to the surface of the stock, mm: > 0 in the material. Beside a smooth surface to a fraction of the
+  /// cell, and farther off to first order; near edges to about a cell. Far from the surface it is only the sign that
+  /// counts; -infinity where no line has any material.
+  [[nodiscard]] double depth(const Vec3& x) const;
+  /// The same where lines see a smooth surface; none at edges, and where there is no material near.
+  [[nodiscard]] std::optional<double> distance(const Vec3& x) const;
+
+  [[nodiscard]] double cell() const { return cell_; }
+  [[nodiscard]] const Box3& box() const { return box_; }
+  [[nodiscard]] const DexelField& field(int axis) const { return fields_[static_cast<std::size_t>(axis)]; }
+
+ private:
+  double cut_field(DexelField& field, const ToolSolid& tool, const Pose& pose);
+  Box3 box_;
+  double cell_;
+  std::vector<DexelField> fields_;
+};
+
+}  // namespace flank::internal::verify

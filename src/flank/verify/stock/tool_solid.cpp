@@ -1,0 +1,168 @@
+#include "flank/verify/stock/tool_solid.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "flank/error.h"
+#include "flank/tool.h"
+
+namespace flank::internal::verify {
+namespace {
+
+/// Joins stretches whose ends differ by rounding alone, mm.
+constexpr double kJoin = 1e-9;
+
+/// Meridian and round ends as one curve of a parameter that rises with the height: the ends' angles, then s, then angles.
+class Outline {
+ public:
+  explicit Outline(const RadialFunction& radial) : radial_(radial) {}
+  [[nodiscard]] Vec2 flank(double s) const { return meridian_point(radial_, s); }
+  /// On the sphere of an end: share 0 at the pole for the lower end and at the meridian for the upper one.
+  [[nodiscard]] Vec2 end(bool upper, double share) const {
+    const double s = upper ? radial_.axis_length() : 0.0;
+    const RadialJet j = radial_.at(s);
+    // The angle of the normal over the plane across the axis is asin(-r').
+    const double slope = std::asin(std::clamp(-j.d1, -1.0, 1.0)), pole = std::acos(-1.0) / 2.0;
+    const double angle = upper ? std::lerp(slope, pole, share) : std::lerp(-pole, slope, share);
+    return {s + j.r * std::sin(angle), std::max(0.0, j.r * std::cos(angle))};
+  }
+
+ private:
+  const RadialFunction& radial_;
+};
+
+/// Points of a curve over [from, to], without the first, as far apart as the chord allows.
+template <class Curve>
+void add_points(const Curve& curve, double from, double to, double chord, int depth, std::vector<Vec2>& out) {
+  const Vec2 a = curve(from), b = curve(to);
+  const Vec2 along = (b - a).norm() > 0.0 ? Vec2((b - a).normalized()) : Vec2(1.0, 0.0);
+  double off = 0.0;
+  for (const double share : {0.25, 0.5, 0.75}) {
+    const Vec2 d = curve(std::lerp(from, to, share)) - a;
+    off = std::max(off, std::abs(d.x() * along.y() - d.y() * along.x()));
+  }
+  if (off > chord && depth > 0) {
+    const double middle = 0.5 * (from + to);
+    add_points(curve, from, middle, chord, depth - 1, out);
+    add_points(curve, middle, to, chord, depth - 1, out);
+    return;
+  }
+  if (b.x() > out.back().x() + 1e-12)
+    out.push_back(b);
+  else
+    out.back() = b;
+}
+
+}  // namespace
+
+void LineCuts::add(double low, double high) {
+  if (count > 0 && (low <= cuts[static_cast<std::size_t>(count - 1)].high + kJoin || count == kMost)) {
+    cuts[static_cast<std::size_t>(count - 1)].high = std::max(cuts[static_cast<std::size_t>(count - 1)].high, high);
+    return;
+  }
+  cuts[static_cast<std::size_t>(count++)] = {low, high};
+}
+
+ToolSolid::ToolSolid(const RadialFunction& radial, double chord_mm) {
+  if (const Legitimacy legitimacy = check_legitimacy(radial); !legitimacy.legitimate)
+    throw InputError("the tool is not legitimate: " + legitimacy.reason);
+  constexpr int kPieces = 16, kDepth = 12;
+  const Outline outline(radial);
+  const double length = radial.axis_length();
+  nodes_.push_back(outline.end(false, 0.0));
+  add_points([&](double x) { return outline.end(false, x); }, 0.0, 1.0, chord_mm, kDepth, nodes_);
+  for (int k = 0; k < kPieces; ++k)
+    add_points([&](double s) { return outline.flank(s); }, length * k / kPieces, length * (k + 1) / kPieces, chord_mm,
+               kDepth, nodes_);
+  add_points([&](double x) { return outline.end(true, x); }, 0.0, 1.0, chord_mm, kDepth, nodes_);
+  for (const Vec2& node : nodes_) largest_ = std::max(largest_, node.y());
+}
+
+ToolLine ToolSolid::line(const Pose& pose, const Vec3& point, const Vec3& direction) {
+  const Vec3 p = point - pose.tip;
+  ToolLine out;
+  out.z0 = p.dot(pose.axis);
+  out.dz = direction.dot(pose.axis);
+  const Vec3 p_across = p - out.z0 * pose.axis, d_across = direction - out.dz * pose.axis;
+  out.a = d_across.squaredNorm();
+  out.b = p_across.dot(d_across);
+  out.c = p_across.squaredNorm();
+  return out;
+}
+
+bool ToolSolid::reach(const ToolLine& line, LineCut& within) const {
+  constexpr double kParallel = 1e-14;
+  const double excess = line.c - largest_ * largest_;
+  within = {-1e30, 1e30};
+  if (line.a > kParallel) {
+    const double root = line.b * line.b - line.a * excess;
+    if (root <= 0.0) return false;
+    const double half = std::sqrt(root);
+    within = {(-line.b - half) / line.a, (-line.b + half) / line.a};
+  } else if (excess >= 0.0) {
+    return false;
+  }
+  if (std::abs(line.dz) > kParallel) {
+    double first = (low() - line.z0) / line.dz, last = (high() - line.z0) / line.dz;
+    if (first > last) std::swap(first, last);
+    within = {std::max(within.low, first), std::min(within.high, last)};
+  } else if (line.z0 <= low() || line.z0 >= high()) {
+    return false;
+  }
+  return within.low < within.high;
+}
+
+std::size_t ToolSolid::cone_at(double z) const {
+  const auto above = std::upper_bound(nodes_.begin(), nodes_.end(), z,
+                                      [](double value, const Vec2& node) { return value < node.x(); });
+  const auto index = static_cast<std::size_t>(above - nodes_.begin());
+  return std::clamp<std::size_t>(index, 1, nodes_.size() - 1) - 1;
+}
+
+void ToolSolid::add_cone(const ToolLine& line, std::size_t cone, double from, double to, LineCuts& out) const {
+  if (!(from < to)) return;
+  const Vec2& low = nodes_[cone];
+  const Vec2& high = nodes_[cone + 1];
+  const double slope = (high.y() - low.y()) / (high.x() - low.x());
+  const double alpha = low.y() + slope * (line.z0 - low.x()), beta = slope * line.dz;
+  const double a = line.a - beta * beta, b = line.b - alpha * beta, c = line.c - alpha * alpha;
+  const auto outside = [&](double k) { return (a * k + 2.0 * b) * k + c; };
+  std::array<double, 4> ends{from, to, to, to};
+  int count = 1;
+  const double root = b * b - a * c;
+  if (root > 0.0) {
+    // Without cancellation: one root by the larger sum, the other from the product.
+    const double q = -(b + std::copysign(std::sqrt(root), b));
+    double first = a != 0.0 ? q / a : to, second = q != 0.0 ? c / q : to;
+    if (first > second) std::swap(first, second);
+    for (const double x : {first, second})
+      if (x > from && x < to) ends[static_cast<std::size_t>(count++)] = x;
+  }
+  ends[static_cast<std::size_t>(count)] = to;
+  for (int k = 0; k < count; ++k) {
+    const double x = ends[static_cast<std::size_t>(k)], y = ends[static_cast<std::size_t>(k + 1)];
+    if (outside(0.5 * (x + y)) < 0.0) out.add(x, y);
+  }
+}
+
+LineCuts ToolSolid::cut(const ToolLine& line, const LineCut& within) const {
+  LineCuts out;
+  const double z_low = line.z0 + within.low * line.dz, z_high = line.z0 + within.high * line.dz;
+  const std::size_t first = cone_at(z_low), last = cone_at(z_high);
+  if (first == last) {
+    add_cone(line, first, within.low, within.high, out);
+    return out;
+  }
+  const bool rising = line.dz > 0.0;
+  double from = within.low;
+  for (std::size_t cone = first;;) {
+    const double end = (nodes_[rising ? cone + 1 : cone].x() - line.z0) / line.dz;
+    const double to = cone == last ? within.high : std::clamp(end, from, within.high);
+    add_cone(line, cone, from, to, out);
+    if (cone == last) return out;
+    from = to;
+    cone = rising ? cone + 1 : cone - 1;
+  }
+}
+
+}  // namespace flank::internal::verify

@@ -1,0 +1,58 @@
+/// The cutting part of a tool as a solid that lines are cut with: the union of the spheres of radius r(s) about the axis.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "flank/radial_function.h"
+
+namespace flank::internal::verify {
+
+/// A stretch of a line, mm along it.
+struct LineCut {
+  double low = 0.0, high = 0.0;
+};
+
+/// Stretches of one line inside the tool, in their order along it.
+struct LineCuts {
+  static constexpr int kMost = 8;  ///< further ones are joined to the last: no real meridian has as many waves
+  std::array<LineCut, kMost> cuts;
+  int count = 0;
+  void add(double low, double high);
+};
+
+/// A line beside a tool: point + k direction, both as the tool's axis sees them.
+struct ToolLine {
+  double z0 = 0.0, dz = 0.0;         ///< height over the tip of k = 0, and per mm
+  double a = 1.0, b = 0.0, c = 0.0;  ///< squared distance from the axis: a k^2 + 2 b k + c
+};
+
+/// A solid of revolution between cones that join points of the meridian and of both round ends. Immutable.
+class ToolSolid {
+ public:
+  /// The cones stay within `chord_mm` of the meridian, inside of it where it is convex. Throws InputError for a tool
+  /// that is not legitimate.
+  ToolSolid(const RadialFunction& radial, double chord_mm);
+
+  /// Point and unit direction in the frame of the part.
+  [[nodiscard]] static ToolLine line(const Pose& pose, const Vec3& point, const Vec3& direction);
+  /// Whether the line meets the cylinder around the tool, and where at most.
+  [[nodiscard]] bool reach(const ToolLine& line, LineCut& within) const;
+  /// The line inside the tool; `within` of reach().
+  [[nodiscard]] LineCuts cut(const ToolLine& line, const LineCut& within) const;
+
+  [[nodiscard]] double low() const { return nodes_.front().x(); }  ///< height of the lower end, <= 0
+  [[nodiscard]] double high() const { return nodes_.back().x(); }
+  [[nodiscard]] double largest() const { return largest_; }
+  /// Heights and radii, from low() to high(), heights strictly increasing.
+  [[nodiscard]] const std::vector<Vec2>& nodes() const { return nodes_; }
+
+ private:
+  void add_cone(const ToolLine& line, std::size_t cone, double from, double to, LineCuts& out) const;
+  /// The cone that has the height, ends included.
+  [[nodiscard]] std::size_t cone_at(double z) const;
+  std::vector<Vec2> nodes_;
+  double largest_ = 0.0;
+};
+
+}  // namespace flank::internal::verify

@@ -1,0 +1,80 @@
+// Cycles of a straight slot: the limit holds between the planner's rows, nothing is left, and threads change nothing.
+#include "flank/trochoid/cycles.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "flank/threads.h"
+
+namespace flank::internal {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0, kLength = 15.0, kRadius = 5.0, kSlot = 24.0;
+
+SidePath straight(double y) {
+  std::vector<Pose> poses;
+  std::vector<double> t;
+  for (int k = 0; k <= 20; ++k) {
+    t.push_back(k / 20.0);
+    poses.push_back({Vec3(kSlot * t.back(), y, 0.0), Vec3::UnitZ()});
+  }
+  return {fit_motion(poses, t, kLength, 6), false};
+}
+
+SweptStock slot() {
+  return {RadialFunction(ToolFamily::kCylinder, kLength, Eigen::VectorXd::Constant(1, kRadius)),
+          {{-Vec3::UnitX(), 0.0}, {Vec3::UnitX(), kSlot}, {Vec3::UnitZ(), kLength}}};
+}
+
+LayerCycles plan(SweptStock& stock, bool optimise, double limit) {
+  const LayerSides sides{straight(0.0), straight(10.0)};
+  const HalfGuard guard({}, stock.radial());
+  CycleOptions options;
+  options.largest_rad = limit * kDegree;
+  options.optimise = optimise;
+  return plan_cycles(sides, guard, stock, options, {});
+}
+
+TEST(Cycles, HoldTheLimitAtThreeTimesTheRows) {
+  SweptStock stock = slot();
+  const LayerCycles out = plan(stock, false, 60.0);
+  ASSERT_EQ(out.status, CycleStatus::kDone);
+  ASSERT_GT(out.cycles.size(), 5u);
+  SweptStock again = slot();
+  EngagementMeter meter(again);
+  const std::vector<ToolRing> rings = tool_rings(again.radial(), 61, 0);
+  double largest = 0.0;
+  for (const Cycle& cycle : out.cycles) {
+    if (cycle.back) {
+      largest = std::max(largest, meter.measure(cycle.back->motion, rings, 301).peak.angle_rad);
+      again.add(Sweep::of(cycle.back->motion, kHalfIntervals));
+    }
+    largest = std::max(largest, meter.measure(cycle.front.motion, rings, 301).peak.angle_rad);
+    again.add(Sweep::of(cycle.front.motion, kHalfIntervals));
+  }
+  EXPECT_LE(largest, 60.0 * kDegree);
+  EXPECT_GT(largest, 55.0 * kDegree) << "no less than there is room for";
+}
+
+TEST(Cycles, LeaveNothingBetweenTheSidePaths) {
+  SweptStock stock = slot();
+  ASSERT_EQ(plan(stock, false, 60.0).status, CycleStatus::kDone);
+  for (double x = 0.5; x < kSlot; x += 1.0)
+    for (double y = 0.0; y <= 10.0; y += 1.0) EXPECT_FALSE(stock.is_material({x, y, 7.0})) << x << " " << y;
+}
+
+TEST(Cycles, AreTheSameForOneAndTwoThreads) {
+  const auto poles = [](int threads) {
+    set_thread_count(threads);
+    SweptStock stock = slot();
+    const LayerCycles out = plan(stock, true, 80.0);
+    set_thread_count(0);
+    return out.cycles.back().front.motion.tip.poles;
+  };
+  EXPECT_EQ(poles(1), poles(2));
+}
+
+}  // namespace
+}  // namespace flank::internal

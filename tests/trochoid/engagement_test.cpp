@@ -1,0 +1,199 @@
+// Engagement and removed volume: against closed forms, and against a dense search that shares nothing with the intervals.
+#include "flank/trochoid/engagement.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "flank/trochoid/half_path.h"
+
+namespace flank::internal {
+namespace {
+
+constexpr double kPi = std::numbers::pi, kDegree = kPi / 180.0;
+
+/// The tip on a circle about the origin from one angle to another, the axis upright.
+RuledMotion on_circle(double axis_length, double radius, double from, double to) {
+  constexpr int kPoses = 241;
+  std::vector<Pose> poses;
+  std::vector<double> t;
+  for (int k = 0; k < kPoses; ++k) {
+    t.push_back(k / (kPoses - 1.0));
+    const double angle = std::lerp(from, to, t.back());
+    poses.push_back({Vec3(radius * std::cos(angle), radius * std::sin(angle), 0.0), Vec3::UnitZ()});
+  }
+  return fit_motion(poses, t, axis_length, 60);
+}
+
+RadialFunction cylinder(double radius, double length) {
+  return {ToolFamily::kCylinder, length, Eigen::VectorXd::Constant(1, radius)};
+}
+
+/// A tool that is thick in the middle and tapers.
+RadialFunction barrel() { return {ToolFamily::kBarrel, 30.0, Eigen::Vector3d(60.0, 6.0, 18.0)}; }
+
+AxisPlace place(const Vec3& tip, const Vec3& u, const Vec3& tip_dx, const Vec3& u_dx) {
+  return {tip, u.normalized(), tip_dx, u_dx - u_dx.dot(u.normalized()) * u.normalized()};
+}
+
+/// Front halves of a twisted cavity, one `step` farther on than the other.
+RuledMotion twisted_half(double step) {
+  const AxisPlace from = place({step, 0.3 * step, 0.0}, {0.05, 0.12, 1.0}, {1.0, 0.05, 0.0}, {0.001, 0.004, 0.0});
+  const AxisPlace to = place({step + 1.0, 14.0, 1.0}, {-0.06, -0.1, 1.0}, {1.0, -0.04, 0.01}, {0.0, -0.003, 0.0});
+  return half_path(30.0, from, to.reversed(), {2.5, 2.0, 2.0, 0.0});
+}
+
+/// Engagement of a ring by scanning its front: no intervals, no hints.
+double scanned(const SweptStock& stock, const RuledMotion& motion, double t, const ToolRing& ring) {
+  constexpr int kAngles = 3000;
+  const AxisJet axis = motion.jet(t);
+  const Vec3 v = axis.velocity(ring.s), across = v - v.dot(axis.u) * axis.u;
+  const Vec3 e1 = across.normalized(), e2 = axis.u.cross(e1);
+  double sum = 0.0;
+  for (int k = 0; k < kAngles; ++k) {
+    const double angle = -kPi + 2.0 * kPi * (k + 0.5) / kAngles;
+    const Vec3 out = std::cos(angle) * e1 + std::sin(angle) * e2;
+    if ((ring.sine * axis.u + ring.cosine * out).dot(v) <= 0.0) continue;
+    if (stock.is_material(axis.at(ring.z) + ring.radius * out)) sum += 2.0 * kPi / kAngles;
+  }
+  return sum;
+}
+
+TEST(Engagement, OfACylinderOnAnArcIsTheClosedForm) {
+  const double radius = 5.0, length = 20.0;
+  for (const double way : {4.0, 12.0, 60.0}) {
+    for (const double step : {0.3, 1.0, 1.8}) {
+      SweptStock stock(cylinder(radius, length), {});
+      stock.add(Sweep::of(on_circle(length, way, -1.5, 1.5), 228));
+      EngagementMeter meter(stock);
+      const double outer = way + step, edge = way + radius;
+      const double cosine = (edge * edge - outer * outer - radius * radius) / (2.0 * outer * radius);
+      const double angle = meter.angle(on_circle(length, outer, -0.5, 0.5), 0.5, ring_at(stock.radial(), 8.0));
+      EXPECT_NEAR(angle / kDegree, std::acos(cosine) / kDegree, 1e-3) << way << " " << step;
+    }
+  }
+}
+
+TEST(Engagement, VolumeOfAnArcIsThatOfTheRing) {
+  const double radius = 5.0, length = 20.0, way = 12.0, step = 1.0, half = 0.5;
+  SweptStock stock(cylinder(radius, length), {});
+  stock.add(Sweep::of(on_circle(length, way, -1.5, 1.5), 228));
+  EngagementMeter meter(stock);
+  const Engagement e = meter.measure(on_circle(length, way + step, -half, half), tool_rings(stock.radial(), 5, 0), 33);
+  const double outer = way + step + radius, inner = way + radius;
+  EXPECT_NEAR(e.volume_mm3 / (length * half * (outer * outer - inner * inner)), 1.0, 1e-5);
+}
+
+TEST(Engagement, AgreesWithADenseScan) {
+  SweptStock stock(barrel(), {{-Vec3::UnitX(), 6.0}, {Vec3(0.1, 0.0, 1.0).normalized(), 29.0}});
+  stock.add(Sweep::of(twisted_half(-1.4), 48));
+  stock.add(Sweep::of(twisted_half(0.0), 48));
+  EngagementMeter meter(stock);
+  const RuledMotion next = twisted_half(1.1);
+  for (const double t : {0.1, 0.35, 0.6, 0.85}) {
+    for (const double s : {0.0, 11.0, 30.0}) {
+      const ToolRing ring = ring_at(stock.radial(), s);
+      EXPECT_NEAR(meter.angle(next, t, ring) / kDegree, scanned(stock, next, t, ring) / kDegree, 0.25) << t << " " << s;
+    }
+  }
+}
+
+TEST(Engagement, EndsOfArcsLieOnTheSweptVolume) {
+  SweptStock stock(barrel(), {});
+  stock.add(Sweep::of(twisted_half(0.0), 48));
+  EngagementMeter meter(stock);
+  const RuledMotion next = twisted_half(1.1);
+  // One arc, from the sweep to the front's own end: its length gives the other end, where the gap must vanish.
+  const ToolRing ring = ring_at(stock.radial(), 14.0);
+  const double angle = meter.angle(next, 0.5, ring);
+  const AxisJet axis = next.jet(0.5);
+  const Vec3 v = axis.velocity(ring.s), across = v - v.dot(axis.u) * axis.u;
+  const Vec3 e1 = across.normalized(), e2 = axis.u.cross(e1);
+  const double half = std::acos(-ring.sine * v.dot(axis.u) / (ring.cosine * across.norm()));
+  double least = 1e300;
+  for (const double end : {half - angle, angle - half}) {
+    const Vec3 x = axis.at(ring.z) + ring.radius * (std::cos(end) * e1 + std::sin(end) * e2);
+    least = std::min(least, std::abs(stock.gap(x)));
+  }
+  EXPECT_LT(least, 1e-6);
+}
+
+TEST(Engagement, WhatIsCoveredFarFromTheMaterialStaysCovered) {
+  // At the exit of a slot material is left at one end of the front alone; the other end was swept, and lies far from it.
+  const double radius = 5.0, length = 15.0;
+  SweptStock stock(cylinder(radius, length), {{Vec3::UnitX(), 24.0}});
+  const auto front = [&](double x) {
+    const AxisPlace from = place({x, 0.0, 0.0}, Vec3::UnitZ(), Vec3::UnitX(), Vec3::Zero());
+    const AxisPlace to = place({x, 10.0, 0.0}, Vec3::UnitZ(), Vec3::UnitX(), Vec3::Zero());
+    return half_path(length, from, to.reversed(), {1.6, 1.6, 1.0, 0.0});
+  };
+  for (int k = 0; k < 8; ++k) stock.add(Sweep::of(front(16.75 - 1.35 * (8 - k)), 48));
+  EngagementMeter meter(stock);
+  const ToolRing ring = ring_at(stock.radial(), 0.0);
+  for (double t = 0.05; t < 0.5; t += 0.05)
+    EXPECT_NEAR(meter.angle(front(16.75), t, ring) / kDegree, scanned(stock, front(16.75), t, ring) / kDegree, 0.3)
+        << t;
+}
+
+TEST(Engagement, WithoutMaterialAheadThereIsNone) {
+  SweptStock stock(barrel(), {{Vec3::UnitX(), -40.0}});
+  EngagementMeter meter(stock);
+  const Engagement e = meter.measure(twisted_half(0.0), tool_rings(stock.radial(), 7, 3), 9);
+  EXPECT_EQ(e.peak.angle_rad, 0.0);
+  EXPECT_EQ(e.volume_mm3, 0.0);
+}
+
+TEST(Engagement, TheSameAgainIsNothing) {
+  SweptStock stock(barrel(), {});
+  stock.add(Sweep::of(twisted_half(0.0), 48));
+  EngagementMeter meter(stock);
+  const Engagement e = meter.measure(twisted_half(0.0), tool_rings(stock.radial(), 7, 0), 33);
+  EXPECT_LT(e.volume_mm3, 1e-3);
+}
+
+TEST(Engagement, RefinedPeaksAreNotBelowTheRows) {
+  SweptStock stock(barrel(), {});
+  stock.add(Sweep::of(twisted_half(0.0), 48));
+  EngagementMeter meter(stock);
+  const RuledMotion next = twisted_half(1.1);
+  const Engagement coarse = meter.measure(next, tool_rings(stock.radial(), 7, 0), 17);
+  const EngagementPeak peak = meter.refine(next, coarse, 7);
+  const Engagement fine = meter.measure(next, tool_rings(stock.radial(), 61, 0), 301);
+  EXPECT_GE(peak.angle_rad, coarse.peak.angle_rad);
+  EXPECT_GE(peak.angle_rad, fine.peak.angle_rad - 0.01 * kDegree);
+}
+
+TEST(GapAt, DerivativesAreThoseOfDifferences) {
+  const RadialFunction radial = barrel();
+  const ToolProfile profile(radial);
+  const Sweep sweep = Sweep::of(twisted_half(0.0), 48);
+  const Vec3 x(3.0, 9.0, 12.0);
+  constexpr double kStep = 1e-6;
+  const double place = 20.3;
+  const GapJet at = gap_at(profile, sweep.at(place), x);
+  ASSERT_TRUE(at.inside);
+  const double dt =
+      (gap_at(profile, sweep.at(place + kStep), x).gap - gap_at(profile, sweep.at(place - kStep), x).gap) /
+      (2.0 * kStep);
+  EXPECT_NEAR(at.dt, dt, 1e-6);
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 h = kStep * Vec3::Unit(k);
+    const double slope =
+        (gap_at(profile, sweep.at(place), x + h).gap - gap_at(profile, sweep.at(place), x - h).gap) / (2.0 * kStep);
+    EXPECT_NEAR(at.gradient[k], slope, 1e-6) << k;
+  }
+}
+
+TEST(Sweep, CubicsBetweenPosesAreTheMotion) {
+  const RuledMotion motion = twisted_half(0.0);
+  const Sweep sweep = Sweep::of(motion, 48);
+  for (const double t : {0.013, 0.27, 0.5, 0.777, 0.999}) {
+    const SweepPose pose = sweep.at(48.0 * t);
+    EXPECT_NEAR((pose.tip - motion.tip.value(t)).norm(), 0.0, 1e-12);
+    EXPECT_NEAR((pose.direction - motion.direction.value(t)).norm(), 0.0, 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace flank::internal

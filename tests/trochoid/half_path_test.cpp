@@ -1,0 +1,87 @@
+// Half paths: where they begin and end, how they leave, and that nothing but the axis' position changes.
+#include "flank/trochoid/half_path.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "flank/trochoid/side_path.h"
+
+namespace flank::internal {
+namespace {
+
+RuledMotion bent_side(double y, double sign) {
+  std::vector<Pose> poses;
+  std::vector<double> t;
+  for (int k = 0; k <= 60; ++k) {
+    t.push_back(k / 60.0);
+    const double x = 50.0 * t.back();
+    poses.push_back({Vec3(x, y + sign * 0.004 * (x - 25.0) * (x - 25.0), 0.0),
+                     Vec3(0.02, sign * (0.1 - 0.002 * x), 1.0).normalized()});
+  }
+  return fit_motion(poses, t, 30.0, 12);
+}
+
+TEST(HalfPath, LeavesForwardAndArrivesBackward) {
+  const SidePath a(bent_side(0.0, 1.0), false), b(bent_side(16.0, -1.0), false);
+  const AxisPlace from = a.at(20.0), to = b.at(22.0);
+  const RuledMotion half = half_path(30.0, from, to.reversed(), {2.0, 1.5, 1.0, 0.0});
+  const AxisJet start = half.jet(0.0), end = half.jet(1.0);
+  for (const double s : {0.0, 12.0, 30.0}) {
+    EXPECT_NEAR((start.at(s) - from.at(s)).norm(), 0.0, 1e-12);
+    EXPECT_NEAR((end.at(s) - to.at(s)).norm(), 0.0, 1e-12);
+    // The same velocity up to one factor for the whole axis: 9 handles a unit of time.
+    EXPECT_NEAR((start.velocity(s) - 18.0 * from.velocity(s)).norm(), 0.0, 1e-9);
+    EXPECT_NEAR((end.velocity(s) + 13.5 * to.velocity(s)).norm(), 0.0, 1e-9);
+  }
+}
+
+TEST(HalfPath, BulgesForwardAndLiftsAlongTheAxis) {
+  const SidePath a(bent_side(0.0, 1.0), false), b(bent_side(16.0, -1.0), false);
+  const AxisPlace from = a.at(20.0), to = b.at(20.0);
+  const auto middle = [&](double bulge, double lift) {
+    return half_path(30.0, from, to.reversed(), {2.0, 2.0, bulge, lift}).pose(0.5).at(15.0);
+  };
+  EXPECT_GT((middle(3.0, 0.0) - middle(0.0, 0.0)).x(), 2.0);
+  EXPECT_GT((middle(0.0, 2.0) - middle(0.0, 0.0)).z(), 1.0);
+}
+
+TEST(SidePath, GoesByTheWayOfTheMiddle) {
+  const SidePath path(bent_side(0.0, 1.0), false);
+  for (const double x : {3.0, 21.0, 44.0}) {
+    const double h = 1e-3;
+    EXPECT_NEAR((path.at(x + h).at(15.0) - path.at(x - h).at(15.0)).norm(), 2.0 * h, 2e-5);
+    EXPECT_NEAR(path.at(x).velocity(15.0).norm(), 1.0, 1e-12);
+  }
+}
+
+TEST(SidePath, RunsOutWithoutAJump) {
+  SidePath a(bent_side(0.0, 1.0), false), b(bent_side(16.0, -1.0), false);
+  join_run_outs(a, b, 6.0);
+  for (const SidePath* path : {&a, &b}) {
+    for (const double x : {0.0, path->length()}) {
+      const AxisPlace before = path->at(x - 1e-7), after = path->at(x + 1e-7);
+      EXPECT_NEAR((before.at(15.0) - after.at(15.0)).norm(), 0.0, 1e-6);
+      EXPECT_NEAR((before.velocity(15.0) - after.velocity(15.0)).norm(), 0.0, 1e-5);
+    }
+  }
+  const auto gap = [&](double x) { return (a.at(x).at(15.0) - b.at(x).at(15.0)).norm(); };
+  EXPECT_NEAR(gap(-20.0), gap(-8.0), 1e-6) << "they would meet if they went straight on";
+  EXPECT_NEAR((a.at(-20.0).velocity(15.0) - b.at(-20.0).velocity(15.0)).norm(), 0.0, 1e-9);
+}
+
+TEST(SidePath, BackwardsIsTheSameWay) {
+  const SidePath on(bent_side(0.0, 1.0), false), back(bent_side(0.0, 1.0), true);
+  EXPECT_NEAR(on.length(), back.length(), 1e-9);
+  EXPECT_NEAR((on.at(10.0).tip - back.at(back.length() - 10.0).tip).norm(), 0.0, 1e-4);
+}
+
+TEST(AcrossFrom, JoinsAtRightAngles) {
+  const SidePath a(bent_side(0.0, 1.0), false), b(bent_side(16.0, -1.0), false);
+  const double y = across_from(a, 18.0, b, 0.0);
+  const AxisPlace p = a.at(18.0), q = b.at(y);
+  EXPECT_NEAR((q.at(15.0) - p.at(15.0)).dot(p.velocity(15.0) + q.velocity(15.0)), 0.0, 1e-7);
+}
+
+}  // namespace
+}  // namespace flank::internal

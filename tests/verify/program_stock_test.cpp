@@ -1,0 +1,102 @@
+// A program replayed by the judge: figures by kind, material that is left, faces that are entered.
+#include "flank/verify/program_stock.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "flank/error.h"
+#include "flank/threads.h"
+
+namespace flank::internal {
+namespace {
+
+constexpr double kRadius = 3.0, kLength = 12.0, kHalf = 5.0;
+
+Tool cylinder() {
+  Tool tool;
+  tool.radial = RadialFunction(ToolFamily::kCylinder, kLength, Eigen::VectorXd::Constant(1, kRadius));
+  return tool;
+}
+
+Strip straight(int id, const std::string& kind, double y) {
+  Strip strip{id, kind, "F1", {}};
+  for (int k = 0; k <= 30; ++k) strip.poses.push_back({{-15.0 + k, y, 0.0}, Vec3::UnitZ()});
+  return strip;
+}
+
+/// A wall across y, of a solid, its samples on a grid between z = 3 and 7.
+FaceSamples wall(const std::string& name, double y, const Vec3& normal) {
+  FaceSamples out;
+  out.face = name;
+  out.target = out.of_solid = true;
+  out.spacing_mm = 0.8;
+  for (double x = -7.0; x <= 7.0; x += 1.0)
+    for (double z = 3.0; z <= 7.0; z += 1.0) {
+      out.points.emplace_back(x, y, z);
+      out.areas.push_back(1.0);
+      out.normals.push_back(normal);
+    }
+  return out;
+}
+
+/// A channel of width 2 kHalf along x, blank from x = -10 to 10 below z = 10.
+std::vector<HalfSpace> blank() { return {{Vec3::UnitX(), 10.0}, {-Vec3::UnitX(), 10.0}, {Vec3::UnitZ(), 10.0}}; }
+
+std::vector<FaceSamples> walls() { return {wall("F1", kHalf, -Vec3::UnitY()), wall("F2", -kHalf, Vec3::UnitY())}; }
+
+const ProgramStockOptions kOptions{.cell_mm = 0.2, .tolerance_mm = 0.02, .most_triangles = 1e5};
+
+TEST(ProgramStock, TellsByKindsWhatWasRemovedAndHowTheToolWasEngaged) {
+  Path path{{straight(1, "front", kHalf - kRadius), straight(2, "side", -kHalf + kRadius)}};
+  const ProgramStock out = replay_program(cylinder(), path, blank(), walls(), kOptions);
+  ASSERT_EQ(out.report.kinds.size(), 2u);
+  EXPECT_EQ(out.report.kinds[0].kind, "front");
+  EXPECT_NEAR(out.report.kinds[0].engagement_deg, 180.0, 1.0) << "a full slot";
+  EXPECT_EQ(out.report.cycles_deg(), out.report.kinds[0].engagement_deg) << "sides do not count as cycles";
+  // The second slot lies 4 mm beside the first: the closed form of a cut of that depth.
+  EXPECT_NEAR(out.report.kinds[1].engagement_deg, std::acos(1.0 - 4.0 / kRadius) * 180.0 / std::numbers::pi,
+              out.report.resolution_deg);
+  EXPECT_NEAR(out.report.kinds[0].way_mm, 30.0, 1e-9);
+  EXPECT_NEAR(out.report.before_mm3 - out.report.left_mm3,
+              out.report.kinds[0].volume_mm3 + out.report.kinds[1].volume_mm3, 1e-3);
+  EXPECT_LT(out.report.uncut_mm, 0.2) << "the channel is empty";
+  EXPECT_LT(out.report.entered_mm, 0.02);
+  EXPECT_FALSE(out.left.triangles.empty());
+}
+
+TEST(ProgramStock, FindsARibBetweenTheSidesAndAWallThatIsEntered) {
+  Path path{{straight(1, "side", kHalf - kRadius + 0.1), straight(2, "side", -kHalf + kRadius - 0.1)}};
+  std::vector<FaceSamples> entered = walls();
+  const ProgramStock deep = replay_program(cylinder(), path, blank(), entered, {.cell_mm = 0.2, .tolerance_mm = 0.2});
+  EXPECT_NEAR(deep.report.entered_mm, 0.1, 0.02);
+  // Walls 8 mm apart from the middle leave a rib of 4 mm between two slots of 6 mm.
+  path = {{straight(1, "side", 8.0 - kRadius), straight(2, "side", -8.0 + kRadius)}};
+  const ProgramStock rib = replay_program(cylinder(), path, blank(),
+                                          {wall("F1", 8.0, -Vec3::UnitY()), wall("F2", -8.0, Vec3::UnitY())}, kOptions);
+  EXPECT_NEAR(rib.report.uncut_mm, 2.0, 0.2) << "half of it: rays end in the middle";
+}
+
+TEST(ProgramStock, IsTheSameForOneAndTwoThreads) {
+  const auto run = [](int threads) {
+    set_thread_count(threads);
+    const Path path{{straight(1, "front", 1.5), straight(2, "back", -0.5)}};
+    const ProgramStock out = replay_program(cylinder(), path, blank(), walls(), kOptions);
+    set_thread_count(0);
+    return out;
+  };
+  const ProgramStock a = run(1), b = run(2);
+  EXPECT_EQ(a.report.strip_deg, b.report.strip_deg);
+  EXPECT_EQ(a.report.strip_mm3, b.report.strip_mm3);
+  EXPECT_EQ(a.report.uncut_mm, b.report.uncut_mm);
+  EXPECT_EQ(a.left.vertices.size(), b.left.vertices.size());
+}
+
+TEST(ProgramStock, RefusesAPathThatNeverMeetsTheBlank) {
+  const Path path{{straight(1, "front", 0.0)}};
+  EXPECT_THROW((void)replay_program(cylinder(), path, {{Vec3::UnitX(), -100.0}}, walls(), kOptions), InputError);
+}
+
+}  // namespace
+}  // namespace flank::internal

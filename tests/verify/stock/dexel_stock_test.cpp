@@ -1,0 +1,119 @@
+// The tri-dexel stock: volumes and distances against closed forms.
+#include "flank/verify/stock/dexel_stock.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "flank/error.h"
+#include "flank/verify/stock/stock_mesh.h"
+
+namespace flank::internal::verify {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+RadialFunction cylinder(double radius, double length) {
+  return {ToolFamily::kCylinder, length, Eigen::VectorXd::Constant(1, radius)};
+}
+
+Box3 box_of(const Vec3& low, const Vec3& high) {
+  Box3 box;
+  box.add(low);
+  box.add(high);
+  return box;
+}
+
+TEST(DexelStock, AWholeBlockHasItsVolume) {
+  const DexelStock stock(box_of(Vec3::Zero(), {7.0, 5.0, 3.0}), {}, 0.1);
+  EXPECT_NEAR(stock.volume(), 105.0, 1e-3);
+  const DexelStock half(box_of(Vec3::Zero(), {7.0, 5.0, 3.0}),
+                        {{Vec3(1.0, 1.0, 0.0).normalized(), 6.0 / std::sqrt(2.0)}}, 0.1);
+  EXPECT_NEAR(half.volume(), 3.0 * (35.0 - 17.5), 0.3) << "the triangle beyond x + y = 6 is gone";
+}
+
+TEST(DexelStock, ATiltedCapsuleTakesItsVolume) {
+  const double radius = 3.0, length = 10.0;
+  DexelStock stock(box_of(Vec3::Constant(-8.0), {8.0, 8.0, 18.0}), {}, 0.1);
+  const double before = stock.volume();
+  const double removed =
+      stock.cut(ToolSolid(cylinder(radius, length), 1e-3), {Vec3(0.3, -0.2, 0.1), Vec3(0.2, 0.35, 1.0).normalized()});
+  const double capsule = kPi * radius * radius * (length + 4.0 / 3.0 * radius);
+  EXPECT_NEAR(removed / capsule, 1.0, 2e-3);
+  EXPECT_NEAR(stock.volume(), before - removed, 1e-3);
+  for (const double volume : stock.volumes()) EXPECT_NEAR((before - volume) / capsule, 1.0, 3e-3);
+  EXPECT_EQ(
+      stock.cut(ToolSolid(cylinder(radius, length), 1e-3), {Vec3(0.3, -0.2, 0.1), Vec3(0.2, 0.35, 1.0).normalized()}),
+      0.0)
+      << "nothing is there twice";
+}
+
+TEST(DexelStock, DepthIsTheDistanceToASmoothSurface) {
+  const double radius = 4.0, cell = 0.1, chord = 1e-4;
+  DexelStock stock(box_of(Vec3::Constant(-9.0), Vec3::Constant(9.0)), {}, cell);
+  const Pose pose{Vec3(0.0, 0.0, -6.0), Vec3(0.1, 0.2, 1.0).normalized()};
+  (void)stock.cut(ToolSolid(cylinder(radius, 12.0), chord), pose);
+  // Lines that see the surface at a slope q of at most 2.5 measure. Along them it is the height f over a plane, with
+  // f'' = (1 + q^2)^(3/2) / R, and a height counts as f / sqrt(1 + q^2):
+  //   bilinear between lines a cell apart, in two directions: 2 f'' cell^2 / 8;
+  //   the slope is that of the secant over a cell, so its angle is off by at most f'' cell / 2 / (1 + q^2), and the foot
+  //   of the normal lies off q beside the line;
+  //   the surface is taken as its tangent plane: (off q)^2 / (2 R).
+  const auto bound = [&](double off) {
+    constexpr double q = 2.5;
+    const double between = (1.0 + q * q) / radius * cell * cell / 4.0;
+    const double turned = off * q * std::sqrt(1.0 + q * q) / radius * cell / 2.0;
+    return chord + between + turned + off * off * q * q / (2.0 * radius);
+  };
+  const Vec3 x = pose.axis.unitOrthogonal(), y = pose.axis.cross(x);
+  for (int k = 0; k < 40; ++k) {
+    const double angle = 0.157 * k;
+    for (const double off : {-0.3, -0.05, 0.05, 0.3}) {
+      const Vec3 at = pose.at(6.0) + (radius + off) * (std::cos(angle) * x + std::sin(angle) * y);
+      EXPECT_NEAR(stock.depth(at), off, bound(std::abs(off))) << angle;
+    }
+  }
+  EXPECT_LT(stock.depth({30.0, 0.0, 0.0}), 0.0);
+  EXPECT_GT(stock.depth({8.0, 8.0, 0.0}), 0.0);
+}
+
+TEST(DexelStock, ConcaveToolsLeaveWhatTheirWaistDoesNotReach) {
+  // A waist of 2 mm in the middle of 20 mm, 12 mm above which the tool is thicker.
+  const RadialFunction radial(ToolFamily::kHyperbolic, 20.0, Eigen::Vector3d(2.0, 0.0, 0.02));
+  const ToolSolid solid(radial, 1e-3);
+  const Pose pose;
+  const ToolLine along = ToolSolid::line(pose, {2.6, 0.0, 0.0}, Vec3::UnitZ());
+  LineCut within;
+  ASSERT_TRUE(solid.reach(along, within));
+  const LineCuts cuts = solid.cut(along, within);
+  ASSERT_EQ(cuts.count, 2) << "in at the lower end, out at the waist, in again";
+  EXPECT_NEAR(cuts.cuts[0].high + cuts.cuts[1].low, 20.0, 0.01);
+}
+
+TEST(DexelStock, TheMeshOfWhatIsLeftIsClosedAndHasItsVolume) {
+  DexelStock stock(box_of(Vec3::Zero(), {12.0, 10.0, 8.0}), {}, 0.2);
+  (void)stock.cut(ToolSolid(cylinder(2.0, 20.0), 1e-3), {{6.0, 5.0, -6.0}, Vec3::UnitZ()});
+  for (const int stride : {1, 2}) {
+    const TriangleMesh mesh = stock_mesh(stock, stride);
+    double volume = 0.0;
+    Vec3 area = Vec3::Zero();
+    for (const auto& t : mesh.triangles) {
+      const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+      volume += a.dot(b.cross(c)) / 6.0;
+      area += (b - a).cross(c - a);
+    }
+    EXPECT_NEAR(volume / stock.volume(), 1.0, 0.02) << stride;
+    EXPECT_LT(area.norm(), 1e-6) << "closed";
+  }
+  EXPECT_GE(stride_for(stock, 100.0), 4);
+}
+
+TEST(DexelStock, RefusesWhatIsNone) {
+  EXPECT_THROW(DexelStock(box_of(Vec3::Zero(), Vec3::Ones()), {}, 0.0), UsageError);
+  EXPECT_THROW(DexelStock(box_of(Vec3::Zero(), {1.0, 1.0, 0.0}), {}, 0.1), InputError);
+  EXPECT_THROW(DexelStock(box_of(Vec3::Zero(), Vec3::Constant(1e6)), {}, 0.1), InputError);
+}
+
+}  // namespace
+}  // namespace flank::internal::verify
