@@ -1,6 +1,6 @@
 // The judge on a real part: two blades on a sector of a hub, every other face a check surface.
 #include "claims/claims_support.h"
-#include "flank/pipeline/judge_job.h"
+#include "flank/pipeline/folder/judge_job.h"
 #include "flank/setup/check_faces.h"
 #include "flank/setup/targets.h"
 #include "flank/threads.h"

@@ -5,10 +5,10 @@
 #include <numbers>
 
 #include "flank/artefact/acceptance.h"
+#include "flank/artefact/cavity/stock_json.h"
+#include "flank/artefact/cavity/trochoid_json.h"
 #include "flank/artefact/clearance_text.h"
 #include "flank/artefact/ranking_json.h"
-#include "flank/artefact/stock_json.h"
-#include "flank/artefact/trochoid_json.h"
 #include "flank/artefact/verify_json.h"
 #include "flank/io/text/json_dump.h"
 #include "flank/job/command_line.h"

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "flank/artefact/stock_json.h"
+#include "flank/artefact/cavity/stock_json.h"
 #include "flank/error.h"
 #include "flank/io/text/json_dump.h"
 

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include "flank/artefact/acceptance.h"
+#include "flank/artefact/cavity/stock_json.h"
 #include "flank/artefact/clearance_text.h"
-#include "flank/artefact/stock_json.h"
 #include "flank/run.h"
 
 namespace flank {

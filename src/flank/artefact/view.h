@@ -7,7 +7,7 @@
 
 #include "flank/artefact/view_mesh.h"
 #include "flank/envelope/strip_surface.h"
-#include "flank/geom/half_space.h"
+#include "flank/path/half_space.h"
 #include "flank/run.h"
 #include "flank/setup/setup.h"
 

@@ -8,7 +8,7 @@
 #include "flank/base/tolerance_budget.h"
 #include "flank/envelope.h"
 #include "flank/envelope/path_regularity.h"
-#include "flank/pipeline/judge_job.h"
+#include "flank/pipeline/folder/judge_job.h"
 #include "flank/strip/used_times.h"
 #include "flank/surface/ball_touch.h"
 

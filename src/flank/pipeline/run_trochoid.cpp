@@ -12,7 +12,7 @@
 #include "flank/pipeline/cavity_faces.h"
 #include "flank/pipeline/cavity_search.h"
 #include "flank/pipeline/finish.h"
-#include "flank/pipeline/judge_job.h"
+#include "flank/pipeline/folder/judge_job.h"
 #include "flank/pipeline/search_setup.h"
 #include "flank/run.h"
 #include "flank/setup/clearance_scene.h"

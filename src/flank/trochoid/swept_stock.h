@@ -7,8 +7,8 @@
 #include <limits>
 #include <vector>
 
-#include "flank/geom/half_space.h"
 #include "flank/path.h"
+#include "flank/path/half_space.h"
 #include "flank/ruled_motion.h"
 #include "flank/trochoid/tool_profile.h"
 

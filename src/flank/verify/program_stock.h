@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "flank/geom/half_space.h"
 #include "flank/judge.h"
+#include "flank/path/half_space.h"
 
 namespace flank::internal {
 

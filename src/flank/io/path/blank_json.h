@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "flank/geom/half_space.h"
+#include "flank/path/half_space.h"
 
 namespace flank::internal {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "flank/geom/half_space.h"
+#include "flank/path/half_space.h"
 #include "flank/triangle_mesh.h"
 #include "flank/verify/stock/dexel_field.h"
 #include "flank/verify/stock/tool_solid.h"

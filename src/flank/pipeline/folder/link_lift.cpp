@@ -1,4 +1,4 @@
-#include "flank/pipeline/link_lift.h"
+#include "flank/pipeline/folder/link_lift.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "flank/pipeline/folder_job.h"
+#include "flank/pipeline/folder/folder_job.h"
 
 #include <filesystem>
 #include <variant>

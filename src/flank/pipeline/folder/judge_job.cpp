@@ -1,4 +1,4 @@
-#include "flank/pipeline/judge_job.h"
+#include "flank/pipeline/folder/judge_job.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "flank/artefact/trochoid_json.h"
+#include "flank/artefact/cavity/trochoid_json.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "flank/pipeline/judge_program.h"
+#include "flank/pipeline/folder/judge_program.h"
 
 #include <fmt/format.h>
 
@@ -13,8 +13,8 @@
 #include "flank/machine/backplot.h"
 #include "flank/machine/model/machine_file.h"
 #include "flank/machine/nc/read/read_nc.h"
-#include "flank/pipeline/folder_job.h"
-#include "flank/pipeline/judge_job.h"
+#include "flank/pipeline/folder/folder_job.h"
+#include "flank/pipeline/folder/judge_job.h"
 #include "flank/setup/clearance_scene.h"
 #include "flank/setup/tool_body.h"
 #include "flank/tool_file.h"

@@ -1,4 +1,4 @@
-#include "flank/artefact/stock_json.h"
+#include "flank/artefact/cavity/stock_json.h"
 
 #include <fmt/format.h>
 

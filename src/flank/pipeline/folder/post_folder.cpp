@@ -1,4 +1,4 @@
-#include "flank/pipeline/post_folder.h"
+#include "flank/pipeline/folder/post_folder.h"
 
 #include <fmt/format.h>
 
@@ -16,9 +16,9 @@
 #include "flank/machine/post.h"
 #include "flank/machine/setup_search.h"
 #include "flank/path_file.h"
-#include "flank/pipeline/folder_job.h"
-#include "flank/pipeline/judge_job.h"
-#include "flank/pipeline/link_lift.h"
+#include "flank/pipeline/folder/folder_job.h"
+#include "flank/pipeline/folder/judge_job.h"
+#include "flank/pipeline/folder/link_lift.h"
 #include "flank/setup/clearance_scene.h"
 #include "flank/setup/targets.h"
 #include "flank/setup/tool_body.h"
