@@ -13,6 +13,8 @@ constexpr double kTick = 1e-3;  ///< s: what a servo sees
 /// A way without contact length (a joint turns, the tool stays) still passes: this much length a second of its joints.
 constexpr double kIdle = 1e-3;
 constexpr int kMostPasses = 30;
+/// Of a squared speed in one pass: what the neighbours of a node do counts, too.
+constexpr double kMostSlowing = 4.0;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// low <= u <= high, both linear in x: low(x) = low0 + low1 x.
@@ -254,7 +256,7 @@ bool Planner::slow_down_where_needed(const FeedPlan& plan) {
            any = true;
            for (std::size_t i = std::max<std::size_t>(first, 1); i <= last && i + 1 < nodes_.size(); ++i)
              // A jump that is shorter than a tick falls with the speed, not with its square.
-             cap_[i] = std::min(cap_[i], plan.speed[i] * plan.speed[i] / (1.02 * over * over));
+             cap_[i] = std::min(cap_[i], plan.speed[i] * plan.speed[i] / std::min(1.02 * over * over, kMostSlowing));
          });
   return any;
 }
