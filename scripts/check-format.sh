@@ -16,7 +16,8 @@ if [[ -z $formatter ]]; then
   echo "check-format.sh: clang-format 14 is not installed (on Debian 12, scripts/install-deps.sh dev installs it)" >&2
   exit 1
 fi
-mapfile -t files < <(find src include apps tests bench examples -name '*.h' -o -name '*.cpp' | sort)
+# A Heidenhain program ends in .h, too.
+mapfile -t files < <(find src include apps tests bench examples -path tests/fuzz/corpus -prune -o \( -name '*.h' -o -name '*.cpp' \) -print | sort)
 if [[ ${1:-} == --fix ]]; then
   "$formatter" -i "${files[@]}"
 else
