@@ -2,9 +2,20 @@
 
 #include <fmt/format.h>
 
-#include <toml++/toml.h>
 #include <cmath>
 #include <set>
+
+// What toml++ asserts in debug builds it takes for granted in release builds, and damaged files do get there: in both they
+// are refused.
+namespace flank::internal {
+struct UnexpectedToml {};
+[[noreturn]] static void refuse_toml() { throw UnexpectedToml(); }
+}  // namespace flank::internal
+#pragma push_macro("NDEBUG")
+#undef NDEBUG
+#define TOML_ASSERT(condition) ((condition) ? static_cast<void>(0) : flank::internal::refuse_toml())
+#include <toml++/toml.h>
+#pragma pop_macro("NDEBUG")
 
 #include "flank/error.h"
 
@@ -40,6 +51,8 @@ TomlTable TomlTable::parse(std::string_view text, const std::string& file) {
     data->document = std::make_shared<const toml::table>(toml::parse(text, file));
   } catch (const toml::parse_error& e) {
     throw InputError(place(file, e.source().begin) + ": " + std::string(e.description()));
+  } catch (const UnexpectedToml&) {
+    throw InputError(file + ": is not TOML: a key or a value stands where none may be");
   }
   data->values = data->document.get();
   TomlTable table;
