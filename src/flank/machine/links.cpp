@@ -100,6 +100,23 @@ class Linker {
 
 }  // namespace
 
+Path joined(const Path& path) {
+  constexpr double kSame = 1e-9;
+  Path chains;
+  for (const Strip& strip : path.strips) {
+    const Pose& begin = strip.poses.front();
+    if (!chains.strips.empty()) {
+      std::vector<Pose>& poses = chains.strips.back().poses;
+      if ((poses.back().tip - begin.tip).norm() <= kSame && (poses.back().axis - begin.axis).norm() <= kSame) {
+        poses.insert(poses.end(), strip.poses.begin() + 1, strip.poses.end());
+        continue;
+      }
+    }
+    chains.strips.push_back(strip);
+  }
+  return chains;
+}
+
 Path with_links(const Path& path, const LinkOptions& options) {
   const std::size_t count = path.strips.size();
   if (options.keep_out.empty() || !(options.clearance > 0.0) || options.lift_at_start.size() != count ||

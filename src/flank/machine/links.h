@@ -18,6 +18,10 @@ struct LinkOptions {
 
 inline constexpr const char* kLinkKind = "link";
 
+/// Strips that begin where the one before ends (the same place and axis, to 1e-9) are one: a cavity's cycles are linked
+/// already. The first one's id, kind and face stay.
+[[nodiscard]] Path joined(const Path& path);
+
 /// The strips with links (kind "link") around them: link, strip, link, ..., strip, link. Ids of strips stay; those of the
 /// links follow them. On the sphere the tool points away from the part, so that nothing above its tip comes nearer.
 /// No link leaves a strip's first or last pose by any way but these.

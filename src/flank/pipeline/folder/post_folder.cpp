@@ -75,8 +75,9 @@ double body_radius(const Tool& tool, const PostTool& facts) {
 }
 
 Path link_strips(const Input& input, const PostTool& facts, const PostJob& request) {
+  const Path path = joined(input.path);
   std::vector<Pose> ends;
-  for (const Strip& strip : input.path.strips) {
+  for (const Strip& strip : path.strips) {
     ends.push_back(strip.poses.front());
     ends.push_back(strip.poses.back());
   }
@@ -92,7 +93,7 @@ Path link_strips(const Input& input, const PostTool& facts, const PostJob& reque
     options.lift_at_start.push_back(lifts[k]);
     options.lift_at_end.push_back(lifts[k + 1]);
   }
-  return with_links(input.path, options);
+  return with_links(path, options);
 }
 
 WorkSetup find_setup(const PostJob& request, const Machine& machine, const Path& path, const PostTool& facts,
