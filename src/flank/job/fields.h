@@ -291,7 +291,8 @@ template <class Visitor, Is<PostJob> Job>
 void visit_fields(Job& job, Visitor&& visit) {
   using namespace accepted;
   constexpr std::string_view kLinks = "Links";
-  visit(FieldInfo{"folder", "", "", "A folder written by flank fit or flank cover", kAny, Spelling::kFile, "DIR", true},
+  visit(FieldInfo{"folder", "", "", "A folder written by flank fit, cover or trochoid", kAny, Spelling::kFile, "DIR",
+                  true},
         job.folder);
   visit(FieldInfo{"machine", "", "", kMachineHelp, kAny, Spelling::kFileOrText, "", true}, job.machine);
   visit(FieldInfo{"part", "", "", "Part instead of the one named in job.json", kAny, Spelling::kFile}, job.part);
