@@ -31,7 +31,7 @@ class Backplotter {
 
   Backplot run() {
     require_same_meaning();
-    for (std::size_t k = 0; k < program_.moves.size(); ++k) add(program_.moves[k]);
+    for (const NcMove& move : program_.moves) add(move);
     return std::move(result_);
   }
 
