@@ -76,8 +76,6 @@ std::vector<double> estimate_distances(const std::vector<SurfaceSample>& samples
 
 namespace {
 
-/// Coverage is known to one of about 2,000 samples: nearer than that the score decides.
-constexpr double kSameCoverage = 1e-3;
 /// A clean result that covers less than this share of what another one covers is not what anybody asked for.
 constexpr double kWorthHaving = 0.5;
 

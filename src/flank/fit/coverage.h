@@ -14,6 +14,9 @@ namespace flank::internal {
                                                  const std::vector<RuledMotion>& motions, const RadialFunction& tool,
                                                  double tolerance_mm, int poses);
 
+/// Coverage is known to one of about 2,000 samples (FlankFitOptions::sample_share); two of them are no difference.
+inline constexpr double kSameCoverage = 1e-3;
+
 /// Those of the samples that are cut deeper than this, mm, by the estimate's own figures.
 [[nodiscard]] std::vector<Vec3> cut_deeper_than(double depth_mm, const std::vector<SurfaceSample>& samples,
                                                 const std::vector<RuledMotion>& motions, const RadialFunction& tool,

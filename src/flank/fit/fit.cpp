@@ -19,15 +19,6 @@ using namespace internal;
 
 namespace {
 
-/// Tolerances at which quick fits are ranked (MATH section 7): rough as they are, at one tolerance most would cover
-/// nothing, and by residual the wrong directions come first.
-constexpr double kQuickTolerances = 4.0;
-/// Poses per motion for that ranking: 6 for each of the 8 control points of a quick fit, half as dense again as
-/// SweptModel's table.
-constexpr int kQuickPoses = 48;
-/// Their sample spacing, in square roots of the area: 400 samples tell fifty candidates apart, in a fifth of the time
-/// that the samples of the later ranking take.
-constexpr double kQuickSampleShare = 1.0 / 20.0;
 /// Control points of a start's rails. The quick fit brings them to its own 8 at once; these only carry the start there.
 constexpr int kStartControlPoints = 12;
 
@@ -125,23 +116,6 @@ std::vector<FitTask> make_tasks(const Target& target, const Chart& chart, const 
   for (const RuledStart& band : bands)
     tasks.push_back({&target, make_motion(chart, band, length, kStartControlPoints), obstacles});
   return tasks;
-}
-
-/// A draft of these tasks for the quick pass: a free tool starts as a cylinder with the number of coefficients that the
-/// pass has. (make_draft measures the radius instead; here it is what tells the candidates apart.)
-FitDraft start_draft(const std::vector<FitTask>& tasks, const ToolModel& tool, double radius) {
-  FitDraft draft;
-  for (const FitTask& task : tasks) {
-    draft.targets.push_back(task.target);
-    draft.motions.push_back(task.motion);
-    draft.obstacles.push_back(task.obstacles);
-  }
-  const double length = tasks.front().motion.axis_length;
-  draft.free_tool = tool.free();
-  draft.free_parameters = tool.free_parameters;
-  draft.tool =
-      tool.free() ? RadialFunction::spline(length, Eigen::VectorXd::Constant(6, radius)) : tool.make(length, radius);
-  return draft;
 }
 
 /// Fits and ranks one candidate. Left without motions if no line of its start is free, or if it loses its values.

@@ -20,8 +20,6 @@ namespace {
 constexpr double kExactShare = 2e-5;
 /// Of a free tool's first spline, as the quick pass has: an average over the motion shows no finer profile.
 constexpr int kFirstCoefficients = 6;
-/// Coverage is known to one of about 2,000 samples (FlankFitOptions::sample_share); two of them are no difference.
-constexpr double kSameCoverage = 1e-3;
 
 /// Distances of the axes' points to their targets, averaged over time: the first radial function. Cold footpoints at
 /// kS x kT places: four for each coefficient along the axis; over time an average does not need many.
@@ -43,6 +41,18 @@ RadialFunction mean_distance_tool(const std::vector<FitTask>& tasks, const Radiu
     samples.emplace_back(s, std::clamp(sum / count, bounds.smallest, bounds.largest));
   }
   return RadialFunction::spline_through(length, samples, kFirstCoefficients);
+}
+
+/// The tasks of a draft; its tool is still to come.
+FitDraft without_tool(const std::vector<FitTask>& tasks, const ToolModel& tool) {
+  FitDraft draft;
+  for (const FitTask& task : tasks) {
+    draft.targets.push_back(task.target);
+    draft.motions.push_back(task.motion);
+    draft.obstacles.push_back(task.obstacles);
+  }
+  draft.free_tool = tool.free();
+  return draft;
 }
 
 /// Largest residual against the target itself, between the samples of the passes: 96 intervals share no place with the
@@ -118,18 +128,21 @@ Polished lowered(const Polished& exact, const std::vector<SurfaceSample>& sample
 }  // namespace
 
 FitDraft make_draft(const std::vector<FitTask>& tasks, const ToolModel& tool, const FlankFitOptions& options) {
-  FitDraft draft;
-  for (const FitTask& task : tasks) {
-    draft.targets.push_back(task.target);
-    draft.motions.push_back(task.motion);
-    draft.obstacles.push_back(task.obstacles);
-  }
-  draft.free_tool = tool.free();
+  FitDraft draft = without_tool(tasks, tool);
   draft.tool = mean_distance_tool(tasks, options.bounds);
   if (draft.free_tool) return draft;
   const double length = tasks.front().motion.axis_length;
   draft.tool = tool.make(length, draft.tool.at(0.5 * length).r);
   draft.free_parameters = tool.free_parameters;
+  return draft;
+}
+
+FitDraft start_draft(const std::vector<FitTask>& tasks, const ToolModel& tool, double radius) {
+  FitDraft draft = without_tool(tasks, tool);
+  const double length = tasks.front().motion.axis_length;
+  draft.free_parameters = tool.free_parameters;
+  draft.tool = tool.free() ? RadialFunction::spline(length, Eigen::VectorXd::Constant(kFirstCoefficients, radius))
+                           : tool.make(length, radius);
   return draft;
 }
 

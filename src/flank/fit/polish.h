@@ -15,6 +15,10 @@ namespace flank::internal {
 [[nodiscard]] FitDraft make_draft(const std::vector<FitTask>& tasks, const ToolModel& tool,
                                   const FlankFitOptions& options);
 
+/// A draft of these tasks for the quick pass: a free tool starts as a cylinder with the number of coefficients that the
+/// pass has. (make_draft measures the radius instead; here it is what tells the candidates apart.)
+[[nodiscard]] FitDraft start_draft(const std::vector<FitTask>& tasks, const ToolModel& tool, double radius);
+
 /// Least squares, then either the exact passes (residual near zero) or the tolerance pass, then `shifted` radii for a
 /// free tool. Returns the best that it saw by score, at worst the draft itself; `trace` grows if given.
 [[nodiscard]] Polished polish(const FitDraft& draft, const std::vector<SurfaceSample>& samples,

@@ -51,6 +51,16 @@ struct FitDraft {
 [[nodiscard]] FitDraft run_stage(const FitDraft& draft, const RadiusBounds& bounds, const FitStage& stage,
                                  std::vector<IterationTrace>* trace = nullptr, ResidualSummary* summary = nullptr);
 
+/// Tolerances at which quick fits are ranked (MATH section 7): rough as they are, at one tolerance most would cover
+/// nothing, and by residual the wrong directions come first.
+inline constexpr double kQuickTolerances = 4.0;
+/// Poses per motion for that ranking: 6 for each of the 8 control points of a quick fit, half as dense again as
+/// SweptModel's table.
+inline constexpr int kQuickPoses = 48;
+/// Their sample spacing, in square roots of the area: 400 samples tell fifty candidates apart, in a fifth of the time
+/// that the samples of the later ranking take.
+inline constexpr double kQuickSampleShare = 1.0 / 20.0;
+
 /// Short robust pass for ranking starts: 8 control points per rail, milliseconds.
 [[nodiscard]] FitStage quick_stage(double robust_scale_mm);
 /// Least squares at the resolution of the papers (100 x 30, 24 control points). Robust past the border alone.

@@ -8,7 +8,6 @@
 
 #include "flank/error.h"
 #include "flank/fit/coverage.h"
-#include "flank/fit/ways.h"
 #include "flank/pipeline/search_setup.h"
 #include "flank/pipeline/stiff_fit.h"
 #include "flank/seed/axis_line.h"

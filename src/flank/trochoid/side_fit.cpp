@@ -13,31 +13,12 @@
 namespace flank::internal {
 namespace {
 
-constexpr double kQuickTolerances = 4.0;
-constexpr int kQuickPoses = 48;
-constexpr int kQuickCoefficients = 6;
-constexpr double kQuickSampleShare = 1.0 / 20.0;
 constexpr std::size_t kPolished = 2;  ///< of the starts of one radius
 
 struct Candidate {
   FitDraft draft;
   double score = -1.0;
 };
-
-FitDraft draft_of(const std::vector<FitTask>& tasks, const ToolModel& tool, double radius) {
-  FitDraft draft;
-  for (const FitTask& task : tasks) {
-    draft.targets.push_back(task.target);
-    draft.motions.push_back(task.motion);
-    draft.obstacles.push_back(task.obstacles);
-  }
-  const double length = tasks.front().motion.axis_length;
-  draft.free_tool = tool.free();
-  draft.free_parameters = tool.free_parameters;
-  draft.tool = tool.free() ? RadialFunction::spline(length, Eigen::VectorXd::Constant(kQuickCoefficients, radius))
-                           : tool.make(length, radius);
-  return draft;
-}
 
 /// By how much the axis is longer than a third more than its way: then it most likely lies along the cavity.
 double lying(const RuledMotion& motion) {
@@ -98,7 +79,7 @@ Candidate SideFitter::quick(const SideStart& start, const FlankFitOptions& fit) 
   const std::vector<FitTask> tasks =
       side_tasks(left_, right_, left_chart_, right_chart_, start, options_.layers, length, options_.up);
   if (tasks.empty()) return candidate;
-  const FitDraft draft = draft_of(tasks, tool_, start.radius_mm);
+  const FitDraft draft = start_draft(tasks, tool_, start.radius_mm);
   candidate.draft = run_stage(draft, fit.bounds, quick_stage(robust_scale(*left_.target, fit)));
   if (!has_values(candidate.draft)) return candidate;
   const double tolerance = kQuickTolerances * options_.fit.tolerance_mm;
