@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
 #include <sstream>
 
+#include "flank/base/shared_folder.h"
 #include "flank/error.h"
 #include "flank/machine/model/toml_table.h"
 
@@ -204,18 +204,6 @@ std::string read_text(const std::string& file) {
   return text.str();
 }
 
-bool is_folder(const fs::path& path) {
-  std::error_code ignored;
-  return fs::is_directory(path, ignored);
-}
-
-/// Beside the folder of the running program: an install tree may have been moved. Empty where the system does not tell.
-fs::path beside_program() {
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  return error ? fs::path() : program.parent_path().parent_path() / "share" / "openflank" / "machines";
-}
-
 }  // namespace
 
 Machine machine_from_toml(std::string_view text, const std::string& file) {
@@ -240,19 +228,13 @@ Machine machine_from_toml(std::string_view text, const std::string& file) {
 }
 
 std::string machine_folder() {
-  if (const char* wanted = std::getenv("FLANK_MACHINES"); wanted != nullptr && *wanted != '\0') {
-    if (!is_folder(wanted))
-      throw InputError(fmt::format("FLANK_MACHINES={}: no such folder; one of machine files is needed", wanted));
-    return wanted;
-  }
-  const std::vector<fs::path> places = {beside_program(), FLANK_MACHINES_INSTALLED, FLANK_MACHINES_SOURCE};
-  std::vector<std::string> tried;
-  for (const fs::path& place : places) {
-    if (place.empty()) continue;
-    if (is_folder(place)) return place.string();
-    tried.push_back(place.string());
-  }
-  throw InputError(fmt::format("no machines: tried {}; name their folder by FLANK_MACHINES", fmt::join(tried, ", ")));
+  return find_shared_folder({.name = "machines",
+                             .variable = "FLANK_MACHINES",
+                             .installed = FLANK_MACHINES_INSTALLED,
+                             .source = FLANK_MACHINES_SOURCE,
+                             .content = "machine files",
+                             .things = "machines",
+                             .advice = "name their folder by FLANK_MACHINES"});
 }
 
 std::vector<std::string> machine_names() {
