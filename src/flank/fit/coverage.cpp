@@ -98,10 +98,9 @@ Deepest deepest_place(const Pose& pose, const ObstacleField& obstacles, const Ra
     double gap = obstacles.estimate(pose.at(s)).distance_mm - r;
     if (gap < kClose * length) {
       const double horizon = r + kClose * length;
-      gap =
-          (look == GougeLook::kClose ? obstacles.at(pose.at(s), horizon) : obstacles.interpolated(pose.at(s), horizon))
-              .distance_mm -
-          r;
+      const ObstacleDistance near =
+          look == GougeLook::kClose ? obstacles.at(pose.at(s), horizon) : obstacles.interpolated(pose.at(s), horizon);
+      gap = near.distance_mm - r;
     }
     if (-gap > deepest.mm) deepest = {-gap, s};
     if (s >= length) return deepest;

@@ -42,8 +42,8 @@ struct CellDistance {
 /// many threads at once: a cell's values do not depend on who makes it, and who comes second throws his own away.
 class DistanceCells {
  public:
-  /// `low`: the place of the node (0, 0, 0). `error_mm`: how far the interpolated distance may be off at the place of a cell that is checked; zero or less: no
-  /// cell is good enough.
+  /// `low`: the place of the node (0, 0, 0). `error_mm`: how far the interpolated distance may be off at the place of a
+  /// cell that is checked; zero or less: no cell is good enough.
   DistanceCells(std::size_t nodes, const Vec3& low, double step_mm, double error_mm);
   ~DistanceCells();
 
