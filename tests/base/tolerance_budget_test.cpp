@@ -59,6 +59,7 @@ TEST(ToleranceBudget, EveryLinkCountsInItsChains) {
         worst_left_by_dead_zone}},
       {"certified", [](ToleranceBudget& b) -> double& { return b.target.certified; }, {worst_in_target}},
       {"between poses", [](ToleranceBudget& b) -> double& { return b.target.between_poses; }, {worst_in_target}},
+      {"between samples", [](ToleranceBudget& b) -> double& { return b.target.between_samples; }, {worst_in_target}},
       {"last look",
        [](ToleranceBudget& b) -> double& { return b.others.last_look; },
        {worst_in_other_faces, worst_of_shank}},
