@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "flank/base/parallel.h"
+#include "flank/base/tolerance_budget.h"
 #include "flank/envelope/swept_estimate.h"
 
 namespace flank {
@@ -135,7 +136,7 @@ std::vector<Vec3> cut_deeper_than(double depth_mm, const std::vector<SurfaceSamp
 }
 
 bool is_clean(const CoverageEstimate& estimate, double tolerance_mm) {
-  return estimate.overcut_mm <= tolerance_mm && estimate.gouge_mm <= tolerance_mm;
+  return std::max(estimate.overcut_mm, estimate.gouge_mm) <= kToleranceBudget.fit.seen * tolerance_mm;
 }
 
 namespace {

@@ -4,7 +4,6 @@
 
 #include "flank/base/assert.h"
 #include "flank/base/parallel.h"
-#include "flank/base/tolerance_budget.h"
 #include "flank/fit/coverage.h"
 #include "flank/fit/swept_polish.h"
 #include "flank/tool/compliance.h"
@@ -93,8 +92,7 @@ Polished looked_at_closely(const Polished& polished, const std::vector<SurfaceSa
 void settle_if_enough(Runner& runner, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
   if (!is_enough(runner.polished.estimate, options)) return;
   Polished close = looked_at_closely(runner.polished, samples, options);
-  const double deepest = std::max(close.estimate.overcut_mm, close.estimate.gouge_mm);
-  runner.enough = is_enough(close.estimate, options) && deepest <= kToleranceBudget.fit.seen * options.tolerance_mm;
+  runner.enough = is_enough(close.estimate, options);
   close.exact = runner.polished.exact;
   if (runner.enough) runner.polished = std::move(close);
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "flank/tool/compliance.h"
@@ -36,6 +37,23 @@ TEST(ToolExcess, AToolWithinItsBoundsHasNone) {
   bounds.wheel_radius = 50.0;
   EXPECT_TRUE(tool_excesses(spline({3.0, 3.1, 3.2, 3.3, 3.4}), bounds, places()).empty());
   EXPECT_EQ(tool_excess_square(spline({3.0, 3.1, 3.2, 3.3, 3.4}), bounds, places()), 0.0);
+}
+
+// Of a spline whose profile bends hardest at a knot between two samples, which see nothing of it.
+TEST(ToolExcess, BoundsAreAskedAtTheKnotsToo) {
+  const RadialFunction bent = spline({6.0, 5.5, 4.6, 5.5, 6.0, 6.2});
+  RadiusBounds bounds{1.0, 9.0, 0.9};
+  bounds.wheel_radius = 50.0;
+  const double knot = kLength / 3.0;
+  const std::vector<double> coarse = {0.0, 0.9 * kLength, kLength};
+  const std::vector<double> all = bound_places(bent, coarse);
+  EXPECT_TRUE(std::is_sorted(all.begin(), all.end()));
+  EXPECT_EQ(all.size(), coarse.size() + 2);
+  EXPECT_EQ(std::count_if(all.begin(), all.end(), [&](double s) { return std::abs(s - knot) < 1e-12; }), 1);
+  EXPECT_TRUE(tool_excesses(bent, bounds, coarse).empty());
+  EXPECT_FALSE(tool_excesses(bent, bounds, all).empty());
+  EXPECT_EQ(bound_places(RadialFunction(ToolFamily::kCylinder, kLength, Eigen::VectorXd::Constant(1, 3.0)), coarse),
+            coarse);
 }
 
 TEST(ToolExcess, SlendernessIsThatOfTheEquivalentCylinder) {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "flank/base/assert.h"
+#include "flank/fit/model/tool_excess.h"
 
 namespace flank::internal {
 namespace {
@@ -75,6 +76,7 @@ FitModel::FitModel(std::vector<const Target*> targets, const FitState& start, st
     start_radius_.push_back(jet.r);
     start_slope_.push_back(jet.d1);
   }
+  bound_places_ = bound_places(start.tool, s_);
   for (const RuledMotion& motion : start.motions) add_anchors(motion);
 }
 

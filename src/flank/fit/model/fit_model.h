@@ -204,7 +204,7 @@ class FitModel {
   FitStage stage_;
   double axis_length_;
   std::vector<TimeSample> times_;
-  std::vector<double> s_;
+  std::vector<double> s_, bound_places_;  ///< samples of the axis; where the tool's bounds are asked
   std::vector<std::vector<Anchor>> anchors_;
   std::vector<std::vector<double>> speeds_;  ///< [motion][j]: mean speed of the axis' point s_j along the way, >= 0
   std::vector<double> start_radius_, start_slope_;  ///< r(s_j) and r'(s_j) at the start

@@ -150,7 +150,7 @@ void FitModel::assemble_tool(const FitState& state, ArrowSystem& system) const {
     system.tool_matrix += (stage_.radius_pin / n) * b.col(j) * b.col(j).transpose();
     gradient += (stage_.radius_pin / n) * drift * b.col(j);
   }
-  for (const ToolExcess& excess : tool_excesses(state.tool, bounds_, s_)) {
+  for (const ToolExcess& excess : tool_excesses(state.tool, bounds_, bound_places_)) {
     const Eigen::VectorXd row = excess.gradient(free_);
     system.tool_matrix += (kBoundWeight * excess.share) * row * row.transpose();
     gradient += (kBoundWeight * excess.share * excess.mm) * row;
@@ -170,7 +170,7 @@ void FitModel::assemble_tool(const FitState& state, ArrowSystem& system) const {
 
 double FitModel::tool_cost(const FitState& state) const {
   if (free_.empty()) return 0.0;
-  double sum = kBoundWeight * tool_excess_square(state.tool, bounds_, s_);
+  double sum = kBoundWeight * tool_excess_square(state.tool, bounds_, bound_places_);
   for (std::size_t j = 0; j < s_.size(); ++j) {
     const double drift = state.tool.at(s_[j]).r - start_radius_[j];
     sum += stage_.radius_pin * drift * drift / stage_.samples_s;

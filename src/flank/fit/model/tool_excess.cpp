@@ -112,6 +112,15 @@ double slenderness_excess(const RadialFunction& tool, const RadiusBounds& bounds
 
 }  // namespace
 
+std::vector<double> bound_places(const RadialFunction& tool, const std::vector<double>& s) {
+  if (tool.family() != ToolFamily::kSpline) return s;
+  std::vector<double> all = s;
+  const int spans = tool.parameter_count() - 3;  // equal ones, of a clamped cubic
+  for (int k = 1; k < spans; ++k) all.push_back(tool.axis_length() * k / spans);
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
 std::vector<ToolExcess> tool_excesses(const RadialFunction& tool, const RadiusBounds& bounds,
                                       const std::vector<double>& s) {
   std::vector<ToolExcess> out;

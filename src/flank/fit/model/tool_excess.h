@@ -16,6 +16,10 @@ struct ToolExcess {
   Eigen::VectorXd gradient;  ///< of mm by all parameters of the radial function
 };
 
+/// Where a tool's bounds are asked: at the samples s (ascending, mm) and at a spline's knots, where its second derivative
+/// has its peaks: between the samples alone a fit bent the profile until it was no tool. Ascending.
+[[nodiscard]] std::vector<double> bound_places(const RadialFunction& tool, const std::vector<double>& s);
+
 /// Every bound that the tool exceeds: radius, slope, convexity (1 - r'^2 - r r'' > 0, MATH section 1), neck and concave
 /// curvature at the samples s (ascending, mm), slenderness as a whole. Numbers without unit are multiplied by the axis
 /// length.
