@@ -38,6 +38,7 @@ void add_page(CLI::App* app, ReportOptions& options) {
   app->add_option("-o,--output", options.html, "The page to write; default: report.html in DIR");
 }
 
+/// The files that were written, for people or for scripts.
 int say(const std::vector<std::string>& written, const CommonOptions& common) {
   if (common.json) {
     nlohmann::ordered_json json = {{"schema", "openflank/report/1"}, {"files", written}};
@@ -50,6 +51,7 @@ int say(const std::vector<std::string>& written, const CommonOptions& common) {
 
 /// "1600x1000" to the size of a window.
 std::string read_size(const std::string& text, PictureOptions& picture) {
+  // A third item means that something follows the numbers.
   char rest = '\0';
   const int count = std::sscanf(text.c_str(), "%dx%d%c", &picture.width, &picture.height, &rest);
   const bool sensible =
@@ -70,6 +72,7 @@ void write_page(const ReportOptions& options, const std::string& page) {
 }
 
 int report(ReportOptions& options, const CommonOptions& common) {
+  // Before anything is computed: a page over tool.json would destroy what it shows.
   require_not_a_result(options.folder, options.page());
   if (!options.png.empty()) require_not_a_result(options.folder, options.png);
   write_page(options, make_report(options.folder));

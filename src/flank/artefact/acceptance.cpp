@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::size_t kMostFacesNamed = 8;  ///< of entered faces, the deepest first
 
+/// Where a face is cut deepest, for the end of a sentence; empty where nothing is cut.
 std::string place(const FaceVerdict& face) {
   if (!face.deepest) return "";
   const Vec3& p = face.deepest->point;
@@ -25,6 +26,7 @@ std::vector<const FaceVerdict*> cut_faces(const VerifyReport& report, bool targe
   return faces;
 }
 
+/// A reason for each face that is cut: a number for the whole part would not say where to look.
 void add_cuts(const VerifyReport& report, bool targets, std::vector<Shortfall>& reasons) {
   const std::string figure = targets ? "overcut_mm" : "gouge_mm";
   const std::vector<const FaceVerdict*> faces = cut_faces(report, targets);
@@ -39,6 +41,7 @@ void add_cuts(const VerifyReport& report, bool targets, std::vector<Shortfall>& 
 /// Faces where no cut over the tolerance was found, nor was it proved that there is none.
 void add_unproved(const VerifyReport& report, std::vector<Shortfall>& reasons) {
   std::vector<const FaceVerdict*> faces;
+  // Written as a negation: a bound that is not a number proves nothing.
   for (const FaceVerdict& face : report.faces)
     if (face.overcut_mm <= report.tolerance_mm && !(face.overcut_bound_mm <= report.tolerance_mm))
       faces.push_back(&face);
@@ -66,10 +69,12 @@ Acceptance accept(const Tool& tool, const VerifyReport& report, double least_cov
   add_cuts(report, true, out.reasons);
   add_cuts(report, false, out.reasons);
   if (report.depth == DepthProof::kProved) add_unproved(report, out.reasons);
+  // What no tool of this size can reach is nobody's fault: the demand is on the reachable share.
   if (!(report.coverage_reachable >= least_coverage))
     out.reasons.push_back(
         {"coverage_reachable", fmt::format("coverage {:.3f} % < {:.3f} % of what is reachable",
                                            100.0 * report.coverage_reachable, 100.0 * least_coverage)});
+  // "surely": the judge's figure less its bound is what counts (ClearanceFigure::kept).
   for (const ClearanceFigure& f : report.clearance.figures)
     if (!f.kept)
       out.reasons.push_back({"clearance", fmt::format("the {} does not keep {} mm from {} surely", body_name(f.body),
@@ -79,12 +84,15 @@ Acceptance accept(const Tool& tool, const VerifyReport& report, double least_cov
 
 void accept_stock(const StockReport& stock, double most_engagement_deg, double tolerance_mm, Acceptance& acceptance) {
   constexpr double kSpareCells = 0.1;
+  // The replay cuts cells: an engagement that is over by less than one of them may be the grid's.
   const double most = most_engagement_deg + stock.resolution_deg;
   for (const StockKind& kind : stock.kinds)
+    // The limit that was asked for is about cycles and their entry; finishing sweeps have figures of their own.
     if ((kind.kind == "front" || kind.kind == "back" || kind.kind == "entry") && kind.engagement_deg > most)
       acceptance.reasons.push_back(
           {"stock", fmt::format("replayed, a {} has an engagement of {:.3f} degrees > {} + {:.2f}, strip {}", kind.kind,
                                 kind.engagement_deg, most_engagement_deg, stock.resolution_deg, kind.strip + 1)});
+  // A stretch of up to two cells may only be the grid's.
   if (stock.uncut_mm > std::max(kMostUncutMm, 2.0 * stock.cell_mm)) {
     const Vec3& p = stock.uncut_point;
     acceptance.reasons.push_back(
@@ -98,10 +106,11 @@ void accept_stock(const StockReport& stock, double most_engagement_deg, double t
 }
 
 void accept_cavity(const TrochoidSummary& cavity, Acceptance& acceptance) {
-  constexpr double kSpareDeg = 1e-6;
+  constexpr double kSpareDeg = 1e-6;  // rounding of a limit that cycles are made to reach
   if (cavity.largest_deg() > cavity.most_engagement_deg + kSpareDeg)
     acceptance.reasons.push_back({"engagement", fmt::format("engagement {:.3f} degrees > {} degrees",
                                                             cavity.largest_deg(), cavity.most_engagement_deg)});
+  // A layer that ended early has a good engagement in what it has, and leaves the rest.
   for (std::size_t k = 0; k < cavity.layers.size(); ++k)
     if (cavity.layers[k].status != "done")
       acceptance.reasons.push_back({"cycles", fmt::format("layer {} is {} after {} cycles", k + 1,

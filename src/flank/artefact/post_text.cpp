@@ -15,10 +15,12 @@ std::string internal::minutes_text(double minutes) {
 }
 
 std::string post_text(const PostOutcome& o) {
+  // What the machine is and where the part sits come first: with the part in another place the program is wrong.
   std::string text = fmt::format("machine {} ({}), the part sits at {}{}\n", o.machine, o.nesting, o.setup,
                                  o.setup_found ? " (found)" : "");
   text += fmt::format("{} strips of {} poses: {} blocks with links, {} points inserted, {} left out\n", o.strips,
                       o.poses, o.moves, o.inserted, o.left_out);
+  // Both are bounds, and add up: neither is in the judge's verdict on the planned path.
   text += fmt::format("the control's motion leaves the path by at most {:.6f} mm, and digits add at most {:.6f} mm\n",
                       o.deviation_mm, o.rounding_mm);
   text += fmt::format("{:<6} {:>11} {:>11} {:>11} {:>14}\n", "joint", "from", "to", "largest /s", "largest /s^2");
@@ -32,6 +34,7 @@ std::string post_text(const PostOutcome& o) {
   return text;
 }
 
+// As post_text, complete and in full digits, for scripts.
 std::string post_json(const PostOutcome& o) {
   nlohmann::ordered_json json = {{"schema", "openflank/post/1"},
                                  {"units", "mm"},

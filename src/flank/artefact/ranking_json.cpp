@@ -9,6 +9,7 @@
 namespace flank::internal {
 namespace {
 
+/// One line of the table. Tools that do not work have no rank and no figures: they say why.
 std::string row_of(const RankedChoice& tool, std::size_t rank, std::size_t width) {
   if (!tool.works)
     return fmt::format("    -  {:<{}}  {}\n", tool.tool, width, tool.reason.empty() ? "not tried" : tool.reason);
@@ -23,6 +24,7 @@ nlohmann::ordered_json ranking_entries(const Ranking& ranking) {
   auto entries = nlohmann::ordered_json::array();
   for (const RankedChoice& tool : ranking.tools) {
     nlohmann::ordered_json entry;
+    // In the order in which the ranking has them; those that do not work come last.
     entry["rank"] = entries.size() + 1;
     entry["tool"] = tool.tool;
     entry["name"] = tool.name;
@@ -58,6 +60,7 @@ std::string ranking_to_json(const Ranking& ranking) {
 }
 
 std::string ranking_table(const Ranking& ranking) {
+  // Names in the first column are as long as they are; the head of the column has four letters.
   std::size_t width = 4;
   for (const RankedChoice& tool : ranking.tools) width = std::max(width, tool.tool.size());
   std::string text = fmt::format("  ranking     {} tools: {}\n", ranking.tools.size(), ranking.source);

@@ -18,6 +18,7 @@ namespace flank {
 using namespace internal;
 namespace {
 
+/// A share as people read it.
 std::string percent(double share) { return fmt::format("{:.2f} %", 100.0 * share); }
 
 /// What the path leaves, by the judge.
@@ -40,10 +41,13 @@ std::string error_lines(const Result& result) {
   return text;
 }
 
+/// Every kind of job machines a part; this is its file and faces.
 PartRequest part_of(const PlanJob& job) {
   return std::visit([](const auto& plan) { return machined(plan); }, job);
 }
 
+/// Name, family and size. The smallest and largest radius are looked for in 101 places: families may have them
+/// inside.
 std::string tool_line(const Tool& tool) {
   const double length = tool.radial.axis_length();
   double low = 1e300, high = 0.0;
@@ -56,6 +60,7 @@ std::string tool_line(const Tool& tool) {
                      family_name(tool.radial.family()), length, low, high);
 }
 
+/// MATH.md, section 11, as one number that people can compare: the cylinder that bends as much.
 std::string stiffness_line(const Tool& tool) {
   const Stiffness bent = stiffness(tool);
   return fmt::format(
@@ -64,6 +69,7 @@ std::string stiffness_line(const Tool& tool) {
       bent.slenderness, bent.equivalent_diameter_mm, bent.length_mm, bent.deflection_um, kStiffnessForce);
 }
 
+/// What only this kind of plan has to tell; the overloads are chosen by the result's own plan.
 std::string plan_lines(const CoverSummary& cover) {
   std::string text;
   for (const TargetCover& t : cover.targets)
@@ -77,10 +83,12 @@ std::string plan_lines(const CoverSummary& cover) {
 std::string plan_lines(const FitSummary&) { return ""; }
 std::string plan_lines(const TrochoidSummary& cavity) { return trochoid_lines(cavity); }
 
+/// Coverage and overcut together: neither means anything without the other.
 nlohmann::ordered_json share_json(const PlannedShare& share) {
   return {{"coverage", share.coverage}, {"overcut", share.overcut_mm}};
 }
 
+/// The keys "candidates", "before" and "after" are the same for every kind of plan, so that scripts can compare them.
 void add_plan(const FitSummary& fit, nlohmann::ordered_json& json) {
   json["candidates"] = fit.candidates;
   json["before"] = share_json(fit.before);
@@ -118,6 +126,7 @@ void add_plan(const CoverSummary& cover, nlohmann::ordered_json& json) {
 std::string summary_text(const Result& result) {
   const PartRequest part = part_of(result.job);
   std::string text = fmt::format("{} {}\n", part.file, part.target_text());
+  // What was asked for stands first: a verdict is about that and nothing else.
   text += fmt::format("  asked for   {}\n", fmt::join(asked_for(result.job), ", "));
   text += tool_line(result.tool) + stiffness_line(result.tool);
   text += result.path.pose_count() > 0 ? error_lines(result) : "  path        no strip: nothing is machined\n";
@@ -126,6 +135,7 @@ std::string summary_text(const Result& result) {
   text += std::visit([](const auto& plan) { return plan_lines(plan); }, result.plan);
   if (result.ranking) text += ranking_table(*result.ranking);
   for (const std::string& note : result.notes) text += "  note        " + note + "\n";
+  // To people only: summary.json is the same for the same input, and times are not.
   text += "  time       ";
   for (const auto& [stage, seconds] : result.seconds) text += fmt::format(" {} {:.2f} s", stage, seconds);
   const Acceptance acceptance = result.acceptance();

@@ -17,6 +17,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kSchema = "openflank/verify/1";
 
+/// The one list of names: writing and reading both look here, so that they cannot differ.
 constexpr std::array<std::pair<Verdict, std::string_view>, 5> kVerdicts{{{Verdict::kNotRun, "not_run"},
                                                                          {Verdict::kPass, "pass"},
                                                                          {Verdict::kOvercut, "overcut"},
@@ -26,14 +27,17 @@ constexpr std::array<std::pair<Verdict, std::string_view>, 5> kVerdicts{{{Verdic
 /// JSON has no infinity: null stands for it.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
+/// The other way round: distances of what nothing comes near are infinite.
 double to_number(const Json& j) { return j.is_null() ? std::numeric_limits<double>::infinity() : j.get<double>(); }
 
+/// Strips are counted from 1 in files, as people count, and from 0 in reports; null is no strip.
 Json to_json(const WorstPlace& w) {
   return {{"face", w.face},      {"point", {number(w.point.x()), number(w.point.y()), number(w.point.z())}},
           {"f_mm", number(w.f)}, {"strip", w.strip < 0 ? Json(nullptr) : Json(w.strip + 1)},
           {"t", number(w.t)},    {"s_mm", number(w.s)}};
 }
 
+/// at() throws for a field that is missing, get() for one of the wrong type: verify_from_json names the file.
 WorstPlace place_from(const Json& j) {
   WorstPlace w;
   w.face = j.at("face").get<std::string>();
@@ -63,6 +67,7 @@ Json to_json(const FaceVerdict& f) {
             {"overcut_bound_mm", number(f.overcut_bound_mm)},
             {"bound_point", {number(f.bound_point.x()), number(f.bound_point.y()), number(f.bound_point.z())}},
             {"proof_cells", f.proof_cells}};
+  // Absent where nothing is cut: there is no deepest place then.
   if (f.deepest) j["deepest"] = to_json(*f.deepest);
   return j;
 }
@@ -111,6 +116,7 @@ Json to_json(const ClearanceReport& report) {
   return list;
 }
 
+/// The value of an enumeration whose name this is: by asking each for its name, which is written in one place only.
 template <class Name, class Value, std::size_t N>
 Value value_named(const std::string& name, const std::array<Value, N>& values, const Name& name_of) {
   for (Value value : values)
@@ -152,6 +158,7 @@ DepthProof depth_from(const std::string& name) {
 
 VerifyReport report_from(const Json& j) {
   const auto schema = j.at("schema").get<std::string>();
+  // Fields of another version may have the same names and other meanings.
   if (schema != kSchema) throw InputError("schema \"" + schema + "\"; " + std::string(kSchema) + " is accepted");
   VerifyReport r;
   r.verdict = verdict_from(j.at("verdict").get<std::string>());
@@ -173,9 +180,11 @@ VerifyReport report_from(const Json& j) {
   for (const Json& w : j.at("worst_places")) r.worst.push_back(place_from(w));
   for (const Json& e : j.at("histogram").at("edges_mm")) r.histogram_edges_mm.push_back(to_number(e));
   for (const Json& a : j.at("histogram").at("area_mm2")) r.histogram_area_mm2.push_back(to_number(a));
+  // Who draws a bin takes its two edges without asking.
   if (!r.histogram_edges_mm.empty() && r.histogram_edges_mm.size() != r.histogram_area_mm2.size() + 1)
     throw InputError("a histogram of " + std::to_string(r.histogram_area_mm2.size()) + " bins with " +
                      std::to_string(r.histogram_edges_mm.size()) + " edges; one edge more than bins is accepted");
+  // Files of results without shank, holder or fixtures have none; nor is there a stock where no cavity was replayed.
   if (j.contains("clearance"))
     for (const Json& c : j.at("clearance")) r.clearance.figures.push_back(clearance_from(c));
   if (j.contains("stock")) r.stock = stock_from_json(j.at("stock"));
@@ -195,6 +204,7 @@ std::string_view depth_name(DepthProof depth) { return depth == DepthProof::kPro
 Json clearance_to_json(const ClearanceReport& report) { return to_json(report); }
 
 std::string verify_to_json(const VerifyReport& r, const Acceptance& acceptance) {
+  // Over all faces; written for people, and not read back, since the faces have their own.
   std::size_t samples = 0;
   for (const FaceVerdict& f : r.faces) samples += f.samples;
   Json j = {{"schema", kSchema},
@@ -235,6 +245,7 @@ VerifyReport verify_from_json(const std::string& text, const std::string& source
   try {
     return report_from(Json::parse(text));
   } catch (const InputError& e) {
+    // What is wrong was found within the text, which does not know where it came from.
     throw InputError(source + ": " + e.what());
   } catch (const nlohmann::json::exception& e) {
     throw InputError(source + ": not a verify.json of schema " + std::string(kSchema) + " (" + e.what() + ")");

@@ -20,6 +20,7 @@ constexpr int kProfilePoints = 161;
 /// Of a check surface only what is entered is of interest: beyond this many tolerances the judge need not be exact.
 constexpr double kCheckHorizon = 4.0;
 
+/// Every so many poses, and always the last one: a page that drew all of them would not turn smoothly.
 ViewStrip thinned(const Strip& strip) {
   ViewStrip out;
   out.id = strip.id;
@@ -32,6 +33,8 @@ ViewStrip thinned(const Strip& strip) {
   return out;
 }
 
+/// The strip in places of equal shares of its steps, with the regularity |c| (MATH.md, section 3) of each; what the
+/// judge says is added later.
 std::vector<ViewPlace> places_of(const Strip& strip, const RadialFunction& radial, const Touches& touches) {
   if (strip.poses.size() < 2) return {};
   const std::size_t steps = strip.poses.size() - 1;
@@ -72,6 +75,8 @@ void add_clearance(const std::vector<double>& poses, std::vector<ViewPlace>& pla
   }
 }
 
+/// Check surfaces that are cut by a good part of the tolerance: only these get colours, and the judge's time for
+/// them.
 std::set<std::string> entered_faces(const VerifyReport& verdict, double tolerance_mm) {
   std::set<std::string> entered;
   for (const FaceVerdict& face : verdict.faces)
@@ -80,13 +85,15 @@ std::set<std::string> entered_faces(const VerifyReport& verdict, double toleranc
 }
 
 void judge_faces(View& view, const Path& path, const std::set<std::string>& entered) {
-  if (path.pose_count() == 0) return;
+  if (path.pose_count() == 0) return;  // a volume without poses has no distance
   const SweptVolume volume(view.tool, path);
   for (ViewFace& body : view.bodies) {
     if (!body.target && !entered.contains(body.face)) continue;
     FaceSamples samples;
     samples.face = body.face;
+    // The judge is asked where colours are drawn: a picture shows no place between the triangles' corners.
     samples.points = body.mesh.vertices;
+    // Of a target every distance counts, since what is left shows as well.
     const double horizon = body.target ? 1e300 : kCheckHorizon * view.tolerance_mm;
     for (const SweptDistance& d : swept_distances(volume, samples, horizon)) {
       body.f_mm.push_back(d.f);
@@ -95,6 +102,7 @@ void judge_faces(View& view, const Path& path, const std::set<std::string>& ente
   }
 }
 
+/// The meridian at equal steps of s, with its curvature.
 std::vector<ProfilePoint> profile_of(const RadialFunction& radial) {
   std::vector<ProfilePoint> points;
   for (int j = 0; j < kProfilePoints; ++j) {
@@ -112,6 +120,7 @@ std::vector<ProfilePoint> profile_of(const RadialFunction& radial) {
 View make_view(const PlanJob& job, const Setup& setup, const Tool& tool, const Path& path,
                const VerifyReport& verdict) {
   View view;
+  // A page is passed on: where files lie on somebody's disk is not its readers' business.
   const PlanJob shown = without_folders(job);
   view.command = command_line(shown);
   std::visit(
@@ -126,6 +135,7 @@ View make_view(const PlanJob& job, const Setup& setup, const Tool& tool, const P
   view.bodies = view_faces(setup.part, setup.targets, entered);
   view.tool = tool;
   view.profile = profile_of(tool.radial);
+  // Whether the flank touches a target decides where |c| matters: elsewhere a plunge leaves no trace.
   const std::vector<TargetGroup> groups = make_targets(setup, +1);
   std::vector<const Target*> targets;
   for (const TargetGroup& group : groups) targets.push_back(group.target.get());

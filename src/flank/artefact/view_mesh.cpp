@@ -13,9 +13,10 @@ namespace flank::internal {
 namespace {
 
 constexpr double kCoarseChord = 4e-4;  ///< of the part's diagonal
-constexpr double kTargetChord = 1e-4;
-constexpr int kCoarsenings = 6;
+constexpr double kTargetChord = 1e-4;  // likewise, of what is looked at closely
+constexpr int kCoarsenings = 6;        // of four times the chord each: in the last it is 0.4 diagonals
 
+/// Of all triangles, mm^2.
 double area(const TriangleMesh& mesh) {
   double sum = 0.0;
   for (const auto& t : mesh.triangles) {
@@ -42,9 +43,12 @@ std::size_t triangles_of_others(const std::vector<ViewFace>& bodies) {
   return count;
 }
 
+/// Coarsely at first, targets too: their areas are needed for the length of their edges (refine).
 void tessellate_all(const Part& part, std::vector<ViewFace>& bodies) {
   const double diagonal = std::max(part.box.diagonal(), 1e-9);
   double chord = kCoarseChord * diagonal;
+  // Four times the chord is a half to a quarter of the triangles of a curved face; faces of a file may need many of
+  // them whatever the chord, so the number of rounds is bounded.
   for (int k = 0; k < kCoarsenings; ++k, chord *= 4.0) {
     parallel_for(bodies.size(), [&](std::size_t i) {
       if (part.is_left_out(static_cast<int>(i))) return;
@@ -61,6 +65,7 @@ void refine(const Part& part, std::vector<ViewFace>& bodies, int count, const Ch
   double sum = 0.0;
   for (const ViewFace& body : bodies)
     if (chosen(body)) sum += area(body.mesh);
+  // Right triangles of two equal sides have the area edge^2 / 2. The least edge is for faces of no area.
   const double edge = std::max(std::sqrt(2.0 * sum / count), 1e-6 * diagonal);
   parallel_for(bodies.size(), [&](std::size_t i) {
     if (chosen(bodies[i])) tessellate_into(bodies[i], part.faces[i], kTargetChord * diagonal, edge);
@@ -71,6 +76,7 @@ void refine(const Part& part, std::vector<ViewFace>& bodies, int count, const Ch
 TriangleMesh refined(const TriangleMesh& mesh) {
   TriangleMesh out;
   out.vertices = mesh.vertices;
+  // Both triangles of a side get the same middle, or gaps would show.
   std::map<std::pair<int, int>, int> middles;
   const auto middle = [&](int a, int b) {
     const auto [entry, is_new] =
@@ -80,6 +86,7 @@ TriangleMesh refined(const TriangleMesh& mesh) {
   };
   for (const auto& [a, b, c] : mesh.triangles) {
     const int ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+    // The three corners, then the one in the middle, all turned as the whole one is.
     for (const auto& t : {std::array{a, ab, ca}, std::array{ab, b, bc}, std::array{ca, bc, c}, std::array{ab, bc, ca}})
       out.triangles.push_back(t);
   }
@@ -99,6 +106,7 @@ TriangleMesh clustered(const TriangleMesh& mesh, double cell) {
   }
   for (const auto& [a, b, c] : mesh.triangles) {
     const std::array<int, 3> t{index[a], index[b], index[c]};
+    // What was drawn together to a line or a point is not seen.
     if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) out.triangles.push_back(t);
   }
   return out;
@@ -116,6 +124,7 @@ void thin_out(std::vector<ViewFace>& bodies) {
   for (const ViewFace& body : bodies) whole += area(body.mesh);
   // A surface has about two triangles for each cube that it meets.
   double cell = std::sqrt(2.0 * whole / kMostMeshTriangles);
+  // Shapes differ from that rule: the cubes grow until it is enough.
   for (; count() > static_cast<std::size_t>(kMostMeshTriangles) && cell > 0.0; cell *= 1.25)
     for (ViewFace& body : bodies) body.mesh = clustered(body.mesh, cell);
 }
@@ -128,6 +137,7 @@ void extract_all(const Part& part, std::vector<ViewFace>& bodies) {
     bodies[k].mesh = extract_mesh(part, {static_cast<int>(k)});
     if (bodies[k].target) target_triangles += bodies[k].mesh.triangles.size();
   }
+  // As long as four times as many are still not too many.
   for (; target_triangles > 0 && 4 * target_triangles <= static_cast<std::size_t>(kTargetTriangles);
        target_triangles *= 4)
     for (ViewFace& body : bodies)
@@ -149,6 +159,7 @@ std::vector<ViewFace> view_faces(const Part& part, const std::vector<int>& targe
     return bodies;
   }
   tessellate_all(part, bodies);
+  // Colours are drawn between vertices: the judge's error needs them dense where it is shown.
   refine(part, bodies, kTargetTriangles, [](const ViewFace& body) { return body.target; });
   refine(part, bodies, kEnteredTriangles,
          [&](const ViewFace& body) { return !body.target && entered.contains(body.face); });

@@ -24,6 +24,7 @@ constexpr int kLengthChords = 200;
 /// finalists: a quick cover may be wrong about the order of tools that are close (decision 0011).
 constexpr std::size_t kHalving = 2, kLeastPerFinalist = 2;
 
+/// mm^2 over all targets; both sides of a sheet have the same.
 double total_area(std::span<const RankingTarget> targets) {
   double area = 0.0;
   for (const RankingTarget& sides : targets) area += sides.front().target->area();
@@ -64,6 +65,7 @@ RankedTool screened(std::span<const RankingTarget> targets, const AllPlaces& pla
       const ToolScreen side = screen_tool(places[k][i], tool, *targets[k][i].obstacles, screen_options);
       if (i == 0 || side.open > best.open) best = side;
     }
+    // By area: a small target that a tool cannot machine must not outweigh a large one that it can.
     const double share = targets[k].front().target->area() / area;
     add_share(sum, best, share);
     sum.least_error_mm = std::min(sum.least_error_mm, best.least_error_mm);
@@ -76,6 +78,7 @@ RankedTool screened(std::span<const RankingTarget> targets, const AllPlaces& pla
   return ranked;
 }
 
+/// What is saved in a stage: seeds in the quick one, smoothing in all but the last.
 CoverOptions options_of(RankingStage stage, const RankingOptions& options) {
   CoverOptions out = options.cover;
   out.smooth = stage == RankingStage::kFull && options.cover.smooth;
@@ -86,6 +89,7 @@ CoverOptions options_of(RankingStage stage, const RankingOptions& options) {
   return out;
 }
 
+/// Adds the covers of all targets up to one set of figures.
 void measure(std::span<const RankingTarget> targets, const RankingOptions& options, RankedTool& ranked) {
   const double area = total_area(targets);
   double covered = 0.0;
@@ -93,6 +97,7 @@ void measure(std::span<const RankingTarget> targets, const RankingOptions& optio
     const CoverResult& result = ranked.results[k];
     const double share = targets[k].front().target->area() / area;
     ranked.reachable += share * result.reachable;
+    // A cover's own coverage is of its reachable part: shares of the whole are what can be added.
     covered += share * result.reachable * result.coverage;
     ranked.strips += static_cast<int>(result.motions.size());
     for (const RuledMotion& motion : result.motions) ranked.strips_mm += strip_length(motion);
@@ -101,6 +106,7 @@ void measure(std::span<const RankingTarget> targets, const RankingOptions& optio
   }
   ranked.coverage = ranked.reachable > 0.0 ? covered / ranked.reachable : 0.0;
   ranked.minutes = ranked.strips_mm / options.rates.feed_mm_min + ranked.links_mm / options.rates.rapid_mm_min;
+  // A tool that machines one of several targets has worked; the reason was the other one's.
   if (ranked.strips > 0) ranked.reason.clear();
 }
 
@@ -128,6 +134,7 @@ struct RankingKey {
 
 RankingKey key_of(const RankedTool& ranked, const RankingOptions& options) {
   if (ranked.strips == 0) return {ranked.reason.empty() ? 1 : 2, -ranked.screen.accepted, 0.0, ranked.tool};
+  // Worth in whole steps: below one step the time decides, and not the samples' scatter.
   const double step = std::max(options.cover.strip_price, kLeastWorthStep);
   return {-static_cast<int>(ranked.stage), -std::round(ranking_value(ranked, options) / step), ranked.minutes,
           ranked.tool};
@@ -197,6 +204,7 @@ std::vector<RankedTool> rank_tools(std::span<const RankingTarget> targets, std::
   const auto advance = [&](RankingStage stage, std::string_view name, double from, double to) {
     for_tools(alive, name, from, to, progress, [&](std::size_t k) {
       RankedTool next = cover_stage(targets, tools[k], stage, options, quiet);
+      // A cover that was cancelled says less than the stage before it.
       if (progress.stop()) return;
       next.tool = k;
       next.screen = ranked[k].screen;

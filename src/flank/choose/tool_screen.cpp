@@ -31,6 +31,7 @@ struct Spheres {
   DirectionFilterOptions filter;
 };
 
+/// What of a tool the screen asks at every place; computed once for all of them.
 Spheres spheres_of(const RadialFunction& radial, const ScreenPlaces& places, const ScreenOptions& options) {
   Spheres out;
   const double length = radial.axis_length();
@@ -72,6 +73,8 @@ bool is_open(const Footpoint& foot, const Spheres& spheres, std::size_t j, const
   return false;
 }
 
+/// The questions in the order of their price: a ball, the hollow, directions, and only then whole poses. Without a
+/// guard (`screen_meridian`) nothing is in the way.
 PlaceScreen screen_place(const Footpoint& foot, const Spheres& spheres, const PoseGuard* guard,
                          const ScreenOptions& options) {
   PlaceScreen place;
@@ -116,6 +119,7 @@ ToolScreen screen(const ScreenPlaces& places, const RadialFunction& radial, cons
                   const ScreenOptions& options) {
   ToolScreen out;
   const Spheres spheres = spheres_of(radial, places, options);
+  // Sums run in the places' order below, whatever the threads did.
   std::vector<PlaceScreen> found(places.feet.size());
   parallel_for(found.size(), [&](std::size_t k) { found[k] = screen_place(places.feet[k], spheres, guard, options); });
   double area = 0.0, errors = 0.0;
@@ -132,6 +136,7 @@ ToolScreen screen(const ScreenPlaces& places, const RadialFunction& radial, cons
     out.least_error_mm = std::min(out.least_error_mm, place.error_mm);
   }
   if (out.reachable > 0.0) out.mean_error_mm = errors / out.reachable;
+  // Of the whole target, reachable or not: shares of different tools then compare.
   for (double* share : {&out.reachable, &out.fits, &out.accepted, &out.open}) *share /= area;
   out.reason = reason_of(out, places, spheres, radial, options);
   return out;

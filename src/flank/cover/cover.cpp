@@ -40,6 +40,7 @@ constexpr double kTakenOver = 0.06;
 constexpr double kSamplesAt = 0.05, kGrowAt = 0.1, kTileAt = 0.35, kSmoothAt = 0.55, kSmoothRoundStep = 0.1,
                  kThinAt = 0.8;
 
+/// Wall time of the stages, for people; nothing is decided by it.
 class Stopwatch {
  public:
   explicit Stopwatch(CoverResult& result) : result_(result) {}
@@ -74,6 +75,7 @@ double keep_reachable(CoverSamples& samples, const PoseGuard& guard) {
   return share;
 }
 
+/// How much more the strips cover one by one than together, as a share of the latter.
 double overlap_of(const CoverSamples& samples, const std::vector<CoverStrip>& strips) {
   double sum = 0.0;
   for (const CoverStrip& strip : strips) sum += strip.area;
@@ -92,6 +94,7 @@ std::vector<CoverStrip> made_certain(const TileScene& dense, std::vector<CoverSt
   return strips;
 }
 
+/// The worth of a set: covered share less a price for each strip, by which all choices here are made.
 double value_of(const TileScene& scene, const std::vector<CoverStrip>& strips) {
   return covered_share(scene.samples, strips) - scene.options.strip_price * static_cast<double>(strips.size());
 }
@@ -99,6 +102,7 @@ double value_of(const TileScene& scene, const std::vector<CoverStrip>& strips) {
 /// Smooths; if that leaves gaps that are worth a strip, adds it and smooths again. Returns the best set on the way.
 std::vector<CoverStrip> smoothed(const TileScene& coarse, const TileScene& dense, const std::vector<CoverStrip>& pool,
                                  std::vector<CoverStrip> strips, const Progress& progress) {
+  // Certified before they are compared: a strip's share counts only as far as it may be cut.
   strips = made_certain(dense, remeasured(dense, strips));
   std::vector<CoverStrip> best = strips;
   for (int round = 0; round < kSmoothRounds && dense.options.smooth && !progress.stop(); ++round) {
@@ -168,6 +172,7 @@ void describe(const TileScene& coarse, const TileScene& dense, const std::vector
       reason_of(coarse.target, coarse.radial, coarse.samples, remeasured(coarse, strips), coarse.options.tolerance_mm);
 }
 
+/// Grows the strips of these seeds, and notes their numbers in the result.
 CandidatePool counted_pool(const TileScene& scene, const std::vector<LineSeed>& seeds, CoverResult& result) {
   CandidatePool pool = grow_pool(scene, seeds);
   result.seeds = static_cast<int>(seeds.size());
@@ -238,10 +243,13 @@ CoverResult cover(const Target& target, const Tool& tool, const Obstacles& obsta
   CoverResult result;
   Stopwatch watch(result);
   progress.step("samples", kSamplesAt);
+  // How deep the tool may enter other faces: less than the tolerance in a certificate, and less still while strips
+  // grow (tolerance_budget.h).
   const PoseGuard guard(tool, obstacles, -kToleranceBudget.others.certified * options.tolerance_mm);
   const PoseGuard grow_guard = guard.with_floor(-kToleranceBudget.others.growing * options.tolerance_mm);
   CoverSamples samples = cover_samples(target, options.sample_share * std::sqrt(target.area()));
   result.reachable = keep_reachable(samples, guard);
+  // Strips grow on coarse samples and under the stricter guard; they are certified by dense ones.
   const TileScene scene{target, tool.radial, samples, grow_guard, options};
   watch.lap("samples");
   if (options.strategy == CoverStrategy::kCurves) return curves_cover(scene, guard, std::move(result), progress);

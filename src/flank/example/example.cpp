@@ -21,11 +21,13 @@ constexpr double kPathChordMm = 1e-5;
 constexpr std::string_view kBaseTool = "barrel";
 constexpr int kBaseMotion = 1;
 
+/// One example by its name: it is made only when it is asked for, and a list of names costs nothing.
 struct Recipe {
   std::string name, description;
   std::function<Example(const ExampleOptions&)> make;
 };
 
+/// mm, of the box of points on all faces: an error in shares of it needs no better.
 double diagonal(const std::vector<Face>& faces) {
   constexpr int kCount = 41;
   Box3 box;
@@ -39,6 +41,7 @@ double diagonal(const std::vector<Face>& faces) {
   return box.diagonal();
 }
 
+/// Tool and motions with the path that samples them, strip k for face F k: what a perfect planner would have found.
 ExampleTruth truth_of(Tool tool, std::vector<RuledMotion> motions, double face_error_mm) {
   ExampleTruth truth{std::move(tool), std::move(motions), {}, 0.0, face_error_mm};
   for (std::size_t k = 0; k < truth.motions.size(); ++k) {
@@ -68,16 +71,20 @@ Example envelopes(std::string_view tool_name, std::vector<RuledMotion> motions, 
   return example;
 }
 
+/// One face: the envelope of a named tool along a numbered motion.
 Example single(std::string_view tool, int motion, const ExampleOptions& options) {
   const double length = example_tool(tool).radial.axis_length();
   return envelopes(tool, {example_motion(motion, length)}, options);
 }
 
+/// Two faces that look at each other, by the same tool: of such a cavity the exact answer of a two-sided fit is
+/// known.
 Example cavity(std::string_view tool, const ExampleOptions& options) {
   const double length = example_tool(tool).radial.axis_length();
   return envelopes(tool, {example_motion(1, length), facing_motion(length)}, options);
 }
 
+/// A face given by a formula: no tool fits it exactly, so there is no truth.
 Example blade(Face face) {
   Example example;
   example.faces.push_back(std::move(face));
@@ -85,6 +92,7 @@ Example blade(Face face) {
   return example;
 }
 
+/// Two walls by a formula, of any size.
 Example channel(const CavityShape& shape) {
   Example example;
   example.faces = cavity_walls(shape);
@@ -92,6 +100,7 @@ Example channel(const CavityShape& shape) {
   return example;
 }
 
+/// Several faces with the text of their file: what is a solid must be written as one, which faces alone cannot say.
 Example solid(SolidModel model) {
   Example example;
   example.faces = std::move(model.faces);
@@ -105,6 +114,7 @@ Example deformed(const ExampleOptions& options) {
   Example example = single(kBaseTool, kBaseMotion, options);
   const double height_mm = options.bump * example.diagonal_mm;
   example.faces[0].surface = with_bump(example.faces[0].surface, height_mm);
+  // The true motion leaves the undeformed face: it is off by the bump.
   example.truth->face_error_mm = height_mm;
   return example;
 }
@@ -121,6 +131,7 @@ MeshSize mesh_size(int vertices) {
 
 enum class MeshFault { kNone, kNoise, kHoles };
 
+/// The exact envelope as triangles, sound or spoiled in one way.
 Example mesh(MeshFault fault, const ExampleOptions& options) {
   Tool tool = example_tool(kBaseTool);
   const RuledMotion motion = example_motion(kBaseMotion, tool.radial.axis_length());
@@ -131,6 +142,7 @@ Example mesh(MeshFault fault, const ExampleOptions& options) {
   double error_mm = 0.0;
   if (fault == MeshFault::kNoise) {
     Random random(options.seed);
+    // The length of the noise vectors: what a fit of the truth would find as its error, at most.
     error_mm = options.noise * example.diagonal_mm;
     example.mesh = with_noise(std::move(*example.mesh), error_mm, random);
   }
@@ -178,6 +190,7 @@ std::vector<Recipe> all_recipes() {
   return recipes;
 }
 
+/// Below 1e-11 rounding shows; beyond the other limits the part is no example of its kind any more.
 void check(const ExampleOptions& options) {
   if (!(options.relative_accuracy >= 1e-11 && options.relative_accuracy <= 1e-2))
     throw UsageError("the accuracy of an example must lie between 1e-11 and 1e-2 of its diagonal");

@@ -9,9 +9,9 @@
 namespace flank::internal {
 namespace {
 
-constexpr int kDegree = 5;
-constexpr int kFirstCount = 12, kLargestCount = 300;
-constexpr int kDensity = 3;
+constexpr int kDegree = 5;                            // errors fall with the sixth power of the step
+constexpr int kFirstCount = 12, kLargestCount = 300;  // points in a direction
+constexpr int kDensity = 3;                           // of the grid on which the error is looked for
 
 /// Exact contact points as a function of u = t and v = s / L.
 struct Envelope {
@@ -24,12 +24,14 @@ struct Envelope {
   }
 };
 
+/// From 0 to 1, both ends among them.
 std::vector<double> equal_steps(int count) {
   std::vector<double> x(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) x[static_cast<std::size_t>(i)] = static_cast<double>(i) / (count - 1);
   return x;
 }
 
+/// A surface through exact contact points at equal steps of u and v.
 BSplineSurface interpolate(const Envelope& envelope, int count_u, int count_v) {
   const std::vector<double> u = equal_steps(count_u), v = equal_steps(count_v);
   std::vector<Vec3> points;
@@ -39,6 +41,8 @@ BSplineSurface interpolate(const Envelope& envelope, int count_u, int count_v) {
   return interpolate_grid(points, u, v, kDegree);
 }
 
+/// mm, between points at equal parameters: at least the distance of the surfaces, since equal parameters are not
+/// closest points.
 double largest_error(const Envelope& envelope, const BSplineSurface& surface, int count_u, int count_v) {
   double worst = 0.0;
   for (const double a : equal_steps(count_u))
@@ -47,6 +51,7 @@ double largest_error(const Envelope& envelope, const BSplineSurface& surface, in
   return worst;
 }
 
+/// mm, of the box of exact points.
 double diagonal(const Envelope& envelope) {
   constexpr int kCount = 41;
   Box3 box;
@@ -55,6 +60,7 @@ double diagonal(const Envelope& envelope) {
   return box.diagonal();
 }
 
+/// So many points that those of the interpolation, where the error is 0, are among them and others lie between.
 int denser(int count) { return kDensity * (count - 1) + 1; }
 
 }  // namespace
@@ -72,6 +78,8 @@ EnvelopeFace envelope_face(const RuledMotion& motion, const RadialFunction& radi
     // On a grid line only the interpolation across it shows: that tells which direction needs points.
     const double error_u = largest_error(envelope, out.face.surface, denser(count_u), count_v);
     const double error_v = largest_error(envelope, out.face.surface, count_u, denser(count_v));
+    // The direction with the larger error always grows, or the loop would not end; the other one as well where it
+    // alone would use up half of the tolerance.
     const double limit = std::min(0.5 * tolerance_mm, std::max(error_u, error_v));
     if (error_u >= limit) count_u = count_u + std::max(2, count_u / 4);
     if (error_v >= limit) count_v = count_v + std::max(2, count_v / 4);
@@ -91,6 +99,7 @@ BSplineSurface with_bump(const BSplineSurface& surface, double height_mm) {
     for (const double b : v) {
       const SurfaceJet jet = surface.jet(a, b);
       const double d2 = (std::pow(a - 0.5, 2) + std::pow(b - 0.5, 2)) / (kReach * kReach);
+      // Three continuous derivatives at its rim: a bump with a visible edge would be another problem.
       const double height = d2 < 1.0 ? height_mm * std::pow(1.0 - d2, 4) : 0.0;
       points.push_back(jet.p + height * jet.du.cross(jet.dv).normalized());
     }

@@ -8,6 +8,7 @@
 namespace flank::internal {
 namespace {
 
+/// An ellipse in shares of the grid.
 struct Hole {
   double t, s;      ///< centre, shares of the grid
   double radius_t;  ///< share of the grid
@@ -17,6 +18,7 @@ struct Hole {
 };
 constexpr Hole kHoles[] = {{0.3, 0.55, 0.08}, {0.68, 0.4, 0.06}};
 
+/// Vertices are numbered anew, in the order in which triangles name them.
 TriangleMesh without_unused_vertices(const TriangleMesh& mesh) {
   TriangleMesh out;
   std::vector<int> number(mesh.vertices.size(), -1);
@@ -34,6 +36,7 @@ TriangleMesh without_unused_vertices(const TriangleMesh& mesh) {
   return out;
 }
 
+/// A normal distribution in each coordinate favours no direction.
 Vec3 random_direction(Random& random) {
   const double x = random.normal(), y = random.normal(), z = random.normal();
   return Vec3(x, y, z).normalized();
@@ -78,6 +81,7 @@ TriangleMesh with_two_holes(const TriangleMesh& mesh, int count_t, int count_s) 
       t += row / (3.0 * (count_t - 1));
       s += column / (3.0 * (count_s - 1));
     }
+    // By the middle of the triangle: the rim of a hole is as ragged as that of a scanned one.
     if (!kHoles[0].holds(t, s) && !kHoles[1].holds(t, s)) kept.triangles.push_back(triangle);
   }
   return without_unused_vertices(kept);

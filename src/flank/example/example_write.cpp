@@ -26,6 +26,7 @@ std::string lower_extension(const std::string& file) {
   return extension;
 }
 
+/// Before anything is computed or written: the kind of the part decides which files can hold it.
 void check_extension(const Example& example, const std::string& file) {
   const std::string extension = lower_extension(file);
   const bool of_mesh = extension == ".stl" || extension == ".obj" || extension == ".ply";
@@ -36,6 +37,8 @@ void check_extension(const Example& example, const std::string& file) {
     throw UsageError(file + ": " + example.name + " is made of faces; name a file that ends in .step or .stp");
 }
 
+/// Degree, knots and poles (mm; of the direction rail without unit): the motion itself, where the path has only its
+/// poses.
 Json rail_json(const BSplineCurve3& rail) {
   Json poles = Json::array();
   for (int i = 0; i < rail.count(); ++i) poles.push_back({rail.poles(0, i), rail.poles(1, i), rail.poles(2, i)});
@@ -69,6 +72,7 @@ std::string truth_json(const Example& example, const std::string& tool_file, con
 std::vector<std::string> write_example(const Example& example, const std::string& file) {
   check_extension(example, file);
   std::vector<std::string> written{file};
+  // A solid comes with its text: its faces alone would be written as sheets.
   if (example.mesh)
     write_mesh(file, *example.mesh);
   else if (!example.step.empty())
@@ -76,12 +80,14 @@ std::vector<std::string> write_example(const Example& example, const std::string
   else
     write_step(file, example.faces);
   if (!example.truth) return written;
+  // Beside the part, under its name: NAME.truth.json and the two files that it names.
   const std::filesystem::path stem = std::filesystem::path(file).replace_extension();
   const std::string tool = stem.string() + ".tool.json", path = stem.string() + ".path.json";
   const auto write = [&](const std::string& name, const std::string& text) {
     write_file(name, text);
     written.push_back(name);
   };
+  // Without folders, so that the files may be moved together.
   const auto name_only = [](const std::string& name) { return std::filesystem::path(name).filename().string(); };
   write(stem.string() + ".truth.json", truth_json(example, name_only(tool), name_only(path)));
   write(tool, tool_to_json(example.truth->tool));

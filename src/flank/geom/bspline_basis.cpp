@@ -13,9 +13,11 @@ std::vector<double> uniform_knots(int degree, int count, double a, double b) {
   FLANK_ASSERT(count > degree);
   FLANK_ASSERT(a < b);
   std::vector<double> knots(static_cast<std::size_t>(count + degree + 1));
+  // Clamped: the first and last knots are degree + 1 times there, so that the ends are control points.
   const int spans = count - degree;
   for (int i = 0; i < count + degree + 1; ++i) {
     const int k = std::clamp(i - degree, 0, spans);
+    // The end is b itself: a + (b - a) may differ from it in the last bit, and parameters at b would fall outside.
     knots[static_cast<std::size_t>(i)] = k == spans ? b : a + (b - a) * k / spans;
   }
   return knots;

@@ -11,6 +11,7 @@ BSplineCurve3 fit_curve(const Eigen::Matrix3Xd& points, const std::vector<double
   FLANK_ASSERT(points.allFinite());
   BSplineCurve3 curve;
   curve.degree = degree;
+  // Parameters are taken as they are: who asks has chosen them, by chord lengths or by time.
   curve.knots = uniform_knots(degree, count);
   // Normal equations: parameters spread over all spans keep them well conditioned, and they are small.
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(count, count);

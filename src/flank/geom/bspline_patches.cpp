@@ -11,7 +11,7 @@ namespace {
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxDegree + 1, kMaxDegree + 1>;
 
-using Pair = Eigen::Array2d;
+using Pair = Eigen::Array2d;  // two doubles: one vector register
 using PairMap = Eigen::Map<const Pair>;
 
 /// Value and derivatives up to second order of one cell, out = [S, S_s, S_t, S_ss, S_st, S_tt][4]: Horner in t within
@@ -27,6 +27,7 @@ void horner(const double* c, int p_run, int q, double s, double t, double* out) 
       Pair a = PairMap(row), b = Pair::Zero(), e = b;
       for (int j = q - 1; j >= 0; --j) {
         row -= 4;
+        // a, b, e: value, first and half the second derivative of the inner polynomial, each from the one before.
         e = e * t + b;
         b = b * t + a;
         a = a * t + PairMap(row);
@@ -38,6 +39,7 @@ void horner(const double* c, int p_run, int q, double s, double t, double* out) 
       ft = ft * s + b;
       ftt = ftt * s + e;
     }
+    // Horner's scheme gives half of the second derivatives.
     const std::array<Pair, 6> all{f, fs, ft, fss + fss, fst, ftt + ftt};
     for (int k = 0; k < 6; ++k) Eigen::Map<Pair>(out + 4 * k + half) = all[static_cast<std::size_t>(k)];
   }
@@ -77,6 +79,7 @@ Matrix to_bernstein(int degree, double a, double b) {
   // Powers of s = m + h x with x in [-1, 1], then x = 2 y - 1 with y in [0, 1], as one affine map s = a + (b - a) y.
   Matrix affine = Matrix::Zero(width, width);  // row: power of y, column: power of s
   affine(0, 0) = 1.0;
+  // Column k is column k - 1 times (a + (b - a) y).
   for (int k = 1; k < width; ++k)
     for (int i = 0; i <= k; ++i) affine(i, k) = a * affine(i, k - 1) + (i > 0 ? (b - a) * affine(i - 1, k - 1) : 0.0);
   Matrix bernstein = Matrix::Zero(width, width);  // b_i = sum_k C(i, k) / C(degree, k) a_k
@@ -84,6 +87,7 @@ Matrix to_bernstein(int degree, double a, double b) {
     double ratio = 1.0;
     for (int k = 0; k <= i; ++k) {
       bernstein(i, k) = ratio;
+      // C(i, k) / C(degree, k), from k to k + 1; where k = degree the product is not used any more.
       ratio *= static_cast<double>(i - k) / static_cast<double>(degree - k > 0 ? degree - k : 1);
     }
   }
@@ -94,6 +98,7 @@ Matrix to_bernstein(int degree, double a, double b) {
 
 BSplinePatches::Axis::Axis(int degree_, int count, const std::vector<double>& knots) : degree(degree_) {
   FLANK_ASSERT(knots.size() == static_cast<std::size_t>(count + degree + 1));
+  // Knots of several folds bound cells of no width: these are left out.
   for (int k = degree; k <= count; ++k) {
     const double knot = knots[static_cast<std::size_t>(k)];
     if (breaks.empty() || knot > breaks.back()) breaks.push_back(knot);
@@ -118,6 +123,7 @@ int BSplinePatches::Axis::find(double u) const {
   const double slot = (u - breaks.front()) * slots_per_unit;
   // NaN, too.
   if (!(slot > 0.0)) return 0;
+  // The table says where to begin: the two loops make good what rounding or uneven knots leave.
   int k = slot >= static_cast<double>(start.size()) ? n - 1 : start[static_cast<std::size_t>(slot)];
   while (k > 0 && u < breaks[static_cast<std::size_t>(k)]) --k;
   while (k + 1 < n && u >= breaks[static_cast<std::size_t>(k) + 1]) ++k;
@@ -132,6 +138,7 @@ BSplinePatches::BSplinePatches(const BSplineSurface& surface)
   cell_size_ = static_cast<std::size_t>(4 * (p + 1) * (q + 1));
   coefficients_.assign(cell_size_ * static_cast<std::size_t>(cells_u() * cells_v()), 0.0);
   std::vector<Matrix> basis_v;
+  // Once for all cells of the same v.
   for (double mid : v_.mid)
     basis_v.push_back(
         power_basis(q, surface.knots_v, mid, 1.0 / v_.inverse_half[static_cast<std::size_t>(cell_v(mid))]));
@@ -192,6 +199,7 @@ std::vector<Vec3> BSplinePatches::hull(int i, int j, double u0, double u1, doubl
   const Matrix bu = to_bernstein(p, (u0 - u_.mid[ku]) * u_.inverse_half[ku], (u1 - u_.mid[ku]) * u_.inverse_half[ku]);
   const Matrix bv = to_bernstein(q, (v0 - v_.mid[kv]) * v_.inverse_half[kv], (v1 - v_.mid[kv]) * v_.inverse_half[kv]);
   const double* c = cell(i, j);
+  // Weight 1 where the surface is not rational: then the division below changes nothing.
   std::vector<Eigen::Vector4d> homogeneous(static_cast<std::size_t>((p + 1) * (q + 1)), Eigen::Vector4d(0, 0, 0, 1));
   for (int d = 0; d < (rational_ ? 4 : 3); ++d) {
     Matrix power(p + 1, q + 1);

@@ -16,6 +16,7 @@ struct Basis {
   std::array<double, 3 * kWidth> n;
 };
 
+/// The span that holds t, and the functions that are not 0 there, with derivatives up to `order`.
 Basis basis(int degree, const std::vector<double>& knots, double t, int order) {
   FLANK_ASSERT(order <= 2);
   Basis b;
@@ -61,6 +62,7 @@ Eigen::MatrixXd collocation(const std::vector<double>& t, const std::vector<doub
 }
 
 /// Solves for the poles of a surface whose knots and counts are set, and whose poles are the points at (u, v).
+/// A tensor product: first along u for every column, then along v for every row, each with one factorisation.
 void solve_poles(BSplineSurface& s, const std::vector<double>& u, const std::vector<double>& v) {
   FLANK_ASSERT(s.poles.size() == u.size() * v.size());
   const Eigen::PartialPivLU<Eigen::MatrixXd> lu_u(collocation(u, s.knots_u, s.degree_u));
@@ -84,6 +86,7 @@ Vec3 BSplineSurface::value(double u, double v) const {
   const Basis bu = basis(degree_u, knots_u, u, 0), bv = basis(degree_v, knots_v, v, 0);
   Vec3 sum = Vec3::Zero();
   double weight = 0.0;
+  // Sums of b w P and of b w: their quotient is the point of a rational surface.
   for (int i = 0; i <= degree_u; ++i) {
     for (int j = 0; j <= degree_v; ++j) {
       const std::size_t k = static_cast<std::size_t>((bu.span - degree_u + i) * count_v + bv.span - degree_v + j);
@@ -141,6 +144,7 @@ BSplineSurface interpolate_grid(const std::vector<Vec3>& points, const std::vect
   s.count_u = static_cast<int>(u.size());
   s.count_v = static_cast<int>(v.size());
   s.knots_u = averaged_knots(u, degree);
+  // Poles hold the points until they are solved for.
   s.knots_v = averaged_knots(v, degree);
   s.poles = points;
   solve_poles(s, u, v);
@@ -171,6 +175,7 @@ BSplineSurface interpolate_grid(const std::vector<Vec3>& points, const std::vect
   s.count_u = static_cast<int>(knots_u.size()) - degree_u - 1;
   s.count_v = static_cast<int>(knots_v.size()) - degree_v - 1;
   s.poles = points;
+  // At Greville sites interpolation with given knots always has a solution (Schoenberg and Whitney).
   solve_poles(s, greville_sites(knots_u, degree_u), greville_sites(knots_v, degree_v));
   return s;
 }

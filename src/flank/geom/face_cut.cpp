@@ -12,10 +12,13 @@ namespace {
 
 /// As a share of the surface's box.
 constexpr double kClosedShare = 1e-7;
-constexpr int kSteps = 16;  ///< an edge is looked at so many times in a knot span for where it crosses a line
-constexpr int kBisections = 60;
+// What enters and leaves the half plane between two such looks is not seen.
+constexpr int kSteps = 16;       ///< an edge is looked at so many times in a knot span for where it crosses a line
+constexpr int kBisections = 60;  // of a step: down to the last bit of the parameter
 
 /// Columns along the direction; the other one, homogeneous, below one another.
+/// Homogeneous coordinates (w x, w y, w z, w): knots are inserted in them linearly, and a rational surface stays
+/// exact.
 SplineRows rows_of(const BSplineSurface& s, bool along_u) {
   const int columns = along_u ? s.count_u : s.count_v, others = along_u ? s.count_v : s.count_u;
   SplineRows rows{along_u ? s.degree_u : s.degree_v, along_u ? s.knots_u : s.knots_v,
@@ -31,6 +34,7 @@ SplineRows rows_of(const BSplineSurface& s, bool along_u) {
   return rows;
 }
 
+/// The way back: the old surface with the knots and poles of one direction replaced, and weights divided out.
 BSplineSurface surface_of(const BSplineSurface& old, bool along_u, const SplineRows& rows) {
   BSplineSurface s = old;
   (along_u ? s.knots_u : s.knots_v) = rows.knots;
@@ -65,6 +69,7 @@ BSplineCurve2 part_of(const BSplineCurve2& c, double a, double b) {
   return part;
 }
 
+/// The same points in the opposite direction, over the same interval of parameters.
 BSplineCurve2 backwards(const BSplineCurve2& c) {
   BSplineCurve2 r = c;
   const double sum = c.knots.front() + c.knots.back();
@@ -74,6 +79,7 @@ BSplineCurve2 backwards(const BSplineCurve2& c) {
   return r;
 }
 
+/// A line as a curve of degree 1 over [0, 1].
 BSplineCurve2 straight(const Vec2& p, const Vec2& q) {
   BSplineCurve2 c;
   c.degree = 1;
@@ -92,6 +98,7 @@ struct Half {
   double at = 0.0;
   bool above = true;
 
+  // > 0 inside: a point on the line counts as inside, so that a loop which runs along it is not cut into pieces.
   [[nodiscard]] double depth(const Vec2& q) const { return above ? q[axis] - at : at - q[axis]; }
   [[nodiscard]] bool holds(const Vec2& q) const { return depth(q) >= 0.0; }
 };
@@ -102,6 +109,7 @@ struct Piece {
   bool inside = true;
 };
 
+/// Cuts an edge where it crosses the line: looked for in steps, knot span by knot span, then by bisection.
 std::vector<Piece> pieces_of(const BSplineCurve2& edge, const Half& half) {
   std::vector<double> ends{edge.first()};
   std::vector<double> knots{edge.first()};
@@ -120,6 +128,7 @@ std::vector<Piece> pieces_of(const BSplineCurve2& edge, const Half& half) {
           const double middle = 0.5 * (low + high);
           (half.holds(edge.value(middle)) == before ? low : high) = middle;
         }
+        // The end that is inside: pieces that are kept then begin and end within the half plane.
         ends.push_back(before ? low : high);
       }
       before = now;
@@ -129,6 +138,7 @@ std::vector<Piece> pieces_of(const BSplineCurve2& edge, const Half& half) {
   ends.push_back(edge.last());
   std::vector<Piece> pieces;
   for (std::size_t k = 0; k + 1 < ends.size(); ++k)
+    // By their number, not by asking anew: at a crossing the answer is decided by rounding.
     if (ends[k + 1] > ends[k]) pieces.push_back({part_of(edge, ends[k], ends[k + 1]), starts_inside == (k % 2 == 0)});
   return pieces;
 }
@@ -147,12 +157,14 @@ void collect(const TrimLoop& loop, const Half& half, std::vector<Chain>& chains,
   std::rotate(pieces.begin(), outside, pieces.end());
   bool open = false;
   for (Piece& piece : pieces) {
+    // Inside pieces that follow each other are one chain, also across the joint of two edges.
     if (piece.inside && !open) chains.emplace_back();
     open = piece.inside;
     if (piece.inside) chains.back().push_back(std::move(piece.curve));
   }
 }
 
+// First and last pole: edges are clamped, so these are points of the curves.
 Vec2 start_of(const Chain& chain) { return chain.front().poles.col(0); }
 Vec2 end_of(const Chain& chain) { return chain.back().poles.col(chain.back().poles.cols() - 1); }
 
@@ -192,7 +204,10 @@ std::vector<TrimLoop> joined(std::vector<Chain> chains, int axis) {
       }
       const Vec2 from = end_of(now);
       for (BSplineCurve2& edge : now) loop.edges.push_back(edge);
+      // The partner at the line: ends 0 and 1 are a pair, 2 and 3, ... (even-odd rule), so the last bit of the index
+      // is flipped.
       const End& next = ends[place(chain, !backward) ^ 1U];
+      // The first chain runs forward, so a loop closes at the beginning of its first edge.
       const Vec2 to = next.chain == first ? start_of({loop.edges.front()})
                       : next.last         ? end_of(chains[next.chain])
                                           : start_of(chains[next.chain]);
@@ -207,6 +222,7 @@ std::vector<TrimLoop> joined(std::vector<Chain> chains, int axis) {
 
 }  // namespace
 
+// Poles and weights, not points: equal rows mean equal ends everywhere, without sampling.
 bool is_closed(const BSplineSurface& s, bool along_u) {
   Box3 box;
   for (const Vec3& p : s.poles) box.add(p);
@@ -223,6 +239,7 @@ bool is_closed(const BSplineSurface& s, bool along_u) {
 
 BSplineSurface cut_surface(const BSplineSurface& surface, bool along_u, double a, double b) {
   SplineRows rows = rows_of(surface, along_u);
+  // A piece across the seam is cut from two copies of the surface, one after the other.
   const double period = rows.last() - rows.first();
   if (b > rows.last() + 1e-9 * period && is_closed(surface, along_u)) rows = two_turns(rows, period);
   return surface_of(surface, along_u, spline_segment(std::move(rows), a, b));
@@ -240,6 +257,7 @@ std::vector<TrimLoop> cut_loops(const std::vector<TrimLoop>& loops, bool along_u
 Face cut_face(const Face& face, bool along_u, double a, double b) {
   Face piece = face;
   piece.surface = cut_surface(face.surface, along_u, a, b);
+  // Without trims the face is all of its surface, and the piece all of the cut one.
   if (face.loops.empty()) return piece;
   piece.loops = cut_loops(cut_loops(face.loops, along_u, a, true), along_u, b, false);
   if (piece.loops.empty()) throw InputError(face.id + ": nothing of it is left between the parameters");

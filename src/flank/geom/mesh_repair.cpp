@@ -36,6 +36,7 @@ void check(const TriangleMesh& mesh) {
 /// A cube of the grid that vertices are sorted into, or, if only equal ones are welded, the bits of the coordinates.
 using Cell = std::array<std::int64_t, 3>;
 
+/// Mixes three numbers. Which cells share a bucket does not matter to the result: only equal keys are looked for.
 struct CellHash {
   std::size_t operator()(const Cell& c) const {
     std::uint64_t h = 0;
@@ -59,6 +60,7 @@ std::vector<int> representatives(const std::vector<Vec3>& vertices, double toler
   };
   for (std::size_t v = 0; v < vertices.size(); ++v) {
     Cell c;
+    // Counted from the box's corner, so that a part far from the origin does not overflow the integers.
     for (int k = 0; k < 3; ++k) {
       const double x = vertices[v][k] + 0.0;  // -0 and +0 are one place
       c[k] =
@@ -68,6 +70,7 @@ std::vector<int> representatives(const std::vector<Vec3>& vertices, double toler
     // All 27 neighbours (the cell itself among them).
     for (int near = 0; tolerance > 0.0 && found < 0 && near < 27; ++near)
       found = find(v, {c[0] + near % 3 - 1, c[1] + near / 3 % 3 - 1, c[2] + near / 9 - 1});
+    // Compared with representatives alone: a row of close vertices is not drawn together to one point.
     first[v] = found < 0 ? static_cast<int>(v) : found;
     if (found < 0) cells[c].push_back(static_cast<int>(v));
   }
@@ -98,6 +101,7 @@ void drop_repeats(TriangleMesh& mesh, MeshRepair& repair) {
       keys.emplace_back(t, i);
     }
   }
+  // By corners, then by index: of equal triangles the first of the file stays.
   std::sort(keys.begin(), keys.end());
   for (std::size_t i = 1; i < keys.size(); ++i) {
     if (keys[i].first != keys[i - 1].first) continue;
@@ -137,6 +141,8 @@ bool mend_flat(TriangleMesh& mesh, MeshRepair& repair) {
     if (flatness(mesh, mesh.triangles[t]).second) flat.push_back(t);
   if (flat.empty()) return false;
   // Only sides of flat triangles are of interest.
+  // Swapping the longest side removes a flat triangle without a hole: its corner lies on that side, where the mesh
+  // would tear if the triangle were just dropped.
   std::map<Side, std::vector<std::size_t>> users;
   for (std::size_t t : flat) {
     const int c = flatness(mesh, mesh.triangles[t]).first;
@@ -155,13 +161,14 @@ bool mend_flat(TriangleMesh& mesh, MeshRepair& repair) {
     const int c = flatness(mesh, a).first;
     const int from = a[(c + 1) % 3], to = a[(c + 2) % 3], tip = a[c];
     const auto& both = users[side_of(from, to)];
+    // A side at the border, or one of three triangles: there is nothing to swap with.
     const std::size_t other = both.size() == 2 ? (both[0] == t ? both[1] : both[0]) : t;
     if (other == t) {
       dead[t] = 1;
       ++repair.degenerate_triangles;
       continue;
     }
-    if (touched[other]) continue;
+    if (touched[other]) continue;  // its corners have changed in this round: the next one sees them
     Triangle& b = mesh.triangles[other];
     // The quadrilateral (from, tip, to, far corner of b) is cut along tip to far corner instead of from to to.
     const Triangle old = b;
@@ -232,6 +239,7 @@ void orient(TriangleMesh& mesh, MeshRepair& repair) {
     if (turn[start] >= 0) continue;
     std::vector<std::size_t> members{start};
     turn[start] = 0;
+    // Breadth first over linked sides: each triangle follows the turn of the one that it was reached from.
     // Of the members that keep their orientation, and of those that would be turned.
     std::array<double, 2> area{};
     for (std::size_t i = 0; i < members.size(); ++i) {
@@ -249,6 +257,7 @@ void orient(TriangleMesh& mesh, MeshRepair& repair) {
         }
       }
     }
+    // The smaller part was probably the mistake: a file with a few triangles the wrong way round keeps its outside.
     const int turned = area[1] > area[0] ? 0 : 1;
     for (std::size_t t : members) {
       if (turn[t] != turned) continue;
@@ -304,6 +313,7 @@ RepairedMesh repair_mesh(TriangleMesh mesh, double weld_share) {
   check(mesh);
   RepairedMesh result;
   const std::size_t count = mesh.vertices.size();
+  // Once more than weld() does by itself: vertices that were welded away must not be counted as isolated too.
   const std::vector<int> before = representatives(mesh.vertices, weld_share * mesh.box().diagonal(), mesh.box().low);
   std::vector<char> welded(count, 0);
   for (std::size_t v = 0; v < count; ++v) welded[v] = before[v] != static_cast<int>(v);

@@ -9,6 +9,7 @@
 namespace flank::internal {
 namespace {
 
+/// One side of one triangle, under the name of its edge: both triangles of an edge have the same low and high.
 struct Edge {
   int low, high;  // vertices
   int triangle, side;
@@ -42,6 +43,7 @@ void link(const TriangleMesh& mesh, double crease_rad, MeshTopology& topology) {
   for (std::size_t i = 0; i < edges.size();) {
     std::size_t j = i + 1;
     while (j < edges.size() && edges[j].low == edges[i].low && edges[j].high == edges[i].high) ++j;
+    // Two triangles that run their edge in opposite directions have their outside on the same side.
     if (j - i == 2 && edges[i].ascending != edges[i + 1].ascending) {
       const auto s = static_cast<std::size_t>(edges[i].triangle), t = static_cast<std::size_t>(edges[i + 1].triangle);
       if (normals[s].dot(normals[t]) > least_cosine) {
@@ -81,6 +83,7 @@ std::size_t gather_fan(const TriangleMesh& mesh, const MeshTopology& topology, i
     const int corner = corner_of(mesh, around[i], vertex);
     for (int k = 1; k < 3; ++k) {
       const int other = topology.neighbors[static_cast<std::size_t>(around[i])][(corner + k) % 3];
+      // From `count` on lie those that are not reached yet; a swap takes one of them into the fan.
       for (std::size_t j = count; other >= 0 && j < around.size(); ++j)
         if (around[j] == other) std::swap(around[j], around[count++]);
     }
@@ -97,6 +100,7 @@ bool separate_vertices(TriangleMesh& mesh, const MeshTopology& topology) {
     const auto all = topology.around(vertex);
     around.assign(all.begin(), all.end());
     std::span<int> rest(around);
+    // The first fan keeps the vertex: numbers of a sound mesh do not change.
     if (!rest.empty()) rest = rest.subspan(gather_fan(mesh, topology, vertex, rest));
     while (!rest.empty()) {
       const std::size_t fan = gather_fan(mesh, topology, vertex, rest);
@@ -124,6 +128,7 @@ MeshTopology link_triangles(TriangleMesh& mesh, double crease_rad) {
     link(mesh, crease_rad, topology);
     collect_fans(mesh, topology);
   }
+  // Creases count as borders too: what lies beyond them is another surface to everything that follows.
   topology.on_border.assign(mesh.vertices.size(), 0);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     for (int k = 0; k < 3; ++k) {
@@ -142,6 +147,7 @@ std::vector<int> components(const MeshTopology& topology) {
   for (std::size_t start = 0; start < number.size(); ++start) {
     if (number[start] >= 0) continue;
     number[start] = count;
+    // A stack of our own: recursion over a million triangles would run out of it.
     stack.assign(1, static_cast<int>(start));
     while (!stack.empty()) {
       const auto t = static_cast<std::size_t>(stack.back());
@@ -170,6 +176,7 @@ std::vector<std::vector<TriangleSide>> border_loops(const TriangleMesh& mesh, co
   for (std::size_t v = 0; v < starting.size(); ++v) {
     if (starting[v].triangle < 0 || used[v]) continue;
     std::vector<TriangleSide> loop;
+    // Each border vertex is the start of one side, so following sides comes back to where it began.
     for (std::size_t at = v; !used[at];) {
       used[at] = 1;
       loop.push_back(starting[at]);
@@ -195,6 +202,7 @@ double total_turning(const TriangleMesh& mesh, const MeshTopology& topology, std
   double turning = 0.0;
   for (const TriangleSide& side : loop) {
     const int vertex = mesh.triangles[static_cast<std::size_t>(side.triangle)][(side.side + 1) % 3];
+    // In the plane this is the exterior angle of the polygon.
     turning += std::numbers::pi;
     for (int t : topology.around(vertex)) turning -= corner_angle(mesh, t, corner_of(mesh, t, vertex));
   }
@@ -219,6 +227,8 @@ std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {
   std::vector<Vec3> normals(mesh.vertices.size(), Vec3::Zero());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (int k = 0; k < 3; ++k)
+      // By angle: a plane face that a mesher has cut into many thin triangles counts no more than one that it left
+      // whole.
       normals[static_cast<std::size_t>(mesh.triangles[t][k])] += corner_angle(mesh, static_cast<int>(t), k) * flat[t];
   for (Vec3& n : normals) {
     const double length = n.norm();

@@ -20,6 +20,7 @@ constexpr int kBorderSteps = 24;  ///< points on a trimming edge, between two of
 std::vector<double> grid_lines(const std::vector<double>& knots, int degree, double low, double high, int steps) {
   std::vector<double> stops{low};
   for (std::size_t k = 0; k < knots.size(); ++k) {
+    // A knot as often as the degree is where the surface may have a kink: a triangle across it would round it off.
     const auto same = std::count(knots.begin(), knots.end(), knots[k]);
     if (same >= degree && knots[k] > stops.back() && knots[k] < high) stops.push_back(knots[k]);
   }
@@ -27,6 +28,7 @@ std::vector<double> grid_lines(const std::vector<double>& knots, int degree, dou
   std::vector<double> lines{low};
   for (std::size_t k = 0; k + 1 < stops.size(); ++k) {
     const double width = stops[k + 1] - stops[k];
+    // The slack keeps a width of exactly one step from becoming two.
     const int count = std::max(1, static_cast<int>(std::ceil(steps * width / (high - low) - 1e-9)));
     for (int i = 1; i <= count; ++i) lines.push_back(i == count ? stops[k + 1] : stops[k] + width * i / count);
   }
@@ -37,6 +39,7 @@ std::vector<double> grid_lines(const std::vector<double>& knots, int degree, dou
 struct Need {
   double length = 0.0, bend = 0.0;
   [[nodiscard]] int steps(const TessellationOptions& o) const {
+    // The larger of both demands, at least one cell.
     const double wanted = std::max({1.0, length / o.edge_mm, std::sqrt(bend / (8.0 * o.chord_mm))});
     return static_cast<int>(std::min<double>(std::ceil(wanted), o.most_steps));
   }
@@ -51,6 +54,7 @@ std::pair<Need, Need> needs(const BSplineSurface& s, const ParameterRectangle& b
       const SurfaceJet jet = s.jet(box.u0 + width * (i + 0.5) / kProbes, box.v0 + height * (j + 0.5) / kProbes);
       u.length = std::max(u.length, jet.du.norm() * width);
       v.length = std::max(v.length, jet.dv.norm() * height);
+      // The mixed derivative bends a cell's diagonal; each direction takes its share of it.
       u.bend = std::max(u.bend, (jet.duu.norm() * width + jet.duv.norm() * height) * width);
       v.bend = std::max(v.bend, (jet.dvv.norm() * height + jet.duv.norm() * width) * height);
     }
@@ -67,6 +71,7 @@ class Builder {
     const TrimRegion::Side side = region_.classify(cell);
     if (side == TrimRegion::Side::kOutside) return;
     if (side == TrimRegion::Side::kInside) return add_polygon(corners(cell));
+    // Finer only along loops: there the corners of cells are what is seen.
     for (int i = 0; i < kFiner; ++i)
       for (int j = 0; j < kFiner; ++j) add_cut(part(cell, i, j));
   }
@@ -114,6 +119,7 @@ class Builder {
     for (std::size_t k = 1; k + 1 < index.size(); ++k) {
       const int a = index[0], b = index[k], c = index[k + 1];
       if (a == b || b == c || c == a) continue;
+      // Triangles turn as the face's normal does, which is the surface's or its opposite.
       if (face_.reversed)
         mesh_.triangles.push_back({a, c, b});
       else
@@ -122,6 +128,7 @@ class Builder {
   }
 
   int vertex(const Vec2& q) {
+    // Equal to the bit: neighbouring cells compute a common corner from the same numbers (part, grid_lines).
     const auto [entry, is_new] = index_.try_emplace({q.x(), q.y()}, static_cast<int>(mesh_.vertices.size()));
     if (is_new) mesh_.vertices.push_back(face_.surface.value(q.x(), q.y()));
     return entry->second;
@@ -137,6 +144,7 @@ class Builder {
 std::vector<Vec3> border(const Face& face, const TrimLoop& loop) {
   std::vector<Vec3> points;
   for (const BSplineCurve2& edge : loop.edges) {
+    // More for edges of many poles; an edge's number of knots is about that of its poles.
     const int steps = kBorderSteps * std::clamp(static_cast<int>(edge.poles.cols()) / 8, 1, 8);
     for (int k = points.empty() ? 0 : 1; k <= steps; ++k) {
       const Vec2 q = edge.value(edge.first() + (edge.last() - edge.first()) * k / steps);
@@ -164,6 +172,7 @@ Tessellation tessellate(const Face& face, const TessellationOptions& options) {
   Tessellation out;
   out.mesh = builder.take();
   std::vector<TrimLoop> loops = face.loops;
+  // The rim of the whole surface: every face has a border to be drawn.
   if (loops.empty()) loops.push_back(rectangle_loop(domain));
   for (const TrimLoop& loop : loops) out.borders.push_back(border(face, loop));
   return out;

@@ -39,6 +39,8 @@ TrianglePoint closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, c
     r.squared_distance = (p - r.point).squaredNorm();
     return r;
   };
+  // Voronoi regions in turn: corner a, corner b, side ab, corner c, side ac, side bc; else the point lies above the
+  // triangle, and va, vb, vc are its barycentric coordinates up to a factor.
   const double d1 = ab.dot(ap), d2 = ac.dot(ap);
   if (d1 <= 0.0 && d2 <= 0.0) return at(0.0, 0.0);
   // A side between equal corners (d1 = d3 or d2 = d6) has no direction: another one is as near.
@@ -159,10 +161,13 @@ struct TriangleBvh::Builder {
     return {range(r.begin, middle), range(middle, r.end)};
   }
 
+  /// Stores up to four triangles side by side, for one operation on all. Returns -1 - index: negative numbers are
+  /// groups, others are nodes.
   int group(const Range& r) {
     Group g;
     g.thin = false;
     for (std::size_t i = 0; i < kGroupSize; ++i) {
+      // The last one fills the lanes that are left; -1 marks them, so that they are not reported twice.
       const int triangle = items[r.begin + std::min(i, r.size() - 1)].triangle;
       const auto& t = mesh.triangles[static_cast<std::size_t>(triangle)];
       const Corners c{mesh.vertices[static_cast<std::size_t>(t[0])], mesh.vertices[static_cast<std::size_t>(t[1])],
@@ -170,12 +175,16 @@ struct TriangleBvh::Builder {
       const Vec3 ab = c.b - c.a, ac = c.c - c.a;
       const auto lane = static_cast<int>(i);
       for (int k = 0; k < 3; ++k) {
+        // Relative to the box's centre: single precision has seven digits, which a part far from the origin would use
+        // up.
         g.a[k][lane] = static_cast<float>(c.a[k] - bvh.center_[k]);
         g.ab[k][lane] = static_cast<float>(ab[k]);
         g.ac[k][lane] = static_cast<float>(ac[k]);
       }
       const double det = ab.cross(ac).squaredNorm();
       const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()});
+      // Of a thin triangle the inner coordinates would be rounding: its plane is left out, and `width`, twice its
+      // height, is taken off the distance to its sides instead.
       const bool thin = det <= kThin * longest * longest || det < 1e-30;
       g.inverse_det[lane] = thin ? 0.0f : static_cast<float>(1.0 / det);
       g.width[lane] = thin && longest > 0.0 ? static_cast<float>(2.0 * std::sqrt(det / longest)) : 0.0f;
@@ -201,9 +210,11 @@ struct TriangleBvh::Builder {
     const Vec3 n = axis.cast<double>(), e1 = n.unitOrthogonal(), e2 = n.cross(e1);
     Box3 local;
     each_corner([&](const Vec3& x) { local.add(Vec3(e1.dot(x), e2.dot(x), n.dot(x) / n.squaredNorm())); });
+    // Back from the local axes, of which n is of unit length in single precision only.
     const Vec3 middle = local.center();
     const Vec3 center = middle[0] * e1 + middle[1] * e2 + (middle[2] - n.dot(middle[0] * e1 + middle[1] * e2)) * n;
     const Eigen::Vector3f c = (center - bvh.center_).cast<float>();
+    // Measured from the centre as it is stored: its rounding is then in radius and thickness.
     const Vec3 rounded = c.cast<double>() + bvh.center_;
     double radius = 0.0, thickness = 0.0;
     each_corner([&](const Vec3& x) {
@@ -219,6 +230,7 @@ struct TriangleBvh::Builder {
     node.thickness[i] = static_cast<float>(thickness * (1.0 + 1e-5));
   }
 
+  /// Halves the largest child until there are as many as the width of a node; returns the node's index.
   int node(const Range& r) {
     std::array<Range, kWidth> children{r};
     std::size_t count = 1;
@@ -257,7 +269,7 @@ TriangleBvh::TriangleBvh(const TriangleMesh& mesh) {
   }
   center_ = box.center();
   radius_ = (box.high - box.low).maxCoeff();
-  nodes_.reserve(mesh.triangles.size() / 6 + 1);
+  nodes_.reserve(mesh.triangles.size() / 6 + 1);  // a good guess: it saves moving them about
   builder.node(builder.range(0, builder.items.size()));
 }
 

@@ -81,6 +81,7 @@ void TrimRegion::append(const BSplineCurve2& edge, std::vector<Vec2>& polyline) 
   polyline.push_back(value(knots.front()));
   for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
     const Vec2 a = polyline.back(), b = value(knots[k + 1]);
+    // Straight between its knots already.
     if (edge.degree == 1 && edge.weights.empty())
       polyline.push_back(b);
     else
@@ -94,6 +95,7 @@ TrimRegion::TrimRegion(const std::vector<TrimLoop>& loops, const ParameterRectan
   for (const TrimLoop& loop : loops) {
     std::vector<Vec2> polyline;
     for (const BSplineCurve2& edge : loop.edges) append(edge, polyline);
+    // Two points enclose nothing.
     if (polyline.size() > 2) polylines.push_back(std::move(polyline));
   }
   find_whole(polylines);
@@ -103,6 +105,7 @@ TrimRegion::TrimRegion(const std::vector<TrimLoop>& loops, const ParameterRectan
   box_ = {rectangle.u1, rectangle.u0, rectangle.v1, rectangle.v0};
   for (const auto& polyline : polylines)
     for (std::size_t k = 0; k < polyline.size(); ++k) {
+      // From the last point back to the first: loops of files may be open by more than rounding.
       const Vec2 &a = polyline[k], &b = polyline[(k + 1) % polyline.size()];
       segments_.push_back({scale_u(a[0]), scale_v(a[1]), scale_u(b[0]), scale_v(b[1])});
       const Segment& s = segments_.back();
@@ -141,6 +144,7 @@ int TrimRegion::row(double v) const {
 }
 
 void TrimRegion::fill_rows() {
+  // About two segments begin in each row: inside() then looks at a handful, whatever the loop's length.
   const int rows = std::clamp(static_cast<int>(segments_.size()) / 2, 8, kMaxRows);
   rows_per_unit_ = box_.v1 > box_.v0 ? rows / (box_.v1 - box_.v0) : 0.0;
   std::vector<std::vector<int>> lists(static_cast<std::size_t>(rows));
@@ -158,6 +162,7 @@ void TrimRegion::fill_rows() {
 }
 
 bool TrimRegion::inside(double u, double v) const {
+  // Most points asked for lie far off: they need no row.
   if (u < box_.u0 || u > box_.u1 || v < box_.v0 || v > box_.v1) return false;
   if (whole_) return true;
   const auto r = static_cast<std::size_t>(row(v));

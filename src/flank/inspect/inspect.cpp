@@ -16,24 +16,26 @@ namespace {
 
 /// Cells that a trim cuts are halved this many times before their middle decides.
 constexpr int kCutDepth = 5;
-constexpr int kCells = 16;
-constexpr int kLengthSteps = 200;
+constexpr int kCells = 16;         // of the integral of the area, in a direction, at least
+constexpr int kLengthSteps = 200;  // chords of a line whose length is taken
 /// Derivatives shorter than this share of the face's longest belong to a point where a side of the parameter rectangle
 /// has shrunk.
 constexpr double kShrunk = 1e-3;
 /// Sine of the angle between the parameter lines below which curvatures are not to be had.
 constexpr double kDegenerate = 0.01;
-constexpr int kMeshSamples = 1000;
+constexpr int kMeshSamples = 1000;  // vertices of a mesh face where its bend is looked at
 /// Mesh faces with a smaller share of the area are not looked at closely.
 constexpr double kLeastAreaShareForBend = 1e-3;
 /// Of the samples of a mesh this share decides on the smallest concave radius: the rest is noise and torn borders.
 constexpr double kMeshQuantile = 0.99;
 
+/// How many places of a face bend in which way.
 struct Bends {
   std::array<long, 4> count{};
   std::vector<double> concave;  ///< curvatures towards the machining side
 
   void add(double low, double high, double flat) {
+    // `flat` is a curvature, 1/mm: below it a bow over the whole face would not be noticed.
     const bool away = low<-flat, towards = high> flat;
     const Bend bend = away && towards ? Bend::kSaddle : towards ? Bend::kConcave : away ? Bend::kConvex : Bend::kFlat;
     ++count[static_cast<std::size_t>(bend)];
@@ -41,6 +43,8 @@ struct Bends {
   }
 };
 
+/// Writes what the places say into the row. `quantile` of the concave curvatures, sorted, gives the smallest radius:
+/// 1 for exact faces.
 void conclude(Bends bends, double quantile, InspectRow& row) {
   static constexpr std::array<const char*, 4> kNames = {"flat", "convex", "concave", "saddle"};
   long total = 0;
@@ -64,7 +68,9 @@ bool curvatures(const SurfaceJet& jet, const Vec2& least, double sign, double& l
   if (!(area > kDegenerate * std::sqrt(e * g)) || e < least[0] * least[0] || g < least[1] * least[1]) return false;
   const Vec3 n = sign * cross / area;
   const double l = jet.duu.dot(n), m = jet.duv.dot(n), nn = jet.dvv.dot(n), det = area * area;
+  // From the first and second fundamental form.
   const double mean = 0.5 * (e * nn - 2.0 * f * m + g * l) / det, gauss = (l * nn - m * m) / det;
+  // The root of a difference that rounding may make negative at umbilics.
   const double spread = std::sqrt(std::max(0.0, mean * mean - gauss));
   low = mean - spread, high = mean + spread;
   return true;
@@ -87,9 +93,11 @@ double gauss_area(const BSplineSurface& s, const ParameterRectangle& r, int poin
   return sum * hu * hv;
 }
 
+/// mm^2 of the trimmed part of a cell: by halving where a loop passes, down to kCutDepth.
 double trimmed_area(const BSplineSurface& s, const TrimRegion& region, const ParameterRectangle& r, int depth) {
   const TrimRegion::Side side = region.whole() ? TrimRegion::Side::kInside : region.classify(r);
   if (side == TrimRegion::Side::kOutside) return 0.0;
+  // Small cells beside a loop need fewer points than whole ones for the same error.
   if (side == TrimRegion::Side::kInside) return gauss_area(s, r, depth == kCutDepth ? 4 : 2);
   const double u = 0.5 * (r.u0 + r.u1), v = 0.5 * (r.v0 + r.v1);
   if (depth == 0) {
@@ -117,6 +125,7 @@ std::vector<double> cell_borders(int degree, const std::vector<double>& knots, d
   return borders;
 }
 
+/// mm^2, of the trimmed face.
 double area(const BSplineSurface& s, const TrimRegion& region) {
   const ParameterRectangle& b = region.box();
   const std::vector<double> u = cell_borders(s.degree_u, s.knots_u, b.u0, b.u1),
@@ -128,6 +137,7 @@ double area(const BSplineSurface& s, const TrimRegion& region) {
   return sum;
 }
 
+/// mm, of the line through the middle of the parameter box: a size that people recognise, though no exact measure.
 double iso_length(const BSplineSurface& s, const ParameterRectangle& b, bool along_u) {
   const double u = 0.5 * (b.u0 + b.u1), v = 0.5 * (b.v0 + b.v1);
   double length = 0.0;
@@ -141,6 +151,7 @@ double iso_length(const BSplineSurface& s, const ParameterRectangle& b, bool alo
   return length;
 }
 
+/// Points of the trims: a grid inside of them misses the box's extremes at the border.
 void add_border(const Face& face, Box3& box) {
   for (const TrimLoop& loop : face.loops) {
     for (const BSplineCurve2& edge : loop.edges) {
@@ -182,6 +193,7 @@ InspectRow inspect_face(const Face& face, const std::string& type) {
   double low = 0.0, high = 0.0;
   Vec2 longest = Vec2::Zero();
   for (const SurfaceJet& jet : jets) longest = longest.cwiseMax(Vec2(jet.du.norm(), jet.dv.norm()));
+  // In a second round: what counts as shrunk depends on the longest derivative of the face.
   for (const SurfaceJet& jet : jets)
     if (curvatures(jet, kShrunk * longest, face.reversed ? -1.0 : 1.0, low, high))
       bends.add(low, high, kFlatBow / row.box.diagonal());
@@ -221,6 +233,7 @@ InspectRow inspect_mesh_face(const Part& part, int index, double total_area) {
 InspectReport inspect(const Part& part) {
   InspectReport report{part.file, part.format, part.unit, part.solids, part.box, {}, part.repairs};
   report.rows.resize(static_cast<std::size_t>(part.face_count()));
+  // Zero for a part of faces: its rows do not ask for it.
   const double total_area = mesh_area(part.mesh);
   parallel_for(report.rows.size(), [&](std::size_t i) {
     if (part.is_left_out(static_cast<int>(i))) {

@@ -10,15 +10,18 @@
 namespace flank::internal {
 namespace {
 
+/// Edges of the box, mm.
 std::string size_of(const Box3& box) {
   const Vec3 size = box.high - box.low;
   return fmt::format("{:.1f} x {:.1f} x {:.1f}", size.x(), size.y(), size.z());
 }
 
+/// Of a face the lengths of its two middle lines, of a mesh region its box: triangles have no parameters.
 std::string extent_of(const InspectRow& row) {
   return row.triangles > 0 ? size_of(row.box) : fmt::format("{:.2f} x {:.2f}", row.length_u_mm, row.length_v_mm);
 }
 
+/// Degrees and counts of poles, which tell why a face is slow or hard to fit.
 std::string form_of(const InspectRow& row) {
   if (row.triangles > 0) return fmt::format("{} triangles", row.triangles);
   return fmt::format("{}x{} {}x{}{}", row.degree_u, row.degree_v, row.poles_u, row.poles_v,
@@ -37,6 +40,7 @@ std::string bend_of(const InspectRow& row) {
   static constexpr std::array<const char*, 4> kNames = {"flat", "convex", "concave", "saddle"};
   std::string text;
   for (std::size_t i = 0; i < kNames.size(); ++i)
+    // What would be shown as 0 % is left out.
     if (row.bend_share[i] >= 0.005)
       text += fmt::format("{}{} {:.0f}%", text.empty() ? "" : " ", kNames[i], 100.0 * row.bend_share[i]);
   return text;
@@ -55,6 +59,7 @@ nlohmann::json box_json(const Box3& box) {
   return {{"low", {box.low.x(), box.low.y(), box.low.z()}}, {"high", {box.high.x(), box.high.y(), box.high.z()}}};
 }
 
+/// One face with all its figures; what does not apply to its kind has no key, and "none" is null.
 nlohmann::json row_json(const InspectRow& row) {
   nlohmann::json json = {{"id", row.id}, {"type", row.type}, {"area", row.area_mm2}, {"box", box_json(row.box)}};
   if (row.triangles > 0) {

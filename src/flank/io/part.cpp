@@ -50,10 +50,12 @@ Box3 used_box(const TriangleMesh& mesh) {
   return box;
 }
 
+/// A mesh as a part in millimetres, repaired, its regions as faces. Throws InputError.
 Part read_mesh(const std::string& file, const std::string& format, std::string_view content,
                const std::optional<std::string>& unit) {
   TriangleMesh raw = parse_mesh(file, format, content);
   const Box3 box = used_box(raw);
+  // Sizes in every unit help to tell which is right: only a person can know.
   if (!unit)
     throw InputError(
         fmt::format("{}: a mesh file has no unit; say which by `unit`: {}", file, sizes_by_unit(box.high - box.low)));
@@ -73,6 +75,7 @@ Part read_mesh(const std::string& file, const std::string& format, std::string_v
   } catch (const InputError& error) {
     throw InputError(file + ": " + error.what());
   }
+  // After the repair: only then do triangles know their neighbours.
   part.mesh_faces = mesh_regions(part.mesh);
   part.surface_types.assign(part.mesh_faces.size(), "mesh");
   part.box = part.mesh.box();
@@ -96,7 +99,9 @@ Part read_part(const std::string& file, const std::optional<std::string>& unit) 
   const std::string content = read_bytes(file);
   const std::string format = sniff_format(file, content);
   const bool mesh = format == "STL" || format == "OBJ" || format == "PLY";
+  // CAD files go through a reader that can be replaced: in this process, or in a child that a damaged file may break.
   Part part = mesh ? read_mesh(file, format, content, unit) : cad_reader()(file, format, unit);
+  // So that a result can tell later whether the file is still the same.
   part.sha256 = sha256(content);
   require_part_in_range(part);
   note_doubtful_size(part);

@@ -10,6 +10,7 @@
 namespace flank::internal {
 namespace {
 
+/// A field and its value as the command line has it: no words where nothing is set.
 struct FieldWords {
   FieldInfo info;
   std::vector<std::string> words;
@@ -27,6 +28,7 @@ template <class Job>
 std::vector<FieldWords> told_fields(const Job& job) {
   const std::vector<FieldWords> usual = words_of(Job{});
   std::vector<FieldWords> told;
+  // Both lists come from the same table, in the same order.
   std::size_t k = 0;
   for (FieldWords& field : words_of(job)) {
     if (field.info.always || field.words != usual[k].words) told.push_back(std::move(field));
@@ -35,11 +37,13 @@ std::vector<FieldWords> told_fields(const Job& job) {
   return told;
 }
 
+/// The command that asks for this job, from the table of fields alone: it cannot forget an option.
 template <class Job>
 std::string command(const Job& job) {
   std::string text = "flank " + std::string(command_name(job));
   for (const FieldWords& field : told_fields(job)) {
     const std::string flag = flag_of(field.info);
+    // Fields without a flag are words by their place ("PART").
     for (const std::string& word : field.words) {
       if (!flag.starts_with('-')) {
         text += " " + shell_quoted(word);
@@ -54,6 +58,7 @@ std::string command(const Job& job) {
 
 std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
+/// Cuts the folder off; the last overload is for fields that name no files.
 void cut_folder(std::string& value) {
   if (value.find('/') != std::string::npos) value = file_name(value);
 }
@@ -100,6 +105,7 @@ PlanJob without_folders(const PlanJob& job) {
 std::vector<std::string> asked_for(const PlanJob& job) {
   std::vector<std::string> lines;
   const auto tell = [&](const FieldWords& field) {
+    // The line above says them already (summary_text).
     for (const std::string_view key : {"part", "faces", "left", "right"})
       if (field.info.key == key) return;
     std::string name(field.info.key);

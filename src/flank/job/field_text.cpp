@@ -19,6 +19,7 @@ bool parse_number(const std::string& word, T& value) {
   return error == std::errc() && stop == end && begin != end;
 }
 
+/// The table's own words of what is accepted come first, since they know the range.
 [[noreturn]] void refuse(const FieldInfo& info, const std::string& word, std::string_view otherwise) {
   throw UsageError(field_name(info), word, std::string(info.accepted.words.empty() ? otherwise : info.accepted.words));
 }
@@ -40,6 +41,7 @@ std::string flag_of(const FieldInfo& info) {
   return flag;
 }
 
+// Numbers by fmt: the shortest digits that read back as the same bits.
 std::vector<std::string> field_words(const FieldInfo&, const std::string& value) { return {value}; }
 std::vector<std::string> field_words(const FieldInfo&, double value) { return {fmt::format("{}", value)}; }
 std::vector<std::string> field_words(const FieldInfo&, std::uint64_t value) { return {std::to_string(value)}; }
@@ -51,6 +53,7 @@ std::vector<std::string> field_words(const FieldInfo& info, int value) {
   return {std::to_string(value)};
 }
 
+// One overload a type: the table of fields calls the one of each member.
 void read_word(const FieldInfo&, const std::string& word, std::string& value) { value = word; }
 void read_word(const FieldInfo&, const std::string& word, std::vector<std::string>& value) { value.push_back(word); }
 

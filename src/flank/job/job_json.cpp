@@ -22,6 +22,7 @@ constexpr const char* kOnlyInOldCovers = "avoid";
 constexpr const char* kIgnoredInOldCovers[] = {"avoid",      "strips",     "start",    "guide",
                                                "radius_min", "radius_max", "slope_max"};
 
+/// A job is run again from another folder: names that are relative to this one would lead elsewhere.
 std::string absolute(const std::string& file) { return std::filesystem::absolute(file).lexically_normal().string(); }
 
 /// Names of files may be any bytes, JSON is UTF-8.
@@ -29,6 +30,7 @@ bool names_file(const FieldInfo& info) {
   return info.spelling == Spelling::kFile || info.spelling == Spelling::kFileOrText;
 }
 
+// Text that may be a file's name is not made absolute: whether it is one is decided where it is read.
 Json to_json(const FieldInfo& info, const std::string& value) {
   if (!names_file(info)) return value;
   return text_of_name(info.spelling == Spelling::kFile && !value.empty() ? absolute(value) : value);
@@ -43,6 +45,7 @@ Json to_json(const FieldInfo&, const T& value) {
   return value;
 }
 
+/// What is not set has no key: a reader takes the default then, as the command line does.
 template <class T>
 bool is_set(const T&) {
   return true;
@@ -62,6 +65,7 @@ const T& plain(const std::optional<T>& value) {
   return *value;
 }
 
+/// Back from text_of_name, for fields of files; the last overload is for all other types, which hold no names.
 void decode_names(std::string& value) { value = name_of_text(value); }
 void decode_names(std::vector<std::string>& values) {
   for (std::string& value : values) value = name_of_text(value);
@@ -98,6 +102,7 @@ Job read_job(const Json& json, const std::set<std::string>& ignored) {
   visit_fields(job, [&](const FieldInfo& info, auto& value) {
     const std::string key(info.key);
     known.insert(key);
+    // Without these a job asks for nothing; every other field has a default.
     const bool needed = key == "part" || key == "faces" || key == "left" || key == "right" || key == "tolerance";
     if (ignored.contains(key) || (!needed && !json.contains(key))) return;
     if (!json.contains(key)) throw InputError(key + ": is missing");
@@ -108,6 +113,7 @@ Job read_job(const Json& json, const std::set<std::string>& ignored) {
       throw InputError(key + ": " + e.what());
     }
   });
+  // A misspelled key would be a demand that is silently not kept.
   for (const auto& [key, value] : json.items())
     if (!known.contains(key) && !ignored.contains(key)) throw InputError(key + ": is no key of a job file");
   check_fields(job);
@@ -117,6 +123,7 @@ Job read_job(const Json& json, const std::set<std::string>& ignored) {
 PlanJob read_plan(const Json& json) {
   if (!json.is_object() || json.value("schema", "") != kSchema)
     throw InputError(std::string("schema \"") + kSchema + "\" is needed");
+  // A file that names no command is a job of a fit.
   const std::string command = json.value("command", "fit");
   if (command == "fit") return read_job<FitJob>(json, {});
   if (command == "trochoid") return read_job<TrochoidJob>(json, {});
@@ -139,6 +146,7 @@ std::string job_to_json(const PlanJob& job) {
         });
       },
       job);
+  // Texts that are no UTF-8 are bent, not refused: names of files have been made UTF-8 above.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -18,6 +18,8 @@ constexpr double kSpeedSlack = 1e-3;
 /// Joined poses of one block, at most.
 constexpr double kMostPieces = 1e5;
 
+/// Runs a program as the control would, and takes down where the flank's axis goes. It shares kinematics and joins
+/// with the post, but none of its choices: it knows the program's words alone.
 class Backplotter {
  public:
   Backplotter(const Machine& machine, const NcProgram& program, const std::string& file, const BackplotOptions& options)
@@ -40,6 +42,8 @@ class Backplotter {
     throw InputError(fmt::format("{}: line {}: {}", file_, line, text));
   }
 
+  /// Letters and kind of position must be the machine's, or every number would mean another joint. Tool vectors name
+  /// no joints.
   void require_same_meaning() const {
     const auto refuse_whole = [&](const std::string& text) { throw InputError(file_ + ": " + text); };
     const bool joint = program_.positions == NcPositions::kJoint;
@@ -55,6 +59,8 @@ class Backplotter {
   void add(const NcMove& move) {
     BlockEnd end = end_of(move);
     const bool joined = move.joined && !result_.joints.empty();
+    // A strip of the program that is left and taken up again is two strips of the path: between them the tool was
+    // elsewhere.
     const bool goes_on = !result_.path.strips.empty() && strip_ == move.strip;
     if (!goes_on) begin_strip(move, joined);
     double seconds = 0.0;
@@ -63,6 +69,7 @@ class Backplotter {
       seconds = seconds_of(move, end);
       check_speed(move, end, seconds);
     } else {
+      // From the reference position: the way there is not the path's, and not known.
       push(end.pose);
     }
     check_travel(move, end);
@@ -82,12 +89,14 @@ class Backplotter {
       strip.kind = named.kind;
       strip.face = named.face;
     } else if (move.kind == NcKind::kFeed) {
+      // A program of others names no strips: what cuts in it is judged like a strip.
       strip.kind = "flank";
     }
     result_.path.strips.push_back(strip);
     if (joined) push(before_.pose);
   }
 
+  /// From the letters' order in programs, degrees, to the chain's order, radians.
   RotaryValues stated_rotary(const Vec3& orientation) const {
     JointValues q{};
     for (std::size_t k = 0; k < 2; ++k) q[machine_.rotary[k]] = orientation(static_cast<int>(k)) * kRadians;
@@ -101,12 +110,15 @@ class Backplotter {
       for (std::size_t k = 0; k < 2; ++k) q[machine_.rotary[k]] = move.orientation(static_cast<int>(k)) * kRadians;
       return {kinematics_.forward(q), q};
     }
+    // The program's origin is the work offset's; the frame of the work has it at the set-up's translation.
     const Vec3 tip = move.position + options_.setup.translation;
     if (program_.positions == NcPositions::kTipRotary) {
       const RotaryValues rotary = stated_rotary(move.orientation);
       return {{tip, kinematics_.direction(rotary)}, kinematics_.joints(tip, rotary)};
     }
     const Vec3 axis = move.orientation.normalized();
+    // A user's program may ask for any direction: it is refused by its line, not by an assertion in the middle of the
+    // chain.
     if (kinematics_.rotary(axis, 0.0).count == 0)
       refuse(move.line, fmt::format("joint {} cannot tilt the tool into this direction",
                                     machine_.joints[kinematics_.rotary_joints()[1]].name));
@@ -129,6 +141,7 @@ class Backplotter {
     return both.values[0];
   }
 
+  /// From the controlled point in the frame of the work to s = 0 in the part's, which is what paths are about.
   void push(const Pose& controlled) {
     const Vec3 tip = controlled.at(options_.tip_offset);
     result_.path.strips.back().poses.push_back(
@@ -138,16 +151,22 @@ class Backplotter {
   /// As many joined poses as keep the chord: by the bends of the control's motion and of the joins.
   void add_block(const BlockEnd& end) {
     const double low = options_.tip_offset, high = low + options_.axis_length;
+    // Equal axes but for rounding have no bend; opposite ones have no straight join, and the control's own bend,
+    // which is large there, gives the pieces.
     const double turn = end.pose.axis.dot(before_.pose.axis) < 1.0 ? joined_bend(before_.pose, end.pose) : 0.0;
     const double bend = std::max(control_.bend(before_, end, low), control_.bend(before_, end, high)) +
                         options_.axis_length * (std::isfinite(turn) ? turn : 0.0);
+    // A chord of a piece of length 1 / n is off by at most max |f''| / (8 n^2).
     const double pieces = std::clamp(std::ceil(std::sqrt(bend / (8.0 * options_.chord))), 1.0, kMostPieces);
+    // From the pieces that are taken: where their number is capped, the bound says so.
     result_.chord_bound_mm = std::max(result_.chord_bound_mm, bend / (8.0 * pieces * pieces));
     const int count = static_cast<int>(pieces);
     for (int k = 1; k < count; ++k) push(control_.pose(before_, end, static_cast<double>(k) / count));
     push(end.pose);
   }
 
+  /// By its feed; a rapid by the slowest of the machine's own limits. Blocks that only turn have a feed in degrees
+  /// per minute (post.cpp).
   double seconds_of(const NcMove& move, const BlockEnd& end) const {
     const double way = (move.position - before_move_->position).norm();
     double turn = 0.0, fastest = way / machine_.rapid;
@@ -167,7 +186,7 @@ class Backplotter {
   }
 
   void check_speed(const NcMove& move, const BlockEnd& end, double seconds) {
-    if (move.kind == NcKind::kRapid) return;
+    if (move.kind == NcKind::kRapid) return;  // a control runs rapids as fast as its joints can, by itself
     for (std::size_t k = 0; k < kJointCount; ++k) {
       const Joint& joint = machine_.joints[k];
       const double needed = std::abs(end.joints[k] - before_.joints[k]) / std::max(seconds, 1e-12);
@@ -179,6 +198,7 @@ class Backplotter {
     }
   }
 
+  /// One finding a joint: the first line tells where to look, a thousand lines tell nothing more.
   static void note(std::vector<LimitFinding>& list, LimitFinding finding) {
     for (const LimitFinding& known : list)
       if (known.joint == finding.joint) return;
@@ -194,7 +214,7 @@ class Backplotter {
   Eigen::Matrix3d turn_;
   BlockEnd before_;
   const NcMove* before_move_ = nullptr;
-  std::int32_t strip_ = -2;
+  std::int32_t strip_ = -2;  // none yet; -1 is what belongs to no strip
   int next_id_ = 1;
   Backplot result_;
 };

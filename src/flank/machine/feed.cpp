@@ -22,6 +22,7 @@ struct Line {
   double at0, slope;
 };
 
+/// Reachability over the squared speed x = (ds/dt)^2 (docs/algorithms/machine.md, Feeds).
 class Planner {
  public:
   Planner(const Machine& machine, std::span<const FeedNode> nodes, double rounding) : machine_(machine), nodes_(nodes) {
@@ -33,7 +34,7 @@ class Planner {
     bend_.assign(n, 0.0);
     for (std::size_t i = 1; i + 1 < n; ++i) bend_[i] = bend_length(i, rounding);
     for (std::size_t i = 0; i < n; ++i) cap_[i] = speed_cap(i);
-    cap_.front() = cap_.back() = 0.0;
+    cap_.front() = cap_.back() = 0.0;  // from rest to rest
   }
 
   FeedPlan run() {
@@ -66,11 +67,13 @@ class Planner {
     double idle = 0.0;
     for (std::size_t k = 0; k < kJointCount; ++k)
       idle = std::max(idle, std::abs(nodes_[i].joints[k] - nodes_[i - 1].joints[k]) / machine_.joints[k].speed);
+    // Never 0: rates and times divide by it. Two equal nodes become a way that is too short to count.
     step_[i] = std::max(nodes_[i].length + kIdle * idle, 1e-12);
     for (std::size_t k = 0; k < kJointCount; ++k)
       rate_[i][k] = (nodes_[i].joints[k] - nodes_[i - 1].joints[k]) / step_[i];
   }
 
+  /// Largest squared speed on the way to node i: its own cap, and what no joint's speed exceeds.
   double speed_cap_of_way(std::size_t i) const {
     double v = nodes_[i].cap;
     for (std::size_t k = 0; k < kJointCount; ++k)
@@ -115,6 +118,7 @@ class Planner {
     }
     return b;
   }
+  /// Solves |rate u + bend x| <= a for u: a band round the line -bend x / rate, of the half width a / |rate|.
   static void add_side(Bounds& b, double rate, double bend, double a) {
     if (std::abs(rate) < 1e-12) return;  // no u of ours moves this joint
     const double half = a / std::abs(rate), slope = -bend / rate;
@@ -169,6 +173,9 @@ class Planner {
     return plan;
   }
 
+  /// Seconds of a way whose two ends stand: constant acceleration to its middle and back to rest needs 2 step / v for
+  /// the speed limit and 2 sqrt(D / a) for a joint that goes D. The latter is doubled as well, which is on the safe
+  /// side.
   double rest_to_rest(std::size_t i) const {
     double seconds = step_[i] / std::sqrt(speed_cap_of_way(i));
     for (std::size_t k = 0; k < kJointCount; ++k)
@@ -230,6 +237,7 @@ void sample(std::span<const FeedNode> nodes, const FeedPlan& plan, const Visit& 
   }
 }
 
+/// The largest share of a limit over the joints, at one millisecond.
 struct Shares {
   double speed = 0.0, acceleration = 0.0;
 };
@@ -266,6 +274,8 @@ void Planner::stretch(FeedPlan& plan) const {
     const FeedCheck check = check_feed(machine_, nodes_, plan);
     const double over = std::max(check.worst_speed, check.worst_acceleration);
     if (over <= 1.0 + kSlack) return;
+    // Accelerations fall with the square of the time, so this is more than enough for them; a little more, lest
+    // rounding asks for another pass.
     const double factor = over * (1.0 + 1e-3);
     plan.time_s = 0.0;
     for (std::size_t i = 0; i < nodes_.size(); ++i) {

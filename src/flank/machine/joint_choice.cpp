@@ -19,16 +19,19 @@ constexpr double kStartPrice = 1e-3;
 /// Travels are kept up to rounding.
 constexpr double kTravelSlack = 1e-9;
 
+/// One way to hold a pose, and the cheapest way to get there: a node of the dynamic programme.
 struct State {
   RotaryValues rotary{};
   std::int8_t solution = 0;
-  bool inside = true;  ///< linear joints keep their travel
-  double price = std::numeric_limits<double>::infinity();
-  std::int32_t before = -1;
+  bool inside = true;                                      ///< linear joints keep their travel
+  double price = std::numeric_limits<double>::infinity();  // s, of all steps up to here
+  std::int32_t before = -1;                                // index of a state of the pose before
 };
 
+/// So many turns, or no limit: to list them all as states would cost much and decide nothing.
 bool endless(const Joint& joint) { return !(joint.high - joint.low < kManyTurns); }
 
+/// The search over layers of states, one layer a pose.
 class Choice {
  public:
   Choice(const Machine& machine, const Kinematics& kinematics, std::span<const MachinePose> poses)
@@ -60,6 +63,7 @@ class Choice {
     return 0.0;
   }
 
+  /// Turns do not matter to the linear joints: a rotary joint stands at the same place after each.
   bool linear_inside(std::size_t pose, const RotaryValues& rotary) const {
     const JointValues q = kinematics_.joints(poses_[pose].pose.tip, rotary);
     for (const std::size_t k : machine_.linear) {
@@ -83,6 +87,8 @@ class Choice {
     return all;
   }
 
+  /// Time of both rotary joints one after the other, s: never less than what the machine needs, and without ties
+  /// where one of the two waits for the other.
   double step_price(const RotaryValues& from, const RotaryValues& to) const {
     return std::abs(to[0] - from[0]) / joint_[0]->speed + std::abs(to[1] - from[1]) / joint_[1]->speed;
   }
@@ -98,6 +104,8 @@ class Choice {
     return (half - (u0 + u1).normalized()).norm() <= turn + kTravelSlack;
   }
 
+  /// States that are equal to the last bit are one: nothing after them could tell them apart, so the cheaper one
+  /// stays. Without this their number would grow with every pose.
   void offer(std::vector<State>& layer, State state) const {
     for (State& known : layer)
       if (known.solution == state.solution && known.rotary == state.rotary) {
@@ -107,6 +115,7 @@ class Choice {
     layer.push_back(state);
   }
 
+  /// The first pose can be held in every turn that the travels have; later turns follow from it.
   void add_first(std::size_t pose, int solution, const RotaryValues& rotary) {
     for (const double near_work : turns(0, rotary[0]))
       for (const double near_tool : turns(1, rotary[1])) {
@@ -120,6 +129,8 @@ class Choice {
   /// The turn nearest to where the joint stands.
   static double nearest(double angle, double at) { return angle + kTurn * std::round((at - angle) / kTurn); }
 
+  /// A joint that comes from the pose before cannot jump by a turn: it takes the nearest one, or there is no such
+  /// step.
   void add_joined(std::size_t pose, int solution, const RotarySolutions& solutions) {
     const RotaryValues& rotary = solutions.values[static_cast<std::size_t>(solution)];
     std::optional<bool> inside;  // the same for all turns, but where the first angle is free
@@ -135,11 +146,13 @@ class Choice {
     }
   }
 
+  /// The machine comes from its reference position: it may unwind, so every turn within the travel is open.
   void add_free(std::size_t pose, int solution, const RotarySolutions& solutions) {
     const RotaryValues& rotary = solutions.values[static_cast<std::size_t>(solution)];
     if (!linear_inside(pose, rotary)) return;
     for (std::size_t i = 0; i < layers_[pose - 1].size(); ++i) {
       const State& from = layers_[pose - 1][i];
+      // turns() gives an endless joint's angle back as it is: it should be the one next to where the joint stands.
       const double near_work = endless(*joint_[0]) ? nearest(rotary[0], from.rotary[0]) : rotary[0];
       const double near_tool = endless(*joint_[1]) ? nearest(rotary[1], from.rotary[1]) : rotary[1];
       for (const double a : turns(0, near_work))
@@ -162,6 +175,7 @@ class Choice {
     }
   }
 
+  /// From the cheapest state of the last pose back to the first one.
   void trace_back(JointChoice& result) const {
     result.joints.resize(poses_.size());
     std::size_t best = 0;
@@ -186,11 +200,13 @@ class Choice {
     }
     for (const RotaryValues& rotary : solutions.values) {
       JointValues q = kinematics_.joints(poses_[k].pose.tip, rotary);
+      // An angle out of the travel by whole turns is no fault: the message is about the nearest that fits.
       for (std::size_t r = 0; r < 2; ++r)
         if (const std::vector<double> all = turns(r, rotary[r]); !all.empty())
           q[kinematics_.rotary_joints()[r]] = all.front();
       std::string joint;
       const std::string violation = travel_violation(machine_, q, &joint);
+      // The pose itself can be held: only the way to it is closed.
       if (violation.empty()) {
         why.joint = joint_[0]->name;
         why.reason = fmt::format(
@@ -227,6 +243,7 @@ std::string travel_violation(const Machine& machine, const JointValues& q, std::
 JointChoice choose_joints(const Machine& machine, const Kinematics& kinematics, std::span<const MachinePose> poses) {
   if (poses.empty()) return {};
   JointChoice choice = Choice(machine, kinematics, poses).run();
+  // Endless joints were not held to their travel in the search; here everything is, once more.
   for (std::size_t k = 0; k < choice.joints.size(); ++k) {
     std::string joint;
     const std::string violation = travel_violation(machine, choice.joints[k], &joint);

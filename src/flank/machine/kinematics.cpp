@@ -12,6 +12,7 @@ constexpr double kReachSlack = 1e-12;
 /// Below this the border of what is reachable is the first rotary axis itself.
 constexpr double kExactly = 1e-12;
 
+/// Cosine and sine of an angle: they are taken once and used for several vectors.
 struct Turn {
   double c, s;
   explicit Turn(double angle) : c(std::cos(angle)), s(std::sin(angle)) {}
@@ -22,6 +23,7 @@ Vec3 turned(const Vec3& v, const Vec3& n, const Turn& t) {
   return t.c * v + t.s * n.cross(v) + ((1.0 - t.c) * n.dot(v)) * n;
 }
 
+/// The angle within [-pi, pi].
 double wrapped(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
 
 }  // namespace
@@ -31,6 +33,7 @@ Kinematics::Kinematics(const Machine& machine, double tool_length) {
   for (std::size_t k = 0; k < kJointCount; ++k) {
     const Joint& joint = machine.joints[k];
     const bool turns = joint.kind == JointKind::kRotary;
+    // With the sign taken into the direction, formulas know nothing of reversed joints.
     links_[k] = {turns, joint.reversed ? Vec3(-joint.direction) : joint.direction, joint.point};
     if (turns)
       rotary_[rotary++] = k;
@@ -38,12 +41,16 @@ Kinematics::Kinematics(const Machine& machine, double tool_length) {
       linear_[linear++] = k;
   }
   axis_ = machine.tool_axis;
+  // The controlled point where all joints are zero.
   tip_ = machine.gauge - tool_length * axis_;
+  // a . R_b(t) u0 = mean + cosine cos t + sine sin t lies within mean +- swing: how far these ends stay away from 1
+  // and -1 tells which directions round a and -a are out of reach.
   const Vec3 &a = links_[rotary_[0]].direction, &b = links_[rotary_[1]].direction;
   mean_ = a.dot(b) * b.dot(axis_);
   cosine_ = a.dot(axis_) - mean_;
   sine_ = a.dot(b.cross(axis_));
   swing_ = std::hypot(cosine_, sine_);
+  // Of a machine whose axes meet at right angles both are 0; rounding would open a cone that it cannot reach.
   const auto exact = [](double x) { return std::abs(x) < kExactly ? 0.0 : x; };
   short_of_a_ = exact(1.0 - mean_ - swing_);
   short_of_minus_a_ = exact(1.0 + mean_ - swing_);
@@ -55,6 +62,8 @@ Kinematics::Frame Kinematics::frame(const RotaryValues& rotary) const {
   f.origin = tip_;
   f.axis = axis_;
   std::size_t r = 2, l = 3;
+  // From the tool to the work: each rotary joint turns everything that it carries, also the directions of the linear
+  // joints behind it.
   for (std::size_t k = kJointCount; k-- > 0;) {
     const Link& link = links_[k];
     if (!link.rotary) {
@@ -81,6 +90,8 @@ Vec3 Kinematics::direction(const RotaryValues& rotary) const {
   return turned(near, links_[rotary_[0]].direction, Turn(rotary[0]));
 }
 
+// Cramer's rule: point = origin + sum of q_k linear_k. The determinant is not 0 where all linear joints lie on one
+// side of the rotary ones (machine_file.cpp demands it at zero, and a common turn keeps it).
 JointValues Kinematics::joints(const Vec3& point, const RotaryValues& rotary) const {
   const Frame f = frame(rotary);
   const Vec3 d = point - f.origin;
@@ -109,9 +120,11 @@ RotarySolutions Kinematics::rotary(const Vec3& direction, double first) const {
   solutions.count = 2;
   solutions.singular = solutions.sine < kSingularSine;
   for (std::size_t k = 0; k < 2; ++k) {
+    // The two solutions lie on either side of the phase, at which R_b u0 is nearest to a.
     const double near_tool = wrapped(phase + (k == 0 ? swing : -swing));
     const Vec3 v = turned(axis_, b, Turn(near_tool));
     const Vec3 across = a.cross(v);
+    // The angle about a from R_b u0 to u: both are first laid into the plane across a.
     const double near_work =
         solutions.singular ? first : std::atan2(across.dot(direction), v.dot(direction) - a.dot(v) * a.dot(direction));
     solutions.values[k] = {near_work, near_tool};
@@ -119,6 +132,8 @@ RotarySolutions Kinematics::rotary(const Vec3& direction, double first) const {
   return solutions;
 }
 
+// Down the chain as in frame(): the point is where it stands before the joint turns, and so is its distance from the
+// axis.
 double Kinematics::lever(const JointValues& q) const {
   double lever = 0.0;
   Vec3 p = tip_;

@@ -14,8 +14,11 @@ constexpr double kStep = 5.0 * std::numbers::pi / 180.0;
 /// By how much chords of that step would cut a sphere short.
 constexpr double kChordRoom = 1.002;
 
+/// The unit vector at t in [0, 1] of the shorter great circle between two.
 Vec3 on_circle(const Vec3& from, const Vec3& to, double t) {
+  // By atan2: the arc cosine of a product loses half its digits at small angles.
   const double angle = 2.0 * std::atan2((to - from).norm(), (to + from).norm());
+  // The circle's plane is rounding here, and the sines below would divide it by nothing.
   if (angle < 1e-9) return (from + t * (to - from)).normalized();
   if (angle > std::numbers::pi - 1e-6) {
     // Opposite: any way round will do.
@@ -25,6 +28,7 @@ Vec3 on_circle(const Vec3& from, const Vec3& to, double t) {
   return (std::sin((1.0 - t) * angle) * from + std::sin(t * angle) * to).normalized();
 }
 
+/// Between two unit vectors, radians, exact at both ends of its range.
 double angle_of(const Vec3& a, const Vec3& b) { return 2.0 * std::atan2((a - b).norm(), (a + b).norm()); }
 
 /// A place on the sphere: outward normal, and the tool there.
@@ -32,6 +36,7 @@ struct Safe {
   Vec3 outward = Vec3::UnitZ(), axis = Vec3::UnitZ();
 };
 
+/// The sphere round all that must not be touched, and the ways from and to it.
 class Linker {
  public:
   explicit Linker(const LinkOptions& options)
@@ -57,6 +62,7 @@ class Linker {
     safe.outward = (p.tip - center_).normalized();
     safe.axis = p.axis;
     const Pose there = at(safe);
+    // Where the line misses the sphere, or begins beyond it, the tool goes straight to the sphere from here.
     if ((there.tip - p.tip).norm() > 1e-9) way.push_back(there);
     return way;
   }
@@ -100,6 +106,8 @@ class Linker {
 
 }  // namespace
 
+// A cavity's cycles follow each other in the same pose: with links between them the tool would leave the cavity each
+// time.
 Path joined(const Path& path) {
   constexpr double kSame = 1e-9;
   Path chains;
@@ -127,7 +135,7 @@ Path with_links(const Path& path, const LinkOptions& options) {
   for (const Strip& strip : path.strips) id = std::max(id, strip.id);
   Path result;
   std::vector<Pose> way;
-  Safe here;
+  Safe here;  // where the tool waits on the sphere after the strip before
   for (std::size_t k = 0; k < count; ++k) {
     const Strip& strip = path.strips[k];
     Safe there;
@@ -135,6 +143,7 @@ Path with_links(const Path& path, const LinkOptions& options) {
     if (k > 0) linker.round(here, there, way);
     // The way in is the way out backwards; on the sphere the two meet in the same pose.
     std::reverse(in.begin(), in.end());
+    // The first link begins on the sphere; of the others that pose is the end of the way round.
     way.insert(way.end(), in.begin() + (k > 0 ? 1 : 0), in.end());
     result.strips.push_back({++id, kLinkKind, "", way});
     result.strips.push_back(strip);

@@ -18,6 +18,8 @@ constexpr int kMostFeedSteps = 200, kFeedStepsAtEnds = 32;
 
 bool is_link(const Strip& strip) { return strip.kind == kLinkKind; }
 
+/// One path on its way to a program: poses, joints, blocks, feeds, text, in this order. Each step needs all strips of
+/// the one before, because joints are chosen and feeds are planned over the path as a whole.
 class Poster {
  public:
   Poster(const Machine& machine, const Path& path, const PostTool& tool, const PostOptions& options)
@@ -49,7 +51,9 @@ class Poster {
     for (const Strip& strip : path_.strips) {
       first_.push_back(poses_.size());
       for (const Pose& p : strip.poses) {
+        // A path's pose is the axis point s = 0; the control holds another one, `span_.low` below it.
         const Pose work{r * p.tip + options_.setup.translation, (r * p.axis).normalized()};
+        // Strips follow each other without a gap (with_links has filled them), so every pose but the first is joined.
         poses_.push_back({{work.at(-span_.low), work.axis}, !poses_.empty()});
       }
     }
@@ -57,6 +61,7 @@ class Poster {
     if (poses_.empty()) throw InternalError("a path without poses");
   }
 
+  /// Names the pose by its strip and its index there, instead of its index in the whole path.
   Post refused(const Unreachable& why) {
     post_.unreachable = why;
     for (std::size_t k = 0; k < path_.strips.size(); ++k)
@@ -73,6 +78,7 @@ class Poster {
     std::vector<Pose> poses;
     for (std::size_t i = begin; i < begin + count; ++i) poses.push_back(poses_[i].pose);
     LineariseOptions options;
+    // Links cut nothing: a coarser bound saves blocks.
     options.deviation = link ? std::max(options_.link_deviation, options_.deviation) : options_.deviation;
     LinearisedStrip strip = linearise(kinematics_, control_, poses, {joints.data() + begin, count}, span_, options);
     if (!strip.complete || !std::isfinite(strip.deviation_mm)) {
@@ -81,6 +87,7 @@ class Poster {
       post_.unreachable_strip = path_.strips[k].id;
       return false;
     }
+    // What is told is about cutting: links would hide it by their coarser bound.
     if (!link) {
       post_.planned += count;
       post_.inserted += strip.inserted;
@@ -91,6 +98,8 @@ class Poster {
     return true;
   }
 
+  /// How far the contact moves between two poses at most, mm: the way is convex along the axis, so one of the flank's
+  /// ends goes farthest.
   double contact_way(const Pose& a, const Pose& b) const {
     return std::max((b.at(span_.low) - a.at(span_.low)).norm(), (b.at(span_.high) - a.at(span_.high)).norm());
   }
@@ -100,6 +109,8 @@ class Poster {
     const RotaryValues a = kinematics_.rotary_of(from.joints), b = kinematics_.rotary_of(to.joints);
     const double turn = std::abs(b[0] - a[0]) + std::abs(b[1] - a[1]), way = contact_way(from.pose, to.pose);
     const double wanted = std::ceil(std::max(way / kFeedStepMm, turn / kFeedStepRad));
+    // The first and the last block begin and end at rest: with few nodes there, the planner, whose speed is 0 at a
+    // node, would take them far too slowly.
     const int least = at_end ? kFeedStepsAtEnds : 1;
     const int steps = std::clamp(static_cast<int>(std::min(wanted, 1e6)), least, kMostFeedSteps);
     Pose before = from.pose;
@@ -107,6 +118,8 @@ class Poster {
       const double t = static_cast<double>(k) / steps;
       const bool last = k == steps;
       const Pose here = last ? to.pose : control_.pose(from, to, t);
+      // The last place is taken as it was chosen: computed once more, it would differ by rounding, or by a turn
+      // beside the singular direction.
       nodes_.push_back({last ? to.joints : control_.joints(from, to, t), contact_way(before, here), cap, blocks_});
       before = here;
     }
@@ -114,17 +127,20 @@ class Poster {
   }
 
   void plan_feeds() {
+    // Where the machine stands before the first block: it belongs to none.
     nodes_.push_back({strips_.front().blocks.front().joints, 0.0, machine_.rapid, -1});
     std::size_t total = 0, done = 0;
     for (const LinearisedStrip& strip : strips_) total += strip.blocks.size() - 1;
     for (std::size_t k = 0; k < strips_.size(); ++k) {
       const std::vector<BlockEnd>& ends = strips_[k].blocks;
+      // A feed is about cutting. Joints' limits hold in either case, by the planner.
       const bool fast = is_link(path_.strips[k]) || options_.time_optimal;
       for (std::size_t i = 1; i < ends.size(); ++i, ++done)
         add_block(ends[i - 1], ends[i], fast ? machine_.rapid : options_.feed, done == 0 || done + 1 == total);
     }
     block_seconds_.assign(static_cast<std::size_t>(blocks_), 0.0);
     if (blocks_ == 0) return;
+    // Rounding the corners by no more than blocks deviate anyway.
     const FeedPlan plan = plan_feed(machine_, nodes_, options_.deviation);
     for (std::size_t i = 1; i < nodes_.size(); ++i)
       block_seconds_[static_cast<std::size_t>(nodes_[i].block)] += plan.seconds[i];
@@ -132,6 +148,8 @@ class Poster {
     note_use(check_feed(machine_, nodes_, plan));
   }
 
+  /// What the path asks of each joint, in mm or degrees, beside its limits: people look here before they run a
+  /// program.
   void note_use(const FeedCheck& check) {
     for (std::size_t k = 0; k < kJointCount; ++k) {
       const Joint& joint = machine_.joints[k];
@@ -150,7 +168,8 @@ class Poster {
     if (machine_.positions == NcPositions::kJoint) {
       for (std::size_t k = 0; k < 3; ++k) move.position(static_cast<int>(k)) = end.joints[machine_.linear[k]];
     } else {
-      // The origin of the part is the work offset's; the program has the part's turn.
+      // The origin of the part is the work offset's; the program has the part's turn, which is how it is clamped and
+      // which no control is told of.
       move.position = end.pose.tip - options_.setup.translation;
     }
     if (machine_.positions == NcPositions::kTipVector)
@@ -163,12 +182,14 @@ class Poster {
 
   /// What the program states as the feed of a block that takes so long.
   double feed_of(const NcMove& from, const NcMove& to, const BlockEnd& a, const BlockEnd& b, double seconds) const {
+    // A block of no length takes no time: F stays finite.
     if (machine_.feed_mode == NcFeedMode::kInverseTime) return 60.0 / std::max(seconds, 1e-6);
     const double way = (to.position - from.position).norm();
     // Where the controlled point stands still, controls take the feed for that of the rotary axes, degrees per minute.
     double turn = 0.0;
     for (const std::size_t k : machine_.rotary) turn = std::max(turn, std::abs(b.joints[k] - a.joints[k]) * kDegrees);
     const double per_minute = (way > 1e-6 ? way : turn) / std::max(seconds, 1e-9) * 60.0;
+    // Controls refuse F0, and three decimals would print it.
     return std::max(per_minute, 1e-3);
   }
 
@@ -192,6 +213,7 @@ class Poster {
       for (std::size_t i = before == nullptr ? 0 : 1; i < ends.size(); ++i) {
         NcMove move = move_to(ends[i]);
         move.strip = static_cast<std::int32_t>(k);
+        // The very first move comes from anywhere, at rapid; its angles are where the program begins.
         if (before == nullptr) {
           move.kind = NcKind::kRapid;
           move.joined = false;
@@ -212,14 +234,18 @@ class Poster {
   /// What the digits of the program move the tool by, at most.
   double rounding() const {
     const NcDialect& dialect = machine_.dialect;
+    // Half a unit of the last digit: the error of a rounded number.
     const auto half = [](int decimals) { return 0.5 * std::pow(10.0, -decimals); };
     const double height = std::max(std::abs(span_.low), std::abs(span_.high));
+    // Under tool-centre control angles turn the tool about the controlled point; without it they turn it about the
+    // rotary axes, which may be far away.
     double lever = height;
     if (machine_.positions == NcPositions::kJoint)
       for (const LinearisedStrip& strip : strips_)
         for (const BlockEnd& end : strip.blocks) lever = std::max(lever, height + kinematics_.lever(end.joints));
     const double turn = machine_.positions == NcPositions::kTipVector ? std::sqrt(3.0) * half(dialect.vector_decimals)
                                                                       : 2.0 * half(dialect.angle_decimals) / kDegrees;
+    // Three coordinates may all be off by half a unit, and so may three components of a vector or two angles.
     return std::sqrt(3.0) * half(dialect.length_decimals) + lever * turn;
   }
 

@@ -7,12 +7,13 @@
 namespace flank::internal {
 namespace {
 
-constexpr std::size_t kMostPoses = 200;
+constexpr std::size_t kMostPoses = 200;  // every try chooses joints for all of them, and there are hundreds of tries
 /// Far enough from the singular direction: beyond it more is no better.
 constexpr double kEnoughSine = 0.5;
 /// A joint that comes as near to the end of its travel as this is not worth less: mm, and radians.
 constexpr double kEnoughRoomMm = 50.0, kEnoughRoomRad = 0.35;
 
+/// Evenly, with both ends: a strip's ends reach farthest.
 std::vector<Pose> thinned(const std::vector<Pose>& poses) {
   if (poses.size() <= kMostPoses) return poses;
   std::vector<Pose> few;
@@ -30,12 +31,15 @@ std::array<double, 3> angles_of(const Eigen::Matrix3d& r) {
     a[0] = std::atan2(r(2, 1), r(2, 2));
     a[2] = std::atan2(r(1, 0), r(0, 0));
   } else {
+    // The part's X along the machine's -Z or Z: a and c turn about the same line, so all goes into a.
     a[0] = std::atan2(-r(1, 2), r(1, 1));
   }
+  // What is proposed will be typed: -90 and not -90.00000000000001. Adding zero turns -0 into 0.
   for (double& angle : a) angle = std::round(angle * degrees * 1e6) / 1e6 + 0.0;
   return a;
 }
 
+/// The 24 turns that keep the part's axes along the machine's: where X goes, where Y goes across it, Z follows.
 std::vector<std::array<double, 3>> square_turns() {
   std::vector<std::array<double, 3>> turns;
   for (int x = 0; x < 3; ++x)
@@ -61,9 +65,11 @@ std::vector<std::array<double, 3>> square_turns() {
 std::vector<std::array<double, 3>> tilted_turns(const Vec3& spindle, const std::vector<Pose>& poses) {
   Vec3 middle = Vec3::Zero();
   for (const Pose& p : poses) middle += p.axis;
+  // The tool points everywhere: there is no direction to tilt.
   if (middle.norm() < 1e-6) return {};
   std::vector<std::array<double, 3>> turns;
   const double radians = std::numbers::pi / 180.0;
+  // The likely ones first, since of equal turns the first wins; 5 degrees is nearly singular, and comes last.
   for (const double tilt : {20.0, 35.0, 50.0, 65.0, 80.0, 5.0})
     for (double azimuth = 0.0; azimuth < 360.0; azimuth += 45.0)
       for (double spin = 0.0; spin < 360.0; spin += 90.0) {
@@ -76,6 +82,7 @@ std::vector<std::array<double, 3>> tilted_turns(const Vec3& spindle, const std::
   return turns;
 }
 
+/// All turns and places one after the other; the best that the machine reaches is kept.
 class Search {
  public:
   Search(const Machine& machine, const Kinematics& kinematics, const std::vector<Pose>& poses)
@@ -85,6 +92,8 @@ class Search {
 
   FoundSetup run() {
     try_all(square_turns());
+    // Square to the machine is how people clamp. Tilted turns are tried only if that fails, or runs beside the
+    // singular direction, where the first rotary joint races.
     if (!found_.setup || found_.least_sine < std::sin(5.0 * std::numbers::pi / 180.0))
       try_all(tilted_turns(machine_.tool_axis, poses_));
     return found_;
@@ -110,12 +119,14 @@ class Search {
     const Joint& near_work = machine_.joints[kinematics_.rotary_joints()[0]];
     if (!near_work.table) return {middle_of_travels()};
     std::vector<Vec3> list;
+    // Upwards is towards the spindle, whichever way the joint counts.
     const double lift = machine_.tool_axis.dot(near_work.direction) < 0.0 ? -1.0 : 1.0;
     for (const double height : {50.0, 100.0, 0.0, 150.0, 200.0, 300.0, -50.0, -100.0})
       list.push_back(near_work.point + lift * height * near_work.direction);
     return list;
   }
 
+  /// Where the controlled point is with the rotary joints at zero, in the frame of the work, mm.
   Vec3 middle_of_travels() const {
     JointValues q{};
     for (const std::size_t k : machine_.linear) q[k] = 0.5 * (machine_.joints[k].low + machine_.joints[k].high);
@@ -130,10 +141,12 @@ class Search {
     const JointChoice choice = choose_joints(machine_, kinematics_, placed);
     if (choice.unreachable) {
       found_.reason = choice.unreachable->reason;
+      // A direction that no angles hold stays so wherever the part sits: then the other places need not be tried.
       return kinematics_.rotary(placed[choice.unreachable->pose].pose.axis, 0.0).count == 0 ? Outcome::kDirection
                                                                                             : Outcome::kPlace;
     }
     const double worth = worth_of(choice);
+    // Better by more than rounding: else the first stays, for any machine that this runs on.
     if (!found_.setup || worth > worth_ + 1e-9) {
       worth_ = worth;
       found_.setup = setup;
@@ -154,6 +167,7 @@ class Search {
       }
       tilt = std::max(tilt, std::abs(q[near_tool]));
     }
+    // Being away from the singular direction counts twice as much as room, and room twice as much as little tilt.
     return 2.0 * std::min(choice.least_sine, kEnoughSine) / kEnoughSine + std::max(room, 0.0) -
            0.5 * tilt / std::numbers::pi;
   }

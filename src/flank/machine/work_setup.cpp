@@ -12,14 +12,17 @@
 namespace flank::internal {
 namespace {
 
-constexpr double kFarMm = 1e6, kFarDegrees = 1e4;
+constexpr double kFarMm = 1e6, kFarDegrees = 1e4;  // what is beyond is a slip of the keyboard
 
+/// One message for all that can be wrong: the whole form is short enough to be shown.
 [[noreturn]] void refuse(const std::string& text) {
   throw UsageError("setup", text,
                    "x,y,z,a,b,c is needed: where the part's origin sits on the table, mm, and how it is "
                    "turned about X, then Y, then Z, degrees");
 }
 
+/// Numbers between commas, blanks allowed. By from_chars, which reads the same in every locale, and never "nan" as a
+/// place.
 std::vector<double> read_numbers(const std::string& text) {
   std::vector<double> values;
   const char *at = text.data(), *end = text.data() + text.size();
@@ -57,6 +60,7 @@ Pose WorkSetup::to_part(const Pose& work) const {
 }
 
 WorkSetup parse_setup(const std::string& text) {
+  // Three numbers leave the part as it is turned in its file.
   const std::vector<double> values = read_numbers(text);
   if (values.size() != 3 && values.size() != 6) refuse(text);
   WorkSetup setup;

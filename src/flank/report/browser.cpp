@@ -38,6 +38,7 @@ std::string in_path(const std::string& name) {
 int run_quietly(const std::vector<std::string>& words) {
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
+  // Browsers write pages of warnings that say nothing about our page.
   for (int stream : {0, 1, 2}) posix_spawn_file_actions_addopen(&files, stream, "/dev/null", O_RDWR, 0);
   std::vector<std::string> copy = words;
   std::vector<char*> argv;
@@ -69,6 +70,7 @@ std::string address_of(const std::string& file) {
 }
 
 /// A folder of the browser's own, gone afterwards.
+/// Without one of its own the browser would open the page in the user's running instance, and make no picture.
 class Profile {
  public:
   Profile() : folder_((fs::temp_directory_path() / "flank-browser-XXXXXX").string()) {
@@ -94,6 +96,7 @@ const std::vector<std::string>& browsers() {
 }
 
 std::string find_browser() {
+  // Who names a browser wants that one: no other is taken in its place.
   if (const char* wanted = std::getenv("FLANK_BROWSER"); wanted != nullptr && *wanted != '\0') return in_path(wanted);
   for (const std::string& name : browsers())
     if (std::string file = in_path(name); !file.empty()) return file;

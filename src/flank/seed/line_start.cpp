@@ -21,6 +21,7 @@ double mean_distance(const Target& target, const Pose& pose, double axis_length)
   return weight > 0.0 ? sum / weight : 0.0;
 }
 
+/// Where a propagation ended, in words for the message.
 const char* reason(PropagationEnd end) {
   switch (end) {
     case PropagationEnd::kNotRun:
@@ -37,6 +38,7 @@ const char* reason(PropagationEnd end) {
   return "";
 }
 
+/// Both ends together: a motion that travelled the longest way in both directions has gone round a closed face.
 LineStartStatus status_of(const Propagation& backward, const Propagation& forward) {
   if (backward.steps + forward.steps == 0) return LineStartStatus::kNoMotion;
   if (backward.end == PropagationEnd::kBorder && forward.end == PropagationEnd::kBorder)
@@ -111,6 +113,7 @@ LineStart start_from_line(const Target& target, const Pose& start, double axis_l
   report.shift_mm = search.shift_mm;
   report.mean_distance_mm = mean_distance(target, search.pose, axis_length);
   const Vec3 heading = search.after.velocity.middle;
+  // The same velocity and its opposite: the line may lie anywhere on the face.
   const Propagation forward = propagate(target, search.pose, axis_length, heading, options.propagation);
   const Propagation backward = propagate(target, search.pose, axis_length, -heading, options.propagation);
   report.forward = forward.end;

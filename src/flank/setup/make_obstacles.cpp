@@ -25,6 +25,7 @@ double planned_clearance(const ObstacleChoice& choice) {
   return choice.clearance_mm.value_or(-choice.tolerance_mm) + kSpareTolerances * choice.tolerance_mm;
 }
 
+/// By its ending: only the files of meshes say nothing of their unit.
 bool is_mesh_file(const std::string& file) {
   std::string end = std::filesystem::path(file).extension().string();
   std::transform(end.begin(), end.end(), end.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -93,8 +94,10 @@ bool is_near(const BSplineSurface& surface, const Target& target, double reach_m
       face.add(points.back());
     }
   }
+  // Between two points of the grid the surface may come nearer by about a cell.
   const double slack = reach_mm + face.diagonal() / kPoints;
   return std::any_of(points.begin(), points.end(), [&](const Vec3& p) {
+    // The box first: most points are far from it, and asking the target costs more.
     return target.box().squared_distance(p) <= slack * slack && target.closest_within(p, slack).patch >= 0;
   });
 }
@@ -112,6 +115,7 @@ std::vector<int> whole_solids(const Part& part, const std::vector<int>& faces) {
   return solids;
 }
 
+/// All faces of a solid as one surface with an inside; null if none of them could be read.
 std::shared_ptr<const Target> solid_target(const Part& part, int solid) {
   std::vector<Face> faces;
   for (const Face& face : part.faces)
@@ -122,6 +126,7 @@ std::shared_ptr<const Target> solid_target(const Part& part, int solid) {
 /// Does the target touch the solid, or run into it?
 bool touches(const Target& target, const Target& solid, double within_mm) {
   constexpr double kSpacingShare = 0.02;
+  // At samples 2 % of the target's size apart: what touches it along an edge has several of them.
   for (const SurfaceSample& sample : target.samples(kSpacingShare * target.diagonal())) {
     if (solid.box().squared_distance(sample.point) > within_mm * within_mm) continue;
     if (solid.closest(sample.point).distance < within_mm) return true;
@@ -129,6 +134,8 @@ bool touches(const Target& target, const Target& solid, double within_mm) {
   return false;
 }
 
+/// A face as triangles that deviate from it by `deviation_mm`, or its own triangles. What could not be made as fine
+/// is told as slack, which the planner keeps besides.
 ObstacleMesh as_triangles(const Part& part, int face, double deviation_mm) {
   ObstacleMesh obstacle;
   if (part.is_mesh()) {
@@ -136,6 +143,7 @@ ObstacleMesh as_triangles(const Part& part, int face, double deviation_mm) {
     return obstacle;
   }
   FaceTriangles triangles = triangulate_face(part.faces[static_cast<std::size_t>(face)], deviation_mm);
+  // A little more than asked for is in the spare of every clearance.
   if (triangles.deviation_mm > 1.5 * deviation_mm) obstacle.slack_mm = triangles.deviation_mm;
   obstacle.mesh = std::move(triangles.mesh);
   return obstacle;
@@ -171,6 +179,7 @@ void add_meshes(const Part& part, const Target& target, const ObstacleChoice& ch
   }
   const bool above = detail.own_deviation_mm.has_value();
   std::vector<int> others = choice.others;
+  // Without shank or holder nobody asks those triangles: the solid answers for the flank.
   if (!above) std::erase_if(others, [&](int k) { return in_solid[static_cast<std::size_t>(k)] != 0; });
   const std::vector<int> near = near_faces(part, others, target, *detail.meshes_within_mm);
   std::vector<ObstacleMesh> meshes = meshes_of(part, near, detail.deviation_mm);
@@ -188,7 +197,7 @@ void add_fixtures(const Target& target, const ObstacleChoice& choice, const Obst
   for (const Part& fixture : choice.fixtures) {
     std::vector<int> faces(static_cast<std::size_t>(fixture.face_count()));
     std::iota(faces.begin(), faces.end(), 0);
-    std::erase_if(faces, [&](int face) { return fixture.is_left_out(face); });
+    std::erase_if(faces, [&](int face) { return fixture.is_left_out(face); });  // nothing is known of them
     if (detail.faces_within_mm)
       add_surfaces(fixture, faces, samples, *detail.faces_within_mm, clearance_mm, obstacles, notes);
     if (!detail.meshes_within_mm) continue;
@@ -216,6 +225,7 @@ ObstacleChoice choose_obstacles(const std::vector<int>& own, const std::vector<i
   ObstacleChoice choice;
   choice.own = own;
   choice.others = checks;
+  // Another target must not be cut either while this one is machined.
   for (const int face : targets)
     if (std::find(own.begin(), own.end(), face) == own.end()) choice.others.push_back(face);
   std::sort(choice.others.begin(), choice.others.end());
@@ -228,6 +238,7 @@ Obstacles make_obstacles(const Part& part, const Target& target, const ObstacleC
   Obstacles obstacles;
   std::vector<SurfaceSample> samples;
   if (detail.faces_within_mm) {
+    // About 200 of them: only the nearness of boxes is measured by them.
     samples = target.samples(std::sqrt(target.area() / kSamples));
     add_surfaces(part, choice.others, samples, *detail.faces_within_mm, 0.0, obstacles, notes);
   }
@@ -239,6 +250,7 @@ Obstacles make_obstacles(const Part& part, const Target& target, const ObstacleC
 
 std::vector<Part> read_fixtures(const std::vector<std::string>& files, const std::optional<std::string>& unit) {
   std::vector<Part> fixtures;
+  // A unit is asked of meshes only: a STEP file has its own, and another one on top of it would be refused.
   for (const std::string& file : files) fixtures.push_back(read_part(file, is_mesh_file(file) ? unit : std::nullopt));
   return fixtures;
 }

@@ -20,6 +20,7 @@ bool are_connected(const Target& a, const Face& b) {
     if ((a.closest(p).point - p).norm() < kTouchMm) ++touching;
   };
   const BSplineSurface& s = b.surface;
+  // A face without trims ends at the border of its surface.
   for (int k = 0; k <= kPerEdge && b.loops.empty(); ++k) {
     const double f = static_cast<double>(k) / kPerEdge;
     const double u = s.u_first() + f * (s.u_last() - s.u_first()), v = s.v_first() + f * (s.v_last() - s.v_first());
@@ -36,13 +37,16 @@ bool are_connected(const Target& a, const Face& b) {
       }
     }
   }
+  // Half an edge: faces that touch in a corner, or cross in a point, are not machined as one.
   return touching >= kPerEdge / 2;
 }
 
+/// Groups of faces that hang together, by their indices; each group's number is the index of one of its members.
 std::vector<std::vector<int>> connected_groups(const Part& part, const std::vector<int>& faces) {
   std::vector<int> group(faces.size());
   std::iota(group.begin(), group.end(), 0);
   for (std::size_t i = 0; i + 1 < faces.size(); ++i) {
+    // Asked for its own points only: which side the material is on does not matter here.
     const std::unique_ptr<Target> target = make_target({part.faces[faces[i]]}, +1);
     for (std::size_t j = i + 1; j < faces.size(); ++j) {
       if (group[i] == group[j] || !are_connected(*target, part.faces[faces[j]])) continue;
@@ -66,8 +70,10 @@ std::vector<TargetGroup> make_targets(const Setup& setup, int side) {
   const Part& part = setup.part;
   const std::vector<int>& faces = setup.targets;
   std::vector<TargetGroup> targets;
+  // The regions of a mesh are one target, whether they hang together or not.
   if (part.is_mesh()) {
     TriangleMesh mesh = extract_mesh(part, faces);
+    // The machining side is where normals point: turned triangles turn it.
     if (side < 0)
       for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
     TargetGroup& group = targets.emplace_back();
@@ -84,6 +90,7 @@ std::vector<TargetGroup> make_targets(const Setup& setup, int side) {
     for (int f : members) {
       values.push_back(part.faces[f]);
       group.faces += (group.faces.empty() ? "" : ",") + part.faces[f].id;
+      // One sheet among the faces, and the side is not known for the group as a whole.
       group.of_solid = group.of_solid && part.faces[f].of_solid;
     }
     group.target = make_target(std::move(values), group.of_solid ? +1 : side);
@@ -96,8 +103,10 @@ std::vector<FaceSamples> judge_samples(const Setup& setup, double spacing_mm, do
   const std::vector<int>& targets = setup.targets;
   std::vector<int> faces = targets;
   faces.insert(faces.end(), setup.checks.begin(), setup.checks.end());
+  // In the part's order, whichever list a face is from: reports and pictures show them so.
   std::sort(faces.begin(), faces.end());
   std::vector<FaceSamples> samples(faces.size());
+  // Each face writes to its own place: the order does not depend on threads.
   parallel_for(samples.size(), [&](std::size_t k) {
     const int face = faces[k];
     const bool target = std::find(targets.begin(), targets.end(), face) != targets.end();

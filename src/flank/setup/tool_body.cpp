@@ -26,6 +26,7 @@ std::vector<Vec2> pairs_of(std::string text, const std::string& what) {
   for (char& c : text) {
     if (c == '#') comment = true;
     if (c == '\n') comment = false;
+    // All separators are blanks then: pairs may be written as people or spreadsheets write them.
     if (comment || c == ',' || c == ';' || c == ':' || c == '\n' || c == '\r' || c == '\t') c = ' ';
   }
   const char *at = text.data(), *end = at + text.size();
@@ -34,6 +35,7 @@ std::vector<Vec2> pairs_of(std::string text, const std::string& what) {
     if (at == end) break;
     double value = 0.0;
     const auto [stop, error] = std::from_chars(at, end, value);
+    // "10mm" is no number, rather than 10 with something behind it.
     if (error != std::errc() || (stop < end && *stop != ' ') || !std::isfinite(value))
       throw UsageError("holder", what,
                        fmt::format("\"{}\" is not a number; z:radius,z:radius,... is accepted",
@@ -49,6 +51,8 @@ std::vector<Vec2> pairs_of(std::string text, const std::string& what) {
   return profile;
 }
 
+/// Heights above the flank's end may not fall: the profile is one of a solid of revolution, from below to above.
+/// Equal heights are a step.
 void check_profile(const std::vector<Vec2>& profile, const std::string& what) {
   for (std::size_t i = 0; i < profile.size(); ++i) {
     if (profile[i].x() < 0.0 || profile[i].y() < 0.0)
@@ -62,6 +66,7 @@ void check_profile(const std::vector<Vec2>& profile, const std::string& what) {
   }
 }
 
+/// From heights above the flank's upper end to the tool's own z, mm.
 std::vector<Vec2> lifted(std::vector<Vec2> profile, double by) {
   for (Vec2& p : profile) p.x() += by;
   return profile;
@@ -70,6 +75,7 @@ std::vector<Vec2> lifted(std::vector<Vec2> profile, double by) {
 }  // namespace
 
 std::vector<Vec2> holder_profile(const std::string& text) {
+  // A file whose name has a colon is a file: being there decides.
   const bool inline_text = text.find(':') != std::string::npos && !is_there(text);
   std::vector<Vec2> profile;
   if (inline_text) {
@@ -90,6 +96,7 @@ std::vector<Vec2> holder_profile(const std::string& text) {
 void check_obstacles(const ObstacleRequest& request, const Tool* tool) {
   if (request.shank_radius_mm && !request.shank_length_mm)
     throw UsageError("shank_radius_mm", "needs `shank_length_mm`: how far the shank reaches above the flank");
+  // Read for its errors alone, before minutes are spent on a plan.
   if (request.holder) (void)holder_profile(*request.holder);
   const bool something = request.shank_length_mm || request.holder || !request.fixtures.empty();
   if (request.clearance_mm && !something && (tool == nullptr || !has_body(*tool)))
@@ -100,6 +107,8 @@ void check_obstacles(const ObstacleRequest& request, const Tool* tool) {
 }
 
 void equip_tool(const ObstacleRequest& request, Tool& tool) {
+  // The upper end of the meridian: z and radius there; a shank without a radius of its own goes on as thick as the
+  // flank ends.
   const Vec2 top = meridian_point(tool.radial, tool.radial.axis_length());
   if (request.shank_length_mm) {
     const double radius = request.shank_radius_mm.value_or(top.y());

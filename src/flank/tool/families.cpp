@@ -43,6 +43,7 @@ Arc tapered_arc(double length, const double* p, double s) {
 Arc lens_arc(double length, const double* p, double s) {
   const double half = 0.5 * length, drop = p[0] - p[1];
   const double room = half * half - drop * drop;
+  // A drop of half the length or more leaves no arc: NaN, which check_legitimacy refuses.
   if (!(room > 0.0)) return {s - half, std::numeric_limits<double>::quiet_NaN(), 0.0};
   return {s - half, 2.0 * drop / room, 0.0};
 }
@@ -84,6 +85,7 @@ void barrel_gradient(const double* p, double s, double* out) {
   out[2] = -arc.jet(p[1]).d1;
 }
 
+/// As barrel_gradient; sigma = sin(angle).
 void tapered_gradient(double length, const double* p, double s, double* out) {
   const Arc arc = tapered_arc(length, p, s);
   const double by_k = arc.by_k() * arc.k * arc.k;
@@ -92,6 +94,7 @@ void tapered_gradient(double length, const double* p, double s, double* out) {
   out[2] = arc.by_sigma() * std::cos(p[2]);
 }
 
+/// k depends on the drop alone, which the radius raises and the end radius lowers; the radius acts on r as well.
 void lens_gradient(double length, const double* p, double s, double* out) {
   const double by_drop = lens_arc(length, p, s).by_k() * lens_curvature_by_drop(length, p);
   out[0] = 1.0 + by_drop;

@@ -12,6 +12,7 @@ namespace flank {
 
 Vec2 meridian_point(const RadialFunction& radial, double s) {
   const RadialJet f = radial.at(s);
+  // (1 - d)(1 + d) and not 1 - d^2, which loses its digits where |r'| comes near to 1.
   return {s - f.r * f.d1, f.r * std::sqrt((1.0 - f.d1) * (1.0 + f.d1))};
 }
 
@@ -31,6 +32,7 @@ using Margins = std::array<double, 4>;
 constexpr double kRoundOff = 1e-13;
 enum Condition { kRadius, kSlopeUp, kSlopeDown, kConvexity };
 
+/// Relative or without unit, so that one number can say how near to illegitimate a tool is. NaN counts as violated.
 Margins margins(const RadialFunction& radial, double s) {
   const RadialJet f = radial.at(s);
   Margins m = {f.r / radial.axis_length(), 1.0 - f.d1, 1.0 + f.d1, 1.0 - f.d1 * f.d1 - f.r * f.d2};
@@ -67,6 +69,7 @@ double first_crossing(const RadialFunction& radial, int which, double a, double 
   return b;
 }
 
+/// The violated condition in words, with the numbers at s and what is needed instead.
 std::string reason(const RadialFunction& radial, int which, double s) {
   const RadialJet f = radial.at(s);
   std::array<char, 240> text{};
@@ -95,6 +98,7 @@ int step_count(const RadialFunction& radial) {
   return spans * std::max(16, (kSmallest + spans - 1) / spans);
 }
 
+/// Where a condition is nearest to being violated, or is.
 struct Place {
   double s = 0.0, margin = std::numeric_limits<double>::infinity();
   int which = kRadius;
@@ -106,6 +110,7 @@ Legitimacy check_legitimacy(const RadialFunction& radial) {
   const int steps = step_count(radial);
   const double length = radial.axis_length();
   Place least, violation;
+  // Also keeps the first violation along the axis, found back to where the margin was still positive.
   const auto visit = [&](double s, double positive_before, int which) {
     const double margin = margins(radial, s)[which];
     if (margin < least.margin) least = {s, margin, which};

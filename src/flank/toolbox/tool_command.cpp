@@ -19,8 +19,9 @@ namespace flank::internal {
 
 namespace {
 
-constexpr int kProfilePoints = 401;
+constexpr int kProfilePoints = 401;  // of the table: a step of 1/400 of the axis
 
+/// Small letters, ASCII: ".STEP" is ".step" everywhere.
 std::string ending_of(const std::string& file) {
   std::string ending = std::filesystem::path(file).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
@@ -32,6 +33,7 @@ std::string ending_of(const std::string& file) {
 std::string profile_csv(const RadialFunction& radial) {
   std::string text = "s,r,z,radius\n";
   for (int i = 0; i < kProfilePoints; ++i) {
+    // The last one is the end itself, not what rounding makes of it.
     const double s = i + 1 == kProfilePoints ? radial.axis_length() : radial.axis_length() * i / (kProfilePoints - 1);
     const Vec2 p = meridian_point(radial, s);
     text += fmt::format("{},{},{},{}\n", exact_number(s), exact_number(radial.at(s).r), exact_number(p.x()),
@@ -40,6 +42,7 @@ std::string profile_csv(const RadialFunction& radial) {
   return text;
 }
 
+/// A drawing does not say how long the tool's axis is; a tool's own file does, and must not be contradicted.
 Tool read_tool_file(const ToolCommandOptions& options) {
   if (ending_of(options.source) == ".dxf")
     return tool_from_dxf(read_file(options.source), options.source, options.axis_length_mm);
@@ -77,6 +80,7 @@ Tool tool_of_command(const ToolCommandOptions& options) {
   if (options.shank_diameter_mm) {
     const double top = meridian_point(tool.radial, tool.radial.axis_length()).x(),
                  radius = 0.5 * *options.shank_diameter_mm;
+    // As long as the flank, from where the meridian ends (z, not s: the radius may change there).
     tool.shank = {{top, radius}, {top + tool.radial.axis_length(), radius}};
   }
   return tool;
@@ -113,6 +117,7 @@ Tool run_tool_command(const ToolCommandOptions& options) {
   const Tool tool = tool_of_command(options);
   std::vector<std::string> contents;
   const auto is_dxf = [](const std::string& file) { return ending_of(file) == ".dxf"; };
+  // An option without effect is a mistake that its user would not notice.
   if (options.arcs && std::none_of(options.outputs.begin(), options.outputs.end(), is_dxf))
     throw UsageError("arcs", "only for a .dxf; name one as output");
   for (const std::string& file : options.outputs) {
@@ -120,6 +125,7 @@ Tool run_tool_command(const ToolCommandOptions& options) {
     if (std::filesystem::equivalent(options.source, file, not_there))
       throw InputError(file + ": is what is read, and would be overwritten; give another name");
   }
+  // All contents first: an error in the last of them leaves no file behind.
   for (const std::string& file : options.outputs) contents.push_back(tool_as(tool, file, options.arcs));
   for (std::size_t i = 0; i < contents.size(); ++i) write_file(options.outputs[i], contents[i]);
   return tool;

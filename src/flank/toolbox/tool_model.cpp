@@ -5,6 +5,9 @@
 namespace flank::internal {
 namespace {
 
+/// Parameters of a tool about as thick as `radius` (mm), with a little of what makes its family: where that is
+/// nothing, several parameters (a, c and d of a power tool) change the radius alone, and a fit cannot tell them
+/// apart.
 std::map<std::string, double> defaults(ToolFamily family, double axis_length, double radius) {
   switch (family) {
     case ToolFamily::kCylinder:
@@ -49,6 +52,7 @@ ToolModel make_tool_model(const ToolSpec& spec) {
     model.make = [radial](double, double) { return radial; };
     model.axis_length = radial.axis_length();
     double sum = 0.0;
+    // The mean radius, at 21 places: what starts are laid out with.
     for (int j = 0; j <= 20; ++j) sum += radial.at(radial.axis_length() * j / 20.0).r / 21.0;
     model.radius = sum;
     return model;

@@ -20,6 +20,7 @@ namespace {
 
 constexpr double kRadiansPerDegree = 0.017453292519943295;
 
+/// For messages: all but the spline, which has no parameters that a person could type.
 std::string family_list() {
   std::vector<std::string_view> names;
   for (const ToolFamily family : kToolFamilies)
@@ -36,6 +37,7 @@ std::string normalised(std::string name) {
   return name;
 }
 
+/// By its look, not by being there: a misspelled file must be missed as a file, not as a family.
 bool names_a_file(const std::string& text) {
   const std::string ending = normalised(std::filesystem::path(text).extension().string());
   return ending == ".json" || ending == ".dxf" || text.find('/') != std::string::npos;
@@ -53,6 +55,7 @@ std::string accepted_parameters(ToolFamily family) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
+/// All of the text; a plus in front is allowed, which from_chars refuses.
 double parse_number(const std::string& text, const std::string& field, const std::string& place) {
   double value = 0.0;
   const char* end = text.data() + text.size();
@@ -63,6 +66,7 @@ double parse_number(const std::string& text, const std::string& field, const std
   return value;
 }
 
+/// Sizes that must be positive whatever the others are; the rest is judged by the tool as a whole (make_tool).
 bool is_plain_size(const std::string& name) { return name == "radius" || name == "end_radius"; }
 
 }  // namespace
@@ -73,6 +77,7 @@ bool has_open_parameters(const ToolSpec& spec) {
   if (!spec.family) return false;
   const auto names = parameter_names(*spec.family);
   return std::any_of(names.begin(), names.end(), [&](std::string_view name) {
+    // A barrel is thickest in its middle unless it says otherwise.
     const bool middle = *spec.family == ToolFamily::kBarrel && name == "s0";
     return !middle && !spec.given.contains(std::string(name));
   });
@@ -91,6 +96,7 @@ std::pair<std::string, double> parse_tool_parameter(ToolFamily family, const std
   const auto names = parameter_names(family);
   for (int k = 0; k < static_cast<int>(names.size()); ++k) {
     const std::string name(names[static_cast<std::size_t>(k)]);
+    // Makers state diameters: both names of a size are accepted.
     const std::string whole = name == "radius" ? "diameter" : name == "end_radius" ? "end_diameter" : "";
     if (normalised(asked) != normalised(name) && (whole.empty() || normalised(asked) != normalised(whole))) continue;
     const double size = normalised(asked) == normalised(name) ? value : 0.5 * value;
@@ -111,6 +117,7 @@ ToolSpec parse_tool_spec(const std::string& text, const std::string& field) {
   }
   const std::size_t colon = text.find(':');
   const std::string name = normalised(text.substr(0, colon));
+  // A spline's coefficients are many, and a fit's business: by name it can only mean that the fit shall find them.
   if (name == "free" || name == "spline") {
     if (colon != std::string::npos) throw UsageError(field, text, "a free tool has no parameters");
     spec.free = true;
@@ -122,6 +129,7 @@ ToolSpec parse_tool_spec(const std::string& text, const std::string& field) {
         field, text,
         fmt::format("neither a family nor a tool file; accepted: free, {}, or a tool.json", family_list()));
   if (colon == std::string::npos) return spec;
+  // Up to and including the end: "cone:" and a comma at the end are an empty parameter, which is refused.
   for (std::size_t at = colon + 1; at <= text.size();) {
     const std::size_t end = std::min(text.find(',', at), text.size());
     const auto [key, value] = parse_tool_parameter(*spec.family, text.substr(at, end - at), field);
@@ -154,6 +162,8 @@ Tool make_tool(ToolFamily family, const std::map<std::string, double>& parameter
           fmt::format("{}: unknown parameter {}; it needs {}", family_name(family), name, accepted_parameters(family)));
   Tool tool;
   tool.radial = RadialFunction(family, axis_length, values);
+  // Parameters may each be fine and still make no tool, e.g. a barrel whose arc is smaller than its radius (MATH.md,
+  // section 1).
   if (const Legitimacy verdict = check_legitimacy(tool.radial); !verdict.legitimate)
     throw UsageError(fmt::format("{}: not a tool, {}", family_name(family), verdict.reason));
   return tool;

@@ -8,6 +8,7 @@ namespace flank::internal {
 
 using Json = nlohmann::ordered_json;
 
+// What the replay of the program has found, kind of move by kind of move: fronts, backs, entries and sides.
 std::string stock_text(const StockReport& stock) {
   std::string text = fmt::format(
       "  replayed    {:.1f} of {:.1f} mm3 removed, at most {:.4f} mm left between the sides, faces entered by at most "
@@ -33,11 +34,13 @@ Json stock_to_json(const StockReport& stock) {
   for (const StockKind& kind : stock.kinds)
     json["kinds"].push_back({{"kind", kind.kind},
                              {"engagement_deg", kind.engagement_deg},
+                             // Counted from 1, as in all files; null where no move of this kind cuts.
                              {"strip", kind.strip < 0 ? Json(nullptr) : Json(kind.strip + 1)},
                              {"pose", kind.pose},
                              {"s_mm", kind.s},
                              {"way_mm", kind.way_mm},
                              {"volume_mm3", kind.volume_mm3}});
+  // One number a strip, in the path's order.
   json["strip_engagement_deg"] = stock.strip_deg;
   json["strip_volume_mm3"] = stock.strip_mm3;
   json["strip_way_mm"] = stock.strip_mm;

@@ -10,6 +10,7 @@ std::string trochoid_lines(const TrochoidSummary& cavity) {
   std::string text = fmt::format(
       "  cavity      {:.3f} mm wide at its narrowest, {} layer{}, way {:.1f} mm, {:.2f} min\n", cavity.narrowest_mm,
       cavity.layers.size(), cavity.layers.size() == 1 ? "" : "s", cavity.way_mm(), cavity.minutes);
+  // Fronts and backs count for the engagement that was asked for; what sides have is told beside it.
   for (std::size_t k = 0; k < cavity.layers.size(); ++k) {
     const LayerSummary& layer = cavity.layers[k];
     text += fmt::format(
@@ -19,6 +20,7 @@ std::string trochoid_lines(const TrochoidSummary& cavity) {
         "              engagement at most {:.3f} degrees (fronts {:.3f}, backs {:.3f}), sides {:.3f}; removed {:.1f} "
         "mm3, {:.3f} mm3 a mm\n",
         std::max(layer.front_deg, layer.back_deg), layer.front_deg, layer.back_deg, layer.side_deg,
+        // A layer without cycles has no way to divide by.
         layer.volume_mm3 + layer.side_volume_mm3, layer.volume_mm3 / std::max(1e-9, layer.fronts_mm + layer.backs_mm));
   }
   return text;

@@ -89,7 +89,9 @@ Step Grouper::next(const Step& last, const std::vector<char>& used) const {
     const Vec3 axis = (last.pose.axis + way * last.velocity.omega).normalized();
     const Pose predicted{middle + way * last.velocity.middle - 0.5 * length_ * axis, axis};
     const double deviation = squared_line_distance(predicted, step.pose, length_);
+    // The farther the line, the more it may be off: the motion is known to first order only.
     if (deviation > std::pow(options_.most_deviation * way, 2)) continue;
+    // Near ones first: a line that is skipped is lost to the group.
     const double cost = way * way + options_.deviation_weight * deviation;
     if (cost >= least) continue;
     least = cost;
@@ -139,6 +141,7 @@ std::vector<LineGroup> group_lines(const std::vector<StraightLine>& lines, doubl
                    [&](std::size_t a, std::size_t b) { return lines[a].error_mm < lines[b].error_mm; });
   std::vector<int> uses(lines.size(), 0);
   for (const std::size_t k : order) {
+    // What is in enough groups need not begin one of its own.
     if (uses[k] >= options.most_uses) continue;
     LineGroup group = group_from(grouper, k, lines.size());
     for (const int line : group.lines) ++uses[static_cast<std::size_t>(line)];

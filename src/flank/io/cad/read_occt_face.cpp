@@ -18,6 +18,8 @@
 namespace flank::internal {
 namespace {
 
+/// The most millimetres that one unit of the parameter makes, at 25 places: so much a difference of parameters may
+/// mean.
 double mm_along(const Handle(Geom_Surface) & surface, const ParameterWindow& b, bool along_u) {
   double largest = 0.0;
   for (int i = 0; i <= 4; ++i) {
@@ -39,6 +41,7 @@ ParameterWindow box_of(const TopoDS_Face& face, const Handle(Geom_Surface) & sur
   const auto bounded = [](double a, double z) {
     return !Precision::IsInfinite(a) && !Precision::IsInfinite(z) && z > a;
   };
+  // Planes and cylinders go on for ever: without trims there is nothing to make a spline of.
   if (!bounded(b.u0, b.u1) || !bounded(b.v0, b.v1))
     throw InputError(name + ": has no finite extent; accepted are faces that trims bound on every side");
   double u0 = 0.0, u1 = 0.0, v0 = 0.0, v1 = 0.0;
@@ -47,6 +50,7 @@ ParameterWindow box_of(const TopoDS_Face& face, const Handle(Geom_Surface) & sur
     if (!Precision::IsInfinite(end) && std::abs(t - end) * mm < kBorderMm) t = end;
   };
   const double mm_u = mm_along(surface, b, true), mm_v = mm_along(surface, b, false);
+  // A closed surface has no ends to snap to; its window may lie across the seam, but is no longer than a turn.
   if (!surface->IsUPeriodic()) snap(b.u0, u0, mm_u), snap(b.u1, u1, mm_u);
   if (!surface->IsVPeriodic()) snap(b.v0, v0, mm_v), snap(b.v1, v1, mm_v);
   if (surface->IsUPeriodic() && b.u1 - b.u0 > surface->UPeriod()) b.u1 = b.u0 + surface->UPeriod();
@@ -54,12 +58,14 @@ ParameterWindow box_of(const TopoDS_Face& face, const Handle(Geom_Surface) & sur
   return b;
 }
 
+/// Arrays of basis functions have room up to kMaxDegree.
 void refuse_high_degree(const BSplineSurface& s, const std::string& name) {
   if (s.degree_u > kMaxDegree || s.degree_v > kMaxDegree)
     throw InputError(name + ": has degree " + std::to_string(s.degree_u) + " x " + std::to_string(s.degree_v) +
                      "; accepted is up to " + std::to_string(kMaxDegree));
 }
 
+/// False for NaN too, since it compares with nothing.
 bool usable(double x) { return std::abs(x) <= kLargestCoordinateMm; }
 
 template <class Numbers>
@@ -107,6 +113,7 @@ OcctFace convert_occt_face(const TopoDS_Face& face, const std::string& name) {
     result.notes.push_back(name + ": " + result.type + " surface approximated within " +
                            std::to_string(converted.approximation_mm) + " mm");
   const TrimFrame frame = trim_frame(converted.surface, converted.map_u, converted.map_v);
+  // Wires in the sense of the surface: the face's own turn is told apart (reversed), and would turn them once more.
   const TopoDS_Face forward = TopoDS::Face(face.Oriented(TopAbs_FORWARD));
   for (TopExp_Explorer it(forward, TopAbs_WIRE); it.More(); it.Next()) {
     const std::optional<TrimLoop> loop = convert_wire(TopoDS::Wire(it.Current()), forward, frame);
@@ -116,6 +123,7 @@ OcctFace convert_occt_face(const TopoDS_Face& face, const std::string& name) {
     refuse_unusable(*loop, name);
     result.face.loops.push_back(*loop);
   }
+  // Most CAD files state the border of an untrimmed surface as a trim; without it the face is cheaper to ask.
   if (result.face.loops.size() == 1 && is_natural_border(result.face.loops.front(), converted.surface, frame))
     result.face.loops.clear();
   result.face.reversed = face.Orientation() == TopAbs_REVERSED;

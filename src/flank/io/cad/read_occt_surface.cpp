@@ -44,6 +44,7 @@ std::vector<double> flat_knots(const TColStd_Array1OfReal& values, const TColStd
 /// seam.
 SplineRows piece(SplineRows rows, double a, double b, double period) {
   if (period <= 0.0) return spline_segment(std::move(rows), a, b);
+  // Onto the period that the spline's own knots cover: a trim may state its parameters in any.
   // Just before the seam is meant as the seam: hence the half of a billionth.
   const double shift = std::floor((a - rows.first()) / period + 5e-10) * period;
   a -= shift;
@@ -54,6 +55,7 @@ SplineRows piece(SplineRows rows, double a, double b, double period) {
     rows = two_turns(spline_segment(std::move(rows), first, last), period);
   }
   rows = spline_segment(std::move(rows), a, b);
+  // Back to where the face has its trims.
   for (double& knot : rows.knots) knot += shift;
   return rows;
 }
@@ -91,6 +93,7 @@ BSplineCurve3 convert_spline(Handle(Geom_BSplineCurve) c, double a, double b) {
 
 /// Angles from a to b at most kLargestArc apart.
 std::vector<double> arc_breaks(double a, double b) {
+  // The slack keeps exactly a quarter turn from becoming two arcs.
   const int arcs = std::max(1, static_cast<int>(std::ceil((b - a) / kLargestArc - 1e-9)));
   std::vector<double> breaks;
   for (int i = 0; i <= arcs; ++i) breaks.push_back(i == arcs ? b : a + (b - a) * i / arcs);
@@ -100,6 +103,7 @@ std::vector<double> arc_breaks(double a, double b) {
 /// Knots of quadratic arcs that meet with a common tangent.
 std::vector<double> arc_knots(const std::vector<double>& breaks) {
   std::vector<double> knots(3, breaks.front());
+  // Twice in degree 2: the arcs meet in their common end, each with its own weights.
   for (std::size_t i = 1; i + 1 < breaks.size(); ++i) knots.insert(knots.end(), 2, breaks[i]);
   knots.insert(knots.end(), 3, breaks.back());
   return knots;
@@ -114,6 +118,8 @@ struct ArcPole {
 std::vector<ArcPole> arc_poles(const std::vector<double>& breaks) {
   std::vector<ArcPole> poles{{std::cos(breaks[0]), std::sin(breaks[0]), 1.0}};
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+    // The tangents at both ends meet at 1 / cos(half angle) along the middle direction; with that cosine as its
+    // weight the arc is the conic's.
     const double middle = 0.5 * (breaks[i] + breaks[i + 1]), weight = std::cos(0.5 * (breaks[i + 1] - breaks[i]));
     poles.push_back({std::cos(middle) / weight, std::sin(middle) / weight, weight});
     poles.push_back({std::cos(breaks[i + 1]), std::sin(breaks[i + 1]), 1.0});
@@ -221,6 +227,7 @@ ConvertedSurface convert_revolution(const Handle(Geom_Surface) & surface, const 
   double sense = 1.0, farthest = 0.0;
   for (int k = 0; k <= 8; ++k) {
     const double v = box.v0 + (box.v1 - box.v0) * k / 8.0;
+    // Asked where the meridian is farthest from the axis: on it both turns are the same point.
     const Vec3 at_zero = vec(surface->Value(0.0, v)), at_one = vec(surface->Value(1.0, v));
     if ((at_one - at_zero).norm() <= farthest) continue;
     farthest = (at_one - at_zero).norm();
@@ -245,6 +252,7 @@ ConvertedSurface convert_revolution(const Handle(Geom_Surface) & surface, const 
 /// direction.
 ConvertedSurface convert_extrusion(const Handle(Geom_Surface) & surface, const ParameterWindow& box) {
   const ConvertedCurve base = convert_curve(surface->VIso(box.v0), box.u0, box.u1);
+  // The same for every u, which is what makes it an extrusion.
   const Vec3 step = vec(surface->Value(box.u0, box.v1)) - vec(surface->Value(box.u0, box.v0));
   ConvertedSurface r;
   r.map_u = base.map;
@@ -259,6 +267,8 @@ ConvertedSurface convert_extrusion(const Handle(Geom_Surface) & surface, const P
   return r;
 }
 
+/// For surfaces without an exact form (offsets and the like): the kernel's approximation, with what it says of its
+/// error.
 ConvertedSurface approximate(const Handle(Geom_Surface) & surface, const ParameterWindow& box) {
   const Handle(Geom_Surface) part = new Geom_RectangularTrimmedSurface(surface, box.u0, box.u1, box.v0, box.v1);
   const GeomConvert_ApproxSurface approximation(part, kApproximationMm, GeomAbs_C2, GeomAbs_C2, 9, 9, 400, 0);
@@ -277,6 +287,8 @@ double ParameterMap::value(double t) const {
   const auto after =
       std::clamp(std::upper_bound(breaks.begin(), breaks.end(), t), breaks.begin() + 1, breaks.end() - 1);
   const double middle = 0.5 * (*(after - 1) + *after), half = 0.5 * (*after - *(after - 1));
+  // The ends of an arc keep their places; in between its parameter is linear in the tangent of half the angle from
+  // the middle.
   return middle + half * std::tan(0.5 * (t - middle)) / std::tan(0.5 * half);
 }
 
@@ -290,6 +302,7 @@ double ParameterMap::derivative(double t) const {
 }
 
 ConvertedCurve convert_curve(const Handle(Geom_Curve) & curve, double a, double b) {
+  // The limits of a trimmed curve are not needed: a and b say which part is meant.
   if (const auto trimmed = Handle(Geom_TrimmedCurve)::DownCast(curve))
     return convert_curve(trimmed->BasisCurve(), a, b);
   if (const auto spline = Handle(Geom_BSplineCurve)::DownCast(curve)) return {convert_spline(spline, a, b), {}};
@@ -297,6 +310,8 @@ ConvertedCurve convert_curve(const Handle(Geom_Curve) & curve, double a, double 
     return {convert_spline(GeomConvert::CurveToBSplineCurve(bezier), a, b), {}};
   if (!Handle(Geom_Line)::DownCast(curve).IsNull())
     return {segment(vec(curve->Value(a)), vec(curve->Value(b)), a, b), {}};
+  // Circles and ellipses: x and y are the points at 0 and at a quarter turn, whatever frame the file states. Open
+  // conics go on to the approximation.
   if (const auto conic = Handle(Geom_Conic)::DownCast(curve); !conic.IsNull() && conic->IsClosed()) {
     const Vec3 center = vec(conic->Location());
     return convert_conic(center, vec(conic->Value(0.0)) - center, vec(conic->Value(kLargestArc)) - center, a, b);

@@ -78,6 +78,8 @@ double deviation_of(const BSplineSurface& surface, const ParameterMesh& m) {
   return most;
 }
 
+/// Area of the triangles in the parameter plane, which trims enclose exactly: holes that a mesher has left show as a
+/// lack.
 double parameter_area(const ParameterMesh& m) {
   double twice = 0.0;
   for (const auto& t : m.mesh.triangles) {
@@ -121,6 +123,7 @@ ParameterMesh grid_mesh(const BSplineSurface& s, const TrimRegion& region, const
   }
   const int row = static_cast<int>(u.size());
   for (int j = 0; j + 1 < static_cast<int>(v.size()); ++j) {
+    // Cells that a loop cuts stay whole: an obstacle may be a little larger, never smaller.
     for (int i = 0; i + 1 < row; ++i) {
       const auto k = static_cast<std::size_t>(i), l = static_cast<std::size_t>(j);
       if (!region.whole() && region.classify({u[k], u[k + 1], v[l], v[l + 1]}) == TrimRegion::Side::kOutside) continue;
@@ -142,16 +145,19 @@ std::vector<double> graded_steps(double first, double last, double other_first, 
   constexpr int kProbes = 256, kLines = 16;
   constexpr double kFewest = 2.0 / kProbes;  ///< cells a probe: at least two over all
   const double h = (last - first) / kProbes;
+  // Cells up to each probe, not rounded: equal shares of their sum are steps that deviate equally.
   std::vector<double> sum = {0.0};
   for (int i = 0; i < kProbes; ++i) {
     double off = 0.0;
     for (int k = 0; k <= kLines; ++k) {
+      // The worst of several lines decides for all: a grid has one set of steps.
       const double y = other_first + (other_last - other_first) * k / kLines, x = first + h * i;
       const SurfaceJet jet = at(x + 0.5 * h, y);
       const Vec3 n = jet.du.cross(jet.dv), chord = 0.5 * (at(x, y).p + at(x + h, y).p) - jet.p;
       const double length = n.norm();
       off = std::max(off, length > 0.0 ? std::abs(chord.dot(n)) / length : chord.norm());
     }
+    // A chord over h that is off by `off` is off by off / n^2 when cut into n.
     sum.push_back(sum.back() + std::max(kFewest, std::sqrt(3.0 * off / wanted)));
   }
   const int cells = static_cast<int>(std::ceil(sum.back()));
@@ -185,11 +191,14 @@ FaceTriangles by_graded_grid(const Face& face, double wanted) {
       out.mesh = std::move(m.mesh);
       break;
     }
+    // In proportion and a little more, since what is reached follows what is aimed at; the bounds keep one odd
+    // measurement from running away.
     aim *= std::clamp(0.8 * wanted / out.deviation_mm, 0.1, 0.8);
   }
   return out;
 }
 
+/// The last resort, where the mesher fails: ever finer cells of the parameter rectangle.
 FaceTriangles by_grid(const Face& face, double wanted) {
   FaceTriangles out;
   out.face = face.id;
@@ -210,6 +219,7 @@ FaceTriangles by_grid(const Face& face, double wanted) {
 
 FaceTriangles triangulate_face(const Face& face, double deviation_mm) {
   if (!(deviation_mm > 0.0)) throw UsageError("triangulation: the deviation must be > 0 mm");
+  // Without trims a grid will do, and needs no mesher.
   if (TrimRegion(face.loops, domain(face.surface)).whole())
     if (FaceTriangles graded = by_graded_grid(face, deviation_mm); !graded.mesh.triangles.empty()) return graded;
   const double area = trimmed_area(face);
@@ -222,6 +232,7 @@ FaceTriangles triangulate_face(const Face& face, double deviation_mm) {
     if (m.mesh.triangles.empty() || std::abs(parameter_area(m) - area) > kAreaShare * area) break;
     best.deviation_mm = deviation_of(face.surface, m);
     best.mesh = std::move(m.mesh);
+    // What is reached when there are too many triangles is told as it is (deviation_mm).
     if (best.deviation_mm <= deviation_mm || static_cast<int>(best.mesh.triangles.size()) > kMostTriangles) break;
     deflection *= std::clamp(0.7 * deviation_mm / best.deviation_mm, 0.1, 0.5);
   }

@@ -29,7 +29,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kSecondsAtLeast = 10.0, kSecondsPerMegabyte = 10.0;
+constexpr double kSecondsAtLeast = 10.0, kSecondsPerMegabyte = 10.0;  // of processor time
 /// Bytes of address space: the kernel's libraries alone take a third of the first.
 constexpr double kMemoryAtLeast = 1.5e9, kMemoryPerByte = 100.0;
 /// The limit is on processor time, which a busy machine gives slowly; by the clock, a child is stuck after so many times
@@ -77,7 +77,8 @@ pid_t start(std::vector<std::string> words, int pipe) {
   posix_spawn_file_actions_addopen(&files, 2, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_adddup2(&files, pipe, kReaderPipe);
   pid_t child = -1;
-  const SameAddresses same;
+  const SameAddresses same;  // until the child is started, which inherits the setting
+  // The program itself under another word: it needs not be found, and is of the same version.
   const int failure = ::posix_spawn(&child, "/proc/self/exe", &files, nullptr, argv.data(), environ);
   posix_spawn_file_actions_destroy(&files);
   if (failure != 0) throw InternalError(std::string("cannot start the reader of CAD files: ") + std::strerror(failure));
@@ -115,6 +116,7 @@ std::string receive(int pipe, pid_t child, double patience, double most, bool& o
   std::string bytes;
   std::array<char, 1 << 16> block;
   while (true) {
+    // Looked at twice a second at least (kLookMs): a child that writes nothing is noticed as well.
     over = seconds_since(begin) > patience || static_cast<double>(bytes.size()) > most || pulse.stopped();
     if (over) return bytes;
     pollfd wait{pipe, POLLIN, 0};
@@ -126,6 +128,7 @@ std::string receive(int pipe, pid_t child, double patience, double most, bool& o
   }
 }
 
+/// The child's status; a child that is not waited for would remain as a zombie.
 int wait_for(pid_t child) {
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
@@ -159,6 +162,7 @@ Part read_cad_isolated(const std::string& file, const std::string& format, const
   std::error_code ignored;
   const auto size = static_cast<double>(std::filesystem::file_size(file, ignored));
   const double seconds = limits.seconds.value_or(default_seconds(ignored ? 0.0 : size));
+  // Damaged counts in a file can ask for any amount: bounded by what a sound file of this size may need.
   const double memory = kMemoryAtLeast + kMemoryPerByte * (ignored ? 0.0 : size);
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0)
@@ -167,6 +171,7 @@ Part read_cad_isolated(const std::string& file, const std::string& format, const
   const pid_t child = start({"flank", kReadCadCommand, file, format, unit.value_or(""), fmt::format("{}", seconds),
                              fmt::format("{:.0f}", memory)},
                             to.number);
+  // Ours, or the end of the pipe would never come when the child is gone.
   to.close();
   bool over = false;
   std::string bytes;
@@ -179,9 +184,11 @@ Part read_cad_isolated(const std::string& file, const std::string& format, const
   }
   if (over) ::kill(child, SIGKILL);
   const int status = wait_for(child);
+  // In this order: a child that was killed by us has a signal too, and that is not its fault.
   if (over && static_cast<double>(bytes.size()) > memory) refuse_large(file, memory);
   if (over || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)) refuse_slow(file, seconds);
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || bytes.empty()) refuse_crash(file, status);
+  // The first byte says what the rest is: a part, a message for the user, or one about a bug.
   const std::string_view text = std::string_view(bytes).substr(1);
   if (bytes[0] == kReaderPart) return decode_part(text);
   if (bytes[0] == kReaderMemory) refuse_large(file, memory);

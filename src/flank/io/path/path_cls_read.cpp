@@ -109,6 +109,7 @@ class Reader {
 
   Path read() {
     while (in_.next() && in_.word() != "FINI") take();
+    // A strip may be named and hold nothing, e.g. where all of its moves are rapid.
     std::erase_if(path_.strips, [](const Strip& s) { return s.poses.empty(); });
     if (!seen_motion_) throw InputError(file_ + ": contains no GOTO; an APT cutter-location file is accepted");
     return std::move(path_);
@@ -154,6 +155,7 @@ class Reader {
     const char* last = words[1].data() + words[1].size();
     if (const auto [stop, error] = std::from_chars(words[1].data(), last, id); error != std::errc() || stop != last)
       in_.refuse(fmt::format("strip number \"{}\" is not a whole number", words[1]));
+    // Reports name strips by these numbers.
     if (!ids_.insert(id).second) in_.refuse(fmt::format("strip {} occurs twice", id));
     path_.strips.push_back({id, words[2], words.size() > 3 ? words[3] : "", {}});
     named_ = true;
@@ -174,6 +176,8 @@ class Reader {
     // RAPID holds for one motion.
     const bool link = rapid_;
     rapid_ = false;
+    // Our own files name their links, whose rapid moves belong to the path; in others a rapid move is the way between
+    // two strips.
     const bool keeps_links = named_ && !path_.strips.empty() && path_.strips.back().kind == "link";
     if (link && !keeps_links) {
       open_ = false;

@@ -37,6 +37,7 @@ class Records {
     while (at_ < text_.size()) {
       line_ = next_line_;
       std::vector<std::string> fields = record();
+      // Empty lines, at the end above all, are no records.
       if (fields.size() > 1 || !fields.front().empty()) return fields;
     }
     return std::nullopt;
@@ -120,6 +121,7 @@ std::string path_to_csv(const Path& path) {
 Path path_from_csv(std::string_view text, const std::string& file) {
   Records in(text, file);
   const auto head = in.next();
+  // The columns are read by their place: another order would be read as other numbers.
   if (!head || fmt::format("{}", fmt::join(*head, ",")) != kHead) in.refuse(fmt::format("must be \"{}\"", kHead));
   Path path;
   std::set<int> ids;
@@ -130,6 +132,7 @@ Path path_from_csv(std::string_view text, const std::string& file) {
     const int id = std::abs(number) < 1e9 ? static_cast<int>(number) : 0;
     if (id != number) in.refuse("the strip's number must be a whole number");
     if (path.strips.empty() || path.strips.back().id != id) {
+      // A strip in two parts would be joined across what lies between.
       if (!ids.insert(id).second) in.refuse(fmt::format("strip {} continues after another one", id));
       path.strips.push_back({id, (*fields)[1], (*fields)[2], {}});
     }

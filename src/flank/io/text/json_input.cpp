@@ -67,6 +67,7 @@ std::shared_ptr<const json> parse(const std::string& file, std::string_view text
 
 std::string read_file(const std::string& file) {
   std::error_code error;
+  // Each with its own message: "cannot be read" alone leaves the user guessing.
   if (!std::filesystem::exists(file, error)) throw InputError(file + ": no such file");
   if (!std::filesystem::is_regular_file(file, error)) throw InputError(file + ": is not a file");
   const std::uintmax_t size = std::filesystem::file_size(file, error);
@@ -90,6 +91,7 @@ void JsonInput::refuse(const std::string& why) const {
 }
 
 void JsonInput::require_schema(std::string_view schema) const {
+  // Before anything else is read, so that another kind of file is named as such and not by some missing key.
   if (!has("schema")) refuse(fmt::format("no \"schema\"; accepted: \"{}\"", schema));
   const std::string found = member("schema").text();
   if (found != schema) member("schema").refuse(fmt::format("is \"{}\"; accepted: \"{}\"", found, schema));
@@ -180,6 +182,7 @@ std::vector<Vec2> JsonInput::pairs() const {
 
 std::string exact_number(double value) {
   if (!std::isfinite(value)) throw InternalError("a number to be written to a file is not finite");
+  // The fewest digits that read back as the same bits.
   return fmt::format("{}", value);
 }
 
@@ -188,6 +191,8 @@ std::string exact_decimal(double value) {
   std::string text = exact_number(std::abs(value) < kSmallestDecimal ? 0.0 : value);
   if (text.find('e') != std::string::npos) {
     const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value))));
+    // Seventeen significant digits hold every double; zeros at the end are taken off again, but for one behind the
+    // point.
     text = fmt::format("{:.{}f}", value, std::max(1, 17 - exponent));
     while (text.back() == '0' && text[text.size() - 2] != '.') text.pop_back();
   }
@@ -195,6 +200,7 @@ std::string exact_decimal(double value) {
 }
 
 std::string json_string(std::string_view text) {
+  // As ASCII with escapes, so that no reader has to guess an encoding.
   return json(text).dump(-1, ' ', true, json::error_handler_t::replace);
 }
 

@@ -12,11 +12,13 @@
 namespace flank::internal {
 namespace {
 
+/// ASCII classes of the exchange format (ISO 10303-21); "!" begins the names of user-defined entities.
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '!'; }
 bool is_word(char c) { return is_letter(c) || is_digit(c) || c == '-'; }
 
 /// Walks over one data section.
+/// Nothing is kept of what it reads: only whether it follows the grammar matters.
 class Section {
  public:
   Section(const std::string& file, std::string_view text, std::size_t at) : file_(file), text_(text), at_(at) {}
@@ -29,6 +31,7 @@ class Section {
 
  private:
   [[noreturn]] void refuse(const std::string& why) const {
+    // Counted only when there is something to complain about.
     const auto line = 1 + std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(at_), '\n');
     throw InputError(fmt::format("{}, line {}: {}; export the STEP file again", file_, line, why));
   }
@@ -97,6 +100,7 @@ class Section {
         value_next = true;
         ++at_;
       } else if (c == ')') {
+        // "()" is an empty list, "(1,)" lacks a parameter.
         if (value_next && !just_opened_) refuse("a parameter is empty");
         value_next = false;
         --depth;
@@ -115,6 +119,7 @@ class Section {
   /// Over a value; true if it is the beginning of a list, of which only that was passed.
   bool opens() {
     const char c = peek();
+    // A typed parameter, LENGTH_MEASURE(1.5): a name and a list.
     if (is_letter(c)) {
       while (is_word(peek())) ++at_;
       space();
@@ -156,14 +161,17 @@ class Section {
 
   void number() {
     const std::size_t begin = at_;
+    // Up to what may follow a value; what lies in between is the number or no number.
     while (at_ < text_.size() && text_.find_first_of(",() \t\r\n;/", at_) != at_) ++at_;
     const std::size_t end = at_;
     std::string word(text_.substr(begin, end - begin));
     const std::string shown = word.substr(0, 40);
+    // Some writers put D where Fortran does. from_chars takes neither that nor a plus.
     std::replace(word.begin(), word.end(), 'D', 'e');
     if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.erase(0, 1);
     double value = 0.0;
     const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    // A digit within the first three characters rules out "inf" and "nan", which from_chars would take.
     const bool whole = stop == word.data() + word.size() && word.find_first_of("0123456789") <= 2;
     // A number too small for a double is nothing.
     const bool too_small = error == std::errc::result_out_of_range &&

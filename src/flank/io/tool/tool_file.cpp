@@ -24,6 +24,7 @@ std::string parameter_key(ToolFamily family, int index) {
   return parameter_is_angle(family, index) ? name + "_rad" : name;
 }
 
+/// Points as JSON pairs in full digits.
 std::string pair_list(const std::vector<Vec2>& points, std::string_view separator) {
   std::vector<std::string> rows;
   rows.reserve(points.size());
@@ -70,6 +71,7 @@ RadialFunction family_from_parameters(const JsonInput& file, ToolFamily family, 
   return {family, length, values};
 }
 
+/// A clamped uniform cubic spline is its coefficients alone: knots follow from their number and the length.
 RadialFunction spline_from_coefficients(const JsonInput& file, double length) {
   const JsonInput parameters = file.member("parameters");
   parameters.allow_keys({"coefficients"});
@@ -81,7 +83,7 @@ RadialFunction spline_from_coefficients(const JsonInput& file, double length) {
                                 Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<int>(values.size())));
 }
 
-/// mm.
+/// Largest distance between the radial function and the samples, mm.
 double largest_error(const RadialFunction& radial, const std::vector<Vec2>& samples) {
   double largest = 0.0;
   for (const Vec2& p : samples) largest = std::max(largest, std::abs(radial.at(p.x()).r - p.y()));
@@ -150,6 +152,7 @@ RadialFunction radial_from(const JsonInput& file) {
   }
   const RadialFunction radial = *family == ToolFamily::kSpline ? spline_from_coefficients(file, length)
                                                                : family_from_parameters(file, *family, length);
+  // Two statements of one tool that differ: which of them a machinist has ground is not for us to guess.
   if (const double error = largest_error(radial, samples); !(error <= kToolSampleErrorMm))
     file.member("samples").refuse(fmt::format(
         "they are up to {:.3g} mm from what \"family\" and \"parameters\" say; leave out one of the two", error));

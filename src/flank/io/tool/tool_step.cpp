@@ -82,6 +82,8 @@ Vec2 meridian_tangent(const RadialFunction& radial, double s) {
   return Vec2(q, f.d1) * ((q * q - f.r * f.d2) / q);
 }
 
+/// A spline through `count` points of the meridian at equal steps of s, which stays its parameter, with the exact
+/// tangents at both ends.
 Handle(Geom_BSplineCurve) interpolated(const RadialFunction& radial, int count) {
   const Handle(TColgp_HArray1OfPnt) points = new TColgp_HArray1OfPnt(1, count);
   const Handle(TColStd_HArray1OfReal) parameters = new TColStd_HArray1OfReal(1, count);
@@ -110,6 +112,7 @@ double deviation(const RadialFunction& radial, const Geom_BSplineCurve& curve, i
   return largest;
 }
 
+/// Twice as many points until the curve is near enough; a meridian that is not smooth may end at kMostPoints.
 Handle(Geom_BSplineCurve) meridian_curve(const RadialFunction& radial) {
   for (int count = kFirstPoints;; count = 2 * count - 1) {
     Handle(Geom_BSplineCurve) curve = interpolated(radial, count);
@@ -118,6 +121,7 @@ Handle(Geom_BSplineCurve) meridian_curve(const RadialFunction& radial) {
   }
 }
 
+/// A cone or cylinder: as a line, so that other programs see an exact cone and not a spline.
 bool is_straight(const std::vector<Vec2>& points) {
   const Vec2 chord = (points.back() - points.front()).normalized();
   return std::all_of(points.begin(), points.end(), [&](const Vec2& p) {
@@ -126,6 +130,8 @@ bool is_straight(const std::vector<Vec2>& points) {
   });
 }
 
+/// The tip's sphere as far as the meridian's beginning, the meridian, and a flat end at the top, where a shank goes
+/// on.
 TopoDS_Shape flank_solid(const RadialFunction& radial) {
   const double radius = radial.at(0.0).r;
   const std::vector<Vec2> points = meridian(radial, kFirstPoints);

@@ -20,11 +20,12 @@ namespace fs = std::filesystem;
 
 constexpr const char* kSchema = "openflank/machine/1";
 constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
-constexpr double kFarMm = 1e6;       ///< no machine is larger
-constexpr double kFarDegrees = 1e6;  ///< rotary travels: "many turns"
-constexpr double kLeastSine = 1e-6;  ///< of axes that count as not parallel
-constexpr std::size_t kMostBytes = 1u << 20;
+constexpr double kFarMm = 1e6;                ///< no machine is larger
+constexpr double kFarDegrees = 1e6;           ///< rotary travels: "many turns"
+constexpr double kLeastSine = 1e-6;           ///< of axes that count as not parallel
+constexpr std::size_t kMostBytes = 1u << 20;  // what is larger is no machine's file, and not parsed
 
+/// A unit vector from three numbers of any size: people write (0, 1, 1) for 45 degrees.
 Vec3 read_direction(const TomlTable& table, const std::string& key) {
   const Vec3 d = table.vector(key, {-1e6, 1e6});
   if (!(d.norm() > 1e-9)) table.refuse(key, "a direction is needed, not (0, 0, 0)");
@@ -38,6 +39,7 @@ std::vector<double> read_travel(const TomlTable& table, const std::string& key, 
   return travel;
 }
 
+/// Travel and dynamics of a linear joint; the file has mm/min, as data sheets do, the library mm/s.
 void read_linear(const TomlTable& table, Joint& joint) {
   const std::vector<double> travel = read_travel(table, "travel_mm", kFarMm);
   joint.low = travel[0];
@@ -46,6 +48,8 @@ void read_linear(const TomlTable& table, Joint& joint) {
   joint.acceleration = table.number("acceleration_mm_s2", {1e-3, 1e7});
 }
 
+/// The same of a rotary joint, in degrees and seconds. Without a travel it turns endlessly; the point on its axis is
+/// the machine's origin if none is named.
 void read_rotary(const TomlTable& table, Joint& joint) {
   if (table.has("point_mm")) joint.point = table.vector("point_mm", {-kFarMm, kFarMm});
   if (table.has("travel_deg")) {
@@ -64,11 +68,13 @@ Joint read_joint(const TomlTable& table, bool on_table) {
   const bool rotary = joint.kind == JointKind::kRotary;
   joint.name = rotary ? table.word("name", {"A", "B", "C"}) : table.word("name", {"X", "Y", "Z"});
   joint.direction = read_direction(table, "direction");
+  // Of a joint of the head, link and tool are the same thing, whatever the file says.
   if (table.has("positive")) joint.reversed = on_table && table.word("positive", {"tool", "link"}) == "link";
   if (rotary)
     read_rotary(table, joint);
   else
     read_linear(table, joint);
+  // A misspelled key would leave a limit out, which nobody would notice before the machine does.
   table.require_all_known();
   return joint;
 }
@@ -92,6 +98,7 @@ Chain read_chain(const TomlTable& file) {
     chain.joints.push_back(read_joint(table, false));
     chain.tables.push_back(table);
   }
+  // Letters are how programs address joints.
   for (std::size_t i = 0; i < chain.joints.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (chain.joints[i].name == chain.joints[j].name)
@@ -104,6 +111,7 @@ void place_joints(const TomlTable& file, const Chain& chain, Machine& machine) {
   const auto count = [&](JointKind kind) {
     return std::count_if(chain.joints.begin(), chain.joints.end(), [&](const Joint& j) { return j.kind == kind; });
   };
+  // Names are different and of X, Y, Z and A, B, C: with these counts every linear letter is there once.
   if (chain.joints.size() != kJointCount || count(JointKind::kRotary) != 2)
     file.refuse(
         chain.tables.empty() || file.has("head") ? "head" : "table",
@@ -119,19 +127,24 @@ void place_joints(const TomlTable& file, const Chain& chain, Machine& machine) {
 
 /// The two rotary joints in the order of programs, and that they can turn the tool anywhere.
 void place_rotary(const TomlTable& control, const Chain& chain, Machine& machine) {
+  // In the order of the chain: the one nearer to the work comes first.
   std::vector<std::size_t> rotary;
   for (std::size_t k = 0; k < kJointCount; ++k)
     if (machine.joints[k].kind == JointKind::kRotary) rotary.push_back(k);
   const Joint &near_work = machine.joints[rotary[0]], &near_tool = machine.joints[rotary[1]];
+  // Parallel axes, or a second one along the spindle, reach a cone of directions at most: no program of ours fits it.
   if (near_work.direction.cross(near_tool.direction).norm() < kLeastSine)
     chain.tables[rotary[1]].refuse("direction", "the two rotary joints are parallel; two directions are needed");
   if (near_tool.direction.cross(machine.tool_axis).norm() < kLeastSine)
     chain.tables[rotary[1]].refuse(
         "direction", "this joint turns the tool about itself; its direction must not be that of the spindle");
+  // Inverse kinematics solve three equations in the linear joints (Kinematics::joints).
   Eigen::Matrix3d directions;
   for (int k = 0; k < 3; ++k) directions.col(k) = machine.linear_joint(static_cast<std::size_t>(k)).direction;
   if (std::abs(directions.determinant()) < kLeastSine)
     chain.tables[machine.linear[2]].refuse("direction", "the directions of X, Y and Z lie in one plane");
+  // Programs name rotary axes by letter; in which order is a habit of the control, alphabetical where the file is
+  // silent.
   std::sort(rotary.begin(), rotary.end(),
             [&](std::size_t i, std::size_t j) { return machine.joints[i].name < machine.joints[j].name; });
   machine.rotary = {rotary[0], rotary[1]};
@@ -141,6 +154,7 @@ void place_rotary(const TomlTable& control, const Chain& chain, Machine& machine
   if (machine.dialect.rotary == backward) std::swap(machine.rotary[0], machine.rotary[1]);
 }
 
+/// Where the tool is held, along which direction, and what programs say of it. All keys have defaults.
 void read_spindle(const TomlTable& table, Machine& machine) {
   if (table.has("gauge_mm")) machine.gauge = table.vector("gauge_mm", {-kFarMm, kFarMm});
   if (table.has("direction")) machine.tool_axis = read_direction(table, "direction");
@@ -179,11 +193,13 @@ void read_meaning(const TomlTable& table, Machine& machine) {
   machine.positions = positions == "joint"        ? NcPositions::kJoint
                       : positions == "tip-vector" ? NcPositions::kTipVector
                                                   : NcPositions::kTipRotary;
+  // The dialect needs these two when programs are read: no word of theirs says them (LinuxCNC, Fanuc).
   machine.dialect.positions = machine.positions;
   machine.join = table.word("join", {"axes", "great-circle"}) == "axes" ? NcJoin::kAxes : NcJoin::kGreatCircle;
   machine.feed_mode = table.word("feed", {"per-minute", "inverse-time"}) == "inverse-time" ? NcFeedMode::kInverseTime
                                                                                            : NcFeedMode::kPerMinute;
   machine.dialect.join = machine.join;
+  // What the control cannot say is refused here, by line, rather than when the first program is written.
   const NcLanguage language = machine.dialect.language;
   if (machine.positions == NcPositions::kJoint && machine.join != NcJoin::kAxes)
     table.refuse("join", "joint coordinates are joined by \"axes\"");
@@ -199,6 +215,7 @@ std::string read_text(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
   if (in) text << in.rdbuf();
+  // A folder opens like a file, and reads as an empty one.
   if (!in || fs::is_directory(file))
     throw InputError("machine", file, "cannot be read; a file as docs/schema/machine.md describes is needed");
   return text.str();
@@ -221,6 +238,7 @@ Machine machine_from_toml(std::string_view text, const std::string& file) {
   const TomlTable control = table.table("control");
   read_dialect(control, machine);
   read_meaning(control, machine);
+  // After the spindle and the dialect: it holds the joints against the first, and writes its letters into the second.
   place_rotary(control, chain, machine);
   control.require_all_known();
   table.require_all_known();
@@ -241,7 +259,7 @@ std::vector<std::string> machine_names() {
   std::vector<std::string> names;
   for (const fs::directory_entry& entry : fs::directory_iterator(machine_folder()))
     if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
-  std::sort(names.begin(), names.end());
+  std::sort(names.begin(), names.end());  // folders list their files in any order
   return names;
 }
 
@@ -249,6 +267,7 @@ Machine read_machine(const std::string& name_or_file) {
   if (name_or_file.find('/') != std::string::npos || fs::path(name_or_file).extension() == ".toml")
     return machine_from_toml(read_text(name_or_file), name_or_file);
   const std::vector<std::string> names = machine_names();
+  // By the list, not by trying to open the file: the message can say what there is.
   if (std::find(names.begin(), names.end(), name_or_file) == names.end())
     throw InputError("machine", name_or_file,
                      fmt::format("no such machine; there are {}, or a file NAME.toml", fmt::join(names, ", ")));

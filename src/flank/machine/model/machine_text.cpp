@@ -14,11 +14,13 @@ using Json = nlohmann::ordered_json;
 
 const char* unit_of(const Joint& joint) { return joint.kind == JointKind::kRotary ? "deg" : "mm"; }
 
+/// A joint has both ends of its travel or none (machine_file.cpp).
 std::string travel_text(const Joint& joint) {
   if (!std::isfinite(joint.low)) return "endless";
   return fmt::format("{:g} to {:g} {}", in_units(joint, joint.low), in_units(joint, joint.high), unit_of(joint));
 }
 
+/// The words of a machine's file (docs/schema/machine.md), here and below.
 std::string positions_word(NcPositions positions) {
   return positions == NcPositions::kJoint       ? "joint"
          : positions == NcPositions::kTipVector ? "tip-vector"
@@ -40,6 +42,7 @@ std::string machine_to_text(const Machine& machine) {
     const Vec3& d = j.direction;
     text += fmt::format("{:<6} {:<6} {:<7} {:>24}   {:<22} {:>9.4g} {:>12.4g}{}\n", j.name, j.table ? "work" : "tool",
                         j.kind == JointKind::kRotary ? "rotary" : "linear",
+                        // Adding zero turns -0 into 0.
                         fmt::format("({:.3g}, {:.3g}, {:.3g})", d.x() + 0.0, d.y() + 0.0, d.z() + 0.0), travel_text(j),
                         in_units(j, j.speed), in_units(j, j.acceleration), j.reversed ? "  positive: link" : "");
   }

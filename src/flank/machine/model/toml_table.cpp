@@ -22,6 +22,7 @@ struct UnexpectedToml {};
 namespace flank::internal {
 namespace {
 
+/// "file: line 7, column 3", the beginning of every message.
 std::string place(const std::string& file, const toml::source_position& at) {
   return fmt::format("{}: line {}, column {}", file, at.line, at.column);
 }
@@ -33,9 +34,12 @@ bool inside(double x, NumberRange range) { return std::isfinite(x) && x >= range
 }  // namespace
 
 struct TomlTable::Data {
+  // Tables of one document share it: a table stays valid after the one that it was taken from is gone.
   std::shared_ptr<const toml::table> document;  ///< keeps `values` alive
   const toml::table* values = nullptr;          ///< null: a table that is missing
   std::string file;
+  // Reading notes the key, also where it is missing: the list of what may stand here comes from the readers
+  // themselves, and cannot lag behind them.
   mutable std::set<std::string> asked;
 
   const toml::node* find(const std::string& key) const {
@@ -62,6 +66,7 @@ TomlTable TomlTable::parse(std::string_view text, const std::string& file) {
 
 void TomlTable::refuse(const std::string& key, const std::string& text) const {
   const toml::node* node = data_->find(key);
+  // A table that is missing has no place; the file's name is all there is.
   if (node == nullptr && data_->values == nullptr) throw InputError(fmt::format("{}: {}: {}", data_->file, key, text));
   const toml::source_region& where = node != nullptr ? node->source() : data_->values->source();
   throw InputError(fmt::format("{}: {}: {}", place(data_->file, where.begin), key, text));
@@ -132,6 +137,7 @@ Vec3 TomlTable::vector(const std::string& key, NumberRange range) const {
 TomlTable TomlTable::table(const std::string& key) const {
   const toml::node* node = data_->find(key);
   if (node != nullptr && !node->is_table()) refuse(key, "a table [" + key + "] is needed");
+  // Its own list of keys that were asked for: the same table taken a second time begins a new one.
   auto data = std::make_shared<Data>();
   data->document = data_->document;
   data->values = node != nullptr ? node->as_table() : nullptr;

@@ -8,7 +8,7 @@ namespace flank::internal {
 
 namespace {
 
-constexpr int kHeaderDecimals = 6;
+constexpr int kHeaderDecimals = 6;  // of mm: a nanometre, so that what is read back is the same tool
 
 /// What follows the keyword and a space; nothing if the text does not begin with them.
 std::optional<std::string_view> after(std::string_view text, std::string_view keyword) {
@@ -24,6 +24,7 @@ std::string_view take_word(std::string_view& text) {
   return word;
 }
 
+/// The word as a whole number; nothing if anything else stands in it.
 std::optional<int> whole(std::string_view word) {
   int value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
@@ -42,6 +43,7 @@ std::optional<double> take_value(std::string_view& text, std::string_view keywor
   return number->value;
 }
 
+/// "DIAMETER d LENGTH l TIP OFFSET o", mm. All three or none: a line that is not ours changes nothing.
 bool read_dimensions(std::string_view text, NcTool& tool) {
   const auto diameter = take_value(text, "DIAMETER");
   const auto length = take_value(text, "LENGTH");
@@ -68,6 +70,7 @@ std::string safe_comment(std::string_view name) {
   std::string out(name.substr(0, kLongestNcComment));
   for (char& c : out)
     if (c < ' ' || c > '~' || kSpecial.find(c) != std::string_view::npos) c = '_';
+  // Readers trim comments: the name that is read back is then the one that was written.
   while (out.ends_with(' ')) out.pop_back();
   return out;
 }
@@ -78,6 +81,7 @@ std::vector<std::string> header_comments(const NcHeader& header) {
   if (!header.machine.empty()) comments.push_back(safe_comment("MACHINE " + header.machine));
   if (!header.setup.empty()) comments.push_back(safe_comment("SETUP " + header.setup));
   const NcTool& tool = header.tool;
+  // Two lines for the tool: its name may be long, and its dimensions must not be cut off with it.
   std::string named = "TOOL " + std::to_string(tool.number);
   if (!tool.name.empty()) named += " " + tool.name;
   comments.push_back(safe_comment(named));
@@ -97,6 +101,7 @@ bool read_header_comment(std::string_view comment, NcHeader& header) {
   } else if (const auto setup = after(comment, "SETUP")) {
     header.setup = *setup;
   } else if (auto tool = after(comment, "TOOL")) {
+    // Both lines begin with TOOL; a number follows in the other one only.
     if (read_dimensions(*tool, header.tool)) return true;
     const auto number = whole(take_word(*tool));
     if (!number || *number < 0) return false;
@@ -110,6 +115,7 @@ bool read_header_comment(std::string_view comment, NcHeader& header) {
 
 std::string strip_comment(const NcStrip& strip) {
   std::string text = "STRIP " + std::to_string(strip.id) + " " + one_word(strip.kind);
+  // One word each, so that reading back can split at blanks.
   if (!strip.face.empty()) text += " " + one_word(strip.face);
   return safe_comment(text);
 }

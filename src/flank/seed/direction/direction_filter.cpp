@@ -41,6 +41,7 @@ void clamp(const Footpoint& foot, const RadialJet& radial, const AdmissibleDirec
     take_angles(foot, radial, {fitted.theta, fitted.theta + kHalfTurn}, out);
 }
 
+/// Whether there are directions of exact second order contact (MATH.md, section 5).
 bool has_roots(DirectionStatus status) {
   return status == DirectionStatus::kFour || status == DirectionStatus::kTwo || status == DirectionStatus::kEvery;
 }
@@ -65,6 +66,8 @@ CandidateDirections candidate_directions(const Footpoint& foot, const RadialJet&
   // The slope of the fitted sphere is that of the tool: only its radius was changed.
   const double q = 1.0 - radial.d1 * radial.d1, length = options.contact_length_mm;
   out.every = is_umbilic(found, fitted.radial.r);
+  // MATH.md, section 5: a gap of second derivatives over the contact length is off by about gap q L^2 / 16, plus what
+  // the sphere is too large for the hollow.
   out.error_mm = fitted.excess_mm + q * found.gap * length * length / kParabolaShare;
   if (has_roots(found.status)) {
     out.candidate = Candidate::kReal;
@@ -94,6 +97,7 @@ SearchSpace count_search_space(std::span<const Footpoint> feet, const RadialFunc
       if (found.candidate != Candidate::kRejected) continue;
       ++space.rejected;
       const double room = foot.k2 > 0.0 ? 1.0 / foot.k2 : std::numeric_limits<double>::infinity();
+      // Counted apart: these are rejected because they would gouge, whatever their direction.
       if (jet.r - room > filled.slack * filled.tolerance_mm) ++space.gouging;
     }
   }

@@ -36,6 +36,7 @@ struct Path {
   std::vector<double> length;  // up to each point; one more for the closed whole
 };
 
+/// The loop's vertices in space, with the length up to each.
 Path path_of(const TriangleMesh& mesh, const std::vector<int>& loop) {
   Path path;
   path.length.push_back(0.0);
@@ -83,6 +84,7 @@ std::optional<std::array<std::size_t, 4>> corners(const Path& path) {
       if (std::min(apart, path.length.back() - apart) < 2.0 * reach) taken[i] = 1;
     }
   }
+  // With three corners or five the rim is not the four sides of a square: a plane has to do.
   if (found.size() != 4) return std::nullopt;
   std::sort(found.begin(), found.end());
   return std::array<std::size_t, 4>{found[0], found[1], found[2], found[3]};
@@ -128,6 +130,7 @@ void solve_harmonic(const TriangleMesh& mesh, const std::vector<char>& fixed, st
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);
   const Eigen::MatrixX2d solution = factor.solve(right);
   for (std::size_t v = 0; v < number.size(); ++v)
+    // Weights are positive, so values lie between those of the rim, but for rounding.
     if (!fixed[v]) uv[v] = solution.row(number[v]).transpose().cwiseMax(0.0).cwiseMin(1.0);
 }
 
@@ -143,6 +146,8 @@ TriangleMesh with_holes_covered(TriangleMesh mesh, const std::vector<std::vector
   return mesh;
 }
 
+/// The rim onto the square's sides by arc length, its inside harmonically. The patch's sides become iso-lines, which
+/// is what splines fit best.
 MeshParameters spread_square(const TriangleMesh& mesh, const std::vector<int>& rim, const Path& path,
                              const std::array<std::size_t, 4>& corner, const std::vector<std::vector<int>>& holes) {
   MeshParameters result;
@@ -174,6 +179,7 @@ MeshParameters spread_square(const TriangleMesh& mesh, const std::vector<int>& r
   return result;
 }
 
+/// Onto the plane of the mean normal, u along the longest extent; nothing if the mesh folds back over it.
 std::optional<MeshParameters> project_plane(const TriangleMesh& mesh) {
   Vec3 normal = Vec3::Zero(), mean = Vec3::Zero();
   const std::vector<Vec3> normals = triangle_normals(mesh);
@@ -219,6 +225,7 @@ std::optional<MeshParameters> parametrize(const TriangleMesh& mesh, const MeshTo
     } else if (rim.empty() && turning > std::numbers::pi) {
       rim = loop_vertices(mesh, loop);
     } else {
+      // A tube, or two rims: no map onto a square.
       return std::nullopt;
     }
   }

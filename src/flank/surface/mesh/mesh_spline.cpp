@@ -40,6 +40,7 @@ Vec2 corrected(const BSplineSurface& surface, const Vec3& p, Vec2 uv, char side)
   return uv;
 }
 
+/// A spline through all vertices by least squares, and their parameters on it.
 struct Fit {
   BSplineSurface surface;
   std::vector<Vec2> uv;
@@ -58,6 +59,8 @@ double normal_squares(const BSplineSurface& surface, const std::vector<Vec3>& po
   return sum;
 }
 
+/// A spline of `count` control points along the longer side of the patch, and as dense along the other. Parameters
+/// are corrected between fits: the first ones are of a map, not of closest points.
 Fit fit_with(const TriangleMesh& mesh, const MeshParameters& parameters, std::vector<Vec2> uv, int count,
              const MeshSplineOptions& options) {
   const double longer = std::max(parameters.size_u, parameters.size_v);
@@ -81,6 +84,8 @@ Fit fit_with(const TriangleMesh& mesh, const MeshParameters& parameters, std::ve
   }
   fit.squares = normal_squares(fit.surface, mesh.vertices, fit.uv);
   const double points = static_cast<double>(mesh.vertices.size()), unknowns = spline.count_u * spline.count_v;
+  // With nearly as many unknowns as points a spline follows the noise, and the figure divides by nothing: it stays
+  // infinite.
   if (unknowns < 0.7 * points)
     fit.validation = fit.squares / points / ((1.0 - unknowns / points) * (1.0 - unknowns / points));
   return fit;
@@ -140,6 +145,7 @@ std::optional<MeshSpline> fit_spline_to_mesh(const TriangleMesh& mesh, const Mes
   int without_gain = 0;
   for (double count = options.fewest; count <= options.most + 0.5 && without_gain < kPatience; count *= kCountGrowth) {
     Fit fit = fit_with(sound, *parameters, uv, static_cast<int>(std::lround(count)), options);
+    // The next, finer spline begins with parameters that are corrected already.
     uv = fit.uv;
     ++without_gain;
     if (fit.validation >= best.validation) continue;
@@ -152,6 +158,7 @@ std::optional<MeshSpline> fit_spline_to_mesh(const TriangleMesh& mesh, const Mes
   result.face.surface = best.surface;
   result.face.reversed = against_mesh(sound, best);
   const double points = static_cast<double>(sound.vertices.size());
+  // Unbiased: as many points as unknowns have no error left in them.
   result.residual_mm = std::sqrt(best.squares / (points - best.surface.count_u * best.surface.count_v));
   if (parameters->four_sided && !parameters->holes.empty()) result.face.loops.push_back(square());
   for (const auto& hole : parameters->holes) result.face.loops.push_back(polygon(hole, best.uv));

@@ -37,6 +37,8 @@ MeshTarget::MeshTarget(TriangleMesh mesh, const ExtensionOptions& options) {
   extend(surface_, normals, options);
 }
 
+/// Area, box, and how far the smooth surface is from the flat triangles: by so much a flat distance may mislead a
+/// search.
 void MeshTarget::measure() {
   for (int t = 0; t < surface_.real_triangles; ++t) {
     const SurfaceJet s = surface_.jet(t, 1.0 / 3.0, 1.0 / 3.0);
@@ -66,6 +68,8 @@ MeshWalk MeshTarget::closest_walk(const Vec3& p) const {
   std::size_t count = 1;
   for (int i = 0; i < ties.count && count <= kMostStarts; ++i) {
     const int t = ties.triangle[static_cast<std::size_t>(i)];
+    // Also within the stretch over which the flat distance hardly changes: on a sphere about p it sags by about
+    // flat_error_ there.
     const double near = kSameBasin * std::max(size(t), std::sqrt(flat_error_ * distance));
     bool known = false;
     for (std::size_t k = 0; k < count; ++k)
@@ -84,17 +88,20 @@ MeshWalk MeshTarget::closest_walk(const Vec3& p) const {
 Footpoint MeshTarget::closest_within(const Vec3& p, double horizon_mm) const {
   if (box_.squared_distance(p) >= horizon_mm * horizon_mm) return {};
   Footpoint foot = footpoint_of(closest_walk(p), p, surface_.real_triangles);
+  // As if there were none: the caller asked for what is nearer.
   if ((foot.point - p).norm() >= horizon_mm) foot.patch = -1;
   return foot;
 }
 
 Footpoint MeshTarget::track(const Vec3& p, const Footpoint& hint) const {
   if (hint.patch >= 0 && hint.patch < static_cast<int>(surface_.mesh.triangles.size())) {
+    // A hint may come from another triangle's border, off by rounding.
     const double u = std::clamp(hint.u, 0.0, 1.0), v = std::clamp(hint.v, 0.0, 1.0 - u);
     const MeshWalk walk = walk_to_footpoint(surface_, p, {hint.patch, u, v}, Reach::kExtended);
     if (walk.converged) return footpoint_of(walk, p, surface_.real_triangles);
   }
   MeshWalk walk = closest_walk(p);
+  // On the real surface the search ended at its border: on the extension there may be a point with p above it.
   if (walk.on_border) walk = walk_to_footpoint(surface_, p, walk.place, Reach::kExtended);
   return footpoint_of(walk, p, surface_.real_triangles);
 }
@@ -105,6 +112,7 @@ std::vector<Vec3> MeshTarget::border_points(double spacing_mm) const {
   for (int t = 0; t < surface_.real_triangles; ++t) {
     for (int side = 0; side < 3; ++side) {
       const int neighbor = surface_.neighbor(t, side);
+      // Triangles of the extension are no neighbours here: the real border is asked for.
       if (neighbor >= 0 && neighbor < surface_.real_triangles) continue;
       const Vec3 &a = surface_.corner(t, (side + 1) % 3), &b = surface_.corner(t, (side + 2) % 3);
       const int steps = std::max(1, static_cast<int>(std::ceil((b - a).norm() / spacing_mm)));

@@ -30,6 +30,8 @@ struct Shape {
       double length = 0.0;
       for (int i = 0; i < p; ++i) length += (at(i + 1, j) - at(i, j)).norm();
       for (int i = 0; i + 2 <= p; ++i)
+        // Second differences bound the second derivative by p (p - 1); over 8 it is the height of the arc over its
+        // chord.
         bend_u = std::max(bend_u, p * (p - 1) * (at(i, j) - 2.0 * at(i + 1, j) + at(i + 2, j)).norm() / 8.0);
       length_u = std::max(length_u, length);
     }
@@ -42,6 +44,8 @@ struct Shape {
     }
     for (int i = 0; i < p; ++i)
       for (int j = 0; j < q; ++j)
+        // The mixed second derivative likewise: by a quarter of it the middle of a bilinear net is off its corners'
+        // plane.
         twist = std::max(twist, p * q * (at(i, j) - at(i + 1, j) - at(i, j + 1) + at(i + 1, j + 1)).norm() / 4.0);
   }
 
@@ -81,6 +85,8 @@ class Builder {
  public:
   Builder(const NurbsFace& face, int index, FlatCells& out) : face_(face), index_(index), out_(out) {}
 
+  /// Halves a cell, in the direction that bends more, until its net is flat; what lies outside of the trims is
+  /// dropped.
   void split(int i, int j, double u0, double u1, double v0, double v1, int depth) {
     const BSplinePatches& s = face_.patches();
     const TrimRegion::Side side = face_.trim().classify({u0, u1, v0, v1});
@@ -111,6 +117,7 @@ class Builder {
     cell.v1 = v1;
     const double mid_u = 0.5 * (u0 + u1), mid_v = 0.5 * (v0 + v1);
     const ParameterBox& d = face_.domain();
+    // Within the domain: real footpoints are searched here, those on the extension are followed by track().
     cell.zone = clip(face_.zone_at(mid_u, mid_v), d.u0, d.u1, d.v0, d.v1);
     const double du = kReach * (u1 - u0), dv = kReach * (v1 - v0);
     cell.reach = clip(cell.zone, u0 - du, u1 + du, v0 - dv, v1 + dv);
@@ -127,6 +134,8 @@ class Builder {
     out_.hulls.push_back(std::move(hull));
   }
 
+  /// Bounds of the larger principal curvature, seen from either side, from nine places and widened by 0.3 of their
+  /// spread.
   void measure_curvature(FlatCell& cell, int i, int j) const {
     for (int side = 0; side < 2; ++side) {
       double low = std::numeric_limits<double>::infinity(), high = -low;

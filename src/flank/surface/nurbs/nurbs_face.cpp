@@ -30,6 +30,7 @@ double iso_length(const BSplineSurface& s, double u0, double v0, double u1, doub
 /// Cells of a rectangle. One that only touches its upper side does not belong to it.
 ParameterBox box_of(const BSplinePatches& s, double u0, double u1, double v0, double v1) {
   ParameterBox b{u0, u1, v0, v1, s.cell_u(u0), s.cell_u(u1), s.cell_v(v0), s.cell_v(v1)};
+  // cell_u takes a knot for the beginning of the cell behind it.
   if (b.i1 > b.i0 && s.breaks_u()[static_cast<std::size_t>(b.i1)] >= u1) --b.i1;
   if (b.j1 > b.j0 && s.breaks_v()[static_cast<std::size_t>(b.j1)] >= v1) --b.j1;
   return b;
@@ -49,6 +50,7 @@ NurbsFace::NurbsFace(const Face& face, int side, const ExtensionOptions& options
   const ParameterRectangle whole{s.u_first(), s.u_last(), s.v_first(), s.v_last()};
   trim_ = TrimRegion(face.loops, whole);
   const ParameterRectangle& box = trim_.box();
+  // The cells follow below, when the extended surface exists; borders and margins need the parameters alone.
   domain_ = {box.u0, box.u1, box.v0, box.v1, 0, 0, 0, 0};
   find_borders(s);
   // The untrimmed rest of the surface is the extension as far as it goes.
@@ -111,6 +113,7 @@ ParameterMargins NurbsFace::margins(const BSplineSurface& s, const ExtensionOpti
   }
   const auto margin = [&](int border, double range, double length) {
     const bool closed = border < 2 ? closed_u_ : closed_v_;
+    // A closed surface goes on by itself, and beyond a pole there is nothing to go on to.
     if (closed || pole_[static_cast<std::size_t>(border)] || options.length_share <= 0.0) return 0.0;
     // Files with uneven parameters: the range near the border may stand for much more or less length than its share.
     const double speed_share = outer[static_cast<std::size_t>(border)] / (options.fit_share * length);
@@ -150,6 +153,7 @@ void NurbsFace::find_zones(const BSplineSurface& s) {
     for (int cell = 1; cell + 1 < static_cast<int>(breaks.size()); ++cell) {
       const double knot = breaks[static_cast<std::size_t>(cell)];
       if (knot <= low || knot >= high) continue;
+      // Fewer folds than the degree leave a continuous derivative: only full knots are looked at.
       if (std::count(knots.begin(), knots.end(), knot) >= degree && creased(along_u, cell)) result.push_back(knot);
     }
     result.push_back(high);
@@ -193,6 +197,7 @@ bool NurbsFace::hop_u(const Vec3& p, int& zone_i, int zone_j, Descent& x) const 
   const ParameterBox& b = zone(next, zone_j);
   SurfaceJet jet;
   patches_.evaluate(x.side_u > 0 ? b.i0 : b.i1, std::clamp(patches_.cell_v(x.v), b.j0, b.j1), u, x.v, jet);
+  // Beyond the crease the distance would grow: the minimum lies on the crease.
   if (gradient_u(jet, p) * x.side_u >= 0.0) return false;
   zone_i = next;
   x.u = u;
@@ -228,6 +233,7 @@ Footpoint NurbsFace::track(const Vec3& p, double u, double v, bool& ok) const {
   x.u = u;
   x.v = v;
   int zone_i = zone_u(u), zone_j = zone_v(v);
+  // Bounded: two zones that point at each other would be hopped between for ever.
   for (int hop = 0; hop < kMaxHops; ++hop) {
     descend(patches_, p, zone(zone_i, zone_j), size_, nullptr, x);
     if (x.side_u != 0 && hop_u(p, zone_i, zone_j, x)) continue;
@@ -235,6 +241,8 @@ Footpoint NurbsFace::track(const Vec3& p, double u, double v, bool& ok) const {
     break;
   }
   const bool held = x.side_u != 0 || x.side_v != 0;
+  // Held at a pole, a descent cannot turn round it, since all directions of u are the same point there: the caller
+  // searches anew.
   ok = x.end == Descent::End::kConverged && !(held && at_pole(x.u, x.v));
   const bool outer = held && ((x.side_u < 0 && x.u <= extended_.u0) || (x.side_u > 0 && x.u >= extended_.u1) ||
                               (x.side_v < 0 && x.v <= extended_.v0) || (x.side_v > 0 && x.v >= extended_.v1));

@@ -8,6 +8,7 @@ namespace flank::internal {
 
 namespace {
 
+/// Blanks between words; "\r" too, because only the last one of a line is taken off with it.
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 /// Letters that a block states once.
@@ -18,6 +19,8 @@ void refuse_twice(const GBlock& block, const GWord& word, const NcPlace& place) 
 
 }  // namespace
 
+// A tenth is the smallest step of such words (G43.4, G54.1). The slack is for decimals that binary numbers do not
+// hold.
 int GWord::code() const {
   const double tenths = value * 10.0;
   const double rounded = std::round(tenths);
@@ -43,6 +46,7 @@ bool GBlock::has_code(char letter, int code) const {
 void split_gcode(std::string_view line, std::string_view upper, const NcPlace& place, GBlock& block) {
   block.words.clear();
   block.comments.clear();
+  // Only where it is alone: a tape's beginning and end, which LinuxCNC takes for the end of the program.
   block.percent = trimmed(line) == "%";
   if (block.percent) return;
   for (std::size_t i = 0; i < upper.size();) {
@@ -50,8 +54,10 @@ void split_gcode(std::string_view line, std::string_view upper, const NcPlace& p
     if (is_space(c)) {
       ++i;
     } else if (c == '(') {
+      // Comments do not nest on these controls: the first ")" ends it.
       const std::size_t end = upper.find(')', i);
       if (end == std::string_view::npos) place.refuse("a comment is not closed");
+      // From the line as it stands: names of parts and faces keep their small letters.
       block.comments.push_back(line.substr(i + 1, end - i - 1));
       i = end + 1;
     } else if (c == ';') {
@@ -59,6 +65,7 @@ void split_gcode(std::string_view line, std::string_view upper, const NcPlace& p
       return;
     } else {
       std::size_t at = i + 1;
+      // "X 12.5" and "G 1" are one word to these controls.
       while (at < upper.size() && is_space(upper[at])) ++at;
       const auto number = c >= 'A' && c <= 'Z' ? leading_number(upper.substr(at)) : std::nullopt;
       if (!number) place.refuse(quoted(line.substr(i)) + " does not begin with a letter and a number");

@@ -9,9 +9,10 @@ namespace flank::internal {
 
 namespace {
 
-constexpr std::string_view kSpace = " \t\r\v\f";
-constexpr std::size_t kLongestShown = 40;
+constexpr std::string_view kSpace = " \t\r\v\f";  // what editors and transfers leave at the ends of lines
+constexpr std::size_t kLongestShown = 40;         // of a word in a message: a damaged file may be one line of megabytes
 
+/// ASCII only, and not by the locale: the same file is read the same everywhere.
 char to_upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 
 }  // namespace
@@ -30,6 +31,7 @@ bool NcLines::next() {
   line_ = rest_.substr(0, end);
   if (line_.ends_with('\r')) line_.remove_suffix(1);
   rest_.remove_prefix(std::min(end + 1, rest_.size()));
+  // Into the same string, whose memory stays: programs have a million lines.
   upper_.assign(line_);
   for (char& c : upper_) c = to_upper(c);
   ++number_;

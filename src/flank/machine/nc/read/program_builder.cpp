@@ -17,12 +17,14 @@ void check_size(double value, const NcPlace& place) {
   if (!(std::abs(value) <= kLargestNcValue)) place.refuse("a value beyond 1000000");
 }
 
+/// Whether every one of the optional values is known.
 bool all(const auto& values) {
   for (const auto& v : values)
     if (!v) return false;
   return true;
 }
 
+/// Whether at least one of the optional values is known.
 bool any(const auto& values) {
   for (const auto& v : values)
     if (v) return true;
@@ -34,6 +36,7 @@ bool any(const auto& values) {
 ProgramBuilder::ProgramBuilder(const std::string& file, const NcDialect& dialect)
     : place_{file}, dialect_(dialect), join_(dialect.join) {
   program_.rotary = dialect.rotary;
+  // Its default is a name for programs that we write; of one that is read, only what it says itself may stand there.
   program_.header.program.clear();
 }
 
@@ -42,20 +45,27 @@ void ProgramBuilder::comment(std::string_view text, bool upper) {
   if (text == kEndOfStrip) {
     strip_ = -1;
   } else if (auto strip = read_strip_comment(text)) {
+    // Kinds of strips are words in lower case everywhere else (Path, the judge's report); a dialect that writes its
+    // comments in upper case must not make them other kinds.
     if (upper)
       for (char& c : strip->kind) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    // A strip may be left and come back, e.g. round a link: the same comment means the same strip, not another one.
     const auto [at, is_new] =
         strips_.try_emplace(strip_comment(*strip), static_cast<std::int32_t>(program_.strips.size()));
     if (is_new) program_.strips.push_back(*strip);
     strip_ = at->second;
   } else if (text.starts_with("PROGRAM ")) {
+    // The word of the language, where it has one, comes first and counts; a comment only stands in for it.
     if (program_.header.program.empty()) program_.header.program = trimmed(text.substr(8));
   } else {
+    // Comments of others are free text: what says nothing of ours is no fault.
     (void)read_header_comment(text, program_.header);
   }
 }
 
 void ProgramBuilder::unit(double millimetres) {
+  // Values are stored in millimetres where they are modal and in the program's unit within a block: after either, a
+  // change would reinterpret what stands there.
   if (millimetres != unit_ && (any(linear_) || any(block_.linear) || feed_))
     place_.refuse("the unit changes after coordinates or feeds were stated");
   unit_ = millimetres;
@@ -68,11 +78,16 @@ void ProgramBuilder::work_offset(int number) {
 }
 
 void ProgramBuilder::tool_centre(bool on) {
-  if (on == tool_centre_) return;
+  if (on == tool_centre_) return;  // G49 in a header and M129 at an end say what holds already
+  // The axes of the block would be read with the new meaning or with the old one: controls differ, so neither is
+  // taken.
   if (moves()) place_.refuse("tool-centre control is switched within a move; accepted is a block before it");
   tool_centre_ = on;
+  // Before the first switch joint coordinates may have been read as moves; with it they turn out to have been the
+  // approach.
   if (on && !switched_) restart_unless_cut("a feed move stands before tool-centre control is switched on");
   switched_ = true;
+  // The same words mean something else from here on, and the controlled point has jumped by the tool's length.
   forget_position();
 }
 
@@ -89,6 +104,7 @@ void ProgramBuilder::linear(std::size_t axis, double value) {
 }
 
 void ProgramBuilder::rotary(char letter, double value) {
+  // npos where the letter is none of the two, hence more than 1 as well.
   const std::size_t axis = dialect_.rotary.find(letter);
   if (axis > 1)
     place_.refuse(std::string("the machine has no axis ") + letter + "; it has " + dialect_.rotary[0] + " and " +
@@ -114,10 +130,14 @@ void ProgramBuilder::feed(double value) {
 bool ProgramBuilder::moves() const { return any(block_.linear) || any(block_.rotary) || any(block_.vector); }
 
 void ProgramBuilder::end_block() {
+  // Also in a block that does not move: F alone in its line is modal. In inverse time F belongs to its own move only
+  // (feed_of_move).
   if (block_.feed && mode_ == NcFeedMode::kPerMinute) feed_ = *block_.feed * unit_;
+  // First, because the axes of such a block are coordinates of the machine, not of the part.
   if (block_.reference) {
     go_to_reference();
   } else if (moves()) {
+    // Not refused where G91 is read: "G91 G28 Z0" is the usual way to the reference position, and G90 follows it.
     if (incremental_) place_.refuse("an incremental move; accepted are absolute coordinates");
     if (!block_.rapid && !motion_) place_.refuse("a move before any G0 or G1");
     apply_words();
@@ -126,6 +146,8 @@ void ProgramBuilder::end_block() {
   block_ = Block{};
 }
 
+// A rotary axis that the block names is sent to the machine's own angle, which is not known here; the others stay. Of
+// the linear axes nothing is kept: where they end is the machine's.
 void ProgramBuilder::go_to_reference() {
   for (std::size_t i = 0; i < 2; ++i)
     if (block_.rotary[i]) rotary_[i].reset();
@@ -141,7 +163,7 @@ void ProgramBuilder::forget_position() {
 void ProgramBuilder::apply_words() {
   for (std::size_t i = 0; i < 3; ++i)
     if (block_.linear[i]) linear_[i] = *block_.linear[i] * unit_;
-  rotary_before_ = rotary_;
+  rotary_before_ = rotary_;  // record() needs it for the first move: where the rotary axes stood
   for (std::size_t i = 0; i < 2; ++i)
     if (block_.rotary[i]) rotary_[i] = block_.rotary[i];
   if (any(block_.rotary)) by_vector_ = false;
@@ -154,6 +176,7 @@ void ProgramBuilder::apply_vector() {
   if (!all(block_.vector)) place_.refuse("a tool vector needs its three components");
   const Vec3 v(*block_.vector[0], *block_.vector[1], *block_.vector[2]);
   if (!(v.norm() > kShortestVector)) place_.refuse("the tool vector has no length");
+  // Controls take vectors of any length; poses need unit vectors.
   vector_ = v.normalized();
   by_vector_ = true;
 }
@@ -167,6 +190,7 @@ NcPositions ProgramBuilder::stated() const {
 std::string ProgramBuilder::unknown() const {
   for (std::size_t i = 0; i < 3; ++i)
     if (!linear_[i]) return {kLinearName[i]};
+  // With a tool vector the rotary axes follow from it: they need never be stated.
   if (tool_centre_ && by_vector_) return vector_ ? "" : "the tool vector";
   for (std::size_t i = 0; i < 2; ++i)
     if (!rotary_[i]) return {dialect_.rotary[i]};
@@ -180,17 +204,25 @@ void ProgramBuilder::restart_unless_cut(const std::string& why) {
   joined_ = false;
 }
 
+/// Refuses what cannot be judged as one path: an unknown position, no tool-centre control where it is expected, and a
+/// change of feed mode or join after the first cut.
 void ProgramBuilder::check_feed_move() {
+  // Where the program has switched tool-centre control once, moves without it are ways to a reference position:
+  // cutting there means that a word was forgotten.
   if (!tool_centre_ && (switched_ || !joint_allowed_)) place_.refuse("a feed move without tool-centre control");
+  // Under tool-centre control the length places the tip. Without it we read the joints themselves, which a control
+  // that compensates the length would shift by it.
   if (length_ && *length_ != tool_centre_)
     place_.refuse(tool_centre_ ? "a feed move without the tool's length (G43 H)"
                                : "joint coordinates under length compensation; accepted are they without (G49)");
   if (const std::string what = unknown(); !what.empty()) place_.refuse("a feed move before " + what + " is stated");
-  if (!cut_) return;
+  if (!cut_) return;  // modes may change as they like until something is cut
   if (program_.feed_mode != mode_) place_.refuse("the feed mode changes between feed moves");
   if (program_.join != join_) place_.refuse("the way in which blocks are joined changes between feed moves");
 }
 
+/// mm/min, or 1/min in inverse time: there controls demand F in every feed block, because it says how long this block
+/// takes.
 double ProgramBuilder::feed_of_move() {
   if (mode_ == NcFeedMode::kInverseTime) {
     if (!block_.feed) place_.refuse("a feed move in inverse time without F");
@@ -203,8 +235,12 @@ double ProgramBuilder::feed_of_move() {
 void ProgramBuilder::record(NcKind kind) {
   const bool feed = kind == NcKind::kFeed;
   if (feed) check_feed_move();
+  // A rapid between two stretches of tool-centre control: its end is in joint coordinates and says nothing of the
+  // tip.
   if (!tool_centre_ && switched_) return forget_position();
+  // The approach: it only adds to what is known.
   if (!unknown().empty() || (!tool_centre_ && !joint_allowed_)) return;
+  // What was recorded so far has another kind of position; rapids alone can be dropped as approach, cuts cannot.
   if (!program_.moves.empty() && program_.positions != stated())
     restart_unless_cut("rotary axes and tool vectors in one program");
   NcMove move{.kind = kind, .joined = joined_, .strip = strip_, .line = place_.line};
@@ -212,11 +248,13 @@ void ProgramBuilder::record(NcKind kind) {
   const bool vector = stated() == NcPositions::kTipVector;
   move.orientation = vector ? *vector_ : Vec3(*rotary_[0], *rotary_[1], 0.0);
   if (feed) move.feed = feed_of_move();
+  // Until the first cut every rapid may still turn out to be approach, so the last one decides.
   if (!cut_) {
     program_.positions = stated();
     program_.feed_mode = mode_;
     program_.join = tool_centre_ ? join_ : NcJoin::kAxes;
   }
+  // Of programs with tool vectors this tells which of the two solutions the control begins with.
   if (program_.moves.empty() && all(rotary_before_))
     program_.start_rotary = Vec2(*rotary_before_[0], *rotary_before_[1]);
   cut_ = cut_ || feed;
@@ -225,7 +263,7 @@ void ProgramBuilder::record(NcKind kind) {
 }
 
 NcProgram ProgramBuilder::finish() {
-  place_.line = 0;
+  place_.line = 0;  // what is missing is missing in the file as a whole
   if (!ended_) place_.refuse("the program has no end");
   if (program_.moves.empty()) place_.refuse("the program has no moves");
   return std::move(program_);

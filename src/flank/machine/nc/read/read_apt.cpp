@@ -14,14 +14,19 @@ namespace {
 
 constexpr std::string_view kName = "APT";
 constexpr double kInch = 25.4;
+/// Statements that move nothing and change no meaning of what follows.
 constexpr std::array<std::string_view, 7> kIgnored = {"CUTTER", "COOLNT", "MACHIN", "INTOL",
                                                       "OUTTOL", "REMARK", "MULTAX"};
 
 class AptReader {
  public:
   AptReader(const std::string& file, const NcDialect& dialect) : builder_(file, dialect) {
+    // A cutter location states a direction and no machine: between two of them only the great circle is the same for
+    // every machine. "PPRINT JOIN AXES" says otherwise.
     builder_.join(NcJoin::kGreatCircle);
+    // GOTO is about the tool's point from the first statement on.
     builder_.tool_centre(true);
+    // Without MULTAX, and until a GOTO states a vector, the tool stands along Z.
     for (std::size_t i = 0; i < 3; ++i) axis_[i] = i == 2 ? 1.0 : 0.0;
   }
 
@@ -29,6 +34,7 @@ class AptReader {
     NcLines lines(text);
     while (lines.next()) {
       const std::string_view line = trimmed(lines.line());
+      // Complaints about a statement name its first line.
       if (statement_.empty()) builder_.at(lines.number());
       // Texts hold what they like; other statements end at "$$" and go on behind "$".
       if (statement_.empty() && text_statement(line)) continue;
@@ -45,16 +51,19 @@ class AptReader {
   }
 
  private:
+  /// Takes PARTNO, PPRINT and REMARK, whose text begins in column 7 and may hold any sign that ends or splits others.
   bool text_statement(std::string_view line) {
     const std::string upper = upper_case(line.substr(0, 6));
     if (upper != "PARTNO" && upper != "PPRINT" && upper != "REMARK") return false;
     if (builder_.ended()) builder_.place().refuse("a statement after FINI");
     const std::string_view text = trimmed(line.substr(6));
+    // "-" is what our own writer puts where the part has no name.
     if (upper == "PARTNO" && text != "-") builder_.header().part = text;
     if (upper == "PPRINT") print(text);
     return true;
   }
 
+  /// PPRINT carries what APT has no word for: the work offset, the way in which blocks are joined, and our comments.
   void print(std::string_view text) {
     constexpr std::string_view kOffset = "WORK OFFSET ";
     const auto number = text.starts_with(kOffset) ? leading_number(text.substr(kOffset.size())) : std::nullopt;
@@ -106,6 +115,7 @@ class AptReader {
     }
   }
 
+  /// Names the word, or a whole statement, as none of the subset.
   [[noreturn]] void refuse(std::string_view word) const { builder_.place().refuse_word(word, kName); }
 
   [[nodiscard]] double value(std::string_view parameter) const {
@@ -121,6 +131,8 @@ class AptReader {
     if (parameters_.size() == 6)
       for (std::size_t i = 0; i < 3; ++i) axis_[i] = value(parameters_[3 + i]);
     for (std::size_t i = 0; i < 3; ++i) builder_.vector(i, axis_[i]);
+    // Every GOTO cuts, unless RAPID stands before it: RAPID is for one motion only. FROM says where the tool
+    // is, and cuts nothing.
     builder_.motion(NcKind::kFeed);
     if (rapid_ || from) builder_.rapid();
     rapid_ = false;
@@ -131,6 +143,7 @@ class AptReader {
     double feed = 0.0;
     for (const std::string_view p : parameters_) {
       if (p == "MMPM" || p == "IPM") {
+        // The builder knows one unit, which it applies to coordinates and feeds alike.
         if ((p == "IPM") != (unit_ == kInch))
           builder_.place().refuse("the feed and the coordinates have different units");
       } else {
@@ -150,6 +163,7 @@ class AptReader {
 
   void spindle() {
     for (const std::string_view p : parameters_) {
+      // The direction and the state do not matter to the geometry; the number may stand before or behind them.
       if (p == "CLW" || p == "CCLW" || p == "ON" || p == "OFF" || p == "RPM") continue;
       if (const double speed = value(p); speed >= 0.0) builder_.header().spindle_rpm = speed;
     }

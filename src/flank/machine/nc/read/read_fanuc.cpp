@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::string_view kName = "Fanuc";
 constexpr double kInch = 25.4;
-constexpr int kLastSimpleOffset = 6, kLargestProgram = 99999999;
+constexpr int kLastSimpleOffset = 6, kLargestProgram = 99999999;  // G54 to G59; G54.1 P1 is offset 7
 
 class FanucReader {
  public:
@@ -39,6 +39,7 @@ class FanucReader {
 
   void block() {
     for (const GWord& word : block_.words) {
+      // Modes first, whatever their place in the block: see below.
       switch (word.letter) {
         case 'G':
           preparatory(word);
@@ -59,6 +60,7 @@ class FanucReader {
 
   void tool_centre(bool on, bool vectors) {
     builder_.tool_centre(on);
+    // I J K are tool vectors only under G43.5; elsewhere they would be centres of arcs, and are refused.
     if (on) vectors_ = vectors;
   }
 
@@ -81,6 +83,8 @@ class FanucReader {
       case 210:
         builder_.unit(code == 200 ? kInch : 1.0);
         break;
+      // The axes of G28 and G30 are an intermediate point. With G91 and Z0 it is where the machine stands; absolute
+      // ones are a move through the part that is not of the path.
       case 280:
       case 300:
         if (!block_.has_code('G', 910))
@@ -121,6 +125,7 @@ class FanucReader {
 
   void work_offset(int code) {
     const GWord* const p = block_.find('P');
+    // Codes are tenths (GWord::code): 540 to 590 are G54 to G59.
     if (code != 541)
       builder_.work_offset(code / 10 - 53);
     else if (p != nullptr && p->whole() >= 1)
@@ -152,6 +157,7 @@ class FanucReader {
 
   /// A coordinate without a point is a whole number of millimetres on one machine and of micrometres on another.
   [[nodiscard]] double coordinate(const GWord& word) const {
+    // Zero is zero in either unit.
     if (!word.point && word.value != 0.0)
       builder_.place().refuse(quoted(word.text) +
                               " has no decimal point, and may be a thousandth of it on the machine");
@@ -159,6 +165,8 @@ class FanucReader {
   }
 
   void other(const GWord& word) {
+    // What is not refused here but has no effect (H, P, Q, N) is in parameter(): only beside the G word that it
+    // belongs to.
     if (is_linear(word.letter)) {
       builder_.linear(static_cast<std::size_t>(word.letter - 'X'), coordinate(word));
     } else if (is_rotary(word.letter)) {

@@ -36,6 +36,8 @@ bool is_number(std::string_view word) {
 class HeidenhainReader {
  public:
   HeidenhainReader(const std::string& file, const NcDialect& dialect) : builder_(file, dialect) {
+    // The control always compensates the tool's length: without M128 or TCPM its coordinates are neither joints nor
+    // the tip.
     builder_.allow_joint(false);
   }
 
@@ -47,10 +49,13 @@ class HeidenhainReader {
       if (comment != std::string_view::npos) builder_.comment(lines.line().substr(comment + 1));
       split_words(lines.upper(), words_);
       if (words_.size() > kMostNcWords) builder_.place().refuse("a block of more than 100 words");
+      // "~" continues a cycle's definition on the next line: its parameters stand one by one in lines of their own.
       const bool continued = continues_;
       continues_ = !words_.empty() && words_.back().ends_with('~');
       if (continues_) drop_tilde();
+      // The block's number; a continued line has none, and a number in it would be a value.
       if (!continued && !words_.empty() && is_number(words_.front())) words_.erase(words_.begin());
+      // "* - text" is a headline of the program's structure, for people.
       if (words_.empty() || words_.front().starts_with('*')) continue;
       if (continued)
         cycle_parameters(0);
@@ -83,11 +88,13 @@ class HeidenhainReader {
     return static_cast<int>(v);
   }
 
+  /// One block by its first word. `line` is as it was written, for names in their own letters.
   void block(std::string_view line) {
     const std::string_view first = word(0);
     if (finished_) builder_.place().refuse("a block after the end of the program");
     if (first == "BEGIN" || first == "END") return frame(line);
     if (!begun_) builder_.place().refuse(quoted(first) + " before BEGIN PGM");
+    // Behind M2 or M30 only END PGM may follow; behind END PGM nothing.
     if (builder_.ended()) builder_.place().refuse("a block after the end of the program");
     if (first == "TOOL")
       tool(line);
@@ -113,12 +120,14 @@ class HeidenhainReader {
     if (word(3) != "MM" && word(3) != "INCH") builder_.place().refuse("BEGIN PGM needs a name, and MM or INCH");
     begun_ = true;
     builder_.unit(word(3) == "MM" ? 1.0 : kInch);
+    // The name in its own letters: words_ is in upper case, and may have lost its block number.
     Words as_written;
     split_words(line, as_written);
     const auto name = std::find(words_.begin(), words_.end(), "PGM") - words_.begin() + 1;
     builder_.header().program = as_written[as_written.size() - words_.size() + static_cast<std::size_t>(name)];
   }
 
+  /// TOOL CALL by number or by name in quotes, with its spindle speed; TOOL DEF only readies the next tool.
   void tool(std::string_view line) {
     if (word(1) == "DEF") return;
     if (word(1) != "CALL") refuse(word(0));
@@ -127,6 +136,7 @@ class HeidenhainReader {
       const std::size_t from = line.find('"') + 1, to = line.find('"', from);
       if (to == std::string_view::npos) builder_.place().refuse("a name is not closed");
       builder_.header().tool.name = line.substr(from, to - from);
+      // A name with spaces was split into words: all up to the closing quote belong to it.
       while (i < words_.size() && !words_[i++].ends_with('"')) {
       }
     } else if (is_number(word(2))) {
@@ -143,9 +153,10 @@ class HeidenhainReader {
     else if (w.starts_with("DL") || w.starts_with("DR")) {
       if (value(w, 2) != 0.0) builder_.place().refuse(quoted(w) + " is an oversize of the tool; accepted is none");
     } else if (w != "Z" && !w.starts_with('F'))
-      refuse(w);
+      refuse(w);  // among them another axis of the tool, which would turn the program's coordinate system
   }
 
+  /// Cycle 247 presets the datum, cycle 32 bounds the control's own smoothing; any other would move or cut.
   void cycle() {
     if (word(1) != "DEF") refuse(word(1).empty() ? word(0) : word(1));
     const std::string_view number = word(2);
@@ -175,15 +186,20 @@ class HeidenhainReader {
         builder_.place().refuse("FUNCTION TCPM is accepted as F TCP AXIS POS|SPAT PATHCTRL AXIS|VECTOR REFPNT TIP-TIP");
       return word(i + 1) == a;
     };
+    // F TCP: the feed is that of the controlled point; the other setting, F CONT, counts the rotary axes in.
     (void)one_of(2, "F", "TCP", "TCP");
+    // With SPAT, angles of L blocks are of the coordinate system, not of the machine's axes: harmless with LN,
+    // refused there.
     spatial_ = !one_of(4, "AXIS", "POS", "SPAT");
     builder_.join(one_of(6, "PATHCTRL", "AXIS", "VECTOR") ? NcJoin::kAxes : NcJoin::kGreatCircle);
+    // Another reference point (the ball's centre) would shift every position by the tip's radius.
     if (words_.size() > 8) (void)one_of(8, "REFPNT", "TIP-TIP", "TIP-TIP");
     if (words_.size() > 10) refuse(word(10));
     builder_.tool_centre(true);
   }
 
-  /// M128 holds from the beginning of its block, M129 and the end of the program from its end.
+  /// M128 holds from the beginning of its block, M129 and the end of the program from its end. Axes beside M129 are
+  /// refused all the same: tool_centre() takes no switch within a move.
   void motion() {
     const bool switches = std::find(words_.begin(), words_.end(), "M128") != words_.end();
     if (switches) {
@@ -191,6 +207,7 @@ class HeidenhainReader {
       spatial_ = false;
       builder_.tool_centre(true);
     }
+    // L always runs at a feed; FMAX makes it rapid for its block alone (motion_word).
     builder_.motion(NcKind::kFeed);
     bool off = false, end = false, of_m128 = false;
     for (std::size_t i = word(0).starts_with('M') ? 0 : 1; i < words_.size(); ++i) {
@@ -233,9 +250,12 @@ class HeidenhainReader {
     }
   }
 
+  /// M words that move nothing, and those whose coordinates are the machine's (M91, M92) or that retract to its limit
+  /// (M140 MB MAX).
   void miscellaneous(std::string_view w) {
     if (w == "MB") return;
     if (w == "MAX") {
+      // "MB MAX" are two words here; the second means something behind M140 only.
       if (std::find(words_.begin(), words_.end(), "M140") == words_.end()) refuse(w);
       return;
     }

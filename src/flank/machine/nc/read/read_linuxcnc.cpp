@@ -14,8 +14,12 @@ class LinuxCncReader {
  public:
   LinuxCncReader(const std::string& file, const NcDialect& dialect)
       : builder_(file, dialect), tcp_on_(upper_case(dialect.tcp_on)), tcp_off_(upper_case(dialect.tcp_off)) {
+    // It interpolates its axes linearly; no word changes that.
     builder_.join(NcJoin::kAxes);
+    // G43 is a word of its own here: from now on the builder holds feed moves to it.
     builder_.length_compensation(false);
+    // Where the machine switches its kinematics by M words, what stands before the first of them is joint
+    // coordinates. Where it does not, no word says which of the two they are: the machine's file does.
     builder_.allow_joint(!tcp_on_.empty() || dialect.positions == NcPositions::kJoint);
     if (tcp_on_.empty() && dialect.positions != NcPositions::kJoint) builder_.tool_centre(true);
   }
@@ -36,6 +40,7 @@ class LinuxCncReader {
 
  private:
   /// A file between two percent signs ends with the second.
+  /// A first "%" only opens the file if nothing came before it.
   void percent() {
     if (opened_) builder_.end_program();
     opened_ = true;
@@ -63,9 +68,12 @@ class LinuxCncReader {
   /// The machine's own words for its kinematics.
   bool switches(const GWord& word) {
     const auto is = [&](const std::string& name) {
+      // By value, so that "M0428" and "M428.0" are the same word.
       return !name.empty() && name[0] == word.letter && name.substr(1) == std::to_string(word.whole());
     };
     if (!is(tcp_on_) && !is(tcp_off_)) return false;
+    // Beside other words it would matter which of them the machine runs first, and that is its remapping's own
+    // business.
     if (block_.words.size() > (block_.find('N') != nullptr ? 2u : 1u))
       builder_.place().refuse(quoted(word.text) + " switches the kinematics; accepted is a block of its own");
     builder_.tool_centre(is(tcp_on_));
@@ -74,6 +82,7 @@ class LinuxCncReader {
 
   void preparatory(const GWord& word) {
     const int code = word.code();
+    // In tenths: G54 to G59 are 540 to 590, G59.1 to G59.3 are 591 to 593 and follow them as offsets 7 to 9.
     if (code >= 540 && code <= 593 && (code % 10 == 0 || code > 590)) {
       builder_.work_offset(code > 590 ? code - 590 + 6 : code / 10 - 53);
       return;
@@ -91,12 +100,15 @@ class LinuxCncReader {
       case 800:
       case 900:
       case 910:
+        // G91 is taken note of, not refused: only a move under it is (end_block), since G91 G28 goes to the reference
+        // position.
         if (code >= 900) builder_.incremental(code == 910);
         break;
       case 200:
       case 210:
         builder_.unit(code == 200 ? kInch : 1.0);
         break;
+      // The axes of G28 and G30 are an intermediate point; only with G91 it is where the machine stands.
       case 280:
       case 300:
         if (!block_.has_code('G', 910))
@@ -158,6 +170,7 @@ class LinuxCncReader {
 
   /// Letters that belong to other words of the block.
   [[nodiscard]] bool parameter(const GWord& word) const {
+    // H is the tool's length of G43, P and Q are the tolerances of G64, and P is the time of G4.
     switch (word.letter) {
       case 'N':
         return true;

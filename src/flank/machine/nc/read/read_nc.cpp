@@ -13,6 +13,8 @@ namespace flank::internal {
 
 namespace {
 
+/// Refuses a text of another language, naming the first word that gives it away. Without it a program would fail at
+/// some innocent word far below, or be read with another meaning: many words are the same everywhere.
 void refuse_others(std::string_view text, const std::string& file, NcLanguage language) {
   const auto mark = recognised_language(text);
   const std::string wanted(nc_language_name(language));
@@ -20,11 +22,13 @@ void refuse_others(std::string_view text, const std::string& file, NcLanguage la
     NcPlace{file, mark->line}.refuse(internal::quoted(mark->word) + " is of a " +
                                      std::string(nc_language_name(mark->language)) + " program; accepted is one for " +
                                      wanted);
+  // Plain G-code is LinuxCNC's where nothing else is said; a program for Fanuc has words that only it has.
   if (!mark && language == NcLanguage::kFanuc)
     NcPlace{file}.refuse(
         "no program number (O0001), G43.4 or G43.5 in the first lines; accepted is a program for fanuc");
 }
 
+/// The letters come from a machine's file or from a caller: the readers index by them.
 void check_dialect(const NcDialect& dialect) {
   const std::string& r = dialect.rotary;
   const auto letter = [](char c) { return c == 'A' || c == 'B' || c == 'C'; };

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kName = "Siemens";
 constexpr double kInch = 25.4;
-constexpr int kMostFrames = 99, kMostEdges = 9;
+constexpr int kMostFrames = 99, kMostEdges = 9;  // G505 to G599; D1 to D9
 
 /// They smooth within a tolerance, compress, look ahead or move no axis of ours: what is verified is the program's own
 /// polyline.
@@ -44,12 +44,14 @@ class SiemensReader {
  private:
   void block() {
     for (const SiemensWord& word : block_.words) {
+      // One letter with a number is an address; T="NAME" has one letter and no number, and is a name.
       if (word.name.size() == 1 && word.value && !word.string)
         letter(word);
       else
         named(word);
     }
     builder_.end_block();
+    // Axes in the block of M30 still move: it ends the program behind its block.
     if (ends_) builder_.end_program();
   }
 
@@ -80,6 +82,7 @@ class SiemensReader {
       builder_.header().tool.number = whole(word);
     } else if (c == 'D') {
       if (whole(word) > kMostEdges) refuse(word);
+      // D0 switches the tool's length off; with an edge it counts, as tool-centre control needs.
       builder_.length_compensation(whole(word) > 0);
     } else if (c != 'N') {
       refuse(word);
@@ -93,6 +96,7 @@ class SiemensReader {
   }
 
   void preparatory(const SiemensWord& word, int code) {
+    // G54 to G57 are offsets 1 to 4; G505 to G599 go on from 5 to 99.
     if ((code >= 54 && code <= 57) || (code > 504 && code <= 500 + kMostFrames)) {
       builder_.work_offset(code > 500 ? code - 500 : code - 53);
       return;
@@ -117,10 +121,12 @@ class SiemensReader {
       case 643:
       case 645:
         break;
+      // G53 and G153 suppress the frames for one block: its coordinates are the machine's.
       case 53:
       case 153:
         builder_.to_reference();
         break;
+      // G70 and G71 are about coordinates, G700 and G710 about feeds as well; here either means both.
       case 70:
       case 700:
         builder_.unit(kInch);
@@ -139,6 +145,7 @@ class SiemensReader {
   }
 
   void miscellaneous(const SiemensWord& word, int code) {
+    // M17 ends a subprogram, which a program that was cut out of a larger one may be.
     if (code == 2 || code == 30 || code == 17)
       ends_ = true;
     else if (code > 9)
@@ -148,6 +155,7 @@ class SiemensReader {
   void named(const SiemensWord& word) {
     const std::string_view name = word.name;
     if (name == "TRAORI") {
+      // A machine may hold several transformations; the first is the one that its file describes.
       if (word.arguments && trimmed(*word.arguments) != "1" && !trimmed(*word.arguments).empty()) refuse(word);
       builder_.tool_centre(true);
     } else if (name == "TRAFOOF") {

@@ -13,6 +13,8 @@ struct Word {
   NcLanguage language;
 };
 
+/// Words that decide, in the order in which they are tried: no other language has them where they are looked for.
+/// Comments are taken off before, since a part's name may hold anything.
 /// At the beginning of a line, behind its number.
 constexpr std::array<Word, 8> kFirst = {{{"BEGIN PGM", NcLanguage::kHeidenhain},
                                          {"PARTNO", NcLanguage::kApt},
@@ -45,6 +47,7 @@ constexpr std::array<std::string_view, 3> kPlain = {"G21", "G20", "G43"};
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// The line without comments: those in parentheses and what follows a semicolon.
+/// Parentheses are comments in G-code and arguments in Siemens programs; what is looked for stands outside of both.
 std::string code_of(const std::string& line) {
   std::string code;
   bool comment = false;
@@ -73,6 +76,7 @@ bool is_program_number(std::string_view code) {
   return true;
 }
 
+/// The first word in this line of code that only one language has.
 std::optional<Word> mark_in(std::string_view code) {
   const std::string_view words = behind_number(code);
   if (is_program_number(words)) return Word{words, NcLanguage::kFanuc};
@@ -91,6 +95,8 @@ std::optional<NcMark> recognised_language(std::string_view text) {
   while (lines.next() && lines.number() <= kRecognisedLines) {
     const std::string code = code_of(lines.upper());
     if (const auto found = mark_in(code)) return NcMark{found->language, lines.number(), std::string(found->text)};
+    // Kept as a second choice: the words of plain G-code occur on Fanuc as well, whose own ones may stand farther
+    // down.
     if (plain) continue;
     for (const std::string_view word : kPlain)
       if (code.find(word) != std::string::npos)

@@ -8,6 +8,7 @@ namespace flank::internal {
 
 namespace {
 
+/// The three classes of characters that words of this language are made of, in ASCII and upper case.
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 bool is_capital(char c) { return (c >= 'A' && c <= 'Z') || c == '_'; }
 bool is_figure(char c) { return c >= '0' && c <= '9'; }
@@ -46,6 +47,7 @@ class SiemensLine {
     while (is_figure(now())) ++at_;
     const std::size_t name_end = at_;
     skip();
+    // The digits belong to the value: back to them, now that no "=" follows.
     if (letters == 1 && now() != '=') {
       at_ = begin + 1;
       skip();
@@ -59,6 +61,7 @@ class SiemensLine {
     return word;
   }
 
+  /// What may stand behind a name: "=" with a number or a string, arguments in parentheses, or nothing of it.
   void behind_name(SiemensWord& word, std::size_t name_end, std::size_t begin) {
     if (now() == '=') {
       ++at_;
@@ -70,6 +73,7 @@ class SiemensLine {
     } else if (now() == '(') {
       word.arguments = between(')');
     } else {
+      // The blanks that were skipped belong to no word: its text, for messages, ends with its name.
       at_ = name_end;
     }
   }
@@ -81,6 +85,7 @@ class SiemensLine {
     return n->value;
   }
 
+  /// From behind the present character to the closing one; in the letters of the line, since it may be a tool's name.
   std::string_view between(char close) {
     const std::size_t from = at_ + 1;
     const std::size_t end = upper_.find(close, from);

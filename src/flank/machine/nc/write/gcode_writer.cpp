@@ -9,8 +9,8 @@ namespace flank::internal {
 
 namespace {
 
-constexpr long kNumberStep = 10, kLargestNumber = 99990;
-constexpr std::size_t kBytesOfMove = 80;
+constexpr long kNumberStep = 10, kLargestNumber = 99990;  // N words have at most five digits: then they begin again
+constexpr std::size_t kBytesOfMove = 80;                  // of a block as it usually is: the text is reserved once
 
 }  // namespace
 
@@ -21,6 +21,7 @@ GCodeWriter::GCodeWriter(const NcProgram& program, const NcDialect& dialect, GCo
 
 void GCodeWriter::raw(std::string_view line) { (text_ += line) += '\n'; }
 
+/// Between the dialect's signs, and in upper case where the control shows no small letters.
 std::string GCodeWriter::comment_text(std::string_view text) const {
   std::string out(text);
   if (style_.upper_comments)
@@ -40,6 +41,7 @@ void GCodeWriter::block(std::string_view words) {
   begin();
   text_ += words;
   end();
+  // The block may have stated a motion word of its own ("G91 G28"): the next move says again which one holds.
   motion_ = "";
 }
 
@@ -67,6 +69,8 @@ void GCodeWriter::feed(const NcMove& move) {
   const bool inverse = program_.feed_mode == NcFeedMode::kInverseTime;
   std::string feed = " F";
   append_decimal(feed, move.feed, nc_feed_decimals(program_.feed_mode, move.feed, dialect_));
+  // In inverse time F is the time of one block: controls demand it in each. Compared as text, so that feeds which
+  // differ in digits that are not written count as the same.
   if (!inverse && feed == feed_) return;
   text_ += feed;
   feed_ = std::move(feed);
@@ -101,8 +105,10 @@ void GCodeWriter::moves(const std::function<void(const NcMove&)>& from_reference
       comment(m.strip < 0 ? std::string(kEndOfStrip)
                           : strip_comment(program_.strips[static_cast<std::size_t>(m.strip)]));
     strip = m.strip;
+    // The first move comes from the header, which has turned the axes and switched on what is needed.
     if (!m.joined && i > 0) {
       from_reference(m);
+      // What stands between may have changed the feed mode; stating F once more costs nothing.
       feed_.clear();
     }
     move(m);

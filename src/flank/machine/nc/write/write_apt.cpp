@@ -21,6 +21,8 @@ class Statement {
     const std::size_t at = text_.size();
     if (!first_) text_ += ',';
     append_decimal(text_, value, decimals);
+    // The number went over the end, with two characters kept for " $": it moves to a line of its own, indented by
+    // two.
     if (text_.size() - begin_ + 2 > kWidth) {
       const std::size_t value_at = at + (first_ ? 0 : 1);
       text_.insert(value_at, " $\n  ");
@@ -46,11 +48,13 @@ void header(std::string& text, const NcProgram& program) {
   const NcHeader& h = program.header;
   const auto print = [&](const std::string& comment) { text += "PPRINT " + comment + '\n'; };
   text += "PARTNO " + safe_comment(h.part.empty() ? "-" : h.part) + '\n';
+  // MULTAX: every GOTO has a direction of the tool beside its point.
   text += "UNITS/MM\nMULTAX/ON\n";
   print(safe_comment("PROGRAM " + h.program));
   NcHeader without_part = h;  // PARTNO has it
   without_part.part.clear();
   for (const std::string& comment : header_comments(without_part)) print(comment);
+  // APT has no words for these two; our reader and people find them here.
   print("WORK OFFSET " + std::to_string(h.work_offset));
   print(program.join == NcJoin::kGreatCircle ? "JOIN GREAT CIRCLE" : "JOIN AXES");
   text += "LOADTL/" + std::to_string(h.tool.number) + '\n';
@@ -69,6 +73,7 @@ void feed_of(std::string& text, std::string& last, const NcMove& move, const NcD
   last = std::move(feed);
 }
 
+/// A cutter location is a point and a vector: rotary axes are of a machine, which another postprocessor chooses.
 void refuse_unsayable(const NcProgram& program) {
   if (program.positions != NcPositions::kTipVector)
     throw UsageError("dialect", "apt", "has tool vectors only; accepted are programs that state them");
@@ -91,6 +96,7 @@ std::string write_apt(const NcProgram& program, const NcDialect& dialect) {
           (m.strip < 0 ? std::string(kEndOfStrip) : strip_comment(program.strips[static_cast<std::size_t>(m.strip)])) +
           '\n';
     strip = m.strip;
+    // By its reference position: what lies between the two moves is no straight join.
     if (!m.joined && i > 0) text += "GOHOME\n";
     if (m.kind == NcKind::kRapid)
       text += "RAPID\n";

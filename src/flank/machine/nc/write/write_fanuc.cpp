@@ -10,10 +10,12 @@ namespace {
 
 constexpr int kLastSimple = 6, kLastOffset = 54, kLargestProgram = 9999;  // G54.1 P1 to P48 follow G59
 
+/// G54 to G59 for 1 to 6, then the additional frames of G54.1.
 std::string work_offset(int number) {
   return number <= kLastSimple ? "G" + std::to_string(53 + number) : "G54.1 P" + std::to_string(number - kLastSimple);
 }
 
+/// "O" and four digits, as controls list programs.
 std::string program_number(int number) {
   const std::string digits = std::to_string(number);
   return "O" + std::string(4 - digits.size(), '0') + digits;
@@ -33,21 +35,25 @@ std::string write_fanuc(const NcProgram& program, const NcDialect& dialect) {
   out.raw("%");
   out.raw(program_number(header.number) + " " + out.comment_text(safe_comment(header.program)));
   for (const std::string& line : header_comments(header)) out.comment(line);
+  // Whatever state the last program has left: millimetres, absolute, no compensation, no cycle.
   out.block("G21 G17 G90 G94 G40 G49 G80");
   out.block("T" + tool + " M6");
   out.block(work_offset(header.work_offset));
   if (const std::string spindle = spindle_words(header); !spindle.empty()) out.block(spindle);
+  // The rotary axes turn before G43.4 or G43.5: afterwards the control would hold the tip where it is meanwhile.
   out.start_rotary();
   if (smooth) out.block("G5.1 Q1");
   if (tip) out.block(tcp);
   if (program.feed_mode == NcFeedMode::kInverseTime) out.block("G93");
   out.moves([&](const NcMove& move) {
+    // G28 is about the machine's own axes, which tool-centre control would move with the tip in mind.
     if (tip) out.block("G49");
     out.block("G91 G28 Z0.0");
     out.block("G90");
     out.rotary_of(move);
     if (tip) out.block(tcp);
   });
+  // Programs end in the state in which they are expected to begin.
   if (program.feed_mode == NcFeedMode::kInverseTime) out.block("G94");
   if (tip) out.block("G49");
   if (smooth) out.block("G5.1 Q0");

@@ -12,7 +12,7 @@ namespace flank::internal {
 
 namespace {
 
-constexpr std::size_t kBytesOfMove = 80;
+constexpr std::size_t kBytesOfMove = 80;  // of a block as it usually is: the text is reserved once
 
 /// The name of a program is the name of its file: letters, digits and _.
 std::string program_name(const std::string& name) {
@@ -26,6 +26,7 @@ class HeidenhainWriter {
  public:
   HeidenhainWriter(const NcProgram& program, const NcDialect& dialect)
       : program_(program), dialect_(dialect), style_{dialect.decimal_comma ? ',' : '.', true} {
+    // The control takes coordinates with a sign; feeds, speeds and tolerances have none.
     unsigned_ = style_;
     unsigned_.plus = false;
     text_.reserve(1000 + kBytesOfMove * program.moves.size());
@@ -34,11 +35,14 @@ class HeidenhainWriter {
   std::string write() {
     const std::string name = program_name(program_.header.program) + " MM";
     block("BEGIN PGM " + name);
+    // Rotary axes first, in the air and without tool-centre control: switched on before, the tip would be held in
+    // place and the linear axes would run after it.
     header();
     start_rotary();
     tool_centre(true);
     moves();
     tool_centre(false);
+    // Back along the tool's axis to the end of the travel, away from the part, before the spindle stops.
     block("L M140 MB MAX FMAX");
     block("M5");
     block("M30");
@@ -47,6 +51,7 @@ class HeidenhainWriter {
   }
 
  private:
+  /// M128 always runs the rotary axes linearly: only the function can say that the tool turns on a great circle.
   [[nodiscard]] bool function() const { return dialect_.function_tcpm || program_.join == NcJoin::kGreatCircle; }
 
   void begin() { (text_ += std::to_string(number_++)) += ' '; }
@@ -64,6 +69,7 @@ class HeidenhainWriter {
     block("CYCL DEF 247 Q339=" + std::to_string(h.work_offset));
     if (dialect_.smoothing_mm > 0.0) tolerance();
     if (h.spindle_rpm > 0.0) block("M3");
+    // Rotary axes take the shorter way, which is what the unwound values of our blocks mean.
     block("M126");
   }
 
@@ -74,6 +80,7 @@ class HeidenhainWriter {
     block(words);
     words = "CYCL DEF 32.2 HSC-MODE:0 TA";
     append_decimal(words, dialect_.smoothing_deg, kMostNcDecimals, unsigned_);
+    // TA only where it is given: 0 would be a demand, and the control takes a default without it.
     if (dialect_.smoothing_deg > 0.0) block(words);
   }
 
@@ -100,6 +107,8 @@ class HeidenhainWriter {
   void rotary_of(const NcMove& m) {
     if (program_.positions != NcPositions::kTipVector) rotary_block(m.orientation.x(), m.orientation.y());
   }
+  /// The angles from which the path begins: where blocks state tool vectors, they decide which solution the control
+  /// takes.
   void start_rotary() {
     if (program_.start_rotary)
       rotary_block(program_.start_rotary->x(), program_.start_rotary->y());
@@ -115,6 +124,7 @@ class HeidenhainWriter {
         block("; " + (m.strip < 0 ? std::string(kEndOfStrip)
                                   : strip_comment(program_.strips[static_cast<std::size_t>(m.strip)])));
       strip = m.strip;
+      // The machine leaves its reference position anew: as at the beginning, axes turn without tool-centre control.
       if (!m.joined && i > 0) {
         tool_centre(false);
         block("L M140 MB MAX FMAX");
@@ -145,6 +155,7 @@ class HeidenhainWriter {
     text_ += '\n';
   }
 
+  /// F is modal and FMAX is not: the last F holds again after a rapid block, so only a change is written.
   void feed(const NcMove& m) {
     std::string feed = " F";
     append_short_decimal(feed, m.feed, nc_feed_decimals(program_.feed_mode, m.feed, dialect_), unsigned_);

@@ -11,6 +11,7 @@ namespace {
 
 constexpr int kFirstOfExtended = 7, kLastOffset = 9;  // G59.1 to G59.3 follow G59
 
+/// What LinuxCNC cannot say, as a user's error: another dialect, or another entry in the machine's file, mends it.
 void refuse_unsayable(const NcProgram& program, const NcDialect& dialect) {
   if (program.positions == NcPositions::kTipVector)
     throw UsageError("dialect", "linuxcnc", "has no tool vectors; accepted are rotary axes or joint coordinates");
@@ -20,6 +21,8 @@ void refuse_unsayable(const NcProgram& program, const NcDialect& dialect) {
     throw UsageError("dialect", "linuxcnc", "has work offsets 1 to 9 (G54 to G59.3)");
   if (dialect.tcp_on.empty() != dialect.tcp_off.empty())
     throw UsageError("dialect", "linuxcnc", "needs both words that switch its kinematics, or neither");
+  // Only where kinematics are switched is there a stretch in joint coordinates, in which the rotary axes can turn by
+  // themselves before the next move.
   if (!dialect.tcp_on.empty() && program.positions != NcPositions::kJoint) return;
   for (std::size_t i = 1; i < program.moves.size(); ++i)
     if (!program.moves[i].joined)
@@ -32,6 +35,8 @@ std::string work_offset(int number) {
                                    : "G59." + std::to_string(number - kFirstOfExtended + 1);
 }
 
+/// G61 keeps the exact path; G64 P blends corners within the tolerance. Q0 keeps it from leaving out points on its
+/// own.
 std::string smoothing(const NcDialect& dialect) {
   if (dialect.smoothing_mm <= 0.0) return "G61";
   std::string words = "G64 P";
@@ -54,6 +59,7 @@ std::string write_linuxcnc(const NcProgram& program, const NcDialect& dialect) {
   out.block(smoothing(dialect));
   out.block(work_offset(header.work_offset));
   out.block("T" + tool + " M6");
+  // The kinematics take the tool's length from here; joints are stated for none.
   if (tip) out.block("G43 H" + tool);
   if (const std::string spindle = spindle_words(header); !spindle.empty()) out.block(spindle);
   out.start_rotary();
@@ -67,6 +73,7 @@ std::string write_linuxcnc(const NcProgram& program, const NcDialect& dialect) {
   });
   if (switched) out.block(dialect.tcp_off);
   out.block("M5");
+  // The modes of a fresh control, for what is typed next.
   out.block("G94 G49 M2");
   out.raw("%");
   return out.take();

@@ -14,9 +14,10 @@ namespace flank::internal {
 
 namespace {
 
-constexpr double kUnitVectorError = 1e-6;
-constexpr double kSmallestFeed = 1e-6;  // keeps four digits of what nine decimals can say
+constexpr double kUnitVectorError = 1e-6;  // rounding is far below: what is farther off was never normalised
+constexpr double kSmallestFeed = 1e-6;     // keeps four digits of what nine decimals can say
 
+/// More decimals than this would not fit into the integer by which numbers are printed (nc_number.cpp).
 void check_decimals(const NcDialect& dialect) {
   for (const int decimals :
        {dialect.length_decimals, dialect.angle_decimals, dialect.vector_decimals, dialect.feed_decimals})
@@ -24,6 +25,7 @@ void check_decimals(const NcDialect& dialect) {
       throw UsageError("decimals", std::to_string(decimals), "accepted are 0 to 9");
 }
 
+/// What a program of our own making always keeps is an InternalError; a feed may come from a user's wish.
 void check_move(const NcProgram& program, const NcMove& move) {
   if (move.strip < -1 || move.strip >= static_cast<std::int32_t>(program.strips.size()))
     throw InternalError("a move of a program belongs to a strip that it does not have");
@@ -37,6 +39,7 @@ void check_move(const NcProgram& program, const NcMove& move) {
 
 void check_program(const NcProgram& program) {
   if (program.moves.empty()) throw UsageError("program: has no moves");
+  // Letters come from the machine's file, or from a caller who made the program: writers index by them.
   const std::string& r = program.rotary;
   const auto letter = [](char c) { return c == 'A' || c == 'B' || c == 'C'; };
   if (r.size() != 2 || !letter(r[0]) || !letter(r[1]) || r[0] == r[1])

@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kLastSimple = 4, kLastOffset = 99;  // G505 to G599 follow G57
 
+/// G54 to G57 for 1 to 4, then G505 to G599.
 std::string work_offset(int number) { return "G" + std::to_string(number <= kLastSimple ? 53 + number : 500 + number); }
 
 /// Tools have names, without spaces; one that has none here is called by its number.
@@ -23,6 +24,7 @@ std::string tool_call(const NcTool& tool, bool length_compensation) {
          (length_compensation ? " D1" : " D0");
 }
 
+/// G642 blends within the contour tolerance CTOL, mm, and that of the orientation OTOL, degrees.
 std::string smoothing(const NcDialect& dialect) {
   std::string words = "G642 CTOL=";
   append_decimal(words, dialect.smoothing_mm, kMostNcDecimals);
@@ -34,6 +36,7 @@ void tool_centre_on(GCodeWriter& out, const NcProgram& program) {
   out.block("TRAORI");
   // The transformation may drop the frame.
   out.block(work_offset(program.header.work_offset));
+  // ORIWKS: directions, and the plane in which the tool turns between two of them, are in the frame of the part.
   out.block(program.join == NcJoin::kGreatCircle ? "ORIWKS ORIVECT" : "ORIWKS ORIAXES");
 }
 
@@ -51,6 +54,7 @@ std::string write_siemens(const NcProgram& program, const NcDialect& dialect) {
   out.block("M6");
   out.block(work_offset(header.work_offset));
   if (const std::string spindle = spindle_words(header); !spindle.empty()) out.block(spindle);
+  // The rotary axes turn before TRAORI: afterwards the control would hold the tip where it is meanwhile.
   out.start_rotary();
   if (tip) tool_centre_on(out, program);
   if (dialect.smoothing_mm > 0.0) out.block(smoothing(dialect));
@@ -59,6 +63,7 @@ std::string write_siemens(const NcProgram& program, const NcDialect& dialect) {
   if (program.feed_mode == NcFeedMode::kInverseTime) out.block("G93");
   out.moves([&](const NcMove& move) {
     if (tip) out.block("TRAFOOF");
+    // Without frames and without the tool's length: Z0 of the machine itself, not of the part.
     out.block("SUPA G0 Z0.0 D0");
     out.block(tip ? "D1" : "D0");
     out.rotary_of(move);
