@@ -68,7 +68,7 @@ std::string own_tool(const Example& example, double share) {
 
 CoverJob job_of(const Scene& scene) {
   CoverJob job;
-  job.judge.least_coverage = 0.0;
+  job.judge.least_coverage = 1e-6;  // whatever comes out is shown
   job.tool.spec = scene.tool;
   if (scene.axis_length > 0.0) job.tool.axis_length_mm = scene.axis_length;
   job.tolerance_mm = scene.tolerance;

@@ -54,7 +54,7 @@ std::vector<Figure> given_on_r37(const std::string& tool) {
   job.part.file = real_part("r37_blade.step");
   job.tool.spec = tool;
   job.tolerance_mm = 0.1;
-  job.judge.least_coverage = 0.0;
+  job.judge.least_coverage = 1e-6;  // whatever comes out is shown
   Result outcome;
   const double seconds = seconds_of([&] { outcome = run_fit(job, {}); });
   return {at_most("overcut", outcome.verify.overcut_mm / outcome.diagonal_mm, 2e-5),

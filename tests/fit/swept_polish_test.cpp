@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "fit/flat_scene.h"
+#include "flank/example/example.h"
 #include "flank/threads.h"
 #include "sanitized.h"
 
@@ -210,6 +211,46 @@ TEST(WithoutOvercut, AGivenToolIsLiftedAtThePriceOfMaterialLeft) {
   EXPECT_LT(after.estimate.overcut_mm, 0.02 * before.estimate.overcut_mm);
   EXPECT_LT(after.estimate.undercut_mm, 0.15);
   EXPECT_EQ(after.draft.tool.parameters()[0], 4.0);
+}
+
+TEST(LastDigits, AreFoundOnAnEnvelope) {
+  const Example example = make_example("envelope-barrel-2");
+  const auto target = make_target(std::vector<Face>{example.faces.front()});
+  const double size = target->diagonal();
+  FlankFitOptions options = small_options();
+  options.bounds = {1.0, 100.0, 0.95};
+  options.tolerance_mm = 5e-5 * size;
+  const auto samples = ranking_samples(*target, nullptr, options);
+  FitDraft draft;
+  draft.targets = {target.get()};
+  draft.motions = {example.truth->motions.front()};
+  const double length = draft.motions.front().axis_length;
+  std::vector<Vec2> radii;
+  for (int j = 0; j <= 200; ++j) {
+    const double s = length * j / 200.0;
+    radii.emplace_back(s, example.truth->tool.radial.at(s).r + 2e-5 * size * std::sin(9.0 * s / length));
+  }
+  draft.tool = RadialFunction::spline_through(length, radii, 16);
+  draft.free_tool = true;
+  const Polished rough = assess(draft, samples, options);
+  ASSERT_GT(rough.estimate.rms_mm, 5e-6 * size);
+  const Polished fine = last_digits(rough, samples, options, nullptr);
+  EXPECT_TRUE(fine.exact);
+  EXPECT_LT(fine.estimate.rms_mm, 0.2 * rough.estimate.rms_mm);
+  EXPECT_LE(fine.estimate.overcut_mm, std::max(rough.estimate.overcut_mm, 2e-6 * size));
+  EXPECT_GE(fine.estimate.at_tolerance, rough.estimate.at_tolerance);
+}
+
+TEST(LastDigits, LeaveWhatIsNoEnvelopeAndToolsThatAreGiven) {
+  const auto target = twisted_blade(kLift);
+  const FlankFitOptions options = small_options();
+  const auto samples = ranking_samples(*target, nullptr, options);
+  for (const bool free_tool : {true, false}) {
+    const Polished start = assess(twisted_draft(*target, kLift, 0.0, free_tool), samples, options);
+    const Polished same = last_digits(start, samples, options, nullptr);
+    EXPECT_FALSE(same.exact);
+    EXPECT_EQ(same.draft.motions.front().tip.poles, start.draft.motions.front().tip.poles);
+  }
 }
 
 }  // namespace

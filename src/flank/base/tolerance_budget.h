@@ -48,7 +48,7 @@ struct OtherFacesBudget {
   double triangles = 0.3;
   /// What a fit of a tool (no certificate follows) lets its flank enter, by the exact surfaces; and what its term, which
   /// is soft, may give beyond that.
-  double fit_allowance = 0.8, soft_term = 0.16;
+  double fit_allowance = 0.8, soft_term = 0.18;
 };
 
 /// Shank and holder against the target's own faces, in tolerances. Where they touch, the flank touches too.
@@ -72,8 +72,10 @@ struct FitBudget {
   double overcut = 0.95, settled_overcut = 0.92;
   /// Overcut of an exact fit that is left alone: its last digits are worth more than that.
   double exact_overcut = 0.1;
-  /// The deepest that a fit may be by its estimate to count as one that cuts nothing: the judge sees a little more.
+  /// The deepest that a candidate may be, looked at closely, to end the search.
   double seen = 0.97;
+  /// The deepest that any fit may be by its estimate to count as one that cuts nothing: the judge sees a little more.
+  double clean = 0.99;
   /// What may lie between the samples of the estimate.
   double between_samples = 0.03;
 };

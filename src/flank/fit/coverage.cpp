@@ -136,7 +136,7 @@ std::vector<Vec3> cut_deeper_than(double depth_mm, const std::vector<SurfaceSamp
 }
 
 bool is_clean(const CoverageEstimate& estimate, double tolerance_mm) {
-  return std::max(estimate.overcut_mm, estimate.gouge_mm) <= kToleranceBudget.fit.seen * tolerance_mm;
+  return std::max(estimate.overcut_mm, estimate.gouge_mm) <= kToleranceBudget.fit.clean * tolerance_mm;
 }
 
 namespace {

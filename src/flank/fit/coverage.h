@@ -23,7 +23,7 @@ inline constexpr double kSameCoverage = 1e-3;
                                                 int poses);
 
 /// Enters and cuts nothing by more than the tolerance, by the planner's estimate and with what that may not have seen
-/// (FitBudget::seen).
+/// (FitBudget::clean).
 [[nodiscard]] bool is_clean(const CoverageEstimate& estimate, double tolerance_mm);
 
 /// Is `a` to be returned rather than `b`? One that enters nothing goes before one that does, unless it covers less

@@ -10,6 +10,7 @@
 #include "flank/base/tolerance_budget.h"
 #include "flank/fit/coverage.h"
 #include "flank/fit/swept_polish.h"
+#include "flank/tool.h"
 
 namespace flank::internal {
 namespace {
@@ -224,11 +225,22 @@ Polished mended(const Polished& polished, const std::vector<SurfaceSample>& samp
   return best;
 }
 
+/// A free tool that is none somewhere between the samples of the passes (its spheres are not inscribed there), made one.
+/// As it was if that costs more than half of what is covered.
+Polished made_legitimate(const Polished& polished, const std::vector<SurfaceSample>& samples,
+                         const FlankFitOptions& options) {
+  if (!polished.draft.free_tool || check_legitimacy(polished.draft.tool).legitimate) return polished;
+  Polished trial = seen_closely(pass_at(polished.draft, {}, options), samples, options);
+  const bool worth = trial.estimate.at_tolerance > 0.5 * polished.estimate.at_tolerance;
+  return worth && check_legitimacy(trial.draft.tool).legitimate ? trial : polished;
+}
+
 }  // namespace
 
 Polished settled(const Polished& polished, const FlankFitOptions& options) {
   const std::vector<SurfaceSample> samples = close_samples(polished.draft, options);
-  Polished again = mended(seen_closely(polished.draft, samples, options), samples, options);
+  Polished again = made_legitimate(seen_closely(polished.draft, samples, options), samples, options);
+  again = mended(again, samples, options);
   if (again.estimate.overcut_mm > options.tolerance_mm) again = shifted(again, samples, options);
   // Between these samples, too, nothing may be cut deeper than the tolerance: a little room, if it costs little of the
   // covered share.

@@ -4,6 +4,7 @@
 
 #include "flank/base/assert.h"
 #include "flank/base/parallel.h"
+#include "flank/base/tolerance_budget.h"
 #include "flank/fit/coverage.h"
 #include "flank/fit/swept_polish.h"
 #include "flank/tool/compliance.h"
@@ -22,11 +23,20 @@ double slenderness_of(const Runner& runner) {
   return slenderness(tool.axis_length(), compliance(tool));
 }
 
+/// An envelope, found to the last digits.
+bool has_last_digits(const Runner& runner, const FlankFitOptions& options) {
+  return runner.polished.exact &&
+         runner.polished.estimate.overcut_mm <= kToleranceBudget.fit.exact_overcut * options.tolerance_mm;
+}
+
 /// Stable, so that equal ones keep the order of their promise. At most the two of a pair are enough, so "about as stiff"
-/// compares no three of them.
+/// compares no three of them. An envelope found exactly is not given away for a tool that is a little stiffer: both are
+/// as stiff as was asked, and the error is what differs, by orders of magnitude.
 void sort_by_merit(std::vector<Runner>& runners, const FlankFitOptions& options) {
   std::stable_sort(runners.begin(), runners.end(), [&](const Runner& a, const Runner& b) {
     if (a.enough != b.enough) return a.enough;
+    const bool digits_a = has_last_digits(a, options), digits_b = has_last_digits(b, options);
+    if (a.enough && digits_a != digits_b) return digits_a;
     if (a.enough) return slenderness_of(a) < (1.0 - kSameStiffness) * slenderness_of(b);
     return a.polished.estimate.score(options.tolerance_mm) > b.polished.estimate.score(options.tolerance_mm);
   });
@@ -76,6 +86,19 @@ void pass_until_enough(std::vector<Runner>& runners, const std::vector<SurfaceSa
   }
 }
 
+/// The winner, taken to the last digits where its target seems to be an envelope; as it was where that gains nothing.
+Runner with_last_digits(const Runner& winner, const std::vector<SurfaceSample>& samples,
+                        const FlankFitOptions& options) {
+  if (has_last_digits(winner, options)) return winner;
+  Runner exact = winner;
+  exact.polished = last_digits(winner.polished, samples, options, &exact.trace);
+  if (!exact.polished.exact) return winner;
+  exact.enough = false;
+  settle_if_enough(exact, samples, options);
+  const bool deeper = exact.polished.estimate.overcut_mm > winner.polished.estimate.overcut_mm;
+  return deeper || (winner.enough && !exact.enough) ? winner : exact;
+}
+
 }  // namespace
 
 bool is_enough(const CoverageEstimate& estimate, const FlankFitOptions& options) {
@@ -92,7 +115,8 @@ Polished looked_at_closely(const Polished& polished, const std::vector<SurfaceSa
 void settle_if_enough(Runner& runner, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
   if (!is_enough(runner.polished.estimate, options)) return;
   Polished close = looked_at_closely(runner.polished, samples, options);
-  runner.enough = is_enough(close.estimate, options);
+  const double deepest = std::max(close.estimate.overcut_mm, close.estimate.gouge_mm);
+  runner.enough = is_enough(close.estimate, options) && deepest <= kToleranceBudget.fit.seen * options.tolerance_mm;
   close.exact = runner.polished.exact;
   if (runner.enough) runner.polished = std::move(close);
 }
@@ -102,10 +126,11 @@ Runner race(const std::vector<FitDraft>& starts, const std::vector<SurfaceSample
   FLANK_ASSERT(!starts.empty() && options.kept_after_quick >= 1 && options.kept_after_polish >= 1);
   std::vector<Runner> runners = polish_until_enough(starts, samples, options, progress);
   sort_by_merit(runners, options);
-  if (runners.front().enough) return runners.front();
-  pass_until_enough(runners, samples, options, progress);
-  sort_by_merit(runners, options);
-  return runners.front();
+  if (!runners.front().enough) {
+    pass_until_enough(runners, samples, options, progress);
+    sort_by_merit(runners, options);
+  }
+  return with_last_digits(runners.front(), samples, options);
 }
 
 }  // namespace flank::internal

@@ -206,12 +206,52 @@ Polished swept_polish(const Polished& polished, const std::vector<SurfaceSample>
   return best;
 }
 
+Polished last_digits(const Polished& polished, const std::vector<SurfaceSample>& samples,
+                     const FlankFitOptions& options, std::vector<IterationTrace>* trace) {
+  constexpr double kEnvelope = 3e-5;  // of the size, as kExactShare (polish.cpp) at the axis
+  constexpr int kIterations = 30;
+  constexpr double kEnvelopeGains = 0.9;   // of the mean error, at most, after a pass: else it is no envelope
+  constexpr double kDigits = 2e-6;         // of the size: overcut that is as good as none
+  constexpr double kNearlyCovered = 0.98;  // by the samples: what misses more has something else to mend first
+  const double size = polished.draft.targets.front()->diagonal();
+  const CoverageEstimate& estimate = polished.estimate;
+  if (!polished.draft.free_tool || estimate.at_tolerance < kNearlyCovered || estimate.rms_mm > kEnvelope * size)
+    return polished;
+  Polished best = polished, trial = polished;
+  for (const bool last : {false, true}) {
+    FitStage stage = swept_stage(kMean, options, size);
+    const FitStage exact = exact_stage(last);
+    stage.control_points = exact.control_points;
+    stage.samples_t = exact.samples_t;
+    stage.samples_s = exact.samples_s;
+    stage.fairness = exact.fairness;
+    stage.tool_fairness = exact.tool_fairness;
+    stage.axial_pin = exact.axial_pin;
+    stage.plunge_weight = stage.lag_weight = 0.0;
+    stage.overcut_weight = 1.0;
+    stage.iterations = kIterations;
+    stage.step_tolerance = exact.step_tolerance;
+    const std::vector<FacePoint> points = target_points(trial.draft, kMean.points_per_side, reach_of(options));
+    trial = assess(run_swept(trial.draft, options.bounds, stage, points, trace), samples, options);
+    const CoverageEstimate &now = trial.estimate, &before = best.estimate;
+    if (now.rms_mm > kEnvelopeGains * before.rms_mm) break;
+    const double deepest = std::max(before.overcut_mm, kDigits * size);
+    const bool keeps = now.at_tolerance >= before.at_tolerance && std::max(now.overcut_mm, now.gouge_mm) <= deepest &&
+                       (now.largest_c < 1.0 || now.largest_c <= before.largest_c);
+    if (!keeps) continue;
+    best = trial;
+    best.exact = true;
+  }
+  return best;
+}
+
 FitDraft pass_at(const FitDraft& draft, const std::vector<Vec3>& deep, const FlankFitOptions& options) {
   std::vector<FacePoint> points = target_points(draft, kDense.points_per_side, reach_of(options));
   const double share = 1.0 / static_cast<double>(points.size());
   for (const Vec3& place : deep) points.push_back({place, share, FacePoint::Role::kTouch});
-  const double size = draft.targets.front()->diagonal();
-  return run_swept(draft, options.bounds, swept_stage(kDense, options, size), std::move(points), nullptr);
+  FitStage stage = swept_stage(kDense, options, draft.targets.front()->diagonal());
+  stage.bounds_at_knots = true;
+  return run_swept(draft, options.bounds, stage, std::move(points), nullptr);
 }
 
 FitDraft run_constrained(const FitDraft& draft, const RadiusBounds& bounds, const FitStage& stage, double band_mm,

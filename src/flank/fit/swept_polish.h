@@ -34,6 +34,13 @@ struct ReachLimits {
 [[nodiscard]] Polished swept_polish(const Polished& polished, const std::vector<SurfaceSample>& samples,
                                     const FlankFitOptions& options, std::vector<IterationTrace>* trace);
 
+/// For a free tool on a target that seems to be its envelope (mean error over the samples below 3e-5 of the size, nearly
+/// all of it covered): two passes without a dead zone, and with all but no weights but the error's. Residuals are those of
+/// the face, so the rim is held, which passes at the axis let go. Kept as far as mean error and overcut fall and
+/// nothing is lost; given up after the first pass if it is no envelope.
+[[nodiscard]] Polished last_digits(const Polished& polished, const std::vector<SurfaceSample>& samples,
+                                   const FlankFitOptions& options, std::vector<IterationTrace>* trace);
+
 /// A tool whose shape is given cannot shrink: its overcut is taken out by the constrained pass, at the price of
 /// material left. Returns its argument for a free tool, if there is no overcut worth removing, or if the pass did not
 /// lower it.
@@ -41,8 +48,8 @@ struct ReachLimits {
                                        const FlankFitOptions& options);
 
 /// One more pass of a draft that cuts deeper than allowed at `deep`, places of the target that no pass has seen (the
-/// passes see 2,500 points, a last look many more): they join the points. Not assessed: by which samples it is measured
-/// is for the caller to say.
+/// passes see 2,500 points, a last look many more): they join the points. A free tool's bounds are asked at its knots,
+/// too. Not assessed: by which samples it is measured is for the caller to say.
 [[nodiscard]] FitDraft pass_at(const FitDraft& draft, const std::vector<Vec3>& deep, const FlankFitOptions& options);
 
 }  // namespace flank::internal

@@ -41,7 +41,7 @@ TEST(ToolExcess, AToolWithinItsBoundsHasNone) {
 
 // Of a spline whose profile bends hardest at a knot between two samples, which see nothing of it.
 TEST(ToolExcess, BoundsAreAskedAtTheKnotsToo) {
-  const RadialFunction bent = spline({6.0, 5.5, 4.6, 5.5, 6.0, 6.2});
+  const RadialFunction bent = spline({8.0, 6.5, 3.0, 6.5, 8.0, 8.2});
   RadiusBounds bounds{1.0, 9.0, 0.9};
   bounds.wheel_radius = 50.0;
   const double knot = kLength / 3.0;

@@ -76,7 +76,7 @@ FitModel::FitModel(std::vector<const Target*> targets, const FitState& start, st
     start_radius_.push_back(jet.r);
     start_slope_.push_back(jet.d1);
   }
-  bound_places_ = bound_places(start.tool, s_);
+  bound_places_ = stage.bounds_at_knots ? bound_places(start.tool, s_) : s_;
   for (const RuledMotion& motion : start.motions) add_anchors(motion);
 }
 

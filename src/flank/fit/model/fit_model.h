@@ -71,6 +71,9 @@ struct FitStage {
   /// > 0: factor on the weight of residuals below zero (the tool enters the target). Above 1 if cutting too deep is
   /// worse than leaving material.
   double overcut_weight = 1.0;
+  /// Ask the bounds of a free spline at its knots, too (tool_excess.h). Only for a pass that mends a tool which is none
+  /// between the samples: on the way to an envelope such a bound is in the way, and a fit sticks at it.
+  bool bounds_at_knots = false;
   /// >= 0: of the mean square depth by which the flank enters obstacles. MATH section 7 found 30 to 100 to work.
   double clear_weight = 30.0;
   /// Distances to obstacles by interpolation (ObstacleField::estimate): faster, good enough for ranking starts.
