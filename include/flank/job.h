@@ -176,6 +176,7 @@ struct PostJob {
   std::optional<double> tool_length_mm;  ///< from the gauge line to the controlled point; none: the machine's
   double link_clearance_mm = 5.0;        ///< of the tool from the part's surroundings on links
   double lift_mm = 2.0;                  ///< off the surface, before and after each strip
+  std::string order = "shortest";        ///< of the strips: the shortest ways between them, or "given"
   double spindle_rpm = 0.0;              ///< 0: the spindle is not started
   bool operator==(const PostJob&) const = default;
 };

@@ -77,9 +77,10 @@ Addresses members(const TrochoidJob& job) {
   return all;
 }
 Addresses members(const PostJob& job) {
-  const auto& [folder, machine, part, setup, feed, speed, deviation, tool_length, clearance, lift, spindle] = job;
+  const auto& [folder, machine, part, setup, feed, speed, deviation, tool_length, clearance, lift, order, spindle] =
+      job;
   Addresses all;
-  add(all, folder, machine, part, setup, feed, speed, deviation, tool_length, clearance, lift, spindle);
+  add(all, folder, machine, part, setup, feed, speed, deviation, tool_length, clearance, lift, order, spindle);
   return all;
 }
 Addresses members(const VerifyJob& job) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace flank::internal {
 namespace {
 
@@ -22,6 +24,42 @@ TEST(Links, StripsThatGoOnIntoOneAnotherAreOne) {
   EXPECT_EQ(chains.strips[1].id, 3) << "not from the same place";
   EXPECT_EQ(chains.strips[2].id, 4) << "not along the same axis";
   EXPECT_TRUE(joined({}).strips.empty());
+}
+
+// An arc of 60 degrees: tangent to the motion at the contact, `off` away from the surface at its end, the axis as it was.
+TEST(Links, ALeadLeavesTangentToTheMotion) {
+  const Pose contact{Vec3(1, 2, 3), Vec3::UnitZ()};
+  const std::vector<Pose> arc = lead_out(contact, {Vec3(0, 2, 0), Vec3::UnitX()});
+  ASSERT_GT(arc.size(), 6U);
+  EXPECT_EQ(arc.front().tip, contact.tip);
+  const Vec3 first = (arc[1].tip - arc[0].tip).normalized();
+  EXPECT_GT(first.x(), std::cos(3.0 * M_PI / 180.0));
+  EXPECT_NEAR(arc.back().tip.y() - contact.tip.y(), 2.0, 1e-12);
+  EXPECT_NEAR(arc.back().tip.x() - contact.tip.x(), 4.0 * std::sin(M_PI / 3.0), 1e-12);
+  for (std::size_t k = 1; k < arc.size(); ++k) {
+    EXPECT_NEAR((arc[k].tip - Vec3(1, 6, 3)).norm(), 4.0, 1e-12);
+    EXPECT_EQ(arc[k].axis, contact.axis);
+  }
+  EXPECT_EQ(lead_out(contact, {}).size(), 1U);
+  EXPECT_EQ(lead_out(contact, {Vec3(0, 2, 0), Vec3::Zero()}).back().tip, Vec3(1, 4, 3));
+}
+
+TEST(Links, StripsAreRunWhereTheWayToTheNextIsShort) {
+  // Strips round a box, each a twelfth of the way, in an order that crosses it again and again.
+  Path path;
+  const std::vector<int> mixed = {0, 6, 3, 9, 1, 7, 4, 10, 2, 8, 5, 11};
+  const auto place = [](double twelfths) {
+    const double angle = M_PI / 6.0 * twelfths;
+    return Pose{Vec3(10.0 * std::cos(angle), 10.0 * std::sin(angle), 0.0), Vec3::UnitZ()};
+  };
+  for (const int k : mixed) path.strips.push_back({k, "flank", "F1", {place(k), place(k + 0.9)}});
+  Box3 box;
+  box.add(Vec3(-10, -10, -10));
+  box.add(Vec3(10, 10, 10));
+  const std::vector<std::size_t> order = short_order(path, box);
+  ASSERT_EQ(order.size(), mixed.size());
+  for (std::size_t k = 0; k < order.size(); ++k) EXPECT_EQ(path.strips[order[k]].id, static_cast<int>(k));
+  EXPECT_TRUE(short_order({}, box).empty());
 }
 
 }  // namespace

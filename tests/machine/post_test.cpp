@@ -257,7 +257,7 @@ TEST(Links, KeepOutsideOfTheSphereAndTouchOnlyAtTheirEnds) {
     for (const Pose& p : s.poses) options.keep_out.add(p.tip);
   options.tool_radius = 5.0;
   options.clearance = 4.0;
-  options.lift_at_start = options.lift_at_end = {Vec3(0, 0, 0), Vec3(0, 2, 0)};
+  options.lead_at_start = options.lead_at_end = {Lead{}, Lead{Vec3(0, 2, 0), Vec3::Zero()}};
   const Path linked = with_links(path, options);
   ASSERT_EQ(linked.strips.size(), 5u);
   const Vec3 centre = options.keep_out.center();

@@ -121,12 +121,6 @@ struct TriangleBvh::Builder {
 
   static constexpr std::size_t kGroupSize = 4;
 
-  static double half_area(const Box3& b) {
-    if (b.empty()) return 0.0;
-    const Vec3 e = b.high - b.low;
-    return e[0] * e[1] + e[1] * e[2] + e[2] * e[0];
-  }
-
   [[nodiscard]] Range range(std::size_t begin, std::size_t end) const {
     Range r{begin, end, {}};
     for (std::size_t i = begin; i < end; ++i) r.box.add(items[i].box);

@@ -73,6 +73,8 @@ inline constexpr Accepted kStrategy{"there are grow and curves", nullptr,
                                     [](std::string_view x) { return x == "grow" || x == "curves"; }};
 inline constexpr Accepted kSpeed{"there are feed and optimal", nullptr,
                                  [](std::string_view x) { return x == "feed" || x == "optimal"; }};
+inline constexpr Accepted kOrder{"there are shortest and given", nullptr,
+                                 [](std::string_view x) { return x == "shortest" || x == "given"; }};
 inline constexpr Accepted kTurns{"a number >= 0 is needed", not_negative};
 inline constexpr Accepted kEngagement{"an angle above 5 and up to 180 degrees is needed",
                                       [](double x) { return x > 5.0 && x <= 180.0; }};
@@ -315,6 +317,11 @@ void visit_fields(Job& job, Visitor&& visit) {
   visit(FieldInfo{"link_clearance", "mm", kLinks, "Distance from the part's surroundings between strips", kLength},
         job.link_clearance_mm);
   visit(FieldInfo{"lift", "mm", kLinks, "Way off the surface before and after each strip", kLength}, job.lift_mm);
+  visit(FieldInfo{"order", "", kLinks,
+                  "Of the strips: shortest: short ways between them; given: that of the path. A cavity's cycles keep "
+                  "theirs",
+                  kOrder},
+        job.order);
 }
 
 template <class Visitor, Is<CycleRequest> Request>

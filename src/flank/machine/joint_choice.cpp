@@ -23,7 +23,6 @@ constexpr double kTravelSlack = 1e-9;
 struct State {
   RotaryValues rotary{};
   std::int8_t solution = 0;
-  bool inside = true;                                      ///< linear joints keep their travel
   double price = std::numeric_limits<double>::infinity();  // s, of all steps up to here
   std::int32_t before = -1;                                // index of a state of the pose before
 };
@@ -68,7 +67,8 @@ class Choice {
     const JointValues q = kinematics_.joints(poses_[pose].pose.tip, rotary);
     for (const std::size_t k : machine_.linear) {
       const Joint& joint = machine_.joints[k];
-      if (q[k] < joint.low - kTravelSlack || q[k] > joint.high + kTravelSlack) return false;
+      // Not a number where the linear joints lie in a plane: that is not inside, either.
+      if (!(q[k] >= joint.low - kTravelSlack && q[k] <= joint.high + kTravelSlack)) return false;
     }
     return true;
   }
@@ -122,7 +122,7 @@ class Choice {
         const RotaryValues values{near_work, near_tool};
         if (!linear_inside(pose, values)) continue;
         offer(layers_[pose],
-              {values, static_cast<std::int8_t>(solution), true, kStartPrice * step_price({0.0, 0.0}, values), -1});
+              {values, static_cast<std::int8_t>(solution), kStartPrice * step_price({0.0, 0.0}, values), -1});
       }
   }
 
@@ -141,7 +141,7 @@ class Choice {
       if (!rotary_inside(0, to[0]) || !rotary_inside(1, to[1]) || !runs_along(pose, from.rotary, to)) continue;
       if (!inside || solutions.singular) inside = linear_inside(pose, to);
       if (!*inside) continue;
-      offer(layers_[pose], {to, static_cast<std::int8_t>(solution), true, from.price + step_price(from.rotary, to),
+      offer(layers_[pose], {to, static_cast<std::int8_t>(solution), from.price + step_price(from.rotary, to),
                             static_cast<std::int32_t>(i)});
     }
   }
@@ -158,7 +158,7 @@ class Choice {
       for (const double a : turns(0, near_work))
         for (const double b : turns(1, near_tool)) {
           const RotaryValues to{a, b};
-          offer(layers_[pose], {to, static_cast<std::int8_t>(solution), true, from.price + step_price(from.rotary, to),
+          offer(layers_[pose], {to, static_cast<std::int8_t>(solution), from.price + step_price(from.rotary, to),
                                 static_cast<std::int32_t>(i)});
         }
     }

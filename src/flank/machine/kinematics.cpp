@@ -91,7 +91,8 @@ Vec3 Kinematics::direction(const RotaryValues& rotary) const {
 }
 
 // Cramer's rule: point = origin + sum of q_k linear_k. The determinant is not 0 where all linear joints lie on one
-// side of the rotary ones (machine_file.cpp demands it at zero, and a common turn keeps it).
+// side of the rotary ones (machine_file.cpp demands it at zero, and a common turn keeps it). Elsewhere they may come to
+// lie in a plane at some angle: the values are then not numbers, and no travel holds them.
 JointValues Kinematics::joints(const Vec3& point, const RotaryValues& rotary) const {
   const Frame f = frame(rotary);
   const Vec3 d = point - f.origin;

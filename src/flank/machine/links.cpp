@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "flank/error.h"
@@ -43,14 +44,10 @@ class Linker {
       : center_(options.keep_out.center()),
         radius_(kChordRoom * (0.5 * options.keep_out.diagonal() + options.tool_radius + options.clearance)) {}
 
-  /// From a pose of contact, lifted off it, out along the axis to the sphere.
-  std::vector<Pose> way_out(const Pose& contact, const Vec3& lift, Safe& safe) const {
-    std::vector<Pose> way{contact};
-    Pose p = contact;
-    if (lift.norm() > 0.0) {
-      p.tip += lift;
-      way.push_back(p);
-    }
+  /// From a pose of contact by its lead, then out along the axis to the sphere.
+  std::vector<Pose> way_out(const Pose& contact, const Lead& lead, Safe& safe) const {
+    std::vector<Pose> way = lead_out(contact, lead);
+    Pose p = way.back();
     const Vec3 d = p.tip - center_;
     const double along = d.dot(p.axis), inside = radius_ * radius_ - d.squaredNorm() + along * along;
     // Where the line leaves the sphere; where it misses it, its nearest point: the rest of the tool is clear from there.
@@ -108,6 +105,84 @@ class Linker {
 
 // A cavity's cycles follow each other in the same pose: with links between them the tool would leave the cavity each
 // time.
+std::vector<Pose> lead_out(const Pose& contact, const Lead& lead) {
+  std::vector<Pose> way{contact};
+  const double lift = lead.off.norm();
+  if (!(lift > 0.0)) return way;
+  if (lead.along.isZero()) {
+    way.push_back({contact.tip + lead.off, contact.axis});
+    return way;
+  }
+  constexpr double kArc = std::numbers::pi / 3.0;
+  constexpr int kSteps = 12;
+  const double radius = lift / (1.0 - std::cos(kArc));
+  for (int k = 1; k <= kSteps; ++k) {
+    const double angle = kArc * k / kSteps;
+    const Vec3 step = radius * std::sin(angle) * lead.along + radius * (1.0 - std::cos(angle)) / lift * lead.off;
+    way.push_back({contact.tip + step, contact.axis});
+  }
+  return way;
+}
+
+namespace {
+
+/// What a way round the box from the end of one strip to the beginning of another costs: the larger turn.
+double way_between(const Pose& end, const Pose& begin, const Vec3& center) {
+  const auto outward = [&](const Pose& p) {
+    const Vec3 d = p.tip - center;
+    return d.norm() > 0.0 ? Vec3(d.normalized()) : p.axis;
+  };
+  return std::max(angle_of(outward(end), outward(begin)), angle_of(end.axis, begin.axis));
+}
+
+}  // namespace
+
+std::vector<std::size_t> short_order(const Path& path, const Box3& box) {
+  const std::size_t count = path.strips.size();
+  std::vector<double> ways(count * count, 0.0);
+  for (std::size_t a = 0; a < count; ++a)
+    for (std::size_t b = 0; b < count; ++b)
+      if (a != b)
+        ways[a * count + b] = way_between(path.strips[a].poses.back(), path.strips[b].poses.front(), box.center());
+  std::vector<std::size_t> order;
+  std::vector<bool> taken(count, false);
+  for (std::size_t k = 0; k < count; ++k) {
+    std::size_t next = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t s = 0; s < count; ++s) {
+      const double way = k == 0 ? static_cast<double>(s) : ways[order.back() * count + s];
+      if (!taken[s] && way < least) {
+        least = way;
+        next = s;
+      }
+    }
+    taken[next] = true;
+    order.push_back(next);
+  }
+  const auto length = [&](const std::vector<std::size_t>& o) {
+    double sum = 0.0;
+    for (std::size_t k = 1; k < o.size(); ++k) sum += ways[o[k - 1] * count + o[k]];
+    return sum;
+  };
+  // A strip put elsewhere: with directions that stay, turning a part of the order round is no exchange.
+  constexpr double kShorter = 1e-9;  // rad: less is rounding, and would go round in circles
+  for (bool shorter = true; shorter;) {
+    shorter = false;
+    for (std::size_t from = 1; from < count; ++from)
+      for (std::size_t to = 1; to < count; ++to) {
+        std::vector<std::size_t> other = order;
+        const std::size_t strip = other[from];
+        other.erase(other.begin() + static_cast<std::ptrdiff_t>(from));
+        other.insert(other.begin() + static_cast<std::ptrdiff_t>(to), strip);
+        if (length(other) < length(order) - kShorter) {
+          order = std::move(other);
+          shorter = true;
+        }
+      }
+  }
+  return order;
+}
+
 Path joined(const Path& path) {
   constexpr double kSame = 1e-9;
   Path chains;
@@ -127,9 +202,9 @@ Path joined(const Path& path) {
 
 Path with_links(const Path& path, const LinkOptions& options) {
   const std::size_t count = path.strips.size();
-  if (options.keep_out.empty() || !(options.clearance > 0.0) || options.lift_at_start.size() != count ||
-      options.lift_at_end.size() != count)
-    throw InternalError("links need a box, a clearance and a lift for each strip");
+  if (options.keep_out.empty() || !(options.clearance > 0.0) || options.lead_at_start.size() != count ||
+      options.lead_at_end.size() != count)
+    throw InternalError("links need a box, a clearance and a lead for each end of a strip");
   const Linker linker(options);
   int id = 0;
   for (const Strip& strip : path.strips) id = std::max(id, strip.id);
@@ -139,7 +214,7 @@ Path with_links(const Path& path, const LinkOptions& options) {
   for (std::size_t k = 0; k < count; ++k) {
     const Strip& strip = path.strips[k];
     Safe there;
-    std::vector<Pose> in = linker.way_out(strip.poses.front(), options.lift_at_start[k], there);
+    std::vector<Pose> in = linker.way_out(strip.poses.front(), options.lead_at_start[k], there);
     if (k > 0) linker.round(here, there, way);
     // The way in is the way out backwards; on the sphere the two meet in the same pose.
     std::reverse(in.begin(), in.end());
@@ -147,7 +222,7 @@ Path with_links(const Path& path, const LinkOptions& options) {
     way.insert(way.end(), in.begin() + (k > 0 ? 1 : 0), in.end());
     result.strips.push_back({++id, kLinkKind, "", way});
     result.strips.push_back(strip);
-    way = linker.way_out(strip.poses.back(), options.lift_at_end[k], here);
+    way = linker.way_out(strip.poses.back(), options.lead_at_end[k], here);
   }
   if (count > 0) result.strips.push_back({++id, kLinkKind, "", way});
   return result;

@@ -7,13 +7,27 @@
 
 namespace flank::internal {
 
+/// How a tool leaves the surface at the end of a strip, or, backwards, comes to it at the beginning.
+struct Lead {
+  Vec3 off = Vec3::Zero();    ///< mm, across the axis, from the surface; zero: straight along the axis
+  Vec3 along = Vec3::Zero();  ///< unit vector across `off` that goes on past the strip's end; zero: straight off
+};
+
+/// The poses of a lead, the contact first. Past the end on an arc tangent to the motion, so that no mark is left where the
+/// tool would turn off, of 60 degrees and radius 2 |off|; or straight off.
+[[nodiscard]] std::vector<Pose> lead_out(const Pose& contact, const Lead& lead);
+
+/// The order of the strips, by index, in which the ways between them round a box are short: the turn of the outward
+/// direction and of the axis from the end of one to the beginning of the next. Each runs in its own direction. Nearest
+/// first, then by exchanges as long as one is shorter; the first strip stays the first.
+[[nodiscard]] std::vector<std::size_t> short_order(const Path& path, const Box3& box);
+
 struct LinkOptions {
   Box3 keep_out;             ///< of the part and what stands around it, in the part's frame
   double tool_radius = 0.0;  ///< largest of flank, shank and holder, mm
   double clearance = 5.0;    ///< mm, > 0: between the tool and keep_out on the sphere
-  /// From the surface, one for each strip, in the part's frame: where the tool moves before it runs along its axis; zero
-  /// vectors: straight along the axis.
-  std::vector<Vec3> lift_at_start, lift_at_end;
+  /// One for each strip, in the part's frame; after a lead the tool runs along its axis.
+  std::vector<Lead> lead_at_start, lead_at_end;
 };
 
 inline constexpr const char* kLinkKind = "link";

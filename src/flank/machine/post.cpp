@@ -183,7 +183,9 @@ class Poster {
   /// What the program states as the feed of a block that takes so long.
   double feed_of(const NcMove& from, const NcMove& to, const BlockEnd& a, const BlockEnd& b, double seconds) const {
     // A block of no length takes no time: F stays finite.
-    if (machine_.feed_mode == NcFeedMode::kInverseTime) return 60.0 / std::max(seconds, 1e-6);
+    // A word holds at most 1e6 (nc_number.h): a block shorter than that allows is run a little slower.
+    constexpr double kShortest = 1e-4;
+    if (machine_.feed_mode == NcFeedMode::kInverseTime) return 60.0 / std::max(seconds, kShortest);
     const double way = (to.position - from.position).norm();
     // Where the controlled point stands still, controls take the feed for that of the rotary axes, degrees per minute.
     double turn = 0.0;

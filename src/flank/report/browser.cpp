@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cctype>
+#include <cerrno>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -49,7 +50,10 @@ int run_quietly(const std::vector<std::string>& words) {
   posix_spawn_file_actions_destroy(&files);
   if (failure != 0) throw InternalError(words.front() + ": cannot be started");
   int status = 0;
-  if (waitpid(child, &status, 0) != child) throw InternalError(words.front() + ": lost");
+  pid_t ended = 0;
+  while ((ended = waitpid(child, &status, 0)) < 0 && errno == EINTR) {
+  }
+  if (ended != child) throw InternalError(words.front() + ": lost");
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
 }
 

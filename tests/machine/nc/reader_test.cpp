@@ -72,6 +72,18 @@ TEST(ReadNc, HeidenhainOfAnOperator) {
   expect_move(p.moves[2], NcKind::kFeed, {10, 0, 0.5}, {0, 20, 0}, 300);
 }
 
+// M129 acts at the end of its block: the axes beside it still move the tool's centre.
+TEST(ReadNc, HeidenhainSwitchesOffBesideTheLastMove) {
+  const std::string text =
+      "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1\n2 L A+0 C+0 R0 FMAX\n3 M128\n4 L X+0 Y+0 Z+99 A+0 C+0 FMAX\n"
+      "5 L X+0 Y+0 Z+1 A+0 C+0 F100\n6 L X+5 Y+0 Z+100 A+0 C+0 R0 FMAX M129\n7 M30\n8 END PGM A MM\n";
+  NcDialect heidenhain;
+  heidenhain.language = NcLanguage::kHeidenhain;
+  const NcProgram p = read_nc(text, "f", heidenhain);
+  ASSERT_EQ(p.moves.size(), 3u);
+  expect_move(p.moves[2], NcKind::kRapid, {5, 0, 100}, {0, 0, 0}, 0);
+}
+
 TEST(ReadNc, AptInInchesWithContinuedStatements) {
   const NcProgram p = read_corpus("nc_apt/other.cls", NcLanguage::kApt);
   EXPECT_EQ(p.header.part, "SIDE 2");

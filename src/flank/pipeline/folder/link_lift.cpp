@@ -13,15 +13,21 @@ namespace {
 constexpr std::size_t kDirections = 16;
 /// Of the lift: where there is no room for all of it.
 constexpr std::array<double, 2> kShares{1.0, 0.25};
-constexpr std::size_t kWays = kDirections * kShares.size() + 1;
+/// None, then straight ways round the axis, then arcs.
+constexpr std::size_t kStraight = kDirections * kShares.size() + 1, kWays = 2 * kStraight - 1;
 
-/// The least distance from the samples on the second half of the way off and on the way along the axis, up to `enough`.
-double least_distance(const Tool& tool, const Pose& contact, const Vec3& lift, const std::vector<FaceSamples>& samples,
+/// The least distance from the samples on the second half of the lead and on the way along the axis, up to `enough`. On
+/// the first half the tool is where it has just cut.
+double least_distance(const Tool& tool, const StripEnd& end, const Lead& lead, const std::vector<FaceSamples>& samples,
                       double run_mm, double enough) {
-  const Vec3& axis = contact.axis;
-  const Vec3 off = contact.tip + lift;
+  const std::vector<Pose> out = lead_out(end.contact, lead);
+  Strip strip{1, "link", "", {}};
+  if (out.size() == 2) strip.poses.push_back({0.5 * (out[0].tip + out[1].tip), out[0].axis});
+  strip.poses.insert(strip.poses.end(), out.begin() + static_cast<std::ptrdiff_t>(out.size() / 2), out.end());
+  const Pose& last = out.back();
+  strip.poses.push_back({last.tip + run_mm * last.axis, last.axis});
   Path path;
-  path.strips.push_back({1, "link", "", {{contact.tip + 0.5 * lift, axis}, {off, axis}, {off + run_mm * axis, axis}}});
+  path.strips.push_back(std::move(strip));
   const SweptVolume volume(tool, path);
   double least = enough;
   for (const FaceSamples& face : samples)
@@ -29,30 +35,44 @@ double least_distance(const Tool& tool, const Pose& contact, const Vec3& lift, c
   return least;
 }
 
-/// The k-th way off: none, then round the axis, then the same, shorter.
-Vec3 way_off(const Pose& contact, std::size_t k, double lift_mm) {
-  if (k == 0) return Vec3::Zero();
-  const Vec3 side = contact.axis.unitOrthogonal(), other = contact.axis.cross(side);
-  const double angle = 2.0 * std::numbers::pi * static_cast<double>((k - 1) % kDirections) / kDirections;
-  return kShares[(k - 1) / kDirections] * lift_mm * (std::cos(angle) * side + std::sin(angle) * other);
+/// The k-th lead; nothing that is off the surface for an arc whose plane the motion leaves.
+Lead lead_of(const StripEnd& end, std::size_t k, double lift_mm) {
+  if (k == 0) return {};
+  const bool arc = k >= kStraight;
+  const std::size_t way = (arc ? k - kStraight : k - 1);
+  const Vec3& axis = end.contact.axis;
+  const Vec3 side = axis.unitOrthogonal(), other = axis.cross(side);
+  const double angle = 2.0 * std::numbers::pi * static_cast<double>(way % kDirections) / kDirections;
+  const Vec3 off = std::cos(angle) * side + std::sin(angle) * other;
+  Lead lead{kShares[way / kDirections] * lift_mm * off, Vec3::Zero()};
+  if (!arc) return lead;
+  constexpr double kAcross = 0.5;  // of the motion across `off`: an arc away from where it was going is no tangent one
+  const Vec3 along = end.going - off.dot(end.going) * off;
+  if (!(along.norm() > kAcross * end.going.norm())) return {};
+  lead.along = along.normalized();
+  return lead;
 }
 
 }  // namespace
 
-std::vector<Vec3> lifts_off(const Tool& tool, const std::vector<Pose>& poses, const std::vector<FaceSamples>& samples,
-                            double lift_mm, double run_mm) {
-  std::vector<double> distances(poses.size() * kWays);
+std::vector<Lead> leads_off(const Tool& tool, const std::vector<StripEnd>& ends,
+                            const std::vector<FaceSamples>& samples, double lift_mm, double run_mm) {
+  std::vector<double> distances(ends.size() * kWays);
   parallel_for(distances.size(), [&](std::size_t i) {
-    const Pose& contact = poses[i / kWays];
-    distances[i] = least_distance(tool, contact, way_off(contact, i % kWays, lift_mm), samples, run_mm, 2.0 * lift_mm);
+    const StripEnd& end = ends[i / kWays];
+    const Lead lead = lead_of(end, i % kWays, lift_mm);
+    const bool no_arc = i % kWays >= kStraight && lead.along.isZero();
+    distances[i] = no_arc ? -1.0 : least_distance(tool, end, lead, samples, run_mm, 2.0 * lift_mm);
   });
-  std::vector<Vec3> ways;
-  for (std::size_t pose = 0; pose < poses.size(); ++pose) {
-    const auto begin = distances.begin() + static_cast<std::ptrdiff_t>(pose * kWays);
-    const auto best = static_cast<std::size_t>(std::max_element(begin, begin + kWays) - begin);
-    ways.push_back(way_off(poses[pose], best, lift_mm));
+  std::vector<Lead> leads;
+  for (std::size_t e = 0; e < ends.size(); ++e) {
+    const auto begin = distances.begin() + static_cast<std::ptrdiff_t>(e * kWays);
+    const auto straight = std::max_element(begin, begin + kStraight),
+               arc = std::max_element(begin + kStraight, begin + kWays);
+    const bool tangent = *arc > 0.0 && *arc >= 0.5 * *straight;
+    leads.push_back(lead_of(ends[e], static_cast<std::size_t>((tangent ? arc : straight) - begin), lift_mm));
   }
-  return ways;
+  return leads;
 }
 
 }  // namespace flank::internal

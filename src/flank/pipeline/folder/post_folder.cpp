@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <type_traits>
 
 #include "flank/artefact/acceptance.h"
 #include "flank/error.h"
@@ -40,6 +41,7 @@ struct Input {
   Path path;
   ObstacleRequest obstacles;
   JudgeRequest judge;
+  bool fixed_order = false;  ///< of the path's strips
 };
 
 template <class Job>
@@ -51,6 +53,7 @@ Input read_input(const PostJob& request, const Job& job, const ResultFolder& fol
   input.setup = read_setup(job.part, job.obstacles, job.tolerance_mm, notes);
   input.obstacles = job.obstacles;
   input.judge = job.judge;
+  input.fixed_order = std::is_same_v<Job, TrochoidJob>;
   notes.clear();  // told when the folder was made
   if (folder.manifest() && !request.part && input.setup.part.sha256 != folder.manifest()->part.sha256)
     throw InputError(input.setup.part.file + ": has changed since the result in " + folder.path() +
@@ -74,24 +77,43 @@ double body_radius(const Tool& tool, const PostTool& facts) {
   return radius;
 }
 
-Path link_strips(const Input& input, const PostTool& facts, const PostJob& request) {
-  const Path path = joined(input.path);
-  std::vector<Pose> ends;
+/// The strips in the order in which they are run. Cycles of a cavity need what the ones before them have cut.
+Path in_order(const Input& input, const Box3& around, const PostJob& request) {
+  Path path = joined(input.path);
+  if (input.fixed_order || request.order == "given") return path;
+  Path ordered;
+  for (const std::size_t k : short_order(path, around)) ordered.strips.push_back(std::move(path.strips[k]));
+  return ordered;
+}
+
+/// Beginning and end of each strip, at both of which the tool goes on past it: at the beginning backwards.
+std::vector<StripEnd> ends_of(const Path& path, double axis_length) {
+  std::vector<StripEnd> ends;
+  const auto middle = [&](const Pose& p) { return p.at(0.5 * axis_length); };
   for (const Strip& strip : path.strips) {
-    ends.push_back(strip.poses.front());
-    ends.push_back(strip.poses.back());
+    const std::vector<Pose>& poses = strip.poses;
+    const Pose &second = poses[std::min<std::size_t>(1, poses.size() - 1)],
+               &before = poses[poses.size() > 1 ? poses.size() - 2 : 0];
+    ends.push_back({poses.front(), middle(poses.front()) - middle(second)});
+    ends.push_back({poses.back(), middle(poses.back()) - middle(before)});
   }
-  const double spacing = kLiftSampleShare * input.setup.part.box.diagonal();
-  const std::vector<Vec3> lifts = lifts_off(input.tool, ends, judge_samples(input.setup, spacing, spacing),
-                                            request.lift_mm, input.setup.part.box.diagonal());
+  return ends;
+}
+
+Path link_strips(const Input& input, const PostTool& facts, const PostJob& request) {
   LinkOptions options;
   options.keep_out = input.setup.part.box;
   for (const Part& fixture : input.setup.fixtures) options.keep_out.add(fixture.box);
+  const Path path = in_order(input, options.keep_out, request);
+  const double spacing = kLiftSampleShare * input.setup.part.box.diagonal();
+  const std::vector<Lead> leads =
+      leads_off(input.tool, ends_of(path, facts.axis_length), judge_samples(input.setup, spacing, spacing),
+                request.lift_mm, input.setup.part.box.diagonal());
   options.tool_radius = body_radius(input.tool, facts);
   options.clearance = request.link_clearance_mm;
-  for (std::size_t k = 0; k < lifts.size(); k += 2) {
-    options.lift_at_start.push_back(lifts[k]);
-    options.lift_at_end.push_back(lifts[k + 1]);
+  for (std::size_t k = 0; k < leads.size(); k += 2) {
+    options.lead_at_start.push_back(leads[k]);
+    options.lead_at_end.push_back(leads[k + 1]);
   }
   return with_links(path, options);
 }

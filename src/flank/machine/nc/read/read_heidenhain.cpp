@@ -198,8 +198,7 @@ class HeidenhainReader {
     builder_.tool_centre(true);
   }
 
-  /// M128 holds from the beginning of its block, M129 and the end of the program from its end. Axes beside M129 are
-  /// refused all the same: tool_centre() takes no switch within a move.
+  /// M128 holds from the beginning of its block, M129 and the end of the program from its end.
   void motion() {
     const bool switches = std::find(words_.begin(), words_.end(), "M128") != words_.end();
     if (switches) {
@@ -224,8 +223,8 @@ class HeidenhainReader {
         motion_word(w);
       }
     }
-    if (off) builder_.tool_centre(false);
     builder_.end_block();
+    if (off) builder_.tool_centre(false);
     if (end) builder_.end_program();
   }
 
