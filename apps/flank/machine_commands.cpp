@@ -43,6 +43,16 @@ Subcommand add_machine(CLI::App& parser) {
   return {app, run, {{"machine", "MACHINE"}, {"list", "--list"}}};
 }
 
+namespace {
+
+/// Beside the result, for its report. A folder that may not be written, or that other programs made, stays as it is.
+void keep_motion(const std::string& path, const std::string& motion) {
+  ResultFolder folder(path, ResultFolder::Use::kWriteOrRead);
+  if (folder.manifest() && folder.writable()) folder.add({{"motion.json", motion}}, *folder.manifest());
+}
+
+}  // namespace
+
 Subcommand add_post(CLI::App& parser) {
   CLI::App* app = parser.add_subcommand("post", "Write the program with which a machine runs the path of a folder");
   auto job = std::make_shared<PostJob>();
@@ -57,6 +67,7 @@ Subcommand add_post(CLI::App& parser) {
     require_not_a_result(job->folder, *output);
     const PostOutcome outcome = run_post(*job);
     write_file(*output, outcome.program);
+    keep_motion(job->folder, outcome.motion);
     if (common.json)
       fmt::print("{}", post_json(outcome));
     else if (!common.quiet)

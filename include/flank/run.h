@@ -200,6 +200,7 @@ struct PostOutcome {
   std::vector<JointRange> joints;
   Acceptance acceptance;  ///< collisions of links
   std::vector<std::string> notes;
+  std::string motion;  ///< motion.json: what the joints do over time, for the report (docs/schema/motion.md)
 };
 
 /// `flank post`: reads job.json, tool.json and path.json of a folder. Throws UsageError and InputError: also where the

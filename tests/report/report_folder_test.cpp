@@ -59,6 +59,7 @@ TEST_F(ReportFolder, FilesArePackedInTheirOrderAsTheyStand) {
   write("summary.json", kSummary);
   write("verify.json", kVerify);
   write("view.json", kView);
+  write("motion.json", R"({"schema": "openflank/motion/1", "machine": "mill", "joints": []})");
   write("other.json", R"({"schema": "openflank/other/1", "secret": 1})");
   const std::string html = page();
   std::size_t at = 0;

@@ -5,6 +5,7 @@ import { byId, html } from './dom.js';
 import { asked, rows, table, verdict, worstList } from './figures.js';
 import * as format from './format.js';
 import { made } from './made.js';
+import { motionCharts } from './motion.js';
 import { PathModel } from './path.js';
 import { Player } from './player.js';
 import { profile } from './profile.js';
@@ -71,6 +72,7 @@ function still(files, go) {
     part('spread', () => byId('histogram').append(histogram(verify)));
   } else for (const id of ['worst', 'spread']) byId(id).remove();
   view ? part('tool', () => byId('profile').append(profile(view.tool))) : byId('tool').remove();
+  files.motion ? part('machine', () => byId('motion').append(motionCharts(files.motion))) : byId('machine').remove();
   part('origin', () => byId('made').append(made(files, document.querySelector('meta[name=generator]').content)));
 }
 
@@ -121,7 +123,7 @@ function shortcuts({ player }) {
 }
 
 const options = new URLSearchParams(location.hash.slice(1));
-const files = { view: packed('view.json'), verify: packed('verify.json'), summary: packed('summary.json') };
+const files = { view: packed('view.json'), verify: packed('verify.json'), summary: packed('summary.json'), motion: packed('motion.json') };
 if (options.get('theme')) document.documentElement.dataset.theme = options.get('theme');
 const page = start(files, options);
 shortcuts(page);

@@ -146,6 +146,20 @@ class Poster {
       block_seconds_[static_cast<std::size_t>(nodes_[i].block)] += plan.seconds[i];
     post_.time_s = plan.time_s;
     note_use(check_feed(machine_, nodes_, plan));
+    note_trace(plan);
+  }
+
+  void note_trace(const FeedPlan& plan) {
+    std::vector<bool> cutting;  // of each block
+    for (std::size_t k = 0; k < strips_.size(); ++k)
+      cutting.insert(cutting.end(), strips_[k].blocks.size() - 1, !is_link(path_.strips[k]));
+    double time = 0.0;
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      time += plan.seconds[i];
+      const double feed = plan.seconds[i] > 0.0 ? nodes_[i].length / plan.seconds[i] : 0.0;
+      const bool cuts = nodes_[i].block >= 0 && cutting[static_cast<std::size_t>(nodes_[i].block)];
+      post_.trace.push_back({time, nodes_[i].joints, feed, cuts});
+    }
   }
 
   /// What the path asks of each joint, in mm or degrees, beside its limits: people look here before they run a

@@ -35,6 +35,14 @@ struct JointUse {
   double low = 0.0, high = 0.0, speed = 0.0, acceleration = 0.0;
 };
 
+/// Where the joints are, and how fast the contact is.
+struct TracePoint {
+  double time_s = 0.0;
+  JointValues joints{};    ///< mm, radians
+  double feed_mm_s = 0.0;  ///< of the contact, on the way here
+  bool cutting = false;    ///< on the way here; else a link
+};
+
 struct Post {
   NcProgram program;
   std::optional<Unreachable> unreachable;               ///< then there is no program
@@ -46,6 +54,7 @@ struct Post {
   int flips = 0;
   double time_s = 0.0, cutting_s = 0.0;
   std::vector<JointUse> use;
+  std::vector<TracePoint> trace;  ///< at the nodes of the feed's plan: joints run straight between them
 };
 
 /// From the controlled point to s = 0, mm.

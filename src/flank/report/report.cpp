@@ -51,7 +51,7 @@ std::string title_of(const nlohmann::json& json) {
 }  // namespace
 
 const std::vector<std::string>& report_files() {
-  static const std::vector<std::string> kFiles{"view.json", "verify.json", "summary.json"};
+  static const std::vector<std::string> kFiles{"view.json", "verify.json", "summary.json", "motion.json"};
   return kFiles;
 }
 

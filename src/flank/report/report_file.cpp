@@ -23,7 +23,9 @@ void require_types(const nlohmann::json& json, const std::string& file) {
     // In the other files, `faces` is a text and `strips` a number.
     const bool list = (key == "faces" && json["schema"] == schema_of("verify.json")) ||
                       (key == "strips" && json["schema"] == schema_of("view.json"));
-    if (list || key == "bodies" || key == "reasons" || key == "worst_places") require(key, "a list", value.is_array());
+    if (list || key == "bodies" || key == "joints" || key == "time_s" || key == "feed_mm_min" || key == "reasons" ||
+        key == "worst_places")
+      require(key, "a list", value.is_array());
     if (key == "tolerance_mm" || key == "least_coverage")
       require(key, "a number", value.is_number() || value.is_null());
     if (key == "pass" || key == "within") require(key, "true or false", value.is_boolean());

@@ -20,6 +20,7 @@
 #include "flank/pipeline/folder/folder_job.h"
 #include "flank/pipeline/folder/judge_job.h"
 #include "flank/pipeline/folder/link_lift.h"
+#include "flank/pipeline/folder/motion_json.h"
 #include "flank/setup/clearance_scene.h"
 #include "flank/setup/targets.h"
 #include "flank/setup/tool_body.h"
@@ -201,6 +202,7 @@ PostOutcome post_input(const PostJob& request, Machine machine, const Input& inp
   result.program.header.setup = outcome.setup;
   result.program.header.spindle_rpm = request.spindle_rpm;
   outcome.program = write_nc(result.program, machine.dialect);
+  outcome.motion = motion_json(machine, result);
   return outcome;
 }
 

@@ -1,0 +1,84 @@
+#include "flank/pipeline/folder/motion_json.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "flank/io/text/json_dump.h"
+
+namespace flank::internal {
+namespace {
+
+constexpr std::size_t kMostTimes = 1500;
+
+/// What is shown needs six digits, and a page of them stays small.
+double rounded(double value) {
+  if (value == 0.0 || !std::isfinite(value)) return 0.0;
+  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 5.0);
+  return std::round(value / unit) * unit;
+}
+
+nlohmann::ordered_json or_null(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(rounded(value)) : nlohmann::ordered_json(nullptr);
+}
+
+/// The largest share of a joint's speed limit on the way to the i-th point of the trace.
+double load_of(const Machine& machine, const std::vector<TracePoint>& trace, std::size_t i) {
+  const double seconds = i > 0 ? trace[i].time_s - trace[i - 1].time_s : 0.0;
+  double load = 0.0;
+  if (seconds > 0.0)
+    for (std::size_t k = 0; k < kJointCount; ++k)
+      load = std::max(load, std::abs(trace[i].joints[k] - trace[i - 1].joints[k]) / seconds / machine.joints[k].speed);
+  return load;
+}
+
+}  // namespace
+
+std::string motion_json(const Machine& machine, const Post& post) {
+  using Json = nlohmann::ordered_json;
+  const std::vector<TracePoint>& trace = post.trace;
+  const std::size_t count = trace.empty() ? 0 : std::min(kMostTimes, std::max<std::size_t>(2, trace.size()));
+  std::array<Json, kJointCount> values;
+  values.fill(Json::array());
+  Json times = Json::array(), feeds = Json::array(), loads = Json::array(), cutting = Json::array();
+  std::size_t next = 0, seen = 0;
+  for (std::size_t n = 0; n < count; ++n) {
+    const double t = post.time_s * static_cast<double>(n) / static_cast<double>(count - 1);
+    while (next + 1 < trace.size() && trace[next].time_s < t) ++next;
+    const TracePoint &to = trace[next], &from = trace[next > 0 ? next - 1 : 0];
+    const double way = to.time_s - from.time_s, share = way > 0.0 ? std::clamp((t - from.time_s) / way, 0.0, 1.0) : 1.0;
+    for (std::size_t k = 0; k < kJointCount; ++k)
+      values[k].push_back(
+          rounded(in_units(machine.joints[k], from.joints[k] + share * (to.joints[k] - from.joints[k]))));
+    // Between two times the largest counts: what is near a limit for a moment must not be lost.
+    double load = 0.0;
+    for (; seen <= next; ++seen) load = std::max(load, load_of(machine, trace, seen));
+    seen = next;
+    times.push_back(rounded(t));
+    feeds.push_back(rounded(60.0 * to.feed_mm_s));
+    loads.push_back(rounded(load));
+    cutting.push_back(to.cutting ? 1 : 0);
+  }
+  Json joints = Json::array();
+  for (std::size_t k = 0; k < kJointCount; ++k) {
+    const Joint& joint = machine.joints[k];
+    joints.push_back({{"name", joint.name},
+                      {"unit", joint.kind == JointKind::kRotary ? "deg" : "mm"},
+                      {"low", or_null(in_units(joint, joint.low))},
+                      {"high", or_null(in_units(joint, joint.high))},
+                      {"values", std::move(values[k])}});
+  }
+  const Json json = {{"schema", "openflank/motion/1"},
+                     {"units", "mm, degrees, s"},
+                     {"machine", machine.name},
+                     {"duration_s", rounded(post.time_s)},
+                     {"cutting_s", rounded(post.cutting_s)},
+                     {"joints", std::move(joints)},
+                     {"time_s", std::move(times)},
+                     {"feed_mm_min", std::move(feeds)},
+                     {"speed_share", std::move(loads)},
+                     {"cutting", std::move(cutting)}};
+  return dumped(json) + "\n";
+}
+
+}  // namespace flank::internal

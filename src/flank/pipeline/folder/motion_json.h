@@ -1,0 +1,14 @@
+/// What the joints of a machine do over a program, for the page of the report.
+#pragma once
+
+#include <string>
+
+#include "flank/machine/post.h"
+
+namespace flank::internal {
+
+/// motion.json (docs/schema/motion.md): joints in mm and degrees, the feed of the contact and the largest share of a speed
+/// limit at equal times, at most 1,500 of them; null where a joint has no limit.
+[[nodiscard]] std::string motion_json(const Machine& machine, const Post& post);
+
+}  // namespace flank::internal
