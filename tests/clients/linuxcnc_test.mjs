@@ -150,9 +150,15 @@ test('the blade on a trunnion of A and C', () => expectAsPlanned(blade, 'linuxcn
 test('the blade on a trunnion of B and C', () => expectAsPlanned(blade, 'linuxcnc-xyzbc-trt', XYZBC));
 test('the blade in joint coordinates', () => expectAsPlanned(blade, 'joint-ac', ['xyzac-trt-kins', []]));
 
-const data = process.env.FLANK_DATA ?? join(dirname(fileURLToPath(import.meta.url)), '../../../shared/data'), r37 = join(data, 'r37_blade.step');
-test('the blade of a compressor', { skip: existsSync(r37) ? false : `no ${r37}` }, () => {
-  const folder = join(root, 'r37');
-  must('fit', r37, '--face', 'F1', '--tolerance', '0.1', '-o', folder, '--quiet');
-  expectAsPlanned(folder, 'linuxcnc-xyzac-trt', XYZAC);
-});
+const data = process.env.FLANK_DATA ?? join(dirname(fileURLToPath(import.meta.url)), '../../../shared/data');
+/** A real part, fitted and run. */
+function real(name, file, ...options) {
+  const part = join(data, file);
+  test(name, { skip: existsSync(part) ? false : `no ${part}` }, () => {
+    const folder = join(root, file.replace(/\W/g, '-'));
+    must('fit', part, ...options, '-o', folder, '--quiet');
+    expectAsPlanned(folder, 'linuxcnc-xyzac-trt', XYZAC);
+  });
+}
+real('the blade of a compressor', 'r37_blade.step', '--face', 'F1', '--tolerance', '0.1');
+real('a blade of an impeller among its neighbours', 'kj66_impeller.step', '--face', 'F1', '--tolerance', '0.01');
