@@ -162,3 +162,11 @@ function real(name, file, ...options) {
 }
 real('the blade of a compressor', 'r37_blade.step', '--face', 'F1', '--tolerance', '0.1');
 real('a blade of an impeller among its neighbours', 'kj66_impeller.step', '--face', 'F1', '--tolerance', '0.01');
+
+// Four minutes of cutting, in real time.
+test('the cycles of a cavity', { skip: process.env.FLANK_LONG ? false : 'set FLANK_LONG=1 for it' }, () => {
+  const part = join(root, 'cavity'), folder = join(root, 'cycles');
+  must('example', 'cavity-barrel', '-o', `${part}.step`, '--quiet');
+  must('trochoid', `${part}.step`, '--left', 'F1', '--right', 'F2', '--tool', `${part}.tool.json`, '--tolerance', '0.02', '--layers', '1', '-o', folder, '--quiet');
+  expectAsPlanned(folder, 'linuxcnc-xyzac-trt', XYZAC, ['--feed', '6000']);
+});
