@@ -17,18 +17,26 @@ int main(int argc, char** argv) try {
   const flank::Path path = flank::read_path(argv[4]);
 
   std::vector<flank::FaceSamples> samples;
+  std::vector<flank::FaceShape> shapes;  // what is proved, is proved of these
+  std::vector<flank::TriangleMesh> meshes(part.is_mesh() ? part.face_count() : 0);
   const double spacing_mm = 0.25;
-  for (int k = 0; k < part.face_count(); ++k)  // all faces but the target must not be entered
-    samples.push_back(part.is_mesh() ? flank::sample_mesh("F" + std::to_string(k + 1), flank::extract_mesh(part, {k}),
-                                                          spacing_mm, k == target)
-                                     : flank::sample_face(part.faces[k], spacing_mm, k == target));
+  for (int k = 0; k < part.face_count(); ++k) {  // all faces but the target must not be entered
+    if (part.is_mesh()) {
+      meshes[k] = flank::extract_mesh(part, {k});
+      samples.push_back(flank::sample_mesh("F" + std::to_string(k + 1), meshes[k], spacing_mm, k == target));
+      shapes.emplace_back(&meshes[k]);
+    } else {
+      samples.push_back(flank::sample_face(part.faces[k], spacing_mm, k == target));
+      shapes.emplace_back(&part.faces[k]);
+    }
+  }
 
   flank::JudgeOptions options;
   options.tolerance_mm = 0.05;
-  const flank::VerifyReport report = flank::judge(tool, path, samples, options);
-  std::cout << "coverage " << 100.0 * report.coverage << " %, overcut " << report.overcut_mm << " mm (at most "
-            << report.sampling_bound_mm << " mm more between samples), deepest in another face " << report.gouge_mm
-            << " mm\n";
+  const flank::VerifyReport report = flank::judge(tool, path, samples, shapes, options);
+  std::cout << "coverage " << 100.0 * report.coverage << " % (" << 100.0 * report.coverage_bound.value_or(0.0)
+            << " % proved), overcut " << report.overcut_mm << " mm (surely at most " << report.overcut_bound_mm
+            << " mm), deepest in another face " << report.gouge_mm << " mm\n";
   return report.verdict == flank::Verdict::kPass ? EXIT_SUCCESS : EXIT_FAILURE;
 } catch (const flank::Error& error) {
   std::cerr << error.what() << '\n';

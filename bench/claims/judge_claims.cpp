@@ -1,6 +1,6 @@
 // The judge on a real part: two blades on a sector of a hub, every other face a check surface.
 #include "claims/claims_support.h"
-#include "flank/pipeline/folder/judge_job.h"
+#include "flank/pipeline/folder/target_reach.h"
 #include "flank/setup/check_faces.h"
 #include "flank/setup/targets.h"
 #include "flank/threads.h"
@@ -46,7 +46,11 @@ std::vector<Figure> sector() {
   const double sampling = seconds_of([&] { samples = judge_samples(setup, kSpacingMm, 2 * kSpacingMm); });
   const double judging =
       seconds_of([&] { report = judge(outcome.tool, outcome.path, samples, {.tolerance_mm = 0.1}); });
-  const double reaching = seconds_of([&] { measure_reach(setup, outcome.tool, outcome.path, 5.0, samples); });
+  const double reaching = seconds_of([&] {
+    std::vector<FaceSamples> targets = target_samples(setup, kSpacingMm);
+    const TargetReach reach(setup, outcome.tool, outcome.path, 5.0, targets);
+    for (std::size_t k = 0; k < targets.size(); ++k) reach.fill(setup.targets[k], targets[k]);
+  });
   set_thread_count(threads);
   std::size_t points = 0;
   for (const FaceSamples& face : samples) points += face.points.size();

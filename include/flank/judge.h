@@ -6,6 +6,7 @@
 /// lengths in mm, in the part's frame. All of it gives the same bits for any number of threads.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -35,6 +36,10 @@ struct FaceSamples {
   std::vector<Vec3> normals;      ///< of each sample: unit, away from the material where `of_solid`; empty: not known
   bool of_solid = false;          ///< the face bounds a solid; else it is a sheet, whose normals may point either way
   std::vector<double> reachable;  ///< of each sample: share of its cell that is reachable (reach.h); empty: all of it
+  /// Of each sample: not 0 if no border and no kink of the face comes into its cell; empty: not known
+  std::vector<char> smooth;
+  /// Of each sample: its cell, from-to in u and in v; of a mesh triangle, corner u and v, and size; empty: not known
+  std::vector<std::array<double, 4>> cells;
 };
 
 /// Samples a trimmed face at cells of about `spacing_mm` (centres of cells), by the judge's own code; points outside
@@ -70,6 +75,15 @@ class SweptVolume {
   void distances(std::span<const Vec3> points, double horizon_mm, std::span<SweptDistance> out) const;
   /// The same with a horizon for each point.
   void distances(std::span<const Vec3> points, std::span<const double> horizons_mm, std::span<SweptDistance> out) const;
+  /// A place of the path whose ball is near x, by descent from `near`, a place that is near a point beside x: f of that
+  /// ball alone, so never below distance(x).f, and mostly the same. Fast.
+  [[nodiscard]] SweptDistance distance_from(const Vec3& x, const SweptDistance& near) const;
+  /// The tool's ball at a place of the path (strip >= 0).
+  struct Ball {
+    Vec3 center = Vec3::Zero();
+    double radius = 0.0;  ///< mm
+  };
+  [[nodiscard]] Ball ball(const SweptDistance& place) const;
 
  private:
   struct Data;
@@ -93,6 +107,15 @@ struct ProofOptions {
   double gap_share = 0.02;
   std::size_t evaluations = 4'000'000;  ///< of f on one face, at most about so many
   std::size_t cells = 1'000'000;        ///< held at once, about 150 bytes each
+  /// Of the area: so near does the proved coverage come to the measured one, where the limits allow
+  double cover_gap_share = 1e-4;
+  std::size_t cover_evaluations = 12;  ///< of a ball, at most about so many for each sample
+};
+
+/// How the depth of cuts was judged.
+enum class DepthProof {
+  kSampled,  ///< at the samples only: what lies between them is bounded, but was not looked at
+  kProved,   ///< up to a bound that holds everywhere on the faces, up to their borders
 };
 
 struct JudgeOptions {
@@ -101,8 +124,9 @@ struct JudgeOptions {
   /// save most of the time on targets that are mostly not machined; coverage and overcut do not depend on it above the
   /// tolerance.
   double horizon_mm = 1e300;
-  int histogram_bins = 41;  ///< >= 1, over [-2, 2] tolerances, ends open; odd: one bin is centred at 0
-  int worst_places = 5;     ///< most of them, of each face and of all together, >= 0
+  int histogram_bins = 41;                 ///< >= 1, over [-2, 2] tolerances, ends open; odd: one bin is centred at 0
+  int worst_places = 5;                    ///< most of them, of each face and of all together, >= 0
+  DepthProof depth = DepthProof::kProved;  ///< kProved needs the faces' shapes
   ProofOptions proof = {};
 };
 
@@ -128,10 +152,15 @@ struct FaceVerdict {
   double coverage = 0.0;             ///< area share with |f| <= tolerance
   double reachable_share = 0.0;      ///< of the area (target)
   double coverage_reachable = 0.0;   ///< the same share of the reachable area alone; 0 where nothing is reachable
+  /// Lower bounds of `coverage` and `coverage_reachable`, proved cell by cell (target; needs the face's shape). Areas and
+  /// reachable shares are measured.
+  double coverage_bound = 0.0, coverage_reachable_bound = 0.0;
+  Vec3 uncovered_point =
+      Vec3::Zero();             ///< in the cell with the largest area that is measured covered and not proved so
+  std::size_t cover_cells = 0;  ///< cells that the proof of coverage looked at
   double spacing_mm = 0.0;
   double sampling_bound_mm = 0.0;  ///< overcut between samples exceeds overcut_mm by no more (judge.md)
-  /// Nothing of the face, its borders included, is cut deeper: proved. Of samples alone: overcut_mm + sampling_bound_mm,
-  /// which does not hold at borders.
+  /// Nothing of the face, its borders included, is cut deeper: proved. Of samples alone: overcut_mm + sampling_bound_mm.
   double overcut_bound_mm = 0.0;
   Vec3 bound_point = Vec3::Zero();    ///< about where the face may be cut so deep, if overcut_bound_mm > overcut_mm
   std::size_t proof_cells = 0;        ///< places that the proof looked at
@@ -141,16 +170,10 @@ struct FaceVerdict {
 /// A cut that was found decides; without one, proofs do.
 enum class Verdict {
   kNotRun,
-  kPass,      ///< overcut_bound <= tolerance on every face; of samples alone: overcut <= tolerance
+  kPass,      ///< overcut_bound <= tolerance on every face
   kOvercut,   ///< overcut > tolerance on a target
   kGouge,     ///< overcut > tolerance on a check surface
   kUnproved,  ///< no deeper place was found, nor was it proved that there is none
-};
-
-/// How the depth of cuts was judged.
-enum class DepthProof {
-  kSampled,  ///< at the samples only: what lies between them was not seen
-  kProved,   ///< up to a bound that holds everywhere on the faces, up to their borders
 };
 
 /// What the strips of one kind did in the replay of a program.
@@ -183,6 +206,8 @@ struct VerifyReport {
   double tolerance_mm = 0.0;
   double coverage = 0.0;                                   ///< area-weighted over the targets
   double reachable_share = 0.0, coverage_reachable = 0.0;  ///< likewise
+  /// Lower bounds of coverage, likewise; none if the faces' shapes were not known
+  std::optional<double> coverage_bound, coverage_reachable_bound;
   double reach_radius_mm = 0.0;  ///< of the ball that `reachable` of the samples is about; not filled by judge()
   double overcut_mm = 0.0, undercut_mm = 0.0, undercut_covered_mm = 0.0, rms_mm = 0.0;  ///< over the targets
   double gouge_mm = 0.0;           ///< largest overcut on a check surface

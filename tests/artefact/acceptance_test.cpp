@@ -65,7 +65,7 @@ TEST(Acceptance, EachFigureAlone) {
   expect_one(accept(tool_of({1, 30, 1, 30}), at_the_limits(), 0.95), "legitimate", "not legitimate");
 }
 
-// A face that nobody found cut is not good for that: it has to be proved, unless only samples were asked for.
+// A face that nobody found cut is not good for that: it has to be proved, by samples too.
 TEST(Acceptance, WhatIsNotProvedDoesNotPass) {
   VerifyReport r = at_the_limits();
   for (FaceVerdict& face : r.faces) face.overcut_bound_mm = 0.01;
@@ -77,8 +77,25 @@ TEST(Acceptance, WhatIsNotProvedDoesNotPass) {
   expect_one(accept(cylinder(), r, 0.95), "gouge_bound_mm",
              "F2 is not proved: cut by 0.0100 mm, but it may be 0.0123 mm > 0.01 mm about (1.000, 2.000, -3.000)");
   r.depth = DepthProof::kSampled;
-  EXPECT_TRUE(accept(cylinder(), r, 0.95).pass());
+  expect_one(accept(cylinder(), r, 0.95), "gouge_bound_mm", "between samples; without --sample it is looked at");
   EXPECT_EQ(depth_text(r).substr(0, 7), "sampled");
+}
+
+TEST(Acceptance, CoverageThatIsNotProvedDoesNotPass) {
+  VerifyReport r = at_the_limits();
+  r.coverage_bound = 0.79;
+  r.coverage_reachable_bound = 0.95;
+  EXPECT_TRUE(accept(cylinder(), r, 0.95).pass());
+  r.coverage_reachable_bound = 0.94999;
+  r.faces[0].uncovered_point = Vec3(1, 2, -3);
+  expect_one(
+      accept(cylinder(), r, 0.95), "coverage_bound",
+      "95.000 % of what is reachable is measured, 94.999 % is proved < 95.000 %; the rest is about (1.000, 2.000, "
+      "-3.000)");
+  // A target that may be cut too deep says that, and nothing of its coverage.
+  r.overcut_bound_mm = r.faces[0].overcut_bound_mm = 0.02;
+  r.coverage_reachable_bound = 0.0;
+  expect_one(accept(cylinder(), r, 0.95), "overcut_bound_mm", "F1 is not proved");
 }
 
 TEST(Acceptance, NamesTheFacesThatAreEnteredDeepestFirst) {

@@ -22,6 +22,8 @@ VerifyReport full_report() {
   r.undercut_covered_mm = 2e-7;
   r.rms_mm = 0.1;
   r.gouge_mm = 0.25;
+  r.coverage_bound = 0.875;
+  r.coverage_reachable_bound = 0.9;
   r.sampling_bound_mm = 3e-4;
   r.depth = DepthProof::kProved;
   r.overcut_bound_mm = 0.35;
@@ -37,14 +39,19 @@ VerifyReport full_report() {
               0.97,
               0.9,
               0.99,
+              1.0 / 3.0,
+              0.875,
+              Vec3(1.0 / 7.0, 8, 9),
+              55,
               0.2,
               3e-4,
               0.35,
               Vec3(1.0 / 7.0, 5, 6),
               77,
               {}},
-             {"F2", false, 7.0, 12, 0.25, 0, 0, 0, 0, 0, 0, 0.2, 0.01, 0.26, Vec3::Zero(), 9,
-              WorstPlace{"F2", Vec3(4, 5, 1.0 / 3.0), -0.25, 0, 1.5, 2.5}}};
+             {"F2", false, 7.0,  12,   0.25,         0,   0,
+              0,    0,     0,    0,    0.0,          0.0, Vec3::Zero(),
+              0,    0.2,   0.01, 0.26, Vec3::Zero(), 9,   WorstPlace{"F2", Vec3(4, 5, 1.0 / 3.0), -0.25, 0, 1.5, 2.5}}};
   r.worst = {{"F1", Vec3(1.0 / 7.0, 2, 3), -1.0 / 3.0, 2, 12.25, 7.5}, {"F2", Vec3(4, 5, 6), -0.25, -1, 0, 0}};
   r.histogram_edges_mm = {-0.02, 0.0, 0.02};
   r.histogram_area_mm2 = {100.5, 20.0};
@@ -74,6 +81,8 @@ TEST(VerifyJson, ReadsBackWhatItWrote) {
   EXPECT_EQ(b.coverage, a.coverage);
   EXPECT_EQ(b.reachable_share, a.reachable_share);
   EXPECT_EQ(b.coverage_reachable, a.coverage_reachable);
+  EXPECT_EQ(b.coverage_bound, a.coverage_bound);
+  EXPECT_EQ(b.coverage_reachable_bound, a.coverage_reachable_bound);
   EXPECT_EQ(b.reach_radius_mm, a.reach_radius_mm);
   EXPECT_EQ(b.faces[0].coverage_reachable, 0.99);
   EXPECT_EQ(b.overcut_mm, a.overcut_mm);
@@ -81,6 +90,10 @@ TEST(VerifyJson, ReadsBackWhatItWrote) {
   ASSERT_EQ(b.faces.size(), 2u);
   EXPECT_EQ(b.faces[0].samples, 4000u);
   EXPECT_FALSE(b.faces[1].target);
+  EXPECT_EQ(b.faces[0].coverage_bound, 1.0 / 3.0);
+  EXPECT_EQ(b.faces[0].coverage_reachable_bound, 0.875);
+  EXPECT_EQ(b.faces[0].uncovered_point, Vec3(1.0 / 7.0, 8, 9));
+  EXPECT_EQ(b.faces[0].cover_cells, 55u);
   EXPECT_EQ(b.faces[1].sampling_bound_mm, 0.01);
   EXPECT_EQ(b.depth, DepthProof::kProved);
   EXPECT_EQ(b.faces[0].overcut_bound_mm, 0.35);

@@ -89,5 +89,44 @@ TEST(FaceCut, NothingLeftIsRefused) {
   EXPECT_EQ(cut_face(face, true, 0.45, 0.9).loops.size(), 1u);
 }
 
+// A corner that lies a rounding beyond the line: the piece beyond it has no length.
+TEST(FaceCut, ACornerThatTouchesTheLineIsNoPiece) {
+  for (const double beyond : {0.0, 1e-15, 1e-12, 1e-10, 1e-8}) {
+    TrimLoop loop;
+    const Vec2 corners[] = {{0.5 - beyond, 0.2}, {0.8, 0.1}, {0.5 - beyond, 0.9}, {0.9, 0.5}};
+    for (int k = 0; k < 4; ++k) {
+      BSplineCurve2& edge = loop.edges.emplace_back();
+      edge.degree = 1;
+      edge.knots = {0.0, 0.0, 1.0, 1.0};
+      edge.poles.resize(2, 2);
+      edge.poles << corners[k], corners[(k + 1) % 4];
+    }
+    for (const bool above : {true, false}) {
+      for (const TrimLoop& kept : cut_loops({loop}, true, 0.5, above)) {
+        for (const BSplineCurve2& edge : kept.edges) {
+          ASSERT_GE(edge.poles.cols(), 2) << beyond;
+          ASSERT_EQ(edge.knots.size(), static_cast<std::size_t>(edge.poles.cols() + edge.degree + 1));
+          EXPECT_GE(above ? edge.poles.row(0).minCoeff() - 0.5 : 0.5 - edge.poles.row(0).maxCoeff(), -1e-8) << beyond;
+        }
+      }
+    }
+    EXPECT_FALSE(cut_loops({loop}, true, 0.5, true).empty());
+  }
+}
+
+// Ends without order would send a sort out of its bounds.
+TEST(FaceCut, TrimsWithoutFiniteParametersAreRefused) {
+  TrimLoop loop;
+  for (int k = 0; k < 40; ++k) {
+    BSplineCurve2& edge = loop.edges.emplace_back();
+    edge.degree = 1;
+    edge.knots = {0.0, 0.0, 1.0, 1.0};
+    edge.poles.resize(2, 2);
+    const double v = k % 3 == 0 ? std::nan("") : 0.01 * k;
+    edge.poles << (k % 2 == 0 ? 0.2 : 0.8), (k % 2 == 0 ? 0.8 : 0.2), v, v;
+  }
+  EXPECT_THROW((void)cut_loops({loop}, true, 0.5, true), InputError);
+}
+
 }  // namespace
 }  // namespace flank::internal

@@ -112,6 +112,20 @@ TEST_F(ResultFolderTest, APageThatSomebodyElseWroteIsTheirs) {
   EXPECT_EQ(content("report.html"), "my own");
 }
 
+TEST_F(ResultFolderTest, NamesWhatIsGone) {
+  replace({{"tool.json", "a"}, {"path.json", "b"}});
+  fs::remove(root_ / "out/path.json");
+  const ResultFolder read(folder(), Use::kRead);
+  EXPECT_EQ(refusal([&] {
+              read.require_there({"tool.json", "ranking.json"});
+            }),
+            "accepted")
+      << "it never had a ranking";
+  const std::string message = refusal([&] { read.require_there({"tool.json", "path.json"}); });
+  EXPECT_NE(message.find("out/path.json: is gone"), std::string::npos) << message;
+  EXPECT_NE(message.find("make the result again"), std::string::npos) << message;
+}
+
 TEST_F(ResultFolderTest, RefusesMixturesByName) {
   replace({{"tool.json", "a"}, {"path.json", "b"}});
   write("out/path.json", "other");

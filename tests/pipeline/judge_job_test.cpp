@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "flank/pipeline/folder/target_reach.h"
 #include "flank/setup/check_faces.h"
 #include "flank/setup/targets.h"
 #include "rotor37_file.h"
@@ -22,9 +23,9 @@ std::string real_part(const std::string& name) {
 /// Samples of one target with its reachable shares.
 FaceSamples reach_of(const Part& part, int target, double radius, double tolerance, double spacing) {
   const Setup setup{part, {target}, faces_to_check(part, {target}, {}), tolerance, {}};
-  std::vector<FaceSamples> samples = judge_samples(setup, spacing, 10.0);
-  measure_reach(setup, {}, {}, radius, samples);
-  return samples[static_cast<std::size_t>(target)];
+  std::vector<FaceSamples> samples = target_samples(setup, spacing);
+  TargetReach(setup, {}, {}, radius, samples).fill(target, samples[0]);
+  return samples[0];
 }
 
 double share_of(const FaceSamples& face) {

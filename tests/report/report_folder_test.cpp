@@ -103,12 +103,16 @@ TEST_F(ReportFolder, AFolderInTheFilesPlaceIsRefusedByName) {
   expect_refused("summary.json", "is not a file");
 }
 
-TEST_F(ReportFolder, AFileWhosePartIsNoTextHasNoTitleOfItsOwn) {
-  for (const char* part : {"3", "null", "[\"a.step\"]", "{}", "\"\""}) {
-    write("view.json", std::string(R"({"schema": "openflank/view/1", "faces": 7, "part": )") + part + "}");
-    EXPECT_EQ(title(), "OpenFlank report") << part;
+TEST_F(ReportFolder, PartAndFacesAreTexts) {
+  for (const char* wrong : {"3", "null", "[\"a.step\"]", "{}"}) {
+    write("view.json", std::string(R"({"schema": "openflank/view/1", "faces": "F1", "part": )") + wrong + "}");
+    expect_refused("view.json", "part: a text is needed");
+    write("view.json", std::string(R"({"schema": "openflank/view/1", "part": "a.step", "faces": )") + wrong + "}");
+    expect_refused("view.json", "faces: a text is needed");
   }
-  write("view.json", R"({"schema": "openflank/view/1", "faces": 7, "part": "a.step"})");
+  write("view.json", R"({"schema": "openflank/view/1", "part": ""})");
+  EXPECT_EQ(title(), "OpenFlank report");
+  write("view.json", R"({"schema": "openflank/view/1", "part": "a.step"})");
   EXPECT_EQ(title(), " of a.step - OpenFlank");
 }
 

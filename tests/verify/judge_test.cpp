@@ -28,9 +28,11 @@ Path pass(double from, double to, double height, int poses = 11) {
 }
 
 TEST(Judge, AnExactPassOverAPlaneIsFlawless) {
-  const auto samples = sample_face(test::plane_face("F1", 40.0, 20.0), 0.5, true);
-  const VerifyReport r = judge(cylinder(5.0, 20.0), pass(-1.0, 41.0, 5.0), {samples}, {});
+  const Face face = test::plane_face("F1", 40.0, 20.0);
+  const auto samples = sample_face(face, 0.5, true);
+  const VerifyReport r = judge(cylinder(5.0, 20.0), pass(-1.0, 41.0, 5.0), {samples}, {&face}, {});
   EXPECT_EQ(r.verdict, Verdict::kPass);
+  EXPECT_EQ(r.coverage_bound, 1.0);
   EXPECT_DOUBLE_EQ(r.coverage, 1.0);
   EXPECT_LT(r.overcut_mm, 1e-12);
   EXPECT_LT(r.undercut_mm, 1e-12);
@@ -42,14 +44,49 @@ TEST(Judge, AnExactPassOverAPlaneIsFlawless) {
 }
 
 TEST(Judge, HeightAboveThePlaneIsMaterialLeft) {
-  const auto samples = sample_face(test::plane_face("F1", 40.0, 20.0), 0.5, true);
-  const VerifyReport r = judge(cylinder(5.0, 20.0), pass(-1.0, 41.0, 5.03), {samples}, {});
+  const Face face = test::plane_face("F1", 40.0, 20.0);
+  const auto samples = sample_face(face, 0.5, true);
+  const VerifyReport r = judge(cylinder(5.0, 20.0), pass(-1.0, 41.0, 5.03), {samples}, {&face}, {});
   EXPECT_EQ(r.verdict, Verdict::kPass) << "material left is no overcut";
   EXPECT_EQ(r.coverage, 0.0);
+  EXPECT_EQ(r.coverage_bound, 0.0);
   EXPECT_NEAR(r.undercut_mm, 0.03, 1e-9);
   EXPECT_NEAR(r.undercut_covered_mm, 0.03, 1e-9);
   EXPECT_NEAR(r.rms_mm, 0.03, 1e-9);
   EXPECT_NEAR(r.histogram_area_mm2.back(), 800.0, 1e-9) << "the last bin is open";
+}
+
+// What lies between samples was not seen: it passes only if it cannot be deeper than the tolerance.
+TEST(Judge, SamplesAlonePassNoMoreThanTheySaw) {
+  const Face face = test::plane_face("F1", 40.0, 20.0);
+  const Tool tool = cylinder(5.0, 20.0);
+  const Path path = pass(-1.0, 41.0, 5.0);
+  JudgeOptions options;
+  options.depth = DepthProof::kSampled;
+  for (double spacing : {100.0, 1.0, 0.2}) {
+    const VerifyReport r = judge(tool, path, {sample_face(face, spacing, true)}, {&face}, options);
+    EXPECT_EQ(r.depth, DepthProof::kSampled);
+    EXPECT_LT(r.overcut_mm, 1e-12);
+    EXPECT_GT(r.overcut_bound_mm, 0.01);
+    EXPECT_EQ(r.verdict, Verdict::kUnproved) << spacing;
+    EXPECT_EQ(judge(tool, path, {sample_face(face, spacing, true)}, options).verdict, Verdict::kUnproved);
+  }
+  // Cells of 0.01 mm reach no farther than 0.0071 mm.
+  const Face small = test::plane_face("F1", 2.0, 2.0);
+  EXPECT_EQ(judge(tool, path, {sample_face(small, 0.01, true)}, {&small}, options).verdict, Verdict::kPass);
+}
+
+TEST(Judge, TheProvedCoverageComesNearTheMeasuredOne) {
+  const Face face = test::plane_face("F1", 40.0, 20.0);
+  const auto samples = sample_face(face, 0.5, true);
+  const VerifyReport half = judge(cylinder(5.0, 20.0), pass(-1.0, 20.0, 5.0), {samples}, {&face}, {});
+  EXPECT_LE(*half.coverage_bound, 0.5 + std::sqrt(2.0 * 5.0 * 0.01) / 40.0);
+  EXPECT_GE(*half.coverage_bound, 0.5);
+  EXPECT_GT(half.faces[0].cover_cells, 0u);
+  // A cut spoils it: what is cut too deep is not finished, and where that is, is known of the face as a whole only.
+  const VerifyReport cut = judge(cylinder(5.0, 20.0), pass(-1.0, 41.0, 4.9), {samples}, {&face}, {});
+  EXPECT_EQ(cut.coverage_bound, 0.0);
+  EXPECT_FALSE(judge(cylinder(5.0, 20.0), pass(-1.0, 41.0, 5.0), {samples}, {}).coverage_bound);
 }
 
 // What is far from the path is left out in blocks; near it nothing may be lost.
@@ -181,9 +218,12 @@ TEST(Judge, BetweenSamplesItIsNoWorseThanTheBoundSays) {
     const VerifyReport coarse = judge(tool, path, {sample_face(face, spacing, true)}, {});
     EXPECT_LE(fine.overcut_mm, coarse.overcut_mm + coarse.sampling_bound_mm) << spacing;
     EXPECT_LE(coarse.sampling_bound_mm, 0.71 * spacing);
-    if (spacing < 0.5) {
-      EXPECT_LE(coarse.sampling_bound_mm, 0.05) << "of second order in the spacing";
-    }
+    if (spacing > 0.5) continue;
+    // At the border only the slope of f tells; inside, the bound is of second order in the spacing.
+    FaceSamples inner = sample_face(face, spacing, true);
+    EXPECT_GT(coarse.sampling_bound_mm, 0.05);
+    inner.smooth.assign(inner.points.size(), 1);
+    EXPECT_LE(judge(tool, path, {inner}, {}).sampling_bound_mm, 0.05);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace flank::internal {
 namespace {
@@ -49,14 +50,37 @@ void add_unproved(const VerifyReport& report, std::vector<Shortfall>& reasons) {
                    [](const auto* a, const auto* b) { return a->overcut_bound_mm > b->overcut_bound_mm; });
   for (std::size_t k = 0; k < faces.size() && k < kMostFacesNamed; ++k) {
     const Vec3& p = faces[k]->bound_point;
+    const std::string sampled =
+        report.depth == DepthProof::kSampled ? ", between samples; without --sample it is looked at" : "";
     reasons.push_back({faces[k]->target ? "overcut_bound_mm" : "gouge_bound_mm",
                        fmt::format("{} is not proved: cut by {:.4f} mm, but it may be {:.4f} mm > {} mm about "
-                                   "({:.3f}, {:.3f}, {:.3f})",
+                                   "({:.3f}, {:.3f}, {:.3f}){}",
                                    faces[k]->face, faces[k]->overcut_mm, faces[k]->overcut_bound_mm,
-                                   report.tolerance_mm, p.x(), p.y(), p.z())});
+                                   report.tolerance_mm, p.x(), p.y(), p.z(), sampled)});
   }
   if (faces.size() > kMostFacesNamed)
     reasons.push_back({"overcut_bound_mm", fmt::format("and {} more faces", faces.size() - kMostFacesNamed)});
+}
+
+/// Coverage that was measured but is not proved; of a target that is cut too deep, nothing of it is.
+void add_coverage(const VerifyReport& report, double least, std::vector<Shortfall>& reasons) {
+  if (!(report.coverage_reachable >= least)) {
+    reasons.push_back({"coverage_reachable", fmt::format("coverage {:.3f} % < {:.3f} % of what is reachable",
+                                                         100.0 * report.coverage_reachable, 100.0 * least)});
+    return;
+  }
+  const bool deep = report.overcut_bound_mm > report.tolerance_mm;
+  if (deep || !report.coverage_reachable_bound || *report.coverage_reachable_bound >= least) return;
+  const auto worst = std::min_element(report.faces.begin(), report.faces.end(), [](const auto& a, const auto& b) {
+    return a.target != b.target ? a.target : a.target && a.coverage_bound - a.coverage < b.coverage_bound - b.coverage;
+  });
+  const Vec3 p = worst != report.faces.end() ? worst->uncovered_point : Vec3(Vec3::Zero());
+  reasons.push_back(
+      {"coverage_bound",
+       fmt::format("coverage is not proved: {:.3f} % of what is reachable is measured, {:.3f} % is proved "
+                   "< {:.3f} %; the rest is about ({:.3f}, {:.3f}, {:.3f})",
+                   100.0 * report.coverage_reachable, 100.0 * *report.coverage_reachable_bound, 100.0 * least, p.x(),
+                   p.y(), p.z())});
 }
 
 }  // namespace
@@ -68,12 +92,8 @@ Acceptance accept(const Tool& tool, const VerifyReport& report, double least_cov
     out.reasons.push_back({"legitimate", "the tool is not legitimate: " + legitimacy.reason});
   add_cuts(report, true, out.reasons);
   add_cuts(report, false, out.reasons);
-  if (report.depth == DepthProof::kProved) add_unproved(report, out.reasons);
-  // What no tool of this size can reach is nobody's fault: the demand is on the reachable share.
-  if (!(report.coverage_reachable >= least_coverage))
-    out.reasons.push_back(
-        {"coverage_reachable", fmt::format("coverage {:.3f} % < {:.3f} % of what is reachable",
-                                           100.0 * report.coverage_reachable, 100.0 * least_coverage)});
+  add_unproved(report, out.reasons);
+  add_coverage(report, least_coverage, out.reasons);
   // "surely": the judge's figure less its bound is what counts (ClearanceFigure::kept).
   for (const ClearanceFigure& f : report.clearance.figures)
     if (!f.kept)
@@ -119,14 +139,23 @@ void accept_cavity(const TrochoidSummary& cavity, Acceptance& acceptance) {
 }
 
 std::string reach_text(const VerifyReport& report) {
-  return fmt::format("reachable   {:.2f} % of the target (ball of radius {:.4g} mm), of which {:.2f} % is covered",
-                     100.0 * report.reachable_share, report.reach_radius_mm, 100.0 * report.coverage_reachable);
+  std::string text =
+      fmt::format("reachable   {:.2f} % of the target (ball of radius {:.4g} mm), of which {:.2f} % is covered",
+                  100.0 * report.reachable_share, report.reach_radius_mm, 100.0 * report.coverage_reachable);
+  if (report.coverage_reachable_bound) {
+    // Rounded down: what is printed is proved, too.
+    constexpr double kDigits = 1e4;
+    text += fmt::format(", {:.2f} % proved", std::floor(kDigits * *report.coverage_reachable_bound) * 100.0 / kDigits);
+  }
+  return text;
 }
 
 std::string depth_text(const VerifyReport& report) {
   if (report.depth == DepthProof::kSampled)
-    return fmt::format("sampled: only the samples were looked at; between them the target may be cut {:.4f} mm deeper",
-                       report.sampling_bound_mm);
+    return fmt::format(
+        "sampled: only the samples were looked at; between them the target may be cut {:.4f} mm deep, other faces "
+        "{:.4f} mm",
+        report.overcut_bound_mm, report.gouge_bound_mm);
   return fmt::format("proved: no place of the target is cut deeper than {:.4f} mm, none of other faces {:.4f} mm",
                      report.overcut_bound_mm, report.gouge_bound_mm);
 }

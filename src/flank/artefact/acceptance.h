@@ -8,9 +8,9 @@
 
 namespace flank::internal {
 
-/// Passes: the work is complete, the tool legitimate, overcut on every target and every check face at most the report's
-/// tolerance (proved so, unless only samples were asked for), coverage of what is reachable at least `least_coverage`,
-/// and every clearance kept.
+/// Passes: the work is complete, the tool legitimate, overcut on every target and every check face surely at most the
+/// report's tolerance (its bound is; samples alone give one, too), coverage of what is reachable at least
+/// `least_coverage` (its bound, where there is one), and every clearance kept.
 [[nodiscard]] Acceptance accept(const Tool& tool, const VerifyReport& report, double least_coverage,
                                 bool complete = true);
 

@@ -158,6 +158,7 @@ std::string summary_json(const Result& result) {
   json["coverage"] = v.coverage;
   json["reachable_share"] = v.reachable_share;
   json["coverage_reachable"] = v.coverage_reachable;
+  if (v.coverage_reachable_bound) json["coverage_reachable_bound"] = *v.coverage_reachable_bound;
   json["reach_radius"] = v.reach_radius_mm;
   json["least_coverage"] = std::visit([](const auto& plan) { return plan.judge.least_coverage; }, result.job);
   json["overcut"] = v.overcut_mm;

@@ -63,6 +63,11 @@ Json to_json(const FaceVerdict& f) {
             {"coverage", number(f.coverage)},
             {"reachable_share", number(f.reachable_share)},
             {"coverage_reachable", number(f.coverage_reachable)},
+            {"coverage_bound", number(f.coverage_bound)},
+            {"coverage_reachable_bound", number(f.coverage_reachable_bound)},
+            {"uncovered_point",
+             {number(f.uncovered_point.x()), number(f.uncovered_point.y()), number(f.uncovered_point.z())}},
+            {"cover_cells", f.cover_cells},
             {"sampling_bound_mm", number(f.sampling_bound_mm)},
             {"overcut_bound_mm", number(f.overcut_bound_mm)},
             {"bound_point", {number(f.bound_point.x()), number(f.bound_point.y()), number(f.bound_point.z())}},
@@ -86,6 +91,13 @@ FaceVerdict face_from(const Json& j) {
   f.coverage = to_number(j.at("coverage"));
   f.reachable_share = to_number(j.at("reachable_share"));
   f.coverage_reachable = to_number(j.at("coverage_reachable"));
+  if (j.contains("coverage_bound")) {
+    f.coverage_bound = to_number(j.at("coverage_bound"));
+    f.coverage_reachable_bound = to_number(j.at("coverage_reachable_bound"));
+    const Json& at = j.at("uncovered_point");
+    f.uncovered_point = {to_number(at.at(0)), to_number(at.at(1)), to_number(at.at(2))};
+    f.cover_cells = j.at("cover_cells").get<std::size_t>();
+  }
   f.sampling_bound_mm = to_number(j.at("sampling_bound_mm"));
   f.overcut_bound_mm = to_number(j.at("overcut_bound_mm"));
   const Json& p = j.at("bound_point");
@@ -166,6 +178,10 @@ VerifyReport report_from(const Json& j) {
   r.coverage = to_number(j.at("coverage"));
   r.reachable_share = to_number(j.at("reachable_share"));
   r.coverage_reachable = to_number(j.at("coverage_reachable"));
+  if (j.contains("coverage_bound")) {
+    r.coverage_bound = to_number(j.at("coverage_bound"));
+    r.coverage_reachable_bound = to_number(j.at("coverage_reachable_bound"));
+  }
   r.reach_radius_mm = to_number(j.at("reach_radius_mm"));
   r.overcut_mm = to_number(j.at("overcut_mm"));
   r.undercut_mm = to_number(j.at("undercut_mm"));
@@ -230,6 +246,10 @@ std::string verify_to_json(const VerifyReport& r, const Acceptance& acceptance) 
             {"faces", Json::array()},
             {"worst_places", Json::array()},
             {"histogram", {{"edges_mm", Json::array()}, {"area_mm2", Json::array()}}}};
+  if (r.coverage_bound && r.coverage_reachable_bound) {
+    j["coverage_bound"] = number(*r.coverage_bound);
+    j["coverage_reachable_bound"] = number(*r.coverage_reachable_bound);
+  }
   for (const Shortfall& reason : acceptance.reasons)
     j["reasons"].push_back({{"figure", reason.figure}, {"text", reason.text}});
   for (const FaceVerdict& f : r.faces) j["faces"].push_back(to_json(f));

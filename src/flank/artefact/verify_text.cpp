@@ -11,16 +11,17 @@ using namespace internal;
 
 std::string verify_text(const Verification& outcome) {
   const VerifyReport& v = outcome.report;
-  std::string text = fmt::format("{:<8} {:>6} {:>11} {:>9} {:>11} {:>11} {:>11} {:>11}\n", "face", "role", "area mm2",
-                                 "coverage", "overcut mm", "at most mm", "undercut mm", "rms mm");
+  std::string text =
+      fmt::format("{:<8} {:>6} {:>11} {:>9} {:>9} {:>11} {:>11} {:>11} {:>11}\n", "face", "role", "area mm2",
+                  "coverage", "at least", "overcut mm", "at most mm", "undercut mm", "rms mm");
   for (const FaceVerdict& f : v.faces) {
     if (f.target)
-      text += fmt::format("{:<8} {:>6} {:>11.2f} {:>8.2f}% {:>11.6f} {:>11.6f} {:>11.6f} {:>11.6f}\n", f.face, "target",
-                          f.area_mm2, 100.0 * f.coverage, f.overcut_mm, f.overcut_bound_mm, f.undercut_covered_mm,
-                          f.rms_mm);
+      text += fmt::format("{:<8} {:>6} {:>11.2f} {:>8.2f}% {:>8.2f}% {:>11.6f} {:>11.6f} {:>11.6f} {:>11.6f}\n", f.face,
+                          "target", f.area_mm2, 100.0 * f.coverage, 100.0 * f.coverage_bound, f.overcut_mm,
+                          f.overcut_bound_mm, f.undercut_covered_mm, f.rms_mm);
     else
-      text += fmt::format("{:<8} {:>6} {:>11.2f} {:>9} {:>11.6f} {:>11.6f}\n", f.face, "check", f.area_mm2, "",
-                          f.overcut_mm, f.overcut_bound_mm);
+      text += fmt::format("{:<8} {:>6} {:>11.2f} {:>9} {:>9} {:>11.6f} {:>11.6f}\n", f.face, "check", f.area_mm2, "",
+                          "", f.overcut_mm, f.overcut_bound_mm);
   }
   for (const WorstPlace& w : v.worst)
     text += fmt::format("worst: {} at ({:.3f}, {:.3f}, {:.3f}) f = {:.6f} mm, strip {}, pose {:.2f}, s {:.3f}\n",

@@ -137,9 +137,12 @@ std::vector<Piece> pieces_of(const BSplineCurve2& edge, const Half& half) {
   }
   ends.push_back(edge.last());
   std::vector<Piece> pieces;
+  // What is so short may have no length as a segment: the edge then only touches the line there.
+  const double least = 2.0 * kSameKnot * (edge.last() - edge.first());
   for (std::size_t k = 0; k + 1 < ends.size(); ++k)
     // By their number, not by asking anew: at a crossing the answer is decided by rounding.
-    if (ends[k + 1] > ends[k]) pieces.push_back({part_of(edge, ends[k], ends[k + 1]), starts_inside == (k % 2 == 0)});
+    if (ends[k + 1] - ends[k] > least)
+      pieces.push_back({part_of(edge, ends[k], ends[k + 1]), starts_inside == (k % 2 == 0)});
   return pieces;
 }
 
@@ -180,6 +183,9 @@ std::vector<TrimLoop> joined(std::vector<Chain> chains, int axis) {
     ends.push_back({start_of(chains[k])[1 - axis], k, false});
     ends.push_back({end_of(chains[k])[1 - axis], k, true});
   }
+  // Such ends have no order.
+  if (std::any_of(ends.begin(), ends.end(), [](const End& e) { return !std::isfinite(e.along); }))
+    throw InputError("a trim that is cut has no finite parameters");
   std::sort(ends.begin(), ends.end(), [](const End& a, const End& b) {
     return std::tie(a.along, a.chain, a.last) < std::tie(b.along, b.chain, b.last);
   });

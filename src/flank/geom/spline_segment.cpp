@@ -6,9 +6,6 @@
 namespace flank::internal {
 namespace {
 
-/// As a share of the length of the domain.
-constexpr double kSameKnot = 1e-9;
-
 double nearest_knot(const SplineRows& rows, double t) {
   const double tolerance = kSameKnot * (rows.last() - rows.first());
   t = std::clamp(t, rows.first(), rows.last());

@@ -148,13 +148,18 @@ inline constexpr std::string_view kReachHelp =
 inline constexpr std::string_view kCellHelp =
     "Between the lines of the stock in which the judge replays a cavity's program; default: by the size of the cavity";
 
+inline constexpr std::string_view kSampleHelp =
+    "Judge by samples at this spacing alone, which is quick: it passes only if nothing deeper than the tolerance has "
+    "room between them; default: "
+    "samples for the figures, and a proof";
+
 template <class Visitor, Is<JudgeRequest> Request>
 void visit_judge(Request& judge, Visitor& visit) {
   using namespace accepted;
   visit(FieldInfo{"coverage", "", "", "Share of what is reachable of the face, within tolerance, that counts as done",
                   kCoverage},
         judge.least_coverage);
-  visit(FieldInfo{"sample", "mm", "", "Spacing of the judge's samples", kLength}, judge.sample_mm);
+  visit(FieldInfo{"sample", "mm", "", kSampleHelp, kLength}, judge.sample_mm);
   visit(FieldInfo{"reach_radius", "mm", "Other faces", kReachHelp, kRadius}, judge.reach_radius_mm);
 }
 
@@ -386,7 +391,7 @@ void visit_fields(Job& job, Visitor&& visit) {
       FieldInfo{"part", "", "", "Judge against this part instead of the one named in job.json", kAny, Spelling::kFile},
       job.part);
   visit(FieldInfo{"tolerance", "mm", "", "Tolerance instead of the job's", kLength}, job.tolerance_mm);
-  visit(FieldInfo{"sample", "mm", "", "Spacing of the samples", kLength}, job.sample_mm);
+  visit(FieldInfo{"sample", "mm", "", kSampleHelp, kLength}, job.sample_mm);
   visit(FieldInfo{"reach_radius", "mm", "Other faces", kReachHelp, kRadius}, job.reach_radius_mm);
   visit(FieldInfo{"stock_cell", "mm", "", kCellHelp, kLength}, job.stock_cell_mm);
   visit_obstacles(job.obstacles, visit);

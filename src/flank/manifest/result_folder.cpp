@@ -209,6 +209,14 @@ void ResultFolder::require_whole(const std::vector<std::string>& but) const {
   }
 }
 
+void ResultFolder::require_there(const std::vector<std::string>& names) const {
+  if (!manifest_) return;
+  for (const std::string& name : names)
+    if (manifest_->files.count(name) != 0 && !is_file(in(name)))
+      throw InputError(in(name) + ": is gone, and " + kManifestFile + " of `flank " + manifest_->made_by +
+                       "` names it; put it back or make the result again");
+}
+
 void ResultFolder::require_not_inputs(const std::vector<std::string>& inputs) const {
   std::error_code error;
   for (const std::string& input : inputs) {

@@ -49,6 +49,9 @@ class ResultFolder {
   /// manifest. `but`: names that may have changed.
   void require_whole(const std::vector<std::string>& but = {}) const;
 
+  /// Throws InputError, naming the first of these files that the manifest names and that is not there.
+  void require_there(const std::vector<std::string>& names) const;
+
   /// Throws InputError if one of these files would be overwritten by a result in this folder. Names that are no files
   /// are passed over.
   void require_not_inputs(const std::vector<std::string>& inputs) const;

@@ -127,6 +127,7 @@ Verification run_verify(const VerifyJob& request) {
   if (request.nc.file) return judge_program(request);
   if (request.folder.empty()) throw UsageError("folder", "is needed, or a program by `nc`");
   ResultFolder folder(request.folder, ResultFolder::Use::kWriteOrRead);
+  folder.require_there({"job.json", "tool.json", "path.json"});
   FolderJob found = read_folder_job(request, folder);
   return std::visit([&](auto& job) { return judge_folder(request, job, found.named_part, folder); }, found.job);
 }

@@ -110,6 +110,7 @@ std::string make_report(const std::string& folder) {
   if (!page_is_built())
     throw UsageError("this flank was built without the report page; install npm and build it with -D FLANK_REPORT=ON");
   const ResultFolder held(folder, ResultFolder::Use::kRead);
+  held.require_there({"job.json", "tool.json", "path.json", "verify.json", "summary.json", "view.json"});
   held.require_whole();
   if (held.manifest()) require_same_part(held);
   std::string data = std::string("<meta name=\"generator\" content=\"OpenFlank ") + kVersion + "\">\n", title;

@@ -26,6 +26,8 @@ void require_types(const nlohmann::json& json, const std::string& file) {
     if (list || key == "bodies" || key == "joints" || key == "time_s" || key == "feed_mm_min" || key == "reasons" ||
         key == "worst_places")
       require(key, "a list", value.is_array());
+    const bool text = (key == "faces" || key == "part") && json["schema"] == schema_of("view.json");
+    if (text) require(key, "a text", value.is_string());
     if (key == "tolerance_mm" || key == "least_coverage")
       require(key, "a number", value.is_number() || value.is_null());
     if (key == "pass" || key == "within") require(key, "true or false", value.is_boolean());

@@ -187,31 +187,46 @@ class Surroundings {
   std::vector<Winding> solids_;
 };
 
-void require_usable(const FaceSamples& target, const ReachOptions& options) {
+void require_usable(const ReachOptions& options) {
   if (!(options.radius_mm > 0.0 && std::isfinite(options.radius_mm)))
     throw UsageError("reach: the radius must be > 0 mm");
   if (!(options.tolerance_mm > 0.0)) throw UsageError("reach: the tolerance must be > 0 mm");
-  if (target.normals.size() != target.points.size()) throw InternalError("reach: a target's samples need normals");
 }
 
 }  // namespace
 
-std::vector<double> reachable_shares(const FaceSamples& target, const std::vector<ReachFace>& others,
-                                     const ReachOptions& options) {
-  require_usable(target, options);
-  const Surroundings around(others, options.radius_mm - options.tolerance_mm);
-  std::vector<Ball> balls(target.points.size());
-  for (std::size_t i = 0; i < balls.size(); ++i) {
-    const double reach = target.reaches_mm.empty() ? target.spacing_mm : target.reaches_mm[i];
-    const double bend = target.curvatures_per_mm.empty() ? 0.0 : options.radius_mm * target.curvatures_per_mm[i];
-    const Vec3& n = target.normals[i];
-    balls[i] = {target.points[i] + options.radius_mm * n, n, target.areas[i], reach * (1.0 + bend)};
-  }
-  std::vector<double> shares(balls.size());
+struct ReachScene::Data {
+  double radius;
+  Surroundings around;
+};
+
+ReachScene::ReachScene(const std::vector<ReachFace>& others, const ReachOptions& options) {
+  require_usable(options);
+  data_ = std::make_unique<const Data>(
+      Data{options.radius_mm, Surroundings(others, options.radius_mm - options.tolerance_mm)});
+}
+ReachScene::~ReachScene() = default;
+ReachScene::ReachScene(ReachScene&&) noexcept = default;
+
+std::vector<double> ReachScene::shares(const FaceSamples& target) const {
+  if (target.normals.size() != target.points.size()) throw InternalError("reach: a target's samples need normals");
+  std::vector<double> shares(target.points.size());
   parallel_blocks(shares.size(), kBlock, [&](std::size_t begin, std::size_t end) {
-    around.measure(std::span(balls).subspan(begin, end - begin), std::span(shares).subspan(begin, end - begin));
+    std::vector<Ball> balls(end - begin);
+    for (std::size_t i = begin; i < end; ++i) {
+      const double reach = target.reaches_mm.empty() ? target.spacing_mm : target.reaches_mm[i];
+      const double bend = target.curvatures_per_mm.empty() ? 0.0 : data_->radius * target.curvatures_per_mm[i];
+      const Vec3& n = target.normals[i];
+      balls[i - begin] = {target.points[i] + data_->radius * n, n, target.areas[i], reach * (1.0 + bend)};
+    }
+    data_->around.measure(balls, std::span(shares).subspan(begin, end - begin));
   });
   return shares;
+}
+
+std::vector<double> reachable_shares(const FaceSamples& target, const std::vector<ReachFace>& others,
+                                     const ReachOptions& options) {
+  return ReachScene(others, options).shares(target);
 }
 
 int side_of_tool(const Tool& tool, const Path& path, const FaceSamples& sheet) {

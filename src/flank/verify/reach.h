@@ -1,6 +1,7 @@
 /// The reachable share of a target (MATH section 9): where a ball can touch it without entering another face.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "flank/judge.h"
@@ -21,11 +22,27 @@ struct ReachOptions {
   double tolerance_mm = 0.01;  ///< > 0: it may enter other faces by this much
 };
 
-/// Share of each sample's cell, 0 to 1, whose points x are reachable: the ball about c = x + radius n(x) enters no
-/// checked face by more than the tolerance, and c lies in no solid that has a checked face (a target may run on inside
-/// another solid, which is no place for a tool however far its surface is). `target.normals` point to the machining
-/// side. Cells through which the border of the reachable part runs are measured at 89 places.
-/// Parallel; the same bits for any number of threads. Throws UsageError for a radius or tolerance that is not > 0.
+/// What a ball must keep out of, made ready once for many samples. Immutable, so many threads may ask at once. Throws
+/// UsageError for a radius or tolerance that is not > 0.
+class ReachScene {
+ public:
+  ReachScene(const std::vector<ReachFace>& others, const ReachOptions& options);
+  ~ReachScene();
+  ReachScene(ReachScene&&) noexcept;
+
+  /// Share of each sample's cell, 0 to 1, whose points x are reachable: the ball about c = x + radius n(x) enters no
+  /// checked face by more than the tolerance, and c lies in no solid that has a checked face (a target may run on
+  /// inside another solid, which is no place for a tool however far its surface is). `target.normals` point to the
+  /// machining side. Cells through which the border of the reachable part runs are measured at 89 places.
+  /// Parallel; the same bits for any number of threads.
+  [[nodiscard]] std::vector<double> shares(const FaceSamples& target) const;
+
+ private:
+  struct Data;
+  std::unique_ptr<const Data> data_;
+};
+
+/// The same of one set of samples.
 [[nodiscard]] std::vector<double> reachable_shares(const FaceSamples& target, const std::vector<ReachFace>& others,
                                                    const ReachOptions& options);
 

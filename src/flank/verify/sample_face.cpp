@@ -1,9 +1,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "flank/error.h"
 #include "flank/judge.h"
+#include "flank/verify/proof/border.h"
+#include "flank/verify/sampler.h"
 #include "flank/verify/trim.h"
 
 namespace flank {
@@ -17,10 +20,12 @@ constexpr int kMaxCellsPerSide = 20000;  ///< bounds memory if the spacing is ab
 /// Of |S_u|^2 + |S_v|^2: a tangent parallelogram with less area is degenerate (a pole), and has no curvature to
 /// compute.
 constexpr double kDegenerate = 1e-12;
-constexpr int kSubRows = 6;            ///< a cell on the trim is measured along this many lines of constant v
-constexpr double kFlatCell = 0.01;     ///< bend by size up to which the middle of a cell gives its area
-constexpr double kBorderShare = 1e-6;  ///< of the parameter range: chords that tell how far the loops reach
-constexpr double kTrimShare = 1e-3;    ///< trim chords stay within this share of a cell
+constexpr int kSubRows = 6;              ///< a cell on the trim is measured along this many lines of constant v
+constexpr double kFlatCell = 0.01;       ///< bend by size up to which the middle of a cell gives its area
+constexpr double kBorderShare = 1e-6;    ///< of the parameter range: chords that tell how far the loops reach
+constexpr double kProofShare = 1e-5;     ///< of the parameter range: chords that tell which cells the border meets
+constexpr std::size_t kSizePlaces = 32;  ///< per direction, about, to measure the size of the face
+constexpr double kTrimShare = 1e-3;      ///< trim chords stay within this share of a cell
 
 struct Range {
   double low = 0.0, high = 0.0;
@@ -176,50 +181,115 @@ void require_usable(const Face& face, double spacing_mm) {
     if (!p.allFinite()) throw InputError("face " + face.id + " has a control point that is not finite");
 }
 
+/// The face as rows of cells.
+class FaceSampler final : public Sampler {
+ public:
+  FaceSampler(const Face& face, double spacing_mm, bool target, std::size_t most_samples)
+      : face_(face), target_(target) {
+    const BSplineSurface& s = face.surface;
+    lay_out(spacing_mm);
+    trim_ =
+        std::make_unique<Trim>(face.loops, kTrimShare * (us_.back() - us_.front()) / static_cast<double>(us_.size()),
+                               kTrimShare * (vs_.back() - vs_.front()) / static_cast<double>(vs_.size()));
+    border_ = std::make_unique<Border>(border_curves(face),
+                                       kProofShare * Vec2(s.u_last() - s.u_first(), s.v_last() - s.v_first()));
+    kinks_u_ = kinks(s.knots_u, s.degree_u, s.u_first(), s.u_last());
+    kinks_v_ = kinks(s.knots_v, s.degree_v, s.v_first(), s.v_last());
+    rows_ = std::clamp<std::size_t>(most_samples / (us_.size() - 1), 1, vs_.size() - 1);
+  }
+
+  [[nodiscard]] std::size_t tiles() const override { return (vs_.size() - 2 + rows_) / rows_; }
+  [[nodiscard]] double count() const override {
+    return static_cast<double>(us_.size() - 1) * static_cast<double>(vs_.size() - 1);
+  }
+  [[nodiscard]] double size_mm() const override {
+    Box3 box;
+    for (std::size_t j = 0; j < vs_.size(); j += step(vs_.size()))
+      for (std::size_t i = 0; i < us_.size(); i += step(us_.size())) box.add(face_.surface.value(us_[i], vs_[j]));
+    return box.diagonal();
+  }
+
+  [[nodiscard]] FaceSamples tile(std::size_t k) const override {
+    FaceSamples out;
+    out.face = face_.id;
+    out.target = target_;
+    out.of_solid = face_.of_solid;
+    for (std::size_t j = k * rows_; j < std::min((k + 1) * rows_, vs_.size() - 1); ++j) {
+      const Range v{vs_[j], vs_[j + 1]};
+      const RowCrossings row = row_crossings(*trim_, v);
+      for (std::size_t i = 0; i + 1 < us_.size(); ++i) {
+        const Range u{us_[i], us_[i + 1]};
+        const CellPart part = inside_part(*trim_, row, u, v);
+        if (!(part.share > 0.0)) continue;
+        add_cell(out, face_.surface, part, u, v, face_.reversed);
+        out.cells.push_back({u.low, u.high, v.low, v.high});
+        out.smooth.push_back(smooth(u, v) ? 1 : 0);
+      }
+    }
+    return out;
+  }
+
+ private:
+  void lay_out(double spacing_mm) {
+    const BSplineSurface& s = face_.surface;
+    Range u{s.u_first(), s.u_last()}, v{s.v_first(), s.v_last()};
+    const Trim border(face_.loops, kBorderShare * (u.high - u.low), kBorderShare * (v.high - v.low));
+    if (!border.everything()) {
+      // Cells end where the loops end, so that a trim along an iso-line cuts none of them.
+      u = {std::max(u.low, border.low().x()), std::min(u.high, border.high().x())};
+      v = {std::max(v.low, border.low().y()), std::min(v.high, border.high().y())};
+    }
+    const std::vector<double> at_u = probes(s.knots_u, s.degree_u, s.count_u, u);
+    const std::vector<double> at_v = probes(s.knots_v, s.degree_v, s.count_v, v);
+    const auto speed_u = [&](double x) {
+      double largest = 0.0;
+      for (double y : at_v) largest = std::max(largest, s.jet(x, y).du.norm());
+      return largest;
+    };
+    const auto speed_v = [&](double y) {
+      double largest = 0.0;
+      for (double x : at_u) largest = std::max(largest, s.jet(x, y).dv.norm());
+      return largest;
+    };
+    us_ = cell_borders(at_u, u, spacing_mm, speed_u);
+    vs_ = cell_borders(at_v, v, spacing_mm, speed_v);
+  }
+
+  /// Whether neither border nor kink comes into the cell or touches it.
+  [[nodiscard]] bool smooth(Range u, Range v) const {
+    const auto meets = [](const std::vector<double>& at, Range r) {
+      return std::any_of(at.begin(), at.end(), [&](double k) { return k >= r.low && k <= r.high; });
+    };
+    if (meets(kinks_u_, u) || meets(kinks_v_, v)) return false;
+    if (trim_->everything())
+      return u.low > us_.front() && u.high < us_.back() && v.low > vs_.front() && v.high < vs_.back();
+    return border_->side({{u.low, v.low}, {u.high, v.high}}) == Side::kInside;
+  }
+
+  static std::size_t step(std::size_t count) { return std::max<std::size_t>(1, count / kSizePlaces); }
+
+  const Face& face_;
+  bool target_;
+  std::vector<double> us_, vs_;  ///< borders of the cells
+  std::unique_ptr<Trim> trim_;
+  std::unique_ptr<Border> border_;
+  std::vector<double> kinks_u_, kinks_v_;
+  std::size_t rows_ = 1;  ///< of a tile
+};
+
 }  // namespace
 
-FaceSamples sample_face(const Face& face, double spacing_mm, bool target) {
-  require_usable(face, spacing_mm);
-  const BSplineSurface& s = face.surface;
-  Range u{s.u_first(), s.u_last()}, v{s.v_first(), s.v_last()};
-  const Trim border(face.loops, kBorderShare * (u.high - u.low), kBorderShare * (v.high - v.low));
-  if (!border.everything()) {
-    // Cells end where the loops end, so that a trim along an iso-line cuts none of them.
-    u = {std::max(u.low, border.low().x()), std::min(u.high, border.high().x())};
-    v = {std::max(v.low, border.low().y()), std::min(v.high, border.high().y())};
-  }
-  const std::vector<double> at_u = probes(s.knots_u, s.degree_u, s.count_u, u);
-  const std::vector<double> at_v = probes(s.knots_v, s.degree_v, s.count_v, v);
-  const auto speed_u = [&](double x) {
-    double largest = 0.0;
-    for (double y : at_v) largest = std::max(largest, s.jet(x, y).du.norm());
-    return largest;
-  };
-  const auto speed_v = [&](double y) {
-    double largest = 0.0;
-    for (double x : at_u) largest = std::max(largest, s.jet(x, y).dv.norm());
-    return largest;
-  };
-  const std::vector<double> us = cell_borders(at_u, u, spacing_mm, speed_u);
-  const std::vector<double> vs = cell_borders(at_v, v, spacing_mm, speed_v);
-  const Trim trim(face.loops, kTrimShare * (u.high - u.low) / static_cast<double>(us.size()),
-                  kTrimShare * (v.high - v.low) / static_cast<double>(vs.size()));
+namespace internal::verify {
 
-  FaceSamples out;
-  out.face = face.id;
-  out.target = target;
-  out.of_solid = face.of_solid;
-  for (std::size_t j = 0; j + 1 < vs.size(); ++j) {
-    const Range cell_v{vs[j], vs[j + 1]};
-    const RowCrossings row = row_crossings(trim, cell_v);
-    for (std::size_t i = 0; i + 1 < us.size(); ++i) {
-      const Range cell_u{us[i], us[i + 1]};
-      const CellPart part = inside_part(trim, row, cell_u, cell_v);
-      if (!(part.share > 0.0)) continue;
-      add_cell(out, s, part, cell_u, cell_v, face.reversed);
-    }
-  }
-  return out;
+std::unique_ptr<Sampler> make_sampler(const Face& face, double spacing_mm, bool target, std::size_t most_samples) {
+  require_usable(face, spacing_mm);
+  return std::make_unique<FaceSampler>(face, spacing_mm, target, most_samples);
+}
+
+}  // namespace internal::verify
+
+FaceSamples sample_face(const Face& face, double spacing_mm, bool target) {
+  return make_sampler(face, spacing_mm, target, std::numeric_limits<std::size_t>::max())->tile(0);
 }
 
 }  // namespace flank

@@ -35,6 +35,17 @@ struct SweptVolume::Data {
     const double f = (x - g.at(place.tau).at(place.s)).norm() - tool.radial.at(place.s).r;
     return {f, g.strip, g.pose + place.tau, place.s};
   }
+
+  /// The place in terms of the tree.
+  [[nodiscard]] SweptPlace find(const SweptDistance& place) const {
+    const auto before = [&](const Piece& piece) {
+      const Segment& g = tree.segments[static_cast<std::size_t>(piece.segment)];
+      return g.strip < place.strip || (g.strip == place.strip && g.pose + piece.high < place.t);
+    };
+    const auto at = std::partition_point(tree.pieces.begin(), tree.pieces.end(), before);
+    const int piece = static_cast<int>(std::min(at, tree.pieces.end() - 1) - tree.pieces.begin());
+    return {place.f, piece, place.t - tree.segment_of(piece).pose, place.s};
+  }
 };
 
 SweptVolume::SweptVolume(const Tool& tool, const Path& path) : data_(std::make_unique<const Data>(tool, path)) {}
@@ -58,6 +69,20 @@ void SweptVolume::distances(std::span<const Vec3> points, std::span<const double
     out[i] = data_->at(points[i], place);
     if (place.piece >= 0) near = place;
   }
+}
+
+SweptDistance SweptVolume::distance_from(const Vec3& x, const SweptDistance& near) const {
+  FLANK_ASSERT(near.strip >= 0);
+  SweptSearch search(data_->distance, data_->tree, x);
+  const SweptPlace start = data_->find(near);
+  const SweptPlace place = search.descend_from(start);
+  return data_->at(x, place.piece >= 0 ? place : start);
+}
+
+SweptVolume::Ball SweptVolume::ball(const SweptDistance& place) const {
+  FLANK_ASSERT(place.strip >= 0);
+  const SweptPlace at = data_->find(place);
+  return {data_->tree.segment_of(at.piece).at(at.tau).at(at.s), data_->tool.radial.at(at.s).r};
 }
 
 }  // namespace flank

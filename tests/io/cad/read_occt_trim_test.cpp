@@ -2,7 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 
+#include "flank/error.h"
+#include "flank/io/cad/read_occt_trim.h"
 #include "io/cad_shapes.h"
 
 namespace flank::internal {
@@ -119,6 +123,58 @@ TEST(ReadTrim, TrimsOfAnalyticSurfacesFollowTheirNewParameters) {
     }
   }
   EXPECT_EQ(caps, 2);
+}
+
+BSplineSurface plane() {
+  BSplineSurface s;
+  s.degree_u = s.degree_v = 1;
+  s.knots_u = {0, 0, 2, 2};
+  s.knots_v = {0, 0, 1, 1};
+  s.count_u = s.count_v = 2;
+  s.poles = {Vec3(0, 0, 0), Vec3(0, 5, 0), Vec3(10, 0, 0), Vec3(10, 5, 0)};
+  return s;
+}
+
+TrimLoop loop_through(const Vec2& corner) {
+  TrimLoop loop;
+  const Vec2 corners[] = {{0.2, 0.2}, corner, {0.4, 0.8}};
+  for (int k = 0; k < 3; ++k) {
+    BSplineCurve2& edge = loop.edges.emplace_back();
+    edge.degree = 1;
+    edge.knots = {0, 0, 1, 1};
+    edge.poles.resize(2, 2);
+    edge.poles << corners[k], corners[(k + 1) % 3];
+  }
+  return loop;
+}
+
+std::string refusal(const std::function<void()>& what) {
+  try {
+    what();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(ReadTrim, ATrimKeepsNearItsSurface) {
+  const auto refused = [](const Vec2& corner, const std::function<void(BSplineCurve2&)>& damage = {}) {
+    TrimLoop loop = loop_through(corner);
+    if (damage) damage(loop.edges[0]);
+    return refusal([&] { require_usable_trim(loop, plane(), "F1"); });
+  };
+  EXPECT_EQ(refused({1.9, 0.5}), "accepted");
+  EXPECT_EQ(refused({3.9, -0.9}), "accepted") << "borders need not end at the surface's own";
+  EXPECT_NE(refused({4.1, 0.5}).find("F1: a trim of it goes to the parameters (4.1, 0.5)"), std::string::npos);
+  EXPECT_NE(refused({1.0, -1e300}).find("far beyond"), std::string::npos);
+  EXPECT_NE(refused({NAN, 0.5}).find("not finite"), std::string::npos);
+  EXPECT_NE(refused({1.9, 0.5},
+                    [](auto& e) {
+                      e.weights = {1, 0};
+                    })
+                .find("a weight of a trim of it is not > 0"),
+            std::string::npos);
+  EXPECT_NE(refused({1.9, 0.5}, [](auto& e) { e.knots = {1, 1, 1, 1}; }).find("do not rise"), std::string::npos);
 }
 
 }  // namespace

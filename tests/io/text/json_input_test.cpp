@@ -144,7 +144,10 @@ TEST(ExactNumber, TakesTheFewestDigits) {
   EXPECT_EQ(exact_number(-2.0), "-2");
   EXPECT_EQ(exact_decimal(-2.0), "-2.0");
   EXPECT_EQ(exact_decimal(1e-31), "0.0");
-  EXPECT_EQ(exact_decimal(1e23), "99999999999999991611392.0") << "the double itself, which is no power of ten";
+  EXPECT_EQ(exact_decimal(1e23), "100000000000000000000000.0");
+  EXPECT_EQ(exact_decimal(-1.25e-7), "-0.000000125");
+  EXPECT_EQ(exact_decimal(1e-7), "0.0000001");
+  EXPECT_EQ(exact_decimal(-123456789012345680000.0), "-123456789012345680000.0");
   for (const double value : {std::nan(""), std::numeric_limits<double>::infinity(), -HUGE_VAL}) {
     EXPECT_THROW((void)exact_number(value), InternalError);
     EXPECT_THROW((void)exact_decimal(value), InternalError);

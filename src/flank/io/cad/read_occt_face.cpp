@@ -86,12 +86,6 @@ void refuse_unusable(const BSplineSurface& s, const std::string& name) {
                                    name, p.x(), p.y(), p.z(), kLargestCoordinateMm));
 }
 
-void refuse_unusable(const TrimLoop& loop, const std::string& name) {
-  for (const BSplineCurve2& edge : loop.edges)
-    if (!edge.poles.allFinite() || !all_finite(edge.knots) || !all_finite(edge.weights))
-      throw InputError(name + ": a trim of it has control points or knots that are not finite");
-}
-
 }  // namespace
 
 OcctFace convert_occt_face(const TopoDS_Face& face, const std::string& name) {
@@ -120,7 +114,7 @@ OcctFace convert_occt_face(const TopoDS_Face& face, const std::string& name) {
     if (!loop)
       throw InputError(name +
                        ": a border of the face does not lie on its surface; export it again with trims (p-curves)");
-    refuse_unusable(*loop, name);
+    require_usable_trim(*loop, converted.surface, name);
     result.face.loops.push_back(*loop);
   }
   // Most CAD files state the border of an untrimmed surface as a trim; without it the face is cheaper to ask.

@@ -1,5 +1,7 @@
 #include "flank/io/cad/read_occt_trim.h"
 
+#include <fmt/format.h>
+
 #include <BRepTools_WireExplorer.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom2dAdaptor_Curve.hxx>
@@ -14,6 +16,8 @@
 #include <limits>
 #include <utility>
 
+#include "flank/error.h"
+
 namespace flank::internal {
 namespace {
 
@@ -24,6 +28,10 @@ constexpr double kOrderGapMm =
 constexpr int kMostHalvings = 14;
 
 using Point2 = Eigen::Vector2d;
+
+bool all_finite(const std::vector<double>& numbers) {
+  return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
+}
 
 /// The straight line from p to q over [0, 1].
 BSplineCurve2 line(const Point2& p, const Point2& q) {
@@ -243,6 +251,25 @@ bool is_natural_border(const TrimLoop& loop, const BSplineSurface& surface, cons
   }
   const double rectangle = (high - low).prod();
   return std::abs(std::abs(0.5 * twice_area) - rectangle) <= 1e-3 * rectangle;
+}
+
+void require_usable_trim(const TrimLoop& loop, const BSplineSurface& s, const std::string& name) {
+  const Vec2 low(s.u_first(), s.v_first()), high(s.u_last(), s.v_last()), range = high - low;
+  for (const BSplineCurve2& edge : loop.edges) {
+    if (!edge.poles.allFinite() || !all_finite(edge.knots) || !all_finite(edge.weights))
+      throw InputError(name + ": a trim of it has control points or knots that are not finite");
+    if (edge.poles.cols() == 0 || !(edge.last() > edge.first()))
+      throw InputError(name + ": the knots of a trim of it do not rise");
+    if (std::any_of(edge.weights.begin(), edge.weights.end(), [](double w) { return !(w > 0.0); }))
+      throw InputError(name + ": a weight of a trim of it is not > 0");
+    for (Eigen::Index k = 0; k < edge.poles.cols(); ++k) {
+      const Vec2 p = edge.poles.col(k);
+      if ((p.array() >= (low - range).array()).all() && (p.array() <= (high + range).array()).all()) continue;
+      throw InputError(fmt::format(
+          "{}: a trim of it goes to the parameters ({}, {}), far beyond its surface's, {} to {} and {} to {}", name,
+          p.x(), p.y(), low.x(), high.x(), low.y(), high.y()));
+    }
+  }
 }
 
 }  // namespace flank::internal

@@ -44,6 +44,11 @@ struct TrimFrame {
 [[nodiscard]] std::optional<TrimLoop> convert_wire(const TopoDS_Wire& wire, const TopoDS_Face& face,
                                                    const TrimFrame& frame);
 
+/// Throws InputError, beginning with `name`, unless the loop's numbers are finite, its weights > 0, and no control point is
+/// farther beyond the surface's parameters than these are long: a surface goes on past its end by its last polynomial,
+/// which means nothing far away.
+void require_usable_trim(const TrimLoop& loop, const BSplineSurface& surface, const std::string& name);
+
 /// True if the loop runs once around the parameter rectangle of `surface`, within kBorderMm.
 [[nodiscard]] bool is_natural_border(const TrimLoop& loop, const BSplineSurface& surface, const TrimFrame& frame);
 

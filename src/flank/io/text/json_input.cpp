@@ -189,12 +189,19 @@ std::string exact_number(double value) {
 std::string exact_decimal(double value) {
   // Readers of DXF and APT do not all take exponents.
   std::string text = exact_number(std::abs(value) < kSmallestDecimal ? 0.0 : value);
-  if (text.find('e') != std::string::npos) {
-    const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value))));
-    // Seventeen significant digits hold every double; zeros at the end are taken off again, but for one behind the
-    // point.
-    text = fmt::format("{:.{}f}", value, std::max(1, 17 - exponent));
-    while (text.back() == '0' && text[text.size() - 2] != '.') text.pop_back();
+  if (const std::size_t e = text.find('e'); e != std::string::npos) {
+    // The same digits, with zeros in place of the exponent.
+    const int exponent = std::stoi(text.substr(e + 1));
+    const std::string sign = value < 0.0 ? "-" : "";
+    std::string digits = text.substr(sign.size(), e - sign.size());
+    std::erase(digits, '.');
+    const auto places = static_cast<std::size_t>(std::abs(exponent));
+    if (exponent < 0)
+      text = sign + "0." + std::string(places - 1, '0') + digits;
+    else if (digits.size() > places + 1)
+      text = sign + digits.substr(0, places + 1) + "." + digits.substr(places + 1);
+    else
+      text = sign + digits + std::string(places + 1 - digits.size(), '0');
   }
   return text.find('.') == std::string::npos ? text + ".0" : text;
 }

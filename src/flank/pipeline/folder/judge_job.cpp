@@ -4,57 +4,37 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
-#include "flank/base/parallel.h"
 #include "flank/error.h"
-#include "flank/geom/tessellate.h"
+#include "flank/pipeline/folder/target_reach.h"
 #include "flank/setup/targets.h"
-#include "flank/verify/reach.h"
+#include "flank/verify/judge_faces.h"
+#include "flank/verify/sampler.h"
 
 namespace flank::internal {
 namespace {
-
-/// Of the triangles that the ball is held against, mm: a place of the border of the reachable part is as wrong as they
-/// are.
-constexpr double kFinestMm = 0.001, kCoarsestMm = 0.01, kToleranceShare = 0.25;
-constexpr double kLongestCellMm = 1.0;  ///< borders are off by a part of a cell
-constexpr double kFarShare = 0.1;       ///< of the ball's radius: of the triangles that only close a solid
 
 bool holds(const std::vector<int>& faces, int face) {
   return std::find(faces.begin(), faces.end(), face) != faces.end();
 }
 
-int solid_of(const Part& part, int face) {
-  return part.is_mesh() ? -1 : part.faces[static_cast<std::size_t>(face)].solid;
-}
+/// Samples that a spacing may give on all faces together, which takes minutes, and that it has to give on a target.
+constexpr double kMostSamples = 1e8, kFewestSamples = 300.0;
+constexpr double kReachSpacings = 2.0;         ///< usual ones, of the samples that tell where a target is
+constexpr std::size_t kTileSamples = 1 << 16;  ///< held at once, about 300 bytes each with all that is asked of them
 
-/// A face's triangles, counter-clockwise seen from outside of its solid. `fine` and `coarse` are deviations; coarse where
-/// the face keeps away from `near`.
-TriangleMesh triangles_of(const Part& part, int face, const Box3& near, double fine, double coarse) {
-  if (part.is_mesh()) return extract_mesh(part, {face});
-  const Face& value = part.faces[static_cast<std::size_t>(face)];
-  Box3 box;
-  for (const Vec3& p : value.surface.poles) box.add(p);
-  const bool meets = (box.low.array() <= near.high.array()).all() && (box.high.array() >= near.low.array()).all();
-  return tessellate(value, {.chord_mm = meets ? fine : coarse, .edge_mm = meets ? kLongestCellMm : 1e300}).mesh;
-}
-
-/// Samples that a spacing may give on all faces together (about 100 bytes each), and that it has to give on a target.
-constexpr double kMostSamples = 3e6, kFewestSamples = 300.0;
-
-/// Refuses a spacing that is out of all proportion to the faces, from the numbers at the usual spacing.
-void require_sensible(const Setup& setup, double spacing) {
-  if (!(spacing > 0.0)) throw UsageError(fmt::format("sample spacing {} mm: must be > 0", spacing));
-  const double usual = default_spacing(setup.part.box.diagonal());
-  const double more = usual / spacing * (usual / spacing);
+/// Refuses a spacing that is out of all proportion to the faces.
+void require_sensible(const std::vector<std::unique_ptr<verify::Sampler>>& samplers, const std::vector<int>& faces,
+                      const Setup& setup, double spacing) {
   double all = 0.0;
-  for (const FaceSamples& face : judge_samples(setup, usual, 2.0 * usual)) {
-    const double here = more * static_cast<double>(face.points.size());
+  for (std::size_t k = 0; k < samplers.size(); ++k) {
+    const double here = samplers[k]->count();
     all += here;
-    if (face.target && here < kFewestSamples)
+    if (holds(setup.targets, faces[k]) && here < kFewestSamples)
       throw UsageError(fmt::format(
           "a sample spacing of {} mm gives about {:.0f} samples on {}; {:.0f} are needed, which {:.3g} mm give",
-          spacing, here, face.face, kFewestSamples, spacing * std::sqrt(here / kFewestSamples)));
+          spacing, here, setup.part.face_id(faces[k]), kFewestSamples, spacing * std::sqrt(here / kFewestSamples)));
   }
   if (all > kMostSamples)
     throw UsageError(
@@ -62,55 +42,61 @@ void require_sensible(const Setup& setup, double spacing) {
                     spacing, all, kMostSamples, spacing * std::sqrt(all / kMostSamples)));
 }
 
-/// The first `count` of the judged faces, in the order of the samples, for the proof.
-struct JudgedShapes {
-  std::vector<TriangleMesh> meshes;
-  std::vector<FaceShape> list;
-  JudgedShapes(const Setup& setup, std::size_t count);
-};
-
-JudgedShapes::JudgedShapes(const Setup& setup, std::size_t count) {
+/// Targets and check faces, in the order in which they are judged.
+std::vector<int> judged_faces(const Setup& setup) {
   std::vector<int> judged = setup.targets;
   judged.insert(judged.end(), setup.checks.begin(), setup.checks.end());
   std::sort(judged.begin(), judged.end());
-  judged.resize(std::min(judged.size(), count));
-  const Part& part = setup.part;
-  meshes.reserve(judged.size());
-  for (int face : judged) {
-    if (!part.is_mesh()) {
-      list.emplace_back(&part.faces[static_cast<std::size_t>(face)]);
-      continue;
+  return judged;
+}
+
+/// The judged faces as the judge asks for them.
+class JudgedShapes {
+ public:
+  JudgedShapes(const Setup& setup, double spacing) : faces_(judged_faces(setup)) {
+    const Part& part = setup.part;
+    meshes_.reserve(faces_.size());
+    for (int face : faces_) {
+      const bool target = holds(setup.targets, face);
+      const double here = target ? spacing : 2.0 * spacing;
+      if (!part.is_mesh()) {
+        const Face& value = part.faces[static_cast<std::size_t>(face)];
+        shapes_.emplace_back(&value);
+        samplers_.push_back(verify::make_sampler(value, here, target, kTileSamples));
+        continue;
+      }
+      meshes_.push_back(extract_mesh(part, {face}));
+      shapes_.emplace_back(&meshes_.back());
+      samplers_.push_back(verify::make_sampler(part.face_id(face), meshes_.back(), here, target, kTileSamples));
     }
-    meshes.push_back(extract_mesh(part, {face}));
-    list.emplace_back(&meshes.back());
   }
-}
 
-/// No ball that touches the samples, nor anything that it could enter, is outside of this.
-Box3 balls_of(const std::vector<FaceSamples>& samples, double radius) {
-  Box3 box;
-  for (const FaceSamples& face : samples) {
-    if (!face.target) continue;
-    for (const Vec3& p : face.points) box.add(p);
-    box.low.array() -= face.spacing_mm;
-    box.high.array() += face.spacing_mm;
-  }
-  const Vec3 reach = Vec3::Constant(2.0 * radius);
-  box.low -= reach;
-  box.high += reach;
-  return box;
-}
+  [[nodiscard]] const std::vector<int>& faces() const { return faces_; }
+  [[nodiscard]] const std::vector<std::unique_ptr<verify::Sampler>>& samplers() const { return samplers_; }
+  /// With reachable shares, if they are asked for. The shapes, and the reach, must outlive what is returned.
+  [[nodiscard]] std::vector<verify::JudgedFace> judged(const Setup& setup, const TargetReach* reach) const;
 
-/// The faces of the part that bound a solid of which one is judged, or are judged themselves.
-std::vector<int> faces_around(const Part& part, const std::vector<int>& judged) {
-  std::vector<int> solids, around;
-  for (int face : judged) solids.push_back(solid_of(part, face));
-  for (int face = 0; face < part.face_count(); ++face) {
-    const int solid = solid_of(part, face);
-    if (part.is_left_out(face)) continue;
-    if (holds(judged, face) || (solid >= 0 && holds(solids, solid))) around.push_back(face);
+ private:
+  std::vector<int> faces_;
+  std::vector<TriangleMesh> meshes_;
+  std::vector<FaceShape> shapes_;
+  std::vector<std::unique_ptr<verify::Sampler>> samplers_;
+};
+
+std::vector<verify::JudgedFace> JudgedShapes::judged(const Setup& setup, const TargetReach* reach) const {
+  std::vector<verify::JudgedFace> out;
+  for (std::size_t k = 0; k < faces_.size(); ++k) {
+    const int face = faces_[k];
+    const bool target = holds(setup.targets, face);
+    const verify::Sampler* sampler = samplers_[k].get();
+    const auto samples = [=](std::size_t tile, const std::function<void(const FaceSamples&)>& use) {
+      FaceSamples here = sampler->tile(tile);
+      if (target && reach != nullptr) reach->fill(face, here);
+      use(here);
+    };
+    out.push_back({setup.part.face_id(face), target, sampler->size_mm(), sampler->tiles(), samples, &shapes_[k]});
   }
-  return around;
+  return out;
 }
 
 }  // namespace
@@ -120,51 +106,18 @@ double default_spacing(double diagonal_mm) {
   return std::clamp(diagonal_mm / 300.0, 0.05, std::max(0.5, diagonal_mm / 1000.0));
 }
 
-void measure_reach(const Setup& setup, const Tool& tool, const Path& path, double radius_mm,
-                   std::vector<FaceSamples>& samples) {
-  const Part& part = setup.part;
-  const double tolerance_mm = setup.tolerance_mm;
-  std::vector<int> judged = setup.targets;
-  judged.insert(judged.end(), setup.checks.begin(), setup.checks.end());
-  if (judged.size() < 2) return;
-  std::sort(judged.begin(), judged.end());
-  const std::vector<int> around = faces_around(part, judged);
-  const Box3 near = balls_of(samples, radius_mm);
-  const double fine = std::clamp(kToleranceShare * tolerance_mm, kFinestMm, kCoarsestMm);
-  std::vector<TriangleMesh> meshes(around.size());
-  parallel_for(meshes.size(), [&](std::size_t k) {
-    const bool checked = holds(judged, around[k]);
-    const double coarse = std::max(fine, kFarShare * radius_mm);
-    meshes[k] = triangles_of(part, around[k], near, checked ? fine : coarse, coarse);
-  });
-  for (std::size_t j = 0; j < samples.size(); ++j) {
-    FaceSamples& target = samples[j];
-    if (!target.target) continue;
-    // The samples are in the order of `judged`.
-    const int own = judged[j];
-    std::vector<ReachFace> others;
-    for (std::size_t k = 0; k < around.size(); ++k) {
-      const int solid = solid_of(part, around[k]);
-      if (around[k] == own) continue;
-      others.push_back({meshes[k], solid == solid_of(part, own) ? -1 : solid, holds(judged, around[k])});
-    }
-    if (!target.of_solid && side_of_tool(tool, path, target) < 0)
-      for (Vec3& n : target.normals) n = -n;
-    target.reachable = reachable_shares(target, others, {radius_mm, tolerance_mm});
-  }
-}
-
 VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const Tool& tool, const Path& path) {
-  if (request.sample_mm) require_sensible(setup, *request.sample_mm);
-  const double spacing = request.sample_mm.value_or(default_spacing(setup.part.box.diagonal()));
-  std::vector<FaceSamples> samples = judge_samples(setup, spacing, 2.0 * spacing);
+  const double usual = default_spacing(setup.part.box.diagonal());
+  const JudgedShapes shapes(setup, request.sample_mm.value_or(usual));
+  if (request.sample_mm) require_sensible(shapes.samplers(), shapes.faces(), setup, *request.sample_mm);
   const double radius = request.reach_radius_mm.value_or(smallest_radius(tool));
   // A tool that is none (a fit that failed) has nothing to reach with.
-  if (radius > 0.0) measure_reach(setup, tool, path, radius, samples);
+  std::optional<TargetReach> reach;
+  if (radius > 0.0) reach.emplace(setup, tool, path, radius, target_samples(setup, kReachSpacings * usual));
   JudgeOptions options;
   options.tolerance_mm = setup.tolerance_mm;
-  const JudgedShapes shapes(setup, request.sample_mm ? 0 : samples.size());
-  VerifyReport report = judge(tool, path, samples, shapes.list, options);
+  options.depth = request.sample_mm ? DepthProof::kSampled : DepthProof::kProved;
+  VerifyReport report = verify::judge_faces(tool, path, shapes.judged(setup, reach ? &*reach : nullptr), options);
   report.reach_radius_mm = radius;
   return report;
 }

@@ -18,10 +18,6 @@ namespace flank::internal {
 [[nodiscard]] ProgramStock judge_stock(const Setup& setup, const TrochoidJob& job, const Tool& tool, const Path& path,
                                        const std::vector<HalfSpace>& blank, double most_triangles);
 
-/// Fills `reachable` of the targets' samples for a ball of the radius.
-void measure_reach(const Setup& setup, const Tool& tool, const Path& path, double radius_mm,
-                   std::vector<FaceSamples>& samples);
-
 /// Spacing of the judge's samples on the target if none is given, mm.
 [[nodiscard]] double default_spacing(double diagonal_mm);
 

@@ -29,6 +29,30 @@ BSplineCurve2 line_between(const Vec2& a, const Vec2& b) {
   return line;
 }
 
+std::vector<BSplineCurve2> border_curves(const Face& face) {
+  std::vector<BSplineCurve2> curves;
+  for (const TrimLoop& loop : face.loops) {
+    const std::size_t start = curves.size();
+    const auto close = [&](const Vec2& from, const Vec2& to) {
+      if ((from.array() != to.array()).any()) curves.push_back(line_between(from, to));
+    };
+    for (const BSplineCurve2& edge : loop.edges) {
+      if (curves.size() > start) close(curves.back().value(curves.back().last()), edge.value(edge.first()));
+      curves.push_back(edge);
+    }
+    if (curves.size() > start)
+      close(curves.back().value(curves.back().last()), curves[start].value(curves[start].first()));
+  }
+  return curves;
+}
+
+std::vector<double> kinks(const std::vector<double>& knots, int degree, double first, double last) {
+  std::vector<double> out;
+  for (double k : distinct_knots(knots, first, last))
+    if (k > first && k < last && std::count(knots.begin(), knots.end(), k) >= degree) out.push_back(k);
+  return out;
+}
+
 Border::Border(const std::vector<BSplineCurve2>& curves, const Vec2& tolerance) : tolerance_(tolerance) {
   for (const BSplineCurve2& curve : curves) {
     const std::vector<double> knots = distinct_knots(curve.knots, curve.first(), curve.last());

@@ -40,6 +40,12 @@ class Border {
 /// Distinct knots of a curve's domain, ascending.
 [[nodiscard]] std::vector<double> distinct_knots(const std::vector<double>& knots, double first, double last);
 
+/// The curves of a face's loops, and chords where they do not meet.
+[[nodiscard]] std::vector<BSplineCurve2> border_curves(const Face& face);
+
+/// Inner knots across which a surface has a kink or worse, ascending.
+[[nodiscard]] std::vector<double> kinks(const std::vector<double>& knots, int degree, double first, double last);
+
 /// A straight line in the parameter plane.
 [[nodiscard]] BSplineCurve2 line_between(const Vec2& a, const Vec2& b);
 

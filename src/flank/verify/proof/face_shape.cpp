@@ -17,32 +17,6 @@ constexpr int kMostPieces = 64;  ///< knot rectangles that a piece of a curve ma
 
 enum Kind { kPatch, kCurve, kCorner };
 
-/// The loops' curves, and chords where they do not meet.
-std::vector<BSplineCurve2> border_curves(const Face& face) {
-  std::vector<BSplineCurve2> curves;
-  for (const TrimLoop& loop : face.loops) {
-    const std::size_t start = curves.size();
-    const auto close = [&](const Vec2& from, const Vec2& to) {
-      if ((from.array() != to.array()).any()) curves.push_back(line_between(from, to));
-    };
-    for (const BSplineCurve2& edge : loop.edges) {
-      if (curves.size() > start) close(curves.back().value(curves.back().last()), edge.value(edge.first()));
-      curves.push_back(edge);
-    }
-    if (curves.size() > start)
-      close(curves.back().value(curves.back().last()), curves[start].value(curves[start].first()));
-  }
-  return curves;
-}
-
-/// Inner knots across which the surface has a kink or worse.
-std::vector<double> kinks(const std::vector<double>& knots, int degree, double first, double last) {
-  std::vector<double> out;
-  for (double k : distinct_knots(knots, first, last))
-    if (k > first && k < last && std::count(knots.begin(), knots.end(), k) >= degree) out.push_back(k);
-  return out;
-}
-
 class FaceShape final : public Shape {
  public:
   explicit FaceShape(const Face& face) : s_(face.surface), curves_(border_curves(face)), trimmed_(!curves_.empty()) {
@@ -117,6 +91,32 @@ class FaceShape final : public Shape {
     half(cell, u ? 0 : 2, u ? at_u : at_v, a, b);
     parts.push_back(a);
     parts.push_back(b);
+  }
+
+  [[nodiscard]] Cell cell_of(const std::array<double, 4>& sample) const override {
+    Cell cell;
+    cell.kind = kPatch;
+    cell.at = sample;
+    cell.inside = !trimmed_;
+    return cell;
+  }
+
+  [[nodiscard]] bool hull(const Cell& cell, std::vector<Vec3>& points) const override {
+    const Rectangle where{{cell.at[0], cell.at[2]}, {cell.at[1], cell.at[3]}};
+    if (!one_piece(s_, where)) return false;
+    control_points(s_, where, points);
+    return !points.empty();
+  }
+
+  // |S_u x S_v| in the middle, and half of the largest derivative of that product besides.
+  [[nodiscard]] double area_bound(const Cell& cell) const override {
+    const Rectangle where{{cell.at[0], cell.at[2]}, {cell.at[1], cell.at[3]}};
+    if (!one_piece(s_, where)) return kInfinite;
+    const PatchBounds b = patch_bounds(s_, where);
+    const SurfaceJet jet = s_.jet(where.middle().x(), where.middle().y());
+    const double middle = (cell.at[1] - cell.at[0]) * (cell.at[3] - cell.at[2]) * jet.du.cross(jet.dv).norm();
+    const double more = b.duu * b.dv + b.du * b.duv + b.duv * b.dv + b.du * b.dvv;
+    return std::min(b.du * b.dv, middle + 0.5 * more);
   }
 
  private:

@@ -74,6 +74,28 @@ class MeshShape final : public Shape {
     }
   }
 
+  [[nodiscard]] Cell cell_of(const std::array<double, 4>& sample) const override {
+    Cell cell;
+    cell.inside = true;
+    cell.kind = kTriangle;
+    cell.index = static_cast<int>(sample[0]);
+    cell.at = {sample[1], sample[2], sample[3], 0.0};
+    return cell;
+  }
+
+  [[nodiscard]] bool hull(const Cell& cell, std::vector<Vec3>& points) const override {
+    const Vec3 a = corner(cell.index, 0), ab = corner(cell.index, 1) - a, ac = corner(cell.index, 2) - a;
+    const Vec3 from = a + cell.at[0] * ab + cell.at[1] * ac;
+    points = {from, from + cell.at[2] * ab, from + cell.at[2] * ac};
+    return true;
+  }
+
+  [[nodiscard]] double area_bound(const Cell& cell) const override {
+    const Vec3 a = corner(cell.index, 0);
+    const double whole = 0.5 * (corner(cell.index, 1) - a).cross(corner(cell.index, 2) - a).norm();
+    return whole * cell.at[2] * cell.at[2];
+  }
+
  private:
   [[nodiscard]] Vec3 corner(int triangle, int k) const {
     const auto& t = mesh_.triangles[static_cast<std::size_t>(triangle)];

@@ -125,6 +125,15 @@ PatchBounds patch_bounds(const BSplineSurface& s, const Rectangle& where) {
   return out;
 }
 
+void control_points(const BSplineSurface& s, const Rectangle& where, std::vector<Vec3>& points) {
+  points.clear();
+  const Vec3 origin = s.value(where.middle().x(), where.middle().y());
+  const Net net = net_of(s, where, origin);
+  if (!(net.c[3].minCoeff() > 0.0)) return;
+  for (int i = 0; i < net.rows(); ++i)
+    for (int j = 0; j < net.columns(); ++j) points.emplace_back(origin + net.point(i, j) / net.c[3](i, j));
+}
+
 PatchBounds loose_bounds(const BSplineSurface& s, const Rectangle& where) {
   PatchBounds out;
   const int first_u = find_span(s.degree_u, s.knots_u, where.low.x()) - s.degree_u;

@@ -2,6 +2,8 @@
 /// hold it, and nothing is sampled.
 #pragma once
 
+#include <vector>
+
 #include "flank/bspline_curve.h"
 #include "flank/bspline_surface.h"
 #include "flank/vec.h"
@@ -28,6 +30,9 @@ struct PatchBounds {
 [[nodiscard]] bool one_piece(const BSplineSurface& surface, const Rectangle& where);
 /// Bounds over a rectangle inside one knot span.
 [[nodiscard]] PatchBounds patch_bounds(const BSplineSurface& surface, const Rectangle& where);
+/// The control points over a rectangle inside one knot span, whose convex hull holds the patch; none where a weight is not
+/// positive.
+void control_points(const BSplineSurface& surface, const Rectangle& where, std::vector<Vec3>& points);
 /// A ball around any rectangle, by the control points that act there: centre and radius only.
 [[nodiscard]] PatchBounds loose_bounds(const BSplineSurface& surface, const Rectangle& where);
 

@@ -39,6 +39,13 @@ class Shape {
   [[nodiscard]] virtual Probe look(Cell& cell) const = 0;
   /// The parts of a cell that has been looked at.
   virtual void split(const Cell& cell, std::vector<Cell>& parts) const = 0;
+
+  /// The cell of a sample (FaceSamples::cells).
+  [[nodiscard]] virtual Cell cell_of(const std::array<double, 4>& sample) const = 0;
+  /// Points whose convex hull holds all of a cell of the surface; false if none are known.
+  [[nodiscard]] virtual bool hull(const Cell& cell, std::vector<Vec3>& points) const = 0;
+  /// The area of such a cell is no larger, mm^2, what lies beyond the border included; infinite: not known.
+  [[nodiscard]] virtual double area_bound(const Cell& cell) const = 0;
 };
 
 }  // namespace flank::internal::verify

@@ -155,6 +155,12 @@ void SweptSearch::start_at(const SweptPlace& near) {
   if (descend(segment(p), tool_.radial(), x_, p.low, p.high, found)) follow(near.piece, found);
 }
 
+SweptPlace SweptSearch::descend_from(const SweptPlace& near) {
+  best_ = {1e300, -1, 0.0, 0.0};
+  start_at(near);
+  return best_;
+}
+
 SweptPlace SweptSearch::run(double horizon, const SweptPlace& near) {
   best_ = {horizon, -1, 0.0, 0.0};
   settled_ = -1;

@@ -22,6 +22,8 @@ class SweptSearch {
 
   /// The least f below `horizon`. `near` (piece -1: none) is where to look first: it changes the time, not the value.
   [[nodiscard]] SweptPlace run(double horizon, const SweptPlace& near);
+  /// What descent from `near` finds: a local minimum, never below the least f; piece -1 where it does not settle.
+  [[nodiscard]] SweptPlace descend_from(const SweptPlace& near);
 
  private:
   [[nodiscard]] double bound(const PoseNode& node) const;                  ///< <= f over all poses of the node

@@ -1,0 +1,118 @@
+#include "flank/pipeline/folder/target_reach.h"
+
+#include <algorithm>
+
+#include "flank/base/parallel.h"
+#include "flank/geom/tessellate.h"
+
+namespace flank::internal {
+namespace {
+
+/// Of the triangles that the ball is held against, mm: a place of the border of the reachable part is as wrong as they
+/// are.
+constexpr double kFinestMm = 0.001, kCoarsestMm = 0.01, kToleranceShare = 0.25;
+constexpr double kLongestCellMm = 1.0;  ///< borders are off by a part of a cell
+constexpr double kFarShare = 0.1;       ///< of the ball's radius: of the triangles that only close a solid
+
+bool holds(const std::vector<int>& faces, int face) {
+  return std::find(faces.begin(), faces.end(), face) != faces.end();
+}
+
+int solid_of(const Part& part, int face) {
+  return part.is_mesh() ? -1 : part.faces[static_cast<std::size_t>(face)].solid;
+}
+
+/// A face's triangles, counter-clockwise seen from outside of its solid. `fine` and `coarse` are deviations; coarse where
+/// the face keeps away from `near`.
+TriangleMesh triangles_of(const Part& part, int face, const Box3& near, double fine, double coarse) {
+  if (part.is_mesh()) return extract_mesh(part, {face});
+  const Face& value = part.faces[static_cast<std::size_t>(face)];
+  Box3 box;
+  for (const Vec3& p : value.surface.poles) box.add(p);
+  const bool meets = (box.low.array() <= near.high.array()).all() && (box.high.array() >= near.low.array()).all();
+  return tessellate(value, {.chord_mm = meets ? fine : coarse, .edge_mm = meets ? kLongestCellMm : 1e300}).mesh;
+}
+
+/// No ball that touches the samples, nor anything that it could enter, is outside of this.
+Box3 balls_of(const std::vector<FaceSamples>& samples, double radius) {
+  Box3 box;
+  for (const FaceSamples& face : samples) {
+    if (!face.target) continue;
+    for (const Vec3& p : face.points) box.add(p);
+    box.low.array() -= face.spacing_mm;
+    box.high.array() += face.spacing_mm;
+  }
+  const Vec3 reach = Vec3::Constant(2.0 * radius);
+  box.low -= reach;
+  box.high += reach;
+  return box;
+}
+
+/// The faces of the part that bound a solid of which one is judged, or are judged themselves.
+std::vector<int> faces_around(const Part& part, const std::vector<int>& judged) {
+  std::vector<int> solids, around;
+  for (int face : judged) solids.push_back(solid_of(part, face));
+  for (int face = 0; face < part.face_count(); ++face) {
+    const int solid = solid_of(part, face);
+    if (part.is_left_out(face)) continue;
+    if (holds(judged, face) || (solid >= 0 && holds(solids, solid))) around.push_back(face);
+  }
+  return around;
+}
+
+/// Triangles of the faces around; fine where the ball may come near them.
+std::vector<TriangleMesh> meshes_of(const Setup& setup, const std::vector<int>& around, const std::vector<int>& judged,
+                                    const Box3& near, double radius_mm) {
+  const double fine = std::clamp(kToleranceShare * setup.tolerance_mm, kFinestMm, kCoarsestMm);
+  std::vector<TriangleMesh> meshes(around.size());
+  parallel_for(meshes.size(), [&](std::size_t k) {
+    const bool checked = holds(judged, around[k]);
+    const double coarse = std::max(fine, kFarShare * radius_mm);
+    meshes[k] = triangles_of(setup.part, around[k], near, checked ? fine : coarse, coarse);
+  });
+  return meshes;
+}
+
+}  // namespace
+
+std::vector<FaceSamples> target_samples(const Setup& setup, double spacing_mm) {
+  const Part& part = setup.part;
+  std::vector<FaceSamples> samples(setup.targets.size());
+  parallel_for(samples.size(), [&](std::size_t k) {
+    const int face = setup.targets[k];
+    samples[k] = part.is_mesh() ? sample_mesh(part.face_id(face), extract_mesh(part, {face}), spacing_mm, true)
+                                : sample_face(part.faces[static_cast<std::size_t>(face)], spacing_mm, true);
+  });
+  return samples;
+}
+
+TargetReach::TargetReach(const Setup& setup, const Tool& tool, const Path& path, double radius_mm,
+                         const std::vector<FaceSamples>& samples) {
+  const Part& part = setup.part;
+  std::vector<int> judged = setup.targets;
+  judged.insert(judged.end(), setup.checks.begin(), setup.checks.end());
+  if (judged.size() < 2) return;
+  const std::vector<int> around = faces_around(part, judged);
+  const std::vector<TriangleMesh> meshes = meshes_of(setup, around, judged, balls_of(samples, radius_mm), radius_mm);
+  for (std::size_t j = 0; j < samples.size(); ++j) {
+    const int own = setup.targets[j];
+    std::vector<ReachFace> others;
+    for (std::size_t k = 0; k < around.size(); ++k) {
+      const int solid = solid_of(part, around[k]);
+      if (around[k] == own) continue;
+      others.push_back({meshes[k], solid == solid_of(part, own) ? -1 : solid, holds(judged, around[k])});
+    }
+    const bool turned = !samples[j].of_solid && side_of_tool(tool, path, samples[j]) < 0;
+    targets_.emplace(own, Around{ReachScene(others, {radius_mm, setup.tolerance_mm}), turned});
+  }
+}
+
+void TargetReach::fill(int face, FaceSamples& samples) const {
+  const auto found = targets_.find(face);
+  if (found == targets_.end()) return;
+  if (found->second.turned)
+    for (Vec3& n : samples.normals) n = -n;
+  samples.reachable = found->second.scene.shares(samples);
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,34 @@
+/// The reachable share of a job's targets, among all faces that the tool must not enter.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "flank/judge.h"
+#include "flank/setup/setup.h"
+#include "flank/verify/reach.h"
+
+namespace flank::internal {
+
+/// The targets' samples, in the order of setup.targets.
+[[nodiscard]] std::vector<FaceSamples> target_samples(const Setup& setup, double spacing_mm);
+
+/// What a ball must keep out of, for each target, made ready once. Immutable.
+class TargetReach {
+ public:
+  /// `samples` are target_samples of any spacing: where the targets are, and on which side of a sheet the tool runs.
+  TargetReach(const Setup& setup, const Tool& tool, const Path& path, double radius_mm,
+              const std::vector<FaceSamples>& samples);
+
+  /// Fills `reachable` of samples of a target, given by its index in the part, and turns the normals of a sheet towards the tool.
+  void fill(int face, FaceSamples& samples) const;
+
+ private:
+  struct Around {
+    ReachScene scene;
+    bool turned = false;  ///< the tool runs behind the sheet's normals
+  };
+  std::map<int, Around> targets_;  ///< empty if there is nothing to keep out of
+};
+
+}  // namespace flank::internal

@@ -1,0 +1,174 @@
+#include "flank/verify/judge_faces.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "flank/error.h"
+#include "flank/verify/face_tally.h"
+#include "flank/verify/proof/cover_search.h"
+#include "flank/verify/proof/face_shape.h"
+#include "flank/verify/proof/mesh_shape.h"
+#include "flank/verify/prove.h"
+
+namespace flank::internal::verify {
+namespace {
+
+/// Tolerances: the histogram runs from minus to plus this; its outer bins take what is beyond.
+constexpr double kHistogramReach = 2.0;
+
+void require_usable(const JudgeOptions& options) {
+  if (!(options.tolerance_mm > 0.0))
+    throw UsageError("tolerance " + std::to_string(options.tolerance_mm) + " mm: must be > 0");
+  if (options.histogram_bins < 1) throw UsageError("a histogram needs at least one bin");
+}
+
+void prepare_histogram(VerifyReport& report, const JudgeOptions& options) {
+  const int bins = options.histogram_bins;
+  for (int i = 0; i <= bins; ++i)
+    report.histogram_edges_mm.push_back(options.tolerance_mm * (2.0 * kHistogramReach * i / bins - kHistogramReach));
+  report.histogram_area_mm2.assign(static_cast<std::size_t>(bins), 0.0);
+}
+
+/// What one face adds to the report.
+struct FaceResult {
+  FaceVerdict verdict;
+  Sums sums;
+  std::vector<WorstPlace> worst;
+};
+
+/// One judgement.
+class Judge {
+ public:
+  Judge(const Tool& tool, const Path& path, const JudgeOptions& options)
+      : tool_(tool), path_(path), options_(options), volume_(tool, path) {
+    prepare_histogram(report_, options);
+  }
+
+  VerifyReport run(const std::vector<JudgedFace>& faces) {
+    const bool shapes = std::all_of(faces.begin(), faces.end(), [](const JudgedFace& f) { return f.shape != nullptr; });
+    prove_depth_ = shapes && !faces.empty() && options_.depth == DepthProof::kProved;
+    report_.depth = prove_depth_ ? DepthProof::kProved : DepthProof::kSampled;
+    report_.tolerance_mm = options_.tolerance_mm;
+    Sums totals;
+    for (const JudgedFace& face : faces) add(judge_face(face), totals);
+    finish(totals, shapes && !faces.empty());
+    return std::move(report_);
+  }
+
+ private:
+  /// f at the samples of a face. On a check surface only overcut matters, at the samples and between them; where the
+  /// depth is proved anyway, not even that.
+  [[nodiscard]] std::vector<SweptDistance> measure(const FaceSamples& face) const {
+    if (face.target) return swept_distances(volume_, face, options_.horizon_mm);
+    if (prove_depth_) return std::vector<SweptDistance>(face.points.size());
+    const double between = std::max(options_.tolerance_mm, face.spacing_mm);
+    return swept_distances(volume_, face, std::min(options_.horizon_mm, between));
+  }
+
+  /// The area of each cell that is not proved to be finished; empty: all of it.
+  [[nodiscard]] ProvedCover cover_of(const FaceSamples& samples, const std::vector<SweptDistance>& distances,
+                                     const Shape* shape) const {
+    if (shape == nullptr || !samples.target || samples.cells.empty()) return {};
+    CoverLimits limits;
+    limits.tolerance_mm = options_.tolerance_mm;
+    for (double area : samples.areas) limits.gap_mm2 += options_.proof.cover_gap_share * area;
+    limits.evaluations = options_.proof.cover_evaluations * samples.points.size();
+    limits.cells = options_.proof.cells;
+    return search_cover(volume_, *shape, samples, distances, limits);
+  }
+
+  FaceResult judge_face(const JudgedFace& face) {
+    std::unique_ptr<Shape> shape;
+    if (face.shape != nullptr && face.target)
+      shape = std::visit([](const auto* value) { return make_shape(*value); }, *face.shape);
+    FaceTally tally(tool_, path_, face.face, face.target, face.size_mm, options_);
+    std::size_t looked = 0;
+    for (std::size_t k = 0; k < face.tiles; ++k) {
+      face.samples(k, [&](const FaceSamples& samples) {
+        const std::vector<SweptDistance> distances = measure(samples);
+        const ProvedCover cover = cover_of(samples, distances, shape.get());
+        looked += cover.evaluations;
+        tally.add(samples, distances, cover.open_mm2);
+        if (face.target) tally.add_histogram(report_, samples, distances);
+      });
+    }
+    FaceResult result{tally.verdict(), tally.sums(), tally.worst()};
+    result.verdict.cover_cells = looked;
+    complete(result, face, tally.separation());
+    return result;
+  }
+
+  /// The proof of depth, and what does not hold without it.
+  void complete(FaceResult& result, const JudgedFace& face, double separation) const {
+    FaceVerdict& verdict = result.verdict;
+    if (prove_depth_) {
+      // Check surfaces were not asked at their samples: nothing is known between them.
+      if (!face.target) verdict.sampling_bound_mm = 0.0;
+      verdict.overcut_bound_mm = verdict.overcut_mm;
+      prove_depth(volume_, smallest_radius(tool_), *face.shape, options_.tolerance_mm, options_.proof, verdict);
+      if (verdict.deepest) add_place(*verdict.deepest, separation, options_.worst_places, result.worst);
+    }
+    // A cell is finished if nothing is left on it, and it is not cut too deep: that is known of the face as a whole.
+    if (verdict.overcut_bound_mm <= options_.tolerance_mm) return;
+    verdict.coverage_bound = verdict.coverage_reachable_bound = 0.0;
+    result.sums.proved = result.sums.proved_reachable = 0.0;
+  }
+
+  void add(FaceResult result, Sums& totals) {
+    FaceVerdict& verdict = result.verdict;
+    if (verdict.target) {
+      totals += result.sums;
+      report_.overcut_mm = std::max(report_.overcut_mm, verdict.overcut_mm);
+      report_.undercut_mm = std::max(report_.undercut_mm, verdict.undercut_mm);
+      report_.undercut_covered_mm = std::max(report_.undercut_covered_mm, verdict.undercut_covered_mm);
+      report_.sampling_bound_mm = std::max(report_.sampling_bound_mm, verdict.sampling_bound_mm);
+      report_.overcut_bound_mm = std::max(report_.overcut_bound_mm, verdict.overcut_bound_mm);
+    } else {
+      report_.gouge_mm = std::max(report_.gouge_mm, verdict.overcut_mm);
+      report_.gouge_bound_mm = std::max(report_.gouge_bound_mm, verdict.overcut_bound_mm);
+    }
+    report_.worst.insert(report_.worst.end(), result.worst.begin(), result.worst.end());
+    report_.faces.push_back(std::move(verdict));
+  }
+
+  void finish(const Sums& totals, bool cover_proved) {
+    std::stable_sort(report_.worst.begin(), report_.worst.end(),
+                     [](const WorstPlace& a, const WorstPlace& b) { return a.f < b.f; });
+    const auto most = static_cast<std::size_t>(std::max(0, options_.worst_places));
+    if (report_.worst.size() > most) report_.worst.resize(most);
+    report_.coverage = share_of(totals.covered, totals.area);
+    report_.reachable_share = share_of(totals.reachable, totals.area);
+    report_.coverage_reachable = share_of(totals.covered_reachable, totals.reachable);
+    if (cover_proved) {
+      report_.coverage_bound = share_of(totals.proved, totals.area);
+      report_.coverage_reachable_bound = share_of(totals.proved_reachable, totals.reachable);
+    }
+    report_.rms_mm = totals.touched > 0.0 ? std::sqrt(totals.squares / totals.touched) : 0.0;
+    report_.verdict = verdict();
+  }
+
+  /// A gouge is named first: it spoils a face that nobody meant to touch.
+  [[nodiscard]] Verdict verdict() const {
+    if (report_.gouge_mm > report_.tolerance_mm) return Verdict::kGouge;
+    if (report_.overcut_mm > report_.tolerance_mm) return Verdict::kOvercut;
+    const bool proved = std::max(report_.overcut_bound_mm, report_.gouge_bound_mm) <= report_.tolerance_mm;
+    return proved ? Verdict::kPass : Verdict::kUnproved;
+  }
+
+  const Tool& tool_;
+  const Path& path_;
+  const JudgeOptions& options_;
+  SweptVolume volume_;
+  bool prove_depth_ = false;
+  VerifyReport report_;
+};
+
+}  // namespace
+
+VerifyReport judge_faces(const Tool& tool, const Path& path, const std::vector<JudgedFace>& faces,
+                         const JudgeOptions& options) {
+  require_usable(options);
+  return Judge(tool, path, options).run(faces);
+}
+
+}  // namespace flank::internal::verify

@@ -1,0 +1,139 @@
+// What is proved of a face's coverage, against fine samples of it: no cell may have more area left than it is open.
+#include "flank/verify/proof/cover_search.h"
+
+#include <gtest/gtest.h>
+
+#include "flank/threads.h"
+#include "flank/verify/proof/face_shape.h"
+#include "flank/verify/proof/mesh_shape.h"
+#include "verify/brute_force.h"
+#include "verify/faces.h"
+
+namespace flank::internal::verify {
+namespace {
+
+constexpr double kTolerance = 0.02;
+
+/// A pass beside a plane of 20 x 10, of a stick along z; waves and tilts of `rough` leave parts of it.
+Path pass(Random& random, double rough, double lift) {
+  Strip strip;
+  for (int i = 0; i < 15; ++i)
+    strip.poses.push_back({Vec3(-1.0 + 1.6 * i, lift + rough * random.uniform(-1.0, 1.0), -3.0),
+                           (Vec3::UnitZ() + brute::random_vector(random, 0.3 * rough)).normalized()});
+  return {{strip}};
+}
+
+/// As the face, with two triangles.
+TriangleMesh plane_mesh() {
+  TriangleMesh mesh;
+  mesh.vertices = {Vec3(0, 0, 0), Vec3(0, 0, 10), Vec3(20, 0, 0), Vec3(20, 0, 10)};
+  mesh.triangles = {{0, 1, 2}, {2, 1, 3}};
+  return mesh;
+}
+
+double area_of(const std::vector<double>& areas) {
+  double sum = 0.0;
+  for (double a : areas) sum += a;
+  return sum;
+}
+
+struct Coverage {
+  double measured = 0.0, proved = 0.0, fine = 0.0;
+};
+
+/// Of samples at 0.4 mm, and of fine ones.
+Coverage coverage_of(const SweptVolume& volume, const Shape& shape, const FaceSamples& coarse, const FaceSamples& fine,
+                     const CoverLimits& limits) {
+  const auto covered = [&](const FaceSamples& samples) {
+    double sum = 0.0;
+    const std::vector<SweptDistance> f = swept_distances(volume, samples, 1e300);
+    for (std::size_t i = 0; i < f.size(); ++i) sum += f[i].f <= limits.tolerance_mm ? samples.areas[i] : 0.0;
+    return sum / area_of(samples.areas);
+  };
+  const ProvedCover proved = search_cover(volume, shape, coarse, swept_distances(volume, coarse, 1e300), limits);
+  for (std::size_t i = 0; i < proved.open_mm2.size(); ++i) {
+    EXPECT_GE(proved.open_mm2[i], 0.0);
+    EXPECT_LE(proved.open_mm2[i], coarse.areas[i]);
+  }
+  return {covered(coarse), 1.0 - area_of(proved.open_mm2) / area_of(coarse.areas), covered(fine)};
+}
+
+CoverLimits usual_limits(const FaceSamples& samples) {
+  return {kTolerance, 1e-4 * area_of(samples.areas), 60 * samples.points.size(), 1'000'000};
+}
+
+TEST(CoverSearch, ProvesNoMoreThanThereIs) {
+  int between = 0;
+  for (int trial = 0; trial < 12; ++trial) {
+    Random random(static_cast<std::uint64_t>(300 + trial));
+    const Tool tool = brute::random_tool(random, 16.0);
+    const SweptVolume volume(tool, pass(random, 0.02 * (trial % 4), tool.radial.at(8.0).r));
+    Face face = test::plane_face("F1", 20.0, 10.0);
+    if (trial % 3 == 1) face.loops = {test::circle({0.5, 0.5}, 0.42), test::circle({0.55, 0.4}, 0.1)};
+    if (trial % 3 == 2) face.loops = {test::polygon({{0.1, 0.1}, {0.95, 0.2}, {0.4, 0.9}})};
+    const FaceSamples coarse = sample_face(face, 0.4, true), fine = sample_face(face, 0.06, true);
+    const Coverage c = coverage_of(volume, *make_shape(face), coarse, fine, usual_limits(coarse));
+    EXPECT_LE(c.proved, c.fine + 1e-3) << trial;  // of the areas of cells on the border
+    EXPECT_GE(c.proved, c.fine - 0.02) << trial;  // the limits, of samples as coarse as these
+    between += c.fine > 0.05 && c.fine < 0.95 ? 1 : 0;
+  }
+  EXPECT_GE(between, 3) << "some are meant to be covered in part";
+}
+
+TEST(CoverSearch, MeshesAndCurvedFaces) {
+  Random random(5);
+  const Tool tool = brute::random_tool(random, 16.0);
+  const SweptVolume volume(tool, pass(random, 0.04, tool.radial.at(8.0).r));
+  const TriangleMesh mesh = plane_mesh();
+  const FaceSamples coarse = sample_mesh("M", mesh, 0.4, true), fine = sample_mesh("M", mesh, 0.06, true);
+  const Coverage c = coverage_of(volume, *make_shape(mesh), coarse, fine, usual_limits(coarse));
+  EXPECT_LE(c.proved, c.fine + 2e-4);
+  EXPECT_GE(c.proved, c.fine - 0.01);
+  EXPECT_GT(c.proved, 0.02);
+
+  // The inside of a tube, and one stick that stands in a corner of it: covered is a strip along the line of contact.
+  const Face tube = test::quarter_cylinder("F1", 6.0, 10.0);
+  Tool stick;
+  stick.radial = RadialFunction::spline(20.0, Eigen::VectorXd::Constant(6, 2.0));
+  const Vec3 foot = 4.0 * Vec3(std::sqrt(0.5), std::sqrt(0.5), 0.0) - 5.0 * Vec3::UnitZ();
+  const SweptVolume standing(stick, {{{1, "flank", "", {{foot, Vec3::UnitZ()}}}}});
+  const FaceSamples samples = sample_face(tube, 0.3, true);
+  const Coverage t =
+      coverage_of(standing, *make_shape(tube), samples, sample_face(tube, 0.02, true), usual_limits(samples));
+  EXPECT_LE(t.proved, t.fine + 1e-3);
+  EXPECT_GE(t.proved, t.fine - 0.005);
+  EXPECT_GT(t.proved, 0.05);
+}
+
+TEST(CoverSearch, WhatTheLimitsForbidIsNotProved) {
+  Random random(6);
+  const Tool tool = brute::random_tool(random, 16.0);
+  const SweptVolume volume(tool, pass(random, 0.03, tool.radial.at(8.0).r));
+  const Face face = test::plane_face("F1", 20.0, 10.0);
+  const FaceSamples samples = sample_face(face, 0.4, true);
+  CoverLimits limits = usual_limits(samples);
+  const auto f = swept_distances(volume, samples, 1e300);
+  const double all = area_of(search_cover(volume, *make_shape(face), samples, f, limits).open_mm2);
+  limits.evaluations = 0;
+  EXPECT_GT(area_of(search_cover(volume, *make_shape(face), samples, f, limits).open_mm2), all);
+}
+
+TEST(CoverSearch, SameBitsForOneAndTwoThreads) {
+  Random random(7);
+  const Tool tool = brute::random_tool(random, 16.0);
+  const SweptVolume volume(tool, pass(random, 0.03, tool.radial.at(8.0).r));
+  const Face face = test::plane_face("F1", 20.0, 10.0);
+  const FaceSamples samples = sample_face(face, 0.3, true);
+  const auto f = swept_distances(volume, samples, 1e300);
+  const int threads = thread_count();
+  std::vector<std::vector<double>> open;
+  for (int n : {1, 2}) {
+    set_thread_count(n);
+    open.push_back(search_cover(volume, *make_shape(face), samples, f, usual_limits(samples)).open_mm2);
+  }
+  set_thread_count(threads);
+  EXPECT_EQ(open[0], open[1]);
+}
+
+}  // namespace
+}  // namespace flank::internal::verify
