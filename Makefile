@@ -2,7 +2,7 @@
 # On a bare Debian 12 `make demo` and `make test` need only make, git and root (or sudo).
 .DEFAULT_GOAL := build
 .NOTPARALLEL:
-.PHONY: build command deps demo test test-clients sanitize asan tsan bench fuzz install format format-check tidy clean help
+.PHONY: build command deps demo test test-clients sanitize asan tsan bench fuzz install deb wheel docs format format-check tidy clean help
 
 JOBS ?= $(shell nproc)
 SECONDS ?= 60
@@ -29,7 +29,10 @@ demo: command  ## make a twisted blade, fit a tool and its motion to it, and jud
 	$(FLANK) fit out/demo/blade.step --face F1 -o out/demo
 	$(FLANK) report out/demo || echo "(built without the report page: no npm)"
 
-test: deps build  ## build and run all tests
+test:  ## build and run all tests, those of the Python module among them
+	scripts/install-deps.sh build python
+	cmake --preset release
+	cmake --build --preset release --parallel $(JOBS)
 	ctest --preset release --parallel $(JOBS)
 
 test-clients: deps build  ## open what we write in Chromium, FreeCAD and LinuxCNC, which are installed if they are missing
@@ -58,6 +61,25 @@ bench:  ## build and run the benchmarks
 
 install: deps build  ## install the command, the library and its headers under PREFIX
 	cmake --install build/release --prefix $(PREFIX)
+
+deb:  ## make Debian packages of the command, the library and the Python module, in build/packages
+	scripts/install-deps.sh build python package
+	cmake --preset release
+	cmake --build --preset package --parallel $(JOBS)
+	cpack --config build/release/CPackConfig.cmake -B build/packages
+
+wheel:  ## make a wheel of the Python module, in build/packages
+	scripts/install-deps.sh build python package
+	cmake --preset release
+	cmake --build --preset package --parallel $(JOBS)
+	$$(sed -n "s/^FLANK_PYTHON_EXECUTABLE:[A-Z]*=//p" build/release/CMakeCache.txt) scripts/make_wheel.py build/release build/packages
+
+docs:  ## make the site of the documents, build/docs/html/index.html
+	scripts/install-deps.sh build python docs
+	cmake --preset release
+	cmake --build --preset package --parallel $(JOBS)
+	PYTHONPATH=build/release/python \
+	  $$(sed -n "s/^FLANK_PYTHON_EXECUTABLE:[A-Z]*=//p" build/release/CMakeCache.txt) scripts/make_docs.py build/docs
 
 format:  ## format the sources in place
 	scripts/install-deps.sh dev

@@ -17,7 +17,7 @@ if [[ -z $formatter ]]; then
   exit 1
 fi
 # A Heidenhain program ends in .h, too.
-mapfile -t files < <(find src include apps tests bench examples -path tests/fuzz/corpus -prune -o \( -name '*.h' -o -name '*.cpp' \) -print | sort)
+mapfile -t files < <(find src include apps python tests bench examples -path tests/fuzz/corpus -prune -o \( -name '*.h' -o -name '*.cpp' \) -print | sort)
 if [[ ${1:-} == --fix ]]; then
   "$formatter" -i "${files[@]}"
 else

@@ -1,10 +1,14 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages of the named groups, and does nothing at all if they are there already.
-# usage: install-deps.sh [build] [bench] [dev] [clients]
+# usage: install-deps.sh [build] [python] [package] [docs] [bench] [dev] [clients]
 set -euo pipefail
 
 build=(g++ cmake ninja-build libeigen3-dev libtbb-dev libfmt-dev nlohmann-json3-dev libcli11-dev libtomlplusplus-dev
        libocct-data-exchange-dev libgtest-dev python3)
+# The Python module and its tests; a build without them leaves it out.
+python=(pybind11-dev python3-dev python3-numpy python3-pytest python3-hypothesis mypy)
+package=(dpkg-dev file python3-wheel)
+docs=(python3-sphinx furo python3-myst-parser python3-breathe doxygen)
 bench=(libbenchmark-dev libembree-dev libfcl-dev)
 dev=(clang-format clang-tidy)
 clients=(chromium freecad-python3 linuxcnc-uspace)
@@ -16,10 +20,13 @@ wanted=()
 for group in "${@:-build}"; do
   case $group in
     build) wanted+=("${build[@]}") ;;
+    python) wanted+=("${python[@]}") ;;
+    package) wanted+=("${package[@]}") ;;
+    docs) wanted+=("${docs[@]}") ;;
     bench) wanted+=("${bench[@]}") ;;
     dev) wanted+=("${dev[@]}") ;;
     clients) wanted+=("${clients[@]}") ;;
-    *) echo "install-deps.sh: unknown group '$group' (build, bench, dev, clients)" >&2; exit 2 ;;
+    *) echo "install-deps.sh: unknown group '$group' (build, python, package, docs, bench, dev, clients)" >&2; exit 2 ;;
   esac
 done
 

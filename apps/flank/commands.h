@@ -43,6 +43,7 @@ struct Subcommand {
 [[nodiscard]] Subcommand add_view(CLI::App& parser);
 [[nodiscard]] Subcommand add_machine(CLI::App& parser);
 [[nodiscard]] Subcommand add_post(CLI::App& parser);
+[[nodiscard]] Subcommand add_sweep(CLI::App& parser);
 
 /// A line on stderr that grows on a terminal, plain lines otherwise, nothing if quiet; cancelled by Ctrl-C.
 [[nodiscard]] Progress terminal_progress(const CommonOptions& options);

@@ -94,10 +94,10 @@ int run_command(int argc, char** argv) {
       "fault.");
   flank::cli::CommonOptions common;
   std::vector<flank::cli::Subcommand> commands = {
-      flank::cli::add_inspect(parser), flank::cli::add_example(parser), flank::cli::add_tool(parser),
-      flank::cli::add_fit(parser),     flank::cli::add_cover(parser),   flank::cli::add_verify(parser),
-      flank::cli::add_report(parser),  flank::cli::add_view(parser),    flank::cli::add_machine(parser),
-      flank::cli::add_post(parser),    flank::cli::add_trochoid(parser)};
+      flank::cli::add_inspect(parser), flank::cli::add_example(parser),  flank::cli::add_tool(parser),
+      flank::cli::add_fit(parser),     flank::cli::add_cover(parser),    flank::cli::add_verify(parser),
+      flank::cli::add_report(parser),  flank::cli::add_view(parser),     flank::cli::add_machine(parser),
+      flank::cli::add_post(parser),    flank::cli::add_trochoid(parser), flank::cli::add_sweep(parser)};
   for (const flank::cli::Subcommand& command : commands) add_common(*command.app, common);
   const auto chosen = [&]() -> const flank::cli::Subcommand* {
     for (const flank::cli::Subcommand& command : commands)

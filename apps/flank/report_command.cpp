@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
-#include "flank/base/atomic_file.h"
 #include "flank/base/printable.h"
 #include "flank/error.h"
 #include "flank/io/text/json_dump.h"
@@ -59,27 +58,13 @@ std::string read_size(const std::string& text, PictureOptions& picture) {
   return sensible ? "" : text + ": WIDTHxHEIGHT in pixels, each from 200 to 10000, is needed";
 }
 
-/// In its folder the page belongs to the result, so that it goes when a new one comes.
-void write_page(const ReportOptions& options, const std::string& page) {
-  if (options.html.empty()) {
-    ResultFolder folder(options.folder, ResultFolder::Use::kWriteOrRead);
-    if (folder.manifest() && folder.writable()) {
-      folder.add({{kPageFile, page}}, *folder.manifest());
-      return;
-    }
-  }
-  write_file(options.page(), page);
-}
-
 int report(ReportOptions& options, const CommonOptions& common) {
   // Before anything is computed: a page over tool.json would destroy what it shows.
-  require_not_a_result(options.folder, options.page());
   if (!options.png.empty()) require_not_a_result(options.folder, options.png);
-  write_page(options, make_report(options.folder));
-  std::vector<std::string> written{options.page()};
+  std::vector<std::string> written{write_report(options.folder, options.html)};
   if (!options.png.empty()) {
     if (!options.theme.empty()) options.picture.fragment = "theme=" + options.theme;
-    make_picture(options.page(), options.png, options.picture);
+    make_picture(written.front(), options.png, options.picture);
     written.push_back(options.png);
   }
   return say(written, common);

@@ -184,4 +184,41 @@ struct PostJob {
 /// What makes a tool and a path.
 using PlanJob = std::variant<FitJob, CoverJob, TrochoidJob>;
 
+/// What a member of a job holds.
+enum class FieldKind {
+  kText,
+  kTexts,  ///< any number of texts, none at first
+  kNumber,
+  kCount,        ///< a whole number
+  kAutoOrCount,  ///< a whole number, or "auto"
+  kSign,         ///< "+" or "-"
+  kSwitch,       ///< "on" or "off"
+};
+
+/// A line of the table of fields, for programs that offer jobs to their own users.
+struct JobField {
+  std::string name;    ///< as in messages, with the unit: "tolerance_mm"
+  std::string option;  ///< of the command line: "--tolerance", or "PART" for a word without option
+  std::string unit;    ///< "mm", "mm/min"; empty: none
+  std::string group;   ///< of the help text; empty: the first
+  std::string help;
+  std::string accepted;  ///< "a length > 0 mm is needed"; empty: any
+  FieldKind kind = FieldKind::kText;
+  bool needed = false;               ///< has no default and must be given
+  std::optional<std::string> usual;  ///< the default as a word; none: not set
+};
+
+/// The table of a command ("fit", "cover", "trochoid", "verify", "post"), in the order of its help text. Throws
+/// UsageError for another word.
+[[nodiscard]] std::vector<JobField> job_fields(const std::string& command);
+
+/// Sets a field, named as in JobField::name, from words as they would stand on the command line: one, and of kTexts any
+/// number. Ranges are checked when the job is run. Throws UsageError for a name that the job has not (it lists those that
+/// it has), for a word that is no such value, and for a number of words that is not one.
+void set_field(FitJob& job, const std::string& name, const std::vector<std::string>& words);
+void set_field(CoverJob& job, const std::string& name, const std::vector<std::string>& words);
+void set_field(TrochoidJob& job, const std::string& name, const std::vector<std::string>& words);
+void set_field(VerifyJob& job, const std::string& name, const std::vector<std::string>& words);
+void set_field(PostJob& job, const std::string& name, const std::vector<std::string>& words);
+
 }  // namespace flank

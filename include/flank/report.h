@@ -18,7 +18,12 @@ namespace flank {
 /// them is no JSON of the schema that belongs to it, and if files or part are not those of manifest.json.
 [[nodiscard]] std::string make_report(const std::string& folder);
 
-/// The same from a given template: title and data are put in their places.
+/// Writes that page to `file`, or to report.html in the folder if it is empty: there it belongs to the result, so that it
+/// goes when a new one comes. The file's name. Throws as make_report, and InputError if `file` is one of the result's own
+/// or cannot be written.
+std::string write_report(const std::string& folder, const std::string& file = {});
+
+/// A page from a given template: title and data are put in their places.
 [[nodiscard]] std::string fill_page(std::string_view page, std::string_view title, std::string_view data);
 
 /// JSON that may stand inside a script element: no "<" is left, and the value is the same.

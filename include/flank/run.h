@@ -156,7 +156,8 @@ struct Result {
 /// summary.json and job.json to a folder, and ranking.json if there is a ranking. A tool that is not legitimate has
 /// neither tool.step nor tool.fctb. All of them take the place of an earlier result at once, with a manifest.json that ties
 /// them together and to the part (docs/schema/manifest.md); other files in the folder stay. Throws InputError if the folder
-/// cannot be written, or another process writes to it; what was there is whole then.
+/// cannot be written, holds a file that the job reads under one of these names, or another process writes to it; what was
+/// there is whole then.
 void write_result(const Result& result, const std::string& folder);
 
 /// The result as a table for a terminal.

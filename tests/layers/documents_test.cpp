@@ -31,7 +31,7 @@ struct Names {
 
   explicit Names(const fs::path& root) {
     for (const char* folder :
-         {"src", "include", "tests", "bench", "apps", "examples", "cmake", "scripts", "docs", "share", "web"})
+         {"src", "include", "tests", "bench", "apps", "examples", "cmake", "scripts", "docs", "share", "web", "python"})
       for (const auto& entry : fs::recursive_directory_iterator(root / folder))
         if (entry.is_regular_file()) add_file(entry.path(), root);
   }
@@ -42,7 +42,7 @@ struct Names {
     const std::string stem = file.stem().string(), type = file.extension().string();
     words.insert(stem);
     if (stem.ends_with("_bench")) words.insert("bench_" + stem.substr(0, stem.size() - 6));  // its executable
-    if (type == ".h" || type == ".cpp" || type == ".txt" || type == ".cmake") add_words(text_of(file));
+    if (type == ".h" || type == ".cpp" || type == ".txt" || type == ".cmake" || type == ".py") add_words(text_of(file));
   }
 
   void add_words(const std::string& text) {

@@ -17,6 +17,7 @@
 #include "flank/io/tool/tool_fctb.h"
 #include "flank/io/tool/tool_step.h"
 #include "flank/job/fields.h"
+#include "flank/job/input_files.h"
 #include "flank/job/job_json.h"
 #include "flank/path_file.h"
 #include "flank/tool_file.h"
@@ -74,6 +75,7 @@ namespace flank {
 
 void write_result(const Result& result, const std::string& folder) {
   internal::ResultFolder held(folder, internal::ResultFolder::Use::kWrite);
+  held.require_not_inputs(internal::input_files(result.job));
   internal::write_result(result, held);
 }
 

@@ -1,5 +1,7 @@
 #include "flank/base/shared_folder.h"
 
+#include <dlfcn.h>
+
 #include <cstdlib>
 #include <filesystem>
 
@@ -10,11 +12,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Empty where the system does not tell.
-std::string beside_program(const char* name) {
+/// The file that this code was loaded from: the program, or a shared library in it, as a Python module is. Empty where the
+/// system does not tell.
+fs::path code_file() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  return error ? std::string() : (program.parent_path().parent_path() / "share" / "openflank" / name).string();
+  Dl_info info{};
+  if (dladdr(reinterpret_cast<const void*>(&is_folder), &info) == 0 || info.dli_fname == nullptr) return program;
+  // A program may have been called by a name that is no path; a library's is what it was loaded by.
+  const fs::path loaded = info.dli_fname;
+  return loaded.is_absolute() && !fs::equivalent(loaded, program, error) ? loaded : program;
+}
+
+/// The nearest share/openflank/NAME above a file; empty: there is none.
+std::string above(const fs::path& file, const char* name) {
+  for (fs::path folder = file.parent_path(); !folder.empty(); folder = folder.parent_path()) {
+    const fs::path found = folder / "share" / "openflank" / name;
+    if (is_folder(found.string())) return found.string();
+    if (folder == folder.parent_path()) break;
+  }
+  return {};
 }
 
 }  // namespace
@@ -30,14 +47,12 @@ std::string find_shared_folder(const SharedFolder& folder) {
     throw InputError(std::string(folder.variable) + "=" + wanted + ": no such folder; one of " + folder.content +
                      " is needed");
   }
-  std::string tried;
-  for (const std::string& place :
-       {beside_program(folder.name), std::string(folder.installed), std::string(folder.source)}) {
-    if (place.empty()) continue;
-    if (is_folder(place)) return place;
-    tried += (tried.empty() ? "" : ", ") + place;
-  }
-  throw InputError(std::string("no ") + folder.things + ": tried " + tried + "; " + folder.advice);
+  const fs::path code = code_file();
+  const std::string found = above(code, folder.name);
+  if (!found.empty()) return found;
+  if (is_folder(folder.installed)) return folder.installed;
+  throw InputError(std::string("no ") + folder.things + ": tried share/openflank/" + folder.name + " above " +
+                   code.string() + ", " + folder.installed + "; " + folder.advice);
 }
 
 }  // namespace flank::internal

@@ -9,7 +9,6 @@ struct SharedFolder {
   const char* name = "";       ///< below share/openflank: "machines"
   const char* variable = "";   ///< of the environment, which names another one: "FLANK_MACHINES"
   const char* installed = "";  ///< where it was installed
-  const char* source = "";     ///< in the tree that the program was built from
   const char* content = "";    ///< for messages: "machine files"
   const char* things = "";     ///< for messages: "machines"
   const char* advice = "";     ///< for messages: "name their folder by FLANK_MACHINES"
@@ -17,8 +16,9 @@ struct SharedFolder {
 
 [[nodiscard]] bool is_folder(const std::string& path);
 
-/// The first that is there: the one that the environment names (which must be there), share/openflank beside the folder of
-/// the running program (an install tree may have been moved), where it was installed, the source tree. Throws InputError.
+/// The first that is there: the one that the environment names (which must be there), the nearest share/openflank above the
+/// file of the running code (program or shared library: an install tree may have been moved, and a build tree has its own),
+/// where it was installed. Throws InputError.
 [[nodiscard]] std::string find_shared_folder(const SharedFolder& folder);
 
 }  // namespace flank::internal

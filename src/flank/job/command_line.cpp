@@ -39,6 +39,25 @@ std::vector<FieldWords> told_fields(const Job& job) {
 
 /// The command that asks for this job, from the table of fields alone: it cannot forget an option.
 template <class Job>
+std::vector<std::string> arguments(const Job& job) {
+  std::vector<std::string> all{std::string(command_name(job))};
+  for (const FieldWords& field : told_fields(job)) {
+    const std::string flag = flag_of(field.info);
+    for (const std::string& word : field.words) {
+      if (!flag.starts_with('-')) {
+        all.push_back(word);
+      } else if (word.starts_with('-') || word.empty()) {
+        // A value that begins with a minus could be taken for an option.
+        all.push_back(flag + "=" + word);
+      } else {
+        all.insert(all.end(), {flag, word});
+      }
+    }
+  }
+  return all;
+}
+
+template <class Job>
 std::string command(const Job& job) {
   std::string text = "flank " + std::string(command_name(job));
   for (const FieldWords& field : told_fields(job)) {
@@ -91,6 +110,10 @@ std::string command_line(const VerifyJob& job) { return command(job); }
 std::string command_line(const PostJob& job) { return command(job); }
 std::string command_line(const PlanJob& job) {
   return std::visit([](const auto& plan) { return command(plan); }, job);
+}
+
+std::vector<std::string> command_words(const PlanJob& job) {
+  return std::visit([](const auto& plan) { return arguments(plan); }, job);
 }
 
 PlanJob without_folders(const PlanJob& job) {

@@ -17,6 +17,9 @@ namespace flank::internal {
 [[nodiscard]] std::string command_line(const PostJob& job);
 [[nodiscard]] std::string command_line(const PlanJob& job);
 
+/// The same as the words of a program's arguments: "fit", "blade.step", "--face", "F1", ...; not quoted.
+[[nodiscard]] std::vector<std::string> command_words(const PlanJob& job);
+
 /// The job with its files named without their folders, for showing it to others.
 [[nodiscard]] PlanJob without_folders(const PlanJob& job);
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "flank/base/atomic_file.h"
 #include "flank/base/sha256.h"
 #include "flank/error.h"
 #include "flank/manifest/result_folder.h"
@@ -18,6 +19,7 @@ using namespace internal;
 namespace {
 
 namespace fs = std::filesystem;
+constexpr const char* kPageFile = "report.html";
 
 /// Replaces the first occurrence; a template without it is a fault of the build.
 std::string replaced(std::string_view text, std::string_view what, std::string_view with) {
@@ -126,6 +128,21 @@ std::string make_report(const std::string& folder) {
     throw InputError(folder +
                      ": contains none of view.json, verify.json, summary.json; give a folder written by `flank fit`");
   return fill_page(page_template(), title, data);
+}
+
+std::string write_report(const std::string& folder, const std::string& file) {
+  const std::string page_file = file.empty() ? (fs::path(folder) / kPageFile).string() : file;
+  require_not_a_result(folder, page_file);
+  const std::string page = make_report(folder);
+  if (file.empty()) {
+    ResultFolder held(folder, ResultFolder::Use::kWriteOrRead);
+    if (held.manifest() && held.writable()) {
+      held.add({{kPageFile, page}}, *held.manifest());
+      return page_file;
+    }
+  }
+  write_file(page_file, page);
+  return page_file;
 }
 
 }  // namespace flank

@@ -24,7 +24,6 @@ std::string catalogue_folder(const std::optional<std::string>& asked) {
   return find_shared_folder({.name = "catalogue",
                              .variable = "FLANK_CATALOGUE",
                              .installed = FLANK_CATALOGUE_INSTALLED,
-                             .source = FLANK_CATALOGUE_SOURCE,
                              .content = "tool files",
                              .things = "tool catalogue",
                              .advice = "name its folder by `catalogue` or FLANK_CATALOGUE"});

@@ -11,7 +11,7 @@
 
 #include "flank/base/shared_folder.h"
 #include "flank/error.h"
-#include "flank/machine/model/toml_table.h"
+#include "flank/io/text/toml_table.h"
 
 namespace flank::internal {
 namespace {
@@ -249,7 +249,6 @@ std::string machine_folder() {
   return find_shared_folder({.name = "machines",
                              .variable = "FLANK_MACHINES",
                              .installed = FLANK_MACHINES_INSTALLED,
-                             .source = FLANK_MACHINES_SOURCE,
                              .content = "machine files",
                              .things = "machines",
                              .advice = "name their folder by FLANK_MACHINES"});

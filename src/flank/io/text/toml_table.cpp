@@ -1,4 +1,4 @@
-#include "flank/machine/model/toml_table.h"
+#include "flank/io/text/toml_table.h"
 
 #include <fmt/format.h>
 
@@ -28,6 +28,15 @@ std::string place(const std::string& file, const toml::source_position& at) {
 }
 
 std::string range_text(NumberRange range) { return fmt::format("a number from {:g} to {:g}", range.low, range.high); }
+
+/// A plain value as a word; none for a list, a table or a date.
+std::optional<std::string> word_of(const toml::node& node) {
+  if (node.is_string()) return node.value<std::string>();
+  if (node.is_boolean()) return *node.value<bool>() ? "on" : "off";
+  if (node.is_integer()) return std::to_string(*node.value<std::int64_t>());
+  if (node.is_floating_point()) return fmt::format("{}", *node.value<double>());
+  return {};
+}
 
 bool inside(double x, NumberRange range) { return std::isfinite(x) && x >= range.low && x <= range.high; }
 
@@ -127,6 +136,50 @@ std::vector<double> TomlTable::numbers(const std::string& key, std::size_t count
     values.push_back(*value);
   }
   return values;
+}
+
+std::vector<std::string> TomlTable::texts(const std::string& key) const {
+  const toml::node* node = data_->find(key);
+  const toml::array* array = node != nullptr ? node->as_array() : nullptr;
+  if (array == nullptr || array->empty()) refuse(key, "a list of texts in quotes, [\"...\"], is needed");
+  std::vector<std::string> all;
+  for (const toml::node& element : *array) {
+    if (!element.is_string()) refuse_element(key, all.size(), "a text in quotes is needed");
+    all.push_back(*element.value<std::string>());
+  }
+  return all;
+}
+
+std::vector<std::string> TomlTable::words(const std::string& key) const {
+  const toml::node* node = data_->find(key);
+  if (node == nullptr) refuse(key, "is missing; a value is needed");
+  std::vector<std::string> all;
+  if (const toml::array* array = node->as_array()) {
+    for (const toml::node& element : *array) {
+      const std::optional<std::string> word = word_of(element);
+      if (!word) refuse_element(key, all.size(), "a text, a number, true or false is needed");
+      all.push_back(*word);
+    }
+    return all;
+  }
+  const std::optional<std::string> word = word_of(*node);
+  if (!word) refuse(key, "a text, a number, true or false, or a list of them is needed");
+  return {*word};
+}
+
+std::vector<std::string> TomlTable::keys() const {
+  std::vector<std::string> all;
+  if (data_->values == nullptr) return all;
+  for (const auto& [key, value] : *data_->values) all.emplace_back(key.str());
+  data_->asked.insert(all.begin(), all.end());
+  return all;
+}
+
+void TomlTable::refuse_element(const std::string& key, std::size_t element, const std::string& text) const {
+  const toml::node* node = data_->find(key);
+  const toml::array* array = node != nullptr ? node->as_array() : nullptr;
+  if (array == nullptr || element >= array->size()) refuse(key, text);
+  throw InputError(fmt::format("{}: {}: {}", place(data_->file, (*array)[element].source().begin), key, text));
 }
 
 Vec3 TomlTable::vector(const std::string& key, NumberRange range) const {

@@ -1,4 +1,4 @@
-/// TOML values read with their place: what every message about a machine's file says.
+/// TOML values read with their place, which every message about such a file says.
 #pragma once
 
 #include <functional>
@@ -34,6 +34,13 @@ class TomlTable {
   [[nodiscard]] std::string word(const std::string& key, const std::vector<std::string>& accepted) const;
   [[nodiscard]] std::vector<double> numbers(const std::string& key, std::size_t count, NumberRange range) const;
   [[nodiscard]] Vec3 vector(const std::string& key, NumberRange range = {}) const;
+  /// A list of texts, at least one.
+  [[nodiscard]] std::vector<std::string> texts(const std::string& key) const;
+  /// A value, or a list of values, as the words of a command line: texts as they are, numbers with all their digits, on or
+  /// off.
+  [[nodiscard]] std::vector<std::string> words(const std::string& key) const;
+  /// All keys, in alphabetical order; all of them count as known.
+  [[nodiscard]] std::vector<std::string> keys() const;
   /// [key]; an empty one where it is missing.
   [[nodiscard]] TomlTable table(const std::string& key) const;
   /// [[key]], empty where it is missing.
@@ -43,6 +50,8 @@ class TomlTable {
   void require_all_known() const;
   /// Throws InputError at the key, or at the table where it is not there.
   [[noreturn]] void refuse(const std::string& key, const std::string& text) const;
+  /// The same at an element of a list.
+  [[noreturn]] void refuse_element(const std::string& key, std::size_t element, const std::string& text) const;
 
  private:
   struct Data;

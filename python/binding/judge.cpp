@@ -1,0 +1,171 @@
+// The judge: swept distances, and the verdict over faces.
+#include "flank/judge.h"
+
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "arrays.h"
+#include "bindings.h"
+#include "flank/part.h"
+
+namespace flank::python {
+namespace {
+
+struct SweptDistances {
+  std::vector<SweptDistance> all;
+};
+
+SweptDistances swept(const Tool& tool, const Path& path, const Doubles& points, double horizon_mm) {
+  const std::span<const Vec3> at = points_of(points, "points");
+  const py::gil_scoped_release release;
+  SweptDistances out{std::vector<SweptDistance>(at.size())};
+  SweptVolume(tool, path).distances(at, horizon_mm, out.all);
+  return out;
+}
+
+std::string verdict_text(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kNotRun:
+      return "not run";
+    case Verdict::kPass:
+      return "pass";
+    case Verdict::kOvercut:
+      return "overcut";
+    case Verdict::kGouge:
+      return "gouge";
+    case Verdict::kUnproved:
+      return "unproved";
+  }
+  return "";
+}
+
+/// A face with its samples, and what owns its triangles.
+struct JudgedFaces {
+  std::vector<FaceSamples> samples;
+  std::vector<TriangleMesh> meshes;
+  std::vector<FaceShape> shapes;
+};
+
+JudgedFaces faces_of(const Part& part, const std::string& targets, const std::string& checked, double spacing_mm) {
+  JudgedFaces judged;
+  const std::vector<int> first = parse_face_list(part, targets);
+  std::vector<int> all = first;
+  if (!checked.empty())
+    for (const int k : parse_face_list(part, checked))
+      if (std::find(all.begin(), all.end(), k) == all.end()) all.push_back(k);
+  judged.meshes.reserve(all.size());
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const bool target = k < first.size();
+    if (part.is_mesh()) {
+      judged.meshes.push_back(extract_mesh(part, {all[k]}));
+      judged.samples.push_back(sample_mesh(part.face_id(all[k]), judged.meshes.back(), spacing_mm, target));
+      judged.shapes.emplace_back(&judged.meshes.back());
+    } else {
+      const Face& face = part.faces[static_cast<std::size_t>(all[k])];
+      judged.samples.push_back(sample_face(face, spacing_mm, target));
+      judged.shapes.emplace_back(&face);
+    }
+  }
+  return judged;
+}
+
+VerifyReport judge_faces(const Tool& tool, const Path& path, const Part& part, const std::string& faces,
+                         double tolerance_mm, const std::string& check_faces, double spacing_mm) {
+  const py::gil_scoped_release release;
+  const JudgedFaces judged = faces_of(part, faces, check_faces, spacing_mm);
+  JudgeOptions options;
+  options.tolerance_mm = tolerance_mm;
+  return judge(tool, path, judged.samples, judged.shapes, options);
+}
+
+void bind_swept(py::module_& module) {
+  py::class_<SweptDistances> type(module, "SweptDistances",
+                                  "The swept distance at each of N points, and where it is taken.");
+  const auto column = [&](const char* name, auto member, const char* doc) {
+    type.def_property_readonly(
+        name,
+        [member](const py::object& self) {
+          const auto& all = self.cast<const SweptDistances&>().all;
+          return member_view(all, &(first_of(all)->*member), 0, self);
+        },
+        doc);
+  };
+  column("f_mm", &SweptDistance::f, "(N,), mm; negative: overcut, positive: material left. No copy.");
+  column("strip", &SweptDistance::strip, "(N,): 0-based; -1: nothing below the horizon. No copy.");
+  column("t", &SweptDistance::t, "(N,): pose index and fraction. No copy.");
+  column("s", &SweptDistance::s, "(N,), mm: arc length on the axis, in [0, L]. No copy.");
+  module.def(
+      "swept_distances", &swept, py::arg("tool"), py::arg("path"), py::arg("points"), py::arg("horizon_mm") = 1e300,
+      "f(x) = least distance, over the whole path, from x to the tool: for N x 3 points, mm. Exact to about 1e-9 "
+      "mm below the horizon. Raises InputError for a tool or poses that are none.");
+}
+
+void bind_report_parts(py::module_& module) {
+  py::class_<FaceVerdict>(module, "FaceVerdict", "What was found on one face.")
+      .def_readonly("face", &FaceVerdict::face, "\"F1\".")
+      .def_readonly("target", &FaceVerdict::target, "Whether it is machined; else it is a check surface.")
+      .def_readonly("area_mm2", &FaceVerdict::area_mm2, "Area, mm^2.")
+      .def_readonly("overcut_mm", &FaceVerdict::overcut_mm, "Deepest cut found, mm.")
+      .def_readonly("overcut_bound_mm", &FaceVerdict::overcut_bound_mm,
+                    "Nothing of the face is cut deeper, mm: proved.")
+      .def_readonly("undercut_mm", &FaceVerdict::undercut_mm, "Most material left, mm (target).")
+      .def_readonly("rms_mm", &FaceVerdict::rms_mm, "Root mean square of f, mm, where a strip sweeps past.")
+      .def_readonly("coverage", &FaceVerdict::coverage, "Area share with |f| <= tolerance.")
+      .def_readonly("coverage_reachable", &FaceVerdict::coverage_reachable, "The same share of what is reachable.")
+      .def("__repr__", [](const FaceVerdict& f) { return "<openflank.FaceVerdict " + f.face + ">"; });
+  py::class_<WorstPlace>(module, "WorstPlace", "A place that is cut too deep.")
+      .def_readonly("face", &WorstPlace::face, "\"F1\".")
+      .def_property_readonly(
+          "point", [](const py::object& self) { return view(self.cast<const WorstPlace&>().point.data(), {3}, self); },
+          "(3,), mm. No copy.")
+      .def_readonly("f_mm", &WorstPlace::f, "mm, negative.")
+      .def_readonly("strip", &WorstPlace::strip, "0-based.")
+      .def_readonly("t", &WorstPlace::t, "Pose index and fraction.")
+      .def_readonly("s", &WorstPlace::s, "Arc length on the axis, mm.");
+}
+
+}  // namespace
+
+void bind_judge(py::module_& module) {
+  bind_swept(module);
+  bind_report_parts(module);
+  const auto numbers = [](std::vector<double> VerifyReport::*all) {
+    return [all](const py::object& self) {
+      const std::vector<double>& values = self.cast<const VerifyReport&>().*all;
+      return view(values.data(), {static_cast<py::ssize_t>(values.size())}, self);
+    };
+  };
+  py::class_<VerifyReport, std::shared_ptr<VerifyReport>>(module, "VerifyReport",
+                                                          "What a tool really leaves along a path.")
+      .def_property_readonly(
+          "verdict", [](const VerifyReport& r) { return verdict_text(r.verdict); },
+          "pass, overcut, gouge, unproved or not run.")
+      .def_readonly("tolerance_mm", &VerifyReport::tolerance_mm, "mm.")
+      .def_readonly("coverage", &VerifyReport::coverage, "Area share of the targets with |f| <= tolerance.")
+      .def_readonly("coverage_reachable", &VerifyReport::coverage_reachable, "The same share of what is reachable.")
+      .def_readonly("reachable_share", &VerifyReport::reachable_share, "Area share that is reachable.")
+      .def_readonly("overcut_mm", &VerifyReport::overcut_mm, "Deepest cut found in a target, mm.")
+      .def_readonly("overcut_bound_mm", &VerifyReport::overcut_bound_mm, "No target is cut deeper, mm: proved.")
+      .def_readonly("undercut_mm", &VerifyReport::undercut_mm, "Most material left on a target, mm.")
+      .def_readonly("rms_mm", &VerifyReport::rms_mm, "Root mean square of f, mm, where a strip sweeps past.")
+      .def_readonly("gouge_mm", &VerifyReport::gouge_mm, "Deepest cut found in a check surface, mm.")
+      .def_readonly("gouge_bound_mm", &VerifyReport::gouge_bound_mm, "No check surface is cut deeper, mm: proved.")
+      .def_readonly("faces", &VerifyReport::faces, "What was found on each face.")
+      .def_readonly("worst", &VerifyReport::worst, "The deepest places, over all faces.")
+      .def_property_readonly("histogram_edges_mm", numbers(&VerifyReport::histogram_edges_mm),
+                             "Edges of the bins of f over the targets, mm. No copy.")
+      .def_property_readonly("histogram_area_mm2", numbers(&VerifyReport::histogram_area_mm2),
+                             "Area of each bin, mm^2. No copy.")
+      .def("__repr__",
+           [](const VerifyReport& r) { return "<openflank.VerifyReport, " + verdict_text(r.verdict) + ">"; });
+  module.def(
+      "judge", &judge_faces, py::arg("tool"), py::arg("path"), py::arg("part"), py::arg("faces"),
+      py::arg("tolerance_mm"), py::arg("check_faces") = "", py::arg("spacing_mm") = 1.0,
+      "Judges tool and path on faces (\"F1,F3\") of a part at samples spacing_mm apart, mm, with a proof of how deep "
+      "they and the check faces are cut. Raises UsageError and InputError.");
+}
+
+}  // namespace flank::python

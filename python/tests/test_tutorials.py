@@ -1,0 +1,33 @@
+"""The commands of the tutorials run as they stand: those of one page in one folder, one after the other."""
+
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PAGES = sorted((ROOT / "docs/tutorials").glob("*.md"))
+
+
+def blocks(page):
+    return re.findall(r"```(sh|toml|python)\n(.*?)```", page.read_text(), re.DOTALL)
+
+
+def test_there_are_tutorials_and_commands_in_them():
+    assert len(PAGES) >= 7
+    assert sum(len(blocks(page)) for page in PAGES) >= 15
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_the_commands_of_a_tutorial_run(page, tmp_path):
+    path = os.path.dirname(os.environ["FLANK_BINARY"]) + os.pathsep + os.environ["PATH"]
+    for kind, text in blocks(page):
+        if kind == "toml":
+            (tmp_path / "plan.toml").write_text(text)
+            continue
+        words = ["sh", "-ec", text] if kind == "sh" else [sys.executable, "-c", text]
+        done = subprocess.run(words, cwd=tmp_path, env=dict(os.environ, PATH=path), capture_output=True, text=True)
+        assert done.returncode == 0, f"{text}\n{done.stdout}\n{done.stderr}"

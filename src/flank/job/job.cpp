@@ -1,0 +1,90 @@
+#include "flank/job.h"
+
+#include <type_traits>
+
+#include "flank/error.h"
+#include "flank/job/field_text.h"
+#include "flank/job/fields.h"
+
+namespace flank {
+using namespace internal;
+namespace {
+
+/// The kind of a member's values, however it is wrapped.
+template <class T>
+FieldKind kind_of(const FieldInfo& info, const T&) {
+  if (info.spelling == Spelling::kAutoOrCount) return FieldKind::kAutoOrCount;
+  if (info.spelling == Spelling::kSign) return FieldKind::kSign;
+  if constexpr (std::is_same_v<T, bool>) return FieldKind::kSwitch;
+  if constexpr (std::is_same_v<T, std::vector<std::string>>) return FieldKind::kTexts;
+  if constexpr (std::is_floating_point_v<T>) return FieldKind::kNumber;
+  if constexpr (std::is_integral_v<T>) return FieldKind::kCount;
+  return FieldKind::kText;
+}
+template <class T>
+FieldKind kind_of(const FieldInfo& info, const std::optional<T>&) {
+  return kind_of(info, T{});
+}
+
+template <class Job>
+std::vector<JobField> fields_of() {
+  std::vector<JobField> fields;
+  const Job usual;
+  visit_fields(usual, [&](const FieldInfo& info, const auto& value) {
+    JobField field{.name = field_name(info),
+                   .option = flag_of(info),
+                   .unit = std::string(info.unit),
+                   .group = std::string(info.group),
+                   .help = std::string(info.help),
+                   .accepted = std::string(info.accepted.words),
+                   .kind = kind_of(info, value),
+                   .needed = false,
+                   .usual = {}};
+    const std::vector<std::string> words = field_words(info, value);
+    field.needed = info.always && (words.empty() || words.front().empty());
+    if (words.size() == 1 && !words.front().empty()) field.usual = words.front();
+    fields.push_back(std::move(field));
+  });
+  return fields;
+}
+
+template <class Job>
+void set(Job& job, const std::string& name, const std::vector<std::string>& words) {
+  bool known = false;
+  std::string names;
+  visit_fields(job, [&](const FieldInfo& info, auto& member) {
+    const std::string own = field_name(info);
+    names += (names.empty() ? "" : ", ") + own;
+    if (own != name) return;
+    known = true;
+    if constexpr (std::is_same_v<std::remove_reference_t<decltype(member)>, std::vector<std::string>>)
+      member.clear();
+    else if (words.size() != 1)
+      throw UsageError(name, "one value is needed");
+    for (const std::string& word : words) read_word(info, word, member);
+  });
+  if (!known) throw UsageError(name, "is no field of " + std::string(command_name(job)) + "; there are " + names);
+}
+
+}  // namespace
+
+std::vector<JobField> job_fields(const std::string& command) {
+  if (command == command_name(FitJob{})) return fields_of<FitJob>();
+  if (command == command_name(CoverJob{})) return fields_of<CoverJob>();
+  if (command == command_name(TrochoidJob{})) return fields_of<TrochoidJob>();
+  if (command == command_name(VerifyJob{})) return fields_of<VerifyJob>();
+  if (command == command_name(PostJob{})) return fields_of<PostJob>();
+  throw UsageError("command", command, "there are fit, cover, trochoid, verify and post");
+}
+
+void set_field(FitJob& job, const std::string& name, const std::vector<std::string>& words) { set(job, name, words); }
+void set_field(CoverJob& job, const std::string& name, const std::vector<std::string>& words) { set(job, name, words); }
+void set_field(TrochoidJob& job, const std::string& name, const std::vector<std::string>& words) {
+  set(job, name, words);
+}
+void set_field(VerifyJob& job, const std::string& name, const std::vector<std::string>& words) {
+  set(job, name, words);
+}
+void set_field(PostJob& job, const std::string& name, const std::vector<std::string>& words) { set(job, name, words); }
+
+}  // namespace flank
