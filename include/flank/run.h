@@ -74,7 +74,7 @@ struct CoverSummary {
 /// One layer of a cavity, by the planner's measure (docs/algorithms/trochoid.md).
 struct LayerSummary {
   int cycles = 0;
-  std::string status;  ///< done, stuck, cancelled
+  std::string status;  ///< done, stuck, short (where the layer above got stuck), cancelled
   double fronts_mm = 0.0, backs_mm = 0.0, sides_mm = 0.0, links_mm = 0.0;
   double volume_mm3 = 0.0;  ///< removed by fronts and backs
   double side_volume_mm3 = 0.0;

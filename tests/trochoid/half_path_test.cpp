@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "flank/trochoid/run_out.h"
 #include "flank/trochoid/side_path.h"
 
 namespace flank::internal {

@@ -32,6 +32,8 @@ std::string status_word(CycleStatus status) {
       return "done";
     case CycleStatus::kStuck:
       return "stuck";
+    case CycleStatus::kShort:
+      return "short";
     default:
       return "cancelled";
   }
@@ -139,6 +141,10 @@ void note_what_is_open(const TrochoidJob& job, const CavityProgram& program, std
     if (cycles.status == CycleStatus::kStuck)
       notes.push_back(fmt::format("layer {}: no step is possible within {} degrees: a step of {:.4f} mm exceeds them",
                                   k + 1, job.cycles.most_engagement_deg, cycles.stuck_step_mm));
+    if (program.layers[k].share < 1.0)
+      notes.push_back(
+          fmt::format("layer {}: cleared and finished over {:.1f} % of the way of its sides; the rest is left", k + 1,
+                      100.0 * program.layers[k].share));
     if (cycles.entered_mm > job.tolerance_mm)
       notes.push_back(fmt::format("layer {}: a half path enters a face by {:.4f} mm, by the planner's samples", k + 1,
                                   cycles.entered_mm));

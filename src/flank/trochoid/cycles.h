@@ -2,6 +2,7 @@
 /// between them (MATH section 10, docs/algorithms/trochoid.md).
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,8 @@ struct CycleOptions {
   double tolerance_mm = 0.01;
   bool optimise = true;  ///< shapes of the halves, cycle by cycle; else the first shapes are kept
   int most_cycles = 400;
+  /// Ends of fronts on the first side go no farther than this share of its way: above, the layer before got stuck.
+  double most_share = std::numeric_limits<double>::infinity();
 };
 
 /// Both side paths of a layer in the direction of the feed. Fronts go from `from` to `to`.
@@ -43,6 +46,7 @@ struct Cycle {
 enum class CycleStatus {
   kDone,   ///< nothing is left in the way of the fronts
   kStuck,  ///< no step is possible within the limit
+  kShort,  ///< at the end of what the layer above has cleared
   kCancelled,
 };
 

@@ -186,24 +186,26 @@ void EngagementMeter::cut_by_blank(const Frame& frame, const ToolRing& ring, dou
 }
 
 bool EngagementMeter::cut_by(const Candidate& c, const ToolRing& ring, const Vec2& motion) {
-  ToolProfile::Place place;
-  if (!stock_.profile().at(c.h0 + ring.z * c.dh, place)) return true;
   const double px = c.x0 + ring.z * c.dx, py = c.y0 + ring.z * c.dy;
   const Vec2 o(motion.x() * px + motion.y() * py, motion.x() * py - motion.y() * px);
-  const double d2 = o.squaredNorm(), sum = ring.radius + place.radius;
-  if (d2 >= sum * sum) return true;
-  const double less = place.radius - ring.radius;
-  if (d2 <= less * less) return less < 0.0;
   // An interval that reaches into a gap holds one of its ends, or lies within.
+  const auto matters = [&](double p2) {
+    return std::any_of(gaps_.begin(), gaps_.end(), [&](const Gap& gap) {
+      return (ring.radius * gap.from - o).squaredNorm() < p2 || (ring.radius * gap.to - o).squaredNorm() < p2 ||
+             gap.high - gap.low > 3.0 ||
+             (gap.from.x() * o.y() - gap.from.y() * o.x() > 0.0 && o.x() * gap.to.y() - o.y() * gap.to.x() > 0.0);
+    });
+  };
+  // Most do not reach one even where the tool is thickest: that is cheaper to see than the radius at a height.
+  const double d2 = o.squaredNorm(), largest = stock_.profile().largest(), most = ring.radius + largest;
+  if (d2 >= most * most || !matters(largest * largest)) return true;
+  ToolProfile::Place place;
+  if (!stock_.profile().at(c.h0 + ring.z * c.dh, place)) return true;
+  const double sum = ring.radius + place.radius, less = place.radius - ring.radius;
+  if (d2 >= sum * sum) return true;
+  if (d2 <= less * less) return less < 0.0;
   const double p2 = place.radius * place.radius;
-  bool matters = false;
-  for (const Gap& gap : gaps_) {
-    matters = (ring.radius * gap.from - o).squaredNorm() < p2 || (ring.radius * gap.to - o).squaredNorm() < p2 ||
-              gap.high - gap.low > 3.0 ||
-              (gap.from.x() * o.y() - gap.from.y() * o.x() > 0.0 && o.x() * gap.to.y() - o.y() * gap.to.x() > 0.0);
-    if (matters) break;
-  }
-  if (!matters) return true;
+  if (!matters(p2)) return true;
   const double cosine = (ring.radius * ring.radius + d2 - p2) / (2.0 * ring.radius * std::sqrt(d2));
   const double width = std::acos(std::clamp(cosine, -1.0, 1.0)), at = std::atan2(o.y(), o.x());
   cut(at - width, at + width, {c.sweep, c.pose});

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "flank/trochoid/blank.h"
+#include "flank/trochoid/run_out.h"
 
 namespace flank::internal {
 namespace {
@@ -18,14 +19,15 @@ constexpr double kLargestTurn = 4.5 * std::numbers::pi / 180.0;
 
 /// Left and right side path of a layer, in the order in which fronts use them. Milling is climb where a front goes to the
 /// left seen along the feed with the holder up.
-LayerSides order_sides(const RuledMotion& left, const RuledMotion& right, bool climb, double radius) {
+LayerSides order_sides(const RuledMotion& left, const RuledMotion& right, const ProgramOptions& options, double radius,
+                       const HalfGuard& guard) {
   SidePath a(left, false), b(right, false);
-  join_run_outs(a, b, radius);
+  join_run_outs(a, b, radius, guard, 0.5 * options.cycles.tolerance_mm);
   const double middle = 0.5 * a.axis_length();
   const AxisPlace p = a.at(0.5 * a.length()), q = b.at(0.5 * b.length());
   const Vec3 forward = p.velocity(middle) + q.velocity(middle);
   const bool a_to_b = (p.u + q.u).cross(forward).dot(q.at(middle) - p.at(middle)) > 0.0;
-  return a_to_b == climb ? LayerSides{a, b} : LayerSides{b, a};
+  return a_to_b == options.climb ? LayerSides{a, b} : LayerSides{b, a};
 }
 
 Pose pose_of(const AxisPlace& place) { return {place.tip, place.u}; }
@@ -94,10 +96,14 @@ void ProgramWriter::layer(const LayerSides& sides, const LayerCycles& cycles, Pl
     if (cycle.back) add("back", cycle.back->motion);
     add("front", cycle.front.motion);
   }
-  if (cycles.status != CycleStatus::kDone) return;
-  // Back along the side where the last front ended, across before the start, and on along the other side.
+  // Back along the side where the last front ended, across before the start, and on along the other side: both as far as
+  // the cycles got.
   const Cycle& end = cycles.cycles.back();
-  std::vector<Pose> returning = sides.to.poses(-run, std::max(end.to_x, sides.to.length() + run), options_.chord_mm);
+  const bool done = cycles.status == CycleStatus::kDone;
+  const double to_x = done ? std::max(end.to_x, sides.to.length() + run) : end.to_x;
+  const double from_x = done ? sides.from.length() + run : end.from_x;
+  if (to_x <= 0.0 || from_x <= 0.0) return;
+  std::vector<Pose> returning = sides.to.poses(-run, to_x, options_.chord_mm);
   std::reverse(returning.begin(), returning.end());
   planned.sides_mm += way_of(returning, 0.5 * length);
   add("side", both(), std::move(returning));
@@ -105,7 +111,7 @@ void ProgramWriter::layer(const LayerSides& sides, const LayerCycles& cycles, Pl
   const double gap = (from.at(0.5 * length) - sides.to.at(-run).at(0.5 * length)).norm();
   add("link", half_path(length, sides.to.at(-run).reversed(), from, {0.12 * gap, 0.12 * gap, 0.0, 0.0}));
   planned.links_mm += way_of(out_.path.strips.back().poses, 0.5 * length);
-  std::vector<Pose> onwards = sides.from.poses(-run, sides.from.length() + run, options_.chord_mm);
+  std::vector<Pose> onwards = sides.from.poses(-run, from_x, options_.chord_mm);
   planned.sides_mm += way_of(onwards, 0.5 * length);
   add("side", both(), std::move(onwards));
 }
@@ -123,15 +129,32 @@ void ProgramWriter::link(const Pose& to, const Vec3& top, double height, Planned
   add("link", both(), std::move(poses));
 }
 
+RuledMotion backwards_of(const RuledMotion& motion) { return SidePath(motion, true).motion(); }
+
 /// Largest engagement and volume of a finishing sweep, which is then swept.
-double sweep_side(const SidePath& path, bool backwards, SweptStock& stock, double& volume) {
-  const SidePath way(path.motion(), backwards);
+double sweep_side(const RuledMotion& motion, SweptStock& stock, double& volume) {
   EngagementMeter meter(stock);
-  const Engagement e = meter.measure(way.motion(), tool_rings(stock.radial(), kSideRings, 5), kSideRows);
+  const Engagement e = meter.measure(motion, tool_rings(stock.radial(), kSideRings, 5), kSideRows);
   volume += e.volume_mm3;
-  const double largest = meter.refine(way.motion(), e, kSideRings).angle_rad;
-  stock.add(Sweep::of(way.motion(), 6 * kHalfIntervals));
+  const double largest = meter.refine(motion, e, kSideRings).angle_rad;
+  stock.add(Sweep::of(motion, 6 * kHalfIntervals));
   return largest;
+}
+
+/// Both finishing sweeps, as far as the cycles got.
+void sweep_sides(const LayerSides& sides, SweptStock& stock, PlannedLayer& planned) {
+  if (planned.cycles.cycles.empty()) {
+    planned.share = 0.0;
+    return;
+  }
+  const Cycle& end = planned.cycles.cycles.back();
+  const bool done = planned.cycles.status == CycleStatus::kDone;
+  planned.share = done ? 1.0 : std::clamp(end.from_x / sides.from.length(), 0.0, 1.0);
+  if (!done && (end.to_x <= 0.0 || end.from_x <= 0.0)) return;
+  const RuledMotion first = done ? sides.to.motion() : sides.to.motion_to(end.to_x);
+  const RuledMotion second = done ? sides.from.motion() : sides.from.motion_to(end.from_x);
+  planned.first_side_rad = sweep_side(backwards_of(first), stock, planned.side_volume_mm3);
+  planned.second_side_rad = sweep_side(second, stock, planned.side_volume_mm3);
 }
 
 }  // namespace
@@ -150,27 +173,28 @@ CavityProgram plan_program(const std::vector<RuledMotion>& sides, const RadialFu
   const HalfGuard guard(faces, radial);
   std::vector<LayerSides> layers;
   for (std::size_t k = 0; k + 1 < sides.size(); k += 2)
-    layers.push_back(order_sides(sides[k], sides[k + 1], options.climb, radial.largest()));
+    layers.push_back(order_sides(sides[k], sides[k + 1], options, radial.largest(), guard));
   if (layers.empty()) return out;
   out.blank = cavity_blank(layers.front(), left, right);
   const HalfSpace& top = out.blank.back();
   SweptStock stock(radial, out.blank);
+  CycleOptions cycles = options.cycles;
   for (const LayerSides& layer : layers) {
     PlannedLayer planned;
-    planned.cycles = plan_cycles(layer, guard, stock, options.cycles, progress);
+    planned.cycles = plan_cycles(layer, guard, stock, cycles, progress);
     if (!out.path.strips.empty() && !planned.cycles.cycles.empty()) {
       const AxisPlace first = layer.from.at(planned.cycles.cycles.front().from_x);
       const Pose before{first.tip - kRunOut * radial.largest() * first.tip_dx, first.u};
       writer.link(before, top.normal, top.offset + 2.0 * radial.largest(), planned);
     }
     writer.layer(layer, planned.cycles, planned);
-    const bool done = planned.cycles.status == CycleStatus::kDone;
-    if (done) {
-      planned.first_side_rad = sweep_side(layer.to, true, stock, planned.side_volume_mm3);
-      planned.second_side_rad = sweep_side(layer.from, false, stock, planned.side_volume_mm3);
-    }
+    sweep_sides(layer, stock, planned);
+    // What is left above is in the way of the holder: a layer goes no farther than the one before, less a radius.
+    if (planned.share < 1.0)
+      cycles.most_share = std::min(cycles.most_share, planned.share - radial.largest() / layer.from.length());
+    const bool on = planned.cycles.status != CycleStatus::kCancelled && cycles.most_share > 0.0;
     out.layers.push_back(std::move(planned));
-    if (!done) break;
+    if (!on) break;
   }
   return out;
 }

@@ -22,6 +22,8 @@ struct PlannedLayer {
   double first_side_rad = 0.0, second_side_rad = 0.0;  ///< largest engagement of the finishing sweeps, in their order
   double sides_mm = 0.0, links_mm = 0.0;
   double side_volume_mm3 = 0.0;
+  /// Of the first side's way, cleared by the cycles and finished. Below 1: they did not get through.
+  double share = 1.0;
 };
 
 struct CavityProgram {

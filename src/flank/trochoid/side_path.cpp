@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/geom/spline_segment.h"
+
 namespace flank::internal {
 namespace {
 
@@ -43,13 +45,28 @@ AxisPlace SidePath::inside(double t) const {
   return {jet.tip, jet.u, jet.tip_d1 / speed, jet.u_d1 / speed};
 }
 
-AxisPlace SidePath::at(double x) const {
-  if (x >= 0.0 && x <= length()) {
-    const auto after = std::upper_bound(way_.begin() + 1, way_.end() - 1, x);
-    const auto k = static_cast<std::size_t>(after - way_.begin());
-    const double share = (x - way_[k - 1]) / (way_[k] - way_[k - 1]);
-    return inside((static_cast<double>(k) - 1.0 + share) / kSteps);
+double SidePath::time_of(double x) const {
+  const auto after = std::upper_bound(way_.begin() + 1, way_.end() - 1, x);
+  const auto k = static_cast<std::size_t>(after - way_.begin());
+  const double share = (x - way_[k - 1]) / (way_[k] - way_[k - 1]);
+  return (static_cast<double>(k) - 1.0 + share) / kSteps;
+}
+
+RuledMotion SidePath::motion_to(double x) const {
+  if (x >= length()) return motion_;
+  const double end = time_of(x);
+  RuledMotion out = motion_;
+  for (BSplineCurve3* rail : {&out.tip, &out.direction}) {
+    SplineRows rows = spline_segment({rail->degree, rail->knots, rail->poles}, 0.0, end);
+    for (double& knot : rows.knots) knot /= end;
+    rail->knots = std::move(rows.knots);
+    rail->poles = rows.poles;
   }
+  return out;
+}
+
+AxisPlace SidePath::at(double x) const {
+  if (x >= 0.0 && x <= length()) return inside(time_of(x));
   const AxisPlace end = inside(x < 0.0 ? 0.0 : 1.0);
   const RunOut& out = x < 0.0 ? before_ : after_;
   const double by = x < 0.0 ? -x : x - length(), bent = std::min(by, out.over);
@@ -84,34 +101,6 @@ std::vector<Pose> SidePath::poses(double from, double to, double chord_mm) const
   }
   add(to);
   return out;
-}
-
-namespace {
-
-/// Mean direction of both ways over their last quarter at an end, along x, across the axis.
-Vec3 common_direction(const SidePath& a, const SidePath& b, bool end) {
-  constexpr double kShare = 0.25;  // the last velocities of a fitted motion alone may be off
-  const double middle = 0.5 * a.axis_length();
-  Vec3 sum = Vec3::Zero(), up = Vec3::Zero();
-  for (const SidePath* path : {&a, &b}) {
-    const double x = end ? path->length() : 0.0, inner = end ? (1.0 - kShare) * x : kShare * path->length();
-    const AxisPlace outer = path->at(x);
-    const Vec3 way = outer.at(middle) - path->at(inner).at(middle);
-    sum += (end ? way : Vec3(-way)).normalized();
-    up += outer.u;
-  }
-  up.normalize();
-  return (sum - sum.dot(up) * up).normalized();
-}
-
-}  // namespace
-
-void join_run_outs(SidePath& a, SidePath& b, double radius_mm) {
-  for (const bool end : {false, true}) {
-    const Vec3 direction = common_direction(a, b, end);
-    a.bend_run_out(end, direction, radius_mm);
-    b.bend_run_out(end, direction, radius_mm);
-  }
 }
 
 double across_from(const SidePath& path, double x, const SidePath& other, double guess) {

@@ -18,6 +18,8 @@ class SidePath {
   /// Place and velocity at x mm from the start; beyond [0, length()] the axis is shifted on.
   [[nodiscard]] AxisPlace at(double x) const;
   [[nodiscard]] const RuledMotion& motion() const { return motion_; }
+  /// The motion as far as x, over [0, 1]; all of it from length() on. x > 0.
+  [[nodiscard]] RuledMotion motion_to(double x) const;
   /// Beyond an end the axis is shifted on, along its middle's last direction; this bends the way towards another direction,
   /// a unit vector along x, evenly over a length. Over no less than the tool's radius: then the tool, which rounds the edge
   /// of the side, keeps clear of it for directions up to 45 degrees off.
@@ -27,6 +29,8 @@ class SidePath {
 
  private:
   [[nodiscard]] AxisPlace inside(double t) const;
+  /// The time of x in [0, length()].
+  [[nodiscard]] double time_of(double x) const;
   RuledMotion motion_;  ///< in the direction of the cycles
   struct RunOut {
     Vec3 from, to;  ///< directions at the end of the side, and `over` beyond it
@@ -35,10 +39,6 @@ class SidePath {
   RunOut before_, after_;
   std::vector<double> way_;  ///< at equal steps of t
 };
-
-/// Beyond their ends both paths bend over a radius towards one direction, the mean of their last quarters across the axis:
-/// from there on they neither meet nor part.
-void join_run_outs(SidePath& a, SidePath& b, double radius_mm);
 
 /// The place of `other` that lies across from x of `path`: the axes' middles are joined at right angles to the mean
 /// direction of motion. `guess` is near it, mm.

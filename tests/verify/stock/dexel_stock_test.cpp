@@ -85,7 +85,7 @@ TEST(DexelStock, ConcaveToolsLeaveWhatTheirWaistDoesNotReach) {
   const Pose pose;
   const ToolLine along = ToolSolid::line(pose, {2.6, 0.0, 0.0}, Vec3::UnitZ());
   LineCut within;
-  ASSERT_TRUE(solid.reach(along, within));
+  ASSERT_TRUE(solid.reach(along, solid.largest(), within));
   const LineCuts cuts = solid.cut(along, within);
   ASSERT_EQ(cuts.count, 2) << "in at the lower end, out at the waist, in again";
   EXPECT_NEAR(cuts.cuts[0].high + cuts.cuts[1].low, 20.0, 0.01);

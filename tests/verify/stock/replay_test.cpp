@@ -91,13 +91,69 @@ TEST(StockReplay, NothingInTheAirAndNothingTwice) {
   for (const std::size_t k : {1U, 2U}) EXPECT_EQ(done.strips[k].volume_mm3, 0.0) << k;
   EXPECT_EQ(done.strips[2].angle_rad, 0.0);
   // Both walls only touch the tool in the second pass. The first one leaves scallops of 0.05 cells and cones 0.01 cells
-  // inside of the tool on them. The front is looked at 1.5 and 3 cells outside of the tool, and the wall continued straight
-  // from there: to the place across from the axis that makes the error so much larger. As much engagement as a cut of that
-  // depth has cannot be told from none.
+  // inside of the tool on them: as much engagement as a cut of that depth has cannot be told from none.
   const double radius = 3.0, cell = 0.2, wall = 0.06 * cell;
-  const auto along = [&](double cells) { return std::sqrt(std::pow(radius + cells * cell, 2) - radius * radius); };
-  const double depth = wall * (1.0 + along(1.5) / (along(3.0) - along(1.5)));
-  EXPECT_LT(done.strips[1].angle_rad, 2.0 * std::acos(1.0 - depth / radius));
+  EXPECT_LT(done.strips[1].angle_rad, 2.0 * std::acos(1.0 - wall / radius));
+}
+
+TEST(StockReplay, EngagementInATightBendIsTheClosedForm) {
+  // The bend's inner side has passed over itself: what the tool has just taken there is in its front.
+  const double radius = 5.0, length = 12.0;
+  for (const double way : {2.0, 4.0}) {
+    const double step = 0.8, outer = way + step, edge = way + radius;
+    DexelStock stock(box_of(Vec3(-10.0, -10.0, 0.0), Vec3(10.0, 10.0, 6.0)), {}, 0.1);
+    const Path path{{arc(way, -1.5, 1.5, -3.0, 121), arc(outer, -0.7, 0.7, -3.0, 41)}};
+    const StockReplay done = replay(stock, cylinder(radius, length), path, {.circles = 3});
+    const double closed = std::acos((edge * edge - outer * outer - radius * radius) / (2.0 * outer * radius));
+    for (const std::size_t k : {16U, 28U, 36U})
+      EXPECT_NEAR(done.strips[1].poses[k].angle_rad / kDegree, closed / kDegree, 1.0) << way << " pose " << k;
+  }
+}
+
+TEST(StockReplay, EngagementAtTheEndOfTheBlankIsTheClosedForm) {
+  // Beside a slot and out through a slanted end: the arc that is left lies between the slot's wall and the plane.
+  const double radius = 4.0, step = 1.5, slant = 25.0 * kDegree, end = 10.0;
+  const Vec3 normal(std::cos(slant), std::sin(slant), 0.0);
+  DexelStock stock(box_of({-20.0, -12.0, 0.0}, {20.0, 12.0, 10.0}), {{normal, end}}, 0.1);
+  Path path{{straight({-30.0, 0.0, 0.0}, {30.0, 0.0, 0.0}, 61), straight({0.0, step, 0.0}, {14.0, step, 0.0}, 57)}};
+  const StockReplay done = replay(stock, cylinder(radius, 10.0), path, {.circles = 5});
+  int left = 0;
+  for (std::size_t k = 8; k < path.strips[1].poses.size(); k += 3) {
+    const Vec3& centre = path.strips[1].poses[k].tip;
+    // The front from the wall at y = radius to +90 degrees; the plane takes |theta - slant| < width away.
+    const double room = (end - normal.dot(centre)) / radius;
+    const double width = room >= 1.0 ? 0.0 : std::acos(std::max(-1.0, room));
+    const double low = std::asin((radius - step) / radius), high = 0.5 * kPi;
+    const double closed =
+        std::max(0.0, std::min(high, slant - width) - low) + std::max(0.0, high - std::max(low, slant + width));
+    if (closed > 0.0) ++left;
+    EXPECT_NEAR(done.strips[1].poses[k].angle_rad / kDegree, closed / kDegree, 1.5) << centre.x();
+  }
+  EXPECT_GT(left, 8);
+}
+
+TEST(StockReplay, EngagementOfAConeIsThatOfItsThinnestCircle) {
+  const double step = 1.0;
+  const RadialFunction cone(ToolFamily::kCone, 14.0, Eigen::Vector2d(3.0, 8.0 * kDegree));
+  DexelStock stock(box_of({-14.0, -12.0, 0.0}, {14.0, 12.0, 10.0}), {}, 0.1);
+  Path path{{straight({-24.0, 0.0, 1.0}, {24.0, 0.0, 1.0}, 61), straight({-6.0, step, 1.0}, {6.0, step, 1.0}, 25)}};
+  const StockReplay done = replay(stock, cone, path, {.circles = 5});
+  const RadialJet j = cone.at(0.0);
+  const double circle = j.r * std::sqrt(1.0 - j.d1 * j.d1);
+  for (const std::size_t k : {10U, 18U}) {
+    EXPECT_NEAR(done.strips[1].poses[k].angle_rad / kDegree, std::acos(1.0 - step / circle) / kDegree, 1.0) << k;
+    EXPECT_EQ(done.strips[1].poses[k].s, 0.0);
+  }
+}
+
+TEST(StockReplay, AStripGoesOnWhereTheLastOneEnded) {
+  const double radius = 4.0, step = 1.5, closed = std::acos(1.0 - step / radius);
+  DexelStock stock(box_of({-20.0, -12.0, 0.0}, {20.0, 12.0, 10.0}), {}, 0.1);
+  Path path{{straight({-30.0, 0.0, 0.0}, {30.0, 0.0, 0.0}, 61), straight({-10.0, step, 0.0}, {0.0, step, 0.0}, 21),
+             straight({0.0, step, 0.0}, {10.0, step, 0.0}, 21)}};
+  const StockReplay done = replay(stock, cylinder(radius, 10.0), path, {.circles = 3});
+  for (const std::size_t k : {0U, 1U, 2U, 8U})
+    EXPECT_NEAR(done.strips[2].poses[k].angle_rad / kDegree, closed / kDegree, 1.0) << k;
 }
 
 TEST(StockReplay, RaysFindWhatIsLeftAndWhatIsEntered) {

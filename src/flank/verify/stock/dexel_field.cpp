@@ -63,10 +63,16 @@ double DexelField::subtract(int row, int line, double low, double high) {
   return removed;
 }
 
-bool DexelField::meets(int row, int line, double low, double high) const {
-  bool found = false;
-  visit(row, line, [&](const DexelSpan& span) { found = found || (span.low < high && span.high > low); });
-  return found;
+bool DexelField::meets(int row, int line, double& low, double& high) const {
+  double from = high, to = low;
+  visit(row, line, [&](const DexelSpan& span) {
+    if (!(span.low < high && span.high > low)) return;
+    from = std::min(from, std::max(low, static_cast<double>(span.low)));
+    to = std::max(to, std::min(high, static_cast<double>(span.high)));
+  });
+  low = from;
+  high = to;
+  return from < to;
 }
 
 bool DexelField::holds(int row, int line, double place) const {

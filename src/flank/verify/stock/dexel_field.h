@@ -33,8 +33,8 @@ class DexelField {
 
   /// Takes [low, high] away; returns the length that was material, mm.
   double subtract(int row, int line, double low, double high);
-  /// Whether there is material between low and high.
-  [[nodiscard]] bool meets(int row, int line, double low, double high) const;
+  /// Narrows [low, high] to its part from the first material to the last; false: there is none.
+  [[nodiscard]] bool meets(int row, int line, double& low, double& high) const;
   [[nodiscard]] bool is_empty(int row, int line) const {
     const Node& node = rows_[static_cast<std::size_t>(row)].nodes[static_cast<std::size_t>(line)];
     return node.next < 0 && !(node.span.low < node.span.high);

@@ -94,32 +94,65 @@ void cut_by_planes(DexelField& field, const std::vector<HalfSpace>& planes, int 
 
 int clipped(double x, int count) { return static_cast<int>(std::clamp(x, -1.0, static_cast<double>(count))); }
 
+/// The lines of a row as the tool sees them: what ToolLine has is a polynomial of the place across.
+class RowLines {
+ public:
+  RowLines(const DexelField& field, const Pose& pose, const Vec3& x) {
+    const Vec3 direction = Vec3::Unit(field.axis()), over = Vec3::Unit(field.across());
+    base_ = ToolSolid::line(pose, x, direction);
+    per_z_ = over.dot(pose.axis);
+    const Vec3 p = x - pose.tip, p_across = p - base_.z0 * pose.axis, over_across = over - per_z_ * pose.axis;
+    per_b_ = over_across.dot(direction - base_.dz * pose.axis);
+    per_c_ = 2.0 * over_across.dot(p_across);
+    per_c2_ = over_across.squaredNorm();
+  }
+  /// `by`: mm across from x.
+  [[nodiscard]] ToolLine at(double by) const {
+    return {base_.z0 + by * per_z_, base_.dz, base_.a, base_.b + by * per_b_, base_.c + by * (per_c_ + by * per_c2_)};
+  }
+
+ private:
+  ToolLine base_;
+  double per_z_ = 0.0, per_b_ = 0.0, per_c_ = 0.0, per_c2_ = 0.0;
+};
+
+/// Heights of the axis, and the largest radius there is of the tool, where a plane across an axis of the frame meets it.
+struct RowReach {
+  double from = 0.0, to = 0.0, radius = 0.0;
+};
+
+RowReach reach_of(const ToolSolid& tool, const Pose& pose, int c, double place) {
+  RowReach out{tool.low(), tool.high(), tool.largest()};
+  const double along = pose.axis[c];
+  if (std::abs(along) < 1e-12) return out;
+  // A point of the tool at height z lies within radius * sine of the axis' own place there.
+  const double sine = std::sqrt(std::max(0.0, 1.0 - along * along));
+  const double p = (place - pose.tip[c]) / along, off = tool.largest() * sine / std::abs(along);
+  out.from = std::max(tool.low(), p - off);
+  out.to = std::min(tool.high(), p + off);
+  out.radius = tool.largest(out.from, out.to);
+  return out;
+}
+
 /// Takes the tool away from a row of lines; returns the length that was material, mm.
 double cut_row(DexelField& field, const ToolSolid& tool, const Pose& pose, int row) {
   const int b = field.across(), c = field.up();
-  const double radius = tool.largest();
   Vec3 x = Vec3::Zero();
   x[c] = field.place_up(row);
-  // The heights at which the axis is near enough to the row, and there the places across.
-  double from = tool.low(), to = tool.high();
-  if (std::abs(pose.axis[c]) > 1e-12) {
-    double p = (x[c] - radius - pose.tip[c]) / pose.axis[c], q = (x[c] + radius - pose.tip[c]) / pose.axis[c];
-    if (p > q) std::swap(p, q);
-    from = std::max(from, p), to = std::min(to, q);
-    if (from > to) return 0.0;
-  }
-  const double u = pose.at(from)[b], v = pose.at(to)[b];
-  const int left = std::max(0, clipped(std::ceil(field.line_at(std::min(u, v) - radius)), field.width()));
+  const RowReach reach = reach_of(tool, pose, c, x[c]);
+  if (reach.from > reach.to) return 0.0;
+  const double u = pose.at(reach.from)[b], v = pose.at(reach.to)[b];
+  const int left = std::max(0, clipped(std::ceil(field.line_at(std::min(u, v) - reach.radius)), field.width()));
   const int right =
-      std::min(field.width() - 1, clipped(std::floor(field.line_at(std::max(u, v) + radius)), field.width()));
-  const Vec3 direction = Vec3::Unit(field.axis());
+      std::min(field.width() - 1, clipped(std::floor(field.line_at(std::max(u, v) + reach.radius)), field.width()));
+  x[b] = u;  // near the tool, so that the polynomials are exact to round-off there
+  const RowLines lines(field, pose, x);
   double removed = 0.0;
   for (int line = left; line <= right; ++line) {
     if (field.is_empty(row, line)) continue;
-    x[b] = field.place_across(line);
-    const ToolLine seen = ToolSolid::line(pose, x, direction);
+    const ToolLine seen = lines.at(field.place_across(line) - u);
     LineCut within;
-    if (!tool.reach(seen, within) || !field.meets(row, line, within.low, within.high)) continue;
+    if (!tool.reach(seen, reach.radius, within) || !field.meets(row, line, within.low, within.high)) continue;
     const LineCuts cuts = tool.cut(seen, within);
     for (int n = 0; n < cuts.count; ++n) {
       const LineCut& stretch = cuts.cuts[static_cast<std::size_t>(n)];

@@ -1,6 +1,7 @@
 /// The engagement angle of a tool in a tri-dexel stock, by scanning the front of its contact circles (MATH section 10).
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "flank/verify/stock/dexel_stock.h"
@@ -13,11 +14,13 @@ struct PoseVelocity {
   [[nodiscard]] Vec3 at(double s) const { return tip + s * axis; }
 };
 
-/// An arc of a front in the material, radians from the direction of motion, towards axis x motion. An end is either the
-/// front's own or where the surface of the stock crosses.
-struct FrontArc {
-  double low = 0.0, high = 0.0;
-  bool low_crosses = false, high_crosses = false;
+/// A tool on its way through a stock. What it took last is not cut from the stock yet: the front would lie in the surface
+/// that it has just made, and there no stock of lines can tell one side from the other. A few cells farther on it can.
+struct MovingTool {
+  const ToolSolid* solid = nullptr;
+  Pose pose;
+  PoseVelocity velocity;
+  std::span<const Pose> lately;  ///< poses before this one that the stock still has, as near as they must be
 };
 
 /// Measures on circles of some heights. Immutable.
@@ -29,11 +32,10 @@ class FrontScan {
   struct Largest {
     double angle_rad = 0.0, s = 0.0;
   };
-  /// The largest over the circles. The stock is one that the tool at this pose has been cut from, and nothing of what comes
-  /// later: the front is looked at just outside of the tool, and its ends are carried back onto it.
-  [[nodiscard]] Largest largest(const DexelStock& stock, const Pose& pose, const PoseVelocity& velocity) const;
+  /// The largest over the circles: the measure of the front that lies in the stock and in no late pose.
+  [[nodiscard]] Largest largest(const DexelStock& stock, const MovingTool& tool) const;
   /// Of the circle of s, in [0, L], mm.
-  [[nodiscard]] double angle(const DexelStock& stock, const Pose& pose, const PoseVelocity& velocity, double s) const;
+  [[nodiscard]] double angle(const DexelStock& stock, const MovingTool& tool, double s) const;
 
  private:
   RadialFunction radial_;

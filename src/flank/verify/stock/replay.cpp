@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 
 #include "flank/verify/stock/front_scan.h"
 
@@ -17,6 +18,19 @@ double way_between(const Pose& a, const Pose& b, double length) {
   return std::max((b.tip - a.tip).norm(), (b.at(length) - a.at(length)).norm());
 }
 
+/// How far the tool must have come, in cells, before what it took is cut from the stock, and at most on its way.
+constexpr double kLagCells = 4.0, kLongestLag = 3.0;
+/// Of what a late pose is to leave beside the next one, cells.
+constexpr double kLateScallop = 5e-4;
+
+/// A stretch of the way that is not cut yet.
+struct Stretch {
+  Pose from, to;
+  std::size_t strip = 0, pose = 0;
+  double way = 0.0;
+  bool passed = false;  ///< so near to the next one that one cut is enough for both
+};
+
 class Replayer {
  public:
   Replayer(DexelStock& stock, const RadialFunction& radial, const ReplayOptions& options)
@@ -25,20 +39,32 @@ class Replayer {
         scan_(radial, options.circles),
         length_(radial.axis_length()),
         measured_(options.circles > 0),
-        // Two balls `step` apart leave a scallop of step^2 / (8 r) between them.
-        step_(std::sqrt(8.0 * radial.smallest() * options.scallop_cells * stock.cell())) {}
+        step_(step_for(radial, options.scallop_cells)),
+        late_step_(step_for(radial, kLateScallop)),
+        lag_(measured_ ? kLagCells * stock.cell() : 0.0) {}
 
-  StripReplay run(const Strip& strip);
+  void run(const std::vector<Strip>& strips, std::vector<StripReplay>& out);
 
  private:
-  double cut_between(const Pose& from, const Pose& to);
+  /// Two balls `step` apart leave a scallop of step^2 / (8 r) between them.
+  [[nodiscard]] double step_for(const RadialFunction& radial, double scallop_cells) const {
+    return std::sqrt(8.0 * radial.smallest() * scallop_cells * stock_.cell());
+  }
+  void run(const Strip& strip, std::size_t index, std::vector<StripReplay>& out);
+  /// Cuts what lies far enough behind a pose; all of it if there is none.
+  void cut_behind(const Pose* pose, std::vector<StripReplay>& out);
+  double cut(const Stretch& stretch);
+  void add_lately(const Stretch& stretch);
   [[nodiscard]] PoseVelocity velocity(const std::vector<Pose>& poses, std::size_t k) const;
   DexelStock& stock_;
   ToolSolid solid_;
   FrontScan scan_;
   double length_;
   bool measured_;
-  double step_;
+  double step_, late_step_, lag_;
+  std::deque<Stretch> waiting_;
+  double waiting_way_ = 0.0;
+  std::vector<Pose> lately_;
 };
 
 /// Mean of both sides' directions: of a smooth motion that was joined straight it is the tangent, to second order.
@@ -55,38 +81,64 @@ PoseVelocity Replayer::velocity(const std::vector<Pose>& poses, std::size_t k) c
   return out;
 }
 
-StripReplay Replayer::run(const Strip& strip) {
-  StripReplay out;
-  out.kind = strip.kind;
-  const std::vector<Pose>& poses = strip.poses;
-  std::size_t cut = 0;  // the last pose that was cut
-  for (std::size_t k = 0; k < poses.size(); ++k) {
-    if (k > 0) out.way_mm += (poses[k].at(0.5 * length_) - poses[k - 1].at(0.5 * length_)).norm();
-    PoseReplay pose;
-    // Poses that lie nearer to each other than cuts need to be: one for all of them.
-    const bool pass = k > 0 && k + 1 < poses.size() && way_between(poses[cut], poses[k + 1], length_) <= step_;
-    if (!pass) {
-      pose.volume_mm3 = k == 0 ? stock_.cut(solid_, poses[0]) : cut_between(poses[k - 1], poses[k]);
-      cut = k;
-      // Where nothing was removed on the way nothing was engaged.
-      if (measured_ && poses.size() > 1 && (k == 0 || pose.volume_mm3 > 0.0)) {
-        const FrontScan::Largest largest = scan_.largest(stock_, poses[k], velocity(poses, k));
-        pose.angle_rad = largest.angle_rad;
-        pose.s = largest.s;
-      }
-    }
-    out.volume_mm3 += pose.volume_mm3;
-    if (pose.angle_rad > out.angle_rad) out.angle_rad = pose.angle_rad, out.pose = k;
-    out.poses.push_back(pose);
-  }
-  return out;
+void Replayer::run(const std::vector<Strip>& strips, std::vector<StripReplay>& out) {
+  out.resize(strips.size());
+  for (std::size_t k = 0; k < strips.size(); ++k) run(strips[k], k, out);
+  cut_behind(nullptr, out);
+  for (StripReplay& strip : out)
+    for (const PoseReplay& pose : strip.poses) strip.volume_mm3 += pose.volume_mm3;
 }
 
-double Replayer::cut_between(const Pose& from, const Pose& to) {
+void Replayer::run(const Strip& strip, std::size_t index, std::vector<StripReplay>& out) {
+  StripReplay& replay = out[index];
+  replay.kind = strip.kind;
+  const std::vector<Pose>& poses = strip.poses;
+  replay.poses.resize(poses.size());
+  std::size_t last = 0;  // the last pose that is not passed
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    if (k > 0) replay.way_mm += (poses[k].at(0.5 * length_) - poses[k - 1].at(0.5 * length_)).norm();
+    const bool passed = k > 0 && k + 1 < poses.size() && way_between(poses[last], poses[k + 1], length_) <= step_;
+    cut_behind(&poses[k], out);
+    const Pose& from = poses[k == 0 ? 0 : k - 1];
+    waiting_.push_back({from, poses[k], index, k, way_between(from, poses[k], length_), passed});
+    waiting_way_ += waiting_.back().way;
+    if (passed) continue;
+    last = k;
+    if (!measured_ || poses.size() < 2) continue;
+    lately_.clear();
+    for (const Stretch& stretch : waiting_) add_lately(stretch);
+    const FrontScan::Largest largest = scan_.largest(stock_, {&solid_, poses[k], velocity(poses, k), lately_});
+    replay.poses[k].angle_rad = largest.angle_rad;
+    replay.poses[k].s = largest.s;
+    if (largest.angle_rad > replay.angle_rad) replay.angle_rad = largest.angle_rad, replay.pose = k;
+  }
+}
+
+void Replayer::cut_behind(const Pose* pose, std::vector<StripReplay>& out) {
+  while (!waiting_.empty()) {
+    const Stretch& next = waiting_.front();
+    const auto near = [&](double s) { return (next.to.at(s) - pose->at(s)).norm() < lag_; };
+    if (pose != nullptr && waiting_way_ - next.way < kLongestLag * lag_ && (near(0.0) || near(length_))) return;
+    out[next.strip].poses[next.pose].volume_mm3 = cut(next);
+    waiting_way_ -= next.way;
+    waiting_.pop_front();
+  }
+  waiting_way_ = 0.0;
+}
+
+double Replayer::cut(const Stretch& stretch) {
+  if (stretch.passed) return 0.0;
+  if (!(stretch.way > 0.0)) return stock_.cut(solid_, stretch.to);
   double volume = 0.0;
-  const int steps = std::max(1, static_cast<int>(std::ceil(way_between(from, to, length_) / step_)));
-  for (int n = 1; n <= steps; ++n) volume += stock_.cut(solid_, between(from, to, static_cast<double>(n) / steps));
+  const int steps = std::max(1, static_cast<int>(std::ceil(stretch.way / step_)));
+  for (int n = 1; n <= steps; ++n)
+    volume += stock_.cut(solid_, between(stretch.from, stretch.to, static_cast<double>(n) / steps));
   return volume;
+}
+
+void Replayer::add_lately(const Stretch& stretch) {
+  const int steps = std::max(1, static_cast<int>(std::ceil(stretch.way / late_step_)));
+  for (int n = 1; n <= steps; ++n) lately_.push_back(between(stretch.from, stretch.to, static_cast<double>(n) / steps));
 }
 
 }  // namespace
@@ -103,7 +155,7 @@ StockReplay replay(DexelStock& stock, const RadialFunction& radial, const Path& 
   out.cell_mm = stock.cell();
   out.before_mm3 = stock.volume();
   Replayer replayer(stock, radial, options);
-  for (const Strip& strip : path.strips) out.strips.push_back(replayer.run(strip));
+  replayer.run(path.strips, out.strips);
   out.after_mm3 = stock.volume();
   return out;
 }

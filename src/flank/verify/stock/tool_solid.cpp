@@ -63,7 +63,7 @@ void LineCuts::add(double low, double high) {
   cuts[static_cast<std::size_t>(count++)] = {low, high};
 }
 
-ToolSolid::ToolSolid(const RadialFunction& radial, double chord_mm) {
+ToolSolid::ToolSolid(const RadialFunction& radial, double chord_mm) : chord_(chord_mm) {
   if (const Legitimacy legitimacy = check_legitimacy(radial); !legitimacy.legitimate)
     throw InputError("the tool is not legitimate: " + legitimacy.reason);
   constexpr int kPieces = 16, kDepth = 12;
@@ -90,9 +90,17 @@ ToolLine ToolSolid::line(const Pose& pose, const Vec3& point, const Vec3& direct
   return out;
 }
 
-bool ToolSolid::reach(const ToolLine& line, LineCut& within) const {
+double ToolSolid::largest(double from, double to) const {
+  if (to <= low() || from >= high()) return 0.0;
+  double out = 0.0;
+  const std::size_t last = cone_at(to) + 1;
+  for (std::size_t node = cone_at(from); node <= last; ++node) out = std::max(out, nodes_[node].y());
+  return out;
+}
+
+bool ToolSolid::reach(const ToolLine& line, double radius, LineCut& within) const {
   constexpr double kParallel = 1e-14;
-  const double excess = line.c - largest_ * largest_;
+  const double excess = line.c - radius * radius;
   within = {-1e30, 1e30};
   if (line.a > kParallel) {
     const double root = line.b * line.b - line.a * excess;
@@ -143,6 +151,16 @@ void ToolSolid::add_cone(const ToolLine& line, std::size_t cone, double from, do
     const double x = ends[static_cast<std::size_t>(k)], y = ends[static_cast<std::size_t>(k + 1)];
     if (outside(0.5 * (x + y)) < 0.0) out.add(x, y);
   }
+}
+
+bool ToolSolid::holds(const Pose& pose, const Vec3& point) const {
+  const Vec3 p = point - pose.tip;
+  const double z = p.dot(pose.axis), across = p.squaredNorm() - z * z;
+  if (z <= low() || z >= high() || across >= largest_ * largest_) return false;
+  const std::size_t cone = cone_at(z);
+  const Vec2 &a = nodes_[cone], &b = nodes_[cone + 1];
+  const double radius = std::lerp(a.y(), b.y(), (z - a.x()) / (b.x() - a.x())) - chord_;
+  return radius > 0.0 && across < radius * radius;
 }
 
 LineCuts ToolSolid::cut(const ToolLine& line, const LineCut& within) const {

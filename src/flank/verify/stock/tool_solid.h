@@ -36,14 +36,19 @@ class ToolSolid {
 
   /// Point and unit direction in the frame of the part.
   [[nodiscard]] static ToolLine line(const Pose& pose, const Vec3& point, const Vec3& direction);
-  /// Whether the line meets the cylinder around the tool, and where at most.
-  [[nodiscard]] bool reach(const ToolLine& line, LineCut& within) const;
+  /// Whether the line meets a cylinder about the tool's axis, and where at most: of a radius that the tool has nowhere
+  /// exceeded where the line may meet it.
+  [[nodiscard]] bool reach(const ToolLine& line, double radius, LineCut& within) const;
   /// The line inside the tool; `within` of reach().
   [[nodiscard]] LineCuts cut(const ToolLine& line, const LineCut& within) const;
+  /// Whether the tool at a pose has a point of the part's frame inside, by more than what the cones may be off.
+  [[nodiscard]] bool holds(const Pose& pose, const Vec3& point) const;
 
   [[nodiscard]] double low() const { return nodes_.front().x(); }  ///< height of the lower end, <= 0
   [[nodiscard]] double high() const { return nodes_.back().x(); }
   [[nodiscard]] double largest() const { return largest_; }
+  /// Of the heights between two.
+  [[nodiscard]] double largest(double from, double to) const;
   /// Heights and radii, from low() to high(), heights strictly increasing.
   [[nodiscard]] const std::vector<Vec2>& nodes() const { return nodes_; }
 
@@ -52,7 +57,7 @@ class ToolSolid {
   /// The cone that has the height, ends included.
   [[nodiscard]] std::size_t cone_at(double z) const;
   std::vector<Vec2> nodes_;
-  double largest_ = 0.0;
+  double largest_ = 0.0, chord_ = 0.0;
 };
 
 }  // namespace flank::internal::verify

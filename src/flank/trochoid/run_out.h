@@ -1,0 +1,18 @@
+/// How the side paths of a cavity go on beyond their ends: together, and clear of all faces.
+#pragma once
+
+#include "flank/trochoid/half_guard.h"
+#include "flank/trochoid/side_path.h"
+
+namespace flank::internal {
+
+/// Beyond their ends both paths bend over a radius towards one direction, the mean of their last quarters across the axis:
+/// from there on they neither meet nor part.
+void join_run_outs(SidePath& a, SidePath& b, double radius_mm);
+
+/// The same, but where a path then enters a face it bends more gently, and both rise along the axis, as little as it
+/// takes; if nothing keeps them clear by `allowed_mm`, what enters least. What the ends of the sides enter themselves does
+/// not count.
+void join_run_outs(SidePath& a, SidePath& b, double radius_mm, const HalfGuard& guard, double allowed_mm);
+
+}  // namespace flank::internal
