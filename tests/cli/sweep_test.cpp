@@ -27,6 +27,16 @@ class SweepCli : public Cli {
       if (entry.is_regular_file()) all[entry.path().lexically_relative(folder).string()] = read_file(entry.path());
     return all;
   }
+  /// Names of files that are not the same in both; the files themselves are too long to be shown.
+  [[nodiscard]] static std::string different(const std::map<std::string, std::string>& a,
+                                             const std::map<std::string, std::string>& b) {
+    std::string names;
+    for (const auto& [name, text] : a)
+      if (!b.contains(name) || b.at(name) != text) names += name + " ";
+    for (const auto& [name, text] : b)
+      if (!a.contains(name)) names += name + " ";
+    return names;
+  }
   void expect_plan_refused(const std::string& text, const std::string& what) const {
     expect_refused({"sweep", plan(text), "-o", path("out")}, 3, what);
     EXPECT_FALSE(fs::exists(root_ / "out"));
@@ -68,16 +78,16 @@ TEST_F(SweepCli, TheSameBytesForAnyNumberOfProcesses) {
   fs::remove_all(root_ / "one");
   const Outcome four = flank({"sweep", file, "-o", path("one"), "--processes", "4", "--json"});
   EXPECT_EQ(four.out, one.out);
-  EXPECT_EQ(files(root_ / "one"), kept);
+  EXPECT_EQ(different(files(root_ / "one"), kept), "");
   for (const char* name : {"sweep.json", "sweep.csv", "sweep.html", "F1-1-coarse/tool.json", "F1-2-fine/verify.json"})
     EXPECT_TRUE(kept.contains(name)) << name;
-  const auto json = nlohmann::json::parse(kept.at("sweep.json"));
-  ASSERT_EQ(json["tasks"].size(), 4u);
-  EXPECT_EQ(json["tasks"][1]["folder"], "F1-1-fine");
-  EXPECT_EQ(json["tasks"][2]["tool"], "cylinder:radius=3");
-  EXPECT_EQ(json["complete"], true);
+  const auto table = nlohmann::json::parse(kept.at("sweep.json"));
+  ASSERT_EQ(table["tasks"].size(), 4u);
+  EXPECT_EQ(table["tasks"][1]["folder"], "F1-1-fine");
+  EXPECT_EQ(table["tasks"][2]["tool"], "cylinder:radius=3");
+  EXPECT_EQ(table["complete"], true);
   const auto summary = nlohmann::json::parse(kept.at("F1-2-fine/summary.json"));
-  EXPECT_EQ(json["tasks"][3]["coverage_reachable"], summary["coverage_reachable"]);
+  EXPECT_EQ(table["tasks"][3]["coverage_reachable"], summary["coverage_reachable"]);
   EXPECT_EQ(summary["tolerance"], 0.2);
   if (kept.contains("F1-1-coarse/report.html")) {
     EXPECT_NE(kept.at("sweep.html").find("href=\"F1-1-coarse/report.html\""), std::string::npos);
@@ -94,7 +104,7 @@ TEST_F(SweepCli, ResumeKeepsWhatIsWholeAndWasAskedForAlike) {
   const auto before = time("F1-1/tool.json"), lost = time("F1-2/tool.json");
   const Outcome second = flank({"sweep", file, "-o", path("out"), "--resume"});
   EXPECT_EQ(second.exit_code, first.exit_code);
-  EXPECT_EQ(files(root_ / "out"), all);
+  EXPECT_EQ(different(files(root_ / "out"), all), "");
   EXPECT_EQ(time("F1-1/tool.json"), before);
   EXPECT_GT(time("F1-2/tool.json"), lost);
   // Another tolerance is another task.
@@ -109,10 +119,10 @@ TEST_F(SweepCli, ATaskThatTakesTooLongIsToldAndTheOthersAreThere) {
   const std::string file = good_plan("retries = 1\ntimeout_s = 0.001\n");
   const Outcome outcome = flank({"sweep", file, "-o", path("out"), "--json"});
   EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
-  const auto json = nlohmann::json::parse(outcome.out);
-  EXPECT_EQ(json["tasks"][0]["status"], "timed out");
-  EXPECT_EQ(json["tasks"][0]["message"], "took more than 0.001 s");
-  EXPECT_EQ(json["pass"], false);
+  const auto table = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(table["tasks"][0]["status"], "timed out");
+  EXPECT_EQ(table["tasks"][0]["message"], "took more than 0.001 s");
+  EXPECT_EQ(table["pass"], false);
   EXPECT_NE(read_file(root_ / "out/sweep.csv").find("F1-1,F1,cylinder:radius=6,,timed out,"), std::string::npos);
 }
 
