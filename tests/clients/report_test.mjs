@@ -1,7 +1,7 @@
 // The report page in a real browser: it draws, it moves, its figures are the judge's, and it stays readable with half of
 // its files. Run by ctest (label clients); exit 77 means skipped.
 import assert from 'node:assert/strict';
-import { mkdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
+import { cpSync, mkdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { Browser, findBrowser } from './browser.mjs';
@@ -98,6 +98,22 @@ test('the figures are those of verify.json', async () => {
   for (const key of ['coverage', 'coverage_reachable', 'overcut_mm', 'undercut_mm', 'undercut_covered_mm', 'rms_mm', 'gouge_mm', 'overcut_bound_mm', 'gouge_bound_mm'])
     assert.ok(keys.includes(key), key);
   for (const [key, value] of shown) if (key in verify) assert.equal(value, verify[key], key);
+  await page.close();
+});
+
+test('what a machine does is shown once there is a program', async () => {
+  const copy = join(root, 'posted');
+  cpSync(folder, copy, { recursive: true });
+  must('report', copy, '--quiet');
+  let page = await open(copy);
+  assert.equal(await page.value(`document.querySelector('#machine') === null`), true);
+  await page.close();
+  must('post', copy, '--machine', 'linuxcnc-xyzac-trt', '-o', join(root, 'posted.ngc'), '--quiet');
+  must('report', copy, '--quiet');
+  page = await open(copy);
+  const { joints } = json(copy, 'motion.json');
+  assert.equal(await page.value(`document.querySelectorAll('#machine svg').length`), joints.length + 2);
+  assert.match(await page.value(`document.querySelector('#machine').textContent`), /On linuxcnc-xyzac-trt: .* along the strips/);
   await page.close();
 });
 
