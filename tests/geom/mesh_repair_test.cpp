@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "flank/base/random.h"
 #include "flank/error.h"
 #include "flank/geom/mesh_topology.h"
 #include "surface/mesh_shapes.h"
@@ -114,6 +115,33 @@ TEST(MeshRepair, RefusesAMoebiusStrip) {
     strip.triangles.push_back({b, c, d});
   }
   EXPECT_THROW((void)repair_mesh(strip), InputError);
+}
+
+// Whichever cells of a grid they fall into.
+TEST(MeshRepair, VerticesWithinTheToleranceAreOneWhereverTheyLie) {
+  Random random(11);
+  constexpr double kShare = 1e-3;
+  TriangleMesh mesh;
+  // The box, and so the tolerance, is that of these.
+  mesh.vertices = {Vec3(0, 0, 0), Vec3(100, 0, 0), Vec3(100, 100, 100)};
+  mesh.triangles = {{0, 1, 2}};
+  const double tolerance = kShare * mesh.box().diagonal();
+  int near = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Vec3 at(5.0 + 4.0 * (i % 20) + random.uniform(0.0, 1.0), 10.0 + 4.0 * (i / 20) + random.uniform(0.0, 1.0),
+                  random.uniform(10.0, 90.0));
+    const Vec3 way = Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)).normalized();
+    const bool within = i % 2 == 0;
+    near += within ? 1 : 0;
+    const int k = static_cast<int>(mesh.vertices.size());
+    for (const Vec3& p :
+         {at, Vec3(at + Vec3(0, 0, 1)), Vec3(at + Vec3(1, 0, 0)), Vec3(at + (within ? 0.999 : 1.001) * tolerance * way),
+          Vec3(at + Vec3(0, 0, -1)), Vec3(at + Vec3(0, 1, 0))})
+      mesh.vertices.push_back(p);
+    mesh.triangles.push_back({k, k + 1, k + 2});
+    mesh.triangles.push_back({k + 3, k + 4, k + 5});
+  }
+  EXPECT_EQ(repair_mesh(mesh, kShare).repair.welded_vertices, near);
 }
 
 }  // namespace

@@ -45,45 +45,93 @@ struct CellHash {
   }
 };
 
+/// Distinct vertices, sorted into cells.
+class Places {
+ public:
+  Places(const std::vector<Vec3>& vertices, double tolerance, const Vec3& low)
+      : vertices_(vertices), tolerance_(tolerance), low_(low), next_(vertices.size(), -1) {}
+
+  /// The first vertex at the place of v: v itself if it is new.
+  int first_at(std::size_t v) {
+    Cell c;
+    for (int k = 0; k < 3; ++k) c[k] = cell_of(v, k);
+    int found = find(v, c);
+    if (tolerance_ > 0.0 && found < 0) found = find_beside(v, c);
+    if (found >= 0) return found;
+    const int here = static_cast<int>(v);
+    const auto [it, is_new] = cells_.try_emplace(c, Chain{here, here});
+    if (!is_new) it->second.last = next_[static_cast<std::size_t>(it->second.last)] = here;
+    return here;
+  }
+
+ private:
+  /// The vertices of a cell, each with the next one in next_.
+  struct Chain {
+    int first = -1, last = -1;
+  };
+
+  /// Two vertices within the tolerance are in the same cell or in neighbouring ones.
+  /// Counted from the box's corner, so that a part far from the origin does not overflow the integers.
+  [[nodiscard]] double place(std::size_t v, int k) const { return (vertices_[v][k] - low_[k]) / (2.0 * tolerance_); }
+  [[nodiscard]] std::int64_t cell_of(std::size_t v, int k) const {
+    if (tolerance_ > 0.0) return static_cast<std::int64_t>(std::floor(place(v, k)));
+    return std::bit_cast<std::int64_t>(vertices_[v][k] + 0.0);  // -0 and +0 are one place
+  }
+
+  [[nodiscard]] int find(std::size_t v, const Cell& c) const {
+    const auto it = cells_.find(c);
+    if (it == cells_.end()) return -1;
+    for (int w = it->second.first; w >= 0; w = next_[static_cast<std::size_t>(w)])
+      if ((vertices_[static_cast<std::size_t>(w)] - vertices_[v]).squaredNorm() <= tolerance_ * tolerance_) return w;
+    return -1;
+  }
+
+  /// In those of the neighbours that come within the tolerance: a cell is two tolerances wide, so at most one on each axis.
+  [[nodiscard]] int find_beside(std::size_t v, const Cell& c) const {
+    constexpr double kNear = 0.5 + 1e-3;  ///< of a cell, and more than rounding
+    std::array<std::array<bool, 3>, 3> near{};
+    for (int k = 0; k < 3; ++k) {
+      const double in = place(v, k) - static_cast<double>(c[k]);
+      near[static_cast<std::size_t>(k)] = {in <= kNear, true, in >= 1.0 - kNear};
+    }
+    for (std::size_t at = 0; at < 27; ++at) {
+      const std::size_t i = at % 3, j = at / 3 % 3, k = at / 9;
+      if (!near[0][i] || !near[1][j] || !near[2][k]) continue;
+      const auto step = [](std::size_t n) { return static_cast<std::int64_t>(n) - 1; };
+      const int found = find(v, {c[0] + step(i), c[1] + step(j), c[2] + step(k)});
+      if (found >= 0) return found;
+    }
+    return -1;
+  }
+
+  const std::vector<Vec3>& vertices_;
+  double tolerance_;
+  Vec3 low_;
+  std::unordered_map<Cell, Chain, CellHash> cells_;
+  std::vector<int> next_;
+};
+
 /// For each vertex the first one at its place.
 std::vector<int> representatives(const std::vector<Vec3>& vertices, double tolerance, const Vec3& low) {
+  Places places(vertices, tolerance, low);
   std::vector<int> first(vertices.size());
-  std::unordered_map<Cell, std::vector<int>, CellHash> cells;
-  // Two vertices within the tolerance are in the same cell or in neighbouring ones.
-  const double cell = tolerance > 0.0 ? 2.0 * tolerance : 1.0;
-  const auto find = [&](std::size_t v, const Cell& c) {
-    const auto it = cells.find(c);
-    if (it == cells.end()) return -1;
-    for (int w : it->second)
-      if ((vertices[static_cast<std::size_t>(w)] - vertices[v]).squaredNorm() <= tolerance * tolerance) return w;
-    return -1;
-  };
-  for (std::size_t v = 0; v < vertices.size(); ++v) {
-    Cell c;
-    // Counted from the box's corner, so that a part far from the origin does not overflow the integers.
-    for (int k = 0; k < 3; ++k) {
-      const double x = vertices[v][k] + 0.0;  // -0 and +0 are one place
-      c[k] =
-          tolerance > 0.0 ? static_cast<std::int64_t>(std::floor((x - low[k]) / cell)) : std::bit_cast<std::int64_t>(x);
-    }
-    int found = find(v, c);
-    // All 27 neighbours (the cell itself among them).
-    for (int near = 0; tolerance > 0.0 && found < 0 && near < 27; ++near)
-      found = find(v, {c[0] + near % 3 - 1, c[1] + near / 3 % 3 - 1, c[2] + near / 9 - 1});
-    // Compared with representatives alone: a row of close vertices is not drawn together to one point.
-    first[v] = found < 0 ? static_cast<int>(v) : found;
-    if (found < 0) cells[c].push_back(static_cast<int>(v));
-  }
+  for (std::size_t v = 0; v < vertices.size(); ++v) first[v] = places.first_at(v);
   return first;
 }
 
-/// Triangles use the first vertex at each place from here on; the others stay until drop_unused().
-void weld(TriangleMesh& mesh, double weld_share, MeshRepair& repair) {
+/// Triangles use the first vertex at each place from here on; the others stay until drop_unused(). Returns which vertices
+/// are such others.
+std::vector<char> weld(TriangleMesh& mesh, double weld_share, MeshRepair& repair) {
   const Box3 box = mesh.box();
   const std::vector<int> first = representatives(mesh.vertices, weld_share * box.diagonal(), box.low);
-  for (std::size_t v = 0; v < first.size(); ++v) repair.welded_vertices += first[v] != static_cast<int>(v);
+  std::vector<char> welded(first.size(), 0);
+  for (std::size_t v = 0; v < first.size(); ++v) {
+    welded[v] = first[v] != static_cast<int>(v) ? 1 : 0;
+    repair.welded_vertices += welded[v];
+  }
   for (Triangle& t : mesh.triangles)
     for (int& v : t) v = first[static_cast<std::size_t>(v)];
+  return welded;
 }
 
 /// Removes triangles with two equal corners, and those with the corners of an earlier one, however they are turned.
@@ -312,12 +360,7 @@ std::string MeshRepair::account() const {
 RepairedMesh repair_mesh(TriangleMesh mesh, double weld_share) {
   check(mesh);
   RepairedMesh result;
-  const std::size_t count = mesh.vertices.size();
-  // Once more than weld() does by itself: vertices that were welded away must not be counted as isolated too.
-  const std::vector<int> before = representatives(mesh.vertices, weld_share * mesh.box().diagonal(), mesh.box().low);
-  std::vector<char> welded(count, 0);
-  for (std::size_t v = 0; v < count; ++v) welded[v] = before[v] != static_cast<int>(v);
-  weld(mesh, weld_share, result.repair);
+  const std::vector<char> welded = weld(mesh, weld_share, result.repair);
   drop_repeats(mesh, result.repair);
   // A swap can leave another flat triangle behind (several points on one line); a few rounds settle that, what is left
   // is removed.
