@@ -67,10 +67,8 @@ def lay_out(work):
     (work / "root" / "docs").mkdir(exist_ok=True)
     shutil.copytree(ROOT / "docs/images", work / "root/docs/images", dirs_exist_ok=True)
     shutil.copy(ROOT / "docs/site/conf.py", work)
-    headers = sorted(file.stem for file in (ROOT / "include/flank").glob("*.h") if file.stem != "flank")
-    (work / "api.md").write_text("# The C++ front door\n\n" + "".join(
-        f"## flank/{name}.h\n\n```{{eval-rst}}\n.. doxygenfile:: {name}.h\n   :project: openflank\n   :sections: briefdescription detaileddescription func enum "
-        "typedef var public-attrib public-func innerclass\n```\n\n" for name in headers))
+    (work / "api.md").write_text("# The C++ front door\n\nAll of `flank/flank.h`.\n\n```{eval-rst}\n.. doxygennamespace:: flank\n   :project: openflank\n"
+                                 "   :content-only:\n   :members:\n```\n")
     (work / "python-api.md").write_text("# The module openflank\n\n" + (
         "```{eval-rst}\n.. automodule:: openflank\n   :members:\n   :imported-members:\n   :undoc-members:\n```\n" if has_module()
         else "This site was made without the module: PYTHONPATH names the build tree's.\n"))

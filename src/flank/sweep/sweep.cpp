@@ -66,7 +66,11 @@ bool is_whole(const fs::path& folder, const SweepPlan& plan) {
     if (!fs::is_directory(folder)) return false;
     const ResultFolder held(folder.string(), ResultFolder::Use::kRead);
     held.require_whole();
-    return held.manifest() && held.manifest()->part.sha256 == plan.part_sha256;
+    if (!held.manifest() || held.manifest()->part.sha256 != plan.part_sha256) return false;
+    // A file that is missing is no other one, and not told by require_whole.
+    const auto& files = held.manifest()->files;
+    return std::all_of(files.begin(), files.end(),
+                       [&](const auto& file) { return fs::is_regular_file(folder / file.first); });
   } catch (const Error&) {
     return false;
   }
@@ -148,6 +152,9 @@ SweepResult run_sweep(const SweepPlan& plan, const SweepOptions& options, const 
       result.rows[k] = *row;
       continue;
     }
+    // Until it has ended it is not done, whatever an earlier run has left.
+    std::error_code ignored;
+    fs::remove(files.record, ignored);
     open.push_back(k);
     children.push_back({child_words(plan.tasks[k], files), plan.folder(), files.errors.string()});
   }
