@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "flank/threads.h"
+#include "flank/verify/stock/replay.h"
 
 namespace flank::internal {
 namespace {
@@ -56,6 +57,42 @@ TEST(Cycles, HoldTheLimitAtThreeTimesTheRows) {
   }
   EXPECT_LE(largest, 60.0 * kDegree);
   EXPECT_GT(largest, 55.0 * kDegree) << "no less than there is room for";
+}
+
+constexpr double kStripPoses = 200.0;
+
+/// Poses of a half, dense enough that joining them straight changes nothing that counts.
+Strip strip_of(const RuledMotion& motion) {
+  Strip strip;
+  for (int k = 0; k <= static_cast<int>(kStripPoses); ++k) strip.poses.push_back(motion.pose(k / kStripPoses));
+  return strip;
+}
+
+TEST(Cycles, TheJudgesStockMeasuresWhatWasPlanned) {
+  SweptStock stock = slot();
+  const LayerCycles out = plan(stock, false, 60.0);
+  ASSERT_EQ(out.status, CycleStatus::kDone);
+  std::vector<const Half*> halves;
+  Path path;
+  for (const Cycle& cycle : out.cycles)
+    for (const Half* half : {cycle.back ? &*cycle.back : nullptr, &cycle.front}) {
+      if (half == nullptr) continue;
+      halves.push_back(half);
+      path.strips.push_back(strip_of(half->motion));
+    }
+  // Deeper than the round end goes, and wider than the sides.
+  Box3 box;
+  box.add(Vec3(0.0, -6.0, -6.0));
+  box.add(Vec3(kSlot, 16.0, kLength));
+  verify::DexelStock judge(box, {}, 0.1);
+  const verify::StockReplay replay = verify::replay(judge, stock.radial(), path, {.circles = 3});
+  // The peak of a half may lie between its poses, so the replay may be below it, and not above.
+  double largest = 0.0;
+  for (std::size_t k = 0; k < halves.size(); ++k) {
+    EXPECT_LE(replay.strips[k].angle_rad, halves[k]->peak.angle_rad + 1.5 * kDegree) << "half " << k;
+    largest = std::max(largest, halves[k]->peak.angle_rad);
+  }
+  EXPECT_NEAR(replay.largest() / kDegree, largest / kDegree, 1.5);
 }
 
 TEST(Cycles, LeaveNothingBetweenTheSidePaths) {

@@ -57,10 +57,10 @@ FlankFitOptions options_of(const FitJob& job, const Target& target, bool free_to
 /// Covers what was asked, by the planner's estimate, enters nothing and does not plunge.
 bool is_done(const FlankFitResult& result, double least_coverage, double tolerance_mm) {
   constexpr double kLeastEstimate = 0.97;  // the judge is stricter than the estimate
-  constexpr double kToProve = 0.003;       // of the face: what is covered and what is proved to be covered differ so much
+  constexpr double kToProve = 0.003;  // of the face: what is covered and what is proved to be covered differ so much
   const double wanted = least_coverage + std::min(kToProve, 0.5 * (1.0 - least_coverage));
-  return result.after.at_tolerance >= std::max(wanted, kLeastEstimate) &&
-         is_clean(result.after, tolerance_mm) && result.after.largest_c < 1.0;
+  return result.after.at_tolerance >= std::max(wanted, kLeastEstimate) && is_clean(result.after, tolerance_mm) &&
+         result.after.largest_c < 1.0;
 }
 
 /// Keeps the better of two results; one without a motion is none.

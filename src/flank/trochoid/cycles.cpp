@@ -25,8 +25,6 @@ constexpr double kNothing = 1e-3;
 /// Deeper than at the ends of a half by this share counts as deeper.
 constexpr double kSpare = 1.1;
 constexpr double kLeastLiftMm = 0.02;
-/// Radians per mm: where less is found, the engagement does not follow the step.
-constexpr double kLeastSlope = 0.02;
 /// Shorter than this another shape is looked for.
 constexpr double kShortStep = 0.06;
 
@@ -68,8 +66,6 @@ class CyclePlanner {
   void shape_halves(const CycleShape& shape, Trial& trial) const;
   [[nodiscard]] Trial tried(double step, const CycleShape& shape, bool measured);
   [[nodiscard]] Trial longest_step(const CycleShape& shape, double guess);
-  /// The step that another shape most likely allows, from one measure at the best one's step; 0: no gain is to be expected.
-  [[nodiscard]] double promised_step(const Trial& best, const CycleShape& shape);
   void improve(Trial& best);
   void reshape(Trial& best);
   [[nodiscard]] Half accepted(const RuledMotion& motion);
@@ -100,7 +96,6 @@ class CyclePlanner {
   CycleShape shape_;
   std::array<double, 7> span_ = {0.05, 0.05, 0.08, 0.05, 0.05, 0.08, 0.05};
   double step_ = 0.0, lift_ = 0.0, refused_ = 0.0;
-  double slope_ = 0.3;          ///< of the largest engagement by the step, radians per mm, where the last search ended
   double largest_front_ = 0.0;  ///< volume, mm^3
   std::size_t turn_ = 0;
 };
@@ -144,12 +139,10 @@ Trial CyclePlanner::longest_step(const CycleShape& shape, double guess) {
   double low = 0.0, f_low = -aim_, high = 0.0, f_high = 0.0;
   Trial best;
   best.largest_rad = -1.0;
-  double step = std::clamp(guess, kLeastStep * radius_, most), step_before = 0.0, f_before = 0.0;
+  double step = std::clamp(guess, kLeastStep * radius_, most);
   for (int k = 0; k < 12; ++k) {
     Trial trial = tried(step, shape, true);
     const double f = trial.largest_rad - aim_;
-    if (k > 0 && step != step_before) slope_ = std::max(kLeastSlope, (f - f_before) / (step - step_before));
-    step_before = step, f_before = f;
     if (f <= 0.0) {
       low = step, f_low = f;
       best = std::move(trial);
@@ -170,16 +163,6 @@ Trial CyclePlanner::longest_step(const CycleShape& shape, double guess) {
   return best;
 }
 
-double CyclePlanner::promised_step(const Trial& best, const CycleShape& shape) {
-  const double step = best.from_x - last_.from_x;
-  const Trial trial = tried(step, shape, true);
-  // Angle and volume grow with the step: the one by the slope of the last search, the other in proportion.
-  const double room = aim_ - trial.largest_rad;
-  const double promised = std::clamp(step + room / slope_, 0.5 * step, 1.6 * step);
-  // A little less may turn out to be more.
-  return trial.worth() * promised > 0.98 * best.worth() * step ? promised : 0.0;
-}
-
 void CyclePlanner::improve(Trial& best) {
   if (!options_.optimise || best.largest_rad < 0.0 || best.worth() <= 0.0) return;
   constexpr int kVariables = 3;  // of seven, in turn: shapes change little from cycle to cycle
@@ -190,9 +173,7 @@ void CyclePlanner::improve(Trial& best) {
       CycleShape shape = shape_;
       shape.share[v] = std::clamp(shape.share[v] + sign * span_[v], kLeastShare[v], kMostShare[v]);
       if (shape.share[v] == shape_.share[v]) continue;
-      const double step = promised_step(best, shape);
-      if (!(step > 0.0)) continue;
-      const Trial trial = longest_step(shape, step);
+      const Trial trial = longest_step(shape, best.from_x - last_.from_x);
       if (trial.largest_rad < 0.0 || !(trial.worth() > 1.002 * best.worth())) continue;
       if (enters_side(trial)) continue;
       best = trial;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "flank/progress.h"
-#include "flank/trochoid/engagement.h"
+#include "flank/trochoid/engagement/engagement.h"
 #include "flank/trochoid/half_guard.h"
 #include "flank/trochoid/side_path.h"
 

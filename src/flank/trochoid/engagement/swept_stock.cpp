@@ -1,4 +1,4 @@
-#include "flank/trochoid/swept_stock.h"
+#include "flank/trochoid/engagement/swept_stock.h"
 
 #include <algorithm>
 #include <cmath>

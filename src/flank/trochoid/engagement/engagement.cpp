@@ -1,11 +1,11 @@
-#include "flank/trochoid/engagement.h"
+#include "flank/trochoid/engagement/engagement.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "flank/base/assert.h"
-#include "flank/trochoid/arc_end.h"
+#include "flank/trochoid/engagement/arc_end.h"
 
 namespace flank::internal {
 namespace {

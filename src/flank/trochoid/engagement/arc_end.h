@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "flank/trochoid/swept_stock.h"
+#include "flank/trochoid/engagement/swept_stock.h"
 
 namespace flank::internal {
 

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "flank/trochoid/arc_end.h"
+#include "flank/trochoid/engagement/arc_end.h"
 
 namespace flank::internal {
 

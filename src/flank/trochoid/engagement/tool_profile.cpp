@@ -1,4 +1,4 @@
-#include "flank/trochoid/tool_profile.h"
+#include "flank/trochoid/engagement/tool_profile.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "flank/trochoid/arc_end.h"
+#include "flank/trochoid/engagement/arc_end.h"
 
 #include <algorithm>
 #include <cmath>
