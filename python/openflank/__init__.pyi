@@ -511,4 +511,5 @@ def post(
     spindle: float = ...,
     link_clearance_mm: float = ...,
     lift_mm: float = ...,
+    order: str = ...,
 ) -> Program: ...
