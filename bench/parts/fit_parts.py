@@ -13,7 +13,7 @@ import sys
 
 FACES = {  # part, faces, a thousandth of their diagonal
     "turbine_blade": (("F1", "F3"), 0.12), "fan_blade": (("F1", "F3"), 0.52), "micro_blade": (("F1", "F3"), 0.0066),
-    "ruled_vane": (("F1", "F3"), 0.057), "marine_propeller": (("F2", "F3"), 0.1), "blisk3": (("F9", "F8"), 0.045),
+    "ruled_vane": (("F1", "F3"), 0.057), "marine_propeller": (("F2", "F3"), 0.1), "blisk3": (("F8", "F10"), 0.045),
     "splitter_impeller": (("F1", "F7"), 0.047), "helical_gear": (("F5", "F7"), 0.033), "pocket": (("F7a",), 0.28),
     "channel": (("F3", "F5"), 0.155),
 }

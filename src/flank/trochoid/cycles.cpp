@@ -78,8 +78,8 @@ class CyclePlanner {
   [[nodiscard]] GuardDepth depth_at_ends(const Trial& trial, int places) const;
   /// Lifts the inner points of both halves for as long as their tips enter something, if that helps.
   void lift(Trial& best);
-  /// Whether a half enters a side by more than the tolerance; no lift and no shorter step helps there, another shape may.
-  [[nodiscard]] bool enters_side(const Trial& trial) const;
+  /// Whether a half enters a face by more than the tolerance and more than its ends; no lift and no shorter step helps there, another shape may.
+  [[nodiscard]] bool enters_anything(const Trial& trial) const;
   [[nodiscard]] bool passed_everything() const {
     return last_.from_x > sides_.from.length() + out_ && last_.to_x > sides_.to.length() + out_;
   }
@@ -175,7 +175,7 @@ void CyclePlanner::improve(Trial& best) {
       if (shape.share[v] == shape_.share[v]) continue;
       const Trial trial = longest_step(shape, best.from_x - last_.from_x);
       if (trial.largest_rad < 0.0 || !(trial.worth() > 1.002 * best.worth())) continue;
-      if (enters_side(trial)) continue;
+      if (enters_anything(trial)) continue;
       best = trial;
       shape_ = shape;
       better = true;
@@ -189,7 +189,7 @@ void CyclePlanner::improve(Trial& best) {
 /// enter none, if there is one.
 void CyclePlanner::reshape(Trial& best) {
   const CycleShape before = shape_;
-  bool entering = best.largest_rad >= 0.0 && enters_side(best);
+  bool entering = best.largest_rad >= 0.0 && enters_anything(best);
   for (const double handle : {0.08, 0.16, 0.26}) {
     for (const double bulge : {-0.08, 0.0, 0.08, 0.16, 0.28}) {
       CycleShape shape = before;
@@ -197,7 +197,7 @@ void CyclePlanner::reshape(Trial& best) {
       shape.share[2] = bulge;
       Trial trial = longest_step(shape, 0.15 * radius_);
       if (trial.largest_rad < 0.0 || (!entering && trial.worth() <= best.worth())) continue;
-      const bool enters = enters_side(trial);
+      const bool enters = enters_anything(trial);
       if (enters && (!entering || trial.worth() <= best.worth())) continue;
       entering = enters;
       best = std::move(trial);
@@ -251,10 +251,12 @@ GuardDepth CyclePlanner::depth_at_ends(const Trial& trial, int places) const {
   return out;
 }
 
-bool CyclePlanner::enters_side(const Trial& trial) const {
-  constexpr int kTimes = 13, kPlaces = 4;
-  return depth_of(trial, kTimes, kPlaces).sides >
-         std::max(options_.tolerance_mm, kSpare * depth_at_ends(trial, kPlaces).sides);
+bool CyclePlanner::enters_anything(const Trial& trial) const {
+  // As dense as what is told of accepted halves, or they would be found to enter afterwards: deepest are places just off
+  // the ends, where a half leaves a side that runs on past its face.
+  constexpr int kTimes = 25, kPlaces = 9;
+  return depth_of(trial, kTimes, kPlaces).deepest() >
+         std::max(options_.tolerance_mm, kSpare * depth_at_ends(trial, kPlaces).deepest());
 }
 
 void CyclePlanner::lift(Trial& best) {
@@ -341,7 +343,8 @@ LayerCycles CyclePlanner::run(const Progress& progress) {
     // No more lift than this cycle needs: the floor may fall again.
     lift_ = lift_ > kLeastLiftMm ? 0.5 * lift_ : 0.0;
     Trial best = longest_step(shape_, step_);
-    if (best.largest_rad < 0.0 || best.from_x - last_.from_x < kShortStep * radius_ || enters_side(best)) reshape(best);
+    if (best.largest_rad < 0.0 || best.from_x - last_.from_x < kShortStep * radius_ || enters_anything(best))
+      reshape(best);
     improve(best);
     if (best.largest_rad < 0.0 || best.from_x - last_.from_x < kLeastStep * radius_) {
       out.status = CycleStatus::kStuck;

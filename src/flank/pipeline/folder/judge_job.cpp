@@ -106,6 +106,16 @@ double default_spacing(double diagonal_mm) {
   return std::clamp(diagonal_mm / 300.0, 0.05, std::max(0.5, diagonal_mm / 1000.0));
 }
 
+namespace {
+
+/// Measured to cover what was asked, but not proved to.
+bool undecided(const VerifyReport& report, double least) {
+  return report.coverage_reachable >= least && report.overcut_bound_mm <= report.tolerance_mm &&
+         report.coverage_reachable_bound && *report.coverage_reachable_bound < least;
+}
+
+}  // namespace
+
 VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const Tool& tool, const Path& path) {
   const double usual = default_spacing(setup.part.box.diagonal());
   const JudgedShapes shapes(setup, request.sample_mm.value_or(usual));
@@ -117,7 +127,15 @@ VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const To
   JudgeOptions options;
   options.tolerance_mm = setup.tolerance_mm;
   options.depth = request.sample_mm ? DepthProof::kSampled : DepthProof::kProved;
-  VerifyReport report = verify::judge_faces(tool, path, shapes.judged(setup, reach ? &*reach : nullptr), options);
+  const auto judged = [&] {
+    return verify::judge_faces(tool, path, shapes.judged(setup, reach ? &*reach : nullptr), options);
+  };
+  VerifyReport report = judged();
+  // Where the verdict hangs on the proof, it gets what it needs: the cells along the border of what is covered, finer.
+  if (undecided(report, request.least_coverage)) {
+    options.proof.cover_evaluations *= 16;
+    report = judged();
+  }
   report.reach_radius_mm = radius;
   return report;
 }
