@@ -255,8 +255,11 @@ bool CyclePlanner::enters_anything(const Trial& trial) const {
   // As dense as what is told of accepted halves, or they would be found to enter afterwards: deepest are places just off
   // the ends, where a half leaves a side that runs on past its face.
   constexpr int kTimes = 25, kPlaces = 9;
-  return depth_of(trial, kTimes, kPlaces).deepest() >
-         std::max(options_.tolerance_mm, kSpare * depth_at_ends(trial, kPlaces).deepest());
+  // Of the tolerance: what may lie between the looks has the rest, but where the ends alone are deeper.
+  constexpr double kAllowed = 0.9, kMost = 0.97;
+  const double ends = depth_at_ends(trial, kPlaces).deepest(), tolerance = options_.tolerance_mm;
+  const double allowed = std::clamp(kSpare * ends, kAllowed * tolerance, std::max(kMost * tolerance, ends));
+  return depth_of(trial, kTimes, kPlaces).deepest() > allowed;
 }
 
 void CyclePlanner::lift(Trial& best) {
