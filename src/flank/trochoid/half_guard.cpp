@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace flank::internal {
 
@@ -29,7 +30,9 @@ void HalfGuard::look(const Pose& pose, int places, GuardDepth& out) const {
 
 GuardDepth HalfGuard::depth(const RuledMotion& motion, int times, int places) const {
   GuardDepth out;
-  for (int i = 0; i < times; ++i) look(motion.pose(static_cast<double>(i) / (times - 1)), places, out);
+  // Densest at both ends, where a half leaves a side at a tangent: what it enters, it enters there, for a moment.
+  for (int i = 0; i < times; ++i)
+    look(motion.pose(0.5 - 0.5 * std::cos(std::numbers::pi * i / (times - 1))), places, out);
   return out;
 }
 

@@ -27,7 +27,7 @@ struct GuardDepth {
 class HalfGuard {
  public:
   HalfGuard(GuardedFaces faces, const RadialFunction& radial) : faces_(std::move(faces)), radial_(radial) {}
-  /// At `times` x `places` samples. A place that projects onto a side's border counts by its distance alone.
+  /// At `times` x `places` samples, the times densest at both ends. A place that projects onto a side's border counts by its distance alone.
   [[nodiscard]] GuardDepth depth(const RuledMotion& motion, int times, int places) const;
   /// Adds what one pose enters.
   void look(const Pose& pose, int places, GuardDepth& out) const;
