@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "flank/error.h"
 
@@ -135,35 +135,41 @@ double way_between(const Pose& end, const Pose& begin, const Vec3& center) {
   return std::max(angle_of(outward(end), outward(begin)), angle_of(end.axis, begin.axis));
 }
 
+/// From the end of strip a to the beginning of strip b: ways[a * count + b].
+std::vector<double> ways_of(const Path& path, const Vec3& center) {
+  std::vector<double> ways;
+  for (const Strip& a : path.strips)
+    for (const Strip& b : path.strips) ways.push_back(way_between(a.poses.back(), b.poses.front(), center));
+  return ways;
+}
+
+/// From the first strip on always to the nearest that is left.
+std::vector<std::size_t> nearest_first(const std::vector<double>& ways, std::size_t count) {
+  std::vector<std::size_t> order, left(count);
+  std::iota(left.begin(), left.end(), std::size_t{0});
+  while (!left.empty()) {
+    auto next = left.begin();
+    if (!order.empty())
+      next = std::min_element(left.begin(), left.end(), [&, from = order.back() * count](std::size_t a, std::size_t b) {
+        return ways[from + a] < ways[from + b];
+      });
+    order.push_back(*next);
+    left.erase(next);
+  }
+  return order;
+}
+
 }  // namespace
 
 std::vector<std::size_t> short_order(const Path& path, const Box3& box) {
   const std::size_t count = path.strips.size();
-  std::vector<double> ways(count * count, 0.0);
-  for (std::size_t a = 0; a < count; ++a)
-    for (std::size_t b = 0; b < count; ++b)
-      if (a != b)
-        ways[a * count + b] = way_between(path.strips[a].poses.back(), path.strips[b].poses.front(), box.center());
-  std::vector<std::size_t> order;
-  std::vector<bool> taken(count, false);
-  for (std::size_t k = 0; k < count; ++k) {
-    std::size_t next = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t s = 0; s < count; ++s) {
-      const double way = k == 0 ? static_cast<double>(s) : ways[order.back() * count + s];
-      if (!taken[s] && way < least) {
-        least = way;
-        next = s;
-      }
-    }
-    taken[next] = true;
-    order.push_back(next);
-  }
-  const auto length = [&](const std::vector<std::size_t>& o) {
+  const std::vector<double> ways = ways_of(path, box.center());
+  const auto length = [&](const std::vector<std::size_t>& order) {
     double sum = 0.0;
-    for (std::size_t k = 1; k < o.size(); ++k) sum += ways[o[k - 1] * count + o[k]];
+    for (std::size_t k = 1; k < order.size(); ++k) sum += ways[order[k - 1] * count + order[k]];
     return sum;
   };
+  std::vector<std::size_t> order = nearest_first(ways, count);
   // A strip put elsewhere: with directions that stay, turning a part of the order round is no exchange.
   constexpr double kShorter = 1e-9;  // rad: less is rounding, and would go round in circles
   for (bool shorter = true; shorter;) {
