@@ -217,6 +217,7 @@ Polished last_digits(const Polished& polished, const std::vector<SurfaceSample>&
   const CoverageEstimate& estimate = polished.estimate;
   if (!polished.draft.free_tool || estimate.at_tolerance < kNearlyCovered || estimate.rms_mm > kEnvelope * size)
     return polished;
+  const std::vector<FacePoint> points = target_points(polished.draft, kMean.points_per_side, reach_of(options));
   Polished best = polished, trial = polished;
   for (const bool last : {false, true}) {
     FitStage stage = swept_stage(kMean, options, size);
@@ -231,7 +232,6 @@ Polished last_digits(const Polished& polished, const std::vector<SurfaceSample>&
     stage.overcut_weight = 1.0;
     stage.iterations = kIterations;
     stage.step_tolerance = exact.step_tolerance;
-    const std::vector<FacePoint> points = target_points(trial.draft, kMean.points_per_side, reach_of(options));
     trial = assess(run_swept(trial.draft, options.bounds, stage, points, trace), samples, options);
     const CoverageEstimate &now = trial.estimate, &before = best.estimate;
     if (now.rms_mm > kEnvelopeGains * before.rms_mm) break;
