@@ -10,13 +10,17 @@
 namespace flank::internal {
 namespace {
 
-NcProgram read_corpus(const std::string& name, NcLanguage language, const std::string& rotary = "AC") {
-  std::ifstream in(std::filesystem::path(FLANK_SOURCE_DIR) / "tests/fuzz/corpus" / name, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+NcProgram read_text(const std::string& text, NcLanguage language, const std::string& rotary = "AC",
+                    const std::string& name = "f") {
   NcDialect dialect;
   dialect.language = language;
   dialect.rotary = rotary;
   return read_nc(text, name, dialect);
+}
+
+NcProgram read_corpus(const std::string& name, NcLanguage language, const std::string& rotary = "AC") {
+  std::ifstream in(std::filesystem::path(FLANK_SOURCE_DIR) / "tests/fuzz/corpus" / name, std::ios::binary);
+  return read_text({std::istreambuf_iterator<char>(in), {}}, language, rotary, name);
 }
 
 void expect_move(const NcMove& m, NcKind kind, const Vec3& position, const Vec3& orientation, double feed) {
@@ -77,9 +81,7 @@ TEST(ReadNc, HeidenhainSwitchesOffBesideTheLastMove) {
   const std::string text =
       "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1\n2 L A+0 C+0 R0 FMAX\n3 M128\n4 L X+0 Y+0 Z+99 A+0 C+0 FMAX\n"
       "5 L X+0 Y+0 Z+1 A+0 C+0 F100\n6 L X+5 Y+0 Z+100 A+0 C+0 R0 FMAX M129\n7 M30\n8 END PGM A MM\n";
-  NcDialect heidenhain;
-  heidenhain.language = NcLanguage::kHeidenhain;
-  const NcProgram p = read_nc(text, "f", heidenhain);
+  const NcProgram p = read_text(text, NcLanguage::kHeidenhain);
   ASSERT_EQ(p.moves.size(), 3u);
   expect_move(p.moves[2], NcKind::kRapid, {5, 0, 100}, {0, 0, 0}, 0);
 }
@@ -98,9 +100,7 @@ TEST(ReadNc, AProgramInPiecesIsNotJoinedAcrossItsReference) {
   const std::string text =
       "O1\nG21 G90\nG0 A0. C0.\nG43.4 H1\nG0 X0. Y0. Z9.\nG1 Z1. F100.\nG49\nG91 G28 Z0.\nG90\nG0 C90.\n"
       "G43.4 H1\nX5. Y0. Z9.\nG1 Z2.\nG49\nM30\n";
-  NcDialect fanuc;
-  fanuc.language = NcLanguage::kFanuc;
-  const NcProgram p = read_nc(text, "f", fanuc);
+  const NcProgram p = read_text(text, NcLanguage::kFanuc);
   ASSERT_EQ(p.moves.size(), 4u);
   EXPECT_FALSE(p.moves[0].joined);
   EXPECT_TRUE(p.moves[1].joined);
@@ -112,9 +112,7 @@ TEST(ReadNc, TheApproachBeforeToolVectorsIsNoMove) {
   const std::string text =
       "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1\n2 L A+10 C+5 R0 FMAX\n3 M128\n4 L X+0 Y+0 Z+99 FMAX\n"
       "5 LN X+0 Y+0 Z+9 TX+0 TY+0 TZ+1 FMAX\n6 LN X+0 Y+0 Z+1 TX+0 TY+0 TZ+1 F100\n7 M129\n8 M30\n9 END PGM A MM\n";
-  NcDialect heidenhain;
-  heidenhain.language = NcLanguage::kHeidenhain;
-  const NcProgram p = read_nc(text, "f", heidenhain);
+  const NcProgram p = read_text(text, NcLanguage::kHeidenhain);
   EXPECT_EQ(p.positions, NcPositions::kTipVector);
   ASSERT_EQ(p.moves.size(), 2u);
   ASSERT_TRUE(p.start_rotary);
