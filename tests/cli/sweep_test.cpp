@@ -70,6 +70,7 @@ TEST_F(SweepCli, APlanIsRefusedByItsLineBeforeAnythingRuns) {
 }
 
 TEST_F(SweepCli, TheSameBytesForAnyNumberOfProcesses) {
+  if (kSanitized) GTEST_SKIP() << "whole covers, several times; one task's death and refusals are tested there";
   const std::string file = good_plan("[variants.coarse]\n[variants.fine]\ntolerance_mm = 0.2\n");
   const Outcome one = flank({"sweep", file, "-o", path("one"), "--processes", "1", "--json"});
   ASSERT_TRUE(one.exit_code == 0 || one.exit_code == 1) << one.err;
@@ -95,6 +96,7 @@ TEST_F(SweepCli, TheSameBytesForAnyNumberOfProcesses) {
 }
 
 TEST_F(SweepCli, ResumeKeepsWhatIsWholeAndWasAskedForAlike) {
+  if (kSanitized) GTEST_SKIP() << "whole covers, several times; one task's death and refusals are tested there";
   const std::string file = good_plan();
   const Outcome first = flank({"sweep", file, "-o", path("out")});
   const std::map<std::string, std::string> all = files(root_ / "out");
