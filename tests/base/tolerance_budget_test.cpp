@@ -19,6 +19,8 @@ TEST(ToleranceBudget, StripsOfAGivenToolKeepTheToleranceInTheTarget) {
   EXPECT_LE(worst_in_target(kToleranceBudget), 1.0 + kRounding);
 }
 
+TEST(ToleranceBudget, HalfPathsKeepTheTolerance) { EXPECT_LE(worst_of_halves(kToleranceBudget), 1.0 + kRounding); }
+
 TEST(ToleranceBudget, FitsAimWithinTheTolerance) {
   EXPECT_LE(worst_of_fit_in_target(kToleranceBudget), 1.0 + kRounding);
   EXPECT_LE(worst_of_fit_in_other_faces(kToleranceBudget), 1.0 + kRounding);
@@ -41,6 +43,8 @@ TEST(ToleranceBudget, EveryAimLiesBelowTheLimitThatJudgesIt) {
   EXPECT_LE(fit.dead_zone, fit.dead_zone_axis);
   EXPECT_LE(fit.exact_overcut, fit.settled_overcut);
   EXPECT_LE(fit.settled_overcut, fit.overcut);
+  EXPECT_LT(kToleranceBudget.cavity.aim, kToleranceBudget.cavity.sides);
+  EXPECT_LT(kToleranceBudget.cavity.sides, kToleranceBudget.cavity.halves);
 }
 
 // A link that a chain forgot would let the sum pass whatever its share is.
@@ -74,6 +78,8 @@ TEST(ToleranceBudget, EveryLinkCountsInItsChains) {
       {"between samples",
        [](ToleranceBudget& b) -> double& { return b.fit.between_samples; },
        {worst_of_fit_in_target}},
+      {"halves", [](ToleranceBudget& b) -> double& { return b.cavity.halves; }, {worst_of_halves}},
+      {"chord of halves", [](ToleranceBudget& b) -> double& { return b.cavity.half_chord; }, {worst_of_halves}},
       {"dead zone", [](ToleranceBudget& b) -> double& { return b.fit.dead_zone_axis; }, {worst_left_by_dead_zone}},
   };
   for (const Link& link : links) {
@@ -92,7 +98,7 @@ TEST(ToleranceBudget, EveryLinkCountsInItsChains) {
 TEST(ToleranceBudget, NoPlannerMultipliesTheToleranceByABareNumber) {
   const std::regex product(R"((^|[^\w.])\d+(\.\d*)?(e-?\d+)? \* ([a-z_]+\.)*tolerance|tolerance\w* \* \d)");
   int files = 0;
-  for (const char* room : {"fit", "strip", "cover", "choose", "obstacle", "setup", "pipeline"}) {
+  for (const char* room : {"fit", "strip", "cover", "choose", "trochoid", "obstacle", "setup", "pipeline"}) {
     for (const auto& entry :
          std::filesystem::recursive_directory_iterator(std::string(FLANK_SOURCE_DIR) + "/src/flank/" + room)) {
       if (entry.path().extension() != ".cpp") continue;

@@ -80,6 +80,16 @@ struct FitBudget {
   double between_samples = 0.03;
 };
 
+/// Cavities: depth in any face, in tolerances.
+struct CavityBudget {
+  /// Side paths, of which cycles get the rest: half paths leave them and reach them, and are deepest just off these ends.
+  double sides = 0.8;
+  /// What run-outs beyond the sides, and tips that are lifted off a floor, aim at.
+  double aim = 0.5;
+  /// Half paths, at the places where they are looked at; their joined poses, which finish nothing, may be so far off.
+  double halves = 0.9, half_chord = 0.1;
+};
+
 /// Shares of the tolerance, all in one.
 struct ToleranceBudget {
   /// How far the joined poses of a path may leave the motion: half a micrometre of 0.02 mm. Every chain has it.
@@ -88,6 +98,7 @@ struct ToleranceBudget {
   OtherFacesBudget others;
   ShankBudget shank;
   FitBudget fit;
+  CavityBudget cavity;
 };
 
 /// The budget of both planners.
@@ -113,6 +124,10 @@ inline constexpr ToleranceBudget kToleranceBudget{};
 /// A fitted tool in other faces.
 [[nodiscard]] constexpr double worst_of_fit_in_other_faces(const ToleranceBudget& budget) {
   return budget.others.fit_allowance + budget.others.soft_term + budget.chord;
+}
+/// A half path between the sides of a cavity.
+[[nodiscard]] constexpr double worst_of_halves(const ToleranceBudget& budget) {
+  return budget.cavity.halves + budget.cavity.half_chord;
 }
 /// Material that a residual within its dead zone leaves at a point.
 [[nodiscard]] constexpr double worst_left_by_dead_zone(const ToleranceBudget& budget) {

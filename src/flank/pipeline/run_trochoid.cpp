@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "flank/artefact/view.h"
+#include "flank/base/tolerance_budget.h"
 #include "flank/error.h"
 #include "flank/job/check_fields.h"
 #include "flank/pipeline/cavity_faces.h"
@@ -87,7 +88,7 @@ void check_job(const TrochoidJob& job) {
 
 SideFitOptions side_options(const TrochoidJob& job, const CavityFaces& faces) {
   SideFitOptions options;
-  options.fit.tolerance_mm = job.tolerance_mm;
+  options.fit.tolerance_mm = kToleranceBudget.cavity.sides * job.tolerance_mm;
   options.fit.axis_length_mm = job.tool.axis_length_mm;
   options.fit.bounds = radius_bounds(job.radius, job.obstacles, faces.sides.front().target->diagonal());
   options.fit.bounds.largest = job.radius.max_mm.value_or(kMostOfWidth * faces.narrowest_mm);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/base/tolerance_budget.h"
 #include "flank/trochoid/cycle_shape.h"
 
 namespace flank::internal {
@@ -255,16 +256,14 @@ bool CyclePlanner::enters_anything(const Trial& trial) const {
   // As dense as what is told of accepted halves, or they would be found to enter afterwards: deepest are places just off
   // the ends, where a half leaves a side that runs on past its face.
   constexpr int kTimes = 25, kPlaces = 9;
-  // Of the tolerance: what may lie between the looks has the rest, but where the ends alone are deeper.
-  constexpr double kAllowed = 0.9, kMost = 0.97;
-  const double ends = depth_at_ends(trial, kPlaces).deepest(), tolerance = options_.tolerance_mm;
-  const double allowed = std::clamp(kSpare * ends, kAllowed * tolerance, std::max(kMost * tolerance, ends));
-  return depth_of(trial, kTimes, kPlaces).deepest() > allowed;
+  const double allowed = kToleranceBudget.cavity.halves * options_.tolerance_mm;
+  return depth_of(trial, kTimes, kPlaces).deepest() > std::max(allowed, depth_at_ends(trial, kPlaces).deepest());
 }
 
 void CyclePlanner::lift(Trial& best) {
   constexpr int kTimes = 17, kPlaces = 5, kTries = 4;
-  const double allowed = std::max(0.5 * options_.tolerance_mm, kSpare * depth_at_ends(best, kPlaces).tip);
+  const double allowed =
+      std::max(kToleranceBudget.cavity.aim * options_.tolerance_mm, kSpare * depth_at_ends(best, kPlaces).tip);
   const double before = lift_, deepest = depth_of(best, kTimes, kPlaces).tip;
   double deep = deepest;
   Trial lifted = best;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "flank/base/tolerance_budget.h"
 #include "flank/trochoid/blank.h"
 #include "flank/trochoid/run_out.h"
 
@@ -13,8 +14,6 @@ namespace {
 constexpr int kSideRows = 201, kSideRings = 21;
 /// Way before and behind the sides, in the tool's radii: there the tool is out of the blank.
 constexpr double kRunOut = 1.5;
-/// Of a half path, which finishes nothing: how far its joined poses may be off, in tolerances.
-constexpr double kHalfChord = 0.1;
 constexpr double kLargestTurn = 4.5 * std::numbers::pi / 180.0;
 
 /// Left and right side path of a layer, in the order in which fronts use them. Milling is climb where a front goes to the
@@ -22,7 +21,7 @@ constexpr double kLargestTurn = 4.5 * std::numbers::pi / 180.0;
 LayerSides order_sides(const RuledMotion& left, const RuledMotion& right, const ProgramOptions& options, double radius,
                        const HalfGuard& guard) {
   SidePath a(left, false), b(right, false);
-  join_run_outs(a, b, radius, guard, 0.5 * options.cycles.tolerance_mm);
+  join_run_outs(a, b, radius, guard, kToleranceBudget.cavity.aim * options.cycles.tolerance_mm);
   const double middle = 0.5 * a.axis_length();
   const AxisPlace p = a.at(0.5 * a.length()), q = b.at(0.5 * b.length());
   const Vec3 forward = p.velocity(middle) + q.velocity(middle);
@@ -68,7 +67,8 @@ class ProgramWriter {
   }
   void add(const std::string& kind, const RuledMotion& motion) {
     SamplingOptions sampling;
-    sampling.chord_tolerance_mm = std::max(options_.chord_mm, kHalfChord * options_.cycles.tolerance_mm);
+    sampling.chord_tolerance_mm =
+        std::max(options_.chord_mm, kToleranceBudget.cavity.half_chord * options_.cycles.tolerance_mm);
     sampling.largest_turn_rad = kLargestTurn;
     SampledMotion sampled = sample_motion(motion, sampling);
     out_.chord_bound_mm = std::max(out_.chord_bound_mm, sampled.chord_bound_mm);
