@@ -56,6 +56,7 @@ Subcommand add_example(CLI::App& parser) {
   app->add_option("--length", cavity.length_mm, "Of the cavity: along its walls, mm")->capture_default_str();
   app->add_option("--twist", cavity.twist_deg, "Of the cavity: of its walls from end to end, degrees")
       ->capture_default_str();
+  app->add_option("--lean", cavity.lean_deg, "Of the cavity: of its walls outwards towards the top, degrees");
   app->add_option("--hollow", cavity.hollow_mm, "Of the cavity: how deep its walls are hollow, mm")
       ->capture_default_str();
   app->footer(

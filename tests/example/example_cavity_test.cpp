@@ -56,10 +56,20 @@ TEST(ExampleCavity, WallsAreAsHollowAsTheyAreAskedToBe) {
   EXPECT_NEAR(deepest, 1.0, 0.03) << "the cubic share moves the deepest place and adds 1.6 %";
 }
 
+// 200 mm deep walls that lean by 4 degrees are 14 mm nearer to each other at the bottom than in the middle, and meet.
+TEST(ExampleCavity, DeepWallsThatLeanLessDoNotMeet) {
+  const CavityShape deep{.width_mm = 25.0, .depth_mm = 200.0, .length_mm = 200.0, .twist_deg = 2.0};
+  EXPECT_THROW((void)cavity_walls(deep), UsageError);
+  CavityShape steep = deep;
+  steep.lean_deg = 0.5;
+  EXPECT_EQ(cavity_walls(steep).size(), 2u);
+}
+
 TEST(ExampleCavity, RefusesWallsThatMeet) {
   EXPECT_THROW((void)cavity_walls({.width_mm = 5.0}), UsageError);
   EXPECT_THROW((void)cavity_walls({.depth_mm = 0.0}), UsageError);
   EXPECT_THROW((void)cavity_walls({.twist_deg = 80.0}), UsageError);
+  EXPECT_THROW((void)cavity_walls({.lean_deg = 50.0}), UsageError);
 }
 
 }  // namespace

@@ -13,15 +13,14 @@ namespace flank::internal {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kLean = 4.0 * kDegree;  ///< of a wall, outwards towards the top
-constexpr double kBend = 0.03;           ///< of the S along the channel, share of its length
-constexpr double kSkewness = 0.25;       ///< the deepest place of the hollow lies above the middle
+constexpr double kBend = 0.03;      ///< of the S along the channel, share of its length
+constexpr double kSkewness = 0.25;  ///< the deepest place of the hollow lies above the middle
 
 /// Of the wall at +y, before it is moved outwards.
 Vec3 wall_point(const CavityShape& shape, double u, double v) {
   const double x = 2.0 * u - 1.0, h = 2.0 * v - 1.0;
   const double hollow = shape.hollow_mm * (1.0 - h * h) * (1.0 + kSkewness * h);
-  const double angle = 0.5 * shape.twist_deg * kDegree * x - kLean;
+  const double angle = 0.5 * shape.twist_deg * kDegree * x - shape.lean_deg * kDegree;
   const double out = hollow, up = 0.5 * shape.depth_mm * h;
   const double bend = kBend * shape.length_mm * (x * x * x - 0.6 * x);
   return {0.5 * shape.length_mm * x, bend + std::cos(angle) * out - std::sin(angle) * up,
@@ -47,10 +46,12 @@ std::vector<Face> cavity_walls(const CavityShape& shape) {
   if (!(shape.width_mm > 0.0 && shape.depth_mm > 0.0 && shape.length_mm > 0.0 && shape.hollow_mm >= 0.0))
     throw UsageError("width, depth and length of a cavity must be above 0 mm, and its hollow at least 0 mm");
   if (!(std::abs(shape.twist_deg) <= 60.0)) throw UsageError("the twist of a cavity must lie in [-60, 60] degrees");
+  if (!(std::abs(shape.lean_deg) <= 45.0))
+    throw UsageError("the lean of the walls of a cavity must lie in [-45, 45] degrees");
   const auto [low, high] = extent(shape);
   const double out = 0.5 * shape.width_mm - high;
   if (!(low + out > 0.0))
-    throw UsageError("the walls of a cavity of this width would meet: twist, hollow and depth leave " +
+    throw UsageError("the walls of a cavity of this width would meet: lean, twist, hollow and depth leave " +
                      std::to_string(2.0 * (low + out)) + " mm between them; a width above " +
                      std::to_string(2.0 * (high - low)) + " mm is needed");
   constexpr int kAlong = 24, kUp = 16;

@@ -13,6 +13,7 @@ struct CavityShape {
   double depth_mm = 42.0;   ///< along a wall, from its bottom to its top
   double length_mm = 50.0;  ///< along the channel
   double twist_deg = 16.0;  ///< of both walls about x, from one end to the other
+  double lean_deg = 4.0;    ///< of a wall, outwards towards the top: deep cavities have less, or their walls meet
   /// How deep a wall is hollow between its bottom and its top, mm. A cone leaves about half of it.
   double hollow_mm = 1.0;
 };
@@ -20,7 +21,7 @@ struct CavityShape {
 /// Both walls, F1 at +y and F2 at -y, open sheets that look at each other; half a turn about z carries each into the other.
 /// Every section across the channel is the same hollow profile, leaning outwards towards the top, turned by the twist and
 /// shifted along an S: smooth, not ruled, and no envelope of a tool. Throws UsageError for sizes that are not > 0, a twist
-/// beyond 60 degrees and walls that would meet.
+/// beyond 60 or a lean beyond 45 degrees, and walls that would meet.
 [[nodiscard]] std::vector<Face> cavity_walls(const CavityShape& shape);
 
 }  // namespace flank::internal

@@ -60,7 +60,7 @@ CavityFaces cavity_faces(const TrochoidJob& job, const Setup& setup) {
     turn[g] = !plus[g].of_solid && looks_at(*plus[g].target, *plus[1 - g].target) < 0.5;
   for (const std::size_t g : {left, right}) out.sides.push_back(std::move(turn[g] ? minus[g] : plus[g]));
   check_facing(job, *out.sides[0].target, *out.sides[1].target);
-  out.narrowest_mm = narrowest(*out.sides[0].target, *out.sides[1].target);
+  out.width = width_between(side_of(out.sides[0]), side_of(out.sides[1]));
   return out;
 }
 

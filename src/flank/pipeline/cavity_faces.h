@@ -6,13 +6,21 @@
 
 #include "flank/setup/setup.h"
 #include "flank/setup/targets.h"
+#include "flank/trochoid/side_fit.h"
 
 namespace flank::internal {
 
+/// Largest radius of a tool, as a share of the width of the cavity: thicker, and no cycle has room.
+inline constexpr double kMostOfWidth = 0.38;
+
 struct CavityFaces {
   std::vector<TargetGroup> sides;  ///< left, right
-  double narrowest_mm = 0.0;       ///< between them
+  CavityWidth width;               ///< between them, at first as if nothing else were there
 };
+
+[[nodiscard]] inline CavitySide side_of(const TargetGroup& group) {
+  return {group.target.get(), group.obstacles.get()};
+}
 
 /// Throws InputError, with the figure that shows it, for sides that are not two, or do not face each other.
 [[nodiscard]] CavityFaces cavity_faces(const TrochoidJob& job, const Setup& setup);

@@ -1,6 +1,7 @@
 #include "flank/pipeline/cavity_search.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "flank/base/tolerance_budget.h"
@@ -10,8 +11,6 @@ namespace flank::internal {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-/// Bounds of the radius, as shares of the largest: a thick tool makes a short path.
-constexpr double kBounds[] = {1.0, 0.75, 0.55, 0.4};
 /// Where a search begins below its bound, and the least radius there may be as a share of that: the engagement of a thin
 /// end bounds the steps of the whole tool, so a stout one comes first.
 constexpr double kBegin = 0.92, kStout = 0.55, kThin = 0.3;
@@ -27,8 +26,7 @@ bool sides_are_done(const SideFit& sides, const TrochoidJob& job) {
 /// As many layers as the tolerance needs, or as many as are asked for.
 SideFit search_sides(const TrochoidJob& job, const CavityFaces& faces, const ToolModel& tool, SideFitOptions options,
                      const Progress& progress) {
-  const CavitySide left{faces.sides[0].target.get(), faces.sides[0].obstacles.get()};
-  const CavitySide right{faces.sides[1].target.get(), faces.sides[1].obstacles.get()};
+  const CavitySide left = side_of(faces.sides[0]), right = side_of(faces.sides[1]);
   SideFit best;
   const int first = job.cycles.layers > 0 ? job.cycles.layers : 1, last = job.cycles.layers > 0 ? first : kMostLayers;
   for (int layers = first; layers <= last; ++layers) {
@@ -62,10 +60,31 @@ CavityProgram plan(const TrochoidJob& job, const CavityFaces& faces, const SideF
                       options, progress);
 }
 
-/// What is better comes first: cycles that get through, then sides.
+/// Bounds of the radius from thick to thin: a thick tool makes a short path. Where the cavity is narrow at few places alone, a
+/// tool that is thin at one end may have the room of most places at the other.
+std::vector<double> bounds_of(double narrow, double wide) {
+  constexpr double kMuchWider = 1.6;
+  std::vector<double> bounds;
+  if (wide > kMuchWider * narrow) bounds = {wide, std::sqrt(wide * narrow)};
+  for (const double share : {1.0, 0.75, 0.55, 0.4}) bounds.push_back(share * narrow);
+  return bounds;
+}
+
+/// Of the way of the sides, how much the cycles cleared: mean over the layers.
+double cleared(const CavityPlan& plan) {
+  if (plan.program.done()) return 1.0;
+  double sum = 0.0;
+  for (const PlannedLayer& layer : plan.program.layers) sum += layer.share;
+  return sum / static_cast<double>(std::max<std::size_t>(2, plan.sides.fit.motions.size()) / 2);
+}
+
+/// What is better comes first: cycles that get through, then what they let the sides cover, then sides.
 bool is_better(const CavityPlan& a, const CavityPlan& b, double tolerance) {
   if (a.sides.fit.motions.empty() != b.sides.fit.motions.empty()) return b.sides.fit.motions.empty();
   if (a.program.done() != b.program.done()) return a.program.done();
+  const double finished_a = cleared(a) * a.sides.fit.after.at_tolerance;
+  const double finished_b = cleared(b) * b.sides.fit.after.at_tolerance;
+  if (!a.program.done() && finished_a != finished_b) return finished_a > finished_b;
   return a.sides.fit.after.score(tolerance) > b.sides.fit.after.score(tolerance);
 }
 
@@ -75,9 +94,10 @@ CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const
                          const SideFitOptions& options, const Progress& progress) {
   CavityPlan best;
   const bool given = !tool.free() && tool.radius;
-  for (const double share : kBounds) {
+  const double wide = job.radius.max_mm ? 0.0 : kMostOfWidth * faces.width.median_mm;
+  for (const double bound : bounds_of(options.fit.bounds.largest, wide)) {
     SideFitOptions here = options;
-    here.fit.bounds.largest *= share;
+    here.fit.bounds.largest = bound;
     here.fit.bounds.smallest = std::min(here.fit.bounds.smallest, 0.5 * here.fit.bounds.largest);
     const double radius = given ? *tool.radius : kBegin * here.fit.bounds.largest;
     here.starts = {{radius, kStout}};

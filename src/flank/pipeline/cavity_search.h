@@ -19,8 +19,8 @@ struct CavityPlan {
 
 /// The first tool whose sides are done and whose cycles get through, of bounds from thick to thin; if there is none, the one
 /// whose cycles get through and whose sides are best; else the one whose sides are best. The search ends where a thinner bound
-/// gains nothing. `options.fit.bounds.largest` is the
-/// thickest bound. A tool that is given is tried alone.
+/// gains nothing. `options.fit.bounds.largest` is what the narrowest place has room for; where most of the cavity is much
+/// wider, thicker bounds come first, unless the job has one. A tool that is given is tried alone.
 [[nodiscard]] CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const ToolModel& tool,
                                        const SideFitOptions& options, const Progress& progress);
 

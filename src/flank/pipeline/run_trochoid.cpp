@@ -77,9 +77,6 @@ namespace flank {
 using namespace internal;
 namespace {
 
-/// Largest radius of a tool, as a share of the width of the cavity: thicker, and no cycle has room.
-constexpr double kMostOfWidth = 0.38;
-
 void check_job(const TrochoidJob& job) {
   check_fields(job);
   if (job.radius.max_mm && !(*job.radius.max_mm > job.radius.min_mm.value_or(0.0)))
@@ -91,11 +88,21 @@ SideFitOptions side_options(const TrochoidJob& job, const CavityFaces& faces) {
   options.fit.tolerance_mm = kToleranceBudget.cavity.sides * job.tolerance_mm;
   options.fit.axis_length_mm = job.tool.axis_length_mm;
   options.fit.bounds = radius_bounds(job.radius, job.obstacles, faces.sides.front().target->diagonal());
-  options.fit.bounds.largest = job.radius.max_mm.value_or(kMostOfWidth * faces.narrowest_mm);
+  options.fit.bounds.largest = job.radius.max_mm.value_or(kMostOfWidth * faces.width.narrowest_mm);
   options.fit.bounds.smallest = std::min(options.fit.bounds.smallest, 0.5 * options.fit.bounds.largest);
   options.fit.reach_radius_mm = job.judge.reach_radius_mm.value_or(0.0);
   options.least_coverage = job.judge.least_coverage;
   return options;
+}
+
+/// What the flank keeps clear of, and how wide the cavity is where a tool comes.
+void surround(const TrochoidJob& job, const Setup& setup, CavityFaces& faces, std::vector<std::string>& notes) {
+  const double thick = job.radius.max_mm.value_or(kMostOfWidth * faces.width.median_mm);
+  add_group_obstacles(setup, job.obstacles.clearance_mm, thick, faces.sides, notes);
+  faces.width = width_between(side_of(faces.sides[0]), side_of(faces.sides[1]));
+  if (!(faces.width.narrowest_mm > 0.0))
+    throw InputError(
+        "left", job.left + ": other faces cover every place of it; nothing can be milled between it and " + job.right);
 }
 
 /// From the floor to the middle of the sides.
@@ -167,7 +174,7 @@ void take(const CavityPlan& plan, const TrochoidJob& job, const ToolSpec& spec, 
   if (!legitimacy.legitimate) result.notes.push_back("the tool is not legitimate: " + legitimacy.reason);
   result.path = plan.program.path;
   result.chord_bound_mm = plan.program.chord_bound_mm;
-  result.plan = summary_of(job, plan.sides, plan.program, faces.narrowest_mm);
+  result.plan = summary_of(job, plan.sides, plan.program, faces.width.narrowest_mm);
   if (plan.tools > 1)
     result.notes.push_back(
         fmt::format("{} bounds of the radius were tried, from thick to thin: this tool was found "
@@ -203,17 +210,16 @@ Result run_trochoid(const TrochoidJob& job, const Progress& progress) {
   CavityFaces faces = cavity_faces(job, setup);
   const bool with_body = job.obstacles.shank_length_mm || job.obstacles.holder || (spec.tool && has_body(*spec.tool));
   const ClearanceScene scene = make_clearance_scene(setup, job.obstacles, with_body, result.notes);
+  if (job.avoid) surround(job, setup, faces, result.notes);
   SideFitOptions options = side_options(job, faces);
   options.up = up_from_floor(job, setup, faces);
-  if (job.avoid)
-    add_group_obstacles(setup, job.obstacles.clearance_mm, options.fit.bounds.largest, faces.sides, result.notes);
   watch.lap("read");
 
   const CavityPlan plan = search_cavity(job, faces, make_tool_model(spec), options, progress);
   if (plan.sides.fit.motions.empty())
     throw InputError("left", fmt::format("no tool of radius up to {:.4g} mm finds an axis that is free in the cavity, "
                                          "{:.3f} mm wide at its narrowest",
-                                         options.fit.bounds.largest, faces.narrowest_mm));
+                                         options.fit.bounds.largest, faces.width.narrowest_mm));
   take(plan, job, spec, faces, result);
   watch.lap("cycles");
   result.complete = !progress.stop();

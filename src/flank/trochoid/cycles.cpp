@@ -39,6 +39,9 @@ struct Trial {
   [[nodiscard]] double worth() const { return way_mm > 0.0 ? volume_mm3 / way_mm : 0.0; }
 };
 
+/// How deep a cylinder's cut is that engages so far, in radii: it grows with the step, about linearly.
+double depth_of_cut(double engagement_rad) { return std::max(1e-3, 1.0 - std::cos(engagement_rad)); }
+
 bool cuts_nothing(const Trial& trial) { return !(trial.largest_rad > 0.0 || trial.volume_mm3 > 0.0); }
 
 class CyclePlanner {
@@ -136,29 +139,29 @@ Trial CyclePlanner::tried(double step, const CycleShape& shape, bool measured) {
 }
 
 Trial CyclePlanner::longest_step(const CycleShape& shape, double guess) {
-  const double most = 1.2 * radius_;
-  double low = 0.0, f_low = -aim_, high = 0.0, f_high = 0.0;
+  const double most = 1.2 * radius_, goal = depth_of_cut(aim_ - 0.5 * kAimBand);
+  double low = 0.0, low_depth = 0.0, high = 0.0, high_depth = 0.0;
   Trial best;
   best.largest_rad = -1.0;
   double step = std::clamp(guess, kLeastStep * radius_, most);
   for (int k = 0; k < 12; ++k) {
     Trial trial = tried(step, shape, true);
-    const double f = trial.largest_rad - aim_;
-    if (f <= 0.0) {
-      low = step, f_low = f;
+    const double depth = depth_of_cut(trial.largest_rad);
+    if (trial.largest_rad <= aim_) {
+      low = step, low_depth = depth;
       best = std::move(trial);
-      if (f > -kAimBand || step >= most) break;
+      if (best.largest_rad > aim_ - kAimBand || step >= most) break;
     } else {
-      high = step, f_high = f;
+      high = step, high_depth = depth;
       refused_ = step;
     }
     if (high == 0.0) {
-      step = std::min(most, step * (f_low < -0.3 ? 1.8 : 1.25));
+      step = std::min(most, step * std::clamp(goal / low_depth, 1.02, 1.8));
       continue;
     }
     if (high - low < 0.3 * kLeastStep * radius_) break;
     // Regula falsi, kept off the ends of the bracket: the engagement may jump.
-    const double share = std::clamp(-f_low / (f_high - f_low), 0.15, 0.9);
+    const double share = std::clamp((goal - low_depth) / (high_depth - low_depth), 0.15, 0.9);
     step = low + share * (high - low);
   }
   return best;
@@ -166,6 +169,7 @@ Trial CyclePlanner::longest_step(const CycleShape& shape, double guess) {
 
 void CyclePlanner::improve(Trial& best) {
   if (!options_.optimise || best.largest_rad < 0.0 || best.worth() <= 0.0) return;
+  constexpr double kBetter = 1.002;
   constexpr int kVariables = 3;  // of seven, in turn: shapes change little from cycle to cycle
   for (int k = 0; k < kVariables; ++k) {
     const std::size_t v = turn_++ % shape_.share.size();
@@ -174,8 +178,13 @@ void CyclePlanner::improve(Trial& best) {
       CycleShape shape = shape_;
       shape.share[v] = std::clamp(shape.share[v] + sign * span_[v], kLeastShare[v], kMostShare[v]);
       if (shape.share[v] == shape_.share[v]) continue;
-      const Trial trial = longest_step(shape, best.from_x - last_.from_x);
-      if (trial.largest_rad < 0.0 || !(trial.worth() > 1.002 * best.worth())) continue;
+      const double step = best.from_x - last_.from_x;
+      // What it would be worth at the aim is known well enough to see what is not worth a search.
+      const Trial probe = tried(step, shape, true);
+      const double longer = depth_of_cut(aim_) / depth_of_cut(probe.largest_rad);
+      if (longer * probe.worth() <= depth_of_cut(aim_) / depth_of_cut(best.largest_rad) * best.worth()) continue;
+      const Trial trial = longest_step(shape, longer * step);
+      if (trial.largest_rad < 0.0 || !(trial.worth() > kBetter * best.worth())) continue;
       if (enters_anything(trial)) continue;
       best = trial;
       shape_ = shape;

@@ -129,11 +129,18 @@ bool is_done(const CoverageEstimate& e, const SideFitOptions& options) {
 
 }  // namespace
 
-double narrowest(const Target& left, const Target& right) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const SurfaceSample& sample : left.samples(std::sqrt(left.area()) / 30.0))
-    least = std::min(least, (right.closest(sample.point).point - sample.point).norm());
-  return least;
+CavityWidth width_between(const CavitySide& left, const CavitySide& right) {
+  constexpr double kSmallBall = 0.1;  // of the width there: it would be free at a wall that no other face covers
+  std::vector<double> widths;
+  for (const SurfaceSample& sample : left.target->samples(std::sqrt(left.target->area()) / 30.0)) {
+    const double width = (right.target->closest(sample.point).point - sample.point).norm();
+    if (left.obstacles == nullptr ||
+        left.obstacles->reachable(sample, kSmallBall * width, left.obstacles->allowance_mm()))
+      widths.push_back(width);
+  }
+  if (widths.empty()) return {};
+  std::sort(widths.begin(), widths.end());
+  return {widths.front(), widths[widths.size() / 2]};
 }
 
 double facing(const Target& left, const Target& right) {

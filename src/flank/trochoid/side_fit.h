@@ -30,8 +30,14 @@ struct SideFit {
   int tried_radii = 0;
 };
 
-/// Least distance of the two sides from each other, mm: over samples of the left one.
-[[nodiscard]] double narrowest(const Target& left, const Target& right);
+/// Distances of the two sides from each other, mm, over samples of the left one.
+struct CavityWidth {
+  double narrowest_mm = 0.0, median_mm = 0.0;
+};
+
+/// Of samples at which something can be milled: where another face covers the side, or the sides meet below it, it has no width.
+/// Zero if no place is free.
+[[nodiscard]] CavityWidth width_between(const CavitySide& left, const CavitySide& right);
 
 /// Cosine of the angle between the normals of sides that face each other, mean over samples: -1 for parallel walls, above
 /// 0 they do not face.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "flank/base/assert.h"
@@ -68,12 +69,17 @@ void EngagementMeter::gather(const Frame& frame, const Sweep& sweep, int index, 
                              int stride) {
   const double length = sweep.axis_length, reach = stock_.profile().largest() + disc.radius;
   const Vec3 centre = frame.axis.at(0.5 * length) + disc.x * frame.x + disc.y * frame.y;
+  // Of another tool, how far it reaches from its middle along its axis.
+  const double half = std::max(stock_.profile().high() - 0.5 * length, 0.5 * length - stock_.profile().low());
   // How far a bundle of axes may be away and still reach the disc: tilts bring them nearer at one end.
   const auto beyond = [&](const Vec3& middle, double spread, double tilt) {
     const Vec3 apart = middle - centre;
     const double along = apart.dot(frame.axis.u), across2 = apart.squaredNorm() - along * along;
     const double most = spread + reach + (0.75 * length + std::abs(along)) * tilt;
-    return across2 > most * most;
+    if (across2 > most * most) return true;
+    // Layers above or below: their tools do not come down or up to these rings.
+    const double height = along + 0.5 * length, slack = half + spread + most * tilt;
+    return height + slack < disc.low || height - slack > disc.high;
   };
   if (beyond(sweep.whole.middle, sweep.whole.reach, (sweep.direction - frame.axis.u).norm() + sweep.turn)) return;
   for (std::size_t c = 0; c < sweep.chunks.size(); ++c) {
@@ -99,6 +105,7 @@ bool EngagementMeter::meets(const Frame& frame, const SweepPose& pose, const Dis
   out.dx = u.dot(frame.x) / forward, out.dy = u.dot(frame.y) / forward;
   out.x0 = d.dot(frame.x) - up * out.dx, out.y0 = d.dot(frame.y) - up * out.dy;
   out.h0 = -up / forward, out.dh = 1.0 / forward;
+  if (out.h0 + disc.high * out.dh < low || out.h0 + disc.low * out.dh > high) return false;
   // Nearest that the axis comes to the disc over the heights of the tool.
   const double ax = out.x0 + low * out.dx - disc.x, ay = out.y0 + low * out.dy - disc.y;
   const double ex = (high - low) * out.dx, ey = (high - low) * out.dy, e2 = ex * ex + ey * ey;
@@ -110,15 +117,17 @@ bool EngagementMeter::meets(const Frame& frame, const SweepPose& pose, const Dis
 EngagementMeter::Disc EngagementMeter::disc_of_found(std::span<const ToolRing> rings) const {
   constexpr double kSpare = 1.02;
   Box3 box;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const RingArc& found : found_) {
-    const double r = rings[found.ring].radius;
+    const double r = rings[found.ring].radius, z = rings[found.ring].z;
+    low = std::min(low, z), high = std::max(high, z);
     for (int k = 0; k <= 4; ++k) {
       const double angle = found.motion_angle + found.arc.low + 0.25 * k * (found.arc.high - found.arc.low);
       box.add(Vec3(r * std::cos(angle), r * std::sin(angle), 0.0));
     }
   }
   const Vec3 centre = box.center();
-  return {centre.x(), centre.y(), kSpare * 0.5 * box.diagonal()};
+  return {centre.x(), centre.y(), kSpare * 0.5 * box.diagonal(), low, high};
 }
 
 void EngagementMeter::engage_all(const Frame& frame, std::span<const ToolRing> rings, bool rough) {
@@ -138,7 +147,7 @@ void EngagementMeter::find_arcs(const Frame& frame, double t, std::span<const To
   };
   own_last_ = t * kOwnIntervals - 1.0;
   candidates_.clear();
-  const Disc all{0.0, 0.0, stock_.profile().largest()};
+  const Disc all{0.0, 0.0, stock_.profile().largest(), stock_.profile().low(), stock_.profile().high()};
   look(sweeps.size() > kRecent ? sweeps.size() - kRecent : 0, all, kStride);
   // What the first look covers stays covered: the disc holds what it left open, and nothing else.
   if (!found_.empty()) look(0, disc_of_found(rings), 1);

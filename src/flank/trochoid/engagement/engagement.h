@@ -77,6 +77,7 @@ class EngagementMeter {
   /// In that frame, seen along the axis: where earlier poses matter.
   struct Disc {
     double x = 0.0, y = 0.0, radius = 0.0;
+    double low = 0.0, high = 0.0;  ///< heights of its rings over the tip, mm
   };
   /// An arc and the ring that it is on.
   struct RingArc {
