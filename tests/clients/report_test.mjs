@@ -117,6 +117,32 @@ test('what a machine does is shown once there is a program', async () => {
   await page.close();
 });
 
+test('cycles of a cavity are shown as planned and as replayed', async () => {
+  const copy = without(folder, 'cavity');
+  const layer = { status: 'done', cycles: 2, fronts: 40, backs: 30, sides: 20, links: 5, volume: 900, side_volume: 1, front_engagement: 59.5,
+    back_engagement: 31, side_engagement: 4, entered: 0, cycle_engagement: [12, 59.5], cycle_volume: [100, 800], cycle_way: [30, 40] };
+  const stuck = { ...layer, status: 'stuck', cycles: 1, cycle_engagement: [20], cycle_volume: [10], cycle_way: [0] };
+  const summary = json(copy, 'summary.json'), verify = json(copy, 'verify.json');
+  summary.cavity = { narrowest: 20, engagement: 59.5, most_engagement: 60, way: 130, minutes: 0.2, layers: [layer, stuck] };
+  verify.stock = { before_mm3: 5000, left_mm3: 4100, engagement_deg: 60.25, strip_engagement_deg: [0, 60.25, 30], strip_volume_mm3: [0, 850, 50], strip_way_mm: [10, 60, 60] };
+  writeFileSync(join(copy, 'summary.json'), JSON.stringify(summary));
+  writeFileSync(join(copy, 'verify.json'), JSON.stringify(verify));
+  must('report', copy, '--quiet');
+  const page = await open(copy);
+  assert.deepEqual(page.complaints, []);
+  assert.equal(await page.value(`document.querySelectorAll('#cavity svg').length`), 4);
+  assert.equal(await page.value(`document.querySelectorAll('#cavity tbody tr').length`), 2);
+  const words = await page.value(text('#cavity'));
+  assert.match(words, /2stuck/);
+  assert.match(words, /at most 60\.25 degrees/);
+  assert.match(words, /at most 20\.0 mm³/);
+  assert.equal(await page.value(`document.querySelectorAll('#cavity rect.bar').length`), 3);
+  await page.close();
+  const plain = await open(folder);
+  assert.equal(await plain.value(`document.querySelector('#cavity') === null`), true);
+  await plain.close();
+});
+
 test('layers, colours and cameras change the picture', async () => {
   const page = await open(folder);
   const seen = [await page.value('document.querySelector("#canvas").toDataURL()')];

@@ -1,4 +1,5 @@
 // Puts the page together from what lies in the folder; what is missing is said, not hidden.
+import { cavityCharts } from './cavity.js';
 import { PathCharts, histogram } from './charts.js';
 import { packed } from './data.js';
 import { byId, html } from './dom.js';
@@ -72,6 +73,7 @@ function still(files, go) {
     part('spread', () => byId('histogram').append(histogram(verify)));
   } else for (const id of ['worst', 'spread']) byId(id).remove();
   view ? part('tool', () => byId('profile').append(profile(view.tool))) : byId('tool').remove();
+  files.summary?.cavity ? part('cavity', () => byId('cycles').append(cavityCharts(files.summary.cavity, verify?.stock))) : byId('cavity').remove();
   files.motion ? part('machine', () => byId('motion').append(motionCharts(files.motion))) : byId('machine').remove();
   part('origin', () => byId('made').append(made(files, document.querySelector('meta[name=generator]').content)));
 }
