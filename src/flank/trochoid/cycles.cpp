@@ -102,6 +102,7 @@ class CyclePlanner {
   double step_ = 0.0, lift_ = 0.0, refused_ = 0.0;
   double largest_front_ = 0.0;  ///< volume, mm^3
   std::size_t turn_ = 0;
+  int improved_ = 0;  ///< cycles whose shape was searched
 };
 
 double CyclePlanner::partner(double from_x, const CycleShape& shape) const {
@@ -170,8 +171,10 @@ Trial CyclePlanner::longest_step(const CycleShape& shape, double guess) {
 void CyclePlanner::improve(Trial& best) {
   if (!options_.optimise || best.largest_rad < 0.0 || best.worth() <= 0.0) return;
   constexpr double kBetter = 1.002;
-  constexpr int kVariables = 3;  // of seven, in turn: shapes change little from cycle to cycle
-  for (int k = 0; k < kVariables; ++k) {
+  // Of seven, in turn: shapes change little from cycle to cycle. The first ones, which begin with a guess, try them all.
+  constexpr int kVariables = 3, kFirst = 8;
+  const int count = ++improved_ <= kFirst ? static_cast<int>(shape_.share.size()) : kVariables;
+  for (int k = 0; k < count; ++k) {
     const std::size_t v = turn_++ % shape_.share.size();
     bool better = false;
     for (const double sign : {1.0, -1.0}) {
