@@ -29,11 +29,11 @@ demo: command  ## make a twisted blade, fit a tool and its motion to it, and jud
 	$(FLANK) fit out/demo/blade.step --face F1 -o out/demo
 	$(FLANK) report out/demo || echo "(built without the report page: no npm)"
 
-test:  ## build and run all tests, those of the Python module among them
+test:  ## build and run all tests, those of the Python module among them; other programs open what we write in test-clients
 	scripts/install-deps.sh build python
 	cmake --preset release
 	cmake --build --preset release --parallel $(JOBS)
-	ctest --preset release --parallel $(JOBS)
+	ctest --preset release --parallel $(JOBS) --label-exclude '^clients$$'
 
 test-clients: deps build  ## open what we write in Chromium, FreeCAD and LinuxCNC, which are installed if they are missing
 	scripts/install-deps.sh clients

@@ -18,7 +18,7 @@ class SweepCli : public Cli {
     return plan(
         "schema = \"openflank/sweep-plan/1\"\ncommand = \"cover\"\npart = \"blade.step\"\nfaces = [\"F1\"]\n"
         "tools = [\"cylinder:radius=6\", \"cylinder:radius=3\"]\n" +
-        more + "[options]\ntolerance_mm = 0.3\nstrips = 1\naxis_length_mm = 15\n");
+        more + "[options]\ntolerance_mm = 2.5\nstrips = 1\naxis_length_mm = 30\n");
   }
   /// Every file below a folder.
   [[nodiscard]] static std::map<std::string, std::string> files(const fs::path& folder) {
@@ -71,7 +71,7 @@ TEST_F(SweepCli, APlanIsRefusedByItsLineBeforeAnythingRuns) {
 
 TEST_F(SweepCli, TheSameBytesForAnyNumberOfProcesses) {
   if (kSanitized) GTEST_SKIP() << "whole covers, several times; one task's death and refusals are tested there";
-  const std::string file = good_plan("[variants.coarse]\n[variants.fine]\ntolerance_mm = 0.2\n");
+  const std::string file = good_plan("[variants.coarse]\n[variants.fine]\ntolerance_mm = 1.5\n");
   const Outcome one = flank({"sweep", file, "-o", path("one"), "--processes", "1", "--json"});
   ASSERT_TRUE(one.exit_code == 0 || one.exit_code == 1) << one.err;
   const std::map<std::string, std::string> kept = files(root_ / "one");
@@ -89,7 +89,7 @@ TEST_F(SweepCli, TheSameBytesForAnyNumberOfProcesses) {
   EXPECT_EQ(table["complete"], true);
   const auto summary = nlohmann::json::parse(kept.at("F1-2-fine/summary.json"));
   EXPECT_EQ(table["tasks"][3]["coverage_reachable"], summary["coverage_reachable"]);
-  EXPECT_EQ(summary["tolerance"], 0.2);
+  EXPECT_EQ(summary["tolerance"], 1.5);
   if (kept.contains("F1-1-coarse/report.html")) {
     EXPECT_NE(kept.at("sweep.html").find("href=\"F1-1-coarse/report.html\""), std::string::npos);
   }
@@ -111,7 +111,7 @@ TEST_F(SweepCli, ResumeKeepsWhatIsWholeAndWasAskedForAlike) {
   EXPECT_GT(time("F1-2/tool.json"), lost);
   // Another tolerance is another task.
   std::string text = read_file(file);
-  text.replace(text.find("0.3"), 3, "0.4");
+  text.replace(text.find("2.5"), 3, "2.6");
   write_file(file, text);
   (void)flank({"sweep", file, "-o", path("out"), "--resume"});
   EXPECT_GT(time("F1-1/tool.json"), before);
