@@ -6,19 +6,20 @@
 namespace flank::internal {
 namespace {
 
-/// Mean direction of both ways over their last quarter at an end, along x. Not across the axis: where it leans along the way
-/// that would lead down into the floor, or for ever along the end of the blank.
+/// Mean direction of both ways over their last quarter at an end, along x, across the axis.
 Vec3 common_direction(const SidePath& a, const SidePath& b, bool end) {
   constexpr double kShare = 0.25;  // the last velocities of a fitted motion alone may be off
   const double middle = 0.5 * a.axis_length();
-  Vec3 sum = Vec3::Zero();
+  Vec3 sum = Vec3::Zero(), up = Vec3::Zero();
   for (const SidePath* path : {&a, &b}) {
     const double x = end ? path->length() : 0.0, inner = end ? (1.0 - kShare) * x : kShare * path->length();
     const AxisPlace outer = path->at(x);
     const Vec3 way = outer.at(middle) - path->at(inner).at(middle);
     sum += (end ? way : Vec3(-way)).normalized();
+    up += outer.u;
   }
-  return sum.normalized();
+  up.normalize();
+  return (sum - sum.dot(up) * up).normalized();
 }
 
 /// How both paths leave one end.
