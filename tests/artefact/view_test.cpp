@@ -12,6 +12,7 @@
 #include "flank/example/example.h"
 #include "flank/setup/setup.h"
 #include "flank/setup/targets.h"
+#include "sanitized.h"
 
 namespace flank::internal {
 namespace {
@@ -214,6 +215,7 @@ TEST(View, AMeshKeepsItsFacesAndACoarseTargetIsDivided) {
 }
 
 TEST(View, AVeryFineMeshIsDrawnCoarser) {
+  if (kThreadSanitized) GTEST_SKIP() << "minutes, on one thread";
   constexpr int kSide = 600;
   Part part;
   part.mesh_faces.resize(1);

@@ -85,6 +85,7 @@ TEST(FitAutomatic, CancelledItPolishesOnlyTheBestCandidate) {
 }
 
 TEST(FitAutomatic, TheAxisHasTheLengthThatIsAskedFor) {
+  if (kThreadSanitized) GTEST_SKIP() << "a minute; its threads are those of every automatic fit";
   const auto blade = standing_blade(0.0);
   FlankFitOptions options = small_options();
   EXPECT_GT(fit_automatic(*blade, given_cylinder(5.0), options, {}).motions.front().axis_length, 40.0);
