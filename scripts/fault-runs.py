@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Whole commands in which every call that changes the disk fails once, in turn, or is the last one before a kill.
 
-usage: fault-runs.py FLANK FAULT_SHIM [--commands verify,report,fit,cover] [--every N]
+usage: fault-runs.py FLANK FAULT_SHIM [--commands verify,report,fit,cover] [--every N] [--allocations N]
 
 FAULT_SHIM is tests/libfault_shim.so of the build. After each run the folder must hold the old result whole or the new
 one whole, by the hashes of its manifest, and nothing may lie about once the next command has opened it; the exit code
-must be one that the README names. Then each command runs with ever less memory: it ends, or says what is missing, and
-does not crash. Exit code: 1 if anything is found.
+must be one that the README names. Then each command runs with ever less memory, and with single allocations that fail,
+so many of them, spread over the run: it ends, or says what is missing, and does not crash. Exit code: 1 if anything is
+found.
 """
 import argparse
 import errno
@@ -30,14 +31,30 @@ class Runs:
         self.out, self.old = os.path.join(folder, "out"), os.path.join(folder, "old")
         part = os.path.join(folder, "blade.step")
         self.call(["example", "ruled-blade", "-o", part])
-        fit = ["fit", part, "--face", "F1", "--tolerance", "1", "--tool", "cylinder:radius=2", "--axis-length", "20",
-               "--strips", "1", "-o", self.out]
+        first = ["fit", part, "--face", "F1", "--tolerance", "1", "--tool", "cylinder:radius=2", "--axis-length", "20",
+                 "--strips", "1", "-o", self.out]
         cover = ["cover", part, "--face", "F1", "--tolerance", "1", "--tool", "cylinder:radius=2", "--axis-length", "20",
                  "-o", self.out]
+        self.call(first)
+        # From a start there is no search, so that a run takes a second.
+        guide, tool = os.path.join(folder, "guide.txt"), os.path.join(folder, "tool.json")
+        shutil.copy(os.path.join(self.out, "tool.json"), tool)
+        self.write_guide(guide)
+        fit = ["fit", part, "--face", "F1", "--tolerance", "1", "--tool", tool, "--guide", guide, "-o", self.out]
         self.commands = {"fit": fit, "cover": cover, "verify": ["verify", self.out], "report": ["report", self.out]}
         self.call(fit)
         shutil.copytree(self.out, self.old)
         self.finds = []
+
+    def write_guide(self, file):
+        """A few axes of the path in the folder."""
+        with open(os.path.join(self.out, "path.json"), encoding="utf-8") as stream:
+            poses = json.load(stream)["strips"][0]["poses"]
+        with open(file, "w", encoding="utf-8") as stream:
+            for k in range(8):
+                pose = poses[k * (len(poses) - 1) // 7]
+                tip, axis = pose[:3], pose[3:6]
+                stream.write(" ".join(str(x) for x in [*tip, *(t + 20 * a for t, a in zip(tip, axis))]) + "\n")
 
     def call(self, words, environment=None, limit=None, pass_fds=()):
         def limits():
@@ -101,6 +118,33 @@ class Runs:
                     print(self.finds[-1], flush=True)
         print(f"{name}: {calls} calls, {runs} runs", flush=True)
 
+    def failing_allocations(self, name, count):
+        words = self.commands[name] + ["--threads", "1"]
+
+        def run(at):
+            self.restore()
+            ours, theirs = os.pipe()
+            done = self.call(words, {"LD_PRELOAD": self.shim, "FLANK_FAULT_ALLOCATION": str(at),
+                                     "FLANK_FAULT_COUNT": str(theirs)}, pass_fds=(theirs,))
+            os.close(theirs)
+            with os.fdopen(ours, "rb") as stream:
+                counts = stream.read()
+            return done, int.from_bytes(counts[-4:], "little") if counts else 0
+
+        _, most = run(0)
+        numbers = sorted({1 + k * most // max(1, count) for k in range(count)}) if most else []
+        codes = {}
+        for at in numbers:
+            done, _ = run(at)
+            codes[done.returncode] = codes.get(done.returncode, 0) + 1
+            wrong = None if done.returncode in (0, 1, 3, 4) else f"exit {done.returncode}"
+            wrong = wrong or self.state()
+            if wrong:
+                self.finds.append(f"{name}: {wrong} (allocation {at} of {most}): "
+                                  f"{done.stderr[-200:].decode(errors='replace')}")
+                print(self.finds[-1], flush=True)
+        print(f"{name}: {len(numbers)} of {most} allocations failed, exit codes {codes}", flush=True)
+
     def ever_less_memory(self, name):
         codes = []
         for megabytes in MEMORY_STEPS_MB:
@@ -122,6 +166,7 @@ def main():
     parser.add_argument("shim")
     parser.add_argument("--commands", default="verify,report,fit,cover")
     parser.add_argument("--every", type=int, default=1, help="only every so many calls")
+    parser.add_argument("--allocations", type=int, default=100, help="how many single allocations fail")
     options = parser.parse_args()
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     with tempfile.TemporaryDirectory() as folder:
@@ -129,6 +174,7 @@ def main():
         for name in options.commands.split(","):
             runs.every_call(name, options.every)
             runs.ever_less_memory(name)
+            runs.failing_allocations(name, options.allocations)
         print(f"{len(runs.finds)} finds")
     return 1 if runs.finds else 0
 

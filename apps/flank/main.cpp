@@ -12,7 +12,9 @@
 #include <vector>
 
 #include "commands.h"
+#include "design_command.h"
 #include "flank/base/printable.h"
+#include "flank/base/stopping.h"
 #include "flank/error.h"
 #include "flank/io/isolated/cad_reader.h"
 #include "flank/io/isolated/read_isolated.h"
@@ -97,7 +99,8 @@ int run_command(int argc, char** argv) {
       flank::cli::add_inspect(parser), flank::cli::add_example(parser),  flank::cli::add_tool(parser),
       flank::cli::add_fit(parser),     flank::cli::add_cover(parser),    flank::cli::add_verify(parser),
       flank::cli::add_report(parser),  flank::cli::add_view(parser),     flank::cli::add_machine(parser),
-      flank::cli::add_post(parser),    flank::cli::add_trochoid(parser), flank::cli::add_sweep(parser)};
+      flank::cli::add_post(parser),    flank::cli::add_trochoid(parser), flank::cli::add_sweep(parser),
+      flank::cli::add_design(parser)};
   for (const flank::cli::Subcommand& command : commands) add_common(*command.app, common);
   const auto chosen = [&]() -> const flank::cli::Subcommand* {
     for (const flank::cli::Subcommand& command : commands)
@@ -121,6 +124,8 @@ int run_command(int argc, char** argv) {
     return complain(in_flags(e), kWrongUsage);
   } catch (const flank::InputError& e) {
     return complain(in_flags(e), kRefusedInput);
+  } catch (const flank::internal::Stopped&) {
+    return complain(flank::cli::stopped_by() + "; nothing was found yet", flank::cli::kFallsShort);
   } catch (const std::bad_alloc&) {
     return complain("out of memory", kOurFault);
   } catch (const std::system_error& e) {

@@ -6,9 +6,11 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "commands.h"
 #include "flank/base/printable.h"
+#include "flank/base/stopping.h"
 
 namespace flank::cli {
 namespace {
@@ -19,6 +21,7 @@ void on_interrupt(int signal) {
   // A second one ends at once.
   if (interrupted != 0) std::_Exit(128 + signal);
   interrupted = signal;
+  internal::request_stop();
 }
 
 std::string time_left(double seconds, double share) {
@@ -26,14 +29,28 @@ std::string time_left(double seconds, double share) {
   return fmt::format(", {:.0f} s left", seconds * (1.0 - share) / share);
 }
 
+const char* name_of(int signal) { return signal == SIGTERM ? "SIGTERM" : signal == SIGHUP ? "SIGHUP" : "SIGINT"; }
+
+/// Only what a handler may call.
+void on_end(int signal) {
+  const std::string_view begin = "flank: stopped by ", name = name_of(signal), end = "\n";
+  for (const std::string_view part : {begin, name, end}) (void)!::write(STDERR_FILENO, part.data(), part.size());
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
 }  // namespace
 
+std::string stopped_by() { return fmt::format("stopped by {}", name_of(interrupted)); }
+
 void say_stopped(const std::string& folder) {
-  const int signal = interrupted;
-  const char* name = signal == SIGTERM ? "SIGTERM" : signal == SIGHUP ? "SIGHUP" : "SIGINT";
   const std::string line =
-      fmt::format("flank: stopped by {}; the best so far is in {}\n", name, internal::printable(folder));
+      fmt::format("flank: {}; the best so far is in {}\n", stopped_by(), internal::printable(folder));
   (void)std::fwrite(line.data(), 1, line.size(), stderr);
+}
+
+void end_on_signals() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, on_end);
 }
 
 Progress terminal_progress(const CommonOptions& options) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "flank/error.h"
 
@@ -125,6 +126,17 @@ TEST(VerifyJson, ReadsBackWhatItWrote) {
   EXPECT_EQ(b.stock->kinds[1].strip, -1);
   EXPECT_EQ(b.stock->cycles_deg(), 59.5);
   EXPECT_EQ(b.stock->strip_mm3, a.stock->strip_mm3);
+}
+
+TEST(VerifyJson, AFigureThatIsNoneIsNotReadAsInfinite) {
+  VerifyReport r = full_report();
+  r.overcut_mm = std::numeric_limits<double>::quiet_NaN();
+  r.gouge_mm = -std::numeric_limits<double>::infinity();
+  r.undercut_mm = std::numeric_limits<double>::infinity();
+  const VerifyReport back = verify_from_json(verify_to_json(r, {}), "verify.json");
+  EXPECT_TRUE(std::isnan(back.overcut_mm));
+  EXPECT_EQ(back.gouge_mm, r.gouge_mm);
+  EXPECT_EQ(back.undercut_mm, r.undercut_mm);
 }
 
 TEST(VerifyJson, NothingRunIsReadableToo) {

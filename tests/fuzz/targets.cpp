@@ -19,7 +19,7 @@
 #include "flank/manifest/manifest.h"
 #include "flank/path_file.h"
 #include "flank/report/report_file.h"
-#include "flank/seed/guide_start.h"
+#include "flank/seed/guide_file.h"
 #include "flank/setup/tool_body.h"
 #include "flank/tool_file.h"
 #include "flank/toolbox/tool_spec.h"

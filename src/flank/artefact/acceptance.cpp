@@ -90,6 +90,10 @@ Acceptance accept(const Tool& tool, const VerifyReport& report, double least_cov
   if (!complete) out.reasons.push_back({"complete", "interrupted: incomplete"});
   if (const Legitimacy legitimacy = check_legitimacy(tool.radial); !legitimacy.legitimate)
     out.reasons.push_back({"legitimate", "the tool is not legitimate: " + legitimacy.reason});
+  if (!complete && report.verdict == Verdict::kNotRun) {
+    out.reasons.push_back({"verdict", "not judged: `flank verify` judges it"});
+    return out;
+  }
   add_cuts(report, true, out.reasons);
   add_cuts(report, false, out.reasons);
   add_unproved(report, out.reasons);

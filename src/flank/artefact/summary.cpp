@@ -21,6 +21,9 @@ namespace {
 /// A share as people read it.
 std::string percent(double share) { return fmt::format("{:.2f} %", 100.0 * share); }
 
+/// Interrupted before there was a verdict.
+bool was_stopped(const Result& result) { return !result.complete && result.verify.verdict == Verdict::kNotRun; }
+
 /// What the path leaves, by the judge.
 std::string error_lines(const Result& result) {
   const VerifyReport& v = result.verify;
@@ -30,6 +33,7 @@ std::string error_lines(const Result& result) {
       "{:.1f} degrees\n",
       result.path.strips.size(), result.path.strips.size() == 1 ? "" : "s", result.path.pose_count(),
       result.chord_bound_mm, result.largest_c, result.largest_turn_rad * 180.0 / std::numbers::pi);
+  if (was_stopped(result)) return text + "  judged      not at all\n";
   text += fmt::format("  coverage    {} of the target within {} mm\n", percent(v.coverage), v.tolerance_mm);
   text += "  " + reach_text(v) + "\n";
   text += fmt::format("  overcut     {:.6f} mm\n", v.overcut_mm);
@@ -154,6 +158,7 @@ std::string summary_json(const Result& result) {
   json["faces"] = part_of(result.job).target_text();
   json["complete"] = result.complete;
   json["within"] = result.acceptance().pass();
+  if (was_stopped(result)) json["judged"] = false;  // figures of errors mean nothing then
   json["tolerance"] = v.tolerance_mm;
   json["coverage"] = v.coverage;
   json["reachable_share"] = v.reachable_share;

@@ -24,11 +24,26 @@ constexpr std::array<std::pair<Verdict, std::string_view>, 5> kVerdicts{{{Verdic
                                                                          {Verdict::kGouge, "gouge"},
                                                                          {Verdict::kUnproved, "unproved"}}};
 
-/// JSON has no infinity: null stands for it.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::string_view kMinusInfinity = "-infinity", kNoNumber = "nan";
 
-/// The other way round: distances of what nothing comes near are infinite.
-double to_number(const Json& j) { return j.is_null() ? std::numeric_limits<double>::infinity() : j.get<double>(); }
+/// JSON has no infinity: null stands for it, because distances of what nothing comes near are infinite. What else is not
+/// finite is a fault of ours that must not be read as that.
+Json number(double value) {
+  if (std::isnan(value)) return kNoNumber;
+  if (value == -kInfinity) return kMinusInfinity;
+  return value == kInfinity ? Json(nullptr) : Json(value);
+}
+
+/// The other way round.
+double to_number(const Json& j) {
+  if (j.is_null()) return kInfinity;
+  if (!j.is_string()) return j.get<double>();
+  const auto word = j.get<std::string>();
+  if (word == kMinusInfinity) return -kInfinity;
+  if (word == kNoNumber) return std::numeric_limits<double>::quiet_NaN();
+  throw InputError("\"" + word + "\" is no figure");
+}
 
 /// Strips are counted from 1 in files, as people count, and from 0 in reports; null is no strip.
 Json to_json(const WorstPlace& w) {

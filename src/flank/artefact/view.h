@@ -64,6 +64,7 @@ inline constexpr std::size_t kMostPlaces = 240;
 struct flank::Result::Drawings {
   std::vector<internal::StripSurface> strips;  ///< one per strip of the path
   internal::View view;
-  std::vector<internal::HalfSpace> blank;  ///< of a program that is replayed
-  TriangleMesh left;                       ///< of the stock, after it
+  std::vector<internal::HalfSpace> blank;       ///< of a program that is replayed
+  TriangleMesh left;                            ///< of the stock, after it
+  std::vector<std::vector<double>> engagement;  ///< of every pose of every strip, then: radians
 };

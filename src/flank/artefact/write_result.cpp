@@ -11,6 +11,7 @@
 #include "flank/artefact/view_json.h"
 #include "flank/io/mesh/write_mesh.h"
 #include "flank/io/path/blank_json.h"
+#include "flank/io/path/engagement_json.h"
 #include "flank/io/path/path_cls.h"
 #include "flank/io/path/path_csv.h"
 #include "flank/io/tool/tool_dxf.h"
@@ -51,6 +52,8 @@ std::map<std::string, std::string> files_of(const Result& result) {
   files["verify.json"] = verify_to_json(result.verify, result.acceptance());
   if (result.drawings) files["view.json"] = view_to_json(result.drawings->view);
   if (result.drawings && !result.drawings->blank.empty()) files["blank.json"] = blank_to_json(result.drawings->blank);
+  if (result.drawings && !result.drawings->engagement.empty())
+    files["engagement.json"] = engagement_to_json(result.drawings->engagement);
   if (result.drawings && !result.drawings->left.triangles.empty())
     files["stock.stl"] = mesh_to_stl(result.drawings->left);
   if (result.ranking) files["ranking.json"] = ranking_to_json(*result.ranking);

@@ -1,4 +1,5 @@
 #include "flank/cover.h"
+#include "flank/base/stopping.h"
 
 #include <algorithm>
 #include <chrono>
@@ -102,6 +103,7 @@ double value_of(const TileScene& scene, const std::vector<CoverStrip>& strips) {
 /// Smooths; if that leaves gaps that are worth a strip, adds it and smooths again. Returns the best set on the way.
 std::vector<CoverStrip> smoothed(const TileScene& coarse, const TileScene& dense, const std::vector<CoverStrip>& pool,
                                  std::vector<CoverStrip> strips, const Progress& progress) {
+  if (stopping()) return strips;
   // Certified before they are compared: a strip's share counts only as far as it may be cut.
   strips = made_certain(dense, remeasured(dense, strips));
   std::vector<CoverStrip> best = strips;
@@ -149,6 +151,7 @@ std::vector<CoverStrip> thinned(const TileScene& dense, std::vector<CoverStrip> 
 
 /// The last and finest check of each strip.
 std::vector<CoverStrip> finally_certain(const TileScene& dense, std::vector<CoverStrip> strips) {
+  if (stopping()) return strips;
   parallel_for(strips.size(), [&](std::size_t k) {
     LineFitter fitter(dense.target, dense.radial, line_options(dense));
     strips[k] = cut_finely(dense.samples, dense.guard, std::move(strips[k]), dense.radial, fitter);
@@ -168,6 +171,7 @@ void describe(const TileScene& coarse, const TileScene& dense, const std::vector
     result.motions.push_back(strip.motion);
   }
   result.motions = ordered(result.motions);
+  if (stopping()) return;
   result.message =
       reason_of(coarse.target, coarse.radial, coarse.samples, remeasured(coarse, strips), coarse.options.tolerance_mm);
 }
@@ -192,7 +196,7 @@ CandidatePool first_pool(const TileScene& scene, CoverResult& result) {
     CandidatePool pool = counted_pool(
         scene, admissible_seeds(scene.target, places, scene.radial, options.seed_spheres, options.tolerance_mm),
         result);
-    if (!pool.strips.empty()) return pool;
+    if (!pool.strips.empty() || stopping()) return pool;
   }
   return counted_pool(scene, even_seeds(places, scene.radial, options.seed_directions), result);
 }

@@ -1,7 +1,9 @@
 #include "flank/fit.h"
+#include "flank/base/stopping.h"
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -160,7 +162,12 @@ FlankFitResult search_starts(const Target& target, const ToolModel& tool, const 
   for (const RuledStart& start : enumerate_starts(chart, tool, options)) candidates.push_back({start, {}, {}, -1.0});
   result.candidates = static_cast<int>(candidates.size());
   progress.step("starts", 0.0);
-  parallel_for(candidates.size(), [&](std::size_t k) { quick_fit(candidates[k], target, chart, tool, options, few); });
+  std::atomic<int> tried = 0;
+  parallel_for(candidates.size(), [&](std::size_t k) {
+    if (stopping() && tried > 0) return;  // one start is enough to have a result
+    quick_fit(candidates[k], target, chart, tool, options, few);
+    if (!candidates[k].draft.motions.empty()) ++tried;
+  });
   std::erase_if(candidates, [](const Candidate& candidate) { return candidate.draft.motions.empty(); });
   sort_by_score(candidates);
   if (candidates.empty() || candidates.front().score <= 0.0) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "flank/base/parallel.h"
+#include "flank/base/stopping.h"
 #include "flank/base/tolerance_budget.h"
 #include "flank/fit/coverage.h"
 #include "flank/fit/swept_polish.h"
@@ -73,6 +74,7 @@ Polished exact_polish(const Polished& start, const std::vector<SurfaceSample>& s
   FitDraft draft = start.draft;
   // The last stage twice: its pins hold to its own start, which the first of the two has moved.
   for (bool last : {false, true, true}) {
+    if (stopping()) break;
     draft = run_stage(draft, options.bounds, exact_stage(last), trace);
     const double error = validated_error(draft);
     Polished trial = assess(draft, samples, options);
@@ -154,6 +156,7 @@ Polished polish(const FitDraft& draft, const std::vector<SurfaceSample>& samples
   const auto keep = [&](Polished&& trial) {
     if (trial.estimate.score(options.tolerance_mm) > best.estimate.score(options.tolerance_mm)) best = std::move(trial);
   };
+  if (stopping()) return best;
   const double diagonal = draft.targets.front()->diagonal();
   const double scale = robust_scale(*draft.targets.front(), options);
   FitStage first = polish_stage(scale);
@@ -165,6 +168,7 @@ Polished polish(const FitDraft& draft, const std::vector<SurfaceSample>& samples
     // An exact motion that plunges where it touches is worth less than one within the tolerance that does not.
     if (best.estimate.largest_c < 1.0) return lowered(best, samples, options);
   }
+  if (stopping()) return best;
   const FitStage stage = tolerance_stage(options.tolerance_mm, scale, diagonal);
   if (draft.free_tool || !draft.free_parameters.empty())
     keep(assess(run_stage(best.draft, options.bounds, stage, trace), samples, options));
@@ -173,6 +177,7 @@ Polished polish(const FitDraft& draft, const std::vector<SurfaceSample>& samples
 
 Polished last_passes(const Polished& polished, const std::vector<SurfaceSample>& samples,
                      const FlankFitOptions& options, std::vector<IterationTrace>* trace) {
+  if (stopping()) return polished;
   // An exact fit has its residuals at the axis; some of the face may lie past the axis' end: the passes below see it.
   const bool short_of_face = polished.estimate.at_tolerance < options.enough_coverage;
   // Residuals at the axis can be exact while the tool cuts deep elsewhere.
@@ -214,7 +219,7 @@ Polished mended(const Polished& polished, const std::vector<SurfaceSample>& samp
   constexpr double kALittle = 5.0;  // tolerances: beyond, another motion is needed, not a better one
   const double tolerance = options.tolerance_mm;
   Polished best = polished;
-  for (int k = 0; k < kMost && !is_clean(best.estimate, tolerance); ++k) {
+  for (int k = 0; k < kMost && !is_clean(best.estimate, tolerance) && !stopping(); ++k) {
     if (std::max(best.estimate.overcut_mm, best.estimate.gouge_mm) > kALittle * tolerance) return best;
     const std::vector<Vec3> deep = cut_deeper_than(kToleranceBudget.fit.settled_overcut * tolerance, samples,
                                                    best.draft.motions, best.draft.tool, kRankingPoses);
@@ -238,6 +243,7 @@ Polished made_legitimate(const Polished& polished, const std::vector<SurfaceSamp
 }  // namespace
 
 Polished settled(const Polished& polished, const FlankFitOptions& options) {
+  if (stopping()) return polished;
   const std::vector<SurfaceSample> samples = close_samples(polished.draft, options);
   Polished again = made_legitimate(seen_closely(polished.draft, samples, options), samples, options);
   again = mended(again, samples, options);

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "flank/base/assert.h"
+#include "flank/base/stopping.h"
 #include "flank/base/tolerance_budget.h"
 #include "flank/fit/model/minimise.h"
 
@@ -78,6 +79,7 @@ FitState start_state(const FitDraft& draft, const FitStage& stage, FitDraft& nex
 
 FitDraft run_stage(const FitDraft& draft, const RadiusBounds& bounds, const FitStage& stage,
                    std::vector<IterationTrace>* trace, ResidualSummary* summary) {
+  if (stopping()) return draft;
   FitDraft next;
   FitState start = start_state(draft, stage, next);
   const FitModel model(draft.targets, start, next.free_parameters, bounds, stage, draft.obstacles);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "flank/base/parallel.h"
+#include "flank/base/stopping.h"
 #include "flank/base/tolerance_budget.h"
 #include "flank/fit/model/constrained.h"
 #include "flank/fit/model/levenberg_marquardt.h"
@@ -191,6 +192,7 @@ Polished swept_polish(const Polished& polished, const std::vector<SurfaceSample>
   const double size = best.draft.targets.front()->diagonal();
   bool fair = false;  // fair rails are enough
   for (Pass pass : kPasses) {
+    if (stopping()) break;
     if (pass.fairness == kSoft && fair) pass.fairness = kFair;
     // The last one lowers what is left of the mean, if nothing more is to be covered.
     if (pass.dead_zone == 0.0 && best.estimate.at_tolerance < kCovered) continue;
@@ -215,11 +217,13 @@ Polished last_digits(const Polished& polished, const std::vector<SurfaceSample>&
   constexpr double kNearlyCovered = 0.98;  // by the samples: what misses more has something else to mend first
   const double size = polished.draft.targets.front()->diagonal();
   const CoverageEstimate& estimate = polished.estimate;
-  if (!polished.draft.free_tool || estimate.at_tolerance < kNearlyCovered || estimate.rms_mm > kEnvelope * size)
+  if (stopping() || !polished.draft.free_tool || estimate.at_tolerance < kNearlyCovered ||
+      estimate.rms_mm > kEnvelope * size)
     return polished;
   const std::vector<FacePoint> points = target_points(polished.draft, kMean.points_per_side, reach_of(options));
   Polished best = polished, trial = polished;
   for (const bool last : {false, true}) {
+    if (stopping()) break;
     FitStage stage = swept_stage(kMean, options, size);
     const FitStage exact = exact_stage(last);
     stage.control_points = exact.control_points;
@@ -284,6 +288,7 @@ FitDraft run_constrained(const FitDraft& draft, const RadiusBounds& bounds, cons
 
 Polished without_overcut(const Polished& polished, const std::vector<SurfaceSample>& samples,
                          const FlankFitOptions& options) {
+  if (stopping()) return polished;
   const double diagonal = polished.draft.targets.front()->diagonal();
   // To take the last digits of overcut out of an exact fit costs it the last digits of everything else.
   const double settled = polished.exact ? std::max(kSettledOvercutShare * diagonal,
@@ -306,6 +311,7 @@ Polished without_overcut(const Polished& polished, const std::vector<SurfaceSamp
   Polished best =
       assess(run_constrained(polished.draft, options.bounds, stage, band, reach_of(options)), samples, options);
   if (best.estimate.overcut_mm >= polished.estimate.overcut_mm) return polished;
+  if (stopping()) return best;
   // Least squares leaves up to three times the least possible material in places: once more, with what counts for
   // nothing taken out.
   stage.dead_zone_mm = std::min(kUndercutShare * best.estimate.undercut_mm, kMostZone * options.tolerance_mm);

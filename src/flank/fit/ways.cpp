@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "flank/base/parallel.h"
+#include "flank/base/stopping.h"
 #include "flank/base/tolerance_budget.h"
 #include "flank/fit/coverage.h"
 #include "flank/fit/polish.h"
@@ -210,7 +211,7 @@ FlankFitResult best_way(const Target& target, const ToolModel& tool, const Flank
   free_options.kept_after_polish = 1;  // a start for what follows, not a result
   free_options.least_coverage_for_last_passes = least_to_win(first.after, options);
   const FlankFitResult free = search(free_options);
-  if (free.motions.empty()) return first;
+  if (free.motions.empty() || (stopping() && !first.motions.empty())) return first;
   const double tolerance = options.tolerance_mm;
   const bool fixed_length = tool.axis_length || options.axis_length_mm;
   const std::vector<Way> ways =

@@ -1,6 +1,9 @@
 // `flank cover` as one function: part and tool in, strips and verdict out.
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "flank/base/stopping.h"
 #include "flank/error.h"
 #include "flank/job/check_fields.h"
 #include "flank/pipeline/cover_choice.h"
@@ -77,7 +80,7 @@ std::vector<Covered> cover_groups(const CoverJob& job, const Setup& setup, const
   std::vector<Covered> all;
   for (TargetGroup& group : make_targets(setup, job.part.side.value_or(+1)))
     all.push_back(cover_group(job, setup, std::move(group), tool, progress));
-  if (job.part.side) return all;
+  if (job.part.side || stopping()) return all;
   std::vector<TargetGroup> other_side = make_targets(setup, -1);
   for (std::size_t k = 0; k < all.size(); ++k) {
     if (all[k].group.of_solid) continue;
@@ -125,9 +128,12 @@ Result run_cover(const CoverJob& job, const Progress& progress) {
   const Setup setup = read_setup(job.part, job.obstacles, job.tolerance_mm, result.notes);
   result.part_sha256 = setup.part.sha256;
   watch.lap("read");
+  stop_here();
   const std::vector<Covered> all =
       choice ? cover_with_best(job, *choice, setup, result, progress) : cover_groups(job, setup, result.tool, progress);
   watch.lap("cover");
+  // Nothing takes the place of an earlier result.
+  if (std::all_of(all.begin(), all.end(), [](const Covered& c) { return c.result.motions.empty(); })) stop_here();
   std::vector<StripSurface> surfaces = collect(job, all, result);
   watch.lap("sample");
   result.complete = !progress.stop();

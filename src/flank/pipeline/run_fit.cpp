@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "flank/base/stopping.h"
 #include "flank/base/tolerance_budget.h"
 #include "flank/error.h"
 #include "flank/fit/lengthen.h"
@@ -111,11 +112,13 @@ Result run_fit(const FitJob& job, const Progress& progress) {
   const bool with_body = job.obstacles.shank_length_mm || job.obstacles.holder || (spec.tool && has_body(*spec.tool));
   const ClearanceScene scene = make_clearance_scene(setup, job.obstacles, with_body, result.notes);
   watch.lap("read");
+  stop_here();
 
   FitSearch search = search_fit(job, setup, spec, progress);
+  if (search.fit.motions.empty()) stop_here();  // nothing takes the place of an earlier result
   // The verdict, now and later, is about what was searched for.
   if (search.reach_radius_mm) std::get<FitJob>(result.job).judge.reach_radius_mm = search.reach_radius_mm;
-  if (spec.free) lift_shank(job, scene, search.fit, result.notes);
+  if (spec.free && !stopping()) lift_shank(job, scene, search.fit, result.notes);
   result.plan = summary_of(search.fit);
   result.motions = search.fit.motions;
   result.diagonal_mm = search.targets.front().target->diagonal();

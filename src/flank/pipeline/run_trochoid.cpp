@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "flank/artefact/view.h"
+#include "flank/base/stopping.h"
 #include "flank/base/tolerance_budget.h"
 #include "flank/error.h"
 #include "flank/job/check_fields.h"
@@ -50,7 +51,7 @@ LayerSummary summary_of(const PlannedLayer& planned) {
   out.links_mm = planned.links_mm;
   out.side_volume_mm3 = planned.side_volume_mm3;
   out.side_deg = std::max(planned.first_side_rad, planned.second_side_rad) * kRadian;
-  out.entered_mm = planned.cycles.entered_mm;
+  out.entered_mm = planned.cycles.entered_mm();
   for (const Cycle& cycle : planned.cycles.cycles) {
     const Half& front = cycle.front;
     double angle = front.peak.angle_rad, volume = front.engagement.volume_mm3, way = front.way_mm;
@@ -88,8 +89,7 @@ SideFitOptions side_options(const TrochoidJob& job, const CavityFaces& faces) {
   options.fit.tolerance_mm = kToleranceBudget.cavity.sides * job.tolerance_mm;
   options.fit.axis_length_mm = job.tool.axis_length_mm;
   options.fit.bounds = radius_bounds(job.radius, job.obstacles, faces.sides.front().target->diagonal());
-  options.fit.bounds.largest = job.radius.max_mm.value_or(kMostOfWidth * faces.width.narrowest_mm);
-  options.fit.bounds.smallest = std::min(options.fit.bounds.smallest, 0.5 * options.fit.bounds.largest);
+  options.fit.bounds.largest = bounds_of(job, faces.width).front();
   options.fit.reach_radius_mm = job.judge.reach_radius_mm.value_or(0.0);
   options.least_coverage = job.judge.least_coverage;
   return options;
@@ -97,8 +97,8 @@ SideFitOptions side_options(const TrochoidJob& job, const CavityFaces& faces) {
 
 /// What the flank keeps clear of, and how wide the cavity is where a tool comes.
 void surround(const TrochoidJob& job, const Setup& setup, CavityFaces& faces, std::vector<std::string>& notes) {
-  const double thick = job.radius.max_mm.value_or(kMostOfWidth * faces.width.median_mm);
-  add_group_obstacles(setup, job.obstacles.clearance_mm, thick, faces.sides, notes);
+  // As far as the thickest tool that is tried.
+  add_group_obstacles(setup, job.obstacles.clearance_mm, bounds_of(job, faces.width).front(), faces.sides, notes);
   faces.width = width_between(side_of(faces.sides[0]), side_of(faces.sides[1]));
   if (!(faces.width.narrowest_mm > 0.0))
     throw InputError(
@@ -153,9 +153,9 @@ void note_what_is_open(const TrochoidJob& job, const CavityProgram& program, std
       notes.push_back(
           fmt::format("layer {}: cleared and finished over {:.1f} % of the way of its sides; the rest is left", k + 1,
                       100.0 * program.layers[k].share));
-    if (cycles.entered_mm > job.tolerance_mm)
+    if (cycles.entered_mm() > job.tolerance_mm)
       notes.push_back(fmt::format("layer {}: a half path enters a face by {:.4f} mm, by the planner's samples", k + 1,
-                                  cycles.entered_mm));
+                                  cycles.entered_mm()));
   }
   notes.push_back("the cavity is taken as open at both ends: cycles start and end outside of the blank");
 }
@@ -186,12 +186,19 @@ void take(const CavityPlan& plan, const TrochoidJob& job, const ToolSpec& spec, 
 /// The judge's stock, into the verdict and what is drawn.
 void replay(const Setup& setup, const TrochoidJob& job, const std::vector<HalfSpace>& blank, Result& result) {
   constexpr double kMostTriangles = 3e5;
-  if (result.path.strips.empty()) return;
-  ProgramStock stock = judge_stock(setup, job, result.tool, result.path, blank, kMostTriangles);
+  if (result.path.strips.empty() || !result.complete) return;
+  ProgramStock stock;
+  try {
+    stock = judge_stock(setup, job, result.tool, result.path, blank, kMostTriangles);
+  } catch (const Stopped&) {
+    result.complete = false;
+    return;
+  }
   result.verify.stock = std::move(stock.report);
   auto drawings = std::make_shared<Result::Drawings>(*result.drawings);
   drawings->blank = blank;
   drawings->left = std::move(stock.left);
+  drawings->engagement = std::move(stock.engagement);
   result.drawings = std::move(drawings);
 }
 
@@ -216,6 +223,7 @@ Result run_trochoid(const TrochoidJob& job, const Progress& progress) {
   watch.lap("read");
 
   const CavityPlan plan = search_cavity(job, faces, make_tool_model(spec), options, progress);
+  if (plan.sides.fit.motions.empty()) stop_here();
   if (plan.sides.fit.motions.empty())
     throw InputError("left", fmt::format("no tool of radius up to {:.4g} mm finds an axis that is free in the cavity, "
                                          "{:.3f} mm wide at its narrowest",

@@ -13,6 +13,7 @@
 #include "flank/error.h"
 #include "flank/io/face_names.h"
 #include "flank/io/path/blank_json.h"
+#include "flank/io/path/engagement_json.h"
 #include "flank/io/text/json_input.h"
 #include "flank/job/check_fields.h"
 #include "flank/manifest/result_folder.h"
@@ -73,17 +74,20 @@ void write_verdict(ResultFolder& folder, const PartStamp& part, const std::map<s
   folder.add(files, std::move(manifest));
 }
 
-/// The program of a cavity in the stock that blank.json describes. Other jobs have none.
+/// The program of a cavity in the stock that blank.json describes: its engagement, pose by pose. Other jobs have none.
 template <class Job>
-void replay_stock(const Job& job, const Setup& setup, const Tool& tool, const Path& path, const std::string& file,
-                  Verification& outcome) {
+PathEngagement replay_stock(const Job& job, const Setup& setup, const Tool& tool, const Path& path,
+                            const std::string& file, Verification& outcome) {
   if constexpr (std::is_same_v<Job, TrochoidJob>) {
     if (!std::filesystem::exists(file)) {
       outcome.notes.push_back("no blank.json: the program is not replayed");
-      return;
+      return {};
     }
-    outcome.report.stock = judge_stock(setup, job, tool, path, blank_from_json(read_file(file), file), 0.0).report;
+    ProgramStock stock = judge_stock(setup, job, tool, path, blank_from_json(read_file(file), file), 0.0);
+    outcome.report.stock = std::move(stock.report);
+    return std::move(stock.engagement);
   }
+  return {};
 }
 
 template <class Job>
@@ -110,13 +114,14 @@ Verification judge_folder(const VerifyJob& request, const Job& job, const std::s
   outcome.report = judge_job(setup, job.judge, tool, path);
   const ClearanceScene scene = make_clearance_scene(setup, job.obstacles, has_body(tool), outcome.notes);
   outcome.report.clearance = measure_clearance(scene, tool, path);
-  replay_stock(job, setup, tool, path, file("blank.json"), outcome);
+  const PathEngagement engagement = replay_stock(job, setup, tool, path, file("blank.json"), outcome);
   outcome.acceptance = accept(tool, outcome.report, job.judge.least_coverage);
   accept_program(job, outcome);
-  write_verdict(folder, {absolute(request.part ? *request.part : named), setup.part.sha256},
-                {{"verify.json", verify_to_json(outcome.report, outcome.acceptance)},
-                 {"view.json", view_to_json(make_view(outcome.job, setup, tool, path, outcome.report))}},
-                outcome);
+  std::map<std::string, std::string> files{
+      {"verify.json", verify_to_json(outcome.report, outcome.acceptance)},
+      {"view.json", view_to_json(make_view(outcome.job, setup, tool, path, outcome.report))}};
+  if (!engagement.empty()) files["engagement.json"] = engagement_to_json(engagement);
+  write_verdict(folder, {absolute(request.part ? *request.part : named), setup.part.sha256}, files, outcome);
   return outcome;
 }
 

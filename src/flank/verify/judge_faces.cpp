@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "flank/base/stopping.h"
 #include "flank/error.h"
 #include "flank/verify/face_tally.h"
 #include "flank/verify/proof/cover_search.h"
@@ -36,26 +38,58 @@ struct FaceResult {
   std::vector<WorstPlace> worst;
 };
 
+/// What a finer look at the coverage of a face need not do again.
+struct Known {
+  std::optional<FaceVerdict> depth;  ///< with the figures of the proof of depth
+  std::optional<FaceSamples> samples;
+  std::vector<SweptDistance> distances;
+};
+
+/// So many times as much may a finer look at coverage cost: the cells along the border of what is covered, cut twice more.
+constexpr std::size_t kFiner = 16;
+
 /// One judgement.
 class Judge {
  public:
   Judge(const Tool& tool, const Path& path, const JudgeOptions& options)
-      : tool_(tool), path_(path), options_(options), volume_(tool, path) {
-    prepare_histogram(report_, options);
-  }
+      : tool_(tool),
+        path_(path),
+        options_(options),
+        volume_(tool, path),
+        cover_evaluations_(options.proof.cover_evaluations) {}
 
-  VerifyReport run(const std::vector<JudgedFace>& faces) {
+  VerifyReport run(const std::vector<JudgedFace>& faces, double least_coverage) {
     const bool shapes = std::all_of(faces.begin(), faces.end(), [](const JudgedFace& f) { return f.shape != nullptr; });
     prove_depth_ = shapes && !faces.empty() && options_.depth == DepthProof::kProved;
-    report_.depth = prove_depth_ ? DepthProof::kProved : DepthProof::kSampled;
-    report_.tolerance_mm = options_.tolerance_mm;
-    Sums totals;
-    for (const JudgedFace& face : faces) add(judge_face(face), totals);
-    finish(totals, shapes && !faces.empty());
+    keep_ = least_coverage > 0.0;
+    begin();
+    std::vector<Known> known(faces.size());
+    std::vector<FaceResult> results;
+    for (std::size_t k = 0; k < faces.size(); ++k) results.push_back(judge_face(faces[k], known[k]));
+    finish(results, shapes && !faces.empty());
+    if (!undecided(least_coverage)) return std::move(report_);
+    cover_evaluations_ *= kFiner;
+    begin();
+    for (std::size_t k = 0; k < faces.size(); ++k)
+      if (faces[k].target) results[k] = judge_face(faces[k], known[k]);
+    finish(results, shapes);
     return std::move(report_);
   }
 
  private:
+  void begin() {
+    report_ = {};
+    report_.depth = prove_depth_ ? DepthProof::kProved : DepthProof::kSampled;
+    report_.tolerance_mm = options_.tolerance_mm;
+    prepare_histogram(report_, options_);
+  }
+
+  /// Measured to cover what is needed, but not proved to.
+  [[nodiscard]] bool undecided(double least) const {
+    return report_.coverage_reachable >= least && report_.overcut_bound_mm <= report_.tolerance_mm &&
+           report_.coverage_reachable_bound && *report_.coverage_reachable_bound < least;
+  }
+
   /// f at the samples of a face. On a check surface only overcut matters, at the samples and between them; where the
   /// depth is proved anyway, not even that.
   [[nodiscard]] std::vector<SweptDistance> measure(const FaceSamples& face) const {
@@ -72,20 +106,37 @@ class Judge {
     CoverLimits limits;
     limits.tolerance_mm = options_.tolerance_mm;
     for (double area : samples.areas) limits.gap_mm2 += options_.proof.cover_gap_share * area;
-    limits.evaluations = options_.proof.cover_evaluations * samples.points.size();
+    limits.evaluations = cover_evaluations_ * samples.points.size();
     limits.cells = options_.proof.cells;
     return search_cover(volume_, *shape, samples, distances, limits);
   }
 
-  FaceResult judge_face(const JudgedFace& face) {
+  /// The samples of a tile, and f at each of them: as they are known, else measured.
+  template <class Use>
+  void with_tile(const JudgedFace& face, std::size_t tile, Known& known, const Use& use) const {
+    if (known.samples) {
+      use(*known.samples, known.distances);
+      return;
+    }
+    face.samples(tile, [&](const FaceSamples& samples) {
+      std::vector<SweptDistance> distances = measure(samples);
+      use(samples, distances);
+      // Faces in many tiles are measured again: all of them together would take too much memory.
+      if (!keep_ || !face.target || face.tiles > 1) return;
+      known.samples = samples;
+      known.distances = std::move(distances);
+    });
+  }
+
+  FaceResult judge_face(const JudgedFace& face, Known& known) {
     std::unique_ptr<Shape> shape;
     if (face.shape != nullptr && face.target)
       shape = std::visit([](const auto* value) { return make_shape(*value); }, *face.shape);
     FaceTally tally(tool_, path_, face.face, face.target, face.size_mm, options_);
     std::size_t looked = 0;
     for (std::size_t k = 0; k < face.tiles; ++k) {
-      face.samples(k, [&](const FaceSamples& samples) {
-        const std::vector<SweptDistance> distances = measure(samples);
+      stop_here();
+      with_tile(face, k, known, [&](const FaceSamples& samples, const std::vector<SweptDistance>& distances) {
         const ProvedCover cover = cover_of(samples, distances, shape.get());
         looked += cover.evaluations;
         tally.add(samples, distances, cover.open_mm2);
@@ -94,18 +145,22 @@ class Judge {
     }
     FaceResult result{tally.verdict(), tally.sums(), tally.worst()};
     result.verdict.cover_cells = looked;
-    complete(result, face, tally.separation());
+    complete(result, face, tally.separation(), known);
     return result;
   }
 
   /// The proof of depth, and what does not hold without it.
-  void complete(FaceResult& result, const JudgedFace& face, double separation) const {
+  void complete(FaceResult& result, const JudgedFace& face, double separation, Known& known) const {
     FaceVerdict& verdict = result.verdict;
     if (prove_depth_) {
       // Check surfaces were not asked at their samples: nothing is known between them.
       if (!face.target) verdict.sampling_bound_mm = 0.0;
       verdict.overcut_bound_mm = verdict.overcut_mm;
-      prove_depth(volume_, smallest_radius(tool_), *face.shape, options_.tolerance_mm, options_.proof, verdict);
+      if (known.depth)
+        take_depth(*known.depth, verdict);
+      else
+        prove_depth(volume_, smallest_radius(tool_), *face.shape, options_.tolerance_mm, options_.proof, verdict);
+      known.depth = verdict;
       if (verdict.deepest) add_place(*verdict.deepest, separation, options_.worst_places, result.worst);
     }
     // A cell is finished if nothing is left on it, and it is not cut too deep: that is known of the face as a whole.
@@ -114,8 +169,17 @@ class Judge {
     result.sums.proved = result.sums.proved_reachable = 0.0;
   }
 
-  void add(FaceResult result, Sums& totals) {
-    FaceVerdict& verdict = result.verdict;
+  /// What prove_depth fills.
+  static void take_depth(const FaceVerdict& from, FaceVerdict& verdict) {
+    verdict.overcut_mm = from.overcut_mm;
+    verdict.overcut_bound_mm = from.overcut_bound_mm;
+    verdict.bound_point = from.bound_point;
+    verdict.proof_cells = from.proof_cells;
+    verdict.deepest = from.deepest;
+  }
+
+  void add(const FaceResult& result, Sums& totals) {
+    const FaceVerdict& verdict = result.verdict;
     if (verdict.target) {
       totals += result.sums;
       report_.overcut_mm = std::max(report_.overcut_mm, verdict.overcut_mm);
@@ -128,10 +192,12 @@ class Judge {
       report_.gouge_bound_mm = std::max(report_.gouge_bound_mm, verdict.overcut_bound_mm);
     }
     report_.worst.insert(report_.worst.end(), result.worst.begin(), result.worst.end());
-    report_.faces.push_back(std::move(verdict));
+    report_.faces.push_back(verdict);
   }
 
-  void finish(const Sums& totals, bool cover_proved) {
+  void finish(const std::vector<FaceResult>& results, bool cover_proved) {
+    Sums totals;
+    for (const FaceResult& result : results) add(result, totals);
     std::stable_sort(report_.worst.begin(), report_.worst.end(),
                      [](const WorstPlace& a, const WorstPlace& b) { return a.f < b.f; });
     const auto most = static_cast<std::size_t>(std::max(0, options_.worst_places));
@@ -159,16 +225,17 @@ class Judge {
   const Path& path_;
   const JudgeOptions& options_;
   SweptVolume volume_;
-  bool prove_depth_ = false;
+  std::size_t cover_evaluations_;
+  bool prove_depth_ = false, keep_ = false;
   VerifyReport report_;
 };
 
 }  // namespace
 
 VerifyReport judge_faces(const Tool& tool, const Path& path, const std::vector<JudgedFace>& faces,
-                         const JudgeOptions& options) {
+                         const JudgeOptions& options, double least_coverage) {
   require_usable(options);
-  return Judge(tool, path, options).run(faces);
+  return Judge(tool, path, options).run(faces, least_coverage);
 }
 
 }  // namespace flank::internal::verify

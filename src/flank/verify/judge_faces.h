@@ -20,8 +20,9 @@ struct JudgedFace {
   const FaceShape* shape = nullptr;  ///< null: not known, so nothing is proved
 };
 
-/// judge() of flank/judge.h.
+/// judge() of flank/judge.h. Where the targets are measured to be covered by `least_coverage` of what is reachable, and not
+/// proved to be, and the verdict hangs on that alone, the proof of coverage goes on, finer.
 [[nodiscard]] VerifyReport judge_faces(const Tool& tool, const Path& path, const std::vector<JudgedFace>& faces,
-                                       const JudgeOptions& options);
+                                       const JudgeOptions& options, double least_coverage = 0.0);
 
 }  // namespace flank::internal::verify

@@ -74,6 +74,20 @@ void add_strips(const verify::StockReplay& replay, StockReport& out) {
   }
 }
 
+/// Poses that were passed over lie between measured ones, and so does their engagement.
+std::vector<double> engagement_of(const verify::StripReplay& strip) {
+  constexpr double kDigits = 1e4;
+  std::vector<double> out(strip.poses.size(), 0.0);
+  std::size_t last = 0;
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    if (!strip.poses[k].measured) continue;
+    out[k] = std::round(kDigits * strip.poses[k].angle_rad) / kDigits;
+    for (std::size_t i = last + 1; i < k; ++i) out[i] = std::max(out[last], out[k]);
+    last = k;
+  }
+  return out;
+}
+
 /// A place of a face from which a ray goes to the middle of the cavity.
 struct Ray {
   Vec3 point, normal;
@@ -155,6 +169,7 @@ ProgramStock replay_program(const Tool& tool, const Path& path, const std::vecto
   out.report.before_mm3 = replay.before_mm3;
   out.report.left_mm3 = replay.after_mm3;
   add_strips(replay, out.report);
+  for (const verify::StripReplay& strip : replay.strips) out.engagement.push_back(engagement_of(strip));
   look_along(rays_from(tool, path, blank, stock, faces, options.tolerance_mm), stock, out.report);
   if (options.most_triangles > 0.0)
     out.left = verify::stock_mesh(stock, verify::stride_for(stock, options.most_triangles));

@@ -18,6 +18,8 @@ struct ProgramStockOptions {
 
 struct ProgramStock {
   StockReport report;
+  /// Of every pose of every strip: the largest engagement along the flank, radians, to 1e-4. Beside resolution_deg.
+  std::vector<std::vector<double>> engagement;
   TriangleMesh left;  ///< closed; empty if none was asked for
 };
 

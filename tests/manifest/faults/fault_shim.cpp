@@ -1,11 +1,13 @@
 // Loaded before the C library: the call number $FLANK_FAULT_AT of those that change a disk fails, or the process is killed
 // there. $FLANK_FAULT_HOW: a number is the errno of that call; "always NUMBER": of it and of all later ones; "kill":
 // before the call; "half": after half of a write. The calls are counted on descriptor $FLANK_FAULT_COUNT.
+// $FLANK_FAULT_ALLOCATION: instead, the allocation of this number fails, and allocations are counted.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdarg>
@@ -15,6 +17,7 @@
 namespace {
 
 int calls = 0;
+std::atomic<int> allocations{0};
 
 long setting(const char* name) {
   const char* text = std::getenv(name);
@@ -47,6 +50,7 @@ struct Count {
   ~Count() {
     const auto file = static_cast<int>(setting("FLANK_FAULT_COUNT"));
     if (file <= 0) return;
+    if (std::getenv("FLANK_FAULT_ALLOCATION") != nullptr) calls = allocations;
     const auto real = next<ssize_t (*)(int, const void*, std::size_t)>("write");
     (void)!real(file, &calls, sizeof calls);
   }
@@ -54,7 +58,29 @@ struct Count {
 
 }  // namespace
 
+// The sanitizers have allocators of their own.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define FLANK_FAULT_ALLOCATIONS
+#endif
+
 extern "C" {
+
+#ifdef FLANK_FAULT_ALLOCATIONS
+void* __libc_malloc(std::size_t size);                     // NOLINT: the names that the C library gives its own
+void* __libc_calloc(std::size_t count, std::size_t size);  // NOLINT
+void* __libc_realloc(void* block, std::size_t size);       // NOLINT
+
+static bool allocation_fails() {
+  static const long at = setting("FLANK_FAULT_ALLOCATION");
+  if (++allocations != at || at == 0) return false;
+  errno = ENOMEM;
+  return true;
+}
+
+void* malloc(std::size_t size) { return allocation_fails() ? nullptr : __libc_malloc(size); }
+void* calloc(std::size_t count, std::size_t size) { return allocation_fails() ? nullptr : __libc_calloc(count, size); }
+void* realloc(void* block, std::size_t size) { return allocation_fails() ? nullptr : __libc_realloc(block, size); }
+#endif
 
 ssize_t write(int file, const void* bytes, std::size_t size) {
   const auto real = next<ssize_t (*)(int, const void*, std::size_t)>("write");

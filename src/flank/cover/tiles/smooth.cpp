@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "flank/base/parallel.h"
+#include "flank/base/stopping.h"
 #include "flank/base/tolerance_budget.h"
 #include "flank/envelope/swept_estimate.h"
 #include "flank/fit/model/levenberg_marquardt.h"
@@ -275,10 +276,12 @@ SmoothResult smooth_strips(const TileScene& scene, const std::vector<CoverStrip>
   bool first = true;
   int control_points = scene.options.control_points;
   for (const Pass& pass : kPasses) {
+    if (stopping()) break;
     now = measured(scene, run_pass(scene, now, pass, control_points, false));
+    if (stopping()) break;
     int fallen = 0;
     std::vector<CoverStrip> trial = with_fallbacks(scene, now, best.strips, fallen);
-    for (int round = 0; round < kLimitRounds && fallen > 0; ++round) {
+    for (int round = 0; round < kLimitRounds && fallen > 0 && !stopping(); ++round) {
       // Rails that are too stiff for what they have to do get twice as many points, not a worse tolerance.
       if (round > 0) control_points = 2 * scene.options.control_points;
       now = measured(scene, run_pass(scene, now, kLimitPass, control_points, true));

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "flank/base/parallel.h"
+#include "flank/base/stopping.h"
 #include "flank/seed/direction/seeds.h"
 #include "flank/strip/certify.h"
 
@@ -79,6 +80,7 @@ std::vector<CoverStrip> neighbours(const TileScene& scene, const CoverStrip& str
     CoverStrip best;
     double most = 0.0;
     for (const double place : kPlaces) {
+      if (stopping()) break;
       Pose pose = strip.motion.pose(place);
       pose.tip += (beyond_tip ? overlap - length : length - overlap) * pose.axis;
       CoverStrip trial = strip_near(scene, fitter, pose, guide, kLeastInsideOfNeighbours);
@@ -135,7 +137,7 @@ Tiling tile_from(const TileScene& scene, const std::vector<CoverStrip>& pool, in
   };
   take(first);
   while (static_cast<int>(tiling.set.size()) < scene.options.most_strips &&
-         covered.covered() < scene.options.enough_coverage) {
+         covered.covered() < scene.options.enough_coverage && !stopping()) {
     int best = -1;
     double most = scene.options.strip_price;
     for (int k = 0; k < static_cast<int>(pool.size() + tiling.grown.size()); ++k) {
@@ -188,7 +190,7 @@ StripSet improved(const TileScene& scene, const std::vector<CoverStrip>& pool, S
     }
     return best;
   };
-  for (bool changed = true; changed;) {
+  for (bool changed = true; changed && !stopping();) {
     changed = false;
     for (std::size_t i = 0; i < set.size();) {
       covered.add(at(set[i]), -1);
@@ -224,6 +226,7 @@ std::vector<CoverStrip> strips_of(const TileScene& scene, const std::vector<Line
   std::vector<CoverStrip> strips(seeds.size());
   std::vector<char> is_line(seeds.size(), 0);
   parallel_for(seeds.size(), [&](std::size_t k) {
+    if (stopping()) return;
     LineFitter fitter(scene.target, scene.radial, line_options(scene));
     bool line = false;
     strips[k] = strip_near(scene, fitter, seed_pose(seeds[k], scene.radial), {}, least_inside, &line);

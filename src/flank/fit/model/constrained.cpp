@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "flank/base/assert.h"
+#include "flank/base/stopping.h"
 #include "flank/fit/solver/interior_point.h"
 
 namespace flank::internal {
@@ -68,7 +69,7 @@ int descend(const SweptModel& model, FitState& state, const ConstrainedOptions& 
   };
   double before = merit(state);
   int steps = 0;
-  for (; steps < options.steps; ++steps) {
+  for (; steps < options.steps && !stopping(); ++steps) {
     model.assemble(state, weights, quadratic);
     quadratic.add_damping(damping);
     const Eigen::VectorXd step = solve_gaps(gap_problem(model, state, quadratic, options), options.interior_iterations);
@@ -131,6 +132,10 @@ ConstrainedResult minimise_constrained(const ConstrainedProblem& problem, const 
   for (int round = 0; round <= options.exchanges; ++round) {
     const SweptModel model = model_of(points);
     result.steps += descend(model, state, options);
+    if (stopping()) {
+      if (round == 0) result.state = state;
+      break;
+    }
     const std::size_t before = points.size();
     const double worst = exchange(problem, probe, state, options.allowed_overcut_mm, points);
     result.exchanged += static_cast<int>(points.size() - before);

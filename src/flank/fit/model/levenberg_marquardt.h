@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "flank/base/assert.h"
+#include "flank/base/stopping.h"
 #include "flank/fit/model/minimise_result.h"
 
 namespace flank::internal {
@@ -15,7 +16,7 @@ namespace flank::internal {
 /// Minimises the model from `start`; returns the last accepted state, which is never worse than the start under the
 /// weights of its own step. Weights are frozen while a step is sought, and recomputed after it is accepted, so costs of
 /// the trace are comparable only if the weights do not change. A start whose cost is not finite returns as it came,
-/// with kStalled. Deterministic.
+/// with kStalled. Deterministic, unless it is stopped: then it ends with the last accepted state.
 template <class Model>
 MinimiseResult levenberg_marquardt(const Model& model, FitState start) {
   FLANK_ASSERT(!start.motions.empty() && model.stage().iterations >= 0);
@@ -48,13 +49,13 @@ MinimiseResult levenberg_marquardt(const Model& model, FitState start) {
   }
   result.status = MinimiseStatus::kIterationLimit;
   int small_steps = 0;
-  for (int iteration = 0; iteration < model.stage().iterations; ++iteration) {
+  for (int iteration = 0; iteration < model.stage().iterations && !stopping(); ++iteration) {
     const double cost = model.cost(state, weights);
     model.assemble(state, weights, system);
     FitState trial;
     double trial_cost = cost;
     bool accepted = false;
-    for (; damping <= kMostDamping; damping = std::max(kMore * damping, kRetryDamping)) {
+    for (; damping <= kMostDamping && !stopping(); damping = std::max(kMore * damping, kRetryDamping)) {
       if (!system.solve(damping, step)) continue;
       trial = model.moved(state, step);
       model.locate(trial);

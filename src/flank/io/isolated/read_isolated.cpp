@@ -18,6 +18,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "flank/base/stopping.h"
 #include "flank/error.h"
 #include "flank/io/isolated/part_bytes.h"
 #include "flank/io/isolated/reader_message.h"
@@ -110,13 +111,14 @@ class Pulse {
 
 /// All that the child writes; nothing more once the time is over, or beyond `most` bytes.
 std::string receive(int pipe, pid_t child, double patience, double most, bool& over) {
-  constexpr int kLookMs = 500;
+  constexpr int kLookMs = 100;
   const auto begin = Clock::now();
   Pulse pulse(child);
   std::string bytes;
   std::array<char, 1 << 16> block;
   while (true) {
-    // Looked at twice a second at least (kLookMs): a child that writes nothing is noticed as well.
+    // Looked at every kLookMs at least: a child that writes nothing is noticed as well, and so is a request to stop.
+    stop_here();
     over = seconds_since(begin) > patience || static_cast<double>(bytes.size()) > most || pulse.stopped();
     if (over) return bytes;
     pollfd wait{pipe, POLLIN, 0};
@@ -184,6 +186,7 @@ Part read_cad_isolated(const std::string& file, const std::string& format, const
   }
   if (over) ::kill(child, SIGKILL);
   const int status = wait_for(child);
+  stop_here();  // a signal to all that a terminal runs ends the child, too
   // In this order: a child that was killed by us has a signal too, and that is not its fault.
   if (over && static_cast<double>(bytes.size()) > memory) refuse_large(file, memory);
   if (over || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)) refuse_slow(file, seconds);

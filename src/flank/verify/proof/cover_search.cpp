@@ -5,6 +5,7 @@
 
 #include "flank/base/assert.h"
 #include "flank/base/parallel.h"
+#include "flank/base/stopping.h"
 
 namespace flank::internal::verify {
 namespace {
@@ -35,6 +36,7 @@ class CoverSearch {
     out_.open_mm2.assign(samples_.points.size(), 0.0);
     std::vector<Open> open = begin(distances);
     for (int depth = 0; !open.empty(); ++depth) {
+      stop_here();
       std::vector<Open> parts;
       const bool enough = settled(open);
       const bool may_cut = depth < kDeepest && !enough && out_.evaluations + 4 * open.size() <= limits_.evaluations &&

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "flank/base/parallel.h"
+#include "flank/base/stopping.h"
 
 namespace flank::internal::verify {
 namespace {
@@ -42,6 +43,7 @@ class Search {
     open_ = evaluate(shape_.first());
     std::size_t proved_at = 0;
     while (true) {
+      stop_here();
       const bool decided = out_.deepest_mm > limits_.tolerance_mm || top() <= limits_.tolerance_mm;
       if (decided && proved_at == 0) proved_at = std::max<std::size_t>(1, out_.evaluations);
       const double goal = decided ? out_.deepest_mm + limits_.gap_mm : limits_.tolerance_mm;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <deque>
 
+#include "flank/base/stopping.h"
 #include "flank/verify/stock/front_scan.h"
 
 namespace flank::internal::verify {
@@ -96,6 +97,7 @@ void Replayer::run(const Strip& strip, std::size_t index, std::vector<StripRepla
   replay.poses.resize(poses.size());
   std::size_t last = 0;  // the last pose that is not passed
   for (std::size_t k = 0; k < poses.size(); ++k) {
+    stop_here();
     if (k > 0) replay.way_mm += (poses[k].at(0.5 * length_) - poses[k - 1].at(0.5 * length_)).norm();
     const bool passed = k > 0 && k + 1 < poses.size() && way_between(poses[last], poses[k + 1], length_) <= step_;
     cut_behind(&poses[k], out);
@@ -110,6 +112,7 @@ void Replayer::run(const Strip& strip, std::size_t index, std::vector<StripRepla
     const FrontScan::Largest largest = scan_.largest(stock_, {&solid_, poses[k], velocity(poses, k), lately_});
     replay.poses[k].angle_rad = largest.angle_rad;
     replay.poses[k].s = largest.s;
+    replay.poses[k].measured = true;
     if (largest.angle_rad > replay.angle_rad) replay.angle_rad = largest.angle_rad, replay.pose = k;
   }
 }

@@ -21,6 +21,7 @@ struct ReplayOptions {
 struct PoseReplay {
   double angle_rad = 0.0, s = 0.0;  ///< largest engagement of the circles, and where on the axis, mm
   double volume_mm3 = 0.0;          ///< removed on the way from the pose before
+  bool measured = false;            ///< not passed over
 };
 
 struct StripReplay {

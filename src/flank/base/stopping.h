@@ -1,0 +1,31 @@
+/// Ending a program's work early: long loops look here between their steps, and end with the best they have. Handing a
+/// Progress down stops a search between its stages; this stops within them.
+#pragma once
+
+#include <exception>
+
+namespace flank::internal {
+
+/// From now on stopping() is true, in the whole process. May be called from a signal handler.
+void request_stop() noexcept;
+/// Whether the process is to end what it does.
+[[nodiscard]] bool stopping() noexcept;
+
+/// Thrown by work whose unfinished result is worth nothing, such as a verdict.
+class Stopped : public std::exception {
+ public:
+  [[nodiscard]] const char* what() const noexcept override { return "stopped"; }
+};
+/// Throws Stopped if stopping().
+void stop_here();
+
+/// For tests: true as long as it lives.
+class StopForTest {
+ public:
+  StopForTest();
+  ~StopForTest();
+  StopForTest(const StopForTest&) = delete;
+  StopForTest& operator=(const StopForTest&) = delete;
+};
+
+}  // namespace flank::internal

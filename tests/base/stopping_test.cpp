@@ -1,0 +1,20 @@
+#include "flank/base/stopping.h"
+
+#include <gtest/gtest.h>
+
+namespace flank::internal {
+namespace {
+
+TEST(Stopping, WorkIsStoppedOnceThatIsAsked) {
+  EXPECT_FALSE(stopping());
+  EXPECT_NO_THROW(stop_here());
+  {
+    const StopForTest stop;
+    EXPECT_TRUE(stopping());
+    EXPECT_THROW(stop_here(), Stopped);
+  }
+  EXPECT_FALSE(stopping());
+}
+
+}  // namespace
+}  // namespace flank::internal
