@@ -106,6 +106,28 @@ TEST_F(CliProgram, NamesLineAndAxisOfALimit) {
   expect_refused({"post", path("fit"), "--machine", "fanuc-ac", "-o", path("fit/path.json")}, 3, "path.json");
 }
 
+// Outlines in the machine's file: what comes too near is named, by the post and by the judge of the program.
+TEST_F(CliProgram, NamesWhatMeetsTheTable) {
+  make_result();
+  const Outcome good = flank(joined(post("fanuc-ac"), {"--json"}));
+  ASSERT_EQ(good.exit_code, 0) << good.err << good.out;
+  const std::string setup = json::parse(good.out).at("setup").get<std::string>();
+  // A post beside the part, so high that the spindle must meet it.
+  std::string blocked = read_file(fs::path(FLANK_SOURCE_DIR) / "share/machines/fanuc-ac.toml");
+  blocked.replace(blocked.find("cylinder_mm"), blocked.find("radius_mm") - blocked.find("cylinder_mm"),
+                  "cylinder_mm = [0.0, 0.0, -70.0, 0.0, 0.0, 400.0]\n");
+  write_file(root_ / "blocked.toml", blocked);
+  const Outcome posted = flank(
+      {"post", path("fit"), "--machine", path("blocked.toml"), "--setup", setup, "-o", path("blocked.nc"), "--json"});
+  EXPECT_EQ(posted.exit_code, 1) << posted.err;
+  EXPECT_NE(posted.out.find("the tool and table come within"), std::string::npos) << posted.out;
+  const Outcome judged =
+      flank({"verify", path("fit"), "--nc", path("fanuc-ac.nc"), "--machine", path("blocked.toml"), "--json"});
+  EXPECT_EQ(judged.exit_code, 1) << judged.err;
+  EXPECT_NE(judged.out.find("fanuc-ac.nc: line "), std::string::npos) << judged.out;
+  EXPECT_NE(judged.out.find("machine_bodies"), std::string::npos) << judged.out;
+}
+
 TEST_F(CliProgram, IsTheSameForAnyNumberOfThreads) {
   make_result();
   ASSERT_EQ(flank(joined(post("siemens-ac"), {"--threads", "1"})).exit_code, 0);

@@ -6,7 +6,7 @@ import { join } from 'node:path';
 
 export const BINARY = process.env.FLANK_BINARY;
 export const root = mkdtempSync(join(tmpdir(), 'flank-report-'));
-process.on('exit', () => rmSync(root, { recursive: true, force: true }));
+process.on('exit', () => rmSync(root, { recursive: true, force: true, maxRetries: 10, retryDelay: 200 }));
 
 export function flank(...words) {
   const { status, stdout, stderr, error } = spawnSync(BINARY, words, { encoding: 'utf8' });

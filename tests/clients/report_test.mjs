@@ -111,9 +111,26 @@ test('what a machine does is shown once there is a program', async () => {
   must('post', copy, '--machine', 'linuxcnc-xyzac-trt', '-o', join(root, 'posted.ngc'), '--quiet');
   must('report', copy, '--quiet');
   page = await open(copy);
-  const { joints } = json(copy, 'motion.json');
-  assert.equal(await page.value(`document.querySelectorAll('#machine svg').length`), joints.length + 2);
+  const { joints, time_s: times, cutting } = json(copy, 'motion.json');
+  assert.equal(await page.value(`document.querySelectorAll('#machine svg').length`), joints.length + 3);
   assert.match(await page.value(`document.querySelector('#machine').textContent`), /On linuxcnc-xyzac-trt: .* along the strips/);
+  // The picture of the axes follows its slider: the solids stand where the joints of that time put them.
+  const set = async (time) => {
+    await page.value(`(() => { const s = document.querySelector('#machine-time'); s.value = ${time}; s.dispatchEvent(new Event('input')); return 0; })()`);
+    const where = await page.value(`document.querySelector('#machine-where').textContent`);
+    assert.equal(where.includes('along a strip'), cutting[time] === 1);
+    for (const joint of joints) assert.ok(where.includes(`${joint.name} ${joint.values[time].toFixed(joint.unit === 'mm' ? 1 : 2)} ${joint.unit}`), where);
+    return page.value(`JSON.stringify([...document.querySelectorAll('#machine .solid')].map((e) => [e.dataset.name, e.getAttribute('points')]))`);
+  };
+  const half = cutting.lastIndexOf(1);
+  const first = JSON.parse(await set(0)), later = JSON.parse(await set(half));
+  assert.ok(first.some(([name]) => name === 'part') && first.some(([name]) => name === 'tool') && first.some(([name]) => name === 'spindle'));
+  assert.ok(times.length > half);
+  for (const [k, [name, points]] of later.entries()) {
+    assert.match(points, /^[-\d., ]+$/, name);
+    assert.ok(points.split(/[ ,]/).every((x) => Number(x) >= 0 && Number(x) <= 420), `${name} is within the picture: ${points}`);
+    if (name === 'tool' || name === 'part') assert.notEqual(points, first[k][1], `${name} moves`);
+  }
   await page.close();
 });
 

@@ -16,14 +16,17 @@ TEST(Links, StripsThatGoOnIntoOneAnotherAreOne) {
                  {2, "front", "F1", {at(1.0), at(2.0), at(3.0)}},
                  {3, "back", "F2", {at(3.5), at(4.0)}},
                  {4, "front", "F2", {at(4.0, Vec3::UnitX()), at(5.0)}}};
-  const Path chains = joined(path);
+  const KnownPath both = joined({path, {{1, 4}, {3, 5, 6}, {7, 8}, {}}});
+  EXPECT_EQ(both.known, (std::vector<std::vector<double>>{{1, 4, 5, 6}, {7, 8}, {}}));
+  EXPECT_TRUE(joined({path, {{1, 4}, {}, {7, 8}, {}}}).known[0].empty()) << "not known of all of it";
+  const Path& chains = both.path;
   ASSERT_EQ(chains.strips.size(), 3U);
   EXPECT_EQ(chains.strips[0].kind, "entry");
   ASSERT_EQ(chains.strips[0].poses.size(), 4U);  // the common pose once
   EXPECT_EQ(chains.strips[0].poses[3].tip.x(), 3.0);
   EXPECT_EQ(chains.strips[1].id, 3) << "not from the same place";
   EXPECT_EQ(chains.strips[2].id, 4) << "not along the same axis";
-  EXPECT_TRUE(joined({}).strips.empty());
+  EXPECT_TRUE(joined({}).path.strips.empty());
 }
 
 // An arc of 60 degrees: tangent to the motion at the contact, `off` away from the surface at its end, the axis as it was.

@@ -109,6 +109,32 @@ TEST(MachineFile, RefusesChainsThatHoldNoTool) {
   expect_refused(good.substr(0, z) + good.substr(good.find("[spindle]")), "2 linear and 2 rotary joints");
 }
 
+TEST(MachineFile, ReadsOutlinesOfTableAndHead) {
+  const std::string good = shipped_text("fanuc-ac");
+  const Machine machine = machine_from_toml(good, "m.toml");
+  ASSERT_EQ(machine.bodies.size(), 2u);
+  EXPECT_EQ(machine.bodies[0].name, "table");
+  EXPECT_EQ(machine.bodies[0].link, 0u) << "on C, which carries the work";
+  EXPECT_EQ(machine.bodies[0].to, Vec3(0, 0, -30));
+  EXPECT_EQ(machine.bodies[0].radius, 125.0);
+  EXPECT_EQ(machine.bodies[1].link, kJointCount) << "on Z, which carries the tool";
+  const auto with = [&](const std::string& on, const std::string& shape) {
+    return replaced(good, "[spindle]", "[[body]]\nname = \"cover\"\non = \"" + on + "\"\n" + shape + "\n\n[spindle]");
+  };
+  const std::string box = "box_mm = [0, 0, 0, 1, 2, 3]";
+  EXPECT_EQ(machine_from_toml(with("A", box), "m.toml").bodies[2].link, 1u) << "between C and A";
+  EXPECT_EQ(machine_from_toml(with("bed", box), "m.toml").bodies[2].link, 2u);
+  EXPECT_EQ(machine_from_toml(with("X", box), "m.toml").bodies[2].link, 3u);
+  EXPECT_NE(machine_to_text(machine).find("spindle nose"), std::string::npos);
+  EXPECT_NE(machine_to_json(machine).find("\"bodies\""), std::string::npos);
+  expect_refused(with("B", box), "accepted are \"bed\"", "\"A\"");
+  expect_refused(with("A", ""), "either box_mm or cylinder_mm");
+  expect_refused(with("A", box + "\nradius_mm = 3"), "radius_mm: is no key here");
+  expect_refused(with("A", "box_mm = [0, 0, 0, 1, 0, 3]"), "box_mm", "lower corner");
+  expect_refused(with("A", "cylinder_mm = [0, 0, 0, 0, 0, 1]"), "radius_mm: is missing");
+  expect_refused(with("A", "cylinder_mm = [0, 0, 0, 0, 0, 0]\nradius_mm = 1"), "cylinder_mm", "differ");
+}
+
 TEST(MachineFile, RefusesWhatAControlCannot) {
   const std::string linuxcnc = shipped_text("linuxcnc-xyzac-trt");
   expect_refused(replaced(linuxcnc, "join = \"axes\"", "join = \"great-circle\""), "LinuxCNC joins blocks by \"axes\"");

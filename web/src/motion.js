@@ -1,6 +1,7 @@
 // What the machine does over time (docs/schema/motion.md): each joint, the feed, and how near to their limits the joints are.
 import { html } from './dom.js';
 import * as format from './format.js';
+import { MachinePicture } from './machine.js';
 import { Plot } from './plot.js';
 
 const NARROW = { width: 420, height: 130, yCount: 3 };
@@ -42,6 +43,6 @@ function loadChart({ time_s: time, speed_share: share }) {
 export function motionCharts(motion) {
   const minutes = (seconds) => (seconds < 60 ? `${format.plain(seconds, 3)} s` : `${format.plain(seconds / 60, 3)} min`);
   const text = `On ${motion.machine}: ${minutes(motion.duration_s)}, of which ${minutes(motion.cutting_s)} along the strips.`;
-  return html('div', {}, html('p', { class: 'soft' }, text),
+  return html('div', {}, html('p', { class: 'soft' }, text), new MachinePicture(motion).root,
     html('div', { class: 'charts' }, feedChart(motion), loadChart(motion), ...motion.joints.map((joint) => jointChart(joint, motion.time_s))));
 }

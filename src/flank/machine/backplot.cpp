@@ -18,6 +18,9 @@ constexpr double kSpeedSlack = 1e-3;
 /// Joined poses of one block, at most.
 constexpr double kMostPieces = 1e5;
 
+/// Between places of the track: over them joints of any chain are straight to some hundredths of a millimetre.
+constexpr double kTrackMm = 1.0, kTrackRad = 0.02;
+
 /// Runs a program as the control would, and takes down where the flank's axis goes. It shares kinematics and joins
 /// with the post, but none of its choices: it knows the program's words alone.
 class Backplotter {
@@ -72,6 +75,7 @@ class Backplotter {
       // From the reference position: the way there is not the path's, and not known.
       push(end.pose);
     }
+    add_track(move, end, joined);
     check_travel(move, end);
     result_.joints.push_back(end.joints);
     result_.seconds.push_back(seconds);
@@ -163,6 +167,21 @@ class Backplotter {
     const int count = static_cast<int>(pieces);
     for (int k = 1; k < count; ++k) push(control_.pose(before_, end, static_cast<double>(k) / count));
     push(end.pose);
+  }
+
+  /// The way from a reference position is not known; it is taken as straight.
+  void add_track(const NcMove& move, const BlockEnd& end, bool joined) {
+    int count = 1;
+    if (joined) {
+      const RotaryValues a = kinematics_.rotary_of(before_.joints), b = kinematics_.rotary_of(end.joints);
+      const double turn = std::abs(b[0] - a[0]) + std::abs(b[1] - a[1]);
+      const double way = (end.pose.tip - before_.pose.tip).norm();
+      count = static_cast<int>(std::clamp(std::ceil(std::max(way / kTrackMm, turn / kTrackRad)), 1.0, kMostPieces));
+    }
+    for (int k = 1; k <= count; ++k) {
+      result_.track.push_back(k == count ? end.joints : control_.joints(before_, end, static_cast<double>(k) / count));
+      result_.track_lines.push_back(move.line);
+    }
   }
 
   /// By its feed; a rapid by the slowest of the machine's own limits. Blocks that only turn have a feed in degrees

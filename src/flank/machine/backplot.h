@@ -28,8 +28,11 @@ struct LimitFinding {
 };
 
 struct Backplot {
-  Path path;                         ///< in the part's frame; what no strip claims has kind "link"
-  std::vector<JointValues> joints;   ///< at the end of each move
+  Path path;                        ///< in the part's frame; what no strip claims has kind "link"
+  std::vector<JointValues> joints;  ///< at the end of each move
+  /// Between and at the ends of moves, so near that joints run straight from each to the next; and the line of each.
+  std::vector<JointValues> track;
+  std::vector<std::int32_t> track_lines;
   std::vector<double> seconds;       ///< of each move, as its feed has it; rapids at the machine's rapid
   std::vector<LimitFinding> travel;  ///< joints beyond their travel, at most one of each joint
   std::vector<LimitFinding> speed;   ///< joints that would have to be faster than they can, likewise

@@ -35,6 +35,7 @@ class Planner {
     for (std::size_t i = 1; i + 1 < n; ++i) bend_[i] = bend_length(i, rounding);
     for (std::size_t i = 0; i < n; ++i) cap_[i] = speed_cap(i);
     cap_.front() = cap_.back() = 0.0;  // from rest to rest
+    share_.assign(n, 1.0);
   }
 
   FeedPlan run() {
@@ -111,7 +112,7 @@ class Planner {
   Bounds bounds_at(std::size_t i) const {
     Bounds b;
     for (std::size_t k = 0; k < kJointCount; ++k) {
-      const double a = machine_.joints[k].acceleration, bend = i == 0 ? 0.0 : bend_at(i, k);
+      const double a = share_[i] * machine_.joints[k].acceleration, bend = i == 0 ? 0.0 : bend_at(i, k);
       if (bend != 0.0) b.cap = std::min(b.cap, a / std::abs(bend));
       add_side(b, rate_[i + 1][k], bend, a);
       if (i > 0) add_side(b, rate_[i][k], bend, a);
@@ -183,7 +184,7 @@ class Planner {
     return 2.0 * seconds;
   }
 
-  /// Lowers the caps where a millisecond shows more than a limit; false if none does.
+  /// Lowers caps and shares where a millisecond shows more than a limit; false if none does.
   bool slow_down_where_needed(const FeedPlan& plan);
   /// Slows the whole down until the limits hold.
   void stretch(FeedPlan& plan) const;
@@ -192,6 +193,7 @@ class Planner {
   std::span<const FeedNode> nodes_;
   std::vector<double> step_, cap_;  ///< length of the way to each node; largest squared speed at it
   std::vector<double> bend_;        ///< length of the parabola at each node
+  std::vector<double> share_;       ///< of the accelerations that the plan may take at each node
   std::vector<JointValues> rate_;   ///< of the joints per length, on the way to each node
 };
 
@@ -256,15 +258,22 @@ constexpr double kSlack = 1e-6;
 
 bool Planner::slow_down_where_needed(const FeedPlan& plan) {
   bool any = false;
+  const std::vector<double> share = share_;
   sample(nodes_, plan,
          [&](std::size_t first, std::size_t last, const JointValues& b, const JointValues& h, const JointValues& n) {
            const Shares s = shares(machine_, b, h, n);
-           const double over = std::max(s.speed * s.speed, s.acceleration);
-           if (over <= 1.0 + kSlack) return;
+           if (std::max(s.speed, s.acceleration) <= 1.0 + kSlack) return;
            any = true;
-           for (std::size_t i = std::max<std::size_t>(first, 1); i <= last && i + 1 < nodes_.size(); ++i)
-             // A jump that is shorter than a tick falls with the speed, not with its square.
-             cap_[i] = std::min(cap_[i], plan.speed[i] * plan.speed[i] / std::min(1.02 * over * over, kMostSlowing));
+           for (std::size_t i = first; i <= last && i + 1 < nodes_.size(); ++i)
+             if (s.speed > 1.0 + kSlack || bend_[i] < plan.speed[i] * kTick) {
+               // A jump that is shorter than a tick falls with the speed, not with its square.
+               const double over = std::max(s.speed * s.speed, s.acceleration);
+               cap_[i] = std::min(cap_[i], plan.speed[i] * plan.speed[i] / std::min(1.02 * over * over, kMostSlowing));
+             } else {
+               // Along a parabola the squared speed is not that of its node. Less acceleration mends it where it is; a
+               // lower speed would only have to be reached sooner, at the places before.
+               share_[i] = std::min(share_[i], share[i] / (1.001 * s.acceleration));
+             }
          });
   return any;
 }

@@ -133,6 +133,19 @@ RotarySolutions Kinematics::rotary(const Vec3& direction, double first) const {
   return solutions;
 }
 
+Eigen::Isometry3d Kinematics::link(const JointValues& q, std::size_t joints) const {
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  for (std::size_t k = 0; k < joints; ++k) {
+    const Link& link = links_[k];
+    if (link.rotary)
+      motion = motion * Eigen::Translation3d(link.point) * Eigen::AngleAxisd(q[k], link.direction) *
+               Eigen::Translation3d(-link.point);
+    else
+      motion = motion * Eigen::Translation3d(q[k] * link.direction);
+  }
+  return motion;
+}
+
 // Down the chain as in frame(): the point is where it stands before the joint turns, and so is its distance from the
 // axis.
 double Kinematics::lever(const JointValues& q) const {

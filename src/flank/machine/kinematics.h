@@ -4,6 +4,7 @@
 /// table, which is the machine's where all joints are zero. docs/algorithms/machine.md has the derivation.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <array>
 
 #include "flank/machine/model/machine.h"
@@ -52,6 +53,9 @@ class Kinematics {
   [[nodiscard]] double sine_to_first(const Vec3& direction) const {
     return direction.cross(links_[rotary_[0]].direction).norm();
   }
+  /// The motion of what `joints` joints lie before, 0 to kJointCount, from where all joints are zero to q: in the frame of
+  /// the work.
+  [[nodiscard]] Eigen::Isometry3d link(const JointValues& q, std::size_t joints) const;
   /// The farthest that the controlled point, on its way down the chain, is from a rotary axis, mm.
   [[nodiscard]] double lever(const JointValues& q) const;
 

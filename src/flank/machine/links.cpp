@@ -189,19 +189,37 @@ std::vector<std::size_t> short_order(const Path& path, const Box3& box) {
   return order;
 }
 
-Path joined(const Path& path) {
+namespace {
+
+/// The values of two strips that share a pose; none if one of them has none.
+void append_known(std::vector<double>& known, const std::vector<double>& next) {
+  if (known.empty() || next.empty()) {
+    known.clear();
+    return;
+  }
+  known.back() = std::max(known.back(), next.front());
+  known.insert(known.end(), next.begin() + 1, next.end());
+}
+
+}  // namespace
+
+KnownPath joined(const KnownPath& given) {
   constexpr double kSame = 1e-9;
-  Path chains;
-  for (const Strip& strip : path.strips) {
+  if (given.known.size() != given.path.strips.size()) throw InternalError("values of other strips");
+  KnownPath chains;
+  for (std::size_t k = 0; k < given.path.strips.size(); ++k) {
+    const Strip& strip = given.path.strips[k];
     const Pose& begin = strip.poses.front();
-    if (!chains.strips.empty()) {
-      std::vector<Pose>& poses = chains.strips.back().poses;
+    if (!chains.path.strips.empty()) {
+      std::vector<Pose>& poses = chains.path.strips.back().poses;
       if ((poses.back().tip - begin.tip).norm() <= kSame && (poses.back().axis - begin.axis).norm() <= kSame) {
         poses.insert(poses.end(), strip.poses.begin() + 1, strip.poses.end());
+        append_known(chains.known.back(), given.known[k]);
         continue;
       }
     }
-    chains.strips.push_back(strip);
+    chains.path.strips.push_back(strip);
+    chains.known.push_back(given.known[k]);
   }
   return chains;
 }

@@ -32,9 +32,15 @@ struct LinkOptions {
 
 inline constexpr const char* kLinkKind = "link";
 
+/// A path of which some is known at each pose: one value a pose of each strip; an empty list where it is not known.
+struct KnownPath {
+  Path path;
+  std::vector<std::vector<double>> known;
+};
+
 /// Strips that begin where the one before ends (the same place and axis, to 1e-9) are one: a cavity's cycles are linked
-/// already. The first one's id, kind and face stay.
-[[nodiscard]] Path joined(const Path& path);
+/// already. The first one's id, kind and face stay. Of the pose that two strips share the larger value is kept.
+[[nodiscard]] KnownPath joined(const KnownPath& path);
 
 /// The strips with links (kind "link") around them: link, strip, link, ..., strip, link. Ids of strips stay; those of the
 /// links follow them. On the sphere the tool points away from the part, so that nothing above its tip comes nearer.

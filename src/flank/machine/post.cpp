@@ -1,5 +1,7 @@
 #include "flank/machine/post.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -126,6 +128,14 @@ class Poster {
     ++blocks_;
   }
 
+  /// The contact's fastest over a block. A feed is about cutting; joints' limits hold in either case, by the planner.
+  double cap_of(std::size_t strip, std::size_t block) const {
+    if (is_link(path_.strips[strip]) || options_.time_optimal) return machine_.rapid;
+    const std::vector<double>& at = strips_[strip].at;
+    if (strip >= options_.engagement.size()) return options_.feed.feed;
+    return feed_between(options_.engagement[strip], at[block - 1], at[block], options_.feed);
+  }
+
   void plan_feeds() {
     // Where the machine stands before the first block: it belongs to none.
     nodes_.push_back({strips_.front().blocks.front().joints, 0.0, machine_.rapid, -1});
@@ -133,10 +143,8 @@ class Poster {
     for (const LinearisedStrip& strip : strips_) total += strip.blocks.size() - 1;
     for (std::size_t k = 0; k < strips_.size(); ++k) {
       const std::vector<BlockEnd>& ends = strips_[k].blocks;
-      // A feed is about cutting. Joints' limits hold in either case, by the planner.
-      const bool fast = is_link(path_.strips[k]) || options_.time_optimal;
       for (std::size_t i = 1; i < ends.size(); ++i, ++done)
-        add_block(ends[i - 1], ends[i], fast ? machine_.rapid : options_.feed, done == 0 || done + 1 == total);
+        add_block(ends[i - 1], ends[i], cap_of(k, i), done == 0 || done + 1 == total);
     }
     block_seconds_.assign(static_cast<std::size_t>(blocks_), 0.0);
     if (blocks_ == 0) return;
@@ -213,6 +221,10 @@ class Poster {
     NcProgram& program = post_.program;
     program.header.machine = machine_.name;
     program.header.work_offset = machine_.work_offset;
+    // Joint coordinates are the machine's own: no offset may shift them.
+    const Vec3 origin =
+        machine_.positions == NcPositions::kJoint ? Vec3(Vec3::Zero()) : Vec3(options_.setup.translation);
+    program.header.origin = fmt::format("X{} Y{} Z{}", origin.x(), origin.y(), origin.z());
     program.header.tool.name = tool_.name;
     program.header.tool.diameter = 2.0 * tool_.largest_radius;
     program.header.tool.length = machine_.tool_length;

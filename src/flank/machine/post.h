@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "flank/machine/engagement_feed.h"
 #include "flank/machine/joint_choice.h"
 #include "flank/machine/linearise.h"
 #include "flank/machine/model/machine.h"
@@ -25,8 +26,10 @@ struct PostOptions {
   WorkSetup setup;
   double deviation = 1e-4;       ///< mm: LineariseOptions
   double link_deviation = 0.01;  ///< mm, of links
-  double feed = 1000.0 / 60.0;   ///< of the contact along strips, mm/s
-  bool time_optimal = false;     ///< as fast as the joints can instead
+  EngagementFeed feed;           ///< of the contact along strips
+  /// Of each pose of each strip, radians; empty lists, or none at all, where it is not known.
+  std::vector<std::vector<double>> engagement;
+  bool time_optimal = false;  ///< as fast as the joints can instead
 };
 
 /// The range that a joint uses, and how fast; mm, degrees, seconds.

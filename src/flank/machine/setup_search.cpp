@@ -85,8 +85,9 @@ std::vector<std::array<double, 3>> tilted_turns(const Vec3& spindle, const std::
 /// All turns and places one after the other; the best that the machine reaches is kept.
 class Search {
  public:
-  Search(const Machine& machine, const Kinematics& kinematics, const std::vector<Pose>& poses)
-      : machine_(machine), kinematics_(kinematics), poses_(thinned(poses)) {
+  Search(const Machine& machine, const Kinematics& kinematics, const std::vector<Pose>& poses,
+         std::span<const SolidBody> solids)
+      : machine_(machine), kinematics_(kinematics), poses_(thinned(poses)), solids_(solids) {
     for (const Pose& p : poses_) box_.add(p.tip);
   }
 
@@ -146,6 +147,12 @@ class Search {
                                                                                             : Outcome::kPlace;
     }
     const double worth = worth_of(choice);
+    // Looked at only where it could win: distances cost more than angles.
+    if (found_.setup && worth <= worth_ + 1e-9) return Outcome::kFits;
+    if (const std::optional<BodyHit> hit = first_hit(choice)) {
+      found_.reason = hit_text(machine_, *hit);
+      return Outcome::kPlace;
+    }
     // Better by more than rounding: else the first stays, for any machine that this runs on.
     if (!found_.setup || worth > worth_ + 1e-9) {
       worth_ = worth;
@@ -153,6 +160,15 @@ class Search {
       found_.least_sine = choice.least_sine;
     }
     return Outcome::kFits;
+  }
+
+  /// At the poses alone: the whole motion is judged when it is known.
+  std::optional<BodyHit> first_hit(const JointChoice& choice) const {
+    for (const JointValues& q : choice.joints) {
+      std::vector<BodyHit> hits = check_bodies(machine_, kinematics_, solids_, std::span(&q, 1), 0.0);
+      if (!hits.empty()) return std::move(hits.front());
+    }
+    return std::nullopt;
   }
 
   /// Away from the singular direction, well inside the travels, tilted little.
@@ -175,6 +191,7 @@ class Search {
   const Machine& machine_;
   const Kinematics& kinematics_;
   std::vector<Pose> poses_;
+  std::span<const SolidBody> solids_;
   Box3 box_;
   double worth_ = 0.0;
   FoundSetup found_;
@@ -182,8 +199,9 @@ class Search {
 
 }  // namespace
 
-FoundSetup search_setup(const Machine& machine, const Kinematics& kinematics, const std::vector<Pose>& poses) {
-  return Search(machine, kinematics, poses).run();
+FoundSetup search_setup(const Machine& machine, const Kinematics& kinematics, const std::vector<Pose>& poses,
+                        std::span<const SolidBody> solids) {
+  return Search(machine, kinematics, poses, solids).run();
 }
 
 }  // namespace flank::internal

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "flank/machine/body_check.h"
 #include "flank/machine/joint_choice.h"
 #include "flank/machine/work_setup.h"
 
@@ -21,8 +22,8 @@ struct FoundSetup {
 /// Tries turns of the part: the 24 that keep its axes along the machine's, then the path's middle direction at several
 /// tilts; and for each of them places on the table. Among those within all travels wins the one that keeps away from the
 /// singular direction (up to 30 degrees), tilts least, and leaves most of the travels. `poses` are of the controlled point
-/// in the part's frame; a path of many is thinned.
+/// in the part's frame; a path of many is thinned. At none of them may the `solids` meet (body_check.h).
 [[nodiscard]] FoundSetup search_setup(const Machine& machine, const Kinematics& kinematics,
-                                      const std::vector<Pose>& poses);
+                                      const std::vector<Pose>& poses, std::span<const SolidBody> solids = {});
 
 }  // namespace flank::internal

@@ -53,6 +53,20 @@ TEST(ReadNc, FanucWithOtherAxesAndAnExtendedOffset) {
   expect_move(p.moves[2], NcKind::kFeed, {38.1, -12.7, 6.35}, {0, 91.25, 0}, 1016);
 }
 
+// G70 and G71 are about coordinates; the feed stays in the control's own unit unless G700 or G710 says otherwise.
+TEST(ReadNc, SiemensInchesAndTheirFeeds) {
+  const auto read = [](const std::string& unit) {
+    const std::string text =
+        "G0 G17 G40 G90 G94 " + unit + "\nT=\"C\" D1\nTRAORI\nG54\nORIWKS ORIAXES\nG0 X0 Y0 Z2 A0 C0\nG1 Z1 F20\nM30\n";
+    const NcProgram p = read_nc(text, "p.mpf", NcDialect{.language = NcLanguage::kSiemens});
+    return std::pair(p.moves.back().position.z(), p.moves.back().feed);
+  };
+  EXPECT_EQ(read("G70"), std::pair(25.4, 20.0));
+  EXPECT_EQ(read("G700"), std::pair(25.4, 508.0));
+  EXPECT_EQ(read("G71"), std::pair(1.0, 20.0));
+  EXPECT_EQ(read("G710"), std::pair(1.0, 20.0));
+}
+
 TEST(ReadNc, SiemensWithVectorsOfAnyLength) {
   const NcProgram p = read_corpus("nc_siemens/other.mpf", NcLanguage::kSiemens);
   EXPECT_EQ(p.positions, NcPositions::kTipVector);

@@ -40,6 +40,16 @@ using JointValues = std::array<double, kJointCount>;
 /// A value of a joint in mm or degrees.
 [[nodiscard]] double in_units(const Joint& joint, double value);
 
+/// A part of the machine's outline, where all joints are zero, in the machine's frame. Millimetres.
+struct MachineBody {
+  enum class Shape : std::uint8_t { kBox, kCylinder };
+  std::string name;
+  std::size_t link = 0;  ///< joints between the work and it: 0 moves with the work, kJointCount with the tool
+  Shape shape = Shape::kBox;
+  Vec3 from = Vec3::Zero(), to = Vec3::Zero();  ///< lower and upper corner; ends of the axis
+  double radius = 0.0;                          ///< of a cylinder
+};
+
 /// Where programs measure the tool: the centre of the tip's sphere (s = 0), or the tool's lowest point, r(0) beyond it.
 enum class ControlledPoint : std::uint8_t { kCentre, kLowest };
 
@@ -52,6 +62,7 @@ struct Machine {
   Vec3 tool_axis = Vec3::UnitZ();         ///< towards the holder, likewise
   double tool_length = 100.0;             ///< from the gauge point to the controlled point, if nothing else is said
   ControlledPoint controlled = ControlledPoint::kLowest;
+  std::vector<MachineBody> bodies;
   double rapid = 100.0;  ///< of the controlled point on links, mm/s
   NcDialect dialect;
   NcPositions positions = NcPositions::kTipRotary;
@@ -61,6 +72,8 @@ struct Machine {
 
   [[nodiscard]] const Joint& rotary_joint(std::size_t k) const { return joints[rotary[k]]; }
   [[nodiscard]] const Joint& linear_joint(std::size_t k) const { return joints[linear[k]]; }
+  /// How many joints move the work: the link behind them is the bed.
+  [[nodiscard]] std::size_t table_joints() const;
   /// "table-table", "head-table", "head-head".
   [[nodiscard]] std::string nesting() const;
 };

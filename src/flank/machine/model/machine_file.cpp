@@ -12,6 +12,7 @@
 #include "flank/base/shared_folder.h"
 #include "flank/error.h"
 #include "flank/io/text/toml_table.h"
+#include "flank/machine/model/body_file.h"
 
 namespace flank::internal {
 namespace {
@@ -240,6 +241,7 @@ Machine machine_from_toml(std::string_view text, const std::string& file) {
   read_meaning(control, machine);
   // After the spindle and the dialect: it holds the joints against the first, and writes its letters into the second.
   place_rotary(control, chain, machine);
+  machine.bodies = read_bodies(table, machine);
   control.require_all_known();
   table.require_all_known();
   return machine;

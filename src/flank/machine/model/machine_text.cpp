@@ -30,6 +30,12 @@ std::string positions_word(NcPositions positions) {
 std::string join_word(NcJoin join) { return join == NcJoin::kAxes ? "axes" : "great-circle"; }
 std::string feed_word(NcFeedMode mode) { return mode == NcFeedMode::kPerMinute ? "per-minute" : "inverse-time"; }
 
+std::string moves_with(const Machine& machine, const MachineBody& body) {
+  const std::size_t bed = machine.table_joints();
+  if (body.link == bed) return "on the bed";
+  return "on " + machine.joints[body.link < bed ? body.link : body.link - 1].name;
+}
+
 Json triple(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 }  // namespace
@@ -52,6 +58,9 @@ std::string machine_to_text(const Machine& machine) {
                       machine.rotary_joint(1).name);
   text += fmt::format("tool length {:g} mm to {}\n", machine.tool_length,
                       machine.controlled == ControlledPoint::kLowest ? "its lowest point" : "the centre of its tip");
+  for (const MachineBody& body : machine.bodies)
+    text += fmt::format("outline of {}: {}, {}\n", body.name,
+                        body.shape == MachineBody::Shape::kBox ? "a box" : "a cylinder", moves_with(machine, body));
   return text;
 }
 
@@ -78,6 +87,16 @@ std::string machine_to_json(const Machine& machine) {
     joint["speed"] = in_units(j, j.speed);
     joint["acceleration"] = in_units(j, j.acceleration);
     json["joints"].push_back(std::move(joint));
+  }
+  json["bodies"] = Json::array();
+  for (const MachineBody& body : machine.bodies) {
+    const bool box = body.shape == MachineBody::Shape::kBox;
+    Json one = {{"name", body.name}, {"moves", moves_with(machine, body)}};
+    Json ends = triple(body.from);
+    for (const Json& x : triple(body.to)) ends.push_back(x);
+    one[box ? "box_mm" : "cylinder_mm"] = ends;
+    if (!box) one["radius_mm"] = body.radius;
+    json["bodies"].push_back(std::move(one));
   }
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

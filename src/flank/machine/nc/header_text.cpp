@@ -80,6 +80,8 @@ std::vector<std::string> header_comments(const NcHeader& header) {
   if (!header.part.empty()) comments.push_back(safe_comment("PART " + header.part));
   if (!header.machine.empty()) comments.push_back(safe_comment("MACHINE " + header.machine));
   if (!header.setup.empty()) comments.push_back(safe_comment("SETUP " + header.setup));
+  if (!header.origin.empty())
+    comments.push_back(safe_comment("WORK OFFSET " + std::to_string(header.work_offset) + " HOLDS " + header.origin));
   const NcTool& tool = header.tool;
   // Two lines for the tool: its name may be long, and its dimensions must not be cut off with it.
   std::string named = "TOOL " + std::to_string(tool.number);
@@ -100,6 +102,10 @@ bool read_header_comment(std::string_view comment, NcHeader& header) {
     header.machine = *machine;
   } else if (const auto setup = after(comment, "SETUP")) {
     header.setup = *setup;
+  } else if (auto offset = after(comment, "WORK OFFSET")) {
+    // Its number is the program's own word, which counts.
+    if (!whole(take_word(*offset)) || !offset->starts_with("HOLDS ")) return false;
+    header.origin = offset->substr(6);
   } else if (auto tool = after(comment, "TOOL")) {
     // Both lines begin with TOOL; a number follows in the other one only.
     if (read_dimensions(*tool, header.tool)) return true;

@@ -49,6 +49,7 @@ struct NcHeader {
   std::string part = {};          ///< file of the part
   std::string machine = {};       ///< the machine that it is for
   std::string setup = {};         ///< where the part sits, "x,y,z,a,b,c" (work_setup.h); empty: not known
+  std::string origin = {};        ///< what the work offset holds for that, "X5 Y-8 Z60"; empty: not known
   NcTool tool;
   double spindle_rpm = 0.0;  ///< 0: the spindle is not started
   int work_offset = 1;       ///< 1 is G54 (or the first preset)

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "flank/base/stopping.h"
 #include "flank/error.h"
 #include "flank/pipeline/folder/target_reach.h"
 #include "flank/setup/targets.h"
@@ -106,16 +107,6 @@ double default_spacing(double diagonal_mm) {
   return std::clamp(diagonal_mm / 300.0, 0.05, std::max(0.5, diagonal_mm / 1000.0));
 }
 
-namespace {
-
-/// Measured to cover what was asked, but not proved to.
-bool undecided(const VerifyReport& report, double least) {
-  return report.coverage_reachable >= least && report.overcut_bound_mm <= report.tolerance_mm &&
-         report.coverage_reachable_bound && *report.coverage_reachable_bound < least;
-}
-
-}  // namespace
-
 VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const Tool& tool, const Path& path) {
   const double usual = default_spacing(setup.part.box.diagonal());
   const JudgedShapes shapes(setup, request.sample_mm.value_or(usual));
@@ -124,18 +115,12 @@ VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const To
   // A tool that is none (a fit that failed) has nothing to reach with.
   std::optional<TargetReach> reach;
   if (radius > 0.0) reach.emplace(setup, tool, path, radius, target_samples(setup, kReachSpacings * usual));
+  stop_here();
   JudgeOptions options;
   options.tolerance_mm = setup.tolerance_mm;
   options.depth = request.sample_mm ? DepthProof::kSampled : DepthProof::kProved;
-  const auto judged = [&] {
-    return verify::judge_faces(tool, path, shapes.judged(setup, reach ? &*reach : nullptr), options);
-  };
-  VerifyReport report = judged();
-  // Where the verdict hangs on the proof, it gets what it needs: the cells along the border of what is covered, finer.
-  if (undecided(report, request.least_coverage)) {
-    options.proof.cover_evaluations *= 16;
-    report = judged();
-  }
+  VerifyReport report =
+      verify::judge_faces(tool, path, shapes.judged(setup, reach ? &*reach : nullptr), options, request.least_coverage);
   report.reach_radius_mm = radius;
   return report;
 }

@@ -15,6 +15,7 @@
 #include "flank/machine/nc/read/read_nc.h"
 #include "flank/pipeline/folder/folder_job.h"
 #include "flank/pipeline/folder/judge_job.h"
+#include "flank/pipeline/folder/machine_scene.h"
 #include "flank/setup/clearance_scene.h"
 #include "flank/setup/tool_body.h"
 #include "flank/tool_file.h"
@@ -77,7 +78,7 @@ void add_findings(const std::string& file, const char* figure, const std::vector
 
 Verification judge(const VerifyJob& request, PlanJob job, const Question& q) {
   const std::string& file = *request.nc.file;
-  const Machine machine = read_machine(*request.nc.machine);
+  Machine machine = read_machine(*request.nc.machine);
   const NcProgram program = read_nc(read_file(file), file, machine.dialect);
   Verification outcome;
   outcome.job = std::move(job);
@@ -96,6 +97,11 @@ Verification judge(const VerifyJob& request, PlanJob job, const Question& q) {
   outcome.acceptance = accept(q.tool, outcome.report, q.judge.least_coverage);
   add_findings(file, "travel", plot.travel, outcome.acceptance);
   add_findings(file, "axis_speed", plot.speed, outcome.acceptance);
+  machine.tool_length = options.tool_length;
+  MachineScene scene_of_machine = machine_scene(machine, q.tool, options.tip_offset);
+  add_work(setup, q.obstacles, options.setup, scene_of_machine);
+  const auto where = [&](std::size_t place) { return fmt::format("{}: line {}", file, plot.track_lines[place]); };
+  judge_scene(machine, machine.tool_length, scene_of_machine, plot.track, where, outcome.acceptance);
   outcome.notes.push_back(fmt::format("{} on {}: {} moves in {}, as {} poses within {:.2g} mm of its motion",
                                       std::filesystem::path(file).filename().string(), machine.name,
                                       program.moves.size(), minutes_text(plot.time_s / 60.0), plot.path.pose_count(),

@@ -22,6 +22,34 @@ nlohmann::ordered_json or_null(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(rounded(value)) : nlohmann::ordered_json(nullptr);
 }
 
+nlohmann::ordered_json triple(const Vec3& v) { return {rounded(v.x()), rounded(v.y()), rounded(v.z())}; }
+
+/// As in the machine's file, but for the link instead of the joint's name.
+nlohmann::ordered_json bodies_of(const Machine& machine) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const MachineBody& body : machine.bodies) {
+    nlohmann::ordered_json one = {{"name", body.name}, {"link", body.link}};
+    const bool box = body.shape == MachineBody::Shape::kBox;
+    nlohmann::ordered_json& ends = one[box ? "box_mm" : "cylinder_mm"] = triple(body.from);
+    for (const nlohmann::ordered_json& x : triple(body.to)) ends.push_back(x);
+    if (!box) one["radius_mm"] = rounded(body.radius);
+    list.push_back(std::move(one));
+  }
+  return list;
+}
+
+/// The corners of the part's box, where the part sits.
+nlohmann::ordered_json corners_of(const Box3& part, const WorkSetup& setup) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  if (part.empty()) return list;
+  for (int k = 0; k < 8; ++k) {
+    const Vec3 corner((k & 1) != 0 ? part.high.x() : part.low.x(), (k & 2) != 0 ? part.high.y() : part.low.y(),
+                      (k & 4) != 0 ? part.high.z() : part.low.z());
+    list.push_back(triple(setup.rotation() * corner + setup.translation));
+  }
+  return list;
+}
+
 /// The largest share of a joint's speed limit on the way to the i-th point of the trace.
 double load_of(const Machine& machine, const std::vector<TracePoint>& trace, std::size_t i) {
   const double seconds = i > 0 ? trace[i].time_s - trace[i - 1].time_s : 0.0;
@@ -34,7 +62,7 @@ double load_of(const Machine& machine, const std::vector<TracePoint>& trace, std
 
 }  // namespace
 
-std::string motion_json(const Machine& machine, const Post& post) {
+std::string motion_json(const Machine& machine, const Post& post, const Box3& part, const WorkSetup& setup) {
   using Json = nlohmann::ordered_json;
   const std::vector<TracePoint>& trace = post.trace;
   const std::size_t count = trace.empty() ? 0 : std::min(kMostTimes, std::max<std::size_t>(2, trace.size()));
@@ -64,6 +92,10 @@ std::string motion_json(const Machine& machine, const Post& post) {
     const Joint& joint = machine.joints[k];
     joints.push_back({{"name", joint.name},
                       {"unit", joint.kind == JointKind::kRotary ? "deg" : "mm"},
+                      {"table", joint.table},
+                      // With the sign that formulas need: of the tool relative to the work.
+                      {"direction", triple(joint.reversed ? Vec3(-joint.direction) : joint.direction)},
+                      {"point_mm", triple(joint.point)},
                       {"low", or_null(in_units(joint, joint.low))},
                       {"high", or_null(in_units(joint, joint.high))},
                       {"values", std::move(values[k])}});
@@ -73,6 +105,12 @@ std::string motion_json(const Machine& machine, const Post& post) {
                      {"machine", machine.name},
                      {"duration_s", rounded(post.time_s)},
                      {"cutting_s", rounded(post.cutting_s)},
+                     {"spindle",
+                      {{"gauge_mm", triple(machine.gauge)},
+                       {"axis", triple(machine.tool_axis)},
+                       {"tool_length_mm", rounded(machine.tool_length)}}},
+                     {"bodies", bodies_of(machine)},
+                     {"part_corners_mm", corners_of(part, setup)},
                      {"joints", std::move(joints)},
                      {"time_s", std::move(times)},
                      {"feed_mm_min", std::move(feeds)},

@@ -10,6 +10,8 @@
 
 #include "flank/artefact/acceptance.h"
 #include "flank/error.h"
+#include "flank/io/path/engagement_json.h"
+#include "flank/io/text/json_input.h"
 #include "flank/job/check_fields.h"
 #include "flank/machine/links.h"
 #include "flank/machine/model/machine_file.h"
@@ -20,6 +22,7 @@
 #include "flank/pipeline/folder/folder_job.h"
 #include "flank/pipeline/folder/judge_job.h"
 #include "flank/pipeline/folder/link_lift.h"
+#include "flank/pipeline/folder/machine_scene.h"
 #include "flank/pipeline/folder/motion_json.h"
 #include "flank/setup/clearance_scene.h"
 #include "flank/setup/targets.h"
@@ -33,6 +36,9 @@ namespace {
 constexpr double kDeviationShare = 0.005;
 /// Steps of a program are not worth less than this, mm.
 constexpr double kLeastDeviation = 1e-6;
+/// Where little is engaged the feed is so much faster at most: beyond, runout and the stock's own resolution of a few
+/// degrees count for more than the chip. At a limit of 60 degrees it is reached at 17.
+constexpr double kMostFeedFactor = 3.0;
 /// Of the samples from which a tool is lifted: of the part's diagonal.
 constexpr double kLiftSampleShare = 1.0 / 100.0;
 
@@ -40,9 +46,11 @@ struct Input {
   Setup setup;
   Tool tool;
   Path path;
+  PathEngagement engagement;  ///< of each pose; empty lists where it is not known
   ObstacleRequest obstacles;
   JudgeRequest judge;
-  bool fixed_order = false;  ///< of the path's strips
+  bool fixed_order = false;     ///< of the path's strips
+  double engagement_rad = 0.0;  ///< the limit of a cavity's cycles; 0: no cavity
 };
 
 template <class Job>
@@ -51,10 +59,15 @@ Input read_input(const PostJob& request, const Job& job, const ResultFolder& fol
   Input input;
   input.tool = read_and_equip(file("tool.json"), {}, job.obstacles);
   input.path = read_path(file("path.json"));
+  input.engagement.resize(input.path.strips.size());
+  if (std::filesystem::exists(file("engagement.json")))
+    input.engagement = engagement_from_json(read_file(file("engagement.json")), file("engagement.json"), input.path);
   input.setup = read_setup(job.part, job.obstacles, job.tolerance_mm, notes);
   input.obstacles = job.obstacles;
   input.judge = job.judge;
   input.fixed_order = std::is_same_v<Job, TrochoidJob>;
+  if constexpr (std::is_same_v<Job, TrochoidJob>)
+    input.engagement_rad = job.cycles.most_engagement_deg * std::numbers::pi / 180.0;
   notes.clear();  // told when the folder was made
   if (folder.manifest() && !request.part && input.setup.part.sha256 != folder.manifest()->part.sha256)
     throw InputError(input.setup.part.file + ": has changed since the result in " + folder.path() +
@@ -79,11 +92,14 @@ double body_radius(const Tool& tool, const PostTool& facts) {
 }
 
 /// The strips in the order in which they are run. Cycles of a cavity need what the ones before them have cut.
-Path in_order(const Input& input, const Box3& around, const PostJob& request) {
-  Path path = joined(input.path);
+KnownPath in_order(const Input& input, const Box3& around, const PostJob& request) {
+  KnownPath path = joined({input.path, input.engagement});
   if (input.fixed_order || request.order == "given") return path;
-  Path ordered;
-  for (const std::size_t k : short_order(path, around)) ordered.strips.push_back(std::move(path.strips[k]));
+  KnownPath ordered;
+  for (const std::size_t k : short_order(path.path, around)) {
+    ordered.path.strips.push_back(std::move(path.path.strips[k]));
+    ordered.known.push_back(std::move(path.known[k]));
+  }
   return ordered;
 }
 
@@ -101,11 +117,13 @@ std::vector<StripEnd> ends_of(const Path& path, double axis_length) {
   return ends;
 }
 
-Path link_strips(const Input& input, const PostTool& facts, const PostJob& request) {
+/// With links around the strips; nothing is known of the links.
+KnownPath link_strips(const Input& input, const PostTool& facts, const PostJob& request) {
   LinkOptions options;
   options.keep_out = input.setup.part.box;
   for (const Part& fixture : input.setup.fixtures) options.keep_out.add(fixture.box);
-  const Path path = in_order(input, options.keep_out, request);
+  KnownPath ordered = in_order(input, options.keep_out, request);
+  const Path& path = ordered.path;
   const double spacing = kLiftSampleShare * input.setup.part.box.diagonal();
   const std::vector<Lead> leads =
       leads_off(input.tool, ends_of(path, facts.axis_length), judge_samples(input.setup, spacing, spacing),
@@ -116,17 +134,23 @@ Path link_strips(const Input& input, const PostTool& facts, const PostJob& reque
     options.lead_at_start.push_back(leads[k]);
     options.lead_at_end.push_back(leads[k + 1]);
   }
-  return with_links(path, options);
+  KnownPath linked{with_links(path, options), {}};
+  for (std::vector<double>& known : ordered.known) {
+    linked.known.emplace_back();
+    linked.known.push_back(std::move(known));
+  }
+  linked.known.emplace_back();
+  return linked;
 }
 
 WorkSetup find_setup(const PostJob& request, const Machine& machine, const Path& path, const PostTool& facts,
-                     PostOutcome& outcome) {
+                     const MachineScene& scene, PostOutcome& outcome) {
   if (request.setup) return parse_setup(*request.setup);
   std::vector<Pose> poses;
   const double below = tip_offset(machine, facts);
   for (const Strip& strip : path.strips)
     for (const Pose& p : strip.poses) poses.push_back({p.at(-below), p.axis});
-  const FoundSetup found = search_setup(machine, Kinematics(machine, machine.tool_length), poses);
+  const FoundSetup found = search_setup(machine, Kinematics(machine, machine.tool_length), poses, scene.solids);
   if (!found.setup)
     throw InputError("setup", fmt::format("none of {} places and turns of the part fits machine {}: {}", found.tried,
                                           machine.name, found.reason));
@@ -156,6 +180,35 @@ void judge_links(const Input& input, const Path& linked, PostOutcome& outcome) {
     outcome.acceptance.reasons.push_back({"clearance", "shank, holder or a fixture comes too near on a link"});
 }
 
+/// A cavity's cycles are planned for a limit of the engagement: there the feed is what was asked for.
+EngagementFeed feed_rule(const PostJob& request, const Input& input, PostOutcome& outcome) {
+  EngagementFeed rule{.feed = request.feed_mm_min / 60.0};
+  rule.most_feed = request.most_feed_mm_min.value_or(kMostFeedFactor * request.feed_mm_min) / 60.0;
+  if (request.speed != "feed" || !(input.engagement_rad > 0.0)) return rule;
+  if (input.engagement.empty() || input.engagement.front().empty()) {
+    outcome.notes.push_back("no engagement.json: the feed is the same everywhere; flank verify writes it");
+    return rule;
+  }
+  rule.reference = input.engagement_rad;
+  outcome.notes.push_back(
+      fmt::format("the feed follows the engagement: its thickest chip is that of {:g} mm/min at {:g} degrees, the feed "
+                  "at most {:g} "
+                  "mm/min",
+                  request.feed_mm_min, input.engagement_rad * 180.0 / std::numbers::pi, 60.0 * rule.most_feed));
+  return rule;
+}
+
+/// The whole motion, links included, with table and head, where the machine's file says what they look like.
+void judge_machine(const Machine& machine, const Post& result, const MachineScene& scene, PostOutcome& outcome) {
+  std::vector<JointValues> track;
+  for (const TracePoint& at : result.trace) track.push_back(at.joints);
+  const auto where = [&](std::size_t place) {
+    const TracePoint& at = result.trace[place];
+    return fmt::format("after {:.1f} s, {}", at.time_s, at.cutting ? "along a strip" : "on a link");
+  };
+  judge_scene(machine, machine.tool_length, scene, track, where, outcome.acceptance);
+}
+
 [[noreturn]] void refuse(const Post& result, const PostOutcome& outcome) {
   const Unreachable& why = *result.unreachable;
   throw InputError("machine", outcome.machine,
@@ -183,12 +236,15 @@ void fill(const Machine& machine, const Post& result, PostOutcome& outcome) {
 PostOutcome post_input(const PostJob& request, Machine machine, const Input& input, PostOutcome outcome) {
   if (request.tool_length_mm) machine.tool_length = *request.tool_length_mm;
   const PostTool facts = post_tool(input.tool);
-  const Path linked = link_strips(input, facts, request);
+  KnownPath known = link_strips(input, facts, request);
+  const Path& linked = known.path;
   PostOptions options;
-  options.setup = find_setup(request, machine, linked, facts, outcome);
+  MachineScene scene = machine_scene(machine, input.tool, tip_offset(machine, facts));
+  options.setup = find_setup(request, machine, linked, facts, scene, outcome);
   options.deviation =
       std::max(kLeastDeviation, request.deviation_mm.value_or(kDeviationShare * input.setup.tolerance_mm));
-  options.feed = request.feed_mm_min / 60.0;
+  options.feed = feed_rule(request, input, outcome);
+  options.engagement = std::move(known.known);
   options.time_optimal = request.speed == "optimal";
   outcome.machine = machine.name;
   outcome.nesting = machine.nesting();
@@ -198,11 +254,13 @@ PostOutcome post_input(const PostJob& request, Machine machine, const Input& inp
   if (result.unreachable) refuse(result, outcome);
   fill(machine, result, outcome);
   judge_links(input, linked, outcome);
+  add_work(input.setup, input.obstacles, options.setup, scene);
+  judge_machine(machine, result, scene, outcome);
   result.program.header.part = std::filesystem::path(input.setup.part.file).filename().string();
   result.program.header.setup = outcome.setup;
   result.program.header.spindle_rpm = request.spindle_rpm;
   outcome.program = write_nc(result.program, machine.dialect);
-  outcome.motion = motion_json(machine, result);
+  outcome.motion = motion_json(machine, result, input.setup.part.box, options.setup);
   return outcome;
 }
 

@@ -63,12 +63,13 @@ void ProgramBuilder::comment(std::string_view text, bool upper) {
   }
 }
 
-void ProgramBuilder::unit(double millimetres) {
+void ProgramBuilder::unit(double millimetres, double feed_millimetres) {
   // Values are stored in millimetres where they are modal and in the program's unit within a block: after either, a
   // change would reinterpret what stands there.
-  if (millimetres != unit_ && (any(linear_) || any(block_.linear) || feed_))
+  if ((millimetres != unit_ && (any(linear_) || any(block_.linear))) || (feed_millimetres != feed_unit_ && feed_))
     place_.refuse("the unit changes after coordinates or feeds were stated");
   unit_ = millimetres;
+  feed_unit_ = feed_millimetres;
 }
 
 void ProgramBuilder::work_offset(int number) {
@@ -123,7 +124,7 @@ void ProgramBuilder::vector(std::size_t component, double value) {
 void ProgramBuilder::feed(double value) {
   if (block_.feed) place_.refuse("the block states F twice");
   if (!(value > 0.0)) place_.refuse("a feed is more than 0");
-  check_size(value * unit_, place_);
+  check_size(value * feed_unit_, place_);
   block_.feed = value;
 }
 
@@ -132,7 +133,7 @@ bool ProgramBuilder::moves() const { return any(block_.linear) || any(block_.rot
 void ProgramBuilder::end_block() {
   // Also in a block that does not move: F alone in its line is modal. In inverse time F belongs to its own move only
   // (feed_of_move).
-  if (block_.feed && mode_ == NcFeedMode::kPerMinute) feed_ = *block_.feed * unit_;
+  if (block_.feed && mode_ == NcFeedMode::kPerMinute) feed_ = *block_.feed * feed_unit_;
   // First, because the axes of such a block are coordinates of the machine, not of the part.
   if (block_.reference) {
     go_to_reference();

@@ -28,7 +28,9 @@ class ProgramBuilder {
   void comment(std::string_view text, bool upper = false);
 
   // What is modal.
-  void unit(double millimetres);
+  /// Of coordinates, and of feeds, which not all words for units change.
+  void unit(double millimetres) { unit(millimetres, millimetres); }
+  void unit(double millimetres, double feed_millimetres);
   void work_offset(int number);
   void feed_mode(NcFeedMode mode) { mode_ = mode; }
   void join(NcJoin join) { join_ = join; }
@@ -90,7 +92,7 @@ class ProgramBuilder {
   std::optional<bool> length_;
   NcFeedMode mode_ = NcFeedMode::kPerMinute;
   NcJoin join_ = NcJoin::kAxes;
-  double unit_ = 1.0;
+  double unit_ = 1.0, feed_unit_ = 1.0;
   bool tool_centre_ = false, switched_ = false, joint_allowed_ = true, incremental_ = false;
   bool by_vector_ = false;  ///< what was stated last: vector or rotary values
   bool joined_ = false, cut_ = false, ended_ = false;

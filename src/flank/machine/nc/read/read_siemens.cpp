@@ -126,8 +126,10 @@ class SiemensReader {
       case 153:
         builder_.to_reference();
         break;
-      // G70 and G71 are about coordinates, G700 and G710 about feeds as well; here either means both.
+      // G70 and G71 are about coordinates alone: F stays in the control's own unit, which is taken as millimetres.
       case 70:
+        builder_.unit(kInch, 1.0);
+        break;
       case 700:
         builder_.unit(kInch);
         break;
