@@ -79,6 +79,7 @@ TEST(ToleranceBudget, EveryLinkCountsInItsChains) {
        [](ToleranceBudget& b) -> double& { return b.fit.between_samples; },
        {worst_of_fit_in_target}},
       {"halves", [](ToleranceBudget& b) -> double& { return b.cavity.halves; }, {worst_of_halves}},
+      {"between places", [](ToleranceBudget& b) -> double& { return b.cavity.between_places; }, {worst_of_halves}},
       {"chord of halves", [](ToleranceBudget& b) -> double& { return b.cavity.half_chord; }, {worst_of_halves}},
       {"dead zone", [](ToleranceBudget& b) -> double& { return b.fit.dead_zone_axis; }, {worst_left_by_dead_zone}},
   };

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "flank/seed/guide_file.h"
 #include "flank/seed/guide_start.h"
 #include "mutations.h"
 

@@ -1,4 +1,5 @@
 #include "flank/seed/guide_start.h"
+#include "flank/seed/guide_file.h"
 
 #include <gtest/gtest.h>
 

@@ -102,6 +102,25 @@ TEST(Cycles, LeaveNothingBetweenTheSidePaths) {
     for (double y = 0.0; y <= 10.0; y += 1.0) EXPECT_FALSE(stock.is_material({x, y, 7.0})) << x << " " << y;
 }
 
+TEST(Cycles, GoOnWhereEveryFrontEntersAFaceAndSaySo) {
+  // A post in the middle of the slot: no shape of a front gets round it, and the first shapes are kept.
+  Face post;
+  post.id = "F1";
+  post.surface.degree_u = post.surface.degree_v = 1;
+  post.surface.knots_u = post.surface.knots_v = {0.0, 0.0, 1.0, 1.0};
+  post.surface.count_u = post.surface.count_v = 2;
+  post.surface.poles = {Vec3(10, 5, 0), Vec3(10, 5, kLength), Vec3(13, 5, 0), Vec3(13, 5, kLength)};
+  const std::unique_ptr<Target> target = make_target({post});
+  SweptStock stock = slot();
+  const LayerSides sides{straight(0.0), straight(10.0)};
+  const HalfGuard guard({{target.get()}, {}}, stock.radial());
+  CycleOptions options;
+  options.optimise = false;
+  const LayerCycles out = plan_cycles(sides, guard, stock, options, {});
+  EXPECT_EQ(out.status, CycleStatus::kDone);
+  EXPECT_GT(out.entered_mm(), 1.0);
+}
+
 TEST(Cycles, AreTheSameForOneAndTwoThreads) {
   const auto poles = [](int threads) {
     set_thread_count(threads);

@@ -77,12 +77,5 @@ TEST(SidePath, BackwardsIsTheSameWay) {
   EXPECT_NEAR((on.at(10.0).tip - back.at(back.length() - 10.0).tip).norm(), 0.0, 1e-4);
 }
 
-TEST(AcrossFrom, JoinsAtRightAngles) {
-  const SidePath a(bent_side(0.0, 1.0), false), b(bent_side(16.0, -1.0), false);
-  const double y = across_from(a, 18.0, b, 0.0);
-  const AxisPlace p = a.at(18.0), q = b.at(y);
-  EXPECT_NEAR((q.at(15.0) - p.at(15.0)).dot(p.velocity(15.0) + q.velocity(15.0)), 0.0, 1e-7);
-}
-
 }  // namespace
 }  // namespace flank::internal

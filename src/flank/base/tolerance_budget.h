@@ -86,8 +86,9 @@ struct CavityBudget {
   double sides = 0.8;
   /// What run-outs beyond the sides, and tips that are lifted off a floor, aim at.
   double aim = 0.5;
-  /// Half paths, at the places where they are looked at; their joined poses, which finish nothing, may be so far off.
-  double halves = 0.9, half_chord = 0.1;
+  /// Half paths, at the places where they are looked at, and what may lie between these places; their joined poses, which
+  /// finish nothing, may be so far off.
+  double halves = 0.84, between_places = 0.06, half_chord = 0.1;
 };
 
 /// Shares of the tolerance, all in one.
@@ -127,7 +128,7 @@ inline constexpr ToleranceBudget kToleranceBudget{};
 }
 /// A half path between the sides of a cavity.
 [[nodiscard]] constexpr double worst_of_halves(const ToleranceBudget& budget) {
-  return budget.cavity.halves + budget.cavity.half_chord;
+  return budget.cavity.halves + budget.cavity.between_places + budget.cavity.half_chord;
 }
 /// Material that a residual within its dead zone leaves at a point.
 [[nodiscard]] constexpr double worst_left_by_dead_zone(const ToleranceBudget& budget) {

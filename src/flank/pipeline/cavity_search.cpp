@@ -16,11 +16,14 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kBegin = 0.92, kStout = 0.55, kThin = 0.3;
 constexpr int kMostLayers = 5;
 
-bool sides_are_done(const SideFit& sides, const TrochoidJob& job) {
+bool sides_are_done(const SideFit& sides, const CavityFaces& faces, const TrochoidJob& job) {
   const CoverageEstimate& e = sides.fit.after;
-  return !sides.fit.motions.empty() && (sides.fit.status == FitStatus::kWithinTolerance ||
-                                        (e.at_tolerance >= job.judge.least_coverage &&
-                                         e.overcut_mm <= job.tolerance_mm && e.gouge_mm <= job.tolerance_mm));
+  if (sides.fit.motions.empty()) return false;
+  const double radius = job.judge.reach_radius_mm.value_or(sides.fit.tool.smallest());
+  const double reachable = reachable_share(side_of(faces.sides[0]), side_of(faces.sides[1]), radius);
+  return sides.fit.status == FitStatus::kWithinTolerance ||
+         (e.at_tolerance >= job.judge.least_coverage * reachable && e.overcut_mm <= job.tolerance_mm &&
+          e.gouge_mm <= job.tolerance_mm);
 }
 
 /// As many layers as the tolerance needs, or as many as are asked for.
@@ -34,7 +37,7 @@ SideFit search_sides(const TrochoidJob& job, const CavityFaces& faces, const Too
     SideFit tried = fit_sides(left, right, tool, options, progress);
     const bool better = best.fit.motions.empty() ||
                         tried.fit.after.score(job.tolerance_mm) > best.fit.after.score(job.tolerance_mm) + 0.002;
-    const bool done = sides_are_done(tried, job);
+    const bool done = sides_are_done(tried, faces, job);
     if (better) best = std::move(tried);
     if (done || !better || progress.stop()) break;
   }
@@ -60,14 +63,9 @@ CavityProgram plan(const TrochoidJob& job, const CavityFaces& faces, const SideF
                       options, progress);
 }
 
-/// Bounds of the radius from thick to thin: a thick tool makes a short path. Where the cavity is narrow at few places alone, a
-/// tool that is thin at one end may have the room of most places at the other.
-std::vector<double> bounds_of(double narrow, double wide) {
-  constexpr double kMuchWider = 1.6;
-  std::vector<double> bounds;
-  if (wide > kMuchWider * narrow) bounds = {wide, std::sqrt(wide * narrow)};
-  for (const double share : {1.0, 0.75, 0.55, 0.4}) bounds.push_back(share * narrow);
-  return bounds;
+/// All cycles, and none of them enters a face.
+bool gets_through(const CavityPlan& plan, double tolerance) {
+  return plan.program.done() && plan.program.entered_mm() <= tolerance;
 }
 
 /// Of the way of the sides, how much the cycles cleared: mean over the layers.
@@ -81,6 +79,7 @@ double cleared(const CavityPlan& plan) {
 /// What is better comes first: cycles that get through, then what they let the sides cover, then sides.
 bool is_better(const CavityPlan& a, const CavityPlan& b, double tolerance) {
   if (a.sides.fit.motions.empty() != b.sides.fit.motions.empty()) return b.sides.fit.motions.empty();
+  if (gets_through(a, tolerance) != gets_through(b, tolerance)) return gets_through(a, tolerance);
   if (a.program.done() != b.program.done()) return a.program.done();
   const double finished_a = cleared(a) * a.sides.fit.after.at_tolerance;
   const double finished_b = cleared(b) * b.sides.fit.after.at_tolerance;
@@ -90,12 +89,21 @@ bool is_better(const CavityPlan& a, const CavityPlan& b, double tolerance) {
 
 }  // namespace
 
+std::vector<double> bounds_of(const TrochoidJob& job, const CavityWidth& width) {
+  constexpr double kMuchWider = 1.6;
+  const double narrow = job.radius.max_mm.value_or(kMostOfWidth * width.narrowest_mm);
+  const double wide = job.radius.max_mm ? 0.0 : kMostOfWidth * width.median_mm;
+  std::vector<double> bounds;
+  if (wide > kMuchWider * narrow) bounds = {wide, std::sqrt(wide * narrow)};
+  for (const double share : {1.0, 0.75, 0.55, 0.4}) bounds.push_back(share * narrow);
+  return bounds;
+}
+
 CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const ToolModel& tool,
                          const SideFitOptions& options, const Progress& progress) {
   CavityPlan best;
   const bool given = !tool.free() && tool.radius;
-  const double wide = job.radius.max_mm ? 0.0 : kMostOfWidth * faces.width.median_mm;
-  for (const double bound : bounds_of(options.fit.bounds.largest, wide)) {
+  for (const double bound : bounds_of(job, faces.width)) {
     SideFitOptions here = options;
     here.fit.bounds.largest = bound;
     here.fit.bounds.smallest = std::min(here.fit.bounds.smallest, 0.5 * here.fit.bounds.largest);
@@ -106,7 +114,7 @@ CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const
     tried.sides = search_sides(job, faces, tool, here, progress);
     tried.program = plan(job, faces, tried.sides, progress);
     tried.largest_radius_mm = here.fit.bounds.largest;
-    const bool done = sides_are_done(tried.sides, job) && tried.program.done();
+    const bool done = sides_are_done(tried.sides, faces, job) && gets_through(tried, job.tolerance_mm);
     const int tools = best.tools + 1;
     const bool better = tools == 1 || is_better(tried, best, job.tolerance_mm);
     if (better) best = std::move(tried);

@@ -17,10 +17,14 @@ struct CavityPlan {
   int tools = 0;                   ///< bounds that were tried
 };
 
-/// The first tool whose sides are done and whose cycles get through, of bounds from thick to thin; if there is none, the one
-/// whose cycles get through and whose sides are best; else the one whose sides are best. The search ends where a thinner bound
-/// gains nothing. `options.fit.bounds.largest` is what the narrowest place has room for; where most of the cavity is much
-/// wider, thicker bounds come first, unless the job has one. A tool that is given is tried alone.
+/// Bounds of the radius that are tried, mm, from thick to thin: a thick tool makes a short path. The narrowest place has room for
+/// one of them; where most of the cavity is much wider, thicker ones come first, unless the job has a bound: a tool that is
+/// thin at one end may have the room of most places at the other.
+[[nodiscard]] std::vector<double> bounds_of(const TrochoidJob& job, const CavityWidth& width);
+
+/// The first tool whose sides are done and whose cycles get through and enter nothing; if there is none, the one whose cycles
+/// get through and whose sides are best; else the one whose sides are best. The search ends where a thinner bound gains
+/// nothing. A tool that is given is tried alone.
 [[nodiscard]] CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const ToolModel& tool,
                                        const SideFitOptions& options, const Progress& progress);
 

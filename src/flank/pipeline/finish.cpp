@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "flank/artefact/view.h"
+#include "flank/base/stopping.h"
 #include "flank/base/tolerance_budget.h"
 #include "flank/envelope.h"
 #include "flank/envelope/path_regularity.h"
@@ -80,10 +81,18 @@ void judge_result(const Setup& setup, const ClearanceScene& scene, std::vector<S
                   Stopwatch& watch) {
   const JudgeRequest& request =
       std::visit([](const auto& plan) -> const JudgeRequest& { return plan.judge; }, result.job);
-  result.verify = judge_job(setup, request, result.tool, result.path);
-  watch.lap("verify");
-  result.verify.clearance = measure_clearance(scene, result.tool, result.path);
-  watch.lap("clearance");
+  try {
+    stop_here();
+    result.verify = judge_job(setup, request, result.tool, result.path);
+    watch.lap("verify");
+    result.verify.clearance = measure_clearance(scene, result.tool, result.path);
+    watch.lap("clearance");
+  } catch (const Stopped&) {
+    // Half a verdict is none, and an incomplete result does not pass.
+    result.complete = false;
+    result.verify = {};
+    result.verify.tolerance_mm = setup.tolerance_mm;
+  }
   auto drawings = std::make_shared<Result::Drawings>();
   drawings->strips = std::move(surfaces);
   drawings->view = make_view(result.job, setup, result.tool, result.path, result.verify);

@@ -11,6 +11,7 @@
 #include "flank/pipeline/search_setup.h"
 #include "flank/pipeline/stiff_fit.h"
 #include "flank/seed/axis_line.h"
+#include "flank/seed/guide_file.h"
 #include "flank/seed/guide_start.h"
 #include "flank/seed/line_start.h"
 #include "flank/toolbox/tool_model.h"

@@ -1,10 +1,9 @@
-/// A start that the user gives as several lines (`--guide FILE`, paper A 4.4): the ends of the lines are the control
-/// polygons of two cubic B-spline rails, which are then made rigid (MATH section 2).
+/// A start from the lines of a guide (guide_file.h; paper A 4.4): the ends of the lines are the control polygons of two
+/// cubic B-spline rails, which are then made rigid (MATH section 2).
 #pragma once
 
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "flank/ruled_motion.h"
@@ -12,12 +11,6 @@
 #include "flank/target.h"
 
 namespace flank::internal {
-
-/// Lines in the order of the file. Each line of the file is "x y z x y z" in mm (commas or blanks; # starts a comment):
-/// tip and holder end of one axis. Throws InputError naming the file and the line; at least two axes are needed.
-[[nodiscard]] std::vector<AxisLine> read_guide(const std::string& file);
-/// The same from a text; `file` is for messages.
-[[nodiscard]] std::vector<AxisLine> parse_guide(const std::string& file, std::string_view text);
 
 struct GuideStart {
   RuledMotion motion;

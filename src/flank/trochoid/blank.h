@@ -4,13 +4,15 @@
 #include <vector>
 
 #include "flank/target.h"
-#include "flank/trochoid/cycles.h"
+#include "flank/trochoid/engagement/swept_stock.h"
+#include "flank/trochoid/side_path.h"
 
 namespace flank::internal {
 
-/// The ends and the top of the blank as planes that hold both sides: at each end the plane along the axis that joins the
-/// ends of the side paths across the cavity, moved outwards until no point of the sides is beyond it; at the top the plane
-/// across the axis, likewise. A real blank may be smaller: then less is cut than is planned for.
-[[nodiscard]] std::vector<HalfSpace> cavity_blank(const LayerSides& top, const Target& left, const Target& right);
+/// The ends and the top of the blank as planes that hold both sides. Each is the one of those within 45 degrees of the way,
+/// or of the axis, that is nearest to the middle of the cavity there: skewed or leaning edges of the sides leave no wedge of
+/// material before one of them. Layers, at least one, come from the top. A real blank may be smaller: then less is cut than is planned for.
+[[nodiscard]] std::vector<HalfSpace> cavity_blank(const std::vector<LayerSides>& layers, const Target& left,
+                                                  const Target& right);
 
 }  // namespace flank::internal

@@ -29,10 +29,23 @@ void HalfGuard::look(const Pose& pose, int places, GuardDepth& out) const {
 }
 
 GuardDepth HalfGuard::depth(const RuledMotion& motion, int times, int places) const {
-  GuardDepth out;
   // Densest at both ends, where a half leaves a side at a tangent: what it enters, it enters there, for a moment.
-  for (int i = 0; i < times; ++i)
-    look(motion.pose(0.5 - 0.5 * std::cos(std::numbers::pi * i / (times - 1))), places, out);
+  const auto time = [&](double i) { return 0.5 - 0.5 * std::cos(std::numbers::pi * i / (times - 1)); };
+  GuardDepth out;
+  double deepest = 0.0;
+  int at = -1;
+  for (int i = 0; i < times; ++i) {
+    GuardDepth here;
+    look(motion.pose(time(i)), places, here);
+    if (here.deepest() > deepest) deepest = here.deepest(), at = i;
+    out.add(here);
+  }
+  // The deepest place lies between the samples: once more around the deepest of them.
+  constexpr int kCloser = 4;
+  for (int k = 1 - kCloser; at >= 0 && k < kCloser; ++k) {
+    const double i = std::clamp(at + static_cast<double>(k) / kCloser, 0.0, times - 1.0);
+    look(motion.pose(time(i)), 2 * places - 1, out);
+  }
   return out;
 }
 

@@ -1,6 +1,7 @@
 /// How deep a half path goes into the sides, the floor and whatever else must not be entered.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "flank/obstacle_field.h"
@@ -21,13 +22,18 @@ struct GuardDepth {
   double sides = 0.0;   ///< deepest in a side, >= 0
   double others = 0.0;  ///< in another face
   double tip = 0.0;     ///< of those, what the lower half of the axis enters: lifting the tool helps
-  [[nodiscard]] double deepest() const { return sides > others ? sides : others; }
+  [[nodiscard]] double deepest() const { return std::max(sides, others); }
+  void add(const GuardDepth& more) {
+    sides = std::max(sides, more.sides);
+    others = std::max(others, more.others);
+    tip = std::max(tip, more.tip);
+  }
 };
 
 class HalfGuard {
  public:
   HalfGuard(GuardedFaces faces, const RadialFunction& radial) : faces_(std::move(faces)), radial_(radial) {}
-  /// At `times` x `places` samples, the times densest at both ends. A place that projects onto a side's border counts by its distance alone.
+  /// At `times` x `places` samples, the times densest at both ends, and closer around the deepest of them. A place that projects onto a side's border counts by its distance alone.
   [[nodiscard]] GuardDepth depth(const RuledMotion& motion, int times, int places) const;
   /// Adds what one pose enters.
   void look(const Pose& pose, int places, GuardDepth& out) const;

@@ -165,6 +165,12 @@ bool CavityProgram::done() const {
   });
 }
 
+double CavityProgram::entered_mm() const {
+  double deepest = 0.0;
+  for (const PlannedLayer& layer : layers) deepest = std::max(deepest, layer.cycles.entered_mm());
+  return deepest;
+}
+
 CavityProgram plan_program(const std::vector<RuledMotion>& sides, const RadialFunction& radial, const Target& left,
                            const Target& right, const GuardedFaces& faces, const ProgramOptions& options,
                            const Progress& progress) {
@@ -175,7 +181,7 @@ CavityProgram plan_program(const std::vector<RuledMotion>& sides, const RadialFu
   for (std::size_t k = 0; k + 1 < sides.size(); k += 2)
     layers.push_back(order_sides(sides[k], sides[k + 1], options, radial.largest(), guard));
   if (layers.empty()) return out;
-  out.blank = cavity_blank(layers.front(), left, right);
+  out.blank = cavity_blank(layers, left, right);
   const HalfSpace& top = out.blank.back();
   SweptStock stock(radial, out.blank);
   CycleOptions cycles = options.cycles;

@@ -32,6 +32,8 @@ struct CavityProgram {
   std::vector<HalfSpace> blank;
   double chord_bound_mm = 0.0;
   [[nodiscard]] bool done() const;
+  /// Deepest that a half enters a face, by the planner's samples.
+  [[nodiscard]] double entered_mm() const;
 };
 
 /// `sides`: motions as fit_sides returns them. `faces[k]` guards layer k.

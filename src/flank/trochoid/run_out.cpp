@@ -24,21 +24,23 @@ Vec3 common_direction(const SidePath& a, const SidePath& b, bool end) {
 
 /// How both paths leave one end.
 struct Bend {
-  Vec3 direction;
-  double over_mm = 1.0;
+  Vec3 direction, rise;
+  double over_mm = 1.0, rise_over_mm = 1.0;
 };
 
 void lay(SidePath& a, SidePath& b, bool end, const Bend& bend) {
-  a.bend_run_out(end, bend.direction, bend.over_mm);
-  b.bend_run_out(end, bend.direction, bend.over_mm);
+  for (SidePath* path : {&a, &b}) {
+    path->bend_run_out(end, bend.direction, bend.over_mm);
+    path->raise_run_out(end, bend.rise, bend.rise_over_mm);
+  }
 }
 
 /// Deepest that a run-out enters a face, mm: up to where cycles begin and end.
 double entered(const SidePath& path, bool end, double radius, const HalfGuard& guard) {
-  constexpr double kFarthest = 6.0, kStep = 0.4;  // radii
+  constexpr double kFarthest = 6.0, kFirst = 0.1, kMore = 1.25, kStep = 0.4;  // radii: densest at the end
   constexpr int kPlaces = 7;
   GuardDepth depth;
-  for (double by = kStep; by <= kFarthest; by += kStep) {
+  for (double by = kFirst; by <= kFarthest; by += std::min(kStep, (kMore - 1.0) * by)) {
     const AxisPlace place = path.at(end ? path.length() + by * radius : -by * radius);
     guard.look({place.tip, place.u}, kPlaces, depth);
   }
@@ -56,7 +58,8 @@ double entered_at_end(const SidePath& path, bool end, const HalfGuard& guard) {
 }  // namespace
 
 void join_run_outs(SidePath& a, SidePath& b, double radius_mm) {
-  for (const bool end : {false, true}) lay(a, b, end, {common_direction(a, b, end), radius_mm});
+  for (const bool end : {false, true})
+    lay(a, b, end, {common_direction(a, b, end), Vec3::Zero(), radius_mm, radius_mm});
 }
 
 void join_run_outs(SidePath& a, SidePath& b, double radius_mm, const HalfGuard& guard, double allowed_mm) {
@@ -68,20 +71,21 @@ void join_run_outs(SidePath& a, SidePath& b, double radius_mm, const HalfGuard& 
     const double most_b = std::max(allowed_mm, kMore * entered_at_end(b, end, guard));
     Bend best;
     double least = std::numeric_limits<double>::infinity();
-    for (const double rise : {0.0, 0.12, 0.25, 0.45, 0.7, 1.0}) {
-      for (const double over : {1.0, 2.0, 4.0}) {
-        // Directions are along x: before the start the way up is that down.
-        const Bend bend{(common + (end ? rise : -rise) * up).normalized(), over * radius_mm};
-        lay(a, b, end, bend);
-        const double deep =
-            std::max(entered(a, end, radius_mm, guard) - most_a, entered(b, end, radius_mm, guard) - most_b);
-        if (deep >= least) continue;
-        least = deep;
-        best = bend;
-        if (least <= 0.0) break;
-      }
-      if (least <= 0.0) break;
-    }
+    const auto look = [&](double rise, double rise_over, double over) {
+      if (least <= 0.0) return;
+      const Bend bend{common, rise * up, over * radius_mm, rise_over * radius_mm};
+      lay(a, b, end, bend);
+      const double deep =
+          std::max(entered(a, end, radius_mm, guard) - most_a, entered(b, end, radius_mm, guard) - most_b);
+      if (deep >= least) return;
+      least = deep;
+      best = bend;
+    };
+    // From gentle to steep; a floor that rises right behind the end is risen from at once.
+    for (const double rise : {0.0, 0.12, 0.25, 0.45, 0.7, 1.0})
+      for (const double rise_over : {1.0, 0.4, 0.1})
+        for (const double over : {1.0, 2.0, 4.0})
+          if (rise > 0.0 || rise_over == 1.0) look(rise, rise_over, over);
     lay(a, b, end, best);
   }
 }

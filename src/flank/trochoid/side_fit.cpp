@@ -143,6 +143,18 @@ CavityWidth width_between(const CavitySide& left, const CavitySide& right) {
   return {widths.front(), widths[widths.size() / 2]};
 }
 
+double reachable_share(const CavitySide& left, const CavitySide& right, double radius_mm) {
+  int reached = 0, all = 0;
+  for (const CavitySide* side : {&left, &right}) {
+    for (const SurfaceSample& sample : side->target->samples(std::sqrt(side->target->area()) / 30.0)) {
+      ++all;
+      if (side->obstacles == nullptr || side->obstacles->reachable(sample, radius_mm, side->obstacles->allowance_mm()))
+        ++reached;
+    }
+  }
+  return all > 0 ? static_cast<double>(reached) / all : 1.0;
+}
+
 double facing(const Target& left, const Target& right) {
   double sum = 0.0, area = 0.0;
   for (const SurfaceSample& sample : left.samples(std::sqrt(left.area()) / 15.0)) {

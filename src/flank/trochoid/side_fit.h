@@ -39,6 +39,9 @@ struct CavityWidth {
 /// Zero if no place is free.
 [[nodiscard]] CavityWidth width_between(const CavitySide& left, const CavitySide& right);
 
+/// Of samples of both sides, the share at which a ball of the radius fits between the other faces: what a tool can cover.
+[[nodiscard]] double reachable_share(const CavitySide& left, const CavitySide& right, double radius_mm);
+
 /// Cosine of the angle between the normals of sides that face each other, mean over samples: -1 for parallel walls, above
 /// 0 they do not face.
 [[nodiscard]] double facing(const Target& left, const Target& right);

@@ -35,8 +35,8 @@ SidePath::SidePath(RuledMotion motion, bool backwards) : motion_(std::move(motio
   }
   const double middle = 0.5 * motion_.axis_length;
   const Vec3 first = inside(0.0).velocity(middle), last = inside(1.0).velocity(middle);
-  before_ = {first, first, 1.0};
-  after_ = {last, last, 1.0};
+  before_.from = before_.to = first;
+  after_.from = after_.to = last;
 }
 
 AxisPlace SidePath::inside(double t) const {
@@ -69,16 +69,25 @@ AxisPlace SidePath::at(double x) const {
   if (x >= 0.0 && x <= length()) return inside(time_of(x));
   const AxisPlace end = inside(x < 0.0 ? 0.0 : 1.0);
   const RunOut& out = x < 0.0 ? before_ : after_;
-  const double by = x < 0.0 ? -x : x - length(), bent = std::min(by, out.over);
+  const double by = x < 0.0 ? -x : x - length(), sign = x < 0.0 ? -1.0 : 1.0;
+  const double bent = std::min(by, out.over_mm), risen = std::min(by, out.rise_over_mm);
   const Vec3 turn = out.to - out.from;
-  const Vec3 way = by * out.from + (0.5 * bent * bent / out.over + by - bent) * turn;
-  return {end.tip + (x < 0.0 ? -1.0 : 1.0) * way, end.u, out.from + bent / out.over * turn, Vec3::Zero()};
+  const Vec3 way = by * out.from + (0.5 * bent * bent / out.over_mm + by - bent) * turn;
+  const Vec3 up = (0.5 * risen * risen / out.rise_over_mm + by - risen) * out.rise;
+  return {end.tip + sign * way + up, end.u,
+          out.from + bent / out.over_mm * turn + sign * risen / out.rise_over_mm * out.rise, Vec3::Zero()};
 }
 
 void SidePath::bend_run_out(bool at_end, const Vec3& direction, double over_mm) {
   RunOut& out = at_end ? after_ : before_;
   out.to = direction;
-  out.over = over_mm;
+  out.over_mm = over_mm;
+}
+
+void SidePath::raise_run_out(bool at_end, const Vec3& rise, double over_mm) {
+  RunOut& out = at_end ? after_ : before_;
+  out.rise = rise;
+  out.rise_over_mm = over_mm;
 }
 
 std::vector<Pose> SidePath::poses(double from, double to, double chord_mm) const {
@@ -101,24 +110,6 @@ std::vector<Pose> SidePath::poses(double from, double to, double chord_mm) const
   }
   add(to);
   return out;
-}
-
-double across_from(const SidePath& path, double x, const SidePath& other, double guess) {
-  const double middle = 0.5 * path.axis_length();
-  const AxisPlace here = path.at(x);
-  const auto ahead = [&](double y) {
-    const AxisPlace there = other.at(y);
-    const Vec3 forward = here.velocity(middle) + there.velocity(middle);
-    return (there.at(middle) - here.at(middle)).dot(forward) / std::max(1e-9, forward.norm());
-  };
-  // Secant steps: the value grows by about one a millimetre.
-  double a = guess, fa = ahead(a), b = a - fa, fb = ahead(b);
-  for (int k = 0; k < 30 && std::abs(fb) > 1e-9 && fb != fa; ++k) {
-    const double next = b - std::clamp(fb * (b - a) / (fb - fa), -10.0, 10.0);
-    a = b, fa = fb;
-    b = next, fb = ahead(b);
-  }
-  return b;
 }
 
 }  // namespace flank::internal

@@ -24,6 +24,8 @@ class SidePath {
   /// a unit vector along x, evenly over a length. Over no less than the tool's radius: then the tool, which rounds the edge
   /// of the side, keeps clear of it for directions up to 45 degrees off.
   void bend_run_out(bool at_end, const Vec3& direction, double over_mm);
+  /// Besides, the axis rises beyond an end: by the vector `rise` a millimetre of way, evenly more over a length to begin with.
+  void raise_run_out(bool at_end, const Vec3& rise, double over_mm);
   /// Poses from x = from to x = to: those of the motion within the chord tolerance, and the ends beyond it.
   [[nodiscard]] std::vector<Pose> poses(double from, double to, double chord_mm) const;
 
@@ -33,15 +35,17 @@ class SidePath {
   [[nodiscard]] double time_of(double x) const;
   RuledMotion motion_;  ///< in the direction of the cycles
   struct RunOut {
-    Vec3 from, to;  ///< directions at the end of the side, and `over` beyond it
-    double over = 1.0;
+    Vec3 from = Vec3::Zero(), to = Vec3::Zero();  ///< directions at the end of the side, and `over` beyond it
+    Vec3 rise = Vec3::Zero();
+    double over_mm = 1.0, rise_over_mm = 1.0;
   };
   RunOut before_, after_;
   std::vector<double> way_;  ///< at equal steps of t
 };
 
-/// The place of `other` that lies across from x of `path`: the axes' middles are joined at right angles to the mean
-/// direction of motion. `guess` is near it, mm.
-[[nodiscard]] double across_from(const SidePath& path, double x, const SidePath& other, double guess);
+/// Both side paths of a layer in the direction of the feed. Fronts go from `from` to `to`.
+struct LayerSides {
+  SidePath from, to;
+};
 
 }  // namespace flank::internal

@@ -1,0 +1,229 @@
+#include "flank/trochoid/cycle_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "flank/base/tolerance_budget.h"
+
+namespace flank::internal {
+namespace {
+
+/// Rows of a motion, rings of the flank and of each round end.
+constexpr int kRows = 33, kRings = 7, kCaps = 5;
+/// The engagement that a search aims at, below the limit, radians: what lies between rows.
+constexpr double kSearchMargin = 0.004;
+/// In radii: shorter than this no step is one, and shorter than this another shape is looked for.
+constexpr double kLeastStep = 0.004, kShortStep = 0.06;
+/// So many radii before and behind the sides places are paired; farther out both ends go equally fast.
+constexpr double kBeyond = 6.0;
+constexpr double kLeastLiftMm = 0.02;
+/// How near to the aim a step ends.
+constexpr double kAimBand = 0.009;
+/// Where it is asked how deep a half enters faces: deepest are places just off the ends, where it leaves a side that runs on
+/// past its face.
+constexpr int kGuardTimes = 25, kGuardPlaces = 9;
+/// Deeper than at the ends of a half by this share counts as deeper.
+constexpr double kSpare = 1.1;
+
+/// How deep a cylinder's cut is that engages so far, in radii: it grows with the step, about linearly.
+double depth_of_cut(double engagement_rad) { return std::max(1e-3, 1.0 - std::cos(engagement_rad)); }
+
+}  // namespace
+
+CycleSearch::CycleSearch(const LayerSides& sides, const HalfGuard& guard, SweptStock& stock,
+                         const CycleOptions& options)
+    : sides_(sides),
+      guard_(guard),
+      stock_(stock),
+      options_(options),
+      meter_(stock),
+      rings_(tool_rings(stock.radial(), kRings, kCaps)),
+      pairing_(sides.from, sides.to, kBeyond * stock.profile().largest()),
+      radius_(stock.profile().largest()) {
+  reset_shape();
+}
+
+double CycleSearch::least_step() const { return kLeastStep * radius_; }
+
+void CycleSearch::reset_shape() {
+  const CycleState usual;
+  now_.shape = usual.shape;
+  now_.span = usual.span;
+  now_.turn = 0, now_.improved = 0;
+  now_.aim_rad = options_.largest_rad - kSearchMargin;
+  now_.step_mm = 0.2 * radius_;
+  now_.lift_mm = 0.0;
+}
+
+double CycleSearch::gap_at(const Trial& t) const {
+  const double middle = 0.5 * sides_.from.axis_length();
+  return (start(t).at(middle) - end(t).at(middle)).norm();
+}
+
+double CycleSearch::partner(double from_x, const CycleShape& shape) const {
+  const double y = across(from_x);
+  const double middle = 0.5 * sides_.from.axis_length();
+  const double gap = (sides_.from.at(from_x).at(middle) - sides_.to.at(y).at(middle)).norm();
+  return y + shape.share[CycleShape::kAhead] * gap;
+}
+
+void CycleSearch::shape_halves(const CycleShape& shape, Trial& trial) const {
+  const double length = sides_.from.axis_length(), gap = gap_at(trial);
+  trial.front = half_path(length, start(trial), end(trial).reversed(), shape.front(gap, now_.lift_mm));
+  if (now_.last.way_mm > 0.0)
+    trial.back = half_path(length, end(now_.last).reversed(), start(trial), shape.back(gap, now_.lift_mm));
+}
+
+Trial CycleSearch::tried(double step, const CycleShape& shape, bool measured) {
+  Trial trial;
+  trial.from_x = now_.last.from_x + step;
+  trial.to_x = std::max(now_.last.to_x, partner(trial.from_x, shape));
+  shape_halves(shape, trial);
+  trial.way_mm = way_of_middle(trial.front) + (trial.back ? way_of_middle(*trial.back) : 0.0);
+  if (!measured) return trial;
+  if (trial.back) {
+    const Engagement e = meter_.measure(*trial.back, rings_, kRows);
+    trial.largest_rad = e.peak.angle_rad;
+    trial.volume_mm3 = e.volume_mm3;
+    stock_.add(Sweep::of(*trial.back, kHalfIntervals));
+  }
+  const Engagement e = meter_.measure(trial.front, rings_, kRows);
+  trial.largest_rad = std::max(trial.largest_rad, e.peak.angle_rad);
+  trial.volume_mm3 += e.volume_mm3;
+  if (trial.back) stock_.remove_last();
+  return trial;
+}
+
+Trial CycleSearch::longest_step(const CycleShape& shape, double guess) {
+  const double most = 1.2 * radius_, goal = depth_of_cut(now_.aim_rad - 0.5 * kAimBand);
+  double low = 0.0, low_depth = 0.0, high = 0.0, high_depth = 0.0;
+  Trial best;
+  best.largest_rad = -1.0;
+  double step = std::clamp(guess, least_step(), most);
+  for (int k = 0; k < 12; ++k) {
+    Trial trial = tried(step, shape, true);
+    const double depth = depth_of_cut(trial.largest_rad);
+    if (trial.largest_rad <= now_.aim_rad) {
+      low = step, low_depth = depth;
+      best = std::move(trial);
+      if (best.largest_rad > now_.aim_rad - kAimBand || step >= most) break;
+    } else {
+      high = step, high_depth = depth;
+      refused_ = step;
+    }
+    if (high == 0.0) {
+      step = std::min(most, step * std::clamp(goal / low_depth, 1.02, 1.8));
+      continue;
+    }
+    if (high - low < 0.3 * least_step()) break;
+    // Regula falsi, kept off the ends of the bracket: the engagement may jump.
+    const double share = std::clamp((goal - low_depth) / (high_depth - low_depth), 0.15, 0.9);
+    step = low + share * (high - low);
+  }
+  return best;
+}
+
+void CycleSearch::improve(Trial& best) {
+  if (best.largest_rad < 0.0 || best.worth() <= 0.0) return;
+  constexpr double kBetter = 1.002;
+  // Of seven, in turn: shapes change little from cycle to cycle. The first ones, which begin with a guess, try them all.
+  constexpr int kVariables = 3, kFirst = 8;
+  const int count = ++now_.improved <= kFirst ? static_cast<int>(now_.shape.share.size()) : kVariables;
+  for (int k = 0; k < count; ++k) {
+    const std::size_t v = now_.turn++ % now_.shape.share.size();
+    bool better = false;
+    for (const double sign : {1.0, -1.0}) {
+      CycleShape shape = now_.shape;
+      shape.share[v] = std::clamp(shape.share[v] + sign * now_.span[v], kLeastShare[v], kMostShare[v]);
+      if (shape.share[v] == now_.shape.share[v]) continue;
+      const double step = best.from_x - now_.last.from_x;
+      // What it would be worth at the aim is known well enough to see what is not worth a search.
+      const Trial probe = tried(step, shape, true);
+      const double longer = depth_of_cut(now_.aim_rad) / depth_of_cut(probe.largest_rad);
+      if (longer * probe.worth() <= depth_of_cut(now_.aim_rad) / depth_of_cut(best.largest_rad) * best.worth())
+        continue;
+      const Trial trial = longest_step(shape, longer * step);
+      if (trial.largest_rad < 0.0 || !(trial.worth() > kBetter * best.worth())) continue;
+      if (enters_anything(trial)) continue;
+      best = trial;
+      now_.shape = shape;
+      better = true;
+      break;
+    }
+    now_.span[v] = std::clamp(now_.span[v] * (better ? 1.3 : 0.7), 0.005, 0.15);
+  }
+}
+
+/// Fronts from flat to steep, where the shape of the last cycle does not get on, or enters a side: the best of those that
+/// enter none, if there is one.
+void CycleSearch::reshape(Trial& best) {
+  const CycleShape before = now_.shape;
+  bool entering = best.largest_rad >= 0.0 && enters_anything(best);
+  for (const double handle : {0.08, 0.16, 0.26}) {
+    for (const double bulge : {-0.08, 0.0, 0.08, 0.16, 0.28}) {
+      CycleShape shape = before;
+      shape.share[0] = shape.share[1] = handle;
+      shape.share[2] = bulge;
+      Trial trial = longest_step(shape, 0.15 * radius_);
+      if (trial.largest_rad < 0.0 || (!entering && trial.worth() <= best.worth())) continue;
+      const bool enters = enters_anything(trial);
+      if (enters && (!entering || trial.worth() <= best.worth())) continue;
+      entering = enters;
+      best = std::move(trial);
+      now_.shape = shape;
+    }
+  }
+}
+
+GuardDepth CycleSearch::depth_of(const Trial& trial, int times, int places) const {
+  GuardDepth out = guard_.depth(trial.front, times, places);
+  if (trial.back) out.add(guard_.depth(*trial.back, times, places));
+  return out;
+}
+
+GuardDepth CycleSearch::depth_at_ends(const Trial& trial, int places) const {
+  GuardDepth out;
+  for (const double t : {0.0, 1.0}) guard_.look(trial.front.pose(t), places, out);
+  return out;
+}
+
+double CycleSearch::entered(const Trial& trial) const { return depth_of(trial, kGuardTimes, kGuardPlaces).deepest(); }
+
+bool CycleSearch::enters_anything(const Trial& trial) const {
+  const double allowed = kToleranceBudget.cavity.halves * options_.tolerance_mm;
+  return entered(trial) > std::max(allowed, depth_at_ends(trial, kGuardPlaces).deepest());
+}
+
+void CycleSearch::lift(Trial& best) {
+  constexpr int kTimes = 17, kPlaces = 5, kTries = 4;
+  const double allowed =
+      std::max(kToleranceBudget.cavity.aim * options_.tolerance_mm, kSpare * depth_at_ends(best, kPlaces).tip);
+  const double before = now_.lift_mm, deepest = depth_of(best, kTimes, kPlaces).tip;
+  double deep = deepest;
+  Trial lifted = best;
+  for (int k = 0; k < kTries && deep > allowed; ++k) {
+    now_.lift_mm += 1.6 * deep + 0.02;
+    Trial next = longest_step(now_.shape, best.from_x - now_.last.from_x);
+    if (next.largest_rad < 0.0) break;
+    lifted = std::move(next);
+    deep = depth_of(lifted, kTimes, kPlaces).tip;
+  }
+  if (deep < 0.7 * deepest || deep <= allowed)
+    best = std::move(lifted);
+  else
+    now_.lift_mm = before;
+}
+
+Trial CycleSearch::best(bool improving) {
+  // No more lift than this cycle needs: the floor may fall again.
+  now_.lift_mm = now_.lift_mm > kLeastLiftMm ? 0.5 * now_.lift_mm : 0.0;
+  Trial best = longest_step(now_.shape, now_.step_mm);
+  if (best.largest_rad < 0.0 || best.from_x - now_.last.from_x < kShortStep * radius_ || enters_anything(best))
+    reshape(best);
+  if (improving) improve(best);
+  if (best.from_x - now_.last.from_x < least_step()) best.largest_rad = -1.0;
+  if (best.largest_rad >= 0.0) lift(best);
+  return best;
+}
+
+}  // namespace flank::internal

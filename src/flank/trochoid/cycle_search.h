@@ -1,0 +1,108 @@
+/// The search of one cycle: its shape, and the longest step that the engagement allows (docs/algorithms/trochoid.md).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "flank/trochoid/cycle_shape.h"
+#include "flank/trochoid/engagement/engagement.h"
+#include "flank/trochoid/half_guard.h"
+#include "flank/trochoid/side_pairing.h"
+#include "flank/trochoid/side_path.h"
+
+namespace flank::internal {
+
+struct CycleOptions {
+  double largest_rad = 1.0471975511965976;  ///< engagement, fronts and backs
+  double tolerance_mm = 0.01;
+  bool optimise = true;  ///< shapes of the halves, cycle by cycle; else the first shapes are kept
+  int most_cycles = 400;
+  /// Ends of fronts on the first side go no farther than this share of its way: above, the layer before got stuck.
+  double most_share = std::numeric_limits<double>::infinity();
+};
+
+/// Poses a half path has in a stock: a multiple of its knot spans.
+inline constexpr int kHalfIntervals = 48;
+
+/// Both halves of a cycle under trial.
+struct Trial {
+  double from_x = 0.0, to_x = 0.0;
+  std::optional<RuledMotion> back;
+  RuledMotion front;
+  double largest_rad = 0.0, volume_mm3 = 0.0, way_mm = 0.0;
+  /// What is maximised: removed volume per way of front and back.
+  [[nodiscard]] double worth() const { return way_mm > 0.0 ? volume_mm3 / way_mm : 0.0; }
+};
+
+/// What the next cycle is planned from.
+struct CycleState {
+  Trial last;
+  CycleShape shape;
+  /// By which the shares of the shape are changed.
+  std::array<double, 7> span = {0.05, 0.05, 0.08, 0.05, 0.05, 0.08, 0.05};
+  std::size_t turn = 0;
+  int improved = 0;  ///< cycles whose shape was searched
+  double aim_rad = 0.0, step_mm = 0.0, lift_mm = 0.0;
+  double largest_front_mm3 = 0.0;
+  std::size_t sweeps = 0;  ///< in the stock
+};
+
+/// Trials leave the stock as it was.
+class CycleSearch {
+ public:
+  CycleSearch(const LayerSides& sides, const HalfGuard& guard, SweptStock& stock, const CycleOptions& options);
+
+  [[nodiscard]] CycleState& now() { return now_; }
+  [[nodiscard]] double radius() const { return radius_; }
+  /// Shorter than this no step is one, mm.
+  [[nodiscard]] double least_step() const;
+  /// The place of the second side across from one of the first.
+  [[nodiscard]] double across(double from_x) const { return pairing_.at(from_x); }
+  /// Back to the shape that a layer begins with.
+  void reset_shape();
+  /// The cycle after now().last whose end on the first side is a step farther.
+  [[nodiscard]] Trial tried(double step, bool measured) { return tried(step, now_.shape, measured); }
+  /// The longest step of the present shape; `largest_rad` < 0: there is none.
+  [[nodiscard]] Trial longest_step(double guess) { return longest_step(now_.shape, guess); }
+  /// The longest step of the present shape, or of another where that does not get on, enters a face or, with `improving`,
+  /// removes less a way; its tips lifted off what they enter. `largest_rad` < 0: there is none.
+  [[nodiscard]] Trial best(bool improving);
+  /// Deepest that a half enters a face, mm.
+  [[nodiscard]] double entered(const Trial& trial) const;
+  /// Whether a half enters a face by more than the tolerance and more than its ends; no lift and no shorter step helps
+  /// there, another shape may.
+  [[nodiscard]] bool enters_anything(const Trial& trial) const;
+  /// The last step that was too long, mm.
+  [[nodiscard]] double refused() const { return refused_; }
+
+ private:
+  [[nodiscard]] AxisPlace start(const Trial& t) const { return sides_.from.at(t.from_x); }
+  [[nodiscard]] AxisPlace end(const Trial& t) const { return sides_.to.at(t.to_x); }
+  [[nodiscard]] double gap_at(const Trial& t) const;
+  [[nodiscard]] double partner(double from_x, const CycleShape& shape) const;
+  void shape_halves(const CycleShape& shape, Trial& trial) const;
+  [[nodiscard]] Trial tried(double step, const CycleShape& shape, bool measured);
+  [[nodiscard]] Trial longest_step(const CycleShape& shape, double guess);
+  void improve(Trial& best);
+  void reshape(Trial& best);
+  /// Lifts the inner points of both halves for as long as their tips enter something, if that helps.
+  void lift(Trial& best);
+  [[nodiscard]] GuardDepth depth_of(const Trial& trial, int times, int places) const;
+  /// What the side paths themselves enter there: no shape of a cycle changes it.
+  [[nodiscard]] GuardDepth depth_at_ends(const Trial& trial, int places) const;
+
+  const LayerSides& sides_;
+  const HalfGuard& guard_;
+  SweptStock& stock_;
+  const CycleOptions& options_;
+  EngagementMeter meter_;
+  std::vector<ToolRing> rings_;
+  SidePairing pairing_;
+  double radius_ = 0.0, refused_ = 0.0;
+  CycleState now_;
+};
+
+}  // namespace flank::internal
