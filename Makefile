@@ -35,7 +35,7 @@ test:  ## build and run all tests, those of the Python module among them; other 
 	cmake --build --preset release --parallel $(JOBS)
 	ctest --preset release --parallel $(JOBS) --label-exclude '^clients$$'
 
-test-clients: deps build  ## open what we write in Chromium, FreeCAD and LinuxCNC, which are installed if they are missing
+test-clients: deps build  ## open what we write in Chromium, FreeCAD and LinuxCNC, sweep on Slurm; they are installed if they are missing
 	scripts/install-deps.sh clients
 	ctest --preset release --label-regex '^clients$$'
 
@@ -48,7 +48,7 @@ fuzz:  ## fuzz every reader of our own for SECONDS (default 60); what is found l
 	cmake --preset fuzz
 	cmake --build --preset fuzz --parallel $(JOBS)
 	mkdir -p build/fuzz/found
-	set -e; for program in build/fuzz/tests/fuzz_*; do name=$${program##*/fuzz_}; \
+	set -e; for program in $$(find build/fuzz/tests -name "fuzz_*" -type l | sort); do name=$${program##*/fuzz_}; \
 	  mkdir -p build/fuzz/corpus/$$name; echo "== $$name"; \
 	  $$program -max_total_time=$(SECONDS) -timeout=10 -rss_limit_mb=2000 -verbosity=0 -print_final_stats=1 \
 	    -artifact_prefix=build/fuzz/found/$$name- build/fuzz/corpus/$$name $$(ls -d tests/fuzz/corpus/$$name 2>/dev/null); done

@@ -11,7 +11,7 @@ package=(dpkg-dev file python3-wheel)
 docs=(python3-sphinx furo python3-myst-parser python3-breathe doxygen)
 bench=(libbenchmark-dev libembree-dev libfcl-dev)
 dev=(clang-format clang-tidy)
-clients=(chromium freecad-python3 linuxcnc-uspace)
+clients=(chromium freecad-python3 linuxcnc-uspace slurm-wlm munge coinor-cbc)
 # Node.js and npm bundle the report page; a newer one from elsewhere will do, and then the packages would get in its way.
 command -v node > /dev/null || build+=(nodejs)
 command -v npm > /dev/null || build+=(npm)

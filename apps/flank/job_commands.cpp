@@ -87,6 +87,7 @@ Subcommand add_verify(CLI::App& parser) {
       "A program: flank post out --machine linuxcnc-xyzac-trt -o part.ngc; flank verify out --nc part.ngc --machine "
       "linuxcnc-xyzac-trt");
   const auto run = [job](const CommonOptions& common) {
+    end_on_signals();
     const Verification outcome = run_verify(*job);
     if (common.json)
       fmt::print("{}\n", internal::verify_to_json(outcome.report, outcome.acceptance));

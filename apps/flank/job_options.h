@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "flank/job/design_fields.h"
 #include "flank/job/field_text.h"
-#include "flank/job/fields.h"
 
 namespace flank::cli {
 

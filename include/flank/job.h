@@ -167,11 +167,14 @@ struct VerifyJob {
 /// Write the program with which a machine runs the path of a folder.
 struct PostJob {
   std::string folder;
-  std::string machine;                   ///< name of a machine that comes with the program, or a file
-  std::optional<std::string> part;       ///< file; none: the job's
-  std::optional<std::string> setup;      ///< "x,y,z,a,b,c": where the part sits; none: searched
-  double feed_mm_min = 1000.0;           ///< of the contact along strips
-  std::string speed = "feed";            ///< or "optimal": as fast as the machine can
+  std::string machine;               ///< name of a machine that comes with the program, or a file
+  std::optional<std::string> part;   ///< file; none: the job's
+  std::optional<std::string> setup;  ///< "x,y,z,a,b,c": where the part sits; none: searched
+  double feed_mm_min = 1000.0;       ///< of the contact along strips
+  /// "feed": in a cavity the feed follows the engagement, elsewhere it is even; "constant"; "optimal": as fast as the machine can.
+  std::string speed = "feed";
+  std::optional<double>
+      most_feed_mm_min;                  ///< where less is engaged than the cavity's limit; none: three times the feed
   std::optional<double> deviation_mm;    ///< of the control's motion from the path; none: 0.5 % of the tolerance
   std::optional<double> tool_length_mm;  ///< from the gauge line to the controlled point; none: the machine's
   double link_clearance_mm = 5.0;        ///< of the tool from the part's surroundings on links

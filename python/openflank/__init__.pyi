@@ -506,6 +506,7 @@ def post(
     setup: str | None = None,
     feed_mm_min: float = ...,
     speed: str = ...,
+    most_feed_mm_min: float | None = None,
     deviation_mm: float | None = None,
     tool_length_mm: float | None = None,
     spindle: float = ...,

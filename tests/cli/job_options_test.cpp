@@ -3,6 +3,7 @@
 
 #include "cli/cli_fixture.h"
 #include "flank/job/command_line.h"
+#include "flank/job/design_fields.h"
 #include "job/random_jobs.h"
 #include "messages.h"
 
@@ -51,6 +52,7 @@ TEST_F(JobOptions, AFitIsTheSameAgain) { expect_the_same_again<FitJob>(); }
 TEST_F(JobOptions, ACoverIsTheSameAgain) { expect_the_same_again<CoverJob>(); }
 TEST_F(JobOptions, AVerifyIsTheSameAgain) { expect_the_same_again<VerifyJob>(); }
 TEST_F(JobOptions, APostIsTheSameAgain) { expect_the_same_again<PostJob>(); }
+TEST_F(JobOptions, ADesignIsTheSameAgain) { expect_the_same_again<internal::DesignJob>(); }
 
 TEST_F(JobOptions, ADiameterIsTwiceARadius) {
   const auto job = parsed<FitJob>({"blade.step", "--shank-length", "30", "--shank-diameter", "8"});

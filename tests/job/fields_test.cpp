@@ -77,10 +77,18 @@ Addresses members(const TrochoidJob& job) {
   return all;
 }
 Addresses members(const PostJob& job) {
-  const auto& [folder, machine, part, setup, feed, speed, deviation, tool_length, clearance, lift, order, spindle] =
-      job;
+  const auto& [folder, machine, part, setup, feed, speed, most, deviation, tool_length, clearance, lift, order,
+               spindle] = job;
   Addresses all;
-  add(all, folder, machine, part, setup, feed, speed, deviation, tool_length, clearance, lift, order, spindle);
+  add(all, folder, machine, part, setup, feed, speed, most, deviation, tool_length, clearance, lift, order, spindle);
+  return all;
+}
+Addresses members(const DesignJob& job) {
+  const auto& [part, tools, source, shape, length, avoid, radius, choice, obstacles, judge, tolerance, change] = job;
+  const auto& [file, unit, faces, skin, side] = part;
+  Addresses all;
+  add_members(radius, all), add_members(choice, all), add_members(obstacles, all), add_members(judge, all);
+  add(all, file, unit, faces, side, tools, source, shape, length, avoid, tolerance, change);
   return all;
 }
 Addresses members(const VerifyJob& job) {
@@ -94,7 +102,7 @@ Addresses members(const VerifyJob& job) {
 
 template <class Job>
 class Fields : public testing::Test {};
-using Jobs = testing::Types<FitJob, CoverJob, TrochoidJob, VerifyJob, PostJob>;
+using Jobs = testing::Types<FitJob, CoverJob, TrochoidJob, VerifyJob, PostJob, DesignJob>;
 TYPED_TEST_SUITE(Fields, Jobs);
 
 TYPED_TEST(Fields, EveryMemberIsInTheTableOnce) {

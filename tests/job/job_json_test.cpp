@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "flank/error.h"
@@ -110,6 +111,19 @@ TEST(JobFile, NamesFilesByAbsolutePaths) {
   EXPECT_EQ(written.at("part"), (std::filesystem::current_path() / "blade.step").string());
   EXPECT_EQ(written.at("fixtures").at(0), (std::filesystem::current_path() / "vice.step").string());
   EXPECT_FALSE(written.contains("guide")) << "what was not asked for is not in the file";
+}
+
+TEST(JobFile, NamesToolsByAbsolutePathsWhereTheyAreFiles) {
+  const std::filesystem::path file = "job_json_test_tool.json";
+  std::ofstream(file) << "{}";
+  FitJob job;
+  job.part.file = "blade.step";
+  job.tool.spec = file.string();
+  const json written = json::parse(job_to_json(job));
+  EXPECT_EQ(written.at("tool"), std::filesystem::absolute(file).string());
+  std::filesystem::remove(file);
+  job.tool.spec = "cone:radius=2.5,angle=3";
+  EXPECT_EQ(json::parse(job_to_json(job)).at("tool"), job.tool.spec);
 }
 
 TEST(JobFile, FilesOfEarlierVersionsRead) {

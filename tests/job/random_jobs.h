@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "flank/base/random.h"
-#include "flank/job/fields.h"
+#include "flank/job/design_fields.h"
 
 namespace flank::internal::jobs {
 
@@ -26,10 +26,10 @@ inline std::string nasty_text(Random& random) {
 inline void randomise(const FieldInfo& info, std::string& value, Random& random) {
   if (info.accepted.text) {
     for (const char* word : {"mm", "cm", "m", "in", "grow", "curves", "grid", "shape", "tapered", "any", "feed",
-                             "optimal", "volume", "plain", "climb", "conventional"})
+                             "optimal", "volume", "plain", "climb", "conventional", "both", "catalogue"})
       if (info.accepted.text(word) && random.uniform() < 0.5) value = word;
     if (!info.accepted.text(value))
-      for (const char* word : {"in", "curves", "shape", "any", "optimal", "plain", "conventional"})
+      for (const char* word : {"in", "curves", "shape", "any", "optimal", "plain", "conventional", "both"})
         if (info.accepted.text(word)) value = word;
     return;
   }

@@ -11,6 +11,7 @@
 #include "flank/example/example_motions.h"
 #include "flank/example/example_rotor37.h"
 #include "flank/example/example_tools.h"
+#include "flank/example/wheel/impeller.h"
 
 namespace flank::internal {
 namespace {
@@ -178,6 +179,10 @@ std::vector<Recipe> all_recipes() {
       {"rotor37", "blade of NASA Rotor 37, a solid: sides F1 and F3", [](Options) { return solid(rotor37_blade()); }},
       {"rotor37-blisk", "two blades of NASA Rotor 37 on a piece of the hub, a solid: cavity between F9 and F11",
        [](Options) { return solid(rotor37_blisk()); }},
+      {"impeller",
+       "two main blades and two splitters of an impeller on a sector of the hub, a solid: sides F9, F7, F13, F11, F17, "
+       "F15, F21, F19",
+       [](Options) { return solid(impeller()); }},
       {"cavity", "two facing free-form walls of a twisted channel, of any size: F1 and F2",
        [](Options options) { return channel(options.cavity); }},
       {"deformed-envelope", "exact barrel envelope with a smooth bump", deformed},

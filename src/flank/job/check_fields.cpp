@@ -1,6 +1,7 @@
 #include "flank/job/check_fields.h"
 
 #include "flank/error.h"
+#include "flank/job/design_fields.h"
 #include "flank/job/field_text.h"
 #include "flank/job/fields.h"
 
@@ -37,5 +38,6 @@ void check_fields(const CoverJob& job) { check(job); }
 void check_fields(const TrochoidJob& job) { check(job); }
 void check_fields(const VerifyJob& job) { check(job); }
 void check_fields(const PostJob& job) { check(job); }
+void check_fields(const DesignJob& job) { check(job); }
 
 }  // namespace flank::internal

@@ -23,7 +23,7 @@ struct Accepted {
 enum class Spelling {
   kPlain,
   kFile,         ///< the name of a file or folder: absolute in job.json
-  kFileOrText,   ///< a file if there is a slash in it
+  kFileOrText,   ///< a file if there is one of that name; then as kFile
   kOnOff,        ///< of a bool
   kSign,         ///< of a side: + or -
   kAutoOrCount,  ///< 0 is "auto"
@@ -71,8 +71,8 @@ inline constexpr Accepted kUnit{"accepted are mm, cm, m, in", nullptr,
                                 [](std::string_view x) { return x == "mm" || x == "cm" || x == "m" || x == "in"; }};
 inline constexpr Accepted kStrategy{"there are grow and curves", nullptr,
                                     [](std::string_view x) { return x == "grow" || x == "curves"; }};
-inline constexpr Accepted kSpeed{"there are feed and optimal", nullptr,
-                                 [](std::string_view x) { return x == "feed" || x == "optimal"; }};
+inline constexpr Accepted kSpeed{"there are feed, constant and optimal", nullptr,
+                                 [](std::string_view x) { return x == "feed" || x == "constant" || x == "optimal"; }};
 inline constexpr Accepted kOrder{"there are shortest and given", nullptr,
                                  [](std::string_view x) { return x == "shortest" || x == "given"; }};
 inline constexpr Accepted kTurns{"a number >= 0 is needed", not_negative};
@@ -310,8 +310,15 @@ void visit_fields(Job& job, Visitor&& visit) {
                 kAny},
       job.setup);
   visit(FieldInfo{"feed", "mm/min", "", "Feed of the contact along the strips", kRate}, job.feed_mm_min);
-  visit(FieldInfo{"speed", "", "", "feed: at the feed wherever the axes can; optimal: as fast as the axes can", kSpeed},
+  visit(FieldInfo{"speed", "", "",
+                  "feed: at the feed wherever the axes can, and in a cavity faster where less is engaged, slower where "
+                  "more is, so that the thickest chip stays the same; constant: at the feed; optimal: as fast as the "
+                  "axes can",
+                  kSpeed},
         job.speed);
+  visit(FieldInfo{"most_feed", "mm/min", "",
+                  "In a cavity: the feed where little or nothing is engaged; default: three times the feed", kRate},
+        job.most_feed_mm_min);
   visit(FieldInfo{"deviation", "mm", "",
                   "How far the control's own motion may leave the path; default: 0.5 % of the tolerance", kLength},
         job.deviation_mm);

@@ -30,10 +30,16 @@ bool names_file(const FieldInfo& info) {
   return info.spelling == Spelling::kFile || info.spelling == Spelling::kFileOrText;
 }
 
-// Text that may be a file's name is not made absolute: whether it is one is decided where it is read.
+/// Text that may name a file does if there is such a file. A plain word never does: "free" is a tool, not a file.
+bool is_file(const FieldInfo& info, const std::string& value) {
+  if (info.spelling == Spelling::kFile) return !value.empty();
+  std::error_code none;
+  return value.find_first_of("/.") != std::string::npos && std::filesystem::is_regular_file(value, none);
+}
+
 Json to_json(const FieldInfo& info, const std::string& value) {
   if (!names_file(info)) return value;
-  return text_of_name(info.spelling == Spelling::kFile && !value.empty() ? absolute(value) : value);
+  return text_of_name(is_file(info, value) ? absolute(value) : value);
 }
 Json to_json(const FieldInfo& info, const std::vector<std::string>& values) {
   Json list = Json::array();

@@ -21,6 +21,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kLook{10};
+/// For children that were told to end; their results are not kept.
+constexpr std::chrono::milliseconds kPatience{500};
 constexpr int kOurFault = 4;
 constexpr int kSignalled = 128;
 
@@ -90,11 +92,15 @@ std::vector<ChildOutcome> run_tasks(const std::string& program, const std::vecto
   for (std::size_t k = 0; k < tasks.size(); ++k) waiting.push_back({k, limits.retries, 0, {}, false});
   Fleet fleet;
   bool stopping = false;
+  Clock::time_point stopped_at;
   while (!fleet.running.empty() || (!waiting.empty() && !stopping)) {
     if (!stopping && cancelled && cancelled()) {
       stopping = true;
+      stopped_at = Clock::now();
       fleet.tell(SIGTERM);
     }
+    // Their unfinished results are not kept: nothing is lost with a child that does not end.
+    if (stopping && Clock::now() - stopped_at > kPatience) fleet.tell(SIGKILL);
     while (!stopping && !waiting.empty() && fleet.running.size() < static_cast<std::size_t>(limits.processes)) {
       Running next = waiting.front();
       waiting.pop_front();

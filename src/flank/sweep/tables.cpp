@@ -8,27 +8,15 @@
 
 #include "flank/io/text/json_dump.h"
 #include "flank/report.h"
+#include "flank/sweep/table_text.h"
 
 namespace flank::internal {
 namespace {
-
-constexpr const char* kStyle =
-    "body{font:15px system-ui,sans-serif;margin:2em;color:#223}table{border-collapse:collapse;margin:1em 0 2em}"
-    "th,td{border:1px solid #ccd;padding:.4em .7em;text-align:left}td small{color:#556}"
-    ".meets{background:#e2f3e4}.short{background:#fdf0d5}.none{background:#f8dcdc}";
 
 std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
 /// A tool as it is shown: a file without its folder.
 std::string shown_tool(const std::string& tool) { return tool.find('/') != std::string::npos ? file_name(tool) : tool; }
-
-/// A value in quotes if a comma, a quote or a line's end is in it.
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
 
 std::string html_cell(const SweepTask& task, const SweepRow& row) {
   const bool meets = row.status == TaskStatus::kMeets;
@@ -124,11 +112,9 @@ std::string sweep_csv(const SweepResult& result) {
 std::string sweep_html(const SweepResult& result) {
   const SweepPlan& plan = result.plan;
   const std::string title = html_safe(fmt::format("flank sweep: {} of {}", file_name(plan.file), file_name(plan.part)));
-  std::string text = fmt::format(
-      "<!doctype html>\n<html lang=\"en\">\n<meta "
-      "charset=\"utf-8\">\n<title>{}</title>\n<style>{}</style>\n<h1>{}</h1>\n"
-      "<p>{} of {} tasks meet their request. Coverage is of what is reachable.</p>\n",
-      title, kStyle, title, result.count(TaskStatus::kMeets), result.rows.size());
+  std::string text =
+      html_head(title) + fmt::format("<p>{} of {} tasks meet their request. Coverage is of what is reachable.</p>\n",
+                                     result.count(TaskStatus::kMeets), result.rows.size());
   for (std::size_t variant = 0; variant < std::max<std::size_t>(1, plan.variants.size()); ++variant)
     text += html_table(result, variant);
   return text + "</html>\n";

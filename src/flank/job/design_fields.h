@@ -1,0 +1,65 @@
+/// The fields of a design: the part of the table (fields.h) that asks for a set of tools.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "flank/job/design_job.h"
+#include "flank/job/fields.h"
+
+namespace flank::internal::accepted {
+
+inline constexpr Accepted kToolCount{"auto or a number from 1 to 100 is needed",
+                                     [](double x) { return x >= 0.0 && x <= 100.0; }};
+inline constexpr Accepted kSource{"there are fit, catalogue and both", nullptr,
+                                  [](std::string_view x) { return x == "fit" || x == "catalogue" || x == "both"; }};
+inline constexpr Accepted kMinutes{"a time >= 0 min is needed", not_negative};
+
+}  // namespace flank::internal::accepted
+
+namespace flank::internal {
+
+template <class Visitor, Is<DesignJob> Job>
+void visit_fields(Job& job, Visitor&& visit) {
+  using namespace accepted;
+  visit(FieldInfo{"part", "", "", "STEP, IGES, BREP, STL, OBJ or PLY file", kAny, Spelling::kFile, "PART", true},
+        job.part.file);
+  visit(FieldInfo{"unit", "", "", "Unit of a mesh: mm, cm, m or in", kUnit}, job.part.unit);
+  visit(FieldInfo{"faces", "", "", "Faces to finish, each by one tool of the set: F1,F3, F10-F19", kAny,
+                  Spelling::kPlain, "", true},
+        job.part.faces);
+  visit(FieldInfo{"side", "", "", "Machined side of open sheets, + or -; default: both are tried", kSide,
+                  Spelling::kSign},
+        job.part.side);
+  visit(FieldInfo{"tools", "", "",
+                  "Most tools: a number, for the set of at most so many that takes the least time; or auto: the "
+                  "smallest set that finishes all that can be finished, and of these the fastest",
+                  kToolCount, Spelling::kAutoOrCount},
+        job.tools);
+  visit(FieldInfo{"source", "", "",
+                  "Where tools come from: fit: made for one of the faces or for several; catalogue; or both", kSource},
+        job.source);
+  visit(FieldInfo{"shape", "", "", "Of fitted tools: free, or a family with any of its parameters (cone:radius=2)"},
+        job.shape);
+  visit(FieldInfo{"tolerance", "mm", "", "Tolerance of all faces", kLength}, job.tolerance_mm);
+  visit(FieldInfo{"axis_length", "mm", "", "Length of a fitted tool's axis; default: as its faces need", kLength},
+        job.axis_length_mm);
+  visit(FieldInfo{"tool_change", "min", "", "Time that each tool of the set costs", kMinutes}, job.tool_change_min);
+  visit_radius(job.radius, visit);
+  visit_judge(job.judge, visit);
+  visit_choice(job.choice, visit);
+  visit_obstacles(job.obstacles, visit);
+  visit(FieldInfo{"avoid", "", "Other faces",
+                  "on: fits keep clear of the other faces; off: tools are fitted as if they were not there, which is "
+                  "quick, and covers with these tools keep clear (all are judged all the same)",
+                  kAny, Spelling::kOnOff},
+        job.avoid);
+}
+
+inline std::string_view command_name(const DesignJob&) { return "design"; }
+
+/// As for the other jobs (check_fields.h, command_line.h).
+void check_fields(const DesignJob& job);
+[[nodiscard]] std::string command_line(const DesignJob& job);
+
+}  // namespace flank::internal

@@ -1,0 +1,25 @@
+/// Tasks as job arrays of Slurm: submitted, watched, collected.
+#pragma once
+
+#include <string>
+
+#include "flank/sweep/run_tasks.h"
+
+namespace flank::internal {
+
+/// run_tasks by `sbatch --array` and `squeue`, at most `limits.processes` at a time (0: as many as Slurm lets run). Program,
+/// folders and `scratch`, which is made for lists and exit codes and removed at the end, must be the same on all nodes.
+/// A task that vanishes from the queue without an exit code counts as killed. While the controller does not answer it is
+/// asked again: jobs go on without it. Arrays that an earlier run has left in `scratch` are cancelled first. Throws
+/// InternalError where Slurm is missing or refuses a job.
+[[nodiscard]] std::vector<ChildOutcome> slurm_tasks(const std::string& program, const std::vector<ChildTask>& tasks,
+                                                    const ChildLimits& limits, const std::string& scratch,
+                                                    const std::function<void(std::size_t, const ChildOutcome&)>& done,
+                                                    const std::function<bool()>& cancelled);
+
+/// The line of a POSIX shell that runs a task and writes "EXIT SECONDS" into the file `result`, whole or not at all.
+/// `timeout_s`: after it the task is killed; 0: none. No line's end is in it: $nl stands for one.
+[[nodiscard]] std::string task_line(const std::string& program, const ChildTask& task, const std::string& result,
+                                    double timeout_s);
+
+}  // namespace flank::internal
