@@ -29,9 +29,17 @@ def unnamed_names(file):
             if found:
                 names.add(found.group(1))
                 continue
-            # A function, or the constants of one declaration: `constexpr int kA = 1, kB = 2;`
-            names |= set(re.findall(r"(\w+)\s*[({=;\[]", line)) - {"if", "for", "while", "return", "TEST", "TEST_F", "TEST_P"}
+            names |= declared_names(line)
     return names
+
+
+def declared_names(line):
+    """Of a function, or of the constants of one declaration: `constexpr int kA = 1, kB = 2;`"""
+    line = re.sub(r"\w+::", "", line)
+    function = re.match(r"[^=;{\[]*?\b([A-Za-z_]\w*)\s*\(", line)
+    if function:
+        return {function.group(1)} - {"TEST", "TEST_F", "TEST_P"}
+    return set(re.findall(r"\b([A-Za-z_]\w*)\s*(?=[={\[;])", re.sub(r"=[^,;]*", "=", line)))
 
 
 def header_types():
