@@ -42,16 +42,17 @@ def declared_names(line):
     return set(re.findall(r"\b([A-Za-z_]\w*)\s*(?=[={\[;])", re.sub(r"=[^,;]*", "=", line)))
 
 
-def header_types():
-    """Names of the types that the headers define. Two headers that define one name would give a program two types of that
-    name, and the linker would take the code of either for both."""
-    headers = {}
+def header_names():
+    """Names of the types that the headers define, and of the functions that they declare. Two headers that define one type
+    would give a program two types of that name, and the linker would take the code of either for both."""
+    headers, functions = {}, set()
     for header in sorted([*(ROOT / "src").rglob("*.h"), *(ROOT / "include").rglob("*.h")]):
         text = header.read_text()
+        functions |= set(re.findall(r"^(?:\[\[nodiscard\]\] )?[A-Za-z][^=;(){]*?\b(\w+)\(", text, re.MULTILINE))
         for name in re.findall(r"^(?:struct|class|enum class|using) (\w+)(?=[ :{=][^;]*(?:\{|= ))", text, re.MULTILINE):
             if headers.setdefault(name, (header, text))[0] != header and not re.search(rf"^using {name} =", text, re.MULTILINE):
                 sys.exit(f"{name} is defined in {headers[name][0].name} and in {header.name}")
-    return set(headers)
+    return set(headers), functions
 
 
 def opened_namespaces(file):
@@ -66,15 +67,24 @@ def used_names(file):
     return set(re.findall(r"^ *using [\w:]*::(\w+);", file.read_text(), re.MULTILINE))
 
 
+def local_names(file):
+    """Constants and types inside functions and classes, which may not hide one of another source."""
+    text = file.read_text()
+    return set(re.findall(r"^ +(?:static )?(?:constexpr|const) [^=({]*?\b(k[A-Z]\w*)", text, re.MULTILINE)) | set(
+        re.findall(r"^ +(?:struct|class|enum class|using) (\w+)(?= [={])", text, re.MULTILINE))
+
+
 def groups_of(files, size):
     """Groups of at most `size`, no two sources of which share a name of an unnamed namespace; the sources with most names
-    first. A source that declares a name of its own that a header gives to a type stays alone."""
-    types, alone, groups = header_types(), [], []
+    first. A source that gives a header's type another meaning stays alone; one that does so with a header's function stays
+    away from those that speak of it."""
+    (types, functions), alone, groups = header_names(), [], []
     for names, file in sorted(((unnamed_names(file), file) for file in files), key=lambda pair: (-len(pair[0]), pair[1])):
         if names & types:
             alone.append([file])
             continue
-        used, opened = used_names(file), opened_namespaces(file)
+        used, opened = used_names(file) | local_names(file), opened_namespaces(file)
+        used |= set(re.findall(r"\w+", file.read_text())) & functions - names
         for group in groups:
             fits = not (names & group["names"] or names & group["used"] or used & group["names"])
             if len(group["files"]) < size and group["opened"] == opened and fits:
