@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -38,6 +39,43 @@ std::optional<std::string> word_of(const toml::node& node) {
   return {};
 }
 
+/// Where a character beyond ASCII first stands outside of texts and comments, where TOML allows none; npos if nowhere. toml++
+/// takes for granted that its tables hold every such character, and they do not.
+std::size_t stray_character(std::string_view text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";  // some editors put it first
+  std::size_t at = text.starts_with(kMark) ? kMark.size() : 0;
+  while (at < text.size()) {
+    const char c = text[at];
+    if (static_cast<unsigned char>(c) >= 0x80) return at;
+    if (c == '#') {
+      at = std::min(text.find('\n', at), text.size());
+    } else if (c == '"' || c == '\'') {
+      // Three of them hold several lines; one that is not closed on its line is refused by toml++ there.
+      const std::string three(3, c);
+      const bool lines = text.substr(at, 3) == three;
+      const std::string_view end = std::string_view(three).substr(0, lines ? 3 : 1);
+      at += end.size();
+      while (at < text.size() && text.substr(at, end.size()) != end && (lines || text[at] != '\n'))
+        at += c == '"' && text[at] == '\\' ? 2 : 1;
+      // A text of several lines may end with quotes of its own, which stand before the three.
+      if (at < text.size()) at += end.size();
+      while (lines && at < text.size() && text[at] == c) ++at;
+    } else {
+      ++at;
+    }
+  }
+  return std::string_view::npos;
+}
+
+void require_plain(std::string_view text, const std::string& file) {
+  const std::size_t at = stray_character(text);
+  if (at == std::string_view::npos) return;
+  const std::string_view before = text.substr(0, at);
+  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+  throw InputError(fmt::format("{}: line {}, column {}: a character that is not ASCII stands outside of quotes", file,
+                               line, at - (before.rfind('\n') + 1) + 1));
+}
+
 bool inside(double x, NumberRange range) { return std::isfinite(x) && x >= range.low && x <= range.high; }
 
 }  // namespace
@@ -60,6 +98,7 @@ struct TomlTable::Data {
 TomlTable TomlTable::parse(std::string_view text, const std::string& file) {
   auto data = std::make_shared<Data>();
   data->file = file;
+  require_plain(text, file);
   try {
     data->document = std::make_shared<const toml::table>(toml::parse(text, file));
   } catch (const toml::parse_error& e) {
