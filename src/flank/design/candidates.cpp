@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
 #include "flank/base/atomic_file.h"
@@ -159,7 +160,45 @@ void add_catalogue(DesignResult& result, const DesignFolder& folder) {
     }
 }
 
+std::size_t finished_faces(const DesignResult& result, std::size_t tool) {
+  std::size_t count = 0;
+  for (std::size_t f = 0; f < result.faces.size(); ++f) count += result.pair(tool, f).finishes() ? 1 : 0;
+  return count;
+}
+
+/// The faces of a tool's fit, each replaced by that of its equals at which the tool enters deepest.
+Group worst_equals(const DesignResult& result, std::size_t tool) {
+  Group group = result.tools[tool].fitted;
+  for (std::size_t& planned : group) {
+    double deepest = 0.0;
+    const std::size_t first = result.equal[planned].first;
+    for (std::size_t f = 0; f < result.faces.size(); ++f) {
+      const DesignPair& pair = result.pair(tool, f);
+      if (result.equal[f].first != first || pair.finishes()) continue;
+      const double depth = std::max(pair.overcut_mm, pair.other_faces_overcut_mm);
+      if (depth > deepest) deepest = depth, planned = f;
+    }
+  }
+  std::sort(group.begin(), group.end());
+  return group;
+}
+
 }  // namespace
+
+std::vector<std::size_t> refit_group(const DesignResult& result) {
+  std::optional<std::size_t> best;
+  for (std::size_t t = 0; t < result.tools.size(); ++t)
+    if (!result.tools[t].fitted.empty() && (!best || finished_faces(result, t) > finished_faces(result, *best))) best = t;
+  if (!best || finished_faces(result, *best) == 0) return {};
+  Group group = worst_equals(result, *best);
+  if (group == result.tools[*best].fitted) group.clear();
+  return group;
+}
+
+void add_refitted(DesignResult& result, const DesignFolder& folder) {
+  const Group group = refit_group(result);
+  if (!group.empty()) (void)fit_groups(result, folder, {group});
+}
 
 std::vector<std::vector<std::size_t>> merge_order(const std::vector<const Tool*>& tools) {
   const auto apart = [&](const Group& a, const Group& b) {

@@ -24,6 +24,14 @@ struct DesignFolder {
 /// files.
 void find_candidates(DesignResult& result, const DesignFolder& folder);
 
+/// Faces to fit a tool to where none finishes all: those of the fit whose tool finishes most faces, each replaced by that
+/// of its equals at which the tool enters deepest, because what stands around it leaves the least room. Empty: there is no
+/// such fit, or nothing would be replaced. Needs `pairs`.
+[[nodiscard]] std::vector<std::size_t> refit_group(const DesignResult& result);
+
+/// Fits a tool to refit_group and appends it to `tools`.
+void add_refitted(DesignResult& result, const DesignFolder& folder);
+
 /// In which order tools are put together: groups of faces (indices into `tools`), of at least two, each the union of two
 /// earlier ones or of single faces; the last holds all. By the largest difference of radius and length (mm) between any
 /// two of their tools. Null: there is no tool for this face, and it comes last.

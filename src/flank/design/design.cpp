@@ -97,9 +97,15 @@ DesignResult run_design(const DesignJob& job, const BatchRun& run, const Progres
   const DesignFolder folder{root, stamp_of_files(job.obstacles),
                             [&](const std::vector<BatchTask>& tasks) { return run_batch(tasks, batch, progress); }};
   find_candidates(result, folder);
-  judge_pairs(result, folder);
-  result.complete = !progress.stop();
+  judge_pairs(result, folder, 0);
   result.choice = choice_of(result);
+  if (result.choice.unfinished > 0 && !progress.stop()) {
+    const std::size_t first_tool = result.tools.size();
+    add_refitted(result, folder);
+    judge_pairs(result, folder, first_tool);
+    result.choice = choice_of(result);
+  }
+  result.complete = !progress.stop();
   write_file((fs::path(root) / "design.json").string(), design_json(result));
   write_file((fs::path(root) / "design.csv").string(), design_csv(result));
   write_file((fs::path(root) / "design.html").string(), design_html(result));

@@ -43,10 +43,11 @@ std::string guide_text(const std::vector<Pose>& poses, double axis_length_mm) {
 
 class Pairs {
  public:
-  Pairs(DesignResult& result, const DesignFolder& folder) : result_(result), folder_(folder) {}
+  Pairs(DesignResult& result, const DesignFolder& folder, std::size_t first_tool)
+      : result_(result), folder_(folder), first_tool_(first_tool) {}
 
   void run() {
-    result_.pairs.assign(result_.tools.size() * result_.faces.size(), {});
+    result_.pairs.resize(result_.tools.size() * result_.faces.size());
     std::vector<PairTask> own, covers, fits, moved;
     for_each(true, [&](std::size_t t, std::size_t f) {
       const DesignTool& tool = result_.tools[t];
@@ -63,10 +64,10 @@ class Pairs {
     });
     take(fits);
     for_each(false, [&](std::size_t t, std::size_t f) {
-      const EqualFace& equal = result_.equal[f];
-      const std::string& first = result_.faces[equal.first];
-      if (!pair(t, equal.first).folder.empty())
-        add_carried(t, f, pair(t, equal.first).folder, first, equal.from_first, "as " + first, moved);
+      const std::size_t base = base_of(t, f);
+      const std::string& name = result_.faces[base];
+      if (!pair(t, base).folder.empty())
+        add_carried(t, f, pair(t, base).folder, name, motion(base, f), "as " + name, moved);
     });
     take(moved);
     // What surrounds an equal face may be another: the motion is found anew, from the one that was moved first.
@@ -78,20 +79,32 @@ class Pairs {
  private:
   DesignPair& pair(std::size_t tool, std::size_t face) { return result_.pairs[tool * result_.faces.size() + face]; }
 
-  /// Of every tool, the faces that are equal to none before them, or the others.
-  template <class Visit>
-  void for_each(bool firsts, Visit&& visit) {
-    for (std::size_t t = 0; t < result_.tools.size(); ++t)
-      for (std::size_t f = 0; f < result_.faces.size(); ++f)
-        if ((result_.equal[f].first == f) == firsts) visit(t, f);
+  /// Of the faces that are equal to f the one that is planned for a tool: that which the tool was fitted to, or the first.
+  [[nodiscard]] std::size_t base_of(std::size_t t, std::size_t f) const {
+    const std::size_t first = result_.equal[f].first;
+    for (const std::size_t fitted : result_.tools[t].fitted)
+      if (result_.equal[fitted].first == first) return fitted;
+    return first;
+  }
+  /// Takes face a to the equal face b.
+  [[nodiscard]] Eigen::Isometry3d motion(std::size_t a, std::size_t b) const {
+    return result_.equal[b].from_first * result_.equal[a].from_first.inverse();
   }
 
-  /// Tasks for the equal faces that a tool does not finish, though it finishes the first of them.
+  /// Of every new tool, the faces that are planned for it, or those that are equal to one of them.
+  template <class Visit>
+  void for_each(bool bases, Visit&& visit) {
+    for (std::size_t t = first_tool_; t < result_.tools.size(); ++t)
+      for (std::size_t f = 0; f < result_.faces.size(); ++f)
+        if ((base_of(t, f) == f) == bases) visit(t, f);
+  }
+
+  /// Tasks for the equal faces that a tool does not finish, though it finishes the one that is planned.
   template <class Make>
   std::vector<PairTask> still_open(Make&& make) {
     std::vector<PairTask> tasks;
     for_each(false, [&](std::size_t t, std::size_t f) {
-      if (!pair(t, result_.equal[f].first).finishes() || pair(t, f).finishes()) return;
+      if (!pair(t, base_of(t, f)).finishes() || pair(t, f).finishes()) return;
       if (auto task = make(t, f)) tasks.push_back(std::move(*task));
     });
     return tasks;
@@ -123,11 +136,11 @@ class Pairs {
 
   /// The same from the strip of the equal face, moved; nothing where there is more than one.
   [[nodiscard]] std::optional<PairTask> guided_fit(std::size_t t, std::size_t f) {
-    const DesignPair& first = pair(t, result_.equal[f].first);
-    const fs::path file = fs::path(folder_.path) / first.folder / "path.json";
-    if (first.folder.empty() || !fs::is_regular_file(file)) return {};
-    const Path path = carried(read_path(file.string()), result_.faces[result_.equal[f].first], result_.faces[f],
-                              result_.equal[f].from_first);
+    const std::size_t base = base_of(t, f);
+    const DesignPair& planned = pair(t, base);
+    const fs::path file = fs::path(folder_.path) / planned.folder / "path.json";
+    if (planned.folder.empty() || !fs::is_regular_file(file)) return {};
+    const Path path = carried(read_path(file.string()), result_.faces[base], result_.faces[f], motion(base, f));
     if (path.strips.size() != 1 || path.strips[0].poses.size() < 2) return {};
     return motion_fit(t, f, guide_text(path.strips[0].poses, result_.tools[t].tool.radial.axis_length()));
   }
@@ -215,10 +228,13 @@ class Pairs {
 
   DesignResult& result_;
   const DesignFolder& folder_;
+  std::size_t first_tool_;
 };
 
 }  // namespace
 
-void judge_pairs(DesignResult& result, const DesignFolder& folder) { Pairs(result, folder).run(); }
+void judge_pairs(DesignResult& result, const DesignFolder& folder, std::size_t first_tool) {
+  Pairs(result, folder, first_tool).run();
+}
 
 }  // namespace flank::internal
