@@ -38,8 +38,7 @@ double peak_megabytes() {
 void write(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
 
 std::string plan_text() {
-  std::string text =
-      "schema = \"openflank/sweep-plan/1\"\ncommand = \"cover\"\npart = \"blade.step\"\nfaces = [\"F1\"";
+  std::string text = "schema = \"openflank/sweep-plan/1\"\ncommand = \"cover\"\npart = \"blade.step\"\nfaces = [\"F1\"";
   for (int k = 2; k <= kFaces; ++k) text += fmt::format(", \"F{}\"", k);
   text += "]\ntools = [\"cylinder:radius=2\"";
   for (int k = 1; k < kTools; ++k) text += fmt::format(", \"cylinder:radius={}\"", 2.0 + 0.01 * k);
@@ -96,8 +95,8 @@ int main() {
   std::printf("plan of %zu tasks: read and checked in %.1f s (%.0f MB), collected in %.1f s, peak %.0f MB\n",
               plan.tasks.size(), planning, planned, collecting, peak_megabytes());
   std::printf("kept %d of %zu, figures %s\n", kept, plan.tasks.size(), figures ? "of all" : "MISSING");
-  const bool good =
-      kept == static_cast<int>(plan.tasks.size()) && figures && planning + collecting < 60.0 && peak_megabytes() < 1024.0;
+  const bool good = kept == static_cast<int>(plan.tasks.size()) && figures && planning + collecting < 60.0 &&
+                    peak_megabytes() < 1024.0;
   std::printf("%s: at most 60 s and 1 GB\n", good ? "met" : "MISSED");
   return good ? 0 : 1;
 }

@@ -188,7 +188,8 @@ Group worst_equals(const DesignResult& result, std::size_t tool) {
 std::vector<std::size_t> refit_group(const DesignResult& result) {
   std::optional<std::size_t> best;
   for (std::size_t t = 0; t < result.tools.size(); ++t)
-    if (!result.tools[t].fitted.empty() && (!best || finished_faces(result, t) > finished_faces(result, *best))) best = t;
+    if (!result.tools[t].fitted.empty() && (!best || finished_faces(result, t) > finished_faces(result, *best)))
+      best = t;
   if (!best || finished_faces(result, *best) == 0) return {};
   Group group = worst_equals(result, *best);
   if (group == result.tools[*best].fitted) group.clear();

@@ -17,7 +17,9 @@ std::string message(const std::string& text) {
 }
 
 TEST(TomlTable, AnyCharacterMayStandInTextsAndComments) {
-  const TomlTable table = TomlTable::parse("\xEF\xBB\xBF# Fr\u00e4ser \"\n" R"toml(
+  const TomlTable table = TomlTable::parse(
+      "\xEF\xBB\xBF# Fr\u00e4ser \"\n"
+      R"toml(
 a = "ä \" ä"  # 'ä
 b = 'ä \'
 c = """ä
@@ -27,7 +29,7 @@ d = '''ä
 'ä''''
 e = ["ä", 'ä']
 )toml",
-                                           "a.toml");
+      "a.toml");
   EXPECT_EQ(table.text("a"), "ä \" ä");
   EXPECT_EQ(table.text("b"), "ä \\");
   EXPECT_EQ(table.text("c"), "ä\n\"ä\" \"\"\"\n\"\"ä");

@@ -67,6 +67,15 @@ TEST(ReadNc, SiemensInchesAndTheirFeeds) {
   EXPECT_EQ(read("G710"), std::pair(1.0, 20.0));
 }
 
+// Such a comment was taken for our own, and the program that was written with it could not be read.
+TEST(ReadNc, ACommentWithANumberThatNoToolHasIsAComment) {
+  for (const auto& [number, read] : {std::pair("1000000", 1000000), std::pair("1000001", NcTool().number)}) {
+    const std::string text =
+        std::string("; TOOL ") + number + " mill\nTRAORI\nG54\nORIWKS ORIAXES\nG0 X0 Y0 Z2 A0 C0\nG1 Z1 F20\nM30\n";
+    EXPECT_EQ(read_text(text, NcLanguage::kSiemens).header.tool.number, read) << number;
+  }
+}
+
 TEST(ReadNc, SiemensWithVectorsOfAnyLength) {
   const NcProgram p = read_corpus("nc_siemens/other.mpf", NcLanguage::kSiemens);
   EXPECT_EQ(p.positions, NcPositions::kTipVector);

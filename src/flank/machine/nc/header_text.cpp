@@ -110,7 +110,8 @@ bool read_header_comment(std::string_view comment, NcHeader& header) {
     // Both lines begin with TOOL; a number follows in the other one only.
     if (read_dimensions(*tool, header.tool)) return true;
     const auto number = whole(take_word(*tool));
-    if (!number || *number < 0) return false;
+    // No T word could say a larger one.
+    if (!number || *number < 0 || *number > kLargestNcValue) return false;
     header.tool.number = *number;
     header.tool.name = *tool;
   } else {

@@ -44,8 +44,8 @@ void check_program(const NcProgram& program) {
   const auto letter = [](char c) { return c == 'A' || c == 'B' || c == 'C'; };
   if (r.size() != 2 || !letter(r[0]) || !letter(r[1]) || r[0] == r[1])
     throw UsageError("rotary axes", "\"" + r + "\"", "accepted are two different letters of A, B and C");
-  if (program.header.tool.number < 0 || program.header.work_offset < 1)
-    throw UsageError("program: the tool's number is at least 0, that of the work offset at least 1");
+  if (program.header.tool.number < 0 || program.header.tool.number > kLargestNcValue || program.header.work_offset < 1)
+    throw UsageError("program: the tool's number is from 0 to 1000000, that of the work offset at least 1");
   if (program.positions == NcPositions::kJoint && program.join == NcJoin::kGreatCircle)
     throw UsageError("program: joint coordinates are joined linearly, not on a great circle");
   for (const NcMove& move : program.moves) check_move(program, move);
