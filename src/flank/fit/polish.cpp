@@ -217,13 +217,16 @@ Polished seen_closely(FitDraft draft, const std::vector<SurfaceSample>& samples,
 Polished mended(const Polished& polished, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
   constexpr int kMost = 3;          // times: each brings places that the one before has made deep
   constexpr double kALittle = 5.0;  // tolerances: beyond, another motion is needed, not a better one
+  constexpr double kFirmer = 10.0;  // each time: what a soft term leaves goes with its weight
   const double tolerance = options.tolerance_mm;
   Polished best = polished;
+  double firmness = 1.0;
   for (int k = 0; k < kMost && !is_clean(best.estimate, tolerance) && !stopping(); ++k) {
     if (std::max(best.estimate.overcut_mm, best.estimate.gouge_mm) > kALittle * tolerance) return best;
     const std::vector<Vec3> deep = cut_deeper_than(kToleranceBudget.fit.settled_overcut * tolerance, samples,
                                                    best.draft.motions, best.draft.tool, kRankingPoses);
-    Polished trial = seen_closely(pass_at(best.draft, deep, options), samples, options);
+    if (best.estimate.gouge_mm > kToleranceBudget.fit.clean * tolerance) firmness *= kFirmer;
+    Polished trial = seen_closely(pass_at(best.draft, deep, options, firmness), samples, options);
     if (!is_better(trial.estimate, best.estimate, tolerance)) return best;
     best = std::move(trial);
   }
@@ -235,7 +238,7 @@ Polished mended(const Polished& polished, const std::vector<SurfaceSample>& samp
 Polished made_legitimate(const Polished& polished, const std::vector<SurfaceSample>& samples,
                          const FlankFitOptions& options) {
   if (!polished.draft.free_tool || check_legitimacy(polished.draft.tool).legitimate) return polished;
-  Polished trial = seen_closely(pass_at(polished.draft, {}, options), samples, options);
+  Polished trial = seen_closely(pass_at(polished.draft, {}, options, 1.0), samples, options);
   const bool worth = trial.estimate.at_tolerance > 0.5 * polished.estimate.at_tolerance;
   return worth && check_legitimacy(trial.draft.tool).legitimate ? trial : polished;
 }

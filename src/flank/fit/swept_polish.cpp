@@ -249,12 +249,15 @@ Polished last_digits(const Polished& polished, const std::vector<SurfaceSample>&
   return best;
 }
 
-FitDraft pass_at(const FitDraft& draft, const std::vector<Vec3>& deep, const FlankFitOptions& options) {
+FitDraft pass_at(const FitDraft& draft, const std::vector<Vec3>& deep, const FlankFitOptions& options,
+                 double firmness) {
   std::vector<FacePoint> points = target_points(draft, kDense.points_per_side, reach_of(options));
   const double share = 1.0 / static_cast<double>(points.size());
   for (const Vec3& place : deep) points.push_back({place, share, FacePoint::Role::kTouch});
   FitStage stage = swept_stage(kDense, options, draft.targets.front()->diagonal());
   stage.bounds_at_knots = true;
+  stage.clear_weight *= firmness;
+  if (firmness > 1.0) stage.clear_stride = 1;
   return run_swept(draft, options.bounds, stage, std::move(points), nullptr);
 }
 
