@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "fit/flat_scene.h"
+#include "flank/base/tolerance_budget.h"
 #include "flank/example/example.h"
 #include "flank/threads.h"
 #include "sanitized.h"
@@ -160,6 +161,26 @@ TEST(SweptPolish, NeverReturnsWorseThanItWasGiven) {
   const Polished measured = assess(after.draft, samples, options);
   EXPECT_EQ(measured.estimate.at_tolerance, after.estimate.at_tolerance);
   EXPECT_EQ(measured.estimate.overcut_mm, after.estimate.overcut_mm);
+}
+
+TEST(SweptPolish, AFirmPassLeavesOtherFacesAndASoftOneDoesNotQuite) {
+  const auto blade = standing_blade(0.0);
+  // A wall across the end of the blade: only the last poses meet it, against all the others that go on.
+  const double deep = 4.0 * kTolerance;
+  const ObstacleFace wall{make_target({testing::quad(Vec3(60, 50, -20), Vec3(60, -50, -20), Vec3(60, 50, 60),
+                                                     Vec3(60, -50, 60), "F3")}),
+                          true};
+  const ObstacleField obstacles(testing::only(wall), *blade, 2.0, kToleranceBudget.others.fit_allowance * kTolerance);
+  FitDraft draft = twisted_draft(*blade, 0.0, 0.0, false);
+  draft.obstacles = {&obstacles};
+  draft.motions = {upright_motion({.y = 4.0, .z = -1.0, .x_first = -2.0, .x_last = 56.0 + deep, .length = 42.0})};
+  const auto depth = [](const FitDraft& d) { return flank_gouge(d.motions, d.obstacles, d.tool, 400); };
+  ASSERT_NEAR(depth(draft), deep, 1e-6);
+  const double soft = depth(pass_at(draft, {}, small_options(), 1.0));
+  const double firm = depth(pass_at(draft, {}, small_options(), 100.0));
+  EXPECT_LT(soft, deep);
+  EXPECT_LT(firm, 0.5 * (soft + kToleranceBudget.others.fit_allowance * kTolerance)) << soft;
+  EXPECT_LE(firm, kToleranceBudget.fit.clean * kTolerance) << soft;
 }
 
 TEST(SweptPolish, APassIsTheSameForOneAndThreeThreads) {
