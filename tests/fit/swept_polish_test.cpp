@@ -167,9 +167,9 @@ TEST(SweptPolish, AFirmPassLeavesOtherFacesAndASoftOneDoesNotQuite) {
   const auto blade = standing_blade(0.0);
   // A wall across the end of the blade: only the last poses meet it, against all the others that go on.
   const double deep = 4.0 * kTolerance;
-  const ObstacleFace wall{make_target({testing::quad(Vec3(60, 50, -20), Vec3(60, -50, -20), Vec3(60, 50, 60),
-                                                     Vec3(60, -50, 60), "F3")}),
-                          true};
+  const ObstacleFace wall{
+      make_target({testing::quad(Vec3(60, 50, -20), Vec3(60, -50, -20), Vec3(60, 50, 60), Vec3(60, -50, 60), "F3")}),
+      true};
   const ObstacleField obstacles(testing::only(wall), *blade, 2.0, kToleranceBudget.others.fit_allowance * kTolerance);
   FitDraft draft = twisted_draft(*blade, 0.0, 0.0, false);
   draft.obstacles = {&obstacles};
