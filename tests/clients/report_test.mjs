@@ -112,7 +112,8 @@ test('what a machine does is shown once there is a program', async () => {
   must('report', copy, '--quiet');
   page = await open(copy);
   const { joints, time_s: times, cutting } = json(copy, 'motion.json');
-  assert.equal(await page.value(`document.querySelectorAll('#machine svg').length`), joints.length + 3);
+  assert.equal(await page.value(`document.querySelectorAll('#machine .series canvas').length`), joints.length + 2);
+  assert.equal(await page.value(`[...document.querySelectorAll('#machine canvas')].every((c) => c.width > 300 && c.getContext('2d').getImageData(0, 0, c.width, c.height).data.some((x) => x > 0))`), true);
   assert.match(await page.value(`document.querySelector('#machine').textContent`), /On linuxcnc-xyzac-trt: .* along the strips/);
   // The picture of the axes follows its slider: the solids stand where the joints of that time put them.
   const set = async (time) => {
@@ -131,6 +132,19 @@ test('what a machine does is shown once there is a program', async () => {
     assert.ok(points.split(/[ ,]/).every((x) => Number(x) >= 0 && Number(x) <= 420), `${name} is within the picture: ${points}`);
     if (name === 'tool' || name === 'part') assert.notEqual(points, first[k][1], `${name} moves`);
   }
+  // Who points at a plot sees the axes at that time, and all plots the same time.
+  await set(0);
+  const pointed = await page.value(`(() => {
+    const over = document.querySelectorAll('#machine .u-over')[3], { left, top, width, height } = over.getBoundingClientRect();
+    const at = { clientX: left + width / 2, clientY: top + height / 2, bubbles: true };
+    over.dispatchEvent(new MouseEvent('mouseenter', at));
+    over.dispatchEvent(new MouseEvent('mousemove', at));
+    return new Promise((done) => setTimeout(() => done(JSON.stringify([Number(document.querySelector('#machine-time').value),
+      ...[...document.querySelectorAll('#machine .series')].slice(2).map((e) => e.dataset.value)])), 300));
+  })()`);
+  const [time, ...values] = JSON.parse(pointed);
+  assert.ok(Math.abs(time - times.length / 2) < 0.05 * times.length, `the middle: ${time}`);
+  for (const [k, joint] of joints.entries()) assert.ok(Math.abs(Number(values[k].replace('\u2212', '-')) - joint.values[time]) <= 1e-3 * Math.abs(joint.values[time]) + 1e-6, `${joint.name}: ${values[k]}`);
   await page.close();
 });
 

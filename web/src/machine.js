@@ -89,6 +89,12 @@ export class MachinePicture {
     this.set(0);
   }
 
+  /** To a time that was chosen elsewhere. */
+  go(time) {
+    this.slider.value = time;
+    this.set(time);
+  }
+
   values(time) {
     return this.motion.joints.map((joint) => joint.values[time]);
   }

@@ -6,7 +6,7 @@ import { byId, html } from './dom.js';
 import { asked, rows, table, verdict, worstList } from './figures.js';
 import * as format from './format.js';
 import { made } from './made.js';
-import { motionCharts } from './motion.js';
+import { MotionCharts } from './motion.js';
 import { PathModel } from './path.js';
 import { Player } from './player.js';
 import { profile } from './profile.js';
@@ -62,19 +62,24 @@ function part(id, draw) {
   }
 }
 
-function still(files, go) {
+function still(files, page) {
   const { verify, view } = files;
   part('figures', () => {
     const list = rows(files);
     list.length ? byId('table').append(table(list)) : byId('figures').remove();
   });
   if (verify) {
-    part('worst', () => byId('places').append(worstList(verify.worst_places, asked(files).tolerance, go)));
+    part('worst', () => byId('places').append(worstList(verify.worst_places, asked(files).tolerance, page.go)));
     part('spread', () => byId('histogram').append(histogram(verify)));
   } else for (const id of ['worst', 'spread']) byId(id).remove();
   view ? part('tool', () => byId('profile').append(profile(view.tool))) : byId('tool').remove();
   files.summary?.cavity ? part('cavity', () => byId('cycles').append(cavityCharts(files.summary.cavity, verify?.stock))) : byId('cavity').remove();
-  files.motion ? part('machine', () => byId('motion').append(motionCharts(files.motion))) : byId('machine').remove();
+  if (files.motion) page.motion = part('machine', () => {
+    const charts = new MotionCharts(files.motion);
+    byId('motion').append(charts.root);
+    return charts;
+  });
+  else byId('machine').remove();
   part('origin', () => byId('made').append(made(files, document.querySelector('meta[name=generator]').content)));
 }
 
@@ -102,17 +107,20 @@ function missing(files) {
 }
 
 function start(files, options) {
-  const page = { view: null, player: null, charts: null, path: null };
+  const page = { view: null, player: null, charts: null, path: null, motion: null };
   page.go = (place) => {
     const strip = page.path?.strips.find((s) => s.id === place.strip) ?? page.path?.strips[place.strip - 1];
     if (page.player && strip && page.path.shown().includes(strip)) page.player.set(page.path.shareOf(strip, place.t), true);
   };
   part('heading', () => head(files));
-  still(files, page.go);
+  still(files, page);
   missing(files);
   if (files.view) moving(files, options, page);
   else for (const id of ['stage', 'along']) byId(id).remove();
-  watchTheme(() => page.view?.paint(), options.get('theme'));
+  watchTheme(() => {
+    page.view?.paint();
+    page.motion?.paint();
+  }, options.get('theme'));
   return page;
 }
 

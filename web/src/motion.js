@@ -2,47 +2,51 @@
 import { html } from './dom.js';
 import * as format from './format.js';
 import { MachinePicture } from './machine.js';
-import { Plot } from './plot.js';
+import { SeriesPlot } from './series.js';
 
-const NARROW = { width: 420, height: 130, yCount: 3 };
+const most = (values) => values.reduce((a, b) => Math.max(a, b), -Infinity);
+const least = (values) => values.reduce((a, b) => Math.min(a, b), Infinity);
 
 /** Lowest and highest value with some room; a joint that stands still has a scale all the same. */
 function span(values) {
-  const low = Math.min(...values), high = Math.max(...values);
+  const low = least(values), high = most(values);
   const room = 0.08 * (high - low) || 0.5;
   return [low - room, high + room];
 }
 
-function jointChart(joint, time) {
-  const [low, high] = span(joint.values);
-  const plot = new Plot({ ...NARROW, x: [0, time[time.length - 1] || 1], y: [low, high], xName: 'time, s', yName: `${joint.name}, ${joint.unit}`,
-    title: `Joint ${joint.name} over time, from ${format.plain(Math.min(...joint.values))} to ${format.plain(Math.max(...joint.values))} ${joint.unit}` });
-  plot.curve(time.map((t, k) => [t, joint.values[k]]), 'curve main');
-  for (const limit of [joint.low, joint.high]) if (limit !== null && limit > low && limit < high) plot.limit(limit, 'travel');
-  return plot.root;
+function jointPlot(joint) {
+  const limits = [joint.low, joint.high].filter((value) => value !== null).map((value) => ({ value, name: 'travel' }));
+  return { values: joint.values, name: `${joint.name}, ${joint.unit}`, range: span(joint.values), limits,
+    title: `Joint ${joint.name} over time, from ${format.plain(least(joint.values))} to ${format.plain(most(joint.values))} ${joint.unit}` };
 }
 
-function feedChart({ time_s: time, feed_mm_min: feed, cutting }) {
+function feedPlot({ feed_mm_min: feed, cutting }) {
   // Links run at the rapid, far beyond: the scale is that of the strips.
-  const cut = feed.filter((value, k) => cutting[k]);
-  const top = 1.15 * Math.max(1, ...cut);
-  const plot = new Plot({ ...NARROW, x: [0, time[time.length - 1] || 1], y: [0, top], xName: 'time, s', yName: 'feed, mm/min',
-    title: `Feed of the contact along the strips, at most ${format.plain(Math.max(0, ...cut))} mm/min` });
-  plot.curve(time.map((t, k) => [t, cutting[k] ? feed[k] : null]), 'curve main');
-  return plot.root;
+  const values = feed.map((value, k) => (cutting[k] ? value : null));
+  const top = most(values.map((value) => value ?? 0));
+  return { values, name: 'feed, mm/min', range: [0, 1.15 * Math.max(1, top)],
+    title: `Feed of the contact along the strips, at most ${format.plain(top)} mm/min` };
 }
 
-function loadChart({ time_s: time, speed_share: share }) {
-  const plot = new Plot({ ...NARROW, x: [0, time[time.length - 1] || 1], y: [0, 1.15], xName: 'time, s', yName: 'of the speed limit',
-    title: `Largest share of its speed limit that a joint uses, at most ${format.percent(Math.max(0, ...share))}` });
-  plot.curve(time.map((t, k) => [t, share[k]]), 'curve main');
-  plot.limit(1, 'limit');
-  return plot.root;
+function loadPlot({ speed_share: share }) {
+  return { values: share, name: 'of the speed limit', range: [0, 1.15], limits: [{ value: 1, name: 'limit' }],
+    title: `Largest share of its speed limit that a joint uses, at most ${format.percent(Math.max(0, most(share)))}` };
 }
 
-export function motionCharts(motion) {
-  const minutes = (seconds) => (seconds < 60 ? `${format.plain(seconds, 3)} s` : `${format.plain(seconds / 60, 3)} min`);
-  const text = `On ${motion.machine}: ${minutes(motion.duration_s)}, of which ${minutes(motion.cutting_s)} along the strips.`;
-  return html('div', {}, html('p', { class: 'soft' }, text), new MachinePicture(motion).root,
-    html('div', { class: 'charts' }, feedChart(motion), loadChart(motion), ...motion.joints.map((joint) => jointChart(joint, motion.time_s))));
+/** The picture of the axes, and the plots; who points at a plot sees the axes at that time. */
+export class MotionCharts {
+  constructor(motion) {
+    const minutes = (seconds) => (seconds < 60 ? `${format.plain(seconds, 3)} s` : `${format.plain(seconds / 60, 3)} min`);
+    const text = `On ${motion.machine}: ${minutes(motion.duration_s)}, of which ${minutes(motion.cutting_s)} along the strips.`;
+    const machine = new MachinePicture(motion);
+    this.plots = [feedPlot(motion), loadPlot(motion), ...motion.joints.map(jointPlot)].map((plot) => new SeriesPlot({
+      ...plot, time: motion.time_s, pointed: (at) => machine.go(at) }));
+    this.root = html('div', {}, html('p', { class: 'soft' }, text), machine.root,
+      html('p', { class: 'soft' }, 'Drag across a plot to look closer, double click for the whole program.'),
+      html('div', { class: 'charts' }, ...this.plots.map((plot) => plot.root)));
+  }
+
+  paint() {
+    for (const plot of this.plots) plot.paint();
+  }
 }

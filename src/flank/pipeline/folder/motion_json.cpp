@@ -9,7 +9,7 @@
 namespace flank::internal {
 namespace {
 
-constexpr std::size_t kMostTimes = 1500;
+constexpr std::size_t kMostTimes = 10000;
 
 /// What is shown needs six digits, and a page of them stays small.
 double rounded(double value) {
