@@ -8,7 +8,7 @@
 namespace flank::internal {
 
 /// motion.json (docs/schema/motion.md): joints in mm and degrees, the feed of the contact and the largest share of a speed
-/// limit at equal times, at most 1,500 of them; null where a joint has no limit.
+/// limit at equal times, at most 10,000 of them; null where a joint has no limit.
 [[nodiscard]] std::string motion_json(const Machine& machine, const Post& post, const Box3& part,
                                       const WorkSetup& setup);
 
