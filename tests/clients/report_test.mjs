@@ -112,7 +112,7 @@ test('what a machine does is shown once there is a program', async () => {
   must('report', copy, '--quiet');
   page = await open(copy);
   const { joints, time_s: times, cutting } = json(copy, 'motion.json');
-  assert.equal(await page.value(`document.querySelectorAll('#machine .series canvas').length`), joints.length + 2);
+  assert.equal(await page.value(`document.querySelectorAll('#machine .series canvas').length`), joints.length + 3);
   assert.equal(await page.value(`[...document.querySelectorAll('#machine canvas')].every((c) => c.width > 300 && c.getContext('2d').getImageData(0, 0, c.width, c.height).data.some((x) => x > 0))`), true);
   assert.match(await page.value(`document.querySelector('#machine').textContent`), /On linuxcnc-xyzac-trt: .* along the strips/);
   // The picture of the axes follows its slider: the solids stand where the joints of that time put them.
@@ -140,7 +140,7 @@ test('what a machine does is shown once there is a program', async () => {
     over.dispatchEvent(new MouseEvent('mouseenter', at));
     over.dispatchEvent(new MouseEvent('mousemove', at));
     return new Promise((done) => setTimeout(() => done(JSON.stringify([Number(document.querySelector('#machine-time').value),
-      ...[...document.querySelectorAll('#machine .series')].slice(2).map((e) => e.dataset.value)])), 300));
+      ...[...document.querySelectorAll('#machine .series')].slice(3).map((e) => e.dataset.value)])), 300));
   })()`);
   const [time, ...values] = JSON.parse(pointed);
   assert.ok(Math.abs(time - times.length / 2) < 0.05 * times.length, `the middle: ${time}`);

@@ -82,6 +82,10 @@ TEST(Post, BackplotOfEveryMachineIsThePathWithinTheBound) {
       EXPECT_LE(told.deviation_mm, deviation) << name;
       EXPECT_LE(worst_off(path, real, kTool.axis_length), told.deviation_mm + told.rounding_mm + 1e-6) << name;
       EXPECT_GT(told.least_sine, 0.0);
+      double farthest = 0.0;
+      for (const TracePoint& at : told.trace) farthest = std::max(farthest, at.off_path_mm);
+      EXPECT_LE(farthest, told.deviation_mm + 1e-9) << name;
+      EXPECT_GT(farthest, 0.0) << name;
     }
   }
 }

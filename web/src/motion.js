@@ -33,13 +33,20 @@ function loadPlot({ speed_share: share }) {
     title: `Largest share of its speed limit that a joint uses, at most ${format.percent(Math.max(0, most(share)))}` };
 }
 
+/** The machine's motion beside the planned one: the control joins blocks in its own way. */
+function offPlot({ off_path_mm: off, off_path_bound_mm: bound, cutting }) {
+  const values = off.map((value, k) => (cutting[k] ? 1000 * value : null));
+  return { values, name: 'off the plan, µm', range: [0, 1200 * bound || 1], limits: [{ value: 1000 * bound, name: 'proved bound' }],
+    title: `How far the machine's motion is from the planned one, at most ${format.plain(most(values.map((value) => value ?? 0)))} µm` };
+}
+
 /** The picture of the axes, and the plots; who points at a plot sees the axes at that time. */
 export class MotionCharts {
   constructor(motion) {
     const minutes = (seconds) => (seconds < 60 ? `${format.plain(seconds, 3)} s` : `${format.plain(seconds / 60, 3)} min`);
     const text = `On ${motion.machine}: ${minutes(motion.duration_s)}, of which ${minutes(motion.cutting_s)} along the strips.`;
     const machine = new MachinePicture(motion);
-    this.plots = [feedPlot(motion), loadPlot(motion), ...motion.joints.map(jointPlot)].map((plot) => new SeriesPlot({
+    this.plots = [feedPlot(motion), loadPlot(motion), ...(motion.off_path_mm ? [offPlot(motion)] : []), ...motion.joints.map(jointPlot)].map((plot) => new SeriesPlot({
       ...plot, time: motion.time_s, pointed: (at) => machine.go(at) }));
     this.root = html('div', {}, html('p', { class: 'soft' }, text), machine.root,
       html('p', { class: 'soft' }, 'Drag across a plot to look closer, double click for the whole program.'),

@@ -106,8 +106,41 @@ class Poster {
     return std::max((b.at(span_.low) - a.at(span_.low)).norm(), (b.at(span_.high) - a.at(span_.high)).norm());
   }
 
-  /// The nodes of one block, its beginning left out.
-  void add_block(const BlockEnd& from, const BlockEnd& to, double cap, bool at_end) {
+  /// The ways of the contact along a strip, up to each of its poses, mm.
+  std::vector<double> ways_of(std::size_t strip) const {
+    std::vector<double> ways{0.0};
+    for (std::size_t k = first_[strip] + 1; k < first_[strip + 1]; ++k)
+      ways.push_back(ways.back() + contact_way(poses_[k - 1].pose, poses_[k].pose));
+    return ways;
+  }
+
+  /// How far the flank is from where the path has it at a share of block i, mm: by equal shares of the contact's way, as
+  /// linearise.h bounds it; affine along the axis, so its ends decide.
+  double off_path(std::size_t strip, const std::vector<double>& ways, std::size_t i, double share,
+                  const Pose& pose) const {
+    const auto way_at = [&](double at) {
+      const auto k = std::min(static_cast<std::size_t>(at), ways.size() - 2);
+      return std::lerp(ways[k], ways[k + 1], at - static_cast<double>(k));
+    };
+    if (ways.size() < 2) return 0.0;
+    const std::vector<double>& at = strips_[strip].at;
+    const double way = std::lerp(way_at(at[i - 1]), way_at(at[i]), share);
+    const auto next = std::upper_bound(ways.begin() + 1, ways.end() - 1, way);
+    const std::size_t k = static_cast<std::size_t>(next - ways.begin()) - 1;
+    const double step = ways[k + 1] - ways[k], t = step > 0.0 ? std::clamp((way - ways[k]) / step, 0.0, 1.0) : 0.0;
+    const auto axis_point = [&](std::size_t n) {
+      const Pose& p = poses_[first_[strip] + n].pose;
+      return Pose{p.at(span_.low), p.axis};
+    };
+    const Pose planned = joined_pose(axis_point(k), axis_point(k + 1), t);
+    return std::max((pose.at(span_.low) - planned.tip).norm(),
+                    (pose.at(span_.high) - planned.at(span_.high - span_.low)).norm());
+  }
+
+  /// The nodes of block i of a strip, its beginning left out.
+  void add_block(std::size_t strip, const std::vector<double>& ways, std::size_t i, bool at_end) {
+    const BlockEnd &from = strips_[strip].blocks[i - 1], &to = strips_[strip].blocks[i];
+    const double cap = cap_of(strip, i);
     const RotaryValues a = kinematics_.rotary_of(from.joints), b = kinematics_.rotary_of(to.joints);
     const double turn = std::abs(b[0] - a[0]) + std::abs(b[1] - a[1]), way = contact_way(from.pose, to.pose);
     const double wanted = std::ceil(std::max(way / kFeedStepMm, turn / kFeedStepRad));
@@ -123,6 +156,7 @@ class Poster {
       // The last place is taken as it was chosen: computed once more, it would differ by rounding, or by a turn
       // beside the singular direction.
       nodes_.push_back({last ? to.joints : control_.joints(from, to, t), contact_way(before, here), cap, blocks_});
+      off_path_.push_back(is_link(path_.strips[strip]) ? 0.0 : off_path(strip, ways, i, t, here));
       before = here;
     }
     ++blocks_;
@@ -139,12 +173,13 @@ class Poster {
   void plan_feeds() {
     // Where the machine stands before the first block: it belongs to none.
     nodes_.push_back({strips_.front().blocks.front().joints, 0.0, machine_.rapid, -1});
+    off_path_.push_back(0.0);
     std::size_t total = 0, done = 0;
     for (const LinearisedStrip& strip : strips_) total += strip.blocks.size() - 1;
     for (std::size_t k = 0; k < strips_.size(); ++k) {
       const std::vector<BlockEnd>& ends = strips_[k].blocks;
-      for (std::size_t i = 1; i < ends.size(); ++i, ++done)
-        add_block(ends[i - 1], ends[i], cap_of(k, i), done == 0 || done + 1 == total);
+      const std::vector<double> ways = ways_of(k);
+      for (std::size_t i = 1; i < ends.size(); ++i, ++done) add_block(k, ways, i, done == 0 || done + 1 == total);
     }
     block_seconds_.assign(static_cast<std::size_t>(blocks_), 0.0);
     if (blocks_ == 0) return;
@@ -166,7 +201,7 @@ class Poster {
       time += plan.seconds[i];
       const double feed = plan.seconds[i] > 0.0 ? nodes_[i].length / plan.seconds[i] : 0.0;
       const bool cuts = nodes_[i].block >= 0 && cutting[static_cast<std::size_t>(nodes_[i].block)];
-      post_.trace.push_back({time, nodes_[i].joints, feed, cuts});
+      post_.trace.push_back({time, nodes_[i].joints, feed, cuts, off_path_[i]});
     }
   }
 
@@ -288,6 +323,7 @@ class Poster {
   std::vector<std::size_t> first_;  ///< pose of each strip, and their number
   std::vector<LinearisedStrip> strips_;
   std::vector<FeedNode> nodes_;
+  std::vector<double> off_path_;  ///< of each node, mm
   std::int32_t blocks_ = 0;
   std::vector<double> block_seconds_;
   Post post_;

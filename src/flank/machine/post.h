@@ -41,9 +41,10 @@ struct JointUse {
 /// Where the joints are, and how fast the contact is.
 struct TracePoint {
   double time_s = 0.0;
-  JointValues joints{};    ///< mm, radians
-  double feed_mm_s = 0.0;  ///< of the contact, on the way here
-  bool cutting = false;    ///< on the way here; else a link
+  JointValues joints{};      ///< mm, radians
+  double feed_mm_s = 0.0;    ///< of the contact, on the way here
+  bool cutting = false;      ///< on the way here; else a link
+  double off_path_mm = 0.0;  ///< how far the control's motion has the flank from the planned one; 0 on links
 };
 
 struct Post {

@@ -68,7 +68,8 @@ std::string motion_json(const Machine& machine, const Post& post, const Box3& pa
   const std::size_t count = trace.empty() ? 0 : std::min(kMostTimes, std::max<std::size_t>(2, trace.size()));
   std::array<Json, kJointCount> values;
   values.fill(Json::array());
-  Json times = Json::array(), feeds = Json::array(), loads = Json::array(), cutting = Json::array();
+  Json times = Json::array(), feeds = Json::array(), loads = Json::array(), cutting = Json::array(),
+       off = Json::array();
   std::size_t next = 0, seen = 0;
   for (std::size_t n = 0; n < count; ++n) {
     const double t = post.time_s * static_cast<double>(n) / static_cast<double>(count - 1);
@@ -79,13 +80,17 @@ std::string motion_json(const Machine& machine, const Post& post, const Box3& pa
       values[k].push_back(
           rounded(in_units(machine.joints[k], from.joints[k] + share * (to.joints[k] - from.joints[k]))));
     // Between two times the largest counts: what is near a limit for a moment must not be lost.
-    double load = 0.0;
-    for (; seen <= next; ++seen) load = std::max(load, load_of(machine, trace, seen));
+    double load = 0.0, farthest = 0.0;
+    for (; seen <= next; ++seen) {
+      load = std::max(load, load_of(machine, trace, seen));
+      farthest = std::max(farthest, trace[seen].off_path_mm);
+    }
     seen = next;
     times.push_back(rounded(t));
     feeds.push_back(rounded(60.0 * to.feed_mm_s));
     loads.push_back(rounded(load));
     cutting.push_back(to.cutting ? 1 : 0);
+    off.push_back(farthest);
   }
   Json joints = Json::array();
   for (std::size_t k = 0; k < kJointCount; ++k) {
@@ -115,7 +120,9 @@ std::string motion_json(const Machine& machine, const Post& post, const Box3& pa
                      {"time_s", std::move(times)},
                      {"feed_mm_min", std::move(feeds)},
                      {"speed_share", std::move(loads)},
-                     {"cutting", std::move(cutting)}};
+                     {"cutting", std::move(cutting)},
+                     {"off_path_mm", std::move(off)},
+                     {"off_path_bound_mm", post.deviation_mm}};
   return dumped(json) + "\n";
 }
 
