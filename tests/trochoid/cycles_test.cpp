@@ -8,6 +8,7 @@
 
 #include "flank/threads.h"
 #include "flank/verify/stock/replay.h"
+#include "sanitized.h"
 
 namespace flank::internal {
 namespace {
@@ -39,6 +40,7 @@ LayerCycles plan(SweptStock& stock, bool optimise, double limit) {
 }
 
 TEST(Cycles, HoldTheLimitAtThreeTimesTheRows) {
+  if (kThreadSanitized) GTEST_SKIP() << "AreTheSameForOneAndTwoThreads has the threads";
   SweptStock stock = slot();
   const LayerCycles out = plan(stock, false, 60.0);
   ASSERT_EQ(out.status, CycleStatus::kDone);
@@ -103,6 +105,7 @@ TEST(Cycles, LeaveNothingBetweenTheSidePaths) {
 }
 
 TEST(Cycles, GoOnWhereEveryFrontEntersAFaceAndSaySo) {
+  if (kThreadSanitized) GTEST_SKIP() << "AreTheSameForOneAndTwoThreads has the threads";
   // A post in the middle of the slot: no shape of a front gets round it, and the first shapes are kept.
   Face post;
   post.id = "F1";
