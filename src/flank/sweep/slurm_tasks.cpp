@@ -36,6 +36,11 @@ constexpr std::chrono::milliseconds kAsk{1000};
 constexpr std::chrono::minutes kSubmitPatience{10};
 /// Between the end of a job and the sight of its files, over a network.
 constexpr std::chrono::seconds kArrival{5};
+/// An element of an array takes tasks until it has worked for so long: the controller needs half a second from one to
+/// the next.
+constexpr int kElementSeconds = 30;
+/// File of a round's lines; LIST.K is made by the element that takes line K.
+constexpr const char* kList = "tasks";
 constexpr int kKilled = 128 + 9;
 
 struct Answer {
@@ -67,10 +72,12 @@ std::string quoted(const std::string& word) {
   return text;
 }
 
-/// One attempt of some tasks, and where they leave their exit codes.
+/// One attempt of some tasks, and where they leave their exit codes. There are as many elements of arrays as tasks, but
+/// each takes whatever is left: those that find nothing any more are cancelled at the end.
 class Round {
  public:
-  Round(const fs::path& folder, std::vector<std::size_t> tasks) : folder_(folder), waiting_(std::move(tasks)) {
+  Round(const fs::path& folder, std::vector<std::size_t> tasks)
+      : folder_(folder), waiting_(std::move(tasks)), untaken_(waiting_.size()) {
     fs::create_directories(folder_);
   }
   [[nodiscard]] std::string result_of(std::size_t task) const {
@@ -81,10 +88,9 @@ class Round {
               const fs::path& jobs) {
     std::string lines;
     for (const std::size_t k : waiting_) lines += task_line(program, tasks[k], result_of(k), limits.timeout_s) + "\n";
-    const std::string list = (folder_ / "tasks").string(), script = (folder_ / "script").string();
+    const std::string list = (folder_ / kList).string(), script = (folder_ / "script").string();
     write_file(list, lines);
-    write_file(script,
-               "#!/bin/sh\nnl='\n'\neval \"$(sed -n \"$((SLURM_ARRAY_TASK_ID + 1 + $1))p\" " + quoted(list) + ")\"\n");
+    write_file(script, element_script(list, waiting_.size(), kElementSeconds));
     for (std::size_t first = 0; first < waiting_.size(); first += kArray) {
       const std::size_t count = std::min(kArray, waiting_.size() - first);
       const std::string limit = limits.processes > 0 ? fmt::format("%{}", limits.processes) : "";
@@ -100,13 +106,16 @@ class Round {
   /// The tasks that have ended since the last call; empty outcome: it vanished.
   [[nodiscard]] std::vector<std::pair<std::size_t, ChildOutcome>> ended(double timeout_s) {
     std::vector<std::pair<std::size_t, ChildOutcome>> found;
+    std::size_t taken = 0;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder_)) {
+      taken += entry.path().stem() == kList ? 1 : 0;
       if (entry.path().extension() != ".exit") continue;
       const std::string name = entry.path().stem().string();
       std::size_t task = 0;
       if (std::from_chars(name.data(), name.data() + name.size(), task).ec != std::errc()) continue;
       if (seen_.insert(task).second) found.emplace_back(task, outcome_in(entry.path(), timeout_s));
     }
+    cancel_idle(taken);
     std::erase_if(waiting_, [&](std::size_t task) { return seen_.contains(task); });
     if (!waiting_.empty() && has_left_the_queue()) {
       for (const std::size_t task : waiting_) found.emplace_back(task, ChildOutcome{kKilled, false});
@@ -144,6 +153,13 @@ class Round {
     return false;
   }
 
+  /// Elements that wait when each line has been taken (one entry for each, one for the list) would find nothing.
+  void cancel_idle(std::size_t taken) {
+    if (untaken_ == 0 || taken <= untaken_) return;
+    untaken_ = 0;
+    for (const std::string& id : queued_) (void)ask("scancel --state=PENDING " + id);
+  }
+
   static ChildOutcome outcome_in(const fs::path& file, double timeout_s) {
     std::ifstream stream(file);
     ChildOutcome outcome;
@@ -173,6 +189,7 @@ class Round {
 
   fs::path folder_;
   std::vector<std::size_t> waiting_;
+  std::size_t untaken_;  ///< lines, until all of them have been taken
   std::set<std::size_t> seen_;
   std::set<std::string> queued_;
   Clock::time_point asked_{};
@@ -202,6 +219,25 @@ void cancel_earlier(const fs::path& jobs) {
 }
 
 }  // namespace
+
+std::string element_script(const std::string& list, std::size_t count, int seconds) {
+  return fmt::format(R"sh(#!/bin/sh
+nl='
+'
+list={0}
+end=$(($(date +%s) + {2}))
+step=0
+while [ $step -lt {1} ]; do
+  k=$(((SLURM_ARRAY_TASK_ID + $1 + step) % {1}))
+  step=$((step + 1))
+  [ -e "$list.$k" ] && continue
+  mkdir "$list.$k" 2> /dev/null || continue
+  eval "$(sed -n "$((k + 1)){{p;q;}}" "$list")"
+  [ "$(date +%s)" -lt $end ] || exit 0
+done
+)sh",
+                     quoted(list), count, seconds);
+}
 
 std::string task_line(const std::string& program, const ChildTask& task, const std::string& result, double timeout_s) {
   std::string command = quoted(program);

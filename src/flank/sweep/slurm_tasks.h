@@ -1,6 +1,7 @@
 /// Tasks as job arrays of Slurm: submitted, watched, collected.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "flank/sweep/run_tasks.h"
@@ -16,6 +17,11 @@ namespace flank::internal {
                                                     const ChildLimits& limits, const std::string& scratch,
                                                     const std::function<void(std::size_t, const ChildOutcome&)>& done,
                                                     const std::function<bool()>& cancelled);
+
+/// The script of an element of an array, for a POSIX shell: works through the `count` lines of the file `list`, from the
+/// one that SLURM_ARRAY_TASK_ID plus the first argument name (from 0) and round, and takes each that no other element has
+/// taken (LIST.K is made first), until `seconds` have passed when a line ends. A line may use $nl.
+[[nodiscard]] std::string element_script(const std::string& list, std::size_t count, int seconds);
 
 /// The line of a POSIX shell that runs a task and writes "EXIT SECONDS" into the file `result`, whole or not at all.
 /// `timeout_s`: after it the task is killed; 0: none. No line's end is in it: $nl stands for one.

@@ -1,0 +1,113 @@
+// What an element of a job array does: every line of the list once, whatever elements there are. The program is a shell.
+#include "flank/sweep/slurm_tasks.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace flank::internal {
+namespace {
+
+namespace fs = std::filesystem;
+
+class SlurmElement : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    root_ = fs::path(::testing::TempDir()) / ("flank element's " + std::to_string(::getpid()) + "_" +
+                                              ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(root_);
+    fs::create_directories(root_);
+  }
+  void TearDown() override { fs::remove_all(root_); }
+
+  /// Lines that each leave a mark of the element that ran them.
+  void write_list(int count, const std::string& before = "") {
+    std::ofstream list(root_ / "list");
+    for (int k = 0; k < count; ++k)
+      list << fmt::format("{}echo $SLURM_ARRAY_TASK_ID >> \"{}\"\n", before,
+                          (root_ / fmt::format("ran{}", k)).string());
+  }
+  void write_script(int count, int seconds) {
+    std::ofstream(root_ / "script") << element_script((root_ / "list").string(), count, seconds);
+  }
+  /// The command that runs an element.
+  [[nodiscard]] std::string element(int id, int first = 0) const {
+    return fmt::format("SLURM_ARRAY_TASK_ID={} sh \"{}\" {}", id, (root_ / "script").string(), first);
+  }
+  static void run(const std::string& command) { ASSERT_EQ(std::system(command.c_str()), 0); }
+  [[nodiscard]] std::string content(const std::string& name) const {
+    std::ifstream stream(root_ / name);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+  [[nodiscard]] std::string ran(int line) const { return content(fmt::format("ran{}", line)); }
+  fs::path root_;
+};
+
+TEST_F(SlurmElement, TakesALineAndRoundWhileThereIsTime) {
+  write_list(5);
+  write_script(5, 600);
+  run(element(3));
+  for (int k = 0; k < 5; ++k) EXPECT_EQ(ran(k), "3\n") << k;
+  run(element(4));
+  for (int k = 0; k < 5; ++k) EXPECT_EQ(ran(k), "3\n") << "line " << k << " was run twice";
+}
+
+TEST_F(SlurmElement, TakesOneLineAtLeastAndNoneOfAnother) {
+  write_list(4);
+  write_script(4, 0);
+  run(element(1, 1));
+  EXPECT_EQ(ran(2), "1\n");
+  EXPECT_EQ(ran(3), "");
+  run(element(2));
+  EXPECT_EQ(ran(3), "2\n") << "its own was taken, the next is free";
+  run(element(3));
+  EXPECT_EQ(ran(0), "3\n");
+}
+
+TEST_F(SlurmElement, ManyAtOnceRunEachLineOnce) {
+  write_list(60);
+  write_script(60, 600);
+  std::string all;
+  for (int id = 0; id < 8; ++id) all += element(id) + " & ";
+  run(all + "wait");
+  for (int k = 0; k < 60; ++k) EXPECT_EQ(ran(k).size(), 2U) << k << ": " << ran(k);
+}
+
+TEST_F(SlurmElement, ATaskWritesItsExitCodeAndTheNextRunsFromItsOwnFolder) {
+  fs::create_directories(root_ / "a");
+  std::ofstream list(root_ / "list");
+  for (int k = 0; k < 2; ++k) {
+    const ChildTask task{{"-c", fmt::format("pwd; printf 'two\nlines' > text{}; exit {}", k, k + 3)},
+                         k == 0 ? (root_ / "a").string() : root_.string(),
+                         (root_ / "errors").string()};
+    list << task_line("/bin/sh", task, (root_ / fmt::format("{}.exit", k)).string(), 0.0) << "\n";
+  }
+  list.close();
+  write_script(2, 600);
+  run(element(0));
+  EXPECT_EQ(content("0.exit").substr(0, 2), "3 ");
+  EXPECT_EQ(content("1.exit").substr(0, 2), "4 ");
+  EXPECT_EQ(content("a/text0"), "two\nlines");
+  EXPECT_EQ(content("text1"), "two\nlines");
+}
+
+TEST_F(SlurmElement, ATaskThatTakesTooLongDoesNotEndItsElement) {
+  std::ofstream list(root_ / "list");
+  for (int k = 0; k < 2; ++k) {
+    const ChildTask task{{"-c", k == 0 ? "sleep 60" : "exit 0"}, root_.string(), (root_ / "errors").string()};
+    list << task_line("/bin/sh", task, (root_ / fmt::format("{}.exit", k)).string(), 0.5) << "\n";
+  }
+  list.close();
+  write_script(2, 600);
+  run(element(0));
+  EXPECT_EQ(content("0.exit").substr(0, 4), "137 ");
+  EXPECT_EQ(content("1.exit").substr(0, 2), "0 ");
+}
+
+}  // namespace
+}  // namespace flank::internal
