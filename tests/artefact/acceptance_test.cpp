@@ -114,5 +114,60 @@ TEST(Acceptance, NamesTheFacesThatAreEnteredDeepestFirst) {
   EXPECT_EQ(json.at("faces").at(2).at("deepest").at("strip"), 2);
 }
 
+/// Two layers whose cycles and sweeps are within 60 degrees.
+TrochoidSummary two_layers() {
+  TrochoidSummary cavity;
+  cavity.most_engagement_deg = 60.0;
+  for (int k = 0; k < 2; ++k) {
+    LayerSummary layer;
+    layer.cycles = 20;
+    layer.status = "done";
+    layer.front_deg = 60.0, layer.back_deg = 40.0, layer.side_deg = 30.0;
+    cavity.layers.push_back(layer);
+  }
+  return cavity;
+}
+
+TEST(AcceptCavity, EveryMotionIsHeldToTheLimitOfTheEngagement) {
+  Acceptance none;
+  accept_cavity(two_layers(), none);
+  EXPECT_TRUE(none.pass());
+  TrochoidSummary cavity = two_layers();
+  cavity.layers[1].side_deg = 178.25;
+  Acceptance sweep;
+  accept_cavity(cavity, sweep);
+  ASSERT_EQ(sweep.reasons.size(), 1u);
+  EXPECT_EQ(sweep.reasons[0].text, "layer 2: a finishing sweep has an engagement of 178.250 degrees > 60 degrees");
+  cavity = two_layers();
+  cavity.layers[0].back_deg = 61.0;
+  cavity.layers[1].status = "stuck";
+  Acceptance both;
+  accept_cavity(cavity, both);
+  ASSERT_EQ(both.reasons.size(), 2u);
+  EXPECT_EQ(both.reasons[0].text, "engagement 61.000 degrees > 60 degrees");
+  EXPECT_EQ(both.reasons[1].text, "layer 2 is stuck after 20 cycles");
+}
+
+TEST(AcceptStock, EveryKindOfStripIsHeldToTheLimitButForTheCells) {
+  StockReport stock;
+  stock.cell_mm = 0.1;
+  stock.resolution_deg = 1.5;
+  for (const char* kind : {"entry", "front", "back", "side", "link"}) stock.kinds.push_back({.kind = kind});
+  for (StockKind& kind : stock.kinds) {
+    kind.engagement_deg = 61.4;
+    Acceptance within;
+    accept_stock(stock, 60.0, 0.02, within);
+    EXPECT_TRUE(within.pass()) << kind.kind;
+    kind.engagement_deg = 61.6;
+    kind.strip = 6;
+    Acceptance over;
+    accept_stock(stock, 60.0, 0.02, over);
+    ASSERT_EQ(over.reasons.size(), 1u) << kind.kind;
+    EXPECT_EQ(over.reasons[0].text,
+              "replayed, a " + kind.kind + " has an engagement of 61.600 degrees > 60 + 1.50, strip 7");
+    kind.engagement_deg = 0.0;
+  }
+}
+
 }  // namespace
 }  // namespace flank::internal

@@ -111,8 +111,8 @@ void accept_stock(const StockReport& stock, double most_engagement_deg, double t
   // The replay cuts cells: an engagement that is over by less than one of them may be the grid's.
   const double most = most_engagement_deg + stock.resolution_deg;
   for (const StockKind& kind : stock.kinds)
-    // The limit that was asked for is about cycles and their entry; finishing sweeps have figures of their own.
-    if ((kind.kind == "front" || kind.kind == "back" || kind.kind == "entry") && kind.engagement_deg > most)
+    // Cycles make the limit; a finishing sweep or a link that engages more has met what they have left.
+    if (kind.engagement_deg > most)
       acceptance.reasons.push_back(
           {"stock", fmt::format("replayed, a {} has an engagement of {:.3f} degrees > {} + {:.2f}, strip {}", kind.kind,
                                 kind.engagement_deg, most_engagement_deg, stock.resolution_deg, kind.strip + 1)});
@@ -134,6 +134,11 @@ void accept_cavity(const TrochoidSummary& cavity, Acceptance& acceptance) {
   if (cavity.largest_deg() > cavity.most_engagement_deg + kSpareDeg)
     acceptance.reasons.push_back({"engagement", fmt::format("engagement {:.3f} degrees > {} degrees",
                                                             cavity.largest_deg(), cavity.most_engagement_deg)});
+  for (std::size_t k = 0; k < cavity.layers.size(); ++k)
+    if (cavity.layers[k].side_deg > cavity.most_engagement_deg + kSpareDeg)
+      acceptance.reasons.push_back(
+          {"engagement", fmt::format("layer {}: a finishing sweep has an engagement of {:.3f} degrees > {} degrees",
+                                     k + 1, cavity.layers[k].side_deg, cavity.most_engagement_deg)});
   // A layer that ended early has a good engagement in what it has, and leaves the rest.
   for (std::size_t k = 0; k < cavity.layers.size(); ++k)
     if (cavity.layers[k].status != "done")

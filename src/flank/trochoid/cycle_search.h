@@ -19,7 +19,6 @@ struct CycleOptions {
   double largest_rad = 1.0471975511965976;  ///< engagement, fronts and backs
   double tolerance_mm = 0.01;
   bool optimise = true;  ///< shapes of the halves, cycle by cycle; else the first shapes are kept
-  int most_cycles = 400;
   /// Ends of fronts on the first side go no farther than this share of its way: above, the layer before got stuck.
   double most_share = std::numeric_limits<double>::infinity();
 };

@@ -15,6 +15,9 @@ constexpr double kFarOut = 4.0;
 constexpr int kMostDoublings = 5;
 /// Of the largest front's volume: a front behind the end that takes less is the last.
 constexpr double kNothing = 1e-3;
+/// By which share of what it is below the limit the aim of a search comes back with every cycle, and at least, radians. A
+/// search that fails at the fine samples is repeated: what they see more of, cycle after cycle, is not to be forgotten at once.
+constexpr double kReturn = 0.15, kLeastReturn = 0.001;
 /// Cycles that are taken back where none gets on, at first, and how often.
 constexpr std::size_t kFirstRewind = 4;
 constexpr int kMostRewinds = 6;
@@ -150,8 +153,9 @@ bool CyclePlanner::add_cycle(LayerCycles& out) {
   if (entering && options_.optimise && rewinds_ < kRewindsForFaces) return false;
   now_.step_mm = best.from_x - now_.last.from_x;
   if (!accept_some(best, entering, out)) return false;
-  // The aim comes back slowly: what made it too high may have been this cycle alone.
-  now_.aim_rad = std::min(now_.aim_rad + 0.001, options_.largest_rad - 0.001);
+  // The aim comes back, a share of the way each time: what made it too high may have been this cycle alone.
+  const double highest = options_.largest_rad - kLeastReturn;
+  now_.aim_rad = std::min(now_.aim_rad + std::max(kLeastReturn, kReturn * (highest - now_.aim_rad)), highest);
   now_.largest_front_mm3 = std::max(now_.largest_front_mm3, out.cycles.back().front.engagement.volume_mm3);
   return true;
 }
@@ -160,8 +164,7 @@ bool CyclePlanner::is_last(const LayerCycles& out) const {
   const bool behind = now_.last.from_x > sides_.from.length() && now_.last.to_x > sides_.to.length();
   const bool far_behind = now_.last.from_x > sides_.from.length() + out_ && now_.last.to_x > sides_.to.length() + out_;
   const double removed = out.cycles.empty() ? 0.0 : out.cycles.back().front.engagement.volume_mm3;
-  return far_behind || (behind && removed <= kNothing * now_.largest_front_mm3) ||
-         static_cast<int>(out.cycles.size()) >= options_.most_cycles;
+  return far_behind || (behind && removed <= kNothing * now_.largest_front_mm3);
 }
 
 bool CyclePlanner::rewind(LayerCycles& out) {

@@ -1,6 +1,7 @@
 #include "flank/trochoid/engagement/engagement.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -56,101 +57,71 @@ Vec3 radial_direction(const Vec3& x, const Vec3& y, double angle) { return std::
 
 }  // namespace
 
-void EngagementMeter::begin(const RuledMotion& motion) { own_ = Sweep::of(motion, kOwnIntervals); }
-
-EngagementMeter::Frame EngagementMeter::frame_of(const RuledMotion& motion, double t) const {
-  Frame frame{motion.jet(t), {}, {}};
+RowFrame EngagementMeter::frame_of(const RuledMotion& motion, double t) {
+  RowFrame frame{motion.jet(t), {}, {}};
   frame.x = frame.axis.u.unitOrthogonal();
   frame.y = frame.axis.u.cross(frame.x);
   return frame;
 }
 
-void EngagementMeter::gather(const Frame& frame, const Sweep& sweep, int index, double last, const Disc& disc,
-                             int stride) {
-  const double length = sweep.axis_length, reach = stock_.profile().largest() + disc.radius;
-  const Vec3 centre = frame.axis.at(0.5 * length) + disc.x * frame.x + disc.y * frame.y;
-  // Of another tool, how far it reaches from its middle along its axis.
-  const double half = std::max(stock_.profile().high() - 0.5 * length, 0.5 * length - stock_.profile().low());
-  // How far a bundle of axes may be away and still reach the disc: tilts bring them nearer at one end.
-  const auto beyond = [&](const Vec3& middle, double spread, double tilt) {
-    const Vec3 apart = middle - centre;
-    const double along = apart.dot(frame.axis.u), across2 = apart.squaredNorm() - along * along;
-    const double most = spread + reach + (0.75 * length + std::abs(along)) * tilt;
-    if (across2 > most * most) return true;
-    // Layers above or below: their tools do not come down or up to these rings.
-    const double height = along + 0.5 * length, slack = half + spread + most * tilt;
-    return height + slack < disc.low || height - slack > disc.high;
+RowDisc EngagementMeter::discs_of_found(std::span<const ToolRing> rings) {
+  // Small discs let only those poses through that come near to what is open: one for each sector of directions.
+  constexpr int kSectors = 24;
+  constexpr double kPiece = 2.0 * kPi / kSectors, kSpare = 1.02;
+  struct Part {
+    Box3 box;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    void add(const ToolRing& ring, double angle) {
+      box.add(Vec3(ring.radius * std::cos(angle), ring.radius * std::sin(angle), 0.0));
+      low = std::min(low, ring.z), high = std::max(high, ring.z);
+    }
+    [[nodiscard]] RowDisc disc(double bow) const {
+      const Vec3 centre = box.center();
+      return {centre.x(), centre.y(), kSpare * 0.5 * box.diagonal() + bow, low, high};
+    }
   };
-  if (beyond(sweep.whole.middle, sweep.whole.reach, (sweep.direction - frame.axis.u).norm() + sweep.turn)) return;
-  for (std::size_t c = 0; c < sweep.chunks.size(); ++c) {
-    const Sweep::Chunk& chunk = sweep.chunks[c];
-    const std::size_t first = c * Sweep::kChunk;
-    if (beyond(chunk.middle, chunk.reach, (sweep.poses[first].direction.normalized() - frame.axis.u).norm())) continue;
-    const std::size_t end =
-        std::min(first + Sweep::kChunk + (c + 1 == sweep.chunks.size() ? 1 : 0), sweep.poses.size());
-    for (std::size_t p = first; p < end && static_cast<double>(p) <= last; p += static_cast<std::size_t>(stride)) {
-      Candidate candidate{.sweep = index, .pose = static_cast<int>(p)};
-      if (meets(frame, sweep.poses[p], disc, candidate)) candidates_.push_back(candidate);
-    }
-  }
-}
-
-bool EngagementMeter::meets(const Frame& frame, const SweepPose& pose, const Disc& disc, Candidate& out) const {
-  const double reach = stock_.profile().largest() + disc.radius;
-  const double low = stock_.profile().low(), high = stock_.profile().high();
-  const Vec3 u = pose.direction.normalized(), d = pose.tip - frame.axis.tip;
-  const double forward = u.dot(frame.axis.u);
-  if (forward < 0.5) return false;
-  const double up = d.dot(frame.axis.u);
-  out.dx = u.dot(frame.x) / forward, out.dy = u.dot(frame.y) / forward;
-  out.x0 = d.dot(frame.x) - up * out.dx, out.y0 = d.dot(frame.y) - up * out.dy;
-  out.h0 = -up / forward, out.dh = 1.0 / forward;
-  if (out.h0 + disc.high * out.dh < low || out.h0 + disc.low * out.dh > high) return false;
-  // Nearest that the axis comes to the disc over the heights of the tool.
-  const double ax = out.x0 + low * out.dx - disc.x, ay = out.y0 + low * out.dy - disc.y;
-  const double ex = (high - low) * out.dx, ey = (high - low) * out.dy, e2 = ex * ex + ey * ey;
-  const double share = e2 > 0.0 ? std::clamp(-(ax * ex + ay * ey) / e2, 0.0, 1.0) : 0.0;
-  const double nx = ax + share * ex, ny = ay + share * ey;
-  return nx * nx + ny * ny <= reach * reach;
-}
-
-EngagementMeter::Disc EngagementMeter::disc_of_found(std::span<const ToolRing> rings) const {
-  constexpr double kSpare = 1.02;
-  Box3 box;
-  double low = std::numeric_limits<double>::infinity(), high = -low;
+  std::array<Part, kSectors> sectors;
+  Part all;
   for (const RingArc& found : found_) {
-    const double r = rings[found.ring].radius, z = rings[found.ring].z;
-    low = std::min(low, z), high = std::max(high, z);
-    for (int k = 0; k <= 4; ++k) {
-      const double angle = found.motion_angle + found.arc.low + 0.25 * k * (found.arc.high - found.arc.low);
-      box.add(Vec3(r * std::cos(angle), r * std::sin(angle), 0.0));
+    const ToolRing& ring = rings[found.ring];
+    const double low = found.motion_angle + found.arc.low, length = found.arc.high - found.arc.low;
+    const int pieces = std::max(1, static_cast<int>(std::ceil(length / kPiece)));
+    for (int k = 0; k < pieces; ++k) {
+      const double at = low + length * (k + 0.5) / pieces;
+      const double turn = at / (2.0 * kPi);
+      const int sector = static_cast<int>((turn - std::floor(turn)) * kSectors) % kSectors;
+      for (const double place : {0.0, 0.5, 1.0}) {
+        const double angle = low + length * (k + place) / pieces;
+        sectors[static_cast<std::size_t>(sector)].add(ring, angle);
+        all.add(ring, angle);
+      }
     }
   }
-  const Vec3 centre = box.center();
-  return {centre.x(), centre.y(), kSpare * 0.5 * box.diagonal(), low, high};
+  // How far an arc bows out between points that are half a piece apart.
+  const double bow = stock_.profile().largest() * (1.0 - std::cos(0.25 * kPiece));
+  parts_.clear();
+  for (const Part& part : sectors)
+    if (part.low <= part.high) parts_.push_back(part.disc(bow));
+  return all.disc(bow);
 }
 
-void EngagementMeter::engage_all(const Frame& frame, std::span<const ToolRing> rings, bool rough) {
+void EngagementMeter::engage_all(const RowFrame& frame, std::span<const ToolRing> rings, bool rough) {
   found_.clear();
   hints_.clear();
   for (std::size_t k = 0; k < rings.size(); ++k) engage(frame, rings[k], k, rough);
 }
 
-void EngagementMeter::find_arcs(const Frame& frame, double t, std::span<const ToolRing> rings) {
-  const std::vector<Sweep>& sweeps = stock_.sweeps();
-  const auto look = [&](std::size_t from, const Disc& disc, int stride) {
-    // The newest first: they end most gaps.
-    if (own_last_ >= 0.0) gather(frame, own_, kOwn, own_last_, disc, stride);
-    for (std::size_t k = sweeps.size(); k-- > from;)
-      gather(frame, sweeps[k], static_cast<int>(k), sweeps[k].last(), disc, stride);
-    engage_all(frame, rings, stride > 1);
-  };
-  own_last_ = t * kOwnIntervals - 1.0;
+void EngagementMeter::find_arcs(const RowFrame& frame, double t, std::span<const ToolRing> rings) {
+  own_last_ = t * NearPoses::kOwnIntervals - 1.0;
   candidates_.clear();
-  const Disc all{0.0, 0.0, stock_.profile().largest(), stock_.profile().low(), stock_.profile().high()};
-  look(sweeps.size() > kRecent ? sweeps.size() - kRecent : 0, all, kStride);
-  // What the first look covers stays covered: the disc holds what it left open, and nothing else.
-  if (!found_.empty()) look(0, disc_of_found(rings), 1);
+  const RowDisc tool{0.0, 0.0, stock_.profile().largest(), stock_.profile().low(), stock_.profile().high()};
+  near_.add(frame, tool, {}, own_last_, kRecent, kStride, candidates_);
+  engage_all(frame, rings, true);
+  // What the first look covers stays covered: the discs hold what it left open, and little else.
+  if (found_.empty()) return;
+  const RowDisc open = discs_of_found(rings);
+  near_.add(frame, open, parts_, own_last_, 0, 1, candidates_);
+  engage_all(frame, rings, false);
 }
 
 void EngagementMeter::cut(double low, double high, const Bound& bound) {
@@ -179,7 +150,7 @@ void EngagementMeter::cut(double low, double high, const Bound& bound) {
   gaps_.swap(cut_);
 }
 
-void EngagementMeter::cut_by_blank(const Frame& frame, const ToolRing& ring, double motion_angle) {
+void EngagementMeter::cut_by_blank(const RowFrame& frame, const ToolRing& ring, double motion_angle) {
   const Vec3 centre = frame.axis.at(ring.z);
   for (const HalfSpace& h : stock_.blank()) {
     const double a = h.normal.dot(frame.x), b = h.normal.dot(frame.y), amplitude = ring.radius * std::hypot(a, b);
@@ -194,7 +165,7 @@ void EngagementMeter::cut_by_blank(const Frame& frame, const ToolRing& ring, dou
   }
 }
 
-bool EngagementMeter::cut_by(const Candidate& c, const ToolRing& ring, const Vec2& motion) {
+bool EngagementMeter::cut_by(const NearPose& c, const ToolRing& ring, const Vec2& motion) {
   const double px = c.x0 + ring.z * c.dx, py = c.y0 + ring.z * c.dy;
   const Vec2 o(motion.x() * px + motion.y() * py, motion.x() * py - motion.y() * px);
   // An interval that reaches into a gap holds one of its ends, or lies within.
@@ -242,7 +213,7 @@ void EngagementMeter::cut_by_poses(const ToolRing& ring, double motion_angle) {
 
 SweepPlace EngagementMeter::place_of(const Bound& bound) const {
   const Sweep& sweep = sweep_of(bound.sweep);
-  return {&sweep, bound.sweep == kOwn ? own_last_ : sweep.last(), static_cast<double>(bound.pose)};
+  return {&sweep, bound.sweep == kOwnSweep ? own_last_ : sweep.last(), static_cast<double>(bound.pose)};
 }
 
 bool EngagementMeter::is_sliver(const RingCircle& circle, const Gap& gap) const {
@@ -253,7 +224,7 @@ bool EngagementMeter::is_sliver(const RingCircle& circle, const Gap& gap) const 
   return false;
 }
 
-void EngagementMeter::settle(const Frame& frame, const ToolRing& ring, std::size_t index, double motion_angle,
+void EngagementMeter::settle(const RowFrame& frame, const ToolRing& ring, std::size_t index, double motion_angle,
                              double half, bool rough) {
   const Vec3 forward = radial_direction(frame.x, frame.y, motion_angle);
   const RingCircle circle{frame.axis.at(ring.z), forward, frame.axis.u.cross(forward), ring.radius};
@@ -268,7 +239,7 @@ void EngagementMeter::settle(const Frame& frame, const ToolRing& ring, std::size
   }
 }
 
-void EngagementMeter::engage(const Frame& frame, const ToolRing& ring, std::size_t index, bool rough) {
+void EngagementMeter::engage(const RowFrame& frame, const ToolRing& ring, std::size_t index, bool rough) {
   const Vec3 v = frame.axis.velocity(ring.s);
   const double vx = v.dot(frame.x), vy = v.dot(frame.y), across = std::hypot(vx, vy), along = v.dot(frame.axis.u);
   // <nu, v> = sine <v, u> + cosine |v_perp| cos(theta) > 0.
@@ -282,7 +253,7 @@ void EngagementMeter::engage(const Frame& frame, const ToolRing& ring, std::size
   settle(frame, ring, index, motion_angle, half, rough);
 }
 
-EngagementRow EngagementMeter::sum_row(const Frame& frame, double t, std::span<const ToolRing> rings) const {
+EngagementRow EngagementMeter::sum_row(const RowFrame& frame, double t, std::span<const ToolRing> rings) const {
   EngagementRow row;
   row.t = t;
   int flank = 0;
@@ -311,12 +282,12 @@ EngagementRow EngagementMeter::sum_row(const Frame& frame, double t, std::span<c
 
 Engagement EngagementMeter::measure(const RuledMotion& motion, std::span<const ToolRing> rings, int rows) {
   FLANK_ASSERT(rows >= 3 && rows % 2 == 1);
-  begin(motion);
+  near_.begin(motion);
   Engagement out;
   out.rows.reserve(static_cast<std::size_t>(rows));
   for (int i = 0; i < rows; ++i) {
     const double t = static_cast<double>(i) / (rows - 1);
-    const Frame frame = frame_of(motion, t);
+    const RowFrame frame = frame_of(motion, t);
     find_arcs(frame, t, rings);
     const EngagementRow row = sum_row(frame, t, rings);
     if (row.angle_rad > out.peak.angle_rad) out.peak = {row.angle_rad, row.t, row.s};
@@ -327,15 +298,15 @@ Engagement EngagementMeter::measure(const RuledMotion& motion, std::span<const T
 }
 
 double EngagementMeter::angle(const RuledMotion& motion, double t, const ToolRing& ring) {
-  begin(motion);
-  const Frame frame = frame_of(motion, t);
+  near_.begin(motion);
+  const RowFrame frame = frame_of(motion, t);
   find_arcs(frame, t, {&ring, 1});
   return sum_row(frame, t, {&ring, 1}).angle_rad;
 }
 
 double EngagementMeter::value(const RuledMotion& motion, double t, double s, EngagementPeak& best) {
   const ToolRing ring = ring_at(stock_.radial(), s);
-  const Frame frame = frame_of(motion, t);
+  const RowFrame frame = frame_of(motion, t);
   find_arcs(frame, t, {&ring, 1});
   const double angle = sum_row(frame, t, {&ring, 1}).angle_rad;
   if (angle > best.angle_rad) best = {angle, t, s};
@@ -344,7 +315,7 @@ double EngagementMeter::value(const RuledMotion& motion, double t, double s, Eng
 
 EngagementPeak EngagementMeter::refine(const RuledMotion& motion, const Engagement& measured, int flank_rings) {
   EngagementPeak best = measured.peak;
-  begin(motion);
+  near_.begin(motion);
   const double length = motion.axis_length;
   const double step = 1.0 / (static_cast<double>(measured.rows.size()) - 1.0), ds = length / (flank_rings - 1);
   for (const std::size_t row : largest_rows(measured.rows)) {

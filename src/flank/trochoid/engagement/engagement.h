@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "flank/trochoid/engagement/arc_end.h"
+#include "flank/trochoid/engagement/near_poses.h"
 
 namespace flank::internal {
 
@@ -43,7 +44,7 @@ struct Engagement {
 /// nothing once it has grown. The stock must outlive it.
 class EngagementMeter {
  public:
-  explicit EngagementMeter(const SweptStock& stock) : stock_(stock) {}
+  explicit EngagementMeter(const SweptStock& stock) : stock_(stock), near_(stock) {}
 
   /// The motion over [0, 1] at `rows` (odd, >= 3) times, on these rings. Earlier poses of the motion itself count as swept.
   [[nodiscard]] Engagement measure(const RuledMotion& motion, std::span<const ToolRing> rings, int rows);
@@ -53,12 +54,6 @@ class EngagementMeter {
   [[nodiscard]] double angle(const RuledMotion& motion, double t, const ToolRing& ring);
 
  private:
-  /// A pose that may cover something of a row: its axis in the frame of the row, linear in the height z.
-  struct Candidate {
-    double x0 = 0.0, y0 = 0.0, dx = 0.0, dy = 0.0;  ///< where it meets the ring's plane
-    double h0 = 0.0, dh = 0.0;                      ///< at which of its own heights
-    int sweep = 0, pose = 0;
-  };
   /// Whose sweep ends a gap: a pose, or the blank (sweep = kNoSweep), or the front's own end.
   struct Bound {
     int sweep = kNoSweep, pose = 0;
@@ -69,58 +64,45 @@ class EngagementMeter {
     Bound at_low, at_high;
     Vec2 from, to;  ///< unit vectors of low and high
   };
-  /// The row's pose and a frame across it.
-  struct Frame {
-    AxisJet axis;
-    Vec3 x, y;
-  };
-  /// In that frame, seen along the axis: where earlier poses matter.
-  struct Disc {
-    double x = 0.0, y = 0.0, radius = 0.0;
-    double low = 0.0, high = 0.0;  ///< heights of its rings over the tip, mm
-  };
   /// An arc and the ring that it is on.
   struct RingArc {
     std::size_t ring;
     double motion_angle;
     Arc arc;
   };
-  void begin(const RuledMotion& motion);
-  [[nodiscard]] Frame frame_of(const RuledMotion& motion, double t) const;
+  [[nodiscard]] static RowFrame frame_of(const RuledMotion& motion, double t);
   /// The arcs of all rings at a time, into found_.
-  void find_arcs(const Frame& frame, double t, std::span<const ToolRing> rings);
-  void engage_all(const Frame& frame, std::span<const ToolRing> rings, bool rough);
-  void gather(const Frame& frame, const Sweep& sweep, int index, double last, const Disc& disc, int stride);
-  /// Whether a pose may cover something of the disc; fills all but sweep and pose.
-  [[nodiscard]] bool meets(const Frame& frame, const SweepPose& pose, const Disc& disc, Candidate& out) const;
-  [[nodiscard]] Disc disc_of_found(std::span<const ToolRing> rings) const;
-  [[nodiscard]] EngagementRow sum_row(const Frame& frame, double t, std::span<const ToolRing> rings) const;
+  void find_arcs(const RowFrame& frame, double t, std::span<const ToolRing> rings);
+  void engage_all(const RowFrame& frame, std::span<const ToolRing> rings, bool rough);
+  /// What the first look left open: a disc that holds it, and small ones, into parts_, that hold it together.
+  [[nodiscard]] RowDisc discs_of_found(std::span<const ToolRing> rings);
+  [[nodiscard]] EngagementRow sum_row(const RowFrame& frame, double t, std::span<const ToolRing> rings) const;
   /// Adds the arcs of a ring to found_.
-  void engage(const Frame& frame, const ToolRing& ring, std::size_t index, bool rough);
-  void cut_by_blank(const Frame& frame, const ToolRing& ring, double motion_angle);
+  void engage(const RowFrame& frame, const ToolRing& ring, std::size_t index, bool rough);
+  void cut_by_blank(const RowFrame& frame, const ToolRing& ring, double motion_angle);
   void cut_by_poses(const ToolRing& ring, double motion_angle);
   /// False if the candidate covers the whole ring.
-  [[nodiscard]] bool cut_by(const Candidate& candidate, const ToolRing& ring, const Vec2& motion);
+  [[nodiscard]] bool cut_by(const NearPose& candidate, const ToolRing& ring, const Vec2& motion);
   void cut(double low, double high, const Bound& bound);
-  void settle(const Frame& frame, const ToolRing& ring, std::size_t index, double motion_angle, double half,
+  void settle(const RowFrame& frame, const ToolRing& ring, std::size_t index, double motion_angle, double half,
               bool rough);
   [[nodiscard]] SweepPlace place_of(const Bound& bound) const;
   [[nodiscard]] bool is_sliver(const RingCircle& circle, const Gap& gap) const;
   /// Engagement of the ring of s at a time; kept in `best` if it is larger.
   double value(const RuledMotion& motion, double t, double s, EngagementPeak& best);
   [[nodiscard]] const Sweep& sweep_of(int index) const {
-    return index == kOwn ? own_ : stock_.sweeps()[static_cast<std::size_t>(index)];
+    return index == kOwnSweep ? near_.own() : stock_.sweeps()[static_cast<std::size_t>(index)];
   }
 
-  static constexpr int kOwn = 1 << 30, kNoSweep = -1;
-  static constexpr int kOwnIntervals = 48;
+  static constexpr int kNoSweep = -1;
   /// A first look, at every kStride-th pose of the last sweeps, says where material may be; only there all poses count.
   static constexpr std::size_t kRecent = 3;
   static constexpr int kStride = 4;
   const SweptStock& stock_;
-  Sweep own_;
+  NearPoses near_;
   double own_last_ = 0.0;  ///< earlier poses of the motion count up to this place
-  std::vector<Candidate> candidates_;
+  std::vector<NearPose> candidates_;
+  std::vector<RowDisc> parts_;
   std::vector<Gap> gaps_, cut_;
   std::vector<std::size_t> hints_;  ///< candidates that ended the gaps of the ring before
   std::vector<RingArc> found_;

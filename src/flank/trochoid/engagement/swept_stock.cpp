@@ -33,15 +33,17 @@ Sweep Sweep::of(const std::vector<Pose>& poses, double axis_length) {
 }
 
 void Sweep::make_chunks() {
+  axes.reserve(poses.size());
+  for (const SweepPose& p : poses) axes.push_back({p.tip, p.direction.normalized()});
   whole.middle = Vec3::Zero();
-  direction = poses.front().direction.normalized();
-  for (const SweepPose& p : poses) turn = std::max(turn, (p.direction.normalized() - direction).norm());
-  const auto middle = [&](const SweepPose& p) { return Vec3(p.tip + 0.5 * axis_length * p.direction.normalized()); };
+  direction = axes.front().axis;
+  for (const Pose& p : axes) turn = std::max(turn, (p.axis - direction).norm());
+  const auto middle = [&](const Pose& p) { return p.at(0.5 * axis_length); };
   for (std::size_t first = 0; first + 1 < poses.size(); first += kChunk) {
     const std::size_t end = std::min(first + kChunk + 1, poses.size());
-    Chunk chunk{middle(poses[(first + end - 1) / 2]), 0.0};
+    Chunk chunk{middle(axes[(first + end - 1) / 2]), 0.0};
     for (std::size_t k = first; k < end; ++k)
-      chunk.reach = std::max(chunk.reach, (middle(poses[k]) - chunk.middle).norm());
+      chunk.reach = std::max(chunk.reach, (middle(axes[k]) - chunk.middle).norm());
     chunks.push_back(chunk);
     whole.middle += chunk.middle;
   }

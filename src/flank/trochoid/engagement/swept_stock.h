@@ -23,6 +23,7 @@ struct SweepPose {
 /// The poses of one motion in the order of time.
 struct Sweep {
   std::vector<SweepPose> poses;
+  std::vector<Pose> axes;  ///< the same with unit axes, for quick looks
   /// Of kChunk intervals each: middle of the axes, and how far any middle is from it, mm.
   struct Chunk {
     Vec3 middle;

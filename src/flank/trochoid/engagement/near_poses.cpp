@@ -1,0 +1,105 @@
+#include "flank/trochoid/engagement/near_poses.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flank::internal {
+
+void NearPoses::begin(const RuledMotion& motion) {
+  own_ = Sweep::of(motion, kOwnIntervals);
+  near_.clear();
+  for (std::size_t k = 0; k < stock_.sweeps().size(); ++k)
+    if (is_ever_near(stock_.sweeps()[k])) near_.push_back(static_cast<int>(k));
+}
+
+bool NearPoses::is_ever_near(const Sweep& sweep) const {
+  const ToolProfile& profile = stock_.profile();
+  const double length = sweep.axis_length, tilt = (sweep.direction - own_.direction).norm() + sweep.turn + own_.turn;
+  const Vec3 apart = sweep.whole.middle - own_.whole.middle;
+  // What is seen from an axis that is elsewhere and tilted: the middles are so much nearer, the heights so much less apart.
+  const double sway = own_.whole.reach + (apart.norm() + own_.whole.reach) * 2.0 * own_.turn;
+  const double along = apart.dot(own_.direction), across2 = apart.squaredNorm() - along * along;
+  const double most =
+      sweep.whole.reach + sway + 2.0 * profile.largest() + (0.75 * length + std::abs(along) + sway) * tilt;
+  if (across2 > most * most) return false;
+  const double half = std::max(profile.high() - 0.5 * length, 0.5 * length - profile.low());
+  return std::abs(along) <= 2.0 * half + sweep.whole.reach + sway + most * tilt;
+}
+
+NearPoses::Bundle NearPoses::bundle_of(const RowFrame& frame, const Sweep& sweep, const Sweep::Chunk& chunk,
+                                       double tilt) const {
+  const Vec3 apart = chunk.middle - frame.axis.at(0.5 * sweep.axis_length);
+  return {apart.dot(frame.x), apart.dot(frame.y), apart.dot(frame.axis.u), chunk.reach, tilt};
+}
+
+bool NearPoses::is_beyond(const Bundle& bundle, const RowDisc& disc, double axis_length) const {
+  const ToolProfile& profile = stock_.profile();
+  // How far the axes may be away and still reach the disc: tilts bring them nearer at one end.
+  const double most =
+      bundle.spread + profile.largest() + disc.radius + (0.75 * axis_length + std::abs(bundle.along)) * bundle.tilt;
+  const double dx = bundle.x - disc.x, dy = bundle.y - disc.y;
+  if (dx * dx + dy * dy > most * most) return true;
+  // Layers above or below: their tools do not come down or up to these rings. Of another tool, how far it reaches from its
+  // middle along its axis.
+  const double half = std::max(profile.high() - 0.5 * axis_length, 0.5 * axis_length - profile.low());
+  const double height = bundle.along + 0.5 * axis_length, slack = half + bundle.spread + most * bundle.tilt;
+  return height + slack < disc.low || height - slack > disc.high;
+}
+
+bool NearPoses::meets(const RowFrame& frame, const Pose& pose, std::span<const RowDisc> discs, NearPose& out) const {
+  const ToolProfile& profile = stock_.profile();
+  const double low = profile.low(), high = profile.high();
+  const Vec3 d = pose.tip - frame.axis.tip;
+  const double forward = pose.axis.dot(frame.axis.u);
+  if (forward < 0.5) return false;
+  const double up = d.dot(frame.axis.u);
+  out.dx = pose.axis.dot(frame.x) / forward, out.dy = pose.axis.dot(frame.y) / forward;
+  out.x0 = d.dot(frame.x) - up * out.dx, out.y0 = d.dot(frame.y) - up * out.dy;
+  out.h0 = -up / forward, out.dh = 1.0 / forward;
+  // Nearest that the axis comes to a disc over the heights of the tool.
+  const double ex = (high - low) * out.dx, ey = (high - low) * out.dy, e2 = ex * ex + ey * ey;
+  return std::any_of(discs.begin(), discs.end(), [&](const RowDisc& disc) {
+    if (out.h0 + disc.high * out.dh < low || out.h0 + disc.low * out.dh > high) return false;
+    const double reach = profile.largest() + disc.radius;
+    const double ax = out.x0 + low * out.dx - disc.x, ay = out.y0 + low * out.dy - disc.y;
+    const double share = e2 > 0.0 ? std::clamp(-(ax * ex + ay * ey) / e2, 0.0, 1.0) : 0.0;
+    const double nx = ax + share * ex, ny = ay + share * ey;
+    return nx * nx + ny * ny <= reach * reach;
+  });
+}
+
+void NearPoses::add_sweep(const RowFrame& frame, const RowDisc& whole, std::span<const RowDisc> parts,
+                          const Sweep& sweep, int index, double last, int stride, std::vector<NearPose>& out) {
+  const double length = sweep.axis_length;
+  const double turn = (sweep.direction - frame.axis.u).norm();
+  if (is_beyond(bundle_of(frame, sweep, sweep.whole, turn + sweep.turn), whole, length)) return;
+  for (std::size_t c = 0; c < sweep.chunks.size(); ++c) {
+    const std::size_t first = c * Sweep::kChunk;
+    const Bundle bundle = bundle_of(frame, sweep, sweep.chunks[c], (sweep.axes[first].axis - frame.axis.u).norm());
+    if (is_beyond(bundle, whole, length)) continue;
+    some_.clear();
+    for (const RowDisc& part : parts)
+      if (!is_beyond(bundle, part, length)) some_.push_back(part);
+    if (!parts.empty() && some_.empty()) continue;
+    const std::span<const RowDisc> discs = parts.empty() ? std::span(&whole, 1) : std::span<const RowDisc>(some_);
+    const std::size_t end = std::min(first + Sweep::kChunk + (c + 1 == sweep.chunks.size() ? 1 : 0), sweep.axes.size());
+    for (std::size_t p = first; p < end && static_cast<double>(p) <= last; p += static_cast<std::size_t>(stride)) {
+      NearPose pose{.sweep = index, .pose = static_cast<int>(p)};
+      if (meets(frame, sweep.axes[p], discs, pose)) out.push_back(pose);
+    }
+  }
+}
+
+void NearPoses::add(const RowFrame& frame, const RowDisc& whole, std::span<const RowDisc> parts, double own_last,
+                    std::size_t recent, int stride, std::vector<NearPose>& out) {
+  // The newest first: they end most gaps.
+  if (own_last >= 0.0) add_sweep(frame, whole, parts, own_, kOwnSweep, own_last, stride, out);
+  const std::vector<Sweep>& sweeps = stock_.sweeps();
+  const std::size_t from = recent > 0 && sweeps.size() > recent ? sweeps.size() - recent : 0;
+  for (auto k = near_.rbegin(); k != near_.rend() && static_cast<std::size_t>(*k) >= from; ++k) {
+    const Sweep& sweep = sweeps[static_cast<std::size_t>(*k)];
+    add_sweep(frame, whole, parts, sweep, *k, sweep.last(), stride, out);
+  }
+}
+
+}  // namespace flank::internal
