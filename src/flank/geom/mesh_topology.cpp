@@ -9,50 +9,20 @@
 namespace flank::internal {
 namespace {
 
-/// One side of one triangle, under the name of its edge: both triangles of an edge have the same low and high.
-struct Edge {
-  int low, high;  // vertices
-  int triangle, side;
-  bool ascending;  // whether the triangle runs from low to high
-};
-
-/// Sides of all triangles, those of one edge side by side. Sorted, not hashed: the order must not depend on a library.
-std::vector<Edge> sorted_edges(const TriangleMesh& mesh) {
-  std::vector<Edge> edges;
-  edges.reserve(3 * mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (int k = 0; k < 3; ++k) {
-      const int a = mesh.triangles[t][(k + 1) % 3], b = mesh.triangles[t][(k + 2) % 3];
-      edges.push_back({std::min(a, b), std::max(a, b), static_cast<int>(t), k, a < b});
-    }
-  }
-  std::sort(edges.begin(), edges.end(), [](const Edge& x, const Edge& y) {
-    if (x.low != y.low) return x.low < y.low;
-    if (x.high != y.high) return x.high < y.high;
-    return x.triangle < y.triangle;
-  });
-  return edges;
-}
-
-/// Fills the neighbours. Three or more triangles at an edge, or two that run it in the same direction, stay unlinked.
-void link(const TriangleMesh& mesh, double crease_rad, MeshTopology& topology) {
+/// Three or more triangles at an edge, or two that run it in the same direction, stay unlinked.
+std::vector<std::array<int, 3>> linked_neighbors(const TriangleMesh& mesh, double crease_rad) {
   const std::vector<Vec3> normals = triangle_normals(mesh);
-  const std::vector<Edge> edges = sorted_edges(mesh);
   const double least_cosine = std::cos(crease_rad);
-  topology.neighbors.assign(mesh.triangles.size(), {-1, -1, -1});
-  for (std::size_t i = 0; i < edges.size();) {
-    std::size_t j = i + 1;
-    while (j < edges.size() && edges[j].low == edges[i].low && edges[j].high == edges[i].high) ++j;
+  std::vector<std::array<int, 3>> neighbors(mesh.triangles.size(), {-1, -1, -1});
+  for_each_edge(mesh_edges(mesh), [&](std::span<const EdgeUse> uses) {
     // Two triangles that run their edge in opposite directions have their outside on the same side.
-    if (j - i == 2 && edges[i].ascending != edges[i + 1].ascending) {
-      const auto s = static_cast<std::size_t>(edges[i].triangle), t = static_cast<std::size_t>(edges[i + 1].triangle);
-      if (normals[s].dot(normals[t]) > least_cosine) {
-        topology.neighbors[s][edges[i].side] = edges[i + 1].triangle;
-        topology.neighbors[t][edges[i + 1].side] = edges[i].triangle;
-      }
-    }
-    i = j;
-  }
+    if (uses.size() != 2 || uses[0].ascending == uses[1].ascending) return;
+    const auto s = static_cast<std::size_t>(uses[0].triangle), t = static_cast<std::size_t>(uses[1].triangle);
+    if (!(normals[s].dot(normals[t]) > least_cosine)) return;
+    neighbors[s][static_cast<std::size_t>(uses[0].side)] = uses[1].triangle;
+    neighbors[t][static_cast<std::size_t>(uses[1].side)] = uses[0].triangle;
+  });
+  return neighbors;
 }
 
 /// Triangles around each vertex, by counting: sizes, then their sums, then the entries.
@@ -119,13 +89,36 @@ bool separate_vertices(TriangleMesh& mesh, const MeshTopology& topology) {
 
 }  // namespace
 
+std::vector<EdgeUse> mesh_edges(const TriangleMesh& mesh) {
+  // By the lower vertex: sizes, then their sums, then the entries; only the few of one vertex are sorted.
+  std::vector<std::size_t> begin(mesh.vertices.size() + 1, 0);
+  for (const auto& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) ++begin[static_cast<std::size_t>(std::min(t[(k + 1) % 3], t[(k + 2) % 3])) + 1];
+  for (std::size_t v = 0; v + 1 < begin.size(); ++v) begin[v + 1] += begin[v];
+  std::vector<EdgeUse> uses(3 * mesh.triangles.size());
+  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const int a = mesh.triangles[t][(k + 1) % 3], b = mesh.triangles[t][(k + 2) % 3], low = std::min(a, b);
+      uses[next[static_cast<std::size_t>(low)]++] = {low, std::max(a, b), static_cast<int>(t),
+                                                     static_cast<signed char>(k), a < b};
+    }
+  for (std::size_t v = 0; v + 1 < begin.size(); ++v)
+    std::sort(uses.begin() + static_cast<std::ptrdiff_t>(begin[v]),
+              uses.begin() + static_cast<std::ptrdiff_t>(begin[v + 1]), [](const EdgeUse& x, const EdgeUse& y) {
+                if (x.high != y.high) return x.high < y.high;
+                return x.triangle != y.triangle ? x.triangle < y.triangle : x.side < y.side;
+              });
+  return uses;
+}
+
 MeshTopology link_triangles(TriangleMesh& mesh, double crease_rad) {
   MeshTopology topology;
-  link(mesh, crease_rad, topology);
+  topology.neighbors = linked_neighbors(mesh, crease_rad);
   collect_fans(mesh, topology);
   if (separate_vertices(mesh, topology)) {
     // Where a fin came off, the two sides left behind belong together.
-    link(mesh, crease_rad, topology);
+    topology.neighbors = linked_neighbors(mesh, crease_rad);
     collect_fans(mesh, topology);
   }
   // Creases count as borders too: what lies beyond them is another surface to everything that follows.

@@ -38,6 +38,28 @@ inline constexpr double kCreaseRad = 0.9;
 /// in `mesh`, one vertex a fan, appended at the end, so that creases, fins and bow ties come apart.
 [[nodiscard]] MeshTopology link_triangles(TriangleMesh& mesh, double crease_rad);
 
+/// One side of one triangle, under the name of its edge: all triangles of an edge have the same low and high.
+struct EdgeUse {
+  int low = 0, high = 0;  ///< vertices
+  int triangle = 0;
+  signed char side = 0;    ///< lies opposite this corner
+  bool ascending = false;  ///< whether the triangle runs from low to high
+};
+
+/// The sides of all triangles, sorted by low, high and triangle: counted, not hashed, so that the order does not depend on a library.
+[[nodiscard]] std::vector<EdgeUse> mesh_edges(const TriangleMesh& mesh);
+
+/// Visits the sides of each edge: one is a border, more than two is not manifold.
+template <class Visit>
+void for_each_edge(const std::vector<EdgeUse>& uses, Visit&& visit) {
+  for (std::size_t i = 0; i < uses.size();) {
+    std::size_t j = i + 1;
+    while (j < uses.size() && uses[j].low == uses[i].low && uses[j].high == uses[i].high) ++j;
+    visit(std::span<const EdgeUse>(uses.data() + i, j - i));
+    i = j;
+  }
+}
+
 /// Number of the connected component of each triangle, counted from 0 in the order of the triangles.
 [[nodiscard]] std::vector<int> components(const MeshTopology& topology);
 

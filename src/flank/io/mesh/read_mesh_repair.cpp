@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "flank/geom/mesh_repair.h"
@@ -14,6 +15,7 @@ namespace flank::internal {
 namespace {
 
 using Triangle = std::array<int, 3>;
+using Edges = std::vector<EdgeUse>;
 
 /// Sum of the area vectors of a component this small, relative to its area, means that hardly anything is open.
 constexpr double kClosedShare = 0.05;
@@ -26,21 +28,6 @@ const Vec3& corner(const TriangleMesh& mesh, const Triangle& t, int k) {
 
 Vec3 area_vector(const TriangleMesh& mesh, const Triangle& t) {
   return 0.5 * (corner(mesh, t, 1) - corner(mesh, t, 0)).cross(corner(mesh, t, 2) - corner(mesh, t, 0));
-}
-
-/// The triangles at each edge: one is a border, more than two is not manifold.
-using EdgeMap = std::map<std::pair<int, int>, std::vector<int>>;
-
-EdgeMap edges_of(const TriangleMesh& mesh) {
-  EdgeMap edges;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (int k = 0; k < 3; ++k)
-      edges[std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3])].push_back(static_cast<int>(t));
-  return edges;
-}
-
-long count_non_manifold(const EdgeMap& edges) {
-  return std::count_if(edges.begin(), edges.end(), [](const auto& e) { return e.second.size() > 2; });
 }
 
 /// Sets of numbers that hang together.
@@ -65,10 +52,11 @@ class Groups {
 };
 
 /// Components of triangles over edges of exactly two triangles, numbered from 0 in the order of the triangles.
-std::vector<int> component_numbers(const TriangleMesh& mesh, const EdgeMap& edges) {
+std::vector<int> component_numbers(const TriangleMesh& mesh, const Edges& edges) {
   Groups groups(mesh.triangles.size());
-  for (const auto& [edge, users] : edges)
-    if (users.size() == 2) groups.join(users[0], users[1]);
+  for_each_edge(edges, [&](std::span<const EdgeUse> uses) {
+    if (uses.size() == 2) groups.join(uses[0].triangle, uses[1].triangle);
+  });
   std::vector<int> number(mesh.triangles.size(), -1);
   int count = 0;
   for (std::size_t t = 0; t < number.size(); ++t) {
@@ -105,15 +93,16 @@ std::vector<Component> describe(const TriangleMesh& mesh, const std::vector<int>
 }
 
 /// Removes small components that hang on non-manifold edges. Returns how many triangles went.
-std::size_t remove_fins(TriangleMesh& mesh) {
-  const EdgeMap edges = edges_of(mesh);
+std::size_t remove_fins(TriangleMesh& mesh, const Edges& edges) {
   const std::vector<int> number = component_numbers(mesh, edges);
   std::vector<Component> parts = describe(mesh, number);
   double total = 0.0;
   for (const Component& part : parts) total += part.area;
-  for (const auto& [edge, users] : edges)
-    for (const int t : users)
-      if (users.size() > 2) parts[static_cast<std::size_t>(number[static_cast<std::size_t>(t)])].at_non_manifold = true;
+  for_each_edge(edges, [&](std::span<const EdgeUse> uses) {
+    if (uses.size() <= 2) return;
+    for (const EdgeUse& use : uses)
+      parts[static_cast<std::size_t>(number[static_cast<std::size_t>(use.triangle)])].at_non_manifold = true;
+  });
   std::size_t kept = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Component& part = parts[static_cast<std::size_t>(number[t])];
@@ -130,8 +119,8 @@ bool strictly_inside(const Box3& a, const Box3& b) {
 
 /// Turns components that are closed, or nearly, and have a negative volume; not those inside another one, which bound a
 /// cavity.
-void turn_outwards(TriangleMesh& mesh, std::vector<std::string>& account) {
-  const std::vector<int> number = component_numbers(mesh, edges_of(mesh));
+void turn_outwards(TriangleMesh& mesh, const Edges& edges, std::vector<std::string>& account) {
+  const std::vector<int> number = component_numbers(mesh, edges);
   const std::vector<Component> parts = describe(mesh, number);
   std::vector<char> turn(parts.size(), 0);
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -150,25 +139,25 @@ void turn_outwards(TriangleMesh& mesh, std::vector<std::string>& account) {
 }
 
 /// Holes, rims and folds stay as they are; the user is told.
-void tell_what_is_left(const TriangleMesh& mesh, std::vector<std::string>& account) {
-  const EdgeMap edges = edges_of(mesh);
+void tell_what_is_left(const TriangleMesh& mesh, const Edges& edges, std::vector<std::string>& account) {
   const std::vector<Vec3> normals = triangle_normals(mesh);
   Groups rims(mesh.vertices.size());
-  long folds = 0;
-  for (const auto& [edge, users] : edges) {
-    if (users.size() == 1) rims.join(edge.first, edge.second);
-    if (users.size() == 2)
-      folds +=
-          normals[static_cast<std::size_t>(users[0])].dot(normals[static_cast<std::size_t>(users[1])]) < kFoldCosine;
-  }
+  long folds = 0, left = 0;
+  for_each_edge(edges, [&](std::span<const EdgeUse> uses) {
+    if (uses.size() == 1) rims.join(uses[0].low, uses[0].high);
+    if (uses.size() > 2) ++left;
+    if (uses.size() == 2)
+      folds += normals[static_cast<std::size_t>(uses[0].triangle)].dot(
+                   normals[static_cast<std::size_t>(uses[1].triangle)]) < kFoldCosine;
+  });
   std::map<int, Box3> boxes;
-  for (const auto& [edge, users] : edges)
-    for (const int v : {edge.first, edge.second})
-      if (users.size() == 1) boxes[rims.root(v)].add(mesh.vertices[static_cast<std::size_t>(v)]);
+  for_each_edge(edges, [&](std::span<const EdgeUse> uses) {
+    for (const int v : {uses[0].low, uses[0].high})
+      if (uses.size() == 1) boxes[rims.root(v)].add(mesh.vertices[static_cast<std::size_t>(v)]);
+  });
   double largest = 0.0;
   for (const auto& [root, box] : boxes) largest = std::max(largest, box.diagonal());
-  if (const long left = count_non_manifold(edges); left > 0)
-    account.push_back(fmt::format("left {} non-manifold edges as borders between faces", left));
+  if (left > 0) account.push_back(fmt::format("left {} non-manifold edges as borders between faces", left));
   if (!boxes.empty())
     account.push_back(fmt::format("left {} holes or open rims (the largest {:.3g} mm across)", boxes.size(), largest));
   if (folds > 0) account.push_back(fmt::format("left {} edges at which the surface folds back onto itself", folds));
@@ -182,7 +171,8 @@ ReadMesh repair_read_mesh(TriangleMesh mesh, bool soup) {
   if (soup) first.repair.welded_vertices = 0;
   if (!first.repair.clean()) result.account.push_back(first.repair.account());
   result.mesh = std::move(first.mesh);
-  const std::size_t fins = remove_fins(result.mesh);
+  Edges edges = mesh_edges(result.mesh);
+  const std::size_t fins = remove_fins(result.mesh, edges);
   if (fins > 0) {
     result.account.push_back(fmt::format("removed {} triangles of fins attached to non-manifold edges", fins));
     // Without the fins more triangles are neighbours, so that more of them must agree.
@@ -190,9 +180,11 @@ ReadMesh repair_read_mesh(TriangleMesh mesh, bool soup) {
     second.repair.isolated_vertices = 0;
     if (!second.repair.clean()) result.account.push_back(second.repair.account());
     result.mesh = std::move(second.mesh);
+    edges = mesh_edges(result.mesh);
   }
-  turn_outwards(result.mesh, result.account);
-  tell_what_is_left(result.mesh, result.account);
+  turn_outwards(result.mesh, edges, result.account);
+  // Turned triangles have the same edges.
+  tell_what_is_left(result.mesh, edges, result.account);
   return result;
 }
 
