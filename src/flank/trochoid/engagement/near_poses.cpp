@@ -14,11 +14,12 @@ void NearPoses::begin(const RuledMotion& motion) {
 
 bool NearPoses::is_ever_near(const Sweep& sweep) const {
   const ToolProfile& profile = stock_.profile();
-  const double length = sweep.axis_length, tilt = (sweep.direction - own_.direction).norm() + sweep.turn + own_.turn;
+  const double length = sweep.axis_length,
+               tilt = (sweep.axes.front().axis - own_.axes.front().axis).norm() + sweep.turn + own_.turn;
   const Vec3 apart = sweep.whole.middle - own_.whole.middle;
   // What is seen from an axis that is elsewhere and tilted: the middles are so much nearer, the heights so much less apart.
   const double sway = own_.whole.reach + (apart.norm() + own_.whole.reach) * 2.0 * own_.turn;
-  const double along = apart.dot(own_.direction), across2 = apart.squaredNorm() - along * along;
+  const double along = apart.dot(own_.axes.front().axis), across2 = apart.squaredNorm() - along * along;
   const double most =
       sweep.whole.reach + sway + 2.0 * profile.largest() + (0.75 * length + std::abs(along) + sway) * tilt;
   if (across2 > most * most) return false;
@@ -71,7 +72,7 @@ bool NearPoses::meets(const RowFrame& frame, const Pose& pose, std::span<const R
 void NearPoses::add_sweep(const RowFrame& frame, const RowDisc& whole, std::span<const RowDisc> parts,
                           const Sweep& sweep, int index, double last, int stride, std::vector<NearPose>& out) {
   const double length = sweep.axis_length;
-  const double turn = (sweep.direction - frame.axis.u).norm();
+  const double turn = (sweep.axes.front().axis - frame.axis.u).norm();
   if (is_beyond(bundle_of(frame, sweep, sweep.whole, turn + sweep.turn), whole, length)) return;
   for (std::size_t c = 0; c < sweep.chunks.size(); ++c) {
     const std::size_t first = c * Sweep::kChunk;

@@ -36,7 +36,7 @@ void Sweep::make_chunks() {
   axes.reserve(poses.size());
   for (const SweepPose& p : poses) axes.push_back({p.tip, p.direction.normalized()});
   whole.middle = Vec3::Zero();
-  direction = axes.front().axis;
+  const Vec3 direction = axes.front().axis;
   for (const Pose& p : axes) turn = std::max(turn, (p.axis - direction).norm());
   const auto middle = [&](const Pose& p) { return p.at(0.5 * axis_length); };
   for (std::size_t first = 0; first + 1 < poses.size(); first += kChunk) {

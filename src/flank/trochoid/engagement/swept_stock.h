@@ -31,9 +31,8 @@ struct Sweep {
   };
   static constexpr int kChunk = 8;
   std::vector<Chunk> chunks;
-  Chunk whole;                     ///< of all of them
-  Vec3 direction = Vec3::UnitZ();  ///< of the axis at the start
-  double turn = 0.0;               ///< most that any direction differs from it
+  Chunk whole;        ///< of all of them
+  double turn = 0.0;  ///< most that any axis differs from the first
   double axis_length = 0.0;
 
   /// The motion over [0, 1] at `intervals` (>= 1) equal steps. A multiple of the rails' knot spans is exact.
