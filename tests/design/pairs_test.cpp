@@ -2,7 +2,6 @@
 #include "flank/design/pairs.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -14,6 +13,7 @@
 #include "flank/base/atomic_file.h"
 #include "flank/path_file.h"
 #include "flank/tool_file.h"
+#include "temporary_folder.h"
 
 namespace flank::internal {
 namespace {
@@ -23,12 +23,11 @@ namespace fs = std::filesystem;
 constexpr double kLength = 20.0;
 
 /// A tool of a catalogue and two equal faces: half a turn about z and a shift carry F1 to F2.
-class DesignPairs : public ::testing::Test {
+class DesignPairs : public TemporaryFolder {
  protected:
+  DesignPairs() : TemporaryFolder("flank_pairs") {}
   void SetUp() override {
-    root_ = fs::path(::testing::TempDir()) / ("flank_pairs_" + std::to_string(::getpid()) + "_" +
-                                              ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(root_);
+    TemporaryFolder::SetUp();
     fs::create_directories(root_ / "tools");
     motion_.linear() = Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitZ()).toRotationMatrix();
     motion_.translation() = Vec3(0.0, 50.0, 3.0);
@@ -45,7 +44,6 @@ class DesignPairs : public ::testing::Test {
     write_tool(tool.tool, (root_ / tool.file).string());
     result_.tools.push_back(tool);
   }
-  void TearDown() override { fs::remove_all(root_); }
 
   static Path strip(const std::string& face) {
     Strip strip;
@@ -83,7 +81,6 @@ class DesignPairs : public ::testing::Test {
     return at == words.end() || at + 1 == words.end() ? "" : *(at + 1);
   }
 
-  fs::path root_;
   Eigen::Isometry3d motion_ = Eigen::Isometry3d::Identity();
   DesignResult result_;
   std::vector<std::string> asked_;

@@ -167,5 +167,27 @@ TEST(MeshTopology, VertexNormalsDoNotDependOnHowTheAreaIsDivided) {
   EXPECT_EQ(vertex_normals(flat)[3], Vec3(0, 0, 1));
 }
 
+TEST(MeshEdges, HoldTheSidesOfEachEdgeTogetherInTheirOrder) {
+  TriangleMesh mesh;
+  mesh.vertices.assign(5, Vec3::Zero());
+  // Edge 1-2 has three triangles, 0-1 and 2-4 have one.
+  mesh.triangles = {{3, 2, 1}, {0, 1, 2}, {2, 1, 4}};
+  std::vector<std::vector<int>> found;
+  for_each_edge(mesh_edges(mesh), [&](std::span<const EdgeUse> uses) {
+    found.push_back({uses[0].low, uses[0].high});
+    for (const EdgeUse& use : uses) {
+      const auto& t = mesh.triangles[static_cast<std::size_t>(use.triangle)];
+      const int a = t[static_cast<std::size_t>((use.side + 1) % 3)],
+                b = t[static_cast<std::size_t>((use.side + 2) % 3)];
+      EXPECT_EQ(a, use.ascending ? use.low : use.high);
+      EXPECT_EQ(b, use.ascending ? use.high : use.low);
+      found.back().push_back(use.triangle);
+    }
+  });
+  const std::vector<std::vector<int>> expected = {{0, 1, 1}, {0, 2, 1}, {1, 2, 0, 1, 2}, {1, 3, 0},
+                                                  {1, 4, 2}, {2, 3, 0}, {2, 4, 2}};
+  EXPECT_EQ(found, expected);
+}
+
 }  // namespace
 }  // namespace flank::internal

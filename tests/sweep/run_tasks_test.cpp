@@ -2,15 +2,13 @@
 #include "flank/sweep/run_tasks.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "flank/error.h"
+#include "temporary_folder.h"
 
 namespace flank::internal {
 namespace {
@@ -18,24 +16,13 @@ namespace {
 namespace fs = std::filesystem;
 constexpr const char* kShell = "/bin/sh";
 
-class RunTasks : public ::testing::Test {
+class RunTasks : public TemporaryFolder {
  protected:
-  void SetUp() override {
-    root_ = fs::path(::testing::TempDir()) / ("flank_run_tasks_" + std::to_string(::getpid()) + "_" +
-                                              ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(root_);
-    fs::create_directories(root_);
-  }
-  void TearDown() override { fs::remove_all(root_); }
+  RunTasks() : TemporaryFolder("flank_run_tasks") {}
 
   [[nodiscard]] ChildTask script(const std::string& text, const std::string& name = "task") const {
     return {{"-c", text}, root_.string(), (root_ / (name + ".errors")).string()};
   }
-  [[nodiscard]] std::string content(const std::string& name) const {
-    std::ifstream stream(root_ / name);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
-  fs::path root_;
 };
 
 TEST_F(RunTasks, OutcomesStandInTheOrderOfTheTasks) {

@@ -3,34 +3,38 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
+#include <utility>
+#include <vector>
+
+#include "temporary_folder.h"
 
 namespace flank::internal {
 namespace {
 
 namespace fs = std::filesystem;
 
-class SlurmElement : public ::testing::Test {
+class SlurmElement : public TemporaryFolder {
  protected:
-  void SetUp() override {
-    root_ = fs::path(::testing::TempDir()) / ("flank element's " + std::to_string(::getpid()) + "_" +
-                                              ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(root_);
-    fs::create_directories(root_);
-  }
-  void TearDown() override { fs::remove_all(root_); }
+  /// A name that a shell must be told in quotes.
+  SlurmElement() : TemporaryFolder("flank element's") {}
 
   /// Lines that each leave a mark of the element that ran them.
-  void write_list(int count, const std::string& before = "") {
+  void write_list(int count) {
     std::ofstream list(root_ / "list");
     for (int k = 0; k < count; ++k)
-      list << fmt::format("{}echo $SLURM_ARRAY_TASK_ID >> \"{}\"\n", before,
-                          (root_ / fmt::format("ran{}", k)).string());
+      list << fmt::format("echo $SLURM_ARRAY_TASK_ID >> \"{}\"\n", (root_ / fmt::format("ran{}", k)).string());
+  }
+  /// Lines of shells that do what is said, in their folders; the k-th leaves its exit code in "k.exit".
+  void write_tasks(const std::vector<std::pair<std::string, fs::path>>& scripts, double timeout_s) {
+    std::ofstream list(root_ / "list");
+    for (std::size_t k = 0; k < scripts.size(); ++k) {
+      const ChildTask task{{"-c", scripts[k].first}, scripts[k].second.string(), (root_ / "errors").string()};
+      list << task_line("/bin/sh", task, (root_ / fmt::format("{}.exit", k)).string(), timeout_s) << "\n";
+    }
   }
   void write_script(int count, int seconds) {
     std::ofstream(root_ / "script") << element_script((root_ / "list").string(), count, seconds);
@@ -40,12 +44,7 @@ class SlurmElement : public ::testing::Test {
     return fmt::format("SLURM_ARRAY_TASK_ID={} sh \"{}\" {}", id, (root_ / "script").string(), first);
   }
   static void run(const std::string& command) { ASSERT_EQ(std::system(command.c_str()), 0); }
-  [[nodiscard]] std::string content(const std::string& name) const {
-    std::ifstream stream(root_ / name);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
   [[nodiscard]] std::string ran(int line) const { return content(fmt::format("ran{}", line)); }
-  fs::path root_;
 };
 
 TEST_F(SlurmElement, TakesALineAndRoundWhileThereIsTime) {
@@ -80,29 +79,18 @@ TEST_F(SlurmElement, ManyAtOnceRunEachLineOnce) {
 
 TEST_F(SlurmElement, ATaskWritesItsExitCodeAndTheNextRunsFromItsOwnFolder) {
   fs::create_directories(root_ / "a");
-  std::ofstream list(root_ / "list");
-  for (int k = 0; k < 2; ++k) {
-    const ChildTask task{{"-c", fmt::format("pwd; printf 'two\nlines' > text{}; exit {}", k, k + 3)},
-                         k == 0 ? (root_ / "a").string() : root_.string(),
-                         (root_ / "errors").string()};
-    list << task_line("/bin/sh", task, (root_ / fmt::format("{}.exit", k)).string(), 0.0) << "\n";
-  }
-  list.close();
+  const std::string text = "printf 'two\nlines' > text; exit ";
+  write_tasks({{text + "3", root_ / "a"}, {text + "4", root_}}, 0.0);
   write_script(2, 600);
   run(element(0));
   EXPECT_EQ(content("0.exit").substr(0, 2), "3 ");
   EXPECT_EQ(content("1.exit").substr(0, 2), "4 ");
-  EXPECT_EQ(content("a/text0"), "two\nlines");
-  EXPECT_EQ(content("text1"), "two\nlines");
+  EXPECT_EQ(content("a/text"), "two\nlines");
+  EXPECT_EQ(content("text"), "two\nlines");
 }
 
 TEST_F(SlurmElement, ATaskThatTakesTooLongDoesNotEndItsElement) {
-  std::ofstream list(root_ / "list");
-  for (int k = 0; k < 2; ++k) {
-    const ChildTask task{{"-c", k == 0 ? "sleep 60" : "exit 0"}, root_.string(), (root_ / "errors").string()};
-    list << task_line("/bin/sh", task, (root_ / fmt::format("{}.exit", k)).string(), 0.5) << "\n";
-  }
-  list.close();
+  write_tasks({{"sleep 60", root_}, {"exit 0", root_}}, 0.5);
   write_script(2, 600);
   run(element(0));
   EXPECT_EQ(content("0.exit").substr(0, 4), "137 ");
