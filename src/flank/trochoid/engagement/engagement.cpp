@@ -116,11 +116,13 @@ void EngagementMeter::find_arcs(const RowFrame& frame, double t, std::span<const
   candidates_.clear();
   const RowDisc tool{0.0, 0.0, stock_.profile().largest(), stock_.profile().low(), stock_.profile().high()};
   near_.add(frame, tool, {}, own_last_, kRecent, kStride, candidates_);
+  filter_.take(candidates_, true);
   engage_all(frame, rings, true);
   // What the first look covers stays covered: the discs hold what it left open, and little else.
   if (found_.empty()) return;
   const RowDisc open = discs_of_found(rings);
   near_.add(frame, open, parts_, own_last_, 0, 1, candidates_);
+  filter_.take(candidates_, false);
   engage_all(frame, rings, false);
 }
 
@@ -192,14 +194,29 @@ bool EngagementMeter::cut_by(const NearPose& c, const ToolRing& ring, const Vec2
   return true;
 }
 
+const std::vector<ReachDisc>& EngagementMeter::discs_of_gaps(const ToolRing& ring, const Vec2& motion) {
+  reaches_.clear();
+  for (const Gap& gap : gaps_) {
+    const double middle = 0.5 * (gap.low + gap.high), half = 0.5 * (gap.high - gap.low);
+    // The disc over the arc's chord holds the arc, up to half a circle.
+    const double along = half < 0.5 * kPi ? ring.radius * std::cos(half) : 0.0;
+    const double radius = half < 0.5 * kPi ? ring.radius * std::sin(half) : ring.radius;
+    const Vec2 at = along * Vec2(std::cos(middle), std::sin(middle));
+    reaches_.push_back({motion.x() * at.x() - motion.y() * at.y(), motion.y() * at.x() + motion.x() * at.y(),
+                        radius + stock_.profile().largest()});
+  }
+  return reaches_;
+}
+
 void EngagementMeter::cut_by_poses(const ToolRing& ring, double motion_angle) {
   const Vec2 motion(std::cos(motion_angle), std::sin(motion_angle));
   // The poses that end the gaps of one ring end those of the next one, or nearly so: then all others are seen not to matter.
   bool open = true;
   for (const std::size_t k : hints_)
     if (open && !gaps_.empty()) open = cut_by(candidates_[k], ring, motion);
-  for (std::size_t k = 0; k < candidates_.size() && open && !gaps_.empty(); ++k)
-    open = cut_by(candidates_[k], ring, motion);
+  if (open && !gaps_.empty())
+    for (const std::size_t k : filter_.reaching(ring.z, discs_of_gaps(ring, motion)))
+      if (open && !gaps_.empty()) open = cut_by(candidates_[k], ring, motion);
   if (!open) gaps_.clear();
   hints_.clear();
   for (const Gap& gap : gaps_)

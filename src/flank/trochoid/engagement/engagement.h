@@ -12,6 +12,7 @@
 
 #include "flank/trochoid/engagement/arc_end.h"
 #include "flank/trochoid/engagement/near_poses.h"
+#include "flank/trochoid/engagement/pose_filter.h"
 
 namespace flank::internal {
 
@@ -81,6 +82,9 @@ class EngagementMeter {
   void engage(const RowFrame& frame, const ToolRing& ring, std::size_t index, bool rough);
   void cut_by_blank(const RowFrame& frame, const ToolRing& ring, double motion_angle);
   void cut_by_poses(const ToolRing& ring, double motion_angle);
+  /// Around the gaps: the tool of a pose whose axis is beyond all of them reaches into none. `motion`: the direction of
+  /// motion, which the gaps are measured from.
+  [[nodiscard]] const std::vector<ReachDisc>& discs_of_gaps(const ToolRing& ring, const Vec2& motion);
   /// False if the candidate covers the whole ring.
   [[nodiscard]] bool cut_by(const NearPose& candidate, const ToolRing& ring, const Vec2& motion);
   void cut(double low, double high, const Bound& bound);
@@ -100,9 +104,11 @@ class EngagementMeter {
   static constexpr int kStride = 4;
   const SweptStock& stock_;
   NearPoses near_;
+  PoseFilter filter_;
   double own_last_ = 0.0;  ///< earlier poses of the motion count up to this place
   std::vector<NearPose> candidates_;
   std::vector<RowDisc> parts_;
+  std::vector<ReachDisc> reaches_;
   std::vector<Gap> gaps_, cut_;
   std::vector<std::size_t> hints_;  ///< candidates that ended the gaps of the ring before
   std::vector<RingArc> found_;
