@@ -76,6 +76,13 @@ ToolSolid::ToolSolid(const RadialFunction& radial, double chord_mm) : chord_(cho
                kDepth, nodes_);
   add_points([&](double x) { return outline.end(true, x); }, 0.0, 1.0, chord_mm, kDepth, nodes_);
   for (const Vec2& node : nodes_) largest_ = std::max(largest_, node.y());
+  for (std::size_t first = 0; first + kBlock < nodes_.size(); first += kBlock) {
+    Block& block = blocks_.emplace_back();
+    for (std::size_t k = first; k <= first + kBlock; ++k) {
+      block.smallest = std::min(block.smallest, nodes_[k].y());
+      block.largest = std::max(block.largest, nodes_[k].y());
+    }
+  }
 }
 
 ToolLine ToolSolid::line(const Pose& pose, const Vec3& point, const Vec3& direction) {
@@ -163,6 +170,15 @@ bool ToolSolid::holds(const Pose& pose, const Vec3& point) const {
   return radius > 0.0 && across < radius * radius;
 }
 
+ToolSolid::Side ToolSolid::side_of(const ToolLine& line, const Block& block, double from, double to) {
+  const auto distance2 = [&](double k) { return (line.a * k + 2.0 * line.b) * k + line.c; };
+  const double at_from = distance2(from), at_to = distance2(to);
+  // The squared distance is convex along the line: its largest value is at an end.
+  if (std::max(at_from, at_to) < block.smallest * block.smallest) return Side::kInside;
+  const double nearest = line.a > 0.0 ? std::clamp(-line.b / line.a, from, to) : from;
+  return distance2(nearest) > block.largest * block.largest ? Side::kOutside : Side::kBoth;
+}
+
 LineCuts ToolSolid::cut(const ToolLine& line, const LineCut& within) const {
   LineCuts out;
   const double z_low = line.z0 + within.low * line.dz, z_high = line.z0 + within.high * line.dz;
@@ -173,10 +189,26 @@ LineCuts ToolSolid::cut(const ToolLine& line, const LineCut& within) const {
   }
   const bool rising = line.dz > 0.0;
   double from = within.low;
-  for (std::size_t cone = first;;) {
+  // Where the line leaves a cone upwards (`rising`) or downwards.
+  const auto leaves = [&](std::size_t cone) {
     const double end = (nodes_[rising ? cone + 1 : cone].x() - line.z0) / line.dz;
-    const double to = cone == last ? within.high : std::clamp(end, from, within.high);
-    add_cone(line, cone, from, to, out);
+    return cone == last ? within.high : std::clamp(end, from, within.high);
+  };
+  for (std::size_t cone = first;;) {
+    // A block of cones that the line passes on one side of all of them is done at once.
+    const std::size_t block = cone / kBlock, begin = block * kBlock, exit = rising ? begin + kBlock - 1 : begin;
+    const bool enters = cone == (rising ? begin : begin + kBlock - 1) && block < blocks_.size();
+    const bool whole = enters && (rising ? exit <= last : exit >= last);
+    const double end = whole ? leaves(exit) : from;
+    const Side side = whole ? side_of(line, blocks_[block], from, end) : Side::kBoth;
+    double to = end;
+    if (side == Side::kBoth) {
+      to = leaves(cone);
+      add_cone(line, cone, from, to, out);
+    } else {
+      if (side == Side::kInside && from < to) out.add(from, to);
+      cone = exit;
+    }
     if (cone == last) return out;
     from = to;
     cone = rising ? cone + 1 : cone - 1;

@@ -56,7 +56,16 @@ class ToolSolid {
   void add_cone(const ToolLine& line, std::size_t cone, double from, double to, LineCuts& out) const;
   /// The cone that has the height, ends included.
   [[nodiscard]] std::size_t cone_at(double z) const;
+  /// Radii of kBlock cones that follow each other.
+  struct Block {
+    double smallest = 1e300, largest = 0.0;
+  };
+  static constexpr std::size_t kBlock = 8;
+  enum class Side { kInside, kOutside, kBoth };
+  /// Where the line lies between two places, beside cones of such radii.
+  [[nodiscard]] static Side side_of(const ToolLine& line, const Block& block, double from, double to);
   std::vector<Vec2> nodes_;
+  std::vector<Block> blocks_;
   double largest_ = 0.0, chord_ = 0.0;
 };
 

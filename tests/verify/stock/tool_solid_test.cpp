@@ -1,0 +1,91 @@
+// Lines through the solid against a dense walk along them that asks for the radius at every height.
+#include "flank/verify/stock/tool_solid.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace flank::internal::verify {
+namespace {
+
+constexpr double kChord = 1e-4;
+
+/// Radius of the solid at a height, between its nodes; 0 beyond its ends.
+double radius_at(const ToolSolid& tool, double z) {
+  const std::vector<Vec2>& nodes = tool.nodes();
+  if (z <= tool.low() || z >= tool.high()) return 0.0;
+  std::size_t k = 1;
+  while (k + 1 < nodes.size() && nodes[k].x() < z) ++k;
+  return std::lerp(nodes[k - 1].y(), nodes[k].y(), (z - nodes[k - 1].x()) / (nodes[k].x() - nodes[k - 1].x()));
+}
+
+bool is_inside(const ToolSolid& tool, const ToolLine& line, double k) {
+  const double radius = radius_at(tool, line.z0 + k * line.dz);
+  return (line.a * k + 2.0 * line.b) * k + line.c < radius * radius;
+}
+
+/// Lines at all angles to the axis, those along it among them, that pass near to the tool.
+std::vector<ToolLine> lines_beside(const ToolSolid& tool, int count) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> height(tool.low(), tool.high()),
+      off(-1.1 * tool.largest(), 1.1 * tool.largest());
+  std::vector<ToolLine> out;
+  for (int k = 0; k < count; ++k) {
+    Vec3 direction(normal(random), normal(random), normal(random));
+    if (k % 3 == 0) direction = Vec3(0.02 * direction.x(), 0.02 * direction.y(), k % 2 == 0 ? 1.0 : -1.0);
+    if (k % 17 == 0) direction = Vec3::UnitX();
+    out.push_back(ToolSolid::line({Vec3::Zero(), Vec3::UnitZ()}, {off(random), off(random), height(random)},
+                                  direction.normalized()));
+  }
+  return out;
+}
+
+void expect_cuts_as_walked(const ToolSolid& tool) {
+  constexpr int kLines = 600, kSteps = 4000;
+  double most_off = 0.0;
+  int met = 0;
+  for (const ToolLine& line : lines_beside(tool, kLines)) {
+    LineCut within;
+    if (!tool.reach(line, tool.largest(), within)) continue;
+    const LineCuts cuts = tool.cut(line, within);
+    const double step = (within.high - within.low) / kSteps;
+    double walked = 0.0, cut = 0.0;
+    for (int k = 0; k < kSteps; ++k) walked += is_inside(tool, line, within.low + (k + 0.5) * step) ? step : 0.0;
+    for (int n = 0; n < cuts.count; ++n) {
+      const LineCut& c = cuts.cuts[static_cast<std::size_t>(n)];
+      cut += c.high - c.low;
+      EXPECT_LT(c.low, c.high);
+      EXPECT_TRUE(is_inside(tool, line, 0.5 * (c.low + c.high)));
+      EXPECT_FALSE(is_inside(tool, line, c.low - 1e-7 * tool.high()) && c.low > within.low + 1e-6);
+      EXPECT_FALSE(is_inside(tool, line, c.high + 1e-7 * tool.high()) && c.high < within.high - 1e-6);
+    }
+    met += cuts.count > 0 ? 1 : 0;
+    most_off = std::max(most_off, std::abs(walked - cut) / (4.0 * step));
+  }
+  EXPECT_GT(met, 200);
+  EXPECT_LT(most_off, 1.0) << "in steps of the walk, four of them";
+}
+
+TEST(ToolSolid, CutsLinesAsAWalkAlongThem) {
+  expect_cuts_as_walked({{ToolFamily::kBarrel, 40.0, Eigen::Vector3d(60.0, 6.0, 18.0)}, kChord});
+  expect_cuts_as_walked({{ToolFamily::kCone, 25.0, Eigen::Vector2d(2.0, 0.12)}, kChord});
+}
+
+/// A waist: lines beside it are in the tool twice.
+TEST(ToolSolid, CutsAWaistTwice) {
+  Eigen::VectorXd radii(6);
+  radii << 6.0, 4.5, 3.0, 3.0, 4.5, 6.0;
+  const ToolSolid tool(RadialFunction::spline(40.0, radii), kChord);
+  expect_cuts_as_walked(tool);
+  const double beside = 0.5 * (radius_at(tool, 20.0) + std::min(radius_at(tool, 5.0), radius_at(tool, 35.0)));
+  const ToolLine line = ToolSolid::line({Vec3::Zero(), Vec3::UnitZ()}, {beside, 0.0, 20.0}, Vec3::UnitZ());
+  LineCut within;
+  ASSERT_TRUE(tool.reach(line, tool.largest(), within));
+  EXPECT_EQ(tool.cut(line, within).count, 2);
+}
+
+}  // namespace
+}  // namespace flank::internal::verify
