@@ -9,14 +9,18 @@ namespace flank::internal {
 namespace {
 
 /// Rows of a motion, rings of the flank and of each round end.
-constexpr int kRows = 33, kRings = 7, kCaps = 5;
-/// The engagement that a search aims at, below the limit, radians: what lies between rows.
+constexpr int kRows = 33, kRings = 7, kCaps = 3;
+/// The engagement that a search aims at is at least so much below the limit, radians: what lies between rows.
 constexpr double kSearchMargin = 0.004;
 /// In radii: shorter than this no step is one, and shorter than this another shape is looked for.
 constexpr double kLeastStep = 0.004, kShortStep = 0.06;
 /// So many radii before and behind the sides places are paired; farther out both ends go equally fast.
 constexpr double kBeyond = 6.0;
 constexpr double kLeastLiftMm = 0.02;
+/// Of the shares of a shape: by which the change that is tried grows where it gained, and shrinks where it did not. Where
+/// even a small one gains nothing, the share is left alone for some turns: after those the cavity is another.
+constexpr double kGrow = 1.3, kShrink = 0.7, kMostSpan = 0.15, kLeastSpan = 0.008, kSpanAfterRest = 0.03;
+constexpr int kRest = 4;
 /// How near to the aim a step ends.
 constexpr double kAimBand = 0.009;
 /// Where it is asked how deep a half enters faces: deepest are places just off the ends, where it leaves a side that runs on
@@ -49,11 +53,14 @@ void CycleSearch::reset_shape() {
   const CycleState usual;
   now_.shape = usual.shape;
   now_.span = usual.span;
+  now_.rest = usual.rest;
   now_.turn = 0, now_.improved = 0;
-  now_.aim_rad = options_.largest_rad - kSearchMargin;
+  now_.excess_rad = 0.0;
   now_.step_mm = 0.2 * radius_;
   now_.lift_mm = 0.0;
 }
+
+double CycleSearch::aim() const { return options_.largest_rad - std::max(kSearchMargin, now_.excess_rad); }
 
 double CycleSearch::gap_at(const Trial& t) const {
   const double middle = 0.5 * sides_.from.axis_length();
@@ -95,7 +102,7 @@ Trial CycleSearch::tried(double step, const CycleShape& shape, bool measured) {
 }
 
 Trial CycleSearch::longest_step(const CycleShape& shape, double guess) {
-  const double most = 1.2 * radius_, goal = depth_of_cut(now_.aim_rad - 0.5 * kAimBand);
+  const double most = 1.2 * radius_, goal = depth_of_cut(aim() - 0.5 * kAimBand);
   double low = 0.0, low_depth = 0.0, high = 0.0, high_depth = 0.0;
   Trial best;
   best.largest_rad = -1.0;
@@ -103,10 +110,10 @@ Trial CycleSearch::longest_step(const CycleShape& shape, double guess) {
   for (int k = 0; k < 12; ++k) {
     Trial trial = tried(step, shape, true);
     const double depth = depth_of_cut(trial.largest_rad);
-    if (trial.largest_rad <= now_.aim_rad) {
+    if (trial.largest_rad <= aim()) {
       low = step, low_depth = depth;
       best = std::move(trial);
-      if (best.largest_rad > now_.aim_rad - kAimBand || step >= most) break;
+      if (best.largest_rad > aim() - kAimBand || step >= most) break;
     } else {
       high = step, high_depth = depth;
       refused_ = step;
@@ -128,9 +135,15 @@ void CycleSearch::improve(Trial& best) {
   constexpr double kBetter = 1.002;
   // Of seven, in turn: shapes change little from cycle to cycle. The first ones, which begin with a guess, try them all.
   constexpr int kVariables = 3, kFirst = 8;
-  const int count = ++now_.improved <= kFirst ? static_cast<int>(now_.shape.share.size()) : kVariables;
-  for (int k = 0; k < count; ++k) {
+  const int all = static_cast<int>(now_.shape.share.size());
+  const int count = ++now_.improved <= kFirst ? all : kVariables;
+  for (int k = 0, looked = 0; k < all && looked < count; ++k) {
     const std::size_t v = now_.turn++ % now_.shape.share.size();
+    if (now_.rest[v] > 0) {
+      --now_.rest[v];
+      continue;
+    }
+    ++looked;
     bool better = false;
     for (const double sign : {1.0, -1.0}) {
       CycleShape shape = now_.shape;
@@ -139,9 +152,8 @@ void CycleSearch::improve(Trial& best) {
       const double step = best.from_x - now_.last.from_x;
       // What it would be worth at the aim is known well enough to see what is not worth a search.
       const Trial probe = tried(step, shape, true);
-      const double longer = depth_of_cut(now_.aim_rad) / depth_of_cut(probe.largest_rad);
-      if (longer * probe.worth() <= depth_of_cut(now_.aim_rad) / depth_of_cut(best.largest_rad) * best.worth())
-        continue;
+      const double longer = depth_of_cut(aim()) / depth_of_cut(probe.largest_rad);
+      if (longer * probe.worth() <= depth_of_cut(aim()) / depth_of_cut(best.largest_rad) * best.worth()) continue;
       const Trial trial = longest_step(shape, longer * step);
       if (trial.largest_rad < 0.0 || !(trial.worth() > kBetter * best.worth())) continue;
       if (enters_anything(trial)) continue;
@@ -150,28 +162,52 @@ void CycleSearch::improve(Trial& best) {
       better = true;
       break;
     }
-    now_.span[v] = std::clamp(now_.span[v] * (better ? 1.3 : 0.7), 0.005, 0.15);
+    now_.span[v] = std::min(now_.span[v] * (better ? kGrow : kShrink), kMostSpan);
+    if (now_.span[v] >= kLeastSpan) continue;
+    now_.span[v] = kSpanAfterRest;
+    now_.rest[v] = kRest;
   }
+}
+
+std::vector<CycleSearch::Prospect> CycleSearch::prospects() {
+  const double step = kShortStep * radius_;
+  std::vector<Prospect> out;
+  for (const double handle : {0.08, 0.16, 0.26}) {
+    for (const double bulge : {-0.08, 0.0, 0.08, 0.16, 0.28}) {
+      Prospect prospect{now_.shape};
+      prospect.shape.share[0] = prospect.shape.share[1] = handle;
+      prospect.shape.share[2] = bulge;
+      const Trial probe = tried(step, prospect.shape, true);
+      const double longer = depth_of_cut(aim()) / depth_of_cut(probe.largest_rad);
+      prospect.enters = enters_anything(probe);
+      prospect.step = longer * step;
+      prospect.worth = longer * probe.worth();
+      out.push_back(prospect);
+    }
+  }
+  std::stable_sort(out.begin(), out.end(), [](const Prospect& a, const Prospect& b) {
+    return a.enters != b.enters ? b.enters : a.worth > b.worth;
+  });
+  return out;
 }
 
 /// Fronts from flat to steep, where the shape of the last cycle does not get on, or enters a side: the best of those that
 /// enter none, if there is one.
 void CycleSearch::reshape(Trial& best) {
-  const CycleShape before = now_.shape;
+  /// Of those that promise most so many are searched, and more only where none of them gets on.
+  constexpr int kSearched = 4;
   bool entering = best.largest_rad >= 0.0 && enters_anything(best);
-  for (const double handle : {0.08, 0.16, 0.26}) {
-    for (const double bulge : {-0.08, 0.0, 0.08, 0.16, 0.28}) {
-      CycleShape shape = before;
-      shape.share[0] = shape.share[1] = handle;
-      shape.share[2] = bulge;
-      Trial trial = longest_step(shape, 0.15 * radius_);
-      if (trial.largest_rad < 0.0 || (!entering && trial.worth() <= best.worth())) continue;
-      const bool enters = enters_anything(trial);
-      if (enters && (!entering || trial.worth() <= best.worth())) continue;
-      entering = enters;
-      best = std::move(trial);
-      now_.shape = shape;
-    }
+  int searched = 0;
+  for (const Prospect& prospect : prospects()) {
+    if (searched >= kSearched && best.largest_rad >= 0.0 && !entering) break;
+    ++searched;
+    Trial trial = longest_step(prospect.shape, prospect.step);
+    if (trial.largest_rad < 0.0 || (!entering && trial.worth() <= best.worth())) continue;
+    const bool enters = enters_anything(trial);
+    if (enters && (!entering || trial.worth() <= best.worth())) continue;
+    entering = enters;
+    best = std::move(trial);
+    now_.shape = prospect.shape;
   }
 }
 

@@ -42,9 +42,12 @@ struct CycleState {
   CycleShape shape;
   /// By which the shares of the shape are changed.
   std::array<double, 7> span = {0.05, 0.05, 0.08, 0.05, 0.05, 0.08, 0.05};
+  std::array<int, 7> rest = {};  ///< turns for which a share is left alone
   std::size_t turn = 0;
   int improved = 0;  ///< cycles whose shape was searched
-  double aim_rad = 0.0, step_mm = 0.0, lift_mm = 0.0;
+  /// By which fine samples are expected to see more engagement than those of the search, radians.
+  double excess_rad = 0.0;
+  double step_mm = 0.0, lift_mm = 0.0;
   double largest_front_mm3 = 0.0;
   std::size_t sweeps = 0;  ///< in the stock
 };
@@ -74,6 +77,8 @@ class CycleSearch {
   /// Whether a half enters a face by more than the tolerance and more than its ends; no lift and no shorter step helps
   /// there, another shape may.
   [[nodiscard]] bool enters_anything(const Trial& trial) const;
+  /// The engagement that a search may see, so that fine samples see no more than the limit, radians.
+  [[nodiscard]] double aim() const;
   /// The last step that was too long, mm.
   [[nodiscard]] double refused() const { return refused_; }
 
@@ -86,6 +91,14 @@ class CycleSearch {
   [[nodiscard]] Trial tried(double step, const CycleShape& shape, bool measured);
   [[nodiscard]] Trial longest_step(const CycleShape& shape, double guess);
   void improve(Trial& best);
+  /// A shape and what one trial of it says of its longest step, mm, and what that would be worth.
+  struct Prospect {
+    CycleShape shape;
+    double step = 0.0, worth = 0.0;
+    bool enters = false;
+  };
+  /// Of fronts from flat to steep, those that enter no face first, then the worthiest.
+  [[nodiscard]] std::vector<Prospect> prospects();
   void reshape(Trial& best);
   /// Lifts the inner points of both halves for as long as their tips enter something, if that helps.
   void lift(Trial& best);

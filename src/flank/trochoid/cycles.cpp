@@ -15,9 +15,11 @@ constexpr double kFarOut = 4.0;
 constexpr int kMostDoublings = 5;
 /// Of the largest front's volume: a front behind the end that takes less is the last.
 constexpr double kNothing = 1e-3;
-/// By which share of what it is below the limit the aim of a search comes back with every cycle, and at least, radians. A
-/// search that fails at the fine samples is repeated: what they see more of, cycle after cycle, is not to be forgotten at once.
-constexpr double kReturn = 0.15, kLeastReturn = 0.001;
+/// Of what the fine samples saw more than those of the search, this share is expected of the next cycle, if it sees less:
+/// what one cycle has, others near it are likely to have, and a search that fails at the fine samples is repeated.
+constexpr double kKept = 0.7;
+/// An aim that failed is lowered by at least so much, radians.
+constexpr double kLeastLess = 0.002;
 /// Cycles that are taken back where none gets on, at first, and how often.
 constexpr std::size_t kFirstRewind = 4;
 constexpr int kMostRewinds = 6;
@@ -90,9 +92,10 @@ bool CyclePlanner::accept(Trial trial, LayerCycles& out) {
   const double largest = std::max(cycle.front.peak.angle_rad, cycle.back ? cycle.back->peak.angle_rad : 0.0);
   if (largest > options_.largest_rad) {
     if (trial.back) stock_.remove_last();
-    now_.aim_rad -= std::max(0.002, 1.05 * (largest - options_.largest_rad));
+    now_.excess_rad = std::max(now_.excess_rad + kLeastLess, 1.05 * (largest - trial.largest_rad));
     return false;
   }
+  now_.excess_rad = std::max(kKept * now_.excess_rad, largest - trial.largest_rad);
   stock_.add(Sweep::of(trial.front, kHalfIntervals));
   cycle.entered_mm = search_.entered(trial);
   out.cycles.push_back(std::move(cycle));
@@ -102,7 +105,7 @@ bool CyclePlanner::accept(Trial trial, LayerCycles& out) {
 
 bool CyclePlanner::accept_some(Trial trial, bool entering, LayerCycles& out) {
   constexpr int kAims = 4, kTries = 16;
-  const double aim = now_.aim_rad;
+  const double excess = now_.excess_rad;
   double step = trial.from_x - now_.last.from_x;
   for (int k = 0; k < kTries && trial.largest_rad >= 0.0; ++k) {
     // A shorter step may enter what the longer one does not.
@@ -112,7 +115,7 @@ bool CyclePlanner::accept_some(Trial trial, bool entering, LayerCycles& out) {
       step = std::min(step, trial.from_x - now_.last.from_x);
     } else {
       // What the coarse samples miss does not follow the aim: shorter steps do.
-      now_.aim_rad = aim;
+      now_.excess_rad = excess;
       step *= 0.75;
       if (step < search_.least_step()) break;
       trial = search_.tried(step, true);
@@ -153,9 +156,6 @@ bool CyclePlanner::add_cycle(LayerCycles& out) {
   if (entering && options_.optimise && rewinds_ < kRewindsForFaces) return false;
   now_.step_mm = best.from_x - now_.last.from_x;
   if (!accept_some(best, entering, out)) return false;
-  // The aim comes back, a share of the way each time: what made it too high may have been this cycle alone.
-  const double highest = options_.largest_rad - kLeastReturn;
-  now_.aim_rad = std::min(now_.aim_rad + std::max(kLeastReturn, kReturn * (highest - now_.aim_rad)), highest);
   now_.largest_front_mm3 = std::max(now_.largest_front_mm3, out.cycles.back().front.engagement.volume_mm3);
   return true;
 }
