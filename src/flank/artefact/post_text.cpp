@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "flank/artefact/acceptance.h"
 #include "flank/io/text/json_dump.h"
 #include "flank/run.h"
