@@ -1,3 +1,5 @@
+#include "flank/verify/sample_face.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -6,7 +8,6 @@
 #include "flank/error.h"
 #include "flank/judge.h"
 #include "flank/verify/proof/border.h"
-#include "flank/verify/sampler.h"
 #include "flank/verify/trim.h"
 
 namespace flank {

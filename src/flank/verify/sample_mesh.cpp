@@ -1,3 +1,5 @@
+#include "flank/verify/sample_mesh.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +8,6 @@
 
 #include "flank/error.h"
 #include "flank/judge.h"
-#include "flank/verify/sampler.h"
 
 namespace flank {
 namespace {

@@ -3,13 +3,12 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
-#include <string>
 
 #include "flank/judge.h"
 
 namespace flank::internal::verify {
 
+/// Made by make_sampler: of a trimmed face (sample_face.h) or of a mesh (sample_mesh.h).
 class Sampler {
  public:
   virtual ~Sampler() = default;
@@ -21,11 +20,5 @@ class Sampler {
   /// Diagonal of a box about the face, mm, about.
   [[nodiscard]] virtual double size_mm() const = 0;
 };
-
-/// Tiles of about `most_samples` (at least a row of cells). Face and mesh must outlive the sampler. Throw as sample_face.
-[[nodiscard]] std::unique_ptr<Sampler> make_sampler(const Face& face, double spacing_mm, bool target,
-                                                    std::size_t most_samples);
-[[nodiscard]] std::unique_ptr<Sampler> make_sampler(const std::string& id, const TriangleMesh& mesh, double spacing_mm,
-                                                    bool target, std::size_t most_samples);
 
 }  // namespace flank::internal::verify

@@ -11,7 +11,8 @@
 #include "flank/pipeline/folder/target_reach.h"
 #include "flank/setup/targets.h"
 #include "flank/verify/judge_faces.h"
-#include "flank/verify/sampler.h"
+#include "flank/verify/sample_face.h"
+#include "flank/verify/sample_mesh.h"
 
 namespace flank::internal {
 namespace {
