@@ -49,7 +49,7 @@ def header_names():
     for header in sorted([*(ROOT / "src").rglob("*.h"), *(ROOT / "include").rglob("*.h")]):
         text = header.read_text()
         functions |= set(re.findall(r"^(?:\[\[nodiscard\]\] )?[A-Za-z][^=;(){]*?\b(\w+)\(", text, re.MULTILINE))
-        for name in re.findall(r"^(?:struct|class|enum class|using) (\w+)(?=[ :{=][^;]*(?:\{|= ))", text, re.MULTILINE):
+        for name in re.findall(r"^(?:struct|class|enum class|using) (\w+(?:::\w+)*)(?=[ :{=][^;]*(?:\{|= ))", text, re.MULTILINE):
             if headers.setdefault(name, (header, text))[0] != header and not re.search(rf"^using {name} =", text, re.MULTILINE):
                 sys.exit(f"{name} is defined in {headers[name][0].name} and in {header.name}")
     return set(headers), functions

@@ -1,9 +1,9 @@
+#include "flank/verify/swept_volume.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "flank/base/assert.h"
-#include "flank/judge.h"
-#include "flank/verify/swept/swept_search.h"
 
 namespace flank {
 namespace {
@@ -21,39 +21,32 @@ double piece_reach(const RadialTable& radial) {
 
 }  // namespace
 
-struct SweptVolume::Data {
-  Tool tool;
-  ToolDistance distance;
-  PoseTree tree;
-  Data(const Tool& t, const Path& path)
-      : tool(t), distance(t.radial), tree(path, t.radial.axis_length(), piece_reach(distance.radial())) {}
+SweptVolume::Data::Data(const Tool& t, const Path& path)
+    : tool(t), distance(t.radial), tree(path, t.radial.axis_length(), piece_reach(distance.radial())) {}
 
-  /// The value at a place, by the tool's own radial function.
-  [[nodiscard]] SweptDistance at(const Vec3& x, const SweptPlace& place) const {
-    if (place.piece < 0) return {place.f, -1, 0.0, 0.0};
-    const Segment& g = tree.segment_of(place.piece);
-    const double f = (x - g.at(place.tau).at(place.s)).norm() - tool.radial.at(place.s).r;
-    return {f, g.strip, g.pose + place.tau, place.s};
-  }
+SweptDistance SweptVolume::Data::at(const Vec3& x, const SweptPlace& place) const {
+  if (place.piece < 0) return {place.f, -1, 0.0, 0.0};
+  const Segment& g = tree.segment_of(place.piece);
+  const double f = (x - g.at(place.tau).at(place.s)).norm() - tool.radial.at(place.s).r;
+  return {f, g.strip, g.pose + place.tau, place.s};
+}
 
-  /// The place in terms of the tree.
-  [[nodiscard]] SweptPlace find(const SweptDistance& place) const {
-    const auto before = [&](const Piece& piece) {
-      const Segment& g = tree.segments[static_cast<std::size_t>(piece.segment)];
-      return g.strip < place.strip || (g.strip == place.strip && g.pose + piece.high < place.t);
-    };
-    const auto at = std::partition_point(tree.pieces.begin(), tree.pieces.end(), before);
-    const int piece = static_cast<int>(std::min(at, tree.pieces.end() - 1) - tree.pieces.begin());
-    return {place.f, piece, place.t - tree.segment_of(piece).pose, place.s};
-  }
-};
+SweptPlace SweptVolume::Data::find(const SweptDistance& place) const {
+  const auto before = [&](const Piece& piece) {
+    const Segment& g = tree.segments[static_cast<std::size_t>(piece.segment)];
+    return g.strip < place.strip || (g.strip == place.strip && g.pose + piece.high < place.t);
+  };
+  const auto at = std::partition_point(tree.pieces.begin(), tree.pieces.end(), before);
+  const int piece = static_cast<int>(std::min(at, tree.pieces.end() - 1) - tree.pieces.begin());
+  return {place.f, piece, place.t - tree.segment_of(piece).pose, place.s};
+}
 
 SweptVolume::SweptVolume(const Tool& tool, const Path& path) : data_(std::make_unique<const Data>(tool, path)) {}
 SweptVolume::~SweptVolume() = default;
 SweptVolume::SweptVolume(SweptVolume&&) noexcept = default;
 
 SweptDistance SweptVolume::distance(const Vec3& x, double horizon_mm) const {
-  return data_->at(x, SweptSearch(data_->distance, data_->tree, x).run(horizon_mm, {}));
+  return data_->at(x, data_->search(x).run(horizon_mm, {}));
 }
 
 void SweptVolume::distances(std::span<const Vec3> points, double horizon_mm, std::span<SweptDistance> out) const {
@@ -65,7 +58,7 @@ void SweptVolume::distances(std::span<const Vec3> points, std::span<const double
   FLANK_ASSERT(out.size() == points.size() && horizons_mm.size() == points.size());
   SweptPlace near;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const SweptPlace place = SweptSearch(data_->distance, data_->tree, points[i]).run(horizons_mm[i], near);
+    const SweptPlace place = data_->search(points[i]).run(horizons_mm[i], near);
     out[i] = data_->at(points[i], place);
     if (place.piece >= 0) near = place;
   }
@@ -73,7 +66,7 @@ void SweptVolume::distances(std::span<const Vec3> points, std::span<const double
 
 SweptDistance SweptVolume::distance_from(const Vec3& x, const SweptDistance& near) const {
   FLANK_ASSERT(near.strip >= 0);
-  SweptSearch search(data_->distance, data_->tree, x);
+  SweptSearch search = data_->search(x);
   const SweptPlace start = data_->find(near);
   const SweptPlace place = search.descend_from(start);
   return data_->at(x, place.piece >= 0 ? place : start);
