@@ -2,65 +2,53 @@
 
 #include <cmath>
 
+#include "flank/verify/swept/sphere_distance.h"
+
 namespace flank::internal::verify {
 namespace {
 
-constexpr double kPolishedMm = 1e-6;     ///< last step of s; what is left of the value is its square
 constexpr double kSingleMinimum = 0.95;  ///< of rho times the focal curvature: up to here there is one minimum only
-/// Steps of Newton's method for s, least q = 1 - r'^2, and least slope: with less the root is nearly double, and steps
-/// run away. Whoever fails any of these is searched for without the grid.
-constexpr int kMostSteps = 16;
-constexpr double kLeastQ = 1e-6, kLeastSlope = 0.02;
+constexpr double kLeastQ = 1e-9;         ///< of 1 - r'^2: a radial function that is no tool must not divide by zero
 /// Of a step of the radial table: where golden section stops and Newton's method goes on.
 constexpr double kNarrowed = 1e-3;
 /// The corners of a cell agree on one minimum if their s differ by less than so many steps of the grid, and this share
 /// of L.
 constexpr double kAgreedSteps = 4.0, kAgreedShare = 0.05;
 
+double largest_focal_curvature(const RadialTable& radial) {
+  double largest = 0.0;
+  for (int i = 0; i <= 4 * radial.count(); ++i) {
+    const RadialJet j = radial.at(0.25 * i * radial.step());
+    const double q = std::max(kLeastQ, 1.0 - j.d1 * j.d1);
+    largest = std::max(largest, j.d2 / (q * std::sqrt(q)));
+  }
+  return largest;
+}
+
 }  // namespace
 
-double ToolDistance::value(double z, double rho, double s) const {
-  return std::sqrt((z - s) * (z - s) + rho * rho) - radial_.at(s).r;
-}
-
-// A stationary s solves (s - z)/D = r', that is s - z - rho r'/sqrt(1 - r'^2) = 0. This form has no pole at D = 0 and
-// its slope 1 - rho r''/(1 - r'^2)^(3/2) is positive exactly at minima.
-bool ToolDistance::polish(double z, double rho, double& s) const {
-  for (int i = 0; i < kMostSteps; ++i) {
-    const RadialJet j = radial_.at(s);
-    const double q = 1.0 - j.d1 * j.d1;
-    if (q < kLeastQ) return false;
-    const double w = 1.0 / std::sqrt(q);
-    const double residual = s - z - rho * j.d1 * w;
-    const double slope = 1.0 - rho * j.d2 * w * w * w;
-    if (slope < kLeastSlope) return false;
-    const double next = std::clamp(s - residual / slope, 0.0, radial_.length());
-    const double step = std::abs(next - s);
-    s = next;
-    if (step < kPolishedMm) return true;
-  }
-  return false;
-}
+ToolDistance::ToolDistance(const RadialFunction& radial)
+    : radial_(radial), focal_curvature_(largest_focal_curvature(radial_)), grids_(tool_grids(radial_)) {}
 
 // The least value near a node of the radial table: golden section between its neighbours, then the stationary point.
 NearestSphere ToolDistance::narrow(double z, double rho, int node) const {
   constexpr double kGolden = 0.6180339887498949;
   double a = radial_.node(std::max(0, node - 1)), b = radial_.node(std::min(radial_.count(), node + 1));
   double c = b - kGolden * (b - a), d = a + kGolden * (b - a);
-  double vc = value(z, rho, c), vd = value(z, rho, d);
+  double vc = sphere_distance(radial_, z, rho, c), vd = sphere_distance(radial_, z, rho, d);
   while (b - a > kNarrowed * radial_.step()) {
     if (vc < vd) {
-      b = d, d = c, vd = vc, c = b - kGolden * (b - a), vc = value(z, rho, c);
+      b = d, d = c, vd = vc, c = b - kGolden * (b - a), vc = sphere_distance(radial_, z, rho, c);
     } else {
-      a = c, c = d, vc = vd, d = a + kGolden * (b - a), vd = value(z, rho, d);
+      a = c, c = d, vc = vd, d = a + kGolden * (b - a), vd = sphere_distance(radial_, z, rho, d);
     }
   }
-  NearestSphere found{value(z, rho, 0.5 * (a + b)), 0.5 * (a + b), false};
-  const double at_node = value(z, rho, radial_.node(node));
+  NearestSphere found{sphere_distance(radial_, z, rho, 0.5 * (a + b)), 0.5 * (a + b), false};
+  const double at_node = sphere_distance(radial_, z, rho, radial_.node(node));
   if (at_node < found.g) found = {at_node, radial_.node(node), false};
   double polished = found.s;
-  if (polish(z, rho, polished) && value(z, rho, polished) <= found.g)
-    found = {value(z, rho, polished), polished, false};
+  if (polish_sphere(radial_, z, rho, polished) && sphere_distance(radial_, z, rho, polished) <= found.g)
+    found = {sphere_distance(radial_, z, rho, polished), polished, false};
   return found;
 }
 
@@ -114,16 +102,16 @@ int ToolDistance::minima(double z, double rho, double below, std::array<double, 
 
 NearestSphere ToolDistance::nearest(double z, double rho) const {
   const bool single = rho * focal_curvature_ < kSingleMinimum;
-  if (const Grid* grid = grid_around(z, rho)) {
+  if (const ToolGrid* grid = grid_around(z, rho)) {
     double fz = 0.0, fr = 0.0;
-    const Node* lower = grid->cell(z, rho, fz, fr);
-    const Node* upper = lower + grid->columns;
+    const ToolGrid::Node* lower = grid->cell(z, rho, fz, fr);
+    const ToolGrid::Node* upper = lower + grid->columns;
     const auto [low, high] = std::minmax({lower[0].s, lower[1].s, upper[0].s, upper[1].s});
     // With several minima the grid is trusted only where all corners of the cell agree on one.
     const double agreed = std::min(kAgreedSteps * (grid->z_step + grid->rho_step), kAgreedShare * radial_.length());
     if (single || high - low < agreed) {
       double s = single ? grid->interpolate(z, rho).s : 0.5 * (static_cast<double>(low) + high);
-      if (polish(z, rho, s)) return {value(z, rho, s), s, false};
+      if (polish_sphere(radial_, z, rho, s)) return {sphere_distance(radial_, z, rho, s), s, false};
     }
   }
   NearestSphere best = search(z, rho);
