@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "flank/artefact/verify_json.h"
+#include "flank/artefact/verify_text.h"
 
 namespace flank::internal {
 namespace {

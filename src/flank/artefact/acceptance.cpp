@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace flank::internal {
 namespace {
@@ -145,28 +144,6 @@ void accept_cavity(const TrochoidSummary& cavity, Acceptance& acceptance) {
       acceptance.reasons.push_back({"cycles", fmt::format("layer {} is {} after {} cycles", k + 1,
                                                           cavity.layers[k].status, cavity.layers[k].cycles)});
   if (cavity.layers.empty()) acceptance.reasons.push_back({"cycles", "no cycle was planned"});
-}
-
-std::string reach_text(const VerifyReport& report) {
-  std::string text =
-      fmt::format("reachable   {:.2f} % of the target (ball of radius {:.4g} mm), of which {:.2f} % is covered",
-                  100.0 * report.reachable_share, report.reach_radius_mm, 100.0 * report.coverage_reachable);
-  if (report.coverage_reachable_bound) {
-    // Rounded down: what is printed is proved, too.
-    constexpr double kDigits = 1e4;
-    text += fmt::format(", {:.2f} % proved", std::floor(kDigits * *report.coverage_reachable_bound) * 100.0 / kDigits);
-  }
-  return text;
-}
-
-std::string depth_text(const VerifyReport& report) {
-  if (report.depth == DepthProof::kSampled)
-    return fmt::format(
-        "sampled: only the samples were looked at; between them the target may be cut {:.4f} mm deep, other faces "
-        "{:.4f} mm",
-        report.overcut_bound_mm, report.gouge_bound_mm);
-  return fmt::format("proved: no place of the target is cut deeper than {:.4f} mm, none of other faces {:.4f} mm",
-                     report.overcut_bound_mm, report.gouge_bound_mm);
 }
 
 std::string reason_lines(const Acceptance& acceptance) {

@@ -22,12 +22,6 @@ void accept_stock(const StockReport& stock, double most_engagement_deg, double t
 /// Adds what is not as asked of a cavity's cycles: their engagement, and that they are all there.
 void accept_cavity(const TrochoidSummary& cavity, Acceptance& acceptance);
 
-/// "reachable   93.10 % of the target (ball of radius 1.5 mm), of which 99.20 % is covered".
-[[nodiscard]] std::string reach_text(const VerifyReport& report);
-
-/// "proved: no place of the target is cut deeper than 0.0083 mm, none of other faces 0.0000 mm", or that samples were all.
-[[nodiscard]] std::string depth_text(const VerifyReport& report);
-
 /// "              F88 is entered ..." a line for each reason.
 [[nodiscard]] std::string reason_lines(const Acceptance& acceptance);
 

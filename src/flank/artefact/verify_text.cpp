@@ -1,10 +1,62 @@
-// The verdict of verify as a table for a terminal.
+#include "flank/artefact/verify_text.h"
+
 #include <fmt/format.h>
+
+#include <cmath>
 
 #include "flank/artefact/acceptance.h"
 #include "flank/artefact/cavity/stock_json.h"
-#include "flank/artefact/clearance_text.h"
 #include "flank/run.h"
+
+namespace flank::internal {
+namespace {
+
+const char* role_words(ObstacleRole role) {
+  return role == ObstacleRole::kTarget ? "the target" : role == ObstacleRole::kPart ? "other faces" : "fixtures";
+}
+
+}  // namespace
+
+std::string reach_text(const VerifyReport& report) {
+  std::string text =
+      fmt::format("reachable   {:.2f} % of the target (ball of radius {:.4g} mm), of which {:.2f} % is covered",
+                  100.0 * report.reachable_share, report.reach_radius_mm, 100.0 * report.coverage_reachable);
+  if (report.coverage_reachable_bound) {
+    // Rounded down: what is printed is proved, too.
+    constexpr double kDigits = 1e4;
+    text += fmt::format(", {:.2f} % proved", std::floor(kDigits * *report.coverage_reachable_bound) * 100.0 / kDigits);
+  }
+  return text;
+}
+
+std::string depth_text(const VerifyReport& report) {
+  if (report.depth == DepthProof::kSampled)
+    return fmt::format(
+        "sampled: only the samples were looked at; between them the target may be cut {:.4f} mm deep, other faces "
+        "{:.4f} mm",
+        report.overcut_bound_mm, report.gouge_bound_mm);
+  return fmt::format("proved: no place of the target is cut deeper than {:.4f} mm, none of other faces {:.4f} mm",
+                     report.overcut_bound_mm, report.gouge_bound_mm);
+}
+
+std::string clearance_text(const ClearanceReport& report) {
+  std::string text;
+  for (const ClearanceFigure& f : report.figures) {
+    const bool enters = f.clearance_mm < 0.0;
+    const std::string size = enters ? fmt::format("enters {} by {:.4f} mm", role_words(f.role), -f.clearance_mm)
+                                    : fmt::format("keeps {:.4f} mm from {}", f.clearance_mm, role_words(f.role));
+    text += fmt::format(
+        "  {:<11} {}, true to {:.4f} mm: {} at ({:.3f}, {:.3f}, {:.3f}), strip {}, pose {:.2f}, z {:.2f}{}\n",
+        body_name(f.body), size, f.bound_mm, f.obstacle, f.point.x(), f.point.y(), f.point.z(), f.strip + 1, f.t,
+        f.z_mm,
+        f.kept   ? ""
+        : enters ? "  COLLISION"
+                 : "  TOO NEAR");
+  }
+  return text;
+}
+
+}  // namespace flank::internal
 
 namespace flank {
 using namespace internal;

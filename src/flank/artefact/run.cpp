@@ -1,25 +1,25 @@
-// The summary of a fit: a table for people, JSON for programs.
+// What a result says of itself: whether it meets its request, totals of its plan, summaries. The commands that make results
+// are in pipeline (run_fit, run_cover, run_trochoid; pipeline/folder).
+#include "flank/run.h"
+
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "flank/artefact/acceptance.h"
 #include "flank/artefact/cavity/stock_json.h"
-#include "flank/artefact/cavity/trochoid_json.h"
-#include "flank/artefact/clearance_text.h"
+#include "flank/artefact/plan_json.h"
 #include "flank/artefact/ranking_json.h"
 #include "flank/artefact/verify_json.h"
+#include "flank/artefact/verify_text.h"
 #include "flank/io/text/json_dump.h"
 #include "flank/job/command_line.h"
-#include "flank/run.h"
 
 namespace flank {
 using namespace internal;
 namespace {
-
-/// A share as people read it.
-std::string percent(double share) { return fmt::format("{:.2f} %", 100.0 * share); }
 
 /// Interrupted before there was a verdict.
 bool was_stopped(const Result& result) { return !result.complete && result.verify.verdict == Verdict::kNotRun; }
@@ -34,7 +34,7 @@ std::string error_lines(const Result& result) {
       result.path.strips.size(), result.path.strips.size() == 1 ? "" : "s", result.path.pose_count(),
       result.chord_bound_mm, result.largest_c, result.largest_turn_rad * 180.0 / std::numbers::pi);
   if (was_stopped(result)) return text + "  judged      not at all\n";
-  text += fmt::format("  coverage    {} of the target within {} mm\n", percent(v.coverage), v.tolerance_mm);
+  text += fmt::format("  coverage    {:.2f} % of the target within {} mm\n", 100.0 * v.coverage, v.tolerance_mm);
   text += "  " + reach_text(v) + "\n";
   text += fmt::format("  overcut     {:.6f} mm\n", v.overcut_mm);
   text += fmt::format("  undercut    {:.6f} mm where the path touches, {:.4f} mm anywhere on the target\n",
@@ -73,59 +73,60 @@ std::string stiffness_line(const Tool& tool) {
       bent.slenderness, bent.equivalent_diameter_mm, bent.length_mm, bent.deflection_um, kStiffnessForce);
 }
 
-/// What only this kind of plan has to tell; the overloads are chosen by the result's own plan.
-std::string plan_lines(const CoverSummary& cover) {
-  std::string text;
-  for (const TargetCover& t : cover.targets)
-    text += fmt::format(
-        "  cover       {}: {} strip{} from {} seeds, {} lines and {} candidates; {} of what is reachable before "
-        "smoothing, {} after, overlap {}, links {:.1f} mm\n",
-        t.faces, t.strips, t.strips == 1 ? "" : "s", t.seeds, t.lines, t.grown, percent(t.before), percent(t.after),
-        percent(t.overlap), t.links_mm);
-  return text;
-}
-std::string plan_lines(const FitSummary&) { return ""; }
-std::string plan_lines(const TrochoidSummary& cavity) { return trochoid_lines(cavity); }
-
-/// Coverage and overcut together: neither means anything without the other.
-nlohmann::ordered_json share_json(const PlannedShare& share) {
-  return {{"coverage", share.coverage}, {"overcut", share.overcut_mm}};
-}
-
-/// The keys "candidates", "before" and "after" are the same for every kind of plan, so that scripts can compare them.
-void add_plan(const FitSummary& fit, nlohmann::ordered_json& json) {
-  json["candidates"] = fit.candidates;
-  json["before"] = share_json(fit.before);
-  json["after"] = share_json(fit.after);
-  json["residuals"] = {{"rms", fit.rms_mm}, {"largest", fit.largest_mm}, {"inside_share", fit.inside_share}};
-  auto& trace = json["trace"] = nlohmann::ordered_json::array();
-  for (const FitStep& step : fit.trace)
-    trace.push_back(
-        {{"cost", step.cost}, {"rms", step.rms_mm}, {"largest", step.largest_mm}, {"damping", step.damping}});
-}
-
-void add_plan(const TrochoidSummary& cavity, nlohmann::ordered_json& json) {
-  add_plan(cavity.sides, json);
-  json["cavity"] = trochoid_to_json(cavity);
-}
-
-nlohmann::ordered_json target_json(const TargetCover& t) {
-  return {{"faces", t.faces}, {"area", t.area_mm2},   {"seeds", t.seeds},         {"lines", t.lines},
-          {"grown", t.grown}, {"strips", t.strips},   {"reachable", t.reachable}, {"before", t.before},
-          {"after", t.after}, {"overlap", t.overlap}, {"links", t.links_mm},      {"overcut", t.overcut_mm}};
-}
-
-void add_plan(const CoverSummary& cover, nlohmann::ordered_json& json) {
-  const TargetCover whole = cover.whole();
-  json["candidates"] = whole.grown;
-  json["before"] = share_json({whole.before, 0.0});
-  json["after"] = share_json({whole.after, whole.overcut_mm});
-  json["cover"] = target_json(whole);
-  auto& targets = json["targets"] = nlohmann::ordered_json::array();
-  for (const TargetCover& t : cover.targets) targets.push_back(target_json(t));
-}
-
 }  // namespace
+
+Acceptance Result::acceptance() const {
+  const double least_coverage = std::visit([](const auto& request) { return request.judge.least_coverage; }, job);
+  Acceptance out = accept(tool, verify, least_coverage, complete);
+  if (const auto* cavity = std::get_if<TrochoidSummary>(&plan)) accept_cavity(*cavity, out);
+  if (const auto* cavity = std::get_if<TrochoidJob>(&job); cavity && verify.stock)
+    accept_stock(*verify.stock, cavity->cycles.most_engagement_deg, verify.tolerance_mm, out);
+  return out;
+}
+
+double TrochoidSummary::largest_deg() const {
+  double largest = 0.0;
+  for (const LayerSummary& layer : layers) largest = std::max({largest, layer.front_deg, layer.back_deg});
+  return largest;
+}
+
+double TrochoidSummary::way_mm() const {
+  double way = 0.0;
+  for (const LayerSummary& layer : layers) way += layer.fronts_mm + layer.backs_mm + layer.sides_mm;
+  return way;
+}
+
+bool TrochoidSummary::done() const {
+  return !layers.empty() &&
+         std::all_of(layers.begin(), layers.end(), [](const LayerSummary& layer) { return layer.status == "done"; });
+}
+
+TargetCover CoverSummary::whole() const {
+  TargetCover whole;
+  double reachable = 0.0, before = 0.0, after = 0.0, milled = 0.0;  // mm^2
+  for (const TargetCover& t : targets) {
+    whole.faces += (whole.faces.empty() ? "" : ",") + t.faces;
+    whole.area_mm2 += t.area_mm2;
+    whole.seeds += t.seeds;
+    whole.lines += t.lines;
+    whole.grown += t.grown;
+    whole.strips += t.strips;
+    whole.links_mm += t.links_mm;
+    whole.overcut_mm = std::max(whole.overcut_mm, t.overcut_mm);
+    const double reached = t.reachable * t.area_mm2;
+    reachable += reached;
+    before += t.before * reached;
+    after += t.after * reached;
+    milled += (1.0 + t.overlap) * t.after * reached;
+  }
+  if (whole.area_mm2 > 0.0) whole.reachable = reachable / whole.area_mm2;
+  if (reachable > 0.0) {
+    whole.before = before / reachable;
+    whole.after = after / reachable;
+  }
+  if (after > 0.0) whole.overlap = milled / after - 1.0;
+  return whole;
+}
 
 std::string summary_text(const Result& result) {
   const PartRequest part = part_of(result.job);
@@ -136,7 +137,7 @@ std::string summary_text(const Result& result) {
   text += result.path.pose_count() > 0 ? error_lines(result) : "  path        no strip: nothing is machined\n";
   text += clearance_text(result.verify.clearance);
   if (result.verify.stock) text += stock_text(*result.verify.stock);
-  text += std::visit([](const auto& plan) { return plan_lines(plan); }, result.plan);
+  text += plan_lines(result);
   if (result.ranking) text += ranking_table(*result.ranking);
   for (const std::string& note : result.notes) text += "  note        " + note + "\n";
   // To people only: summary.json is the same for the same input, and times are not.
@@ -188,7 +189,7 @@ std::string summary_json(const Result& result) {
   json["tip_deflection_um_per_100N"] = bent.deflection_um;
   json["strips"] = result.path.strips.size();
   json["poses"] = result.path.pose_count();
-  std::visit([&](const auto& plan) { add_plan(plan, json); }, result.plan);
+  add_plan(result, json);
   if (result.ranking) json["ranking"] = ranking_entries(*result.ranking);
   json["notes"] = result.notes;
   return dumped(json, 2) + "\n";
