@@ -1,4 +1,5 @@
-// `flank verify DIR`: judges the tool and the path that lie in a folder.
+#include "flank/pipeline/folder/judge_folder.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,12 +22,10 @@
 #include "flank/pipeline/folder/folder_job.h"
 #include "flank/pipeline/folder/judge_job.h"
 #include "flank/pipeline/folder/judge_program.h"
-#include "flank/run.h"
 #include "flank/setup/clearance_scene.h"
 #include "flank/setup/tool_body.h"
 
-namespace flank {
-using namespace internal;
+namespace flank::internal {
 namespace {
 
 /// A path may only be about faces that the part has.
@@ -100,7 +99,7 @@ void accept_program(const Job& job, Verification& outcome) {
 
 /// `named`: the part, as job.json has it.
 template <class Job>
-Verification judge_folder(const VerifyJob& request, const Job& job, const std::string& named, ResultFolder& folder) {
+Verification judge_path(const VerifyJob& request, const Job& job, const std::string& named, ResultFolder& folder) {
   const auto file = [&](const char* name) { return (std::filesystem::path(request.folder) / name).string(); };
   Verification outcome;
   outcome.job = job;
@@ -127,14 +126,22 @@ Verification judge_folder(const VerifyJob& request, const Job& job, const std::s
 
 }  // namespace
 
-Verification run_verify(const VerifyJob& request) {
-  check_fields(request);
-  if (request.nc.file) return judge_program(request);
-  if (request.folder.empty()) throw UsageError("folder", "is needed, or a program by `nc`");
+Verification judge_folder(const VerifyJob& request) {
   ResultFolder folder(request.folder, ResultFolder::Use::kWriteOrRead);
   folder.require_there({"job.json", "tool.json", "path.json"});
   FolderJob found = read_folder_job(request, folder);
-  return std::visit([&](auto& job) { return judge_folder(request, job, found.named_part, folder); }, found.job);
+  return std::visit([&](auto& job) { return judge_path(request, job, found.named_part, folder); }, found.job);
+}
+
+}  // namespace flank::internal
+
+namespace flank {
+
+Verification run_verify(const VerifyJob& request) {
+  internal::check_fields(request);
+  if (request.nc.file) return internal::judge_program(request);
+  if (request.folder.empty()) throw UsageError("folder", "is needed, or a program by `nc`");
+  return internal::judge_folder(request);
 }
 
 }  // namespace flank
