@@ -1,4 +1,5 @@
-// `flank cover` as one function: part and tool in, strips and verdict out.
+#include "flank/pipeline/run_cover.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,12 +8,32 @@
 #include "flank/error.h"
 #include "flank/job/check_fields.h"
 #include "flank/pipeline/cover_choice.h"
-#include "flank/pipeline/cover_groups.h"
 #include "flank/pipeline/finish.h"
-#include "flank/run.h"
 #include "flank/setup/tool_body.h"
 #include "flank/strip/strip_order.h"
 #include "flank/toolbox/tool_spec.h"
+
+namespace flank::internal {
+
+TargetCover summary_of(const Covered& covered) {
+  const CoverResult& result = covered.result;
+  TargetCover summary;
+  summary.faces = covered.group.faces;
+  summary.area_mm2 = covered.group.target->area();
+  summary.seeds = result.seeds;
+  summary.lines = result.lines;
+  summary.grown = result.grown;
+  summary.strips = static_cast<int>(result.motions.size());
+  summary.reachable = result.reachable;
+  summary.before = result.coverage_before;
+  summary.after = result.coverage;
+  summary.overlap = result.overlap;
+  summary.links_mm = link_length(result.motions);
+  summary.overcut_mm = result.overcut_mm;
+  return summary;
+}
+
+}  // namespace flank::internal
 
 namespace flank {
 using namespace internal;
@@ -36,24 +57,6 @@ Tool tool_of(const ToolRequest& request) {
   require(!spec.free, "tool", "a cover takes a given tool; a fit finds one");
   require(request.axis_length_mm.has_value(), "axis_length_mm", "a family needs the length of its axis");
   return make_tool(*spec.family, spec.given, *request.axis_length_mm);
-}
-
-TargetCover summary_of(const Covered& covered) {
-  const CoverResult& result = covered.result;
-  TargetCover summary;
-  summary.faces = covered.group.faces;
-  summary.area_mm2 = covered.group.target->area();
-  summary.seeds = result.seeds;
-  summary.lines = result.lines;
-  summary.grown = result.grown;
-  summary.strips = static_cast<int>(result.motions.size());
-  summary.reachable = result.reachable;
-  summary.before = result.coverage_before;
-  summary.after = result.coverage;
-  summary.overlap = result.overlap;
-  summary.links_mm = link_length(result.motions);
-  summary.overcut_mm = result.overcut_mm;
-  return summary;
 }
 
 void add_notes(const Covered& covered, Result& result) {

@@ -1,4 +1,5 @@
-// `flank fit` as one function: part file in, tool, path and verdict out.
+#include "flank/pipeline/run_fit.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,8 +11,42 @@
 #include "flank/job/check_fields.h"
 #include "flank/pipeline/finish.h"
 #include "flank/pipeline/fit_search.h"
-#include "flank/run.h"
 #include "flank/setup/tool_body.h"
+
+namespace flank::internal {
+
+void check_radius(const RadiusRequest& radius) {
+  if (radius.max_mm && !(*radius.max_mm > radius.min_mm.value_or(0.0)))
+    throw UsageError("radius_max_mm", "a radius above `radius_min_mm` is needed");
+}
+
+bool has_body(const ToolSpec& spec, const ObstacleRequest& obstacles) {
+  return obstacles.shank_length_mm || obstacles.holder || (spec.tool && has_body(*spec.tool));
+}
+
+Tool found_tool(const ToolSpec& spec, const RadialFunction& found, const ObstacleRequest& obstacles) {
+  Tool tool;
+  tool.radial = found;
+  tool.name = spec.free ? "free" : std::string(family_name(found.family()));
+  if (spec.tool) tool = *spec.tool;
+  equip_tool(obstacles, tool);
+  return tool;
+}
+
+FitSummary fit_summary(const FlankFitResult& fit) {
+  FitSummary summary;
+  summary.candidates = fit.candidates;
+  summary.before = {fit.before.at_tolerance, fit.before.overcut_mm};
+  summary.after = {fit.after.at_tolerance, fit.after.overcut_mm};
+  summary.rms_mm = fit.residuals.rms_mm;
+  summary.largest_mm = fit.residuals.largest_mm;
+  summary.inside_share = fit.residuals.inside_share;
+  for (const IterationTrace& step : fit.trace)
+    summary.trace.push_back({step.cost, step.rms_mm, step.largest_mm, step.damping});
+  return summary;
+}
+
+}  // namespace flank::internal
 
 namespace flank {
 using namespace internal;
@@ -19,8 +54,7 @@ namespace {
 
 void check_job(const FitJob& job) {
   check_fields(job);
-  if (job.radius.max_mm && !(*job.radius.max_mm > job.radius.min_mm.value_or(0.0)))
-    throw UsageError("radius_max_mm", "a radius above `radius_min_mm` is needed");
+  check_radius(job.radius);
   if (job.start && job.guide) throw UsageError("start", "goes without `guide`; give one of them");
 }
 
@@ -61,28 +95,6 @@ void lift_shank(const FitJob& job, const ClearanceScene& scene, FlankFitResult& 
         fmt::format("the flank was lengthened by {} mm, so that shank and holder keep their clearances", more));
 }
 
-FitSummary summary_of(const FlankFitResult& fit) {
-  FitSummary summary;
-  summary.candidates = fit.candidates;
-  summary.before = {fit.before.at_tolerance, fit.before.overcut_mm};
-  summary.after = {fit.after.at_tolerance, fit.after.overcut_mm};
-  summary.rms_mm = fit.residuals.rms_mm;
-  summary.largest_mm = fit.residuals.largest_mm;
-  summary.inside_share = fit.residuals.inside_share;
-  for (const IterationTrace& step : fit.trace)
-    summary.trace.push_back({step.cost, step.rms_mm, step.largest_mm, step.damping});
-  return summary;
-}
-
-Tool tool_of(const FitJob& job, const ToolSpec& spec, const RadialFunction& found) {
-  Tool tool;
-  tool.radial = found;
-  tool.name = spec.free ? "free" : std::string(family_name(found.family()));
-  if (spec.tool) tool = *spec.tool;
-  equip_tool(job.obstacles, tool);
-  return tool;
-}
-
 /// Strips of the path, with the notes of what is wrong with them.
 std::vector<StripSurface> sample_path(const FitSearch& search, double tolerance_mm, Result& result) {
   const Legitimacy legitimacy = check_legitimacy(result.tool.radial);
@@ -109,8 +121,7 @@ Result run_fit(const FitJob& job, const Progress& progress) {
   const Setup setup = read_setup(job.part, job.obstacles, job.tolerance_mm, result.notes);
   result.part_sha256 = setup.part.sha256;
   check_axis_length(job, setup.part);
-  const bool with_body = job.obstacles.shank_length_mm || job.obstacles.holder || (spec.tool && has_body(*spec.tool));
-  const ClearanceScene scene = make_clearance_scene(setup, job.obstacles, with_body, result.notes);
+  const ClearanceScene scene = make_clearance_scene(setup, job.obstacles, has_body(spec, job.obstacles), result.notes);
   watch.lap("read");
   stop_here();
 
@@ -119,14 +130,14 @@ Result run_fit(const FitJob& job, const Progress& progress) {
   // The verdict, now and later, is about what was searched for.
   if (search.reach_radius_mm) std::get<FitJob>(result.job).judge.reach_radius_mm = search.reach_radius_mm;
   if (spec.free && !stopping()) lift_shank(job, scene, search.fit, result.notes);
-  result.plan = summary_of(search.fit);
+  result.plan = fit_summary(search.fit);
   result.motions = search.fit.motions;
   result.diagonal_mm = search.targets.front().target->diagonal();
   result.notes.insert(result.notes.end(), search.fit.notes.begin(), search.fit.notes.end());
   result.complete = !progress.stop();
   watch.lap("fit");
 
-  result.tool = tool_of(job, spec, search.fit.tool);
+  result.tool = found_tool(spec, search.fit.tool, job.obstacles);
   std::vector<StripSurface> surfaces = sample_path(search, job.tolerance_mm, result);
   watch.lap("sample");
 

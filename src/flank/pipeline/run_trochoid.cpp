@@ -15,6 +15,7 @@
 #include "flank/pipeline/cavity_search.h"
 #include "flank/pipeline/finish.h"
 #include "flank/pipeline/folder/judge_job.h"
+#include "flank/pipeline/run_fit.h"
 #include "flank/pipeline/search_setup.h"
 #include "flank/run.h"
 #include "flank/setup/clearance_scene.h"
@@ -80,8 +81,7 @@ namespace {
 
 void check_job(const TrochoidJob& job) {
   check_fields(job);
-  if (job.radius.max_mm && !(*job.radius.max_mm > job.radius.min_mm.value_or(0.0)))
-    throw UsageError("radius_max_mm", "a radius above `radius_min_mm` is needed");
+  check_radius(job.radius);
 }
 
 SideFitOptions side_options(const TrochoidJob& job, const CavityFaces& faces) {
@@ -123,15 +123,7 @@ std::optional<Vec3> up_from_floor(const TrochoidJob& job, const Setup& setup, co
 TrochoidSummary summary_of(const TrochoidJob& job, const SideFit& sides, const CavityProgram& program,
                            double narrowest_mm) {
   TrochoidSummary out;
-  const FlankFitResult& fit = sides.fit;
-  out.sides.candidates = fit.candidates;
-  out.sides.before = {fit.before.at_tolerance, fit.before.overcut_mm};
-  out.sides.after = {fit.after.at_tolerance, fit.after.overcut_mm};
-  out.sides.rms_mm = fit.residuals.rms_mm;
-  out.sides.largest_mm = fit.residuals.largest_mm;
-  out.sides.inside_share = fit.residuals.inside_share;
-  for (const IterationTrace& step : fit.trace)
-    out.sides.trace.push_back({step.cost, step.rms_mm, step.largest_mm, step.damping});
+  out.sides = fit_summary(sides.fit);
   out.most_engagement_deg = job.cycles.most_engagement_deg;
   out.narrowest_mm = narrowest_mm;
   double links = 0.0;
@@ -165,10 +157,7 @@ void take(const CavityPlan& plan, const TrochoidJob& job, const ToolSpec& spec, 
           Result& result) {
   const FlankFitResult& fit = plan.sides.fit;
   result.motions = fit.motions;
-  result.tool.radial = fit.tool;
-  result.tool.name = spec.free ? "free" : std::string(family_name(fit.tool.family()));
-  if (spec.tool) result.tool = *spec.tool;
-  equip_tool(job.obstacles, result.tool);
+  result.tool = found_tool(spec, fit.tool, job.obstacles);
   result.diagonal_mm = faces.sides.front().target->diagonal();
   const Legitimacy legitimacy = check_legitimacy(result.tool.radial);
   if (!legitimacy.legitimate) result.notes.push_back("the tool is not legitimate: " + legitimacy.reason);
@@ -215,8 +204,7 @@ Result run_trochoid(const TrochoidJob& job, const Progress& progress) {
   const Setup setup = read_setup(machined(job), job.obstacles, job.tolerance_mm, result.notes);
   result.part_sha256 = setup.part.sha256;
   CavityFaces faces = cavity_faces(job, setup);
-  const bool with_body = job.obstacles.shank_length_mm || job.obstacles.holder || (spec.tool && has_body(*spec.tool));
-  const ClearanceScene scene = make_clearance_scene(setup, job.obstacles, with_body, result.notes);
+  const ClearanceScene scene = make_clearance_scene(setup, job.obstacles, has_body(spec, job.obstacles), result.notes);
   if (job.avoid) surround(job, setup, faces, result.notes);
   SideFitOptions options = side_options(job, faces);
   options.up = up_from_floor(job, setup, faces);

@@ -1,0 +1,24 @@
+/// What `flank fit` and the side fit of `flank trochoid` have in common: what they refuse, the tool that they return and what
+/// they tell of the fit.
+#pragma once
+
+#include "flank/fit.h"
+#include "flank/run.h"
+#include "flank/toolbox/tool_spec.h"
+
+namespace flank::internal {
+
+/// Throws UsageError for a largest radius that is not above the least.
+void check_radius(const RadiusRequest& radius);
+
+/// Whether the tool will have anything above its flank: what is asked for, or what a given tool has of its own.
+[[nodiscard]] bool has_body(const ToolSpec& spec, const ObstacleRequest& obstacles);
+
+/// The given tool, or the radial function that was `found` under a name of its own; with the shank and the holder that are
+/// asked for.
+[[nodiscard]] Tool found_tool(const ToolSpec& spec, const RadialFunction& found, const ObstacleRequest& obstacles);
+
+/// The figures of a fit and of its steps.
+[[nodiscard]] FitSummary fit_summary(const FlankFitResult& fit);
+
+}  // namespace flank::internal

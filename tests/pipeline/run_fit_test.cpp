@@ -1,0 +1,71 @@
+#include "flank/pipeline/run_fit.h"
+
+#include <gtest/gtest.h>
+
+#include "flank/error.h"
+#include "flank/setup/tool_body.h"
+
+namespace flank::internal {
+namespace {
+
+const RadialFunction kCone(ToolFamily::kCone, 20.0, Eigen::Vector2d(4.0, 0.05));
+
+TEST(RunFit, RefusesALargestRadiusThatIsNotAboveTheLeast) {
+  RadiusRequest radius;
+  EXPECT_NO_THROW(check_radius(radius));
+  radius.max_mm = 2.0;
+  EXPECT_NO_THROW(check_radius(radius));
+  radius.min_mm = 1.0;
+  EXPECT_NO_THROW(check_radius(radius));
+  radius.min_mm = 2.0;
+  EXPECT_THROW(check_radius(radius), UsageError);
+  radius = {};
+  radius.max_mm = 0.0;
+  EXPECT_THROW(check_radius(radius), UsageError);
+}
+
+TEST(RunFit, NamesTheToolThatWasFoundAndKeepsTheGivenOne) {
+  ToolSpec spec;
+  spec.free = true;
+  EXPECT_EQ(found_tool(spec, kCone, {}).name, "free");
+  spec.free = false;
+  EXPECT_EQ(found_tool(spec, kCone, {}).name, family_name(ToolFamily::kCone));
+  EXPECT_EQ(found_tool(spec, kCone, {}).radial.at(10.0).r, kCone.at(10.0).r);
+  Tool given;
+  given.name = "given";
+  given.radial = RadialFunction(ToolFamily::kCylinder, 30.0, Eigen::Matrix<double, 1, 1>(5.0));
+  spec.tool = given;
+  EXPECT_EQ(found_tool(spec, kCone, {}).name, "given");
+  EXPECT_EQ(found_tool(spec, kCone, {}).radial.axis_length(), 30.0);
+}
+
+TEST(RunFit, HasABodyIfOneIsAskedForOrGiven) {
+  ToolSpec spec;
+  ObstacleRequest asked;
+  EXPECT_FALSE(has_body(spec, asked));
+  asked.shank_length_mm = 30.0;
+  EXPECT_TRUE(has_body(spec, asked));
+  EXPECT_TRUE(has_body(found_tool(spec, kCone, asked)));
+  spec.tool = found_tool(spec, kCone, asked);
+  EXPECT_TRUE(has_body(spec, {}));
+}
+
+TEST(RunFit, TellsTheFiguresOfAFit) {
+  FlankFitResult fit;
+  fit.candidates = 3;
+  fit.before.at_tolerance = 0.5, fit.after.at_tolerance = 0.9, fit.after.overcut_mm = 0.01;
+  fit.residuals.rms_mm = 0.002;
+  fit.trace.resize(2);
+  fit.trace.back().cost = 7.0;
+  const FitSummary summary = fit_summary(fit);
+  EXPECT_EQ(summary.candidates, 3);
+  EXPECT_EQ(summary.before.coverage, 0.5);
+  EXPECT_EQ(summary.after.coverage, 0.9);
+  EXPECT_EQ(summary.after.overcut_mm, 0.01);
+  EXPECT_EQ(summary.rms_mm, 0.002);
+  ASSERT_EQ(summary.trace.size(), 2u);
+  EXPECT_EQ(summary.trace.back().cost, 7.0);
+}
+
+}  // namespace
+}  // namespace flank::internal
