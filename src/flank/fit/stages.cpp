@@ -91,7 +91,7 @@ FitDraft run_stage(const FitDraft& draft, const RadiusBounds& bounds, const FitS
   return next;
 }
 
-// The presets. Three bounds are behind their weights (fit_model.h): on an exact envelope, a term of weight w that is
+// The presets. Three bounds are behind their weights (fit_stage.h): on an exact envelope, a term of weight w that is
 // off by e at the truth leaves a residual of at most sqrt(w) e. With D the size of the target:
 // - fairness: rails that bend by about D over the motion have second differences of D / (samples_t - 1)^2;
 // - axial_pin and radius_pin: e is how far tip or radius still have to go, counted from the start of this pass;

@@ -21,7 +21,7 @@ using testing::upright_motion;
 
 constexpr double kRadius = 5.0, kLength = 30.0;
 
-class FitClearance : public ::testing::Test {
+class FitObstacleTerms : public ::testing::Test {
  protected:
   /// Samples a millimetre apart along the axis.
   static FitStage stage() {
@@ -50,7 +50,7 @@ class FitClearance : public ::testing::Test {
   std::unique_ptr<Target> blade_ = testing::standing_blade(0.0);
 };
 
-TEST_F(FitClearance, CostIsTheMeanSquareOfTheDepthBeyondTheAllowance) {
+TEST_F(FitObstacleTerms, CostIsTheMeanSquareOfTheDepthBeyondTheAllowance) {
   for (const double allowance : {0.0, 0.5}) {
     const ObstacleField obstacles(only(hub(true)), *blade_, 2.0, allowance);
     for (const double z : {7.0, 4.8, 3.0, 0.5, -2.0}) {
@@ -60,14 +60,14 @@ TEST_F(FitClearance, CostIsTheMeanSquareOfTheDepthBeyondTheAllowance) {
   }
 }
 
-TEST_F(FitClearance, OnlyMotionsThatHaveChecksPay) {
+TEST_F(FitObstacleTerms, OnlyMotionsThatHaveChecksPay) {
   const ObstacleField obstacles(only(hub(true)), *blade_, 2.0, 0.0);
   const FitState state = state_of({upright_motion({.z = 2.0}), upright_motion({.z = -9.0})}, cylinder(kRadius));
   EXPECT_NEAR(cost_of(model_of(state, stage(), &obstacles), state), 0.5 * expected(2.0, 0.0), 1e-9);
   EXPECT_NEAR(cost_of(model_of(state, stage(), nullptr), state), 0.0, 1e-18);
 }
 
-TEST_F(FitClearance, AFlankThatIsClearPullsNowhere) {
+TEST_F(FitObstacleTerms, AFlankThatIsClearPullsNowhere) {
   const ObstacleField obstacles(only(hub(true)), *blade_, 2.0, 0.0);
   FitState state = state_of({upright_motion({.z = 5.5})}, cylinder(kRadius));
   const FitModel model = model_of(state, stage(), &obstacles);
@@ -77,7 +77,7 @@ TEST_F(FitClearance, AFlankThatIsClearPullsNowhere) {
   EXPECT_NEAR(system.gradient.norm(), 0.0, 1e-12);
 }
 
-TEST_F(FitClearance, ThePullIsUpAndTowardsALesserRadius) {
+TEST_F(FitObstacleTerms, ThePullIsUpAndTowardsALesserRadius) {
   const ObstacleField obstacles(only(hub(true)), *blade_, 2.0, 0.0);
   FitState state = state_of({upright_motion({.z = 3.0})}, cylinder(kRadius));
   const FitModel model = model_of(state, stage(), &obstacles);
@@ -100,7 +100,7 @@ Obstacles hub_and_wall() {
   return obstacles;
 }
 
-TEST_F(FitClearance, GradientAgreesWithDifferencesBesideTwoFaces) {
+TEST_F(FitObstacleTerms, GradientAgreesWithDifferencesBesideTwoFaces) {
   const ObstacleField obstacles(hub_and_wall(), *blade_, 2.0, 0.0);
   FitState state = state_of({upright_motion({.z = 2.3})},
                             RadialFunction(ToolFamily::kBarrel, kLength, Eigen::Vector3d(120.0, 6.0, 14.0)));
@@ -110,7 +110,7 @@ TEST_F(FitClearance, GradientAgreesWithDifferencesBesideTwoFaces) {
   testing::expect_regulariser_gradient(model, state, 1e-4);
 }
 
-TEST_F(FitClearance, DistancesKeptFromAPlaceNearByCostTheSame) {
+TEST_F(FitObstacleTerms, DistancesKeptFromAPlaceNearByCostTheSame) {
   const ObstacleField obstacles(hub_and_wall(), *blade_, 2.0, 0.0);
   FitState state = state_of({upright_motion({.z = 9.0})}, cylinder(kRadius));
   const FitModel model = model_of(state, stage(), &obstacles);
@@ -126,7 +126,7 @@ TEST_F(FitClearance, DistancesKeptFromAPlaceNearByCostTheSame) {
   }
 }
 
-TEST_F(FitClearance, EstimatedDistancesCostNearlyTheSame) {
+TEST_F(FitObstacleTerms, EstimatedDistancesCostNearlyTheSame) {
   const ObstacleField obstacles(only(hub(true)), *blade_, 2.0, 0.0);
   FitStage rough = stage();
   rough.clear_estimated = true;
@@ -135,7 +135,7 @@ TEST_F(FitClearance, EstimatedDistancesCostNearlyTheSame) {
   EXPECT_NEAR(cost_of(model_of(state, rough, &obstacles), state), exact, 0.01 * exact);
 }
 
-TEST_F(FitClearance, ThreadsChangeNothing) {
+TEST_F(FitObstacleTerms, ThreadsChangeNothing) {
   const ObstacleField obstacles(hub_and_wall(), *blade_, 2.0, 0.0);
   const FitState state = state_of({upright_motion({.z = 2.3})}, cylinder(kRadius));
   const FitModel model = model_of(state, stage(), &obstacles);

@@ -1,10 +1,11 @@
-// The terms of FitModel that keep the flank out of other faces (MATH section 7): one-sided, at points of the axis.
+#include "flank/fit/model/obstacle_terms.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "flank/base/assert.h"
 #include "flank/base/parallel.h"
-#include "flank/fit/model/fit_model.h"
 
 namespace flank::internal {
 namespace {
@@ -45,42 +46,49 @@ bool carried_on(ObstacleSample& sample, const Vec3& p, double needed_mm, double 
 
 }  // namespace
 
-void FitModel::locate_obstacles(FitState& state) const {
+ObstacleTerms::ObstacleTerms(const AxisGrid& grid, std::vector<const ObstacleField*> obstacles, const FitStage& stage)
+    : grid_(grid), stage_(stage), obstacles_(std::move(obstacles)) {}
+
+void ObstacleTerms::locate(FitState& state) const {
   if (obstacles_.empty()) return;
-  const int n = stage_.samples_s;
-  state.obstacles.resize(targets_.size());
-  std::vector<double> needed(n);
+  FLANK_ASSERT(obstacles_.size() == state.motions.size());
+  const std::size_t poses = grid_.times().size();
   const auto stride = static_cast<std::size_t>(stage_.clear_stride);
-  for (int j = 0; j < n; ++j) needed[j] = std::max(0.0, state.tool.at(s_[j]).r);
-  for (std::size_t m = 0; m < targets_.size(); ++m) {
+  state.obstacles.resize(obstacles_.size());
+  std::vector<double> needed;
+  for (const double s : grid_.s()) needed.push_back(std::max(0.0, state.tool.at(s).r));
+  for (std::size_t m = 0; m < obstacles_.size(); ++m) {
     if (obstacles_[m] == nullptr) continue;
     std::vector<ObstacleSample>& samples = state.obstacles[m];
-    samples.resize(static_cast<std::size_t>(n * stage_.samples_t));
-    parallel_blocks(static_cast<std::size_t>(stage_.samples_t), kPosesPerTask, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
+    samples.resize(needed.size() * poses);
+    parallel_blocks(poses, kPosesPerTask, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
         // First and last always: an end is where a flank is deepest in a wall.
-        if (i % stride != 0 && i + 1 < times_.size()) continue;
-        const PoseAt pose = pose_at(state.motions[m], times_[i]);
-        for (int j = 0; j < n; ++j) {
-          ObstacleSample& sample = samples[i * static_cast<std::size_t>(n) + static_cast<std::size_t>(j)];
-          const Vec3 p = pose.tip + s_[j] * pose.u;
-          if (!p.allFinite() || !std::isfinite(needed[j])) {
-            sample = no_sample(p);
-            continue;
-          }
-          if (carried_on(sample, p, needed[j], obstacles_[m]->allowance_mm())) continue;
-          sample.nearest =
-              stage_.clear_estimated ? obstacles_[m]->estimate(p) : obstacles_[m]->interpolated(p, kSight * needed[j]);
-          sample.measured_mm = sample.nearest.distance_mm;
-          sample.at = p;
-          sample.known = true;
-        }
-      }
+        if (i % stride == 0 || i + 1 == poses) locate_pose(state, m, i, needed, samples);
     });
   }
 }
 
-double FitModel::intrusion(const FitState& state, std::size_t motion, std::size_t k, double radius) const {
+void ObstacleTerms::locate_pose(const FitState& state, std::size_t motion, std::size_t time,
+                                const std::vector<double>& needed_mm, std::vector<ObstacleSample>& samples) const {
+  const ObstacleField& obstacles = *obstacles_[motion];
+  const AxisGrid::Pose pose = grid_.pose(state.motions[motion], time);
+  for (std::size_t j = 0; j < needed_mm.size(); ++j) {
+    ObstacleSample& sample = samples[time * needed_mm.size() + j];
+    const Vec3 p = pose.tip + grid_.s()[j] * pose.u;
+    if (!p.allFinite() || !std::isfinite(needed_mm[j])) {
+      sample = no_sample(p);
+      continue;
+    }
+    if (carried_on(sample, p, needed_mm[j], obstacles.allowance_mm())) continue;
+    sample.nearest = stage_.clear_estimated ? obstacles.estimate(p) : obstacles.interpolated(p, kSight * needed_mm[j]);
+    sample.measured_mm = sample.nearest.distance_mm;
+    sample.at = p;
+    sample.known = true;
+  }
+}
+
+double ObstacleTerms::intrusion(const FitState& state, std::size_t motion, std::size_t k, double radius) const {
   const ObstacleDistance& nearest = state.obstacles[motion][k].nearest;
   // Beyond the horizon nothing is near: distance_mm is the horizon then, which must not be taken for a distance.
   if (nearest.face < 0) return 0.0;
@@ -88,54 +96,56 @@ double FitModel::intrusion(const FitState& state, std::size_t motion, std::size_
   return std::isnan(depth) ? depth : std::max(0.0, depth);
 }
 
-double FitModel::obstacle_cost(const FitState& state) const {
-  const std::size_t n = static_cast<std::size_t>(stage_.samples_s);
+double ObstacleTerms::weight() const {
+  const double asked =
+      static_cast<double>(grid_.s().size()) * static_cast<double>(grid_.times().size()) / stage_.clear_stride;
+  return stage_.clear_weight / (static_cast<double>(obstacles_.size()) * asked);
+}
+
+double ObstacleTerms::cost(const FitState& state) const {
+  if (obstacles_.empty()) return 0.0;
+  const std::size_t n = grid_.s().size();
   double sum = 0.0;
   for (std::size_t m = 0; m < obstacles_.size(); ++m) {
     if (obstacles_[m] == nullptr) continue;
     for (std::size_t k = 0; k < state.obstacles[m].size(); ++k) {
-      const double e = intrusion(state, m, k, state.tool.at(s_[k % n]).r);
+      const double e = intrusion(state, m, k, state.tool.at(grid_.s()[k % n]).r);
       sum += e * e;
     }
   }
-  return sum * obstacle_weight();
+  return sum * weight();
 }
 
-double FitModel::obstacle_weight() const {
-  const double asked = static_cast<double>(stage_.samples_s) * stage_.samples_t / stage_.clear_stride;
-  return stage_.clear_weight / (static_cast<double>(targets_.size()) * asked);
-}
-
-void FitModel::assemble_obstacles(const FitState& state, ArrowSystem& system) const {
-  const std::size_t n = static_cast<std::size_t>(stage_.samples_s);
+void ObstacleTerms::assemble(const FitState& state, const ToolTerms& tool, ArrowSystem& system) const {
   if (obstacles_.empty()) return;
-  Eigen::MatrixXd b;
-  tool_gradients(state, b);
+  const std::size_t n = grid_.s().size();
+  const bool free_tool = tool.free_count() > 0;
+  const Eigen::MatrixXd b = tool.gradients(state.tool);
+  const double w = weight();
   PoseTerms terms;
   for (std::size_t m = 0; m < obstacles_.size(); ++m) {
-    for (std::size_t i = 0; obstacles_[m] != nullptr && i < times_.size(); ++i) {
-      const PoseAt pose = pose_at(state.motions[m], times_[i]);
+    for (std::size_t i = 0; obstacles_[m] != nullptr && i < grid_.times().size(); ++i) {
+      const AxisGrid::Pose pose = grid_.pose(state.motions[m], i);
       terms.matrix.setZero();
       terms.gradient.setZero();
-      terms.coupling.setZero(6, tool_parameters_);
+      terms.coupling.setZero(6, tool.free_count());
       bool any = false;  // most poses are clear of everything: they add nothing
       for (std::size_t j = 0; j < n; ++j) {
-        const double e = intrusion(state, m, i * n + j, state.tool.at(s_[j]).r), w = obstacle_weight();
+        const double s = grid_.s()[j], e = intrusion(state, m, i * n + j, state.tool.at(s).r);
         if (e == 0.0) continue;
         any = true;
-        const Vec3& d = state.obstacles[m][i * n + j].nearest.gradient;
-        Vec6 g;
-        // e = r - allowance - D: de/dpoint = -gradient D, de/dtool = +b; by the pose as in FitModel::row.
-        g << -d, (-s_[j] / (axis_length_ * pose.length_w)) * (d - d.dot(pose.u) * pose.u);
+        // e = r - allowance - D: de/dpoint = -gradient D, de/dtool = +b.
+        const Vec6 g = grid_.row(pose, s, -state.obstacles[m][i * n + j].nearest.gradient);
         terms.matrix += w * g * g.transpose();
         terms.gradient += w * e * g;
-        if (free_.empty()) continue;
+        if (!free_tool) continue;
         const auto column = b.col(static_cast<Eigen::Index>(j));
         terms.coupling += w * g * column.transpose();
         system.tool_matrix += w * column * column.transpose();
-        system.gradient.tail(tool_parameters_) += w * e * column;
+        system.gradient.tail(tool.free_count()) += w * e * column;
       }
-      if (any) system.add_pose(static_cast<int>(m), times_[i].first, times_[i].basis.data(), terms, !free_.empty());
+      const AxisGrid::Time& time = grid_.times()[i];
+      if (any) system.add_pose(static_cast<int>(m), time.first, time.basis.data(), terms, free_tool);
     }
   }
 }
