@@ -119,8 +119,12 @@ struct CoverageEstimate {
   double rms_mm = 0.0;              ///< root mean square of f, by area, over samples within four tolerances
   /// |c| where the flank touches the target: it plunges from 1 on. estimate_coverage leaves it 0.
   double largest_c = 0.0;
+  /// Of motions over the facing sides of a cavity: how far the ends of their axes lie apart along the way, as a share of
+  /// the axis length, which the tool must make up for on its way across. Else 0.
+  double stagger = 0.0;
   /// What candidates are ranked by, larger is better, at most 1.2; no unit. Coverage, less a price for overcut and
-  /// gouge (10 % of coverage for the first tolerance of excess) and for plunging, with the mean error as tie-break.
+  /// gouge (10 % of coverage for the first tolerance of excess), for plunging and for stagger, with the mean error as
+  /// tie-break.
   [[nodiscard]] double score(double tolerance_mm) const;
 };
 

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "flank/example/example_cavity.h"
+#include "flank/motion/stagger.h"
 #include "obstacle/obstacle_scene.h"
 
 namespace flank::internal {
@@ -32,6 +34,22 @@ TEST(WidthBetween, CountsWhatNothingCovers) {
   EXPECT_GE(free.narrowest_mm, 3.0 * across) << "below the hub nothing is milled";
   EXPECT_LE(free.narrowest_mm, 3.8 * across);
   EXPECT_GT(free.median_mm, all.median_mm);
+}
+
+/// Hollow walls leave open how far an axis leans along them; the cycles between them do not.
+TEST(FitSides, LeavesTheAxesParallelWhereTheWallsAllowIt) {
+  const std::vector<Face> walls = cavity_walls({});
+  const std::unique_ptr<Target> left = make_target({walls[0]}), right = make_target({walls[1]});
+  SideFitOptions options;
+  options.fit.tolerance_mm = 0.02;
+  options.fit.bounds.smallest = 3.0;
+  options.fit.bounds.largest = 9.0;
+  options.starts = {{8.0, 0.3}};
+  const SideFit sides = fit_sides({left.get(), nullptr}, {right.get(), nullptr}, {}, options, {});
+  ASSERT_EQ(sides.fit.motions.size(), 2u);
+  EXPECT_GT(sides.fit.after.at_tolerance, 0.99);
+  EXPECT_LT(sides.fit.after.stagger, 0.01) << "the walls alone lead to 0.1";
+  EXPECT_EQ(sides.fit.after.stagger, mean_stagger(sides.fit.motions));
 }
 
 TEST(WidthBetween, IsNoneWhereEverythingIsCovered) {

@@ -34,6 +34,10 @@ constexpr double kAllowedOvercutPrice = 0.005, kMeanPrice = 0.006;
 /// the spot. A percent of coverage is worth half of it.
 constexpr double kPlungingPrice = 0.02, kMostPlunging = 1.0;
 
+/// Of a stagger as long as the axis, where it counts. Among motions that cover the same the most nearly parallel ones: a
+/// stagger of 0.1 can halve the steps of a cavity's cycles. A percent of coverage is worth half of that.
+constexpr double kStaggerPrice = 0.2;
+
 }  // namespace
 
 double CoverageEstimate::score(double tolerance_mm) const {
@@ -46,7 +50,7 @@ double CoverageEstimate::score(double tolerance_mm) const {
   const double within = kAllowedOvercutPrice * std::min(1.0, overcut_mm / tolerance_mm);
   return at_tolerance + kNearWorth * at_four_tolerances - kExcessPrice * excess - within -
          kMeanPrice * std::min(1.0, rms_mm / tolerance_mm) -
-         kPlungingPrice * std::clamp(largest_c - 1.0, 0.0, kMostPlunging);
+         kPlungingPrice * std::clamp(largest_c - 1.0, 0.0, kMostPlunging) - kStaggerPrice * stagger;
 }
 
 }  // namespace flank

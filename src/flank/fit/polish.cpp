@@ -161,6 +161,7 @@ Polished polish(const FitDraft& draft, const std::vector<SurfaceSample>& samples
   const double scale = robust_scale(*draft.targets.front(), options);
   FitStage first = polish_stage(scale);
   keep_going(first, options.tolerance_mm, diagonal);
+  first.parallel_weight = 0.0;  // this pass shows whether the target is an envelope, whose axes lean as they do
   keep(assess(run_stage(draft, options.bounds, first, trace, &summary), samples, options));
   if (summary.rms_mm < kExactShare * diagonal) {
     best = exact_polish(best, samples, options, trace);

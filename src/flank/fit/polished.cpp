@@ -8,6 +8,7 @@
 #include "flank/base/tolerance_budget.h"
 #include "flank/envelope/path_regularity.h"
 #include "flank/fit/coverage.h"
+#include "flank/motion/stagger.h"
 #include "flank/surface/ball_touch.h"
 
 namespace flank::internal {
@@ -40,6 +41,7 @@ Polished assess(FitDraft draft, const std::vector<SurfaceSample>& samples, const
   polished.estimate = estimate_coverage(samples, draft.motions, draft.tool, options.tolerance_mm, kRankingPoses);
   polished.estimate.gouge_mm = flank_gouge(draft.motions, draft.obstacles, draft.tool, kRankingPoses);
   polished.estimate.largest_c = touching_c(draft, options.tolerance_mm, kRankingPoses);
+  if (draft.facing) polished.estimate.stagger = mean_stagger(draft.motions);
   polished.draft = std::move(draft);
   return polished;
 }

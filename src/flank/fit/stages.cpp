@@ -56,6 +56,12 @@ const ObstacleField* obstacles_of(const FitDraft& draft, const Target* target) {
   return nullptr;
 }
 
+FitStage stage_of(const FitDraft& draft, const FitStage& stage) {
+  FitStage own = stage;
+  if (!draft.facing) own.parallel_weight = 0.0;
+  return own;
+}
+
 bool has_values(const FitDraft& draft) {
   const auto finite = [](const RuledMotion& m) { return m.tip.poles.allFinite() && m.direction.poles.allFinite(); };
   return std::all_of(draft.motions.begin(), draft.motions.end(), finite) && draft.tool.parameters().allFinite();
@@ -82,7 +88,7 @@ FitDraft run_stage(const FitDraft& draft, const RadiusBounds& bounds, const FitS
   if (stopping()) return draft;
   FitDraft next;
   FitState start = start_state(draft, stage, next);
-  const FitModel model(draft.targets, start, next.free_parameters, bounds, stage, draft.obstacles);
+  const FitModel model(draft.targets, start, next.free_parameters, bounds, stage_of(draft, stage), draft.obstacles);
   MinimiseResult result = minimise(model, std::move(start));
   if (trace) trace->insert(trace->end(), result.trace.begin(), result.trace.end());
   if (summary) *summary = summarise_residuals(model, result.state);
@@ -166,6 +172,7 @@ void keep_going(FitStage& stage, double tolerance_mm, double size_mm) {
   const double unit = (tolerance_mm / size_mm) * (tolerance_mm / size_mm);
   stage.plunge_weight = kPlungeShare * unit;
   stage.lag_weight = kLagShare * unit;
+  stage.parallel_weight = kParallelShare * unit;
 }
 
 double fairness_of(double share, double tolerance_mm, double size_mm, int samples) {

@@ -13,8 +13,11 @@ namespace flank::internal {
 /// size: a motion that plunges or stands still for a twentieth of its time costs as much as a mean error of half the
 /// tolerance.
 inline constexpr double kPlungeShare = 100.0, kLagShare = 100.0;
+/// FitStage::parallel_weight, likewise: sides whose axes each lean by a degree more than both on average cost as much as a
+/// mean error of a tenth of the tolerance, if the axis is as long as the target.
+inline constexpr double kParallelShare = 30.0;
 
-/// Sets both for a target of this size.
+/// Sets all three for a target of this size.
 void keep_going(FitStage& stage, double tolerance_mm, double size_mm);
 
 /// FitStage::fairness at which rails that bend by the target's size over the motion (second differences of
@@ -30,6 +33,8 @@ struct FitDraft {
   RadialFunction tool;                          ///< over that length
   std::vector<int> free_parameters;             ///< of the tool; empty: given. Ignored if `free_tool`
   bool free_tool = false;                       ///< a spline whose number of coefficients a pass may change
+  /// Motions 2 k and 2 k + 1 are over two sides of a cavity: passes draw their axes to the same lean, and stagger counts.
+  bool facing = false;
 };
 
 /// The draft's targets, each once (strips side by side share one), in their order.
@@ -37,6 +42,9 @@ struct FitDraft {
 
 /// What the flank must not enter when it is on this target; null: nothing.
 [[nodiscard]] const ObstacleField* obstacles_of(const FitDraft& draft, const Target* target);
+
+/// The stage without the terms that are not for this draft.
+[[nodiscard]] FitStage stage_of(const FitDraft& draft, const FitStage& stage);
 
 /// All control points and radii are numbers. A draft that has lost its values is no candidate.
 [[nodiscard]] bool has_values(const FitDraft& draft);

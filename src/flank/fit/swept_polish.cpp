@@ -9,6 +9,7 @@
 #include "flank/base/tolerance_budget.h"
 #include "flank/fit/model/constrained.h"
 #include "flank/fit/model/levenberg_marquardt.h"
+#include "flank/motion/stagger.h"
 
 namespace flank::internal {
 namespace {
@@ -178,7 +179,8 @@ FitDraft run_swept(const FitDraft& draft, const RadiusBounds& bounds, const FitS
                    std::vector<FacePoint> points, std::vector<IterationTrace>* trace) {
   FitDraft next;
   FitState start = start_state(draft, stage, next);
-  const SweptModel model(std::move(points), draft.targets, start, next.free_parameters, bounds, stage, draft.obstacles);
+  const SweptModel model(std::move(points), draft.targets, start, next.free_parameters, bounds, stage_of(draft, stage),
+                         draft.obstacles);
   MinimiseResult result = levenberg_marquardt(model, std::move(start));
   if (trace) trace->insert(trace->end(), result.trace.begin(), result.trace.end());
   next.motions = std::move(result.state.motions);
@@ -249,6 +251,40 @@ Polished last_digits(const Polished& polished, const std::vector<SurfaceSample>&
   return best;
 }
 
+Polished straightened(const Polished& polished, double least_coverage, const std::vector<SurfaceSample>& samples,
+                      const FlankFitOptions& options, std::vector<IterationTrace>* trace) {
+  /// Of the weight: as much as it takes, where the faces hold against it.
+  constexpr std::array<double, 3> kFirmness = {1.0, 10.0, 100.0};
+  /// Of the radius in the middle: a tool thinner by so much, which touches as well and makes all cycles longer, costs as much
+  /// as a mean error of one tolerance.
+  constexpr double kThinner = 0.05;
+  /// A stagger below this bounds no step; one that is not less by this share has met what the faces need.
+  constexpr double kNoStagger = 0.003, kLess = 0.9;
+  Polished best = polished;
+  best.draft.facing = true;
+  best.estimate.stagger = mean_stagger(best.draft.motions);
+  const double size = best.draft.targets.front()->diagonal();
+  const auto allowed = [&](double before) { return std::max(before, options.tolerance_mm); };
+  const double coverage = std::min(polished.estimate.at_tolerance, least_coverage);
+  for (const double firmness : kFirmness) {
+    if (stopping() || best.estimate.stagger < kNoStagger) break;
+    FitStage stage = swept_stage(kFairRails, options, size);
+    stage.parallel_weight *= firmness;
+    const double thinner = kThinner * best.draft.tool.at(0.5 * best.draft.tool.axis_length()).r;
+    stage.radius_pin = (options.tolerance_mm / thinner) * (options.tolerance_mm / thinner);
+    const std::vector<FacePoint> points = target_points(best.draft, kFairRails.points_per_side, reach_of(options));
+    Polished trial = assess(run_swept(best.draft, options.bounds, stage, points, trace), samples, options);
+    const CoverageEstimate& now = trial.estimate;
+    const bool keeps = now.at_tolerance >= coverage && now.overcut_mm <= allowed(polished.estimate.overcut_mm) &&
+                       now.gouge_mm <= allowed(polished.estimate.gouge_mm) &&
+                       (now.largest_c < 1.0 || now.largest_c <= polished.estimate.largest_c);
+    if (!keeps || now.stagger > kLess * best.estimate.stagger) break;
+    best = std::move(trial);
+    best.exact = false;
+  }
+  return best;
+}
+
 FitDraft pass_at(const FitDraft& draft, const std::vector<Vec3>& deep, const FlankFitOptions& options,
                  double firmness) {
   std::vector<FacePoint> points = target_points(draft, kDense.points_per_side, reach_of(options));
@@ -273,7 +309,7 @@ FitDraft run_constrained(const FitDraft& draft, const RadiusBounds& bounds, cons
                              draft.obstacles,
                              next.free_parameters,
                              bounds,
-                             stage,
+                             stage_of(draft, stage),
                              target_points(draft, kFirstPerSide, reach),
                              target_points(draft, kDensePerSide, reach)};
   ConstrainedOptions options;

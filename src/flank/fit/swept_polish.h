@@ -34,6 +34,13 @@ struct ReachLimits {
 [[nodiscard]] Polished swept_polish(const Polished& polished, const std::vector<SurfaceSample>& samples,
                                     const FlankFitOptions& options, std::vector<IterationTrace>* trace);
 
+/// Of motions over facing sides, found without a look at each other: passes that draw the axes of both sides to the same lean, firmer each
+/// time, kept while `least_coverage` of the samples (or what there was, if that is less) stays covered, and nothing is cut or
+/// entered deeper than allowed. How far an axis leans along its way is hardly felt by a wall that is hardly curved along it.
+[[nodiscard]] Polished straightened(const Polished& polished, double least_coverage,
+                                    const std::vector<SurfaceSample>& samples, const FlankFitOptions& options,
+                                    std::vector<IterationTrace>* trace);
+
 /// For a free tool on a target that seems to be its envelope (mean error over the samples below 3e-5 of the size, nearly
 /// all of it covered): two passes without a dead zone, and with all but no weights but the error's. Residuals are those of
 /// the face, so the rim is held, which passes at the axis let go. Kept as far as mean error and overcut fall and

@@ -103,6 +103,7 @@ CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const
                          const SideFitOptions& options, const Progress& progress) {
   CavityPlan best;
   const bool given = !tool.free() && tool.radius;
+  int tools = 0;
   for (const double bound : bounds_of(job, faces.width)) {
     SideFitOptions here = options;
     here.fit.bounds.largest = bound;
@@ -110,14 +111,20 @@ CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const
     const double radius = given ? *tool.radius : kBegin * here.fit.bounds.largest;
     here.starts = {{radius, kStout}};
     if (tool.free()) here.starts.push_back({radius, kThin});
-    CavityPlan tried;
-    tried.sides = search_sides(job, faces, tool, here, progress);
-    tried.program = plan(job, faces, tried.sides, progress);
-    tried.largest_radius_mm = here.fit.bounds.largest;
-    const bool done = sides_are_done(tried.sides, faces, job) && gets_through(tried, job.tolerance_mm);
-    const int tools = best.tools + 1;
-    const bool better = tools == 1 || is_better(tried, best, job.tolerance_mm);
-    if (better) best = std::move(tried);
+    bool done = false, better = false;
+    ++tools;
+    for (const bool facing : {true, false}) {
+      here.facing = facing;
+      CavityPlan tried;
+      tried.sides = search_sides(job, faces, tool, here, progress);
+      tried.program = plan(job, faces, tried.sides, progress);
+      tried.largest_radius_mm = here.fit.bounds.largest;
+      done = sides_are_done(tried.sides, faces, job) && gets_through(tried, job.tolerance_mm);
+      const bool gains = (tools == 1 && facing) || is_better(tried, best, job.tolerance_mm);
+      if (gains) best = std::move(tried);
+      better = better || gains;
+      if (done || progress.stop()) break;
+    }
     best.tools = tools;
     // Thinner ones are slower, too: the search ends where they stop to gain.
     if (done || given || !better || progress.stop()) break;

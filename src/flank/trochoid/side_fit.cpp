@@ -9,11 +9,16 @@
 #include "flank/fit/coverage.h"
 #include "flank/fit/polish.h"
 #include "flank/fit/swept_polish.h"
+#include "flank/motion/stagger.h"
 
 namespace flank::internal {
 namespace {
 
 constexpr std::size_t kPolished = 2;  ///< of the starts of one radius
+/// Of the target's size: mean error of an exact envelope, with room for what a free tool's spline leaves.
+constexpr double kEnvelope = 3e-6;
+/// In tolerances, at which a quick fit weighs error against axes that go together.
+constexpr double kQuickParallel = 2.0;
 
 struct Candidate {
   FitDraft draft;
@@ -28,13 +33,23 @@ double lying(const RuledMotion& motion) {
   return std::max(0.0, motion.axis_length / std::max(way, 1e-9) - kUpright);
 }
 
-/// Score of a draft, less a price for axes that are not parallel across the cavity, or lie along it.
+/// Score of a draft, less a price for axes that are not parallel across the cavity, which bounds the steps of all cycles; for
+/// axes that lean along it, because the tool must then be longer, and at the ends of the cavity it is in one side long before
+/// the other; and for axes that lie along it.
 double worth(const FitDraft& draft, const CoverageEstimate& estimate, double tolerance) {
-  constexpr double kPrice = 2.0;  // of coverage, for a stagger of the whole axis length: 12 degrees cost a fifth
+  constexpr double kStagger = 2.0, kLean = 0.1;  // of coverage: 12 degrees cost two fifths, and two percent
+  constexpr double kLying = 0.5, kMostLying = 4.0;
   double sum = 0.0;
   for (std::size_t k = 0; k + 1 < draft.motions.size(); k += 2)
-    sum += stagger(draft.motions[k], draft.motions[k + 1]) + 0.25 * std::min(4.0, lying(draft.motions[k]));
-  return estimate.score(tolerance) - kPrice * sum / std::max(1.0, 0.5 * static_cast<double>(draft.motions.size()));
+    sum += kLying * std::min(kMostLying, lying(draft.motions[k]));
+  const double layers = std::max(1.0, 0.5 * static_cast<double>(draft.motions.size()));
+  return estimate.score(tolerance) - kStagger * mean_stagger(draft.motions) - kLean * mean_lean(draft.motions) -
+         sum / layers;
+}
+
+bool is_done(const CoverageEstimate& e, const SideFitOptions& options) {
+  return e.at_tolerance >= options.least_coverage && e.overcut_mm <= options.fit.tolerance_mm &&
+         e.gouge_mm <= options.fit.tolerance_mm;
 }
 
 std::vector<SurfaceSample> samples_of(const CavitySide& left, const CavitySide& right, const FlankFitOptions& options) {
@@ -79,14 +94,16 @@ Candidate SideFitter::quick(const SideStart& start, const FlankFitOptions& fit) 
   const std::vector<FitTask> tasks =
       side_tasks(left_, right_, left_chart_, right_chart_, start, options_.layers, length, options_.up);
   if (tasks.empty()) return candidate;
-  const FitDraft draft = start_draft(tasks, tool_, start.radius_mm);
-  candidate.draft = run_stage(draft, fit.bounds, quick_stage(robust_scale(*left_.target, fit)));
+  FitDraft draft = start_draft(tasks, tool_, start.radius_mm);
+  draft.facing = options_.facing;
+  FitStage stage = quick_stage(robust_scale(*left_.target, fit));
+  if (draft.facing) keep_going(stage, kQuickParallel * fit.tolerance_mm, left_.target->diagonal());
+  candidate.draft = run_stage(draft, fit.bounds, stage);
   if (!has_values(candidate.draft)) return candidate;
   const double tolerance = kQuickTolerances * options_.fit.tolerance_mm;
-  CoverageEstimate estimate =
-      estimate_coverage(few_, candidate.draft.motions, candidate.draft.tool, tolerance, kQuickPoses);
-  estimate.gouge_mm =
-      flank_gouge(candidate.draft.motions, candidate.draft.obstacles, candidate.draft.tool, kQuickPoses);
+  const std::vector<RuledMotion>& motions = candidate.draft.motions;
+  CoverageEstimate estimate = estimate_coverage(few_, motions, candidate.draft.tool, tolerance, kQuickPoses);
+  estimate.gouge_mm = flank_gouge(motions, candidate.draft.obstacles, candidate.draft.tool, kQuickPoses);
   candidate.score = worth(candidate.draft, estimate, tolerance);
   return candidate;
 }
@@ -119,12 +136,12 @@ Polished SideFitter::polished(const RadiusStart& first, std::vector<IterationTra
     if (value(k) > value(best)) best = k;
   if (polished.empty()) return {};
   trace = std::move(traces[best]);
-  return last_passes(polished[best], samples_, fit, &trace);
-}
-
-bool is_done(const CoverageEstimate& e, const SideFitOptions& options) {
-  return e.at_tolerance >= options.least_coverage && e.overcut_mm <= options.fit.tolerance_mm &&
-         e.gouge_mm <= options.fit.tolerance_mm;
+  const Polished last = last_passes(polished[best], samples_, fit, &trace);
+  // The passes for envelopes do not look across the cavity. A true envelope is not given away for its stagger; what is only
+  // near to one is.
+  const bool envelope = last.estimate.rms_mm <= kEnvelope * left_.target->diagonal();
+  if (!options_.facing || !last.exact || envelope) return last;
+  return straightened(last, options_.least_coverage, samples_, fit, &trace);
 }
 
 }  // namespace

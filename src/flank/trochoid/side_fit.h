@@ -20,6 +20,9 @@ struct SideFitOptions {
   std::vector<RadiusStart> starts;
   double least_coverage = 0.97;  ///< planner's estimate, that counts as done
   std::optional<Vec3> up;        ///< from the floor to the open top, if it is known
+  /// Every pass draws the axes of both sides to the same lean, so that a cycle need not turn the tool along its way. Where
+  /// walls ask for something else that costs coverage, or leads the cycles into a corner.
+  bool facing = true;
 };
 
 struct SideFit {

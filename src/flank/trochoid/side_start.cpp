@@ -126,18 +126,6 @@ Vec3 towards_wider(const RuledMotion& left, const RuledMotion& right) {
 
 }  // namespace
 
-double stagger(const RuledMotion& left, const RuledMotion& right) {
-  constexpr int kTimes = 9;
-  double sum = 0.0;
-  for (int i = 0; i < kTimes; ++i) {
-    const double t = (i + 0.5) / kTimes, middle = 0.5 * left.axis_length;
-    const AxisJet a = left.jet(t), b = right.jet(t);
-    const Vec3 forward = (a.velocity(middle).normalized() + b.velocity(middle).normalized()).normalized();
-    sum += 0.5 * std::abs((a.u - b.u).dot(forward));
-  }
-  return sum / kTimes;
-}
-
 std::vector<FitTask> side_tasks(const CavitySide& left, const CavitySide& right, const Chart& left_chart,
                                 const Chart& right_chart, const SideStart& start, int layers,
                                 const std::optional<double>& axis_length, const std::optional<Vec3>& up) {

@@ -29,8 +29,4 @@ struct SideStart {
                                               const Chart& right_chart, const SideStart& start, int layers,
                                               const std::optional<double>& axis_length, const std::optional<Vec3>& up);
 
-/// How far the ends of the axes of two motions that face each other lie apart along the way while the middles are across
-/// from each other, as a share of the axis length: mean over the way. A cycle must make up for it in every half.
-[[nodiscard]] double stagger(const RuledMotion& left, const RuledMotion& right);
-
 }  // namespace flank::internal

@@ -252,6 +252,37 @@ TEST(FitRegularisers, AMotionThatStandsStillLagsAndOneOfEvenSpeedDoesNot) {
   expect_regulariser_gradient(model, late, 1e-5);
 }
 
+/// Two motions that lean by an angle each way along x.
+FitState leaning_apart(double angle) {
+  FitState state = state_of({upright_motion(), upright_motion({.y = 25.0})}, cylinder(5.0));
+  for (const double sign : {1.0, -1.0})
+    state.motions[sign > 0.0 ? 0 : 1].direction.poles.colwise() = Vec3(sign * std::sin(angle), 0.0, std::cos(angle));
+  return state;
+}
+
+TEST(FitRegularisers, FacingAxesPayForWhatTheyLeanMoreThanBothOnAverage) {
+  FitStage stage = bare_stage();
+  stage.parallel_weight = 3.0;
+  const FitState parallel = leaning_apart(0.0), apart = leaning_apart(0.1);
+  EXPECT_NEAR(model_of(parallel, stage).regulariser_cost(parallel), 0.0, 1e-18);
+  const double off = kLength * std::sin(0.1);
+  EXPECT_NEAR(model_of(apart, stage).regulariser_cost(apart), 3.0 * off * off, 1e-9);
+  // Both alike, however much, is what they are drawn to.
+  FitState alike = apart;
+  alike.motions[1].direction = alike.motions[0].direction;
+  EXPECT_NEAR(model_of(alike, stage).regulariser_cost(alike), 0.0, 1e-12);
+}
+
+TEST(FitRegularisers, TheDerivativeOfFacingAxesAgreesWithDifferences) {
+  FitStage stage = bare_stage(8);
+  stage.parallel_weight = 1.0;
+  const FitModel model = model_of(leaning_apart(0.15), stage);
+  FitState state = leaning_apart(0.11);
+  state.motions[0].direction.poles.col(3) += Vec3(0.05, 0.03, 0.1);
+  state.motions[1].tip.poles.col(2) += Vec3(0.4, -0.2, 0.1);
+  expect_regulariser_gradient(model, state, 1e-5);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Terms, RegulariserDerivative,
     ::testing::Values(Term{"Fairness", &FitStage::fairness, {}}, Term{"Anchor", &FitStage::transversal_anchor, {}},

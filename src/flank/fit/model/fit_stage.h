@@ -73,6 +73,10 @@ struct FitStage {
   /// their mean speed, velocities counted for the whole motion. Where a motion stands still, the axis can rock and slide
   /// on the spot, and what is left over is cut by that and not by going on.
   double lag_weight = 0.0;
+  /// >= 0: of the mean square by which the axes of motions 2 k and 2 k + 1 at equal times differ along their common way, mm at
+  /// the axis' upper end; each is drawn to the mean that both have at the start of the pass. Only for motions over the
+  /// facing sides of a cavity: there a tool must turn on its way across by what they differ.
+  double parallel_weight = 0.0;
   /// > 0, no unit: the pass ends after two steps in a row that lower the cost by less than this share of it.
   double step_tolerance = 1e-9;
 };

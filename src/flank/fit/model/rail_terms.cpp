@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "flank/base/assert.h"
 #include "flank/fit/model/plunge.h"
 
 namespace flank::internal {
@@ -20,6 +21,23 @@ RailTerms::RailTerms(const AxisGrid& grid, const FitState& start, const FitStage
       share_(1.0 / (static_cast<double>(start.motions.size()) * static_cast<double>(grid.times().size()))) {
   for (const double s : grid_.s()) start_slope_.push_back(start.tool.at(s).d1);
   for (const RuledMotion& motion : start.motions) add_anchors(motion);
+  if (stage_.parallel_weight > 0.0) lean_alike(start);
+}
+
+void RailTerms::lean_alike(const FitState& start) {
+  FLANK_ASSERT(start.motions.size() % 2 == 0);
+  const double half = 0.5 * grid_.axis_length();
+  for (std::size_t m = 0; m < start.motions.size(); m += 2) {
+    for (std::size_t i = 0; i < grid_.times().size(); ++i) {
+      const double t = grid_.times()[i].t;
+      const AxisJet a = start.motions[m].jet(t), b = start.motions[m + 1].jet(t);
+      const Vec3 forward = (a.velocity(half).normalized() + b.velocity(half).normalized()).normalized();
+      for (const std::size_t motion : {m, m + 1}) {
+        anchors_[motion][i].forward = forward;
+        anchors_[motion][i].lean = 0.5 * (a.u + b.u).dot(forward);
+      }
+    }
+  }
 }
 
 void RailTerms::add_anchors(const RuledMotion& motion) {
@@ -117,6 +135,10 @@ void RailTerms::assemble_anchor(const RuledMotion& rails, std::size_t motion, st
   add(g, anchor.axis.dot(pose.tip - anchor.tip), stage_.axial_pin);
   g << Vec3::Zero(), pose.u;
   add(g, grid_.axis_length() * (pose.length_w - 1.0), kUnitPenalty);
+  if (stage_.parallel_weight > 0.0) {
+    g << Vec3::Zero(), grid_.row(pose, grid_.axis_length(), anchor.forward).tail<3>();
+    add(g, grid_.axis_length() * (anchor.forward.dot(pose.u) - anchor.lean), stage_.parallel_weight);
+  }
   system.add_pose(static_cast<int>(motion), time.first, time.basis.data(), terms, false);
 }
 
@@ -155,6 +177,8 @@ double RailTerms::cost(const RuledMotion& rails, std::size_t motion) const {
     const double slide = anchor.axis.dot(pose.tip - anchor.tip);
     const double unit = length * (pose.length_w - 1.0);
     sum += stage_.transversal_anchor * drift * drift + stage_.axial_pin * slide * slide + kUnitPenalty * unit * unit;
+    const double lean = length * (anchor.forward.dot(pose.u) - anchor.lean);
+    if (stage_.parallel_weight > 0.0) sum += stage_.parallel_weight * lean * lean;
     if (!weighs_velocities()) continue;
     const double places = static_cast<double>(grid_.s().size());
     visit_plunges(rails, motion, i,

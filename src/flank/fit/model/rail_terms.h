@@ -27,8 +27,14 @@ class RailTerms {
   /// which way it goes on, averaged over the times around it.
   struct Anchor {
     Vec3 middle, tangent, tip, axis, way;
+    /// The common way of this motion and the one over the other side, a unit vector, and how far the axis is to lean along
+    /// it. Set where FitStage::parallel_weight is.
+    Vec3 forward = Vec3::Zero();
+    double lean = 0.0;
   };
 
+  /// Of the motions of a start that face each other.
+  void lean_alike(const FitState& start);
   /// Anchors and mean speeds of one motion of the start.
   void add_anchors(const RuledMotion& motion);
   [[nodiscard]] bool weighs_velocities() const { return stage_.plunge_weight > 0.0 || stage_.lag_weight > 0.0; }
