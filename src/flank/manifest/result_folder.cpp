@@ -16,6 +16,7 @@
 #include "flank/base/atomic_file.h"
 #include "flank/base/sha256.h"
 #include "flank/error.h"
+#include "flank/manifest/journal_json.h"
 
 namespace flank::internal {
 namespace {
@@ -44,9 +45,9 @@ bool is_file(const std::string& file) {
 
 const std::vector<std::string>& result_names() {
   static const std::vector<std::string> kNames{
-      "job.json",  "tool.json",  "tool.dxf",  "tool.step",    "tool.fctb",       "strips.step",
-      "path.json", "path.cls",   "path.csv",  "ranking.json", "summary.json",    "verify.json",
-      "view.json", "blank.json", "stock.stl", "motion.json",  "engagement.json", kManifestFile,
+      "job.json",  "tool.json",   "tool.dxf",        "tool.step",    "tool.fctb",   "strips.step", "path.json",
+      "path.cls",  "path.csv",    "ranking.json",    "summary.json", "verify.json", "view.json",   "blank.json",
+      "stock.stl", "motion.json", "engagement.json", kJournalFile,   kManifestFile,
   };
   return kNames;
 }

@@ -1,0 +1,118 @@
+/// The finished steps of a run: what a run that was stopped need not do again (docs/schema/resume.md).
+///
+/// Planners are deterministic, so the steps of a run that is taken up again are those of the run that was stopped, in the
+/// same order, as far as that one came. A step may consist of steps: once it is finished it stands in their place.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "flank/base/step_codec.h"
+#include "flank/base/stopping.h"
+#include "flank/error.h"
+#include "flank/progress.h"
+
+namespace flank::internal {
+
+/// Of which run: all that decides its steps.
+struct JournalKey {
+  std::string version;  ///< of the program
+  std::string job;      ///< SHA-256 of what was asked for, and of the files that it names but the part
+  std::string part;     ///< SHA-256 of the part
+  bool operator==(const JournalKey&) const = default;
+};
+
+struct JournalStep {
+  std::string name;    ///< "polish"
+  std::string inputs;  ///< SHA-256 of what the step began with
+  StepValues result;
+};
+
+}  // namespace flank::internal
+
+/// For one thread: steps are asked for and added one after another.
+class flank::Progress::Journal {
+  using JournalKey = internal::JournalKey;
+  using JournalStep = internal::JournalStep;
+
+ public:
+  /// Of a run from the beginning.
+  Journal() = default;
+  /// Of a run that goes on. `file`: for messages.
+  Journal(JournalKey key, std::vector<JournalStep> earlier, std::string file)
+      : key_(std::move(key)), earlier_(std::move(earlier)), file_(std::move(file)) {}
+
+  [[nodiscard]] const std::optional<JournalKey>& key() const { return key_; }
+  /// From here on the steps are of this run. Throws InputError if those that were read are of another.
+  void begin(const JournalKey& key);
+
+  /// The next step of the earlier run, if it is this one: `read` gets its values. False if it is not. Throws InputError with
+  /// the place if `read` refuses them.
+  template <class Read>
+  [[nodiscard]] bool take(const std::string& name, const std::string& inputs, const Read& read) {
+    if (!is_next(name, inputs)) return false;
+    internal::StepCodec codec(earlier_[taken_].result);
+    try {
+      read(codec);
+      codec.end();
+    } catch (const Error& error) {
+      refuse(error.what());
+    }
+    steps_.push_back(std::move(earlier_[taken_++]));
+    return true;
+  }
+  /// How many steps there are; those that a step consists of come after.
+  [[nodiscard]] std::size_t mark() const { return steps_.size(); }
+  /// The step in the place of all since the mark.
+  void add(std::size_t mark, JournalStep step);
+
+  /// All finished steps. A run that was stopped before it came as far as the earlier one keeps what that had.
+  [[nodiscard]] std::vector<JournalStep> steps() const;
+
+ private:
+  [[nodiscard]] bool is_next(const std::string& name, const std::string& inputs) const;
+  [[noreturn]] void refuse(const std::string& why) const;
+
+  std::optional<JournalKey> key_;
+  std::vector<JournalStep> steps_, earlier_;
+  std::size_t taken_ = 0;  ///< of the earlier ones
+  bool added_ = false;
+  std::string file_;
+};
+
+namespace flank::internal {
+
+using Journal = Progress::Journal;
+
+/// SHA-256 of values, bit by bit.
+[[nodiscard]] std::string fingerprint(const StepValues& values);
+
+/// The result of `work`: taken from the journal if an earlier run has finished this step, else worked out and added to it.
+/// A step during which the run was stopped is not finished. `inputs`: what the result depends on beyond the run's key and
+/// the steps before it, as far as it is a value. Without a journal it is `work()`. Not within parallel loops.
+template <class Work, class... Inputs>
+[[nodiscard]] auto journaled(const Progress& progress, const char* name, const Work& work, const Inputs&... inputs) {
+  using Value = std::invoke_result_t<Work>;
+  Journal* journal = progress.journal.get();
+  if (journal == nullptr) return Value(work());
+  StepCodec begun;
+  [[maybe_unused]] const auto add_input = [&](auto input) { code(begun, input); };
+  (add_input(inputs), ...);
+  JournalStep step{name, fingerprint(begun.values()), {}};
+  Value value;
+  if (journal->take(step.name, step.inputs, [&](StepCodec& codec) { code(codec, value); })) return value;
+  const std::size_t mark = journal->mark();
+  value = work();
+  if (progress.stop() || stopping()) return value;
+  StepCodec codec;
+  code(codec, value);
+  step.result = codec.values();
+  if (codec.writable()) journal->add(mark, std::move(step));
+  return value;
+}
+
+}  // namespace flank::internal

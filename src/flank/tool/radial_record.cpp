@@ -1,0 +1,23 @@
+#include "flank/tool/radial_record.h"
+
+namespace flank::internal {
+
+void code(StepCodec& codec, RadialFunction& radial) {
+  ToolFamily family = radial.family();
+  double length = radial.axis_length();
+  std::vector<double> parameters(radial.parameters().begin(), radial.parameters().end());
+  code_choice(codec, family, static_cast<int>(kToolFamilies.size()));
+  codec.finite(length);
+  code(codec, parameters);
+  for (double& parameter : parameters) codec.require(parameter - parameter == 0.0, "finite parameters are needed");
+  const bool empty = length == 0.0 && parameters.empty();
+  constexpr std::size_t kLeastCoefficients = 4;
+  const bool counted = family == ToolFamily::kSpline ? parameters.size() >= kLeastCoefficients
+                                                     : parameters.size() == parameter_names(family).size();
+  codec.require(empty || (length > 0.0 && counted), "a family with its parameters and a length > 0 are needed");
+  if (!codec.reading()) return;
+  const Eigen::Map<const Eigen::VectorXd> all(parameters.data(), static_cast<Eigen::Index>(parameters.size()));
+  radial = empty ? RadialFunction() : RadialFunction(family, length, all);
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,12 @@
+/// Radial functions among the values of a finished step (base/step_codec.h).
+#pragma once
+
+#include "flank/base/step_codec.h"
+#include "flank/radial_function.h"
+
+namespace flank::internal {
+
+/// Finite parameters in the number that the family has, and a length above zero; or the empty function.
+void code(StepCodec& codec, RadialFunction& radial);
+
+}  // namespace flank::internal
