@@ -2,13 +2,16 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
 #include <memory>
 
 #include "commands.h"
 #include "flank/artefact/verify_json.h"
 #include "flank/artefact/write_result.h"
 #include "flank/base/printable.h"
+#include "flank/io/text/json_input.h"
 #include "flank/job/input_files.h"
+#include "flank/pipeline/folder/resume_folder.h"
 #include "flank/run.h"
 #include "job_options.h"
 
@@ -16,13 +19,32 @@ namespace flank::cli {
 using namespace internal;
 namespace {
 
+struct Output {
+  std::string folder;
+  bool resume = false;  ///< go on where an earlier run was stopped
+};
+
+/// What was asked for is there already.
+int say_finished(const std::string& folder, const CommonOptions& common) {
+  if (common.json)
+    fmt::print("{}", read_file((std::filesystem::path(folder) / "summary.json").string()));
+  else if (!common.quiet)
+    fmt::print("nothing is left to do: {} holds the complete result\n", printable(folder));
+  return kMeetsRequest;
+}
+
 /// Makes the folder and holds it, works, writes what came out, prints the summary. A folder that it made is removed if
 /// the work is refused.
-int run_into(const std::string& name, const CommonOptions& common, const PlanJob& job,
+int run_into(const Output& output, const CommonOptions& common, const PlanJob& job,
              const std::function<Result(const Progress&)>& work) {
+  const std::string& name = output.folder;
   ResultFolder folder(name, ResultFolder::Use::kWrite);
   folder.require_not_inputs(input_files(job));
-  const Progress progress = terminal_progress(common);
+  Progress progress = terminal_progress(common);
+  if (output.resume) {
+    if (is_finished(folder, job)) return say_finished(name, common);
+    progress.journal = journal_of(folder);
+  }
   const Result result = work(progress);
   write_result(result, folder);
   progress.step("done", 1.0);
@@ -38,11 +60,13 @@ int run_into(const std::string& name, const CommonOptions& common, const PlanJob
 template <class Job>
 Subcommand job_command(CLI::App* app, Result (*work)(const Job&, const Progress&)) {
   auto job = std::make_shared<Job>();
-  auto folder = std::make_shared<std::string>();
+  auto output = std::make_shared<Output>();
   FlagNames names = add_job_options(*app, *job);
-  app->add_option("-o,--output", *folder, "Folder for the results")->required();
-  const auto run = [job, folder, work](const CommonOptions& common) {
-    return run_into(*folder, common, *job, [&](const Progress& progress) { return work(*job, progress); });
+  app->add_option("-o,--output", output->folder, "Folder for the results")->required();
+  app->add_flag("--resume", output->resume,
+                "Go on where an earlier run of the same command into this folder was stopped; the result is the same");
+  const auto run = [job, output, work](const CommonOptions& common) {
+    return run_into(*output, common, *job, [&](const Progress& progress) { return work(*job, progress); });
   };
   return {app, run, std::move(names)};
 }

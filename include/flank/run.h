@@ -137,6 +137,8 @@ struct Result {
   std::vector<std::string> notes;  ///< repairs of the part, warnings
   std::vector<std::pair<std::string, double>> seconds;  ///< stage, wall time
   bool complete = true;                                 ///< false: cancelled, what is here is unfinished
+  /// The steps that were finished, of a result that is not complete; write_result keeps them for read_journal.
+  std::shared_ptr<const Progress::Journal> journal;
   struct Drawings;
   std::shared_ptr<const Drawings> drawings;  ///< surfaces of the strips and what a report shows
 
@@ -152,8 +154,14 @@ struct Result {
 /// `flank trochoid`. Throws likewise.
 [[nodiscard]] Result run_trochoid(const TrochoidJob& job, const Progress& progress = {});
 
+/// The steps that a run into this folder had finished when it was stopped (docs/schema/resume.md). Handed to the same job
+/// as Progress::journal, it goes on from there, and its result is that of a run that was never stopped, byte by byte. One
+/// journal is for one run. Throws InputError if the folder has none or a damaged one; the run throws InputError for one of
+/// another job, part or version.
+[[nodiscard]] std::shared_ptr<Progress::Journal> read_journal(const std::string& folder);
+
 /// Writes tool.json, tool.dxf, tool.step, tool.fctb, strips.step, path.json, path.cls, path.csv, verify.json, view.json,
-/// summary.json and job.json to a folder, and ranking.json if there is a ranking. A tool that is not legitimate has
+/// summary.json and job.json to a folder, ranking.json if there is a ranking, and resume.json if it is not complete. A tool that is not legitimate has
 /// neither tool.step nor tool.fctb. All of them take the place of an earlier result at once, with a manifest.json that ties
 /// them together and to the part (docs/schema/manifest.md); other files in the folder stay. Throws InputError if the folder
 /// cannot be written, holds a file that the job reads under one of these names, or another process writes to it; what was

@@ -20,6 +20,7 @@
 #include "flank/job/fields.h"
 #include "flank/job/input_files.h"
 #include "flank/job/job_json.h"
+#include "flank/manifest/journal_json.h"
 #include "flank/path_file.h"
 #include "flank/tool_file.h"
 
@@ -57,6 +58,8 @@ std::map<std::string, std::string> files_of(const Result& result) {
   if (result.drawings && !result.drawings->left.triangles.empty())
     files["stock.stl"] = mesh_to_stl(result.drawings->left);
   if (result.ranking) files["ranking.json"] = ranking_to_json(*result.ranking);
+  if (!result.complete && result.journal && result.journal->key())
+    files[kJournalFile] = journal_to_json(*result.journal);
   files["summary.json"] = summary_json(result);
   return files;
 }

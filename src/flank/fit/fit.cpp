@@ -8,11 +8,14 @@
 #include <numbers>
 #include <optional>
 
+#include "flank/base/journal.h"
 #include "flank/base/parallel.h"
 #include "flank/fit/coverage.h"
+#include "flank/fit/fit_record.h"
 #include "flank/fit/polish.h"
 #include "flank/fit/race.h"
 #include "flank/fit/ways.h"
+#include "flank/motion/motion_record.h"
 #include "flank/seed/clear_start.h"
 #include "flank/seed/ruled_start.h"
 
@@ -149,19 +152,29 @@ void sort_by_score(std::vector<Candidate>& candidates) {
                    [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
 }
 
-/// From all starts to one result, with options.obstacles in the way from the beginning.
-FlankFitResult search_starts(const Target& target, const ToolModel& tool, const FlankFitOptions& options,
-                             const Progress& progress) {
-  FlankFitResult result;
+/// What the quick fits of all starts leave.
+struct QuickStarts {
+  int tried = 0;
+  bool touching = false;         ///< one of them touches the target
+  std::vector<FitDraft> drafts;  ///< the best first, as many as are polished at most
+};
+
+/// The drafts without what tie() puts back.
+void code(StepCodec& codec, QuickStarts& quick) {
+  code(codec, quick.tried);
+  code(codec, quick.touching);
+  code(codec, quick.drafts);
+}
+
+QuickStarts quick_starts(const Target& target, const ToolModel& tool, const FlankFitOptions& options) {
+  QuickStarts quick;
   const Chart chart(target);
-  const std::vector<SurfaceSample> samples = ranking_samples(target, options.obstacles, options);
   FlankFitOptions coarse = options;
   coarse.sample_share = kQuickSampleShare;
   const std::vector<SurfaceSample> few = ranking_samples(target, options.obstacles, coarse);
   std::vector<Candidate> candidates;
   for (const RuledStart& start : enumerate_starts(chart, tool, options)) candidates.push_back({start, {}, {}, -1.0});
-  result.candidates = static_cast<int>(candidates.size());
-  progress.step("starts", 0.0);
+  quick.tried = static_cast<int>(candidates.size());
   std::atomic<int> tried = 0;
   parallel_for(candidates.size(), [&](std::size_t k) {
     if (stopping() && tried > 0) return;  // one start is enough to have a result
@@ -170,50 +183,91 @@ FlankFitResult search_starts(const Target& target, const ToolModel& tool, const 
   });
   std::erase_if(candidates, [](const Candidate& candidate) { return candidate.draft.motions.empty(); });
   sort_by_score(candidates);
-  if (candidates.empty() || candidates.front().score <= 0.0) {
+  quick.touching = !candidates.empty() && candidates.front().score > 0.0;
+  candidates.resize(std::min(candidates.size(), static_cast<std::size_t>(options.kept_after_quick)));
+  for (Candidate& candidate : candidates) quick.drafts.push_back(std::move(candidate.draft));
+  return quick;
+}
+
+void look_closely(Runner& runner, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options,
+                  const Progress& progress) {
+  advance(runner, progress, "close look",
+          [&](Runner& next) { next.polished = looked_at_closely(next.polished, samples, options); });
+}
+
+/// From all starts to one result, with options.obstacles in the way from the beginning.
+FlankFitResult search_starts(const Target& target, const ToolModel& tool, const FlankFitOptions& options,
+                             const Progress& progress) {
+  FlankFitResult result;
+  progress.step("starts", 0.0);
+  QuickStarts quick = journaled(progress, "starts", [&] { return quick_starts(target, tool, options); });
+  for (FitDraft& draft : quick.drafts) tie(draft, target, options.obstacles);
+  result.candidates = quick.tried;
+  if (!quick.touching) {
     result.status = FitStatus::kNoStart;
     result.message = "no ruled start touches the target within four tolerances";
-    if (candidates.empty()) return result;
   }
+  if (quick.drafts.empty()) return result;
   progress.step("polish", 0.5);
-  std::vector<FitDraft> starts;
-  for (Candidate& candidate : candidates) starts.push_back(std::move(candidate.draft));
-  Runner best = race(starts, samples, options, progress);
+  const std::vector<SurfaceSample> samples = ranking_samples(target, options.obstacles, options);
+  Runner best = race(quick.drafts, samples, options, progress);
   result.before = estimate_coverage(samples, best.start.motions, best.start.tool, options.tolerance_mm, kRankingPoses);
   result.trace = best.trace;
-  if (!best.enough) best.polished = looked_at_closely(best.polished, samples, options);
+  if (!best.enough) look_closely(best, samples, options, progress);
   return finish(best.polished, options, std::move(result));
 }
 
-}  // namespace
-
-FlankFitResult fit_automatic(const Target& target, const ToolModel& tool, const FlankFitOptions& options,
-                             const Progress& progress) {
-  FlankFitResult first = search_starts(target, tool, options, progress);
+/// The search with options.obstacles in the way, and the other ways where it does not give what was asked.
+FlankFitResult search_ways(const Target& target, const ToolModel& tool, const FlankFitOptions& options,
+                           const Progress& progress) {
+  const auto search = [&](const FlankFitOptions& other) {
+    return journaled(
+        progress, "search", [&] { return search_starts(target, tool, other, progress); }, other, tool);
+  };
+  FlankFitResult first = search(options);
   if (options.obstacles == nullptr || !options.ways || first.status == FitStatus::kWithinTolerance || progress.stop())
     return first;
-  const auto search = [&](const FlankFitOptions& other) { return search_starts(target, tool, other, progress); };
   return best_way(target, tool, options, std::move(first), search, progress);
 }
 
-FlankFitResult fit_from_starts(const std::vector<FitTask>& tasks, const ToolModel& tool, const FlankFitOptions& options,
-                               const Progress& progress) {
+FlankFitResult polish_starts(const std::vector<FitTask>& tasks, const ToolModel& tool, const FlankFitOptions& options,
+                             const Progress& progress) {
   FlankFitResult result;
   const std::vector<SurfaceSample> samples = ranking_samples(*tasks.front().target, tasks.front().obstacles, options);
   // The start is the user's: no quick fit, which would move it towards what ranks best, and no other candidates.
   FitDraft draft = make_draft(tasks, tool, options);
   progress.step("fit", 0.1);
   result.before = estimate_coverage(samples, draft.motions, draft.tool, options.tolerance_mm, kRankingPoses);
-  Runner only;
-  only.polished = polish(draft, samples, options, &result.trace);
-  settle_if_enough(only, samples, options);
+  Runner only{draft, {draft, {}, false}, {}, false};
+  advance(only, progress, "polish", [&](Runner& next) {
+    next.polished = polish(draft, samples, options, &next.trace);
+    settle_if_enough(next, samples, options);
+  });
   progress.step("fit", 0.5);
   if (!only.enough) {
-    only.polished = last_passes(only.polished, samples, options, &result.trace);
-    only.polished = looked_at_closely(only.polished, samples, options);
+    advance(only, progress, "last passes",
+            [&](Runner& next) { next.polished = last_passes(next.polished, samples, options, &next.trace); });
+    look_closely(only, samples, options, progress);
   }
   progress.step("fit", 0.9);
+  result.trace = std::move(only.trace);
   return finish(only.polished, options, std::move(result));
+}
+
+}  // namespace
+
+FlankFitResult fit_automatic(const Target& target, const ToolModel& tool, const FlankFitOptions& options,
+                             const Progress& progress) {
+  return journaled(
+      progress, "fit", [&] { return search_ways(target, tool, options, progress); }, options, tool);
+}
+
+FlankFitResult fit_from_starts(const std::vector<FitTask>& tasks, const ToolModel& tool, const FlankFitOptions& options,
+                               const Progress& progress) {
+  std::vector<RuledMotion> starts;
+  for (const FitTask& task : tasks) starts.push_back(task.motion);
+  const auto work = [&] { return polish_starts(tasks, tool, options, progress); };
+  return journaled(progress, "fit from starts", work, options, tool, starts);
 }
 
 }  // namespace flank

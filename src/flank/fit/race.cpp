@@ -1,11 +1,15 @@
 #include "flank/fit/race.h"
 
 #include <algorithm>
+#include <span>
 
 #include "flank/base/assert.h"
+#include "flank/base/journal.h"
 #include "flank/base/parallel.h"
 #include "flank/base/tolerance_budget.h"
+#include "flank/error.h"
 #include "flank/fit/coverage.h"
+#include "flank/fit/fit_record.h"
 #include "flank/fit/swept_polish.h"
 #include "flank/tool/compliance.h"
 
@@ -42,6 +46,28 @@ void sort_by_merit(std::vector<Runner>& runners, const FlankFitOptions& options)
   });
 }
 
+/// These starts, polished side by side.
+std::vector<Runner> polished_abreast(std::span<const FitDraft> starts, const std::vector<SurfaceSample>& samples,
+                                     const FlankFitOptions& options, const Progress& progress) {
+  const std::vector<FitDraft> inputs(starts.begin(), starts.end());
+  const auto work = [&] {
+    std::vector<Runner> runners(starts.size());
+    parallel_for(starts.size(), [&](std::size_t k) {
+      runners[k].polished = polish(starts[k], samples, options, &runners[k].trace);
+      settle_if_enough(runners[k], samples, options);
+    });
+    return runners;
+  };
+  std::vector<Runner> runners = journaled(progress, "polish", work, inputs);
+  if (runners.size() != starts.size())
+    throw InputError("a step of the run that was stopped has not as many candidates as starts");
+  for (std::size_t k = 0; k < runners.size(); ++k) {
+    runners[k].start = starts[k];
+    tie(runners[k].polished.draft, starts[k]);
+  }
+  return runners;
+}
+
 std::vector<Runner> polish_until_enough(const std::vector<FitDraft>& starts, const std::vector<SurfaceSample>& samples,
                                         const FlankFitOptions& options, const Progress& progress) {
   const std::size_t most = std::min(starts.size(), static_cast<std::size_t>(options.kept_after_quick));
@@ -51,13 +77,8 @@ std::vector<Runner> polish_until_enough(const std::vector<FitDraft>& starts, con
     // The user has had enough: the best start alone is still worth a polish, so that there is a result.
     if (progress.stop() && !runners.empty()) break;
     const std::size_t first = runners.size(), count = progress.stop() ? 1 : std::min(kAbreast, most - first);
-    runners.resize(first + count);
-    parallel_for(count, [&](std::size_t k) {
-      Runner& runner = runners[first + k];
-      runner.start = starts[first + k];
-      runner.polished = polish(runner.start, samples, options, &runner.trace);
-      settle_if_enough(runner, samples, options);
-    });
+    for (Runner& runner : polished_abreast(std::span(starts).subspan(first, count), samples, options, progress))
+      runners.push_back(std::move(runner));
     progress.step("polish", 0.5 + 0.2 * static_cast<double>(runners.size()) / static_cast<double>(most));
   }
   return runners;
@@ -77,8 +98,10 @@ void pass_until_enough(std::vector<Runner>& runners, const std::vector<SurfaceSa
     Runner& runner = runners[k];
     const double before = score(runner);
     if (k > 0 && (progress.stop() || before + kGains * gained + kBehind < best)) continue;
-    runner.polished = last_passes(runner.polished, samples, options, &runner.trace);
-    settle_if_enough(runner, samples, options);
+    advance(runner, progress, "last passes", [&](Runner& next) {
+      next.polished = last_passes(next.polished, samples, options, &next.trace);
+      settle_if_enough(next, samples, options);
+    });
     if (runner.enough) return;
     gained = std::max(gained, score(runner) - before);
     best = std::max(best, score(runner));
@@ -100,6 +123,24 @@ Runner with_last_digits(const Runner& winner, const std::vector<SurfaceSample>& 
 }
 
 }  // namespace
+
+void code(StepCodec& codec, Runner& runner) {
+  code(codec, runner.polished);
+  code(codec, runner.trace);
+  code(codec, runner.enough);
+}
+
+void advance(Runner& runner, const Progress& progress, const char* step, const std::function<void(Runner&)>& work) {
+  const auto advanced = [&] {
+    Runner next = runner;
+    work(next);
+    return next;
+  };
+  Runner next = journaled(progress, step, advanced, runner);
+  tie(next.polished.draft, runner.start);
+  next.start = std::move(runner.start);
+  runner = std::move(next);
+}
 
 bool is_enough(const CoverageEstimate& estimate, const FlankFitOptions& options) {
   constexpr double kMostC = 0.95;  // the poses of the path lie closer than those of the estimate, and see a little more
@@ -130,7 +171,9 @@ Runner race(const std::vector<FitDraft>& starts, const std::vector<SurfaceSample
     pass_until_enough(runners, samples, options, progress);
     sort_by_merit(runners, options);
   }
-  return with_last_digits(runners.front(), samples, options);
+  Runner winner = std::move(runners.front());
+  advance(winner, progress, "last digits", [&](Runner& next) { next = with_last_digits(next, samples, options); });
+  return winner;
 }
 
 }  // namespace flank::internal

@@ -2,8 +2,10 @@
 /// one of them does what was asked.
 #pragma once
 
+#include <functional>
 #include <vector>
 
+#include "flank/base/step_codec.h"
 #include "flank/fit/polish.h"
 #include "flank/progress.h"
 
@@ -16,6 +18,13 @@ struct Runner {
   std::vector<IterationTrace> trace;  ///< of its passes
   bool enough = false;                ///< does what was asked, looked at closely; `polished` is settled then
 };
+
+/// Among the values of a finished step (base/step_codec.h), without its start.
+void code(StepCodec& codec, Runner& runner);
+
+/// A step of one candidate, which takes its start with it; from the journal if an earlier run has finished it
+/// (base/journal.h).
+void advance(Runner& runner, const Progress& progress, const char* step, const std::function<void(Runner&)>& work);
 
 /// Does this do what was asked, so that no other candidate need be tried? Covers options.enough_coverage,
 /// is clean, and does not plunge where it touches.

@@ -6,10 +6,13 @@
 #include <array>
 #include <cmath>
 
+#include "flank/base/journal.h"
 #include "flank/base/parallel.h"
 #include "flank/base/stopping.h"
 #include "flank/base/tolerance_budget.h"
+#include "flank/error.h"
 #include "flank/fit/coverage.h"
+#include "flank/fit/fit_record.h"
 #include "flank/fit/polish.h"
 #include "flank/fit/swept_polish.h"
 
@@ -118,9 +121,14 @@ RadialFunction part_of(const RadialFunction& tool, double from, double length) {
 }
 
 struct Way {
-  std::string_view name;
+  std::string name;
   Polished polished;
 };
+
+void code(StepCodec& codec, Way& way) {
+  codec.text(way.name);
+  code(codec, way.polished);
+}
 
 }  // namespace
 
@@ -214,8 +222,12 @@ FlankFitResult best_way(const Target& target, const ToolModel& tool, const Flank
   if (free.motions.empty() || (stopping() && !first.motions.empty())) return first;
   const double tolerance = options.tolerance_mm;
   const bool fixed_length = tool.axis_length || options.axis_length_mm;
-  const std::vector<Way> ways =
-      ways_from(draft_of(target, tool, free, options.obstacles), fixed_length, options, progress);
+  std::vector<Way> ways = journaled(
+      progress, "ways",
+      [&] { return ways_from(draft_of(target, tool, free, options.obstacles), fixed_length, options, progress); },
+      free);
+  if (ways.empty()) throw InputError("a step of the run that was stopped has no way");
+  for (Way& way : ways) tie(way.polished.draft, target, options.obstacles);
   const Way* best = nullptr;
   for (const Way& way : ways) {
     const CoverageEstimate& rival = best != nullptr ? best->polished.estimate : first.after;

@@ -9,6 +9,7 @@
 #include "flank/job/check_fields.h"
 #include "flank/pipeline/cover_choice.h"
 #include "flank/pipeline/finish.h"
+#include "flank/pipeline/run_journal.h"
 #include "flank/setup/tool_body.h"
 #include "flank/strip/strip_order.h"
 #include "flank/toolbox/tool_spec.h"
@@ -115,7 +116,8 @@ std::vector<StripSurface> collect(const CoverJob& job, const std::vector<Covered
 
 }  // namespace
 
-Result run_cover(const CoverJob& job, const Progress& progress) {
+Result run_cover(const CoverJob& job, const Progress& asked) {
+  const Progress progress = with_journal(asked);
   check_fields(job);
   (void)options_of(job);
   Result result;
@@ -130,6 +132,7 @@ Result run_cover(const CoverJob& job, const Progress& progress) {
   progress.step("read", 0.0);
   const Setup setup = read_setup(job.part, job.obstacles, job.tolerance_mm, result.notes);
   result.part_sha256 = setup.part.sha256;
+  progress.journal->begin(journal_key(job, result.part_sha256));
   watch.lap("read");
   stop_here();
   const std::vector<Covered> all =
@@ -143,6 +146,7 @@ Result run_cover(const CoverJob& job, const Progress& progress) {
   progress.step("verify", 0.9);
   const ClearanceScene scene = make_clearance_scene(setup, job.obstacles, has_body(result.tool), result.notes);
   judge_result(setup, scene, std::move(surfaces), result, watch);
+  if (!result.complete) result.journal = progress.journal;
   return result;
 }
 

@@ -11,6 +11,7 @@
 #include "flank/job/check_fields.h"
 #include "flank/pipeline/finish.h"
 #include "flank/pipeline/fit_search.h"
+#include "flank/pipeline/run_journal.h"
 #include "flank/setup/tool_body.h"
 
 namespace flank::internal {
@@ -110,7 +111,8 @@ std::vector<StripSurface> sample_path(const FitSearch& search, double tolerance_
 
 }  // namespace
 
-Result run_fit(const FitJob& job, const Progress& progress) {
+Result run_fit(const FitJob& job, const Progress& asked) {
+  const Progress progress = with_journal(asked);
   check_job(job);
   const ToolSpec spec = parse_tool_spec(job.tool.spec);
   check_obstacles(job.obstacles, spec.tool ? &*spec.tool : nullptr);
@@ -120,6 +122,7 @@ Result run_fit(const FitJob& job, const Progress& progress) {
   progress.step("read", 0.0);
   const Setup setup = read_setup(job.part, job.obstacles, job.tolerance_mm, result.notes);
   result.part_sha256 = setup.part.sha256;
+  progress.journal->begin(journal_key(job, result.part_sha256));
   check_axis_length(job, setup.part);
   const ClearanceScene scene = make_clearance_scene(setup, job.obstacles, has_body(spec, job.obstacles), result.notes);
   watch.lap("read");
@@ -143,6 +146,7 @@ Result run_fit(const FitJob& job, const Progress& progress) {
 
   progress.step("verify", 0.9);
   judge_result(setup, scene, std::move(surfaces), result, watch);
+  if (!result.complete) result.journal = progress.journal;
   return result;
 }
 

@@ -16,6 +16,7 @@
 #include "flank/pipeline/finish.h"
 #include "flank/pipeline/folder/judge_job.h"
 #include "flank/pipeline/run_fit.h"
+#include "flank/pipeline/run_journal.h"
 #include "flank/pipeline/search_setup.h"
 #include "flank/run.h"
 #include "flank/setup/clearance_scene.h"
@@ -193,7 +194,8 @@ void replay(const Setup& setup, const TrochoidJob& job, const std::vector<HalfSp
 
 }  // namespace
 
-Result run_trochoid(const TrochoidJob& job, const Progress& progress) {
+Result run_trochoid(const TrochoidJob& job, const Progress& asked) {
+  const Progress progress = with_journal(asked);
   check_job(job);
   const ToolSpec spec = parse_tool_spec(job.tool.spec);
   check_obstacles(job.obstacles, spec.tool ? &*spec.tool : nullptr);
@@ -203,6 +205,7 @@ Result run_trochoid(const TrochoidJob& job, const Progress& progress) {
   progress.step("read", 0.0);
   const Setup setup = read_setup(machined(job), job.obstacles, job.tolerance_mm, result.notes);
   result.part_sha256 = setup.part.sha256;
+  progress.journal->begin(journal_key(job, result.part_sha256));
   CavityFaces faces = cavity_faces(job, setup);
   const ClearanceScene scene = make_clearance_scene(setup, job.obstacles, has_body(spec, job.obstacles), result.notes);
   if (job.avoid) surround(job, setup, faces, result.notes);
@@ -224,6 +227,7 @@ Result run_trochoid(const TrochoidJob& job, const Progress& progress) {
   judge_result(setup, scene, {}, result, watch);
   replay(setup, job, plan.program.blank, result);
   watch.lap("stock");
+  if (!result.complete) result.journal = progress.journal;
   return result;
 }
 

@@ -1,0 +1,100 @@
+#include "flank/fit/fit_record.h"
+
+#include "flank/error.h"
+#include "flank/motion/motion_record.h"
+#include "flank/tool/radial_record.h"
+
+namespace flank::internal {
+namespace {
+
+void code(StepCodec& codec, ResidualSummary& residuals) {
+  for (double* value :
+       {&residuals.rms_mm, &residuals.largest_mm, &residuals.inside_share, &residuals.largest_overcut_mm})
+    codec.number(*value);
+}
+
+void code(StepCodec& codec, RadiusBounds& bounds) {
+  for (double* value : {&bounds.smallest, &bounds.largest, &bounds.steepest, &bounds.slenderest, &bounds.neck,
+                        &bounds.wheel_radius, &bounds.shank_length, &bounds.shank_radius})
+    codec.number(*value);
+}
+
+}  // namespace
+
+void code(StepCodec& codec, CoverageEstimate& estimate) {
+  for (double* value : {&estimate.at_tolerance, &estimate.at_four_tolerances, &estimate.overcut_mm, &estimate.gouge_mm,
+                        &estimate.undercut_mm, &estimate.rms_mm, &estimate.largest_c})
+    codec.number(*value);
+}
+
+void code(StepCodec& codec, IterationTrace& step) {
+  for (double* value : {&step.cost, &step.rms_mm, &step.largest_mm, &step.damping}) codec.number(*value);
+}
+
+void code(StepCodec& codec, FlankFitResult& fit) {
+  code_choice(codec, fit.status, 4);
+  code(codec, fit.message);
+  code(codec, fit.tool);
+  code(codec, fit.motions);
+  code(codec, fit.before);
+  code(codec, fit.after);
+  code(codec, fit.residuals);
+  code(codec, fit.trace);
+  code(codec, fit.notes);
+  code(codec, fit.candidates);
+  codec.require(fit.motions.empty() || fit.tool.axis_length() > 0.0, "motions need a tool");
+}
+
+void code(StepCodec& codec, FitDraft& draft) {
+  code(codec, draft.motions);
+  code(codec, draft.tool);
+  code(codec, draft.free_parameters);
+  code(codec, draft.free_tool);
+  codec.require(draft.motions.empty() || draft.tool.axis_length() > 0.0, "motions need a tool");
+  for (const int index : draft.free_parameters)
+    codec.require(index >= 0 && index < draft.tool.parameter_count(), "a free parameter that the tool has is needed");
+}
+
+void code(StepCodec& codec, Polished& polished) {
+  code(codec, polished.draft);
+  code(codec, polished.estimate);
+  code(codec, polished.exact);
+}
+
+void code(StepCodec& codec, FlankFitOptions& options) {
+  codec.number(options.tolerance_mm);
+  code(codec, options.axis_length_mm);
+  code(codec, options.bounds);
+  code(codec, options.strips);
+  code(codec, options.kept_after_quick);
+  code(codec, options.kept_after_polish);
+  codec.number(options.enough_coverage);
+  code(codec, options.ways);
+  codec.number(options.least_coverage_for_last_passes);
+  bool beside_walls = options.obstacles != nullptr;
+  code(codec, beside_walls);
+  codec.number(options.reach_radius_mm);
+  codec.number(options.sample_share);
+}
+
+void code(StepCodec& codec, ToolModel& tool) {
+  bool free = tool.free();
+  code(codec, free);
+  code(codec, tool.free_parameters);
+  code(codec, tool.radius);
+  code(codec, tool.axis_length);
+}
+
+void tie(FitDraft& draft, const FitDraft& like) {
+  if (draft.motions.size() != like.motions.size())
+    throw InputError("a step of the run that was stopped has not as many motions as its start");
+  draft.targets = like.targets;
+  draft.obstacles = like.obstacles;
+}
+
+void tie(FitDraft& draft, const Target& target, const ObstacleField* obstacles) {
+  draft.targets.assign(draft.motions.size(), &target);
+  draft.obstacles.assign(draft.motions.size(), obstacles);
+}
+
+}  // namespace flank::internal

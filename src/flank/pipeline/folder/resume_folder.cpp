@@ -1,0 +1,83 @@
+#include "flank/pipeline/folder/resume_folder.h"
+
+#include <filesystem>
+#include <variant>
+
+#include "flank/base/sha256.h"
+#include "flank/error.h"
+#include "flank/io/text/json_input.h"
+#include "flank/job/job_json.h"
+#include "flank/manifest/journal_json.h"
+#include "flank/run.h"
+
+namespace flank::internal {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string in(const ResultFolder& folder, const char* name) { return (fs::path(folder.path()) / name).string(); }
+
+bool has(const ResultFolder& folder, const char* name) {
+  return folder.manifest() && folder.manifest()->files.contains(name) && fs::is_regular_file(in(folder, name));
+}
+
+bool is_complete(const ResultFolder& folder) {
+  if (has(folder, kJournalFile) || !has(folder, "summary.json") || !has(folder, "job.json")) return false;
+  const std::string file = in(folder, "summary.json");
+  const auto summary = nlohmann::json::parse(read_file(file), nullptr, false);
+  return summary.is_object() && summary.value("complete", nlohmann::json()) == true;
+}
+
+/// As job.json has it, so that both can be compared. A fit of a free tool writes the ball that it was asked to reach with
+/// into its job.
+PlanJob as_written(const PlanJob& job, const PlanJob& written) {
+  PlanJob asked = job_from_json(job_to_json(job), "job.json");
+  auto* fit = std::get_if<FitJob>(&asked);
+  const auto* made = std::get_if<FitJob>(&written);
+  if (fit != nullptr && made != nullptr && !fit->judge.reach_radius_mm)
+    fit->judge.reach_radius_mm = made->judge.reach_radius_mm;
+  // The part is known by its bytes.
+  std::visit([](auto& plan) { plan.part.file.clear(); }, asked);
+  return asked;
+}
+
+std::string part_hash(const PlanJob& job) {
+  const std::string file = std::visit([](const auto& plan) { return plan.part.file; }, job);
+  return sha256(read_file(file));
+}
+
+}  // namespace
+
+bool is_finished(const ResultFolder& folder, const PlanJob& job) {
+  if (!is_complete(folder)) return false;
+  const std::string file = in(folder, "job.json");
+  PlanJob made = job_from_json(read_file(file), file);
+  std::visit([](auto& plan) { plan.part.file.clear(); }, made);
+  const char* needed = "; to go on, give the part and the options of that folder; to begin anew, leave out --resume";
+  if (as_written(job, made) != made)
+    throw InputError(folder.path() + ": holds the complete result of another job" + needed);
+  if (folder.manifest()->part.sha256 != part_hash(job))
+    throw InputError(folder.path() + ": holds the complete result of another part" + needed);
+  return true;
+}
+
+std::shared_ptr<Journal> journal_of(const ResultFolder& folder) {
+  if (!has(folder, kJournalFile))
+    throw InputError(folder.path() + ": there is nothing to go on from (no " + kJournalFile +
+                     " of a run that was stopped); give the folder of such a run, or leave out --resume");
+  const std::string file = in(folder, kJournalFile), text = read_file(file);
+  if (sha256(text) != folder.manifest()->files.at(kJournalFile))
+    throw InputError(file + ": is not the file that " + kManifestFile +
+                     " names: it was changed; leave out --resume to begin anew");
+  return std::make_shared<Journal>(journal_from_json(text, file));
+}
+
+}  // namespace flank::internal
+
+namespace flank {
+
+std::shared_ptr<Progress::Journal> read_journal(const std::string& folder) {
+  return internal::journal_of(internal::ResultFolder(folder, internal::ResultFolder::Use::kRead));
+}
+
+}  // namespace flank

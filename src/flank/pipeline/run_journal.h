@@ -1,0 +1,18 @@
+/// A run and its journal (base/journal.h): which job and part it is of, and when it is kept.
+#pragma once
+
+#include <string>
+
+#include "flank/base/journal.h"
+#include "flank/job.h"
+
+namespace flank::internal {
+
+/// The same, with an empty journal where there is none.
+[[nodiscard]] Progress with_journal(const Progress& progress);
+
+/// What decides the steps of a job: all its fields but the name of the part, the files that they name, the part's bytes and
+/// the version of the program.
+[[nodiscard]] JournalKey journal_key(const PlanJob& job, const std::string& part_sha256);
+
+}  // namespace flank::internal
