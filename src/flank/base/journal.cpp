@@ -20,8 +20,8 @@ void Progress::Journal::begin(const JournalKey& key) {
   key_ = key;
 }
 
-bool Progress::Journal::is_next(const std::string& name, const std::string& inputs) const {
-  return taken_ < earlier_.size() && earlier_[taken_].name == name && earlier_[taken_].inputs == inputs;
+bool Progress::Journal::is_next(const JournalStep& step) const {
+  return taken_ < earlier_.size() && earlier_[taken_].name == step.name && earlier_[taken_].inputs == step.inputs;
 }
 
 void Progress::Journal::refuse(const std::string& why) const {

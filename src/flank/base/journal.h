@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "flank/base/parallel.h"
 #include "flank/base/step_codec.h"
 #include "flank/base/stopping.h"
 #include "flank/error.h"
@@ -50,11 +51,11 @@ class flank::Progress::Journal {
   /// From here on the steps are of this run. Throws InputError if those that were read are of another.
   void begin(const JournalKey& key);
 
-  /// The next step of the earlier run, if it is this one: `read` gets its values. False if it is not. Throws InputError with
+  /// The next step of the earlier run, if it has this name and these inputs: `read` gets its values. False if it has not. Throws InputError with
   /// the place if `read` refuses them.
   template <class Read>
-  [[nodiscard]] bool take(const std::string& name, const std::string& inputs, const Read& read) {
-    if (!is_next(name, inputs)) return false;
+  [[nodiscard]] bool take(const JournalStep& step, const Read& read) {
+    if (!is_next(step)) return false;
     internal::StepCodec codec(earlier_[taken_].result);
     try {
       read(codec);
@@ -74,7 +75,7 @@ class flank::Progress::Journal {
   [[nodiscard]] std::vector<JournalStep> steps() const;
 
  private:
-  [[nodiscard]] bool is_next(const std::string& name, const std::string& inputs) const;
+  [[nodiscard]] bool is_next(const JournalStep& step) const;
   [[noreturn]] void refuse(const std::string& why) const;
 
   std::optional<JournalKey> key_;
@@ -91,6 +92,24 @@ using Journal = Progress::Journal;
 /// SHA-256 of values, bit by bit.
 [[nodiscard]] std::string fingerprint(const StepValues& values);
 
+/// The step without its result.
+template <class... Inputs>
+[[nodiscard]] JournalStep begun_step(const char* name, const Inputs&... inputs) {
+  StepCodec codec;
+  [[maybe_unused]] const auto add = [&](auto input) { code(codec, input); };
+  (add(inputs), ...);
+  return {name, fingerprint(codec.values()), {}};
+}
+
+/// With its result, unless that could not be read back.
+template <class Value>
+void add_step(Journal& journal, std::size_t mark, JournalStep step, Value& value) {
+  StepCodec codec;
+  code(codec, value);
+  step.result = codec.values();
+  if (codec.writable()) journal.add(mark, std::move(step));
+}
+
 /// The result of `work`: taken from the journal if an earlier run has finished this step, else worked out and added to it.
 /// A step during which the run was stopped is not finished. `inputs`: what the result depends on beyond the run's key and
 /// the steps before it, as far as it is a value. Without a journal it is `work()`. Not within parallel loops.
@@ -99,20 +118,31 @@ template <class Work, class... Inputs>
   using Value = std::invoke_result_t<Work>;
   Journal* journal = progress.journal.get();
   if (journal == nullptr) return Value(work());
-  StepCodec begun;
-  [[maybe_unused]] const auto add_input = [&](auto input) { code(begun, input); };
-  (add_input(inputs), ...);
-  JournalStep step{name, fingerprint(begun.values()), {}};
   Value value;
-  if (journal->take(step.name, step.inputs, [&](StepCodec& codec) { code(codec, value); })) return value;
+  JournalStep step = begun_step(name, inputs...);
+  if (journal->take(step, [&](StepCodec& codec) { code(codec, value); })) return value;
   const std::size_t mark = journal->mark();
   value = work();
-  if (progress.stop() || stopping()) return value;
-  StepCodec codec;
-  code(codec, value);
-  step.result = codec.values();
-  if (codec.writable()) journal->add(mark, std::move(step));
+  if (!(progress.stop() || stopping())) add_step(*journal, mark, std::move(step), value);
   return value;
+}
+
+/// The same for steps that are worked out side by side: work(k) for every k in [0, count), from inputs(k).
+template <class Work, class Inputs>
+[[nodiscard]] auto journaled_for(const Progress& progress, const char* name, std::size_t count, const Work& work,
+                                 const Inputs& inputs) {
+  using Value = std::invoke_result_t<Work, std::size_t>;
+  Journal* journal = progress.journal.get();
+  std::vector<Value> values(count);
+  std::vector<JournalStep> steps;
+  for (std::size_t k = 0; k < count && journal != nullptr; ++k) steps.push_back(begun_step(name, inputs(k)));
+  std::size_t taken = 0;
+  while (taken < steps.size() && journal->take(steps[taken], [&](StepCodec& codec) { code(codec, values[taken]); }))
+    ++taken;
+  parallel_for(count - taken, [&](std::size_t k) { values[taken + k] = work(taken + k); });
+  if (journal == nullptr || progress.stop() || stopping()) return values;
+  for (std::size_t k = taken; k < count; ++k) add_step(*journal, journal->mark(), std::move(steps[k]), values[k]);
+  return values;
 }
 
 }  // namespace flank::internal

@@ -23,7 +23,7 @@ void code(StepCodec& codec, RadiusBounds& bounds) {
 
 void code(StepCodec& codec, CoverageEstimate& estimate) {
   for (double* value : {&estimate.at_tolerance, &estimate.at_four_tolerances, &estimate.overcut_mm, &estimate.gouge_mm,
-                        &estimate.undercut_mm, &estimate.rms_mm, &estimate.largest_c})
+                        &estimate.undercut_mm, &estimate.rms_mm, &estimate.largest_c, &estimate.stagger})
     codec.number(*value);
 }
 
@@ -50,6 +50,7 @@ void code(StepCodec& codec, FitDraft& draft) {
   code(codec, draft.tool);
   code(codec, draft.free_parameters);
   code(codec, draft.free_tool);
+  code(codec, draft.facing);
   codec.require(draft.motions.empty() || draft.tool.axis_length() > 0.0, "motions need a tool");
   for (const int index : draft.free_parameters)
     codec.require(index >= 0 && index < draft.tool.parameter_count(), "a free parameter that the tool has is needed");

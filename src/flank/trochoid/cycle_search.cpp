@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "flank/base/tolerance_budget.h"
+#include "flank/motion/motion_record.h"
 
 namespace flank::internal {
 namespace {
@@ -32,7 +33,27 @@ constexpr double kSpare = 1.1;
 /// How deep a cylinder's cut is that engages so far, in radii: it grows with the step, about linearly.
 double depth_of_cut(double engagement_rad) { return std::max(1e-3, 1.0 - std::cos(engagement_rad)); }
 
+void code(StepCodec& codec, Trial& trial) {
+  codec.finite(trial.from_x);
+  codec.finite(trial.to_x);
+  code(codec, trial.back);
+  code(codec, trial.front);
+  for (double* value : {&trial.largest_rad, &trial.volume_mm3, &trial.way_mm}) codec.number(*value);
+}
+
 }  // namespace
+
+void code(StepCodec& codec, CycleState& state) {
+  code(codec, state.last);
+  for (double& share : state.shape.share) codec.finite(share);
+  for (double& span : state.span) codec.finite(span);
+  code(codec, state.rest);
+  code(codec, state.turn);
+  code(codec, state.improved);
+  for (double* value : {&state.excess_rad, &state.step_mm, &state.lift_mm, &state.largest_front_mm3})
+    codec.finite(*value);
+  code(codec, state.sweeps);
+}
 
 CycleSearch::CycleSearch(const LayerSides& sides, const HalfGuard& guard, SweptStock& stock,
                          const CycleOptions& options)

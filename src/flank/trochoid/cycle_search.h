@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "flank/base/step_codec.h"
 #include "flank/trochoid/cycle_shape.h"
 #include "flank/trochoid/engagement/engagement.h"
 #include "flank/trochoid/half_guard.h"
@@ -52,6 +53,9 @@ struct CycleState {
   std::size_t sweeps = 0;  ///< in the stock
 };
 
+/// Among the values of a finished step (base/step_codec.h).
+void code(StepCodec& codec, CycleState& state);
+
 /// Trials leave the stock as it was.
 class CycleSearch {
  public:
@@ -81,6 +85,7 @@ class CycleSearch {
   [[nodiscard]] double aim() const;
   /// The last step that was too long, mm.
   [[nodiscard]] double refused() const { return refused_; }
+  void set_refused(double step_mm) { refused_ = step_mm; }
 
  private:
   [[nodiscard]] AxisPlace start(const Trial& t) const { return sides_.from.at(t.from_x); }

@@ -4,7 +4,19 @@
 #include <cmath>
 #include <limits>
 
+#include "flank/base/journal.h"
+#include "flank/motion/motion_record.h"
+
 namespace flank::internal {
+
+void code(StepCodec& codec, EngagementPeak& peak) {
+  for (double* value : {&peak.angle_rad, &peak.t, &peak.s}) codec.number(*value);
+}
+
+void code(StepCodec& codec, EngagementRow& row) {
+  for (double* value : {&row.t, &row.angle_rad, &row.s, &row.mean_rad, &row.rate_mm3}) codec.number(*value);
+}
+
 namespace {
 
 /// Rows of a motion, rings of the flank and of each round end when a cycle is accepted.
@@ -27,6 +39,35 @@ constexpr int kMostRewinds = 6;
 constexpr int kRewindsForFaces = 3;
 
 bool cuts_nothing(const Trial& trial) { return !(trial.largest_rad > 0.0 || trial.volume_mm3 > 0.0); }
+
+/// The sweeps of these cycles.
+void sweep(const Cycle& cycle, SweptStock& stock) {
+  if (cycle.back) stock.add(Sweep::of(cycle.back->motion, kHalfIntervals));
+  stock.add(Sweep::of(cycle.front.motion, kHalfIntervals));
+}
+
+void code(StepCodec& codec, Half& half) {
+  code(codec, half.motion);
+  code(codec, half.engagement.peak);
+  codec.number(half.engagement.volume_mm3);
+  code(codec, half.engagement.rows);
+  code(codec, half.peak);
+  codec.number(half.way_mm);
+  codec.require(half.motion.tip.count() > 0, "a motion is needed");
+}
+
+/// What the search of one cycle leaves.
+struct CycleStep {
+  std::optional<Cycle> cycle;  ///< none: none gets on
+  CycleState now;
+  double refused_mm = 0.0;
+};
+
+void code(StepCodec& codec, CycleStep& step) {
+  code(codec, step.cycle);
+  code(codec, step.now);
+  codec.number(step.refused_mm);
+}
 
 class CyclePlanner {
  public:
@@ -51,6 +92,8 @@ class CyclePlanner {
   void place_first(LayerCycles& out);
   /// The next cycle; false where none gets on. `now_` is then in some state between.
   [[nodiscard]] bool add_cycle(LayerCycles& out);
+  /// The same, from the journal if an earlier run has found it.
+  [[nodiscard]] bool next_cycle(LayerCycles& out, const Progress& progress);
   /// Greedy shapes may lead where nothing gets on: takes back cycles, twice as many each time, and goes on from there with
   /// the shape that it had, which is kept until past the place; from the start, with the first shape. False if that has been tried often enough.
   [[nodiscard]] bool rewind(LayerCycles& out);
@@ -160,6 +203,26 @@ bool CyclePlanner::add_cycle(LayerCycles& out) {
   return true;
 }
 
+bool CyclePlanner::next_cycle(LayerCycles& out, const Progress& progress) {
+  const std::size_t before = out.cycles.size();
+  const auto search = [&] {
+    CycleStep step;
+    if (add_cycle(out)) step.cycle = out.cycles.back();
+    step.now = now_;
+    step.refused_mm = search_.refused();
+    return step;
+  };
+  CycleStep step = journaled(progress, "cycle", search, now_);
+  const bool found = step.cycle.has_value();
+  if (found && out.cycles.size() == before) {
+    sweep(*step.cycle, stock_);
+    out.cycles.push_back(std::move(*step.cycle));
+  }
+  now_ = std::move(step.now);
+  search_.set_refused(step.refused_mm);
+  return found;
+}
+
 bool CyclePlanner::is_last(const LayerCycles& out) const {
   const bool behind = now_.last.from_x > sides_.from.length() && now_.last.to_x > sides_.to.length();
   const bool far_behind = now_.last.from_x > sides_.from.length() + out_ && now_.last.to_x > sides_.to.length() + out_;
@@ -182,10 +245,7 @@ bool CyclePlanner::rewind(LayerCycles& out) {
 
 void CyclePlanner::put_back(const LayerCycles& cycles) {
   while (stock_.sweeps().size() > before_.front().sweeps) stock_.remove_last();
-  for (const Cycle& cycle : cycles.cycles) {
-    if (cycle.back) stock_.add(Sweep::of(cycle.back->motion, kHalfIntervals));
-    stock_.add(Sweep::of(cycle.front.motion, kHalfIntervals));
-  }
+  for (const Cycle& cycle : cycles.cycles) sweep(cycle, stock_);
 }
 
 LayerCycles CyclePlanner::run(const Progress& progress) {
@@ -203,7 +263,7 @@ LayerCycles CyclePlanner::run(const Progress& progress) {
     before_.resize(out.cycles.size());
     before_.push_back(now_);
     before_.back().sweeps = stock_.sweeps().size();
-    if (add_cycle(out)) continue;
+    if (next_cycle(out, progress)) continue;
     if (now_.last.from_x > farthest_x) {
       farthest_x = now_.last.from_x;
       farthest = out;
@@ -219,6 +279,23 @@ LayerCycles CyclePlanner::run(const Progress& progress) {
 
 }  // namespace
 
+void code(StepCodec& codec, Cycle& cycle) {
+  bool back = cycle.back.has_value();
+  code(codec, back);
+  if (codec.reading() && back) cycle.back.emplace();
+  if (back) code(codec, *cycle.back);
+  code(codec, cycle.front);
+  codec.finite(cycle.from_x);
+  codec.finite(cycle.to_x);
+  codec.number(cycle.entered_mm);
+}
+
+void code(StepCodec& codec, LayerCycles& layer) {
+  code_choice(codec, layer.status, 4);
+  code(codec, layer.cycles);
+  codec.number(layer.stuck_step_mm);
+}
+
 double LayerCycles::entered_mm() const {
   double deepest = 0.0;
   for (const Cycle& cycle : cycles) deepest = std::max(deepest, cycle.entered_mm);
@@ -227,7 +304,13 @@ double LayerCycles::entered_mm() const {
 
 LayerCycles plan_cycles(const LayerSides& sides, const HalfGuard& guard, SweptStock& stock, const CycleOptions& options,
                         const Progress& progress) {
-  return CyclePlanner(sides, guard, stock, options).run(progress);
+  const std::size_t before = stock.sweeps().size();
+  LayerCycles out = journaled(
+      progress, "layer", [&] { return CyclePlanner(sides, guard, stock, options).run(progress); }, before);
+  // An earlier run may have found them, in another stock.
+  while (stock.sweeps().size() > before) stock.remove_last();
+  for (const Cycle& cycle : out.cycles) sweep(cycle, stock);
+  return out;
 }
 
 }  // namespace flank::internal

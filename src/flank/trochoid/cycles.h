@@ -42,6 +42,10 @@ struct LayerCycles {
   [[nodiscard]] double entered_mm() const;
 };
 
+/// Among the values of a finished step (base/step_codec.h).
+void code(StepCodec& codec, Cycle& cycle);
+void code(StepCodec& codec, LayerCycles& layer);
+
 /// Plans all cycles of a layer. `stock` holds what was swept before, and holds the new sweeps afterwards. The first front
 /// is placed before the blank, where it cuts nothing: the sides are open at their start.
 [[nodiscard]] LayerCycles plan_cycles(const LayerSides& sides, const HalfGuard& guard, SweptStock& stock,

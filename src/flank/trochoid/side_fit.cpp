@@ -5,8 +5,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "flank/base/journal.h"
 #include "flank/base/parallel.h"
 #include "flank/fit/coverage.h"
+#include "flank/fit/fit_record.h"
 #include "flank/fit/polish.h"
 #include "flank/fit/swept_polish.h"
 #include "flank/motion/stagger.h"
@@ -59,6 +61,30 @@ std::vector<SurfaceSample> samples_of(const CavitySide& left, const CavitySide& 
   return samples;
 }
 
+/// The best that the starts of one radius give, polished.
+struct RadiusFit {
+  Polished polished;
+  std::vector<IterationTrace> trace;
+  int starts = 0;  ///< that were tried
+};
+
+void code(StepCodec& codec, RadiusFit& fit) {
+  code(codec, fit.polished);
+  code(codec, fit.trace);
+  code(codec, fit.starts);
+}
+
+/// The draft is one of these sides, in turn.
+void tie(FitDraft& draft, const CavitySide& left, const CavitySide& right) {
+  draft.targets.clear();
+  draft.obstacles.clear();
+  for (std::size_t m = 0; m < draft.motions.size(); ++m) {
+    const CavitySide& side = m % 2 == 0 ? left : right;
+    draft.targets.push_back(side.target);
+    draft.obstacles.push_back(side.obstacles);
+  }
+}
+
 class SideFitter {
  public:
   SideFitter(const CavitySide& left, const CavitySide& right, const ToolModel& tool, const SideFitOptions& options)
@@ -74,8 +100,7 @@ class SideFitter {
     few_ = samples_of(left, right, coarse);
   }
 
-  /// The best that starts of one radius give, polished.
-  [[nodiscard]] Polished polished(const RadiusStart& first, std::vector<IterationTrace>& trace, int& starts) const;
+  [[nodiscard]] RadiusFit fit_radius(const RadiusStart& first) const;
   [[nodiscard]] const std::vector<SurfaceSample>& samples() const { return samples_; }
 
  private:
@@ -108,7 +133,7 @@ Candidate SideFitter::quick(const SideStart& start, const FlankFitOptions& fit) 
   return candidate;
 }
 
-Polished SideFitter::polished(const RadiusStart& first, std::vector<IterationTrace>& trace, int& starts) const {
+RadiusFit SideFitter::fit_radius(const RadiusStart& first) const {
   constexpr double kDegree = std::numbers::pi / 180.0;
   constexpr std::array<double, 5> kSkews = {0.0, 12.0, -12.0, 25.0, -25.0};
   const double radius = first.radius_mm;
@@ -119,7 +144,8 @@ Polished SideFitter::polished(const RadiusStart& first, std::vector<IterationTra
     for (const double skew : kSkews) all.push_back({swapped, skew * kDegree, radius});
   std::vector<Candidate> candidates(all.size());
   parallel_for(all.size(), [&](std::size_t k) { candidates[k] = quick(all[k], fit); });
-  starts += static_cast<int>(all.size());
+  RadiusFit out;
+  out.starts = static_cast<int>(all.size());
   std::erase_if(candidates, [](const Candidate& c) { return c.draft.motions.empty() || !has_values(c.draft); });
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
@@ -134,17 +160,71 @@ Polished SideFitter::polished(const RadiusStart& first, std::vector<IterationTra
   std::size_t best = 0;
   for (std::size_t k = 1; k < polished.size(); ++k)
     if (value(k) > value(best)) best = k;
-  if (polished.empty()) return {};
-  trace = std::move(traces[best]);
-  const Polished last = last_passes(polished[best], samples_, fit, &trace);
+  if (polished.empty()) return out;
+  out.trace = std::move(traces[best]);
+  out.polished = last_passes(polished[best], samples_, fit, &out.trace);
   // The passes for envelopes do not look across the cavity. A true envelope is not given away for its stagger; what is only
   // near to one is.
-  const bool envelope = last.estimate.rms_mm <= kEnvelope * left_.target->diagonal();
-  if (!options_.facing || !last.exact || envelope) return last;
-  return straightened(last, options_.least_coverage, samples_, fit, &trace);
+  const bool envelope = out.polished.estimate.rms_mm <= kEnvelope * left_.target->diagonal();
+  if (options_.facing && out.polished.exact && !envelope)
+    out.polished = straightened(out.polished, options_.least_coverage, samples_, fit, &out.trace);
+  return out;
+}
+
+bool is_done(const CoverageEstimate& e, const SideFitOptions& options) {
+  return e.at_tolerance >= options.least_coverage && e.overcut_mm <= options.fit.tolerance_mm &&
+         e.gouge_mm <= options.fit.tolerance_mm;
+}
+
+/// The best of all radii that are tried.
+SideFit search_radii(const CavitySide& left, const CavitySide& right, const ToolModel& tool,
+                     const SideFitOptions& options, const Progress& progress) {
+  SideFit out;
+  const SideFitter fitter(left, right, tool, options);
+  Polished best;
+  const double tolerance = options.fit.tolerance_mm;
+  for (const RadiusStart& start : options.starts) {
+    progress.step("sides", 0.5 * out.tried_radii / static_cast<double>(options.starts.size()));
+    if (progress.stop() && !best.draft.motions.empty()) break;
+    RadiusFit tried = journaled(
+        progress, "radius", [&] { return fitter.fit_radius(start); }, start);
+    tie(tried.polished.draft, left, right);
+    ++out.tried_radii;
+    out.fit.candidates += tried.starts;
+    if (tried.polished.draft.motions.empty()) continue;
+    const bool better = best.draft.motions.empty() || worth(tried.polished.draft, tried.polished.estimate, tolerance) >
+                                                          worth(best.draft, best.estimate, tolerance);
+    const bool done = is_done(tried.polished.estimate, options);
+    if (better) {
+      best = std::move(tried.polished);
+      out.fit.trace = std::move(tried.trace);
+      out.start_radius_mm = start.radius_mm;
+    }
+    if (done) break;
+  }
+  if (best.draft.motions.empty()) {
+    out.fit.status = FitStatus::kNoStart;
+    out.fit.message = "no axis that touches both sides is free";
+    return out;
+  }
+  const Polished close = settled(without_overcut(best, fitter.samples(), options.fit), options.fit);
+  out.fit = finish(close, options.fit, std::move(out.fit));
+  return out;
 }
 
 }  // namespace
+
+void code(StepCodec& codec, SideFit& sides) {
+  code(codec, sides.fit);
+  codec.number(sides.start_radius_mm);
+  code(codec, sides.tried_radii);
+  codec.require(sides.fit.motions.size() % 2 == 0, "a motion for each side is needed");
+}
+
+void code(StepCodec& codec, RadiusStart& start) {
+  codec.number(start.radius_mm);
+  codec.number(start.least_share);
+}
 
 CavityWidth width_between(const CavitySide& left, const CavitySide& right) {
   constexpr double kSmallBall = 0.1;  // of the width there: it would be free at a wall that no other face covers
@@ -184,35 +264,9 @@ double facing(const Target& left, const Target& right) {
 
 SideFit fit_sides(const CavitySide& left, const CavitySide& right, const ToolModel& tool, const SideFitOptions& options,
                   const Progress& progress) {
-  SideFit out;
-  const SideFitter fitter(left, right, tool, options);
-  Polished best;
-  const double tolerance = options.fit.tolerance_mm;
-  for (const RadiusStart& start : options.starts) {
-    progress.step("sides", 0.5 * out.tried_radii / static_cast<double>(options.starts.size()));
-    if (progress.stop() && !best.draft.motions.empty()) break;
-    std::vector<IterationTrace> trace;
-    Polished tried = fitter.polished(start, trace, out.fit.candidates);
-    ++out.tried_radii;
-    if (tried.draft.motions.empty()) continue;
-    const bool better = best.draft.motions.empty() ||
-                        worth(tried.draft, tried.estimate, tolerance) > worth(best.draft, best.estimate, tolerance);
-    const bool done = is_done(tried.estimate, options);
-    if (better) {
-      best = std::move(tried);
-      out.fit.trace = std::move(trace);
-      out.start_radius_mm = start.radius_mm;
-    }
-    if (done) break;
-  }
-  if (best.draft.motions.empty()) {
-    out.fit.status = FitStatus::kNoStart;
-    out.fit.message = "no axis that touches both sides is free";
-    return out;
-  }
-  out.fit = finish(settled(without_overcut(best, fitter.samples(), options.fit), options.fit), options.fit,
-                   std::move(out.fit));
-  return out;
+  return journaled(
+      progress, "sides", [&] { return search_radii(left, right, tool, options, progress); }, options.fit,
+      options.layers, options.starts, tool, options.facing);
 }
 
 }  // namespace flank::internal

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "flank/base/step_codec.h"
 #include "flank/trochoid/side_start.h"
 
 namespace flank::internal {
@@ -32,6 +33,10 @@ struct SideFit {
   double start_radius_mm = 0.0;
   int tried_radii = 0;
 };
+
+/// Among the values of a finished step (base/step_codec.h).
+void code(StepCodec& codec, SideFit& sides);
+void code(StepCodec& codec, RadiusStart& start);
 
 /// Distances of the two sides from each other, mm, over samples of the left one.
 struct CavityWidth {
