@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/base/journal.h"
 #include "flank/base/parallel.h"
 #include "flank/error.h"
 #include "flank/threads.h"
+#include "flank/tool/radial_record.h"
 
 namespace flank::internal {
 namespace {
@@ -164,15 +166,18 @@ void cover_quickly(const Search& search, std::vector<Member>& candidates, std::s
   const auto batch = static_cast<std::size_t>(thread_count());
   for (std::size_t first = 0; first < candidates.size(); first += batch) {
     progress.step(stage, from + (to - from) * double(first) / double(candidates.size()));
-    parallel_for(std::min(batch, candidates.size() - first), [&](std::size_t k) {
-      Member& candidate = candidates[first + k];
-      candidate.value = kNotTried;
-      if (progress.stop() || !candidate.screen.reason.empty()) return;
+    const std::size_t count = std::min(batch, candidates.size() - first);
+    const auto value_of = [&](std::size_t k) {
+      const Member& candidate = candidates[first + k];
+      if (progress.stop() || !candidate.screen.reason.empty()) return kNotTried;
       const RankedTool covered =
           cover_stage(search.targets, search.tool(candidate), RankingStage::kQuick, search.options.ranking, quiet);
-      if (covered.strips > 0)
-        candidate.value = ranking_value(covered, search.options.ranking) + search.tie(candidate.screen);
-    });
+      return covered.strips > 0 ? ranking_value(covered, search.options.ranking) + search.tie(candidate.screen)
+                                : kNotTried;
+    };
+    const std::vector<double> values = journaled_for(progress, "quick cover of a tool", count, value_of,
+                                                     [&](std::size_t k) { return *candidates[first + k].radial; });
+    for (std::size_t k = 0; k < count; ++k) candidates[first + k].value = values[k];
   }
 }
 

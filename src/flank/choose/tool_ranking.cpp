@@ -6,9 +6,13 @@
 #include <cmath>
 #include <numeric>
 
+#include "flank/base/journal.h"
 #include "flank/base/parallel.h"
+#include "flank/cover/cover_record.h"
+#include "flank/error.h"
 #include "flank/strip/strip_order.h"
 #include "flank/threads.h"
+#include "flank/tool/radial_record.h"
 
 namespace flank::internal {
 namespace {
@@ -110,16 +114,16 @@ void measure(std::span<const RankingTarget> targets, const RankingOptions& optio
   if (ranked.strips > 0) ranked.reason.clear();
 }
 
-/// Runs `body` for every index of `which`, as many at a time as there are threads: progress and cancelling come between
+/// Hands the indices of `which` to `body`, as many at a time as there are threads: progress and cancelling come between
 /// the batches, while one loop over all would show nothing for minutes.
 template <class Body>
-void for_tools(const std::vector<std::size_t>& which, std::string_view stage, double from, double to,
-               const Progress& progress, const Body& body) {
+void for_batches(const std::vector<std::size_t>& which, std::string_view stage, double from, double to,
+                 const Progress& progress, const Body& body) {
   const auto batch = static_cast<std::size_t>(thread_count());
   for (std::size_t first = 0; first < which.size() && !progress.stop(); first += batch) {
     const double done = static_cast<double>(first) / static_cast<double>(which.size());
     progress.step(stage, from + (to - from) * done);
-    parallel_for(std::min(batch, which.size() - first), [&](std::size_t k) { body(which[first + k]); });
+    body(std::span(which).subspan(first, std::min(batch, which.size() - first)));
   }
 }
 
@@ -151,6 +155,18 @@ std::vector<std::size_t> best_of(const std::vector<RankedTool>& ranked, std::vec
 }
 
 }  // namespace
+
+void code(StepCodec& codec, RankedTool& ranked) {
+  code_choice(codec, ranked.stage, 4);
+  code(codec, ranked.results);
+  code(codec, ranked.side);
+  for (double* value : {&ranked.reachable, &ranked.coverage, &ranked.strips_mm, &ranked.links_mm, &ranked.minutes})
+    codec.number(*value);
+  code(codec, ranked.strips);
+  codec.text(ranked.reason);
+  codec.require(ranked.side.size() == ranked.results.size(), "a side for each target is needed");
+  for (const std::size_t side : ranked.side) codec.require(side <= 1, "one of two sides is needed");
+}
 
 double strip_length(const RuledMotion& motion) {
   double sum = 0.0;
@@ -195,20 +211,30 @@ std::vector<RankedTool> rank_tools(std::span<const RankingTarget> targets, std::
   std::iota(alive.begin(), alive.end(), std::size_t{0});
   for (const std::size_t k : alive) ranked[k].tool = k;
   const AllPlaces places = all_places(targets, options);
-  for_tools(alive, "screen tools", 0.0, kQuickFrom, progress, [&](std::size_t k) {
-    ranked[k] = screened(targets, places, tools[k], options);
-    ranked[k].tool = k;
+  for_batches(alive, "screen tools", 0.0, kQuickFrom, progress, [&](std::span<const std::size_t> some) {
+    parallel_for(some.size(), [&](std::size_t i) {
+      ranked[some[i]] = screened(targets, places, tools[some[i]], options);
+      ranked[some[i]].tool = some[i];
+    });
   });
   // Several covers at a time have no one line of progress; they can be cancelled.
   const Progress quiet{{}, progress.cancelled};
   const auto advance = [&](RankingStage stage, std::string_view name, double from, double to) {
-    for_tools(alive, name, from, to, progress, [&](std::size_t k) {
-      RankedTool next = cover_stage(targets, tools[k], stage, options, quiet);
-      // A cover that was cancelled says less than the stage before it.
-      if (progress.stop()) return;
-      next.tool = k;
-      next.screen = ranked[k].screen;
-      ranked[k] = std::move(next);
+    for_batches(alive, name, from, to, progress, [&](std::span<const std::size_t> some) {
+      std::vector<RankedTool> covered = journaled_for(
+          progress, "cover of a tool", some.size(),
+          [&](std::size_t i) { return cover_stage(targets, tools[some[i]], stage, options, quiet); },
+          [&](std::size_t i) { return tools[some[i]]; });
+      for (std::size_t i = 0; i < some.size(); ++i) {
+        // A cover that was cancelled says less than the stage before it.
+        if (progress.stop()) return;
+        if (covered[i].results.size() != targets.size())
+          throw InputError("a step of the run that was stopped has covers of other targets");
+        const std::size_t k = some[i];
+        covered[i].tool = k;
+        covered[i].screen = ranked[k].screen;
+        ranked[k] = std::move(covered[i]);
+      }
     });
   };
   std::erase_if(alive, [&](std::size_t k) { return !ranked[k].reason.empty(); });

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "flank/base/step_codec.h"
 #include "flank/choose/tool_screen.h"
 #include "flank/cover.h"
 #include "flank/progress.h"
@@ -68,6 +69,9 @@ struct RankedTool {
   std::string reason;                      ///< why it cannot work; empty for a tool that covers something, or may
   [[nodiscard]] double covered() const { return reachable * coverage; }  ///< share of all
 };
+
+/// Among the values of a finished step (base/step_codec.h), as cover_stage returns it: without index and screen.
+void code(StepCodec& codec, RankedTool& ranked);
 
 /// Travel of the axis along a motion, mm: the mean of its two ends, by 200 chords.
 [[nodiscard]] double strip_length(const RuledMotion& motion);

@@ -5,15 +5,20 @@
 #include <chrono>
 #include <cmath>
 
+#include "flank/base/journal.h"
 #include "flank/base/parallel.h"
 #include "flank/base/tolerance_budget.h"
+#include "flank/cover/cover_record.h"
 #include "flank/cover/curves/curves.h"
 #include "flank/cover/reasons.h"
 #include "flank/cover/tiles/smooth.h"
+#include "flank/error.h"
 #include "flank/seed/direction/seeds.h"
 #include "flank/seed/direction/shape_places.h"
 #include "flank/strip/certify.h"
 #include "flank/strip/strip_order.h"
+#include "flank/strip/strip_record.h"
+#include "flank/tool/radial_record.h"
 
 namespace flank {
 using namespace internal;
@@ -40,6 +45,15 @@ constexpr double kTakenOver = 0.06;
 /// Progress shown at the beginning of each stage, about its share of the time.
 constexpr double kSamplesAt = 0.05, kGrowAt = 0.1, kTileAt = 0.35, kSmoothAt = 0.55, kSmoothRoundStep = 0.1,
                  kThinAt = 0.8;
+
+/// The strips that a step leaves, measured with these samples.
+template <class Work>
+std::vector<CoverStrip> kept_strips(const Progress& progress, const char* step, const CoverSamples& samples,
+                                    const Work& work) {
+  std::vector<CoverStrip> strips = journaled(progress, step, work);
+  require_cells(strips, samples);
+  return strips;
+}
 
 /// Wall time of the stages, for people; nothing is decided by it.
 class Stopwatch {
@@ -105,16 +119,19 @@ std::vector<CoverStrip> smoothed(const TileScene& coarse, const TileScene& dense
                                  std::vector<CoverStrip> strips, const Progress& progress) {
   if (stopping()) return strips;
   // Certified before they are compared: a strip's share counts only as far as it may be cut.
-  strips = made_certain(dense, remeasured(dense, strips));
+  strips =
+      kept_strips(progress, "certify", dense.samples, [&] { return made_certain(dense, remeasured(dense, strips)); });
   std::vector<CoverStrip> best = strips;
   for (int round = 0; round < kSmoothRounds && dense.options.smooth && !progress.stop(); ++round) {
     progress.step("smooth", kSmoothAt + kSmoothRoundStep * round);
-    strips = pruned(dense, smooth_strips(dense, strips).strips);
+    strips = kept_strips(progress, "smooth", dense.samples,
+                         [&] { return pruned(dense, smooth_strips(dense, strips).strips); });
     // The first round may cost a little: rails that were fitted are fairer than rails that were grown.
     if (value_of(dense, strips) > value_of(dense, best) - (round == 0 ? kSmoothWorth : 0.0)) best = strips;
     if (round + 1 == kSmoothRounds) break;
-    const std::vector<CoverStrip> more =
-        made_certain(dense, remeasured(dense, additions(coarse, pool, remeasured(coarse, strips))));
+    const std::vector<CoverStrip> more = kept_strips(progress, "add", dense.samples, [&] {
+      return made_certain(dense, remeasured(dense, additions(coarse, pool, remeasured(coarse, strips))));
+    });
     if (more.empty()) break;
     strips.insert(strips.end(), more.begin(), more.end());
   }
@@ -142,7 +159,7 @@ std::vector<CoverStrip> thinned(const TileScene& dense, std::vector<CoverStrip> 
     if (!found) break;
     std::vector<CoverStrip> fewer = strips;
     fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(least));
-    fewer = smooth_strips(dense, fewer).strips;
+    fewer = kept_strips(progress, "thin out", dense.samples, [&] { return smooth_strips(dense, fewer).strips; });
     if (value_of(dense, fewer) <= value_of(dense, strips)) break;
     strips = std::move(fewer);
   }
@@ -176,9 +193,23 @@ void describe(const TileScene& coarse, const TileScene& dense, const std::vector
       reason_of(coarse.target, coarse.radial, coarse.samples, remeasured(coarse, strips), coarse.options.tolerance_mm);
 }
 
+/// A set out of a pool, and the strips by which that has grown.
+struct Choice {
+  StripSet set;
+  std::vector<CoverStrip> grown;
+};
+
+void code(StepCodec& codec, Choice& choice) {
+  code(codec, choice.set);
+  code(codec, choice.grown);
+}
+
 /// Grows the strips of these seeds, and notes their numbers in the result.
-CandidatePool counted_pool(const TileScene& scene, const std::vector<LineSeed>& seeds, CoverResult& result) {
-  CandidatePool pool = grow_pool(scene, seeds);
+CandidatePool counted_pool(const TileScene& scene, const std::vector<LineSeed>& seeds, CoverResult& result,
+                           const Progress& progress) {
+  CandidatePool pool = journaled(
+      progress, "grow", [&] { return grow_pool(scene, seeds); }, seeds.size());
+  require_cells(pool.strips, scene.samples);
   result.seeds = static_cast<int>(seeds.size());
   result.lines = pool.lines;
   return pool;
@@ -186,19 +217,38 @@ CandidatePool counted_pool(const TileScene& scene, const std::vector<LineSeed>& 
 
 /// Strips of the first seeds. What the filter leaves is a third of all directions; if none of it leads to a strip, all
 /// are tried.
-CandidatePool first_pool(const TileScene& scene, CoverResult& result) {
+CandidatePool first_pool(const TileScene& scene, CoverResult& result, const Progress& progress) {
   const CoverOptions& options = scene.options;
-  if (!options.seeds.empty()) return counted_pool(scene, options.seeds, result);
+  if (!options.seeds.empty()) return counted_pool(scene, options.seeds, result, progress);
   const std::vector<SurfaceSample> places = options.places == SeedPlaces::kShape
                                                 ? shape_places(scene.target, options.seed_places)
                                                 : grid_places(scene.target, options.seed_places);
   if (options.directions == SeedDirections::kAdmissible) {
     CandidatePool pool = counted_pool(
-        scene, admissible_seeds(scene.target, places, scene.radial, options.seed_spheres, options.tolerance_mm),
-        result);
+        scene, admissible_seeds(scene.target, places, scene.radial, options.seed_spheres, options.tolerance_mm), result,
+        progress);
     if (!pool.strips.empty() || stopping()) return pool;
   }
-  return counted_pool(scene, even_seeds(places, scene.radial, options.seed_directions), result);
+  return counted_pool(scene, even_seeds(places, scene.radial, options.seed_directions), result, progress);
+}
+
+/// The strips that were chosen; `pool` gets those that were grown meanwhile.
+std::vector<CoverStrip> chosen(const TileScene& scene, std::vector<CoverStrip>& pool, const Progress& progress) {
+  const std::size_t before = pool.size();
+  Choice choice = journaled(progress, "tile", [&] {
+    std::vector<CoverStrip> all = pool;
+    StripSet set = choose_set(scene, all);
+    return Choice{std::move(set), {all.begin() + static_cast<std::ptrdiff_t>(before), all.end()}};
+  });
+  require_cells(choice.grown, scene.samples);
+  pool.insert(pool.end(), choice.grown.begin(), choice.grown.end());
+  std::vector<CoverStrip> strips;
+  for (const int k : choice.set) {
+    if (k < 0 || static_cast<std::size_t>(k) >= pool.size())
+      throw InputError("a step of the run that was stopped chose a strip that there is not");
+    strips.push_back(pool[static_cast<std::size_t>(k)]);
+  }
+  return strips;
 }
 
 /// The samples by which strips are certified and reported.
@@ -221,7 +271,8 @@ CoverResult nothing(const TileScene& scene, int lines, CoverResult result) {
 CoverResult curves_cover(const TileScene& scene, const PoseGuard& guard, CoverResult result, const Progress& progress) {
   Stopwatch watch(result);
   progress.step("curves", kGrowAt);
-  const CurveStrips found = strips_of_curves(scene);
+  const CurveStrips found = journaled(progress, "curves", [&] { return strips_of_curves(scene); });
+  require_cells(found.strips, scene.samples);
   result.seeds = found.counts.seeds;
   result.lines = found.counts.lines;
   result.grown = found.counts.strips;
@@ -232,7 +283,9 @@ CoverResult curves_cover(const TileScene& scene, const PoseGuard& guard, CoverRe
   progress.step("smooth", kSmoothAt);
   const CoverSamples dense = dense_samples(scene, guard, result);
   const TileScene dense_scene{scene.target, scene.radial, dense, guard, scene.options, kCertifySamples};
-  const SmoothedCurves smooth = smoothed_curves(dense_scene, found.strips);
+  const SmoothedCurves smooth =
+      journaled(progress, "smooth", [&] { return smoothed_curves(dense_scene, found.strips); });
+  require_cells(smooth.strips, dense);
   result.coverage_before = smooth.coverage_before;
   watch.lap("smooth");
   describe(scene, dense_scene, finally_certain(dense_scene, smooth.strips), result);
@@ -240,10 +293,8 @@ CoverResult curves_cover(const TileScene& scene, const PoseGuard& guard, CoverRe
   return result;
 }
 
-}  // namespace
-
-CoverResult cover(const Target& target, const Tool& tool, const Obstacles& obstacles, const CoverOptions& options,
-                  const Progress& progress) {
+CoverResult search_strips(const Target& target, const Tool& tool, const Obstacles& obstacles,
+                          const CoverOptions& options, const Progress& progress) {
   CoverResult result;
   Stopwatch watch(result);
   progress.step("samples", kSamplesAt);
@@ -259,15 +310,13 @@ CoverResult cover(const Target& target, const Tool& tool, const Obstacles& obsta
   if (options.strategy == CoverStrategy::kCurves) return curves_cover(scene, guard, std::move(result), progress);
 
   progress.step("grow", kGrowAt);
-  CandidatePool pool = first_pool(scene, result);
+  CandidatePool pool = first_pool(scene, result, progress);
   watch.lap("grow");
   if (pool.strips.empty() || samples.cells.empty()) return nothing(scene, pool.lines, std::move(result));
 
   progress.step("tile", kTileAt);
-  const StripSet set = choose_set(scene, pool.strips);
+  std::vector<CoverStrip> strips = chosen(scene, pool.strips, progress);
   result.grown = static_cast<int>(pool.strips.size());
-  std::vector<CoverStrip> strips;
-  for (const int k : set) strips.push_back(pool.strips[static_cast<std::size_t>(k)]);
   result.coverage_before = covered_share(samples, strips);
   watch.lap("tile");
 
@@ -277,10 +326,19 @@ CoverResult cover(const Target& target, const Tool& tool, const Obstacles& obsta
   strips = thinned(dense_scene, smoothed(scene, dense_scene, pool.strips, strips, progress), progress);
   watch.lap("smooth");
 
-  strips = finally_certain(dense_scene, std::move(strips));
+  strips = kept_strips(progress, "last check", dense, [&] { return finally_certain(dense_scene, strips); });
   describe(scene, dense_scene, strips, result);
   watch.lap("order");
   return result;
+}
+
+}  // namespace
+
+CoverResult cover(const Target& target, const Tool& tool, const Obstacles& obstacles, const CoverOptions& options,
+                  const Progress& progress) {
+  return journaled(
+      progress, "cover", [&] { return search_strips(target, tool, obstacles, options, progress); }, options,
+      tool.radial);
 }
 
 }  // namespace flank

@@ -20,4 +20,14 @@ void code(StepCodec& codec, RadialFunction& radial) {
   radial = empty ? RadialFunction() : RadialFunction(family, length, all);
 }
 
+void code(StepCodec& codec, Tool& tool) {
+  code(codec, tool.radial);
+  for (std::vector<Vec2>* profile : {&tool.shank, &tool.holder}) {
+    std::size_t points = profile->size();
+    code(codec, points);
+    for (Vec2& point : *profile)
+      for (double& coordinate : point) codec.number(coordinate);
+  }
+}
+
 }  // namespace flank::internal

@@ -144,6 +144,18 @@ std::vector<CoverStrip> chosen(const TileScene& scene, const std::vector<CoverSt
 
 }  // namespace
 
+void code(StepCodec& codec, CurveStrips& found) {
+  CurveCounts& counts = found.counts;
+  code(codec, found.strips);
+  for (int* count : {&counts.seeds, &counts.straight, &counts.lines, &counts.clusters, &counts.groups, &counts.strips})
+    code(codec, *count);
+}
+
+void code(StepCodec& codec, SmoothedCurves& smoothed) {
+  codec.number(smoothed.coverage_before);
+  code(codec, smoothed.strips);
+}
+
 CurveStrips strips_of_curves(const TileScene& scene) {
   CurveStrips result;
   CurveCounts& counts = result.counts;

@@ -23,6 +23,9 @@ struct CurveStrips {
   CurveCounts counts;
 };
 
+/// Among the values of a finished step (base/step_codec.h).
+void code(StepCodec& codec, CurveStrips& found);
+
 /// Seeds, integral curves, lines, clusters, groups, choice: paper B's initial motions of the tool. No strips if no line
 /// is within slack tolerances, or fewer than five of them follow each other; the counts say which.
 [[nodiscard]] CurveStrips strips_of_curves(const TileScene& scene);
@@ -33,6 +36,7 @@ struct SmoothedCurves {
   double coverage_before = 0.0;  ///< by the strips as they were, cut short to what could be certified
   std::vector<CoverStrip> strips;
 };
+void code(StepCodec& codec, SmoothedCurves& smoothed);
 [[nodiscard]] SmoothedCurves smoothed_curves(const TileScene& dense, const std::vector<CoverStrip>& strips);
 
 /// The counts as a note for the user: "5321 integral curves, 1712 long enough, ...".

@@ -9,6 +9,7 @@
 #include "flank/base/stopping.h"
 #include "flank/seed/direction/seeds.h"
 #include "flank/strip/certify.h"
+#include "flank/strip/strip_record.h"
 
 namespace flank::internal {
 namespace {
@@ -238,6 +239,11 @@ std::vector<CoverStrip> strips_of(const TileScene& scene, const std::vector<Line
 }
 
 }  // namespace
+
+void code(StepCodec& codec, CandidatePool& pool) {
+  code(codec, pool.strips);
+  code(codec, pool.lines);
+}
 
 LineFitOptions line_options(const TileScene& scene) {
   LineFitOptions options;

@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "flank/base/step_codec.h"
 #include "flank/cover_options.h"
 #include "flank/obstacle/pose_guard.h"
 #include "flank/radial_function.h"
@@ -36,6 +37,9 @@ struct CandidatePool {
   std::vector<CoverStrip> strips;
   int lines = 0;  ///< seeds that refined to within tolerance
 };
+
+/// Among the values of a finished step (base/step_codec.h).
+void code(StepCodec& codec, CandidatePool& pool);
 
 /// Strips grown from the seeds, in their order, without those that came to nothing. Each is certified not to cut too
 /// deep; its poses are clear of other faces, what lies between them is checked only for strips that are chosen.
