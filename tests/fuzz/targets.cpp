@@ -16,11 +16,14 @@
 #include "flank/machine/nc/read/read_nc.h"
 #include "flank/machine/nc/write/write_nc.h"
 #include "flank/machine/work_setup.h"
+#include "flank/manifest/journal_json.h"
 #include "flank/manifest/manifest.h"
+#include "flank/motion/motion_record.h"
 #include "flank/path_file.h"
 #include "flank/report/report_file.h"
 #include "flank/seed/guide_file.h"
 #include "flank/setup/tool_body.h"
+#include "flank/tool/radial_record.h"
 #include "flank/tool_file.h"
 #include "flank/toolbox/tool_spec.h"
 
@@ -109,6 +112,35 @@ void refused_or(const Read& read) {
   }
 }
 
+/// A value of a finished step, or a refusal.
+template <class Value, class Use>
+void value_of(const StepValues& values, const Use& use) {
+  refused_or([&] {
+    StepCodec codec(values);
+    Value value;
+    code(codec, value);
+    codec.end();
+    use(value);
+  });
+}
+
+/// Any step may be taken for any value.
+void resume(std::string_view bytes) {
+  refused_or([&] {
+    const Journal journal = journal_from_json(bytes, "f");
+    for (const JournalStep& step : journal.steps()) {
+      value_of<RuledMotion>(step.result, [](const RuledMotion& motion) {
+        if (motion.tip.count() > 0) (void)motion.jet(0.5);
+      });
+      value_of<RadialFunction>(step.result, [](const RadialFunction& radial) {
+        require(radial.parameters().allFinite());
+        if (radial.axis_length() > 0.0) (void)radial.at(0.0);
+      });
+      value_of<std::vector<std::vector<double>>>(step.result, [](const auto&) {});
+    }
+  });
+}
+
 /// Bytes between the two processes of a CAD file: they are our own, so a refusal is an InternalError.
 void part_bytes(std::string_view bytes) {
   try {
@@ -129,6 +161,7 @@ const std::map<std::string, Target>& targets() {
       {"job", [](std::string_view b) { refused_or([&] { (void)job_from_json(std::string(b), "f"); }); }},
       {"view", [](std::string_view b) { refused_or([&] { check_report_file(b, "f", "openflank/view/1"); }); }},
       {"manifest", [](std::string_view b) { refused_or([&] { (void)manifest_from_json(b, "f"); }); }},
+      {"resume", resume},
       {"cls", [](std::string_view b) { refused_or([&] { sound(path_from_cls(b, "f")); }); }},
       {"dxf", [](std::string_view b) { refused_or([&] { (void)profile_from_dxf(b, "f"); }); }},
       {"guide", [](std::string_view b) { refused_or([&] { (void)parse_guide("f", b); }); }},
