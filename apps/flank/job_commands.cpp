@@ -77,7 +77,8 @@ Subcommand add_fit(CLI::App& parser) {
   CLI::App* app =
       parser.add_subcommand("fit", "Find a tool and a five-axis motion whose flank is the face, and judge them");
   app->footer(
-      "Example: flank example twisted-blade -o blade.step && flank fit blade.step --face F1 --tolerance 0.1 -o out");
+      "Example: flank example twisted-blade -o blade.step && flank fit blade.step --face F1 --tolerance 0.1 -o out\n"
+      "A run that was stopped (Ctrl-C, SIGTERM, SIGHUP) goes on with the same line and --resume.");
   return job_command<FitJob>(app, run_fit);
 }
 
@@ -87,7 +88,8 @@ Subcommand add_cover(CLI::App& parser) {
   app->footer(
       "Example: flank example twisted-blade -o blade.step && flank cover blade.step --face F1 --tool "
       "barrel:arc=100,radius=5 --axis-length 20 --tolerance 0.05 -o out\n"
-      "The best tool of the catalogue: flank cover blade.step --face F1 --tool catalogue --tolerance 0.05 -o out");
+      "The best tool of the catalogue: flank cover blade.step --face F1 --tool catalogue --tolerance 0.05 -o out\n"
+      "A run that was stopped goes on with the same line and --resume.");
   return job_command<CoverJob>(app, run_cover);
 }
 
@@ -96,7 +98,8 @@ Subcommand add_trochoid(CLI::App& parser) {
       "trochoid", "Rough and finish the cavity between two sides with one tool: trochoidal cycles and side paths");
   app->footer(
       "Example: flank example cavity-barrel -o cavity.step && flank trochoid cavity.step --left F1 --right F2 "
-      "--tolerance 0.02 -o out");
+      "--tolerance 0.02 -o out\n"
+      "A run that was stopped goes on with the same line and --resume.");
   return job_command<TrochoidJob>(app, run_trochoid);
 }
 

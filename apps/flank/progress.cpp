@@ -44,8 +44,8 @@ void on_end(int signal) {
 std::string stopped_by() { return fmt::format("stopped by {}", name_of(interrupted)); }
 
 void say_stopped(const std::string& folder) {
-  const std::string line =
-      fmt::format("flank: {}; the best so far is in {}\n", stopped_by(), internal::printable(folder));
+  const std::string line = fmt::format("flank: {}; the best so far is in {}; --resume goes on from there\n",
+                                       stopped_by(), internal::printable(folder));
   (void)std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
