@@ -49,7 +49,9 @@ struct Subcommand {
 [[nodiscard]] Progress terminal_progress(const CommonOptions& options);
 /// After a work that a signal has stopped, also if quiet: which signal it was, and where the best so far lies.
 void say_stopped(const std::string& folder);
-/// The same where nothing was found yet: "stopped by SIGTERM".
+/// The same where nothing was found yet, but steps are done.
+void say_steps_kept(const std::string& folder);
+/// The same where nothing is kept: "stopped by SIGTERM".
 [[nodiscard]] std::string stopped_by();
 /// For a command without a best so far: a signal ends it at once, with a line that says so. What it writes is whole or
 /// not there, whenever that is.

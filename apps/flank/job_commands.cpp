@@ -8,6 +8,7 @@
 #include "commands.h"
 #include "flank/artefact/verify_json.h"
 #include "flank/artefact/write_result.h"
+#include "flank/base/journal.h"
 #include "flank/base/printable.h"
 #include "flank/io/text/json_input.h"
 #include "flank/job/input_files.h"
@@ -41,11 +42,16 @@ int run_into(const Output& output, const CommonOptions& common, const PlanJob& j
   ResultFolder folder(name, ResultFolder::Use::kWrite);
   folder.require_not_inputs(input_files(job));
   Progress progress = terminal_progress(common);
-  if (output.resume) {
-    if (is_finished(folder, job)) return say_finished(name, common);
-    progress.journal = journal_of(folder);
+  if (output.resume && is_finished(folder, job)) return say_finished(name, common);
+  progress.journal = output.resume ? journal_of(folder) : std::make_shared<Journal>();
+  Result result;
+  try {
+    result = work(progress);
+  } catch (const Stopped&) {
+    if (!write_steps(*progress.journal, job, folder)) throw;
+    say_steps_kept(name);
+    return kFallsShort;
   }
-  const Result result = work(progress);
   write_result(result, folder);
   progress.step("done", 1.0);
   if (!result.complete) say_stopped(name);

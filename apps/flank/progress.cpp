@@ -39,14 +39,24 @@ void on_end(int signal) {
   std::raise(signal);
 }
 
+/// A line on stderr, also if quiet.
+void say(const std::string& message) {
+  const std::string line = "flank: " + message + "\n";
+  (void)std::fwrite(line.data(), 1, line.size(), stderr);
+}
+
 }  // namespace
 
 std::string stopped_by() { return fmt::format("stopped by {}", name_of(interrupted)); }
 
 void say_stopped(const std::string& folder) {
-  const std::string line = fmt::format("flank: {}; the best so far is in {}; --resume goes on from there\n",
-                                       stopped_by(), internal::printable(folder));
-  (void)std::fwrite(line.data(), 1, line.size(), stderr);
+  say(fmt::format("{}; the best so far is in {}; --resume goes on from there", stopped_by(),
+                  internal::printable(folder)));
+}
+
+void say_steps_kept(const std::string& folder) {
+  say(fmt::format("{}; nothing was found yet, but what was done is in {}; --resume goes on from there", stopped_by(),
+                  internal::printable(folder)));
 }
 
 void end_on_signals() {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "flank/artefact/write_result.h"
 #include "flank/base/stopping.h"
 #include "flank/error.h"
 #include "flank/example/example.h"
@@ -65,14 +66,17 @@ class Resume : public TemporaryFolder {
   bool run(Result (*work)(const Job&, const Progress&), const Job& job, const std::string& into, int asked, Stop how) {
     Stopper stopper(asked, how);
     Progress progress = stopper.progress();
-    if (fs::exists(fs::path(folder(into)) / "resume.json")) progress.journal = read_journal(folder(into));
+    progress.journal =
+        fs::exists(fs::path(folder(into)) / "resume.json") ? read_journal(folder(into)) : std::make_shared<Journal>();
     try {
       const Result result = work(job, progress);
       EXPECT_EQ(result.journal == nullptr, result.complete);
       write_result(result, folder(into));
       return result.complete;
     } catch (const Stopped&) {
-      return false;  // nothing was found yet
+      ResultFolder held(folder(into), ResultFolder::Use::kWrite);
+      (void)write_steps(*progress.journal, job, held);
+      return false;
     }
   }
 
@@ -162,6 +166,23 @@ TEST_F(Resume, ACoverOfCurvesGoesOn) {
   expect_same_in_pieces(run_cover, job, Stop::kBetween, 2);
 }
 
+TEST_F(Resume, ARankingGoesOn) {
+  if (kSanitized) GTEST_SKIP() << "whole covers take minutes under a sanitizer";
+  CoverJob job = small_cover(part("twisted-blade"));
+  fs::create_directories(root_ / "catalogue");
+  for (const double arc : {60.0, 100.0, 140.0}) {
+    Tool tool;
+    tool.radial = RadialFunction(ToolFamily::kBarrel, 20.0, Eigen::Vector3d(arc, 5.0, 10.0));
+    std::ofstream(root_ / "catalogue" / (std::to_string(static_cast<int>(arc)) + ".json")) << tool_to_json(tool);
+  }
+  job.part.side = +1;
+  job.tool = {"catalogue", {}};
+  job.choice.catalogue = folder("catalogue");
+  job.choice.finalists = 1;
+  expect_same_in_pieces(run_cover, job, Stop::kWithin, 3);
+  EXPECT_EQ(content("whole/ranking.json"), content("pieces/ranking.json"));
+}
+
 TEST_F(Resume, ACavityGoesOn) {
   if (kSanitized) GTEST_SKIP() << "whole cavities take minutes under a sanitizer";
   TrochoidJob job;
@@ -172,6 +193,23 @@ TEST_F(Resume, ACavityGoesOn) {
   job.cycles.strategy = "plain";
   job.cycles.stock_cell_mm = 2.0;
   expect_same_in_pieces(run_trochoid, job, Stop::kWithin, 4);
+}
+
+TEST_F(Resume, StepsAloneTakeNoPlaceOfACompleteResult) {
+  const std::string file = part("twisted-blade");
+  Journal journal;
+  ResultFolder held(folder("out"), ResultFolder::Use::kWrite);
+  EXPECT_FALSE(write_steps(journal, small_cover(file), held)) << "of no run yet";
+  const std::string hash(64, 'a');
+  journal.begin({"1.0", hash, hash});
+  EXPECT_FALSE(write_steps(journal, small_cover(file), held)) << "there are none";
+  journal.add(0, {"grow", hash, {{1.0}, {}}});
+  EXPECT_TRUE(write_steps(journal, small_cover(file), held));
+  EXPECT_TRUE(write_steps(journal, small_cover(file), held)) << "again";
+  EXPECT_EQ(journal_of(held)->steps().size(), 1u);
+  held.replace({{"job.json", "{}"}}, *held.manifest());
+  EXPECT_FALSE(write_steps(journal, small_cover(file), held));
+  EXPECT_FALSE(fs::exists(root_ / "out/resume.json"));
 }
 
 /// What a fit leaves that was stopped once it had a start.

@@ -64,15 +64,31 @@ std::map<std::string, std::string> files_of(const Result& result) {
   return files;
 }
 
+Manifest manifest_of(const PlanJob& job, const std::string& part_sha256, const ResultFolder& folder) {
+  Manifest manifest;
+  manifest.made_by = std::visit([](const auto& plan) { return std::string(command_name(plan)); }, job);
+  manifest.folder = fs::absolute(folder.path()).lexically_normal().string();
+  manifest.part = {fs::absolute(part_of(job)).lexically_normal().string(), part_sha256};
+  manifest.judged = manifest.part;
+  return manifest;
+}
+
 }  // namespace
 
 void write_result(const Result& result, ResultFolder& folder) {
-  Manifest manifest;
-  manifest.made_by = std::visit([](const auto& job) { return std::string(command_name(job)); }, result.job);
-  manifest.folder = fs::absolute(folder.path()).lexically_normal().string();
-  manifest.part = {fs::absolute(part_of(result.job)).lexically_normal().string(), result.part_sha256};
-  manifest.judged = manifest.part;
-  folder.replace(files_of(result), std::move(manifest));
+  folder.replace(files_of(result), manifest_of(result.job, result.part_sha256, folder));
+}
+
+bool write_steps(const Progress::Journal& journal, const PlanJob& job, ResultFolder& folder) {
+  if (!journal.key() || journal.steps().empty()) return false;
+  const std::map<std::string, std::string> files{{kJournalFile, journal_to_json(journal)}};
+  if (!folder.manifest())
+    folder.replace(files, manifest_of(job, journal.key()->part, folder));
+  else if (folder.manifest()->files.contains(kJournalFile))
+    folder.add(files, *folder.manifest());
+  else
+    return false;
+  return true;
 }
 
 }  // namespace flank::internal
