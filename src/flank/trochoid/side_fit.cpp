@@ -171,11 +171,6 @@ RadiusFit SideFitter::fit_radius(const RadiusStart& first) const {
   return out;
 }
 
-bool is_done(const CoverageEstimate& e, const SideFitOptions& options) {
-  return e.at_tolerance >= options.least_coverage && e.overcut_mm <= options.fit.tolerance_mm &&
-         e.gouge_mm <= options.fit.tolerance_mm;
-}
-
 /// The best of all radii that are tried.
 SideFit search_radii(const CavitySide& left, const CavitySide& right, const ToolModel& tool,
                      const SideFitOptions& options, const Progress& progress) {
