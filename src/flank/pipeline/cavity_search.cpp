@@ -15,6 +15,8 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 /// end bounds the steps of the whole tool, so a stout one comes first.
 constexpr double kBegin = 0.92, kStout = 0.55, kThin = 0.3;
 constexpr int kMostLayers = 5;
+/// How often cycles are taken back where none gets on (CycleOptions::most_rewinds).
+constexpr int kFewRewinds = 3, kMostRewinds = 6;
 
 bool sides_are_done(const SideFit& sides, const CavityFaces& faces, const TrochoidJob& job) {
   const CoverageEstimate& e = sides.fit.after;
@@ -44,11 +46,13 @@ SideFit search_sides(const TrochoidJob& job, const CavityFaces& faces, const Too
   return best;
 }
 
-CavityProgram plan(const TrochoidJob& job, const CavityFaces& faces, const SideFit& sides, const Progress& progress) {
+CavityProgram plan(const TrochoidJob& job, const CavityFaces& faces, const SideFit& sides, int most_rewinds,
+                   const Progress& progress) {
   if (sides.fit.motions.empty() || !check_legitimacy(sides.fit.tool).legitimate) return {};
   ProgramOptions options;
   options.cycles.largest_rad = job.cycles.most_engagement_deg * kDegree;
   options.cycles.tolerance_mm = job.tolerance_mm;
+  options.cycles.most_rewinds = most_rewinds;
   options.cycles.optimise = job.cycles.strategy == "volume";
   options.climb = job.cycles.cut == "climb";
   options.chord_mm = kToleranceBudget.chord * job.tolerance_mm;
@@ -87,6 +91,33 @@ bool is_better(const CavityPlan& a, const CavityPlan& b, double tolerance) {
   return a.sides.fit.after.score(tolerance) > b.sides.fit.after.score(tolerance);
 }
 
+bool is_done(const CavityPlan& plan, const CavityFaces& faces, const TrochoidJob& job) {
+  return sides_are_done(plan.sides, faces, job) && gets_through(plan, job.tolerance_mm);
+}
+
+/// Of one bound of radii: sides whose axes lean alike, whose cycles are fewer and shorter, else sides as they come. The long
+/// search for a way past a place where cycles get stuck comes last: the other sides may have no such place.
+CavityPlan search_ways(const TrochoidJob& job, const CavityFaces& faces, const ToolModel& tool, SideFitOptions options,
+                       const Progress& progress) {
+  const auto sides = [&](bool facing) {
+    options.facing = facing;
+    return search_sides(job, faces, tool, options, progress);
+  };
+  const auto planned = [&](SideFit of, int most_rewinds) {
+    CavityPlan out;
+    out.program = plan(job, faces, of, most_rewinds, progress);
+    out.sides = std::move(of);
+    out.largest_radius_mm = options.fit.bounds.largest;
+    return out;
+  };
+  CavityPlan facing = planned(sides(true), kFewRewinds);
+  if (is_done(facing, faces, job) || progress.stop()) return facing;
+  CavityPlan plain = planned(sides(false), kMostRewinds);
+  const bool stuck = !facing.program.done() && sides_are_done(facing.sides, faces, job);
+  if (stuck && !is_done(plain, faces, job) && !progress.stop()) facing = planned(std::move(facing.sides), kMostRewinds);
+  return is_better(plain, facing, job.tolerance_mm) ? plain : facing;
+}
+
 }  // namespace
 
 std::vector<double> bounds_of(const TrochoidJob& job, const CavityWidth& width) {
@@ -111,20 +142,10 @@ CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const
     const double radius = given ? *tool.radius : kBegin * here.fit.bounds.largest;
     here.starts = {{radius, kStout}};
     if (tool.free()) here.starts.push_back({radius, kThin});
-    bool done = false, better = false;
-    ++tools;
-    for (const bool facing : {true, false}) {
-      here.facing = facing;
-      CavityPlan tried;
-      tried.sides = search_sides(job, faces, tool, here, progress);
-      tried.program = plan(job, faces, tried.sides, progress);
-      tried.largest_radius_mm = here.fit.bounds.largest;
-      done = sides_are_done(tried.sides, faces, job) && gets_through(tried, job.tolerance_mm);
-      const bool gains = (tools == 1 && facing) || is_better(tried, best, job.tolerance_mm);
-      if (gains) best = std::move(tried);
-      better = better || gains;
-      if (done || progress.stop()) break;
-    }
+    CavityPlan tried = search_ways(job, faces, tool, here, progress);
+    const bool done = is_done(tried, faces, job);
+    const bool better = ++tools == 1 || is_better(tried, best, job.tolerance_mm);
+    if (better) best = std::move(tried);
     best.tools = tools;
     // Thinner ones are slower, too: the search ends where they stop to gain.
     if (done || given || !better || progress.stop()) break;

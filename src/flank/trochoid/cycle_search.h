@@ -22,6 +22,8 @@ struct CycleOptions {
   bool optimise = true;  ///< shapes of the halves, cycle by cycle; else the first shapes are kept
   /// Ends of fronts on the first side go no farther than this share of its way: above, the layer before got stuck.
   double most_share = std::numeric_limits<double>::infinity();
+  /// How often cycles are taken back where none gets on: 4 at first, then twice as many each time.
+  int most_rewinds = 6;
 };
 
 /// Poses a half path has in a stock: a multiple of its knot spans.

@@ -20,7 +20,7 @@ void code(StepCodec& codec, EngagementRow& row) {
 namespace {
 
 /// Rows of a motion, rings of the flank and of each round end when a cycle is accepted.
-constexpr int kFineRows = 101, kFineRings = 21, kCaps = 5;
+constexpr int kFineRows = 101, kFineRings = 61, kCaps = 15;
 /// Before the start, in radii: there the first front is looked for, and twice as far out for as long as it cuts, up to so
 /// many times.
 constexpr double kFarOut = 4.0;
@@ -32,9 +32,8 @@ constexpr double kNothing = 1e-3;
 constexpr double kKept = 0.7;
 /// An aim that failed is lowered by at least so much, radians.
 constexpr double kLeastLess = 0.002;
-/// Cycles that are taken back where none gets on, at first, and how often.
+/// Cycles that are taken back where none gets on, at first.
 constexpr std::size_t kFirstRewind = 4;
-constexpr int kMostRewinds = 6;
 /// How often they are taken back because a half enters a face: where the sides themselves lead there, that does not help.
 constexpr int kRewindsForFaces = 3;
 
@@ -231,7 +230,7 @@ bool CyclePlanner::is_last(const LayerCycles& out) const {
 }
 
 bool CyclePlanner::rewind(LayerCycles& out) {
-  if (!options_.optimise || rewinds_ == kMostRewinds || out.cycles.empty()) return false;
+  if (!options_.optimise || rewinds_ >= options_.most_rewinds || out.cycles.empty()) return false;
   const std::size_t stuck = out.cycles.size();
   const std::size_t back = std::min<std::size_t>(stuck - 1, kFirstRewind << rewinds_++);
   plain_until_ = stuck + back;
@@ -306,7 +305,8 @@ LayerCycles plan_cycles(const LayerSides& sides, const HalfGuard& guard, SweptSt
                         const Progress& progress) {
   const std::size_t before = stock.sweeps().size();
   LayerCycles out = journaled(
-      progress, "layer", [&] { return CyclePlanner(sides, guard, stock, options).run(progress); }, before);
+      progress, "layer", [&] { return CyclePlanner(sides, guard, stock, options).run(progress); }, before,
+      options.most_rewinds);
   // An earlier run may have found them, in another stock.
   while (stock.sweeps().size() > before) stock.remove_last();
   for (const Cycle& cycle : out.cycles) sweep(cycle, stock);

@@ -22,26 +22,25 @@ double s_at_height(const RadialFunction& radial, double z, double s) {
   return s;
 }
 
-/// Simpson's weight of place i of `count` over a length of 1.
-double simpson(int i, int count) {
-  const double third = 1.0 / (3.0 * (count - 1));
-  return i == 0 || i == count - 1 ? third : (i % 2 == 1 ? 4.0 : 2.0) * third;
-}
+/// Weight of one of `count` places at equal steps, by the trapezoidal rule: the material ends within the tool, at the
+/// blank's planes and at what was cut before, and Simpson's uneven weights would then count one ring twice as much as the next.
+double weight(int i, int count) { return (i == 0 || i == count - 1 ? 0.5 : 1.0) / (count - 1); }
 
-/// Rings of the sphere at one end, from the flank's last normal to the pole.
+/// Rings of the sphere at one end, in the middles of equal steps from the flank's last normal to the pole: none lies where the
+/// flank ends, as the top of a blank often does.
 void add_cap(const RadialFunction& radial, bool tip, int count, std::vector<ToolRing>& rings) {
   const double s = tip ? 0.0 : radial.axis_length();
   const RadialJet r = radial.at(s);
   const double from = std::asin(-r.d1), to = (tip ? -0.5 : 0.5) * std::numbers::pi;
   for (int k = 0; k < count; ++k) {
-    const double beta = from + (to - from) * k / (count - 1);
+    const double beta = from + (to - from) * (k + 0.5) / count;
     ToolRing ring;
     ring.s = s;
     ring.sine = std::sin(beta);
     ring.cosine = std::cos(beta);
     ring.z = s + r.r * ring.sine;
     ring.radius = r.r * ring.cosine;
-    ring.area = r.r * r.r * ring.cosine * std::abs(to - from) * simpson(k, count);
+    ring.area = r.r * r.r * ring.cosine * std::abs(to - from) / count;
     ring.flank = false;
     if (ring.area > 0.0 && ring.radius > 1e-9 * r.r) rings.push_back(ring);
   }
@@ -102,7 +101,7 @@ ToolRing ring_at(const RadialFunction& radial, double s) {
 }
 
 std::vector<ToolRing> tool_rings(const RadialFunction& radial, int count, int caps) {
-  FLANK_ASSERT(count >= 3 && count % 2 == 1 && (caps == 0 || (caps >= 3 && caps % 2 == 1)));
+  FLANK_ASSERT(count >= 2 && caps >= 0);
   std::vector<ToolRing> rings;
   const double length = radial.axis_length();
   for (int k = 0; k < count; ++k) {
@@ -110,7 +109,7 @@ std::vector<ToolRing> tool_rings(const RadialFunction& radial, int count, int ca
     const RadialJet r = radial.at(s);
     ToolRing ring = ring_at(radial, s);
     // The surface element of the envelope of spheres: r (1 - r'^2 - r r'') ds dtheta (MATH section 10).
-    ring.area = r.r * (1.0 - r.d1 * r.d1 - r.r * r.d2) * length * simpson(k, count);
+    ring.area = r.r * (1.0 - r.d1 * r.d1 - r.r * r.d2) * length * weight(k, count);
     rings.push_back(ring);
   }
   if (caps > 0) {

@@ -42,8 +42,8 @@ struct ToolRing {
   bool flank = true;  ///< else of a round end, which counts for volumes, not for engagement
 };
 
-/// `count` (odd, >= 3) rings at equal steps of s, the axis' ends included, and `caps` (odd, or 0) more on each round end;
-/// areas are the weights of Simpson's rule.
+/// `count` (>= 2) rings at equal steps of s, the axis' ends included, with the areas of the trapezoidal rule, and `caps` more in
+/// the middles of equal steps on each round end.
 [[nodiscard]] std::vector<ToolRing> tool_rings(const RadialFunction& radial, int count, int caps);
 
 /// The ring of one s, without area.
