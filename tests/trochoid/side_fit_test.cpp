@@ -8,6 +8,7 @@
 #include "flank/example/example_cavity.h"
 #include "flank/motion/stagger.h"
 #include "obstacle/obstacle_scene.h"
+#include "sanitized.h"
 
 namespace flank::internal {
 namespace {
@@ -38,6 +39,7 @@ TEST(WidthBetween, CountsWhatNothingCovers) {
 
 /// Hollow walls leave open how far an axis leans along them; the cycles between them do not.
 TEST(FitSides, LeavesTheAxesParallelWhereTheWallsAllowIt) {
+  if (kThreadSanitized) GTEST_SKIP() << "its parallel loops are those of fit";
   const std::vector<Face> walls = cavity_walls({});
   const std::unique_ptr<Target> left = make_target({walls[0]}), right = make_target({walls[1]});
   SideFitOptions options;

@@ -187,7 +187,7 @@ TEST_P(NurbsParts, ColdFootpointsMatchDenseSearchOnEveryFace) {
   const std::string file = file_of(GetParam());
   if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
   const Part part = read_part(file);
-  if (kThreadSanitized && part.faces.size() > 12) GTEST_SKIP() << "the same code on more faces";
+  if (kSanitized && part.faces.size() > 12) GTEST_SKIP() << "the same code on more faces";
   const int each = std::max(1, points_a_part() / std::max(1, static_cast<int>(part.faces.size())));
   Random random(101);
   int borders = 0, extensions = 0, points = 0;
