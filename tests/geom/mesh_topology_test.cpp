@@ -30,6 +30,35 @@ TEST(MeshTopology, NeighboursAreMutual) {
   EXPECT_EQ(open, 4 * 12);
 }
 
+// Also where vertices come apart first: at a fin, and at a bow tie.
+TEST(MeshTopology, NeighboursAloneAreThoseOfLinkedTriangles) {
+  TriangleMesh mesh = shapes::twisted(12);
+  mesh.vertices.emplace_back(50.0, 50.0, 50.0);
+  const int tip = static_cast<int>(mesh.vertices.size()) - 1;
+  mesh.triangles.push_back({mesh.triangles[40][0], mesh.triangles[40][1], tip});
+  mesh.vertices.emplace_back(-50.0, -50.0, 50.0);
+  mesh.vertices.emplace_back(-50.0, -60.0, 50.0);
+  mesh.triangles.push_back({mesh.triangles[0][0], tip + 1, tip + 2});
+  for (const double crease : {0.1, 1.0, std::numbers::pi}) {
+    TriangleMesh copy = mesh;
+    EXPECT_EQ(linked_neighbors(mesh, mesh_edges(mesh), crease), link_triangles(copy, crease).neighbors) << crease;
+    EXPECT_GT(copy.vertices.size(), mesh.vertices.size()) << crease;
+  }
+}
+
+TEST(MeshTopology, VertexNormalsComeOneByOneToo) {
+  TriangleMesh mesh = shapes::twisted(9);
+  // The first triangle again, turned round: at its corners normals may cancel.
+  mesh.triangles = {
+      mesh.triangles[0], {mesh.triangles[0][0], mesh.triangles[0][2], mesh.triangles[0][1]}, mesh.triangles[99]};
+  const std::vector<Vec3> all = vertex_normals(mesh);
+  const MeshTopology fans = fans_of(mesh);
+  for (int v = 0; v < static_cast<int>(all.size()); ++v) {
+    EXPECT_EQ(vertex_normal(mesh, v, fans.around(v)), all[static_cast<std::size_t>(v)]);
+    EXPECT_EQ(fans.around(v).empty(), all[static_cast<std::size_t>(v)].isZero());
+  }
+}
+
 TEST(MeshTopology, TurningTellsRimTubeAndHoleApart) {
   TriangleMesh disk = shapes::saddle(5.0, 1e9, 20);
   shapes::cut(disk, [](const Vec3& x) { return std::hypot(x[0], x[1]) < 2.0; });

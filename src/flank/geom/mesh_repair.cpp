@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <map>
-#include <numeric>
-#include <unordered_map>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "flank/error.h"
+#include "flank/geom/mesh_topology.h"
+#include "flank/geom/weld/representatives.h"
 
 namespace flank::internal {
 namespace {
@@ -33,105 +34,20 @@ void check(const TriangleMesh& mesh) {
       throw InputError("mesh vertex " + std::to_string(v) + " has a coordinate that is not a finite number");
 }
 
-/// A cube of the grid that vertices are sorted into, or, if only equal ones are welded, the bits of the coordinates.
-using Cell = std::array<std::int64_t, 3>;
-
-/// Mixes three numbers. Which cells share a bucket does not matter to the result: only equal keys are looked for.
-struct CellHash {
-  std::size_t operator()(const Cell& c) const {
-    std::uint64_t h = 0;
-    for (std::int64_t x : c) h = (h ^ static_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15ULL + (h >> 29);
-    return static_cast<std::size_t>(h);
+/// One vertex at each place from here on. They keep their order, and those of no triangle stay until drop_unused().
+void weld(TriangleMesh& mesh, double weld_share, MeshRepair& repair) {
+  std::vector<int> number = representatives(mesh.vertices, weld_share * mesh.box().diagonal());
+  std::size_t count = 0;
+  for (std::size_t v = 0; v < number.size(); ++v) {
+    const auto first = static_cast<std::size_t>(number[v]);
+    if (first == v) mesh.vertices[count] = mesh.vertices[v];
+    number[v] = first == v ? static_cast<int>(count++) : number[first];  // an earlier one has its new number already
   }
-};
-
-/// Distinct vertices, sorted into cells.
-class Places {
- public:
-  Places(const std::vector<Vec3>& vertices, double tolerance, const Vec3& low)
-      : vertices_(vertices), tolerance_(tolerance), low_(low), next_(vertices.size(), -1) {}
-
-  /// The first vertex at the place of v: v itself if it is new.
-  int first_at(std::size_t v) {
-    Cell c;
-    for (int k = 0; k < 3; ++k) c[k] = cell_of(v, k);
-    int found = find(v, c);
-    if (tolerance_ > 0.0 && found < 0) found = find_beside(v, c);
-    if (found >= 0) return found;
-    const int here = static_cast<int>(v);
-    const auto [it, is_new] = cells_.try_emplace(c, Chain{here, here});
-    if (!is_new) it->second.last = next_[static_cast<std::size_t>(it->second.last)] = here;
-    return here;
-  }
-
- private:
-  /// The vertices of a cell, each with the next one in next_.
-  struct Chain {
-    int first = -1, last = -1;
-  };
-
-  /// Two vertices within the tolerance are in the same cell or in neighbouring ones.
-  /// Counted from the box's corner, so that a part far from the origin does not overflow the integers.
-  [[nodiscard]] double place(std::size_t v, int k) const { return (vertices_[v][k] - low_[k]) / (2.0 * tolerance_); }
-  [[nodiscard]] std::int64_t cell_of(std::size_t v, int k) const {
-    if (tolerance_ > 0.0) return static_cast<std::int64_t>(std::floor(place(v, k)));
-    return std::bit_cast<std::int64_t>(vertices_[v][k] + 0.0);  // -0 and +0 are one place
-  }
-
-  [[nodiscard]] int find(std::size_t v, const Cell& c) const {
-    const auto it = cells_.find(c);
-    if (it == cells_.end()) return -1;
-    for (int w = it->second.first; w >= 0; w = next_[static_cast<std::size_t>(w)])
-      if ((vertices_[static_cast<std::size_t>(w)] - vertices_[v]).squaredNorm() <= tolerance_ * tolerance_) return w;
-    return -1;
-  }
-
-  /// In those of the neighbours that come within the tolerance: a cell is two tolerances wide, so at most one on each axis.
-  [[nodiscard]] int find_beside(std::size_t v, const Cell& c) const {
-    constexpr double kNear = 0.5 + 1e-3;  ///< of a cell, and more than rounding
-    std::array<std::array<bool, 3>, 3> near{};
-    for (int k = 0; k < 3; ++k) {
-      const double in = place(v, k) - static_cast<double>(c[k]);
-      near[static_cast<std::size_t>(k)] = {in <= kNear, true, in >= 1.0 - kNear};
-    }
-    for (std::size_t at = 0; at < 27; ++at) {
-      const std::size_t i = at % 3, j = at / 3 % 3, k = at / 9;
-      if (!near[0][i] || !near[1][j] || !near[2][k]) continue;
-      const auto step = [](std::size_t n) { return static_cast<std::int64_t>(n) - 1; };
-      const int found = find(v, {c[0] + step(i), c[1] + step(j), c[2] + step(k)});
-      if (found >= 0) return found;
-    }
-    return -1;
-  }
-
-  const std::vector<Vec3>& vertices_;
-  double tolerance_;
-  Vec3 low_;
-  std::unordered_map<Cell, Chain, CellHash> cells_;
-  std::vector<int> next_;
-};
-
-/// For each vertex the first one at its place.
-std::vector<int> representatives(const std::vector<Vec3>& vertices, double tolerance, const Vec3& low) {
-  Places places(vertices, tolerance, low);
-  std::vector<int> first(vertices.size());
-  for (std::size_t v = 0; v < vertices.size(); ++v) first[v] = places.first_at(v);
-  return first;
-}
-
-/// Triangles use the first vertex at each place from here on; the others stay until drop_unused(). Returns which vertices
-/// are such others.
-std::vector<char> weld(TriangleMesh& mesh, double weld_share, MeshRepair& repair) {
-  const Box3 box = mesh.box();
-  const std::vector<int> first = representatives(mesh.vertices, weld_share * box.diagonal(), box.low);
-  std::vector<char> welded(first.size(), 0);
-  for (std::size_t v = 0; v < first.size(); ++v) {
-    welded[v] = first[v] != static_cast<int>(v) ? 1 : 0;
-    repair.welded_vertices += welded[v];
-  }
+  repair.welded_vertices += static_cast<int>(number.size() - count);
+  mesh.vertices.resize(count);
+  mesh.vertices.shrink_to_fit();  // of the vertices that an STL file repeats a sixth is left
   for (Triangle& t : mesh.triangles)
-    for (int& v : t) v = first[static_cast<std::size_t>(v)];
-  return welded;
+    for (int& v : t) v = number[static_cast<std::size_t>(v)];
 }
 
 /// Removes triangles with two equal corners, and those with the corners of an earlier one, however they are turned.
@@ -235,39 +151,23 @@ bool mend_flat(TriangleMesh& mesh, MeshRepair& repair) {
   return true;
 }
 
-/// A triangle across a side that exactly two share.
-struct Link {
-  int other;
-  bool agree;  // the two run their common side in opposite directions
-};
+/// Up to three triangles across sides that exactly two share, each twice its number, and one more where the two run their
+/// common side in opposite directions; -1 after the last.
+using Links = std::array<int, 3>;
 
 /// Neighbours of every triangle; sides of three or more triangles link nothing, since they say nothing of orientation.
-std::vector<std::vector<Link>> links(const TriangleMesh& mesh) {
-  struct Use {
-    Side side;
-    int triangle;
-    bool ascending;
+std::vector<Links> links(const TriangleMesh& mesh) {
+  std::vector<Links> result(mesh.triangles.size(), {-1, -1, -1});
+  const auto add = [&](int triangle, int other, bool agree) {
+    Links& own = result[static_cast<std::size_t>(triangle)];
+    *std::find(own.begin(), own.end(), -1) = 2 * other + (agree ? 1 : 0);
   };
-  std::vector<Use> uses;
-  uses.reserve(3 * mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (int k = 0; k < 3; ++k) {
-      const int a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
-      uses.push_back({side_of(a, b), static_cast<int>(t), a < b});
-    }
-  std::sort(uses.begin(), uses.end(),
-            [](const Use& x, const Use& y) { return x.side != y.side ? x.side < y.side : x.triangle < y.triangle; });
-  std::vector<std::vector<Link>> result(mesh.triangles.size());
-  for (std::size_t i = 0; i < uses.size();) {
-    std::size_t j = i + 1;
-    while (j < uses.size() && uses[j].side == uses[i].side) ++j;
-    if (j - i == 2) {
-      const bool agree = uses[i].ascending != uses[i + 1].ascending;
-      result[static_cast<std::size_t>(uses[i].triangle)].push_back({uses[i + 1].triangle, agree});
-      result[static_cast<std::size_t>(uses[i + 1].triangle)].push_back({uses[i].triangle, agree});
-    }
-    i = j;
-  }
+  for_each_edge(mesh_edges(mesh), [&](std::span<const EdgeUse> uses) {
+    if (uses.size() != 2) return;
+    const bool agree = uses[0].ascending != uses[1].ascending;
+    add(uses[0].triangle, uses[1].triangle, agree);
+    add(uses[1].triangle, uses[0].triangle, agree);
+  });
   return result;
 }
 
@@ -293,9 +193,10 @@ void orient(TriangleMesh& mesh, MeshRepair& repair) {
     for (std::size_t i = 0; i < members.size(); ++i) {
       const std::size_t t = members[i];
       area[turn[t]] += doubled_area(mesh, mesh.triangles[t]);
-      for (const Link& link : neighbors[t]) {
-        const auto other = static_cast<std::size_t>(link.other);
-        const int wanted = link.agree ? turn[t] : 1 - turn[t];
+      for (const int link : neighbors[t]) {
+        if (link < 0) break;
+        const auto other = static_cast<std::size_t>(link / 2);
+        const int wanted = link % 2 != 0 ? turn[t] : 1 - turn[t];
         if (turn[other] < 0) {
           turn[other] = wanted;
           members.push_back(other);
@@ -315,15 +216,15 @@ void orient(TriangleMesh& mesh, MeshRepair& repair) {
   }
 }
 
-/// Removes vertices without triangles. Those that were welded away are counted already and are not "isolated".
-void drop_unused(TriangleMesh& mesh, const std::vector<char>& welded, MeshRepair& repair) {
+/// Removes vertices without triangles.
+void drop_unused(TriangleMesh& mesh, MeshRepair& repair) {
   std::vector<int> number(mesh.vertices.size(), -1);
   for (const Triangle& t : mesh.triangles)
     for (int v : t) number[static_cast<std::size_t>(v)] = 0;
   int count = 0;
   for (std::size_t v = 0; v < number.size(); ++v) {
     if (number[v] < 0) {
-      repair.isolated_vertices += !welded[v];
+      ++repair.isolated_vertices;
       continue;
     }
     number[v] = count;
@@ -360,7 +261,7 @@ std::string MeshRepair::account() const {
 RepairedMesh repair_mesh(TriangleMesh mesh, double weld_share) {
   check(mesh);
   RepairedMesh result;
-  const std::vector<char> welded = weld(mesh, weld_share, result.repair);
+  weld(mesh, weld_share, result.repair);
   drop_repeats(mesh, result.repair);
   // A swap can leave another flat triangle behind (several points on one line); a few rounds settle that, what is left
   // is removed.
@@ -372,7 +273,7 @@ RepairedMesh repair_mesh(TriangleMesh mesh, double weld_share) {
   });
   if (mesh.triangles.empty()) throw InputError("mesh has no triangle with an area; expected at least one");
   orient(mesh, result.repair);
-  drop_unused(mesh, welded, result.repair);
+  drop_unused(mesh, result.repair);
   result.mesh = std::move(mesh);
   return result;
 }

@@ -3,18 +3,32 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "flank/base/assert.h"
+#include "flank/base/parallel.h"
 
 namespace flank::internal {
 namespace {
 
+constexpr std::size_t kGrain = 16384;  ///< vertices or triangles
+
+/// Zero where the area is zero.
+Vec3 triangle_normal(const TriangleMesh& mesh, const std::array<int, 3>& t) {
+  const Vec3& a = mesh.vertices[static_cast<std::size_t>(t[0])];
+  const Vec3 n =
+      (mesh.vertices[static_cast<std::size_t>(t[1])] - a).cross(mesh.vertices[static_cast<std::size_t>(t[2])] - a);
+  const double length = n.norm();
+  return length > 0.0 ? Vec3(n / length) : Vec3(Vec3::Zero());
+}
+
 /// Three or more triangles at an edge, or two that run it in the same direction, stay unlinked.
-std::vector<std::array<int, 3>> linked_neighbors(const TriangleMesh& mesh, double crease_rad) {
+std::vector<std::array<int, 3>> link_pairs(const TriangleMesh& mesh, const std::vector<EdgeUse>& edges,
+                                           double crease_rad) {
   const std::vector<Vec3> normals = triangle_normals(mesh);
   const double least_cosine = std::cos(crease_rad);
   std::vector<std::array<int, 3>> neighbors(mesh.triangles.size(), {-1, -1, -1});
-  for_each_edge(mesh_edges(mesh), [&](std::span<const EdgeUse> uses) {
+  for_each_edge(edges, [&](std::span<const EdgeUse> uses) {
     // Two triangles that run their edge in opposite directions have their outside on the same side.
     if (uses.size() != 2 || uses[0].ascending == uses[1].ascending) return;
     const auto s = static_cast<std::size_t>(uses[0].triangle), t = static_cast<std::size_t>(uses[1].triangle);
@@ -103,22 +117,42 @@ std::vector<EdgeUse> mesh_edges(const TriangleMesh& mesh) {
       uses[next[static_cast<std::size_t>(low)]++] = {low, std::max(a, b), static_cast<int>(t),
                                                      static_cast<signed char>(k), a < b};
     }
-  for (std::size_t v = 0; v + 1 < begin.size(); ++v)
-    std::sort(uses.begin() + static_cast<std::ptrdiff_t>(begin[v]),
-              uses.begin() + static_cast<std::ptrdiff_t>(begin[v + 1]), [](const EdgeUse& x, const EdgeUse& y) {
-                if (x.high != y.high) return x.high < y.high;
-                return x.triangle != y.triangle ? x.triangle < y.triangle : x.side < y.side;
-              });
+  const auto before = [](const EdgeUse& x, const EdgeUse& y) {
+    if (x.high != y.high) return x.high < y.high;
+    return x.triangle != y.triangle ? x.triangle < y.triangle : x.side < y.side;
+  };
+  parallel_blocks(mesh.vertices.size(), kGrain, [&](std::size_t first, std::size_t end) {
+    for (std::size_t v = first; v < end; ++v)
+      std::sort(uses.begin() + static_cast<std::ptrdiff_t>(begin[v]),
+                uses.begin() + static_cast<std::ptrdiff_t>(begin[v + 1]), before);
+  });
   return uses;
+}
+
+std::vector<std::array<int, 3>> linked_neighbors(const TriangleMesh& mesh, const std::vector<EdgeUse>& edges,
+                                                 double crease_rad) {
+  MeshTopology topology;
+  topology.neighbors = link_pairs(mesh, edges, crease_rad);
+  collect_fans(mesh, topology);
+  TriangleMesh copy = mesh;
+  // As in link_triangles.
+  if (separate_vertices(copy, topology)) topology.neighbors = link_pairs(copy, mesh_edges(copy), crease_rad);
+  return std::move(topology.neighbors);
+}
+
+MeshTopology fans_of(const TriangleMesh& mesh) {
+  MeshTopology topology;
+  collect_fans(mesh, topology);
+  return topology;
 }
 
 MeshTopology link_triangles(TriangleMesh& mesh, double crease_rad) {
   MeshTopology topology;
-  topology.neighbors = linked_neighbors(mesh, crease_rad);
+  topology.neighbors = link_pairs(mesh, mesh_edges(mesh), crease_rad);
   collect_fans(mesh, topology);
   if (separate_vertices(mesh, topology)) {
     // Where a fin came off, the two sides left behind belong together.
-    topology.neighbors = linked_neighbors(mesh, crease_rad);
+    topology.neighbors = link_pairs(mesh, mesh_edges(mesh), crease_rad);
     collect_fans(mesh, topology);
   }
   // Creases count as borders too: what lies beyond them is another surface to everything that follows.
@@ -203,35 +237,32 @@ double total_turning(const TriangleMesh& mesh, const MeshTopology& topology, std
 }
 
 std::vector<Vec3> triangle_normals(const TriangleMesh& mesh) {
-  std::vector<Vec3> normals;
-  normals.reserve(mesh.triangles.size());
-  for (const auto& t : mesh.triangles) {
-    const Vec3& a = mesh.vertices[static_cast<std::size_t>(t[0])];
-    const Vec3 n =
-        (mesh.vertices[static_cast<std::size_t>(t[1])] - a).cross(mesh.vertices[static_cast<std::size_t>(t[2])] - a);
-    const double length = n.norm();
-    normals.push_back(length > 0.0 ? Vec3(n / length) : Vec3(Vec3::Zero()));
-  }
+  std::vector<Vec3> normals(mesh.triangles.size());
+  parallel_blocks(normals.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) normals[i] = triangle_normal(mesh, mesh.triangles[i]);
+  });
   return normals;
 }
 
-std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {
-  const std::vector<Vec3> flat = triangle_normals(mesh);
-  std::vector<Vec3> normals(mesh.vertices.size(), Vec3::Zero());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (int k = 0; k < 3; ++k)
-      // By angle: a plane face that a mesher has cut into many thin triangles counts no more than one that it left
-      // whole.
-      normals[static_cast<std::size_t>(mesh.triangles[t][k])] += corner_angle(mesh, static_cast<int>(t), k) * flat[t];
-  for (Vec3& n : normals) {
-    const double length = n.norm();
-    // Weights are angles, so the sum is of the order of 1 unless the normals cancel.
-    n = length > 1e-9 ? Vec3(n / length) : Vec3(Vec3::Zero());
-  }
+Vec3 vertex_normal(const TriangleMesh& mesh, int vertex, std::span<const int> around) {
+  const auto flat = [&](int t) { return triangle_normal(mesh, mesh.triangles[static_cast<std::size_t>(t)]); };
+  Vec3 sum = Vec3::Zero();
+  // By angle: a plane face that a mesher has cut into many thin triangles counts no more than one that it left whole.
+  for (const int t : around) sum += corner_angle(mesh, t, corner_of(mesh, t, vertex)) * flat(t);
+  // Weights are angles, so the sum is of the order of 1 unless the normals cancel.
+  if (const double length = sum.norm(); length > 1e-9) return sum / length;
   // Where they cancel (a sheet folded onto itself) one of them has to do.
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (int v : mesh.triangles[t])
-      if (Vec3& n = normals[static_cast<std::size_t>(v)]; n.isZero()) n = flat[t];
+  const auto one = std::find_if(around.begin(), around.end(), [&](int t) { return !flat(t).isZero(); });
+  return one == around.end() ? Vec3(Vec3::Zero()) : flat(*one);
+}
+
+std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {
+  const MeshTopology fans = fans_of(mesh);
+  std::vector<Vec3> normals(mesh.vertices.size());
+  parallel_blocks(normals.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v)
+      normals[v] = vertex_normal(mesh, static_cast<int>(v), fans.around(static_cast<int>(v)));
+  });
   return normals;
 }
 

@@ -49,6 +49,10 @@ struct EdgeUse {
 /// The sides of all triangles, sorted by low, high and triangle: counted, not hashed, so that the order does not depend on a library.
 [[nodiscard]] std::vector<EdgeUse> mesh_edges(const TriangleMesh& mesh);
 
+/// The neighbours alone, of a mesh whose edges (mesh_edges) are known: those that link_triangles finds in a copy of it.
+[[nodiscard]] std::vector<std::array<int, 3>> linked_neighbors(const TriangleMesh& mesh,
+                                                               const std::vector<EdgeUse>& edges, double crease_rad);
+
 /// Visits the sides of each edge: one is a border, more than two is not manifold.
 template <class Visit>
 void for_each_edge(const std::vector<EdgeUse>& uses, Visit&& visit) {
@@ -76,9 +80,14 @@ void for_each_edge(const std::vector<EdgeUse>& uses, Visit&& visit) {
 [[nodiscard]] double total_turning(const TriangleMesh& mesh, const MeshTopology& topology,
                                    std::span<const TriangleSide> loop);
 
+/// Triangles around each vertex alone, neighbours being left out.
+[[nodiscard]] MeshTopology fans_of(const TriangleMesh& mesh);
+
 /// Unit normals of the triangles (zero where the area is zero) and, weighted by the corner angles, of the vertices; one
 /// of the triangles' where those around a vertex cancel.
 [[nodiscard]] std::vector<Vec3> triangle_normals(const TriangleMesh& mesh);
 [[nodiscard]] std::vector<Vec3> vertex_normals(const TriangleMesh& mesh);
+/// One of the former, for those who need few; `around`: the triangles around the vertex, ascending.
+[[nodiscard]] Vec3 vertex_normal(const TriangleMesh& mesh, int vertex, std::span<const int> around);
 
 }  // namespace flank::internal

@@ -10,25 +10,21 @@
 namespace flank::internal {
 namespace {
 
-std::vector<std::vector<int>> vertex_neighbors(const TriangleMesh& mesh) {
-  std::vector<std::vector<int>> neighbors(mesh.vertices.size());
-  for (const auto& t : mesh.triangles)
-    for (int k = 0; k < 3; ++k) {
-      neighbors[static_cast<std::size_t>(t[k])].push_back(t[(k + 1) % 3]);
-      neighbors[static_cast<std::size_t>(t[k])].push_back(t[(k + 2) % 3]);
-    }
-  return neighbors;
-}
-
 /// The vertices nearest to `start` along edges, ring by ring, up to kPatchVertices.
-std::vector<int> patch_around(int start, const std::vector<std::vector<int>>& neighbors, std::vector<int>& seen_by) {
+std::vector<int> patch_around(int start, const TriangleMesh& mesh, const MeshTopology& fans,
+                              std::vector<int>& seen_by) {
   std::vector<int> patch{start};
   seen_by[static_cast<std::size_t>(start)] = start;
   for (std::size_t i = 0; i < patch.size() && patch.size() < kPatchVertices; ++i) {
-    for (const int n : neighbors[static_cast<std::size_t>(patch[i])]) {
-      if (seen_by[static_cast<std::size_t>(n)] == start) continue;
-      seen_by[static_cast<std::size_t>(n)] = start;
-      patch.push_back(n);
+    for (const int t : fans.around(patch[i])) {
+      const auto& corners = mesh.triangles[static_cast<std::size_t>(t)];
+      const auto own = std::find(corners.begin(), corners.end(), patch[i]) - corners.begin();
+      for (const auto k : {own + 1, own + 2}) {
+        const int n = corners[static_cast<std::size_t>(k % 3)];
+        if (seen_by[static_cast<std::size_t>(n)] == start) continue;
+        seen_by[static_cast<std::size_t>(n)] = start;
+        patch.push_back(n);
+      }
     }
   }
   return patch;
@@ -43,11 +39,11 @@ std::pair<double, double> graph_curvatures(double b, double c, double d, double 
   return {mean - spread, mean + spread};
 }
 
-std::optional<std::pair<double, double>> fit_patch(const TriangleMesh& mesh, const std::vector<Vec3>& normals,
+std::optional<std::pair<double, double>> fit_patch(const TriangleMesh& mesh, const MeshTopology& fans,
                                                    const std::vector<int>& patch) {
   const Eigen::Index count = static_cast<Eigen::Index>(patch.size());
   Vec3 normal = Vec3::Zero();
-  for (const int v : patch) normal += normals[static_cast<std::size_t>(v)];
+  for (const int v : patch) normal += vertex_normal(mesh, v, fans.around(v));
   if (count < kLeastPatchVertices || normal.norm() == 0.0) return std::nullopt;
   normal.normalize();
   const Vec3 x = normal.unitOrthogonal(), y = normal.cross(x),
@@ -71,14 +67,12 @@ std::optional<std::pair<double, double>> fit_patch(const TriangleMesh& mesh, con
 }  // namespace
 
 std::vector<std::pair<double, double>> mesh_curvatures(const TriangleMesh& mesh, int count) {
-  const std::vector<std::vector<int>> neighbors = vertex_neighbors(mesh);
-  const std::vector<Vec3> normals = vertex_normals(mesh);
+  const MeshTopology fans = fans_of(mesh);
   std::vector<int> seen_by(mesh.vertices.size(), -1);
   const int total = static_cast<int>(mesh.vertices.size()), step = std::max(1, total / count);
   std::vector<std::pair<double, double>> curvatures;
   for (int v = 0; v < total; v += step)
-    if (const auto fitted = fit_patch(mesh, normals, patch_around(v, neighbors, seen_by)))
-      curvatures.push_back(*fitted);
+    if (const auto fitted = fit_patch(mesh, fans, patch_around(v, mesh, fans, seen_by))) curvatures.push_back(*fitted);
   return curvatures;
 }
 

@@ -51,9 +51,10 @@ Box3 used_box(const TriangleMesh& mesh) {
 }
 
 /// A mesh as a part in millimetres, repaired, its regions as faces. Throws InputError.
-Part read_mesh(const std::string& file, const std::string& format, std::string_view content,
+Part read_mesh(const std::string& file, const std::string& format, std::string content,
                const std::optional<std::string>& unit) {
   TriangleMesh raw = parse_mesh(file, format, content);
+  std::string().swap(content);  // a large file and all that follows need not be in memory together
   const Box3 box = used_box(raw);
   // Sizes in every unit help to tell which is right: only a person can know.
   if (!unit)
@@ -96,13 +97,14 @@ void note_doubtful_size(Part& part) {
 Part read_part(const std::string& file, const std::optional<std::string>& unit) {
   // A wrong unit is refused before a large file is read.
   if (unit) (void)millimetres_per(*unit);
-  const std::string content = read_bytes(file);
+  std::string content = read_bytes(file);
   const std::string format = sniff_format(file, content);
   const bool mesh = format == "STL" || format == "OBJ" || format == "PLY";
-  // CAD files go through a reader that can be replaced: in this process, or in a child that a damaged file may break.
-  Part part = mesh ? read_mesh(file, format, content, unit) : cad_reader()(file, format, unit);
   // So that a result can tell later whether the file is still the same.
-  part.sha256 = sha256(content);
+  std::string hash = sha256(content);
+  // CAD files go through a reader that can be replaced: in this process, or in a child that a damaged file may break.
+  Part part = mesh ? read_mesh(file, format, std::move(content), unit) : cad_reader()(file, format, unit);
+  part.sha256 = std::move(hash);
   require_part_in_range(part);
   note_doubtful_size(part);
   return part;

@@ -3,70 +3,56 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <utility>
 
+#include "flank/base/parallel.h"
 #include "flank/geom/mesh_topology.h"
+#include "flank/io/mesh/read_mesh_edges.h"
 
 namespace flank::internal {
 namespace {
 
-/// Most triangles that are looked at around one; a finer mesh is judged over a smaller neighbourhood.
-constexpr std::size_t kMostNeighbors = 250;
-
 using Links = std::vector<std::array<int, 3>>;
+
+constexpr std::size_t kGrain = 16384;  ///< triangles
 
 /// Everything that the steps below read.
 struct Facets {
   Links smooth;  ///< neighbours across edges that are not sharp
   Links all;     ///< neighbours across manifold edges
-  std::vector<Vec3> normals, centers;
+  std::vector<Facet> facets;
   std::vector<double> areas;
 };
 
 Facets describe(const TriangleMesh& mesh, double sharp_rad) {
   Facets f;
-  TriangleMesh copy = mesh;
-  f.smooth = link_triangles(copy, sharp_rad).neighbors;
-  copy = mesh;
-  f.all = link_triangles(copy, std::numbers::pi).neighbors;
-  for (const auto& t : mesh.triangles) {
-    const Vec3 a = mesh.vertices[static_cast<std::size_t>(t[0])], b = mesh.vertices[static_cast<std::size_t>(t[1])],
-               c = mesh.vertices[static_cast<std::size_t>(t[2])];
-    f.areas.push_back(0.5 * (b - a).cross(c - a).norm());
-    f.centers.push_back((a + b + c) / 3.0);
+  {
+    const std::vector<EdgeUse> edges = mesh_edges(mesh);
+    f.smooth = linked_neighbors(mesh, edges, sharp_rad);
+    f.all = linked_neighbors(mesh, edges, std::numbers::pi);
   }
+  f.facets.resize(mesh.triangles.size());
+  f.areas.resize(mesh.triangles.size());
+  parallel_blocks(mesh.triangles.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      const auto corner = [&](int k) { return mesh.vertices[static_cast<std::size_t>(mesh.triangles[t][k])]; };
+      const Vec3 a = corner(0), b = corner(1), c = corner(2);
+      f.areas[t] = 0.5 * (b - a).cross(c - a).norm();
+      f.facets[t].center = (a + b + c) / 3.0;
+    }
+  });
   // Area-weighted over a triangle and its smooth neighbours: noise of the vertices must not look like an edge.
   const std::vector<Vec3> raw = triangle_normals(mesh);
-  for (std::size_t t = 0; t < raw.size(); ++t) {
-    Vec3 sum = f.areas[t] * raw[t];
-    for (const int n : f.smooth[t])
-      if (n >= 0) sum += f.areas[static_cast<std::size_t>(n)] * raw[static_cast<std::size_t>(n)];
-    f.normals.push_back(sum.norm() > 0.0 ? sum.normalized() : raw[t]);
-  }
-  return f;
-}
-
-/// 1 for triangles within whose neighbourhood of the given radius the normal turns by a sharp angle. A finite set of
-/// directions within an angle is judged by the turn from the middle triangle, hence half the angle on either side.
-std::vector<char> find_edges(const Facets& f, double radius, double sharp_rad) {
-  const double cosine = std::cos(sharp_rad);
-  std::vector<char> edge(f.normals.size(), 0);
-  std::vector<std::size_t> seen_by(f.normals.size(), f.normals.size()), queue;
-  for (std::size_t t = 0; t < edge.size(); ++t) {
-    queue.assign(1, t);
-    seen_by[t] = t;
-    for (std::size_t i = 0; i < queue.size() && queue.size() < kMostNeighbors && !edge[t]; ++i) {
-      for (const int n : f.all[queue[i]]) {
-        const auto other = static_cast<std::size_t>(n);
-        if (n < 0 || seen_by[other] == t) continue;
-        seen_by[other] = t;
-        if ((f.centers[other] - f.centers[t]).squaredNorm() > radius * radius) continue;
-        edge[t] |= f.normals[other].dot(f.normals[t]) < cosine;
-        queue.push_back(other);
-      }
+  parallel_blocks(raw.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      Vec3 sum = f.areas[t] * raw[t];
+      for (const int n : f.smooth[t])
+        if (n >= 0) sum += f.areas[static_cast<std::size_t>(n)] * raw[static_cast<std::size_t>(n)];
+      f.facets[t].normal = sum.norm() > 0.0 ? sum.normalized() : raw[t];
     }
-  }
-  return edge;
+  });
+  return f;
 }
 
 void flood(const Facets& f, std::size_t start, int label, const std::vector<char>& eligible, std::vector<int>& labels) {
@@ -107,14 +93,17 @@ int flood_cores(const Facets& f, double least_area, std::vector<char>& edge, std
 /// began. Breadth first, so that neighbours meet in the middle.
 void grow(const Facets& f, double turn_rad, std::vector<int>& labels) {
   const double cosine = std::cos(turn_rad);
-  std::vector<Vec3> reference = f.normals;
+  // The triangle of the region's core, where the way to a triangle began.
+  std::vector<int> reference(labels.size());
+  std::iota(reference.begin(), reference.end(), 0);
+  const auto normal = [&](int t) -> const Vec3& { return f.facets[static_cast<std::size_t>(t)].normal; };
   std::vector<std::size_t> queue;
   for (std::size_t t = 0; t < labels.size(); ++t)
     if (labels[t] >= 0) queue.push_back(t);
   for (std::size_t i = 0; i < queue.size(); ++i) {
     for (const int n : f.smooth[queue[i]]) {
       const auto other = static_cast<std::size_t>(n);
-      if (n < 0 || labels[other] >= 0 || f.normals[other].dot(reference[queue[i]]) < cosine) continue;
+      if (n < 0 || labels[other] >= 0 || normal(n).dot(normal(reference[queue[i]])) < cosine) continue;
       labels[other] = labels[queue[i]];
       reference[other] = reference[queue[i]];
       queue.push_back(other);
@@ -177,7 +166,7 @@ std::vector<std::vector<int>> by_area(const Facets& f, const std::vector<int>& l
 std::vector<std::vector<int>> mesh_regions(const TriangleMesh& mesh, const RegionOptions& options) {
   const Facets f = describe(mesh, options.sharp_rad);
   const double radius = options.edge_width_share * mesh.box().diagonal();
-  std::vector<char> edge = find_edges(f, radius, options.sharp_rad);
+  std::vector<char> edge = find_edges(f.facets, f.all, radius, options.sharp_rad);
   std::vector<int> labels(mesh.triangles.size(), -1);
   int count = flood_cores(f, std::numbers::pi * radius * radius, edge, labels);
   grow(f, 0.5 * options.sharp_rad, labels);

@@ -31,6 +31,7 @@ TriangleMesh read_binary(const std::string& file, std::string_view content) {
                     file, content.size(), count, kHeader + kFacet * std::size_t{count}));
   TriangleMesh mesh;
   mesh.vertices.reserve(3 * std::size_t{count});
+  mesh.triangles.reserve(count);
   for (std::uint32_t i = 0; i < count; ++i) {
     float f[9];
     std::memcpy(f, content.data() + kHeader + kFacet * i + 12, sizeof f);

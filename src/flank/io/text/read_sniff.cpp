@@ -124,7 +124,12 @@ std::string read_bytes(const std::string& file) {
     throw InputError(file + ": is a device or a pipe; give a file: " + kAccepted);
   std::ifstream in(file, std::ios::binary);
   if (!in) throw InputError(file + ": cannot be opened; check its permissions");
-  std::string content{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  // At once: growing would hold a large file twice.
+  std::string content(std::filesystem::file_size(file), '\0');
+  in.read(content.data(), static_cast<std::streamsize>(content.size()));
+  content.resize(static_cast<std::size_t>(in.gcount()));
+  content.append(std::istreambuf_iterator<char>(in),
+                 std::istreambuf_iterator<char>());  // files without a size have some
   if (in.bad()) throw InputError(file + ": cannot be read to its end");
   if (content.empty()) throw InputError(file + ": is empty; accepted: " + std::string(kAccepted));
   return content;
