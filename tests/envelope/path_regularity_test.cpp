@@ -45,6 +45,26 @@ TEST(PathRegularity, APointThatStandsStillHasNoCorner) {
   EXPECT_NEAR(largest_turn(path, 30.0, 1e-5), std::numbers::pi, 1e-12);
 }
 
+TEST(PathRegularity, WhatIsKnownSparesQuestionsAndChangesNothing) {
+  const RadialFunction radial =
+      RadialFunction::spline(20.0, (Eigen::VectorXd(6) << 3.0, 3.2, 3.6, 4.1, 4.2, 4.0).finished());
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const RuledMotion motion = testing::random_motion(seed);
+    long asked = 0;
+    const Touches touches = [&](const Vec3& centre, double) {
+      return ++asked, std::fmod(std::abs(centre.sum()), 3.0) < 1.0;
+    };
+    double apart = 0.0, together = 0.0;
+    for (int i = 0; i < 50; ++i)
+      apart = std::max(apart, largest_c(motion.pose(i / 50.0), motion.pose((i + 1) / 50.0), radial, touches));
+    const long all = asked;
+    for (int i = 0; i < 50; ++i)
+      together = largest_c(motion.pose(i / 50.0), motion.pose((i + 1) / 50.0), radial, touches, together);
+    EXPECT_EQ(together, apart) << seed;
+    EXPECT_LT(asked - all, all) << seed;
+  }
+}
+
 TEST(PathRegularity, PosesAreAsDenseAsTheTurnAllows) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const RuledMotion motion = testing::random_motion(seed);

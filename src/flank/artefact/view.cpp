@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "flank/base/parallel.h"
 #include "flank/envelope/path_regularity.h"
 #include "flank/job/command_line.h"
 #include "flank/setup/targets.h"
@@ -39,16 +40,15 @@ std::vector<ViewPlace> places_of(const Strip& strip, const RadialFunction& radia
   if (strip.poses.size() < 2) return {};
   const std::size_t steps = strip.poses.size() - 1;
   std::vector<ViewPlace> places(std::min(steps, kMostPlaces));
-  for (std::size_t k = 0; k < places.size(); ++k) {
+  parallel_for(places.size(), [&](std::size_t k) {
     // Place k is the share [k, k + 1] / count of the steps; the steps that it overlaps count for it.
     const std::size_t first = k * steps / places.size();
     const std::size_t last = ((k + 1) * steps + places.size() - 1) / places.size();
     const double middle = (static_cast<double>(k) + 0.5) * static_cast<double>(steps);
     places[k] = {middle / static_cast<double>(places.size()), kInfinity, -kInfinity, 0.0, kInfinity};
     for (std::size_t i = first; i < last; ++i)
-      places[k].largest_c =
-          std::max(places[k].largest_c, largest_c(strip.poses[i], strip.poses[i + 1], radial, touches));
-  }
+      places[k].largest_c = largest_c(strip.poses[i], strip.poses[i + 1], radial, touches, places[k].largest_c);
+  });
   return places;
 }
 

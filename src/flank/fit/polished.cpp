@@ -22,7 +22,7 @@ double touching_c(const FitDraft& draft, double tolerance_mm, int poses) {
     Pose from = draft.motions[m].pose(0.0);
     for (int i = 1; i <= poses; ++i) {
       const Pose to = draft.motions[m].pose(static_cast<double>(i) / poses);
-      largest = std::max(largest, largest_c(from, to, draft.tool, touches));
+      largest = largest_c(from, to, draft.tool, touches, largest);
       from = to;
     }
   }

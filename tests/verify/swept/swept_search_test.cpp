@@ -111,6 +111,63 @@ TEST(SweptSearch, FinerPiecesGiveTheSameValue) {
   }
 }
 
+/// The same motion in many short steps, of unequal lengths.
+Path dense(const Path& path, int steps) {
+  Path out;
+  for (const Strip& strip : path.strips) {
+    out.strips.push_back({strip.id, strip.kind, strip.face, {}});
+    for (std::size_t i = 0; i + 1 < strip.poses.size(); ++i)
+      for (int k = 0; k < steps; ++k) {
+        const double share = static_cast<double>(k) / steps;
+        out.strips.back().poses.push_back(
+            brute::between(strip.poses[i], strip.poses[i + 1], share * (0.6 + 0.4 * share)));
+      }
+    out.strips.back().poses.push_back(strip.poses.back());
+  }
+  return out;
+}
+
+// Steps of 2 mm in up to 2,000: far shorter than a piece may be.
+TEST(SweptSearch, OnDensePathsItFindsTheLeastOverAllPieces) {
+  Random random(9);
+  const Tool tool = brute::random_tool(random, 20.0);
+  for (const double turn : {0.0, 0.8, 2.0}) {
+    const Path path = brute::twisted_path(random, 8, 12.0, turn);
+    for (const int steps : {30, 200, kSanitized ? 300 : 2000}) {
+      const Scene scene(tool, dense(path, steps), 0.3);
+      SweptPlace near;
+      for (int i = 0; i < std::max(4, 5 * kPoints / steps); ++i) {
+        // Near the surface that is left, where many poses are about as near as the nearest.
+        Vec3 x = path.strips[0].poses[4].at(10.0) + brute::random_vector(random, 12.0);
+        if (i % 4 != 0) {
+          const SweptPlace at = scene.run(x);
+          const Vec3 c = scene.tree.segment_of(at.piece).at(at.tau).at(at.s);
+          x = c + (tool.radial.at(at.s).r + random.uniform(-0.01, 0.01)) * (x - c).normalized();
+        }
+        const double wanted = scene.over_all_pieces(x);
+        ASSERT_NEAR(scene.run(x).f, wanted, kExactMm) << turn << ' ' << steps << ' ' << i;
+        const SweptPlace found = scene.run(x, 1e300, near);
+        ASSERT_NEAR(found.f, wanted, kExactMm) << turn << ' ' << steps << ' ' << i;
+        near = found;
+      }
+    }
+  }
+}
+
+// Descent does not stop for the ends of steps, however many there are on the way.
+TEST(SweptSearch, DescentGoesOnOverManyShortSteps) {
+  Tool tool;
+  tool.radial = RadialFunction(ToolFamily::kCylinder, 20.0, Eigen::VectorXd::Constant(1, 3.0));
+  Path line;
+  line.strips.push_back({1, "flank", "F1", {{Vec3(0, 0, 0), Vec3::UnitZ()}, {Vec3(40, 0, 0), Vec3::UnitZ()}}});
+  const Scene scene(tool, dense(line, 40000), 0.3);
+  for (const double x : {20.0, 19.2, 21.9}) {
+    const Vec3 at(x, 4.0, 10.0);
+    const SweptPlace from = scene.run({20.5, 4.0, 10.0});
+    EXPECT_NEAR(SweptSearch(scene.distance, scene.tree, at).descend_from(from).f, 1.0, 1e-6) << x;
+  }
+}
+
 TEST(SweptSearch, ForkedToolsAreFollowedToTheirLeastMinimum) {
   // Far from a waist both shoulders are near: several minima over s for one pose.
   Tool tool;

@@ -149,6 +149,7 @@ class Builder {
 
 PoseTree::PoseTree(const Path& path, double axis_length_mm, double reach_mm) {
   FLANK_ASSERT(axis_length_mm > 0.0 && reach_mm > 0.0);
+  reach_limit = reach_mm;
   Builder builder(*this, axis_length_mm);
   builder.add_segments(path);
   builder.add_pieces(reach_mm);

@@ -31,6 +31,7 @@ struct PoseTree {
   std::vector<Segment> segments;  ///< in the order of strips and poses
   std::vector<Piece> pieces;      ///< in the order of the segments
   double piece_reach = 0.0;       ///< largest reach of a leaf
+  double reach_limit = 0.0;       ///< what it may be at most: pieces of a dense path are far shorter
   std::vector<PoseNode> nodes;    ///< in depth-first order; empty for an empty path
 
   /// The segment that a piece is a part of.

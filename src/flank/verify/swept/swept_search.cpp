@@ -24,8 +24,37 @@ constexpr double kCurvatureShare = 0.5;  ///< of the curvature across the motion
 constexpr double kNearReaches = 4.0;
 /// Reaches of a node below which the second-order bound is not used: its terms divide by the distance.
 constexpr double kFarReaches = 2.0;
-constexpr int kMaxHops = 16;     ///< pieces that a descent follows
+constexpr int kMaxHops = 16;  ///< pieces, or strides of them, that a descent follows
+/// Of the length that a piece may have so many make a dense path, which is looked at in stretches of that length first.
+constexpr int kManyPieces = 32;
 constexpr int kStackSize = 128;  ///< two per level: enough for 2^40 pieces and as many strips
+
+/// F of the node's linear motion at its middle: R(s) + y (half_tip + s half_turn), derivatives by y and s at y = 0.
+DistanceJet linear_jet(const PoseNode& node, const RadialTable& radial, const Vec3& x, double s) {
+  const Vec3 d = x - node.tip - s * node.axis, v = node.half_tip + s * node.half_turn;
+  const RadialJet j = radial.at(s);
+  DistanceJet out;
+  out.distance = d.norm();
+  const double inverse = 1.0 / out.distance;
+  const Vec3 n = d * inverse;
+  const double nv = n.dot(v), nu = n.dot(node.axis);
+  out.f = out.distance - j.r;
+  out.dt = -nv;
+  out.ds = -nu - j.d1;
+  out.dtt = (v.squaredNorm() - nv * nv) * inverse;
+  out.dts = (v.dot(node.axis) - nv * nu) * inverse - n.dot(node.half_turn);
+  out.dss = (1.0 - nu * nu) * inverse - j.d2;
+  return out;
+}
+
+/// The least value within `half` of the middle by the model of second order with half its curvature; -1e300 if there is none.
+double least_nearby(const DistanceJet& jet, double half) {
+  if (!(jet.dss > 0.0)) return -1e300;
+  const double curvature = jet.dtt - jet.dts * jet.dts / jet.dss;
+  if (!(curvature > 0.0)) return jet.f + half * (curvature * half - std::abs(jet.dt));
+  const double y = std::min(half, std::abs(jet.dt) / (0.5 * curvature));
+  return jet.f + y * (0.25 * curvature * y - std::abs(jet.dt));
+}
 
 }  // namespace
 
@@ -65,18 +94,14 @@ double SweptSearch::bound(const PoseNode& node) const {
   return std::max(plain, least - fall - node.bend - slack);
 }
 
-// Whether the model of second order at the middle of a piece, with half its curvature, stays above the best so far.
-bool SweptSearch::excluded(const DistanceJet& jet, double half) const {
-  if (!(jet.dss > 0.0)) return false;
-  const double curvature = jet.dtt - jet.dts * jet.dts / jet.dss;
-  double least = jet.f;
-  if (curvature > 0.0) {
-    const double y = std::min(half, std::abs(jet.dt) / (0.5 * curvature));
-    least += y * (0.25 * curvature * y - std::abs(jet.dt));
-  } else {
-    least += half * (curvature * half - std::abs(jet.dt));
-  }
-  return least >= best_.f - kSlackMm;
+// As open_leaf and open_single do with a piece: what a path of short steps is made of is not opened step by step.
+double SweptSearch::close_bound(const PoseNode& node) const {
+  const PlanePoint at = plane_point(node.tip, node.axis, x_);
+  const NearestSphere sphere = tool_.nearest(at.z, at.rho);
+  const double plain = sphere.g - node.reach;
+  if (plain >= best_.f - kSlackMm || !single(at.rho + node.reach)) return plain;
+  if (std::hypot(at.z - sphere.s, at.rho) < kNearReaches * node.reach) return plain;
+  return std::max(plain, least_nearby(linear_jet(node, tool_.radial(), x_, sphere.s), 1.0) - node.bend);
 }
 
 bool SweptSearch::neighbours(int k, int next) const {
@@ -84,17 +109,35 @@ bool SweptSearch::neighbours(int k, int next) const {
          segment(piece(k)).strip == segment(piece(next)).strip;
 }
 
+int SweptSearch::stride_from(int at) const {
+  const Piece& p = piece(at);
+  const Segment& g = segment(p);
+  const double moved = (p.high - p.low) * std::max(g.da.norm(), (g.da + tool_.radial().length() * g.dw).norm());
+  const double pieces = 2.0 * tree_.reach_limit / std::max(moved, 2e-6 * tree_.reach_limit);
+  return pieces < kManyPieces ? 1 : static_cast<int>(pieces);
+}
+
 // A minimum at the end of its piece may go on in the next one.
 void SweptSearch::follow(int at, SegmentMinimum found) {
-  for (int hop = 0; hop < kMaxHops; ++hop) {
+  int stride = stride_from(at);
+  for (int hop = 0; hop < kMaxHops;) {
     const Piece& here = piece(at);
-    const int next = found.tau >= here.high ? at + 1 : found.tau <= here.low ? at - 1 : -1;
-    if (next < 0 || !neighbours(at, next)) break;
-    const Piece& there = piece(next);
-    SegmentMinimum trial{found.f, next > at ? there.low : there.high, found.s};
-    if (!descend(segment(there), tool_.radial(), x_, there.low, there.high, trial) || trial.f >= found.f) break;
-    found = trial;
-    at = next;
+    const int next = found.tau >= here.high ? at + stride : found.tau <= here.low ? at - stride : -1;
+    SegmentMinimum trial = found;
+    if (neighbours(at, next)) {
+      const Piece& there = piece(next);
+      trial.tau = next > at ? there.low : there.high;
+      if (!descend(segment(there), tool_.radial(), x_, there.low, there.high, trial)) trial.f = found.f;
+    }
+    if (trial.f < found.f) {
+      found = trial;
+      at = next;
+      ++hop;
+    } else if (stride == 1) {
+      break;
+    } else {
+      stride = (stride + 1) / 2;
+    }
   }
   if (found.f >= best_.f) return;
   keep(found, at);
@@ -106,7 +149,7 @@ void SweptSearch::open_single(const PoseNode& node, const NearestSphere& sphere)
   const Piece& p = piece(node.first_piece);
   SegmentMinimum found{sphere.g, 0.5 * (p.low + p.high), sphere.s};
   const DistanceJet jet = distance_jet(segment(p), tool_.radial(), x_, found.tau, found.s);
-  if (excluded(jet, 0.5 * (p.high - p.low))) return;
+  if (least_nearby(jet, 0.5 * (p.high - p.low)) >= best_.f - kSlackMm) return;
   if (descend(segment(p), tool_.radial(), x_, p.low, p.high, found)) {
     follow(node.first_piece, found);
   } else {
@@ -173,8 +216,11 @@ SweptPlace SweptSearch::run(double horizon, const SweptPlace& near) {
   const auto open = [&](int k) {
     const PoseNode& node = tree_.nodes[static_cast<std::size_t>(k)];
     // The node that holds the best place so far cannot be left out: its bound is not worth asking for.
-    const bool holds = best_.piece >= node.first_piece && best_.piece < node.end_piece;
-    return Open{k, holds ? -1e300 : bound(node)};
+    if (best_.piece >= node.first_piece && best_.piece < node.end_piece) return Open{k, -1e300};
+    double promised = bound(node);
+    const bool dense = node.end_piece - node.first_piece >= kManyPieces && node.reach <= tree_.reach_limit;
+    if (dense && promised < best_.f - kSlackMm) promised = std::max(promised, close_bound(node));
+    return Open{k, promised};
   };
   std::array<Open, kStackSize> stack;
   int size = 0;

@@ -26,9 +26,9 @@ class SweptSearch {
   [[nodiscard]] SweptPlace descend_from(const SweptPlace& near);
 
  private:
-  [[nodiscard]] double bound(const PoseNode& node) const;                  ///< <= f over all poses of the node
-  [[nodiscard]] bool excluded(const DistanceJet& jet, double half) const;  ///< no place within `half` of tau is lower
-  [[nodiscard]] bool single(double rho) const;                             ///< one minimum over s is certain
+  [[nodiscard]] double bound(const PoseNode& node) const;        ///< <= f over all poses of the node
+  [[nodiscard]] double close_bound(const PoseNode& node) const;  ///< the same for nodes no longer than a piece may be
+  [[nodiscard]] bool single(double rho) const;                   ///< one minimum over s is certain
   [[nodiscard]] const Piece& piece(int k) const { return tree_.pieces[static_cast<std::size_t>(k)]; }
   [[nodiscard]] const Segment& segment(const Piece& p) const {
     return tree_.segments[static_cast<std::size_t>(p.segment)];
@@ -41,6 +41,8 @@ class SweptSearch {
   void open_leaf(const PoseNode& node);
   void open_single(const PoseNode& node, const NearestSphere& sphere);
   void open_forked(const PoseNode& node);
+  /// Pieces that a first hop from here skips: one, unless many of them make up the length that a piece may have.
+  [[nodiscard]] int stride_from(int at) const;
   /// Continues a minimum that was found at an end of a piece into the next piece.
   void follow(int at, SegmentMinimum found);
   void keep(const SegmentMinimum& found, int at) {
