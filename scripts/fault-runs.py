@@ -29,32 +29,27 @@ class Runs:
     def __init__(self, flank, shim, folder):
         self.flank, self.shim, self.folder = flank, shim, folder
         self.out, self.old = os.path.join(folder, "out"), os.path.join(folder, "old")
-        part = os.path.join(folder, "blade.step")
-        self.call(["example", "ruled-blade", "-o", part])
-        first = ["fit", part, "--face", "F1", "--tolerance", "1", "--tool", "cylinder:radius=2", "--axis-length", "20",
-                 "--strips", "1", "-o", self.out]
-        cover = ["cover", part, "--face", "F1", "--tolerance", "1", "--tool", "cylinder:radius=2", "--axis-length", "20",
-                 "-o", self.out]
-        self.call(first)
-        # From a start there is no search, so that a run takes a second.
-        guide, tool = os.path.join(folder, "guide.txt"), os.path.join(folder, "tool.json")
-        shutil.copy(os.path.join(self.out, "tool.json"), tool)
-        self.write_guide(guide)
-        fit = ["fit", part, "--face", "F1", "--tolerance", "1", "--tool", tool, "--guide", guide, "-o", self.out]
+        part = os.path.join(folder, "part.step")
+        self.call(["example", "envelope-cone-1", "-o", part])
+        # The part's own tool, and its own motion to start from: no search, so that a run takes a second.
+        tool, guide = os.path.join(folder, "part.tool.json"), os.path.join(folder, "guide.txt")
+        self.write_guide(guide, os.path.join(folder, "part.path.json"))
+        plan = [part, "--face", "F1", "--tolerance", "0.1", "--tool", tool, "-o", self.out]
+        fit, cover = ["fit", *plan, "--guide", guide], ["cover", *plan]
         self.commands = {"fit": fit, "cover": cover, "verify": ["verify", self.out], "report": ["report", self.out]}
         self.call(fit)
         shutil.copytree(self.out, self.old)
         self.finds = []
 
-    def write_guide(self, file):
-        """A few axes of the path in the folder."""
-        with open(os.path.join(self.out, "path.json"), encoding="utf-8") as stream:
+    def write_guide(self, file, path):
+        """A few axes of a path."""
+        with open(path, encoding="utf-8") as stream:
             poses = json.load(stream)["strips"][0]["poses"]
         with open(file, "w", encoding="utf-8") as stream:
             for k in range(8):
                 pose = poses[k * (len(poses) - 1) // 7]
                 tip, axis = pose[:3], pose[3:6]
-                stream.write(" ".join(str(x) for x in [*tip, *(t + 20 * a for t, a in zip(tip, axis))]) + "\n")
+                stream.write(" ".join(str(x) for x in [*tip, *(t + 50 * a for t, a in zip(tip, axis))]) + "\n")
 
     def call(self, words, environment=None, limit=None, pass_fds=()):
         def limits():
