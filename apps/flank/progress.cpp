@@ -10,6 +10,7 @@
 
 #include "commands.h"
 #include "flank/base/printable.h"
+#include "flank/base/progress_line.h"
 #include "flank/base/stopping.h"
 
 namespace flank::cli {
@@ -22,11 +23,6 @@ void on_interrupt(int signal) {
   if (interrupted != 0) std::_Exit(128 + signal);
   interrupted = signal;
   internal::request_stop();
-}
-
-std::string time_left(double seconds, double share) {
-  if (share < 0.05) return "";
-  return fmt::format(", {:.0f} s left", seconds * (1.0 - share) / share);
 }
 
 const char* name_of(int signal) { return signal == SIGTERM ? "SIGTERM" : signal == SIGHUP ? "SIGHUP" : "SIGINT"; }
@@ -70,12 +66,13 @@ Progress terminal_progress(const CommonOptions& options) {
   if (options.quiet || options.json) return progress;
   const bool terminal = isatty(STDERR_FILENO) != 0;
   const auto start = std::chrono::steady_clock::now();
-  progress.report = [terminal, start](std::string_view stage, double share) {
+  const auto shown = std::make_shared<internal::ProgressLine>();
+  progress.found = [shown](const BestSoFar& found) { shown->found(found); };
+  progress.report = [terminal, start, shown](std::string_view stage, double share) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     std::string line;
     if (terminal)
-      line = fmt::format("\r\x1b[K{} {:3.0f} %{}{}", stage, 100.0 * share, time_left(seconds, share),
-                         share >= 1.0 ? "\r\x1b[K" : "");
+      line = fmt::format("\r\x1b[K{}", share >= 1.0 ? std::string() : shown->line(stage, share, seconds));
     else if (share < 1.0)
       line = fmt::format("{} {:.0f} %\n", stage, 100.0 * share);
     // A standard error that is closed or full costs the progress, not the work.

@@ -37,5 +37,26 @@ TEST(Progress, AsksWhetherItIsCancelledEachTime) {
   EXPECT_EQ(asked, 3) << "a step does not ask";
 }
 
+TEST(Progress, APartOfTheWholeHasSharesOfTheWhole) {
+  std::vector<double> shares;
+  double found = 0.0;
+  Progress progress;
+  progress.report = [&](std::string_view, double share) { shares.push_back(share); };
+  progress.cancelled = [] { return true; };
+  progress.found = [&](const BestSoFar& best) { found = best.coverage; };
+  const Progress part = progress.part(0.2, 0.6);
+  part.step("fit", 0.0);
+  part.step("fit", 0.5);
+  part.part(0.5, 1.0).step("fit", 1.0);
+  ASSERT_EQ(shares.size(), 3u);
+  EXPECT_DOUBLE_EQ(shares[0], 0.2);
+  EXPECT_DOUBLE_EQ(shares[1], 0.4);
+  EXPECT_DOUBLE_EQ(shares[2], 0.6);
+  EXPECT_TRUE(part.stop());
+  part.found({.coverage = 0.7, .deepest_mm = 0.0, .clean = true});
+  EXPECT_EQ(found, 0.7);
+  Progress().part(0.0, 0.5).step("fit", 0.5);  // nobody listens
+}
+
 }  // namespace
 }  // namespace flank::internal
