@@ -78,6 +78,8 @@ struct FitJob {
   std::optional<std::string> guide;  ///< file of several such lines
   int strips = 0;                    ///< motions side by side; 0: as many as the tolerance needs
   bool avoid = true;                 ///< keep clear of the other faces already in planning; they are judged either way
+  /// Least radius of curvature of the paths of tip and holder end; none: any.
+  std::optional<double> min_bend_radius_mm;
   bool operator==(const FitJob&) const = default;
 };
 

@@ -2,6 +2,7 @@
 /// unnormalised axis vector.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,14 @@ struct Path {
     for (const Strip& s : strips) n += s.poses.size();
     return n;
   }
+};
+
+/// How sharply the paths of the two ends of the axis bend: the least radius of curvature along each, mm; infinite for a
+/// path without a bend.
+struct BendRadii {
+  double tip_mm = std::numeric_limits<double>::infinity();
+  double holder_end_mm = std::numeric_limits<double>::infinity();  ///< of the axis, s = L
+  [[nodiscard]] double least_mm() const { return tip_mm < holder_end_mm ? tip_mm : holder_end_mm; }
 };
 
 }  // namespace flank

@@ -170,5 +170,28 @@ TEST(AcceptStock, EveryKindOfStripIsHeldToTheLimitButForTheCells) {
   }
 }
 
+TEST(AcceptBends, EachEndIsHeldToTheRadiusThatIsAskedFor) {
+  const BendRadii bends{.tip_mm = 12.5, .holder_end_mm = 4.0};
+  FitJob job;
+  Acceptance a;
+  accept_bends(job, bends, a);
+  EXPECT_TRUE(a.pass()) << "nothing was asked";
+  job.min_bend_radius_mm = 4.0;
+  accept_bends(job, bends, a);
+  EXPECT_TRUE(a.pass()) << "at the limit";
+  job.min_bend_radius_mm = 5.0;
+  accept_bends(job, bends, a);
+  expect_one(a, "bend_radius", "the holder end bends with a radius of 4 mm < 5 mm");
+  job.min_bend_radius_mm = 20.0;
+  a = {};
+  accept_bends(job, bends, a);
+  EXPECT_EQ(a.reasons.size(), 2u);
+  a = {};
+  accept_bends(job, {}, a);
+  EXPECT_TRUE(a.pass()) << "a straight path";
+  accept_bends(CoverJob(), bends, a);
+  EXPECT_TRUE(a.pass());
+}
+
 }  // namespace
 }  // namespace flank::internal

@@ -48,11 +48,11 @@ void add_members(const ChoiceRequest& request, Addresses& all) {
   add(all, catalogue, finalists, feed, rapid);
 }
 Addresses members(const FitJob& job) {
-  const auto& [part, tool, radius, obstacles, judge, tolerance, start, guide, strips, avoid] = job;
+  const auto& [part, tool, radius, obstacles, judge, tolerance, start, guide, strips, avoid, bend] = job;
   Addresses all;
   add_members(part, all), add_members(tool, all), add_members(radius, all), add_members(obstacles, all);
   add_members(judge, all);
-  add(all, tolerance, start, guide, strips, avoid);
+  add(all, tolerance, start, guide, strips, avoid, bend);
   return all;
 }
 Addresses members(const CoverJob& job) {

@@ -128,6 +128,17 @@ void accept_stock(const StockReport& stock, double most_engagement_deg, double t
         {"stock", fmt::format("replayed, a face is entered by {:.4f} mm > {} mm", stock.entered_mm, tolerance_mm)});
 }
 
+void accept_bends(const PlanJob& job, const BendRadii& bends, Acceptance& acceptance) {
+  const auto* fit = std::get_if<FitJob>(&job);
+  if (fit == nullptr || !fit->min_bend_radius_mm) return;
+  const double asked = *fit->min_bend_radius_mm;
+  for (const auto& [end, radius_mm] : {std::pair("tip", bends.tip_mm), std::pair("holder end", bends.holder_end_mm)})
+    if (radius_mm < asked)
+      acceptance.reasons.push_back(
+          {"bend_radius",
+           fmt::format("the path of the {} bends with a radius of {:.3g} mm < {} mm", end, radius_mm, asked)});
+}
+
 void accept_cavity(const TrochoidSummary& cavity, Acceptance& acceptance) {
   constexpr double kSpareDeg = 1e-6;  // rounding of a limit that cycles are made to reach
   if (cavity.largest_deg() > cavity.most_engagement_deg + kSpareDeg)

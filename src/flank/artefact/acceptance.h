@@ -22,6 +22,9 @@ void accept_stock(const StockReport& stock, double most_engagement_deg, double t
 /// Adds what is not as asked of a cavity's cycles: their engagement, and that they are all there.
 void accept_cavity(const TrochoidSummary& cavity, Acceptance& acceptance);
 
+/// Adds that the path of tip or holder end bends more sharply than the job lets it (FitJob::min_bend_radius_mm).
+void accept_bends(const PlanJob& job, const BendRadii& bends, Acceptance& acceptance);
+
 /// "              F88 is entered ..." a line for each reason.
 [[nodiscard]] std::string reason_lines(const Acceptance& acceptance);
 

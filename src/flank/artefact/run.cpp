@@ -24,6 +24,10 @@ namespace {
 /// Interrupted before there was a verdict.
 bool was_stopped(const Result& result) { return !result.complete && result.verify.verdict == Verdict::kNotRun; }
 
+std::string bend_text(double radius_mm) {
+  return radius_mm < 1e6 ? fmt::format("{:.3g} mm", radius_mm) : std::string("none");
+}
+
 /// What the path leaves, by the judge.
 std::string error_lines(const Result& result) {
   const VerifyReport& v = result.verify;
@@ -33,6 +37,8 @@ std::string error_lines(const Result& result) {
       "{:.1f} degrees\n",
       result.path.strips.size(), result.path.strips.size() == 1 ? "" : "s", result.path.pose_count(),
       result.chord_bound_mm, result.largest_c, result.largest_turn_rad * 180.0 / std::numbers::pi);
+  text += fmt::format("  bends       least radius {} at the tip, {} at the holder end\n",
+                      bend_text(result.bends.tip_mm), bend_text(result.bends.holder_end_mm));
   if (was_stopped(result)) return text + "  judged      not at all\n";
   text += fmt::format("  coverage    {:.2f} % of the target within {} mm\n", 100.0 * v.coverage, v.tolerance_mm);
   text += "  " + reach_text(v) + "\n";
@@ -73,11 +79,18 @@ std::string stiffness_line(const Tool& tool) {
       bent.slenderness, bent.equivalent_diameter_mm, bent.length_mm, bent.deflection_um, kStiffnessForce);
 }
 
+nlohmann::ordered_json bends_json(const BendRadii& bends) {
+  // Null: no bend at all.
+  const auto radius = [](double mm) { return mm < 1e300 ? nlohmann::ordered_json(mm) : nullptr; };
+  return {{"tip", radius(bends.tip_mm)}, {"holder_end", radius(bends.holder_end_mm)}};
+}
+
 }  // namespace
 
 Acceptance Result::acceptance() const {
   const double least_coverage = std::visit([](const auto& request) { return request.judge.least_coverage; }, job);
   Acceptance out = accept(tool, verify, least_coverage, complete);
+  if (complete) accept_bends(job, bends, out);
   if (const auto* cavity = std::get_if<TrochoidSummary>(&plan)) accept_cavity(*cavity, out);
   if (const auto* cavity = std::get_if<TrochoidJob>(&job); cavity && verify.stock)
     accept_stock(*verify.stock, cavity->cycles.most_engagement_deg, verify.tolerance_mm, out);
@@ -181,6 +194,7 @@ std::string summary_json(const Result& result) {
   json["chord_bound"] = result.chord_bound_mm;
   json["largest_c"] = result.largest_c;
   json["largest_turn"] = result.largest_turn_rad * 180.0 / std::numbers::pi;
+  json["bend_radius"] = bends_json(result.bends);
   json["diagonal"] = result.diagonal_mm;
   json["axis_length"] = result.tool.radial.axis_length();
   const Stiffness bent = stiffness(result.tool);

@@ -140,6 +140,10 @@ void visit_obstacles(Request& obstacles, Visitor& visit) {
         obstacles.clearance_mm);
 }
 
+inline constexpr std::string_view kBendHelp =
+    "Least radius of curvature of the paths of tip and holder end (s = L): a sharper bend does not meet the request; "
+    "default: any";
+
 inline constexpr std::string_view kReachHelp =
     "A place of the face counts as reachable if a ball of this radius touches it without entering another face; "
     "--coverage is about those; default: the tool's smallest radius, of a free tool half of the axis length (or of the "
@@ -208,6 +212,7 @@ void visit_fields(Job& job, Visitor&& visit) {
   visit(FieldInfo{"guide", "", "", "File of several such lines: the axis follows them", kAny, Spelling::kFile},
         job.guide);
   visit_radius(job.radius, visit);
+  visit(FieldInfo{"min_bend_radius", "mm", "Motion", kBendHelp, kRadius}, job.min_bend_radius_mm);
   visit_judge(job.judge, visit);
   visit_obstacles(job.obstacles, visit);
   visit(

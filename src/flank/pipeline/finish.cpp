@@ -9,6 +9,7 @@
 #include "flank/base/tolerance_budget.h"
 #include "flank/envelope.h"
 #include "flank/envelope/path_regularity.h"
+#include "flank/path/bend_radius.h"
 #include "flank/pipeline/folder/judge_job.h"
 #include "flank/strip/used_times.h"
 #include "flank/surface/ball_touch.h"
@@ -73,6 +74,7 @@ std::vector<StripSurface> add_strips(double tolerance_mm, const std::vector<cons
     return ball_touches(targets, centre, ball_mm, tolerance_mm);
   });
   result.largest_turn_rad = largest_turn(result.path, radial.axis_length(), kToleranceBudget.chord * tolerance_mm);
+  result.bends = least_bend_radii(result.path, radial.axis_length(), kToleranceBudget.chord * tolerance_mm);
   note_strip_surfaces(surfaces, result.notes);
   return surfaces;
 }

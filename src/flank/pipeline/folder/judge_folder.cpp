@@ -11,6 +11,7 @@
 #include "flank/artefact/verify_json.h"
 #include "flank/artefact/view.h"
 #include "flank/artefact/view_json.h"
+#include "flank/base/tolerance_budget.h"
 #include "flank/error.h"
 #include "flank/io/face_names.h"
 #include "flank/io/path/blank_json.h"
@@ -18,6 +19,7 @@
 #include "flank/io/text/json_input.h"
 #include "flank/job/check_fields.h"
 #include "flank/manifest/result_folder.h"
+#include "flank/path/bend_radius.h"
 #include "flank/path_file.h"
 #include "flank/pipeline/folder/folder_job.h"
 #include "flank/pipeline/folder/judge_job.h"
@@ -116,6 +118,8 @@ Verification judge_path(const VerifyJob& request, const Job& job, const std::str
   const PathEngagement engagement = replay_stock(job, setup, tool, path, file("blank.json"), outcome);
   outcome.acceptance = accept(tool, outcome.report, job.judge.least_coverage);
   accept_program(job, outcome);
+  const BendRadii bends = least_bend_radii(path, tool.radial.axis_length(), kToleranceBudget.chord * job.tolerance_mm);
+  accept_bends(job, bends, outcome.acceptance);
   std::map<std::string, std::string> files{
       {"verify.json", verify_to_json(outcome.report, outcome.acceptance)},
       {"view.json", view_to_json(make_view(outcome.job, setup, tool, path, outcome.report))}};
