@@ -1,6 +1,7 @@
 #include "flank/io/mesh/read_mesh_edges.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -14,6 +15,7 @@ namespace {
 constexpr int kCoreSteps = 8;
 /// Most triangles that are looked at for that; around most there are about 1,400.
 constexpr std::size_t kMostTogether = 4000;
+constexpr std::size_t kGrain = 16384;  ///< triangles
 /// Of lengths and cosines: far more than rounding, far less than matters.
 constexpr double kSlack = 1e-9;
 
@@ -59,23 +61,26 @@ class EdgeSearch {
         neighbors_(neighbors),
         radius_(radius),
         cosine_(std::cos(sharp_rad)),
-        half_cosine_(std::cos(0.5 * sharp_rad)) {}
+        half_cosine_(std::cos(0.5 * sharp_rad)),
+        states_(facets.size(), kUnknown) {}
 
-  /// For the triangles from `begin` on, as many as `edge` has places.
-  void run(std::size_t begin, std::span<char> edge) const {
+  /// For triangles [begin, end).
+  void run(std::size_t begin, std::size_t end, std::vector<char>& edge) {
     // Three neighbours of each, and those that end a walk.
     Walk walk(3 * kMostNeighbors + 8), wide(kMostTogether);
-    std::vector<char> state(edge.size(), kUnknown);
-    for (std::size_t i = 0; i < edge.size(); ++i) {
-      const int triangle = static_cast<int>(begin + i);
-      if (state[i] == kUnknown) settle_core(triangle, begin, state, wide);
-      if (state[i] != kSmooth) edge[i] = turns_sharply(triangle, walk) ? 1 : 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const int triangle = static_cast<int>(i);
+      if (state(triangle) == kUnknown) settle_core(triangle, wide);
+      edge[i] = state(triangle) != kSmooth && turns_sharply(triangle, walk) ? 1 : 0;
     }
   }
 
  private:
   enum State : char { kUnknown, kSmooth, kTried };
 
+  /// Threads tell each other what they have found. That spares work and changes no answer: a smooth triangle is no edge whoever
+  /// finds out.
+  [[nodiscard]] std::atomic_ref<char> state(int t) { return std::atomic_ref(states_[static_cast<std::size_t>(t)]); }
   [[nodiscard]] const Facet& facet(int t) const { return facets_[static_cast<std::size_t>(t)]; }
   [[nodiscard]] const std::array<int, 3>& around(int t) const { return neighbors_[static_cast<std::size_t>(t)]; }
 
@@ -98,13 +103,15 @@ class EdgeSearch {
   /// k + kCoreSteps of each of those, so that no walk from there gets farther (nearest first), as long as the radius
   /// cuts none short; and hence all walks stay within k + 2 kCoreSteps of this one. Where all normals there are within half
   /// the sharp angle of this one's, no two are a sharp angle apart.
-  void settle_core(int triangle, std::size_t begin, std::vector<char>& state, Walk& walk) const {
+  void settle_core(int triangle, Walk& walk) {
     std::size_t core = 1;
     const bool smooth = is_smooth_around(triangle, walk, core);
     for (std::size_t i = 0; i < core; ++i) {
-      // Those of other blocks are another thread's.
-      const auto place = static_cast<std::size_t>(walk.reached[i]) - begin;
-      if (place < state.size() && state[place] != kSmooth) state[place] = smooth ? kSmooth : kTried;
+      char before = kUnknown;
+      if (smooth)
+        state(walk.reached[i]).store(kSmooth, std::memory_order_relaxed);
+      else  // unless it is known to be smooth
+        (void)state(walk.reached[i]).compare_exchange_strong(before, kTried, std::memory_order_relaxed);
     }
   }
 
@@ -136,19 +143,16 @@ class EdgeSearch {
   std::span<const Facet> facets_;
   std::span<const std::array<int, 3>> neighbors_;
   double radius_, cosine_, half_cosine_;
+  std::vector<char> states_;
 };
 
 }  // namespace
 
 std::vector<char> find_edges(std::span<const Facet> facets, std::span<const std::array<int, 3>> neighbors,
                              double radius, double sharp_rad) {
-  const EdgeSearch search(facets, neighbors, radius, sharp_rad);
+  EdgeSearch search(facets, neighbors, radius, sharp_rad);
   std::vector<char> edge(facets.size(), 0);
-  // Large blocks: triangles that lie together are not always near each other in the file.
-  const std::size_t grain = std::max<std::size_t>(16384, facets.size() / 64);
-  parallel_blocks(facets.size(), grain, [&](std::size_t begin, std::size_t end) {
-    search.run(begin, std::span(edge).subspan(begin, end - begin));
-  });
+  parallel_blocks(facets.size(), kGrain, [&](std::size_t begin, std::size_t end) { search.run(begin, end, edge); });
   return edge;
 }
 
