@@ -22,7 +22,6 @@ class TreeCheck {
 
   [[nodiscard]] std::vector<std::string> violations() {
     found_.clear();
-    used_.clear();
     modules_.clear();
     for (const fs::path& file : sources_below(root_ / "include/flank")) check_front_door_file(file);
     for (const fs::path& file : sources_below(root_ / "src/flank")) check_room_file(file);
@@ -31,7 +30,7 @@ class TreeCheck {
       for (const fs::path& file : sources_below(root_ / folder)) add_to_modules(file, includes_of(file));
     check_circles();
     check_counts();
-    check_exceptions();
+    check_front_door_list();
     return found_;
   }
 
@@ -43,23 +42,10 @@ class TreeCheck {
   }
   void report(const fs::path& file, int line, const std::string& what) { report(name_of(file), line, what); }
 
-  /// The includes of a file but those that are excepted.
-  std::vector<Include> checked_includes(const fs::path& file) {
-    std::vector<Include> includes = includes_of(file);
-    const auto excepted = table_.excepted.find(name_of(file));
-    if (excepted == table_.excepted.end()) return includes;
-    std::erase_if(includes, [&](const Include& include) {
-      if (!excepted->second.contains(include.path)) return false;
-      used_.insert(name_of(file) + " " + include.path);
-      return true;
-    });
-    return includes;
-  }
-
   void check_room_file(const fs::path& file) {
     const std::string room = fs::relative(file.parent_path(), root_ / "src/flank").generic_string();
     if (!table_.rooms.contains(room)) return report(file, 1, "the folder " + room + " is not in layers.txt");
-    const std::vector<Include> includes = checked_includes(file);
+    const std::vector<Include> includes = includes_of(file);
     add_to_modules(file, includes);
     for (const Include& include : includes) {
       check_own(file, room, include);
@@ -75,7 +61,7 @@ class TreeCheck {
 
   /// The front door shows nothing but itself, the standard library and Eigen.
   void check_front_door_file(const fs::path& file) {
-    const std::vector<Include> includes = checked_includes(file);
+    const std::vector<Include> includes = includes_of(file);
     const std::string name = file.stem().string();
     add_to_modules(file, includes);
     if (!is_header(file)) return report(file, 1, "the front door has headers only");
@@ -115,7 +101,7 @@ class TreeCheck {
   }
 
   void check_app_file(const fs::path& file) {
-    const std::vector<Include> includes = checked_includes(file);
+    const std::vector<Include> includes = includes_of(file);
     add_to_modules(file, includes);
     for (const Include& include : includes) {
       if (include.path.starts_with("flank/")) check_exists(file, include);
@@ -203,9 +189,6 @@ class TreeCheck {
       wanted = "flank/" + room + "/" + stem + ".h";
     } else if (front != table_.front_door.end() && front->second == layer_of(room)) {
       wanted = "flank/" + stem + ".h";
-    } else if (table_.headerless.contains(name_of(file))) {
-      used_.insert(name_of(file) + " -");
-      return;
     } else {
       return report(file, 1, "there is no header " + stem + ".h for it");
     }
@@ -253,20 +236,14 @@ class TreeCheck {
              std::to_string(headers) + " headers; the front door holds " + std::to_string(kMostFrontDoorHeaders));
   }
 
-  /// What layers.txt names must be there, and what it excepts must still need it.
-  void check_exceptions() {
+  /// What layers.txt names must be there.
+  void check_front_door_list() {
     const std::string table = "src/flank/layers.txt";
     for (const auto& [header, unused] : table_.front_door) {
       if (!fs::exists(root_ / "include/flank" / (header + ".h")) &&
           !fs::exists(root_ / "include/flank" / (header + ".h.in")))
         report(table, 1, "there is no include/flank/" + header + ".h");
     }
-    for (const auto& [file, includes] : table_.excepted) {
-      for (const std::string& include : includes)
-        if (!used_.contains(file + " " + include)) report(table, 1, file + " no longer includes " + include);
-    }
-    for (const std::string& file : table_.headerless)
-      if (!used_.contains(file + " -")) report(table, 1, file + " is gone or has its header");
   }
 
   static bool is_cad_kernel(const std::string& path) { return path.ends_with(".hxx"); }
@@ -274,7 +251,6 @@ class TreeCheck {
   fs::path root_;
   LayerTable table_;
   std::vector<std::string> found_;
-  std::set<std::string> used_;  ///< exceptions that were needed
   Graph modules_;
 };
 

@@ -14,11 +14,9 @@
 namespace flank::layers {
 
 struct LayerTable {
-  std::map<std::string, std::set<std::string>> written;   ///< room -> what stands in its line
-  std::map<std::string, std::set<std::string>> rooms;     ///< room -> the rooms that it may include, besides itself
-  std::map<std::string, std::string> front_door;          ///< stem of a header of include/flank -> its layer
-  std::map<std::string, std::set<std::string>> excepted;  ///< file -> the includes that no rule looks at
-  std::set<std::string> headerless;                       ///< sources that have no header of their name yet
+  std::map<std::string, std::set<std::string>> written;  ///< room -> what stands in its line
+  std::map<std::string, std::set<std::string>> rooms;    ///< room -> the rooms that it may include, besides itself
+  std::map<std::string, std::string> front_door;         ///< stem of a header of include/flank -> its layer
 
   /// Whether the room may see the front-door headers of a layer: its own, and those of layers that it may look into.
   [[nodiscard]] bool sees(const std::string& room, const std::string& layer) const;
@@ -69,8 +67,7 @@ inline void add_header(LayerTable& table, const std::string& header, const std::
     throw std::runtime_error("'" + header + "' names " + *words.begin() + ", which is no layer");
 }
 
-/// Sections [rooms] ("room: rooms"), [front door] ("header: layer"), [exceptions] ("file: include include", or
-/// "file: -" for a source without a header of its name); # starts a comment.
+/// Sections [rooms] ("room: rooms") and [front door] ("header: layer"); # starts a comment.
 inline LayerTable read_layer_table(const fs::path& file) {
   LayerTable table;
   std::string section;
@@ -88,10 +85,6 @@ inline LayerTable read_layer_table(const fs::path& file) {
       add_room(table, name, words);
     } else if (section == "[front door]") {
       add_header(table, name, words);
-    } else if (section == "[exceptions]" && words.contains("-")) {
-      table.headerless.insert(name);
-    } else if (section == "[exceptions]") {
-      table.excepted[name].insert(words.begin(), words.end());
     } else {
       throw std::runtime_error("'" + line + "' stands in no section that is known");
     }

@@ -265,21 +265,6 @@ TEST_F(PlantedTree, FindsForeignNamespacesInHeaders) {
   EXPECT_EQ(joined(violations()), "");
 }
 
-TEST_F(PlantedTree, ExceptsWhatTheTableExcepts) {
-  write("src/flank/low/up.h", "#pragma once\n#include \"flank/high/b.h\"\n");
-  write("src/flank/low/alone.cpp", "\n");
-  write("src/flank/layers.txt",
-        std::string(kTable) + "[exceptions]\nsrc/flank/low/up.h: flank/high/b.h\n" + "src/flank/low/alone.cpp: -\n");
-  EXPECT_EQ(joined(violations()), "");
-}
-
-TEST_F(PlantedTree, RefusesExceptionsThatNobodyNeeds) {
-  expect_found("src/flank/layers.txt", std::string(kTable) + "[exceptions]\nsrc/flank/low/a.h: flank/high/b.h\n",
-               "src/flank/low/a.h no longer includes flank/high/b.h");
-  expect_found("src/flank/layers.txt", std::string(kTable) + "[exceptions]\nsrc/flank/low/a.cpp: -\n",
-               "is gone or has its header");
-}
-
 TEST_F(PlantedTree, ReadsWhatARoomMayInclude) {
   const LayerTable table =
       table_of("[rooms]\nlow:\nhigh/part: low\nhigh: high/*\ntop: high/part\nroof: high/*\n[front door]\nplan: high\n");
