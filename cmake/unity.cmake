@@ -14,7 +14,7 @@ function(flank_unity target size)
     list(FILTER sources EXCLUDE REGEX "/${file}$")
   endforeach()
   execute_process(COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/scripts/unity.py ${size} ${sources}
-                  OUTPUT_VARIABLE groups COMMAND_ERROR_IS_FATAL ANY)
+                  WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} OUTPUT_VARIABLE groups COMMAND_ERROR_IS_FATAL ANY)
   string(REGEX MATCHALL "[^\n]+" groups "${groups}")
   foreach(line IN LISTS groups)
     if(line MATCHES "^(.+)=([0-9]+)$")
