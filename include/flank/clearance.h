@@ -15,8 +15,8 @@ namespace flank {
 /// What a triangle belongs to. The flank may touch the target and is judged on all of the part elsewhere (judge.h).
 enum class ObstacleRole { kTarget, kPart, kFixture };
 
-/// Triangles to keep clear of. They may be open, overlap and be oriented in any way: only their distance counts, so a
-/// tool that is wholly inside a closed obstacle, and touches none of its triangles, is not seen.
+/// Triangles to keep clear of. They may be open, overlap and be oriented in any way: only their distance counts. A tool that
+/// is wholly inside a closed obstacle, and touches none of its triangles, is not seen here (VerifyReport::buried).
 struct Obstacle {
   std::string name;  ///< "F1", or a fixture's file
   ObstacleRole role = ObstacleRole::kPart;

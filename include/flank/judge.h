@@ -171,9 +171,15 @@ struct FaceVerdict {
 enum class Verdict {
   kNotRun,
   kPass,      ///< overcut_bound <= tolerance on every face
-  kOvercut,   ///< overcut > tolerance on a target
+  kOvercut,   ///< overcut > tolerance on a target, or a strip inside the material
   kGouge,     ///< overcut > tolerance on a check surface
   kUnproved,  ///< no deeper place was found, nor was it proved that there is none
+};
+
+/// A strip that runs inside the material, and a place of its axis there, or of the sheet that it is behind.
+struct BuriedStrip {
+  int strip = -1;  ///< 0-based
+  Vec3 point = Vec3::Zero();
 };
 
 /// What the strips of one kind did in the replay of a program.
@@ -219,8 +225,10 @@ struct VerifyReport {
   std::vector<WorstPlace> worst;  ///< most negative f first, over all faces
   std::vector<double> histogram_edges_mm;
   std::vector<double> histogram_area_mm2;  ///< of f over the targets
-  ClearanceReport clearance;               ///< of shank, holder and fixtures; not filled by judge()
-  std::optional<StockReport> stock;        ///< of a program with a blank; not filled by judge()
+  /// Strips that run inside a solid or behind a sheet: they may enter no face, so no depth shows them. Not filled by judge()
+  std::vector<BuriedStrip> buried;
+  ClearanceReport clearance;         ///< of shank, holder and fixtures; not filled by judge()
+  std::optional<StockReport> stock;  ///< of a program with a blank; not filled by judge()
 };
 
 /// Judges a path by the samples of all its faces, targets and check surfaces. Parallel; the same bits for any number of

@@ -61,6 +61,16 @@ void add_unproved(const VerifyReport& report, std::vector<Shortfall>& reasons) {
     reasons.push_back({"overcut_bound_mm", fmt::format("and {} more faces", faces.size() - kMostFacesNamed)});
 }
 
+/// Strips inside the material: the first, and how many more.
+void add_buried(const VerifyReport& report, std::vector<Shortfall>& reasons) {
+  if (report.buried.empty()) return;
+  const BuriedStrip& first = report.buried.front();
+  std::string text = fmt::format("strip {} runs inside the material, about ({:.3f}, {:.3f}, {:.3f})", first.strip + 1,
+                                 first.point.x(), first.point.y(), first.point.z());
+  if (report.buried.size() > 1) text += fmt::format(", and {} more", report.buried.size() - 1);
+  reasons.push_back({"buried", text});
+}
+
 /// Coverage that was measured but is not proved; of a target that is cut too deep, nothing of it is.
 void add_coverage(const VerifyReport& report, double least, std::vector<Shortfall>& reasons) {
   if (!(report.coverage_reachable >= least)) {
@@ -95,6 +105,7 @@ Acceptance accept(const Tool& tool, const VerifyReport& report, double least_cov
   }
   add_cuts(report, true, out.reasons);
   add_cuts(report, false, out.reasons);
+  add_buried(report, out.reasons);
   add_unproved(report, out.reasons);
   add_coverage(report, least_coverage, out.reasons);
   // "surely": the judge's figure less its bound is what counts (ClearanceFigure::kept).

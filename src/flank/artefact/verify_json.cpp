@@ -65,6 +65,15 @@ WorstPlace place_from(const Json& j) {
   return w;
 }
 
+Json to_json(const BuriedStrip& b) {
+  return {{"strip", b.strip + 1}, {"point", {number(b.point.x()), number(b.point.y()), number(b.point.z())}}};
+}
+
+BuriedStrip buried_from(const Json& j) {
+  const Json& p = j.at("point");
+  return {j.at("strip").get<int>() - 1, {to_number(p.at(0)), to_number(p.at(1)), to_number(p.at(2))}};
+}
+
 Json to_json(const FaceVerdict& f) {
   Json j = {{"face", f.face},
             {"target", f.target},
@@ -218,6 +227,8 @@ VerifyReport report_from(const Json& j) {
   // Files of results without shank, holder or fixtures have none; nor is there a stock where no cavity was replayed.
   if (j.contains("clearance"))
     for (const Json& c : j.at("clearance")) r.clearance.figures.push_back(clearance_from(c));
+  if (j.contains("buried"))
+    for (const Json& b : j.at("buried")) r.buried.push_back(buried_from(b));
   if (j.contains("stock")) r.stock = stock_from_json(j.at("stock"));
   return r;
 }
@@ -271,6 +282,7 @@ std::string verify_to_json(const VerifyReport& r, const Acceptance& acceptance) 
   for (const WorstPlace& w : r.worst) j["worst_places"].push_back(to_json(w));
   for (double e : r.histogram_edges_mm) j["histogram"]["edges_mm"].push_back(number(e));
   for (double a : r.histogram_area_mm2) j["histogram"]["area_mm2"].push_back(number(a));
+  for (const BuriedStrip& b : r.buried) j["buried"].push_back(to_json(b));
   if (!r.clearance.figures.empty()) j["clearance"] = to_json(r.clearance);
   if (r.stock) j["stock"] = stock_to_json(*r.stock);
   return dumped(j, 2) + "\n";

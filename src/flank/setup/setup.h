@@ -1,6 +1,7 @@
 /// A part with the faces that are machined and those that must not be entered: what every command begins with.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct Setup {
   std::vector<int> checks;   ///< of the faces that must not be entered, ascending
   double tolerance_mm = 0.01;
   std::vector<Part> fixtures;
+  std::optional<int> side = {};  ///< of open sheets that was asked for: +1 along their normals, or -1
 };
 
 /// Reads the part, finds its faces, and reads the fixtures. `notes` gets what was repaired, and which faces are not checked. Throws UsageError

@@ -13,6 +13,7 @@
 #include "flank/base/parallel.h"
 #include "flank/error.h"
 #include "flank/geom/triangle_bvh.h"
+#include "flank/verify/buried.h"
 #include "flank/verify/clearance/obstacle_tree.h"
 #include "flank/verify/clearance/winding.h"
 
@@ -29,7 +30,6 @@ constexpr std::size_t kLeastBlock = 8;  ///< so few balls are measured one by on
 constexpr double kRounding = 1e-9;      ///< relative: widens a ball by more than round-off can shrink it
 constexpr int kStackSize =
     128;  ///< each level leaves one node behind, and a tree that halves is 31 levels deep at most
-constexpr std::size_t kVotes = 512;  ///< samples that vote on the side of a sheet: plenty, if it is not even
 
 void append(TriangleMesh& all, const TriangleMesh& mesh) {
   const int first = static_cast<int>(all.vertices.size());
@@ -230,23 +230,9 @@ std::vector<double> reachable_shares(const FaceSamples& target, const std::vecto
 }
 
 int side_of_tool(const Tool& tool, const Path& path, const FaceSamples& sheet) {
-  const std::size_t stride = std::max<std::size_t>(1, sheet.points.size() / kVotes);
-  FaceSamples some;
-  std::vector<Vec3> normals;
-  for (std::size_t i = 0; i < sheet.points.size(); i += stride) {
-    some.points.push_back(sheet.points[i]);
-    normals.push_back(sheet.normals[i]);
-  }
-  const double near = 0.5 * smallest_radius(tool);
-  const std::vector<SweptDistance> distances = swept_distances(SweptVolume(tool, path), some, near);
-  int votes = 0;
-  for (std::size_t i = 0; i < distances.size(); ++i) {
-    const SweptDistance& d = distances[i];
-    if (d.strip < 0 || std::abs(d.f) > near) continue;
-    const auto& poses = path.strips[static_cast<std::size_t>(d.strip)].poses;
-    const Pose& pose = poses[std::min(poses.size() - 1, static_cast<std::size_t>(std::lround(d.t)))];
-    votes += (pose.at(d.s) - some.points[i]).dot(normals[i]) >= 0.0 ? 1 : -1;
-  }
+  int votes = 0, asked = 0;
+  for (const SideVotes& strip : side_votes(tool, path, sheet, 0.5 * smallest_radius(tool), asked))
+    votes += strip.in_front - strip.behind;
   return votes < 0 ? -1 : +1;
 }
 

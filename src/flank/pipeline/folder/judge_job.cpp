@@ -8,6 +8,7 @@
 
 #include "flank/base/stopping.h"
 #include "flank/error.h"
+#include "flank/pipeline/folder/find_buried.h"
 #include "flank/pipeline/folder/target_reach.h"
 #include "flank/setup/targets.h"
 #include "flank/verify/judge_faces.h"
@@ -108,21 +109,29 @@ double default_spacing(double diagonal_mm) {
   return std::clamp(diagonal_mm / 300.0, 0.05, std::max(0.5, diagonal_mm / 1000.0));
 }
 
-VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const Tool& tool, const Path& path) {
+VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const Tool& tool, const Path& path,
+                       DepthProof depth) {
   const double usual = default_spacing(setup.part.box.diagonal());
   const JudgedShapes shapes(setup, request.sample_mm.value_or(usual));
   if (request.sample_mm) require_sensible(shapes.samplers(), shapes.faces(), setup, *request.sample_mm);
   const double radius = request.reach_radius_mm.value_or(smallest_radius(tool));
   // A tool that is none (a fit that failed) has nothing to reach with.
   std::optional<TargetReach> reach;
-  if (radius > 0.0) reach.emplace(setup, tool, path, radius, target_samples(setup, kReachSpacings * usual));
+  std::vector<BuriedStrip> buried;
+  if (radius > 0.0) {
+    const std::vector<FaceSamples> samples = target_samples(setup, kReachSpacings * usual);
+    reach.emplace(setup, tool, path, radius, samples);
+    buried = find_buried(setup, tool, path, samples);
+  }
   stop_here();
   JudgeOptions options;
   options.tolerance_mm = setup.tolerance_mm;
-  options.depth = request.sample_mm ? DepthProof::kSampled : DepthProof::kProved;
+  options.depth = request.sample_mm ? DepthProof::kSampled : depth;
   VerifyReport report =
       verify::judge_faces(tool, path, shapes.judged(setup, reach ? &*reach : nullptr), options, request.least_coverage);
   report.reach_radius_mm = radius;
+  report.buried = std::move(buried);
+  if (!report.buried.empty()) report.verdict = Verdict::kOvercut;
   return report;
 }
 

@@ -11,8 +11,9 @@
 namespace flank::internal {
 
 /// Judges tool and path on the targets and check faces. Shank, holder and fixtures are not in it (clearance_scene.h).
+/// `depth`: kSampled leaves out the proof, as a spacing in the request does.
 [[nodiscard]] VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const Tool& tool,
-                                     const Path& path);
+                                     const Path& path, DepthProof depth = DepthProof::kProved);
 
 /// Replays the program of a cavity in the judge's stock. `most_triangles`: of the mesh of what is left; 0: none.
 [[nodiscard]] ProgramStock judge_stock(const Setup& setup, const TrochoidJob& job, const Tool& tool, const Path& path,

@@ -1,0 +1,77 @@
+#include "flank/verify/buried.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "flank/verify/clearance/winding.h"
+
+namespace flank::internal::verify {
+namespace {
+
+/// Most samples of a sheet that are asked for the side of the tool.
+constexpr std::size_t kVotes = 4096;
+/// A strip machines a sheet from behind by at least this share of the sheet, and by this share of what it touches: where a
+/// tool goes round a rim, or machines the other side of what is thinner than the tolerance there, a few places look behind.
+constexpr double kLeastShare = 0.03, kMost = 0.8;
+
+}  // namespace
+
+std::vector<BuriedStrip> strips_in_solids(std::span<const TriangleMesh> solids, const Tool& tool, const Path& path) {
+  std::vector<BuriedStrip> out;
+  std::vector<char> found(path.strips.size(), 0);
+  for (const TriangleMesh& solid : solids) {
+    const Box3 box = solid.box();
+    std::optional<Winding> winding;
+    for (std::size_t k = 0; k < path.strips.size(); ++k) {
+      if (path.strips[k].poses.empty() || found[k] != 0) continue;
+      const Vec3 x = path.strips[k].poses.front().at(0.5 * tool.radial.axis_length());
+      if ((x.array() < box.low.array()).any() || (x.array() > box.high.array()).any()) continue;
+      if (!winding) winding.emplace(solid);
+      if (!winding->inside(x)) continue;
+      found[k] = 1;
+      out.push_back({static_cast<int>(k), x});
+    }
+  }
+  std::sort(out.begin(), out.end(), [](const BuriedStrip& a, const BuriedStrip& b) { return a.strip < b.strip; });
+  return out;
+}
+
+std::vector<SideVotes> side_votes(const Tool& tool, const Path& path, const FaceSamples& sheet, double within_mm,
+                                  int& asked) {
+  const std::size_t stride = std::max<std::size_t>(1, sheet.points.size() / kVotes);
+  FaceSamples some;
+  std::vector<Vec3> normals;
+  for (std::size_t i = 0; i < sheet.points.size(); i += stride) {
+    some.points.push_back(sheet.points[i]);
+    normals.push_back(sheet.normals[i]);
+  }
+  asked = static_cast<int>(some.points.size());
+  const std::vector<SweptDistance> distances = swept_distances(SweptVolume(tool, path), some, within_mm);
+  std::vector<SideVotes> votes(path.strips.size());
+  std::vector<double> nearest(path.strips.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    const SweptDistance& d = distances[i];
+    if (d.strip < 0 || std::abs(d.f) > within_mm) continue;
+    const auto k = static_cast<std::size_t>(d.strip);
+    const auto& poses = path.strips[k].poses;
+    const Pose& pose = poses[std::min(poses.size() - 1, static_cast<std::size_t>(std::lround(d.t)))];
+    ++((pose.at(d.s) - some.points[i]).dot(normals[i]) >= 0.0 ? votes[k].in_front : votes[k].behind);
+    if (std::abs(d.f) >= nearest[k]) continue;
+    nearest[k] = std::abs(d.f);
+    votes[k].point = some.points[i];
+  }
+  return votes;
+}
+
+std::vector<BuriedStrip> strips_behind(std::span<const SideVotes> votes, int asked, int side) {
+  std::vector<BuriedStrip> out;
+  for (std::size_t k = 0; k < votes.size(); ++k) {
+    const int all = votes[k].in_front + votes[k].behind, against = side > 0 ? votes[k].behind : votes[k].in_front;
+    if (against > kLeastShare * asked && against > kMost * all) out.push_back({static_cast<int>(k), votes[k].point});
+  }
+  return out;
+}
+
+}  // namespace flank::internal::verify

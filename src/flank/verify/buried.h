@@ -1,0 +1,33 @@
+/// Tools inside the material. What is there from the beginning of a strip, and stays, enters no surface: no depth of a cut
+/// shows it, and it may even touch the target, from within.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "flank/judge.h"
+#include "flank/path.h"
+#include "flank/tool.h"
+#include "flank/triangle_mesh.h"
+
+namespace flank::internal::verify {
+
+/// The strips that begin with the middle of their axis in a closed solid. One place decides: a tool that gets out, or in,
+/// on its way enters a face there, which its depth shows, if all faces of the solid are judged.
+[[nodiscard]] std::vector<BuriedStrip> strips_in_solids(std::span<const TriangleMesh> solids, const Tool& tool,
+                                                        const Path& path);
+
+/// On which side of a sheet, by its samples' normals, a strip runs where it is within a distance of the sheet.
+struct SideVotes {
+  int in_front = 0, behind = 0;  ///< places
+  Vec3 point = Vec3::Zero();     ///< the one that the strip is nearest to
+};
+/// Of each strip, at some of the sheet's samples; `asked` gets how many those are.
+[[nodiscard]] std::vector<SideVotes> side_votes(const Tool& tool, const Path& path, const FaceSamples& sheet,
+                                                double within_mm, int& asked);
+
+/// The strips that machine a sheet from behind: `side` is +1 where its samples' normals point to the tool, else -1. `votes`
+/// are those within the tolerance.
+[[nodiscard]] std::vector<BuriedStrip> strips_behind(std::span<const SideVotes> votes, int asked, int side);
+
+}  // namespace flank::internal::verify

@@ -1,0 +1,93 @@
+// A tool that is inside the material from the beginning of its strip enters no face: it is told apart all the same.
+#include "flank/verify/buried.h"
+
+#include <gtest/gtest.h>
+
+#include "verify/faces.h"
+
+namespace flank::internal::verify {
+namespace {
+
+constexpr double kRadius = 1.0, kLength = 8.0;
+
+Tool cylinder() {
+  Tool tool;
+  tool.radial = RadialFunction(ToolFamily::kCylinder, kLength, Eigen::VectorXd::Constant(1, kRadius));
+  return tool;
+}
+
+/// Along x at z from 6, upright, at y.
+Strip along(double y) {
+  Strip strip;
+  for (int k = 0; k <= 10; ++k) strip.poses.push_back({Vec3(2.0 + 3.6 * k, y, 6.0), Vec3::UnitZ()});
+  return strip;
+}
+
+/// [0, 40] x [-20, 0] x [0, 20], outwards or inwards.
+TriangleMesh block(bool outwards = true) {
+  TriangleMesh mesh;
+  for (int k = 0; k < 8; ++k) mesh.vertices.emplace_back((k & 1) * 40.0, (k & 2) ? 0.0 : -20.0, (k & 4) ? 20.0 : 0.0);
+  const std::vector<std::array<int, 4>> quads = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                                 {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  for (const auto& [a, b, c, d] : quads) {
+    mesh.triangles.push_back(outwards ? std::array{a, b, c} : std::array{a, c, b});
+    mesh.triangles.push_back(outwards ? std::array{a, c, d} : std::array{a, d, c});
+  }
+  return mesh;
+}
+
+TEST(BuriedStrips, InsideASolidIsNotBesideIt) {
+  // The first touches the face y = 0 from outside, the second from within: both at a distance of 0.
+  const Path path{{along(kRadius), along(-kRadius)}};
+  for (const bool outwards : {true, false}) {
+    const std::vector<TriangleMesh> solids{block(outwards)};
+    const std::vector<BuriedStrip> buried = strips_in_solids(solids, cylinder(), path);
+    ASSERT_EQ(buried.size(), 1u);
+    EXPECT_EQ(buried.front().strip, 1);
+    EXPECT_LT((buried.front().point - Vec3(2.0, -kRadius, 10.0)).norm(), 1e-12);
+  }
+}
+
+TEST(BuriedStrips, TouchTheTargetFromWithinAndOvercutNothing) {
+  // What makes the check necessary: the judge alone finds nothing wrong.
+  Face face = test::plane_face("F1", 40.0, 20.0);
+  face.reversed = true;
+  const FaceSamples samples = sample_face(face, 0.5, true);
+  JudgeOptions options;
+  options.tolerance_mm = 0.01;
+  const VerifyReport report = judge(cylinder(), {{along(-kRadius)}}, {samples}, options);
+  EXPECT_GT(report.coverage, 0.1);
+  EXPECT_LT(report.overcut_mm, 1e-9);
+}
+
+TEST(BuriedStrips, TheOtherSideOfAThinBladeIsNotBehindIt) {
+  // A sheet 0.2 mm behind the one that is machined: nearer than the radius, farther than the tolerance.
+  Face face = test::plane_face("F1", 40.0, 20.0);
+  const FaceSamples sheet = sample_face(face, 0.5, true);
+  int asked = 0;
+  const double y = 0.2 + kRadius;
+  const std::vector<SideVotes> votes = side_votes(cylinder(), {{along(y), along(-y)}}, sheet, 0.01, asked);
+  EXPECT_TRUE(strips_behind(votes, asked, +1).empty());
+  EXPECT_TRUE(strips_behind(votes, asked, -1).empty());
+}
+
+TEST(BuriedStrips, BehindASheetByItsOwnVotes) {
+  Face face = test::plane_face("F1", 40.0, 20.0);
+  face.reversed = true;
+  const FaceSamples sheet = sample_face(face, 0.5, true);
+  const double front = sheet.normals.front().y();
+  ASSERT_NEAR(std::abs(front), 1.0, 1e-12);
+  const Path path{{along(front * kRadius), along(-front * kRadius), along(30.0)}};
+  int asked = 0;
+  const std::vector<SideVotes> votes = side_votes(cylinder(), path, sheet, 0.01, asked);
+  EXPECT_EQ(votes[0].behind + votes[1].in_front + votes[2].in_front + votes[2].behind, 0);
+  const std::vector<BuriedStrip> plus = strips_behind(votes, asked, +1), minus = strips_behind(votes, asked, -1);
+  ASSERT_EQ(plus.size(), 1u);
+  EXPECT_EQ(plus.front().strip, 1);
+  EXPECT_NEAR(plus.front().point.y(), 0.0, 1e-12);
+  ASSERT_EQ(minus.size(), 1u);
+  EXPECT_EQ(minus.front().strip, 0);
+}
+
+}  // namespace
+}  // namespace flank::internal::verify
