@@ -128,6 +128,14 @@ struct CoverageEstimate {
   [[nodiscard]] double score(double tolerance_mm) const;
 };
 
+/// A tool that a search tried, and what it does, by the planner's estimate.
+struct TriedTool {
+  double slenderness = 0.0;  ///< of flank and shank, as RadiusBounds::slenderest counts; infinite for what is no tool
+  double axis_length_mm = 0.0, largest_radius_mm = 0.0;
+  int strips = 0;
+  CoverageEstimate estimate;
+};
+
 enum class FitStatus {
   kNotRun,
   kWithinTolerance,  ///< estimated coverage >= 99 %, overcut <= tolerance and gouge <= tolerance
@@ -145,6 +153,7 @@ struct FlankFitResult {
   std::vector<IterationTrace> trace;  ///< of the chosen candidate, all passes from the polish on
   std::vector<std::string> notes;     ///< for the user, added by callers
   int candidates = 0;                 ///< starts that were tried
+  std::vector<TriedTool> tried;       ///< what was polished and not chosen, in its order
 };
 
 /// Automatic start: many ruled candidates across the target, each fitted briefly, ranked by swept coverage, the best

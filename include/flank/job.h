@@ -78,6 +78,7 @@ struct FitJob {
   std::optional<std::string> guide;  ///< file of several such lines
   int strips = 0;                    ///< motions side by side; 0: as many as the tolerance needs
   bool avoid = true;                 ///< keep clear of the other faces already in planning; they are judged either way
+  bool stiffness_curve = false;      ///< fit tools of other slendernesses, too, and say what each costs
   /// Least radius of curvature of the paths of tip and holder end; none: any.
   std::optional<double> min_bend_radius_mm;
   bool operator==(const FitJob&) const = default;
@@ -124,7 +125,7 @@ struct CycleRequest {
   double most_engagement_deg = 60.0;    ///< of the cutter, fronts and backs
   std::string cut = "climb";            ///< or "conventional"; the spindle turns clockwise seen from the holder
   int layers = 0;                       ///< 0: as many as the tolerance needs
-  std::string strategy = "volume";      ///< shapes optimised for removed volume per way; or "plain": steps alone
+  std::string strategy = "volume";      ///< shapes optimised for removed volume per way; or "plain", "paper"
   double feed_mm_min = 1000.0;          ///< of all but links, for the machining time
   double rapid_mm_min = 5000.0;         ///< of links
   std::optional<double> stock_cell_mm;  ///< of the stock in which the judge replays the program; none: by its size

@@ -41,6 +41,20 @@ struct FitStep {
   double cost = 0.0, rms_mm = 0.0, largest_mm = 0.0, damping = 0.0;
 };
 
+/// A tool that a fit tried, or was asked to try, and what it costs to have it as stiff.
+struct StiffnessStep {
+  double slenderness = 0.0;  ///< of flank and shank
+  double axis_length_mm = 0.0, largest_radius_mm = 0.0;
+  int strips = 0;
+  double coverage = 0.0;                          ///< share of the whole target's area within tolerance
+  std::optional<double> coverage_reachable = {};  ///< of what is reachable; none: not known
+  double overcut_mm = 0.0;                        ///< deepest in the target
+  double gouge_mm = 0.0;                          ///< deepest in other faces
+  double rms_mm = 0.0;                            ///< of the swept distance where the path touches
+  bool judged = false;                            ///< by the judge's samples; else the planner's estimates
+  bool chosen = false;                            ///< the result's own tool
+};
+
 /// How a fit went.
 struct FitSummary {
   int candidates = 0;                     ///< starts that were tried
@@ -48,6 +62,7 @@ struct FitSummary {
   double rms_mm = 0.0, largest_mm = 0.0;  ///< of the residuals, on a denser grid
   double inside_share = 0.0;              ///< of that grid: samples whose footpoint is inside the target
   std::vector<FitStep> trace;
+  std::vector<StiffnessStep> stiffness;  ///< of a free tool: the tools that were tried, the stiffest first
 };
 
 /// How one target was covered.

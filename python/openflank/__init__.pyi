@@ -397,6 +397,7 @@ def fit(
     profile: str = ...,
     neck: float = ...,
     wheel_radius_mm: float | None = None,
+    stiffness_curve: bool = ...,
     min_bend_radius_mm: float | None = None,
     coverage: float = ...,
     sample_mm: float | None = None,

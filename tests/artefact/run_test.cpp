@@ -123,5 +123,55 @@ TEST(Summary, HasTheRankingOfTheTools) {
   EXPECT_NE(summary_text(result).find("2 tools: catalogue tools"), std::string::npos);
 }
 
+/// A fit of three tools: a stiff one that covers less, the chosen one, and a thin one that cuts too deep.
+Result three_tools() {
+  Result result;
+  result.job = FitJob();
+  result.tool.radial = RadialFunction(ToolFamily::kCylinder, 30.0, Eigen::Matrix<double, 1, 1>(5.0));
+  result.verify.tolerance_mm = 0.01;
+  FitSummary fit;
+  fit.stiffness = {{.slenderness = 2.0, .coverage = 0.9, .coverage_reachable = 0.95, .overcut_mm = 0.01},
+                   {.slenderness = 3.0, .coverage = 0.99, .rms_mm = 0.002, .judged = true, .chosen = true},
+                   {.slenderness = 6.0, .coverage = 1.0, .overcut_mm = 0.02, .judged = true}};
+  result.plan = fit;
+  return result;
+}
+
+TEST(StiffnessCurve, IsInTheSummaries) {
+  const auto json = nlohmann::json::parse(summary_json(three_tools()));
+  const auto& steps = json.at("stiffness");
+  ASSERT_EQ(steps.size(), 3u);
+  EXPECT_EQ(steps[0].at("slenderness"), 2.0);
+  EXPECT_EQ(steps[0].at("coverage_reachable"), 0.95);
+  EXPECT_EQ(steps[0].at("judged"), false);
+  EXPECT_FALSE(steps[1].contains("coverage_reachable"));
+  EXPECT_EQ(steps[1].at("chosen"), true);
+  EXPECT_EQ(steps[1].at("rms"), 0.002);
+  EXPECT_EQ(steps[2].at("overcut"), 0.02);
+  // An estimate that no more than matches a stiffer tool is worth no word; neither is a single tool.
+  Result four = three_tools();
+  auto& tools = std::get<FitSummary>(four.plan).stiffness;
+  tools.push_back({.slenderness = 7.0, .coverage = 0.99});
+  EXPECT_NE(
+      summary_text(four).find(
+          "4 tools were tried; slenderness and coverage: 2.0 90.00 % (estimate), 3.0 99.00 % (chosen), 6.0 100.00 % "
+          "and 0.02 mm deep\n"),
+      std::string::npos)
+      << summary_text(four);
+  Result one = three_tools();
+  std::get<FitSummary>(one.plan).stiffness.resize(1);
+  EXPECT_EQ(summary_text(one).find("  lambda"), std::string::npos);
+  std::get<FitSummary>(one.plan).stiffness.clear();
+  EXPECT_FALSE(nlohmann::json::parse(summary_json(one)).contains("stiffness"));
+}
+
+TEST(BendRadius, IsInTheSummaryAndNullWhereNothingBends) {
+  Result result = three_tools();
+  result.bends.tip_mm = 7.5;
+  const auto bends = nlohmann::json::parse(summary_json(result)).at("bend_radius");
+  EXPECT_EQ(bends.at("tip"), 7.5);
+  EXPECT_TRUE(bends.at("holder_end").is_null());
+}
+
 }  // namespace
 }  // namespace flank::internal

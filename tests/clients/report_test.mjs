@@ -174,6 +174,28 @@ test('cycles of a cavity are shown as planned and as replayed', async () => {
   await plain.close();
 });
 
+test('what stiffness costs is drawn for the tools that were tried', async () => {
+  const copy = without(folder, 'stiffness');
+  const summary = json(copy, 'summary.json');
+  const step = { slenderness: 2, axis_length: 60, largest_radius: 15, strips: 1, coverage: 0.91, overcut: 0.004, other_faces_overcut: 0, rms: 0.002, judged: true, chosen: false };
+  summary.stiffness = [step, { ...step, slenderness: 4.2, coverage: 0.999, chosen: true }, { ...step, slenderness: 8, coverage: 0.95, judged: false }];
+  writeFileSync(join(copy, 'summary.json'), JSON.stringify(summary));
+  must('report', copy, '--quiet');
+  const page = await open(copy);
+  assert.deepEqual(page.complaints, []);
+  assert.equal(await page.value(`document.querySelectorAll('#stiffness svg').length`), 2);
+  assert.equal(await page.value(`document.querySelectorAll('#stiffness circle.ring').length`), 3);
+  assert.equal(await page.value(`document.querySelectorAll('#stiffness circle.estimate').length`), 3);
+  assert.match(await page.value(text('#stiffness')), /3 tools were tried; the ring is the one that was chosen \(λ 4\.20\)/);
+  await page.close();
+  summary.stiffness.length = 1;
+  writeFileSync(join(copy, 'summary.json'), JSON.stringify(summary));
+  must('report', copy, '--quiet');
+  const plain = await open(copy);
+  assert.equal(await plain.value(`document.querySelector('#stiffness') === null`), true);
+  await plain.close();
+});
+
 test('layers, colours and cameras change the picture', async () => {
   const page = await open(folder);
   const seen = [await page.value('document.querySelector("#canvas").toDataURL()')];

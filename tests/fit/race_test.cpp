@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "fit/flat_scene.h"
 #include "flank/threads.h"
 #include "flank/tool/compliance.h"
@@ -88,6 +90,21 @@ TEST_F(Racing, WhoPlungesOrCutsIsNotEnough) {
   estimate = {};
   estimate.at_tolerance = options_.enough_coverage - 1e-6;
   EXPECT_FALSE(is_enough(estimate, options_));
+}
+
+TEST_F(Racing, TellsWhatWasBeatenAndWhatWasFound) {
+  double most = 0.0;
+  Progress progress;
+  progress.found = [&](const BestSoFar& best) { most = std::max(most, best.coverage); };
+  const std::vector<FitDraft> starts = {start(2.0), start(6.0)};
+  const Runner winner = race(starts, ranking_samples(*blade_, nullptr, options_), options_, progress);
+  ASSERT_EQ(winner.beaten.size(), 1u);
+  EXPECT_NEAR(winner.beaten[0].largest_radius_mm, 2.0, 0.5);
+  EXPECT_NEAR(winner.beaten[0].slenderness, 42.0 / 4.0, 2.0);
+  EXPECT_EQ(winner.beaten[0].axis_length_mm, 42.0);
+  EXPECT_EQ(winner.beaten[0].strips, 1);
+  EXPECT_GT(winner.beaten[0].estimate.at_tolerance, 0.99);
+  EXPECT_GT(most, 0.99);
 }
 
 }  // namespace

@@ -48,11 +48,11 @@ void add_members(const ChoiceRequest& request, Addresses& all) {
   add(all, catalogue, finalists, feed, rapid);
 }
 Addresses members(const FitJob& job) {
-  const auto& [part, tool, radius, obstacles, judge, tolerance, start, guide, strips, avoid, bend] = job;
+  const auto& [part, tool, radius, obstacles, judge, tolerance, start, guide, strips, avoid, curve, bend] = job;
   Addresses all;
   add_members(part, all), add_members(tool, all), add_members(radius, all), add_members(obstacles, all);
   add_members(judge, all);
-  add(all, tolerance, start, guide, strips, avoid, bend);
+  add(all, tolerance, start, guide, strips, avoid, curve, bend);
   return all;
 }
 Addresses members(const CoverJob& job) {

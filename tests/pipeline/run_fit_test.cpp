@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "flank/error.h"
 #include "flank/setup/tool_body.h"
 
@@ -65,6 +67,34 @@ TEST(RunFit, TellsTheFiguresOfAFit) {
   EXPECT_EQ(summary.rms_mm, 0.002);
   ASSERT_EQ(summary.trace.size(), 2u);
   EXPECT_EQ(summary.trace.back().cost, 7.0);
+}
+
+TEST(RunFit, TellsWhatWasTriedAsSharesOfTheWholeFace) {
+  FlankFitResult fit;
+  TriedTool tried{.slenderness = 4.0, .axis_length_mm = 40.0, .largest_radius_mm = 5.0, .strips = 2, .estimate = {}};
+  tried.estimate.at_tolerance = 0.9, tried.estimate.gouge_mm = 0.03;
+  fit.tried = {tried, tried, tried};
+  fit.tried[1].slenderness = std::numeric_limits<double>::infinity();
+  fit.tried[2].estimate.overcut_mm = std::numeric_limits<double>::infinity();
+  FitJob job;
+  const std::vector<StiffnessStep> steps = stiffness_steps(fit, job, 0.5);
+  ASSERT_EQ(steps.size(), 1u) << "neither what is no tool nor a fit that lost its values";
+  EXPECT_EQ(steps[0].coverage, 0.45);
+  EXPECT_EQ(steps[0].coverage_reachable, 0.9);
+  EXPECT_EQ(steps[0].gouge_mm, 0.03);
+  EXPECT_EQ(steps[0].strips, 2);
+  EXPECT_FALSE(steps[0].judged);
+  job.avoid = false;
+  EXPECT_EQ(stiffness_steps(fit, job, 0.5)[0].coverage, 0.9) << "the planner counts the whole face then";
+  EXPECT_FALSE(stiffness_steps(fit, job, 0.5)[0].coverage_reachable);
+}
+
+TEST(RunFit, RefusesACurveOfAGivenTool) {
+  FitJob job;
+  job.part.file = "no.step";
+  job.tool.spec = "cone:radius=2,angle=3";
+  job.stiffness_curve = true;
+  EXPECT_THROW((void)run_fit(job), UsageError);
 }
 
 }  // namespace

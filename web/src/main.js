@@ -10,6 +10,7 @@ import { MotionCharts } from './motion.js';
 import { PathModel } from './path.js';
 import { Player } from './player.js';
 import { profile } from './profile.js';
+import { stiffnessCharts } from './stiffness.js';
 import { watchTheme } from './theme.js';
 import { View } from './view.js';
 
@@ -73,6 +74,7 @@ function still(files, page) {
     part('spread', () => byId('histogram').append(histogram(verify)));
   } else for (const id of ['worst', 'spread']) byId(id).remove();
   view ? part('tool', () => byId('profile').append(profile(view.tool))) : byId('tool').remove();
+  files.summary?.stiffness?.length > 1 ? part('stiffness', () => byId('steps').append(stiffnessCharts(files.summary.stiffness, asked(files).tolerance))) : byId('stiffness').remove();
   files.summary?.cavity ? part('cavity', () => byId('cycles').append(cavityCharts(files.summary.cavity, verify?.stock))) : byId('cavity').remove();
   if (files.motion) page.motion = part('machine', () => {
     const charts = new MotionCharts(files.motion);

@@ -8,7 +8,7 @@
 
 namespace flank::internal {
 
-/// A line for each target of a cover, the figures of a cavity; empty for a fit.
+/// A line for each target of a cover, the figures of a cavity, of a fit what every step of stiffness costs.
 [[nodiscard]] std::string plan_lines(const Result& result);
 
 /// Adds the keys of the result's plan. "candidates", "before" and "after" are the same for every kind, so that scripts can

@@ -14,6 +14,7 @@
 #include "flank/fit/fit_record.h"
 #include "flank/fit/polish.h"
 #include "flank/fit/race.h"
+#include "flank/fit/tried.h"
 #include "flank/fit/ways.h"
 #include "flank/motion/motion_record.h"
 #include "flank/seed/clear_start.h"
@@ -213,6 +214,7 @@ FlankFitResult search_starts(const Target& target, const ToolModel& tool, const 
   Runner best = race(quick.drafts, samples, options, progress);
   result.before = estimate_coverage(samples, best.start.motions, best.start.tool, options.tolerance_mm, kRankingPoses);
   result.trace = best.trace;
+  result.tried = best.beaten;
   if (!best.enough) look_closely(best, samples, options, progress);
   return finish(best.polished, options, std::move(result));
 }
@@ -221,8 +223,10 @@ FlankFitResult search_starts(const Target& target, const ToolModel& tool, const 
 FlankFitResult search_ways(const Target& target, const ToolModel& tool, const FlankFitOptions& options,
                            const Progress& progress) {
   const auto search = [&](const FlankFitOptions& other) {
+    Progress own = progress;
+    if (other.obstacles != options.obstacles) own.found = nullptr;  // it may enter what it does not see
     return journaled(
-        progress, "search", [&] { return search_starts(target, tool, other, progress); }, other, tool);
+        own, "search", [&] { return search_starts(target, tool, other, own); }, other, tool);
   };
   FlankFitResult first = search(options);
   if (options.obstacles == nullptr || !options.ways || first.status == FitStatus::kWithinTolerance || progress.stop())
@@ -238,7 +242,7 @@ FlankFitResult polish_starts(const std::vector<FitTask>& tasks, const ToolModel&
   FitDraft draft = make_draft(tasks, tool, options);
   progress.step("fit", 0.1);
   result.before = estimate_coverage(samples, draft.motions, draft.tool, options.tolerance_mm, kRankingPoses);
-  Runner only{draft, {draft, {}, false}, {}, false};
+  Runner only{draft, {draft, {}, false}, {}, false, {}};
   advance(only, progress, "polish", [&](Runner& next) {
     next.polished = polish(draft, samples, options, &next.trace);
     settle_if_enough(next, samples, options);

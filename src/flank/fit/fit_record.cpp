@@ -31,6 +31,12 @@ void code(StepCodec& codec, IterationTrace& step) {
   for (double* value : {&step.cost, &step.rms_mm, &step.largest_mm, &step.damping}) codec.number(*value);
 }
 
+void code(StepCodec& codec, TriedTool& tried) {
+  for (double* value : {&tried.slenderness, &tried.axis_length_mm, &tried.largest_radius_mm}) codec.number(*value);
+  code(codec, tried.strips);
+  code(codec, tried.estimate);
+}
+
 void code(StepCodec& codec, FlankFitResult& fit) {
   code_choice(codec, fit.status, 4);
   code(codec, fit.message);
@@ -42,6 +48,7 @@ void code(StepCodec& codec, FlankFitResult& fit) {
   code(codec, fit.trace);
   code(codec, fit.notes);
   code(codec, fit.candidates);
+  code(codec, fit.tried);
   codec.require(fit.motions.empty() || fit.tool.axis_length() > 0.0, "motions need a tool");
 }
 

@@ -11,6 +11,7 @@
 #include "flank/fit/coverage.h"
 #include "flank/fit/fit_record.h"
 #include "flank/fit/swept_polish.h"
+#include "flank/fit/tried.h"
 #include "flank/tool/compliance.h"
 
 namespace flank::internal {
@@ -77,8 +78,10 @@ std::vector<Runner> polish_until_enough(const std::vector<FitDraft>& starts, con
     // The user has had enough: the best start alone is still worth a polish, so that there is a result.
     if (progress.stop() && !runners.empty()) break;
     const std::size_t first = runners.size(), count = progress.stop() ? 1 : std::min(kAbreast, most - first);
-    for (Runner& runner : polished_abreast(std::span(starts).subspan(first, count), samples, options, progress))
+    for (Runner& runner : polished_abreast(std::span(starts).subspan(first, count), samples, options, progress)) {
+      tell_found(progress, runner.polished.estimate, options.tolerance_mm);
       runners.push_back(std::move(runner));
+    }
     progress.step("polish", 0.5 + 0.2 * static_cast<double>(runners.size()) / static_cast<double>(most));
   }
   return runners;
@@ -102,11 +105,22 @@ void pass_until_enough(std::vector<Runner>& runners, const std::vector<SurfaceSa
       next.polished = last_passes(next.polished, samples, options, &next.trace);
       settle_if_enough(next, samples, options);
     });
+    tell_found(progress, runner.polished.estimate, options.tolerance_mm);
     if (runner.enough) return;
     gained = std::max(gained, score(runner) - before);
     best = std::max(best, score(runner));
     progress.step("polish", 0.7 + 0.2 * static_cast<double>(k + 1) / static_cast<double>(most));
   }
+}
+
+/// The runners behind the first.
+std::vector<TriedTool> beaten_by_first(const std::vector<Runner>& runners, const RadiusBounds& bounds) {
+  std::vector<TriedTool> beaten;
+  for (std::size_t k = 1; k < runners.size(); ++k) {
+    const Polished& polished = runners[k].polished;
+    beaten.push_back(tried_tool(polished.draft.tool, polished.draft.motions.size(), polished.estimate, bounds));
+  }
+  return beaten;
 }
 
 /// The winner, taken to the last digits where its target seems to be an envelope; as it was where that gains nothing.
@@ -173,6 +187,7 @@ Runner race(const std::vector<FitDraft>& starts, const std::vector<SurfaceSample
   }
   Runner winner = std::move(runners.front());
   advance(winner, progress, "last digits", [&](Runner& next) { next = with_last_digits(next, samples, options); });
+  winner.beaten = beaten_by_first(runners, options.bounds);
   return winner;
 }
 

@@ -17,9 +17,10 @@ struct Runner {
   Polished polished;                  ///< as far as it has come
   std::vector<IterationTrace> trace;  ///< of its passes
   bool enough = false;                ///< does what was asked, looked at closely; `polished` is settled then
+  std::vector<TriedTool> beaten;      ///< of the winner: the others, as far as they have come
 };
 
-/// Among the values of a finished step (base/step_codec.h), without its start.
+/// Among the values of a finished step (base/step_codec.h), without its start and those that it has beaten.
 void code(StepCodec& codec, Runner& runner);
 
 /// A step of one candidate, which takes its start with it; from the journal if an earlier run has finished it

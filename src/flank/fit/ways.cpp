@@ -15,6 +15,7 @@
 #include "flank/fit/fit_record.h"
 #include "flank/fit/polish.h"
 #include "flank/fit/swept_polish.h"
+#include "flank/fit/tried.h"
 
 namespace flank::internal {
 namespace {
@@ -235,6 +236,8 @@ FlankFitResult best_way(const Target& target, const ToolModel& tool, const Flank
   }
   FlankFitResult result = first;
   if (best != nullptr) {
+    result.tried.clear();
+    add_tried(result, first, options.bounds);
     result.before = free.before;
     result.trace = free.trace;
     result.candidates = first.candidates + free.candidates;
@@ -243,6 +246,10 @@ FlankFitResult best_way(const Target& target, const ToolModel& tool, const Flank
                     best->name, 100.0 * best->polished.estimate.at_tolerance, 100.0 * first.after.at_tolerance));
     result = finish(best->polished, options, std::move(result));
   }
+  for (const Way& way : ways)
+    if (&way != best)
+      result.tried.push_back(tried_tool(way.polished.draft.tool, way.polished.draft.motions.size(),
+                                        way.polished.estimate, options.bounds));
   note_limits(ways.front().polished.estimate, tolerance, result);
   return result;
 }

@@ -82,8 +82,8 @@ inline constexpr Accepted kCut{"there are climb and conventional", nullptr,
                                [](std::string_view x) { return x == "climb" || x == "conventional"; }};
 inline constexpr Accepted kLayers{"auto or a number from 1 to 12 is needed",
                                   [](double x) { return x >= 0.0 && x <= 12.0; }};
-inline constexpr Accepted kCycles{"there are volume and plain", nullptr,
-                                  [](std::string_view x) { return x == "volume" || x == "plain"; }};
+inline constexpr Accepted kCycles{"there are volume, plain and paper", nullptr,
+                                  [](std::string_view x) { return x == "volume" || x == "plain" || x == "paper"; }};
 inline constexpr Accepted kSeeds{"there are grid and shape", nullptr,
                                  [](std::string_view x) { return x == "grid" || x == "shape"; }};
 
@@ -139,6 +139,10 @@ void visit_obstacles(Request& obstacles, Visitor& visit) {
                   kDistance},
         obstacles.clearance_mm);
 }
+
+inline constexpr std::string_view kCurveHelp =
+    "on: free tools of other slendernesses are fitted, too, each from the next one; summary and report say what each "
+    "covers, what it cuts and what it leaves";
 
 inline constexpr std::string_view kBendHelp =
     "Least radius of curvature of the paths of tip and holder end (s = L): a sharper bend does not meet the request; "
@@ -212,6 +216,7 @@ void visit_fields(Job& job, Visitor&& visit) {
   visit(FieldInfo{"guide", "", "", "File of several such lines: the axis follows them", kAny, Spelling::kFile},
         job.guide);
   visit_radius(job.radius, visit);
+  visit(FieldInfo{"stiffness_curve", "", "Stiffness", kCurveHelp, kAny, Spelling::kOnOff}, job.stiffness_curve);
   visit(FieldInfo{"min_bend_radius", "mm", "Motion", kBendHelp, kRadius}, job.min_bend_radius_mm);
   visit_judge(job.judge, visit);
   visit_obstacles(job.obstacles, visit);
@@ -353,7 +358,9 @@ void visit_cycles(Request& cycles, Visitor& visit) {
                   kLayers, Spelling::kAutoOrCount},
         cycles.layers);
   visit(FieldInfo{"strategy", "", kGroup,
-                  "volume: the shape of every cycle is optimised for removed volume per way; plain: its step alone",
+                  "volume: the shape of every cycle is optimised for removed volume per way; plain: its step alone; "
+                  "paper: steps whose fronts are moved back where they engage too far (the published method, to "
+                  "compare)",
                   kCycles},
         cycles.strategy);
   visit(FieldInfo{"feed", "mm/min", kGroup, "Feed of the cycles and sides, for the machining time", kRate},

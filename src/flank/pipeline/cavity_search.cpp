@@ -46,6 +46,10 @@ SideFit search_sides(const TrochoidJob& job, const CavityFaces& faces, const Too
   return best;
 }
 
+CycleStrategy strategy_of(const std::string& name) {
+  return name == "plain" ? CycleStrategy::kPlain : name == "paper" ? CycleStrategy::kAdjusted : CycleStrategy::kVolume;
+}
+
 CavityProgram plan(const TrochoidJob& job, const CavityFaces& faces, const SideFit& sides, int most_rewinds,
                    const Progress& progress) {
   if (sides.fit.motions.empty() || !check_legitimacy(sides.fit.tool).legitimate) return {};
@@ -53,7 +57,7 @@ CavityProgram plan(const TrochoidJob& job, const CavityFaces& faces, const SideF
   options.cycles.largest_rad = job.cycles.most_engagement_deg * kDegree;
   options.cycles.tolerance_mm = job.tolerance_mm;
   options.cycles.most_rewinds = most_rewinds;
-  options.cycles.optimise = job.cycles.strategy == "volume";
+  options.cycles.strategy = strategy_of(job.cycles.strategy);
   options.climb = job.cycles.cut == "climb";
   options.chord_mm = kToleranceBudget.chord * job.tolerance_mm;
   options.left = faces.sides[0].faces;

@@ -8,6 +8,7 @@
 
 #include "flank/error.h"
 #include "flank/fit/coverage.h"
+#include "flank/fit/tried.h"
 #include "flank/pipeline/search_setup.h"
 #include "flank/pipeline/stiff_fit.h"
 #include "flank/seed/axis_line.h"
@@ -64,10 +65,11 @@ bool is_done(const FlankFitResult& result, double least_coverage, double toleran
          result.after.largest_c < 1.0;
 }
 
-/// Keeps the better of two results; one without a motion is none.
-void keep_better(FlankFitResult& best, FlankFitResult&& other, double tolerance_mm) {
+/// Keeps the better of two results, and what was tried for both; one without a motion is none.
+void keep_better(FlankFitResult& best, FlankFitResult&& other, const FlankFitOptions& options) {
   if (other.motions.empty()) return;
-  if (best.motions.empty() || is_better(other.after, best.after, tolerance_mm)) best = std::move(other);
+  if (best.motions.empty() || is_better(other.after, best.after, options.tolerance_mm)) std::swap(best, other);
+  add_tried(best, other, options.bounds);
 }
 
 /// One group with as many strips as its tolerance needs: a strip more as long as that is not met, and gains something.
@@ -78,15 +80,16 @@ FlankFitResult fit_auto(const Target& target, const ToolModel& tool, FlankFitOpt
   /// Of the face, before the last passes, which rarely gain more than a tenth: a strip more is tried instead.
   constexpr double kPromising = 0.85;
   FlankFitResult best;
-  double one_covers = 0.0;
+  double one_covers = 0.0, rest = 1.0;
   int without_gain = 0;
   for (int count : {1, 2, 3, 4, 6, 8, 10, kMostStrips}) {
     options.strips = count;
     options.least_coverage_for_last_passes = count < kMostStrips ? kPromising : 0.0;
-    FlankFitResult result = fit_automatic(target, tool, options, progress);
+    const double here = 1.0 - rest;  // nobody knows how many follow: each gets a half of what is left
+    FlankFitResult result = fit_automatic(target, tool, options, progress.part(here, 1.0 - (rest *= 0.5)));
     if (count == 1) one_covers = result.after.at_tolerance;
     const double before = best.after.at_tolerance;
-    keep_better(best, std::move(result), options.tolerance_mm);
+    keep_better(best, std::move(result), options);
     without_gain = best.after.at_tolerance > before + kGain ? 0 : without_gain + 1;
     if (is_done(best, least_coverage, options.tolerance_mm) || without_gain == 2 || progress.stop()) break;
   }
@@ -104,15 +107,18 @@ FlankFitResult fit_group(const Target& target, const ToolModel& tool, FlankFitOp
     return is_done(result, least_coverage, options.tolerance_mm) || progress.stop();
   };
   options.strips = std::max(1, strips);
-  FlankFitResult best = strips > 0 ? fit_automatic(target, tool, options, progress)
-                                   : fit_auto(target, tool, options, least_coverage, progress);
+  /// Of the progress: where one strip and where the lifted bounds begin.
+  constexpr double kFirst = 0.6, kSoften = 0.7;
+  const Progress first = progress.part(0.0, kFirst);
+  FlankFitResult best =
+      strips > 0 ? fit_automatic(target, tool, options, first) : fit_auto(target, tool, options, least_coverage, first);
   if (strips > 1 && !done(best)) {
     options.strips = 1;
-    keep_better(best, fit_automatic(target, tool, options, progress), options.tolerance_mm);
+    keep_better(best, fit_automatic(target, tool, options, progress.part(kFirst, kSoften)), options);
   }
   if (done(best)) return best;
   options.strips = std::max<int>(1, static_cast<int>(best.motions.size()));
-  return soften(target, tool, options, std::move(best), progress);
+  return soften(target, tool, options, std::move(best), progress.part(kSoften, 1.0));
 }
 
 /// All groups with one tool: the first finds it, the others are fitted to it, then all are polished together.
@@ -124,7 +130,10 @@ void fit_groups(const FitJob& job, FitSearch& search, const ToolModel& tool, con
     const Target& target = *search.targets[g].target;
     FlankFitOptions own = options;
     own.obstacles = search.targets[g].obstacles.get();
-    FlankFitResult result = fit_group(target, shared, own, job.strips, job.judge.least_coverage, progress);
+    // The polish of all together comes after the groups.
+    const double parts = static_cast<double>(search.targets.size() > 1 ? search.targets.size() + 1 : 1);
+    const Progress part = progress.part(static_cast<double>(g) / parts, static_cast<double>(g + 1) / parts);
+    FlankFitResult result = fit_group(target, shared, own, job.strips, job.judge.least_coverage, part);
     for (const RuledMotion& motion : result.motions) {
       tasks.push_back({&target, motion, own.obstacles});
       search.group_of_motion.push_back(g);
@@ -161,6 +170,8 @@ FitSearch search_side(const FitJob& job, const Setup& setup, const ToolSpec& spe
   search.targets = make_targets(setup, side);
   const ToolModel tool = make_tool_model(spec);
   const FlankFitOptions options = options_of(job, *search.targets.front().target, tool.free());
+  search.tool = tool;
+  search.options = options;
   if (tool.free()) search.reach_radius_mm = options.reach_radius_mm;
   if (job.avoid)
     add_group_obstacles(setup, job.obstacles.clearance_mm, options.bounds.largest, search.targets, search.fit.notes);
@@ -212,24 +223,35 @@ double scout(const FitJob& job, const Setup& setup, const ToolSpec& spec, int si
 /// does not give what was asked and the other is not far behind.
 FitSearch search_sheet(const FitJob& job, const Setup& setup, const ToolSpec& spec, const Progress& progress) {
   constexpr double kNotFar = 0.3;  // of the score, about a share of coverage
-  const double plus = scout(job, setup, spec, +1, progress), minus = scout(job, setup, spec, -1, progress);
+  const double plus = scout(job, setup, spec, +1, progress.part(0.0, 0.1));
+  const double minus = scout(job, setup, spec, -1, progress.part(0.1, 0.2));
   int side = plus >= minus ? +1 : -1;
-  FitSearch best = search_side(job, setup, spec, {}, side, progress);
+  FitSearch best = search_side(job, setup, spec, {}, side, progress.part(0.2, 0.8));
   const bool done = is_done(best.fit, job.judge.least_coverage, job.tolerance_mm) || progress.stop();
   if (done || std::abs(plus - minus) > kNotFar) {
     best.fit.notes.push_back(fmt::format("open sheet: side {} was chosen, which promises more", side > 0 ? "+" : "-"));
     return best;
   }
-  FitSearch other = search_side(job, setup, spec, {}, -side, progress);
+  FitSearch other = search_side(job, setup, spec, {}, -side, progress.part(0.8, 1.0));
   if (other.fit.after.score(job.tolerance_mm) > best.fit.after.score(job.tolerance_mm)) {
     side = -side;
-    best = std::move(other);
+    std::swap(best, other);
   }
+  add_tried(best.fit, other.fit, best.options.bounds);
   best.fit.notes.push_back(fmt::format("open sheet: both sides were tried, side {} covers more", side > 0 ? "+" : "-"));
   return best;
 }
 
 }  // namespace
+
+std::vector<FitTask> FitSearch::tasks() const {
+  std::vector<FitTask> tasks;
+  for (std::size_t m = 0; m < fit.motions.size(); ++m) {
+    const TargetGroup& group = targets[group_of_motion[m]];
+    tasks.push_back({group.target.get(), fit.motions[m], group.obstacles.get()});
+  }
+  return tasks;
+}
 
 FitSearch search_fit(const FitJob& job, const Setup& setup, const ToolSpec& spec, const Progress& progress) {
   const UserStart start = user_start(job);

@@ -8,10 +8,13 @@
 #include "flank/base/tolerance_budget.h"
 #include "flank/error.h"
 #include "flank/fit/lengthen.h"
+#include "flank/fit/tried.h"
 #include "flank/job/check_fields.h"
 #include "flank/pipeline/finish.h"
 #include "flank/pipeline/fit_search.h"
+#include "flank/pipeline/folder/judge_job.h"
 #include "flank/pipeline/run_journal.h"
+#include "flank/pipeline/stiff_fit.h"
 #include "flank/setup/tool_body.h"
 
 namespace flank::internal {
@@ -47,6 +50,43 @@ FitSummary fit_summary(const FlankFitResult& fit) {
   return summary;
 }
 
+std::vector<StiffnessStep> stiffness_steps(const FlankFitResult& fit, const FitJob& job, double reachable_share) {
+  std::vector<StiffnessStep> steps;
+  for (const TriedTool& tried : fit.tried) {
+    // What is no tool, and a fit that lost its values, say nothing.
+    if (!(tried.slenderness < 1e300) || !(tried.estimate.overcut_mm < 1e300)) continue;
+    StiffnessStep step{.slenderness = tried.slenderness,
+                       .axis_length_mm = tried.axis_length_mm,
+                       .largest_radius_mm = tried.largest_radius_mm,
+                       .strips = tried.strips,
+                       .coverage = tried.estimate.at_tolerance,
+                       .coverage_reachable = {},
+                       .overcut_mm = tried.estimate.overcut_mm,
+                       .gouge_mm = tried.estimate.gouge_mm,
+                       .rms_mm = tried.estimate.rms_mm};
+    // Beside walls the planner counts what is reachable.
+    if (job.avoid) {
+      step.coverage_reachable = step.coverage;
+      step.coverage *= reachable_share;
+    }
+    steps.push_back(step);
+  }
+  return steps;
+}
+
+StiffnessStep judged_step(const TriedTool& tool, const VerifyReport& verify) {
+  return {.slenderness = tool.slenderness,
+          .axis_length_mm = tool.axis_length_mm,
+          .largest_radius_mm = tool.largest_radius_mm,
+          .strips = tool.strips,
+          .coverage = verify.coverage,
+          .coverage_reachable = verify.coverage_reachable,
+          .overcut_mm = verify.overcut_mm,
+          .gouge_mm = verify.gouge_mm,
+          .rms_mm = verify.rms_mm,
+          .judged = true};
+}
+
 }  // namespace flank::internal
 
 namespace flank {
@@ -57,6 +97,8 @@ void check_job(const FitJob& job) {
   check_fields(job);
   check_radius(job.radius);
   if (job.start && job.guide) throw UsageError("start", "goes without `guide`; give one of them");
+  if (job.stiffness_curve && job.tool.spec != "free")
+    throw UsageError("stiffness_curve", "goes with a free tool alone: the slenderness of another is its own");
 }
 
 void check_axis_length(const FitJob& job, const Part& part) {
@@ -109,6 +151,55 @@ std::vector<StripSurface> sample_path(const FitSearch& search, double tolerance_
   return surfaces;
 }
 
+void take_fit(const FitSearch& search, Result& result) {
+  // The verdict, now and later, is about what was searched for.
+  if (search.reach_radius_mm) std::get<FitJob>(result.job).judge.reach_radius_mm = search.reach_radius_mm;
+  result.plan = fit_summary(search.fit);
+  result.motions = search.fit.motions;
+  result.diagonal_mm = search.targets.front().target->diagonal();
+  result.notes.insert(result.notes.end(), search.fit.notes.begin(), search.fit.notes.end());
+}
+
+/// A rung of the ladder, by the judge's samples: no proof, which would cost more than the fit.
+StiffnessStep judged_rung(const Setup& setup, const FitSearch& search, const FlankFitResult& rung,
+                          const Result& result) {
+  const auto& job = std::get<FitJob>(result.job);
+  Result one;
+  one.job = job;
+  one.tool = found_tool(parse_tool_spec(job.tool.spec), rung.tool, job.obstacles);
+  one.motions = rung.motions;
+  std::vector<const TargetGroup*> groups;
+  for (const std::size_t g : search.group_of_motion) groups.push_back(&search.targets[g]);
+  (void)add_strips(job.tolerance_mm, groups, one);  // surfaces are for drawings
+  const VerifyReport verify = judge_job(setup, job.judge, one.tool, one.path, DepthProof::kSampled);
+  return judged_step(tried_tool(rung.tool, rung.motions.size(), rung.after, search.options.bounds), verify);
+}
+
+/// What every step of stiffness costs: the tools that were tried on the way, the chosen one, and, if the job asks for the
+/// curve, the ladder.
+void add_stiffness(const Setup& setup, const FitSearch& search, const Progress& progress, Result& result) {
+  const auto& job = std::get<FitJob>(result.job);
+  if (!search.tool.free() || search.fit.motions.empty() || !result.complete) return;
+  std::vector<StiffnessStep> steps = stiffness_steps(search.fit, job, result.verify.reachable_share);
+  const TriedTool chosen =
+      tried_tool(search.fit.tool, search.fit.motions.size(), search.fit.after, search.options.bounds);
+  steps.push_back(judged_step(chosen, result.verify));
+  steps.back().chosen = true;
+  if (job.stiffness_curve) {
+    try {
+      for (const FlankFitResult& rung :
+           stiffness_ladder(search.tasks(), search.fit, search.tool, search.options, progress))
+        steps.push_back(judged_rung(setup, search, rung, result));
+    } catch (const Stopped&) {
+      result.complete = false;
+    }
+    if (progress.stop()) result.complete = false;
+  }
+  std::stable_sort(steps.begin(), steps.end(),
+                   [](const auto& a, const auto& b) { return a.slenderness < b.slenderness; });
+  std::get<FitSummary>(result.plan).stiffness = std::move(steps);
+}
+
 }  // namespace
 
 Result run_fit(const FitJob& job, const Progress& asked) {
@@ -128,15 +219,12 @@ Result run_fit(const FitJob& job, const Progress& asked) {
   watch.lap("read");
   stop_here();
 
-  FitSearch search = search_fit(job, setup, spec, progress);
+  // What follows the search takes a share of the progress each.
+  const double judged_at = job.stiffness_curve ? 0.5 : 0.9;
+  FitSearch search = search_fit(job, setup, spec, progress.part(0.0, judged_at));
   if (search.fit.motions.empty()) stop_here();  // nothing takes the place of an earlier result
-  // The verdict, now and later, is about what was searched for.
-  if (search.reach_radius_mm) std::get<FitJob>(result.job).judge.reach_radius_mm = search.reach_radius_mm;
   if (spec.free && !stopping()) lift_shank(job, scene, search.fit, result.notes);
-  result.plan = fit_summary(search.fit);
-  result.motions = search.fit.motions;
-  result.diagonal_mm = search.targets.front().target->diagonal();
-  result.notes.insert(result.notes.end(), search.fit.notes.begin(), search.fit.notes.end());
+  take_fit(search, result);
   result.complete = !progress.stop();
   watch.lap("fit");
 
@@ -144,8 +232,10 @@ Result run_fit(const FitJob& job, const Progress& asked) {
   std::vector<StripSurface> surfaces = sample_path(search, job.tolerance_mm, result);
   watch.lap("sample");
 
-  progress.step("verify", 0.9);
+  progress.step("verify", judged_at);
   judge_result(setup, scene, std::move(surfaces), result, watch);
+  add_stiffness(setup, search, progress.part(judged_at + 0.1, 1.0), result);
+  if (job.stiffness_curve) watch.lap("stiffness curve");
   if (!result.complete) result.journal = progress.journal;
   return result;
 }

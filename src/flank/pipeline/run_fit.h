@@ -21,4 +21,11 @@ void check_radius(const RadiusRequest& radius);
 /// The figures of a fit and of its steps.
 [[nodiscard]] FitSummary fit_summary(const FlankFitResult& fit);
 
+/// The tools that were tried for a fit, by the planner's estimate. `reachable_share`: of the target's area, which that
+/// estimate leaves out where the job avoids other faces.
+[[nodiscard]] std::vector<StiffnessStep> stiffness_steps(const FlankFitResult& fit, const FitJob& job,
+                                                         double reachable_share);
+/// What the judge found of a tool.
+[[nodiscard]] StiffnessStep judged_step(const TriedTool& tool, const VerifyReport& verify);
+
 }  // namespace flank::internal

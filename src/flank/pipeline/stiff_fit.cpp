@@ -3,26 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
+#include "flank/base/assert.h"
 #include "flank/fit/coverage.h"
+#include "flank/fit/tried.h"
 #include "flank/fit/ways.h"
-#include "flank/tool.h"
 
 namespace flank::internal {
 namespace {
-
-/// Slenderness of flank and shank, as the bounds count it.
-double slenderness_of(const RadialFunction& radial, const RadiusBounds& bounds) {
-  Tool tool;
-  tool.radial = radial;
-  const double length = radial.axis_length();
-  if (bounds.shank_length > 0.0) {
-    const double radius = bounds.shank_radius > 0.0 ? bounds.shank_radius : radial.at(length).r;
-    tool.shank = {{length, radius}, {length + bounds.shank_length, radius}};
-  }
-  return stiffness(tool).slenderness;
-}
 
 /// Does `stiffer` do what `fit` does, up to the share that stiffness may cost?
 bool as_good(const FlankFitResult& stiffer, const FlankFitResult& fit, double tolerance_mm) {
@@ -53,19 +44,116 @@ FlankFitResult stiffened(const Target& target, const ToolModel& tool, const Flan
   double high = slenderness_of(open.tool, options.bounds), low = options.bounds.slenderest;
   for (int trial = 0; trial < kTrials && high > 1.02 * low && !progress.stop(); ++trial) {
     const double middle = std::sqrt(high * low);
-    FlankFitResult stiffer = refit(target, tool, options, best, middle, progress);
+    const Progress part = progress.part(static_cast<double>(trial) / kTrials, (trial + 1.0) / kTrials);
+    FlankFitResult stiffer = refit(target, tool, options, best, middle, part);
     if (as_good(stiffer, open, options.tolerance_mm)) {
       high = std::min(middle, slenderness_of(stiffer.tool, options.bounds));
+      add_tried(stiffer, best, options.bounds);
       best = std::move(stiffer);
       low = std::min(low, high);
     } else {
+      add_tried(best, stiffer, options.bounds);
       low = middle;
     }
   }
   return best;
 }
 
+/// Of the ladder, from the most slender tool that anybody would clamp to one as thick as it is long.
+constexpr std::array kRungs = {16.0, 12.0, 8.0, 6.0, 5.0, 4.0, 3.0, 2.5, 2.0, 1.6, 1.25, 1.0};
+/// Of the slenderness: a rung that is nearer to the chosen tool would be that tool again.
+constexpr double kSameRung = 0.05;
+
+/// The rungs on one side of a slenderness, the nearest first.
+std::vector<double> rungs_beside(double slenderness, bool stiffer) {
+  std::vector<double> rungs;
+  for (const double rung : kRungs)
+    if (stiffer ? rung < (1.0 - kSameRung) * slenderness : rung > (1.0 + kSameRung) * slenderness)
+      rungs.push_back(rung);
+  // They fall already.
+  if (!stiffer) std::reverse(rungs.begin(), rungs.end());
+  return rungs;
+}
+
+/// The bounds of a rung: no more slender than it, and hardly stiffer. None if no cylinder keeps the tool's own bounds too.
+std::optional<RadiusBounds> bounds_of(double rung, double axis_length, bool stiffer, RadiusBounds bounds) {
+  /// Times: where nothing draws a tool to be thin, it would stay as thick as it may be.
+  constexpr double kThicker = 1.15;
+  const double radius = 0.5 * (axis_length + bounds.shank_length) / rung;
+  if (radius < bounds.smallest || radius > bounds.largest) return {};
+  bounds.slenderest = rung;
+  if (!stiffer) bounds.largest = std::min(bounds.largest, kThicker * radius);
+  return bounds;
+}
+
+/// What a rung is fitted from, and with.
+struct LadderSetup {
+  const std::vector<FitTask>& tasks;
+  const ToolModel& tool;
+  const FlankFitOptions& options;
+  const Progress& progress;
+};
+
+FlankFitResult fit_rung(const LadderSetup& setup, const std::vector<RuledMotion>& from, const RadiusBounds& bounds) {
+  FlankFitOptions narrower = setup.options;
+  narrower.bounds = bounds;
+  std::vector<FitTask> tasks = setup.tasks;
+  for (std::size_t m = 0; m < tasks.size(); ++m) tasks[m].motion = from[m];
+  Progress quiet = setup.progress;
+  quiet.report = nullptr;
+  quiet.found = nullptr;
+  return fit_from_starts(tasks, setup.tool, narrower, quiet);
+}
+
+/// Where a rung covers less than the one behind it, it may only have lost its way from the one before: once more from
+/// behind.
+void mend_dips(const LadderSetup& setup, const std::vector<RadiusBounds>& bounds, std::vector<FlankFitResult>& rungs) {
+  constexpr double kDip = 0.005;  // of coverage
+  for (std::size_t k = rungs.size(); k-- > 1;) {
+    FlankFitResult& rung = rungs[k - 1];
+    if (setup.progress.stop() || rungs[k].after.at_tolerance < rung.after.at_tolerance + kDip) continue;
+    FlankFitResult again = fit_rung(setup, rungs[k].motions, bounds[k - 1]);
+    if (is_better(again.after, rung.after, setup.options.tolerance_mm)) rung = std::move(again);
+  }
+}
+
+/// The rungs on one side of the tool that was found, the nearest first.
+std::vector<FlankFitResult> climb(const LadderSetup& setup, const FlankFitResult& found, bool stiffer) {
+  /// Of the coverage of its start: a rung that keeps less has lost its way, and is no start for the next.
+  constexpr double kKept = 0.8;
+  const double slenderness = slenderness_of(found.tool, setup.options.bounds);
+  std::vector<FlankFitResult> rungs;
+  std::vector<RadiusBounds> bounds;
+  std::vector<RuledMotion> start = found.motions;
+  double covered = found.after.at_tolerance;
+  for (const double rung : rungs_beside(slenderness, stiffer)) {
+    const auto own = bounds_of(rung, found.tool.axis_length(), stiffer, setup.options.bounds);
+    if (!own || setup.progress.stop()) continue;
+    setup.progress.step("stiffness curve", static_cast<double>(rungs.size()) / kRungs.size());
+    FlankFitResult fit = fit_rung(setup, start, *own);
+    if (fit.motions.size() != start.size()) continue;
+    if (fit.after.at_tolerance >= kKept * covered) {
+      start = fit.motions;
+      covered = fit.after.at_tolerance;
+    }
+    rungs.push_back(std::move(fit));
+    bounds.push_back(*own);
+  }
+  mend_dips(setup, bounds, rungs);
+  return rungs;
+}
+
 }  // namespace
+
+std::vector<FlankFitResult> stiffness_ladder(const std::vector<FitTask>& tasks, const FlankFitResult& found,
+                                             const ToolModel& tool, const FlankFitOptions& options,
+                                             const Progress& progress) {
+  FLANK_ASSERT(tasks.size() == found.motions.size());
+  std::vector<FlankFitResult> ladder = climb({tasks, tool, options, progress.part(0.0, 0.5)}, found, true);
+  for (FlankFitResult& rung : climb({tasks, tool, options, progress.part(0.5, 1.0)}, found, false))
+    ladder.push_back(std::move(rung));
+  return ladder;
+}
 
 FlankFitResult soften(const Target& target, const ToolModel& tool, const FlankFitOptions& options,
                       FlankFitResult within, const Progress& progress) {
@@ -75,11 +163,16 @@ FlankFitResult soften(const Target& target, const ToolModel& tool, const FlankFi
   lifted.bounds.slenderest = 1e300;
   lifted.bounds.neck = 1.0;
   lifted.least_coverage_for_last_passes = least_to_win(within.after, options);
-  const FlankFitResult open = fit_automatic(target, tool, lifted, progress);
-  if (open.motions.empty() || as_good(within, open, options.tolerance_mm)) return within;
+  const FlankFitResult open = fit_automatic(target, tool, lifted, progress.part(0.0, 0.6));
   // What enters other faces is no reason to take a thinner tool.
-  if (!is_better(open.after, within.after, options.tolerance_mm)) return within;
-  FlankFitResult result = stiffened(target, tool, options, open, progress);
+  const bool needed = !open.motions.empty() && !as_good(within, open, options.tolerance_mm) &&
+                      is_better(open.after, within.after, options.tolerance_mm);
+  if (!needed) {
+    add_tried(within, open, options.bounds);
+    return within;
+  }
+  FlankFitResult result = stiffened(target, tool, options, open, progress.part(0.6, 1.0));
+  add_tried(result, within, options.bounds);
   result.notes.push_back(
       fmt::format("a slenderness of {:.1f} is the least that was found here: within {:.1f}, {:.1f} % of the face is "
                   "covered, with it "

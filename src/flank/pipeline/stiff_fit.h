@@ -1,5 +1,7 @@
-/// The least slender tool, where the bounds on stiffness cost too much.
+/// The least slender tool, where the bounds on stiffness cost too much; and what every step of stiffness costs.
 #pragma once
+
+#include <vector>
 
 #include "flank/fit.h"
 
@@ -10,6 +12,14 @@ namespace flank::internal {
 /// that share allows. A note says so, with the figures. `within` itself if the tool is given, or if nothing is gained.
 [[nodiscard]] FlankFitResult soften(const Target& target, const ToolModel& tool, const FlankFitOptions& options,
                                     FlankFitResult within, const Progress& progress);
+
+/// Free tools of other slendernesses than that of the one that was `found`: a ladder of them, as far as the tool's bounds
+/// let it go, each fitted from the next one nearer to the found one, or, where that loses its way, from the next one
+/// farther; the stiffer ones first, the nearest first. The planner's figures of each are in its result. `tasks` name the
+/// target of each of the found motions.
+[[nodiscard]] std::vector<FlankFitResult> stiffness_ladder(const std::vector<FitTask>& tasks,
+                                                           const FlankFitResult& found, const ToolModel& tool,
+                                                           const FlankFitOptions& options, const Progress& progress);
 
 /// Share of the target's area that a stiffer tool may cost.
 inline constexpr double kStiffnessCost = 0.005;

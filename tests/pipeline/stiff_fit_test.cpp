@@ -1,0 +1,87 @@
+// The ladder of slendernesses on a flat blade, which any upright cylinder cuts exactly.
+#include "flank/pipeline/stiff_fit.h"
+
+#include <gtest/gtest.h>
+
+#include "fit/flat_scene.h"
+#include "flank/fit/tried.h"
+#include "flank/threads.h"
+
+namespace flank::internal {
+namespace {
+
+using testing::standing_blade;
+using testing::Upright;
+using testing::upright_motion;
+
+class Ladder : public ::testing::Test {
+ protected:
+  Ladder() {
+    options_.tolerance_mm = 0.02;
+    options_.bounds = {1.5, 9.0, 0.5};
+    options_.bounds.slenderest = 8.0;
+    options_.sample_share = 1.0 / 15.0;
+  }
+  /// From a cylinder of 5 mm on 42 mm, slenderness 4.2.
+  [[nodiscard]] std::vector<FlankFitResult> climb(const Progress& progress = {}) const {
+    FlankFitResult found;
+    found.tool = RadialFunction::spline(42.0, Eigen::VectorXd::Constant(6, 5.0));
+    found.motions = {upright_motion({.y = 5.0, .z = -1.0, .x_first = -3.0, .x_last = 63.0, .length = 42.0})};
+    found.after.at_tolerance = 1.0;
+    return stiffness_ladder({{blade_.get(), found.motions.front(), nullptr}}, found, {}, options_, progress);
+  }
+
+  std::unique_ptr<Target> blade_ = standing_blade(0.0);
+  FlankFitOptions options_;
+};
+
+TEST_F(Ladder, HasARungForEverySlendernessThatTheBoundsAllow) {
+  const std::vector<FlankFitResult> rungs = climb();
+  // 42 / (2 * 9) = 2.33 and 42 / (2 * 1.5) = 14 are the ends; 4 is the tool itself.
+  const std::vector<double> bounds = {3.0, 2.5, 5.0, 6.0, 8.0, 12.0};
+  ASSERT_EQ(rungs.size(), bounds.size());
+  for (std::size_t k = 0; k < rungs.size(); ++k) {
+    const double slenderness = slenderness_of(rungs[k].tool, options_.bounds);
+    EXPECT_LT(slenderness, 1.02 * bounds[k]) << k;
+    EXPECT_TRUE(k < 2 || slenderness > bounds[k] / 1.2) << k << ": " << slenderness;
+    EXPECT_GT(rungs[k].after.at_tolerance, 0.99) << "any cylinder does it, " << k;
+  }
+}
+
+TEST_F(Ladder, IsTheSameForOneAndThreeThreads) {
+  set_thread_count(1);
+  const std::vector<FlankFitResult> one = climb();
+  set_thread_count(3);
+  const std::vector<FlankFitResult> three = climb();
+  set_thread_count(0);
+  ASSERT_EQ(one.size(), three.size());
+  for (std::size_t k = 0; k < one.size(); ++k) EXPECT_EQ(one[k].tool.parameters(), three[k].tool.parameters());
+}
+
+TEST_F(Ladder, EndsWhenTheUserHasHadEnough) {
+  Progress progress;
+  progress.cancelled = [] { return true; };
+  EXPECT_TRUE(climb(progress).empty());
+}
+
+TEST(TriedTools, AreThoseThatWereNotChosenInTheirOrder) {
+  FlankFitResult chosen, beaten, empty;
+  beaten.tool = RadialFunction::spline(30.0, Eigen::VectorXd::Constant(6, 5.0));
+  beaten.motions.resize(2);
+  beaten.after.at_tolerance = 0.5;
+  beaten.tried.resize(1);
+  beaten.tried[0].slenderness = 7.0;
+  RadiusBounds bounds;
+  add_tried(chosen, beaten, bounds);
+  add_tried(chosen, empty, bounds);
+  ASSERT_EQ(chosen.tried.size(), 2u);
+  EXPECT_EQ(chosen.tried[0].slenderness, 7.0);
+  EXPECT_NEAR(chosen.tried[1].slenderness, 3.0, 1e-6);
+  EXPECT_EQ(chosen.tried[1].strips, 2);
+  // A shank of the flank's radius makes the cylinder longer.
+  bounds.shank_length = 15.0;
+  EXPECT_NEAR(slenderness_of(beaten.tool, bounds), 4.5, 1e-3);
+}
+
+}  // namespace
+}  // namespace flank::internal
