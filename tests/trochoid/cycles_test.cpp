@@ -30,19 +30,19 @@ SweptStock slot() {
           {{-Vec3::UnitX(), 0.0}, {Vec3::UnitX(), kSlot}, {Vec3::UnitZ(), kLength}}};
 }
 
-LayerCycles plan(SweptStock& stock, bool optimise, double limit) {
+LayerCycles plan(SweptStock& stock, CycleStrategy strategy, double limit) {
   const LayerSides sides{straight(0.0), straight(10.0)};
   const HalfGuard guard({}, stock.radial());
   CycleOptions options;
   options.largest_rad = limit * kDegree;
-  options.optimise = optimise;
+  options.strategy = strategy;
   return plan_cycles(sides, guard, stock, options, {});
 }
 
 TEST(Cycles, HoldTheLimitAtThreeTimesTheRows) {
   if (kSanitized) GTEST_SKIP() << "TheJudgesStockMeasuresWhatWasPlanned plans the same";
   SweptStock stock = slot();
-  const LayerCycles out = plan(stock, false, 60.0);
+  const LayerCycles out = plan(stock, CycleStrategy::kPlain, 60.0);
   ASSERT_EQ(out.status, CycleStatus::kDone);
   ASSERT_GT(out.cycles.size(), 5u);
   SweptStock again = slot();
@@ -61,6 +61,16 @@ TEST(Cycles, HoldTheLimitAtThreeTimesTheRows) {
   EXPECT_GT(largest, 55.0 * kDegree) << "no less than there is room for";
 }
 
+TEST(Cycles, AdjustedFrontsHoldTheLimitWithLongerSteps) {
+  if (kSanitized) GTEST_SKIP() << "TheJudgesStockMeasuresWhatWasPlanned has the cycles";
+  SweptStock plain = slot(), adjusted = slot();
+  const LayerCycles before = plan(plain, CycleStrategy::kPlain, 60.0);
+  const LayerCycles after = plan(adjusted, CycleStrategy::kAdjusted, 60.0);
+  ASSERT_EQ(after.status, CycleStatus::kDone);
+  EXPECT_GT(after.cycles[2].from_x, before.cycles[2].from_x) << "the first steps are longer";
+  for (const Cycle& cycle : after.cycles) EXPECT_LE(cycle.front.peak.angle_rad, 60.0 * kDegree);
+}
+
 constexpr double kStripPoses = 200.0;
 
 /// Poses of a half, dense enough that joining them straight changes nothing that counts.
@@ -73,7 +83,7 @@ Strip strip_of(const RuledMotion& motion) {
 TEST(Cycles, TheJudgesStockMeasuresWhatWasPlanned) {
   if (kThreadSanitized) GTEST_SKIP() << "AreTheSameForOneAndTwoThreads has the threads";
   SweptStock stock = slot();
-  const LayerCycles out = plan(stock, false, 60.0);
+  const LayerCycles out = plan(stock, CycleStrategy::kPlain, 60.0);
   ASSERT_EQ(out.status, CycleStatus::kDone);
   std::vector<const Half*> halves;
   Path path;
@@ -104,7 +114,7 @@ TEST(Cycles, TheJudgesStockMeasuresWhatWasPlanned) {
 TEST(Cycles, LeaveNothingBetweenTheSidePaths) {
   if (kSanitized) GTEST_SKIP() << "TheJudgesStockMeasuresWhatWasPlanned plans the same";
   SweptStock stock = slot();
-  ASSERT_EQ(plan(stock, false, 60.0).status, CycleStatus::kDone);
+  ASSERT_EQ(plan(stock, CycleStrategy::kPlain, 60.0).status, CycleStatus::kDone);
   for (double x = 0.5; x < kSlot; x += 1.0)
     for (double y = 0.0; y <= 10.0; y += 1.0) EXPECT_FALSE(stock.is_material({x, y, 7.0})) << x << " " << y;
 }
@@ -123,7 +133,7 @@ TEST(Cycles, GoOnWhereEveryFrontEntersAFaceAndSaySo) {
   const LayerSides sides{straight(0.0), straight(10.0)};
   const HalfGuard guard({{target.get()}, {}}, stock.radial());
   CycleOptions options;
-  options.optimise = false;
+  options.strategy = CycleStrategy::kPlain;
   const LayerCycles out = plan_cycles(sides, guard, stock, options, {});
   EXPECT_EQ(out.status, CycleStatus::kDone);
   EXPECT_GT(out.entered_mm(), 1.0);
@@ -133,7 +143,7 @@ TEST(Cycles, AreTheSameForOneAndTwoThreads) {
   const auto poles = [](int threads) {
     set_thread_count(threads);
     SweptStock stock = slot();
-    const LayerCycles out = plan(stock, true, 80.0);
+    const LayerCycles out = plan(stock, CycleStrategy::kVolume, 80.0);
     set_thread_count(0);
     return out.cycles.back().front.motion.tip.poles;
   };

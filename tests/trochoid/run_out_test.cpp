@@ -76,6 +76,23 @@ TEST_F(RunOutTest, RisesAtOnceWhereTheFloorDoes) {
   EXPECT_LE(deepest_of(b), 0.05);
 }
 
+TEST_F(RunOutTest, AWallAcrossTheWayIsToldApartFromAHub) {
+  Face wall = testing::quad(Vec3(50, -50, 0), Vec3(50, 50, 0), Vec3(50, -50, 60), Vec3(50, 50, 60), "F3");
+  for (const bool oriented : {true, false}) {
+    const ObstacleField field(only({make_target({wall}), oriented}), *blade_, 2.0, 0.0);
+    const HalfGuard guard({{blade_.get()}, {&field}}, kTool);
+    SidePath a = leaning(kRadius, 0.0), b = leaning(19.0, 0.0);
+    const RunOutDepth depth = join_run_outs(a, b, kRadius, guard, 0.01);
+    EXPECT_EQ(depth.start, 0.0);
+    EXPECT_GT(depth.end, 0.5 * kRadius);
+    a.stop_at_end();
+    EXPECT_LT(a.at(a.length() + 10.0).tip.x(), 50.0 - kRadius);
+    EXPECT_EQ((a.at(a.length() + 10.0).tip - a.at(a.length()).tip).norm(), 0.0);
+  }
+  SidePath a = leaning(kRadius, 0.17), b = leaning(19.0, 0.17);
+  EXPECT_EQ(join_run_outs(a, b, kRadius, guard_, 0.01).end, 0.0) << "the hub is risen from";
+}
+
 TEST_F(RunOutTest, VelocitiesAreThoseOfThePlaces) {
   SidePath path = leaning(kRadius, 0.1);
   for (const bool end : {false, true}) {

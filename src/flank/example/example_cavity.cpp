@@ -66,6 +66,13 @@ std::vector<Face> cavity_walls(const CavityShape& shape) {
       },
       kAlong, kUp));
   walls.back().id = "F2";
+  if (shape.end_wall) {
+    // As wide and high as the channel there and a little more.
+    const double x = 0.5 * shape.length_mm, y = 0.6 * shape.width_mm, z = 0.6 * shape.depth_mm;
+    walls.push_back(
+        interpolated([&](double u, double v) { return Vec3(x, y * (1.0 - 2.0 * u), z * (2.0 * v - 1.0)); }, 4, 4));
+    walls.back().id = "F3";
+  }
   return walls;
 }
 

@@ -7,7 +7,7 @@
 
 namespace flank::internal {
 
-/// A channel along x, open at both ends and at the top (+z).
+/// A channel along x, open at the top (+z), and at both ends unless one has a wall.
 struct CavityShape {
   double width_mm = 35.0;   ///< across (y), of the bounding box of both walls
   double depth_mm = 42.0;   ///< along a wall, from its bottom to its top
@@ -16,11 +16,12 @@ struct CavityShape {
   double lean_deg = 4.0;    ///< of a wall, outwards towards the top: deep cavities have less, or their walls meet
   /// How deep a wall is hollow between its bottom and its top, mm. A cone leaves about half of it.
   double hollow_mm = 1.0;
+  bool end_wall = false;  ///< a plane across its end at +x, F3: then it is open at the other end alone
 };
 
 /// Both walls, F1 at +y and F2 at -y, open sheets that look at each other; half a turn about z carries each into the other.
 /// Every section across the channel is the same hollow profile, leaning outwards towards the top, turned by the twist and
-/// shifted along an S: smooth, not ruled, and no envelope of a tool. Throws UsageError for sizes that are not > 0, a twist
+/// shifted along an S: smooth, not ruled, and no envelope of a tool. With an end wall F3 looks along -x. Throws UsageError for sizes that are not > 0, a twist
 /// beyond 60 or a lean beyond 45 degrees, and walls that would meet.
 [[nodiscard]] std::vector<Face> cavity_walls(const CavityShape& shape);
 

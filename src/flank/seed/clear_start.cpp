@@ -130,8 +130,11 @@ ClearStart clear_start(const Chart& chart, const RuledStart& start, const Obstac
   const double step = 1.0 / (kStartTimes - 1);
   const double begin = step * static_cast<double>(first - clear.lines.begin());
   const double end = 1.0 - step * static_cast<double>(last - clear.lines.rbegin());
-  if (begin > kPast || end < 1.0 - kPast)
-    clear.lines = lines_between(chart, start, obstacles, std::max(0.0, begin - kPast), std::min(1.0, end + kPast));
+  if (begin > kPast || end < 1.0 - kPast) {
+    clear.first = std::max(0.0, begin - kPast);
+    clear.last = std::min(1.0, end + kPast);
+    clear.lines = lines_between(chart, start, obstacles, clear.first, clear.last);
+  }
   for (const Line& line : clear.lines) {
     if (!line.free) continue;
     clear.longest_mm = std::max(clear.longest_mm, line.high - line.low);

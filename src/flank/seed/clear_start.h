@@ -18,8 +18,9 @@ struct ClearStart {
     bool low_blocked = false, high_blocked = false;  ///< a wall ends the stretch
     bool free = false;                               ///< false: no stretch is free; taken from its neighbours
   };
-  std::vector<Line> lines;  ///< at kStartTimes times
-  double longest_mm = 0.0;  ///< free stretch
+  std::vector<Line> lines;         ///< at kStartTimes times
+  double first = 0.0, last = 1.0;  ///< of these times: less where lines at the ends are blocked altogether
+  double longest_mm = 0.0;         ///< free stretch
   int free_lines = 0;
   int blocked_lines = 0;  ///< lines with a wall at an end
 };

@@ -58,7 +58,7 @@ RuledMotion make_motion(const Chart& chart, const RuledStart& start, double axis
   std::vector<double> times;
   for (int i = 0; i < kStartTimes; ++i) {
     const double t = i / (kStartTimes - 1.0);
-    const FittedLine line = axis_line(chart, start, t);
+    const FittedLine line = axis_line(chart, start, start.first + (start.last - start.first) * t);
     poses.push_back({line.middle - 0.5 * axis_length * line.direction, line.direction});
     times.push_back(t);
   }

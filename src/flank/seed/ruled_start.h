@@ -13,6 +13,7 @@ struct RuledStart {
   double skew_rad = 0.0;   ///< angle of the contact lines against the chart's lines, in the surface; |skew| < pi/2
   double radius_mm = 1.0;  ///< of the tool, mm, > 0
   double band_low = 0.0, band_high = 1.0;  ///< share of the width that this strip covers
+  double first = 0.0, last = 1.0;          ///< share of the way that the motion goes
 };
 
 /// An axis position, by the middle of what it is to touch. (AxisLine of axis_line.h is a line as a user gives it.)

@@ -5,6 +5,7 @@
 
 #include "flank/base/tolerance_budget.h"
 #include "flank/motion/motion_record.h"
+#include "flank/trochoid/front_adjustment.h"
 
 namespace flank::internal {
 namespace {
@@ -29,6 +30,10 @@ constexpr double kAimBand = 0.009;
 constexpr int kGuardTimes = 25, kGuardPlaces = 9;
 /// Deeper than at the ends of a half by this share counts as deeper.
 constexpr double kSpare = 1.1;
+
+double way_of(const Trial& trial) {
+  return way_of_middle(trial.front) + (trial.back ? way_of_middle(*trial.back) : 0.0);
+}
 
 /// How deep a cylinder's cut is that engages so far, in radii: it grows with the step, about linearly.
 double depth_of_cut(double engagement_rad) { return std::max(1e-3, 1.0 - std::cos(engagement_rad)); }
@@ -107,8 +112,16 @@ Trial CycleSearch::tried(double step, const CycleShape& shape, bool measured) {
   trial.from_x = now_.last.from_x + step;
   trial.to_x = std::max(now_.last.to_x, partner(trial.from_x, shape));
   shape_halves(shape, trial);
-  trial.way_mm = way_of_middle(trial.front) + (trial.back ? way_of_middle(*trial.back) : 0.0);
-  if (!measured) return trial;
+  if (measured)
+    measure(trial);
+  else
+    trial.way_mm = way_of(trial);
+  return trial;
+}
+
+void CycleSearch::measure(Trial& trial) {
+  trial.way_mm = way_of(trial);
+  trial.largest_rad = trial.volume_mm3 = 0.0;
   if (trial.back) {
     const Engagement e = meter_.measure(*trial.back, rings_, kRows);
     trial.largest_rad = e.peak.angle_rad;
@@ -119,7 +132,20 @@ Trial CycleSearch::tried(double step, const CycleShape& shape, bool measured) {
   trial.largest_rad = std::max(trial.largest_rad, e.peak.angle_rad);
   trial.volume_mm3 += e.volume_mm3;
   if (trial.back) stock_.remove_last();
-  return trial;
+}
+
+void CycleSearch::adjust(Trial& best) {
+  // Of the longest step that the whole front may take: the first of the published method's paths that is too far.
+  constexpr double kFarther = 1.1;
+  if (best.largest_rad <= 0.0) return;
+  Trial trial = tried(kFarther * (best.from_x - now_.last.from_x), now_.shape, false);
+  if (trial.back) stock_.add(Sweep::of(*trial.back, kHalfIntervals));
+  const std::optional<RuledMotion> front = adjusted_front(trial.front, meter_, stock_, aim());
+  if (trial.back) stock_.remove_last();
+  if (!front) return;
+  trial.front = *front;
+  measure(trial);
+  if (trial.largest_rad <= aim() && !enters_anything(trial)) best = std::move(trial);
 }
 
 Trial CycleSearch::longest_step(const CycleShape& shape, double guess) {
@@ -278,6 +304,7 @@ Trial CycleSearch::best(bool improving) {
   if (best.largest_rad < 0.0 || best.from_x - now_.last.from_x < kShortStep * radius_ || enters_anything(best))
     reshape(best);
   if (improving) improve(best);
+  if (options_.strategy == CycleStrategy::kAdjusted) adjust(best);
   if (best.from_x - now_.last.from_x < least_step()) best.largest_rad = -1.0;
   if (best.largest_rad >= 0.0) lift(best);
   return best;

@@ -16,10 +16,18 @@
 
 namespace flank::internal {
 
+/// How a cycle is found.
+enum class CycleStrategy {
+  kVolume,    ///< the shapes of its halves are optimised for removed volume per way
+  kPlain,     ///< the longest step of the first shapes
+  kAdjusted,  ///< a longer step, its front then moved back where the engagement asks for it: the published method
+};
+
 struct CycleOptions {
   double largest_rad = 1.0471975511965976;  ///< engagement, fronts and backs
   double tolerance_mm = 0.01;
-  bool optimise = true;  ///< shapes of the halves, cycle by cycle; else the first shapes are kept
+  CycleStrategy strategy = CycleStrategy::kVolume;
+  [[nodiscard]] bool optimise() const { return strategy == CycleStrategy::kVolume; }
   /// Ends of fronts on the first side go no farther than this share of its way: above, the layer before got stuck.
   double most_share = std::numeric_limits<double>::infinity();
   /// How often cycles are taken back where none gets on: 4 at first, then twice as many each time.
@@ -96,6 +104,8 @@ class CycleSearch {
   [[nodiscard]] double partner(double from_x, const CycleShape& shape) const;
   void shape_halves(const CycleShape& shape, Trial& trial) const;
   [[nodiscard]] Trial tried(double step, const CycleShape& shape, bool measured);
+  /// Engagement, volume and way of its halves.
+  void measure(Trial& trial);
   [[nodiscard]] Trial longest_step(const CycleShape& shape, double guess);
   void improve(Trial& best);
   /// A shape and what one trial of it says of its longest step, mm, and what that would be worth.
@@ -107,6 +117,8 @@ class CycleSearch {
   /// Of fronts from flat to steep, those that enter no face first, then the worthiest.
   [[nodiscard]] std::vector<Prospect> prospects();
   void reshape(Trial& best);
+  /// A longer step whose front is moved back where the engagement is above the aim, if that succeeds.
+  void adjust(Trial& best);
   /// Lifts the inner points of both halves for as long as their tips enter something, if that helps.
   void lift(Trial& best);
   [[nodiscard]] GuardDepth depth_of(const Trial& trial, int times, int places) const;

@@ -192,10 +192,10 @@ void CyclePlanner::place_first(LayerCycles& out) {
 }
 
 bool CyclePlanner::add_cycle(LayerCycles& out) {
-  Trial best = search_.best(options_.optimise && out.cycles.size() >= plain_until_);
+  Trial best = search_.best(options_.optimise() && out.cycles.size() >= plain_until_);
   if (best.largest_rad < 0.0) return false;
   const bool entering = search_.enters_anything(best);
-  if (entering && options_.optimise && rewinds_ < kRewindsForFaces) return false;
+  if (entering && options_.optimise() && rewinds_ < kRewindsForFaces) return false;
   now_.step_mm = best.from_x - now_.last.from_x;
   if (!accept_some(best, entering, out)) return false;
   now_.largest_front_mm3 = std::max(now_.largest_front_mm3, out.cycles.back().front.engagement.volume_mm3);
@@ -230,7 +230,7 @@ bool CyclePlanner::is_last(const LayerCycles& out) const {
 }
 
 bool CyclePlanner::rewind(LayerCycles& out) {
-  if (!options_.optimise || rewinds_ >= options_.most_rewinds || out.cycles.empty()) return false;
+  if (!options_.optimise() || rewinds_ >= options_.most_rewinds || out.cycles.empty()) return false;
   const std::size_t stuck = out.cycles.size();
   const std::size_t back = std::min<std::size_t>(stuck - 1, kFirstRewind << rewinds_++);
   plain_until_ = stuck + back;

@@ -16,17 +16,42 @@ constexpr int kSideRows = 201, kSideRings = 21;
 constexpr double kRunOut = 1.5;
 constexpr double kLargestTurn = 4.5 * std::numbers::pi / 180.0;
 
-/// Left and right side path of a layer, in the order in which fronts use them. Milling is climb where a front goes to the
-/// left seen along the feed with the holder up.
-LayerSides order_sides(const RuledMotion& left, const RuledMotion& right, const ProgramOptions& options, double radius,
-                       const HalfGuard& guard) {
-  SidePath a(left, false), b(right, false);
-  join_run_outs(a, b, radius, guard, kToleranceBudget.cavity.aim * options.cycles.tolerance_mm);
+/// Of the radius: run-outs that enter a face deeper than this end at a wall.
+constexpr double kWall = 0.2;
+
+/// Left and right side path of a layer, in the order in which fronts use them, and how deep their run-outs enter faces.
+/// Milling is climb where a front goes to the left seen along the feed with the holder up.
+LayerSides order_sides(const RuledMotion& left, const RuledMotion& right, bool backwards, const ProgramOptions& options,
+                       double radius, const HalfGuard& guard, RunOutDepth& depth) {
+  SidePath a(left, backwards), b(right, backwards);
+  const RunOutDepth here =
+      join_run_outs(a, b, radius, guard, kToleranceBudget.cavity.aim * options.cycles.tolerance_mm);
+  depth.start = std::max(depth.start, here.start);
+  depth.end = std::max(depth.end, here.end);
   const double middle = 0.5 * a.axis_length();
   const AxisPlace p = a.at(0.5 * a.length()), q = b.at(0.5 * b.length());
   const Vec3 forward = p.velocity(middle) + q.velocity(middle);
   const bool a_to_b = (p.u + q.u).cross(forward).dot(q.at(middle) - p.at(middle)) > 0.0;
   return a_to_b == options.climb ? LayerSides{a, b} : LayerSides{b, a};
+}
+
+/// All layers, fed from the open end to the other, which may end at a wall.
+std::vector<LayerSides> order_layers(const std::vector<RuledMotion>& sides, const ProgramOptions& options,
+                                     double radius, const HalfGuard& guard) {
+  const auto ordered = [&](bool backwards, RunOutDepth& depth) {
+    std::vector<LayerSides> layers;
+    for (std::size_t k = 0; k + 1 < sides.size(); k += 2)
+      layers.push_back(order_sides(sides[k], sides[k + 1], backwards, options, radius, guard, depth));
+    return layers;
+  };
+  RunOutDepth depth;
+  std::vector<LayerSides> layers = ordered(false, depth);
+  const double wall = kWall * radius;
+  if (depth.start > wall && depth.end <= wall) layers = ordered(true, depth = {});
+  if (depth.end > wall && depth.start <= wall)
+    for (LayerSides& layer : layers)
+      for (SidePath* path : {&layer.from, &layer.to}) path->stop_at_end();
+  return layers;
 }
 
 Pose pose_of(const AxisPlace& place) { return {place.tip, place.u}; }
@@ -100,8 +125,9 @@ void ProgramWriter::layer(const LayerSides& sides, const LayerCycles& cycles, Pl
   // the cycles got.
   const Cycle& end = cycles.cycles.back();
   const bool done = cycles.status == CycleStatus::kDone;
-  const double to_x = done ? std::max(end.to_x, sides.to.length() + run) : end.to_x;
-  const double from_x = done ? sides.from.length() + run : end.from_x;
+  const double over = sides.to.stops_at_end() ? 0.0 : run;
+  const double to_x = done ? std::max(over > 0.0 ? end.to_x : 0.0, sides.to.length() + over) : end.to_x;
+  const double from_x = done ? sides.from.length() + over : end.from_x;
   if (to_x <= 0.0 || from_x <= 0.0) return;
   std::vector<Pose> returning = sides.to.poses(-run, to_x, options_.chord_mm);
   std::reverse(returning.begin(), returning.end());
@@ -177,9 +203,7 @@ CavityProgram plan_program(const std::vector<RuledMotion>& sides, const RadialFu
   CavityProgram out;
   ProgramWriter writer(radial, options, out);
   const HalfGuard guard(faces, radial);
-  std::vector<LayerSides> layers;
-  for (std::size_t k = 0; k + 1 < sides.size(); k += 2)
-    layers.push_back(order_sides(sides[k], sides[k + 1], options, radial.largest(), guard));
+  const std::vector<LayerSides> layers = order_layers(sides, options, radial.largest(), guard);
   if (layers.empty()) return out;
   out.blank = cavity_blank(layers, left, right);
   const HalfSpace& top = out.blank.back();

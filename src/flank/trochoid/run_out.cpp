@@ -62,7 +62,8 @@ void join_run_outs(SidePath& a, SidePath& b, double radius_mm) {
     lay(a, b, end, {common_direction(a, b, end), Vec3::Zero(), radius_mm, radius_mm});
 }
 
-void join_run_outs(SidePath& a, SidePath& b, double radius_mm, const HalfGuard& guard, double allowed_mm) {
+RunOutDepth join_run_outs(SidePath& a, SidePath& b, double radius_mm, const HalfGuard& guard, double allowed_mm) {
+  RunOutDepth depth;
   constexpr double kMore = 1.1;  // deeper than at the end by this share counts as deeper
   for (const bool end : {false, true}) {
     const Vec3 common = common_direction(a, b, end);
@@ -87,7 +88,9 @@ void join_run_outs(SidePath& a, SidePath& b, double radius_mm, const HalfGuard& 
         for (const double over : {1.0, 2.0, 4.0})
           if (rise > 0.0 || rise_over == 1.0) look(rise, rise_over, over);
     lay(a, b, end, best);
+    (end ? depth.end : depth.start) = std::max(0.0, least);
   }
+  return depth;
 }
 
 }  // namespace flank::internal

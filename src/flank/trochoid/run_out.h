@@ -10,9 +10,14 @@ namespace flank::internal {
 /// from there on they neither meet nor part.
 void join_run_outs(SidePath& a, SidePath& b, double radius_mm);
 
+/// How deep run-outs enter faces, beyond what is allowed and what the ends of the sides enter themselves, mm.
+struct RunOutDepth {
+  double start = 0.0, end = 0.0;
+};
+
 /// The same, but where a path then enters a face it bends more gently, and both rise along the axis, as little as it
 /// takes; if nothing keeps them clear by `allowed_mm`, what enters least. What the ends of the sides enter themselves does
 /// not count.
-void join_run_outs(SidePath& a, SidePath& b, double radius_mm, const HalfGuard& guard, double allowed_mm);
+RunOutDepth join_run_outs(SidePath& a, SidePath& b, double radius_mm, const HalfGuard& guard, double allowed_mm);
 
 }  // namespace flank::internal

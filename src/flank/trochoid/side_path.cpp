@@ -66,6 +66,7 @@ RuledMotion SidePath::motion_to(double x) const {
 }
 
 AxisPlace SidePath::at(double x) const {
+  if (x > length() && stops_) return inside(1.0);
   if (x >= 0.0 && x <= length()) return inside(time_of(x));
   const AxisPlace end = inside(x < 0.0 ? 0.0 : 1.0);
   const RunOut& out = x < 0.0 ? before_ : after_;

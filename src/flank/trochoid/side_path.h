@@ -15,7 +15,7 @@ class SidePath {
   /// Way of the axis' middle, mm.
   [[nodiscard]] double length() const { return way_.back(); }
   [[nodiscard]] double axis_length() const { return motion_.axis_length; }
-  /// Place and velocity at x mm from the start; beyond [0, length()] the axis is shifted on.
+  /// Place and velocity at x mm from the start; beyond [0, length()] the axis is shifted on, unless it stops there.
   [[nodiscard]] AxisPlace at(double x) const;
   [[nodiscard]] const RuledMotion& motion() const { return motion_; }
   /// The motion as far as x, over [0, 1]; all of it from length() on. x > 0.
@@ -26,6 +26,9 @@ class SidePath {
   void bend_run_out(bool at_end, const Vec3& direction, double over_mm);
   /// Besides, the axis rises beyond an end: by the vector `rise` a millimetre of way, evenly more over a length to begin with.
   void raise_run_out(bool at_end, const Vec3& rise, double over_mm);
+  /// Beyond its end there is a wall: from there on the axis stays where it is.
+  void stop_at_end() { stops_ = true; }
+  [[nodiscard]] bool stops_at_end() const { return stops_; }
   /// Poses from x = from to x = to: those of the motion within the chord tolerance, and the ends beyond it.
   [[nodiscard]] std::vector<Pose> poses(double from, double to, double chord_mm) const;
 
@@ -40,6 +43,7 @@ class SidePath {
     double over_mm = 1.0, rise_over_mm = 1.0;
   };
   RunOut before_, after_;
+  bool stops_ = false;
   std::vector<double> way_;  ///< at equal steps of t
 };
 

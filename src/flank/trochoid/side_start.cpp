@@ -71,10 +71,13 @@ double longest_line(const CavitySide& side, const Chart& chart, const RuledStart
 Laid lay(const CavitySide& side, const Chart& chart, const RuledStart& start, int layers, double length) {
   Laid out;
   for (int k = 0; k < layers; ++k) {
-    const RuledStart band = band_of(start, k, layers);
+    RuledStart band = band_of(start, k, layers);
     if (side.obstacles != nullptr) {
       const ClearStart clear = clear_start(chart, band, *side.obstacles);
       if (clear.free_lines == 0) return {};
+      // A wall across the way ends it.
+      band.first = clear.first;
+      band.last = clear.last;
       if (clear.blocked_lines > kStartTimes / 4) {
         out.motions.push_back(make_motion(clear, length, kControlPoints));
         out.walled = true;

@@ -70,7 +70,8 @@ bool NearPoses::meets(const RowFrame& frame, const Pose& pose, std::span<const R
 }
 
 void NearPoses::add_sweep(const RowFrame& frame, const RowDisc& whole, std::span<const RowDisc> parts,
-                          const Sweep& sweep, int index, double last, int stride, std::vector<NearPose>& out) {
+                          const Sweep& sweep, int index, double last, int stride, std::vector<RowDisc>& scratch,
+                          std::vector<NearPose>& out) const {
   const double length = sweep.axis_length;
   const double turn = (sweep.axes.front().axis - frame.axis.u).norm();
   if (is_beyond(bundle_of(frame, sweep, sweep.whole, turn + sweep.turn), whole, length)) return;
@@ -78,11 +79,11 @@ void NearPoses::add_sweep(const RowFrame& frame, const RowDisc& whole, std::span
     const std::size_t first = c * Sweep::kChunk;
     const Bundle bundle = bundle_of(frame, sweep, sweep.chunks[c], (sweep.axes[first].axis - frame.axis.u).norm());
     if (is_beyond(bundle, whole, length)) continue;
-    some_.clear();
+    scratch.clear();
     for (const RowDisc& part : parts)
-      if (!is_beyond(bundle, part, length)) some_.push_back(part);
-    if (!parts.empty() && some_.empty()) continue;
-    const std::span<const RowDisc> discs = parts.empty() ? std::span(&whole, 1) : std::span<const RowDisc>(some_);
+      if (!is_beyond(bundle, part, length)) scratch.push_back(part);
+    if (!parts.empty() && scratch.empty()) continue;
+    const std::span<const RowDisc> discs = parts.empty() ? std::span(&whole, 1) : std::span<const RowDisc>(scratch);
     const std::size_t end = std::min(first + Sweep::kChunk + (c + 1 == sweep.chunks.size() ? 1 : 0), sweep.axes.size());
     for (std::size_t p = first; p < end && static_cast<double>(p) <= last; p += static_cast<std::size_t>(stride)) {
       NearPose pose{.sweep = index, .pose = static_cast<int>(p)};
@@ -92,14 +93,14 @@ void NearPoses::add_sweep(const RowFrame& frame, const RowDisc& whole, std::span
 }
 
 void NearPoses::add(const RowFrame& frame, const RowDisc& whole, std::span<const RowDisc> parts, double own_last,
-                    std::size_t recent, int stride, std::vector<NearPose>& out) {
+                    std::size_t recent, int stride, std::vector<RowDisc>& scratch, std::vector<NearPose>& out) const {
   // The newest first: they end most gaps.
-  if (own_last >= 0.0) add_sweep(frame, whole, parts, own_, kOwnSweep, own_last, stride, out);
+  if (own_last >= 0.0) add_sweep(frame, whole, parts, own_, kOwnSweep, own_last, stride, scratch, out);
   const std::vector<Sweep>& sweeps = stock_.sweeps();
   const std::size_t from = recent > 0 && sweeps.size() > recent ? sweeps.size() - recent : 0;
   for (auto k = near_.rbegin(); k != near_.rend() && static_cast<std::size_t>(*k) >= from; ++k) {
     const Sweep& sweep = sweeps[static_cast<std::size_t>(*k)];
-    add_sweep(frame, whole, parts, sweep, *k, sweep.last(), stride, out);
+    add_sweep(frame, whole, parts, sweep, *k, sweep.last(), stride, scratch, out);
   }
 }
 

@@ -32,7 +32,7 @@ struct NearPose {
 /// In place of the index of a sweep: the motion that is measured.
 inline constexpr int kOwnSweep = 1 << 30;
 
-/// Leaves nothing out that covers something; not for several threads at once. The stock must outlive it.
+/// Leaves nothing out that covers something. Once a motion has begun, for many threads at once. The stock must outlive it.
 class NearPoses {
  public:
   explicit NearPoses(const SweptStock& stock) : stock_(stock) {}
@@ -45,9 +45,9 @@ class NearPoses {
 
   /// Adds to `out` every `stride`-th pose that may cover something of `whole`, and, where `parts` are given, of one of them:
   /// the newest sweeps first, of the motion itself up to the place `own_last`. `recent`: of the stock's last sweeps only so
-  /// many; 0: of all.
+  /// many; 0: of all. `scratch` is the caller's memory.
   void add(const RowFrame& frame, const RowDisc& whole, std::span<const RowDisc> parts, double own_last,
-           std::size_t recent, int stride, std::vector<NearPose>& out);
+           std::size_t recent, int stride, std::vector<RowDisc>& scratch, std::vector<NearPose>& out) const;
 
  private:
   /// Axes whose middles lie within `spread` of a place, seen in the frame of a row, and which are tilted by at most `tilt`.
@@ -59,15 +59,14 @@ class NearPoses {
   [[nodiscard]] bool is_beyond(const Bundle& bundle, const RowDisc& disc, double axis_length) const;
   [[nodiscard]] bool is_ever_near(const Sweep& sweep) const;
   void add_sweep(const RowFrame& frame, const RowDisc& whole, std::span<const RowDisc> parts, const Sweep& sweep,
-                 int index, double last, int stride, std::vector<NearPose>& out);
+                 int index, double last, int stride, std::vector<RowDisc>& scratch, std::vector<NearPose>& out) const;
   /// Whether a pose may cover something of one of the discs; fills all but sweep and pose.
   [[nodiscard]] bool meets(const RowFrame& frame, const Pose& pose, std::span<const RowDisc> discs,
                            NearPose& out) const;
 
   const SweptStock& stock_;
   Sweep own_;
-  std::vector<int> near_;      ///< sweeps that some row of the motion may meet
-  std::vector<RowDisc> some_;  ///< parts that a chunk may meet
+  std::vector<int> near_;  ///< sweeps that some row of the motion may meet
 };
 
 }  // namespace flank::internal

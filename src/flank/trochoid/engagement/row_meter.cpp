@@ -1,0 +1,266 @@
+#include "flank/trochoid/engagement/row_meter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace flank::internal {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+/// Arcs that are shorter than this between two poses may be the scallops between sampled poses: radians.
+constexpr double kSliver = 0.35;
+
+Vec3 radial_direction(const Vec3& x, const Vec3& y, double angle) { return std::cos(angle) * x + std::sin(angle) * y; }
+
+}  // namespace
+
+RowFrame RowMeter::frame_of(const RuledMotion& motion, double t) {
+  RowFrame frame{motion.jet(t), {}, {}};
+  frame.x = frame.axis.u.unitOrthogonal();
+  frame.y = frame.axis.u.cross(frame.x);
+  return frame;
+}
+
+RowDisc RowMeter::discs_of_found(std::span<const ToolRing> rings) {
+  // Small discs let only those poses through that come near to what is open: one for each sector of directions.
+  constexpr int kSectors = 24;
+  constexpr double kPiece = 2.0 * kPi / kSectors, kSpare = 1.02;
+  struct Part {
+    Box3 box;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    void add(const ToolRing& ring, double angle) {
+      box.add(Vec3(ring.radius * std::cos(angle), ring.radius * std::sin(angle), 0.0));
+      low = std::min(low, ring.z), high = std::max(high, ring.z);
+    }
+    [[nodiscard]] RowDisc disc(double bow) const {
+      const Vec3 centre = box.center();
+      return {centre.x(), centre.y(), kSpare * 0.5 * box.diagonal() + bow, low, high};
+    }
+  };
+  std::array<Part, kSectors> sectors;
+  Part all;
+  for (const RingArc& found : found_) {
+    const ToolRing& ring = rings[found.ring];
+    const double low = found.motion_angle + found.arc.low, length = found.arc.high - found.arc.low;
+    const int pieces = std::max(1, static_cast<int>(std::ceil(length / kPiece)));
+    for (int k = 0; k < pieces; ++k) {
+      const double at = low + length * (k + 0.5) / pieces;
+      const double turn = at / (2.0 * kPi);
+      const int sector = static_cast<int>((turn - std::floor(turn)) * kSectors) % kSectors;
+      for (const double place : {0.0, 0.5, 1.0}) {
+        const double angle = low + length * (k + place) / pieces;
+        sectors[static_cast<std::size_t>(sector)].add(ring, angle);
+        all.add(ring, angle);
+      }
+    }
+  }
+  // How far an arc bows out between points that are half a piece apart.
+  const double bow = stock_.profile().largest() * (1.0 - std::cos(0.25 * kPiece));
+  parts_.clear();
+  for (const Part& part : sectors)
+    if (part.low <= part.high) parts_.push_back(part.disc(bow));
+  return all.disc(bow);
+}
+
+void RowMeter::engage_all(const RowFrame& frame, std::span<const ToolRing> rings, bool rough) {
+  found_.clear();
+  hints_.clear();
+  for (std::size_t k = 0; k < rings.size(); ++k) engage(frame, rings[k], k, rough);
+}
+
+void RowMeter::find_arcs(const RowFrame& frame, double t, std::span<const ToolRing> rings) {
+  own_last_ = t * NearPoses::kOwnIntervals - 1.0;
+  candidates_.clear();
+  const RowDisc tool{0.0, 0.0, stock_.profile().largest(), stock_.profile().low(), stock_.profile().high()};
+  near_.add(frame, tool, {}, own_last_, kRecent, kStride, some_, candidates_);
+  filter_.take(candidates_, true);
+  engage_all(frame, rings, true);
+  // What the first look covers stays covered: the discs hold what it left open, and little else.
+  if (found_.empty()) return;
+  const RowDisc open = discs_of_found(rings);
+  near_.add(frame, open, parts_, own_last_, 0, 1, some_, candidates_);
+  filter_.take(candidates_, false);
+  engage_all(frame, rings, false);
+}
+
+void RowMeter::cut(double low, double high, const Bound& bound) {
+  cut_.clear();
+  for (const Gap& gap : gaps_) {
+    Gap rest = gap;
+    bool left = true;
+    for (const double turn : {-2.0 * kPi, 0.0, 2.0 * kPi}) {
+      const double from = low + turn, to = high + turn;
+      if (!left || to <= rest.low || from >= rest.high) continue;
+      if (from > rest.low) {
+        Gap before = rest;
+        before.high = from;
+        before.at_high = bound;
+        before.to = Vec2(std::cos(from), std::sin(from));
+        cut_.push_back(before);
+      }
+      left = to < rest.high;
+      if (!left) continue;
+      rest.low = to;
+      rest.at_low = bound;
+      rest.from = Vec2(std::cos(to), std::sin(to));
+    }
+    if (left) cut_.push_back(rest);
+  }
+  gaps_.swap(cut_);
+}
+
+void RowMeter::cut_by_blank(const RowFrame& frame, const ToolRing& ring, double motion_angle) {
+  const Vec3 centre = frame.axis.at(ring.z);
+  for (const HalfSpace& h : stock_.blank()) {
+    const double a = h.normal.dot(frame.x), b = h.normal.dot(frame.y), amplitude = ring.radius * std::hypot(a, b);
+    const double room = h.offset - h.normal.dot(centre);
+    if (room >= amplitude) continue;
+    if (room <= -amplitude) {
+      gaps_.clear();
+      return;
+    }
+    const double at = std::remainder(std::atan2(b, a) - motion_angle, 2.0 * kPi), width = std::acos(room / amplitude);
+    cut(at - width, at + width, {});
+  }
+}
+
+bool RowMeter::cut_by(const NearPose& c, const ToolRing& ring, const Vec2& motion) {
+  const double px = c.x0 + ring.z * c.dx, py = c.y0 + ring.z * c.dy;
+  const Vec2 o(motion.x() * px + motion.y() * py, motion.x() * py - motion.y() * px);
+  // An interval that reaches into a gap holds one of its ends, or lies within.
+  const auto matters = [&](double p2) {
+    return std::any_of(gaps_.begin(), gaps_.end(), [&](const Gap& gap) {
+      return (ring.radius * gap.from - o).squaredNorm() < p2 || (ring.radius * gap.to - o).squaredNorm() < p2 ||
+             gap.high - gap.low > 3.0 ||
+             (gap.from.x() * o.y() - gap.from.y() * o.x() > 0.0 && o.x() * gap.to.y() - o.y() * gap.to.x() > 0.0);
+    });
+  };
+  // Most do not reach one even where the tool is thickest: that is cheaper to see than the radius at a height.
+  const double d2 = o.squaredNorm(), largest = stock_.profile().largest(), most = ring.radius + largest;
+  if (d2 >= most * most || !matters(largest * largest)) return true;
+  ToolProfile::Place place;
+  if (!stock_.profile().at(c.h0 + ring.z * c.dh, place)) return true;
+  const double sum = ring.radius + place.radius, less = place.radius - ring.radius;
+  if (d2 >= sum * sum) return true;
+  if (d2 <= less * less) return less < 0.0;
+  const double p2 = place.radius * place.radius;
+  if (!matters(p2)) return true;
+  const double cosine = (ring.radius * ring.radius + d2 - p2) / (2.0 * ring.radius * std::sqrt(d2));
+  const double width = std::acos(std::clamp(cosine, -1.0, 1.0)), at = std::atan2(o.y(), o.x());
+  cut(at - width, at + width, {c.sweep, c.pose});
+  return true;
+}
+
+const std::vector<ReachDisc>& RowMeter::discs_of_gaps(const ToolRing& ring, const Vec2& motion) {
+  reaches_.clear();
+  for (const Gap& gap : gaps_) {
+    const double middle = 0.5 * (gap.low + gap.high), half = 0.5 * (gap.high - gap.low);
+    // The disc over the arc's chord holds the arc, up to half a circle.
+    const double along = half < 0.5 * kPi ? ring.radius * std::cos(half) : 0.0;
+    const double radius = half < 0.5 * kPi ? ring.radius * std::sin(half) : ring.radius;
+    const Vec2 at = along * Vec2(std::cos(middle), std::sin(middle));
+    reaches_.push_back({motion.x() * at.x() - motion.y() * at.y(), motion.y() * at.x() + motion.x() * at.y(),
+                        radius + stock_.profile().largest()});
+  }
+  return reaches_;
+}
+
+void RowMeter::cut_by_poses(const ToolRing& ring, double motion_angle) {
+  const Vec2 motion(std::cos(motion_angle), std::sin(motion_angle));
+  // The poses that end the gaps of one ring end those of the next one, or nearly so: then all others are seen not to matter.
+  bool open = true;
+  for (const std::size_t k : hints_)
+    if (open && !gaps_.empty()) open = cut_by(candidates_[k], ring, motion);
+  if (open && !gaps_.empty())
+    for (const std::size_t k : filter_.reaching(ring.z, discs_of_gaps(ring, motion)))
+      if (open && !gaps_.empty()) open = cut_by(candidates_[k], ring, motion);
+  if (!open) gaps_.clear();
+  hints_.clear();
+  for (const Gap& gap : gaps_)
+    for (const Bound& bound : {gap.at_low, gap.at_high})
+      for (std::size_t k = 0; k < candidates_.size() && bound.sweep != kNoSweep; ++k)
+        if (candidates_[k].sweep == bound.sweep && candidates_[k].pose == bound.pose) {
+          hints_.push_back(k);
+          break;
+        }
+}
+
+SweepPlace RowMeter::place_of(const Bound& bound) const {
+  const Sweep& sweep = sweep_of(bound.sweep);
+  return {&sweep, bound.sweep == kOwnSweep ? own_last_ : sweep.last(), static_cast<double>(bound.pose)};
+}
+
+bool RowMeter::is_sliver(const RingCircle& circle, const Gap& gap) const {
+  if (gap.high - gap.low > kSliver) return false;
+  const Vec3 x = circle.at(0.5 * (gap.low + gap.high));
+  for (const Bound& bound : {gap.at_low, gap.at_high})
+    if (bound.sweep != kNoSweep && is_taken_near(stock_.profile(), place_of(bound), x)) return true;
+  return false;
+}
+
+void RowMeter::settle(const RowFrame& frame, const ToolRing& ring, std::size_t index, double motion_angle, double half,
+                      bool rough) {
+  const Vec3 forward = radial_direction(frame.x, frame.y, motion_angle);
+  const RingCircle circle{frame.axis.at(ring.z), forward, frame.axis.u.cross(forward), ring.radius};
+  const auto end = [&](const Bound& bound, double angle) {
+    return bound.sweep == kNoSweep ? angle : arc_end(stock_.profile(), circle, place_of(bound), angle);
+  };
+  for (const Gap& gap : gaps_) {
+    if (rough) found_.push_back({index, motion_angle, {gap.low, gap.high}});
+    if (rough || is_sliver(circle, gap)) continue;
+    const Arc arc{std::max(-half, end(gap.at_low, gap.low)), std::min(half, end(gap.at_high, gap.high))};
+    if (arc.high > arc.low) found_.push_back({index, motion_angle, arc});
+  }
+}
+
+void RowMeter::engage(const RowFrame& frame, const ToolRing& ring, std::size_t index, bool rough) {
+  const Vec3 v = frame.axis.velocity(ring.s);
+  const double vx = v.dot(frame.x), vy = v.dot(frame.y), across = std::hypot(vx, vy), along = v.dot(frame.axis.u);
+  // <nu, v> = sine <v, u> + cosine |v_perp| cos(theta) > 0.
+  const double c = across > 0.0 ? -ring.sine * along / (ring.cosine * across) : (ring.sine * along > 0.0 ? -2.0 : 2.0);
+  if (c >= 1.0) return;
+  const double half = c <= -1.0 ? kPi : std::acos(c), motion_angle = std::atan2(vy, vx);
+  gaps_.assign(1,
+               Gap{-half, half, {}, {}, Vec2(std::cos(half), -std::sin(half)), Vec2(std::cos(half), std::sin(half))});
+  cut_by_blank(frame, ring, motion_angle);
+  if (!gaps_.empty()) cut_by_poses(ring, motion_angle);
+  settle(frame, ring, index, motion_angle, half, rough);
+}
+
+EngagementRow RowMeter::sum_row(const RowFrame& frame, double t, std::span<const ToolRing> rings) const {
+  EngagementRow row;
+  row.t = t;
+  int flank = 0;
+  auto found = found_.begin();
+  for (std::size_t k = 0; k < rings.size(); ++k) {
+    const ToolRing& ring = rings[k];
+    const Vec3 v = frame.axis.velocity(ring.s);
+    const double along = v.dot(frame.axis.u), across = std::sqrt(std::max(0.0, v.squaredNorm() - along * along));
+    double angle = 0.0;
+    for (; found != found_.end() && found->ring == k; ++found) {
+      const Arc& arc = found->arc;
+      angle += arc.high - arc.low;
+      row.rate_mm3 += ring.area * (ring.sine * along * (arc.high - arc.low) +
+                                   ring.cosine * across * (std::sin(arc.high) - std::sin(arc.low)));
+    }
+    if (!ring.flank) continue;
+    ++flank;
+    row.mean_rad += angle;
+    if (angle <= row.angle_rad) continue;
+    row.angle_rad = angle;
+    row.s = ring.s;
+  }
+  if (flank > 0) row.mean_rad /= flank;
+  return row;
+}
+
+EngagementRow RowMeter::row(const RuledMotion& motion, double t, std::span<const ToolRing> rings) {
+  const RowFrame frame = frame_of(motion, t);
+  find_arcs(frame, t, rings);
+  return sum_row(frame, t, rings);
+}
+
+}  // namespace flank::internal
