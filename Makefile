@@ -41,10 +41,12 @@ test-clients: deps build  ## open what we write in Chromium, FreeCAD and LinuxCN
 
 sanitize: asan tsan  ## run the tests under the address, undefined-behaviour and thread sanitizers
 
-asan tsan: deps
+asan tsan:
+	scripts/install-deps.sh build sanitizers
 	scripts/sanitize.sh $@
 
 fuzz:  ## fuzz every reader of our own for SECONDS (default 60); what is found lies in build/fuzz/found
+	scripts/install-deps.sh build sanitizers
 	cmake --preset fuzz
 	cmake --build --preset fuzz --parallel $(JOBS)
 	mkdir -p build/fuzz/found

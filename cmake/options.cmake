@@ -57,6 +57,15 @@ if(FLANK_SANITIZE)
   add_link_options(-fsanitize=${FLANK_SANITIZE})
   # What the address sanitizer finds anyway; without these, Eigen's expressions compile and run twice as fast.
   add_compile_options(-fno-sanitize=null,alignment,object-size,vptr)
-  # GCC 12 sees uninitialised reads in instrumented Eigen expressions that are none.
-  target_compile_options(flank_warnings INTERFACE -Wno-maybe-uninitialized -Wno-uninitialized)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # It sees uninitialised reads in instrumented Eigen expressions that are none.
+    target_compile_options(flank_warnings INTERFACE -Wno-maybe-uninitialized -Wno-uninitialized)
+  else()
+    # As GCC says it.
+    if(FLANK_SANITIZE MATCHES "address")
+      add_compile_definitions(__SANITIZE_ADDRESS__)
+    elseif(FLANK_SANITIZE MATCHES "thread")
+      add_compile_definitions(__SANITIZE_THREAD__)
+    endif()
+  endif()
 endif()

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages of the named groups, and does nothing at all if they are there already.
-# usage: install-deps.sh [build] [python] [package] [docs] [bench] [dev] [clients]
+# usage: install-deps.sh [build] [python] [package] [docs] [bench] [dev] [sanitizers] [clients]
 set -euo pipefail
 
 build=(g++ cmake ninja-build libeigen3-dev libtbb-dev libfmt-dev nlohmann-json3-dev libcli11-dev libtomlplusplus-dev
@@ -11,6 +11,8 @@ package=(dpkg-dev file python3-wheel)
 docs=(python3-sphinx furo python3-myst-parser python3-breathe doxygen)
 bench=(libbenchmark-dev libembree-dev libfcl-dev)
 dev=(clang-format clang-tidy)
+# What Clang instruments compiles faster than what GCC does, and runs twice as fast.
+sanitizers=(clang libclang-rt-14-dev llvm)
 clients=(chromium freecad-python3 linuxcnc-uspace slurm-wlm munge coinor-cbc)
 # Node.js and npm bundle the report page; a newer one from elsewhere will do, and then the packages would get in its way.
 command -v node > /dev/null || build+=(nodejs)
@@ -25,8 +27,9 @@ for group in "${@:-build}"; do
     docs) wanted+=("${docs[@]}") ;;
     bench) wanted+=("${bench[@]}") ;;
     dev) wanted+=("${dev[@]}") ;;
+    sanitizers) wanted+=("${sanitizers[@]}") ;;
     clients) wanted+=("${clients[@]}") ;;
-    *) echo "install-deps.sh: unknown group '$group' (build, python, package, docs, bench, dev, clients)" >&2; exit 2 ;;
+    *) echo "install-deps.sh: unknown group '$group' (build, python, package, docs, bench, dev, sanitizers, clients)" >&2; exit 2 ;;
   esac
 done
 

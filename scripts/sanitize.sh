@@ -17,7 +17,7 @@ jobs=${JOBS:-$(nproc)}
 cmake --preset "$variant"
 cmake --build --preset "$variant" --parallel "$jobs" "${targets[@]}"
 
-# The thread sanitizer of GCC 12 dies on kernels that randomise addresses widely; setarch -R switches that off where it may.
+# The thread sanitizer dies on kernels that randomise addresses widely; setarch -R switches that off where it may.
 launcher=()
 if [[ $variant == tsan ]] && setarch --addr-no-randomize true 2> /dev/null; then
   launcher=(setarch --addr-no-randomize)

@@ -22,7 +22,7 @@ TEST(FileName, AnyBytesReadBack) {
   for (int k = 0; k < 2000; ++k) {
     std::string name = k % 3 == 0 ? "file:" : "";
     const auto size = static_cast<int>(random.uniform() * 12.0);
-    for (int i = 0; i < size; ++i) name += static_cast<char>(random.uniform() * 255.9);
+    for (int i = 0; i < size; ++i) name += static_cast<char>(static_cast<unsigned char>(random.uniform() * 255.9));
     EXPECT_TRUE(is_utf8(text_of_name(name)));
     EXPECT_EQ(name_of_text(text_of_name(name)), name);
   }

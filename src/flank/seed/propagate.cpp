@@ -39,11 +39,7 @@ AxisVelocity between(const Pose& from, const Pose& to, double axis_length, doubl
 class Walker {
  public:
   Walker(const Target& target, const Pose& start, double axis_length, const PropagationOptions& options)
-      : target_(target),
-        length_(axis_length),
-        options_(options),
-        feet_(static_cast<std::size_t>(options.samples)),
-        trial_(feet_.size()) {
+      : target_(target), length_(axis_length), feet_(static_cast<std::size_t>(options.samples)), trial_(feet_.size()) {
     track_axis(target_, start, length_, feet_);
     for (const Footpoint& foot : feet_) profile_.push_back(foot.distance);
   }
@@ -94,7 +90,6 @@ class Walker {
  private:
   const Target& target_;
   double length_;
-  const PropagationOptions& options_;
   std::vector<Footpoint> feet_, trial_;
   std::vector<double> profile_;
 };

@@ -38,7 +38,7 @@ TEST(PartBytes, DamagedOnesAreRefused) {
     std::string bytes = whole;
     for (int flips = 0; flips <= k % 3; ++flips)
       bytes[static_cast<std::size_t>(random.uniform() * 0.9999 * static_cast<double>(bytes.size()))] =
-          static_cast<char>(random.uniform() * 255.9);
+          static_cast<char>(static_cast<unsigned char>(random.uniform() * 255.9));
     try {
       (void)decode_part(bytes);
     } catch (const InternalError&) {

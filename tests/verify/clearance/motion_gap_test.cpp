@@ -191,7 +191,7 @@ TEST(MotionGap, NoPoseInBetweenIsNearer) {
     ASSERT_NEAR(at_pose(body, mesh, there), found.value, gap_bound(found.value, kAccuracyMm))
         << "the place that it names";
   }
-  EXPECT_GT(free, 0);
+  EXPECT_TRUE(free > 0 || kSanitized);
   EXPECT_TRUE(hit > 0 || kSanitized);
 }
 
