@@ -150,7 +150,9 @@ void note_what_is_open(const TrochoidJob& job, const CavityProgram& program, std
       notes.push_back(fmt::format("layer {}: a half path enters a face by {:.4f} mm, by the planner's samples", k + 1,
                                   cycles.entered_mm()));
   }
-  notes.push_back("the cavity is taken as open at both ends: cycles start and end outside of the blank");
+  notes.push_back(program.walled
+                      ? "a wall closes the cavity at the end: cycles start outside of the blank and end before it"
+                      : "the cavity is taken as open at both ends: cycles start and end outside of the blank");
 }
 
 /// Tool, path and figures of a plan.

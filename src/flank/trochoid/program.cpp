@@ -205,6 +205,7 @@ CavityProgram plan_program(const std::vector<RuledMotion>& sides, const RadialFu
   const HalfGuard guard(faces, radial);
   const std::vector<LayerSides> layers = order_layers(sides, options, radial.largest(), guard);
   if (layers.empty()) return out;
+  out.walled = layers.front().from.stops_at_end();
   out.blank = cavity_blank(layers, left, right);
   const HalfSpace& top = out.blank.back();
   SweptStock stock(radial, out.blank);

@@ -31,6 +31,7 @@ struct CavityProgram {
   std::vector<PlannedLayer> layers;
   std::vector<HalfSpace> blank;
   double chord_bound_mm = 0.0;
+  bool walled = false;  ///< the side paths end at a wall
   [[nodiscard]] bool done() const;
   /// Deepest that a half enters a face, by the planner's samples.
   [[nodiscard]] double entered_mm() const;
