@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <string>
 
+#include "asked_for.h"
 #include "flank/example/example.h"
 #include "flank/example/example_write.h"
 #include "flank/run.h"
@@ -19,6 +20,7 @@ namespace {
 
 using namespace flank;
 using namespace flank::internal;
+using bench::asked_for;
 
 /// Of the free-form cavity that paper C gives the size of, mm.
 constexpr double kWidth = 35.0, kDepth = 42.0, kLength = 50.0, kTwist = 16.0, kTolerance = 0.02;
@@ -106,12 +108,6 @@ void thickness() {
     std::snprintf(label, sizeof label, "%.0f %% of %.2f mm", 100.0 * share, most);
     row(label, job);
   }
-}
-
-bool asked_for(const std::string& name, int argc, char** argv) {
-  for (int k = 1; k < argc; ++k)
-    if (name.find(argv[k]) != std::string::npos) return true;
-  return argc < 2;
 }
 
 }  // namespace

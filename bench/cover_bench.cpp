@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "asked_for.h"
 #include "flank/base/atomic_file.h"
 #include "flank/error.h"
 #include "flank/example/example.h"
@@ -23,6 +24,7 @@ namespace {
 
 using namespace flank;
 using namespace flank::internal;
+using bench::asked_for;
 
 constexpr std::uint64_t kSeeds = 5;
 
@@ -104,12 +106,6 @@ void rows(const Scene& scene) {
     job.seed = seed;
     row(scene, job, "curves " + std::to_string(seed));
   }
-}
-
-bool asked_for(const std::string& name, int argc, char** argv) {
-  for (int k = 1; k < argc; ++k)
-    if (name.find(argv[k]) != std::string::npos) return true;
-  return argc < 2;
 }
 
 }  // namespace
