@@ -7,25 +7,16 @@
 #include "flank/pipeline/folder/judge_job.h"
 #include "flank/verify/sample_face.h"
 #include "obstacle/obstacle_scene.h"
+#include "verify/buried_scene.h"
 
 namespace flank::internal {
 namespace {
 
-constexpr double kRadius = 1.0, kLength = 8.0;
+using testing::along;
+using testing::cylinder;
+using testing::kRadius;
+
 const Vec3 kLow(0, -20, 0), kHigh(40, 0, 20);
-
-Tool cylinder() {
-  Tool tool;
-  tool.radial = RadialFunction(ToolFamily::kCylinder, kLength, Eigen::VectorXd::Constant(1, kRadius));
-  return tool;
-}
-
-/// Along x beside the face y = 0, or inside it for y < 0.
-Strip along(double y) {
-  Strip strip;
-  for (int k = 0; k <= 10; ++k) strip.poses.push_back({Vec3(3.0 + 3.4 * k, y, 6.0), Vec3::UnitZ()});
-  return strip;
-}
 
 /// A block whose face F1 is y = 0; normals outwards.
 Part block() {

@@ -3,25 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include "verify/buried_scene.h"
 #include "verify/faces.h"
 
 namespace flank::internal::verify {
 namespace {
 
-constexpr double kRadius = 1.0, kLength = 8.0;
-
-Tool cylinder() {
-  Tool tool;
-  tool.radial = RadialFunction(ToolFamily::kCylinder, kLength, Eigen::VectorXd::Constant(1, kRadius));
-  return tool;
-}
-
-/// Along x at z from 6, upright, at y.
-Strip along(double y) {
-  Strip strip;
-  for (int k = 0; k <= 10; ++k) strip.poses.push_back({Vec3(2.0 + 3.6 * k, y, 6.0), Vec3::UnitZ()});
-  return strip;
-}
+using testing::along;
+using testing::cylinder;
+using testing::kRadius;
 
 /// [0, 40] x [-20, 0] x [0, 20], outwards or inwards.
 TriangleMesh block(bool outwards = true) {
@@ -44,7 +34,7 @@ TEST(BuriedStrips, InsideASolidIsNotBesideIt) {
     const std::vector<BuriedStrip> buried = strips_in_solids(solids, cylinder(), path);
     ASSERT_EQ(buried.size(), 1u);
     EXPECT_EQ(buried.front().strip, 1);
-    EXPECT_LT((buried.front().point - Vec3(2.0, -kRadius, 10.0)).norm(), 1e-12);
+    EXPECT_LT((buried.front().point - Vec3(3.0, -kRadius, 10.0)).norm(), 1e-12);
   }
 }
 
@@ -64,11 +54,11 @@ TEST(BuriedStrips, TheOtherSideOfAThinBladeIsNotBehindIt) {
   // A sheet 0.2 mm behind the one that is machined: nearer than the radius, farther than the tolerance.
   Face face = test::plane_face("F1", 40.0, 20.0);
   const FaceSamples sheet = sample_face(face, 0.5, true);
-  int asked = 0;
   const double y = 0.2 + kRadius;
-  const std::vector<SideVotes> votes = side_votes(cylinder(), {{along(y), along(-y)}}, sheet, 0.01, asked);
-  EXPECT_TRUE(strips_behind(votes, asked, +1).empty());
-  EXPECT_TRUE(strips_behind(votes, asked, -1).empty());
+  const Path path{{along(y), along(-y)}};
+  const SheetVotes votes = side_votes(SweptVolume(cylinder(), path), path, sheet, 0.01);
+  EXPECT_TRUE(strips_behind(votes, +1).empty());
+  EXPECT_TRUE(strips_behind(votes, -1).empty());
 }
 
 TEST(BuriedStrips, BehindASheetByItsOwnVotes) {
@@ -78,10 +68,9 @@ TEST(BuriedStrips, BehindASheetByItsOwnVotes) {
   const double front = sheet.normals.front().y();
   ASSERT_NEAR(std::abs(front), 1.0, 1e-12);
   const Path path{{along(front * kRadius), along(-front * kRadius), along(30.0)}};
-  int asked = 0;
-  const std::vector<SideVotes> votes = side_votes(cylinder(), path, sheet, 0.01, asked);
-  EXPECT_EQ(votes[0].behind + votes[1].in_front + votes[2].in_front + votes[2].behind, 0);
-  const std::vector<BuriedStrip> plus = strips_behind(votes, asked, +1), minus = strips_behind(votes, asked, -1);
+  const SheetVotes votes = side_votes(SweptVolume(cylinder(), path), path, sheet, 0.01);
+  EXPECT_EQ(votes.strips[0].behind + votes.strips[1].in_front + votes.strips[2].in_front + votes.strips[2].behind, 0);
+  const std::vector<BuriedStrip> plus = strips_behind(votes, +1), minus = strips_behind(votes, -1);
   ASSERT_EQ(plus.size(), 1u);
   EXPECT_EQ(plus.front().strip, 1);
   EXPECT_NEAR(plus.front().point.y(), 0.0, 1e-12);

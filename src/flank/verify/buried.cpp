@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "flank/verify/clearance/winding.h"
 
@@ -38,8 +39,13 @@ std::vector<BuriedStrip> strips_in_solids(std::span<const TriangleMesh> solids, 
   return out;
 }
 
-std::vector<SideVotes> side_votes(const Tool& tool, const Path& path, const FaceSamples& sheet, double within_mm,
-                                  int& asked) {
+int SheetVotes::side() const {
+  int sum = 0;
+  for (const SideVotes& strip : strips) sum += strip.in_front - strip.behind;
+  return sum < 0 ? -1 : +1;
+}
+
+SheetVotes side_votes(const SweptVolume& volume, const Path& path, const FaceSamples& sheet, double within_mm) {
   const std::size_t stride = std::max<std::size_t>(1, sheet.points.size() / kVotes);
   FaceSamples some;
   std::vector<Vec3> normals;
@@ -47,8 +53,7 @@ std::vector<SideVotes> side_votes(const Tool& tool, const Path& path, const Face
     some.points.push_back(sheet.points[i]);
     normals.push_back(sheet.normals[i]);
   }
-  asked = static_cast<int>(some.points.size());
-  const std::vector<SweptDistance> distances = swept_distances(SweptVolume(tool, path), some, within_mm);
+  const std::vector<SweptDistance> distances = swept_distances(volume, some, within_mm);
   std::vector<SideVotes> votes(path.strips.size());
   std::vector<double> nearest(path.strips.size(), std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < distances.size(); ++i) {
@@ -62,14 +67,15 @@ std::vector<SideVotes> side_votes(const Tool& tool, const Path& path, const Face
     nearest[k] = std::abs(d.f);
     votes[k].point = some.points[i];
   }
-  return votes;
+  return {std::move(votes), static_cast<int>(some.points.size())};
 }
 
-std::vector<BuriedStrip> strips_behind(std::span<const SideVotes> votes, int asked, int side) {
+std::vector<BuriedStrip> strips_behind(const SheetVotes& votes, int side) {
   std::vector<BuriedStrip> out;
-  for (std::size_t k = 0; k < votes.size(); ++k) {
-    const int all = votes[k].in_front + votes[k].behind, against = side > 0 ? votes[k].behind : votes[k].in_front;
-    if (against > kLeastShare * asked && against > kMost * all) out.push_back({static_cast<int>(k), votes[k].point});
+  for (std::size_t k = 0; k < votes.strips.size(); ++k) {
+    const SideVotes& strip = votes.strips[k];
+    const int all = strip.in_front + strip.behind, against = side > 0 ? strip.behind : strip.in_front;
+    if (against > kLeastShare * votes.asked && against > kMost * all) out.push_back({static_cast<int>(k), strip.point});
   }
   return out;
 }

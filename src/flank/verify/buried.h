@@ -22,12 +22,18 @@ struct SideVotes {
   int in_front = 0, behind = 0;  ///< places
   Vec3 point = Vec3::Zero();     ///< the one that the strip is nearest to
 };
-/// Of each strip, at some of the sheet's samples; `asked` gets how many those are.
-[[nodiscard]] std::vector<SideVotes> side_votes(const Tool& tool, const Path& path, const FaceSamples& sheet,
-                                                double within_mm, int& asked);
+struct SheetVotes {
+  std::vector<SideVotes> strips;
+  int asked = 0;  ///< places of the sheet, near to a strip or not
+  /// +1 if more places are in front than behind, or as many; else -1.
+  [[nodiscard]] int side() const;
+};
+/// Of all strips of a path, whose swept volume this is, at some of the sheet's samples.
+[[nodiscard]] SheetVotes side_votes(const SweptVolume& volume, const Path& path, const FaceSamples& sheet,
+                                    double within_mm);
 
 /// The strips that machine a sheet from behind: `side` is +1 where its samples' normals point to the tool, else -1. `votes`
 /// are those within the tolerance.
-[[nodiscard]] std::vector<BuriedStrip> strips_behind(std::span<const SideVotes> votes, int asked, int side);
+[[nodiscard]] std::vector<BuriedStrip> strips_behind(const SheetVotes& votes, int side);
 
 }  // namespace flank::internal::verify

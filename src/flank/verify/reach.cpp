@@ -230,10 +230,7 @@ std::vector<double> reachable_shares(const FaceSamples& target, const std::vecto
 }
 
 int side_of_tool(const Tool& tool, const Path& path, const FaceSamples& sheet) {
-  int votes = 0, asked = 0;
-  for (const SideVotes& strip : side_votes(tool, path, sheet, 0.5 * smallest_radius(tool), asked))
-    votes += strip.in_front - strip.behind;
-  return votes < 0 ? -1 : +1;
+  return side_votes(SweptVolume(tool, path), path, sheet, 0.5 * smallest_radius(tool)).side();
 }
 
 }  // namespace flank::internal

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 
 #include "flank/base/parallel.h"
@@ -106,14 +107,14 @@ std::vector<TriangleMesh> judged_solids(const Setup& setup, const Tool& tool, co
 std::vector<BuriedStrip> find_buried(const Setup& setup, const Tool& tool, const Path& path,
                                      const std::vector<FaceSamples>& samples) {
   std::vector<BuriedStrip> out = verify::strips_in_solids(judged_solids(setup, tool, path), tool, path);
+  std::optional<SweptVolume> volume;  // made for sheets alone
   for (const FaceSamples& sheet : samples) {
     if (sheet.of_solid) continue;
-    int asked = 0, side = 0;
-    const std::vector<verify::SideVotes> votes = verify::side_votes(tool, path, sheet, setup.tolerance_mm, asked);
-    for (const verify::SideVotes& strip : votes) side += strip.in_front - strip.behind;
+    if (!volume) volume.emplace(tool, path);
+    const verify::SheetVotes votes = verify::side_votes(*volume, path, sheet, setup.tolerance_mm);
     // The side that was asked for is that of the first of several sheets; those that are joined to it may be turned.
-    if (setup.side && samples.size() == 1) side = *setup.side;
-    for (const BuriedStrip& strip : verify::strips_behind(votes, asked, side < 0 ? -1 : +1)) out.push_back(strip);
+    const int side = setup.side && samples.size() == 1 ? *setup.side : votes.side();
+    for (const BuriedStrip& strip : verify::strips_behind(votes, side)) out.push_back(strip);
   }
   // One reason a strip is enough.
   std::stable_sort(out.begin(), out.end(),
