@@ -21,8 +21,8 @@ struct CavityShape {
 
 /// Both walls, F1 at +y and F2 at -y, open sheets that look at each other; half a turn about z carries each into the other.
 /// Every section across the channel is the same hollow profile, leaning outwards towards the top, turned by the twist and
-/// shifted along an S: smooth, not ruled, and no envelope of a tool. With an end wall F3 looks along -x. Throws UsageError for sizes that are not > 0, a twist
-/// beyond 60 or a lean beyond 45 degrees, and walls that would meet.
+/// shifted along an S: smooth, not ruled, and no envelope of a tool. With an end wall F3 looks along -x. Throws UsageError
+/// for sizes that are not > 0, a twist beyond 60 or a lean beyond 45 degrees, and walls that would meet.
 [[nodiscard]] std::vector<Face> cavity_walls(const CavityShape& shape);
 
 }  // namespace flank::internal

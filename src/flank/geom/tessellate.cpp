@@ -178,4 +178,10 @@ Tessellation tessellate(const Face& face, const TessellationOptions& options) {
   return out;
 }
 
+void append(TriangleMesh& all, const TriangleMesh& mesh) {
+  const int first = static_cast<int>(all.vertices.size());
+  all.vertices.insert(all.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+  for (const auto& t : mesh.triangles) all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+}
+
 }  // namespace flank::internal

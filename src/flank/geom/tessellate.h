@@ -24,4 +24,7 @@ struct Tessellation {
 /// not above 0.
 [[nodiscard]] Tessellation tessellate(const Face& face, const TessellationOptions& options);
 
+/// Adds the triangles of another mesh, a face beside others, with vertices of their own.
+void append(TriangleMesh& all, const TriangleMesh& mesh);
+
 }  // namespace flank::internal

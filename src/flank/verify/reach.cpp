@@ -12,6 +12,7 @@
 
 #include "flank/base/parallel.h"
 #include "flank/error.h"
+#include "flank/geom/tessellate.h"
 #include "flank/geom/triangle_bvh.h"
 #include "flank/verify/buried.h"
 #include "flank/verify/clearance/obstacle_tree.h"
@@ -30,12 +31,6 @@ constexpr std::size_t kLeastBlock = 8;  ///< so few balls are measured one by on
 constexpr double kRounding = 1e-9;      ///< relative: widens a ball by more than round-off can shrink it
 constexpr int kStackSize =
     128;  ///< each level leaves one node behind, and a tree that halves is 31 levels deep at most
-
-void append(TriangleMesh& all, const TriangleMesh& mesh) {
-  const int first = static_cast<int>(all.vertices.size());
-  all.vertices.insert(all.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
-  for (const auto& t : mesh.triangles) all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-}
 
 double triangle_distance(const ObstacleTree& tree, int triangle, const Vec3& x) {
   const auto& v = tree.corners(triangle);

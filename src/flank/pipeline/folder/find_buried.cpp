@@ -44,11 +44,7 @@ TriangleMesh joined(const Part& part, const std::vector<int>& faces, double chor
         tessellate(part.faces[static_cast<std::size_t>(faces[k])], {.chord_mm = chord_mm, .edge_mm = 1e300}).mesh;
   });
   TriangleMesh all;
-  for (const TriangleMesh& mesh : meshes) {
-    const int first = static_cast<int>(all.vertices.size());
-    all.vertices.insert(all.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
-    for (const auto& t : mesh.triangles) all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-  }
+  for (const TriangleMesh& mesh : meshes) append(all, mesh);
   return all;
 }
 

@@ -6,6 +6,7 @@
 
 #include "flank/base/parallel.h"
 #include "flank/error.h"
+#include "flank/geom/tessellate.h"
 #include "flank/verify/clearance/flank_profile.h"
 #include "flank/verify/clearance/motion_gap.h"
 #include "flank/verify/swept/pose_tree.h"
@@ -33,9 +34,7 @@ Scene scene_of(const std::vector<Obstacle>& obstacles, ObstacleRole role) {
   for (std::size_t k = 0; k < obstacles.size(); ++k) {
     const Obstacle& o = obstacles[k];
     if (o.role != role || o.mesh.triangles.empty()) continue;
-    const int first = static_cast<int>(all.vertices.size());
-    all.vertices.insert(all.vertices.end(), o.mesh.vertices.begin(), o.mesh.vertices.end());
-    for (const auto& t : o.mesh.triangles) all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    append(all, o.mesh);
     scene.obstacle_of.resize(all.triangles.size(), static_cast<int>(k));
     scene.deviation_mm = std::max(scene.deviation_mm, o.deviation_mm);
   }
