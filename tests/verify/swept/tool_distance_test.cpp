@@ -46,5 +46,41 @@ TEST(ToolDistance, MinimaAreThoseOfAllNodes) {
   }
 }
 
+/// A cylinder whose meridian turns up sharply at its upper end, as a free tool's may.
+RadialFunction peaked() {
+  Eigen::VectorXd c = Eigen::VectorXd::Constant(24, 6.0);
+  c[23] = 6.6;
+  return RadialFunction::spline(40.0, c);
+}
+
+TEST(ToolDistance, FewerMinimaAreBelowWhereTheMeridianIsFlat) {
+  const RadialFunction shapes[] = {
+      peaked(), RadialFunction::spline(60.0, (Eigen::VectorXd(7) << 3.0, 1.0, 4.0, 0.8, 3.5, 1.2, 4.0).finished())};
+  for (const RadialFunction& shape : shapes) {
+    const ToolDistance tool(shape);
+    Random random(11);
+    int told = 0;
+    for (int k = 0; k < 20000; ++k) {
+      const double z = random.uniform(-10.0, 70.0), rho = random.uniform(0.0, 20.0);
+      const double below = random.uniform(-3.0, 10.0), focal = tool.focal_curvature(z, rho, below);
+      ASSERT_LE(focal, tool.focal_curvature());
+      if (rho * focal >= 1.0) continue;
+      told += rho * tool.focal_curvature() >= 1.0;
+      // Minima of the table's nodes lie above those of the tool by up to a step.
+      ASSERT_LE(minima_of_all_nodes(tool.radial(), z, rho, below - tool.radial().step()).size(), 1U)
+          << z << ' ' << rho << ' ' << below;
+    }
+    EXPECT_GT(told, 100) << "where the whole meridian would not tell";
+  }
+}
+
+TEST(ToolDistance, APeakAtAnEndDoesNotMatterElsewhere) {
+  const ToolDistance tool(peaked());
+  EXPECT_GT(6.0 * tool.focal_curvature(), 1.0);
+  EXPECT_LT(6.0 * tool.focal_curvature(20.0, 6.1, 0.2), 0.1);
+  EXPECT_EQ(tool.focal_curvature(38.0, 6.1, 0.5), tool.focal_curvature());
+  EXPECT_EQ(tool.focal_curvature(20.0, 9.0, 0.2), 0.0) << "no sphere is so near";
+}
+
 }  // namespace
 }  // namespace flank::internal::verify

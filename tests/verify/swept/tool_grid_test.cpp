@@ -117,16 +117,5 @@ TEST(ToolGrid, FocalCurvatureIsThatOfTheConcaveMeridian) {
             0.0);
 }
 
-TEST(ToolGrid, NearestSaysWhenAnotherSphereMayBeAsNear) {
-  const ToolDistance waist(tools().back());
-  // Where the nearest sphere changes from one shoulder to the other.
-  double low = 0.0, high = 24.0;
-  while (high - low > 1e-9) (waist.search(0.5 * (low + high), 18.0).s < 12.0 ? low : high) = 0.5 * (low + high);
-  EXPECT_GT(waist.search(high, 18.0).s - waist.search(low, 18.0).s, 5.0);
-  EXPECT_TRUE(waist.nearest(low, 18.0).contested);
-  EXPECT_TRUE(waist.nearest(high, 18.0).contested);
-  EXPECT_FALSE(waist.nearest(12.0, 2.0).contested) << "in the waist";
-}
-
 }  // namespace
 }  // namespace flank::internal::verify

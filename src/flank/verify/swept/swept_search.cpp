@@ -58,9 +58,17 @@ double least_nearby(const DistanceJet& jet, double half) {
 
 }  // namespace
 
-bool SweptSearch::single(double rho) const { return 1.0 - rho * tool_.focal_curvature() > kLeastSingle; }
+// A sphere that is not nearer than the best value by more than the moves stays above it.
+double SweptSearch::room(double z, double rho, double moves) const {
+  const double everywhere = 1.0 - (rho + moves) * tool_.focal_curvature();
+  if (everywhere > kLeastSteady) return everywhere;
+  return 1.0 - (rho + moves) * tool_.focal_curvature(z, rho, best_.f + moves);
+}
+
+bool SweptSearch::single(const PlanePoint& at, double moves) const { return room(at.z, at.rho, moves) > kLeastSingle; }
 
 // The second-order bound of docs/algorithms/judge.md, or the first-order one where that does not hold or is not needed.
+// Spheres that stay above the best value are left out of it, so that it promises no more than that.
 double SweptSearch::bound(const PoseNode& node) const {
   const Vec3 d = x_ - node.tip;
   const double z = d.dot(node.axis);
@@ -70,8 +78,10 @@ double SweptSearch::bound(const PoseNode& node) const {
   const double plain = estimate.bound - node.reach;
   if (plain >= best_.f - kSlackMm) return plain;
   const double distance = std::sqrt((z - estimate.s) * (z - estimate.s) + squared_rho);
-  const bool steady = 1.0 - rho * tool_.focal_curvature() > kLeastSteady;
-  if (!steady || distance < kFarReaches * node.reach) return plain;
+  if (distance < kFarReaches * node.reach) return plain;
+  // The grid's s is made of the nearest spheres at the corners of a cell: they count as well.
+  const double steady = room(z, rho, node.reach + 2.0 * estimate.cell);
+  if (!(steady > kLeastSteady)) return plain;
   // The sphere at about the minimiser is above g by no more than its curvature over s allows; closer than the grid's
   // own bound.
   double least = estimate.bound;
@@ -83,15 +93,15 @@ double SweptSearch::bound(const PoseNode& node) const {
   const Vec3 n = inverse * (d - estimate.s * node.axis);
   const Vec3 v = node.half_tip + estimate.s * node.half_turn;
   const double nv = std::abs(n.dot(v)), nu = inverse * (z - estimate.s);
-  const double growth = (1.0 - rho * tool_.focal_curvature()) * squared_rho * inverse * inverse * inverse -
-                        kSafety * 2.0 * inverse * (node.reach * inverse + node.turn);
+  const double growth =
+      steady * squared_rho * inverse * inverse * inverse - kSafety * 2.0 * inverse * (node.reach * inverse + node.turn);
   if (!(growth > 0.0)) return plain;
   const double change = (std::abs(v.dot(node.axis)) + nu * nv) * inverse + std::abs(n.dot(node.half_turn));
   const double slack =
       kSafety * 0.5 * change * change / growth + (change + growth * estimate.s_error) * estimate.s_error;
   const double rise = kCurvatureShare * (v.squaredNorm() - nv * nv) * inverse;
   const double fall = nv < rise ? 0.5 * nv * nv / rise : nv - 0.5 * rise;
-  return std::max(plain, least - fall - node.bend - slack);
+  return std::max(plain, std::min(best_.f, least - fall - node.bend - slack));
 }
 
 // As open_leaf and open_single do with a piece: what a path of short steps is made of is not opened step by step.
@@ -99,9 +109,10 @@ double SweptSearch::close_bound(const PoseNode& node) const {
   const PlanePoint at = plane_point(node.tip, node.axis, x_);
   const NearestSphere sphere = tool_.nearest(at.z, at.rho);
   const double plain = sphere.g - node.reach;
-  if (plain >= best_.f - kSlackMm || !single(at.rho + node.reach)) return plain;
+  if (plain >= best_.f - kSlackMm || !single(at, node.reach)) return plain;
   if (std::hypot(at.z - sphere.s, at.rho) < kNearReaches * node.reach) return plain;
-  return std::max(plain, least_nearby(linear_jet(node, tool_.radial(), x_, sphere.s), 1.0) - node.bend);
+  const double least = least_nearby(linear_jet(node, tool_.radial(), x_, sphere.s), 1.0) - node.bend;
+  return std::max(plain, std::min(best_.f, least));
 }
 
 bool SweptSearch::neighbours(int k, int next) const {
@@ -142,7 +153,7 @@ void SweptSearch::follow(int at, SegmentMinimum found) {
   if (found.f >= best_.f) return;
   keep(found, at);
   const Pose pose = segment(piece(at)).at(found.tau);
-  settled_ = single(plane_point(pose.tip, pose.axis, x_).rho + 2.0 * tree_.piece_reach) ? at : -1;
+  settled_ = single(plane_point(pose.tip, pose.axis, x_), 2.0 * tree_.piece_reach) ? at : -1;
 }
 
 void SweptSearch::open_single(const PoseNode& node, const NearestSphere& sphere) {
@@ -185,7 +196,7 @@ void SweptSearch::open_leaf(const PoseNode& node) {
   if (distance < kNearReaches * node.reach) {
     const Piece& p = piece(node.first_piece);
     keep(bracketed_minimum(segment(p), tool_, x_, p.low, p.high), node.first_piece);
-  } else if (single(at.rho + node.reach)) {
+  } else if (single(at, node.reach)) {
     open_single(node, sphere);
   } else {
     open_forked(node);

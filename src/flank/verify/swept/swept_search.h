@@ -28,7 +28,11 @@ class SweptSearch {
  private:
   [[nodiscard]] double bound(const PoseNode& node) const;        ///< <= f over all poses of the node
   [[nodiscard]] double close_bound(const PoseNode& node) const;  ///< the same for nodes no longer than a piece may be
-  [[nodiscard]] bool single(double rho) const;                   ///< one minimum over s is certain
+  /// The least of 1 - rho q' (docs/algorithms/judge.md) over the spheres that can be nearer than the best value at any
+  /// pose that moves them by at most `moves` from a pose that has the point at (z, rho), mm.
+  [[nodiscard]] double room(double z, double rho, double moves) const;
+  /// One minimum over s is certain: of those below the best value, at all such poses.
+  [[nodiscard]] bool single(const PlanePoint& at, double moves) const;
   [[nodiscard]] const Piece& piece(int k) const { return tree_.pieces[static_cast<std::size_t>(k)]; }
   [[nodiscard]] const Segment& segment(const Piece& p) const {
     return tree_.segments[static_cast<std::size_t>(p.segment)];

@@ -15,20 +15,36 @@ constexpr double kNarrowed = 1e-3;
 /// of L.
 constexpr double kAgreedSteps = 4.0, kAgreedShare = 0.05;
 
-double largest_focal_curvature(const RadialTable& radial) {
-  double largest = 0.0;
-  for (int i = 0; i <= 4 * radial.count(); ++i) {
-    const RadialJet j = radial.at(0.25 * i * radial.step());
+/// The largest in each cell, of five places of it.
+std::vector<double> focal_curvatures(const RadialTable& radial) {
+  const auto at = [&](int quarter) {
+    const RadialJet j = radial.at(0.25 * quarter * radial.step());
     const double q = std::max(kLeastQ, 1.0 - j.d1 * j.d1);
-    largest = std::max(largest, j.d2 / (q * std::sqrt(q)));
-  }
-  return largest;
+    return j.d2 / (q * std::sqrt(q));
+  };
+  std::vector<double> out(static_cast<std::size_t>(radial.count()), 0.0);
+  for (int i = 0; i < radial.count(); ++i)
+    for (int k = 0; k <= 4; ++k)
+      out[static_cast<std::size_t>(i)] = std::max(out[static_cast<std::size_t>(i)], at(4 * i + k));
+  return out;
+}
+
+/// No radius in the cell is larger: between two nodes r leaves theirs by at most half a cell of slope 1.
+std::vector<double> largest_radii(const RadialTable& radial) {
+  std::vector<double> out;
+  for (int i = 0; i < radial.count(); ++i)
+    out.push_back(std::max(radial.node_radius(i), radial.node_radius(i + 1)) + 0.5 * radial.step());
+  return out;
 }
 
 }  // namespace
 
 ToolDistance::ToolDistance(const RadialFunction& radial)
-    : radial_(radial), focal_curvature_(largest_focal_curvature(radial_)), grids_(tool_grids(radial_)) {}
+    : radial_(radial),
+      bends_(focal_curvatures(radial_)),
+      radii_(largest_radii(radial_)),
+      focal_curvature_(bends_.over_all()),
+      grids_(tool_grids(radial_)) {}
 
 // The least value near a node of the radial table: golden section between its neighbours, then the stationary point.
 NearestSphere ToolDistance::narrow(double z, double rho, int node) const {
@@ -43,12 +59,12 @@ NearestSphere ToolDistance::narrow(double z, double rho, int node) const {
       a = c, c = d, vc = vd, d = a + kGolden * (b - a), vd = sphere_distance(radial_, z, rho, d);
     }
   }
-  NearestSphere found{sphere_distance(radial_, z, rho, 0.5 * (a + b)), 0.5 * (a + b), false};
+  NearestSphere found{sphere_distance(radial_, z, rho, 0.5 * (a + b)), 0.5 * (a + b)};
   const double at_node = sphere_distance(radial_, z, rho, radial_.node(node));
-  if (at_node < found.g) found = {at_node, radial_.node(node), false};
+  if (at_node < found.g) found = {at_node, radial_.node(node)};
   double polished = found.s;
   if (polish_sphere(radial_, z, rho, polished) && sphere_distance(radial_, z, rho, polished) <= found.g)
-    found = {sphere_distance(radial_, z, rho, polished), polished, false};
+    found = {sphere_distance(radial_, z, rho, polished), polished};
   return found;
 }
 
@@ -61,7 +77,7 @@ NearestSphere ToolDistance::search(double z, double rho) const {
   };
   double least = at_node(0);
   for (int i = 1; i <= radial_.count(); ++i) least = std::min(least, at_node(i));
-  NearestSphere best{1e300, 0.0, false};
+  NearestSphere best{1e300, 0.0};
   for (int i = 0; i <= radial_.count(); ++i) {
     const double here = at_node(i);
     // Ties count as minima on both sides: better one search too many than a minimum missed.
@@ -74,22 +90,40 @@ NearestSphere ToolDistance::search(double z, double rho) const {
   return best;
 }
 
+// sqrt((z - s)^2 + rho^2) < below + r(s) bounds |z - s|.
+ToolDistance::Cells ToolDistance::cells_below(double z, double rho, double below, double largest) const {
+  const double reach = below + largest;
+  if (!(reach > rho)) return {};
+  const double window = std::min(std::sqrt(reach * reach - rho * rho), 1e3 * radial_.length() + std::abs(z));
+  const auto cell_at = [&](double s) {
+    return std::clamp(s / radial_.step(), -1.0, static_cast<double>(radial_.count()));
+  };
+  const int first = static_cast<int>(std::floor(cell_at(z - window))), last = static_cast<int>(cell_at(z + window));
+  return {std::max(0, first), z + window < 0.0 ? -1 : std::min(radial_.count() - 1, last)};
+}
+
+double ToolDistance::focal_curvature(double z, double rho, double below) const {
+  if (focal_curvature_ == 0.0) return 0.0;
+  const auto over = [](const RangeMaximum& values, const Cells& cells) {
+    return values.over(static_cast<std::size_t>(cells.first), static_cast<std::size_t>(cells.last));
+  };
+  Cells cells = cells_below(z, rho, below, radial_.largest_radius());
+  if (cells.first > cells.last) return 0.0;
+  cells = cells_below(z, rho, below, over(radii_, cells));
+  return cells.first > cells.last ? 0.0 : over(bends_, cells);
+}
+
 int ToolDistance::minima(double z, double rho, double below, std::array<double, kMostMinima>& s) const {
   const double limit = below + radial_.step();
-  // Only spheres whose centre is near enough can be below the limit.
-  const double reach = limit + radial_.largest_radius();
-  if (!(reach > rho)) return 0;
-  const double window = std::min(std::sqrt(reach * reach - rho * rho), 1e3 * radial_.length() + std::abs(z));
-  const auto node_at = [&](double x) {
-    return static_cast<int>(std::clamp(x / radial_.step(), -2.0, radial_.count() + 2.0));
-  };
-  const int first = std::max(0, node_at(z - window) - 1), last = std::min(radial_.count(), node_at(z + window) + 1);
+  const Cells cells = cells_below(z, rho, limit, radial_.largest_radius());
+  if (cells.first > cells.last) return 0;
+  const int first = std::max(0, cells.first - 1), last = std::min(radial_.count(), cells.last + 2);
   const auto at_node = [&](int i) {
     const double dz = z - radial_.node(i);
     return std::sqrt(dz * dz + rho * rho) - radial_.node_radius(i);
   };
   int count = 0;
-  double before = first > 0 ? at_node(first - 1) : 1e300, here = at_node(std::min(first, radial_.count()));
+  double before = first > 0 ? at_node(first - 1) : 1e300, here = at_node(first);
   for (int i = first; i <= last; ++i) {
     const double after = i < radial_.count() ? at_node(i + 1) : 1e300;
     if (here <= before && here < after && here < limit && count < kMostMinima)
@@ -101,28 +135,37 @@ int ToolDistance::minima(double z, double rho, double below, std::array<double, 
 }
 
 NearestSphere ToolDistance::nearest(double z, double rho) const {
-  const bool single = rho * focal_curvature_ < kSingleMinimum;
-  if (const ToolGrid* grid = grid_around(z, rho)) {
-    double fz = 0.0, fr = 0.0;
-    const ToolGrid::Node* lower = grid->cell(z, rho, fz, fr);
-    const ToolGrid::Node* upper = lower + grid->columns;
-    const auto [low, high] = std::minmax({lower[0].s, lower[1].s, upper[0].s, upper[1].s});
-    // With several minima the grid is trusted only where all corners of the cell agree on one.
-    const double agreed = std::min(kAgreedSteps * (grid->z_step + grid->rho_step), kAgreedShare * radial_.length());
-    if (single || high - low < agreed) {
-      double s = single ? grid->interpolate(z, rho).s : 0.5 * (static_cast<double>(low) + high);
-      if (polish_sphere(radial_, z, rho, s)) return {sphere_distance(radial_, z, rho, s), s, false};
-    }
+  const ToolGrid* grid = grid_around(z, rho);
+  if (grid == nullptr) return search(z, rho);
+  double s = grid->interpolate(z, rho).s;
+  if (rho * focal_curvature_ >= kSingleMinimum) {
+    // The nearest sphere is no farther than this one: if only one minimum is below it, Newton's method finds that.
+    const double value = sphere_distance(radial_, z, rho, s);
+    if (rho * focal_curvature(z, rho, value) >= kSingleMinimum) return nearest_of_several(*grid, z, rho);
+    if (!polish_sphere(radial_, z, rho, s)) return search(z, rho);
+    const double found = sphere_distance(radial_, z, rho, s);
+    return found <= value ? NearestSphere{found, s} : search(z, rho);
   }
-  NearestSphere best = search(z, rho);
-  best.contested = !single;
-  return best;
+  if (polish_sphere(radial_, z, rho, s)) return {sphere_distance(radial_, z, rho, s), s};
+  return search(z, rho);
+}
+
+// The grid is trusted only where all corners of the cell agree on one minimum.
+NearestSphere ToolDistance::nearest_of_several(const ToolGrid& grid, double z, double rho) const {
+  double fz = 0.0, fr = 0.0;
+  const ToolGrid::Node* lower = grid.cell(z, rho, fz, fr);
+  const ToolGrid::Node* upper = lower + grid.columns;
+  const auto [low, high] = std::minmax({lower[0].s, lower[1].s, upper[0].s, upper[1].s});
+  const double agreed = std::min(kAgreedSteps * (grid.z_step + grid.rho_step), kAgreedShare * radial_.length());
+  double s = 0.5 * (static_cast<double>(low) + high);
+  if (high - low < agreed && polish_sphere(radial_, z, rho, s)) return {sphere_distance(radial_, z, rho, s), s};
+  return search(z, rho);
 }
 
 Estimate ToolDistance::beyond_grids(double z, double rho) const {
   const double beyond = std::max({-z, z - radial_.length(), 0.0});
   return {std::sqrt(beyond * beyond + rho * rho) - radial_.largest_radius(), std::clamp(z, 0.0, radial_.length()),
-          radial_.length(), true};
+          radial_.length(), true, 0.0};
 }
 
 }  // namespace flank::internal::verify

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "flank/verify/swept/radial_table.h"
+#include "flank/verify/swept/range_maximum.h"
 #include "flank/verify/swept/tool_grid.h"
 
 namespace flank::internal::verify {
@@ -15,9 +16,6 @@ namespace flank::internal::verify {
 struct NearestSphere {
   double g = 0.0;  ///< signed distance to the tool, mm
   double s = 0.0;  ///< centre of the sphere on the axis, mm, in [0, L]
-  /// Another local minimum over s may be as good a small step away from (z, rho): the caller must not follow s by
-  /// continuity.
-  bool contested = false;
 };
 
 /// z and rho >= 0 are the point's place in the tool's own frame: along the axis from the tip, and from the axis
@@ -46,9 +44,20 @@ class ToolDistance {
   /// Upper bound of r''/(1 - r'^2)^(3/2) over s, at least 0. For rho times this under 1 there is one local minimum over
   /// s at most.
   [[nodiscard]] double focal_curvature() const { return focal_curvature_; }
+  /// The same over the spheres alone that can be nearer than `below`: of the minima lower than that there is one at most
+  /// where rho times this is under 1. A peak at one end of a meridian does not make minima elsewhere.
+  [[nodiscard]] double focal_curvature(double z, double rho, double below) const;
 
  private:
+  /// Cells of the radial table; none where last < first.
+  struct Cells {
+    int first = 0, last = -1;
+  };
+  /// Those that hold the centres of all spheres nearer than `below`, if none is larger than `largest`.
+  [[nodiscard]] Cells cells_below(double z, double rho, double below, double largest) const;
   [[nodiscard]] NearestSphere narrow(double z, double rho, int node) const;
+  /// nearest() where several minima over s may compete.
+  [[nodiscard]] NearestSphere nearest_of_several(const ToolGrid& grid, double z, double rho) const;
   [[nodiscard]] const ToolGrid* grid_around(double z, double rho) const {
     for (const ToolGrid& grid : grids_)
       if (grid.contains(z, rho)) return &grid;
@@ -57,6 +66,7 @@ class ToolDistance {
   [[nodiscard]] Estimate beyond_grids(double z, double rho) const;
 
   RadialTable radial_;
+  RangeMaximum bends_, radii_;  ///< focal curvature and radius in each cell of the radial table
   double focal_curvature_ = 0.0;
   std::array<ToolGrid, kToolGrids> grids_;
 };

@@ -16,6 +16,7 @@ struct Estimate {
   double s = 0.0;        ///< about the minimiser
   double s_error = 0.0;  ///< s is this near to the minimiser if there is only one
   bool near_end = true;  ///< s may be held by an end of the axis
+  double cell = 0.0;     ///< how far the places from which s is interpolated are at most, mm
 };
 
 /// Nodes at equal steps over [z_first, z_last] x [0, rho_last], mm.
@@ -51,7 +52,7 @@ struct ToolGrid {
     // Where s runs into an end of the axis its interpolation has a kink.
     const bool near_end = s < 2.0 * z_step || s > s_end;
     return {w00 * a[0].bound + w01 * a[1].bound + w10 * b[0].bound + w11 * b[1].bound, s,
-            (near_end ? 0.3 : 0.03) * z_step, near_end};
+            (near_end ? 0.3 : 0.03) * z_step, near_end, z_step + rho_step};
   }
 };
 
