@@ -35,9 +35,10 @@ class DexelField {
   double subtract(int row, int line, double low, double high);
   /// Narrows [low, high] to its part from the first material to the last; false: there is none.
   [[nodiscard]] bool meets(int row, int line, double& low, double& high) const;
-  [[nodiscard]] bool is_empty(int row, int line) const {
+  /// Whether there may be material between two places: sure where the line has only one stretch.
+  [[nodiscard]] bool may_meet(int row, int line, double low, double high) const {
     const Node& node = rows_[static_cast<std::size_t>(row)].nodes[static_cast<std::size_t>(line)];
-    return node.next < 0 && !(node.span.low < node.span.high);
+    return node.next >= 0 || (node.span.low < node.span.high && node.span.low < high && node.span.high > low);
   }
   /// Whether there is material at a place of the line.
   [[nodiscard]] bool holds(int row, int line, double place) const;

@@ -147,9 +147,12 @@ double cut_row(DexelField& field, const ToolSolid& tool, const Pose& pose, int r
       std::min(field.width() - 1, clipped(std::floor(field.line_at(std::max(u, v) + reach.radius)), field.width()));
   x[b] = u;  // near the tool, so that the polynomials are exact to round-off there
   const RowLines lines(field, pose, x);
+  // Of the axis within reach, and as far beside it: beyond, the row's lines are not touched.
+  const double p = pose.at(reach.from)[field.axis()], q = pose.at(reach.to)[field.axis()];
+  const double low = std::min(p, q) - reach.radius, high = std::max(p, q) + reach.radius;
   double removed = 0.0;
   for (int line = left; line <= right; ++line) {
-    if (field.is_empty(row, line)) continue;
+    if (!field.may_meet(row, line, low, high)) continue;
     const ToolLine seen = lines.at(field.place_across(line) - u);
     LineCut within;
     if (!tool.reach(seen, reach.radius, within) || !field.meets(row, line, within.low, within.high)) continue;

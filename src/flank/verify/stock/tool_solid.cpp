@@ -11,6 +11,8 @@ namespace {
 
 /// Joins stretches whose ends differ by rounding alone, mm.
 constexpr double kJoin = 1e-9;
+/// Squared sine of the angle to the axis up to which a line counts as parallel to it.
+constexpr double kParallel = 1e-14;
 
 /// Meridian and round ends as one curve of a parameter that rises with the height: the ends' angles, then s, then angles.
 class Outline {
@@ -83,6 +85,18 @@ ToolSolid::ToolSolid(const RadialFunction& radial, double chord_mm) : chord_(cho
       block.largest = std::max(block.largest, nodes_[k].y());
     }
   }
+  std::vector<double> radii;
+  for (std::size_t k = 0; k + 1 < nodes_.size(); ++k) radii.push_back(std::max(nodes_[k].y(), nodes_[k + 1].y()));
+  radii_.emplace(std::move(radii));
+  constexpr std::size_t kShelves = 4;  // a cone
+  const std::size_t shelves = kShelves * nodes_.size();
+  shelves_per_mm_ = static_cast<double>(shelves) / (high() - low());
+  std::size_t cone = 0;
+  for (std::size_t k = 0; k <= shelves; ++k) {
+    const double z = low() + static_cast<double>(k) / shelves_per_mm_;
+    while (cone + 2 < nodes_.size() && nodes_[cone + 1].x() <= z) ++cone;
+    shelves_.push_back(cone > 0 ? cone - 1 : 0);  // one below: rounding
+  }
 }
 
 ToolLine ToolSolid::line(const Pose& pose, const Vec3& point, const Vec3& direction) {
@@ -98,15 +112,10 @@ ToolLine ToolSolid::line(const Pose& pose, const Vec3& point, const Vec3& direct
 }
 
 double ToolSolid::largest(double from, double to) const {
-  if (to <= low() || from >= high()) return 0.0;
-  double out = 0.0;
-  const std::size_t last = cone_at(to) + 1;
-  for (std::size_t node = cone_at(from); node <= last; ++node) out = std::max(out, nodes_[node].y());
-  return out;
+  return to <= low() || from >= high() ? 0.0 : radii_->over(cone_at(from), cone_at(to));
 }
 
 bool ToolSolid::reach(const ToolLine& line, double radius, LineCut& within) const {
-  constexpr double kParallel = 1e-14;
   const double excess = line.c - radius * radius;
   within = {-1e30, 1e30};
   if (line.a > kParallel) {
@@ -128,10 +137,19 @@ bool ToolSolid::reach(const ToolLine& line, double radius, LineCut& within) cons
 }
 
 std::size_t ToolSolid::cone_at(double z) const {
-  const auto above = std::upper_bound(nodes_.begin(), nodes_.end(), z,
-                                      [](double value, const Vec2& node) { return value < node.x(); });
-  const auto index = static_cast<std::size_t>(above - nodes_.begin());
-  return std::clamp<std::size_t>(index, 1, nodes_.size() - 1) - 1;
+  const double shelf = std::clamp((z - low()) * shelves_per_mm_, 0.0, static_cast<double>(shelves_.size() - 1));
+  std::size_t cone = shelves_[static_cast<std::size_t>(shelf)];
+  while (cone + 2 < nodes_.size() && nodes_[cone + 1].x() <= z) ++cone;
+  return cone;
+}
+
+LineCut ToolSolid::narrowed(const ToolLine& line, const LineCut& within, std::size_t first, std::size_t last) const {
+  const double radius = radii_->over(std::min(first, last), std::max(first, last));
+  const double root = line.b * line.b - line.a * (line.c - radius * radius);
+  if (!(line.a > kParallel)) return within;
+  if (root <= 0.0) return {};
+  const double half = std::sqrt(root);
+  return {std::max(within.low, (-line.b - half) / line.a), std::min(within.high, (-line.b + half) / line.a)};
 }
 
 void ToolSolid::add_cone(const ToolLine& line, std::size_t cone, double from, double to, LineCuts& out) const {
@@ -179,10 +197,16 @@ ToolSolid::Side ToolSolid::side_of(const ToolLine& line, const Block& block, dou
   return distance2(nearest) > block.largest * block.largest ? Side::kOutside : Side::kBoth;
 }
 
-LineCuts ToolSolid::cut(const ToolLine& line, const LineCut& within) const {
+LineCuts ToolSolid::cut(const ToolLine& line, const LineCut& reached) const {
   LineCuts out;
-  const double z_low = line.z0 + within.low * line.dz, z_high = line.z0 + within.high * line.dz;
-  const std::size_t first = cone_at(z_low), last = cone_at(z_high);
+  const auto cone_of = [&](double k) { return cone_at(line.z0 + k * line.dz); };
+  std::size_t first = cone_of(reached.low), last = cone_of(reached.high);
+  LineCut within = reached;
+  if (first != last) {
+    within = narrowed(line, reached, first, last);
+    if (!(within.low < within.high)) return out;
+    first = cone_of(within.low), last = cone_of(within.high);
+  }
   if (first == last) {
     add_cone(line, first, within.low, within.high, out);
     return out;

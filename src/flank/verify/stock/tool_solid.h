@@ -2,9 +2,11 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "flank/radial_function.h"
+#include "flank/verify/swept/range_maximum.h"
 
 namespace flank::internal::verify {
 
@@ -56,6 +58,8 @@ class ToolSolid {
   void add_cone(const ToolLine& line, std::size_t cone, double from, double to, LineCuts& out) const;
   /// The cone that has the height, ends included.
   [[nodiscard]] std::size_t cone_at(double z) const;
+  /// What of the stretch is no farther from the axis than the largest radius of these cones.
+  [[nodiscard]] LineCut narrowed(const ToolLine& line, const LineCut& within, std::size_t first, std::size_t last) const;
   /// Radii of kBlock cones that follow each other.
   struct Block {
     double smallest = 1e300, largest = 0.0;
@@ -66,6 +70,9 @@ class ToolSolid {
   [[nodiscard]] static Side side_of(const ToolLine& line, const Block& block, double from, double to);
   std::vector<Vec2> nodes_;
   std::vector<Block> blocks_;
+  std::vector<std::size_t> shelves_;  ///< the cones at the lower ends of equal steps of the height
+  double shelves_per_mm_ = 0.0;
+  std::optional<RangeMaximum> radii_;  ///< of each cone the largest
   double largest_ = 0.0, chord_ = 0.0;
 };
 
