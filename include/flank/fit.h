@@ -122,6 +122,8 @@ struct CoverageEstimate {
   /// Of motions over the facing sides of a cavity: how far the ends of their axes lie apart along the way, as a share of
   /// the axis length, which the tool must make up for on its way across. Else 0.
   double stagger = 0.0;
+  /// The tool is one (check_legitimacy); asked of what is looked at closely, and of no draft before that.
+  bool legitimate = true;
   /// What candidates are ranked by, larger is better, at most 1.2; no unit. Coverage, less a price for overcut and
   /// gouge (10 % of coverage for the first tolerance of excess), for plunging and for stagger, with the mean error as
   /// tie-break.

@@ -293,6 +293,23 @@ TEST(Polish, SettlingTakesAFreeToolBackBelowTheTolerance) {
   }
 }
 
+TEST(Polish, SettlingMakesAToolOfWhatIsNone) {
+  const auto blade = standing_blade(0.0);
+  const FlankFitOptions options = small_options();
+  const auto samples = ranking_samples(*blade, nullptr, options);
+  // A valley between the samples of the passes, so narrow that its spheres stick out of each other.
+  Eigen::VectorXd radii = Eigen::VectorXd::Constant(160, 5.0);
+  radii[80] -= 0.8 * kTolerance;
+  FitDraft draft = draft_of(*blade, upright_motion(whole_blade(5.0)), even_spline(5.0), true);
+  draft.tool = RadialFunction::spline(draft.tool.axis_length(), radii);
+  ASSERT_FALSE(check_legitimacy(draft.tool).legitimate);
+  const Polished after = settled(assess(draft, samples, options), options);
+  EXPECT_TRUE(after.estimate.legitimate);
+  EXPECT_TRUE(check_legitimacy(after.draft.tool).legitimate);
+  EXPECT_EQ(after.estimate.at_tolerance, 1.0);
+  EXPECT_EQ(after.draft.motions.front().tip.poles, draft.motions.front().tip.poles) << "smoothed, not fitted again";
+}
+
 TEST(Polish, WhatTheLastLookFindsTooDeepIsLedOut) {
   const auto blade = standing_blade(0.0);
   const FlankFitOptions options = small_options();

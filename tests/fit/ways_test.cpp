@@ -106,5 +106,16 @@ TEST(IsBetter, WhatEntersNothingGoesFirstUnlessItCoversNextToNothing) {
   EXPECT_TRUE(is_better(covering(0.9, 0.0), covering(1.0, 0.0, 0.2), 0.05)) << "overcut is no price for coverage";
 }
 
+TEST(IsBetter, WhatIsNoToolGoesLast) {
+  CoverageEstimate none = covering(1.0, 0.0);
+  none.legitimate = false;
+  EXPECT_FALSE(is_clean(none, 0.05));
+  EXPECT_TRUE(is_better(covering(0.6, 0.0), none, 0.05));
+  EXPECT_TRUE(is_better(covering(0.9, 0.5), none, 0.05)) << "even one that enters a face can be made";
+  EXPECT_FALSE(is_better(none, covering(0.6, 0.0), 0.05));
+  EXPECT_TRUE(is_better(none, covering(0.3, 0.0), 0.05));
+  EXPECT_FALSE(is_better(covering(0.3, 0.0), none, 0.05));
+}
+
 }  // namespace
 }  // namespace flank::internal

@@ -81,7 +81,7 @@ std::vector<double> estimate_distances(const std::vector<SurfaceSample>& samples
 
 namespace {
 
-/// A clean result that covers less than this share of what another one covers is not what anybody asked for.
+/// A clean result, or one with a tool that is one, that covers less than this share of what another one covers is not what anybody asked for.
 constexpr double kWorthHaving = 0.5;
 
 /// Along the axis, at most: balls a sixtieth of the axis apart overlap almost wholly.
@@ -140,7 +140,8 @@ std::vector<Vec3> cut_deeper_than(double depth_mm, const std::vector<SurfaceSamp
 }
 
 bool is_clean(const CoverageEstimate& estimate, double tolerance_mm) {
-  return std::max(estimate.overcut_mm, estimate.gouge_mm) <= kToleranceBudget.fit.clean * tolerance_mm;
+  return estimate.legitimate &&
+         std::max(estimate.overcut_mm, estimate.gouge_mm) <= kToleranceBudget.fit.clean * tolerance_mm;
 }
 
 namespace {
@@ -154,6 +155,11 @@ double worth(const CoverageEstimate& estimate) {
 }  // namespace
 
 bool is_better(const CoverageEstimate& a, const CoverageEstimate& b, double tolerance_mm) {
+  if (a.legitimate != b.legitimate) {
+    const double tool = a.legitimate ? a.at_tolerance : b.at_tolerance,
+                 none = a.legitimate ? b.at_tolerance : a.at_tolerance;
+    return (tool >= kWorthHaving * none) == a.legitimate;
+  }
   const bool clean_a = is_clean(a, tolerance_mm), clean_b = is_clean(b, tolerance_mm);
   if (clean_a != clean_b) {
     const double clean = clean_a ? a.at_tolerance : b.at_tolerance, other = clean_a ? b.at_tolerance : a.at_tolerance;

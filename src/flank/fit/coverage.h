@@ -23,11 +23,11 @@ inline constexpr double kSameCoverage = 1e-3;
                                                 int poses);
 
 /// Enters and cuts nothing by more than the tolerance, by the planner's estimate and with what that may not have seen
-/// (FitBudget::clean).
+/// (FitBudget::clean), with a tool that is one.
 [[nodiscard]] bool is_clean(const CoverageEstimate& estimate, double tolerance_mm);
 
-/// Is `a` to be returned rather than `b`? One that enters nothing goes before one that does, unless it covers less
-/// than half as much; of two that are clean the one that covers more (a motion that plunges has to cover 2 % more than one
+/// Is `a` to be returned rather than `b`? One whose tool is one goes before one whose is none, and one that enters nothing
+/// before one that does, unless it covers less than half as much; of two that are clean the one that covers more (a motion that plunges has to cover 2 % more than one
 /// that does not), of two that are not the one that scores higher.
 [[nodiscard]] bool is_better(const CoverageEstimate& a, const CoverageEstimate& b, double tolerance_mm);
 

@@ -25,6 +25,7 @@ void code(StepCodec& codec, CoverageEstimate& estimate) {
   for (double* value : {&estimate.at_tolerance, &estimate.at_four_tolerances, &estimate.overcut_mm, &estimate.gouge_mm,
                         &estimate.undercut_mm, &estimate.rms_mm, &estimate.largest_c, &estimate.stagger})
     codec.number(*value);
+  code(codec, estimate.legitimate);
 }
 
 void code(StepCodec& codec, IterationTrace& step) {

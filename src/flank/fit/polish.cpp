@@ -12,6 +12,7 @@
 #include "flank/fit/coverage.h"
 #include "flank/fit/swept_polish.h"
 #include "flank/tool.h"
+#include "flank/tool/smooth_tool.h"
 
 namespace flank::internal {
 namespace {
@@ -211,6 +212,7 @@ Polished seen_closely(FitDraft draft, const std::vector<SurfaceSample>& samples,
   constexpr int kOften = 4;
   seen.estimate.gouge_mm =
       flank_gouge(seen.draft.motions, seen.draft.obstacles, seen.draft.tool, kOften * kRankingPoses, GougeLook::kClose);
+  seen.estimate.legitimate = !seen.draft.free_tool || check_legitimacy(seen.draft.tool).legitimate;
   return seen;
 }
 
@@ -234,14 +236,23 @@ Polished mended(const Polished& polished, const std::vector<SurfaceSample>& samp
   return best;
 }
 
-/// A free tool that is none somewhere between the samples of the passes (its spheres are not inscribed there), made one.
-/// As it was if that costs more than half of what is covered.
+/// A free tool that is none somewhere between the samples of the passes (its spheres are not inscribed there), made one: by
+/// smoothing it there, or by another pass if that is better. As it was if that costs more than half of what is covered.
 Polished made_legitimate(const Polished& polished, const std::vector<SurfaceSample>& samples,
                          const FlankFitOptions& options) {
-  if (!polished.draft.free_tool || check_legitimacy(polished.draft.tool).legitimate) return polished;
-  Polished trial = seen_closely(pass_at(polished.draft, {}, options, 1.0), samples, options);
-  const bool worth = trial.estimate.at_tolerance > 0.5 * polished.estimate.at_tolerance;
-  return worth && check_legitimacy(trial.draft.tool).legitimate ? trial : polished;
+  if (!polished.draft.free_tool || polished.estimate.legitimate) return polished;
+  Polished best = polished;
+  const auto smooth = [&](FitDraft draft) {
+    const auto tool = smoothed_to_tool(draft.tool, options.tolerance_mm);
+    if (tool) draft.tool = *tool;
+    Polished trial = seen_closely(std::move(draft), samples, options);
+    if (is_better(trial.estimate, best.estimate, options.tolerance_mm)) best = std::move(trial);
+  };
+  smooth(polished.draft);
+  const bool costs = best.estimate.at_tolerance < polished.estimate.at_tolerance - kSameCoverage;
+  if ((costs || !is_clean(best.estimate, options.tolerance_mm)) && !stopping())
+    smooth(pass_at(polished.draft, {}, options, 1.0));
+  return best;
 }
 
 }  // namespace
@@ -251,7 +262,9 @@ Polished settled(const Polished& polished, const FlankFitOptions& options) {
   const std::vector<SurfaceSample> samples = close_samples(polished.draft, options);
   Polished again = made_legitimate(seen_closely(polished.draft, samples, options), samples, options);
   again = mended(again, samples, options);
+  const bool legitimate = again.estimate.legitimate;
   if (again.estimate.overcut_mm > options.tolerance_mm) again = shifted(again, samples, options);
+  again.estimate.legitimate = legitimate;  // smaller radii make no sphere stick out of the others
   // Between these samples, too, nothing may be cut deeper than the tolerance: a little room, if it costs little of the
   // covered share.
   constexpr double kCost = 0.005;
@@ -260,6 +273,7 @@ Polished settled(const Polished& polished, const FlankFitOptions& options) {
                              again.estimate.gouge_mm - kDeepest * options.tolerance_mm);
   if (!again.draft.free_tool || by <= 0.0) return again;
   Polished lower = shifted_by(again, by, samples, options);
+  lower.estimate.legitimate = legitimate;
   const bool cheap = lower.estimate.at_tolerance >= again.estimate.at_tolerance - kCost;
   // What is deeper than allowed may cost more: a clean result is worth it, unless little is left.
   return cheap || is_better(lower.estimate, again.estimate, options.tolerance_mm) ? lower : again;

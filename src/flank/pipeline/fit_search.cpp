@@ -72,7 +72,19 @@ void keep_better(FlankFitResult& best, FlankFitResult&& other, const FlankFitOpt
   add_tried(best, other, options.bounds);
 }
 
-/// One group with as many strips as its tolerance needs: a strip more as long as that is not met, and gains something.
+/// The most that is covered by what is not far from being clean: more strips may make it clean.
+double promise_of(const FlankFitResult& result, double tolerance_mm) {
+  constexpr double kNotFar = 4.0;  // tolerances deep
+  const auto covers = [&](const CoverageEstimate& estimate) {
+    return std::max(estimate.overcut_mm, estimate.gouge_mm) <= kNotFar * tolerance_mm ? estimate.at_tolerance : 0.0;
+  };
+  double most = result.after.at_tolerance;
+  for (const TriedTool& tried : result.tried) most = std::max(most, covers(tried.estimate));
+  return most;
+}
+
+/// One group with as many strips as its tolerance needs: a strip more as long as that is not met, and gains something or
+/// promises to.
 FlankFitResult fit_auto(const Target& target, const ToolModel& tool, FlankFitOptions options, double least_coverage,
                         const Progress& progress) {
   /// Of the covered share: less is not worth a strip, and two counts in a row that gain less end the search.
@@ -80,7 +92,7 @@ FlankFitResult fit_auto(const Target& target, const ToolModel& tool, FlankFitOpt
   /// Of the face, before the last passes, which rarely gain more than a tenth: a strip more is tried instead.
   constexpr double kPromising = 0.85;
   FlankFitResult best;
-  double one_covers = 0.0, rest = 1.0;
+  double one_covers = 0.0, rest = 1.0, promise = 0.0;
   int without_gain = 0;
   for (int count : {1, 2, 3, 4, 6, 8, 10, kMostStrips}) {
     options.strips = count;
@@ -88,9 +100,10 @@ FlankFitResult fit_auto(const Target& target, const ToolModel& tool, FlankFitOpt
     const double here = 1.0 - rest;  // nobody knows how many follow: each gets a half of what is left
     FlankFitResult result = fit_automatic(target, tool, options, progress.part(here, 1.0 - (rest *= 0.5)));
     if (count == 1) one_covers = result.after.at_tolerance;
-    const double before = best.after.at_tolerance;
     keep_better(best, std::move(result), options);
-    without_gain = best.after.at_tolerance > before + kGain ? 0 : without_gain + 1;
+    const double now = promise_of(best, options.tolerance_mm);
+    without_gain = now > promise + kGain ? 0 : without_gain + 1;
+    promise = std::max(promise, now);
     if (is_done(best, least_coverage, options.tolerance_mm) || without_gain == 2 || progress.stop()) break;
   }
   if (best.motions.size() > 1)

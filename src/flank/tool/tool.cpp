@@ -69,6 +69,16 @@ double first_crossing(const RadialFunction& radial, int which, double a, double 
   return b;
 }
 
+/// Where a condition is violated most, by the samples; a place that is known to violate it, if none of them does.
+double worst_place(const RadialFunction& radial, int which, double known, int steps) {
+  double worst = known, least = margins(radial, known)[which];
+  for (int i = 0; i <= steps; ++i) {
+    const double s = radial.axis_length() * i / steps, margin = margins(radial, s)[which];
+    if (margin < least) least = margin, worst = s;
+  }
+  return worst;
+}
+
 /// The violated condition in words, with the numbers at s and what is needed instead.
 std::string reason(const RadialFunction& radial, int which, double s) {
   const RadialJet f = radial.at(s);
@@ -135,7 +145,8 @@ Legitimacy check_legitimacy(const RadialFunction& radial) {
     }
   }
   if (violation.margin > 0.0) return {true, least.s, least.margin, ""};
-  return {false, violation.s, least.margin, reason(radial, violation.which, violation.s)};
+  const double worst = worst_place(radial, violation.which, violation.s, steps);
+  return {false, violation.s, least.margin, reason(radial, violation.which, worst)};
 }
 
 }  // namespace flank

@@ -59,7 +59,8 @@ class ToolSolid {
   /// The cone that has the height, ends included.
   [[nodiscard]] std::size_t cone_at(double z) const;
   /// What of the stretch is no farther from the axis than the largest radius of these cones.
-  [[nodiscard]] LineCut narrowed(const ToolLine& line, const LineCut& within, std::size_t first, std::size_t last) const;
+  [[nodiscard]] LineCut narrowed(const ToolLine& line, const LineCut& within, std::size_t first,
+                                 std::size_t last) const;
   /// Radii of kBlock cones that follow each other.
   struct Block {
     double smallest = 1e300, largest = 0.0;

@@ -8,7 +8,7 @@ namespace flank::internal::verify {
 namespace {
 
 constexpr double kSingleMinimum = 0.95;  ///< of rho times the focal curvature: up to here there is one minimum only
-constexpr double kFlat = 0.25;  ///< of rho times the focal curvature: less makes no difference to who asks
+constexpr double kFlat = 0.25;           ///< of rho times the focal curvature: less makes no difference to who asks
 constexpr double kLeastQ = 1e-9;         ///< of 1 - r'^2: a radial function that is no tool must not divide by zero
 /// Of a step of the radial table: where golden section stops and Newton's method goes on.
 constexpr double kNarrowed = 1e-3;
