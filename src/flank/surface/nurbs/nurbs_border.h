@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "flank/geom/bvh.h"
@@ -39,8 +40,10 @@ class NurbsBorders {
 
   [[nodiscard]] const std::vector<BorderPiece>& pieces() const { return pieces_; }
   [[nodiscard]] const BorderPiece& piece(int k) const { return pieces_[static_cast<std::size_t>(k)]; }
-  /// Points whose convex hull holds the piece.
+  /// Points whose convex hull holds the piece; empty once they were taken.
   [[nodiscard]] const std::vector<std::vector<Vec3>>& hulls() const { return hulls_; }
+  /// Gives them away: trees are made of them, and no query asks them, which are most of what a border takes.
+  [[nodiscard]] std::vector<std::vector<Vec3>> take_hulls() { return std::exchange(hulls_, {}); }
 
   /// A point of a piece, share = 0 at its start and 1 at its end.
   [[nodiscard]] Vec3 point(const std::vector<NurbsFace>& faces, int piece, double share) const;

@@ -62,6 +62,7 @@ NurbsTarget::NurbsTarget(const std::vector<Face>& faces, int side, const Extensi
   }
   if (cells.cells.empty()) throw InputError("face " + faces.front().id + ": its trims leave nothing of the surface");
   borders_ = NurbsBorders(faces, faces_);
+  std::vector<std::vector<Vec3>> hulls = borders_.take_hulls();
   has_neighbour_.assign(faces.size(), false);
   for (std::size_t k = 0; k < borders_.pieces().size(); ++k) {
     const BorderPiece& piece = borders_.pieces()[k];
@@ -69,7 +70,7 @@ NurbsTarget::NurbsTarget(const std::vector<Face>& faces, int side, const Extensi
       has_neighbour_[static_cast<std::size_t>(piece.face)] = true;
     if (face(piece.face).whole()) continue;
     searched_pieces_.push_back(static_cast<int>(k));
-    cells.hulls.push_back(borders_.hulls()[k]);
+    cells.hulls.push_back(std::move(hulls[k]));
   }
   tree_ = BoxTree(cells.hulls);
   cells_ = std::move(cells.cells);
