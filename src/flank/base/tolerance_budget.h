@@ -78,6 +78,9 @@ struct FitBudget {
   double clean = 0.99;
   /// What may lie between the samples of the estimate.
   double between_samples = 0.03;
+  /// Depth to which a free tool is made thinner where the judge finds it a little deeper than the tolerance; how much
+  /// deeper: beyond that, it is not the estimate that missed something.
+  double thinned = 0.98, thinnable = 1.25;
 };
 
 /// Cavities: depth in any face, in tolerances.

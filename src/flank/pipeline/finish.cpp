@@ -39,7 +39,13 @@ int machining_contact(const RuledMotion& motion, const RadialFunction& radial, c
 
 void Stopwatch::lap(const std::string& stage) {
   const auto now = std::chrono::steady_clock::now();
-  result_.seconds.emplace_back(stage, std::chrono::duration<double>(now - last_).count());
+  const auto known =
+      std::find_if(result_.seconds.begin(), result_.seconds.end(), [&](const auto& lap) { return lap.first == stage; });
+  const double seconds = std::chrono::duration<double>(now - last_).count();
+  if (known == result_.seconds.end())
+    result_.seconds.emplace_back(stage, seconds);
+  else
+    known->second += seconds;
   last_ = now;
 }
 

@@ -12,7 +12,7 @@
 
 namespace flank::internal {
 
-/// Wall time of one stage after another, into result.seconds.
+/// Wall time of one stage after another, into result.seconds; of a stage that comes again the sum.
 class Stopwatch {
  public:
   explicit Stopwatch(Result& result) : result_(result) {}

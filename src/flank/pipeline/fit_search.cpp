@@ -100,9 +100,11 @@ FlankFitResult fit_auto(const Target& target, const ToolModel& tool, FlankFitOpt
     const double here = 1.0 - rest;  // nobody knows how many follow: each gets a half of what is left
     FlankFitResult result = fit_automatic(target, tool, options, progress.part(here, 1.0 - (rest *= 0.5)));
     if (count == 1) one_covers = result.after.at_tolerance;
+    const double before = best.after.at_tolerance;
     keep_better(best, std::move(result), options);
     const double now = promise_of(best, options.tolerance_mm);
-    without_gain = now > promise + kGain ? 0 : without_gain + 1;
+    const bool gains = best.after.at_tolerance > before + kGain || now > promise + kGain;
+    without_gain = gains ? 0 : without_gain + 1;
     promise = std::max(promise, now);
     if (is_done(best, least_coverage, options.tolerance_mm) || without_gain == 2 || progress.stop()) break;
   }

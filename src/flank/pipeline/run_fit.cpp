@@ -15,6 +15,7 @@
 #include "flank/pipeline/folder/judge_job.h"
 #include "flank/pipeline/run_journal.h"
 #include "flank/pipeline/stiff_fit.h"
+#include "flank/pipeline/thin_tool.h"
 #include "flank/setup/tool_body.h"
 
 namespace flank::internal {
@@ -200,6 +201,24 @@ void add_stiffness(const Setup& setup, const FitSearch& search, const Progress& 
   std::get<FitSummary>(result.plan).stiffness = std::move(steps);
 }
 
+/// Path, verdict and drawings of what was found; again with a thinner tool where the judge sees what the search did not.
+void judge_fit(const Setup& setup, const ClearanceScene& scene, FitSearch& search, Result& result, Stopwatch& watch) {
+  /// The judge looks no deeper than it must to find a place beyond the tolerance: there may be a deeper one.
+  constexpr int kMostTimes = 3;
+  const FitJob job = std::get<FitJob>(result.job);
+  const std::vector<std::string> notes = result.notes;
+  for (int k = 0; k < kMostTimes; ++k) {
+    result.notes = notes;
+    result.path = {};
+    result.chord_bound_mm = 0.0;
+    result.tool = found_tool(parse_tool_spec(job.tool.spec), search.fit.tool, job.obstacles);
+    std::vector<StripSurface> surfaces = sample_path(search, job.tolerance_mm, result);
+    watch.lap("sample");
+    judge_result(setup, scene, std::move(surfaces), result, watch);
+    if (!result.complete || k + 1 == kMostTimes || !thin_tool(job.tolerance_mm, search, result.verify)) return;
+  }
+}
+
 }  // namespace
 
 Result run_fit(const FitJob& job, const Progress& asked) {
@@ -228,12 +247,8 @@ Result run_fit(const FitJob& job, const Progress& asked) {
   result.complete = !progress.stop();
   watch.lap("fit");
 
-  result.tool = found_tool(spec, search.fit.tool, job.obstacles);
-  std::vector<StripSurface> surfaces = sample_path(search, job.tolerance_mm, result);
-  watch.lap("sample");
-
   progress.step("verify", judged_at);
-  judge_result(setup, scene, std::move(surfaces), result, watch);
+  judge_fit(setup, scene, search, result, watch);
   add_stiffness(setup, search, progress.part(judged_at + 0.1, 1.0), result);
   if (job.stiffness_curve) watch.lap("stiffness curve");
   if (!result.complete) result.journal = progress.journal;
