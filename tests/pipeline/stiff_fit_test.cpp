@@ -1,5 +1,5 @@
 // The ladder of slendernesses on a flat blade, which any upright cylinder cuts exactly.
-#include "flank/pipeline/stiff_fit.h"
+#include "flank/pipeline/search/stiff_fit.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 /// What `flank cover` tells of a target that was covered.
 #pragma once
 
-#include "flank/pipeline/cover_groups.h"
+#include "flank/pipeline/search/cover_groups.h"
 #include "flank/run.h"
 
 namespace flank::internal {

@@ -11,10 +11,10 @@
 #include "flank/fit/tried.h"
 #include "flank/job/check_fields.h"
 #include "flank/pipeline/finish.h"
-#include "flank/pipeline/fit_search.h"
 #include "flank/pipeline/folder/judge_job.h"
 #include "flank/pipeline/run_journal.h"
-#include "flank/pipeline/stiff_fit.h"
+#include "flank/pipeline/search/fit_search.h"
+#include "flank/pipeline/search/stiff_fit.h"
 #include "flank/pipeline/thin_tool.h"
 #include "flank/setup/tool_body.h"
 

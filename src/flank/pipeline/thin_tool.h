@@ -2,7 +2,7 @@
 #pragma once
 
 #include "flank/judge.h"
-#include "flank/pipeline/fit_search.h"
+#include "flank/pipeline/search/fit_search.h"
 
 namespace flank::internal {
 

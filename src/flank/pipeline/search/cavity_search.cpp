@@ -1,4 +1,4 @@
-#include "flank/pipeline/cavity_search.h"
+#include "flank/pipeline/search/cavity_search.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "flank/pipeline/fit_search.h"
+#include "flank/pipeline/search/fit_search.h"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include "flank/error.h"
 #include "flank/fit/coverage.h"
 #include "flank/fit/tried.h"
-#include "flank/pipeline/search_setup.h"
-#include "flank/pipeline/stiff_fit.h"
+#include "flank/pipeline/search/search_setup.h"
+#include "flank/pipeline/search/stiff_fit.h"
 #include "flank/seed/axis_line.h"
 #include "flank/seed/guide_file.h"
 #include "flank/seed/guide_start.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "flank/pipeline/cavity_faces.h"
+#include "flank/pipeline/search/cavity_faces.h"
 #include "flank/trochoid/program.h"
 #include "flank/trochoid/side_fit.h"
 

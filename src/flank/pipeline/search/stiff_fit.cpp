@@ -1,4 +1,4 @@
-#include "flank/pipeline/stiff_fit.h"
+#include "flank/pipeline/search/stiff_fit.h"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "flank/pipeline/cover_groups.h"
+#include "flank/pipeline/search/cover_groups.h"
 #include "flank/run.h"
 #include "flank/toolbox/catalogue.h"
 #include "flank/toolbox/tool_spec.h"

@@ -1,4 +1,4 @@
-#include "flank/pipeline/cavity_faces.h"
+#include "flank/pipeline/search/cavity_faces.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "flank/pipeline/search_setup.h"
+#include "flank/pipeline/search/search_setup.h"
 
 #include <algorithm>
 

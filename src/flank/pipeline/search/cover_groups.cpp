@@ -1,4 +1,4 @@
-#include "flank/pipeline/cover_groups.h"
+#include "flank/pipeline/search/cover_groups.h"
 
 #include <algorithm>
 

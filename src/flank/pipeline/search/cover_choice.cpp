@@ -1,4 +1,4 @@
-#include "flank/pipeline/cover_choice.h"
+#include "flank/pipeline/search/cover_choice.h"
 
 #include <fmt/format.h>
 
