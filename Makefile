@@ -91,10 +91,10 @@ format-check:  ## check that the sources are formatted
 	scripts/install-deps.sh dev
 	scripts/check-format.sh
 
-tidy:  ## lint the sources (clang-tidy)
+tidy:  ## lint the sources (clang-tidy), or with LAST=40 what the last 40 commits changed
 	scripts/install-deps.sh build dev
 	cmake --preset release -B build/tidy -D FLANK_BUILD_TESTS=OFF -D FLANK_UNITY=OFF -D FLANK_PRECOMPILE=OFF
-	scripts/tidy.py build/tidy
+	scripts/tidy.py build/tidy $(if $(LAST),--last $(LAST))
 
 clean:
 	rm -rf build out

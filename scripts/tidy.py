@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Lints the sources of the library and of the command with .clang-tidy, and fails on any finding.
 
-usage: tidy.py BUILD_DIR [--deep] [FILE...]
+usage: tidy.py BUILD_DIR [--deep] [--last COMMITS | FILE...]
 
 Most of clang-tidy's time goes into the headers of third parties, which it walks through anew for every source. So sources
 are put together in batches, each of which is read as one: only sources whose unnamed namespaces share no name go together.
 A batch that does not compile is done source by source. --deep adds the static analyser (clang-analyzer-*), which looks at
-one source at a time and takes many times as long; so does naming the files.
+one source at a time and takes many times as long; so does naming the files. --last 40 lints what the last 40 commits changed,
+a source for its header, too.
 """
 import json
 import os
@@ -45,6 +46,15 @@ def compile_arguments(build):
     return arguments
 
 
+def changed_sources(commits, arguments):
+    """Sources that the last commits changed, or whose header they changed; all, if there are not so many commits."""
+    done = subprocess.run(["git", "diff", "--name-only", f"HEAD~{commits}"], cwd=ROOT, capture_output=True, text=True)
+    if done.returncode != 0:
+        return sorted(arguments)
+    stems = {name.rsplit(".", 1)[0].removeprefix("include/").removeprefix("src/") for name in done.stdout.splitlines()}
+    return sorted(file for file in arguments if str(file.relative_to(ROOT).with_suffix("")).removeprefix("src/") in stems)
+
+
 def tidy(file, arguments, deep):
     """Exit status and findings of one file."""
     options = ["--quiet", f"--config-file={ROOT / '.clang-tidy'}"] + ([] if deep else ["--checks=-clang-analyzer-*,-bugprone-suspicious-include"])
@@ -77,11 +87,15 @@ def main():
         sys.exit("tidy.py: clang-tidy is not installed (on Debian 12, scripts/install-deps.sh dev installs it)")
     words = [word for word in sys.argv[1:] if word != "--deep"]
     deep = "--deep" in sys.argv
+    last = int(words[2]) if len(words) == 3 and words[1] == "--last" else 0
     if not words:
         sys.exit(__doc__)
     arguments = compile_arguments(pathlib.Path(words[0]).resolve())
-    named = [pathlib.Path(word).resolve() for word in words[1:]]
-    files = named or sorted(arguments)
+    named = [] if last else [pathlib.Path(word).resolve() for word in words[1:]]
+    files = changed_sources(last, arguments) if last else named or sorted(arguments)
+    if last and not files:
+        print(f"the last {last} commits changed no source")
+        return
     if not files or any(file not in arguments for file in files):
         sys.exit(f"tidy.py: {words[0]} does not say how to compile {[str(f) for f in files if f not in arguments]}")
     batches = [[file] for file in files] if deep or named else groups_of(files, BATCH)

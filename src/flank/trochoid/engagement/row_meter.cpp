@@ -172,11 +172,12 @@ void RowMeter::cut_by_poses(const ToolRing& ring, double motion_angle) {
   const Vec2 motion(std::cos(motion_angle), std::sin(motion_angle));
   // The poses that end the gaps of one ring end those of the next one, or nearly so: then all others are seen not to matter.
   bool open = true;
+  const auto unsettled = [&] { return open && !gaps_.empty(); };
   for (const std::size_t k : hints_)
-    if (open && !gaps_.empty()) open = cut_by(candidates_[k], ring, motion);
-  if (open && !gaps_.empty())
+    if (unsettled()) open = cut_by(candidates_[k], ring, motion);
+  if (unsettled())
     for (const std::size_t k : filter_.reaching(ring.z, discs_of_gaps(ring, motion)))
-      if (open && !gaps_.empty()) open = cut_by(candidates_[k], ring, motion);
+      if (unsettled()) open = cut_by(candidates_[k], ring, motion);
   if (!open) gaps_.clear();
   hints_.clear();
   for (const Gap& gap : gaps_)
