@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "flank/base/random.h"
 #include "flank/trochoid/half_path.h"
 
 namespace flank::internal {
@@ -108,6 +109,45 @@ TEST(Engagement, AgreesWithADenseScan) {
       EXPECT_NEAR(meter.angle(next, t, ring) / kDegree, scanned(stock, next, t, ring) / kDegree, 0.01) << t << " " << s;
     }
   }
+}
+
+/// Straight along x, from one tip to another.
+RuledMotion straight(const Vec3& tip, const Vec3& axis, double way, double length) {
+  constexpr int kPoses = 13;
+  std::vector<Pose> poses;
+  std::vector<double> t;
+  for (int k = 0; k < kPoses; ++k) {
+    t.push_back(k / (kPoses - 1.0));
+    poses.push_back({tip + t.back() * way * Vec3::UnitX(), axis});
+  }
+  return fit_motion(poses, t, length, 4);
+}
+
+TEST(Engagement, WhatALeaningToolLeavesBesideItsRoundEndIsMaterial) {
+  // Strokes of the layer above, whose axes lean against this one's: as circles in the plane of a ring they would cover much
+  // that their round ends never reach.
+  constexpr double kRadius = 6.0, kLength = 22.0;
+  Random random(5);
+  const RuledMotion next = straight(Vec3(0, 0, 0), Vec3::UnitZ(), 10.0, kLength);
+  int partly = 0;
+  for (int k = 0; k < 200; ++k) {
+    SweptStock stock(cylinder(kRadius, kLength), {});
+    const double lean = (k % 2 == 0 ? random.uniform(0.0, 4.0) : random.uniform(4.0, 40.0)) * kDegree,
+                 about = random.uniform(-kPi, kPi);
+    const Vec3 axis(std::sin(lean) * std::cos(about), std::sin(lean) * std::sin(about), std::cos(lean));
+    stock.add(Sweep::of(
+        straight(Vec3(-20, random.uniform(-14.0, 14.0), random.uniform(0.0, 24.0)), axis, 50.0, kLength), 48));
+    EngagementMeter meter(stock);
+    for (const double s : {2.0, 8.0, 14.0, 20.0}) {
+      const ToolRing ring = ring_at(stock.radial(), s);
+      const double angle = meter.angle(next, 0.5, ring) / kDegree, truth = scanned(stock, next, 0.5, ring) / kDegree;
+      // A few degrees beside a pose are taken for a scallop between sampled poses.
+      const bool scallop = angle == 0.0 && truth < 3.0;
+      EXPECT_NEAR(angle, scallop ? 0.0 : truth, 0.05) << k << " " << s;
+      partly += truth > 5.0 && truth < 175.0 ? 1 : 0;
+    }
+  }
+  EXPECT_GE(partly, 30);
 }
 
 TEST(Engagement, EndsOfArcsLieOnTheSweptVolume) {

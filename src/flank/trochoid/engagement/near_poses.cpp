@@ -57,12 +57,16 @@ bool NearPoses::meets(const RowFrame& frame, const Pose& pose, std::span<const R
   out.dx = pose.axis.dot(frame.x) / forward, out.dy = pose.axis.dot(frame.y) / forward;
   out.x0 = d.dot(frame.x) - up * out.dx, out.y0 = d.dot(frame.y) - up * out.dy;
   out.h0 = -up / forward, out.dh = 1.0 / forward;
-  // Nearest that the axis comes to a disc over the heights of the tool.
-  const double ex = (high - low) * out.dx, ey = (high - low) * out.dy, e2 = ex * ex + ey * ey;
+  const double lean = forward * std::hypot(out.dx, out.dy), below = d.dot(pose.axis);
+  // Nearest that the axis comes to a disc over the heights of the tool, and a little more where it leans.
+  const double slack = profile.largest() * lean / forward, first = low - slack, range = high - low + 2.0 * slack;
+  const double ex = range * out.dx, ey = range * out.dy, e2 = ex * ex + ey * ey;
   return std::any_of(discs.begin(), discs.end(), [&](const RowDisc& disc) {
-    if (out.h0 + disc.high * out.dh < low || out.h0 + disc.low * out.dh > high) return false;
+    // Heights of the places of the disc along this axis.
+    const double middle = forward * (disc.x * out.dx + disc.y * out.dy) - below, swing = disc.radius * lean;
+    if (middle + swing + disc.high * forward < low || middle - swing + disc.low * forward > high) return false;
     const double reach = profile.largest() + disc.radius;
-    const double ax = out.x0 + low * out.dx - disc.x, ay = out.y0 + low * out.dy - disc.y;
+    const double ax = out.x0 + first * out.dx - disc.x, ay = out.y0 + first * out.dy - disc.y;
     const double share = e2 > 0.0 ? std::clamp(-(ax * ex + ay * ey) / e2, 0.0, 1.0) : 0.0;
     const double nx = ax + share * ex, ny = ay + share * ey;
     return nx * nx + ny * ny <= reach * reach;

@@ -13,6 +13,41 @@ constexpr double kPi = std::numbers::pi;
 /// Arcs that are shorter than this between two poses may be the scallops between sampled poses: radians.
 constexpr double kSliver = 0.35;
 
+/// Of an axis' direction, the part across the ring's axis from which on a tool is taken as leaning: 3 degrees.
+constexpr double kLeaning = 0.05;
+
+/// A tool that leans against the axis of a ring, in the plane of the ring. What it covers there is not quite a circle, and near
+/// its round ends not at all one.
+struct LeaningTool {
+  const ToolProfile& profile;
+  double ring;      ///< radius, mm
+  Vec2 foot, lean;  ///< where its axis meets the plane, and the part of its direction in the plane
+  double height;    ///< its own, there
+  [[nodiscard]] bool covers(double angle) const {
+    const Vec2 from = ring * Vec2(std::cos(angle), std::sin(angle)) - foot;
+    const double along = lean.dot(from);
+    ToolProfile::Place place;
+    return profile.at(height + along, place) && from.squaredNorm() - along * along <= place.radius * place.radius;
+  }
+  /// Half of the least arc about the foot's direction that holds all that may be covered; negative: nothing is.
+  [[nodiscard]] double window() const {
+    const double middle = height - lean.dot(foot), swing = ring * lean.norm();
+    if (middle + swing < profile.low() || middle - swing > profile.high()) return -1.0;
+    const double d = foot.norm(), reach = profile.largest() / std::sqrt(1.0 - std::min(0.99, lean.squaredNorm()));
+    if (d >= ring + reach || ring >= reach + d) return -1.0;
+    return reach >= ring + d ? kPi : std::acos((ring * ring + d * d - reach * reach) / (2.0 * ring * d));
+  }
+  /// Between an angle that is covered and one that is not: how far it is.
+  [[nodiscard]] double edge(double inside, double outside) const {
+    constexpr int kHalvings = 5;
+    for (int k = 0; k < kHalvings; ++k) {
+      const double middle = 0.5 * (inside + outside);
+      (covers(middle) ? inside : outside) = middle;
+    }
+    return inside;
+  }
+};
+
 Vec3 radial_direction(const Vec3& x, const Vec3& y, double angle) { return std::cos(angle) * x + std::sin(angle) * y; }
 
 }  // namespace
@@ -66,6 +101,11 @@ RowDisc RowMeter::discs_of_found(std::span<const ToolRing> rings) {
 }
 
 void RowMeter::engage_all(const RowFrame& frame, std::span<const ToolRing> rings, bool rough) {
+  stretch_ = 1.0;
+  for (const NearPose& c : candidates_) {
+    const double slope = c.dx * c.dx + c.dy * c.dy;
+    if (slope > kLeaning * kLeaning) stretch_ = std::max(stretch_, std::sqrt(1.0 + slope));
+  }
   found_.clear();
   hints_.clear();
   for (std::size_t k = 0; k < rings.size(); ++k) engage(frame, rings[k], k, rough);
@@ -140,6 +180,11 @@ bool RowMeter::cut_by(const NearPose& c, const ToolRing& ring, const Vec2& motio
   };
   // Most do not reach one even where the tool is thickest: that is cheaper to see than the radius at a height.
   const double d2 = o.squaredNorm(), largest = stock_.profile().largest(), most = ring.radius + largest;
+  const Vec2 lean = Vec2(motion.x() * c.dx + motion.y() * c.dy, motion.x() * c.dy - motion.y() * c.dx) / c.dh;
+  if (lean.squaredNorm() > kLeaning * kLeaning) {
+    cut_by_leaning(c, ring, o, lean);
+    return true;
+  }
   if (d2 >= most * most || !matters(largest * largest)) return true;
   ToolProfile::Place place;
   if (!stock_.profile().at(c.h0 + ring.z * c.dh, place)) return true;
@@ -154,6 +199,24 @@ bool RowMeter::cut_by(const NearPose& c, const ToolRing& ring, const Vec2& motio
   return true;
 }
 
+void RowMeter::cut_by_leaning(const NearPose& c, const ToolRing& ring, const Vec2& foot, const Vec2& lean) {
+  constexpr double kApart = 0.2;  // radians: less is not seen
+  const LeaningTool tool{stock_.profile(), ring.radius, foot, lean, c.h0 + ring.z * c.dh};
+  const double window = tool.window(), at = std::atan2(foot.y(), foot.x());
+  if (window < 0.0) return;
+  const int looks = std::max(4, static_cast<int>(std::ceil(2.0 * window / kApart)));
+  const auto angle = [&](int k) { return at + window * (2.0 * k / looks - 1.0); };
+  double low = angle(0);
+  bool before = tool.covers(low);
+  for (int k = 1; k <= looks; ++k) {
+    const bool covered = tool.covers(angle(k));
+    if (covered && !before) low = tool.edge(angle(k), angle(k - 1));
+    if (!covered && before) cut(low, tool.edge(angle(k - 1), angle(k)), {c.sweep, c.pose});
+    before = covered;
+  }
+  if (before) cut(low, angle(looks), {c.sweep, c.pose});
+}
+
 const std::vector<ReachDisc>& RowMeter::discs_of_gaps(const ToolRing& ring, const Vec2& motion) {
   reaches_.clear();
   for (const Gap& gap : gaps_) {
@@ -163,7 +226,7 @@ const std::vector<ReachDisc>& RowMeter::discs_of_gaps(const ToolRing& ring, cons
     const double radius = half < 0.5 * kPi ? ring.radius * std::sin(half) : ring.radius;
     const Vec2 at = along * Vec2(std::cos(middle), std::sin(middle));
     reaches_.push_back({motion.x() * at.x() - motion.y() * at.y(), motion.y() * at.x() + motion.x() * at.y(),
-                        radius + stock_.profile().largest()});
+                        radius + stretch_ * stock_.profile().largest()});
   }
   return reaches_;
 }

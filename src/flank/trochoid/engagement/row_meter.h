@@ -68,6 +68,9 @@ class RowMeter {
   [[nodiscard]] const std::vector<ReachDisc>& discs_of_gaps(const ToolRing& ring, const Vec2& motion);
   /// False if the candidate covers the whole ring.
   [[nodiscard]] bool cut_by(const NearPose& candidate, const ToolRing& ring, const Vec2& motion);
+  /// `foot`, `lean`: where the candidate's axis meets the ring's plane, and the part of its direction in it, from the direction
+  /// of motion.
+  void cut_by_leaning(const NearPose& candidate, const ToolRing& ring, const Vec2& foot, const Vec2& lean);
   void cut(double low, double high, const Bound& bound);
   void settle(const RowFrame& frame, const ToolRing& ring, std::size_t index, double motion_angle, double half,
               bool rough);
@@ -85,6 +88,7 @@ class RowMeter {
   const NearPoses& near_;
   PoseFilter filter_;
   double own_last_ = 0.0;  ///< earlier poses of the motion count up to this place
+  double stretch_ = 1.0;   ///< of the radius of a leaning tool in the plane of a ring, at most
   std::vector<NearPose> candidates_;
   std::vector<RowDisc> parts_, some_;
   std::vector<ReachDisc> reaches_;
