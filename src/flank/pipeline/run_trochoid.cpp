@@ -23,7 +23,7 @@
 #include "flank/setup/tool_body.h"
 #include "flank/toolbox/tool_model.h"
 #include "flank/trochoid/program.h"
-#include "flank/trochoid/side_fit.h"
+#include "flank/trochoid/sides/side_fit.h"
 
 namespace flank::internal {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "flank/base/tolerance_budget.h"
 #include "flank/trochoid/blank.h"
+#include "flank/trochoid/retract.h"
 #include "flank/trochoid/run_out.h"
 
 namespace flank::internal {
@@ -78,8 +79,8 @@ double way_of(const std::vector<Pose>& poses, double s) {
 
 class ProgramWriter {
  public:
-  ProgramWriter(const RadialFunction& radial, const ProgramOptions& options, CavityProgram& out)
-      : radial_(radial), options_(options), out_(out) {}
+  ProgramWriter(const RadialFunction& radial, const HalfGuard& guard, const ProgramOptions& options, CavityProgram& out)
+      : radial_(radial), guard_(guard), options_(options), out_(out) {}
 
   void add(const std::string& kind, const std::string& face, std::vector<Pose> poses) {
     if (poses.size() < 2) return;
@@ -100,13 +101,19 @@ class ProgramWriter {
     add(kind, both(), std::move(sampled.poses));
   }
   void layer(const LayerSides& sides, const LayerCycles& cycles, PlannedLayer& planned);
-  /// Up along the axis, over, and down to where the next layer begins.
-  void link(const Pose& to, const Vec3& top, double height, PlannedLayer& planned);
-  [[nodiscard]] const Pose& last() const { return out_.path.strips.back().poses.back(); }
+  /// Out of the layer above, over, and in to where this one's first cycle begins.
+  void link(const LayerSides& above, const LayerSides& sides, const ClearPlane& clear, PlannedLayer& planned);
   [[nodiscard]] std::string both() const { return options_.left + "," + options_.right; }
 
  private:
+  /// Before the place of the first cycle, out of the blank.
+  [[nodiscard]] Pose beginning(const LayerSides& sides, const LayerCycles& cycles) const {
+    const AxisPlace first = sides.from.at(cycles.cycles.front().from_x);
+    return {first.tip - kRunOut * radial_.largest() * first.tip_dx, first.u};
+  }
+
   const RadialFunction& radial_;
+  const HalfGuard& guard_;
   const ProgramOptions& options_;
   CavityProgram& out_;
 };
@@ -114,9 +121,7 @@ class ProgramWriter {
 void ProgramWriter::layer(const LayerSides& sides, const LayerCycles& cycles, PlannedLayer& planned) {
   const double length = radial_.axis_length(), run = kRunOut * radial_.largest();
   if (cycles.cycles.empty()) return;
-  const AxisPlace first = sides.from.at(cycles.cycles.front().from_x);
-  const Pose before{first.tip - run * first.tip_dx, first.u};
-  add("entry", both(), {before, pose_of(first)});
+  add("entry", both(), {beginning(sides, cycles), pose_of(sides.from.at(cycles.cycles.front().from_x))});
   for (const Cycle& cycle : cycles.cycles) {
     if (cycle.back) add("back", cycle.back->motion);
     add("front", cycle.front.motion);
@@ -142,15 +147,18 @@ void ProgramWriter::layer(const LayerSides& sides, const LayerCycles& cycles, Pl
   add("side", both(), std::move(onwards));
 }
 
-void ProgramWriter::link(const Pose& to, const Vec3& top, double height, PlannedLayer& planned) {
-  const double length = radial_.axis_length();
-  const auto raised = [&](const Pose& pose) {
-    const double climb = std::max(0.0, (height - top.dot(pose.tip)) / std::max(0.2, top.dot(pose.axis)));
-    return Pose{pose.tip + climb * pose.axis, pose.axis};
-  };
-  std::vector<Pose> poses{last()};
-  for (const Pose& pose : between(raised(last()), raised(to), length)) poses.push_back(pose);
-  poses.push_back(to);
+void ProgramWriter::link(const LayerSides& above, const LayerSides& sides, const ClearPlane& clear,
+                         PlannedLayer& planned) {
+  const double length = radial_.axis_length(), allowed = kToleranceBudget.cavity.aim * options_.cycles.tolerance_mm;
+  const Pose last = out_.path.strips.back().poses.back(), next = beginning(sides, planned.cycles);
+  // Where the cycles above got stuck, or at a wall, material is in front.
+  const bool through = out_.layers.back().cycles.status == CycleStatus::kDone && !above.from.stops_at_end();
+  const Vec3 onwards = through ? above.from.at(above.from.length()).tip_dx : Vec3::Zero();
+  std::vector<Pose> poses = retract(last, onwards, clear, radial_, guard_, allowed);
+  std::vector<Pose> in = retract(next, -sides.from.at(0.0).tip_dx, clear, radial_, guard_, allowed);
+  const std::vector<Pose> over = between(poses.back(), in.back(), length);
+  poses.insert(poses.end(), over.begin() + 1, over.end());
+  poses.insert(poses.end(), in.rbegin() + 1, in.rend());
   planned.links_mm += way_of(poses, 0.5 * length);
   add("link", both(), std::move(poses));
 }
@@ -201,23 +209,20 @@ CavityProgram plan_program(const std::vector<RuledMotion>& sides, const RadialFu
                            const Target& right, const GuardedFaces& faces, const ProgramOptions& options,
                            const Progress& progress) {
   CavityProgram out;
-  ProgramWriter writer(radial, options, out);
   const HalfGuard guard(faces, radial);
+  ProgramWriter writer(radial, guard, options, out);
   const std::vector<LayerSides> layers = order_layers(sides, options, radial.largest(), guard);
   if (layers.empty()) return out;
   out.walled = layers.front().from.stops_at_end();
   out.blank = cavity_blank(layers, left, right);
-  const HalfSpace& top = out.blank.back();
+  const ClearPlane clear{out.blank.back().normal, out.blank.back().offset + 2.0 * radial.largest()};
   SweptStock stock(radial, out.blank);
   CycleOptions cycles = options.cycles;
-  for (const LayerSides& layer : layers) {
+  for (std::size_t k = 0; k < layers.size(); ++k) {
+    const LayerSides& layer = layers[k];
     PlannedLayer planned;
     planned.cycles = plan_cycles(layer, guard, stock, cycles, progress);
-    if (!out.path.strips.empty() && !planned.cycles.cycles.empty()) {
-      const AxisPlace first = layer.from.at(planned.cycles.cycles.front().from_x);
-      const Pose before{first.tip - kRunOut * radial.largest() * first.tip_dx, first.u};
-      writer.link(before, top.normal, top.offset + 2.0 * radial.largest(), planned);
-    }
+    if (!out.path.strips.empty() && !planned.cycles.cycles.empty()) writer.link(layers[k - 1], layer, clear, planned);
     writer.layer(layer, planned.cycles, planned);
     sweep_sides(layer, stock, planned);
     // What is left above is in the way of the holder: a layer goes no farther than the one before, less a radius.

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "flank/error.h"
-#include "flank/trochoid/side_fit.h"
+#include "flank/trochoid/sides/side_fit.h"
 
 namespace flank::internal {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "flank/setup/setup.h"
 #include "flank/setup/targets.h"
-#include "flank/trochoid/side_fit.h"
+#include "flank/trochoid/sides/side_fit.h"
 
 namespace flank::internal {
 

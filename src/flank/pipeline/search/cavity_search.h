@@ -6,7 +6,7 @@
 
 #include "flank/pipeline/search/cavity_faces.h"
 #include "flank/trochoid/program.h"
-#include "flank/trochoid/side_fit.h"
+#include "flank/trochoid/sides/side_fit.h"
 
 namespace flank::internal {
 

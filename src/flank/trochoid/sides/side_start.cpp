@@ -1,4 +1,4 @@
-#include "flank/trochoid/side_start.h"
+#include "flank/trochoid/sides/side_start.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "flank/base/step_codec.h"
-#include "flank/trochoid/side_start.h"
+#include "flank/trochoid/sides/side_start.h"
 
 namespace flank::internal {
 

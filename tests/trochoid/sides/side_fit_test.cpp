@@ -1,5 +1,5 @@
 // How wide a cavity is: where a tool comes, not where another face covers a side.
-#include "flank/trochoid/side_fit.h"
+#include "flank/trochoid/sides/side_fit.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "flank/trochoid/side_fit.h"
+#include "flank/trochoid/sides/side_fit.h"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,72 @@
+// Ways out of a cavity: along the axis where that is free, else another that enters nothing.
+#include "flank/trochoid/retract.h"
+
+#include <gtest/gtest.h>
+
+#include "obstacle/obstacle_scene.h"
+
+namespace flank::internal {
+namespace {
+
+using testing::standing_blade;
+
+constexpr double kRadius = 3.0, kLength = 30.0, kAllowed = 0.01;
+const RadialFunction kTool(ToolFamily::kCylinder, kLength, Eigen::VectorXd::Constant(1, kRadius));
+const ClearPlane kClear{Vec3::UnitZ(), 60.0};
+
+class RetractTest : public ::testing::Test {
+ protected:
+  std::unique_ptr<Target> blade_ = standing_blade(0.0);  ///< y = 0
+  HalfGuard guard_{{{blade_.get()}, {}}, kTool};
+
+  /// Deepest between the poses, looked at in small steps.
+  [[nodiscard]] double deepest(const std::vector<Pose>& way) const {
+    GuardDepth depth;
+    for (std::size_t k = 1; k < way.size(); ++k)
+      for (int i = 0; i <= 200; ++i)
+        guard_.look({way[k - 1].tip + i / 200.0 * (way[k].tip - way[k - 1].tip), way[k].axis}, 61, depth);
+    return depth.deepest();
+  }
+};
+
+TEST_F(RetractTest, AlongTheAxisWhereThatIsFree) {
+  const Pose from{Vec3(20.0, kRadius + 0.1, 4.0), Vec3(0.2, 0.1, 1.0).normalized()};
+  const std::vector<Pose> way = retract(from, Vec3::UnitX(), kClear, kTool, guard_, kAllowed);
+  ASSERT_EQ(way.size(), 2u);
+  EXPECT_LT((way[1].tip - way[0].tip).normalized().cross(from.axis).norm(), 1e-12);
+  EXPECT_NEAR(way[1].tip.z(), kClear.height, 1e-9);
+  EXPECT_LE(deepest(way), kAllowed);
+}
+
+TEST_F(RetractTest, AnotherWayWhereTheAxisLeadsIntoAWall) {
+  // Beside the blade and leaning over it: straight up the upper end stays where it is.
+  const Pose beside{Vec3(20.0, 0.5 * kLength + kRadius + 1.0, 4.0), Vec3(0.0, -0.5, 1.0).normalized()};
+  std::vector<Pose> along{beside, {beside.at(62.0), beside.axis}};
+  ASSERT_GT(deepest(along), 1.0);
+  const std::vector<Pose> up = retract(beside, Vec3::Zero(), kClear, kTool, guard_, kAllowed);
+  EXPECT_LE(deepest(up), kAllowed);
+  EXPECT_GE(up.back().tip.z(), kClear.height - 1e-9);
+}
+
+TEST_F(RetractTest, OutwardFirstWhereAllOtherWaysEnter) {
+  // Behind the end of the blade, under a roof that goes on a little farther, leaning back.
+  const auto roof =
+      make_target({testing::quad(Vec3(0, 20, 45), Vec3(66, 20, 45), Vec3(0, -20, 45), Vec3(66, -20, 45), "F2")});
+  guard_ = HalfGuard({{blade_.get(), roof.get()}, {}}, kTool);
+  const Pose behind{Vec3(68.0, 0.0, 4.0), Vec3(-0.12, 0.0, 1.0).normalized()};
+  const std::vector<Pose> way = retract(behind, Vec3(2.0, 0.0, 0.0), kClear, kTool, guard_, kAllowed);
+  const std::vector<Pose> closed = retract(behind, Vec3::Zero(), kClear, kTool, guard_, kAllowed);
+  ASSERT_EQ(way.size(), 3u);
+  EXPECT_LE(deepest(way), kAllowed);
+  EXPECT_GE(way.back().tip.z(), kClear.height - 1e-9);
+  EXPECT_EQ(closed.size(), 2u);
+  EXPECT_GT(deepest(closed), 0.5);
+}
+
+TEST_F(RetractTest, WhatIsAboveStaysWhereItIs) {
+  const Pose above{Vec3(0.0, 20.0, 61.0), Vec3::UnitZ()};
+  EXPECT_EQ(retract(above, Vec3::UnitX(), kClear, kTool, guard_, kAllowed).size(), 1u);
+}
+
+}  // namespace
+}  // namespace flank::internal
