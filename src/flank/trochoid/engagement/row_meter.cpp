@@ -13,8 +13,12 @@ constexpr double kPi = std::numbers::pi;
 /// Arcs that are shorter than this between two poses may be the scallops between sampled poses: radians.
 constexpr double kSliver = 0.35;
 
-/// Of an axis' direction, the part across the ring's axis from which on a tool is taken as leaning: 3 degrees.
+/// Slope of an axis against that of the rings from which on its tool is taken as leaning: 3 degrees.
 constexpr double kLeaning = 0.05;
+/// And from which on it is wherever the ring meets it (10 degrees), not beside its round ends alone.
+constexpr double kSteep = 0.18;
+
+double sq(double x) { return x * x; }
 
 /// A tool that leans against the axis of a ring, in the plane of the ring. What it covers there is not quite a circle, and near
 /// its round ends not at all one.
@@ -103,8 +107,8 @@ RowDisc RowMeter::discs_of_found(std::span<const ToolRing> rings) {
 void RowMeter::engage_all(const RowFrame& frame, std::span<const ToolRing> rings, bool rough) {
   stretch_ = 1.0;
   for (const NearPose& c : candidates_) {
-    const double slope = c.dx * c.dx + c.dy * c.dy;
-    if (slope > kLeaning * kLeaning) stretch_ = std::max(stretch_, std::sqrt(1.0 + slope));
+    const double slope2 = sq(c.dx) + sq(c.dy);
+    if (slope2 > sq(kLeaning)) stretch_ = std::max(stretch_, std::sqrt(1.0 + slope2));
   }
   found_.clear();
   hints_.clear();
@@ -180,9 +184,11 @@ bool RowMeter::cut_by(const NearPose& c, const ToolRing& ring, const Vec2& motio
   };
   // Most do not reach one even where the tool is thickest: that is cheaper to see than the radius at a height.
   const double d2 = o.squaredNorm(), largest = stock_.profile().largest(), most = ring.radius + largest;
-  const Vec2 lean = Vec2(motion.x() * c.dx + motion.y() * c.dy, motion.x() * c.dy - motion.y() * c.dx) / c.dh;
-  if (lean.squaredNorm() > kLeaning * kLeaning) {
-    cut_by_leaning(c, ring, o, lean);
+  if (is_leaning(c, ring)) {
+    const double stretched = stretch_ * largest;
+    if (d2 < sq(ring.radius + stretched) && matters(sq(stretched)))
+      cut_by_leaning(c, ring, o,
+                     Vec2(motion.x() * c.dx + motion.y() * c.dy, motion.x() * c.dy - motion.y() * c.dx) / c.dh);
     return true;
   }
   if (d2 >= most * most || !matters(largest * largest)) return true;
@@ -199,22 +205,38 @@ bool RowMeter::cut_by(const NearPose& c, const ToolRing& ring, const Vec2& motio
   return true;
 }
 
+bool RowMeter::is_leaning(const NearPose& c, const ToolRing& ring) const {
+  const double slope2 = sq(c.dx) + sq(c.dy);
+  if (slope2 <= sq(kLeaning)) return false;
+  if (slope2 > sq(kSteep)) return true;
+  const double height = c.h0 + ring.z * c.dh, swing = ring.radius * std::sqrt(slope2);
+  return height - swing < stock_.profile().flank_low() || height + swing > stock_.profile().flank_high();
+}
+
 void RowMeter::cut_by_leaning(const NearPose& c, const ToolRing& ring, const Vec2& foot, const Vec2& lean) {
   constexpr double kApart = 0.2;  // radians: less is not seen
   const LeaningTool tool{stock_.profile(), ring.radius, foot, lean, c.h0 + ring.z * c.dh};
   const double window = tool.window(), at = std::atan2(foot.y(), foot.x());
   if (window < 0.0) return;
-  const int looks = std::max(4, static_cast<int>(std::ceil(2.0 * window / kApart)));
-  const auto angle = [&](int k) { return at + window * (2.0 * k / looks - 1.0); };
-  double low = angle(0);
-  bool before = tool.covers(low);
-  for (int k = 1; k <= looks; ++k) {
-    const bool covered = tool.covers(angle(k));
-    if (covered && !before) low = tool.edge(angle(k), angle(k - 1));
-    if (!covered && before) cut(low, tool.edge(angle(k - 1), angle(k)), {c.sweep, c.pose});
-    before = covered;
+  covered_.clear();
+  for (const Gap& gap : gaps_) {
+    for (const double turn : {-2.0 * kPi, 0.0, 2.0 * kPi}) {
+      const double from = std::max(gap.low, at + turn - window), to = std::min(gap.high, at + turn + window);
+      if (from >= to) continue;
+      const int looks = std::max(2, static_cast<int>(std::ceil((to - from) / kApart)));
+      const auto angle = [&](int k) { return std::lerp(from, to, static_cast<double>(k) / looks); };
+      double low = from;
+      bool before = tool.covers(from);
+      for (int k = 1; k <= looks; ++k) {
+        const bool covers = tool.covers(angle(k));
+        if (covers && !before) low = tool.edge(angle(k), angle(k - 1));
+        if (!covers && before) covered_.push_back({low, tool.edge(angle(k - 1), angle(k))});
+        before = covers;
+      }
+      if (before) covered_.push_back({low, to});
+    }
   }
-  if (before) cut(low, angle(looks), {c.sweep, c.pose});
+  for (const Arc& arc : covered_) cut(arc.low, arc.high, {c.sweep, c.pose});
 }
 
 const std::vector<ReachDisc>& RowMeter::discs_of_gaps(const ToolRing& ring, const Vec2& motion) {

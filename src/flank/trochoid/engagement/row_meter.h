@@ -68,6 +68,8 @@ class RowMeter {
   [[nodiscard]] const std::vector<ReachDisc>& discs_of_gaps(const ToolRing& ring, const Vec2& motion);
   /// False if the candidate covers the whole ring.
   [[nodiscard]] bool cut_by(const NearPose& candidate, const ToolRing& ring, const Vec2& motion);
+  /// Whether the candidate leans so far that it does not cover the ring as a circle in its plane would.
+  [[nodiscard]] bool is_leaning(const NearPose& candidate, const ToolRing& ring) const;
   /// `foot`, `lean`: where the candidate's axis meets the ring's plane, and the part of its direction in it, from the direction
   /// of motion.
   void cut_by_leaning(const NearPose& candidate, const ToolRing& ring, const Vec2& foot, const Vec2& lean);
@@ -93,6 +95,7 @@ class RowMeter {
   std::vector<RowDisc> parts_, some_;
   std::vector<ReachDisc> reaches_;
   std::vector<Gap> gaps_, cut_;
+  std::vector<Arc> covered_;
   std::vector<std::size_t> hints_;  ///< candidates that ended the gaps of the ring before
   std::vector<RingArc> found_;
 };

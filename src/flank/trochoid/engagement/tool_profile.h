@@ -21,6 +21,9 @@ class ToolProfile {
   [[nodiscard]] bool at(double z, Place& place) const;
   [[nodiscard]] double low() const { return low_; }
   [[nodiscard]] double high() const { return high_; }
+  /// Heights between which it is the flank, not a round end.
+  [[nodiscard]] double flank_low() const { return first_; }
+  [[nodiscard]] double flank_high() const { return last_; }
   [[nodiscard]] double largest() const { return largest_; }
 
  private:
