@@ -57,7 +57,7 @@ bool NearPoses::meets(const RowFrame& frame, const Pose& pose, std::span<const R
   out.dx = pose.axis.dot(frame.x) / forward, out.dy = pose.axis.dot(frame.y) / forward;
   out.x0 = d.dot(frame.x) - up * out.dx, out.y0 = d.dot(frame.y) - up * out.dy;
   out.h0 = -up / forward, out.dh = 1.0 / forward;
-  const double lean = forward * std::hypot(out.dx, out.dy), below = d.dot(pose.axis);
+  const double lean = forward * std::sqrt(out.dx * out.dx + out.dy * out.dy), below = d.dot(pose.axis);
   // Nearest that the axis comes to a disc over the heights of the tool, and a little more where it leans.
   const double slack = profile.largest() * lean / forward, first = low - slack, range = high - low + 2.0 * slack;
   const double ex = range * out.dx, ey = range * out.dy, e2 = ex * ex + ey * ey;

@@ -27,8 +27,10 @@ struct LeaningTool {
   double ring;      ///< radius, mm
   Vec2 foot, lean;  ///< where its axis meets the plane, and the part of its direction in the plane
   double height;    ///< its own, there
+  double reach2;    ///< nothing is covered farther from the foot, mm^2
   [[nodiscard]] bool covers(double angle) const {
-    const Vec2 from = ring * Vec2(std::cos(angle), std::sin(angle)) - foot;
+    const Vec2 from = Vec2(ring * std::cos(angle), ring * std::sin(angle)) - foot;
+    if (from.squaredNorm() > reach2) return false;
     const double along = lean.dot(from);
     ToolProfile::Place place;
     return profile.at(height + along, place) && from.squaredNorm() - along * along <= place.radius * place.radius;
@@ -37,13 +39,13 @@ struct LeaningTool {
   [[nodiscard]] double window() const {
     const double middle = height - lean.dot(foot), swing = ring * lean.norm();
     if (middle + swing < profile.low() || middle - swing > profile.high()) return -1.0;
-    const double d = foot.norm(), reach = profile.largest() / std::sqrt(1.0 - std::min(0.99, lean.squaredNorm()));
+    const double d = foot.norm(), reach = std::sqrt(reach2);
     if (d >= ring + reach || ring >= reach + d) return -1.0;
     return reach >= ring + d ? kPi : std::acos((ring * ring + d * d - reach * reach) / (2.0 * ring * d));
   }
   /// Between an angle that is covered and one that is not: how far it is.
   [[nodiscard]] double edge(double inside, double outside) const {
-    constexpr int kHalvings = 5;
+    constexpr int kHalvings = 3;  // the ends of arcs are found exactly afterwards
     for (int k = 0; k < kHalvings; ++k) {
       const double middle = 0.5 * (inside + outside);
       (covers(middle) ? inside : outside) = middle;
@@ -208,14 +210,20 @@ bool RowMeter::cut_by(const NearPose& c, const ToolRing& ring, const Vec2& motio
 bool RowMeter::is_leaning(const NearPose& c, const ToolRing& ring) const {
   const double slope2 = sq(c.dx) + sq(c.dy);
   if (slope2 <= sq(kLeaning)) return false;
-  if (slope2 > sq(kSteep)) return true;
+  // Rings of round ends count for the volume alone, where a circle is near enough.
+  if (slope2 > sq(kSteep) || !ring.flank) return slope2 > sq(kSteep);
   const double height = c.h0 + ring.z * c.dh, swing = ring.radius * std::sqrt(slope2);
-  return height - swing < stock_.profile().flank_low() || height + swing > stock_.profile().flank_high();
+  // Where a round end begins it is hardly narrower than the flank.
+  constexpr double kBegins = 0.3;
+  const ToolProfile& p = stock_.profile();
+  return height - swing < std::lerp(p.flank_low(), p.low(), kBegins) ||
+         height + swing > std::lerp(p.flank_high(), p.high(), kBegins);
 }
 
 void RowMeter::cut_by_leaning(const NearPose& c, const ToolRing& ring, const Vec2& foot, const Vec2& lean) {
   constexpr double kApart = 0.2;  // radians: less is not seen
-  const LeaningTool tool{stock_.profile(), ring.radius, foot, lean, c.h0 + ring.z * c.dh};
+  const LeaningTool tool{
+      stock_.profile(), ring.radius, foot, lean, c.h0 + ring.z * c.dh, sq(stretch_ * stock_.profile().largest())};
   const double window = tool.window(), at = std::atan2(foot.y(), foot.x());
   if (window < 0.0) return;
   covered_.clear();
