@@ -40,13 +40,15 @@ double lying(const RuledMotion& motion) {
 /// the other; and for axes that lie along it.
 double worth(const FitDraft& draft, const CoverageEstimate& estimate, double tolerance) {
   constexpr double kStagger = 2.0, kLean = 0.1;  // of coverage: 12 degrees cost two fifths, and two percent
+  constexpr double kMuchLean = 0.3, kSteepLean = 1.0;   // from 17 degrees on, another percent for each percent
   constexpr double kLying = 0.5, kMostLying = 4.0;
   double sum = 0.0;
   for (std::size_t k = 0; k + 1 < draft.motions.size(); k += 2)
     sum += kLying * std::min(kMostLying, lying(draft.motions[k]));
   const double layers = std::max(1.0, 0.5 * static_cast<double>(draft.motions.size()));
-  return estimate.score(tolerance) - kStagger * mean_stagger(draft.motions) - kLean * mean_lean(draft.motions) -
-         sum / layers;
+  const double lean = mean_lean(draft.motions);
+  return estimate.score(tolerance) - kStagger * mean_stagger(draft.motions) - kLean * lean -
+         kSteepLean * std::max(0.0, lean - kMuchLean) - sum / layers;
 }
 
 bool is_done(const CoverageEstimate& e, const SideFitOptions& options) {
