@@ -92,6 +92,8 @@ struct CavityBudget {
   /// Half paths, at the places where they are looked at, and what may lie between these places; their joined poses, which
   /// finish nothing, may be so far off.
   double halves = 0.84, between_places = 0.06, half_chord = 0.1;
+  /// Where a cycle can do no other: so deep, at those places, and it still gets through.
+  [[nodiscard]] constexpr double through() const { return 1.0 - between_places; }
 };
 
 /// Shares of the tolerance, all in one.

@@ -8,6 +8,7 @@
 
 #include "flank/base/random.h"
 #include "flank/trochoid/half_path.h"
+#include "sanitized.h"
 
 namespace flank::internal {
 namespace {
@@ -129,25 +130,28 @@ TEST(Engagement, WhatALeaningToolLeavesBesideItsRoundEndIsMaterial) {
   constexpr double kRadius = 6.0, kLength = 22.0;
   Random random(5);
   const RuledMotion next = straight(Vec3(0, 0, 0), Vec3::UnitZ(), 10.0, kLength);
-  int partly = 0;
-  for (int k = 0; k < 200; ++k) {
+  const int scenes = kSanitized ? 30 : 200;
+  int partly = 0, scallops = 0;
+  for (int k = 0; k < scenes; ++k) {
     SweptStock stock(cylinder(kRadius, kLength), {});
-    const double lean = (k % 2 == 0 ? random.uniform(0.0, 4.0) : random.uniform(4.0, 40.0)) * kDegree,
-                 about = random.uniform(-kPi, kPi);
+    const double lean = (k % 2 == 0 ? random.uniform(0.0, 4.0) : random.uniform(4.0, 40.0)) * kDegree;
+    const double about = random.uniform(-kPi, kPi), across = random.uniform(-14.0, 14.0),
+                 up = random.uniform(0.0, 24.0);
     const Vec3 axis(std::sin(lean) * std::cos(about), std::sin(lean) * std::sin(about), std::cos(lean));
-    stock.add(Sweep::of(
-        straight(Vec3(-20, random.uniform(-14.0, 14.0), random.uniform(0.0, 24.0)), axis, 50.0, kLength), 48));
+    stock.add(Sweep::of(straight(Vec3(-20, across, up), axis, 50.0, kLength), 48));
     EngagementMeter meter(stock);
     for (const double s : {2.0, 8.0, 14.0, 20.0}) {
       const ToolRing ring = ring_at(stock.radial(), s);
       const double angle = meter.angle(next, 0.5, ring) / kDegree, truth = scanned(stock, next, 0.5, ring) / kDegree;
       // A few degrees beside a pose are taken for a scallop between sampled poses.
-      const bool scallop = angle == 0.0 && truth < 3.0;
-      EXPECT_NEAR(angle, scallop ? 0.0 : truth, 0.05) << k << " " << s;
+      const bool scallop = angle < truth - 0.05 && truth - angle < 5.0;
+      EXPECT_TRUE(scallop || std::abs(angle - truth) < 0.05) << k << " " << s << ": " << angle << ", scanned " << truth;
+      scallops += scallop ? 1 : 0;
       partly += truth > 5.0 && truth < 175.0 ? 1 : 0;
     }
   }
-  EXPECT_GE(partly, 30);
+  EXPECT_GE(partly, scenes / 4);
+  EXPECT_LE(scallops, 4 * scenes / 100);
 }
 
 TEST(Engagement, EndsOfArcsLieOnTheSweptVolume) {

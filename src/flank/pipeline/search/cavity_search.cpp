@@ -73,7 +73,7 @@ CavityProgram plan(const TrochoidJob& job, const CavityFaces& faces, const SideF
 
 /// All cycles, and none of them enters a face.
 bool gets_through(const CavityPlan& plan, double tolerance) {
-  return plan.program.done() && plan.program.entered_mm() <= tolerance;
+  return plan.program.done() && plan.program.entered_mm() <= kToleranceBudget.cavity.through() * tolerance;
 }
 
 /// Of the way of the sides, how much the cycles cleared: mean over the layers.

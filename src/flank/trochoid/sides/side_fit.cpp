@@ -39,8 +39,8 @@ double lying(const RuledMotion& motion) {
 /// axes that lean along it, because the tool must then be longer, and at the ends of the cavity it is in one side long before
 /// the other; and for axes that lie along it.
 double worth(const FitDraft& draft, const CoverageEstimate& estimate, double tolerance) {
-  constexpr double kStagger = 2.0, kLean = 0.1;  // of coverage: 12 degrees cost two fifths, and two percent
-  constexpr double kMuchLean = 0.3, kSteepLean = 1.0;   // from 17 degrees on, another percent for each percent
+  constexpr double kStagger = 2.0, kLean = 0.1;        // of coverage: 12 degrees cost two fifths, and two percent
+  constexpr double kMuchLean = 0.3, kSteepLean = 1.0;  // from 17 degrees on, another percent for each percent
   constexpr double kLying = 0.5, kMostLying = 4.0;
   double sum = 0.0;
   for (std::size_t k = 0; k + 1 < draft.motions.size(); k += 2)
