@@ -20,7 +20,7 @@ void code(StepCodec& codec, EngagementRow& row) {
 namespace {
 
 /// Rows of a motion, rings of the flank and of each round end when a cycle is accepted.
-constexpr int kFineRows = 101, kFineRings = 61, kCaps = 15;
+constexpr int kFineRows = 101, kFineRings = 41, kCaps = 6;
 /// Before the start, in radii: there the first front is looked for, and twice as far out for as long as it cuts, up to so
 /// many times.
 constexpr double kFarOut = 4.0;
@@ -84,6 +84,8 @@ class CyclePlanner {
 
  private:
   [[nodiscard]] Half accepted(const RuledMotion& motion);
+  /// Whether so much engagement is above the limit, where a search saw less: the next one then aims lower.
+  [[nodiscard]] bool is_too_much(double largest_rad, double searched_rad);
   [[nodiscard]] bool accept(Trial trial, LayerCycles& out);
   /// The trial, or one with a smaller aim where its fine measure is above the limit; none that enters a face, unless the
   /// trial does.
@@ -122,19 +124,27 @@ Half CyclePlanner::accepted(const RuledMotion& motion) {
   return half;
 }
 
+bool CyclePlanner::is_too_much(double largest_rad, double searched_rad) {
+  if (largest_rad <= options_.largest_rad) return false;
+  now_.excess_rad = std::max(now_.excess_rad + kLeastLess, 1.05 * (largest_rad - searched_rad));
+  return true;
+}
+
 bool CyclePlanner::accept(Trial trial, LayerCycles& out) {
   Cycle cycle;
   cycle.from_x = trial.from_x;
   cycle.to_x = trial.to_x;
+  double largest = 0.0;
   if (trial.back) {
     cycle.back = accepted(*trial.back);
+    largest = cycle.back->peak.angle_rad;
+    if (is_too_much(largest, trial.largest_rad)) return false;
     stock_.add(Sweep::of(*trial.back, kHalfIntervals));
   }
   cycle.front = accepted(trial.front);
-  const double largest = std::max(cycle.front.peak.angle_rad, cycle.back ? cycle.back->peak.angle_rad : 0.0);
-  if (largest > options_.largest_rad) {
+  largest = std::max(largest, cycle.front.peak.angle_rad);
+  if (is_too_much(largest, trial.largest_rad)) {
     if (trial.back) stock_.remove_last();
-    now_.excess_rad = std::max(now_.excess_rad + kLeastLess, 1.05 * (largest - trial.largest_rad));
     return false;
   }
   now_.excess_rad = std::max(kKept * now_.excess_rad, largest - trial.largest_rad);

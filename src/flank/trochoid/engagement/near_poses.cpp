@@ -54,22 +54,24 @@ bool NearPoses::meets(const RowFrame& frame, const Pose& pose, std::span<const R
   const double forward = pose.axis.dot(frame.axis.u);
   if (forward < 0.5) return false;
   const double up = d.dot(frame.axis.u);
-  out.dx = pose.axis.dot(frame.x) / forward, out.dy = pose.axis.dot(frame.y) / forward;
+  out.dh = 1.0 / forward, out.h0 = -up * out.dh;
+  out.dx = pose.axis.dot(frame.x) * out.dh, out.dy = pose.axis.dot(frame.y) * out.dh;
   out.x0 = d.dot(frame.x) - up * out.dx, out.y0 = d.dot(frame.y) - up * out.dy;
-  out.h0 = -up / forward, out.dh = 1.0 / forward;
-  const double lean = forward * std::sqrt(out.dx * out.dx + out.dy * out.dy), below = d.dot(pose.axis);
+  // At least the length of (dx, dy), without its root.
+  const double slope = std::max(std::abs(out.dx), std::abs(out.dy)) + 0.5 * std::min(std::abs(out.dx), std::abs(out.dy));
+  const double lean = forward * slope, below = d.dot(pose.axis);
   // Nearest that the axis comes to a disc over the heights of the tool, and a little more where it leans.
-  const double slack = profile.largest() * lean / forward, first = low - slack, range = high - low + 2.0 * slack;
-  const double ex = range * out.dx, ey = range * out.dy, e2 = ex * ex + ey * ey;
+  const double slack = profile.largest() * slope, first = low - slack, range = high - low + 2.0 * slack;
+  const double ex = range * out.dx, ey = range * out.dy, e2 = ex * ex + ey * ey, per_e2 = e2 > 0.0 ? 1.0 / e2 : 0.0;
   return std::any_of(discs.begin(), discs.end(), [&](const RowDisc& disc) {
-    // Heights of the places of the disc along this axis.
-    const double middle = forward * (disc.x * out.dx + disc.y * out.dy) - below, swing = disc.radius * lean;
-    if (middle + swing + disc.high * forward < low || middle - swing + disc.low * forward > high) return false;
     const double reach = profile.largest() + disc.radius;
     const double ax = out.x0 + first * out.dx - disc.x, ay = out.y0 + first * out.dy - disc.y;
-    const double share = e2 > 0.0 ? std::clamp(-(ax * ex + ay * ey) / e2, 0.0, 1.0) : 0.0;
+    const double share = std::clamp(-(ax * ex + ay * ey) * per_e2, 0.0, 1.0);
     const double nx = ax + share * ex, ny = ay + share * ey;
-    return nx * nx + ny * ny <= reach * reach;
+    if (nx * nx + ny * ny > reach * reach) return false;
+    // Heights of the places of the disc along this axis.
+    const double middle = forward * (disc.x * out.dx + disc.y * out.dy) - below, swing = disc.radius * lean;
+    return middle + swing + disc.high * forward >= low && middle - swing + disc.low * forward <= high;
   });
 }
 

@@ -27,7 +27,11 @@ struct NearPose {
   double x0 = 0.0, y0 = 0.0, dx = 0.0, dy = 0.0;  ///< where it meets the ring's plane
   double h0 = 0.0, dh = 0.0;                      ///< at which of its own heights
   int sweep = 0, pose = 0;
+  [[nodiscard]] double slope2() const { return dx * dx + dy * dy; }
 };
+
+/// Slope of an axis against that of the rings from which on its tool is taken as leaning: 3 degrees.
+inline constexpr double kLeaning = 0.05;
 
 /// In place of the index of a sweep: the motion that is measured.
 inline constexpr int kOwnSweep = 1 << 30;

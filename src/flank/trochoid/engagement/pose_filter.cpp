@@ -1,35 +1,84 @@
 #include "flank/trochoid/engagement/pose_filter.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace flank::internal {
+namespace {
 
-void PoseFilter::take(std::span<const NearPose> candidates, bool first_look) {
-  if (first_look)
-    for (std::vector<float>* values : {&x_, &y_, &dx_, &dy_}) values->clear();
-  for (std::size_t k = x_.size(); k < candidates.size(); ++k) {
-    x_.push_back(static_cast<float>(candidates[k].x0));
-    y_.push_back(static_cast<float>(candidates[k].y0));
-    dx_.push_back(static_cast<float>(candidates[k].dx));
-    dy_.push_back(static_cast<float>(candidates[k].dy));
+/// What rounding may add: to a squared reach by its size, and by that of the largest. Candidates lie some tool radii away.
+constexpr double kSpare = 1e-3, kSpareOfLargest = 1e-4;
+
+}  // namespace
+
+PoseFilter::PoseFilter(const ToolProfile& profile) : largest_(profile.largest()) {
+  const double width = (profile.high() - profile.low()) / kBands;
+  low_ = profile.low() - 2.0 * width;
+  per_mm_ = 1.0 / width;
+  // Radii at the bands' borders and between; the profile is smooth but for its ends, where it falls to nothing.
+  constexpr int kBetween = 4;
+  const auto radius = [&](double band) {
+    ToolProfile::Place place;
+    return profile.at(low_ + band * width, place) ? place.radius : 0.0;
+  };
+  for (int band = 0; band < kBands + 4; ++band) {
+    double most = 0.0;
+    for (int k = -1; k <= kBetween + 1; ++k) most = std::max(most, radius(band + static_cast<double>(k) / kBetween));
+    bands_.push_back(static_cast<float>(std::sqrt(most * most * (1.0 + kSpare) + kSpareOfLargest * largest_ * largest_)));
   }
 }
 
-const std::vector<std::size_t>& PoseFilter::reaching(double z, std::span<const ReachDisc> discs) {
-  // What rounding may add to a squared distance, by its size: candidates lie some tool radii away at most.
-  constexpr double kSpare = 1e-3;
+void PoseFilter::take(std::span<const NearPose> candidates, bool first_look) {
+  if (first_look)
+    for (std::vector<float>* values : {&x_, &y_, &dx_, &dy_, &band_, &band_by_z_, &leaning_}) values->clear();
+  for (std::size_t k = x_.size(); k < candidates.size(); ++k) {
+    const NearPose& c = candidates[k];
+    const double slope2 = c.slope2();
+    x_.push_back(static_cast<float>(c.x0));
+    y_.push_back(static_cast<float>(c.y0));
+    dx_.push_back(static_cast<float>(c.dx));
+    dy_.push_back(static_cast<float>(c.dy));
+    band_.push_back(static_cast<float>((c.h0 - low_) * per_mm_));
+    band_by_z_.push_back(static_cast<float>(c.dh * per_mm_));
+    leaning_.push_back(slope2 > kLeaning * kLeaning ? static_cast<float>((1.0 + kSpare) * largest_ * std::sqrt(1.0 + slope2))
+                                                    : 0.0F);
+  }
+  for (std::vector<float>* values : {&x_at_, &y_at_, &reach_, &excess_}) values->resize(x_.size());
+}
+
+void PoseFilter::find_reaches(double z) {
+  const auto height = static_cast<float>(z), last = static_cast<float>(bands_.size() - 1);
+  for (std::size_t k = 0; k < x_.size(); ++k) {
+    x_at_[k] = x_[k] + height * dx_[k];
+    y_at_[k] = y_[k] + height * dy_[k];
+    const float band = std::clamp(band_[k] + height * band_by_z_[k], 0.0F, last);
+    reach_[k] = std::max(leaning_[k], bands_[static_cast<std::size_t>(static_cast<int>(band))]);
+  }
+}
+
+const std::vector<std::size_t>& PoseFilter::reaching(const ToolRing& ring, std::span<const OpenArc> arcs) {
   const std::size_t count = x_.size();
-  excess_.assign(count, std::numeric_limits<float>::infinity());
+  find_reaches(ring.z);
+  std::fill(excess_.begin(), excess_.end(), std::numeric_limits<float>::infinity());
+  const auto radius = static_cast<float>(ring.radius);
+  const auto beside = static_cast<float>(-kSpare * ring.radius * (ring.radius + largest_));
   // Plain arrays and no branch, so that compilers look at several candidates at once.
-  const float *x = x_.data(), *y = y_.data(), *dx = dx_.data(), *dy = dy_.data();
+  const float *x = x_at_.data(), *y = y_at_.data(), *reach = reach_.data();
   float* excess = excess_.data();
-  const auto height = static_cast<float>(z);
-  for (const ReachDisc& disc : discs) {
-    const auto cx = static_cast<float>(disc.x), cy = static_cast<float>(disc.y);
-    const auto reach2 = static_cast<float>(disc.reach * disc.reach * (1.0 + kSpare));
+  for (const OpenArc& arc : arcs) {
+    const Eigen::Vector2f from = arc.from.cast<float>(), to = arc.to.cast<float>();
+    const float fx = from.x(), fy = from.y(), tx = to.x(), ty = to.y(), whole = arc.wide ? 1.0F : 0.0F;
     for (std::size_t k = 0; k < count; ++k) {
-      const float ax = x[k] + height * dx[k] - cx, ay = y[k] + height * dy[k] - cy;
-      const float here = ax * ax + ay * ay - reach2;
+      const float bx = x[k] - fx, by = y[k] - fy, cx = x[k] - tx, cy = y[k] - ty;
+      const float at_from = bx * bx + by * by, at_to = cx * cx + cy * cy;
+      const float ends = (at_from < at_to ? at_from : at_to) - reach[k] * reach[k];
+      // Negative where the axis is beside the sector.
+      const float after = fx * y[k] - fy * x[k], before = x[k] * ty - y[k] * tx;
+      const float inside = (after < before ? after : before) > beside ? 1.0F : whole;
+      const float meets = radius + reach[k];
+      const float within = inside * (x[k] * x[k] + y[k] * y[k] - meets * meets);
+      const float here = ends < within ? ends : within;
       excess[k] = here < excess[k] ? here : excess[k];
     }
   }

@@ -9,24 +9,37 @@
 
 namespace flank::internal {
 
-/// In the plane of a ring, in the frame of its row, mm: an axis farther from (x, y) than `reach` does not matter.
-struct ReachDisc {
-  double x = 0.0, y = 0.0, reach = 0.0;
+/// What is open of a ring, in its plane and the frame of its row: from one point of it to another, anticlockwise.
+struct OpenArc {
+  Vec2 from, to;
+  bool wide = false;  ///< about half of the ring or more: whoever reaches the ring may reach into it
 };
 
 /// Where the candidates of one row meet the planes of its rings, in single precision. Not for several threads at once: it
 /// keeps scratch memory.
 class PoseFilter {
  public:
+  /// Of this tool, which candidates and rings share.
+  explicit PoseFilter(const ToolProfile& profile);
+
   /// The candidates of a row. The first ones may be those of the call before: only what is new is then taken over.
   void take(std::span<const NearPose> candidates, bool first_look);
-  /// Indices of the candidates, in their order, that come nearer to one of the discs than its reach at the height z over the
-  /// tip, mm; single precision may add some, and leaves none out. Valid until the next call.
-  [[nodiscard]] const std::vector<std::size_t>& reaching(double z, std::span<const ReachDisc> discs);
+  /// Indices of the candidates, in their order, whose tools may cover a part of an arc of this ring: they hold one of its
+  /// ends, or their axes lie in its sector, near enough. Single precision may add some, and leaves none out. Valid until
+  /// the next call.
+  [[nodiscard]] const std::vector<std::size_t>& reaching(const ToolRing& ring, std::span<const OpenArc> arcs);
 
  private:
-  std::vector<float> x_, y_, dx_, dy_;  ///< as NearPose has them
-  std::vector<float> excess_;           ///< squared distance less squared reach: the least of all discs, mm^2
+  void find_reaches(double z);
+  static constexpr int kBands = 256;
+  /// In bands of height, two more below and above the tool: how far it reaches from its axis, and a little more, mm.
+  std::vector<float> bands_;
+  double low_ = 0.0, per_mm_ = 0.0, largest_ = 0.0;
+  std::vector<float> x_, y_, dx_, dy_;    ///< as NearPose has them
+  std::vector<float> band_, band_by_z_;   ///< the same of h0 and dh, in bands
+  std::vector<float> leaning_;            ///< how far a leaning tool reaches in the plane of a ring, mm; 0: it is upright
+  std::vector<float> x_at_, y_at_;        ///< axes in the plane of the ring
+  std::vector<float> reach_, excess_;     ///< mm; squared distance less squared reach, the least of all arcs, mm^2
   std::vector<std::size_t> reaching_;
 };
 

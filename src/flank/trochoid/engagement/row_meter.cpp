@@ -13,10 +13,11 @@ constexpr double kPi = std::numbers::pi;
 /// Arcs that are shorter than this between two poses may be the scallops between sampled poses: radians.
 constexpr double kSliver = 0.35;
 
-/// Slope of an axis against that of the rings from which on its tool is taken as leaning: 3 degrees.
-constexpr double kLeaning = 0.05;
-/// And from which on it is wherever the ring meets it (10 degrees), not beside its round ends alone.
+/// Slope from which on a tool is leaning wherever the ring meets it (10 degrees), not beside its round ends alone.
 constexpr double kSteep = 0.18;
+
+/// A gap, radians, that some pose may reach into without holding one of its ends, and without lying within its sector.
+constexpr double kWide = 3.0;
 
 double sq(double x) { return x * x; }
 
@@ -109,7 +110,7 @@ RowDisc RowMeter::discs_of_found(std::span<const ToolRing> rings) {
 void RowMeter::engage_all(const RowFrame& frame, std::span<const ToolRing> rings, bool rough) {
   stretch_ = 1.0;
   for (const NearPose& c : candidates_) {
-    const double slope2 = sq(c.dx) + sq(c.dy);
+    const double slope2 = c.slope2();
     if (slope2 > sq(kLeaning)) stretch_ = std::max(stretch_, std::sqrt(1.0 + slope2));
   }
   found_.clear();
@@ -134,12 +135,14 @@ void RowMeter::find_arcs(const RowFrame& frame, double t, std::span<const ToolRi
 
 void RowMeter::cut(double low, double high, const Bound& bound) {
   cut_.clear();
+  bool changed = false;
   for (const Gap& gap : gaps_) {
     Gap rest = gap;
     bool left = true;
     for (const double turn : {-2.0 * kPi, 0.0, 2.0 * kPi}) {
       const double from = low + turn, to = high + turn;
       if (!left || to <= rest.low || from >= rest.high) continue;
+      changed = true;
       if (from > rest.low) {
         Gap before = rest;
         before.high = from;
@@ -156,6 +159,7 @@ void RowMeter::cut(double low, double high, const Bound& bound) {
     if (left) cut_.push_back(rest);
   }
   gaps_.swap(cut_);
+  if (changed && bound.is_pose()) cutters_.push_back(bound.candidate);
 }
 
 void RowMeter::cut_by_blank(const RowFrame& frame, const ToolRing& ring, double motion_angle) {
@@ -173,14 +177,15 @@ void RowMeter::cut_by_blank(const RowFrame& frame, const ToolRing& ring, double 
   }
 }
 
-bool RowMeter::cut_by(const NearPose& c, const ToolRing& ring, const Vec2& motion) {
+bool RowMeter::cut_by(std::size_t candidate, const ToolRing& ring, const Vec2& motion) {
+  const NearPose& c = candidates_[candidate];
   const double px = c.x0 + ring.z * c.dx, py = c.y0 + ring.z * c.dy;
   const Vec2 o(motion.x() * px + motion.y() * py, motion.x() * py - motion.y() * px);
   // An interval that reaches into a gap holds one of its ends, or lies within.
   const auto matters = [&](double p2) {
     return std::any_of(gaps_.begin(), gaps_.end(), [&](const Gap& gap) {
       return (ring.radius * gap.from - o).squaredNorm() < p2 || (ring.radius * gap.to - o).squaredNorm() < p2 ||
-             gap.high - gap.low > 3.0 ||
+             gap.high - gap.low > kWide ||
              (gap.from.x() * o.y() - gap.from.y() * o.x() > 0.0 && o.x() * gap.to.y() - o.y() * gap.to.x() > 0.0);
     });
   };
@@ -189,7 +194,7 @@ bool RowMeter::cut_by(const NearPose& c, const ToolRing& ring, const Vec2& motio
   if (is_leaning(c, ring)) {
     const double stretched = stretch_ * largest;
     if (d2 < sq(ring.radius + stretched) && matters(sq(stretched)))
-      cut_by_leaning(c, ring, o,
+      cut_by_leaning(candidate, ring, o,
                      Vec2(motion.x() * c.dx + motion.y() * c.dy, motion.x() * c.dy - motion.y() * c.dx) / c.dh);
     return true;
   }
@@ -203,12 +208,12 @@ bool RowMeter::cut_by(const NearPose& c, const ToolRing& ring, const Vec2& motio
   if (!matters(p2)) return true;
   const double cosine = (ring.radius * ring.radius + d2 - p2) / (2.0 * ring.radius * std::sqrt(d2));
   const double width = std::acos(std::clamp(cosine, -1.0, 1.0)), at = std::atan2(o.y(), o.x());
-  cut(at - width, at + width, {c.sweep, c.pose});
+  cut(at - width, at + width, {candidate});
   return true;
 }
 
 bool RowMeter::is_leaning(const NearPose& c, const ToolRing& ring) const {
-  const double slope2 = sq(c.dx) + sq(c.dy);
+  const double slope2 = c.slope2();
   if (slope2 <= sq(kLeaning)) return false;
   // Rings of round ends count for the volume alone, where a circle is near enough.
   if (slope2 > sq(kSteep) || !ring.flank) return slope2 > sq(kSteep);
@@ -220,8 +225,9 @@ bool RowMeter::is_leaning(const NearPose& c, const ToolRing& ring) const {
          height + swing > std::lerp(p.flank_high(), p.high(), kBegins);
 }
 
-void RowMeter::cut_by_leaning(const NearPose& c, const ToolRing& ring, const Vec2& foot, const Vec2& lean) {
+void RowMeter::cut_by_leaning(std::size_t candidate, const ToolRing& ring, const Vec2& foot, const Vec2& lean) {
   constexpr double kApart = 0.2;  // radians: less is not seen
+  const NearPose& c = candidates_[candidate];
   const LeaningTool tool{
       stock_.profile(), ring.radius, foot, lean, c.h0 + ring.z * c.dh, sq(stretch_ * stock_.profile().largest())};
   const double window = tool.window(), at = std::atan2(foot.y(), foot.x());
@@ -244,54 +250,47 @@ void RowMeter::cut_by_leaning(const NearPose& c, const ToolRing& ring, const Vec
       if (before) covered_.push_back({low, to});
     }
   }
-  for (const Arc& arc : covered_) cut(arc.low, arc.high, {c.sweep, c.pose});
+  for (const Arc& arc : covered_) cut(arc.low, arc.high, {candidate});
 }
 
-const std::vector<ReachDisc>& RowMeter::discs_of_gaps(const ToolRing& ring, const Vec2& motion) {
-  reaches_.clear();
-  for (const Gap& gap : gaps_) {
-    const double middle = 0.5 * (gap.low + gap.high), half = 0.5 * (gap.high - gap.low);
-    // The disc over the arc's chord holds the arc, up to half a circle.
-    const double along = half < 0.5 * kPi ? ring.radius * std::cos(half) : 0.0;
-    const double radius = half < 0.5 * kPi ? ring.radius * std::sin(half) : ring.radius;
-    const Vec2 at = along * Vec2(std::cos(middle), std::sin(middle));
-    reaches_.push_back({motion.x() * at.x() - motion.y() * at.y(), motion.y() * at.x() + motion.x() * at.y(),
-                        radius + stretch_ * stock_.profile().largest()});
-  }
-  return reaches_;
+const std::vector<OpenArc>& RowMeter::open_arcs(const ToolRing& ring, const Vec2& motion) {
+  const auto turned = [&](const Vec2& v) {
+    return Vec2(motion.x() * v.x() - motion.y() * v.y(), motion.y() * v.x() + motion.x() * v.y());
+  };
+  open_.clear();
+  for (const Gap& gap : gaps_)
+    open_.push_back({ring.radius * turned(gap.from), ring.radius * turned(gap.to), gap.high - gap.low > kWide});
+  return open_;
 }
 
 void RowMeter::cut_by_poses(const ToolRing& ring, double motion_angle) {
   const Vec2 motion(std::cos(motion_angle), std::sin(motion_angle));
-  // The poses that end the gaps of one ring end those of the next one, or nearly so: then all others are seen not to matter.
-  bool open = true;
-  const auto unsettled = [&] { return open && !gaps_.empty(); };
-  for (const std::size_t k : hints_)
-    if (unsettled()) open = cut_by(candidates_[k], ring, motion);
-  if (unsettled())
-    for (const std::size_t k : filter_.reaching(ring.z, discs_of_gaps(ring, motion)))
-      if (unsettled()) open = cut_by(candidates_[k], ring, motion);
-  if (!open) gaps_.clear();
-  hints_.clear();
-  for (const Gap& gap : gaps_)
-    for (const Bound& bound : {gap.at_low, gap.at_high})
-      for (std::size_t k = 0; k < candidates_.size() && bound.sweep != kNoSweep; ++k)
-        if (candidates_[k].sweep == bound.sweep && candidates_[k].pose == bound.pose) {
-          hints_.push_back(k);
-          break;
-        }
+  cutters_.clear();
+  const auto try_all = [&](const std::vector<std::size_t>& candidates) {
+    for (auto k = candidates.begin(); k != candidates.end() && !gaps_.empty(); ++k) {
+      if (cut_by(*k, ring, motion)) continue;
+      cutters_.push_back(*k);
+      gaps_.clear();
+    }
+  };
+  // The poses that cover most of one ring cover most of the next one: then nearly all others are seen not to matter.
+  try_all(hints_);
+  if (!gaps_.empty()) try_all(filter_.reaching(ring, open_arcs(ring, motion)));
+  // The last ones first: they are those that end the gaps, or close the last of them.
+  hints_.assign(cutters_.rbegin(), cutters_.rend());
 }
 
 SweepPlace RowMeter::place_of(const Bound& bound) const {
-  const Sweep& sweep = sweep_of(bound.sweep);
-  return {&sweep, bound.sweep == kOwnSweep ? own_last_ : sweep.last(), static_cast<double>(bound.pose)};
+  const NearPose& pose = candidates_[bound.candidate];
+  const Sweep& sweep = sweep_of(pose.sweep);
+  return {&sweep, pose.sweep == kOwnSweep ? own_last_ : sweep.last(), static_cast<double>(pose.pose)};
 }
 
 bool RowMeter::is_sliver(const RingCircle& circle, const Gap& gap) const {
   if (gap.high - gap.low > kSliver) return false;
   const Vec3 x = circle.at(0.5 * (gap.low + gap.high));
   for (const Bound& bound : {gap.at_low, gap.at_high})
-    if (bound.sweep != kNoSweep && is_taken_near(stock_.profile(), place_of(bound), x)) return true;
+    if (bound.is_pose() && is_taken_near(stock_.profile(), place_of(bound), x)) return true;
   return false;
 }
 
@@ -300,7 +299,7 @@ void RowMeter::settle(const RowFrame& frame, const ToolRing& ring, std::size_t i
   const Vec3 forward = radial_direction(frame.x, frame.y, motion_angle);
   const RingCircle circle{frame.axis.at(ring.z), forward, frame.axis.u.cross(forward), ring.radius};
   const auto end = [&](const Bound& bound, double angle) {
-    return bound.sweep == kNoSweep ? angle : arc_end(stock_.profile(), circle, place_of(bound), angle);
+    return bound.is_pose() ? arc_end(stock_.profile(), circle, place_of(bound), angle) : angle;
   };
   for (const Gap& gap : gaps_) {
     if (rough) found_.push_back({index, motion_angle, {gap.low, gap.high}});

@@ -1,6 +1,8 @@
 /// One time of a motion against the stock: which arcs of the tool's rings are in the material (engagement.h).
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -34,7 +36,7 @@ struct RingArc {
 /// stock and the poses near the motion must outlive it.
 class RowMeter {
  public:
-  RowMeter(const SweptStock& stock, const NearPoses& near) : stock_(stock), near_(near) {}
+  RowMeter(const SweptStock& stock, const NearPoses& near) : stock_(stock), near_(near), filter_(stock.profile()) {}
 
   /// The time t in [0, 1] of the motion that `near` has begun.
   [[nodiscard]] EngagementRow row(const RuledMotion& motion, double t, std::span<const ToolRing> rings);
@@ -42,9 +44,10 @@ class RowMeter {
   [[nodiscard]] const std::vector<RingArc>& found() const { return found_; }
 
  private:
-  /// Whose sweep ends a gap: a pose, or the blank (sweep = kNoSweep), or the front's own end.
+  /// What ends a gap: one of the candidates, or else the blank or the front's own end.
   struct Bound {
-    int sweep = kNoSweep, pose = 0;
+    std::size_t candidate = kNone;
+    [[nodiscard]] bool is_pose() const { return candidate != kNone; }
   };
   /// A stretch of a ring's front that no pose seen so far covers.
   struct Gap {
@@ -63,16 +66,15 @@ class RowMeter {
   void engage(const RowFrame& frame, const ToolRing& ring, std::size_t index, bool rough);
   void cut_by_blank(const RowFrame& frame, const ToolRing& ring, double motion_angle);
   void cut_by_poses(const ToolRing& ring, double motion_angle);
-  /// Around the gaps: the tool of a pose whose axis is beyond all of them reaches into none. `motion`: the direction of
-  /// motion, which the gaps are measured from.
-  [[nodiscard]] const std::vector<ReachDisc>& discs_of_gaps(const ToolRing& ring, const Vec2& motion);
+  /// The gaps in the frame of the row. `motion`: the direction of motion, which they are measured from.
+  [[nodiscard]] const std::vector<OpenArc>& open_arcs(const ToolRing& ring, const Vec2& motion);
   /// False if the candidate covers the whole ring.
-  [[nodiscard]] bool cut_by(const NearPose& candidate, const ToolRing& ring, const Vec2& motion);
+  [[nodiscard]] bool cut_by(std::size_t candidate, const ToolRing& ring, const Vec2& motion);
   /// Whether the candidate leans so far that it does not cover the ring as a circle in its plane would.
   [[nodiscard]] bool is_leaning(const NearPose& candidate, const ToolRing& ring) const;
   /// `foot`, `lean`: where the candidate's axis meets the ring's plane, and the part of its direction in it, from the direction
   /// of motion.
-  void cut_by_leaning(const NearPose& candidate, const ToolRing& ring, const Vec2& foot, const Vec2& lean);
+  void cut_by_leaning(std::size_t candidate, const ToolRing& ring, const Vec2& foot, const Vec2& lean);
   void cut(double low, double high, const Bound& bound);
   void settle(const RowFrame& frame, const ToolRing& ring, std::size_t index, double motion_angle, double half,
               bool rough);
@@ -82,7 +84,7 @@ class RowMeter {
     return index == kOwnSweep ? near_.own() : stock_.sweeps()[static_cast<std::size_t>(index)];
   }
 
-  static constexpr int kNoSweep = -1;
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
   /// A first look, at every kStride-th pose of the last sweeps, says where material may be; only there all poses count.
   static constexpr std::size_t kRecent = 3;
   static constexpr int kStride = 4;
@@ -93,10 +95,11 @@ class RowMeter {
   double stretch_ = 1.0;   ///< of the radius of a leaning tool in the plane of a ring, at most
   std::vector<NearPose> candidates_;
   std::vector<RowDisc> parts_, some_;
-  std::vector<ReachDisc> reaches_;
+  std::vector<OpenArc> open_;
   std::vector<Gap> gaps_, cut_;
   std::vector<Arc> covered_;
-  std::vector<std::size_t> hints_;  ///< candidates that ended the gaps of the ring before
+  std::vector<std::size_t> cutters_;  ///< candidates that cut the gaps of this ring
+  std::vector<std::size_t> hints_;    ///< those of the ring before, the last ones first
   std::vector<RingArc> found_;
 };
 
