@@ -22,7 +22,7 @@ constexpr double kLeastLiftMm = 0.02;
 /// Of the shares of a shape: by which the change that is tried grows where it gained, and shrinks where it did not. Where
 /// even a small one gains nothing, the share is left alone for some turns: after those the cavity is another.
 constexpr double kGrow = 1.3, kShrink = 0.7, kMostSpan = 0.15, kLeastSpan = 0.008, kSpanAfterRest = 0.03;
-constexpr int kRest = 4;
+constexpr int kRest = 10;
 /// How near to the aim a step ends.
 constexpr double kAimBand = 0.009;
 /// Where it is asked how deep a half enters faces: deepest are places just off the ends, where it leaves a side that runs on

@@ -58,7 +58,8 @@ bool NearPoses::meets(const RowFrame& frame, const Pose& pose, std::span<const R
   out.dx = pose.axis.dot(frame.x) * out.dh, out.dy = pose.axis.dot(frame.y) * out.dh;
   out.x0 = d.dot(frame.x) - up * out.dx, out.y0 = d.dot(frame.y) - up * out.dy;
   // At least the length of (dx, dy), without its root.
-  const double slope = std::max(std::abs(out.dx), std::abs(out.dy)) + 0.5 * std::min(std::abs(out.dx), std::abs(out.dy));
+  const double slope =
+      std::max(std::abs(out.dx), std::abs(out.dy)) + 0.5 * std::min(std::abs(out.dx), std::abs(out.dy));
   const double lean = forward * slope, below = d.dot(pose.axis);
   // Nearest that the axis comes to a disc over the heights of the tool, and a little more where it leans.
   const double slack = profile.largest() * slope, first = low - slack, range = high - low + 2.0 * slack;

@@ -25,7 +25,8 @@ PoseFilter::PoseFilter(const ToolProfile& profile) : largest_(profile.largest())
   for (int band = 0; band < kBands + 4; ++band) {
     double most = 0.0;
     for (int k = -1; k <= kBetween + 1; ++k) most = std::max(most, radius(band + static_cast<double>(k) / kBetween));
-    bands_.push_back(static_cast<float>(std::sqrt(most * most * (1.0 + kSpare) + kSpareOfLargest * largest_ * largest_)));
+    const double spare2 = kSpare * most * most + kSpareOfLargest * largest_ * largest_;
+    bands_.push_back(most > 0.0 ? static_cast<float>(std::sqrt(most * most + spare2)) : 0.0F);
   }
 }
 
@@ -41,8 +42,8 @@ void PoseFilter::take(std::span<const NearPose> candidates, bool first_look) {
     dy_.push_back(static_cast<float>(c.dy));
     band_.push_back(static_cast<float>((c.h0 - low_) * per_mm_));
     band_by_z_.push_back(static_cast<float>(c.dh * per_mm_));
-    leaning_.push_back(slope2 > kLeaning * kLeaning ? static_cast<float>((1.0 + kSpare) * largest_ * std::sqrt(1.0 + slope2))
-                                                    : 0.0F);
+    leaning_.push_back(
+        slope2 > kLeaning * kLeaning ? static_cast<float>((1.0 + kSpare) * largest_ * std::sqrt(1.0 + slope2)) : 0.0F);
   }
   for (std::vector<float>* values : {&x_at_, &y_at_, &reach_, &excess_}) values->resize(x_.size());
 }
@@ -84,7 +85,7 @@ const std::vector<std::size_t>& PoseFilter::reaching(const ToolRing& ring, std::
   }
   reaching_.clear();
   for (std::size_t k = 0; k < count; ++k)
-    if (excess[k] < 0.0F) reaching_.push_back(k);
+    if (excess[k] < 0.0F && reach[k] > 0.0F) reaching_.push_back(k);
   return reaching_;
 }
 

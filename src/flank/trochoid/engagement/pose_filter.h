@@ -32,14 +32,14 @@ class PoseFilter {
  private:
   void find_reaches(double z);
   static constexpr int kBands = 256;
-  /// In bands of height, two more below and above the tool: how far it reaches from its axis, and a little more, mm.
+  /// In bands of height, two more below and above the tool: how far it reaches from its axis, and a little more, mm; 0: it has ended.
   std::vector<float> bands_;
   double low_ = 0.0, per_mm_ = 0.0, largest_ = 0.0;
-  std::vector<float> x_, y_, dx_, dy_;    ///< as NearPose has them
-  std::vector<float> band_, band_by_z_;   ///< the same of h0 and dh, in bands
-  std::vector<float> leaning_;            ///< how far a leaning tool reaches in the plane of a ring, mm; 0: it is upright
-  std::vector<float> x_at_, y_at_;        ///< axes in the plane of the ring
-  std::vector<float> reach_, excess_;     ///< mm; squared distance less squared reach, the least of all arcs, mm^2
+  std::vector<float> x_, y_, dx_, dy_;   ///< as NearPose has them
+  std::vector<float> band_, band_by_z_;  ///< the same of h0 and dh, in bands
+  std::vector<float> leaning_;         ///< how far a leaning tool reaches in the plane of a ring, mm; 0: it is upright
+  std::vector<float> x_at_, y_at_;     ///< axes in the plane of the ring
+  std::vector<float> reach_, excess_;  ///< mm; squared distance less squared reach, the least of all arcs, mm^2
   std::vector<std::size_t> reaching_;
 };
 
