@@ -61,6 +61,15 @@ std::vector<std::array<double, 3>> square_turns() {
   return turns;
 }
 
+/// The least turn that brings one direction to that of a unit vector. (Eigen's own needs a singular value decomposition for opposite
+/// ones, which takes longer to compile than the rest of this folder.)
+Eigen::AngleAxisd least_turn(const Vec3& from, const Vec3& to) {
+  const Vec3 across = from.cross(to);
+  const double sine = across.norm(), cosine = from.dot(to);
+  const bool along = sine <= 1e-12 * std::abs(cosine);
+  return {std::atan2(sine, cosine), along ? to.unitOrthogonal() : Vec3(across / sine)};
+}
+
 /// Turns that bring the path's middle direction to several tilts from the spindle, in several azimuths.
 std::vector<std::array<double, 3>> tilted_turns(const Vec3& spindle, const std::vector<Pose>& poses) {
   Vec3 middle = Vec3::Zero();
@@ -73,7 +82,7 @@ std::vector<std::array<double, 3>> tilted_turns(const Vec3& spindle, const std::
   for (const double tilt : {20.0, 35.0, 50.0, 65.0, 80.0, 5.0})
     for (double azimuth = 0.0; azimuth < 360.0; azimuth += 45.0)
       for (double spin = 0.0; spin < 360.0; spin += 90.0) {
-        const Eigen::Quaterniond up = Eigen::Quaterniond::FromTwoVectors(middle, spindle);
+        const Eigen::AngleAxisd up = least_turn(middle, spindle);
         const Vec3 side = Eigen::AngleAxisd(azimuth * radians, spindle) * spindle.unitOrthogonal();
         turns.push_back(
             angles_of((Eigen::AngleAxisd(tilt * radians, side) * Eigen::AngleAxisd(spin * radians, spindle) * up)

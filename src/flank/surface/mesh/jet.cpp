@@ -49,6 +49,10 @@ Vec2 align(std::span<const Vec3> points, Jet& jet) {
   return extent.cwiseMax(1e-9 * extent.maxCoeff()).cwiseMax(1e-150);
 }
 
+/// One type of factor for all sizes: one of each takes ten times as long to compile, and is no faster.
+using Factor =
+    Eigen::LLT<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, Jet::kTerms, Jet::kTerms>>;
+
 /// Solves for the coefficients over the scaled coordinates; false if they are not determined.
 template <int Terms>
 bool solve(const JetWorkspace& w, Basis& solution, double& residual) {
@@ -67,10 +71,9 @@ bool solve(const JetWorkspace& w, Basis& solution, double& residual) {
   const Vector scale = normal.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   for (int j = 0; j < Terms; ++j)
     for (int i = j; i < Terms; ++i) normal(i, j) *= scale[i] * scale[j];
-  const Eigen::LLT<Matrix> factor(normal);
+  const Factor factor(normal);
   if (factor.info() != Eigen::Success) return false;
-  const Matrix& l = factor.matrixLLT();
-  if (l.diagonal().cwiseAbs2().minCoeff() < kLeastPivot) return false;
+  if (factor.matrixLLT().diagonal().cwiseAbs2().minCoeff() < kLeastPivot) return false;
   Vector x = scale.cwiseProduct(factor.solve(scale.cwiseProduct(right)));
   // One step of refinement: the normal equations square the condition.
   for (int pass = 0; pass < 2; ++pass) {
