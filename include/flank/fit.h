@@ -68,11 +68,18 @@ struct ToolModel {
   /// Radial function for an axis length and a typical radius (used if the radius is open). Empty: a free spline that
   /// the fit starts from a cylinder. Called from several threads at once.
   std::function<RadialFunction(double axis_length, double radius)> make;
-  std::vector<int> free_parameters;   ///< of what `make` returns; empty: the tool is given
-  std::optional<double> radius;       ///< typical radius, mm, if it is known: starts then try this one alone
-  std::optional<double> axis_length;  ///< mm, if the tool fixes it; goes before FlankFitOptions::axis_length_mm
+  std::vector<int> free_parameters;    ///< of what `make` returns; empty: the tool is given
+  std::optional<double> radius;        ///< typical radius, mm, if it is known: starts then try this one alone
+  std::optional<double> axis_length;   ///< mm, if the tool fixes it; goes before FlankFitOptions::axis_length_mm
+  std::optional<double> longest_axis;  ///< mm: a start whose contact lines are longer takes so much of them
   /// A spline that may take any form within the bounds (not a family with free parameters).
   [[nodiscard]] bool free() const { return !make; }
+  /// mm, where a start's contact lines ask for `wanted` and the options for `asked`.
+  [[nodiscard]] double length_for(double wanted, const std::optional<double>& asked) const {
+    if (axis_length) return *axis_length;
+    if (asked) return *asked;
+    return longest_axis && *longest_axis < wanted ? *longest_axis : wanted;
+  }
 };
 
 struct FlankFitOptions {

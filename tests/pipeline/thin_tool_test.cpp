@@ -12,7 +12,7 @@ constexpr double kTolerance = 0.01;
 
 FitSearch found(const std::string& tool) {
   FitSearch search;
-  search.tool = make_tool_model(parse_tool_spec(tool));
+  search.tool = make_tool_model(parse_tool_spec(tool), {});
   search.fit.tool = RadialFunction::spline(20.0, Eigen::VectorXd::Constant(6, 4.0));
   search.options.bounds.smallest = 1.0;
   return search;

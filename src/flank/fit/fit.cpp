@@ -85,21 +85,22 @@ std::vector<RuledStart> bands_of(const RuledStart& start, int strips) {
 
 /// The motions of a start beside walls: the tips on the spine of the ball that rolls along target and wall. None if no
 /// wall is in the way of the lines.
-std::vector<FitTask> make_clear_tasks(const Target& target, const Chart& chart, const RuledStart& start, int strips,
-                                      std::optional<double> axis_length, const ObstacleField& obstacles) {
+std::vector<FitTask> make_clear_tasks(const Target& target, const Chart& chart, const RuledStart& start,
+                                      const ToolModel& tool, const FlankFitOptions& options) {
+  const ObstacleField& obstacles = *options.obstacles;
   constexpr int kFewBlocked = kStartTimes / 4;  // if a wall only grazes the lines, the fit does better than a cut
   constexpr double kLonger = 1.03;              // the axis past the longest stretch from spine to rim (MATH section 7)
   std::vector<ClearStart> bands;
   double length = 0.0;
   bool blocked = false;
-  for (const RuledStart& band : bands_of(start, strips)) {
+  for (const RuledStart& band : bands_of(start, options.strips)) {
     ClearStart clear = clear_start(chart, band, obstacles);
     length = std::max(length, kLonger * clear.longest_mm);
     blocked = blocked || clear.blocked_lines > kFewBlocked || clear.free_lines < kStartTimes - kFewBlocked;
     if (clear.free_lines > 0) bands.push_back(std::move(clear));
   }
   if (!blocked) return {};
-  if (axis_length) length = *axis_length;
+  length = tool.length_for(length, options.axis_length_mm);
   std::vector<FitTask> tasks;
   for (const ClearStart& band : bands)
     tasks.push_back({&target, make_motion(band, length, kStartControlPoints), &obstacles});
@@ -107,29 +108,27 @@ std::vector<FitTask> make_clear_tasks(const Target& target, const Chart& chart, 
 }
 
 /// The motions of a start, one per strip, bands side by side, all of one axis length.
-std::vector<FitTask> make_tasks(const Target& target, const Chart& chart, const RuledStart& start, int strips,
-                                std::optional<double> axis_length, const ObstacleField* obstacles) {
-  if (obstacles != nullptr) {
-    std::vector<FitTask> tasks = make_clear_tasks(target, chart, start, strips, axis_length, *obstacles);
+std::vector<FitTask> make_tasks(const Target& target, const Chart& chart, const RuledStart& start,
+                                const ToolModel& tool, const FlankFitOptions& options) {
+  if (options.obstacles != nullptr) {
+    std::vector<FitTask> tasks = make_clear_tasks(target, chart, start, tool, options);
     if (!tasks.empty()) return tasks;
   }
-  const std::vector<RuledStart> bands = bands_of(start, strips);
+  const std::vector<RuledStart> bands = bands_of(start, options.strips);
   constexpr double kLonger = 1.02;  // the axis past the longest offset contact line (MATH section 7)
   double length = 0.0;
   for (const RuledStart& band : bands) length = std::max(length, kLonger * longest_chord(chart, band));
-  if (axis_length) length = *axis_length;
+  length = tool.length_for(length, options.axis_length_mm);
   std::vector<FitTask> tasks;
   for (const RuledStart& band : bands)
-    tasks.push_back({&target, make_motion(chart, band, length, kStartControlPoints), obstacles});
+    tasks.push_back({&target, make_motion(chart, band, length, kStartControlPoints), options.obstacles});
   return tasks;
 }
 
 /// Fits and ranks one candidate. Left without motions if no line of its start is free, or if it loses its values.
 void quick_fit(Candidate& candidate, const Target& target, const Chart& chart, const ToolModel& tool,
                const FlankFitOptions& options, const std::vector<SurfaceSample>& samples) {
-  const std::optional<double> length = tool.axis_length ? tool.axis_length : options.axis_length_mm;
-  const std::vector<FitTask> tasks =
-      make_tasks(target, chart, candidate.start, options.strips, length, options.obstacles);
+  const std::vector<FitTask> tasks = make_tasks(target, chart, candidate.start, tool, options);
   if (tasks.empty()) return;
   const FitDraft draft = start_draft(tasks, tool, candidate.start.radius_mm);
   FitStage stage = quick_stage(robust_scale(target, options));

@@ -92,6 +92,7 @@ void code(StepCodec& codec, ToolModel& tool) {
   code(codec, tool.free_parameters);
   code(codec, tool.radius);
   code(codec, tool.axis_length);
+  code(codec, tool.longest_axis);
 }
 
 void tie(FitDraft& draft, const FitDraft& like) {

@@ -222,7 +222,7 @@ FlankFitResult best_way(const Target& target, const ToolModel& tool, const Flank
   const FlankFitResult free = search(free_options);
   if (free.motions.empty() || (stopping() && !first.motions.empty())) return first;
   const double tolerance = options.tolerance_mm;
-  const bool fixed_length = tool.axis_length || options.axis_length_mm;
+  const bool fixed_length = tool.axis_length || tool.longest_axis || options.axis_length_mm;
   std::vector<Way> ways = journaled(
       progress, "ways",
       [&] { return ways_from(draft_of(target, tool, free, options.obstacles), fixed_length, options, progress); },

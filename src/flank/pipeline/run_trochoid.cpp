@@ -215,7 +215,7 @@ Result run_trochoid(const TrochoidJob& job, const Progress& asked) {
   options.up = up_from_floor(job, setup, faces);
   watch.lap("read");
 
-  const CavityPlan plan = search_cavity(job, faces, make_tool_model(spec), options, progress);
+  const CavityPlan plan = search_cavity(job, faces, make_tool_model(spec, job.tool.axis_length_mm), options, progress);
   if (plan.sides.fit.motions.empty()) stop_here();
   if (plan.sides.fit.motions.empty())
     throw InputError("left", fmt::format("no tool of radius up to {:.4g} mm finds an axis that is free in the cavity, "

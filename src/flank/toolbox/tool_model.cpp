@@ -1,6 +1,9 @@
 #include "flank/toolbox/tool_model.h"
 
+#include <fmt/format.h>
+
 #include "flank/error.h"
+#include "flank/tool.h"
 
 namespace flank::internal {
 namespace {
@@ -30,6 +33,33 @@ std::map<std::string, double> defaults(ToolFamily family, double axis_length, do
   throw UsageError("tool", "a spline has no parameters by name; use free, or a tool.json");
 }
 
+/// The longest axis on which a given tool of a family is one; none: it never ends. mm
+std::optional<double> end_of(const ToolModel& model) {
+  constexpr double kForever = 1e6;
+  constexpr int kHalvings = 60;
+  const auto is_tool = [&](double length) { return check_legitimacy(model.make(length, 1.0)).legitimate; };
+  if (is_tool(kForever)) return std::nullopt;
+  double low = 0.0, high = kForever;
+  for (int k = 0; k < kHalvings; ++k) {
+    const double middle = 0.5 * (low + high);
+    (is_tool(middle) ? low : high) = middle;
+  }
+  return low;
+}
+
+void limit_axis(const ToolSpec& spec, const std::optional<double>& axis_length_mm, ToolModel& model) {
+  constexpr double kBeforeTheEnd = 0.95;  // nobody grinds a tool to where its radius ends
+  if (has_open_parameters(spec)) return;
+  const std::optional<double> end = end_of(model);
+  if (!end) return;
+  if (!(*end > 0.0)) throw UsageError("tool", check_legitimacy(model.make(1.0, 1.0)).reason);
+  if (axis_length_mm && !check_legitimacy(model.make(*axis_length_mm, 1.0)).legitimate)
+    throw UsageError("axis_length_mm", fmt::format("{}", *axis_length_mm),
+                     fmt::format("is longer than such a tool can be; lengths up to {:.4g} mm are accepted", *end));
+  model.longest_axis = kBeforeTheEnd * *end;
+  model.free_parameters.clear();  // a barrel's middle stays there, or it would end sooner on one side
+}
+
 }  // namespace
 
 Eigen::VectorXd start_parameters(ToolFamily family, const std::map<std::string, double>& given, double axis_length,
@@ -45,7 +75,7 @@ Eigen::VectorXd start_parameters(ToolFamily family, const std::map<std::string, 
   return parameters;
 }
 
-ToolModel make_tool_model(const ToolSpec& spec) {
+ToolModel make_tool_model(const ToolSpec& spec, const std::optional<double>& axis_length_mm) {
   ToolModel model;
   if (spec.tool) {
     const RadialFunction radial = spec.tool->radial;
@@ -67,6 +97,7 @@ ToolModel make_tool_model(const ToolSpec& spec) {
     if (!spec.given.contains(std::string(names[k]))) model.free_parameters.push_back(static_cast<int>(k));
   const auto radius = spec.given.find("radius");
   if (radius != spec.given.end()) model.radius = radius->second;
+  limit_axis(spec, axis_length_mm, model);
   return model;
 }
 

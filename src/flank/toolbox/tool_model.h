@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 
 #include "flank/fit.h"
@@ -15,6 +16,8 @@ namespace flank::internal {
                                                double axis_length, double radius);
 
 /// `free`: a spline; a family: its parameters that are not given are free; a tool file: fixed.
-[[nodiscard]] ToolModel make_tool_model(const ToolSpec& spec);
+/// What ends somewhere (a barrel of given arc and radius) takes part of a longer contact line. Throws UsageError of
+/// `axis_length_mm` if that is given and beyond the end.
+[[nodiscard]] ToolModel make_tool_model(const ToolSpec& spec, const std::optional<double>& axis_length_mm);
 
 }  // namespace flank::internal

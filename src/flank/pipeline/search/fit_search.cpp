@@ -183,7 +183,7 @@ FitSearch search_side(const FitJob& job, const Setup& setup, const ToolSpec& spe
                       const Progress& progress) {
   FitSearch search;
   search.targets = make_targets(setup, side);
-  const ToolModel tool = make_tool_model(spec);
+  const ToolModel tool = make_tool_model(spec, job.tool.axis_length_mm);
   const FlankFitOptions options = options_of(job, *search.targets.front().target, tool.free());
   search.tool = tool;
   search.options = options;
@@ -223,7 +223,7 @@ double scout(const FitJob& job, const Setup& setup, const ToolSpec& spec, int si
   FitSearch search;
   search.targets = make_targets(setup, side);
   const TargetGroup& group = search.targets.front();
-  const ToolModel tool = make_tool_model(spec);
+  const ToolModel tool = make_tool_model(spec, job.tool.axis_length_mm);
   FlankFitOptions options = options_of(job, *group.target, tool.free());
   if (job.avoid)
     add_group_obstacles(setup, job.obstacles.clearance_mm, options.bounds.largest, search.targets, search.fit.notes);

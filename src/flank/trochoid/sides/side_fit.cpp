@@ -117,7 +117,7 @@ class SideFitter {
 
 Candidate SideFitter::quick(const SideStart& start, const FlankFitOptions& fit) const {
   Candidate candidate;
-  const std::optional<double> length = tool_.axis_length ? tool_.axis_length : options_.fit.axis_length_mm;
+  const auto length = [this](double wanted) { return tool_.length_for(wanted, options_.fit.axis_length_mm); };
   const std::vector<FitTask> tasks =
       side_tasks(left_, right_, left_chart_, right_chart_, start, options_.layers, length, options_.up);
   if (tasks.empty()) return candidate;

@@ -131,15 +131,14 @@ Vec3 towards_wider(const RuledMotion& left, const RuledMotion& right) {
 
 std::vector<FitTask> side_tasks(const CavitySide& left, const CavitySide& right, const Chart& left_chart,
                                 const Chart& right_chart, const SideStart& start, int layers,
-                                const std::optional<double>& axis_length, const std::optional<Vec3>& up) {
+                                const std::function<double(double)>& axis_length, const std::optional<Vec3>& up) {
   RuledStart on_left;
   on_left.swapped = start.swapped;
   on_left.skew_rad = start.skew_rad;
   on_left.radius_mm = start.radius_mm;
   const RuledStart on_right = like(right_chart, start, axis_line(left_chart, on_left, 0.5).direction);
-  const double length = axis_length ? *axis_length
-                                    : std::max(longest_line(left, left_chart, on_left, layers),
-                                               longest_line(right, right_chart, on_right, layers));
+  const double length = axis_length(
+      std::max(longest_line(left, left_chart, on_left, layers), longest_line(right, right_chart, on_right, layers)));
   Laid a = lay(left, left_chart, on_left, layers, length), b = lay(right, right_chart, on_right, layers, length);
   if (a.motions.empty() || b.motions.empty()) return {};
   Vec3 above = up.value_or(towards_wider(a.motions.front(), b.motions.front()));

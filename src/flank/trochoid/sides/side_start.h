@@ -1,6 +1,7 @@
 /// Where the axis begins on both sides of a cavity, before anything is fitted.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -27,6 +28,7 @@ struct SideStart {
 /// is narrower. Empty: no line is free.
 [[nodiscard]] std::vector<FitTask> side_tasks(const CavitySide& left, const CavitySide& right, const Chart& left_chart,
                                               const Chart& right_chart, const SideStart& start, int layers,
-                                              const std::optional<double>& axis_length, const std::optional<Vec3>& up);
+                                              const std::function<double(double)>& axis_length,
+                                              const std::optional<Vec3>& up);
 
 }  // namespace flank::internal
