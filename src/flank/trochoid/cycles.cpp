@@ -20,7 +20,7 @@ void code(StepCodec& codec, EngagementRow& row) {
 namespace {
 
 /// Rows of a motion, rings of the flank and of each round end when a cycle is accepted.
-constexpr int kFineRows = 101, kFineRings = 41, kCaps = 6;
+constexpr int kFineRows = 101, kFineRings = 61, kCaps = 15;
 /// Before the start, in radii: there the first front is looked for, and twice as far out for as long as it cuts, up to so
 /// many times.
 constexpr double kFarOut = 4.0;
