@@ -8,6 +8,9 @@ are put together in batches, each of which is read as one: only sources whose un
 A batch that does not compile is done source by source. --deep adds the static analyser (clang-analyzer-*), which looks at
 one source at a time and takes many times as long; so does naming the files. --last 40 lints what the last 40 commits changed,
 a source for its header, too.
+
+A source includes its own header first, which proves that header complete, because nothing is precompiled here. Headers without
+a source are compiled alone.
 """
 import json
 import os
@@ -46,13 +49,30 @@ def compile_arguments(build):
     return arguments
 
 
-def changed_sources(commits, arguments):
-    """Sources that the last commits changed, or whose header they changed; all, if there are not so many commits."""
+def changed_files(commits):
+    """Names of what the last commits changed; None, if there are not so many commits."""
     done = subprocess.run(["git", "diff", "--name-only", f"HEAD~{commits}"], cwd=ROOT, capture_output=True, text=True)
-    if done.returncode != 0:
-        return sorted(arguments)
-    stems = {name.rsplit(".", 1)[0].removeprefix("include/").removeprefix("src/") for name in done.stdout.splitlines()}
+    return done.stdout.splitlines() if done.returncode == 0 else None
+
+
+def changed_sources(changed, arguments):
+    """Sources that were changed, or whose header was."""
+    stems = {name.rsplit(".", 1)[0].removeprefix("include/").removeprefix("src/") for name in changed}
     return sorted(file for file in arguments if str(file.relative_to(ROOT).with_suffix("")).removeprefix("src/") in stems)
+
+
+def lone_headers():
+    """Headers of ours without a source beside them, but for those that show types of third parties."""
+    headers = [*(ROOT / "src/flank").rglob("*.h"), *(ROOT / "include/flank").rglob("*.h")]
+    return sorted(header for header in headers if not header.with_suffix(".cpp").exists()
+                  and "occt" not in header.name and "json" not in header.name)
+
+
+def complete(header, arguments):
+    """Whether a header compiles alone, and what the compiler says."""
+    words = ["c++", "-fsyntax-only", "-x", "c++", *arguments, str(header)]
+    done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True)
+    return done.returncode, done.stderr
 
 
 def tidy(file, arguments, deep):
@@ -92,24 +112,29 @@ def main():
         sys.exit(__doc__)
     arguments = compile_arguments(pathlib.Path(words[0]).resolve())
     named = [] if last else [pathlib.Path(word).resolve() for word in words[1:]]
-    files = changed_sources(last, arguments) if last else named or sorted(arguments)
-    if last and not files:
+    changed = changed_files(last) if last else None
+    files = named or (sorted(arguments) if changed is None else changed_sources(changed, arguments))
+    headers = [] if named else [header for header in lone_headers()
+                                if changed is None or str(header.relative_to(ROOT)) in changed]
+    if changed is not None and not files and not headers:
         print(f"the last {last} commits changed no source")
         return
-    if not files or any(file not in arguments for file in files):
+    if not (files or headers) or any(file not in arguments for file in files):
         sys.exit(f"tidy.py: {words[0]} does not say how to compile {[str(f) for f in files if f not in arguments]}")
     batches = [[file] for file in files] if deep or named else groups_of(files, BATCH)
     failed = False
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(int(os.environ.get("JOBS", os.cpu_count()))) as pool:
         jobs = [pool.submit(lint, batch, arguments, pathlib.Path(folder), number, deep)
                 for number, batch in enumerate(batches)]
+        # All sources are compiled with the same options, but for the headers of third parties that they may see.
+        jobs += [pool.submit(complete, header, arguments[min(arguments)]) for header in headers]
         for job in jobs:
             status, text = job.result()
             failed = failed or status != 0
             sys.stdout.write(text)
     if failed:
         sys.exit(1)
-    print(f"{len(files)} files are tidy ({len(batches)} batches)")
+    print(f"{len(files)} files are tidy ({len(batches)} batches), {len(headers)} headers compile alone")
 
 
 if __name__ == "__main__":
