@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <memory>
 #include <numbers>
 
 #include "flank/error.h"
@@ -31,15 +33,47 @@ double looks_at(const Target& side, const Target& other) {
   return all > 0.0 ? front / all : 0.0;
 }
 
-void check_facing(const TrochoidJob& job, const Target& left, const Target& right) {
-  constexpr double kLeastFacing = 0.5;  ///< cosine: at most 60 degrees between the walls
+constexpr double kLeastFacing = 0.5;  ///< cosine: at most 60 degrees between the walls
+
+bool face_each_other(const Target& a, const Target& b) {
+  return facing(a, b) < -kLeastFacing && looks_at(a, b) > 0.5 && looks_at(b, a) > 0.5;
+}
+
+/// The nearest other face of the part that faces `left`; empty: none does. Faces much smaller than it are no walls.
+std::string face_across(const Setup& setup, const Target& left) {
+  constexpr double kLeastArea = 0.2;
+  const Part& part = setup.part;
+  Vec3 middle = Vec3::Zero();
+  for (const SurfaceSample& sample : left.samples(std::sqrt(left.area()) / 10.0))
+    middle += sample.area / left.area() * sample.point;
+  std::string nearest;
+  double least = std::numeric_limits<double>::infinity();
+  for (int f = 0; f < part.face_count(); ++f) {
+    const Face& face = part.faces[static_cast<std::size_t>(f)];
+    if (part.is_left_out(f)) continue;
+    for (const int side : {+1, -1}) {
+      const std::unique_ptr<Target> target = make_target({face}, side);
+      if (target->area() < kLeastArea * left.area()) break;
+      const double distance = (target->closest(middle).point - middle).norm();
+      if (distance < least && face_each_other(left, *target)) least = distance, nearest = face.id;
+      if (face.of_solid) break;
+    }
+  }
+  return nearest;
+}
+
+void check_facing(const TrochoidJob& job, const Setup& setup, const Target& left, const Target& right) {
+  if (face_each_other(left, right)) return;
   const double cosine = facing(left, right);
-  if (cosine < -kLeastFacing && looks_at(left, right) > 0.5 && looks_at(right, left) > 0.5) return;
   const double degrees = std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / std::numbers::pi;
-  throw InputError("right",
-                   fmt::format("{} does not face {}: their normals are {:.1f} degrees apart on average (180 is "
-                               "face to face); the two sides of one cavity are needed",
-                               job.right, job.left, degrees));
+  // Walls back to back have opposite normals, too.
+  const std::string why =
+      cosine < -kLeastFacing
+          ? "one lies behind the other"
+          : fmt::format("their normals are {:.1f} degrees apart on average (180 is face to face)", degrees);
+  const std::string across = face_across(setup, left);
+  throw InputError("right", fmt::format("{} does not face {}: {}; the two sides of one cavity are needed{}", job.right,
+                                        job.left, why, across.empty() ? "" : ": " + across + " faces " + job.left));
 }
 
 }  // namespace
@@ -59,7 +93,7 @@ CavityFaces cavity_faces(const TrochoidJob& job, const Setup& setup) {
   for (const std::size_t g : {left, right})
     turn[g] = !plus[g].of_solid && looks_at(*plus[g].target, *plus[1 - g].target) < 0.5;
   for (const std::size_t g : {left, right}) out.sides.push_back(std::move(turn[g] ? minus[g] : plus[g]));
-  check_facing(job, *out.sides[0].target, *out.sides[1].target);
+  check_facing(job, setup, *out.sides[0].target, *out.sides[1].target);
   out.width = width_between(side_of(out.sides[0]), side_of(out.sides[1]));
   return out;
 }
