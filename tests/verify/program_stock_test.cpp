@@ -78,6 +78,23 @@ TEST(ProgramStock, FindsARibBetweenTheSidesAndAWallThatIsEntered) {
   EXPECT_NEAR(rib.report.uncut_mm, 2.0, 0.2) << "half of it: rays end in the middle";
 }
 
+TEST(ProgramStock, ThePartBetweenTheSidesIsNoMaterialThatIsLeft) {
+  // Walls 20 mm apart, the tool goes along both: what is between the two slots is left, or is a part that fills them.
+  const Path path{{straight(1, "side", 10.0 - kRadius), straight(2, "side", -10.0 + kRadius)}};
+  std::vector<FaceSamples> faces = {wall("F1", 10.0, -Vec3::UnitY()), wall("F2", -10.0, Vec3::UnitY())};
+  const ProgramStock open = replay_program(cylinder(), path, blank(), faces, kOptions);
+  EXPECT_NEAR(open.report.uncut_mm, 4.0, 0.2) << "from the slot to the middle";
+  for (const double side : {1.0, -1.0}) {
+    faces.push_back(wall(side > 0.0 ? "F3" : "F4", side * 4.0, side * Vec3::UnitY()));
+    faces.back().target = false;
+  }
+  const ProgramStock closed = replay_program(cylinder(), path, blank(), faces, kOptions);
+  EXPECT_LT(closed.report.uncut_mm, 0.2) << "rays end where they enter the part";
+  // A sheet has no side that is material.
+  for (std::size_t k = 2; k < faces.size(); ++k) faces[k].of_solid = false;
+  EXPECT_NEAR(replay_program(cylinder(), path, blank(), faces, kOptions).report.uncut_mm, open.report.uncut_mm, 1e-9);
+}
+
 TEST(ProgramStock, IsTheSameForOneAndTwoThreads) {
   const auto run = [](int threads) {
     set_thread_count(threads);

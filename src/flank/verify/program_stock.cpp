@@ -106,6 +106,24 @@ double half_way(const Vec3& point, std::size_t own, const std::vector<FaceSample
   return std::isfinite(least) ? 0.5 * least : 0.0;
 }
 
+/// How far a ray goes before it enters another face of a solid, at most `reach`: a floor that leans towards a wall lies in the
+/// way of rays from its foot, and the part behind it is no material that was left. Faces are taken as the tangent planes of
+/// their samples.
+double free_way(const Vec3& point, const Vec3& direction, double reach, const std::vector<FaceSamples>& faces) {
+  for (const FaceSamples& face : faces) {
+    if (face.target || !face.of_solid || face.normals.size() != face.points.size()) continue;
+    const double near = reach + face.spacing_mm;
+    for (std::size_t k = 0; k < face.points.size(); ++k) {
+      const Vec3 to = face.points[k] - point;
+      const double against = face.normals[k].dot(direction);
+      if (against >= 0.0 || to.squaredNorm() > near * near) continue;
+      const double way = std::max(0.0, face.normals[k].dot(to) / against);
+      if (way < reach && (way * direction - to).squaredNorm() <= face.spacing_mm * face.spacing_mm) reach = way;
+    }
+  }
+  return reach;
+}
+
 std::vector<Ray> rays_from(const Tool& tool, const Path& path, const std::vector<HalfSpace>& blank,
                            const verify::DexelStock& stock, std::vector<FaceSamples>& faces, double tolerance) {
   std::size_t all = 0;
@@ -127,7 +145,7 @@ std::vector<Ray> rays_from(const Tool& tool, const Path& path, const std::vector
       Ray ray{p, side * face.normals[k], 0.0, false};
       if (face.target) {
         ray.covered = std::abs(volume.distance(p, 1.01 * tolerance).f) <= tolerance;
-        if (ray.covered) ray.reach = half_way(p, f, faces, stride);
+        if (ray.covered) ray.reach = free_way(p, ray.normal, half_way(p, f, faces, stride), faces);
       }
       rays.push_back(ray);
     }
