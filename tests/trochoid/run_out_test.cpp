@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "obstacle/obstacle_scene.h"
@@ -18,13 +19,13 @@ constexpr double kRadius = 3.0, kLength = 30.0;
 const RadialFunction kTool(ToolFamily::kCylinder, kLength, Eigen::VectorXd::Constant(1, kRadius));
 
 /// Beside the plane y = 0, or 16 mm across from it, x from 5 to 55; the tip's ball is 0.05 mm above the hub, and the axis
-/// leans forward by a slope.
-SidePath leaning(double y, double slope) {
+/// leans forward by a slope; `ahead`: all of it so much farther on.
+SidePath leaning(double y, double slope, double ahead = 0.0) {
   std::vector<Pose> poses;
   std::vector<double> t;
   for (int k = 0; k <= 40; ++k) {
     t.push_back(k / 40.0);
-    poses.push_back({Vec3(5.0 + 40.0 * t.back(), y, kRadius + 0.05), Vec3(slope, 0.0, 1.0).normalized()});
+    poses.push_back({Vec3(5.0 + ahead + 40.0 * t.back(), y, kRadius + 0.05), Vec3(slope, 0.0, 1.0).normalized()});
   }
   return {fit_motion(poses, t, kLength, 8), false};
 }
@@ -98,13 +99,79 @@ TEST_F(RunOutTest, VelocitiesAreThoseOfThePlaces) {
   for (const bool end : {false, true}) {
     path.bend_run_out(end, Vec3(0.9, 0.3, 0.1).normalized(), 3.0);
     path.raise_run_out(end, Vec3(0.05, -0.02, 0.6), 1.3);
+    path.turn_run_out(end, Vec3(0.3, -0.5, 0.9).normalized(), 4.0);
   }
   constexpr double kStep = 1e-5;
   for (const double beyond : {0.2, 1.1, 1.3 + 2.0 * kStep, 2.2, 5.0})
     for (const double x : {-beyond, path.length() + beyond}) {
       const Vec3 difference = (path.at(x + kStep).tip - path.at(x - kStep).tip) / (2.0 * kStep);
       EXPECT_LT((difference - path.at(x).tip_dx).norm(), 1e-6) << x;
+      const Vec3 turning = (path.at(x + kStep).u - path.at(x - kStep).u) / (2.0 * kStep);
+      EXPECT_LT((turning - path.at(x).u_dx).norm(), 1e-6) << x;
     }
+}
+
+TEST_F(RunOutTest, AxesThatAreFarApartTurnToOneDirection) {
+  const HalfGuard free({{blade_.get()}, {nullptr}}, kTool);
+  const double far = 20.0 * kRadius;
+  const double middle = 0.5 * kLength * 0.4 / std::hypot(1.0, 0.4);  // of a leaning axis, ahead of its tip
+  SidePath a = leaning(kRadius, -0.4, middle), b = leaning(19.0, 0.4, -middle);
+  const Vec3 back = a.at(0.0).u, forward = b.at(0.0).u;
+  join_run_outs(a, b, kRadius, free, 0.01);
+  for (const double x : {-far, a.length() + far}) {
+    EXPECT_LT((a.at(x).u - b.at(x).u).norm(), 1e-9) << "side by side, they meet half way";
+    EXPECT_NEAR(a.at(x).u.dot(back), a.at(x).u.dot(forward), 1e-6);
+  }
+  EXPECT_LT((a.at(0.0).u - back).norm(), 1e-9) << "the side itself is as it was";
+
+  // The leaning side begins and ends far ahead: each run-out turns to the axis of the face that it lies beside.
+  SidePath c = leaning(kRadius, 0.0), d = leaning(19.0, 0.8, 40.0);
+  const Vec3 upright = c.at(0.0).u, tilted = d.at(0.0).u;
+  join_run_outs(c, d, kRadius, free, 0.01);
+  EXPECT_LT((d.at(-far).u - upright).norm(), 1e-6);
+  EXPECT_LT((c.at(-far).u - upright).norm(), 1e-6);
+  EXPECT_LT((c.at(c.length() + far).u - tilted).norm(), 1e-6);
+
+  // What is hardly apart goes on straight.
+  SidePath e = leaning(kRadius, 0.0), f = leaning(19.0, 0.2);
+  join_run_outs(e, f, kRadius, free, 0.01);
+  EXPECT_EQ((f.at(-far).u - f.at(0.0).u).norm(), 0.0);
+}
+
+TEST_F(RunOutTest, PosesFollowARunOutThatBendsRisesAndTurns) {
+  constexpr double kChord = 0.005, kFar = 12.0;
+  SidePath path = leaning(kRadius, 0.1);
+  for (const bool end : {false, true}) {
+    path.bend_run_out(end, Vec3(0.8, 0.6, 0.0), 3.0);
+    path.raise_run_out(end, Vec3(0.0, 0.0, 0.7), 1.3);
+    path.turn_run_out(end, Vec3(0.0, 0.4, 0.9).normalized(), 8.0);
+  }
+  const std::vector<Pose> poses = path.poses(-kFar, path.length() + kFar, kChord);
+  const auto apart = [&](const Vec3& p, double s) {
+    double least = 1e9;
+    for (std::size_t k = 1; k < poses.size(); ++k) {
+      const Vec3 from = poses[k - 1].at(s), way = poses[k].at(s) - from;
+      const double share = std::clamp((p - from).dot(way) / std::max(way.squaredNorm(), 1e-30), 0.0, 1.0);
+      least = std::min(least, (from + share * way - p).norm());
+    }
+    return least;
+  };
+  for (const double by : {0.1, 0.7, 1.9, 3.3, 5.0, 7.7, 11.0})
+    for (const double x : {-by, path.length() + by})
+      for (const double s : {0.0, 0.5 * kLength, kLength})
+        EXPECT_LT(apart(path.at(x).at(s), s), 1.2 * kChord) << x << ", s " << s;
+}
+
+TEST_F(RunOutTest, AnEdgeBetweenTwoPlacesOfASlenderToolIsSeen) {
+  // A plate at z = 12.5 whose edge is 1 mm from the axis: 2 mm deep in the tool, between balls that are 5 mm apart.
+  const Face plate =
+      testing::quad(Vec3(1, -50, 12.5), Vec3(60, -50, 12.5), Vec3(1, 50, 12.5), Vec3(60, 50, 12.5), "F3");
+  const ObstacleField field(only({make_target({plate}), false}), *blade_, 2.0, 0.0);
+  const HalfGuard guard({{}, {&field}}, kTool);
+  GuardDepth depth;
+  guard.look({Vec3::Zero(), Vec3::UnitZ()}, 7, depth);
+  EXPECT_GT(depth.others, 1.7);
+  EXPECT_LT(depth.others, 2.0 + 1e-9);
 }
 
 TEST_F(RunOutTest, LeavesWhatIsFreeAsItIs) {

@@ -3,11 +3,26 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace flank::internal {
 
+namespace {
+
+/// Farthest that balls along the axis may be apart, of the largest radius: an edge between two of them goes unseen to a
+/// depth of 3 % of the radius, and of 40 % where they are a diameter and a half apart.
+constexpr double kApart = 0.5;
+
+}  // namespace
+
+HalfGuard::HalfGuard(GuardedFaces faces, const RadialFunction& radial)
+    : faces_(std::move(faces)),
+      radial_(radial),
+      least_places_(static_cast<int>(std::ceil(radial.axis_length() / (kApart * radial.largest()))) + 1) {}
+
 void HalfGuard::look(const Pose& pose, int places, GuardDepth& out) const {
   const double length = radial_.axis_length();
+  places = std::max(places, least_places_);
   for (int j = 0; j < places; ++j) {
     const double s = length * j / (places - 1), r = radial_.at(s).r, horizon = 1.01 * r;
     const Vec3 p = pose.at(s);

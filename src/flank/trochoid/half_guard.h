@@ -32,8 +32,10 @@ struct GuardDepth {
 
 class HalfGuard {
  public:
-  HalfGuard(GuardedFaces faces, const RadialFunction& radial) : faces_(std::move(faces)), radial_(radial) {}
-  /// At `times` x `places` samples, the times densest at both ends, and closer around the deepest of them. A place that projects onto a side's border counts by its distance alone.
+  HalfGuard(GuardedFaces faces, const RadialFunction& radial);
+  /// At `times` x `places` samples, the times densest at both ends, and closer around the deepest of them; at more places
+  /// where their balls would leave an edge between them unseen. A place that projects onto a side's border counts by its
+  /// distance alone.
   [[nodiscard]] GuardDepth depth(const RuledMotion& motion, int times, int places) const;
   /// Adds what one pose enters.
   void look(const Pose& pose, int places, GuardDepth& out) const;
@@ -41,6 +43,7 @@ class HalfGuard {
  private:
   GuardedFaces faces_;
   RadialFunction radial_;
+  int least_places_ = 2;
 };
 
 }  // namespace flank::internal

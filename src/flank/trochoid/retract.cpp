@@ -23,13 +23,12 @@ std::vector<Pose> rise(std::vector<Pose> way, const Vec3& direction, const Clear
 
 double entered(const std::vector<Pose>& way, const RadialFunction& radial, const HalfGuard& guard) {
   constexpr double kStep = 0.4;  // of the radius
-  constexpr double kApart = 0.5;
-  const int places = std::max(7, static_cast<int>(std::ceil(radial.axis_length() / (kApart * radial.largest()))) + 1);
+  constexpr int kPlaces = 7;
   GuardDepth depth;
   for (std::size_t k = 1; k < way.size(); ++k) {
     const Vec3 by = way[k].tip - way[k - 1].tip;
     const int steps = std::max(1, static_cast<int>(std::ceil(by.norm() / (kStep * radial.largest()))));
-    for (int i = 0; i <= steps; ++i) guard.look(moved(way[k - 1], static_cast<double>(i) / steps * by), places, depth);
+    for (int i = 0; i <= steps; ++i) guard.look(moved(way[k - 1], static_cast<double>(i) / steps * by), kPlaces, depth);
   }
   return depth.deepest();
 }

@@ -1,7 +1,10 @@
 #include "flank/trochoid/run_out.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
+#include <optional>
 
 namespace flank::internal {
 namespace {
@@ -22,16 +25,35 @@ Vec3 common_direction(const SidePath& a, const SidePath& b, bool end) {
   return (sum - sum.dot(up) * up).normalized();
 }
 
+/// Beyond an end nothing has to be touched, so both axes turn there to one direction: fronts that lead in and out then turn
+/// the tool no more than the sides ask for. Where one side begins behind the other, its run-out lies beside the other's
+/// face, and it is this one that turns. None where they are less than 20 degrees apart: cycles get through without it, and their
+/// way is shorter by some percent.
+std::optional<Vec3> common_axis(const SidePath& a, const SidePath& b, bool end) {
+  constexpr double kHardly = 0.35;
+  const double middle = 0.5 * a.axis_length();
+  const AxisPlace p = a.at(end ? a.length() : 0.0), q = b.at(end ? b.length() : 0.0);
+  const double angle = std::acos(std::clamp(p.u.dot(q.u), -1.0, 1.0));
+  if (angle < kHardly || angle > 0.9 * std::numbers::pi) return {};
+  const Vec3 forward = common_direction(a, b, end), gap = q.at(middle) - p.at(middle);
+  const double ahead = (end ? -1.0 : 1.0) * -gap.dot(forward), across = (gap - gap.dot(forward) * forward).norm();
+  const double share = std::clamp(0.5 + 0.5 * ahead / std::max(across, 1e-9), 0.0, 1.0);
+  return (std::sin((1.0 - share) * angle) * p.u + std::sin(share * angle) * q.u) / std::sin(angle);
+}
+
 /// How both paths leave one end.
 struct Bend {
   Vec3 direction, rise;
   double over_mm = 1.0, rise_over_mm = 1.0;
+  std::optional<Vec3> axis = {};
+  double turn_over_mm = 1.0;
 };
 
 void lay(SidePath& a, SidePath& b, bool end, const Bend& bend) {
   for (SidePath* path : {&a, &b}) {
     path->bend_run_out(end, bend.direction, bend.over_mm);
     path->raise_run_out(end, bend.rise, bend.rise_over_mm);
+    path->turn_run_out(end, bend.axis, bend.turn_over_mm);
   }
 }
 
@@ -59,12 +81,13 @@ double entered_at_end(const SidePath& path, bool end, const HalfGuard& guard) {
 
 void join_run_outs(SidePath& a, SidePath& b, double radius_mm) {
   for (const bool end : {false, true})
-    lay(a, b, end, {common_direction(a, b, end), Vec3::Zero(), radius_mm, radius_mm});
+    lay(a, b, end, {common_direction(a, b, end), Vec3::Zero(), radius_mm, radius_mm, {}, radius_mm});
 }
 
 RunOutDepth join_run_outs(SidePath& a, SidePath& b, double radius_mm, const HalfGuard& guard, double allowed_mm) {
   RunOutDepth depth;
-  constexpr double kMore = 1.1;  // deeper than at the end by this share counts as deeper
+  constexpr double kTurnOver = 4.0;  // radii
+  constexpr double kMore = 1.1;      // deeper than at the end by this share counts as deeper
   for (const bool end : {false, true}) {
     const Vec3 common = common_direction(a, b, end);
     const Vec3 up = (a.at(end ? a.length() : 0.0).u + b.at(end ? b.length() : 0.0).u).normalized();
@@ -72,9 +95,10 @@ RunOutDepth join_run_outs(SidePath& a, SidePath& b, double radius_mm, const Half
     const double most_b = std::max(allowed_mm, kMore * entered_at_end(b, end, guard));
     Bend best;
     double least = std::numeric_limits<double>::infinity();
+    std::optional<Vec3> axis = common_axis(a, b, end);
     const auto look = [&](double rise, double rise_over, double over) {
       if (least <= 0.0) return;
-      const Bend bend{common, rise * up, over * radius_mm, rise_over * radius_mm};
+      const Bend bend{common, rise * up, over * radius_mm, rise_over * radius_mm, axis, kTurnOver * radius_mm};
       lay(a, b, end, bend);
       const double deep =
           std::max(entered(a, end, radius_mm, guard) - most_a, entered(b, end, radius_mm, guard) - most_b);
@@ -83,10 +107,15 @@ RunOutDepth join_run_outs(SidePath& a, SidePath& b, double radius_mm, const Half
       best = bend;
     };
     // From gentle to steep; a floor that rises right behind the end is risen from at once.
-    for (const double rise : {0.0, 0.12, 0.25, 0.45, 0.7, 1.0})
-      for (const double rise_over : {1.0, 0.4, 0.1})
-        for (const double over : {1.0, 2.0, 4.0})
-          if (rise > 0.0 || rise_over == 1.0) look(rise, rise_over, over);
+    const auto look_at_all = [&] {
+      for (const double rise : {0.0, 0.12, 0.25, 0.45, 0.7, 1.0})
+        for (const double rise_over : {1.0, 0.4, 0.1})
+          for (const double over : {1.0, 2.0, 4.0})
+            if (rise > 0.0 || rise_over == 1.0) look(rise, rise_over, over);
+    };
+    if (axis) look_at_all();
+    axis.reset();
+    look_at_all();
     lay(a, b, end, best);
     (end ? depth.end : depth.start) = std::max(0.0, least);
   }

@@ -75,8 +75,25 @@ AxisPlace SidePath::at(double x) const {
   const Vec3 turn = out.to - out.from;
   const Vec3 way = by * out.from + (0.5 * bent * bent / out.over_mm + by - bent) * turn;
   const Vec3 up = (0.5 * risen * risen / out.rise_over_mm + by - risen) * out.rise;
-  return {end.tip + sign * way + up, end.u,
-          out.from + bent / out.over_mm * turn + sign * risen / out.rise_over_mm * out.rise, Vec3::Zero()};
+  AxisPlace place{end.tip + sign * way + up, end.u,
+                  out.from + bent / out.over_mm * turn + sign * risen / out.rise_over_mm * out.rise, Vec3::Zero()};
+  if (out.axis) turn_axis(out, by, sign, place);
+  return place;
+}
+
+void SidePath::turn_axis(const RunOut& out, double by, double sign, AxisPlace& place) const {
+  const double x = std::min(by / out.turn_over_mm, 1.0);
+  const double share = x * x * (3.0 - 2.0 * x), share_dx = sign * 6.0 * x * (1.0 - x) / out.turn_over_mm;
+  const double angle = std::acos(std::clamp(place.u.dot(*out.axis), -1.0, 1.0));
+  const Vec3 across = *out.axis - place.u.dot(*out.axis) * place.u;
+  if (!(across.norm() > 0.0)) return;
+  const Vec3 side = across.normalized();
+  const double middle = 0.5 * motion_.axis_length;
+  const Vec3 u = std::cos(share * angle) * place.u + std::sin(share * angle) * side;
+  place.u_dx = share_dx * angle * (std::cos(share * angle) * side - std::sin(share * angle) * place.u);
+  place.tip += middle * (place.u - u);
+  place.tip_dx -= middle * place.u_dx;
+  place.u = u;
 }
 
 void SidePath::bend_run_out(bool at_end, const Vec3& direction, double over_mm) {
@@ -91,6 +108,23 @@ void SidePath::raise_run_out(bool at_end, const Vec3& rise, double over_mm) {
   out.rise_over_mm = over_mm;
 }
 
+void SidePath::turn_run_out(bool at_end, const std::optional<Vec3>& axis, double over_mm) {
+  RunOut& out = at_end ? after_ : before_;
+  out.axis = axis;
+  out.turn_over_mm = over_mm;
+}
+
+double SidePath::step_of(const RunOut& out, double chord_mm) const {
+  double curvature = (out.to - out.from).norm() / out.over_mm + out.rise.norm() / out.rise_over_mm;
+  if (out.axis) {
+    const Vec3 u = inside(&out == &before_ ? 0.0 : 1.0).u;
+    const double angle = std::acos(std::clamp(u.dot(*out.axis), -1.0, 1.0));
+    // Of the axis' ends, about its middle: the second derivative of a smooth step is at most six.
+    curvature += 6.0 * angle / (out.turn_over_mm * out.turn_over_mm) * 0.5 * motion_.axis_length;
+  }
+  return std::sqrt(8.0 * chord_mm / curvature);
+}
+
 std::vector<Pose> SidePath::poses(double from, double to, double chord_mm) const {
   SamplingOptions options;
   options.chord_tolerance_mm = chord_mm;
@@ -100,7 +134,13 @@ std::vector<Pose> SidePath::poses(double from, double to, double chord_mm) const
     const AxisPlace place = at(x);
     out.push_back({place.tip, place.u});
   };
+  const auto add_between = [&](const RunOut& run_out, double first, double last) {
+    constexpr double kMost = 500.0;
+    const double count = std::min(kMost, std::ceil((last - first) / step_of(run_out, chord_mm)));
+    for (int k = 1; k < count; ++k) add(first + (last - first) * k / count);
+  };
   if (from < 0.0) add(from);
+  if (from < 0.0) add_between(before_, from, std::min(to, 0.0));
   for (std::size_t k = 0; k < sampled.poses.size(); ++k) {
     const double x = way_[static_cast<std::size_t>(std::lround(sampled.t[k] * kSteps))];
     if (x > from && x < to) out.push_back(sampled.poses[k]);
@@ -109,6 +149,7 @@ std::vector<Pose> SidePath::poses(double from, double to, double chord_mm) const
     const AxisPlace place = at(from);
     out.insert(out.begin(), Pose{place.tip, place.u});
   }
+  if (to > length()) add_between(after_, std::max(from, length()), to);
   add(to);
   return out;
 }

@@ -1,6 +1,7 @@
 /// A side path as the cycles see it: by the way of the axis' middle, and straight on past both its ends.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "flank/trochoid/half_path.h"
@@ -26,6 +27,8 @@ class SidePath {
   void bend_run_out(bool at_end, const Vec3& direction, double over_mm);
   /// Besides, the axis rises beyond an end: by the vector `rise` a millimetre of way, evenly more over a length to begin with.
   void raise_run_out(bool at_end, const Vec3& rise, double over_mm);
+  /// Beyond an end the axis turns about its middle towards a unit vector less than 180 degrees from it, smoothly over a length.
+  void turn_run_out(bool at_end, const std::optional<Vec3>& axis, double over_mm);
   /// Beyond its end there is a wall: from there on the axis stays where it is.
   void stop_at_end() { stops_ = true; }
   [[nodiscard]] bool stops_at_end() const { return stops_; }
@@ -41,7 +44,13 @@ class SidePath {
     Vec3 from = Vec3::Zero(), to = Vec3::Zero();  ///< directions at the end of the side, and `over` beyond it
     Vec3 rise = Vec3::Zero();
     double over_mm = 1.0, rise_over_mm = 1.0;
+    std::optional<Vec3> axis;  ///< none: it does not turn
+    double turn_over_mm = 1.0;
   };
+  /// Way along a run-out between two poses that keeps it within a chord tolerance; infinite if it is straight.
+  [[nodiscard]] double step_of(const RunOut& out, double chord_mm) const;
+  /// Turns the axis of a place `by` mm beyond an end about its middle.
+  void turn_axis(const RunOut& out, double by, double sign, AxisPlace& place) const;
   RunOut before_, after_;
   bool stops_ = false;
   std::vector<double> way_;  ///< at equal steps of t
