@@ -7,9 +7,9 @@ namespace flank::internal {
 namespace {
 
 constexpr int kControlPoints = 12;
-constexpr double kOverlap = 0.05;     ///< of a layer's height, shared with its neighbours
+constexpr double kOverlap = 0.05;        ///< of a layer's height, shared with its neighbours
 constexpr double kBeforeBlocked = 0.08;  ///< of the way that clear_start leaves, which goes a little too far
-constexpr double kLonger = 1.02;      ///< the axis past the longest offset contact line (MATH section 7)
+constexpr double kLonger = 1.02;         ///< the axis past the longest offset contact line (MATH section 7)
 
 struct Laid {
   std::vector<RuledMotion> motions;  ///< a layer each, in the order of the chart's bands
