@@ -59,7 +59,8 @@ Subcommand add_example(CLI::App& parser) {
   app->add_option("--lean", cavity.lean_deg, "Of the cavity: of its walls outwards towards the top, degrees");
   app->add_option("--hollow", cavity.hollow_mm, "Of the cavity: how deep its walls are hollow, mm")
       ->capture_default_str();
-  app->add_flag("--end-wall", cavity.end_wall, "Of the cavity: a wall F3 closes one end");
+  app->add_flag("--end-wall", cavity.end_wall, "Of the cavity: a wall closes one end, F3");
+  app->add_flag("--start-wall", cavity.start_wall, "Of the cavity: a wall closes the other end, the next face");
   app->footer(
       "Examples: flank example envelope-barrel-1 -o barrel.step; flank example rotor37 -o blade.step (a real "
       "compressor blade)");

@@ -122,9 +122,13 @@ struct NcRequest {
 
 /// How the cycles of a cavity are planned.
 struct CycleRequest {
-  double most_engagement_deg = 60.0;    ///< of the cutter, fronts and backs
-  std::string cut = "climb";            ///< or "conventional"; the spindle turns clockwise seen from the holder
-  int layers = 0;                       ///< 0: as many as the tolerance needs
+  double most_engagement_deg = 60.0;  ///< of the cutter, fronts and backs
+  std::string cut = "climb";          ///< or "conventional"; the spindle turns clockwise seen from the holder
+  int layers = 0;                     ///< 0: as many as the tolerance needs
+  /// How a layer begins: "open", before the blank; "ramp", "plunge": inside the material; "auto": open where an end is open,
+  /// else ramp.
+  std::string entry = "auto";
+  double ramp_angle_deg = 3.0;          ///< steepest slope of a ramp
   std::string strategy = "volume";      ///< shapes optimised for removed volume per way; or "plain", "paper"
   double feed_mm_min = 1000.0;          ///< of all but links, for the machining time
   double rapid_mm_min = 5000.0;         ///< of links

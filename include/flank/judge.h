@@ -184,12 +184,14 @@ struct BuriedStrip {
 
 /// What the strips of one kind did in the replay of a program.
 struct StockKind {
-  std::string kind;             ///< entry, front, back, side, link, ...
+  std::string kind;             ///< entry, ramp, plunge, front, back, side, link, ...
   double engagement_deg = 0.0;  ///< the largest, over poses and contact circles
   int strip = -1;               ///< where: 0-based
   std::size_t pose = 0;
   double s = 0.0;  ///< mm, along the axis
   double way_mm = 0.0, volume_mm3 = 0.0;
+  /// Entries into full material: their engagement is that of a slot or a hole, and held to no limit.
+  [[nodiscard]] bool cuts_a_slot() const { return kind == "ramp" || kind == "plunge"; }
 };
 
 /// A whole program replayed in a stock of lines of material, in its order (docs/algorithms/judge.md).

@@ -13,7 +13,7 @@ namespace flank {
 /// One pass of the flank. Within a strip the tool cuts; between strips it moves clear (links are not planned here).
 struct Strip {
   int id = 1;
-  std::string kind = "flank";  ///< flank, side, front, back, entry, link, ...
+  std::string kind = "flank";  ///< flank, side, front, back, entry, ramp, plunge, link, ...
   std::string face;            ///< the target, e.g. "F1" or "F1,F3"
   /// In the order of machining, at least one; every axis a unit vector.
   std::vector<Pose> poses;

@@ -94,11 +94,18 @@ struct LayerSummary {
   double volume_mm3 = 0.0;  ///< removed by fronts and backs
   double side_volume_mm3 = 0.0;
   double front_deg = 0.0, back_deg = 0.0;  ///< largest engagement
-  double side_deg = 0.0;                   ///< of the finishing sweeps
-  double entered_mm = 0.0;                 ///< deepest that a half enters a face
-  std::vector<double> cycle_deg;           ///< largest engagement of each cycle
-  std::vector<double> cycle_mm3;           ///< removed volume of each cycle
-  std::vector<double> cycle_mm;            ///< way of each cycle
+  /// How it begins: open, before the blank, ramp or plunge. The largest engagement of a ramp or a plunge is held to no limit:
+  /// it cuts a slot.
+  std::string entry = "open";
+  double entry_deg = 0.0, entry_mm = 0.0, entry_mm3 = 0.0;  ///< of a ramp or a plunge: engagement, way, removed volume
+  double entry_depth_mm = 0.0;    ///< along the axis: how much a pass of a ramp sinks, how deep a plunge goes
+  double entry_slope_deg = 0.0;   ///< of a ramp
+  double entry_width_mm = 0.0;    ///< of all plunges but the first
+  double side_deg = 0.0;          ///< of the finishing sweeps
+  double entered_mm = 0.0;        ///< deepest that the entry or a half enters a face
+  std::vector<double> cycle_deg;  ///< largest engagement of each cycle
+  std::vector<double> cycle_mm3;  ///< removed volume of each cycle
+  std::vector<double> cycle_mm;   ///< way of each cycle
 };
 
 /// How a cavity went.
@@ -109,7 +116,7 @@ struct TrochoidSummary {
   double minutes = 0.0;       ///< at the job's rates
   std::vector<LayerSummary> layers;
   [[nodiscard]] double largest_deg() const;  ///< of fronts and backs
-  [[nodiscard]] double way_mm() const;       ///< of fronts, backs and sides
+  [[nodiscard]] double way_mm() const;       ///< of entries, fronts, backs and sides
   [[nodiscard]] bool done() const;           ///< every layer is
 };
 

@@ -455,6 +455,8 @@ def trochoid(
     max_engagement: float = ...,
     cut: str = ...,
     layers: Union[int, Literal["auto"]] = ...,
+    entry: str = ...,
+    ramp_angle: float = ...,
     strategy: str = ...,
     feed_mm_min: float = ...,
     rapid_mm_min: float = ...,

@@ -170,6 +170,16 @@ TEST(AcceptStock, EveryKindOfStripIsHeldToTheLimitButForTheCells) {
   }
 }
 
+TEST(AcceptStock, RampsAndPlungesCutASlotWhichNoLimitHolds) {
+  StockReport stock;
+  stock.cell_mm = 0.1;
+  for (const char* kind : {"ramp", "plunge"})
+    stock.kinds.push_back({.kind = kind, .engagement_deg = 180.0, .strip = 0});
+  Acceptance acceptance;
+  accept_stock(stock, 60.0, 0.02, acceptance);
+  EXPECT_TRUE(acceptance.pass());
+}
+
 TEST(AcceptBends, EachEndIsHeldToTheRadiusThatIsAskedFor) {
   const BendRadii bends{.tip_mm = 12.5, .holder_end_mm = 4.0};
   FitJob job;

@@ -56,6 +56,20 @@ TEST(ExampleCavity, WallsAreAsHollowAsTheyAreAskedToBe) {
   EXPECT_NEAR(deepest, 1.0, 0.03) << "the cubic share moves the deepest place and adds 1.6 %";
 }
 
+TEST(ExampleCavity, WallsCloseItsEnds) {
+  const std::vector<Face> both = cavity_walls({.length_mm = 60.0, .end_wall = true, .start_wall = true});
+  ASSERT_EQ(both.size(), 4u);
+  EXPECT_EQ(both[2].id, "F3");
+  EXPECT_EQ(both[3].id, "F4");
+  EXPECT_NEAR(at(both[2], 0.5, 0.5).x(), 30.0, 1e-9);
+  EXPECT_NEAR(at(both[3], 0.5, 0.5).x(), -30.0, 1e-9);
+  EXPECT_LT(normal(both[2], 0.5, 0.5).x(), -0.99) << "they look inwards";
+  EXPECT_GT(normal(both[3], 0.5, 0.5).x(), 0.99);
+  const std::vector<Face> start = cavity_walls({.start_wall = true});
+  ASSERT_EQ(start.size(), 3u);
+  EXPECT_EQ(start[2].id, "F3");
+}
+
 // 200 mm deep walls that lean by 4 degrees are 14 mm nearer to each other at the bottom than in the middle, and meet.
 TEST(ExampleCavity, DeepWallsThatLeanLessDoNotMeet) {
   const CavityShape deep{.width_mm = 25.0, .depth_mm = 200.0, .length_mm = 200.0, .twist_deg = 2.0};

@@ -36,7 +36,7 @@ LayerCycles plan(SweptStock& stock, CycleStrategy strategy, double limit) {
   CycleOptions options;
   options.largest_rad = limit * kDegree;
   options.strategy = strategy;
-  return plan_cycles(sides, guard, stock, options, {});
+  return plan_cycles(sides, guard, stock, options, {}, {});
 }
 
 TEST(Cycles, HoldTheLimitAtThreeTimesTheRows) {
@@ -134,7 +134,7 @@ TEST(Cycles, GoOnWhereEveryFrontEntersAFaceAndSaySo) {
   const HalfGuard guard({{target.get()}, {}}, stock.radial());
   CycleOptions options;
   options.strategy = CycleStrategy::kPlain;
-  const LayerCycles out = plan_cycles(sides, guard, stock, options, {});
+  const LayerCycles out = plan_cycles(sides, guard, stock, options, {}, {});
   EXPECT_EQ(out.status, CycleStatus::kDone);
   EXPECT_GT(out.entered_mm(), 1.0);
 }

@@ -47,6 +47,38 @@ TEST(HalfPath, BulgesForwardAndLiftsAlongTheAxis) {
   EXPECT_GT((middle(0.0, 2.0) - middle(0.0, 0.0)).z(), 1.0);
 }
 
+TEST(HalfPath, ReachesAheadByTheShareThatIsLeft) {
+  const SidePath a(bent_side(0.0, 1.0), false), b(bent_side(16.0, -1.0), false);
+  const AxisPlace from = a.at(20.0), to = b.at(20.0).reversed();
+  const HalfShape shape{2.0, 2.0, 1.5, 0.0};
+  const double reach = reach_ahead(half_path(30.0, from, to, shape), from, to);
+  EXPECT_GT(reach, 1.0);
+  for (const double share : {1.0, 0.5, 0.2, 0.0}) {
+    const RuledMotion less = half_path_across(30.0, from, to, shape, share, share);
+    EXPECT_NEAR(reach_ahead(less, from, to), share * reach, 0.02 * reach) << share;
+    EXPECT_LT((less.pose(0.0).tip - from.tip).norm(), 1e-12);
+    EXPECT_LT((less.pose(1.0).tip - to.tip).norm(), 1e-12);
+  }
+}
+
+TEST(SidePath, StaysWhereItIsBeyondAWall) {
+  SidePath path(bent_side(0.0, 1.0), false);
+  path.stop_at(false);
+  EXPECT_TRUE(path.stops_at_start());
+  EXPECT_FALSE(path.stops_at_end());
+  EXPECT_EQ((path.at(-3.0).tip - path.at(0.0).tip).norm(), 0.0);
+  EXPECT_GT((path.at(path.length() + 3.0).tip - path.at(path.length()).tip).norm(), 2.9);
+}
+
+TEST(SidePath, APartOfItsMotionIsTheSameMotion) {
+  const SidePath path(bent_side(0.0, 1.0), false);
+  const RuledMotion part = path.motion_between(7.0, 31.0);
+  EXPECT_LT((part.pose(0.0).tip - path.at(7.0).tip).norm(), 1e-9);
+  EXPECT_LT((part.pose(1.0).tip - path.at(31.0).tip).norm(), 1e-9);
+  EXPECT_NEAR(way_of_middle(part), 24.0, 0.01);
+  EXPECT_EQ(path.motion_between(-1.0, 1e9).tip.knots, path.motion().tip.knots);
+}
+
 TEST(SidePath, GoesByTheWayOfTheMiddle) {
   const SidePath path(bent_side(0.0, 1.0), false);
   for (const double x : {3.0, 21.0, 44.0}) {

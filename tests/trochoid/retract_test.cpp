@@ -31,7 +31,7 @@ class RetractTest : public ::testing::Test {
 
 TEST_F(RetractTest, AlongTheAxisWhereThatIsFree) {
   const Pose from{Vec3(20.0, kRadius + 0.1, 4.0), Vec3(0.2, 0.1, 1.0).normalized()};
-  const std::vector<Pose> way = retract(from, Vec3::UnitX(), kClear, kTool, guard_, kAllowed);
+  const std::vector<Pose> way = retract(from, {Vec3::UnitX()}, kClear, kTool, guard_, kAllowed);
   ASSERT_EQ(way.size(), 2u);
   EXPECT_LT((way[1].tip - way[0].tip).normalized().cross(from.axis).norm(), 1e-12);
   EXPECT_NEAR(way[1].tip.z(), kClear.height, 1e-9);
@@ -43,7 +43,7 @@ TEST_F(RetractTest, AnotherWayWhereTheAxisLeadsIntoAWall) {
   const Pose beside{Vec3(20.0, 0.5 * kLength + kRadius + 1.0, 4.0), Vec3(0.0, -0.5, 1.0).normalized()};
   std::vector<Pose> along{beside, {beside.at(62.0), beside.axis}};
   ASSERT_GT(deepest(along), 1.0);
-  const std::vector<Pose> up = retract(beside, Vec3::Zero(), kClear, kTool, guard_, kAllowed);
+  const std::vector<Pose> up = retract(beside, {}, kClear, kTool, guard_, kAllowed);
   EXPECT_LE(deepest(up), kAllowed);
   EXPECT_GE(up.back().tip.z(), kClear.height - 1e-9);
 }
@@ -54,8 +54,8 @@ TEST_F(RetractTest, OutwardFirstWhereAllOtherWaysEnter) {
       make_target({testing::quad(Vec3(0, 20, 45), Vec3(66, 20, 45), Vec3(0, -20, 45), Vec3(66, -20, 45), "F2")});
   guard_ = HalfGuard({{blade_.get(), roof.get()}, {}}, kTool);
   const Pose behind{Vec3(68.0, 0.0, 4.0), Vec3(-0.12, 0.0, 1.0).normalized()};
-  const std::vector<Pose> way = retract(behind, Vec3(2.0, 0.0, 0.0), kClear, kTool, guard_, kAllowed);
-  const std::vector<Pose> closed = retract(behind, Vec3::Zero(), kClear, kTool, guard_, kAllowed);
+  const std::vector<Pose> way = retract(behind, {Vec3(2.0, 0.0, 0.0)}, kClear, kTool, guard_, kAllowed);
+  const std::vector<Pose> closed = retract(behind, {}, kClear, kTool, guard_, kAllowed);
   ASSERT_EQ(way.size(), 3u);
   EXPECT_LE(deepest(way), kAllowed);
   EXPECT_GE(way.back().tip.z(), kClear.height - 1e-9);
@@ -63,9 +63,22 @@ TEST_F(RetractTest, OutwardFirstWhereAllOtherWaysEnter) {
   EXPECT_GT(deepest(closed), 0.5);
 }
 
+TEST_F(RetractTest, AsideFirstWhereASideLeansOverTheTool) {
+  // A shelf over the place beside the blade: only off the side there is a way up.
+  const auto shelf =
+      make_target({testing::quad(Vec3(0, -5, 45), Vec3(0, 7, 45), Vec3(60, -5, 45), Vec3(60, 7, 45), "F2")});
+  guard_ = HalfGuard({{blade_.get(), shelf.get()}, {}}, kTool);
+  const Pose beside{Vec3(20.0, kRadius + 0.1, 4.0), Vec3::UnitZ()};
+  const std::vector<Pose> closed = retract(beside, {}, kClear, kTool, guard_, kAllowed);
+  EXPECT_GT(deepest(closed), 0.5);
+  const std::vector<Pose> way = retract(beside, {Vec3::Zero(), Vec3(0.0, 8.0, 0.0)}, kClear, kTool, guard_, kAllowed);
+  EXPECT_LE(deepest(way), kAllowed);
+  EXPECT_GE(way.back().tip.z(), kClear.height - 1e-9);
+}
+
 TEST_F(RetractTest, WhatIsAboveStaysWhereItIs) {
   const Pose above{Vec3(0.0, 20.0, 61.0), Vec3::UnitZ()};
-  EXPECT_EQ(retract(above, Vec3::UnitX(), kClear, kTool, guard_, kAllowed).size(), 1u);
+  EXPECT_EQ(retract(above, {Vec3::UnitX()}, kClear, kTool, guard_, kAllowed).size(), 1u);
 }
 
 }  // namespace

@@ -86,7 +86,7 @@ TEST_F(RunOutTest, AWallAcrossTheWayIsToldApartFromAHub) {
     const RunOutDepth depth = join_run_outs(a, b, kRadius, guard, 0.01);
     EXPECT_EQ(depth.start, 0.0);
     EXPECT_GT(depth.end, 0.5 * kRadius);
-    a.stop_at_end();
+    a.stop_at(true);
     EXPECT_LT(a.at(a.length() + 10.0).tip.x(), 50.0 - kRadius);
     EXPECT_EQ((a.at(a.length() + 10.0).tip - a.at(a.length()).tip).norm(), 0.0);
   }

@@ -122,7 +122,7 @@ void accept_stock(const StockReport& stock, double most_engagement_deg, double t
   const double most = most_engagement_deg + stock.resolution_deg;
   for (const StockKind& kind : stock.kinds)
     // Cycles make the limit; a finishing sweep or a link that engages more has met what they have left.
-    if (kind.engagement_deg > most)
+    if (kind.engagement_deg > most && !kind.cuts_a_slot())
       acceptance.reasons.push_back(
           {"stock", fmt::format("replayed, a {} has an engagement of {:.3f} degrees > {} + {:.2f}, strip {}", kind.kind,
                                 kind.engagement_deg, most_engagement_deg, stock.resolution_deg, kind.strip + 1)});

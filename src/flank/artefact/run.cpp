@@ -105,7 +105,7 @@ double TrochoidSummary::largest_deg() const {
 
 double TrochoidSummary::way_mm() const {
   double way = 0.0;
-  for (const LayerSummary& layer : layers) way += layer.fronts_mm + layer.backs_mm + layer.sides_mm;
+  for (const LayerSummary& layer : layers) way += layer.entry_mm + layer.fronts_mm + layer.backs_mm + layer.sides_mm;
   return way;
 }
 

@@ -40,6 +40,13 @@ std::pair<double, double> extent(const CavityShape& shape) {
   return {low, high};
 }
 
+/// Across the end on the side of `sign`, as wide and high as the channel there and a little more.
+Face cross_wall(const CavityShape& shape, double sign) {
+  const double x = 0.5 * sign * shape.length_mm, y = 0.6 * shape.width_mm, z = 0.6 * shape.depth_mm;
+  return interpolated([&](double u, double v) { return Vec3(x, sign * y * (1.0 - 2.0 * u), z * (2.0 * v - 1.0)); }, 4,
+                      4);
+}
+
 }  // namespace
 
 std::vector<Face> cavity_walls(const CavityShape& shape) {
@@ -66,13 +73,9 @@ std::vector<Face> cavity_walls(const CavityShape& shape) {
       },
       kAlong, kUp));
   walls.back().id = "F2";
-  if (shape.end_wall) {
-    // As wide and high as the channel there and a little more.
-    const double x = 0.5 * shape.length_mm, y = 0.6 * shape.width_mm, z = 0.6 * shape.depth_mm;
-    walls.push_back(
-        interpolated([&](double u, double v) { return Vec3(x, y * (1.0 - 2.0 * u), z * (2.0 * v - 1.0)); }, 4, 4));
-    walls.back().id = "F3";
-  }
+  if (shape.end_wall) walls.push_back(cross_wall(shape, 1.0));
+  if (shape.start_wall) walls.push_back(cross_wall(shape, -1.0));
+  for (std::size_t k = 2; k < walls.size(); ++k) walls[k].id = "F" + std::to_string(k + 1);
   return walls;
 }
 

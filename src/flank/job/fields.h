@@ -84,6 +84,11 @@ inline constexpr Accepted kLayers{"auto or a number from 1 to 12 is needed",
                                   [](double x) { return x >= 0.0 && x <= 12.0; }};
 inline constexpr Accepted kCycles{"there are volume, plain and paper", nullptr,
                                   [](std::string_view x) { return x == "volume" || x == "plain" || x == "paper"; }};
+inline constexpr Accepted kEntry{"there are auto, open, ramp and plunge", nullptr, [](std::string_view x) {
+                                   return x == "auto" || x == "open" || x == "ramp" || x == "plunge";
+                                 }};
+inline constexpr Accepted kRampAngle{"an angle of at least 0.1 and at most 45 degrees is needed",
+                                     [](double x) { return x >= 0.1 && x <= 45.0; }};
 inline constexpr Accepted kSeeds{"there are grid and shape", nullptr,
                                  [](std::string_view x) { return x == "grid" || x == "shape"; }};
 
@@ -357,6 +362,15 @@ void visit_cycles(Request& cycles, Visitor& visit) {
   visit(FieldInfo{"layers", "", kGroup, "Layers, one tool for all: a number, or auto: as many as the tolerance needs",
                   kLayers, Spelling::kAutoOrCount},
         cycles.layers);
+  visit(
+      FieldInfo{
+          "entry", "", kGroup,
+          "How a layer begins: open, before the blank; ramp, to and fro over its first front, sinking; plunge, along "
+          "the tool's axis at places of that front; auto: open where an end is open, else ramp. A ramp or a plunge "
+          "cuts a slot: --max-engagement does not hold there, its engagement is told by itself",
+          kEntry},
+      cycles.entry);
+  visit(FieldInfo{"ramp_angle", "", kGroup, "Steepest slope of a ramp, degrees", kRampAngle}, cycles.ramp_angle_deg);
   visit(FieldInfo{"strategy", "", kGroup,
                   "volume: the shape of every cycle is optimised for removed volume per way; plain: its step alone; "
                   "paper: steps whose fronts are moved back where they engage too far (the published method, to "

@@ -45,6 +45,20 @@ std::string status_word(CycleStatus status) {
 
 }  // namespace
 
+namespace {
+
+void add_entry(const Entry& entry, LayerSummary& out) {
+  out.entry = entry.method == EntryMethod::kPlunge ? "plunge" : "ramp";
+  out.entry_deg = entry.largest_rad * kRadian;
+  out.entry_mm = entry.way_mm;
+  out.entry_mm3 = entry.volume_mm3;
+  out.entry_depth_mm = entry.depth_mm;
+  out.entry_slope_deg = entry.slope_rad * kRadian;
+  out.entry_width_mm = entry.width_mm;
+}
+
+}  // namespace
+
 LayerSummary summary_of(const PlannedLayer& planned) {
   LayerSummary out;
   out.cycles = static_cast<int>(planned.cycles.cycles.size());
@@ -53,7 +67,8 @@ LayerSummary summary_of(const PlannedLayer& planned) {
   out.links_mm = planned.links_mm;
   out.side_volume_mm3 = planned.side_volume_mm3;
   out.side_deg = std::max(planned.first_side_rad, planned.second_side_rad) * kRadian;
-  out.entered_mm = planned.cycles.entered_mm();
+  out.entered_mm = planned.entered_mm();
+  if (planned.entry) add_entry(*planned.entry, out);
   for (const Cycle& cycle : planned.cycles.cycles) {
     const Half& front = cycle.front;
     double angle = front.peak.angle_rad, volume = front.engagement.volume_mm3, way = front.way_mm;
@@ -136,23 +151,32 @@ TrochoidSummary summary_of(const TrochoidJob& job, const SideFit& sides, const C
   return out;
 }
 
+std::string ends_of(const CavityProgram& program) {
+  if (program.walled_start)
+    return "walls close the cavity at both ends: cycles start and end before them, opened from above";
+  if (program.walled_end)
+    return "a wall closes the cavity at the end: cycles start outside of the blank and end before it";
+  return "the cavity is taken as open at both ends: cycles start and end outside of the blank";
+}
+
 void note_what_is_open(const TrochoidJob& job, const CavityProgram& program, std::vector<std::string>& notes) {
   for (std::size_t k = 0; k < program.layers.size(); ++k) {
-    const LayerCycles& cycles = program.layers[k].cycles;
-    if (cycles.status == CycleStatus::kStuck)
+    const PlannedLayer& layer = program.layers[k];
+    if (layer.no_way_in)
+      notes.push_back(fmt::format("layer {}: no {} between the sides is free of faces: it has no way in", k + 1,
+                                  job.cycles.entry == "plunge" ? "row of plunges" : "ramp"));
+    else if (layer.cycles.status == CycleStatus::kStuck)
       notes.push_back(fmt::format("layer {}: no step is possible within {} degrees: a step of {:.4f} mm exceeds them",
-                                  k + 1, job.cycles.most_engagement_deg, cycles.stuck_step_mm));
-    if (program.layers[k].share < 1.0)
+                                  k + 1, job.cycles.most_engagement_deg, layer.cycles.stuck_step_mm));
+    if (layer.share < 1.0)
       notes.push_back(
           fmt::format("layer {}: cleared and finished over {:.1f} % of the way of its sides; the rest is left", k + 1,
-                      100.0 * program.layers[k].share));
-    if (cycles.entered_mm() > job.tolerance_mm)
+                      100.0 * layer.share));
+    if (layer.entered_mm() > job.tolerance_mm)
       notes.push_back(fmt::format("layer {}: a half path enters a face by {:.4f} mm, by the planner's samples", k + 1,
-                                  cycles.entered_mm()));
+                                  layer.entered_mm()));
   }
-  notes.push_back(program.walled
-                      ? "a wall closes the cavity at the end: cycles start outside of the blank and end before it"
-                      : "the cavity is taken as open at both ends: cycles start and end outside of the blank");
+  notes.push_back(ends_of(program));
 }
 
 /// Tool, path and figures of a plan.

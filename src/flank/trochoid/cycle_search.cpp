@@ -100,11 +100,30 @@ double CycleSearch::partner(double from_x, const CycleShape& shape) const {
   return y + shape.share[CycleShape::kAhead] * gap;
 }
 
+RuledMotion CycleSearch::half_before_wall(const AxisPlace& from, const AxisPlace& to, const HalfShape& shape,
+                                          double room_from, double room_to) const {
+  const double length = sides_.from.axis_length();
+  RuledMotion half = half_path(length, from, to, shape);
+  const double room = std::min(room_from, room_to);
+  if (!std::isfinite(room)) return half;
+  const double reach = reach_ahead(half, from, to);
+  if (reach <= room) return half;
+  return half_path_across(length, from, to, shape, std::clamp(room_from / reach, 0.0, 1.0),
+                          std::clamp(room_to / reach, 0.0, 1.0));
+}
+
 void CycleSearch::shape_halves(const CycleShape& shape, Trial& trial) const {
-  const double length = sides_.from.axis_length(), gap = gap_at(trial);
-  trial.front = half_path(length, start(trial), end(trial).reversed(), shape.front(gap, now_.lift_mm));
+  constexpr double kMuch = std::numeric_limits<double>::infinity();
+  const double gap = gap_at(trial);
+  const auto ahead = [](const SidePath& side, double x) {
+    return side.stops_at_end() ? std::max(0.0, side.length() - x) : kMuch;
+  };
+  const auto behind = [](const SidePath& side, double x) { return side.stops_at_start() ? std::max(0.0, x) : kMuch; };
+  trial.front = half_before_wall(start(trial), end(trial).reversed(), shape.front(gap, now_.lift_mm),
+                                 ahead(sides_.from, trial.from_x), ahead(sides_.to, trial.to_x));
   if (now_.last.way_mm > 0.0)
-    trial.back = half_path(length, end(now_.last).reversed(), start(trial), shape.back(gap, now_.lift_mm));
+    trial.back = half_before_wall(end(now_.last).reversed(), start(trial), shape.back(gap, now_.lift_mm),
+                                  behind(sides_.to, now_.last.to_x), behind(sides_.from, trial.from_x));
 }
 
 Trial CycleSearch::tried(double step, const CycleShape& shape, bool measured) {

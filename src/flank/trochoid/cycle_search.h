@@ -103,6 +103,10 @@ class CycleSearch {
   [[nodiscard]] double gap_at(const Trial& t) const;
   [[nodiscard]] double partner(double from_x, const CycleShape& shape) const;
   void shape_halves(const CycleShape& shape, Trial& trial) const;
+  /// A half path between two places, of which the one at `x` and the one at `y` have so much room ahead before a wall, mm; turned
+  /// across as far as it takes.
+  [[nodiscard]] RuledMotion half_before_wall(const AxisPlace& from, const AxisPlace& to, const HalfShape& shape,
+                                             double room_from, double room_to) const;
   [[nodiscard]] Trial tried(double step, const CycleShape& shape, bool measured);
   /// Engagement, volume and way of its halves.
   void measure(Trial& trial);

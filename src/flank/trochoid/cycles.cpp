@@ -32,6 +32,8 @@ constexpr double kNothing = 1e-3;
 constexpr double kKept = 0.7;
 /// An aim that failed is lowered by at least so much, radians.
 constexpr double kLeastLess = 0.002;
+/// In radii: so near to a wall at the end cycles end where none gets on, and so near where taking some back does not help.
+constexpr double kAtWall = 0.2, kBeforeWall = 0.5;
 /// Cycles that are taken back where none gets on, at first.
 constexpr std::size_t kFirstRewind = 4;
 /// How often they are taken back because a half enters a face: where the sides themselves lead there, that does not help.
@@ -80,7 +82,7 @@ class CyclePlanner {
     now_.sweeps = stock.sweeps().size();
   }
 
-  LayerCycles run(const Progress& progress);
+  LayerCycles run(const std::optional<FirstFront>& first, const Progress& progress);
 
  private:
   [[nodiscard]] Half accepted(const RuledMotion& motion);
@@ -90,7 +92,9 @@ class CyclePlanner {
   /// The trial, or one with a smaller aim where its fine measure is above the limit; none that enters a face, unless the
   /// trial does.
   [[nodiscard]] bool accept_some(Trial trial, bool entering, LayerCycles& out);
-  void place_first(LayerCycles& out);
+  /// The first front, before the blank.
+  [[nodiscard]] Trial placed_first();
+  void begin_with(const FirstFront& first, LayerCycles& out);
   /// The next cycle; false where none gets on. `now_` is then in some state between.
   [[nodiscard]] bool add_cycle(LayerCycles& out);
   /// The same, from the journal if an earlier run has found it.
@@ -101,6 +105,8 @@ class CyclePlanner {
   /// The stock as these cycles leave it.
   void put_back(const LayerCycles& cycles);
   [[nodiscard]] bool is_last(const LayerCycles& out) const;
+  /// Whether the last front is so near to a wall at the end that cycles may end there; then says how near.
+  [[nodiscard]] bool ends_at_wall(double radii, LayerCycles& out) const;
 
   const LayerSides& sides_;
   SweptStock& stock_;
@@ -176,7 +182,21 @@ bool CyclePlanner::accept_some(Trial trial, bool entering, LayerCycles& out) {
   return false;
 }
 
-void CyclePlanner::place_first(LayerCycles& out) {
+void CyclePlanner::begin_with(const FirstFront& first, LayerCycles& out) {
+  // The entry ends with it: its way and its engagement are counted there.
+  Cycle cycle;
+  cycle.from_x = first.from_x, cycle.to_x = first.to_x;
+  cycle.front.motion = first.motion;
+  Trial& last = now_.last;
+  last.from_x = first.from_x, last.to_x = first.to_x;
+  last.front = first.motion;
+  last.way_mm = way_of_middle(first.motion);
+  cycle.entered_mm = search_.entered(last);
+  stock_.add(Sweep::of(first.motion, kHalfIntervals));
+  out.cycles.push_back(std::move(cycle));
+}
+
+Trial CyclePlanner::placed_first() {
   // So far before the start that nothing is cut, then as near as nothing is cut. Where the ends of the sides are skewed the
   // blank reaches far before one of them.
   double far = kFarOut * search_.radius();
@@ -198,7 +218,7 @@ void CyclePlanner::place_first(LayerCycles& out) {
       high = step;
     }
   }
-  if (!accept(std::move(first), out)) out.status = CycleStatus::kStuck;
+  return first;
 }
 
 bool CyclePlanner::add_cycle(LayerCycles& out) {
@@ -239,6 +259,16 @@ bool CyclePlanner::is_last(const LayerCycles& out) const {
   return far_behind || (behind && removed <= kNothing * now_.largest_front_mm3);
 }
 
+bool CyclePlanner::ends_at_wall(double radii, LayerCycles& out) const {
+  // A corner as round as the tool engages it from wall to wall, however little is taken.
+  if (!sides_.from.stops_at_end()) return false;
+  const Cycle& last = out.cycles.back();
+  const double before = std::max(sides_.from.length() - last.from_x, sides_.to.length() - last.to_x);
+  if (before > radii * search_.radius()) return false;
+  out.before_wall_mm = std::max(before, 1e-9);
+  return true;
+}
+
 bool CyclePlanner::rewind(LayerCycles& out) {
   if (!options_.optimise() || rewinds_ >= options_.most_rewinds || out.cycles.empty()) return false;
   const std::size_t stuck = out.cycles.size();
@@ -257,10 +287,13 @@ void CyclePlanner::put_back(const LayerCycles& cycles) {
   for (const Cycle& cycle : cycles.cycles) sweep(cycle, stock_);
 }
 
-LayerCycles CyclePlanner::run(const Progress& progress) {
+LayerCycles CyclePlanner::run(const std::optional<FirstFront>& first, const Progress& progress) {
   LayerCycles out, farthest;
   before_.push_back(now_);
-  place_first(out);
+  if (first)
+    begin_with(*first, out);
+  else if (!accept(placed_first(), out))
+    out.status = CycleStatus::kStuck;
   out_ = std::max(2.0 * search_.radius(), -now_.last.from_x + 2.0 * search_.radius());
   const double whole = sides_.from.length() + 4.0 * search_.radius();
   double farthest_x = -std::numeric_limits<double>::infinity();
@@ -268,18 +301,20 @@ LayerCycles CyclePlanner::run(const Progress& progress) {
     progress.step("cycles", std::clamp((now_.last.from_x + 2.0 * search_.radius()) / whole, 0.0, 1.0));
     if (progress.stop()) out.status = CycleStatus::kCancelled;
     if (now_.last.from_x >= options_.most_share * sides_.from.length()) out.status = CycleStatus::kShort;
-    if (out.status != CycleStatus::kDone) break;
+    if (out.status == CycleStatus::kShort && ends_at_wall(kBeforeWall, out)) out.status = CycleStatus::kDone;
+    if (out.status != CycleStatus::kDone || out.before_wall_mm > 0.0) break;
     before_.resize(out.cycles.size());
     before_.push_back(now_);
     before_.back().sweeps = stock_.sweeps().size();
     if (next_cycle(out, progress)) continue;
+    if (ends_at_wall(kAtWall, out)) break;
     if (now_.last.from_x > farthest_x) {
       farthest_x = now_.last.from_x;
       farthest = out;
       farthest.stuck_step_mm = search_.refused();
     }
     if (rewind(out)) continue;
-    farthest.status = CycleStatus::kStuck;
+    farthest.status = ends_at_wall(kBeforeWall, farthest) ? CycleStatus::kDone : CycleStatus::kStuck;
     put_back(farthest);
     return farthest;
   }
@@ -303,6 +338,7 @@ void code(StepCodec& codec, LayerCycles& layer) {
   code_choice(codec, layer.status, 4);
   code(codec, layer.cycles);
   codec.number(layer.stuck_step_mm);
+  codec.number(layer.before_wall_mm);
 }
 
 double LayerCycles::entered_mm() const {
@@ -312,10 +348,10 @@ double LayerCycles::entered_mm() const {
 }
 
 LayerCycles plan_cycles(const LayerSides& sides, const HalfGuard& guard, SweptStock& stock, const CycleOptions& options,
-                        const Progress& progress) {
+                        const std::optional<FirstFront>& first, const Progress& progress) {
   const std::size_t before = stock.sweeps().size();
   LayerCycles out = journaled(
-      progress, "layer", [&] { return CyclePlanner(sides, guard, stock, options).run(progress); }, before,
+      progress, "layer", [&] { return CyclePlanner(sides, guard, stock, options).run(first, progress); }, before,
       options.most_rewinds);
   // An earlier run may have found them, in another stock.
   while (stock.sweeps().size() > before) stock.remove_last();

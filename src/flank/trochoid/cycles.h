@@ -38,6 +38,8 @@ struct LayerCycles {
   CycleStatus status = CycleStatus::kDone;
   std::vector<Cycle> cycles;
   double stuck_step_mm = 0.0;  ///< the step at which the limit is exceeded, if it is stuck
+  /// If it is done, but the limit is exceeded in the corners of a wall at its end: so far before it the fronts end, mm.
+  double before_wall_mm = 0.0;
   /// Deepest that a half enters a face, by the planner's samples.
   [[nodiscard]] double entered_mm() const;
 };
@@ -46,8 +48,15 @@ struct LayerCycles {
 void code(StepCodec& codec, Cycle& cycle);
 void code(StepCodec& codec, LayerCycles& layer);
 
-/// Plans all cycles of a layer. `stock` holds what was swept before, and holds the new sweeps afterwards. The first front
-/// is placed before the blank, where it cuts nothing: the sides are open at their start.
+/// The front that a layer begins with inside the material: an entry has opened it (entry.h).
+struct FirstFront {
+  double from_x = 0.0, to_x = 0.0;  ///< its ends on the side paths, mm
+  RuledMotion motion;
+};
+
+/// Plans all cycles of a layer. `stock` holds what was swept before, and holds the new sweeps afterwards. Without a first
+/// front one is placed before the blank, where it cuts nothing: the sides are open at their start.
 [[nodiscard]] LayerCycles plan_cycles(const LayerSides& sides, const HalfGuard& guard, SweptStock& stock,
-                                      const CycleOptions& options, const Progress& progress);
+                                      const CycleOptions& options, const std::optional<FirstFront>& first,
+                                      const Progress& progress);
 }  // namespace flank::internal

@@ -1,6 +1,7 @@
 #include "flank/trochoid/half_path.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -75,6 +76,31 @@ RuledMotion half_path(double axis_length, const AxisPlace& from, const AxisPlace
   motion.direction =
       rail(from.u, from.u + shape.leave_mm * from.u_dx, to.u - shape.arrive_mm * to.u_dx, to.u, Vec3::Zero());
   return motion;
+}
+
+double reach_ahead(const RuledMotion& half, const AxisPlace& from, const AxisPlace& to) {
+  constexpr int kSteps = 24;
+  const double middle = 0.5 * half.axis_length;
+  const Vec3 start = from.at(middle), across = (to.at(middle) - start).normalized();
+  const Vec3 leave = from.velocity(middle) - to.velocity(middle);
+  const Vec3 ahead = (leave - leave.dot(across) * across).normalized();
+  double reach = 0.0;
+  for (int i = 1; i < kSteps; ++i)
+    reach = std::max(reach, (half.pose(static_cast<double>(i) / kSteps).at(middle) - start).dot(ahead));
+  return reach;
+}
+
+RuledMotion half_path_across(double axis_length, const AxisPlace& from, const AxisPlace& to, const HalfShape& shape,
+                             double share_from, double share_to) {
+  const double gap = (to.at(0.5 * axis_length) - from.at(0.5 * axis_length)).norm();
+  const auto turned = [&](const AxisPlace& place, double kept) -> AxisPlace {
+    const double across = gap > 0.0 ? std::sqrt(std::max(0.0, 1.0 - kept * kept)) / gap : 0.0;
+    return {place.tip, place.u, kept * place.tip_dx + across * (to.tip - from.tip),
+            kept * place.u_dx + across * (to.u - from.u)};
+  };
+  HalfShape less = shape;
+  less.bulge_mm *= std::min(share_from, share_to);
+  return half_path(axis_length, turned(from, share_from), turned(to, share_to), less);
 }
 
 double way_of_middle(const RuledMotion& motion) {

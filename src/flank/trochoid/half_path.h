@@ -28,6 +28,14 @@ struct HalfShape {
 [[nodiscard]] RuledMotion half_path(double axis_length, const AxisPlace& from, const AxisPlace& to,
                                     const HalfShape& shape);
 
+/// How far a half path goes beyond the line between its ends, in the direction in which it leaves, mm, >= 0.
+[[nodiscard]] double reach_ahead(const RuledMotion& half, const AxisPlace& from, const AxisPlace& to);
+
+/// A half path that reaches less far ahead: of what it has at either end a share, 0 to 1. Velocities are turned towards the way
+/// across, so with none it goes straight across, and is no longer tangential to the side paths.
+[[nodiscard]] RuledMotion half_path_across(double axis_length, const AxisPlace& from, const AxisPlace& to,
+                                           const HalfShape& shape, double share_from, double share_to);
+
 /// Length of the way of the axis' middle, mm.
 [[nodiscard]] double way_of_middle(const RuledMotion& motion);
 

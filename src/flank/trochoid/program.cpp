@@ -19,6 +19,10 @@ constexpr double kLargestTurn = 4.5 * std::numbers::pi / 180.0;
 
 /// Of the radius: run-outs that enter a face deeper than this end at a wall.
 constexpr double kWall = 0.2;
+/// Of the way to the other side: so far off a side a tool is drawn out beside it.
+constexpr double kAside = 0.2;
+/// Radii that a finishing sweep keeps off the place where an entry's first front begins or ends.
+constexpr double kOffCorner = 0.02;
 
 /// Left and right side path of a layer, in the order in which fronts use them, and how deep their run-outs enter faces.
 /// Milling is climb where a front goes to the left seen along the feed with the holder up.
@@ -36,7 +40,7 @@ LayerSides order_sides(const RuledMotion& left, const RuledMotion& right, bool b
   return a_to_b == options.climb ? LayerSides{a, b} : LayerSides{b, a};
 }
 
-/// All layers, fed from the open end to the other, which may end at a wall.
+/// All layers, fed from the open end to the other, which may end at a wall; there may be one at both.
 std::vector<LayerSides> order_layers(const std::vector<RuledMotion>& sides, const ProgramOptions& options,
                                      double radius, const HalfGuard& guard) {
   const auto ordered = [&](bool backwards, RunOutDepth& depth) {
@@ -49,9 +53,13 @@ std::vector<LayerSides> order_layers(const std::vector<RuledMotion>& sides, cons
   std::vector<LayerSides> layers = ordered(false, depth);
   const double wall = kWall * radius;
   if (depth.start > wall && depth.end <= wall) layers = ordered(true, depth = {});
-  if (depth.end > wall && depth.start <= wall)
-    for (LayerSides& layer : layers)
-      for (SidePath* path : {&layer.from, &layer.to}) path->stop_at_end();
+  // Who asks for an open entry has an open start.
+  const bool both = depth.start > wall && depth.end > wall && options.entry.method != EntryMethod::kOpen;
+  for (LayerSides& layer : layers)
+    for (SidePath* path : {&layer.from, &layer.to}) {
+      if (both) path->stop_at(false);
+      if (both || (depth.end > wall && depth.start <= wall)) path->stop_at(true);
+    }
   return layers;
 }
 
@@ -77,6 +85,41 @@ double way_of(const std::vector<Pose>& poses, double s) {
   return way;
 }
 
+/// From where to where the finishing sweeps go on both sides, mm: as far as the cycles got. Out of the blank where an end is
+/// open.
+struct SideRange {
+  double from_start = 0.0, from_end = 0.0, to_start = 0.0, to_end = 0.0;
+  /// Whether anything of the sides is in it.
+  [[nodiscard]] bool some() const { return from_end > std::max(0.0, from_start) && to_end > std::max(0.0, to_start); }
+};
+
+SideRange range_of(const LayerSides& sides, const PlannedLayer& planned, double radius_mm) {
+  const double run_mm = kRunOut * radius_mm, off_corner_mm = kOffCorner * radius_mm;
+  const Cycle& end = planned.cycles.cycles.back();
+  const bool done = planned.cycles.status == CycleStatus::kDone && planned.cycles.before_wall_mm == 0.0;
+  const double over = sides.to.stops_at_end() ? 0.0 : run_mm;
+  SideRange range{-run_mm, end.from_x, -run_mm, end.to_x};
+  if (done) {
+    range.from_end = sides.from.length() + over;
+    range.to_end = std::max(over > 0.0 ? end.to_x : 0.0, sides.to.length() + over);
+  }
+  // Before the first front that an entry has opened there is material. That front finishes its ends itself: a sweep that ended
+  // just there would end in a corner, where the tool touches material all around.
+  if (planned.entry) {
+    range.from_start = planned.entry->front.from_x + off_corner_mm;
+    range.to_start = planned.entry->front.to_x + off_corner_mm;
+    const double most = sides.from.stops_at_end() ? sides.from.length() : end.from_x;
+    const double most_to = sides.to.stops_at_end() ? sides.to.length() : end.to_x;
+    range.from_end = std::min(end.from_x, most), range.to_end = std::min(end.to_x, most_to);
+  }
+  return range;
+}
+
+std::vector<Pose> backwards_of(std::vector<Pose> poses) {
+  std::reverse(poses.begin(), poses.end());
+  return poses;
+}
+
 class ProgramWriter {
  public:
   ProgramWriter(const RadialFunction& radial, const HalfGuard& guard, const ProgramOptions& options, CavityProgram& out)
@@ -91,24 +134,34 @@ class ProgramWriter {
     strip.poses = std::move(poses);
     out_.path.strips.push_back(std::move(strip));
   }
-  void add(const std::string& kind, const RuledMotion& motion) {
-    SamplingOptions sampling;
-    sampling.chord_tolerance_mm =
-        std::max(options_.chord_mm, kToleranceBudget.cavity.half_chord * options_.cycles.tolerance_mm);
-    sampling.largest_turn_rad = kLargestTurn;
-    SampledMotion sampled = sample_motion(motion, sampling);
-    out_.chord_bound_mm = std::max(out_.chord_bound_mm, sampled.chord_bound_mm);
-    add(kind, both(), std::move(sampled.poses));
-  }
-  void layer(const LayerSides& sides, const LayerCycles& cycles, PlannedLayer& planned);
+  void add(const std::string& kind, const RuledMotion& motion) { add(kind, both(), poses_of(motion, 2)); }
+  /// All moves of an entry as one strip.
+  void add(const Entry& entry);
+  void layer(const LayerSides& sides, PlannedLayer& planned);
+  /// Both finishing sweeps of a layer that began before the blank, or inside.
+  void finish_open(const LayerSides& sides, const SideRange& range, PlannedLayer& planned);
+  void finish_inside(const LayerSides& sides, const SideRange& range, PlannedLayer& planned);
   /// Out of the layer above, over, and in to where this one's first cycle begins.
   void link(const LayerSides& above, const LayerSides& sides, const ClearPlane& clear, PlannedLayer& planned);
   [[nodiscard]] std::string both() const { return options_.left + "," + options_.right; }
 
  private:
-  /// Before the place of the first cycle, out of the blank.
-  [[nodiscard]] Pose beginning(const LayerSides& sides, const LayerCycles& cycles) const {
-    const AxisPlace first = sides.from.at(cycles.cycles.front().from_x);
+  void add_side(std::vector<Pose> poses, PlannedLayer& planned);
+  void add_link(const RuledMotion& motion, PlannedLayer& planned);
+  [[nodiscard]] std::vector<Pose> poses_of(const RuledMotion& motion, int least) {
+    SamplingOptions sampling;
+    sampling.chord_tolerance_mm =
+        std::max(options_.chord_mm, kToleranceBudget.cavity.half_chord * options_.cycles.tolerance_mm);
+    sampling.largest_turn_rad = kLargestTurn;
+    sampling.minimum_poses = least;
+    SampledMotion sampled = sample_motion(motion, sampling);
+    out_.chord_bound_mm = std::max(out_.chord_bound_mm, sampled.chord_bound_mm);
+    return std::move(sampled.poses);
+  }
+  /// Where the layer begins: over the material, or before the place of the first cycle, out of the blank.
+  [[nodiscard]] Pose beginning(const LayerSides& sides, const PlannedLayer& planned) const {
+    if (planned.entry) return planned.entry->moves.front().pose(0.0);
+    const AxisPlace first = sides.from.at(planned.cycles.cycles.front().from_x);
     return {first.tip - kRunOut * radial_.largest() * first.tip_dx, first.u};
   }
 
@@ -118,44 +171,87 @@ class ProgramWriter {
   CavityProgram& out_;
 };
 
-void ProgramWriter::layer(const LayerSides& sides, const LayerCycles& cycles, PlannedLayer& planned) {
-  const double length = radial_.axis_length(), run = kRunOut * radial_.largest();
+void ProgramWriter::add(const Entry& entry) {
+  // The judge measures at poses: straight moves need some between their ends.
+  constexpr int kLeast = 9;
+  std::vector<Pose> poses;
+  for (const RuledMotion& move : entry.moves) {
+    const std::vector<Pose> more = poses_of(move, kLeast);
+    poses.insert(poses.end(), more.begin() + (poses.empty() ? 0 : 1), more.end());
+  }
+  add(entry.method == EntryMethod::kPlunge ? "plunge" : "ramp", both(), std::move(poses));
+}
+
+void ProgramWriter::layer(const LayerSides& sides, PlannedLayer& planned) {
+  const LayerCycles& cycles = planned.cycles;
   if (cycles.cycles.empty()) return;
-  add("entry", both(), {beginning(sides, cycles), pose_of(sides.from.at(cycles.cycles.front().from_x))});
+  if (planned.entry)
+    add(*planned.entry);
+  else
+    add("entry", both(), {beginning(sides, planned), pose_of(sides.from.at(cycles.cycles.front().from_x))});
   for (const Cycle& cycle : cycles.cycles) {
     if (cycle.back) add("back", cycle.back->motion);
-    add("front", cycle.front.motion);
+    // The first front is the end of an entry that opens it.
+    if (cycle.back || !planned.entry) add("front", cycle.front.motion);
   }
-  // Back along the side where the last front ended, across before the start, and on along the other side: both as far as
-  // the cycles got.
-  const Cycle& end = cycles.cycles.back();
-  const bool done = cycles.status == CycleStatus::kDone;
-  const double over = sides.to.stops_at_end() ? 0.0 : run;
-  const double to_x = done ? std::max(over > 0.0 ? end.to_x : 0.0, sides.to.length() + over) : end.to_x;
-  const double from_x = done ? sides.from.length() + over : end.from_x;
-  if (to_x <= 0.0 || from_x <= 0.0) return;
-  std::vector<Pose> returning = sides.to.poses(-run, to_x, options_.chord_mm);
-  std::reverse(returning.begin(), returning.end());
-  planned.sides_mm += way_of(returning, 0.5 * length);
-  add("side", both(), std::move(returning));
-  const AxisPlace from = sides.from.at(-run);
-  const double gap = (from.at(0.5 * length) - sides.to.at(-run).at(0.5 * length)).norm();
-  add("link", half_path(length, sides.to.at(-run).reversed(), from, {0.12 * gap, 0.12 * gap, 0.0, 0.0}));
-  planned.links_mm += way_of(out_.path.strips.back().poses, 0.5 * length);
-  std::vector<Pose> onwards = sides.from.poses(-run, from_x, options_.chord_mm);
-  planned.sides_mm += way_of(onwards, 0.5 * length);
-  add("side", both(), std::move(onwards));
+  const SideRange range = range_of(sides, planned, radial_.largest());
+  if (!range.some()) return;
+  if (planned.entry)
+    finish_inside(sides, range, planned);
+  else
+    finish_open(sides, range, planned);
+}
+
+void ProgramWriter::add_side(std::vector<Pose> poses, PlannedLayer& planned) {
+  planned.sides_mm += way_of(poses, 0.5 * radial_.axis_length());
+  add("side", both(), std::move(poses));
+}
+
+void ProgramWriter::add_link(const RuledMotion& motion, PlannedLayer& planned) {
+  add("link", motion);
+  planned.links_mm += way_of(out_.path.strips.back().poses, 0.5 * radial_.axis_length());
+}
+
+void ProgramWriter::finish_open(const LayerSides& sides, const SideRange& range, PlannedLayer& planned) {
+  // Back along the side where the last front ended, across before the start, and on along the other side: both as far as the
+  // cycles got.
+  const double length = radial_.axis_length();
+  add_side(backwards_of(sides.to.poses(range.to_start, range.to_end, options_.chord_mm)), planned);
+  const AxisPlace from = sides.from.at(range.from_start), to = sides.to.at(range.to_start);
+  const double gap = (from.at(0.5 * length) - to.at(0.5 * length)).norm();
+  add_link(half_path(length, to.reversed(), from, {0.12 * gap, 0.12 * gap, 0.0, 0.0}), planned);
+  add_side(sides.from.poses(range.from_start, range.from_end, options_.chord_mm), planned);
+}
+
+void ProgramWriter::finish_inside(const LayerSides& sides, const SideRange& range, PlannedLayer& planned) {
+  // At the start there is material before the first front, and who comes there from the side cuts a corner. So both sides are
+  // swept towards it, and the way across is that of the last front. The first side is run forwards once more, which is the cut of
+  // the other.
+  const RuledMotion& front = planned.cycles.cycles.back().front.motion;
+  const std::vector<Pose> onwards = sides.from.poses(range.from_start, range.from_end, options_.chord_mm);
+  add_link(SidePath(front, true).motion(), planned);
+  add_side(backwards_of(onwards), planned);
+  add_side(onwards, planned);
+  add_link(front, planned);
+  add_side(backwards_of(sides.to.poses(range.to_start, range.to_end, options_.chord_mm)), planned);
 }
 
 void ProgramWriter::link(const LayerSides& above, const LayerSides& sides, const ClearPlane& clear,
                          PlannedLayer& planned) {
   const double length = radial_.axis_length(), allowed = kToleranceBudget.cavity.aim * options_.cycles.tolerance_mm;
-  const Pose last = out_.path.strips.back().poses.back(), next = beginning(sides, planned.cycles);
+  const Pose last = out_.path.strips.back().poses.back(), next = beginning(sides, planned);
   // Where the cycles above got stuck, or at a wall, material is in front.
   const bool through = out_.layers.back().cycles.status == CycleStatus::kDone && !above.from.stops_at_end();
-  const Vec3 onwards = through ? above.from.at(above.from.length()).tip_dx : Vec3::Zero();
-  std::vector<Pose> poses = retract(last, onwards, clear, radial_, guard_, allowed);
-  std::vector<Pose> in = retract(next, -sides.from.at(0.0).tip_dx, clear, radial_, guard_, allowed);
+  WayOut out;
+  if (through && !out_.layers.back().entry) out.outward = above.from.at(above.from.length()).tip_dx;
+  // Off the side, into what the last front has cleared.
+  if (above.from.stops_at_end())
+    out.aside =
+        kAside * (above.to.at(out_.layers.back().cycles.cycles.back().to_x).at(0.5 * length) - last.at(0.5 * length));
+  std::vector<Pose> poses = retract(last, out, clear, radial_, guard_, allowed);
+  WayOut from;
+  if (!planned.entry) from.outward = -sides.from.at(0.0).tip_dx;
+  std::vector<Pose> in = retract(next, from, clear, radial_, guard_, allowed);
   const std::vector<Pose> over = between(poses.back(), in.back(), length);
   poses.insert(poses.end(), over.begin() + 1, over.end());
   poses.insert(poses.end(), in.rbegin() + 1, in.rend());
@@ -182,16 +278,37 @@ void sweep_sides(const LayerSides& sides, SweptStock& stock, PlannedLayer& plann
     return;
   }
   const Cycle& end = planned.cycles.cycles.back();
-  const bool done = planned.cycles.status == CycleStatus::kDone;
+  const bool done = planned.cycles.status == CycleStatus::kDone && planned.cycles.before_wall_mm == 0.0;
   planned.share = done ? 1.0 : std::clamp(end.from_x / sides.from.length(), 0.0, 1.0);
-  if (!done && (end.to_x <= 0.0 || end.from_x <= 0.0)) return;
-  const RuledMotion first = done ? sides.to.motion() : sides.to.motion_to(end.to_x);
-  const RuledMotion second = done ? sides.from.motion() : sides.from.motion_to(end.from_x);
+  const SideRange range = range_of(sides, planned, stock.profile().largest());
+  if (!range.some()) return;
+  const RuledMotion first = sides.to.motion_between(range.to_start, range.to_end);
+  const RuledMotion second = sides.from.motion_between(range.from_start, range.from_end);
   planned.first_side_rad = sweep_side(backwards_of(first), stock, planned.side_volume_mm3);
-  planned.second_side_rad = sweep_side(second, stock, planned.side_volume_mm3);
+  planned.second_side_rad = sweep_side(planned.entry ? backwards_of(second) : second, stock, planned.side_volume_mm3);
+}
+
+/// Entry and cycles of a layer. `clear`: it begins inside the material, under that plane; else before the blank.
+PlannedLayer plan_layer(const LayerSides& sides, const HalfGuard& guard, SweptStock& stock, const ClearPlane* clear,
+                        const ProgramOptions& options, const Progress& progress) {
+  PlannedLayer planned;
+  std::optional<FirstFront> first;
+  if (clear != nullptr) {
+    planned.entry = plan_entry(sides, guard, stock, *clear, options.entry, options.cycles);
+    planned.no_way_in = !planned.entry;
+    if (planned.no_way_in) {
+      planned.cycles.status = CycleStatus::kStuck;
+      return planned;
+    }
+    first = planned.entry->front;
+  }
+  planned.cycles = plan_cycles(sides, guard, stock, options.cycles, first, progress);
+  return planned;
 }
 
 }  // namespace
+
+double PlannedLayer::entered_mm() const { return std::max(cycles.entered_mm(), entry ? entry->entered_mm : 0.0); }
 
 bool CavityProgram::done() const {
   return !layers.empty() && std::all_of(layers.begin(), layers.end(), [](const PlannedLayer& layer) {
@@ -201,7 +318,7 @@ bool CavityProgram::done() const {
 
 double CavityProgram::entered_mm() const {
   double deepest = 0.0;
-  for (const PlannedLayer& layer : layers) deepest = std::max(deepest, layer.cycles.entered_mm());
+  for (const PlannedLayer& layer : layers) deepest = std::max(deepest, layer.entered_mm());
   return deepest;
 }
 
@@ -213,22 +330,26 @@ CavityProgram plan_program(const std::vector<RuledMotion>& sides, const RadialFu
   ProgramWriter writer(radial, guard, options, out);
   const std::vector<LayerSides> layers = order_layers(sides, options, radial.largest(), guard);
   if (layers.empty()) return out;
-  out.walled = layers.front().from.stops_at_end();
+  out.walled_start = layers.front().from.stops_at_start();
+  out.walled_end = layers.front().from.stops_at_end();
+  const bool inside =
+      out.walled_start || options.entry.method == EntryMethod::kRamp || options.entry.method == EntryMethod::kPlunge;
   out.blank = cavity_blank(layers, left, right);
   const ClearPlane clear{out.blank.back().normal, out.blank.back().offset + 2.0 * radial.largest()};
   SweptStock stock(radial, out.blank);
-  CycleOptions cycles = options.cycles;
+  ProgramOptions here = options;
   for (std::size_t k = 0; k < layers.size(); ++k) {
     const LayerSides& layer = layers[k];
-    PlannedLayer planned;
-    planned.cycles = plan_cycles(layer, guard, stock, cycles, progress);
+    PlannedLayer planned = plan_layer(layer, guard, stock, inside ? &clear : nullptr, here, progress);
     if (!out.path.strips.empty() && !planned.cycles.cycles.empty()) writer.link(layers[k - 1], layer, clear, planned);
-    writer.layer(layer, planned.cycles, planned);
+    writer.layer(layer, planned);
     sweep_sides(layer, stock, planned);
     // What is left above is in the way of the holder: a layer goes no farther than the one before, less a radius.
-    if (planned.share < 1.0)
-      cycles.most_share = std::min(cycles.most_share, planned.share - radial.largest() / layer.from.length());
-    const bool on = planned.cycles.status != CycleStatus::kCancelled && cycles.most_share > 0.0;
+    if (planned.share < 1.0) {
+      const double less = planned.cycles.before_wall_mm > 0.0 ? 0.0 : radial.largest() / layer.from.length();
+      here.cycles.most_share = std::min(here.cycles.most_share, planned.share - less);
+    }
+    const bool on = planned.cycles.status != CycleStatus::kCancelled && here.cycles.most_share > 0.0;
     out.layers.push_back(std::move(planned));
     if (!on) break;
   }

@@ -1,16 +1,19 @@
 /// The whole program of a cavity: layers of cycles, finishing sweeps along both sides, entries and links, as one path.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "flank/path.h"
 #include "flank/trochoid/cycles.h"
+#include "flank/trochoid/entry.h"
 
 namespace flank::internal {
 
 struct ProgramOptions {
   CycleOptions cycles;
+  EntryOptions entry;
   bool climb = true;                      ///< else conventional; the spindle turns clockwise seen from the holder
   double chord_mm = 1e-3;                 ///< of the joined poses
   std::string left = "F1", right = "F2";  ///< names for the strips
@@ -18,12 +21,16 @@ struct ProgramOptions {
 
 /// A layer as it was planned.
 struct PlannedLayer {
+  std::optional<Entry> entry;  ///< none: open, before the blank, or there is no way in
+  bool no_way_in = false;      ///< no entry is free: there are no cycles
   LayerCycles cycles;
   double first_side_rad = 0.0, second_side_rad = 0.0;  ///< largest engagement of the finishing sweeps, in their order
   double sides_mm = 0.0, links_mm = 0.0;
   double side_volume_mm3 = 0.0;
   /// Of the first side's way, cleared by the cycles and finished. Below 1: they did not get through.
   double share = 1.0;
+  /// Deepest that the entry or a half enters a face, by the planner's samples.
+  [[nodiscard]] double entered_mm() const;
 };
 
 struct CavityProgram {
@@ -31,9 +38,10 @@ struct CavityProgram {
   std::vector<PlannedLayer> layers;
   std::vector<HalfSpace> blank;
   double chord_bound_mm = 0.0;
-  bool walled = false;  ///< the side paths end at a wall
+  /// The side paths begin, or end, at a wall.
+  bool walled_start = false, walled_end = false;
   [[nodiscard]] bool done() const;
-  /// Deepest that a half enters a face, by the planner's samples.
+  /// Deepest that an entry or a half enters a face, by the planner's samples.
   [[nodiscard]] double entered_mm() const;
 };
 

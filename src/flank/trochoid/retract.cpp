@@ -11,6 +11,8 @@ namespace {
 
 /// Least rise of a way per mm: a flatter one would run along the cavity.
 constexpr double kLeastRise = 0.2;
+/// So many ways go up at once.
+constexpr std::size_t kStraight = 3;
 
 Pose moved(const Pose& pose, const Vec3& by) { return {pose.tip + by, pose.axis}; }
 
@@ -35,22 +37,25 @@ double entered(const std::vector<Pose>& way, const RadialFunction& radial, const
 
 }  // namespace
 
-std::vector<Pose> retract(const Pose& from, const Vec3& outward, const ClearPlane& clear, const RadialFunction& radial,
+std::vector<Pose> retract(const Pose& from, const WayOut& beside, const ClearPlane& clear, const RadialFunction& radial,
                           const HalfGuard& guard, double allowed_mm) {
   // Outward, until all of a leaning axis is beyond where its tip was.
-  const Vec3 out = outward.normalized();  // zero stays zero
+  const Vec3 out = beside.outward.normalized();  // zero stays zero
   const double lean = std::max(0.0, -out.dot(from.axis)) * radial.axis_length() + 2.0 * radial.largest();
-  const std::array<std::pair<double, Vec3>, 5> ways = {{{0.0, from.axis},
-                                                        {0.0, clear.top},
-                                                        {0.0, (from.axis + clear.top).normalized()},
-                                                        {lean, from.axis},
-                                                        {lean, clear.top}}};
+  const std::array<std::pair<Vec3, Vec3>, 7> ways = {{{Vec3::Zero(), from.axis},
+                                                      {Vec3::Zero(), clear.top},
+                                                      {Vec3::Zero(), (from.axis + clear.top).normalized()},
+                                                      {lean * out, from.axis},
+                                                      {lean * out, clear.top},
+                                                      {beside.aside, from.axis},
+                                                      {beside.aside, clear.top}}};
   std::vector<Pose> best;
   double least = std::numeric_limits<double>::infinity();
-  for (const auto& [over, direction] : ways) {
-    if (clear.top.dot(direction) < kLeastRise || (over > 0.0 && out.isZero())) continue;
+  for (std::size_t k = 0; k < ways.size(); ++k) {
+    const auto& [over, direction] = ways[k];
+    if (clear.top.dot(direction) < kLeastRise || (k >= kStraight && over.isZero())) continue;
     std::vector<Pose> way{from};
-    if (over > 0.0) way.push_back(moved(from, over * out));
+    if (k >= kStraight) way.push_back(moved(from, over));
     way = rise(std::move(way), direction, clear);
     const double depth = entered(way, radial, guard);
     if (depth < least) least = depth, best = std::move(way);

@@ -14,10 +14,16 @@ struct ClearPlane {
   double height = 0.0;
 };
 
+/// Ways beside a pose; zero: that way is closed.
+struct WayOut {
+  Vec3 outward = Vec3::Zero();  ///< along the feed's run-out
+  Vec3 aside = Vec3::Zero();    ///< so far, mm, off a side and into what is cleared
+};
+
 /// Poses from `from` until the tip is above the plane, the axis turning nowhere: along the axis, or else another way of which
-/// no more is known to enter a face (straight up; between both; `outward`, along the feed's run-out, and then up; zero: that way is closed). Where every
+/// no more is known to enter a face (straight up; between both; outward, or aside, and then up). Where every
 /// way enters one deeper than `allowed_mm`, the one that enters least.
-[[nodiscard]] std::vector<Pose> retract(const Pose& from, const Vec3& outward, const ClearPlane& clear,
+[[nodiscard]] std::vector<Pose> retract(const Pose& from, const WayOut& beside, const ClearPlane& clear,
                                         const RadialFunction& radial, const HalfGuard& guard, double allowed_mm);
 
 }  // namespace flank::internal

@@ -52,13 +52,13 @@ double SidePath::time_of(double x) const {
   return (static_cast<double>(k) - 1.0 + share) / kSteps;
 }
 
-RuledMotion SidePath::motion_to(double x) const {
-  if (x >= length()) return motion_;
-  const double end = time_of(x);
+RuledMotion SidePath::motion_between(double from, double to) const {
+  if (from <= 0.0 && to >= length()) return motion_;
+  const double start = from <= 0.0 ? 0.0 : time_of(from), end = to >= length() ? 1.0 : time_of(to);
   RuledMotion out = motion_;
   for (BSplineCurve3* rail : {&out.tip, &out.direction}) {
-    SplineRows rows = spline_segment({rail->degree, rail->knots, rail->poles}, 0.0, end);
-    for (double& knot : rows.knots) knot /= end;
+    SplineRows rows = spline_segment({rail->degree, rail->knots, rail->poles}, start, end);
+    for (double& knot : rows.knots) knot = (knot - start) / (end - start);
     rail->knots = std::move(rows.knots);
     rail->poles = rows.poles;
   }
@@ -66,7 +66,8 @@ RuledMotion SidePath::motion_to(double x) const {
 }
 
 AxisPlace SidePath::at(double x) const {
-  if (x > length() && stops_) return inside(1.0);
+  if (x > length() && stops_at_end_) return inside(1.0);
+  if (x < 0.0 && stops_at_start_) return inside(0.0);
   if (x >= 0.0 && x <= length()) return inside(time_of(x));
   const AxisPlace end = inside(x < 0.0 ? 0.0 : 1.0);
   const RunOut& out = x < 0.0 ? before_ : after_;
@@ -140,7 +141,7 @@ std::vector<Pose> SidePath::poses(double from, double to, double chord_mm) const
     for (int k = 1; k < count; ++k) add(first + (last - first) * k / count);
   };
   if (from < 0.0) add(from);
-  if (from < 0.0) add_between(before_, from, std::min(to, 0.0));
+  if (from < 0.0 && !stops_at_start_) add_between(before_, from, std::min(to, 0.0));
   for (std::size_t k = 0; k < sampled.poses.size(); ++k) {
     const double x = way_[static_cast<std::size_t>(std::lround(sampled.t[k] * kSteps))];
     if (x > from && x < to) out.push_back(sampled.poses[k]);
@@ -149,7 +150,7 @@ std::vector<Pose> SidePath::poses(double from, double to, double chord_mm) const
     const AxisPlace place = at(from);
     out.insert(out.begin(), Pose{place.tip, place.u});
   }
-  if (to > length()) add_between(after_, std::max(from, length()), to);
+  if (to > length() && !stops_at_end_) add_between(after_, std::max(from, length()), to);
   add(to);
   return out;
 }

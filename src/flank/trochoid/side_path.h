@@ -19,8 +19,8 @@ class SidePath {
   /// Place and velocity at x mm from the start; beyond [0, length()] the axis is shifted on, unless it stops there.
   [[nodiscard]] AxisPlace at(double x) const;
   [[nodiscard]] const RuledMotion& motion() const { return motion_; }
-  /// The motion as far as x, over [0, 1]; all of it from length() on. x > 0.
-  [[nodiscard]] RuledMotion motion_to(double x) const;
+  /// The motion from x = from to x = to, over [0, 1]; what is beyond an end is left out. from < to, and some of it inside.
+  [[nodiscard]] RuledMotion motion_between(double from, double to) const;
   /// Beyond an end the axis is shifted on, along its middle's last direction; this bends the way towards another direction,
   /// a unit vector along x, evenly over a length. Over no less than the tool's radius: then the tool, which rounds the edge
   /// of the side, keeps clear of it for directions up to 45 degrees off.
@@ -29,9 +29,10 @@ class SidePath {
   void raise_run_out(bool at_end, const Vec3& rise, double over_mm);
   /// Beyond an end the axis turns about its middle towards a unit vector less than 180 degrees from it, smoothly over a length.
   void turn_run_out(bool at_end, const std::optional<Vec3>& axis, double over_mm);
-  /// Beyond its end there is a wall: from there on the axis stays where it is.
-  void stop_at_end() { stops_ = true; }
-  [[nodiscard]] bool stops_at_end() const { return stops_; }
+  /// Beyond its end, or before its start, there is a wall: there the axis stays where it is.
+  void stop_at(bool end) { (end ? stops_at_end_ : stops_at_start_) = true; }
+  [[nodiscard]] bool stops_at_end() const { return stops_at_end_; }
+  [[nodiscard]] bool stops_at_start() const { return stops_at_start_; }
   /// Poses from x = from to x = to: those of the motion within the chord tolerance, and the ends beyond it.
   [[nodiscard]] std::vector<Pose> poses(double from, double to, double chord_mm) const;
 
@@ -52,7 +53,7 @@ class SidePath {
   /// Turns the axis of a place `by` mm beyond an end about its middle.
   void turn_axis(const RunOut& out, double by, double sign, AxisPlace& place) const;
   RunOut before_, after_;
-  bool stops_ = false;
+  bool stops_at_start_ = false, stops_at_end_ = false;
   std::vector<double> way_;  ///< at equal steps of t
 };
 

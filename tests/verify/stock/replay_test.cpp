@@ -156,6 +156,17 @@ TEST(StockReplay, AStripGoesOnWhereTheLastOneEnded) {
     EXPECT_NEAR(done.strips[2].poses[k].angle_rad / kDegree, closed / kDegree, 1.0) << k;
 }
 
+TEST(StockReplay, CutsToTheEndOfAWayThatTurnsBack) {
+  // In steps much smaller than cuts need to be: the farthest pose lies near the ones around it.
+  const double radius = 4.0, end = 0.3;
+  DexelStock stock(box_of({-20.0, -8.0, 0.0}, {20.0, 8.0, 6.0}), {}, 0.1);
+  Strip strip = straight({-0.3, 0.0, -7.0}, {end, 0.0, -7.0}, 3);
+  const Strip back = straight({end, 0.0, -7.0}, {-0.3, 0.0, -7.0}, 3);
+  strip.poses.insert(strip.poses.end(), back.poses.begin() + 1, back.poses.end());
+  (void)replay(stock, cylinder(radius, 20.0), {{strip}}, {.circles = 0});
+  EXPECT_LE(stock.depth({end + radius - 0.05, 0.0, 3.0}), 0.0);
+}
+
 TEST(StockReplay, RaysFindWhatIsLeftAndWhatIsEntered) {
   DexelStock stock(box_of({-10.0, -10.0, 0.0}, {10.0, 10.0, 8.0}), {}, 0.1);
   const Path path{{straight({-30.0, 0.0, -1.0}, {30.0, 0.0, -1.0}, 31)}};

@@ -16,8 +16,9 @@ std::string stock_text(const StockReport& stock) {
       stock.before_mm3 - stock.left_mm3, stock.before_mm3, stock.uncut_mm, stock.entered_mm, stock.cell_mm,
       stock.resolution_deg);
   for (const StockKind& kind : stock.kinds)
-    text += fmt::format("              {:<6} engagement at most {:.3f} degrees, removed {:.1f} mm3 on {:.1f} mm\n",
-                        kind.kind, kind.engagement_deg, kind.volume_mm3, kind.way_mm);
+    text += fmt::format("              {:<6} engagement at most {:.3f} degrees, removed {:.1f} mm3 on {:.1f} mm{}\n",
+                        kind.kind, kind.engagement_deg, kind.volume_mm3, kind.way_mm,
+                        kind.cuts_a_slot() ? " (a slot: no limit)" : "");
   return text;
 }
 

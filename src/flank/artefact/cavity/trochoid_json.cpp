@@ -6,6 +6,20 @@
 
 namespace flank::internal {
 
+namespace {
+
+// A slot or a hole in full material has an engagement by its nature, which no limit holds.
+std::string entry_text(const LayerSummary& layer) {
+  const std::string how =
+      layer.entry == "ramp"
+          ? fmt::format("{:.2f} mm a pass, slope {:.2f} degrees", layer.entry_depth_mm, layer.entry_slope_deg)
+          : fmt::format("{:.2f} mm deep, {:.2f} mm wide after the first", layer.entry_depth_mm, layer.entry_width_mm);
+  return fmt::format("entry by {}: {}, {:.1f} mm, removed {:.1f} mm3, engagement {:.1f} degrees (no limit)",
+                     layer.entry, how, layer.entry_mm, layer.entry_mm3, layer.entry_deg);
+}
+
+}  // namespace
+
 std::string trochoid_lines(const TrochoidSummary& cavity) {
   std::string text = fmt::format(
       "  cavity      {:.3f} mm wide at its narrowest, {} layer{}, way {:.1f} mm, {:.2f} min\n", cavity.narrowest_mm,
@@ -16,6 +30,7 @@ std::string trochoid_lines(const TrochoidSummary& cavity) {
     text += fmt::format(
         "  layer {}     {} cycles ({}), fronts {:.1f} mm, backs {:.1f} mm, sides {:.1f} mm, links {:.1f} mm\n", k + 1,
         layer.cycles, layer.status, layer.fronts_mm, layer.backs_mm, layer.sides_mm, layer.links_mm);
+    if (layer.entry != "open") text += fmt::format("              {}\n", entry_text(layer));
     text += fmt::format(
         "              engagement at most {:.3f} degrees (fronts {:.3f}, backs {:.3f}), sides {:.3f}; removed {:.1f} "
         "mm3, {:.3f} mm3 a mm\n",
@@ -36,6 +51,13 @@ nlohmann::ordered_json trochoid_to_json(const TrochoidSummary& cavity) {
   for (const LayerSummary& layer : cavity.layers)
     json["layers"].push_back({{"status", layer.status},
                               {"cycles", layer.cycles},
+                              {"entry", layer.entry},
+                              {"entry_way", layer.entry_mm},
+                              {"entry_volume", layer.entry_mm3},
+                              {"entry_engagement", layer.entry_deg},
+                              {"entry_depth", layer.entry_depth_mm},
+                              {"entry_slope", layer.entry_slope_deg},
+                              {"entry_width", layer.entry_width_mm},
                               {"fronts", layer.fronts_mm},
                               {"backs", layer.backs_mm},
                               {"sides", layer.sides_mm},

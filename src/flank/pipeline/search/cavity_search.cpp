@@ -50,6 +50,12 @@ CycleStrategy strategy_of(const std::string& name) {
   return name == "plain" ? CycleStrategy::kPlain : name == "paper" ? CycleStrategy::kAdjusted : CycleStrategy::kVolume;
 }
 
+EntryMethod entry_of(const std::string& name) {
+  if (name == "open") return EntryMethod::kOpen;
+  if (name == "ramp") return EntryMethod::kRamp;
+  return name == "plunge" ? EntryMethod::kPlunge : EntryMethod::kAuto;
+}
+
 CavityProgram plan(const TrochoidJob& job, const CavityFaces& faces, const SideFit& sides, int most_rewinds,
                    const Progress& progress) {
   if (sides.fit.motions.empty() || !check_legitimacy(sides.fit.tool).legitimate) return {};
@@ -58,6 +64,8 @@ CavityProgram plan(const TrochoidJob& job, const CavityFaces& faces, const SideF
   options.cycles.tolerance_mm = job.tolerance_mm;
   options.cycles.most_rewinds = most_rewinds;
   options.cycles.strategy = strategy_of(job.cycles.strategy);
+  options.entry.method = entry_of(job.cycles.entry);
+  options.entry.slope_rad = job.cycles.ramp_angle_deg * kDegree;
   options.climb = job.cycles.cut == "climb";
   options.chord_mm = kToleranceBudget.chord * job.tolerance_mm;
   options.left = faces.sides[0].faces;

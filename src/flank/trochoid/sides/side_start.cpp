@@ -7,8 +7,9 @@ namespace flank::internal {
 namespace {
 
 constexpr int kControlPoints = 12;
-constexpr double kOverlap = 0.05;  ///< of a layer's height, shared with its neighbours
-constexpr double kLonger = 1.02;   ///< the axis past the longest offset contact line (MATH section 7)
+constexpr double kOverlap = 0.05;        ///< of a layer's height, shared with its neighbours
+constexpr double kBeforeBlocked = 0.08;  ///< of the way that clear_start leaves, which goes a little too far
+constexpr double kLonger = 1.02;         ///< the axis past the longest offset contact line (MATH section 7)
 
 struct Laid {
   std::vector<RuledMotion> motions;  ///< a layer each, in the order of the chart's bands
@@ -75,9 +76,10 @@ Laid lay(const CavitySide& side, const Chart& chart, const RuledStart& start, in
     if (side.obstacles != nullptr) {
       const ClearStart clear = clear_start(chart, band, *side.obstacles);
       if (clear.free_lines == 0) return {};
-      // A wall across the way ends it.
-      band.first = clear.first;
-      band.last = clear.last;
+      // A wall across the way ends it, before the first line that it blocks: a fit that begins in the wall is thrown far off.
+      const double inset = kBeforeBlocked * (clear.last - clear.first);
+      band.first = clear.first > 0.0 ? clear.first + inset : 0.0;
+      band.last = clear.last < 1.0 ? clear.last - inset : 1.0;
       if (clear.blocked_lines > kStartTimes / 4) {
         out.motions.push_back(make_motion(clear, length, kControlPoints));
         out.walled = true;

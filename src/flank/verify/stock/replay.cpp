@@ -52,6 +52,11 @@ class Replayer {
     return std::sqrt(8.0 * radial.smallest() * scallop_cells * stock_.cell());
   }
   void run(const Strip& strip, std::size_t index, std::vector<StripReplay>& out);
+  /// Whether one cut is enough for a pose and the next one. Where a motion turns back, the pose there is not between.
+  [[nodiscard]] bool is_between(const Pose& last, const Pose& pose, const Pose& next) const {
+    const double whole = way_between(last, next, length_);
+    return whole <= step_ && way_between(last, pose, length_) <= whole && way_between(pose, next, length_) <= whole;
+  }
   /// Cuts what lies far enough behind a pose; all of it if there is none.
   void cut_behind(const Pose* pose, std::vector<StripReplay>& out);
   double cut(const Stretch& stretch);
@@ -99,7 +104,7 @@ void Replayer::run(const Strip& strip, std::size_t index, std::vector<StripRepla
   for (std::size_t k = 0; k < poses.size(); ++k) {
     stop_here();
     if (k > 0) replay.way_mm += (poses[k].at(0.5 * length_) - poses[k - 1].at(0.5 * length_)).norm();
-    const bool passed = k > 0 && k + 1 < poses.size() && way_between(poses[last], poses[k + 1], length_) <= step_;
+    const bool passed = k > 0 && k + 1 < poses.size() && is_between(poses[last], poses[k], poses[k + 1]);
     cut_behind(&poses[k], out);
     const Pose& from = poses[k == 0 ? 0 : k - 1];
     waiting_.push_back({from, poses[k], index, k, way_between(from, poses[k], length_), passed});
