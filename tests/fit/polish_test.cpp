@@ -326,6 +326,33 @@ TEST(Polish, WhatTheLastLookFindsTooDeepIsLedOut) {
   EXPECT_NEAR(settled(lost, options).estimate.overcut_mm, 20.0 * kTolerance, 1e-6);
 }
 
+TEST(Polish, SettlingTakesACuspOutOfAMotionThatPlungesThere) {
+  if (kSanitized) GTEST_SKIP() << "a pass of 48 control points";
+  const auto blade = standing_blade(0.0);
+  FlankFitOptions options = small_options();
+  options.bounds = {2.0, 30.0, 0.5};
+  // A cone that touches the plane along a line, on rails that go along it but for one control point: there they turn up
+  // and down again within 3 mm, which the tolerance does not mind.
+  constexpr double kSlope = 0.4, kTip = 3.0, kLong = 60.0, kCusp = 20.0, kLift = 0.9, kLoose = 0.6;
+  options.tolerance_mm = kLoose;
+  RuledMotion motion =
+      upright_motion({.y = kTip, .z = -10.0, .x_first = -3.0, .x_last = 63.0, .length = kLong, .control_points = 48});
+  const Vec3 axis(0.0, kSlope, std::sqrt(1.0 - kSlope * kSlope));
+  for (int k = 0; k < motion.direction.count(); ++k) motion.direction.poles.col(k) = axis;
+  motion.tip.poles.col(24) += Vec3(0.0, kLift, kCusp);
+  std::vector<Vec2> line;
+  for (int j = 0; j <= 24; ++j) line.emplace_back(kLong * j / 24.0, kTip + kSlope * kLong * j / 24.0);
+  const RadialFunction cone = RadialFunction::spline_through(kLong, line, 6);
+  const std::vector<SurfaceSample> samples = ranking_samples(*blade, nullptr, options);
+  const Polished plunging = assess(draft_of(*blade, motion, cone, true), samples, options);
+  ASSERT_GT(plunging.estimate.largest_c, 1.0);
+  ASSERT_GT(plunging.estimate.at_tolerance, 0.99);
+  const Polished steady = settled(plunging, options);
+  EXPECT_LT(steady.estimate.largest_c, 1.0);
+  EXPECT_GT(steady.estimate.at_tolerance, 0.99);
+  EXPECT_LE(steady.estimate.overcut_mm, kLoose);
+}
+
 TEST(Polish, TheVerdictAsksForCoverageOvercutAndGouge) {
   const auto blade = standing_blade(0.0);
   const FlankFitOptions options = small_options();

@@ -78,6 +78,15 @@ TEST(ObstacleField, WhatAFewOfTheTargetSeeIsNoWall) {
   }
 }
 
+TEST(ObstacleField, AStripThatPutsTheTargetBehindItselfIsNoWall) {
+  const auto blade = standing_blade(0.0);
+  // Below the target, hinged at x = 24: at z = 0 it faces the target, which 60 % of the votes see, at z = 40 it faces away.
+  const Face strip = quad(Vec3(60, -5, 0), Vec3(24, -1, 0), Vec3(0, -5, 40), Vec3(24, -1, 40), "F5");
+  const ObstacleField obstacles(only({make_target({strip}), true}), *blade, 2.0, 0.0);
+  EXPECT_EQ(obstacles.sign(0), 0);
+  EXPECT_GT(obstacles.at(Vec3(12, 2, 36), kFar).distance_mm, 0.0) << "where a tool touches the target it is free";
+}
+
 /// Hub, a neighbour that leans over, and a small face beside both.
 Obstacles channel() {
   Obstacles obstacles = only(hub(true));

@@ -64,6 +64,32 @@ TEST_F(Ladder, EndsWhenTheUserHasHadEnough) {
   EXPECT_TRUE(climb(progress).empty());
 }
 
+TEST(NoteSlenderness, SaysWhatATooSlenderToolBuys) {
+  FlankFitOptions options;
+  options.bounds.slenderest = 8.0;
+  FlankFitResult fit;
+  fit.motions.resize(1);
+  fit.after.at_tolerance = 0.95;
+  fit.tool = RadialFunction::spline(80.0, Eigen::VectorXd::Constant(6, 5.0));
+  note_slenderness({}, options, fit);
+  EXPECT_TRUE(fit.notes.empty()) << "as slender as it may be";
+  fit.tool = RadialFunction::spline(84.0, Eigen::VectorXd::Constant(6, 5.0));
+  fit.tried.resize(2);
+  fit.tried[0].slenderness = 6.0;
+  fit.tried[0].estimate.at_tolerance = 0.6;
+  fit.tried[1].slenderness = 9.0;
+  fit.tried[1].estimate.at_tolerance = 0.8;
+  note_slenderness({}, options, fit);
+  ASSERT_EQ(fit.notes.size(), 1u);
+  for (const char* figure : {"8.40", "8.0", "95.0", "60.0"})
+    EXPECT_NE(fit.notes[0].find(figure), std::string::npos) << figure;
+  // A given tool is the user's.
+  ToolModel given;
+  given.make = [](double length, double radius) { return testing::cylinder(radius, length); };
+  note_slenderness(given, options, fit);
+  EXPECT_EQ(fit.notes.size(), 1u);
+}
+
 TEST(TriedTools, AreThoseThatWereNotChosenInTheirOrder) {
   FlankFitResult chosen, beaten, empty;
   beaten.tool = RadialFunction::spline(30.0, Eigen::VectorXd::Constant(6, 5.0));

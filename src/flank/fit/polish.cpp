@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -212,6 +213,8 @@ Polished seen_closely(FitDraft draft, const std::vector<SurfaceSample>& samples,
   constexpr int kOften = 4;
   seen.estimate.gouge_mm =
       flank_gouge(seen.draft.motions, seen.draft.obstacles, seen.draft.tool, kOften * kRankingPoses, GougeLook::kClose);
+  // A cusp lasts for a few poses of a path, which lie closer than those that rank.
+  seen.estimate.largest_c = touching_c(seen.draft, options.tolerance_mm, kOften * kRankingPoses);
   seen.estimate.legitimate = !seen.draft.free_tool || check_legitimacy(seen.draft.tool).legitimate;
   return seen;
 }
@@ -234,6 +237,22 @@ Polished mended(const Polished& polished, const std::vector<SurfaceSample>& samp
     best = std::move(trial);
   }
   return best;
+}
+
+/// A fit that plunges where it touches, led into a motion that does not, where that costs no more than plunging does: a
+/// cusp of a rail that no face needs is left over from a pass to which it was too cheap.
+Polished steadied(const Polished& polished, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
+  /// As much as it takes, where the face holds against it.
+  constexpr std::array kFirmness = {10.0, 100.0, 1000.0};
+  if (polished.estimate.largest_c < 1.0) return polished;
+  for (const double firmness : kFirmness) {
+    if (stopping()) break;
+    Polished trial = seen_closely(steady_pass(polished.draft, options, firmness), samples, options);
+    trial = mended(trial, samples, options);
+    if (trial.estimate.largest_c < 1.0 && is_better(trial.estimate, polished.estimate, options.tolerance_mm))
+      return trial;
+  }
+  return polished;
 }
 
 /// A free tool that is none somewhere between the samples of the passes (its spheres are not inscribed there), made one: by
@@ -261,7 +280,7 @@ Polished settled(const Polished& polished, const FlankFitOptions& options) {
   if (stopping()) return polished;
   const std::vector<SurfaceSample> samples = close_samples(polished.draft, options);
   Polished again = made_legitimate(seen_closely(polished.draft, samples, options), samples, options);
-  again = mended(again, samples, options);
+  again = steadied(mended(again, samples, options), samples, options);
   const bool legitimate = again.estimate.legitimate;
   if (again.estimate.overcut_mm > options.tolerance_mm) again = shifted(again, samples, options);
   again.estimate.legitimate = legitimate;  // smaller radii make no sphere stick out of the others

@@ -297,6 +297,15 @@ FitDraft pass_at(const FitDraft& draft, const std::vector<Vec3>& deep, const Fla
   return run_swept(draft, options.bounds, stage, std::move(points), nullptr);
 }
 
+FitDraft steady_pass(const FitDraft& draft, const FlankFitOptions& options, double firmness) {
+  FitStage stage = swept_stage(kFairRails, options, draft.targets.front()->diagonal());
+  stage.bounds_at_knots = true;
+  stage.plunge_weight *= firmness;
+  stage.lag_weight *= firmness;
+  return run_swept(draft, options.bounds, stage, target_points(draft, kFairRails.points_per_side, reach_of(options)),
+                   nullptr);
+}
+
 FitDraft run_constrained(const FitDraft& draft, const RadiusBounds& bounds, const FitStage& stage, double band_mm,
                          const ReachLimits& reach) {
   // The dense set sets the margin below: at 200 a side it is spacing^2 / (8 r) = 2e-4 mm for a face of 40 mm and a tool

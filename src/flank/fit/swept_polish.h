@@ -61,4 +61,8 @@ struct ReachLimits {
 [[nodiscard]] FitDraft pass_at(const FitDraft& draft, const std::vector<Vec3>& deep, const FlankFitOptions& options,
                                double firmness);
 
+/// One more pass, with fair rails, of a draft that plunges where it touches. `firmness` >= 1: weight of what plunges and of
+/// what lags, in that of other passes. A free tool's bounds are asked at its knots, too. Not assessed, as pass_at.
+[[nodiscard]] FitDraft steady_pass(const FitDraft& draft, const FlankFitOptions& options, double firmness);
+
 }  // namespace flank::internal

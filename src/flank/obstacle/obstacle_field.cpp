@@ -26,6 +26,10 @@ constexpr double kSeenByMost = 0.5;
 /// Share of the target that must look at a face before it can be a wall: behind a wall there is material for as far as
 /// anybody asks, and only a face that a good part of the target looks at (a hub, another blade) is that large.
 constexpr double kSeenBySome = 0.1;
+/// Of the votes: more that see its material side through the target, and the face has no sign, whatever the others see.
+/// Where a tool touches the target it is free, so a face is no wall that would put it behind itself: the strip round a
+/// blade's edge is seen from outside beside the edge, and from within everywhere else.
+constexpr double kThroughTarget = 0.05;
 /// A bound that was rounded down must not lose the face that it is about.
 constexpr double kRounding = 1.0 + 1e-9;
 /// mm: a point this near to a face has no direction away from it; the face's normal stands for it.
@@ -41,21 +45,23 @@ struct Vote {
 
 /// Which way a face must be turned so that the target's machining side is outside of it; 0 if that is not clear.
 Vote vote(const ObstacleFace& face, const std::vector<SurfaceSample>& samples, double offset_mm) {
-  double outside = 0.0, all = 0.0, area = 0.0;
+  double outside = 0.0, through = 0.0, all = 0.0, area = 0.0;
   for (const SurfaceSample& sample : samples) {
     const Footpoint foot = face.surface->closest(sample.point + offset_mm * sample.normal);
     area += sample.area;
     // From its border a face shows no side.
     if (foot.location != Location::kInside) continue;
     // What is seen through the target tells nothing of a face without orientation: as likely its other side of a sheet.
-    if (!face.oriented && (foot.point - sample.point).dot(sample.normal) < 0.0) continue;
+    const bool below = (foot.point - sample.point).dot(sample.normal) < 0.0;
+    if (!face.oriented && below) continue;
     all += sample.area;
     if (foot.distance > 0.0) outside += sample.area;
+    if (foot.distance <= 0.0 && below) through += sample.area;
   }
   // Most of a face's few voters look past its edge from a corner of the target: a cap of a blade's end, signed by them,
   // would forbid the air beside the blade that lies below its plane.
   if (all < kSeenBySome * area) return {};
-  if (outside >= kMajority * all) return {+1, false};
+  if (outside >= kMajority * all) return {through > kThroughTarget * all ? 0 : +1, false};
   if (face.oriented) return {0, outside == 0.0 && all >= kSeenByMost * area};
   return {outside <= (1.0 - kMajority) * all ? -1 : 0, false};
 }

@@ -27,6 +27,20 @@ TrimLoop circle(double u, double v, double radius_u, double radius_v) {
   return {{c}};
 }
 
+/// Straight edges from corner to corner.
+TrimLoop polygon(const std::vector<Vec2>& corners) {
+  TrimLoop loop;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    BSplineCurve2 edge;
+    edge.degree = 1;
+    edge.knots = {0, 0, 1, 1};
+    edge.poles.resize(2, 2);
+    edge.poles << corners[k], corners[(k + 1) % corners.size()];
+    loop.edges.push_back(std::move(edge));
+  }
+  return loop;
+}
+
 TEST(NurbsTrim, PlateWithARoundHoleIsExact) {
   Face face = plane(10);
   face.loops = {rectangle_loop({0, 1, 0, 1}), circle(0.5, 0.5, 0.2, 0.2)};  // a hole of radius 2 at (5, 5)
@@ -50,6 +64,31 @@ TEST(NurbsTrim, PlateWithARoundHoleIsExact) {
       EXPECT_EQ(t.location, Location::kExtension) << "the surface goes on under a hole";
       EXPECT_NEAR(t.distance, p[2], 1e-11);
     }
+  }
+}
+
+TEST(NurbsTrim, ATrimAlongTheRectangleIsABorder) {
+  // A plate with two corners cut out, whose right edge lies on the end of the parameters. In their last digits the trim
+  // lies beside the cells there (the parameters are those of a real part), which are then not cut by it.
+  const double u0 = -18.958170991229931, u1 = 6.8112017060040433, v1 = 56.632659910000001, step_u = 6.5, step_v = 45;
+  Face face = bilinear({u0, -v1, 0}, {u0, v1, 0}, {u1, -v1, 0}, {u1, v1, 0});
+  face.surface.knots_u = {u0, u0, u1, u1};
+  face.surface.knots_v = {-v1, -v1, v1, v1};
+  face.loops = {polygon({{u0, -v1},
+                         {step_u, -v1},
+                         {step_u, -step_v},
+                         {u1, -step_v},
+                         {u1, step_v},
+                         {step_u, step_v},
+                         {step_u, v1},
+                         {u0, v1}})};
+  const auto target = make_target(std::vector<Face>{face});
+  Random random(2);
+  for (int k = 0; k < 500; ++k) {
+    const Vec3 p(random.uniform(7, 60), random.uniform(-44, 44), random.uniform(-60, 60));
+    const Footpoint f = target->closest(p);
+    EXPECT_NEAR(std::abs(f.distance), (p - Vec3(u1, p[1], 0)).norm(), 1e-9);
+    EXPECT_EQ(f.location, Location::kBorder) << p.transpose();
   }
 }
 

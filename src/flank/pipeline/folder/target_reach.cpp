@@ -9,10 +9,12 @@ namespace flank::internal {
 namespace {
 
 /// Of the triangles that the ball is held against, mm: a place of the border of the reachable part is as wrong as they
-/// are.
+/// are. What is fine enough grows with the ball: a ship's hull in hundredths of a millimetre takes a gigabyte.
 constexpr double kFinestMm = 0.001, kCoarsestMm = 0.01, kToleranceShare = 0.25;
-constexpr double kLongestCellMm = 1.0;  ///< borders are off by a part of a cell
-constexpr double kFarShare = 0.1;       ///< of the ball's radius: of the triangles that only close a solid
+constexpr double kCoarsestShare = 0.001;  ///< of the ball's radius, where that is more
+/// Borders are off by a part of a cell: mm, or a share of the ball's radius, where that is more.
+constexpr double kLongestCellMm = 1.0, kLongestCellShare = 0.1;
+constexpr double kFarShare = 0.1;  ///< of the ball's radius: of the triangles that only close a solid
 
 bool holds(const std::vector<int>& faces, int face) {
   return std::find(faces.begin(), faces.end(), face) != faces.end();
@@ -22,15 +24,14 @@ int solid_of(const Part& part, int face) {
   return part.is_mesh() ? -1 : part.faces[static_cast<std::size_t>(face)].solid;
 }
 
-/// A face's triangles, counter-clockwise seen from outside of its solid. `fine` and `coarse` are deviations; coarse where
-/// the face keeps away from `near`.
-TriangleMesh triangles_of(const Part& part, int face, const Box3& near, double fine, double coarse) {
+/// A face's triangles, counter-clockwise seen from outside of its solid; coarse where the face keeps away from `near`.
+TriangleMesh triangles_of(const Part& part, int face, const Box3& near, const ReachFineness& of) {
   if (part.is_mesh()) return extract_mesh(part, {face});
   const Face& value = part.faces[static_cast<std::size_t>(face)];
   Box3 box;
   for (const Vec3& p : value.surface.poles) box.add(p);
   const bool meets = (box.low.array() <= near.high.array()).all() && (box.high.array() >= near.low.array()).all();
-  return tessellate(value, {.chord_mm = meets ? fine : coarse, .edge_mm = meets ? kLongestCellMm : 1e300}).mesh;
+  return tessellate(value, {.chord_mm = meets ? of.fine_mm : of.coarse_mm, .edge_mm = meets ? of.cell_mm : 1e300}).mesh;
 }
 
 /// No ball that touches the samples, nor anything that it could enter, is outside of this.
@@ -63,17 +64,25 @@ std::vector<int> faces_around(const Part& part, const std::vector<int>& judged) 
 /// Triangles of the faces around; fine where the ball may come near them.
 std::vector<TriangleMesh> meshes_of(const Setup& setup, const std::vector<int>& around, const std::vector<int>& judged,
                                     const Box3& near, double radius_mm) {
-  const double fine = std::clamp(kToleranceShare * setup.tolerance_mm, kFinestMm, kCoarsestMm);
+  const ReachFineness checked = reach_fineness(setup.tolerance_mm, radius_mm);
+  ReachFineness closing = checked;
+  closing.fine_mm = closing.coarse_mm;
   std::vector<TriangleMesh> meshes(around.size());
   parallel_for(meshes.size(), [&](std::size_t k) {
-    const bool checked = holds(judged, around[k]);
-    const double coarse = std::max(fine, kFarShare * radius_mm);
-    meshes[k] = triangles_of(setup.part, around[k], near, checked ? fine : coarse, coarse);
+    meshes[k] = triangles_of(setup.part, around[k], near, holds(judged, around[k]) ? checked : closing);
   });
   return meshes;
 }
 
 }  // namespace
+
+ReachFineness reach_fineness(double tolerance_mm, double radius_mm) {
+  ReachFineness of;
+  of.fine_mm = std::clamp(kToleranceShare * tolerance_mm, kFinestMm, std::max(kCoarsestMm, kCoarsestShare * radius_mm));
+  of.coarse_mm = std::max(of.fine_mm, kFarShare * radius_mm);
+  of.cell_mm = std::max(kLongestCellMm, kLongestCellShare * radius_mm);
+  return of;
+}
 
 std::vector<FaceSamples> target_samples(const Setup& setup, double spacing_mm) {
   const Part& part = setup.part;
@@ -93,14 +102,15 @@ TargetReach::TargetReach(const Setup& setup, const Tool& tool, const Path& path,
   judged.insert(judged.end(), setup.checks.begin(), setup.checks.end());
   if (judged.size() < 2) return;
   const std::vector<int> around = faces_around(part, judged);
-  const std::vector<TriangleMesh> meshes = meshes_of(setup, around, judged, balls_of(samples, radius_mm), radius_mm);
+  std::vector<TriangleMesh> meshes = meshes_of(setup, around, judged, balls_of(samples, radius_mm), radius_mm);
   for (std::size_t j = 0; j < samples.size(); ++j) {
     const int own = setup.targets[j];
     std::vector<ReachFace> others;
     for (std::size_t k = 0; k < around.size(); ++k) {
       const int solid = solid_of(part, around[k]);
       if (around[k] == own) continue;
-      others.push_back({meshes[k], solid == solid_of(part, own) ? -1 : solid, holds(judged, around[k])});
+      TriangleMesh mesh = j + 1 == samples.size() ? std::move(meshes[k]) : meshes[k];
+      others.push_back({std::move(mesh), solid == solid_of(part, own) ? -1 : solid, holds(judged, around[k])});
     }
     const bool turned = !samples[j].of_solid && side_of_tool(tool, path, samples[j]) < 0;
     targets_.emplace(own, Around{ReachScene(others, {radius_mm, setup.tolerance_mm}), turned});

@@ -13,6 +13,16 @@ namespace flank::internal {
 /// The targets' samples, in the order of setup.targets.
 [[nodiscard]] std::vector<FaceSamples> target_samples(const Setup& setup, double spacing_mm);
 
+/// How the faces that a ball is held against are cut into triangles, mm.
+struct ReachFineness {
+  double fine_mm = 0.0, coarse_mm = 0.0;  ///< deviations where the ball may come near, and where it may not
+  double cell_mm = 0.0;                   ///< the longest edge where it may
+};
+
+/// For a ball of this radius. From 10 mm on all lengths grow with the ball, so that a part of any size, with a tolerance and
+/// a tool to match, takes as many triangles.
+[[nodiscard]] ReachFineness reach_fineness(double tolerance_mm, double radius_mm);
+
 /// What a ball must keep out of, for each target, made ready once. Immutable.
 class TargetReach {
  public:

@@ -9,6 +9,7 @@
 #include "flank/error.h"
 #include "flank/fit/coverage.h"
 #include "flank/fit/tried.h"
+#include "flank/pipeline/search/out_of_reach.h"
 #include "flank/pipeline/search/search_setup.h"
 #include "flank/pipeline/search/stiff_fit.h"
 #include "flank/seed/axis_line.h"
@@ -121,6 +122,12 @@ FlankFitResult fit_group(const Target& target, const ToolModel& tool, FlankFitOp
   const auto done = [&](const FlankFitResult& result) {
     return is_done(result, least_coverage, options.tolerance_mm) || progress.stop();
   };
+  const double share = reachable_share(target, options);
+  if (share < kHardlyAny) {
+    FlankFitResult hidden = fit_automatic(target, tool, hardly_worth_it(options), progress);
+    hidden.notes.push_back(out_of_reach_note(share, options));
+    return hidden;
+  }
   options.strips = std::max(1, strips);
   /// Of the progress: where one strip and where the lifted bounds begin.
   constexpr double kFirst = 0.6, kSoften = 0.7;
@@ -131,7 +138,10 @@ FlankFitResult fit_group(const Target& target, const ToolModel& tool, FlankFitOp
     options.strips = 1;
     keep_better(best, fit_automatic(target, tool, options, progress.part(kFirst, kSoften)), options);
   }
-  if (done(best)) return best;
+  if (done(best)) {
+    note_slenderness(tool, options, best);
+    return best;
+  }
   options.strips = std::max<int>(1, static_cast<int>(best.motions.size()));
   return soften(target, tool, options, std::move(best), progress.part(kSoften, 1.0));
 }

@@ -155,6 +155,28 @@ std::vector<FlankFitResult> stiffness_ladder(const std::vector<FitTask>& tasks, 
   return ladder;
 }
 
+void note_slenderness(const ToolModel& tool, const FlankFitOptions& options, FlankFitResult& fit) {
+  constexpr double kRounding = 0.005;  // of the slenderness: less is not seen in the figure that is shown
+  if (!tool.free() || fit.motions.empty()) return;
+  const double found = slenderness_of(fit.tool, options.bounds), asked = options.bounds.slenderest;
+  if (!(found > (1.0 + kRounding) * asked)) return;
+  double most = 0.0;
+  for (const TriedTool& tried : fit.tried)
+    if (tried.slenderness <= asked && is_clean(tried.estimate, options.tolerance_mm))
+      most = std::max(most, tried.estimate.at_tolerance);
+  const std::string covers = fmt::format("{:.1f} % of the face", 100.0 * fit.after.at_tolerance);
+  fit.notes.push_back(
+      most > 0.0
+          ? fmt::format("the tool's slenderness of {:.2f} is above the {:.1f} that was asked for: it covers {}, the "
+                        "best of the "
+                        "stiffer ones that were tried {:.1f} %",
+                        found, asked, covers, 100.0 * most)
+          : fmt::format(
+                "the tool's slenderness of {:.2f} is above the {:.1f} that was asked for: it covers {}, and no stiffer "
+                "one that was tried cuts nothing too deep",
+                found, asked, covers));
+}
+
 FlankFitResult soften(const Target& target, const ToolModel& tool, const FlankFitOptions& options,
                       FlankFitResult within, const Progress& progress) {
   const bool bounded = options.bounds.slenderest < 1e300 || options.bounds.neck < 1.0;
@@ -169,6 +191,7 @@ FlankFitResult soften(const Target& target, const ToolModel& tool, const FlankFi
                       is_better(open.after, within.after, options.tolerance_mm);
   if (!needed) {
     add_tried(within, open, options.bounds);
+    note_slenderness(tool, options, within);
     return within;
   }
   FlankFitResult result = stiffened(target, tool, options, open, progress.part(0.6, 1.0));

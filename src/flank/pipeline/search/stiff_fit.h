@@ -21,6 +21,11 @@ namespace flank::internal {
                                                            const FlankFitResult& found, const ToolModel& tool,
                                                            const FlankFitOptions& options, const Progress& progress);
 
+/// Adds a note to a fit with a free tool that is more slender than options.bounds asked: by how much, and what the best of
+/// the stiffer ones that were tried covers. The bound is a soft term: where nearly all of the face is covered it may give
+/// way a little, and nobody would know.
+void note_slenderness(const ToolModel& tool, const FlankFitOptions& options, FlankFitResult& fit);
+
 /// Share of the target's area that a stiffer tool may cost.
 inline constexpr double kStiffnessCost = 0.005;
 

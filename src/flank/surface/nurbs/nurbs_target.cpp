@@ -17,6 +17,9 @@ constexpr double kAlongNormal = 1e-9;
 /// A warm footpoint on an extension gives way to a neighbouring face's point that is nearer to it than this share of
 /// the face's size.
 constexpr double kHandOver = 0.15;
+/// Of the face's size: more than a border piece is off by (nurbs_face has borders this near for one), and nothing beside
+/// a distance that counts.
+constexpr double kBehindBorder = 1e-7;
 /// A minimum softer than this may have another one beside it; then the cell is searched from kFocalStarts x
 /// kFocalStarts points.
 constexpr double kSoft = 0.35;
@@ -109,6 +112,7 @@ Descent NurbsTarget::descend_cell(const FlatCell& cell, const Vec3& p, double u,
   x.v = v;
   descend(f.patches(), p, cell.reach, f.size(), best.face < 0 ? nullptr : &cell.zone, x);
   if (x.squared >= best.squared) return x;
+  double squared = x.squared;
   if (!f.whole()) {
     // In the interior of the trims a closest point is stationary or on a crease; on the trims the border's own pieces
     // find it.
@@ -118,8 +122,11 @@ Descent NurbsTarget::descend_cell(const FlatCell& cell, const Vec3& p, double u,
                               (x.side_v < 0 && x.v <= d.v0) || (x.side_v > 0 && x.v >= d.v1);
     const bool settled = x.end == Descent::End::kConverged && !at_rectangle;
     if (!own && !(settled && f.inside(x.u, x.v))) return x;
+    // A trim along the rectangle is its border: the piece that lies there goes before the cell, which knows no border.
+    if (at_rectangle) squared = std::pow(std::sqrt(squared) + kBehindBorder * f.size(), 2);
+    if (squared >= best.squared) return x;
   }
-  best = {x.squared, cell.face, -1, x.u, x.v, 0.0};
+  best = {squared, cell.face, -1, x.u, x.v, 0.0};
   return x;
 }
 

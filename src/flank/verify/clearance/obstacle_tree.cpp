@@ -37,12 +37,16 @@ ObstacleTree::ObstacleTree(const TriangleMesh& mesh) {
   numbers_.resize(mesh.triangles.size());
   std::iota(numbers_.begin(), numbers_.end(), 0);
   std::vector<Vec3> centers;
+  centers.reserve(numbers_.size());
   for (int i : numbers_) {
     const auto v = corners_of(mesh, i);
     centers.emplace_back((v[0] + v[1] + v[2]) / 3.0);
   }
   nodes_.reserve(mesh.triangles.size());
   build(mesh, centers, 0, static_cast<int>(numbers_.size()));
+  // Vectors that grow hold twice what they need for a while, and trees of millions of triangles are most of a judge's memory.
+  corners_.reserve(numbers_.size());
+  spheres_.reserve(numbers_.size());
   for (int i : numbers_) {
     corners_.push_back(corners_of(mesh, i));
     spheres_.push_back(sphere_of(corners_.back()));

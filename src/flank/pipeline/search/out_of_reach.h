@@ -1,0 +1,23 @@
+/// Targets that other faces hide: nothing but time would come of a search there.
+#pragma once
+
+#include <string>
+
+#include "flank/fit.h"
+
+namespace flank::internal {
+
+/// Share of the target's area, in [0, 1], that a ball of options.reach_radius_mm can touch, by the samples that rank
+/// candidates; 1 if nothing is in the way.
+[[nodiscard]] double reachable_share(const Target& target, const FlankFitOptions& options);
+
+/// Options of a search where hardly any of the target can be reached: one quick strip, so that there is something to look at.
+[[nodiscard]] FlankFitOptions hardly_worth_it(FlankFitOptions options);
+
+/// Below this share of the area nobody can reach anything that is worth a tool.
+inline constexpr double kHardlyAny = 0.01;
+
+/// What is said of it.
+[[nodiscard]] std::string out_of_reach_note(double share, const FlankFitOptions& options);
+
+}  // namespace flank::internal

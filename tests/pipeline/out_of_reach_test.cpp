@@ -1,0 +1,34 @@
+// A target that another face covers, as of a surface that a designer left in the file.
+#include "flank/pipeline/search/out_of_reach.h"
+
+#include <gtest/gtest.h>
+
+#include "obstacle/obstacle_scene.h"
+
+namespace flank::internal {
+namespace {
+
+using testing::hub;
+using testing::only;
+using testing::quad;
+using testing::standing_blade;
+
+TEST(OutOfReach, SeesAFaceThatLiesUponTheTargetAndNotAHubBesideIt) {
+  const auto blade = standing_blade(0.0);
+  FlankFitOptions options;
+  options.tolerance_mm = 0.02;
+  options.reach_radius_mm = 2.0;
+  EXPECT_EQ(reachable_share(*blade, options), 1.0);
+  const ObstacleField beside(only(hub(true)), *blade, 2.0, 0.0);
+  options.obstacles = &beside;
+  EXPECT_NEAR(reachable_share(*blade, options), 38.0 / 40.0, 0.02);
+  // A hundredth of a tool's radius in front of it.
+  const Face copy = quad(Vec3(70, 0.1, -9), Vec3(-9, 0.1, -9), Vec3(70, 0.1, 50), Vec3(-9, 0.1, 50), "F2");
+  const ObstacleField upon(only({make_target({copy}), false}), *blade, 2.0, 0.0);
+  options.obstacles = &upon;
+  EXPECT_LT(reachable_share(*blade, options), kHardlyAny);
+  EXPECT_NE(out_of_reach_note(0.0, options).find("100.0 %"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace flank::internal

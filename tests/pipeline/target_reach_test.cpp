@@ -1,0 +1,27 @@
+// How finely the faces around a target are cut for the ball that says what is reachable.
+#include "flank/pipeline/folder/target_reach.h"
+
+#include <gtest/gtest.h>
+
+namespace flank::internal {
+namespace {
+
+TEST(ReachFineness, IsAQuarterOfTheToleranceForPartsOfAHandsSize) {
+  const ReachFineness fine = reach_fineness(0.02, 3.0);
+  EXPECT_DOUBLE_EQ(fine.fine_mm, 0.005);
+  EXPECT_DOUBLE_EQ(fine.cell_mm, 1.0);
+  EXPECT_DOUBLE_EQ(reach_fineness(1e-5, 3.0).fine_mm, 0.001);
+  EXPECT_DOUBLE_EQ(reach_fineness(0.5, 3.0).fine_mm, 0.01);
+}
+
+TEST(ReachFineness, GrowsWithTheBallSoThatAShipTakesNoMoreTrianglesThanABlade) {
+  const ReachFineness blade = reach_fineness(0.3, 10.0), ship = reach_fineness(300.0, 10000.0);
+  EXPECT_NEAR(ship.fine_mm, 1000.0 * blade.fine_mm, 1e-9);
+  EXPECT_NEAR(ship.coarse_mm, 1000.0 * blade.coarse_mm, 1e-9);
+  EXPECT_NEAR(ship.cell_mm, 1000.0 * blade.cell_mm, 1e-9);
+  // Where more is asked for, it is as fine as that.
+  EXPECT_DOUBLE_EQ(reach_fineness(0.02, 10000.0).fine_mm, 0.005);
+}
+
+}  // namespace
+}  // namespace flank::internal
