@@ -70,7 +70,7 @@ def lone_headers():
 
 def complete(header, arguments):
     """Whether a header compiles alone, and what the compiler says."""
-    words = ["c++", "-fsyntax-only", "-x", "c++", *arguments, str(header)]
+    words = ["c++", "-fsyntax-only", *arguments, "-include", str(header), "-x", "c++", os.devnull]
     done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True)
     return done.returncode, done.stderr
 
