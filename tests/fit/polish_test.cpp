@@ -353,6 +353,28 @@ TEST(Polish, SettlingTakesACuspOutOfAMotionThatPlungesThere) {
   EXPECT_LE(steady.estimate.overcut_mm, kLoose);
 }
 
+TEST(Polish, SettlingSeesACuspBetweenThePosesThatRank) {
+  const auto blade = standing_blade(0.0);
+  FlankFitOptions options = small_options();
+  options.bounds = {2.0, 30.0, 0.5};
+  options.tolerance_mm = 0.6;
+  // The cone of the test before, which turns up and down again within a four-hundredth of its way.
+  constexpr int kPoles = 1600;
+  RuledMotion motion =
+      upright_motion({.y = 3.0, .z = -10.0, .x_first = -3.0, .x_last = 63.0, .length = 60.0, .control_points = kPoles});
+  for (int k = 0; k < kPoles; ++k) motion.direction.poles.col(k) = Vec3(0.0, 0.4, std::sqrt(1.0 - 0.16));
+  motion.tip.poles.col(kPoles / 2 + kPoles / 320) += Vec3(0.0, 0.9, 20.0);  // in the middle between two of 160 poses
+  std::vector<Vec2> line;
+  for (int j = 0; j <= 24; ++j) line.emplace_back(2.5 * j, 3.0 + j);
+  const FitDraft draft = draft_of(*blade, motion, RadialFunction::spline_through(60.0, line, 6), true);
+  const Polished ranked = assess(draft, ranking_samples(*blade, nullptr, options), options);
+  ASSERT_LT(ranked.estimate.largest_c, 1.0);
+  constexpr int kOften = 8 * kRankingPoses;
+  ASSERT_GT(touching_c(draft, options.tolerance_mm, kOften), 1.0);
+  const Polished steady = settled(ranked, options);
+  EXPECT_LT(touching_c(steady.draft, options.tolerance_mm, kOften), 1.0);
+}
+
 TEST(Polish, TheVerdictAsksForCoverageOvercutAndGouge) {
   const auto blade = standing_blade(0.0);
   const FlankFitOptions options = small_options();
