@@ -14,9 +14,9 @@ namespace flank::internal {
 [[nodiscard]] Acceptance accept(const Tool& tool, const VerifyReport& report, double least_coverage,
                                 bool complete = true);
 
-/// Adds what the replay of a cavity's program finds against it: engagement above the limit by more than its resolution (but for
-/// strips that cut a slot to get in),
-/// material of more than kMostUncutMm (and two cells) left between the sides, faces entered by more than the tolerance and a tenth of a cell.
+/// Adds what the replay of a cavity's program finds against it: engagement above the limit by more than its resolution (but
+/// for strips that cut a slot to get in), material of more than kMostUncutMm (and two cells) left between the sides, faces
+/// entered by more than the tolerance and a tenth of a cell.
 inline constexpr double kMostUncutMm = 0.1;
 void accept_stock(const StockReport& stock, double most_engagement_deg, double tolerance_mm, Acceptance& acceptance);
 

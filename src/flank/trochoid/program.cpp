@@ -108,9 +108,8 @@ SideRange range_of(const LayerSides& sides, const PlannedLayer& planned, double 
   if (planned.entry) {
     range.from_start = planned.entry->front.from_x + off_corner_mm;
     range.to_start = planned.entry->front.to_x + off_corner_mm;
-    const double most = sides.from.stops_at_end() ? sides.from.length() : end.from_x;
-    const double most_to = sides.to.stops_at_end() ? sides.to.length() : end.to_x;
-    range.from_end = std::min(end.from_x, most), range.to_end = std::min(end.to_x, most_to);
+    range.from_end = sides.from.stops_at_end() ? std::min(end.from_x, sides.from.length()) : end.from_x;
+    range.to_end = sides.to.stops_at_end() ? std::min(end.to_x, sides.to.length()) : end.to_x;
   }
   return range;
 }
