@@ -17,7 +17,7 @@ function(flank_layer name)
   else()
     flank_precompile(flank_${name} flank_precompiled_numeric)
   endif()
-  flank_unity(flank_${name} 8)
+  flank_unity(flank_${name})
   set_property(GLOBAL APPEND PROPERTY FLANK_LAYERS flank_${name})
 endfunction()
 

@@ -7,6 +7,7 @@ Sources of a group are compiled as one, so no two of them may give the same name
 namespaces, and none may hide a type of a header. Lines are read as clang-format leaves them; no compiler is asked. The same
 sources give the same groups.
 """
+import functools
 import pathlib
 import re
 import sys
@@ -25,7 +26,9 @@ def unnamed_names(file):
         elif re.match(r"(?:namespace|using) (?!namespace)(\w+) =", line):
             names.add(line.split()[1])
         elif inside and re.match(r"[A-Za-z]", line):
-            found = re.match(r"(?:struct|class|enum class|using)\s+(\w+)", line)
+            found = re.match(r"(?:struct|class|enum class|using)\s+(\w+)(?!\w|::)", line)
+            if line.startswith("using ") and not found:  # using that::name; is among the used names
+                continue
             if found:
                 names.add(found.group(1))
                 continue
@@ -38,21 +41,36 @@ def declared_names(line):
     line = re.sub(r"\w+::", "", line)
     function = re.match(r"[^=;{\[]*?\b([A-Za-z_]\w*)\s*\(", line)
     if function:
-        return {function.group(1)} - {"TEST", "TEST_F", "TEST_P"}
+        return {function.group(1)} - {"TEST", "TEST_F", "TEST_P", "INSTANTIATE_TEST_SUITE_P"}
     return set(re.findall(r"\b([A-Za-z_]\w*)\s*(?=[={\[;])", re.sub(r"=[^,;]*", "=", line)))
 
 
 def header_names():
-    """Names of the types that the headers define, and of the functions that they declare. Two headers that define one type
-    would give a program two types of that name, and the linker would take the code of either for both."""
-    headers, functions = {}, set()
+    """Of each header, the names of the types that it defines; and of all, those of the functions that they declare. Two headers
+    that define one type would give a program two types of that name, and the linker would take the code of either for both."""
+    headers, types, functions = {}, {}, set()
     for header in sorted([*(ROOT / "src").rglob("*.h"), *(ROOT / "include").rglob("*.h")]):
         text = header.read_text()
         functions |= set(re.findall(r"^(?:\[\[nodiscard\]\] )?[A-Za-z][^=;(){]*?\b(\w+)\(", text, re.MULTILINE))
-        for name in re.findall(r"^(?:struct|class|enum class|using) (\w+(?:::\w+)*)(?=[ :{=][^;]*(?:\{|= ))", text, re.MULTILINE):
+        found = re.findall(r"^(?:struct|class|enum class|using) (\w+(?:::\w+)*)(?=[ :{=][^;]*(?:\{|= ))", text, re.MULTILINE)
+        types[header] = set(found)
+        for name in found:
             if headers.setdefault(name, (header, text))[0] != header and not re.search(rf"^using {name} =", text, re.MULTILINE):
                 sys.exit(f"{name} is defined in {headers[name][0].name} and in {header.name}")
-    return set(headers), functions
+    return types, functions
+
+
+@functools.cache
+def included(file):
+    """Our own headers that a file includes, itself or by others."""
+    found = set()
+    for name in re.findall(r'^#include "(.+)"', file.read_text(), re.MULTILINE):
+        for folder in (ROOT / "src", ROOT / "include", ROOT / "tests", file.parent, ROOT / "apps/flank"):
+            header = folder / name
+            if header.is_file():
+                found |= {header} | included(header)
+                break
+    return frozenset(found)
 
 
 def opened_namespaces(file):
@@ -76,26 +94,23 @@ def local_names(file):
 
 def groups_of(files, size):
     """Groups of at most `size`, no two sources of which share a name of an unnamed namespace; the sources with most names
-    first. A source that gives a header's type another meaning stays alone; one that does so with a header's function stays
-    away from those that speak of it."""
-    (types, functions), alone, groups = header_names(), [], []
+    first. A source that gives another meaning to a header's type stays away from those that include that header, one that
+    does so with a header's function from those that speak of it."""
+    (types, functions), groups = header_names(), []
     for names, file in sorted(((unnamed_names(file), file) for file in files), key=lambda pair: (-len(pair[0]), pair[1])):
-        if names & types:
-            alone.append([file])
-            continue
-        used, opened = used_names(file) | local_names(file), opened_namespaces(file)
-        used |= set(re.findall(r"\w+", file.read_text())) & functions - names
+        seen, opened = set().union(*(types.get(header, ()) for header in included(file.resolve()))), opened_namespaces(file)
+        used = used_names(file) | local_names(file) | set(re.findall(r"\w+", file.read_text())) & functions - names
         for group in groups:
-            fits = not (names & group["names"] or names & group["used"] or used & group["names"])
+            fits = not (names & (group["names"] | group["used"] | group["seen"]) or (used | seen) & group["names"])
             if len(group["files"]) < size and group["opened"] == opened and fits:
                 break
         else:
-            group = {"files": [], "names": set(), "used": set(), "opened": opened}
+            group = {"files": [], "names": set(), "used": set(), "seen": set(), "opened": opened}
             groups.append(group)
         group["files"].append(file)
-        group["names"] |= names
-        group["used"] |= used
-    return [sorted(group["files"]) for group in groups] + alone
+        for key, value in (("names", names), ("used", used), ("seen", seen)):
+            group[key] |= value
+    return [sorted(group["files"]) for group in groups]
 
 
 def main():
