@@ -53,6 +53,9 @@ void expect_one(const Acceptance& a, const std::string& figure, const std::strin
 
 TEST(Acceptance, EachFigureAlone) {
   expect_one(accept(cylinder(), at_the_limits(), 0.95, false), "complete", "interrupted");
+  VerifyReport sampled = at_the_limits();
+  sampled.faces[0].overcut_bound_mm = 1.0;  // between the samples nobody has looked
+  expect_one(accept(cylinder(), sampled, 0.95, false), "complete", "interrupted");
   expect_one(accept(cylinder(), at_the_limits(), 0.951), "coverage_reachable", "95.000 % < 95.100 %");
   VerifyReport r = at_the_limits();
   r.faces[0].overcut_mm = r.overcut_mm = 0.0101;

@@ -105,6 +105,19 @@ TEST(Summary, AcceptanceGoesByTheJobsCoverage) {
   EXPECT_FALSE(result.acceptance().pass());
 }
 
+TEST(Summary, HasNoFiguresOfAResultThatNobodyHasJudged) {
+  Result result = covered();
+  result.complete = false;
+  const auto json = nlohmann::json::parse(summary_json(result));
+  EXPECT_EQ(json.at("judged"), false);
+  for (const char* key : {"coverage", "coverage_reachable", "overcut", "other_faces_overcut", "overcut_bound"})
+    EXPECT_TRUE(json.at(key).is_null()) << key;
+  result.verify.verdict = Verdict::kPass;
+  const auto judged = nlohmann::json::parse(summary_json(result));
+  EXPECT_FALSE(judged.contains("judged"));
+  EXPECT_EQ(judged.at("coverage_reachable"), 0.95);
+}
+
 TEST(Summary, HasTheRankingOfTheTools) {
   Result result = covered();
   Ranking ranking;

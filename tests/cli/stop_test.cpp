@@ -21,6 +21,8 @@ class CliStop : public StoppedCli {
     const auto summary = nlohmann::json::parse(read_file(root_ / "out/summary.json"));
     EXPECT_FALSE(summary.at("complete").get<bool>());
     EXPECT_FALSE(summary.at("within").get<bool>());
+    // Either a verdict, or none: never figures that nobody has measured.
+    EXPECT_EQ(summary.contains("judged"), summary.at("coverage").is_null());
     const auto verdict = nlohmann::json::parse(read_file(root_ / "out/verify.json"));
     EXPECT_FALSE(verdict.at("pass").get<bool>());
     // What was kept can be judged as any other result.

@@ -106,6 +106,21 @@ TEST(IsBetter, WhatEntersNothingGoesFirstUnlessItCoversNextToNothing) {
   EXPECT_TRUE(is_better(covering(0.9, 0.0), covering(1.0, 0.0, 0.2), 0.05)) << "overcut is no price for coverage";
 }
 
+TEST(CannotWin, WhatCoversLessOrIsTooDeepToBeMended) {
+  constexpr double kTolerance = 0.05;
+  const CoverageEstimate clean = covering(0.9, 0.0);
+  EXPECT_TRUE(cannot_win(covering(0.85, 0.0), clean, kTolerance));
+  EXPECT_FALSE(cannot_win(covering(0.895, 0.0), clean, kTolerance)) << "a last look may cover a little more";
+  EXPECT_FALSE(cannot_win(covering(0.95, 0.0), clean, kTolerance));
+  EXPECT_FALSE(cannot_win(covering(1.0, 0.1), clean, kTolerance)) << "a little too deep can be mended";
+  EXPECT_TRUE(cannot_win(covering(1.0, 2.0), clean, kTolerance));
+  EXPECT_FALSE(cannot_win(covering(1.0, 2.0), covering(0.4, 0.0), kTolerance)) << "clean, but not worth having";
+  EXPECT_FALSE(cannot_win(covering(0.5, 0.0), covering(0.9, 2.0), kTolerance)) << "the rival is not clean";
+  CoverageEstimate plunging = clean;
+  plunging.largest_c = 1.2;
+  EXPECT_FALSE(cannot_win(covering(0.85, 0.0), plunging, kTolerance));
+}
+
 TEST(IsBetter, WhatIsNoToolGoesLast) {
   CoverageEstimate none = covering(1.0, 0.0);
   none.legitimate = false;

@@ -130,6 +130,20 @@ TEST_F(Resume, AFitOfASheetGoesOn) {
   expect_same_in_pieces(run_fit, small_fit(part("twisted-blade")), Stop::kWithin, 3);
 }
 
+TEST_F(Resume, WhatIsLeftOfAStoppedFitIsJudgedBySamples) {
+  if (kSanitized) GTEST_SKIP() << "the time that a verdict may take is short for a sanitizer";
+  FitJob job = small_fit(part("twisted-blade"));
+  job.part.side = +1;
+  Stopper stopper(1, Stop::kWithin);
+  const Result result = run_fit(job, stopper.progress());
+  EXPECT_FALSE(result.complete);
+  EXPECT_NE(result.verify.verdict, Verdict::kNotRun);
+  EXPECT_EQ(result.verify.depth, DepthProof::kSampled);
+  EXPECT_GT(result.verify.coverage, 0.0);
+  EXPECT_FALSE(result.verify.faces.empty());
+  EXPECT_FALSE(result.acceptance().pass());
+}
+
 TEST_F(Resume, AFitThatIsStoppedBetweenItsStagesGoesOn) {
   if (kSanitized) GTEST_SKIP() << "whole fits take minutes under a sanitizer";
   FitJob job = small_fit(part("twisted-blade"));

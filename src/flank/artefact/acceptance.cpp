@@ -106,7 +106,8 @@ Acceptance accept(const Tool& tool, const VerifyReport& report, double least_cov
   add_cuts(report, true, out.reasons);
   add_cuts(report, false, out.reasons);
   add_buried(report, out.reasons);
-  add_unproved(report, out.reasons);
+  // What was stopped was judged by samples alone, and says already why it does not pass.
+  if (complete) add_unproved(report, out.reasons);
   add_coverage(report, least_coverage, out.reasons);
   // "surely": the judge's figure less its bound is what counts (ClearanceFigure::kept).
   for (const ClearanceFigure& f : report.clearance.figures)

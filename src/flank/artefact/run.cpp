@@ -79,6 +79,35 @@ std::string stiffness_line(const Tool& tool) {
       bent.slenderness, bent.equivalent_diameter_mm, bent.length_mm, bent.deflection_um, kStiffnessForce);
 }
 
+/// The judge's figures; of a result that nobody has judged there are none.
+void add_verdict(const Result& result, nlohmann::ordered_json& json) {
+  const VerifyReport& v = result.verify;
+  const bool judged = !was_stopped(result);
+  const auto figure = [&](const char* key, double value) {
+    json[key] = judged ? nlohmann::ordered_json(value) : nullptr;
+  };
+  if (!judged) json["judged"] = false;
+  json["tolerance"] = v.tolerance_mm;
+  figure("coverage", v.coverage);
+  figure("reachable_share", v.reachable_share);
+  figure("coverage_reachable", v.coverage_reachable);
+  if (v.coverage_reachable_bound) json["coverage_reachable_bound"] = *v.coverage_reachable_bound;
+  figure("reach_radius", v.reach_radius_mm);
+  json["least_coverage"] = std::visit([](const auto& plan) { return plan.judge.least_coverage; }, result.job);
+  figure("overcut", v.overcut_mm);
+  figure("undercut", v.undercut_mm);
+  // Without a path nothing is as far from the target as anything.
+  if (result.path.pose_count() == 0) json["undercut"] = nullptr;
+  figure("undercut_covered", v.undercut_covered_mm);
+  figure("rms", v.rms_mm);
+  figure("other_faces_overcut", v.gouge_mm);
+  figure("sampling_bound", v.sampling_bound_mm);
+  json["depth"] = depth_name(v.depth);
+  figure("overcut_bound", v.overcut_bound_mm);
+  figure("other_faces_overcut_bound", v.gouge_bound_mm);
+  if (!v.clearance.figures.empty()) json["clearance"] = clearance_to_json(v.clearance);
+}
+
 nlohmann::ordered_json bends_json(const BendRadii& bends) {
   // Null: no bend at all.
   const auto radius = [](double mm) { return mm < 1e300 ? nlohmann::ordered_json(mm) : nullptr; };
@@ -164,7 +193,6 @@ std::string summary_text(const Result& result) {
 }
 
 std::string summary_json(const Result& result) {
-  const VerifyReport& v = result.verify;
   nlohmann::ordered_json json;
   json["schema"] = "openflank/summary/1";
   json["units"] = "mm";
@@ -172,25 +200,7 @@ std::string summary_json(const Result& result) {
   json["faces"] = part_of(result.job).target_text();
   json["complete"] = result.complete;
   json["within"] = result.acceptance().pass();
-  if (was_stopped(result)) json["judged"] = false;  // figures of errors mean nothing then
-  json["tolerance"] = v.tolerance_mm;
-  json["coverage"] = v.coverage;
-  json["reachable_share"] = v.reachable_share;
-  json["coverage_reachable"] = v.coverage_reachable;
-  if (v.coverage_reachable_bound) json["coverage_reachable_bound"] = *v.coverage_reachable_bound;
-  json["reach_radius"] = v.reach_radius_mm;
-  json["least_coverage"] = std::visit([](const auto& plan) { return plan.judge.least_coverage; }, result.job);
-  json["overcut"] = v.overcut_mm;
-  // Without a path nothing is as far from the target as anything.
-  json["undercut"] = result.path.pose_count() > 0 ? nlohmann::ordered_json(v.undercut_mm) : nullptr;
-  json["undercut_covered"] = v.undercut_covered_mm;
-  json["rms"] = v.rms_mm;
-  json["other_faces_overcut"] = v.gouge_mm;
-  json["sampling_bound"] = v.sampling_bound_mm;
-  json["depth"] = depth_name(v.depth);
-  json["overcut_bound"] = v.overcut_bound_mm;
-  json["other_faces_overcut_bound"] = v.gouge_bound_mm;
-  if (!v.clearance.figures.empty()) json["clearance"] = clearance_to_json(v.clearance);
+  add_verdict(result, json);
   json["chord_bound"] = result.chord_bound_mm;
   json["largest_c"] = result.largest_c;
   json["largest_turn"] = result.largest_turn_rad * 180.0 / std::numbers::pi;

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "flank/base/parallel.h"
+#include "flank/base/stopping.h"
 #include "flank/envelope/path_regularity.h"
 #include "flank/job/command_line.h"
 #include "flank/setup/targets.h"
@@ -84,7 +85,7 @@ std::set<std::string> entered_faces(const VerifyReport& verdict, double toleranc
   return entered;
 }
 
-void judge_faces(View& view, const Path& path, const std::set<std::string>& entered) {
+void colour_faces(View& view, const Path& path, const std::set<std::string>& entered) {
   if (path.pose_count() == 0) return;  // a volume without poses has no distance
   const SweptVolume volume(view.tool, path);
   for (ViewFace& body : view.bodies) {
@@ -100,6 +101,17 @@ void judge_faces(View& view, const Path& path, const std::set<std::string>& ente
       if (body.target) add_to_places(d, view.tool.radial.axis_length(), view.strips);
     }
   }
+}
+
+/// The view with the judge's distances; as it is where the program is stopped before it has them all.
+void judge_faces(View& view, const Path& path, const std::set<std::string>& entered) {
+  View coloured = view;
+  try {
+    colour_faces(coloured, path, entered);
+  } catch (const Stopped&) {
+    return;
+  }
+  view = std::move(coloured);
 }
 
 /// The meridian at equal steps of s, with its curvature.

@@ -19,6 +19,16 @@ class Stopped : public std::exception {
 /// Throws Stopped if stopping().
 void stop_here();
 
+/// As long as it lives, but for no longer than so many seconds, stopping() is false: for what a result needs after the
+/// stop, and that ends soon. One at a time.
+class StopGrace {
+ public:
+  explicit StopGrace(double seconds);
+  ~StopGrace();
+  StopGrace(const StopGrace&) = delete;
+  StopGrace& operator=(const StopGrace&) = delete;
+};
+
 /// For tests: true as long as it lives.
 class StopForTest {
  public:

@@ -1,6 +1,7 @@
 #include "flank/envelope/swept_estimate.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -85,8 +86,14 @@ std::size_t SweptEstimate::next_pose(std::size_t motion, std::size_t at, double 
   const std::vector<double>& travel = travel_[motion];
   // A pose without a value says nothing of the others.
   if (std::isnan(spare)) return at + 1;
-  const auto first = travel.begin() + static_cast<std::ptrdiff_t>(at) + 1;
-  return static_cast<std::size_t>(std::upper_bound(first, travel.end(), travel[at] + kSure * spare) - travel.begin());
+  const double until = travel[at] + kSure * spare;
+  // Most jumps are short where the tool is near: a few steps first, before the rest is halved.
+  constexpr std::size_t kShort = 4;
+  const std::size_t near = std::min(travel.size(), at + 1 + kShort);
+  for (std::size_t i = at + 1; i < near; ++i)
+    if (until < travel[i]) return i;
+  const auto first = travel.begin() + static_cast<std::ptrdiff_t>(near);
+  return static_cast<std::size_t>(std::upper_bound(first, travel.end(), until) - travel.begin());
 }
 
 std::size_t SweptEstimate::nearest_pose(std::size_t motion, const Vec3& x, double& least) const {
@@ -196,9 +203,36 @@ SweptContact SweptEstimate::nearest(const Vec3& x) const {
 
 namespace {
 
+/// Poses of a motion, to the last bit as it has them. Both rails of a fit have the same knots: seen once, the basis is
+/// worked out once for both.
+class Poses {
+ public:
+  explicit Poses(const RuledMotion& motion)
+      : motion_(motion),
+        alike_(motion.tip.degree == 3 && motion.direction.degree == 3 && motion.tip.weights.empty() &&
+               motion.direction.weights.empty() && motion.tip.knots == motion.direction.knots) {}
+
+  [[nodiscard]] Pose at(double t) const {
+    if (!alike_) return motion_.pose(t);
+    const int span = find_span(3, motion_.tip.knots, t);
+    std::array<double, 4> n;
+    basis_derivatives(3, motion_.tip.knots, span, t, 0, n.data());
+    Vec3 tip = Vec3::Zero(), direction = Vec3::Zero();
+    for (int j = 0; j < 4; ++j) {
+      tip += n[static_cast<std::size_t>(j)] * motion_.tip.poles.col(span - 3 + j);
+      direction += n[static_cast<std::size_t>(j)] * motion_.direction.poles.col(span - 3 + j);
+    }
+    return {tip, direction.normalized()};
+  }
+
+ private:
+  const RuledMotion& motion_;
+  bool alike_;
+};
+
 /// Nearest sphere of the tool at one pose: the stationary s, or an end.
-SweptContact contact_at(const RuledMotion& motion, const RadialFunction& radial, const Vec3& x, double t, double s) {
-  const Pose pose = motion.pose(t);
+SweptContact contact_at(const Poses& poses, const RadialFunction& radial, const Vec3& x, double t, double s) {
+  const Pose pose = poses.at(t);
   const Vec3 q = x - pose.tip;
   const double length = radial.axis_length(), z = q.dot(pose.axis);
   const double rho2 = std::max(0.0, q.squaredNorm() - z * z);
@@ -239,9 +273,10 @@ SweptContact contact_at(const RuledMotion& motion, const RadialFunction& radial,
 SweptContact refine_contact(const RuledMotion& motion, const RadialFunction& radial, const Vec3& x, double t,
                             double window) {
   FLANK_ASSERT(window > 0.0 && x.allFinite());
-  const Pose pose = motion.pose(t);
+  const Poses poses(motion);
+  const Pose pose = poses.at(t);
   const double first_s = std::clamp((x - pose.tip).dot(pose.axis), 0.0, radial.axis_length());
-  SweptContact best = contact_at(motion, radial, x, std::clamp(t, 0.0, 1.0), first_s);
+  SweptContact best = contact_at(poses, radial, x, std::clamp(t, 0.0, 1.0), first_s);
   // Parabolas through three points, sixteen times narrower once the least of them is not at an end: the vertex is off
   // by h^2, so the next one has to look h / 16 around it, and two rounds are enough (kNarrow).
   constexpr double kFirst = 0.5, kNarrow = 1e-2, kNarrower = 16.0;  // of the window; of the last step
@@ -249,9 +284,9 @@ SweptContact refine_contact(const RuledMotion& motion, const RadialFunction& rad
   double h = kFirst * window;
   for (int k = 0; k < kRounds && h > kNarrow * window; ++k) {
     const double middle = std::clamp(best.t, h, 1.0 - h);
-    const SweptContact a = contact_at(motion, radial, x, middle - h, best.s);
-    const SweptContact b = contact_at(motion, radial, x, middle + h, best.s);
-    const SweptContact m = middle == best.t ? best : contact_at(motion, radial, x, middle, best.s);
+    const SweptContact a = contact_at(poses, radial, x, middle - h, best.s);
+    const SweptContact b = contact_at(poses, radial, x, middle + h, best.s);
+    const SweptContact m = middle == best.t ? best : contact_at(poses, radial, x, middle, best.s);
     const double bend = a.f + b.f - 2.0 * m.f;
     const bool bracketed = m.f <= a.f && m.f <= b.f;
     for (const SweptContact* c : {&a, &m, &b})
@@ -259,7 +294,7 @@ SweptContact refine_contact(const RuledMotion& motion, const RadialFunction& rad
     const bool at_rim = best.t <= 0.0 || best.t >= 1.0;
     if (bracketed && bend > 0.0) {
       const double vertex = middle + 0.5 * (a.f - b.f) / bend * h;
-      const SweptContact v = contact_at(motion, radial, x, vertex, best.s);
+      const SweptContact v = contact_at(poses, radial, x, vertex, best.s);
       if (v.f < best.f) best = v;
     }
     if (bracketed || at_rim) h /= kNarrower;

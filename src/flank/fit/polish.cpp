@@ -222,13 +222,12 @@ Polished seen_closely(FitDraft draft, const std::vector<SurfaceSample>& samples,
 /// A fit that the last look finds a little deeper than allowed, led out of what it cuts.
 Polished mended(const Polished& polished, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
   constexpr int kMost = 3;          // times: each brings places that the one before has made deep
-  constexpr double kALittle = 5.0;  // tolerances: beyond, another motion is needed, not a better one
   constexpr double kFirmer = 10.0;  // each time: what a soft term leaves goes with its weight
   const double tolerance = options.tolerance_mm;
   Polished best = polished;
   double firmness = 1.0;
   for (int k = 0; k < kMost && !is_clean(best.estimate, tolerance) && !stopping(); ++k) {
-    if (std::max(best.estimate.overcut_mm, best.estimate.gouge_mm) > kALittle * tolerance) return best;
+    if (std::max(best.estimate.overcut_mm, best.estimate.gouge_mm) > kMendable * tolerance) return best;
     const std::vector<Vec3> deep = cut_deeper_than(kToleranceBudget.fit.settled_overcut * tolerance, samples,
                                                    best.draft.motions, best.draft.tool, kRankingPoses);
     if (best.estimate.gouge_mm > kToleranceBudget.fit.clean * tolerance) firmness *= kFirmer;

@@ -29,6 +29,9 @@ namespace flank::internal {
 [[nodiscard]] Polished last_passes(const Polished& polished, const std::vector<SurfaceSample>& samples,
                                    const FlankFitOptions& options, std::vector<IterationTrace>* trace);
 
+/// Tolerances: what is cut or entered deeper than this needs another motion; settled() does not mend it.
+inline constexpr double kMendable = 5.0;
+
 /// The same draft, assessed with samples four times denser than those that ranked it; a free tool's radii are reduced
 /// if its overcut turns out to be above, or just below, the tolerance. Without this the ranking's samples, which the
 /// passes have been chosen by, would flatter the result.

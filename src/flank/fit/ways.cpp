@@ -139,6 +139,14 @@ double least_to_win(const CoverageEstimate& rival, const FlankFitOptions& option
   return std::max(options.least_coverage_for_last_passes, behind);
 }
 
+bool cannot_win(const CoverageEstimate& way, const CoverageEstimate& rival, double tolerance_mm) {
+  constexpr double kLastLookGain = 0.01;  // of the face: it mends what is too deep, and hardly covers more
+  if (!is_clean(rival, tolerance_mm) || rival.largest_c >= 1.0) return false;
+  if (way.at_tolerance + kLastLookGain < rival.at_tolerance) return true;
+  const bool too_deep = std::max(way.overcut_mm, way.gouge_mm) > kMendable * tolerance_mm;
+  return too_deep && is_better(rival, way, tolerance_mm);
+}
+
 std::optional<FitDraft> shortened_axis(const FitDraft& draft, double depth_mm) {
   if (!draft.free_tool) return std::nullopt;
   std::vector<double> deepest(kPlaces, kFree);
@@ -170,9 +178,28 @@ std::optional<FitDraft> shortened_path(const FitDraft& draft, double depth_mm) {
 
 namespace {
 
-/// The draft as it was found without the other faces, and, if it enters them, what can be made of it.
-std::vector<Way> ways_from(const FitDraft& draft, bool fixed_length, const FlankFitOptions& options,
-                           const Progress& progress) {
+/// The last look at the ways, the most promising ones first. It costs as much as a fit, so that a way that cannot win any
+/// more, against the rival or against one that has been looked at, goes without it.
+void settle_in_turn(std::vector<Way>& ways, CoverageEstimate rival, const FlankFitOptions& options) {
+  const double tolerance = options.tolerance_mm;
+  std::vector<Way*> turn;
+  for (Way& way : ways) turn.push_back(&way);
+  std::stable_sort(turn.begin(), turn.end(), [&](const Way* a, const Way* b) {
+    const CoverageEstimate &x = a->polished.estimate, &y = b->polished.estimate;
+    const bool clean_x = is_clean(x, tolerance), clean_y = is_clean(y, tolerance);
+    return clean_x != clean_y ? clean_x : x.at_tolerance > y.at_tolerance;
+  });
+  for (Way* way : turn) {
+    if (cannot_win(way->polished.estimate, rival, tolerance)) continue;
+    way->polished = settled(way->polished, options);
+    if (is_better(way->polished.estimate, rival, tolerance)) rival = way->polished.estimate;
+  }
+}
+
+/// The draft as it was found without the other faces, and, if it enters them, what can be made of it that can win against
+/// the rival.
+std::vector<Way> ways_from(const FitDraft& draft, bool fixed_length, const CoverageEstimate& rival,
+                           const FlankFitOptions& options, const Progress& progress) {
   const std::vector<SurfaceSample> samples = ranking_samples(*draft.targets.front(), options.obstacles, options);
   const double tolerance = options.tolerance_mm, depth = kToleranceBudget.others.last_look * tolerance;
   std::vector<Way> ways;
@@ -190,7 +217,7 @@ std::vector<Way> ways_from(const FitDraft& draft, bool fixed_length, const Flank
     const Polished clear = last_passes(start.polished, samples, options, nullptr);
     ways.push_back({start.name, without_overcut(clear, samples, options)});
   }
-  for (Way& way : ways) way.polished = settled(way.polished, options);
+  settle_in_turn(ways, rival, options);
   return ways;
 }
 
@@ -225,7 +252,9 @@ FlankFitResult best_way(const Target& target, const ToolModel& tool, const Flank
   const bool fixed_length = tool.axis_length || tool.longest_axis || options.axis_length_mm;
   std::vector<Way> ways = journaled(
       progress, "ways",
-      [&] { return ways_from(draft_of(target, tool, free, options.obstacles), fixed_length, options, progress); },
+      [&] {
+        return ways_from(draft_of(target, tool, free, options.obstacles), fixed_length, first.after, options, progress);
+      },
       free);
   if (ways.empty()) throw InputError("a step of the run that was stopped has no way");
   for (Way& way : ways) tie(way.polished.draft, target, options.obstacles);

@@ -39,10 +39,33 @@ int find_span(int degree, std::span<const double> knots, double u) {
   return span;
 }
 
+namespace {
+
+/// The values alone, to the last bit as basis_derivatives has them: A2.2 of the book, without the triangle of differences
+/// that only derivatives need. Most of what is asked are values.
+void basis_values(int degree, std::span<const double> knots, int span, double u, double* out) {
+  std::array<double, kMaxDegree + 1> left, right;
+  out[0] = 1.0;
+  for (int j = 1; j <= degree; ++j) {
+    left[j] = u - knots[span + 1 - j];
+    right[j] = knots[span + j] - u;
+    double saved = 0.0;
+    for (int r = 0; r < j; ++r) {
+      const double temp = out[r] / (right[r + 1] + left[j - r]);
+      out[r] = saved + right[r + 1] * temp;
+      saved = left[j - r] * temp;
+    }
+    out[j] = saved;
+  }
+}
+
+}  // namespace
+
 void basis_derivatives(int degree, std::span<const double> knots, int span, double u, int order, double* out) {
   FLANK_ASSERT(degree >= 0 && degree <= kMaxDegree);
   FLANK_ASSERT(span >= degree && static_cast<std::size_t>(span + degree) < knots.size());
   FLANK_ASSERT(order >= 0 && !std::isnan(u));
+  if (order == 0) return basis_values(degree, knots, span, u, out);
   constexpr int kOrder = kMaxDegree + 1;
   // Not initialised: what is read below has been written, and clearing 2 kB would cost more than the evaluation.
   std::array<std::array<double, kOrder>, kOrder> ndu;
@@ -65,7 +88,6 @@ void basis_derivatives(int degree, std::span<const double> knots, int span, doub
   // Derivatives beyond the degree are 0.
   const int top = std::min(order, degree);
   for (int k = top + 1; k <= order; ++k) std::fill_n(out + k * (degree + 1), degree + 1, 0.0);
-  if (top == 0) return;
   for (int r = 0; r <= degree; ++r) {
     int s1 = 0, s2 = 1;
     // Rows a[s1] and a[s2] hold the coefficients of the last and of this derivative, in turn.

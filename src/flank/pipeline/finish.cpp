@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 #include <numbers>
+#include <optional>
 
 #include "flank/artefact/view.h"
 #include "flank/base/stopping.h"
@@ -33,6 +34,25 @@ std::pair<std::size_t, std::size_t> poses_between(const std::vector<double>& t, 
 int machining_contact(const RuledMotion& motion, const RadialFunction& radial, const Target& target) {
   const Vec3 middle = motion.pose(0.5).at(0.5 * radial.axis_length());
   return contact_side(motion, radial, target.closest(middle).point - middle);
+}
+
+/// After a stop, seconds: for a verdict and its picture.
+constexpr double kPatience = 2.5;
+
+/// Of a result that was stopped: by a few samples, if they take no longer than anybody waits. Half a verdict is none.
+VerifyReport quick_verdict(const Setup& setup, JudgeRequest request, const ClearanceScene& scene,
+                           const Result& result) {
+  constexpr double kFewSamples = 20000.0;  // coverage to a tenth of a percent
+  request.sample_mm = std::max(request.sample_mm.value_or(0.0), coarse_spacing(setup, kFewSamples));
+  try {
+    VerifyReport report = judge_job(setup, request, result.tool, result.path, DepthProof::kSampled);
+    report.clearance = measure_clearance(scene, result.tool, result.path);
+    return report;
+  } catch (const Stopped&) {
+    VerifyReport none;
+    none.tolerance_mm = setup.tolerance_mm;
+    return none;
+  }
 }
 
 }  // namespace
@@ -89,6 +109,7 @@ void judge_result(const Setup& setup, const ClearanceScene& scene, std::vector<S
                   Stopwatch& watch) {
   const JudgeRequest& request =
       std::visit([](const auto& plan) -> const JudgeRequest& { return plan.judge; }, result.job);
+  std::optional<StopGrace> grace;
   try {
     stop_here();
     result.verify = judge_job(setup, request, result.tool, result.path);
@@ -96,10 +117,9 @@ void judge_result(const Setup& setup, const ClearanceScene& scene, std::vector<S
     result.verify.clearance = measure_clearance(scene, result.tool, result.path);
     watch.lap("clearance");
   } catch (const Stopped&) {
-    // Half a verdict is none, and an incomplete result does not pass.
     result.complete = false;
-    result.verify = {};
-    result.verify.tolerance_mm = setup.tolerance_mm;
+    grace.emplace(kPatience);
+    result.verify = quick_verdict(setup, request, scene, result);
   }
   auto drawings = std::make_shared<Result::Drawings>();
   drawings->strips = std::move(surfaces);

@@ -4,6 +4,7 @@
 
 #include "flank/base/assert.h"
 #include "flank/base/parallel.h"
+#include "flank/base/stopping.h"
 #include "flank/verify/judge_faces.h"
 
 namespace flank {
@@ -55,6 +56,7 @@ double smallest_radius(const Tool& tool) { return tool.radial.smallest(); }
 std::vector<SweptDistance> swept_distances(const SweptVolume& volume, const FaceSamples& face, double horizon_mm) {
   std::vector<SweptDistance> out(face.points.size());
   parallel_blocks(out.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+    stop_here();
     const std::span points = std::span(face.points).subspan(begin, end - begin);
     const std::span results = std::span(out).subspan(begin, end - begin);
     if (horizon_mm < kFarHorizonMm)

@@ -11,6 +11,7 @@
 #include <span>
 
 #include "flank/base/parallel.h"
+#include "flank/base/stopping.h"
 #include "flank/error.h"
 #include "flank/geom/tessellate.h"
 #include "flank/geom/triangle_bvh.h"
@@ -28,7 +29,8 @@ using namespace internal::verify;
 constexpr int kPlaces = 89, kTurn = 55;
 constexpr std::size_t kBlock = 256;     ///< samples per task; fixed, so that threads change nothing
 constexpr std::size_t kLeastBlock = 8;  ///< so few balls are measured one by one
-constexpr double kRounding = 1e-9;      ///< relative: widens a ball by more than round-off can shrink it
+constexpr std::size_t kFewTriangles = 24;
+constexpr double kRounding = 1e-9;  ///< relative: widens a ball by more than round-off can shrink it
 constexpr int kStackSize =
     128;  ///< each level leaves one node behind, and a tree that halves is 31 levels deep at most
 
@@ -121,6 +123,7 @@ class Surroundings {
   /// all of them.
   void measure(std::span<const Ball> balls, std::span<double> shares) const {
     if (balls.size() <= kLeastBlock) {
+      stop_here();
       std::transform(balls.begin(), balls.end(), shares.begin(), [this](const Ball& ball) { return share(ball); });
       return;
     }
@@ -160,11 +163,16 @@ class Surroundings {
     for (int i = 0; i < kPlaces; ++i) {
       const double a = (i + 0.5 - 0.5 * kPlaces) * side, b = ((i * kTurn) % kPlaces + 0.5 - 0.5 * kPlaces) * side;
       const Vec3 x = center + a * e1 + b * e2;
-      const bool held =
-          std::any_of(near.begin(), near.end(), [&](int k) { return triangle_distance(surface_, k, x) < limit_; });
-      if (!held) ++free;
+      if (!held_by(near, x)) ++free;
     }
     return static_cast<double>(free) / kPlaces;
+  }
+
+  /// Whether the ball at x meets the surface, all of which that is near enough is listed.
+  [[nodiscard]] bool held_by(const std::vector<int>& near, const Vec3& x) const {
+    // Of many triangles the tree asks but a few.
+    if (near.size() > kFewTriangles) return capped_distance(surface_, x, limit_, limit_) < limit_;
+    return std::any_of(near.begin(), near.end(), [&](int k) { return triangle_distance(surface_, k, x) < limit_; });
   }
 
   [[nodiscard]] bool buried(const Vec3& x) const {

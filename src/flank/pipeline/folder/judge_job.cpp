@@ -76,8 +76,9 @@ class JudgedShapes {
 
   [[nodiscard]] const std::vector<int>& faces() const { return faces_; }
   [[nodiscard]] const std::vector<std::unique_ptr<verify::Sampler>>& samplers() const { return samplers_; }
-  /// With reachable shares, if they are asked for. The shapes, and the reach, must outlive what is returned.
-  [[nodiscard]] std::vector<verify::JudgedFace> judged(const Setup& setup, const TargetReach* reach) const;
+  /// With reachable shares, and with what proofs need, if they are asked for. The shapes, and the reach, must outlive
+  /// what is returned.
+  [[nodiscard]] std::vector<verify::JudgedFace> judged(const Setup& setup, const TargetReach* reach, bool proofs) const;
 
  private:
   std::vector<int> faces_;
@@ -86,7 +87,7 @@ class JudgedShapes {
   std::vector<std::unique_ptr<verify::Sampler>> samplers_;
 };
 
-std::vector<verify::JudgedFace> JudgedShapes::judged(const Setup& setup, const TargetReach* reach) const {
+std::vector<verify::JudgedFace> JudgedShapes::judged(const Setup& setup, const TargetReach* reach, bool proofs) const {
   std::vector<verify::JudgedFace> out;
   for (std::size_t k = 0; k < faces_.size(); ++k) {
     const int face = faces_[k];
@@ -97,7 +98,8 @@ std::vector<verify::JudgedFace> JudgedShapes::judged(const Setup& setup, const T
       if (target && reach != nullptr) reach->fill(face, here);
       use(here);
     };
-    out.push_back({setup.part.face_id(face), target, sampler->size_mm(), sampler->tiles(), samples, &shapes_[k]});
+    out.push_back({setup.part.face_id(face), target, sampler->size_mm(), sampler->tiles(), samples,
+                   proofs ? &shapes_[k] : nullptr});
   }
   return out;
 }
@@ -107,6 +109,20 @@ std::vector<verify::JudgedFace> JudgedShapes::judged(const Setup& setup, const T
 double default_spacing(double diagonal_mm) {
   // Half a millimetre is fine enough for blades of a hand's size; a metre of fan blade would be a million samples.
   return std::clamp(diagonal_mm / 300.0, 0.05, std::max(0.5, diagonal_mm / 1000.0));
+}
+
+double coarse_spacing(const Setup& setup, double most_samples) {
+  const double usual = default_spacing(setup.part.box.diagonal());
+  const JudgedShapes shapes(setup, usual);
+  double all = 0.0, fewest = 1e300;
+  for (std::size_t k = 0; k < shapes.faces().size(); ++k) {
+    const double here = shapes.samplers()[k]->count();
+    all += here;
+    if (holds(setup.targets, shapes.faces()[k])) fewest = std::min(fewest, here);
+  }
+  // Their number goes with the square of the spacing. Twice what is needed: it is an estimate.
+  const double times = std::min(all / most_samples, fewest / (2.0 * kFewestSamples));
+  return usual * std::sqrt(std::max(1.0, times));
 }
 
 VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const Tool& tool, const Path& path,
@@ -127,8 +143,9 @@ VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const To
   JudgeOptions options;
   options.tolerance_mm = setup.tolerance_mm;
   options.depth = request.sample_mm ? DepthProof::kSampled : depth;
-  VerifyReport report =
-      verify::judge_faces(tool, path, shapes.judged(setup, reach ? &*reach : nullptr), options, request.least_coverage);
+  const std::vector<verify::JudgedFace> judged =
+      shapes.judged(setup, reach ? &*reach : nullptr, depth == DepthProof::kProved);
+  VerifyReport report = verify::judge_faces(tool, path, judged, options, request.least_coverage);
   report.reach_radius_mm = radius;
   report.buried = std::move(buried);
   if (!report.buried.empty()) report.verdict = Verdict::kOvercut;

@@ -11,7 +11,7 @@
 namespace flank::internal {
 
 /// Judges tool and path on the targets and check faces. Shank, holder and fixtures are not in it (clearance_scene.h).
-/// `depth`: kSampled leaves out the proof, as a spacing in the request does.
+/// `depth`: kSampled leaves out the proofs: of the depth, as a spacing in the request does, and of the coverage.
 [[nodiscard]] VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const Tool& tool,
                                      const Path& path, DepthProof depth = DepthProof::kProved);
 
@@ -21,5 +21,8 @@ namespace flank::internal {
 
 /// Spacing of the judge's samples on the target if none is given, mm.
 [[nodiscard]] double default_spacing(double diagonal_mm);
+
+/// The spacing, no finer than that, of about so many samples on all faces together, as far as a target can do with them.
+[[nodiscard]] double coarse_spacing(const Setup& setup, double most_samples);
 
 }  // namespace flank::internal

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "flank/base/parallel.h"
+#include "flank/base/stopping.h"
 #include "flank/geom/tessellate.h"
 
 namespace flank::internal {
@@ -69,6 +70,7 @@ std::vector<TriangleMesh> meshes_of(const Setup& setup, const std::vector<int>& 
   closing.fine_mm = closing.coarse_mm;
   std::vector<TriangleMesh> meshes(around.size());
   parallel_for(meshes.size(), [&](std::size_t k) {
+    stop_here();
     meshes[k] = triangles_of(setup.part, around[k], near, holds(judged, around[k]) ? checked : closing);
   });
   return meshes;

@@ -41,9 +41,10 @@ double demanded_reach(const FitJob& job, const Target& target, const RadiusBound
   if (job.judge.reach_radius_mm) return *job.judge.reach_radius_mm;
   const double length = job.tool.axis_length_mm.value_or(std::sqrt(target.area()));
   const double radius = std::clamp(0.5 * length / bounds.slenderest, bounds.smallest, bounds.largest);
-  // Three digits: it is shown to people, and written into the command that makes the result again.
-  const double unit = std::pow(10.0, std::floor(std::log10(radius)) - 2.0);
-  return std::round(radius / unit) * unit;
+  // Three digits: it is shown to people, and written into the command that makes the result again. Whole numbers are
+  // divided, so that no rounding of a unit shows.
+  const double decimals = 2.0 - std::floor(std::log10(radius)), unit = std::pow(10.0, std::abs(decimals));
+  return decimals >= 0.0 ? std::round(radius * unit) / unit : std::round(radius / unit) * unit;
 }
 
 /// `free_tool`: what is reachable is asked with the ball of the demand.
