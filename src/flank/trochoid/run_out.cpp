@@ -9,6 +9,9 @@
 namespace flank::internal {
 namespace {
 
+/// Deeper than at the end of a side by this share counts as deeper.
+constexpr double kMore = 1.1;
+
 /// Mean direction of both ways over their last quarter at an end, along x, across the axis.
 Vec3 common_direction(const SidePath& a, const SidePath& b, bool end) {
   constexpr double kShare = 0.25;  // the last velocities of a fitted motion alone may be off
@@ -59,10 +62,10 @@ void lay(SidePath& a, SidePath& b, bool end, const Bend& bend) {
 
 /// Deepest that a run-out enters a face, mm: up to where cycles begin and end.
 double entered(const SidePath& path, bool end, double radius, const HalfGuard& guard) {
-  constexpr double kFarthest = 6.0, kFirst = 0.1, kMore = 1.25, kStep = 0.4;  // radii: densest at the end
+  constexpr double kFarthest = 6.0, kFirst = 0.1, kGrow = 1.25, kStep = 0.4;  // radii: densest at the end
   constexpr int kPlaces = 7;
   GuardDepth depth;
-  for (double by = kFirst; by <= kFarthest; by += std::min(kStep, (kMore - 1.0) * by)) {
+  for (double by = kFirst; by <= kFarthest; by += std::min(kStep, (kGrow - 1.0) * by)) {
     const AxisPlace place = path.at(end ? path.length() + by * radius : -by * radius);
     guard.look({place.tip, place.u}, kPlaces, depth);
   }
@@ -87,7 +90,6 @@ void join_run_outs(SidePath& a, SidePath& b, double radius_mm) {
 RunOutDepth join_run_outs(SidePath& a, SidePath& b, double radius_mm, const HalfGuard& guard, double allowed_mm) {
   RunOutDepth depth;
   constexpr double kTurnOver = 4.0;  // radii
-  constexpr double kMore = 1.1;      // deeper than at the end by this share counts as deeper
   for (const bool end : {false, true}) {
     const Vec3 common = common_direction(a, b, end);
     const Vec3 up = (a.at(end ? a.length() : 0.0).u + b.at(end ? b.length() : 0.0).u).normalized();
@@ -120,6 +122,20 @@ RunOutDepth join_run_outs(SidePath& a, SidePath& b, double radius_mm, const Half
     (end ? depth.end : depth.start) = std::max(0.0, least);
   }
   return depth;
+}
+
+double free_run_out(const SidePath& path, bool end, double most_mm, const HalfGuard& guard, double allowed_mm) {
+  // What a run-out enters, it enters within a fraction of a radius: the tool rounds an edge there.
+  constexpr int kSteps = 60, kPlaces = 13;
+  const double allowed = std::max(allowed_mm, kMore * entered_at_end(path, end, guard));
+  for (int k = 1; k <= kSteps; ++k) {
+    const double by = most_mm * k / kSteps;
+    const AxisPlace place = path.at(end ? path.length() + by : -by);
+    GuardDepth depth;
+    guard.look({place.tip, place.u}, kPlaces, depth);
+    if (depth.deepest() > allowed) return most_mm * (k - 1) / kSteps;
+  }
+  return most_mm;
 }
 
 }  // namespace flank::internal
