@@ -114,6 +114,25 @@ TEST_F(RunOutTest, AWallAcrossTheWayIsToldApartFromAHub) {
   EXPECT_EQ(join_run_outs(a, b, kRadius, guard_, 0.01).end, 0.0) << "the hub is risen from";
 }
 
+TEST_F(RunOutTest, ASweepEndsBeforeWhatItsRunOutEnters) {
+  // A rim behind the blade, so near that nothing rises in time.
+  const Face rim =
+      testing::quad(Vec3(48.05, -50, 0), Vec3(48.05, 50, 0), Vec3(48.05, -50, 2), Vec3(48.05, 50, 2), "F3");
+  const ObstacleField field(only({make_target({rim}), true}), *blade_, 2.0, 0.0);
+  const HalfGuard guard({{blade_.get()}, {&field}}, kTool);
+  constexpr double kMost = 1.5 * kRadius, kAllowed = 0.02;
+  const SidePath path = leaning(kRadius, 0.0);
+  EXPECT_EQ(free_run_out(path, false, kMost, guard_, kAllowed), kMost) << "nothing is in the way there";
+  const double way = free_run_out(path, true, kMost, guard, kAllowed);
+  EXPECT_LT(way, 0.5 * kMost);
+  GuardDepth depth;
+  for (double by = 0.0; by <= way; by += 0.01) {
+    const AxisPlace place = path.at(path.length() + by);
+    guard.look({place.tip, place.u}, 13, depth);
+  }
+  EXPECT_LE(depth.deepest(), kAllowed);
+}
+
 TEST_F(RunOutTest, VelocitiesAreThoseOfThePlaces) {
   SidePath path = leaning(kRadius, 0.1);
   for (const bool end : {false, true}) {

@@ -24,6 +24,11 @@ constexpr double kAside = 0.2;
 /// Radii that a finishing sweep keeps off the place where an entry's first front begins or ends.
 constexpr double kOffCorner = 0.02;
 
+/// More than run-outs are bent and raised for, so that what they keep to by coarse samples is not cut off; the judge allows more.
+double allowed_at_run_outs(const ProgramOptions& options) {
+  return kToleranceBudget.cavity.halves * options.cycles.tolerance_mm;
+}
+
 /// Left and right side path of a layer, in the order in which fronts use them, and how deep their run-outs enter faces.
 /// Milling is climb where a front goes to the left seen along the feed with the holder up.
 LayerSides order_sides(const RuledMotion& left, const RuledMotion& right, bool backwards, const ProgramOptions& options,
@@ -93,15 +98,19 @@ struct SideRange {
   [[nodiscard]] bool some() const { return from_end > std::max(0.0, from_start) && to_end > std::max(0.0, to_start); }
 };
 
-SideRange range_of(const LayerSides& sides, const PlannedLayer& planned, double radius_mm) {
+/// Where a run-out enters a face, however it bends and rises, a sweep ends before that: only the side needs it.
+SideRange range_of(const LayerSides& sides, const PlannedLayer& planned, double radius_mm, const HalfGuard& guard,
+                   double allowed_mm) {
   const double run_mm = kRunOut * radius_mm, off_corner_mm = kOffCorner * radius_mm;
+  const auto free = [&](const SidePath& side, bool end) { return free_run_out(side, end, run_mm, guard, allowed_mm); };
   const Cycle& end = planned.cycles.cycles.back();
   const bool done = planned.cycles.status == CycleStatus::kDone && planned.cycles.before_wall_mm == 0.0;
-  const double over = sides.to.stops_at_end() ? 0.0 : run_mm;
-  SideRange range{-run_mm, end.from_x, -run_mm, end.to_x};
+  SideRange range{-free(sides.from, false), end.from_x, -free(sides.to, false), end.to_x};
   if (done) {
-    range.from_end = sides.from.length() + over;
-    range.to_end = std::max(over > 0.0 ? end.to_x : 0.0, sides.to.length() + over);
+    const bool open = !sides.to.stops_at_end();
+    const double over_from = open ? free(sides.from, true) : 0.0, over_to = open ? free(sides.to, true) : 0.0;
+    range.from_end = sides.from.length() + over_from;
+    range.to_end = std::max(over_to == run_mm ? end.to_x : 0.0, sides.to.length() + over_to);
   }
   // Before the first front that an entry has opened there is material. That front finishes its ends itself: a sweep that ended
   // just there would end in a corner, where the tool touches material all around.
@@ -193,7 +202,7 @@ void ProgramWriter::layer(const LayerSides& sides, PlannedLayer& planned) {
     // The first front is the end of an entry that opens it.
     if (cycle.back || !planned.entry) add("front", cycle.front.motion);
   }
-  const SideRange range = range_of(sides, planned, radial_.largest());
+  const SideRange range = range_of(sides, planned, radial_.largest(), guard_, allowed_at_run_outs(options_));
   if (!range.some()) return;
   if (planned.entry)
     finish_inside(sides, range, planned);
@@ -271,7 +280,8 @@ double sweep_side(const RuledMotion& motion, SweptStock& stock, double& volume) 
 }
 
 /// Both finishing sweeps, as far as the cycles got.
-void sweep_sides(const LayerSides& sides, SweptStock& stock, PlannedLayer& planned) {
+void sweep_sides(const LayerSides& sides, const HalfGuard& guard, SweptStock& stock, const ProgramOptions& options,
+                 PlannedLayer& planned) {
   if (planned.cycles.cycles.empty()) {
     planned.share = 0.0;
     return;
@@ -279,7 +289,7 @@ void sweep_sides(const LayerSides& sides, SweptStock& stock, PlannedLayer& plann
   const Cycle& end = planned.cycles.cycles.back();
   const bool done = planned.cycles.status == CycleStatus::kDone && planned.cycles.before_wall_mm == 0.0;
   planned.share = done ? 1.0 : std::clamp(end.from_x / sides.from.length(), 0.0, 1.0);
-  const SideRange range = range_of(sides, planned, stock.profile().largest());
+  const SideRange range = range_of(sides, planned, stock.profile().largest(), guard, allowed_at_run_outs(options));
   if (!range.some()) return;
   const RuledMotion first = sides.to.motion_between(range.to_start, range.to_end);
   const RuledMotion second = sides.from.motion_between(range.from_start, range.from_end);
@@ -342,7 +352,7 @@ CavityProgram plan_program(const std::vector<RuledMotion>& sides, const RadialFu
     PlannedLayer planned = plan_layer(layer, guard, stock, inside ? &clear : nullptr, here, progress);
     if (!out.path.strips.empty() && !planned.cycles.cycles.empty()) writer.link(layers[k - 1], layer, clear, planned);
     writer.layer(layer, planned);
-    sweep_sides(layer, stock, planned);
+    sweep_sides(layer, guard, stock, options, planned);
     // What is left above is in the way of the holder: a layer goes no farther than the one before, less a radius.
     if (planned.share < 1.0) {
       const double less = planned.cycles.before_wall_mm > 0.0 ? 0.0 : radial.largest() / layer.from.length();

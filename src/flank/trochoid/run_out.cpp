@@ -10,6 +10,9 @@
 namespace flank::internal {
 namespace {
 
+/// Deeper than at the end of a side by this share counts as deeper.
+constexpr double kMore = 1.1;
+
 /// Mean direction of both ways over their last quarter at an end, along x, across the axis.
 Vec3 common_direction(const SidePath& a, const SidePath& b, bool end) {
   constexpr double kShare = 0.25;  // the last velocities of a fitted motion alone may be off
@@ -68,8 +71,8 @@ double depth_at(const Pose& pose, const HalfGuard& guard) {
 /// Calls see(pose) along a run-out, up to where cycles begin and end.
 template <typename See>
 void walk(const SidePath& path, bool end, double radius, const See& see) {
-  constexpr double kFarthest = 6.0, kFirst = 0.1, kMore = 1.25, kStep = 0.4;  // radii: densest at the end
-  for (double by = kFirst; by <= kFarthest; by += std::min(kStep, (kMore - 1.0) * by)) {
+  constexpr double kFarthest = 6.0, kFirst = 0.1, kGrow = 1.25, kStep = 0.4;  // radii: densest at the end
+  for (double by = kFirst; by <= kFarthest; by += std::min(kStep, (kGrow - 1.0) * by)) {
     const AxisPlace place = path.at(end ? path.length() + by * radius : -by * radius);
     see(Pose{place.tip, place.u});
   }
@@ -118,7 +121,6 @@ class BendSearch {
  public:
   BendSearch(SidePath& a, SidePath& b, bool end, double radius_mm, const HalfGuard& guard, double allowed_mm)
       : a_(a), b_(b), end_(end), radius_(radius_mm), guard_(guard), common_(common_direction(a, b, end)) {
-    constexpr double kMore = 1.1;  // deeper than at the end by this share counts as deeper
     most_a_ = std::max(allowed_mm, kMore * entered_at_end(a, end, guard));
     most_b_ = std::max(allowed_mm, kMore * entered_at_end(b, end, guard));
   }
@@ -185,6 +187,20 @@ RunOutDepth join_run_outs(SidePath& a, SidePath& b, double radius_mm, const Half
   depth.start = BendSearch(a, b, false, radius_mm, guard, allowed_mm).run();
   depth.end = BendSearch(a, b, true, radius_mm, guard, allowed_mm).run();
   return depth;
+}
+
+double free_run_out(const SidePath& path, bool end, double most_mm, const HalfGuard& guard, double allowed_mm) {
+  // What a run-out enters, it enters within a fraction of a radius: the tool rounds an edge there.
+  constexpr int kSteps = 60, kPlaces = 13;
+  const double allowed = std::max(allowed_mm, kMore * entered_at_end(path, end, guard));
+  for (int k = 1; k <= kSteps; ++k) {
+    const double by = most_mm * k / kSteps;
+    const AxisPlace place = path.at(end ? path.length() + by : -by);
+    GuardDepth depth;
+    guard.look({place.tip, place.u}, kPlaces, depth);
+    if (depth.deepest() > allowed) return most_mm * (k - 1) / kSteps;
+  }
+  return most_mm;
 }
 
 }  // namespace flank::internal

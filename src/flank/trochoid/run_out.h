@@ -20,4 +20,8 @@ struct RunOutDepth {
 /// not count.
 RunOutDepth join_run_outs(SidePath& a, SidePath& b, double radius_mm, const HalfGuard& guard, double allowed_mm);
 
+/// So far beyond an end a path enters no face by more than is allowed, nor deeper than its end does, mm; at most `most_mm`.
+[[nodiscard]] double free_run_out(const SidePath& path, bool end, double most_mm, const HalfGuard& guard,
+                                  double allowed_mm);
+
 }  // namespace flank::internal
