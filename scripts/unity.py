@@ -88,7 +88,8 @@ def used_names(file):
 def local_names(file):
     """Constants and types inside functions and classes, which may not hide one of another source."""
     text = file.read_text()
-    return set(re.findall(r"^ +(?:static )?(?:constexpr|const) [^=({]*?\b(k[A-Z]\w*)", text, re.MULTILINE)) | set(
+    constants = re.findall(r"^ +(?:static )?(?:constexpr|const) [^({;]*", text, re.MULTILINE)
+    return {name for line in constants for name in re.findall(r"\b(k[A-Z]\w*)", line)} | set(
         re.findall(r"^ +(?:struct|class|enum class|using) (\w+)(?= [={])", text, re.MULTILINE))
 
 
