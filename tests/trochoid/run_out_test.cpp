@@ -77,26 +77,6 @@ TEST_F(RunOutTest, RisesAtOnceWhereTheFloorDoes) {
   EXPECT_LE(deepest_of(b), 0.05);
 }
 
-TEST_F(RunOutTest, LeavesAFaceBesideTheAxisAcrossIt) {
-  // Behind the blade's end another face comes nearer from the side: to rise along the axis does not help.
-  Face beside = testing::quad(Vec3(46, -0.05, -20), Vec3(90, 15, -20), Vec3(46, -0.05, 80), Vec3(90, 15, 80), "F3");
-  const ObstacleField field(only({make_target({beside}), true}), *blade_, 2.0, 0.0);
-  const HalfGuard guard({{blade_.get()}, {&field}}, kTool);
-  SidePath a = leaning(kRadius, 0.0), b = leaning(19.0, 0.0);
-  const auto deepest_of = [&](const SidePath& path) {
-    GuardDepth depth;
-    for (double by = 0.0; by < 15.0; by += 0.1) {
-      const AxisPlace place = path.at(path.length() + by);
-      guard.look({place.tip, place.u}, 9, depth);
-    }
-    return depth.deepest();
-  };
-  join_run_outs(a, b, kRadius);
-  EXPECT_GT(deepest_of(a), 1.0);
-  EXPECT_EQ(join_run_outs(a, b, kRadius, guard, 0.06).end, 0.0);
-  EXPECT_LE(deepest_of(a), 0.07);
-}
-
 TEST_F(RunOutTest, AWallAcrossTheWayIsToldApartFromAHub) {
   Face wall = testing::quad(Vec3(50, -50, 0), Vec3(50, 50, 0), Vec3(50, -50, 60), Vec3(50, 50, 60), "F3");
   for (const bool oriented : {true, false}) {
