@@ -92,7 +92,7 @@ def main():
     if len(sys.argv) < 4:
         sys.exit(__doc__)
     flank, zoo, root = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
-    relations = sys.argv[4].split(",") if len(sys.argv) > 4 else []
+    relations = [word for word in sys.argv[4].split(",") if word != "none"] if len(sys.argv) > 4 else []
     names, seconds, worse = sys.argv[5:], [], 0
     for part, faces in FACES.items():
         chosen = [f for f in faces.split() if not names or part in names or f"{part}:{f}" in names]

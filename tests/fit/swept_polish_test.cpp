@@ -2,6 +2,7 @@
 // improves what it was given. The blades are flat or slightly twisted.
 #include "flank/fit/swept_polish.h"
 #include "flank/fit/coverage.h"
+#include "flank/fit/partial_polish.h"
 
 #include <gtest/gtest.h>
 
@@ -163,6 +164,35 @@ TEST(SweptPolish, NeverReturnsWorseThanItWasGiven) {
   EXPECT_EQ(measured.estimate.overcut_mm, after.estimate.overcut_mm);
 }
 
+TEST(PartialPolish, CoversMoreWhereOneStripCannotDoAllAndCutsNothing) {
+  constexpr double kTwisted = 30.0;
+  const auto target = twisted_blade(kTwisted);
+  FlankFitOptions options = small_options();
+  options.tolerance_mm = 0.004;
+  const auto samples = ranking_samples(*target, nullptr, options);
+  const Polished before =
+      swept_polish(assess(twisted_draft(*target, kTwisted, 0.0, true), samples, options), samples, options, nullptr);
+  ASSERT_LT(before.estimate.at_tolerance, 0.9) << "there must be something to give up";
+  ASSERT_GT(before.estimate.at_tolerance, 0.5);
+  const Polished after = partial_polish(before, samples, options, nullptr);
+  EXPECT_GT(after.estimate.at_tolerance, before.estimate.at_tolerance + 0.02);
+  EXPECT_LT(after.estimate.overcut_mm, std::max(options.tolerance_mm, before.estimate.overcut_mm));
+  EXPECT_GT(after.estimate.score(options.tolerance_mm), before.estimate.score(options.tolerance_mm));
+}
+
+TEST(PartialPolish, LeavesWhatIsCoveredAndWhatIsHopelessAlone) {
+  const auto target = twisted_blade(kLift);
+  const FlankFitOptions options = small_options();
+  const auto samples = ranking_samples(*target, nullptr, options);
+  Polished given = assess(twisted_draft(*target, kLift, 0.0, true), samples, options);
+  for (const double covered : {0.999, 0.3}) {
+    given.estimate.at_tolerance = covered;
+    const Polished same = partial_polish(given, samples, options, nullptr);
+    EXPECT_EQ(same.draft.motions.front().tip.poles, given.draft.motions.front().tip.poles) << covered;
+    EXPECT_EQ(same.draft.tool.parameters(), given.draft.tool.parameters()) << covered;
+  }
+}
+
 TEST(SweptPolish, AFirmPassLeavesOtherFacesAndASoftOneDoesNotQuite) {
   const auto blade = standing_blade(0.0);
   // A wall across the end of the blade: only the last poses meet it, against all the others that go on.
@@ -176,8 +206,8 @@ TEST(SweptPolish, AFirmPassLeavesOtherFacesAndASoftOneDoesNotQuite) {
   draft.motions = {upright_motion({.y = 4.0, .z = -1.0, .x_first = -2.0, .x_last = 56.0 + deep, .length = 42.0})};
   const auto depth = [](const FitDraft& d) { return flank_gouge(d.motions, d.obstacles, d.tool, 400); };
   ASSERT_NEAR(depth(draft), deep, 1e-6);
-  const double soft = depth(pass_at(draft, {}, small_options(), 1.0));
-  const double firm = depth(pass_at(draft, {}, small_options(), 100.0));
+  const double soft = depth(pass_at(draft, {}, small_options(), 1.0, 1.0));
+  const double firm = depth(pass_at(draft, {}, small_options(), 100.0, 1.0));
   EXPECT_LT(soft, deep);
   EXPECT_LT(firm, 0.5 * (soft + kToleranceBudget.others.fit_allowance * kTolerance)) << soft;
   EXPECT_LE(firm, kToleranceBudget.fit.clean * kTolerance) << soft;

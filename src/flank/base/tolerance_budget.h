@@ -67,6 +67,8 @@ struct FitBudget {
   /// Residuals below these count for nothing, so that a fit spends its freedom on what is near the tolerance: at points
   /// of the axis, and at points of the face, which see more. The rest is for what lies between the points.
   double dead_zone_axis = 0.7, dead_zone = 0.6;
+  /// The same where part of the face is given up: a place that is within the tolerance is as good as it gets.
+  double dead_zone_partial = 0.8;
   /// Overcut to which a free tool's radii are reduced: while candidates are compared, and of the chosen one, which is
   /// looked at with denser samples.
   double overcut = 0.95, settled_overcut = 0.92;

@@ -11,6 +11,7 @@
 #include "flank/base/stopping.h"
 #include "flank/base/tolerance_budget.h"
 #include "flank/fit/coverage.h"
+#include "flank/fit/partial_polish.h"
 #include "flank/fit/swept_polish.h"
 #include "flank/tool.h"
 #include "flank/tool/smooth_tool.h"
@@ -231,7 +232,8 @@ Polished mended(const Polished& polished, const std::vector<SurfaceSample>& samp
     const std::vector<Vec3> deep = cut_deeper_than(kToleranceBudget.fit.settled_overcut * tolerance, samples,
                                                    best.draft.motions, best.draft.tool, kRankingPoses);
     if (best.estimate.gouge_mm > kToleranceBudget.fit.clean * tolerance) firmness *= kFirmer;
-    Polished trial = seen_closely(pass_at(best.draft, deep, options, firmness), samples, options);
+    Polished trial =
+        seen_closely(pass_at(best.draft, deep, options, firmness, best.estimate.at_tolerance), samples, options);
     if (!is_better(trial.estimate, best.estimate, tolerance)) return best;
     best = std::move(trial);
   }
@@ -269,7 +271,7 @@ Polished made_legitimate(const Polished& polished, const std::vector<SurfaceSamp
   smooth(polished.draft);
   const bool costs = best.estimate.at_tolerance < polished.estimate.at_tolerance - kSameCoverage;
   if ((costs || !is_clean(best.estimate, options.tolerance_mm)) && !stopping())
-    smooth(pass_at(polished.draft, {}, options, 1.0));
+    smooth(pass_at(polished.draft, {}, options, 1.0, polished.estimate.at_tolerance));
   return best;
 }
 

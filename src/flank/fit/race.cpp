@@ -10,6 +10,7 @@
 #include "flank/error.h"
 #include "flank/fit/coverage.h"
 #include "flank/fit/fit_record.h"
+#include "flank/fit/partial_polish.h"
 #include "flank/fit/swept_polish.h"
 #include "flank/fit/tried.h"
 #include "flank/tool/compliance.h"
@@ -186,6 +187,11 @@ Runner race(const std::vector<FitDraft>& starts, const std::vector<SurfaceSample
     sort_by_merit(runners, options);
   }
   Runner winner = std::move(runners.front());
+  if (!winner.enough)
+    advance(winner, progress, "partial passes", [&](Runner& next) {
+      next.polished = partial_polish(next.polished, samples, options, &next.trace);
+      settle_if_enough(next, samples, options);
+    });
   advance(winner, progress, "last digits", [&](Runner& next) { next = with_last_digits(next, samples, options); });
   winner.beaten = beaten_by_first(runners, options.bounds);
   return winner;

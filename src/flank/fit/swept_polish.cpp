@@ -4,139 +4,26 @@
 #include <array>
 #include <cmath>
 
-#include "flank/base/parallel.h"
 #include "flank/base/stopping.h"
 #include "flank/base/tolerance_budget.h"
 #include "flank/fit/model/constrained.h"
 #include "flank/fit/model/levenberg_marquardt.h"
+#include "flank/fit/swept_pass.h"
 #include "flank/motion/stagger.h"
 
 namespace flank::internal {
 namespace {
 
-/// What differs between the passes.
-struct Pass {
-  double dead_zone;     ///< in tolerances
-  double fairness;      ///< share of a tolerance's square (fairness_of)
-  double anchor;        ///< FitStage::transversal_anchor
-  int control_points;   ///< per rail
-  int coefficients;     ///< of a free tool
-  int iterations;       ///< at most
-  int points_per_side;  ///< of the target; the judge's samples are several times denser
-};
-
-/// Grid of the regularisers (the residuals are at points of the face), as the tolerance pass has it: 2.5 times for each
-/// of 48 control points.
-constexpr int kSamplesT = 120, kSamplesS = 36;
-
-/// Fairness of rails that a machine runs well, and of rails that only just do not wave: rails that bend by the target's
-/// size cost as much as a mean error of a tenth of the tolerance, and of 0.003 of it.
-constexpr double kFair = 1e-2, kSoft = 1e-5;
-
-/// The dead zone of most passes.
-constexpr double kWideZone = kToleranceBudget.fit.dead_zone;
-
-/// The first pass keeps the anchor of the passes at the axis. The others need none, because a motion that shrinks
-/// leaves points of the face uncovered; what is left of it fixes the timing, to which the swept distance is blind.
-constexpr double kFirstAnchor = 1e-2, kNoAnchor = 1e-7;
-
-/// First the change of residual, cheap: few points, few iterations, control points as after the tolerance pass.
-constexpr Pass kArrive = {.dead_zone = kWideZone,
-                          .fairness = kFair,
-                          .anchor = kFirstAnchor,
-                          .control_points = 32,
-                          .coefficients = 16,
-                          .iterations = 12,
-                          .points_per_side = 25};
-/// More control points, but fair. If that is enough, all later passes stay fair.
-constexpr Pass kFairRails = {.dead_zone = kWideZone,
-                             .fairness = kFair,
-                             .anchor = kNoAnchor,
-                             .control_points = 48,
-                             .coefficients = 24,
-                             .iterations = 25,
-                             .points_per_side = 30};
-/// If it is not, soft ones.
-constexpr Pass kSoftRails = {.dead_zone = kWideZone,
-                             .fairness = kSoft,
-                             .anchor = kNoAnchor,
-                             .control_points = 48,
-                             .coefficients = 24,
-                             .iterations = 40,
-                             .points_per_side = 30};
-/// The same on points dense enough (2,500) to see what 48 control points can do between them.
-constexpr Pass kDense = {.dead_zone = kWideZone,
-                         .fairness = kSoft,
-                         .anchor = kNoAnchor,
-                         .control_points = 48,
-                         .coefficients = 24,
-                         .iterations = 15,
-                         .points_per_side = 50};
-/// Half the dead zone: lowers the largest error (docs/algorithms/fit.md).
-constexpr Pass kNarrow = {.dead_zone = 0.5 * kWideZone,
-                          .fairness = kSoft,
-                          .anchor = kNoAnchor,
-                          .control_points = 48,
-                          .coefficients = 24,
-                          .iterations = 15,
-                          .points_per_side = 50};
-/// No dead zone: plain least squares, which lowers the mean error where nothing more is to be covered.
-constexpr Pass kMean = {.dead_zone = 0.0,
-                        .fairness = kSoft,
-                        .anchor = kNoAnchor,
-                        .control_points = 48,
-                        .coefficients = 24,
-                        .iterations = 12,
-                        .points_per_side = 50};
-constexpr std::array<Pass, 6> kPasses = {kArrive, kFairRails, kSoftRails, kDense, kNarrow, kMean};
+/// In the order of their passes.
+constexpr std::array<SweptPass, 6> kPasses = {kArrive, kFairRails, kSoftRails, kDense, kNarrow, kMean};
 
 /// If fair rails cover this much, none are made softer: a machine runs them better, and what softness could gain is 4
 /// of the 2,000 samples that rank drafts.
 constexpr double kFairCovers = 0.998;
-/// If less is covered, the pass without a dead zone is left out: it gives up coverage for the mean.
-constexpr double kCovered = 0.995;
 /// Overcut below this share of the diagonal is settled: the constrained pass would not improve it, whose own fairness
 /// of kConstrainedFairness costs residuals of that size: sqrt(fairness) D / (kSamplesT - 1)^2 = 7e-7 D.
 constexpr double kSettledOvercutShare = 1e-6;
 constexpr double kConstrainedFairness = 1e-4;
-
-/// What the passes have in common.
-FitStage swept_stage(const Pass& pass, const FlankFitOptions& options, double size_mm) {
-  /// A slide of 1 mm costs as much as a mean error of 1e-4 mm: it decides only what the face leaves open, as the slide
-  /// of a cone on itself.
-  constexpr double kAxialPin = 1e-8;
-  /// A second difference of 1 mm between a free tool's coefficients costs as much as a mean error of a tenth of the
-  /// tolerance. Where the tool touches nothing it goes on as it came; where it touches, this is far below what the face
-  /// asks.
-  constexpr double kToolFairness = 1e-2;
-  /// In tolerances. At this distance material left has a quarter of its weight: what a strip cannot reach must not pull
-  /// it off what it can.
-  constexpr double kOutOfSight = 20.0;
-  /// Overcut of one length costs as much as material left of two: what is left can be finished by hand, what is cut is
-  /// gone.
-  constexpr double kOvercutWeight = 4.0;
-  /// Where two places of the motion are equally near the cost has kinks, and a minimum is crept to: the last digits are
-  /// not worth the contacts.
-  constexpr double kStepTolerance = 3e-4;
-  FitStage stage;
-  stage.samples_t = kSamplesT;
-  stage.samples_s = kSamplesS;
-  stage.control_points = pass.control_points;
-  stage.tool_coefficients = pass.coefficients;
-  stage.iterations = pass.iterations;
-  stage.fairness = fairness_of(pass.fairness, options.tolerance_mm, size_mm, kSamplesT);
-  stage.transversal_anchor = pass.anchor;
-  stage.axial_pin = kAxialPin;
-  stage.tool_fairness = kToolFairness * options.tolerance_mm * options.tolerance_mm;
-  stage.dead_zone_mm = pass.dead_zone * options.tolerance_mm;
-  stage.robust_scale_mm = kOutOfSight * options.tolerance_mm;
-  stage.overcut_weight = kOvercutWeight;
-  keep_going(stage, options.tolerance_mm, size_mm);
-  stage.step_tolerance = kStepTolerance;
-  return stage;
-}
-
-ReachLimits reach_of(const FlankFitOptions& options) { return {reach_radius(options), options.tolerance_mm}; }
 
 /// Least r(s). The parameters of a family may leave it without a value past what touches the face: then the least of
 /// those that it has, by samples, because it only sets a margin.
@@ -151,53 +38,16 @@ double smallest_radius(const RadialFunction& tool) {
 
 }  // namespace
 
-std::vector<FacePoint> target_points(const FitDraft& draft, int per_side, const ReachLimits& reach) {
-  const std::vector<const Target*> targets = distinct_targets(draft);
-  double area = 0.0;
-  for (const Target* target : targets) area += target->area();
-  std::vector<FacePoint> points;
-  for (const Target* target : targets) {
-    const double spacing = std::sqrt(target->area()) / per_side;
-    std::vector<SurfaceSample> samples = target->samples(spacing);
-    // The samples are middles of cells; a tool cuts deepest at the rim. A rim point stands for half a cell.
-    constexpr double kRimCell = 0.5;  // of a cell's area
-    for (const Vec3& point : target->border_points(spacing))
-      samples.push_back({point, target->closest(point).normal, kRimCell * spacing * spacing});
-    const std::size_t first = points.size();
-    points.resize(first + samples.size());
-    const ObstacleField* obstacles = obstacles_of(draft, target);
-    parallel_for(samples.size(), [&](std::size_t k) {
-      const bool out = obstacles != nullptr && !obstacles->reachable(samples[k], reach.radius_mm, reach.depth_mm);
-      points[first + k] = {samples[k].point, samples[k].area / area,
-                           out ? FacePoint::Role::kOutOfReach : FacePoint::Role::kTouch};
-    });
-  }
-  return points;
-}
-
-FitDraft run_swept(const FitDraft& draft, const RadiusBounds& bounds, const FitStage& stage,
-                   std::vector<FacePoint> points, std::vector<IterationTrace>* trace) {
-  FitDraft next;
-  FitState start = start_state(draft, stage, next);
-  const SweptModel model(std::move(points), draft.targets, start, next.free_parameters, bounds, stage_of(draft, stage),
-                         draft.obstacles);
-  MinimiseResult result = levenberg_marquardt(model, std::move(start));
-  if (trace) trace->insert(trace->end(), result.trace.begin(), result.trace.end());
-  next.motions = std::move(result.state.motions);
-  next.tool = result.state.tool;
-  return next;
-}
-
 Polished swept_polish(const Polished& polished, const std::vector<SurfaceSample>& samples,
                       const FlankFitOptions& options, std::vector<IterationTrace>* trace) {
   Polished best = polished;
   const double size = best.draft.targets.front()->diagonal();
   bool fair = false;  // fair rails are enough
-  for (Pass pass : kPasses) {
+  for (SweptPass pass : kPasses) {
     if (stopping()) break;
     if (pass.fairness == kSoft && fair) pass.fairness = kFair;
     // The last one lowers what is left of the mean, if nothing more is to be covered.
-    if (pass.dead_zone == 0.0 && best.estimate.at_tolerance < kCovered) continue;
+    if (pass.dead_zone == 0.0 && best.estimate.at_tolerance < kAllButCovered) continue;
     const std::vector<FacePoint> points = target_points(best.draft, pass.points_per_side, reach_of(options));
     Polished trial = assess(run_swept(best.draft, options.bounds, swept_stage(pass, options, size), points, trace),
                             samples, options);
@@ -283,18 +133,6 @@ Polished straightened(const Polished& polished, double least_coverage, const std
     best.exact = false;
   }
   return best;
-}
-
-FitDraft pass_at(const FitDraft& draft, const std::vector<Vec3>& deep, const FlankFitOptions& options,
-                 double firmness) {
-  std::vector<FacePoint> points = target_points(draft, kDense.points_per_side, reach_of(options));
-  const double share = 1.0 / static_cast<double>(points.size());
-  for (const Vec3& place : deep) points.push_back({place, share, FacePoint::Role::kTouch});
-  FitStage stage = swept_stage(kDense, options, draft.targets.front()->diagonal());
-  stage.bounds_at_knots = true;
-  stage.clear_weight *= firmness;
-  if (firmness > 1.0) stage.clear_stride = 1;
-  return run_swept(draft, options.bounds, stage, std::move(points), nullptr);
 }
 
 FitDraft steady_pass(const FitDraft& draft, const FlankFitOptions& options, double firmness) {
