@@ -229,28 +229,55 @@ bool is_sheet(const Setup& setup) {
                                              [&](int face) { return !setup.part.faces[face].of_solid; });
 }
 
-/// What a side of a sheet promises: the score of the best quick fit of one strip, polished.
-double scout(const FitJob& job, const Setup& setup, const ToolSpec& spec, int side, const Progress& progress) {
+/// A side of a sheet: its first group, with the obstacles that lie there.
+struct SheetSide {
   FitSearch search;
-  search.targets = make_targets(setup, side);
-  const TargetGroup& group = search.targets.front();
-  const ToolModel tool = make_tool_model(spec, job.tool.axis_length_mm);
-  FlankFitOptions options = options_of(job, *group.target, tool.free());
+  FlankFitOptions options;
+  double reachable = 1.0;  ///< share of the group's area
+};
+
+SheetSide look_at_side(const FitJob& job, const Setup& setup, const ToolModel& tool, int side) {
+  SheetSide look;
+  look.search.targets = make_targets(setup, side);
+  const TargetGroup& group = look.search.targets.front();
+  look.options = options_of(job, *group.target, tool.free());
   if (job.avoid)
-    add_group_obstacles(setup, job.obstacles.clearance_mm, options.bounds.largest, search.targets, search.fit.notes);
-  options.obstacles = group.obstacles.get();
-  options.ways = false;
-  options.kept_after_quick = options.kept_after_polish = 1;
-  options.least_coverage_for_last_passes = 2.0;  // none
-  return fit_automatic(*group.target, tool, options, progress).after.score(job.tolerance_mm);
+    add_group_obstacles(setup, job.obstacles.clearance_mm, look.options.bounds.largest, look.search.targets,
+                        look.search.fit.notes);
+  look.options.obstacles = group.obstacles.get();
+  look.reachable = reachable_share(*group.target, look.options);
+  return look;
 }
 
-/// A sheet can be machined from either side: first from the one that promises more. From the other, too, where that one
-/// does not give what was asked and the other is not far behind.
+/// What a side promises: the score of the best quick fit of one strip, polished.
+double scout(const SheetSide& side, const ToolModel& tool, const Progress& progress) {
+  const Target& target = *side.search.targets.front().target;
+  return fit_automatic(target, tool, hardly_worth_it(side.options), progress).after.score(side.options.tolerance_mm);
+}
+
+/// The side of which other faces hide far less than of the other (the outside of a thin blade); 0 where neither is.
+int side_in_the_open(const SheetSide& plus, const SheetSide& minus) {
+  constexpr double kFarLess = 0.5;  // of the reachable share
+  if (minus.reachable < kFarLess * plus.reachable) return +1;
+  return plus.reachable < kFarLess * minus.reachable ? -1 : 0;
+}
+
+/// A sheet can be machined from either side: from the one in the open, if one is; else first from the one that promises
+/// more. From the other, too, where that one does not give what was asked and the other is not far behind.
 FitSearch search_sheet(const FitJob& job, const Setup& setup, const ToolSpec& spec, const Progress& progress) {
   constexpr double kNotFar = 0.3;  // of the score, about a share of coverage
-  const double plus = scout(job, setup, spec, +1, progress.part(0.0, 0.1));
-  const double minus = scout(job, setup, spec, -1, progress.part(0.1, 0.2));
+  const ToolModel tool = make_tool_model(spec, job.tool.axis_length_mm);
+  const SheetSide above = look_at_side(job, setup, tool, +1), below = look_at_side(job, setup, tool, -1);
+  if (const int open = side_in_the_open(above, below); open != 0) {
+    FitSearch only = search_side(job, setup, spec, {}, open, progress);
+    only.fit.notes.push_back(fmt::format(
+        "open sheet: side {} was chosen; of the other, other faces leave {:.0f} % to be reached, of this one {:.0f} %",
+        open > 0 ? "+" : "-", 100.0 * std::min(above.reachable, below.reachable),
+        100.0 * std::max(above.reachable, below.reachable)));
+    return only;
+  }
+  const double plus = scout(above, tool, progress.part(0.0, 0.1));
+  const double minus = scout(below, tool, progress.part(0.1, 0.2));
   int side = plus >= minus ? +1 : -1;
   FitSearch best = search_side(job, setup, spec, {}, side, progress.part(0.2, 0.8));
   const bool done = is_done(best.fit, job.judge.least_coverage, job.tolerance_mm) || progress.stop();
