@@ -11,6 +11,7 @@
 #include "flank/base/tolerance_budget.h"
 #include "flank/error.h"
 #include "flank/job/check_fields.h"
+#include "flank/pipeline/cavity_notes.h"
 #include "flank/pipeline/finish.h"
 #include "flank/pipeline/folder/judge_job.h"
 #include "flank/pipeline/run_fit.h"
@@ -24,6 +25,7 @@
 #include "flank/toolbox/tool_model.h"
 #include "flank/trochoid/program.h"
 #include "flank/trochoid/sides/side_fit.h"
+#include "flank/trochoid/sides/side_room.h"
 
 namespace flank::internal {
 namespace {
@@ -151,34 +153,6 @@ TrochoidSummary summary_of(const TrochoidJob& job, const SideFit& sides, const C
   return out;
 }
 
-std::string ends_of(const CavityProgram& program) {
-  if (program.walled_start)
-    return "walls close the cavity at both ends: cycles start and end before them, opened from above";
-  if (program.walled_end)
-    return "a wall closes the cavity at the end: cycles start outside of the blank and end before it";
-  return "the cavity is taken as open at both ends: cycles start and end outside of the blank";
-}
-
-void note_what_is_open(const TrochoidJob& job, const CavityProgram& program, std::vector<std::string>& notes) {
-  for (std::size_t k = 0; k < program.layers.size(); ++k) {
-    const PlannedLayer& layer = program.layers[k];
-    if (layer.no_way_in)
-      notes.push_back(fmt::format("layer {}: no {} between the sides is free of faces: it has no way in", k + 1,
-                                  job.cycles.entry == "plunge" ? "row of plunges" : "ramp"));
-    else if (layer.cycles.status == CycleStatus::kStuck)
-      notes.push_back(fmt::format("layer {}: no step is possible within {} degrees: a step of {:.4f} mm exceeds them",
-                                  k + 1, job.cycles.most_engagement_deg, layer.cycles.stuck_step_mm));
-    if (layer.share < 1.0)
-      notes.push_back(
-          fmt::format("layer {}: cleared and finished over {:.1f} % of the way of its sides; the rest is left", k + 1,
-                      100.0 * layer.share));
-    if (layer.entered_mm() > job.tolerance_mm)
-      notes.push_back(fmt::format("layer {}: a half path enters a face by {:.4f} mm, by the planner's samples", k + 1,
-                                  layer.entered_mm()));
-  }
-  notes.push_back(ends_of(program));
-}
-
 /// Tool, path and figures of a plan.
 void take(const CavityPlan& plan, const TrochoidJob& job, const ToolSpec& spec, const CavityFaces& faces,
           Result& result) {
@@ -253,6 +227,10 @@ Result run_trochoid(const TrochoidJob& job, const Progress& asked) {
   judge_result(setup, scene, {}, result, watch);
   replay(setup, job, plan.program.blank, result);
   watch.lap("stock");
+  const FlankFitResult& sides = plan.sides.fit;
+  note_own_reach(job, reach_of_tool(side_of(faces.sides[0]), side_of(faces.sides[1]), sides.motions, sides.tool),
+                 result);
+  note_nearest(result);
   if (!result.complete) result.journal = progress.journal;
   return result;
 }

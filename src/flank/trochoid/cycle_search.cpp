@@ -48,6 +48,11 @@ void code(StepCodec& codec, Trial& trial) {
 
 }  // namespace
 
+void code(StepCodec& codec, RefusedStep& step) {
+  codec.finite(step.step_mm);
+  codec.finite(step.largest_rad);
+}
+
 void code(StepCodec& codec, CycleState& state) {
   code(codec, state.last);
   for (double& share : state.shape.share) codec.finite(share);
@@ -55,6 +60,7 @@ void code(StepCodec& codec, CycleState& state) {
   code(codec, state.rest);
   code(codec, state.turn);
   code(codec, state.improved);
+  code(codec, state.short_rest);
   for (double* value : {&state.excess_rad, &state.step_mm, &state.lift_mm, &state.largest_front_mm3})
     codec.finite(*value);
   code(codec, state.sweeps);
@@ -80,10 +86,14 @@ void CycleSearch::reset_shape() {
   now_.shape = usual.shape;
   now_.span = usual.span;
   now_.rest = usual.rest;
-  now_.turn = 0, now_.improved = 0;
+  now_.turn = 0, now_.improved = 0, now_.short_rest = 0;
   now_.excess_rad = 0.0;
   now_.step_mm = 0.2 * radius_;
   now_.lift_mm = 0.0;
+}
+
+void CycleSearch::refuse(double step_mm, double largest_rad) {
+  if (refused_.largest_rad == 0.0 || largest_rad < refused_.largest_rad) refused_ = {step_mm, largest_rad};
 }
 
 double CycleSearch::aim() const { return options_.largest_rad - std::max(kSearchMargin, now_.excess_rad); }
@@ -182,7 +192,7 @@ Trial CycleSearch::longest_step(const CycleShape& shape, double guess) {
       if (best.largest_rad > aim() - kAimBand || step >= most) break;
     } else {
       high = step, high_depth = depth;
-      refused_ = step;
+      refuse(step, trial.largest_rad);
     }
     if (high == 0.0) {
       step = std::min(most, step * std::clamp(goal / low_depth, 1.02, 1.8));
@@ -277,6 +287,17 @@ void CycleSearch::reshape(Trial& best) {
   }
 }
 
+void CycleSearch::reshape_short(Trial& best) {
+  constexpr double kGain = 1.05;
+  if (now_.short_rest > 0) {
+    --now_.short_rest;
+    return;
+  }
+  const double before = best.worth();
+  reshape(best);
+  if (best.worth() < kGain * before) now_.short_rest = kRest;
+}
+
 GuardDepth CycleSearch::depth_of(const Trial& trial, int times, int places) const {
   GuardDepth out = guard_.depth(trial.front, times, places);
   if (trial.back) out.add(guard_.depth(*trial.back, times, places));
@@ -317,11 +338,14 @@ void CycleSearch::lift(Trial& best) {
 }
 
 Trial CycleSearch::best(bool improving) {
+  refused_ = {};
   // No more lift than this cycle needs: the floor may fall again.
   now_.lift_mm = now_.lift_mm > kLeastLiftMm ? 0.5 * now_.lift_mm : 0.0;
   Trial best = longest_step(now_.shape, now_.step_mm);
-  if (best.largest_rad < 0.0 || best.from_x - now_.last.from_x < kShortStep * radius_ || enters_anything(best))
+  if (best.largest_rad < 0.0 || enters_anything(best))
     reshape(best);
+  else if (best.from_x - now_.last.from_x < kShortStep * radius_)
+    reshape_short(best);
   if (improving) improve(best);
   if (options_.strategy == CycleStrategy::kAdjusted) adjust(best);
   if (best.from_x - now_.last.from_x < least_step()) best.largest_rad = -1.0;

@@ -47,6 +47,12 @@ struct Trial {
   [[nodiscard]] double worth() const { return way_mm > 0.0 ? volume_mm3 / way_mm : 0.0; }
 };
 
+/// A step that was too long, and its engagement.
+struct RefusedStep {
+  double step_mm = 0.0, largest_rad = 0.0;
+};
+void code(StepCodec& codec, RefusedStep& step);
+
 /// What the next cycle is planned from.
 struct CycleState {
   Trial last;
@@ -55,7 +61,8 @@ struct CycleState {
   std::array<double, 7> span = {0.05, 0.05, 0.08, 0.05, 0.05, 0.08, 0.05};
   std::array<int, 7> rest = {};  ///< turns for which a share is left alone
   std::size_t turn = 0;
-  int improved = 0;  ///< cycles whose shape was searched
+  int improved = 0;    ///< cycles whose shape was searched
+  int short_rest = 0;  ///< cycles with short steps for which no other front is looked for: the last look gained nothing
   /// By which fine samples are expected to see more engagement than those of the search, radians.
   double excess_rad = 0.0;
   double step_mm = 0.0, lift_mm = 0.0;
@@ -93,9 +100,10 @@ class CycleSearch {
   [[nodiscard]] bool enters_anything(const Trial& trial) const;
   /// The engagement that a search may see, so that fine samples see no more than the limit, radians.
   [[nodiscard]] double aim() const;
-  /// The last step that was too long, mm.
-  [[nodiscard]] double refused() const { return refused_; }
-  void set_refused(double step_mm) { refused_ = step_mm; }
+  /// Of the steps that were too long since the last cycle was looked for, the one that engages least.
+  [[nodiscard]] const RefusedStep& refused() const { return refused_; }
+  void set_refused(const RefusedStep& step) { refused_ = step; }
+  void refuse(double step_mm, double largest_rad);
 
  private:
   [[nodiscard]] AxisPlace start(const Trial& t) const { return sides_.from.at(t.from_x); }
@@ -121,6 +129,8 @@ class CycleSearch {
   /// Of fronts from flat to steep, those that enter no face first, then the worthiest.
   [[nodiscard]] std::vector<Prospect> prospects();
   void reshape(Trial& best);
+  /// The same for a step that is only short: not at every cycle where that gains nothing.
+  void reshape_short(Trial& best);
   /// A longer step whose front is moved back where the engagement is above the aim, if that succeeds.
   void adjust(Trial& best);
   /// Lifts the inner points of both halves for as long as their tips enter something, if that helps.
@@ -136,7 +146,8 @@ class CycleSearch {
   EngagementMeter meter_;
   std::vector<ToolRing> rings_;
   SidePairing pairing_;
-  double radius_ = 0.0, refused_ = 0.0;
+  double radius_ = 0.0;
+  RefusedStep refused_;
   CycleState now_;
 };
 

@@ -61,13 +61,13 @@ void code(StepCodec& codec, Half& half) {
 struct CycleStep {
   std::optional<Cycle> cycle;  ///< none: none gets on
   CycleState now;
-  double refused_mm = 0.0;
+  RefusedStep refused;
 };
 
 void code(StepCodec& codec, CycleStep& step) {
   code(codec, step.cycle);
   code(codec, step.now);
-  codec.number(step.refused_mm);
+  code(codec, step.refused);
 }
 
 class CyclePlanner {
@@ -87,7 +87,7 @@ class CyclePlanner {
  private:
   [[nodiscard]] Half accepted(const RuledMotion& motion);
   /// Whether so much engagement is above the limit, where a search saw less: the next one then aims lower.
-  [[nodiscard]] bool is_too_much(double largest_rad, double searched_rad);
+  [[nodiscard]] bool is_too_much(double largest_rad, const Trial& searched);
   [[nodiscard]] bool accept(Trial trial, LayerCycles& out);
   /// The trial, or one with a smaller aim where its fine measure is above the limit; none that enters a face, unless the
   /// trial does.
@@ -130,9 +130,10 @@ Half CyclePlanner::accepted(const RuledMotion& motion) {
   return half;
 }
 
-bool CyclePlanner::is_too_much(double largest_rad, double searched_rad) {
+bool CyclePlanner::is_too_much(double largest_rad, const Trial& searched) {
   if (largest_rad <= options_.largest_rad) return false;
-  now_.excess_rad = std::max(now_.excess_rad + kLeastLess, 1.05 * (largest_rad - searched_rad));
+  search_.refuse(searched.from_x - now_.last.from_x, largest_rad);
+  now_.excess_rad = std::max(now_.excess_rad + kLeastLess, 1.05 * (largest_rad - searched.largest_rad));
   return true;
 }
 
@@ -144,12 +145,12 @@ bool CyclePlanner::accept(Trial trial, LayerCycles& out) {
   if (trial.back) {
     cycle.back = accepted(*trial.back);
     largest = cycle.back->peak.angle_rad;
-    if (is_too_much(largest, trial.largest_rad)) return false;
+    if (is_too_much(largest, trial)) return false;
     stock_.add(Sweep::of(*trial.back, kHalfIntervals));
   }
   cycle.front = accepted(trial.front);
   largest = std::max(largest, cycle.front.peak.angle_rad);
-  if (is_too_much(largest, trial.largest_rad)) {
+  if (is_too_much(largest, trial)) {
     if (trial.back) stock_.remove_last();
     return false;
   }
@@ -238,7 +239,7 @@ bool CyclePlanner::next_cycle(LayerCycles& out, const Progress& progress) {
     CycleStep step;
     if (add_cycle(out)) step.cycle = out.cycles.back();
     step.now = now_;
-    step.refused_mm = search_.refused();
+    step.refused = search_.refused();
     return step;
   };
   CycleStep step = journaled(progress, "cycle", search, now_);
@@ -248,7 +249,7 @@ bool CyclePlanner::next_cycle(LayerCycles& out, const Progress& progress) {
     out.cycles.push_back(std::move(*step.cycle));
   }
   now_ = std::move(step.now);
-  search_.set_refused(step.refused_mm);
+  search_.set_refused(step.refused);
   return found;
 }
 
@@ -311,7 +312,7 @@ LayerCycles CyclePlanner::run(const std::optional<FirstFront>& first, const Prog
     if (now_.last.from_x > farthest_x) {
       farthest_x = now_.last.from_x;
       farthest = out;
-      farthest.stuck_step_mm = search_.refused();
+      farthest.stuck = search_.refused();
     }
     if (rewind(out)) continue;
     farthest.status = ends_at_wall(kBeforeWall, farthest) ? CycleStatus::kDone : CycleStatus::kStuck;
@@ -337,7 +338,7 @@ void code(StepCodec& codec, Cycle& cycle) {
 void code(StepCodec& codec, LayerCycles& layer) {
   code_choice(codec, layer.status, 4);
   code(codec, layer.cycles);
-  codec.number(layer.stuck_step_mm);
+  code(codec, layer.stuck);
   codec.number(layer.before_wall_mm);
 }
 

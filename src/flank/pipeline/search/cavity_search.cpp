@@ -6,6 +6,7 @@
 
 #include "flank/base/tolerance_budget.h"
 #include "flank/tool.h"
+#include "flank/trochoid/sides/side_room.h"
 
 namespace flank::internal {
 namespace {
@@ -17,18 +18,35 @@ constexpr double kBegin = 0.92, kStout = 0.55, kThin = 0.3;
 constexpr int kMostLayers = 5;
 /// How often cycles are taken back where none gets on (CycleOptions::most_rewinds).
 constexpr int kFewRewinds = 3, kMostRewinds = 6;
+/// Depths in faces that differ by less than this share are alike.
+constexpr double kSameDepth = 0.2;
+/// Diameters of way across, least_way_across: below, cycles crawl and get stuck, however wide the cavity is elsewhere.
+constexpr double kLeastWay = 0.3;
 
-bool sides_are_done(const SideFit& sides, const CavityFaces& faces, const TrochoidJob& job) {
-  const CoverageEstimate& e = sides.fit.after;
-  if (sides.fit.motions.empty()) return false;
-  const double radius = job.judge.reach_radius_mm.value_or(sides.fit.tool.smallest());
-  const double reachable = reachable_share(side_of(faces.sides[0]), side_of(faces.sides[1]), radius);
-  return sides.fit.status == FitStatus::kWithinTolerance ||
-         (e.at_tolerance >= job.judge.least_coverage * reachable && e.overcut_mm <= job.tolerance_mm &&
-          e.gouge_mm <= job.tolerance_mm);
+double reach_of(const SideFit& sides, const CavityFaces& faces) {
+  return reach_of_tool(side_of(faces.sides[0]), side_of(faces.sides[1]), sides.fit.motions, sides.fit.tool);
 }
 
-/// As many layers as the tolerance needs, or as many as are asked for.
+/// How far sides are from what is asked.
+enum class SideState {
+  kShort,       ///< another fit may cover more
+  kObstructed,  ///< all but what other faces keep from a tool of these radii: no fit mends that
+  kDone,
+};
+
+SideState state_of(const SideFit& sides, const CavityFaces& faces, const TrochoidJob& job) {
+  const CoverageEstimate& e = sides.fit.after;
+  if (sides.fit.motions.empty()) return SideState::kShort;
+  if (sides.fit.status == FitStatus::kWithinTolerance) return SideState::kDone;
+  if (e.overcut_mm > job.tolerance_mm || e.gouge_mm > job.tolerance_mm) return SideState::kShort;
+  const double radius = job.judge.reach_radius_mm.value_or(sides.fit.tool.smallest());
+  const double least = job.judge.least_coverage;
+  if (e.at_tolerance >= least * reachable_share(side_of(faces.sides[0]), side_of(faces.sides[1]), radius))
+    return SideState::kDone;
+  return e.at_tolerance >= least * reach_of(sides, faces) ? SideState::kObstructed : SideState::kShort;
+}
+
+/// As many layers as the tolerance needs, or as many as are asked for: not those that cannot help.
 SideFit search_sides(const TrochoidJob& job, const CavityFaces& faces, const ToolModel& tool, SideFitOptions options,
                      const Progress& progress) {
   const CavitySide left = side_of(faces.sides[0]), right = side_of(faces.sides[1]);
@@ -39,9 +57,9 @@ SideFit search_sides(const TrochoidJob& job, const CavityFaces& faces, const Too
     SideFit tried = fit_sides(left, right, tool, options, progress);
     const bool better = best.fit.motions.empty() ||
                         tried.fit.after.score(job.tolerance_mm) > best.fit.after.score(job.tolerance_mm) + 0.002;
-    const bool done = sides_are_done(tried, faces, job);
+    const bool ends = last > first && state_of(tried, faces, job) != SideState::kShort;
     if (better) best = std::move(tried);
-    if (done || !better || progress.stop()) break;
+    if (ends || !better || progress.stop()) break;
   }
   return best;
 }
@@ -86,47 +104,60 @@ bool gets_through(const CavityPlan& plan, double tolerance) {
 
 /// Of the way of the sides, how much the cycles cleared: mean over the layers.
 double cleared(const CavityPlan& plan) {
-  if (plan.program.done()) return 1.0;
   double sum = 0.0;
   for (const PlannedLayer& layer : plan.program.layers) sum += layer.share;
   return sum / static_cast<double>(std::max<std::size_t>(2, plan.sides.fit.motions.size()) / 2);
 }
 
-/// What is better comes first: cycles that get through, then what they let the sides cover, then sides.
+/// What is better comes first: cycles that get through, then what they let the sides cover, then what enters faces less
+/// deep, then sides.
 bool is_better(const CavityPlan& a, const CavityPlan& b, double tolerance) {
   if (a.sides.fit.motions.empty() != b.sides.fit.motions.empty()) return b.sides.fit.motions.empty();
   if (gets_through(a, tolerance) != gets_through(b, tolerance)) return gets_through(a, tolerance);
   if (a.program.done() != b.program.done()) return a.program.done();
   const double finished_a = cleared(a) * a.sides.fit.after.at_tolerance;
   const double finished_b = cleared(b) * b.sides.fit.after.at_tolerance;
-  if (!a.program.done() && finished_a != finished_b) return finished_a > finished_b;
+  if ((!a.program.done() || cleared(a) != cleared(b)) && finished_a != finished_b) return finished_a > finished_b;
+  const double deep_a = a.program.entered_mm(), deep_b = b.program.entered_mm();
+  if (!gets_through(a, tolerance) && std::abs(deep_a - deep_b) > kSameDepth * std::max(deep_a, deep_b))
+    return deep_a < deep_b;
   return a.sides.fit.after.score(tolerance) > b.sides.fit.after.score(tolerance);
 }
 
+/// What is left before a wall, because no step there keeps the limit, counts against what the tool can reach: a thinner one may
+/// get nearer to it.
 bool is_done(const CavityPlan& plan, const CavityFaces& faces, const TrochoidJob& job) {
-  return sides_are_done(plan.sides, faces, job) && gets_through(plan, job.tolerance_mm);
+  if (!gets_through(plan, job.tolerance_mm) || state_of(plan.sides, faces, job) == SideState::kShort) return false;
+  const double finished = cleared(plan) * plan.sides.fit.after.at_tolerance;
+  return cleared(plan) == 1.0 || finished >= job.judge.least_coverage * reach_of(plan.sides, faces);
 }
 
-/// Of one bound of radii: sides whose axes lean alike, whose cycles are fewer and shorter, else sides as they come. The long
-/// search for a way past a place where cycles get stuck comes last: the other sides may have no such place.
+CavityPlan planned(SideFit sides, const TrochoidJob& job, const CavityFaces& faces, double bound, int most_rewinds,
+                   const Progress& progress) {
+  CavityPlan out;
+  out.program = plan(job, faces, sides, most_rewinds, progress);
+  out.sides = std::move(sides);
+  out.largest_radius_mm = bound;
+  return out;
+}
+
+/// Of one bound of radii: sides whose axes lean alike, whose cycles are fewer and shorter; where they do not do what is asked,
+/// or cycles get stuck between them, sides as they come. No cycles for a tool that has hardly any way across, if a thinner one
+/// may be tried.
 CavityPlan search_ways(const TrochoidJob& job, const CavityFaces& faces, const ToolModel& tool, SideFitOptions options,
-                       const Progress& progress) {
+                       bool thinner, const Progress& progress) {
+  const double bound = options.fit.bounds.largest;
   const auto sides = [&](bool facing) {
     options.facing = facing;
     return search_sides(job, faces, tool, options, progress);
   };
-  const auto planned = [&](SideFit of, int most_rewinds) {
-    CavityPlan out;
-    out.program = plan(job, faces, of, most_rewinds, progress);
-    out.sides = std::move(of);
-    out.largest_radius_mm = options.fit.bounds.largest;
-    return out;
-  };
-  CavityPlan facing = planned(sides(true), kFewRewinds);
+  SideFit alike = sides(true);
+  if (thinner && least_way_across(alike.fit.motions, alike.fit.tool) < kLeastWay) return {std::move(alike), {}, bound};
+  CavityPlan facing = planned(std::move(alike), job, faces, bound, kFewRewinds, progress);
   if (is_done(facing, faces, job) || progress.stop()) return facing;
-  CavityPlan plain = planned(sides(false), kMostRewinds);
-  const bool stuck = !facing.program.done() && sides_are_done(facing.sides, faces, job);
-  if (stuck && !is_done(plain, faces, job) && !progress.stop()) facing = planned(std::move(facing.sides), kMostRewinds);
+  // What all cycles get past, but enters a face, is not the leans'.
+  if (facing.program.done() && state_of(facing.sides, faces, job) != SideState::kShort) return facing;
+  CavityPlan plain = planned(sides(false), job, faces, bound, kFewRewinds, progress);
   return is_better(plain, facing, job.tolerance_mm) ? plain : facing;
 }
 
@@ -147,20 +178,26 @@ CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const
   CavityPlan best;
   const bool given = !tool.free() && tool.radius;
   int tools = 0;
-  for (const double bound : bounds_of(job, faces.width)) {
+  const std::vector<double> bounds = bounds_of(job, faces.width);
+  for (const double bound : bounds) {
     SideFitOptions here = options;
     here.fit.bounds.largest = bound;
     here.fit.bounds.smallest = std::min(here.fit.bounds.smallest, 0.5 * here.fit.bounds.largest);
     const double radius = given ? *tool.radius : kBegin * here.fit.bounds.largest;
     here.starts = {{radius, kStout}};
     if (tool.free()) here.starts.push_back({radius, kThin});
-    CavityPlan tried = search_ways(job, faces, tool, here, progress);
+    CavityPlan tried = search_ways(job, faces, tool, here, !given && bound != bounds.back(), progress);
     const bool done = is_done(tried, faces, job);
     const bool better = ++tools == 1 || is_better(tried, best, job.tolerance_mm);
     if (better) best = std::move(tried);
     best.tools = tools;
-    // Thinner ones are slower, too: the search ends where they stop to gain.
-    if (done || given || !better || progress.stop()) break;
+    // Thinner ones are slower, too: the search ends where they stop to gain, once cycles get through.
+    if (done || given || (!better && best.program.done()) || progress.stop()) break;
+  }
+  // The long search for a way past a place where cycles get stuck comes last: another tool may have no such place.
+  if (!best.program.done() && !best.sides.fit.motions.empty() && !progress.stop()) {
+    CavityPlan tried = planned(best.sides, job, faces, best.largest_radius_mm, kMostRewinds, progress);
+    if (is_better(tried, best, job.tolerance_mm)) best.program = std::move(tried.program);
   }
   return best;
 }

@@ -1,0 +1,112 @@
+#include "flank/pipeline/cavity_notes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace flank::internal {
+namespace {
+
+constexpr double kRadian = 180.0 / std::numbers::pi;
+
+std::string ends_of(const CavityProgram& program) {
+  if (program.walled_start)
+    return "walls close the cavity at both ends: cycles start and end before them, opened from above";
+  if (program.walled_end)
+    return "a wall closes the cavity at the end: cycles start outside of the blank and end before it";
+  return "the cavity is taken as open at both ends: cycles start and end outside of the blank";
+}
+
+/// Up to two digits, not below the value.
+double rounded_up(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+  return std::ceil(value / unit - 1e-9) * unit;
+}
+
+std::string stuck_sentence(const TrochoidJob& job, const RefusedStep& refused) {
+  const double most = job.cycles.most_engagement_deg;
+  if (!(refused.largest_rad > 0.0)) return fmt::format("no step is possible within {} degrees", most);
+  return fmt::format(
+      "no step is possible within {} degrees: the one that exceeds them least, {:.4f} mm, engages {:.2f}; "
+      "--max-engagement {:.0f} gets past this place",
+      most, refused.step_mm, refused.largest_rad * kRadian, std::ceil(refused.largest_rad * kRadian + 0.5));
+}
+
+std::string rest_sentence(const TrochoidJob& job, const PlannedLayer& layer) {
+  const double cleared = 100.0 * layer.share, before = layer.cycles.before_wall_mm;
+  if (!(before > 0.0))
+    return fmt::format("cleared and finished over {:.1f} % of the way of its sides; the rest is left", cleared);
+  return fmt::format(
+      "cleared and finished over {:.1f} % of the way of its sides, up to {:.2f} mm before where the wall lets the tool "
+      "go: in its corners no step keeps to {} degrees",
+      cleared, before, job.cycles.most_engagement_deg);
+}
+
+/// Whether a looser request of coverage and tolerance is all that is missing.
+bool misses_by_figures(const Result& result, const Acceptance& acceptance) {
+  const StockReport* stock = result.verify.stock ? &*result.verify.stock : nullptr;
+  std::ptrdiff_t others = 0;
+  for (const Shortfall& reason : acceptance.reasons)
+    if (!reason.figure.starts_with("coverage") && !reason.figure.starts_with("overcut") &&
+        !reason.figure.starts_with("gouge"))
+      ++others;
+  const bool entered = stock != nullptr && stock->entered_mm > result.verify.tolerance_mm;
+  const auto of_stock = std::count_if(acceptance.reasons.begin(), acceptance.reasons.end(),
+                                      [](const Shortfall& reason) { return reason.figure == "stock"; });
+  return others == 0 || (others == 1 && of_stock == 1 && entered);
+}
+
+double deepest_of(const VerifyReport& report) {
+  const double depth = std::max(report.overcut_bound_mm, report.gouge_bound_mm);
+  return report.stock ? std::max(depth, report.stock->entered_mm) : depth;
+}
+
+}  // namespace
+
+void note_what_is_open(const TrochoidJob& job, const CavityProgram& program, std::vector<std::string>& notes) {
+  for (std::size_t k = 0; k < program.layers.size(); ++k) {
+    const PlannedLayer& layer = program.layers[k];
+    const auto add = [&](const std::string& text) { notes.push_back(fmt::format("layer {}: {}", k + 1, text)); };
+    if (layer.no_way_in)
+      add(fmt::format("no {} between the sides is free of faces: it has no way in",
+                      job.cycles.entry == "plunge" ? "row of plunges" : "ramp"));
+    else if (layer.cycles.status == CycleStatus::kStuck)
+      add(stuck_sentence(job, layer.cycles.stuck));
+    if (layer.share < 1.0) add(rest_sentence(job, layer));
+    if (layer.entered_mm() > job.tolerance_mm)
+      add(fmt::format("a half path enters a face by {:.4f} mm, by the planner's samples", layer.entered_mm()));
+  }
+  notes.push_back(ends_of(program));
+}
+
+void note_own_reach(const TrochoidJob& job, double own_reach, Result& result) {
+  const VerifyReport& report = result.verify;
+  const bool least_ball = !job.judge.reach_radius_mm && own_reach < report.reachable_share;
+  if (!result.complete || report.coverage_reachable >= job.judge.least_coverage || !least_ball || own_reach <= 0.0)
+    return;
+  result.notes.push_back(fmt::format(
+      "with the radius that it has at each place, {:.4g} to {:.4g} mm, the tool reaches {:.1f} % of the sides between "
+      "the "
+      "other faces, and finishes {:.1f} % of that; coverage counts what a ball of its least radius reaches, {:.1f} %",
+      result.tool.radial.smallest(), result.tool.radial.largest(), 100.0 * own_reach,
+      100.0 * std::min(1.0, report.coverage / own_reach), 100.0 * report.reachable_share));
+}
+
+void note_nearest(Result& result) {
+  const VerifyReport& report = result.verify;
+  const Acceptance acceptance = result.acceptance();
+  if (!result.complete || acceptance.pass() || !misses_by_figures(result, acceptance)) return;
+  const bool deep = deepest_of(report) > report.tolerance_mm;
+  const double proved =
+      deep ? report.coverage_reachable : report.coverage_reachable_bound.value_or(report.coverage_reachable);
+  const bool covers_less = std::any_of(acceptance.reasons.begin(), acceptance.reasons.end(),
+                                       [](const Shortfall& reason) { return reason.figure.starts_with("coverage"); });
+  std::string text = "nearest to what is asked, this result meets";
+  if (covers_less) text += fmt::format(" --coverage {:.2f}", std::floor(100.0 * proved) / 100.0);
+  if (deep) text += fmt::format(" --tolerance {:.4g}", rounded_up(deepest_of(report)));
+  result.notes.push_back(text);
+}
+
+}  // namespace flank::internal

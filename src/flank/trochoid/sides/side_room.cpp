@@ -1,0 +1,70 @@
+#include "flank/trochoid/sides/side_room.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "flank/envelope/swept_estimate.h"
+
+namespace flank::internal {
+namespace {
+
+constexpr int kPoses = 161;
+
+struct Count {
+  int reached = 0, all = 0;
+};
+
+Count reached_by(const CavitySide& side, const std::vector<RuledMotion>& motions, const RadialFunction& tool) {
+  Count out;
+  const SweptEstimate swept(motions, tool, kPoses);
+  for (const SurfaceSample& sample : side.target->samples(std::sqrt(side.target->area()) / 30.0)) {
+    ++out.all;
+    const SweptContact near = swept.nearest(sample.point);
+    const Pose pose = motions[static_cast<std::size_t>(std::max(0, near.motion))].pose(near.t);
+    const double s = std::clamp((sample.point - pose.tip).dot(pose.axis), 0.0, tool.axis_length());
+    if (side.obstacles == nullptr || side.obstacles->reachable(sample, tool.at(s).r, side.obstacles->allowance_mm()))
+      ++out.reached;
+  }
+  return out;
+}
+
+/// Of one layer, at one height.
+double way_across(const RuledMotion& left, const RuledMotion& right, double s) {
+  constexpr int kLeft = 24, kRight = 96;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= kLeft; ++i) {
+    const Vec3 from = left.pose(static_cast<double>(i) / kLeft).at(s);
+    for (int j = 0; j <= kRight; ++j)
+      least = std::min(least, (right.pose(static_cast<double>(j) / kRight).at(s) - from).norm());
+  }
+  return least;
+}
+
+}  // namespace
+
+double reach_of_tool(const CavitySide& left, const CavitySide& right, const std::vector<RuledMotion>& motions,
+                     const RadialFunction& tool) {
+  std::vector<RuledMotion> of_left, of_right;
+  for (std::size_t k = 0; k + 1 < motions.size(); k += 2) {
+    of_left.push_back(motions[k]);
+    of_right.push_back(motions[k + 1]);
+  }
+  if (of_left.empty()) return 0.0;
+  const Count a = reached_by(left, of_left, tool), b = reached_by(right, of_right, tool);
+  return a.all + b.all > 0 ? static_cast<double>(a.reached + b.reached) / (a.all + b.all) : 1.0;
+}
+
+double least_way_across(const std::vector<RuledMotion>& motions, const RadialFunction& tool) {
+  constexpr int kHeights = 8;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k + 1 < motions.size(); k += 2)
+    for (int j = 0; j <= kHeights; ++j) {
+      const double s = tool.axis_length() * j / kHeights;
+      least = std::min(least, way_across(motions[k], motions[k + 1], s) / (2.0 * tool.at(s).r));
+    }
+  return least;
+}
+
+}  // namespace flank::internal

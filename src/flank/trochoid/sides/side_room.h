@@ -1,0 +1,21 @@
+/// How much room the sides of a cavity leave to a tool: what it can reach of them, and how far it can go from one to the other.
+#pragma once
+
+#include <vector>
+
+#include "flank/radial_function.h"
+#include "flank/ruled_motion.h"
+#include "flank/trochoid/sides/side_fit.h"
+
+namespace flank::internal {
+
+/// Of samples of both sides, the share at which a ball fits between the other faces that has the radius of the tool at the
+/// height at which it comes nearest there. A ball of the tool's least radius fits at more places: beside a wall a tool that is
+/// thicker elsewhere ends before it. `motions`: of the left and the right side, in turn.
+[[nodiscard]] double reach_of_tool(const CavitySide& left, const CavitySide& right,
+                                   const std::vector<RuledMotion>& motions, const RadialFunction& tool);
+
+/// The way from one side to the other where it is shortest, over all heights, in diameters of the tool at that height.
+[[nodiscard]] double least_way_across(const std::vector<RuledMotion>& motions, const RadialFunction& tool);
+
+}  // namespace flank::internal

@@ -1,0 +1,76 @@
+// What is said of a cavity that misses its request: which one it would meet.
+#include "flank/pipeline/cavity_notes.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace flank::internal {
+namespace {
+
+/// A cavity that was cleared, of which a wall's corner is left.
+Result cleared() {
+  Result out;
+  out.job = TrochoidJob{};
+  TrochoidSummary cavity;
+  cavity.layers.emplace_back();
+  cavity.layers.back().status = "done";
+  out.plan = cavity;
+  out.tool.radial = RadialFunction(ToolFamily::kCone, 40.0, Eigen::Vector2d(2.0, 0.1));
+  out.verify.tolerance_mm = 0.01;
+  out.verify.coverage = 0.8;
+  out.verify.reachable_share = 0.85;
+  out.verify.coverage_reachable = 0.8 / 0.85;
+  return out;
+}
+
+TEST(CavityNotes, TheNearestRequestThatIsMetIsTold) {
+  Result result = cleared();
+  note_nearest(result);
+  EXPECT_EQ(result.notes, std::vector<std::string>{"nearest to what is asked, this result meets --coverage 0.94"});
+}
+
+TEST(CavityNotes, OfWhatIsTooDeepToo) {
+  Result result = cleared();
+  result.verify.overcut_bound_mm = 0.0144;
+  note_nearest(result);
+  EXPECT_EQ(result.notes.back(), "nearest to what is asked, this result meets --coverage 0.94 --tolerance 0.015");
+}
+
+TEST(CavityNotes, NoneWhereCyclesGotStuckOrAllIsMet) {
+  Result stuck = cleared();
+  std::get<TrochoidSummary>(stuck.plan).layers.back().status = "stuck";
+  note_nearest(stuck);
+  EXPECT_TRUE(stuck.notes.empty());
+  Result met = cleared();
+  met.verify.coverage_reachable = 0.96;
+  note_nearest(met);
+  EXPECT_TRUE(met.notes.empty());
+}
+
+TEST(CavityNotes, ThickerPlacesOfTheToolAreTold) {
+  Result result = cleared();
+  note_own_reach({}, 0.81, result);
+  ASSERT_EQ(result.notes.size(), 1u);
+  EXPECT_NE(result.notes[0].find("reaches 81.0 % of the sides"), std::string::npos) << result.notes[0];
+  EXPECT_NE(result.notes[0].find("finishes 98.8 % of that"), std::string::npos) << result.notes[0];
+  note_own_reach({}, 0.85, result);
+  EXPECT_EQ(result.notes.size(), 1u) << "a tool that is as thick everywhere";
+}
+
+TEST(CavityNotes, WhereCyclesGotStuckTheLimitThatGetsPastIsTold) {
+  CavityProgram program;
+  program.layers.emplace_back();
+  PlannedLayer& layer = program.layers.back();
+  layer.cycles.status = CycleStatus::kStuck;
+  layer.cycles.stuck = {0.0121, 61.3 * std::numbers::pi / 180.0};
+  layer.share = 0.9;
+  std::vector<std::string> notes;
+  note_what_is_open({}, program, notes);
+  ASSERT_EQ(notes.size(), 3u);
+  EXPECT_NE(notes[0].find("0.0121 mm, engages 61.30; --max-engagement 62"), std::string::npos) << notes[0];
+  EXPECT_NE(notes[1].find("the rest is left"), std::string::npos) << notes[1];
+}
+
+}  // namespace
+}  // namespace flank::internal

@@ -1,0 +1,46 @@
+// What the sides of a cavity leave to a tool: a thick end keeps off a wall, a narrow place leaves no way across.
+#include "flank/trochoid/sides/side_room.h"
+
+#include <gtest/gtest.h>
+
+#include "obstacle/obstacle_scene.h"
+
+namespace flank::internal {
+namespace {
+
+constexpr double kHeight = 40.0;
+
+/// Upright along the blade, so far off it.
+RuledMotion upright(double y) {
+  std::vector<Pose> poses;
+  std::vector<double> t;
+  for (int k = 0; k <= 20; ++k) {
+    t.push_back(k / 20.0);
+    poses.push_back({Vec3(60.0 * t.back(), y, 0.0), Vec3::UnitZ()});
+  }
+  return fit_motion(poses, t, kHeight, 6);
+}
+
+/// Radius 2 at the tip, 6 at the holder's end.
+RadialFunction cone() { return {ToolFamily::kCone, kHeight, Eigen::Vector2d(2.0, std::atan(0.1))}; }
+
+TEST(ReachOfTool, IsThatOfTheRadiusAtThePlace) {
+  const std::unique_ptr<Target> blade = testing::standing_blade(0.0);
+  const Face wall = testing::quad(Vec3(60, 50, -10), Vec3(60, -50, -10), Vec3(60, 50, 60), Vec3(60, -50, 60), "F3");
+  const ObstacleField field(testing::only({make_target({wall}), true}), *blade, 8.0, 0.0);
+  const CavitySide side{blade.get(), &field};
+  const std::vector<RuledMotion> motions = {upright(4.0), upright(4.0)};
+  EXPECT_NEAR(reach_of_tool(side, side, motions, cone()), 1.0 - 4.0 / 60.0, 0.02) << "radii of 4 mm on average";
+  EXPECT_NEAR(reachable_share(side, side, 2.0), 1.0 - 2.0 / 60.0, 0.02);
+  const RadialFunction cylinder(ToolFamily::kCylinder, kHeight, Eigen::VectorXd::Constant(1, 2.0));
+  EXPECT_DOUBLE_EQ(reach_of_tool(side, side, motions, cylinder), reachable_share(side, side, 2.0));
+  EXPECT_EQ(reach_of_tool(side, side, {}, cylinder), 0.0);
+}
+
+TEST(LeastWayAcross, IsInDiametersAtTheNarrowestHeight) {
+  const std::vector<RuledMotion> motions = {upright(6.0), upright(12.0)};
+  EXPECT_NEAR(least_way_across(motions, cone()), 6.0 / 12.0, 0.02) << "where the cone is 12 mm thick";
+}
+
+}  // namespace
+}  // namespace flank::internal
