@@ -4,8 +4,8 @@
 usage: unity.py SIZE SOURCE...
 
 Sources of a group are compiled as one, so no two of them may give the same name to different things in their unnamed
-namespaces, and none may hide a type of a header. Lines are read as clang-format leaves them; no compiler is asked. The same
-sources give the same groups.
+namespaces (the same alias twice is one thing: `namespace fs = std::filesystem;`), and none may hide a type of a header. Lines
+are read as clang-format leaves them; no compiler is asked. The same sources give the same groups.
 """
 import functools
 import pathlib
@@ -41,8 +41,13 @@ def declared_names(line):
     line = re.sub(r"\w+::", "", line)
     function = re.match(r"[^=;{\[]*?\b([A-Za-z_]\w*)\s*\(", line)
     if function:
-        return {function.group(1)} - {"TEST", "TEST_F", "TEST_P", "INSTANTIATE_TEST_SUITE_P"}
+        return {function.group(1)} - {"TEST", "TEST_F", "TEST_P", "TYPED_TEST", "TYPED_TEST_SUITE", "INSTANTIATE_TEST_SUITE_P"}
     return set(re.findall(r"\b([A-Za-z_]\w*)\s*(?=[={\[;])", re.sub(r"=[^,;]*", "=", line)))
+
+
+def aliases(file):
+    """The names that a source gives to what the standard library and others have named, each with its meaning."""
+    return dict(re.findall(r"^(?:namespace|using) (\w+) = ((?:std|nlohmann|Eigen)::[\w:, <>]+);", file.read_text(), re.MULTILINE))
 
 
 def header_names():
@@ -101,14 +106,18 @@ def groups_of(files, size):
     for names, file in sorted(((unnamed_names(file), file) for file in files), key=lambda pair: (-len(pair[0]), pair[1])):
         seen, opened = set().union(*(types.get(header, ()) for header in included(file.resolve()))), opened_namespaces(file)
         used = used_names(file) | local_names(file) | set(re.findall(r"\w+", file.read_text())) & functions - names
+        meant = aliases(file)
         for group in groups:
-            fits = not (names & (group["names"] | group["used"] | group["seen"]) or (used | seen) & group["names"])
+            shared = {name for name, meaning in meant.items() if group["aliases"].get(name) == meaning}
+            fits = not ((names - shared) & (group["names"] | group["used"] | group["seen"])
+                        or (used | seen) & (group["names"] - shared))
             if len(group["files"]) < size and group["opened"] == opened and fits:
                 break
         else:
-            group = {"files": [], "names": set(), "used": set(), "seen": set(), "opened": opened}
+            group = {"files": [], "names": set(), "used": set(), "seen": set(), "aliases": {}, "opened": opened}
             groups.append(group)
         group["files"].append(file)
+        group["aliases"].update(meant)
         for key, value in (("names", names), ("used", used), ("seen", seen)):
             group[key] |= value
     return [sorted(group["files"]) for group in groups]

@@ -75,11 +75,7 @@ class Brute {
   /// Depth by the sphere of a spot; nothing off the face.
   [[nodiscard]] double depth(const Spot& x) const {
     if (!places_.holds(x[0], x[1])) return -1e300;
-    const auto last = static_cast<double>(strip_.poses.size() - 1);
-    const auto k = static_cast<std::size_t>(std::min(std::floor(x[2]), std::max(0.0, last - 1.0)));
-    const Pose pose = brute::between(strip_.poses[k], strip_.poses[std::min(k + 1, strip_.poses.size() - 1)],
-                                     x[2] - static_cast<double>(k));
-    return -brute::sphere_distance(tool_.radial, places_.at(x[0], x[1]), pose, x[3]);
+    return -brute::sphere_distance(tool_.radial, places_.at(x[0], x[1]), pose(x[2]), x[3]);
   }
 
   /// The deepest spot of a net, and of a walk with ever shorter steps from the best of it.
@@ -88,14 +84,21 @@ class Brute {
     const Spot high{1.0, places_.parameters == 2 ? 1.0 : 0.0, last, tool_.radial.axis_length()};
     const int nu = places_.parameters == 2 ? 16 : 80, nv = places_.parameters == 2 ? 16 : 0;
     const int nt = static_cast<int>(last) * 2, ns = 12;
+    std::vector<Pose> poses;
+    for (int t = 0; t <= nt; ++t) poses.push_back(pose(nt > 0 ? last * t / nt : 0.0));
     std::vector<std::pair<double, Spot>> best;
     for (int i = 0; i <= nu; ++i) {
       for (int j = 0; j <= nv; ++j) {
+        const double u = 1.0 * i / nu, v = nv > 0 ? 1.0 * j / nv : 0.0;
         std::pair<double, Spot> here{-1e300, {}};
-        for (int t = 0; t <= nt; ++t) {
-          for (int k = 0; k <= ns; ++k) {
-            const Spot x{1.0 * i / nu, nv > 0 ? 1.0 * j / nv : 0.0, nt > 0 ? last * t / nt : 0.0, high[3] * k / ns};
-            if (const double d = depth(x); d > here.first) here = {d, x};
+        if (places_.holds(u, v)) {
+          const Vec3 place = places_.at(u, v);
+          for (int t = 0; t <= nt; ++t) {
+            for (int k = 0; k <= ns; ++k) {
+              const Spot x{u, v, nt > 0 ? last * t / nt : 0.0, high[3] * k / ns};
+              const double d = -brute::sphere_distance(tool_.radial, place, poses[static_cast<std::size_t>(t)], x[3]);
+              if (d > here.first) here = {d, x};
+            }
           }
         }
         best.push_back(here);
@@ -110,6 +113,13 @@ class Brute {
   }
 
  private:
+  [[nodiscard]] Pose pose(double t) const {
+    const auto last = static_cast<double>(strip_.poses.size() - 1);
+    const auto k = static_cast<std::size_t>(std::min(std::floor(t), std::max(0.0, last - 1.0)));
+    return brute::between(strip_.poses[k], strip_.poses[std::min(k + 1, strip_.poses.size() - 1)],
+                          t - static_cast<double>(k));
+  }
+
   [[nodiscard]] double walk(Spot x, double d, const Spot& high, Spot step) const {
     for (int round = 0; round < 34; ++round) {
       bool better = true;
