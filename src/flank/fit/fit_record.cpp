@@ -80,6 +80,7 @@ void code(StepCodec& codec, FlankFitOptions& options) {
   codec.number(options.enough_coverage);
   code(codec, options.ways);
   codec.number(options.least_coverage_for_last_passes);
+  code(codec, options.partial_passes);
   bool beside_walls = options.obstacles != nullptr;
   code(codec, beside_walls);
   codec.number(options.reach_radius_mm);

@@ -44,13 +44,6 @@ constexpr SweptPass kHold = {.dead_zone = kPartialZone,
                              .out_of_sight = 1.0,
                              .firmness = 16.0};
 
-/// The pass for a fit: one that may end a search keeps the room that other passes leave. The noise of a mesh lies in it, which
-/// the judge sees and a planner does not.
-SweptPass pass_for(const FlankFitOptions& options, SweptPass pass) {
-  if (options.least_coverage_for_last_passes > 0.0) pass.dead_zone = kWideZone;
-  return pass;
-}
-
 /// The points of a pass, and these places, which none of them saw.
 std::vector<FacePoint> points_with(const std::vector<Vec3>& deep, const FitDraft& draft, const FlankFitOptions& options,
                                    int per_side) {
@@ -70,10 +63,10 @@ Polished partial_polish(const Polished& polished, const std::vector<SurfaceSampl
   constexpr int kHolds = 3;
   Polished best = polished;
   const double least = options.least_coverage_for_last_passes > 0.0 ? kNear : kWorth;
-  if (best.estimate.at_tolerance < least || best.estimate.at_tolerance >= kAllButCovered) return best;
+  if (!options.partial_passes || best.estimate.at_tolerance < least || best.estimate.at_tolerance >= kAllButCovered)
+    return best;
   const double tolerance = options.tolerance_mm, size = best.draft.targets.front()->diagonal();
-  const auto pass_with = [&](const SweptPass& any, const std::vector<Vec3>& deep) {
-    const SweptPass pass = pass_for(options, any);
+  const auto pass_with = [&](const SweptPass& pass, const std::vector<Vec3>& deep) {
     std::vector<FacePoint> points = points_with(deep, best.draft, options, pass.points_per_side);
     const FitStage stage = swept_stage(pass, options, size);
     Polished trial = assess(run_swept(best.draft, options.bounds, stage, std::move(points), trace), samples, options);
@@ -93,7 +86,7 @@ Polished partial_polish(const Polished& polished, const std::vector<SurfaceSampl
 
 FitDraft pass_at(const FitDraft& draft, const std::vector<Vec3>& deep, const FlankFitOptions& options, double firmness,
                  double covered) {
-  const SweptPass pass = covered < kAllButCovered ? pass_for(options, kHold) : kDense;
+  const SweptPass& pass = options.partial_passes && covered < kAllButCovered ? kHold : kDense;
   std::vector<FacePoint> points = points_with(deep, draft, options, pass.points_per_side);
   FitStage stage = swept_stage(pass, options, draft.targets.front()->diagonal());
   stage.bounds_at_knots = true;

@@ -48,8 +48,9 @@ double demanded_reach(const FitJob& job, const Target& target, const RadiusBound
 }
 
 /// `free_tool`: what is reachable is asked with the ball of the demand.
-FlankFitOptions options_of(const FitJob& job, const Target& target, bool free_tool) {
+FlankFitOptions options_of(const FitJob& job, const Setup& setup, const Target& target, bool free_tool) {
   FlankFitOptions options;
+  options.partial_passes = !setup.part.is_mesh();
   options.tolerance_mm = job.tolerance_mm;
   options.axis_length_mm = job.tool.axis_length_mm;
   options.bounds = radius_bounds(job.radius, job.obstacles, target.diagonal());
@@ -195,7 +196,7 @@ FitSearch search_side(const FitJob& job, const Setup& setup, const ToolSpec& spe
   FitSearch search;
   search.targets = make_targets(setup, side);
   const ToolModel tool = make_tool_model(spec, job.tool.axis_length_mm);
-  const FlankFitOptions options = options_of(job, *search.targets.front().target, tool.free());
+  const FlankFitOptions options = options_of(job, setup, *search.targets.front().target, tool.free());
   search.tool = tool;
   search.options = options;
   if (tool.free()) search.reach_radius_mm = options.reach_radius_mm;
@@ -240,7 +241,7 @@ SheetSide look_at_side(const FitJob& job, const Setup& setup, const ToolModel& t
   SheetSide look;
   look.search.targets = make_targets(setup, side);
   const TargetGroup& group = look.search.targets.front();
-  look.options = options_of(job, *group.target, tool.free());
+  look.options = options_of(job, setup, *group.target, tool.free());
   if (job.avoid)
     add_group_obstacles(setup, job.obstacles.clearance_mm, look.options.bounds.largest, look.search.targets,
                         look.search.fit.notes);
