@@ -16,33 +16,10 @@ constexpr double kPartialZone = kToleranceBudget.fit.dead_zone_partial;
 /// Where one strip cannot do all that is asked: what is beyond the tolerance is given up, so that it no longer pulls at what
 /// is within, and overcut weighs more, because that has to be taken back by radii that cost coverage everywhere. First
 /// to the softer weights, then to those that hold.
-constexpr SweptPass kGiveUp = {.dead_zone = kPartialZone,
-                               .fairness = kSoft,
-                               .anchor = kNoAnchor,
-                               .control_points = 48,
-                               .coefficients = 24,
-                               .iterations = 30,
-                               .points_per_side = 50,
-                               .out_of_sight = 1.0,
-                               .firmness = 4.0};
-constexpr SweptPass kGiveUpSoft = {.dead_zone = kWideZone,
-                                   .fairness = kSofter,
-                                   .anchor = kNoAnchor,
-                                   .control_points = 48,
-                                   .coefficients = 24,
-                                   .iterations = 30,
-                                   .points_per_side = 50,
-                                   .out_of_sight = 1.0,
-                                   .firmness = 4.0};
-constexpr SweptPass kHold = {.dead_zone = kPartialZone,
-                             .fairness = kSofter,
-                             .anchor = kNoAnchor,
-                             .control_points = 48,
-                             .coefficients = 24,
-                             .iterations = 30,
-                             .points_per_side = 50,
-                             .out_of_sight = 1.0,
-                             .firmness = 16.0};
+constexpr SweptPass kGiveUp = {.dead_zone = kPartialZone, .iterations = 30, .out_of_sight = 1.0, .firmness = 4.0};
+constexpr SweptPass kGiveUpSoft = {.fairness = kSofter, .iterations = 30, .out_of_sight = 1.0, .firmness = 4.0};
+constexpr SweptPass kHold = {
+    .dead_zone = kPartialZone, .fairness = kSofter, .iterations = 30, .out_of_sight = 1.0, .firmness = 16.0};
 
 /// The points of a pass, and these places, which none of them saw.
 std::vector<FacePoint> points_with(const std::vector<Vec3>& deep, const FitDraft& draft, const FlankFitOptions& options,

@@ -17,7 +17,8 @@ namespace flank::internal {
 /// One more pass of a draft that cuts deeper than allowed at `deep`, places of the target that no pass has seen (the
 /// passes see 2,500 points, a last look many more): they join the points. A free tool's bounds are asked at its knots,
 /// too. `firmness` >= 1: weight of what other faces are entered by, in that of other passes; above 1 every sample asks for
-/// them. `covered`: the share that the draft covers; if that is not nearly all, the pass gives up what is beyond the tolerance. Not assessed: by which samples it is measured is for the caller to say.
+/// them. `covered`: the share that the draft covers; if that is not nearly all, the pass gives up what is beyond the
+/// tolerance. Not assessed: by which samples it is measured is for the caller to say.
 [[nodiscard]] FitDraft pass_at(const FitDraft& draft, const std::vector<Vec3>& deep, const FlankFitOptions& options,
                                double firmness, double covered);
 

@@ -7,12 +7,27 @@
 #include "flank/base/stopping.h"
 #include "flank/base/tolerance_budget.h"
 #include "flank/fit/model/constrained.h"
-#include "flank/fit/model/levenberg_marquardt.h"
 #include "flank/fit/swept_pass.h"
 #include "flank/motion/stagger.h"
 
 namespace flank::internal {
 namespace {
+
+/// First the change of residual, cheap: few points, few iterations, control points and anchor as in the tolerance pass.
+constexpr SweptPass kArrive = {.fairness = kFair,
+                               .anchor = 1e-2,
+                               .control_points = 32,
+                               .coefficients = 16,
+                               .iterations = 12,
+                               .points_per_side = 25};
+/// More control points, but fair. If that is enough, all later passes stay fair.
+constexpr SweptPass kFairRails = {.fairness = kFair, .iterations = 25, .points_per_side = 30};
+/// If it is not, soft ones.
+constexpr SweptPass kSoftRails = {.iterations = 40, .points_per_side = 30};
+/// Half the dead zone: lowers the largest error (docs/algorithms/fit.md).
+constexpr SweptPass kNarrow = {.dead_zone = 0.5 * kWideZone, .iterations = 15};
+/// No dead zone: plain least squares, which lowers the mean error where nothing more is to be covered.
+constexpr SweptPass kMean = {.dead_zone = 0.0, .iterations = 12};
 
 /// In the order of their passes.
 constexpr std::array<SweptPass, 6> kPasses = {kArrive, kFairRails, kSoftRails, kDense, kNarrow, kMean};

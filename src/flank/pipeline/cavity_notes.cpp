@@ -88,8 +88,7 @@ void note_own_reach(const TrochoidJob& job, double own_reach, Result& result) {
     return;
   result.notes.push_back(fmt::format(
       "with the radius that it has at each place, {:.4g} to {:.4g} mm, the tool reaches {:.1f} % of the sides between "
-      "the "
-      "other faces, and finishes {:.1f} % of that; coverage counts what a ball of its least radius reaches, {:.1f} %",
+      "the other faces and finishes {:.1f} % of that; coverage counts what its least radius reaches, {:.1f} %",
       result.tool.radial.smallest(), result.tool.radial.largest(), 100.0 * own_reach,
       100.0 * std::min(1.0, report.coverage / own_reach), 100.0 * report.reachable_share));
 }

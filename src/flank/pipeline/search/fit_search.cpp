@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "flank/error.h"
 #include "flank/fit/coverage.h"
@@ -191,17 +192,23 @@ RuledMotion motion_of(const FitJob& job, const UserStart& start, const ToolModel
   return found.motion;
 }
 
-FitSearch search_side(const FitJob& job, const Setup& setup, const ToolSpec& spec, const UserStart& start, int side,
-                      const Progress& progress) {
+/// A side of the part before anything is fitted: its groups, the obstacles that lie there, and what is asked.
+FitSearch begin_side(const FitJob& job, const Setup& setup, const ToolModel& tool, int side) {
   FitSearch search;
   search.targets = make_targets(setup, side);
-  const ToolModel tool = make_tool_model(spec, job.tool.axis_length_mm);
-  const FlankFitOptions options = options_of(job, setup, *search.targets.front().target, tool.free());
   search.tool = tool;
-  search.options = options;
-  if (tool.free()) search.reach_radius_mm = options.reach_radius_mm;
+  search.options = options_of(job, setup, *search.targets.front().target, tool.free());
+  if (tool.free()) search.reach_radius_mm = search.options.reach_radius_mm;
   if (job.avoid)
-    add_group_obstacles(setup, job.obstacles.clearance_mm, options.bounds.largest, search.targets, search.fit.notes);
+    add_group_obstacles(setup, job.obstacles.clearance_mm, search.options.bounds.largest, search.targets,
+                        search.fit.notes);
+  return search;
+}
+
+FitSearch search_side(const FitJob& job, FitSearch search, const UserStart& start, const Progress& progress) {
+  // fit_groups fills what it reads these from.
+  const ToolModel tool = search.tool;
+  const FlankFitOptions options = search.options;
   if (!start.given()) {
     fit_groups(job, search, tool, options, progress);
     return search;
@@ -230,7 +237,7 @@ bool is_sheet(const Setup& setup) {
                                              [&](int face) { return !setup.part.faces[face].of_solid; });
 }
 
-/// A side of a sheet: its first group, with the obstacles that lie there.
+/// A side of a sheet: its first group, and what is asked of it there.
 struct SheetSide {
   FitSearch search;
   FlankFitOptions options;
@@ -239,12 +246,9 @@ struct SheetSide {
 
 SheetSide look_at_side(const FitJob& job, const Setup& setup, const ToolModel& tool, int side) {
   SheetSide look;
-  look.search.targets = make_targets(setup, side);
+  look.search = begin_side(job, setup, tool, side);
   const TargetGroup& group = look.search.targets.front();
-  look.options = options_of(job, setup, *group.target, tool.free());
-  if (job.avoid)
-    add_group_obstacles(setup, job.obstacles.clearance_mm, look.options.bounds.largest, look.search.targets,
-                        look.search.fit.notes);
+  look.options = look.search.options;
   look.options.obstacles = group.obstacles.get();
   look.reachable = reachable_share(*group.target, look.options);
   return look;
@@ -265,12 +269,14 @@ int side_in_the_open(const SheetSide& plus, const SheetSide& minus) {
 
 /// A sheet can be machined from either side: from the one in the open, if one is; else first from the one that promises
 /// more. From the other, too, where that one does not give what was asked and the other is not far behind.
-FitSearch search_sheet(const FitJob& job, const Setup& setup, const ToolSpec& spec, const Progress& progress) {
+FitSearch search_sheet(const FitJob& job, const Setup& setup, const ToolModel& tool, const Progress& progress) {
   constexpr double kNotFar = 0.3;  // of the score, about a share of coverage
-  const ToolModel tool = make_tool_model(spec, job.tool.axis_length_mm);
-  const SheetSide above = look_at_side(job, setup, tool, +1), below = look_at_side(job, setup, tool, -1);
+  SheetSide above = look_at_side(job, setup, tool, +1), below = look_at_side(job, setup, tool, -1);
+  const auto search = [&](int side, const Progress& part) {
+    return search_side(job, std::move((side > 0 ? above : below).search), {}, part);
+  };
   if (const int open = side_in_the_open(above, below); open != 0) {
-    FitSearch only = search_side(job, setup, spec, {}, open, progress);
+    FitSearch only = search(open, progress);
     only.fit.notes.push_back(fmt::format(
         "open sheet: side {} was chosen; of the other, other faces leave {:.0f} % to be reached, of this one {:.0f} %",
         open > 0 ? "+" : "-", 100.0 * std::min(above.reachable, below.reachable),
@@ -280,13 +286,13 @@ FitSearch search_sheet(const FitJob& job, const Setup& setup, const ToolSpec& sp
   const double plus = scout(above, tool, progress.part(0.0, 0.1));
   const double minus = scout(below, tool, progress.part(0.1, 0.2));
   int side = plus >= minus ? +1 : -1;
-  FitSearch best = search_side(job, setup, spec, {}, side, progress.part(0.2, 0.8));
+  FitSearch best = search(side, progress.part(0.2, 0.8));
   const bool done = is_done(best.fit, job.judge.least_coverage, job.tolerance_mm) || progress.stop();
   if (done || std::abs(plus - minus) > kNotFar) {
     best.fit.notes.push_back(fmt::format("open sheet: side {} was chosen, which promises more", side > 0 ? "+" : "-"));
     return best;
   }
-  FitSearch other = search_side(job, setup, spec, {}, -side, progress.part(0.8, 1.0));
+  FitSearch other = search(-side, progress.part(0.8, 1.0));
   if (other.fit.after.score(job.tolerance_mm) > best.fit.after.score(job.tolerance_mm)) {
     side = -side;
     std::swap(best, other);
@@ -309,10 +315,11 @@ std::vector<FitTask> FitSearch::tasks() const {
 
 FitSearch search_fit(const FitJob& job, const Setup& setup, const ToolSpec& spec, const Progress& progress) {
   const UserStart start = user_start(job);
-  if (!is_sheet(setup) || job.part.side)
-    return search_side(job, setup, spec, start, job.part.side.value_or(+1), progress);
-  if (start.given()) return search_side(job, setup, spec, start, side_of_start(job, setup, start), progress);
-  return search_sheet(job, setup, spec, progress);
+  const ToolModel tool = make_tool_model(spec, job.tool.axis_length_mm);
+  if (is_sheet(setup) && !job.part.side && !start.given()) return search_sheet(job, setup, tool, progress);
+  const bool by_start = is_sheet(setup) && !job.part.side;
+  const int side = by_start ? side_of_start(job, setup, start) : job.part.side.value_or(+1);
+  return search_side(job, begin_side(job, setup, tool, side), start, progress);
 }
 
 }  // namespace flank::internal
