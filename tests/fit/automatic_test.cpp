@@ -88,6 +88,7 @@ TEST(FitAutomatic, TheAxisHasTheLengthThatIsAskedFor) {
   if (kThreadSanitized) GTEST_SKIP() << "a minute; its threads are those of every automatic fit";
   const auto blade = standing_blade(0.0);
   FlankFitOptions options = small_options();
+  options.partial_passes = false;
   EXPECT_GT(fit_automatic(*blade, given_cylinder(5.0), options, {}).motions.front().axis_length, 40.0);
   options.axis_length_mm = 33.0;
   EXPECT_EQ(fit_automatic(*blade, given_cylinder(5.0), options, {}).motions.front().axis_length, 33.0);
@@ -118,6 +119,23 @@ TEST(FitAutomatic, BesideAHubItStaysOutOfIt) {
   EXPECT_LE(result.after.gouge_mm, kTolerance) << result.message;
   EXPECT_LE(flank_gouge(result.motions, {&obstacles}, result.tool, 400), 1.1 * kTolerance);
   EXPECT_GT(result.after.at_tolerance, 0.9) << result.message;
+}
+
+TEST(FitAutomatic, BetweenPlatesAToolThatReachesTheirCornersWins) {
+  if (kThreadSanitized) GTEST_SKIP() << "a minute; its threads are those of every automatic fit";
+  const auto blade = standing_blade(0.0);
+  FlankFitOptions options = small_options();
+  options.bounds = {0.5, 9.0, 0.5};
+  options.reach_radius_mm = 1.0;
+  options.kept_after_quick = 6;
+  options.kept_after_polish = 3;
+  const ObstacleField obstacles(testing::plates(), *blade, 9.0, kTolerance);
+  options.obstacles = &obstacles;
+  const FlankFitResult result = fit_automatic(*blade, {}, options, {});
+  // A radius of 3 would leave 4 mm of 58 that are within reach.
+  EXPECT_GT(result.after.at_tolerance, 0.99);
+  EXPECT_LE(std::max(result.after.gouge_mm, result.after.overcut_mm), kTolerance);
+  EXPECT_LT(result.tool.largest(), 1.5);
 }
 
 TEST(FitAutomatic, BesideAFixtureItKeepsTheClearance) {

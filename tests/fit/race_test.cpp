@@ -60,10 +60,22 @@ TEST_F(Racing, NobodyIsTriedOnceOneIsEnough) {
 
 TEST_F(Racing, WhoCoversMoreWinsWhereNobodyDoesWhatWasAsked) {
   // Half of the path each: neither a polish nor the last passes make it longer.
+  options_.partial_passes = false;
   options_.kept_after_polish = 1;
   options_.bounds.largest = 3.0;
   const Runner winner = run({start(3.0, 0.0, 10.0), start(3.0, 0.0, 40.0)});
   EXPECT_GT(winner.start.motions.front().tip.poles(0, 7), 39.0);
+}
+
+TEST_F(Racing, AToolMoreSlenderThanAskedIsNotEnough) {
+  options_.bounds.largest = 3.0;
+  options_.kept_after_polish = 1;
+  options_.partial_passes = false;
+  EXPECT_TRUE(run({start(3.0)}).enough);
+  options_.bounds.slenderest = 5.0;  // of 42 mm: a radius of 4.2
+  const Runner winner = run({start(3.0)});
+  EXPECT_GT(winner.polished.estimate.at_tolerance, 0.99);
+  EXPECT_FALSE(winner.enough);
 }
 
 TEST_F(Racing, IsTheSameForOneAndThreeThreads) {

@@ -156,6 +156,10 @@ TEST(SweptPolish, NeverReturnsWorseThanItWasGiven) {
   const Polished after = swept_polish(before, samples, options, &trace);
   EXPECT_GT(after.estimate.score(kTolerance), before.estimate.score(kTolerance) + 0.1) << "there is much to gain";
   EXPECT_FALSE(trace.empty());
+  // Its first two passes already tell where it leads.
+  const Polished first = first_passes(before, samples, options, nullptr);
+  EXPECT_GT(first.estimate.score(kTolerance), before.estimate.score(kTolerance) + 0.1);
+  EXPECT_LE(first.estimate.score(kTolerance), after.estimate.score(kTolerance));
   const Polished again = swept_polish(after, samples, options, nullptr);
   EXPECT_GE(again.estimate.score(kTolerance), after.estimate.score(kTolerance));
   // What it says of itself is what is measured.

@@ -31,6 +31,15 @@ inline ObstacleFace hub(bool oriented, bool turned = false) {
   return {make_target({face}), oriented};
 }
 
+/// Plates across the blade's ends, at x = 0 and x = 60, seen from between them.
+inline Obstacles plates() {
+  const Face low = quad(Vec3(0, -50, -50), Vec3(0, 50, -50), Vec3(0, -50, 90), Vec3(0, 50, 90), "F3");
+  const Face high = quad(Vec3(60, -50, -50), Vec3(60, -50, 90), Vec3(60, 50, -50), Vec3(60, 50, 90), "F4");
+  Obstacles obstacles;
+  for (const Face& plate : {low, high}) obstacles.faces.push_back({make_target({plate}), true});
+  return obstacles;
+}
+
 inline Obstacles only(ObstacleFace face) {
   Obstacles obstacles;
   obstacles.faces.push_back(std::move(face));

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "obstacle/obstacle_scene.h"
 
 namespace flank::internal {
@@ -10,6 +13,7 @@ namespace {
 
 using testing::hub;
 using testing::only;
+using testing::plates;
 using testing::standing_blade;
 
 class ClearStartTest : public ::testing::TestWithParam<double> {};
@@ -41,6 +45,29 @@ TEST_P(ClearStartTest, TipRollsAlongTheHub) {
     }
   }
   EXPECT_EQ(upright, 1);
+}
+
+/// Upright lines end at plates by as much as the ball is thick, whatever that is: half a radius is left to the fit.
+TEST(ClearStart, EndsBeforePlatesHoweverThinTheBall) {
+  const auto blade = standing_blade(0.0);
+  const ObstacleField obstacles(plates(), *blade, 2.0, 0.0);
+  const Chart chart(*blade);
+  for (const double radius : {0.3, 1.0, 6.0}) {
+    int upright = 0;
+    for (const bool swapped : {false, true}) {
+      RuledStart start;
+      start.swapped = swapped;
+      start.radius_mm = radius;
+      const ClearStart clear = clear_start(chart, start, obstacles);
+      ASSERT_GT(clear.free_lines, 0);
+      if (std::abs(clear.lines.front().axis.direction.z()) < 0.9) continue;  // across, from plate to plate
+      ++upright;
+      const double a = clear.lines.front().axis.middle.x(), b = clear.lines.back().axis.middle.x();
+      EXPECT_NEAR(std::min(a, b), 0.5 * radius, 0.2) << radius;
+      EXPECT_NEAR(std::max(a, b), 60.0 - 0.5 * radius, 0.2) << radius;
+    }
+    EXPECT_EQ(upright, 1);
+  }
 }
 
 TEST(ClearStart, NothingIsFreeInsideTheHub) {

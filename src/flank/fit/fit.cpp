@@ -96,7 +96,8 @@ std::vector<FitTask> make_clear_tasks(const Target& target, const Chart& chart, 
   for (const RuledStart& band : bands_of(start, options.strips)) {
     ClearStart clear = clear_start(chart, band, obstacles);
     length = std::max(length, kLonger * clear.longest_mm);
-    blocked = blocked || clear.blocked_lines > kFewBlocked || clear.free_lines < kStartTimes - kFewBlocked;
+    const bool cut = clear.first > 0.0 || clear.last < 1.0;
+    blocked = blocked || cut || clear.blocked_lines > kFewBlocked || clear.free_lines < kStartTimes - kFewBlocked;
     if (clear.free_lines > 0) bands.push_back(std::move(clear));
   }
   if (!blocked) return {};

@@ -13,7 +13,6 @@
 #include "flank/fit/partial_polish.h"
 #include "flank/fit/swept_polish.h"
 #include "flank/fit/tried.h"
-#include "flank/tool/compliance.h"
 
 namespace flank::internal {
 namespace {
@@ -22,11 +21,13 @@ namespace {
 constexpr std::size_t kAbreast = 2;
 /// Of the slenderness: less makes no tool stiffer.
 constexpr double kSameStiffness = 0.02;
+/// Of the score, of a tool more slender than asked for: two percent of coverage are worth it, as for one that plunges.
+constexpr double kSlenderPrice = 0.02;
 
-/// Infinite for a tool whose radius is not positive everywhere.
-double slenderness_of(const Runner& runner) {
-  const RadialFunction& tool = runner.polished.draft.tool;
-  return slenderness(tool.axis_length(), compliance(tool));
+/// The bound on slenderness is a soft one, and radii that were reduced against overcut no longer keep it: another start
+/// may give a tool that does.
+bool is_stiff_enough(const FitDraft& draft, const RadiusBounds& bounds) {
+  return !draft.free_tool || slenderness_of(draft.tool, bounds) <= bounds.slenderest;
 }
 
 /// An envelope, found to the last digits.
@@ -39,12 +40,19 @@ bool has_last_digits(const Runner& runner, const FlankFitOptions& options) {
 /// compares no three of them. An envelope found exactly is not given away for a tool that is a little stiffer: both are
 /// as stiff as was asked, and the error is what differs, by orders of magnitude.
 void sort_by_merit(std::vector<Runner>& runners, const FlankFitOptions& options) {
+  const auto slenderness_in = [&](const Runner& runner) {
+    return slenderness_of(runner.polished.draft.tool, options.bounds);
+  };
+  const auto merit_of = [&](const Runner& runner) {
+    const double price = is_stiff_enough(runner.polished.draft, options.bounds) ? 0.0 : kSlenderPrice;
+    return runner.polished.estimate.score(options.tolerance_mm) - price;
+  };
   std::stable_sort(runners.begin(), runners.end(), [&](const Runner& a, const Runner& b) {
     if (a.enough != b.enough) return a.enough;
     const bool digits_a = has_last_digits(a, options), digits_b = has_last_digits(b, options);
     if (a.enough && digits_a != digits_b) return digits_a;
-    if (a.enough) return slenderness_of(a) < (1.0 - kSameStiffness) * slenderness_of(b);
-    return a.polished.estimate.score(options.tolerance_mm) > b.polished.estimate.score(options.tolerance_mm);
+    if (a.enough) return slenderness_in(a) < (1.0 - kSameStiffness) * slenderness_in(b);
+    return merit_of(a) > merit_of(b);
   });
 }
 
@@ -88,11 +96,24 @@ std::vector<Runner> polish_until_enough(const std::vector<FitDraft>& starts, con
   return runners;
 }
 
-/// The last passes cost more than all before.
+/// Runners of which the best covers less than what the caller calls hopeless: the first of the last passes tell whether it is.
+void look_for_hope(std::vector<Runner>& runners, const std::vector<SurfaceSample>& samples,
+                   const FlankFitOptions& options, const Progress& progress) {
+  const std::size_t most = std::min(runners.size(), static_cast<std::size_t>(options.kept_after_polish));
+  for (std::size_t k = 0; k < most && !progress.stop(); ++k)
+    advance(runners[k], progress, "first passes", [&](Runner& next) {
+      next.polished = first_passes(next.polished, samples, options, &next.trace);
+      settle_if_enough(next, samples, options);
+    });
+  sort_by_merit(runners, options);
+}
+
+/// The last passes cost more than all before. Hopeless fits are left without them if the caller says what is hopeless.
 void pass_until_enough(std::vector<Runner>& runners, const std::vector<SurfaceSample>& samples,
                        const FlankFitOptions& options, const Progress& progress) {
-  // Hopeless fits are left without them if the caller says what is hopeless.
-  if (runners.front().polished.estimate.at_tolerance < options.least_coverage_for_last_passes) return;
+  const double least = options.least_coverage_for_last_passes;
+  if (runners.front().polished.estimate.at_tolerance < least) look_for_hope(runners, samples, options, progress);
+  if (runners.front().enough || runners.front().polished.estimate.at_tolerance < least) return;
   const auto score = [&](const Runner& runner) { return runner.polished.estimate.score(options.tolerance_mm); };
   /// Who is behind by more than this many times what the passes gained so far, and this share of coverage, cannot win.
   constexpr double kGains = 2.0, kBehind = 0.02;
@@ -172,7 +193,8 @@ void settle_if_enough(Runner& runner, const std::vector<SurfaceSample>& samples,
   if (!is_enough(runner.polished.estimate, options)) return;
   Polished close = looked_at_closely(runner.polished, samples, options);
   const double deepest = std::max(close.estimate.overcut_mm, close.estimate.gouge_mm);
-  runner.enough = is_enough(close.estimate, options) && deepest <= kToleranceBudget.fit.seen * options.tolerance_mm;
+  runner.enough = is_enough(close.estimate, options) && deepest <= kToleranceBudget.fit.seen * options.tolerance_mm &&
+                  is_stiff_enough(close.draft, options.bounds);
   close.exact = runner.polished.exact;
   if (runner.enough) runner.polished = std::move(close);
 }

@@ -51,27 +51,39 @@ double smallest_radius(const RadialFunction& tool) {
   return least;
 }
 
+/// A pass of the best so far. It minimises its own cost, not the score: its result counts only if the score agrees.
+Polished with_pass(const Polished& best, const SweptPass& pass, const std::vector<SurfaceSample>& samples,
+                   const FlankFitOptions& options, std::vector<IterationTrace>* trace) {
+  const std::vector<FacePoint> points = target_points(best.draft, pass.points_per_side, reach_of(options));
+  const FitStage stage = swept_stage(pass, options, best.draft.targets.front()->diagonal());
+  Polished trial = assess(run_swept(best.draft, options.bounds, stage, points, trace), samples, options);
+  return trial.estimate.score(options.tolerance_mm) > best.estimate.score(options.tolerance_mm) ? trial : best;
+}
+
 }  // namespace
 
 Polished swept_polish(const Polished& polished, const std::vector<SurfaceSample>& samples,
                       const FlankFitOptions& options, std::vector<IterationTrace>* trace) {
   Polished best = polished;
-  const double size = best.draft.targets.front()->diagonal();
   bool fair = false;  // fair rails are enough
   for (SweptPass pass : kPasses) {
     if (stopping()) break;
     if (pass.fairness == kSoft && fair) pass.fairness = kFair;
     // The last one lowers what is left of the mean, if nothing more is to be covered.
     if (pass.dead_zone == 0.0 && best.estimate.at_tolerance < kAllButCovered) continue;
-    const std::vector<FacePoint> points = target_points(best.draft, pass.points_per_side, reach_of(options));
-    Polished trial = assess(run_swept(best.draft, options.bounds, swept_stage(pass, options, size), points, trace),
-                            samples, options);
-    // A pass minimises its own cost, not the score: its result counts only if the score agrees.
-    if (trial.estimate.score(options.tolerance_mm) > best.estimate.score(options.tolerance_mm)) best = std::move(trial);
+    best = with_pass(best, pass, samples, options, trace);
     const CoverageEstimate& now = best.estimate;
     if (pass.fairness == kFair)
       fair = now.at_tolerance >= kFairCovers && std::max(now.overcut_mm, now.gouge_mm) <= options.tolerance_mm;
   }
+  return best;
+}
+
+Polished first_passes(const Polished& polished, const std::vector<SurfaceSample>& samples,
+                      const FlankFitOptions& options, std::vector<IterationTrace>* trace) {
+  Polished best = polished;
+  for (const SweptPass& pass : {kArrive, kFairRails})
+    if (!stopping()) best = with_pass(best, pass, samples, options, trace);
   return best;
 }
 

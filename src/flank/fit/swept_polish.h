@@ -19,6 +19,11 @@ namespace flank::internal {
 [[nodiscard]] Polished swept_polish(const Polished& polished, const std::vector<SurfaceSample>& samples,
                                     const FlankFitOptions& options, std::vector<IterationTrace>* trace);
 
+/// Its first two, cheap: they tell whether a fit that covers little at the axis leads anywhere. Beside walls the residual at the
+/// axis leaves out what the walls keep a tool from, and what is covered can be a fifth more after them.
+[[nodiscard]] Polished first_passes(const Polished& polished, const std::vector<SurfaceSample>& samples,
+                                    const FlankFitOptions& options, std::vector<IterationTrace>* trace);
+
 /// Of motions over facing sides, found without a look at each other: passes that draw the axes of both sides to the same lean, firmer each
 /// time, kept while `least_coverage` of the samples (or what there was, if that is less) stays covered, and nothing is cut or
 /// entered deeper than allowed. How far an axis leans along its way is hardly felt by a wall that is hardly curved along it.

@@ -117,10 +117,27 @@ std::vector<Line> lines_between(const Chart& chart, const RuledStart& start, con
   return lines;
 }
 
+/// Of the lines' middles, mm.
+double way_of(const std::vector<Line>& lines) {
+  double way = 0.0;
+  for (std::size_t i = 1; i < lines.size(); ++i) way += (lines[i].axis.middle - lines[i - 1].axis.middle).norm();
+  return way;
+}
+
+/// The time nearest to that of a line without a free stretch at which there is one, from a time where there is.
+double first_free(const Chart& chart, const RuledStart& start, const ObstacleField& obstacles, double blocked,
+                  double free) {
+  constexpr int kHalvings = 5;  // of a step of 40: a thousandth of the way, less than the radius of any tool
+  for (int k = 0; k < kHalvings; ++k) {
+    const double middle = 0.5 * (free + blocked);
+    (clear_line(chart, start, middle, obstacles).free ? free : blocked) = middle;
+  }
+  return free;
+}
+
 }  // namespace
 
 ClearStart clear_start(const Chart& chart, const RuledStart& start, const ObstacleField& obstacles) {
-  constexpr double kPast = 0.04;  ///< of the times, past the first and the last line that is free
   ClearStart clear;
   clear.lines = lines_between(chart, start, obstacles, 0.0, 1.0);
   const auto is_free = [](const Line& line) { return line.free; };
@@ -130,11 +147,14 @@ ClearStart clear_start(const Chart& chart, const RuledStart& start, const Obstac
   const double step = 1.0 / (kStartTimes - 1);
   const double begin = step * static_cast<double>(first - clear.lines.begin());
   const double end = 1.0 - step * static_cast<double>(last - clear.lines.rbegin());
-  if (begin > kPast || end < 1.0 - kPast) {
-    clear.first = std::max(0.0, begin - kPast);
-    clear.last = std::min(1.0, end + kPast);
+  // The fit draws the ends of a motion out of a wall by about as much as the tool is thick, and leads it farther along the
+  // wall than a cut would.
+  constexpr double kPast = 0.5;  // of the ball's radius, past the first and the last line that is free
+  const double past = kPast * start.radius_mm / way_of(clear.lines);
+  if (begin > 0.0) clear.first = std::max(0.0, first_free(chart, start, obstacles, begin - step, begin) - past);
+  if (end < 1.0) clear.last = std::min(1.0, first_free(chart, start, obstacles, end + step, end) + past);
+  if (clear.first > 0.0 || clear.last < 1.0)
     clear.lines = lines_between(chart, start, obstacles, clear.first, clear.last);
-  }
   for (const Line& line : clear.lines) {
     if (!line.free) continue;
     clear.longest_mm = std::max(clear.longest_mm, line.high - line.low);

@@ -26,7 +26,7 @@ struct ClearStart {
 };
 
 /// Without a free line (free_lines = 0) there is no motion to make. If lines at the ends of the motion are blocked
-/// altogether, the times are squeezed into what is free and 4 percent past it.
+/// altogether, the times are squeezed into what is free and half a radius of the ball past it.
 [[nodiscard]] ClearStart clear_start(const Chart& chart, const RuledStart& start, const ObstacleField& obstacles);
 
 /// The motion with its tip at the blocked end of each line and the rest of the axis past the other end. The tip is at
