@@ -46,6 +46,27 @@ TEST(ToolDistance, MinimaAreThoseOfAllNodes) {
   }
 }
 
+/// The nodes that the search looks at are those that can matter: no sphere is nearer than the one it finds.
+TEST(ToolDistance, SearchFindsTheNearestOfAllSpheres) {
+  const RadialFunction shapes[] = {
+      RadialFunction::spline(60.0, (Eigen::VectorXd(7) << 3.0, 1.0, 4.0, 0.8, 3.5, 1.2, 4.0).finished()),
+      RadialFunction(ToolFamily::kHyperbolic, 40.0, Eigen::Vector3d(2.0, 0.0, 0.02)),
+      RadialFunction(ToolFamily::kCylinder, 30.0, Eigen::VectorXd::Constant(1, 4.0))};
+  constexpr int kPlaces = 2000;
+  for (const RadialFunction& shape : shapes) {
+    const ToolDistance tool(shape);
+    Random random(13);
+    for (int k = 0; k < 2000; ++k) {
+      const double z = random.uniform(-30.0, 90.0), rho = random.uniform(0.0, 40.0);
+      const NearestSphere found = tool.search(z, rho);
+      const auto at = [&](double s) { return std::hypot(z - s, rho) - tool.radial().at(s).r; };
+      ASSERT_NEAR(at(found.s), found.g, 1e-12);
+      for (int i = 0; i <= kPlaces; ++i)
+        ASSERT_LE(found.g, at(shape.axis_length() * i / kPlaces) + 1e-9) << z << ' ' << rho;
+    }
+  }
+}
+
 /// A cylinder whose meridian turns up sharply at its upper end, as a free tool's may.
 RadialFunction peaked() {
   Eigen::VectorXd c = Eigen::VectorXd::Constant(24, 6.0);

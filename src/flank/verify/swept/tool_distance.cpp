@@ -69,28 +69,6 @@ NearestSphere ToolDistance::narrow(double z, double rho, int node) const {
   return found;
 }
 
-// Between nodes the value can fall below the lower of the two by at most one step (its slope is at most 2): every local
-// minimum of the node values within that margin is followed up.
-NearestSphere ToolDistance::search(double z, double rho) const {
-  const auto at_node = [&](int i) {
-    const double dz = z - radial_.node(i);
-    return std::sqrt(dz * dz + rho * rho) - radial_.node_radius(i);
-  };
-  double least = at_node(0);
-  for (int i = 1; i <= radial_.count(); ++i) least = std::min(least, at_node(i));
-  NearestSphere best{1e300, 0.0};
-  for (int i = 0; i <= radial_.count(); ++i) {
-    const double here = at_node(i);
-    // Ties count as minima on both sides: better one search too many than a minimum missed.
-    if (here > least + radial_.step()) continue;
-    if (i > 0 && at_node(i - 1) < here) continue;
-    if (i < radial_.count() && at_node(i + 1) < here) continue;
-    const NearestSphere found = narrow(z, rho, i);
-    if (found.g < best.g) best = found;
-  }
-  return best;
-}
-
 // sqrt((z - s)^2 + rho^2) < below + r(s) bounds |z - s|.
 ToolDistance::Cells ToolDistance::cells_below(double z, double rho, double below, double largest) const {
   const double reach = below + largest;
@@ -101,6 +79,44 @@ ToolDistance::Cells ToolDistance::cells_below(double z, double rho, double below
   };
   const int first = static_cast<int>(std::floor(cell_at(z - window))), last = static_cast<int>(cell_at(z + window));
   return {std::max(0, first), z + window < 0.0 ? -1 : std::min(radial_.count() - 1, last)};
+}
+
+ToolDistance::Cells ToolDistance::cells_nearer(double z, double rho, double below) const {
+  const Cells wide = cells_below(z, rho, below, radial_.largest_radius());
+  if (wide.first > wide.last) return wide;
+  const auto first = static_cast<std::size_t>(wide.first), last = static_cast<std::size_t>(wide.last);
+  return cells_below(z, rho, below, radii_.over(first, last));
+}
+
+// Between nodes the value can fall below the lower of the two by at most one step (its slope is at most 2): every local
+// minimum of the node values within that margin is followed up.
+NearestSphere ToolDistance::search(double z, double rho) const {
+  /// Steps: the margin, and a little for what rounding does to the bound.
+  constexpr double kMargin = 1.01;
+  const auto at_node = [&](int i) {
+    const double dz = z - radial_.node(i);
+    return std::sqrt(dz * dz + rho * rho) - radial_.node_radius(i);
+  };
+  // The least value is at most that of the sphere beside the point: what cannot be that near need not be looked at.
+  const double count = radial_.count();
+  const double beside = at_node(static_cast<int>(std::clamp(z / radial_.step(), 0.0, count)));
+  const Cells cells = cells_nearer(z, rho, beside + kMargin * radial_.step());
+  const int first = cells.first, last = std::min(cells.last + 1, radial_.count());
+  double least = beside;
+  for (int i = first; i <= last; ++i) least = std::min(least, at_node(i));
+  NearestSphere best{1e300, 0.0};
+  double before = first > 0 ? at_node(first - 1) : 1e300, here = at_node(first);
+  for (int i = first; i <= last; ++i) {
+    const double after = i < radial_.count() ? at_node(i + 1) : 1e300;
+    // Ties count as minima on both sides: better one search too many than a minimum missed.
+    if (here <= least + radial_.step() && here <= before && here <= after) {
+      const NearestSphere found = narrow(z, rho, i);
+      if (found.g < best.g) best = found;
+    }
+    before = here;
+    here = after;
+  }
+  return best;
 }
 
 double ToolDistance::focal_curvature(double z, double rho, double below) const {

@@ -55,6 +55,8 @@ class ToolDistance {
   };
   /// Those that hold the centres of all spheres nearer than `below`, if none is larger than `largest`.
   [[nodiscard]] Cells cells_below(double z, double rho, double below, double largest) const;
+  /// The same with the largest radius that there is within reach.
+  [[nodiscard]] Cells cells_nearer(double z, double rho, double below) const;
   [[nodiscard]] NearestSphere narrow(double z, double rho, int node) const;
   /// nearest() where several minima over s may compete.
   [[nodiscard]] NearestSphere nearest_of_several(const ToolGrid& grid, double z, double rho) const;
