@@ -242,7 +242,7 @@ FlankFitResult polish_starts(const std::vector<FitTask>& tasks, const ToolModel&
   FitDraft draft = make_draft(tasks, tool, options);
   progress.step("fit", 0.1);
   result.before = estimate_coverage(samples, draft.motions, draft.tool, options.tolerance_mm, kRankingPoses);
-  Runner only{draft, {draft, {}, false}, {}, false, {}};
+  Runner only{.start = draft, .polished = {draft, {}, false}, .trace = {}, .beaten = {}};
   advance(only, progress, "polish", [&](Runner& next) {
     next.polished = polish(draft, samples, options, &next.trace);
     settle_if_enough(next, samples, options);

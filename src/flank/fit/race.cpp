@@ -78,12 +78,35 @@ std::vector<Runner> polished_abreast(std::span<const FitDraft> starts, const std
   return runners;
 }
 
+/// The last passes of one runner. They cost more than all before.
+void pass(Runner& runner, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options,
+          const Progress& progress) {
+  advance(runner, progress, "last passes", [&](Runner& next) {
+    next.polished = last_passes(next.polished, samples, options, &next.trace);
+    settle_if_enough(next, samples, options);
+    next.passed = true;
+  });
+  tell_found(progress, runner.polished.estimate, options.tolerance_mm);
+}
+
+/// The best so far, if it is all but enough, gets the last passes at once: they cost less than to polish all others.
+void pass_if_near(std::vector<Runner>& runners, const std::vector<SurfaceSample>& samples,
+                  const FlankFitOptions& options, const Progress& progress) {
+  constexpr double kNear = 0.9;  // of the face: the last passes gain a tenth where they lead anywhere
+  const auto best = std::max_element(runners.begin(), runners.end(), [&](const Runner& a, const Runner& b) {
+    return a.polished.estimate.score(options.tolerance_mm) < b.polished.estimate.score(options.tolerance_mm);
+  });
+  if (best->polished.estimate.at_tolerance >= kNear) pass(*best, samples, options, progress);
+}
+
 std::vector<Runner> polish_until_enough(const std::vector<FitDraft>& starts, const std::vector<SurfaceSample>& samples,
                                         const FlankFitOptions& options, const Progress& progress) {
   const std::size_t most = std::min(starts.size(), static_cast<std::size_t>(options.kept_after_quick));
   std::vector<Runner> runners;
-  const auto enough = [](const Runner& runner) { return runner.enough; };
-  while (runners.size() < most && std::none_of(runners.begin(), runners.end(), enough)) {
+  const auto any_enough = [&] {
+    return std::any_of(runners.begin(), runners.end(), [](const Runner& runner) { return runner.enough; });
+  };
+  while (runners.size() < most && !any_enough()) {
     // The user has had enough: the best start alone is still worth a polish, so that there is a result.
     if (progress.stop() && !runners.empty()) break;
     const std::size_t first = runners.size(), count = progress.stop() ? 1 : std::min(kAbreast, most - first);
@@ -92,6 +115,8 @@ std::vector<Runner> polish_until_enough(const std::vector<FitDraft>& starts, con
       runners.push_back(std::move(runner));
     }
     progress.step("polish", 0.5 + 0.2 * static_cast<double>(runners.size()) / static_cast<double>(most));
+    const bool passed = std::any_of(runners.begin(), runners.end(), [](const Runner& r) { return r.passed; });
+    if (!passed && !any_enough() && !progress.stop()) pass_if_near(runners, samples, options, progress);
   }
   return runners;
 }
@@ -108,7 +133,7 @@ void look_for_hope(std::vector<Runner>& runners, const std::vector<SurfaceSample
   sort_by_merit(runners, options);
 }
 
-/// The last passes cost more than all before. Hopeless fits are left without them if the caller says what is hopeless.
+/// Hopeless fits are left without the last passes if the caller says what is hopeless.
 void pass_until_enough(std::vector<Runner>& runners, const std::vector<SurfaceSample>& samples,
                        const FlankFitOptions& options, const Progress& progress) {
   const double least = options.least_coverage_for_last_passes;
@@ -123,11 +148,7 @@ void pass_until_enough(std::vector<Runner>& runners, const std::vector<SurfaceSa
     Runner& runner = runners[k];
     const double before = score(runner);
     if (k > 0 && (progress.stop() || before + kGains * gained + kBehind < best)) continue;
-    advance(runner, progress, "last passes", [&](Runner& next) {
-      next.polished = last_passes(next.polished, samples, options, &next.trace);
-      settle_if_enough(next, samples, options);
-    });
-    tell_found(progress, runner.polished.estimate, options.tolerance_mm);
+    if (!runner.passed) pass(runner, samples, options, progress);
     if (runner.enough) return;
     gained = std::max(gained, score(runner) - before);
     best = std::max(best, score(runner));
@@ -164,6 +185,7 @@ void code(StepCodec& codec, Runner& runner) {
   code(codec, runner.polished);
   code(codec, runner.trace);
   code(codec, runner.enough);
+  code(codec, runner.passed);
 }
 
 void advance(Runner& runner, const Progress& progress, const char* step, const std::function<void(Runner&)>& work) {

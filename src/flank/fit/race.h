@@ -17,6 +17,7 @@ struct Runner {
   Polished polished;                  ///< as far as it has come
   std::vector<IterationTrace> trace;  ///< of its passes
   bool enough = false;                ///< does what was asked, looked at closely; `polished` is settled then
+  bool passed = false;                ///< has had the last passes
   std::vector<TriedTool> beaten;      ///< of the winner: the others, as far as they have come
 };
 

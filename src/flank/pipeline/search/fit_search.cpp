@@ -48,11 +48,18 @@ double demanded_reach(const FitJob& job, const Target& target, const RadiusBound
   return decimals >= 0.0 ? std::round(radius * unit) / unit : std::round(radius / unit) * unit;
 }
 
+/// Of a fit that needs no rival: the judge, who is stricter than the estimate, still finds what is asked for covered.
+double enough_for(double least_coverage) {
+  constexpr double kOfTheRest = 0.5;  // of what may be missing
+  return 1.0 - (1.0 - kOfTheRest) * (1.0 - least_coverage);
+}
+
 /// `free_tool`: what is reachable is asked with the ball of the demand.
 FlankFitOptions options_of(const FitJob& job, const Setup& setup, const Target& target, bool free_tool) {
   FlankFitOptions options;
   options.partial_passes = !setup.part.is_mesh();
   options.tolerance_mm = job.tolerance_mm;
+  options.enough_coverage = std::min(options.enough_coverage, enough_for(job.judge.least_coverage));
   options.axis_length_mm = job.tool.axis_length_mm;
   options.bounds = radius_bounds(job.radius, job.obstacles, target.diagonal());
   const double demanded = free_tool ? demanded_reach(job, target, options.bounds) : 0.0;
