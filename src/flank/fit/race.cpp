@@ -25,9 +25,10 @@ constexpr double kSameStiffness = 0.02;
 constexpr double kSlenderPrice = 0.02;
 
 /// The bound on slenderness is a soft one, and radii that were reduced against overcut no longer keep it: another start
-/// may give a tool that does.
+/// may give a tool that does. Not where no cylinder does that is as thick as allowed.
 bool is_stiff_enough(const FitDraft& draft, const RadiusBounds& bounds) {
-  return !draft.free_tool || slenderness_of(draft.tool, bounds) <= bounds.slenderest;
+  const double thickest = draft.tool.axis_length() / (2.0 * bounds.largest);
+  return !draft.free_tool || thickest > bounds.slenderest || slenderness_of(draft.tool, bounds) <= bounds.slenderest;
 }
 
 /// An envelope, found to the last digits.
@@ -81,10 +82,13 @@ std::vector<Runner> polished_abreast(std::span<const FitDraft> starts, const std
 /// The last passes of one runner. They cost more than all before.
 void pass(Runner& runner, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options,
           const Progress& progress) {
+  const auto score = [&](const Runner& any) { return any.polished.estimate.score(options.tolerance_mm); };
   advance(runner, progress, "last passes", [&](Runner& next) {
+    const double before = score(next);
     next.polished = last_passes(next.polished, samples, options, &next.trace);
     settle_if_enough(next, samples, options);
     next.passed = true;
+    next.gained = score(next) - before;
   });
   tell_found(progress, runner.polished.estimate, options.tolerance_mm);
 }
@@ -146,11 +150,11 @@ void pass_until_enough(std::vector<Runner>& runners, const std::vector<SurfaceSa
   const std::size_t most = std::min(runners.size(), static_cast<std::size_t>(options.kept_after_polish));
   for (std::size_t k = 0; k < most; ++k) {
     Runner& runner = runners[k];
-    const double before = score(runner);
-    if (k > 0 && (progress.stop() || before + kGains * gained + kBehind < best)) continue;
+    const bool behind = score(runner) + kGains * gained + kBehind < best;
+    if (k > 0 && (progress.stop() || behind)) continue;
     if (!runner.passed) pass(runner, samples, options, progress);
     if (runner.enough) return;
-    gained = std::max(gained, score(runner) - before);
+    gained = std::max(gained, runner.gained);
     best = std::max(best, score(runner));
     progress.step("polish", 0.7 + 0.2 * static_cast<double>(k + 1) / static_cast<double>(most));
   }
@@ -186,6 +190,7 @@ void code(StepCodec& codec, Runner& runner) {
   code(codec, runner.trace);
   code(codec, runner.enough);
   code(codec, runner.passed);
+  codec.number(runner.gained);
 }
 
 void advance(Runner& runner, const Progress& progress, const char* step, const std::function<void(Runner&)>& work) {

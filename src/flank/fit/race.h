@@ -18,6 +18,7 @@ struct Runner {
   std::vector<IterationTrace> trace;  ///< of its passes
   bool enough = false;                ///< does what was asked, looked at closely; `polished` is settled then
   bool passed = false;                ///< has had the last passes
+  double gained = 0.0;                ///< of the score, by them
   std::vector<TriedTool> beaten;      ///< of the winner: the others, as far as they have come
 };
 
