@@ -50,12 +50,31 @@ TEST(CavityNotes, NoneWhereCyclesGotStuckOrAllIsMet) {
 
 TEST(CavityNotes, ThickerPlacesOfTheToolAreTold) {
   Result result = cleared();
-  note_own_reach({}, 0.81, result);
+  const auto thicker = [] { return 0.81; };
+  const auto alike = [] { return 0.85; };
+  note_own_reach({}, thicker, result);
   ASSERT_EQ(result.notes.size(), 1u);
   EXPECT_NE(result.notes[0].find("reaches 81.0 % of the sides"), std::string::npos) << result.notes[0];
   EXPECT_NE(result.notes[0].find("finishes 98.8 % of that"), std::string::npos) << result.notes[0];
-  note_own_reach({}, 0.85, result);
+  note_own_reach({}, alike, result);
   EXPECT_EQ(result.notes.size(), 1u) << "a tool that is as thick everywhere";
+}
+
+TEST(CavityNotes, WhatTheToolReachesIsAskedOnlyWhereCoverageMisses) {
+  int asked = 0;
+  const auto reach = [&] { return ++asked, 0.81; };
+  Result covered = cleared(), given = cleared(), stopped = cleared();
+  covered.verify.coverage_reachable = 1.0;
+  stopped.complete = false;
+  TrochoidJob job;
+  job.judge.reach_radius_mm = 1.0;
+  note_own_reach({}, reach, covered);
+  note_own_reach(job, reach, given);
+  note_own_reach({}, reach, stopped);
+  EXPECT_EQ(asked, 0);
+  Result result = cleared();
+  note_own_reach({}, reach, result);
+  EXPECT_EQ(asked, 1);
 }
 
 TEST(CavityNotes, WhereCyclesGotStuckTheLimitThatGetsPastIsTold) {

@@ -81,11 +81,11 @@ void note_what_is_open(const TrochoidJob& job, const CavityProgram& program, std
   notes.push_back(ends_of(program));
 }
 
-void note_own_reach(const TrochoidJob& job, double own_reach, Result& result) {
+void note_own_reach(const TrochoidJob& job, const std::function<double()>& reach, Result& result) {
   const VerifyReport& report = result.verify;
-  const bool least_ball = !job.judge.reach_radius_mm && own_reach < report.reachable_share;
-  if (!result.complete || report.coverage_reachable >= job.judge.least_coverage || !least_ball || own_reach <= 0.0)
-    return;
+  if (!result.complete || report.coverage_reachable >= job.judge.least_coverage || job.judge.reach_radius_mm) return;
+  const double own_reach = reach();
+  if (own_reach >= report.reachable_share || own_reach <= 0.0) return;
   result.notes.push_back(fmt::format(
       "with the radius that it has at each place, {:.4g} to {:.4g} mm, the tool reaches {:.1f} % of the sides between "
       "the other faces and finishes {:.1f} % of that; coverage counts what its least radius reaches, {:.1f} %",
