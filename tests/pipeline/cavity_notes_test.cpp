@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
 namespace flank::internal {
@@ -89,6 +90,27 @@ TEST(CavityNotes, WhereCyclesGotStuckTheLimitThatGetsPastIsTold) {
   ASSERT_EQ(notes.size(), 3u);
   EXPECT_NE(notes[0].find("0.0121 mm, engages 61.30; --max-engagement 62"), std::string::npos) << notes[0];
   EXPECT_NE(notes[1].find("the rest is left"), std::string::npos) << notes[1];
+}
+
+TEST(CavityNotes, WhereTheSidesLeadAlongTheAxisOfStuckCyclesThatIsTold) {
+  CavityProgram program;
+  program.layers.emplace_back();
+  PlannedLayer& layer = program.layers.back();
+  layer.cycles.status = CycleStatus::kStuck;
+  layer.cycles.cycles.emplace_back();
+  layer.share = 0.9;
+  const auto told = [&](double degrees) {
+    layer.off_axis_rad = degrees * std::numbers::pi / 180.0;
+    std::vector<std::string> notes;
+    note_what_is_open({}, program, notes);
+    return std::count_if(notes.begin(), notes.end(), [](const std::string& note) {
+      return note.find("along the tool's axis, 16 degrees off it") != std::string::npos;
+    });
+  };
+  EXPECT_EQ(told(16.0), 1);
+  EXPECT_EQ(told(80.0), 0);
+  layer.cycles.status = CycleStatus::kDone;
+  EXPECT_EQ(told(16.0), 0);
 }
 
 }  // namespace

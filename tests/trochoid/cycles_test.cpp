@@ -162,6 +162,20 @@ TEST(Cycles, RiseOverARidgeWithTheStepsOfALevelFloor) {
   EXPECT_LE(over.cycles.size(), level.cycles.size() + 1);
 }
 
+TEST(CycleSearch, NoStepWithinTheLimitCountsAsRefused) {
+  SweptStock stock = slot();
+  const LayerSides sides{straight(0.0), straight(10.0)};
+  const HalfGuard guard({}, stock.radial());
+  const CycleOptions options;
+  CycleSearch search(sides, guard, stock, options);
+  search.refuse(0.3, 41.5 * kDegree);
+  EXPECT_EQ(search.refused().largest_rad, 0.0) << "who aims lower refuses it, but the limit does not";
+  search.refuse(0.2, 63.0 * kDegree);
+  search.refuse(0.1, 61.0 * kDegree);
+  search.refuse(0.05, 62.0 * kDegree);
+  EXPECT_EQ(search.refused().step_mm, 0.1);
+}
+
 TEST(Cycles, AreTheSameForOneAndTwoThreads) {
   const auto poles = [](int threads) {
     set_thread_count(threads);

@@ -10,6 +10,8 @@ namespace flank::internal {
 namespace {
 
 constexpr double kRadian = 180.0 / std::numbers::pi;
+/// Nearer to the axis than this, more of a step along the sides is along the axis than across it.
+constexpr double kAlongAxis = 0.25 * std::numbers::pi;
 
 std::string ends_of(const CavityProgram& program) {
   if (program.walled_start)
@@ -27,11 +29,20 @@ double rounded_up(double value) {
 
 std::string stuck_sentence(const TrochoidJob& job, const RefusedStep& refused) {
   const double most = job.cycles.most_engagement_deg;
-  if (!(refused.largest_rad > 0.0)) return fmt::format("no step is possible within {} degrees", most);
+  if (!(refused.largest_rad > 0.0))
+    return fmt::format("no step within {} degrees is possible that enters no face", most);
   return fmt::format(
       "no step is possible within {} degrees: the one that exceeds them least, {:.4f} mm, engages {:.2f}; "
       "--max-engagement {:.0f} gets past this place",
       most, refused.step_mm, refused.largest_rad * kRadian, std::ceil(refused.largest_rad * kRadian + 0.5));
+}
+
+/// Cycles go forward across the axis; where the sides lead along it they hardly do.
+std::string along_axis_sentence(const PlannedLayer& layer) {
+  return fmt::format(
+      "there the sides lead along the tool's axis, {:.0f} degrees off it: of a step along them {:.0f} % goes forward "
+      "across the axis, where the flank cuts",
+      layer.off_axis_rad * kRadian, 100.0 * std::sin(layer.off_axis_rad));
 }
 
 std::string rest_sentence(const TrochoidJob& job, const PlannedLayer& layer) {
@@ -74,6 +85,8 @@ void note_what_is_open(const TrochoidJob& job, const CavityProgram& program, std
                       job.cycles.entry == "plunge" ? "row of plunges" : "ramp"));
     else if (layer.cycles.status == CycleStatus::kStuck)
       add(stuck_sentence(job, layer.cycles.stuck));
+    if (layer.cycles.status == CycleStatus::kStuck && !layer.cycles.cycles.empty() && layer.off_axis_rad < kAlongAxis)
+      add(along_axis_sentence(layer));
     if (layer.share < 1.0) add(rest_sentence(job, layer));
     if (layer.entered_mm() > job.tolerance_mm)
       add(fmt::format("a half path enters a face by {:.4f} mm, by the planner's samples", layer.entered_mm()));

@@ -97,6 +97,8 @@ void CycleSearch::reset_shape() {
 }
 
 void CycleSearch::refuse(double step_mm, double largest_rad) {
+  // A search that aims lower refuses what the limit allows.
+  if (largest_rad <= options_.largest_rad) return;
   if (refused_.largest_rad == 0.0 || largest_rad < refused_.largest_rad) refused_ = {step_mm, largest_rad};
 }
 

@@ -100,7 +100,7 @@ class CycleSearch {
   [[nodiscard]] bool enters_anything(const Trial& trial) const;
   /// The engagement that a search may see, so that fine samples see no more than the limit, radians.
   [[nodiscard]] double aim() const;
-  /// Of the steps that were too long since the last cycle was looked for, the one that engages least.
+  /// Of the steps beyond the limit since the last cycle was looked for, the one that engages least.
   [[nodiscard]] const RefusedStep& refused() const { return refused_; }
   void set_refused(const RefusedStep& step) { refused_ = step; }
   void refuse(double step_mm, double largest_rad);

@@ -279,6 +279,13 @@ double sweep_side(const RuledMotion& motion, SweptStock& stock, double& volume) 
   return largest;
 }
 
+/// Angle between the way of a side and its axis, at most 90 degrees.
+double off_axis(const SidePath& side, double x) {
+  const AxisPlace place = side.at(x);
+  const Vec3 way = place.velocity(0.5 * side.axis_length());
+  return std::atan2(way.cross(place.u).norm(), std::abs(way.dot(place.u)));
+}
+
 /// Both finishing sweeps, as far as the cycles got.
 void sweep_sides(const LayerSides& sides, const HalfGuard& guard, SweptStock& stock, const ProgramOptions& options,
                  PlannedLayer& planned) {
@@ -289,6 +296,7 @@ void sweep_sides(const LayerSides& sides, const HalfGuard& guard, SweptStock& st
   const Cycle& end = planned.cycles.cycles.back();
   const bool done = planned.cycles.status == CycleStatus::kDone && planned.cycles.before_wall_mm == 0.0;
   planned.share = done ? 1.0 : std::clamp(end.from_x / sides.from.length(), 0.0, 1.0);
+  planned.off_axis_rad = std::min(off_axis(sides.from, end.from_x), off_axis(sides.to, end.to_x));
   const SideRange range = range_of(sides, planned, stock.profile().largest(), guard, allowed_at_run_outs(options));
   if (!range.some()) return;
   const RuledMotion first = sides.to.motion_between(range.to_start, range.to_end);

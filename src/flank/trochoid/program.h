@@ -29,6 +29,8 @@ struct PlannedLayer {
   double side_volume_mm3 = 0.0;
   /// Of the first side's way, cleared by the cycles and finished. Below 1: they did not get through.
   double share = 1.0;
+  /// Where the cycles ended: the least angle between the way of a side and the axis there.
+  double off_axis_rad = 1.5707963267948966;
   /// Deepest that the entry or a half enters a face, by the planner's samples.
   [[nodiscard]] double entered_mm() const;
 };
