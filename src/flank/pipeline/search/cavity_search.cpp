@@ -20,6 +20,8 @@ constexpr int kMostLayers = 5;
 constexpr int kFewRewinds = 3, kMostRewinds = 6;
 /// Depths in faces that differ by less than this share are alike.
 constexpr double kSameDepth = 0.2;
+/// Where no cycles get through, the search ends after so many tools in a row that do not get farther: one may be unlucky.
+constexpr int kInVain = 2;
 /// Diameters of way across, least_way_across: below, cycles crawl and get stuck, however wide the cavity is elsewhere.
 constexpr double kLeastWay = 0.3;
 
@@ -173,11 +175,17 @@ std::vector<double> bounds_of(const TrochoidJob& job, const CavityWidth& width) 
   return bounds;
 }
 
+bool SearchPatience::ends_after(bool gained, bool through) {
+  in_vain_ = gained ? 0 : in_vain_ + 1;
+  return in_vain_ >= (through ? 1 : kInVain);
+}
+
 CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const ToolModel& tool,
                          const SideFitOptions& options, const Progress& progress) {
   CavityPlan best;
   const bool given = !tool.free() && tool.radius;
   int tools = 0;
+  SearchPatience patience;
   const std::vector<double> bounds = bounds_of(job, faces.width);
   for (const double bound : bounds) {
     SideFitOptions here = options;
@@ -188,11 +196,13 @@ CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const
     if (tool.free()) here.starts.push_back({radius, kThin});
     CavityPlan tried = search_ways(job, faces, tool, here, !given && bound != bounds.back(), progress);
     const bool done = is_done(tried, faces, job);
+    const bool skipped = tried.program.layers.empty();
     const bool better = ++tools == 1 || is_better(tried, best, job.tolerance_mm);
     if (better) best = std::move(tried);
     best.tools = tools;
-    // Thinner ones are slower, too: the search ends where they stop to gain, once cycles get through.
-    if (done || given || (!better && best.program.done()) || progress.stop()) break;
+    // A tool that has hardly any way across got no cycles, and says nothing of thinner ones.
+    const bool in_vain = !skipped && patience.ends_after(better, best.program.done());
+    if (done || given || in_vain || progress.stop()) break;
   }
   // The long search for a way past a place where cycles get stuck comes last: another tool may have no such place.
   if (!best.program.done() && !best.sides.fit.motions.empty() && !progress.stop()) {
