@@ -109,6 +109,9 @@ TEST(CavityNotes, WhereTheSidesLeadAlongTheAxisOfStuckCyclesThatIsTold) {
   };
   EXPECT_EQ(told(16.0), 1);
   EXPECT_EQ(told(80.0), 0);
+  EXPECT_FALSE(program.stuck_along_axis());
+  layer.off_axis_rad = 0.5;
+  EXPECT_TRUE(program.stuck_along_axis());
   layer.cycles.status = CycleStatus::kDone;
   EXPECT_EQ(told(16.0), 0);
 }

@@ -10,8 +10,6 @@ namespace flank::internal {
 namespace {
 
 constexpr double kRadian = 180.0 / std::numbers::pi;
-/// Nearer to the axis than this, more of a step along the sides is along the axis than across it.
-constexpr double kAlongAxis = 0.25 * std::numbers::pi;
 
 std::string ends_of(const CavityProgram& program) {
   if (program.walled_start)
@@ -85,8 +83,7 @@ void note_what_is_open(const TrochoidJob& job, const CavityProgram& program, std
                       job.cycles.entry == "plunge" ? "row of plunges" : "ramp"));
     else if (layer.cycles.status == CycleStatus::kStuck)
       add(stuck_sentence(job, layer.cycles.stuck));
-    if (layer.cycles.status == CycleStatus::kStuck && !layer.cycles.cycles.empty() && layer.off_axis_rad < kAlongAxis)
-      add(along_axis_sentence(layer));
+    if (layer.stuck_along_axis()) add(along_axis_sentence(layer));
     if (layer.share < 1.0) add(rest_sentence(job, layer));
     if (layer.entered_mm() > job.tolerance_mm)
       add(fmt::format("a half path enters a face by {:.4f} mm, by the planner's samples", layer.entered_mm()));

@@ -159,6 +159,7 @@ CavityPlan search_ways(const TrochoidJob& job, const CavityFaces& faces, const T
   if (is_done(facing, faces, job) || progress.stop()) return facing;
   // What all cycles get past, but enters a face, is not the leans'.
   if (facing.program.done() && state_of(facing.sides, faces, job) != SideState::kShort) return facing;
+  if (facing.program.stuck_along_axis()) return facing;
   CavityPlan plain = planned(sides(false), job, faces, bound, kFewRewinds, progress);
   return is_better(plain, facing, job.tolerance_mm) ? plain : facing;
 }
@@ -202,10 +203,11 @@ CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const
     best.tools = tools;
     // A tool that has hardly any way across got no cycles, and says nothing of thinner ones.
     const bool in_vain = !skipped && patience.ends_after(better, best.program.done());
-    if (done || given || in_vain || progress.stop()) break;
+    // Nor is it the radius that gets cycles stuck where the sides lead along the axis.
+    if (done || given || in_vain || best.program.stuck_along_axis() || progress.stop()) break;
   }
   // The long search for a way past a place where cycles get stuck comes last: another tool may have no such place.
-  if (!best.program.done() && !best.sides.fit.motions.empty() && !progress.stop()) {
+  if (!best.program.done() && !best.program.stuck_along_axis() && !best.sides.fit.motions.empty() && !progress.stop()) {
     CavityPlan tried = planned(best.sides, job, faces, best.largest_radius_mm, kMostRewinds, progress);
     if (is_better(tried, best, job.tolerance_mm)) best.program = std::move(tried.program);
   }
