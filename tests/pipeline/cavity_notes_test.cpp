@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
 namespace flank::internal {
@@ -50,12 +51,31 @@ TEST(CavityNotes, NoneWhereCyclesGotStuckOrAllIsMet) {
 
 TEST(CavityNotes, ThickerPlacesOfTheToolAreTold) {
   Result result = cleared();
-  note_own_reach({}, 0.81, result);
+  const auto thicker = [] { return 0.81; };
+  const auto alike = [] { return 0.85; };
+  note_own_reach({}, thicker, result);
   ASSERT_EQ(result.notes.size(), 1u);
   EXPECT_NE(result.notes[0].find("reaches 81.0 % of the sides"), std::string::npos) << result.notes[0];
   EXPECT_NE(result.notes[0].find("finishes 98.8 % of that"), std::string::npos) << result.notes[0];
-  note_own_reach({}, 0.85, result);
+  note_own_reach({}, alike, result);
   EXPECT_EQ(result.notes.size(), 1u) << "a tool that is as thick everywhere";
+}
+
+TEST(CavityNotes, WhatTheToolReachesIsAskedOnlyWhereCoverageMisses) {
+  int asked = 0;
+  const auto reach = [&] { return ++asked, 0.81; };
+  Result covered = cleared(), given = cleared(), stopped = cleared();
+  covered.verify.coverage_reachable = 1.0;
+  stopped.complete = false;
+  TrochoidJob job;
+  job.judge.reach_radius_mm = 1.0;
+  note_own_reach({}, reach, covered);
+  note_own_reach(job, reach, given);
+  note_own_reach({}, reach, stopped);
+  EXPECT_EQ(asked, 0);
+  Result result = cleared();
+  note_own_reach({}, reach, result);
+  EXPECT_EQ(asked, 1);
 }
 
 TEST(CavityNotes, WhereCyclesGotStuckTheLimitThatGetsPastIsTold) {
@@ -70,6 +90,30 @@ TEST(CavityNotes, WhereCyclesGotStuckTheLimitThatGetsPastIsTold) {
   ASSERT_EQ(notes.size(), 3u);
   EXPECT_NE(notes[0].find("0.0121 mm, engages 61.30; --max-engagement 62"), std::string::npos) << notes[0];
   EXPECT_NE(notes[1].find("the rest is left"), std::string::npos) << notes[1];
+}
+
+TEST(CavityNotes, WhereTheSidesLeadAlongTheAxisOfStuckCyclesThatIsTold) {
+  CavityProgram program;
+  program.layers.emplace_back();
+  PlannedLayer& layer = program.layers.back();
+  layer.cycles.status = CycleStatus::kStuck;
+  layer.cycles.cycles.emplace_back();
+  layer.share = 0.9;
+  const auto told = [&](double degrees) {
+    layer.off_axis_rad = degrees * std::numbers::pi / 180.0;
+    std::vector<std::string> notes;
+    note_what_is_open({}, program, notes);
+    return std::count_if(notes.begin(), notes.end(), [](const std::string& note) {
+      return note.find("along the tool's axis, 16 degrees off it") != std::string::npos;
+    });
+  };
+  EXPECT_EQ(told(16.0), 1);
+  EXPECT_EQ(told(80.0), 0);
+  EXPECT_FALSE(program.stuck_along_axis());
+  layer.off_axis_rad = 0.5;
+  EXPECT_TRUE(program.stuck_along_axis());
+  layer.cycles.status = CycleStatus::kDone;
+  EXPECT_EQ(told(16.0), 0);
 }
 
 }  // namespace

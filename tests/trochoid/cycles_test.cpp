@@ -8,6 +8,7 @@
 
 #include "flank/threads.h"
 #include "flank/verify/stock/replay.h"
+#include "obstacle/obstacle_scene.h"
 #include "sanitized.h"
 
 namespace flank::internal {
@@ -137,6 +138,42 @@ TEST(Cycles, GoOnWhereEveryFrontEntersAFaceAndSaySo) {
   const LayerCycles out = plan_cycles(sides, guard, stock, options, {}, {});
   EXPECT_EQ(out.status, CycleStatus::kDone);
   EXPECT_GT(out.entered_mm(), 1.0);
+}
+
+TEST(Cycles, RiseOverARidgeWithTheStepsOfALevelFloor) {
+  if (kSanitized) GTEST_SKIP() << "GoOnWhereEveryFrontEntersAFaceAndSaySo looks at faces, too";
+  // A ridge 4 mm below the tips along the middle of the slot, but for its start: the tip's ball, 5 mm, goes 1 mm into it unless
+  // it is lifted.
+  const Face ridge = testing::quad(Vec3(8, 4.5, -4), Vec3(60, 4.5, -4), Vec3(8, 5.5, -4), Vec3(60, 5.5, -4), "F1");
+  const Face side =
+      testing::quad(Vec3(0, -5, 0), Vec3(kSlot, -5, 0), Vec3(0, -5, kLength), Vec3(kSlot, -5, kLength), "F2");
+  const std::unique_ptr<Target> target = make_target({side});
+  const ObstacleField field(testing::only({make_target({ridge}), false}), *target, 2.0, 0.0);
+  const LayerSides sides{straight(0.0), straight(10.0)};
+  CycleOptions options;
+  const auto planned = [&](const GuardedFaces& faces) {
+    SweptStock stock = slot();
+    const HalfGuard guard(faces, stock.radial());
+    return plan_cycles(sides, guard, stock, options, {}, {});
+  };
+  const LayerCycles level = planned({}), over = planned({{}, {&field}});
+  ASSERT_EQ(over.status, CycleStatus::kDone);
+  EXPECT_LE(over.entered_mm(), options.tolerance_mm);
+  EXPECT_LE(over.cycles.size(), level.cycles.size() + 1);
+}
+
+TEST(CycleSearch, NoStepWithinTheLimitCountsAsRefused) {
+  SweptStock stock = slot();
+  const LayerSides sides{straight(0.0), straight(10.0)};
+  const HalfGuard guard({}, stock.radial());
+  const CycleOptions options;
+  CycleSearch search(sides, guard, stock, options);
+  search.refuse(0.3, 41.5 * kDegree);
+  EXPECT_EQ(search.refused().largest_rad, 0.0) << "who aims lower refuses it, but the limit does not";
+  search.refuse(0.2, 63.0 * kDegree);
+  search.refuse(0.1, 61.0 * kDegree);
+  search.refuse(0.05, 62.0 * kDegree);
+  EXPECT_EQ(search.refused().step_mm, 0.1);
 }
 
 TEST(Cycles, AreTheSameForOneAndTwoThreads) {

@@ -27,11 +27,20 @@ double rounded_up(double value) {
 
 std::string stuck_sentence(const TrochoidJob& job, const RefusedStep& refused) {
   const double most = job.cycles.most_engagement_deg;
-  if (!(refused.largest_rad > 0.0)) return fmt::format("no step is possible within {} degrees", most);
+  if (!(refused.largest_rad > 0.0))
+    return fmt::format("no step within {} degrees is possible that enters no face", most);
   return fmt::format(
       "no step is possible within {} degrees: the one that exceeds them least, {:.4f} mm, engages {:.2f}; "
       "--max-engagement {:.0f} gets past this place",
       most, refused.step_mm, refused.largest_rad * kRadian, std::ceil(refused.largest_rad * kRadian + 0.5));
+}
+
+/// Cycles go forward across the axis; where the sides lead along it they hardly do.
+std::string along_axis_sentence(const PlannedLayer& layer) {
+  return fmt::format(
+      "there the sides lead along the tool's axis, {:.0f} degrees off it: of a step along them {:.0f} % goes forward "
+      "across the axis, where the flank cuts",
+      layer.off_axis_rad * kRadian, 100.0 * std::sin(layer.off_axis_rad));
 }
 
 std::string rest_sentence(const TrochoidJob& job, const PlannedLayer& layer) {
@@ -74,6 +83,7 @@ void note_what_is_open(const TrochoidJob& job, const CavityProgram& program, std
                       job.cycles.entry == "plunge" ? "row of plunges" : "ramp"));
     else if (layer.cycles.status == CycleStatus::kStuck)
       add(stuck_sentence(job, layer.cycles.stuck));
+    if (layer.stuck_along_axis()) add(along_axis_sentence(layer));
     if (layer.share < 1.0) add(rest_sentence(job, layer));
     if (layer.entered_mm() > job.tolerance_mm)
       add(fmt::format("a half path enters a face by {:.4f} mm, by the planner's samples", layer.entered_mm()));
@@ -81,11 +91,11 @@ void note_what_is_open(const TrochoidJob& job, const CavityProgram& program, std
   notes.push_back(ends_of(program));
 }
 
-void note_own_reach(const TrochoidJob& job, double own_reach, Result& result) {
+void note_own_reach(const TrochoidJob& job, const std::function<double()>& reach, Result& result) {
   const VerifyReport& report = result.verify;
-  const bool least_ball = !job.judge.reach_radius_mm && own_reach < report.reachable_share;
-  if (!result.complete || report.coverage_reachable >= job.judge.least_coverage || !least_ball || own_reach <= 0.0)
-    return;
+  if (!result.complete || report.coverage_reachable >= job.judge.least_coverage || job.judge.reach_radius_mm) return;
+  const double own_reach = reach();
+  if (own_reach >= report.reachable_share || own_reach <= 0.0) return;
   result.notes.push_back(fmt::format(
       "with the radius that it has at each place, {:.4g} to {:.4g} mm, the tool reaches {:.1f} % of the sides between "
       "the other faces and finishes {:.1f} % of that; coverage counts what its least radius reaches, {:.1f} %",

@@ -1,6 +1,7 @@
 /// What is said of a cavity beside its figures: where it is open, what was left and why, and which request would be met.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -13,8 +14,9 @@ namespace flank::internal {
 void note_what_is_open(const TrochoidJob& job, const CavityProgram& program, std::vector<std::string>& notes);
 
 /// Where coverage is what misses, and other faces keep the tool's thicker places off: so much of what it can reach with the radius
-/// that it has there is covered. `own_reach`: share of both sides, as a ball of the least radius has it in the report.
-void note_own_reach(const TrochoidJob& job, double own_reach, Result& result);
+/// that it has there is covered. `reach` gives the share of both sides, as a ball of the least radius has it in the report: it is
+/// slow to find, and asked only where a note may need it.
+void note_own_reach(const TrochoidJob& job, const std::function<double()>& reach, Result& result);
 
 /// Of a judged result that misses its request by coverage or depth alone: the nearest request that it meets.
 void note_nearest(Result& result);

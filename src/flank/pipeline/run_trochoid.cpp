@@ -228,8 +228,10 @@ Result run_trochoid(const TrochoidJob& job, const Progress& asked) {
   replay(setup, job, plan.program.blank, result);
   watch.lap("stock");
   const FlankFitResult& sides = plan.sides.fit;
-  note_own_reach(job, reach_of_tool(side_of(faces.sides[0]), side_of(faces.sides[1]), sides.motions, sides.tool),
-                 result);
+  const auto own_reach = [&] {
+    return reach_of_tool(side_of(faces.sides[0]), side_of(faces.sides[1]), sides.motions, sides.tool);
+  };
+  note_own_reach(job, own_reach, result);
   note_nearest(result);
   if (!result.complete) result.journal = progress.journal;
   return result;

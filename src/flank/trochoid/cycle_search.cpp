@@ -19,6 +19,10 @@ constexpr double kLeastStep = 0.004, kShortStep = 0.06;
 /// So many radii before and behind the sides places are paired; farther out both ends go equally fast.
 constexpr double kBeyond = 6.0;
 constexpr double kLeastLiftMm = 0.02;
+/// A lift grows by so much of what the tips enter, and is taken back unless it leaves less than this share of that.
+constexpr double kLiftMore = 1.6, kLiftHelps = 0.7;
+/// Where it is asked how deep tips enter.
+constexpr int kLiftTimes = 17, kLiftPlaces = 5;
 /// Of the shares of a shape: by which the change that is tried grows where it gained, and shrinks where it did not. Where
 /// even a small one gains nothing, the share is left alone for some turns: after those the cavity is another.
 constexpr double kGrow = 1.3, kShrink = 0.7, kMostSpan = 0.15, kLeastSpan = 0.008, kSpanAfterRest = 0.03;
@@ -93,6 +97,8 @@ void CycleSearch::reset_shape() {
 }
 
 void CycleSearch::refuse(double step_mm, double largest_rad) {
+  // A search that aims lower refuses what the limit allows.
+  if (largest_rad <= options_.largest_rad) return;
   if (refused_.largest_rad == 0.0 || largest_rad < refused_.largest_rad) refused_ = {step_mm, largest_rad};
 }
 
@@ -246,13 +252,14 @@ void CycleSearch::improve(Trial& best) {
 }
 
 std::vector<CycleSearch::Prospect> CycleSearch::prospects() {
-  const double step = kShortStep * radius_;
+  const double step = kShortStep * radius_, lift = now_.lift_mm;
   std::vector<Prospect> out;
   for (const double handle : {0.08, 0.16, 0.26}) {
     for (const double bulge : {-0.08, 0.0, 0.08, 0.16, 0.28}) {
       Prospect prospect{now_.shape};
       prospect.shape.share[0] = prospect.shape.share[1] = handle;
       prospect.shape.share[2] = bulge;
+      prospect.lift_mm = now_.lift_mm = needed_lift(prospect.shape, step);
       const Trial probe = tried(step, prospect.shape, true);
       const double longer = depth_of_cut(aim()) / depth_of_cut(probe.largest_rad);
       prospect.enters = enters_anything(probe);
@@ -261,6 +268,7 @@ std::vector<CycleSearch::Prospect> CycleSearch::prospects() {
       out.push_back(prospect);
     }
   }
+  now_.lift_mm = lift;
   std::stable_sort(out.begin(), out.end(), [](const Prospect& a, const Prospect& b) {
     return a.enters != b.enters ? b.enters : a.worth > b.worth;
   });
@@ -274,9 +282,11 @@ void CycleSearch::reshape(Trial& best) {
   constexpr int kSearched = 4;
   bool entering = best.largest_rad >= 0.0 && enters_anything(best);
   int searched = 0;
+  double lift = now_.lift_mm;
   for (const Prospect& prospect : prospects()) {
     if (searched >= kSearched && best.largest_rad >= 0.0 && !entering) break;
     ++searched;
+    now_.lift_mm = prospect.lift_mm;
     Trial trial = longest_step(prospect.shape, prospect.step);
     if (trial.largest_rad < 0.0 || (!entering && trial.worth() <= best.worth())) continue;
     const bool enters = enters_anything(trial);
@@ -284,7 +294,9 @@ void CycleSearch::reshape(Trial& best) {
     entering = enters;
     best = std::move(trial);
     now_.shape = prospect.shape;
+    lift = prospect.lift_mm;
   }
+  now_.lift_mm = lift;
 }
 
 void CycleSearch::reshape_short(Trial& best) {
@@ -317,21 +329,43 @@ bool CycleSearch::enters_anything(const Trial& trial) const {
   return entered(trial) > std::max(allowed, depth_at_ends(trial, kGuardPlaces).deepest());
 }
 
+double CycleSearch::allowed_at_tips(const Trial& trial) const {
+  return std::max(kToleranceBudget.cavity.aim * options_.tolerance_mm, kSpare * depth_at_ends(trial, kLiftPlaces).tip);
+}
+
+double CycleSearch::needed_lift(const CycleShape& shape, double step) {
+  constexpr int kTries = 8;
+  const double before = now_.lift_mm;
+  // No more lift than this cycle needs: the floor may fall again.
+  double lift = before > kLeastLiftMm ? 0.5 * before : 0.0, more = lift;
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < kTries; ++k) {
+    now_.lift_mm = more;
+    const Trial trial = tried(step, shape, false);
+    const double deep = depth_of(trial, kLiftTimes, kLiftPlaces).tip;
+    if (deep >= kLiftHelps * least) break;
+    least = deep, lift = more;
+    if (deep <= allowed_at_tips(trial)) break;
+    more += kLiftMore * deep + kLeastLiftMm;
+  }
+  now_.lift_mm = before;
+  return lift;
+}
+
 void CycleSearch::lift(Trial& best) {
-  constexpr int kTimes = 17, kPlaces = 5, kTries = 4;
-  const double allowed =
-      std::max(kToleranceBudget.cavity.aim * options_.tolerance_mm, kSpare * depth_at_ends(best, kPlaces).tip);
-  const double before = now_.lift_mm, deepest = depth_of(best, kTimes, kPlaces).tip;
+  constexpr int kTries = 4;
+  const double allowed = allowed_at_tips(best);
+  const double before = now_.lift_mm, deepest = depth_of(best, kLiftTimes, kLiftPlaces).tip;
   double deep = deepest;
   Trial lifted = best;
   for (int k = 0; k < kTries && deep > allowed; ++k) {
-    now_.lift_mm += 1.6 * deep + 0.02;
+    now_.lift_mm += kLiftMore * deep + kLeastLiftMm;
     Trial next = longest_step(now_.shape, best.from_x - now_.last.from_x);
     if (next.largest_rad < 0.0) break;
     lifted = std::move(next);
-    deep = depth_of(lifted, kTimes, kPlaces).tip;
+    deep = depth_of(lifted, kLiftTimes, kLiftPlaces).tip;
   }
-  if (deep < 0.7 * deepest || deep <= allowed)
+  if (deep < kLiftHelps * deepest || deep <= allowed)
     best = std::move(lifted);
   else
     now_.lift_mm = before;
@@ -339,8 +373,8 @@ void CycleSearch::lift(Trial& best) {
 
 Trial CycleSearch::best(bool improving) {
   refused_ = {};
-  // No more lift than this cycle needs: the floor may fall again.
-  now_.lift_mm = now_.lift_mm > kLeastLiftMm ? 0.5 * now_.lift_mm : 0.0;
+  // Lifted before anything is judged: another shape is not looked for where a lift does.
+  now_.lift_mm = needed_lift(now_.shape, now_.step_mm);
   Trial best = longest_step(now_.shape, now_.step_mm);
   if (best.largest_rad < 0.0 || enters_anything(best))
     reshape(best);

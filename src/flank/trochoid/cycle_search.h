@@ -100,7 +100,7 @@ class CycleSearch {
   [[nodiscard]] bool enters_anything(const Trial& trial) const;
   /// The engagement that a search may see, so that fine samples see no more than the limit, radians.
   [[nodiscard]] double aim() const;
-  /// Of the steps that were too long since the last cycle was looked for, the one that engages least.
+  /// Of the steps beyond the limit since the last cycle was looked for, the one that engages least.
   [[nodiscard]] const RefusedStep& refused() const { return refused_; }
   void set_refused(const RefusedStep& step) { refused_ = step; }
   void refuse(double step_mm, double largest_rad);
@@ -123,7 +123,7 @@ class CycleSearch {
   /// A shape and what one trial of it says of its longest step, mm, and what that would be worth.
   struct Prospect {
     CycleShape shape;
-    double step = 0.0, worth = 0.0;
+    double step = 0.0, worth = 0.0, lift_mm = 0.0;
     bool enters = false;
   };
   /// Of fronts from flat to steep, those that enter no face first, then the worthiest.
@@ -133,6 +133,10 @@ class CycleSearch {
   void reshape_short(Trial& best);
   /// A longer step whose front is moved back where the engagement is above the aim, if that succeeds.
   void adjust(Trial& best);
+  /// The lift with which the tips of a cycle enter nothing, if there is one that helps, mm: the floor alone is asked.
+  [[nodiscard]] double needed_lift(const CycleShape& shape, double step);
+  /// Deepest that tips may enter a face: what the side paths enter themselves does not count.
+  [[nodiscard]] double allowed_at_tips(const Trial& trial) const;
   /// Lifts the inner points of both halves for as long as their tips enter something, if that helps.
   void lift(Trial& best);
   [[nodiscard]] GuardDepth depth_of(const Trial& trial, int times, int places) const;

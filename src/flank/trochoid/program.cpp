@@ -101,6 +101,7 @@ struct SideRange {
 /// Where a run-out enters a face, however it bends and rises, a sweep ends before that: only the side needs it.
 SideRange range_of(const LayerSides& sides, const PlannedLayer& planned, double radius_mm, const HalfGuard& guard,
                    double allowed_mm) {
+  if (planned.cycles.cycles.empty()) return {};
   const double run_mm = kRunOut * radius_mm, off_corner_mm = kOffCorner * radius_mm;
   const auto free = [&](const SidePath& side, bool end) { return free_run_out(side, end, run_mm, guard, allowed_mm); };
   const Cycle& end = planned.cycles.cycles.back();
@@ -145,7 +146,7 @@ class ProgramWriter {
   void add(const std::string& kind, const RuledMotion& motion) { add(kind, both(), poses_of(motion, 2)); }
   /// All moves of an entry as one strip.
   void add(const Entry& entry);
-  void layer(const LayerSides& sides, PlannedLayer& planned);
+  void layer(const LayerSides& sides, const SideRange& range, PlannedLayer& planned);
   /// Both finishing sweeps of a layer that began before the blank, or inside.
   void finish_open(const LayerSides& sides, const SideRange& range, PlannedLayer& planned);
   void finish_inside(const LayerSides& sides, const SideRange& range, PlannedLayer& planned);
@@ -190,7 +191,7 @@ void ProgramWriter::add(const Entry& entry) {
   add(entry.method == EntryMethod::kPlunge ? "plunge" : "ramp", both(), std::move(poses));
 }
 
-void ProgramWriter::layer(const LayerSides& sides, PlannedLayer& planned) {
+void ProgramWriter::layer(const LayerSides& sides, const SideRange& range, PlannedLayer& planned) {
   const LayerCycles& cycles = planned.cycles;
   if (cycles.cycles.empty()) return;
   if (planned.entry)
@@ -202,7 +203,6 @@ void ProgramWriter::layer(const LayerSides& sides, PlannedLayer& planned) {
     // The first front is the end of an entry that opens it.
     if (cycle.back || !planned.entry) add("front", cycle.front.motion);
   }
-  const SideRange range = range_of(sides, planned, radial_.largest(), guard_, allowed_at_run_outs(options_));
   if (!range.some()) return;
   if (planned.entry)
     finish_inside(sides, range, planned);
@@ -279,9 +279,15 @@ double sweep_side(const RuledMotion& motion, SweptStock& stock, double& volume) 
   return largest;
 }
 
+/// Angle between the way of a side and its axis, at most 90 degrees.
+double off_axis(const SidePath& side, double x) {
+  const AxisPlace place = side.at(x);
+  const Vec3 way = place.velocity(0.5 * side.axis_length());
+  return std::atan2(way.cross(place.u).norm(), std::abs(way.dot(place.u)));
+}
+
 /// Both finishing sweeps, as far as the cycles got.
-void sweep_sides(const LayerSides& sides, const HalfGuard& guard, SweptStock& stock, const ProgramOptions& options,
-                 PlannedLayer& planned) {
+void sweep_sides(const LayerSides& sides, const SideRange& range, SweptStock& stock, PlannedLayer& planned) {
   if (planned.cycles.cycles.empty()) {
     planned.share = 0.0;
     return;
@@ -289,7 +295,7 @@ void sweep_sides(const LayerSides& sides, const HalfGuard& guard, SweptStock& st
   const Cycle& end = planned.cycles.cycles.back();
   const bool done = planned.cycles.status == CycleStatus::kDone && planned.cycles.before_wall_mm == 0.0;
   planned.share = done ? 1.0 : std::clamp(end.from_x / sides.from.length(), 0.0, 1.0);
-  const SideRange range = range_of(sides, planned, stock.profile().largest(), guard, allowed_at_run_outs(options));
+  planned.off_axis_rad = std::min(off_axis(sides.from, end.from_x), off_axis(sides.to, end.to_x));
   if (!range.some()) return;
   const RuledMotion first = sides.to.motion_between(range.to_start, range.to_end);
   const RuledMotion second = sides.from.motion_between(range.from_start, range.from_end);
@@ -318,6 +324,15 @@ PlannedLayer plan_layer(const LayerSides& sides, const HalfGuard& guard, SweptSt
 }  // namespace
 
 double PlannedLayer::entered_mm() const { return std::max(cycles.entered_mm(), entry ? entry->entered_mm : 0.0); }
+
+bool PlannedLayer::stuck_along_axis() const {
+  constexpr double kHalfAcross = std::numbers::pi / 6.0;
+  return cycles.status == CycleStatus::kStuck && !cycles.cycles.empty() && off_axis_rad < kHalfAcross;
+}
+
+bool CavityProgram::stuck_along_axis() const {
+  return std::any_of(layers.begin(), layers.end(), [](const PlannedLayer& layer) { return layer.stuck_along_axis(); });
+}
 
 bool CavityProgram::done() const {
   return !layers.empty() && std::all_of(layers.begin(), layers.end(), [](const PlannedLayer& layer) {
@@ -351,8 +366,9 @@ CavityProgram plan_program(const std::vector<RuledMotion>& sides, const RadialFu
     const LayerSides& layer = layers[k];
     PlannedLayer planned = plan_layer(layer, guard, stock, inside ? &clear : nullptr, here, progress);
     if (!out.path.strips.empty() && !planned.cycles.cycles.empty()) writer.link(layers[k - 1], layer, clear, planned);
-    writer.layer(layer, planned);
-    sweep_sides(layer, guard, stock, options, planned);
+    const SideRange range = range_of(layer, planned, radial.largest(), guard, allowed_at_run_outs(options));
+    writer.layer(layer, range, planned);
+    sweep_sides(layer, range, stock, planned);
     // What is left above is in the way of the holder: a layer goes no farther than the one before, less a radius.
     if (planned.share < 1.0) {
       const double less = planned.cycles.before_wall_mm > 0.0 ? 0.0 : radial.largest() / layer.from.length();

@@ -29,8 +29,13 @@ struct PlannedLayer {
   double side_volume_mm3 = 0.0;
   /// Of the first side's way, cleared by the cycles and finished. Below 1: they did not get through.
   double share = 1.0;
+  /// Where the cycles ended: the least angle between the way of a side and the axis there.
+  double off_axis_rad = 1.5707963267948966;
   /// Deepest that the entry or a half enters a face, by the planner's samples.
   [[nodiscard]] double entered_mm() const;
+  /// Cycles go forward across the axis: they got stuck where the sides lead along it, so that less than half of a step goes across.
+  /// The walls say how the axis stands, whatever the tool's radius.
+  [[nodiscard]] bool stuck_along_axis() const;
 };
 
 struct CavityProgram {
@@ -41,6 +46,8 @@ struct CavityProgram {
   /// The side paths begin, or end, at a wall.
   bool walled_start = false, walled_end = false;
   [[nodiscard]] bool done() const;
+  /// Whether that is so in a layer.
+  [[nodiscard]] bool stuck_along_axis() const;
   /// Deepest that an entry or a half enters a face, by the planner's samples.
   [[nodiscard]] double entered_mm() const;
 };

@@ -20,6 +20,8 @@ constexpr int kMostLayers = 5;
 constexpr int kFewRewinds = 3, kMostRewinds = 6;
 /// Depths in faces that differ by less than this share are alike.
 constexpr double kSameDepth = 0.2;
+/// Where no cycles get through, the search ends after so many tools in a row that do not get farther: one may be unlucky.
+constexpr int kInVain = 2;
 /// Diameters of way across, least_way_across: below, cycles crawl and get stuck, however wide the cavity is elsewhere.
 constexpr double kLeastWay = 0.3;
 
@@ -157,6 +159,7 @@ CavityPlan search_ways(const TrochoidJob& job, const CavityFaces& faces, const T
   if (is_done(facing, faces, job) || progress.stop()) return facing;
   // What all cycles get past, but enters a face, is not the leans'.
   if (facing.program.done() && state_of(facing.sides, faces, job) != SideState::kShort) return facing;
+  if (facing.program.stuck_along_axis()) return facing;
   CavityPlan plain = planned(sides(false), job, faces, bound, kFewRewinds, progress);
   return is_better(plain, facing, job.tolerance_mm) ? plain : facing;
 }
@@ -173,11 +176,17 @@ std::vector<double> bounds_of(const TrochoidJob& job, const CavityWidth& width) 
   return bounds;
 }
 
+bool SearchPatience::ends_after(bool gained, bool through) {
+  in_vain_ = gained ? 0 : in_vain_ + 1;
+  return in_vain_ >= (through ? 1 : kInVain);
+}
+
 CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const ToolModel& tool,
                          const SideFitOptions& options, const Progress& progress) {
   CavityPlan best;
   const bool given = !tool.free() && tool.radius;
   int tools = 0;
+  SearchPatience patience;
   const std::vector<double> bounds = bounds_of(job, faces.width);
   for (const double bound : bounds) {
     SideFitOptions here = options;
@@ -188,14 +197,17 @@ CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const
     if (tool.free()) here.starts.push_back({radius, kThin});
     CavityPlan tried = search_ways(job, faces, tool, here, !given && bound != bounds.back(), progress);
     const bool done = is_done(tried, faces, job);
+    const bool skipped = tried.program.layers.empty();
     const bool better = ++tools == 1 || is_better(tried, best, job.tolerance_mm);
     if (better) best = std::move(tried);
     best.tools = tools;
-    // Thinner ones are slower, too: the search ends where they stop to gain, once cycles get through.
-    if (done || given || (!better && best.program.done()) || progress.stop()) break;
+    // A tool that has hardly any way across got no cycles, and says nothing of thinner ones.
+    const bool in_vain = !skipped && patience.ends_after(better, best.program.done());
+    // Nor is it the radius that gets cycles stuck where the sides lead along the axis.
+    if (done || given || in_vain || best.program.stuck_along_axis() || progress.stop()) break;
   }
   // The long search for a way past a place where cycles get stuck comes last: another tool may have no such place.
-  if (!best.program.done() && !best.sides.fit.motions.empty() && !progress.stop()) {
+  if (!best.program.done() && !best.program.stuck_along_axis() && !best.sides.fit.motions.empty() && !progress.stop()) {
     CavityPlan tried = planned(best.sides, job, faces, best.largest_radius_mm, kMostRewinds, progress);
     if (is_better(tried, best, job.tolerance_mm)) best.program = std::move(tried.program);
   }

@@ -22,9 +22,20 @@ struct CavityPlan {
 /// thin at one end may have the room of most places at the other.
 [[nodiscard]] std::vector<double> bounds_of(const TrochoidJob& job, const CavityWidth& width);
 
+/// How long thinner tools are tried, which are slower, too.
+class SearchPatience {
+ public:
+  /// After a tool that is the best so far, or is not. Ends at the first that gains nothing once the cycles of the best get
+  /// `through`, and at the second in a row where they get stuck.
+  [[nodiscard]] bool ends_after(bool gained, bool through);
+
+ private:
+  int in_vain_ = 0;
+};
+
 /// The first tool whose sides are done and whose cycles get through and enter nothing; if there is none, the one whose cycles
-/// get through and whose sides are best; else the one whose sides are best. The search ends where a thinner bound gains
-/// nothing. A tool that is given is tried alone.
+/// get through and whose sides are best; else the one that gets farthest. The search ends where thinner bounds gain
+/// nothing (SearchPatience). A tool that is given is tried alone.
 [[nodiscard]] CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const ToolModel& tool,
                                        const SideFitOptions& options, const Progress& progress);
 
