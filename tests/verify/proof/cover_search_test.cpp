@@ -105,6 +105,26 @@ TEST(CoverSearch, MeshesAndCurvedFaces) {
   EXPECT_GT(t.proved, 0.05);
 }
 
+/// Long cells are cut in two, not in four: a budget that is just enough for that is enough.
+TEST(CoverSearch, ABudgetIsSpentToItsEnd) {
+  Tool tool;
+  tool.radial = RadialFunction::spline(20.0, Eigen::VectorXd::Constant(6, 2.0));
+  Strip strip;
+  for (int i = 0; i < 24; ++i) strip.poses.push_back({Vec3(-1.0 + i, 2.0, -3.0), Vec3::UnitZ()});
+  const SweptVolume volume(tool, {{strip}});
+  const Face face = test::plane_face("F1", 20.0, 0.3);
+  const FaceSamples samples = sample_face(face, 0.9, true);
+  const auto distances = swept_distances(volume, samples, 1e300);
+  CoverLimits limits = usual_limits(samples);
+  const ProvedCover all = search_cover(volume, *make_shape(face), samples, distances, limits);
+  ASSERT_GT(all.evaluations, samples.points.size()) << "there must be something to cut";
+  limits.evaluations = all.evaluations;
+  EXPECT_EQ(search_cover(volume, *make_shape(face), samples, distances, limits).open_mm2, all.open_mm2);
+  limits.evaluations = all.evaluations / 4;
+  EXPECT_GT(area_of(search_cover(volume, *make_shape(face), samples, distances, limits).open_mm2),
+            area_of(all.open_mm2));
+}
+
 TEST(CoverSearch, WhatTheLimitsForbidIsNotProved) {
   Random random(6);
   const Tool tool = brute::random_tool(random, 16.0);

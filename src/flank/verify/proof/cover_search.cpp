@@ -37,11 +37,12 @@ class CoverSearch {
     std::vector<Open> open = begin(distances);
     for (int depth = 0; !open.empty(); ++depth) {
       stop_here();
-      std::vector<Open> parts;
       const bool enough = settled(open);
-      const bool may_cut = depth < kDeepest && !enough && out_.evaluations + 4 * open.size() <= limits_.evaluations &&
-                           4 * open.size() <= limits_.cells;
-      if (may_cut) parts = cut(open);
+      std::vector<Open> parts;
+      if (depth < kDeepest && !enough) parts = cut(open);
+      // Counted, not guessed: a long cell is cut in two, a square one in four.
+      const bool may_cut =
+          !parts.empty() && out_.evaluations + parts.size() <= limits_.evaluations && parts.size() <= limits_.cells;
       if (!may_cut) {
         for (const Open& o : open) out_.open_mm2[o.sample] += shape_.area_bound(o.cell);
         break;
@@ -100,10 +101,10 @@ class CoverSearch {
                        [&](const Vec3& p) { return (p - ball.center).norm() <= most; });
   }
 
-  std::vector<Open> cut(std::vector<Open>& open) {
+  [[nodiscard]] std::vector<Open> cut(const std::vector<Open>& open) const {
     std::vector<Open> parts;
     std::vector<Cell> cells;
-    for (Open& o : open) {
+    for (const Open& o : open) {
       cells.clear();
       shape_.split(o.cell, cells);
       for (const Cell& cell : cells) parts.push_back({cell, o.sample, o.near});
