@@ -196,6 +196,15 @@ void settle_in_turn(std::vector<Way>& ways, CoverageEstimate rival, const FlankF
   }
 }
 
+/// Whether passes may lead a draft out of what it enters: not where its axis itself is in there, because the points on both
+/// sides of it push against each other.
+bool can_be_led_out(const Polished& polished) {
+  const RadialFunction& tool = polished.draft.tool;
+  double thickest = 0.0;
+  for (int j = 0; j < kPlaces; ++j) thickest = std::max(thickest, tool.at(tool.axis_length() * j / (kPlaces - 1.0)).r);
+  return polished.estimate.gouge_mm < thickest;
+}
+
 /// The draft as it was found without the other faces, and, if it enters them, what can be made of it that can win against
 /// the rival.
 std::vector<Way> ways_from(const FitDraft& draft, bool fixed_length, const CoverageEstimate& rival,
@@ -214,8 +223,10 @@ std::vector<Way> ways_from(const FitDraft& draft, bool fixed_length, const Cover
     const Way start = *std::min_element(ways.begin(), ways.end(), [&](const Way& a, const Way& b) {
       return is_better(a.polished.estimate, b.polished.estimate, tolerance);
     });
-    const Polished clear = last_passes(start.polished, samples, options, nullptr);
-    ways.push_back({start.name, without_overcut(clear, samples, options)});
+    if (can_be_led_out(start.polished)) {
+      const Polished clear = last_passes(start.polished, samples, options, nullptr);
+      ways.push_back({start.name, without_overcut(clear, samples, options)});
+    }
   }
   settle_in_turn(ways, rival, options);
   return ways;
