@@ -13,6 +13,7 @@
 #include "flank/pipeline/search/out_of_reach.h"
 #include "flank/pipeline/search/search_setup.h"
 #include "flank/pipeline/search/stiff_fit.h"
+#include "flank/pipeline/search/strip_gain.h"
 #include "flank/seed/axis_line.h"
 #include "flank/seed/guide_file.h"
 #include "flank/seed/guide_start.h"
@@ -83,41 +84,23 @@ void keep_better(FlankFitResult& best, FlankFitResult&& other, const FlankFitOpt
   add_tried(best, other, options.bounds);
 }
 
-/// The most that is covered by what is not far from being clean: more strips may make it clean.
-double promise_of(const FlankFitResult& result, double tolerance_mm) {
-  constexpr double kNotFar = 4.0;  // tolerances deep
-  const auto covers = [&](const CoverageEstimate& estimate) {
-    return std::max(estimate.overcut_mm, estimate.gouge_mm) <= kNotFar * tolerance_mm ? estimate.at_tolerance : 0.0;
-  };
-  double most = result.after.at_tolerance;
-  for (const TriedTool& tried : result.tried) most = std::max(most, covers(tried.estimate));
-  return most;
-}
-
 /// One group with as many strips as its tolerance needs: a strip more as long as that is not met, and gains something or
 /// promises to.
 FlankFitResult fit_auto(const Target& target, const ToolModel& tool, FlankFitOptions options, double least_coverage,
                         const Progress& progress) {
-  /// Of the covered share: less is not worth a strip, and two counts in a row that gain less end the search.
-  constexpr double kGain = 0.01;
   /// Of the face, before the last passes, which rarely gain more than a tenth: a strip more is tried instead.
   constexpr double kPromising = 0.85;
   FlankFitResult best;
-  double one_covers = 0.0, rest = 1.0, promise = 0.0;
-  int without_gain = 0;
+  double one_covers = 0.0, rest = 1.0;
+  StripGain gain(options.tolerance_mm);
   for (int count : {1, 2, 3, 4, 6, 8, 10, kMostStrips}) {
     options.strips = count;
     options.least_coverage_for_last_passes = count < kMostStrips ? kPromising : 0.0;
     const double here = 1.0 - rest;  // nobody knows how many follow: each gets a half of what is left
     FlankFitResult result = fit_automatic(target, tool, options, progress.part(here, 1.0 - (rest *= 0.5)));
     if (count == 1) one_covers = result.after.at_tolerance;
-    const double before = best.after.at_tolerance;
     keep_better(best, std::move(result), options);
-    const double now = promise_of(best, options.tolerance_mm);
-    const bool gains = best.after.at_tolerance > before + kGain || now > promise + kGain;
-    without_gain = gains ? 0 : without_gain + 1;
-    promise = std::max(promise, now);
-    if (is_done(best, least_coverage, options.tolerance_mm) || without_gain == 2 || progress.stop()) break;
+    if (is_done(best, least_coverage, options.tolerance_mm) || !gain.goes_on(best) || progress.stop()) break;
   }
   if (best.motions.size() > 1)
     best.notes.push_back(fmt::format("{} strips cover {:.1f} % (estimate), one strip {:.1f} %", best.motions.size(),

@@ -1,0 +1,23 @@
+/// Whether one more strip is worth a search.
+#pragma once
+
+#include "flank/fit.h"
+
+namespace flank::internal {
+
+/// Follows the best result of a search that takes more and more strips.
+class StripGain {
+ public:
+  explicit StripGain(double tolerance_mm) : tolerance_mm_(tolerance_mm) {}
+
+  /// Takes the best result of all numbers of strips so far. False after two in a row that neither cover more, nor promise to:
+  /// only what is not far from being clean counts, because more strips may make it clean.
+  [[nodiscard]] bool goes_on(const FlankFitResult& best);
+
+ private:
+  double tolerance_mm_;
+  double covered_ = 0.0, promised_ = 0.0;  ///< shares of the face, so far
+  int without_gain_ = 0;
+};
+
+}  // namespace flank::internal
