@@ -72,6 +72,8 @@ struct ToolModel {
   std::optional<double> radius;        ///< typical radius, mm, if it is known: starts then try this one alone
   std::optional<double> axis_length;   ///< mm, if the tool fixes it; goes before FlankFitOptions::axis_length_mm
   std::optional<double> longest_axis;  ///< mm: a start whose contact lines are longer takes so much of them
+  /// Of a free tool: the spline that fit_from_starts begins with. None: the mean distances of the starts' axes.
+  std::optional<RadialFunction> first;
   /// A spline that may take any form within the bounds (not a family with free parameters).
   [[nodiscard]] bool free() const { return !make; }
   /// mm, where a start's contact lines ask for `wanted` and the options for `asked`.

@@ -64,6 +64,36 @@ TEST_F(Ladder, EndsWhenTheUserHasHadEnough) {
   EXPECT_TRUE(climb(progress).empty());
 }
 
+/// What covers half of the face, stiff as it was asked to be.
+FlankFitResult stiff_but_short() {
+  FlankFitResult within;
+  within.tool = RadialFunction::spline(42.0, Eigen::VectorXd::Constant(6, 5.0));
+  within.motions = {upright_motion({.y = 5.0, .z = -1.0, .x_first = -3.0, .x_last = 27.0, .length = 42.0})};
+  within.after.at_tolerance = 0.5;
+  return within;
+}
+
+TEST_F(Ladder, ABoundThatGivesWayComesBackAsFarAsTheToolMayBeThick) {
+  // No radius above 2 mm is allowed, so 10.25 is the least that there is on 41 mm.
+  options_.axis_length_mm = 41.0;
+  options_.bounds.smallest = 0.5;
+  options_.bounds.largest = 2.0;
+  const FlankFitResult result = soften(*blade_, {}, options_, stiff_but_short(), {});
+  const double slenderness = slenderness_of(result.tool, options_.bounds);
+  EXPECT_GT(result.after.at_tolerance, 0.99);
+  EXPECT_GT(slenderness, 10.0);
+  EXPECT_LT(slenderness, 11.6) << "an eighth of the way from the first";
+  ASSERT_FALSE(result.notes.empty());
+  EXPECT_NE(result.notes.back().find("is the least that was found here"), std::string::npos) << result.notes.back();
+}
+
+TEST_F(Ladder, ABoundThatCostsNothingIsKept) {
+  options_.bounds.smallest = 0.5;
+  const FlankFitResult result = soften(*blade_, {}, options_, stiff_but_short(), {});
+  EXPECT_GT(result.after.at_tolerance, 0.99);
+  EXPECT_LT(slenderness_of(result.tool, options_.bounds), 1.05 * options_.bounds.slenderest);
+}
+
 TEST(NoteSlenderness, SaysWhatATooSlenderToolBuys) {
   FlankFitOptions options;
   options.bounds.slenderest = 8.0;

@@ -94,6 +94,7 @@ void code(StepCodec& codec, ToolModel& tool) {
   code(codec, tool.radius);
   code(codec, tool.axis_length);
   code(codec, tool.longest_axis);
+  code(codec, tool.first);
 }
 
 void tie(FitDraft& draft, const FitDraft& like) {

@@ -89,13 +89,17 @@ Polished exact_polish(const Polished& start, const std::vector<SurfaceSample>& s
   return best;
 }
 
+/// How a draft is measured: assess(), or a closer look.
+using Look = Polished (*)(FitDraft draft, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options);
+
 /// The polished draft with all radii of its free spline smaller by a length (not below the bound): r(s) - by, exactly.
+/// `look`: that which the polished draft was measured by.
 Polished shifted_by(const Polished& polished, double by, const std::vector<SurfaceSample>& samples,
-                    const FlankFitOptions& options) {
+                    const FlankFitOptions& options, Look look = assess) {
   FitDraft draft = polished.draft;
   const Eigen::VectorXd radii = draft.tool.parameters().array() - by;
   draft.tool = draft.tool.with_parameters(radii.cwiseMax(options.bounds.smallest));
-  if (radii.minCoeff() < options.bounds.smallest) return assess(std::move(draft), samples, options);
+  if (radii.minCoeff() < options.bounds.smallest) return look(std::move(draft), samples, options);
   // Every ball is smaller by that length, and enters obstacles less deep by it: nothing to measure again.
   const std::vector<const ObstacleField*> obstacles = std::exchange(draft.obstacles, {});
   Polished shifted = assess(std::move(draft), samples, options);
@@ -106,7 +110,8 @@ Polished shifted_by(const Polished& polished, double by, const std::vector<Surfa
 
 /// A free tool's radii reduced against overcut, as far as that scores better: every length less on the radius is one
 /// less of overcut and one more of material left.
-Polished shifted(const Polished& polished, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
+Polished shifted(const Polished& polished, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options,
+                 Look look = assess) {
   if (!polished.draft.free_tool) return polished;
   Polished best = polished;
   // Just enough to be within the tolerance, with room for what lies between the samples; and quarters of all, because
@@ -115,7 +120,7 @@ Polished shifted(const Polished& polished, const std::vector<SurfaceSample>& sam
                excess = overcut - kToleranceBudget.fit.overcut * options.tolerance_mm;
   for (double by : {excess, 0.25 * overcut, 0.5 * overcut, 0.75 * overcut, overcut}) {
     if (by <= 0.0) continue;
-    Polished trial = shifted_by(polished, by, samples, options);
+    Polished trial = shifted_by(polished, by, samples, options, look);
     if (trial.estimate.score(options.tolerance_mm) > best.estimate.score(options.tolerance_mm)) best = std::move(trial);
   }
   return best;
@@ -135,7 +140,7 @@ Polished lowered(const Polished& exact, const std::vector<SurfaceSample>& sample
 
 FitDraft make_draft(const std::vector<FitTask>& tasks, const ToolModel& tool, const FlankFitOptions& options) {
   FitDraft draft = without_tool(tasks, tool);
-  draft.tool = mean_distance_tool(tasks, options.bounds);
+  draft.tool = draft.free_tool && tool.first ? *tool.first : mean_distance_tool(tasks, options.bounds);
   if (draft.free_tool) return draft;
   const double length = tasks.front().motion.axis_length;
   draft.tool = tool.make(length, draft.tool.at(0.5 * length).r);
@@ -283,7 +288,7 @@ Polished settled(const Polished& polished, const FlankFitOptions& options) {
   Polished again = made_legitimate(seen_closely(polished.draft, samples, options), samples, options);
   again = steadied(mended(again, samples, options), samples, options);
   const bool legitimate = again.estimate.legitimate;
-  if (again.estimate.overcut_mm > options.tolerance_mm) again = shifted(again, samples, options);
+  if (again.estimate.overcut_mm > options.tolerance_mm) again = shifted(again, samples, options, seen_closely);
   again.estimate.legitimate = legitimate;  // smaller radii make no sphere stick out of the others
   // Between these samples, too, nothing may be cut deeper than the tolerance: a little room, if it costs little of the
   // covered share.
@@ -292,7 +297,7 @@ Polished settled(const Polished& polished, const FlankFitOptions& options) {
   const double by = std::max(again.estimate.overcut_mm - kToleranceBudget.fit.settled_overcut * options.tolerance_mm,
                              again.estimate.gouge_mm - kDeepest * options.tolerance_mm);
   if (!again.draft.free_tool || by <= 0.0) return again;
-  Polished lower = shifted_by(again, by, samples, options);
+  Polished lower = shifted_by(again, by, samples, options, seen_closely);
   lower.estimate.legitimate = legitimate;
   const bool cheap = lower.estimate.at_tolerance >= again.estimate.at_tolerance - kCost;
   // What is deeper than allowed may cost more: a clean result is worth it, unless little is left.

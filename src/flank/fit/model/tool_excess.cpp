@@ -50,7 +50,10 @@ struct LocalExcess {
 
 LocalExcess local_excess(const RadialJet& jet, const RadiusBounds& bounds, double length) {
   LocalExcess out;
-  out.radius = std::max(0.0, jet.r - bounds.largest) - std::max(0.0, bounds.smallest - jet.r);
+  // A little above the smallest: clamping there would make the tool cut deeper, and what a last look finds too deep is
+  // taken off the radii.
+  const double smallest = std::min((1.0 + kInside) * bounds.smallest, bounds.largest);
+  out.radius = std::max(0.0, jet.r - bounds.largest) - std::max(0.0, smallest - jet.r);
   out.slope = (std::max(0.0, jet.d1 - bounds.steepest) - std::max(0.0, -bounds.steepest - jet.d1)) * length;
   out.convexity = std::max(0.0, kLeastConvexity - (1.0 - jet.d1 * jet.d1 - jet.r * jet.d2)) * length;
   // The meridian's curvature is r'' / (1 - r'^2 - r r''), positive where it is concave: at most 1 / R says the same as

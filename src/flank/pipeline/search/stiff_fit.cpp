@@ -21,7 +21,14 @@ bool as_good(const FlankFitResult& stiffer, const FlankFitResult& fit, double to
          (is_clean(stiffer.after, tolerance_mm) || !is_clean(fit.after, tolerance_mm));
 }
 
-/// The same motions again within narrower bounds.
+/// The tool with all radii in one ratio, such that its slenderness is this; clamped into the bounds.
+RadialFunction thickened(const RadialFunction& tool, double slenderness, const RadiusBounds& bounds) {
+  const Eigen::VectorXd radii = tool.parameters() * (slenderness_of(tool, bounds) / slenderness);
+  return tool.with_parameters(radii.cwiseMax(bounds.smallest).cwiseMin(bounds.largest));
+}
+
+/// The same motions again within narrower bounds. The tool keeps them from the beginning: a start that breaks them but
+/// covers more would be kept.
 FlankFitResult refit(const Target& target, const ToolModel& tool, const FlankFitOptions& options,
                      const FlankFitResult& fit, double slenderest, const Progress& progress) {
   FlankFitOptions narrower = options;
@@ -29,7 +36,9 @@ FlankFitResult refit(const Target& target, const ToolModel& tool, const FlankFit
   narrower.bounds.neck = 1.0;
   std::vector<FitTask> tasks;
   for (const RuledMotion& motion : fit.motions) tasks.push_back({&target, motion, options.obstacles});
-  FlankFitResult result = fit_from_starts(tasks, tool, narrower, progress);
+  ToolModel from = tool;
+  from.first = thickened(fit.tool, slenderest, narrower.bounds);
+  FlankFitResult result = fit_from_starts(tasks, from, narrower, progress);
   result.candidates = fit.candidates;
   result.before = fit.before;
   return result;
@@ -38,16 +47,21 @@ FlankFitResult refit(const Target& target, const ToolModel& tool, const FlankFit
 /// Brings the slenderness of a fit down in steps, as far as the fit stays as good.
 FlankFitResult stiffened(const Target& target, const ToolModel& tool, const FlankFitOptions& options,
                          const FlankFitResult& open, const Progress& progress) {
-  /// Of the slenderness that is too much, in logarithm: halving the rest of the way five times leaves a thirtieth.
-  constexpr int kTrials = 5;
+  /// Of the slenderness that is too much, in logarithm: halving the rest of the way three times leaves an eighth.
+  constexpr int kTrials = 3;
+  constexpr double kSoft = 1.02;  // times the bound, which is a soft one
   FlankFitResult best = open;
-  double high = slenderness_of(open.tool, options.bounds), low = options.bounds.slenderest;
-  for (int trial = 0; trial < kTrials && high > 1.02 * low && !progress.stop(); ++trial) {
+  const double length = open.tool.axis_length() + options.bounds.shank_length;
+  // No tool is thicker than it may be.
+  double low = std::max(options.bounds.slenderest, 0.5 * length / options.bounds.largest);
+  double high = slenderness_of(open.tool, options.bounds);
+  for (int trial = 0; trial < kTrials && high > kSoft * low && !progress.stop(); ++trial) {
     const double middle = std::sqrt(high * low);
     const Progress part = progress.part(static_cast<double>(trial) / kTrials, (trial + 1.0) / kTrials);
     FlankFitResult stiffer = refit(target, tool, options, best, middle, part);
-    if (as_good(stiffer, open, options.tolerance_mm)) {
-      high = std::min(middle, slenderness_of(stiffer.tool, options.bounds));
+    const double reached = slenderness_of(stiffer.tool, options.bounds);
+    if (reached <= kSoft * middle && as_good(stiffer, open, options.tolerance_mm)) {
+      high = reached;
       add_tried(stiffer, best, options.bounds);
       best = std::move(stiffer);
       low = std::min(low, high);
