@@ -157,6 +157,9 @@ enum class FitStatus {
   kNoStart,          ///< no start gave a motion; the result has none
 };
 
+/// Beside walls: whether other ways than to avoid them from the start were tried (FlankFitOptions::ways), and what came of it.
+enum class OtherWays { kNotTried, kBeaten, kBest };
+
 struct FlankFitResult {
   FitStatus status = FitStatus::kNotRun;
   std::string message;  ///< one line for the user
@@ -168,6 +171,7 @@ struct FlankFitResult {
   std::vector<std::string> notes;     ///< for the user, added by callers
   int candidates = 0;                 ///< starts that were tried
   std::vector<TriedTool> tried;       ///< what was polished and not chosen, in its order
+  OtherWays other_ways = OtherWays::kNotTried;
 };
 
 /// Automatic start: many ruled candidates across the target, each fitted briefly, ranked by swept coverage, the best

@@ -92,6 +92,41 @@ CoverageEstimate covering(double share, double gouge_mm, double overcut_mm = 0.0
   return estimate;
 }
 
+/// The best of a first result and of the ways that begin with the upright draft, before the blade with a wall at its end.
+FlankFitResult best_beside_wall(double first_covers) {
+  const auto blade = standing_blade(0.0);
+  const ObstacleField obstacles(only(end_wall()), *blade, 2.0, 0.0);
+  FlankFitOptions options;
+  options.tolerance_mm = kDepth;
+  options.obstacles = &obstacles;
+  options.bounds = {1.0, 9.0, 0.5};
+  options.sample_share = 1.0 / 15.0;
+  const FitDraft draft = upright_draft(*blade, obstacles);
+  FlankFitResult first;
+  first.motions = draft.motions;
+  first.tool = draft.tool;
+  first.after.at_tolerance = first_covers;
+  return best_way(*blade, {}, options, first,
+                  [&](const FlankFitOptions& of) {
+                    EXPECT_EQ(of.obstacles, nullptr);
+                    FlankFitResult free;
+                    free.motions = draft.motions;
+                    free.tool = draft.tool;
+                    return free;
+                  },
+                  {});
+}
+
+TEST(BestWay, SaysWhetherAnotherWayIsTheResult) {
+  const FlankFitResult better = best_beside_wall(0.1);
+  EXPECT_EQ(better.other_ways, OtherWays::kBest);
+  EXPECT_GT(better.after.at_tolerance, 0.3) << "on a shorter path";
+  EXPECT_LE(better.after.gouge_mm, 1.1 * kDepth);
+  const FlankFitResult beaten = best_beside_wall(1.0);
+  EXPECT_EQ(beaten.other_ways, OtherWays::kBeaten);
+  EXPECT_EQ(beaten.after.at_tolerance, 1.0);
+}
+
 TEST(IsBetter, WhatEntersNothingGoesFirstUnlessItCoversNextToNothing) {
   EXPECT_TRUE(is_better(covering(0.6, 0.0), covering(1.0, 0.5), 0.05));
   EXPECT_FALSE(is_better(covering(1.0, 0.5), covering(0.6, 0.0), 0.05));

@@ -30,6 +30,17 @@ TEST(StripGain, AGainBetweenTwoThatAreNoneGoesOn) {
   EXPECT_FALSE(gain.goes_on(result_of(0.9, 0.05)));
 }
 
+TEST(StripGain, WhereLittleIsMissingLessIsAGainAndThreeMayBeNone) {
+  StripGain gain(kTolerance);
+  EXPECT_TRUE(gain.goes_on(result_of(0.98, 0.05)));
+  EXPECT_TRUE(gain.goes_on(result_of(0.98, 0.05)));
+  EXPECT_TRUE(gain.goes_on(result_of(0.98, 0.05)));
+  EXPECT_TRUE(gain.goes_on(result_of(0.986, 0.05))) << "a third of what is missing";
+  EXPECT_TRUE(gain.goes_on(result_of(0.987, 0.05)));
+  EXPECT_TRUE(gain.goes_on(result_of(0.987, 0.05)));
+  EXPECT_FALSE(gain.goes_on(result_of(0.987, 0.05)));
+}
+
 TEST(StripGain, WhatRunsThroughAnotherFaceIsNothingToBeat) {
   StripGain gain(kTolerance);
   // One strip covers all but a little, straight through the hub; two cover less and enter nothing.

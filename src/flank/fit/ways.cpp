@@ -258,6 +258,7 @@ FlankFitResult best_way(const Target& target, const ToolModel& tool, const Flank
   free_options.kept_after_polish = 1;  // a start for what follows, not a result
   free_options.least_coverage_for_last_passes = least_to_win(first.after, options);
   const FlankFitResult free = search(free_options);
+  first.other_ways = OtherWays::kBeaten;
   if (free.motions.empty() || (stopping() && !first.motions.empty())) return first;
   const double tolerance = options.tolerance_mm;
   const bool fixed_length = tool.axis_length || tool.longest_axis || options.axis_length_mm;
@@ -285,6 +286,7 @@ FlankFitResult best_way(const Target& target, const ToolModel& tool, const Flank
         fmt::format("the motion was {}: it covers {:.1f} % (estimate); one that keeps clear from the start, {:.1f} %",
                     best->name, 100.0 * best->polished.estimate.at_tolerance, 100.0 * first.after.at_tolerance));
     result = finish(best->polished, options, std::move(result));
+    result.other_ways = OtherWays::kBest;
   }
   for (const Way& way : ways)
     if (&way != best)

@@ -99,8 +99,15 @@ FlankFitResult fit_auto(const Target& target, const ToolModel& tool, FlankFitOpt
     const double here = 1.0 - rest;  // nobody knows how many follow: each gets a half of what is left
     FlankFitResult result = fit_automatic(target, tool, options, progress.part(here, 1.0 - (rest *= 0.5)));
     if (count == 1) one_covers = result.after.at_tolerance;
+    // They cost as much as all before, and what they lost with one number of strips they rarely win with another.
+    if (result.other_ways == OtherWays::kBeaten) options.ways = false;
     keep_better(best, std::move(result), options);
     if (is_done(best, least_coverage, options.tolerance_mm) || !gain.goes_on(best) || progress.stop()) break;
+  }
+  if (!options.ways && !is_done(best, least_coverage, options.tolerance_mm) && !progress.stop()) {
+    options.strips = std::max<int>(1, static_cast<int>(best.motions.size()));
+    options.ways = true;
+    keep_better(best, fit_automatic(target, tool, options, progress.part(1.0 - rest, 1.0)), options);
   }
   if (best.motions.size() > 1)
     best.notes.push_back(fmt::format("{} strips cover {:.1f} % (estimate), one strip {:.1f} %", best.motions.size(),

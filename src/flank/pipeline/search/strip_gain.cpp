@@ -5,9 +5,11 @@
 namespace flank::internal {
 
 bool StripGain::goes_on(const FlankFitResult& best) {
-  constexpr double kGain = 0.01;   // of the face: less is not worth a strip
-  constexpr double kNotFar = 4.0;  // tolerances deep
-  constexpr int kMostWithout = 2;
+  constexpr double kGain = 0.01, kGainOfRest = 0.25;  // of the face, or of what is missing: less is not worth a strip
+  constexpr double kNotFar = 4.0;                     // tolerances deep
+  /// Where little is missing a number of strips that is no better says little of the next one.
+  constexpr double kNearlyAll = 0.95;
+  constexpr int kMostWithout = 2, kMostWithoutNear = 3;
   // A flank that runs through another face can cover all of the target, and is no result that one more strip could beat.
   const auto covers = [&](const CoverageEstimate& estimate) {
     return std::max(estimate.overcut_mm, estimate.gouge_mm) <= kNotFar * tolerance_mm_ ? estimate.at_tolerance : 0.0;
@@ -15,11 +17,14 @@ bool StripGain::goes_on(const FlankFitResult& best) {
   const double covered = covers(best.after);
   double promised = covered;
   for (const TriedTool& tried : best.tried) promised = std::max(promised, covers(tried.estimate));
-  const bool gains = covered > covered_ + kGain || promised > promised_ + kGain;
+  const auto gains_on = [&](double now, double before) {
+    return now > before + std::min(kGain, kGainOfRest * (1.0 - before));
+  };
+  const bool gains = gains_on(covered, covered_) || gains_on(promised, promised_);
   without_gain_ = gains ? 0 : without_gain_ + 1;
   covered_ = covered;
   promised_ = std::max(promised_, promised);
-  return without_gain_ < kMostWithout;
+  return without_gain_ < (covered >= kNearlyAll ? kMostWithoutNear : kMostWithout);
 }
 
 }  // namespace flank::internal
