@@ -13,6 +13,8 @@ namespace {
 constexpr double kJoin = 1e-9;
 /// Squared sine of the angle to the axis up to which a line counts as parallel to it.
 constexpr double kParallel = 1e-14;
+/// What is nearer to the border of a stretch than this is not left to quick tests, whose rounding is another: mm, and mm^2.
+constexpr double kClear = 1e-6;
 
 /// Meridian and round ends as one curve of a parameter that rises with the height: the ends' angles, then s, then angles.
 class Outline {
@@ -86,7 +88,10 @@ ToolSolid::ToolSolid(const RadialFunction& radial, double chord_mm) : chord_(cho
     }
   }
   std::vector<double> radii;
-  for (std::size_t k = 0; k + 1 < nodes_.size(); ++k) radii.push_back(std::max(nodes_[k].y(), nodes_[k + 1].y()));
+  for (std::size_t k = 0; k + 1 < nodes_.size(); ++k) {
+    radii.push_back(std::max(nodes_[k].y(), nodes_[k + 1].y()));
+    slopes_.push_back((nodes_[k + 1].y() - nodes_[k].y()) / (nodes_[k + 1].x() - nodes_[k].x()));
+  }
   radii_.emplace(std::move(radii));
   constexpr std::size_t kShelves = 4;  // a cone
   const std::size_t shelves = kShelves * nodes_.size();
@@ -126,6 +131,8 @@ bool ToolSolid::reach(const ToolLine& line, double radius, LineCut& within) cons
   } else if (excess >= 0.0) {
     return false;
   }
+  const double z = line.z0 + within.low * line.dz, end = line.z0 + within.high * line.dz;
+  if (std::min(z, end) > low() + kClear && std::max(z, end) < high() - kClear) return within.low < within.high;
   if (std::abs(line.dz) > kParallel) {
     double first = (low() - line.z0) / line.dz, last = (high() - line.z0) / line.dz;
     if (first > last) std::swap(first, last);
@@ -134,6 +141,13 @@ bool ToolSolid::reach(const ToolLine& line, double radius, LineCut& within) cons
     return false;
   }
   return within.low < within.high;
+}
+
+// Outside, and the nearest place of the whole line to the axis lies on the other side of one of the ends.
+bool ToolSolid::passes_by(const ToolLine& line, double radius, double low, double high) {
+  const double excess = line.c - radius * radius;
+  const auto outside = [&](double k) { return (line.a * k + 2.0 * line.b) * k + excess > kClear; };
+  return (line.a * high + line.b < 0.0 && outside(high)) || (line.a * low + line.b > 0.0 && outside(low));
 }
 
 std::size_t ToolSolid::cone_at(double z) const {
@@ -155,8 +169,7 @@ LineCut ToolSolid::narrowed(const ToolLine& line, const LineCut& within, std::si
 void ToolSolid::add_cone(const ToolLine& line, std::size_t cone, double from, double to, LineCuts& out) const {
   if (!(from < to)) return;
   const Vec2& low = nodes_[cone];
-  const Vec2& high = nodes_[cone + 1];
-  const double slope = (high.y() - low.y()) / (high.x() - low.x());
+  const double slope = slopes_[cone];
   const double alpha = low.y() + slope * (line.z0 - low.x()), beta = slope * line.dz;
   const double a = line.a - beta * beta, b = line.b - alpha * beta, c = line.c - alpha * alpha;
   const auto outside = [&](double k) { return (a * k + 2.0 * b) * k + c; };

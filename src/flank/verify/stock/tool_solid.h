@@ -41,6 +41,8 @@ class ToolSolid {
   /// Whether the line meets a cylinder about the tool's axis, and where at most: of a radius that the tool has nowhere
   /// exceeded where the line may meet it.
   [[nodiscard]] bool reach(const ToolLine& line, double radius, LineCut& within) const;
+  /// Whether a stretch of the line surely lies beside that cylinder: without a root or a division.
+  [[nodiscard]] static bool passes_by(const ToolLine& line, double radius, double low, double high);
   /// The line inside the tool; `within` of reach().
   [[nodiscard]] LineCuts cut(const ToolLine& line, const LineCut& within) const;
   /// Whether the tool at a pose has a point of the part's frame inside, by more than what the cones may be off.
@@ -70,6 +72,7 @@ class ToolSolid {
   /// Where the line lies between two places, beside cones of such radii.
   [[nodiscard]] static Side side_of(const ToolLine& line, const Block& block, double from, double to);
   std::vector<Vec2> nodes_;
+  std::vector<double> slopes_;  ///< of the cones: radius by height
   std::vector<Block> blocks_;
   std::vector<std::size_t> shelves_;  ///< the cones at the lower ends of equal steps of the height
   double shelves_per_mm_ = 0.0;
