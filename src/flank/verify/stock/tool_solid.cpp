@@ -13,8 +13,6 @@ namespace {
 constexpr double kJoin = 1e-9;
 /// Squared sine of the angle to the axis up to which a line counts as parallel to it.
 constexpr double kParallel = 1e-14;
-/// What is nearer to the border of a stretch than this is not left to quick tests, whose rounding is another: mm, and mm^2.
-constexpr double kClear = 1e-6;
 
 /// Meridian and round ends as one curve of a parameter that rises with the height: the ends' angles, then s, then angles.
 class Outline {
@@ -93,6 +91,10 @@ ToolSolid::ToolSolid(const RadialFunction& radial, double chord_mm) : chord_(cho
     slopes_.push_back((nodes_[k + 1].y() - nodes_[k].y()) / (nodes_[k + 1].x() - nodes_[k].x()));
   }
   radii_.emplace(std::move(radii));
+  make_shelves();
+}
+
+void ToolSolid::make_shelves() {
   constexpr std::size_t kShelves = 4;  // a cone
   const std::size_t shelves = kShelves * nodes_.size();
   shelves_per_mm_ = static_cast<double>(shelves) / (high() - low());
@@ -141,13 +143,6 @@ bool ToolSolid::reach(const ToolLine& line, double radius, LineCut& within) cons
     return false;
   }
   return within.low < within.high;
-}
-
-// Outside, and the nearest place of the whole line to the axis lies on the other side of one of the ends.
-bool ToolSolid::passes_by(const ToolLine& line, double radius, double low, double high) {
-  const double excess = line.c - radius * radius;
-  const auto outside = [&](double k) { return (line.a * k + 2.0 * line.b) * k + excess > kClear; };
-  return (line.a * high + line.b < 0.0 && outside(high)) || (line.a * low + line.b > 0.0 && outside(low));
 }
 
 std::size_t ToolSolid::cone_at(double z) const {

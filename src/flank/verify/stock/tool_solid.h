@@ -18,7 +18,7 @@ struct LineCut {
 /// Stretches of one line inside the tool, in their order along it.
 struct LineCuts {
   static constexpr int kMost = 8;  ///< further ones are joined to the last: no real meridian has as many waves
-  std::array<LineCut, kMost> cuts;
+  std::array<LineCut, kMost> cuts;  // not set
   int count = 0;
   void add(double low, double high);
 };
@@ -41,8 +41,13 @@ class ToolSolid {
   /// Whether the line meets a cylinder about the tool's axis, and where at most: of a radius that the tool has nowhere
   /// exceeded where the line may meet it.
   [[nodiscard]] bool reach(const ToolLine& line, double radius, LineCut& within) const;
-  /// Whether a stretch of the line surely lies beside that cylinder: without a root or a division.
-  [[nodiscard]] static bool passes_by(const ToolLine& line, double radius, double low, double high);
+  /// Whether a stretch of the line surely lies beside that cylinder: without a root or a division. Outside, and the nearest
+  /// place of the whole line to the axis lies beyond one of its ends.
+  [[nodiscard]] static bool passes_by(const ToolLine& line, double radius, double low, double high) {
+    const double excess = line.c - radius * radius - kClear;
+    return (line.a * high + line.b < 0.0 && (line.a * high + 2.0 * line.b) * high + excess > 0.0) ||
+           (line.a * low + line.b > 0.0 && (line.a * low + 2.0 * line.b) * low + excess > 0.0);
+  }
   /// The line inside the tool; `within` of reach().
   [[nodiscard]] LineCuts cut(const ToolLine& line, const LineCut& within) const;
   /// Whether the tool at a pose has a point of the part's frame inside, by more than what the cones may be off.
@@ -57,6 +62,9 @@ class ToolSolid {
   [[nodiscard]] const std::vector<Vec2>& nodes() const { return nodes_; }
 
  private:
+  /// What is nearer to the border of a stretch than this is not left to quick tests, whose rounding is another: mm, and mm^2.
+  static constexpr double kClear = 1e-6;
+  void make_shelves();
   void add_cone(const ToolLine& line, std::size_t cone, double from, double to, LineCuts& out) const;
   /// The cone that has the height, ends included.
   [[nodiscard]] std::size_t cone_at(double z) const;
