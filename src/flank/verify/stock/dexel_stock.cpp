@@ -274,8 +274,8 @@ double DexelStock::depth(const Vec3& x) const {
 bool DexelStock::holds(const Vec3& x) const {
   const Sight sight = sight_along(fields_.front(), x);
   const bool agreed = sight != Sight::kMixed && std::all_of(fields_.begin() + 1, fields_.end(), [&](const auto& field) {
-    return sight_along(field, x) == sight;
-  });
+                        return sight_along(field, x) == sight;
+                      });
   return agreed ? sight == Sight::kIn : depth(x) > 0.0;
 }
 

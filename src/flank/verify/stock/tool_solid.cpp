@@ -152,6 +152,12 @@ std::size_t ToolSolid::cone_at(double z) const {
   return cone;
 }
 
+std::size_t ToolSolid::cone_near(std::size_t cone, double z) const {
+  while (cone > 0 && nodes_[cone].x() > z) --cone;
+  while (cone + 2 < nodes_.size() && nodes_[cone + 1].x() <= z) ++cone;
+  return cone;
+}
+
 LineCut ToolSolid::narrowed(const ToolLine& line, const LineCut& within, std::size_t first, std::size_t last) const {
   const double radius = radii_->over(std::min(first, last), std::max(first, last));
   const double root = line.b * line.b - line.a * (line.c - radius * radius);
@@ -213,7 +219,7 @@ LineCuts ToolSolid::cut(const ToolLine& line, const LineCut& reached) const {
   if (first != last) {
     within = narrowed(line, reached, first, last);
     if (!(within.low < within.high)) return out;
-    first = cone_of(within.low), last = cone_of(within.high);
+    first = cone_near(first, line.z0 + within.low * line.dz), last = cone_near(last, line.z0 + within.high * line.dz);
   }
   if (first == last) {
     add_cone(line, first, within.low, within.high, out);

@@ -17,7 +17,7 @@ struct LineCut {
 
 /// Stretches of one line inside the tool, in their order along it.
 struct LineCuts {
-  static constexpr int kMost = 8;  ///< further ones are joined to the last: no real meridian has as many waves
+  static constexpr int kMost = 8;   ///< further ones are joined to the last: no real meridian has as many waves
   std::array<LineCut, kMost> cuts;  // not set
   int count = 0;
   void add(double low, double high);
@@ -68,6 +68,8 @@ class ToolSolid {
   void add_cone(const ToolLine& line, std::size_t cone, double from, double to, LineCuts& out) const;
   /// The cone that has the height, ends included.
   [[nodiscard]] std::size_t cone_at(double z) const;
+  /// The same, from one that is not far off.
+  [[nodiscard]] std::size_t cone_near(std::size_t cone, double z) const;
   /// What of the stretch is no farther from the axis than the largest radius of these cones.
   [[nodiscard]] LineCut narrowed(const ToolLine& line, const LineCut& within, std::size_t first,
                                  std::size_t last) const;
