@@ -55,6 +55,22 @@ struct LeaningTool {
   }
 };
 
+/// Places of a row, in its frame, and the heights of their rings.
+struct OpenPart {
+  Box3 box;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  void add(const ToolRing& ring, const Vec3& place) {
+    box.add(place);
+    low = std::min(low, ring.z), high = std::max(high, ring.z);
+  }
+  /// That holds them, and `bow` more.
+  [[nodiscard]] RowDisc disc(double bow) const {
+    constexpr double kSpare = 1.02;
+    const Vec3 centre = box.center();
+    return {centre.x(), centre.y(), kSpare * 0.5 * box.diagonal() + bow, low, high};
+  }
+};
+
 }  // namespace
 
 RowFrame RowMeter::frame_of(const RuledMotion& motion, double t) {
@@ -67,21 +83,9 @@ RowFrame RowMeter::frame_of(const RuledMotion& motion, double t) {
 RowDisc RowMeter::discs_of_found(std::span<const ToolRing> rings) {
   // Small discs let only those poses through that come near to what is open: one for each sector of directions.
   constexpr int kSectors = 24;
-  constexpr double kPiece = 2.0 * kPi / kSectors, kSpare = 1.02;
-  struct Part {
-    Box3 box;
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    void add(const ToolRing& ring, const Vec3& place) {
-      box.add(place);
-      low = std::min(low, ring.z), high = std::max(high, ring.z);
-    }
-    [[nodiscard]] RowDisc disc(double bow) const {
-      const Vec3 centre = box.center();
-      return {centre.x(), centre.y(), kSpare * 0.5 * box.diagonal() + bow, low, high};
-    }
-  };
-  std::array<Part, kSectors> sectors;
-  Part all;
+  constexpr double kPiece = 2.0 * kPi / kSectors;
+  std::array<OpenPart, kSectors> sectors;
+  OpenPart all;
   for (const RingArc& found : found_) {
     const ToolRing& ring = rings[found.ring];
     const double low = found.motion_angle + found.arc.low, length = found.arc.high - found.arc.low;
@@ -106,7 +110,7 @@ RowDisc RowMeter::discs_of_found(std::span<const ToolRing> rings) {
   // How far an arc bows out between points that are half a piece apart.
   const double bow = stock_.profile().largest() * (1.0 - std::cos(0.25 * kPiece));
   parts_.clear();
-  for (const Part& part : sectors)
+  for (const OpenPart& part : sectors)
     if (part.low <= part.high) parts_.push_back(part.disc(bow));
   return all.disc(bow);
 }
