@@ -219,6 +219,33 @@ TEST(SweptVolume, ManyPointsAtOnceHaveTheSameDistances) {
   }
 }
 
+TEST(SweptVolume, PointsThatLieTogetherHaveTheSameDistances) {
+  // Passes beside each other, so that many parts of the path are near to every point.
+  Path path;
+  for (int k = 0; k < 12; ++k)
+    path.strips.push_back(
+        straight({0, 0.8 * k, 0}, {30, 0.8 * k + 0.5, 0}, 40, Vec3(0.1, 0.02 * k, 1.0).normalized()).strips.front());
+  const SweptVolume volume(cone(2.0, 0.2, 15.0), path);
+  Random random(8);
+  std::vector<Vec3> points;
+  std::vector<double> horizons;
+  for (int row = 0; row < kPoints; ++row) {
+    const Vec3 from(random.uniform(-5, 35), random.uniform(-8, 16), random.uniform(-4, 20));
+    const Vec3 step(random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1));
+    for (int k = 0; k < 25; ++k) {
+      points.push_back(from + k * step);
+      horizons.push_back(random.uniform(-1.0, 6.0));
+    }
+  }
+  std::vector<SweptDistance> together(points.size());
+  volume.distances(points, horizons, together);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const SweptDistance alone = volume.distance(points[i], horizons[i]);
+    EXPECT_NEAR(together[i].f, alone.f, 1e-10) << points[i].transpose();
+    EXPECT_EQ(together[i].strip < 0, alone.strip < 0) << points[i].transpose();
+  }
+}
+
 TEST(SweptVolume, BeyondTheHorizonSaysSo) {
   const SweptVolume volume(cylinder(3.0, 20.0), straight({0, 0, 0}, {50, 0, 0}, 11));
   EXPECT_GE(volume.distance({25, 30, 10}, 2.0).f, 2.0);

@@ -1,6 +1,7 @@
 #include "flank/verify/program_stock.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -25,11 +26,16 @@ constexpr double kEdgeCells = 3.0;
 Box3 box_of(const Tool& tool, const Path& path, const std::vector<HalfSpace>& blank) {
   constexpr int kBalls = 33;
   const double length = tool.radial.axis_length();
+  std::array<double, kBalls> places{}, radii{};
+  for (std::size_t k = 0; k < kBalls; ++k) {
+    places[k] = length * static_cast<double>(k) / (kBalls - 1.0);
+    radii[k] = tool.radial.at(places[k]).r;
+  }
   Box3 box;
   for (const Strip& strip : path.strips)
     for (const Pose& pose : strip.poses)
-      for (int k = 0; k < kBalls; ++k) {
-        const double s = length * k / (kBalls - 1.0), r = tool.radial.at(s).r;
+      for (std::size_t k = 0; k < kBalls; ++k) {
+        const double s = places[k], r = radii[k];
         const Vec3 p = pose.at(s);
         if (std::any_of(blank.begin(), blank.end(), [&](const HalfSpace& h) { return h.normal.dot(p) - r > h.offset; }))
           continue;

@@ -15,6 +15,25 @@ using namespace internal::verify;
 /// number of pieces.
 constexpr double kPieceReachRadii = 0.1, kPieceReachLengths = 1e-3;
 
+/// Points that follow each other begin their searches below the same nodes of the tree, where they are at least so many and
+/// within this share of the smallest radius of their middle; and how far such nodes reach, in smallest radii.
+constexpr std::size_t kFewest = 3, kMost = 16;
+constexpr double kTogether = 0.1, kRootReach = 0.25;
+/// What rounding may make of a bound, mm.
+constexpr double kRounding = 1e-9;
+
+/// How many of the points from the first one on lie together; then their box.
+std::size_t together(std::span<const Vec3> points, double apart, Box3& box) {
+  std::size_t count = 0;
+  for (; count < std::min(points.size(), kMost); ++count) {
+    Box3 wider = box;
+    wider.add(points[count]);
+    if (wider.diagonal() > 2.0 * apart) break;
+    box = wider;
+  }
+  return count;
+}
+
 double piece_reach(const RadialTable& radial) {
   return std::max(kPieceReachRadii * radial.least_radius(), kPieceReachLengths * radial.length());
 }
@@ -29,6 +48,16 @@ SweptDistance SweptVolume::Data::at(const Vec3& x, const SweptPlace& place) cons
   const Segment& g = tree.segment_of(place.piece);
   const double f = (x - g.at(place.tau).at(place.s)).norm() - tool.radial.at(place.s).r;
   return {f, g.strip, g.pose + place.tau, place.s};
+}
+
+// f has slope 1, by x and for every ball.
+std::vector<int> SweptVolume::Data::roots(const Vec3& x, double spread, double horizon, const SweptPlace& near) const {
+  const RadialTable& radial = distance.radial();
+  if (near.piece >= 0) {
+    const Vec3 centre = tree.segment_of(near.piece).at(near.tau).at(near.s);
+    horizon = std::min(horizon, (x - centre).norm() - radial.radius(near.s) + spread);
+  }
+  return search(x).roots_below(horizon + spread + kRounding, kRootReach * radial.least_radius());
 }
 
 SweptPlace SweptVolume::Data::find(const SweptDistance& place) const {
@@ -57,10 +86,21 @@ void SweptVolume::distances(std::span<const Vec3> points, std::span<const double
                             std::span<SweptDistance> out) const {
   FLANK_ASSERT(out.size() == points.size() && horizons_mm.size() == points.size());
   SweptPlace near;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const SweptPlace place = data_->search(points[i]).run(horizons_mm[i], near);
-    out[i] = data_->at(points[i], place);
-    if (place.piece >= 0) near = place;
+  const double apart = kTogether * data_->distance.radial().least_radius();
+  for (std::size_t i = 0; i < points.size();) {
+    Box3 box;
+    const std::size_t count = std::max<std::size_t>(1, together(points.subspan(i), apart, box));
+    std::vector<int> roots{0};
+    if (count >= kFewest) {
+      const double horizon = *std::max_element(horizons_mm.begin() + i, horizons_mm.begin() + i + count);
+      roots = data_->roots(box.center(), 0.5 * box.diagonal(), horizon, near);
+    }
+    for (const std::size_t end = i + count; i < end; ++i) {
+      SweptSearch search = data_->search(points[i]);
+      const SweptPlace place = search.run(horizons_mm[i], near, roots);
+      out[i] = data_->at(points[i], place);
+      if (place.piece >= 0) near = place;
+    }
   }
 }
 

@@ -17,6 +17,10 @@ struct flank::SweptVolume::Data {
 
   /// One query, about x, which must outlive it.
   [[nodiscard]] internal::verify::SweptSearch search(const Vec3& x) const { return {distance, tree, x}; }
+  /// Where searches about points within `spread` of x begin that ask for nothing above `horizon`: f at these points is at most
+  /// that of the ball of `near`.
+  [[nodiscard]] std::vector<int> roots(const Vec3& x, double spread, double horizon,
+                                       const internal::verify::SweptPlace& near) const;
   /// What a search found for x, in terms of the path; f by the tool's own radial function, not by the search's table. Strip
   /// -1 where it found nothing below its horizon.
   [[nodiscard]] SweptDistance at(const Vec3& x, const internal::verify::SweptPlace& place) const;

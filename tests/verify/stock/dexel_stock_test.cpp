@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "flank/error.h"
 #include "flank/verify/stock/stock_mesh.h"
@@ -76,6 +77,25 @@ TEST(DexelStock, DepthIsTheDistanceToASmoothSurface) {
   }
   EXPECT_LT(stock.depth({30.0, 0.0, 0.0}), 0.0);
   EXPECT_GT(stock.depth({8.0, 8.0, 0.0}), 0.0);
+}
+
+TEST(DexelStock, HoldsWhatHasADepth) {
+  DexelStock stock(box_of(Vec3::Constant(-6.0), Vec3::Constant(6.0)), {}, 0.3);
+  const ToolSolid tool(cylinder(1.0, 20.0), 1e-3);
+  // Ribs, so that lines have several stretches, and edges, where lines do not see the same.
+  for (const double x : {-4.0, -1.8, 0.1, 2.6, 4.4})
+    (void)stock.cut(tool, {Vec3(x, 0.4 * x, -10.0), Vec3(0.1, -0.2, 1.0).normalized()});
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> place(-6.8, 6.8);
+  int held = 0;
+  constexpr int kPlaces = 20000;
+  for (int k = 0; k < kPlaces; ++k) {
+    const Vec3 x(place(random), place(random), place(random));
+    EXPECT_EQ(stock.holds(x), stock.depth(x) > 0.0) << x.transpose();
+    held += stock.holds(x) ? 1 : 0;
+  }
+  EXPECT_GT(held, kPlaces / 5);
+  EXPECT_LT(held, kPlaces * 4 / 5);
 }
 
 TEST(DexelStock, ConcaveToolsLeaveWhatTheirWaistDoesNotReach) {

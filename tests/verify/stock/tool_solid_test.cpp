@@ -75,6 +75,26 @@ TEST(ToolSolid, CutsLinesAsAWalkAlongThem) {
 }
 
 /// A waist: lines beside it are in the tool twice.
+TEST(ToolSolid, WhatPassesByIsNotReached) {
+  const ToolSolid tool({ToolFamily::kCylinder, 12.0, Eigen::VectorXd::Constant(1, 3.0)}, kChord);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> place(-8.0, 8.0);
+  int passed = 0, missed = 0;
+  for (const ToolLine& line : lines_beside(tool, 4000)) {
+    const double low = place(random), high = low + std::abs(place(random));
+    LineCut within;
+    const bool meets = tool.reach(line, tool.largest(), within) && within.low < high && within.high > low;
+    const bool passes = ToolSolid::passes_by(line, tool.largest(), low, high);
+    EXPECT_FALSE(meets && passes);
+    // The cylinder has no ends there.
+    const bool outside = line.a > 0.0 && (within.high <= low || within.low >= high);
+    passed += passes ? 1 : 0;
+    missed += outside && !passes ? 1 : 0;
+  }
+  EXPECT_GT(passed, 1000);
+  EXPECT_LT(missed, passed);
+}
+
 TEST(ToolSolid, CutsAWaistTwice) {
   Eigen::VectorXd radii(6);
   radii << 6.0, 4.5, 3.0, 3.0, 4.5, 6.0;

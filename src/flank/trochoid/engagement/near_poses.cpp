@@ -4,6 +4,27 @@
 #include <cmath>
 
 namespace flank::internal {
+namespace {
+
+/// A disc that holds these, one at least.
+RowDisc around(std::span<const RowDisc> discs) {
+  constexpr double kRounding = 1e-9;
+  RowDisc out = discs.front();
+  for (const RowDisc& disc : discs.subspan(1)) {
+    out.x += disc.x, out.y += disc.y;
+    out.low = std::min(out.low, disc.low), out.high = std::max(out.high, disc.high);
+  }
+  const auto count = static_cast<double>(discs.size());
+  out.x /= count, out.y /= count, out.radius = 0.0;
+  for (const RowDisc& disc : discs) {
+    const double dx = disc.x - out.x, dy = disc.y - out.y;
+    out.radius = std::max(out.radius, std::sqrt(dx * dx + dy * dy) + disc.radius);
+  }
+  out.radius += kRounding, out.low -= kRounding, out.high += kRounding;
+  return out;
+}
+
+}  // namespace
 
 void NearPoses::begin(const RuledMotion& motion) {
   own_ = Sweep::of(motion, kOwnIntervals);
@@ -47,7 +68,8 @@ bool NearPoses::is_beyond(const Bundle& bundle, const RowDisc& disc, double axis
   return height + slack < disc.low || height - slack > disc.high;
 }
 
-bool NearPoses::meets(const RowFrame& frame, const Pose& pose, std::span<const RowDisc> discs, NearPose& out) const {
+bool NearPoses::meets(const RowFrame& frame, const Pose& pose, const RowDisc& all, std::span<const RowDisc> discs,
+                      NearPose& out) const {
   const ToolProfile& profile = stock_.profile();
   const double low = profile.low(), high = profile.high();
   const Vec3 d = pose.tip - frame.axis.tip;
@@ -64,7 +86,7 @@ bool NearPoses::meets(const RowFrame& frame, const Pose& pose, std::span<const R
   // Nearest that the axis comes to a disc over the heights of the tool, and a little more where it leans.
   const double slack = profile.largest() * slope, first = low - slack, range = high - low + 2.0 * slack;
   const double ex = range * out.dx, ey = range * out.dy, e2 = ex * ex + ey * ey, per_e2 = e2 > 0.0 ? 1.0 / e2 : 0.0;
-  return std::any_of(discs.begin(), discs.end(), [&](const RowDisc& disc) {
+  const auto reaches = [&](const RowDisc& disc) {
     const double reach = profile.largest() + disc.radius;
     const double ax = out.x0 + first * out.dx - disc.x, ay = out.y0 + first * out.dy - disc.y;
     const double share = std::clamp(-(ax * ex + ay * ey) * per_e2, 0.0, 1.0);
@@ -73,7 +95,8 @@ bool NearPoses::meets(const RowFrame& frame, const Pose& pose, std::span<const R
     // Heights of the places of the disc along this axis.
     const double middle = forward * (disc.x * out.dx + disc.y * out.dy) - below, swing = disc.radius * lean;
     return middle + swing + disc.high * forward >= low && middle - swing + disc.low * forward <= high;
-  });
+  };
+  return reaches(all) && (discs.empty() || std::any_of(discs.begin(), discs.end(), reaches));
 }
 
 void NearPoses::add_sweep(const RowFrame& frame, const RowDisc& whole, std::span<const RowDisc> parts,
@@ -90,11 +113,11 @@ void NearPoses::add_sweep(const RowFrame& frame, const RowDisc& whole, std::span
     for (const RowDisc& part : parts)
       if (!is_beyond(bundle, part, length)) scratch.push_back(part);
     if (!parts.empty() && scratch.empty()) continue;
-    const std::span<const RowDisc> discs = parts.empty() ? std::span(&whole, 1) : std::span<const RowDisc>(scratch);
+    const RowDisc all = parts.empty() ? whole : around(scratch);
     const std::size_t end = std::min(first + Sweep::kChunk + (c + 1 == sweep.chunks.size() ? 1 : 0), sweep.axes.size());
     for (std::size_t p = first; p < end && static_cast<double>(p) <= last; p += static_cast<std::size_t>(stride)) {
       NearPose pose{.sweep = index, .pose = static_cast<int>(p)};
-      if (meets(frame, sweep.axes[p], discs, pose)) out.push_back(pose);
+      if (meets(frame, sweep.axes[p], all, scratch, pose)) out.push_back(pose);
     }
   }
 }

@@ -64,8 +64,8 @@ class NearPoses {
   [[nodiscard]] bool is_ever_near(const Sweep& sweep) const;
   void add_sweep(const RowFrame& frame, const RowDisc& whole, std::span<const RowDisc> parts, const Sweep& sweep,
                  int index, double last, int stride, std::vector<RowDisc>& scratch, std::vector<NearPose>& out) const;
-  /// Whether a pose may cover something of one of the discs; fills all but sweep and pose.
-  [[nodiscard]] bool meets(const RowFrame& frame, const Pose& pose, std::span<const RowDisc> discs,
+  /// Whether a pose may cover something of one of the discs, which lie in `all`; none: of that. Fills all but sweep and pose.
+  [[nodiscard]] bool meets(const RowFrame& frame, const Pose& pose, const RowDisc& all, std::span<const RowDisc> discs,
                            NearPose& out) const;
 
   const SweptStock& stock_;

@@ -31,30 +31,42 @@ PoseFilter::PoseFilter(const ToolProfile& profile) : largest_(profile.largest())
 }
 
 void PoseFilter::take(std::span<const NearPose> candidates, bool first_look) {
-  if (first_look)
-    for (std::vector<float>* values : {&x_, &y_, &dx_, &dy_, &band_, &band_by_z_, &leaning_}) values->clear();
-  for (std::size_t k = x_.size(); k < candidates.size(); ++k) {
+  const std::size_t from = first_look ? 0 : x_.size();
+  for (std::vector<float>* values :
+       {&x_, &y_, &dx_, &dy_, &band_, &band_by_z_, &leaning_, &x_at_, &y_at_, &reach_, &excess_})
+    values->resize(candidates.size());
+  place_.resize(candidates.size());
+  for (std::size_t k = from; k < candidates.size(); ++k) {
     const NearPose& c = candidates[k];
     const double slope2 = c.slope2();
-    x_.push_back(static_cast<float>(c.x0));
-    y_.push_back(static_cast<float>(c.y0));
-    dx_.push_back(static_cast<float>(c.dx));
-    dy_.push_back(static_cast<float>(c.dy));
-    band_.push_back(static_cast<float>((c.h0 - low_) * per_mm_));
-    band_by_z_.push_back(static_cast<float>(c.dh * per_mm_));
-    leaning_.push_back(
-        slope2 > kLeaning * kLeaning ? static_cast<float>((1.0 + kSpare) * largest_ * std::sqrt(1.0 + slope2)) : 0.0F);
+    x_[k] = static_cast<float>(c.x0);
+    y_[k] = static_cast<float>(c.y0);
+    dx_[k] = static_cast<float>(c.dx);
+    dy_[k] = static_cast<float>(c.dy);
+    band_[k] = static_cast<float>((c.h0 - low_) * per_mm_);
+    band_by_z_[k] = static_cast<float>(c.dh * per_mm_);
+    leaning_[k] =
+        slope2 > kLeaning * kLeaning ? static_cast<float>((1.0 + kSpare) * largest_ * std::sqrt(1.0 + slope2)) : 0.0F;
   }
-  for (std::vector<float>* values : {&x_at_, &y_at_, &reach_, &excess_}) values->resize(x_.size());
 }
 
 void PoseFilter::find_reaches(double z) {
+  const std::size_t count = x_.size();
   const auto height = static_cast<float>(z), last = static_cast<float>(bands_.size() - 1);
-  for (std::size_t k = 0; k < x_.size(); ++k) {
-    x_at_[k] = x_[k] + height * dx_[k];
-    y_at_[k] = y_[k] + height * dy_[k];
-    const float band = std::clamp(band_[k] + height * band_by_z_[k], 0.0F, last);
-    reach_[k] = std::max(leaning_[k], bands_[static_cast<std::size_t>(static_cast<int>(band))]);
+  // As below: plain arrays and no branch. The table is looked up in a loop of its own, one candidate at a time.
+  const float *x = x_.data(), *y = y_.data(), *dx = dx_.data(), *dy = dy_.data();
+  const float *first = band_.data(), *by_z = band_by_z_.data(), *leaning = leaning_.data(), *bands = bands_.data();
+  float *x_at = x_at_.data(), *y_at = y_at_.data(), *reach = reach_.data();
+  std::int32_t* place = place_.data();
+  for (std::size_t k = 0; k < count; ++k) x_at[k] = x[k] + height * dx[k];
+  for (std::size_t k = 0; k < count; ++k) y_at[k] = y[k] + height * dy[k];
+  for (std::size_t k = 0; k < count; ++k) {
+    const float band = first[k] + height * by_z[k], above = band > 0.0F ? band : 0.0F;
+    place[k] = static_cast<std::int32_t>(above < last ? above : last);
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    const float radius = bands[place[k]];
+    reach[k] = leaning[k] < radius ? radius : leaning[k];
   }
 }
 
@@ -83,9 +95,14 @@ const std::vector<std::size_t>& PoseFilter::reaching(const ToolRing& ring, std::
       excess[k] = here < excess[k] ? here : excess[k];
     }
   }
-  reaching_.clear();
-  for (std::size_t k = 0; k < count; ++k)
-    if (excess[k] < 0.0F && reach[k] > 0.0F) reaching_.push_back(k);
+  // Written in any case, and kept where it counts: whether it does is hard to foresee.
+  reaching_.resize(count);
+  std::size_t found = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    reaching_[found] = k;
+    found += static_cast<std::size_t>(excess[k] < 0.0F) & static_cast<std::size_t>(reach[k] > 0.0F);
+  }
+  reaching_.resize(found);
   return reaching_;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -40,6 +41,7 @@ class PoseFilter {
   std::vector<float> leaning_;         ///< how far a leaning tool reaches in the plane of a ring, mm; 0: it is upright
   std::vector<float> x_at_, y_at_;     ///< axes in the plane of the ring
   std::vector<float> reach_, excess_;  ///< mm; squared distance less squared reach, the least of all arcs, mm^2
+  std::vector<std::int32_t> place_;    ///< index of the candidate's band at the ring
   std::vector<std::size_t> reaching_;
 };
 

@@ -55,7 +55,21 @@ struct LeaningTool {
   }
 };
 
-Vec3 radial_direction(const Vec3& x, const Vec3& y, double angle) { return std::cos(angle) * x + std::sin(angle) * y; }
+/// Places of a row, in its frame, and the heights of their rings.
+struct OpenPart {
+  Box3 box;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  void add(const ToolRing& ring, const Vec3& place) {
+    box.add(place);
+    low = std::min(low, ring.z), high = std::max(high, ring.z);
+  }
+  /// That holds them, and `bow` more.
+  [[nodiscard]] RowDisc disc(double bow) const {
+    constexpr double kSpare = 1.02;
+    const Vec3 centre = box.center();
+    return {centre.x(), centre.y(), kSpare * 0.5 * box.diagonal() + bow, low, high};
+  }
+};
 
 }  // namespace
 
@@ -69,40 +83,34 @@ RowFrame RowMeter::frame_of(const RuledMotion& motion, double t) {
 RowDisc RowMeter::discs_of_found(std::span<const ToolRing> rings) {
   // Small discs let only those poses through that come near to what is open: one for each sector of directions.
   constexpr int kSectors = 24;
-  constexpr double kPiece = 2.0 * kPi / kSectors, kSpare = 1.02;
-  struct Part {
-    Box3 box;
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    void add(const ToolRing& ring, double angle) {
-      box.add(Vec3(ring.radius * std::cos(angle), ring.radius * std::sin(angle), 0.0));
-      low = std::min(low, ring.z), high = std::max(high, ring.z);
-    }
-    [[nodiscard]] RowDisc disc(double bow) const {
-      const Vec3 centre = box.center();
-      return {centre.x(), centre.y(), kSpare * 0.5 * box.diagonal() + bow, low, high};
-    }
-  };
-  std::array<Part, kSectors> sectors;
-  Part all;
+  constexpr double kPiece = 2.0 * kPi / kSectors;
+  std::array<OpenPart, kSectors> sectors;
+  OpenPart all;
   for (const RingArc& found : found_) {
     const ToolRing& ring = rings[found.ring];
     const double low = found.motion_angle + found.arc.low, length = found.arc.high - found.arc.low;
     const int pieces = std::max(1, static_cast<int>(std::ceil(length / kPiece)));
+    const auto place = [&](double share) {
+      const double angle = low + length * share / pieces;
+      return Vec3(ring.radius * std::cos(angle), ring.radius * std::sin(angle), 0.0);
+    };
+    Vec3 begin = place(0.0);
     for (int k = 0; k < pieces; ++k) {
       const double at = low + length * (k + 0.5) / pieces;
       const double turn = at / (2.0 * kPi);
       const int sector = static_cast<int>((turn - std::floor(turn)) * kSectors) % kSectors;
-      for (const double place : {0.0, 0.5, 1.0}) {
-        const double angle = low + length * (k + place) / pieces;
-        sectors[static_cast<std::size_t>(sector)].add(ring, angle);
-        all.add(ring, angle);
+      const Vec3 end = place(k + 1.0);
+      for (const Vec3& x : {begin, place(k + 0.5), end}) {
+        sectors[static_cast<std::size_t>(sector)].add(ring, x);
+        all.add(ring, x);
       }
+      begin = end;
     }
   }
   // How far an arc bows out between points that are half a piece apart.
   const double bow = stock_.profile().largest() * (1.0 - std::cos(0.25 * kPiece));
   parts_.clear();
-  for (const Part& part : sectors)
+  for (const OpenPart& part : sectors)
     if (part.low <= part.high) parts_.push_back(part.disc(bow));
   return all.disc(bow);
 }
@@ -115,6 +123,12 @@ void RowMeter::engage_all(const RowFrame& frame, std::span<const ToolRing> rings
   }
   found_.clear();
   hints_.clear();
+  if (rough) {
+    // Which part of each ring is the front, and within the blank, does not depend on poses.
+    in_blank_.clear();
+    fronts_.clear();
+    for (const ToolRing& ring : rings) fronts_.push_back(front_of(frame, ring));
+  }
   for (std::size_t k = 0; k < rings.size(); ++k) engage(frame, rings[k], k, rough);
 }
 
@@ -263,8 +277,8 @@ const std::vector<OpenArc>& RowMeter::open_arcs(const ToolRing& ring, const Vec2
   return open_;
 }
 
-void RowMeter::cut_by_poses(const ToolRing& ring, double motion_angle) {
-  const Vec2 motion(std::cos(motion_angle), std::sin(motion_angle));
+void RowMeter::cut_by_poses(const ToolRing& ring, const Front& front) {
+  const Vec2& motion = front.motion;
   cutters_.clear();
   const auto try_all = [&](const std::vector<std::size_t>& candidates) {
     for (auto k = candidates.begin(); k != candidates.end() && !gaps_.empty(); ++k) {
@@ -294,33 +308,49 @@ bool RowMeter::is_sliver(const RingCircle& circle, const Gap& gap) const {
   return false;
 }
 
-void RowMeter::settle(const RowFrame& frame, const ToolRing& ring, std::size_t index, double motion_angle, double half,
-                      bool rough) {
-  const Vec3 forward = radial_direction(frame.x, frame.y, motion_angle);
+void RowMeter::settle(const RowFrame& frame, const ToolRing& ring, std::size_t index, const Front& front, bool rough) {
+  const double half = front.half;
+  const Vec3 forward = front.motion.x() * frame.x + front.motion.y() * frame.y;
   const RingCircle circle{frame.axis.at(ring.z), forward, frame.axis.u.cross(forward), ring.radius};
   const auto end = [&](const Bound& bound, double angle) {
     return bound.is_pose() ? arc_end(stock_.profile(), circle, place_of(bound), angle) : angle;
   };
   for (const Gap& gap : gaps_) {
-    if (rough) found_.push_back({index, motion_angle, {gap.low, gap.high}});
+    if (rough) found_.push_back({index, front.angle, {gap.low, gap.high}});
     if (rough || is_sliver(circle, gap)) continue;
     const Arc arc{std::max(-half, end(gap.at_low, gap.low)), std::min(half, end(gap.at_high, gap.high))};
-    if (arc.high > arc.low) found_.push_back({index, motion_angle, arc});
+    if (arc.high > arc.low) found_.push_back({index, front.angle, arc});
   }
 }
 
-void RowMeter::engage(const RowFrame& frame, const ToolRing& ring, std::size_t index, bool rough) {
+RowMeter::Front RowMeter::front_of(const RowFrame& frame, const ToolRing& ring) {
+  Front front;
+  gaps_.clear();
   const Vec3 v = frame.axis.velocity(ring.s);
   const double vx = v.dot(frame.x), vy = v.dot(frame.y), across = std::hypot(vx, vy), along = v.dot(frame.axis.u);
   // <nu, v> = sine <v, u> + cosine |v_perp| cos(theta) > 0.
   const double c = across > 0.0 ? -ring.sine * along / (ring.cosine * across) : (ring.sine * along > 0.0 ? -2.0 : 2.0);
-  if (c >= 1.0) return;
-  const double half = c <= -1.0 ? kPi : std::acos(c), motion_angle = std::atan2(vy, vx);
-  gaps_.assign(1,
-               Gap{-half, half, {}, {}, Vec2(std::cos(half), -std::sin(half)), Vec2(std::cos(half), std::sin(half))});
-  cut_by_blank(frame, ring, motion_angle);
-  if (!gaps_.empty()) cut_by_poses(ring, motion_angle);
-  settle(frame, ring, index, motion_angle, half, rough);
+  if (c < 1.0) {
+    front.half = c <= -1.0 ? kPi : std::acos(c);
+    front.angle = std::atan2(vy, vx);
+    front.motion = Vec2(std::cos(front.angle), std::sin(front.angle));
+    const double x = std::cos(front.half), y = std::sin(front.half);
+    gaps_.push_back({-front.half, front.half, {}, {}, Vec2(x, -y), Vec2(x, y)});
+    cut_by_blank(frame, ring, front.angle);
+  }
+  in_blank_.insert(in_blank_.end(), gaps_.begin(), gaps_.end());
+  front.end = in_blank_.size();
+  return front;
+}
+
+void RowMeter::engage(const RowFrame& frame, const ToolRing& ring, std::size_t index, bool rough) {
+  const std::size_t from = index > 0 ? fronts_[index - 1].end : 0;
+  const Front& front = fronts_[index];
+  if (from == front.end) return;
+  gaps_.assign(in_blank_.begin() + static_cast<std::ptrdiff_t>(from),
+               in_blank_.begin() + static_cast<std::ptrdiff_t>(front.end));
+  cut_by_poses(ring, front);
+  if (!gaps_.empty()) settle(frame, ring, index, front, rough);
 }
 
 EngagementRow RowMeter::sum_row(const RowFrame& frame, double t, std::span<const ToolRing> rings) const {

@@ -55,6 +55,12 @@ class RowMeter {
     Bound at_low, at_high;
     Vec2 from, to;  ///< unit vectors of low and high
   };
+  /// The part of a ring whose surface moves outwards.
+  struct Front {
+    double half = 0.0, angle = 0.0;  ///< half of it; the direction of motion in the frame of the row: radians
+    Vec2 motion = Vec2::UnitX();     ///< that direction
+    std::size_t end = 0;             ///< of its gaps in in_blank_
+  };
   [[nodiscard]] static RowFrame frame_of(const RuledMotion& motion, double t);
   /// The arcs of all rings at a time, into found_.
   void find_arcs(const RowFrame& frame, double t, std::span<const ToolRing> rings);
@@ -62,10 +68,12 @@ class RowMeter {
   /// What the first look left open: a disc that holds it, and small ones, into parts_, that hold it together.
   [[nodiscard]] RowDisc discs_of_found(std::span<const ToolRing> rings);
   [[nodiscard]] EngagementRow sum_row(const RowFrame& frame, double t, std::span<const ToolRing> rings) const;
+  /// Adds what of it is in the blank to in_blank_.
+  [[nodiscard]] Front front_of(const RowFrame& frame, const ToolRing& ring);
   /// Adds the arcs of a ring to found_.
   void engage(const RowFrame& frame, const ToolRing& ring, std::size_t index, bool rough);
   void cut_by_blank(const RowFrame& frame, const ToolRing& ring, double motion_angle);
-  void cut_by_poses(const ToolRing& ring, double motion_angle);
+  void cut_by_poses(const ToolRing& ring, const Front& front);
   /// The gaps in the frame of the row. `motion`: the direction of motion, which they are measured from.
   [[nodiscard]] const std::vector<OpenArc>& open_arcs(const ToolRing& ring, const Vec2& motion);
   /// False if the candidate covers the whole ring.
@@ -76,8 +84,7 @@ class RowMeter {
   /// of motion.
   void cut_by_leaning(std::size_t candidate, const ToolRing& ring, const Vec2& foot, const Vec2& lean);
   void cut(double low, double high, const Bound& bound);
-  void settle(const RowFrame& frame, const ToolRing& ring, std::size_t index, double motion_angle, double half,
-              bool rough);
+  void settle(const RowFrame& frame, const ToolRing& ring, std::size_t index, const Front& front, bool rough);
   [[nodiscard]] SweepPlace place_of(const Bound& bound) const;
   [[nodiscard]] bool is_sliver(const RingCircle& circle, const Gap& gap) const;
   [[nodiscard]] const Sweep& sweep_of(int index) const {
@@ -97,6 +104,8 @@ class RowMeter {
   std::vector<RowDisc> parts_, some_;
   std::vector<OpenArc> open_;
   std::vector<Gap> gaps_, cut_;
+  std::vector<Front> fronts_;  ///< of the rings of the row
+  std::vector<Gap> in_blank_;  ///< and what of them is in the blank, ring by ring
   std::vector<Arc> covered_;
   std::vector<std::size_t> cutters_;  ///< candidates that cut the gaps of this ring
   std::vector<std::size_t> hints_;    ///< those of the ring before, the last ones first

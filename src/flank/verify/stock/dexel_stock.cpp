@@ -74,6 +74,27 @@ Surface surface_along(const DexelField& field, const Vec3& x, double cell) {
   return out;
 }
 
+enum class Sight { kOut, kIn, kMixed };
+
+/// What the four lines around a point say of it; mixed where they differ, and on an end of one.
+Sight sight_along(const DexelField& field, const Vec3& x) {
+  const int i = static_cast<int>(std::floor(field.line_at(x[field.across()])));
+  const int j = static_cast<int>(std::floor(field.row_at(x[field.up()])));
+  const double place = x[field.axis()];
+  int in = 0;
+  for (int k = 0; k < 4; ++k) {
+    const int row = j + k / 2, line = i + k % 2;
+    if (row < 0 || row >= field.rows() || line < 0 || line >= field.width()) continue;
+    int here = 0;
+    field.visit(row, line, [&](const DexelSpan& span) {
+      if (span.low <= place && place <= span.high) here = span.low < place && place < span.high ? 1 : -1;
+    });
+    if (here < 0 || in != k * here) return Sight::kMixed;
+    in += here;
+  }
+  return in == 4 ? Sight::kIn : in == 0 ? Sight::kOut : Sight::kMixed;
+}
+
 /// Takes away what is beyond the planes.
 void cut_by_planes(DexelField& field, const std::vector<HalfSpace>& planes, int row, int line) {
   constexpr double kFar = 1e30;
@@ -154,6 +175,12 @@ double cut_row(DexelField& field, const ToolSolid& tool, const Pose& pose, int r
   for (int line = left; line <= right; ++line) {
     if (!field.may_meet(row, line, low, high)) continue;
     const ToolLine seen = lines.at(field.place_across(line) - u);
+    // What is left of most lines begins where the tool has just been.
+    bool beside = true;
+    field.visit(row, line, [&](const DexelSpan& span) {
+      beside = beside && ToolSolid::passes_by(seen, reach.radius, span.low, span.high);
+    });
+    if (beside) continue;
     LineCut within;
     if (!tool.reach(seen, reach.radius, within) || !field.meets(row, line, within.low, within.high)) continue;
     const LineCuts cuts = tool.cut(seen, within);
@@ -241,6 +268,15 @@ double DexelStock::depth(const Vec3& x) const {
   if (best.found) return best.distance;
   if (!any) return -std::numeric_limits<double>::infinity();
   return inside > 0 ? 0.5 * cell_ : -0.5 * cell_;
+}
+
+// Where all lines agree, so does the surface that they make: it lies beyond the point on each of them, or before it.
+bool DexelStock::holds(const Vec3& x) const {
+  const Sight sight = sight_along(fields_.front(), x);
+  const bool agreed = sight != Sight::kMixed && std::all_of(fields_.begin() + 1, fields_.end(), [&](const auto& field) {
+                        return sight_along(field, x) == sight;
+                      });
+  return agreed ? sight == Sight::kIn : depth(x) > 0.0;
 }
 
 }  // namespace flank::internal::verify

@@ -30,7 +30,9 @@ class DexelStock {
   /// cell, and farther off to first order; near edges to about a cell. Far from the surface it is only the sign that
   /// counts; -infinity where no line has any material.
   [[nodiscard]] double depth(const Vec3& x) const;
-  /// The same where lines see a smooth surface; none at edges, and where there is no material near.
+  /// Whether depth(x) > 0: quicker, as most places lie deep in the material or far from it.
+  [[nodiscard]] bool holds(const Vec3& x) const;
+  /// The distance where lines see a smooth surface; none at edges, and where there is no material near.
   [[nodiscard]] std::optional<double> distance(const Vec3& x) const;
 
   [[nodiscard]] double cell() const { return cell_; }

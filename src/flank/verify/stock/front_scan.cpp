@@ -41,8 +41,8 @@ Circle circle_of(const RadialFunction& radial, const Pose& pose, const PoseVeloc
 
 bool is_engaged(const DexelStock& stock, const MovingTool& tool, const Circle& circle, double theta) {
   const Vec3 x = circle.at(theta);
-  return stock.depth(x) > 0.0 && std::none_of(tool.lately.begin(), tool.lately.end(),
-                                              [&](const Pose& pose) { return tool.solid->holds(pose, x); });
+  return stock.holds(x) && std::none_of(tool.lately.begin(), tool.lately.end(),
+                                        [&](const Pose& pose) { return tool.solid->holds(pose, x); });
 }
 
 /// Where the answer changes between two angles: by halving, as the depth has jumps at edges.

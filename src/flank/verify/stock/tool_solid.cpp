@@ -86,8 +86,15 @@ ToolSolid::ToolSolid(const RadialFunction& radial, double chord_mm) : chord_(cho
     }
   }
   std::vector<double> radii;
-  for (std::size_t k = 0; k + 1 < nodes_.size(); ++k) radii.push_back(std::max(nodes_[k].y(), nodes_[k + 1].y()));
+  for (std::size_t k = 0; k + 1 < nodes_.size(); ++k) {
+    radii.push_back(std::max(nodes_[k].y(), nodes_[k + 1].y()));
+    slopes_.push_back((nodes_[k + 1].y() - nodes_[k].y()) / (nodes_[k + 1].x() - nodes_[k].x()));
+  }
   radii_.emplace(std::move(radii));
+  make_shelves();
+}
+
+void ToolSolid::make_shelves() {
   constexpr std::size_t kShelves = 4;  // a cone
   const std::size_t shelves = kShelves * nodes_.size();
   shelves_per_mm_ = static_cast<double>(shelves) / (high() - low());
@@ -126,6 +133,8 @@ bool ToolSolid::reach(const ToolLine& line, double radius, LineCut& within) cons
   } else if (excess >= 0.0) {
     return false;
   }
+  const double z = line.z0 + within.low * line.dz, end = line.z0 + within.high * line.dz;
+  if (std::min(z, end) > low() + kClear && std::max(z, end) < high() - kClear) return within.low < within.high;
   if (std::abs(line.dz) > kParallel) {
     double first = (low() - line.z0) / line.dz, last = (high() - line.z0) / line.dz;
     if (first > last) std::swap(first, last);
@@ -143,6 +152,12 @@ std::size_t ToolSolid::cone_at(double z) const {
   return cone;
 }
 
+std::size_t ToolSolid::cone_near(std::size_t cone, double z) const {
+  while (cone > 0 && nodes_[cone].x() > z) --cone;
+  while (cone + 2 < nodes_.size() && nodes_[cone + 1].x() <= z) ++cone;
+  return cone;
+}
+
 LineCut ToolSolid::narrowed(const ToolLine& line, const LineCut& within, std::size_t first, std::size_t last) const {
   const double radius = radii_->over(std::min(first, last), std::max(first, last));
   const double root = line.b * line.b - line.a * (line.c - radius * radius);
@@ -155,8 +170,7 @@ LineCut ToolSolid::narrowed(const ToolLine& line, const LineCut& within, std::si
 void ToolSolid::add_cone(const ToolLine& line, std::size_t cone, double from, double to, LineCuts& out) const {
   if (!(from < to)) return;
   const Vec2& low = nodes_[cone];
-  const Vec2& high = nodes_[cone + 1];
-  const double slope = (high.y() - low.y()) / (high.x() - low.x());
+  const double slope = slopes_[cone];
   const double alpha = low.y() + slope * (line.z0 - low.x()), beta = slope * line.dz;
   const double a = line.a - beta * beta, b = line.b - alpha * beta, c = line.c - alpha * alpha;
   const auto outside = [&](double k) { return (a * k + 2.0 * b) * k + c; };
@@ -205,7 +219,7 @@ LineCuts ToolSolid::cut(const ToolLine& line, const LineCut& reached) const {
   if (first != last) {
     within = narrowed(line, reached, first, last);
     if (!(within.low < within.high)) return out;
-    first = cone_of(within.low), last = cone_of(within.high);
+    first = cone_near(first, line.z0 + within.low * line.dz), last = cone_near(last, line.z0 + within.high * line.dz);
   }
   if (first == last) {
     add_cone(line, first, within.low, within.high, out);

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "flank/base/assert.h"
+
 namespace flank::internal::verify {
 namespace {
 
@@ -27,7 +29,8 @@ constexpr double kFarReaches = 2.0;
 constexpr int kMaxHops = 16;  ///< pieces, or strides of them, that a descent follows
 /// Of the length that a piece may have so many make a dense path, which is looked at in stretches of that length first.
 constexpr int kManyPieces = 32;
-constexpr int kStackSize = 128;  ///< two per level: enough for 2^40 pieces and as many strips
+/// Two per level: enough for 2^40 pieces and as many strips; and the roots.
+constexpr int kStackSize = 128 + SweptSearch::kMostRoots;
 
 /// F of the node's linear motion at its middle: R(s) + y (half_tip + s half_turn), derivatives by y and s at y = 0.
 DistanceJet linear_jet(const PoseNode& node, const RadialTable& radial, const Vec3& x, double s) {
@@ -215,27 +218,37 @@ SweptPlace SweptSearch::descend_from(const SweptPlace& near) {
   return best_;
 }
 
+SweptSearch::Open SweptSearch::promise_of(int k) const {
+  const PoseNode& node = tree_.nodes[static_cast<std::size_t>(k)];
+  // The node that holds the best place so far cannot be left out: its bound is not worth asking for.
+  if (best_.piece >= node.first_piece && best_.piece < node.end_piece) return {k, -1e300};
+  double promised = bound(node);
+  const bool dense = node.end_piece - node.first_piece >= kManyPieces && node.reach <= tree_.reach_limit;
+  if (dense && promised < best_.f - kSlackMm) promised = std::max(promised, close_bound(node));
+  return {k, promised};
+}
+
 SweptPlace SweptSearch::run(double horizon, const SweptPlace& near) {
+  constexpr std::array<int, 1> kWhole{0};
+  return run(horizon, near, kWhole);
+}
+
+SweptPlace SweptSearch::run(double horizon, const SweptPlace& near, std::span<const int> roots) {
+  FLANK_ASSERT(roots.size() <= kMostRoots);
   best_ = {horizon, -1, 0.0, 0.0};
   settled_ = -1;
   if (tree_.nodes.empty()) return best_;
   if (near.piece >= 0) start_at(near);
-  struct Open {
-    int node;
-    double promised;
-  };
-  const auto open = [&](int k) {
-    const PoseNode& node = tree_.nodes[static_cast<std::size_t>(k)];
-    // The node that holds the best place so far cannot be left out: its bound is not worth asking for.
-    if (best_.piece >= node.first_piece && best_.piece < node.end_piece) return Open{k, -1e300};
-    double promised = bound(node);
-    const bool dense = node.end_piece - node.first_piece >= kManyPieces && node.reach <= tree_.reach_limit;
-    if (dense && promised < best_.f - kSlackMm) promised = std::max(promised, close_bound(node));
-    return Open{k, promised};
-  };
   std::array<Open, kStackSize> stack;
   int size = 0;
-  stack[size++] = {0, -1e300};
+  for (const int root : roots) {
+    const Open open = root == 0 ? Open{0, -1e300} : promise_of(root);
+    if (open.promised < best_.f - kSlackMm) stack[size++] = open;
+  }
+  // The lowest is opened first.
+  std::sort(stack.begin(), stack.begin() + size, [](const Open& a, const Open& b) {
+    return a.promised != b.promised ? a.promised > b.promised : a.node > b.node;
+  });
   while (size > 0) {
     const Open top = stack[--size];
     if (top.promised >= best_.f - kSlackMm) continue;
@@ -244,12 +257,33 @@ SweptPlace SweptSearch::run(double horizon, const SweptPlace& near) {
       open_leaf(node);
       continue;
     }
-    Open first = open(top.node + 1), second = open(node.second);
+    Open first = promise_of(top.node + 1), second = promise_of(node.second);
     if (second.promised < first.promised) std::swap(first, second);
     if (second.promised < best_.f - kSlackMm) stack[size++] = second;
     if (first.promised < best_.f - kSlackMm) stack[size++] = first;
   }
   return best_;
+}
+
+std::vector<int> SweptSearch::roots_below(double value, double reach) {
+  best_ = {value, -1, 0.0, 0.0};
+  std::vector<int> out;
+  if (tree_.nodes.empty()) return out;
+  std::array<int, kStackSize> stack{0};
+  int size = 1;
+  while (size > 0) {
+    const int k = stack[--size];
+    const PoseNode& node = tree_.nodes[static_cast<std::size_t>(k)];
+    if (bound(node) >= best_.f) continue;
+    if (node.second >= 0 && node.reach > reach) {
+      stack[size++] = node.second;
+      stack[size++] = k + 1;
+      continue;
+    }
+    if (out.size() == kMostRoots) return {0};
+    out.push_back(k);
+  }
+  return out;
 }
 
 }  // namespace flank::internal::verify

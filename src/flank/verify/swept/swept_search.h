@@ -1,6 +1,9 @@
 /// One query of the swept distance: branch and bound over the pose tree.
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "flank/verify/swept/pose_tree.h"
 #include "flank/verify/swept/segment_minimum.h"
 #include "flank/verify/swept/tool_distance.h"
@@ -22,10 +25,23 @@ class SweptSearch {
 
   /// The least f below `horizon`. `near` (piece -1: none) is where to look first: it changes the time, not the value.
   [[nodiscard]] SweptPlace run(double horizon, const SweptPlace& near);
+  /// The same below these nodes of the tree alone, at most kMostRoots.
+  [[nodiscard]] SweptPlace run(double horizon, const SweptPlace& near, std::span<const int> roots);
+  static constexpr int kMostRoots = 128;
+  /// Nodes that hold all poses with f below a value, and none that reaches farther than `reach` but for leaves: where searches
+  /// about points near x, whose horizons are lower than that by their distance from x, begin. The root
+  /// of all where more are needed than there may be.
+  [[nodiscard]] std::vector<int> roots_below(double value, double reach);
   /// What descent from `near` finds: a local minimum, never below the least f; piece -1 where it does not settle.
   [[nodiscard]] SweptPlace descend_from(const SweptPlace& near);
 
  private:
+  /// A node that may have to be opened, and what it promises.
+  struct Open {
+    int node;
+    double promised;
+  };
+  [[nodiscard]] Open promise_of(int node) const;
   [[nodiscard]] double bound(const PoseNode& node) const;        ///< <= f over all poses of the node
   [[nodiscard]] double close_bound(const PoseNode& node) const;  ///< the same for nodes no longer than a piece may be
   /// The least of 1 - rho q' (docs/algorithms/judge.md) over the spheres that can be nearer than the best value at any
