@@ -158,7 +158,8 @@ enum class FitStatus {
 };
 
 /// Beside walls: whether other ways than to avoid them from the start were tried (FlankFitOptions::ways), and what came of it.
-enum class OtherWays { kNotTried, kBeaten, kBest };
+/// kHopeless: beaten, and what is found without the walls runs with its axis in them.
+enum class OtherWays { kNotTried, kBeaten, kHopeless, kBest };
 
 struct FlankFitResult {
   FitStatus status = FitStatus::kNotRun;

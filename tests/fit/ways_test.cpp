@@ -93,7 +93,7 @@ CoverageEstimate covering(double share, double gouge_mm, double overcut_mm = 0.0
 }
 
 /// The best of a first result and of the ways that begin with the upright draft, before the blade with a wall at its end.
-FlankFitResult best_beside_wall(double first_covers) {
+FlankFitResult best_beside_wall(double first_covers, double free_x_last) {
   const auto blade = standing_blade(0.0);
   const ObstacleField obstacles(only(end_wall()), *blade, 2.0, 0.0);
   FlankFitOptions options;
@@ -101,11 +101,12 @@ FlankFitResult best_beside_wall(double first_covers) {
   options.obstacles = &obstacles;
   options.bounds = {1.0, 9.0, 0.5};
   options.sample_share = 1.0 / 15.0;
-  const FitDraft draft = upright_draft(*blade, obstacles);
+  FitDraft draft = upright_draft(*blade, obstacles);
   FlankFitResult first;
   first.motions = draft.motions;
   first.tool = draft.tool;
   first.after.at_tolerance = first_covers;
+  draft.motions = {testing::upright_motion({.x_last = free_x_last})};
   return best_way(*blade, {}, options, first,
                   [&](const FlankFitOptions& of) {
                     EXPECT_EQ(of.obstacles, nullptr);
@@ -118,13 +119,16 @@ FlankFitResult best_beside_wall(double first_covers) {
 }
 
 TEST(BestWay, SaysWhetherAnotherWayIsTheResult) {
-  const FlankFitResult better = best_beside_wall(0.1);
+  const FlankFitResult better = best_beside_wall(0.1, 56.0);
   EXPECT_EQ(better.other_ways, OtherWays::kBest);
   EXPECT_GT(better.after.at_tolerance, 0.3) << "on a shorter path";
   EXPECT_LE(better.after.gouge_mm, 1.1 * kDepth);
-  const FlankFitResult beaten = best_beside_wall(1.0);
-  EXPECT_EQ(beaten.other_ways, OtherWays::kBeaten);
+  const FlankFitResult beaten = best_beside_wall(1.0, 46.0);
+  EXPECT_EQ(beaten.other_ways, OtherWays::kBeaten) << "1 mm in the wall";
   EXPECT_EQ(beaten.after.at_tolerance, 1.0);
+  const FlankFitResult hopeless = best_beside_wall(1.0, 56.0);
+  EXPECT_EQ(hopeless.other_ways, OtherWays::kHopeless) << "the axis ends 6 mm behind the wall";
+  EXPECT_EQ(hopeless.after.at_tolerance, 1.0);
 }
 
 TEST(IsBetter, WhatEntersNothingGoesFirstUnlessItCoversNextToNothing) {

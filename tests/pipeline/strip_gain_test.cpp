@@ -25,9 +25,9 @@ TEST(StripGain, AGainBetweenTwoThatAreNoneGoesOn) {
   StripGain gain(kTolerance);
   EXPECT_TRUE(gain.goes_on(result_of(0.8, 0.05)));
   EXPECT_TRUE(gain.goes_on(result_of(0.8, 0.05)));
-  EXPECT_TRUE(gain.goes_on(result_of(0.9, 0.05)));
-  EXPECT_TRUE(gain.goes_on(result_of(0.9, 0.05)));
-  EXPECT_FALSE(gain.goes_on(result_of(0.9, 0.05)));
+  EXPECT_TRUE(gain.goes_on(result_of(0.85, 0.05)));
+  EXPECT_TRUE(gain.goes_on(result_of(0.85, 0.05)));
+  EXPECT_FALSE(gain.goes_on(result_of(0.85, 0.05)));
 }
 
 TEST(StripGain, WhereLittleIsMissingLessIsAGainAndThreeMayBeNone) {

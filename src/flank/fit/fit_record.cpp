@@ -50,7 +50,7 @@ void code(StepCodec& codec, FlankFitResult& fit) {
   code(codec, fit.notes);
   code(codec, fit.candidates);
   code(codec, fit.tried);
-  code_choice(codec, fit.other_ways, 3);
+  code_choice(codec, fit.other_ways, 4);
   codec.require(fit.motions.empty() || fit.tool.axis_length() > 0.0, "motions need a tool");
 }
 

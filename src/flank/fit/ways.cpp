@@ -275,6 +275,7 @@ FlankFitResult best_way(const Target& target, const ToolModel& tool, const Flank
     const CoverageEstimate& rival = best != nullptr ? best->polished.estimate : first.after;
     if ((best == nullptr && first.motions.empty()) || is_better(way.polished.estimate, rival, tolerance)) best = &way;
   }
+  if (!can_be_led_out(ways.front().polished)) first.other_ways = OtherWays::kHopeless;
   FlankFitResult result = first;
   if (best != nullptr) {
     result.tried.clear();

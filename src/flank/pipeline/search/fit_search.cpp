@@ -99,8 +99,8 @@ FlankFitResult fit_auto(const Target& target, const ToolModel& tool, FlankFitOpt
     const double here = 1.0 - rest;  // nobody knows how many follow: each gets a half of what is left
     FlankFitResult result = fit_automatic(target, tool, options, progress.part(here, 1.0 - (rest *= 0.5)));
     if (count == 1) one_covers = result.after.at_tolerance;
-    // They cost as much as all before, and what they lost with one number of strips they rarely win with another.
-    if (result.other_ways == OtherWays::kBeaten) options.ways = false;
+    // They cost as much as all before, and one strip more leads no axis out of another face.
+    if (result.other_ways == OtherWays::kHopeless) options.ways = false;
     keep_better(best, std::move(result), options);
     if (is_done(best, least_coverage, options.tolerance_mm) || !gain.goes_on(best) || progress.stop()) break;
   }

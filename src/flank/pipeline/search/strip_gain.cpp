@@ -8,7 +8,7 @@ bool StripGain::goes_on(const FlankFitResult& best) {
   constexpr double kGain = 0.01, kGainOfRest = 0.25;  // of the face, or of what is missing: less is not worth a strip
   constexpr double kNotFar = 4.0;                     // tolerances deep
   /// Where little is missing a number of strips that is no better says little of the next one.
-  constexpr double kNearlyAll = 0.95;
+  constexpr double kNearlyAll = 0.9;
   constexpr int kMostWithout = 2, kMostWithoutNear = 3;
   // A flank that runs through another face can cover all of the target, and is no result that one more strip could beat.
   const auto covers = [&](const CoverageEstimate& estimate) {
