@@ -9,7 +9,7 @@ bool StripGain::goes_on(const FlankFitResult& best) {
   constexpr double kNotFar = 4.0;                     // tolerances deep
   /// Where little is missing a number of strips that is no better says little of the next one.
   constexpr double kNearlyAll = 0.9;
-  constexpr int kMostWithout = 2, kMostWithoutNear = 3;
+  constexpr int kMostWithout = 2, kMostWithoutNear = 4;
   // A flank that runs through another face can cover all of the target, and is no result that one more strip could beat.
   const auto covers = [&](const CoverageEstimate& estimate) {
     return std::max(estimate.overcut_mm, estimate.gouge_mm) <= kNotFar * tolerance_mm_ ? estimate.at_tolerance : 0.0;

@@ -10,7 +10,7 @@ class StripGain {
  public:
   explicit StripGain(double tolerance_mm) : tolerance_mm_(tolerance_mm) {}
 
-  /// Takes the best result of all numbers of strips so far. False after two in a row (three where nearly all is covered) that
+  /// Takes the best result of all numbers of strips so far. False after two in a row (four where nearly all is covered) that
   /// neither cover more, nor promise to: only what is not far from being clean counts, because more strips may make it clean.
   [[nodiscard]] bool goes_on(const FlankFitResult& best);
 
