@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 namespace flank::internal {
 namespace {
 
@@ -14,30 +16,21 @@ FlankFitResult result_of(double covers, double gouge_mm) {
   return result;
 }
 
-TEST(StripGain, EndsAfterTwoCountsThatGainNothing) {
+/// After how many results, each clean and covering so much, the search ends; 0: it would go on.
+int ends_after(const std::vector<double>& covers) {
   StripGain gain(kTolerance);
-  EXPECT_TRUE(gain.goes_on(result_of(0.8, 0.05)));
-  EXPECT_TRUE(gain.goes_on(result_of(0.803, 0.05)));
-  EXPECT_FALSE(gain.goes_on(result_of(0.806, 0.05)));
+  for (std::size_t k = 0; k < covers.size(); ++k)
+    if (!gain.goes_on(result_of(covers[k], 0.05))) return static_cast<int>(k) + 1;
+  return 0;
 }
 
-TEST(StripGain, AGainBetweenTwoThatAreNoneGoesOn) {
-  StripGain gain(kTolerance);
-  EXPECT_TRUE(gain.goes_on(result_of(0.8, 0.05)));
-  EXPECT_TRUE(gain.goes_on(result_of(0.8, 0.05)));
-  EXPECT_TRUE(gain.goes_on(result_of(0.85, 0.05)));
-  EXPECT_TRUE(gain.goes_on(result_of(0.85, 0.05)));
-  EXPECT_FALSE(gain.goes_on(result_of(0.85, 0.05)));
-}
+TEST(StripGain, EndsAfterTwoCountsThatGainNothing) { EXPECT_EQ(ends_after({0.8, 0.803, 0.806}), 3); }
+
+TEST(StripGain, AGainBetweenTwoThatAreNoneGoesOn) { EXPECT_EQ(ends_after({0.8, 0.8, 0.85, 0.85, 0.85}), 5); }
 
 TEST(StripGain, WhereLittleIsMissingLessIsAGainAndFourMayBeNone) {
-  StripGain gain(kTolerance);
-  EXPECT_TRUE(gain.goes_on(result_of(0.98, 0.05)));
-  EXPECT_TRUE(gain.goes_on(result_of(0.98, 0.05)));
-  EXPECT_TRUE(gain.goes_on(result_of(0.98, 0.05)));
-  EXPECT_TRUE(gain.goes_on(result_of(0.986, 0.05))) << "a third of what is missing";
-  for (int k = 0; k < 3; ++k) EXPECT_TRUE(gain.goes_on(result_of(0.987, 0.05)));
-  EXPECT_FALSE(gain.goes_on(result_of(0.987, 0.05)));
+  // 0.986 gains a third of what is missing.
+  EXPECT_EQ(ends_after({0.98, 0.98, 0.98, 0.986, 0.987, 0.987, 0.987, 0.987}), 8);
 }
 
 TEST(StripGain, WhatRunsThroughAnotherFaceIsNothingToBeat) {

@@ -198,12 +198,7 @@ void settle_in_turn(std::vector<Way>& ways, CoverageEstimate rival, const FlankF
 
 /// Whether passes may lead a draft out of what it enters: not where its axis itself is in there, because the points on both
 /// sides of it push against each other.
-bool can_be_led_out(const Polished& polished) {
-  const RadialFunction& tool = polished.draft.tool;
-  double thickest = 0.0;
-  for (int j = 0; j < kPlaces; ++j) thickest = std::max(thickest, tool.at(tool.axis_length() * j / (kPlaces - 1.0)).r);
-  return polished.estimate.gouge_mm < thickest;
-}
+bool can_be_led_out(const Polished& polished) { return polished.estimate.gouge_mm < polished.draft.tool.largest(); }
 
 /// The draft as it was found without the other faces, and, if it enters them, what can be made of it that can win against
 /// the rival.
