@@ -10,6 +10,7 @@
 #include "flank/setup/targets.h"
 #include "rotor37_file.h"
 #include "sanitized.h"
+#include "verify/faces.h"
 
 namespace flank::internal {
 namespace {
@@ -25,7 +26,7 @@ std::string real_part(const std::string& name) {
 FaceSamples reach_of(const Part& part, int target, double radius, double tolerance, double spacing) {
   const Setup setup{part, {target}, faces_to_check(part, {target}, {}), tolerance, {}};
   std::vector<FaceSamples> samples = target_samples(setup, spacing);
-  TargetReach(setup, {}, {}, radius, samples).fill(target, samples[0]);
+  TargetReach(setup, {}, {}, {.radius_mm = radius}, samples).fill(target, samples[0]);
   return samples[0];
 }
 
@@ -63,6 +64,14 @@ void expect_as_footpoints(const Part& part, const FaceSamples& face, int own, do
     }
   }
   EXPECT_GT(std::min({free, held, buried}), 10) << free << ' ' << held << ' ' << buried;
+}
+
+TEST(JudgeJob, AFaceAloneIsNotReachableInItsOwnCorner) {
+  Part part;
+  part.faces = {test::corner_face("F1", 20.0, 30.0)};
+  part.faces[0].of_solid = true;
+  part.solids = 1;
+  EXPECT_NEAR(share_of(reach_of(part, 0, 5.0, 0.01, 0.1)), 1.0 - (5.0 - 0.01) / 20.0, 0.005);
 }
 
 TEST(JudgeJob, ReachableShareOfAnImpellerBladeThatRunsOnInTheHub) {

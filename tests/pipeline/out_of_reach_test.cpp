@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "obstacle/obstacle_scene.h"
+#include "verify/faces.h"
 
 namespace flank::internal {
 namespace {
@@ -28,6 +29,14 @@ TEST(OutOfReach, SeesAFaceThatLiesUponTheTargetAndNotAHubBesideIt) {
   options.obstacles = &upon;
   EXPECT_LT(reachable_share(*blade, options), kHardlyAny);
   EXPECT_NE(out_of_reach_note(0.0, options).find("100.0 %"), std::string::npos);
+}
+
+TEST(OutOfReach, SeesTheTargetsOwnCorner) {
+  const auto corner = make_target({test::corner_face("F1", 20.0, 30.0)});
+  FlankFitOptions options;
+  options.tolerance_mm = 0.02;
+  options.reach_radius_mm = 5.0;
+  EXPECT_NEAR(reachable_share(*corner, options), 1.0 - 5.0 / 20.0, 0.03);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 
 #include "surface/mesh_shapes.h"
 
@@ -38,6 +39,22 @@ TEST(BallTouch, OneOfSeveralTargetsIsEnough) {
   const std::array<const Target*, 2> targets = {far.get(), target.get()};
   EXPECT_TRUE(ball_touches(targets, {5, 5, 2}, 2.0, 0.1));
   EXPECT_FALSE(ball_touches({}, {5, 5, 2}, 2.0, 0.1));
+}
+
+TEST(BallFits, NotInABendTighterThanTheBallNorNearACorner) {
+  // A valley along y whose ground has radius 5, and a ridge seen from above.
+  const auto arch = [](double sign) {
+    return make_target(shapes::grid(24, 8, [=](double u, double v) {
+      const double angle = 1.2 * (2.0 * u - 1.0);
+      return Vec3(5.0 * std::sin(angle), 10.0 * v, sign * 5.0 * (1.0 - std::cos(angle)));
+    }));
+  };
+  const std::unique_ptr<Target> valley = arch(+1.0), ridge = arch(-1.0);
+  for (const SurfaceSample& sample : valley->samples(1.0)) {
+    EXPECT_TRUE(ball_fits(*valley, sample, 4.5, 0.02));
+    EXPECT_FALSE(ball_fits(*valley, sample, 6.5, 0.02));
+  }
+  for (const SurfaceSample& sample : ridge->samples(1.0)) EXPECT_TRUE(ball_fits(*ridge, sample, 6.5, 0.02));
 }
 
 }  // namespace

@@ -37,6 +37,19 @@ inline Face quarter_cylinder(const std::string& id, double radius, double height
   return face;
 }
 
+/// A floor, [0, width] x [0, length] of the plane y = 0, and a wall as high at x = 0, one face with a sharp corner. Its outward
+/// normal points into the corner, to +x and +y.
+inline Face corner_face(const std::string& id, double width, double length) {
+  Face face = plane_face(id, width, length);
+  BSplineSurface& s = face.surface;
+  s.knots_u = {0, 0, 0.5, 1, 1};
+  s.count_u = 3;
+  s.poles.insert(s.poles.begin(), {Vec3(0, width, 0), Vec3(0, width, length)});
+  s.poles[2].x() = s.poles[3].x() = 0.0;
+  face.reversed = true;
+  return face;
+}
+
 /// A polygon as a loop of straight edges.
 inline TrimLoop polygon(const std::vector<Vec2>& corners) {
   TrimLoop loop;

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "flank/error.h"
+#include "flank/geom/tessellate.h"
 #include "flank/threads.h"
 #include "flank/verify/clearance/winding.h"
 #include "verify/faces.h"
@@ -66,6 +67,27 @@ TEST(Reach, AWallKeepsTheBallAtItsRadius) {
       EXPECT_NEAR(reach(floor_samples(), {wall}, radius, tolerance), 1.0 - (radius - tolerance) / 40.0, kShare);
   const ReachFace unchecked{wall.mesh, -1, false};
   EXPECT_EQ(reach(floor_samples(), {unchecked}, 5.0), 1.0);
+}
+
+/// What a ball of 5 mm reaches of a face that is all there is, cut into triangles for the ball.
+double reach_alone(const Face& face) {
+  const ReachScene scene({}, tessellate(face, {.chord_mm = 0.002, .edge_mm = 1.0}).mesh, {5.0, 0.01});
+  const FaceSamples samples = sample_face(face, 0.1, true);
+  return area_share(samples, scene.shares(samples));
+}
+
+TEST(Reach, ACornerOfTheTargetKeepsTheBallAwayFromBothSides) {
+  EXPECT_NEAR(reach_alone(test::corner_face("F1", 20.0, 30.0)), 1.0 - (5.0 - 0.01) / 20.0, 0.005);
+}
+
+TEST(Reach, ABendOfTheTargetKeepsTheBallAwayWhereItIsTighterThanTheBall) {
+  for (const double radius : {4.8, 5.2}) {
+    Face bend = test::quarter_cylinder("F1", radius, 8.0);
+    bend.reversed = true;  // towards the axis
+    EXPECT_EQ(reach_alone(bend), radius < 5.0 ? 0.0 : 1.0) << radius;
+    bend.reversed = false;
+    EXPECT_EQ(reach_alone(bend), 1.0) << radius;
+  }
 }
 
 TEST(Reach, ASlantedWallCutsCellsAskew) {

@@ -58,15 +58,24 @@ double reach_radius(const FlankFitOptions& options) {
   return options.reach_radius_mm > 0.0 ? options.reach_radius_mm : options.bounds.smallest;
 }
 
+ReachLimits reach_of(const FlankFitOptions& options) {
+  return {reach_radius(options), options.tolerance_mm, options.reach_radius_mm > 0.0};
+}
+
+bool is_reachable(const Target& target, const ObstacleField* obstacles, const SurfaceSample& sample,
+                  const ReachLimits& reach) {
+  if (reach.corners && !ball_fits(target, sample, reach.radius_mm, reach.depth_mm)) return false;
+  return obstacles == nullptr || obstacles->reachable(sample, reach.radius_mm, reach.depth_mm);
+}
+
 std::vector<SurfaceSample> ranking_samples(const Target& target, const ObstacleField* obstacles,
                                            const FlankFitOptions& options) {
   const double spacing = std::sqrt(target.area()) * options.sample_share;
+  const ReachLimits reach = reach_of(options);
   std::vector<SurfaceSample> samples = target.samples(spacing);
-  if (obstacles != nullptr) {
-    parallel_for(samples.size(), [&](std::size_t k) {
-      if (!obstacles->reachable(samples[k], reach_radius(options), options.tolerance_mm)) samples[k].area = 0.0;
-    });
-  }
+  parallel_for(samples.size(), [&](std::size_t k) {
+    if (!is_reachable(target, obstacles, samples[k], reach)) samples[k].area = 0.0;
+  });
   // The rim, where a tool cuts deepest, counts for overcut alone: it has no area.
   for (const Vec3& point : target.border_points(spacing)) samples.push_back({point, Vec3::UnitZ()});
   return samples;

@@ -17,8 +17,23 @@ inline constexpr int kRankingPoses = 160;
 /// Residuals far beyond this are outliers to a robust pass; mm.
 [[nodiscard]] double robust_scale(const Target& target, const FlankFitOptions& options);
 
-/// Samples of the target that rank drafts, spacing options.sample_share sqrt(area). Samples out of reach because of
-/// obstacles, and points of the rim, have no area: they count for overcut alone.
+/// What of a target counts as out of reach: points where a ball of this radius, touching the target, enters a check
+/// face by more than the depth (MATH section 9) or, if corners count, the target itself.
+struct ReachLimits {
+  double radius_mm = 0.0, depth_mm = 0.0;
+  bool corners = false;
+};
+
+/// The limits of a fit: with a ball that the part and the demand choose, and within the tolerance. Corners count for such a
+/// ball alone: that a given tool does not fit into the target is no excuse of it.
+[[nodiscard]] ReachLimits reach_of(const FlankFitOptions& options);
+
+/// Is the sample in reach, beside obstacles (none: nullptr)?
+[[nodiscard]] bool is_reachable(const Target& target, const ObstacleField* obstacles, const SurfaceSample& sample,
+                                const ReachLimits& reach);
+
+/// Samples of the target that rank drafts, spacing options.sample_share sqrt(area). Samples out of reach, in the target's
+/// own corners or because of obstacles, and points of the rim, have no area: they count for overcut alone.
 [[nodiscard]] std::vector<SurfaceSample> ranking_samples(const Target& target, const ObstacleField* obstacles,
                                                          const FlankFitOptions& options);
 

@@ -42,8 +42,6 @@ FitStage swept_stage(const SweptPass& pass, const FlankFitOptions& options, doub
   return stage;
 }
 
-ReachLimits reach_of(const FlankFitOptions& options) { return {reach_radius(options), options.tolerance_mm}; }
-
 std::vector<FacePoint> target_points(const FitDraft& draft, int per_side, const ReachLimits& reach) {
   const std::vector<const Target*> targets = distinct_targets(draft);
   double area = 0.0;
@@ -60,7 +58,7 @@ std::vector<FacePoint> target_points(const FitDraft& draft, int per_side, const 
     points.resize(first + samples.size());
     const ObstacleField* obstacles = obstacles_of(draft, target);
     parallel_for(samples.size(), [&](std::size_t k) {
-      const bool out = obstacles != nullptr && !obstacles->reachable(samples[k], reach.radius_mm, reach.depth_mm);
+      const bool out = !is_reachable(*target, obstacles, samples[k], reach);
       points[first + k] = {samples[k].point, samples[k].area / area,
                            out ? FacePoint::Role::kOutOfReach : FacePoint::Role::kTouch};
     });

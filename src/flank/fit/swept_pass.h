@@ -48,15 +48,6 @@ inline constexpr SweptPass kDense = {.iterations = 15};
 /// for the mean, and there are passes that give up what is out of reach (partial_polish.h).
 inline constexpr double kAllButCovered = 0.995;
 
-/// What of a target counts as out of reach: points where a ball of this radius, touching the target, enters a check
-/// face by more than the depth (MATH section 9). Not used without obstacles.
-struct ReachLimits {
-  double radius_mm = 0.0, depth_mm = 0.0;
-};
-
-/// The limits of a fit: with a ball that the part and the demand choose, and within the tolerance.
-[[nodiscard]] ReachLimits reach_of(const FlankFitOptions& options);
-
 /// The weights and sizes of a pass, for targets of this size.
 [[nodiscard]] FitStage swept_stage(const SweptPass& pass, const FlankFitOptions& options, double size_mm);
 

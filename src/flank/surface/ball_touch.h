@@ -1,4 +1,4 @@
-/// Whether a ball of the tool touches a target.
+/// Whether a ball of the tool touches a target, and whether it can.
 #pragma once
 
 #include <span>
@@ -12,5 +12,9 @@ namespace flank::internal {
 /// machined.
 [[nodiscard]] bool ball_touches(std::span<const Target* const> targets, const Vec3& centre, double radius_mm,
                                 double reach_mm);
+
+/// Can a ball touch the target at the sample, on the machining side, and enter it nowhere deeper than depth_mm? Not in a
+/// corner of the target that is narrower than the ball.
+[[nodiscard]] bool ball_fits(const Target& target, const SurfaceSample& sample, double radius_mm, double depth_mm);
 
 }  // namespace flank::internal

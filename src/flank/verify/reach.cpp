@@ -101,7 +101,7 @@ struct Ball {
 /// What the ball must keep out of.
 class Surroundings {
  public:
-  Surroundings(const std::vector<ReachFace>& others, double limit) : limit_(limit) {
+  Surroundings(const std::vector<ReachFace>& others, const TriangleMesh& own, double limit) : limit_(limit), own_(own) {
     TriangleMesh checked;
     std::map<int, std::pair<TriangleMesh, bool>> solids;
     for (const ReachFace& face : others) {
@@ -147,6 +147,11 @@ class Surroundings {
     }
   }
 
+  /// Whether the ball that touches the target here enters it elsewhere.
+  [[nodiscard]] bool in_a_corner(const Ball& ball) const {
+    return capped_distance(own_, ball.center, limit_, limit_) < limit_;
+  }
+
  private:
   /// Share of a cell that the ball can touch: 0 or 1 if the distance of its centre decides, else counted at places.
   [[nodiscard]] double share(const Ball& ball) const {
@@ -185,7 +190,7 @@ class Surroundings {
 
   double limit_;
   bool all_checked_ = true;  ///< no face is there only to close its solid
-  ObstacleTree surface_;
+  ObstacleTree surface_, own_;
   std::vector<Box3> boxes_;
   std::vector<Winding> solids_;
 };
@@ -203,10 +208,10 @@ struct ReachScene::Data {
   Surroundings around;
 };
 
-ReachScene::ReachScene(const std::vector<ReachFace>& others, const ReachOptions& options) {
+ReachScene::ReachScene(const std::vector<ReachFace>& others, const TriangleMesh& own, const ReachOptions& options) {
   require_usable(options);
   data_ = std::make_unique<const Data>(
-      Data{options.radius_mm, Surroundings(others, options.radius_mm - options.tolerance_mm)});
+      Data{options.radius_mm, Surroundings(others, own, options.radius_mm - options.tolerance_mm)});
 }
 ReachScene::~ReachScene() = default;
 ReachScene::ReachScene(ReachScene&&) noexcept = default;
@@ -223,13 +228,15 @@ std::vector<double> ReachScene::shares(const FaceSamples& target) const {
       balls[i - begin] = {target.points[i] + data_->radius * n, n, target.areas[i], reach * (1.0 + bend)};
     }
     data_->around.measure(balls, std::span(shares).subspan(begin, end - begin));
+    for (std::size_t i = begin; i < end; ++i)
+      if (shares[i] > 0.0 && data_->around.in_a_corner(balls[i - begin])) shares[i] = 0.0;
   });
   return shares;
 }
 
 std::vector<double> reachable_shares(const FaceSamples& target, const std::vector<ReachFace>& others,
                                      const ReachOptions& options) {
-  return ReachScene(others, options).shares(target);
+  return ReachScene(others, {}, options).shares(target);
 }
 
 int side_of_tool(const Tool& tool, const Path& path, const FaceSamples& sheet) {

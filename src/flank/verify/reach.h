@@ -1,4 +1,5 @@
-/// The reachable share of a target (MATH section 9): where a ball can touch it without entering another face.
+/// The reachable share of a target (MATH section 9): where a ball can touch it without entering another face, nor the
+/// target itself in a corner narrower than the ball.
 #pragma once
 
 #include <memory>
@@ -22,18 +23,20 @@ struct ReachOptions {
   double tolerance_mm = 0.01;  ///< > 0: it may enter other faces by this much
 };
 
-/// What a ball must keep out of, made ready once for many samples. Immutable, so many threads may ask at once. Throws
-/// UsageError for a radius or tolerance that is not > 0.
+/// What a ball must keep out of, made ready once for many samples: other faces, and the target's `own` triangles (none: the
+/// target has no corners). Immutable, so many threads may ask at once. Throws UsageError for a radius or tolerance that is
+/// not > 0.
 class ReachScene {
  public:
-  ReachScene(const std::vector<ReachFace>& others, const ReachOptions& options);
+  ReachScene(const std::vector<ReachFace>& others, const TriangleMesh& own, const ReachOptions& options);
   ~ReachScene();
   ReachScene(ReachScene&&) noexcept;
 
   /// Share of each sample's cell, 0 to 1, whose points x are reachable: the ball about c = x + radius n(x) enters no
   /// checked face by more than the tolerance, and c lies in no solid that has a checked face (a target may run on
   /// inside another solid, which is no place for a tool however far its surface is). `target.normals` point to the
-  /// machining side. Cells through which the border of the reachable part runs are measured at 89 places.
+  /// machining side. Cells through which the border of the reachable part runs are measured at 89 places; where the ball
+  /// about the middle of a cell enters the target itself deeper than the tolerance, none of the cell counts.
   /// Parallel; the same bits for any number of threads.
   [[nodiscard]] std::vector<double> shares(const FaceSamples& target) const;
 
@@ -42,7 +45,7 @@ class ReachScene {
   std::unique_ptr<const Data> data_;
 };
 
-/// The same of one set of samples.
+/// The same of one set of samples, of a target without corners.
 [[nodiscard]] std::vector<double> reachable_shares(const FaceSamples& target, const std::vector<ReachFace>& others,
                                                    const ReachOptions& options);
 

@@ -136,7 +136,7 @@ VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const To
   std::vector<BuriedStrip> buried;
   if (radius > 0.0) {
     const std::vector<FaceSamples> samples = target_samples(setup, kReachSpacings * usual);
-    reach.emplace(setup, tool, path, radius, samples);
+    reach.emplace(setup, tool, path, ReachBall{radius, request.reach_radius_mm.has_value()}, samples);
     buried = find_buried(setup, tool, path, samples);
   }
   stop_here();

@@ -97,25 +97,30 @@ std::vector<FaceSamples> target_samples(const Setup& setup, double spacing_mm) {
   return samples;
 }
 
-TargetReach::TargetReach(const Setup& setup, const Tool& tool, const Path& path, double radius_mm,
+TargetReach::TargetReach(const Setup& setup, const Tool& tool, const Path& path, const ReachBall& ball,
                          const std::vector<FaceSamples>& samples) {
   const Part& part = setup.part;
+  const double radius = ball.radius_mm;
   std::vector<int> judged = setup.targets;
   judged.insert(judged.end(), setup.checks.begin(), setup.checks.end());
-  if (judged.size() < 2) return;
+  if (judged.size() < 2 && !ball.corners) return;
   const std::vector<int> around = faces_around(part, judged);
-  std::vector<TriangleMesh> meshes = meshes_of(setup, around, judged, balls_of(samples, radius_mm), radius_mm);
+  std::vector<TriangleMesh> meshes = meshes_of(setup, around, judged, balls_of(samples, radius), radius);
   for (std::size_t j = 0; j < samples.size(); ++j) {
     const int own = setup.targets[j];
     std::vector<ReachFace> others;
+    TriangleMesh mine;
     for (std::size_t k = 0; k < around.size(); ++k) {
       const int solid = solid_of(part, around[k]);
-      if (around[k] == own) continue;
       TriangleMesh mesh = j + 1 == samples.size() ? std::move(meshes[k]) : meshes[k];
+      if (around[k] == own) {
+        if (ball.corners) mine = std::move(mesh);
+        continue;
+      }
       others.push_back({std::move(mesh), solid == solid_of(part, own) ? -1 : solid, holds(judged, around[k])});
     }
     const bool turned = !samples[j].of_solid && side_of_tool(tool, path, samples[j]) < 0;
-    targets_.emplace(own, Around{ReachScene(others, {radius_mm, setup.tolerance_mm}), turned});
+    targets_.emplace(own, Around{ReachScene(others, mine, {radius, setup.tolerance_mm}), turned});
   }
 }
 

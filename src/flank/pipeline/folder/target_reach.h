@@ -1,4 +1,4 @@
-/// The reachable share of a job's targets, among all faces that the tool must not enter.
+/// The reachable share of a job's targets, among all faces that the tool must not enter and in their own corners.
 #pragma once
 
 #include <map>
@@ -23,11 +23,19 @@ struct ReachFineness {
 /// a tool to match, takes as many triangles.
 [[nodiscard]] ReachFineness reach_fineness(double tolerance_mm, double radius_mm);
 
+/// The ball that says what is reachable.
+struct ReachBall {
+  double radius_mm = 1.0;
+  /// Does the target itself hold it off in its corners? Not if it is as thick as the tool: that a tool does not fit into the
+  /// target is no excuse of it.
+  bool corners = true;
+};
+
 /// What a ball must keep out of, for each target, made ready once. Immutable.
 class TargetReach {
  public:
   /// `samples` are target_samples of any spacing: where the targets are, and on which side of a sheet the tool runs.
-  TargetReach(const Setup& setup, const Tool& tool, const Path& path, double radius_mm,
+  TargetReach(const Setup& setup, const Tool& tool, const Path& path, const ReachBall& ball,
               const std::vector<FaceSamples>& samples);
 
   /// Fills `reachable` of samples of a target, given by its index in the part, and turns the normals of a sheet towards the tool.

@@ -37,12 +37,37 @@ UserStart user_start(const FitJob& job) {
   return start;
 }
 
+/// The largest ball, no larger than `radius`, for which no more than a half of the target is a corner: who machines a groove
+/// wants a tool that fits into it. `radius` where hardly any ball does.
+double ball_for_corners(const Target& target, double tolerance_mm, double radius) {
+  constexpr double kMostly = 0.5, kStep = 0.9, kLeast = 0.01;
+  FlankFitOptions alone;
+  alone.tolerance_mm = tolerance_mm;
+  alone.sample_share = 2.0 * alone.sample_share;  // a share of a half needs no more
+  for (double ball = radius; ball > kLeast * radius; ball *= kStep) {
+    alone.reach_radius_mm = ball;
+    if (reachable_share(target, alone) >= kMostly) return ball;
+  }
+  return radius;
+}
+
+/// The bounds that the user gives, or the target's size. A groove takes tools that are thinner than that if it has to.
+RadiusBounds bounds_for(const FitJob& job, const Target& target) {
+  constexpr double kThinner = 0.5;  // of the largest ball that fits: room for a tip that is thinner than the rest
+  RadiusBounds bounds = radius_bounds(job.radius, job.obstacles, target.diagonal());
+  if (job.radius.min_mm) return bounds;
+  const double ball = ball_for_corners(target, job.tolerance_mm, bounds.smallest);
+  if (ball < bounds.smallest) bounds.smallest = kThinner * ball;
+  return bounds;
+}
+
 /// The ball that says what a free tool is to reach: of the part and of the demand, not of the tool, or a thick one would
 /// bring its own excuse. It is as thick as a cylinder as long as the target is wide that is just stiff enough.
 double demanded_reach(const FitJob& job, const Target& target, const RadiusBounds& bounds) {
   if (job.judge.reach_radius_mm) return *job.judge.reach_radius_mm;
   const double length = job.tool.axis_length_mm.value_or(std::sqrt(target.area()));
-  const double radius = std::clamp(0.5 * length / bounds.slenderest, bounds.smallest, bounds.largest);
+  const double stiff = std::clamp(0.5 * length / bounds.slenderest, bounds.smallest, bounds.largest);
+  const double radius = std::max(bounds.smallest, ball_for_corners(target, job.tolerance_mm, stiff));
   // Three digits: it is shown to people, and written into the command that makes the result again. Whole numbers are
   // divided, so that no rounding of a unit shows.
   const double decimals = 2.0 - std::floor(std::log10(radius)), unit = std::pow(10.0, std::abs(decimals));
@@ -62,7 +87,7 @@ FlankFitOptions options_of(const FitJob& job, const Setup& setup, const Target& 
   options.tolerance_mm = job.tolerance_mm;
   options.enough_coverage = std::min(options.enough_coverage, enough_for(job.judge.least_coverage));
   options.axis_length_mm = job.tool.axis_length_mm;
-  options.bounds = radius_bounds(job.radius, job.obstacles, target.diagonal());
+  options.bounds = bounds_for(job, target);
   const double demanded = free_tool ? demanded_reach(job, target, options.bounds) : 0.0;
   options.reach_radius_mm = job.judge.reach_radius_mm.value_or(demanded);
   return options;

@@ -3,20 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "flank/fit/polished.h"
 
 namespace flank::internal {
 
 double reachable_share(const Target& target, const FlankFitOptions& options) {
-  if (options.obstacles == nullptr) return 1.0;
-  const auto area_of = [&](const ObstacleField* obstacles) {
-    double area = 0.0;
-    for (const SurfaceSample& sample : ranking_samples(target, obstacles, options)) area += sample.area;
-    return area;
-  };
-  const double all = area_of(nullptr);
-  return all > 0.0 ? area_of(options.obstacles) / all : 1.0;
+  double all = 0.0, reached = 0.0;
+  for (const SurfaceSample& sample : target.samples(std::sqrt(target.area()) * options.sample_share))
+    all += sample.area;
+  for (const SurfaceSample& sample : ranking_samples(target, options.obstacles, options)) reached += sample.area;
+  return all > 0.0 ? reached / all : 1.0;
 }
 
 FlankFitOptions hardly_worth_it(FlankFitOptions options) {
@@ -29,9 +27,11 @@ FlankFitOptions hardly_worth_it(FlankFitOptions options) {
 
 std::string out_of_reach_note(double share, const FlankFitOptions& options) {
   return fmt::format(
-      "other faces lie in front of the target or upon it: a ball of radius {:.3g} mm that touches it enters them on "
-      "{:.1f} % "
-      "of its area; a smaller ball may reach it, and faces that are no obstacles can be ignored",
+      "other faces lie in front of the target or upon it, or it is a corner: a ball of radius {:.3g} mm that touches "
+      "it "
+      "enters them, or the target elsewhere, on {:.1f} % of its area; a smaller ball may reach it, and faces that are "
+      "no "
+      "obstacles can be ignored",
       reach_radius(options), 100.0 * (1.0 - share));
 }
 

@@ -8,7 +8,7 @@
 namespace flank::internal {
 
 /// Share of the target's area, in [0, 1], that a ball of options.reach_radius_mm can touch, by the samples that rank
-/// candidates; 1 if nothing is in the way.
+/// candidates; 1 if neither another face nor a corner of the target is in the way.
 [[nodiscard]] double reachable_share(const Target& target, const FlankFitOptions& options);
 
 /// Options of a search where hardly any of the target can be reached: one quick strip, so that there is something to look at.
