@@ -39,5 +39,16 @@ TEST(OutOfReach, SeesTheTargetsOwnCorner) {
   EXPECT_NEAR(reachable_share(*corner, options), 1.0 - 5.0 / 20.0, 0.03);
 }
 
+TEST(OutOfReach, AGrooveIsAskedForWithABallThatFitsIt) {
+  Face groove = test::quarter_cylinder("F1", 5.0, 300.0);
+  groove.reversed = true;  // towards the axis
+  const auto target = make_target({groove});
+  const double ball = ball_for_corners(*target, 0.02, 8.0);
+  EXPECT_GT(ball, 0.85 * 5.0);
+  EXPECT_LE(ball, 5.1);
+  EXPECT_EQ(ball_for_corners(*target, 0.02, 4.0), 4.0);
+  EXPECT_EQ(ball_for_corners(*standing_blade(0.0), 0.02, 8.0), 8.0);
+}
+
 }  // namespace
 }  // namespace flank::internal

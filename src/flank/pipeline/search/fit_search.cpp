@@ -37,20 +37,6 @@ UserStart user_start(const FitJob& job) {
   return start;
 }
 
-/// The largest ball, no larger than `radius`, for which no more than a half of the target is a corner: who machines a groove
-/// wants a tool that fits into it. `radius` where hardly any ball does.
-double ball_for_corners(const Target& target, double tolerance_mm, double radius) {
-  constexpr double kMostly = 0.5, kStep = 0.9, kLeast = 0.01;
-  FlankFitOptions alone;
-  alone.tolerance_mm = tolerance_mm;
-  alone.sample_share = 2.0 * alone.sample_share;  // a share of a half needs no more
-  for (double ball = radius; ball > kLeast * radius; ball *= kStep) {
-    alone.reach_radius_mm = ball;
-    if (reachable_share(target, alone) >= kMostly) return ball;
-  }
-  return radius;
-}
-
 /// The bounds that the user gives, or the target's size. A groove takes tools that are thinner than that if it has to.
 RadiusBounds bounds_for(const FitJob& job, const Target& target) {
   constexpr double kThinner = 0.5;  // of the largest ball that fits: room for a tip that is thinner than the rest
