@@ -43,11 +43,26 @@ TEST(OutOfReach, AGrooveIsAskedForWithABallThatFitsIt) {
   Face groove = test::quarter_cylinder("F1", 5.0, 300.0);
   groove.reversed = true;  // towards the axis
   const auto target = make_target({groove});
-  const double ball = ball_for_corners(*target, 0.02, 8.0);
+  FlankFitOptions options;
+  options.tolerance_mm = 0.02;
+  const double ball = ball_with_room(*target, options, 8.0);
   EXPECT_GT(ball, 0.85 * 5.0);
   EXPECT_LE(ball, 5.1);
-  EXPECT_EQ(ball_for_corners(*target, 0.02, 4.0), 4.0);
-  EXPECT_EQ(ball_for_corners(*standing_blade(0.0), 0.02, 8.0), 8.0);
+  EXPECT_EQ(ball_with_room(*target, options, 4.0), 4.0);
+  EXPECT_EQ(ball_with_room(*standing_blade(0.0), options, 8.0), 8.0);
+}
+
+TEST(OutOfReach, AWallOfASlotIsAskedForWithABallThatFitsBetween) {
+  // The other wall, 3 mm away.
+  const Face wall = quad(Vec3(70, 3, -9), Vec3(-9, 3, -9), Vec3(70, 3, 50), Vec3(-9, 3, 50), "F2");
+  const auto blade = standing_blade(0.0);
+  const ObstacleField beside(only({make_target({wall}), false}), *blade, 1.0, 0.0);
+  FlankFitOptions options;
+  options.tolerance_mm = 0.02;
+  options.obstacles = &beside;
+  const double ball = ball_with_room(*blade, options, 4.0);
+  EXPECT_GT(ball, 0.85 * 1.5);
+  EXPECT_LE(ball, 1.52);
 }
 
 }  // namespace

@@ -37,14 +37,31 @@ UserStart user_start(const FitJob& job) {
   return start;
 }
 
+/// The ball that fits into the target's own corners.
+double ball_for_corners(const FitJob& job, const Target& target, double radius) {
+  FlankFitOptions alone;
+  alone.tolerance_mm = job.tolerance_mm;
+  return ball_with_room(target, alone, radius);
+}
+
+/// Tools thinner than the bounds, if this ball is; not if the user bounds them.
+void allow_thin(const FitJob& job, double ball, RadiusBounds& bounds) {
+  constexpr double kThinner = 0.5;  // of the largest ball that fits: room for a tip that is thinner than the rest
+  if (!job.radius.min_mm && ball < bounds.smallest) bounds.smallest = kThinner * ball;
+}
+
 /// The bounds that the user gives, or the target's size. A groove takes tools that are thinner than that if it has to.
 RadiusBounds bounds_for(const FitJob& job, const Target& target) {
-  constexpr double kThinner = 0.5;  // of the largest ball that fits: room for a tip that is thinner than the rest
   RadiusBounds bounds = radius_bounds(job.radius, job.obstacles, target.diagonal());
-  if (job.radius.min_mm) return bounds;
-  const double ball = ball_for_corners(target, job.tolerance_mm, bounds.smallest);
-  if (ball < bounds.smallest) bounds.smallest = kThinner * ball;
+  allow_thin(job, ball_for_corners(job, target, bounds.smallest), bounds);
   return bounds;
+}
+
+/// Three digits: it is shown to people, and written into the command that makes the result again. Whole numbers are divided,
+/// so that no rounding of a unit shows.
+double three_digits(double radius) {
+  const double decimals = 2.0 - std::floor(std::log10(radius)), unit = std::pow(10.0, std::abs(decimals));
+  return decimals >= 0.0 ? std::round(radius * unit) / unit : std::round(radius / unit) * unit;
 }
 
 /// The ball that says what a free tool is to reach: of the part and of the demand, not of the tool, or a thick one would
@@ -53,11 +70,7 @@ double demanded_reach(const FitJob& job, const Target& target, const RadiusBound
   if (job.judge.reach_radius_mm) return *job.judge.reach_radius_mm;
   const double length = job.tool.axis_length_mm.value_or(std::sqrt(target.area()));
   const double stiff = std::clamp(0.5 * length / bounds.slenderest, bounds.smallest, bounds.largest);
-  const double radius = std::max(bounds.smallest, ball_for_corners(target, job.tolerance_mm, stiff));
-  // Three digits: it is shown to people, and written into the command that makes the result again. Whole numbers are
-  // divided, so that no rounding of a unit shows.
-  const double decimals = 2.0 - std::floor(std::log10(radius)), unit = std::pow(10.0, std::abs(decimals));
-  return decimals >= 0.0 ? std::round(radius * unit) / unit : std::round(radius / unit) * unit;
+  return three_digits(std::max(bounds.smallest, ball_for_corners(job, target, stiff)));
 }
 
 /// Of a fit that needs no rival: the judge, who is stricter than the estimate, still finds what is asked for covered.
@@ -200,6 +213,22 @@ RuledMotion motion_of(const FitJob& job, const UserStart& start, const ToolModel
   return found.motion;
 }
 
+/// Where other faces leave no room for the demanded ball (a slot), the one that they leave room for.
+void fit_ball_to_slot(const FitJob& job, FitSearch& search) {
+  FlankFitOptions& options = search.options;
+  const TargetGroup& group = search.targets.front();
+  if (job.judge.reach_radius_mm || !search.reach_radius_mm || !group.obstacles) return;
+  FlankFitOptions beside = options;
+  beside.obstacles = group.obstacles.get();
+  if (reachable_share(*group.target, beside) >= kHardlyAny) return;
+  const double ball = ball_with_room(*group.target, beside, options.reach_radius_mm);
+  allow_thin(job, ball, options.bounds);
+  // Thicker tools would only spoil the choice of those that starts are made with.
+  constexpr double kThickest = 1.5;  // of the ball
+  if (!job.radius.max_mm) options.bounds.largest = std::min(options.bounds.largest, kThickest * ball);
+  search.reach_radius_mm = options.reach_radius_mm = three_digits(ball);
+}
+
 /// A side of the part before anything is fitted: its groups, the obstacles that lie there, and what is asked.
 FitSearch begin_side(const FitJob& job, const Setup& setup, const ToolModel& tool, int side) {
   FitSearch search;
@@ -210,6 +239,7 @@ FitSearch begin_side(const FitJob& job, const Setup& setup, const ToolModel& too
   if (job.avoid)
     add_group_obstacles(setup, job.obstacles.clearance_mm, search.options.bounds.largest, search.targets,
                         search.fit.notes);
+  fit_ball_to_slot(job, search);
   return search;
 }
 

@@ -17,14 +17,13 @@ double reachable_share(const Target& target, const FlankFitOptions& options) {
   return all > 0.0 ? reached / all : 1.0;
 }
 
-double ball_for_corners(const Target& target, double tolerance_mm, double radius_mm) {
-  constexpr double kMostly = 0.5, kStep = 0.9, kLeast = 0.01;
-  FlankFitOptions alone;
-  alone.tolerance_mm = tolerance_mm;
-  alone.sample_share = 2.0 * alone.sample_share;  // a share of a half needs no more
+double ball_with_room(const Target& target, const FlankFitOptions& options, double radius_mm) {
+  constexpr double kMostly = 0.5, kStep = 0.9, kLeast = 0.03;
+  FlankFitOptions coarse = options;
+  coarse.sample_share = 2.0 * options.sample_share;  // a share of a half needs no more
   for (double ball = radius_mm; ball > kLeast * radius_mm; ball *= kStep) {
-    alone.reach_radius_mm = ball;
-    if (reachable_share(target, alone) >= kMostly) return ball;
+    coarse.reach_radius_mm = ball;
+    if (reachable_share(target, coarse) >= kMostly) return ball;
   }
   return radius_mm;
 }

@@ -11,9 +11,9 @@ namespace flank::internal {
 /// candidates; 1 if neither another face nor a corner of the target is in the way.
 [[nodiscard]] double reachable_share(const Target& target, const FlankFitOptions& options);
 
-/// The largest ball, no larger than radius_mm, for which no more than a half of the target is a corner: who machines a groove
-/// wants a tool that fits into it. radius_mm where hardly any ball does.
-[[nodiscard]] double ball_for_corners(const Target& target, double tolerance_mm, double radius_mm);
+/// The largest ball, no larger than radius_mm, that can touch half of the target or more, by the obstacles and the tolerance of
+/// the options: who machines a groove, or the wall of a slot, wants a tool that fits into it. radius_mm where hardly any does.
+[[nodiscard]] double ball_with_room(const Target& target, const FlankFitOptions& options, double radius_mm);
 
 /// Options of a search where hardly any of the target can be reached: one quick strip, so that there is something to look at.
 [[nodiscard]] FlankFitOptions hardly_worth_it(FlankFitOptions options);
