@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "flank/trochoid/engagement/leaning_tool.h"
+
 namespace flank::internal {
 namespace {
 
@@ -20,40 +22,6 @@ constexpr double kSteep = 0.18;
 constexpr double kWide = 3.0;
 
 double sq(double x) { return x * x; }
-
-/// A tool that leans against the axis of a ring, in the plane of the ring. What it covers there is not quite a circle, and near
-/// its round ends not at all one.
-struct LeaningTool {
-  const ToolProfile& profile;
-  double ring;      ///< radius, mm
-  Vec2 foot, lean;  ///< where its axis meets the plane, and the part of its direction in the plane
-  double height;    ///< its own, there
-  double reach2;    ///< nothing is covered farther from the foot, mm^2
-  [[nodiscard]] bool covers(double angle) const {
-    const Vec2 from = Vec2(ring * std::cos(angle), ring * std::sin(angle)) - foot;
-    if (from.squaredNorm() > reach2) return false;
-    const double along = lean.dot(from);
-    ToolProfile::Place place;
-    return profile.at(height + along, place) && from.squaredNorm() - along * along <= place.radius * place.radius;
-  }
-  /// Half of the least arc about the foot's direction that holds all that may be covered; negative: nothing is.
-  [[nodiscard]] double window() const {
-    const double middle = height - lean.dot(foot), swing = ring * lean.norm();
-    if (middle + swing < profile.low() || middle - swing > profile.high()) return -1.0;
-    const double d = foot.norm(), reach = std::sqrt(reach2);
-    if (d >= ring + reach || ring >= reach + d) return -1.0;
-    return reach >= ring + d ? kPi : std::acos((ring * ring + d * d - reach * reach) / (2.0 * ring * d));
-  }
-  /// Between an angle that is covered and one that is not: how far it is.
-  [[nodiscard]] double edge(double inside, double outside) const {
-    constexpr int kHalvings = 3;  // the ends of arcs are found exactly afterwards
-    for (int k = 0; k < kHalvings; ++k) {
-      const double middle = 0.5 * (inside + outside);
-      (covers(middle) ? inside : outside) = middle;
-    }
-    return inside;
-  }
-};
 
 /// Places of a row, in its frame, and the heights of their rings.
 struct OpenPart {
@@ -156,6 +124,7 @@ void RowMeter::find_arcs(const RowFrame& frame, double t, std::span<const ToolRi
   found_.clear();
   fronts_.clear();
   open_gaps_.clear();
+  look_at_blank(frame);
   look_roughly(frame, rings);
   if (!found_.empty()) look_closely(frame, rings);
 }
@@ -189,17 +158,25 @@ void RowMeter::cut(double low, double high, const Bound& bound) {
   if (changed && bound.is_pose()) cutters_.push_back(bound.candidate);
 }
 
+void RowMeter::look_at_blank(const RowFrame& frame) {
+  planes_.clear();
+  for (const HalfSpace& h : stock_.blank()) {
+    const double a = h.normal.dot(frame.x), b = h.normal.dot(frame.y);
+    planes_.push_back({std::hypot(a, b), std::atan2(b, a)});
+  }
+}
+
 void RowMeter::cut_by_blank(const RowFrame& frame, const ToolRing& ring, double motion_angle) {
   const Vec3 centre = frame.axis.at(ring.z);
-  for (const HalfSpace& h : stock_.blank()) {
-    const double a = h.normal.dot(frame.x), b = h.normal.dot(frame.y), amplitude = ring.radius * std::hypot(a, b);
-    const double room = h.offset - h.normal.dot(centre);
+  for (std::size_t k = 0; k < planes_.size(); ++k) {
+    const HalfSpace& h = stock_.blank()[k];
+    const double amplitude = ring.radius * planes_[k].across, room = h.offset - h.normal.dot(centre);
     if (room >= amplitude) continue;
     if (room <= -amplitude) {
       gaps_.clear();
       return;
     }
-    const double at = std::remainder(std::atan2(b, a) - motion_angle, 2.0 * kPi), width = std::acos(room / amplitude);
+    const double at = std::remainder(planes_[k].angle - motion_angle, 2.0 * kPi), width = std::acos(room / amplitude);
     cut(at - width, at + width, {});
   }
 }
@@ -353,7 +330,7 @@ RowMeter::Front RowMeter::front_of(const RowFrame& frame, const ToolRing& ring) 
     front.half = c <= -1.0 ? kPi : std::acos(c);
     front.angle = std::atan2(vy, vx);
     front.motion = Vec2(std::cos(front.angle), std::sin(front.angle));
-    const double x = std::cos(front.half), y = std::sin(front.half);
+    const double x = std::max(c, -1.0), y = std::sqrt(1.0 - x * x);
     gaps_.push_back({-front.half, front.half, {}, {}, Vec2(x, -y), Vec2(x, y)});
     cut_by_blank(frame, ring, front.angle);
   }

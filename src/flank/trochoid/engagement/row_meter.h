@@ -61,6 +61,10 @@ class RowMeter {
     Vec2 motion = Vec2::UnitX();     ///< that direction
     std::size_t end = 0;             ///< of its gaps in open_gaps_
   };
+  /// A plane of the blank in the frame of the row: length and direction of its normal across the axis.
+  struct Plane {
+    double across, angle;
+  };
   [[nodiscard]] static RowFrame frame_of(const RuledMotion& motion, double t);
   /// The arcs of all rings at a time, into found_.
   void find_arcs(const RowFrame& frame, double t, std::span<const ToolRing> rings);
@@ -73,6 +77,7 @@ class RowMeter {
   [[nodiscard]] EngagementRow sum_row(const RowFrame& frame, double t, std::span<const ToolRing> rings) const;
   /// What of it is in the blank, into gaps_.
   [[nodiscard]] Front front_of(const RowFrame& frame, const ToolRing& ring);
+  void look_at_blank(const RowFrame& frame);
   void cut_by_blank(const RowFrame& frame, const ToolRing& ring, double motion_angle);
   void cut_by_poses(const ToolRing& ring, const Front& front);
   /// The gaps in the frame of the row. `motion`: the direction of motion, which they are measured from.
@@ -109,6 +114,7 @@ class RowMeter {
   NearScratch scratch_;
   std::vector<OpenArc> open_;
   std::vector<Gap> gaps_, cut_;
+  std::vector<Plane> planes_;
   std::vector<Front> fronts_;   ///< of the rings of the row
   std::vector<Gap> open_gaps_;  ///< and what the first look left open of them, ring by ring
   std::vector<Arc> covered_;
