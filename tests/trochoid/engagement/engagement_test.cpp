@@ -154,6 +154,35 @@ TEST(Engagement, WhatALeaningToolLeavesBesideItsRoundEndIsMaterial) {
   EXPECT_LE(scallops, 4 * scenes / 100);
 }
 
+TEST(Engagement, DoesNotDependOnTheOrderInWhichLeaningToolsCut) {
+  constexpr double kRadius = 6.0, kLength = 22.0;
+  Random random(7);
+  const RuledMotion next = straight(Vec3(0, 0, 0), Vec3::UnitZ(), 10.0, kLength);
+  int partly = 0;
+  for (int k = 0; k < 20; ++k) {
+    std::vector<Sweep> sweeps;
+    for (int j = 0; j < 4; ++j) {
+      const double lean = random.uniform(11.0, 35.0) * kDegree, about = random.uniform(-kPi, kPi);
+      const Vec3 axis(std::sin(lean) * std::cos(about), std::sin(lean) * std::sin(about), std::cos(lean));
+      const Vec3 tip(-20, random.uniform(-14.0, 14.0), random.uniform(0.0, 24.0));
+      sweeps.push_back(Sweep::of(straight(tip, axis, 50.0, kLength), 48));
+    }
+    SweptStock forward(cylinder(kRadius, kLength), {}), backward = forward;
+    for (std::size_t j = 0; j < sweeps.size(); ++j) {
+      forward.add(sweeps[j]);
+      backward.add(sweeps[sweeps.size() - 1 - j]);
+    }
+    EngagementMeter one(forward), other(backward);
+    for (const double s : {2.0, 8.0, 14.0, 20.0}) {
+      const ToolRing ring = ring_at(forward.radial(), s);
+      const double angle = one.angle(next, 0.5, ring);
+      EXPECT_EQ(angle, other.angle(next, 0.5, ring)) << k << " " << s;
+      partly += angle > 0.1 && angle < 3.0 ? 1 : 0;
+    }
+  }
+  EXPECT_GE(partly, 10);
+}
+
 TEST(Engagement, EndsOfArcsLieOnTheSweptVolume) {
   SweptStock stock(barrel(), {});
   stock.add(Sweep::of(twisted_half(0.0), 48));

@@ -85,7 +85,7 @@ TEST(NearPoses, LeaveNothingOutThatCovers) {
       const RowDisc whole{0.0, 0.0, stock.profile().largest(), stock.profile().low(), stock.profile().high()};
       const std::vector<RowDisc> parts = {{4.0, 3.0, 0.8, 0.0, 30.0}, {5.0, 0.0, 0.6, 10.0, 12.0}};
       std::vector<NearPose> all, some;
-      std::vector<RowDisc> scratch;
+      NearScratch scratch;
       near.add(frame, whole, {}, -1.0, 0, 1, scratch, all);
       near.add(frame, whole, parts, -1.0, 0, 1, scratch, some);
       const Poses in_all = found(all), in_some = found(some);
@@ -109,7 +109,7 @@ TEST(NearPoses, AskFewerPosesOfFewerSweepsAtAFirstLook) {
   const RowFrame frame = frame_of(motion, 0.5);
   const RowDisc whole{0.0, 0.0, stock.profile().largest(), stock.profile().low(), stock.profile().high()};
   std::vector<NearPose> first;
-  std::vector<RowDisc> scratch;
+  NearScratch scratch;
   near.add(frame, whole, {}, 20.0, 3, 4, scratch, first);
   ASSERT_FALSE(first.empty());
   EXPECT_EQ(first.front().sweep, kOwnSweep) << "the newest first";

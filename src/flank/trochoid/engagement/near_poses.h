@@ -6,21 +6,10 @@
 #include <vector>
 
 #include "flank/ruled_motion.h"
+#include "flank/trochoid/engagement/pose_lanes.h"
 #include "flank/trochoid/engagement/swept_stock.h"
 
 namespace flank::internal {
-
-/// The row's pose and a frame across it.
-struct RowFrame {
-  AxisJet axis;
-  Vec3 x, y;
-};
-
-/// In that frame, seen along the axis: where earlier poses matter.
-struct RowDisc {
-  double x = 0.0, y = 0.0, radius = 0.0;
-  double low = 0.0, high = 0.0;  ///< heights of its rings over the tip, mm
-};
 
 /// A pose that may cover something of a row: its axis in the frame of the row, linear in the height z.
 struct NearPose {
@@ -35,6 +24,13 @@ inline constexpr double kLeaning = 0.05;
 
 /// In place of the index of a sweep: the motion that is measured.
 inline constexpr int kOwnSweep = 1 << 30;
+
+/// Memory of a caller of NearPoses.
+struct NearScratch {
+  SeenBundles seen;
+  DiscLanes discs;
+  std::vector<RowDisc> some;
+};
 
 /// Leaves nothing out that covers something. Once a motion has begun, for many threads at once. The stock must outlive it.
 class NearPoses {
@@ -51,26 +47,26 @@ class NearPoses {
   /// the newest sweeps first, of the motion itself up to the place `own_last`. `recent`: of the stock's last sweeps only so
   /// many; 0: of all. `scratch` is the caller's memory.
   void add(const RowFrame& frame, const RowDisc& whole, std::span<const RowDisc> parts, double own_last,
-           std::size_t recent, int stride, std::vector<RowDisc>& scratch, std::vector<NearPose>& out) const;
+           std::size_t recent, int stride, NearScratch& scratch, std::vector<NearPose>& out) const;
 
  private:
-  /// Axes whose middles lie within `spread` of a place, seen in the frame of a row, and which are tilted by at most `tilt`.
-  struct Bundle {
-    double x = 0.0, y = 0.0, along = 0.0, spread = 0.0, tilt = 0.0;
-  };
-  [[nodiscard]] Bundle bundle_of(const RowFrame& frame, const Sweep& sweep, const Sweep::Chunk& chunk,
-                                 double tilt) const;
-  [[nodiscard]] bool is_beyond(const Bundle& bundle, const RowDisc& disc, double axis_length) const;
   [[nodiscard]] bool is_ever_near(const Sweep& sweep) const;
-  void add_sweep(const RowFrame& frame, const RowDisc& whole, std::span<const RowDisc> parts, const Sweep& sweep,
-                 int index, double last, int stride, std::vector<RowDisc>& scratch, std::vector<NearPose>& out) const;
-  /// Whether a pose may cover something of one of the discs, which lie in `all`; none: of that. Fills all but sweep and pose.
-  [[nodiscard]] bool meets(const RowFrame& frame, const Pose& pose, const RowDisc& all, std::span<const RowDisc> discs,
-                           NearPose& out) const;
+  void add_bundles_of(const Sweep& sweep, int index);
+  /// Adds those of a bundle, as add does; the discs are those that it may reach.
+  void add_bundle(const RowFrame& frame, const RowDisc& whole, std::span<const RowDisc> discs, std::size_t bundle,
+                  double own_last, int stride, std::vector<NearPose>& out) const;
+  [[nodiscard]] const Sweep& sweep_of(int index) const {
+    return index == kOwnSweep ? own_ : stock_.sweeps()[static_cast<std::size_t>(index)];
+  }
 
   const SweptStock& stock_;
   Sweep own_;
-  std::vector<int> near_;  ///< sweeps that some row of the motion may meet
+  ToolReach tool_;
+  /// Chunks of the motion's own sweep, then of those that some of its rows may meet, the newest first: their poses, and where
+  /// they begin.
+  BundleLanes bundles_;
+  std::vector<int> sweeps_;
+  std::vector<std::size_t> firsts_;
 };
 
 }  // namespace flank::internal

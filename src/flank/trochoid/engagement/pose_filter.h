@@ -23,8 +23,8 @@ class PoseFilter {
   /// Of this tool, which candidates and rings share.
   explicit PoseFilter(const ToolProfile& profile);
 
-  /// The candidates of a row. The first ones may be those of the call before: only what is new is then taken over.
-  void take(std::span<const NearPose> candidates, bool first_look);
+  /// Candidates of a row, in place of those before.
+  void take(std::span<const NearPose> candidates);
   /// Indices of the candidates, in their order, whose tools may cover a part of an arc of this ring: they hold one of its
   /// ends, or their axes lie in its sector, near enough. Single precision may add some, and leaves none out. Valid until
   /// the next call.
@@ -39,6 +39,7 @@ class PoseFilter {
   std::vector<float> x_, y_, dx_, dy_;   ///< as NearPose has them
   std::vector<float> band_, band_by_z_;  ///< the same of h0 and dh, in bands
   std::vector<float> leaning_;         ///< how far a leaning tool reaches in the plane of a ring, mm; 0: it is upright
+  std::vector<float> swing_;           ///< and over which heights of its own about its axis', in bands
   std::vector<float> x_at_, y_at_;     ///< axes in the plane of the ring
   std::vector<float> reach_, excess_;  ///< mm; squared distance less squared reach, the least of all arcs, mm^2
   std::vector<std::int32_t> place_;    ///< index of the candidate's band at the ring

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "flank/trochoid/engagement/leaning_tool.h"
+
 namespace flank::internal {
 namespace {
 
@@ -20,40 +22,6 @@ constexpr double kSteep = 0.18;
 constexpr double kWide = 3.0;
 
 double sq(double x) { return x * x; }
-
-/// A tool that leans against the axis of a ring, in the plane of the ring. What it covers there is not quite a circle, and near
-/// its round ends not at all one.
-struct LeaningTool {
-  const ToolProfile& profile;
-  double ring;      ///< radius, mm
-  Vec2 foot, lean;  ///< where its axis meets the plane, and the part of its direction in the plane
-  double height;    ///< its own, there
-  double reach2;    ///< nothing is covered farther from the foot, mm^2
-  [[nodiscard]] bool covers(double angle) const {
-    const Vec2 from = Vec2(ring * std::cos(angle), ring * std::sin(angle)) - foot;
-    if (from.squaredNorm() > reach2) return false;
-    const double along = lean.dot(from);
-    ToolProfile::Place place;
-    return profile.at(height + along, place) && from.squaredNorm() - along * along <= place.radius * place.radius;
-  }
-  /// Half of the least arc about the foot's direction that holds all that may be covered; negative: nothing is.
-  [[nodiscard]] double window() const {
-    const double middle = height - lean.dot(foot), swing = ring * lean.norm();
-    if (middle + swing < profile.low() || middle - swing > profile.high()) return -1.0;
-    const double d = foot.norm(), reach = std::sqrt(reach2);
-    if (d >= ring + reach || ring >= reach + d) return -1.0;
-    return reach >= ring + d ? kPi : std::acos((ring * ring + d * d - reach * reach) / (2.0 * ring * d));
-  }
-  /// Between an angle that is covered and one that is not: how far it is.
-  [[nodiscard]] double edge(double inside, double outside) const {
-    constexpr int kHalvings = 3;  // the ends of arcs are found exactly afterwards
-    for (int k = 0; k < kHalvings; ++k) {
-      const double middle = 0.5 * (inside + outside);
-      (covers(middle) ? inside : outside) = middle;
-    }
-    return inside;
-  }
-};
 
 /// Places of a row, in its frame, and the heights of their rings.
 struct OpenPart {
@@ -115,36 +83,50 @@ RowDisc RowMeter::discs_of_found(std::span<const ToolRing> rings) {
   return all.disc(bow);
 }
 
-void RowMeter::engage_all(const RowFrame& frame, std::span<const ToolRing> rings, bool rough) {
-  stretch_ = 1.0;
-  for (const NearPose& c : candidates_) {
-    const double slope2 = c.slope2();
-    if (slope2 > sq(kLeaning)) stretch_ = std::max(stretch_, std::sqrt(1.0 + slope2));
+void RowMeter::look_roughly(const RowFrame& frame, std::span<const ToolRing> rings) {
+  near_.add(frame, {0.0, 0.0, stock_.profile().largest(), stock_.profile().low(), stock_.profile().high()}, {},
+            own_last_, kRecent, kStride, scratch_, candidates_);
+  filter_.take(candidates_);
+  first_asked_ = 0;
+  hints_.clear();
+  for (std::size_t k = 0; k < rings.size(); ++k) {
+    Front front = front_of(frame, rings[k]);
+    if (!gaps_.empty()) cut_by_poses(rings[k], front);
+    for (const Gap& gap : gaps_) found_.push_back({k, front.angle, {gap.low, gap.high}});
+    open_gaps_.insert(open_gaps_.end(), gaps_.begin(), gaps_.end());
+    front.end = open_gaps_.size();
+    fronts_.push_back(front);
   }
+}
+
+void RowMeter::look_closely(const RowFrame& frame, std::span<const ToolRing> rings) {
+  // What the first look covers stays covered: the discs hold what it left open, and little else.
+  const RowDisc open = discs_of_found(rings);
+  first_asked_ = candidates_.size();
+  near_.add(frame, open, parts_, own_last_, 0, 1, scratch_, candidates_);
+  filter_.take(std::span<const NearPose>(candidates_).subspan(first_asked_));
   found_.clear();
   hints_.clear();
-  if (rough) {
-    // Which part of each ring is the front, and within the blank, does not depend on poses.
-    in_blank_.clear();
-    fronts_.clear();
-    for (const ToolRing& ring : rings) fronts_.push_back(front_of(frame, ring));
+  auto from = open_gaps_.cbegin();
+  for (std::size_t k = 0; k < rings.size(); ++k) {
+    const auto end = open_gaps_.cbegin() + static_cast<std::ptrdiff_t>(fronts_[k].end);
+    gaps_.assign(from, end);
+    from = end;
+    if (gaps_.empty()) continue;
+    cut_by_poses(rings[k], fronts_[k]);
+    settle(frame, rings[k], k, fronts_[k]);
   }
-  for (std::size_t k = 0; k < rings.size(); ++k) engage(frame, rings[k], k, rough);
 }
 
 void RowMeter::find_arcs(const RowFrame& frame, double t, std::span<const ToolRing> rings) {
   own_last_ = t * NearPoses::kOwnIntervals - 1.0;
   candidates_.clear();
-  const RowDisc tool{0.0, 0.0, stock_.profile().largest(), stock_.profile().low(), stock_.profile().high()};
-  near_.add(frame, tool, {}, own_last_, kRecent, kStride, some_, candidates_);
-  filter_.take(candidates_, true);
-  engage_all(frame, rings, true);
-  // What the first look covers stays covered: the discs hold what it left open, and little else.
-  if (found_.empty()) return;
-  const RowDisc open = discs_of_found(rings);
-  near_.add(frame, open, parts_, own_last_, 0, 1, some_, candidates_);
-  filter_.take(candidates_, false);
-  engage_all(frame, rings, false);
+  found_.clear();
+  fronts_.clear();
+  open_gaps_.clear();
+  look_at_blank(frame);
+  look_roughly(frame, rings);
+  if (!found_.empty()) look_closely(frame, rings);
 }
 
 void RowMeter::cut(double low, double high, const Bound& bound) {
@@ -176,17 +158,25 @@ void RowMeter::cut(double low, double high, const Bound& bound) {
   if (changed && bound.is_pose()) cutters_.push_back(bound.candidate);
 }
 
+void RowMeter::look_at_blank(const RowFrame& frame) {
+  planes_.clear();
+  for (const HalfSpace& h : stock_.blank()) {
+    const double a = h.normal.dot(frame.x), b = h.normal.dot(frame.y);
+    planes_.push_back({std::hypot(a, b), std::atan2(b, a)});
+  }
+}
+
 void RowMeter::cut_by_blank(const RowFrame& frame, const ToolRing& ring, double motion_angle) {
   const Vec3 centre = frame.axis.at(ring.z);
-  for (const HalfSpace& h : stock_.blank()) {
-    const double a = h.normal.dot(frame.x), b = h.normal.dot(frame.y), amplitude = ring.radius * std::hypot(a, b);
-    const double room = h.offset - h.normal.dot(centre);
+  for (std::size_t k = 0; k < planes_.size(); ++k) {
+    const HalfSpace& h = stock_.blank()[k];
+    const double amplitude = ring.radius * planes_[k].across, room = h.offset - h.normal.dot(centre);
     if (room >= amplitude) continue;
     if (room <= -amplitude) {
       gaps_.clear();
       return;
     }
-    const double at = std::remainder(std::atan2(b, a) - motion_angle, 2.0 * kPi), width = std::acos(room / amplitude);
+    const double at = std::remainder(planes_[k].angle - motion_angle, 2.0 * kPi), width = std::acos(room / amplitude);
     cut(at - width, at + width, {});
   }
 }
@@ -206,7 +196,7 @@ bool RowMeter::cut_by(std::size_t candidate, const ToolRing& ring, const Vec2& m
   // Most do not reach one even where the tool is thickest: that is cheaper to see than the radius at a height.
   const double d2 = o.squaredNorm(), largest = stock_.profile().largest(), most = ring.radius + largest;
   if (is_leaning(c, ring)) {
-    const double stretched = stretch_ * largest;
+    const double stretched = reach_of_leaning(c);
     if (d2 < sq(ring.radius + stretched) && matters(sq(stretched)))
       cut_by_leaning(candidate, ring, o,
                      Vec2(motion.x() * c.dx + motion.y() * c.dy, motion.x() * c.dy - motion.y() * c.dx) / c.dh);
@@ -226,6 +216,10 @@ bool RowMeter::cut_by(std::size_t candidate, const ToolRing& ring, const Vec2& m
   return true;
 }
 
+double RowMeter::reach_of_leaning(const NearPose& c) const {
+  return std::sqrt(1.0 + c.slope2()) * stock_.profile().largest();
+}
+
 bool RowMeter::is_leaning(const NearPose& c, const ToolRing& ring) const {
   const double slope2 = c.slope2();
   if (slope2 <= sq(kLeaning)) return false;
@@ -240,28 +234,31 @@ bool RowMeter::is_leaning(const NearPose& c, const ToolRing& ring) const {
 }
 
 void RowMeter::cut_by_leaning(std::size_t candidate, const ToolRing& ring, const Vec2& foot, const Vec2& lean) {
-  constexpr double kApart = 0.2;  // radians: less is not seen
   const NearPose& c = candidates_[candidate];
-  const LeaningTool tool{
-      stock_.profile(), ring.radius, foot, lean, c.h0 + ring.z * c.dh, sq(stretch_ * stock_.profile().largest())};
+  const LeaningTool tool{stock_.profile(), ring.radius, foot, lean, c.h0 + ring.z * c.dh, sq(reach_of_leaning(c))};
   const double window = tool.window(), at = std::atan2(foot.y(), foot.x());
   if (window < 0.0) return;
+  // Looked at where its own window says, not what is open: so what it covers does not depend on who was asked before.
+  constexpr double kApart = 0.1;  // radians: less is not seen
+  const int looks = std::max(2, static_cast<int>(std::ceil(2.0 * window / kApart)));
+  const double step = 2.0 * window / looks;
+  const auto angle = [&](int k) { return at + (k * step - window); };
   covered_.clear();
   for (const Gap& gap : gaps_) {
     for (const double turn : {-2.0 * kPi, 0.0, 2.0 * kPi}) {
-      const double from = std::max(gap.low, at + turn - window), to = std::min(gap.high, at + turn + window);
-      if (from >= to) continue;
-      const int looks = std::max(2, static_cast<int>(std::ceil((to - from) / kApart)));
-      const auto angle = [&](int k) { return std::lerp(from, to, static_cast<double>(k) / looks); };
-      double low = from;
-      bool before = tool.covers(from);
-      for (int k = 1; k <= looks; ++k) {
+      const double from = gap.low - turn - at + window, to = gap.high - turn - at + window;
+      if (to <= 0.0 || from >= 2.0 * window) continue;
+      const int first = std::max(0, static_cast<int>(from / step));
+      const int last = std::min(looks, static_cast<int>(to / step) + 1);
+      double low = angle(first);
+      bool before = tool.covers(low);
+      for (int k = first + 1; k <= last; ++k) {
         const bool covers = tool.covers(angle(k));
         if (covers && !before) low = tool.edge(angle(k), angle(k - 1));
         if (!covers && before) covered_.push_back({low, tool.edge(angle(k - 1), angle(k))});
         before = covers;
       }
-      if (before) covered_.push_back({low, to});
+      if (before) covered_.push_back({low, angle(last)});
     }
   }
   for (const Arc& arc : covered_) cut(arc.low, arc.high, {candidate});
@@ -280,16 +277,16 @@ const std::vector<OpenArc>& RowMeter::open_arcs(const ToolRing& ring, const Vec2
 void RowMeter::cut_by_poses(const ToolRing& ring, const Front& front) {
   const Vec2& motion = front.motion;
   cutters_.clear();
-  const auto try_all = [&](const std::vector<std::size_t>& candidates) {
+  const auto try_all = [&](const std::vector<std::size_t>& candidates, std::size_t first) {
     for (auto k = candidates.begin(); k != candidates.end() && !gaps_.empty(); ++k) {
-      if (cut_by(*k, ring, motion)) continue;
-      cutters_.push_back(*k);
+      if (cut_by(first + *k, ring, motion)) continue;
+      cutters_.push_back(first + *k);
       gaps_.clear();
     }
   };
   // The poses that cover most of one ring cover most of the next one: then nearly all others are seen not to matter.
-  try_all(hints_);
-  if (!gaps_.empty()) try_all(filter_.reaching(ring, open_arcs(ring, motion)));
+  try_all(hints_, 0);
+  if (!gaps_.empty()) try_all(filter_.reaching(ring, open_arcs(ring, motion)), first_asked_);
   // The last ones first: they are those that end the gaps, or close the last of them.
   hints_.assign(cutters_.rbegin(), cutters_.rend());
 }
@@ -308,7 +305,7 @@ bool RowMeter::is_sliver(const RingCircle& circle, const Gap& gap) const {
   return false;
 }
 
-void RowMeter::settle(const RowFrame& frame, const ToolRing& ring, std::size_t index, const Front& front, bool rough) {
+void RowMeter::settle(const RowFrame& frame, const ToolRing& ring, std::size_t index, const Front& front) {
   const double half = front.half;
   const Vec3 forward = front.motion.x() * frame.x + front.motion.y() * frame.y;
   const RingCircle circle{frame.axis.at(ring.z), forward, frame.axis.u.cross(forward), ring.radius};
@@ -316,8 +313,7 @@ void RowMeter::settle(const RowFrame& frame, const ToolRing& ring, std::size_t i
     return bound.is_pose() ? arc_end(stock_.profile(), circle, place_of(bound), angle) : angle;
   };
   for (const Gap& gap : gaps_) {
-    if (rough) found_.push_back({index, front.angle, {gap.low, gap.high}});
-    if (rough || is_sliver(circle, gap)) continue;
+    if (is_sliver(circle, gap)) continue;
     const Arc arc{std::max(-half, end(gap.at_low, gap.low)), std::min(half, end(gap.at_high, gap.high))};
     if (arc.high > arc.low) found_.push_back({index, front.angle, arc});
   }
@@ -334,23 +330,11 @@ RowMeter::Front RowMeter::front_of(const RowFrame& frame, const ToolRing& ring) 
     front.half = c <= -1.0 ? kPi : std::acos(c);
     front.angle = std::atan2(vy, vx);
     front.motion = Vec2(std::cos(front.angle), std::sin(front.angle));
-    const double x = std::cos(front.half), y = std::sin(front.half);
+    const double x = std::max(c, -1.0), y = std::sqrt(1.0 - x * x);
     gaps_.push_back({-front.half, front.half, {}, {}, Vec2(x, -y), Vec2(x, y)});
     cut_by_blank(frame, ring, front.angle);
   }
-  in_blank_.insert(in_blank_.end(), gaps_.begin(), gaps_.end());
-  front.end = in_blank_.size();
   return front;
-}
-
-void RowMeter::engage(const RowFrame& frame, const ToolRing& ring, std::size_t index, bool rough) {
-  const std::size_t from = index > 0 ? fronts_[index - 1].end : 0;
-  const Front& front = fronts_[index];
-  if (from == front.end) return;
-  gaps_.assign(in_blank_.begin() + static_cast<std::ptrdiff_t>(from),
-               in_blank_.begin() + static_cast<std::ptrdiff_t>(front.end));
-  cut_by_poses(ring, front);
-  if (!gaps_.empty()) settle(frame, ring, index, front, rough);
 }
 
 EngagementRow RowMeter::sum_row(const RowFrame& frame, double t, std::span<const ToolRing> rings) const {

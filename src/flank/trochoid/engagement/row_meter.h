@@ -59,19 +59,25 @@ class RowMeter {
   struct Front {
     double half = 0.0, angle = 0.0;  ///< half of it; the direction of motion in the frame of the row: radians
     Vec2 motion = Vec2::UnitX();     ///< that direction
-    std::size_t end = 0;             ///< of its gaps in in_blank_
+    std::size_t end = 0;             ///< of its gaps in open_gaps_
+  };
+  /// A plane of the blank in the frame of the row: length and direction of its normal across the axis.
+  struct Plane {
+    double across, angle;
   };
   [[nodiscard]] static RowFrame frame_of(const RuledMotion& motion, double t);
   /// The arcs of all rings at a time, into found_.
   void find_arcs(const RowFrame& frame, double t, std::span<const ToolRing> rings);
-  void engage_all(const RowFrame& frame, std::span<const ToolRing> rings, bool rough);
+  /// Which arcs the last sweeps leave open, into found_ and open_gaps_.
+  void look_roughly(const RowFrame& frame, std::span<const ToolRing> rings);
+  /// What all sweeps leave of these, into found_.
+  void look_closely(const RowFrame& frame, std::span<const ToolRing> rings);
   /// What the first look left open: a disc that holds it, and small ones, into parts_, that hold it together.
   [[nodiscard]] RowDisc discs_of_found(std::span<const ToolRing> rings);
   [[nodiscard]] EngagementRow sum_row(const RowFrame& frame, double t, std::span<const ToolRing> rings) const;
-  /// Adds what of it is in the blank to in_blank_.
+  /// What of it is in the blank, into gaps_.
   [[nodiscard]] Front front_of(const RowFrame& frame, const ToolRing& ring);
-  /// Adds the arcs of a ring to found_.
-  void engage(const RowFrame& frame, const ToolRing& ring, std::size_t index, bool rough);
+  void look_at_blank(const RowFrame& frame);
   void cut_by_blank(const RowFrame& frame, const ToolRing& ring, double motion_angle);
   void cut_by_poses(const ToolRing& ring, const Front& front);
   /// The gaps in the frame of the row. `motion`: the direction of motion, which they are measured from.
@@ -80,11 +86,14 @@ class RowMeter {
   [[nodiscard]] bool cut_by(std::size_t candidate, const ToolRing& ring, const Vec2& motion);
   /// Whether the candidate leans so far that it does not cover the ring as a circle in its plane would.
   [[nodiscard]] bool is_leaning(const NearPose& candidate, const ToolRing& ring) const;
+  /// How far a leaning tool reaches from its axis in the plane of a ring, at most, mm.
+  [[nodiscard]] double reach_of_leaning(const NearPose& candidate) const;
   /// `foot`, `lean`: where the candidate's axis meets the ring's plane, and the part of its direction in it, from the direction
   /// of motion.
   void cut_by_leaning(std::size_t candidate, const ToolRing& ring, const Vec2& foot, const Vec2& lean);
   void cut(double low, double high, const Bound& bound);
-  void settle(const RowFrame& frame, const ToolRing& ring, std::size_t index, const Front& front, bool rough);
+  /// Adds the arcs of the ring whose gaps are left to found_.
+  void settle(const RowFrame& frame, const ToolRing& ring, std::size_t index, const Front& front);
   [[nodiscard]] SweepPlace place_of(const Bound& bound) const;
   [[nodiscard]] bool is_sliver(const RingCircle& circle, const Gap& gap) const;
   [[nodiscard]] const Sweep& sweep_of(int index) const {
@@ -99,13 +108,15 @@ class RowMeter {
   const NearPoses& near_;
   PoseFilter filter_;
   double own_last_ = 0.0;  ///< earlier poses of the motion count up to this place
-  double stretch_ = 1.0;   ///< of the radius of a leaning tool in the plane of a ring, at most
   std::vector<NearPose> candidates_;
-  std::vector<RowDisc> parts_, some_;
+  std::size_t first_asked_ = 0;  ///< of the candidates: those before have cut all gaps already
+  std::vector<RowDisc> parts_;
+  NearScratch scratch_;
   std::vector<OpenArc> open_;
   std::vector<Gap> gaps_, cut_;
-  std::vector<Front> fronts_;  ///< of the rings of the row
-  std::vector<Gap> in_blank_;  ///< and what of them is in the blank, ring by ring
+  std::vector<Plane> planes_;
+  std::vector<Front> fronts_;   ///< of the rings of the row
+  std::vector<Gap> open_gaps_;  ///< and what the first look left open of them, ring by ring
   std::vector<Arc> covered_;
   std::vector<std::size_t> cutters_;  ///< candidates that cut the gaps of this ring
   std::vector<std::size_t> hints_;    ///< those of the ring before, the last ones first

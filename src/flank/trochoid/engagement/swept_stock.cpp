@@ -35,6 +35,7 @@ Sweep Sweep::of(const std::vector<Pose>& poses, double axis_length) {
 void Sweep::make_chunks() {
   axes.reserve(poses.size());
   for (const SweepPose& p : poses) axes.push_back({p.tip, p.direction.normalized()});
+  make_lanes();
   whole.middle = Vec3::Zero();
   const Vec3 direction = axes.front().axis;
   for (const Pose& p : axes) turn = std::max(turn, (p.axis - direction).norm());
@@ -50,6 +51,21 @@ void Sweep::make_chunks() {
   whole.middle /= static_cast<double>(chunks.size());
   for (const Chunk& chunk : chunks)
     whole.reach = std::max(whole.reach, (chunk.middle - whole.middle).norm() + chunk.reach);
+}
+
+void Sweep::make_lanes() {
+  const std::size_t count = (axes.size() + kChunk - 1) / kChunk * kChunk;
+  for (int c = 0; c < 6; ++c) {
+    std::vector<double>& lane = lanes[static_cast<std::size_t>(c)];
+    for (const Pose& p : axes) lane.push_back(c < 3 ? p.tip[c] : p.axis[c - 3]);
+    lane.resize(count, lane.back());
+  }
+}
+
+std::array<const double*, 6> Sweep::lanes_at(std::size_t pose) const {
+  std::array<const double*, 6> out{};
+  for (std::size_t c = 0; c < out.size(); ++c) out[c] = lanes[c].data() + pose;
+  return out;
 }
 
 SweepPose Sweep::at(double place) const {

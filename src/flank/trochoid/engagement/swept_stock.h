@@ -4,6 +4,7 @@
 /// that are cubic splines whose knots are among the poses, exactly.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <vector>
 
@@ -24,6 +25,10 @@ struct SweepPose {
 struct Sweep {
   std::vector<SweepPose> poses;
   std::vector<Pose> axes;  ///< the same with unit axes, for quick looks
+  /// The same, each coordinate in an array of its own: x, y, z of the tips, then of the axes; the last pose is repeated up to
+  /// a multiple of kChunk.
+  std::array<std::vector<double>, 6> lanes;
+  [[nodiscard]] std::array<const double*, 6> lanes_at(std::size_t pose) const;
   /// Of kChunk intervals each: middle of the axes, and how far any middle is from it, mm.
   struct Chunk {
     Vec3 middle;
@@ -45,6 +50,7 @@ struct Sweep {
 
  private:
   void make_chunks();
+  void make_lanes();
 };
 
 /// What is left of a blank. Sweeps are added in the order of machining; reading is for many threads at once.
