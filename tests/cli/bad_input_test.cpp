@@ -23,6 +23,14 @@ TEST_F(Cli, ARefusedSideOfACavityNamesTheFaceThatIsAcross) {
   expect_refused({"trochoid", wheel, "--left", "F7", "--right", "F9", "-o", path("out")}, 3, "lies behind");
 }
 
+TEST_F(Cli, TrochoidRefusesAToolThatIsThickerThanTheCavityIsWide) {
+  const std::string cavity = path("cavity.step");
+  ASSERT_EQ(flank({"example", "cavity", "-o", cavity}).exit_code, 0);
+  expect_refused(
+      {"trochoid", cavity, "--left", "F1", "--right", "F2", "--tool", "cylinder:radius=20", "-o", path("out")}, 3,
+      "40 mm thick");
+}
+
 TEST_F(Cli, RefusesFilesThatAreNoParts) {
   expect_refused({"inspect", path("missing.step")}, 3, "missing.step");
   write_file(root_ / "empty.step", "");

@@ -123,6 +123,19 @@ void surround(const TrochoidJob& job, const Setup& setup, CavityFaces& faces, st
         "left", job.left + ": other faces cover every place of it; nothing can be milled between it and " + job.right);
 }
 
+/// A given tool goes between the sides: where half of their places are too narrow for the thinnest of it, no way leads through.
+void require_room(const TrochoidJob& job, const ToolSpec& spec, const CavityFaces& faces) {
+  const ToolModel tool = make_tool_model(spec, job.tool.axis_length_mm);
+  if (tool.free() || !tool.free_parameters.empty() || !tool.radius) return;
+  const double length = tool.length_for(std::sqrt(faces.sides.front().target->area()), job.tool.axis_length_mm);
+  const double thinnest = 2.0 * tool.make(length, *tool.radius).smallest(), width = faces.width.median_mm;
+  if (thinnest >= width)
+    throw InputError(
+        "tool", fmt::format("the tool is {:.4g} mm thick where it is thinnest, and the cavity {:.4g} mm wide in "
+                            "the median of its places ({:.4g} mm where it is narrowest): accepted is a thinner tool",
+                            thinnest, width, faces.width.narrowest_mm));
+}
+
 /// From the floor to the middle of the sides.
 std::optional<Vec3> up_from_floor(const TrochoidJob& job, const Setup& setup, const CavityFaces& faces) {
   if (!job.floor) return {};
@@ -209,6 +222,7 @@ Result run_trochoid(const TrochoidJob& job, const Progress& asked) {
   CavityFaces faces = cavity_faces(job, setup);
   const ClearanceScene scene = make_clearance_scene(setup, job.obstacles, has_body(spec, job.obstacles), result.notes);
   if (job.avoid) surround(job, setup, faces, result.notes);
+  require_room(job, spec, faces);
   SideFitOptions options = side_options(job, faces);
   options.up = up_from_floor(job, setup, faces);
   watch.lap("read");

@@ -217,10 +217,11 @@ RuledMotion motion_of(const FitJob& job, const UserStart& start, const ToolModel
 void fit_ball_to_slot(const FitJob& job, FitSearch& search) {
   FlankFitOptions& options = search.options;
   const TargetGroup& group = search.targets.front();
-  if (job.judge.reach_radius_mm || !search.reach_radius_mm || !group.obstacles) return;
   FlankFitOptions beside = options;
   beside.obstacles = group.obstacles.get();
-  if (reachable_share(*group.target, beside) >= kHardlyAny) return;
+  search.open_share = reachable_share(*group.target, beside);
+  const bool demanded = search.reach_radius_mm && !job.judge.reach_radius_mm;
+  if (!demanded || !group.obstacles || search.open_share >= kHardlyAny) return;
   const double ball = ball_with_room(*group.target, beside, options.reach_radius_mm);
   allow_thin(job, ball, options.bounds);
   // Thicker tools would only spoil the choice of those that starts are made with.
@@ -288,7 +289,7 @@ SheetSide look_at_side(const FitJob& job, const Setup& setup, const ToolModel& t
   const TargetGroup& group = look.search.targets.front();
   look.options = look.search.options;
   look.options.obstacles = group.obstacles.get();
-  look.reachable = reachable_share(*group.target, look.options);
+  look.reachable = look.search.open_share;
   return look;
 }
 

@@ -18,6 +18,7 @@ struct FitSearch {
   FlankFitResult fit;                        ///< motions of all groups, one tool
   std::vector<std::size_t> group_of_motion;  ///< index into targets
   std::optional<double> reach_radius_mm;     ///< of the ball that a free tool was asked to reach with
+  double open_share = 1.0;                   ///< of the first group's area, that the demanded ball reaches
   ToolModel tool;                            ///< what was known of the tool
   FlankFitOptions options;                   ///< of the fits, but for their strips
   /// The motions that were found, each on its target, to go on from.
