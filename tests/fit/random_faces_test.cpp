@@ -77,5 +77,27 @@ TEST(RandomFaces, AFitEndsWithNumbersAndWords) {
   std::cout << within << " of " << face_count() << " within the tolerance\n";
 }
 
+/// Everything is measured by the face and the tolerance: a face of a millimetre is fitted as one of a hundred is.
+TEST(RandomFaces, AFaceIsFittedTheSameInAnySize) {
+  constexpr int kFaces = 3;
+  constexpr double kSmaller = 1.0 / 64.0;  // a power of two, which rounds nothing
+  for (int k = 0; k < (kSanitized ? 1 : kFaces); ++k) {
+    Random random(static_cast<std::uint64_t>(815 + k));
+    Face face = random_face(random);
+    const double size = make_target({face}, +1)->diagonal();
+    for (Vec3& pole : face.surface.poles) pole *= 64.0 / size;
+    Face small = face;
+    for (Vec3& pole : small.surface.poles) pole *= kSmaller;
+    const auto fitted = [&](const Face& any) {
+      const auto target = make_target({any}, +1);
+      return fit_automatic(*target, {}, small_options(*target), {});
+    };
+    const FlankFitResult large = fitted(face), tiny = fitted(small);
+    EXPECT_NEAR(tiny.after.at_tolerance, large.after.at_tolerance, 1e-3) << k;
+    EXPECT_NEAR(tiny.tool.axis_length() / kSmaller, large.tool.axis_length(), 1e-2) << k;
+    EXPECT_NEAR(tiny.tool.largest() / kSmaller, large.tool.largest(), 1e-2) << k;
+  }
+}
+
 }  // namespace
 }  // namespace flank::internal

@@ -66,6 +66,13 @@ void expect_as_footpoints(const Part& part, const FaceSamples& face, int own, do
   EXPECT_GT(std::min({free, held, buried}), 10) << free << ' ' << held << ' ' << buried;
 }
 
+TEST(JudgeJob, ASmallPartTakesAsManySamplesAsAHandsSize) {
+  EXPECT_DOUBLE_EQ(default_spacing(5.0), 5.0 / 300.0);
+  EXPECT_DOUBLE_EQ(default_spacing(100.0), 100.0 / 300.0);
+  EXPECT_DOUBLE_EQ(default_spacing(300.0), 0.5);
+  EXPECT_DOUBLE_EQ(default_spacing(2000.0), 2.0);
+}
+
 TEST(JudgeJob, AFaceAloneIsNotReachableInItsOwnCorner) {
   Part part;
   part.faces = {test::corner_face("F1", 20.0, 30.0)};

@@ -11,7 +11,7 @@ namespace flank::internal {
 struct RuledStart {
   bool swapped = false;    ///< axis along the chart's a direction, motion along b
   double skew_rad = 0.0;   ///< angle of the contact lines against the chart's lines, in the surface; |skew| < pi/2
-  double radius_mm = 1.0;  ///< of the tool, mm, > 0
+  double radius_mm = 0.0;  ///< of the tool, mm; 0: the contact lines themselves
   double band_low = 0.0, band_high = 1.0;  ///< share of the width that this strip covers
   double first = 0.0, last = 1.0;          ///< share of the way that the motion goes
 };

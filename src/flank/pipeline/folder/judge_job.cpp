@@ -107,8 +107,9 @@ std::vector<verify::JudgedFace> JudgedShapes::judged(const Setup& setup, const T
 }  // namespace
 
 double default_spacing(double diagonal_mm) {
-  // Half a millimetre is fine enough for blades of a hand's size; a metre of fan blade would be a million samples.
-  return std::clamp(diagonal_mm / 300.0, 0.05, std::max(0.5, diagonal_mm / 1000.0));
+  // Half a millimetre is fine enough for blades of a hand's size; a metre of fan blade would be a million samples. A part of a
+  // few millimetres takes as many as one of a hundred: what is proved is proved from the samples.
+  return std::min(diagonal_mm / 300.0, std::max(0.5, diagonal_mm / 1000.0));
 }
 
 double coarse_spacing(const Setup& setup, double most_samples) {
