@@ -157,6 +157,10 @@ class ProgramWriter {
  private:
   void add_side(std::vector<Pose> poses, PlannedLayer& planned);
   void add_link(const RuledMotion& motion, PlannedLayer& planned);
+  [[nodiscard]] bool enters(const std::vector<Pose>& poses) const;
+  /// From the start of one finishing sweep to that of the other, back on what the first front has cut.
+  [[nodiscard]] std::vector<Pose> way_of_first_front(const LayerSides& sides, const SideRange& range,
+                                                     const Cycle& first);
   [[nodiscard]] std::vector<Pose> poses_of(const RuledMotion& motion, int least) {
     SamplingOptions sampling;
     sampling.chord_tolerance_mm =
@@ -220,14 +224,38 @@ void ProgramWriter::add_link(const RuledMotion& motion, PlannedLayer& planned) {
   planned.links_mm += way_of(out_.path.strips.back().poses, 0.5 * radial_.axis_length());
 }
 
+bool ProgramWriter::enters(const std::vector<Pose>& poses) const {
+  constexpr int kPlaces = 13;
+  GuardDepth depth;
+  for (const Pose& pose : poses) guard_.look(pose, kPlaces, depth);
+  return depth.deepest() > allowed_at_run_outs(options_);
+}
+
+std::vector<Pose> ProgramWriter::way_of_first_front(const LayerSides& sides, const SideRange& range,
+                                                    const Cycle& first) {
+  const auto along = [&](const SidePath& side, double from, double to) {
+    return from <= to ? side.poses(from, to, options_.chord_mm) : backwards_of(side.poses(to, from, options_.chord_mm));
+  };
+  std::vector<Pose> poses = along(sides.to, range.to_start, first.to_x);
+  for (const std::vector<Pose>& more :
+       {backwards_of(poses_of(first.front.motion, 2)), along(sides.from, first.from_x, range.from_start)})
+    poses.insert(poses.end(), more.begin() + (poses.empty() || more.empty() ? 0 : 1), more.end());
+  return poses;
+}
+
 void ProgramWriter::finish_open(const LayerSides& sides, const SideRange& range, PlannedLayer& planned) {
   // Back along the side where the last front ended, across before the start, and on along the other side: both as far as the
   // cycles got.
   const double length = radial_.axis_length();
+  const LayerCycles& cycles = planned.cycles;
   add_side(backwards_of(sides.to.poses(range.to_start, range.to_end, options_.chord_mm)), planned);
   const AxisPlace from = sides.from.at(range.from_start), to = sides.to.at(range.to_start);
   const double gap = (from.at(0.5 * length) - to.at(0.5 * length)).norm();
-  add_link(half_path(length, to.reversed(), from, {0.12 * gap, 0.12 * gap, 0.0, 0.0}), planned);
+  std::vector<Pose> across = poses_of(half_path(length, to.reversed(), from, {0.12 * gap, 0.12 * gap, 0.0, 0.0}), 2);
+  // One side may begin far behind the other (a splitter): then the way of the first front is known to be free.
+  if (enters(across)) across = way_of_first_front(sides, range, cycles.cycles.front());
+  planned.links_mm += way_of(across, 0.5 * length);
+  add("link", both(), std::move(across));
   add_side(sides.from.poses(range.from_start, range.from_end, options_.chord_mm), planned);
 }
 
