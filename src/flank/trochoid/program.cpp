@@ -70,20 +70,6 @@ std::vector<LayerSides> order_layers(const std::vector<RuledMotion>& sides, cons
 
 Pose pose_of(const AxisPlace& place) { return {place.tip, place.u}; }
 
-/// Poses from one to the other, turning evenly, both included.
-std::vector<Pose> between(const Pose& from, const Pose& to, double axis_length) {
-  const double middle = 0.5 * axis_length, turn = std::acos(std::clamp(from.axis.dot(to.axis), -1.0, 1.0));
-  const int steps = std::max(1, static_cast<int>(std::ceil(turn / kLargestTurn)));
-  std::vector<Pose> poses;
-  for (int k = 0; k <= steps; ++k) {
-    const double x = static_cast<double>(k) / steps;
-    const Vec3 u = ((1.0 - x) * from.axis + x * to.axis).normalized();
-    const Vec3 at = (1.0 - x) * from.at(middle) + x * to.at(middle);
-    poses.push_back({at - middle * u, u});
-  }
-  return poses;
-}
-
 double way_of(const std::vector<Pose>& poses, double s) {
   double way = 0.0;
   for (std::size_t k = 1; k < poses.size(); ++k) way += (poses[k].at(s) - poses[k - 1].at(s)).norm();
@@ -288,7 +274,7 @@ void ProgramWriter::link(const LayerSides& above, const LayerSides& sides, const
   WayOut from;
   if (!planned.entry) from.outward = -sides.from.at(0.0).tip_dx;
   std::vector<Pose> in = retract(next, from, clear, radial_, guard_, allowed);
-  const std::vector<Pose> over = between(poses.back(), in.back(), length);
+  const std::vector<Pose> over = poses_between(poses.back(), in.back(), length, kLargestTurn);
   poses.insert(poses.end(), over.begin() + 1, over.end());
   poses.insert(poses.end(), in.rbegin() + 1, in.rend());
   planned.links_mm += way_of(poses, 0.5 * length);

@@ -64,4 +64,17 @@ std::vector<Pose> retract(const Pose& from, const WayOut& beside, const ClearPla
   return best;
 }
 
+std::vector<Pose> poses_between(const Pose& from, const Pose& to, double axis_length, double largest_turn_rad) {
+  const double middle = 0.5 * axis_length, turn = std::acos(std::clamp(from.axis.dot(to.axis), -1.0, 1.0));
+  const int steps = std::max(1, static_cast<int>(std::ceil(turn / largest_turn_rad)));
+  std::vector<Pose> poses;
+  for (int k = 0; k <= steps; ++k) {
+    const double x = static_cast<double>(k) / steps;
+    const Vec3 u = ((1.0 - x) * from.axis + x * to.axis).normalized();
+    const Vec3 at = (1.0 - x) * from.at(middle) + x * to.at(middle);
+    poses.push_back({at - middle * u, u});
+  }
+  return poses;
+}
+
 }  // namespace flank::internal

@@ -26,4 +26,9 @@ struct WayOut {
 [[nodiscard]] std::vector<Pose> retract(const Pose& from, const WayOut& beside, const ClearPlane& clear,
                                         const RadialFunction& radial, const HalfGuard& guard, double allowed_mm);
 
+/// Poses from one to the other, both included: the middle of the axis, of that length in mm, goes straight, and the axis turns
+/// evenly by no more than the angle from pose to pose.
+[[nodiscard]] std::vector<Pose> poses_between(const Pose& from, const Pose& to, double axis_length,
+                                              double largest_turn_rad);
+
 }  // namespace flank::internal
