@@ -142,6 +142,7 @@ class ProgramWriter {
 
  private:
   void add_side(std::vector<Pose> poses, PlannedLayer& planned);
+  void add_link(std::vector<Pose> poses, PlannedLayer& planned);
   void add_link(const RuledMotion& motion, PlannedLayer& planned);
   [[nodiscard]] bool enters(const std::vector<Pose>& poses) const;
   /// From the start of one finishing sweep to that of the other, back on what the first front has cut.
@@ -205,9 +206,13 @@ void ProgramWriter::add_side(std::vector<Pose> poses, PlannedLayer& planned) {
   add("side", both(), std::move(poses));
 }
 
+void ProgramWriter::add_link(std::vector<Pose> poses, PlannedLayer& planned) {
+  planned.links_mm += way_of(poses, 0.5 * radial_.axis_length());
+  add("link", both(), std::move(poses));
+}
+
 void ProgramWriter::add_link(const RuledMotion& motion, PlannedLayer& planned) {
-  add("link", motion);
-  planned.links_mm += way_of(out_.path.strips.back().poses, 0.5 * radial_.axis_length());
+  add_link(poses_of(motion, 2), planned);
 }
 
 bool ProgramWriter::enters(const std::vector<Pose>& poses) const {
@@ -233,15 +238,13 @@ void ProgramWriter::finish_open(const LayerSides& sides, const SideRange& range,
   // Back along the side where the last front ended, across before the start, and on along the other side: both as far as the
   // cycles got.
   const double length = radial_.axis_length();
-  const LayerCycles& cycles = planned.cycles;
   add_side(backwards_of(sides.to.poses(range.to_start, range.to_end, options_.chord_mm)), planned);
   const AxisPlace from = sides.from.at(range.from_start), to = sides.to.at(range.to_start);
   const double gap = (from.at(0.5 * length) - to.at(0.5 * length)).norm();
   std::vector<Pose> across = poses_of(half_path(length, to.reversed(), from, {0.12 * gap, 0.12 * gap, 0.0, 0.0}), 2);
   // One side may begin far behind the other (a splitter): then the way of the first front is known to be free.
-  if (enters(across)) across = way_of_first_front(sides, range, cycles.cycles.front());
-  planned.links_mm += way_of(across, 0.5 * length);
-  add("link", both(), std::move(across));
+  if (enters(across)) across = way_of_first_front(sides, range, planned.cycles.cycles.front());
+  add_link(std::move(across), planned);
   add_side(sides.from.poses(range.from_start, range.from_end, options_.chord_mm), planned);
 }
 
@@ -277,8 +280,7 @@ void ProgramWriter::link(const LayerSides& above, const LayerSides& sides, const
   const std::vector<Pose> over = poses_between(poses.back(), in.back(), length, kLargestTurn);
   poses.insert(poses.end(), over.begin() + 1, over.end());
   poses.insert(poses.end(), in.rbegin() + 1, in.rend());
-  planned.links_mm += way_of(poses, 0.5 * length);
-  add("link", both(), std::move(poses));
+  add_link(std::move(poses), planned);
 }
 
 RuledMotion backwards_of(const RuledMotion& motion) { return SidePath(motion, true).motion(); }

@@ -39,10 +39,8 @@ FlankFitOptions hardly_worth_it(FlankFitOptions options) {
 std::string out_of_reach_note(double share, const FlankFitOptions& options) {
   return fmt::format(
       "other faces lie in front of the target or upon it, or it is a corner: a ball of radius {:.3g} mm that touches "
-      "it "
-      "enters them, or the target elsewhere, on {:.1f} % of its area; a smaller ball may reach it, and faces that are "
-      "no "
-      "obstacles can be ignored",
+      "it enters them, or the target elsewhere, on {:.1f} % of its area; a smaller ball may reach it, and faces that "
+      "are no obstacles can be ignored",
       reach_radius(options), 100.0 * (1.0 - share));
 }
 
