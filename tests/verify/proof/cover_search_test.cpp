@@ -125,6 +125,38 @@ TEST(CoverSearch, ABudgetIsSpentToItsEnd) {
             area_of(all.open_mm2));
 }
 
+/// The plane of 20 x 10 with knots along u in clusters, as lofts through many sections have them.
+Face plane_of_many_knots() {
+  Face face = test::plane_face("F1", 20.0, 10.0);
+  BSplineSurface& s = face.surface;
+  s.knots_u = {0.0, 0.0};
+  for (int section = 1; section < 60; ++section)
+    for (int k = 0; k < 4; ++k) s.knots_u.push_back(section / 60.0 + 1e-8 * k * (k + 1));
+  s.knots_u.insert(s.knots_u.end(), {1.0, 1.0});
+  s.poles.clear();
+  s.count_u = static_cast<int>(s.knots_u.size()) - 2;
+  for (int i = 1; i <= s.count_u; ++i)
+    for (double z : {0.0, 10.0}) s.poles.emplace_back(20.0 * s.knots_u[static_cast<std::size_t>(i)], 0.0, z);
+  return face;
+}
+
+TEST(CoverSearch, KnotsInsideACellCostNothing) {
+  Random random(9);
+  const Tool tool = brute::random_tool(random, 16.0);
+  const SweptVolume volume(tool, pass(random, 0.02, tool.radial.at(8.0).r));
+  const Face plain = test::plane_face("F1", 20.0, 10.0), knotty = plane_of_many_knots();
+  std::vector<double> open;
+  for (const Face* face : {&plain, &knotty}) {
+    const FaceSamples samples = sample_face(*face, 0.4, true);
+    CoverLimits limits = usual_limits(samples);
+    limits.evaluations = 8 * samples.points.size();
+    const auto f = swept_distances(volume, samples, 1e300);
+    open.push_back(area_of(search_cover(volume, *make_shape(*face), samples, f, limits).open_mm2));
+  }
+  EXPECT_LT(open[0], 120.0) << "most of it is covered";
+  EXPECT_LT(open[1], 1.1 * open[0]) << "of a grid of samples that differs";
+}
+
 TEST(CoverSearch, WhatTheLimitsForbidIsNotProved) {
   Random random(6);
   const Tool tool = brute::random_tool(random, 16.0);

@@ -13,7 +13,7 @@ namespace {
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kBorderShare = 1e-5;  ///< of the parameter range: how near the chords of the border keep to it
 constexpr double kLongShare = 2.0;     ///< a cell so much longer than wide is cut across only
-constexpr int kMostPieces = 64;  ///< knot rectangles that a piece of a curve may cross and still be bounded smoothly
+constexpr int kMostPieces = 64;        ///< knot rectangles that a cell may hold and still be bounded by all of them
 
 enum Kind { kPatch, kCurve, kCorner };
 
@@ -102,27 +102,62 @@ class FaceShape final : public Shape {
   }
 
   [[nodiscard]] bool hull(const Cell& cell, std::vector<Vec3>& points) const override {
-    const Rectangle where{{cell.at[0], cell.at[2]}, {cell.at[1], cell.at[3]}};
-    if (!one_piece(s_, where)) return false;
-    control_points(s_, where, points);
-    return !points.empty();
+    points.clear();
+    std::vector<Vec3> more;
+    const bool all = in_pieces({{cell.at[0], cell.at[2]}, {cell.at[1], cell.at[3]}}, [&](const Rectangle& piece) {
+      control_points(s_, piece, more);
+      points.insert(points.end(), more.begin(), more.end());
+      return !more.empty();
+    });
+    return all && !points.empty();
   }
 
-  // |S_u x S_v| in the middle, and half of the largest derivative of that product besides.
   [[nodiscard]] double area_bound(const Cell& cell) const override {
-    const Rectangle where{{cell.at[0], cell.at[2]}, {cell.at[1], cell.at[3]}};
-    if (!one_piece(s_, where)) return kInfinite;
-    const PatchBounds b = patch_bounds(s_, where);
-    const SurfaceJet jet = s_.jet(where.middle().x(), where.middle().y());
-    const double middle = (cell.at[1] - cell.at[0]) * (cell.at[3] - cell.at[2]) * jet.du.cross(jet.dv).norm();
-    const double more = b.duu * b.dv + b.du * b.duv + b.duv * b.dv + b.du * b.dvv;
-    return std::min(b.du * b.dv, middle + 0.5 * more);
+    double sum = 0.0;
+    const bool all = in_pieces({{cell.at[0], cell.at[2]}, {cell.at[1], cell.at[3]}}, [&](const Rectangle& piece) {
+      sum += piece_area_bound(piece);
+      return true;
+    });
+    return all ? sum : kInfinite;
   }
 
  private:
   void add_frame(const Rectangle& r) {
     const std::array<Vec2, 4> corners{r.low, Vec2(r.high.x(), r.low.y()), r.high, Vec2(r.low.x(), r.high.y())};
     for (std::size_t k = 0; k < 4; ++k) curves_.push_back(line_between(corners[k], corners[(k + 1) % 4]));
+  }
+
+  // |S_u x S_v| in the middle, and half of the largest derivative of that product besides.
+  [[nodiscard]] double piece_area_bound(const Rectangle& where) const {
+    const PatchBounds b = patch_bounds(s_, where);
+    const SurfaceJet jet = s_.jet(where.middle().x(), where.middle().y());
+    const Vec2 size = where.high - where.low;
+    const double middle = size.x() * size.y() * jet.du.cross(jet.dv).norm();
+    const double more = b.duu * b.dv + b.du * b.duv + b.duv * b.dv + b.du * b.dvv;
+    return std::min(b.du * b.dv, middle + 0.5 * more);
+  }
+
+  /// Calls `use` with the parts of a rectangle between knots until one is refused; false then, or where there are too many. Lofts
+  /// through many sections have hundreds of knots, several in each cell.
+  template <class Use>
+  [[nodiscard]] bool in_pieces(const Rectangle& where, const Use& use) const {
+    if (one_piece(s_, where)) return use(where);
+    const std::vector<double> us = pieces(knots_u_, where.low.x(), where.high.x());
+    const std::vector<double> vs = pieces(knots_v_, where.low.y(), where.high.y());
+    if ((us.size() - 1) * (vs.size() - 1) > kMostPieces) return false;
+    for (std::size_t i = 0; i + 1 < us.size(); ++i)
+      for (std::size_t j = 0; j + 1 < vs.size(); ++j)
+        if (!use(Rectangle{{us[i], vs[j]}, {us[i + 1], vs[j + 1]}})) return false;
+    return true;
+  }
+
+  /// An interval's ends and the knots inside.
+  static std::vector<double> pieces(const std::vector<double>& knots, double low, double high) {
+    std::vector<double> at{low};
+    for (auto k = std::upper_bound(knots.begin(), knots.end(), low); k != knots.end() && *k < high; ++k)
+      at.push_back(*k);
+    at.push_back(high);
+    return at;
   }
 
   /// The knot nearest to the middle of an interval, or the middle if there is none inside.
@@ -164,30 +199,19 @@ class FaceShape final : public Shape {
   /// Largest derivatives, by the parameters themselves, over the rectangle; infinite bends if a kink is inside.
   [[nodiscard]] PatchBounds largest(const Rectangle& where) const {
     PatchBounds out;
-    const auto pieces = [](const std::vector<double>& knots, double low, double high) {
-      std::vector<double> at{low};
-      for (auto k = std::upper_bound(knots.begin(), knots.end(), low); k != knots.end() && *k < high; ++k)
-        at.push_back(*k);
-      at.push_back(high);
-      return at;
-    };
-    const std::vector<double> us = pieces(knots_u_, where.low.x(), where.high.x());
-    const std::vector<double> vs = pieces(knots_v_, where.low.y(), where.high.y());
-    if ((us.size() - 1) * (vs.size() - 1) > kMostPieces) {
+    const bool all = in_pieces(where, [&](const Rectangle& piece) {
+      const PatchBounds b = patch_bounds(s_, piece);
+      const Vec2 by = (piece.high - piece.low).cwiseInverse();
+      out.du = std::max(out.du, b.du * by.x());
+      out.dv = std::max(out.dv, b.dv * by.y());
+      out.duu = std::max(out.duu, b.duu * by.x() * by.x());
+      out.duv = std::max(out.duv, b.duv * by.x() * by.y());
+      out.dvv = std::max(out.dvv, b.dvv * by.y() * by.y());
+      return true;
+    });
+    if (!all) {
       out.du = out.dv = out.duu = out.duv = out.dvv = kInfinite;
       return out;
-    }
-    for (std::size_t i = 0; i + 1 < us.size(); ++i) {
-      for (std::size_t j = 0; j + 1 < vs.size(); ++j) {
-        const Rectangle piece{{us[i], vs[j]}, {us[i + 1], vs[j + 1]}};
-        const PatchBounds b = patch_bounds(s_, piece);
-        const double du = 1.0 / (us[i + 1] - us[i]), dv = 1.0 / (vs[j + 1] - vs[j]);
-        out.du = std::max(out.du, b.du * du);
-        out.dv = std::max(out.dv, b.dv * dv);
-        out.duu = std::max(out.duu, b.duu * du * du);
-        out.duv = std::max(out.duv, b.duv * du * dv);
-        out.dvv = std::max(out.dvv, b.dvv * dv * dv);
-      }
     }
     // A curve along a kink does not cross it: its derivative in the other direction is 0.
     if (has_knot(kinks_u_, where.low.x(), where.high.x())) out.duu = kInfinite;
