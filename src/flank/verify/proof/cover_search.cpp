@@ -87,7 +87,9 @@ class CoverSearch {
         return;
       }
       Open open{shape_.cell_of(samples_.cells[i]), i, d};
-      if (!near_all_of(open, block)) block.open.push_back(open);
+      if (near_all_of(open, block)) return;
+      (void)shape_.look(open.cell);  // what splitting needs
+      block.open.push_back(open);
     });
   }
 
@@ -133,18 +135,13 @@ class CoverSearch {
     });
   }
 
-  /// Notes what the cells need to be cut; whether their area is too small to matter.
-  [[nodiscard]] bool settled(std::vector<Open>& open) const {
-    std::vector<double> areas(open.size());
-    parallel_blocks(open.size(), kBlock, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        (void)shape_.look(open[i].cell);
-        areas[i] = std::min(shape_.area_bound(open[i].cell), samples_.areas[open[i].sample]);
-      }
-    });
+  /// Whether the cells' area is too small to matter. Mostly a few of them tell that it is not.
+  [[nodiscard]] bool settled(const std::vector<Open>& open) const {
     double sum = 0.0;
-    for (double area : areas) sum += area;
-    return sum <= limits_.gap_mm2;
+    return std::all_of(open.begin(), open.end(), [&](const Open& o) {
+      sum += std::min(shape_.area_bound(o.cell), samples_.areas[o.sample]);
+      return sum <= limits_.gap_mm2;
+    });
   }
 
   const SweptVolume& volume_;
