@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace flank::internal::verify {
 namespace {
@@ -18,103 +19,100 @@ struct BezierMatrix {
   std::array<double, kWidth * kWidth> at;  // NOLINT(*-member-init): of `width` rows, as long
 
   [[nodiscard]] double operator()(int i, int j) const { return at[static_cast<std::size_t>(i * width + j)]; }
-  [[nodiscard]] double* row(int i) { return at.data() + static_cast<std::ptrdiff_t>(i) * width; }
 };
 
-/// A level of de Boor's recursion at t, for rows that say how each value is made of the control points.
-void de_boor_level(const std::vector<double>& knots, int degree, int span, int level, double t, BezierMatrix& rows) {
-  for (int j = degree; j >= level; --j) {
-    const auto k = static_cast<std::size_t>(span - degree + j);
-    const double alpha = (t - knots[k]) / (knots[k + static_cast<std::size_t>(degree - level + 1)] - knots[k]);
-    const double* before = rows.row(j - 1);
-    double* row = rows.row(j);
-    // Row j holds no more than the control points j - level to j.
-    for (int c = j - level; c <= j; ++c) row[c] = (1.0 - alpha) * before[c] + alpha * row[c];
+/// A level of de Boor's recursion at t, for rows that say how each value is made of the control points. W: the degree + 1.
+template <int W>
+void de_boor_level(const double* knots, int level, double t, double* rows) {
+  for (int j = W - 1; j >= level; --j) {
+    const double alpha = (t - knots[j]) / (knots[j + W - level] - knots[j]);
+    const double* before = rows + static_cast<std::ptrdiff_t>(j - 1) * W;
+    double* row = rows + static_cast<std::ptrdiff_t>(j) * W;
+    for (int c = 0; c < W; ++c) row[c] = (1.0 - alpha) * before[c] + alpha * row[c];
   }
 }
 
-/// By the blossom: de Boor's recursion at `low` in its first levels and at `high` in the others. The levels at `low` are common
-/// to all.
-BezierMatrix bezier_matrix(const std::vector<double>& knots, int degree, int span, double low, double high) {
-  BezierMatrix out, common;
-  const int width = degree + 1;
-  out.width = common.width = width;
-  const auto used = static_cast<std::ptrdiff_t>(width) * width;
-  std::fill_n(common.at.begin(), used, 0.0);
-  for (int i = 0; i < width; ++i) common.row(i)[i] = 1.0;
-  for (int i = degree; i >= 0; --i) {
-    BezierMatrix rows;
-    rows.width = width;
-    std::copy_n(common.at.begin(), used, rows.at.begin());
-    for (int level = degree - i + 1; level <= degree; ++level) de_boor_level(knots, degree, span, level, high, rows);
-    std::copy_n(rows.row(degree), width, out.row(i));
-    if (i > 0) de_boor_level(knots, degree, span, degree - i + 1, low, common);
+/// By the blossom: de Boor's recursion at `low` in its first levels and at `high` in the others. The levels at `low` are
+/// common to all.
+template <int W>
+void fill(const double* knots, double low, double high, double* out) {
+  std::array<double, W * W> common{};
+  for (std::size_t i = 0; i < W; ++i) common[i * W + i] = 1.0;
+  for (int i = W - 1; i >= 0; --i) {
+    std::array<double, W* W> rows = common;
+    for (int level = W - i; level < W; ++level) de_boor_level<W>(knots, level, high, rows.data());
+    std::copy_n(rows.end() - W, W, out + static_cast<std::ptrdiff_t>(i) * W);
+    if (i > 0) de_boor_level<W>(knots, W - i, low, common.data());
   }
+}
+
+/// Each degree has its own loops, of known lengths.
+template <int W>
+void fill_of_width(int width, const double* knots, double low, double high, double* out) {
+  if (width == W) return fill<W>(knots, low, high, out);
+  if constexpr (W < kWidth) fill_of_width<W + 1>(width, knots, low, high, out);
+}
+
+BezierMatrix bezier_matrix(const std::vector<double>& knots, int degree, int span, double low, double high) {
+  BezierMatrix out;
+  out.width = degree + 1;
+  fill_of_width<1>(out.width, knots.data() + (span - degree), low, high, out.at.data());
   return out;
 }
 
-/// A Bezier net in homogeneous coordinates, its points relative to an origin: w (P - origin), and w.
+/// A net of control points in homogeneous coordinates, relative to an origin: w (P - origin), and w.
 struct Net {
   int rows = 0, columns = 0;
-  std::array<std::array<double, kWidth * kWidth>, 4> c;  // NOLINT(*-member-init): of `rows` rows, `columns` long
+  std::array<Eigen::Vector4d, kWidth * kWidth> c;  ///< of `rows` rows, `columns` long
 
-  [[nodiscard]] std::size_t index(int i, int j) const { return static_cast<std::size_t>(i * columns + j); }
-  [[nodiscard]] Vec3 point(int i, int j) const {
-    const std::size_t k = index(i, j);
-    return {c[0][k], c[1][k], c[2][k]};
+  [[nodiscard]] Eigen::Vector4d& at(int i, int j) { return c[static_cast<std::size_t>(i * columns + j)]; }
+  [[nodiscard]] const Eigen::Vector4d& at(int i, int j) const { return c[static_cast<std::size_t>(i * columns + j)]; }
+  [[nodiscard]] std::span<const Eigen::Vector4d> all() const {
+    return {c.data(), static_cast<std::size_t>(rows * columns)};
   }
-  [[nodiscard]] double weight(int i, int j) const { return c[3][index(i, j)]; }
   [[nodiscard]] double least_weight() const {
-    return *std::min_element(c[3].begin(), c[3].begin() + static_cast<std::ptrdiff_t>(rows) * columns);
+    double least = kInfinite;
+    for (const Eigen::Vector4d& p : all()) least = std::min(least, p.w());
+    return least;
   }
 };
 
-/// The control points that act at a place, relative to an origin.
-Net poles_at(const BSplineSurface& s, int span_u, int span_v, const Vec3& origin) {
-  Net poles;
+/// The control points that act on a pair of spans.
+void poles_at(const BSplineSurface& s, int span_u, int span_v, const Vec3& origin, Net& poles) {
   poles.rows = s.degree_u + 1;
   poles.columns = s.degree_v + 1;
   for (int i = 0; i < poles.rows; ++i) {
     for (int j = 0; j < poles.columns; ++j) {
       const int at_u = span_u - s.degree_u + i, at_v = span_v - s.degree_v + j;
       const double w = s.weights.empty() ? 1.0 : s.weights[static_cast<std::size_t>(at_u * s.count_v + at_v)];
-      const Vec3 p = w * (s.pole(at_u, at_v) - origin);
-      const std::size_t at = poles.index(i, j);
-      for (int k = 0; k < 3; ++k) poles.c[static_cast<std::size_t>(k)][at] = p[k];
-      poles.c[3][at] = w;
+      poles.at(i, j) << w * (s.pole(at_u, at_v) - origin), w;
     }
   }
-  return poles;
 }
 
-Net net_of(const BSplineSurface& s, const Rectangle& where, const Vec3& origin) {
+/// u poles v^T: the Bezier net over a rectangle inside one knot span.
+void net_of(const BSplineSurface& s, const Rectangle& where, const Vec3& origin, Net& net) {
   const Vec2 middle = where.middle();
   const int span_u = find_span(s.degree_u, s.knots_u, middle.x());
   const int span_v = find_span(s.degree_v, s.knots_v, middle.y());
-  const Net poles = poles_at(s, span_u, span_v, origin);
   const BezierMatrix u = bezier_matrix(s.knots_u, s.degree_u, span_u, where.low.x(), where.high.x());
   const BezierMatrix v = bezier_matrix(s.knots_v, s.degree_v, span_v, where.low.y(), where.high.y());
-  Net net;
-  net.rows = poles.rows;
-  net.columns = poles.columns;
-  const std::size_t coordinates = s.weights.empty() ? 3 : 4;
-  std::array<double, kWidth> row;  // NOLINT(*-member-init)
-  for (std::size_t k = 0; k < coordinates; ++k) {
-    for (int i = 0; i < net.rows; ++i) {
-      for (int j = 0; j < net.columns; ++j) {
-        double sum = 0.0;
-        for (int a = 0; a < net.rows; ++a) sum += u(i, a) * poles.c[k][poles.index(a, j)];
-        row[static_cast<std::size_t>(j)] = sum;
-      }
-      for (int j = 0; j < net.columns; ++j) {
-        double sum = 0.0;
-        for (int a = 0; a < net.columns; ++a) sum += v(j, a) * row[static_cast<std::size_t>(a)];
-        net.c[k][net.index(i, j)] = sum;
-      }
+  Net poles, half;
+  poles_at(s, span_u, span_v, origin, poles);
+  half.rows = net.rows = poles.rows;
+  half.columns = net.columns = poles.columns;
+  for (int i = 0; i < net.rows; ++i) {
+    for (int j = 0; j < net.columns; ++j) {
+      Eigen::Vector4d sum = u(i, 0) * poles.at(0, j);
+      for (int a = 1; a < net.rows; ++a) sum += u(i, a) * poles.at(a, j);
+      half.at(i, j) = sum;
+    }
+    for (int j = 0; j < net.columns; ++j) {
+      Eigen::Vector4d sum = v(j, 0) * half.at(i, 0);
+      for (int a = 1; a < net.columns; ++a) sum += v(j, a) * half.at(i, a);
+      net.at(i, j) = sum;
     }
   }
-  if (s.weights.empty()) std::fill_n(net.c[3].begin(), net.rows * net.columns, 1.0);
-  return net;
 }
 
 /// Largest norms of a net's control points, of points and weights.
@@ -123,28 +121,22 @@ struct Norms {
 };
 Norms norms(const Net& net) {
   Norms n;
-  for (int i = 0; i < net.rows; ++i) {
-    for (int j = 0; j < net.columns; ++j) {
-      n.point = std::max(n.point, net.point(i, j).squaredNorm());
-      n.weight = std::max(n.weight, std::abs(net.weight(i, j)));
-    }
+  for (const Eigen::Vector4d& p : net.all()) {
+    n.point = std::max(n.point, p.head<3>().squaredNorm());
+    n.weight = std::max(n.weight, std::abs(p.w()));
   }
   n.point = std::sqrt(n.point);
   return n;
 }
 
 /// The net of the derivative in one direction.
-Net derived(const Net& net, bool along_u) {
-  Net out;
+void derive(const Net& net, bool along_u, Net& out) {
   out.rows = std::max(0, net.rows - (along_u ? 1 : 0));
   out.columns = std::max(0, net.columns - (along_u ? 0 : 1));
   const double degree = along_u ? out.rows : out.columns;
-  for (std::size_t k = 0; k < 4; ++k)
-    for (int i = 0; i < out.rows; ++i)
-      for (int j = 0; j < out.columns; ++j)
-        out.c[k][out.index(i, j)] =
-            degree * (net.c[k][net.index(along_u ? i + 1 : i, along_u ? j : j + 1)] - net.c[k][net.index(i, j)]);
-  return out;
+  for (int i = 0; i < out.rows; ++i)
+    for (int j = 0; j < out.columns; ++j)
+      out.at(i, j) = degree * (net.at(along_u ? i + 1 : i, along_u ? j : j + 1) - net.at(i, j));
 }
 
 }  // namespace
@@ -164,17 +156,22 @@ bool one_piece(const BSplineSurface& s, const Rectangle& where) {
 PatchBounds patch_bounds(const BSplineSurface& s, const Rectangle& where) {
   PatchBounds out;
   out.middle = s.value(where.middle().x(), where.middle().y());
-  const Net net = net_of(s, where, out.middle);
+  Net net, first, second;
+  net_of(s, where, out.middle, net);
   const double least = net.least_weight();
   if (!(least > 0.0)) {
     out.reach = out.du = out.dv = out.duu = out.duv = out.dvv = kInfinite;
     return out;
   }
-  for (int i = 0; i < net.rows; ++i)
-    for (int j = 0; j < net.columns; ++j) out.reach = std::max(out.reach, net.point(i, j).norm() / net.weight(i, j));
-  const Net net_u = derived(net, true), net_v = derived(net, false);
-  const Norms u = norms(net_u), v = norms(net_v);
-  const Norms uu = norms(derived(net_u, true)), uv = norms(derived(net_u, false)), vv = norms(derived(net_v, false));
+  for (const Eigen::Vector4d& p : net.all()) out.reach = std::max(out.reach, p.head<3>().norm() / p.w());
+  const auto second_norms = [&](bool along_u) {
+    derive(first, along_u, second);
+    return norms(second);
+  };
+  derive(net, true, first);
+  const Norms u = norms(first), uu = second_norms(true), uv = second_norms(false);
+  derive(net, false, first);
+  const Norms v = norms(first), vv = second_norms(false);
   const double e = out.reach;
   out.du = (u.point + u.weight * e) / least;
   out.dv = (v.point + v.weight * e) / least;
@@ -187,10 +184,10 @@ PatchBounds patch_bounds(const BSplineSurface& s, const Rectangle& where) {
 void control_points(const BSplineSurface& s, const Rectangle& where, std::vector<Vec3>& points) {
   points.clear();
   const Vec3 origin = s.pole(0, 0);
-  const Net net = net_of(s, where, origin);
+  Net net;
+  net_of(s, where, origin, net);
   if (!(net.least_weight() > 0.0)) return;
-  for (int i = 0; i < net.rows; ++i)
-    for (int j = 0; j < net.columns; ++j) points.emplace_back(origin + net.point(i, j) / net.weight(i, j));
+  for (const Eigen::Vector4d& p : net.all()) points.emplace_back(origin + p.head<3>() / p.w());
 }
 
 PatchBounds loose_bounds(const BSplineSurface& s, const Rectangle& where) {
