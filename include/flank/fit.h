@@ -118,6 +118,8 @@ struct FlankFitOptions {
   /// > 0: spacing of the samples that rank candidates, as a share of the square root of the area: 1/45 gives about
   /// 2,000 samples, so coverage is known to about a tenth of a percent. Lower it for a face that is long and thin.
   double sample_share = 1.0 / 45.0;
+  /// Places of the targets that count for overcut besides the samples: where somebody else found a cut between them.
+  std::vector<Vec3> watched;
 };
 
 /// How much of the target a state covers, by the planner's own estimate of the swept distance f. An estimate: the judge
@@ -185,5 +187,11 @@ struct FlankFitResult {
 /// Ranks by the first task's target and obstacles.
 [[nodiscard]] FlankFitResult fit_from_starts(const std::vector<FitTask>& tasks, const ToolModel& tool,
                                              const FlankFitOptions& options, const Progress& progress);
+
+/// A result that turns out to cut deeper than the tolerance at options.watched, between the samples that it was looked at
+/// with, led out of what it cuts. `tasks`: its targets and what is in the way of each of its motions. Notes and tried
+/// tools stay. None if nothing better is found.
+[[nodiscard]] std::optional<FlankFitResult> mend_fit(const std::vector<FitTask>& tasks, const FlankFitResult& found,
+                                                     const ToolModel& tool, const FlankFitOptions& options);
 
 }  // namespace flank

@@ -78,6 +78,26 @@ TEST(SweptEstimate, IsThatOfDenseSearch) {
   }
 }
 
+/// A profile that flares at its end, as past a face where nothing holds it: beside the flank its last sphere is nearest, and the
+/// one that touches beside the point is near, too.
+TEST(SweptEstimate, SeesTheFlareAtAnEnd) {
+  const RadialFunction flared = RadialFunction::spline(
+      40.0, (Eigen::VectorXd(14) << 4.8, 5.0, 5.0, 5.0, 5.0, 5.0, 5.0, 5.0, 5.0, 5.0, 5.0, 5.2, 6.6, 8.4).finished());
+  const RuledMotion motion = testing::translation({0, 0, 0}, {60, 0, 0}, {0, 0, 1}, 40.0);
+  const SweptEstimate swept({motion}, flared, 121);
+  int second = 0;  // places where the spheres beside the point are not the nearest
+  Random random(11);
+  for (int k = 0; k < 400; ++k) {
+    const Vec3 x(random.uniform(10.0, 50.0), random.uniform(4.8, 6.5), random.uniform(24.0, 40.0));
+    const double expected = dense(motion, flared, x, 600);
+    const SweptContact estimate = swept.nearest(x), exact = refine_contact(motion, flared, x, estimate.t, 0.02);
+    EXPECT_NEAR(estimate.f, expected, 0.02) << x.transpose();
+    EXPECT_LE(exact.f, expected + 1e-9) << x.transpose();
+    second += x.z() < 38.0 && exact.s == 40.0 ? 1 : 0;
+  }
+  EXPECT_GT(second, 20);
+}
+
 TEST(SweptEstimate, ItsGradientIsTheWayFromTheAxis) {
   const RuledMotion motion = testing::random_motion(4);
   constexpr double h = 1e-4;

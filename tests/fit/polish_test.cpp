@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "fit/flat_scene.h"
+#include "flank/fit/coverage.h"
 #include "flank/threads.h"
 #include "sanitized.h"
 #include "seed/exact_targets.h"
@@ -76,6 +77,17 @@ TEST(Polish, RankingSamplesStandForTheWholeAreaAndTheRimForNone) {
   }
   EXPECT_NEAR(area, 2400.0, 1e-6);
   EXPECT_GE(rim, static_cast<int>(200.0 * 15.0 / std::sqrt(2400.0)));
+}
+
+TEST(Polish, RankingSamplesHoldWatchedPlacesWithoutArea) {
+  const auto blade = standing_blade(0.0);
+  FlankFitOptions options = small_options();
+  const std::size_t count = ranking_samples(*blade, nullptr, options).size();
+  options.watched = {Vec3(1.0, 2.0, 3.0)};
+  const auto samples = ranking_samples(*blade, nullptr, options);
+  ASSERT_EQ(samples.size(), count + 1);
+  EXPECT_EQ(samples.back().point, options.watched.front());
+  EXPECT_EQ(samples.back().area, 0.0);
 }
 
 TEST(Polish, RankingSamplesOutOfReachHaveNoArea) {
@@ -324,6 +336,28 @@ TEST(Polish, WhatTheLastLookFindsTooDeepIsLedOut) {
   // Far too deep is no matter of a last pass.
   const Polished lost = on_plane(*blade, 20.0 * kTolerance, false, samples, options);
   EXPECT_NEAR(settled(lost, options).estimate.overcut_mm, 20.0 * kTolerance, 1e-6);
+}
+
+/// A ridge as narrow as a point, between all samples: who finds it says so.
+TEST(Polish, ACutThatSomebodyElseFoundIsMended) {
+  if (kSanitized) GTEST_SKIP() << "passes of 2,500 points";
+  const auto blade = standing_blade(0.0);
+  FlankFitOptions options = small_options();
+  options.watched = {Vec3(30.1, 1.6 * kTolerance, 20.1)};
+  FlankFitResult found;
+  found.motions = {upright_motion(whole_blade(5.0))};
+  found.tool = even_spline(5.0);
+  found.notes = {"kept"};
+  const std::vector<FitTask> tasks{{blade.get(), found.motions.front()}};
+  const auto mended = mend_fit(tasks, found, {}, options);
+  ASSERT_TRUE(mended);
+  EXPECT_LE(mended->after.overcut_mm, kTolerance);
+  EXPECT_EQ(mended->after.at_tolerance, 1.0);
+  EXPECT_EQ(mended->notes, found.notes);
+  const std::vector<SurfaceSample> ridge{{options.watched.front(), Vec3::UnitY(), 1.0}};
+  EXPECT_LE(estimate_coverage(ridge, mended->motions, mended->tool, kTolerance, 600).overcut_mm, kTolerance);
+  options.watched = {Vec3(30.1, 0.5 * kTolerance, 20.1)};
+  EXPECT_FALSE(mend_fit(tasks, found, {}, options)) << "nothing is to be mended";
 }
 
 TEST(Polish, SettlingTakesACuspOutOfAMotionThatPlungesThere) {

@@ -69,7 +69,10 @@ double SweptEstimate::at_pose(const Pose& pose, const Vec3& x) const {
   double s = std::clamp(z, 0.0, axis_length_);
   for (int k = 0; k < 2; ++k)
     s = std::clamp(z + rho * interpolate(slope_over_cosine_, s * per_length_), 0.0, axis_length_);
-  return std::sqrt(rho2 + (z - s) * (z - s)) - interpolate(radius_, s * per_length_);
+  const double near = std::sqrt(rho2 + (z - s) * (z - s)) - interpolate(radius_, s * per_length_);
+  // A profile that flares at an end, where nothing held it, has a second nearest sphere there.
+  const double past = z - axis_length_;
+  return std::min({near, std::sqrt(rho2 + z * z) - radius_.front(), std::sqrt(rho2 + past * past) - radius_.back()});
 }
 
 double SweptEstimate::floor_at(const Pose& pose, const Vec3& x) const {
@@ -230,6 +233,15 @@ class Poses {
   bool alike_;
 };
 
+/// An end of the axis whose sphere is nearer to a point, at z along the axis and rho from it, than the sphere at s; else s.
+double nearer_end(const RadialFunction& radial, double z, double rho2, double s) {
+  const auto f_at = [&](double at) { return std::sqrt(rho2 + (z - at) * (z - at)) - radial.at(at).r; };
+  double best = s, least = f_at(s);
+  for (const double end : {0.0, radial.axis_length()})
+    if (const double f = f_at(end); f < least) best = end, least = f;
+  return best;
+}
+
 /// Nearest sphere of the tool at one pose: the stationary s, or an end.
 SweptContact contact_at(const Poses& poses, const RadialFunction& radial, const Vec3& x, double t, double s) {
   const Pose pose = poses.at(t);
@@ -259,6 +271,7 @@ SweptContact contact_at(const Poses& poses, const RadialFunction& radial, const 
     s = next;
     if (moved < kSettled * length) break;
   }
+  s = nearer_end(radial, z, rho2, s);
   const Vec3 away = pose.at(s) - x;
   constexpr double kOnAxisMm = 1e-12;  // a point on the axis has no direction to it: the default stays
   const double d = away.norm();

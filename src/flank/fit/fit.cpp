@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 
+#include "flank/base/assert.h"
 #include "flank/base/journal.h"
 #include "flank/base/parallel.h"
 #include "flank/fit/coverage.h"
@@ -272,6 +273,19 @@ FlankFitResult fit_from_starts(const std::vector<FitTask>& tasks, const ToolMode
   for (const FitTask& task : tasks) starts.push_back(task.motion);
   const auto work = [&] { return polish_starts(tasks, tool, options, progress); };
   return journaled(progress, "fit from starts", work, options, tool, starts);
+}
+
+std::optional<FlankFitResult> mend_fit(const std::vector<FitTask>& tasks, const FlankFitResult& found,
+                                       const ToolModel& tool, const FlankFitOptions& options) {
+  FLANK_ASSERT(tasks.size() == found.motions.size());
+  if (tasks.empty() || stopping()) return std::nullopt;
+  FitDraft draft = make_draft(tasks, tool, options);
+  draft.motions = found.motions;
+  draft.tool = found.tool;
+  const Polished before = looked_at_closely(draft, options);
+  const Polished after = settled(before, options);
+  if (!is_better(after.estimate, before.estimate, options.tolerance_mm)) return std::nullopt;
+  return finish(after, options, found);
 }
 
 }  // namespace flank

@@ -86,6 +86,9 @@ void code(StepCodec& codec, FlankFitOptions& options) {
   code(codec, beside_walls);
   codec.number(options.reach_radius_mm);
   codec.number(options.sample_share);
+  options.watched.resize(codec.count(options.watched.size()));
+  for (Vec3& place : options.watched)
+    for (int k = 0; k < 3; ++k) codec.number(place[k]);
 }
 
 void code(StepCodec& codec, ToolModel& tool) {

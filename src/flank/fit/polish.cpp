@@ -304,6 +304,10 @@ Polished settled(const Polished& polished, const FlankFitOptions& options) {
   return cheap || is_better(lower.estimate, again.estimate, options.tolerance_mm) ? lower : again;
 }
 
+Polished looked_at_closely(const FitDraft& draft, const FlankFitOptions& options) {
+  return seen_closely(draft, close_samples(draft, options), options);
+}
+
 FlankFitResult finish(const Polished& polished, const FlankFitOptions& options, FlankFitResult result) {
   result.tool = polished.draft.tool;
   result.motions = polished.draft.motions;

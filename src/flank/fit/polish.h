@@ -37,6 +37,9 @@ inline constexpr double kMendable = 5.0;
 /// passes have been chosen by, would flatter the result.
 [[nodiscard]] Polished settled(const Polished& polished, const FlankFitOptions& options);
 
+/// The draft, assessed with the samples of the last look.
+[[nodiscard]] Polished looked_at_closely(const FitDraft& draft, const FlankFitOptions& options);
+
 /// Fills a result from the chosen draft: validation with cold footpoints, status, message. What `result` holds already
 /// (before, trace, candidates) stays.
 [[nodiscard]] FlankFitResult finish(const Polished& polished, const FlankFitOptions& options, FlankFitResult result);

@@ -78,6 +78,7 @@ std::vector<SurfaceSample> ranking_samples(const Target& target, const ObstacleF
   });
   // The rim, where a tool cuts deepest, counts for overcut alone: it has no area.
   for (const Vec3& point : target.border_points(spacing)) samples.push_back({point, Vec3::UnitZ()});
+  for (const Vec3& point : options.watched) samples.push_back({point, Vec3::UnitZ()});
   return samples;
 }
 

@@ -12,6 +12,7 @@
 #include "flank/job/check_fields.h"
 #include "flank/pipeline/finish.h"
 #include "flank/pipeline/folder/judge_job.h"
+#include "flank/pipeline/mend_cuts.h"
 #include "flank/pipeline/run_journal.h"
 #include "flank/pipeline/search/fit_search.h"
 #include "flank/pipeline/search/stiff_fit.h"
@@ -152,11 +153,15 @@ std::vector<StripSurface> sample_path(const FitSearch& search, double tolerance_
   return surfaces;
 }
 
+void take_found(const FitSearch& search, Result& result) {
+  result.plan = fit_summary(search.fit);
+  result.motions = search.fit.motions;
+}
+
 void take_fit(const FitSearch& search, Result& result) {
   // The verdict, now and later, is about what was searched for.
   if (search.reach_radius_mm) std::get<FitJob>(result.job).judge.reach_radius_mm = search.reach_radius_mm;
-  result.plan = fit_summary(search.fit);
-  result.motions = search.fit.motions;
+  take_found(search, result);
   result.diagonal_mm = search.targets.front().target->diagonal();
   result.notes.insert(result.notes.end(), search.fit.notes.begin(), search.fit.notes.end());
 }
@@ -201,7 +206,8 @@ void add_stiffness(const Setup& setup, const FitSearch& search, const Progress& 
   std::get<FitSummary>(result.plan).stiffness = std::move(steps);
 }
 
-/// Path, verdict and drawings of what was found; again with a thinner tool where the judge sees what the search did not.
+/// Path, verdict and drawings of what was found; again with a thinner tool or another motion where the judge sees what the
+/// search did not.
 void judge_fit(const Setup& setup, const ClearanceScene& scene, FitSearch& search, Result& result, Stopwatch& watch) {
   /// The judge looks no deeper than it must to find a place beyond the tolerance: there may be a deeper one.
   constexpr int kMostTimes = 3;
@@ -215,7 +221,11 @@ void judge_fit(const Setup& setup, const ClearanceScene& scene, FitSearch& searc
     std::vector<StripSurface> surfaces = sample_path(search, job.tolerance_mm, result);
     watch.lap("sample");
     judge_result(setup, scene, std::move(surfaces), result, watch);
-    if (!result.complete || k + 1 == kMostTimes || !thin_tool(job.tolerance_mm, search, result.verify)) return;
+    if (!result.complete || k + 1 == kMostTimes) return;
+    if (!thin_tool(job.tolerance_mm, search, result.verify) && !mend_cuts(job.tolerance_mm, search, result.verify))
+      return;
+    take_found(search, result);
+    watch.lap("mend");
   }
 }
 
