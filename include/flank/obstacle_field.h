@@ -29,7 +29,7 @@ class ObstacleField {
   /// border. A face is a wall if most voters see its outer side (docs/decisions/0010); a face without orientation is
   /// first turned to where most are. All other faces have a distance without sign: the blade's own back, signed, would
   /// forbid every place in front of the blade. A face that all voters see from the material's side lies behind the
-  /// target, and is left out.
+  /// target, and is left out. A wall says nothing of what is farther behind it than it is large.
   ObstacleField(const Obstacles& obstacles, const Target& target, double offset_mm, double allowance_mm);
 
   ~ObstacleField();

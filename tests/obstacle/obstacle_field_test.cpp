@@ -78,6 +78,15 @@ TEST(ObstacleField, WhatAFewOfTheTargetSeeIsNoWall) {
   }
 }
 
+TEST(ObstacleField, AWallSaysNothingOfWhatIsFartherBehindItThanItIsLarge) {
+  const auto blade = standing_blade(0.0);
+  const Face shelf = quad(Vec3(20, 0, 1), Vec3(32, 0, 1), Vec3(20, 8, 1), Vec3(32, 8, 1), "F4");
+  const ObstacleField obstacles(only({make_target({shelf}), true}), *blade, 2.0, 0.0);
+  ASSERT_EQ(obstacles.sign(0), +1);
+  EXPECT_NEAR(obstacles.at(Vec3(22, 4, -12), kFar).distance_mm, -13.0, 1e-9);
+  EXPECT_NEAR(obstacles.at(Vec3(22, 4, -16), kFar).distance_mm, 17.0, 1e-9);
+}
+
 TEST(ObstacleField, AStripThatPutsTheTargetBehindItselfIsNoWall) {
   const auto blade = standing_blade(0.0);
   // Below the target, hinged at x = 24: at z = 0 it faces the target, which 60 % of the votes see, at z = 40 it faces away.

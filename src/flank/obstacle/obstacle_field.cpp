@@ -23,8 +23,8 @@ constexpr double kMajority = 0.55;
 /// Share of the target that must look at a face before it can be called behind: what few see says nothing of the
 /// others.
 constexpr double kSeenByMost = 0.5;
-/// Share of the target that must look at a face before it can be a wall: behind a wall there is material for as far as
-/// anybody asks, and only a face that a good part of the target looks at (a hub, another blade) is that large.
+/// Share of the target that must look at a face before it can be a wall: behind a wall there is material for as far as it
+/// is large, and only a face that a good part of the target looks at (a hub, another blade) is as large as anybody asks.
 constexpr double kSeenBySome = 0.1;
 /// Of the votes: more that see its material side through the target, and the face has no sign, whatever the others see.
 /// Where a tool touches the target it is free, so a face is no wall that would put it behind itself: the strip round a
@@ -234,8 +234,11 @@ ObstacleDistance ObstacleField::estimate(const Vec3& p) const {
 }
 
 double ObstacleField::signed_distance(std::size_t face, const Vec3& p, const Footpoint& foot) const {
-  const int sign = signs_[face];
-  return foot.location == Location::kInside && sign != 0 ? sign * foot.distance : (p - foot.point).norm();
+  const double distance = signs_[face] * foot.distance;
+  // No face says what is farther behind it than it is large: a sliver of 2 mm would have a rotor's whole inside for material.
+  const bool wall =
+      foot.location == Location::kInside && signs_[face] != 0 && distance >= -faces_[face].surface->box().diagonal();
+  return wall ? distance : (p - foot.point).norm();
 }
 
 ObstacleDistance ObstacleField::at(const Vec3& p, double horizon_mm) const {
