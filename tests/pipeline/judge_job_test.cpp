@@ -73,6 +73,19 @@ TEST(JudgeJob, ASmallPartTakesAsManySamplesAsAHandsSize) {
   EXPECT_DOUBLE_EQ(default_spacing(2000.0), 2.0);
 }
 
+TEST(JudgeJob, AStoppedRunIsJudgedOnASmallFaceOfALargePart) {
+  Part part;
+  part.faces = {test::plane_face("F1", 5.0, 10.0), test::plane_face("F2", 400.0, 300.0, -20.0)};
+  for (const Face& face : part.faces) part.box.add(face.surface.poles.back()), part.box.add(face.surface.poles.front());
+  internal::Setup setup;
+  setup.part = part;
+  setup.targets = {0};
+  setup.checks = {1};
+  const double spacing = coarse_spacing(setup, 20000.0);
+  EXPECT_LT(spacing, default_spacing(part.box.diagonal()));
+  EXPECT_GE(50.0 / (spacing * spacing), 500.0) << "or the judge refuses it, and a result is lost";
+}
+
 TEST(JudgeJob, AFaceAloneIsNotReachableInItsOwnCorner) {
   Part part;
   part.faces = {test::corner_face("F1", 20.0, 30.0)};

@@ -121,9 +121,10 @@ double coarse_spacing(const Setup& setup, double most_samples) {
     all += here;
     if (holds(setup.targets, shapes.faces()[k])) fewest = std::min(fewest, here);
   }
-  // Their number goes with the square of the spacing. Twice what is needed: it is an estimate.
-  const double times = std::min(all / most_samples, fewest / (2.0 * kFewestSamples));
-  return usual * std::sqrt(std::max(1.0, times));
+  // Their number goes with the square of the spacing. Twice what is needed: it is an estimate. A small target in a large part
+  // has too few at the usual spacing.
+  const double times = std::min(std::max(1.0, all / most_samples), fewest / (2.0 * kFewestSamples));
+  return usual * std::sqrt(times);
 }
 
 VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const Tool& tool, const Path& path,

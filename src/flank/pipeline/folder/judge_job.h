@@ -22,7 +22,8 @@ namespace flank::internal {
 /// Spacing of the judge's samples on the target if none is given, mm.
 [[nodiscard]] double default_spacing(double diagonal_mm);
 
-/// The spacing, no finer than that, of about so many samples on all faces together, as far as a target can do with them.
+/// The spacing, no finer than that, of about so many samples on all faces together, as far as a target can do with them; finer
+/// for a target that is small in a large part.
 [[nodiscard]] double coarse_spacing(const Setup& setup, double most_samples);
 
 }  // namespace flank::internal
