@@ -56,6 +56,25 @@ TEST(ExampleCavity, WallsAreAsHollowAsTheyAreAskedToBe) {
   EXPECT_NEAR(deepest, 1.0, 0.03) << "the cubic share moves the deepest place and adds 1.6 %";
 }
 
+TEST(ExampleCavity, IsMadeWhereItsWallsPassTheMiddleButDoNotMeet) {
+  // Narrow and long, or twisted: both walls bend and twist together, beyond the plane in the middle of the cavity.
+  for (const CavityShape& shape : {CavityShape{.width_mm = 8.0, .depth_mm = 12.0, .length_mm = 150.0},
+                                   CavityShape{.width_mm = 10.0, .depth_mm = 25.0, .length_mm = 30.0}}) {
+    const std::vector<Face> walls = cavity_walls(shape);
+    double low = 1e300, high = -1e300, between = 1e300;
+    for (int i = 0; i <= 100; ++i)
+      for (int j = 0; j <= 100; ++j) {
+        const Vec3 p = at(walls[0], 0.01 * i, 0.01 * j), q = at(walls[1], 1.0 - 0.01 * i, 0.01 * j);
+        between = std::min(between, p.y() - q.y());
+        high = std::max(high, p.y());
+        low = std::min(low, q.y());
+      }
+    EXPECT_NEAR(high - low, shape.width_mm, 0.01);
+    EXPECT_GT(between, 1.0);
+  }
+  EXPECT_THROW(static_cast<void>(cavity_walls({.width_mm = 6.0, .depth_mm = 25.0, .length_mm = 30.0})), UsageError);
+}
+
 TEST(ExampleCavity, WallsCloseItsEnds) {
   const std::vector<Face> both = cavity_walls({.length_mm = 60.0, .end_wall = true, .start_wall = true});
   ASSERT_EQ(both.size(), 4u);

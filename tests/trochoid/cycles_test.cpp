@@ -162,6 +162,32 @@ TEST(Cycles, RiseOverARidgeWithTheStepsOfALevelFloor) {
   EXPECT_LE(over.cycles.size(), level.cycles.size() + 1);
 }
 
+TEST(Cycles, BeginBeforeAnEdgeThatASlenderToolMeetsBetweenTheRingsOfTheSearch) {
+  if (kSanitized) GTEST_SKIP() << "HoldTheLimitAtThreeTimesTheRows has the first front";
+  // The blank comes to an edge of 90 degrees, half way between two rings: where those just touch nothing, it is 1.5 radii deep.
+  constexpr double kSlender = 30.0, kThin = 1.0, kEdge = 1.5;
+  const Vec3 up = (Vec3::UnitZ() - Vec3::UnitX()).normalized(), down = (-Vec3::UnitZ() - Vec3::UnitX()).normalized();
+  const auto side = [](double y) {
+    std::vector<Pose> poses;
+    std::vector<double> t;
+    for (int k = 0; k <= 20; ++k) {
+      t.push_back(k / 20.0);
+      poses.push_back({Vec3(4.0 * t.back(), y, 0.0), Vec3::UnitZ()});
+    }
+    return SidePath(fit_motion(poses, t, kSlender, 6), false);
+  };
+  SweptStock stock(RadialFunction(ToolFamily::kCylinder, kSlender, Eigen::VectorXd::Constant(1, kThin)),
+                   {{up, up.z() * kEdge}, {down, down.z() * kEdge}, {Vec3::UnitX(), 4.0}, {Vec3::UnitZ(), kSlender}});
+  const LayerSides sides{side(0.0), side(4.0)};
+  const HalfGuard guard({}, stock.radial());
+  CycleOptions options;
+  options.strategy = CycleStrategy::kPlain;
+  const LayerCycles out = plan_cycles(sides, guard, stock, options, {}, {});
+  EXPECT_EQ(out.status, CycleStatus::kDone);
+  ASSERT_FALSE(out.cycles.empty());
+  for (const Cycle& cycle : out.cycles) EXPECT_LE(cycle.front.peak.angle_rad, options.largest_rad);
+}
+
 TEST(CycleSearch, NoStepWithinTheLimitCountsAsRefused) {
   SweptStock stock = slot();
   const LayerSides sides{straight(0.0), straight(10.0)};

@@ -1,10 +1,11 @@
 #include "flank/example/example_cavity.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
-#include <utility>
 
 #include "flank/error.h"
 #include "flank/example/example_formula.h"
@@ -27,17 +28,25 @@ Vec3 wall_point(const CavityShape& shape, double u, double v) {
           std::sin(angle) * out + std::cos(angle) * up};
 }
 
-/// Largest and least y of the wall, from a dense grid.
-std::pair<double, double> extent(const CavityShape& shape) {
+/// Of the walls before they are moved apart, from a dense grid.
+struct WallExtent {
+  double highest_y = -1e300;  ///< of the one at +y
+  double least_between =
+      1e300;  ///< how far it lies beyond the other one where that is least, mm; < 0: they cross there
+};
+
+/// Twist and bend carry both walls along: what lies between them is known from the same section of both.
+WallExtent extent(const CavityShape& shape) {
   constexpr int kSteps = 200;
-  double low = 1e300, high = -1e300;
+  WallExtent out;
   for (int i = 0; i <= kSteps; ++i)
     for (int j = 0; j <= kSteps; ++j) {
-      const double y = wall_point(shape, static_cast<double>(i) / kSteps, static_cast<double>(j) / kSteps).y();
-      low = std::min(low, y);
-      high = std::max(high, y);
+      const double u = static_cast<double>(i) / kSteps, v = static_cast<double>(j) / kSteps;
+      const double here = wall_point(shape, u, v).y(), across = -wall_point(shape, 1.0 - u, v).y();
+      out.highest_y = std::max(out.highest_y, here);
+      out.least_between = std::min(out.least_between, here - across);
     }
-  return {low, high};
+  return out;
 }
 
 /// Across the end on the side of `sign`, as wide and high as the channel there and a little more.
@@ -55,12 +64,13 @@ std::vector<Face> cavity_walls(const CavityShape& shape) {
   if (!(std::abs(shape.twist_deg) <= 60.0)) throw UsageError("the twist of a cavity must lie in [-60, 60] degrees");
   if (!(std::abs(shape.lean_deg) <= 45.0))
     throw UsageError("the lean of the walls of a cavity must lie in [-45, 45] degrees");
-  const auto [low, high] = extent(shape);
-  const double out = 0.5 * shape.width_mm - high;
-  if (!(low + out > 0.0))
-    throw UsageError("the walls of a cavity of this width would meet: lean, twist, hollow and depth leave " +
-                     std::to_string(2.0 * (low + out)) + " mm between them; a width above " +
-                     std::to_string(2.0 * (high - low)) + " mm is needed");
+  const WallExtent walls_at = extent(shape);
+  const double out = 0.5 * shape.width_mm - walls_at.highest_y, least = walls_at.least_between + 2.0 * out;
+  if (!(least > 0.0))
+    throw UsageError(
+        fmt::format("the walls of a cavity {:.4g} mm wide over all would meet: lean, twist, hollow and the bend along "
+                    "it need {:.4g} mm; accepted is a width above that",
+                    shape.width_mm, shape.width_mm - least));
   constexpr int kAlong = 24, kUp = 16;
   std::vector<Face> walls;
   // u runs along x and v up: S_u x S_v looks to -y, into the channel.

@@ -25,8 +25,13 @@ double rounded_up(double value) {
   return std::ceil(value / unit - 1e-9) * unit;
 }
 
-std::string stuck_sentence(const TrochoidJob& job, const RefusedStep& refused) {
+std::string stuck_sentence(const TrochoidJob& job, const LayerCycles& cycles) {
   const double most = job.cycles.most_engagement_deg;
+  const RefusedStep& refused = cycles.stuck;
+  if (cycles.cycles.empty() && refused.largest_rad > 0.0)
+    return fmt::format(
+        "no first front before the blank keeps to {} degrees: the one that exceeds them least engages {:.2f}", most,
+        refused.largest_rad * kRadian);
   if (!(refused.largest_rad > 0.0))
     return fmt::format("no step within {} degrees is possible that enters no face", most);
   return fmt::format(
@@ -82,7 +87,7 @@ void note_what_is_open(const TrochoidJob& job, const CavityProgram& program, std
       add(fmt::format("no {} between the sides is free of faces: it has no way in",
                       job.cycles.entry == "plunge" ? "row of plunges" : "ramp"));
     else if (layer.cycles.status == CycleStatus::kStuck)
-      add(stuck_sentence(job, layer.cycles.stuck));
+      add(stuck_sentence(job, layer.cycles));
     if (layer.stuck_along_axis()) add(along_axis_sentence(layer));
     if (layer.share < 1.0) add(rest_sentence(job, layer));
     if (layer.entered_mm() > job.tolerance_mm)

@@ -12,8 +12,13 @@ namespace {
 
 /// Rows of a motion, rings of the flank and of each round end.
 constexpr int kRows = 33, kRings = 7, kCaps = 3;
+/// Rings of a slender tool are so many radii apart, up to so many: an edge that it meets between two would not be seen.
+constexpr double kRingsApart = 3.0;
+constexpr int kMostRings = 31;
 /// The engagement that a search aims at is at least so much below the limit, radians: what lies between rows.
 constexpr double kSearchMargin = 0.004;
+/// Of the limit: who saw nothing where the fine samples saw much would aim at nothing.
+constexpr double kMostExcess = 0.5;
 /// In radii: shorter than this no step is one, and shorter than this another shape is looked for.
 constexpr double kLeastStep = 0.004, kShortStep = 0.06;
 /// So many radii before and behind the sides places are paired; farther out both ends go equally fast.
@@ -77,7 +82,7 @@ CycleSearch::CycleSearch(const LayerSides& sides, const HalfGuard& guard, SweptS
       stock_(stock),
       options_(options),
       meter_(stock),
-      rings_(tool_rings(stock.radial(), kRings, kCaps)),
+      rings_(tool_rings(stock.radial(), ring_count(stock.radial(), kRingsApart, kRings, kMostRings), kCaps)),
       pairing_(sides.from, sides.to, kBeyond * stock.profile().largest()),
       radius_(stock.profile().largest()) {
   reset_shape();
@@ -102,7 +107,9 @@ void CycleSearch::refuse(double step_mm, double largest_rad) {
   if (refused_.largest_rad == 0.0 || largest_rad < refused_.largest_rad) refused_ = {step_mm, largest_rad};
 }
 
-double CycleSearch::aim() const { return options_.largest_rad - std::max(kSearchMargin, now_.excess_rad); }
+double CycleSearch::aim() const {
+  return options_.largest_rad - std::clamp(now_.excess_rad, kSearchMargin, kMostExcess * options_.largest_rad);
+}
 
 double CycleSearch::gap_at(const Trial& t) const {
   const double middle = 0.5 * sides_.from.axis_length();

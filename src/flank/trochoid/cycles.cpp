@@ -25,6 +25,8 @@ constexpr int kFineRows = 101, kFineRings = 61, kCaps = 15;
 /// many times.
 constexpr double kFarOut = 4.0;
 constexpr int kMostDoublings = 5;
+/// By which it is moved out, in radii, at first, where fine samples see that it cuts too much.
+constexpr double kBackOff = 0.1;
 /// Of the largest front's volume: a front behind the end that takes less is the last.
 constexpr double kNothing = 1e-3;
 /// Of what the fine samples saw more than those of the search, this share is expected of the next cycle, if it sees less:
@@ -92,8 +94,10 @@ class CyclePlanner {
   /// The trial, or one with a smaller aim where its fine measure is above the limit; none that enters a face, unless the
   /// trial does.
   [[nodiscard]] bool accept_some(Trial trial, bool entering, LayerCycles& out);
-  /// The first front, before the blank.
+  /// The first front, before the blank: as near as it cuts nothing.
   [[nodiscard]] Trial placed_first();
+  /// The same, farther out for as long as the fine samples see more than the limit.
+  [[nodiscard]] bool accept_first(LayerCycles& out);
   void begin_with(const FirstFront& first, LayerCycles& out);
   /// The next cycle; false where none gets on. `now_` is then in some state between.
   [[nodiscard]] bool add_cycle(LayerCycles& out);
@@ -222,6 +226,20 @@ Trial CyclePlanner::placed_first() {
   return first;
 }
 
+bool CyclePlanner::accept_first(LayerCycles& out) {
+  Trial first = placed_first();
+  const double farthest = now_.last.from_x;
+  // An edge of the blank may lie between the rings of the search, and on it a slender tool is in deep at once.
+  for (double back = kBackOff * search_.radius(); !accept(first, out); back *= 2.0) {
+    if (first.from_x <= farthest) return false;
+    now_.last.from_x = std::max(farthest, first.from_x - back);
+    now_.last.to_x = search_.across(now_.last.from_x);
+    now_.excess_rad = 0.0;
+    first = search_.tried(0.0, true);
+  }
+  return true;
+}
+
 bool CyclePlanner::add_cycle(LayerCycles& out) {
   Trial best = search_.best(options_.optimise() && out.cycles.size() >= plain_until_);
   if (best.largest_rad < 0.0) return false;
@@ -293,8 +311,8 @@ LayerCycles CyclePlanner::run(const std::optional<FirstFront>& first, const Prog
   before_.push_back(now_);
   if (first)
     begin_with(*first, out);
-  else if (!accept(placed_first(), out))
-    out.status = CycleStatus::kStuck;
+  else if (!accept_first(out))
+    out.status = CycleStatus::kStuck, out.stuck = search_.refused();
   out_ = std::max(2.0 * search_.radius(), -now_.last.from_x + 2.0 * search_.radius());
   const double whole = sides_.from.length() + 4.0 * search_.radius();
   double farthest_x = -std::numeric_limits<double>::infinity();

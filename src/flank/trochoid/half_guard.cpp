@@ -1,6 +1,7 @@
 #include "flank/trochoid/half_guard.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -55,12 +56,22 @@ GuardDepth HalfGuard::depth(const RuledMotion& motion, int times, int places) co
     if (here.deepest() > deepest) deepest = here.deepest(), at = i;
     out.add(here);
   }
-  // The deepest place lies between the samples: once more around the deepest of them.
+  if (at < 0) return out;
+  // The deepest place lies between the samples: once more around the deepest of them, and where a parabola through the deepest
+  // three of those has its peak. Without that a back that turned before a wall was a third of the tolerance deeper in it.
   constexpr int kCloser = 4;
-  for (int k = 1 - kCloser; at >= 0 && k < kCloser; ++k) {
-    const double i = std::clamp(at + static_cast<double>(k) / kCloser, 0.0, times - 1.0);
-    look(motion.pose(time(i)), 2 * places - 1, out);
-  }
+  std::array<double, 2 * kCloser + 1> depths{};
+  const auto closer = [&](double k) {
+    GuardDepth here;
+    look(motion.pose(time(std::clamp(at + k / kCloser, 0.0, times - 1.0))), 2 * places - 1, here);
+    out.add(here);
+    return here.deepest();
+  };
+  for (int k = -kCloser; k <= kCloser; ++k) depths[static_cast<std::size_t>(k + kCloser)] = closer(k);
+  const auto peak = std::max_element(depths.begin() + 1, depths.end() - 1);
+  const double before = *(peak - 1), after = *(peak + 1), bend = before - 2.0 * *peak + after;
+  if (bend < 0.0 && *peak >= std::max(before, after))
+    closer(static_cast<double>(peak - depths.begin()) - kCloser + 0.5 * (before - after) / bend);
   return out;
 }
 

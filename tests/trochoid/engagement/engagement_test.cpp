@@ -236,6 +236,19 @@ TEST(Engagement, TheSameAgainIsNothing) {
   EXPECT_LT(e.volume_mm3, 1e-3);
 }
 
+TEST(Engagement, WhereAnotherHalfHasEndedBeforeNothingIsLeft) {
+  // The side paths may be such that the second end of a front does not get on. Both last poses are then the same, and the
+  // profile that stands for the earlier one is rounded either way.
+  SweptStock stock(barrel(), {});
+  const AxisPlace to = place({1.0, 14.0, 1.0}, {-0.06, -0.1, 1.0}, {1.0, -0.04, 0.01}, {0.0, -0.003, 0.0});
+  const auto from = [](double x) { return place({x, 0.0, 0.0}, {0.05, 0.12, 1.0}, {1.0, 0.05, 0.0}, Vec3::Zero()); };
+  stock.add(Sweep::of(half_path(30.0, from(0.0), to.reversed(), {2.5, 2.0, 2.0, 0.0}), 48));
+  EngagementMeter meter(stock);
+  const RuledMotion next = half_path(30.0, from(0.3), to.reversed(), {2.5, 2.0, 2.0, 0.0});
+  const std::vector<ToolRing> rings = tool_rings(stock.radial(), 37, 0);
+  EXPECT_EQ(meter.measure(next, rings, 33).rows.back().angle_rad, 0.0);
+}
+
 TEST(Engagement, RefinedPeaksAreNotBelowTheRows) {
   SweptStock stock(barrel(), {});
   stock.add(Sweep::of(twisted_half(0.0), 48));

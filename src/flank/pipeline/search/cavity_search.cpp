@@ -160,7 +160,13 @@ CavityPlan search_ways(const TrochoidJob& job, const CavityFaces& faces, const T
   // What all cycles get past, but enters a face, is not the leans'.
   if (facing.program.done() && state_of(facing.sides, faces, job) != SideState::kShort) return facing;
   if (facing.program.stuck_along_axis()) return facing;
-  CavityPlan plain = planned(sides(false), job, faces, bound, kFewRewinds, progress);
+  SideFit as_they_come = sides(false);
+  // Cycles cannot make up for sides that cover no more, where the others' get through all of the way.
+  const double tolerance = job.tolerance_mm;
+  if (gets_through(facing, tolerance) && cleared(facing) == 1.0 &&
+      as_they_come.fit.after.score(tolerance) <= facing.sides.fit.after.score(tolerance))
+    return facing;
+  CavityPlan plain = planned(std::move(as_they_come), job, faces, bound, kFewRewinds, progress);
   return is_better(plain, facing, job.tolerance_mm) ? plain : facing;
 }
 

@@ -15,6 +15,10 @@ constexpr double kPi = std::numbers::pi;
 /// Arcs that are shorter than this between two poses may be the scallops between sampled poses: radians.
 constexpr double kSliver = 0.35;
 
+/// Of the largest radius: by so much more an earlier pose covers than it cuts. Halves that end at one place have one last pose,
+/// and what it left of a ring is its own outline, whichever way its radius is rounded.
+constexpr double kSame = 1e-7;
+
 /// Slope from which on a tool is leaning wherever the ring meets it (10 degrees), not beside its round ends alone.
 constexpr double kSteep = 0.18;
 
@@ -205,10 +209,10 @@ bool RowMeter::cut_by(std::size_t candidate, const ToolRing& ring, const Vec2& m
   if (d2 >= most * most || !matters(largest * largest)) return true;
   ToolProfile::Place place;
   if (!stock_.profile().at(c.h0 + ring.z * c.dh, place)) return true;
-  const double sum = ring.radius + place.radius, less = place.radius - ring.radius;
+  const double covers = place.radius + kSame * largest, sum = ring.radius + covers, less = covers - ring.radius;
   if (d2 >= sum * sum) return true;
   if (d2 <= less * less) return less < 0.0;
-  const double p2 = place.radius * place.radius;
+  const double p2 = covers * covers;
   if (!matters(p2)) return true;
   const double cosine = (ring.radius * ring.radius + d2 - p2) / (2.0 * ring.radius * std::sqrt(d2));
   const double width = std::acos(std::clamp(cosine, -1.0, 1.0)), at = std::atan2(o.y(), o.x());

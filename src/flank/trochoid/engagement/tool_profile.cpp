@@ -100,6 +100,11 @@ ToolRing ring_at(const RadialFunction& radial, double s) {
   return ring;
 }
 
+int ring_count(const RadialFunction& radial, double radii_apart, int least, int most) {
+  const double steps = std::ceil(radial.axis_length() / (radii_apart * radial.largest()));
+  return static_cast<int>(std::clamp(steps + 1.0, static_cast<double>(least), static_cast<double>(most)));
+}
+
 std::vector<ToolRing> tool_rings(const RadialFunction& radial, int count, int caps) {
   FLANK_ASSERT(count >= 2 && caps >= 0);
   std::vector<ToolRing> rings;

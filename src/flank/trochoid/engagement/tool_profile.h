@@ -49,6 +49,9 @@ struct ToolRing {
 /// the middles of equal steps on each round end.
 [[nodiscard]] std::vector<ToolRing> tool_rings(const RadialFunction& radial, int count, int caps);
 
+/// How many rings of the flank are no farther apart than so many of the largest radii: at least `least`, at most `most`.
+[[nodiscard]] int ring_count(const RadialFunction& radial, double radii_apart, int least, int most);
+
 /// The ring of one s, without area.
 [[nodiscard]] ToolRing ring_at(const RadialFunction& radial, double s);
 
