@@ -387,6 +387,24 @@ TEST(Polish, SettlingTakesACuspOutOfAMotionThatPlungesThere) {
   EXPECT_LE(steady.estimate.overcut_mm, kLoose);
 }
 
+TEST(Polish, TheWrittenPathSeesACuspBetweenAnyEvenPoses) {
+  const auto blade = standing_blade(0.0);
+  // The cone of the test before; the turn takes less than a thousandth of the way, in the middle between two of 640 poses.
+  constexpr int kPoles = 6400;
+  RuledMotion motion =
+      upright_motion({.y = 3.0, .z = -10.0, .x_first = -3.0, .x_last = 63.0, .length = 60.0, .control_points = kPoles});
+  for (int k = 0; k < kPoles; ++k) motion.direction.poles.col(k) = Vec3(0.0, 0.4, std::sqrt(1.0 - 0.16));
+  motion.tip.poles.col(kPoles / 2 + kPoles / 1280) += Vec3(0.0, 0.9, 20.0);
+  std::vector<Vec2> line;
+  for (int j = 0; j <= 24; ++j) line.emplace_back(2.5 * j, 3.0 + j);
+  const FitDraft draft = draft_of(*blade, motion, RadialFunction::spline_through(60.0, line, 6), true);
+  ASSERT_LT(touching_c(draft, 0.6, 640), 1.0);
+  EXPECT_GT(written_c(draft, 0.6), 1.0);
+  FitDraft none = draft;
+  none.motions.front().direction.poles.setZero();
+  EXPECT_EQ(written_c(none, 0.6), std::numeric_limits<double>::infinity());
+}
+
 TEST(Polish, SettlingSeesACuspBetweenThePosesThatRank) {
   const auto blade = standing_blade(0.0);
   FlankFitOptions options = small_options();

@@ -52,6 +52,29 @@ TEST(RunFit, HasABodyIfOneIsAskedForOrGiven) {
   EXPECT_TRUE(has_body(spec, {}));
 }
 
+/// A verdict on a face that is cut nowhere too deep.
+VerifyReport covered(double measured, double proved) {
+  VerifyReport report;
+  report.verdict = Verdict::kPass;
+  report.coverage_reachable = measured;
+  report.coverage_reachable_bound = proved;
+  return report;
+}
+
+TEST(RunFit, SearchesOnceMoreWhereAHairIsMissing) {
+  FitJob job;
+  job.strips = 0;
+  EXPECT_NEAR(spare_needed(job, covered(0.9913, 0.9895), 0.9940), 0.9940 - 0.9895, 1e-12) << "what is proved counts";
+  EXPECT_EQ(spare_needed(job, covered(0.9940, 0.9902), 0.9940), 0.0) << "nothing is missing";
+  EXPECT_EQ(spare_needed(job, covered(0.8, 0.79), 0.9940), 0.0) << "no strip more gives that";
+  EXPECT_EQ(spare_needed(job, covered(0.9895, 0.9890), 0.9880), 0.0) << "the search knew, and had tried all";
+  VerifyReport deep = covered(0.9913, 0.9895);
+  deep.verdict = Verdict::kOvercut;
+  EXPECT_EQ(spare_needed(job, deep, 0.9940), 0.0);
+  job.strips = 1;
+  EXPECT_EQ(spare_needed(job, covered(0.9913, 0.9895), 0.9940), 0.0) << "strips are as many as was asked";
+}
+
 TEST(RunFit, TellsTheFiguresOfAFit) {
   FlankFitResult fit;
   fit.candidates = 3;

@@ -219,8 +219,7 @@ Polished seen_closely(FitDraft draft, const std::vector<SurfaceSample>& samples,
   constexpr int kOften = 4;
   seen.estimate.gouge_mm =
       flank_gouge(seen.draft.motions, seen.draft.obstacles, seen.draft.tool, kOften * kRankingPoses, GougeLook::kClose);
-  // A cusp lasts for a few poses of a path, which lie closer than those that rank.
-  seen.estimate.largest_c = touching_c(seen.draft, options.tolerance_mm, kOften * kRankingPoses);
+  if (has_values(seen.draft)) seen.estimate.largest_c = written_c(seen.draft, options.tolerance_mm);
   seen.estimate.legitimate = !seen.draft.free_tool || check_legitimacy(seen.draft.tool).legitimate;
   return seen;
 }

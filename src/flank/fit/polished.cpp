@@ -3,28 +3,53 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "flank/base/parallel.h"
 #include "flank/base/tolerance_budget.h"
 #include "flank/envelope/path_regularity.h"
+#include "flank/error.h"
 #include "flank/fit/coverage.h"
 #include "flank/motion/stagger.h"
+#include "flank/motion/written_path.h"
 #include "flank/surface/ball_touch.h"
 
 namespace flank::internal {
 
+namespace {
+
+/// |c| of a motion that is joined straight from pose to pose, where it touches its target; at least `known`.
+double touching_c_of(const FitDraft& draft, std::size_t motion, std::span<const Pose> poses, double tolerance_mm,
+                     double known) {
+  const Touches touches = [&](const Vec3& centre, double ball_mm) {
+    return ball_touches({&draft.targets[motion], 1}, centre, ball_mm, tolerance_mm);
+  };
+  for (std::size_t i = 0; i + 1 < poses.size(); ++i)
+    known = largest_c(poses[i], poses[i + 1], draft.tool, touches, known);
+  return known;
+}
+
+}  // namespace
+
 double touching_c(const FitDraft& draft, double tolerance_mm, int poses) {
   double largest = 0.0;
+  std::vector<Pose> joined(static_cast<std::size_t>(poses) + 1);
   for (std::size_t m = 0; m < draft.motions.size(); ++m) {
-    const Touches touches = [&](const Vec3& centre, double ball_mm) {
-      return ball_touches({&draft.targets[m], 1}, centre, ball_mm, tolerance_mm);
-    };
-    Pose from = draft.motions[m].pose(0.0);
-    for (int i = 1; i <= poses; ++i) {
-      const Pose to = draft.motions[m].pose(static_cast<double>(i) / poses);
-      largest = largest_c(from, to, draft.tool, touches, largest);
-      from = to;
-    }
+    for (std::size_t i = 0; i < joined.size(); ++i) joined[i] = draft.motions[m].pose(static_cast<double>(i) / poses);
+    largest = touching_c_of(draft, m, joined, tolerance_mm, largest);
+  }
+  return largest;
+}
+
+double written_c(const FitDraft& draft, double tolerance_mm) {
+  const SamplingOptions written = written_path(tolerance_mm);
+  double largest = 0.0;
+  try {
+    for (std::size_t m = 0; m < draft.motions.size(); ++m)
+      largest = touching_c_of(draft, m, sample_motion(draft.motions[m], written).poses, tolerance_mm, largest);
+  } catch (const InternalError&) {  // a pass that went wrong leaves rails without a direction
+    return std::numeric_limits<double>::infinity();
   }
   return largest;
 }

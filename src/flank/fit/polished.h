@@ -13,6 +13,9 @@ inline constexpr int kRankingPoses = 160;
 
 /// Largest |c| where the flank touches its target, between this many poses of each motion and the next ones.
 [[nodiscard]] double touching_c(const FitDraft& draft, double tolerance_mm, int poses);
+/// The same of the motions as they will be written (motion/written_path.h): a cusp that lasts for a thousandth of a motion shows.
+/// Infinite for rails that cannot be.
+[[nodiscard]] double written_c(const FitDraft& draft, double tolerance_mm);
 
 /// Residuals far beyond this are outliers to a robust pass; mm.
 [[nodiscard]] double robust_scale(const Target& target, const FlankFitOptions& options);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <numbers>
 #include <optional>
 
 #include "flank/artefact/view.h"
@@ -10,6 +9,7 @@
 #include "flank/base/tolerance_budget.h"
 #include "flank/envelope.h"
 #include "flank/envelope/path_regularity.h"
+#include "flank/motion/written_path.h"
 #include "flank/path/bend_radius.h"
 #include "flank/pipeline/folder/judge_job.h"
 #include "flank/strip/used_times.h"
@@ -17,10 +17,6 @@
 
 namespace flank::internal {
 namespace {
-
-/// Between poses, of the path of any point of the axis: a control that joins them straight leaves corners of up to twice
-/// this, below 10 degrees.
-constexpr double kLargestTurn = 4.5 * std::numbers::pi / 180.0;
 
 /// The poses [first, last) of a range of times, and one more at each end.
 std::pair<std::size_t, std::size_t> poses_between(const std::vector<double>& t, const TimeRange& range) {
@@ -80,10 +76,7 @@ std::vector<StripSurface> add_strips(double tolerance_mm, const std::vector<cons
   const RadialFunction& radial = result.tool.radial;
   const std::vector<TimeRange> used = used_times(motions, radial, targets, tolerance_mm);
   for (std::size_t m = 0; m < motions.size(); ++m) {
-    SamplingOptions options;
-    options.chord_tolerance_mm = kToleranceBudget.chord * tolerance_mm;
-    options.largest_turn_rad = kLargestTurn;
-    const SampledMotion sampled = sample_motion(motions[m], options);
+    const SampledMotion sampled = sample_motion(motions[m], written_path(tolerance_mm));
     result.chord_bound_mm = std::max(result.chord_bound_mm, sampled.chord_bound_mm);
     Strip strip;
     strip.id = static_cast<int>(m) + 1;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "flank/artefact/acceptance.h"
 #include "flank/base/stopping.h"
 #include "flank/base/tolerance_budget.h"
 #include "flank/error.h"
@@ -87,6 +88,15 @@ StiffnessStep judged_step(const TriedTool& tool, const VerifyReport& verify) {
           .gouge_mm = verify.gouge_mm,
           .rms_mm = verify.rms_mm,
           .judged = true};
+}
+
+double spare_needed(const FitJob& job, const VerifyReport& verify, double estimate) {
+  constexpr double kLittle = 0.02;  // of the face
+  const double proved = verify.coverage_reachable_bound.value_or(verify.coverage_reachable);
+  const double missing = job.judge.least_coverage - proved;
+  const bool only_that = verify.verdict == Verdict::kPass && missing > 0.0 && missing < kLittle;
+  const bool open = job.strips == 0 && !job.start && !job.guide;
+  return only_that && open ? std::max(0.0, estimate - proved) : 0.0;
 }
 
 }  // namespace flank::internal
@@ -229,6 +239,41 @@ void judge_fit(const Setup& setup, const ClearanceScene& scene, FitSearch& searc
   }
 }
 
+/// A search and its verdict. `read`: what is known before.
+Result search_and_judge(const Setup& setup, const ClearanceScene& scene, const ToolSpec& spec, Result read,
+                        double spare_coverage, const Progress& progress, double& estimate) {
+  const FitJob job = std::get<FitJob>(read.job);
+  Result result = std::move(read);
+  Stopwatch watch(result);
+  // What follows the search takes a share of the progress each.
+  const double judged_at = job.stiffness_curve ? 0.5 : 0.9;
+  FitSearch search = search_fit(job, setup, spec, progress.part(0.0, judged_at), spare_coverage);
+  if (search.fit.motions.empty()) stop_here();  // nothing takes the place of an earlier result
+  if (spec.free && !stopping()) lift_shank(job, scene, search.fit, result.notes);
+  take_fit(search, result);
+  result.complete = !progress.stop();
+  watch.lap("fit");
+  estimate = search.fit.after.at_tolerance;
+
+  progress.step("verify", judged_at);
+  judge_fit(setup, scene, search, result, watch);
+  add_stiffness(setup, search, progress.part(judged_at + 0.1, 1.0), result);
+  if (job.stiffness_curve) watch.lap("stiffness curve");
+  return result;
+}
+
+/// The progress of the same search once more: its finished steps are taken from the journal.
+Progress once_more(const Progress& progress) {
+  Progress again = progress;
+  again.journal = std::make_shared<Progress::Journal>(*progress.journal->key(), progress.journal->steps(), "");
+  return again;
+}
+
+bool passes(const Result& result) {
+  const auto& job = std::get<FitJob>(result.job);
+  return accept(result.tool, result.verify, job.judge.least_coverage, result.complete).reasons.empty();
+}
+
 }  // namespace
 
 Result run_fit(const FitJob& job, const Progress& asked) {
@@ -248,19 +293,14 @@ Result run_fit(const FitJob& job, const Progress& asked) {
   watch.lap("read");
   stop_here();
 
-  // What follows the search takes a share of the progress each.
-  const double judged_at = job.stiffness_curve ? 0.5 : 0.9;
-  FitSearch search = search_fit(job, setup, spec, progress.part(0.0, judged_at));
-  if (search.fit.motions.empty()) stop_here();  // nothing takes the place of an earlier result
-  if (spec.free && !stopping()) lift_shank(job, scene, search.fit, result.notes);
-  take_fit(search, result);
-  result.complete = !progress.stop();
-  watch.lap("fit");
-
-  progress.step("verify", judged_at);
-  judge_fit(setup, scene, search, result, watch);
-  add_stiffness(setup, search, progress.part(judged_at + 0.1, 1.0), result);
-  if (job.stiffness_curve) watch.lap("stiffness curve");
+  double estimate = 0.0;
+  const Result read = result;
+  result = search_and_judge(setup, scene, spec, read, 0.0, progress, estimate);
+  const double spare = result.complete ? spare_needed(job, result.verify, estimate) : 0.0;
+  if (spare > 0.0) {
+    Result stricter = search_and_judge(setup, scene, spec, read, spare, once_more(progress), estimate);
+    if (passes(stricter)) result = std::move(stricter);
+  }
   if (!result.complete) result.journal = progress.journal;
   return result;
 }

@@ -28,4 +28,8 @@ void check_radius(const RadiusRequest& radius);
 /// What the judge found of a tool.
 [[nodiscard]] StiffnessStep judged_step(const TriedTool& tool, const VerifyReport& verify);
 
+/// What the estimate, a share of the target, should have promised beyond the demand, where the judge proves a little less than that
+/// to be covered, finds nothing else, and a strip more may do it; 0: that is not what is wrong.
+[[nodiscard]] double spare_needed(const FitJob& job, const VerifyReport& verify, double estimate);
+
 }  // namespace flank::internal

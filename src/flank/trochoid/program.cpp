@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "flank/base/tolerance_budget.h"
+#include "flank/motion/written_path.h"
 #include "flank/trochoid/blank.h"
 #include "flank/trochoid/retract.h"
 #include "flank/trochoid/run_out.h"
@@ -15,7 +16,6 @@ namespace {
 constexpr int kSideRows = 201, kSideRings = 21;
 /// Way before and behind the sides, in the tool's radii: there the tool is out of the blank.
 constexpr double kRunOut = 1.5;
-constexpr double kLargestTurn = 4.5 * std::numbers::pi / 180.0;
 
 /// Of the radius: run-outs that enter a face deeper than this end at a wall.
 constexpr double kWall = 0.2;

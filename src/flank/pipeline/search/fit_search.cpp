@@ -92,13 +92,19 @@ FlankFitOptions options_of(const FitJob& job, const Setup& setup, const Target& 
   return options;
 }
 
+/// The estimate that promises what was asked: the judge is stricter than it, and what is proved to be covered is less than what
+/// is covered.
+double wanted_estimate(const FitJob& job, double spare_coverage) {
+  constexpr double kLeastEstimate = 0.97;
+  constexpr double kToProve = 0.003, kMost = 0.95;  // of the face; of what may be missing
+  const double least = job.judge.least_coverage, may_miss = 1.0 - least;
+  const double spare = std::max(std::min(kToProve, 0.5 * may_miss), std::min(spare_coverage, kMost * may_miss));
+  return std::max(least + spare, kLeastEstimate);
+}
+
 /// Covers what was asked, by the planner's estimate, enters nothing and does not plunge.
-bool is_done(const FlankFitResult& result, double least_coverage, double tolerance_mm) {
-  constexpr double kLeastEstimate = 0.97;  // the judge is stricter than the estimate
-  constexpr double kToProve = 0.003;  // of the face: what is covered and what is proved to be covered differ so much
-  const double wanted = least_coverage + std::min(kToProve, 0.5 * (1.0 - least_coverage));
-  return result.after.at_tolerance >= std::max(wanted, kLeastEstimate) && is_clean(result.after, tolerance_mm) &&
-         result.after.largest_c < 1.0;
+bool is_done(const FlankFitResult& result, double wanted, double tolerance_mm) {
+  return result.after.at_tolerance >= wanted && is_clean(result.after, tolerance_mm) && result.after.largest_c < 1.0;
 }
 
 /// Keeps the better of two results, and what was tried for both; one without a motion is none.
@@ -110,7 +116,7 @@ void keep_better(FlankFitResult& best, FlankFitResult&& other, const FlankFitOpt
 
 /// One group with as many strips as its tolerance needs: a strip more as long as that is not met, and gains something or
 /// promises to.
-FlankFitResult fit_auto(const Target& target, const ToolModel& tool, FlankFitOptions options, double least_coverage,
+FlankFitResult fit_auto(const Target& target, const ToolModel& tool, FlankFitOptions options, double wanted,
                         const Progress& progress) {
   /// Of the face, before the last passes, which rarely gain more than a tenth: a strip more is tried instead.
   constexpr double kPromising = 0.85;
@@ -126,9 +132,9 @@ FlankFitResult fit_auto(const Target& target, const ToolModel& tool, FlankFitOpt
     // They cost as much as all before, and one strip more leads no axis out of another face.
     if (result.other_ways == OtherWays::kHopeless) options.ways = false;
     keep_better(best, std::move(result), options);
-    if (is_done(best, least_coverage, options.tolerance_mm) || !gain.goes_on(best) || progress.stop()) break;
+    if (is_done(best, wanted, options.tolerance_mm) || !gain.goes_on(best) || progress.stop()) break;
   }
-  if (!options.ways && !is_done(best, least_coverage, options.tolerance_mm) && !progress.stop()) {
+  if (!options.ways && !is_done(best, wanted, options.tolerance_mm) && !progress.stop()) {
     options.strips = std::max<int>(1, static_cast<int>(best.motions.size()));
     options.ways = true;
     keep_better(best, fit_automatic(target, tool, options, progress.part(1.0 - rest, 1.0)), options);
@@ -142,9 +148,9 @@ FlankFitResult fit_auto(const Target& target, const ToolModel& tool, FlankFitOpt
 /// One group: with the strips that were asked for, or with those that the tolerance needs (0). A strip more must not make
 /// it worse: where several do not give what was asked, one is tried, too. Last, the bounds on stiffness give way.
 FlankFitResult fit_group(const Target& target, const ToolModel& tool, FlankFitOptions options, int strips,
-                         double least_coverage, const Progress& progress) {
+                         double wanted, const Progress& progress) {
   const auto done = [&](const FlankFitResult& result) {
-    return is_done(result, least_coverage, options.tolerance_mm) || progress.stop();
+    return is_done(result, wanted, options.tolerance_mm) || progress.stop();
   };
   const double share = reachable_share(target, options);
   if (share < kHardlyAny) {
@@ -157,7 +163,7 @@ FlankFitResult fit_group(const Target& target, const ToolModel& tool, FlankFitOp
   constexpr double kFirst = 0.6, kSoften = 0.7;
   const Progress first = progress.part(0.0, kFirst);
   FlankFitResult best =
-      strips > 0 ? fit_automatic(target, tool, options, first) : fit_auto(target, tool, options, least_coverage, first);
+      strips > 0 ? fit_automatic(target, tool, options, first) : fit_auto(target, tool, options, wanted, first);
   if (strips > 1 && !done(best)) {
     options.strips = 1;
     keep_better(best, fit_automatic(target, tool, options, progress.part(kFirst, kSoften)), options);
@@ -182,7 +188,8 @@ void fit_groups(const FitJob& job, FitSearch& search, const ToolModel& tool, con
     // The polish of all together comes after the groups.
     const double parts = static_cast<double>(search.targets.size() > 1 ? search.targets.size() + 1 : 1);
     const Progress part = progress.part(static_cast<double>(g) / parts, static_cast<double>(g + 1) / parts);
-    FlankFitResult result = fit_group(target, shared, own, job.strips, job.judge.least_coverage, part);
+    FlankFitResult result =
+        fit_group(target, shared, own, job.strips, wanted_estimate(job, search.spare_coverage), part);
     for (const RuledMotion& motion : result.motions) {
       tasks.push_back({&target, motion, own.obstacles});
       search.group_of_motion.push_back(g);
@@ -231,8 +238,9 @@ void fit_ball_to_slot(const FitJob& job, FitSearch& search) {
 }
 
 /// A side of the part before anything is fitted: its groups, the obstacles that lie there, and what is asked.
-FitSearch begin_side(const FitJob& job, const Setup& setup, const ToolModel& tool, int side) {
+FitSearch begin_side(const FitJob& job, const Setup& setup, const ToolModel& tool, int side, double spare_coverage) {
   FitSearch search;
+  search.spare_coverage = spare_coverage;
   search.targets = make_targets(setup, side);
   search.tool = tool;
   search.options = options_of(job, setup, *search.targets.front().target, tool.free());
@@ -283,9 +291,9 @@ struct SheetSide {
   double reachable = 1.0;  ///< share of the group's area
 };
 
-SheetSide look_at_side(const FitJob& job, const Setup& setup, const ToolModel& tool, int side) {
+SheetSide look_at_side(const FitJob& job, const Setup& setup, const ToolModel& tool, int side, double spare_coverage) {
   SheetSide look;
-  look.search = begin_side(job, setup, tool, side);
+  look.search = begin_side(job, setup, tool, side, spare_coverage);
   const TargetGroup& group = look.search.targets.front();
   look.options = look.search.options;
   look.options.obstacles = group.obstacles.get();
@@ -308,9 +316,11 @@ int side_in_the_open(const SheetSide& plus, const SheetSide& minus) {
 
 /// A sheet can be machined from either side: from the one in the open, if one is; else first from the one that promises
 /// more. From the other, too, where that one does not give what was asked and the other is not far behind.
-FitSearch search_sheet(const FitJob& job, const Setup& setup, const ToolModel& tool, const Progress& progress) {
+FitSearch search_sheet(const FitJob& job, const Setup& setup, const ToolModel& tool, double spare_coverage,
+                       const Progress& progress) {
   constexpr double kNotFar = 0.3;  // of the score, about a share of coverage
-  SheetSide above = look_at_side(job, setup, tool, +1), below = look_at_side(job, setup, tool, -1);
+  SheetSide above = look_at_side(job, setup, tool, +1, spare_coverage);
+  SheetSide below = look_at_side(job, setup, tool, -1, spare_coverage);
   const auto search = [&](int side, const Progress& part) {
     return search_side(job, std::move((side > 0 ? above : below).search), {}, part);
   };
@@ -326,7 +336,8 @@ FitSearch search_sheet(const FitJob& job, const Setup& setup, const ToolModel& t
   const double minus = scout(below, tool, progress.part(0.1, 0.2));
   int side = plus >= minus ? +1 : -1;
   FitSearch best = search(side, progress.part(0.2, 0.8));
-  const bool done = is_done(best.fit, job.judge.least_coverage, job.tolerance_mm) || progress.stop();
+  const double wanted = wanted_estimate(job, best.spare_coverage);
+  const bool done = is_done(best.fit, wanted, job.tolerance_mm) || progress.stop();
   if (done || std::abs(plus - minus) > kNotFar) {
     best.fit.notes.push_back(fmt::format("open sheet: side {} was chosen, which promises more", side > 0 ? "+" : "-"));
     return best;
@@ -352,13 +363,15 @@ std::vector<FitTask> FitSearch::tasks() const {
   return tasks;
 }
 
-FitSearch search_fit(const FitJob& job, const Setup& setup, const ToolSpec& spec, const Progress& progress) {
+FitSearch search_fit(const FitJob& job, const Setup& setup, const ToolSpec& spec, const Progress& progress,
+                     double spare_coverage) {
   const UserStart start = user_start(job);
   const ToolModel tool = make_tool_model(spec, job.tool.axis_length_mm);
-  if (is_sheet(setup) && !job.part.side && !start.given()) return search_sheet(job, setup, tool, progress);
+  if (is_sheet(setup) && !job.part.side && !start.given())
+    return search_sheet(job, setup, tool, spare_coverage, progress);
   const bool by_start = is_sheet(setup) && !job.part.side;
   const int side = by_start ? side_of_start(job, setup, start) : job.part.side.value_or(+1);
-  return search_side(job, begin_side(job, setup, tool, side), start, progress);
+  return search_side(job, begin_side(job, setup, tool, side, spare_coverage), start, progress);
 }
 
 }  // namespace flank::internal

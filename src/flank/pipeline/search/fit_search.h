@@ -19,14 +19,16 @@ struct FitSearch {
   std::vector<std::size_t> group_of_motion;  ///< index into targets
   std::optional<double> reach_radius_mm;     ///< of the ball that a free tool was asked to reach with
   double open_share = 1.0;                   ///< of the first group's area, that the demanded ball reaches
+  double spare_coverage = 0.0;               ///< as search_fit was given it
   ToolModel tool;                            ///< what was known of the tool
   FlankFitOptions options;                   ///< of the fits, but for their strips
   /// The motions that were found, each on its target, to go on from.
   [[nodiscard]] std::vector<FitTask> tasks() const;
 };
 
-/// Searches. `spec`: the job's tool. Throws UsageError and InputError.
+/// Searches. `spec`: the job's tool. `spare_coverage`: what the estimate has to promise beyond the demand before the search is
+/// done, where a judge has seen that much less. Throws UsageError and InputError.
 [[nodiscard]] FitSearch search_fit(const FitJob& job, const Setup& setup, const ToolSpec& spec,
-                                   const Progress& progress);
+                                   const Progress& progress, double spare_coverage = 0.0);
 
 }  // namespace flank::internal
