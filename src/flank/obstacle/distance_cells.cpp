@@ -152,7 +152,11 @@ std::unique_ptr<DistanceCells::Cell> DistanceCells::make(const Cube& cube, std::
   }
   const bool good = std::abs(interpolated - known) <= error_mm_, last = cube.level == kLevels;
   cell->kind = good ? Cell::Kind::kInterpolates : last ? Cell::Kind::kExact : Cell::Kind::kSplit;
-  if (!good) cell->corners.clear();
+  // There are a million cells about a large part: each keeps what it will be asked for, and no room for more.
+  if (!good) cell->corners = {};
+  cell->corners.shrink_to_fit();
+  if (cell->kind != Cell::Kind::kSplit) cell->faces = {};
+  cell->faces.shrink_to_fit();
   return cell;
 }
 

@@ -57,8 +57,8 @@ GuardDepth HalfGuard::depth(const RuledMotion& motion, int times, int places) co
     out.add(here);
   }
   if (at < 0) return out;
-  // The deepest place lies between the samples: once more around the deepest of them, and where a parabola through the deepest
-  // three of those has its peak. Without that a back that turned before a wall was a third of the tolerance deeper in it.
+  // The deepest place lies between the samples (where a half turns back before a wall): once more around the deepest of them, and
+  // where a parabola through the deepest three of those has its peak.
   constexpr int kCloser = 4;
   std::array<double, 2 * kCloser + 1> depths{};
   const auto closer = [&](double k) {
