@@ -87,6 +87,10 @@ TEST(CavityNotes, WhereCyclesGotStuckTheLimitThatGetsPastIsTold) {
   layer.share = 0.9;
   std::vector<std::string> notes;
   note_what_is_open({}, program, notes);
+  EXPECT_NE(notes.at(0).find("no first front before the blank keeps to 60 degrees"), std::string::npos) << notes[0];
+  layer.cycles.cycles.emplace_back();
+  notes.clear();
+  note_what_is_open({}, program, notes);
   ASSERT_EQ(notes.size(), 3u);
   EXPECT_NE(notes[0].find("0.0121 mm, engages 61.30; --max-engagement 62"), std::string::npos) << notes[0];
   EXPECT_NE(notes[1].find("the rest is left"), std::string::npos) << notes[1];
