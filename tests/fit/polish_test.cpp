@@ -9,6 +9,7 @@
 
 #include "fit/flat_scene.h"
 #include "flank/fit/coverage.h"
+#include "flank/fit/partial_polish.h"
 #include "flank/threads.h"
 #include "sanitized.h"
 #include "seed/exact_targets.h"
@@ -385,6 +386,27 @@ TEST(Polish, SettlingTakesACuspOutOfAMotionThatPlungesThere) {
   EXPECT_LT(steady.estimate.largest_c, 1.0);
   EXPECT_GT(steady.estimate.at_tolerance, 0.99);
   EXPECT_LE(steady.estimate.overcut_mm, kLoose);
+}
+
+TEST(Polish, AFirmPassLeadsOutOfACutWithoutPlungingAgain) {
+  if (kSanitized) GTEST_SKIP() << "passes of 48 control points";
+  const auto blade = standing_blade(0.0);
+  FlankFitOptions options = small_options();
+  options.bounds = {2.0, 30.0, 0.5};
+  options.tolerance_mm = 0.6;
+  RuledMotion motion =
+      upright_motion({.y = 3.0, .z = -10.0, .x_first = -3.0, .x_last = 63.0, .length = 60.0, .control_points = 48});
+  for (int k = 0; k < motion.direction.count(); ++k) motion.direction.poles.col(k) = Vec3(0.0, 0.4, std::sqrt(0.84));
+  motion.tip.poles.col(24) += Vec3(0.0, 0.9, 20.0);
+  std::vector<Vec2> line;
+  for (int j = 0; j <= 24; ++j) line.emplace_back(2.5 * j, 3.0 + j);
+  const FitDraft draft = draft_of(*blade, motion, RadialFunction::spline_through(60.0, line, 6), true);
+  const auto c_after = [&](double steadiness) {
+    return written_c(pass_at(draft, {}, options, 1.0, 1.0, steadiness), options.tolerance_mm);
+  };
+  const double loose = c_after(1.0), firm = c_after(1000.0);
+  EXPECT_GT(loose, 0.9) << "other passes leave it near plunging";
+  EXPECT_LT(firm, 0.8 * loose);
 }
 
 TEST(Polish, TheWrittenPathSeesACuspBetweenAnyEvenPoses) {

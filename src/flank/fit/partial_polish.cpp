@@ -62,12 +62,14 @@ Polished partial_polish(const Polished& polished, const std::vector<SurfaceSampl
 }
 
 FitDraft pass_at(const FitDraft& draft, const std::vector<Vec3>& deep, const FlankFitOptions& options, double firmness,
-                 double covered) {
+                 double covered, double steadiness) {
   const SweptPass& pass = options.partial_passes && covered < kAllButCovered ? kHold : kDense;
   std::vector<FacePoint> points = points_with(deep, draft, options, pass.points_per_side);
   FitStage stage = swept_stage(pass, options, draft.targets.front()->diagonal());
   stage.bounds_at_knots = true;
   stage.clear_weight *= firmness;
+  stage.plunge_weight *= steadiness;
+  stage.lag_weight *= steadiness;
   if (firmness > 1.0) stage.clear_stride = 1;
   return run_swept(draft, options.bounds, stage, std::move(points), nullptr);
 }

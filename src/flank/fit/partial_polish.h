@@ -18,8 +18,9 @@ namespace flank::internal {
 /// passes see 2,500 points, a last look many more): they join the points. A free tool's bounds are asked at its knots,
 /// too. `firmness` >= 1: weight of what other faces are entered by, in that of other passes; above 1 every sample asks for
 /// them. `covered`: the share that the draft covers; if that is not nearly all, the pass gives up what is beyond the
-/// tolerance. Not assessed: by which samples it is measured is for the caller to say.
+/// tolerance. `steadiness` >= 1: weight of what plunges and of what lags, in that of other passes. Not assessed: by which
+/// samples it is measured is for the caller to say.
 [[nodiscard]] FitDraft pass_at(const FitDraft& draft, const std::vector<Vec3>& deep, const FlankFitOptions& options,
-                               double firmness, double covered);
+                               double firmness, double covered, double steadiness = 1.0);
 
 }  // namespace flank::internal

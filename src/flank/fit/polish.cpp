@@ -224,8 +224,9 @@ Polished seen_closely(FitDraft draft, const std::vector<SurfaceSample>& samples,
   return seen;
 }
 
-/// A fit that the last look finds a little deeper than allowed, led out of what it cuts.
-Polished mended(const Polished& polished, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
+/// A fit that the last look finds a little deeper than allowed, led out of what it cuts. `steadiness`: as pass_at has it.
+Polished mended(const Polished& polished, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options,
+                double steadiness = 1.0) {
   constexpr int kMost = 3;          // times: each brings places that the one before has made deep
   constexpr double kFirmer = 10.0;  // each time: what a soft term leaves goes with its weight
   const double tolerance = options.tolerance_mm;
@@ -236,12 +237,25 @@ Polished mended(const Polished& polished, const std::vector<SurfaceSample>& samp
     const std::vector<Vec3> deep = cut_deeper_than(kToleranceBudget.fit.settled_overcut * tolerance, samples,
                                                    best.draft.motions, best.draft.tool, kRankingPoses);
     if (best.estimate.gouge_mm > kToleranceBudget.fit.clean * tolerance) firmness *= kFirmer;
-    Polished trial =
-        seen_closely(pass_at(best.draft, deep, options, firmness, best.estimate.at_tolerance), samples, options);
+    Polished trial = seen_closely(pass_at(best.draft, deep, options, firmness, best.estimate.at_tolerance, steadiness),
+                                  samples, options);
     if (!is_better(trial.estimate, best.estimate, tolerance)) return best;
     best = std::move(trial);
   }
   return best;
+}
+
+/// What steadying cost of coverage, regained as far as a few more passes do without plunging again.
+Polished regained(Polished steady, double covered, double steadiness, const std::vector<SurfaceSample>& samples,
+                  const FlankFitOptions& options) {
+  constexpr int kMost = 3;
+  for (int k = 0; k < kMost && steady.estimate.at_tolerance < covered && !stopping(); ++k) {
+    const FitDraft draft = pass_at(steady.draft, {}, options, 1.0, steady.estimate.at_tolerance, steadiness);
+    Polished more = mended(seen_closely(draft, samples, options), samples, options, steadiness);
+    if (!is_better(more.estimate, steady.estimate, options.tolerance_mm)) break;
+    steady = std::move(more);
+  }
+  return steady;
 }
 
 /// A fit that plunges where it touches, led into a motion that does not, where that costs no more than plunging does: a
@@ -253,9 +267,10 @@ Polished steadied(const Polished& polished, const std::vector<SurfaceSample>& sa
   for (const double firmness : kFirmness) {
     if (stopping()) break;
     Polished trial = seen_closely(steady_pass(polished.draft, options, firmness), samples, options);
-    trial = mended(trial, samples, options);
+    // Led out of what it cuts with the weights of other passes, it would plunge again.
+    trial = mended(trial, samples, options, firmness);
     if (trial.estimate.largest_c < 1.0 && is_better(trial.estimate, polished.estimate, options.tolerance_mm))
-      return trial;
+      return regained(std::move(trial), polished.estimate.at_tolerance, firmness, samples, options);
   }
   return polished;
 }
