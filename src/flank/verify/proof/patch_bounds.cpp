@@ -183,7 +183,7 @@ PatchBounds patch_bounds(const BSplineSurface& s, const Rectangle& where) {
 
 void control_points(const BSplineSurface& s, const Rectangle& where, std::vector<Vec3>& points) {
   points.clear();
-  const Vec3 origin = s.pole(0, 0);
+  const Vec3& origin = s.pole(0, 0);
   Net net;
   net_of(s, where, origin, net);
   if (!(net.least_weight() > 0.0)) return;
