@@ -103,18 +103,12 @@ class FaceShape final : public Shape {
 
   [[nodiscard]] bool hull(const Cell& cell, std::vector<Vec3>& points) const override {
     points.clear();
-    std::vector<Vec3> more;
-    const bool all = in_pieces({{cell.at[0], cell.at[2]}, {cell.at[1], cell.at[3]}}, [&](const Rectangle& piece) {
-      control_points(s_, piece, more);
-      points.insert(points.end(), more.begin(), more.end());
-      return !more.empty();
-    });
-    return all && !points.empty();
+    return in_pieces(where_of(cell), [&](const Rectangle& piece) { return add_control_points(s_, piece, points); });
   }
 
   [[nodiscard]] double area_bound(const Cell& cell) const override {
     double sum = 0.0;
-    const bool all = in_pieces({{cell.at[0], cell.at[2]}, {cell.at[1], cell.at[3]}}, [&](const Rectangle& piece) {
+    const bool all = in_pieces(where_of(cell), [&](const Rectangle& piece) {
       sum += piece_area_bound(piece);
       return true;
     });
@@ -122,6 +116,8 @@ class FaceShape final : public Shape {
   }
 
  private:
+  static Rectangle where_of(const Cell& cell) { return {{cell.at[0], cell.at[2]}, {cell.at[1], cell.at[3]}}; }
+
   void add_frame(const Rectangle& r) {
     const std::array<Vec2, 4> corners{r.low, Vec2(r.high.x(), r.low.y()), r.high, Vec2(r.low.x(), r.high.y())};
     for (std::size_t k = 0; k < 4; ++k) curves_.push_back(line_between(corners[k], corners[(k + 1) % 4]));
@@ -172,7 +168,7 @@ class FaceShape final : public Shape {
   [[nodiscard]] bool holds(const Vec2& place) const { return !trimmed_ || border_->inside(place); }
 
   [[nodiscard]] Probe look_at_patch(Cell& cell) const {
-    const Rectangle where{{cell.at[0], cell.at[2]}, {cell.at[1], cell.at[3]}};
+    const Rectangle where = where_of(cell);
     if (!cell.inside) {
       const Side side = border_->side(where);
       if (side == Side::kOutside) return {.empty = true};

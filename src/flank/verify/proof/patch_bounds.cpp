@@ -181,13 +181,13 @@ PatchBounds patch_bounds(const BSplineSurface& s, const Rectangle& where) {
   return out;
 }
 
-void control_points(const BSplineSurface& s, const Rectangle& where, std::vector<Vec3>& points) {
-  points.clear();
+bool add_control_points(const BSplineSurface& s, const Rectangle& where, std::vector<Vec3>& points) {
   const Vec3& origin = s.pole(0, 0);
   Net net;
   net_of(s, where, origin, net);
-  if (!(net.least_weight() > 0.0)) return;
+  if (!(net.least_weight() > 0.0)) return false;
   for (const Eigen::Vector4d& p : net.all()) points.emplace_back(origin + p.head<3>() / p.w());
+  return true;
 }
 
 PatchBounds loose_bounds(const BSplineSurface& s, const Rectangle& where) {

@@ -30,9 +30,9 @@ struct PatchBounds {
 [[nodiscard]] bool one_piece(const BSplineSurface& surface, const Rectangle& where);
 /// Bounds over a rectangle inside one knot span.
 [[nodiscard]] PatchBounds patch_bounds(const BSplineSurface& surface, const Rectangle& where);
-/// The control points over a rectangle inside one knot span, whose convex hull holds the patch; none where a weight is not
-/// positive.
-void control_points(const BSplineSurface& surface, const Rectangle& where, std::vector<Vec3>& points);
+/// Adds the control points over a rectangle inside one knot span, whose convex hull holds the patch; false, and none, where a
+/// weight is not positive.
+[[nodiscard]] bool add_control_points(const BSplineSurface& surface, const Rectangle& where, std::vector<Vec3>& points);
 /// A ball around any rectangle, by the control points that act there: centre and radius only.
 [[nodiscard]] PatchBounds loose_bounds(const BSplineSurface& surface, const Rectangle& where);
 
