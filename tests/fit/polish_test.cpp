@@ -361,25 +361,35 @@ TEST(Polish, ACutThatSomebodyElseFoundIsMended) {
   EXPECT_FALSE(mend_fit(tasks, found, {}, options)) << "nothing is to be mended";
 }
 
+constexpr double kLoose = 0.6;  ///< mm: a tolerance that does not mind the cusp of cusped_draft
+
+FlankFitOptions loose_options() {
+  FlankFitOptions options = small_options();
+  options.bounds = {2.0, 30.0, 0.5};
+  options.tolerance_mm = kLoose;
+  return options;
+}
+
+/// A cone that touches the plane along a line, on rails that go along it but for one of their control points: there they turn
+/// up and down again, within 3 mm where there are 48 of them.
+FitDraft cusped_draft(const Target& blade, int control_points, int cusp) {
+  constexpr double kSlope = 0.4, kTip = 3.0, kLong = 60.0, kCusp = 20.0, kLift = 0.9;
+  RuledMotion motion = upright_motion(
+      {.y = kTip, .z = -10.0, .x_first = -3.0, .x_last = 63.0, .length = kLong, .control_points = control_points});
+  const Vec3 axis(0.0, kSlope, std::sqrt(1.0 - kSlope * kSlope));
+  for (int k = 0; k < control_points; ++k) motion.direction.poles.col(k) = axis;
+  motion.tip.poles.col(cusp) += Vec3(0.0, kLift, kCusp);
+  std::vector<Vec2> line;
+  for (int j = 0; j <= 24; ++j) line.emplace_back(kLong * j / 24.0, kTip + kSlope * kLong * j / 24.0);
+  return draft_of(blade, motion, RadialFunction::spline_through(kLong, line, 6), true);
+}
+
 TEST(Polish, SettlingTakesACuspOutOfAMotionThatPlungesThere) {
   if (kSanitized) GTEST_SKIP() << "a pass of 48 control points";
   const auto blade = standing_blade(0.0);
-  FlankFitOptions options = small_options();
-  options.bounds = {2.0, 30.0, 0.5};
-  // A cone that touches the plane along a line, on rails that go along it but for one control point: there they turn up
-  // and down again within 3 mm, which the tolerance does not mind.
-  constexpr double kSlope = 0.4, kTip = 3.0, kLong = 60.0, kCusp = 20.0, kLift = 0.9, kLoose = 0.6;
-  options.tolerance_mm = kLoose;
-  RuledMotion motion =
-      upright_motion({.y = kTip, .z = -10.0, .x_first = -3.0, .x_last = 63.0, .length = kLong, .control_points = 48});
-  const Vec3 axis(0.0, kSlope, std::sqrt(1.0 - kSlope * kSlope));
-  for (int k = 0; k < motion.direction.count(); ++k) motion.direction.poles.col(k) = axis;
-  motion.tip.poles.col(24) += Vec3(0.0, kLift, kCusp);
-  std::vector<Vec2> line;
-  for (int j = 0; j <= 24; ++j) line.emplace_back(kLong * j / 24.0, kTip + kSlope * kLong * j / 24.0);
-  const RadialFunction cone = RadialFunction::spline_through(kLong, line, 6);
+  const FlankFitOptions options = loose_options();
   const std::vector<SurfaceSample> samples = ranking_samples(*blade, nullptr, options);
-  const Polished plunging = assess(draft_of(*blade, motion, cone, true), samples, options);
+  const Polished plunging = assess(cusped_draft(*blade, 48, 24), samples, options);
   ASSERT_GT(plunging.estimate.largest_c, 1.0);
   ASSERT_GT(plunging.estimate.at_tolerance, 0.99);
   const Polished steady = settled(plunging, options);
@@ -388,21 +398,13 @@ TEST(Polish, SettlingTakesACuspOutOfAMotionThatPlungesThere) {
   EXPECT_LE(steady.estimate.overcut_mm, kLoose);
 }
 
-TEST(Polish, AFirmPassLeadsOutOfACutWithoutPlungingAgain) {
+TEST(Polish, AFirmPassPlungesLess) {
   if (kSanitized) GTEST_SKIP() << "passes of 48 control points";
   const auto blade = standing_blade(0.0);
-  FlankFitOptions options = small_options();
-  options.bounds = {2.0, 30.0, 0.5};
-  options.tolerance_mm = 0.6;
-  RuledMotion motion =
-      upright_motion({.y = 3.0, .z = -10.0, .x_first = -3.0, .x_last = 63.0, .length = 60.0, .control_points = 48});
-  for (int k = 0; k < motion.direction.count(); ++k) motion.direction.poles.col(k) = Vec3(0.0, 0.4, std::sqrt(0.84));
-  motion.tip.poles.col(24) += Vec3(0.0, 0.9, 20.0);
-  std::vector<Vec2> line;
-  for (int j = 0; j <= 24; ++j) line.emplace_back(2.5 * j, 3.0 + j);
-  const FitDraft draft = draft_of(*blade, motion, RadialFunction::spline_through(60.0, line, 6), true);
+  const FlankFitOptions options = loose_options();
+  const FitDraft draft = cusped_draft(*blade, 48, 24);
   const auto c_after = [&](double steadiness) {
-    return written_c(pass_at(draft, {}, options, 1.0, 1.0, steadiness), options.tolerance_mm);
+    return written_c(pass_at(draft, {}, options, 1.0, 1.0, steadiness), kLoose);
   };
   const double loose = c_after(1.0), firm = c_after(1000.0);
   EXPECT_GT(loose, 0.9) << "other passes leave it near plunging";
@@ -411,42 +413,28 @@ TEST(Polish, AFirmPassLeadsOutOfACutWithoutPlungingAgain) {
 
 TEST(Polish, TheWrittenPathSeesACuspBetweenAnyEvenPoses) {
   const auto blade = standing_blade(0.0);
-  // The cone of the test before; the turn takes less than a thousandth of the way, in the middle between two of 640 poses.
+  // The turn takes less than a thousandth of the way, in the middle between two of 640 poses.
   constexpr int kPoles = 6400;
-  RuledMotion motion =
-      upright_motion({.y = 3.0, .z = -10.0, .x_first = -3.0, .x_last = 63.0, .length = 60.0, .control_points = kPoles});
-  for (int k = 0; k < kPoles; ++k) motion.direction.poles.col(k) = Vec3(0.0, 0.4, std::sqrt(1.0 - 0.16));
-  motion.tip.poles.col(kPoles / 2 + kPoles / 1280) += Vec3(0.0, 0.9, 20.0);
-  std::vector<Vec2> line;
-  for (int j = 0; j <= 24; ++j) line.emplace_back(2.5 * j, 3.0 + j);
-  const FitDraft draft = draft_of(*blade, motion, RadialFunction::spline_through(60.0, line, 6), true);
-  ASSERT_LT(touching_c(draft, 0.6, 640), 1.0);
-  EXPECT_GT(written_c(draft, 0.6), 1.0);
+  const FitDraft draft = cusped_draft(*blade, kPoles, kPoles / 2 + kPoles / 1280);
+  ASSERT_LT(touching_c(draft, kLoose, 640), 1.0);
+  EXPECT_GT(written_c(draft, kLoose), 1.0);
   FitDraft none = draft;
   none.motions.front().direction.poles.setZero();
-  EXPECT_EQ(written_c(none, 0.6), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(written_c(none, kLoose), std::numeric_limits<double>::infinity());
 }
 
 TEST(Polish, SettlingSeesACuspBetweenThePosesThatRank) {
   const auto blade = standing_blade(0.0);
-  FlankFitOptions options = small_options();
-  options.bounds = {2.0, 30.0, 0.5};
-  options.tolerance_mm = 0.6;
-  // The cone of the test before, which turns up and down again within a four-hundredth of its way.
+  const FlankFitOptions options = loose_options();
+  // The turn takes a four-hundredth of the way, in the middle between two of 160 poses.
   constexpr int kPoles = 1600;
-  RuledMotion motion =
-      upright_motion({.y = 3.0, .z = -10.0, .x_first = -3.0, .x_last = 63.0, .length = 60.0, .control_points = kPoles});
-  for (int k = 0; k < kPoles; ++k) motion.direction.poles.col(k) = Vec3(0.0, 0.4, std::sqrt(1.0 - 0.16));
-  motion.tip.poles.col(kPoles / 2 + kPoles / 320) += Vec3(0.0, 0.9, 20.0);  // in the middle between two of 160 poses
-  std::vector<Vec2> line;
-  for (int j = 0; j <= 24; ++j) line.emplace_back(2.5 * j, 3.0 + j);
-  const FitDraft draft = draft_of(*blade, motion, RadialFunction::spline_through(60.0, line, 6), true);
+  const FitDraft draft = cusped_draft(*blade, kPoles, kPoles / 2 + kPoles / 320);
   const Polished ranked = assess(draft, ranking_samples(*blade, nullptr, options), options);
   ASSERT_LT(ranked.estimate.largest_c, 1.0);
   constexpr int kOften = 8 * kRankingPoses;
-  ASSERT_GT(touching_c(draft, options.tolerance_mm, kOften), 1.0);
+  ASSERT_GT(touching_c(draft, kLoose, kOften), 1.0);
   const Polished steady = settled(ranked, options);
-  EXPECT_LT(touching_c(steady.draft, options.tolerance_mm, kOften), 1.0);
+  EXPECT_LT(touching_c(steady.draft, kLoose, kOften), 1.0);
 }
 
 TEST(Polish, TheVerdictAsksForCoverageOvercutAndGouge) {
