@@ -241,7 +241,7 @@ void judge_fit(const Setup& setup, const ClearanceScene& scene, FitSearch& searc
 
 /// A search and its verdict. `read`: what is known before.
 Result search_and_judge(const Setup& setup, const ClearanceScene& scene, const ToolSpec& spec, Result read,
-                        double spare_coverage, const Progress& progress, double& estimate) {
+                        double spare_coverage, const Progress& progress) {
   const FitJob job = std::get<FitJob>(read.job);
   Result result = std::move(read);
   Stopwatch watch(result);
@@ -253,7 +253,6 @@ Result search_and_judge(const Setup& setup, const ClearanceScene& scene, const T
   take_fit(search, result);
   result.complete = !progress.stop();
   watch.lap("fit");
-  estimate = search.fit.after.at_tolerance;
 
   progress.step("verify", judged_at);
   judge_fit(setup, scene, search, result, watch);
@@ -293,13 +292,16 @@ Result run_fit(const FitJob& job, const Progress& asked) {
   watch.lap("read");
   stop_here();
 
-  double estimate = 0.0;
   const Result read = result;
-  result = search_and_judge(setup, scene, spec, read, 0.0, progress, estimate);
+  result = search_and_judge(setup, scene, spec, read, 0.0, progress);
+  const double estimate = std::get<FitSummary>(result.plan).after.coverage;
   const double spare = result.complete ? spare_needed(job, result.verify, estimate) : 0.0;
   if (spare > 0.0) {
-    Result stricter = search_and_judge(setup, scene, spec, read, spare, once_more(progress), estimate);
-    if (passes(stricter)) result = std::move(stricter);
+    try {
+      Result stricter = search_and_judge(setup, scene, spec, read, spare, once_more(progress));
+      if (passes(stricter)) result = std::move(stricter);
+    } catch (const Stopped&) {  // what was found before is whole
+    }
   }
   if (!result.complete) result.journal = progress.journal;
   return result;
