@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <optional>
 
 #include "flank/base/assert.h"
@@ -13,13 +14,16 @@
 #include "flank/base/parallel.h"
 #include "flank/fit/coverage.h"
 #include "flank/fit/fit_record.h"
+#include "flank/fit/orbit/orbit_fit.h"
 #include "flank/fit/polish.h"
 #include "flank/fit/race.h"
 #include "flank/fit/tried.h"
 #include "flank/fit/ways.h"
 #include "flank/motion/motion_record.h"
 #include "flank/seed/clear_start.h"
+#include "flank/seed/orbit_chart.h"
 #include "flank/seed/ruled_start.h"
+#include "flank/seed/self_motion.h"
 
 namespace flank {
 using namespace internal;
@@ -30,9 +34,10 @@ namespace {
 constexpr int kStartControlPoints = 12;
 
 struct Candidate {
+  const Chart* chart = nullptr;           // that the start is in
+  const OrbitSection* section = nullptr;  // the chart is this one's
   RuledStart start;
   FitDraft draft;
-  CoverageEstimate estimate;
   double score = -1.0;  // below that of any fit
 };
 
@@ -51,14 +56,15 @@ std::vector<double> start_radii(const ToolModel& tool, const RadiusBounds& bound
   return radii;
 }
 
-std::vector<RuledStart> enumerate_starts(const Chart& chart, const ToolModel& tool, const FlankFitOptions& options) {
+std::vector<RuledStart> enumerate_starts(const Chart& chart, const ToolModel& tool, const FlankFitOptions& options,
+                                         std::initializer_list<bool> ways) {
   constexpr double kDegree = std::numbers::pi / 180.0;
   // Degrees between contact lines and the chart's lines. Five (MATH section 7), of either sign, because nothing tells
   // which way a blade twists. No start is farther than 6.5 degrees from a direction up to 31 degrees; the fit turns the
   // rest.
   constexpr std::array<double, 5> kSkews = {0.0, 12.0, -12.0, 25.0, -25.0};
   std::vector<RuledStart> starts;
-  for (bool swapped : {false, true}) {
+  for (bool swapped : ways) {
     RuledStart across;
     across.swapped = swapped;
     const double length = options.axis_length_mm.value_or(longest_chord(chart, across));
@@ -127,25 +133,55 @@ std::vector<FitTask> make_tasks(const Target& target, const Chart& chart, const 
   return tasks;
 }
 
-/// Fits and ranks one candidate. Left without motions if no line of its start is free, or if it loses its values.
-void quick_fit(Candidate& candidate, const Target& target, const Chart& chart, const ToolModel& tool,
-               const FlankFitOptions& options, const std::vector<SurfaceSample>& samples) {
-  const std::vector<FitTask> tasks = make_tasks(target, chart, candidate.start, tool, options);
-  if (tasks.empty()) return;
-  const FitDraft draft = start_draft(tasks, tool, candidate.start.radius_mm);
+/// The candidate's lines, moved along with the target and fitted to its section.
+void orbit_fit(Candidate& candidate, FitDraft draft, const FlankFitOptions& options) {
+  constexpr int kCoefficients = 12;  // of a free tool, as a polish has them
+  const Target* target = draft.targets.front();
+  const ObstacleField* obstacles = obstacles_of(draft, target);
+  if (draft.free_tool) {
+    const double r = draft.tool.at(0.5 * draft.tool.axis_length()).r;
+    draft.tool = RadialFunction::spline(draft.tool.axis_length(), Eigen::VectorXd::Constant(kCoefficients, r));
+    draft.free_parameters.resize(kCoefficients);
+    std::iota(draft.free_parameters.begin(), draft.free_parameters.end(), 0);
+  }
+  const ReachLimits reach = reach_of(options);
+  const auto reachable = [&](const SurfaceSample& s) { return is_reachable(*target, obstacles, s, reach); };
+  const OrbitStart start{target, obstacles, draft.motions, draft.tool, draft.free_parameters, reachable};
+  OrbitFit fit = orbit_fit(*candidate.section, start, options);
+  draft.motions = std::move(fit.motions);
+  draft.tool = fit.tool;
+  candidate.draft = std::move(draft);
+  candidate.score = fit.score;
+}
+
+/// What drafts of any kind are ranked by, those that are rough among them.
+double rough_score(const FitDraft& draft, const std::vector<SurfaceSample>& samples, double tolerance_mm, int poses) {
+  CoverageEstimate estimate =
+      estimate_coverage(samples, draft.motions, draft.tool, kQuickTolerances * tolerance_mm, poses);
+  estimate.gouge_mm = flank_gouge(draft.motions, draft.obstacles, draft.tool, poses);
+  return estimate.score(kQuickTolerances * tolerance_mm);
+}
+
+void rough_fit(Candidate& candidate, const FitDraft& draft, const Target& target, const FlankFitOptions& options,
+               const std::vector<SurfaceSample>& samples) {
   FitStage stage = quick_stage(robust_scale(target, options));
   keep_going(stage, kQuickTolerances * options.tolerance_mm, target.diagonal());
   candidate.draft = run_stage(draft, options.bounds, stage);
-  if (!has_values(candidate.draft)) {
-    candidate.draft.motions.clear();  // a numerical no: one candidate less
-    return;
-  }
-  const double tolerance = kQuickTolerances * options.tolerance_mm;
-  candidate.estimate =
-      estimate_coverage(samples, candidate.draft.motions, candidate.draft.tool, tolerance, kQuickPoses);
-  candidate.estimate.gouge_mm =
-      flank_gouge(candidate.draft.motions, candidate.draft.obstacles, candidate.draft.tool, kQuickPoses);
-  candidate.score = candidate.estimate.score(tolerance);
+  if (has_values(candidate.draft))
+    candidate.score = rough_score(candidate.draft, samples, options.tolerance_mm, kQuickPoses);
+}
+
+/// Fits and ranks one candidate. Left without motions if no line of its start is free, or if it loses its values.
+void quick_fit(Candidate& candidate, const Target& target, const ToolModel& tool, const FlankFitOptions& options,
+               const std::vector<SurfaceSample>& samples) {
+  const std::vector<FitTask> tasks = make_tasks(target, *candidate.chart, candidate.start, tool, options);
+  if (tasks.empty()) return;
+  const FitDraft draft = start_draft(tasks, tool, candidate.start.radius_mm);
+  if (candidate.section != nullptr)
+    orbit_fit(candidate, draft, options);
+  else
+    rough_fit(candidate, draft, target, options, samples);
+  if (!has_values(candidate.draft)) candidate.draft.motions.clear();  // a numerical no: one candidate less
 }
 
 /// Stable, so that equal scores keep the order of the starts on every machine.
@@ -168,26 +204,76 @@ void code(StepCodec& codec, QuickStarts& quick) {
   code(codec, quick.drafts);
 }
 
-QuickStarts quick_starts(const Target& target, const ToolModel& tool, const FlankFitOptions& options) {
-  QuickStarts quick;
-  const Chart chart(target);
-  FlankFitOptions coarse = options;
-  coarse.sample_share = kQuickSampleShare;
-  const std::vector<SurfaceSample> few = ranking_samples(target, options.obstacles, coarse);
-  std::vector<Candidate> candidates;
-  for (const RuledStart& start : enumerate_starts(chart, tool, options)) candidates.push_back({start, {}, {}, -1.0});
-  quick.tried = static_cast<int>(candidates.size());
+/// Where starts are laid: the target's own chart, and, if a motion moves it along itself, that motion's.
+struct StartCharts {
+  Chart own;
+  std::optional<OrbitSection> section;
+  std::optional<Chart> orbits;
+
+  explicit StartCharts(const Target& target) : own(target) {
+    constexpr double kSamples = 1600.0;  // of a smooth face, to know six numbers
+    const auto motion = self_motion(target.samples(std::sqrt(target.area() / kSamples)));
+    if (!motion) return;
+    section.emplace(target, own, *motion);
+    orbits = orbit_chart(*section);
+  }
+  [[nodiscard]] bool is_exact(double tolerance_mm) const {
+    return section && internal::is_exact(*section, tolerance_mm);
+  }
+};
+
+/// Fits of orbits are as good as they get: no passes make up for what one is behind another.
+void drop_hopeless(std::vector<Candidate>& sorted) {
+  constexpr double kBehind = 0.02;  // of the section
+  constexpr std::size_t kMost = 2;
+  std::size_t kept = 0;
+  while (kept < std::min(kMost, sorted.size()) && sorted[kept].score + kBehind >= sorted.front().score) ++kept;
+  sorted.resize(kept);
+}
+
+/// The candidates fitted; those that have a motion, the best first.
+std::vector<Candidate> fitted(std::vector<Candidate> candidates, const Target& target, const ToolModel& tool,
+                              const FlankFitOptions& options, const std::vector<SurfaceSample>& samples) {
   std::atomic<int> tried = 0;
   parallel_for(candidates.size(), [&](std::size_t k) {
     if (stopping() && tried > 0) return;  // one start is enough to have a result
-    quick_fit(candidates[k], target, chart, tool, options, few);
+    quick_fit(candidates[k], target, tool, options, samples);
     if (!candidates[k].draft.motions.empty()) ++tried;
   });
   std::erase_if(candidates, [](const Candidate& candidate) { return candidate.draft.motions.empty(); });
   sort_by_score(candidates);
-  quick.touching = !candidates.empty() && candidates.front().score > 0.0;
-  candidates.resize(std::min(candidates.size(), static_cast<std::size_t>(options.kept_after_quick)));
-  for (Candidate& candidate : candidates) quick.drafts.push_back(std::move(candidate.draft));
+  return candidates;
+}
+
+QuickStarts quick_starts(const Target& target, const ToolModel& tool, const FlankFitOptions& options) {
+  QuickStarts quick;
+  const StartCharts charts(target);
+  FlankFitOptions coarse = options;
+  coarse.sample_share = kQuickSampleShare;
+  const std::vector<SurfaceSample> few = ranking_samples(target, options.obstacles, coarse);
+  const auto best_in = [&](const Chart& chart, const OrbitSection* section, std::initializer_list<bool> ways) {
+    std::vector<Candidate> candidates;
+    for (const RuledStart& start : enumerate_starts(chart, tool, options, ways))
+      candidates.push_back({&chart, section, start, {}, -1.0});
+    quick.tried += static_cast<int>(candidates.size());
+    return fitted(std::move(candidates), target, tool, options, few);
+  };
+  std::vector<Candidate> best;
+  if (charts.is_exact(options.tolerance_mm)) {
+    best = best_in(*charts.orbits, &*charts.section, {false});
+    drop_hopeless(best);
+  }
+  // Where a strip more would be tried anyway, orbits tell how many it takes; else other motions may do a little more.
+  constexpr double kNearlyAll = 0.9;
+  const double least = options.least_coverage_for_last_passes > 0.0 ? 0.0 : kNearlyAll;
+  if (best.empty() || best.front().score <= least) {
+    for (Candidate& orbit : best) orbit.score = rough_score(orbit.draft, few, options.tolerance_mm, kRankingPoses);
+    for (Candidate& other : best_in(charts.own, nullptr, {false, true})) best.push_back(std::move(other));
+    sort_by_score(best);
+  }
+  quick.touching = !best.empty() && best.front().score > 0.0;
+  best.resize(std::min(best.size(), static_cast<std::size_t>(options.kept_after_quick)));
+  for (Candidate& candidate : best) quick.drafts.push_back(std::move(candidate.draft));
   return quick;
 }
 

@@ -89,6 +89,18 @@ Chart::Chart(const Target& target) {
       nodes_[static_cast<std::size_t>(i * kNodes + j)] = {foot.point, foot.normal};
     }
   }
+  measure();
+}
+
+Chart::Chart(const std::function<ChartPoint(double a, double b)>& point_at) {
+  for (int i = 0; i < kNodes; ++i)
+    for (int j = 0; j < kNodes; ++j)
+      nodes_.push_back(point_at(-kOverrun + (1.0 + 2.0 * kOverrun) * i / (kNodes - 1),
+                                -kOverrun + (1.0 + 2.0 * kOverrun) * j / (kNodes - 1)));
+  measure();
+}
+
+void Chart::measure() {
   // Lengths of polylines: they turn a skew in degrees into one of the chart, for which a percent is plenty.
   constexpr int kLines = 8, kSteps = 16;
   for (int k = 0; k < kLines; ++k) {

@@ -2,6 +2,7 @@
 /// made of.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "flank/target.h"
@@ -19,6 +20,8 @@ class Chart {
   /// One NURBS face: its own parameter directions. Several faces or a mesh: the two long principal directions of its
   /// samples, so a target that bends by more than half a turn folds onto itself.
   explicit Chart(const Target& target);
+  /// Of any other rectangle of points: asked once for a grid that reaches a little past [0, 1] x [0, 1].
+  explicit Chart(const std::function<ChartPoint(double a, double b)>& point_at);
 
   /// Point and unit normal at (a, b), [0, 1] x [0, 1] over the target's extent; beyond it the target's extension, then
   /// linear.
@@ -30,6 +33,8 @@ class Chart {
  private:
   static constexpr int kNodes = 37;         ///< per side; the outer ones lie past the border
   static constexpr double kOverrun = 0.08;  ///< of the extent, on each side: inside the target's extension (0.10)
+
+  void measure();
 
   std::vector<ChartPoint> nodes_;  ///< [i * kNodes + j], i along a
   double length_a_ = 0.0, length_b_ = 0.0;
