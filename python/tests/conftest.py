@@ -30,7 +30,7 @@ def blade(flank, tmp_path_factory):
 
 @pytest.fixture(scope="session")
 def fitted(blade):
-    return openflank.fit(blade, faces="F1", tolerance_mm=0.1)
+    return openflank.fit(blade, faces="F1", side="+", tolerance_mm=0.1)
 
 
 @pytest.fixture(scope="session")

@@ -71,7 +71,7 @@ def test_faces_may_be_a_list_and_the_part_one_that_was_read(blade):
 
 def test_progress_is_told(blade):
     told = []
-    result = openflank.fit(blade, tolerance_mm=0.1, progress=lambda stage, share: told.append((stage, share)))
+    result = openflank.fit(blade, side="+", tolerance_mm=0.1, progress=lambda stage, share: told.append((stage, share)))
     assert result.complete and len(told) > 3
     assert all(isinstance(stage, str) and 0.0 <= share <= 1.0 for stage, share in told)
     assert len({share for _, share in told}) > 2
@@ -119,7 +119,7 @@ def test_other_threads_run_meanwhile(blade):
     watcher = threading.Thread(target=watch)
     watcher.start()
     begin = time.monotonic()
-    openflank.fit(blade, tolerance_mm=0.1)
+    openflank.fit(blade, side="+", tolerance_mm=0.1)
     took = time.monotonic() - begin
     stop.set()
     watcher.join()

@@ -16,7 +16,7 @@ def bytes_of(folder):
 
 
 def test_fit_writes_what_the_command_writes(flank, blade, folder, tmp_path):
-    flank("fit", blade, "--face", "F1", "--tolerance", "0.1", "-o", tmp_path / "out")
+    flank("fit", blade, "--face", "F1", "--side", "+", "--tolerance", "0.1", "-o", tmp_path / "out")
     ours, theirs = bytes_of(folder), bytes_of(tmp_path / "out")
     assert sorted(ours[0]) == sorted(theirs[0])
     assert "tool.json" in ours[0] and "view.json" in ours[0]
@@ -24,9 +24,10 @@ def test_fit_writes_what_the_command_writes(flank, blade, folder, tmp_path):
 
 
 def test_cover_writes_what_the_command_writes(flank, blade, tmp_path):
-    tool = "cylinder:radius=6"
-    flank("cover", blade, "--tool", tool, "--axis-length", 15, "--tolerance", 0.3, "--strips", 3, "-o", tmp_path / "command")
-    openflank.cover(blade, tool, axis_length_mm=15, tolerance_mm=0.3, strips=3).write(tmp_path / "python")
+    tool, part = "cylinder:radius=6", tmp_path / "side.step"
+    flank("example", "elliptic-side", "-o", part)
+    flank("cover", part, "--tool", tool, "--axis-length", 45, "--tolerance", 0.3, "--strips", 3, "--side", "-", "-o", tmp_path / "command")
+    openflank.cover(part, tool, axis_length_mm=45, tolerance_mm=0.3, strips=3, side="-").write(tmp_path / "python")
     assert bytes_of(tmp_path / "python") == bytes_of(tmp_path / "command")
 
 

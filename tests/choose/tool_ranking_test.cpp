@@ -175,7 +175,7 @@ TEST_F(FakeRanking, AnInterruptedRankingKeepsWhatItHas) {
 
 TEST(ToolRanking, SameForAnyNumberOfThreads) {
   if (kSanitized) GTEST_SKIP() << "minutes under a sanitizer; its parts are tested there by themselves";
-  const auto target = testing::flat_target(0.0, 50.0, 0.0, 30.0);
+  const auto target = testing::flat_target(0.0, 25.0, 0.0, 15.0);
   const Obstacles none;
   const RankingTarget targets = {{target.get(), &none}};
   const std::vector<Tool> tools = {testing::cylinder(4.0, 16.0), testing::cylinder(3.0, 16.0), barrel(50.0, 5.0, 20.0)};

@@ -29,7 +29,8 @@ class CliClearance : public Cli {
  protected:
   /// Of the blade that the program makes.
   [[nodiscard]] Outcome fit(std::vector<std::string> more) const {
-    std::vector<std::string> words{"fit", make_blade(), "--face", "F1", "--tolerance", "0.1", "-o", path("out")};
+    std::vector<std::string> words{"fit", make_blade(),  "--face", "F1", "--side",
+                                   "+",   "--tolerance", "0.1",    "-o", path("out")};
     words.insert(words.end(), more.begin(), more.end());
     return flank(words);
   }

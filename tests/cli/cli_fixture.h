@@ -43,6 +43,20 @@ class Cli : public ::testing::Test {
     return path("blade.step");
   }
 
+  /// A side that is round across and almost straight along: one strip of a cylinder along it, and soon found.
+  [[nodiscard]] std::string make_side() const {
+    const Outcome made = flank({"example", "elliptic-side", "-o", path("side.step")});
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    return path("side.step");
+  }
+
+  /// What a cone leaves: another cone fits it in a second.
+  [[nodiscard]] std::string make_cone() const {
+    const Outcome made = flank({"example", "envelope-cone-1", "-o", path("cone.step")});
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    return path("cone.step");
+  }
+
   /// Refused with this exit code, one line that contains `what`, and nothing left in the folder `out`.
   void expect_refused(const std::vector<std::string>& arguments, int exit_code, const std::string& what) const {
     const Outcome outcome = flank(arguments);

@@ -107,8 +107,8 @@ TEST_F(CliFit, FitsJudgesAndIsJudgedTheSameAgain) {
 TEST_F(CliFit, SameBytesForOneAndTwoThreads) {
   const std::string blade = make_blade();
   for (const char* threads : {"1", "2"}) {
-    const Outcome fit = flank(
-        {"fit", blade, "--face", "F1", "--threads", threads, "--quiet", "-o", path(std::string("out") + threads)});
+    const Outcome fit = flank({"fit", blade, "--face", "F1", "--side", "+", "--tolerance", "0.1", "--threads", threads,
+                               "--quiet", "-o", path(std::string("out") + threads)});
     ASSERT_TRUE(fit.exit_code == 0 || fit.exit_code == 1) << fit.exit_code << ' ' << fit.err;
   }
   for (const char* name : {"tool.json", "path.json", "path.cls", "tool.dxf", "tool.step", "tool.fctb", "strips.step"}) {
@@ -118,8 +118,8 @@ TEST_F(CliFit, SameBytesForOneAndTwoThreads) {
 
 // A tool far too thick for the tolerance is reported, not hidden: exit 1, and the files are there.
 TEST_F(CliFit, SaysSoWhenItFallsShort) {
-  const Outcome fit = flank(
-      {"fit", make_blade(), "--face", "F1", "--tool", "cylinder:diameter=8", "--tolerance", "1e-6", "-o", path("out")});
+  const Outcome fit = flank({"fit", make_side(), "--face", "F1", "--side", "-", "--strips", "1", "--tool",
+                             "cylinder:diameter=8", "--tolerance", "1e-4", "-o", path("out")});
   EXPECT_EQ(fit.exit_code, 1) << fit.err;
   EXPECT_TRUE(fs::exists(root_ / "out/verify.json"));
 }

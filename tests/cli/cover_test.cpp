@@ -14,8 +14,8 @@ class CliCover : public Cli {
     Cli::SetUp();
   }
   [[nodiscard]] std::vector<std::string> command(const std::string& folder) const {
-    return {"cover",  make_blade(), "--face",      "F1",   "--tool", "cylinder:radius=5", "--axis-length", "20",
-            "--side", "+",          "--tolerance", "0.08", "-o",     path(folder)};
+    return {"cover",  make_side(), "--face",      "F1",  "--tool", "cylinder:radius=6", "--axis-length", "45",
+            "--side", "-",         "--tolerance", "0.1", "-o",     path(folder)};
   }
 };
 
@@ -28,11 +28,11 @@ TEST_F(CliCover, CoversAndIsJudgedTheSameAgain) {
   const json summary = json::parse(read_file(root_ / "out/summary.json"));
   EXPECT_GE(summary.at("coverage").get<double>(), 0.97);
   EXPECT_LE(summary.at("strips").get<int>(), 10);
-  EXPECT_LE(summary.at("overcut").get<double>(), 0.08);
+  EXPECT_LE(summary.at("overcut").get<double>(), 0.1);
   EXPECT_EQ(json::parse(read_file(root_ / "out/job.json")).at("command"), "cover");
   const Outcome verify = flank({"verify", path("out")});
   EXPECT_EQ(verify.exit_code, 0) << verify.err;
-  EXPECT_NE(read_file(root_ / "out/view.json").find("flank cover blade.step"), std::string::npos);
+  EXPECT_NE(read_file(root_ / "out/view.json").find("flank cover side.step"), std::string::npos);
 }
 
 TEST_F(CliCover, SameBytesForOneAndTwoThreads) {

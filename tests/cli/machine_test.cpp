@@ -38,7 +38,7 @@ class CliProgram : public Cli {
   }
   void make_result() const {
     const Outcome fit =
-        flank({"fit", make_blade(), "--face", "F1", "--tolerance", "0.1", "--quiet", "-o", path("fit")});
+        flank({"fit", make_blade(), "--face", "F1", "--side", "+", "--tolerance", "0.1", "--quiet", "-o", path("fit")});
     ASSERT_EQ(fit.exit_code, 0) << fit.err;
   }
   [[nodiscard]] std::vector<std::string> post(const std::string& machine) const {

@@ -9,13 +9,13 @@ class CliResume : public StoppedCli {
   void SetUp() override {
     StoppedCli::SetUp();
     if (kSanitized) GTEST_SKIP() << "a whole fit takes minutes under a sanitizer";
-    blade_ = make_blade();
+    part_ = make_cone();
   }
 
   [[nodiscard]] std::vector<std::string> fit_into(const std::string& folder,
                                                   const std::string& tolerance = "0.2") const {
-    return {"fit",      blade_, "--face", "F1",        "--tolerance", tolerance, "--tool", "cylinder:radius=4",
-            "--strips", "1",    "-o",     path(folder)};
+    return {"fit",    part_,           "--face",   "F1", "--tolerance", tolerance,
+            "--tool", "cone:radius=4", "--strips", "1",  "-o",          path(folder)};
   }
 
   [[nodiscard]] static std::vector<std::string> resumed(std::vector<std::string> words) {
@@ -28,7 +28,7 @@ class CliResume : public StoppedCli {
       EXPECT_EQ(read_file(root_ / a / name), read_file(root_ / b / name)) << name;
   }
 
-  std::string blade_;
+  std::string part_;
 };
 
 TEST_F(CliResume, AFitThatWasInterruptedGoesOn) {
@@ -80,7 +80,7 @@ TEST_F(CliResume, OnlyTheSameJobOfTheSamePartGoesOn) {
     EXPECT_EQ(read_file(root_ / "out/resume.json"), before) << "what is there stays";
   };
   expect_one_line(resumed(fit_into("out", "0.3")), "resume.json: is of another job");
-  std::ofstream(blade_, std::ios::app) << "\n";
+  std::ofstream(part_, std::ios::app) << "\n";
   expect_one_line(resumed(fit_into("out")), "resume.json: is of another part");
   std::ofstream(root_ / "out/resume.json", std::ios::app) << " ";
   const Outcome changed = flank(resumed(fit_into("out")));

@@ -9,6 +9,10 @@ constexpr double kMostSeconds = kSanitized ? 120.0 : 15.0;
 
 class CliStop : public StoppedCli {
  protected:
+  [[nodiscard]] std::vector<std::string> small_fit() const {
+    return {"fit", make_cone(), "--face",        "F1",       "--side", "+",  "--tolerance",
+            "0.2", "--tool",    "cone:radius=4", "--strips", "1",      "-o", path("out")};
+  }
   void expect_best_so_far(const Ended& ended, const std::string& signal) const {
     ASSERT_TRUE(WIFEXITED(ended.status)) << ended.err;
     EXPECT_EQ(WEXITSTATUS(ended.status), 1) << ended.err;
@@ -38,8 +42,7 @@ TEST_F(CliStop, AFitKeepsTheBestSoFar) {
 
 TEST_F(CliStop, AFitThatIsJudgedDoesNotPass) {
   if (kSanitized) GTEST_SKIP() << "a whole fit comes first, which takes minutes under a sanitizer";
-  const std::vector<std::string> words{"fit",    make_blade(),        "--face",   "F1", "--tolerance", "0.2",
-                                       "--tool", "cylinder:radius=4", "--strips", "1",  "-o",          path("out")};
+  const std::vector<std::string> words = small_fit();
   expect_best_so_far(stopped_at(words, "verify", SIGHUP), "SIGHUP");
 }
 
@@ -52,8 +55,7 @@ TEST_F(CliStop, ACoverKeepsTheBestSoFar) {
 
 TEST_F(CliStop, NothingTakesThePlaceOfAnEarlierResult) {
   if (kSanitized) GTEST_SKIP() << "a whole fit comes first, which takes minutes under a sanitizer";
-  const std::vector<std::string> words{"fit",    make_blade(),        "--face",   "F1", "--tolerance", "0.2",
-                                       "--tool", "cylinder:radius=4", "--strips", "1",  "-o",          path("out")};
+  const std::vector<std::string> words = small_fit();
   ASSERT_LE(flank(words).exit_code, 1);
   const std::string before = read_file(root_ / "out/path.json");
   const Ended ended = stopped_at(words, "read", SIGINT);
@@ -67,10 +69,7 @@ TEST_F(CliStop, NothingTakesThePlaceOfAnEarlierResult) {
 
 TEST_F(CliStop, AVerifyEndsAndSaysSo) {
   if (kSanitized) GTEST_SKIP() << "a whole fit comes first, which takes minutes under a sanitizer";
-  ASSERT_LE(flank({"fit", make_blade(), "--face", "F1", "--tolerance", "0.2", "--tool", "cylinder:radius=4", "--strips",
-                   "1", "-o", path("out")})
-                .exit_code,
-            1);
+  ASSERT_LE(flank(small_fit()).exit_code, 1);
   const std::string before = read_file(root_ / "out/path.json");
   const Ended ended = stopped_at({"verify", path("out")}, "", SIGTERM);
   // It may have ended, or not begun to listen, before.

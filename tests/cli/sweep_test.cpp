@@ -8,17 +8,17 @@ namespace {
 
 class SweepCli : public Cli {
  protected:
-  /// A plan beside the blade.
+  /// A plan beside its part.
   [[nodiscard]] std::string plan(const std::string& text) const {
     write_file(root_ / "plan.toml", text);
     return path("plan.toml");
   }
   [[nodiscard]] std::string good_plan(const std::string& more = "") const {
-    (void)make_blade();
+    (void)make_side();
     return plan(
-        "schema = \"openflank/sweep-plan/1\"\ncommand = \"cover\"\npart = \"blade.step\"\nfaces = [\"F1\"]\n"
-        "tools = [\"cylinder:radius=6\", \"cylinder:radius=3\"]\n" +
-        more + "[options]\ntolerance_mm = 2.5\nstrips = 1\naxis_length_mm = 30\n");
+        "schema = \"openflank/sweep-plan/1\"\ncommand = \"cover\"\npart = \"side.step\"\nfaces = [\"F1\"]\n"
+        "tools = [\"cylinder:radius=6\", \"cylinder:radius=5\"]\n" +
+        more + "[options]\ntolerance_mm = 2.5\nstrips = 1\naxis_length_mm = 45\nside = \"-\"\n");
   }
   /// Every file below a folder.
   [[nodiscard]] static std::map<std::string, std::string> files(const fs::path& folder) {
@@ -85,7 +85,7 @@ TEST_F(SweepCli, TheSameBytesForAnyNumberOfProcesses) {
   const auto table = nlohmann::json::parse(kept.at("sweep.json"));
   ASSERT_EQ(table["tasks"].size(), 4u);
   EXPECT_EQ(table["tasks"][1]["folder"], "F1-1-fine");
-  EXPECT_EQ(table["tasks"][2]["tool"], "cylinder:radius=3");
+  EXPECT_EQ(table["tasks"][2]["tool"], "cylinder:radius=5");
   EXPECT_EQ(table["complete"], true);
   const auto summary = nlohmann::json::parse(kept.at("F1-2-fine/summary.json"));
   EXPECT_EQ(table["tasks"][3]["coverage_reachable"], summary["coverage_reachable"]);

@@ -85,7 +85,7 @@ class Resume : public TemporaryFolder {
   int run_in_pieces(Result (*work)(const Job&, const Progress&), const Job& job, const std::string& into, Stop how) {
     constexpr int kMost = 60;
     int asked = 1;
-    for (int stops = 0; stops < kMost; ++stops, asked += 1 + asked / 3)
+    for (int stops = 0; stops < kMost; ++stops, asked += 1 + asked / 2)
       if (run(work, job, into, asked, how)) return stops;
     ADD_FAILURE() << "never done";
     return kMost;
@@ -111,7 +111,7 @@ FitJob small_fit(const std::string& part) {
   FitJob job;
   job.part.file = part;
   job.tolerance_mm = 0.2;
-  job.tool.spec = "cylinder:radius=4";
+  job.tool.spec = "cone:radius=4";
   job.strips = 1;
   return job;
 }
@@ -119,20 +119,20 @@ FitJob small_fit(const std::string& part) {
 CoverJob small_cover(const std::string& part) {
   CoverJob job;
   job.part.file = part;
-  job.tolerance_mm = 0.05;
-  job.tool.spec = "barrel:arc=100,radius=5";
-  job.tool.axis_length_mm = 20.0;
+  job.tolerance_mm = 0.1;
+  job.tool.spec = "cylinder:radius=6";
+  job.tool.axis_length_mm = 45.0;
   return job;
 }
 
 TEST_F(Resume, AFitOfASheetGoesOn) {
   if (kSanitized) GTEST_SKIP() << "whole fits take minutes under a sanitizer";
-  expect_same_in_pieces(run_fit, small_fit(part("twisted-blade")), Stop::kWithin, 3);
+  expect_same_in_pieces(run_fit, small_fit(part("envelope-cone-1")), Stop::kWithin, 3);
 }
 
 TEST_F(Resume, WhatIsLeftOfAStoppedFitIsJudgedBySamples) {
   if (kSanitized) GTEST_SKIP() << "the time that a verdict may take is short for a sanitizer";
-  FitJob job = small_fit(part("twisted-blade"));
+  FitJob job = small_fit(part("envelope-cone-1"));
   job.part.side = +1;
   Stopper stopper(1, Stop::kWithin);
   const Result result = run_fit(job, stopper.progress());
@@ -146,7 +146,7 @@ TEST_F(Resume, WhatIsLeftOfAStoppedFitIsJudgedBySamples) {
 
 TEST_F(Resume, AFitThatIsStoppedBetweenItsStagesGoesOn) {
   if (kSanitized) GTEST_SKIP() << "whole fits take minutes under a sanitizer";
-  FitJob job = small_fit(part("twisted-blade"));
+  FitJob job = small_fit(part("envelope-cone-1"));
   job.part.side = +1;
   expect_same_in_pieces(run_fit, job, Stop::kBetween, 2);
 }
@@ -169,27 +169,27 @@ TEST_F(Resume, AFitFromALineGoesOn) {
 
 TEST_F(Resume, ACoverGoesOn) {
   if (kSanitized) GTEST_SKIP() << "whole covers take minutes under a sanitizer";
-  expect_same_in_pieces(run_cover, small_cover(part("twisted-blade")), Stop::kWithin, 3);
+  expect_same_in_pieces(run_cover, small_cover(part("elliptic-side")), Stop::kWithin, 3);
 }
 
 TEST_F(Resume, ACoverOfCurvesGoesOn) {
   if (kSanitized) GTEST_SKIP() << "whole covers take minutes under a sanitizer";
-  CoverJob job = small_cover(part("twisted-blade"));
+  CoverJob job = small_cover(part("elliptic-side"));
   job.strategy = "curves";
-  job.part.side = +1;
+  job.part.side = -1;
   expect_same_in_pieces(run_cover, job, Stop::kBetween, 2);
 }
 
 TEST_F(Resume, ARankingGoesOn) {
   if (kSanitized) GTEST_SKIP() << "whole covers take minutes under a sanitizer";
-  CoverJob job = small_cover(part("twisted-blade"));
+  CoverJob job = small_cover(part("elliptic-side"));
   fs::create_directories(root_ / "catalogue");
-  for (const double arc : {60.0, 100.0, 140.0}) {
+  for (const double radius : {4.0, 5.0, 6.0}) {
     Tool tool;
-    tool.radial = RadialFunction(ToolFamily::kBarrel, 20.0, Eigen::Vector3d(arc, 5.0, 10.0));
-    std::ofstream(root_ / "catalogue" / (std::to_string(static_cast<int>(arc)) + ".json")) << tool_to_json(tool);
+    tool.radial = RadialFunction(ToolFamily::kCylinder, 45.0, Eigen::VectorXd::Constant(1, radius));
+    std::ofstream(root_ / "catalogue" / (std::to_string(static_cast<int>(radius)) + ".json")) << tool_to_json(tool);
   }
-  job.part.side = +1;
+  job.part.side = -1;
   job.tool = {"catalogue", {}};
   job.choice.catalogue = folder("catalogue");
   job.choice.finalists = 1;
@@ -204,13 +204,14 @@ TEST_F(Resume, ACavityGoesOn) {
   job.tool.spec = folder("truth.json");
   job.tolerance_mm = 0.2;
   job.cycles.layers = 1;
+  job.cycles.most_engagement_deg = 100.0;  // few cycles
   job.cycles.strategy = "plain";
   job.cycles.stock_cell_mm = 2.0;
   expect_same_in_pieces(run_trochoid, job, Stop::kWithin, 4);
 }
 
 TEST_F(Resume, StepsAloneTakeNoPlaceOfACompleteResult) {
-  const std::string file = part("twisted-blade");
+  const std::string file = part("elliptic-side");
   Journal journal;
   ResultFolder held(folder("out"), ResultFolder::Use::kWrite);
   EXPECT_FALSE(write_steps(journal, small_cover(file), held)) << "of no run yet";
@@ -232,7 +233,7 @@ class StoppedFit : public Resume {
   void SetUp() override {
     Resume::SetUp();
     if (kSanitized) GTEST_SKIP() << "a fit takes minutes under a sanitizer";
-    job_ = small_fit(part("twisted-blade"));
+    job_ = small_fit(part("envelope-cone-1"));
     for (int asked = 2; !fs::exists(root_ / "out/resume.json"); asked += 2) {
       ASSERT_LT(asked, 40);
       ASSERT_FALSE(run(run_fit, job_, "out", asked, Stop::kWithin));

@@ -219,7 +219,7 @@ Path random_path(Random& random, const Face& face, double radius, double length)
 
 int trial_count() {
   const char* asked = std::getenv("FLANK_PROOF_TRIALS");
-  return asked != nullptr ? std::atoi(asked) : kSanitized ? 8 : 150;
+  return asked != nullptr ? std::atoi(asked) : kSanitized ? 8 : 60;
 }
 
 DepthLimits usual_limits() { return {0.01, 0.0002, 400000, 200000}; }
