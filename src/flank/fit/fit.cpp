@@ -231,6 +231,12 @@ void drop_hopeless(std::vector<Candidate>& sorted) {
   sorted.resize(kept);
 }
 
+/// Is this fit of orbits all that can be asked for? Else other motions may do more, or plunge less.
+bool is_all(const Candidate& orbit, const FlankFitOptions& options) {
+  constexpr double kNearlyAll = 0.97, kMostC = 0.9;
+  return orbit.score >= kNearlyAll && touching_c(orbit.draft, options.tolerance_mm, kRankingPoses) < kMostC;
+}
+
 /// The candidates fitted; those that have a motion, the best first.
 std::vector<Candidate> fitted(std::vector<Candidate> candidates, const Target& target, const ToolModel& tool,
                               const FlankFitOptions& options, const std::vector<SurfaceSample>& samples) {
@@ -263,10 +269,7 @@ QuickStarts quick_starts(const Target& target, const ToolModel& tool, const Flan
     best = best_in(*charts.orbits, &*charts.section, {false});
     drop_hopeless(best);
   }
-  // Where a strip more would be tried anyway, orbits tell how many it takes; else other motions may do a little more.
-  constexpr double kNearlyAll = 0.9;
-  const double least = options.least_coverage_for_last_passes > 0.0 ? 0.0 : kNearlyAll;
-  if (best.empty() || best.front().score <= least) {
+  if (std::none_of(best.begin(), best.end(), [&](const Candidate& orbit) { return is_all(orbit, options); })) {
     for (Candidate& orbit : best) orbit.score = rough_score(orbit.draft, few, options.tolerance_mm, kRankingPoses);
     for (Candidate& other : best_in(charts.own, nullptr, {false, true})) best.push_back(std::move(other));
     sort_by_score(best);
