@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <limits>
 #include <numeric>
 
 #include "flank/error.h"
@@ -246,6 +247,14 @@ TEST(Judge, AnEmptyPathCoversNothing) {
   EXPECT_EQ(r.overcut_mm, 0.0);
   EXPECT_EQ(r.undercut_mm, 3.0);
   EXPECT_TRUE(r.worst.empty());
+}
+
+TEST(Judge, NothingComesNearWhereNothingMoves) {
+  const auto samples = sample_face(test::plane_face("F1", 4.0, 2.0), 0.5, true);
+  const VerifyReport r = judge(cylinder(5.0, 20.0), Path{}, {samples}, {});
+  EXPECT_EQ(r.undercut_mm, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(r.faces.at(0).undercut_mm, r.undercut_mm);
+  EXPECT_EQ(r.rms_mm, 0.0);
 }
 
 TEST(Judge, SameBitsForOneAndTwoThreads) {

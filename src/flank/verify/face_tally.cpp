@@ -3,9 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace flank::internal::verify {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// The distance to what is nowhere, without a horizon: where nothing moves, nothing comes near.
+constexpr double kNowhere = 1e300;
 
 constexpr double kEndShare = 1e-9;  ///< of a step or of the axis: nearer to an end than this counts as at the end
 
@@ -69,7 +74,7 @@ void FaceTally::add_sample(const FaceSamples& samples, std::size_t i, const Swep
   sums_.area += area;
   verdict_.overcut_mm = std::max(verdict_.overcut_mm, -d.f);
   if (!samples.target) return;
-  verdict_.undercut_mm = std::max(verdict_.undercut_mm, d.f);
+  verdict_.undercut_mm = std::max(verdict_.undercut_mm, d.f < kNowhere ? d.f : kInfinity);
   const double reachable = samples.reachable.empty() ? area : area * samples.reachable[i];
   sums_.reachable += reachable;
   sums_.proved += area - open;

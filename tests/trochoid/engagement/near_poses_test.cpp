@@ -73,6 +73,13 @@ Poses found(const std::vector<NearPose>& poses) {
   return out;
 }
 
+Poses found(const SeenPoses& poses) {
+  Poses out;
+  for (std::size_t k = 0; k < poses.count(); ++k)
+    if (poses[k].sweep != kOwnSweep && poses[k].h0 > -1e6) out.insert({poses[k].sweep, poses[k].pose});
+  return out;
+}
+
 TEST(NearPoses, LeaveNothingOutThatCovers) {
   const SweptStock stock = many_sweeps();
   NearPoses near(stock);
@@ -88,13 +95,17 @@ TEST(NearPoses, LeaveNothingOutThatCovers) {
       NearScratch scratch;
       near.add(frame, whole, {}, -1.0, 0, 1, scratch, all);
       near.add(frame, whole, parts, -1.0, 0, 1, scratch, some);
+      SeenPoses seen;
+      near.see(frame, whole, parts, -1.0, seen);
+      const Poses in_seen = found(seen);
+      EXPECT_LT(in_seen.size(), stock.sweeps().size() * 49 * 2 / 3) << "what is far away is not seen";
       const Poses in_all = found(all), in_some = found(some);
       const Poses needed = covering(stock, frame, whole);
       EXPECT_FALSE(needed.empty());
       for (const auto& pose : needed) EXPECT_TRUE(in_all.contains(pose)) << pose.first << " " << pose.second;
       for (const RowDisc& part : parts)
         for (const auto& pose : covering(stock, frame, part))
-          EXPECT_TRUE(in_some.contains(pose)) << pose.first << " " << pose.second;
+          EXPECT_TRUE(in_some.contains(pose) && in_seen.contains(pose)) << pose.first << " " << pose.second;
       EXPECT_TRUE(std::includes(in_all.begin(), in_all.end(), in_some.begin(), in_some.end()));
       EXPECT_LT(in_all.size(), stock.sweeps().size() * 49 / 2) << "what is far away is left out";
     }

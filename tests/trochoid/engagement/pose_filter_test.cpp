@@ -151,6 +151,49 @@ TEST(PoseFilter, KeepsNothingOfTheRowBefore) {
   EXPECT_EQ(used.reaching(ring, open), fresh.reaching(ring, open));
 }
 
+/// Of every ring of a group: whoever covers something of it is among those of the group.
+void look_at_group(const std::vector<NearPose>& poses, const std::vector<Sector>& arcs, double low, double high) {
+  const ToolProfile tool = barrel_profile();
+  PoseFilter filter(tool);
+  filter.take(poses);
+  const double middle = 0.5 * (low + high);
+  const ToolRing mean = ring_of(middle, 6.4);
+  const RingGroup group{middle, 0.5 * (high - low), mean.radius, 0.2};
+  std::vector<OpenArc> open;
+  for (const Sector& arc : arcs) open.push_back(arc.on(mean));
+  const std::vector<std::size_t> found = filter.reaching(group, open);
+  EXPECT_LT(found.size(), poses.size());
+  int covering = 0;
+  for (const double share : {0.0, 0.4, 1.0})
+    for (std::size_t k = 0; k < poses.size(); ++k) {
+      const ToolRing ring = ring_of(std::lerp(low, high, share), std::lerp(6.2, 6.6, share));
+      if (deepest2(tool, poses[k], ring, arcs) <= 0.0) continue;
+      ++covering;
+      EXPECT_TRUE(std::binary_search(found.begin(), found.end(), k)) << k << " at " << share;
+    }
+  EXPECT_GT(covering, 20);
+}
+
+TEST(PoseFilter, AGroupOfRingsLeavesNoToolOut) {
+  const double height = PoseFilter(barrel_profile()).group_height();
+  EXPECT_GT(height, 3.0);
+  for (const double slope : {0.03, 0.5})
+    for (const double low : {-4.0, 8.0, 28.0})
+      for (const std::vector<Sector>& arcs : {kOpenArcs[0], kOpenArcs[1]})
+        look_at_group(poses_around(800, slope, 7), arcs, low, low + height);
+}
+
+TEST(PoseFilter, SomeOfAnotherFilterReachAsTheyDoThere) {
+  const ToolRing ring = ring_of(4.0, 7.0);
+  const std::vector<OpenArc> open = {Sector{-0.8, 0.9}.on(ring)};
+  PoseFilter all(barrel_profile()), some(barrel_profile());
+  all.take(poses_around(300, 0.2, 4));
+  const std::vector<std::size_t> found = all.reaching(ring, open);
+  ASSERT_FALSE(found.empty());
+  some.take(all, found);
+  EXPECT_EQ(some.reaching(ring, open).size(), found.size());
+}
+
 TEST(PoseFilter, WhereNothingIsOpenNothingReaches) {
   const ToolProfile tool = barrel_profile();
   PoseFilter filter(tool);

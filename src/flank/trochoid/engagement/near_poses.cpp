@@ -17,12 +17,13 @@ void NearPoses::begin(const RuledMotion& motion) {
   add_bundles_of(own_, kOwnSweep);
   for (int k = static_cast<int>(stock_.sweeps().size()) - 1; k >= 0; --k)
     if (is_ever_near(sweep_of(k))) add_bundles_of(sweep_of(k), k);
+  bundles_.make_room();
 }
 
 void NearPoses::add_bundles_of(const Sweep& sweep, int index) {
   for (std::size_t c = 0; c < sweep.chunks.size(); ++c) {
     const std::size_t first = c * Sweep::kChunk;
-    bundles_.add(sweep.chunks[c], sweep.axes[first].axis);
+    bundles_.add(sweep.chunks[c], sweep.axes[first].axis, 1.5 * tool_.largest / tool_.length);
     sweeps_.push_back(index);
     firsts_.push_back(first);
   }
@@ -43,17 +44,20 @@ bool NearPoses::is_ever_near(const Sweep& sweep) const {
   return std::abs(along) <= 2.0 * half + sweep.whole.reach + sway + most * tilt;
 }
 
+std::size_t NearPoses::end_of(std::size_t bundle, double own_last) const {
+  const std::size_t first = firsts_[bundle], last = sweep_of(sweeps_[bundle]).axes.size() - 1;
+  // A sweep's last pose is in its last chunk, too.
+  const std::size_t end = first + Sweep::kChunk >= last ? last + 1 : first + Sweep::kChunk;
+  return sweeps_[bundle] == kOwnSweep ? std::min(end, static_cast<std::size_t>(own_last) + 1) : end;
+}
+
 void NearPoses::add_bundle(const RowFrame& frame, const RowDisc& whole, std::span<const RowDisc> discs,
                            std::size_t bundle, double own_last, int stride, std::vector<NearPose>& out) const {
   const int index = sweeps_[bundle];
-  const Sweep& sweep = sweep_of(index);
-  const std::size_t first = firsts_[bundle], last = sweep.axes.size() - 1;
-  // A sweep's last pose is in its last chunk, too.
-  std::size_t end = first + Sweep::kChunk >= last ? last + 1 : first + Sweep::kChunk;
-  if (index == kOwnSweep) end = std::min(end, static_cast<std::size_t>(own_last) + 1);
+  const std::size_t end = end_of(bundle, own_last);
   PoseLanes lanes;
-  for (std::size_t from = first; from < end; from += PoseLanes::kCount) {
-    lanes.look(frame, tool_, sweep, from);
+  for (std::size_t from = firsts_[bundle]; from < end; from += PoseLanes::kCount) {
+    lanes.look(frame, tool_, sweep_of(index), from);
     if (!lanes.meets(tool_, whole, discs)) continue;
     const std::size_t to = std::min(from + PoseLanes::kCount, end);
     for (std::size_t p = from; p < to; p += static_cast<std::size_t>(stride)) {
@@ -84,6 +88,53 @@ void NearPoses::add(const RowFrame& frame, const RowDisc& whole, std::span<const
     if (!parts.empty() && scratch.some.empty()) continue;
     add_bundle(frame, whole, scratch.some, k, own_last, stride, out);
   }
+}
+
+void NearPoses::see(const RowFrame& frame, const RowDisc& whole, std::span<const RowDisc> parts, double own_last,
+                    SeenPoses& out) const {
+  out.clear();
+  PoseLanes bundles, lanes;
+  for (std::size_t block = 0; block < bundles_.count(); block += PoseLanes::kCount) {
+    bundles.look(frame, tool_, bundles_, block);
+    if (!bundles.meets(tool_, whole, parts)) continue;
+    for (std::size_t k = 0; k < PoseLanes::kCount && block + k < bundles_.count(); ++k) {
+      const std::size_t bundle = block + k, first = firsts_[bundle];
+      const int sweep = sweeps_[bundle];
+      if (bundles.hit[k] == 0 || (sweep == kOwnSweep && static_cast<double>(first) > own_last)) continue;
+      const std::size_t end = end_of(bundle, own_last);
+      for (std::size_t from = first; from < end; from += PoseLanes::kCount) {
+        lanes.project(frame, sweep_of(sweep), from);
+        out.add(lanes, end - from, sweep, from);
+      }
+    }
+  }
+}
+
+void SeenPoses::clear() {
+  for (std::vector<double>& lane : at_) lane.clear();
+  sweeps_.clear();
+  firsts_.clear();
+}
+
+void SeenPoses::add(const PoseLanes& lanes, std::size_t count, int sweep, std::size_t first) {
+  // So far below that nothing of it is seen.
+  constexpr double kNowhere = -1e9;
+  const std::array<const PoseLanes::Doubles*, 6> from = {&lanes.x0, &lanes.y0, &lanes.dx,
+                                                         &lanes.dy, &lanes.h0, &lanes.dh};
+  for (std::size_t c = 0; c < from.size(); ++c) at_[c].insert(at_[c].end(), from[c]->begin(), from[c]->end());
+  for (std::size_t k = 0; k < PoseLanes::kCount; ++k) {
+    if (k < count && lanes.is_near(k)) continue;
+    const std::array<double, 6> nowhere = {0.0, 0.0, 0.0, 0.0, kNowhere, 1.0};
+    for (std::size_t c = 0; c < from.size(); ++c) at_[c][at_[c].size() - PoseLanes::kCount + k] = nowhere[c];
+  }
+  sweeps_.push_back(sweep);
+  firsts_.push_back(static_cast<int>(first));
+}
+
+NearPose SeenPoses::operator[](std::size_t k) const {
+  const std::size_t chunk = k / PoseLanes::kCount;
+  return {at_[0][k], at_[1][k], at_[2][k],      at_[3][k],
+          at_[4][k], at_[5][k], sweeps_[chunk], firsts_[chunk] + static_cast<int>(k % PoseLanes::kCount)};
 }
 
 }  // namespace flank::internal

@@ -2,6 +2,8 @@
 /// not, so they are left out early, bundle by bundle.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -24,6 +26,22 @@ inline constexpr double kLeaning = 0.05;
 
 /// In place of the index of a sweep: the motion that is measured.
 inline constexpr int kOwnSweep = 1 << 30;
+
+/// Many such poses, each number in an array of its own; chunks of them follow one another in a sweep.
+class SeenPoses {
+ public:
+  void clear();
+  /// The first `count` of these count, of a sweep from the pose `first` on; the others are nowhere.
+  void add(const PoseLanes& lanes, std::size_t count, int sweep, std::size_t first);
+  [[nodiscard]] std::size_t count() const { return at_[0].size(); }
+  [[nodiscard]] NearPose operator[](std::size_t k) const;
+  /// x0, y0, dx, dy, h0, dh.
+  [[nodiscard]] const double* lane(std::size_t c) const { return at_[c].data(); }
+
+ private:
+  std::array<std::vector<double>, 6> at_;
+  std::vector<int> sweeps_, firsts_;  ///< of each chunk
+};
 
 /// Memory of a caller of NearPoses.
 struct NearScratch {
@@ -49,7 +67,14 @@ class NearPoses {
   void add(const RowFrame& frame, const RowDisc& whole, std::span<const RowDisc> parts, double own_last,
            std::size_t recent, int stride, NearScratch& scratch, std::vector<NearPose>& out) const;
 
+  /// All poses of the bundles of which one may cover something of one of `parts`, in place of what is in `out`: more than add
+  /// finds, and sooner.
+  void see(const RowFrame& frame, const RowDisc& whole, std::span<const RowDisc> parts, double own_last,
+           SeenPoses& out) const;
+
  private:
+  /// One past the last pose of a bundle that counts.
+  [[nodiscard]] std::size_t end_of(std::size_t bundle, double own_last) const;
   [[nodiscard]] bool is_ever_near(const Sweep& sweep) const;
   void add_bundles_of(const Sweep& sweep, int index);
   /// Adds those of a bundle, as add does; the discs are those that it may reach.

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
+#include "flank/base/assert.h"
 #include "flank/trochoid/engagement/lanes.h"
 
 namespace flank::internal {
@@ -11,6 +13,9 @@ namespace {
 
 /// What rounding may add: to a squared reach by its size, and by that of the largest. Candidates lie some tool radii away.
 constexpr double kSpare = 1e-3, kSpareOfLargest = 1e-4;
+
+/// Bands over which the rings of a group may spread, and how far from the middle's band those of an upright tool may then be.
+constexpr int kGroupBands = 32, kGroupReach = kGroupBands / 2 + 2;
 
 /// Of an arc, for all candidates at once.
 struct ArcLook {
@@ -27,6 +32,7 @@ FLANK_LANES void at_height(std::size_t count, float height, const float* __restr
 
 struct BandLook {
   float height, last;
+  float swing;  ///< of a group's heights about its middle, in bands
 };
 
 /// Bands of the candidates at a height, and how far those that lean reach.
@@ -38,7 +44,7 @@ FLANK_LANES void leaning_reaches(std::size_t count, const BandLook& look, const 
   for (std::size_t k = 0; k < count; ++k) {
     const float band = first[k] + height * by_z[k], above = band > 0.0F ? band : 0.0F;
     place[k] = static_cast<std::int32_t>(above < last ? above : last);
-    const float up = band + swing[k], down = band - swing[k];
+    const float most = swing[k] + look.swing, up = band + most, down = band - most;
     const float leans = up < 0.0F ? 0.0F : leaning[k];
     reach[k] = down > last ? 0.0F : leans;
   }
@@ -72,16 +78,64 @@ FLANK_LANES void upright_reaches(std::size_t count, const float* __restrict band
   }
 }
 
-/// Candidates that are looked at together.
-constexpr std::size_t kBlock = 32;
+struct GroupLook {
+  float half_z, spare;  ///< of its heights and radii, mm
+};
 
-FLANK_LANES bool any_reaches(std::size_t count, const float* __restrict excess, const float* __restrict reach) {
-  std::int32_t any = 0;
+/// Adds what the rings of a group are off its middle, seen from candidates that reach it at all.
+FLANK_LANES void add_group(std::size_t count, const GroupLook& group, const float* __restrict slope,
+                           float* __restrict reach) {
+  const float half_z = group.half_z, spare = group.spare;
   for (std::size_t k = 0; k < count; ++k) {
-    const std::int32_t there = reach[k] > 0.0F ? 1 : 0;
-    any |= excess[k] < 0.0F ? there : 0;
+    const float there = reach[k] > 0.0F ? 1.0F : 0.0F;
+    reach[k] = there * (reach[k] + (spare + half_z * slope[k]));
   }
-  return any != 0;
+}
+
+struct TakenPoses {
+  std::array<const double*, 6> from;  ///< as SeenPoses has them
+  float *x, *y, *dx, *dy, *band, *band_by_z, *slope, *leaning, *swing;
+};
+
+struct Tool {
+  double low, per_mm, largest;
+};
+
+FLANK_LANES void take_poses(std::size_t count, const Tool& tool, const TakenPoses& poses) {
+  const double *__restrict x0 = poses.from[0], *__restrict y0 = poses.from[1], *__restrict by_x = poses.from[2],
+                          *__restrict by_y = poses.from[3], *__restrict h0 = poses.from[4],
+                          *__restrict dh = poses.from[5];
+  const double low = tool.low, per_mm = tool.per_mm, most = (1.0 + kSpare) * tool.largest;
+  float* __restrict x = poses.x, * __restrict y = poses.y, * __restrict dx = poses.dx, * __restrict dy = poses.dy;
+  for (std::size_t k = 0; k < count; ++k) {
+    x[k] = static_cast<float>(x0[k]);
+    y[k] = static_cast<float>(y0[k]);
+    dx[k] = static_cast<float>(by_x[k]);
+    dy[k] = static_cast<float>(by_y[k]);
+  }
+  float *__restrict band = poses.band, *__restrict band_by_z = poses.band_by_z, *__restrict leaning = poses.leaning,
+                   *__restrict swing = poses.swing, *__restrict slopes = poses.slope;
+  for (std::size_t k = 0; k < count; ++k) {
+    band[k] = static_cast<float>((h0[k] - low) * per_mm);
+    band_by_z[k] = static_cast<float>(dh[k] * per_mm);
+    // At least the slope and how much of the tool's width it adds, without their roots.
+    const double wide = std::abs(by_x[k]), narrow = std::abs(by_y[k]);
+    const double slope = (wide < narrow ? narrow : wide) + 0.5 * (wide < narrow ? wide : narrow);
+    const double slope2 = by_x[k] * by_x[k] + by_y[k] * by_y[k], reach = most * (1.0 + 0.5 * slope2);
+    slopes[k] = static_cast<float>(slope);
+    const double leans = slope2 > kLeaning * kLeaning ? 1.0 : 0.0;
+    leaning[k] = static_cast<float>(leans * reach);
+    swing[k] = static_cast<float>(leans * (1.0 + reach * slope * per_mm));
+  }
+}
+
+/// 1: it reaches what is open.
+FLANK_LANES void mark_reaching(std::size_t count, const float* __restrict excess, const float* __restrict reach,
+                               std::uint8_t* __restrict mark) {
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::int32_t there = reach[k] > 0.0F ? 1 : 0, covers = excess[k] < 0.0F ? 1 : 0;
+    mark[k] = static_cast<std::uint8_t>(there & covers);
+  }
 }
 
 }  // namespace
@@ -102,27 +156,54 @@ PoseFilter::PoseFilter(const ToolProfile& profile) : largest_(profile.largest())
     const double spare2 = kSpare * most * most + kSpareOfLargest * largest_ * largest_;
     bands_.push_back(most > 0.0 ? static_cast<float>(std::sqrt(most * most + spare2)) : 0.0F);
   }
+  group_height_ = kGroupBands * width;
+  const int count = static_cast<int>(bands_.size());
+  for (int band = 0; band < count; ++band) {
+    const auto first = bands_.begin() + std::max(0, band - kGroupReach);
+    group_bands_.push_back(*std::max_element(first, bands_.begin() + std::min(count, band + kGroupReach + 1)));
+  }
+}
+
+void PoseFilter::resize(std::size_t count) {
+  for (std::vector<float>* values :
+       {&x_, &y_, &dx_, &dy_, &band_, &band_by_z_, &slope_, &leaning_, &swing_, &x_at_, &y_at_, &reach_, &excess_})
+    values->resize(count);
+  place_.resize(count);
 }
 
 void PoseFilter::take(std::span<const NearPose> candidates) {
-  for (std::vector<float>* values :
-       {&x_, &y_, &dx_, &dy_, &band_, &band_by_z_, &leaning_, &swing_, &x_at_, &y_at_, &reach_, &excess_})
-    values->resize(candidates.size());
-  place_.resize(candidates.size());
+  resize(candidates.size());
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     const NearPose& c = candidates[k];
-    const double slope2 = c.slope2();
-    x_[k] = static_cast<float>(c.x0);
-    y_[k] = static_cast<float>(c.y0);
-    dx_[k] = static_cast<float>(c.dx);
-    dy_[k] = static_cast<float>(c.dy);
-    band_[k] = static_cast<float>((c.h0 - low_) * per_mm_);
-    band_by_z_[k] = static_cast<float>(c.dh * per_mm_);
-    leaning_[k] = swing_[k] = 0.0F;
-    if (slope2 <= kLeaning * kLeaning) continue;
-    const double reach = (1.0 + kSpare) * largest_ * std::sqrt(1.0 + slope2);
-    leaning_[k] = static_cast<float>(reach);
-    swing_[k] = static_cast<float>(1.0 + reach * std::sqrt(slope2) / c.dh * per_mm_);
+    take_poses(1, {low_, per_mm_, largest_},
+               {{&c.x0, &c.y0, &c.dx, &c.dy, &c.h0, &c.dh},
+                &x_[k],
+                &y_[k],
+                &dx_[k],
+                &dy_[k],
+                &band_[k],
+                &band_by_z_[k],
+                &slope_[k],
+                &leaning_[k],
+                &swing_[k]});
+  }
+}
+
+void PoseFilter::take(const SeenPoses& candidates) {
+  resize(candidates.count());
+  TakenPoses poses{{},           x_.data(),         y_.data(),     dx_.data(),      dy_.data(),
+                   band_.data(), band_by_z_.data(), slope_.data(), leaning_.data(), swing_.data()};
+  for (std::size_t c = 0; c < poses.from.size(); ++c) poses.from[c] = candidates.lane(c);
+  take_poses(candidates.count(), {low_, per_mm_, largest_}, poses);
+}
+
+void PoseFilter::take(const PoseFilter& from, std::span<const std::size_t> which) {
+  resize(which.size());
+  for (std::size_t k = 0; k < which.size(); ++k) {
+    const std::size_t other = which[k];
+    x_[k] = from.x_[other], y_[k] = from.y_[other], dx_[k] = from.dx_[other], dy_[k] = from.dy_[other];
+    band_[k] = from.band_[other], band_by_z_[k] = from.band_by_z_[other], slope_[k] = from.slope_[other];
+    leaning_[k] = from.leaning_[other], swing_[k] = from.swing_[other];
   }
 }
 
@@ -131,29 +212,57 @@ void PoseFilter::find_reaches(double z) {
   const auto height = static_cast<float>(z), last = static_cast<float>(bands_.size() - 1);
   at_height(count, height, x_.data(), dx_.data(), x_at_.data());
   at_height(count, height, y_.data(), dy_.data(), y_at_.data());
-  leaning_reaches(count, {height, last}, band_.data(), band_by_z_.data(), leaning_.data(), swing_.data(), place_.data(),
-                  reach_.data());
+  leaning_reaches(count, {height, last, 0.0F}, band_.data(), band_by_z_.data(), leaning_.data(), swing_.data(),
+                  place_.data(), reach_.data());
   upright_reaches(count, bands_.data(), place_.data(), reach_.data());
 }
 
-const std::vector<std::size_t>& PoseFilter::reaching(const ToolRing& ring, std::span<const OpenArc> arcs) {
+void PoseFilter::find_reaches(const RingGroup& group) {
+  constexpr double kSpareMm = 1e-3;
+  FLANK_ASSERT(2.0 * group.half_z <= 1.001 * group_height_);
   const std::size_t count = x_.size();
-  find_reaches(ring.z);
+  const auto height = static_cast<float>(group.z), last = static_cast<float>(bands_.size() - 1);
+  at_height(count, height, x_.data(), dx_.data(), x_at_.data());
+  at_height(count, height, y_.data(), dy_.data(), y_at_.data());
+  // Of leaning tools heights go by up to twice as fast.
+  const auto swing = static_cast<float>(2.0 * group.half_z * per_mm_);
+  leaning_reaches(count, {height, last, swing}, band_.data(), band_by_z_.data(), leaning_.data(), swing_.data(),
+                  place_.data(), reach_.data());
+  upright_reaches(count, group_bands_.data(), place_.data(), reach_.data());
+  add_group(count, {static_cast<float>(group.half_z), static_cast<float>(group.half_radius + kSpareMm)}, slope_.data(),
+            reach_.data());
+}
+
+const std::vector<std::size_t>& PoseFilter::find_reaching(double radius, std::span<const OpenArc> arcs) {
+  const std::size_t count = x_.size();
   std::fill(excess_.begin(), excess_.end(), std::numeric_limits<float>::infinity());
-  const auto radius = static_cast<float>(ring.radius);
-  const auto beside = static_cast<float>(-kSpare * ring.radius * (ring.radius + largest_));
+  const auto beside = static_cast<float>(-kSpare * radius * (radius + largest_));
   for (const OpenArc& arc : arcs)
-    add_excess(count, {arc.from.cast<float>(), arc.to.cast<float>(), radius, beside, arc.wide ? 1.0F : 0.0F},
-               x_at_.data(), y_at_.data(), reach_.data(), excess_.data());
+    add_excess(
+        count,
+        {arc.from.cast<float>(), arc.to.cast<float>(), static_cast<float>(radius), beside, arc.wide ? 1.0F : 0.0F},
+        x_at_.data(), y_at_.data(), reach_.data(), excess_.data());
   reaching_.clear();
-  // Most blocks hold none.
-  for (std::size_t block = 0; block < count; block += kBlock) {
-    const std::size_t end = std::min(block + kBlock, count);
-    if (!any_reaches(end - block, excess_.data() + block, reach_.data() + block)) continue;
-    for (std::size_t k = block; k < end; ++k)
-      if (excess_[k] < 0.0F && reach_[k] > 0.0F) reaching_.push_back(k);
+  // Most do not: marks are looked at several at a time, and those after the last are none.
+  std::uint64_t some = 0;
+  marks_.assign(count + sizeof some, 0);
+  mark_reaching(count, excess_.data(), reach_.data(), marks_.data());
+  for (std::size_t block = 0; block < count; block += sizeof some) {
+    std::memcpy(&some, marks_.data() + block, sizeof some);
+    for (std::size_t k = block; some != 0 && k < block + sizeof some; ++k)
+      if (marks_[k] != 0) reaching_.push_back(k);
   }
   return reaching_;
+}
+
+const std::vector<std::size_t>& PoseFilter::reaching(const ToolRing& ring, std::span<const OpenArc> arcs) {
+  find_reaches(ring.z);
+  return find_reaching(ring.radius, arcs);
+}
+
+const std::vector<std::size_t>& PoseFilter::reaching(const RingGroup& group, std::span<const OpenArc> arcs) {
+  find_reaches(group);
+  return find_reaching(group.radius, arcs);
 }
 
 }  // namespace flank::internal

@@ -146,9 +146,10 @@ FLANK_LANES void meet_disc(const PoseLanes& lanes, const ToolReach& tool, const 
     // Heights of the places of the disc along this axis.
     const float middle = x * lanes.lean_x[k] + y * lanes.lean_y[k] + lanes.below[k];
     const float swing = radius * lanes.lean[k];
-    const std::int32_t near = nx * nx + ny * ny <= reach * reach ? 1 : 0;
-    const std::int32_t over = middle + swing + high * lanes.forward[k] >= tool_low ? near : 0;
-    hit[k] |= middle - swing + low * lanes.forward[k] <= tool_high ? over : 0;
+    const float most = reach + lanes.spread[k], more = swing + 2.0F * lanes.spread[k];
+    const std::int32_t near = nx * nx + ny * ny <= most * most ? 1 : 0;
+    const std::int32_t over = middle + more + high * lanes.forward[k] >= tool_low ? near : 0;
+    hit[k] |= middle - more + low * lanes.forward[k] <= tool_high ? over : 0;
   }
 }
 
@@ -158,16 +159,24 @@ bool any_of(const Hits& hits) {
 
 }  // namespace
 
-void BundleLanes::add(const Sweep::Chunk& chunk, const Vec3& axis) {
+void BundleLanes::add(const Sweep::Chunk& chunk, const Vec3& axis, double past_ends) {
   for (int c = 0; c < 3; ++c) {
     at[static_cast<std::size_t>(c)].push_back(chunk.middle[c]);
     at[static_cast<std::size_t>(c) + 3].push_back(axis[c]);
+    poses[static_cast<std::size_t>(c)].push_back(chunk.pose.tip[c]);
+    poses[static_cast<std::size_t>(c) + 3].push_back(chunk.pose.axis[c]);
   }
   at[6].push_back(chunk.reach);
+  poses[6].push_back((1.0 + 2.0 * past_ends) * chunk.spread + kSpareMm);
 }
 
 void BundleLanes::clear() {
   for (std::vector<double>& values : at) values.clear();
+  for (std::vector<double>& values : poses) values.clear();
+}
+
+void BundleLanes::make_room() {
+  for (std::vector<double>& values : poses) values.resize(values.size() + PoseLanes::kCount, values.back());
 }
 
 void SeenBundles::look(const RowFrame& frame, const ToolReach& tool, const BundleLanes& bundles, std::size_t count,
@@ -198,15 +207,27 @@ void DiscLanes::meet(const SeenBundles& seen, std::size_t k, double spread, cons
 }
 
 void PoseLanes::look(const RowFrame& frame, const ToolReach& tool, const Sweep& sweep, std::size_t first) {
-  look_at_lanes(frame, sweep.lanes_at(first), *this);
+  project(frame, sweep, first);
   extend_lanes(tool, *this);
+  spread.fill(0.0F);
+}
+
+void PoseLanes::look(const RowFrame& frame, const ToolReach& tool, const BundleLanes& bundles, std::size_t first) {
+  std::array<const double*, 6> from{};
+  for (std::size_t c = 0; c < from.size(); ++c) from[c] = bundles.poses[c].data() + first;
+  look_at_lanes(frame, from, *this);
+  extend_lanes(tool, *this);
+  for (std::size_t k = 0; k < kCount; ++k) spread[k] = static_cast<float>(bundles.poses[6][first + k]);
+}
+
+void PoseLanes::project(const RowFrame& frame, const Sweep& sweep, std::size_t first) {
+  look_at_lanes(frame, sweep.lanes_at(first), *this);
 }
 
 bool PoseLanes::meets(const ToolReach& tool, const RowDisc& all, std::span<const RowDisc> discs) {
   Hits in_all{};
   meet_disc(*this, tool, discs.empty() ? all : around(discs), in_all);
-  // Axes that lean so far say nothing.
-  for (std::size_t k = 0; k < kCount; ++k) in_all[k] = dh[k] > 0.0 && dh[k] <= 2.0 ? in_all[k] : 0;
+  for (std::size_t k = 0; k < kCount; ++k) in_all[k] = is_near(k) || spread[k] > 0.0F ? in_all[k] : 0;
   hit = in_all;
   if (discs.empty() || !any_of(in_all)) return any_of(in_all);
   Hits some{};

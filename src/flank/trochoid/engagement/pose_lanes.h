@@ -33,8 +33,14 @@ struct ToolReach {
 struct BundleLanes {
   std::array<std::vector<double>, 7>
       at;  ///< middle of the axes, the first axis, and how far other middles are from it, mm
-  void add(const Sweep::Chunk& chunk, const Vec3& axis);
+  /// The pose that stands for each of them, as Sweep has its lanes, and how far its others may be from that at any height of
+  /// the tool, mm; there is room for PoseLanes::kCount more.
+  std::array<std::vector<double>, 7> poses;
+  /// Of a tool that reaches so many lengths of its axis past its ends.
+  void add(const Sweep::Chunk& chunk, const Vec3& axis, double past_ends);
   void clear();
+  /// Once all are added.
+  void make_room();
   [[nodiscard]] std::size_t count() const { return at[0].size(); }
 };
 
@@ -65,10 +71,17 @@ struct PoseLanes {
   Floats from_x, from_y, by_x, by_y,
       per_by2;  ///< where an axis begins in the plane, how far it goes on, and 1 / its length^2
   Floats forward, lean_x, lean_y, lean;  ///< share of the axis along the row's, its part across, at least its length
+  Floats spread;                         ///< how far the poses that it stands for may be from it, mm
   Floats below;                          ///< height of the row's tip over its own
   std::array<std::int32_t, kCount> hit;  ///< not 0: it may cover something
 
   void look(const RowFrame& frame, const ToolReach& tool, const Sweep& sweep, std::size_t first);
+  /// Poses that stand for bundles, from one of them on.
+  void look(const RowFrame& frame, const ToolReach& tool, const BundleLanes& bundles, std::size_t first);
+  /// Where their axes meet the plane of a row, and nothing else.
+  void project(const RowFrame& frame, const Sweep& sweep, std::size_t first);
+  /// Axes that lean so far say nothing.
+  [[nodiscard]] bool is_near(std::size_t k) const { return dh[k] > 0.0 && dh[k] <= 2.0; }
   /// Whether some of them may cover something of one of the discs, which lie in `all`; none: of that.
   [[nodiscard]] bool meets(const ToolReach& tool, const RowDisc& all, std::span<const RowDisc> discs);
 };

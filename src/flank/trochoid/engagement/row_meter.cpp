@@ -22,26 +22,7 @@ constexpr double kSame = 1e-7;
 /// Slope from which on a tool is leaning wherever the ring meets it (10 degrees), not beside its round ends alone.
 constexpr double kSteep = 0.18;
 
-/// A gap, radians, that some pose may reach into without holding one of its ends, and without lying within its sector.
-constexpr double kWide = 3.0;
-
 double sq(double x) { return x * x; }
-
-/// Places of a row, in its frame, and the heights of their rings.
-struct OpenPart {
-  Box3 box;
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  void add(const ToolRing& ring, const Vec3& place) {
-    box.add(place);
-    low = std::min(low, ring.z), high = std::max(high, ring.z);
-  }
-  /// That holds them, and `bow` more.
-  [[nodiscard]] RowDisc disc(double bow) const {
-    constexpr double kSpare = 1.02;
-    const Vec3 centre = box.center();
-    return {centre.x(), centre.y(), kSpare * 0.5 * box.diagonal() + bow, low, high};
-  }
-};
 
 }  // namespace
 
@@ -91,6 +72,7 @@ void RowMeter::look_roughly(const RowFrame& frame, std::span<const ToolRing> rin
   near_.add(frame, {0.0, 0.0, stock_.profile().largest(), stock_.profile().low(), stock_.profile().high()}, {},
             own_last_, kRecent, kStride, scratch_, candidates_);
   filter_.take(candidates_);
+  group_.clear();
   first_asked_ = 0;
   hints_.clear();
   for (std::size_t k = 0; k < rings.size(); ++k) {
@@ -106,20 +88,42 @@ void RowMeter::look_roughly(const RowFrame& frame, std::span<const ToolRing> rin
 void RowMeter::look_closely(const RowFrame& frame, std::span<const ToolRing> rings) {
   // What the first look covers stays covered: the discs hold what it left open, and little else.
   const RowDisc open = discs_of_found(rings);
-  first_asked_ = candidates_.size();
-  near_.add(frame, open, parts_, own_last_, 0, 1, scratch_, candidates_);
-  filter_.take(std::span<const NearPose>(candidates_).subspan(first_asked_));
   found_.clear();
   hints_.clear();
-  auto from = open_gaps_.cbegin();
-  for (std::size_t k = 0; k < rings.size(); ++k) {
-    const auto end = open_gaps_.cbegin() + static_cast<std::ptrdiff_t>(fronts_[k].end);
-    gaps_.assign(from, end);
-    from = end;
-    if (gaps_.empty()) continue;
+  const auto settle_ring = [&](std::size_t k) {
+    const auto from = open_gaps_.cbegin();
+    gaps_.assign(from + static_cast<std::ptrdiff_t>(first_gap(k)), from + static_cast<std::ptrdiff_t>(fronts_[k].end));
+    if (gaps_.empty()) return;
     cut_by_poses(rings[k], fronts_[k]);
     settle(frame, rings[k], k, fronts_[k]);
+  };
+  if (rings.size() < kManyRings) {
+    first_asked_ = candidates_.size();
+    near_.add(frame, open, parts_, own_last_, 0, 1, scratch_, candidates_);
+    filter_.take(std::span<const NearPose>(candidates_).subspan(first_asked_));
+    for (std::size_t k = 0; k < rings.size(); ++k) settle_ring(k);
+    return;
   }
+  // What a group of near rings does not need is left out at once; so poses are not looked at one by one before.
+  near_.see(frame, open, parts_, own_last_, seen_);
+  seen_filter_.take(seen_);
+  for (std::size_t first = 0, end = 0; first < rings.size(); first = end) {
+    end = end_of_group(rings, first, seen_filter_.group_height());
+    find_group(rings, first, end);
+    for (std::size_t k = first; k < end; ++k) settle_ring(k);
+  }
+}
+
+void RowMeter::find_group(std::span<const ToolRing> rings, std::size_t first, std::size_t end) {
+  sectors_.clear();
+  for (std::size_t k = first; k < end; ++k)
+    for (std::size_t g = first_gap(k); g < fronts_[k].end; ++g)
+      sectors_.add(fronts_[k].angle + open_gaps_[g].low, fronts_[k].angle + open_gaps_[g].high);
+  const RingGroup group = group_of(rings.subspan(first, end - first));
+  sectors_.arcs_on(group.radius, open_);
+  if (open_.empty()) return;
+  group_ = seen_filter_.reaching(group, open_);
+  if (group_.empty() || group_.size() > kFewPoses) filter_.take(seen_filter_, group_);
 }
 
 void RowMeter::find_arcs(const RowFrame& frame, double t, std::span<const ToolRing> rings) {
@@ -281,16 +285,28 @@ const std::vector<OpenArc>& RowMeter::open_arcs(const ToolRing& ring, const Vec2
 void RowMeter::cut_by_poses(const ToolRing& ring, const Front& front) {
   const Vec2& motion = front.motion;
   cutters_.clear();
-  const auto try_all = [&](const std::vector<std::size_t>& candidates, std::size_t first) {
-    for (auto k = candidates.begin(); k != candidates.end() && !gaps_.empty(); ++k) {
-      if (cut_by(first + *k, ring, motion)) continue;
-      cutters_.push_back(first + *k);
-      gaps_.clear();
-    }
+  const auto ask = [&](std::size_t candidate) {
+    if (cut_by(candidate, ring, motion)) return;
+    cutters_.push_back(candidate);
+    gaps_.clear();
   };
   // The poses that cover most of one ring cover most of the next one: then nearly all others are seen not to matter.
-  try_all(hints_, 0);
-  if (!gaps_.empty()) try_all(filter_.reaching(ring, open_arcs(ring, motion)), first_asked_);
+  for (const std::size_t candidate : hints_)
+    if (!gaps_.empty()) ask(candidate);
+  const auto ask_seen = [&](std::size_t pose) {
+    // Those that cut something become candidates.
+    const std::size_t before = cutters_.size();
+    candidates_.push_back(seen_[pose]);
+    ask(candidates_.size() - 1);
+    if (cutters_.size() == before) candidates_.pop_back();
+  };
+  const bool few = !group_.empty() && group_.size() <= kFewPoses;
+  for (auto k = group_.begin(); few && k != group_.end() && !gaps_.empty(); ++k) ask_seen(*k);
+  if (!few && !gaps_.empty()) {
+    const std::vector<std::size_t>& reaching = filter_.reaching(ring, open_arcs(ring, motion));
+    for (auto k = reaching.begin(); k != reaching.end() && !gaps_.empty(); ++k)
+      group_.empty() ? ask(first_asked_ + *k) : ask_seen(group_[*k]);
+  }
   // The last ones first: they are those that end the gaps, or close the last of them.
   hints_.assign(cutters_.rbegin(), cutters_.rend());
 }

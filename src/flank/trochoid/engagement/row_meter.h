@@ -9,6 +9,7 @@
 #include "flank/trochoid/engagement/arc_end.h"
 #include "flank/trochoid/engagement/near_poses.h"
 #include "flank/trochoid/engagement/pose_filter.h"
+#include "flank/trochoid/engagement/ring_group.h"
 
 namespace flank::internal {
 
@@ -36,7 +37,8 @@ struct RingArc {
 /// stock and the poses near the motion must outlive it.
 class RowMeter {
  public:
-  RowMeter(const SweptStock& stock, const NearPoses& near) : stock_(stock), near_(near), filter_(stock.profile()) {}
+  RowMeter(const SweptStock& stock, const NearPoses& near)
+      : stock_(stock), near_(near), filter_(stock.profile()), seen_filter_(stock.profile()) {}
 
   /// The time t in [0, 1] of the motion that `near` has begun.
   [[nodiscard]] EngagementRow row(const RuledMotion& motion, double t, std::span<const ToolRing> rings);
@@ -72,6 +74,10 @@ class RowMeter {
   void look_roughly(const RowFrame& frame, std::span<const ToolRing> rings);
   /// What all sweeps leave of these, into found_.
   void look_closely(const RowFrame& frame, std::span<const ToolRing> rings);
+  /// Into group_: those of the poses that were seen that may cover something of what is open of rings `first` to `end`.
+  void find_group(std::span<const ToolRing> rings, std::size_t first, std::size_t end);
+  /// Where a ring's gaps begin in open_gaps_.
+  [[nodiscard]] std::size_t first_gap(std::size_t ring) const { return ring == 0 ? 0 : fronts_[ring - 1].end; }
   /// What the first look left open: a disc that holds it, and small ones, into parts_, that hold it together.
   [[nodiscard]] RowDisc discs_of_found(std::span<const ToolRing> rings);
   [[nodiscard]] EngagementRow sum_row(const RowFrame& frame, double t, std::span<const ToolRing> rings) const;
@@ -104,12 +110,16 @@ class RowMeter {
   /// A first look, at every kStride-th pose of the last sweeps, says where material may be; only there all poses count.
   static constexpr std::size_t kRecent = 3;
   static constexpr int kStride = 4;
+  /// So many rings are worth the look at groups of them; so few poses are asked without another look at each ring.
+  static constexpr std::size_t kManyRings = 24, kFewPoses = 12;
   const SweptStock& stock_;
   const NearPoses& near_;
-  PoseFilter filter_;
+  PoseFilter filter_, seen_filter_;  ///< of candidates or of a group of rings, and of all that was seen
+  SeenPoses seen_;
   double own_last_ = 0.0;  ///< earlier poses of the motion count up to this place
   std::vector<NearPose> candidates_;
-  std::size_t first_asked_ = 0;  ///< of the candidates: those before have cut all gaps already
+  std::size_t first_asked_ = 0;     ///< of the candidates, of those that filter_ has
+  std::vector<std::size_t> group_;  ///< what filter_ has, as indices of seen_; none: all candidates
   std::vector<RowDisc> parts_;
   NearScratch scratch_;
   std::vector<OpenArc> open_;
@@ -118,6 +128,7 @@ class RowMeter {
   std::vector<Front> fronts_;   ///< of the rings of the row
   std::vector<Gap> open_gaps_;  ///< and what the first look left open of them, ring by ring
   std::vector<Arc> covered_;
+  OpenSectors sectors_;
   std::vector<std::size_t> cutters_;  ///< candidates that cut the gaps of this ring
   std::vector<std::size_t> hints_;    ///< those of the ring before, the last ones first
   std::vector<RingArc> found_;

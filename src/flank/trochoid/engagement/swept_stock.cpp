@@ -42,9 +42,13 @@ void Sweep::make_chunks() {
   const auto middle = [&](const Pose& p) { return p.at(0.5 * axis_length); };
   for (std::size_t first = 0; first + 1 < poses.size(); first += kChunk) {
     const std::size_t end = std::min(first + kChunk + 1, poses.size());
-    Chunk chunk{middle(axes[(first + end - 1) / 2]), 0.0};
-    for (std::size_t k = first; k < end; ++k)
+    const Pose& pose = axes[(first + end - 1) / 2];
+    Chunk chunk{middle(pose), 0.0, pose};
+    for (std::size_t k = first; k < end; ++k) {
       chunk.reach = std::max(chunk.reach, (middle(axes[k]) - chunk.middle).norm());
+      for (const double s : {0.0, axis_length})
+        chunk.spread = std::max(chunk.spread, (axes[k].at(s) - pose.at(s)).norm());
+    }
     chunks.push_back(chunk);
     whole.middle += chunk.middle;
   }

@@ -33,6 +33,8 @@ struct Sweep {
   struct Chunk {
     Vec3 middle;
     double reach = 0.0;
+    Pose pose = {};
+    double spread = 0.0;  ///< how far any end of its axes is from that of this pose, mm
   };
   static constexpr int kChunk = 8;
   std::vector<Chunk> chunks;
