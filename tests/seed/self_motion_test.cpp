@@ -25,6 +25,7 @@ TEST(SelfMotion, OfAScrewIsItsScrew) {
   EXPECT_NEAR(found->slide.dot(found->turn) / found->turn.squaredNorm(), testing::kScrewLead / testing::kScrewTurn,
               1e-3);
   EXPECT_LT(found->sine, 1e-5);
+  EXPECT_TRUE(found->is_screw_at(testing::on_screw(0.5, 0.5)));
 }
 
 TEST(SelfMotion, OfAPrismIsASlide) {
@@ -34,6 +35,7 @@ TEST(SelfMotion, OfAPrismIsASlide) {
   ASSERT_TRUE(found);
   EXPECT_NEAR(std::abs(found->slide.normalized().z()), 1.0, 1e-6);
   EXPECT_LT(found->turn.norm() * target->diagonal(), 1e-2 * found->slide.norm());
+  EXPECT_FALSE(found->is_screw_at(target->box().center()));
 }
 
 TEST(SelfMotion, OfASurfaceOfRevolutionIsATurn) {
@@ -45,6 +47,7 @@ TEST(SelfMotion, OfASurfaceOfRevolutionIsATurn) {
   EXPECT_NEAR(std::abs(found->turn.normalized().z()), 1.0, 1e-6);
   EXPECT_NEAR((found->centre.head<2>() - Vec2(5.0, 0.0)).norm(), 0.0, 1e-3);
   EXPECT_LT(found->slide.norm(), 1e-4 * found->turn.norm() * 25.0);
+  EXPECT_FALSE(found->is_screw_at(Vec3(30.0, 0.0, 5.0)));
 }
 
 TEST(SelfMotion, NothingTellsWhichOfSeveralIsMeant) {

@@ -217,8 +217,8 @@ struct StartCharts {
     section.emplace(target, own, *motion);
     orbits = orbit_chart(*section);
   }
-  [[nodiscard]] bool is_exact(double tolerance_mm) const {
-    return section && internal::is_exact(*section, tolerance_mm);
+  [[nodiscard]] bool is_exact_screw(double tolerance_mm) const {
+    return section && internal::is_exact_screw(*section, tolerance_mm);
   }
 };
 
@@ -265,7 +265,7 @@ QuickStarts quick_starts(const Target& target, const ToolModel& tool, const Flan
     return fitted(std::move(candidates), target, tool, options, few);
   };
   std::vector<Candidate> best;
-  if (charts.is_exact(options.tolerance_mm)) {
+  if (charts.is_exact_screw(options.tolerance_mm)) {
     best = best_in(*charts.orbits, &*charts.section, {false});
     drop_hopeless(best);
   }

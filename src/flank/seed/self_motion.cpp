@@ -52,6 +52,12 @@ Forms forms_of(std::span<const SurfaceSample> samples) {
 
 }  // namespace
 
+bool SelfMotion::is_screw_at(const Vec3& p) const {
+  constexpr double kLeastShare = 0.05;  // of the speed: a path of three degrees to the axis, or across it
+  const double speed = velocity(p).norm();
+  return slide.norm() > kLeastShare * speed && turn.cross(p - centre).norm() > kLeastShare * speed;
+}
+
 Vec3 SelfMotion::turned(const Vec3& direction, double time) const {
   const double angle = turn.norm() * time;
   return angle == 0.0 ? direction : Vec3(Eigen::AngleAxisd(angle, turn.normalized()) * direction);

@@ -16,6 +16,8 @@ struct SelfMotion {
   double sine = 0.0;                                ///< root mean square, of the angle between velocity and target
 
   [[nodiscard]] Vec3 velocity(const Vec3& p) const { return slide + turn.cross(p - centre); }
+  /// A true screw at this point: neither its turn nor its slide is small beside the other.
+  [[nodiscard]] bool is_screw_at(const Vec3& p) const;
   /// Where a point is after a time, and which way a vector points then.
   [[nodiscard]] Vec3 moved(const Vec3& p, double time) const;
   [[nodiscard]] Vec3 turned(const Vec3& direction, double time) const;

@@ -151,12 +151,12 @@ RuledMotion motion_of(const OrbitSection& section, const OrbitState& state, int 
 
 }  // namespace
 
-bool is_exact(const OrbitSection& section, double tolerance_mm) {
+bool is_exact_screw(const OrbitSection& section, double tolerance_mm) {
   constexpr double kShare = 0.25;
   const OrbitSection::Span span = section.span();
-  const double way =
-      0.5 * (span.last - span.first) * section.motion().velocity(section.at(0.5 * section.width()).point).norm();
-  return section.motion().sine * way <= kShare * tolerance_mm;
+  const Vec3 middle = section.at(0.5 * section.width()).point;
+  const double half_way = 0.5 * (span.last - span.first) * section.motion().velocity(middle).norm();
+  return section.motion().is_screw_at(middle) && section.motion().sine * half_way <= kShare * tolerance_mm;
 }
 
 OrbitFit orbit_fit(const OrbitSection& section, const OrbitStart& start, const FlankFitOptions& options) {
