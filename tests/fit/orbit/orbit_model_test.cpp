@@ -52,10 +52,10 @@ TEST(OrbitModel, ContactsAreTheNearestOfADenseSearch) {
   for (std::size_t k = 0; k < model.places().size(); ++k) {
     double least = 1e300;
     for (const Pose& line : at.lines)
-      for (int m = 0; m <= 1200; ++m) {
-        const Vec3 p = motion.moved(model.places()[k].point, -0.6 + 0.001 * m);
-        for (int j = 0; j <= 240; ++j) {
-          const double s = kLength * j / 240.0;
+      for (int m = 0; m <= 600; ++m) {
+        const Vec3 p = motion.moved(model.places()[k].point, -0.6 + 0.002 * m);
+        for (int j = 0; j <= 120; ++j) {
+          const double s = kLength * j / 120.0;
           least = std::min(least, (line.at(s) - p).norm() - at.tool.at(s).r);
         }
       }
