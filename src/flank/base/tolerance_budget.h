@@ -69,6 +69,9 @@ struct FitBudget {
   double dead_zone_axis = 0.7, dead_zone = 0.6;
   /// The same where part of the face is given up: a place that is within the tolerance is as good as it gets.
   double dead_zone_partial = 0.8;
+  /// Of fits of orbits, which see one place of each: the dead zone, and what is within the tolerance for sure, because a
+  /// ridge between two strips may lie between two places.
+  double dead_zone_orbit = 0.5, sure_orbit = 0.8;
   /// Overcut to which a free tool's radii are reduced: while candidates are compared, and of the chosen one, which is
   /// looked at with denser samples.
   double overcut = 0.95, settled_overcut = 0.92;

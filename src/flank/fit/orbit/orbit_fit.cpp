@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "flank/base/tolerance_budget.h"
 #include "flank/fit/orbit/orbit_model.h"
 
 namespace flank::internal {
@@ -76,7 +77,6 @@ RadialFunction first_tool(const OrbitSection& section, const OrbitStart& start, 
 /// Share of the section that is within the tolerance, less a price for what is cut deeper.
 double score_of(const OrbitModel& model, const OrbitState& state, double tolerance_mm) {
   constexpr double kPrice = 0.1;  // as CoverageEstimate::score
-  constexpr double kSure = 0.8;   // of the tolerance: a ridge between two strips may lie between two places
   double covered = 0.0, all = 0.0, overcut = 0.0;
   for (std::size_t k = 0; k < model.places().size(); ++k) {
     const OrbitPlace& place = model.places()[k];
@@ -84,7 +84,7 @@ double score_of(const OrbitModel& model, const OrbitState& state, double toleran
     overcut = std::max(overcut, -f);
     if (!place.touch) continue;
     all += place.share;
-    if (std::abs(f) <= kSure * tolerance_mm) covered += place.share;
+    if (std::abs(f) <= kToleranceBudget.fit.sure_orbit * tolerance_mm) covered += place.share;
   }
   return (all > 0.0 ? covered / all : 0.0) - kPrice * std::max(0.0, overcut / tolerance_mm - 1.0);
 }
@@ -100,7 +100,7 @@ std::vector<OrbitPass> passes_for(double tolerance_mm, double axis_length) {
     passes.push_back({.robust_scale_mm = scale, .overcut_weight = overcut, .iterations = 15});
     overcut = std::min(2.0 * overcut, 4.0);
   }
-  const double scale = kLast * tolerance_mm, zone = 0.5 * tolerance_mm;
+  const double scale = kLast * tolerance_mm, zone = kToleranceBudget.fit.dead_zone_orbit * tolerance_mm;
   passes.push_back({scale, 0.5 * zone, 4.0, 20});
   passes.push_back({scale, zone, 4.0, 20});
   // One that loses sight of more than the tolerance goes no further than its start: so it comes between two others.
