@@ -204,7 +204,8 @@ void code(StepCodec& codec, QuickStarts& quick) {
   code(codec, quick.drafts);
 }
 
-/// Where starts are laid: the target's own chart, and, if a motion moves it along itself, that motion's.
+/// Where starts are laid: the target's own chart, and, if a screw moves it along itself, that of its orbits. Prisms and turned
+/// parts are done as well, and often with a better tool, from the lines of their own chart.
 struct StartCharts {
   Chart own;
   std::optional<OrbitSection> section;
@@ -213,12 +214,9 @@ struct StartCharts {
   explicit StartCharts(const Target& target) : own(target) {
     constexpr double kSamples = 1600.0;  // of a smooth face, to know six numbers
     const auto motion = self_motion(target.samples(std::sqrt(target.area() / kSamples)));
-    if (!motion) return;
+    if (!motion || !motion->is_screw_at(own.at(0.5, 0.5).point)) return;
     section.emplace(target, own, *motion);
     orbits = orbit_chart(*section);
-  }
-  [[nodiscard]] bool is_exact_screw(double tolerance_mm) const {
-    return section && internal::is_exact_screw(*section, tolerance_mm);
   }
 };
 
@@ -265,7 +263,7 @@ QuickStarts quick_starts(const Target& target, const ToolModel& tool, const Flan
     return fitted(std::move(candidates), target, tool, options, few);
   };
   std::vector<Candidate> best;
-  if (charts.is_exact_screw(options.tolerance_mm)) {
+  if (charts.section && is_exact(*charts.section, options.tolerance_mm)) {
     best = best_in(*charts.orbits, &*charts.section, {false});
     drop_hopeless(best);
   }

@@ -13,7 +13,7 @@ namespace {
 TEST(OrbitFit, CoversAScrewInOneStrip) {
   const auto target = testing::screw_target();
   const OrbitSection section(*target, Chart(*target), testing::screw_motion());
-  ASSERT_TRUE(is_exact_screw(section, 0.01));
+  ASSERT_TRUE(is_exact(section, 0.01));
   const Chart chart = orbit_chart(section);
   FlankFitOptions options;
   options.tolerance_mm = 0.01;

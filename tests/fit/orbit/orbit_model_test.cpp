@@ -18,6 +18,7 @@ OrbitTool free_tool() {
   tool.bounds.smallest = 2.0;
   tool.bounds.largest = 5.2;  // the tool below is thicker somewhere: the bound pulls
   tool.bounds.slenderest = 2.4;
+  tool.axis_length_mm = kLength;
   tool.reach_mm = 2.0 * kLength;
   return tool;
 }

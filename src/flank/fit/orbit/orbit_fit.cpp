@@ -151,18 +151,19 @@ RuledMotion motion_of(const OrbitSection& section, const OrbitState& state, int 
 
 }  // namespace
 
-bool is_exact_screw(const OrbitSection& section, double tolerance_mm) {
+bool is_exact(const OrbitSection& section, double tolerance_mm) {
   constexpr double kShare = 0.25;
   const OrbitSection::Span span = section.span();
   const Vec3 middle = section.at(0.5 * section.width()).point;
   const double half_way = 0.5 * (span.last - span.first) * section.motion().velocity(middle).norm();
-  return section.motion().is_screw_at(middle) && section.motion().sine * half_way <= kShare * tolerance_mm;
+  return section.motion().sine * half_way <= kShare * tolerance_mm;
 }
 
 OrbitFit orbit_fit(const OrbitSection& section, const OrbitStart& start, const FlankFitOptions& options) {
   const OrbitSection::Span span = section.span();
   const double quarter = 0.25 * (span.last - span.first), middle = 0.5 * (span.first + span.last);
-  const OrbitTool of_tool{start.free_parameters, options.bounds, start.tool.axis_length() + start.tool.largest()};
+  const OrbitTool of_tool{start.free_parameters, options.bounds, start.tool.axis_length(),
+                          start.tool.axis_length() + start.tool.largest()};
   const OrbitModel model(section.motion(), places_of(section, start), of_tool, start.obstacles,
                          {middle - quarter, middle, middle + quarter});
   const std::vector<Pose> lines = lines_of(section, start);

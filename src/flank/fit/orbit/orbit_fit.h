@@ -8,9 +8,8 @@
 
 namespace flank::internal {
 
-/// The motion keeps the target within a share of the tolerance, so that hardly any other does better, and is a screw:
-/// prisms and turned parts are done as well, and often with a better tool, from the lines of their own chart.
-[[nodiscard]] bool is_exact_screw(const OrbitSection& section, double tolerance_mm);
+/// The motion keeps the target within a share of the tolerance: then hardly any other does better.
+[[nodiscard]] bool is_exact(const OrbitSection& section, double tolerance_mm);
 
 /// What an orbit fit begins with: one strip a motion, of which the line at half time counts.
 struct OrbitStart {

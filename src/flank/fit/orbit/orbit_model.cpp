@@ -120,7 +120,8 @@ OrbitModel::OrbitModel(const SelfMotion& motion, std::vector<OrbitPlace> places,
       free_(tool.free_parameters),
       bounds_(tool.bounds),
       obstacles_(obstacles),
-      times_(std::move(times)) {
+      times_(std::move(times)),
+      along_(places_along(tool.axis_length_mm)) {
   for (const OrbitPlace& place : places_) {
     const double speed = motion_.velocity(place.point).norm(), turn = motion_.turn.norm();
     double window = tool.reach_mm / speed;
@@ -201,7 +202,7 @@ void OrbitModel::visit_obstacles(const OrbitState& state, const Visit& visit) co
   const double share = kClearWeight / static_cast<double>(kPlaces * times_.size() * state.lines.size());
   for (std::size_t i = 0; i < state.lines.size(); ++i)
     for (double time : times_)
-      for (double s : places_along(state.tool.axis_length())) {
+      for (double s : along_) {
         const double r = state.tool.at(s).r;
         const ObstacleDistance to = obstacles_->interpolated(motion_.moved(state.lines[i].at(s), time), 2.0 * r);
         const double deep = r - to.distance_mm - obstacles_->allowance_mm();
@@ -217,7 +218,7 @@ double OrbitModel::cost(const OrbitState& state, const OrbitPass& pass, const st
   }
   visit_obstacles(state, [&](int, double, const Vec3&, double deep, double share) { sum += share * deep * deep; });
   if (free_.empty()) return sum;
-  sum += kBoundWeight * tool_excess_square(state.tool, bounds_, places_along(state.tool.axis_length()));
+  sum += kBoundWeight * tool_excess_square(state.tool, bounds_, along_);
   if (state.tool.family() != ToolFamily::kSpline) return sum;
   const Eigen::VectorXd& r = state.tool.parameters();
   for (int k = 1; k + 1 < r.size(); ++k) sum += kToolFairness * std::pow(r[k - 1] - 2.0 * r[k] + r[k + 1], 2);
@@ -252,7 +253,7 @@ void OrbitModel::add_tool_terms(const RadialFunction& tool, System& system) cons
   const auto count = static_cast<Eigen::Index>(free_.size());
   auto matrix = system.matrix.bottomRightCorner(count, count);
   auto gradient = system.gradient.tail(count);
-  for (const ToolExcess& excess : tool_excesses(tool, bounds_, places_along(tool.axis_length()))) {
+  for (const ToolExcess& excess : tool_excesses(tool, bounds_, along_)) {
     const Eigen::VectorXd row = excess.gradient(free_);
     matrix += (kBoundWeight * excess.share) * row * row.transpose();
     gradient += (kBoundWeight * excess.share * excess.mm) * row;

@@ -37,10 +37,11 @@ struct OrbitPass {
   int iterations = 20;
 };
 
-/// Of the tool: what may change, between which bounds, and how far from its place on an orbit it may touch that.
+/// Of the tool: what may change, between which bounds, its length, and how far from its place on an orbit it may touch that.
 struct OrbitTool {
   std::vector<int> free_parameters;
   RadiusBounds bounds;
+  double axis_length_mm = 0.0;
   double reach_mm = 0.0;
 };
 
@@ -85,6 +86,7 @@ class OrbitModel {
   RadiusBounds bounds_;
   const ObstacleField* obstacles_;
   std::vector<double> times_;
+  std::vector<double> along_;  ///< places along the axis at which bounds and obstacles are asked, mm
   std::vector<Orbit> orbits_;  ///< of each place
 };
 
