@@ -1,6 +1,7 @@
 /// A draft of the fit and what it covers: what passes hand on to one another.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "flank/fit/stages.h"
@@ -48,6 +49,9 @@ struct Polished {
   CoverageEstimate estimate;  ///< of this draft
   bool exact = false;         ///< the target is an envelope of such a tool, by the residual after the polish
 };
+
+/// Asked between passes: whether no more of them are wanted.
+using IsEnough = std::function<bool(const Polished&)>;
 
 /// The draft with a free tool clamped into its bounds, and what it covers: nothing, at an infinite depth, if it has lost
 /// its values.

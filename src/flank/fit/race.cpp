@@ -85,8 +85,20 @@ void pass(Runner& runner, const std::vector<SurfaceSample>& samples, const Flank
   const auto score = [&](const Runner& any) { return any.polished.estimate.score(options.tolerance_mm); };
   advance(runner, progress, "last passes", [&](Runner& next) {
     const double before = score(next);
-    next.polished = last_passes(next.polished, samples, options, &next.trace);
-    settle_if_enough(next, samples, options);
+    // Once: a close look costs as much as a pass, and what it has called short is mostly short after the next as well.
+    bool looked = false;
+    const auto enough = [&](const Polished& polished) {
+      if (looked || !polished.draft.free_tool || !is_enough(polished.estimate, options)) return false;
+      looked = true;
+      next.polished = polished;
+      settle_if_enough(next, samples, options);
+      return next.enough;
+    };
+    Polished passed = last_passes(next.polished, samples, options, &next.trace, enough);
+    if (!next.enough) {
+      next.polished = std::move(passed);
+      settle_if_enough(next, samples, options);
+    }
     next.passed = true;
     next.gained = score(next) - before;
   });

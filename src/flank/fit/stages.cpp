@@ -136,7 +136,7 @@ FitStage polish_stage(double robust_scale_mm) {
       // Inside the target plain least squares: robust weights would hide overcut.
       .extension_scale_mm = robust_scale_mm,
       .clear_stride = 2,
-      .step_tolerance = 1e-4,
+      .step_tolerance = 1e-3,
   };
 }
 
@@ -197,7 +197,7 @@ FitStage tolerance_stage(double tolerance_mm, double robust_scale_mm, double siz
       .extension_scale_mm = robust_scale_mm,
       .dead_zone_mm = kToleranceBudget.fit.dead_zone_axis * tolerance_mm,
       .clear_stride = 2,
-      .step_tolerance = 1e-4,
+      .step_tolerance = 1e-3,
   };
   keep_going(stage, tolerance_mm, size_mm);
   return stage;

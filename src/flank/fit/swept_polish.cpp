@@ -63,7 +63,7 @@ Polished with_pass(const Polished& best, const SweptPass& pass, const std::vecto
 }  // namespace
 
 Polished swept_polish(const Polished& polished, const std::vector<SurfaceSample>& samples,
-                      const FlankFitOptions& options, std::vector<IterationTrace>* trace) {
+                      const FlankFitOptions& options, std::vector<IterationTrace>* trace, const IsEnough& enough) {
   Polished best = polished;
   bool fair = false;  // fair rails are enough
   for (SweptPass pass : kPasses) {
@@ -75,6 +75,7 @@ Polished swept_polish(const Polished& polished, const std::vector<SurfaceSample>
     const CoverageEstimate& now = best.estimate;
     if (pass.fairness == kFair)
       fair = now.at_tolerance >= kFairCovers && std::max(now.overcut_mm, now.gouge_mm) <= options.tolerance_mm;
+    if (enough && enough(best)) break;
   }
   return best;
 }

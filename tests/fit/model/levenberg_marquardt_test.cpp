@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <functional>
 #include <limits>
 
@@ -26,7 +27,7 @@ class SmallModel {
   SmallModel(Function function, const FitStage& stage) : function_(std::move(function)), stage_(stage) {}
 
   static ArrowSystem make_system() { return ArrowSystem({4}, 4); }
-  static void locate(FitState&) {}
+  void locate(FitState&) const { ++locates; }
   [[nodiscard]] const FitStage& stage() const { return stage_; }
   [[nodiscard]] Residuals residuals(const FitState& state) const { return function_(state.tool.parameters()); }
   [[nodiscard]] std::vector<double> sample_weights(const FitState& state) const {
@@ -66,6 +67,8 @@ class SmallModel {
     next.tool = state.tool.with_parameters(state.tool.parameters() + step.tail(4));
     return next;
   }
+
+  mutable int locates = 0;  ///< states at which contacts were asked for
 
  private:
   Function function_;
@@ -233,6 +236,36 @@ TEST(LevenbergMarquardt, AStepToWhereNothingIsDefinedIsShortened) {
   const MinimiseResult result = levenberg_marquardt(SmallModel(logarithm, stage_of(60)), at({20.0, 20.0, 1.0, 3.0}));
   EXPECT_LT((result.state.tool.parameters() - Eigen::Vector4d::Constant(3.0)).norm(), 1e-9);
   EXPECT_GT(result.trace[1].damping, 1e-9);
+}
+
+TEST(LevenbergMarquardt, FewStepsAreRefused) {
+  const SmallModel model(rosenbrock, stage_of(200));
+  const MinimiseResult result = levenberg_marquardt(model, at({-1.2, 1.0, 2.5, -1.5}));
+  // Contacts are what a fit spends its time on: asked once for the start and once for every step that is tried.
+  EXPECT_LT(model.locates, 1.7 * static_cast<double>(result.trace.size()));
+}
+
+/// Every control point is drawn to a place 5 axis lengths away, and no state was asked for that is farther than a step may go.
+class FarModel : public SmallModel {
+ public:
+  using SmallModel::SmallModel;
+  void assemble(const FitState& state, const std::vector<double>& weights, ArrowSystem& system) const {
+    SmallModel::assemble(state, weights, system);
+    system.gradient.head(24).setConstant(5.0);
+  }
+  [[nodiscard]] FitState moved(const FitState& state, const Eigen::VectorXd& step) const {
+    farthest = std::max(farthest, step.head(24).cwiseAbs().maxCoeff());
+    return SmallModel::moved(state, step);
+  }
+  mutable double farthest = 0.0;
+};
+
+TEST(LevenbergMarquardt, AStepFartherThanTheModelHoldsIsNotTried) {
+  const FarModel model(rosenbrock, stage_of(3));
+  const MinimiseResult result = levenberg_marquardt(model, at({-1.2, 1.0, 2.5, -1.5}));
+  EXPECT_EQ(result.trace.size(), 4u);  // shortened, not given up
+  EXPECT_GT(model.farthest, 0.01);
+  EXPECT_LT(model.farthest, 0.5);  // of the axis length, 1
 }
 
 TEST(LevenbergMarquardt, RobustWeightsAreThoseOfTheResultAndLeaveAnOutlierAlone) {

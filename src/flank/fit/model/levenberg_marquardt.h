@@ -3,12 +3,12 @@
 /// `cost` and a `stage`. FitModel and SweptModel are the two.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "flank/base/assert.h"
 #include "flank/base/stopping.h"
+#include "flank/fit/model/damping.h"
 #include "flank/fit/model/minimise_result.h"
 
 namespace flank::internal {
@@ -20,27 +20,24 @@ namespace flank::internal {
 template <class Model>
 MinimiseResult levenberg_marquardt(const Model& model, FitState start) {
   FLANK_ASSERT(!start.motions.empty() && model.stage().iterations >= 0);
-  // Dampings have no unit: shares of the diagonal (ArrowSystem::solve). The first is small, because the problem is
-  // nearly quadratic near a good start: 1e-6 crawls (MATH section 7). The least keeps the diagonal above round-off of
-  // the factorisation; at the most, a step is 1e-8 of a gradient step and nothing is to be gained any more.
-  constexpr double kFirstDamping = 1e-9, kLeastDamping = 1e-14, kMostDamping = 1e8;
-  // Ten up, ten down: the classical factor (Marquardt 1963). After a refusal the damping is at least kRetryDamping:
-  // between kLeastDamping and there the step hardly changes, and every retry costs all contacts.
-  constexpr double kMore = 10.0, kLess = 0.1, kRetryDamping = 1e-8;
   constexpr double kNoStep = 1e-13;  // of the axis length: such a step is round-off
-  constexpr int kSmallSteps = 2;     // in a row: one small step may only be one that the damping held back
+  // Of the axis length: where a control point goes farther, nothing of the quadratic holds, and contacts are sought from
+  // nowhere. Not worth a look.
+  constexpr double kFar = 0.2;
+  constexpr int kSmallSteps = 2;  // in a row: one small step may only be one that the damping held back
   const auto trace = [&](const FitState& state, double cost, double damping) {
     const ResidualSummary summary = summarise_residuals(model, state);
     return IterationTrace{cost, summary.rms_mm, summary.largest_mm, damping};
   };
+  const double length = start.motions.front().axis_length;
   MinimiseResult result;
   FitState state = std::move(start);
   model.locate(state);
   ArrowSystem system = model.make_system();
   Eigen::VectorXd step;
-  double damping = kFirstDamping;
+  Damping damping;
   auto weights = model.sample_weights(state);
-  result.trace.push_back(trace(state, model.cost(state, weights), damping));
+  result.trace.push_back(trace(state, model.cost(state, weights), damping.value()));
   // Rails that vanish somewhere, or a family's parameters that describe no tool, give NaN: there is nowhere to go.
   if (!std::isfinite(result.trace.back().cost)) {
     result.status = MinimiseStatus::kStalled;
@@ -55,23 +52,28 @@ MinimiseResult levenberg_marquardt(const Model& model, FitState start) {
     FitState trial;
     double trial_cost = cost;
     bool accepted = false;
-    for (; damping <= kMostDamping && !stopping(); damping = std::max(kMore * damping, kRetryDamping)) {
-      if (!system.solve(damping, step)) continue;
+    while (!damping.is_spent() && !stopping()) {
+      if (!system.solve(damping.value(), step) ||
+          step.head(system.tool_offset()).template lpNorm<Eigen::Infinity>() > kFar * length) {
+        damping.raise();
+        continue;
+      }
       trial = model.moved(state, step);
       model.locate(trial);
       trial_cost = model.cost(trial, weights);
       accepted = std::isfinite(trial_cost) && trial_cost < cost;
-      if (accepted) break;
-      if (step.norm() < kNoStep * state.motions.front().axis_length) break;
+      if (accepted || step.norm() < kNoStep * length) break;
+      damping.refuse();
     }
     if (!accepted) {
       result.status = MinimiseStatus::kStalled;
       break;
     }
-    damping = std::max(kLess * damping, kLeastDamping);
+    const double promised = -2.0 * system.gradient.dot(step) - step.dot(system.multiply(step));
+    damping.accept((cost - trial_cost) / promised);
     state = std::move(trial);
     weights = model.sample_weights(state);
-    result.trace.push_back(trace(state, trial_cost, damping));
+    result.trace.push_back(trace(state, trial_cost, damping.value()));
     small_steps = cost - trial_cost < model.stage().step_tolerance * cost ? small_steps + 1 : 0;
     if (small_steps >= kSmallSteps || trial_cost == 0.0) {
       result.status = MinimiseStatus::kConverged;
