@@ -172,6 +172,20 @@ void pass_until_enough(std::vector<Runner>& runners, const std::vector<SurfaceSa
   }
 }
 
+/// Passes once more, as long as they gain, of a fit that covers all but a little: a strip more would cost several times as much.
+void pass_again(Runner& runner, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options,
+                const Progress& progress) {
+  constexpr double kLittle = 0.02;  // of the face
+  constexpr double kGains = 0.2;    // of what is missing: three more such passes halve it
+  constexpr int kMost = 3;
+  const auto missing = [&] { return options.enough_coverage - runner.polished.estimate.at_tolerance; };
+  for (int k = 0; k < kMost && !runner.enough && runner.passed && missing() <= kLittle && !progress.stop(); ++k) {
+    const double before = missing();
+    pass(runner, samples, options, progress);
+    if (missing() > (1.0 - kGains) * before) break;
+  }
+}
+
 /// The runners behind the first.
 std::vector<TriedTool> beaten_by_first(const std::vector<Runner>& runners, const RadiusBounds& bounds) {
   std::vector<TriedTool> beaten;
@@ -248,6 +262,7 @@ Runner race(const std::vector<FitDraft>& starts, const std::vector<SurfaceSample
     sort_by_merit(runners, options);
   }
   Runner winner = std::move(runners.front());
+  pass_again(winner, samples, options, progress);
   if (!winner.enough)
     advance(winner, progress, "partial passes", [&](Runner& next) {
       next.polished = partial_polish(next.polished, samples, options, &next.trace);

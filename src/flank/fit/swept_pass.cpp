@@ -22,7 +22,7 @@ FitStage swept_stage(const SweptPass& pass, const FlankFitOptions& options, doub
   constexpr double kOvercutWeight = 4.0;
   /// Where two places of the motion are equally near the cost has kinks, and a minimum is crept to: the last digits are
   /// not worth the contacts.
-  constexpr double kStepTolerance = 1e-3;
+  constexpr double kStepTolerance = 1e-4;
   FitStage stage;
   stage.samples_t = kSamplesT;
   stage.samples_s = kSamplesS;
