@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Groups the sources of a target for a unity build: prints "SOURCE=GROUP" for each, or "SOURCE=" for one that stays alone.
+"""Groups the sources of targets for a unity build: prints "TARGET SOURCE=GROUP" for each, or "TARGET SOURCE=" for one that stays alone.
 
-usage: unity.py SIZE SOURCE...
+usage: unity.py SIZE --target TARGET SOURCE... [--target TARGET SOURCE...]...
 
 Sources of a group are compiled as one, so no two of them may give the same name to different things in their unnamed
 namespaces (the same alias twice is one thing: `namespace fs = std::filesystem;`), and none may hide a type of a header. Lines
@@ -50,6 +50,7 @@ def aliases(file):
     return dict(re.findall(r"^(?:namespace|using) (\w+) = ((?:std|nlohmann|Eigen)::[\w:, <>]+);", file.read_text(), re.MULTILINE))
 
 
+@functools.cache
 def header_names():
     """Of each header, the names of the types that it defines; and of all, those of the functions that they declare. Two headers
     that define one type would give a program two types of that name, and the linker would take the code of either for both."""
@@ -124,10 +125,16 @@ def groups_of(files, size):
 
 
 def main():
-    size, files = int(sys.argv[1]), [pathlib.Path(word) for word in sys.argv[2:]]
-    for number, group in enumerate(groups_of(files, size)):
-        for file in group:
-            print(f"{file}={number if len(group) > 1 else ''}")
+    size, targets, words = int(sys.argv[1]), {}, iter(sys.argv[2:])
+    for word in words:
+        if word == "--target":
+            files = targets.setdefault(next(words), [])
+        else:
+            files.append(pathlib.Path(word))
+    for target, files in targets.items():
+        for number, group in enumerate(groups_of(files, size)):
+            for file in group:
+                print(f"{target} {file}={number if len(group) > 1 else ''}")
 
 
 if __name__ == "__main__":

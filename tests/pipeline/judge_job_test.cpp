@@ -22,12 +22,15 @@ std::string real_part(const std::string& name) {
   return std::filesystem::exists(file) ? file.string() : std::string();
 }
 
-/// Samples of one target with its reachable shares.
-FaceSamples reach_of(const Part& part, int target, double radius, double tolerance, double spacing) {
+/// Samples of one target with their reachable shares, at each spacing; what holds the ball off is made ready once.
+std::vector<FaceSamples> reach_of(const Part& part, int target, double radius, double tolerance,
+                                  const std::vector<double>& spacings) {
   const Setup setup{part, {target}, faces_to_check(part, {target}, {}), tolerance, {}};
-  std::vector<FaceSamples> samples = target_samples(setup, spacing);
-  TargetReach(setup, {}, {}, {.radius_mm = radius}, samples).fill(target, samples[0]);
-  return samples[0];
+  std::vector<FaceSamples> found;
+  for (const double spacing : spacings) found.push_back(target_samples(setup, spacing)[0]);
+  const TargetReach reach(setup, {}, {}, {.radius_mm = radius}, {found[0]});
+  for (FaceSamples& samples : found) reach.fill(target, samples);
+  return found;
 }
 
 double share_of(const FaceSamples& face) {
@@ -91,7 +94,7 @@ TEST(JudgeJob, AFaceAloneIsNotReachableInItsOwnCorner) {
   part.faces = {test::corner_face("F1", 20.0, 30.0)};
   part.faces[0].of_solid = true;
   part.solids = 1;
-  EXPECT_NEAR(share_of(reach_of(part, 0, 5.0, 0.01, 0.1)), 1.0 - (5.0 - 0.01) / 20.0, 0.005);
+  EXPECT_NEAR(share_of(reach_of(part, 0, 5.0, 0.01, {0.1})[0]), 1.0 - (5.0 - 0.01) / 20.0, 0.005);
 }
 
 TEST(JudgeJob, ReachableShareOfAnImpellerBladeThatRunsOnInTheHub) {
@@ -100,7 +103,8 @@ TEST(JudgeJob, ReachableShareOfAnImpellerBladeThatRunsOnInTheHub) {
   if (file.empty()) GTEST_SKIP() << "no real parts in FLANK_DATA";
   const Part part = read_part(file);
   for (int target : {0, 2}) {
-    const FaceSamples coarse = reach_of(part, target, 1.5, 0.02, 1.0), fine = reach_of(part, target, 1.5, 0.02, 0.3);
+    const std::vector<FaceSamples> samples = reach_of(part, target, 1.5, 0.02, {1.0, 0.3});
+    const FaceSamples &coarse = samples[0], &fine = samples[1];
     EXPECT_NEAR(share_of(coarse), share_of(fine), 1e-3);
     for (std::size_t i = 0; i < coarse.points.size(); ++i)
       EXPECT_TRUE(coarse.points[i].y() > 2.5 || coarse.reachable[i] == 0.0) << coarse.points[i].transpose();
@@ -111,7 +115,8 @@ TEST(JudgeJob, ReachableShareOfAnImpellerBladeThatRunsOnInTheHub) {
 TEST(JudgeJob, ReachableShareBetweenTwoBladesOfOneSolid) {
   const Part part = read_part(test::rotor37_file("rotor37-blisk"));
   for (int target : {8, 10}) {
-    const FaceSamples coarse = reach_of(part, target, 5.0, 0.1, 1.0), fine = reach_of(part, target, 5.0, 0.1, 0.4);
+    const std::vector<FaceSamples> samples = reach_of(part, target, 5.0, 0.1, {1.0, 0.4});
+    const FaceSamples &coarse = samples[0], &fine = samples[1];
     EXPECT_NEAR(share_of(coarse), share_of(fine), 1e-3);
     EXPECT_GT(share_of(fine), 0.9) << "all but a strip along the hub";
     EXPECT_LT(share_of(fine), 0.97);

@@ -113,6 +113,7 @@ TEST_F(EntryTest, CyclesGoOnFromItToTheOtherWallWithinTheLimit) {
   const std::optional<Entry> entry = plan(EntryMethod::kRamp);
   ASSERT_TRUE(entry);
   CycleOptions options;
+  options.largest_rad = 90.0 * kDegree;  // fewer cycles
   const LayerCycles out = plan_cycles(sides_, guard_, stock_, options, entry->front, {});
   ASSERT_EQ(out.status, CycleStatus::kDone);
   EXPECT_LE(out.entered_mm(), 0.01);
