@@ -13,10 +13,10 @@ FitStage swept_stage(const SweptPass& pass, const FlankFitOptions& options, doub
   /// A slide of 1 mm costs as much as a mean error of 1e-4 mm: it decides only what the face leaves open, as the slide
   /// of a cone on itself.
   constexpr double kAxialPin = 1e-8;
-  /// A second difference of 1 mm between a free tool's coefficients costs as much as a mean error of a tenth of the
-  /// tolerance. Where the tool touches nothing it goes on as it came; where it touches, this is far below what the face
-  /// asks.
-  constexpr double kToolFairness = 1e-2;
+  /// A second difference of a hundredth of the size between a free tool's coefficients costs as much as a mean error of a
+  /// tenth of the tolerance. Where the tool touches nothing it goes on as it came; where it touches, this is far below what
+  /// the face asks.
+  constexpr double kToolFairness = 100.0;
   /// Overcut of one length costs as much as material left of two: what is left can be finished by hand, what is cut is
   /// gone.
   constexpr double kOvercutWeight = 4.0;
@@ -32,7 +32,7 @@ FitStage swept_stage(const SweptPass& pass, const FlankFitOptions& options, doub
   stage.fairness = fairness_of(pass.fairness, options.tolerance_mm, size_mm, kSamplesT);
   stage.transversal_anchor = pass.anchor;
   stage.axial_pin = kAxialPin;
-  stage.tool_fairness = kToolFairness * options.tolerance_mm * options.tolerance_mm;
+  stage.tool_fairness = kToolFairness * (options.tolerance_mm / size_mm) * (options.tolerance_mm / size_mm);
   stage.dead_zone_mm = pass.dead_zone * options.tolerance_mm;
   stage.robust_scale_mm = pass.out_of_sight * options.tolerance_mm;
   stage.overcut_weight = kOvercutWeight * pass.firmness;
