@@ -178,6 +178,7 @@ void pass_again(Runner& runner, const std::vector<SurfaceSample>& samples, const
   constexpr double kLittle = 0.02;  // of the face
   constexpr double kGains = 0.2;    // of what is missing: three more such passes halve it
   constexpr int kMost = 3;
+  if (runner.gained <= 0.0) return;
   const auto missing = [&] { return options.enough_coverage - runner.polished.estimate.at_tolerance; };
   for (int k = 0; k < kMost && !runner.enough && runner.passed && missing() <= kLittle && !progress.stop(); ++k) {
     const double before = missing();
