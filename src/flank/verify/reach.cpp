@@ -35,7 +35,7 @@ constexpr int kStackSize =
     128;  ///< each level leaves one node behind, and a tree that halves is 31 levels deep at most
 
 double triangle_distance(const ObstacleTree& tree, int triangle, const Vec3& x) {
-  const auto& v = tree.corners(triangle);
+  const std::array<Vec3, 3> v = tree.corners(triangle);
   return std::sqrt(closest_on_triangle(x, v[0], v[1], v[2]).squared_distance);
 }
 

@@ -175,13 +175,13 @@ bool GapSearch::behind_slab(const Interval& interval, const Frame& frame, const 
 
 void GapSearch::check(const Interval& interval, const Frame& frame, double reach, Pair pair) {
   const Revolved& body = motion_.body_[static_cast<std::size_t>(pair.body)];
-  const Sphere& sphere = motion_.tree_.sphere(pair.triangle);
+  const Sphere sphere = motion_.tree_.sphere(pair.triangle);
   const Vec3 center = frame.local(sphere.center);
   // Depths need not be exact: what they lack counts as reach.
   const double slack = best_.value < 0.0 ? kDepthSlack * gap_bound(best_.value, accuracy_) : kDepthErrorMm;
   const double enough = needed() + reach + slack;
   if (body.value(center.z(), std::hypot(center.x(), center.y())) - sphere.radius >= enough) return;
-  const auto& corners = motion_.tree_.corners(pair.triangle);
+  const std::array<Vec3, 3> corners = motion_.tree_.corners(pair.triangle);
   const TriangleGap gap =
       triangle_gap(body, {frame.local(corners[0]), frame.local(corners[1]), frame.local(corners[2])}, enough, slack);
   if (gap.value >= enough) return;

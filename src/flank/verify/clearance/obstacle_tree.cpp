@@ -44,14 +44,12 @@ ObstacleTree::ObstacleTree(const TriangleMesh& mesh) {
   }
   nodes_.reserve(mesh.triangles.size());
   build(mesh, centers, 0, static_cast<int>(numbers_.size()));
-  // Vectors that grow hold twice what they need for a while, and trees of millions of triangles are most of a judge's memory.
-  corners_.reserve(numbers_.size());
-  spheres_.reserve(numbers_.size());
-  for (int i : numbers_) {
-    corners_.push_back(corners_of(mesh, i));
-    spheres_.push_back(sphere_of(corners_.back()));
-  }
+  vertices_ = mesh.vertices;
+  triangles_.reserve(numbers_.size());  // a vector that grows holds twice what it needs for a while
+  for (int i : numbers_) triangles_.push_back(mesh.triangles[static_cast<std::size_t>(i)]);
 }
+
+Sphere ObstacleTree::sphere(int i) const { return sphere_of(corners(i)); }
 
 /// Sphere and slab of the node's triangles. The slab lies across their mean normal, whichever way each of them is
 /// oriented.

@@ -33,13 +33,17 @@ class ObstacleTree {
   explicit ObstacleTree(const TriangleMesh& mesh);
 
   /// No triangles: nothing to keep clear of.
-  [[nodiscard]] bool empty() const { return corners_.empty(); }
+  [[nodiscard]] bool empty() const { return triangles_.empty(); }
   [[nodiscard]] int node_count() const { return static_cast<int>(nodes_.size()); }
   [[nodiscard]] const Node& node(int i) const { return nodes_[static_cast<std::size_t>(i)]; }
   /// Triangles are counted in the tree's order.
-  [[nodiscard]] const std::array<Vec3, 3>& corners(int i) const { return corners_[static_cast<std::size_t>(i)]; }
-  /// The sphere around one triangle.
-  [[nodiscard]] const Sphere& sphere(int i) const { return spheres_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] std::array<Vec3, 3> corners(int i) const {
+    const auto& t = triangles_[static_cast<std::size_t>(i)];
+    return {vertices_[static_cast<std::size_t>(t[0])], vertices_[static_cast<std::size_t>(t[1])],
+            vertices_[static_cast<std::size_t>(t[2])]};
+  }
+  /// The sphere around one triangle. Made when it is asked for: trees of millions of triangles are most of a judge's memory.
+  [[nodiscard]] Sphere sphere(int i) const;
   /// Its number in the mesh.
   [[nodiscard]] int number(int i) const { return numbers_[static_cast<std::size_t>(i)]; }
 
@@ -50,10 +54,10 @@ class ObstacleTree {
   int build(const TriangleMesh& mesh, const std::vector<Vec3>& centers, int first, int end);
 
   std::vector<Node> nodes_;
-  /// The last three: per triangle, in the tree's order.
+  std::vector<Vec3> vertices_;
+  /// The last two: per triangle, in the tree's order.
   std::vector<int> numbers_;
-  std::vector<std::array<Vec3, 3>> corners_;
-  std::vector<Sphere> spheres_;
+  std::vector<std::array<int, 3>> triangles_;
 };
 
 }  // namespace flank::internal::verify

@@ -29,7 +29,7 @@ Winding::Winding(const TriangleMesh& mesh) : tree_(mesh) {
     Area area;
     double weight = 0.0;
     for (int k = node.first; k < node.end; ++k) {
-      const auto& v = tree_.corners(k);
+      const std::array<Vec3, 3> v = tree_.corners(k);
       const Vec3 vector = 0.5 * (v[1] - v[0]).cross(v[2] - v[0]);
       area.vector += vector;
       area.center += vector.norm() * (v[0] + v[1] + v[2]) / 3.0;
