@@ -62,9 +62,9 @@ struct Upright {
 };
 
 /// A wall across the way that lines lean against leaves ever less of them: followed to the end, the tool would climb along its own
-/// axis, a way on which no cycle gets on. So the way ends where a quarter of a line is blocked; nor is such a wall a floor.
+/// axis, a way on which no cycle gets on. So the way ends where half of a line is blocked; nor is such a wall a floor.
 Upright upright_part(const ClearStart& clear) {
-  constexpr double kFree = 0.75, kGrowing = 1e-3;  // of the longest free stretch
+  constexpr double kFree = 0.5, kGrowing = 1e-3;  // of the longest free stretch
   const int n = static_cast<int>(clear.lines.size());
   const auto free = [&](int i) {
     const ClearStart::Line& line = clear.lines[static_cast<std::size_t>(i)];
