@@ -139,21 +139,24 @@ double first_free(const Chart& chart, const RuledStart& start, const ObstacleFie
 
 ClearStart clear_start(const Chart& chart, const RuledStart& start, const ObstacleField& obstacles) {
   ClearStart clear;
-  clear.lines = lines_between(chart, start, obstacles, 0.0, 1.0);
+  clear.first = start.first;
+  clear.last = start.last;
+  clear.lines = lines_between(chart, start, obstacles, clear.first, clear.last);
   const auto is_free = [](const Line& line) { return line.free; };
   const auto first = std::find_if(clear.lines.begin(), clear.lines.end(), is_free);
   if (first == clear.lines.end()) return clear;
   const auto last = std::find_if(clear.lines.rbegin(), clear.lines.rend(), is_free);
-  const double step = 1.0 / (kStartTimes - 1);
-  const double begin = step * static_cast<double>(first - clear.lines.begin());
-  const double end = 1.0 - step * static_cast<double>(last - clear.lines.rbegin());
+  const double step = (start.last - start.first) / (kStartTimes - 1);
+  const double begin = start.first + step * static_cast<double>(first - clear.lines.begin());
+  const double end = start.last - step * static_cast<double>(last - clear.lines.rbegin());
   // The fit draws the ends of a motion out of a wall by about as much as the tool is thick, and leads it farther along the
   // wall than a cut would.
   constexpr double kPast = 0.5;  // of the ball's radius, past the first and the last line that is free
   const double past = kPast * start.radius_mm / way_of(clear.lines);
-  if (begin > 0.0) clear.first = std::max(0.0, first_free(chart, start, obstacles, begin - step, begin) - past);
-  if (end < 1.0) clear.last = std::min(1.0, first_free(chart, start, obstacles, end + step, end) + past);
-  if (clear.first > 0.0 || clear.last < 1.0)
+  if (begin > start.first)
+    clear.first = std::max(start.first, first_free(chart, start, obstacles, begin - step, begin) - past);
+  if (end < start.last) clear.last = std::min(start.last, first_free(chart, start, obstacles, end + step, end) + past);
+  if (clear.first > start.first || clear.last < start.last)
     clear.lines = lines_between(chart, start, obstacles, clear.first, clear.last);
   for (const Line& line : clear.lines) {
     if (!line.free) continue;

@@ -332,8 +332,10 @@ GuardDepth CycleSearch::depth_at_ends(const Trial& trial, int places) const {
 double CycleSearch::entered(const Trial& trial) const { return depth_of(trial, kGuardTimes, kGuardPlaces).deepest(); }
 
 bool CycleSearch::enters_anything(const Trial& trial) const {
+  // What the side paths enter of one kind of face allows nothing in another. Looked at as closely as a half is.
   const double allowed = kToleranceBudget.cavity.halves * options_.tolerance_mm;
-  return entered(trial) > std::max(allowed, depth_at_ends(trial, kGuardPlaces).deepest());
+  const GuardDepth half = depth_of(trial, kGuardTimes, kGuardPlaces), ends = depth_at_ends(trial, 2 * kGuardPlaces - 1);
+  return half.sides > std::max(allowed, ends.sides) || half.others > std::max(allowed, ends.others);
 }
 
 double CycleSearch::allowed_at_tips(const Trial& trial) const {

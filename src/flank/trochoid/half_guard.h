@@ -33,14 +33,23 @@ struct GuardDepth {
 class HalfGuard {
  public:
   HalfGuard(GuardedFaces faces, const RadialFunction& radial);
-  /// At `times` x `places` samples, the times densest at both ends, and closer around the deepest of them; at more places
-  /// where their balls would leave an edge between them unseen. A place that projects onto a side's border counts by its
-  /// distance alone.
+  /// At `times` x `places` samples, the times densest at both ends, and closer around those that are deeper than their
+  /// neighbours, be they in a face or only near one; at more places where their balls would leave an edge between them unseen.
+  /// A place that projects onto a side's border counts by its distance alone.
   [[nodiscard]] GuardDepth depth(const RuledMotion& motion, int times, int places) const;
   /// Adds what one pose enters.
   void look(const Pose& pose, int places, GuardDepth& out) const;
 
  private:
+  struct Sample {
+    GuardDepth depth;      ///< with its sign as far as `rise_mm` off a face
+    double rise_mm = 0.0;  ///< no deeper than by this more lie the places up to half way to the next samples
+  };
+  [[nodiscard]] std::vector<Sample> samples(const RuledMotion& motion, int times, int places) const;
+  /// Adds what is entered between the samples before and after one.
+  void look_closer(const RuledMotion& motion, int times, int at, int places, GuardDepth& out) const;
+  /// With depths below zero, as far as the flank sees.
+  void look(const Pose& pose, int places, double sight_mm, GuardDepth& out) const;
   GuardedFaces faces_;
   RadialFunction radial_;
   int least_places_ = 2;

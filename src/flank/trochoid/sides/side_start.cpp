@@ -55,6 +55,41 @@ Vec3 travel(const RuledMotion& motion) {
   return motion.pose(1.0).at(middle) - motion.pose(0.0).at(middle);
 }
 
+/// How far lines of a band go along the way, and how many of them end at a floor.
+struct Upright {
+  double first = 0.0, last = 1.0;
+  int on_floor = 0;
+};
+
+/// A wall across the way that lines lean against leaves ever less of them: followed to the end, the tool would climb along its own
+/// axis, a way on which no cycle gets on. So the way ends where half of a line is blocked; nor is such a wall a floor.
+Upright upright_part(const ClearStart& clear) {
+  constexpr double kFree = 0.5, kGrowing = 1e-3;  // of the longest free stretch
+  const int n = static_cast<int>(clear.lines.size());
+  const auto free = [&](int i) {
+    const ClearStart::Line& line = clear.lines[static_cast<std::size_t>(i)];
+    return line.free ? (line.high - line.low) / clear.longest_mm : 0.0;
+  };
+  const auto blocked = [&](int i) {
+    const ClearStart::Line& line = clear.lines[static_cast<std::size_t>(i)];
+    return !line.free || line.low_blocked || line.high_blocked;
+  };
+  const auto time = [&](int i) { return clear.first + (clear.last - clear.first) * i / (n - 1.0); };
+  Upright out{clear.first, clear.last, 0};
+  int from = 0, to = n - 1;
+  const auto pass = [&](int& i, int by, double& end) {
+    while (i + by >= 0 && i + by < n && blocked(i) && (free(i) < kFree || free(i + by) > free(i) + kGrowing)) {
+      if (free(i) < kFree) end = time(i + by);
+      i += by;
+    }
+  };
+  if (clear.first > 0.0) pass(from, +1, out.first);
+  if (clear.last < 1.0) pass(to, -1, out.last);
+  for (int i = from; i <= to; ++i)
+    if (clear.lines[static_cast<std::size_t>(i)].free && blocked(i)) ++out.on_floor;
+  return out;
+}
+
 double longest_line(const CavitySide& side, const Chart& chart, const RuledStart& start, int layers) {
   double longest = 0.0;
   for (int k = 0; k < layers; ++k) {
@@ -62,7 +97,7 @@ double longest_line(const CavitySide& side, const Chart& chart, const RuledStart
     double length = kLonger * longest_chord(chart, band);
     if (side.obstacles != nullptr) {
       const ClearStart clear = clear_start(chart, band, *side.obstacles);
-      if (clear.free_lines > 0 && clear.blocked_lines > kStartTimes / 4) length = kLonger * clear.longest_mm;
+      if (clear.free_lines > 0 && upright_part(clear).on_floor > kStartTimes / 4) length = kLonger * clear.longest_mm;
     }
     longest = std::max(longest, length);
   }
@@ -78,13 +113,17 @@ Laid lay(const CavitySide& side, const Chart& chart, const RuledStart& start, in
       if (clear.free_lines == 0) return {};
       // A wall across the way ends it, before the first line that it blocks: a fit that begins in the wall is thrown far off.
       const double inset = kBeforeBlocked * (clear.last - clear.first);
-      band.first = clear.first > 0.0 ? clear.first + inset : 0.0;
-      band.last = clear.last < 1.0 ? clear.last - inset : 1.0;
-      if (clear.blocked_lines > kStartTimes / 4) {
-        out.motions.push_back(make_motion(clear, length, kControlPoints));
+      const Upright upright = upright_part(clear);
+      if (upright.on_floor > kStartTimes / 4) {
+        band.first = upright.first, band.last = upright.last;
+        const bool shorter = upright.first > clear.first || upright.last < clear.last;
+        out.motions.push_back(
+            make_motion(shorter ? clear_start(chart, band, *side.obstacles) : clear, length, kControlPoints));
         out.walled = true;
         continue;
       }
+      if (clear.first > 0.0) band.first = std::max(clear.first + inset, upright.first);
+      if (clear.last < 1.0) band.last = std::min(clear.last - inset, upright.last);
     }
     out.motions.push_back(make_motion(chart, band, length, kControlPoints));
   }
