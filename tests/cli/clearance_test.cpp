@@ -125,7 +125,7 @@ TEST_F(CliClearanceFit, AWideHolderHitsTheRealImpeller) {
   // Planned as if the hub were not there, the axis lies along it; its length is given, so that nothing is lifted.
   const Outcome outcome =
       flank({"fit", part.string(), "--face", "F1", "--tolerance", "0.05", "-o", path("out"), "--avoid", "off",
-             "--axis-length", "66", "--shank-length", "10", "--holder", "10:60,50:60"});
+             "--axis-length", "55", "--shank-length", "10", "--holder", "10:45,50:45"});
   EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
   const json list = json::parse(read_file(root_ / "out/verify.json")).at("clearance");
   const json holder = figure(list, "holder", "part");
