@@ -39,7 +39,7 @@ TEST(SideStart, BeginsAndEndsBeforeWallsAcrossTheWay) {
   EXPECT_EQ(upright, 1);
 }
 
-TEST(SideStart, DoesNotClimbAWallThatItsLinesLeanAgainst) {
+TEST(SideStart, DoesNotGoUpAWallThatItsLinesLeanAgainst) {
   constexpr double kRadius = 2.7;
   const std::vector<Face> faces = cavity_walls(
       {.width_mm = 12.0, .depth_mm = 30.0, .length_mm = 40.0, .twist_deg = 15.0, .hollow_mm = 0.5, .end_wall = true});

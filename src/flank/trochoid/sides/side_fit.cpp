@@ -12,7 +12,7 @@
 #include "flank/fit/polish.h"
 #include "flank/fit/swept_polish.h"
 #include "flank/motion/stagger.h"
-#include "flank/trochoid/sides/climb.h"
+#include "flank/trochoid/sides/axial_ends.h"
 
 namespace flank::internal {
 namespace {
@@ -88,19 +88,19 @@ void tie(FitDraft& draft, const CavitySide& left, const CavitySide& right) {
   }
 }
 
-/// Whether an end of a motion was cut off because it climbs.
-bool cut_climbs(FitDraft& draft) {
+/// Whether an end of a motion was cut off because it is axial.
+bool cut_axial_ends(FitDraft& draft) {
   bool cut = false;
   for (RuledMotion& motion : draft.motions) {
-    RuledMotion rest = without_climb(motion);
+    RuledMotion rest = without_axial_ends(motion);
     cut = cut || rest.tip.knots != motion.tip.knots;
     motion = std::move(rest);
   }
   return cut;
 }
 
-Polished without_climbs(Polished polished, const std::vector<SurfaceSample>& samples, const FlankFitOptions& fit) {
-  if (!cut_climbs(polished.draft)) return polished;
+Polished with_axial_ends_cut(Polished polished, const std::vector<SurfaceSample>& samples, const FlankFitOptions& fit) {
+  if (!cut_axial_ends(polished.draft)) return polished;
   const bool exact = polished.exact;
   Polished out = assess(std::move(polished.draft), samples, fit);
   out.exact = exact;
@@ -147,7 +147,7 @@ Candidate SideFitter::quick(const SideStart& start, const FlankFitOptions& fit) 
   if (draft.facing) keep_going(stage, kQuickParallel * fit.tolerance_mm, left_.target->diagonal());
   candidate.draft = run_stage(draft, fit.bounds, stage);
   if (!has_values(candidate.draft)) return candidate;
-  cut_climbs(candidate.draft);
+  cut_axial_ends(candidate.draft);
   const double tolerance = kQuickTolerances * options_.fit.tolerance_mm;
   const std::vector<RuledMotion>& motions = candidate.draft.motions;
   CoverageEstimate estimate = estimate_coverage(few_, motions, candidate.draft.tool, tolerance, kQuickPoses);
@@ -176,7 +176,7 @@ RadiusFit SideFitter::fit_radius(const RadiusStart& first) const {
   std::vector<Polished> polished(candidates.size());
   std::vector<std::vector<IterationTrace>> traces(candidates.size());
   parallel_for(candidates.size(), [&](std::size_t k) {
-    polished[k] = without_climbs(polish(candidates[k].draft, samples_, fit, &traces[k]), samples_, fit);
+    polished[k] = with_axial_ends_cut(polish(candidates[k].draft, samples_, fit, &traces[k]), samples_, fit);
   });
   const auto value = [&](std::size_t k) {
     return worth(polished[k].draft, polished[k].estimate, options_.fit.tolerance_mm);
@@ -192,7 +192,7 @@ RadiusFit SideFitter::fit_radius(const RadiusStart& first) const {
   const bool envelope = out.polished.estimate.rms_mm <= kEnvelope * left_.target->diagonal();
   if (options_.facing && out.polished.exact && !envelope)
     out.polished = straightened(out.polished, options_.least_coverage, samples_, fit, &out.trace);
-  out.polished = without_climbs(std::move(out.polished), samples_, fit);
+  out.polished = with_axial_ends_cut(std::move(out.polished), samples_, fit);
   return out;
 }
 

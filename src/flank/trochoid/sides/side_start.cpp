@@ -61,7 +61,7 @@ struct Upright {
   int on_floor = 0;
 };
 
-/// A wall across the way that lines lean against leaves ever less of them: followed to the end, the tool would climb along its own
+/// A wall across the way that lines lean against leaves ever less of them: followed to the end, the tool would rise along its own
 /// axis, a way on which no cycle gets on. So the way ends where half of a line is blocked; nor is such a wall a floor.
 Upright upright_part(const ClearStart& clear) {
   constexpr double kFree = 0.5, kGrowing = 1e-3;  // of the longest free stretch

@@ -1,5 +1,5 @@
 // Ends of a side's motion that slide the tool along its own axis.
-#include "flank/trochoid/sides/climb.h"
+#include "flank/trochoid/sides/axial_ends.h"
 
 #include <gtest/gtest.h>
 
@@ -23,8 +23,8 @@ RuledMotion before_wall(double share, double height) {
   return fit_motion(poses, times, kLength, 12);
 }
 
-TEST(Climb, EndsBeforeTheToolSlidesAlongItsAxis) {
-  const RuledMotion whole = before_wall(0.2, 10.0), part = without_climb(whole);
+TEST(AxialEnds, EndsBeforeTheToolSlidesAlongItsAxis) {
+  const RuledMotion whole = before_wall(0.2, 10.0), part = without_axial_ends(whole);
   EXPECT_LT(std::abs(part.pose(1.0).tip.z()), 1.5);
   EXPECT_GT(part.pose(1.0).tip.x(), 0.93 * kWay);
   EXPECT_NEAR((part.pose(0.0).tip - whole.pose(0.0).tip).norm(), 0.0, 1e-12);
@@ -37,17 +37,17 @@ TEST(Climb, EndsBeforeTheToolSlidesAlongItsAxis) {
   EXPECT_LT(nearest, 1e-12);
 }
 
-TEST(Climb, BeginsBehindIt) {
+TEST(AxialEnds, BeginsBehindIt) {
   RuledMotion whole = before_wall(0.2, 10.0);
   for (BSplineCurve3* rail : {&whole.tip, &whole.direction}) rail->poles = rail->poles.rowwise().reverse().eval();
-  const RuledMotion part = without_climb(whole);
+  const RuledMotion part = without_axial_ends(whole);
   EXPECT_LT(std::abs(part.pose(0.0).tip.z()), 1.5);
   EXPECT_GT(part.pose(0.0).tip.x(), 0.93 * kWay);
 }
 
-TEST(Climb, LeavesWhatDoesNotClimbAndWhatClimbsAllAlong) {
+TEST(AxialEnds, LeavesWhatHasNoneAndWhatIsAxialAllAlong) {
   for (const RuledMotion& motion : {before_wall(0.0, 0.0), before_wall(0.5, 60.0)}) {
-    const RuledMotion same = without_climb(motion);
+    const RuledMotion same = without_axial_ends(motion);
     EXPECT_EQ(same.tip.poles, motion.tip.poles);
     EXPECT_EQ(same.direction.knots, motion.direction.knots);
   }

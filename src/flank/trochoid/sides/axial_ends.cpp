@@ -1,4 +1,4 @@
-#include "flank/trochoid/sides/climb.h"
+#include "flank/trochoid/sides/axial_ends.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kSteps = 256;
 constexpr double kAlong = 0.5 * std::numbers::sqrt2;  ///< cosine of 45 degrees
-/// Of the way: what climbs for longer, and what is too short to matter.
-constexpr double kMostClimb = 0.25, kLeastClimb = 0.01;
+/// Of the way: what is axial for longer, and what is too short to matter.
+constexpr double kMostAxial = 0.25, kLeastAxial = 0.01;
 
 RuledMotion between(const RuledMotion& motion, double first, double last) {
   RuledMotion out = motion;
@@ -28,28 +28,28 @@ RuledMotion between(const RuledMotion& motion, double first, double last) {
 
 }  // namespace
 
-RuledMotion without_climb(const RuledMotion& motion) {
+RuledMotion without_axial_ends(const RuledMotion& motion) {
   const double middle = 0.5 * motion.axis_length;
-  std::vector<bool> climbs;
+  std::vector<bool> axial;
   std::vector<double> way;
   double sum = 0.0;
   for (int i = 0; i < kSteps; ++i) {
     const AxisJet axis = motion.jet((i + 0.5) / kSteps);
     const Vec3 velocity = axis.velocity(middle);
-    climbs.push_back(std::abs(velocity.dot(axis.u)) > kAlong * velocity.norm());
+    axial.push_back(std::abs(velocity.dot(axis.u)) > kAlong * velocity.norm());
     way.push_back(velocity.norm());
     sum += way.back();
   }
-  // From an end on, how many steps climb; none if that is hardly any, or most, of the way.
+  // From an end on, how many steps are axial; none if that is hardly any, or most, of the way.
   const auto steps = [&](bool from_end) {
-    double climbed = 0.0;
+    double length = 0.0;
     int count = 0;
     for (; count < kSteps; ++count) {
       const auto i = static_cast<std::size_t>(from_end ? kSteps - 1 - count : count);
-      if (!climbs[i]) break;
-      climbed += way[i];
+      if (!axial[i]) break;
+      length += way[i];
     }
-    return climbed >= kLeastClimb * sum && climbed <= kMostClimb * sum ? count : 0;
+    return length >= kLeastAxial * sum && length <= kMostAxial * sum ? count : 0;
   };
   const int first = steps(false), last = kSteps - steps(true);
   if (first == 0 && last == kSteps) return motion;
