@@ -6,6 +6,7 @@
 #include "flank/base/tolerance_budget.h"
 #include "flank/fit.h"
 #include "flank/fit/model/swept_model.h"
+#include "flank/fit/polished.h"
 #include "flank/fit/stages.h"
 
 namespace flank::internal {
