@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flank/geom/spline_segment.h"
+#include "flank/motion/motion_part.h"
 
 namespace flank::internal {
 namespace {
@@ -55,14 +55,7 @@ double SidePath::time_of(double x) const {
 RuledMotion SidePath::motion_between(double from, double to) const {
   if (from <= 0.0 && to >= length()) return motion_;
   const double start = from <= 0.0 ? 0.0 : time_of(from), end = to >= length() ? 1.0 : time_of(to);
-  RuledMotion out = motion_;
-  for (BSplineCurve3* rail : {&out.tip, &out.direction}) {
-    SplineRows rows = spline_segment({rail->degree, rail->knots, rail->poles}, start, end);
-    for (double& knot : rows.knots) knot = (knot - start) / (end - start);
-    rail->knots = std::move(rows.knots);
-    rail->poles = rows.poles;
-  }
-  return out;
+  return motion_part(motion_, start, end);
 }
 
 AxisPlace SidePath::at(double x) const {

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "flank/geom/spline_segment.h"
+#include "flank/motion/motion_part.h"
 
 namespace flank::internal {
 namespace {
@@ -14,17 +14,6 @@ constexpr int kSteps = 256;
 constexpr double kAlong = 0.5 * std::numbers::sqrt2;  ///< cosine of 45 degrees
 /// Of the way: what is axial for longer, and what is too short to matter.
 constexpr double kMostAxial = 0.25, kLeastAxial = 0.01;
-
-RuledMotion between(const RuledMotion& motion, double first, double last) {
-  RuledMotion out = motion;
-  for (BSplineCurve3* rail : {&out.tip, &out.direction}) {
-    SplineRows rows = spline_segment({rail->degree, rail->knots, rail->poles}, first, last);
-    for (double& knot : rows.knots) knot = (knot - first) / (last - first);
-    rail->knots = std::move(rows.knots);
-    rail->poles = rows.poles;
-  }
-  return out;
-}
 
 }  // namespace
 
@@ -53,7 +42,7 @@ RuledMotion without_axial_ends(const RuledMotion& motion) {
   };
   const int first = steps(false), last = kSteps - steps(true);
   if (first == 0 && last == kSteps) return motion;
-  return between(motion, static_cast<double>(first) / kSteps, static_cast<double>(last) / kSteps);
+  return motion_part(motion, static_cast<double>(first) / kSteps, static_cast<double>(last) / kSteps);
 }
 
 }  // namespace flank::internal
