@@ -122,7 +122,7 @@ TEST_F(CliClearanceFit, AFixtureInTheWayIsExitOneAndNamed) {
 TEST_F(CliClearanceFit, AWideHolderHitsTheRealImpeller) {
   const fs::path part = real_part("kj66_impeller.step");
   if (part.empty()) GTEST_SKIP() << "no real parts in FLANK_DATA";
-  // Planned as if the hub were not there, the axis lies along it; its length is given, so that nothing is lifted.
+  // Planned as if the other faces were not there; the length of the axis is given, so that nothing is lifted.
   const Outcome outcome =
       flank({"fit", part.string(), "--face", "F1", "--tolerance", "0.05", "-o", path("out"), "--avoid", "off",
              "--axis-length", "55", "--shank-length", "10", "--holder", "10:45,50:45"});

@@ -19,6 +19,9 @@ constexpr double kHorizon = 0.01;
 /// How much longer the way between two samples may be than the line between them.
 constexpr double kArc = 1.1;
 
+/// Of `times` samples, or between two of them: densest at both ends of a half.
+double sample_time(double i, int times) { return 0.5 - 0.5 * std::cos(std::numbers::pi * i / (times - 1)); }
+
 /// Depths are looked for with their sign: nothing is near.
 constexpr double kFar = -std::numeric_limits<double>::infinity();
 constexpr GuardDepth kUnseen{kFar, kFar, kFar};
@@ -59,9 +62,8 @@ void HalfGuard::look(const Pose& pose, int places, double sight_mm, GuardDepth& 
 
 std::vector<HalfGuard::Sample> HalfGuard::samples(const RuledMotion& motion, int times, int places) const {
   // Densest at both ends, where a half leaves a side at a tangent: what it enters, it enters there, for a moment.
-  const auto time = [&](int i) { return 0.5 - 0.5 * std::cos(std::numbers::pi * i / (times - 1)); };
   std::vector<Pose> poses;
-  for (int i = 0; i < times; ++i) poses.push_back(motion.pose(time(i)));
+  for (int i = 0; i < times; ++i) poses.push_back(motion.pose(sample_time(i, times)));
   const auto way = [&](std::size_t i, std::size_t k) {
     const double length = radial_.axis_length();
     return std::max((poses[i].tip - poses[k].tip).norm(), (poses[i].at(length) - poses[k].at(length)).norm());
@@ -82,7 +84,7 @@ void HalfGuard::look_closer(const RuledMotion& motion, int times, int at, int pl
   const auto closer = [&](double k) {
     const double i = std::clamp(at + k / kCloser, 0.0, times - 1.0);
     GuardDepth here = kUnseen;
-    look(motion.pose(0.5 - 0.5 * std::cos(std::numbers::pi * i / (times - 1))), 2 * places - 1, here);
+    look(motion.pose(sample_time(i, times)), 2 * places - 1, here);
     out.add(here);
     return here;
   };
