@@ -15,6 +15,7 @@ constexpr std::size_t kDirections = 16;
 constexpr std::array<double, 2> kShares{1.0, 0.25};
 /// None, then straight ways round the axis, then arcs.
 constexpr std::size_t kStraight = kDirections * kShares.size() + 1, kWays = 2 * kStraight - 1;
+constexpr double kNoWay = -1e300;  ///< in the place of a distance
 
 /// The least distance from the samples on the second half of the lead and on the way along the axis, up to `enough`. On
 /// the first half the tool is where it has just cut.
@@ -53,26 +54,42 @@ Lead lead_of(const StripEnd& end, std::size_t k, double lift_mm) {
   return lead;
 }
 
+/// Those that there are, the best first.
+std::vector<std::size_t> best_first(const double* distances) {
+  const double *arcs = distances + kStraight, *end = distances + kWays;
+  const double straight = *std::max_element(distances, arcs), arc = *std::max_element(arcs, end);
+  const bool tangent = arc > 0.0 && arc >= 0.5 * straight;
+  std::vector<std::size_t> ways;
+  for (std::size_t k = 0; k < kWays; ++k)
+    if (distances[k] != kNoWay) ways.push_back(k);
+  std::stable_sort(ways.begin(), ways.end(), [&](std::size_t a, std::size_t b) {
+    const bool arc_a = a >= kStraight, arc_b = b >= kStraight;
+    return arc_a != arc_b ? arc_a == tangent : distances[a] > distances[b];
+  });
+  return ways;
+}
+
 }  // namespace
 
-std::vector<Lead> leads_off(const Tool& tool, const std::vector<StripEnd>& ends,
-                            const std::vector<FaceSamples>& samples, double lift_mm, double run_mm) {
-  std::vector<double> distances(ends.size() * kWays);
+LeadSearch::LeadSearch(const Tool& tool, std::vector<StripEnd> ends, const std::vector<FaceSamples>& samples,
+                       double lift_mm, double run_mm)
+    : ends_(std::move(ends)), lift_mm_(lift_mm), chosen_(ends_.size(), 0) {
+  std::vector<double> distances(ends_.size() * kWays);
   parallel_for(distances.size(), [&](std::size_t i) {
-    const StripEnd& end = ends[i / kWays];
+    const StripEnd& end = ends_[i / kWays];
     const Lead lead = lead_of(end, i % kWays, lift_mm);
     const bool no_arc = i % kWays >= kStraight && lead.along.isZero();
-    distances[i] = no_arc ? -1.0 : least_distance(tool, end, lead, samples, run_mm, 2.0 * lift_mm);
+    distances[i] = no_arc ? kNoWay : least_distance(tool, end, lead, samples, run_mm, 2.0 * lift_mm);
   });
-  std::vector<Lead> leads;
-  for (std::size_t e = 0; e < ends.size(); ++e) {
-    const auto begin = distances.begin() + static_cast<std::ptrdiff_t>(e * kWays);
-    const auto straight = std::max_element(begin, begin + kStraight),
-               arc = std::max_element(begin + kStraight, begin + kWays);
-    const bool tangent = *arc > 0.0 && *arc >= 0.5 * *straight;
-    leads.push_back(lead_of(ends[e], static_cast<std::size_t>((tangent ? arc : straight) - begin), lift_mm));
-  }
-  return leads;
+  for (std::size_t e = 0; e < ends_.size(); ++e) ways_.push_back(best_first(distances.data() + e * kWays));
+}
+
+Lead LeadSearch::lead(std::size_t end) const { return lead_of(ends_[end], ways_[end][chosen_[end]], lift_mm_); }
+
+bool LeadSearch::next(std::size_t end) {
+  if (chosen_[end] + 1 >= ways_[end].size()) return false;
+  ++chosen_[end];
+  return true;
 }
 
 }  // namespace flank::internal

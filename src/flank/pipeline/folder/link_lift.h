@@ -15,9 +15,23 @@ struct StripEnd {
 };
 
 /// A lead for each end, `lift_mm` off the surface, or less, or none: that on which the tool keeps farthest from the samples, and
-/// likewise while it then runs along its axis for `run_mm`. On an arc past the end where that keeps at least half as far
-/// from everything as the best straight way. Parallel; the same for any number of threads.
-[[nodiscard]] std::vector<Lead> leads_off(const Tool& tool, const std::vector<StripEnd>& ends,
-                                          const std::vector<FaceSamples>& samples, double lift_mm, double run_mm);
+/// likewise while it then runs along its axis for `run_mm`. Arcs past the end go before straight ways where the best of them
+/// keeps at least half as far from everything as the best straight one. Parallel; the same for any number of threads.
+class LeadSearch {
+ public:
+  LeadSearch(const Tool& tool, std::vector<StripEnd> ends, const std::vector<FaceSamples>& samples, double lift_mm,
+             double run_mm);
+
+  [[nodiscard]] std::size_t ends() const { return ends_.size(); }
+  [[nodiscard]] Lead lead(std::size_t end) const;
+  /// Goes on to an end's next best lead; false, and the lead stays, where there is no other.
+  bool next(std::size_t end);
+
+ private:
+  std::vector<StripEnd> ends_;
+  double lift_mm_;
+  std::vector<std::vector<std::size_t>> ways_;  ///< of each end, the best first
+  std::vector<std::size_t> chosen_;             ///< place in these
+};
 
 }  // namespace flank::internal

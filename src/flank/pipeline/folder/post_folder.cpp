@@ -20,12 +20,10 @@
 #include "flank/machine/setup_search.h"
 #include "flank/path_file.h"
 #include "flank/pipeline/folder/folder_job.h"
-#include "flank/pipeline/folder/judge_job.h"
-#include "flank/pipeline/folder/link_lift.h"
+#include "flank/pipeline/folder/judged_links.h"
 #include "flank/pipeline/folder/machine_scene.h"
 #include "flank/pipeline/folder/motion_json.h"
 #include "flank/setup/clearance_scene.h"
-#include "flank/setup/targets.h"
 #include "flank/setup/tool_body.h"
 
 namespace flank {
@@ -39,8 +37,6 @@ constexpr double kLeastDeviation = 1e-6;
 /// Where little is engaged the feed is so much faster at most: beyond, runout and the stock's own resolution of a few
 /// degrees count for more than the chip. At a limit of 60 degrees it is reached at 17.
 constexpr double kMostFeedFactor = 3.0;
-/// Of the samples from which a tool is lifted: of the part's diagonal.
-constexpr double kLiftSampleShare = 1.0 / 100.0;
 
 struct Input {
   Setup setup;
@@ -103,44 +99,15 @@ KnownPath in_order(const Input& input, const Box3& around, const PostJob& reques
   return ordered;
 }
 
-/// Beginning and end of each strip, at both of which the tool goes on past it: at the beginning backwards.
-std::vector<StripEnd> ends_of(const Path& path, double axis_length) {
-  std::vector<StripEnd> ends;
-  const auto middle = [&](const Pose& p) { return p.at(0.5 * axis_length); };
-  for (const Strip& strip : path.strips) {
-    const std::vector<Pose>& poses = strip.poses;
-    const Pose &second = poses[std::min<std::size_t>(1, poses.size() - 1)],
-               &before = poses[poses.size() > 1 ? poses.size() - 2 : 0];
-    ends.push_back({poses.front(), middle(poses.front()) - middle(second)});
-    ends.push_back({poses.back(), middle(poses.back()) - middle(before)});
-  }
-  return ends;
-}
-
-/// With links around the strips; nothing is known of the links.
-KnownPath link_strips(const Input& input, const PostTool& facts, const PostJob& request) {
+/// With links around the strips.
+JudgedLinks link_strips(const Input& input, const PostTool& facts, const PostJob& request) {
   LinkOptions options;
   options.keep_out = input.setup.part.box;
   for (const Part& fixture : input.setup.fixtures) options.keep_out.add(fixture.box);
-  KnownPath ordered = in_order(input, options.keep_out, request);
-  const Path& path = ordered.path;
-  const double spacing = kLiftSampleShare * input.setup.part.box.diagonal();
-  const std::vector<Lead> leads =
-      leads_off(input.tool, ends_of(path, facts.axis_length), judge_samples(input.setup, spacing, spacing),
-                request.lift_mm, input.setup.part.box.diagonal());
   options.tool_radius = body_radius(input.tool, facts);
   options.clearance = request.link_clearance_mm;
-  for (std::size_t k = 0; k < leads.size(); k += 2) {
-    options.lead_at_start.push_back(leads[k]);
-    options.lead_at_end.push_back(leads[k + 1]);
-  }
-  KnownPath linked{with_links(path, options), {}};
-  for (std::vector<double>& known : ordered.known) {
-    linked.known.emplace_back();
-    linked.known.push_back(std::move(known));
-  }
-  linked.known.emplace_back();
-  return linked;
+  return judged_links(input.setup, input.judge, input.tool, in_order(input, options.keep_out, request), options,
+                      request.lift_mm);
 }
 
 WorkSetup find_setup(const PostJob& request, const Machine& machine, const Path& path, const PostTool& facts,
@@ -158,25 +125,18 @@ WorkSetup find_setup(const PostJob& request, const Machine& machine, const Path&
   return *found.setup;
 }
 
-/// The links are judged like the strips: how deep they cut, and how near shank and holder come.
-void judge_links(const Input& input, const Path& linked, PostOutcome& outcome) {
-  Path links;
-  for (const Strip& strip : linked.strips)
-    if (strip.kind == kLinkKind) links.strips.push_back(strip);
-  JudgeRequest sampled = input.judge;
-  sampled.reach_radius_mm = {};
-  VerifyReport report = judge_job(input.setup, sampled, input.tool, links);
-  const double depth = std::max(report.overcut_mm, report.gouge_mm), tolerance = input.setup.tolerance_mm;
+/// How deep the links cut, and how near shank and holder come on them.
+void accept_links(const Input& input, const JudgedLinks& links, PostOutcome& outcome) {
+  const double depth = links.depth_mm(), tolerance = input.setup.tolerance_mm;
   if (depth > tolerance) {
-    const WorstPlace* worst = report.worst.empty() ? nullptr : &report.worst.front();
+    const WorstPlace* worst = links.report.worst.empty() ? nullptr : &links.report.worst.front();
     outcome.acceptance.reasons.push_back(
         {"gouge_mm", fmt::format("link {} cuts {} by {:.4f} mm; more than the tolerance of {} mm",
                                  worst != nullptr ? worst->strip + 1 : 0, worst != nullptr ? worst->face : "the part",
                                  depth, tolerance)});
   }
   const ClearanceScene scene = make_clearance_scene(input.setup, input.obstacles, has_body(input.tool), outcome.notes);
-  report.clearance = measure_clearance(scene, input.tool, links);
-  if (!report.clearance.kept())
+  if (!measure_clearance(scene, input.tool, links.links()).kept())
     outcome.acceptance.reasons.push_back({"clearance", "shank, holder or a fixture comes too near on a link"});
 }
 
@@ -236,15 +196,15 @@ void fill(const Machine& machine, const Post& result, PostOutcome& outcome) {
 PostOutcome post_input(const PostJob& request, Machine machine, const Input& input, PostOutcome outcome) {
   if (request.tool_length_mm) machine.tool_length = *request.tool_length_mm;
   const PostTool facts = post_tool(input.tool);
-  KnownPath known = link_strips(input, facts, request);
-  const Path& linked = known.path;
+  JudgedLinks links = link_strips(input, facts, request);
+  const Path& linked = links.linked.path;
   PostOptions options;
   MachineScene scene = machine_scene(machine, input.tool, tip_offset(machine, facts));
   options.setup = find_setup(request, machine, linked, facts, scene, outcome);
   options.deviation =
       std::max(kLeastDeviation, request.deviation_mm.value_or(kDeviationShare * input.setup.tolerance_mm));
   options.feed = feed_rule(request, input, outcome);
-  options.engagement = std::move(known.known);
+  options.engagement = std::move(links.linked.known);
   options.time_optimal = request.speed == "optimal";
   outcome.machine = machine.name;
   outcome.nesting = machine.nesting();
@@ -253,7 +213,7 @@ PostOutcome post_input(const PostJob& request, Machine machine, const Input& inp
   Post result = post(machine, linked, facts, options);
   if (result.unreachable) refuse(result, outcome);
   fill(machine, result, outcome);
-  judge_links(input, linked, outcome);
+  accept_links(input, links, outcome);
   add_work(input.setup, input.obstacles, options.setup, scene);
   judge_machine(machine, result, scene, outcome);
   result.program.header.part = std::filesystem::path(input.setup.part.file).filename().string();
