@@ -42,9 +42,13 @@ class ObstacleField {
   /// for its verdict.
   [[nodiscard]] ObstacleDistance interpolated(const Vec3& p, double horizon_mm) const;
   /// The distance (never a horizon) by interpolation in a lattice around the target: accurate to a few hundredths of
-  /// the lattice step (1/48 of the target's size), except near points equidistant from two faces. Much faster; for
-  /// searches that start rough.
+  /// the lattice step (1/48 of the target's size, three times that farther out), except near points equidistant from two
+  /// faces. Much faster; for searches that start rough.
   [[nodiscard]] ObstacleDistance estimate(const Vec3& p) const;
+  /// On which side of `level_mm` the distance is, and about how far: as interpolated() where estimate() cannot tell, else
+  /// as that (which may err where a wall's sign ends). For searches of where a ball is free, most of whose places are far
+  /// from where it touches.
+  [[nodiscard]] double beside(const Vec3& p, double level_mm) const;
   /// Whether a ball of this radius that touches the target at the sample enters no obstacle by more than `depth_mm`
   /// (MATH section 9).
   [[nodiscard]] bool reachable(const SurfaceSample& sample, double radius_mm, double depth_mm) const;
@@ -58,9 +62,11 @@ class ObstacleField {
  private:
   struct Lattice;
   struct Exact;
-  [[nodiscard]] double node_distance(std::ptrdiff_t index, const Vec3& place) const;
+  [[nodiscard]] double node_distance(Lattice& lattice, std::ptrdiff_t index, const Vec3& place) const;
   /// Faces that can be nearest within half a cell of a node with this distance.
   [[nodiscard]] std::vector<std::size_t> faces_near(const Vec3& place, double distance_mm) const;
+  /// As estimate(), in one lattice; nothing off it.
+  [[nodiscard]] bool estimate_in(Lattice& lattice, const Vec3& p, ObstacleDistance& sum) const;
   /// As at(), of these faces, where nothing that matters is farther than the sight.
   [[nodiscard]] ObstacleDistance search(const std::vector<std::size_t>& faces, const Vec3& p, double horizon_mm,
                                         double sight_mm) const;
@@ -73,7 +79,8 @@ class ObstacleField {
   double allowance_mm_;
   std::vector<int> signs_;
   std::vector<std::size_t> order_;  ///< in which they are asked: walls first; those behind the target not at all
-  std::unique_ptr<Lattice> lattice_;
+  /// Around the target, and around that: thick tools and long axes run out of the first.
+  std::unique_ptr<Lattice> lattice_, around_;
 };
 
 }  // namespace flank

@@ -176,6 +176,41 @@ TEST(ObstacleField, EstimateIsNearTheDistance) {
   }
 }
 
+// Thick tools and long axes stand far outside of the target's box.
+TEST(ObstacleField, FarOutDistancesAreExactAndEstimatesNear) {
+  const auto blade = standing_blade(0.0);
+  const ObstacleField obstacles(channel(), *blade, 2.0, 0.0), flat(only(hub(true)), *blade, 2.0, 0.0);
+  std::vector<ObstacleField> alone;
+  for (const ObstacleFace& face : channel().faces) alone.emplace_back(only(face), *blade, 2.0, 0.0);
+  Random random(21);
+  for (int k = 0; k < 2000; ++k) {
+    const Vec3 p(random.uniform(-45.0, 105.0), random.uniform(-45.0, 45.0), random.uniform(-60.0, 90.0));
+    double least = kFar;
+    for (const ObstacleField& one : alone) least = std::min(least, one.at(p, kFar).distance_mm);
+    EXPECT_NEAR(obstacles.at(p, kFar).distance_mm, least, 1e-9);
+    EXPECT_NEAR(flat.estimate(p).distance_mm, p.z(), 1e-9) << "a plane: interpolation is exact";
+  }
+}
+
+TEST(ObstacleField, WhichSideOfALevelIsExactAndHowFarIsEstimated) {
+  const auto blade = standing_blade(0.0);
+  const ObstacleField obstacles(channel(), *blade, 2.0, 0.2);
+  Random random(23);
+  int near = 0;
+  for (int k = 0; k < 4000; ++k) {
+    const Vec3 p(random.uniform(-3.0, 63.0), random.uniform(0.5, 8.0), random.uniform(0.5, 38.0));
+    const double level = random.uniform(0.5, 8.0), exact = obstacles.at(p, kFar).distance_mm;
+    const double about = obstacles.beside(p, level);
+    if (std::abs(exact - level) > 0.02) {
+      EXPECT_EQ(about > level, exact > level) << p.transpose();
+    }
+    if (std::abs(exact - level) > 0.1) continue;
+    EXPECT_NEAR(about, exact, 0.02);
+    ++near;
+  }
+  EXPECT_GT(near, 20);
+}
+
 TEST(ObstacleField, ReachEndsWhereTheBallTouchesTheHub) {
   const auto blade = standing_blade(0.0);
   const ObstacleField obstacles(only(hub(true)), *blade, 2.0, 0.0);

@@ -92,6 +92,17 @@ struct Deepest {
   double mm = 0.0, s = 0.0;
 };
 
+/// Of the ball about a place of the axis from the obstacle.
+double gap_at(const Vec3& p, double radius, const ObstacleField& obstacles, double close_mm, GougeLook look) {
+  if (look == GougeLook::kRough) return obstacles.beside(p, radius) - radius;
+  const double gap = obstacles.estimate(p).distance_mm - radius;
+  if (gap >= close_mm) return gap;
+  const double horizon = radius + close_mm;
+  const ObstacleDistance near =
+      look == GougeLook::kClose ? obstacles.at(p, horizon) : obstacles.interpolated(p, horizon);
+  return near.distance_mm - radius;
+}
+
 Deepest deepest_place(const Pose& pose, const ObstacleField& obstacles, const RadialFunction& tool, GougeLook look) {
   // Of the axis length: about the step of the lattice of distances (1/48 of the target's size). If the estimate is
   // nearer than that, the ball may touch, and the exact distance is asked for.
@@ -99,14 +110,7 @@ Deepest deepest_place(const Pose& pose, const ObstacleField& obstacles, const Ra
   const double length = tool.axis_length();
   Deepest deepest;
   for (double s = 0.0;; s = std::min(s, length)) {
-    const double r = tool.at(s).r;
-    double gap = obstacles.estimate(pose.at(s)).distance_mm - r;
-    if (gap < kClose * length) {
-      const double horizon = r + kClose * length;
-      const ObstacleDistance near =
-          look == GougeLook::kClose ? obstacles.at(pose.at(s), horizon) : obstacles.interpolated(pose.at(s), horizon);
-      gap = near.distance_mm - r;
-    }
+    const double gap = gap_at(pose.at(s), tool.at(s).r, obstacles, kClose * length, look);
     if (-gap > deepest.mm) deepest = {-gap, s};
     if (s >= length) return deepest;
     // The gap changes by at most twice the step (|r'| < 1): what is clear by it stays so for half of it.

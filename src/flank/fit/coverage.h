@@ -32,8 +32,8 @@ inline constexpr double kSameCoverage = 1e-3;
 [[nodiscard]] bool is_better(const CoverageEstimate& a, const CoverageEstimate& b, double tolerance_mm);
 
 /// Balls h apart leave up to h^2 / (8 r) of the flank between them: a close look sees most of that, about the deepest place
-/// of each pose.
-enum class GougeLook { kQuick, kClose };
+/// of each pose. For a rough one the depth of what is far inside is estimated.
+enum class GougeLook { kRough, kQuick, kClose };
 
 /// The deepest that the flank enters an obstacle, mm, >= 0, at poses + 1 times per motion and at least 60 places along
 /// the axis; obstacles as in FitDraft (one per motion, null: none, or none at all).

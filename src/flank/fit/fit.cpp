@@ -158,7 +158,7 @@ void orbit_fit(Candidate& candidate, FitDraft draft, const FlankFitOptions& opti
 double rough_score(const FitDraft& draft, const std::vector<SurfaceSample>& samples, double tolerance_mm, int poses) {
   CoverageEstimate estimate =
       estimate_coverage(samples, draft.motions, draft.tool, kQuickTolerances * tolerance_mm, poses);
-  estimate.gouge_mm = flank_gouge(draft.motions, draft.obstacles, draft.tool, poses);
+  estimate.gouge_mm = flank_gouge(draft.motions, draft.obstacles, draft.tool, poses, GougeLook::kRough);
   return estimate.score(kQuickTolerances * tolerance_mm);
 }
 

@@ -45,7 +45,7 @@ void horner(const double* c, int p_run, int q, double s, double t, double* out) 
   }
 }
 
-/// Degrees 1 to 3 are compiled in, because nearly all CAD faces have them.
+/// Degrees 1 to 5 are compiled in, because nearly all CAD faces have them.
 auto select_kernel(int p) {
   switch (p) {
     case 1:
@@ -54,6 +54,10 @@ auto select_kernel(int p) {
       return &horner<2>;
     case 3:
       return &horner<3>;
+    case 4:
+      return &horner<4>;
+    case 5:
+      return &horner<5>;
     default:
       return &horner<-1>;
   }

@@ -75,7 +75,7 @@ struct ObstacleField::Lattice {
   static constexpr int kPerSide = 48;
   using Faces = std::vector<std::size_t>;
 
-  Lattice(const Box3& box, double margin, double cell_error_mm) {
+  Lattice(const Box3& box, double margin) {
     const Vec3 size = (box.high - box.low).array() + 2.0 * margin;
     step = size.maxCoeff() / kPerSide;
     low = box.low.array() - margin;
@@ -87,7 +87,6 @@ struct ObstacleField::Lattice {
     distances = std::vector<std::atomic<double>>(all);
     for (std::atomic<double>& distance : distances) distance.store(kUnknown, std::memory_order_relaxed);
     faces = std::vector<std::atomic<const Faces*>>(all);
-    cells = std::make_unique<DistanceCells>(all, low, step, cell_error_mm);
   }
   ~Lattice() {
     for (std::atomic<const Faces*>& list : faces) delete list.load();
@@ -144,7 +143,7 @@ struct ObstacleField::Lattice {
   std::array<int, 3> count{};
   std::vector<std::atomic<double>> distances;
   std::vector<std::atomic<const Faces*>> faces;
-  std::unique_ptr<DistanceCells> cells;
+  std::unique_ptr<DistanceCells> cells;  ///< of the inner lattice
 };
 
 struct ObstacleField::Exact final : ExactDistances {
@@ -160,7 +159,8 @@ struct ObstacleField::Exact final : ExactDistances {
   [[nodiscard]] std::span<const std::size_t> near(std::ptrdiff_t node) const override {
     Lattice& lattice = *field.lattice_;
     const Vec3 place = lattice.place(lattice.coordinates(node));
-    return lattice.near(node, [&] { return field.faces_near(place, field.node_distance(node, place)); });
+    const auto find = [&] { return field.faces_near(place, field.node_distance(lattice, node, place)); };
+    return lattice.near(node, find);
   }
   const ObstacleField& field;
 };
@@ -169,7 +169,10 @@ ObstacleField::ObstacleField(const Obstacles& obstacles, const Target& target, d
     : faces_(obstacles.faces),
       allowance_mm_(allowance_mm),
       signs_(faces_.size(), 0),
-      lattice_(std::make_unique<Lattice>(target.box(), 2.0 * offset_mm, kInterpolationShare * allowance_mm)) {
+      lattice_(std::make_unique<Lattice>(target.box(), 2.0 * offset_mm)),
+      around_(std::make_unique<Lattice>(target.box(), 2.0 * offset_mm + lattice_->step * Lattice::kPerSide)) {
+  lattice_->cells = std::make_unique<DistanceCells>(lattice_->distances.size(), lattice_->low, lattice_->step,
+                                                    kInterpolationShare * allowance_mm);
   const std::vector<SurfaceSample> samples = target.samples(std::sqrt(target.area() / kVoters));
   std::vector<Vote> votes(faces_.size());
   parallel_for(faces_.size(), [&](std::size_t k) { votes[k] = vote(faces_[k], samples, offset_mm); });
@@ -188,9 +191,9 @@ bool ObstacleField::reachable(const SurfaceSample& sample, double radius_mm, dou
 ObstacleField::~ObstacleField() = default;
 ObstacleField::ObstacleField(ObstacleField&&) noexcept = default;
 
-double ObstacleField::node_distance(std::ptrdiff_t index, const Vec3& place) const {
+double ObstacleField::node_distance(Lattice& lattice, std::ptrdiff_t index, const Vec3& place) const {
   constexpr double kFar = std::numeric_limits<double>::infinity();
-  return lattice_->distance(index, [&] { return search(order_, place, kFar, kFar).distance_mm; });
+  return lattice.distance(index, [&] { return search(order_, place, kFar, kFar).distance_mm; });
 }
 
 std::vector<std::size_t> ObstacleField::faces_near(const Vec3& place, double distance_mm) const {
@@ -210,27 +213,45 @@ std::vector<std::size_t> ObstacleField::faces_near(const Vec3& place, double dis
 }
 
 ObstacleDistance ObstacleField::estimate(const Vec3& p) const {
+  ObstacleDistance sum;
+  if (estimate_in(*lattice_, p, sum) || estimate_in(*around_, p, sum)) return sum;
+  return at(p, std::numeric_limits<double>::infinity());
+}
+
+double ObstacleField::beside(const Vec3& p, double level_mm) const {
+  // A distance changes by no more than the way: between the corners of a cube no interpolation is farther off.
+  const double off = 0.5 * std::sqrt(3.0);
+  ObstacleDistance about;
+  for (Lattice* lattice : {lattice_.get(), around_.get()}) {
+    if (!estimate_in(*lattice, p, about)) continue;
+    if (std::abs(about.distance_mm - level_mm) > off * lattice->step) return about.distance_mm;
+    return interpolated(p, level_mm + 2.0 * off * lattice->step).distance_mm;
+  }
+  return at(p, 2.0 * level_mm).distance_mm;
+}
+
+bool ObstacleField::estimate_in(Lattice& lattice, const Vec3& p, ObstacleDistance& sum) const {
   std::array<int, 3> corner{};
   std::array<double, 3> share{};
   for (std::size_t k = 0; k < 3; ++k) {
-    const double x = (p[static_cast<Eigen::Index>(k)] - lattice_->low[static_cast<Eigen::Index>(k)]) / lattice_->step;
-    corner[k] = static_cast<int>(std::floor(x));
+    const double x = (p[static_cast<Eigen::Index>(k)] - lattice.low[static_cast<Eigen::Index>(k)]) / lattice.step;
+    if (!(x >= 0.0 && x < lattice.count[k] - 1)) return false;
+    corner[k] = static_cast<int>(x);
     share[k] = x - corner[k];
-    if (!(x >= 0.0) || corner[k] + 1 >= lattice_->count[k]) return at(p, std::numeric_limits<double>::infinity());
   }
   // Trilinear, and its own gradient: not of unit length where the distance bends, but right for what is minimised.
-  ObstacleDistance sum;
+  sum = {};
   sum.face = 0;
   for (int c = 0; c < 8; ++c) {
     const std::array<int, 3> at{corner[0] + (c & 1), corner[1] + (c >> 1 & 1), corner[2] + (c >> 2)};
-    const double distance = node_distance(lattice_->index(at), lattice_->place(at));
+    const double distance = node_distance(lattice, lattice.index(at), lattice.place(at));
     const double x = (c & 1) != 0 ? share[0] : 1.0 - share[0], y = (c & 2) != 0 ? share[1] : 1.0 - share[1],
                  z = (c & 4) != 0 ? share[2] : 1.0 - share[2];
     sum.distance_mm += x * y * z * distance;
-    sum.gradient += distance / lattice_->step *
+    sum.gradient += distance / lattice.step *
                     Vec3((c & 1) != 0 ? y * z : -y * z, (c & 2) != 0 ? x * z : -x * z, (c & 4) != 0 ? x * y : -x * y);
   }
-  return sum;
+  return true;
 }
 
 double ObstacleField::signed_distance(std::size_t face, const Vec3& p, const Footpoint& foot) const {
@@ -245,8 +266,9 @@ ObstacleDistance ObstacleField::at(const Vec3& p, double horizon_mm) const {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   Vec3 place;
   const std::ptrdiff_t index = lattice_->index(p, place);
+  // Not by the outer nodes: they stand too far apart to tell where a wall's sign ends between them.
   if (index < 0) return search(order_, p, horizon_mm, kFar);
-  const double known = node_distance(index, place), off = (p - place).norm();
+  const double known = node_distance(*lattice_, index, place), off = (p - place).norm();
   ObstacleDistance free;
   free.distance_mm = horizon_mm;
   if (known - off >= horizon_mm) return free;
@@ -258,7 +280,7 @@ ObstacleDistance ObstacleField::interpolated(const Vec3& p, double horizon_mm) c
   Vec3 place;
   const std::ptrdiff_t index = lattice_->index(p, place);
   if (index < 0) return at(p, horizon_mm);
-  const double known = node_distance(index, place);
+  const double known = node_distance(*lattice_, index, place);
   ObstacleDistance found;
   found.distance_mm = horizon_mm;
   if (known - (p - place).norm() >= horizon_mm) return found;

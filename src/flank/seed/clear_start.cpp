@@ -14,13 +14,12 @@ constexpr double kOverrun = 0.03;  ///< a free end is passed by this share of th
 
 using Line = ClearStart::Line;
 
-/// Distance of the ball on a line to the walls; also a bound of how far along the line nothing changes. A ball on the
+/// Distance of the ball on a line to the walls; also about how far along the line nothing changes. A ball on the
 /// border of the target touches what begins there, and the chart is good to a few hundredths of a radius: as good as
 /// free.
 double gap_at(const FittedLine& axis, double sigma, double radius, const ObstacleField& obstacles) {
-  constexpr double kSight = 4.0;   // radii: how far walls are asked for, which bounds the steps along a free line
   constexpr double kGood = 0.995;  // radii: see above
-  return obstacles.interpolated(axis.middle + sigma * axis.direction, kSight * radius).distance_mm - kGood * radius;
+  return obstacles.beside(axis.middle + sigma * axis.direction, kGood * radius) - kGood * radius;
 }
 
 /// Where between a free and a blocked place the ball touches.

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <span>
 
@@ -13,7 +15,7 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr int kWidth = kMaxDegree + 1;
 
 /// Row i: how the i-th Bezier control point over [low, high] is made of the degree + 1 control points that act on the
-/// span. Millions are asked for: no memory is taken, and none is filled that is not used.
+/// span.
 struct BezierMatrix {
   int width = 0;
   std::array<double, kWidth * kWidth> at;  // NOLINT(*-member-init): of `width` rows, as long
@@ -53,11 +55,35 @@ void fill_of_width(int width, const double* knots, double low, double high, doub
   if constexpr (W < kWidth) fill_of_width<W + 1>(width, knots, low, high, out);
 }
 
-BezierMatrix bezier_matrix(const std::vector<double>& knots, int degree, int span, double low, double high) {
-  BezierMatrix out;
-  out.width = degree + 1;
-  fill_of_width<1>(out.width, knots.data() + (span - degree), low, high, out.at.data());
-  return out;
+/// A matrix and what it was made of: the knots that act on its span, and the stretch of it.
+struct KnownMatrix {
+  std::array<double, 2 * kMaxDegree> knots{};
+  double low = 0.0, high = 0.0;
+  BezierMatrix matrix;
+
+  [[nodiscard]] bool is_of(const double* at, int degree, double from, double to) const {
+    return matrix.width == degree + 1 && low == from && high == to && std::equal(at, at + 2 * degree, knots.begin());
+  }
+};
+
+/// Cells stand in rows and columns, so most matrices are soon asked for again: the last ones are kept, of each direction
+/// and by each thread its own, at a place that the stretch says. Valid until the next that is asked for in this direction.
+const BezierMatrix& bezier_matrix(const std::vector<double>& knots, int degree, int span, double low, double high,
+                                  bool along_u) {
+  constexpr std::size_t kKept = 256;
+  thread_local std::array<std::vector<KnownMatrix>, 2> kept{std::vector<KnownMatrix>(kKept),
+                                                            std::vector<KnownMatrix>(kKept)};
+  const std::uint64_t bits = (std::bit_cast<std::uint64_t>(low) ^ std::rotl(std::bit_cast<std::uint64_t>(high), 29)) *
+                             0x9E3779B97F4A7C15ULL;  // of the golden ratio
+  KnownMatrix& known = kept[along_u ? 1 : 0][(bits >> 40U) % kKept];
+  const double* acting = knots.data() + (span - degree) + 1;
+  if (known.is_of(acting, degree, low, high)) return known.matrix;
+  std::copy_n(acting, 2 * degree, known.knots.begin());
+  known.low = low;
+  known.high = high;
+  known.matrix.width = degree + 1;
+  fill_of_width<1>(known.matrix.width, acting - 1, low, high, known.matrix.at.data());
+  return known.matrix;
 }
 
 /// A net of control points in homogeneous coordinates, relative to an origin: w (P - origin), and w.
@@ -95,8 +121,8 @@ void net_of(const BSplineSurface& s, const Rectangle& where, const Vec3& origin,
   const Vec2 middle = where.middle();
   const int span_u = find_span(s.degree_u, s.knots_u, middle.x());
   const int span_v = find_span(s.degree_v, s.knots_v, middle.y());
-  const BezierMatrix u = bezier_matrix(s.knots_u, s.degree_u, span_u, where.low.x(), where.high.x());
-  const BezierMatrix v = bezier_matrix(s.knots_v, s.degree_v, span_v, where.low.y(), where.high.y());
+  const BezierMatrix& u = bezier_matrix(s.knots_u, s.degree_u, span_u, where.low.x(), where.high.x(), true);
+  const BezierMatrix& v = bezier_matrix(s.knots_v, s.degree_v, span_v, where.low.y(), where.high.y(), false);
   Net poles, half;
   poles_at(s, span_u, span_v, origin, poles);
   half.rows = net.rows = poles.rows;
@@ -208,7 +234,7 @@ PatchBounds loose_bounds(const BSplineSurface& s, const Rectangle& where) {
 
 CurveBounds curve_bounds(const BSplineCurve2& curve, double low, double high) {
   const int span = find_span(curve.degree, curve.knots, 0.5 * (low + high));
-  const BezierMatrix m = bezier_matrix(curve.knots, curve.degree, span, low, high);
+  const BezierMatrix& m = bezier_matrix(curve.knots, curve.degree, span, low, high, true);
   const int width = curve.degree + 1;
   const Vec2 origin = curve.value(0.5 * (low + high));
   Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kWidth, 3> net(width, 3);

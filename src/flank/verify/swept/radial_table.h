@@ -45,6 +45,7 @@ class RadialTable {
   /// Number of cells, their length (mm), and the axis length (mm).
   [[nodiscard]] int count() const { return count_; }
   [[nodiscard]] double step() const { return 1.0 / cells_per_mm_; }
+  [[nodiscard]] double cells_per_mm() const { return cells_per_mm_; }
   [[nodiscard]] double length() const { return length_; }
   /// Smallest and largest r, largest |r''| at the nodes; the radii bound the true ones by half a cell of slope 1.
   [[nodiscard]] double least_radius() const { return least_radius_; }

@@ -75,7 +75,7 @@ ToolDistance::Cells ToolDistance::cells_below(double z, double rho, double below
   if (!(reach > rho)) return {};
   const double window = std::min(std::sqrt(reach * reach - rho * rho), 1e3 * radial_.length() + std::abs(z));
   const auto cell_at = [&](double s) {
-    return std::clamp(s / radial_.step(), -1.0, static_cast<double>(radial_.count()));
+    return std::clamp(s * radial_.cells_per_mm(), -1.0, static_cast<double>(radial_.count()));
   };
   const int first = static_cast<int>(std::floor(cell_at(z - window))), last = static_cast<int>(cell_at(z + window));
   return {std::max(0, first), z + window < 0.0 ? -1 : std::min(radial_.count() - 1, last)};
