@@ -233,26 +233,53 @@ class Poses {
   bool alike_;
 };
 
-/// An end of the axis whose sphere is nearer to a point, at z along the axis and rho from it, than the sphere at s; else s.
-double nearer_end(const RadialFunction& radial, double z, double rho2, double s) {
-  const auto f_at = [&](double at) { return std::sqrt(rho2 + (z - at) * (z - at)) - radial.at(at).r; };
-  double best = s, least = f_at(s);
-  for (const double end : {0.0, radial.axis_length()})
-    if (const double f = f_at(end); f < least) best = end, least = f;
+/// A tool and the radii at its ends, which every contact is compared with.
+struct EndedTool {
+  const RadialFunction& radial;
+  double length = radial.axis_length(), low = radial.at(0.0).r, high = radial.at(length).r;
+};
+
+/// A sphere of the tool: where on the axis, and its radius.
+struct Sphere {
+  double s = 0.0, r = 0.0;
+};
+
+/// An end of the axis whose sphere is nearer to a point, at z along the axis and rho from it, than this one; else this one.
+Sphere nearer_end(const EndedTool& tool, double z, double rho2, const Sphere& sphere) {
+  const auto f_of = [&](const Sphere& at) { return std::sqrt(rho2 + (z - at.s) * (z - at.s)) - at.r; };
+  Sphere best = sphere;
+  double least = f_of(best);
+  for (const Sphere& end : {Sphere{0.0, tool.low}, Sphere{tool.length, tool.high}})
+    if (const double f = f_of(end); f < least) best = end, least = f;
   return best;
 }
 
-/// Nearest sphere of the tool at one pose: the stationary s, or an end.
-SweptContact contact_at(const Poses& poses, const RadialFunction& radial, const Vec3& x, double t, double s) {
-  const Pose pose = poses.at(t);
-  const Vec3 q = x - pose.tip;
-  const double length = radial.axis_length(), z = q.dot(pose.axis);
-  const double rho2 = std::max(0.0, q.squaredNorm() - z * z);
+/// The sphere near s that is stationary for a point at z along the axis and rho from it.
+Sphere stationary(const EndedTool& tool, double z, double rho2, double s) {
   constexpr int kSteps = 5;  // Newton's method squares the error: from 1e-2 of the length to round-off in four
   // Flatter than this the Newton step is not trusted (the slope is -1 on a cylinder, 0 where two spheres are equally
   // near), and the fixed-point step is taken.
   constexpr double kSteepEnough = -0.05;
   constexpr double kSettled = 1e-10;  // of the axis length
+  for (int k = 0; k < kSteps; ++k) {
+    const RadialJet jet = tool.radial.at(s);
+    const double d = std::sqrt(rho2 + (z - s) * (z - s)) + kTiny;
+    // d/ds (D - r) = (s - z) / D - r' = 0, by Newton's method on (z - s) + r' D.
+    const double value = (z - s) + jet.d1 * d, slope = -1.0 + jet.d2 * d - jet.d1 * (z - s) / d;
+    const double next = std::clamp(slope < kSteepEnough ? s - value / slope : s + value, 0.0, tool.length);
+    const double moved = next - s;
+    s = next;
+    // So near to the last place its tangent gives the radius to round-off.
+    if (std::abs(moved) < kSettled * tool.length) return {s, jet.r + jet.d1 * moved};
+  }
+  return {s, tool.radial.at(s).r};
+}
+
+/// Nearest sphere of the tool at one pose: the stationary s, or an end.
+SweptContact contact_at(const Poses& poses, const EndedTool& tool, const Vec3& x, double t, double s) {
+  const Pose pose = poses.at(t);
+  const Vec3 q = x - pose.tip;
+  const double z = q.dot(pose.axis), rho2 = std::max(0.0, q.squaredNorm() - z * z);
   SweptContact contact;
   contact.t = t;
   if (!std::isfinite(rho2 + z)) {
@@ -260,23 +287,12 @@ SweptContact contact_at(const Poses& poses, const RadialFunction& radial, const 
     contact.f = std::numeric_limits<double>::infinity();
     return contact;
   }
-  RadialJet jet;
-  for (int k = 0; k < kSteps; ++k) {
-    jet = radial.at(s);
-    const double d = std::sqrt(rho2 + (z - s) * (z - s)) + kTiny;
-    // d/ds (D - r) = (s - z) / D - r' = 0, by Newton's method on (z - s) + r' D.
-    const double value = (z - s) + jet.d1 * d, slope = -1.0 + jet.d2 * d - jet.d1 * (z - s) / d;
-    const double next = std::clamp(slope < kSteepEnough ? s - value / slope : s + value, 0.0, length);
-    const double moved = std::abs(next - s);
-    s = next;
-    if (moved < kSettled * length) break;
-  }
-  s = nearer_end(radial, z, rho2, s);
-  const Vec3 away = pose.at(s) - x;
+  const Sphere sphere = nearer_end(tool, z, rho2, stationary(tool, z, rho2, s));
+  const Vec3 away = pose.at(sphere.s) - x;
   constexpr double kOnAxisMm = 1e-12;  // a point on the axis has no direction to it: the default stays
   const double d = away.norm();
-  contact.s = s;
-  contact.f = d - radial.at(s).r;
+  contact.s = sphere.s;
+  contact.f = d - sphere.r;
   if (d > kOnAxisMm) contact.to_axis = away / d;
   return contact;
 }
@@ -287,9 +303,10 @@ SweptContact refine_contact(const RuledMotion& motion, const RadialFunction& rad
                             double window) {
   FLANK_ASSERT(window > 0.0 && x.allFinite());
   const Poses poses(motion);
+  const EndedTool tool{radial};
   const Pose pose = poses.at(t);
   const double first_s = std::clamp((x - pose.tip).dot(pose.axis), 0.0, radial.axis_length());
-  SweptContact best = contact_at(poses, radial, x, std::clamp(t, 0.0, 1.0), first_s);
+  SweptContact best = contact_at(poses, tool, x, std::clamp(t, 0.0, 1.0), first_s);
   // Parabolas through three points, sixteen times narrower once the least of them is not at an end: the vertex is off
   // by h^2, so the next one has to look h / 16 around it, and two rounds are enough (kNarrow).
   constexpr double kFirst = 0.5, kNarrow = 1e-2, kNarrower = 16.0;  // of the window; of the last step
@@ -297,9 +314,9 @@ SweptContact refine_contact(const RuledMotion& motion, const RadialFunction& rad
   double h = kFirst * window;
   for (int k = 0; k < kRounds && h > kNarrow * window; ++k) {
     const double middle = std::clamp(best.t, h, 1.0 - h);
-    const SweptContact a = contact_at(poses, radial, x, middle - h, best.s);
-    const SweptContact b = contact_at(poses, radial, x, middle + h, best.s);
-    const SweptContact m = middle == best.t ? best : contact_at(poses, radial, x, middle, best.s);
+    const SweptContact a = contact_at(poses, tool, x, middle - h, best.s);
+    const SweptContact b = contact_at(poses, tool, x, middle + h, best.s);
+    const SweptContact m = middle == best.t ? best : contact_at(poses, tool, x, middle, best.s);
     const double bend = a.f + b.f - 2.0 * m.f;
     const bool bracketed = m.f <= a.f && m.f <= b.f;
     for (const SweptContact* c : {&a, &m, &b})
@@ -307,7 +324,7 @@ SweptContact refine_contact(const RuledMotion& motion, const RadialFunction& rad
     const bool at_rim = best.t <= 0.0 || best.t >= 1.0;
     if (bracketed && bend > 0.0) {
       const double vertex = middle + 0.5 * (a.f - b.f) / bend * h;
-      const SweptContact v = contact_at(poses, radial, x, vertex, best.s);
+      const SweptContact v = contact_at(poses, tool, x, vertex, best.s);
       if (v.f < best.f) best = v;
     }
     if (bracketed || at_rim) h /= kNarrower;
