@@ -97,10 +97,10 @@ double gap_at(const Vec3& p, double radius, const ObstacleField& obstacles, doub
   if (look == GougeLook::kRough) return obstacles.beside(p, radius) - radius;
   const double gap = obstacles.estimate(p).distance_mm - radius;
   if (gap >= close_mm) return gap;
-  const double horizon = radius + close_mm;
-  const ObstacleDistance near =
-      look == GougeLook::kClose ? obstacles.at(p, horizon) : obstacles.interpolated(p, horizon);
-  return near.distance_mm - radius;
+  const double near = obstacles.interpolated(p, radius + close_mm).distance_mm - radius;
+  // Interpolation is off by a small part of the allowance: what is clear by all of it enters nothing.
+  if (look != GougeLook::kClose || near > obstacles.allowance_mm()) return near;
+  return obstacles.at(p, radius + close_mm).distance_mm - radius;
 }
 
 Deepest deepest_place(const Pose& pose, const ObstacleField& obstacles, const RadialFunction& tool, GougeLook look) {
