@@ -23,7 +23,7 @@ struct Piece {
   Vec3 center, normal;
 };
 
-/// The sample at a place of the smooth surface; area in mm^2.
+/// The sample at a place of the blended surface; area in mm^2.
 SurfaceSample sample_at(const JetSurface& surface, int triangle, double u, double v, double area) {
   const SurfaceJet s = surface.jet(triangle, u, v);
   SurfaceSample sample;
@@ -34,6 +34,11 @@ SurfaceSample sample_at(const JetSurface& surface, int triangle, double u, doubl
   sample.v = v;
   sample.patch = triangle;
   return sample;
+}
+
+Vec3 on_facet(const JetSurface& surface, int triangle, double u, double v) {
+  return (1.0 - u - v) * surface.corner(triangle, 0) + u * surface.corner(triangle, 1) +
+         v * surface.corner(triangle, 2);
 }
 
 /// n^2 similar triangles, n per side; their areas are scaled to add up to that of the triangle.
@@ -162,7 +167,7 @@ class Grouper {
 
 }  // namespace
 
-std::vector<SurfaceSample> mesh_samples(const JetSurface& surface, double spacing_mm) {
+std::vector<SurfaceSample> mesh_samples(const JetSurface& surface, double spacing_mm, SamplePlaces places) {
   if (!(spacing_mm > 0.0))
     throw UsageError("sample spacing must be positive, got " + std::to_string(spacing_mm) + " mm");
   std::vector<SurfaceSample> samples;
@@ -179,6 +184,8 @@ std::vector<SurfaceSample> mesh_samples(const JetSurface& surface, double spacin
     pieces.push_back({t, area, s.p, normal.normalized()});
   }
   Grouper(surface, spacing_mm, std::move(pieces), samples).run();
+  if (places == SamplePlaces::kFacets)
+    for (SurfaceSample& sample : samples) sample.point = on_facet(surface, sample.patch, sample.u, sample.v);
   return samples;
 }
 

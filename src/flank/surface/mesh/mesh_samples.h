@@ -1,4 +1,4 @@
-/// Samples of a mesh's blended surface.
+/// Samples of a mesh.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,13 @@
 
 namespace flank::internal {
 
+/// Where samples lie: on the blended surface, or on the triangles under it, as a judge sees the part. Both have its normals.
+enum class SamplePlaces { kBlended, kFacets };
+
 /// Triangles larger than a cell of the spacing are divided evenly into similar ones; smaller neighbours are put
 /// together into patches of about spacing_mm^2 whose normals keep within 60 degrees of each other, each with one sample
 /// near its centre. The areas add up to that of the surface.
-[[nodiscard]] std::vector<SurfaceSample> mesh_samples(const JetSurface& surface, double spacing_mm);
+[[nodiscard]] std::vector<SurfaceSample> mesh_samples(const JetSurface& surface, double spacing_mm,
+                                                      SamplePlaces places);
 
 }  // namespace flank::internal

@@ -122,7 +122,11 @@ std::vector<Vec3> MeshTarget::border_points(double spacing_mm) const {
   return points;
 }
 
-std::vector<SurfaceSample> MeshTarget::samples(double spacing_mm) const { return mesh_samples(surface_, spacing_mm); }
+// What is finished is the part as it is given: on a coarse mesh the blended surface is farther above the triangles than a tolerance.
+// Noise is no shape, and what it is of lies under it.
+std::vector<SurfaceSample> MeshTarget::samples(double spacing_mm) const {
+  return mesh_samples(surface_, spacing_mm, quality_.noisy ? SamplePlaces::kBlended : SamplePlaces::kFacets);
+}
 
 }  // namespace flank::internal
 
