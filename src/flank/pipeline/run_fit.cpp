@@ -19,6 +19,7 @@
 #include "flank/pipeline/search/stiff_fit.h"
 #include "flank/pipeline/thin_tool.h"
 #include "flank/setup/tool_body.h"
+#include "flank/surface/facet_gaps.h"
 
 namespace flank::internal {
 
@@ -163,6 +164,20 @@ std::vector<StripSurface> sample_path(const FitSearch& search, double tolerance_
   return surfaces;
 }
 
+/// What no smooth motion can finish of a mesh.
+void note_facets(const FitSearch& search, const FitJob& job, std::vector<std::string>& notes) {
+  constexpr double kMostUnsaid = 0.5;  // of what may be missed
+  for (const TargetGroup& group : search.targets) {
+    const FacetGaps gaps = facet_gaps(*group.target, job.tolerance_mm);
+    if (gaps.share > kMostUnsaid * (1.0 - job.judge.least_coverage))
+      notes.push_back(fmt::format(
+          "{}: the mesh is coarse or rough: on {:.1f} % of it triangles lie farther than the tolerance, up to "
+          "{:.2g} mm, off the smooth surface through their corners; a finer mesh, or the CAD file, shows what is "
+          "meant",
+          group.faces, 100.0 * gaps.share, gaps.largest_mm));
+  }
+}
+
 void take_found(const FitSearch& search, Result& result) {
   result.plan = fit_summary(search.fit);
   result.motions = search.fit.motions;
@@ -174,6 +189,7 @@ void take_fit(const FitSearch& search, Result& result) {
   take_found(search, result);
   result.diagonal_mm = search.targets.front().target->diagonal();
   result.notes.insert(result.notes.end(), search.fit.notes.begin(), search.fit.notes.end());
+  note_facets(search, std::get<FitJob>(result.job), result.notes);
 }
 
 /// A rung of the ladder, by the judge's samples: no proof, which would cost more than the fit.

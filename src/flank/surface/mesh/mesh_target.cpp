@@ -122,10 +122,10 @@ std::vector<Vec3> MeshTarget::border_points(double spacing_mm) const {
   return points;
 }
 
-// What is finished is the part as it is given: on a coarse mesh the blended surface is farther above the triangles than a tolerance.
-// Noise is no shape, and what it is of lies under it.
+// What is finished is the part as it is given: on a coarse mesh the blended surface is farther above the triangles than a
+// tolerance.
 std::vector<SurfaceSample> MeshTarget::samples(double spacing_mm) const {
-  return mesh_samples(surface_, spacing_mm, quality_.noisy ? SamplePlaces::kBlended : SamplePlaces::kFacets);
+  return mesh_samples(surface_, spacing_mm, SamplePlaces::kFacets);
 }
 
 }  // namespace flank::internal
