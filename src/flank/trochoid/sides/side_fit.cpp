@@ -52,11 +52,6 @@ double worth(const FitDraft& draft, const CoverageEstimate& estimate, double tol
          kSteepLean * std::max(0.0, lean - kMuchLean) - sum / layers;
 }
 
-bool is_done(const CoverageEstimate& e, const SideFitOptions& options) {
-  return e.at_tolerance >= options.least_coverage && e.overcut_mm <= options.fit.tolerance_mm &&
-         e.gouge_mm <= options.fit.tolerance_mm;
-}
-
 std::vector<SurfaceSample> samples_of(const CavitySide& left, const CavitySide& right, const FlankFitOptions& options) {
   std::vector<SurfaceSample> samples = ranking_samples(*left.target, left.obstacles, options);
   const std::vector<SurfaceSample> more = ranking_samples(*right.target, right.obstacles, options);
@@ -123,6 +118,8 @@ class SideFitter {
   }
 
   [[nodiscard]] RadiusFit fit_radius(const RadiusStart& first) const;
+  /// Whether another start is not needed.
+  [[nodiscard]] bool is_done(const Polished& polished) const;
   [[nodiscard]] const std::vector<SurfaceSample>& samples() const { return samples_; }
 
  private:
@@ -196,6 +193,14 @@ RadiusFit SideFitter::fit_radius(const RadiusStart& first) const {
   return out;
 }
 
+bool SideFitter::is_done(const Polished& polished) const {
+  const CoverageEstimate& e = polished.estimate;
+  if (e.overcut_mm > options_.fit.tolerance_mm || e.gouge_mm > options_.fit.tolerance_mm) return false;
+  const double asked = options_.fit.reach_radius_mm;
+  return covers_reachable(left_, right_, e.at_tolerance, options_.least_coverage,
+                          asked > 0.0 ? asked : polished.draft.tool.smallest());
+}
+
 /// The best of all radii that are tried.
 SideFit search_radii(const CavitySide& left, const CavitySide& right, const ToolModel& tool,
                      const SideFitOptions& options, const Progress& progress) {
@@ -214,7 +219,7 @@ SideFit search_radii(const CavitySide& left, const CavitySide& right, const Tool
     if (tried.polished.draft.motions.empty()) continue;
     const bool better = best.draft.motions.empty() || worth(tried.polished.draft, tried.polished.estimate, tolerance) >
                                                           worth(best.draft, best.estimate, tolerance);
-    const bool done = is_done(tried.polished.estimate, options);
+    const bool done = fitter.is_done(tried.polished);
     if (better) {
       best = std::move(tried.polished);
       out.fit.trace = std::move(tried.trace);
@@ -270,6 +275,11 @@ double reachable_share(const CavitySide& left, const CavitySide& right, double r
     }
   }
   return all > 0 ? static_cast<double>(reached) / all : 1.0;
+}
+
+bool covers_reachable(const CavitySide& left, const CavitySide& right, double covered, double least_coverage,
+                      double radius_mm) {
+  return covered >= least_coverage || covered >= least_coverage * reachable_share(left, right, radius_mm);
 }
 
 double facing(const Target& left, const Target& right) {
