@@ -82,6 +82,25 @@ TEST(FitSides, AreDoneWithWhatTheirToolReaches) {
   EXPECT_GT(sides.fit.tool.smallest(), 0.5 * 4.6);
 }
 
+/// Deep hollows begin badly along the walls, and well across them: of the ways across, two that are each other's mirror image
+/// took both places, and the tool lay along the cavity.
+TEST(FitSides, TryAnotherWayThanTwoThatAreMirrorImages) {
+  if (kThreadSanitized) GTEST_SKIP() << "its parallel loops are those of fit";
+  CavityShape deep;
+  deep.hollow_mm = 3.0;
+  const std::vector<Face> walls = cavity_walls(deep);
+  const std::unique_ptr<Target> left = make_target({walls[0]}), right = make_target({walls[1]});
+  SideFitOptions options;
+  options.fit.tolerance_mm = 0.02;
+  options.fit.bounds.smallest = 0.7;
+  options.fit.bounds.largest = 8.68;
+  options.starts = {{8.0, 0.3}};
+  const SideFit sides = fit_sides({left.get(), nullptr}, {right.get(), nullptr}, {}, options, {});
+  ASSERT_EQ(sides.fit.motions.size(), 2u);
+  EXPECT_GT(sides.fit.motions.front().pose(0.5).axis.z(), 0.9) << "upright";
+  EXPECT_GT(sides.fit.after.at_tolerance, 0.8);
+}
+
 TEST(WidthBetween, IsNoneWhereEverythingIsCovered) {
   const std::unique_ptr<Target> wall = leaning_wall();
   const std::unique_ptr<Target> buried =

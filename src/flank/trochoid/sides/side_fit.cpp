@@ -26,7 +26,24 @@ constexpr double kQuickParallel = 2.0;
 struct Candidate {
   FitDraft draft;
   double score = -1.0;
+  bool swapped = false;  ///< how its start lay on the left side's chart
 };
+
+/// The best few, the best first. Of those of a symmetric cavity that are each other's mirror image one is enough: its place is
+/// for the best of those that lie across the others.
+std::vector<Candidate> best_of(std::vector<Candidate> candidates) {
+  constexpr double kAlike = 1e-6;
+  std::erase_if(candidates, [](const Candidate& c) { return c.draft.motions.empty() || !has_values(c.draft); });
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+  if (candidates.size() > kPolished && candidates[kPolished - 1].score > candidates.front().score - kAlike) {
+    const auto other = std::find_if(candidates.begin() + kPolished, candidates.end(),
+                                    [&](const Candidate& c) { return c.swapped != candidates.front().swapped; });
+    if (other != candidates.end()) std::iter_swap(candidates.begin() + kPolished - 1, other);
+  }
+  candidates.resize(std::min(candidates.size(), kPolished));
+  return candidates;
+}
 
 /// By how much the axis is longer than a third more than its way: then it most likely lies along the cavity.
 double lying(const RuledMotion& motion) {
@@ -134,6 +151,7 @@ class SideFitter {
 
 Candidate SideFitter::quick(const SideStart& start, const FlankFitOptions& fit) const {
   Candidate candidate;
+  candidate.swapped = start.swapped;
   const auto length = [this](double wanted) { return tool_.length_for(wanted, options_.fit.axis_length_mm); };
   const std::vector<FitTask> tasks =
       side_tasks(left_, right_, left_chart_, right_chart_, start, options_.layers, length, options_.up);
@@ -166,10 +184,7 @@ RadiusFit SideFitter::fit_radius(const RadiusStart& first) const {
   parallel_for(all.size(), [&](std::size_t k) { candidates[k] = quick(all[k], fit); });
   RadiusFit out;
   out.starts = static_cast<int>(all.size());
-  std::erase_if(candidates, [](const Candidate& c) { return c.draft.motions.empty() || !has_values(c.draft); });
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
-  candidates.resize(std::min(candidates.size(), kPolished));
+  candidates = best_of(std::move(candidates));
   std::vector<Polished> polished(candidates.size());
   std::vector<std::vector<IterationTrace>> traces(candidates.size());
   parallel_for(candidates.size(), [&](std::size_t k) {
