@@ -47,6 +47,28 @@ TEST(HalfPath, BulgesForwardAndLiftsAlongTheAxis) {
   EXPECT_GT((middle(0.0, 2.0) - middle(0.0, 0.0)).z(), 1.0);
 }
 
+/// A floor that rises ahead of the sides is entered just off the ends, where the inner points hardly lift the tip.
+TEST(HalfPath, ALiftKeepsTheTipOffAFloorThatRisesFromTheEnds) {
+  const double slope = 0.1, gap = 9.0, handle = 1.4;
+  const auto place = [](double y) { return AxisPlace{Vec3(0, y, 0), Vec3::UnitZ(), Vec3::UnitX(), Vec3::Zero()}; };
+  const auto deepest = [&](double lift) {
+    const RuledMotion half = half_path(20.0, place(0.0), place(gap).reversed(), {handle, handle, 1.0, lift});
+    double deep = 0.0;
+    for (int k = 0; k <= 1000; ++k) {
+      const Vec3 tip = half.pose(k / 1000.0).tip;
+      deep = std::max(deep, slope * tip.x() - tip.z());
+    }
+    return deep;
+  };
+  EXPECT_GT(deepest(0.0), 0.2);
+  EXPECT_LT(deepest(1.0), 1e-3);
+  // Nothing of a lift turns the axis, or moves the ends.
+  const RuledMotion half = half_path(20.0, place(0.0), place(gap).reversed(), {handle, handle, 1.0, 1.0});
+  EXPECT_EQ((half.pose(0.3).axis - Vec3::UnitZ()).norm(), 0.0);
+  EXPECT_EQ(half.pose(1.0).tip.z(), 0.0);
+  EXPECT_EQ(half.jet(0.0).velocity(5.0).y(), 0.0);
+}
+
 TEST(HalfPath, ReachesAheadByTheShareThatIsLeft) {
   const SidePath a(bent_side(0.0, 1.0), false), b(bent_side(16.0, -1.0), false);
   const AxisPlace from = a.at(20.0), to = b.at(20.0).reversed();

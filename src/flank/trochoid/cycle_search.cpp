@@ -79,6 +79,7 @@ CycleSearch::CycleSearch(const LayerSides& sides, const HalfGuard& guard, SweptS
                          const CycleOptions& options)
     : sides_(sides),
       guard_(guard),
+      others_(guard.of_others()),
       stock_(stock),
       options_(options),
       meter_(stock),
@@ -109,11 +110,6 @@ void CycleSearch::refuse(double step_mm, double largest_rad) {
 
 double CycleSearch::aim() const {
   return options_.largest_rad - std::clamp(now_.excess_rad, kSearchMargin, kMostExcess * options_.largest_rad);
-}
-
-double CycleSearch::gap_at(const Trial& t) const {
-  const double middle = 0.5 * sides_.from.axis_length();
-  return (start(t).at(middle) - end(t).at(middle)).norm();
 }
 
 double CycleSearch::partner(double from_x, const CycleShape& shape) const {
@@ -317,29 +313,34 @@ void CycleSearch::reshape_short(Trial& best) {
   if (best.worth() < kGain * before) now_.short_rest = kRest;
 }
 
-GuardDepth CycleSearch::depth_of(const Trial& trial, int times, int places) const {
-  GuardDepth out = guard_.depth(trial.front, times, places);
-  if (trial.back) out.add(guard_.depth(*trial.back, times, places));
+GuardDepth CycleSearch::depth_of(const Trial& trial) const {
+  GuardDepth out = guard_.depth(trial.front, kGuardTimes, kGuardPlaces);
+  if (trial.back) out.add(guard_.depth(*trial.back, kGuardTimes, kGuardPlaces));
   return out;
 }
 
-GuardDepth CycleSearch::depth_at_ends(const Trial& trial, int places) const {
+double CycleSearch::depth_of_tips(const Trial& trial) const {
+  if (!others_.has_faces()) return 0.0;
+  const double front = others_.depth(trial.front, kLiftTimes, kLiftPlaces).tip;
+  return trial.back ? std::max(front, others_.depth(*trial.back, kLiftTimes, kLiftPlaces).tip) : front;
+}
+
+GuardDepth CycleSearch::depth_at_ends(const HalfGuard& guard, const Trial& trial, int places) const {
   GuardDepth out;
-  for (const double t : {0.0, 1.0}) guard_.look(trial.front.pose(t), places, out);
+  for (const double t : {0.0, 1.0}) guard.look(trial.front.pose(t), places, out);
   return out;
 }
-
-double CycleSearch::entered(const Trial& trial) const { return depth_of(trial, kGuardTimes, kGuardPlaces).deepest(); }
 
 bool CycleSearch::enters_anything(const Trial& trial) const {
   // What the side paths enter of one kind of face allows nothing in another. Looked at as closely as a half is.
   const double allowed = kToleranceBudget.cavity.halves * options_.tolerance_mm;
-  const GuardDepth half = depth_of(trial, kGuardTimes, kGuardPlaces), ends = depth_at_ends(trial, 2 * kGuardPlaces - 1);
+  const GuardDepth half = depth_of(trial), ends = depth_at_ends(guard_, trial, 2 * kGuardPlaces - 1);
   return half.sides > std::max(allowed, ends.sides) || half.others > std::max(allowed, ends.others);
 }
 
 double CycleSearch::allowed_at_tips(const Trial& trial) const {
-  return std::max(kToleranceBudget.cavity.aim * options_.tolerance_mm, kSpare * depth_at_ends(trial, kLiftPlaces).tip);
+  return std::max(kToleranceBudget.cavity.aim * options_.tolerance_mm,
+                  kSpare * depth_at_ends(others_, trial, kLiftPlaces).tip);
 }
 
 double CycleSearch::needed_lift(const CycleShape& shape, double step) {
@@ -351,7 +352,7 @@ double CycleSearch::needed_lift(const CycleShape& shape, double step) {
   for (int k = 0; k < kTries; ++k) {
     now_.lift_mm = more;
     const Trial trial = tried(step, shape, false);
-    const double deep = depth_of(trial, kLiftTimes, kLiftPlaces).tip;
+    const double deep = depth_of_tips(trial);
     if (deep >= kLiftHelps * least) break;
     least = deep, lift = more;
     if (deep <= allowed_at_tips(trial)) break;
@@ -364,7 +365,7 @@ double CycleSearch::needed_lift(const CycleShape& shape, double step) {
 void CycleSearch::lift(Trial& best) {
   constexpr int kTries = 4;
   const double allowed = allowed_at_tips(best);
-  const double before = now_.lift_mm, deepest = depth_of(best, kLiftTimes, kLiftPlaces).tip;
+  const double before = now_.lift_mm, deepest = depth_of_tips(best);
   double deep = deepest;
   Trial lifted = best;
   for (int k = 0; k < kTries && deep > allowed; ++k) {
@@ -372,7 +373,7 @@ void CycleSearch::lift(Trial& best) {
     Trial next = longest_step(now_.shape, best.from_x - now_.last.from_x);
     if (next.largest_rad < 0.0) break;
     lifted = std::move(next);
-    deep = depth_of(lifted, kLiftTimes, kLiftPlaces).tip;
+    deep = depth_of_tips(lifted);
   }
   if (deep < kLiftHelps * deepest || deep <= allowed)
     best = std::move(lifted);

@@ -94,7 +94,7 @@ class CycleSearch {
   /// removes less a way; its tips lifted off what they enter. `largest_rad` < 0: there is none.
   [[nodiscard]] Trial best(bool improving);
   /// Deepest that a half enters a face, mm.
-  [[nodiscard]] double entered(const Trial& trial) const;
+  [[nodiscard]] double entered(const Trial& trial) const { return depth_of(trial).deepest(); }
   /// Whether a half enters a face by more than the tolerance and more than its ends; no lift and no shorter step helps
   /// there, another shape may.
   [[nodiscard]] bool enters_anything(const Trial& trial) const;
@@ -108,7 +108,10 @@ class CycleSearch {
  private:
   [[nodiscard]] AxisPlace start(const Trial& t) const { return sides_.from.at(t.from_x); }
   [[nodiscard]] AxisPlace end(const Trial& t) const { return sides_.to.at(t.to_x); }
-  [[nodiscard]] double gap_at(const Trial& t) const;
+  [[nodiscard]] double gap_at(const Trial& t) const {
+    const double middle = 0.5 * sides_.from.axis_length();
+    return (start(t).at(middle) - end(t).at(middle)).norm();
+  }
   [[nodiscard]] double partner(double from_x, const CycleShape& shape) const;
   void shape_halves(const CycleShape& shape, Trial& trial) const;
   /// A half path between two places, of which the one at `x` and the one at `y` have so much room ahead before a wall, mm; turned
@@ -139,12 +142,15 @@ class CycleSearch {
   [[nodiscard]] double allowed_at_tips(const Trial& trial) const;
   /// Lifts the inner points of both halves for as long as their tips enter something, if that helps.
   void lift(Trial& best);
-  [[nodiscard]] GuardDepth depth_of(const Trial& trial, int times, int places) const;
+  [[nodiscard]] GuardDepth depth_of(const Trial& trial) const;
+  /// Deepest that tips enter a face that is no side, mm: so coarsely that it is asked again and again.
+  [[nodiscard]] double depth_of_tips(const Trial& trial) const;
   /// What the side paths themselves enter there: no shape of a cycle changes it.
-  [[nodiscard]] GuardDepth depth_at_ends(const Trial& trial, int places) const;
+  [[nodiscard]] GuardDepth depth_at_ends(const HalfGuard& guard, const Trial& trial, int places) const;
 
   const LayerSides& sides_;
   const HalfGuard& guard_;
+  const HalfGuard others_;  ///< what tips are lifted off: no side is asked for that
   SweptStock& stock_;
   const CycleOptions& options_;
   EngagementMeter meter_;

@@ -19,7 +19,7 @@ void code(StepCodec& codec, EngagementRow& row) {
 
 namespace {
 
-/// Rows of a motion, rings of the flank and of each round end when a cycle is accepted.
+/// Rows of a motion, rings of the flank and most of each round end when a cycle is accepted.
 constexpr int kFineRows = 101, kFineRings = 61, kCaps = 15;
 /// Before the start, in radii: there the first front is looked for, and twice as far out for as long as it cuts, up to so
 /// many times.
@@ -80,7 +80,7 @@ class CyclePlanner {
         options_(options),
         search_(sides, guard, stock, options),
         meter_(stock),
-        rings_(tool_rings(stock.radial(), kFineRings, kCaps)) {
+        rings_(even_rings(stock.radial(), kFineRings, kCaps)) {
     now_.sweeps = stock.sweeps().size();
   }
 

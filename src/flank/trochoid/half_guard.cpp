@@ -33,6 +33,11 @@ HalfGuard::HalfGuard(GuardedFaces faces, const RadialFunction& radial)
       radial_(radial),
       least_places_(static_cast<int>(std::ceil(radial.axis_length() / (kApart * radial.largest()))) + 1) {}
 
+bool HalfGuard::has_faces() const {
+  const auto is_there = [](const auto* face) { return face != nullptr; };
+  return !faces_.sides.empty() || std::any_of(faces_.others.begin(), faces_.others.end(), is_there);
+}
+
 void HalfGuard::look(const Pose& pose, int places, GuardDepth& out) const {
   look(pose, places, kHorizon * radial_.largest(), out);
 }

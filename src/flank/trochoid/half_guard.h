@@ -33,6 +33,10 @@ struct GuardDepth {
 class HalfGuard {
  public:
   HalfGuard(GuardedFaces faces, const RadialFunction& radial);
+  /// The same, which sees no sides.
+  [[nodiscard]] HalfGuard of_others() const { return {{{}, faces_.others}, radial_}; }
+  /// Whether there is anything that it could see.
+  [[nodiscard]] bool has_faces() const;
   /// At `times` x `places` samples, the times densest at both ends, and closer around those that are deeper than their
   /// neighbours, be they in a face or only near one; at more places where their balls would leave an edge between them unseen.
   /// A place that projects onto a side's border counts by its distance alone.

@@ -12,6 +12,8 @@ constexpr int kPoles = 6, kDegree = 3;
 /// Weight of the second derivatives against the first ones: a half circle of length l has |c'| = l and |c''| = pi l, so
 /// both terms of it are alike.
 constexpr double kFairness = 0.1;
+/// Of the lift, for the control points that leave and arrive: along its own axis a tool goes on touching its side.
+constexpr double kLiftAtEnds = 0.15;
 
 using Gram = Eigen::Matrix<double, kPoles, kPoles>;
 
@@ -69,10 +71,12 @@ RuledMotion half_path(double axis_length, const AxisPlace& from, const AxisPlace
   const Vec3 forward = (from.velocity(middle) - to.velocity(middle)).normalized();
   const Vec3 up = (from.u + to.u).normalized();
   const Vec3 shift = shape.bulge_mm * forward + shape.lift_mm * up;
+  const double rise = kLiftAtEnds * shape.lift_mm;
+  const Vec3 leave = from.tip + shape.leave_mm * from.tip_dx + rise * from.u;
+  const Vec3 arrive = to.tip - shape.arrive_mm * to.tip_dx + rise * to.u;
   RuledMotion motion;
   motion.axis_length = axis_length;
-  motion.tip =
-      rail(from.tip, from.tip + shape.leave_mm * from.tip_dx, to.tip - shape.arrive_mm * to.tip_dx, to.tip, shift);
+  motion.tip = rail(from.tip, leave, arrive, to.tip, shift);
   motion.direction =
       rail(from.u, from.u + shape.leave_mm * from.u_dx, to.u - shape.arrive_mm * to.u_dx, to.u, Vec3::Zero());
   return motion;

@@ -21,7 +21,9 @@ struct AxisPlace {
 struct HalfShape {
   double leave_mm = 1.0, arrive_mm = 1.0;  ///< handles: how far the second and the last but one control points are off
   double bulge_mm = 0.0;                   ///< of the inner points, in the direction in which the path leaves
-  double lift_mm = 0.0;                    ///< of the inner points, along the axis
+  /// Of the inner points, along the axis; of the outer ones beside them a share, because the inner ones alone hardly
+  /// lift what lies near the ends.
+  double lift_mm = 0.0;
 };
 
 /// From one place to another, leaving and arriving with their velocities.

@@ -54,6 +54,53 @@ TEST(FitSides, LeavesTheAxesParallelWhereTheWallsAllowIt) {
   EXPECT_EQ(sides.fit.after.stagger, mean_stagger(sides.fit.motions));
 }
 
+/// A thin tool reaches more of a wall that stands on a floor, which is no reason to leave a stout one that covers what it reaches.
+TEST(FitSides, AreDoneWithWhatTheirToolReaches) {
+  if (kThreadSanitized) GTEST_SKIP() << "its parallel loops are those of fit";
+  const std::vector<Face> walls = cavity_walls({24.0, 30.0, 40.0, 0.0, 4.0, 0.0});
+  const std::unique_ptr<Target> left = make_target({walls[0]}), right = make_target({walls[1]});
+  const auto floor = [] {
+    return ObstacleFace{
+        make_target({quad(Vec3(-80, -80, -12), Vec3(80, -80, -12), Vec3(-80, 80, -12), Vec3(80, 80, -12), "F3")}),
+        true};
+  };
+  const double thickest = 5.0, tolerance = 0.02;
+  const ObstacleField on_left(only(floor()), *left, thickest, tolerance);
+  const ObstacleField on_right(only(floor()), *right, thickest, tolerance);
+  const CavitySide a{left.get(), &on_left}, b{right.get(), &on_right};
+  SideFitOptions options;
+  options.fit.tolerance_mm = tolerance;
+  options.fit.bounds.smallest = 0.5;
+  options.fit.bounds.largest = thickest;
+  options.starts = {{4.6, 0.55}, {4.6, 0.3}};
+  options.least_coverage = 0.95;
+  options.up = Vec3::UnitZ();
+  const SideFit sides = fit_sides(a, b, {}, options, {});
+  ASSERT_EQ(sides.fit.motions.size(), 2u);
+  EXPECT_LT(reachable_share(a, b, sides.fit.tool.smallest()), 0.9) << "the tool cannot cover the share of the whole";
+  EXPECT_EQ(sides.tried_radii, 1);
+  EXPECT_GT(sides.fit.tool.smallest(), 0.5 * 4.6);
+}
+
+/// Deep hollows begin badly along the walls, and well across them: of the ways across, two that are each other's mirror image
+/// took both places, and the tool lay along the cavity.
+TEST(FitSides, TryAnotherWayThanTwoThatAreMirrorImages) {
+  if (kThreadSanitized) GTEST_SKIP() << "its parallel loops are those of fit";
+  CavityShape deep;
+  deep.hollow_mm = 3.0;
+  const std::vector<Face> walls = cavity_walls(deep);
+  const std::unique_ptr<Target> left = make_target({walls[0]}), right = make_target({walls[1]});
+  SideFitOptions options;
+  options.fit.tolerance_mm = 0.02;
+  options.fit.bounds.smallest = 0.7;
+  options.fit.bounds.largest = 8.68;
+  options.starts = {{8.0, 0.3}};
+  const SideFit sides = fit_sides({left.get(), nullptr}, {right.get(), nullptr}, {}, options, {});
+  ASSERT_EQ(sides.fit.motions.size(), 2u);
+  EXPECT_GT(sides.fit.motions.front().pose(0.5).axis.z(), 0.9) << "upright";
+  EXPECT_GT(sides.fit.after.at_tolerance, 0.8);
+}
+
 TEST(WidthBetween, IsNoneWhereEverythingIsCovered) {
   const std::unique_ptr<Target> wall = leaning_wall();
   const std::unique_ptr<Target> buried =

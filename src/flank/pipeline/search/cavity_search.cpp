@@ -43,7 +43,7 @@ SideState state_of(const SideFit& sides, const CavityFaces& faces, const Trochoi
   if (e.overcut_mm > job.tolerance_mm || e.gouge_mm > job.tolerance_mm) return SideState::kShort;
   const double radius = job.judge.reach_radius_mm.value_or(sides.fit.tool.smallest());
   const double least = job.judge.least_coverage;
-  if (e.at_tolerance >= least * reachable_share(side_of(faces.sides[0]), side_of(faces.sides[1]), radius))
+  if (covers_reachable(side_of(faces.sides[0]), side_of(faces.sides[1]), e.at_tolerance, least, radius))
     return SideState::kDone;
   return e.at_tolerance >= least * reach_of(sides, faces) ? SideState::kObstructed : SideState::kShort;
 }

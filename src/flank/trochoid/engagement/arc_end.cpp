@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace flank::internal {
 namespace {
 
-/// Gaps and times to which ends are solved: mm, intervals.
-constexpr double kGapMm = 1e-9, kInterval = 1e-7;
+/// Steps after which an end is known, because the next one would be a ten-thousandth of them: mm, intervals. The gap does not
+/// feel the time to the first order.
+constexpr double kStepMm = 1e-6, kInterval = 1e-4;
 /// For second derivatives, of an interval and radians.
 constexpr double kProbe = 1e-4;
 /// An end is looked for this near to the guess, radians; a step goes no farther.
@@ -20,12 +20,14 @@ struct EndStep {
 
 /// Newton's step for gap = 0 and d gap / dt = 0, or for the gap alone where time is at its bounds.
 EndStep step_of(const ToolProfile& profile, const RingCircle& circle, const SweepPlace& cover, double angle, double t) {
-  const auto jet = [&](double a, double place) { return gap_at(profile, cover.sweep->at(place), circle.at(a)); };
-  const GapJet g = jet(angle, t);
+  const SweepPose pose = cover.sweep->at(t);
+  const double c = std::cos(angle), d = std::sin(angle);
+  const Vec3 x = circle.centre + circle.radius * (c * circle.x + d * circle.y), along = c * circle.y - d * circle.x;
+  const GapJet g = gap_at(profile, pose, x);
   if (!g.inside) return {};
-  const double by_angle = circle.radius * g.gradient.dot(circle.direction(angle + 0.5 * std::numbers::pi));
-  const double back = t + kProbe > cover.last ? -kProbe : kProbe;
-  const double tt = (jet(angle, t + back).dt - g.dt) / back, ta = (jet(angle + kProbe, t).dt - g.dt) / kProbe;
+  const double by_angle = circle.radius * g.gradient.dot(along), back = t + kProbe > cover.last ? -kProbe : kProbe;
+  const double tt = (gap_at(profile, cover.sweep->at(t + back), x).dt - g.dt) / back;
+  const double ta = (gap_at(profile, pose, x + kProbe * circle.radius * along).dt - g.dt) / kProbe;
   const bool low = t <= 0.0 && g.dt >= 0.0, high = t >= cover.last && g.dt <= 0.0;
   const double determinant = by_angle * tt - g.dt * ta;
   EndStep step;
@@ -50,7 +52,7 @@ double arc_end(const ToolProfile& profile, const RingCircle& circle, const Sweep
     const double moved = std::clamp(t + step.place, 0.0, cover.last) - t;
     at += step.angle;
     t += moved;
-    if (std::abs(step.angle) * circle.radius < kGapMm && std::abs(moved) < kInterval) break;
+    if (std::abs(step.angle) * circle.radius < kStepMm && std::abs(moved) < kInterval) break;
   }
   return std::abs(at - angle) < kFarthest ? at : angle;
 }

@@ -16,12 +16,13 @@ void NearPoses::begin(const RuledMotion& motion) {
   firsts_.clear();
   add_bundles_of(own_, kOwnSweep);
   for (int k = static_cast<int>(stock_.sweeps().size()) - 1; k >= 0; --k)
-    if (is_ever_near(sweep_of(k))) add_bundles_of(sweep_of(k), k);
+    if (is_ever_near(sweep_of(k), sweep_of(k).whole)) add_bundles_of(sweep_of(k), k);
   bundles_.make_room();
 }
 
 void NearPoses::add_bundles_of(const Sweep& sweep, int index) {
   for (std::size_t c = 0; c < sweep.chunks.size(); ++c) {
+    if (index != kOwnSweep && !is_ever_near(sweep, sweep.chunks[c])) continue;
     const std::size_t first = c * Sweep::kChunk;
     bundles_.add(sweep.chunks[c], sweep.axes[first].axis, 1.5 * tool_.largest / tool_.length);
     sweeps_.push_back(index);
@@ -29,19 +30,18 @@ void NearPoses::add_bundles_of(const Sweep& sweep, int index) {
   }
 }
 
-bool NearPoses::is_ever_near(const Sweep& sweep) const {
+bool NearPoses::is_ever_near(const Sweep& sweep, const Sweep::Chunk& part) const {
   const ToolProfile& profile = stock_.profile();
   const double length = sweep.axis_length,
                tilt = (sweep.axes.front().axis - own_.axes.front().axis).norm() + sweep.turn + own_.turn;
-  const Vec3 apart = sweep.whole.middle - own_.whole.middle;
+  const Vec3 apart = part.middle - own_.whole.middle;
   // What is seen from an axis that is elsewhere and tilted: the middles are so much nearer, the heights so much less apart.
   const double sway = own_.whole.reach + (apart.norm() + own_.whole.reach) * 2.0 * own_.turn;
   const double along = apart.dot(own_.axes.front().axis), across2 = apart.squaredNorm() - along * along;
-  const double most =
-      sweep.whole.reach + sway + 2.0 * profile.largest() + (0.75 * length + std::abs(along) + sway) * tilt;
+  const double most = part.reach + sway + 2.0 * profile.largest() + (0.75 * length + std::abs(along) + sway) * tilt;
   if (across2 > most * most) return false;
   const double half = std::max(profile.high() - 0.5 * length, 0.5 * length - profile.low());
-  return std::abs(along) <= 2.0 * half + sweep.whole.reach + sway + most * tilt;
+  return std::abs(along) <= 2.0 * half + part.reach + sway + most * tilt;
 }
 
 std::size_t NearPoses::end_of(std::size_t bundle, double own_last) const {

@@ -75,7 +75,8 @@ class NearPoses {
  private:
   /// One past the last pose of a bundle that counts.
   [[nodiscard]] std::size_t end_of(std::size_t bundle, double own_last) const;
-  [[nodiscard]] bool is_ever_near(const Sweep& sweep) const;
+  /// Whether some row of the motion may meet a part of a sweep: one of its chunks, or all of them.
+  [[nodiscard]] bool is_ever_near(const Sweep& sweep, const Sweep::Chunk& part) const;
   void add_bundles_of(const Sweep& sweep, int index);
   /// Adds those of a bundle, as add does; the discs are those that it may reach.
   void add_bundle(const RowFrame& frame, const RowDisc& whole, std::span<const RowDisc> discs, std::size_t bundle,

@@ -43,21 +43,21 @@ RowDisc RowMeter::discs_of_found(std::span<const ToolRing> rings) {
     const ToolRing& ring = rings[found.ring];
     const double low = found.motion_angle + found.arc.low, length = found.arc.high - found.arc.low;
     const int pieces = std::max(1, static_cast<int>(std::ceil(length / kPiece)));
-    const auto place = [&](double share) {
-      const double angle = low + length * share / pieces;
-      return Vec3(ring.radius * std::cos(angle), ring.radius * std::sin(angle), 0.0);
+    // Every half of a piece is a turn farther.
+    const double half = 0.5 * length / pieces;
+    const Vec2 turned(std::cos(half), std::sin(half));
+    Vec2 at(ring.radius * std::cos(low), ring.radius * std::sin(low));
+    const auto next = [&] {
+      at = Vec2(turned.x() * at.x() - turned.y() * at.y(), turned.y() * at.x() + turned.x() * at.y());
+      return at;
     };
-    Vec3 begin = place(0.0);
     for (int k = 0; k < pieces; ++k) {
-      const double at = low + length * (k + 0.5) / pieces;
-      const double turn = at / (2.0 * kPi);
+      const double turn = (low + length * (k + 0.5) / pieces) / (2.0 * kPi);
       const int sector = static_cast<int>((turn - std::floor(turn)) * kSectors) % kSectors;
-      const Vec3 end = place(k + 1.0);
-      for (const Vec3& x : {begin, place(k + 0.5), end}) {
-        sectors[static_cast<std::size_t>(sector)].add(ring, x);
-        all.add(ring, x);
+      for (const Vec2& x : {at, next(), next()}) {
+        sectors[static_cast<std::size_t>(sector)].add(ring, {x.x(), x.y(), 0.0});
+        all.add(ring, {x.x(), x.y(), 0.0});
       }
-      begin = end;
     }
   }
   // How far an arc bows out between points that are half a piece apart.

@@ -124,4 +124,10 @@ std::vector<ToolRing> tool_rings(const RadialFunction& radial, int count, int ca
   return rings;
 }
 
+std::vector<ToolRing> even_rings(const RadialFunction& radial, int count, int most_caps) {
+  const double end = std::max(radial.at(0.0).r, radial.at(radial.axis_length()).r);
+  const double caps = std::ceil(0.5 * std::numbers::pi * end * (count - 1) / radial.axis_length());
+  return tool_rings(radial, count, static_cast<int>(std::clamp(caps, 1.0, static_cast<double>(most_caps))));
+}
+
 }  // namespace flank::internal

@@ -52,6 +52,10 @@ struct ToolRing {
 /// How many rings of the flank are no farther apart than so many of the largest radii: at least `least`, at most `most`.
 [[nodiscard]] int ring_count(const RadialFunction& radial, double radii_apart, int least, int most);
 
+/// The same with as many on each round end as are as near to each other as those of the flank: at least 1, at most `most_caps`. Of
+/// a slender tool the ends take little.
+[[nodiscard]] std::vector<ToolRing> even_rings(const RadialFunction& radial, int count, int most_caps);
+
 /// The ring of one s, without area.
 [[nodiscard]] ToolRing ring_at(const RadialFunction& radial, double s);
 

@@ -26,7 +26,24 @@ constexpr double kQuickParallel = 2.0;
 struct Candidate {
   FitDraft draft;
   double score = -1.0;
+  bool swapped = false;  ///< how its start lay on the left side's chart
 };
+
+/// The best few, the best first. Of those of a symmetric cavity that are each other's mirror image one is enough: its place is
+/// for the best of those that lie across the others.
+std::vector<Candidate> best_of(std::vector<Candidate> candidates) {
+  constexpr double kAlike = 1e-6;
+  std::erase_if(candidates, [](const Candidate& c) { return c.draft.motions.empty() || !has_values(c.draft); });
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+  if (candidates.size() > kPolished && candidates[kPolished - 1].score > candidates.front().score - kAlike) {
+    const auto other = std::find_if(candidates.begin() + kPolished, candidates.end(),
+                                    [&](const Candidate& c) { return c.swapped != candidates.front().swapped; });
+    if (other != candidates.end()) std::iter_swap(candidates.begin() + kPolished - 1, other);
+  }
+  candidates.resize(std::min(candidates.size(), kPolished));
+  return candidates;
+}
 
 /// By how much the axis is longer than a third more than its way: then it most likely lies along the cavity.
 double lying(const RuledMotion& motion) {
@@ -50,11 +67,6 @@ double worth(const FitDraft& draft, const CoverageEstimate& estimate, double tol
   const double lean = mean_lean(draft.motions);
   return estimate.score(tolerance) - kStagger * mean_stagger(draft.motions) - kLean * lean -
          kSteepLean * std::max(0.0, lean - kMuchLean) - sum / layers;
-}
-
-bool is_done(const CoverageEstimate& e, const SideFitOptions& options) {
-  return e.at_tolerance >= options.least_coverage && e.overcut_mm <= options.fit.tolerance_mm &&
-         e.gouge_mm <= options.fit.tolerance_mm;
 }
 
 std::vector<SurfaceSample> samples_of(const CavitySide& left, const CavitySide& right, const FlankFitOptions& options) {
@@ -123,6 +135,8 @@ class SideFitter {
   }
 
   [[nodiscard]] RadiusFit fit_radius(const RadiusStart& first) const;
+  /// Whether another start is not needed.
+  [[nodiscard]] bool is_done(const Polished& polished) const;
   [[nodiscard]] const std::vector<SurfaceSample>& samples() const { return samples_; }
 
  private:
@@ -137,6 +151,7 @@ class SideFitter {
 
 Candidate SideFitter::quick(const SideStart& start, const FlankFitOptions& fit) const {
   Candidate candidate;
+  candidate.swapped = start.swapped;
   const auto length = [this](double wanted) { return tool_.length_for(wanted, options_.fit.axis_length_mm); };
   const std::vector<FitTask> tasks =
       side_tasks(left_, right_, left_chart_, right_chart_, start, options_.layers, length, options_.up);
@@ -169,10 +184,7 @@ RadiusFit SideFitter::fit_radius(const RadiusStart& first) const {
   parallel_for(all.size(), [&](std::size_t k) { candidates[k] = quick(all[k], fit); });
   RadiusFit out;
   out.starts = static_cast<int>(all.size());
-  std::erase_if(candidates, [](const Candidate& c) { return c.draft.motions.empty() || !has_values(c.draft); });
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
-  candidates.resize(std::min(candidates.size(), kPolished));
+  candidates = best_of(std::move(candidates));
   std::vector<Polished> polished(candidates.size());
   std::vector<std::vector<IterationTrace>> traces(candidates.size());
   parallel_for(candidates.size(), [&](std::size_t k) {
@@ -196,6 +208,14 @@ RadiusFit SideFitter::fit_radius(const RadiusStart& first) const {
   return out;
 }
 
+bool SideFitter::is_done(const Polished& polished) const {
+  const CoverageEstimate& e = polished.estimate;
+  if (e.overcut_mm > options_.fit.tolerance_mm || e.gouge_mm > options_.fit.tolerance_mm) return false;
+  const double asked = options_.fit.reach_radius_mm;
+  return covers_reachable(left_, right_, e.at_tolerance, options_.least_coverage,
+                          asked > 0.0 ? asked : polished.draft.tool.smallest());
+}
+
 /// The best of all radii that are tried.
 SideFit search_radii(const CavitySide& left, const CavitySide& right, const ToolModel& tool,
                      const SideFitOptions& options, const Progress& progress) {
@@ -214,7 +234,7 @@ SideFit search_radii(const CavitySide& left, const CavitySide& right, const Tool
     if (tried.polished.draft.motions.empty()) continue;
     const bool better = best.draft.motions.empty() || worth(tried.polished.draft, tried.polished.estimate, tolerance) >
                                                           worth(best.draft, best.estimate, tolerance);
-    const bool done = is_done(tried.polished.estimate, options);
+    const bool done = fitter.is_done(tried.polished);
     if (better) {
       best = std::move(tried.polished);
       out.fit.trace = std::move(tried.trace);
@@ -270,6 +290,11 @@ double reachable_share(const CavitySide& left, const CavitySide& right, double r
     }
   }
   return all > 0 ? static_cast<double>(reached) / all : 1.0;
+}
+
+bool covers_reachable(const CavitySide& left, const CavitySide& right, double covered, double least_coverage,
+                      double radius_mm) {
+  return covered >= least_coverage || covered >= least_coverage * reachable_share(left, right, radius_mm);
 }
 
 double facing(const Target& left, const Target& right) {

@@ -19,7 +19,7 @@ struct SideFitOptions {
   int layers = 1;
   /// What to start with, the best first: the first with which the sides are done is kept, else the best of them.
   std::vector<RadiusStart> starts;
-  double least_coverage = 0.97;  ///< planner's estimate, that counts as done
+  double least_coverage = 0.97;  ///< of what is reachable, planner's estimate, that counts as done
   std::optional<Vec3> up;        ///< from the floor to the open top, if it is known
   /// Every pass draws the axes of both sides to the same lean, so that a cycle need not turn the tool along its way. Where
   /// walls ask for something else that costs coverage, or leads the cycles into a corner.
@@ -49,6 +49,11 @@ struct CavityWidth {
 
 /// Of samples of both sides, the share at which a ball of the radius fits between the other faces: what a tool can cover.
 [[nodiscard]] double reachable_share(const CavitySide& left, const CavitySide& right, double radius_mm);
+
+/// Whether `covered` of both sides is the share asked for of what a ball of the radius reaches. Beside a floor a thin tool
+/// reaches farther than a stout one, which is not asked for that.
+[[nodiscard]] bool covers_reachable(const CavitySide& left, const CavitySide& right, double covered,
+                                    double least_coverage, double radius_mm);
 
 /// Cosine of the angle between the normals of sides that face each other, mean over samples: -1 for parallel walls, above
 /// 0 they do not face.
