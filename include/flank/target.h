@@ -63,7 +63,7 @@ class Target {
   void closest_batch(std::span<const Vec3> points, std::span<Footpoint> footpoints) const;
   void track_batch(std::span<const Vec3> points, std::span<Footpoint> footpoints) const;
 
-  /// Samples on the trimmed target with a spacing of about `spacing_mm`, in a fixed order.
+  /// Samples on the trimmed target with a spacing of about `spacing_mm`, in a fixed order; of a mesh on its triangles.
   [[nodiscard]] virtual std::vector<SurfaceSample> samples(double spacing_mm) const = 0;
 
   /// Points on the border of the trimmed target (not on seams and inner edges), at most `spacing_mm` apart along it.
