@@ -63,7 +63,7 @@ TEST_F(SheetSideTest, IsTheOneInTheOpenWhereTheOtherIsHidden) {
     const Result result = run_fit(job);
     EXPECT_TRUE(result.acceptance().pass()) << face;
     EXPECT_LE(result.verify.gouge_mm, 0.02) << face;
-    EXPECT_NE(said_of_side(result).find("leave 0 % to be reached, of this one 100 %"), std::string::npos)
+    EXPECT_NE(said_of_side(result).find("leave 100 % to be reached, of the other 0 %"), std::string::npos)
         << face << ": " << said_of_side(result);
   }
 }

@@ -1,6 +1,7 @@
 #include "flank/verify/judge_faces.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -45,34 +46,32 @@ struct Known {
   std::vector<SweptDistance> distances;
 };
 
-/// So many times as much may a finer look at coverage cost: the cells along the border of what is covered, cut twice more.
-constexpr std::size_t kFiner = 16;
+/// Looks at the coverage, in shares of ProofOptions::cover_evaluations. Where a share of the face is asked for, the first is coarse:
+/// if it is clear at once that this is covered, or that it is not, the last digits of the bound are not worth their price. The
+/// last one cuts the cells along the border of what is covered twice more.
+constexpr std::array<double, 3> kLooks{1.0 / 12.0, 1.0, 16.0};
 
 /// One judgement.
 class Judge {
  public:
   Judge(const Tool& tool, const Path& path, const JudgeOptions& options)
-      : tool_(tool),
-        path_(path),
-        options_(options),
-        volume_(tool, path),
-        cover_evaluations_(options.proof.cover_evaluations) {}
+      : tool_(tool), path_(path), options_(options), volume_(tool, path) {}
 
   VerifyReport run(const std::vector<JudgedFace>& faces, double least_coverage) {
     const bool shapes = std::all_of(faces.begin(), faces.end(), [](const JudgedFace& f) { return f.shape != nullptr; });
     prove_depth_ = shapes && !faces.empty() && options_.depth == DepthProof::kProved;
     keep_ = least_coverage > 0.0;
-    begin();
     std::vector<Known> known(faces.size());
-    std::vector<FaceResult> results;
-    for (std::size_t k = 0; k < faces.size(); ++k) results.push_back(judge_face(faces[k], known[k]));
-    finish(results, shapes && !faces.empty());
-    if (!undecided(least_coverage)) return std::move(report_);
-    cover_evaluations_ *= kFiner;
-    begin();
-    for (std::size_t k = 0; k < faces.size(); ++k)
-      if (faces[k].target) results[k] = judge_face(faces[k], known[k]);
-    finish(results, shapes);
+    std::vector<FaceResult> results(faces.size());
+    const std::size_t first = keep_ ? 0 : 1;
+    for (std::size_t look = first; look < kLooks.size(); ++look) {
+      balls_a_sample_ = kLooks[look] * static_cast<double>(options_.proof.cover_evaluations);
+      begin();
+      for (std::size_t k = 0; k < faces.size(); ++k)
+        if (look == first || faces[k].target) results[k] = judge_face(faces[k], known[k]);
+      finish(results, shapes && !faces.empty());
+      if (!undecided(least_coverage)) break;
+    }
     return std::move(report_);
   }
 
@@ -106,7 +105,7 @@ class Judge {
     CoverLimits limits;
     limits.tolerance_mm = options_.tolerance_mm;
     for (double area : samples.areas) limits.gap_mm2 += options_.proof.cover_gap_share * area;
-    limits.evaluations = cover_evaluations_ * samples.points.size();
+    limits.evaluations = static_cast<std::size_t>(balls_a_sample_ * static_cast<double>(samples.points.size()));
     limits.cells = options_.proof.cells;
     return search_cover(volume_, *shape, samples, distances, limits);
   }
@@ -225,7 +224,7 @@ class Judge {
   const Path& path_;
   const JudgeOptions& options_;
   SweptVolume volume_;
-  std::size_t cover_evaluations_;
+  double balls_a_sample_ = 0.0;  ///< that a look at coverage may take
   bool prove_depth_ = false, keep_ = false;
   VerifyReport report_;
 };

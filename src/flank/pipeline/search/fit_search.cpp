@@ -93,14 +93,12 @@ FlankFitOptions options_of(const FitJob& job, const Setup& setup, const Target& 
   return options;
 }
 
-/// The estimate that promises what was asked: the judge is stricter than it, and what is proved to be covered is less than what
-/// is covered.
+/// The estimate that promises what was asked. The judge is stricter, by how much nobody knows before it has judged: then the search
+/// goes on from there, with that much to spare (run_fit).
 double wanted_estimate(const FitJob& job, double spare_coverage) {
-  constexpr double kLeastEstimate = 0.97;
-  constexpr double kToProve = 0.003, kMost = 0.95;  // of the face; of what may be missing
-  const double least = job.judge.least_coverage, may_miss = 1.0 - least;
-  const double spare = std::max(std::min(kToProve, 0.5 * may_miss), std::min(spare_coverage, kMost * may_miss));
-  return std::max(least + spare, kLeastEstimate);
+  constexpr double kLeastEstimate = 0.97, kMost = 0.95;  // of the face; of what may be missing
+  const double least = job.judge.least_coverage;
+  return std::max(least + std::min(spare_coverage, kMost * (1.0 - least)), kLeastEstimate);
 }
 
 /// Covers what was asked, by the planner's estimate, enters nothing and does not plunge.
@@ -287,6 +285,7 @@ bool is_sheet(const Setup& setup) {
 
 /// A side of a sheet: its first group, and what is asked of it there.
 struct SheetSide {
+  int sign = +1;
   FitSearch search;
   FlankFitOptions options;
   double reachable = 1.0;  ///< share of the group's area
@@ -294,6 +293,7 @@ struct SheetSide {
 
 SheetSide look_at_side(const FitJob& job, const Setup& setup, const ToolModel& tool, int side, double spare_coverage) {
   SheetSide look;
+  look.sign = side;
   look.search = begin_side(job, setup, tool, side, spare_coverage);
   const TargetGroup& group = look.search.targets.front();
   look.options = look.search.options;
@@ -308,49 +308,58 @@ double scout(const SheetSide& side, const ToolModel& tool, const Progress& progr
   return fit_automatic(target, tool, hardly_worth_it(side.options), progress).after.score(side.options.tolerance_mm);
 }
 
-/// The side of which other faces hide far less than of the other (the outside of a thin blade); 0 where neither is.
-int side_in_the_open(const SheetSide& plus, const SheetSide& minus) {
-  constexpr double kFarLess = 0.5;  // of the reachable share
-  if (minus.reachable < kFarLess * plus.reachable) return +1;
-  return plus.reachable < kFarLess * minus.reachable ? -1 : 0;
+/// The two sides of a sheet, the first the one to begin with.
+struct SheetOrder {
+  SheetSide first, second;
+  std::optional<double> promises, other_promises;  ///< where what can be reached did not tell which comes first
+};
+
+/// Where other faces hide more of one side, it comes second, without a fit; else the one that promises less.
+SheetOrder order_sides(SheetSide plus, SheetSide minus, const ToolModel& tool, const Progress& progress) {
+  constexpr double kClearlyMore = 0.05;  // of the area
+  SheetOrder order{std::move(plus), std::move(minus), {}, {}};
+  const double more = order.first.reachable - order.second.reachable;
+  if (std::abs(more) <= kClearlyMore) {
+    order.promises = scout(order.first, tool, progress.part(0.0, 0.5));
+    order.other_promises = scout(order.second, tool, progress.part(0.5, 1.0));
+  }
+  if (order.promises ? *order.promises < *order.other_promises : more < 0.0) {
+    std::swap(order.first, order.second);
+    std::swap(order.promises, order.other_promises);
+  }
+  return order;
 }
 
-/// A sheet can be machined from either side: from the one in the open, if one is; else first from the one that promises
-/// more. From the other, too, where that one does not give what was asked and the other is not far behind.
+FitSearch with_side(FitSearch found, const SheetSide& side, const std::string& why) {
+  found.fit.notes.push_back(fmt::format("open sheet: side {} was chosen, {}", side.sign > 0 ? "+" : "-", why));
+  return found;
+}
+
+/// A sheet can be machined from either side: from the second, too, where the first does not give what was asked, the second has as
+/// much to be reached and is not far behind.
 FitSearch search_sheet(const FitJob& job, const Setup& setup, const ToolModel& tool, double spare_coverage,
                        const Progress& progress) {
   constexpr double kNotFar = 0.3;  // of the score, about a share of coverage
-  SheetSide above = look_at_side(job, setup, tool, +1, spare_coverage);
-  SheetSide below = look_at_side(job, setup, tool, -1, spare_coverage);
-  const auto search = [&](int side, const Progress& part) {
-    return search_side(job, std::move((side > 0 ? above : below).search), {}, part);
-  };
-  if (const int open = side_in_the_open(above, below); open != 0) {
-    FitSearch only = search(open, progress);
-    only.fit.notes.push_back(fmt::format(
-        "open sheet: side {} was chosen; of the other, other faces leave {:.0f} % to be reached, of this one {:.0f} %",
-        open > 0 ? "+" : "-", 100.0 * std::min(above.reachable, below.reachable),
-        100.0 * std::max(above.reachable, below.reachable)));
-    return only;
-  }
-  const double plus = scout(above, tool, progress.part(0.0, 0.1));
-  const double minus = scout(below, tool, progress.part(0.1, 0.2));
-  int side = plus >= minus ? +1 : -1;
-  FitSearch best = search(side, progress.part(0.2, 0.8));
-  const double wanted = wanted_estimate(job, best.spare_coverage);
-  const bool done = is_done(best.fit, wanted, job.tolerance_mm) || progress.stop();
-  if (done || std::abs(plus - minus) > kNotFar) {
-    best.fit.notes.push_back(fmt::format("open sheet: side {} was chosen, which promises more", side > 0 ? "+" : "-"));
-    return best;
-  }
-  FitSearch other = search(-side, progress.part(0.8, 1.0));
-  if (other.fit.after.score(job.tolerance_mm) > best.fit.after.score(job.tolerance_mm)) {
-    side = -side;
-    std::swap(best, other);
-  }
+  SheetOrder order = order_sides(look_at_side(job, setup, tool, +1, spare_coverage),
+                                 look_at_side(job, setup, tool, -1, spare_coverage), tool, progress.part(0.0, 0.2));
+  SheetSide &one = order.first, &two = order.second;
+  FitSearch best = search_side(job, std::move(one.search), {}, progress.part(0.2, 0.8));
+  const bool done = is_done(best.fit, wanted_estimate(job, spare_coverage), job.tolerance_mm) || progress.stop();
+  if (done || best.fit.after.at_tolerance * one.reachable > two.reachable)
+    return with_side(std::move(best), one,
+                     order.promises
+                         ? "which promises more"
+                         : fmt::format("of which other faces leave {:.0f} % to be reached, of the other {:.0f} %",
+                                       100.0 * one.reachable, 100.0 * two.reachable));
+  const double score = best.fit.after.score(job.tolerance_mm);
+  const double promised = order.other_promises ? *order.other_promises : scout(two, tool, progress.part(0.8, 0.85));
+  if (order.promises.value_or(score) - promised > kNotFar)
+    return with_side(std::move(best), one, "which promises more");
+  FitSearch other = search_side(job, std::move(two.search), {}, progress.part(0.85, 1.0));
+  const bool better = other.fit.after.score(job.tolerance_mm) > score;
+  if (better) std::swap(best, other);
   add_tried(best.fit, other.fit, best.options.bounds);
-  best.fit.notes.push_back(fmt::format("open sheet: both sides were tried, side {} covers more", side > 0 ? "+" : "-"));
-  return best;
+  return with_side(std::move(best), better ? two : one, "which covers more; both were tried");
 }
 
 }  // namespace

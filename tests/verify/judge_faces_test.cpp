@@ -1,0 +1,59 @@
+// How finely the proof of coverage looks: as finely as the share that is asked for needs, and no finer.
+#include "flank/verify/judge_faces.h"
+
+#include <gtest/gtest.h>
+
+#include "verify/faces.h"
+
+namespace flank::internal {
+namespace {
+
+/// A cylinder over the first half of a plane, at an angle to its samples' cells: the border of what is covered crosses them.
+class HalfAPlane : public testing::Test {
+ protected:
+  HalfAPlane() {
+    tool_.radial = RadialFunction::spline(20.0, Eigen::VectorXd::Constant(6, 5.0));
+    Strip strip;
+    for (int i = 0; i <= 10; ++i)
+      strip.poses.push_back({Vec3(-1.0 + 2.1 * i, 5.0, 0.0), Vec3(0.1, 0.0, 1.0).normalized()});
+    path_.strips = {strip};
+  }
+
+  [[nodiscard]] VerifyReport judged(double least_coverage) const {
+    verify::JudgedFace face{.face = "F1",
+                            .target = true,
+                            .size_mm = 45.0,
+                            .samples = [this](std::size_t, const auto& use) { use(samples_); },
+                            .shape = &shape_};
+    return verify::judge_faces(tool_, path_, {face}, {}, least_coverage);
+  }
+
+  Tool tool_;
+  Path path_;
+  const Face face_ = test::plane_face("F1", 40.0, 20.0);
+  const FaceSamples samples_ = sample_face(face_, 0.2, true);
+  const FaceShape shape_ = &face_;
+};
+
+TEST_F(HalfAPlane, IsProvedWhereThatDecides) {
+  const VerifyReport coarse = judged(1.0);
+  const double measured = coarse.coverage_reachable, proved = *coarse.coverage_reachable_bound;
+  ASSERT_LT(proved, measured);
+  const double between = 0.5 * (proved + measured);
+  const VerifyReport fine = judged(between);
+  EXPECT_GE(*fine.coverage_reachable_bound, between);
+  EXPECT_EQ(fine.coverage_reachable, measured);
+}
+
+TEST_F(HalfAPlane, CostsNoMoreThanItsSamplesWhereNothingHangsOnIt) {
+  const VerifyReport coarse = judged(1.0);
+  const double measured = coarse.coverage_reachable, proved = *coarse.coverage_reachable_bound;
+  for (const double least : {0.9 * proved, 0.5 * (1.0 + measured), 1.0}) {
+    const VerifyReport report = judged(least);
+    EXPECT_LE(report.faces[0].cover_cells, samples_.points.size()) << least;
+    EXPECT_EQ(report.coverage_reachable_bound, coarse.coverage_reachable_bound) << least;
+  }
+}
+
+}  // namespace
+}  // namespace flank::internal
