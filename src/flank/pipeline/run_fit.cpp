@@ -169,12 +169,15 @@ void note_facets(const FitSearch& search, const FitJob& job, std::vector<std::st
   constexpr double kMostUnsaid = 0.5;  // of what may be missed
   for (const TargetGroup& group : search.targets) {
     const FacetGaps gaps = facet_gaps(*group.target, job.tolerance_mm);
-    if (gaps.share > kMostUnsaid * (1.0 - job.judge.least_coverage))
-      notes.push_back(fmt::format(
-          "{}: the mesh is coarse or rough: on {:.1f} % of it triangles lie farther than the tolerance, up to "
-          "{:.2g} mm, off the smooth surface through their corners; a finer mesh, or the CAD file, shows what is "
-          "meant",
-          group.faces, 100.0 * gaps.share, gaps.largest_mm));
+    if (gaps.share <= kMostUnsaid * (1.0 - job.judge.least_coverage)) continue;
+    const double most = most_of_facets(*group.target, job.tolerance_mm);
+    const bool hopeless = most < job.judge.least_coverage;
+    notes.push_back(fmt::format(
+        "{}: the mesh is coarse or rough: on {:.1f} % of it triangles lie farther than the tolerance, up to "
+        "{:.2g} mm, off the smooth surface through their corners{}; a finer mesh, or the CAD file, shows what is meant",
+        group.faces, 100.0 * gaps.share, gaps.largest_mm,
+        hopeless ? fmt::format("; smooth motions finish {:.1f} % at most, and no more was searched for", 100.0 * most)
+                 : ""));
   }
 }
 

@@ -18,6 +18,7 @@
 #include "flank/seed/guide_file.h"
 #include "flank/seed/guide_start.h"
 #include "flank/seed/line_start.h"
+#include "flank/surface/facet_gaps.h"
 #include "flank/toolbox/tool_model.h"
 
 namespace flank::internal {
@@ -84,8 +85,10 @@ double enough_for(double least_coverage) {
 FlankFitOptions options_of(const FitJob& job, const Setup& setup, const Target& target, bool free_tool) {
   FlankFitOptions options;
   options.partial_passes = !setup.part.is_mesh();
+  const double most = most_of_facets(target, job.tolerance_mm), least = std::min(job.judge.least_coverage, most);
+  options.ways = least == job.judge.least_coverage;  // they cost as much as all else, and facets stay what they are
   options.tolerance_mm = job.tolerance_mm;
-  options.enough_coverage = std::min(options.enough_coverage, enough_for(job.judge.least_coverage));
+  options.enough_coverage = std::min(options.enough_coverage, enough_for(least));
   options.axis_length_mm = job.tool.axis_length_mm;
   options.bounds = bounds_for(job, target);
   const double demanded = free_tool ? demanded_reach(job, target, options.bounds) : 0.0;
@@ -95,10 +98,11 @@ FlankFitOptions options_of(const FitJob& job, const Setup& setup, const Target& 
 
 /// The estimate that promises what was asked. The judge is stricter, by how much nobody knows before it has judged: then the search
 /// goes on from there, with that much to spare (run_fit).
-double wanted_estimate(const FitJob& job, double spare_coverage) {
+double wanted_estimate(const FitJob& job, const Target& target, double spare_coverage) {
   constexpr double kLeastEstimate = 0.97, kMost = 0.95;  // of the face; of what may be missing
   const double least = job.judge.least_coverage;
-  return std::max(least + std::min(spare_coverage, kMost * (1.0 - least)), kLeastEstimate);
+  const double wanted = std::max(least + std::min(spare_coverage, kMost * (1.0 - least)), kLeastEstimate);
+  return std::min(wanted, most_of_facets(target, job.tolerance_mm));
 }
 
 /// Covers what was asked, by the planner's estimate, enters nothing and does not plunge.
@@ -119,6 +123,7 @@ FlankFitResult fit_auto(const Target& target, const ToolModel& tool, FlankFitOpt
                         const Progress& progress) {
   /// Of the face, before the last passes, which rarely gain more than a tenth: a strip more is tried instead.
   constexpr double kPromising = 0.85;
+  const bool has_ways = options.ways;
   FlankFitResult best;
   double one_covers = 0.0, rest = 1.0;
   StripGain gain(options.tolerance_mm);
@@ -133,7 +138,7 @@ FlankFitResult fit_auto(const Target& target, const ToolModel& tool, FlankFitOpt
     keep_better(best, std::move(result), options);
     if (is_done(best, wanted, options.tolerance_mm) || !gain.goes_on(best) || progress.stop()) break;
   }
-  if (!options.ways && !is_done(best, wanted, options.tolerance_mm) && !progress.stop()) {
+  if (has_ways && !options.ways && !is_done(best, wanted, options.tolerance_mm) && !progress.stop()) {
     options.strips = std::max<int>(1, static_cast<int>(best.motions.size()));
     options.ways = true;
     keep_better(best, fit_automatic(target, tool, options, progress.part(1.0 - rest, 1.0)), options);
@@ -188,7 +193,7 @@ void fit_groups(const FitJob& job, FitSearch& search, const ToolModel& tool, con
     const double parts = static_cast<double>(search.targets.size() > 1 ? search.targets.size() + 1 : 1);
     const Progress part = progress.part(static_cast<double>(g) / parts, static_cast<double>(g + 1) / parts);
     FlankFitResult result =
-        fit_group(target, shared, own, job.strips, wanted_estimate(job, search.spare_coverage), part);
+        fit_group(target, shared, own, job.strips, wanted_estimate(job, target, search.spare_coverage), part);
     for (const RuledMotion& motion : result.motions) {
       tasks.push_back({&target, motion, own.obstacles});
       search.group_of_motion.push_back(g);
@@ -344,7 +349,9 @@ FitSearch search_sheet(const FitJob& job, const Setup& setup, const ToolModel& t
                                  look_at_side(job, setup, tool, -1, spare_coverage), tool, progress.part(0.0, 0.2));
   SheetSide &one = order.first, &two = order.second;
   FitSearch best = search_side(job, std::move(one.search), {}, progress.part(0.2, 0.8));
-  const bool done = is_done(best.fit, wanted_estimate(job, spare_coverage), job.tolerance_mm) || progress.stop();
+  const bool done =
+      is_done(best.fit, wanted_estimate(job, *best.targets.front().target, spare_coverage), job.tolerance_mm) ||
+      progress.stop();
   if (done || best.fit.after.at_tolerance * one.reachable > two.reachable)
     return with_side(std::move(best), one,
                      order.promises
