@@ -42,7 +42,7 @@ struct Trial {
   double from_x = 0.0, to_x = 0.0;
   std::optional<RuledMotion> back;
   RuledMotion front;
-  double largest_rad = 0.0, volume_mm3 = 0.0, way_mm = 0.0;
+  double largest_rad = 0.0, volume_mm3 = 0.0, way_mm = 0.0;  ///< the volume if it was asked for: weigh
   /// What is maximised: removed volume per way of front and back.
   [[nodiscard]] double worth() const { return way_mm > 0.0 ? volume_mm3 / way_mm : 0.0; }
 };
@@ -88,7 +88,9 @@ class CycleSearch {
   void reset_shape();
   /// The cycle after now().last whose end on the first side is a step farther.
   [[nodiscard]] Trial tried(double step, bool measured) { return tried(step, now_.shape, measured); }
-  /// The longest step of the present shape; `largest_rad` < 0: there is none.
+  /// The volume of a trial: most are only asked how much they engage.
+  void weigh(Trial& trial);
+  /// The longest step of the present shape, weighed; `largest_rad` < 0: there is none.
   [[nodiscard]] Trial longest_step(double guess) { return longest_step(now_.shape, guess); }
   /// The longest step of the present shape, or of another where that does not get on, enters a face or, with `improving`,
   /// removes less a way; its tips lifted off what they enter. `largest_rad` < 0: there is none.
@@ -114,13 +116,11 @@ class CycleSearch {
   }
   [[nodiscard]] double partner(double from_x, const CycleShape& shape) const;
   void shape_halves(const CycleShape& shape, Trial& trial) const;
-  /// A half path between two places, of which the one at `x` and the one at `y` have so much room ahead before a wall, mm; turned
-  /// across as far as it takes.
-  [[nodiscard]] RuledMotion half_before_wall(const AxisPlace& from, const AxisPlace& to, const HalfShape& shape,
-                                             double room_from, double room_to) const;
   [[nodiscard]] Trial tried(double step, const CycleShape& shape, bool measured);
-  /// Engagement, volume and way of its halves.
+  /// Largest engagement and way of its halves.
   void measure(Trial& trial);
+  /// What both halves take, one after the other.
+  [[nodiscard]] Engagement taken(const Trial& trial, const RowRings& rings);
   [[nodiscard]] Trial longest_step(const CycleShape& shape, double guess);
   void improve(Trial& best);
   /// A shape and what one trial of it says of its longest step, mm, and what that would be worth.
@@ -154,7 +154,7 @@ class CycleSearch {
   SweptStock& stock_;
   const CycleOptions& options_;
   EngagementMeter meter_;
-  std::vector<ToolRing> rings_;
+  RowRings rings_, volume_rings_;
   SidePairing pairing_;
   double radius_ = 0.0;
   RefusedStep refused_;

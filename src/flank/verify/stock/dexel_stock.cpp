@@ -229,7 +229,7 @@ double DexelStock::cut_field(std::size_t axis, const ToolSolid& tool, const Pose
   std::vector<double> removed(static_cast<std::size_t>(last - first + 1), 0.0);
   constexpr std::size_t kRows = 32;
   parallel_blocks(removed.size(), kRows, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) 
+    for (std::size_t k = begin; k < end; ++k)
       removed[k] = cut_row(field, weights_[axis], tool, pose, first + static_cast<int>(k));
   });
   double sum = 0.0;
