@@ -79,12 +79,13 @@ CycleSearch::CycleSearch(const LayerSides& sides, const HalfGuard& guard, SweptS
                          const CycleOptions& options)
     : sides_(sides),
       guard_(guard),
-      others_(guard.of_others()),
+      others_(guard.of_tips()),
       stock_(stock),
       options_(options),
       meter_(stock),
       rings_(stock.radial(), ring_count(stock.radial(), kRingsApart, kRings, kMostRings), 0),
       volume_rings_(stock.radial(), 0, kVolumeRings),
+      both_rings_(stock.radial(), ring_count(stock.radial(), kRingsApart, kRings, kMostRings), kVolumeRings),
       pairing_(sides.from, sides.to, kBeyond * stock.profile().largest()),
       radius_(stock.profile().largest()) {
   reset_shape();
@@ -140,10 +141,8 @@ Trial CycleSearch::tried(double step, const CycleShape& shape, bool measured) {
   trial.from_x = now_.last.from_x + step;
   trial.to_x = std::max(now_.last.to_x, partner(trial.from_x, shape));
   shape_halves(shape, trial);
-  if (measured)
-    measure(trial);
-  else
-    trial.way_mm = way_of(trial);
+  trial.way_mm = way_of(trial);
+  if (measured) measure(trial);
   return trial;
 }
 
@@ -160,12 +159,15 @@ Engagement CycleSearch::taken(const Trial& trial, const RowRings& rings) {
   return out;
 }
 
-void CycleSearch::measure(Trial& trial) {
-  trial.way_mm = way_of(trial);
-  trial.largest_rad = taken(trial, rings_).peak.angle_rad;
-}
+void CycleSearch::measure(Trial& trial) { trial.largest_rad = taken(trial, rings_).peak.angle_rad; }
 
 void CycleSearch::weigh(Trial& trial) { trial.volume_mm3 = taken(trial, volume_rings_).volume_mm3; }
+
+void CycleSearch::measure_and_weigh(Trial& trial) {
+  const Engagement both = taken(trial, both_rings_);
+  trial.largest_rad = both.peak.angle_rad;
+  trial.volume_mm3 = both.volume_mm3;
+}
 
 void CycleSearch::adjust(Trial& best) {
   // Of the longest step that the whole front may take: the first of the published method's paths that is too far.
@@ -177,6 +179,7 @@ void CycleSearch::adjust(Trial& best) {
   if (trial.back) stock_.remove_last();
   if (!front) return;
   trial.front = *front;
+  trial.way_mm = way_of(trial);
   measure(trial);
   if (trial.largest_rad <= aim() && !enters_anything(trial)) best = std::move(trial);
 }
@@ -215,7 +218,7 @@ void CycleSearch::improve(Trial& best) {
   if (best.largest_rad < 0.0 || best.worth() <= 0.0) return;
   constexpr double kBetter = 1.002;
   // Of seven, in turn: shapes change little from cycle to cycle. The first ones, which begin with a guess, try them all.
-  constexpr int kVariables = 3, kFirst = 8;
+  constexpr int kVariables = 2, kFirst = 8;
   const int all = static_cast<int>(now_.shape.share.size());
   const int count = ++now_.improved <= kFirst ? all : kVariables;
   for (int k = 0, looked = 0; k < all && looked < count; ++k) {
@@ -232,14 +235,14 @@ void CycleSearch::improve(Trial& best) {
       if (shape.share[v] == now_.shape.share[v]) continue;
       const double step = best.from_x - now_.last.from_x;
       // What it would be worth at the aim is known well enough to see what is not worth a search.
-      Trial probe = tried(step, shape, true);
-      weigh(probe);
+      Trial probe = tried(step, shape, false);
+      measure_and_weigh(probe);
       const double longer = depth_of_cut(aim()) / depth_of_cut(probe.largest_rad);
       if (longer * probe.worth() <= depth_of_cut(aim()) / depth_of_cut(best.largest_rad) * best.worth()) continue;
-      const Trial trial = longest_step(shape, longer * step);
+      Trial trial = longest_step(shape, longer * step);
       if (trial.largest_rad < 0.0 || !(trial.worth() > kBetter * best.worth())) continue;
       if (enters_anything(trial)) continue;
-      best = trial;
+      best = std::move(trial);
       now_.shape = shape;
       better = true;
       break;
@@ -260,8 +263,8 @@ std::vector<CycleSearch::Prospect> CycleSearch::prospects() {
       prospect.shape.share[0] = prospect.shape.share[1] = handle;
       prospect.shape.share[2] = bulge;
       prospect.lift_mm = now_.lift_mm = needed_lift(prospect.shape, step);
-      Trial probe = tried(step, prospect.shape, true);
-      weigh(probe);
+      Trial probe = tried(step, prospect.shape, false);
+      measure_and_weigh(probe);
       const double longer = depth_of_cut(aim()) / depth_of_cut(probe.largest_rad);
       prospect.enters = enters_anything(probe);
       prospect.step = longer * step;
@@ -276,8 +279,6 @@ std::vector<CycleSearch::Prospect> CycleSearch::prospects() {
   return out;
 }
 
-/// Fronts from flat to steep, where the shape of the last cycle does not get on, or enters a side: the best of those that
-/// enter none, if there is one.
 void CycleSearch::reshape(Trial& best) {
   /// Of those that promise most so many are searched, and more only where none of them gets on.
   constexpr int kSearched = 4;
@@ -311,10 +312,11 @@ void CycleSearch::reshape_short(Trial& best) {
   if (best.worth() < kGain * before) now_.short_rest = kRest;
 }
 
-GuardDepth CycleSearch::depth_of(const Trial& trial) const {
-  GuardDepth out = guard_.depth(trial.front, kGuardTimes, kGuardPlaces);
-  if (trial.back) out.add(guard_.depth(*trial.back, kGuardTimes, kGuardPlaces));
-  return out;
+const GuardDepth& CycleSearch::depth_of(Trial& trial) const {
+  if (trial.depth) return *trial.depth;
+  trial.depth = guard_.depth(trial.front, kGuardTimes, kGuardPlaces);
+  if (trial.back) trial.depth->add(guard_.depth(*trial.back, kGuardTimes, kGuardPlaces));
+  return *trial.depth;
 }
 
 double CycleSearch::depth_of_tips(const Trial& trial) const {
@@ -329,10 +331,10 @@ GuardDepth CycleSearch::depth_at_ends(const HalfGuard& guard, const Trial& trial
   return out;
 }
 
-bool CycleSearch::enters_anything(const Trial& trial) const {
+bool CycleSearch::enters_anything(Trial& trial) const {
   // What the side paths enter of one kind of face allows nothing in another. Looked at as closely as a half is.
   const double allowed = kToleranceBudget.cavity.halves * options_.tolerance_mm;
-  const GuardDepth half = depth_of(trial), ends = depth_at_ends(guard_, trial, 2 * kGuardPlaces - 1);
+  const GuardDepth &half = depth_of(trial), ends = depth_at_ends(guard_, trial, 2 * kGuardPlaces - 1);
   return half.sides > std::max(allowed, ends.sides) || half.others > std::max(allowed, ends.others);
 }
 
