@@ -55,9 +55,9 @@ TEST(HalfGuard, SeesAMomentBetweenTwoSamplesThatEnterNothing) {
     const GuardDepth of_both = HalfGuard({{side.get()}, {&field}}, radial).depth(half, 25, 9);
     EXPECT_NEAR(of_both.sides, kAtEnd, 1e-9) << ahead;
     EXPECT_NEAR(of_both.others, kDeep, 1e-4) << ahead;
-    const GuardDepth of_others = HalfGuard({{side.get()}, {nullptr, &field}}, radial).of_others().depth(half, 25, 9);
-    EXPECT_EQ(of_others.sides, 0.0) << ahead;
-    EXPECT_NEAR(of_others.others, kDeep, 1e-4) << ahead;
+    const GuardDepth of_tips = HalfGuard({{side.get()}, {nullptr, &field}}, radial).of_tips().depth(half, 25, 9);
+    EXPECT_EQ(of_tips.sides, 0.0) << ahead;
+    EXPECT_NEAR(of_tips.others, kDeep, 1e-4) << ahead;
   }
 }
 
@@ -66,9 +66,9 @@ TEST(HalfGuard, KnowsWhetherItSeesAnything) {
   const auto side = testing::standing_blade(0.0);
   const HalfGuard guard({{side.get()}, {nullptr, nullptr}}, radial);
   EXPECT_TRUE(guard.has_faces());
-  EXPECT_FALSE(guard.of_others().has_faces()) << "no field is no face";
+  EXPECT_FALSE(guard.of_tips().has_faces()) << "no field is no face";
   const ObstacleField hub(testing::only(testing::hub(true)), *side, 2.0, 0.0);
-  EXPECT_TRUE(HalfGuard({{side.get()}, {nullptr, &hub}}, radial).of_others().has_faces());
+  EXPECT_TRUE(HalfGuard({{side.get()}, {nullptr, &hub}}, radial).of_tips().has_faces());
 }
 
 }  // namespace

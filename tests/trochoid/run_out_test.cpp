@@ -46,6 +46,28 @@ class RunOutTest : public ::testing::Test {
   }
 };
 
+TEST_F(RunOutTest, AreMotionsOfTheirOwnBesideTheSide) {
+  SidePath a = leaning(kRadius, 0.17), b = leaning(19.0, 0.3);
+  join_run_outs(a, b, kRadius);
+  const double by = 1.5 * kRadius;
+  const std::vector<RuledMotion> motions = a.motions_between(-by, a.length() + by);
+  ASSERT_EQ(motions.size(), 3u);
+  constexpr double kAlike = 1e-3;
+  double from = -by;
+  for (const double to : {0.0, a.length(), a.length() + by}) {
+    const RuledMotion& motion = motions[from < 0.0 ? 0 : (to > a.length() ? 2 : 1)];
+    for (const double t : {0.0, 0.3, 0.7, 1.0}) {
+      const AxisPlace place = a.at(std::lerp(from, to, t));
+      EXPECT_LT((motion.pose(t).at(0.0) - place.at(0.0)).norm(), kAlike) << to << " " << t;
+      EXPECT_LT((motion.pose(t).at(kLength) - place.at(kLength)).norm(), kAlike) << to << " " << t;
+    }
+    from = to;
+  }
+  EXPECT_EQ(a.motions_between(1.0, 20.0).size(), 1u);
+  a.stop_at(true);
+  EXPECT_EQ(a.motions_between(1.0, a.length() + by).size(), 1u) << "there is a wall";
+}
+
 TEST_F(RunOutTest, RisesWhereTheHubIsInTheWay) {
   // Across an axis that leans forward means down.
   SidePath a = leaning(kRadius, 0.17), b = leaning(19.0, 0.17);

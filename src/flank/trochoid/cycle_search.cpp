@@ -10,8 +10,8 @@
 namespace flank::internal {
 namespace {
 
-/// Rows of a motion, rings of the flank and of each round end.
-constexpr int kRows = 33, kRings = 7, kCaps = 3;
+/// Rows of a motion, rings of the flank for its engagement and for its volume.
+constexpr int kRows = 33, kRings = 7, kVolumeRings = 5;
 /// Rings of a slender tool are so many radii apart, up to so many: an edge that it meets between two would not be seen.
 constexpr double kRingsApart = 3.0;
 constexpr int kMostRings = 31;
@@ -79,11 +79,13 @@ CycleSearch::CycleSearch(const LayerSides& sides, const HalfGuard& guard, SweptS
                          const CycleOptions& options)
     : sides_(sides),
       guard_(guard),
-      others_(guard.of_others()),
+      others_(guard.of_tips()),
       stock_(stock),
       options_(options),
       meter_(stock),
-      rings_(tool_rings(stock.radial(), ring_count(stock.radial(), kRingsApart, kRings, kMostRings), kCaps)),
+      rings_(stock.radial(), ring_count(stock.radial(), kRingsApart, kRings, kMostRings), 0),
+      volume_rings_(stock.radial(), 0, kVolumeRings),
+      both_rings_(stock.radial(), ring_count(stock.radial(), kRingsApart, kRings, kMostRings), kVolumeRings),
       pairing_(sides.from, sides.to, kBeyond * stock.profile().largest()),
       radius_(stock.profile().largest()) {
   reset_shape();
@@ -119,18 +121,6 @@ double CycleSearch::partner(double from_x, const CycleShape& shape) const {
   return y + shape.share[CycleShape::kAhead] * gap;
 }
 
-RuledMotion CycleSearch::half_before_wall(const AxisPlace& from, const AxisPlace& to, const HalfShape& shape,
-                                          double room_from, double room_to) const {
-  const double length = sides_.from.axis_length();
-  RuledMotion half = half_path(length, from, to, shape);
-  const double room = std::min(room_from, room_to);
-  if (!std::isfinite(room)) return half;
-  const double reach = reach_ahead(half, from, to);
-  if (reach <= room) return half;
-  return half_path_across(length, from, to, shape, std::clamp(room_from / reach, 0.0, 1.0),
-                          std::clamp(room_to / reach, 0.0, 1.0));
-}
-
 void CycleSearch::shape_halves(const CycleShape& shape, Trial& trial) const {
   constexpr double kMuch = std::numeric_limits<double>::infinity();
   const double gap = gap_at(trial);
@@ -138,10 +128,11 @@ void CycleSearch::shape_halves(const CycleShape& shape, Trial& trial) const {
     return side.stops_at_end() ? std::max(0.0, side.length() - x) : kMuch;
   };
   const auto behind = [](const SidePath& side, double x) { return side.stops_at_start() ? std::max(0.0, x) : kMuch; };
-  trial.front = half_before_wall(start(trial), end(trial).reversed(), shape.front(gap, now_.lift_mm),
+  const double length = sides_.from.axis_length();
+  trial.front = half_before_wall(length, start(trial), end(trial).reversed(), shape.front(gap, now_.lift_mm),
                                  ahead(sides_.from, trial.from_x), ahead(sides_.to, trial.to_x));
   if (now_.last.way_mm > 0.0)
-    trial.back = half_before_wall(end(now_.last).reversed(), start(trial), shape.back(gap, now_.lift_mm),
+    trial.back = half_before_wall(length, end(now_.last).reversed(), start(trial), shape.back(gap, now_.lift_mm),
                                   behind(sides_.to, now_.last.to_x), behind(sides_.from, trial.from_x));
 }
 
@@ -150,26 +141,32 @@ Trial CycleSearch::tried(double step, const CycleShape& shape, bool measured) {
   trial.from_x = now_.last.from_x + step;
   trial.to_x = std::max(now_.last.to_x, partner(trial.from_x, shape));
   shape_halves(shape, trial);
-  if (measured)
-    measure(trial);
-  else
-    trial.way_mm = way_of(trial);
+  trial.way_mm = way_of(trial);
+  if (measured) measure(trial);
   return trial;
 }
 
-void CycleSearch::measure(Trial& trial) {
-  trial.way_mm = way_of(trial);
-  trial.largest_rad = trial.volume_mm3 = 0.0;
+Engagement CycleSearch::taken(const Trial& trial, const RowRings& rings) {
+  Engagement out;
   if (trial.back) {
-    const Engagement e = meter_.measure(*trial.back, rings_, kRows);
-    trial.largest_rad = e.peak.angle_rad;
-    trial.volume_mm3 = e.volume_mm3;
+    out = meter_.measure(*trial.back, rings, kRows);
     stock_.add(Sweep::of(*trial.back, kHalfIntervals));
   }
-  const Engagement e = meter_.measure(trial.front, rings_, kRows);
-  trial.largest_rad = std::max(trial.largest_rad, e.peak.angle_rad);
-  trial.volume_mm3 += e.volume_mm3;
+  const Engagement front = meter_.measure(trial.front, rings, kRows);
   if (trial.back) stock_.remove_last();
+  if (front.peak.angle_rad > out.peak.angle_rad) out.peak = front.peak;
+  out.volume_mm3 += front.volume_mm3;
+  return out;
+}
+
+void CycleSearch::measure(Trial& trial) { trial.largest_rad = taken(trial, rings_).peak.angle_rad; }
+
+void CycleSearch::weigh(Trial& trial) { trial.volume_mm3 = taken(trial, volume_rings_).volume_mm3; }
+
+void CycleSearch::measure_and_weigh(Trial& trial) {
+  const Engagement both = taken(trial, both_rings_);
+  trial.largest_rad = both.peak.angle_rad;
+  trial.volume_mm3 = both.volume_mm3;
 }
 
 void CycleSearch::adjust(Trial& best) {
@@ -182,6 +179,7 @@ void CycleSearch::adjust(Trial& best) {
   if (trial.back) stock_.remove_last();
   if (!front) return;
   trial.front = *front;
+  trial.way_mm = way_of(trial);
   measure(trial);
   if (trial.largest_rad <= aim() && !enters_anything(trial)) best = std::move(trial);
 }
@@ -212,6 +210,7 @@ Trial CycleSearch::longest_step(const CycleShape& shape, double guess) {
     const double share = std::clamp((goal - low_depth) / (high_depth - low_depth), 0.15, 0.9);
     step = low + share * (high - low);
   }
+  if (best.largest_rad >= 0.0) weigh(best);
   return best;
 }
 
@@ -219,7 +218,7 @@ void CycleSearch::improve(Trial& best) {
   if (best.largest_rad < 0.0 || best.worth() <= 0.0) return;
   constexpr double kBetter = 1.002;
   // Of seven, in turn: shapes change little from cycle to cycle. The first ones, which begin with a guess, try them all.
-  constexpr int kVariables = 3, kFirst = 8;
+  constexpr int kVariables = 2, kFirst = 8;
   const int all = static_cast<int>(now_.shape.share.size());
   const int count = ++now_.improved <= kFirst ? all : kVariables;
   for (int k = 0, looked = 0; k < all && looked < count; ++k) {
@@ -236,13 +235,14 @@ void CycleSearch::improve(Trial& best) {
       if (shape.share[v] == now_.shape.share[v]) continue;
       const double step = best.from_x - now_.last.from_x;
       // What it would be worth at the aim is known well enough to see what is not worth a search.
-      const Trial probe = tried(step, shape, true);
+      Trial probe = tried(step, shape, false);
+      measure_and_weigh(probe);
       const double longer = depth_of_cut(aim()) / depth_of_cut(probe.largest_rad);
       if (longer * probe.worth() <= depth_of_cut(aim()) / depth_of_cut(best.largest_rad) * best.worth()) continue;
-      const Trial trial = longest_step(shape, longer * step);
+      Trial trial = longest_step(shape, longer * step);
       if (trial.largest_rad < 0.0 || !(trial.worth() > kBetter * best.worth())) continue;
       if (enters_anything(trial)) continue;
-      best = trial;
+      best = std::move(trial);
       now_.shape = shape;
       better = true;
       break;
@@ -263,7 +263,8 @@ std::vector<CycleSearch::Prospect> CycleSearch::prospects() {
       prospect.shape.share[0] = prospect.shape.share[1] = handle;
       prospect.shape.share[2] = bulge;
       prospect.lift_mm = now_.lift_mm = needed_lift(prospect.shape, step);
-      const Trial probe = tried(step, prospect.shape, true);
+      Trial probe = tried(step, prospect.shape, false);
+      measure_and_weigh(probe);
       const double longer = depth_of_cut(aim()) / depth_of_cut(probe.largest_rad);
       prospect.enters = enters_anything(probe);
       prospect.step = longer * step;
@@ -278,8 +279,6 @@ std::vector<CycleSearch::Prospect> CycleSearch::prospects() {
   return out;
 }
 
-/// Fronts from flat to steep, where the shape of the last cycle does not get on, or enters a side: the best of those that
-/// enter none, if there is one.
 void CycleSearch::reshape(Trial& best) {
   /// Of those that promise most so many are searched, and more only where none of them gets on.
   constexpr int kSearched = 4;
@@ -313,10 +312,11 @@ void CycleSearch::reshape_short(Trial& best) {
   if (best.worth() < kGain * before) now_.short_rest = kRest;
 }
 
-GuardDepth CycleSearch::depth_of(const Trial& trial) const {
-  GuardDepth out = guard_.depth(trial.front, kGuardTimes, kGuardPlaces);
-  if (trial.back) out.add(guard_.depth(*trial.back, kGuardTimes, kGuardPlaces));
-  return out;
+const GuardDepth& CycleSearch::depth_of(Trial& trial) const {
+  if (trial.depth) return *trial.depth;
+  trial.depth = guard_.depth(trial.front, kGuardTimes, kGuardPlaces);
+  if (trial.back) trial.depth->add(guard_.depth(*trial.back, kGuardTimes, kGuardPlaces));
+  return *trial.depth;
 }
 
 double CycleSearch::depth_of_tips(const Trial& trial) const {
@@ -331,10 +331,10 @@ GuardDepth CycleSearch::depth_at_ends(const HalfGuard& guard, const Trial& trial
   return out;
 }
 
-bool CycleSearch::enters_anything(const Trial& trial) const {
+bool CycleSearch::enters_anything(Trial& trial) const {
   // What the side paths enter of one kind of face allows nothing in another. Looked at as closely as a half is.
   const double allowed = kToleranceBudget.cavity.halves * options_.tolerance_mm;
-  const GuardDepth half = depth_of(trial), ends = depth_at_ends(guard_, trial, 2 * kGuardPlaces - 1);
+  const GuardDepth &half = depth_of(trial), ends = depth_at_ends(guard_, trial, 2 * kGuardPlaces - 1);
   return half.sides > std::max(allowed, ends.sides) || half.others > std::max(allowed, ends.others);
 }
 

@@ -42,7 +42,8 @@ struct Trial {
   double from_x = 0.0, to_x = 0.0;
   std::optional<RuledMotion> back;
   RuledMotion front;
-  double largest_rad = 0.0, volume_mm3 = 0.0, way_mm = 0.0;
+  double largest_rad = 0.0, volume_mm3 = 0.0, way_mm = 0.0;  ///< the volume if it was asked for: weigh
+  std::optional<GuardDepth> depth;                           ///< what the halves enter, once it was asked
   /// What is maximised: removed volume per way of front and back.
   [[nodiscard]] double worth() const { return way_mm > 0.0 ? volume_mm3 / way_mm : 0.0; }
 };
@@ -88,16 +89,18 @@ class CycleSearch {
   void reset_shape();
   /// The cycle after now().last whose end on the first side is a step farther.
   [[nodiscard]] Trial tried(double step, bool measured) { return tried(step, now_.shape, measured); }
-  /// The longest step of the present shape; `largest_rad` < 0: there is none.
+  /// The volume of a trial: most are only asked how much they engage.
+  void weigh(Trial& trial);
+  /// The longest step of the present shape, weighed; `largest_rad` < 0: there is none.
   [[nodiscard]] Trial longest_step(double guess) { return longest_step(now_.shape, guess); }
   /// The longest step of the present shape, or of another where that does not get on, enters a face or, with `improving`,
   /// removes less a way; its tips lifted off what they enter. `largest_rad` < 0: there is none.
   [[nodiscard]] Trial best(bool improving);
   /// Deepest that a half enters a face, mm.
-  [[nodiscard]] double entered(const Trial& trial) const { return depth_of(trial).deepest(); }
+  [[nodiscard]] double entered(Trial& trial) const { return depth_of(trial).deepest(); }
   /// Whether a half enters a face by more than the tolerance and more than its ends; no lift and no shorter step helps
   /// there, another shape may.
-  [[nodiscard]] bool enters_anything(const Trial& trial) const;
+  [[nodiscard]] bool enters_anything(Trial& trial) const;
   /// The engagement that a search may see, so that fine samples see no more than the limit, radians.
   [[nodiscard]] double aim() const;
   /// Of the steps beyond the limit since the last cycle was looked for, the one that engages least.
@@ -114,13 +117,13 @@ class CycleSearch {
   }
   [[nodiscard]] double partner(double from_x, const CycleShape& shape) const;
   void shape_halves(const CycleShape& shape, Trial& trial) const;
-  /// A half path between two places, of which the one at `x` and the one at `y` have so much room ahead before a wall, mm; turned
-  /// across as far as it takes.
-  [[nodiscard]] RuledMotion half_before_wall(const AxisPlace& from, const AxisPlace& to, const HalfShape& shape,
-                                             double room_from, double room_to) const;
   [[nodiscard]] Trial tried(double step, const CycleShape& shape, bool measured);
-  /// Engagement, volume and way of its halves.
+  /// Largest engagement of its halves.
   void measure(Trial& trial);
+  /// Both, and sooner than one after the other.
+  void measure_and_weigh(Trial& trial);
+  /// What both halves take, one after the other.
+  [[nodiscard]] Engagement taken(const Trial& trial, const RowRings& rings);
   [[nodiscard]] Trial longest_step(const CycleShape& shape, double guess);
   void improve(Trial& best);
   /// A shape and what one trial of it says of its longest step, mm, and what that would be worth.
@@ -131,6 +134,8 @@ class CycleSearch {
   };
   /// Of fronts from flat to steep, those that enter no face first, then the worthiest.
   [[nodiscard]] std::vector<Prospect> prospects();
+  /// Fronts from flat to steep, where the shape of the last cycle does not get on, or enters a side: the best of those that
+  /// enter none, if there is one.
   void reshape(Trial& best);
   /// The same for a step that is only short: not at every cycle where that gains nothing.
   void reshape_short(Trial& best);
@@ -142,7 +147,7 @@ class CycleSearch {
   [[nodiscard]] double allowed_at_tips(const Trial& trial) const;
   /// Lifts the inner points of both halves for as long as their tips enter something, if that helps.
   void lift(Trial& best);
-  [[nodiscard]] GuardDepth depth_of(const Trial& trial) const;
+  [[nodiscard]] const GuardDepth& depth_of(Trial& trial) const;
   /// Deepest that tips enter a face that is no side, mm: so coarsely that it is asked again and again.
   [[nodiscard]] double depth_of_tips(const Trial& trial) const;
   /// What the side paths themselves enter there: no shape of a cycle changes it.
@@ -154,7 +159,7 @@ class CycleSearch {
   SweptStock& stock_;
   const CycleOptions& options_;
   EngagementMeter meter_;
-  std::vector<ToolRing> rings_;
+  RowRings rings_, volume_rings_, both_rings_;
   SidePairing pairing_;
   double radius_ = 0.0;
   RefusedStep refused_;

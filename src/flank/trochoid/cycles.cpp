@@ -19,8 +19,8 @@ void code(StepCodec& codec, EngagementRow& row) {
 
 namespace {
 
-/// Rows of a motion, rings of the flank and most of each round end when a cycle is accepted.
-constexpr int kFineRows = 101, kFineRings = 61, kCaps = 15;
+/// Rows of a motion, and rings of the flank for engagement and volume when a cycle is accepted.
+constexpr int kFineRows = 101, kFineRings = 61, kVolumeRings = 9;
 /// Before the start, in radii: there the first front is looked for, and twice as far out for as long as it cuts, up to so
 /// many times.
 constexpr double kFarOut = 4.0;
@@ -41,7 +41,12 @@ constexpr std::size_t kFirstRewind = 4;
 /// How often they are taken back because a half enters a face: where the sides themselves lead there, that does not help.
 constexpr int kRewindsForFaces = 3;
 
-bool cuts_nothing(const Trial& trial) { return !(trial.largest_rad > 0.0 || trial.volume_mm3 > 0.0); }
+/// Neither the flank of the tool nor its round ends meet material.
+bool cuts_nothing(CycleSearch& search, Trial& trial) {
+  if (trial.largest_rad > 0.0) return false;
+  search.weigh(trial);
+  return !(trial.volume_mm3 > 0.0);
+}
 
 /// The sweeps of these cycles.
 void sweep(const Cycle& cycle, SweptStock& stock) {
@@ -80,7 +85,7 @@ class CyclePlanner {
         options_(options),
         search_(sides, guard, stock, options),
         meter_(stock),
-        rings_(even_rings(stock.radial(), kFineRings, kCaps)) {
+        rings_(stock.radial(), kFineRings, kVolumeRings) {
     now_.sweeps = stock.sweeps().size();
   }
 
@@ -118,7 +123,7 @@ class CyclePlanner {
   CycleSearch search_;
   CycleState& now_ = search_.now();
   EngagementMeter meter_;
-  std::vector<ToolRing> rings_;
+  RowRings rings_;
   double out_ = 0.0;                ///< so far behind the sides nothing of the blank is left, mm
   std::vector<CycleState> before_;  ///< as it was before each of the cycles
   std::size_t plain_until_ = 0;     ///< so many cycles are there before shapes are searched again
@@ -210,13 +215,13 @@ Trial CyclePlanner::placed_first() {
     now_.last.from_x = -far;
     now_.last.to_x = search_.across(now_.last.from_x);
     first = search_.tried(0.0, true);
-    if (cuts_nothing(first)) break;
+    if (cuts_nothing(search_, first)) break;
   }
   double low = 0.0, high = far;
   for (int k = 0; k < 14; ++k) {
     const double step = 0.5 * (low + high);
     Trial trial = search_.tried(step, true);
-    if (cuts_nothing(trial)) {
+    if (cuts_nothing(search_, trial)) {
       low = step;
       first = std::move(trial);
     } else {

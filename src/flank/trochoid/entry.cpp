@@ -12,7 +12,7 @@ namespace flank::internal {
 namespace {
 
 /// Rows of a move, rings of the flank and of each round end.
-constexpr int kMoveRows = 33, kMoveRings = 21, kMoveCaps = 15;
+constexpr int kMoveRows = 33, kMoveRings = 21, kMoveVolumeRings = 21;
 /// Poses that a move has in the stock: one span of a rail needs any number, several need what a half has.
 int intervals_of(const RuledMotion& move) {
   constexpr int kOneSpan = 16;
@@ -47,7 +47,7 @@ class EntryPlanner {
         radius_(stock.profile().largest()),
         widening_((1.0 - std::cos(cycles.largest_rad)) * stock.radial().smallest()),
         meter_(stock),
-        rings_(tool_rings(stock.radial(), kMoveRings, kMoveCaps)) {}
+        rings_(stock.radial(), kMoveRings, kMoveVolumeRings) {}
 
   [[nodiscard]] std::optional<OpenSlot> find_slot();
   [[nodiscard]] std::vector<RuledMotion> ramp(const OpenSlot& open, double slope_rad, Entry& entry) const;
@@ -78,7 +78,7 @@ class EntryPlanner {
   double allowed_, radius_;
   double widening_;  ///< by a pass at full depth, mm: in the middle of its way it engages no more than a cycle
   EngagementMeter meter_;
-  std::vector<ToolRing> rings_;
+  RowRings rings_;
 };
 
 Pose axis_at(const AxisPlace& place) { return {place.tip, place.u}; }

@@ -33,8 +33,12 @@ struct GuardDepth {
 class HalfGuard {
  public:
   HalfGuard(GuardedFaces faces, const RadialFunction& radial);
-  /// The same, which sees no sides.
-  [[nodiscard]] HalfGuard of_others() const { return {{{}, faces_.others}, radial_}; }
+  /// The same, which sees no sides, and only what the lower half of the axis enters.
+  [[nodiscard]] HalfGuard of_tips() const {
+    HalfGuard out({{}, faces_.others}, radial_);
+    out.tips_alone_ = true;
+    return out;
+  }
   /// Whether there is anything that it could see.
   [[nodiscard]] bool has_faces() const;
   /// At `times` x `places` samples, the times densest at both ends, and closer around those that are deeper than their
@@ -57,6 +61,7 @@ class HalfGuard {
   GuardedFaces faces_;
   RadialFunction radial_;
   int least_places_ = 2;
+  bool tips_alone_ = false;
 };
 
 }  // namespace flank::internal

@@ -38,6 +38,11 @@ struct HalfShape {
 [[nodiscard]] RuledMotion half_path_across(double axis_length, const AxisPlace& from, const AxisPlace& to,
                                            const HalfShape& shape, double share_from, double share_to);
 
+/// A half path between two places that have so much room ahead before a wall, mm, or infinitely much; turned across as far as it
+/// takes.
+[[nodiscard]] RuledMotion half_before_wall(double axis_length, const AxisPlace& from, const AxisPlace& to,
+                                           const HalfShape& shape, double room_from, double room_to);
+
 /// Length of the way of the axis' middle, mm.
 [[nodiscard]] double way_of_middle(const RuledMotion& motion);
 

@@ -7,13 +7,13 @@
 #include "flank/base/tolerance_budget.h"
 #include "flank/motion/written_path.h"
 #include "flank/trochoid/blank.h"
+#include "flank/trochoid/engagement/pass_measure.h"
 #include "flank/trochoid/retract.h"
 #include "flank/trochoid/run_out.h"
 
 namespace flank::internal {
 namespace {
 
-constexpr int kSideRows = 201, kSideRings = 21;
 /// Way before and behind the sides, in the tool's radii: there the tool is out of the blank.
 constexpr double kRunOut = 1.5;
 
@@ -283,16 +283,14 @@ void ProgramWriter::link(const LayerSides& above, const LayerSides& sides, const
   add_link(std::move(poses), planned);
 }
 
-RuledMotion backwards_of(const RuledMotion& motion) { return SidePath(motion, true).motion(); }
-
-/// Largest engagement and volume of a finishing sweep, which is then swept.
-double sweep_side(const RuledMotion& motion, SweptStock& stock, double& volume) {
-  EngagementMeter meter(stock);
-  const Engagement e = meter.measure(motion, tool_rings(stock.radial(), kSideRings, 5), kSideRows);
-  volume += e.volume_mm3;
-  const double largest = meter.refine(motion, e, kSideRings).angle_rad;
-  stock.add(Sweep::of(motion, 6 * kHalfIntervals));
-  return largest;
+/// Largest engagement of a finishing sweep, with its run-outs, which is then swept.
+double sweep_side(std::vector<RuledMotion> motions, bool backwards, SweptStock& stock, PlannedLayer& planned) {
+  if (backwards) std::reverse(motions.begin(), motions.end());
+  for (RuledMotion& motion : motions)
+    if (backwards) motion = SidePath(motion, true).motion();
+  const PassMeasure measure = measure_pass(motions, 6 * kHalfIntervals, stock);
+  planned.side_volume_mm3 += measure.volume_mm3;
+  return measure.largest_rad;
 }
 
 /// Angle between the way of a side and its axis, at most 90 degrees.
@@ -313,10 +311,11 @@ void sweep_sides(const LayerSides& sides, const SideRange& range, SweptStock& st
   planned.share = done ? 1.0 : std::clamp(end.from_x / sides.from.length(), 0.0, 1.0);
   planned.off_axis_rad = std::min(off_axis(sides.from, end.from_x), off_axis(sides.to, end.to_x));
   if (!range.some()) return;
-  const RuledMotion first = sides.to.motion_between(range.to_start, range.to_end);
-  const RuledMotion second = sides.from.motion_between(range.from_start, range.from_end);
-  planned.first_side_rad = sweep_side(backwards_of(first), stock, planned.side_volume_mm3);
-  planned.second_side_rad = sweep_side(planned.entry ? backwards_of(second) : second, stock, planned.side_volume_mm3);
+  // Inside the material both are swept towards the start.
+  const bool inside = planned.entry.has_value();
+  planned.first_side_rad = sweep_side(sides.to.motions_between(range.to_start, range.to_end), true, stock, planned);
+  planned.second_side_rad =
+      sweep_side(sides.from.motions_between(range.from_start, range.from_end), inside, stock, planned);
 }
 
 /// Entry and cycles of a layer. `clear`: it begins inside the material, under that plane; else before the blank.

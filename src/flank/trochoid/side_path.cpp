@@ -58,6 +58,26 @@ RuledMotion SidePath::motion_between(double from, double to) const {
   return motion_part(motion_, start, end);
 }
 
+RuledMotion SidePath::run_out_between(double from, double to) const {
+  constexpr int kPoses = 49, kSpans = 16;
+  std::vector<Pose> poses;
+  std::vector<double> t;
+  for (int k = 0; k < kPoses; ++k) {
+    t.push_back(k / (kPoses - 1.0));
+    const AxisPlace place = at(std::lerp(from, to, t.back()));
+    poses.push_back({place.tip, place.u});
+  }
+  return fit_motion(poses, t, motion_.axis_length, kSpans);
+}
+
+std::vector<RuledMotion> SidePath::motions_between(double from, double to) const {
+  std::vector<RuledMotion> out;
+  if (from < 0.0 && !stops_at_start_) out.push_back(run_out_between(from, std::min(to, 0.0)));
+  if (to > 0.0 && from < length()) out.push_back(motion_between(from, to));
+  if (to > length() && !stops_at_end_) out.push_back(run_out_between(std::max(from, length()), to));
+  return out;
+}
+
 AxisPlace SidePath::at(double x) const {
   if (x > length() && stops_at_end_) return inside(1.0);
   if (x < 0.0 && stops_at_start_) return inside(0.0);

@@ -21,6 +21,9 @@ class SidePath {
   [[nodiscard]] const RuledMotion& motion() const { return motion_; }
   /// The motion from x = from to x = to, over [0, 1]; what is beyond an end is left out. from < to, and some of it inside.
   [[nodiscard]] RuledMotion motion_between(double from, double to) const;
+  /// All of the way from x = from to x = to, in its order: what is beyond an end is a motion of its own, close to the places that
+  /// at() has there.
+  [[nodiscard]] std::vector<RuledMotion> motions_between(double from, double to) const;
   /// Beyond an end the axis is shifted on, along its middle's last direction; this bends the way towards another direction,
   /// a unit vector along x, evenly over a length. Over no less than the tool's radius: then the tool, which rounds the edge
   /// of the side, keeps clear of it for directions up to 45 degrees off.
@@ -38,6 +41,8 @@ class SidePath {
 
  private:
   [[nodiscard]] AxisPlace inside(double t) const;
+  /// What is beyond one end, from < to.
+  [[nodiscard]] RuledMotion run_out_between(double from, double to) const;
   /// The time of x in [0, length()].
   [[nodiscard]] double time_of(double x) const;
   RuledMotion motion_;  ///< in the direction of the cycles

@@ -46,6 +46,18 @@ RuledMotion twisted_half(double step) {
   return half_path(30.0, from, to.reversed(), {2.5, 2.0, 2.0, 0.0});
 }
 
+/// Straight along x, from one tip to another.
+RuledMotion straight(const Vec3& tip, const Vec3& axis, double way, double length) {
+  constexpr int kPoses = 13;
+  std::vector<Pose> poses;
+  std::vector<double> t;
+  for (int k = 0; k < kPoses; ++k) {
+    t.push_back(k / (kPoses - 1.0));
+    poses.push_back({tip + t.back() * way * Vec3::UnitX(), axis});
+  }
+  return fit_motion(poses, t, length, 4);
+}
+
 /// Engagement of a ring by scanning its front and halving where the answer changes: no intervals, no hints.
 double scanned(const SweptStock& stock, const RuledMotion& motion, double t, const ToolRing& ring) {
   constexpr int kAngles = 720, kHalvings = 16;
@@ -98,6 +110,35 @@ TEST(Engagement, VolumeOfAnArcIsThatOfTheRing) {
   EXPECT_NEAR(e.volume_mm3 / (length * half * (outer * outer - inner * inner)), 1.0, 1e-5);
 }
 
+TEST(Engagement, WhatGoesOnWhereAnotherHasEndedCutsFromItsVeryStart) {
+  // All of the first pose is swept, and right after it half of the ring is engaged.
+  constexpr double kRadius = 5.0, kAxis = 20.0, kWay = 10.0;
+  const RuledMotion first = straight(Vec3(-kWay, 0.0, 0.0), Vec3::UnitZ(), kWay, kAxis);
+  SweptStock stock(cylinder(kRadius, kAxis), {});
+  stock.add(Sweep::of(first, 48));
+  EngagementMeter meter(stock);
+  const RuledMotion next = straight(Vec3::Zero(), Vec3::UnitZ(), kWay, kAxis);
+  const Engagement e = meter.measure(next, tool_rings(stock.radial(), 5, 0), 33);
+  EXPECT_NEAR(e.volume_mm3 / (2.0 * kRadius * kWay * kAxis), 1.0, 1e-3);
+  EXPECT_NEAR(e.rows.front().angle_rad / kDegree, 180.0, 0.1);
+}
+
+TEST(Engagement, VolumeUnderATopThatLiesBetweenTwoRings) {
+  // The top of the blank is at one height of the tool all along the way: its flank's end, or a little off it, or across a round end.
+  constexpr double kRadius = 5.0, kAxis = 20.0, kWay = 10.0;
+  const RuledMotion motion = straight(Vec3::Zero(), Vec3::UnitZ(), kWay, kAxis);
+  const RowRings rings(cylinder(kRadius, kAxis), 7, 9);
+  for (const double top : {kAxis - 7.3, kAxis - 0.4, kAxis - 0.05, kAxis, kAxis + 0.05, kAxis + 0.4, kAxis + 2.0}) {
+    // Below the tip nothing is there; a slice at z of the round end is as wide as its chord.
+    SweptStock stock(cylinder(kRadius, kAxis), {{Vec3::UnitZ(), top}, {-Vec3::UnitZ(), 0.0}});
+    EngagementMeter meter(stock);
+    const double over = std::max(0.0, top - kAxis);
+    const double area = 2.0 * kRadius * std::min(top, kAxis) + over * std::sqrt(kRadius * kRadius - over * over) +
+                        kRadius * kRadius * std::asin(over / kRadius);
+    EXPECT_NEAR(meter.measure(motion, rings, 101).volume_mm3 / (area * kWay), 1.0, 2e-3) << top;
+  }
+}
+
 TEST(Engagement, AgreesWithADenseScan) {
   SweptStock stock(barrel(), {{-Vec3::UnitX(), 6.0}, {Vec3(0.1, 0.0, 1.0).normalized(), 29.0}});
   stock.add(Sweep::of(twisted_half(-1.4), 48));
@@ -110,18 +151,6 @@ TEST(Engagement, AgreesWithADenseScan) {
       EXPECT_NEAR(meter.angle(next, t, ring) / kDegree, scanned(stock, next, t, ring) / kDegree, 0.01) << t << " " << s;
     }
   }
-}
-
-/// Straight along x, from one tip to another.
-RuledMotion straight(const Vec3& tip, const Vec3& axis, double way, double length) {
-  constexpr int kPoses = 13;
-  std::vector<Pose> poses;
-  std::vector<double> t;
-  for (int k = 0; k < kPoses; ++k) {
-    t.push_back(k / (kPoses - 1.0));
-    poses.push_back({tip + t.back() * way * Vec3::UnitX(), axis});
-  }
-  return fit_motion(poses, t, length, 4);
 }
 
 TEST(Engagement, WhatALeaningToolLeavesBesideItsRoundEndIsMaterial) {

@@ -48,15 +48,5 @@ TEST(ToolRings, AreasAddUpToTheToolsSurface) {
   EXPECT_NEAR(area / (flank + caps), 1.0, 1e-4);
 }
 
-TEST(ToolRings, OfRoundEndsAreAsNearAsThoseOfTheFlank) {
-  const auto cylinder = [](double length) {
-    return RadialFunction(ToolFamily::kCylinder, length, Eigen::VectorXd::Constant(1, 4.0));
-  };
-  // The quarter of a meridian of 4 mm is 6.3 mm long.
-  EXPECT_EQ(even_rings(cylinder(60.0), 61, 15).size(), 61u + 2u * 7u);
-  EXPECT_EQ(even_rings(cylinder(20.0), 61, 15).size(), 61u + 2u * 15u) << "no more than that";
-  EXPECT_EQ(even_rings(cylinder(60.0), 7, 3).size(), 7u + 2u) << "one at least";
-}
-
 }  // namespace
 }  // namespace flank::internal

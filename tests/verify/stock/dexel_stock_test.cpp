@@ -34,6 +34,24 @@ TEST(DexelStock, AWholeBlockHasItsVolume) {
   EXPECT_NEAR(half.volume(), 3.0 * (35.0 - 17.5), 0.3) << "the triangle beyond x + y = 6 is gone";
 }
 
+TEST(DexelStock, ABlankHasItsVolumeWhereverItsPlanesLieBetweenLines) {
+  // Planes along the lines of two directions, all of which are at one distance from them; one leans a little.
+  for (const double off : {0.01, 0.2, 0.24, 0.26, 0.4, 0.49}) {
+    for (const double lean : {0.0, 1e-4, 0.02}) {
+      const std::vector<HalfSpace> planes = {{Vec3(1.0, 0.0, lean).normalized(), (5.0 + off) / std::hypot(1.0, lean)},
+                                             {-Vec3::UnitX(), -off},
+                                             {Vec3::UnitY(), 6.0 - off}};
+      DexelStock stock(box_of({-1.0, 0.0, -4.0}, {7.0, 8.0, 4.0}), planes, 0.5);
+      const double whole = 5.0 * (6.0 - off) * 8.0;
+      EXPECT_NEAR(stock.volume() / whole, 1.0, 1e-3) << off << " " << lean;
+      // A cutter that takes all of it.
+      const double removed = stock.cut(ToolSolid(cylinder(20.0, 30.0), 1e-3), {Vec3(3.0, 4.0, -15.0), Vec3::UnitZ()});
+      EXPECT_NEAR(removed / whole, 1.0, 1e-3) << off << " " << lean;
+      EXPECT_NEAR(stock.volume(), 0.0, 1e-9);
+    }
+  }
+}
+
 TEST(DexelStock, ATiltedCapsuleTakesItsVolume) {
   const double radius = 3.0, length = 10.0;
   DexelStock stock(box_of(Vec3::Constant(-8.0), {8.0, 8.0, 18.0}), {}, 0.1);

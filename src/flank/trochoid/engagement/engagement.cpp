@@ -11,12 +11,17 @@ namespace {
 
 /// Rows of one task: few enough that two threads end together.
 constexpr std::size_t kRowsOfTask = 5;
+/// Of the way to the second row: there the first one is measured. A half that goes on where the one before ended has nothing to
+/// cut in its very first pose, and all of it right after.
+constexpr double kAfterStart = 0.01;
 /// Rows whose neighbourhood is refined, the largest ones.
 constexpr std::size_t kPeaks = 3;
 
-double simpson(int i, int count) {
-  const double third = 1.0 / (3.0 * (count - 1));
-  return i == 0 || i == count - 1 ? third : (i % 2 == 1 ? 4.0 : 2.0) * third;
+double time_of(std::size_t row, int rows) { return (row == 0 ? kAfterStart : static_cast<double>(row)) / (rows - 1); }
+
+/// By the trapezoidal rule: where rings move from row to row, no row may count more than the next.
+double weight(std::size_t row, int rows) {
+  return (row == 0 || row + 1 == static_cast<std::size_t>(rows) ? 0.5 : 1.0) / (rows - 1);
 }
 
 /// The rows that are larger than their neighbours, the largest few.
@@ -56,37 +61,48 @@ void EngagementMeter::reserve(std::size_t count) {
   while (meters_.size() < count) meters_.emplace_back(stock_, near_);
 }
 
-template <class Use>
-void EngagementMeter::for_each_row(const RuledMotion& motion, std::span<const ToolRing> rings, int rows,
-                                   const Use& use) {
+template <class RingsOf, class Use>
+void EngagementMeter::for_each_row(const RuledMotion& motion, const RingsOf& rings_of, int rows, const Use& use) {
   near_.begin(motion);
   const auto count = static_cast<std::size_t>(rows);
   reserve((count + kRowsOfTask - 1) / kRowsOfTask);
   parallel_blocks(count, kRowsOfTask, [&](std::size_t begin, std::size_t end) {
     RowMeter& meter = meters_[begin / kRowsOfTask];
-    for (std::size_t i = begin; i < end; ++i)
-      use(i, meter.row(motion, static_cast<double>(i) / (rows - 1), rings), meter.found());
+    for (std::size_t i = begin; i < end; ++i) use(i, meter.row(motion, time_of(i, rows), rings_of(i)), meter.found());
   });
 }
 
-Engagement EngagementMeter::measure(const RuledMotion& motion, std::span<const ToolRing> rings, int rows) {
-  FLANK_ASSERT(rows >= 3 && rows % 2 == 1);
+template <class RingsOf>
+Engagement EngagementMeter::measured(const RuledMotion& motion, const RingsOf& rings_of, int rows) {
+  FLANK_ASSERT(rows >= 2);
   Engagement out;
   out.rows.resize(static_cast<std::size_t>(rows));
-  for_each_row(motion, rings, rows, [&](std::size_t i, const EngagementRow& row, const auto&) { out.rows[i] = row; });
-  for (int i = 0; i < rows; ++i) {
-    const EngagementRow& row = out.rows[static_cast<std::size_t>(i)];
+  for_each_row(motion, rings_of, rows,
+               [&](std::size_t i, const EngagementRow& row, const auto&) { out.rows[i] = row; });
+  for (std::size_t i = 0; i < out.rows.size(); ++i) {
+    const EngagementRow& row = out.rows[i];
     if (row.angle_rad > out.peak.angle_rad) out.peak = {row.angle_rad, row.t, row.s};
-    out.volume_mm3 += row.rate_mm3 * simpson(i, rows);
+    out.volume_mm3 += row.rate_mm3 * weight(i, rows);
   }
   return out;
+}
+
+Engagement EngagementMeter::measure(const RuledMotion& motion, std::span<const ToolRing> rings, int rows) {
+  return measured(
+      motion, [&](std::size_t) { return rings; }, rows);
+}
+
+Engagement EngagementMeter::measure(const RuledMotion& motion, const RowRings& rings, int rows) {
+  return measured(
+      motion, [&](std::size_t row) { return rings.of(row); }, rows);
 }
 
 void EngagementMeter::measure_rings(const RuledMotion& motion, std::span<const ToolRing> rings, int rows,
                                     std::span<double> angles) {
   FLANK_ASSERT(rows >= 2 && angles.size() == static_cast<std::size_t>(rows) * rings.size());
   std::fill(angles.begin(), angles.end(), 0.0);
-  for_each_row(motion, rings, rows, [&](std::size_t i, const EngagementRow&, const std::vector<RingArc>& found) {
+  const auto same = [&](std::size_t) { return rings; };
+  for_each_row(motion, same, rows, [&](std::size_t i, const EngagementRow&, const std::vector<RingArc>& found) {
     for (const RingArc& arc : found) angles[i * rings.size() + arc.ring] += arc.arc.high - arc.arc.low;
   });
 }

@@ -12,6 +12,7 @@
 
 #include "flank/trochoid/engagement/near_poses.h"
 #include "flank/trochoid/engagement/row_meter.h"
+#include "flank/trochoid/engagement/row_rings.h"
 
 namespace flank::internal {
 
@@ -35,8 +36,10 @@ class EngagementMeter {
   EngagementMeter(const EngagementMeter&) = delete;  // its rows refer to its poses
   EngagementMeter& operator=(const EngagementMeter&) = delete;
 
-  /// The motion over [0, 1] at `rows` (odd, >= 3) times, on these rings. Earlier poses of the motion itself count as swept.
+  /// The motion over [0, 1] at `rows` (>= 2) times, on these rings; the first time is just after 0. Earlier poses of the motion
+  /// itself count as swept.
   [[nodiscard]] Engagement measure(const RuledMotion& motion, std::span<const ToolRing> rings, int rows);
+  [[nodiscard]] Engagement measure(const RuledMotion& motion, const RowRings& rings, int rows);
   /// Of every ring at each of `rows` (>= 2) times, row by row, into `angles`: rows x rings, radians.
   void measure_rings(const RuledMotion& motion, std::span<const ToolRing> rings, int rows, std::span<double> angles);
   /// Larger or equal: the largest engagement near the largest rows, by golden section in t and, inside the axis, in s.
@@ -45,9 +48,11 @@ class EngagementMeter {
   [[nodiscard]] double angle(const RuledMotion& motion, double t, const ToolRing& ring);
 
  private:
-  /// Calls use(index, row, its arcs) for each of `rows` (>= 2) times of the motion, in parallel.
-  template <class Use>
-  void for_each_row(const RuledMotion& motion, std::span<const ToolRing> rings, int rows, const Use& use);
+  /// Calls use(index, row, its arcs) for each of `rows` (>= 2) times of the motion, in parallel, on the rings_of(index).
+  template <class RingsOf, class Use>
+  void for_each_row(const RuledMotion& motion, const RingsOf& rings_of, int rows, const Use& use);
+  template <class RingsOf>
+  [[nodiscard]] Engagement measured(const RuledMotion& motion, const RingsOf& rings_of, int rows);
   /// At least so many meters of rows are there.
   void reserve(std::size_t count);
   /// The largest engagement near a row, `step` on both sides of it in time and `ds` along the axis.

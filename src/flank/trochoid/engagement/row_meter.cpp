@@ -373,7 +373,7 @@ EngagementRow RowMeter::sum_row(const RowFrame& frame, double t, std::span<const
       row.rate_mm3 += ring.area * (ring.sine * along * (arc.high - arc.low) +
                                    ring.cosine * across * (std::sin(arc.high) - std::sin(arc.low)));
     }
-    if (!ring.flank) continue;
+    if (!ring.flank || !ring.asked) continue;
     ++flank;
     row.mean_rad += angle;
     if (angle <= row.angle_rad) continue;

@@ -29,20 +29,10 @@ double weight(int i, int count) { return (i == 0 || i == count - 1 ? 0.5 : 1.0) 
 /// Rings of the sphere at one end, in the middles of equal steps from the flank's last normal to the pole: none lies where the
 /// flank ends, as the top of a blank often does.
 void add_cap(const RadialFunction& radial, bool tip, int count, std::vector<ToolRing>& rings) {
-  const double s = tip ? 0.0 : radial.axis_length();
-  const RadialJet r = radial.at(s);
-  const double from = std::asin(-r.d1), to = (tip ? -0.5 : 0.5) * std::numbers::pi;
   for (int k = 0; k < count; ++k) {
-    const double beta = from + (to - from) * (k + 0.5) / count;
-    ToolRing ring;
-    ring.s = s;
-    ring.sine = std::sin(beta);
-    ring.cosine = std::cos(beta);
-    ring.z = s + r.r * ring.sine;
-    ring.radius = r.r * ring.cosine;
-    ring.area = r.r * r.r * ring.cosine * std::abs(to - from) / count;
-    ring.flank = false;
-    if (ring.area > 0.0 && ring.radius > 1e-9 * r.r) rings.push_back(ring);
+    ToolRing ring = round_end_ring(radial, tip, (k + 0.5) / count);
+    ring.area /= count;
+    rings.push_back(ring);
   }
 }
 
@@ -111,10 +101,8 @@ std::vector<ToolRing> tool_rings(const RadialFunction& radial, int count, int ca
   const double length = radial.axis_length();
   for (int k = 0; k < count; ++k) {
     const double s = length * k / (count - 1);
-    const RadialJet r = radial.at(s);
     ToolRing ring = ring_at(radial, s);
-    // The surface element of the envelope of spheres: r (1 - r'^2 - r r'') ds dtheta (MATH section 10).
-    ring.area = r.r * (1.0 - r.d1 * r.d1 - r.r * r.d2) * length * weight(k, count);
+    ring.area = flank_element(radial, s) * length * weight(k, count);
     rings.push_back(ring);
   }
   if (caps > 0) {
@@ -124,10 +112,26 @@ std::vector<ToolRing> tool_rings(const RadialFunction& radial, int count, int ca
   return rings;
 }
 
-std::vector<ToolRing> even_rings(const RadialFunction& radial, int count, int most_caps) {
-  const double end = std::max(radial.at(0.0).r, radial.at(radial.axis_length()).r);
-  const double caps = std::ceil(0.5 * std::numbers::pi * end * (count - 1) / radial.axis_length());
-  return tool_rings(radial, count, static_cast<int>(std::clamp(caps, 1.0, static_cast<double>(most_caps))));
+ToolRing round_end_ring(const RadialFunction& radial, bool tip, double share) {
+  const double s = tip ? 0.0 : radial.axis_length();
+  const RadialJet r = radial.at(s);
+  const double from = std::asin(-r.d1), to = (tip ? -0.5 : 0.5) * std::numbers::pi;
+  const double beta = std::lerp(from, to, share);
+  ToolRing ring;
+  ring.s = s;
+  ring.sine = std::sin(beta);
+  ring.cosine = std::cos(beta);
+  ring.z = s + r.r * ring.sine;
+  ring.radius = r.r * ring.cosine;
+  ring.area = r.r * r.r * ring.cosine * std::abs(to - from);
+  ring.flank = false;
+  return ring;
+}
+
+double flank_element(const RadialFunction& radial, double s) {
+  // Of the envelope of spheres (MATH section 10).
+  const RadialJet r = radial.at(s);
+  return r.r * (1.0 - r.d1 * r.d1 - r.r * r.d2);
 }
 
 }  // namespace flank::internal

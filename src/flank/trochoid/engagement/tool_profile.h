@@ -43,6 +43,7 @@ struct ToolRing {
   /// mm^2 per radian: the part of the tool's surface that the ring stands for in an integral over it.
   double area = 0.0;
   bool flank = true;  ///< else of a round end, which counts for volumes, not for engagement
+  bool asked = true;  ///< for the engagement, if it is of the flank; else for the volume alone
 };
 
 /// `count` (>= 2) rings at equal steps of s, the axis' ends included, with the areas of the trapezoidal rule, and `caps` more in
@@ -52,9 +53,12 @@ struct ToolRing {
 /// How many rings of the flank are no farther apart than so many of the largest radii: at least `least`, at most `most`.
 [[nodiscard]] int ring_count(const RadialFunction& radial, double radii_apart, int least, int most);
 
-/// The same with as many on each round end as are as near to each other as those of the flank: at least 1, at most `most_caps`. Of
-/// a slender tool the ends take little.
-[[nodiscard]] std::vector<ToolRing> even_rings(const RadialFunction& radial, int count, int most_caps);
+/// The ring of a round end at a share of its quarter of a meridian, 0 where the flank ends and 1 at the pole, with the area of the
+/// whole end if it were all as there.
+[[nodiscard]] ToolRing round_end_ring(const RadialFunction& radial, bool tip, double share);
+
+/// The surface element of the flank at s, mm^2 per radian and mm of s.
+[[nodiscard]] double flank_element(const RadialFunction& radial, double s);
 
 /// The ring of one s, without area.
 [[nodiscard]] ToolRing ring_at(const RadialFunction& radial, double s);

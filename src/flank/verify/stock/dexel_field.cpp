@@ -81,11 +81,4 @@ bool DexelField::holds(int row, int line, double place) const {
   return found;
 }
 
-double DexelField::length(int row) const {
-  double sum = 0.0;
-  for (int line = 0; line < width_; ++line)
-    visit(row, line, [&](const DexelSpan& span) { sum += static_cast<double>(span.high) - span.low; });
-  return sum;
-}
-
 }  // namespace flank::internal::verify

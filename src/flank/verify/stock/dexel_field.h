@@ -51,8 +51,6 @@ class DexelField {
       if (node.span.low < node.span.high) visit(node.span);
     }
   }
-  /// Length of the material of a row, mm.
-  [[nodiscard]] double length(int row) const;
 
  private:
   struct Node {

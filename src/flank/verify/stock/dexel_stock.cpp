@@ -155,8 +155,8 @@ RowReach reach_of(const ToolSolid& tool, const Pose& pose, int c, double place) 
   return out;
 }
 
-/// Takes the tool away from a row of lines; returns the length that was material, mm.
-double cut_row(DexelField& field, const ToolSolid& tool, const Pose& pose, int row) {
+/// Takes the tool away from a row of lines; returns the length that was material, mm times the cells that lines stand for.
+double cut_row(DexelField& field, const LineWeights& weights, const ToolSolid& tool, const Pose& pose, int row) {
   const int b = field.across(), c = field.up();
   Vec3 x = Vec3::Zero();
   x[c] = field.place_up(row);
@@ -184,10 +184,12 @@ double cut_row(DexelField& field, const ToolSolid& tool, const Pose& pose, int r
     LineCut within;
     if (!tool.reach(seen, reach.radius, within) || !field.meets(row, line, within.low, within.high)) continue;
     const LineCuts cuts = tool.cut(seen, within);
+    double length = 0.0;
     for (int n = 0; n < cuts.count; ++n) {
       const LineCut& stretch = cuts.cuts[static_cast<std::size_t>(n)];
-      removed += field.subtract(row, line, stretch.low, stretch.high);
+      length += field.subtract(row, line, stretch.low, stretch.high);
     }
+    if (length > 0.0) removed += length * weights.between(field, row, line, within.low, within.high);
   }
   return removed;
 }
@@ -203,6 +205,7 @@ DexelStock::DexelStock(const Box3& box, const std::vector<HalfSpace>& planes, do
   if (!(lines < kMostLines)) throw InputError("the stock has too many cells: take larger ones");
   for (int axis = 0; axis < 3; ++axis) {
     DexelField& field = fields_.emplace_back(axis, box_, cell_);
+    weights_.emplace_back(field, box_, planes, cell_);
     parallel_for(static_cast<std::size_t>(field.rows()), [&](std::size_t row) {
       for (int line = 0; line < field.width(); ++line) cut_by_planes(field, planes, static_cast<int>(row), line);
     });
@@ -211,11 +214,12 @@ DexelStock::DexelStock(const Box3& box, const std::vector<HalfSpace>& planes, do
 
 double DexelStock::cut(const ToolSolid& tool, const Pose& pose) {
   double sum = 0.0;
-  for (DexelField& field : fields_) sum += cut_field(field, tool, pose);
+  for (std::size_t axis = 0; axis < fields_.size(); ++axis) sum += cut_field(axis, tool, pose);
   return sum / 3.0;
 }
 
-double DexelStock::cut_field(DexelField& field, const ToolSolid& tool, const Pose& pose) {
+double DexelStock::cut_field(std::size_t axis, const ToolSolid& tool, const Pose& pose) {
+  DexelField& field = fields_[axis];
   const int c = field.up();
   const double radius = tool.largest(), low = pose.at(tool.low())[c], high = pose.at(tool.high())[c];
   const int first = std::max(0, clipped(std::ceil(field.row_at(std::min(low, high) - radius)), field.rows()));
@@ -225,7 +229,8 @@ double DexelStock::cut_field(DexelField& field, const ToolSolid& tool, const Pos
   std::vector<double> removed(static_cast<std::size_t>(last - first + 1), 0.0);
   constexpr std::size_t kRows = 32;
   parallel_blocks(removed.size(), kRows, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) removed[k] = cut_row(field, tool, pose, first + static_cast<int>(k));
+    for (std::size_t k = begin; k < end; ++k)
+      removed[k] = cut_row(field, weights_[axis], tool, pose, first + static_cast<int>(k));
   });
   double sum = 0.0;
   for (const double length : removed) sum += length;
@@ -235,7 +240,16 @@ double DexelStock::cut_field(DexelField& field, const ToolSolid& tool, const Pos
 std::array<double, 3> DexelStock::volumes() const {
   std::array<double, 3> out{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (int row = 0; row < fields_[axis].rows(); ++row) out[axis] += fields_[axis].length(row);
+    const DexelField& field = fields_[axis];
+    for (int row = 0; row < field.rows(); ++row) {
+      double length = 0.0;  // row by row: sums stay short
+      for (int line = 0; line < field.width(); ++line)
+        field.visit(row, line, [&](const DexelSpan& span) {
+          const double low = span.low, high = span.high;
+          length += (high - low) * weights_[axis].between(field, row, line, low, high);
+        });
+      out[axis] += length;
+    }
     out[axis] *= cell_ * cell_;
   }
   return out;

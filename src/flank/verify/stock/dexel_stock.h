@@ -9,6 +9,7 @@
 #include "flank/path/half_space.h"
 #include "flank/triangle_mesh.h"
 #include "flank/verify/stock/dexel_field.h"
+#include "flank/verify/stock/line_weights.h"
 #include "flank/verify/stock/tool_solid.h"
 
 namespace flank::internal::verify {
@@ -40,10 +41,11 @@ class DexelStock {
   [[nodiscard]] const DexelField& field(int axis) const { return fields_[static_cast<std::size_t>(axis)]; }
 
  private:
-  double cut_field(DexelField& field, const ToolSolid& tool, const Pose& pose);
+  double cut_field(std::size_t axis, const ToolSolid& tool, const Pose& pose);
   Box3 box_;
   double cell_;
   std::vector<DexelField> fields_;
+  std::vector<LineWeights> weights_;  ///< of the fields
 };
 
 }  // namespace flank::internal::verify

@@ -1,0 +1,18 @@
+/// A pass of the tool that several motions make, one after the other, like a finishing sweep with its run-outs.
+#pragma once
+
+#include <vector>
+
+#include "flank/trochoid/engagement/swept_stock.h"
+
+namespace flank::internal {
+
+struct PassMeasure {
+  double largest_rad = 0.0;  ///< engagement, refined
+  double volume_mm3 = 0.0;
+};
+
+/// Measures a pass, whose motions are then in the stock. `sweep_intervals`: of each (Sweep::of).
+[[nodiscard]] PassMeasure measure_pass(const std::vector<RuledMotion>& motions, int sweep_intervals, SweptStock& stock);
+
+}  // namespace flank::internal
