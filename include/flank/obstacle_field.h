@@ -45,6 +45,12 @@ class ObstacleField {
   /// the lattice step (1/48 of the target's size, three times that farther out), except near points equidistant from two
   /// faces. Much faster; for searches that start rough.
   [[nodiscard]] ObstacleDistance estimate(const Vec3& p) const;
+  /// A distance, and how far it may be off; where a wall's sign ends, farther.
+  struct Rough {
+    double distance_mm = 0.0, off_mm = 0.0;
+  };
+  /// As estimate(), with its bound: a distance changes by no more than the way to the nodes of the lattice.
+  [[nodiscard]] Rough rough(const Vec3& p) const;
   /// On which side of `level_mm` the distance is, and about how far: as interpolated() where estimate() cannot tell, else
   /// as that (which may err where a wall's sign ends). For searches of where a ball is free, most of whose places are far
   /// from where it touches.

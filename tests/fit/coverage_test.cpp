@@ -181,6 +181,17 @@ TEST(FlankGouge, IsTheDeepestBallInTheHub) {
         << z;
 }
 
+TEST(FlankGouge, OfARoughLookIsExactWhereTheFlankTouchesAndEstimatedWhereItIsInside) {
+  const auto blade = standing_blade(0.0);
+  const ObstacleField obstacles(only(hub(true)), *blade, 2.0, 0.0);
+  for (double z = 6.0; z > -6.0; z -= 0.05) {
+    const double depth = std::max(0.0, 5.0 - z);
+    EXPECT_NEAR(flank_gouge({upright_motion({.z = z})}, {&obstacles}, cylinder(5.0), 20, GougeLook::kRough), depth,
+                depth < 0.5 ? 1e-6 : 0.1)
+        << z;
+  }
+}
+
 TEST(FlankGouge, FindsTheOneBallOfABarrelThatEnters) {
   // The axis lies over the hub, the barrel's belly hangs down in its middle.
   const auto blade = standing_blade(0.0);

@@ -201,6 +201,8 @@ TEST(ObstacleField, WhichSideOfALevelIsExactAndHowFarIsEstimated) {
     const Vec3 p(random.uniform(-3.0, 63.0), random.uniform(0.5, 8.0), random.uniform(0.5, 38.0));
     const double level = random.uniform(0.5, 8.0), exact = obstacles.at(p, kFar).distance_mm;
     const double about = obstacles.beside(p, level);
+    const ObstacleField::Rough rough = obstacles.rough(p);
+    EXPECT_LE(std::abs(rough.distance_mm - exact), rough.off_mm) << p.transpose();
     if (std::abs(exact - level) > 0.02) {
       EXPECT_EQ(about > level, exact > level) << p.transpose();
     }

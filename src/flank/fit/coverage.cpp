@@ -94,7 +94,6 @@ struct Deepest {
 
 /// Of the ball about a place of the axis from the obstacle.
 double gap_at(const Vec3& p, double radius, const ObstacleField& obstacles, double close_mm, GougeLook look) {
-  if (look == GougeLook::kRough) return obstacles.beside(p, radius) - radius;
   const double gap = obstacles.estimate(p).distance_mm - radius;
   if (gap >= close_mm) return gap;
   const double near = obstacles.interpolated(p, radius + close_mm).distance_mm - radius;
@@ -116,6 +115,49 @@ Deepest deepest_place(const Pose& pose, const ObstacleField& obstacles, const Ra
     // The gap changes by at most twice the step (|r'| < 1): what is clear by it stays so for half of it.
     s += std::max(length / kGougeSteps, 0.5 * gap);
   }
+}
+
+/// Calls look(place, radius, rough distance) along the axis.
+template <class Look>
+void look_along(const Pose& pose, const ObstacleField& obstacles, const RadialFunction& tool, const Look& look) {
+  const double length = tool.axis_length();
+  for (double s = 0.0;; s = std::min(s, length)) {
+    const Vec3 p = pose.at(s);
+    const double r = tool.at(s).r;
+    const ObstacleField::Rough about = obstacles.rough(p);
+    look(p, r, about);
+    if (s >= length) return;
+    s += std::max(length / kGougeSteps, 0.5 * (about.distance_mm - about.off_mm - r));
+  }
+}
+
+/// The largest of depth(pose), >= 0.
+template <class Depth>
+double largest(const RuledMotion& motion, int poses, const Depth& depth) {
+  std::vector<double> depths(static_cast<std::size_t>(poses) + 1, 0.0);
+  parallel_for(depths.size(), [&](std::size_t i) { depths[i] = depth(motion.pose(static_cast<double>(i) / poses)); });
+  return std::max(0.0, *std::max_element(depths.begin(), depths.end()));
+}
+
+/// The deepest place of a motion: estimated if it is surely inside, for how deep does not matter then; else exactly, where the
+/// flank may touch.
+double rough_depth(const RuledMotion& motion, const ObstacleField& obstacles, const RadialFunction& tool, int poses) {
+  const double inside = largest(motion, poses, [&](const Pose& pose) {
+    double surely = 0.0;
+    look_along(pose, obstacles, tool, [&](const Vec3&, double r, const ObstacleField::Rough& about) {
+      if (about.distance_mm + about.off_mm < r) surely = std::max(surely, r - about.distance_mm);
+    });
+    return surely;
+  });
+  if (inside > 0.0) return inside;
+  return largest(motion, poses, [&](const Pose& pose) {
+    double found = 0.0;
+    look_along(pose, obstacles, tool, [&](const Vec3& p, double r, const ObstacleField::Rough& about) {
+      if (about.distance_mm - about.off_mm < r - found)
+        found = std::max(found, r - obstacles.interpolated(p, r - found).distance_mm);
+    });
+    return found;
+  });
 }
 
 /// The depth about the deepest place, closer: balls h apart leave up to h^2 / (8 r) of the flank between them.
@@ -207,14 +249,15 @@ double flank_gouge(const std::vector<RuledMotion>& motions, const std::vector<co
   double deepest = 0.0;
   for (std::size_t m = 0; m < obstacles.size(); ++m) {
     if (obstacles[m] == nullptr) continue;
-    std::vector<double> depths(static_cast<std::size_t>(poses) + 1, 0.0);
-    parallel_for(depths.size(), [&](std::size_t i) {
-      const Pose pose = motions[m].pose(static_cast<double>(i) / poses);
+    if (look == GougeLook::kRough) {
+      deepest = std::max(deepest, rough_depth(motions[m], *obstacles[m], tool, poses));
+      continue;
+    }
+    const double depth = largest(motions[m], poses, [&](const Pose& pose) {
       const Deepest found = deepest_place(pose, *obstacles[m], tool, look);
-      depths[i] = found.mm;
-      if (look == GougeLook::kClose) depths[i] = between_places(pose, *obstacles[m], tool, found);
+      return look == GougeLook::kClose ? between_places(pose, *obstacles[m], tool, found) : found.mm;
     });
-    deepest = std::max(deepest, *std::max_element(depths.begin(), depths.end()));
+    deepest = std::max(deepest, depth);
   }
   return deepest;
 }

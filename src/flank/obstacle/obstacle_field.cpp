@@ -218,16 +218,18 @@ ObstacleDistance ObstacleField::estimate(const Vec3& p) const {
   return at(p, std::numeric_limits<double>::infinity());
 }
 
-double ObstacleField::beside(const Vec3& p, double level_mm) const {
-  // A distance changes by no more than the way: between the corners of a cube no interpolation is farther off.
-  const double off = 0.5 * std::sqrt(3.0);
+ObstacleField::Rough ObstacleField::rough(const Vec3& p) const {
+  const double off = 0.5 * std::sqrt(3.0);  // between the corners of a cube no interpolation is farther off
   ObstacleDistance about;
-  for (Lattice* lattice : {lattice_.get(), around_.get()}) {
-    if (!estimate_in(*lattice, p, about)) continue;
-    if (std::abs(about.distance_mm - level_mm) > off * lattice->step) return about.distance_mm;
-    return interpolated(p, level_mm + 2.0 * off * lattice->step).distance_mm;
-  }
-  return at(p, 2.0 * level_mm).distance_mm;
+  for (Lattice* lattice : {lattice_.get(), around_.get()})
+    if (estimate_in(*lattice, p, about)) return {about.distance_mm, off * lattice->step};
+  return {at(p, std::numeric_limits<double>::infinity()).distance_mm, 0.0};
+}
+
+double ObstacleField::beside(const Vec3& p, double level_mm) const {
+  const auto [about, off] = rough(p);
+  if (std::abs(about - level_mm) >= off) return about;
+  return interpolated(p, level_mm + 2.0 * off).distance_mm;
 }
 
 bool ObstacleField::estimate_in(Lattice& lattice, const Vec3& p, ObstacleDistance& sum) const {
