@@ -38,15 +38,14 @@ class CoverSearch {
     for (int depth = 0; !open.empty(); ++depth) {
       stop_here();
       const bool enough = settled(open);
+      const std::size_t most = std::min(limits_.cells, limits_.evaluations - out_.evaluations);
       std::vector<Open> parts;
-      if (depth < kDeepest && !enough) parts = cut(open);
-      // Counted, not guessed: a long cell is cut in two, a square one in four.
-      const bool may_cut =
-          !parts.empty() && out_.evaluations + parts.size() <= limits_.evaluations && parts.size() <= limits_.cells;
-      if (!may_cut) {
+      if (depth < kDeepest && !enough) parts = cut(open, most);
+      if (parts.empty() || parts.size() > most) {
         for (const Open& o : open) out_.open_mm2[o.sample] += shape_.area_bound(o.cell);
         break;
       }
+      open = {};  // a cell takes 150 bytes, and there may be a million
       open = look(std::move(parts));
     }
     for (std::size_t i = 0; i < out_.open_mm2.size(); ++i)
@@ -68,11 +67,15 @@ class CoverSearch {
     parallel_blocks(count, kBlock, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) body(i, blocks[begin / kBlock]);
     });
+    std::size_t left = 0;
+    for (const Block& block : blocks) left += block.open.size();
     std::vector<Open> open;
+    open.reserve(left);
     for (Block& block : blocks) {
       out_.evaluations += block.evaluations;
       for (const Lost& lost : block.lost) out_.open_mm2[lost.sample] += lost.area;
       open.insert(open.end(), block.open.begin(), block.open.end());
+      block.open = {};
     }
     return open;
   }
@@ -103,10 +106,12 @@ class CoverSearch {
                        [&](const Vec3& p) { return (p - ball.center).norm() <= most; });
   }
 
-  [[nodiscard]] std::vector<Open> cut(const std::vector<Open>& open) const {
+  /// Counted, not guessed, because a long cell is cut in two, a square one in four; ends where it has more than `most`.
+  [[nodiscard]] std::vector<Open> cut(const std::vector<Open>& open, std::size_t most) const {
     std::vector<Open> parts;
     std::vector<Cell> cells;
     for (const Open& o : open) {
+      if (parts.size() > most) break;
       cells.clear();
       shape_.split(o.cell, cells);
       for (const Cell& cell : cells) parts.push_back({cell, o.sample, o.near});
