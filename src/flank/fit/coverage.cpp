@@ -249,15 +249,12 @@ double flank_gouge(const std::vector<RuledMotion>& motions, const std::vector<co
   double deepest = 0.0;
   for (std::size_t m = 0; m < obstacles.size(); ++m) {
     if (obstacles[m] == nullptr) continue;
-    if (look == GougeLook::kRough) {
-      deepest = std::max(deepest, rough_depth(motions[m], *obstacles[m], tool, poses));
-      continue;
-    }
-    const double depth = largest(motions[m], poses, [&](const Pose& pose) {
+    const auto depth_of = [&](const Pose& pose) {
       const Deepest found = deepest_place(pose, *obstacles[m], tool, look);
       return look == GougeLook::kClose ? between_places(pose, *obstacles[m], tool, found) : found.mm;
-    });
-    deepest = std::max(deepest, depth);
+    };
+    deepest = std::max(deepest, look == GougeLook::kRough ? rough_depth(motions[m], *obstacles[m], tool, poses)
+                                                          : largest(motions[m], poses, depth_of));
   }
   return deepest;
 }

@@ -12,7 +12,7 @@ void add_round_end(const RadialFunction& radial, bool tip, int count, double shi
   for (int k = 0; k < count; ++k) {
     ToolRing ring = round_end_ring(radial, tip, (k + shift) / count);
     ring.area /= count;
-    rings.push_back(ring);
+    if (ring.area > 0.0) rings.push_back(ring);
   }
 }
 

@@ -32,7 +32,7 @@ void add_cap(const RadialFunction& radial, bool tip, int count, std::vector<Tool
   for (int k = 0; k < count; ++k) {
     ToolRing ring = round_end_ring(radial, tip, (k + 0.5) / count);
     ring.area /= count;
-    rings.push_back(ring);
+    if (ring.area > 0.0) rings.push_back(ring);  // a point, or an end whose flank leads to its pole, has none
   }
 }
 
