@@ -127,6 +127,40 @@ TEST(FacePieces, ASharpTrailingEdgeIsACut) {
   EXPECT_NEAR(area_of(pieces[0].face.surface), area_of(pieces[1].face.surface), 1e-6);
 }
 
+/// Half of a cone about Z, v from its rim to `past` beyond the apex, as a share of its length.
+Face half_cone(double past) {
+  BSplineSurface s;
+  s.degree_u = 2, s.degree_v = 1, s.count_u = 5, s.count_v = 2;
+  s.knots_u = {0, 0, 0, 0.5, 0.5, 1, 1, 1}, s.knots_v = {0, 0, 1, 1};
+  const double half = std::sqrt(0.5);
+  for (const Vec2& p : {Vec2(1, 0), Vec2(1, 1), Vec2(0, 1), Vec2(-1, 1), Vec2(-1, 0)}) {
+    for (const double rest : {1.0, -past}) s.poles.emplace_back(20.0 * rest * p.x(), 20.0 * rest * p.y(), 30.0 * rest);
+    for (int j = 0; j < 2; ++j) s.weights.push_back(p.norm() > 1.1 ? half : 1.0);
+  }
+  Face cone;
+  cone.id = "F1";
+  cone.surface = s;
+  return cone;
+}
+
+TEST(FacePieces, TheApexOfAConeIsNoEdge) {
+  // Past the apex the normal is turned round: by a rounding error's length of the surface there is no piece.
+  for (const double past : {0.0, 1e-15, 1e-11, 1e-8, 1e-6}) {
+    Face cone = half_cone(past);
+    EXPECT_TRUE(face_pieces(cone).empty()) << past;
+    cone.loops = {testing::circle_loop(0.5, 0.52, 0.48)};
+    EXPECT_TRUE(face_pieces(cone).empty()) << past << ", trimmed";
+  }
+  // A cone and its mirror image are two sides.
+  EXPECT_EQ(kinds_of(face_pieces(half_cone(0.8))), "ss");
+}
+
+TEST(FacePieces, APieceThatTrimsLeaveNothingOfIsNone) {
+  Face cone = half_cone(0.8);
+  cone.loops = {testing::circle_loop(0.5, 0.25, 0.2)};
+  EXPECT_TRUE(face_pieces(cone).empty());
+}
+
 TEST(FacePieces, TrimsAreCutWithTheFace) {
   Face skin = testing::elliptic_skin(40.0, 2.0, 30.0);
   skin.loops = {testing::circle_loop(0.5, 0.5, 0.45)};

@@ -287,19 +287,33 @@ double length_of(const View& view, const Stretch& stretch, double w) {
   return length;
 }
 
-/// Edges that are a mere cut have no width; one beside which no side worth the name is left goes up to the border.
+/// An edge beside which no side worth the name is left goes up to the border. Edges that are a mere cut have no width;
+/// at the border (the apex of a cone that a surface passes by a rounding error) such an edge is none at all.
 void tidy(const View& view, double w, double width, Division& division) {
   const double first = view.first(), last = view.last();
-  for (Stretch& edge : division.edges)
-    if (length_of(view, edge, w) < kSharp * width) edge.first = edge.last = edge.middle();
-  if (division.closed) return;
-  Stretch &low = division.edges.front(), &high = division.edges.back();
-  if (length_of(view, {first, low.first}, w) < kLeastSide * width) low.first = first;
-  if (length_of(view, {high.last, last}, w) < kLeastSide * width) high.last = last;
+  if (!division.closed) {
+    Stretch &low = division.edges.front(), &high = division.edges.back();
+    if (length_of(view, {first, low.first}, w) < kLeastSide * width) low.first = first;
+    if (length_of(view, {high.last, last}, w) < kLeastSide * width) high.last = last;
+  }
+  for (Stretch& edge : division.edges) {
+    if (length_of(view, edge, w) >= kSharp * width) continue;
+    const bool at_border = !division.closed && (edge.first == first || edge.last == last);
+    const double cut = at_border ? (edge.first == first ? first : last) : edge.middle();
+    edge.first = edge.last = cut;
+  }
 }
 
-std::vector<FacePiece> pieces_of(const Face& face, const ParameterRectangle& box, Division division) {
+bool is_outside(const TrimRegion& region, const Division& division, const Stretch& stretch) {
+  ParameterRectangle part = region.box();
+  (division.along_u ? part.u0 : part.v0) = stretch.first;
+  (division.along_u ? part.u1 : part.v1) = stretch.last;
+  return !region.whole() && region.classify(part) == TrimRegion::Side::kOutside;
+}
+
+std::vector<FacePiece> pieces_of(const Face& face, const TrimRegion& region, Division division) {
   const View view{face.surface, division.along_u};
+  const ParameterRectangle& box = region.box();
   const double first = view.first(), last = view.last();
   const double w = division.along_u ? 0.5 * (box.v0 + box.v1) : 0.5 * (box.u0 + box.u1);
   std::sort(division.edges.begin(), division.edges.end(),
@@ -311,6 +325,8 @@ std::vector<FacePiece> pieces_of(const Face& face, const ParameterRectangle& box
     for (Stretch& stretch : stretches)
       if (division.closed) stretch = unwound(stretch, first, last);
     std::sort(stretches.begin(), stretches.end(), [](const Stretch& a, const Stretch& b) { return a.first < b.first; });
+    // A surface may go on past the trims.
+    std::erase_if(stretches, [&](const Stretch& x) { return is_outside(region, division, x); });
     for (const Stretch& stretch : stretches)
       pieces.push_back({cut_face(face, division.along_u, stretch.first, stretch.last), edge});
   };
@@ -330,7 +346,7 @@ std::vector<FacePiece> face_pieces(const Face& face) {
     std::optional<Division> division = division_along(face, region.box(), along_u);
     if (division && (!best || division->edges.size() > best->edges.size())) best = std::move(division);
   }
-  return best ? pieces_of(face, region.box(), *best) : std::vector<FacePiece>();
+  return best ? pieces_of(face, region, *best) : std::vector<FacePiece>();
 }
 
 }  // namespace flank::internal
