@@ -89,6 +89,25 @@ TEST(JudgeJob, AStoppedRunIsJudgedOnASmallFaceOfALargePart) {
   EXPECT_GE(50.0 / (spacing * spacing), 500.0) << "or the judge refuses it, and a result is lost";
 }
 
+TEST(JudgeJob, ASmallFaceOfALargePartIsLookedAtAsFinely) {
+  Part part;
+  part.faces = {test::plane_face("F1", 2.0, 6.0), test::plane_face("F2", 400.0, 300.0, -20.0)};
+  for (const Face& face : part.faces) part.box.add(face.surface.poles.back()), part.box.add(face.surface.poles.front());
+  internal::Setup setup;
+  setup.part = part;
+  setup.targets = {0};
+  setup.checks = {1};
+  Tool tool;
+  tool.radial = RadialFunction::spline(8.0, Eigen::VectorXd::Constant(6, 1.0));
+  Strip pass;
+  for (const double x : {-1.0, 0.0, 1.0, 2.0, 3.0}) pass.poses.push_back({Vec3(x, 1.0, -1.0), Vec3::UnitZ()});
+  const VerifyReport report = judge_job(setup, {}, tool, {{pass}}, DepthProof::kProved);
+  ASSERT_EQ(report.faces.size(), 2U);
+  EXPECT_GT(report.faces[0].samples, 1500U);
+  EXPECT_DOUBLE_EQ(report.coverage, 1.0);
+  EXPECT_GT(report.coverage_bound.value(), 0.99);
+}
+
 TEST(JudgeJob, AFaceAloneIsNotReachableInItsOwnCorner) {
   Part part;
   part.faces = {test::corner_face("F1", 20.0, 30.0)};

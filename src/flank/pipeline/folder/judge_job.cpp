@@ -24,6 +24,9 @@ bool holds(const std::vector<int>& faces, int face) {
 
 /// Samples that a spacing may give on all faces together, which takes minutes, and that it has to give on a target.
 constexpr double kMostSamples = 1e8, kFewestSamples = 300.0;
+/// That a target gets where no spacing is asked for: proofs are made from the samples' cells, and a rib of millimetres on a part
+/// of half a metre would have a few dozen.
+constexpr double kEnoughSamples = 2000.0;
 constexpr double kReachSpacings = 2.0;         ///< usual ones, of the samples that tell where a target is
 constexpr std::size_t kTileSamples = 1 << 16;  ///< held at once, about 300 bytes each with all that is asked of them
 
@@ -56,7 +59,8 @@ std::vector<int> judged_faces(const Setup& setup) {
 /// The judged faces as the judge asks for them.
 class JudgedShapes {
  public:
-  JudgedShapes(const Setup& setup, double spacing) : faces_(judged_faces(setup)) {
+  /// `least`: samples of a target, which gets a finer spacing if it must.
+  JudgedShapes(const Setup& setup, double spacing, double least) : faces_(judged_faces(setup)) {
     const Part& part = setup.part;
     meshes_.reserve(faces_.size());
     for (int face : faces_) {
@@ -65,12 +69,16 @@ class JudgedShapes {
       if (!part.is_mesh()) {
         const Face& value = part.faces[static_cast<std::size_t>(face)];
         shapes_.emplace_back(&value);
-        samplers_.push_back(verify::make_sampler(value, here, target, kTileSamples));
+        add([&](double mm) { return verify::make_sampler(value, mm, target, kTileSamples); }, here,
+            target ? least : 0.0);
         continue;
       }
       meshes_.push_back(extract_mesh(part, {face}));
       shapes_.emplace_back(&meshes_.back());
-      samplers_.push_back(verify::make_sampler(part.face_id(face), meshes_.back(), here, target, kTileSamples));
+      const auto make = [&](double mm) {
+        return verify::make_sampler(part.face_id(face), meshes_.back(), mm, target, kTileSamples);
+      };
+      add(make, here, target ? least : 0.0);
     }
   }
 
@@ -81,6 +89,15 @@ class JudgedShapes {
   [[nodiscard]] std::vector<verify::JudgedFace> judged(const Setup& setup, const TargetReach* reach, bool proofs) const;
 
  private:
+  template <class Make>
+  void add(const Make& make, double spacing, double least) {
+    std::unique_ptr<verify::Sampler> sampler = make(spacing);
+    const double count = sampler->count();
+    // Their number goes with the square of the spacing.
+    if (count > 0.0 && count < least) sampler = make(spacing * std::sqrt(count / least));
+    samplers_.push_back(std::move(sampler));
+  }
+
   std::vector<int> faces_;
   std::vector<TriangleMesh> meshes_;
   std::vector<FaceShape> shapes_;
@@ -114,7 +131,7 @@ double default_spacing(double diagonal_mm) {
 
 double coarse_spacing(const Setup& setup, double most_samples) {
   const double usual = default_spacing(setup.part.box.diagonal());
-  const JudgedShapes shapes(setup, usual);
+  const JudgedShapes shapes(setup, usual, 0.0);
   double all = 0.0, fewest = 1e300;
   for (std::size_t k = 0; k < shapes.faces().size(); ++k) {
     const double here = shapes.samplers()[k]->count();
@@ -130,7 +147,7 @@ double coarse_spacing(const Setup& setup, double most_samples) {
 VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const Tool& tool, const Path& path,
                        DepthProof depth) {
   const double usual = default_spacing(setup.part.box.diagonal());
-  const JudgedShapes shapes(setup, request.sample_mm.value_or(usual));
+  const JudgedShapes shapes(setup, request.sample_mm.value_or(usual), request.sample_mm ? 0.0 : kEnoughSamples);
   if (request.sample_mm) require_sensible(shapes.samplers(), shapes.faces(), setup, *request.sample_mm);
   const double radius = request.reach_radius_mm.value_or(smallest_radius(tool));
   // A tool that is none (a fit that failed) has nothing to reach with.

@@ -19,7 +19,7 @@ namespace flank::internal {
 [[nodiscard]] ProgramStock judge_stock(const Setup& setup, const TrochoidJob& job, const Tool& tool, const Path& path,
                                        const std::vector<HalfSpace>& blank, double most_triangles);
 
-/// Spacing of the judge's samples on the target if none is given, mm.
+/// Spacing of the judge's samples on the target if none is given, mm; finer on one that is small in a large part.
 [[nodiscard]] double default_spacing(double diagonal_mm);
 
 /// The spacing, no finer than that, of about so many samples on all faces together, as far as a target can do with them; finer
