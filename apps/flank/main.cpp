@@ -63,7 +63,7 @@ void add_common(CLI::App& app, flank::cli::CommonOptions& common) {
   app.add_option("--threads", common.threads, "Threads to use; 0: all cores. The result does not depend on it")
       ->check(CLI::Range(0, 1024));
   app.add_option("--read-limit", common.read_limit_s,
-                 "Processor time for reading a CAD file, seconds; default: 10 and 10 more for each MB of it")
+                 "Processor time for reading a CAD file, seconds; default: 10 and 30 more for each MB of it")
       ->check(CLI::Range(0.1, 1e6));
 }
 

@@ -14,6 +14,14 @@ TEST(ReachFineness, IsAQuarterOfTheToleranceForPartsOfAHandsSize) {
   EXPECT_DOUBLE_EQ(reach_fineness(0.5, 3.0).fine_mm, 0.01);
 }
 
+TEST(ReachFineness, ShrinksWithTheBallOfAPartOfAMillimetre) {
+  // A thousandth of a millimetre is all of the tolerance there, and a cell of one millimetre all of the part.
+  const ReachFineness tiny = reach_fineness(0.001, 0.04);
+  EXPECT_DOUBLE_EQ(tiny.fine_mm, 0.00025);
+  EXPECT_DOUBLE_EQ(tiny.cell_mm, 0.04);
+  EXPECT_DOUBLE_EQ(reach_fineness(1e-6, 0.04).fine_mm, 4e-5);
+}
+
 TEST(ReachFineness, GrowsWithTheBallSoThatAShipTakesNoMoreTrianglesThanABlade) {
   const ReachFineness blade = reach_fineness(0.3, 10.0), ship = reach_fineness(300.0, 10000.0);
   EXPECT_NEAR(ship.fine_mm, 1000.0 * blade.fine_mm, 1e-9);

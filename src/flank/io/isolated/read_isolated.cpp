@@ -30,7 +30,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kSecondsAtLeast = 10.0, kSecondsPerMegabyte = 10.0;  // of processor time
+constexpr double kSecondsAtLeast = 10.0, kSecondsPerMegabyte = 30.0;  // of processor time
 /// Bytes of address space: the kernel's libraries alone take a third of the first.
 constexpr double kMemoryAtLeast = 1.5e9, kMemoryPerByte = 100.0;
 /// The limit is on processor time, which a busy machine gives slowly; by the clock, a child is stuck after so many times

@@ -12,9 +12,10 @@ namespace {
 /// Of the triangles that the ball is held against, mm: a place of the border of the reachable part is as wrong as they
 /// are. What is fine enough grows with the ball: a ship's hull in hundredths of a millimetre takes a gigabyte.
 constexpr double kFinestMm = 0.001, kCoarsestMm = 0.01, kToleranceShare = 0.25;
-constexpr double kCoarsestShare = 0.001;  ///< of the ball's radius, where that is more
-/// Borders are off by a part of a cell: mm, or a share of the ball's radius, where that is more.
-constexpr double kLongestCellMm = 1.0, kLongestCellShare = 0.1;
+/// Of the ball's radius, where that is less and where that is more: a part of a millimetre is looked at like one of a metre.
+constexpr double kFinestShare = 0.001, kCoarsestShare = 0.001;
+/// Borders are off by a part of a cell: mm, or a share of the ball's radius, as with the triangles.
+constexpr double kLongestCellMm = 1.0, kShortestCellShare = 1.0, kLongestCellShare = 0.1;
 constexpr double kFarShare = 0.1;  ///< of the ball's radius: of the triangles that only close a solid
 
 bool holds(const std::vector<int>& faces, int face) {
@@ -80,9 +81,10 @@ std::vector<TriangleMesh> meshes_of(const Setup& setup, const std::vector<int>& 
 
 ReachFineness reach_fineness(double tolerance_mm, double radius_mm) {
   ReachFineness of;
-  of.fine_mm = std::clamp(kToleranceShare * tolerance_mm, kFinestMm, std::max(kCoarsestMm, kCoarsestShare * radius_mm));
+  of.fine_mm = std::clamp(kToleranceShare * tolerance_mm, std::min(kFinestMm, kFinestShare * radius_mm),
+                          std::max(kCoarsestMm, kCoarsestShare * radius_mm));
   of.coarse_mm = std::max(of.fine_mm, kFarShare * radius_mm);
-  of.cell_mm = std::max(kLongestCellMm, kLongestCellShare * radius_mm);
+  of.cell_mm = std::max(std::min(kLongestCellMm, kShortestCellShare * radius_mm), kLongestCellShare * radius_mm);
   return of;
 }
 
