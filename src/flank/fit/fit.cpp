@@ -2,10 +2,9 @@
 #include "flank/base/stopping.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
-#include <numbers>
+#include <functional>
 #include <numeric>
 #include <optional>
 
@@ -17,10 +16,10 @@
 #include "flank/fit/orbit/orbit_fit.h"
 #include "flank/fit/polish.h"
 #include "flank/fit/race.h"
+#include "flank/fit/starts/start_tasks.h"
 #include "flank/fit/tried.h"
 #include "flank/fit/ways.h"
 #include "flank/motion/motion_record.h"
-#include "flank/seed/clear_start.h"
 #include "flank/seed/orbit_chart.h"
 #include "flank/seed/ruled_start.h"
 #include "flank/seed/self_motion.h"
@@ -30,108 +29,14 @@ using namespace internal;
 
 namespace {
 
-/// Control points of a start's rails. The quick fit brings them to its own 8 at once; these only carry the start there.
-constexpr int kStartControlPoints = 12;
-
 struct Candidate {
   const Chart* chart = nullptr;           // that the start is in
   const OrbitSection* section = nullptr;  // the chart is this one's
   RuledStart start;
   FitDraft draft;
-  double score = -1.0;  // below that of any fit
+  CoverageEstimate estimate = {};  // of a rough fit
+  double score = -1.0;             // below that of any fit
 };
-
-/// Radii to try, equally spaced in logarithm in the middles of kRadii parts of the range: what differs between a thin
-/// tool and a thick one is the ratio.
-std::vector<double> start_radii(const ToolModel& tool, const RadiusBounds& bounds, double length) {
-  if (tool.radius) return {*tool.radius};
-  constexpr int kRadii = 5;             // MATH section 7
-  constexpr double kLeastRatio = 1e-3;  // of the largest: a lower bound of zero has no logarithm
-  std::vector<double> radii;
-  // A cylinder that is too slender is no start for a tool that may not be.
-  constexpr double kMostRatio = 0.8;
-  const double stiff = std::min(0.5 * length / bounds.slenderest, kMostRatio * bounds.largest);
-  const double low = std::max({bounds.smallest, kLeastRatio * bounds.largest, tool.free() ? stiff : 0.0});
-  for (int k = 0; k < kRadii; ++k) radii.push_back(low * std::pow(bounds.largest / low, (k + 0.5) / kRadii));
-  return radii;
-}
-
-std::vector<RuledStart> enumerate_starts(const Chart& chart, const ToolModel& tool, const FlankFitOptions& options,
-                                         std::initializer_list<bool> ways) {
-  constexpr double kDegree = std::numbers::pi / 180.0;
-  // Degrees between contact lines and the chart's lines. Five (MATH section 7), of either sign, because nothing tells
-  // which way a blade twists. No start is farther than 6.5 degrees from a direction up to 31 degrees; the fit turns the
-  // rest.
-  constexpr std::array<double, 5> kSkews = {0.0, 12.0, -12.0, 25.0, -25.0};
-  std::vector<RuledStart> starts;
-  for (bool swapped : ways) {
-    RuledStart across;
-    across.swapped = swapped;
-    const double length = options.axis_length_mm.value_or(longest_chord(chart, across));
-    for (double radius : start_radii(tool, options.bounds, length))
-      for (double skew : kSkews) {
-        RuledStart start;
-        start.swapped = swapped;
-        start.radius_mm = radius;
-        start.skew_rad = skew * kDegree;
-        starts.push_back(start);
-      }
-  }
-  return starts;
-}
-
-/// The start cut into bands of equal width side by side, one per strip.
-std::vector<RuledStart> bands_of(const RuledStart& start, int strips) {
-  std::vector<RuledStart> bands(static_cast<std::size_t>(strips), start);
-  for (int k = 0; k < strips; ++k) {
-    bands[static_cast<std::size_t>(k)].band_low = static_cast<double>(k) / strips;
-    bands[static_cast<std::size_t>(k)].band_high = static_cast<double>(k + 1) / strips;
-  }
-  return bands;
-}
-
-/// The motions of a start beside walls: the tips on the spine of the ball that rolls along target and wall. None if no
-/// wall is in the way of the lines.
-std::vector<FitTask> make_clear_tasks(const Target& target, const Chart& chart, const RuledStart& start,
-                                      const ToolModel& tool, const FlankFitOptions& options) {
-  const ObstacleField& obstacles = *options.obstacles;
-  constexpr int kFewBlocked = kStartTimes / 4;  // if a wall only grazes the lines, the fit does better than a cut
-  constexpr double kLonger = 1.03;              // the axis past the longest stretch from spine to rim (MATH section 7)
-  std::vector<ClearStart> bands;
-  double length = 0.0;
-  bool blocked = false;
-  for (const RuledStart& band : bands_of(start, options.strips)) {
-    ClearStart clear = clear_start(chart, band, obstacles);
-    length = std::max(length, kLonger * clear.longest_mm);
-    const bool cut = clear.first > 0.0 || clear.last < 1.0;
-    blocked = blocked || cut || clear.blocked_lines > kFewBlocked || clear.free_lines < kStartTimes - kFewBlocked;
-    if (clear.free_lines > 0) bands.push_back(std::move(clear));
-  }
-  if (!blocked) return {};
-  length = tool.length_for(length, options.axis_length_mm);
-  std::vector<FitTask> tasks;
-  for (const ClearStart& band : bands)
-    tasks.push_back({&target, make_motion(band, length, kStartControlPoints), &obstacles});
-  return tasks;
-}
-
-/// The motions of a start, one per strip, bands side by side, all of one axis length.
-std::vector<FitTask> make_tasks(const Target& target, const Chart& chart, const RuledStart& start,
-                                const ToolModel& tool, const FlankFitOptions& options) {
-  if (options.obstacles != nullptr) {
-    std::vector<FitTask> tasks = make_clear_tasks(target, chart, start, tool, options);
-    if (!tasks.empty()) return tasks;
-  }
-  const std::vector<RuledStart> bands = bands_of(start, options.strips);
-  constexpr double kLonger = 1.02;  // the axis past the longest offset contact line (MATH section 7)
-  double length = 0.0;
-  for (const RuledStart& band : bands) length = std::max(length, kLonger * longest_chord(chart, band));
-  length = tool.length_for(length, options.axis_length_mm);
-  std::vector<FitTask> tasks;
-  for (const RuledStart& band : bands)
-    tasks.push_back({&target, make_motion(chart, band, length, kStartControlPoints), options.obstacles});
-  return tasks;
-}
 
 /// The candidate's lines, moved along with the target and fitted to its section.
 void orbit_fit(Candidate& candidate, FitDraft draft, const FlankFitOptions& options) {
@@ -154,21 +59,29 @@ void orbit_fit(Candidate& candidate, FitDraft draft, const FlankFitOptions& opti
   candidate.score = fit.score;
 }
 
-/// What drafts of any kind are ranked by, those that are rough among them.
-double rough_score(const FitDraft& draft, const std::vector<SurfaceSample>& samples, double tolerance_mm, int poses) {
-  CoverageEstimate estimate =
-      estimate_coverage(samples, draft.motions, draft.tool, kQuickTolerances * tolerance_mm, poses);
-  estimate.gouge_mm = flank_gouge(draft.motions, draft.obstacles, draft.tool, poses, GougeLook::kRough);
+/// What is seen of a draft of any kind, a rough one among them, but for what it enters.
+CoverageEstimate rough_estimate(const FitDraft& draft, const std::vector<SurfaceSample>& samples, double tolerance_mm,
+                                int poses) {
+  return estimate_coverage(samples, draft.motions, draft.tool, kQuickTolerances * tolerance_mm, poses);
+}
+
+double rough_gouge(const FitDraft& draft, int poses) {
+  return flank_gouge(draft.motions, draft.obstacles, draft.tool, poses, GougeLook::kRough);
+}
+
+double rough_score(const CoverageEstimate& estimate, double tolerance_mm) {
   return estimate.score(kQuickTolerances * tolerance_mm);
 }
 
+/// The score is what it is if the fit enters nothing.
 void rough_fit(Candidate& candidate, const FitDraft& draft, const Target& target, const FlankFitOptions& options,
                const std::vector<SurfaceSample>& samples) {
   FitStage stage = quick_stage(robust_scale(target, options));
   keep_going(stage, kQuickTolerances * options.tolerance_mm, target.diagonal());
   candidate.draft = run_stage(draft, options.bounds, stage);
-  if (has_values(candidate.draft))
-    candidate.score = rough_score(candidate.draft, samples, options.tolerance_mm, kQuickPoses);
+  if (!has_values(candidate.draft)) return;
+  candidate.estimate = rough_estimate(candidate.draft, samples, options.tolerance_mm, kQuickPoses);
+  candidate.score = rough_score(candidate.estimate, options.tolerance_mm);
 }
 
 /// Fits and ranks one candidate. Left without motions if no line of its start is free, or if it loses its values.
@@ -188,6 +101,30 @@ void quick_fit(Candidate& candidate, const Target& target, const ToolModel& tool
 void sort_by_score(std::vector<Candidate>& candidates) {
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+}
+
+/// Looks for what the candidates enter, the most promising first, and keeps about the `most` best. A depth only lowers a score, and
+/// costs more than the fit: it is not asked of what cannot be among them.
+void rank_with_gouges(std::vector<Candidate>& candidates, std::size_t most, double tolerance_mm) {
+  const auto better = [](const Candidate* a, const Candidate* b) { return a->score > b->score; };
+  std::vector<Candidate*> order;
+  for (Candidate& candidate : candidates) order.push_back(&candidate);
+  std::stable_sort(order.begin(), order.end(), better);
+  std::vector<double> known;  // scores, falling
+  while (known.size() < order.size()) {
+    if (known.size() >= most && order[known.size()]->score < known[most - 1]) break;
+    const std::size_t first = known.size(), count = std::min(most, order.size() - first);
+    parallel_for(count, [&](std::size_t k) {
+      Candidate& candidate = *order[first + k];
+      candidate.estimate.gouge_mm = rough_gouge(candidate.draft, kQuickPoses);
+      candidate.score = rough_score(candidate.estimate, tolerance_mm);
+    });
+    for (std::size_t k = first; k < first + count; ++k) known.push_back(order[k]->score);
+    std::sort(known.begin(), known.end(), std::greater<>());
+  }
+  for (std::size_t k = known.size(); k < order.size(); ++k) order[k]->draft.motions.clear();
+  std::erase_if(candidates, [](const Candidate& candidate) { return candidate.draft.motions.empty(); });
+  sort_by_score(candidates);
 }
 
 /// What the quick fits of all starts leave.
@@ -258,7 +195,7 @@ QuickStarts quick_starts(const Target& target, const ToolModel& tool, const Flan
   const auto best_in = [&](const Chart& chart, const OrbitSection* section, std::initializer_list<bool> ways) {
     std::vector<Candidate> candidates;
     for (const RuledStart& start : enumerate_starts(chart, tool, options, ways))
-      candidates.push_back({&chart, section, start, {}, -1.0});
+      candidates.push_back({.chart = &chart, .section = section, .start = start, .draft = {}});
     quick.tried += static_cast<int>(candidates.size());
     return fitted(std::move(candidates), target, tool, options, few);
   };
@@ -268,8 +205,14 @@ QuickStarts quick_starts(const Target& target, const ToolModel& tool, const Flan
     drop_hopeless(best);
   }
   if (std::none_of(best.begin(), best.end(), [&](const Candidate& orbit) { return is_all(orbit, options); })) {
-    for (Candidate& orbit : best) orbit.score = rough_score(orbit.draft, few, options.tolerance_mm, kRankingPoses);
-    for (Candidate& other : best_in(charts.own, nullptr, {false, true})) best.push_back(std::move(other));
+    for (Candidate& orbit : best) {
+      orbit.estimate = rough_estimate(orbit.draft, few, options.tolerance_mm, kRankingPoses);
+      orbit.estimate.gouge_mm = rough_gouge(orbit.draft, kRankingPoses);
+      orbit.score = rough_score(orbit.estimate, options.tolerance_mm);
+    }
+    std::vector<Candidate> others = best_in(charts.own, nullptr, {false, true});
+    rank_with_gouges(others, static_cast<std::size_t>(options.kept_after_quick), options.tolerance_mm);
+    for (Candidate& other : others) best.push_back(std::move(other));
     sort_by_score(best);
   }
   quick.touching = !best.empty() && best.front().score > 0.0;
