@@ -74,8 +74,10 @@ TEST(WantedRings, AreThoseThatARoughLookLeavesMoreOpenThanTheLargest) {
   using Some = std::vector<std::size_t>;
   // Where a rough look sees it all, the close one adds nothing but what is larger.
   EXPECT_EQ(wanted_between({0.9, 0.95, 0.99, 1.0, 1.02, 0.98, 0.8}, {0.9, 0.0, 0.0, 1.0, 0.0, 0.0, 0.8}), (Some{4}));
-  // It leaves 0.1 and 0.2 too much beside a ring: with 0.1 less the first one may still be the largest.
-  EXPECT_EQ(wanted_between({1.0, 1.11, 1.09, 1.2}, {0.9, 0.0, 0.0, 1.0}), (Some{1}));
+  // It leaves 0.004 and 0.006 too much beside a ring: with 0.004 less the first one may still be the largest.
+  EXPECT_EQ(wanted_between({0.904, 1.005, 1.004, 1.006}, {0.9, 0.0, 0.0, 1.0}), (Some{1}));
+  // Where it leaves much too much beside them, nothing is known of the others.
+  EXPECT_EQ(wanted_between({1.0, 1.11, 1.09, 1.2}, {0.9, 0.0, 0.0, 1.0}), (Some{1, 2}));
   // A peak of which the rings beside have nothing.
   EXPECT_EQ(wanted_between({0.0, 0.0, 1.3, 0.0, 0.2, 0.3, 0.5}, {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.5}), (Some{2}));
   EXPECT_EQ(wanted_between({1.0, 1.0, 1.0, 1.0}, {1.0, 0.0, 0.0, 1.0}), Some{});

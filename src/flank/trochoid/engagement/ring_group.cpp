@@ -10,6 +10,9 @@ namespace {
 
 /// Radians: so little more than the largest is not looked for between rings; peaks there are found by golden section.
 constexpr double kHair = 5e-4;
+/// Radians: a rough look that leaves more than this too much open says nothing of the rings beside. Where the layer above ends, it
+/// knows nothing of that at one ring, and all at the next.
+constexpr double kMostSpare = 5e-3;
 
 }  // namespace
 
@@ -107,7 +110,7 @@ bool WantedRings::go_on(std::span<const ToolRing> rings, const std::function<dou
     const double more = rough(k) - largest - kHair;
     if (more <= 0.0) continue;
     const double spare = before < rings.size() && after < rings.size() ? std::min(excess(before), excess(after)) : 0.0;
-    if (more <= spare) continue;
+    if (spare <= kMostSpare && more <= spare) continue;
     wanted_[k] = 1;
     some = true;
   }
