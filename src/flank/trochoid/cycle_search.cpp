@@ -146,27 +146,17 @@ Trial CycleSearch::tried(double step, const CycleShape& shape, bool measured) {
   return trial;
 }
 
-Engagement CycleSearch::taken(const Trial& trial, const RowRings& rings) {
-  Engagement out;
+void CycleSearch::take(Trial& trial, bool peak, bool volume) {
+  const MeasureRings rings{rings_, volume_rings_, both_rings_};
+  KeptMeasures::Kept back{EngagementPeak{}, 0.0};
   if (trial.back) {
-    out = meter_.measure(*trial.back, rings, kRows);
+    back = backs_.measure(*trial.back, peak, volume, kRows, rings, meter_);
     stock_.add(Sweep::of(*trial.back, kHalfIntervals));
   }
-  const Engagement front = meter_.measure(trial.front, rings, kRows);
+  const Engagement front = meter_.measure(trial.front, peak && volume ? both_rings_ : peak ? rings_ : volume_rings_, kRows);
   if (trial.back) stock_.remove_last();
-  if (front.peak.angle_rad > out.peak.angle_rad) out.peak = front.peak;
-  out.volume_mm3 += front.volume_mm3;
-  return out;
-}
-
-void CycleSearch::measure(Trial& trial) { trial.largest_rad = taken(trial, rings_).peak.angle_rad; }
-
-void CycleSearch::weigh(Trial& trial) { trial.volume_mm3 = taken(trial, volume_rings_).volume_mm3; }
-
-void CycleSearch::measure_and_weigh(Trial& trial) {
-  const Engagement both = taken(trial, both_rings_);
-  trial.largest_rad = both.peak.angle_rad;
-  trial.volume_mm3 = both.volume_mm3;
+  if (peak) trial.largest_rad = std::max(back.peak->angle_rad, front.peak.angle_rad);
+  if (volume) trial.volume_mm3 = *back.volume_mm3 + front.volume_mm3;
 }
 
 void CycleSearch::adjust(Trial& best) {
@@ -383,6 +373,7 @@ void CycleSearch::lift(Trial& best) {
 
 Trial CycleSearch::best(bool improving) {
   refused_ = {};
+  backs_.clear();
   // Lifted before anything is judged: another shape is not looked for where a lift does.
   now_.lift_mm = needed_lift(now_.shape, now_.step_mm);
   Trial best = longest_step(now_.shape, now_.step_mm);

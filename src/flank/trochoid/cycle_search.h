@@ -10,6 +10,7 @@
 #include "flank/base/step_codec.h"
 #include "flank/trochoid/cycle_shape.h"
 #include "flank/trochoid/engagement/engagement.h"
+#include "flank/trochoid/engagement/kept_measures.h"
 #include "flank/trochoid/half_guard.h"
 #include "flank/trochoid/side_pairing.h"
 #include "flank/trochoid/side_path.h"
@@ -90,7 +91,7 @@ class CycleSearch {
   /// The cycle after now().last whose end on the first side is a step farther.
   [[nodiscard]] Trial tried(double step, bool measured) { return tried(step, now_.shape, measured); }
   /// The volume of a trial: most are only asked how much they engage.
-  void weigh(Trial& trial);
+  void weigh(Trial& trial) { take(trial, false, true); }
   /// The longest step of the present shape, weighed; `largest_rad` < 0: there is none.
   [[nodiscard]] Trial longest_step(double guess) { return longest_step(now_.shape, guess); }
   /// The longest step of the present shape, or of another where that does not get on, enters a face or, with `improving`,
@@ -119,11 +120,11 @@ class CycleSearch {
   void shape_halves(const CycleShape& shape, Trial& trial) const;
   [[nodiscard]] Trial tried(double step, const CycleShape& shape, bool measured);
   /// Largest engagement of its halves.
-  void measure(Trial& trial);
+  void measure(Trial& trial) { take(trial, true, false); }
   /// Both, and sooner than one after the other.
-  void measure_and_weigh(Trial& trial);
-  /// What both halves take, one after the other.
-  [[nodiscard]] Engagement taken(const Trial& trial, const RowRings& rings);
+  void measure_and_weigh(Trial& trial) { take(trial, true, true); }
+  /// Measures what both halves take, one after the other: their largest engagement, their volume, or both.
+  void take(Trial& trial, bool peak, bool volume);
   [[nodiscard]] Trial longest_step(const CycleShape& shape, double guess);
   void improve(Trial& best);
   /// A shape and what one trial of it says of its longest step, mm, and what that would be worth.
@@ -160,6 +161,7 @@ class CycleSearch {
   const CycleOptions& options_;
   EngagementMeter meter_;
   RowRings rings_, volume_rings_, both_rings_;
+  KeptMeasures backs_;  ///< of the cycle that is looked for: many trials differ in their fronts alone
   SidePairing pairing_;
   double radius_ = 0.0;
   RefusedStep refused_;

@@ -21,6 +21,8 @@ namespace {
 
 /// Rows of a motion, and rings of the flank for engagement and volume when a cycle is accepted.
 constexpr int kFineRows = 101, kFineRings = 61, kVolumeRings = 9;
+/// Of these rings every so many are looked at closely in any case.
+constexpr int kEvery = 3;
 /// Before the start, in radii: there the first front is looked for, and twice as far out for as long as it cuts, up to so
 /// many times.
 constexpr double kFarOut = 4.0;
@@ -85,7 +87,7 @@ class CyclePlanner {
         options_(options),
         search_(sides, guard, stock, options),
         meter_(stock),
-        rings_(stock.radial(), kFineRings, kVolumeRings) {
+        rings_(stock.radial(), kFineRings, kVolumeRings, kEvery) {
     now_.sweeps = stock.sweeps().size();
   }
 

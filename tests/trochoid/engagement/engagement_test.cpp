@@ -290,6 +290,22 @@ TEST(Engagement, RefinedPeaksAreNotBelowTheRows) {
   EXPECT_GE(peak.angle_rad, fine.peak.angle_rad - 0.01 * kDegree);
 }
 
+TEST(Engagement, RingsBetweenOthersAreAskedWhereTheyEngageMost) {
+  // Between two earlier halves at different heights a ridge is left, which lies between rings that are asked in any case.
+  SweptStock stock(barrel(), {{Vec3::UnitZ(), 21.3}});
+  for (const double step : {0.0, 0.4}) stock.add(Sweep::of(twisted_half(step), 48));
+  EngagementMeter meter(stock);
+  const RuledMotion next = twisted_half(1.5);
+  const RowRings all(stock.radial(), 61, 9), some(stock.radial(), 61, 9, 6);
+  const Engagement every = meter.measure(next, all, 41), few = meter.measure(next, some, 41);
+  EXPECT_GT(every.peak.angle_rad, 30.0 * kDegree);
+  EXPECT_NEAR(few.volume_mm3, every.volume_mm3, 1e-6 * every.volume_mm3) << "which does not hang on them";
+  for (std::size_t k = 0; k < every.rows.size(); ++k) {
+    EXPECT_LE(few.rows[k].angle_rad, every.rows[k].angle_rad + 1e-9) << k;
+    EXPECT_GE(few.rows[k].angle_rad, every.rows[k].angle_rad - 0.03 * kDegree) << k;
+  }
+}
+
 TEST(GapAt, DerivativesAreThoseOfDifferences) {
   const RadialFunction radial = barrel();
   const ToolProfile profile(radial);

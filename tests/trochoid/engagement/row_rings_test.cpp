@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace flank::internal {
@@ -31,6 +32,18 @@ TEST(RowRings, ThoseOfTheEngagementAreTheSameInEachRow) {
       if (ring.asked && ring.flank) asked.push_back(ring.s);
     EXPECT_EQ(asked, (std::vector<double>{0.0, 5.0, 10.0, 15.0, 20.0}));
   }
+}
+
+TEST(RowRings, AllButSomeAreBetweenOthers) {
+  const RowRings rings(kCone, 8, 5, 3);
+  std::vector<double> first;
+  for (const ToolRing& ring : rings.of(0)) {
+    EXPECT_FALSE(ring.between && !ring.asked);
+    if (ring.asked && ring.flank && !ring.between) first.push_back(ring.s);
+  }
+  const double apart = 20.0 / 7.0;
+  ASSERT_EQ(first.size(), 4u);
+  for (const auto& [k, s] : {std::pair{0u, 0.0}, {1u, 3.0}, {2u, 6.0}, {3u, 7.0}}) EXPECT_NEAR(first[k], s * apart, 1e-12);
 }
 
 TEST(RowRings, ThoseOfTheVolumeAreNeverWhereTheyHaveJustBeen) {

@@ -96,6 +96,22 @@ TEST(StockReplay, NothingInTheAirAndNothingTwice) {
   EXPECT_LT(done.strips[1].angle_rad, 2.0 * std::acos(1.0 - wall / radius));
 }
 
+TEST(StockReplay, AChipThinnerThanTheRidgesOfItsOwnCutsIsNoEngagement) {
+  // On from where a slot has ended: over half of its circle the tool meets a chip as thick as the step. The stock's own cuts
+  // leave ridges of 0.05 cells there, which engage as far.
+  const double radius = 3.0, cell = 0.2, most = 2.0 * std::acos(1.0 - 0.06 * cell / radius);
+  const auto engagement = [&](double step) {
+    DexelStock stock(box_of({-10.0, -10.0, 0.0}, {10.0, 10.0, 8.0}), {}, cell);
+    const Vec3 end(0.37, 0.11, -1.1);
+    const Path path{{straight({-30.0, 0.11, -1.1}, end, 61), straight({0.0, 0.0, 40.0}, {9.0, 0.0, 40.0}, 4),
+                     straight(end, end + Vec3(step, 0.0, 0.0), 2)}};
+    return replay(stock, cylinder(radius, 11.0), path, {}).strips[2].angle_rad;
+  };
+  EXPECT_LT(engagement(0.01 * cell), most) << "as on walls that are only touched";
+  EXPECT_GT(engagement(0.5 * cell), 160.0 * kDegree) << "a chip of half a cell is seen";
+  EXPECT_GT(engagement(0.1 * cell), 100.0 * kDegree) << "and one of a tenth, where it is thick";
+}
+
 TEST(StockReplay, EngagementInATightBendIsTheClosedForm) {
   // The bend's inner side has passed over itself: what the tool has just taken there is in its front.
   const double radius = 5.0, length = 12.0;

@@ -68,6 +68,7 @@ void EngagementMeter::for_each_row(const RuledMotion& motion, const RingsOf& rin
   reserve((count + kRowsOfTask - 1) / kRowsOfTask);
   parallel_blocks(count, kRowsOfTask, [&](std::size_t begin, std::size_t end) {
     RowMeter& meter = meters_[begin / kRowsOfTask];
+    meter.begin();
     for (std::size_t i = begin; i < end; ++i) use(i, meter.row(motion, time_of(i, rows), rings_of(i)), meter.found());
   });
 }
@@ -110,12 +111,14 @@ void EngagementMeter::measure_rings(const RuledMotion& motion, std::span<const T
 double EngagementMeter::angle(const RuledMotion& motion, double t, const ToolRing& ring) {
   near_.begin(motion);
   reserve(1);
+  meters_.front().begin();
   return meters_.front().row(motion, t, {&ring, 1}).angle_rad;
 }
 
 EngagementPeak EngagementMeter::peak_near(const RuledMotion& motion, const EngagementRow& row, double step, double ds,
                                           RowMeter& meter) const {
   EngagementPeak best;
+  meter.begin();
   const double length = motion.axis_length;
   const auto value = [&](double t, double s) {
     const ToolRing ring = ring_at(stock_.radial(), s);

@@ -90,6 +90,16 @@ void NearPoses::add(const RowFrame& frame, const RowDisc& whole, std::span<const
   }
 }
 
+void NearPoses::add_pose(const RowFrame& frame, int sweep, int pose, double own_last,
+                         std::vector<NearPose>& out) const {
+  if (sweep == kOwnSweep && pose > own_last) return;
+  const std::size_t at = static_cast<std::size_t>(pose), k = at % PoseLanes::kCount;
+  PoseLanes lanes;
+  lanes.project(frame, sweep_of(sweep), at - k);
+  if (!lanes.is_near(k)) return;
+  out.push_back({lanes.x0[k], lanes.y0[k], lanes.dx[k], lanes.dy[k], lanes.h0[k], lanes.dh[k], sweep, pose});
+}
+
 void NearPoses::see(const RowFrame& frame, const RowDisc& whole, std::span<const RowDisc> parts, double own_last,
                     SeenPoses& out) const {
   out.clear();

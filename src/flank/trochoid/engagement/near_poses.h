@@ -67,6 +67,9 @@ class NearPoses {
   void add(const RowFrame& frame, const RowDisc& whole, std::span<const RowDisc> parts, double own_last,
            std::size_t recent, int stride, NearScratch& scratch, std::vector<NearPose>& out) const;
 
+  /// One pose, if it is there at that time of the motion and says something of the row, to `out`: the same bits as those of the others.
+  void add_pose(const RowFrame& frame, int sweep, int pose, double own_last, std::vector<NearPose>& out) const;
+
   /// All poses of the bundles of which one may cover something of one of `parts`, in place of what is in `out`: more than add
   /// finds, and sooner.
   void see(const RowFrame& frame, const RowDisc& whole, std::span<const RowDisc> parts, double own_last,

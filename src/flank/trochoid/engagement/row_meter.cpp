@@ -33,42 +33,10 @@ RowFrame RowMeter::frame_of(const RuledMotion& motion, double t) {
   return frame;
 }
 
-RowDisc RowMeter::discs_of_found(std::span<const ToolRing> rings) {
-  // Small discs let only those poses through that come near to what is open: one for each sector of directions.
-  constexpr int kSectors = 24;
-  constexpr double kPiece = 2.0 * kPi / kSectors;
-  std::array<OpenPart, kSectors> sectors;
-  OpenPart all;
-  for (const RingArc& found : found_) {
-    const ToolRing& ring = rings[found.ring];
-    const double low = found.motion_angle + found.arc.low, length = found.arc.high - found.arc.low;
-    const int pieces = std::max(1, static_cast<int>(std::ceil(length / kPiece)));
-    // Every half of a piece is a turn farther.
-    const double half = 0.5 * length / pieces;
-    const Vec2 turned(std::cos(half), std::sin(half));
-    Vec2 at(ring.radius * std::cos(low), ring.radius * std::sin(low));
-    const auto next = [&] {
-      at = Vec2(turned.x() * at.x() - turned.y() * at.y(), turned.y() * at.x() + turned.x() * at.y());
-      return at;
-    };
-    for (int k = 0; k < pieces; ++k) {
-      const double turn = (low + length * (k + 0.5) / pieces) / (2.0 * kPi);
-      const int sector = static_cast<int>((turn - std::floor(turn)) * kSectors) % kSectors;
-      for (const Vec2& x : {at, next(), next()}) {
-        sectors[static_cast<std::size_t>(sector)].add(ring, {x.x(), x.y(), 0.0});
-        all.add(ring, {x.x(), x.y(), 0.0});
-      }
-    }
-  }
-  // How far an arc bows out between points that are half a piece apart.
-  const double bow = stock_.profile().largest() * (1.0 - std::cos(0.25 * kPiece));
-  parts_.clear();
-  for (const OpenPart& part : sectors)
-    if (part.low <= part.high) parts_.push_back(part.disc(bow));
-  return all.disc(bow);
-}
-
 void RowMeter::look_roughly(const RowFrame& frame, std::span<const ToolRing> rings) {
+  // What settled the row before settles nearly all of this one: then little is open for the close look.
+  for (const Settler& settler : settlers_)
+    near_.add_pose(frame, settler.sweep, settler.pose, own_last_, candidates_);
   near_.add(frame, {0.0, 0.0, stock_.profile().largest(), stock_.profile().low(), stock_.profile().high()}, {},
             own_last_, kRecent, kStride, scratch_, candidates_);
   filter_.take(candidates_);
@@ -77,7 +45,10 @@ void RowMeter::look_roughly(const RowFrame& frame, std::span<const ToolRing> rin
   hints_.clear();
   for (std::size_t k = 0; k < rings.size(); ++k) {
     Front front = front_of(frame, rings[k]);
-    if (!gaps_.empty()) cut_by_poses(rings[k], front);
+    if (!gaps_.empty()) {
+      cut_by_poses(rings[k], front);
+      if (gaps_.empty()) keep_settlers();
+    }
     for (const Gap& gap : gaps_) found_.push_back({k, front.angle, {gap.low, gap.high}});
     open_gaps_.insert(open_gaps_.end(), gaps_.begin(), gaps_.end());
     front.end = open_gaps_.size();
@@ -87,37 +58,54 @@ void RowMeter::look_roughly(const RowFrame& frame, std::span<const ToolRing> rin
 
 void RowMeter::look_closely(const RowFrame& frame, std::span<const ToolRing> rings) {
   // What the first look covers stays covered: the discs hold what it left open, and little else.
-  const RowDisc open = discs_of_found(rings);
+  const RowDisc open = discs_of(found_, rings, stock_.profile().largest(), parts_);
   found_.clear();
   hints_.clear();
-  const auto settle_ring = [&](std::size_t k) {
-    const auto from = open_gaps_.cbegin();
-    gaps_.assign(from + static_cast<std::ptrdiff_t>(first_gap(k)), from + static_cast<std::ptrdiff_t>(fronts_[k].end));
-    if (gaps_.empty()) return;
-    cut_by_poses(rings[k], fronts_[k]);
-    settle(frame, rings[k], k, fronts_[k]);
-  };
   if (rings.size() < kManyRings) {
     first_asked_ = candidates_.size();
     near_.add(frame, open, parts_, own_last_, 0, 1, scratch_, candidates_);
     filter_.take(std::span<const NearPose>(candidates_).subspan(first_asked_));
-    for (std::size_t k = 0; k < rings.size(); ++k) settle_ring(k);
+    for (std::size_t k = 0; k < rings.size(); ++k) settle_ring(frame, rings, k);
     return;
   }
   // What a group of near rings does not need is left out at once; so poses are not looked at one by one before.
   near_.see(frame, open, parts_, own_last_, seen_);
   seen_filter_.take(seen_);
+  wanted_.begin(rings);
+  look_at_groups(frame, rings);
+  const auto rough = [&](std::size_t k) {
+    double sum = 0.0;
+    for (std::size_t g = first_gap(k); g < fronts_[k].end; ++g) sum += open_gaps_[g].high - open_gaps_[g].low;
+    return sum;
+  };
+  if (wanted_.go_on(rings, rough, found_)) look_at_groups(frame, rings);
+  const auto by_ring = [](const RingArc& a, const RingArc& b) { return a.ring < b.ring; };
+  std::stable_sort(found_.begin(), found_.end(), by_ring);
+}
+
+void RowMeter::look_at_groups(const RowFrame& frame, std::span<const ToolRing> rings) {
+  hints_.clear();
   for (std::size_t first = 0, end = 0; first < rings.size(); first = end) {
     end = end_of_group(rings, first, seen_filter_.group_height());
     find_group(rings, first, end);
-    for (std::size_t k = first; k < end; ++k) settle_ring(k);
+    for (std::size_t k = first; k < end; ++k)
+      if (wanted_[k]) settle_ring(frame, rings, k);
   }
+}
+
+void RowMeter::settle_ring(const RowFrame& frame, std::span<const ToolRing> rings, std::size_t k) {
+  const auto from = open_gaps_.cbegin();
+  gaps_.assign(from + static_cast<std::ptrdiff_t>(first_gap(k)), from + static_cast<std::ptrdiff_t>(fronts_[k].end));
+  if (gaps_.empty()) return;
+  cut_by_poses(rings[k], fronts_[k]);
+  keep_settlers();
+  settle(frame, rings[k], k, fronts_[k]);
 }
 
 void RowMeter::find_group(std::span<const ToolRing> rings, std::size_t first, std::size_t end) {
   sectors_.clear();
   for (std::size_t k = first; k < end; ++k)
-    for (std::size_t g = first_gap(k); g < fronts_[k].end; ++g)
+    for (std::size_t g = first_gap(k); wanted_[k] && g < fronts_[k].end; ++g)
       sectors_.add(fronts_[k].angle + open_gaps_[g].low, fronts_[k].angle + open_gaps_[g].high);
   const RingGroup group = group_of(rings.subspan(first, end - first));
   sectors_.arcs_on(group.radius, open_);
@@ -135,6 +123,23 @@ void RowMeter::find_arcs(const RowFrame& frame, double t, std::span<const ToolRi
   look_at_blank(frame);
   look_roughly(frame, rings);
   if (!found_.empty()) look_closely(frame, rings);
+  settlers_.swap(next_settlers_);
+  next_settlers_.clear();
+}
+
+void RowMeter::keep_settlers() {
+  for (const Gap& gap : gaps_)
+    for (const Bound& bound : {gap.at_low, gap.at_high})
+      if (bound.is_pose()) keep_settler(bound.candidate);
+  if (!gaps_.empty()) return;
+  for (const std::size_t candidate : cutters_) keep_settler(candidate);
+}
+
+void RowMeter::keep_settler(std::size_t candidate) {
+  const Settler settler{candidates_[candidate].sweep, candidates_[candidate].pose};
+  if (next_settlers_.size() >= kMostSettlers) return;
+  if (std::find(next_settlers_.begin(), next_settlers_.end(), settler) == next_settlers_.end())
+    next_settlers_.push_back(settler);
 }
 
 void RowMeter::cut(double low, double high, const Bound& bound) {
@@ -374,8 +379,7 @@ EngagementRow RowMeter::sum_row(const RowFrame& frame, double t, std::span<const
                                    ring.cosine * across * (std::sin(arc.high) - std::sin(arc.low)));
     }
     if (!ring.flank || !ring.asked) continue;
-    ++flank;
-    row.mean_rad += angle;
+    if (!ring.between) ++flank, row.mean_rad += angle;
     if (angle <= row.angle_rad) continue;
     row.angle_rad = angle;
     row.s = ring.s;

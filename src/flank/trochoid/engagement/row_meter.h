@@ -13,24 +13,12 @@
 
 namespace flank::internal {
 
-/// An arc of a ring that is in the material, radians from the direction of motion, towards u x motion.
-struct Arc {
-  double low = 0.0, high = 0.0;
-};
-
 /// What one row of rings has: a time of the motion.
 struct EngagementRow {
   double t = 0.0;
   double angle_rad = 0.0, s = 0.0;  ///< the largest of the flank's rings, and where
   double mean_rad = 0.0;            ///< of the flank's rings
   double rate_mm3 = 0.0;            ///< volume removed per unit of t
-};
-
-/// An arc and the ring that it is on, by its index.
-struct RingArc {
-  std::size_t ring;
-  double motion_angle;
-  Arc arc;
 };
 
 /// Not for several threads at once: it keeps scratch memory, so that measuring allocates nothing once it has grown. The
@@ -40,6 +28,8 @@ class RowMeter {
   RowMeter(const SweptStock& stock, const NearPoses& near)
       : stock_(stock), near_(near), filter_(stock.profile()), seen_filter_(stock.profile()) {}
 
+  /// Before the first of some rows of one motion, which follow one another: what settles one of them is asked first at the next.
+  void begin() { settlers_.clear(); }
   /// The time t in [0, 1] of the motion that `near` has begun.
   [[nodiscard]] EngagementRow row(const RuledMotion& motion, double t, std::span<const ToolRing> rings);
   /// The arcs of the last row, in the order of its rings.
@@ -63,6 +53,11 @@ class RowMeter {
     Vec2 motion = Vec2::UnitX();     ///< that direction
     std::size_t end = 0;             ///< of its gaps in open_gaps_
   };
+  /// A pose by its place in the stock.
+  struct Settler {
+    int sweep, pose;
+    bool operator==(const Settler&) const = default;
+  };
   /// A plane of the blank in the frame of the row: length and direction of its normal across the axis.
   struct Plane {
     double across, angle;
@@ -74,12 +69,14 @@ class RowMeter {
   void look_roughly(const RowFrame& frame, std::span<const ToolRing> rings);
   /// What all sweeps leave of these, into found_.
   void look_closely(const RowFrame& frame, std::span<const ToolRing> rings);
-  /// Into group_: those of the poses that were seen that may cover something of what is open of rings `first` to `end`.
+  /// The same of the rings that are in wanted_, by the poses in seen_.
+  void look_at_groups(const RowFrame& frame, std::span<const ToolRing> rings);
+  /// What all candidates leave of a ring, into found_.
+  void settle_ring(const RowFrame& frame, std::span<const ToolRing> rings, std::size_t k);
+  /// Into group_: those of the poses that were seen that may cover something of what is open of the wanted ones of rings `first` to `end`.
   void find_group(std::span<const ToolRing> rings, std::size_t first, std::size_t end);
   /// Where a ring's gaps begin in open_gaps_.
   [[nodiscard]] std::size_t first_gap(std::size_t ring) const { return ring == 0 ? 0 : fronts_[ring - 1].end; }
-  /// What the first look left open: a disc that holds it, and small ones, into parts_, that hold it together.
-  [[nodiscard]] RowDisc discs_of_found(std::span<const ToolRing> rings);
   [[nodiscard]] EngagementRow sum_row(const RowFrame& frame, double t, std::span<const ToolRing> rings) const;
   /// What of it is in the blank, into gaps_.
   [[nodiscard]] Front front_of(const RowFrame& frame, const ToolRing& ring);
@@ -98,6 +95,9 @@ class RowMeter {
   /// of motion.
   void cut_by_leaning(std::size_t candidate, const ToolRing& ring, const Vec2& foot, const Vec2& lean);
   void cut(double low, double high, const Bound& bound);
+  /// Keeps for the next row the poses that end what is left of a ring, or that leave nothing.
+  void keep_settlers();
+  void keep_settler(std::size_t candidate);
   /// Adds the arcs of the ring whose gaps are left to found_.
   void settle(const RowFrame& frame, const ToolRing& ring, std::size_t index, const Front& front);
   [[nodiscard]] SweepPlace place_of(const Bound& bound) const;
@@ -110,6 +110,8 @@ class RowMeter {
   /// A first look, at every kStride-th pose of the last sweeps, says where material may be; only there all poses count.
   static constexpr std::size_t kRecent = 3;
   static constexpr int kStride = 4;
+  /// Of the poses that settled the row before so many are part of the first look.
+  static constexpr std::size_t kMostSettlers = 48;
   /// So many rings are worth the look at groups of them; so few poses are asked without another look at each ring.
   static constexpr std::size_t kManyRings = 24, kFewPoses = 12;
   const SweptStock& stock_;
@@ -121,6 +123,7 @@ class RowMeter {
   std::size_t first_asked_ = 0;     ///< of the candidates, of those that filter_ has
   std::vector<std::size_t> group_;  ///< what filter_ has, as indices of seen_; none: all candidates
   std::vector<RowDisc> parts_;
+  WantedRings wanted_;
   NearScratch scratch_;
   std::vector<OpenArc> open_;
   std::vector<Gap> gaps_, cut_;
@@ -131,6 +134,7 @@ class RowMeter {
   OpenSectors sectors_;
   std::vector<std::size_t> cutters_;  ///< candidates that cut the gaps of this ring
   std::vector<std::size_t> hints_;    ///< those of the ring before, the last ones first
+  std::vector<Settler> settlers_, next_settlers_;  ///< of the row before, of this one
   std::vector<RingArc> found_;
 };
 

@@ -16,10 +16,14 @@ void add_round_end(const RadialFunction& radial, bool tip, int count, double shi
   }
 }
 
-std::vector<ToolRing> rings_of(const RadialFunction& radial, int asked, int volume, double shift) {
+std::vector<ToolRing> rings_of(const RadialFunction& radial, int asked, int volume, int every, double shift) {
   const double length = radial.axis_length();
   std::vector<ToolRing> rings = asked > 0 ? tool_rings(radial, asked, 0) : std::vector<ToolRing>();
-  for (ToolRing& ring : rings) ring.area = 0.0;
+  for (int k = 0; k < asked; ++k) {
+    ToolRing& ring = rings[static_cast<std::size_t>(k)];
+    ring.area = 0.0;
+    ring.between = k % every != 0 && k + 1 < asked;
+  }
   if (volume == 0) return rings;
   for (int k = 0; k < volume; ++k) {
     ToolRing ring = ring_at(radial, length * (k + shift) / volume);
@@ -38,9 +42,9 @@ std::vector<ToolRing> rings_of(const RadialFunction& radial, int asked, int volu
 
 }  // namespace
 
-RowRings::RowRings(const RadialFunction& radial, int asked, int volume) {
+RowRings::RowRings(const RadialFunction& radial, int asked, int volume, int every) {
   for (std::size_t k = 0; k < kSets; ++k)
-    sets_.push_back(rings_of(radial, asked, volume, (static_cast<double>(k) + 0.5) / kSets));
+    sets_.push_back(rings_of(radial, asked, volume, every, (static_cast<double>(k) + 0.5) / kSets));
 }
 
 }  // namespace flank::internal

@@ -18,7 +18,8 @@ class RowRings {
  public:
   /// `asked` (0, or >= 2) rings of the flank at equal steps, the axis' ends included, for the engagement, and `volume` (>= 0) for
   /// the volume, with as many on each round end as are as near to each other, at least one.
-  RowRings(const RadialFunction& radial, int asked, int volume);
+  /// Of those for the engagement all but every `every`-th and the axis' ends are asked only where they may engage most.
+  RowRings(const RadialFunction& radial, int asked, int volume, int every = 1);
 
   [[nodiscard]] std::span<const ToolRing> of(std::size_t row) const { return sets_[row * kStep % sets_.size()]; }
 

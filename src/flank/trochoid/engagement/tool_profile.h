@@ -44,6 +44,8 @@ struct ToolRing {
   double area = 0.0;
   bool flank = true;  ///< else of a round end, which counts for volumes, not for engagement
   bool asked = true;  ///< for the engagement, if it is of the flank; else for the volume alone
+  /// Asked only where a rough look says that it may engage more than the others of its row.
+  bool between = false;
 };
 
 /// `count` (>= 2) rings at equal steps of s, the axis' ends included, with the areas of the trapezoidal rule, and `caps` more in

@@ -16,8 +16,9 @@ struct Circle {
   double radius = 0.0;
   double half = 0.0;  ///< the front is |theta| <= half, radians
 
-  [[nodiscard]] Vec3 at(double theta) const {
-    return centre + radius * (std::cos(theta) * forward + std::sin(theta) * side);
+  /// On it, or so far inside of it.
+  [[nodiscard]] Vec3 at(double theta, double inside = 0.0) const {
+    return centre + (radius - inside) * (std::cos(theta) * forward + std::sin(theta) * side);
   }
 };
 
@@ -40,9 +41,12 @@ Circle circle_of(const RadialFunction& radial, const Pose& pose, const PoseVeloc
 }
 
 bool is_engaged(const DexelStock& stock, const MovingTool& tool, const Circle& circle, double theta) {
+  // Where a front goes along a surface that was cut before, the stock has the ridges between its own cuts: what the tool meets must
+  // reach farther into it. What was taken lately is asked on the front itself, since such poses leave next to nothing.
+  if (!stock.holds(circle.at(theta, tool.grain_mm))) return false;
   const Vec3 x = circle.at(theta);
-  return stock.holds(x) && std::none_of(tool.lately.begin(), tool.lately.end(),
-                                        [&](const Pose& pose) { return tool.solid->holds(pose, x); });
+  return std::none_of(tool.lately.begin(), tool.lately.end(),
+                      [&](const Pose& pose) { return tool.solid->holds(pose, x); });
 }
 
 /// Where the answer changes between two angles: by halving, as the depth has jumps at edges.

@@ -21,6 +21,9 @@ struct MovingTool {
   Pose pose;
   PoseVelocity velocity;
   std::span<const Pose> lately;  ///< poses before this one that the stock still has, as near as they must be
+  /// What cuts of the stock leave between them, mm: ridges that are so low are not the part's, and no chip that is so thin can be
+  /// told from them. So what the tool meets must reach so far into its circles.
+  double grain_mm = 0.0;
 };
 
 /// Measures on circles of some heights. Immutable.

@@ -42,6 +42,7 @@ class Replayer {
         measured_(options.circles > 0),
         step_(step_for(radial, options.scallop_cells)),
         late_step_(step_for(radial, kLateScallop)),
+        grain_(options.scallop_cells * stock.cell()),
         lag_(measured_ ? kLagCells * stock.cell() : 0.0) {}
 
   void run(const std::vector<Strip>& strips, std::vector<StripReplay>& out);
@@ -67,7 +68,7 @@ class Replayer {
   FrontScan scan_;
   double length_;
   bool measured_;
-  double step_, late_step_, lag_;
+  double step_, late_step_, grain_, lag_;
   std::deque<Stretch> waiting_;
   double waiting_way_ = 0.0;
   std::vector<Pose> lately_;
@@ -114,7 +115,7 @@ void Replayer::run(const Strip& strip, std::size_t index, std::vector<StripRepla
     if (!measured_ || poses.size() < 2) continue;
     lately_.clear();
     for (const Stretch& stretch : waiting_) add_lately(stretch);
-    const FrontScan::Largest largest = scan_.largest(stock_, {&solid_, poses[k], velocity(poses, k), lately_});
+    const FrontScan::Largest largest = scan_.largest(stock_, {&solid_, poses[k], velocity(poses, k), lately_, grain_});
     replay.poses[k].angle_rad = largest.angle_rad;
     replay.poses[k].s = largest.s;
     replay.poses[k].measured = true;
