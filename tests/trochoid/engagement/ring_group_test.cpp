@@ -62,7 +62,8 @@ std::vector<std::size_t> wanted_between(const std::vector<double>& rough, const 
     EXPECT_EQ(wanted[k], k % 3 == 0);
     if (wanted[k] && exact[k] > 0.0) found.push_back({k, 0.0, {-0.5 * exact[k], 0.5 * exact[k]}});
   }
-  const bool some = wanted.go_on(rings, [&](std::size_t k) { return rough[k]; }, found);
+  const bool some = wanted.go_on(
+      rings, [&](std::size_t k) { return rough[k]; }, found);
   std::vector<std::size_t> out;
   for (std::size_t k = 0; k < rings.size(); ++k)
     if (wanted[k]) out.push_back(k);

@@ -43,7 +43,8 @@ TEST(RowRings, AllButSomeAreBetweenOthers) {
   }
   const double apart = 20.0 / 7.0;
   ASSERT_EQ(first.size(), 4u);
-  for (const auto& [k, s] : {std::pair{0u, 0.0}, {1u, 3.0}, {2u, 6.0}, {3u, 7.0}}) EXPECT_NEAR(first[k], s * apart, 1e-12);
+  for (const auto& [k, s] : {std::pair{0u, 0.0}, {1u, 3.0}, {2u, 6.0}, {3u, 7.0}})
+    EXPECT_NEAR(first[k], s * apart, 1e-12);
 }
 
 TEST(RowRings, ThoseOfTheVolumeAreNeverWhereTheyHaveJustBeen) {

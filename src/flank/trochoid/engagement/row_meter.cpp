@@ -35,8 +35,7 @@ RowFrame RowMeter::frame_of(const RuledMotion& motion, double t) {
 
 void RowMeter::look_roughly(const RowFrame& frame, std::span<const ToolRing> rings) {
   // What settled the row before settles nearly all of this one: then little is open for the close look.
-  for (const Settler& settler : settlers_)
-    near_.add_pose(frame, settler.sweep, settler.pose, own_last_, candidates_);
+  for (const Settler& settler : settlers_) near_.add_pose(frame, settler.sweep, settler.pose, own_last_, candidates_);
   near_.add(frame, {0.0, 0.0, stock_.profile().largest(), stock_.profile().low(), stock_.profile().high()}, {},
             own_last_, kRecent, kStride, scratch_, candidates_);
   filter_.take(candidates_);

@@ -132,8 +132,8 @@ class RowMeter {
   std::vector<Gap> open_gaps_;  ///< and what the first look left open of them, ring by ring
   std::vector<Arc> covered_;
   OpenSectors sectors_;
-  std::vector<std::size_t> cutters_;  ///< candidates that cut the gaps of this ring
-  std::vector<std::size_t> hints_;    ///< those of the ring before, the last ones first
+  std::vector<std::size_t> cutters_;               ///< candidates that cut the gaps of this ring
+  std::vector<std::size_t> hints_;                 ///< those of the ring before, the last ones first
   std::vector<Settler> settlers_, next_settlers_;  ///< of the row before, of this one
   std::vector<RingArc> found_;
 };
