@@ -209,8 +209,10 @@ RadiusFit SideFitter::fit_radius(const RadiusStart& first) const {
 }
 
 bool SideFitter::is_done(const Polished& polished) const {
+  // A term that is soft leaves its allowance by a hair, and a stout tool is not worth that.
+  constexpr double kHair = 1.01;
   const CoverageEstimate& e = polished.estimate;
-  if (e.overcut_mm > options_.fit.tolerance_mm || e.gouge_mm > options_.fit.tolerance_mm) return false;
+  if (std::max(e.overcut_mm, e.gouge_mm) > kHair * options_.fit.tolerance_mm) return false;
   const double asked = options_.fit.reach_radius_mm;
   return covers_reachable(left_, right_, e.at_tolerance, options_.least_coverage,
                           asked > 0.0 ? asked : polished.draft.tool.smallest());
