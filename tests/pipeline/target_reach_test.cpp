@@ -20,6 +20,11 @@ TEST(ReachFineness, ShrinksWithTheBallOfAPartOfAMillimetre) {
   EXPECT_DOUBLE_EQ(tiny.fine_mm, 0.00025);
   EXPECT_DOUBLE_EQ(tiny.cell_mm, 0.04);
   EXPECT_DOUBLE_EQ(reach_fineness(1e-6, 0.04).fine_mm, 4e-5);
+  // But not on a hub of a metre beside it.
+  EXPECT_DOUBLE_EQ(tiny.cell_on(1.0), 0.04);
+  EXPECT_DOUBLE_EQ(tiny.cell_on(1000.0), 1.0);
+  EXPECT_DOUBLE_EQ(reach_fineness(1e-6, 0.04).fine_on(1000.0), 0.001);
+  EXPECT_DOUBLE_EQ(reach_fineness(0.02, 3.0).cell_on(100.0), 1.0);
 }
 
 TEST(ReachFineness, GrowsWithTheBallSoThatAShipTakesNoMoreTrianglesThanABlade) {

@@ -16,6 +16,8 @@ constexpr double kFinestMm = 0.001, kCoarsestMm = 0.01, kToleranceShare = 0.25;
 constexpr double kFinestShare = 0.001, kCoarsestShare = 0.001;
 /// Borders are off by a part of a cell: mm, or a share of the ball's radius, as with the triangles.
 constexpr double kLongestCellMm = 1.0, kShortestCellShare = 1.0, kLongestCellShare = 0.1;
+/// Of a face's size, where lengths are less than usual: a hub beside a tiny target would take millions of triangles.
+constexpr double kFineShare = 1e-5, kCellShare = 1.0 / 300.0;
 constexpr double kFarShare = 0.1;  ///< of the ball's radius: of the triangles that only close a solid
 
 bool holds(const std::vector<int>& faces, int face) {
@@ -33,7 +35,10 @@ TriangleMesh triangles_of(const Part& part, int face, const Box3& near, const Re
   Box3 box;
   for (const Vec3& p : value.surface.poles) box.add(p);
   const bool meets = (box.low.array() <= near.high.array()).all() && (box.high.array() >= near.low.array()).all();
-  return tessellate(value, {.chord_mm = meets ? of.fine_mm : of.coarse_mm, .edge_mm = meets ? of.cell_mm : 1e300}).mesh;
+  const double size = box.diagonal();
+  return tessellate(value,
+                    {.chord_mm = meets ? of.fine_on(size) : of.coarse_mm, .edge_mm = meets ? of.cell_on(size) : 1e300})
+      .mesh;
 }
 
 /// No ball that touches the samples, nor anything that it could enter, is outside of this.
@@ -78,6 +83,14 @@ std::vector<TriangleMesh> meshes_of(const Setup& setup, const std::vector<int>& 
 }
 
 }  // namespace
+
+double ReachFineness::fine_on(double face_mm) const {
+  return std::max(fine_mm, std::min(kFinestMm, kFineShare * face_mm));
+}
+
+double ReachFineness::cell_on(double face_mm) const {
+  return std::max(cell_mm, std::min(kLongestCellMm, kCellShare * face_mm));
+}
 
 ReachFineness reach_fineness(double tolerance_mm, double radius_mm) {
   ReachFineness of;

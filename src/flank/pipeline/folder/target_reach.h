@@ -17,6 +17,9 @@ namespace flank::internal {
 struct ReachFineness {
   double fine_mm = 0.0, coarse_mm = 0.0;  ///< deviations where the ball may come near, and where it may not
   double cell_mm = 0.0;                   ///< the longest edge where it may
+  /// The same on a face of this size where the ball may come near: beside a target of a millimetre no finer than on a blade.
+  [[nodiscard]] double fine_on(double face_mm) const;
+  [[nodiscard]] double cell_on(double face_mm) const;
 };
 
 /// For a ball of this radius. From 10 mm on all lengths grow with the ball, so that a part of any size, with a tolerance and
