@@ -22,8 +22,8 @@ struct ReachFineness {
   [[nodiscard]] double cell_on(double face_mm) const;
 };
 
-/// For a ball of this radius. From 10 mm on all lengths grow with the ball, so that a part of any size, with a tolerance and
-/// a tool to match, takes as many triangles.
+/// For a ball of this radius. From 10 mm on all lengths grow with the ball, and below 1 mm they may shrink with it, so that a
+/// part of any size, with a tolerance and a tool to match, takes as many triangles.
 [[nodiscard]] ReachFineness reach_fineness(double tolerance_mm, double radius_mm);
 
 /// The ball that says what is reachable.
