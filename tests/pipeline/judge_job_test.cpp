@@ -76,27 +76,26 @@ TEST(JudgeJob, ASmallPartTakesAsManySamplesAsAHandsSize) {
   EXPECT_DOUBLE_EQ(default_spacing(2000.0), 2.0);
 }
 
-TEST(JudgeJob, AStoppedRunIsJudgedOnASmallFaceOfALargePart) {
-  Part part;
-  part.faces = {test::plane_face("F1", 5.0, 10.0), test::plane_face("F2", 400.0, 300.0, -20.0)};
-  for (const Face& face : part.faces) part.box.add(face.surface.poles.back()), part.box.add(face.surface.poles.front());
-  internal::Setup setup;
-  setup.part = part;
+/// A target of these sides, and a plane of 400 x 300 mm below it.
+Setup small_face_of_a_large_part(double width, double length) {
+  Setup setup;
+  setup.part.faces = {test::plane_face("F1", width, length), test::plane_face("F2", 400.0, 300.0, -20.0)};
+  for (const Face& face : setup.part.faces)
+    setup.part.box.add(face.surface.poles.back()), setup.part.box.add(face.surface.poles.front());
   setup.targets = {0};
   setup.checks = {1};
+  return setup;
+}
+
+TEST(JudgeJob, AStoppedRunIsJudgedOnASmallFaceOfALargePart) {
+  const auto setup = small_face_of_a_large_part(5.0, 10.0);
   const double spacing = coarse_spacing(setup, 20000.0);
-  EXPECT_LT(spacing, default_spacing(part.box.diagonal()));
+  EXPECT_LT(spacing, default_spacing(setup.part.box.diagonal()));
   EXPECT_GE(50.0 / (spacing * spacing), 500.0) << "or the judge refuses it, and a result is lost";
 }
 
 TEST(JudgeJob, ASmallFaceOfALargePartIsLookedAtAsFinely) {
-  Part part;
-  part.faces = {test::plane_face("F1", 2.0, 6.0), test::plane_face("F2", 400.0, 300.0, -20.0)};
-  for (const Face& face : part.faces) part.box.add(face.surface.poles.back()), part.box.add(face.surface.poles.front());
-  internal::Setup setup;
-  setup.part = part;
-  setup.targets = {0};
-  setup.checks = {1};
+  const auto setup = small_face_of_a_large_part(2.0, 6.0);
   Tool tool;
   tool.radial = RadialFunction::spline(8.0, Eigen::VectorXd::Constant(6, 1.0));
   Strip pass;

@@ -65,12 +65,15 @@ CoverageEstimate rough_estimate(const FitDraft& draft, const std::vector<Surface
   return estimate_coverage(samples, draft.motions, draft.tool, kQuickTolerances * tolerance_mm, poses);
 }
 
-double rough_gouge(const FitDraft& draft, int poses) {
-  return flank_gouge(draft.motions, draft.obstacles, draft.tool, poses, GougeLook::kRough);
-}
-
 double rough_score(const CoverageEstimate& estimate, double tolerance_mm) {
   return estimate.score(kQuickTolerances * tolerance_mm);
+}
+
+/// The score of what has its estimate, with what it enters.
+void score_with_gouge(Candidate& candidate, double tolerance_mm, int poses) {
+  const FitDraft& draft = candidate.draft;
+  candidate.estimate.gouge_mm = flank_gouge(draft.motions, draft.obstacles, draft.tool, poses, GougeLook::kRough);
+  candidate.score = rough_score(candidate.estimate, tolerance_mm);
 }
 
 /// The score is what it is if the fit enters nothing.
@@ -103,27 +106,19 @@ void sort_by_score(std::vector<Candidate>& candidates) {
                    [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
 }
 
-/// Looks for what the candidates enter, the most promising first, and keeps about the `most` best. A depth only lowers a score, and
-/// costs more than the fit: it is not asked of what cannot be among them.
+/// Of candidates that are sorted by what they score if they enter nothing: looks for what they enter, the first ones first, and
+/// keeps about the `most` best. A depth only lowers a score, and costs more than the fit: it is not asked of what cannot be
+/// among them.
 void rank_with_gouges(std::vector<Candidate>& candidates, std::size_t most, double tolerance_mm) {
-  const auto better = [](const Candidate* a, const Candidate* b) { return a->score > b->score; };
-  std::vector<Candidate*> order;
-  for (Candidate& candidate : candidates) order.push_back(&candidate);
-  std::stable_sort(order.begin(), order.end(), better);
   std::vector<double> known;  // scores, falling
-  while (known.size() < order.size()) {
-    if (known.size() >= most && order[known.size()]->score < known[most - 1]) break;
-    const std::size_t first = known.size(), count = std::min(most, order.size() - first);
-    parallel_for(count, [&](std::size_t k) {
-      Candidate& candidate = *order[first + k];
-      candidate.estimate.gouge_mm = rough_gouge(candidate.draft, kQuickPoses);
-      candidate.score = rough_score(candidate.estimate, tolerance_mm);
-    });
-    for (std::size_t k = first; k < first + count; ++k) known.push_back(order[k]->score);
+  while (known.size() < candidates.size()) {
+    if (known.size() >= most && candidates[known.size()].score < known[most - 1]) break;
+    const std::size_t first = known.size(), count = std::min(most, candidates.size() - first);
+    parallel_for(count, [&](std::size_t k) { score_with_gouge(candidates[first + k], tolerance_mm, kQuickPoses); });
+    for (std::size_t k = first; k < first + count; ++k) known.push_back(candidates[k].score);
     std::sort(known.begin(), known.end(), std::greater<>());
   }
-  for (std::size_t k = known.size(); k < order.size(); ++k) order[k]->draft.motions.clear();
-  std::erase_if(candidates, [](const Candidate& candidate) { return candidate.draft.motions.empty(); });
+  candidates.resize(known.size());
   sort_by_score(candidates);
 }
 
@@ -207,8 +202,7 @@ QuickStarts quick_starts(const Target& target, const ToolModel& tool, const Flan
   if (std::none_of(best.begin(), best.end(), [&](const Candidate& orbit) { return is_all(orbit, options); })) {
     for (Candidate& orbit : best) {
       orbit.estimate = rough_estimate(orbit.draft, few, options.tolerance_mm, kRankingPoses);
-      orbit.estimate.gouge_mm = rough_gouge(orbit.draft, kRankingPoses);
-      orbit.score = rough_score(orbit.estimate, options.tolerance_mm);
+      score_with_gouge(orbit, options.tolerance_mm, kRankingPoses);
     }
     std::vector<Candidate> others = best_in(charts.own, nullptr, {false, true});
     rank_with_gouges(others, static_cast<std::size_t>(options.kept_after_quick), options.tolerance_mm);

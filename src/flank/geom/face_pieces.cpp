@@ -298,9 +298,12 @@ void tidy(const View& view, double w, double width, Division& division) {
   }
   for (Stretch& edge : division.edges) {
     if (length_of(view, edge, w) >= kSharp * width) continue;
-    const bool at_border = !division.closed && (edge.first == first || edge.last == last);
-    const double cut = at_border ? (edge.first == first ? first : last) : edge.middle();
-    edge.first = edge.last = cut;
+    if (!division.closed && edge.first == first)
+      edge.last = first;
+    else if (!division.closed && edge.last == last)
+      edge.first = last;
+    else
+      edge.first = edge.last = edge.middle();
   }
 }
 

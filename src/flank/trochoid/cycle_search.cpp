@@ -153,11 +153,7 @@ void CycleSearch::take(Trial& trial, bool peak, bool volume) {
     back = backs_.measure(*trial.back, peak, volume, kRows, rings, meter_);
     stock_.add(Sweep::of(*trial.back, kHalfIntervals));
   }
-  const Engagement front = meter_.measure(trial.front,
-                                          peak && volume ? both_rings_
-                                          : peak         ? rings_
-                                                         : volume_rings_,
-                                          kRows);
+  const Engagement front = meter_.measure(trial.front, rings.of(peak, volume), kRows);
   if (trial.back) stock_.remove_last();
   if (peak) trial.largest_rad = std::max(back.peak->angle_rad, front.peak.angle_rad);
   if (volume) trial.volume_mm3 = *back.volume_mm3 + front.volume_mm3;

@@ -65,12 +65,11 @@ class JudgedShapes {
     meshes_.reserve(faces_.size());
     for (int face : faces_) {
       const bool target = holds(setup.targets, face);
-      const double here = target ? spacing : 2.0 * spacing;
+      const double here = target ? spacing : 2.0 * spacing, enough = target ? least : 0.0;
       if (!part.is_mesh()) {
         const Face& value = part.faces[static_cast<std::size_t>(face)];
         shapes_.emplace_back(&value);
-        add([&](double mm) { return verify::make_sampler(value, mm, target, kTileSamples); }, here,
-            target ? least : 0.0);
+        add([&](double mm) { return verify::make_sampler(value, mm, target, kTileSamples); }, here, enough);
         continue;
       }
       meshes_.push_back(extract_mesh(part, {face}));
@@ -78,7 +77,7 @@ class JudgedShapes {
       const auto make = [&](double mm) {
         return verify::make_sampler(part.face_id(face), meshes_.back(), mm, target, kTileSamples);
       };
-      add(make, here, target ? least : 0.0);
+      add(make, here, enough);
     }
   }
 

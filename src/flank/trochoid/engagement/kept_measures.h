@@ -12,6 +12,10 @@ namespace flank::internal {
 /// Rings that ask for the largest engagement, for the volume, and for both at once.
 struct MeasureRings {
   const RowRings &engagement, &volume, &both;
+  /// For one of the two at least.
+  [[nodiscard]] const RowRings& of(bool peak, bool for_volume) const {
+    return peak && for_volume ? both : peak ? engagement : volume;
+  }
 };
 
 /// Of motions with the same knots, which their control points tell apart. To be cleared when the stock is another one.
@@ -28,8 +32,7 @@ class KeptMeasures {
     Kept& kept = entry(motion);
     const bool more_peak = peak && !kept.peak, more_volume = volume && !kept.volume_mm3;
     if (!more_peak && !more_volume) return kept;
-    const RowRings& asked = more_peak && more_volume ? rings.both : more_peak ? rings.engagement : rings.volume;
-    const Engagement measured = meter.measure(motion, asked, rows);
+    const Engagement measured = meter.measure(motion, rings.of(more_peak, more_volume), rows);
     if (more_peak) kept.peak = measured.peak;
     if (more_volume) kept.volume_mm3 = measured.volume_mm3;
     return kept;
