@@ -11,6 +11,7 @@
 #include "flank/fit/coverage.h"
 #include "flank/fit/tried.h"
 #include "flank/pipeline/search/out_of_reach.h"
+#include "flank/pipeline/search/reach_ball.h"
 #include "flank/pipeline/search/search_setup.h"
 #include "flank/pipeline/search/stiff_fit.h"
 #include "flank/pipeline/search/strip_gain.h"
@@ -38,42 +39,6 @@ UserStart user_start(const FitJob& job) {
   return start;
 }
 
-/// The ball that fits into the target's own corners.
-double ball_for_corners(const FitJob& job, const Target& target, double radius) {
-  FlankFitOptions alone;
-  alone.tolerance_mm = job.tolerance_mm;
-  return ball_with_room(target, alone, radius);
-}
-
-/// Tools thinner than the bounds, if this ball is; not if the user bounds them.
-void allow_thin(const FitJob& job, double ball, RadiusBounds& bounds) {
-  constexpr double kThinner = 0.5;  // of the largest ball that fits: room for a tip that is thinner than the rest
-  if (!job.radius.min_mm && ball < bounds.smallest) bounds.smallest = kThinner * ball;
-}
-
-/// The bounds that the user gives, or the target's size. A groove takes tools that are thinner than that if it has to.
-RadiusBounds bounds_for(const FitJob& job, const Target& target) {
-  RadiusBounds bounds = radius_bounds(job.radius, job.obstacles, target.diagonal());
-  allow_thin(job, ball_for_corners(job, target, bounds.smallest), bounds);
-  return bounds;
-}
-
-/// Three digits: it is shown to people, and written into the command that makes the result again. Whole numbers are divided,
-/// so that no rounding of a unit shows.
-double three_digits(double radius) {
-  const double decimals = 2.0 - std::floor(std::log10(radius)), unit = std::pow(10.0, std::abs(decimals));
-  return decimals >= 0.0 ? std::round(radius * unit) / unit : std::round(radius / unit) * unit;
-}
-
-/// The ball that says what a free tool is to reach: of the part and of the demand, not of the tool, or a thick one would
-/// bring its own excuse. It is as thick as a cylinder as long as the target is wide that is just stiff enough.
-double demanded_reach(const FitJob& job, const Target& target, const RadiusBounds& bounds) {
-  if (job.judge.reach_radius_mm) return *job.judge.reach_radius_mm;
-  const double length = job.tool.axis_length_mm.value_or(std::sqrt(target.area()));
-  const double stiff = std::clamp(0.5 * length / bounds.slenderest, bounds.smallest, bounds.largest);
-  return three_digits(std::max(bounds.smallest, ball_for_corners(job, target, stiff)));
-}
-
 /// Of a fit that needs no rival: the judge, who is stricter than the estimate, still finds what is asked for covered. Little more
 /// than wanted_estimate: a fit that just misses this and has that is searched for by all other means, and then taken.
 double enough_for(double least_coverage) {
@@ -91,7 +56,7 @@ FlankFitOptions options_of(const FitJob& job, const Setup& setup, const Target& 
   options.enough_coverage = std::min(options.enough_coverage, enough_for(least));
   options.axis_length_mm = job.tool.axis_length_mm;
   options.bounds = bounds_for(job, target);
-  const double demanded = free_tool ? demanded_reach(job, target, options.bounds) : 0.0;
+  const double demanded = free_tool ? demanded_reach(job, setup, target, options.bounds) : 0.0;
   options.reach_radius_mm = job.judge.reach_radius_mm.value_or(demanded);
   return options;
 }
