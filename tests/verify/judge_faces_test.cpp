@@ -20,18 +20,20 @@ class HalfAPlane : public testing::Test {
   }
 
   [[nodiscard]] VerifyReport judged(double least_coverage) const {
-    verify::JudgedFace face{.face = "F1",
-                            .target = true,
-                            .size_mm = 45.0,
-                            .samples = [this](std::size_t, const auto& use) { use(samples_); },
-                            .shape = &shape_};
+    verify::JudgedFace face{
+        .face = "F1",
+        .target = true,
+        .size_mm = 45.0,
+        .samples = [this](std::size_t, bool fine, const auto& use) { use(fine ? fine_ : samples_); },
+        .shape = &shape_};
     return verify::judge_faces(tool_, path_, {face}, {}, least_coverage);
   }
 
   Tool tool_;
   Path path_;
   const Face face_ = test::plane_face("F1", 40.0, 20.0);
-  const FaceSamples samples_ = sample_face(face_, 0.2, true);
+  FaceSamples samples_ = sample_face(face_, 0.2, true);
+  FaceSamples fine_ = samples_;  ///< where cells that are reachable in part are cut
   const FaceShape shape_ = &face_;
 };
 
@@ -53,6 +55,24 @@ TEST_F(HalfAPlane, CostsNoMoreThanItsSamplesWhereNothingHangsOnIt) {
     EXPECT_LE(report.faces[0].cover_cells, samples_.points.size()) << least;
     EXPECT_EQ(report.coverage_reachable_bound, coarse.coverage_reachable_bound) << least;
   }
+}
+
+TEST_F(HalfAPlane, CellsThatAreReachableInPartAreCutWhereThatDecides) {
+  // Reachable is what is covered, but for a hair. Cells are 2 mm, then a quarter.
+  const auto reach_to = [](FaceSamples& samples, double short_by) {
+    samples.reachable.clear();
+    for (const auto& [u_low, u_high, v_low, v_high] : samples.cells) {
+      const double end = (20.0 + 0.1 * 20.0 * 0.5 * (v_low + v_high) - short_by) / 40.0;
+      samples.reachable.push_back(std::clamp((end - u_low) / (u_high - u_low), 0.0, 1.0));
+    }
+  };
+  samples_ = sample_face(face_, 2.0, true);
+  reach_to(samples_, 0.2);
+  fine_ = samples_;
+  EXPECT_LT(*judged(0.985).coverage_reachable_bound, 0.985);
+  fine_ = sample_face(face_, 0.25, true);
+  reach_to(fine_, 0.2);
+  EXPECT_GT(*judged(0.985).coverage_reachable_bound, 0.985);
 }
 
 }  // namespace

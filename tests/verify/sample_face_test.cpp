@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 #include "flank/base/random.h"
 #include "flank/error.h"
 #include "flank/judge.h"
+#include "flank/verify/sample_face.h"
 #include "verify/faces.h"
 
 namespace flank::internal {
@@ -67,6 +69,26 @@ TEST(SampleFace, RespectsOuterLoopAndHole) {
   for (const Vec3& p : s.points) {
     EXPECT_TRUE(p.x() >= 1.0 && p.x() <= 9.0 && p.z() >= 2.0 && p.z() <= 8.0) << p.transpose();
     EXPECT_GE(std::hypot(p.x() - 5.0, p.z() - 5.0), 2.0 - 2e-4) << p.transpose();
+  }
+}
+
+TEST(SampleFace, PartsOfCellsTileThem) {
+  Face face = test::quarter_cylinder("F1", 5.0, 8.0);
+  face.loops = {test::circle({0.5, 0.5}, 0.4)};
+  const auto sampler = verify::make_sampler(face, 1.0, true, 1 << 16);
+  const FaceSamples all = sampler->tile(0);
+  for (std::size_t i = 0; i < all.points.size(); i += 3) {
+    const FaceSamples parts = sampler->cut(all, std::array{i});
+    EXPECT_LE(parts.points.size(), 16u);
+    EXPECT_TRUE(parts.target);
+    // On the trim both are estimates.
+    EXPECT_NEAR(total(parts), all.areas[i], all.smooth[i] != 0 ? 1e-4 : 0.05);
+    for (std::size_t k = 0; k < parts.points.size(); ++k) {
+      EXPECT_LE((parts.points[k] - all.points[i]).norm(), 2.0 * all.reaches_mm[i]);
+      EXPECT_GE(parts.cells[k][0], all.cells[i][0]);
+      EXPECT_LE(parts.cells[k][1], all.cells[i][1]);
+    }
+    EXPECT_LT(parts.spacing_mm, 0.3 * all.spacing_mm);
   }
 }
 

@@ -1,12 +1,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
 #include "flank/base/random.h"
 #include "flank/error.h"
 #include "flank/judge.h"
+#include "flank/verify/sample_mesh.h"
 
 namespace flank::internal {
 namespace {
@@ -69,6 +71,22 @@ TEST(SampleMesh, ATriangleIsCutIntoSquaresOfWholeNumbers) {
     const FaceSamples one = sample_mesh("F1", mesh, 6.0, false);
     EXPECT_LT((one.points[0] - Vec3(1, 4.0 / 3.0, 0)).norm(), 1e-15);
     EXPECT_NEAR(one.spacing_mm, Vec2(1, 4.0 / 3.0 - 4.0).norm(), 1e-15) << "to the farthest corner, whichever it is";
+  }
+}
+
+TEST(SampleMesh, PartsOfCellsTileThem) {
+  const TriangleMesh mesh = random_mesh(3, 4);
+  const auto sampler = verify::make_sampler("F1", mesh, 1.5, true, 1 << 16);
+  const FaceSamples all = sampler->tile(0);
+  for (std::size_t i = 0; i < all.points.size(); ++i) {
+    const FaceSamples parts = sampler->cut(all, std::array{i});
+    ASSERT_EQ(parts.points.size(), 16u);
+    EXPECT_NEAR(std::accumulate(parts.areas.begin(), parts.areas.end(), 0.0), all.areas[i], 1e-12);
+    Vec3 middle = Vec3::Zero();
+    for (const Vec3& p : parts.points) middle += p / 16.0;
+    EXPECT_LT((middle - all.points[i]).norm(), 1e-12);
+    EXPECT_EQ(parts.normals[5], all.normals[i]);
+    EXPECT_LE(parts.spacing_mm, 0.25 * all.spacing_mm + 1e-12);
   }
 }
 

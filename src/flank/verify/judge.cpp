@@ -91,7 +91,7 @@ VerifyReport judge(const Tool& tool, const Path& path, const std::vector<FaceSam
     judged.push_back({.face = face.face,
                       .target = face.target,
                       .size_mm = size_of(face),
-                      .samples = [&face](std::size_t, const auto& use) { use(face); },
+                      .samples = [&face](std::size_t, bool, const auto& use) { use(face); },
                       .shape = shapes.empty() ? nullptr : &shapes[k]});
   }
   return judge_faces(tool, path, judged, options);

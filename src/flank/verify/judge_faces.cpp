@@ -12,6 +12,7 @@
 #include "flank/verify/proof/face_shape.h"
 #include "flank/verify/proof/mesh_shape.h"
 #include "flank/verify/prove.h"
+#include "flank/verify/reach_border.h"
 
 namespace flank::internal::verify {
 namespace {
@@ -63,14 +64,21 @@ class Judge {
     keep_ = least_coverage > 0.0;
     std::vector<Known> known(faces.size());
     std::vector<FaceResult> results(faces.size());
-    const std::size_t first = keep_ ? 0 : 1;
-    for (std::size_t look = first; look < kLooks.size(); ++look) {
+    bool again = false;
+    for (std::size_t look = keep_ ? 0 : 1; look < kLooks.size();) {
       balls_a_sample_ = kLooks[look] * static_cast<double>(options_.proof.cover_evaluations);
       begin();
       for (std::size_t k = 0; k < faces.size(); ++k)
-        if (look == first || faces[k].target) results[k] = judge_face(faces[k], known[k]);
+        if (!again || faces[k].target) results[k] = judge_face(faces[k], known[k]);
       finish(results, shapes && !faces.empty());
+      again = true;
+      if (border_decides(least_coverage, known)) {
+        fine_ = true;
+        for (Known& face : known) face.samples.reset();
+        continue;
+      }
       if (!undecided(least_coverage)) break;
+      ++look;
     }
     return std::move(report_);
   }
@@ -87,6 +95,18 @@ class Judge {
   [[nodiscard]] bool undecided(double least) const {
     return report_.coverage_reachable >= least && report_.overcut_bound_mm <= report_.tolerance_mm &&
            report_.coverage_reachable_bound && *report_.coverage_reachable_bound < least;
+  }
+
+  /// May the cells in which what is reachable ends tell whether what is needed is covered? They count whole where they are open, and
+  /// as their middle is where they are measured.
+  [[nodiscard]] bool border_decides(double least, const std::vector<Known>& known) const {
+    const double sure = report_.coverage_reachable_bound.value_or(report_.coverage_reachable);
+    if (!keep_ || fine_ || report_.overcut_bound_mm > report_.tolerance_mm || sure >= least) return false;
+    double border = 0.0;
+    for (const Known& face : known)
+      if (face.samples)
+        for (const std::size_t i : reach_border(*face.samples)) border += face.samples->areas[i];
+    return report_.coverage_reachable + share_of(border, reachable_mm2_) >= least;
   }
 
   /// f at the samples of a face. On a check surface only overcut matters, at the samples and between them; where the
@@ -117,7 +137,7 @@ class Judge {
       use(*known.samples, known.distances);
       return;
     }
-    face.samples(tile, [&](const FaceSamples& samples) {
+    face.samples(tile, fine_, [&](const FaceSamples& samples) {
       std::vector<SweptDistance> distances = measure(samples);
       use(samples, distances);
       // Faces in many tiles are measured again: all of them together would take too much memory.
@@ -204,6 +224,7 @@ class Judge {
     report_.coverage = share_of(totals.covered, totals.area);
     report_.reachable_share = share_of(totals.reachable, totals.area);
     report_.coverage_reachable = share_of(totals.covered_reachable, totals.reachable);
+    reachable_mm2_ = totals.reachable;
     if (cover_proved) {
       report_.coverage_bound = share_of(totals.proved, totals.area);
       report_.coverage_reachable_bound = share_of(totals.proved_reachable, totals.reachable);
@@ -225,7 +246,8 @@ class Judge {
   const JudgeOptions& options_;
   SweptVolume volume_;
   double balls_a_sample_ = 0.0;  ///< that a look at coverage may take
-  bool prove_depth_ = false, keep_ = false;
+  double reachable_mm2_ = 0.0;
+  bool prove_depth_ = false, keep_ = false, fine_ = false;
   VerifyReport report_;
 };
 

@@ -15,13 +15,15 @@ struct JudgedFace {
   bool target = false;
   double size_mm = 0.0;  ///< diagonal of a box about it, about
   std::size_t tiles = 1;
-  /// Calls its argument with the samples of a tile, with their reachable shares.
-  std::function<void(std::size_t tile, const std::function<void(const FaceSamples&)>& use)> samples;
+  /// Calls its last argument with the samples of a tile, with their reachable shares. `fine`: where the border of what is reachable
+  /// runs, of cells that are a part of the others' size.
+  std::function<void(std::size_t tile, bool fine, const std::function<void(const FaceSamples&)>& use)> samples;
   const FaceShape* shape = nullptr;  ///< null: not known, so nothing is proved
 };
 
 /// judge() of flank/judge.h. Where the targets are measured to be covered by `least_coverage` of what is reachable, and not
-/// proved to be, and the verdict hangs on that alone, the proof of coverage goes on, finer.
+/// proved to be, and the verdict hangs on that alone, the proof of coverage goes on, finer; and where it may hang on the cells that
+/// are reachable in part, these are cut first.
 [[nodiscard]] VerifyReport judge_faces(const Tool& tool, const Path& path, const std::vector<JudgedFace>& faces,
                                        const JudgeOptions& options, double least_coverage = 0.0);
 

@@ -211,26 +211,48 @@ class FaceSampler final : public Sampler {
   }
 
   [[nodiscard]] FaceSamples tile(std::size_t k) const override {
-    FaceSamples out;
-    out.face = face_.id;
-    out.target = target_;
-    out.of_solid = face_.of_solid;
-    for (std::size_t j = k * rows_; j < std::min((k + 1) * rows_, vs_.size() - 1); ++j) {
-      const Range v{vs_[j], vs_[j + 1]};
-      const RowCrossings row = row_crossings(*trim_, v);
-      for (std::size_t i = 0; i + 1 < us_.size(); ++i) {
-        const Range u{us_[i], us_[i + 1]};
-        const CellPart part = inside_part(*trim_, row, u, v);
-        if (!(part.share > 0.0)) continue;
-        add_cell(out, face_.surface, part, u, v, face_.reversed);
-        out.cells.push_back({u.low, u.high, v.low, v.high});
-        out.smooth.push_back(smooth(u, v) ? 1 : 0);
+    FaceSamples out = begin();
+    for (std::size_t j = k * rows_; j < std::min((k + 1) * rows_, vs_.size() - 1); ++j)
+      add_row(out, us_, {vs_[j], vs_[j + 1]});
+    return out;
+  }
+
+  [[nodiscard]] FaceSamples cut(const FaceSamples& samples, std::span<const std::size_t> which) const override {
+    FaceSamples out = begin();
+    std::vector<double> us(kCut + 1), vs(kCut + 1);
+    for (const std::size_t i : which) {
+      const auto& [u_low, u_high, v_low, v_high] = samples.cells[i];
+      for (int k = 0; k <= kCut; ++k) {
+        us[static_cast<std::size_t>(k)] = u_low + (u_high - u_low) * k / kCut;
+        vs[static_cast<std::size_t>(k)] = v_low + (v_high - v_low) * k / kCut;
       }
+      for (std::size_t j = 0; j < kCut; ++j) add_row(out, us, {vs[j], vs[j + 1]});
     }
     return out;
   }
 
  private:
+  [[nodiscard]] FaceSamples begin() const {
+    FaceSamples out;
+    out.face = face_.id;
+    out.target = target_;
+    out.of_solid = face_.of_solid;
+    return out;
+  }
+
+  /// The samples of a row of cells between these borders.
+  void add_row(FaceSamples& out, const std::vector<double>& us, Range v) const {
+    const RowCrossings row = row_crossings(*trim_, v);
+    for (std::size_t i = 0; i + 1 < us.size(); ++i) {
+      const Range u{us[i], us[i + 1]};
+      const CellPart part = inside_part(*trim_, row, u, v);
+      if (!(part.share > 0.0)) continue;
+      add_cell(out, face_.surface, part, u, v, face_.reversed);
+      out.cells.push_back({u.low, u.high, v.low, v.high});
+      out.smooth.push_back(smooth(u, v) ? 1 : 0);
+    }
+  }
+
   void lay_out(double spacing_mm) {
     const BSplineSurface& s = face_.surface;
     Range u{s.u_first(), s.u_last()}, v{s.v_first(), s.v_last()};

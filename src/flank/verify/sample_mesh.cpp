@@ -48,14 +48,28 @@ class MeshSampler final : public Sampler {
   [[nodiscard]] double size_mm() const override { return mesh_.box().diagonal(); }
 
   [[nodiscard]] FaceSamples tile(std::size_t k) const override {
-    FaceSamples out;
-    out.face = id_;
-    out.target = target_;
+    FaceSamples out = begin();
     if (k + 1 >= starts_.size()) return out;
     const Start from = starts_[k], to = starts_[k + 1];
     for (std::size_t t = from.triangle; t < mesh_.triangles.size() && t <= to.triangle; ++t) {
       const int end = t == to.triangle ? to.row : std::numeric_limits<int>::max();
       add_rows(out, t, t == from.triangle ? from.row : 0, end);
+    }
+    return out;
+  }
+
+  [[nodiscard]] FaceSamples cut(const FaceSamples& samples, std::span<const std::size_t> which) const override {
+    FaceSamples out = begin();
+    for (const std::size_t i : which) {
+      const auto& [triangle, u, v, size] = samples.cells[i];
+      const Corner corner = corner_of(static_cast<std::size_t>(triangle));
+      const double part = size / kCut;
+      for (int a = 0; a < kCut; ++a) {
+        for (int b = 0; a + b < kCut; ++b) {
+          add(out, corner, {triangle, u + a * part, v + b * part, part});
+          if (a + b + 1 < kCut) add(out, corner, {triangle, u + (a + 1) * part, v + (b + 1) * part, -part});
+        }
+      }
     }
     return out;
   }
@@ -77,25 +91,49 @@ class MeshSampler final : public Sampler {
     return static_cast<int>(std::clamp(std::ceil(longest / spacing_), 1.0, kMostParts));
   }
 
+  /// A triangle by its first corner and the sides from there.
+  struct Corner {
+    Vec3 a, ab, ac;
+    Vec3 normal = Vec3::Zero();
+    double area = 0.0, farthest = 0.0;  ///< of a corner from the centroid, mm
+  };
+
+  [[nodiscard]] Corner corner_of(std::size_t t) const {
+    Corner c{corner(t, 0), corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0)};
+    const Vec3 across = c.ab.cross(c.ac), centroid = (c.ab + c.ac) / 3.0;
+    c.area = 0.5 * across.norm();
+    if (c.area > 0.0) c.normal = across.normalized();
+    c.farthest = std::max({centroid.norm(), (centroid - c.ab).norm(), (centroid - c.ac).norm()});
+    return c;
+  }
+
+  [[nodiscard]] FaceSamples begin() const {
+    FaceSamples out;
+    out.face = id_;
+    out.target = target_;
+    return out;
+  }
+
+  /// The sample of a cell (FaceSamples::cells) of a triangle.
+  static void add(FaceSamples& out, const Corner& c, const std::array<double, 4>& cell) {
+    const auto& [triangle, u, v, size] = cell;
+    out.points.push_back(c.a + (u + size / 3.0) * c.ab + (v + size / 3.0) * c.ac);
+    out.areas.push_back(c.area * size * size);
+    out.normals.push_back(c.normal);
+    out.cells.push_back(cell);
+    out.spacing_mm = std::max(out.spacing_mm, c.farthest * std::abs(size));
+  }
+
   void add_rows(FaceSamples& out, std::size_t t, int first, int end) const {
     const int n = parts_of(t);
     if (first >= std::min(n, end)) return;
-    const Vec3 a = corner(t, 0), ab = corner(t, 1) - a, ac = corner(t, 2) - a;
-    const double area = 0.5 * ab.cross(ac).norm() / n / n;
-    const Vec3 normal = area > 0.0 ? ab.cross(ac).normalized() : Vec3(Vec3::Zero());
-    const Vec3 centroid = (ab + ac) / 3.0;
-    out.spacing_mm =
-        std::max({out.spacing_mm, centroid.norm() / n, (centroid - ab).norm() / n, (centroid - ac).norm() / n});
-    const auto add = [&](double u, double v, double size) {
-      out.points.push_back(a + (u + size / 3.0) / n * ab + (v + size / 3.0) / n * ac);
-      out.areas.push_back(area);
-      out.normals.push_back(normal);
-      out.cells.push_back({static_cast<double>(t), u / n, v / n, size / n});
-    };
+    const Corner corner = corner_of(t);
+    const auto at = static_cast<double>(t), size = 1.0 / n;
     for (int i = first; i < std::min(n, end); ++i) {
       for (int j = 0; i + j < n; ++j) {
-        add(i, j, 1.0);
-        if (i + j + 1 < n) add(i + 1, j + 1, -1.0);
+        add(out, corner, {at, static_cast<double>(i) / n, static_cast<double>(j) / n, size});
+        if (i + j + 1 < n)
+          add(out, corner, {at, static_cast<double>(i + 1) / n, static_cast<double>(j + 1) / n, -size});
       }
     }
   }

@@ -9,6 +9,7 @@
 #include "flank/base/stopping.h"
 #include "flank/error.h"
 #include "flank/pipeline/folder/find_buried.h"
+#include "flank/pipeline/folder/fine_border.h"
 #include "flank/pipeline/folder/target_reach.h"
 #include "flank/setup/targets.h"
 #include "flank/verify/judge_faces.h"
@@ -109,10 +110,10 @@ std::vector<verify::JudgedFace> JudgedShapes::judged(const Setup& setup, const T
     const int face = faces_[k];
     const bool target = holds(setup.targets, face);
     const verify::Sampler* sampler = samplers_[k].get();
-    const auto samples = [=](std::size_t tile, const std::function<void(const FaceSamples&)>& use) {
+    const auto samples = [=](std::size_t tile, bool fine, const std::function<void(const FaceSamples&)>& use) {
       FaceSamples here = sampler->tile(tile);
       if (target && reach != nullptr) reach->fill(face, here);
-      use(here);
+      use(fine && target && reach != nullptr ? with_fine_border(*sampler, *reach, face, here) : here);
     };
     out.push_back({setup.part.face_id(face), target, sampler->size_mm(), sampler->tiles(), samples,
                    proofs ? &shapes_[k] : nullptr});
