@@ -106,8 +106,7 @@ struct FlankFitOptions {
   /// Covered share in [0, 1]: if the best candidate covers less than this after the polish, the last passes are
   /// skipped. 0: never. For a caller that would try more strips in that case anyway.
   double least_coverage_for_last_passes = 0.0;
-  /// Where not all can be covered: passes that give up what is beyond the tolerance. Switch them off for a mesh: they use up
-  /// the room that its noise needs, which the judge sees and the fit, on smooth surfaces through the mesh, does not.
+  /// Where not all can be covered: passes that give up what is beyond the tolerance.
   bool partial_passes = true;
   /// fit_automatic: what the flank must not enter; outlives the call. Null: nothing is in the way. fit_from_starts
   /// takes it from its tasks instead.

@@ -114,9 +114,9 @@ SideFitOptions side_options(const TrochoidJob& job, const CavityFaces& faces) {
 }
 
 /// What the flank keeps clear of, and how wide the cavity is where a tool comes.
-void surround(const TrochoidJob& job, const Setup& setup, CavityFaces& faces, std::vector<std::string>& notes) {
+void surround(const TrochoidJob& job, const Setup& setup, CavityFaces& faces) {
   // As far as the thickest tool that is tried.
-  add_group_obstacles(setup, job.obstacles.clearance_mm, bounds_of(job, faces.width).front(), faces.sides, notes);
+  add_group_obstacles(setup, job.obstacles.clearance_mm, bounds_of(job, faces.width).front(), faces.sides);
   faces.width = width_between(side_of(faces.sides[0]), side_of(faces.sides[1]));
   if (!(faces.width.narrowest_mm > 0.0))
     throw InputError(
@@ -221,7 +221,7 @@ Result run_trochoid(const TrochoidJob& job, const Progress& asked) {
   progress.journal->begin(journal_key(job, result.part_sha256));
   CavityFaces faces = cavity_faces(job, setup);
   const ClearanceScene scene = make_clearance_scene(setup, job.obstacles, has_body(spec, job.obstacles), result.notes);
-  if (job.avoid) surround(job, setup, faces, result.notes);
+  if (job.avoid) surround(job, setup, faces);
   require_room(job, spec, faces);
   SideFitOptions options = side_options(job, faces);
   options.up = up_from_floor(job, setup, faces);

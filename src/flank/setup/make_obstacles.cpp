@@ -12,6 +12,7 @@
 #include "flank/base/parallel.h"
 #include "flank/error.h"
 #include "flank/io/cad/triangulate.h"
+#include "flank/surface/facets.h"
 
 namespace flank::internal {
 namespace {
@@ -46,19 +47,15 @@ Box3 hull_of(const Face& face) {
   return box;
 }
 
-/// The face as a surface of its own; null if a mesh region is too small to be one.
+/// The face as a surface of its own.
 std::unique_ptr<Target> surface_of(const Part& part, int face) {
-  if (!part.is_mesh()) return make_target(std::vector<Face>{part.faces[static_cast<std::size_t>(face)]});
-  try {
-    return make_target(extract_mesh(part, {face}));
-  } catch (const InputError&) {
-    return nullptr;
-  }
+  if (part.is_mesh()) return make_facets(extract_mesh(part, {face}));
+  return make_target(std::vector<Face>{part.faces[static_cast<std::size_t>(face)]});
 }
 
 /// Those of `faces` within reach of the target's samples, as surfaces.
 void add_surfaces(const Part& part, const std::vector<int>& faces, const std::vector<SurfaceSample>& samples,
-                  double reach_mm, double clearance_mm, Obstacles& obstacles, std::vector<std::string>& notes) {
+                  double reach_mm, double clearance_mm, Obstacles& obstacles) {
   const double reach = reach_mm + clearance_mm;
   std::vector<ObstacleFace> all(faces.size());
   std::vector<char> far(faces.size(), 0);
@@ -71,13 +68,8 @@ void add_surfaces(const Part& part, const std::vector<int>& faces, const std::ve
     all[k].clearance_mm = clearance_mm;
     all[k].oriented = face != nullptr && face->of_solid;
   });
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    if (far[k]) continue;
-    if (!all[k].surface)
-      notes.push_back(part.face_id(faces[k]) + ": too few triangles to steer clear of; the judge looks at it");
-    else if (box_gap(all[k].surface->box(), samples) <= reach)
-      obstacles.faces.push_back(std::move(all[k]));
-  }
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (far[k] == 0 && box_gap(all[k].surface->box(), samples) <= reach) obstacles.faces.push_back(std::move(all[k]));
 }
 
 /// Is any of a face within reach of the target? Judged by points of its surface, so by a little more than its trimmed
@@ -192,14 +184,13 @@ void add_meshes(const Part& part, const Target& target, const ObstacleChoice& ch
 
 /// All faces of the fixtures: nothing of the tool comes nearer than the clearance.
 void add_fixtures(const Target& target, const ObstacleChoice& choice, const ObstacleDetail& detail,
-                  const std::vector<SurfaceSample>& samples, Obstacles& obstacles, std::vector<std::string>& notes) {
+                  const std::vector<SurfaceSample>& samples, Obstacles& obstacles) {
   const double clearance_mm = planned_clearance(choice);
   for (const Part& fixture : choice.fixtures) {
     std::vector<int> faces(static_cast<std::size_t>(fixture.face_count()));
     std::iota(faces.begin(), faces.end(), 0);
     std::erase_if(faces, [&](int face) { return fixture.is_left_out(face); });  // nothing is known of them
-    if (detail.faces_within_mm)
-      add_surfaces(fixture, faces, samples, *detail.faces_within_mm, clearance_mm, obstacles, notes);
+    if (detail.faces_within_mm) add_surfaces(fixture, faces, samples, *detail.faces_within_mm, clearance_mm, obstacles);
     if (!detail.meshes_within_mm) continue;
     const std::vector<int> near = near_faces(fixture, faces, target, *detail.meshes_within_mm + clearance_mm);
     for (ObstacleMesh& mesh : meshes_of(fixture, near, detail.deviation_mm)) {
@@ -233,18 +224,18 @@ ObstacleChoice choose_obstacles(const std::vector<int>& own, const std::vector<i
 }
 
 Obstacles make_obstacles(const Part& part, const Target& target, const ObstacleChoice& choice,
-                         const ObstacleDetail& detail, std::vector<std::string>& notes) {
+                         const ObstacleDetail& detail) {
   constexpr int kSamples = 200;
   Obstacles obstacles;
   std::vector<SurfaceSample> samples;
   if (detail.faces_within_mm) {
     // About 200 of them: only the nearness of boxes is measured by them.
     samples = target.samples(std::sqrt(target.area() / kSamples));
-    add_surfaces(part, choice.others, samples, *detail.faces_within_mm, 0.0, obstacles, notes);
+    add_surfaces(part, choice.others, samples, *detail.faces_within_mm, 0.0, obstacles);
   }
   if (detail.meshes_within_mm) add_meshes(part, target, choice, detail, obstacles);
   if (detail.own_deviation_mm) add_own(part, choice, detail, obstacles);
-  add_fixtures(target, choice, detail, samples, obstacles, notes);
+  add_fixtures(target, choice, detail, samples, obstacles);
   return obstacles;
 }
 

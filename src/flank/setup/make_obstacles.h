@@ -35,10 +35,9 @@ struct ObstacleDetail {
 [[nodiscard]] ObstacleChoice choose_obstacles(const std::vector<int>& own, const std::vector<int>& targets,
                                               const std::vector<int>& checks);
 
-/// The obstacles at `target`. Regions of a mesh that are too small for a surface are left to the judge, and named in
-/// `notes`.
+/// The obstacles at `target`; those of a mesh are its triangles.
 [[nodiscard]] Obstacles make_obstacles(const Part& part, const Target& target, const ObstacleChoice& choice,
-                                       const ObstacleDetail& detail, std::vector<std::string>& notes);
+                                       const ObstacleDetail& detail);
 
 /// Reads fixtures; `unit` is that of meshes, whose files say none. Throws InputError as read_part does.
 [[nodiscard]] std::vector<Part> read_fixtures(const std::vector<std::string>& files,

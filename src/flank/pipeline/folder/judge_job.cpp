@@ -9,7 +9,6 @@
 #include "flank/base/stopping.h"
 #include "flank/error.h"
 #include "flank/pipeline/folder/find_buried.h"
-#include "flank/pipeline/folder/fine_border.h"
 #include "flank/pipeline/folder/target_reach.h"
 #include "flank/setup/targets.h"
 #include "flank/verify/judge_faces.h"

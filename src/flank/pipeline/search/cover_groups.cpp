@@ -46,8 +46,7 @@ Obstacles obstacles_of(const CoverJob& job, const Setup& setup, const TargetGrou
     detail.own_deviation_mm = std::clamp(kToleranceBudget.shank.triangles * tolerance_mm, 1e-3, 0.02);
     detail.own_spare_mm = kToleranceBudget.shank.spare * tolerance_mm;
   }
-  std::vector<std::string> notes;  // triangles are always to be had
-  return make_obstacles(setup.part, *group.target, choice, detail, notes);
+  return make_obstacles(setup.part, *group.target, choice, detail);
 }
 
 }  // namespace flank::internal

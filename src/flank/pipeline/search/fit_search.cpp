@@ -49,7 +49,6 @@ double enough_for(double least_coverage) {
 /// `free_tool`: what is reachable is asked with the ball of the demand.
 FlankFitOptions options_of(const FitJob& job, const Setup& setup, const Target& target, bool free_tool) {
   FlankFitOptions options;
-  options.partial_passes = !setup.part.is_mesh();
   const double most = most_of_facets(target, job.tolerance_mm), least = std::min(job.judge.least_coverage, most);
   options.ways = least == job.judge.least_coverage;  // they cost as much as all else, and facets stay what they are
   options.tolerance_mm = job.tolerance_mm;
@@ -214,9 +213,7 @@ FitSearch begin_side(const FitJob& job, const Setup& setup, const ToolModel& too
   search.tool = tool;
   search.options = options_of(job, setup, *search.targets.front().target, tool.free());
   if (tool.free()) search.reach_radius_mm = search.options.reach_radius_mm;
-  if (job.avoid)
-    add_group_obstacles(setup, job.obstacles.clearance_mm, search.options.bounds.largest, search.targets,
-                        search.fit.notes);
+  if (job.avoid) add_group_obstacles(setup, job.obstacles.clearance_mm, search.options.bounds.largest, search.targets);
   fit_ball_to_slot(job, search);
   return search;
 }

@@ -54,7 +54,7 @@ RadiusBounds radius_bounds(const RadiusRequest& radius, const ObstacleRequest& o
 }
 
 void add_group_obstacles(const Setup& setup, const std::optional<double>& clearance_mm, double largest_radius,
-                         std::vector<TargetGroup>& targets, std::vector<std::string>& notes) {
+                         std::vector<TargetGroup>& targets) {
   /// The flank lies within a diameter of its target, and the walls of a channel beyond it count.
   constexpr double kReach = 2.0;
   for (TargetGroup& group : targets) {
@@ -64,7 +64,7 @@ void add_group_obstacles(const Setup& setup, const std::optional<double>& cleara
     choice.tolerance_mm = setup.tolerance_mm;
     ObstacleDetail detail;
     detail.faces_within_mm = kReach * largest_radius;
-    const Obstacles obstacles = make_obstacles(setup.part, *group.target, choice, detail, notes);
+    const Obstacles obstacles = make_obstacles(setup.part, *group.target, choice, detail);
     if (!obstacles.faces.empty())
       group.obstacles = std::make_unique<ObstacleField>(obstacles, *group.target,
                                                         voter_height(obstacles, *group.target, largest_radius),

@@ -17,6 +17,6 @@ namespace flank::internal {
 
 /// Gives every target what its flank keeps clear of: the check faces, the other targets and fixtures.
 void add_group_obstacles(const Setup& setup, const std::optional<double>& clearance_mm, double largest_radius,
-                         std::vector<TargetGroup>& targets, std::vector<std::string>& notes);
+                         std::vector<TargetGroup>& targets);
 
 }  // namespace flank::internal
