@@ -183,6 +183,30 @@ TEST(Engagement, WhatALeaningToolLeavesBesideItsRoundEndIsMaterial) {
   EXPECT_LE(scallops, 4 * scenes / 100);
 }
 
+TEST(Engagement, BesideThePoleOfAToolThatHardlyLeansLittleIsCovered) {
+  // Strokes of the layer above pass over a ring by so little that their round ends just touch it. As circles in its plane they
+  // would cover stretches that they leave, and the ends of what is left beside these would be found twice.
+  constexpr double kRadius = 4.5, kLength = 30.0, kRing = 12.0;
+  Random random(11);
+  const RuledMotion next = straight(Vec3(0, 0, 0), Vec3::UnitZ(), 10.0, kLength);
+  const int scenes = kSanitized ? 20 : 120;
+  int touched = 0;
+  for (int k = 0; k < scenes; ++k) {
+    SweptStock stock(cylinder(kRadius, kLength), {});
+    const double lean = random.uniform(0.3, 2.8) * kDegree, about = random.uniform(-kPi, kPi);
+    const Vec3 axis(std::sin(lean) * std::cos(about), std::sin(lean) * std::sin(about), std::cos(lean));
+    const double deep = random.uniform(0.02, 0.3), across = random.uniform(-4.0, 4.0);
+    for (int j = 0; j < 3; ++j)
+      stock.add(Sweep::of(straight(Vec3(-20, across + 0.9 * j, kRing + kRadius - deep), axis, 50.0, kLength), 200));
+    EngagementMeter meter(stock);
+    const ToolRing ring = ring_at(stock.radial(), kRing);
+    const double angle = meter.angle(next, 0.5, ring) / kDegree, truth = scanned(stock, next, 0.5, ring) / kDegree;
+    EXPECT_NEAR(angle, truth, 0.05) << k << ", leaning by " << lean / kDegree << ", " << deep << " mm deep";
+    touched += truth < 179.0 ? 1 : 0;
+  }
+  EXPECT_GE(touched, scenes / 4);
+}
+
 TEST(Engagement, DoesNotDependOnTheOrderInWhichLeaningToolsCut) {
   constexpr double kRadius = 6.0, kLength = 22.0;
   Random random(7);

@@ -48,14 +48,16 @@ struct Sector {
   }
 };
 
-/// How deep the place of the ring at an angle lies in the tool, mm^2: an upright one is a disc there, a leaning one is not.
+/// How deep the place of the ring at an angle lies in the tool, mm^2: one that hardly leans is a disc there, beside its
+/// flank; others are not.
 double depth2(const ToolProfile& tool, const NearPose& pose, const ToolRing& ring, double angle) {
   const Vec2 from(ring.radius * std::cos(angle) - pose.x0 - ring.z * pose.dx,
                   ring.radius * std::sin(angle) - pose.y0 - ring.z * pose.dy);
-  const bool leans = pose.slope2() > kLeaning * kLeaning;
+  const double height = pose.h0 + ring.z * pose.dh;
+  const bool leans = pose.slope2() > kLeaning * kLeaning || height < tool.flank_low() || height > tool.flank_high();
   const double along = leans ? (pose.dx * from.x() + pose.dy * from.y()) / pose.dh : 0.0;
   ToolProfile::Place place;
-  if (!tool.at(pose.h0 + ring.z * pose.dh + along, place)) return -1e300;
+  if (!tool.at(height + along, place)) return -1e300;
   return place.radius * place.radius - from.squaredNorm() + along * along;
 }
 
@@ -124,6 +126,15 @@ TEST(PoseFilter, LeavesNoUprightToolOutAndAddsFew) {
                                        [&](std::size_t k) { return !is_asked_for(tool, poses[k], ring, arcs); });
       EXPECT_LE(static_cast<double>(added), kMostAdded * static_cast<double>(found.all.size())) << z;
     }
+}
+
+TEST(PoseFilter, LeavesNoToolOutThatHardlyLeansOverItsPole) {
+  const ToolProfile tool = barrel_profile();
+  std::vector<NearPose> poses = poses_around(4001, 0.03, 8);
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> beside(-0.3, 0.6);
+  for (NearPose& pose : poses) pose.h0 = tool.low() + beside(random);
+  for (const std::vector<Sector>& arcs : kOpenArcs) EXPECT_GT(look(poses, ring_of(0.0, 6.5), arcs).covering, 5);
 }
 
 TEST(PoseFilter, LeavesNoLeaningToolOut) {

@@ -1,12 +1,30 @@
-/// What a tool covers of a ring that it leans against.
+/// What a tool covers of a ring that it leans against, a little or much.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "flank/trochoid/engagement/tool_profile.h"
+#include "flank/trochoid/engagement/near_poses.h"
 
 namespace flank::internal {
+
+/// A disc in the plane of a ring: its centre from the direction of motion, and its radius; not > 0: it is none.
+struct RingDisc {
+  Vec2 centre;
+  double radius;
+};
+
+/// What the round end of a pose covers, exact however it leans. Beside its pole a tool is much narrower at a little less height:
+/// about the place where its axis meets the plane the circle would be off by a degree where it leans by one, and cover what the
+/// tool never reaches.
+inline RingDisc disc_of_round_end(const ToolProfile& profile, const NearPose& c, const ToolRing& ring,
+                                  const Vec2& motion) {
+  const ToolProfile::RoundEnd end = profile.round_end(c.h0 + ring.z * c.dh);
+  const double z = (end.centre - c.h0) / c.dh, up = z - ring.z, x = c.x0 + z * c.dx, y = c.y0 + z * c.dy;
+  return {Vec2(motion.x() * x + motion.y() * y, motion.x() * y - motion.y() * x),
+          std::sqrt(std::max(0.0, end.radius * end.radius - up * up))};
+}
 
 /// A tool that leans against the axis of a ring, in the plane of the ring. What it covers there is not quite a circle, and near
 /// its round ends not at all one.
@@ -30,6 +48,30 @@ struct LeaningTool {
     const double d = foot.norm(), reach = std::sqrt(reach2);
     if (d >= ring + reach || ring >= reach + d) return -1.0;
     return reach >= ring + d ? std::numbers::pi : std::acos((ring * ring + d * d - reach * reach) / (2.0 * ring * d));
+  }
+  /// Angles at which it is looked at, about `at`: so what is covered does not hang on what was asked for.
+  struct Looks {
+    double at, window;
+    int count;
+    [[nodiscard]] double step() const { return 2.0 * window / count; }
+    [[nodiscard]] double angle(int k) const { return at + (k * step() - window); }
+  };
+  /// Calls visit(low, high) for what is covered of the window as far as it lies between two angles, or a look farther.
+  template <class Visit>
+  void visit_covered(const Looks& looks, double low, double high, const Visit& visit) const {
+    const double from = low - looks.at + looks.window, to = high - looks.at + looks.window;
+    if (to <= 0.0 || from >= 2.0 * looks.window) return;
+    const int first = std::max(0, static_cast<int>(from / looks.step()));
+    const int last = std::min(looks.count, static_cast<int>(to / looks.step()) + 1);
+    double begin = looks.angle(first);
+    bool before = covers(begin);
+    for (int k = first + 1; k <= last; ++k) {
+      const bool now = covers(looks.angle(k));
+      if (now && !before) begin = edge(looks.angle(k), looks.angle(k - 1));
+      if (!now && before) visit(begin, edge(looks.angle(k - 1), looks.angle(k)));
+      before = now;
+    }
+    if (before) visit(begin, looks.angle(last));
   }
   /// Between an angle that is covered and one that is not: how far it is.
   [[nodiscard]] double edge(double inside, double outside) const {

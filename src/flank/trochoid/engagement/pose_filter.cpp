@@ -147,8 +147,12 @@ PoseFilter::PoseFilter(const ToolProfile& profile) : largest_(profile.largest())
   // Radii at the bands' borders and between; the profile is smooth but for its ends, where it falls to nothing.
   constexpr int kBetween = 4;
   const auto radius = [&](double band) {
+    const double height = low_ + band * width;
     ToolProfile::Place place;
-    return profile.at(low_ + band * width, place) ? place.radius : 0.0;
+    if (!profile.at(height, place)) return 0.0;
+    if (height >= profile.flank_low() && height <= profile.flank_high()) return place.radius;
+    // Of what hardly leans the disc of a round end lies so much beside where its axis meets the plane.
+    return place.radius + kLeaning * std::abs(height - profile.round_end(height).centre);
   };
   for (int band = 0; band < kBands + 4; ++band) {
     double most = 0.0;

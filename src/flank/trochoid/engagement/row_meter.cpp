@@ -6,8 +6,6 @@
 #include <limits>
 #include <numbers>
 
-#include "flank/trochoid/engagement/leaning_tool.h"
-
 namespace flank::internal {
 namespace {
 
@@ -198,30 +196,42 @@ bool RowMeter::cut_by(std::size_t candidate, const ToolRing& ring, const Vec2& m
   const double px = c.x0 + ring.z * c.dx, py = c.y0 + ring.z * c.dy;
   const Vec2 o(motion.x() * px + motion.y() * py, motion.x() * py - motion.y() * px);
   // An interval that reaches into a gap holds one of its ends, or lies within.
-  const auto matters = [&](double p2) {
+  const auto matters = [&](const Vec2& p, double p2) {
     return std::any_of(gaps_.begin(), gaps_.end(), [&](const Gap& gap) {
-      return (ring.radius * gap.from - o).squaredNorm() < p2 || (ring.radius * gap.to - o).squaredNorm() < p2 ||
+      return (ring.radius * gap.from - p).squaredNorm() < p2 || (ring.radius * gap.to - p).squaredNorm() < p2 ||
              gap.high - gap.low > kWide ||
-             (gap.from.x() * o.y() - gap.from.y() * o.x() > 0.0 && o.x() * gap.to.y() - o.y() * gap.to.x() > 0.0);
+             (gap.from.x() * p.y() - gap.from.y() * p.x() > 0.0 && p.x() * gap.to.y() - p.y() * gap.to.x() > 0.0);
     });
   };
   // Most do not reach one even where the tool is thickest: that is cheaper to see than the radius at a height.
   const double d2 = o.squaredNorm(), largest = stock_.profile().largest(), most = ring.radius + largest;
   if (is_leaning(c, ring)) {
     const double stretched = reach_of_leaning(c);
-    if (d2 < sq(ring.radius + stretched) && matters(sq(stretched)))
+    if (d2 < sq(ring.radius + stretched) && matters(o, sq(stretched)))
       cut_by_leaning(candidate, ring, o,
                      Vec2(motion.x() * c.dx + motion.y() * c.dy, motion.x() * c.dy - motion.y() * c.dx) / c.dh);
     return true;
   }
-  if (d2 >= most * most || !matters(largest * largest)) return true;
+  const double height = c.h0 + ring.z * c.dh;
+  const bool round = ring.flank && (height < stock_.profile().flank_low() || height > stock_.profile().flank_high());
+  if (!round && (d2 >= most * most || !matters(o, largest * largest))) return true;
+  RingDisc disc{o, 0.0};
   ToolProfile::Place place;
-  if (!stock_.profile().at(c.h0 + ring.z * c.dh, place)) return true;
-  const double covers = place.radius + kSame * largest, sum = ring.radius + covers, less = covers - ring.radius;
+  if (round)
+    disc = disc_of_round_end(stock_.profile(), c, ring, motion);
+  else if (stock_.profile().at(height, place))
+    disc.radius = place.radius;
+  return !(disc.radius > 0.0) || cut_by_disc(candidate, ring, {disc.centre, disc.radius + kSame * largest}, matters);
+}
+
+template <class Matters>
+bool RowMeter::cut_by_disc(std::size_t candidate, const ToolRing& ring, const RingDisc& disc, const Matters& matters) {
+  const Vec2& o = disc.centre;
+  const double d2 = o.squaredNorm(), sum = ring.radius + disc.radius, less = disc.radius - ring.radius;
   if (d2 >= sum * sum) return true;
   if (d2 <= less * less) return less < 0.0;
-  const double p2 = covers * covers;
-  if (!matters(p2)) return true;
+  const double p2 = disc.radius * disc.radius;
+  if (!matters(o, p2)) return true;
   const double cosine = (ring.radius * ring.radius + d2 - p2) / (2.0 * ring.radius * std::sqrt(d2));
   const double width = std::acos(std::clamp(cosine, -1.0, 1.0)), at = std::atan2(o.y(), o.x());
   cut(at - width, at + width, {candidate});
@@ -253,26 +263,12 @@ void RowMeter::cut_by_leaning(std::size_t candidate, const ToolRing& ring, const
   // Looked at where its own window says, not what is open: so what it covers does not depend on who was asked before.
   constexpr double kApart = 0.1;  // radians: less is not seen
   const int looks = std::max(2, static_cast<int>(std::ceil(2.0 * window / kApart)));
-  const double step = 2.0 * window / looks;
-  const auto angle = [&](int k) { return at + (k * step - window); };
   covered_.clear();
-  for (const Gap& gap : gaps_) {
-    for (const double turn : {-2.0 * kPi, 0.0, 2.0 * kPi}) {
-      const double from = gap.low - turn - at + window, to = gap.high - turn - at + window;
-      if (to <= 0.0 || from >= 2.0 * window) continue;
-      const int first = std::max(0, static_cast<int>(from / step));
-      const int last = std::min(looks, static_cast<int>(to / step) + 1);
-      double low = angle(first);
-      bool before = tool.covers(low);
-      for (int k = first + 1; k <= last; ++k) {
-        const bool covers = tool.covers(angle(k));
-        if (covers && !before) low = tool.edge(angle(k), angle(k - 1));
-        if (!covers && before) covered_.push_back({low, tool.edge(angle(k - 1), angle(k))});
-        before = covers;
-      }
-      if (before) covered_.push_back({low, angle(last)});
-    }
-  }
+  for (const Gap& gap : gaps_)
+    for (const double turn : {-2.0 * kPi, 0.0, 2.0 * kPi})
+      tool.visit_covered({at, window, looks}, gap.low - turn, gap.high - turn, [&](double low, double high) {
+        covered_.push_back({low, high});
+      });
   for (const Arc& arc : covered_) cut(arc.low, arc.high, {candidate});
 }
 
@@ -336,10 +332,17 @@ void RowMeter::settle(const RowFrame& frame, const ToolRing& ring, std::size_t i
   const auto end = [&](const Bound& bound, double angle) {
     return bound.is_pose() ? arc_end(stock_.profile(), circle, place_of(bound), angle) : angle;
   };
+  const std::size_t before = found_.size();
   for (const Gap& gap : gaps_) {
     if (is_sliver(circle, gap)) continue;
     const Arc arc{std::max(-half, end(gap.at_low, gap.low)), std::min(half, end(gap.at_high, gap.high))};
-    if (arc.high > arc.low) found_.push_back({index, front.angle, arc});
+    if (!(arc.high > arc.low)) continue;
+    if (found_.size() == before || arc.low > found_.back().arc.high) {
+      found_.push_back({index, front.angle, arc});
+      continue;
+    }
+    Arc& last = found_.back().arc;
+    last = {std::min(last.low, arc.low), std::max(last.high, arc.high)};
   }
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "flank/trochoid/engagement/arc_end.h"
+#include "flank/trochoid/engagement/leaning_tool.h"
 #include "flank/trochoid/engagement/near_poses.h"
 #include "flank/trochoid/engagement/pose_filter.h"
 #include "flank/trochoid/engagement/ring_group.h"
@@ -87,6 +88,10 @@ class RowMeter {
   [[nodiscard]] const std::vector<OpenArc>& open_arcs(const ToolRing& ring, const Vec2& motion);
   /// False if the candidate covers the whole ring.
   [[nodiscard]] bool cut_by(std::size_t candidate, const ToolRing& ring, const Vec2& motion);
+  /// False if the disc covers the whole ring. `matters(centre, squared radius)`: whether it may reach into a gap.
+  template <class Matters>
+  [[nodiscard]] bool cut_by_disc(std::size_t candidate, const ToolRing& ring, const RingDisc& disc,
+                                 const Matters& matters);
   /// Whether the candidate leans so far that it does not cover the ring as a circle in its plane would.
   [[nodiscard]] bool is_leaning(const NearPose& candidate, const ToolRing& ring) const;
   /// How far a leaning tool reaches from its axis in the plane of a ring, at most, mm.
@@ -98,7 +103,7 @@ class RowMeter {
   /// Keeps for the next row the poses that end what is left of a ring, or that leave nothing.
   void keep_settlers();
   void keep_settler(std::size_t candidate);
-  /// Adds the arcs of the ring whose gaps are left to found_.
+  /// Adds the arcs of the ring whose gaps are left to found_; those that meet are one.
   void settle(const RowFrame& frame, const ToolRing& ring, std::size_t index, const Front& front);
   [[nodiscard]] SweepPlace place_of(const Bound& bound) const;
   [[nodiscard]] bool is_sliver(const RingCircle& circle, const Gap& gap) const;

@@ -25,6 +25,14 @@ class ToolProfile {
   [[nodiscard]] double flank_low() const { return first_; }
   [[nodiscard]] double flank_high() const { return last_; }
   [[nodiscard]] double largest() const { return largest_; }
+  /// The sphere of a round end: the height of its centre and its radius, mm.
+  struct RoundEnd {
+    double centre, radius;
+  };
+  /// Of the end that a height, which is not of the flank, is nearer to.
+  [[nodiscard]] RoundEnd round_end(double z) const {
+    return z < first_ ? RoundEnd{0.0, tip_radius_} : RoundEnd{length_, end_radius_};
+  }
 
  private:
   double low_ = 0.0, high_ = 0.0;               ///< of the round ends
