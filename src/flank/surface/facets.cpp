@@ -9,6 +9,7 @@
 #include "flank/error.h"
 #include "flank/geom/mesh_topology.h"
 #include "flank/geom/triangle_bvh.h"
+#include "flank/surface/mesh/mesh_samples.h"
 
 namespace flank::internal {
 namespace {
@@ -63,16 +64,7 @@ class Facets final : public Target {
   }
 
   [[nodiscard]] std::vector<Vec3> border_points(double spacing_mm) const override {
-    FLANK_ASSERT(spacing_mm > 0.0);
-    std::vector<Vec3> points;
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
-      for (std::size_t side = 0; side < 3; ++side) {
-        if (topology_.neighbors[t][side] >= 0) continue;
-        const Vec3 &a = corner(t, (side + 1) % 3), &b = corner(t, (side + 2) % 3);
-        const int steps = std::max(1, static_cast<int>(std::ceil((b - a).norm() / spacing_mm)));
-        for (int i = 0; i < steps; ++i) points.push_back(a + (b - a) * (static_cast<double>(i) / steps));
-      }
-    return points;
+    return open_side_points(mesh_, topology_, patch_count(), spacing_mm);
   }
 
   [[nodiscard]] int patch_count() const override { return static_cast<int>(mesh_.triangles.size()); }

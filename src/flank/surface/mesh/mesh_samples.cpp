@@ -189,4 +189,23 @@ std::vector<SurfaceSample> mesh_samples(const JetSurface& surface, double spacin
   return samples;
 }
 
+std::vector<Vec3> open_side_points(const TriangleMesh& mesh, const MeshTopology& topology, int triangles,
+                                   double spacing_mm) {
+  FLANK_ASSERT(spacing_mm > 0.0);
+  std::vector<Vec3> points;
+  for (std::size_t t = 0; t < static_cast<std::size_t>(triangles); ++t) {
+    const auto corner = [&](std::size_t k) {
+      return mesh.vertices[static_cast<std::size_t>(mesh.triangles[t][k % 3])];
+    };
+    for (std::size_t side = 0; side < 3; ++side) {
+      const int neighbor = topology.neighbors[t][side];
+      if (neighbor >= 0 && neighbor < triangles) continue;
+      const Vec3 a = corner(side + 1), b = corner(side + 2);
+      const int steps = std::max(1, static_cast<int>(std::ceil((b - a).norm() / spacing_mm)));
+      for (int i = 0; i < steps; ++i) points.push_back(a + (b - a) * (static_cast<double>(i) / steps));
+    }
+  }
+  return points;
+}
+
 }  // namespace flank::internal

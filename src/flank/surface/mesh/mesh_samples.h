@@ -17,4 +17,9 @@ enum class SamplePlaces { kBlended, kFacets };
 [[nodiscard]] std::vector<SurfaceSample> mesh_samples(const JetSurface& surface, double spacing_mm,
                                                       SamplePlaces places);
 
+/// Points along the open sides of the first `triangles` of a mesh, at most `spacing_mm` > 0 apart; a side to a triangle behind these is
+/// open.
+[[nodiscard]] std::vector<Vec3> open_side_points(const TriangleMesh& mesh, const MeshTopology& topology, int triangles,
+                                                 double spacing_mm);
+
 }  // namespace flank::internal

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flank/base/assert.h"
 #include "flank/geom/mesh_repair.h"
 #include "flank/surface/mesh/jet_field.h"
 #include "flank/surface/mesh/mesh_extension.h"
@@ -106,20 +105,9 @@ Footpoint MeshTarget::track(const Vec3& p, const Footpoint& hint) const {
   return footpoint_of(walk, p, surface_.real_triangles);
 }
 
+// Triangles of the extension are no neighbours here: the real border is asked for.
 std::vector<Vec3> MeshTarget::border_points(double spacing_mm) const {
-  FLANK_ASSERT(spacing_mm > 0.0);
-  std::vector<Vec3> points;
-  for (int t = 0; t < surface_.real_triangles; ++t) {
-    for (int side = 0; side < 3; ++side) {
-      const int neighbor = surface_.neighbor(t, side);
-      // Triangles of the extension are no neighbours here: the real border is asked for.
-      if (neighbor >= 0 && neighbor < surface_.real_triangles) continue;
-      const Vec3 &a = surface_.corner(t, (side + 1) % 3), &b = surface_.corner(t, (side + 2) % 3);
-      const int steps = std::max(1, static_cast<int>(std::ceil((b - a).norm() / spacing_mm)));
-      for (int i = 0; i < steps; ++i) points.push_back(a + (b - a) * (static_cast<double>(i) / steps));
-    }
-  }
-  return points;
+  return open_side_points(surface_.mesh, surface_.topology, surface_.real_triangles, spacing_mm);
 }
 
 // What is finished is the part as it is given: on a coarse mesh the blended surface is farther above the triangles than a
