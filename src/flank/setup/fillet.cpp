@@ -27,14 +27,17 @@ std::optional<double> radius_of_fillet(const std::vector<FaceEdge>& border) {
 }  // namespace
 
 std::optional<double> tightest_fillet(const Part& part, const std::vector<int>& faces, double below_mm) {
-  if (part.is_mesh()) return {};
+  const auto of_solid = [&](int face) { return part.faces[static_cast<std::size_t>(face)].of_solid; };
+  // To look at the borders of a large part takes a tenth of a second.
+  if (part.is_mesh() || std::none_of(faces.begin(), faces.end(), of_solid)) return {};
   Joints joints(part);
   std::optional<double> tightest;
   for (const int face : faces) {
     const Face& own = part.faces[static_cast<std::size_t>(face)];
-    for (int other = 0; other < part.face_count() && own.of_solid; ++other) {
+    for (int other = 0; other < part.face_count(); ++other) {
       const Face& its = part.faces[static_cast<std::size_t>(other)];
-      if (std::find(faces.begin(), faces.end(), other) != faces.end() || !its.of_solid || its.solid != own.solid)
+      if (std::find(faces.begin(), faces.end(), other) != faces.end() || !its.of_solid || !own.of_solid ||
+          its.solid != own.solid)
         continue;
       const std::optional<double> radius = radius_of_fillet(joints.border(other));
       if (!radius || *radius >= tightest.value_or(below_mm) || !joints.borders_meet(face, other)) continue;

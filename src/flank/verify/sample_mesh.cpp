@@ -62,12 +62,12 @@ class MeshSampler final : public Sampler {
     FaceSamples out = begin();
     for (const std::size_t i : which) {
       const auto& [triangle, u, v, size] = samples.cells[i];
-      const Corner corner = corner_of(static_cast<std::size_t>(triangle));
+      const Facet facet = facet_of(static_cast<std::size_t>(triangle));
       const double part = size / kCut;
       for (int a = 0; a < kCut; ++a) {
         for (int b = 0; a + b < kCut; ++b) {
-          add(out, corner, {triangle, u + a * part, v + b * part, part});
-          if (a + b + 1 < kCut) add(out, corner, {triangle, u + (a + 1) * part, v + (b + 1) * part, -part});
+          add(out, facet, {triangle, u + a * part, v + b * part, part});
+          if (a + b + 1 < kCut) add(out, facet, {triangle, u + (a + 1) * part, v + (b + 1) * part, -part});
         }
       }
     }
@@ -92,19 +92,19 @@ class MeshSampler final : public Sampler {
   }
 
   /// A triangle by its first corner and the sides from there.
-  struct Corner {
+  struct Facet {
     Vec3 a, ab, ac;
     Vec3 normal = Vec3::Zero();
     double area = 0.0, farthest = 0.0;  ///< of a corner from the centroid, mm
   };
 
-  [[nodiscard]] Corner corner_of(std::size_t t) const {
-    Corner c{corner(t, 0), corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0)};
-    const Vec3 across = c.ab.cross(c.ac), centroid = (c.ab + c.ac) / 3.0;
-    c.area = 0.5 * across.norm();
-    if (c.area > 0.0) c.normal = across.normalized();
-    c.farthest = std::max({centroid.norm(), (centroid - c.ab).norm(), (centroid - c.ac).norm()});
-    return c;
+  [[nodiscard]] Facet facet_of(std::size_t t) const {
+    Facet f{corner(t, 0), corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0)};
+    const Vec3 across = f.ab.cross(f.ac), centroid = (f.ab + f.ac) / 3.0;
+    f.area = 0.5 * across.norm();
+    if (f.area > 0.0) f.normal = across.normalized();
+    f.farthest = std::max({centroid.norm(), (centroid - f.ab).norm(), (centroid - f.ac).norm()});
+    return f;
   }
 
   [[nodiscard]] FaceSamples begin() const {
@@ -115,25 +115,24 @@ class MeshSampler final : public Sampler {
   }
 
   /// The sample of a cell (FaceSamples::cells) of a triangle.
-  static void add(FaceSamples& out, const Corner& c, const std::array<double, 4>& cell) {
+  static void add(FaceSamples& out, const Facet& facet, const std::array<double, 4>& cell) {
     const auto& [triangle, u, v, size] = cell;
-    out.points.push_back(c.a + (u + size / 3.0) * c.ab + (v + size / 3.0) * c.ac);
-    out.areas.push_back(c.area * size * size);
-    out.normals.push_back(c.normal);
+    out.points.push_back(facet.a + (u + size / 3.0) * facet.ab + (v + size / 3.0) * facet.ac);
+    out.areas.push_back(facet.area * size * size);
+    out.normals.push_back(facet.normal);
     out.cells.push_back(cell);
-    out.spacing_mm = std::max(out.spacing_mm, c.farthest * std::abs(size));
+    out.spacing_mm = std::max(out.spacing_mm, facet.farthest * std::abs(size));
   }
 
   void add_rows(FaceSamples& out, std::size_t t, int first, int end) const {
     const int n = parts_of(t);
     if (first >= std::min(n, end)) return;
-    const Corner corner = corner_of(t);
+    const Facet facet = facet_of(t);
     const auto at = static_cast<double>(t), size = 1.0 / n;
     for (int i = first; i < std::min(n, end); ++i) {
       for (int j = 0; i + j < n; ++j) {
-        add(out, corner, {at, static_cast<double>(i) / n, static_cast<double>(j) / n, size});
-        if (i + j + 1 < n)
-          add(out, corner, {at, static_cast<double>(i + 1) / n, static_cast<double>(j + 1) / n, -size});
+        add(out, facet, {at, static_cast<double>(i) / n, static_cast<double>(j) / n, size});
+        if (i + j + 1 < n) add(out, facet, {at, static_cast<double>(i + 1) / n, static_cast<double>(j + 1) / n, -size});
       }
     }
   }
