@@ -130,14 +130,14 @@ void check_axis_length(const FitJob& job, const Part& part) {
 }
 
 /// Lifts a shank or holder that comes too near, if the flank's length is open (lengthen.h).
-void lift_shank(const FitJob& job, const ClearanceScene& scene, FlankFitResult& fit, std::vector<std::string>& notes) {
+void lift_shank(const FitJob& job, const ClearanceScene& scene, FitSearch& search, std::vector<std::string>& notes) {
   if (job.tool.axis_length_mm || (!job.obstacles.shank_length_mm && !job.obstacles.holder)) return;
   const auto clear = [&](const FlankFitResult& tried) {
     Tool tool;
     tool.radial = tried.tool;
     equip_tool(job.obstacles, tool);
     Path path;
-    for (const RuledMotion& motion : tried.motions) {
+    for (const RuledMotion& motion : search.motions_of(tried)) {
       SamplingOptions options;
       options.chord_tolerance_mm = kToleranceBudget.chord * job.tolerance_mm;
       path.strips.push_back({});
@@ -145,7 +145,7 @@ void lift_shank(const FitJob& job, const ClearanceScene& scene, FlankFitResult& 
     }
     return measure_clearance(scene, tool, path).kept();
   };
-  const double more = lengthen_until_clear(fit, std::max(1.0, job.obstacles.clearance_mm.value_or(0.0)), clear);
+  const double more = lengthen_until_clear(search.fit, std::max(1.0, job.obstacles.clearance_mm.value_or(0.0)), clear);
   if (more > 0.0)
     notes.push_back(
         fmt::format("the flank was lengthened by {} mm, so that shank and holder keep their clearances", more));
@@ -156,7 +156,7 @@ std::vector<StripSurface> sample_path(const FitSearch& search, double tolerance_
   const Legitimacy legitimacy = check_legitimacy(result.tool.radial);
   if (!legitimacy.legitimate) result.notes.push_back("the tool is not legitimate: " + legitimacy.reason);
   std::vector<const TargetGroup*> groups;
-  for (const std::size_t g : search.group_of_motion) groups.push_back(&search.targets[g]);
+  for (const std::size_t g : search.group_of_motion) groups.push_back(&search.machined()[g]);
   std::vector<StripSurface> surfaces = add_strips(tolerance_mm, groups, result);
   if (result.largest_c >= 1.0)
     result.notes.push_back(fmt::format(
@@ -183,14 +183,14 @@ void note_facets(const FitSearch& search, const FitJob& job, std::vector<std::st
 
 void take_found(const FitSearch& search, Result& result) {
   result.plan = fit_summary(search.fit);
-  result.motions = search.fit.motions;
+  result.motions = search.motions_of(search.fit);
 }
 
 void take_fit(const FitSearch& search, Result& result) {
   // The verdict, now and later, is about what was searched for.
   if (search.reach_radius_mm) std::get<FitJob>(result.job).judge.reach_radius_mm = search.reach_radius_mm;
   take_found(search, result);
-  result.diagonal_mm = search.targets.front().target->diagonal();
+  result.diagonal_mm = search.machined().front().target->diagonal();
   result.notes.insert(result.notes.end(), search.fit.notes.begin(), search.fit.notes.end());
   note_facets(search, std::get<FitJob>(result.job), result.notes);
 }
@@ -202,9 +202,9 @@ StiffnessStep judged_rung(const Setup& setup, const FitSearch& search, const Fla
   Result one;
   one.job = job;
   one.tool = found_tool(parse_tool_spec(job.tool.spec), rung.tool, job.obstacles);
-  one.motions = rung.motions;
+  one.motions = search.motions_of(rung);
   std::vector<const TargetGroup*> groups;
-  for (const std::size_t g : search.group_of_motion) groups.push_back(&search.targets[g]);
+  for (const std::size_t g : search.group_of_motion) groups.push_back(&search.machined()[g]);
   (void)add_strips(job.tolerance_mm, groups, one);  // surfaces are for drawings
   const VerifyReport verify = judge_job(setup, job.judge, one.tool, one.path, DepthProof::kSampled);
   return judged_step(tried_tool(rung.tool, rung.motions.size(), rung.after, search.options.bounds), verify);
@@ -268,7 +268,7 @@ Result search_and_judge(const Setup& setup, const ClearanceScene& scene, const T
   const double judged_at = job.stiffness_curve ? 0.5 : 0.9;
   FitSearch search = search_fit(job, setup, spec, progress.part(0.0, judged_at), spare_coverage);
   if (search.fit.motions.empty()) stop_here();  // nothing takes the place of an earlier result
-  if (spec.free && !stopping()) lift_shank(job, scene, search.fit, result.notes);
+  if (spec.free && !stopping()) lift_shank(job, scene, search, result.notes);
   take_fit(search, result);
   result.complete = !progress.stop();
   watch.lap("fit");

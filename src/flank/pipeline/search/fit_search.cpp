@@ -209,6 +209,7 @@ void fit_ball_to_slot(const FitJob& job, FitSearch& search) {
 FitSearch begin_side(const FitJob& job, const Setup& setup, const ToolModel& tool, int side, double spare_coverage) {
   FitSearch search;
   search.spare_coverage = spare_coverage;
+  search.side = side;
   search.targets = make_targets(setup, side);
   search.tool = tool;
   search.options = options_of(job, setup, *search.targets.front().target, tool.free());
@@ -331,6 +332,29 @@ FitSearch search_sheet(const FitJob& job, const Setup& setup, const ToolModel& t
   return with_side(std::move(best), better ? two : one, "which covers more; both were tried");
 }
 
+/// Whatever side is asked for, or the better one.
+FitSearch search_open(const FitJob& job, const Setup& setup, const UserStart& start, const ToolModel& tool,
+                      const Progress& progress, double spare_coverage) {
+  if (is_sheet(setup) && !job.part.side && !start.given())
+    return search_sheet(job, setup, tool, spare_coverage, progress);
+  const bool by_start = is_sheet(setup) && !job.part.side;
+  const int side = by_start ? side_of_start(job, setup, start) : job.part.side.value_or(+1);
+  return search_side(job, begin_side(job, setup, tool, side, spare_coverage), start, progress);
+}
+
+/// Half a turn is searched; the whole face is what was asked for.
+FitSearch search_half_turn(const FitJob& job, const Setup& setup, const WoundFace& wound_face, const ToolModel& tool,
+                           const Progress& progress, double spare_coverage) {
+  FitSearch search = search_open(job, half_turn_of(setup, wound_face), {}, tool, progress, spare_coverage);
+  search.wound_face = wound_face;
+  search.wound = make_targets(setup, search.side);
+  if (job.avoid) add_group_obstacles(setup, job.obstacles.clearance_mm, search.options.bounds.largest, search.wound);
+  search.fit.notes.push_back(
+      fmt::format("{} winds {:.1f} times round its axis: what was found for half a turn goes with its screw",
+                  search.wound.front().faces, wound_face.turns()));
+  return search;
+}
+
 }  // namespace
 
 std::vector<FitTask> FitSearch::tasks() const {
@@ -342,15 +366,22 @@ std::vector<FitTask> FitSearch::tasks() const {
   return tasks;
 }
 
+std::vector<RuledMotion> FitSearch::motions_of(const FlankFitResult& result) const {
+  if (!wound_face) return result.motions;
+  std::vector<RuledMotion> motions;
+  for (const RuledMotion& motion : result.motions)
+    motions.push_back(unwound(*wound_face, *targets.front().target, wound.front().obstacles.get(), motion, result.tool,
+                              options.tolerance_mm));
+  return motions;
+}
+
 FitSearch search_fit(const FitJob& job, const Setup& setup, const ToolSpec& spec, const Progress& progress,
                      double spare_coverage) {
   const UserStart start = user_start(job);
   const ToolModel tool = make_tool_model(spec, job.tool.axis_length_mm);
-  if (is_sheet(setup) && !job.part.side && !start.given())
-    return search_sheet(job, setup, tool, spare_coverage, progress);
-  const bool by_start = is_sheet(setup) && !job.part.side;
-  const int side = by_start ? side_of_start(job, setup, start) : job.part.side.value_or(+1);
-  return search_side(job, begin_side(job, setup, tool, side, spare_coverage), start, progress);
+  const std::optional<WoundFace> wound_face = start.given() ? std::nullopt : find_wound_face(setup);
+  if (wound_face) return search_half_turn(job, setup, *wound_face, tool, progress, spare_coverage);
+  return search_open(job, setup, start, tool, progress, spare_coverage);
 }
 
 }  // namespace flank::internal

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "flank/fit.h"
+#include "flank/pipeline/search/wound_face.h"
 #include "flank/setup/setup.h"
 #include "flank/setup/targets.h"
 #include "flank/toolbox/tool_spec.h"
@@ -22,8 +23,15 @@ struct FitSearch {
   double spare_coverage = 0.0;               ///< as search_fit was given it
   ToolModel tool;                            ///< what was known of the tool
   FlankFitOptions options;                   ///< of the fits, but for their strips
+  int side = +1;                             ///< of open sheets
+  std::optional<WoundFace> wound_face;       ///< the target is half a turn of it
+  std::vector<TargetGroup> wound;            ///< all of it; empty without it
   /// The motions that were found, each on its target, to go on from.
   [[nodiscard]] std::vector<FitTask> tasks() const;
+  /// What is machined: `targets`, or all that they stand for.
+  [[nodiscard]] const std::vector<TargetGroup>& machined() const { return wound.empty() ? targets : wound; }
+  /// The motions of a result of this search on what is machined.
+  [[nodiscard]] std::vector<RuledMotion> motions_of(const FlankFitResult& result) const;
 };
 
 /// Searches. `spec`: the job's tool. `spare_coverage`: what the estimate has to promise beyond the demand before the search is
