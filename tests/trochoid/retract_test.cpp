@@ -76,6 +76,31 @@ TEST_F(RetractTest, AsideFirstWhereASideLeansOverTheTool) {
   EXPECT_GE(way.back().tip.z(), kClear.height - 1e-9);
 }
 
+TEST_F(RetractTest, ALinkIsDrawnUpOffAFloorThatRisesOnItsWay) {
+  // A floor that is 0.3 mm above the tip of the ball in the middle of the way, and falls to both of its ends.
+  const auto slope = [](double x, double end, const char* name) {
+    const Vec3 low(std::min(x, end), 0, 0), high(std::max(x, end), 0, 0);
+    const auto at = [&](const Vec3& p, double y) { return Vec3(p.x(), y, p.x() == 0.0 ? 0.3 : -1.0); };
+    return make_target({testing::quad(at(low, -50), at(high, -50), at(low, 50), at(high, 50), name)});
+  };
+  const auto before = slope(-40.0, 0.0, "F2"), behind = slope(0.0, 40.0, "F3");
+  guard_ = HalfGuard({{before.get(), behind.get()}, {}}, kTool);
+  std::vector<Pose> way;
+  for (double x = -30.0; x <= 30.0; x += 1.0) way.push_back({Vec3(x, 20.0, kRadius), Vec3::UnitZ()});
+  ASSERT_GT(deepest(way), 0.25);
+  const std::vector<Pose> link = off_floor(way, kTool, guard_, kAllowed);
+  EXPECT_LE(deepest(link), kAllowed);
+  ASSERT_EQ(link.size(), way.size() + 2);
+  EXPECT_EQ(link.front().tip, way.front().tip);
+  EXPECT_EQ(link.back().tip, way.back().tip);
+  EXPECT_LT(link[30].tip.z(), kRadius + 1.0) << "no higher than it takes";
+}
+
+TEST_F(RetractTest, ALinkThatEntersNothingStaysWhereItIs) {
+  const std::vector<Pose> way{{Vec3(10.0, 5.0, 4.0), Vec3::UnitZ()}, {Vec3(40.0, 6.0, 4.0), Vec3::UnitZ()}};
+  EXPECT_EQ(off_floor(way, kTool, guard_, kAllowed).size(), way.size());
+}
+
 TEST_F(RetractTest, WhatIsAboveStaysWhereItIs) {
   const Pose above{Vec3(0.0, 20.0, 61.0), Vec3::UnitZ()};
   EXPECT_EQ(retract(above, {Vec3::UnitX()}, kClear, kTool, guard_, kAllowed).size(), 1u);

@@ -11,7 +11,7 @@ namespace flank::internal {
 namespace {
 
 /// Rows of a motion, rings of the flank for its engagement and for its volume.
-constexpr int kRows = 33, kRings = 7, kVolumeRings = 5;
+constexpr int kRows = 34, kRings = 7, kVolumeRings = 5;
 /// Rings of a slender tool are so many radii apart, up to so many: an edge that it meets between two would not be seen.
 constexpr double kRingsApart = 3.0;
 constexpr int kMostRings = 31;

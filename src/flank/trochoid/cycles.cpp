@@ -20,7 +20,7 @@ void code(StepCodec& codec, EngagementRow& row) {
 namespace {
 
 /// Rows of a motion, and rings of the flank for engagement and volume when a cycle is accepted.
-constexpr int kFineRows = 101, kFineRings = 61, kVolumeRings = 9;
+constexpr int kFineRows = 102, kFineRings = 61, kVolumeRings = 9;
 /// Of these rings every so many are looked at closely in any case.
 constexpr int kEvery = 3;
 /// Before the start, in radii: there the first front is looked for, and twice as far out for as long as it cuts, up to so

@@ -12,7 +12,7 @@ namespace flank::internal {
 namespace {
 
 /// Rows of a move, rings of the flank and of each round end.
-constexpr int kMoveRows = 33, kMoveRings = 21, kMoveVolumeRings = 21;
+constexpr int kMoveRows = 34, kMoveRings = 21, kMoveVolumeRings = 21;
 /// Poses that a move has in the stock: one span of a rail needs any number, several need what a half has.
 int intervals_of(const RuledMotion& move) {
   constexpr int kOneSpan = 16;

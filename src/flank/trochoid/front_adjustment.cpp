@@ -11,7 +11,7 @@ namespace flank::internal {
 namespace {
 
 /// Samples in time and along the tool, and most rounds: those of the paper.
-constexpr int kRows = 101, kRings = 21, kMostRounds = 10;
+constexpr int kRows = 102, kRings = 21, kMostRounds = 10;
 /// The inner control points of a rail, and coordinates of those of both rails.
 constexpr int kInner = 2, kFirstInner = 2, kUnknowns = 2 * 3 * kInner;
 /// Weight of fairness, the squared second differences of what the control points are moved by, against a mean squared
@@ -148,7 +148,7 @@ std::optional<RuledMotion> adjusted_front(RuledMotion front, EngagementMeter& me
     if (round == kMostRounds) return std::nullopt;
     Equations equations;
     for (int i = 0; i < kRows; ++i) {
-      const double t = static_cast<double>(i) / (kRows - 1);
+      const double t = EngagementMeter::time_of(static_cast<std::size_t>(i), kRows);
       const AxisJet axis = front.jet(t);
       for (std::size_t r = 0; r < rings.size(); ++r) {
         const EnvelopePoint point = envelope_point(axis, rings[r], forward);

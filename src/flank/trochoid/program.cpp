@@ -244,7 +244,7 @@ void ProgramWriter::finish_open(const LayerSides& sides, const SideRange& range,
   std::vector<Pose> across = poses_of(half_path(length, to.reversed(), from, {0.12 * gap, 0.12 * gap, 0.0, 0.0}), 2);
   // One side may begin far behind the other (a splitter): then the way of the first front is known to be free.
   if (enters(across)) across = way_of_first_front(sides, range, planned.cycles.cycles.front());
-  add_link(std::move(across), planned);
+  add_link(off_floor(std::move(across), radial_, guard_, allowed_at_run_outs(options_)), planned);
   add_side(sides.from.poses(range.from_start, range.from_end, options_.chord_mm), planned);
 }
 

@@ -23,6 +23,14 @@ std::vector<Pose> rise(std::vector<Pose> way, const Vec3& direction, const Clear
   return way;
 }
 
+/// Up along the axis, the way, and down again.
+std::vector<Pose> raised(const std::vector<Pose>& way, double by_mm) {
+  std::vector<Pose> out{way.front()};
+  for (const Pose& pose : way) out.push_back(moved(pose, by_mm * pose.axis));
+  out.push_back(way.back());
+  return out;
+}
+
 double entered(const std::vector<Pose>& way, const RadialFunction& radial, const HalfGuard& guard) {
   constexpr double kStep = 0.4;  // of the radius
   constexpr int kPlaces = 7;
@@ -60,6 +68,23 @@ std::vector<Pose> retract(const Pose& from, const WayOut& beside, const ClearPla
     const double depth = entered(way, radial, guard);
     if (depth < least) least = depth, best = std::move(way);
     if (least <= allowed_mm) break;
+  }
+  return best;
+}
+
+std::vector<Pose> off_floor(std::vector<Pose> way, const RadialFunction& radial, const HalfGuard& guard,
+                            double allowed_mm) {
+  /// The floor may rise along the axis less than it does across it: more than what is entered.
+  constexpr double kMore = 1.6;
+  constexpr int kTries = 4;
+  std::vector<Pose> best = way;
+  double least = entered(way, radial, guard), by = 0.0;
+  for (int k = 0; k < kTries && least > allowed_mm; ++k) {
+    by += kMore * least;
+    std::vector<Pose> higher = raised(way, by);
+    const double deep = entered(higher, radial, guard);
+    if (deep >= least) break;
+    least = deep, best = std::move(higher);
   }
   return best;
 }

@@ -26,6 +26,11 @@ struct WayOut {
 [[nodiscard]] std::vector<Pose> retract(const Pose& from, const WayOut& beside, const ClearPlane& clear,
                                         const RadialFunction& radial, const HalfGuard& guard, double allowed_mm);
 
+/// The way of a link, first drawn up along the axis as far as it takes to enter no face deeper than `allowed_mm`, and down again where it
+/// ends, if that helps: a floor may rise between its ends.
+[[nodiscard]] std::vector<Pose> off_floor(std::vector<Pose> way, const RadialFunction& radial, const HalfGuard& guard,
+                                          double allowed_mm);
+
 /// Poses from one to the other, both included: the middle of the axis, of that length in mm, goes straight, and the axis turns
 /// evenly by no more than the angle from pose to pose.
 [[nodiscard]] std::vector<Pose> poses_between(const Pose& from, const Pose& to, double axis_length,

@@ -123,6 +123,19 @@ TEST(Engagement, WhatGoesOnWhereAnotherHasEndedCutsFromItsVeryStart) {
   EXPECT_NEAR(e.rows.front().angle_rad / kDegree, 180.0, 0.1);
 }
 
+TEST(Engagement, FewRowsSeeWhatRisesAndFallsJustBeforeTheEnd) {
+  // A plate right before the tool's last place, which it breaks through in the last hundredth of its way.
+  constexpr double kRadius = 5.0, kAxis = 20.0, kWay = 10.0, kPlate = 0.34, kThrough = 0.06;
+  const double back = kWay + kRadius - kThrough;
+  SweptStock stock(cylinder(kRadius, kAxis), {{Vec3::UnitX(), back}, {-Vec3::UnitX(), kPlate - back}});
+  EngagementMeter meter(stock);
+  const RuledMotion motion = straight(Vec3::Zero(), Vec3::UnitZ(), kWay, kAxis);
+  const Engagement e = meter.measure(motion, tool_rings(stock.radial(), 5, 0), 34);
+  const auto within = [](double depth) { return 2.0 * std::acos((kRadius - depth) / kRadius) / kDegree; };
+  EXPECT_NEAR(e.peak.angle_rad / kDegree, within(kPlate), 0.5);
+  EXPECT_NEAR(e.rows.back().angle_rad / kDegree, within(kPlate + kThrough) - within(kThrough), 0.01);
+}
+
 TEST(Engagement, VolumeUnderATopThatLiesBetweenTwoRings) {
   // The top of the blank is at one height of the tool all along the way: its flank's end, or a little off it, or across a round end.
   constexpr double kRadius = 5.0, kAxis = 20.0, kWay = 10.0;

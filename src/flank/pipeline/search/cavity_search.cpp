@@ -126,14 +126,6 @@ bool is_better(const CavityPlan& a, const CavityPlan& b, double tolerance) {
   return a.sides.fit.after.score(tolerance) > b.sides.fit.after.score(tolerance);
 }
 
-/// What is left before a wall, because no step there keeps the limit, counts against what the tool can reach: a thinner one may
-/// get nearer to it.
-bool is_done(const CavityPlan& plan, const CavityFaces& faces, const TrochoidJob& job) {
-  if (!gets_through(plan, job.tolerance_mm) || state_of(plan.sides, faces, job) == SideState::kShort) return false;
-  const double finished = cleared(plan) * plan.sides.fit.after.at_tolerance;
-  return cleared(plan) == 1.0 || finished >= job.judge.least_coverage * reach_of(plan.sides, faces);
-}
-
 CavityPlan planned(SideFit sides, const TrochoidJob& job, const CavityFaces& faces, double bound, int most_rewinds,
                    const Progress& progress) {
   CavityPlan out;
@@ -171,6 +163,13 @@ CavityPlan search_ways(const TrochoidJob& job, const CavityFaces& faces, const T
 }
 
 }  // namespace
+
+bool is_done(const CavityPlan& plan, const CavityFaces& faces, const TrochoidJob& job) {
+  if (!gets_through(plan, job.tolerance_mm) || state_of(plan.sides, faces, job) == SideState::kShort) return false;
+  const FlankFitResult& fit = plan.sides.fit;
+  return covers_reachable(side_of(faces.sides[0]), side_of(faces.sides[1]), cleared(plan) * fit.after.at_tolerance,
+                          job.judge.least_coverage, job.judge.reach_radius_mm.value_or(fit.tool.smallest()));
+}
 
 std::vector<double> bounds_of(const TrochoidJob& job, const CavityWidth& width) {
   constexpr double kMuchWider = 1.6;

@@ -22,6 +22,11 @@ struct CavityPlan {
 /// thin at one end may have the room of most places at the other.
 [[nodiscard]] std::vector<double> bounds_of(const TrochoidJob& job, const CavityWidth& width);
 
+/// Whether cycles get through, enter nothing, and the verdict will find the share that is asked for: of what a ball of the least
+/// radius reaches. Some of that a tool that is thicker elsewhere leaves beside a wall, and cycles what no step there keeps the limit
+/// for: a thinner one may get nearer.
+[[nodiscard]] bool is_done(const CavityPlan& plan, const CavityFaces& faces, const TrochoidJob& job);
+
 /// How long thinner tools are tried, which are slower, too.
 class SearchPatience {
  public:

@@ -14,14 +14,18 @@ constexpr std::size_t kRowsOfTask = 5;
 /// Of the way to the second row: there the first one is measured. A half that goes on where the one before ended has nothing to
 /// cut in its very first pose, and all of it right after.
 constexpr double kAfterStart = 0.01;
+/// Of a step between rows: so long before the end is one more. A half that comes to its side at a tangent engages most just before
+/// it is there: between the last two of equal steps that rises and falls by degrees.
+constexpr double kBeforeEnd = 0.2;
 /// Rows whose neighbourhood is refined, the largest ones.
 constexpr std::size_t kPeaks = 3;
 
-double time_of(std::size_t row, int rows) { return (row == 0 ? kAfterStart : static_cast<double>(row)) / (rows - 1); }
-
-/// By the trapezoidal rule: where rings move from row to row, no row may count more than the next.
+/// By the trapezoidal rule, as if the first row were at the start: where rings move from row to row, no row may count more than
+/// the next.
 double weight(std::size_t row, int rows) {
-  return (row == 0 || row + 1 == static_cast<std::size_t>(rows) ? 0.5 : 1.0) / (rows - 1);
+  const double before = row < 2 ? 0.0 : EngagementMeter::time_of(row - 1, rows);
+  const double after = row + 1 < static_cast<std::size_t>(rows) ? EngagementMeter::time_of(row + 1, rows) : 1.0;
+  return 0.5 * (after - before);
 }
 
 /// The rows that are larger than their neighbours, the largest few.
@@ -57,6 +61,13 @@ double golden(double low, double high, const F& f) {
 
 }  // namespace
 
+double EngagementMeter::time_of(std::size_t row, int rows) {
+  const double steps = rows - 2.0, place = static_cast<double>(row);
+  if (row == 0) return kAfterStart / steps;
+  if (place < steps) return place / steps;
+  return place == steps ? 1.0 - kBeforeEnd / steps : 1.0;
+}
+
 void EngagementMeter::reserve(std::size_t count) {
   while (meters_.size() < count) meters_.emplace_back(stock_, near_);
 }
@@ -75,7 +86,7 @@ void EngagementMeter::for_each_row(const RuledMotion& motion, const RingsOf& rin
 
 template <class RingsOf>
 Engagement EngagementMeter::measured(const RuledMotion& motion, const RingsOf& rings_of, int rows) {
-  FLANK_ASSERT(rows >= 2);
+  FLANK_ASSERT(rows >= 3);
   Engagement out;
   out.rows.resize(static_cast<std::size_t>(rows));
   for_each_row(motion, rings_of, rows,
@@ -100,7 +111,7 @@ Engagement EngagementMeter::measure(const RuledMotion& motion, const RowRings& r
 
 void EngagementMeter::measure_rings(const RuledMotion& motion, std::span<const ToolRing> rings, int rows,
                                     std::span<double> angles) {
-  FLANK_ASSERT(rows >= 2 && angles.size() == static_cast<std::size_t>(rows) * rings.size());
+  FLANK_ASSERT(rows >= 3 && angles.size() == static_cast<std::size_t>(rows) * rings.size());
   std::fill(angles.begin(), angles.end(), 0.0);
   const auto same = [&](std::size_t) { return rings; };
   for_each_row(motion, same, rows, [&](std::size_t i, const EngagementRow&, const std::vector<RingArc>& found) {
@@ -139,7 +150,7 @@ EngagementPeak EngagementMeter::refine(const RuledMotion& motion, const Engageme
   near_.begin(motion);
   const std::vector<std::size_t> rows = largest_rows(measured.rows);
   reserve(rows.size());
-  const double step = 1.0 / (static_cast<double>(measured.rows.size()) - 1.0);
+  const double step = 1.0 / (static_cast<double>(measured.rows.size()) - 2.0);
   const double ds = motion.axis_length / (flank_rings - 1);
   std::array<EngagementPeak, kPeaks> peaks;
   parallel_for(rows.size(),

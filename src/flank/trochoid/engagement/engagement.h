@@ -36,11 +36,13 @@ class EngagementMeter {
   EngagementMeter(const EngagementMeter&) = delete;  // its rows refer to its poses
   EngagementMeter& operator=(const EngagementMeter&) = delete;
 
-  /// The motion over [0, 1] at `rows` (>= 2) times, on these rings; the first time is just after 0. Earlier poses of the motion
-  /// itself count as swept.
+  /// When a motion over [0, 1] is measured in a row: at equal steps, of which the first is just after 0, and once more shortly
+  /// before 1.
+  [[nodiscard]] static double time_of(std::size_t row, int rows);
+  /// The motion at these times of `rows` (>= 3), on these rings. Earlier poses of the motion itself count as swept.
   [[nodiscard]] Engagement measure(const RuledMotion& motion, std::span<const ToolRing> rings, int rows);
   [[nodiscard]] Engagement measure(const RuledMotion& motion, const RowRings& rings, int rows);
-  /// Of every ring at each of `rows` (>= 2) times, row by row, into `angles`: rows x rings, radians.
+  /// Of every ring at each of `rows` (>= 3) times, row by row, into `angles`: rows x rings, radians.
   void measure_rings(const RuledMotion& motion, std::span<const ToolRing> rings, int rows, std::span<double> angles);
   /// Larger or equal: the largest engagement near the largest rows, by golden section in t and, inside the axis, in s.
   [[nodiscard]] EngagementPeak refine(const RuledMotion& motion, const Engagement& measured, int flank_rings);
@@ -48,7 +50,7 @@ class EngagementMeter {
   [[nodiscard]] double angle(const RuledMotion& motion, double t, const ToolRing& ring);
 
  private:
-  /// Calls use(index, row, its arcs) for each of `rows` (>= 2) times of the motion, in parallel, on the rings_of(index).
+  /// Calls use(index, row, its arcs) for each of `rows` (>= 3) times of the motion, in parallel, on the rings_of(index).
   template <class RingsOf, class Use>
   void for_each_row(const RuledMotion& motion, const RingsOf& rings_of, int rows, const Use& use);
   template <class RingsOf>

@@ -7,7 +7,7 @@
 namespace flank::internal {
 namespace {
 
-constexpr int kRows = 201, kRings = 21, kVolumeRings = 9;
+constexpr int kRows = 202, kRings = 21, kVolumeRings = 9;
 
 }  // namespace
 
