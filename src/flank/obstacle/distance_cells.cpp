@@ -22,10 +22,11 @@ constexpr double kRounding = 1.0 + 1e-9;
 
 }  // namespace
 
-/// Distances to one face at the eight corners; bit k of the index is the side in direction k.
+/// Distances to one face at the eight corners; bit k of the index is the side in direction k. Where they are kept, not copies: beside
+/// many faces there are a million cells.
 struct DistanceCells::Corners {
   std::size_t face = 0;
-  std::array<FaceDistance, 8> at;
+  std::array<const FaceDistance*, 8> at{};
 };
 
 struct DistanceCells::Cube {
@@ -54,10 +55,12 @@ struct DistanceCells::Cell {
   double middle_mm = 0.0;  ///< distance at its middle
   std::vector<Near> faces;
   std::vector<Corners> corners;
-  mutable std::array<std::atomic<Cell*>, 8> parts{};  ///< grown by those who look for a place
+  using Parts = std::array<std::atomic<Cell*>, 8>;
+  std::unique_ptr<Parts> parts;  ///< of a cell that is split; grown by those who look for a place
 
   ~Cell() {
-    for (std::atomic<Cell*>& part : parts) delete part.load();
+    if (!parts) return;
+    for (std::atomic<Cell*>& part : *parts) delete part.load();
   }
 };
 
@@ -65,10 +68,10 @@ namespace {
 
 /// Trilinear in values and half of the way along gradients: exact for quadratic functions, because the errors of the two
 /// interpolations by values and by tangents are opposite and equal there. The gradient is that of the interpolant.
-FaceDistance interpolate(const std::array<FaceDistance, 8>& corners, const Vec3& share, double side) {
+FaceDistance interpolate(const std::array<const FaceDistance*, 8>& corners, const Vec3& share, double side) {
   FaceDistance sum;
   for (int c = 0; c < 8; ++c) {
-    const FaceDistance& corner = corners[static_cast<std::size_t>(c)];
+    const FaceDistance& corner = *corners[static_cast<std::size_t>(c)];
     const Vec3 far((c & 1) != 0 ? 1.0 : 0.0, (c & 2) != 0 ? 1.0 : 0.0, (c & 4) != 0 ? 1.0 : 0.0);
     const Vec3 way = share - far, sign = 2.0 * far - Vec3::Ones();
     const Vec3 w = Vec3::Ones() - far + sign.cwiseProduct(share);
@@ -99,7 +102,7 @@ DistanceCells::~DistanceCells() {
   for (std::atomic<Cell*>& root : roots_) delete root.load();
 }
 
-FaceDistance DistanceCells::corner(const Cube& cube, int index, std::size_t face, const ExactDistances& exact) {
+const FaceDistance* DistanceCells::corner(const Cube& cube, int index, std::size_t face, const ExactDistances& exact) {
   // 16 bits each: a lattice has at most 50 nodes along a side, and a part of more faces is not read in a lifetime.
   std::uint64_t key = face;
   Vec3 place = low_;  // from whole numbers: all cells of a corner agree on it to the last digit
@@ -113,13 +116,12 @@ FaceDistance DistanceCells::corner(const Cube& cube, int index, std::size_t face
   Shard& shard = shards_[(key * kMix >> 32U) % kShards];
   {
     const std::lock_guard lock(shard.mutex);
-    if (const auto known = shard.corners.find(key); known != shard.corners.end()) return known->second;
+    if (const auto known = shard.corners.find(key); known != shard.corners.end()) return &known->second;
   }
   // Without a bound: with one, the last digit would depend on which of its cells asked first.
   const FaceDistance found = exact.of(face, place, std::numeric_limits<double>::infinity());
   const std::lock_guard lock(shard.mutex);
-  shard.corners.emplace(key, found);
-  return found;
+  return &shard.corners.emplace(key, found).first->second;  // stays where it is, whatever comes later
 }
 
 std::unique_ptr<DistanceCells::Cell> DistanceCells::make(const Cube& cube, std::vector<Near> faces, double distance_mm,
@@ -129,7 +131,10 @@ std::unique_ptr<DistanceCells::Cell> DistanceCells::make(const Cube& cube, std::
   cell->middle_mm = distance_mm;
   const double radius = std::max(std::abs(distance_mm), cube.side);
   const double expected = kThirdOrder * std::pow(cube.side, 3) / (radius * radius);
-  if (cube.level < kLevels && expected > kHopeless * error_mm_) return cell;
+  if (cube.level < kLevels && expected > kHopeless * error_mm_) {
+    cell->parts = std::make_unique<Cell::Parts>();
+    return cell;
+  }
 
   const Vec3 middle = cube.at(Vec3::Constant(0.5));
   for (Near& near : cell->faces) near.mm = exact.of(near.face, middle, near.mm).mm;
@@ -140,22 +145,33 @@ std::unique_ptr<DistanceCells::Cell> DistanceCells::make(const Cube& cube, std::
   std::erase_if(cell->faces, [&](const Near& near) { return near.mm > far; });
 
   const Vec3 checked = cube.at(kChecked);
-  constexpr double kNone = std::numeric_limits<double>::infinity();
-  double interpolated = kNone, known = kNone;
+  std::vector<std::pair<double, std::size_t>> nearest;  // distances there, and places in the list
   for (const Near& near : cell->faces) {
     const double within = std::abs(near.mm) + cube.half_diagonal();
-    Corners corners{near.face, {}};
-    for (int c = 0; c < 8; ++c) corners.at[static_cast<std::size_t>(c)] = corner(cube, c, near.face, exact);
+    nearest.emplace_back(exact.of(near.face, checked, within).mm, nearest.size());
+  }
+  std::sort(nearest.begin(), nearest.end());
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  const double known = nearest.empty() ? kNone : nearest.front().first;
+  double interpolated = kNone;
+  cell->corners.resize(nearest.size());
+  for (const auto& [mm, k] : nearest) {
+    Corners& corners = cell->corners[k];
+    corners.face = cell->faces[k].face;
+    for (int c = 0; c < 8; ++c) corners.at[static_cast<std::size_t>(c)] = corner(cube, c, corners.face, exact);
     interpolated = std::min(interpolated, interpolate(corners.at, kChecked, cube.side).mm);
-    known = std::min(known, exact.of(near.face, checked, within).mm);
-    cell->corners.push_back(corners);
+    // What is too near already comes no farther by other faces, whose corners are most of the price.
+    if (known - interpolated > error_mm_) break;
   }
   const bool good = std::abs(interpolated - known) <= error_mm_, last = cube.level == kLevels;
   cell->kind = good ? Cell::Kind::kInterpolates : last ? Cell::Kind::kExact : Cell::Kind::kSplit;
   // There are a million cells about a large part: each keeps what it will be asked for, and no room for more.
   if (!good) cell->corners = {};
   cell->corners.shrink_to_fit();
-  if (cell->kind != Cell::Kind::kSplit) cell->faces = {};
+  if (cell->kind == Cell::Kind::kSplit)
+    cell->parts = std::make_unique<Cell::Parts>();
+  else
+    cell->faces = {};
   cell->faces.shrink_to_fit();
   return cell;
 }
@@ -193,7 +209,7 @@ CellDistance DistanceCells::at(const Vec3& p, const Node& node, const ExactDista
     for (int k = 0; k < 3; ++k)
       if (p[k] >= cube.low[k] + 0.5 * cube.side) index |= 1 << k;
     cube = cube.part(index);
-    std::atomic<Cell*>& place = cell->parts[static_cast<std::size_t>(index)];
+    std::atomic<Cell*>& place = (*cell->parts)[static_cast<std::size_t>(index)];
     const Cell* part = place.load(std::memory_order_acquire);
     cell = part != nullptr ? part : publish(place, make_part(cube, *cell, exact));
   }

@@ -69,7 +69,7 @@ class DistanceCells {
                                            const ExactDistances& exact);
   [[nodiscard]] std::unique_ptr<Cell> make_root(const Cube& cube, const Node& node, const ExactDistances& exact);
   [[nodiscard]] std::unique_ptr<Cell> make_part(const Cube& cube, const Cell& whole, const ExactDistances& exact);
-  [[nodiscard]] FaceDistance corner(const Cube& cube, int index, std::size_t face, const ExactDistances& exact);
+  [[nodiscard]] const FaceDistance* corner(const Cube& cube, int index, std::size_t face, const ExactDistances& exact);
 
   /// Corners are shared by up to eight cells of a level, and by their children.
   struct Shard {
