@@ -33,7 +33,7 @@ TEST_F(Cli, SignalsStopAndKeepTheBestSoFar) {
   for (const char* name : {"TERM", "HUP", "INT"}) {
     const std::string out = path(name), err = path("err.txt");
     const int code = shell("\"$FLANK\" fit '" + blade + "' --face F1 --tolerance 1e-4 --quiet -o '" + out + "' 2>'" +
-                           err + "' & p=$!; sleep 1; kill -" + name + " $p; wait $p");
+                           err + "' & p=$!; sleep 2; kill -" + name + " $p; wait $p");
     EXPECT_EQ(code, 1) << read_file(err);
     EXPECT_NE(read_file(err).find(std::string("stopped by SIG") + name), std::string::npos) << read_file(err);
     EXPECT_TRUE(fs::exists(out + "/manifest.json"));
