@@ -212,7 +212,6 @@ std::optional<WoundFace> find_wound_face(const Setup& setup) {
   if (!motion || motion->turn.isZero() || motion->slide.isZero()) return std::nullopt;
   WoundFace wound;
   wound.motion = *motion;
-  wound.face = setup.targets.front();
   wound.along_u = goes_along_u(*motion, s, region);
   const Lines lines{s, region, wound.along_u};
   wound.middle = lines.at(lines.step(kAlong / 2), lines.row(kRows / 2));
@@ -223,16 +222,17 @@ std::optional<WoundFace> find_wound_face(const Setup& setup) {
 }
 
 Setup half_turn_of(const Setup& setup, const WoundFace& wound) {
-  Setup half = setup;
-  const Face whole = setup.part.faces[static_cast<std::size_t>(wound.face)];
+  const auto at = static_cast<std::size_t>(setup.targets.front());
+  const Face& whole = setup.part.faces[at];
   const auto [low, high] = wound.half_turn;
-  half.part.faces[static_cast<std::size_t>(wound.face)] = cut_face(whole, wound.along_u, low, high);
+  Setup half = setup;
+  half.part.faces[at] = cut_face(whole, wound.along_u, low, high);
   const BSplineSurface& s = whole.surface;
   const double first = wound.along_u ? s.u_first() : s.v_first(), last = wound.along_u ? s.u_last() : s.v_last();
   for (const auto& [a, b] : {std::pair(first, low), std::pair(high, last)}) {
     half.checks.push_back(static_cast<int>(half.part.faces.size()));
     half.part.faces.push_back(cut_face(whole, wound.along_u, a, b));
-    half.part.surface_types.push_back(setup.part.surface_types[static_cast<std::size_t>(wound.face)]);
+    half.part.surface_types.push_back(setup.part.surface_types[at]);
   }
   return half;
 }

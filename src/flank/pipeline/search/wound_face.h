@@ -12,9 +12,9 @@
 
 namespace flank::internal {
 
+/// How the only face of the targets is wound.
 struct WoundFace {
   SelfMotion motion;
-  int face = -1;                   ///< index in the part that it was found in
   bool along_u = false;            ///< the parameter that goes with the screw
   Vec3 middle = Vec3::Zero();      ///< mm; a point of the face, passed at time 0
   double half_turn[2]{};           ///< parameters, rising, between which half a turn lies about the middle
