@@ -49,6 +49,19 @@ TEST(CavitySearch, IsNotDoneWhereTheVerdictWillNotBeMet) {
   EXPECT_TRUE(is_done(finished(0.93), faces, job));
 }
 
+TEST(CavitySearch, TriesNoBoundBelowTheLeastRadiusThatIsAskedFor) {
+  const CavityWidth width{.narrowest_mm = 24.0, .median_mm = 29.0};
+  TrochoidJob job;
+  job.radius.min_mm = 7.0;
+  const std::vector<double> some = bounds_of(job, width);
+  ASSERT_FALSE(some.empty());
+  for (const double bound : some) EXPECT_GT(bound, 7.0);
+  job.radius.min_mm = 11.0;
+  const std::vector<double> thick = bounds_of(job, width);
+  ASSERT_EQ(thick.size(), 1u) << "thicker than what is tried of its own accord, but there is room";
+  EXPECT_GT(thick.front(), 11.0);
+}
+
 TEST(CavitySearch, EndsAtOnceWhereCyclesGetThroughAndAThinnerToolGainsNothing) {
   SearchPatience patience;
   EXPECT_FALSE(patience.ends_after(true, true));

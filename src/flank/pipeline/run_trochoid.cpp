@@ -123,17 +123,20 @@ void surround(const TrochoidJob& job, const Setup& setup, CavityFaces& faces) {
         "left", job.left + ": other faces cover every place of it; nothing can be milled between it and " + job.right);
 }
 
-/// A given tool goes between the sides: where half of their places are too narrow for the thinnest of it, no way leads through.
+/// The tool goes between the sides: where half of their places are too narrow for the thinnest of it, no way leads through.
 void require_room(const TrochoidJob& job, const ToolSpec& spec, const CavityFaces& faces) {
   const ToolModel tool = make_tool_model(spec, job.tool.axis_length_mm);
-  if (tool.free() || !tool.free_parameters.empty() || !tool.radius) return;
+  const bool given = !tool.free() && tool.free_parameters.empty() && tool.radius;
+  if (!given && !job.radius.min_mm) return;
   const double length = tool.length_for(std::sqrt(faces.sides.front().target->area()), job.tool.axis_length_mm);
-  const double thinnest = 2.0 * tool.make(length, *tool.radius).smallest(), width = faces.width.median_mm;
+  const double radius = given ? tool.make(length, *tool.radius).smallest() : *job.radius.min_mm;
+  const double thinnest = 2.0 * radius, width = faces.width.median_mm;
   if (thinnest >= width)
     throw InputError(
-        "tool", fmt::format("the tool is {:.4g} mm thick where it is thinnest, and the cavity {:.4g} mm wide in "
-                            "the median of its places ({:.4g} mm where it is narrowest): accepted is a thinner tool",
-                            thinnest, width, faces.width.narrowest_mm));
+        given ? "tool" : "radius_min_mm",
+        fmt::format("the tool is {:.4g} mm thick where it is thinnest, and the cavity {:.4g} mm wide in "
+                    "the median of its places ({:.4g} mm where it is narrowest): accepted is a thinner tool",
+                    thinnest, width, faces.width.narrowest_mm));
 }
 
 /// From the floor to the middle of the sides.

@@ -172,12 +172,16 @@ bool is_done(const CavityPlan& plan, const CavityFaces& faces, const TrochoidJob
 }
 
 std::vector<double> bounds_of(const TrochoidJob& job, const CavityWidth& width) {
-  constexpr double kMuchWider = 1.6;
+  constexpr double kMuchWider = 1.6, kAboveLeast = 1.1;
   const double narrow = job.radius.max_mm.value_or(kMostOfWidth * width.narrowest_mm);
   const double wide = job.radius.max_mm ? 0.0 : kMostOfWidth * width.median_mm;
   std::vector<double> bounds;
   if (wide > kMuchWider * narrow) bounds = {wide, std::sqrt(wide * narrow)};
   for (const double share : {1.0, 0.75, 0.55, 0.4}) bounds.push_back(share * narrow);
+  const double least = job.radius.min_mm.value_or(0.0);
+  std::erase_if(bounds, [&](double bound) { return bound <= least; });
+  // Who asks for a thick tool gets it where it has room.
+  if (bounds.empty()) bounds.push_back(kAboveLeast * least);
   return bounds;
 }
 
@@ -196,8 +200,8 @@ CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const
   for (const double bound : bounds) {
     SideFitOptions here = options;
     here.fit.bounds.largest = bound;
-    here.fit.bounds.smallest = std::min(here.fit.bounds.smallest, 0.5 * here.fit.bounds.largest);
-    const double radius = given ? *tool.radius : kBegin * here.fit.bounds.largest;
+    if (!job.radius.min_mm) here.fit.bounds.smallest = std::min(here.fit.bounds.smallest, 0.5 * bound);
+    const double radius = given ? *tool.radius : std::max(kBegin * bound, here.fit.bounds.smallest);
     here.starts = {{radius, kStout}};
     if (tool.free()) here.starts.push_back({radius, kThin});
     CavityPlan tried = search_ways(job, faces, tool, here, !given && bound != bounds.back(), progress);

@@ -19,7 +19,7 @@ struct CavityPlan {
 
 /// Bounds of the radius that are tried, mm, from thick to thin: a thick tool makes a short path. The narrowest place has room for
 /// one of them; where most of the cavity is much wider, thicker ones come first, unless the job has a bound: a tool that is
-/// thin at one end may have the room of most places at the other.
+/// thin at one end may have the room of most places at the other. None below the least radius that is asked for.
 [[nodiscard]] std::vector<double> bounds_of(const TrochoidJob& job, const CavityWidth& width);
 
 /// Whether cycles get through, enter nothing, and the verdict will find the share that is asked for: of what a ball of the least
