@@ -1,5 +1,6 @@
 #include "flank/fit/swept_pass.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -48,7 +49,9 @@ std::vector<FacePoint> target_points(const FitDraft& draft, int per_side, const 
   for (const Target* target : targets) area += target->area();
   std::vector<FacePoint> points;
   for (const Target* target : targets) {
-    const double spacing = std::sqrt(target->area()) / per_side;
+    // As many for each strip as one has alone: fewer than its rails have unknowns would hold it nowhere between them.
+    const auto strips = static_cast<double>(std::count(draft.targets.begin(), draft.targets.end(), target));
+    const double spacing = std::sqrt(target->area() / strips) / per_side;
     std::vector<SurfaceSample> samples = target->samples(spacing);
     // The samples are middles of cells; a tool cuts deepest at the rim. A rim point stands for half a cell.
     constexpr double kRimCell = 0.5;  // of a cell's area
