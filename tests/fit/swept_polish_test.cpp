@@ -68,14 +68,26 @@ TEST(TargetPoints, SharesInsideSumToOneAndARimPointCountsHalfACell) {
   EXPECT_GE(rim, 4 * per_side);
 }
 
-TEST(TargetPoints, ATargetThatStripsShareIsSampledOnceAndSeveralShareByArea) {
+/// Its points count as one target, of which there are as many for each strip as for one alone.
+TEST(TargetPoints, ATargetThatStripsShareHasPointsForEachAndSeveralShareByArea) {
   const auto a = standing_blade(0.0);
   const auto b = make_target({testing::quad(Vec3(0, 9, 0), Vec3(20, 9, 0), Vec3(0, 9, 20), Vec3(20, 9, 20), "F1")});
-  FitDraft once, twice, both;
+  FitDraft once, four_times, both;
   once.targets = {a.get()};
-  twice.targets = {a.get(), a.get()};
+  four_times.targets = {a.get(), a.get(), a.get(), a.get()};
   both.targets = {a.get(), b.get()};
-  EXPECT_EQ(target_points(once, 12).size(), target_points(twice, 12).size());
+  const auto inside = [](const FitDraft& draft, int per_side) {
+    int count = 0;
+    double share = 0.0;
+    for (const FacePoint& point : target_points(draft, per_side)) {
+      if (on_rim(point.point)) continue;
+      ++count;
+      share += point.share;
+    }
+    EXPECT_NEAR(share, 1.0, 1e-9);
+    return count;
+  };
+  EXPECT_EQ(inside(four_times, 12), inside(once, 24));
   double small = 0.0;
   for (const FacePoint& point : target_points(both, 12)) {
     const double x = point.point.x(), z = point.point.z();
