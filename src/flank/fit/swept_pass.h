@@ -52,8 +52,8 @@ inline constexpr double kAllButCovered = 0.995;
 /// The weights and sizes of a pass, for targets of this size.
 [[nodiscard]] FitStage swept_stage(const SweptPass& pass, const FlankFitOptions& options, double size_mm);
 
-/// Points of the draft's targets, each target once, spacing about sqrt(area) / `per_side` (>= 1), rim included; shares
-/// are by area. Points out of reach have that role, the others are to be touched.
+/// Points of the draft's targets, each target once, spacing about sqrt(area / its strips) / `per_side` (>= 1), rim
+/// included; shares are by area. Points out of reach have that role, the others are to be touched.
 [[nodiscard]] std::vector<FacePoint> target_points(const FitDraft& draft, int per_side, const ReachLimits& reach = {});
 
 /// One pass of a SweptModel at the stage's resolution over these points; `trace` grows if given. Returns the result
