@@ -95,6 +95,45 @@ TEST(ProgramStock, ThePartBetweenTheSidesIsNoMaterialThatIsLeft) {
   EXPECT_NEAR(replay_program(cylinder(), path, blank(), faces, kOptions).report.uncut_mm, open.report.uncut_mm, 1e-9);
 }
 
+TEST(ProgramStock, WhatIsLeftOnTheFloorIsNotBetweenTheSides) {
+  // The tool is drawn up by 2 mm between the sides, so that it leaves that on a floor at z = -3; rays from the foot of a wall that
+  // leans back go down into it.
+  Path path{{straight(1, "side", 10.0 - kRadius), straight(2, "side", -10.0 + kRadius)}};
+  for (double y = -6.0; y <= 6.0; y += 1.0) {
+    path.strips.push_back(straight(static_cast<int>(path.strips.size()) + 1, "front", y));
+    for (Pose& pose : path.strips.back().poses) pose.tip.z() += 2.0;
+  }
+  std::vector<FaceSamples> faces = {wall("F1", 10.0, -Vec3::UnitY()), wall("F2", -10.0, Vec3::UnitY())};
+  for (FaceSamples& face : faces) {
+    for (Vec3& point : face.points) point.z() -= 3.0;
+    for (Vec3& normal : face.normals) normal = Vec3(0.0, normal.y(), -0.35).normalized();
+  }
+  const ProgramStock open = replay_program(cylinder(), path, blank(), faces, kOptions);
+  EXPECT_GT(open.report.uncut_mm, 0.4) << "nobody knows of a floor";
+  FaceSamples floor;
+  floor.face = "F3";
+  floor.of_solid = true;
+  floor.spacing_mm = 0.8;
+  for (double x = -9.0; x <= 9.0; x += 1.0)
+    for (double y = -10.0; y <= 10.0; y += 1.0) {
+      floor.points.emplace_back(x, y, -kRadius);
+      floor.areas.push_back(1.0);
+      floor.normals.push_back(Vec3::UnitZ());
+    }
+  faces.push_back(floor);
+  EXPECT_LT(replay_program(cylinder(), path, blank(), faces, kOptions).report.uncut_mm, 0.2);
+}
+
+TEST(ProgramStock, NothingIsBetweenTheSidesWhereOneHasEnded) {
+  // The tool goes along both; what is between the slots is left where F2 is across from F1, and is nobody's where it has ended.
+  const Path path{{straight(1, "side", 10.0 - kRadius), straight(2, "side", -10.0 + kRadius)}};
+  const FaceSamples one = wall("F1", 10.0, -Vec3::UnitY()), other = wall("F2", -10.0, Vec3::UnitY());
+  FaceSamples ended = other;
+  for (Vec3& point : ended.points) point.x() -= 40.0;
+  EXPECT_NEAR(replay_program(cylinder(), path, blank(), {one, other}, kOptions).report.uncut_mm, 4.0, 0.2);
+  EXPECT_EQ(replay_program(cylinder(), path, blank(), {one, ended}, kOptions).report.uncut_mm, 0.0);
+}
+
 TEST(ProgramStock, IsTheSameForOneAndTwoThreads) {
   const auto run = [](int threads) {
     set_thread_count(threads);

@@ -5,7 +5,7 @@
 
 #include "flank/target.h"
 #include "flank/trochoid/engagement/swept_stock.h"
-#include "flank/trochoid/side_path.h"
+#include "flank/trochoid/ways/side_path.h"
 
 namespace flank::internal {
 

@@ -11,9 +11,9 @@
 #include "flank/trochoid/cycle_shape.h"
 #include "flank/trochoid/engagement/engagement.h"
 #include "flank/trochoid/engagement/kept_measures.h"
-#include "flank/trochoid/half_guard.h"
-#include "flank/trochoid/side_pairing.h"
-#include "flank/trochoid/side_path.h"
+#include "flank/trochoid/ways/half_guard.h"
+#include "flank/trochoid/ways/side_pairing.h"
+#include "flank/trochoid/ways/side_path.h"
 
 namespace flank::internal {
 

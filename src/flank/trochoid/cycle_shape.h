@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "flank/trochoid/half_path.h"
+#include "flank/trochoid/ways/half_path.h"
 
 namespace flank::internal {
 

@@ -1,4 +1,4 @@
-/// The whole program of a cavity: layers of cycles, finishing sweeps along both sides, entries and links, as one path.
+/// What is planned of a cavity: layers of cycles, finishing sweeps along both sides, entries and links, as one path.
 #pragma once
 
 #include <optional>
@@ -51,10 +51,5 @@ struct CavityProgram {
   /// Deepest that an entry or a half enters a face, by the planner's samples.
   [[nodiscard]] double entered_mm() const;
 };
-
-/// `sides`: motions as fit_sides returns them. `faces[k]` guards layer k.
-[[nodiscard]] CavityProgram plan_program(const std::vector<RuledMotion>& sides, const RadialFunction& radial,
-                                         const Target& left, const Target& right, const GuardedFaces& faces,
-                                         const ProgramOptions& options, const Progress& progress);
 
 }  // namespace flank::internal

@@ -101,26 +101,59 @@ struct Ray {
   bool covered = false;
 };
 
-/// Half of the distance from a place of one target to the nearest sample of the others.
-double half_way(const Vec3& point, std::size_t own, const std::vector<FaceSamples>& faces, std::size_t stride) {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    if (f == own || !faces[f].target) continue;
-    for (std::size_t k = 0; k < faces[f].points.size(); k += stride)
-      least = std::min(least, (faces[f].points[k] - point).norm());
+/// The faces with their sides: 1 where the tool is on the side of a normal, else -1.
+struct Sides {
+  const std::vector<FaceSamples>& faces;
+  const std::vector<int>& signs;
+  std::size_t stride;  ///< every so many samples are looked at
+};
+
+/// From a place to the nearest sample of the targets but one, and whether it lies right across from it rather than before
+/// an edge of it: there is nothing between the sides where one of them has ended.
+struct Across {
+  double distance = std::numeric_limits<double>::infinity();
+  bool facing = false;
+};
+
+Across across_from(const Vec3& point, std::size_t own, const Sides& sides) {
+  Across out;
+  for (std::size_t f = 0; f < sides.faces.size(); ++f) {
+    const FaceSamples& face = sides.faces[f];
+    if (f == own || !face.target || face.normals.size() != face.points.size()) continue;
+    const double apart = face.spacing_mm * std::sqrt(static_cast<double>(sides.stride));
+    for (std::size_t k = 0; k < face.points.size(); k += sides.stride) {
+      const Vec3 to = point - face.points[k];
+      if (to.norm() >= out.distance) continue;
+      const double along = sides.signs[f] * face.normals[k].dot(to);
+      out = {to.norm(), (to - sides.signs[f] * along * face.normals[k]).norm() <= along + apart};
+    }
   }
-  return std::isfinite(least) ? 0.5 * least : 0.0;
+  return out;
 }
 
-/// How far a ray goes before it enters another face of a solid, at most `reach`: a floor that leans towards a wall lies in the
-/// way of rays from its foot, and the part behind it is no material that was left. Faces are taken as the tangent planes of
-/// their samples.
-double free_way(const Vec3& point, const Vec3& direction, double reach, const std::vector<FaceSamples>& faces) {
+/// How far a ray goes to the middle between the sides: half of the distance to the other one, less where that ends before
+/// an edge of it.
+double half_way(const Vec3& point, const Vec3& direction, std::size_t own, const Sides& sides) {
+  constexpr int kShares = 4;
+  const double least = across_from(point, own, sides).distance;
+  for (int k = kShares; std::isfinite(least) && k > 0; --k) {
+    const double way = 0.5 * least * k / kShares;
+    if (across_from(point + way * direction, own, sides).facing) return way;
+  }
+  return 0.0;
+}
+
+/// How far a ray goes before it comes nearer to another face of a solid than `keep`, at most `reach`: a floor that leans
+/// towards a wall lies in the way of rays from its foot. What lies nearer to it than the tool's tip is round was not left
+/// between the sides, but on the floor, and the part behind it is no material at all. Faces are taken as the tangent planes
+/// of their samples.
+double free_way(const Vec3& point, const Vec3& direction, double reach, double keep,
+                const std::vector<FaceSamples>& faces) {
   for (const FaceSamples& face : faces) {
     if (face.target || !face.of_solid || face.normals.size() != face.points.size()) continue;
-    const double near = reach + face.spacing_mm;
+    const double near = reach + face.spacing_mm + keep;
     for (std::size_t k = 0; k < face.points.size(); ++k) {
-      const Vec3 to = face.points[k] - point;
+      const Vec3 to = face.points[k] + keep * face.normals[k] - point;
       const double against = face.normals[k].dot(direction);
       if (against >= 0.0 || to.squaredNorm() > near * near) continue;
       const double way = std::max(0.0, face.normals[k].dot(to) / against);
@@ -135,23 +168,28 @@ std::vector<Ray> rays_from(const Tool& tool, const Path& path, const std::vector
   std::size_t all = 0;
   for (const FaceSamples& face : faces) all += face.points.size();
   const std::size_t stride = std::max<std::size_t>(1, all / kMostRays);
-  const double edge = kEdgeCells * stock.cell();
+  const double edge = kEdgeCells * stock.cell(), keep = smallest_radius(tool);
   const SweptVolume volume(tool, path);
+  std::vector<int> signs;
+  for (FaceSamples& face : faces) {
+    const bool known = face.of_solid || face.normals.size() != face.points.size();
+    signs.push_back(known ? 1 : side_of_tool(tool, path, face));
+  }
+  const Sides sides{faces, signs, stride};
   std::vector<Ray> rays;
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    FaceSamples& face = faces[f];
+    const FaceSamples& face = faces[f];
     if (face.normals.size() != face.points.size()) continue;
-    const int side = face.of_solid ? 1 : side_of_tool(tool, path, face);
     for (std::size_t k = 0; k < face.points.size(); k += stride) {
       const Vec3& p = face.points[k];
       const bool in_box = ((p - stock.box().low).array() > edge).all() && ((stock.box().high - p).array() > edge).all();
       if (!in_box || std::any_of(blank.begin(), blank.end(),
                                  [&](const HalfSpace& h) { return h.normal.dot(p) > h.offset - edge; }))
         continue;
-      Ray ray{p, side * face.normals[k], 0.0, false};
+      Ray ray{p, signs[f] * face.normals[k], 0.0, false};
       if (face.target) {
         ray.covered = std::abs(volume.distance(p, 1.01 * tolerance).f) <= tolerance;
-        if (ray.covered) ray.reach = free_way(p, ray.normal, half_way(p, f, faces, stride), faces);
+        if (ray.covered) ray.reach = free_way(p, ray.normal, half_way(p, ray.normal, f, sides), keep, faces);
       }
       rays.push_back(ray);
     }

@@ -6,6 +6,7 @@
 
 #include "flank/base/tolerance_budget.h"
 #include "flank/tool.h"
+#include "flank/trochoid/plan_program.h"
 #include "flank/trochoid/sides/side_room.h"
 
 namespace flank::internal {

@@ -15,4 +15,8 @@ struct PassMeasure {
 /// Measures a pass, whose motions are then in the stock. `sweep_intervals`: of each (Sweep::of).
 [[nodiscard]] PassMeasure measure_pass(const std::vector<RuledMotion>& motions, int sweep_intervals, SweptStock& stock);
 
+/// Largest engagement of poses that are joined straight, radians; what the way itself takes is not counted as taken, and the stock
+/// stays as it is.
+[[nodiscard]] double largest_engagement(const std::vector<Pose>& way, const SweptStock& stock);
+
 }  // namespace flank::internal

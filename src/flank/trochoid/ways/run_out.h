@@ -1,8 +1,8 @@
 /// How the side paths of a cavity go on beyond their ends: together, and clear of all faces.
 #pragma once
 
-#include "flank/trochoid/half_guard.h"
-#include "flank/trochoid/side_path.h"
+#include "flank/trochoid/ways/half_guard.h"
+#include "flank/trochoid/ways/side_path.h"
 
 namespace flank::internal {
 

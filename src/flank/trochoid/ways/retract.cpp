@@ -1,4 +1,4 @@
-#include "flank/trochoid/retract.h"
+#include "flank/trochoid/ways/retract.h"
 
 #include <algorithm>
 #include <array>

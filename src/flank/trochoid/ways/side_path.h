@@ -1,10 +1,11 @@
 /// A side path as the cycles see it: by the way of the axis' middle, and straight on past both its ends.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
-#include "flank/trochoid/half_path.h"
+#include "flank/trochoid/ways/half_path.h"
 
 namespace flank::internal {
 
@@ -28,8 +29,9 @@ class SidePath {
   /// a unit vector along x, evenly over a length. Over no less than the tool's radius: then the tool, which rounds the edge
   /// of the side, keeps clear of it for directions up to 45 degrees off.
   void bend_run_out(bool at_end, const Vec3& direction, double over_mm);
-  /// Besides, the axis rises beyond an end: by the vector `rise` a millimetre of way, evenly more over a length to begin with.
-  void raise_run_out(bool at_end, const Vec3& rise, double over_mm);
+  /// Besides, the axis rises beyond an end: by the vector `rise` a millimetre of way, evenly more over a length to begin with,
+  /// and from `until_mm` on evenly less over the same length, to none.
+  void raise_run_out(bool at_end, const Vec3& rise, double over_mm, double until_mm);
   /// Beyond an end the axis turns about its middle towards a unit vector less than 180 degrees from it, smoothly over a length.
   void turn_run_out(bool at_end, const std::optional<Vec3>& axis, double over_mm);
   /// Beyond its end, or before its start, there is a wall: there the axis stays where it is.
@@ -50,6 +52,7 @@ class SidePath {
     Vec3 from = Vec3::Zero(), to = Vec3::Zero();  ///< directions at the end of the side, and `over` beyond it
     Vec3 rise = Vec3::Zero();
     double over_mm = 1.0, rise_over_mm = 1.0;
+    double rise_until_mm = std::numeric_limits<double>::infinity();
     std::optional<Vec3> axis;  ///< none: it does not turn
     double turn_over_mm = 1.0;
   };

@@ -1,12 +1,12 @@
 // Half paths: where they begin and end, how they leave, and that nothing but the axis' position changes.
-#include "flank/trochoid/half_path.h"
+#include "flank/trochoid/ways/half_path.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "flank/trochoid/run_out.h"
-#include "flank/trochoid/side_path.h"
+#include "flank/trochoid/ways/run_out.h"
+#include "flank/trochoid/ways/side_path.h"
 
 namespace flank::internal {
 namespace {

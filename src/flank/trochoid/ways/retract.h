@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "flank/path.h"
-#include "flank/trochoid/half_guard.h"
+#include "flank/trochoid/ways/half_guard.h"
 
 namespace flank::internal {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "flank/trochoid/side_path.h"
+#include "flank/trochoid/ways/side_path.h"
 
 namespace flank::internal {
 

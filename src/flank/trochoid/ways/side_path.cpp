@@ -1,4 +1,4 @@
-#include "flank/trochoid/side_path.h"
+#include "flank/trochoid/ways/side_path.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +17,17 @@ BSplineCurve3 backwards_of(const BSplineCurve3& curve) {
   std::reverse(out.knots.begin(), out.knots.end());
   for (double& k : out.knots) k = 1.0 - k;
   return out;
+}
+
+/// A slope that grows evenly from 0 to 1 over a length, and what it has risen.
+struct Slope {
+  double slope = 0.0, risen = 0.0;
+};
+
+Slope slope_after(double by, double over) {
+  if (by <= 0.0) return {};
+  const double grown = std::min(by, over);
+  return {grown / over, 0.5 * grown * grown / over + by - grown};
 }
 
 }  // namespace
@@ -85,12 +96,13 @@ AxisPlace SidePath::at(double x) const {
   const AxisPlace end = inside(x < 0.0 ? 0.0 : 1.0);
   const RunOut& out = x < 0.0 ? before_ : after_;
   const double by = x < 0.0 ? -x : x - length(), sign = x < 0.0 ? -1.0 : 1.0;
-  const double bent = std::min(by, out.over_mm), risen = std::min(by, out.rise_over_mm);
+  const Slope bent = slope_after(by, out.over_mm), rise = slope_after(by, out.rise_over_mm),
+              fall = slope_after(by - out.rise_until_mm, out.rise_over_mm);
   const Vec3 turn = out.to - out.from;
-  const Vec3 way = by * out.from + (0.5 * bent * bent / out.over_mm + by - bent) * turn;
-  const Vec3 up = (0.5 * risen * risen / out.rise_over_mm + by - risen) * out.rise;
+  const Vec3 way = by * out.from + bent.risen * turn;
+  const Vec3 up = (rise.risen - fall.risen) * out.rise;
   AxisPlace place{end.tip + sign * way + up, end.u,
-                  out.from + bent / out.over_mm * turn + sign * risen / out.rise_over_mm * out.rise, Vec3::Zero()};
+                  out.from + bent.slope * turn + sign * (rise.slope - fall.slope) * out.rise, Vec3::Zero()};
   if (out.axis) turn_axis(out, by, sign, place);
   return place;
 }
@@ -116,10 +128,11 @@ void SidePath::bend_run_out(bool at_end, const Vec3& direction, double over_mm) 
   out.over_mm = over_mm;
 }
 
-void SidePath::raise_run_out(bool at_end, const Vec3& rise, double over_mm) {
+void SidePath::raise_run_out(bool at_end, const Vec3& rise, double over_mm, double until_mm) {
   RunOut& out = at_end ? after_ : before_;
   out.rise = rise;
   out.rise_over_mm = over_mm;
+  out.rise_until_mm = until_mm;
 }
 
 void SidePath::turn_run_out(bool at_end, const std::optional<Vec3>& axis, double over_mm) {

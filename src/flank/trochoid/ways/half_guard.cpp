@@ -1,4 +1,4 @@
-#include "flank/trochoid/half_guard.h"
+#include "flank/trochoid/ways/half_guard.h"
 
 #include <algorithm>
 #include <array>

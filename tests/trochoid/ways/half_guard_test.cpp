@@ -1,9 +1,9 @@
 // How deep half paths enter faces: the deepest moment, not the deepest sample.
-#include "flank/trochoid/half_guard.h"
+#include "flank/trochoid/ways/half_guard.h"
 
 #include <gtest/gtest.h>
 
-#include "flank/trochoid/half_path.h"
+#include "flank/trochoid/ways/half_path.h"
 #include "obstacle/obstacle_scene.h"
 
 namespace flank::internal {

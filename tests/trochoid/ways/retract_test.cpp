@@ -1,5 +1,5 @@
 // Ways out of a cavity: along the axis where that is free, else another that enters nothing.
-#include "flank/trochoid/retract.h"
+#include "flank/trochoid/ways/retract.h"
 
 #include <gtest/gtest.h>
 

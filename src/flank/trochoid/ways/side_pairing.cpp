@@ -1,4 +1,4 @@
-#include "flank/trochoid/side_pairing.h"
+#include "flank/trochoid/ways/side_pairing.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "flank/trochoid/half_path.h"
+#include "flank/trochoid/ways/half_path.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -1,5 +1,5 @@
 // Beyond the ends of the sides: what goes on straight into the hub rises, and what is free is left as it is.
-#include "flank/trochoid/run_out.h"
+#include "flank/trochoid/ways/run_out.h"
 
 #include <gtest/gtest.h>
 
@@ -99,6 +99,32 @@ TEST_F(RunOutTest, RisesAtOnceWhereTheFloorDoes) {
   EXPECT_LE(deepest_of(b), 0.05);
 }
 
+TEST_F(RunOutTest, RisesNoHigherThanAHubThatEndsAsksFor) {
+  // Down a slope, whose foot the blade's end lies above: what goes on as it came enters the foot, and beyond it nothing is in the way.
+  const Face slope = testing::quad(Vec3(-20, -50, 12), Vec3(47, -50, 0), Vec3(-20, 50, 12), Vec3(47, 50, 0), "F3");
+  const ObstacleField field(only({make_target({slope}), true}), *blade_, 2.0, 0.0);
+  const HalfGuard guard({{blade_.get()}, {&field}}, kTool);
+  const Vec3 normal = Vec3(12.0, 0.0, 67.0).normalized(), down = Vec3(67.0, 0.0, -12.0).normalized();
+  const auto sinking = [&](double y) {
+    std::vector<Pose> poses;
+    std::vector<double> t;
+    for (int k = 0; k <= 40; ++k) {
+      t.push_back(k / 40.0);
+      const Vec3 foot = Vec3(5.0, y, 12.0 - 12.0 / 67.0 * 25.0) + 40.0 * t.back() * down;
+      poses.push_back({foot + (kRadius + 0.02) * normal, Vec3(0.35, 0.0, 1.0).normalized()});
+    }
+    return SidePath(fit_motion(poses, t, kLength, 8), false);
+  };
+  SidePath a = sinking(kRadius), b = sinking(19.0);
+  EXPECT_EQ(join_run_outs(a, b, kRadius, guard, 0.01).end, 0.0);
+  const double far = 20.0 * kRadius, middle = 0.5 * kLength;
+  const AxisPlace end = a.at(a.length()), out = a.at(a.length() + far);
+  const double risen = (out.at(middle) - end.at(middle)).dot(end.u);
+  EXPECT_GT(risen, 0.01) << "it has to rise";
+  EXPECT_LT(risen, kRadius) << "and needs to rise no more";
+  EXPECT_NEAR((a.at(a.length() + far).tip_dx).dot(end.u), 0.0, 1e-9) << "level again";
+}
+
 TEST_F(RunOutTest, AWallAcrossTheWayIsToldApartFromAHub) {
   Face wall = testing::quad(Vec3(50, -50, 0), Vec3(50, 50, 0), Vec3(50, -50, 60), Vec3(50, 50, 60), "F3");
   for (const bool oriented : {true, false}) {
@@ -139,7 +165,7 @@ TEST_F(RunOutTest, VelocitiesAreThoseOfThePlaces) {
   SidePath path = leaning(kRadius, 0.1);
   for (const bool end : {false, true}) {
     path.bend_run_out(end, Vec3(0.9, 0.3, 0.1).normalized(), 3.0);
-    path.raise_run_out(end, Vec3(0.05, -0.02, 0.6), 1.3);
+    path.raise_run_out(end, Vec3(0.05, -0.02, 0.6), 1.3, 2.0);
     path.turn_run_out(end, Vec3(0.3, -0.5, 0.9).normalized(), 4.0);
   }
   constexpr double kStep = 1e-5;
@@ -184,7 +210,7 @@ TEST_F(RunOutTest, PosesFollowARunOutThatBendsRisesAndTurns) {
   SidePath path = leaning(kRadius, 0.1);
   for (const bool end : {false, true}) {
     path.bend_run_out(end, Vec3(0.8, 0.6, 0.0), 3.0);
-    path.raise_run_out(end, Vec3(0.0, 0.0, 0.7), 1.3);
+    path.raise_run_out(end, Vec3(0.0, 0.0, 0.7), 1.3, 2.0);
     path.turn_run_out(end, Vec3(0.0, 0.4, 0.9).normalized(), 8.0);
   }
   const std::vector<Pose> poses = path.poses(-kFar, path.length() + kFar, kChord);

@@ -1,5 +1,5 @@
 // Places across from one another: right angles where there are some, and always forwards.
-#include "flank/trochoid/side_pairing.h"
+#include "flank/trochoid/ways/side_pairing.h"
 
 #include <gtest/gtest.h>
 

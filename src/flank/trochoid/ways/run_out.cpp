@@ -1,6 +1,7 @@
-#include "flank/trochoid/run_out.h"
+#include "flank/trochoid/ways/run_out.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -11,6 +12,7 @@ namespace {
 
 /// Deeper than at the end of a side by this share counts as deeper.
 constexpr double kMore = 1.1;
+constexpr double kForever = std::numeric_limits<double>::infinity();
 
 /// Mean direction of both ways over their last quarter at an end, along x, across the axis.
 Vec3 common_direction(const SidePath& a, const SidePath& b, bool end) {
@@ -47,7 +49,7 @@ std::optional<Vec3> common_axis(const SidePath& a, const SidePath& b, bool end) 
 /// How both paths leave one end.
 struct Bend {
   Vec3 direction, rise;
-  double over_mm = 1.0, rise_over_mm = 1.0;
+  double over_mm = 1.0, rise_over_mm = 1.0, rise_until_mm = kForever;
   std::optional<Vec3> axis = {};
   double turn_over_mm = 1.0;
 };
@@ -55,10 +57,33 @@ struct Bend {
 void lay(SidePath& a, SidePath& b, bool end, const Bend& bend) {
   for (SidePath* path : {&a, &b}) {
     path->bend_run_out(end, bend.direction, bend.over_mm);
-    path->raise_run_out(end, bend.rise, bend.rise_over_mm);
+    path->raise_run_out(end, bend.rise, bend.rise_over_mm, bend.rise_until_mm);
     path->turn_run_out(end, bend.axis, bend.turn_over_mm);
   }
 }
+
+/// How steeply a run-out rises, and for how many radii.
+struct Rise {
+  double slope, until;
+};
+
+/// From low to high: fronts between run-outs that go on rising leave what lies below them on the floor.
+constexpr std::array<Rise, 16> kRises = {{{0.0, kForever},
+                                          {0.12, 0.5},
+                                          {0.12, 1.0},
+                                          {0.25, 0.5},
+                                          {0.45, 0.5},
+                                          {0.25, 1.0},
+                                          {0.7, 0.5},
+                                          {0.45, 1.0},
+                                          {1.0, 0.5},
+                                          {0.7, 1.0},
+                                          {1.0, 1.0},
+                                          {0.12, kForever},
+                                          {0.25, kForever},
+                                          {0.45, kForever},
+                                          {0.7, kForever},
+                                          {1.0, kForever}}};
 
 /// Deepest that a run-out enters a face, mm: up to where cycles begin and end.
 double entered(const SidePath& path, bool end, double radius, const HalfGuard& guard) {
@@ -84,7 +109,7 @@ double entered_at_end(const SidePath& path, bool end, const HalfGuard& guard) {
 
 void join_run_outs(SidePath& a, SidePath& b, double radius_mm) {
   for (const bool end : {false, true})
-    lay(a, b, end, {common_direction(a, b, end), Vec3::Zero(), radius_mm, radius_mm, {}, radius_mm});
+    lay(a, b, end, {common_direction(a, b, end), Vec3::Zero(), radius_mm, radius_mm, kForever, {}, radius_mm});
 }
 
 RunOutDepth join_run_outs(SidePath& a, SidePath& b, double radius_mm, const HalfGuard& guard, double allowed_mm) {
@@ -98,9 +123,10 @@ RunOutDepth join_run_outs(SidePath& a, SidePath& b, double radius_mm, const Half
     Bend best;
     double least = std::numeric_limits<double>::infinity();
     std::optional<Vec3> axis = common_axis(a, b, end);
-    const auto look = [&](double rise, double rise_over, double over) {
+    const auto look = [&](const Rise& rise, double rise_over, double over) {
       if (least <= 0.0) return;
-      const Bend bend{common, rise * up, over * radius_mm, rise_over * radius_mm, axis, kTurnOver * radius_mm};
+      const Bend bend{common, rise.slope * up,      over * radius_mm, rise_over * radius_mm, rise.until * radius_mm,
+                      axis,   kTurnOver * radius_mm};
       lay(a, b, end, bend);
       const double deep =
           std::max(entered(a, end, radius_mm, guard) - most_a, entered(b, end, radius_mm, guard) - most_b);
@@ -108,12 +134,12 @@ RunOutDepth join_run_outs(SidePath& a, SidePath& b, double radius_mm, const Half
       least = deep;
       best = bend;
     };
-    // From gentle to steep; a floor that rises right behind the end is risen from at once.
+    // A floor that rises right behind the end is risen from at once.
     const auto look_at_all = [&] {
-      for (const double rise : {0.0, 0.12, 0.25, 0.45, 0.7, 1.0})
+      for (const Rise& rise : kRises)
         for (const double rise_over : {1.0, 0.4, 0.1})
           for (const double over : {1.0, 2.0, 4.0})
-            if (rise > 0.0 || rise_over == 1.0) look(rise, rise_over, over);
+            if (rise.slope > 0.0 || rise_over == 1.0) look(rise, rise_over, over);
     };
     if (axis) look_at_all();
     axis.reset();
