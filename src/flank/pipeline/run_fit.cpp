@@ -151,13 +151,18 @@ void lift_shank(const FitJob& job, const ClearanceScene& scene, FitSearch& searc
         fmt::format("the flank was lengthened by {} mm, so that shank and holder keep their clearances", more));
 }
 
+/// The group that each motion machines.
+std::vector<const TargetGroup*> groups_of_motions(const FitSearch& search) {
+  std::vector<const TargetGroup*> groups;
+  for (const std::size_t g : search.group_of_motion) groups.push_back(&search.machined()[g]);
+  return groups;
+}
+
 /// Strips of the path, with the notes of what is wrong with them.
 std::vector<StripSurface> sample_path(const FitSearch& search, double tolerance_mm, Result& result) {
   const Legitimacy legitimacy = check_legitimacy(result.tool.radial);
   if (!legitimacy.legitimate) result.notes.push_back("the tool is not legitimate: " + legitimacy.reason);
-  std::vector<const TargetGroup*> groups;
-  for (const std::size_t g : search.group_of_motion) groups.push_back(&search.machined()[g]);
-  std::vector<StripSurface> surfaces = add_strips(tolerance_mm, groups, result);
+  std::vector<StripSurface> surfaces = add_strips(tolerance_mm, groups_of_motions(search), result);
   if (result.largest_c >= 1.0)
     result.notes.push_back(fmt::format(
         "the tool plunges where it touches the target: |c| = {:.3f} >= 1 somewhere along the path", result.largest_c));
@@ -203,9 +208,7 @@ StiffnessStep judged_rung(const Setup& setup, const FitSearch& search, const Fla
   one.job = job;
   one.tool = found_tool(parse_tool_spec(job.tool.spec), rung.tool, job.obstacles);
   one.motions = search.motions_of(rung);
-  std::vector<const TargetGroup*> groups;
-  for (const std::size_t g : search.group_of_motion) groups.push_back(&search.machined()[g]);
-  (void)add_strips(job.tolerance_mm, groups, one);  // surfaces are for drawings
+  (void)add_strips(job.tolerance_mm, groups_of_motions(search), one);  // surfaces are for drawings
   const VerifyReport verify = judge_job(setup, job.judge, one.tool, one.path, DepthProof::kSampled);
   return judged_step(tried_tool(rung.tool, rung.motions.size(), rung.after, search.options.bounds), verify);
 }

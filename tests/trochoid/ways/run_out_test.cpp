@@ -125,6 +125,21 @@ TEST_F(RunOutTest, RisesNoHigherThanAHubThatEndsAsksFor) {
   EXPECT_NEAR((a.at(a.length() + far).tip_dx).dot(end.u), 0.0, 1e-9) << "level again";
 }
 
+TEST_F(RunOutTest, IsClearAsFarAsTheOtherSideGoes) {
+  // One side begins 40 mm behind the other, and beside that a ramp begins, more than six radii before its own start.
+  const Face ramp = testing::quad(Vec3(-40, -50, 5), Vec3(22, -50, 0), Vec3(-40, 50, 5), Vec3(22, 50, 0), "F3");
+  const ObstacleField field(only({make_target({ramp}), true}), *blade_, 2.0, 0.0);
+  const HalfGuard guard({{blade_.get()}, {&field}}, kTool);
+  SidePath main = leaning(19.0, 0.0), splitter = leaning(kRadius, 0.0, 40.0);
+  EXPECT_EQ(join_run_outs(main, splitter, kRadius, guard, 0.01).start, 0.0);
+  GuardDepth depth;
+  for (double by = 0.0; by <= 40.0 + 5.0 * kRadius; by += 0.25) {
+    const AxisPlace place = splitter.at(-by);
+    guard.look({place.tip, place.u}, 9, depth);
+  }
+  EXPECT_LE(depth.deepest(), 0.01);
+}
+
 TEST_F(RunOutTest, AWallAcrossTheWayIsToldApartFromAHub) {
   Face wall = testing::quad(Vec3(50, -50, 0), Vec3(50, 50, 0), Vec3(50, -50, 60), Vec3(50, 50, 60), "F3");
   for (const bool oriented : {true, false}) {

@@ -67,30 +67,40 @@ struct Rise {
   double slope, until;
 };
 
-/// From low to high: fronts between run-outs that go on rising leave what lies below them on the floor.
+/// From gentle to steep, and level again as soon as that does: fronts between run-outs that go on rising leave what lies
+/// below them on the floor.
 constexpr std::array<Rise, 16> kRises = {{{0.0, kForever},
                                           {0.12, 0.5},
                                           {0.12, 1.0},
-                                          {0.25, 0.5},
-                                          {0.45, 0.5},
-                                          {0.25, 1.0},
-                                          {0.7, 0.5},
-                                          {0.45, 1.0},
-                                          {1.0, 0.5},
-                                          {0.7, 1.0},
-                                          {1.0, 1.0},
                                           {0.12, kForever},
+                                          {0.25, 0.5},
+                                          {0.25, 1.0},
                                           {0.25, kForever},
+                                          {0.45, 0.5},
+                                          {0.45, 1.0},
                                           {0.45, kForever},
+                                          {0.7, 0.5},
+                                          {0.7, 1.0},
                                           {0.7, kForever},
+                                          {1.0, 0.5},
+                                          {1.0, 1.0},
                                           {1.0, kForever}}};
 
+/// How far a run-out goes on: six radii past where the other side has its end, which may be far ahead (a splitter's), mm.
+double farthest(const SidePath& path, const SidePath& other, bool end, const Vec3& direction, double radius) {
+  constexpr double kPast = 6.0;  // radii
+  const double middle = 0.5 * path.axis_length();
+  const Vec3 here = path.at(end ? path.length() : 0.0).at(middle),
+             there = other.at(end ? other.length() : 0.0).at(middle);
+  return kPast * radius + std::max(0.0, (end ? 1.0 : -1.0) * (there - here).dot(direction));
+}
+
 /// Deepest that a run-out enters a face, mm: up to where cycles begin and end.
-double entered(const SidePath& path, bool end, double radius, const HalfGuard& guard) {
-  constexpr double kFarthest = 6.0, kFirst = 0.1, kGrow = 1.25, kStep = 0.4;  // radii: densest at the end
+double entered(const SidePath& path, bool end, double radius, double farthest_mm, const HalfGuard& guard) {
+  constexpr double kFirst = 0.1, kGrow = 1.25, kStep = 0.4;  // radii: densest at the end
   constexpr int kPlaces = 7;
   GuardDepth depth;
-  for (double by = kFirst; by <= kFarthest; by += std::min(kStep, (kGrow - 1.0) * by)) {
+  for (double by = kFirst; by * radius <= farthest_mm; by += std::min(kStep, (kGrow - 1.0) * by)) {
     const AxisPlace place = path.at(end ? path.length() + by * radius : -by * radius);
     guard.look({place.tip, place.u}, kPlaces, depth);
   }
@@ -120,6 +130,7 @@ RunOutDepth join_run_outs(SidePath& a, SidePath& b, double radius_mm, const Half
     const Vec3 up = (a.at(end ? a.length() : 0.0).u + b.at(end ? b.length() : 0.0).u).normalized();
     const double most_a = std::max(allowed_mm, kMore * entered_at_end(a, end, guard));
     const double most_b = std::max(allowed_mm, kMore * entered_at_end(b, end, guard));
+    const double far_a = farthest(a, b, end, common, radius_mm), far_b = farthest(b, a, end, common, radius_mm);
     Bend best;
     double least = std::numeric_limits<double>::infinity();
     std::optional<Vec3> axis = common_axis(a, b, end);
@@ -128,8 +139,8 @@ RunOutDepth join_run_outs(SidePath& a, SidePath& b, double radius_mm, const Half
       const Bend bend{common, rise.slope * up,      over * radius_mm, rise_over * radius_mm, rise.until * radius_mm,
                       axis,   kTurnOver * radius_mm};
       lay(a, b, end, bend);
-      const double deep =
-          std::max(entered(a, end, radius_mm, guard) - most_a, entered(b, end, radius_mm, guard) - most_b);
+      const double deep = std::max(entered(a, end, radius_mm, far_a, guard) - most_a,
+                                   entered(b, end, radius_mm, far_b, guard) - most_b);
       if (deep >= least) return;
       least = deep;
       best = bend;
