@@ -7,7 +7,7 @@
 #include "flank/base/tolerance_budget.h"
 #include "flank/motion/written_path.h"
 #include "flank/trochoid/blank.h"
-#include "flank/trochoid/engagement/pass_measure.h"
+#include "flank/trochoid/engagement/engagement.h"
 #include "flank/trochoid/retract.h"
 #include "flank/trochoid/run_out.h"
 
