@@ -214,11 +214,15 @@ EngagementPeak EngagementMeter::refine(const RuledMotion& motion, const Engageme
     if (peak.angle_rad > best.angle_rad) best = peak;
   };
   for (std::size_t k = 0; k < rows.size(); ++k) keep(peaks[k]);
-  // Rows have other rings, so the highest crest is climbed in any case. What lines promise of the next ones is not much less than
-  // what is there.
+  // Rows have more rings, so around the largest place of them all there may be a crest of its own.
+  const EngagementPeak& top = measured.peak;
+  const double apart = motion.axis_length / (flank_rings - 1);
+  if (top.angle_rad > 0.0)
+    keep(climb(motion, {top.t - step, top.t + step, top.s - apart, top.s + apart}, meters_.front()));
+  // What lines promise of a crest is not much less than what is there; the highest one is climbed in any case.
   bool first = true;
-  for (const Top& top : highest_of(std::span(ridges).first(rows.size()))) {
-    if (first || top.angle_rad + kPromise > best.angle_rad) keep(climb(motion, top.window, meters_.front()));
+  for (const Top& crest : highest_of(std::span(ridges).first(rows.size()))) {
+    if (first || crest.angle_rad + kPromise > best.angle_rad) keep(climb(motion, crest.window, meters_.front()));
     first = false;
   }
   return best;
