@@ -6,7 +6,7 @@
 
 #include "flank/base/tolerance_budget.h"
 #include "flank/trochoid/blank.h"
-#include "flank/trochoid/engagement/pass_measure.h"
+#include "flank/trochoid/engagement/engagement.h"
 #include "flank/trochoid/program_writer.h"
 #include "flank/trochoid/ways/run_out.h"
 

@@ -5,7 +5,7 @@
 
 #include "flank/base/tolerance_budget.h"
 #include "flank/motion/written_path.h"
-#include "flank/trochoid/engagement/pass_measure.h"
+#include "flank/trochoid/engagement/engagement.h"
 
 namespace flank::internal {
 namespace {

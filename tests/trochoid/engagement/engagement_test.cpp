@@ -220,6 +220,49 @@ TEST(Engagement, BesideThePoleOfAToolThatHardlyLeansLittleIsCovered) {
   EXPECT_GE(touched, scenes / 4);
 }
 
+TEST(Engagement, WhereRoundEndsOnlyGrazeARingTheirSweepsCover) {
+  // So little below the ring's plane that the discs of two poses do not meet, or lie between them: the way between covers.
+  constexpr double kRadius = 4.5, kLength = 30.0, kRing = 12.0;
+  Random random(21);
+  const RuledMotion next = straight(Vec3(0, 0, 0), Vec3::UnitZ(), 10.0, kLength);
+  const int scenes = kSanitized ? 12 : 60;
+  int off = 0;
+  for (int k = 0; k < scenes; ++k) {
+    SweptStock stock(cylinder(kRadius, kLength), {});
+    const double lean = random.uniform(0.3, k % 2 == 0 ? 12.0 : 2.8) * kDegree, about = random.uniform(-kPi, kPi);
+    const Vec3 axis(std::sin(lean) * std::cos(about), std::sin(lean) * std::sin(about), std::cos(lean));
+    const double deep = random.uniform(0.002, 0.03), across = random.uniform(-3.0, 3.0);
+    for (int j = 0; j < 3; ++j)
+      stock.add(Sweep::of(straight(Vec3(-20, across + 0.9 * j, kRing + kRadius - deep), axis, 50.0, kLength), 48));
+    EngagementMeter meter(stock);
+    const ToolRing ring = ring_at(stock.radial(), kRing);
+    const double angle = meter.angle(next, 0.5, ring) / kDegree, truth = scanned(stock, next, 0.5, ring) / kDegree;
+    EXPECT_NEAR(angle, truth, 0.5) << k << ", leaning by " << lean / kDegree << ", " << deep << " mm deep";
+    off += std::abs(angle - truth) > 0.05 ? 1 : 0;
+  }
+  EXPECT_LE(off, scenes / 20);
+}
+
+TEST(Engagement, WhatASweepCoversBetweenTwoPosesMayBeginBehindTheBlanksEdge) {
+  // The arcs of two poses end just behind the plane, and what is covered between them goes on into the blank.
+  constexpr double kRadius = 5.0, kLength = 15.0, kRing = 8.0, kHalf = 1.5;
+  struct Scene {
+    double way, step;
+    int poses;
+    double turn, off, t, truth_deg;
+  };
+  for (const Scene& scene : {Scene{7.767, 0.834, 29, 1.6123, 7.0354, 0.7987, 41.90},
+                             Scene{5.419, 0.806, 16, 2.5321, -2.7577, 0.7917, 43.98}}) {
+    SweptStock stock(cylinder(kRadius, kLength), {{Vec3(std::cos(scene.turn), std::sin(scene.turn), 0.0), scene.off}});
+    stock.add(Sweep::of(on_circle(kLength, scene.way, -kHalf, kHalf), scene.poses));
+    EngagementMeter meter(stock);
+    const RuledMotion next = on_circle(kLength, scene.way + scene.step, -0.6, 0.6);
+    const ToolRing ring = ring_at(stock.radial(), kRing);
+    EXPECT_NEAR(scanned(stock, next, scene.t, ring) / kDegree, scene.truth_deg, 0.02);
+    EXPECT_NEAR(meter.angle(next, scene.t, ring) / kDegree, scene.truth_deg, 0.05) << scene.way;
+  }
+}
+
 TEST(Engagement, DoesNotDependOnTheOrderInWhichLeaningToolsCut) {
   constexpr double kRadius = 6.0, kLength = 22.0;
   Random random(7);
@@ -327,6 +370,25 @@ TEST(Engagement, RefinedPeaksAreNotBelowTheRows) {
   EXPECT_GE(peak.angle_rad, fine.peak.angle_rad - 0.01 * kDegree);
 }
 
+TEST(Engagement, RefinedPeaksFollowTheRidgeAlongTheAxis) {
+  // The blank ends at a plane that leans: each ring comes out of it at a time of its own, engages most just before, and a little more
+  // or less than the ring beside it.
+  struct Scene {
+    double step, lean, off;
+  };
+  for (const Scene& scene : {Scene{0.7, -0.35, 2.0}, Scene{1.1, 0.12, 10.0}, Scene{1.5, 0.12, 10.0}}) {
+    SweptStock stock(barrel(), {{Vec3(0.0, 1.0, scene.lean).normalized(), scene.off + 14.0 * scene.lean}});
+    stock.add(Sweep::of(twisted_half(0.0), 48));
+    EngagementMeter meter(stock);
+    const RuledMotion next = twisted_half(scene.step);
+    const Engagement rows = meter.measure(next, RowRings(stock.radial(), 61, 9, 3), 102);
+    const double peak = meter.refine(next, rows, 61).angle_rad / kDegree;
+    const double fine = meter.measure(next, tool_rings(stock.radial(), 121, 0), 601).peak.angle_rad / kDegree;
+    EXPECT_GE(peak, fine - 0.02) << scene.step;
+    EXPECT_LE(peak, fine + 0.3) << scene.step;
+  }
+}
+
 TEST(Engagement, RingsBetweenOthersAreAskedWhereTheyEngageMost) {
   // Between two earlier halves at different heights a ridge is left, which lies between rings that are asked in any case.
   SweptStock stock(barrel(), {{Vec3::UnitZ(), 21.3}});
@@ -351,7 +413,6 @@ TEST(GapAt, DerivativesAreThoseOfDifferences) {
   constexpr double kStep = 1e-6;
   const double place = 20.3;
   const GapJet at = gap_at(profile, sweep.at(place), x);
-  ASSERT_TRUE(at.inside);
   const double dt =
       (gap_at(profile, sweep.at(place + kStep), x).gap - gap_at(profile, sweep.at(place - kStep), x).gap) /
       (2.0 * kStep);
@@ -361,6 +422,21 @@ TEST(GapAt, DerivativesAreThoseOfDifferences) {
     const double slope =
         (gap_at(profile, sweep.at(place), x + h).gap - gap_at(profile, sweep.at(place), x - h).gap) / (2.0 * kStep);
     EXPECT_NEAR(at.gradient[k], slope, 1e-6) << k;
+  }
+}
+
+TEST(GapAt, OfARoundEndIsTheDistanceToItsSphere) {
+  // Its radius at a height has an endless slope at the pole, where Newton's steps would find nothing.
+  const RadialFunction radial = barrel();
+  const ToolProfile profile(radial);
+  const SweepPose pose{Vec3::Zero(), 2.0 * Vec3::UnitZ(), Vec3(0.3, 0.2, -0.4), Vec3(0.1, 0.0, 0.0)};
+  const Vec3 out = Vec3(0.2, -0.1, -1.0).normalized();
+  const double radius = radial.at(0.0).r;
+  for (const double distance : {0.5 * radius, radius, radius + 0.3}) {
+    const GapJet at = gap_at(profile, pose, distance * out);
+    EXPECT_NEAR(at.gap, distance - radius, 1e-12);
+    EXPECT_NEAR((at.gradient - out).norm(), 0.0, 1e-12);
+    EXPECT_NEAR(at.dt, -out.dot(pose.tip_d1), 1e-12);
   }
 }
 

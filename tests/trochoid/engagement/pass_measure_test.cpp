@@ -1,5 +1,5 @@
 // What a pass engages and takes, and what a link between two passes would engage.
-#include "flank/trochoid/engagement/pass_measure.h"
+#include "flank/trochoid/engagement/engagement.h"
 
 #include <gtest/gtest.h>
 

@@ -162,6 +162,19 @@ TEST(StockReplay, EngagementOfAConeIsThatOfItsThinnestCircle) {
   }
 }
 
+TEST(StockReplay, SeesWhatRisesAndFallsJustBeforeTheEndOfAStrip) {
+  // A plate right before the tool's last place, which it breaks through in the last hundredths of a millimetre of its way.
+  const double radius = 5.0, way = 10.0, plate = 0.34, through = 0.06, back = way + radius - through;
+  DexelStock stock(box_of({0.0, -8.0, 0.0}, {back + 1.0, 8.0, 6.0}),
+                   {{Vec3::UnitX(), back}, {-Vec3::UnitX(), plate - back}}, 0.1);
+  Path path{{straight({0.0, 0.0, -7.0}, {way, 0.0, -7.0}, 51)}};
+  path.strips[0].kind = "back";
+  const StockReplay done = replay(stock, cylinder(radius, 20.0), path, {.circles = 3});
+  const auto within = [&](double depth) { return 2.0 * std::acos((radius - depth) / radius) / kDegree; };
+  EXPECT_NEAR(done.largest("back") / kDegree, within(plate), 1.5);
+  EXPECT_EQ(done.strips[0].pose, 50u) << "on the way to the last pose";
+}
+
 TEST(StockReplay, AStripGoesOnWhereTheLastOneEnded) {
   const double radius = 4.0, step = 1.5, closed = std::acos(1.0 - step / radius);
   DexelStock stock(box_of({-20.0, -12.0, 0.0}, {20.0, 12.0, 10.0}), {}, 0.1);

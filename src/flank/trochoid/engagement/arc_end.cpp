@@ -24,7 +24,6 @@ EndStep step_of(const ToolProfile& profile, const RingCircle& circle, const Swee
   const double c = std::cos(angle), d = std::sin(angle);
   const Vec3 x = circle.centre + circle.radius * (c * circle.x + d * circle.y), along = c * circle.y - d * circle.x;
   const GapJet g = gap_at(profile, pose, x);
-  if (!g.inside) return {};
   const double by_angle = circle.radius * g.gradient.dot(along), back = t + kProbe > cover.last ? -kProbe : kProbe;
   const double tt = (gap_at(profile, cover.sweep->at(t + back), x).dt - g.dt) / back;
   const double ta = (gap_at(profile, pose, x + kProbe * circle.radius * along).dt - g.dt) / kProbe;
@@ -62,7 +61,6 @@ bool is_taken_near(const ToolProfile& profile, const SweepPlace& cover, const Ve
   double t = cover.place;
   for (int k = 0; k < kIterations; ++k) {
     const GapJet g = gap_at(profile, cover.sweep->at(t), x);
-    if (!g.inside) return false;
     if (g.gap <= 0.0) return true;
     const double back = t + kProbe > cover.last ? -kProbe : kProbe;
     const double tt = (gap_at(profile, cover.sweep->at(t + back), x).dt - g.dt) / back;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "flank/base/assert.h"
 #include "flank/base/parallel.h"
@@ -41,10 +42,10 @@ std::vector<std::size_t> largest_rows(const std::vector<EngagementRow>& rows) {
   return order;
 }
 
-/// Golden section for the largest value between two places; returns where.
+/// Golden section for the largest value between two places; `f` keeps what it saw.
 template <class F>
-double golden(double low, double high, const F& f) {
-  constexpr int kSections = 14;
+void golden(double low, double high, const F& f) {
+  constexpr int kSections = 8;
   constexpr double kGolden = 0.6180339887498949;
   double a = high - kGolden * (high - low), b = low + kGolden * (high - low), fa = f(a), fb = f(b);
   for (int k = 0; k < kSections; ++k) {
@@ -56,7 +57,49 @@ double golden(double low, double high, const F& f) {
       fb = f(b = low + kGolden * (high - low));
     }
   }
-  return 0.5 * (low + high);
+}
+
+/// Crests of a ridge that are climbed, the highest ones, and the rings by which they are looked for, at least.
+constexpr std::size_t kClimbs = 3;
+constexpr int kLeastRings = 7;
+
+RidgeWindow within_motion(RidgeWindow window, double length) {
+  window.t_low = std::clamp(window.t_low, kFirstTime, 1.0);
+  window.t_high = std::clamp(window.t_high, kFirstTime, 1.0);
+  window.s_low = std::max(0.0, window.s_low);
+  window.s_high = std::min(length, window.s_high);
+  return window;
+}
+
+/// A crest of some ridge.
+struct Top {
+  double angle_rad;
+  RidgeWindow window;
+};
+
+/// The highest crests of all ridges.
+std::vector<Top> highest_of(std::span<const Ridge> ridges) {
+  std::vector<Top> tops;
+  for (const Ridge& ridge : ridges)
+    for (const std::size_t ring : ridge.tops()) tops.push_back({ridge.crests[ring].angle_rad, ridge.around(ring)});
+  std::stable_sort(tops.begin(), tops.end(), [](const Top& a, const Top& b) { return a.angle_rad > b.angle_rad; });
+  tops.resize(std::min(tops.size(), kClimbs));
+  return tops;
+}
+
+/// Of a pass.
+constexpr int kPassRings = 21, kPassVolumeRings = 9;
+
+/// From one pose to the other, evenly.
+RuledMotion straight(const Pose& from, const Pose& to, double axis_length) {
+  constexpr int kPoints = 4;
+  std::vector<Pose> poses;
+  std::vector<double> t;
+  for (int k = 0; k < kPoints; ++k) {
+    t.push_back(k / (kPoints - 1.0));
+    poses.push_back({from.tip + t.back() * (to.tip - from.tip), from.axis + t.back() * (to.axis - from.axis)});
+  }
+  return fit_motion(poses, t, axis_length, kPoints);
 }
 
 }  // namespace
@@ -126,39 +169,109 @@ double EngagementMeter::angle(const RuledMotion& motion, double t, const ToolRin
   return meters_.front().row(motion, t, {&ring, 1}).angle_rad;
 }
 
-EngagementPeak EngagementMeter::peak_near(const RuledMotion& motion, const EngagementRow& row, double step, double ds,
-                                          RowMeter& meter) const {
-  EngagementPeak best;
+Ridge EngagementMeter::ridge_in(const RuledMotion& motion, const RidgeWindow& window, int rings, RowMeter& meter,
+                                EngagementPeak& best) const {
+  std::vector<ToolRing> asked;
+  for (int k = 0; k < rings; ++k)
+    asked.push_back(ring_at(stock_.radial(), std::lerp(window.s_low, window.s_high, k / (rings - 1.0))));
+  const double step = (window.t_high - window.t_low) / (kRidgeTimes - 1.0);
+  std::vector<RingTimes> angles(asked.size(), RingTimes{});
   meter.begin();
-  const double length = motion.axis_length;
-  const auto value = [&](double t, double s) {
-    const ToolRing ring = ring_at(stock_.radial(), s);
+  for (std::size_t i = 0; i < kRidgeTimes; ++i) {
+    const EngagementRow row = meter.row(motion, window.t_low + static_cast<double>(i) * step, asked);
+    for (const RingArc& arc : meter.found()) angles[arc.ring][i] += arc.arc.high - arc.arc.low;
+    if (row.angle_rad > best.angle_rad) best = {row.angle_rad, row.t, row.s};
+  }
+  Ridge out{window, {}};
+  for (const RingTimes& of_ring : angles) out.crests.push_back(crest_of(of_ring, window.t_low, step));
+  return out;
+}
+
+EngagementPeak EngagementMeter::climb(const RuledMotion& motion, RidgeWindow window, RowMeter& meter) const {
+  constexpr int kLooks = 3, kRings = 9;
+  EngagementPeak best;
+  double s = 0.0;
+  for (int look = 0; look < kLooks; ++look) {
+    const Ridge ridge = ridge_in(motion, within_motion(window, motion.axis_length), kRings, meter, best);
+    const std::vector<std::size_t> tops = ridge.tops();
+    if (tops.empty()) return best;
+    window = ridge.around(tops.front());
+    s = ridge.s_of(tops.front());
+  }
+  window = within_motion(window, motion.axis_length);
+  const ToolRing ring = ring_at(stock_.radial(), s);
+  meter.begin();
+  golden(window.t_low, window.t_high, [&](double t) {
     const double angle = meter.row(motion, t, {&ring, 1}).angle_rad;
     if (angle > best.angle_rad) best = {angle, t, s};
     return angle;
-  };
-  double t = row.t, s = row.s;
-  const auto by_time = [&](double x) { return value(x, s); };
-  t = golden(std::max(0.0, t - step), std::min(1.0, t + step), by_time);
-  if (s <= 0.0 || s >= length) return best;
-  s = golden(std::max(0.0, s - ds), std::min(length, s + ds), [&](double x) { return value(t, x); });
-  (void)golden(std::max(0.0, t - 0.5 * step), std::min(1.0, t + 0.5 * step), by_time);
+  });
   return best;
 }
 
 EngagementPeak EngagementMeter::refine(const RuledMotion& motion, const Engagement& measured, int flank_rings) {
+  constexpr double kBeside = 1.5;    // steps between rows
+  constexpr double kPromise = 0.01;  // radians
   near_.begin(motion);
   const std::vector<std::size_t> rows = largest_rows(measured.rows);
   reserve(rows.size());
   const double step = 1.0 / (static_cast<double>(measured.rows.size()) - 2.0);
-  const double ds = motion.axis_length / (flank_rings - 1);
+  const int rings = std::max(kLeastRings, (flank_rings + 2) / 3);
   std::array<EngagementPeak, kPeaks> peaks;
-  parallel_for(rows.size(),
-               [&](std::size_t k) { peaks[k] = peak_near(motion, measured.rows[rows[k]], step, ds, meters_[k]); });
+  std::array<Ridge, kPeaks> ridges;
+  parallel_for(rows.size(), [&](std::size_t k) {
+    const double t = measured.rows[rows[k]].t;
+    const RidgeWindow window{t - kBeside * step, t + kBeside * step, 0.0, motion.axis_length};
+    ridges[k] = ridge_in(motion, within_motion(window, motion.axis_length), rings, meters_[k], peaks[k]);
+  });
   EngagementPeak best = measured.peak;
-  for (std::size_t k = 0; k < rows.size(); ++k)
-    if (peaks[k].angle_rad > best.angle_rad) best = peaks[k];
+  const auto keep = [&](const EngagementPeak& peak) {
+    if (peak.angle_rad > best.angle_rad) best = peak;
+  };
+  for (std::size_t k = 0; k < rows.size(); ++k) keep(peaks[k]);
+  // Rows have more rings, so around the largest place of them all there may be a crest of its own.
+  const EngagementPeak& top = measured.peak;
+  const double apart = motion.axis_length / (flank_rings - 1);
+  if (top.angle_rad > 0.0)
+    keep(climb(motion, {top.t - step, top.t + step, top.s - apart, top.s + apart}, meters_.front()));
+  // What lines promise of a crest is not much less than what is there; the highest one is climbed in any case.
+  bool first = true;
+  for (const Top& crest : highest_of(std::span(ridges).first(rows.size()))) {
+    if (first || crest.angle_rad + kPromise > best.angle_rad) keep(climb(motion, crest.window, meters_.front()));
+    first = false;
+  }
   return best;
+}
+
+PassMeasure measure_pass(const std::vector<RuledMotion>& motions, int sweep_intervals, SweptStock& stock) {
+  constexpr int kRows = 202;
+  EngagementMeter meter(stock);
+  const RowRings rings(stock.radial(), kPassRings, kPassVolumeRings);
+  PassMeasure out;
+  for (const RuledMotion& motion : motions) {
+    const Engagement e = meter.measure(motion, rings, kRows);
+    out.volume_mm3 += e.volume_mm3;
+    out.largest_rad = std::max(out.largest_rad, meter.refine(motion, e, kPassRings).angle_rad);
+    stock.add(Sweep::of(motion, sweep_intervals));
+  }
+  return out;
+}
+
+double largest_engagement(const std::vector<Pose>& way, const SweptStock& stock) {
+  constexpr int kLeastRows = 5;
+  constexpr double kRowsARadius = 8.0;
+  const double length = stock.radial().axis_length();
+  EngagementMeter meter(stock);
+  const RowRings rings(stock.radial(), kPassRings, kPassVolumeRings);
+  double largest = 0.0;
+  for (std::size_t k = 1; k < way.size(); ++k) {
+    const double far =
+        std::max((way[k].at(0.0) - way[k - 1].at(0.0)).norm(), (way[k].at(length) - way[k - 1].at(length)).norm());
+    if (!(far > 0.0)) continue;
+    const int rows = std::max(kLeastRows, static_cast<int>(std::ceil(kRowsARadius * far / stock.radial().smallest())));
+    largest = std::max(largest, meter.measure(straight(way[k - 1], way[k], length), rings, rows).peak.angle_rad);
+  }
+  return largest;
 }
 
 }  // namespace flank::internal

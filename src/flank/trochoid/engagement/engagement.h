@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "flank/trochoid/engagement/near_poses.h"
+#include "flank/trochoid/engagement/ridge.h"
 #include "flank/trochoid/engagement/row_meter.h"
 #include "flank/trochoid/engagement/row_rings.h"
 
@@ -44,7 +45,7 @@ class EngagementMeter {
   [[nodiscard]] Engagement measure(const RuledMotion& motion, const RowRings& rings, int rows);
   /// Of every ring at each of `rows` (>= 3) times, row by row, into `angles`: rows x rings, radians.
   void measure_rings(const RuledMotion& motion, std::span<const ToolRing> rings, int rows, std::span<double> angles);
-  /// Larger or equal: the largest engagement near the largest rows, by golden section in t and, inside the axis, in s.
+  /// Larger or equal: the largest engagement near the largest rows, along the ridges that cross them.
   [[nodiscard]] EngagementPeak refine(const RuledMotion& motion, const Engagement& measured, int flank_rings);
   /// Of one ring at one time.
   [[nodiscard]] double angle(const RuledMotion& motion, double t, const ToolRing& ring);
@@ -57,13 +58,28 @@ class EngagementMeter {
   [[nodiscard]] Engagement measured(const RuledMotion& motion, const RingsOf& rings_of, int rows);
   /// At least so many meters of rows are there.
   void reserve(std::size_t count);
-  /// The largest engagement near a row, `step` on both sides of it in time and `ds` along the axis.
-  [[nodiscard]] EngagementPeak peak_near(const RuledMotion& motion, const EngagementRow& row, double step, double ds,
-                                         RowMeter& meter) const;
+  /// What rings at equal steps of a window engage at equal steps of its time: their ridge. Larger engagement than `best` is kept there.
+  [[nodiscard]] Ridge ridge_in(const RuledMotion& motion, const RidgeWindow& window, int rings, RowMeter& meter,
+                               EngagementPeak& best) const;
+  /// The largest engagement of a ridge near one of its crests, by ever smaller windows.
+  [[nodiscard]] EngagementPeak climb(const RuledMotion& motion, RidgeWindow window, RowMeter& meter) const;
 
   const SweptStock& stock_;
   NearPoses near_;
   std::vector<RowMeter> meters_;  ///< scratch memory, one for each task
 };
+
+/// A pass of the tool that several motions make, one after the other, like a finishing sweep with its run-outs.
+struct PassMeasure {
+  double largest_rad = 0.0;  ///< engagement, refined
+  double volume_mm3 = 0.0;
+};
+
+/// Measures a pass, whose motions are then in the stock. `sweep_intervals`: of each (Sweep::of).
+[[nodiscard]] PassMeasure measure_pass(const std::vector<RuledMotion>& motions, int sweep_intervals, SweptStock& stock);
+
+/// Largest engagement of poses that are joined straight, radians; what the way itself takes is not counted as taken, and the stock
+/// stays as it is.
+[[nodiscard]] double largest_engagement(const std::vector<Pose>& way, const SweptStock& stock);
 
 }  // namespace flank::internal

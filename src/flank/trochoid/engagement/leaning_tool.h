@@ -15,17 +15,6 @@ struct RingDisc {
   double radius;
 };
 
-/// What the round end of a pose covers, exact however it leans. Beside its pole a tool is much narrower at a little less height:
-/// about the place where its axis meets the plane the circle would be off by a degree where it leans by one, and cover what the
-/// tool never reaches.
-inline RingDisc disc_of_round_end(const ToolProfile& profile, const NearPose& c, const ToolRing& ring,
-                                  const Vec2& motion) {
-  const ToolProfile::RoundEnd end = profile.round_end(c.h0 + ring.z * c.dh);
-  const double z = (end.centre - c.h0) / c.dh, up = z - ring.z, x = c.x0 + z * c.dx, y = c.y0 + z * c.dy;
-  return {Vec2(motion.x() * x + motion.y() * y, motion.x() * y - motion.y() * x),
-          std::sqrt(std::max(0.0, end.radius * end.radius - up * up))};
-}
-
 /// A tool that leans against the axis of a ring, in the plane of the ring. What it covers there is not quite a circle, and near
 /// its round ends not at all one.
 struct LeaningTool {

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "flank/base/assert.h"
-#include "flank/trochoid/engagement/lanes.h"
 
 namespace flank::internal {
 namespace {

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flank/trochoid/engagement/lanes.h"
-
 namespace flank::internal {
 namespace {
 

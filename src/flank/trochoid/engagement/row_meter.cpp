@@ -13,15 +13,6 @@ constexpr double kPi = std::numbers::pi;
 /// Arcs that are shorter than this between two poses may be the scallops between sampled poses: radians.
 constexpr double kSliver = 0.35;
 
-/// Of the largest radius: by so much more an earlier pose covers than it cuts. Halves that end at one place have one last pose,
-/// and what it left of a ring is its own outline, whichever way its radius is rounded.
-constexpr double kSame = 1e-7;
-
-/// Slope from which on a tool is leaning wherever the ring meets it (10 degrees), not beside its round ends alone.
-constexpr double kSteep = 0.18;
-
-double sq(double x) { return x * x; }
-
 }  // namespace
 
 RowFrame RowMeter::frame_of(const RuledMotion& motion, double t) {
@@ -72,7 +63,8 @@ void RowMeter::look_closely(const RowFrame& frame, std::span<const ToolRing> rin
   look_at_groups(frame, rings);
   const auto rough = [&](std::size_t k) {
     double sum = 0.0;
-    for (std::size_t g = first_gap(k); g < fronts_[k].end; ++g) sum += open_gaps_[g].high - open_gaps_[g].low;
+    for (std::size_t g = first_gap(k); g < fronts_[k].end; ++g)
+      sum += open_gaps_[g].within().high - open_gaps_[g].within().low;
     return sum;
   };
   if (wanted_.go_on(rings, rough, found_)) look_at_groups(frame, rings);
@@ -112,6 +104,7 @@ void RowMeter::find_group(std::span<const ToolRing> rings, std::size_t first, st
 }
 
 void RowMeter::find_arcs(const RowFrame& frame, double t, std::span<const ToolRing> rings) {
+  frame_ = frame;
   own_last_ = t * NearPoses::kOwnIntervals - 1.0;
   candidates_.clear();
   found_.clear();
@@ -139,194 +132,23 @@ void RowMeter::keep_settler(std::size_t candidate) {
     next_settlers_.push_back(settler);
 }
 
-void RowMeter::cut(double low, double high, const Bound& bound) {
-  cut_.clear();
-  bool changed = false;
-  for (const Gap& gap : gaps_) {
-    Gap rest = gap;
-    bool left = true;
-    for (const double turn : {-2.0 * kPi, 0.0, 2.0 * kPi}) {
-      const double from = low + turn, to = high + turn;
-      if (!left || to <= rest.low || from >= rest.high) continue;
-      changed = true;
-      if (from > rest.low) {
-        Gap before = rest;
-        before.high = from;
-        before.at_high = bound;
-        before.to = Vec2(std::cos(from), std::sin(from));
-        cut_.push_back(before);
-      }
-      left = to < rest.high;
-      if (!left) continue;
-      rest.low = to;
-      rest.at_low = bound;
-      rest.from = Vec2(std::cos(to), std::sin(to));
-    }
-    if (left) cut_.push_back(rest);
-  }
-  gaps_.swap(cut_);
-  if (changed && bound.is_pose()) cutters_.push_back(bound.candidate);
-}
-
-void RowMeter::look_at_blank(const RowFrame& frame) {
-  planes_.clear();
-  for (const HalfSpace& h : stock_.blank()) {
-    const double a = h.normal.dot(frame.x), b = h.normal.dot(frame.y);
-    planes_.push_back({std::hypot(a, b), std::atan2(b, a)});
-  }
-}
-
-void RowMeter::cut_by_blank(const RowFrame& frame, const ToolRing& ring, double motion_angle) {
-  const Vec3 centre = frame.axis.at(ring.z);
-  for (std::size_t k = 0; k < planes_.size(); ++k) {
-    const HalfSpace& h = stock_.blank()[k];
-    const double amplitude = ring.radius * planes_[k].across, room = h.offset - h.normal.dot(centre);
-    if (room >= amplitude) continue;
-    if (room <= -amplitude) {
-      gaps_.clear();
-      return;
-    }
-    const double at = std::remainder(planes_[k].angle - motion_angle, 2.0 * kPi), width = std::acos(room / amplitude);
-    cut(at - width, at + width, {});
-  }
-}
-
-bool RowMeter::cut_by(std::size_t candidate, const ToolRing& ring, const Vec2& motion) {
-  const NearPose& c = candidates_[candidate];
-  const double px = c.x0 + ring.z * c.dx, py = c.y0 + ring.z * c.dy;
-  const Vec2 o(motion.x() * px + motion.y() * py, motion.x() * py - motion.y() * px);
-  // An interval that reaches into a gap holds one of its ends, or lies within.
-  const auto matters = [&](const Vec2& p, double p2) {
-    return std::any_of(gaps_.begin(), gaps_.end(), [&](const Gap& gap) {
-      return (ring.radius * gap.from - p).squaredNorm() < p2 || (ring.radius * gap.to - p).squaredNorm() < p2 ||
-             gap.high - gap.low > kWide ||
-             (gap.from.x() * p.y() - gap.from.y() * p.x() > 0.0 && p.x() * gap.to.y() - p.y() * gap.to.x() > 0.0);
-    });
-  };
-  // Most do not reach one even where the tool is thickest: that is cheaper to see than the radius at a height.
-  const double d2 = o.squaredNorm(), largest = stock_.profile().largest(), most = ring.radius + largest;
-  if (is_leaning(c, ring)) {
-    const double stretched = reach_of_leaning(c);
-    if (d2 < sq(ring.radius + stretched) && matters(o, sq(stretched)))
-      cut_by_leaning(candidate, ring, o,
-                     Vec2(motion.x() * c.dx + motion.y() * c.dy, motion.x() * c.dy - motion.y() * c.dx) / c.dh);
-    return true;
-  }
-  const double height = c.h0 + ring.z * c.dh;
-  const bool round = ring.flank && (height < stock_.profile().flank_low() || height > stock_.profile().flank_high());
-  if (!round && (d2 >= most * most || !matters(o, largest * largest))) return true;
-  RingDisc disc{o, 0.0};
-  ToolProfile::Place place;
-  if (round)
-    disc = disc_of_round_end(stock_.profile(), c, ring, motion);
-  else if (stock_.profile().at(height, place))
-    disc.radius = place.radius;
-  return !(disc.radius > 0.0) || cut_by_disc(candidate, ring, {disc.centre, disc.radius + kSame * largest}, matters);
-}
-
-template <class Matters>
-bool RowMeter::cut_by_disc(std::size_t candidate, const ToolRing& ring, const RingDisc& disc, const Matters& matters) {
-  const Vec2& o = disc.centre;
-  const double d2 = o.squaredNorm(), sum = ring.radius + disc.radius, less = disc.radius - ring.radius;
-  if (d2 >= sum * sum) return true;
-  if (d2 <= less * less) return less < 0.0;
-  const double p2 = disc.radius * disc.radius;
-  if (!matters(o, p2)) return true;
-  const double cosine = (ring.radius * ring.radius + d2 - p2) / (2.0 * ring.radius * std::sqrt(d2));
-  const double width = std::acos(std::clamp(cosine, -1.0, 1.0)), at = std::atan2(o.y(), o.x());
-  cut(at - width, at + width, {candidate});
-  return true;
-}
-
-double RowMeter::reach_of_leaning(const NearPose& c) const {
-  return std::sqrt(1.0 + c.slope2()) * stock_.profile().largest();
-}
-
-bool RowMeter::is_leaning(const NearPose& c, const ToolRing& ring) const {
-  const double slope2 = c.slope2();
-  if (slope2 <= sq(kLeaning)) return false;
-  // Rings of round ends count for the volume alone, where a circle is near enough.
-  if (slope2 > sq(kSteep) || !ring.flank) return slope2 > sq(kSteep);
-  const double height = c.h0 + ring.z * c.dh, swing = ring.radius * std::sqrt(slope2);
-  // Where a round end begins it is hardly narrower than the flank.
-  constexpr double kBegins = 0.3;
-  const ToolProfile& p = stock_.profile();
-  return height - swing < std::lerp(p.flank_low(), p.low(), kBegins) ||
-         height + swing > std::lerp(p.flank_high(), p.high(), kBegins);
-}
-
-void RowMeter::cut_by_leaning(std::size_t candidate, const ToolRing& ring, const Vec2& foot, const Vec2& lean) {
-  const NearPose& c = candidates_[candidate];
-  const LeaningTool tool{stock_.profile(), ring.radius, foot, lean, c.h0 + ring.z * c.dh, sq(reach_of_leaning(c))};
-  const double window = tool.window(), at = std::atan2(foot.y(), foot.x());
-  if (window < 0.0) return;
-  // Looked at where its own window says, not what is open: so what it covers does not depend on who was asked before.
-  constexpr double kApart = 0.1;  // radians: less is not seen
-  const int looks = std::max(2, static_cast<int>(std::ceil(2.0 * window / kApart)));
-  covered_.clear();
-  for (const Gap& gap : gaps_)
-    for (const double turn : {-2.0 * kPi, 0.0, 2.0 * kPi})
-      tool.visit_covered({at, window, looks}, gap.low - turn, gap.high - turn, [&](double low, double high) {
-        covered_.push_back({low, high});
-      });
-  for (const Arc& arc : covered_) cut(arc.low, arc.high, {candidate});
-}
-
-const std::vector<OpenArc>& RowMeter::open_arcs(const ToolRing& ring, const Vec2& motion) {
-  const auto turned = [&](const Vec2& v) {
-    return Vec2(motion.x() * v.x() - motion.y() * v.y(), motion.y() * v.x() + motion.x() * v.y());
-  };
-  open_.clear();
-  for (const Gap& gap : gaps_)
-    open_.push_back({ring.radius * turned(gap.from), ring.radius * turned(gap.to), gap.high - gap.low > kWide});
-  return open_;
-}
-
-void RowMeter::cut_by_poses(const ToolRing& ring, const Front& front) {
-  const Vec2& motion = front.motion;
-  cutters_.clear();
-  const auto ask = [&](std::size_t candidate) {
-    if (cut_by(candidate, ring, motion)) return;
-    cutters_.push_back(candidate);
-    gaps_.clear();
-  };
-  // The poses that cover most of one ring cover most of the next one: then nearly all others are seen not to matter.
-  for (const std::size_t candidate : hints_)
-    if (!gaps_.empty()) ask(candidate);
-  const auto ask_seen = [&](std::size_t pose) {
-    // Those that cut something become candidates.
-    const std::size_t before = cutters_.size();
-    candidates_.push_back(seen_[pose]);
-    ask(candidates_.size() - 1);
-    if (cutters_.size() == before) candidates_.pop_back();
-  };
-  const bool few = !group_.empty() && group_.size() <= kFewPoses;
-  for (auto k = group_.begin(); few && k != group_.end() && !gaps_.empty(); ++k) ask_seen(*k);
-  if (!few && !gaps_.empty()) {
-    const std::vector<std::size_t>& reaching = filter_.reaching(ring, open_arcs(ring, motion));
-    for (auto k = reaching.begin(); k != reaching.end() && !gaps_.empty(); ++k)
-      group_.empty() ? ask(first_asked_ + *k) : ask_seen(group_[*k]);
-  }
-  // The last ones first: they are those that end the gaps, or close the last of them.
-  hints_.assign(cutters_.rbegin(), cutters_.rend());
-}
-
 SweepPlace RowMeter::place_of(const Bound& bound) const {
   const NearPose& pose = candidates_[bound.candidate];
   const Sweep& sweep = sweep_of(pose.sweep);
-  return {&sweep, pose.sweep == kOwnSweep ? own_last_ : sweep.last(), static_cast<double>(pose.pose)};
+  const double last = pose.sweep == kOwnSweep ? own_last_ : sweep.last();
+  return {&sweep, last, std::clamp(pose.pose + bound.shift, 0.0, last)};
 }
 
 bool RowMeter::is_sliver(const RingCircle& circle, const Gap& gap) const {
   if (gap.high - gap.low > kSliver) return false;
-  const Vec3 x = circle.at(0.5 * (gap.low + gap.high));
+  const Arc arc = gap.within();
+  const Vec3 x = circle.at(0.5 * (arc.low + arc.high));
   for (const Bound& bound : {gap.at_low, gap.at_high})
     if (bound.is_pose() && is_taken_near(stock_.profile(), place_of(bound), x)) return true;
   return false;
 }
 
 void RowMeter::settle(const RowFrame& frame, const ToolRing& ring, std::size_t index, const Front& front) {
-  const double half = front.half;
   const Vec3 forward = front.motion.x() * frame.x + front.motion.y() * frame.y;
   const RingCircle circle{frame.axis.at(ring.z), forward, frame.axis.u.cross(forward), ring.radius};
   const auto end = [&](const Bound& bound, double angle) {
@@ -335,7 +157,8 @@ void RowMeter::settle(const RowFrame& frame, const ToolRing& ring, std::size_t i
   const std::size_t before = found_.size();
   for (const Gap& gap : gaps_) {
     if (is_sliver(circle, gap)) continue;
-    const Arc arc{std::max(-half, end(gap.at_low, gap.low)), std::min(half, end(gap.at_high, gap.high))};
+    const Arc arc{std::max(gap.limits.low, end(gap.at_low, gap.low)),
+                  std::min(gap.limits.high, end(gap.at_high, gap.high))};
     if (!(arc.high > arc.low)) continue;
     if (found_.size() == before || arc.low > found_.back().arc.high) {
       found_.push_back({index, front.angle, arc});
@@ -358,10 +181,22 @@ RowMeter::Front RowMeter::front_of(const RowFrame& frame, const ToolRing& ring) 
     front.angle = std::atan2(vy, vx);
     front.motion = Vec2(std::cos(front.angle), std::sin(front.angle));
     const double x = std::max(c, -1.0), y = std::sqrt(1.0 - x * x);
-    gaps_.push_back({-front.half, front.half, {}, {}, Vec2(x, -y), Vec2(x, y)});
+    gaps_.push_back({-front.half, front.half, {}, {}, Vec2(x, -y), Vec2(x, y), {-front.half, front.half}});
     cut_by_blank(frame, ring, front.angle);
+    go_beyond();
   }
   return front;
+}
+
+void RowMeter::go_beyond() {
+  constexpr double kBeyond = 0.03;  // radians
+  for (Gap& gap : gaps_) {
+    gap.limits = {gap.low, gap.high};
+    gap.low -= kBeyond;
+    gap.high += kBeyond;
+    gap.from = Vec2(std::cos(gap.low), std::sin(gap.low));
+    gap.to = Vec2(std::cos(gap.high), std::sin(gap.high));
+  }
 }
 
 EngagementRow RowMeter::sum_row(const RowFrame& frame, double t, std::span<const ToolRing> rings) const {

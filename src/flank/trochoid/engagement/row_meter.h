@@ -1,6 +1,7 @@
 /// One time of a motion against the stock: which arcs of the tool's rings are in the material (engagement.h).
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -40,13 +41,18 @@ class RowMeter {
   /// What ends a gap: one of the candidates, or else the blank or the front's own end.
   struct Bound {
     std::size_t candidate = kNone;
+    double shift = 0.0;  ///< of intervals, from its pose
     [[nodiscard]] bool is_pose() const { return candidate != kNone; }
   };
-  /// A stretch of a ring's front that no pose seen so far covers.
+  /// A stretch of a ring's front that no pose seen so far covers. It goes a little beyond where the front or the blank ends: what a
+  /// sweep covers between two poses may begin there.
   struct Gap {
     double low, high;  ///< radians from the direction of motion
     Bound at_low, at_high;
-    Vec2 from, to;  ///< unit vectors of low and high
+    Vec2 from, to;    ///< unit vectors of low and high
+    Arc limits = {};  ///< of the front in the blank
+    [[nodiscard]] Arc within() const { return {std::max(low, limits.low), std::min(high, limits.high)}; }
+    [[nodiscard]] bool is_some() const { return within().high > within().low; }
   };
   /// The part of a ring whose surface moves outwards.
   struct Front {
@@ -79,8 +85,9 @@ class RowMeter {
   /// Where a ring's gaps begin in open_gaps_.
   [[nodiscard]] std::size_t first_gap(std::size_t ring) const { return ring == 0 ? 0 : fronts_[ring - 1].end; }
   [[nodiscard]] EngagementRow sum_row(const RowFrame& frame, double t, std::span<const ToolRing> rings) const;
-  /// What of it is in the blank, into gaps_.
+  /// What of it is in the blank, and a little beyond, into gaps_.
   [[nodiscard]] Front front_of(const RowFrame& frame, const ToolRing& ring);
+  void go_beyond();
   void look_at_blank(const RowFrame& frame);
   void cut_by_blank(const RowFrame& frame, const ToolRing& ring, double motion_angle);
   void cut_by_poses(const ToolRing& ring, const Front& front);
@@ -90,8 +97,14 @@ class RowMeter {
   [[nodiscard]] bool cut_by(std::size_t candidate, const ToolRing& ring, const Vec2& motion);
   /// False if the disc covers the whole ring. `matters(centre, squared radius)`: whether it may reach into a gap.
   template <class Matters>
-  [[nodiscard]] bool cut_by_disc(std::size_t candidate, const ToolRing& ring, const RingDisc& disc,
+  [[nodiscard]] bool cut_by_disc(const Bound& bound, const ToolRing& ring, const RingDisc& disc,
                                  const Matters& matters);
+  /// The same of the sphere of the candidate's round end that is nearer.
+  template <class Matters>
+  [[nodiscard]] bool cut_by_round_end(std::size_t candidate, const ToolRing& ring, const Vec2& motion,
+                                      const Matters& matters);
+  /// Where the middle of a round end of its sweep is, an interval or less from a candidate, in the frame of the row.
+  [[nodiscard]] Vec3 round_end_at(const NearPose& candidate, double shift, double centre) const;
   /// Whether the candidate leans so far that it does not cover the ring as a circle in its plane would.
   [[nodiscard]] bool is_leaning(const NearPose& candidate, const ToolRing& ring) const;
   /// How far a leaning tool reaches from its axis in the plane of a ring, at most, mm.
@@ -123,6 +136,7 @@ class RowMeter {
   const NearPoses& near_;
   PoseFilter filter_, seen_filter_;  ///< of candidates or of a group of rings, and of all that was seen
   SeenPoses seen_;
+  RowFrame frame_;
   double own_last_ = 0.0;  ///< earlier poses of the motion count up to this place
   std::vector<NearPose> candidates_;
   std::size_t first_asked_ = 0;     ///< of the candidates, of those that filter_ has

@@ -93,13 +93,23 @@ GapJet gap_at(const ToolProfile& profile, const SweepPose& pose, const Vec3& x) 
   const double length = pose.direction.norm();
   const Vec3 u = pose.direction / length, d = x - pose.tip;
   const double z = d.dot(u);
+  const Vec3 u_d1 = (pose.direction_d1 - pose.direction_d1.dot(u) * u) / length;
+  if (z < profile.flank_low() || z > profile.flank_high()) {
+    // Of a radius at its height a round end has none at its pole and an endless slope beside it: the distance to its sphere is as
+    // smooth there as anywhere.
+    const ToolProfile::RoundEnd end = profile.round_end(z);
+    const Vec3 from = d - end.centre * u;
+    const double distance = from.norm();
+    jet.gap = distance - end.radius;
+    jet.gradient = distance > 0.0 ? Vec3(from / distance) : u.unitOrthogonal();
+    jet.dt = -jet.gradient.dot(pose.tip_d1 + end.centre * u_d1);
+    return jet;
+  }
   ToolProfile::Place place;
-  if (!profile.at(z, place)) return jet;
-  jet.inside = true;
+  (void)profile.at(z, place);
   const Vec3 across = d - z * u;
   const double distance = across.norm();
   const Vec3 e = distance > 0.0 ? Vec3(across / distance) : u.unitOrthogonal();
-  const Vec3 u_d1 = (pose.direction_d1 - pose.direction_d1.dot(u) * u) / length;
   jet.gap = distance - place.radius;
   jet.gradient = e - place.slope * u;
   const double z_d1 = d.dot(u_d1) - pose.tip_d1.dot(u);

@@ -82,13 +82,12 @@ class SweptStock {
   std::vector<Sweep> sweeps_;
 };
 
-/// Distance of x to the axis less the tool's radius at its height, and the derivatives by x and by the place in the sweep.
-/// Beyond the tool's ends: `inside` false, and the gap is some positive number.
+/// Distance of x to the axis less the tool's radius at its height, above and below the flank to the sphere of the round end, and the
+/// derivatives by x and by the place in the sweep.
 struct GapJet {
   double gap = std::numeric_limits<double>::infinity();
   double dt = 0.0;
   Vec3 gradient = Vec3::Zero();
-  bool inside = false;
 };
 [[nodiscard]] GapJet gap_at(const ToolProfile& profile, const SweepPose& pose, const Vec3& x);
 

@@ -29,9 +29,9 @@ class ToolProfile {
   struct RoundEnd {
     double centre, radius;
   };
-  /// Of the end that a height, which is not of the flank, is nearer to.
+  /// Of the end that a height is nearer to.
   [[nodiscard]] RoundEnd round_end(double z) const {
-    return z < first_ ? RoundEnd{0.0, tip_radius_} : RoundEnd{length_, end_radius_};
+    return z < 0.5 * length_ ? RoundEnd{0.0, tip_radius_} : RoundEnd{length_, end_radius_};
   }
 
  private:

@@ -14,6 +14,10 @@ Pose between(const Pose& a, const Pose& b, double x) {
   return {a.tip + x * (b.tip - a.tip), (a.axis + x * (b.axis - a.axis)).normalized()};
 }
 
+PoseVelocity between(const PoseVelocity& a, const PoseVelocity& b, double x) {
+  return {a.tip + x * (b.tip - a.tip), a.axis + x * (b.axis - a.axis)};
+}
+
 /// How far any point of the axis goes, mm.
 double way_between(const Pose& a, const Pose& b, double length) {
   return std::max((b.tip - a.tip).norm(), (b.at(length) - a.at(length)).norm());
@@ -23,6 +27,10 @@ double way_between(const Pose& a, const Pose& b, double length) {
 constexpr double kLagCells = 4.0, kLongestLag = 3.0;
 /// Of what a late pose is to leave beside the next one, cells.
 constexpr double kLateScallop = 5e-4;
+
+/// Places that are measured are no farther apart than this share of the way to the end of their strip, as far as cuts are, and need not
+/// be nearer than this share of the way between late poses.
+constexpr double kOfWayToEnd = 0.3, kNearest = 0.15;
 
 /// A stretch of the way that is not cut yet.
 struct Stretch {
@@ -58,6 +66,10 @@ class Replayer {
     const double whole = way_between(last, next, length_);
     return whole <= step_ && way_between(last, pose, length_) <= whole && way_between(pose, next, length_) <= whole;
   }
+  /// From the pose before to pose k of a strip: measured on its way.
+  void go_to(const std::vector<Pose>& poses, std::size_t k, bool passed, std::size_t index,
+             std::vector<StripReplay>& out);
+  void measure(const Pose& pose, const PoseVelocity& velocity, std::size_t k, StripReplay& replay);
   /// Cuts what lies far enough behind a pose; all of it if there is none.
   void cut_behind(const Pose* pose, std::vector<StripReplay>& out);
   double cut(const Stretch& stretch);
@@ -71,6 +83,7 @@ class Replayer {
   double step_, late_step_, grain_, lag_;
   std::deque<Stretch> waiting_;
   double waiting_way_ = 0.0;
+  double unmeasured_ = 0.0;  ///< way since the last place that was measured
   std::vector<Pose> lately_;
 };
 
@@ -85,7 +98,9 @@ PoseVelocity Replayer::velocity(const std::vector<Pose>& poses, std::size_t k) c
     out.tip += weight * (poses[n].tip - poses[n - 1].tip);
     out.axis += weight * (poses[n].axis - poses[n - 1].axis);
   }
-  return out;
+  // Of one length, so that there is a mean of two.
+  const double length = std::max(out.tip.norm(), out.at(length_).norm());
+  return length > 0.0 ? PoseVelocity{out.tip / length, out.axis / length} : out;
 }
 
 void Replayer::run(const std::vector<Strip>& strips, std::vector<StripReplay>& out) {
@@ -106,21 +121,45 @@ void Replayer::run(const Strip& strip, std::size_t index, std::vector<StripRepla
     stop_here();
     if (k > 0) replay.way_mm += (poses[k].at(0.5 * length_) - poses[k - 1].at(0.5 * length_)).norm();
     const bool passed = k > 0 && k + 1 < poses.size() && is_between(poses[last], poses[k], poses[k + 1]);
-    cut_behind(&poses[k], out);
-    const Pose& from = poses[k == 0 ? 0 : k - 1];
-    waiting_.push_back({from, poses[k], index, k, way_between(from, poses[k], length_), passed});
-    waiting_way_ += waiting_.back().way;
-    if (passed) continue;
-    last = k;
-    if (!measured_ || poses.size() < 2) continue;
-    lately_.clear();
-    for (const Stretch& stretch : waiting_) add_lately(stretch);
-    const FrontScan::Largest largest = scan_.largest(stock_, {&solid_, poses[k], velocity(poses, k), lately_, grain_});
-    replay.poses[k].angle_rad = largest.angle_rad;
-    replay.poses[k].s = largest.s;
-    replay.poses[k].measured = true;
-    if (largest.angle_rad > replay.angle_rad) replay.angle_rad = largest.angle_rad, replay.pose = k;
+    go_to(poses, k, passed, index, out);
+    if (!passed) last = k;
   }
+}
+
+void Replayer::go_to(const std::vector<Pose>& poses, std::size_t k, bool passed, std::size_t index,
+                     std::vector<StripReplay>& out) {
+  Pose from = poses[k == 0 ? 0 : k - 1];
+  const Pose first = from;
+  const double way = way_between(first, poses[k], length_);
+  // Poses are as near as joining them straight asks for. Wherever a cut is, it is measured, too, and ever nearer towards the ends: on
+  // the last tenth of a millimetre what a half engages rises and falls by degrees.
+  const double to_end =
+      std::min(way_between(poses.front(), poses[k], length_), way_between(poses[k], poses.back(), length_));
+  const double apart = std::clamp(kOfWayToEnd * to_end, kNearest * late_step_, step_);
+  unmeasured_ += way;
+  const bool measured = measured_ && poses.size() > 1 && (!passed || unmeasured_ >= apart);
+  if (measured) unmeasured_ = 0.0;
+  const int steps = measured ? std::max(1, static_cast<int>(std::ceil(way / apart))) : 1;
+  const PoseVelocity before = velocity(poses, k == 0 ? 0 : k - 1), after = velocity(poses, k);
+  for (int n = 1; n <= steps; ++n) {
+    const double x = static_cast<double>(n) / steps;
+    const Pose to = n == steps ? poses[k] : between(first, poses[k], x);
+    cut_behind(&to, out);
+    waiting_.push_back({from, to, index, k, way_between(from, to, length_), passed});
+    waiting_way_ += waiting_.back().way;
+    if (measured) measure(to, between(before, after, x), k, out[index]);
+    from = to;
+  }
+}
+
+void Replayer::measure(const Pose& pose, const PoseVelocity& velocity, std::size_t k, StripReplay& replay) {
+  lately_.clear();
+  for (const Stretch& stretch : waiting_) add_lately(stretch);
+  const FrontScan::Largest largest = scan_.largest(stock_, {&solid_, pose, velocity, lately_, grain_});
+  PoseReplay& here = replay.poses[k];
+  here.measured = true;
+  if (largest.angle_rad > here.angle_rad) here.angle_rad = largest.angle_rad, here.s = largest.s;
+  if (largest.angle_rad > replay.angle_rad) replay.angle_rad = largest.angle_rad, replay.pose = k;
 }
 
 void Replayer::cut_behind(const Pose* pose, std::vector<StripReplay>& out) {
@@ -128,7 +167,7 @@ void Replayer::cut_behind(const Pose* pose, std::vector<StripReplay>& out) {
     const Stretch& next = waiting_.front();
     const auto near = [&](double s) { return (next.to.at(s) - pose->at(s)).norm() < lag_; };
     if (pose != nullptr && waiting_way_ - next.way < kLongestLag * lag_ && (near(0.0) || near(length_))) return;
-    out[next.strip].poses[next.pose].volume_mm3 = cut(next);
+    out[next.strip].poses[next.pose].volume_mm3 += cut(next);
     waiting_way_ -= next.way;
     waiting_.pop_front();
   }

@@ -16,8 +16,8 @@ struct ReplayOptions {
       0.05;  ///< between two poses that are cut one after the other, no more is left of what joins them
 };
 
-/// What one pose did; its engagement is that of the motion through it. Poses nearer to each other than cuts need to be are
-/// passed over: nothing is in them, and their volume is in the next one.
+/// What one pose did; its engagement is the largest of the motion to it from the pose before, at places as near as cuts are. Poses
+/// nearer to each other than cuts need to be are passed over: nothing is in them, and their volume is in the next one.
 struct PoseReplay {
   double angle_rad = 0.0, s = 0.0;  ///< largest engagement of the circles, and where on the axis, mm
   double volume_mm3 = 0.0;          ///< removed on the way from the pose before
