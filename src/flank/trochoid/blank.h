@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "flank/target.h"
-#include "flank/trochoid/engagement/swept_stock.h"
+#include "flank/trochoid/stock/swept_stock.h"
 #include "flank/trochoid/ways/side_path.h"
 
 namespace flank::internal {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "flank/trochoid/engagement/swept_stock.h"
 #include "flank/trochoid/program.h"
+#include "flank/trochoid/stock/swept_stock.h"
 #include "flank/trochoid/ways/retract.h"
 
 namespace flank::internal {

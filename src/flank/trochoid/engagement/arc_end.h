@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "flank/trochoid/engagement/swept_stock.h"
+#include "flank/trochoid/stock/swept_stock.h"
 
 namespace flank::internal {
 

@@ -10,10 +10,10 @@
 #include <span>
 #include <vector>
 
-#include "flank/trochoid/engagement/near_poses.h"
 #include "flank/trochoid/engagement/ridge.h"
 #include "flank/trochoid/engagement/row_meter.h"
 #include "flank/trochoid/engagement/row_rings.h"
+#include "flank/trochoid/stock/near_poses.h"
 
 namespace flank::internal {
 

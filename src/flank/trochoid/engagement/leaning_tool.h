@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "flank/trochoid/engagement/near_poses.h"
+#include "flank/trochoid/stock/near_poses.h"
 
 namespace flank::internal {
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "flank/trochoid/engagement/pose_filter.h"
+#include "flank/trochoid/stock/pose_filter.h"
 #include "flank/vec.h"
 
 namespace flank::internal {

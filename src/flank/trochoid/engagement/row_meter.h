@@ -9,9 +9,10 @@
 
 #include "flank/trochoid/engagement/arc_end.h"
 #include "flank/trochoid/engagement/leaning_tool.h"
-#include "flank/trochoid/engagement/near_poses.h"
-#include "flank/trochoid/engagement/pose_filter.h"
+#include "flank/trochoid/engagement/ring_gaps.h"
 #include "flank/trochoid/engagement/ring_group.h"
+#include "flank/trochoid/stock/near_poses.h"
+#include "flank/trochoid/stock/pose_filter.h"
 
 namespace flank::internal {
 
@@ -38,22 +39,6 @@ class RowMeter {
   [[nodiscard]] const std::vector<RingArc>& found() const { return found_; }
 
  private:
-  /// What ends a gap: one of the candidates, or else the blank or the front's own end.
-  struct Bound {
-    std::size_t candidate = kNone;
-    double shift = 0.0;  ///< of intervals, from its pose
-    [[nodiscard]] bool is_pose() const { return candidate != kNone; }
-  };
-  /// A stretch of a ring's front that no pose seen so far covers. It goes a little beyond where the front or the blank ends: what a
-  /// sweep covers between two poses may begin there.
-  struct Gap {
-    double low, high;  ///< radians from the direction of motion
-    Bound at_low, at_high;
-    Vec2 from, to;    ///< unit vectors of low and high
-    Arc limits = {};  ///< of the front in the blank
-    [[nodiscard]] Arc within() const { return {std::max(low, limits.low), std::min(high, limits.high)}; }
-    [[nodiscard]] bool is_some() const { return within().high > within().low; }
-  };
   /// The part of a ring whose surface moves outwards.
   struct Front {
     double half = 0.0, angle = 0.0;  ///< half of it; the direction of motion in the frame of the row: radians
@@ -87,17 +72,14 @@ class RowMeter {
   [[nodiscard]] EngagementRow sum_row(const RowFrame& frame, double t, std::span<const ToolRing> rings) const;
   /// What of it is in the blank, and a little beyond, into gaps_.
   [[nodiscard]] Front front_of(const RowFrame& frame, const ToolRing& ring);
-  void go_beyond();
   void look_at_blank(const RowFrame& frame);
   void cut_by_blank(const RowFrame& frame, const ToolRing& ring, double motion_angle);
   void cut_by_poses(const ToolRing& ring, const Front& front);
-  /// The gaps in the frame of the row. `motion`: the direction of motion, which they are measured from.
-  [[nodiscard]] const std::vector<OpenArc>& open_arcs(const ToolRing& ring, const Vec2& motion);
   /// False if the candidate covers the whole ring.
   [[nodiscard]] bool cut_by(std::size_t candidate, const ToolRing& ring, const Vec2& motion);
   /// False if the disc covers the whole ring. `matters(centre, squared radius)`: whether it may reach into a gap.
   template <class Matters>
-  [[nodiscard]] bool cut_by_disc(const Bound& bound, const ToolRing& ring, const RingDisc& disc,
+  [[nodiscard]] bool cut_by_disc(const GapBound& bound, const ToolRing& ring, const RingDisc& disc,
                                  const Matters& matters);
   /// The same of the sphere of the candidate's round end that is nearer.
   template <class Matters>
@@ -112,19 +94,18 @@ class RowMeter {
   /// `foot`, `lean`: where the candidate's axis meets the ring's plane, and the part of its direction in it, from the direction
   /// of motion.
   void cut_by_leaning(std::size_t candidate, const ToolRing& ring, const Vec2& foot, const Vec2& lean);
-  void cut(double low, double high, const Bound& bound);
+  void cut(double low, double high, const GapBound& bound);
   /// Keeps for the next row the poses that end what is left of a ring, or that leave nothing.
   void keep_settlers();
   void keep_settler(std::size_t candidate);
   /// Adds the arcs of the ring whose gaps are left to found_; those that meet are one.
   void settle(const RowFrame& frame, const ToolRing& ring, std::size_t index, const Front& front);
-  [[nodiscard]] SweepPlace place_of(const Bound& bound) const;
-  [[nodiscard]] bool is_sliver(const RingCircle& circle, const Gap& gap) const;
+  [[nodiscard]] SweepPlace place_of(const GapBound& bound) const;
+  [[nodiscard]] bool is_sliver(const RingCircle& circle, const RingGap& gap) const;
   [[nodiscard]] const Sweep& sweep_of(int index) const {
     return index == kOwnSweep ? near_.own() : stock_.sweeps()[static_cast<std::size_t>(index)];
   }
 
-  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
   /// A first look, at every kStride-th pose of the last sweeps, says where material may be; only there all poses count.
   static constexpr std::size_t kRecent = 3;
   static constexpr int kStride = 4;
@@ -145,10 +126,10 @@ class RowMeter {
   WantedRings wanted_;
   NearScratch scratch_;
   std::vector<OpenArc> open_;
-  std::vector<Gap> gaps_, cut_;
+  RingGaps gaps_;  ///< of the ring that is looked at
   std::vector<Plane> planes_;
-  std::vector<Front> fronts_;   ///< of the rings of the row
-  std::vector<Gap> open_gaps_;  ///< and what the first look left open of them, ring by ring
+  std::vector<Front> fronts_;       ///< of the rings of the row
+  std::vector<RingGap> open_gaps_;  ///< and what the first look left open of them, ring by ring
   std::vector<Arc> covered_;
   OpenSectors sectors_;
   std::vector<std::size_t> cutters_;               ///< candidates that cut the gaps of this ring

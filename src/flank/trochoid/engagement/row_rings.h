@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "flank/trochoid/engagement/tool_profile.h"
+#include "flank/trochoid/stock/tool_profile.h"
 
 namespace flank::internal {
 

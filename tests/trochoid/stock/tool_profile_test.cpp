@@ -1,5 +1,5 @@
 // The solid tool: radius at a height, and the areas of its rings.
-#include "flank/trochoid/engagement/tool_profile.h"
+#include "flank/trochoid/stock/tool_profile.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "flank/trochoid/engagement/swept_stock.h"
+#include "flank/trochoid/stock/swept_stock.h"
 
 #include <algorithm>
 #include <cmath>

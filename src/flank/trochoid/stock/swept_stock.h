@@ -11,7 +11,7 @@
 #include "flank/path.h"
 #include "flank/path/half_space.h"
 #include "flank/ruled_motion.h"
-#include "flank/trochoid/engagement/tool_profile.h"
+#include "flank/trochoid/stock/tool_profile.h"
 
 namespace flank::internal {
 

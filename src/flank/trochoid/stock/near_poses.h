@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "flank/ruled_motion.h"
-#include "flank/trochoid/engagement/pose_lanes.h"
-#include "flank/trochoid/engagement/swept_stock.h"
+#include "flank/trochoid/stock/pose_lanes.h"
+#include "flank/trochoid/stock/swept_stock.h"
 
 namespace flank::internal {
 

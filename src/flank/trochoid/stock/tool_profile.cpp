@@ -1,4 +1,4 @@
-#include "flank/trochoid/engagement/tool_profile.h"
+#include "flank/trochoid/stock/tool_profile.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // What covers a place of a row's discs is never left out, and what is far away is: against every pose of the stock.
-#include "flank/trochoid/engagement/near_poses.h"
+#include "flank/trochoid/stock/near_poses.h"
 
 #include <gtest/gtest.h>
 

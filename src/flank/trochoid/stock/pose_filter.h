@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "flank/trochoid/engagement/near_poses.h"
+#include "flank/trochoid/stock/near_poses.h"
 
 namespace flank::internal {
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "flank/trochoid/engagement/swept_stock.h"
+#include "flank/trochoid/stock/swept_stock.h"
 
 // Loops over plain arrays that a compiler turns into operations on several numbers at once.
 /// Before such a function: compiled twice, and the processor that runs it says which one is called. The results are the same

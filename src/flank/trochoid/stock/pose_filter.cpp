@@ -1,4 +1,4 @@
-#include "flank/trochoid/engagement/pose_filter.h"
+#include "flank/trochoid/stock/pose_filter.h"
 
 #include <algorithm>
 #include <cmath>

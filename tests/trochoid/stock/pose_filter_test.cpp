@@ -1,5 +1,5 @@
 // Whose tool covers a place of what is open of a ring is always found, in its order, and few others are.
-#include "flank/trochoid/engagement/pose_filter.h"
+#include "flank/trochoid/stock/pose_filter.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "flank/trochoid/engagement/near_poses.h"
+#include "flank/trochoid/stock/near_poses.h"
 
 #include <algorithm>
 #include <cmath>

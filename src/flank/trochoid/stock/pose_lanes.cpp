@@ -1,4 +1,4 @@
-#include "flank/trochoid/engagement/pose_lanes.h"
+#include "flank/trochoid/stock/pose_lanes.h"
 
 #include <algorithm>
 #include <cmath>
