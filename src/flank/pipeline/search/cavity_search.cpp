@@ -137,8 +137,8 @@ CavityPlan planned(SideFit sides, const TrochoidJob& job, const CavityFaces& fac
 }
 
 /// Of one bound of radii: sides whose axes lean alike, whose cycles are fewer and shorter; where they do not do what is asked,
-/// or cycles get stuck between them, sides as they come. No cycles for a tool that has hardly any way across, if a thinner one
-/// may be tried.
+/// or cycles get stuck between them, sides as they come. If a thinner tool may be tried, no cycles for one that has hardly any
+/// way across, nor between sides that cover too little, whatever cycles there are.
 CavityPlan search_ways(const TrochoidJob& job, const CavityFaces& faces, const ToolModel& tool, SideFitOptions options,
                        bool thinner, const Progress& progress) {
   const double bound = options.fit.bounds.largest;
@@ -148,7 +148,11 @@ CavityPlan search_ways(const TrochoidJob& job, const CavityFaces& faces, const T
   };
   SideFit alike = sides(true);
   if (thinner && least_way_across(alike.fit.motions, alike.fit.tool) < kLeastWay) return {std::move(alike), {}, bound};
-  CavityPlan facing = planned(std::move(alike), job, faces, bound, kFewRewinds, progress);
+  const auto plan_of = [&](SideFit fit) {
+    if (thinner && state_of(fit, faces, job) == SideState::kShort) return CavityPlan{std::move(fit), {}, bound};
+    return planned(std::move(fit), job, faces, bound, kFewRewinds, progress);
+  };
+  CavityPlan facing = plan_of(std::move(alike));
   if (is_done(facing, faces, job) || progress.stop()) return facing;
   // What all cycles get past, but enters a face, is not the leans'.
   if (facing.program.done() && state_of(facing.sides, faces, job) != SideState::kShort) return facing;
@@ -159,8 +163,18 @@ CavityPlan search_ways(const TrochoidJob& job, const CavityFaces& faces, const T
   if (gets_through(facing, tolerance) && cleared(facing) == 1.0 &&
       as_they_come.fit.after.score(tolerance) <= facing.sides.fit.after.score(tolerance))
     return facing;
-  CavityPlan plain = planned(std::move(as_they_come), job, faces, bound, kFewRewinds, progress);
+  CavityPlan plain = plan_of(std::move(as_they_come));
   return is_better(plain, facing, job.tolerance_mm) ? plain : facing;
+}
+
+/// Cycles between sides that got none, if more may be finished so than by the best.
+void try_uncut(CavityPlan uncut, const TrochoidJob& job, const CavityFaces& faces, const Progress& progress,
+               CavityPlan& best) {
+  const double finished = cleared(best) * best.sides.fit.after.at_tolerance;
+  if (!(uncut.sides.fit.after.at_tolerance > finished) || progress.stop()) return;
+  CavityPlan tried = planned(std::move(uncut.sides), job, faces, uncut.largest_radius_mm, kFewRewinds, progress);
+  tried.tools = best.tools;
+  if (is_better(tried, best, job.tolerance_mm)) best = std::move(tried);
 }
 
 }  // namespace
@@ -193,7 +207,7 @@ bool SearchPatience::ends_after(bool gained, bool through) {
 
 CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const ToolModel& tool,
                          const SideFitOptions& options, const Progress& progress) {
-  CavityPlan best;
+  CavityPlan best, uncut;
   const bool given = !tool.free() && tool.radius;
   int tools = 0;
   SearchPatience patience;
@@ -208,14 +222,19 @@ CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const
     CavityPlan tried = search_ways(job, faces, tool, here, !given && bound != bounds.back(), progress);
     const bool done = is_done(tried, faces, job);
     const bool skipped = tried.program.layers.empty();
+    // A tool that has hardly any way across says nothing of thinner ones.
+    const bool narrow = skipped && state_of(tried.sides, faces, job) != SideState::kShort;
+    const bool covers_more = skipped && tried.sides.fit.after.at_tolerance > uncut.sides.fit.after.at_tolerance;
+    if (covers_more) uncut = tried;
     const bool better = ++tools == 1 || is_better(tried, best, job.tolerance_mm);
     if (better) best = std::move(tried);
     best.tools = tools;
-    // A tool that has hardly any way across got no cycles, and says nothing of thinner ones.
-    const bool in_vain = !skipped && patience.ends_after(better, best.program.done());
+    const bool in_vain = !narrow && patience.ends_after(better || covers_more, best.program.done());
     // Nor is it the radius that gets cycles stuck where the sides lead along the axis.
     if (done || given || in_vain || best.program.stuck_along_axis() || progress.stop()) break;
   }
+  // Where no tool does it, the sides without cycles may be those that leave least.
+  if (!is_done(best, faces, job)) try_uncut(std::move(uncut), job, faces, progress, best);
   // The long search for a way past a place where cycles get stuck comes last: another tool may have no such place.
   if (!best.program.done() && !best.program.stuck_along_axis() && !best.sides.fit.motions.empty() && !progress.stop()) {
     CavityPlan tried = planned(best.sides, job, faces, best.largest_radius_mm, kMostRewinds, progress);
