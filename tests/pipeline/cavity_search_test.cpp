@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "flank/example/example.h"
 #include "obstacle/obstacle_scene.h"
+#include "sanitized.h"
 
 namespace flank::internal {
 namespace {
@@ -60,6 +62,23 @@ TEST(CavitySearch, TriesNoBoundBelowTheLeastRadiusThatIsAskedFor) {
   const std::vector<double> thick = bounds_of(job, width);
   ASSERT_EQ(thick.size(), 1u) << "thicker than what is tried of its own accord, but there is room";
   EXPECT_GT(thick.front(), 11.0);
+}
+
+TEST(CavitySearch, StartsSlimWhereAThickStartCoversLittle) {
+  if (kSanitized) GTEST_SKIP() << "the fits of FitSides have the same parts";
+  // Both walls bulge, and the tool that makes them exactly has a waist of half of its largest radius.
+  const Example example = make_example("cavity-hyperbolic", {});
+  const std::unique_ptr<Target> left = make_target({example.faces[0]}), right = make_target({example.faces[1]});
+  const CavitySide a{left.get(), nullptr}, b{right.get(), nullptr};
+  TrochoidJob job;
+  SideFitOptions options;
+  options.fit.bounds.largest = bounds_of(job, width_between(a, b)).front();
+  options.fit.bounds.smallest = 0.5;
+  const std::vector<RadiusStart> starts = starts_under(options.fit.bounds.largest, options.fit.bounds.smallest);
+  options.starts = {starts.back()};
+  const auto sides = fit_sides(a, b, {}, options, {});
+  EXPECT_GT(sides.fit.after.at_tolerance, 0.99) << "begun as thick as the others the best covers two fifths";
+  EXPECT_LT(sides.fit.after.overcut_mm, 0.1 * options.fit.tolerance_mm);
 }
 
 TEST(CavitySearch, EndsAtOnceWhereCyclesGetThroughAndAThinnerToolGainsNothing) {

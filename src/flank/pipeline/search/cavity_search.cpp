@@ -16,6 +16,8 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 /// Where a search begins below its bound, and the least radius there may be as a share of that: the engagement of a thin
 /// end bounds the steps of the whole tool, so a stout one comes first.
 constexpr double kBegin = 0.92, kStout = 0.55, kThin = 0.3;
+/// The same of a slimmer start, where the others cover less than this share.
+constexpr double kSlim = 0.7, kCoversLittle = 0.85;
 constexpr int kMostLayers = 5;
 /// How often cycles are taken back where none gets on (CycleOptions::most_rewinds).
 constexpr int kFewRewinds = 3, kMostRewinds = 6;
@@ -179,6 +181,13 @@ void try_uncut(CavityPlan uncut, const TrochoidJob& job, const CavityFaces& face
 
 }  // namespace
 
+std::vector<RadiusStart> starts_under(double bound_mm, double least_mm) {
+  const double radius = std::max(kBegin * bound_mm, least_mm);
+  std::vector<RadiusStart> starts = {{radius, kStout}, {radius, kThin}};
+  if (kSlim * bound_mm > least_mm) starts.push_back({kSlim * bound_mm, kThin, kCoversLittle});
+  return starts;
+}
+
 bool is_done(const CavityPlan& plan, const CavityFaces& faces, const TrochoidJob& job) {
   if (!gets_through(plan, job.tolerance_mm) || state_of(plan.sides, faces, job) == SideState::kShort) return false;
   const FlankFitResult& fit = plan.sides.fit;
@@ -216,9 +225,9 @@ CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const
     SideFitOptions here = options;
     here.fit.bounds.largest = bound;
     if (!job.radius.min_mm) here.fit.bounds.smallest = std::min(here.fit.bounds.smallest, 0.5 * bound);
-    const double radius = given ? *tool.radius : std::max(kBegin * bound, here.fit.bounds.smallest);
-    here.starts = {{radius, kStout}};
-    if (tool.free()) here.starts.push_back({radius, kThin});
+    here.starts = starts_under(bound, here.fit.bounds.smallest);
+    if (!tool.free()) here.starts.resize(1);
+    if (given) here.starts.front().radius_mm = *tool.radius;
     CavityPlan tried = search_ways(job, faces, tool, here, !given && bound != bounds.back(), progress);
     const bool done = is_done(tried, faces, job);
     const bool skipped = tried.program.layers.empty();

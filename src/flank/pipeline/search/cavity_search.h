@@ -22,6 +22,10 @@ struct CavityPlan {
 /// thin at one end may have the room of most places at the other. None below the least radius that is asked for.
 [[nodiscard]] std::vector<double> bounds_of(const TrochoidJob& job, const CavityWidth& width);
 
+/// What a free tool begins with under a bound of its radius: all but as thick as that. A cylinder that is thicker than most of the tool
+/// will be stays against the bound between walls that bulge, whose tool has a waist: where little is covered so, a thinner one begins.
+[[nodiscard]] std::vector<RadiusStart> starts_under(double bound_mm, double least_mm);
+
 /// Whether cycles get through, enter nothing, and the verdict will find the share that is asked for: of what a ball of the least
 /// radius reaches. Some of that a tool that is thicker elsewhere leaves beside a wall, and cycles what no step there keeps the limit
 /// for: a thinner one may get nearer.

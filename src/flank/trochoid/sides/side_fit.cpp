@@ -226,6 +226,7 @@ SideFit search_radii(const CavitySide& left, const CavitySide& right, const Tool
   Polished best;
   const double tolerance = options.fit.tolerance_mm;
   for (const RadiusStart& start : options.starts) {
+    if (!best.draft.motions.empty() && best.estimate.at_tolerance >= start.unless_covered) continue;
     progress.step("sides", 0.5 * out.tried_radii / static_cast<double>(options.starts.size()));
     if (progress.stop() && !best.draft.motions.empty()) break;
     RadiusFit tried = journaled(
@@ -264,8 +265,7 @@ void code(StepCodec& codec, SideFit& sides) {
 }
 
 void code(StepCodec& codec, RadiusStart& start) {
-  codec.number(start.radius_mm);
-  codec.number(start.least_share);
+  for (double* value : {&start.radius_mm, &start.least_share, &start.unless_covered}) codec.number(*value);
 }
 
 CavityWidth width_between(const CavitySide& left, const CavitySide& right) {

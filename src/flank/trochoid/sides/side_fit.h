@@ -12,6 +12,8 @@ namespace flank::internal {
 /// A radius to start with, mm, and the least radius that a free tool may then have, as a share of it.
 struct RadiusStart {
   double radius_mm = 1.0, least_share = 0.3;
+  /// Not tried where another start covers as much of both sides.
+  double unless_covered = 1.0;
 };
 
 struct SideFitOptions {
