@@ -138,21 +138,28 @@ CavityPlan planned(SideFit sides, const TrochoidJob& job, const CavityFaces& fac
   return out;
 }
 
+/// A tool that has hardly any way across: its cycles would crawl.
+bool is_narrow(const SideFit& sides) { return least_way_across(sides.fit.motions, sides.fit.tool) < kLeastWay; }
+
 /// Of one bound of radii: sides whose axes lean alike, whose cycles are fewer and shorter; where they do not do what is asked,
 /// or cycles get stuck between them, sides as they come. If a thinner tool may be tried, no cycles for one that has hardly any
-/// way across, nor between sides that cover too little, whatever cycles there are.
+/// way across, nor between sides that cover too little, whatever cycles there are: such sides take the place of `uncut` if they
+/// cover more.
 CavityPlan search_ways(const TrochoidJob& job, const CavityFaces& faces, const ToolModel& tool, SideFitOptions options,
-                       bool thinner, const Progress& progress) {
+                       bool thinner, const Progress& progress, CavityPlan& uncut) {
   const double bound = options.fit.bounds.largest;
   const auto sides = [&](bool facing) {
     options.facing = facing;
     return search_sides(job, faces, tool, options, progress);
   };
   SideFit alike = sides(true);
-  if (thinner && least_way_across(alike.fit.motions, alike.fit.tool) < kLeastWay) return {std::move(alike), {}, bound};
+  if (thinner && is_narrow(alike)) return {std::move(alike), {}, bound};
   const auto plan_of = [&](SideFit fit) {
-    if (thinner && state_of(fit, faces, job) == SideState::kShort) return CavityPlan{std::move(fit), {}, bound};
-    return planned(std::move(fit), job, faces, bound, kFewRewinds, progress);
+    if (!thinner || state_of(fit, faces, job) != SideState::kShort)
+      return planned(std::move(fit), job, faces, bound, kFewRewinds, progress);
+    const CavityPlan plan{std::move(fit), {}, bound};
+    if (plan.sides.fit.after.at_tolerance > uncut.sides.fit.after.at_tolerance) uncut = plan;
+    return plan;
   };
   CavityPlan facing = plan_of(std::move(alike));
   if (is_done(facing, faces, job) || progress.stop()) return facing;
@@ -228,13 +235,12 @@ CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const
     here.starts = starts_under(bound, here.fit.bounds.smallest);
     if (!tool.free()) here.starts.resize(1);
     if (given) here.starts.front().radius_mm = *tool.radius;
-    CavityPlan tried = search_ways(job, faces, tool, here, !given && bound != bounds.back(), progress);
+    const double most_uncut = uncut.sides.fit.after.at_tolerance;
+    CavityPlan tried = search_ways(job, faces, tool, here, !given && bound != bounds.back(), progress, uncut);
     const bool done = is_done(tried, faces, job);
-    const bool skipped = tried.program.layers.empty();
-    // A tool that has hardly any way across says nothing of thinner ones.
-    const bool narrow = skipped && state_of(tried.sides, faces, job) != SideState::kShort;
-    const bool covers_more = skipped && tried.sides.fit.after.at_tolerance > uncut.sides.fit.after.at_tolerance;
-    if (covers_more) uncut = tried;
+    // A tool that has hardly any way across got no cycles, and says nothing of thinner ones.
+    const bool narrow = tried.program.layers.empty() && is_narrow(tried.sides);
+    const bool covers_more = uncut.sides.fit.after.at_tolerance > most_uncut;
     const bool better = ++tools == 1 || is_better(tried, best, job.tolerance_mm);
     if (better) best = std::move(tried);
     best.tools = tools;
