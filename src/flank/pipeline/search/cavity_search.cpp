@@ -16,7 +16,7 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 /// Where a search begins below its bound, and the least radius there may be as a share of that: the engagement of a thin
 /// end bounds the steps of the whole tool, so a stout one comes first.
 constexpr double kBegin = 0.92, kStout = 0.55, kThin = 0.3;
-/// The same of a slimmer start, where the others cover less than this share.
+/// The same of a slimmer start, where the others cover less than this share of what they reach.
 constexpr double kSlim = 0.7, kCoversLittle = 0.85;
 constexpr int kMostLayers = 5;
 /// How often cycles are taken back where none gets on (CycleOptions::most_rewinds).

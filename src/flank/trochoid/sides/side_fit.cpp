@@ -226,7 +226,9 @@ SideFit search_radii(const CavitySide& left, const CavitySide& right, const Tool
   Polished best;
   const double tolerance = options.fit.tolerance_mm;
   for (const RadiusStart& start : options.starts) {
-    if (!best.draft.motions.empty() && best.estimate.at_tolerance >= start.unless_covered) continue;
+    if (!best.draft.motions.empty() &&
+        covers_reachable(left, right, best.estimate.at_tolerance, start.unless_covered, best.draft.tool.smallest()))
+      continue;
     progress.step("sides", 0.5 * out.tried_radii / static_cast<double>(options.starts.size()));
     if (progress.stop() && !best.draft.motions.empty()) break;
     RadiusFit tried = journaled(

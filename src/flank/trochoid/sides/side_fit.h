@@ -12,8 +12,8 @@ namespace flank::internal {
 /// A radius to start with, mm, and the least radius that a free tool may then have, as a share of it.
 struct RadiusStart {
   double radius_mm = 1.0, least_share = 0.3;
-  /// Not tried where another start covers as much of both sides.
-  double unless_covered = 1.0;
+  /// Not tried where another start covers as much of what its tool reaches of both sides; above 1: always tried.
+  double unless_covered = 2.0;
 };
 
 struct SideFitOptions {
