@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "flank/trochoid/engagement/arc_end.h"
-#include "flank/trochoid/engagement/leaning_tool.h"
 #include "flank/trochoid/engagement/near_poses.h"
 #include "flank/trochoid/engagement/pose_filter.h"
 #include "flank/trochoid/engagement/ring_group.h"
+#include "flank/trochoid/engagement/row_cuts.h"
 
 namespace flank::internal {
 
@@ -38,22 +38,8 @@ class RowMeter {
   [[nodiscard]] const std::vector<RingArc>& found() const { return found_; }
 
  private:
-  /// What ends a gap: one of the candidates, or else the blank or the front's own end.
-  struct Bound {
-    std::size_t candidate = kNone;
-    double shift = 0.0;  ///< of intervals, from its pose
-    [[nodiscard]] bool is_pose() const { return candidate != kNone; }
-  };
-  /// A stretch of a ring's front that no pose seen so far covers. It goes a little beyond where the front or the blank ends: what a
-  /// sweep covers between two poses may begin there.
-  struct Gap {
-    double low, high;  ///< radians from the direction of motion
-    Bound at_low, at_high;
-    Vec2 from, to;    ///< unit vectors of low and high
-    Arc limits = {};  ///< of the front in the blank
-    [[nodiscard]] Arc within() const { return {std::max(low, limits.low), std::min(high, limits.high)}; }
-    [[nodiscard]] bool is_some() const { return within().high > within().low; }
-  };
+  using Bound = GapBound;
+  using Gap = FrontGap;
   /// The part of a ring whose surface moves outwards.
   struct Front {
     double half = 0.0, angle = 0.0;  ///< half of it; the direction of motion in the frame of the row: radians
@@ -87,12 +73,9 @@ class RowMeter {
   [[nodiscard]] EngagementRow sum_row(const RowFrame& frame, double t, std::span<const ToolRing> rings) const;
   /// What of it is in the blank, and a little beyond, into gaps_.
   [[nodiscard]] Front front_of(const RowFrame& frame, const ToolRing& ring);
-  void go_beyond();
   void look_at_blank(const RowFrame& frame);
   void cut_by_blank(const RowFrame& frame, const ToolRing& ring, double motion_angle);
   void cut_by_poses(const ToolRing& ring, const Front& front);
-  /// The gaps in the frame of the row. `motion`: the direction of motion, which they are measured from.
-  [[nodiscard]] const std::vector<OpenArc>& open_arcs(const ToolRing& ring, const Vec2& motion);
   /// False if the candidate covers the whole ring.
   [[nodiscard]] bool cut_by(std::size_t candidate, const ToolRing& ring, const Vec2& motion);
   /// False if the disc covers the whole ring. `matters(centre, squared radius)`: whether it may reach into a gap.
@@ -124,7 +107,6 @@ class RowMeter {
     return index == kOwnSweep ? near_.own() : stock_.sweeps()[static_cast<std::size_t>(index)];
   }
 
-  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
   /// A first look, at every kStride-th pose of the last sweeps, says where material may be; only there all poses count.
   static constexpr std::size_t kRecent = 3;
   static constexpr int kStride = 4;

@@ -1,13 +1,47 @@
-/// What a tool covers of a ring that it leans against, a little or much.
+/// The gaps of a ring's front, and what is cut off them: by an interval, or by a tool that leans against the ring.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <numbers>
+#include <vector>
 
 #include "flank/trochoid/engagement/near_poses.h"
+#include "flank/trochoid/engagement/pose_filter.h"
+#include "flank/trochoid/engagement/ring_group.h"
 
 namespace flank::internal {
+
+/// What ends a gap: one of the candidates, or else the blank or the front's own end.
+struct GapBound {
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+  std::size_t candidate = kNone;
+  double shift = 0.0;  ///< of intervals, from its pose
+  [[nodiscard]] bool is_pose() const { return candidate != kNone; }
+};
+
+/// A stretch of a ring's front that no pose seen so far covers. It goes a little beyond where the front or the blank ends: what a
+/// sweep covers between two poses may begin there.
+struct FrontGap {
+  double low, high;  ///< radians from the direction of motion
+  GapBound at_low, at_high;
+  Vec2 from, to;    ///< unit vectors of low and high
+  Arc limits = {};  ///< of the front in the blank
+  [[nodiscard]] Arc within() const { return {std::max(low, limits.low), std::min(high, limits.high)}; }
+  [[nodiscard]] bool is_some() const { return within().high > within().low; }
+};
+
+/// Takes an interval out of gaps, also a turn farther; whether that changed any. `scratch` is the caller's memory.
+[[nodiscard]] bool cut_gaps(std::vector<FrontGap>& gaps, std::vector<FrontGap>& scratch, double low, double high,
+                            const GapBound& bound);
+
+/// Gaps that end where the front or the blank does go on a little beyond.
+void go_beyond(std::vector<FrontGap>& gaps);
+
+/// The gaps of a ring on its circle, in the frame of its row, into `out`. `motion`: the direction that they are measured from.
+void open_arcs(const std::vector<FrontGap>& gaps, double radius, const Vec2& motion, std::vector<OpenArc>& out);
 
 /// A disc in the plane of a ring: its centre from the direction of motion, and its radius; not > 0: it is none.
 struct RingDisc {
