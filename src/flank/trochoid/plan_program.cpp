@@ -15,8 +15,6 @@ namespace {
 
 /// Of the radius: run-outs that enter a face deeper than this end at a wall.
 constexpr double kWall = 0.2;
-/// Way before and behind the sides, in the tool's radii: there the tool is out of the blank.
-constexpr double kRunOut = 1.5;
 /// Radii that a finishing sweep keeps off the place where an entry's first front begins or ends.
 constexpr double kOffCorner = 0.02;
 

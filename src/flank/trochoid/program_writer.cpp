@@ -10,8 +10,6 @@
 namespace flank::internal {
 namespace {
 
-/// Way before the sides, in the tool's radii: there the tool is out of the blank.
-constexpr double kBefore = 1.5;
 /// Of the way to the other side: so far off a side a tool is drawn out beside it.
 constexpr double kAside = 0.2;
 
@@ -58,7 +56,7 @@ std::vector<Pose> ProgramWriter::poses_of(const RuledMotion& motion, int least) 
 Pose ProgramWriter::beginning(const LayerSides& sides, const PlannedLayer& planned) const {
   if (planned.entry) return planned.entry->moves.front().pose(0.0);
   const AxisPlace first = sides.from.at(planned.cycles.cycles.front().from_x);
-  return {first.tip - kBefore * radial_.largest() * first.tip_dx, first.u};
+  return {first.tip - kRunOut * radial_.largest() * first.tip_dx, first.u};
 }
 
 void ProgramWriter::add(const Entry& entry) {

@@ -11,6 +11,9 @@
 
 namespace flank::internal {
 
+/// Way before and behind the sides, in the tool's radii: there the tool is out of the blank.
+inline constexpr double kRunOut = 1.5;
+
 /// More than run-outs are bent and raised for, so that what they keep to by coarse samples is not cut off; the judge allows more.
 [[nodiscard]] double allowed_at_run_outs(const ProgramOptions& options);
 
