@@ -98,22 +98,44 @@ TEST(DexelStock, DepthIsTheDistanceToASmoothSurface) {
 }
 
 TEST(DexelStock, HoldsWhatHasADepth) {
-  DexelStock stock(box_of(Vec3::Constant(-6.0), Vec3::Constant(6.0)), {}, 0.3);
+  constexpr double kCell = 0.3;
+  DexelStock stock(box_of(Vec3::Constant(-6.0), Vec3::Constant(6.0)), {}, kCell);
   const ToolSolid tool(cylinder(1.0, 20.0), 1e-3);
   // Ribs, so that lines have several stretches, and edges, where lines do not see the same.
   for (const double x : {-4.0, -1.8, 0.1, 2.6, 4.4})
     (void)stock.cut(tool, {Vec3(x, 0.4 * x, -10.0), Vec3(0.1, -0.2, 1.0).normalized()});
   std::mt19937 random(3);
   std::uniform_real_distribution<double> place(-6.8, 6.8);
-  int held = 0;
+  int held = 0, clear = 0, differ = 0;
   constexpr int kPlaces = 20000;
   for (int k = 0; k < kPlaces; ++k) {
-    const Vec3 x(place(random), place(random), place(random));
-    EXPECT_EQ(stock.holds(x), stock.depth(x) > 0.0) << x.transpose();
-    held += stock.holds(x) ? 1 : 0;
+    const Vec3 x(place(random), place(random), place(random)), across(place(random), place(random), place(random));
+    const double depth = stock.depth(x);
+    if (std::abs(depth) > kCell || std::isinf(depth)) {
+      EXPECT_EQ(stock.holds(x, across), depth > 0.0) << x.transpose();
+      ++clear;
+    }
+    held += stock.holds(x, across) ? 1 : 0;
+    differ += stock.holds(x, across) != (depth > 0.0) ? 1 : 0;
   }
+  EXPECT_GT(clear, kPlaces / 4);
   EXPECT_GT(held, kPlaces / 5);
   EXPECT_LT(held, kPlaces * 4 / 5);
+  EXPECT_LT(differ, kPlaces / 50);  // at edges, and where the surface lies along the lines that are asked
+}
+
+TEST(DexelStock, LinesAcrossALayerSeeItHoweverThinItIs) {
+  constexpr double kCell = 0.4, kThin = 0.05;
+  DexelStock stock(box_of(Vec3(-6.0, -6.0, 0.0), Vec3(6.0, 6.0, 6.0)), {}, kCell);
+  const ToolSolid tool(cylinder(2.0, 20.0), 1e-4);
+  for (const double x : {-2.0 - 0.5 * kThin, 2.0 + 0.5 * kThin})
+    for (double y = -6.0; y <= 6.0; y += 0.01) (void)stock.cut(tool, {Vec3(x, y, -7.0), Vec3::UnitZ()});
+  for (const double y : {-3.1, 0.05, 1.7})
+    for (const double z : {1.0, 3.3}) {
+      EXPECT_TRUE(stock.holds({0.0, y, z}, Vec3::UnitX())) << y << ' ' << z;
+      for (const double off : {-1.0, -0.6 * kThin, 0.6 * kThin, 1.0})
+        EXPECT_FALSE(stock.holds({off, y, z}, Vec3::UnitX())) << off << ' ' << y << ' ' << z;
+    }
 }
 
 TEST(DexelStock, ConcaveToolsLeaveWhatTheirWaistDoesNotReach) {

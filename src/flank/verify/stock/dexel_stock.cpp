@@ -76,8 +76,8 @@ Surface surface_along(const DexelField& field, const Vec3& x, double cell) {
 
 enum class Sight { kOut, kIn, kMixed };
 
-/// What the four lines around a point say of it; mixed where they differ, and on an end of one.
-Sight sight_along(const DexelField& field, const Vec3& x) {
+/// What the four lines around a point say of it; mixed where they differ, and within `margin` of an end of one, mm.
+Sight sight_along(const DexelField& field, const Vec3& x, double margin) {
   const int i = static_cast<int>(std::floor(field.line_at(x[field.across()])));
   const int j = static_cast<int>(std::floor(field.row_at(x[field.up()])));
   const double place = x[field.axis()];
@@ -87,7 +87,8 @@ Sight sight_along(const DexelField& field, const Vec3& x) {
     if (row < 0 || row >= field.rows() || line < 0 || line >= field.width()) continue;
     int here = 0;
     field.visit(row, line, [&](const DexelSpan& span) {
-      if (span.low <= place && place <= span.high) here = span.low < place && place < span.high ? 1 : -1;
+      if (place < span.low - margin || place > span.high + margin) return;
+      here = span.low + margin < place && place < span.high - margin ? 1 : -1;
     });
     if (here < 0 || in != k * here) return Sight::kMixed;
     in += here;
@@ -284,13 +285,15 @@ double DexelStock::depth(const Vec3& x) const {
   return inside > 0 ? 0.5 * cell_ : -0.5 * cell_;
 }
 
-// Where all lines agree, so does the surface that they make: it lies beyond the point on each of them, or before it.
-bool DexelStock::holds(const Vec3& x) const {
-  const Sight sight = sight_along(fields_.front(), x);
-  const bool agreed = sight != Sight::kMixed && std::all_of(fields_.begin() + 1, fields_.end(), [&](const auto& field) {
-                        return sight_along(field, x) == sight;
-                      });
-  return agreed ? sight == Sight::kIn : depth(x) > 0.0;
+bool DexelStock::holds(const Vec3& x, const Vec3& across) const {
+  Eigen::Index most = 0;
+  across.cwiseAbs().maxCoeff(&most);
+  // Lines across a layer see it however thin it is: they are believed where none of them ends near, and where the ends of all
+  // four make a surface.
+  const DexelField& first = field(static_cast<int>(most));
+  if (const Sight sight = sight_along(first, x, cell_); sight != Sight::kMixed) return sight == Sight::kIn;
+  const Surface surface = surface_along(first, x, cell_);
+  return surface.found ? surface.distance > 0.0 : depth(x) > 0.0;
 }
 
 }  // namespace flank::internal::verify

@@ -31,8 +31,9 @@ class DexelStock {
   /// cell, and farther off to first order; near edges to about a cell. Far from the surface it is only the sign that
   /// counts; -infinity where no line has any material.
   [[nodiscard]] double depth(const Vec3& x) const;
-  /// Whether depth(x) > 0: quicker, as most places lie deep in the material or far from it.
-  [[nodiscard]] bool holds(const Vec3& x) const;
+  /// Whether depth(x) > 0, of a place where layers of material lie across a direction: quicker, as most places lie deep in the
+  /// material or far from it.
+  [[nodiscard]] bool holds(const Vec3& x, const Vec3& across) const;
   /// The distance where lines see a smooth surface; none at edges, and where there is no material near.
   [[nodiscard]] std::optional<double> distance(const Vec3& x) const;
 

@@ -16,10 +16,7 @@ struct Circle {
   double radius = 0.0;
   double half = 0.0;  ///< the front is |theta| <= half, radians
 
-  /// On it, or so far inside of it.
-  [[nodiscard]] Vec3 at(double theta, double inside = 0.0) const {
-    return centre + (radius - inside) * (std::cos(theta) * forward + std::sin(theta) * side);
-  }
+  [[nodiscard]] Vec3 outwards(double theta) const { return std::cos(theta) * forward + std::sin(theta) * side; }
 };
 
 Circle circle_of(const RadialFunction& radial, const Pose& pose, const PoseVelocity& velocity, double s) {
@@ -43,8 +40,9 @@ Circle circle_of(const RadialFunction& radial, const Pose& pose, const PoseVeloc
 bool is_engaged(const DexelStock& stock, const MovingTool& tool, const Circle& circle, double theta) {
   // Where a front goes along a surface that was cut before, the stock has the ridges between its own cuts: what the tool meets must
   // reach farther into it. What was taken lately is asked on the front itself, since such poses leave next to nothing.
-  if (!stock.holds(circle.at(theta, tool.grain_mm))) return false;
-  const Vec3 x = circle.at(theta);
+  const Vec3 outwards = circle.outwards(theta);
+  if (!stock.holds(circle.centre + (circle.radius - tool.grain_mm) * outwards, outwards)) return false;
+  const Vec3 x = circle.centre + circle.radius * outwards;
   return std::none_of(tool.lately.begin(), tool.lately.end(),
                       [&](const Pose& pose) { return tool.solid->holds(pose, x); });
 }
