@@ -17,6 +17,7 @@ struct Strip {
   std::string face;            ///< the target, e.g. "F1" or "F1,F3"
   /// In the order of machining, at least one; every axis a unit vector.
   std::vector<Pose> poses;
+  int layer = 0;  ///< of a cavity that is cut in layers, from 1 at the top; 0: of none
 };
 
 /// Strips in the order of machining. How it is written: docs/schema/path.md.

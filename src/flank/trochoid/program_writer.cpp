@@ -39,6 +39,7 @@ void ProgramWriter::add(const std::string& kind, std::vector<Pose> poses) {
   strip.kind = kind;
   strip.face = options_.left + "," + options_.right;
   strip.poses = std::move(poses);
+  strip.layer = static_cast<int>(out_.layers.size()) + 1;  // those that are done, and this one
   out_.path.strips.push_back(std::move(strip));
 }
 

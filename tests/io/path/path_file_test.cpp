@@ -38,6 +38,15 @@ TEST(PathJson, IsValidJsonOfTheDocumentedForm) {
   EXPECT_EQ(j.at("strips").at(0).at("poses").at(3), nlohmann::json({-0.0, 1.0 / 3.0, 2.0, 0.0, 0.0, 1.0}));
 }
 
+TEST(PathJson, LayersAreWrittenWhereThereAreAny) {
+  Path path = awkward_path();
+  EXPECT_EQ(path_to_json(path).find("layer"), std::string::npos);
+  path.strips[1].layer = 3;
+  const Path read = path_from_json(path_to_json(path), "p.json");
+  EXPECT_EQ(read.strips[0].layer, 0);
+  EXPECT_EQ(read.strips[1].layer, 3);
+}
+
 TEST(PathJson, RoundedAxesAreNormalised) {
   const Path path = path_from_json(
       R"({"schema":"openflank/path/1","strips":[{"id":1,"poses":[[0,0,0,0.7071,0,0.7071]]}]})", "p.json");
@@ -62,6 +71,7 @@ TEST(PathJson, BadFilesAreRefusedByName) {
       {head + R"([{"id":1,"poses":[[1,2,3,0,0,2]]}]})", "strips[0].poses[0]: the axis vector"},
       {head + R"([{"id":1,"poses":[[1,2,3,0,0,0]]}]})", "has length 0"},
       {head + R"([{"id":1,"kind":2,"poses":[[1,2,3,0,0,1]]}]})", "strips[0].kind: must be a text"},
+      {head + R"([{"id":1,"layer":-1,"poses":[[1,2,3,0,0,1]]}]})", "strips[0].layer: must be 1 or more"},
       {head + R"([{"id":1,"pose":[]}]})", "unknown key \"pose\""},
       {head + R"([{"id":1,"poses":[[1,2,3,0,0,1]]},{"id":1,"poses":[[1,2,3,0,0,1]]}]})", "id 1 is used twice"}};
   for (const auto& [text, expected] : corpus) {

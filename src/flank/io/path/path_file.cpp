@@ -26,13 +26,15 @@ Pose pose_from(const JsonInput& in) {
   return pose;
 }
 
-/// "kind" and "face" may be left out.
+/// "kind", "face" and "layer" may be left out.
 Strip strip_from(const JsonInput& in) {
-  in.allow_keys({"id", "kind", "face", "poses"});
+  in.allow_keys({"id", "kind", "face", "layer", "poses"});
   Strip strip;
   strip.id = in.member("id").integer();
   if (in.has("kind")) strip.kind = in.member("kind").text();
   if (in.has("face")) strip.face = in.member("face").text();
+  if (in.has("layer")) strip.layer = in.member("layer").integer();
+  if (strip.layer < 0) in.member("layer").refuse("must be 1 or more");
   const JsonInput poses = in.member("poses");
   if (poses.size() == 0) poses.refuse("at least one pose [x, y, z, i, j, k] is needed");
   strip.poses.reserve(poses.size());
@@ -46,8 +48,9 @@ std::string path_to_json(const Path& path) {
   std::string text = fmt::format("{{\n  \"schema\": \"{}\",\n  \"units\": \"mm\",\n  \"strips\": [", kSchema);
   for (std::size_t k = 0; k < path.strips.size(); ++k) {
     const Strip& strip = path.strips[k];
-    text += fmt::format("{}\n    {{\"id\": {}, \"kind\": {}, \"face\": {}, \"poses\": [", k == 0 ? "" : ",", strip.id,
-                        json_string(strip.kind), json_string(strip.face));
+    const std::string layer = strip.layer > 0 ? fmt::format("\"layer\": {}, ", strip.layer) : "";
+    text += fmt::format("{}\n    {{\"id\": {}, \"kind\": {}, \"face\": {}, {}\"poses\": [", k == 0 ? "" : ",", strip.id,
+                        json_string(strip.kind), json_string(strip.face), layer);
     for (std::size_t i = 0; i < strip.poses.size(); ++i) {
       const Pose& p = strip.poses[i];
       text += fmt::format("{}\n      [{}, {}, {}, {}, {}, {}]", i == 0 ? "" : ",", exact_number(p.tip.x()),
