@@ -41,19 +41,52 @@ EndStep step_of(const ToolProfile& profile, const RingCircle& circle, const Swee
   return {std::clamp(step.angle, -kFarthest, kFarthest), std::clamp(step.place, -1.0, 1.0)};
 }
 
+/// Where `is_taken` ends before `angle` against the sign, or begins behind it; `angle` if that is not near.
+template <class IsTaken>
+double halved_end(const IsTaken& is_taken, double angle, double sign) {
+  constexpr int kSteps = 12, kHalvings = 14;
+  constexpr double kInside = 1e-6;  // the guess itself is an end of what a pose takes
+  const bool there = is_taken(angle + sign * kInside);
+  const double step = (there ? -sign : sign) * kFarthest / kSteps;
+  for (int k = 1; k <= kSteps; ++k) {
+    double same = angle + (k - 1) * step, other = angle + k * step;
+    if (is_taken(other) == there) continue;
+    for (int n = 0; n < kHalvings; ++n) {
+      const double middle = 0.5 * (same + other);
+      (is_taken(middle) == there ? same : other) = middle;
+    }
+    return there ? same : other;
+  }
+  return angle;
+}
+
 }  // namespace
 
-double arc_end(const ToolProfile& profile, const RingCircle& circle, const SweepPlace& cover, double angle) {
+double arc_end(const ToolProfile& profile, const RingCircle& circle, const SweepPlace& cover, double angle,
+               Taken taken) {
   constexpr int kIterations = 12;
+  /// What an end moves from its guess because of the time between poses and a small tilt is less, radians.
+  constexpr double kUsual = 2e-3;
   double at = angle, t = cover.place;
-  for (int k = 0; k < kIterations; ++k) {
+  bool settled = false;
+  for (int k = 0; k < kIterations && !settled; ++k) {
     const EndStep step = step_of(profile, circle, cover, at, t);
     const double moved = std::clamp(t + step.place, 0.0, cover.last) - t;
     at += step.angle;
     t += moved;
-    if (std::abs(step.angle) * circle.radius < kStepMm && std::abs(moved) < kInterval) break;
+    settled = std::abs(step.angle) * circle.radius < kStepMm && std::abs(moved) < kInterval;
   }
-  return std::abs(at - angle) < kFarthest ? at : angle;
+  if (settled && std::abs(at - angle) < kUsual) return at;
+  const auto is_taken = [&](double a) {
+    const Vec3 x = circle.at(a);
+    return is_taken_near(profile, cover, x) || is_taken_near(profile, {cover.sweep, cover.last, t}, x);
+  };
+  const double sign = taken == Taken::kAbove ? 1.0 : -1.0;
+  const bool onwards = (at - angle) * sign < 0.0;  // it takes more than was guessed
+  const double beside = std::copysign(0.5 * kUsual, angle - at);
+  if (settled && std::abs(at - angle) < kFarthest && is_taken(0.5 * (at + angle)) == onwards && is_taken(at + beside) == onwards)
+    return at;
+  return halved_end(is_taken, angle, sign);
 }
 
 bool is_taken_near(const ToolProfile& profile, const SweepPlace& cover, const Vec3& x) {

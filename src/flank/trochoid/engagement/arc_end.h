@@ -22,10 +22,14 @@ struct SweepPlace {
   double place = 0.0;
 };
 
+/// On which side of an end the circle is in the swept volume: at larger angles, or at smaller ones.
+enum class Taken { kAbove, kBelow };
+
 /// The angle near `angle` at which the circle leaves the volume that the sweep takes: gap and its derivative by time vanish
-/// there. A place that the iteration leaves for another branch is worse than the guess: that is returned then.
+/// there. Where they vanish at another time, too, the iteration may go there: an end beyond which the sweep takes what it
+/// should not, or does not take what it should, is looked for again by halving. Where there is none near, the guess is returned.
 [[nodiscard]] double arc_end(const ToolProfile& profile, const RingCircle& circle, const SweepPlace& cover,
-                             double angle);
+                             double angle, Taken taken);
 
 /// Whether the sweep takes x at some time near a place.
 [[nodiscard]] bool is_taken_near(const ToolProfile& profile, const SweepPlace& cover, const Vec3& x);

@@ -160,14 +160,14 @@ bool RowMeter::is_sliver(const RingCircle& circle, const RingGap& gap) const {
 void RowMeter::settle(const RowFrame& frame, const ToolRing& ring, std::size_t index, const Front& front) {
   const Vec3 forward = front.motion.x() * frame.x + front.motion.y() * frame.y;
   const RingCircle circle{frame.axis.at(ring.z), forward, frame.axis.u.cross(forward), ring.radius};
-  const auto end = [&](const GapBound& bound, double angle) {
-    return bound.is_pose() ? arc_end(stock_.profile(), circle, place_of(bound), angle) : angle;
+  const auto end = [&](const GapBound& bound, double angle, Taken taken) {
+    return bound.is_pose() ? arc_end(stock_.profile(), circle, place_of(bound), angle, taken) : angle;
   };
   const std::size_t before = found_.size();
   for (const RingGap& gap : gaps_) {
     if (is_sliver(circle, gap)) continue;
-    const Arc arc{std::max(gap.limits.low, end(gap.at_low, gap.low)),
-                  std::min(gap.limits.high, end(gap.at_high, gap.high))};
+    const Arc arc{std::max(gap.limits.low, end(gap.at_low, gap.low, Taken::kBelow)),
+                  std::min(gap.limits.high, end(gap.at_high, gap.high, Taken::kAbove))};
     if (!(arc.high > arc.low)) continue;
     if (found_.size() == before || arc.low > found_.back().arc.high) {
       found_.push_back({index, front.angle, arc});
