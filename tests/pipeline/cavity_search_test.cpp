@@ -51,6 +51,17 @@ TEST(CavitySearch, IsNotDoneWhereTheVerdictWillNotBeMet) {
   EXPECT_TRUE(is_done(finished(0.93), faces, job));
 }
 
+TEST(CavitySearch, WantsAnEvenToolWhereTheThickEndLeavesWhatTheThinOneReaches) {
+  TrochoidJob job;
+  job.judge.least_coverage = 0.95;
+  const CavityFaces faces = walled_blades();
+  EXPECT_TRUE(wants_even_tool(finished(0.90), faces, job));
+  EXPECT_FALSE(wants_even_tool(finished(0.93), faces, job)) << "done";
+  EXPECT_FALSE(wants_even_tool(finished(0.80), faces, job)) << "it leaves what it reaches itself";
+  job.judge.reach_radius_mm = 2.0;
+  EXPECT_FALSE(wants_even_tool(finished(0.90), faces, job)) << "what is to be reached does not depend on the tool";
+}
+
 TEST(CavitySearch, TriesNoBoundBelowTheLeastRadiusThatIsAskedFor) {
   const CavityWidth width{.narrowest_mm = 24.0, .median_mm = 29.0};
   TrochoidJob job;

@@ -16,6 +16,8 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 /// Where a search begins below its bound, and the least radius there may be as a share of that: the engagement of a thin
 /// end bounds the steps of the whole tool, so a stout one comes first.
 constexpr double kBegin = 0.92, kStout = 0.55, kThin = 0.3;
+/// The same of a tool that is nearly as thick everywhere.
+constexpr double kEven = 0.85;
 /// The same of a slimmer start, where the others cover less than this share of what they reach.
 constexpr double kSlim = 0.7, kCoversLittle = 0.85;
 constexpr int kMostLayers = 5;
@@ -176,6 +178,15 @@ CavityPlan search_ways(const TrochoidJob& job, const CavityFaces& faces, const T
   return is_better(plain, facing, job.tolerance_mm) ? plain : facing;
 }
 
+/// The same with a tool that is nearly as thick everywhere, if that is what is missing and it does more.
+CavityPlan search_even(const TrochoidJob& job, const CavityFaces& faces, const ToolModel& tool, SideFitOptions options,
+                       const Progress& progress, CavityPlan tried, CavityPlan& uncut) {
+  if (!tool.free() || !wants_even_tool(tried, faces, job) || progress.stop()) return tried;
+  options.starts = {{options.starts.front().radius_mm, kEven}};
+  CavityPlan even = search_ways(job, faces, tool, options, true, progress, uncut);
+  return is_done(even, faces, job) || is_better(even, tried, job.tolerance_mm) ? even : tried;
+}
+
 /// Cycles between sides that got none, if more may be finished so than by the best.
 void try_uncut(CavityPlan uncut, const TrochoidJob& job, const CavityFaces& faces, const Progress& progress,
                CavityPlan& best) {
@@ -200,6 +211,11 @@ bool is_done(const CavityPlan& plan, const CavityFaces& faces, const TrochoidJob
   const FlankFitResult& fit = plan.sides.fit;
   return covers_reachable(side_of(faces.sides[0]), side_of(faces.sides[1]), cleared(plan) * fit.after.at_tolerance,
                           job.judge.least_coverage, job.judge.reach_radius_mm.value_or(fit.tool.smallest()));
+}
+
+bool wants_even_tool(const CavityPlan& plan, const CavityFaces& faces, const TrochoidJob& job) {
+  return !job.judge.reach_radius_mm && gets_through(plan, job.tolerance_mm) && !is_done(plan, faces, job) &&
+         state_of(plan.sides, faces, job) == SideState::kObstructed;
 }
 
 std::vector<double> bounds_of(const TrochoidJob& job, const CavityWidth& width) {
@@ -237,6 +253,7 @@ CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const
     if (given) here.starts.front().radius_mm = *tool.radius;
     const double most_uncut = uncut.sides.fit.after.at_tolerance;
     CavityPlan tried = search_ways(job, faces, tool, here, !given && bound != bounds.back(), progress, uncut);
+    tried = search_even(job, faces, tool, here, progress, std::move(tried), uncut);
     const bool done = is_done(tried, faces, job);
     // A tool that has hardly any way across got no cycles, and says nothing of thinner ones.
     const bool narrow = tried.program.layers.empty() && is_narrow(tried.sides);

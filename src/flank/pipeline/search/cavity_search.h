@@ -31,6 +31,10 @@ struct CavityPlan {
 /// for: a thinner one may get nearer.
 [[nodiscard]] bool is_done(const CavityPlan& plan, const CavityFaces& faces, const TrochoidJob& job);
 
+/// Whether all that is missing is what the tool's thin end would reach beside other faces and its thicker one does not: a tool as thick at
+/// that end as at the other is asked for no more than it reaches, and is stiffer.
+[[nodiscard]] bool wants_even_tool(const CavityPlan& plan, const CavityFaces& faces, const TrochoidJob& job);
+
 /// How long thinner tools are tried, which are slower, too.
 class SearchPatience {
  public:

@@ -84,7 +84,8 @@ double arc_end(const ToolProfile& profile, const RingCircle& circle, const Sweep
   const double sign = taken == Taken::kAbove ? 1.0 : -1.0;
   const bool onwards = (at - angle) * sign < 0.0;  // it takes more than was guessed
   const double beside = std::copysign(0.5 * kUsual, angle - at);
-  if (settled && std::abs(at - angle) < kFarthest && is_taken(0.5 * (at + angle)) == onwards && is_taken(at + beside) == onwards)
+  if (settled && std::abs(at - angle) < kFarthest && is_taken(0.5 * (at + angle)) == onwards &&
+      is_taken(at + beside) == onwards)
     return at;
   return halved_end(is_taken, angle, sign);
 }
