@@ -58,6 +58,31 @@ OfWhole of_whole(const FitDraft& draft, const FlankFitOptions& options) {
   return found;
 }
 
+/// What a tool's own balls touch, beside the demanded one's.
+ReachLimits own_reach(const FitDraft& draft, const FlankFitOptions& options) {
+  ReachLimits reach = reach_of(options);
+  reach.radius_mm = std::min(reach.radius_mm, draft.tool.smallest());
+  return reach;
+}
+
+/// Share of the whole targets that the tool's own balls touch and its motions leave.
+double left_in_reach(const FitDraft& draft, const FlankFitOptions& options) {
+  const SweptEstimate swept(draft.motions, draft.tool, kRankingPoses);
+  const ReachLimits reach = own_reach(draft, options);
+  double left = 0.0, area = 0.0;
+  for (const Target* target : distinct_targets(draft)) {
+    const auto samples = target->samples(std::sqrt(target->area()) * options.sample_share);
+    std::vector<double> areas(samples.size(), 0.0);
+    parallel_for(samples.size(), [&](std::size_t k) {
+      const bool covered = std::abs(swept.nearest(samples[k].point).f) <= options.tolerance_mm;
+      if (!covered && is_reachable(*target, obstacles_of(draft, target), samples[k], reach)) areas[k] = samples[k].area;
+    });
+    for (std::size_t k = 0; k < samples.size(); ++k) left += areas[k];
+    area += target->area();
+  }
+  return left / area;
+}
+
 /// A draft, what it covers of what is in reach, and of the whole.
 struct Reached {
   Polished polished;
@@ -79,12 +104,11 @@ FitDraft further_pass(const FitDraft& draft, const FlankFitOptions& options, dou
                                   .iterations = 20,
                                   .out_of_sight = 4.0,
                                   .firmness = 4.0};
-  ReachLimits reach = reach_of(options);
-  reach.radius_mm = std::min(reach.radius_mm, draft.tool.smallest());
   FitStage stage = swept_stage(kFurther, options, draft.targets.front()->diagonal());
   stage.plunge_weight *= steadiness;
   stage.lag_weight *= steadiness;
-  return run_swept(draft, options.bounds, stage, target_points(draft, kFurther.points_per_side, reach), nullptr);
+  return run_swept(draft, options.bounds, stage,
+                   target_points(draft, kFurther.points_per_side, own_reach(draft, options)), nullptr);
 }
 
 /// Nothing of what was asked is given up: what is in reach stays covered, nothing is entered, the flank does not plunge, and the
@@ -125,8 +149,8 @@ FlankFitResult drawn_further(const std::vector<FitTask>& tasks, const FlankFitRe
   start.polished.draft.motions = found.motions;
   start.polished.draft.tool = found.tool;
   start.polished.estimate = found.after;
+  if (left_in_reach(start.polished.draft, options) <= 1.0 - kAllButCovered) return found;
   start.whole = of_whole(start.polished.draft, options);
-  if (start.whole.share >= kAllButCovered) return found;
   const std::vector<SurfaceSample> samples = ranking_of_all(start.polished.draft, options);
   for (const double steadiness : kSteadiness) {
     Reached further = passed_further(start, samples, options, steadiness);
