@@ -15,6 +15,8 @@ struct ObstacleFace {
   std::shared_ptr<const Target> surface;
   bool oriented = false;      ///< its normal points out of the material (the face of a solid)
   double clearance_mm = 0.0;  ///< >= 0: the flank keeps this far away; 0 for faces of the part
+  /// Some of its solid is not asked for, so that nothing need stand before what only its material's side is seen of.
+  bool bared = false;
 };
 
 /// Triangles, for the distances of a whole tool (PoseChecker).

@@ -49,6 +49,22 @@ TEST_F(Racing, OfTwoThatDoWhatWasAskedTheStifferToolWins) {
   }
 }
 
+TEST_F(Racing, AStifferToolMustNotCostWhatTheDemandedBallDoesNotReach) {
+  constexpr double kThin = 3.0, kThick = 6.0;  // mm; the demand is for what the thick one touches
+  const ObstacleField hub(testing::only(testing::hub(true)), *blade_, 2.0, 0.8 * options_.tolerance_mm);
+  options_.reach_radius_mm = kThick;
+  std::vector<FitDraft> starts;
+  for (const double radius : {kThick, kThin}) {
+    starts.push_back(start(radius));
+    starts.back().obstacles = {&hub};
+    starts.back().motions = {
+        upright_motion({.y = radius, .z = radius, .x_first = -3.0, .x_last = 63.0, .length = 42.0})};
+  }
+  const Runner winner = race(starts, ranking_samples(*blade_, &hub, options_), options_, {});
+  EXPECT_TRUE(winner.enough);
+  EXPECT_NEAR(winner.polished.draft.tool.at(21.0).r, kThin, 0.5);
+}
+
 TEST_F(Racing, NobodyIsTriedOnceOneIsEnough) {
   // The third would win: it is stiffer than both.
   const std::vector<FitDraft> starts = {start(2.0), start(3.0), start(8.0)};

@@ -56,6 +56,18 @@ TEST(ObstacleField, TheBladesOwnBackIsLeftOut) {
   EXPECT_EQ(obstacles.at(Vec3(30, 0.5, 20), kFar).face, -1);
 }
 
+TEST(ObstacleField, WhatLiesBehindAWallThatIsNotAskedForIsNotLeftOut) {
+  const auto blade = standing_blade(0.0);
+  // The underside of the hub that the blade stands on, whose upper side nobody asks for.
+  const Face under = quad(Vec3(-50, -50, -1), Vec3(-50, 50, -1), Vec3(110, -50, -1), Vec3(110, 50, -1), "F5");
+  ObstacleFace face{make_target({under}), true};
+  EXPECT_EQ(ObstacleField(only(face), *blade, 2.0, 0.0).at(Vec3(30, 3, 1), kFar).face, -1);
+  face.bared = true;
+  const ObstacleField obstacles(only(face), *blade, 2.0, 0.0);
+  EXPECT_EQ(obstacles.sign(0), 0);
+  EXPECT_NEAR(obstacles.at(Vec3(30, 3, 1), kFar).distance_mm, 2.0, 1e-9);
+}
+
 TEST(ObstacleField, TheBackOfASheetIsNoWall) {
   const auto blade = standing_blade(0.0);
   // It ends farther out than the target: past the target's end there is air on both sides of it.

@@ -36,6 +36,28 @@ TEST(MakeObstacles, AShankMayTouchWhatItsFlankTouches) {
   EXPECT_NEAR(checker.measure(lying_at(5.0)).clearance_mm, 1.0 - kSpare, 1e-6) << "a plane has no deviation";
 }
 
+TEST(MakeObstacles, ASolidOfWhichAFaceIsNotCheckedIsBared) {
+  Part part;
+  part.faces = {testing::flat_face(0.0, 60.0, 0.0, 40.0, 0.0), testing::flat_face(0.0, 60.0, 0.0, 40.0, 1.0),
+                testing::flat_face(0.0, 60.0, 0.0, 40.0, 2.0), testing::flat_face(0.0, 60.0, 0.0, 40.0, 3.0)};
+  part.solids = 2;
+  for (std::size_t k = 0; k < part.faces.size(); ++k) {
+    part.faces[k].of_solid = true;
+    part.faces[k].solid = k < 2 ? 0 : 1;
+  }
+  ObstacleDetail detail;
+  detail.faces_within_mm = 10.0;
+  const auto target = make_target({part.faces[0]});
+  const auto bared = [&](const std::vector<int>& checks) {
+    std::vector<bool> found;
+    for (const ObstacleFace& face : make_obstacles(part, *target, choose_obstacles({0}, {0}, checks), detail).faces)
+      found.push_back(face.bared);
+    return found;
+  };
+  EXPECT_EQ(bared({1, 2, 3}), (std::vector<bool>{false, false, false}));
+  EXPECT_EQ(bared({1, 2}), (std::vector<bool>{false, true}));
+}
+
 /// A plane of 24 x 16 mm, and a wall at y = `y` that faces it: part of a vice.
 class BesideAVice : public ::testing::Test {
  protected:

@@ -1,6 +1,7 @@
 #include "flank/fit/race.h"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 #include "flank/base/assert.h"
@@ -31,19 +32,30 @@ bool is_stiff_enough(const FitDraft& draft, const RadiusBounds& bounds) {
   return !draft.free_tool || thickest > bounds.slenderest || slenderness_of(draft.tool, bounds) <= bounds.slenderest;
 }
 
+/// Of the whole target, in reach or not: what a stiffer tool may cost where both do what was asked.
+constexpr double kStiffnessCost = 0.005;
+
+/// Covered share of the whole first target, in reach or not.
+double share_of_whole(const FitDraft& draft, const FlankFitOptions& options) {
+  const Target& target = *draft.targets.front();
+  const std::vector<SurfaceSample> all = target.samples(std::sqrt(target.area()) * options.sample_share);
+  return estimate_coverage(all, draft.motions, draft.tool, options.tolerance_mm, kRankingPoses).at_tolerance;
+}
+
 /// An envelope, found to the last digits.
 bool has_last_digits(const Runner& runner, const FlankFitOptions& options) {
   return runner.polished.exact &&
          runner.polished.estimate.overcut_mm <= kToleranceBudget.fit.exact_overcut * options.tolerance_mm;
 }
 
-/// Stable, so that equal ones keep the order of their promise. At most the two of a pair are enough, so "about as stiff"
-/// compares no three of them. An envelope found exactly is not given away for a tool that is a little stiffer: both are
+/// Stable, so that equal ones keep the order of their promise. At most the two of a pair are enough, so "about as stiff", and
+/// "covers about as much of the whole", compare no three of them. An envelope found exactly is not given away for a tool that is a little stiffer: both are
 /// as stiff as was asked, and the error is what differs, by orders of magnitude.
 void sort_by_merit(std::vector<Runner>& runners, const FlankFitOptions& options) {
   const auto slenderness_in = [&](const Runner& runner) {
     return slenderness_of(runner.polished.draft.tool, options.bounds);
   };
+  const auto whole_of = [&](const Runner& runner) { return share_of_whole(runner.polished.draft, options); };
   const auto merit_of = [&](const Runner& runner) {
     const double price = is_stiff_enough(runner.polished.draft, options.bounds) ? 0.0 : kSlenderPrice;
     return runner.polished.estimate.score(options.tolerance_mm) - price;
@@ -52,6 +64,7 @@ void sort_by_merit(std::vector<Runner>& runners, const FlankFitOptions& options)
     if (a.enough != b.enough) return a.enough;
     const bool digits_a = has_last_digits(a, options), digits_b = has_last_digits(b, options);
     if (a.enough && digits_a != digits_b) return digits_a;
+    if (a.enough && std::abs(whole_of(a) - whole_of(b)) > kStiffnessCost) return whole_of(a) > whole_of(b);
     if (a.enough) return slenderness_in(a) < (1.0 - kSameStiffness) * slenderness_in(b);
     return merit_of(a) > merit_of(b);
   });

@@ -62,7 +62,8 @@ Vote vote(const ObstacleFace& face, const std::vector<SurfaceSample>& samples, d
   // would forbid the air beside the blade that lies below its plane.
   if (all < kSeenBySome * area) return {};
   if (outside >= kMajority * all) return {through > kThroughTarget * all ? 0 : +1, false};
-  if (face.oriented) return {0, outside == 0.0 && all >= kSeenByMost * area};
+  // What lies behind a wall is left out because the wall is asked for.
+  if (face.oriented) return {0, !face.bared && outside == 0.0 && all >= kSeenByMost * area};
   return {outside <= (1.0 - kMajority) * all ? -1 : 0, false};
 }
 

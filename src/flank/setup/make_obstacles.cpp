@@ -53,9 +53,21 @@ std::unique_ptr<Target> surface_of(const Part& part, int face) {
   return make_target(std::vector<Face>{part.faces[static_cast<std::size_t>(face)]});
 }
 
-/// Those of `faces` within reach of the target's samples, as surfaces.
+/// Solids of which a face is neither the target's own nor among the others.
+std::vector<char> bared_solids(const Part& part, const ObstacleChoice& choice) {
+  std::vector<char> bared(static_cast<std::size_t>(part.solids), 0);
+  for (int k = 0; k < static_cast<int>(part.faces.size()); ++k) {
+    const int solid = part.faces[static_cast<std::size_t>(k)].solid;
+    const bool asked = part.is_left_out(k) || std::binary_search(choice.others.begin(), choice.others.end(), k) ||
+                       std::find(choice.own.begin(), choice.own.end(), k) != choice.own.end();
+    if (solid >= 0 && !asked) bared[static_cast<std::size_t>(solid)] = 1;
+  }
+  return bared;
+}
+
+/// Those of `faces` within reach of the target's samples, as surfaces. `bared`: of each solid; empty: none is.
 void add_surfaces(const Part& part, const std::vector<int>& faces, const std::vector<SurfaceSample>& samples,
-                  double reach_mm, double clearance_mm, Obstacles& obstacles) {
+                  double reach_mm, double clearance_mm, const std::vector<char>& bared, Obstacles& obstacles) {
   const double reach = reach_mm + clearance_mm;
   std::vector<ObstacleFace> all(faces.size());
   std::vector<char> far(faces.size(), 0);
@@ -67,6 +79,8 @@ void add_surfaces(const Part& part, const std::vector<int>& faces, const std::ve
     all[k].surface = surface_of(part, faces[k]);
     all[k].clearance_mm = clearance_mm;
     all[k].oriented = face != nullptr && face->of_solid;
+    all[k].bared =
+        face != nullptr && face->solid >= 0 && !bared.empty() && bared[static_cast<std::size_t>(face->solid)] != 0;
   });
   for (std::size_t k = 0; k < all.size(); ++k)
     if (far[k] == 0 && box_gap(all[k].surface->box(), samples) <= reach) obstacles.faces.push_back(std::move(all[k]));
@@ -190,7 +204,8 @@ void add_fixtures(const Target& target, const ObstacleChoice& choice, const Obst
     std::vector<int> faces(static_cast<std::size_t>(fixture.face_count()));
     std::iota(faces.begin(), faces.end(), 0);
     std::erase_if(faces, [&](int face) { return fixture.is_left_out(face); });  // nothing is known of them
-    if (detail.faces_within_mm) add_surfaces(fixture, faces, samples, *detail.faces_within_mm, clearance_mm, obstacles);
+    if (detail.faces_within_mm)
+      add_surfaces(fixture, faces, samples, *detail.faces_within_mm, clearance_mm, {}, obstacles);
     if (!detail.meshes_within_mm) continue;
     const std::vector<int> near = near_faces(fixture, faces, target, *detail.meshes_within_mm + clearance_mm);
     for (ObstacleMesh& mesh : meshes_of(fixture, near, detail.deviation_mm)) {
@@ -231,7 +246,7 @@ Obstacles make_obstacles(const Part& part, const Target& target, const ObstacleC
   if (detail.faces_within_mm) {
     // About 200 of them: only the nearness of boxes is measured by them.
     samples = target.samples(std::sqrt(target.area() / kSamples));
-    add_surfaces(part, choice.others, samples, *detail.faces_within_mm, 0.0, obstacles);
+    add_surfaces(part, choice.others, samples, *detail.faces_within_mm, 0.0, bared_solids(part, choice), obstacles);
   }
   if (detail.meshes_within_mm) add_meshes(part, target, choice, detail, obstacles);
   if (detail.own_deviation_mm) add_own(part, choice, detail, obstacles);

@@ -12,6 +12,7 @@
 #include "flank/fit/tried.h"
 #include "flank/pipeline/search/out_of_reach.h"
 #include "flank/pipeline/search/reach_ball.h"
+#include "flank/pipeline/search/reach_further.h"
 #include "flank/pipeline/search/search_setup.h"
 #include "flank/pipeline/search/stiff_fit.h"
 #include "flank/pipeline/search/strip_gain.h"
@@ -380,8 +381,10 @@ FitSearch search_fit(const FitJob& job, const Setup& setup, const ToolSpec& spec
   const UserStart start = user_start(job);
   const ToolModel tool = make_tool_model(spec, job.tool.axis_length_mm);
   const std::optional<WoundFace> wound_face = start.given() ? std::nullopt : find_wound_face(setup);
-  if (wound_face) return search_half_turn(job, setup, *wound_face, tool, progress, spare_coverage);
-  return search_open(job, setup, start, tool, progress, spare_coverage);
+  FitSearch search = wound_face ? search_half_turn(job, setup, *wound_face, tool, progress, spare_coverage)
+                                : search_open(job, setup, start, tool, progress, spare_coverage);
+  search.fit = reach_further(search.tasks(), search.fit, search.tool, search.options, progress);
+  return search;
 }
 
 }  // namespace flank::internal
