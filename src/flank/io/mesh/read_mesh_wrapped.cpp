@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "flank/geom/face_pieces.h"
 
@@ -21,32 +19,30 @@ constexpr int kSide = 0, kEdge = -1, kOutside = -2;
 
 double angle(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
-/// How wide a set of points is along a direction, by those of them that are outermost in some direction.
+/// How far a region reaches behind its triangles, by some of its middles.
 class Widths {
  public:
   Widths(const FacetView& mesh, const std::vector<int>& region) {
-    constexpr int kDirections = 200;
-    for (int k = 0; k < kDirections; ++k) {
-      // Evenly over the half sphere: equal steps in height, the golden angle about it.
-      const double z = (k + 0.5) / kDirections, turn = k * std::numbers::pi * (3.0 - std::sqrt(5.0));
-      const double out = std::sqrt(1.0 - z * z);
-      const Vec3 d(out * std::cos(turn), out * std::sin(turn), z);
-      const auto along = [&](int t) { return mesh.facets[static_cast<std::size_t>(t)].center.dot(d); };
-      const auto [low, high] =
-          std::minmax_element(region.begin(), region.end(), [&](int a, int b) { return along(a) < along(b); });
-      outer_.push_back(mesh.facets[static_cast<std::size_t>(*low)].center);
-      outer_.push_back(mesh.facets[static_cast<std::size_t>(*high)].center);
-    }
+    constexpr std::size_t kPoints = 2000;
+    const std::size_t stride = std::max<std::size_t>(1, region.size() / kPoints);
+    for (std::size_t i = 0; i < region.size(); i += stride)
+      points_.push_back(mesh.facets[static_cast<std::size_t>(region[i])].center);
   }
 
-  [[nodiscard]] double along(const Vec3& direction) const {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const Vec3& p : outer_) low = std::min(low, p.dot(direction)), high = std::max(high, p.dot(direction));
-    return high - low;
+  /// Within a cone: what winds round an axis, as a lobe of a rotor does, is not as wide as all that it winds round.
+  [[nodiscard]] double behind(const Facet& facet) const {
+    constexpr double kLeastCosine = 0.87;  // 30 degrees
+    double farthest = 0.0;
+    for (const Vec3& p : points_) {
+      const Vec3 back = facet.center - p;
+      const double depth = back.dot(facet.normal);
+      if (depth > farthest && depth > kLeastCosine * back.norm()) farthest = depth;
+    }
+    return farthest;
   }
 
  private:
-  std::vector<Vec3> outer_;
+  std::vector<Vec3> points_;
 };
 
 /// A region and what has been found of it; numbers are those of the whole mesh.
@@ -72,7 +68,7 @@ class Unwrapping {
   int find_sides() {
     const Widths widths(mesh_, region_);
     std::vector<char> edge(mesh_.facets.size(), 1);
-    for (const int t : region_) edge[at(t)] = bends_sharply(t, widths.along(normal(t))) ? 1 : 0;
+    for (const int t : region_) edge[at(t)] = bends_sharply(t, widths.behind(mesh_.facets[at(t)])) ? 1 : 0;
     int sides = 0;
     std::vector<int> part;
     for (const int t : region_) {

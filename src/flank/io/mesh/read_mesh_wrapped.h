@@ -20,7 +20,7 @@ struct FacetView {
 
 /// For each triangle of a region the number of its side, from 0 on, or -1 on an edge; empty if the region does not wrap
 /// round anything. An edge bends as that of a face does (geom/face_pieces.h): by more than kEdgeBend over the region's
-/// width along the normal there. A region has two sides or more, each of at least a fifth of it.
+/// reach behind it, against the normal. A region has two sides or more, each of at least a fifth of it.
 [[nodiscard]] std::vector<int> wrapped_sides(const FacetView& mesh, const std::vector<int>& region);
 
 }  // namespace flank::internal
