@@ -103,6 +103,21 @@ TEST(FacePieces, ASkinWrappedRoundOneEdge) {
   EXPECT_EQ(kinds_of(face_pieces(wrapped(40.0, 0.5, 0.02))), "se") << "what is left of the other side is none";
 }
 
+TEST(FacePieces, AnEdgeAtTheBorderOfASkinWithoutANormalInItsMiddle) {
+  // Straight from section to section; in the middle one two control points are one, and no normal is at its start.
+  const BSplineSurface drawn = wrapped(40.0, 0.5, 0.0).surface;
+  Face skin;
+  BSplineSurface& s = skin.surface;
+  s.degree_u = drawn.degree_u, s.knots_u = drawn.knots_u, s.count_u = drawn.count_u;
+  s.degree_v = 1, s.knots_v = {0.0, 0.0, 0.5, 1.0, 1.0}, s.count_v = 3;
+  for (int i = 0; i < s.count_u; ++i)
+    for (const double z : {0.0, 10.0, 20.0}) s.poles.emplace_back(drawn.pole(i, 0) + z * Vec3::UnitZ());
+  s.pole(0, 1) = s.pole(1, 1);
+  const std::vector<FacePiece> pieces = face_pieces(skin);
+  EXPECT_EQ(kinds_of(pieces), "se");
+  for (const FacePiece& piece : pieces) EXPECT_GT(area_of(piece.face.surface), 1.0);
+}
+
 TEST(FacePieces, WhatWrapsRoundNothingStaysWhole) {
   EXPECT_TRUE(face_pieces(testing::elliptic_skin(40.0, 40.0, 30.0)).empty()) << "a round bar";
   EXPECT_TRUE(face_pieces(testing::elliptic_skin(40.0, 25.0, 30.0)).empty()) << "nearly one";

@@ -74,6 +74,17 @@ TEST(Inspect, TableHasOneLineAFace) {
   EXPECT_NE(table.find("solids.brep: BREP, unit mm"), std::string::npos);
 }
 
+TEST(Inspect, ASmallPartIsNotZeroAcross) {
+  InspectReport report = solids();
+  report.box = {Vec3::Zero(), Vec3(0.0393, 0.0121, 12.0)};
+  report.rows[0].area_mm2 = 0.000421;
+  report.rows[0].length_u_mm = 0.0344, report.rows[0].length_v_mm = 0.0;
+  const std::string table = to_table(report);
+  EXPECT_NE(table.find("0.039 x 0.012 x 12.0 mm"), std::string::npos);
+  EXPECT_NE(table.find("0.034 x 0.00"), std::string::npos);
+  EXPECT_NE(table.find(" 0.00042 "), std::string::npos);
+}
+
 TEST(Inspect, Json) {
   const nlohmann::json json = nlohmann::json::parse(inspect_to_json(solids()));
   EXPECT_EQ(json.at("schema"), "openflank/inspect/1");

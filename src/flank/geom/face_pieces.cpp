@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "flank/geom/face_cut.h"
+#include "flank/geom/spline_segment.h"
 #include "flank/geom/trim.h"
 
 namespace flank::internal {
@@ -214,12 +215,13 @@ class Edges {
 struct Division {
   bool along_u = true, closed = false;
   std::vector<Stretch> edges;
+  double width = 0.0;  ///< of the widest section, mm
 };
 
 /// The edges that most sections across the face agree about; none: it is not to be divided in this direction.
 std::optional<Division> division_along(const Face& face, const ParameterRectangle& box, bool along_u) {
   const View view{face.surface, along_u};
-  Division division{along_u, face.loops.empty() && is_closed(face.surface, along_u), {}};
+  Division division{along_u, face.loops.empty() && is_closed(face.surface, along_u), {}, 0.0};
   const double low = along_u ? box.v0 : box.u0, high = along_u ? box.v1 : box.u1;
   // Most faces wrap round nothing: a few sections tell.
   bool wraps = false;
@@ -237,6 +239,7 @@ std::optional<Division> division_along(const Face& face, const ParameterRectangl
     if (section.samples.empty()) continue;
     ++sections;
     all.push_back(edges_of(section, division.closed));
+    division.width = std::max(division.width, section.width);
     ++count_of[std::min(all.back().size(), count_of.size() - 1)];
   }
   const auto most = static_cast<std::size_t>(std::max_element(count_of.begin(), count_of.end()) - count_of.begin());
@@ -321,10 +324,14 @@ std::vector<FacePiece> pieces_of(const Face& face, const TrimRegion& region, Div
   const double w = division.along_u ? 0.5 * (box.v0 + box.v1) : 0.5 * (box.u0 + box.u1);
   std::sort(division.edges.begin(), division.edges.end(),
             [](const Stretch& a, const Stretch& b) { return a.first < b.first; });
-  tidy(view, w, section_at(view, w, division.closed).width, division);
+  // The section in the middle may run through a place without a normal, and says nothing then.
+  const double width = section_at(view, w, division.closed).width;
+  tidy(view, w, width > 0.0 ? width : division.width, division);
   std::vector<FacePiece> pieces;
   const auto add = [&](std::vector<Stretch> stretches, bool edge) {
-    std::erase_if(stretches, [](const Stretch& x) { return !(x.last > x.first); });
+    // Samples beside a border are inset by rounding: what is left there is too short to be cut out, and nothing.
+    const double least = 2.0 * kSameKnot * (last - first);
+    std::erase_if(stretches, [&](const Stretch& x) { return !(x.last - x.first > least); });
     for (Stretch& stretch : stretches)
       if (division.closed) stretch = unwound(stretch, first, last);
     std::sort(stretches.begin(), stretches.end(), [](const Stretch& a, const Stretch& b) { return a.first < b.first; });

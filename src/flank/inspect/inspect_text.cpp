@@ -10,15 +10,21 @@
 namespace flank::internal {
 namespace {
 
+/// A size with so many decimals, and at least two figures: a part in metres that says millimetres is not 0.0 across.
+std::string figures(double size, int decimals) {
+  if (size < 1e-9 || size >= 9.5 * std::pow(0.1, decimals)) return fmt::format("{:.{}f}", size, decimals);
+  return fmt::format("{:.2g}", size);
+}
+
 /// Edges of the box, mm.
 std::string size_of(const Box3& box) {
   const Vec3 size = box.high - box.low;
-  return fmt::format("{:.1f} x {:.1f} x {:.1f}", size.x(), size.y(), size.z());
+  return figures(size.x(), 1) + " x " + figures(size.y(), 1) + " x " + figures(size.z(), 1);
 }
 
 /// Of a face the lengths of its two middle lines, of a mesh region its box: triangles have no parameters.
 std::string extent_of(const InspectRow& row) {
-  return row.triangles > 0 ? size_of(row.box) : fmt::format("{:.2f} x {:.2f}", row.length_u_mm, row.length_v_mm);
+  return row.triangles > 0 ? size_of(row.box) : figures(row.length_u_mm, 2) + " x " + figures(row.length_v_mm, 2);
 }
 
 /// Degrees and counts of poles, which tell why a face is slow or hard to fit.
@@ -49,10 +55,11 @@ std::string bend_of(const InspectRow& row) {
 /// One line of the table.
 void add_line(const InspectRow& row, std::string& text) {
   const std::string radius =
-      std::isfinite(row.smallest_concave_radius_mm) ? fmt::format("{:.3f}", row.smallest_concave_radius_mm) : "-";
+      std::isfinite(row.smallest_concave_radius_mm) ? figures(row.smallest_concave_radius_mm, 3) : "-";
   const std::string of = row.solid >= 0 ? fmt::format("solid {}", row.solid + 1) : "sheet";
-  fmt::format_to(std::back_inserter(text), "{:<5} {:<10} {:<21} {:>10.2f}  {:<22} {:<37} {:>12}  {:<17} {}\n", row.id,
-                 row.type, form_of(row), row.area_mm2, extent_of(row), bend_of(row), radius, trims_of(row), of);
+  fmt::format_to(std::back_inserter(text), "{:<5} {:<10} {:<21} {:>10}  {:<22} {:<37} {:>12}  {:<17} {}\n", row.id,
+                 row.type, form_of(row), figures(row.area_mm2, 2), extent_of(row), bend_of(row), radius, trims_of(row),
+                 of);
 }
 
 nlohmann::json box_json(const Box3& box) {

@@ -9,6 +9,7 @@
 #include "flank/job/check_fields.h"
 #include "flank/pipeline/finish.h"
 #include "flank/pipeline/run_journal.h"
+#include "flank/pipeline/search/closed_mesh.h"
 #include "flank/pipeline/search/cover_choice.h"
 #include "flank/setup/tool_body.h"
 #include "flank/strip/strip_order.h"
@@ -84,7 +85,7 @@ std::vector<Covered> cover_groups(const CoverJob& job, const Setup& setup, const
   std::vector<Covered> all;
   for (TargetGroup& group : make_targets(setup, job.part.side.value_or(+1)))
     all.push_back(cover_group(job, setup, std::move(group), tool, progress));
-  if (job.part.side || stopping()) return all;
+  if (job.part.side || stopping() || targets_bound_a_solid(setup)) return all;
   std::vector<TargetGroup> other_side = make_targets(setup, -1);
   for (std::size_t k = 0; k < all.size(); ++k) {
     if (all[k].group.of_solid) continue;

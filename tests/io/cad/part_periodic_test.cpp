@@ -1,10 +1,15 @@
 // Periodic surfaces, and faces that cannot be read.
 #include <gtest/gtest.h>
 
+#include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepLib.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
+#include <GCE2d_MakeSegment.hxx>
 #include <Geom_BSplineSurface.hxx>
+#include <Geom_CylindricalSurface.hxx>
 #include <TColStd_Array1OfInteger.hxx>
 #include <TColStd_Array1OfReal.hxx>
 #include <TColStd_Array2OfReal.hxx>
@@ -12,9 +17,11 @@
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Face.hxx>
 #include <cmath>
+#include <gp.hxx>
 #include <numbers>
 
 #include "flank/io/cad/read_cad_check.h"
+#include "io/cad_shapes.h"
 #include "io/part_files.h"
 
 namespace flank::internal {
@@ -93,6 +100,33 @@ TEST(PartPeriodic, OfRealFiles) {
   const Part part = read_part(compressor);
   EXPECT_TRUE(part.left_out.empty());
   EXPECT_EQ(part.faces.size(), 253u);
+}
+
+/// A strip of a cylinder of radius 5 mm between two threads, from z = 0 up, `turns` of 8 mm; 2 mm of it are strip.
+TopoDS_Face root_of_a_thread(double turns) {
+  const double angle = 2.0 * std::numbers::pi * turns;
+  const gp_Pnt2d corners[] = {{-0.3, 0.0}, {angle - 0.3, 8.0 * turns}, {angle - 0.3, 8.0 * turns + 2.0}, {-0.3, 2.0}};
+  const Handle(Geom_CylindricalSurface) cylinder = new Geom_CylindricalSurface(gp_Ax3(gp::XOY()), 5.0);
+  BRepBuilderAPI_MakeWire wire;
+  for (int k = 0; k < 4; ++k) {
+    const GCE2d_MakeSegment side(corners[k], corners[(k + 1) % 4]);
+    wire.Add(BRepBuilderAPI_MakeEdge(side.Value(), cylinder));
+  }
+  TopoDS_Face face = BRepBuilderAPI_MakeFace(cylinder, wire.Wire());
+  BRepLib::BuildCurves3d(face);
+  return face;
+}
+
+TEST(PartPeriodic, AStripThatWindsRoundItsCylinderIsAllThere) {
+  for (const double turns : {0.7, 1.0, 2.3, 4.0}) {
+    const Scratch scratch;
+    const Part part = read_part(write_faces(scratch, {root_of_a_thread(turns)}));
+    ASSERT_EQ(part.faces.size(), 1u);
+    ASSERT_FALSE(part.is_left_out(0)) << turns;
+    const double wanted = 2.0 * 10.0 * std::numbers::pi * turns;
+    EXPECT_NEAR(testing_io::area_of(part.faces[0], 0.02), wanted, 2e-3 * wanted) << turns;
+    EXPECT_NEAR(part.box.high.z(), 8.0 * turns + 2.0, 1e-6);
+  }
 }
 
 TEST(PartLeftOut, AFaceThatCannotBeReadDoesNotLoseThePart) {

@@ -175,6 +175,13 @@ TEST(ReadTrim, ATrimKeepsNearItsSurface) {
                 .find("a weight of a trim of it is not > 0"),
             std::string::npos);
   EXPECT_NE(refused({1.9, 0.5}, [](auto& e) { e.knots = {1, 1, 1, 1}; }).find("do not rise"), std::string::npos);
+  const auto bend = [](auto& e) {
+    const Vec2 from = e.poles.col(0), to = e.poles.col(1);
+    e.degree = 2, e.knots = {0, 0, 0, 1, 1, 1};
+    e.poles.resize(2, 3);
+    e.poles << from, Vec2(1.0, 2.5), to;
+  };
+  EXPECT_EQ(refused({1.9, 0.5}, bend), "accepted") << "a control point far out, and the curve is not";
 }
 
 }  // namespace

@@ -106,6 +106,59 @@ TEST(ReadMeshRegions, AWholeCylinderIsOneFaceHoweverMuchItTurns) {
   EXPECT_EQ(mesh_regions(mesh).size(), 1u);
 }
 
+/// The skin of an ellipse of 60 mm chord, 120 mm long, twisted by half a radian, on a plate.
+TriangleMesh skin_on_a_plate(double thickness, int round, int along) {
+  TriangleMesh mesh = sheet(round, along, [&](double u, double v) {
+    const double a = 2.0 * std::numbers::pi * u, turn = 0.5 * v;
+    const double x = 30.0 * std::cos(a), y = 0.5 * thickness * std::sin(a);
+    return Vec3(std::cos(turn) * x - std::sin(turn) * y, std::sin(turn) * x + std::cos(turn) * y, 120.0 * v);
+  });
+  // The seam: the last row of points is the first one.
+  const int last = round * (along + 1);
+  for (auto& t : mesh.triangles)
+    for (int& v : t)
+      if (v >= last) v -= last;
+  mesh.vertices.resize(static_cast<std::size_t>(last));
+  const int base = static_cast<int>(mesh.vertices.size());
+  for (const Vec3& p : {Vec3(-60, -40, 0), Vec3(60, -40, 0), Vec3(60, 40, 0), Vec3(-60, 40, 0)})
+    mesh.vertices.push_back(p);
+  mesh.triangles.push_back({base, base + 1, base + 2});
+  mesh.triangles.push_back({base, base + 2, base + 3});
+  return mesh;
+}
+
+TEST(ReadMeshRegions, ASkinThatWrapsRoundThickEdgesHasSides) {
+  // Radii of 0.8 and 4 mm at the ends of 60: at the second the normal turns over more than the share of the box.
+  for (const double thickness : {10.0, 22.0}) {
+    for (const int round : {120, 300}) {
+      const TriangleMesh mesh = skin_on_a_plate(thickness, round, 60);
+      const auto regions = mesh_regions(mesh);
+      expect_partition(mesh, regions);
+      // The plate is the largest.
+      ASSERT_GE(regions.size(), 5u) << thickness << " " << round;
+      EXPECT_NEAR(area(mesh, regions[1]) / area(mesh, regions[2]), 1.0, 0.05) << thickness << " " << round;
+      EXPECT_GT(area(mesh, regions[2]), 0.7 * 60.0 * 120.0) << thickness << " " << round;
+    }
+  }
+}
+
+TEST(ReadMeshRegions, ASkinOfSliversHasSides) {
+  // Triangles as long as the skin, 1 mm wide: their middles are 40 mm apart.
+  const TriangleMesh mesh = skin_on_a_plate(8.0, 120, 1);
+  const auto regions = mesh_regions(mesh);
+  expect_partition(mesh, regions);
+  ASSERT_GE(regions.size(), 5u);
+  EXPECT_NEAR(area(mesh, regions[1]) / area(mesh, regions[2]), 1.0, 0.1);
+  EXPECT_GT(area(mesh, regions[2]), 0.7 * 60.0 * 120.0);
+}
+
+TEST(ReadMeshRegions, ASkinWithoutEdgesStaysWhole) {
+  for (const double thickness : {40.0, 60.0}) {
+    const auto regions = mesh_regions(skin_on_a_plate(thickness, 200, 60));
+    EXPECT_EQ(regions.size(), 2u) << thickness;
+  }
+}
+
 TEST(ReadMeshRegions, SheetsThatDoNotTouchAreFacesOfTheirOwn) {
   TriangleMesh mesh = bent(0.0), other = bent(0.0);
   const int base = static_cast<int>(mesh.vertices.size());

@@ -4,12 +4,14 @@
 
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
+#include <GeomAdaptor_Surface.hxx>
 #include <Precision.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "flank/error.h"
 #include "flank/io/cad/read_occt_trim.h"
@@ -17,6 +19,9 @@
 
 namespace flank::internal {
 namespace {
+
+constexpr int kWireSteps = 16;       ///< of an edge, to see how far it goes
+constexpr double kMostTurns = 1000;  ///< of a strip about the axis of its surface: what says more is damaged
 
 /// The most millimetres that one unit of the parameter makes, at 25 places: so much a difference of parameters may
 /// mean.
@@ -31,6 +36,34 @@ double mm_along(const Handle(Geom_Surface) & surface, const ParameterWindow& b, 
     }
   }
   return largest;
+}
+
+/// How far the longest wire of the face goes along a parameter.
+double longest_wire(const TopoDS_Face& face, bool along_u) {
+  double longest = 0.0;
+  for (TopExp_Explorer wires(face, TopAbs_WIRE); wires.More(); wires.Next()) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (TopExp_Explorer it(wires.Current(), TopAbs_EDGE); it.More(); it.Next()) {
+      double first = 0.0, last = 0.0;
+      const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(TopoDS::Edge(it.Current()), face, first, last);
+      for (int i = 0; !curve.IsNull() && i <= kWireSteps; ++i) {
+        const gp_Pnt2d p = curve->Value(first + (last - first) * i / kWireSteps);
+        low = std::min(low, along_u ? p.X() : p.Y());
+        high = std::max(high, along_u ? p.X() : p.Y());
+      }
+    }
+    longest = std::max(longest, high - low);
+  }
+  return longest;
+}
+
+/// A window of one turn, or of as many as a wire of the face makes: the root and the crest of a thread are strips of one
+/// cylinder that lie side by side. A spline has one turn only.
+void keep_to_turns(const TopoDS_Face& face, const Handle(Geom_Surface) & surface, bool along_u, double period, double a,
+                   double& z) {
+  const bool winds = GeomAdaptor_Surface(surface).GetType() != GeomAbs_BSplineSurface && z - a <= kMostTurns * period &&
+                     longest_wire(face, along_u) > period * (1.0 + 1e-6);
+  if (!winds) z = std::min(z, a + period);
 }
 
 /// Where the face lies in the parameters of its surface; ends that differ from the surface's own by less than kBorderMm
@@ -50,11 +83,11 @@ ParameterWindow box_of(const TopoDS_Face& face, const Handle(Geom_Surface) & sur
     if (!Precision::IsInfinite(end) && std::abs(t - end) * mm < kBorderMm) t = end;
   };
   const double mm_u = mm_along(surface, b, true), mm_v = mm_along(surface, b, false);
-  // A closed surface has no ends to snap to; its window may lie across the seam, but is no longer than a turn.
+  // A closed surface has no ends to snap to; its window may lie across the seam.
   if (!surface->IsUPeriodic()) snap(b.u0, u0, mm_u), snap(b.u1, u1, mm_u);
   if (!surface->IsVPeriodic()) snap(b.v0, v0, mm_v), snap(b.v1, v1, mm_v);
-  if (surface->IsUPeriodic() && b.u1 - b.u0 > surface->UPeriod()) b.u1 = b.u0 + surface->UPeriod();
-  if (surface->IsVPeriodic() && b.v1 - b.v0 > surface->VPeriod()) b.v1 = b.v0 + surface->VPeriod();
+  if (surface->IsUPeriodic()) keep_to_turns(face, surface, true, surface->UPeriod(), b.u0, b.u1);
+  if (surface->IsVPeriodic()) keep_to_turns(face, surface, false, surface->VPeriod(), b.v0, b.v1);
   return b;
 }
 

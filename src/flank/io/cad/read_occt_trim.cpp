@@ -262,8 +262,10 @@ void require_usable_trim(const TrimLoop& loop, const BSplineSurface& s, const st
       throw InputError(name + ": the knots of a trim of it do not rise");
     if (std::any_of(edge.weights.begin(), edge.weights.end(), [](double w) { return !(w > 0.0); }))
       throw InputError(name + ": a weight of a trim of it is not > 0");
-    for (Eigen::Index k = 0; k < edge.poles.cols(); ++k) {
-      const Vec2 p = edge.poles.col(k);
+    // Points and not control points: those of a flat arc stand off twice as far as the arc, which is all of the range.
+    const int steps = 4 * edge.count();
+    for (int i = 0; i <= steps; ++i) {
+      const Vec2 p = edge.value(edge.first() + (edge.last() - edge.first()) * i / steps);
       if ((p.array() >= (low - range).array()).all() && (p.array() <= (high + range).array()).all()) continue;
       throw InputError(fmt::format(
           "{}: a trim of it goes to the parameters ({}, {}), far beyond its surface's, {} to {} and {} to {}", name,

@@ -9,6 +9,7 @@
 #include "flank/base/parallel.h"
 #include "flank/geom/mesh_topology.h"
 #include "flank/io/mesh/read_mesh_edges.h"
+#include "flank/io/mesh/read_mesh_wrapped.h"
 
 namespace flank::internal {
 namespace {
@@ -145,6 +146,31 @@ bool absorb(const TriangleMesh& mesh, const Facets& f, double least_area, int co
   return any;
 }
 
+/// Regions that wrap round thick edges fall apart into their sides and the edges between them. Returns how many labels
+/// were used.
+int unwrap(const TriangleMesh& mesh, const Facets& f, int count, std::vector<int>& labels) {
+  constexpr double kLeastShare = 0.02;  // of the area: what is smaller is no skin that anybody means
+  std::vector<std::vector<int>> regions(static_cast<std::size_t>(count));
+  double total = 0.0;
+  for (std::size_t t = 0; t < labels.size(); ++t) {
+    regions[static_cast<std::size_t>(labels[t])].push_back(static_cast<int>(t));
+    total += f.areas[t];
+  }
+  const std::vector<char> all(labels.size(), 1);
+  for (const std::vector<int>& region : regions) {
+    double area = 0.0;
+    for (const int t : region) area += f.areas[static_cast<std::size_t>(t)];
+    if (!(area >= kLeastShare * total)) continue;
+    const std::vector<int> sides = wrapped_sides({mesh, f.facets, f.areas, f.smooth}, region);
+    for (std::size_t i = 0; i < sides.size(); ++i)
+      labels[static_cast<std::size_t>(region[i])] = sides[i] < 0 ? -1 : count + sides[i];
+    if (!sides.empty()) count += *std::max_element(sides.begin(), sides.end()) + 1;
+    for (const int t : region)
+      if (labels[static_cast<std::size_t>(t)] < 0) flood(f, static_cast<std::size_t>(t), count++, all, labels);
+  }
+  return count;
+}
+
 std::vector<std::vector<int>> by_area(const Facets& f, const std::vector<int>& labels, int count) {
   std::vector<std::vector<int>> regions(static_cast<std::size_t>(count));
   std::vector<double> areas(regions.size(), 0.0);
@@ -174,6 +200,9 @@ std::vector<std::vector<int>> mesh_regions(const TriangleMesh& mesh, const Regio
     if (labels[t] < 0) flood(f, t, count++, edge, labels);
   double total = 0.0;
   for (const double area : f.areas) total += area;
+  while (absorb(mesh, f, options.least_area_share * total, count, labels)) {
+  }
+  count = unwrap(mesh, f, count, labels);
   while (absorb(mesh, f, options.least_area_share * total, count, labels)) {
   }
   return by_area(f, labels, count);

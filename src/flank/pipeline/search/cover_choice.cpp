@@ -7,6 +7,7 @@
 #include "flank/choose/family_search.h"
 #include "flank/choose/tool_ranking.h"
 #include "flank/error.h"
+#include "flank/pipeline/search/closed_mesh.h"
 #include "flank/setup/tool_body.h"
 
 namespace flank::internal {
@@ -31,10 +32,11 @@ struct Scene {
 Scene make_scene(const CoverJob& job, const Setup& setup, const ToolExtent& extent) {
   Scene scene;
   std::vector<TargetGroup> other_side;
-  if (!job.part.side) other_side = make_targets(setup, -1);
+  const bool sides_unknown = !job.part.side && !targets_bound_a_solid(setup);
+  if (sides_unknown) other_side = make_targets(setup, -1);
   for (TargetGroup& group : make_targets(setup, job.part.side.value_or(+1))) {
     const std::size_t k = scene.groups.size();
-    const bool both = !job.part.side && !group.of_solid;
+    const bool both = sides_unknown && !group.of_solid;
     scene.groups.emplace_back();
     scene.groups.back().push_back(std::move(group));
     if (both) scene.groups.back().push_back(std::move(other_side[k]));

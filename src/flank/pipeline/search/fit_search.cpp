@@ -10,6 +10,7 @@
 #include "flank/error.h"
 #include "flank/fit/coverage.h"
 #include "flank/fit/tried.h"
+#include "flank/pipeline/search/closed_mesh.h"
 #include "flank/pipeline/search/out_of_reach.h"
 #include "flank/pipeline/search/reach_ball.h"
 #include "flank/pipeline/search/reach_further.h"
@@ -248,8 +249,9 @@ int side_of_start(const FitJob& job, const Setup& setup, const UserStart& start)
 }
 
 bool is_sheet(const Setup& setup) {
-  return setup.part.is_mesh() || std::any_of(setup.targets.begin(), setup.targets.end(),
-                                             [&](int face) { return !setup.part.faces[face].of_solid; });
+  if (setup.part.is_mesh()) return !targets_bound_a_solid(setup);
+  return std::any_of(setup.targets.begin(), setup.targets.end(),
+                     [&](int face) { return !setup.part.faces[face].of_solid; });
 }
 
 /// A side of a sheet: its first group, and what is asked of it there.
