@@ -1,5 +1,5 @@
 // When the search for a cavity's tool ends, and how long it goes on with thinner ones.
-#include "flank/pipeline/search/cavity_search.h"
+#include "flank/pipeline/cavity/cavity_search.h"
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ CavityPlan finished(double share) {
   std::vector<double> t;
   for (int k = 0; k <= 20; ++k) {
     t.push_back(k / 20.0);
-    poses.push_back({Vec3(60.0 * t.back(), 4.0, 0.0), Vec3::UnitZ()});
+    poses.push_back({Vec3(50.0 * t.back(), 4.0, 0.0), Vec3::UnitZ()});  // what it covers is in reach
   }
   CavityPlan plan;
   FlankFitResult& fit = plan.sides.fit;

@@ -37,6 +37,20 @@ TEST(ReachOfTool, IsThatOfTheRadiusAtThePlace) {
   EXPECT_EQ(reach_of_tool(side, side, {}, cylinder), 0.0);
 }
 
+TEST(CoveredInReach, CountsWhereTheBallFits) {
+  const std::unique_ptr<Target> blade = testing::standing_blade(0.0);
+  const Face wall = testing::quad(Vec3(60, 50, -10), Vec3(60, -50, -10), Vec3(60, 50, 60), Vec3(60, -50, 60), "F3");
+  const ObstacleField field(testing::only({make_target({wall}), true}), *blade, 20.0, 0.0);
+  const CavitySide side{blade.get(), &field};
+  SideFit fit;
+  fit.fit.tool = RadialFunction(ToolFamily::kCylinder, kHeight, Eigen::VectorXd::Constant(1, 2.0));
+  fit.fit.motions = {upright(2.0), upright(2.0)};  // into the wall: all along the blade
+  for (const double radius : {2.0, 10.0})
+    EXPECT_NEAR(covered_in_reach(side, side, fit, 0.01, radius), 1.0 - radius / 60.0, 0.02) << radius;
+  fit.fit.motions = {upright(3.0), upright(3.0)};
+  EXPECT_EQ(covered_in_reach(side, side, fit, 0.01, 10.0), 1.0) << "nothing is covered";
+}
+
 TEST(LeastWayAcross, IsInDiametersAtTheNarrowestHeight) {
   const std::vector<RuledMotion> motions = {upright(6.0), upright(12.0)};
   EXPECT_NEAR(least_way_across(motions, cone()), 6.0 / 12.0, 0.02) << "where the cone is 12 mm thick";

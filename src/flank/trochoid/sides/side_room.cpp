@@ -16,6 +16,17 @@ struct Count {
   int reached = 0, all = 0;
 };
 
+double share_of(const Count& a, const Count& b) {
+  return a.all + b.all > 0 ? static_cast<double>(a.reached + b.reached) / (a.all + b.all) : 1.0;
+}
+
+/// The motions of one side: of the left and the right one, in turn.
+std::vector<RuledMotion> motions_of(const std::vector<RuledMotion>& motions, std::size_t side) {
+  std::vector<RuledMotion> out;
+  for (std::size_t k = side; k < motions.size(); k += 2) out.push_back(motions[k]);
+  return out;
+}
+
 Count reached_by(const CavitySide& side, const std::vector<RuledMotion>& motions, const RadialFunction& tool) {
   Count out;
   const SweptEstimate swept(motions, tool, kPoses);
@@ -25,6 +36,21 @@ Count reached_by(const CavitySide& side, const std::vector<RuledMotion>& motions
     const Pose pose = motions[static_cast<std::size_t>(std::max(0, near.motion))].pose(near.t);
     const double s = std::clamp((sample.point - pose.tip).dot(pose.axis), 0.0, tool.axis_length());
     if (side.obstacles == nullptr || side.obstacles->reachable(sample, tool.at(s).r, side.obstacles->allowance_mm()))
+      ++out.reached;
+  }
+  return out;
+}
+
+/// Of what is covered.
+Count covered_by(const CavitySide& side, const std::vector<RuledMotion>& motions, const RadialFunction& tool,
+                 double tolerance, double radius) {
+  constexpr double kSpacing = 1.0 / 60.0;  // of the size of the side
+  Count out;
+  const SweptEstimate swept(motions, tool, kPoses);
+  for (const SurfaceSample& sample : side.target->samples(kSpacing * std::sqrt(side.target->area()))) {
+    if (std::abs(swept.distance(sample.point)) > tolerance) continue;
+    ++out.all;
+    if (side.obstacles == nullptr || side.obstacles->reachable(sample, radius, side.obstacles->allowance_mm()))
       ++out.reached;
   }
   return out;
@@ -46,14 +72,16 @@ double way_across(const RuledMotion& left, const RuledMotion& right, double s) {
 
 double reach_of_tool(const CavitySide& left, const CavitySide& right, const std::vector<RuledMotion>& motions,
                      const RadialFunction& tool) {
-  std::vector<RuledMotion> of_left, of_right;
-  for (std::size_t k = 0; k + 1 < motions.size(); k += 2) {
-    of_left.push_back(motions[k]);
-    of_right.push_back(motions[k + 1]);
-  }
-  if (of_left.empty()) return 0.0;
-  const Count a = reached_by(left, of_left, tool), b = reached_by(right, of_right, tool);
-  return a.all + b.all > 0 ? static_cast<double>(a.reached + b.reached) / (a.all + b.all) : 1.0;
+  if (motions.size() < 2) return 0.0;
+  return share_of(reached_by(left, motions_of(motions, 0), tool), reached_by(right, motions_of(motions, 1), tool));
+}
+
+double covered_in_reach(const CavitySide& left, const CavitySide& right, const SideFit& fit, double tolerance_mm,
+                        double radius_mm) {
+  const std::vector<RuledMotion>& motions = fit.fit.motions;
+  if (motions.size() < 2) return 1.0;
+  return share_of(covered_by(left, motions_of(motions, 0), fit.fit.tool, tolerance_mm, radius_mm),
+                  covered_by(right, motions_of(motions, 1), fit.fit.tool, tolerance_mm, radius_mm));
 }
 
 double least_way_across(const std::vector<RuledMotion>& motions, const RadialFunction& tool) {

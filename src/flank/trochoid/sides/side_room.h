@@ -15,6 +15,11 @@ namespace flank::internal {
 [[nodiscard]] double reach_of_tool(const CavitySide& left, const CavitySide& right,
                                    const std::vector<RuledMotion>& motions, const RadialFunction& tool);
 
+/// Of the samples of both sides that are within the tolerance of what the tool sweeps, the share at which a ball of a radius fits
+/// between the other faces: where what such a ball reaches is asked for, the rest counts for nothing. 1 if there are none.
+[[nodiscard]] double covered_in_reach(const CavitySide& left, const CavitySide& right, const SideFit& fit,
+                                      double tolerance_mm, double radius_mm);
+
 /// The way from one side to the other where it is shortest, over all heights, in diameters of the tool at that height.
 [[nodiscard]] double least_way_across(const std::vector<RuledMotion>& motions, const RadialFunction& tool);
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "flank/pipeline/search/cavity_faces.h"
+#include "flank/pipeline/cavity/cavity_faces.h"
 #include "flank/trochoid/program.h"
 #include "flank/trochoid/sides/side_fit.h"
 

@@ -1,4 +1,4 @@
-#include "flank/pipeline/search/cavity_faces.h"
+#include "flank/pipeline/cavity/cavity_faces.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "flank/pipeline/search/cavity_search.h"
+#include "flank/pipeline/cavity/cavity_search.h"
 
 #include <algorithm>
 #include <cmath>
@@ -209,13 +209,16 @@ std::vector<RadiusStart> starts_under(double bound_mm, double least_mm) {
 bool is_done(const CavityPlan& plan, const CavityFaces& faces, const TrochoidJob& job) {
   if (!gets_through(plan, job.tolerance_mm) || state_of(plan.sides, faces, job) == SideState::kShort) return false;
   const FlankFitResult& fit = plan.sides.fit;
-  return covers_reachable(side_of(faces.sides[0]), side_of(faces.sides[1]), cleared(plan) * fit.after.at_tolerance,
-                          job.judge.least_coverage, job.judge.reach_radius_mm.value_or(fit.tool.smallest()));
+  const CavitySide left = side_of(faces.sides[0]), right = side_of(faces.sides[1]);
+  const double radius = job.judge.reach_radius_mm.value_or(fit.tool.smallest());
+  const double in_reach = covered_in_reach(left, right, plan.sides, job.tolerance_mm, radius);
+  return covers_reachable(left, right, in_reach * cleared(plan) * fit.after.at_tolerance, job.judge.least_coverage,
+                          radius);
 }
 
 bool wants_even_tool(const CavityPlan& plan, const CavityFaces& faces, const TrochoidJob& job) {
   return !job.judge.reach_radius_mm && gets_through(plan, job.tolerance_mm) && !is_done(plan, faces, job) &&
-         state_of(plan.sides, faces, job) == SideState::kObstructed;
+         state_of(plan.sides, faces, job) != SideState::kShort;
 }
 
 std::vector<double> bounds_of(const TrochoidJob& job, const CavityWidth& width) {
@@ -259,7 +262,7 @@ CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const
     const bool narrow = tried.program.layers.empty() && is_narrow(tried.sides);
     const bool covers_more = uncut.sides.fit.after.at_tolerance > most_uncut;
     const bool better = ++tools == 1 || is_better(tried, best, job.tolerance_mm);
-    if (better) best = std::move(tried);
+    if (better || done) best = std::move(tried);
     best.tools = tools;
     const bool in_vain = !narrow && patience.ends_after(better || covers_more, best.program.done());
     // Nor is it the radius that gets cycles stuck where the sides lead along the axis.
