@@ -1,4 +1,5 @@
-/// How far the triangles of a mesh lie off the smooth surface through their corners.
+/// How far the triangles of a mesh lie off the smooth surface through their corners: no farther than their folds tell of it, whatever
+/// the blended surface does beside slivers.
 #pragma once
 
 #include "flank/target.h"
