@@ -64,7 +64,8 @@ void sort_by_merit(std::vector<Runner>& runners, const FlankFitOptions& options)
     if (a.enough != b.enough) return a.enough;
     const bool digits_a = has_last_digits(a, options), digits_b = has_last_digits(b, options);
     if (a.enough && digits_a != digits_b) return digits_a;
-    if (a.enough && std::abs(whole_of(a) - whole_of(b)) > kStiffnessCost) return whole_of(a) > whole_of(b);
+    const double more = a.enough ? whole_of(a) - whole_of(b) : 0.0;
+    if (std::abs(more) > kStiffnessCost) return more > 0.0;
     if (a.enough) return slenderness_in(a) < (1.0 - kSameStiffness) * slenderness_in(b);
     return merit_of(a) > merit_of(b);
   });
