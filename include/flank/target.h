@@ -66,6 +66,12 @@ class Target {
   /// Samples on the trimmed target with a spacing of about `spacing_mm`, in a fixed order; of a mesh on its triangles.
   [[nodiscard]] virtual std::vector<SurfaceSample> samples(double spacing_mm) const = 0;
 
+  /// The sample as the part is given there: of a mesh with the normal of its triangle, where `normal` is that of the smooth surface
+  /// through its corners.
+  [[nodiscard]] virtual SurfaceSample as_given(const SurfaceSample& sample) const { return sample; }
+  /// Is the target as it is given, of a mesh its triangles, nearer to p than this?
+  [[nodiscard]] virtual bool is_nearer(const Vec3& p, double mm) const { return closest_within(p, mm).patch >= 0; }
+
   /// Points on the border of the trimmed target (not on seams and inner edges), at most `spacing_mm` apart along it.
   [[nodiscard]] virtual std::vector<Vec3> border_points(double spacing_mm) const = 0;
 

@@ -34,6 +34,14 @@ double dense(const RuledMotion& motion, const RadialFunction& radial, const Vec3
   return least;
 }
 
+/// A place of the first motion.
+SweptContact at_time(double t) {
+  SweptContact place;
+  place.motion = 0;
+  place.t = t;
+  return place;
+}
+
 std::vector<Vec3> points_near(const RuledMotion& motion, int count, std::uint64_t seed) {
   Random random(seed);
   std::vector<Vec3> points;
@@ -55,7 +63,7 @@ TEST(SweptEstimate, OfACylinderMovedSidewaysIsTheDistanceToItsSlab) {
     if (f > -2.0) {
       EXPECT_NEAR(swept.distance(x), f, 1e-3) << x.transpose();
     }
-    const SweptContact exact = refine_contact(motion, cylinder, x, std::clamp(x[0] / 60.0, 0.0, 1.0), 0.05);
+    const SweptContact exact = swept.refine(x, at_time(std::clamp(x[0] / 60.0, 0.0, 1.0)));
     if (f > -3.9) {
       EXPECT_NEAR(exact.f, f, 1e-8) << x.transpose();
     }
@@ -67,7 +75,7 @@ TEST(SweptEstimate, IsThatOfDenseSearch) {
   const SweptEstimate swept({motion}, bumpy(), 161);
   for (const Vec3& x : points_near(motion, 12, 2)) {
     const double expected = dense(motion, bumpy(), x);
-    const SweptContact estimate = swept.nearest(x), exact = refine_contact(motion, bumpy(), x, estimate.t, 0.02);
+    const SweptContact estimate = swept.nearest(x), exact = swept.refine(x, estimate);
     EXPECT_NEAR(estimate.f, expected, 0.02) << x.transpose();
     EXPECT_LE(exact.f, expected + 1e-9) << "the least of all, not of a grid";
     EXPECT_GT(exact.f, expected - 0.02);
@@ -90,7 +98,7 @@ TEST(SweptEstimate, SeesTheFlareAtAnEnd) {
   for (int k = 0; k < 400; ++k) {
     const Vec3 x(random.uniform(10.0, 50.0), random.uniform(4.8, 6.5), random.uniform(24.0, 40.0));
     const double expected = dense(motion, flared, x, 600);
-    const SweptContact estimate = swept.nearest(x), exact = refine_contact(motion, flared, x, estimate.t, 0.02);
+    const SweptContact estimate = swept.nearest(x), exact = swept.refine(x, estimate);
     EXPECT_NEAR(estimate.f, expected, 0.02) << x.transpose();
     EXPECT_LE(exact.f, expected + 1e-9) << x.transpose();
     second += x.z() < 38.0 && exact.s == 40.0 ? 1 : 0;
@@ -103,12 +111,11 @@ TEST(SweptEstimate, ItsGradientIsTheWayFromTheAxis) {
   constexpr double h = 1e-4;
   for (const Vec3& x : points_near(motion, 20, 3)) {
     const SweptEstimate swept({motion}, bumpy(), 161);
-    const double t = swept.nearest(x).t;
-    const SweptContact at = refine_contact(motion, bumpy(), x, t, 0.02);
+    const SweptContact near = swept.nearest(x), at = swept.refine(x, near);
     if (at.f < -2.0 || at.t < 0.01 || at.t > 0.99) continue;
     for (int axis = 0; axis < 3; ++axis) {
-      const double ahead = refine_contact(motion, bumpy(), x + h * Vec3::Unit(axis), t, 0.02).f;
-      const double behind = refine_contact(motion, bumpy(), x - h * Vec3::Unit(axis), t, 0.02).f;
+      const double ahead = swept.refine(x + h * Vec3::Unit(axis), near).f;
+      const double behind = swept.refine(x - h * Vec3::Unit(axis), near).f;
       EXPECT_NEAR((ahead - behind) / (2 * h), -at.to_axis[axis], 1e-4);
     }
   }
@@ -124,10 +131,7 @@ TEST(SweptEstimate, OfSeveralMotionsIsTheLeastOfEach) {
     EXPECT_EQ(found.motion, first.distance(x) <= second.distance(x) ? 0 : 1);
     both.places(x, SweptContact{}, places);
     double least = std::numeric_limits<double>::infinity();
-    for (const SweptContact& place : places) {
-      const RuledMotion& motion = motions[static_cast<std::size_t>(place.motion)];
-      least = std::min(least, refine_contact(motion, bumpy(), x, place.t, 2.0 * both.spacing()).f);
-    }
+    for (const SweptContact& place : places) least = std::min(least, both.refine(x, place).f);
     const double expected = std::min(dense(motions[0], bumpy(), x, 100), dense(motions[1], bumpy(), x, 100));
     EXPECT_LE(least, expected + 1e-9) << "the least f is reached from one of the places";
   }
@@ -181,7 +185,7 @@ TEST(SweptEstimate, HasNoPlacesWhereNothingHasAValue) {
   std::vector<SweptContact> places(3);
   swept.places(Vec3(1, 2, 3), SweptContact{}, places);
   EXPECT_TRUE(places.empty());
-  EXPECT_EQ(refine_contact(motion, bumpy(), Vec3(1, 2, 3), 0.5, 0.02).f, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(swept.refine(Vec3(1, 2, 3), at_time(0.5)).f, std::numeric_limits<double>::infinity());
 }
 
 }  // namespace

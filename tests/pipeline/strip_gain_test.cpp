@@ -33,6 +33,13 @@ TEST(StripGain, WhereLittleIsMissingLessIsAGainAndFourMayBeNone) {
   EXPECT_EQ(ends_after({0.98, 0.98, 0.98, 0.986, 0.987, 0.987, 0.987, 0.987}), 8);
 }
 
+TEST(StripGain, WhereFacetsLimitWhatCanBeCoveredOneThatGainsNothingIsTheLast) {
+  StripGain gain(kTolerance, true);
+  EXPECT_TRUE(gain.goes_on(result_of(0.6, 0.05)));
+  EXPECT_TRUE(gain.goes_on(result_of(0.93, 0.05)));
+  EXPECT_FALSE(gain.goes_on(result_of(0.932, 0.05)));
+}
+
 TEST(StripGain, WhatRunsThroughAnotherFaceIsNothingToBeat) {
   StripGain gain(kTolerance);
   // One strip covers all but a little, straight through the hub; two cover less and enter nothing.

@@ -16,8 +16,6 @@ namespace {
 constexpr int kTable = 256;
 /// Least 1 - r'^2: |r'| >= 1 is no tool, but a fit may pass through it.
 constexpr double kLeastCosineSquared = 1e-6;
-/// Against a division by zero for a point on the axis.
-constexpr double kTiny = 1e-300;
 
 double interpolate(const std::vector<double>& table, double x) {
   if (std::isnan(x)) return x;  // of a pose without a value: no place of the table
@@ -28,7 +26,7 @@ double interpolate(const std::vector<double>& table, double x) {
 }  // namespace
 
 SweptEstimate::SweptEstimate(const std::vector<RuledMotion>& motions, const RadialFunction& radial, int poses)
-    : axis_length_(radial.axis_length()), per_length_(kTable / radial.axis_length()) {
+    : refiner_(motions, radial), axis_length_(radial.axis_length()), per_length_(kTable / radial.axis_length()) {
   FLANK_ASSERT(poses >= 2);
   for (const RuledMotion& motion : motions) {
     std::vector<Pose>& table = poses_.emplace_back();
@@ -200,134 +198,6 @@ SweptContact SweptEstimate::nearest(const Vec3& x) const {
     best.f = least;
     best.motion = static_cast<int>(m);
     best.t = t * spacing();
-  }
-  return best;
-}
-
-namespace {
-
-/// Poses of a motion, to the last bit as it has them. Both rails of a fit have the same knots: seen once, the basis is
-/// worked out once for both.
-class Poses {
- public:
-  explicit Poses(const RuledMotion& motion)
-      : motion_(motion),
-        alike_(motion.tip.degree == 3 && motion.direction.degree == 3 && motion.tip.weights.empty() &&
-               motion.direction.weights.empty() && motion.tip.knots == motion.direction.knots) {}
-
-  [[nodiscard]] Pose at(double t) const {
-    if (!alike_) return motion_.pose(t);
-    const int span = find_span(3, motion_.tip.knots, t);
-    std::array<double, 4> n;
-    basis_derivatives(3, motion_.tip.knots, span, t, 0, n.data());
-    Vec3 tip = Vec3::Zero(), direction = Vec3::Zero();
-    for (int j = 0; j < 4; ++j) {
-      tip += n[static_cast<std::size_t>(j)] * motion_.tip.poles.col(span - 3 + j);
-      direction += n[static_cast<std::size_t>(j)] * motion_.direction.poles.col(span - 3 + j);
-    }
-    return {tip, direction.normalized()};
-  }
-
- private:
-  const RuledMotion& motion_;
-  bool alike_;
-};
-
-/// A tool and the radii at its ends, which every contact is compared with.
-struct EndedTool {
-  const RadialFunction& radial;
-  double length = radial.axis_length(), low = radial.at(0.0).r, high = radial.at(length).r;
-};
-
-/// A sphere of the tool: where on the axis, and its radius.
-struct Sphere {
-  double s = 0.0, r = 0.0;
-};
-
-/// An end of the axis whose sphere is nearer to a point, at z along the axis and rho from it, than this one; else this one.
-Sphere nearer_end(const EndedTool& tool, double z, double rho2, const Sphere& sphere) {
-  const auto f_of = [&](const Sphere& at) { return std::sqrt(rho2 + (z - at.s) * (z - at.s)) - at.r; };
-  Sphere best = sphere;
-  double least = f_of(best);
-  for (const Sphere& end : {Sphere{0.0, tool.low}, Sphere{tool.length, tool.high}})
-    if (const double f = f_of(end); f < least) best = end, least = f;
-  return best;
-}
-
-/// The sphere near s that is stationary for a point at z along the axis and rho from it.
-Sphere stationary(const EndedTool& tool, double z, double rho2, double s) {
-  constexpr int kSteps = 5;  // Newton's method squares the error: from 1e-2 of the length to round-off in four
-  // Flatter than this the Newton step is not trusted (the slope is -1 on a cylinder, 0 where two spheres are equally
-  // near), and the fixed-point step is taken.
-  constexpr double kSteepEnough = -0.05;
-  constexpr double kSettled = 1e-10;  // of the axis length
-  for (int k = 0; k < kSteps; ++k) {
-    const RadialJet jet = tool.radial.at(s);
-    const double d = std::sqrt(rho2 + (z - s) * (z - s)) + kTiny;
-    // d/ds (D - r) = (s - z) / D - r' = 0, by Newton's method on (z - s) + r' D.
-    const double value = (z - s) + jet.d1 * d, slope = -1.0 + jet.d2 * d - jet.d1 * (z - s) / d;
-    const double next = std::clamp(slope < kSteepEnough ? s - value / slope : s + value, 0.0, tool.length);
-    const double moved = next - s;
-    s = next;
-    // So near to the last place its tangent gives the radius to round-off.
-    if (std::abs(moved) < kSettled * tool.length) return {s, jet.r + jet.d1 * moved};
-  }
-  return {s, tool.radial.at(s).r};
-}
-
-/// Nearest sphere of the tool at one pose: the stationary s, or an end.
-SweptContact contact_at(const Poses& poses, const EndedTool& tool, const Vec3& x, double t, double s) {
-  const Pose pose = poses.at(t);
-  const Vec3 q = x - pose.tip;
-  const double z = q.dot(pose.axis), rho2 = std::max(0.0, q.squaredNorm() - z * z);
-  SweptContact contact;
-  contact.t = t;
-  if (!std::isfinite(rho2 + z)) {
-    // The direction rail vanishes here, or the rails have no values: nothing is near to that.
-    contact.f = std::numeric_limits<double>::infinity();
-    return contact;
-  }
-  const Sphere sphere = nearer_end(tool, z, rho2, stationary(tool, z, rho2, s));
-  const Vec3 away = pose.at(sphere.s) - x;
-  constexpr double kOnAxisMm = 1e-12;  // a point on the axis has no direction to it: the default stays
-  const double d = away.norm();
-  contact.s = sphere.s;
-  contact.f = d - sphere.r;
-  if (d > kOnAxisMm) contact.to_axis = away / d;
-  return contact;
-}
-
-}  // namespace
-
-SweptContact refine_contact(const RuledMotion& motion, const RadialFunction& radial, const Vec3& x, double t,
-                            double window) {
-  FLANK_ASSERT(window > 0.0 && x.allFinite());
-  const Poses poses(motion);
-  const EndedTool tool{radial};
-  const Pose pose = poses.at(t);
-  const double first_s = std::clamp((x - pose.tip).dot(pose.axis), 0.0, radial.axis_length());
-  SweptContact best = contact_at(poses, tool, x, std::clamp(t, 0.0, 1.0), first_s);
-  // Parabolas through three points, sixteen times narrower once the least of them is not at an end: the vertex is off
-  // by h^2, so the next one has to look h / 16 around it, and two rounds are enough (kNarrow).
-  constexpr double kFirst = 0.5, kNarrow = 1e-2, kNarrower = 16.0;  // of the window; of the last step
-  constexpr int kRounds = 10;  // a minimum that runs out of the window is followed by steps of h, this many at most
-  double h = kFirst * window;
-  for (int k = 0; k < kRounds && h > kNarrow * window; ++k) {
-    const double middle = std::clamp(best.t, h, 1.0 - h);
-    const SweptContact a = contact_at(poses, tool, x, middle - h, best.s);
-    const SweptContact b = contact_at(poses, tool, x, middle + h, best.s);
-    const SweptContact m = middle == best.t ? best : contact_at(poses, tool, x, middle, best.s);
-    const double bend = a.f + b.f - 2.0 * m.f;
-    const bool bracketed = m.f <= a.f && m.f <= b.f;
-    for (const SweptContact* c : {&a, &m, &b})
-      if (c->f < best.f) best = *c;
-    const bool at_rim = best.t <= 0.0 || best.t >= 1.0;
-    if (bracketed && bend > 0.0) {
-      const double vertex = middle + 0.5 * (a.f - b.f) / bend * h;
-      const SweptContact v = contact_at(poses, tool, x, vertex, best.s);
-      if (v.f < best.f) best = v;
-    }
-    if (bracketed || at_rim) h /= kNarrower;
   }
   return best;
 }

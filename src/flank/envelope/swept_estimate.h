@@ -4,20 +4,13 @@
 
 #include <vector>
 
+#include "flank/envelope/contact_refiner.h"
 #include "flank/radial_function.h"
 #include "flank/ruled_motion.h"
 
 namespace flank::internal {
 
-/// The place at which a swept tool comes nearest to a point.
-struct SweptContact {
-  int motion = -1;               ///< index; -1: none known
-  double t = 0.0, s = 0.0;       ///< time in [0, 1]; along the axis, mm
-  double f = 0.0;                ///< |x - R(s,t)| - r(s), mm: > 0 material left at x, < 0 overcut
-  Vec3 to_axis = Vec3::UnitZ();  ///< unit direction from x to the axis point: df/dR
-};
-
-/// Immutable after construction, for many threads at once. Keeps copies of poses and radii, not of the motions.
+/// Immutable after construction, for many threads at once. Keeps nothing of what it is made of.
 class SweptEstimate {
  public:
   /// `poses` (>= 2) axis positions per motion are tabulated; there is at least one motion. Waves of a rail between two
@@ -35,6 +28,10 @@ class SweptEstimate {
   /// of the least count. `places` is cleared first; it stays empty only if no pose has a distance. `hint` is a place near which the least is expected (motion -1:
   /// none).
   void places(const Vec3& x, const SweptContact& hint, std::vector<SweptContact>& places) const;
+  /// The contact near a place (its motion and t), within a spacing of it (ContactRefiner::refine).
+  [[nodiscard]] SweptContact refine(const Vec3& x, const SweptContact& place) const {
+    return refiner_.refine(x, place, spacing());
+  }
   /// Spacing of the poses in t.
   [[nodiscard]] double spacing() const { return 1.0 / (static_cast<double>(poses_.front().size()) - 1.0); }
 
@@ -48,6 +45,7 @@ class SweptEstimate {
   [[nodiscard]] double slack(std::size_t motion) const;
   [[nodiscard]] double bound(const Vec3& x, const SweptContact& hint) const;
 
+  ContactRefiner refiner_;
   std::vector<std::vector<Pose>> poses_;
   std::vector<double> stride_;  ///< of each motion: no point of the axis moves farther from one pose to the next
   std::vector<std::vector<double>> travel_;         ///< of each motion, up to each pose: the sum of such steps
@@ -56,11 +54,5 @@ class SweptEstimate {
   double per_length_;  ///< table intervals per mm
   double least_radius_ = 0.0, largest_radius_ = 0.0;
 };
-
-/// The contact at the local minimum over t near `t` (within `window` of it) and over s: exact to about 1e-9 mm if that
-/// minimum is smooth in t. `motion` is not filled. A radial function that is no tool (|r'| >= 1) gives some stationary
-/// place.
-[[nodiscard]] SweptContact refine_contact(const RuledMotion& motion, const RadialFunction& radial, const Vec3& x,
-                                          double t, double window);
 
 }  // namespace flank::internal

@@ -69,9 +69,7 @@ std::vector<double> estimate_distances(const std::vector<SurfaceSample>& samples
     for (std::size_t k = begin; k < end; ++k) {
       const SweptContact near = swept.nearest(samples[k].point);
       distances[k] = near.f;
-      if (near.f >= 0.0 || near.motion < 0) continue;
-      const RuledMotion& motion = motions[static_cast<std::size_t>(near.motion)];
-      distances[k] = refine_contact(motion, tool, samples[k].point, near.t, swept.spacing()).f;
+      if (near.f < 0.0 && near.motion >= 0) distances[k] = swept.refine(samples[k].point, near).f;
     }
   });
   return distances;

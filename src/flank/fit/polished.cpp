@@ -89,8 +89,10 @@ ReachLimits reach_of(const FlankFitOptions& options) {
 
 bool is_reachable(const Target& target, const ObstacleField* obstacles, const SurfaceSample& sample,
                   const ReachLimits& reach) {
-  if (reach.corners && !ball_fits(target, sample, reach.radius_mm, reach.depth_mm)) return false;
-  return obstacles == nullptr || obstacles->reachable(sample, reach.radius_mm, reach.depth_mm);
+  // By the triangles of a mesh, and not by the smooth surface, which bulges beside slivers.
+  const SurfaceSample given = target.as_given(sample);
+  if (reach.corners && !ball_fits(target, given, reach.radius_mm, reach.depth_mm)) return false;
+  return obstacles == nullptr || obstacles->reachable(given, reach.radius_mm, reach.depth_mm);
 }
 
 std::vector<SurfaceSample> ranking_samples(const Target& target, const ObstacleField* obstacles,

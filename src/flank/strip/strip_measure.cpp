@@ -70,15 +70,12 @@ double table_slack(const RuledMotion& motion, const RadialFunction& radial) {
   return stride * stride / (2.0 * radial.smallest());
 }
 
-SweptContact contact(const SweptEstimate& swept, const RuledMotion& motion, const RadialFunction& radial, const Vec3& x,
-                     double tolerance_mm) {
-  SweptContact near = swept.nearest(x);
+SweptContact contact(const SweptEstimate& swept, const Vec3& x, double tolerance_mm) {
+  const SweptContact near = swept.nearest(x);
   // The estimate ranks; what would count as overcut, or as just within tolerance, is refined.
-  if (std::abs(std::abs(near.f) - tolerance_mm) < kRefineBand * tolerance_mm || near.f < -kRefineDepth * tolerance_mm) {
-    const double t = near.t;
-    near = refine_contact(motion, radial, x, t, swept.spacing());
-  }
-  return near;
+  const bool counts =
+      std::abs(std::abs(near.f) - tolerance_mm) < kRefineBand * tolerance_mm || near.f < -kRefineDepth * tolerance_mm;
+  return counts ? swept.refine(x, near) : near;
 }
 
 }  // namespace
@@ -159,7 +156,7 @@ void measure_border(const CoverSamples& samples, const SweptEstimate& swept, con
     if (box.squared_distance(x) > 0.0) continue;
     const SweptContact at = swept.nearest(x);
     if (at.f > slack) continue;
-    count_contact(strip, refine_contact(strip.motion, radial, x, at.t, swept.spacing()), tolerance_mm);
+    count_contact(strip, swept.refine(x, at), tolerance_mm);
   }
 }
 
@@ -177,7 +174,7 @@ CoverStrip measure_strip(const CoverSamples& samples, RuledMotion motion, const 
   for (std::size_t k = 0; k < samples.cells.size(); ++k) {
     const SurfaceSample& cell = samples.cells[k];
     if (box.squared_distance(cell.point) > 0.0) continue;
-    const SweptContact at = contact(swept, strip.motion, radial, cell.point, tolerance);
+    const SweptContact at = contact(swept, cell.point, tolerance);
     if (at.f < -kToleranceBudget.target.remembered * tolerance) count_contact(strip, at, tolerance);
     if (std::abs(at.f) > tolerance) continue;
     strip.cells.push_back(static_cast<int>(k));

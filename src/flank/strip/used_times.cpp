@@ -35,10 +35,7 @@ std::vector<TimeRange> used_times(const std::vector<RuledMotion>& motions, const
   parallel_for(places.size(), [&](std::size_t k) {
     contacts[k] = swept.nearest(places[k]);
     if (std::abs(contacts[k].f) > kNear * tolerance_mm) return;
-    const int motion = contacts[k].motion;
-    contacts[k] =
-        refine_contact(motions[static_cast<std::size_t>(motion)], tool, places[k], contacts[k].t, swept.spacing());
-    contacts[k].motion = motion;
+    contacts[k] = swept.refine(places[k], contacts[k]);
   });
   std::vector<TimeRange> ranges(motions.size(), {2.0, -1.0});
   for (const SweptContact& contact : contacts) {

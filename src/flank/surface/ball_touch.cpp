@@ -12,8 +12,7 @@ bool ball_touches(std::span<const Target* const> targets, const Vec3& centre, do
 }
 
 bool ball_fits(const Target& target, const SurfaceSample& sample, double radius_mm, double depth_mm) {
-  const Vec3 centre = sample.point + radius_mm * sample.normal;
-  return target.closest_within(centre, radius_mm - depth_mm).patch < 0;
+  return !target.is_nearer(sample.point + radius_mm * sample.normal, radius_mm - depth_mm);
 }
 
 }  // namespace flank::internal

@@ -14,7 +14,7 @@ namespace flank::internal {
                                 double reach_mm);
 
 /// Can a ball touch the target at the sample, on the machining side, and enter it nowhere deeper than depth_mm? Not in a
-/// corner of the target that is narrower than the ball.
+/// corner of the target that is narrower than the ball. Both as they are given (Target::as_given): that is what a judge looks at.
 [[nodiscard]] bool ball_fits(const Target& target, const SurfaceSample& sample, double radius_mm, double depth_mm);
 
 }  // namespace flank::internal

@@ -53,10 +53,8 @@ void SweptModel::locate(FitState& state) const {
       // last contact would be to look up the place of another state, or of none.
       if (places.empty()) contact = no_contact();
       for (std::size_t i = 0; i < places.size(); ++i) {
-        const RuledMotion& motion = state.motions[static_cast<std::size_t>(places[i].motion)];
         // f is the least over all places: every one that might be it is refined before they are compared.
-        SweptContact refined = refine_contact(motion, state.tool, points_[k].point, places[i].t, swept.spacing());
-        refined.motion = places[i].motion;
+        const SweptContact refined = swept.refine(points_[k].point, places[i]);
         if (i == 0 || refined.f < contact.f) contact = refined;
       }
     }

@@ -24,7 +24,7 @@ std::vector<OrbitPlace> places_of(const OrbitSection& section, const OrbitStart&
     OrbitPlace place;
     place.point = section.motion().moved(foot.point, -time);
     place.share = (span.last - span.first) * section.motion().velocity(place.point).norm();
-    place.touch = start.reachable({foot.point, foot.normal});
+    place.touch = start.reachable({foot.point, foot.normal, 0.0, foot.u, foot.v, foot.patch});
     all += place.share;
     places.push_back(place);
   }

@@ -92,7 +92,7 @@ FlankFitResult fit_auto(const Target& target, const ToolModel& tool, FlankFitOpt
   const bool has_ways = options.ways;
   FlankFitResult best;
   double one_covers = 0.0, rest = 1.0;
-  StripGain gain(options.tolerance_mm);
+  StripGain gain(options.tolerance_mm, !options.ways);
   for (int count : {1, 2, 3, 4, 6, 8, 10, kMostStrips}) {
     options.strips = count;
     options.least_coverage_for_last_passes = count < kMostStrips ? kPromising : 0.0;
@@ -138,7 +138,8 @@ FlankFitResult fit_group(const Target& target, const ToolModel& tool, FlankFitOp
     options.strips = 1;
     keep_better(best, fit_automatic(target, tool, options, progress.part(kFirst, kSoften)), options);
   }
-  if (done(best)) {
+  // What facets keep from a motion no slender tool brings back.
+  if (done(best) || !options.ways) {
     note_slenderness(tool, options, best);
     return best;
   }

@@ -24,7 +24,8 @@ bool StripGain::goes_on(const FlankFitResult& best) {
   without_gain_ = gains ? 0 : without_gain_ + 1;
   covered_ = covered;
   promised_ = std::max(promised_, promised);
-  return without_gain_ < (covered >= kNearlyAll ? kMostWithoutNear : kMostWithout);
+  const int most = covered >= kNearlyAll ? kMostWithoutNear : kMostWithout;
+  return without_gain_ < (facets_limit_ ? 1 : most);
 }
 
 }  // namespace flank::internal

@@ -116,6 +116,18 @@ std::vector<SurfaceSample> MeshTarget::samples(double spacing_mm) const {
   return mesh_samples(surface_, spacing_mm, SamplePlaces::kFacets);
 }
 
+SurfaceSample MeshTarget::as_given(const SurfaceSample& sample) const {
+  SurfaceSample flat = sample;
+  const Vec3 &a = surface_.corner(sample.patch, 0), &b = surface_.corner(sample.patch, 1),
+             &c = surface_.corner(sample.patch, 2);
+  flat.normal = (b - a).cross(c - a).normalized();
+  return flat;
+}
+
+bool MeshTarget::is_nearer(const Vec3& p, double mm) const {
+  return mm > 0.0 && tree_.closest(p).squared_distance < mm * mm;
+}
+
 }  // namespace flank::internal
 
 namespace flank {

@@ -22,6 +22,8 @@ class MeshTarget final : public Target {
   [[nodiscard]] Footpoint closest_within(const Vec3& p, double horizon_mm) const override;
   [[nodiscard]] Footpoint track(const Vec3& p, const Footpoint& hint) const override;
   [[nodiscard]] std::vector<SurfaceSample> samples(double spacing_mm) const override;
+  [[nodiscard]] SurfaceSample as_given(const SurfaceSample& sample) const override;
+  [[nodiscard]] bool is_nearer(const Vec3& p, double mm) const override;
   [[nodiscard]] std::vector<Vec3> border_points(double spacing_mm) const override;
   [[nodiscard]] int patch_count() const override { return surface_.real_triangles; }
 
