@@ -161,5 +161,33 @@ TEST(FlatCells, MayRoamALittleButNotAcrossACrease) {
   }
 }
 
+/// A quarter of a flat ring: only its sides are bent.
+Face ring() { return test::revolved(1, 1, {0, 0, 1, 1}, {{5, 0, 1}, {10, 0, 1}}); }
+
+TEST(FlatCells, AreConvexForPointsNearerThanTheCentresOfTheirSides) {
+  const Prepared p(ring());
+  for (const FlatCell& cell : p.cells.cells) {
+    EXPECT_TRUE(is_convex(cell, {1.0, 1.0, 1.0}));
+    EXPECT_FALSE(is_convex(cell, {0.0, 0.0, 10.0}));
+    EXPECT_FALSE(is_convex(cell, -cell.center)) << "the centre itself";
+  }
+}
+
+/// Beyond the centre the nearest place is one of the ring's ends, and the other is nearest in turn to the middle.
+TEST(FlatCells, OfARingFindTheNearerEndFromBeyondItsCentre) {
+  const auto target = make_target({ring()});
+  const Face face = ring();
+  const BSplineSurface& s = face.surface;
+  const Vec3 one = s.value(s.u_first(), s.v_first()), other = s.value(s.u_last(), s.v_first());
+  Random random(5);
+  for (int k = 0; k < 400; ++k) {
+    const Vec3 away = -random.uniform(1.0, 4.0) * (one + other).normalized(),
+               beside = random.uniform(-1.0, 1.0) * (one - other);
+    const Vec3 x = away + 0.1 * beside + Vec3(0.0, 0.0, random.uniform(-1.0, 1.0));
+    const double nearest = std::min((x - one).norm(), (x - other).norm());
+    EXPECT_NEAR((x - target->closest(x).point).norm(), nearest, 1e-9) << x.transpose();
+  }
+}
+
 }  // namespace
 }  // namespace flank::internal

@@ -134,9 +134,17 @@ class Builder {
     out_.hulls.push_back(std::move(hull));
   }
 
+  /// Geodesic curvature of a line with these derivatives on a surface of this normal, which need not be unit.
+  static double geodesic_curvature(const Vec3& d1, const Vec3& d2, const Vec3& normal) {
+    const double speed = d1.norm(), area = normal.norm();
+    return speed > 0.0 && area > 0.0 ? std::abs(d2.dot(normal.cross(d1))) / (area * speed * speed * speed)
+                                     : std::numeric_limits<double>::infinity();
+  }
+
   /// Bounds of the larger principal curvature, seen from either side, from nine places and widened by 0.3 of their
-  /// spread.
+  /// spread; likewise of the curvature of the parameter lines.
   void measure_curvature(FlatCell& cell, int i, int j) const {
+    constexpr double kWider = 1.3;
     for (int side = 0; side < 2; ++side) {
       double low = std::numeric_limits<double>::infinity(), high = -low;
       for (int k = 0; k < 9; ++k) {
@@ -149,6 +157,8 @@ class Builder {
         const double largest = largest_curvature(jet, side == 0 ? n : -n);
         low = std::min(low, largest);
         high = std::max(high, largest);
+        cell.line_curvature = std::max({cell.line_curvature, kWider * geodesic_curvature(jet.du, jet.duu, n),
+                                        kWider * geodesic_curvature(jet.dv, jet.dvv, n)});
       }
       const double spread = 0.3 * (high - low);
       cell.curvature_low[static_cast<std::size_t>(side)] = low - spread;
@@ -171,6 +181,11 @@ bool can_be_focal(const FlatCell& cell, const Vec3& r) {
   const std::size_t side = r.dot(cell.normal) >= 0.0 ? 0 : 1;
   const double distance = r.norm();
   return distance * cell.curvature_high[side] > kFocalLow && distance * cell.curvature_low[side] < kFocalHigh;
+}
+
+bool is_convex(const FlatCell& cell, const Vec3& r) {
+  const std::size_t side = r.dot(cell.normal) >= 0.0 ? 0 : 1;
+  return r.norm() * std::max(cell.curvature_high[side], cell.line_curvature) <= kFocalLow;
 }
 
 void append_flat_cells(const NurbsFace& face, int index, FlatCells& out) {

@@ -17,7 +17,8 @@ struct FlatCell {
   Vec3 normal = Vec3::Zero();  ///< S_u x S_v of the centre, unit
   /// Range of the larger principal curvature towards +normal and towards -normal, a little widened.
   std::array<double, 2> curvature_low{}, curvature_high{};
-  bool cut = false;  ///< a trim passes through it
+  double line_curvature = 0.0;  ///< at least the largest geodesic curvature of the parameter lines, and so of its sides
+  bool cut = false;             ///< a trim passes through it
   double u0 = 0.0, u1 = 0.0, v0 = 0.0, v1 = 0.0;
   Vec3 center = Vec3::Zero();
   Vec3 to_u = Vec3::Zero(), to_v = Vec3::Zero();  ///< u = mid + <p - center, to_u> on the tangent plane at the centre
@@ -26,6 +27,10 @@ struct FlatCell {
 /// Whether a point at `r` from the centre can have several closest points in the cell: where the sphere about it can
 /// osculate the surface.
 [[nodiscard]] bool can_be_focal(const FlatCell& cell, const Vec3& r);
+
+/// Whether a point at `r` from the centre has one closest point in the cell at most: it is nearer than the centres of curvature of the
+/// surface and of the cell's sides, so that the squared distance is convex.
+[[nodiscard]] bool is_convex(const FlatCell& cell, const Vec3& r);
 
 /// Cells that cover the trimmed face, with their Bezier hulls.
 struct FlatCells {

@@ -131,7 +131,8 @@ Descent NurbsTarget::descend_cell(const FlatCell& cell, const Vec3& p, double u,
 }
 
 /// The start is the foot of p on the cell's tangent plane. Several minima are possible only beyond the focal distance,
-/// so only there, or where the first descent met a soft place, is the cell searched from a grid.
+/// so only there, or where the first descent met a soft place, is the cell searched from a grid. Nearer than that a descent that is
+/// held by a border has the only one, too: most queries of a fit are such, and find nothing within their horizon.
 void NurbsTarget::search_cell(const FlatCell& cell, const Vec3& p, Best& best) const {
   const Vec3 r = p - cell.center;
   const double du = cell.u1 - cell.u0, dv = cell.v1 - cell.v0;
@@ -142,7 +143,7 @@ void NurbsTarget::search_cell(const FlatCell& cell, const Vec3& p, Best& best) c
   int starts = 0;
   if ((settled && x.stiffness < kSoft) || can_be_focal(cell, r))
     starts = kFocalStarts;  // minima may lie close together: roll down from all over the cell
-  else if (settled && (x.side_u != 0 || x.side_v != 0))
+  else if (settled && (x.side_u != 0 || x.side_v != 0) && !is_convex(cell, r))
     starts = 2;  // held by a border or crease: another side of the cell may hold a better one
   for (int k = 0; k < starts * starts; ++k)
     (void)descend_cell(cell, p, cell.u0 + (k / starts) * du / (starts - 1), cell.v0 + (k % starts) * dv / (starts - 1),
