@@ -23,6 +23,8 @@ constexpr double kMostExcess = 0.5;
 constexpr double kLeastStep = 0.004, kShortStep = 0.06;
 /// So many radii before and behind the sides places are paired; farther out both ends go equally fast.
 constexpr double kBeyond = 6.0;
+/// Before a wall what one side has left of its way is at most so many times that of the other.
+constexpr double kMostPace = 1.25;
 constexpr double kLeastLiftMm = 0.02;
 /// A lift grows by so much of what the tips enter, and is taken back unless it leaves less than this share of that.
 constexpr double kLiftMore = 1.6, kLiftHelps = 0.7;
@@ -118,7 +120,11 @@ double CycleSearch::partner(double from_x, const CycleShape& shape) const {
   const double y = across(from_x);
   const double middle = 0.5 * sides_.from.axis_length();
   const double gap = (sides_.from.at(from_x).at(middle) - sides_.to.at(y).at(middle)).norm();
-  return y + shape.share[CycleShape::kAhead] * gap;
+  const double wanted = y + shape.share[CycleShape::kAhead] * gap;
+  if (!sides_.from.stops_at_end()) return wanted;
+  // At a wall both come to their ends together: who is there first turns on the spot, in a corner as round as the tool.
+  const double left = std::max(0.0, sides_.from.length() - from_x);
+  return std::clamp(wanted, sides_.to.length() - kMostPace * left, sides_.to.length() - left / kMostPace);
 }
 
 void CycleSearch::shape_halves(const CycleShape& shape, Trial& trial) const {
