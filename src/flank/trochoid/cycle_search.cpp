@@ -17,6 +17,8 @@ constexpr double kRingsApart = 3.0;
 constexpr int kMostRings = 31;
 /// The engagement that a search aims at is at least so much below the limit, radians: what lies between rows.
 constexpr double kSearchMargin = 0.004;
+/// So near to a wall, in radii, by this share of it: chips in its corners are thin, and a replay in cells reads more than there is.
+constexpr double kCornerRadii = 0.5, kCornerMargin = 0.1;
 /// Of the limit: who saw nothing where the fine samples saw much would aim at nothing.
 constexpr double kMostExcess = 0.5;
 /// In radii: shorter than this no step is one, and shorter than this another shape is looked for.
@@ -113,7 +115,9 @@ void CycleSearch::refuse(double step_mm, double largest_rad) {
 }
 
 double CycleSearch::aim() const {
-  return options_.largest_rad - std::clamp(now_.excess_rad, kSearchMargin, kMostExcess * options_.largest_rad);
+  const bool at_wall = sides_.from.stops_at_end() && sides_.from.length() - now_.last.from_x < kCornerRadii * radius_;
+  const double margin = at_wall ? kCornerMargin * options_.largest_rad : kSearchMargin;
+  return options_.largest_rad - std::clamp(now_.excess_rad, margin, kMostExcess * options_.largest_rad);
 }
 
 double CycleSearch::partner(double from_x, const CycleShape& shape) const {
