@@ -142,8 +142,8 @@ void CycleSearch::shape_halves(const CycleShape& shape, Trial& trial) const {
   trial.front = half_before_wall(length, start(trial), end(trial).reversed(), shape.front(gap, now_.lift_mm),
                                  ahead(sides_.from, trial.from_x), ahead(sides_.to, trial.to_x));
   if (now_.last.way_mm > 0.0)
-    trial.back = half_before_wall(length, end(now_.last).reversed(), start(trial), shape.back(gap, now_.lift_mm),
-                                  behind(sides_.to, now_.last.to_x), behind(sides_.from, trial.from_x));
+    trial.back = half_off_wall(length, end(now_.last).reversed(), start(trial), shape.back(gap, now_.lift_mm),
+                               behind(sides_.to, now_.last.to_x), behind(sides_.from, trial.from_x));
 }
 
 Trial CycleSearch::tried(double step, const CycleShape& shape, bool measured) {

@@ -62,12 +62,13 @@ SideState state_of(const SideFit& sides, const CavityFaces& faces, const Trochoi
   return e.at_tolerance >= least * reach_of(sides, faces) ? SideState::kObstructed : SideState::kShort;
 }
 
-/// As many layers as the tolerance needs, or as many as are asked for: not those that cannot help.
-SideFit search_sides(const Search& search, SideFitOptions options) {
+/// As many layers as the tolerance needs, `fewest` or more, or as many as are asked for: not those that cannot help.
+SideFit search_sides(const Search& search, SideFitOptions options, int fewest) {
   const auto& [job, faces, tool, judge, progress] = search;
   const CavitySide left = side_of(faces.sides[0]), right = side_of(faces.sides[1]);
   SideFit best;
-  const int first = job.cycles.layers > 0 ? job.cycles.layers : 1, last = job.cycles.layers > 0 ? first : kMostLayers;
+  const int first = job.cycles.layers > 0 ? job.cycles.layers : fewest,
+            last = job.cycles.layers > 0 ? first : kMostLayers;
   for (int layers = first; layers <= last; ++layers) {
     options.layers = layers;
     // More layers make a shorter tool, which is less slender.
@@ -75,7 +76,7 @@ SideFit search_sides(const Search& search, SideFitOptions options) {
     SideFit tried = fit_sides(left, right, tool, options, progress);
     const bool better = best.fit.motions.empty() ||
                         tried.fit.after.score(job.tolerance_mm) > best.fit.after.score(job.tolerance_mm) + 0.002;
-    const bool ends = last > first && state_of(tried, faces, job) != SideState::kShort;
+    const bool ends = state_of(tried, faces, job) != SideState::kShort;
     if (better) best = std::move(tried);
     if (ends || !better || progress.stop()) break;
   }
@@ -172,11 +173,13 @@ bool is_narrow(const SideFit& sides) { return least_way_across(sides.fit.motions
 CavityPlan search_ways(const Search& search, SideFitOptions options, bool thinner, CavityPlan& uncut) {
   const auto& [job, faces, tool, judge, progress] = search;
   const double bound = options.fit.bounds.largest;
-  const auto sides = [&](bool facing) {
+  const auto sides = [&](bool facing, int fewest) {
     options.facing = facing;
-    return search_sides(search, options);
+    return search_sides(search, options, fewest);
   };
-  SideFit alike = sides(true);
+  SideFit alike = sides(true, 1);
+  // Fewer layers than the tool of these has are too few for it either way: they were too slender, or covered less.
+  const int layers = std::max(1, static_cast<int>(alike.fit.motions.size()) / 2);
   if (thinner && is_narrow(alike)) return uncut_plan(std::move(alike), bound);
   const auto plan_of = [&](SideFit fit) {
     if (!thinner || state_of(fit, faces, job) != SideState::kShort)
@@ -190,7 +193,7 @@ CavityPlan search_ways(const Search& search, SideFitOptions options, bool thinne
   // What all cycles get past, but enters a face, is not the leans'.
   if (facing.program.done() && state_of(facing.sides, faces, job) != SideState::kShort) return facing;
   if (facing.program.stuck_along_axis()) return facing;
-  SideFit as_they_come = sides(false);
+  SideFit as_they_come = sides(false, layers);
   // Cycles cannot make up for sides that cover no more, where the others' get through all of the way.
   const double tolerance = job.tolerance_mm;
   if (gets_through(facing, tolerance) && cleared(facing) == 1.0 &&

@@ -140,6 +140,17 @@ RuledMotion half_path_round(double axis_length, const AxisPlace& from, const Axi
   return motion;
 }
 
+RuledMotion half_off_wall(double axis_length, const AxisPlace& from, const AxisPlace& to, const HalfShape& shape,
+                          double room_from, double room_to) {
+  RuledMotion half = half_path(axis_length, from, to, shape);
+  const double room = std::min(room_from, room_to);
+  if (!std::isfinite(room)) return half;
+  const double reach = reach_ahead(half, from, to);
+  if (reach <= room) return half;
+  return half_path_across(axis_length, from, to, shape, std::clamp(room_from / reach, 0.0, 1.0),
+                          std::clamp(room_to / reach, 0.0, 1.0));
+}
+
 RuledMotion half_before_wall(double axis_length, const AxisPlace& from, const AxisPlace& to, const HalfShape& shape,
                              double room_from, double room_to) {
   RuledMotion half = half_path(axis_length, from, to, shape);
