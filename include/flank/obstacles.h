@@ -35,7 +35,7 @@ struct Obstacles {
   /// The same faces as triangles, but for those of `solids`; for shank and holder these and the target as well.
   std::vector<ObstacleMesh> meshes;
   /// Closed solids that the target touches or runs into (a hub): by their exact signed distance, so that a tool that
-  /// lies wholly within one is seen as well.
+  /// lies wholly within one is seen as well, and so are places of the target that are buried in one.
   std::vector<std::shared_ptr<const Target>> solids;
 
   [[nodiscard]] bool empty() const { return faces.empty() && meshes.empty() && solids.empty(); }

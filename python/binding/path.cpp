@@ -100,7 +100,7 @@ void bind_path_classes(py::module_& module) {
   py::class_<Strip>(module, "Strip", "One pass of the flank.")
       .def_readonly("id", &Strip::id, "Number of the strip.")
       .def_readonly("kind", &Strip::kind, "flank, side, front, back, entry, link, ...")
-      .def_readonly("layer", &Strip::layer, "Of a cavity that is cut in layers, from 1 at the top; 0: of none")
+      .def_readonly("layer", &Strip::layer, "Of a cavity that is cut in layers, from 1 at the top; 0: of none.")
       .def_readonly("face", &Strip::face, "The target, \"F1\" or \"F1,F3\".")
       .def_property_readonly(
           "poses", [](const py::object& self) { return poses_view(self.cast<const Strip&>().poses, self); },

@@ -253,5 +253,16 @@ TEST(ObstacleField, SameAnswersForAnyNumberOfThreads) {
   EXPECT_EQ(answers[0], answers[1]);
 }
 
+TEST(ObstacleField, ABladeThatGoesOnFarBelowItsHubSeesTheHubFromOutside) {
+  // Three fifths of it are buried, down to the bore.
+  const auto blade = testing::standing_blade(-60.0);
+  Obstacles obstacles = testing::only(testing::hub(true));
+  EXPECT_EQ(ObstacleField(obstacles, *blade, 3.0, 0.0).sign(0), 0) << "nothing says what is material";
+  obstacles.solids.push_back(testing::hub(true).surface);
+  const ObstacleField field(obstacles, *blade, 3.0, 0.0);
+  EXPECT_EQ(field.sign(0), 1);
+  EXPECT_NEAR(field.at(Vec3(30, 3, -30), 5.0).distance_mm, -30.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace flank::internal

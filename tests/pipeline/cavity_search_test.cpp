@@ -51,6 +51,21 @@ TEST(CavitySearch, IsNotDoneWhereTheVerdictWillNotBeMet) {
   EXPECT_TRUE(is_done(finished(0.93), faces, job));
 }
 
+TEST(CavitySearch, IsDoneWhereTheJudgeFindsAllThatIsAsked) {
+  // Its samples are finer than those of the estimate, and it has proofs: what it finds is what counts.
+  TrochoidJob job;
+  job.judge.least_coverage = 0.95;
+  const CavityFaces faces = walled_blades();
+  CavityPlan plan = finished(0.93);
+  plan.finding = CavityFinding{false, 0.924};
+  EXPECT_FALSE(is_done(plan, faces, job)) << "the estimate takes it for done";
+  EXPECT_TRUE(wants_even_tool(plan, faces, job));
+  plan = finished(0.90);
+  plan.finding = CavityFinding{true, 0.951};
+  EXPECT_TRUE(is_done(plan, faces, job));
+  EXPECT_FALSE(wants_even_tool(plan, faces, job));
+}
+
 TEST(CavitySearch, WantsAnEvenToolWhereTheThickEndLeavesWhatTheThinOneReaches) {
   TrochoidJob job;
   job.judge.least_coverage = 0.95;

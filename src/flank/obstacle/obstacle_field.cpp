@@ -67,6 +67,18 @@ Vote vote(const ObstacleFace& face, const std::vector<SurfaceSample>& samples, d
   return {outside <= (1.0 - kMajority) * all ? -1 : 0, false};
 }
 
+/// Samples of the target above which a tool may be: none above which there is material of a solid that the target runs into. A
+/// blade that goes on down to the bore of its hub would see the hub from within with half of its voters.
+std::vector<SurfaceSample> voters_of(const Target& target, const Obstacles& obstacles, double offset_mm) {
+  std::vector<SurfaceSample> samples = target.samples(std::sqrt(target.area() / kVoters));
+  std::erase_if(samples, [&](const SurfaceSample& sample) {
+    const Vec3 above = sample.point + offset_mm * sample.normal;
+    return std::any_of(obstacles.solids.begin(), obstacles.solids.end(),
+                       [&](const auto& solid) { return solid->closest(above).distance < 0.0; });
+  });
+  return samples;
+}
+
 }  // namespace
 
 /// A lattice around the target whose nodes are measured when they are first asked for. A distance also bounds those
@@ -174,7 +186,7 @@ ObstacleField::ObstacleField(const Obstacles& obstacles, const Target& target, d
       around_(std::make_unique<Lattice>(target.box(), 2.0 * offset_mm + lattice_->step * Lattice::kPerSide)) {
   lattice_->cells = std::make_unique<DistanceCells>(lattice_->distances.size(), lattice_->low, lattice_->step,
                                                     kInterpolationShare * allowance_mm);
-  const std::vector<SurfaceSample> samples = target.samples(std::sqrt(target.area() / kVoters));
+  const std::vector<SurfaceSample> samples = voters_of(target, obstacles, offset_mm);
   std::vector<Vote> votes(faces_.size());
   parallel_for(faces_.size(), [&](std::size_t k) { votes[k] = vote(faces_[k], samples, offset_mm); });
   for (std::size_t k = 0; k < votes.size(); ++k) signs_[k] = votes[k].sign;

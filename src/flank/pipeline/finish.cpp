@@ -32,6 +32,10 @@ int machining_contact(const RuledMotion& motion, const RadialFunction& radial, c
   return contact_side(motion, radial, target.closest(middle).point - middle);
 }
 
+const JudgeRequest& request_of(const Result& result) {
+  return std::visit([](const auto& plan) -> const JudgeRequest& { return plan.judge; }, result.job);
+}
+
 /// After a stop, seconds: for a verdict and its picture.
 constexpr double kPatience = 2.5;
 
@@ -98,21 +102,24 @@ std::vector<StripSurface> add_strips(double tolerance_mm, const std::vector<cons
   return surfaces;
 }
 
+VerifyReport judged(const Setup& setup, const ClearanceScene& scene, const Result& result, Stopwatch& watch) {
+  stop_here();
+  VerifyReport report = judge_job(setup, request_of(result), result.tool, result.path);
+  watch.lap("verify");
+  report.clearance = measure_clearance(scene, result.tool, result.path);
+  watch.lap("clearance");
+  return report;
+}
+
 void judge_result(const Setup& setup, const ClearanceScene& scene, std::vector<StripSurface> surfaces, Result& result,
-                  Stopwatch& watch) {
-  const JudgeRequest& request =
-      std::visit([](const auto& plan) -> const JudgeRequest& { return plan.judge; }, result.job);
+                  Stopwatch& watch, std::optional<VerifyReport> known) {
   std::optional<StopGrace> grace;
   try {
-    stop_here();
-    result.verify = judge_job(setup, request, result.tool, result.path);
-    watch.lap("verify");
-    result.verify.clearance = measure_clearance(scene, result.tool, result.path);
-    watch.lap("clearance");
+    result.verify = known ? std::move(*known) : judged(setup, scene, result, watch);
   } catch (const Stopped&) {
     result.complete = false;
     grace.emplace(kPatience);
-    result.verify = quick_verdict(setup, request, scene, result);
+    result.verify = quick_verdict(setup, request_of(result), scene, result);
   }
   auto drawings = std::make_shared<Result::Drawings>();
   drawings->strips = std::move(surfaces);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,8 +29,12 @@ class Stopwatch {
 [[nodiscard]] std::vector<StripSurface> add_strips(double tolerance_mm, const std::vector<const TargetGroup*>& groups,
                                                    Result& result);
 
-/// Judges tool and path of the result, measures clearances, and makes what is drawn. result.job must be there.
+/// Judges tool and path of the result and measures clearances. result.job must be there. Throws Stopped.
+[[nodiscard]] VerifyReport judged(const Setup& setup, const ClearanceScene& scene, const Result& result,
+                                  Stopwatch& watch);
+
+/// The same into result.verify, unless `known` has it, and makes what is drawn.
 void judge_result(const Setup& setup, const ClearanceScene& scene, std::vector<StripSurface> surfaces, Result& result,
-                  Stopwatch& watch);
+                  Stopwatch& watch, std::optional<VerifyReport> known = {});
 
 }  // namespace flank::internal

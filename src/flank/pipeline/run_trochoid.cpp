@@ -6,16 +6,15 @@
 #include <cmath>
 #include <numbers>
 
-#include "flank/artefact/view.h"
 #include "flank/base/stopping.h"
 #include "flank/base/tolerance_budget.h"
 #include "flank/error.h"
 #include "flank/job/check_fields.h"
 #include "flank/pipeline/cavity/cavity_faces.h"
 #include "flank/pipeline/cavity/cavity_search.h"
+#include "flank/pipeline/cavity_judge.h"
 #include "flank/pipeline/cavity_notes.h"
 #include "flank/pipeline/finish.h"
-#include "flank/pipeline/folder/judge_job.h"
 #include "flank/pipeline/run_fit.h"
 #include "flank/pipeline/run_journal.h"
 #include "flank/pipeline/search/search_setup.h"
@@ -189,25 +188,6 @@ void take(const CavityPlan& plan, const TrochoidJob& job, const ToolSpec& spec, 
   note_what_is_open(job, plan.program, result.notes);
 }
 
-/// The judge's stock, into the verdict and what is drawn.
-void replay(const Setup& setup, const TrochoidJob& job, const std::vector<HalfSpace>& blank, Result& result) {
-  constexpr double kMostTriangles = 3e5;
-  if (result.path.strips.empty() || !result.complete) return;
-  ProgramStock stock;
-  try {
-    stock = judge_stock(setup, job, result.tool, result.path, blank, kMostTriangles);
-  } catch (const Stopped&) {
-    result.complete = false;
-    return;
-  }
-  result.verify.stock = std::move(stock.report);
-  auto drawings = std::make_shared<Result::Drawings>(*result.drawings);
-  drawings->blank = blank;
-  drawings->left = std::move(stock.left);
-  drawings->engagement = std::move(stock.engagement);
-  result.drawings = std::move(drawings);
-}
-
 }  // namespace
 
 Result run_trochoid(const TrochoidJob& job, const Progress& asked) {
@@ -230,7 +210,11 @@ Result run_trochoid(const TrochoidJob& job, const Progress& asked) {
   options.up = up_from_floor(job, setup, faces);
   watch.lap("read");
 
-  const CavityPlan plan = search_cavity(job, faces, make_tool_model(spec, job.tool.axis_length_mm), options, progress);
+  PlanJudge judge(
+      setup, scene, job, [&](const CavityPlan& plan, Result& out) { take(plan, job, spec, faces, out); }, watch);
+  const CavityPlan plan = search_cavity(
+      job, faces, make_tool_model(spec, job.tool.axis_length_mm), options,
+      [&](const CavityPlan& tried) { return judge.find(tried); }, progress);
   if (plan.sides.fit.motions.empty()) stop_here();
   if (plan.sides.fit.motions.empty())
     throw InputError("left", fmt::format("no tool of radius up to {:.4g} mm finds an axis that is free in the cavity, "
@@ -241,9 +225,7 @@ Result run_trochoid(const TrochoidJob& job, const Progress& asked) {
   result.complete = !progress.stop();
 
   progress.step("verify", 0.9);
-  judge_result(setup, scene, {}, result, watch);
-  replay(setup, job, plan.program.blank, result);
-  watch.lap("stock");
+  judge.finish(plan, result);
   const FlankFitResult& sides = plan.sides.fit;
   const auto own_reach = [&] {
     return reach_of_tool(side_of(faces.sides[0]), side_of(faces.sides[1]), sides.motions, sides.tool);

@@ -170,10 +170,9 @@ std::vector<int> near_faces(const Part& part, const std::vector<int>& faces, con
   return near;
 }
 
-/// Solids that the target touches, other than its own, whole; the rest of the faces within reach as triangles. Solids
-/// are asked for the flank alone, so shank and holder see their triangles.
-void add_meshes(const Part& part, const Target& target, const ObstacleChoice& choice, const ObstacleDetail& detail,
-                Obstacles& obstacles) {
+/// Solids that the target touches, other than its own, whole; of each face of the part whether it is one's.
+std::vector<char> add_solids(const Part& part, const Target& target, const ObstacleChoice& choice,
+                             Obstacles& obstacles) {
   constexpr double kTouchMm = 0.5;
   std::vector<char> in_solid(static_cast<std::size_t>(part.face_count()), 0);
   for (const int solid : part.is_mesh() ? std::vector<int>{} : whole_solids(part, choice.others)) {
@@ -183,6 +182,12 @@ void add_meshes(const Part& part, const Target& target, const ObstacleChoice& ch
     for (std::size_t k = 0; k < in_solid.size(); ++k)
       if (part.faces[k].solid == solid) in_solid[k] = 1;
   }
+  return in_solid;
+}
+
+/// What is in no solid within reach, as triangles. Solids are asked for the flank alone, so shank and holder see their triangles.
+void add_meshes(const Part& part, const Target& target, const ObstacleChoice& choice, const ObstacleDetail& detail,
+                const std::vector<char>& in_solid, Obstacles& obstacles) {
   const bool above = detail.own_deviation_mm.has_value();
   std::vector<int> others = choice.others;
   // Without shank or holder nobody asks those triangles: the solid answers for the flank.
@@ -248,7 +253,8 @@ Obstacles make_obstacles(const Part& part, const Target& target, const ObstacleC
     samples = target.samples(std::sqrt(target.area() / kSamples));
     add_surfaces(part, choice.others, samples, *detail.faces_within_mm, 0.0, bared_solids(part, choice), obstacles);
   }
-  if (detail.meshes_within_mm) add_meshes(part, target, choice, detail, obstacles);
+  const std::vector<char> in_solid = add_solids(part, target, choice, obstacles);
+  if (detail.meshes_within_mm) add_meshes(part, target, choice, detail, in_solid, obstacles);
   if (detail.own_deviation_mm) add_own(part, choice, detail, obstacles);
   add_fixtures(target, choice, detail, samples, obstacles);
   return obstacles;

@@ -17,12 +17,16 @@ constexpr double kRingsApart = 3.0;
 constexpr int kMostRings = 31;
 /// The engagement that a search aims at is at least so much below the limit, radians: what lies between rows.
 constexpr double kSearchMargin = 0.004;
+/// So near to a wall, in radii, by this share of it: chips in its corners are thin, and a replay in cells reads more than there is.
+constexpr double kCornerRadii = 0.5, kCornerMargin = 0.1;
 /// Of the limit: who saw nothing where the fine samples saw much would aim at nothing.
 constexpr double kMostExcess = 0.5;
 /// In radii: shorter than this no step is one, and shorter than this another shape is looked for.
 constexpr double kLeastStep = 0.004, kShortStep = 0.06;
 /// So many radii before and behind the sides places are paired; farther out both ends go equally fast.
 constexpr double kBeyond = 6.0;
+/// Before a wall what one side has left of its way is at most so many times that of the other.
+constexpr double kMostPace = 1.25;
 constexpr double kLeastLiftMm = 0.02;
 /// A lift grows by so much of what the tips enter, and is taken back unless it leaves less than this share of that.
 constexpr double kLiftMore = 1.6, kLiftHelps = 0.7;
@@ -111,14 +115,20 @@ void CycleSearch::refuse(double step_mm, double largest_rad) {
 }
 
 double CycleSearch::aim() const {
-  return options_.largest_rad - std::clamp(now_.excess_rad, kSearchMargin, kMostExcess * options_.largest_rad);
+  const bool at_wall = sides_.from.stops_at_end() && sides_.from.length() - now_.last.from_x < kCornerRadii * radius_;
+  const double margin = at_wall ? kCornerMargin * options_.largest_rad : kSearchMargin;
+  return options_.largest_rad - std::clamp(now_.excess_rad, margin, kMostExcess * options_.largest_rad);
 }
 
 double CycleSearch::partner(double from_x, const CycleShape& shape) const {
   const double y = across(from_x);
   const double middle = 0.5 * sides_.from.axis_length();
   const double gap = (sides_.from.at(from_x).at(middle) - sides_.to.at(y).at(middle)).norm();
-  return y + shape.share[CycleShape::kAhead] * gap;
+  const double wanted = y + shape.share[CycleShape::kAhead] * gap;
+  if (!sides_.from.stops_at_end()) return wanted;
+  // At a wall both come to their ends together: who is there first turns on the spot, in a corner as round as the tool.
+  const double left = std::max(0.0, sides_.from.length() - from_x);
+  return std::clamp(wanted, sides_.to.length() - kMostPace * left, sides_.to.length() - left / kMostPace);
 }
 
 void CycleSearch::shape_halves(const CycleShape& shape, Trial& trial) const {
@@ -132,8 +142,8 @@ void CycleSearch::shape_halves(const CycleShape& shape, Trial& trial) const {
   trial.front = half_before_wall(length, start(trial), end(trial).reversed(), shape.front(gap, now_.lift_mm),
                                  ahead(sides_.from, trial.from_x), ahead(sides_.to, trial.to_x));
   if (now_.last.way_mm > 0.0)
-    trial.back = half_before_wall(length, end(now_.last).reversed(), start(trial), shape.back(gap, now_.lift_mm),
-                                  behind(sides_.to, now_.last.to_x), behind(sides_.from, trial.from_x));
+    trial.back = half_off_wall(length, end(now_.last).reversed(), start(trial), shape.back(gap, now_.lift_mm),
+                               behind(sides_.to, now_.last.to_x), behind(sides_.from, trial.from_x));
 }
 
 Trial CycleSearch::tried(double step, const CycleShape& shape, bool measured) {

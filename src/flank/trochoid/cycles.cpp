@@ -36,8 +36,9 @@ constexpr double kNothing = 1e-3;
 constexpr double kKept = 0.7;
 /// An aim that failed is lowered by at least so much, radians.
 constexpr double kLeastLess = 0.002;
-/// In radii: so near to a wall at the end cycles end where none gets on, and so near where taking some back does not help.
-constexpr double kAtWall = 0.2, kBeforeWall = 0.5;
+/// In radii: so near to a wall at the end cycles end in any case, because their chips get ever thinner; so near where none gets on,
+/// and so near where taking some back does not help.
+constexpr double kAgainstWall = 0.1, kAtWall = 0.2, kBeforeWall = 0.5;
 /// Cycles that are taken back where none gets on, at first.
 constexpr std::size_t kFirstRewind = 4;
 /// How often they are taken back because a half enters a face: where the sides themselves lead there, that does not help.
@@ -332,6 +333,7 @@ LayerCycles CyclePlanner::run(const std::optional<FirstFront>& first, const Prog
     before_.resize(out.cycles.size());
     before_.push_back(now_);
     before_.back().sweeps = stock_.sweeps().size();
+    if (!out.cycles.empty() && ends_at_wall(kAgainstWall, out)) break;
     if (next_cycle(out, progress)) continue;
     if (ends_at_wall(kAtWall, out)) break;
     if (now_.last.from_x > farthest_x) {

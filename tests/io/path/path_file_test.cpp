@@ -71,6 +71,7 @@ TEST(PathJson, BadFilesAreRefusedByName) {
       {head + R"([{"id":1,"poses":[[1,2,3,0,0,2]]}]})", "strips[0].poses[0]: the axis vector"},
       {head + R"([{"id":1,"poses":[[1,2,3,0,0,0]]}]})", "has length 0"},
       {head + R"([{"id":1,"kind":2,"poses":[[1,2,3,0,0,1]]}]})", "strips[0].kind: must be a text"},
+      {head + R"([{"id":1,"layer":0,"poses":[[1,2,3,0,0,1]]}]})", "strips[0].layer: must be 1 or more"},
       {head + R"([{"id":1,"layer":-1,"poses":[[1,2,3,0,0,1]]}]})", "strips[0].layer: must be 1 or more"},
       {head + R"([{"id":1,"pose":[]}]})", "unknown key \"pose\""},
       {head + R"([{"id":1,"poses":[[1,2,3,0,0,1]]},{"id":1,"poses":[[1,2,3,0,0,1]]}]})", "id 1 is used twice"}};

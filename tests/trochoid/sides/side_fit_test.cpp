@@ -54,6 +54,27 @@ TEST(FitSides, LeavesTheAxesParallelWhereTheWallsAllowIt) {
   EXPECT_EQ(sides.fit.after.stagger, mean_stagger(sides.fit.motions));
 }
 
+/// Between a bound of the radius and one of slenderness that no tool keeps both fits went astray, and covered nothing.
+TEST(FitSides, NoTwoBoundsThatNoToolKeepsHoldOneAnother) {
+  if (kThreadSanitized) GTEST_SKIP() << "its parallel loops are those of fit";
+  const std::vector<Face> walls = cavity_walls({});
+  const std::unique_ptr<Target> left = make_target({walls[0]}), right = make_target({walls[1]});
+  const CavitySide a{left.get(), nullptr}, b{right.get(), nullptr};
+  SideFitOptions options;
+  options.fit.tolerance_mm = 0.02;
+  options.fit.bounds.smallest = 0.5;
+  options.fit.bounds.largest = 1.5;
+  options.fit.bounds.slenderest = 8.0;
+  options.starts = {{1.4, 0.3}};
+  options.slender = false;
+  EXPECT_TRUE(fit_sides(a, b, {}, options, {}).fit.motions.empty()) << "more layers have a shorter tool";
+  options.slender = true;
+  const SideFit sides = fit_sides(a, b, {}, options, {});
+  ASSERT_EQ(sides.fit.motions.size(), 2u);
+  EXPECT_GT(sides.fit.after.at_tolerance, 0.95);
+  EXPECT_LE(sides.fit.tool.largest(), 1.5 + 1e-6);
+}
+
 /// A thin tool reaches more of a wall that stands on a floor, which is no reason to leave a stout one that covers what it reaches.
 TEST(FitSides, AreDoneWithWhatTheirToolReaches) {
   if (kThreadSanitized) GTEST_SKIP() << "its parallel loops are those of fit";

@@ -47,6 +47,28 @@ TEST(HalfPath, BulgesForwardAndLiftsAlongTheAxis) {
   EXPECT_GT((middle(0.0, 2.0) - middle(0.0, 0.0)).z(), 1.0);
 }
 
+/// Before a wall a half has little room ahead: it goes on being tangential, or the tool would be in a corner that is as round as itself.
+TEST(HalfPath, BeforeAWallItTurnsInCornersAsRoundAsTheRoomIs) {
+  const SidePath a(bent_side(0.0, 1.0), false), b(bent_side(16.0, -1.0), false);
+  const AxisPlace from = a.at(20.0), to = b.at(20.0).reversed();
+  const HalfShape shape{3.0, 3.0, 2.0, 0.0};
+  for (const double room : {2.0, 1.0, 0.5}) {
+    const RuledMotion half = half_before_wall(30.0, from, to, shape, room, room);
+    EXPECT_NEAR(reach_ahead(half, from, to), room, 0.06 * room) << room;
+    const AxisJet start = half.jet(0.0), end = half.jet(1.0);
+    EXPECT_GT(start.velocity(15.0).normalized().dot(from.velocity(15.0).normalized()), 1.0 - 1e-12);
+    EXPECT_GT(end.velocity(15.0).normalized().dot(to.velocity(15.0).normalized()), 1.0 - 1e-12);
+    double sharpest = 0.0;
+    for (int k = 0; k < 4000; ++k) {
+      const AxisJet jet = half.jet(k / 4000.0), next = half.jet((k + 1) / 4000.0);
+      const double angle =
+          std::acos(std::min(1.0, jet.velocity(15.0).normalized().dot(next.velocity(15.0).normalized())));
+      sharpest = std::max(sharpest, angle / (next.at(15.0) - jet.at(15.0)).norm());
+    }
+    EXPECT_LT(sharpest, 1.7 / room) << "nearly as round as a quarter of a circle";
+  }
+}
+
 /// A floor that rises ahead of the sides is entered just off the ends, where the inner points hardly lift the tip.
 TEST(HalfPath, ALiftKeepsTheTipOffAFloorThatRisesFromTheEnds) {
   const double slope = 0.1, gap = 9.0, handle = 1.4;

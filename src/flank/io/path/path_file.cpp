@@ -33,8 +33,10 @@ Strip strip_from(const JsonInput& in) {
   strip.id = in.member("id").integer();
   if (in.has("kind")) strip.kind = in.member("kind").text();
   if (in.has("face")) strip.face = in.member("face").text();
-  if (in.has("layer")) strip.layer = in.member("layer").integer();
-  if (strip.layer < 0) in.member("layer").refuse("must be 1 or more");
+  if (in.has("layer")) {
+    strip.layer = in.member("layer").integer();
+    if (strip.layer < 1) in.member("layer").refuse("must be 1 or more");
+  }
   const JsonInput poses = in.member("poses");
   if (poses.size() == 0) poses.refuse("at least one pose [x, y, z, i, j, k] is needed");
   strip.poses.reserve(poses.size());

@@ -30,6 +30,15 @@ constexpr int kInVain = 2;
 /// Diameters of way across, least_way_across: below, cycles crawl and get stuck, however wide the cavity is elsewhere.
 constexpr double kLeastWay = 0.3;
 
+/// What a search is about.
+struct Search {
+  const TrochoidJob& job;
+  const CavityFaces& faces;
+  const ToolModel& tool;
+  const CavityJudge& judge;
+  const Progress& progress;
+};
+
 double reach_of(const SideFit& sides, const CavityFaces& faces) {
   return reach_of_tool(side_of(faces.sides[0]), side_of(faces.sides[1]), sides.fit.motions, sides.fit.tool);
 }
@@ -53,18 +62,21 @@ SideState state_of(const SideFit& sides, const CavityFaces& faces, const Trochoi
   return e.at_tolerance >= least * reach_of(sides, faces) ? SideState::kObstructed : SideState::kShort;
 }
 
-/// As many layers as the tolerance needs, or as many as are asked for: not those that cannot help.
-SideFit search_sides(const TrochoidJob& job, const CavityFaces& faces, const ToolModel& tool, SideFitOptions options,
-                     const Progress& progress) {
+/// As many layers as the tolerance needs, `fewest` or more, or as many as are asked for: not those that cannot help.
+SideFit search_sides(const Search& search, SideFitOptions options, int fewest) {
+  const auto& [job, faces, tool, judge, progress] = search;
   const CavitySide left = side_of(faces.sides[0]), right = side_of(faces.sides[1]);
   SideFit best;
-  const int first = job.cycles.layers > 0 ? job.cycles.layers : 1, last = job.cycles.layers > 0 ? first : kMostLayers;
+  const int first = job.cycles.layers > 0 ? job.cycles.layers : fewest,
+            last = job.cycles.layers > 0 ? first : kMostLayers;
   for (int layers = first; layers <= last; ++layers) {
     options.layers = layers;
+    // More layers make a shorter tool, which is less slender.
+    options.slender = layers == last;
     SideFit tried = fit_sides(left, right, tool, options, progress);
     const bool better = best.fit.motions.empty() ||
                         tried.fit.after.score(job.tolerance_mm) > best.fit.after.score(job.tolerance_mm) + 0.002;
-    const bool ends = last > first && state_of(tried, faces, job) != SideState::kShort;
+    const bool ends = state_of(tried, faces, job) != SideState::kShort;
     if (better) best = std::move(tried);
     if (ends || !better || progress.stop()) break;
   }
@@ -119,6 +131,10 @@ double cleared(const CavityPlan& plan) {
 /// What is better comes first: cycles that get through, then what they let the sides cover, then what enters faces less
 /// deep, then sides.
 bool is_better(const CavityPlan& a, const CavityPlan& b, double tolerance) {
+  if (a.finding && b.finding) {
+    if (a.finding->meets != b.finding->meets) return a.finding->meets;
+    if (a.finding->covered != b.finding->covered) return a.finding->covered > b.finding->covered;
+  }
   if (a.sides.fit.motions.empty() != b.sides.fit.motions.empty()) return b.sides.fit.motions.empty();
   if (gets_through(a, tolerance) != gets_through(b, tolerance)) return gets_through(a, tolerance);
   if (a.program.done() != b.program.done()) return a.program.done();
@@ -131,12 +147,19 @@ bool is_better(const CavityPlan& a, const CavityPlan& b, double tolerance) {
   return a.sides.fit.after.score(tolerance) > b.sides.fit.after.score(tolerance);
 }
 
-CavityPlan planned(SideFit sides, const TrochoidJob& job, const CavityFaces& faces, double bound, int most_rewinds,
-                   const Progress& progress) {
+CavityPlan uncut_plan(SideFit sides, double bound) {
   CavityPlan out;
-  out.program = plan(job, faces, sides, most_rewinds, progress);
   out.sides = std::move(sides);
   out.largest_radius_mm = bound;
+  return out;
+}
+
+CavityPlan planned(SideFit sides, const Search& search, double bound, int most_rewinds) {
+  CavityProgram program = plan(search.job, search.faces, sides, most_rewinds, search.progress);
+  CavityPlan out = uncut_plan(std::move(sides), bound);
+  out.program = std::move(program);
+  if (search.judge && gets_through(out, search.job.tolerance_mm) && !search.progress.stop())
+    out.finding = search.judge(out);
   return out;
 }
 
@@ -147,19 +170,21 @@ bool is_narrow(const SideFit& sides) { return least_way_across(sides.fit.motions
 /// or cycles get stuck between them, sides as they come. If a thinner tool may be tried, no cycles for one that has hardly any
 /// way across, nor between sides that cover too little, whatever cycles there are: such sides take the place of `uncut` if they
 /// cover more.
-CavityPlan search_ways(const TrochoidJob& job, const CavityFaces& faces, const ToolModel& tool, SideFitOptions options,
-                       bool thinner, const Progress& progress, CavityPlan& uncut) {
+CavityPlan search_ways(const Search& search, SideFitOptions options, bool thinner, CavityPlan& uncut) {
+  const auto& [job, faces, tool, judge, progress] = search;
   const double bound = options.fit.bounds.largest;
-  const auto sides = [&](bool facing) {
+  const auto sides = [&](bool facing, int fewest) {
     options.facing = facing;
-    return search_sides(job, faces, tool, options, progress);
+    return search_sides(search, options, fewest);
   };
-  SideFit alike = sides(true);
-  if (thinner && is_narrow(alike)) return {std::move(alike), {}, bound};
+  SideFit alike = sides(true, 1);
+  // Fewer layers than the tool of these has are too few for it either way: they were too slender, or covered less.
+  const int layers = std::max(1, static_cast<int>(alike.fit.motions.size()) / 2);
+  if (thinner && is_narrow(alike)) return uncut_plan(std::move(alike), bound);
   const auto plan_of = [&](SideFit fit) {
     if (!thinner || state_of(fit, faces, job) != SideState::kShort)
-      return planned(std::move(fit), job, faces, bound, kFewRewinds, progress);
-    const CavityPlan plan{std::move(fit), {}, bound};
+      return planned(std::move(fit), search, bound, kFewRewinds);
+    const CavityPlan plan = uncut_plan(std::move(fit), bound);
     if (plan.sides.fit.after.at_tolerance > uncut.sides.fit.after.at_tolerance) uncut = plan;
     return plan;
   };
@@ -168,7 +193,7 @@ CavityPlan search_ways(const TrochoidJob& job, const CavityFaces& faces, const T
   // What all cycles get past, but enters a face, is not the leans'.
   if (facing.program.done() && state_of(facing.sides, faces, job) != SideState::kShort) return facing;
   if (facing.program.stuck_along_axis()) return facing;
-  SideFit as_they_come = sides(false);
+  SideFit as_they_come = sides(false, layers);
   // Cycles cannot make up for sides that cover no more, where the others' get through all of the way.
   const double tolerance = job.tolerance_mm;
   if (gets_through(facing, tolerance) && cleared(facing) == 1.0 &&
@@ -179,22 +204,21 @@ CavityPlan search_ways(const TrochoidJob& job, const CavityFaces& faces, const T
 }
 
 /// The same with a tool that is nearly as thick everywhere, if that is what is missing and it does more.
-CavityPlan search_even(const TrochoidJob& job, const CavityFaces& faces, const ToolModel& tool, SideFitOptions options,
-                       const Progress& progress, CavityPlan tried, CavityPlan& uncut) {
+CavityPlan search_even(const Search& search, SideFitOptions options, CavityPlan tried, CavityPlan& uncut) {
+  const auto& [job, faces, tool, judge, progress] = search;
   if (!tool.free() || !wants_even_tool(tried, faces, job) || progress.stop()) return tried;
   options.starts = {{options.starts.front().radius_mm, kEven}};
-  CavityPlan even = search_ways(job, faces, tool, options, true, progress, uncut);
+  CavityPlan even = search_ways(search, options, true, uncut);
   return is_done(even, faces, job) || is_better(even, tried, job.tolerance_mm) ? even : tried;
 }
 
 /// Cycles between sides that got none, if more may be finished so than by the best.
-void try_uncut(CavityPlan uncut, const TrochoidJob& job, const CavityFaces& faces, const Progress& progress,
-               CavityPlan& best) {
+void try_uncut(const Search& search, CavityPlan uncut, CavityPlan& best) {
   const double finished = cleared(best) * best.sides.fit.after.at_tolerance;
-  if (!(uncut.sides.fit.after.at_tolerance > finished) || progress.stop()) return;
-  CavityPlan tried = planned(std::move(uncut.sides), job, faces, uncut.largest_radius_mm, kFewRewinds, progress);
+  if (!(uncut.sides.fit.after.at_tolerance > finished) || search.progress.stop()) return;
+  CavityPlan tried = planned(std::move(uncut.sides), search, uncut.largest_radius_mm, kFewRewinds);
   tried.tools = best.tools;
-  if (is_better(tried, best, job.tolerance_mm)) best = std::move(tried);
+  if (is_better(tried, best, search.job.tolerance_mm)) best = std::move(tried);
 }
 
 }  // namespace
@@ -207,6 +231,7 @@ std::vector<RadiusStart> starts_under(double bound_mm, double least_mm) {
 }
 
 bool is_done(const CavityPlan& plan, const CavityFaces& faces, const TrochoidJob& job) {
+  if (plan.finding) return plan.finding->meets;
   if (!gets_through(plan, job.tolerance_mm) || state_of(plan.sides, faces, job) == SideState::kShort) return false;
   const FlankFitResult& fit = plan.sides.fit;
   const CavitySide left = side_of(faces.sides[0]), right = side_of(faces.sides[1]);
@@ -241,7 +266,8 @@ bool SearchPatience::ends_after(bool gained, bool through) {
 }
 
 CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const ToolModel& tool,
-                         const SideFitOptions& options, const Progress& progress) {
+                         const SideFitOptions& options, const CavityJudge& judge, const Progress& progress) {
+  const Search search{job, faces, tool, judge, progress};
   CavityPlan best, uncut;
   const bool given = !tool.free() && tool.radius;
   int tools = 0;
@@ -255,8 +281,8 @@ CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const
     if (!tool.free()) here.starts.resize(1);
     if (given) here.starts.front().radius_mm = *tool.radius;
     const double most_uncut = uncut.sides.fit.after.at_tolerance;
-    CavityPlan tried = search_ways(job, faces, tool, here, !given && bound != bounds.back(), progress, uncut);
-    tried = search_even(job, faces, tool, here, progress, std::move(tried), uncut);
+    CavityPlan tried = search_ways(search, here, !given && bound != bounds.back(), uncut);
+    tried = search_even(search, here, std::move(tried), uncut);
     const bool done = is_done(tried, faces, job);
     // A tool that has hardly any way across got no cycles, and says nothing of thinner ones.
     const bool narrow = tried.program.layers.empty() && is_narrow(tried.sides);
@@ -269,11 +295,11 @@ CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const
     if (done || given || in_vain || best.program.stuck_along_axis() || progress.stop()) break;
   }
   // Where no tool does it, the sides without cycles may be those that leave least.
-  if (!is_done(best, faces, job)) try_uncut(std::move(uncut), job, faces, progress, best);
+  if (!is_done(best, faces, job)) try_uncut(search, std::move(uncut), best);
   // The long search for a way past a place where cycles get stuck comes last: another tool may have no such place.
   if (!best.program.done() && !best.program.stuck_along_axis() && !best.sides.fit.motions.empty() && !progress.stop()) {
-    CavityPlan tried = planned(best.sides, job, faces, best.largest_radius_mm, kMostRewinds, progress);
-    if (is_better(tried, best, job.tolerance_mm)) best.program = std::move(tried.program);
+    CavityPlan tried = planned(best.sides, search, best.largest_radius_mm, kMostRewinds);
+    if (is_better(tried, best, job.tolerance_mm)) best.program = std::move(tried.program), best.finding = tried.finding;
   }
   return best;
 }

@@ -1,6 +1,8 @@
 /// The search for a cavity's tool, side paths and program: from thick tools to thin ones.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,12 +12,24 @@
 
 namespace flank::internal {
 
-struct CavityPlan {
-  SideFit sides;                   ///< no motions: no start was free
-  CavityProgram program;           ///< none if the tool is not legitimate
-  double largest_radius_mm = 0.0;  ///< the bound under which the tool was found
-  int tools = 0;                   ///< bounds that were tried
+/// What the judge finds of a program.
+struct CavityFinding {
+  bool meets = false;    ///< all that is asked
+  double covered = 0.0;  ///< of what is reachable
+  int number = 0;        ///< of the judge's, to find it again
 };
+
+struct CavityPlan {
+  SideFit sides;                         ///< no motions: no start was free
+  CavityProgram program;                 ///< none if the tool is not legitimate
+  double largest_radius_mm = 0.0;        ///< the bound under which the tool was found
+  int tools = 0;                         ///< bounds that were tried
+  std::optional<CavityFinding> finding;  ///< none: its cycles do not get through, or nobody judged it
+};
+
+/// Judges a plan whose cycles get through; none where it was stopped. Estimates of what is covered are a percent off beside walls,
+/// where what is reachable ends, so they do not say whether the verdict will be met.
+using CavityJudge = std::function<std::optional<CavityFinding>(const CavityPlan&)>;
 
 /// Bounds of the radius that are tried, mm, from thick to thin: a thick tool makes a short path. The narrowest place has room for
 /// one of them; where most of the cavity is much wider, thicker ones come first, unless the job has a bound: a tool that is
@@ -26,8 +40,8 @@ struct CavityPlan {
 /// will be stays against the bound between walls that bulge, whose tool has a waist: where little is covered so, a thinner one begins.
 [[nodiscard]] std::vector<RadiusStart> starts_under(double bound_mm, double least_mm);
 
-/// Whether cycles get through, enter nothing, and the verdict will find the share that is asked for: of what a ball of the least
-/// radius reaches. Some of that a tool that is thicker elsewhere leaves beside a wall, and cycles what no step there keeps the limit
+/// Whether the judge finds all that is asked. Where nobody has judged it, whether cycles get through, enter nothing, and the verdict
+/// may be expected to find the share that is asked for: of what a ball of the least radius reaches. Some of that a tool that is thicker elsewhere leaves beside a wall, and cycles what no step there keeps the limit
 /// for: a thinner one may get nearer.
 [[nodiscard]] bool is_done(const CavityPlan& plan, const CavityFaces& faces, const TrochoidJob& job);
 
@@ -50,6 +64,7 @@ class SearchPatience {
 /// get through and whose sides are best; else the one that gets farthest. The search ends where thinner bounds gain
 /// nothing (SearchPatience). A tool that is given is tried alone.
 [[nodiscard]] CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const ToolModel& tool,
-                                       const SideFitOptions& options, const Progress& progress);
+                                       const SideFitOptions& options, const CavityJudge& judge,
+                                       const Progress& progress);
 
 }  // namespace flank::internal

@@ -11,6 +11,7 @@
 #include "flank/fit/fit_record.h"
 #include "flank/fit/polish.h"
 #include "flank/fit/swept_polish.h"
+#include "flank/fit/tried.h"
 #include "flank/motion/stagger.h"
 #include "flank/trochoid/sides/axial_ends.h"
 
@@ -119,6 +120,14 @@ Polished with_axial_ends_cut(Polished polished, const std::vector<SurfaceSample>
   return out;
 }
 
+/// The same, without a bound on slenderness where even the thickest cylinder that is allowed does not keep it: between bounds that no
+/// tool keeps a fit goes astray.
+FlankFitOptions possible(FlankFitOptions fit, double axis_length) {
+  const RadialFunction thickest(ToolFamily::kCylinder, axis_length, Eigen::VectorXd::Constant(1, fit.bounds.largest));
+  if (slenderness_of(thickest, fit.bounds) > fit.bounds.slenderest) fit.bounds.slenderest = RadiusBounds{}.slenderest;
+  return fit;
+}
+
 class SideFitter {
  public:
   SideFitter(const CavitySide& left, const CavitySide& right, const ToolModel& tool, const SideFitOptions& options)
@@ -140,7 +149,7 @@ class SideFitter {
   [[nodiscard]] const std::vector<SurfaceSample>& samples() const { return samples_; }
 
  private:
-  [[nodiscard]] Candidate quick(const SideStart& start, const FlankFitOptions& fit) const;
+  [[nodiscard]] Candidate quick(const SideStart& start, const FlankFitOptions& asked) const;
 
   const CavitySide &left_, &right_;
   const ToolModel& tool_;
@@ -149,13 +158,15 @@ class SideFitter {
   std::vector<SurfaceSample> samples_, few_;
 };
 
-Candidate SideFitter::quick(const SideStart& start, const FlankFitOptions& fit) const {
+Candidate SideFitter::quick(const SideStart& start, const FlankFitOptions& asked) const {
   Candidate candidate;
   candidate.swapped = start.swapped;
   const auto length = [this](double wanted) { return tool_.length_for(wanted, options_.fit.axis_length_mm); };
   const std::vector<FitTask> tasks =
       side_tasks(left_, right_, left_chart_, right_chart_, start, options_.layers, length, options_.up);
   if (tasks.empty()) return candidate;
+  const FlankFitOptions fit = possible(asked, tasks.front().motion.axis_length);
+  if (!options_.slender && fit.bounds.slenderest != asked.bounds.slenderest) return candidate;
   FitDraft draft = start_draft(tasks, tool_, start.radius_mm);
   draft.facing = options_.facing;
   FitStage stage = quick_stage(robust_scale(*left_.target, fit));
@@ -188,7 +199,8 @@ RadiusFit SideFitter::fit_radius(const RadiusStart& first) const {
   std::vector<Polished> polished(candidates.size());
   std::vector<std::vector<IterationTrace>> traces(candidates.size());
   parallel_for(candidates.size(), [&](std::size_t k) {
-    polished[k] = with_axial_ends_cut(polish(candidates[k].draft, samples_, fit, &traces[k]), samples_, fit);
+    const FlankFitOptions here = possible(fit, candidates[k].draft.tool.axis_length());
+    polished[k] = with_axial_ends_cut(polish(candidates[k].draft, samples_, here, &traces[k]), samples_, here);
   });
   const auto value = [&](std::size_t k) {
     return worth(polished[k].draft, polished[k].estimate, options_.fit.tolerance_mm);
@@ -198,6 +210,7 @@ RadiusFit SideFitter::fit_radius(const RadiusStart& first) const {
     if (value(k) > value(best)) best = k;
   if (polished.empty()) return out;
   out.trace = std::move(traces[best]);
+  fit = possible(std::move(fit), polished[best].draft.tool.axis_length());
   out.polished = last_passes(polished[best], samples_, fit, &out.trace);
   // The passes for envelopes do not look across the cavity. A true envelope is not given away for its stagger; what is only
   // near to one is.
@@ -252,8 +265,9 @@ SideFit search_radii(const CavitySide& left, const CavitySide& right, const Tool
     out.fit.message = "no axis that touches both sides is free";
     return out;
   }
-  const Polished close = settled(without_overcut(best, fitter.samples(), options.fit), options.fit);
-  out.fit = finish(close, options.fit, std::move(out.fit));
+  const FlankFitOptions fit = possible(options.fit, best.draft.tool.axis_length());
+  const Polished close = settled(without_overcut(best, fitter.samples(), fit), fit);
+  out.fit = finish(close, fit, std::move(out.fit));
   return out;
 }
 
@@ -315,7 +329,7 @@ SideFit fit_sides(const CavitySide& left, const CavitySide& right, const ToolMod
                   const Progress& progress) {
   return journaled(
       progress, "sides", [&] { return search_radii(left, right, tool, options, progress); }, options.fit,
-      options.layers, options.starts, tool, options.facing);
+      options.layers, options.starts, tool, options.slender, options.facing);
 }
 
 }  // namespace flank::internal

@@ -23,6 +23,10 @@ struct SideFitOptions {
   std::vector<RadiusStart> starts;
   double least_coverage = 0.97;  ///< of what is reachable, planner's estimate, that counts as done
   std::optional<Vec3> up;        ///< from the floor to the open top, if it is known
+  /// Whether a start may be more slender than the bounds allow where even a cylinder as thick as they allow is: then nothing holds
+  /// the tool but its radius. Else it is left out, for more layers, whose tool is shorter: a fit between bounds that no tool
+  /// keeps goes astray.
+  bool slender = true;
   /// Every pass draws the axes of both sides to the same lean, so that a cycle need not turn the tool along its way. Where
   /// walls ask for something else that costs coverage, or leads the cycles into a corner.
   bool facing = true;

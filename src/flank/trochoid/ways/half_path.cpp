@@ -107,8 +107,41 @@ RuledMotion half_path_across(double axis_length, const AxisPlace& from, const Ax
   return half_path(axis_length, turned(from, share_from), turned(to, share_to), less);
 }
 
-RuledMotion half_before_wall(double axis_length, const AxisPlace& from, const AxisPlace& to, const HalfShape& shape,
-                             double room_from, double room_to) {
+RuledMotion half_path_round(double axis_length, const AxisPlace& from, const AxisPlace& to, double lift_mm,
+                            double corner_from, double corner_to) {
+  // Of a corner's radius: how far its control points are ahead of the end, and across. The first spans then turn by a right angle
+  // about as evenly as a quarter of a circle, and reach as far ahead as the radius.
+  constexpr std::array<double, 3> kAhead = {0.45, 0.95, 1.0}, kAcross = {0.0, 0.35, 1.3};
+  constexpr int kRoundPoles = 9, kEnd = kRoundPoles - 1;
+  const double gap = (to.at(0.5 * axis_length) - from.at(0.5 * axis_length)).norm();
+  const double per_mm = gap > 0.0 ? 1.0 / gap : 0.0;
+  const Vec3 up = lift_mm * (from.u + to.u).normalized();
+  RuledMotion motion;
+  motion.axis_length = axis_length;
+  for (BSplineCurve3* rail : {&motion.tip, &motion.direction}) {
+    rail->degree = kDegree;
+    rail->knots = uniform_knots(kDegree, kRoundPoles);
+    rail->poles.resize(3, kRoundPoles);
+  }
+  const Vec3 across = per_mm * (to.tip - from.tip), turn = per_mm * (to.u - from.u);
+  motion.tip.poles.col(0) = from.tip, motion.direction.poles.col(0) = from.u;
+  motion.tip.poles.col(kEnd) = to.tip, motion.direction.poles.col(kEnd) = to.u;
+  for (int k = 0; k < 3; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const Vec3 lift = k == 0 ? kLiftAtEnds * up : up;
+    motion.tip.poles.col(1 + k) = from.tip + corner_from * (kAhead[i] * from.tip_dx + kAcross[i] * across) + lift;
+    motion.tip.poles.col(kEnd - 1 - k) = to.tip - corner_to * (kAhead[i] * to.tip_dx + kAcross[i] * across) + lift;
+    motion.direction.poles.col(1 + k) = from.u + corner_from * (kAhead[i] * from.u_dx + kAcross[i] * turn);
+    motion.direction.poles.col(kEnd - 1 - k) = to.u - corner_to * (kAhead[i] * to.u_dx + kAcross[i] * turn);
+  }
+  for (BSplineCurve3* rail : {&motion.tip, &motion.direction})
+    rail->poles.col(kRoundPoles / 2) =
+        0.5 * (rail->poles.col(kRoundPoles / 2 - 1) + rail->poles.col(kRoundPoles / 2 + 1));
+  return motion;
+}
+
+RuledMotion half_off_wall(double axis_length, const AxisPlace& from, const AxisPlace& to, const HalfShape& shape,
+                          double room_from, double room_to) {
   RuledMotion half = half_path(axis_length, from, to, shape);
   const double room = std::min(room_from, room_to);
   if (!std::isfinite(room)) return half;
@@ -116,6 +149,16 @@ RuledMotion half_before_wall(double axis_length, const AxisPlace& from, const Ax
   if (reach <= room) return half;
   return half_path_across(axis_length, from, to, shape, std::clamp(room_from / reach, 0.0, 1.0),
                           std::clamp(room_to / reach, 0.0, 1.0));
+}
+
+RuledMotion half_before_wall(double axis_length, const AxisPlace& from, const AxisPlace& to, const HalfShape& shape,
+                             double room_from, double room_to) {
+  RuledMotion half = half_path(axis_length, from, to, shape);
+  const double room = std::min(room_from, room_to);
+  if (!std::isfinite(room)) return half;
+  const double reach = reach_ahead(half, from, to);
+  if (reach <= room) return half;
+  return half_path_round(axis_length, from, to, shape.lift_mm, std::min(room_from, reach), std::min(room_to, reach));
 }
 
 double way_of_middle(const RuledMotion& motion) {

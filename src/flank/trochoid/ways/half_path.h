@@ -38,8 +38,18 @@ struct HalfShape {
 [[nodiscard]] RuledMotion half_path_across(double axis_length, const AxisPlace& from, const AxisPlace& to,
                                            const HalfShape& shape, double share_from, double share_to);
 
-/// A half path between two places that have so much room ahead before a wall, mm, or infinitely much; turned across as far as it
-/// takes.
+/// A half path that leaves and arrives with the velocities of its ends in corners of these radii, mm, and goes straight across between
+/// them: no half that reaches so far ahead is less bent, and what a cycle engages in a corner grows with how it is bent.
+[[nodiscard]] RuledMotion half_path_round(double axis_length, const AxisPlace& from, const AxisPlace& to,
+                                          double lift_mm, double corner_from, double corner_to);
+
+/// The same where the room is behind, before the wall at which a layer begins: turned across as far as it takes. What is cut there has
+/// been cut by the entry, so that its corners matter little.
+[[nodiscard]] RuledMotion half_off_wall(double axis_length, const AxisPlace& from, const AxisPlace& to,
+                                        const HalfShape& shape, double room_from, double room_to);
+
+/// A half path between two places that have so much room ahead before a wall, mm, or infinitely much: with round corners if it
+/// would reach farther.
 [[nodiscard]] RuledMotion half_before_wall(double axis_length, const AxisPlace& from, const AxisPlace& to,
                                            const HalfShape& shape, double room_from, double room_to);
 

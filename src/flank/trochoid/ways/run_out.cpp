@@ -95,17 +95,41 @@ double farthest(const SidePath& path, const SidePath& other, bool end, const Vec
   return kPast * radius + std::max(0.0, (end ? 1.0 : -1.0) * (there - here).dot(direction));
 }
 
-/// Deepest that a run-out enters a face, mm: up to where cycles begin and end.
-double entered(const SidePath& path, bool end, double radius, double farthest_mm, const HalfGuard& guard) {
-  constexpr double kFirst = 0.1, kGrow = 1.25, kStep = 0.4;  // radii: densest at the end
-  constexpr int kPlaces = 7;
-  GuardDepth depth;
-  for (double by = kFirst; by * radius <= farthest_mm; by += std::min(kStep, (kGrow - 1.0) * by)) {
-    const AxisPlace place = path.at(end ? path.length() + by * radius : -by * radius);
-    guard.look({place.tip, place.u}, kPlaces, depth);
+/// How deep run-outs of one side at one end enter faces, up to where cycles begin and end. Many ways to lay one are tried, and what
+/// spoils one mostly spoils the next: it is asked there first.
+class RunOutLook {
+ public:
+  RunOutLook(const SidePath& path, bool end, double radius, double farthest_mm, const HalfGuard& guard)
+      : path_(path), end_(end), radius_(radius), farthest_(farthest_mm), guard_(guard) {}
+
+  /// The deepest, mm, of the run-out as it is laid now; where that is `enough` or more, the first place that shows it is all that
+  /// is looked at.
+  double deepest(double enough) {
+    constexpr double kFirst = 0.1, kGrow = 1.25, kStep = 0.4;  // radii: densest at the end
+    GuardDepth depth;
+    look(worst_, depth);
+    double most = depth.deepest();
+    for (double by = kFirst; by * radius_ <= farthest_ && most < enough; by += std::min(kStep, (kGrow - 1.0) * by)) {
+      look(by, depth);
+      if (depth.deepest() > most) most = depth.deepest(), worst_ = by;
+    }
+    return most;
   }
-  return depth.deepest();
-}
+
+ private:
+  void look(double by, GuardDepth& depth) const {
+    constexpr int kPlaces = 7;
+    if (by * radius_ > farthest_) return;
+    const AxisPlace place = path_.at(end_ ? path_.length() + by * radius_ : -by * radius_);
+    guard_.look({place.tip, place.u}, kPlaces, depth);
+  }
+
+  const SidePath& path_;
+  bool end_;
+  double radius_, farthest_;
+  const HalfGuard& guard_;
+  double worst_ = 0.1;  ///< radii beyond the end
+};
 
 double entered_at_end(const SidePath& path, bool end, const HalfGuard& guard) {
   constexpr int kPlaces = 7;
@@ -131,6 +155,7 @@ RunOutDepth join_run_outs(SidePath& a, SidePath& b, double radius_mm, const Half
     const double most_a = std::max(allowed_mm, kMore * entered_at_end(a, end, guard));
     const double most_b = std::max(allowed_mm, kMore * entered_at_end(b, end, guard));
     const double far_a = farthest(a, b, end, common, radius_mm), far_b = farthest(b, a, end, common, radius_mm);
+    RunOutLook of_a(a, end, radius_mm, far_a, guard), of_b(b, end, radius_mm, far_b, guard);
     Bend best;
     double least = std::numeric_limits<double>::infinity();
     std::optional<Vec3> axis = common_axis(a, b, end);
@@ -139,8 +164,9 @@ RunOutDepth join_run_outs(SidePath& a, SidePath& b, double radius_mm, const Half
       const Bend bend{common, rise.slope * up,      over * radius_mm, rise_over * radius_mm, rise.until * radius_mm,
                       axis,   kTurnOver * radius_mm};
       lay(a, b, end, bend);
-      const double deep = std::max(entered(a, end, radius_mm, far_a, guard) - most_a,
-                                   entered(b, end, radius_mm, far_b, guard) - most_b);
+      const double deep_a = of_a.deepest(least + most_a) - most_a;
+      if (deep_a >= least) return;
+      const double deep = std::max(deep_a, of_b.deepest(least + most_b) - most_b);
       if (deep >= least) return;
       least = deep;
       best = bend;
