@@ -93,7 +93,7 @@ format-check:  ## check that the sources are formatted
 
 tidy:  ## lint the sources (clang-tidy), or with LAST=40 what the last 40 commits changed
 	scripts/install-deps.sh build dev
-	cmake --preset release -B build/tidy -D FLANK_BUILD_TESTS=OFF -D FLANK_UNITY=OFF -D FLANK_PRECOMPILE=OFF
+	cmake --preset release -B build/tidy -D FLANK_BUILD_TESTS=OFF -D FLANK_UNITY=OFF -D FLANK_PRECOMPILE=OFF -D FLANK_REPORT=OFF
 	scripts/tidy.py build/tidy $(if $(LAST),--last $(LAST))
 
 clean:

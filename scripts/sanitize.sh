@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds one sanitized variant (asan: address and undefined behaviour, all tests; tsan: threads, the tests of parallel code) and
+# Builds one sanitized variant (asan: address and undefined behaviour, all tests; tsan: threads, the tests of parallel loops) and
 # runs it.
 # usage: sanitize.sh asan|tsan [FOLDER...]   (only the tests of these folders)
 set -euo pipefail

@@ -79,9 +79,10 @@ TEST(RandomFaces, AFitEndsWithNumbersAndWords) {
 
 /// Everything is measured by the face and the tolerance: a face of a millimetre is fitted as one of a hundred is.
 TEST(RandomFaces, AFaceIsFittedTheSameInAnySize) {
+  if (kSanitized) GTEST_SKIP() << "two fits more on the path of the others";
   constexpr int kFaces = 2;
   constexpr double kSmaller = 1.0 / 64.0;  // a power of two, which rounds nothing
-  for (int k = 0; k < (kSanitized ? 1 : kFaces); ++k) {
+  for (int k = 0; k < kFaces; ++k) {
     Random random(static_cast<std::uint64_t>(815 + k));
     Face face = random_face(random);
     const double size = make_target({face}, +1)->diagonal();

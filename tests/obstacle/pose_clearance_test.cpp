@@ -71,13 +71,14 @@ double brute_triangle(const std::vector<std::vector<Vec2>>& convex, const Pose& 
 
 TEST(TriangleDistance, AgreesWithBruteForce) {
   Random random(17);
+  const int trials = kSanitized ? 10 : 150;
   for (const std::vector<Vec2>& profile : {std::vector<Vec2>{{0, 4}, {30, 4}},
                                            {{0, 0}, {30, 9}},
                                            {{0, 7}, {20, 2}},
                                            {{0, 3}, {5, 6}, {20, 8}, {30, 8}, {34, 2}},
                                            {{5, 7}}}) {
     const ConvexProfile body(profile);
-    for (int k = 0; k < 150; ++k) {
+    for (int k = 0; k < trials; ++k) {
       const Pose pose{random_point(random, 10.0), random_point(random, 1.0).normalized()};
       const Vec3 middle = pose.at(15.0) + random_point(random, 25.0);
       const double size = k % 2 == 0 ? 4.0 : 40.0;
@@ -135,7 +136,7 @@ TEST(PoseChecker, GradientAgainstFiniteDifferences) {
   Random random(23);
   Tool tool = cylinder_tool();
   const std::vector<std::vector<Vec2>> shapes{{{20, 4}, {50, 4}}, {{50, 10}, {60, 10}}, {{60, 10}, {90, 14}, {95, 9}}};
-  const int trials = kSanitized ? 40 : 200;
+  const int trials = kSanitized ? 10 : 200;
   int checked = 0, kinks = 0;
   for (int k = 0; k < trials; ++k) {
     const Pose pose{random_point(random, 5.0), (Vec3::UnitZ() + random_point(random, 0.3)).normalized()};

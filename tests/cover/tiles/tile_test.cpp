@@ -11,6 +11,7 @@
 #include "flank/base/random.h"
 #include "flank/cover/tiles/smooth.h"
 #include "flank/threads.h"
+#include "sanitized.h"
 
 namespace flank::internal {
 namespace {
@@ -83,7 +84,7 @@ class Choice : public ::testing::Test {
 TEST_F(Choice, ComesUpToTheBestOfAllSubsets) {
   Random random(101);
   options_.strip_price = 0.04;
-  constexpr int kTrials = 40;
+  constexpr int kTrials = kSanitized ? 10 : 40;
   int best = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
     const std::vector<CoverStrip> pool = random_pool(8, random);
@@ -98,7 +99,7 @@ TEST_F(Choice, ComesUpToTheBestOfAllSubsets) {
 TEST_F(Choice, NoExchangeAdditionOrRemovalIsBetter) {
   Random random(102);
   options_.strip_price = 0.02;
-  for (int trial = 0; trial < 40; ++trial) {
+  for (int trial = 0; trial < (kSanitized ? 10 : 40); ++trial) {
     const std::vector<CoverStrip> pool = random_pool(14, random);
     const StripSet set = choose(pool);
     const double value = worth(pool, set);
@@ -124,7 +125,7 @@ TEST_F(Choice, NoExchangeAdditionOrRemovalIsBetter) {
 TEST_F(Choice, TheOrderOfThePoolDoesNotMatter) {
   Random random(103);
   options_.strip_price = 0.02;
-  for (int trial = 0; trial < 20; ++trial) {
+  for (int trial = 0; trial < (kSanitized ? 5 : 20); ++trial) {
     const std::vector<CoverStrip> pool = random_pool(10, random);
     std::vector<int> order(pool.size());
     std::iota(order.begin(), order.end(), 0);

@@ -39,7 +39,7 @@ TEST(WidthBetween, CountsWhatNothingCovers) {
 
 /// Hollow walls leave open how far an axis leans along them; the cycles between them do not.
 TEST(FitSides, LeavesTheAxesParallelWhereTheWallsAllowIt) {
-  if (kThreadSanitized) GTEST_SKIP() << "its parallel loops are those of fit";
+  if (kSanitized) GTEST_SKIP() << "on the path of AreDoneWithWhatTheirToolReaches";
   const std::vector<Face> walls = cavity_walls({});
   const std::unique_ptr<Target> left = make_target({walls[0]}), right = make_target({walls[1]});
   SideFitOptions options;
@@ -106,7 +106,7 @@ TEST(FitSides, AreDoneWithWhatTheirToolReaches) {
 /// Deep hollows begin badly along the walls, and well across them: of the ways across, two that are each other's mirror image
 /// took both places, and the tool lay along the cavity.
 TEST(FitSides, TryAnotherWayThanTwoThatAreMirrorImages) {
-  if (kThreadSanitized) GTEST_SKIP() << "its parallel loops are those of fit";
+  if (kSanitized) GTEST_SKIP() << "on the path of AreDoneWithWhatTheirToolReaches";
   CavityShape deep;
   deep.hollow_mm = 3.0;
   const std::vector<Face> walls = cavity_walls(deep);
