@@ -136,11 +136,12 @@ TEST(PoseChecker, GradientAgainstFiniteDifferences) {
   Random random(23);
   Tool tool = cylinder_tool();
   const std::vector<std::vector<Vec2>> shapes{{{20, 4}, {50, 4}}, {{50, 10}, {60, 10}}, {{60, 10}, {90, 14}, {95, 9}}};
-  const int trials = kSanitized ? 10 : 200;
+  const int trials = kSanitized ? 40 : 200;
   int checked = 0, kinks = 0;
   for (int k = 0; k < trials; ++k) {
     const Pose pose{random_point(random, 5.0), (Vec3::UnitZ() + random_point(random, 0.3)).normalized()};
     std::vector<ObstacleMesh> surfaces;
+    const bool compared = !kSanitized || k % 10 == 0;
     double brute = 1e300;
     for (int i = 0; i < 3; ++i) {
       const Vec3 middle = pose.at(random.uniform(10.0, 100.0)) + random_point(random, 25.0);
@@ -148,14 +149,16 @@ TEST(PoseChecker, GradientAgainstFiniteDifferences) {
                                   middle + random_point(random, 6.0)};
       surfaces.push_back(triangle(v[0], v[1], v[2]));
       surfaces.back().flank_may_touch = true;
-      brute = std::min(brute, brute_triangle(shapes, pose, v));
+      if (compared) brute = std::min(brute, brute_triangle(shapes, pose, v));
     }
     const PoseChecker checker(tool, surfaces);
     const PoseClearance found = checker.measure(pose);
     // No place that brute force finds is nearer, and the place that is found is as near as it says.
     const double slack = 1e-6 + (brute < 0.0 ? -3e-3 * brute : 0.0);
-    ASSERT_LE(found.clearance_mm, brute + slack) << k;
-    ASSERT_NEAR(brute_point(shapes, pose, found.point), found.clearance_mm, slack) << k;
+    if (compared) {
+      ASSERT_LE(found.clearance_mm, brute + slack) << k;
+      ASSERT_NEAR(brute_point(shapes, pose, found.point), found.clearance_mm, slack) << k;
+    }
     if (found.clearance_mm < 0.1) continue;
     const double h = 1e-4;
     double worst = 0.0;
