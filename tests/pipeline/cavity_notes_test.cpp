@@ -96,6 +96,23 @@ TEST(CavityNotes, WhereCyclesGotStuckTheLimitThatGetsPastIsTold) {
   EXPECT_NE(notes[1].find("the rest is left"), std::string::npos) << notes[1];
 }
 
+TEST(CavityNotes, FrontsThatDoNotGetIntoTheCavityAreTold) {
+  CavityProgram program;
+  PlannedLayer& layer = program.layers.emplace_back();
+  layer.cycles.status = CycleStatus::kStuck;
+  layer.cycles.cycles.resize(134);
+  const auto told = [&](double share) {
+    layer.share = share;
+    std::vector<std::string> notes;
+    note_what_is_open({}, program, notes);
+    return std::count_if(notes.begin(), notes.end(), [](const std::string& note) {
+      return note.find("all 134 fronts end before one of the sides begins") != std::string::npos;
+    });
+  };
+  EXPECT_EQ(told(0.0), 1);
+  EXPECT_EQ(told(0.1), 0);
+}
+
 TEST(CavityNotes, WhereTheSidesLeadAlongTheAxisOfStuckCyclesThatIsTold) {
   CavityProgram program;
   program.layers.emplace_back();

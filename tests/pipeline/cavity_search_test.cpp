@@ -107,6 +107,42 @@ TEST(CavitySearch, StartsSlimWhereAThickStartCoversLittle) {
   EXPECT_LT(sides.fit.after.overcut_mm, 0.1 * options.fit.tolerance_mm);
 }
 
+/// A layer whose cycles ended so.
+PlannedLayer layer_of(CycleStatus status, int cycles, double share) {
+  PlannedLayer layer;
+  layer.cycles.status = status;
+  layer.cycles.cycles.resize(static_cast<std::size_t>(cycles));
+  layer.share = share;
+  return layer;
+}
+
+TEST(CavitySearch, EndsWhereCyclesGetStuckBeforeTheSidesBegin) {
+  // Each bound would take fits of up to five layers, with and without leans that are alike, and all of its cycles.
+  CavityProgram program;
+  EXPECT_FALSE(ends_search(program, true)) << "no cycles were looked for";
+  program.layers = {layer_of(CycleStatus::kStuck, 134, 0.0)};
+  EXPECT_TRUE(ends_search(program, true));
+  EXPECT_FALSE(ends_search(program, false)) << "a tool that is given: there is no other";
+  program.layers = {layer_of(CycleStatus::kStuck, 0, 0.0)};
+  EXPECT_FALSE(ends_search(program, true)) << "no first front, or no way in: a thinner tool may have one";
+  program.layers = {layer_of(CycleStatus::kStuck, 134, 0.02)};
+  EXPECT_FALSE(ends_search(program, true)) << "they have begun on the sides, and another tool may get farther";
+  program.layers = {layer_of(CycleStatus::kDone, 50, 1.0), layer_of(CycleStatus::kStuck, 30, 0.0)};
+  EXPECT_FALSE(ends_search(program, true)) << "the layer above got through";
+  program.layers = {layer_of(CycleStatus::kCancelled, 30, 0.0)};
+  EXPECT_FALSE(ends_search(program, true));
+}
+
+TEST(CavitySearch, SidesWithoutCyclesAreNoBetterForEnteringNothing) {
+  // The former have a tool with hardly a way across; the latter cover more, and their cycles, stuck before them, enter a hair.
+  CavityPlan uncut = finished(0.6), stuck = finished(0.9);
+  uncut.program.layers.clear();
+  stuck.program.layers = {layer_of(CycleStatus::kStuck, 134, 0.0)};
+  stuck.program.layers.front().cycles.cycles.front().entered_mm = 0.003;
+  EXPECT_TRUE(is_better(stuck, uncut, 0.01));
+  EXPECT_FALSE(is_better(uncut, stuck, 0.01));
+}
+
 TEST(CavitySearch, EndsAtOnceWhereCyclesGetThroughAndAThinnerToolGainsNothing) {
   SearchPatience patience;
   EXPECT_FALSE(patience.ends_after(true, true));

@@ -48,6 +48,12 @@ std::string along_axis_sentence(const PlannedLayer& layer) {
       layer.off_axis_rad * kRadian, 100.0 * std::sin(layer.off_axis_rad));
 }
 
+/// A search for another tool ends there (ends_search).
+std::string before_sides_sentence(const PlannedLayer& layer) {
+  return fmt::format("all {} fronts end before one of the sides begins: they do not get into the cavity",
+                     layer.cycles.cycles.size());
+}
+
 std::string rest_sentence(const TrochoidJob& job, const PlannedLayer& layer) {
   const double cleared = 100.0 * layer.share, before = layer.cycles.before_wall_mm;
   if (!(before > 0.0))
@@ -89,6 +95,7 @@ void note_what_is_open(const TrochoidJob& job, const CavityProgram& program, std
     else if (layer.cycles.status == CycleStatus::kStuck)
       add(stuck_sentence(job, layer.cycles));
     if (layer.stuck_along_axis()) add(along_axis_sentence(layer));
+    if (layer.stuck_before_sides()) add(before_sides_sentence(layer));
     if (layer.share < 1.0) add(rest_sentence(job, layer));
     if (layer.entered_mm() > job.tolerance_mm)
       add(fmt::format("a half path enters a face by {:.4f} mm, by the planner's samples", layer.entered_mm()));

@@ -12,6 +12,15 @@ bool PlannedLayer::stuck_along_axis() const {
   return cycles.status == CycleStatus::kStuck && !cycles.cycles.empty() && off_axis_rad < kHalfAcross;
 }
 
+bool PlannedLayer::stuck_before_sides() const {
+  return cycles.status == CycleStatus::kStuck && !cycles.cycles.empty() && share <= 0.0;
+}
+
+bool CavityProgram::stuck_before_sides() const {
+  return !layers.empty() && std::all_of(layers.begin(), layers.end(),
+                                        [](const PlannedLayer& layer) { return layer.stuck_before_sides(); });
+}
+
 bool CavityProgram::stuck_along_axis() const {
   return std::any_of(layers.begin(), layers.end(), [](const PlannedLayer& layer) { return layer.stuck_along_axis(); });
 }

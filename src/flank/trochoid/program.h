@@ -36,6 +36,8 @@ struct PlannedLayer {
   /// Cycles go forward across the axis: they got stuck where the sides lead along it, so that less than half of a step goes across.
   /// The walls say how the axis stands, whatever the tool's radius.
   [[nodiscard]] bool stuck_along_axis() const;
+  /// Fronts came from outside of the blank and got stuck before they ended anywhere on the first side.
+  [[nodiscard]] bool stuck_before_sides() const;
 };
 
 struct CavityProgram {
@@ -48,6 +50,8 @@ struct CavityProgram {
   [[nodiscard]] bool done() const;
   /// Whether that is so in a layer.
   [[nodiscard]] bool stuck_along_axis() const;
+  /// Whether that is so in all layers: none has begun on the sides.
+  [[nodiscard]] bool stuck_before_sides() const;
   /// Deepest that an entry or a half enters a face, by the planner's samples.
   [[nodiscard]] double entered_mm() const;
 };

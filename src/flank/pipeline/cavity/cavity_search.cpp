@@ -128,25 +128,6 @@ double cleared(const CavityPlan& plan) {
   return sum / static_cast<double>(std::max<std::size_t>(2, plan.sides.fit.motions.size()) / 2);
 }
 
-/// What is better comes first: cycles that get through, then what they let the sides cover, then what enters faces less
-/// deep, then sides.
-bool is_better(const CavityPlan& a, const CavityPlan& b, double tolerance) {
-  if (a.finding && b.finding) {
-    if (a.finding->meets != b.finding->meets) return a.finding->meets;
-    if (a.finding->covered != b.finding->covered) return a.finding->covered > b.finding->covered;
-  }
-  if (a.sides.fit.motions.empty() != b.sides.fit.motions.empty()) return b.sides.fit.motions.empty();
-  if (gets_through(a, tolerance) != gets_through(b, tolerance)) return gets_through(a, tolerance);
-  if (a.program.done() != b.program.done()) return a.program.done();
-  const double finished_a = cleared(a) * a.sides.fit.after.at_tolerance;
-  const double finished_b = cleared(b) * b.sides.fit.after.at_tolerance;
-  if ((!a.program.done() || cleared(a) != cleared(b)) && finished_a != finished_b) return finished_a > finished_b;
-  const double deep_a = a.program.entered_mm(), deep_b = b.program.entered_mm();
-  if (!gets_through(a, tolerance) && std::abs(deep_a - deep_b) > kSameDepth * std::max(deep_a, deep_b))
-    return deep_a < deep_b;
-  return a.sides.fit.after.score(tolerance) > b.sides.fit.after.score(tolerance);
-}
-
 CavityPlan uncut_plan(SideFit sides, double bound) {
   CavityPlan out;
   out.sides = std::move(sides);
@@ -192,7 +173,7 @@ CavityPlan search_ways(const Search& search, SideFitOptions options, bool thinne
   if (is_done(facing, faces, job) || progress.stop()) return facing;
   // What all cycles get past, but enters a face, is not the leans'.
   if (facing.program.done() && state_of(facing.sides, faces, job) != SideState::kShort) return facing;
-  if (facing.program.stuck_along_axis()) return facing;
+  if (ends_search(facing.program, thinner)) return facing;
   SideFit as_they_come = sides(false, layers);
   // Cycles cannot make up for sides that cover no more, where the others' get through all of the way.
   const double tolerance = job.tolerance_mm;
@@ -230,6 +211,25 @@ std::vector<RadiusStart> starts_under(double bound_mm, double least_mm) {
   return starts;
 }
 
+bool is_better(const CavityPlan& a, const CavityPlan& b, double tolerance) {
+  if (a.finding && b.finding) {
+    if (a.finding->meets != b.finding->meets) return a.finding->meets;
+    if (a.finding->covered != b.finding->covered) return a.finding->covered > b.finding->covered;
+  }
+  if (a.sides.fit.motions.empty() != b.sides.fit.motions.empty()) return b.sides.fit.motions.empty();
+  if (gets_through(a, tolerance) != gets_through(b, tolerance)) return gets_through(a, tolerance);
+  if (a.program.done() != b.program.done()) return a.program.done();
+  const double finished_a = cleared(a) * a.sides.fit.after.at_tolerance;
+  const double finished_b = cleared(b) * b.sides.fit.after.at_tolerance;
+  if ((!a.program.done() || cleared(a) != cleared(b)) && finished_a != finished_b) return finished_a > finished_b;
+  const double deep_a = a.program.entered_mm(), deep_b = b.program.entered_mm();
+  // What has no cycles enters nothing, and gets no farther for that.
+  const bool both_cut = !a.program.layers.empty() && !b.program.layers.empty();
+  if (both_cut && !gets_through(a, tolerance) && std::abs(deep_a - deep_b) > kSameDepth * std::max(deep_a, deep_b))
+    return deep_a < deep_b;
+  return a.sides.fit.after.score(tolerance) > b.sides.fit.after.score(tolerance);
+}
+
 bool is_done(const CavityPlan& plan, const CavityFaces& faces, const TrochoidJob& job) {
   if (plan.finding) return plan.finding->meets;
   if (!gets_through(plan, job.tolerance_mm) || state_of(plan.sides, faces, job) == SideState::kShort) return false;
@@ -239,6 +239,10 @@ bool is_done(const CavityPlan& plan, const CavityFaces& faces, const TrochoidJob
   const double in_reach = covered_in_reach(left, right, plan.sides, job.tolerance_mm, radius);
   return covers_reachable(left, right, in_reach * cleared(plan) * fit.after.at_tolerance, job.judge.least_coverage,
                           radius);
+}
+
+bool ends_search(const CavityProgram& program, bool thinner) {
+  return program.stuck_along_axis() || (thinner && program.stuck_before_sides());
 }
 
 bool wants_even_tool(const CavityPlan& plan, const CavityFaces& faces, const TrochoidJob& job) {
@@ -270,6 +274,7 @@ CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const
   const Search search{job, faces, tool, judge, progress};
   CavityPlan best, uncut;
   const bool given = !tool.free() && tool.radius;
+  bool ends = false;
   int tools = 0;
   SearchPatience patience;
   const std::vector<double> bounds = bounds_of(job, faces.width);
@@ -281,7 +286,8 @@ CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const
     if (!tool.free()) here.starts.resize(1);
     if (given) here.starts.front().radius_mm = *tool.radius;
     const double most_uncut = uncut.sides.fit.after.at_tolerance;
-    CavityPlan tried = search_ways(search, here, !given && bound != bounds.back(), uncut);
+    const bool thinner = !given && bound != bounds.back();
+    CavityPlan tried = search_ways(search, here, thinner, uncut);
     tried = search_even(search, here, std::move(tried), uncut);
     const bool done = is_done(tried, faces, job);
     // A tool that has hardly any way across got no cycles, and says nothing of thinner ones.
@@ -291,13 +297,13 @@ CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const
     if (better || done) best = std::move(tried);
     best.tools = tools;
     const bool in_vain = !narrow && patience.ends_after(better || covers_more, best.program.done());
-    // Nor is it the radius that gets cycles stuck where the sides lead along the axis.
-    if (done || given || in_vain || best.program.stuck_along_axis() || progress.stop()) break;
+    ends = ends_search(best.program, thinner);
+    if (done || given || in_vain || ends || progress.stop()) break;
   }
   // Where no tool does it, the sides without cycles may be those that leave least.
   if (!is_done(best, faces, job)) try_uncut(search, std::move(uncut), best);
   // The long search for a way past a place where cycles get stuck comes last: another tool may have no such place.
-  if (!best.program.done() && !best.program.stuck_along_axis() && !best.sides.fit.motions.empty() && !progress.stop()) {
+  if (!best.program.done() && !ends && !best.sides.fit.motions.empty() && !progress.stop()) {
     CavityPlan tried = planned(best.sides, search, best.largest_radius_mm, kMostRewinds);
     if (is_better(tried, best, job.tolerance_mm)) best.program = std::move(tried.program), best.finding = tried.finding;
   }

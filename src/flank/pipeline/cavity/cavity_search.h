@@ -45,9 +45,19 @@ using CavityJudge = std::function<std::optional<CavityFinding>(const CavityPlan&
 /// for: a thinner one may get nearer.
 [[nodiscard]] bool is_done(const CavityPlan& plan, const CavityFaces& faces, const TrochoidJob& job);
 
+/// What is better comes first: cycles that get through, then what they let the sides cover, then what enters faces less
+/// deep, if both have cycles, then sides.
+[[nodiscard]] bool is_better(const CavityPlan& a, const CavityPlan& b, double tolerance);
+
 /// Whether all that is missing is what the tool's thin end would reach beside other faces and its thicker one does not: a tool as thick at
 /// that end as at the other is asked for no more than it reaches, and is stiffer.
 [[nodiscard]] bool wants_even_tool(const CavityPlan& plan, const CavityFaces& faces, const TrochoidJob& job);
+
+/// Whether cycles got stuck for what is not the radius': where the sides lead along the axis, or before any of them reached the sides,
+/// though the tool has a way across there (cycles of one that hardly has, or leaves too much of the sides, are not looked for while there
+/// is a thinner one). No other tool, no other lean and no longer search is then tried. Of a tool that is the last, or given, only the former
+/// says so: it may hardly have a way across.
+[[nodiscard]] bool ends_search(const CavityProgram& program, bool thinner);
 
 /// How long thinner tools are tried, which are slower, too.
 class SearchPatience {
