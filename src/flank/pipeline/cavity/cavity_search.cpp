@@ -152,7 +152,8 @@ bool is_narrow(const SideFit& sides) { return least_way_across(sides.fit.motions
 /// way across, nor between sides that cover too little, whatever cycles there are: such sides take the place of `uncut` if they
 /// cover more.
 CavityPlan search_ways(const Search& search, SideFitOptions options, bool thinner, CavityPlan& uncut) {
-  const auto& [job, faces, tool, judge, progress] = search;
+  const TrochoidJob& job = search.job;
+  const CavityFaces& faces = search.faces;
   const double bound = options.fit.bounds.largest;
   const auto sides = [&](bool facing, int fewest) {
     options.facing = facing;
@@ -170,7 +171,7 @@ CavityPlan search_ways(const Search& search, SideFitOptions options, bool thinne
     return plan;
   };
   CavityPlan facing = plan_of(std::move(alike));
-  if (is_done(facing, faces, job) || progress.stop()) return facing;
+  if (is_done(facing, faces, job) || search.progress.stop()) return facing;
   // What all cycles get past, but enters a face, is not the leans'.
   if (facing.program.done() && state_of(facing.sides, faces, job) != SideState::kShort) return facing;
   if (ends_search(facing.program, thinner)) return facing;
