@@ -190,5 +190,12 @@ TEST(SweptEstimate, HasNoPlacesWhereNothingHasAValue) {
   EXPECT_EQ(swept.refine(Vec3(1, 2, 3), at_time(0.5)).f, std::numeric_limits<double>::infinity());
 }
 
+TEST(SweptEstimate, AProfileWithoutValuesHasNoDistance) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  const RuledMotion motion = testing::translation({0, 0, 0}, {60, 20, 0}, {0, 0.2, 1}, 40.0);
+  const SweptEstimate swept({motion}, RadialFunction::spline(40.0, Eigen::VectorXd::Constant(8, kNone)), 60);
+  for (const double t : {0.0, 0.5, 1.0, kNone}) EXPECT_FALSE(std::isfinite(swept.refine(Vec3(1, 2, 3), at_time(t)).f));
+}
+
 }  // namespace
 }  // namespace flank::internal

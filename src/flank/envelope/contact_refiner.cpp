@@ -21,7 +21,8 @@ struct EvenPlace {
 
 EvenPlace even_place(double x, std::size_t n) {
   const double at = x * static_cast<double>(n);
-  const double k = std::clamp(std::floor(at), 0.0, static_cast<double>(n) - 1.0);
+  // Not a number is in the first, and stays what it is: a fit may pass through states without a value.
+  const double k = at > 0.0 ? std::min(std::floor(at), static_cast<double>(n) - 1.0) : 0.0;
   return {static_cast<std::size_t>(k), at - k};
 }
 
