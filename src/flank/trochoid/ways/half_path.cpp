@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace flank::internal {
 namespace {
@@ -140,25 +141,32 @@ RuledMotion half_path_round(double axis_length, const AxisPlace& from, const Axi
   return motion;
 }
 
+namespace {
+
+/// reach_ahead, where that is farther than the room; else nothing.
+std::optional<double> reach_beyond(const RuledMotion& half, const AxisPlace& from, const AxisPlace& to, double room) {
+  if (!std::isfinite(room)) return std::nullopt;
+  const double reach = reach_ahead(half, from, to);
+  return reach > room ? std::optional(reach) : std::nullopt;
+}
+
+}  // namespace
+
 RuledMotion half_off_wall(double axis_length, const AxisPlace& from, const AxisPlace& to, const HalfShape& shape,
                           double room_from, double room_to) {
   RuledMotion half = half_path(axis_length, from, to, shape);
-  const double room = std::min(room_from, room_to);
-  if (!std::isfinite(room)) return half;
-  const double reach = reach_ahead(half, from, to);
-  if (reach <= room) return half;
-  return half_path_across(axis_length, from, to, shape, std::clamp(room_from / reach, 0.0, 1.0),
-                          std::clamp(room_to / reach, 0.0, 1.0));
+  const std::optional<double> reach = reach_beyond(half, from, to, std::min(room_from, room_to));
+  if (!reach) return half;
+  return half_path_across(axis_length, from, to, shape, std::clamp(room_from / *reach, 0.0, 1.0),
+                          std::clamp(room_to / *reach, 0.0, 1.0));
 }
 
 RuledMotion half_before_wall(double axis_length, const AxisPlace& from, const AxisPlace& to, const HalfShape& shape,
                              double room_from, double room_to) {
   RuledMotion half = half_path(axis_length, from, to, shape);
-  const double room = std::min(room_from, room_to);
-  if (!std::isfinite(room)) return half;
-  const double reach = reach_ahead(half, from, to);
-  if (reach <= room) return half;
-  return half_path_round(axis_length, from, to, shape.lift_mm, std::min(room_from, reach), std::min(room_to, reach));
+  const std::optional<double> reach = reach_beyond(half, from, to, std::min(room_from, room_to));
+  if (!reach) return half;
+  return half_path_round(axis_length, from, to, shape.lift_mm, std::min(room_from, *reach), std::min(room_to, *reach));
 }
 
 double way_of_middle(const RuledMotion& motion) {
