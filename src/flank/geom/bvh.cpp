@@ -13,14 +13,6 @@ namespace {
 /// building stays quick.
 constexpr int kExactItems = 48;
 
-/// The eight corners of a box.
-void append_corners(const OrientedBox& box, std::vector<Vec3>& points) {
-  for (int k = 0; k < 8; ++k) {
-    const Vec3 sign((k & 1) ? 1.0 : -1.0, (k & 2) ? 1.0 : -1.0, (k & 4) ? 1.0 : -1.0);
-    points.push_back(box.center + box.axes.transpose() * box.half.cwiseProduct(sign));
-  }
-}
-
 }  // namespace
 
 OrientedBox bounding_box(const std::vector<Vec3>& points) {
@@ -41,6 +33,13 @@ OrientedBox bounding_box(const std::vector<Vec3>& points) {
   const double slack = 1e-14 * (mean.cwiseAbs().maxCoeff() + local.diagonal());
   box.half = 0.5 * (local.high - local.low) + Vec3::Constant(slack);
   return box;
+}
+
+void append_corners(const OrientedBox& box, std::vector<Vec3>& points) {
+  for (int k = 0; k < 8; ++k) {
+    const Vec3 sign((k & 1) ? 1.0 : -1.0, (k & 2) ? 1.0 : -1.0, (k & 4) ? 1.0 : -1.0);
+    points.push_back(box.center + box.axes.transpose() * box.half.cwiseProduct(sign));
+  }
 }
 
 BoxTree::BoxTree(const std::vector<std::vector<Vec3>>& hulls) {

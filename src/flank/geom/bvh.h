@@ -30,6 +30,9 @@ struct OrientedBox {
 /// Box along the principal axes of the points, holding all of them.
 [[nodiscard]] OrientedBox bounding_box(const std::vector<Vec3>& points);
 
+/// Appends the eight corners of a box.
+void append_corners(const OrientedBox& box, std::vector<Vec3>& points);
+
 /// Binary tree over items, each given by points whose convex hull holds it.
 class BoxTree {
  public:

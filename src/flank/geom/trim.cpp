@@ -57,6 +57,9 @@ bool on_unit_border(const Vec2& p) {
 
 /// Whether a segment and a rectangle share a point (clipping after Liang and Barsky).
 bool meets(double x0, double y0, double x1, double y1, const ParameterRectangle& r) {
+  // Most segments of a row lie off the rectangle, on one side of it, and need no division.
+  if ((x0 < r.u0 && x1 < r.u0) || (x0 > r.u1 && x1 > r.u1) || (y0 < r.v0 && y1 < r.v0) || (y0 > r.v1 && y1 > r.v1))
+    return false;
   double low = 0.0, high = 1.0;
   const auto clip = [&](double start, double delta, double a, double b) {
     if (delta == 0.0) return start >= a && start <= b;

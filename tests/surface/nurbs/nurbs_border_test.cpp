@@ -85,6 +85,7 @@ TEST(NurbsBorders, HullsHoldTheirPieces) {
   const Borders b({test::wavy(5, 3, 3, 7, 7, false, 25)});
   for (int k = 0; k < b.count(); ++k) {
     Box3 box;
+    EXPECT_LE(b.borders.hulls()[static_cast<std::size_t>(k)].size(), 8u) << "a part may have hundreds of thousands";
     for (const Vec3& h : b.borders.hulls()[static_cast<std::size_t>(k)]) box.add(h);
     for (int i = 0; i <= 60; ++i) EXPECT_EQ(box.squared_distance(b.borders.point(b.prepared, k, i / 60.0)), 0.0);
   }

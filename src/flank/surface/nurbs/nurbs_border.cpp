@@ -154,8 +154,12 @@ void NurbsBorders::split(const std::vector<NurbsFace>& faces, int face, int edge
   piece.t1 = t1;
   // Between neighbouring samples the curve deviates by about a quarter of `local`, the deviation over twice that
   // length.
-  std::vector<Vec3> hull;
-  for (const Vec3& q : p) append_ball(q, local + 1e-12 * prepared.size(), hull);
+  std::vector<Vec3> around, hull;
+  around.reserve(6 * p.size());
+  for (const Vec3& q : p) append_ball(q, local + 1e-12 * prepared.size(), around);
+  // Trims of real parts come to hundreds of thousands of pieces: the corners of a box are all that is kept of each.
+  hull.reserve(8);
+  append_corners(bounding_box(around), hull);
   pieces_.push_back(piece);
   hulls_.push_back(std::move(hull));
 }

@@ -40,7 +40,7 @@ class NurbsBorders {
 
   [[nodiscard]] const std::vector<BorderPiece>& pieces() const { return pieces_; }
   [[nodiscard]] const BorderPiece& piece(int k) const { return pieces_[static_cast<std::size_t>(k)]; }
-  /// Points whose convex hull holds the piece; empty once they were taken.
+  /// The corners of a box that holds the piece; empty once they were taken.
   [[nodiscard]] const std::vector<std::vector<Vec3>>& hulls() const { return hulls_; }
   /// Gives them away: trees are made of them, and no query asks them, which are most of what a border takes.
   [[nodiscard]] std::vector<std::vector<Vec3>> take_hulls() { return std::exchange(hulls_, {}); }
