@@ -22,18 +22,35 @@ function(flank_layer name)
   set_property(GLOBAL APPEND PROPERTY FLANK_LAYERS flank_${name})
 endfunction()
 
-# flank_parallel_tests(RESULT SOURCES...): the tests, below CMAKE_CURRENT_SOURCE_DIR, that are for the thread sanitizer: of rooms that have
-# a parallel loop of their own, because they run what is inside it; and others that say how many threads there are to be (decision 0024).
+# flank_threaded_names(RESULT ROOM): names, without extension, of the files in a room of src/flank that have a parallel loop of their own, or
+# what threads share.
+function(flank_threaded_names result room)
+  set(names "")
+  file(GLOB files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/flank/${room}/*.cpp ${PROJECT_SOURCE_DIR}/src/flank/${room}/*.h)
+  foreach(file IN LISTS files)
+    file(STRINGS ${file} line REGEX "parallel_(for|blocks)\\(|std::(atomic|mutex|shared_mutex|once_flag)|thread_local" LIMIT_COUNT 1)
+    if(line)
+      get_filename_component(name ${file} NAME_WE)
+      list(APPEND names ${name})
+    endif()
+  endforeach()
+  set(${result} ${names} PARENT_SCOPE)
+endfunction()
+
+# flank_parallel_tests(RESULT SOURCES...): the tests, below CMAKE_CURRENT_SOURCE_DIR, that are for the thread sanitizer: of files that have
+# a parallel loop of their own, because they run what is inside it, or hold what threads share; all of a room if such a file in it has
+# no test of its own; and others that say how many threads there are to be (decision 0024).
 function(flank_parallel_tests result)
   set(found "")
   foreach(source IN LISTS ARGN)
     file(STRINGS ${source} line REGEX "include \"flank/(threads|base/parallel)\\.h" LIMIT_COUNT 1)
-    file(RELATIVE_PATH room ${CMAKE_CURRENT_SOURCE_DIR} ${source})
-    string(REGEX REPLACE "/[^/]*$" "" room ${room})
-    file(GLOB files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/flank/${room}/*.cpp ${PROJECT_SOURCE_DIR}/src/flank/${room}/*.h)
-    foreach(file IN LISTS files)
-      if(NOT line)
-        file(STRINGS ${file} line REGEX "parallel_(for|blocks)\\(" LIMIT_COUNT 1)
+    get_filename_component(folder ${source} DIRECTORY)
+    file(RELATIVE_PATH room ${CMAKE_CURRENT_SOURCE_DIR} ${folder})
+    flank_threaded_names(names ${room})
+    foreach(name IN LISTS names)
+      file(GLOB own CONFIGURE_DEPENDS ${folder}/${name}*_test.cpp)
+      if(NOT own OR source IN_LIST own)
+        set(line yes)
       endif()
     endforeach()
     if(line)

@@ -41,7 +41,7 @@ double form(const std::vector<Footpoint>& feet, const AxisVelocity& v, double ax
 /// 1/lambda of A^-1 B, solved densely.
 double dense_value(const std::vector<Footpoint>& feet, const Pose& pose, double axis_length) {
   const Vec3 e1 = pose.axis.unitOrthogonal(), e2 = pose.axis.cross(e1);
-  Eigen::Matrix<double, 5, 5> a = Eigen::Matrix<double, 5, 5>::Zero(), b = a;
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(5, 5), b = a;
   for (int j = 0; j < kSamples; ++j) {
     const Vec3& n = feet[static_cast<std::size_t>(j)].normal;
     const double sigma = axis_length * j / (kSamples - 1) - 0.5 * axis_length;
@@ -50,7 +50,7 @@ double dense_value(const std::vector<Footpoint>& feet, const Pose& pose, double 
     a += row * row.transpose() / kSamples;
   }
   b(0, 0) = b(1, 1) = 1.0;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix<double, 5, 5>> eigen(b, a);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(b, a);
   return 1.0 / eigen.eigenvalues()[4];
 }
 

@@ -47,12 +47,19 @@ Form assemble(std::span<const Footpoint> feet, const Frame& frame) {
   return form;
 }
 
+/// Of two rows in closed form.
+Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen_of(const Eigen::Matrix2d& form) {
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen;
+  eigen.computeDirect(form);
+  return eigen;
+}
+
 /// Unit vector of the smallest form, among nearly equal ones the one nearest to `previous` (both in the plane across
 /// the axis).
 Vec2 best_direction(const Eigen::Matrix2d& form, const Vec2& previous, double steering) {
   Eigen::Matrix2d steered = form;
   if (previous.norm() > 0.0) steered -= steering * previous.normalized() * previous.normalized().transpose();
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(steered).eigenvectors().col(0);
+  return eigen_of(steered).eigenvectors().col(0);
 }
 
 }  // namespace
@@ -80,7 +87,7 @@ Movability movability(std::span<const Footpoint> feet, const Pose& pose, double 
   const Eigen::Matrix<double, 3, 2> coupling = form.matrix.bottomLeftCorner<3, 2>();
   const Eigen::Matrix<double, 3, 2> eliminated = ldlt.solve(coupling);
   const Eigen::Matrix2d schur = form.matrix.topLeftCorner<2, 2>() - coupling.transpose() * eliminated;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(schur);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen = eigen_of(schur);
   result.low = eigen.eigenvalues()[0];
   result.high = eigen.eigenvalues()[1];
 

@@ -71,10 +71,11 @@ inline Footpoint shape_foot(const Shape& shape, double u, double v) {
   Footpoint foot;
   foot.point = j.p;
   foot.normal = j.su.cross(j.sv).normalized();
-  Eigen::Matrix2d first, second;
+  // Of any size, as other tests use it: compiling one for each size takes longer than all these tests run.
+  Eigen::MatrixXd first(2, 2), second(2, 2);
   first << j.su.dot(j.su), j.su.dot(j.sv), j.su.dot(j.sv), j.sv.dot(j.sv);
   second << j.suu.dot(foot.normal), j.suv.dot(foot.normal), j.suv.dot(foot.normal), j.svv.dot(foot.normal);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> eigen(second, first);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(second, first);
   foot.k1 = eigen.eigenvalues()[0];
   foot.k2 = eigen.eigenvalues()[1];
   foot.d1 = (eigen.eigenvectors()(0, 0) * j.su + eigen.eigenvectors()(1, 0) * j.sv).normalized();
