@@ -60,7 +60,7 @@ std::string rest_sentence(const TrochoidJob& job, const PlannedLayer& layer) {
     return fmt::format("cleared and finished over {:.1f} % of the way of its sides; the rest is left", cleared);
   return fmt::format(
       "cleared and finished over {:.1f} % of the way of its sides, up to {:.2f} mm before where the wall lets the tool "
-      "go: in its corners no step keeps to {} degrees",
+      "go: nearer steps are too thin to be measured, or in the corners exceed {} degrees",
       cleared, before, job.cycles.most_engagement_deg);
 }
 
