@@ -133,7 +133,8 @@ TEST_F(EntryTest, AWallThatStandsInTheWayMovesTheFirstFrontOn) {
   const auto post =
       make_target({testing::quad(Vec3(-1, 5, -50), Vec3(-1, 5, 50), Vec3(-1.5, 5, -50), Vec3(-1.5, 5, 50), "F4")});
   const HalfGuard guard({{start_.get(), end_.get(), post.get()}, {}}, radial_);
-  const std::optional<Entry> entry = plan_entry(sides_, guard, stock_, kClear, {EntryMethod::kRamp, 3.0 * kDegree}, {}, {});
+  const std::optional<Entry> entry =
+      plan_entry(sides_, guard, stock_, kClear, {EntryMethod::kRamp, 3.0 * kDegree}, {}, {});
   ASSERT_TRUE(entry);
   EXPECT_LE(guard.depth(entry->front.motion, 25, 9).deepest(), 0.01);
   EXPECT_GT(entry->front.from_x + entry->front.motion.pose(0.5).tip.x(), 3.0);
