@@ -252,7 +252,7 @@ bool is_done(const CavityPlan& plan, const CavityFaces& faces, const TrochoidJob
   const FlankFitResult& fit = plan.sides.fit;
   const CavitySide left = side_of(faces.sides[0]), right = side_of(faces.sides[1]);
   const double radius = job.judge.reach_radius_mm.value_or(fit.tool.smallest());
-  const double in_reach = covered_in_reach(left, right, plan.sides, job.tolerance_mm, radius);
+  const double in_reach = covered_in_reach(left, right, fit.motions, fit.tool, job.tolerance_mm, radius);
   return covers_reachable(left, right, in_reach * cleared(plan) * fit.after.at_tolerance, job.judge.least_coverage,
                           radius);
 }
