@@ -96,6 +96,21 @@ TEST(CavityNotes, WhereCyclesGotStuckTheLimitThatGetsPastIsTold) {
   EXPECT_NE(notes[1].find("the rest is left"), std::string::npos) << notes[1];
 }
 
+/// A search that was stopped before any cycles said "no cycle was planned", and that the cavity is open.
+TEST(CavityNotes, WithoutCyclesTheSidesAreTold) {
+  std::vector<std::string> notes;
+  note_what_is_open({}, {}, notes);
+  EXPECT_TRUE(notes.empty()) << "nobody knows yet at which ends it is open";
+  CoverageEstimate sides;
+  sides.at_tolerance = 0.784;
+  sides.gouge_mm = 0.2341;
+  note_no_cycles({}, sides, notes);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes.front().find("cover 78.4 % of both"), std::string::npos) << notes.front();
+  EXPECT_NE(notes.front().find("by 0.2341 mm"), std::string::npos) << notes.front();
+  EXPECT_NE(notes.front().find("95 % of what is reachable"), std::string::npos) << notes.front();
+}
+
 TEST(CavityNotes, FrontsThatDoNotGetIntoTheCavityAreTold) {
   CavityProgram program;
   PlannedLayer& layer = program.layers.emplace_back();

@@ -46,7 +46,7 @@ class EntryTest : public ::testing::Test {
   LayerSides sides_{side(0.0), side(kGap)};
 
   std::optional<Entry> plan(EntryMethod method, double slope_deg = 3.0) {
-    return plan_entry(sides_, guard_, stock_, kClear, {method, slope_deg * kDegree}, {});
+    return plan_entry(sides_, guard_, stock_, kClear, {method, slope_deg * kDegree}, {}, {});
   }
   /// Deepest that the moves enter a wall.
   [[nodiscard]] double entered(const Entry& entry) const {
@@ -133,7 +133,8 @@ TEST_F(EntryTest, AWallThatStandsInTheWayMovesTheFirstFrontOn) {
   const auto post =
       make_target({testing::quad(Vec3(-1, 5, -50), Vec3(-1, 5, 50), Vec3(-1.5, 5, -50), Vec3(-1.5, 5, 50), "F4")});
   const HalfGuard guard({{start_.get(), end_.get(), post.get()}, {}}, radial_);
-  const std::optional<Entry> entry = plan_entry(sides_, guard, stock_, kClear, {EntryMethod::kRamp, 3.0 * kDegree}, {});
+  const std::optional<Entry> entry =
+      plan_entry(sides_, guard, stock_, kClear, {EntryMethod::kRamp, 3.0 * kDegree}, {}, {});
   ASSERT_TRUE(entry);
   EXPECT_LE(guard.depth(entry->front.motion, 25, 9).deepest(), 0.01);
   EXPECT_GT(entry->front.from_x + entry->front.motion.pose(0.5).tip.x(), 3.0);
@@ -144,8 +145,19 @@ TEST_F(EntryTest, NoWayInIsSaid) {
   const auto roof =
       make_target({testing::quad(Vec3(-50, -50, 22), Vec3(-50, 50, 22), Vec3(80, -50, 22), Vec3(80, 50, 22), "F4")});
   const HalfGuard guard({{start_.get(), end_.get(), roof.get()}, {}}, radial_);
-  EXPECT_FALSE(plan_entry(sides_, guard, stock_, kClear, {EntryMethod::kRamp, 3.0 * kDegree}, {}));
+  EXPECT_FALSE(plan_entry(sides_, guard, stock_, kClear, {EntryMethod::kRamp, 3.0 * kDegree}, {}, {}));
   EXPECT_TRUE(stock_.sweeps().empty());
+}
+
+TEST_F(EntryTest, ASearchThatIsStoppedLooksForNoFurtherPlace) {
+  const auto roof =
+      make_target({testing::quad(Vec3(-50, -50, 22), Vec3(-50, 50, 22), Vec3(80, -50, 22), Vec3(80, 50, 22), "F4")});
+  const HalfGuard guard({{start_.get(), end_.get(), roof.get()}, {}}, radial_);
+  int asked = 0;
+  Progress progress;
+  progress.cancelled = [&] { return ++asked > 2; };
+  EXPECT_FALSE(plan_entry(sides_, guard, stock_, kClear, {EntryMethod::kRamp, 3.0 * kDegree}, {}, progress));
+  EXPECT_EQ(asked, 3) << "once for each place of the first front";
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "flank/fit.h"
 #include "flank/run.h"
 #include "flank/trochoid/program.h"
 
@@ -12,6 +13,9 @@ namespace flank::internal {
 
 /// Where cycles got stuck or entered a face, what they left, and at which ends the cavity is open.
 void note_what_is_open(const TrochoidJob& job, const CavityProgram& program, std::vector<std::string>& notes);
+
+/// Where a search left no cycles: what its best sides cover, by the planner's samples, and how deep they cut or enter faces.
+void note_no_cycles(const TrochoidJob& job, const CoverageEstimate& sides, std::vector<std::string>& notes);
 
 /// Where coverage is what misses, and other faces keep the tool's thicker places off: so much of what it can reach with the radius
 /// that it has there is covered. `reach` gives the share of both sides, as a ball of the least radius has it in the report: it is

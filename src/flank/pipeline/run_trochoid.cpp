@@ -186,6 +186,7 @@ void take(const CavityPlan& plan, const TrochoidJob& job, const ToolSpec& spec, 
                     "under {:.4g} mm",
                     plan.tools, plan.largest_radius_mm));
   note_what_is_open(job, plan.program, result.notes);
+  if (plan.program.layers.empty() && legitimacy.legitimate) note_no_cycles(job, fit.after, result.notes);
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ class EntryPlanner {
         meter_(stock),
         rings_(stock.radial(), kMoveRings, kMoveVolumeRings) {}
 
-  [[nodiscard]] std::optional<OpenSlot> find_slot();
+  [[nodiscard]] std::optional<OpenSlot> find_slot(const Progress& progress);
   [[nodiscard]] std::vector<RuledMotion> ramp(const OpenSlot& open, double slope_rad, Entry& entry) const;
   [[nodiscard]] std::vector<RuledMotion> plunges(const OpenSlot& open, Entry& entry) const;
   /// Passes to and fro at full depth that make the front of the slot, and that front.
@@ -83,10 +83,10 @@ class EntryPlanner {
 
 Pose axis_at(const AxisPlace& place) { return {place.tip, place.u}; }
 
-std::optional<OpenSlot> EntryPlanner::find_slot() {
+std::optional<OpenSlot> EntryPlanner::find_slot(const Progress& progress) {
   constexpr double kOn = 0.1, kMost = 0.5;  // radii, and of the side
   const double middle = 0.5 * sides_.from.axis_length();
-  for (double x = 0.0; x <= kMost * sides_.from.length(); x += kOn * radius_) {
+  for (double x = 0.0; x <= kMost * sides_.from.length() && !progress.stop(); x += kOn * radius_) {
     const double y = x * sides_.to.length() / sides_.from.length();
     const AxisPlace from = sides_.from.at(x), to = sides_.to.at(y);
     const double gap = (to.at(middle) - from.at(middle)).norm();
@@ -252,9 +252,10 @@ void EntryPlanner::take(Entry& entry) {
 }  // namespace
 
 std::optional<Entry> plan_entry(const LayerSides& sides, const HalfGuard& guard, SweptStock& stock,
-                                const ClearPlane& clear, const EntryOptions& options, const CycleOptions& cycles) {
+                                const ClearPlane& clear, const EntryOptions& options, const CycleOptions& cycles,
+                                const Progress& progress) {
   EntryPlanner planner(sides, guard, stock, clear, cycles);
-  const std::optional<OpenSlot> open = planner.find_slot();
+  const std::optional<OpenSlot> open = planner.find_slot(progress);
   if (!open) return {};
   Entry entry;
   entry.method = options.method == EntryMethod::kPlunge ? EntryMethod::kPlunge : EntryMethod::kRamp;

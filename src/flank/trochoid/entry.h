@@ -42,9 +42,9 @@ struct Entry {
 /// the start of one side to that of the other, or bulges, or begins farther on, as it takes to enter no face deeper than the
 /// tolerance leaves for halves (or than the ends of the sides do themselves); moves above full depth keep off the sides as it
 /// takes. Passes at full depth then widen it to a front that is tangential to both sides: the next one need not begin in a
-/// corner. None if there is no such way.
+/// corner. None if there is no such way, or if the search for one was stopped.
 [[nodiscard]] std::optional<Entry> plan_entry(const LayerSides& sides, const HalfGuard& guard, SweptStock& stock,
                                               const ClearPlane& clear, const EntryOptions& options,
-                                              const CycleOptions& cycles);
+                                              const CycleOptions& cycles, const Progress& progress);
 
 }  // namespace flank::internal

@@ -124,10 +124,10 @@ PlannedLayer plan_layer(const LayerSides& sides, const HalfGuard& guard, SweptSt
   PlannedLayer planned;
   std::optional<FirstFront> first;
   if (clear != nullptr) {
-    planned.entry = plan_entry(sides, guard, stock, *clear, options.entry, options.cycles);
-    planned.no_way_in = !planned.entry;
-    if (planned.no_way_in) {
-      planned.cycles.status = CycleStatus::kStuck;
+    planned.entry = plan_entry(sides, guard, stock, *clear, options.entry, options.cycles, progress);
+    planned.no_way_in = !planned.entry && !progress.stop();
+    if (!planned.entry) {
+      planned.cycles.status = planned.no_way_in ? CycleStatus::kStuck : CycleStatus::kCancelled;
       return planned;
     }
     first = planned.entry->front;

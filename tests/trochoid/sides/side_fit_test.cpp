@@ -122,6 +122,32 @@ TEST(FitSides, TryAnotherWayThanTwoThatAreMirrorImages) {
   EXPECT_GT(sides.fit.after.at_tolerance, 0.8);
 }
 
+/// The last passes took longer than all before them, of every number of layers that covered too little.
+TEST(FitSides, LeaveTheLastPassesToThoseThatAreMilled) {
+  if (kSanitized) GTEST_SKIP() << "on the path of AreDoneWithWhatTheirToolReaches";
+  const std::vector<Face> walls = cavity_walls({24.0, 30.0, 40.0, 10.0, 4.0, 1.0});
+  const std::unique_ptr<Target> left = make_target({walls[0]}), right = make_target({walls[1]});
+  const CavitySide a{left.get(), nullptr}, b{right.get(), nullptr};
+  SideFitOptions options;
+  options.fit.tolerance_mm = 0.002;
+  options.fit.bounds.smallest = 4.55;  // hardly more than a cylinder
+  options.fit.bounds.largest = 4.6;
+  options.fit.sample_share *= 3.0;
+  options.starts = {{4.6, 0.9}};
+  const SideFit sides = fit_sides(a, b, {}, options, {});
+  ASSERT_EQ(sides.fit.motions.size(), 2u);
+  EXPECT_LT(sides.fit.after.at_tolerance, 0.8);
+  EXPECT_FALSE(sides.settled);
+  const SideFit later = settle_sides(a, b, sides, options, {});
+  EXPECT_TRUE(later.settled);
+  options.least_coverage = 0.01;
+  const SideFit at_once = fit_sides(a, b, {}, options, {});
+  EXPECT_TRUE(at_once.settled) << "it covers what is asked";
+  EXPECT_EQ(later.fit.after.at_tolerance, at_once.fit.after.at_tolerance);
+  EXPECT_EQ(later.fit.tool.parameters(), at_once.fit.tool.parameters());
+  EXPECT_EQ(later.fit.motions.front().pose(0.3).tip, at_once.fit.motions.front().pose(0.3).tip);
+}
+
 TEST(WidthBetween, IsNoneWhereEverythingIsCovered) {
   const std::unique_ptr<Target> wall = leaning_wall();
   const std::unique_ptr<Target> buried =

@@ -42,13 +42,12 @@ TEST(CoveredInReach, CountsWhereTheBallFits) {
   const Face wall = testing::quad(Vec3(60, 50, -10), Vec3(60, -50, -10), Vec3(60, 50, 60), Vec3(60, -50, 60), "F3");
   const ObstacleField field(testing::only({make_target({wall}), true}), *blade, 20.0, 0.0);
   const CavitySide side{blade.get(), &field};
-  SideFit fit;
-  fit.fit.tool = RadialFunction(ToolFamily::kCylinder, kHeight, Eigen::VectorXd::Constant(1, 2.0));
-  fit.fit.motions = {upright(2.0), upright(2.0)};  // into the wall: all along the blade
+  const RadialFunction tool(ToolFamily::kCylinder, kHeight, Eigen::VectorXd::Constant(1, 2.0));
+  std::vector<RuledMotion> motions = {upright(2.0), upright(2.0)};  // into the wall: all along the blade
   for (const double radius : {2.0, 10.0})
-    EXPECT_NEAR(covered_in_reach(side, side, fit, 0.01, radius), 1.0 - radius / 60.0, 0.02) << radius;
-  fit.fit.motions = {upright(3.0), upright(3.0)};
-  EXPECT_EQ(covered_in_reach(side, side, fit, 0.01, 10.0), 1.0) << "nothing is covered";
+    EXPECT_NEAR(covered_in_reach(side, side, motions, tool, 0.01, radius), 1.0 - radius / 60.0, 0.02) << radius;
+  motions = {upright(3.0), upright(3.0)};
+  EXPECT_EQ(covered_in_reach(side, side, motions, tool, 0.01, 10.0), 1.0) << "nothing is covered";
 }
 
 TEST(LeastWayAcross, IsInDiametersAtTheNarrowestHeight) {

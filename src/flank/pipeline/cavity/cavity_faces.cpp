@@ -7,7 +7,9 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <utility>
 
+#include "flank/base/stopping.h"
 #include "flank/error.h"
 #include "flank/trochoid/sides/side_fit.h"
 
@@ -39,18 +41,30 @@ bool face_each_other(const Target& a, const Target& b) {
   return facing(a, b) < -kLeastFacing && looks_at(a, b) > 0.5 && looks_at(b, a) > 0.5;
 }
 
+/// Faces of the part by how near their control points may be to a place, which hold all of them: the nearest one first.
+std::vector<std::pair<double, int>> nearest_first(const Part& part, const Vec3& place) {
+  std::vector<std::pair<double, int>> out;
+  for (int f = 0; f < part.face_count(); ++f) {
+    Box3 hull;
+    for (const Vec3& pole : part.faces[static_cast<std::size_t>(f)].surface.poles) hull.add(pole);
+    if (!part.is_left_out(f)) out.emplace_back(std::sqrt(hull.squared_distance(place)), f);
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
 /// The nearest other face of the part that faces `left`; empty: none does. Faces much smaller than it are no walls.
-std::string face_across(const Setup& setup, const Target& left) {
+std::string face_across(const Part& part, const Target& left) {
   constexpr double kLeastArea = 0.2;
-  const Part& part = setup.part;
   Vec3 middle = Vec3::Zero();
   for (const SurfaceSample& sample : left.samples(std::sqrt(left.area()) / 10.0))
     middle += sample.area / left.area() * sample.point;
   std::string nearest;
   double least = std::numeric_limits<double>::infinity();
-  for (int f = 0; f < part.face_count(); ++f) {
+  for (const auto& [no_nearer, f] : nearest_first(part, middle)) {
+    if (no_nearer >= least) break;
+    stop_here();
     const Face& face = part.faces[static_cast<std::size_t>(f)];
-    if (part.is_left_out(f)) continue;
     for (const int side : {+1, -1}) {
       const std::unique_ptr<Target> target = make_target({face}, side);
       if (target->area() < kLeastArea * left.area()) break;
@@ -62,6 +76,20 @@ std::string face_across(const Setup& setup, const Target& left) {
   return nearest;
 }
 
+/// What would be accepted beside the left side.
+std::string accepted_across(const TrochoidJob& job, const Part& part) {
+  std::vector<Face> left;
+  for (const int f : parse_face_list(part, job.left)) left.push_back(part.faces[static_cast<std::size_t>(f)]);
+  const bool of_solid = left.front().of_solid;
+  for (const int side : {+1, -1}) {
+    const std::string across = face_across(part, *make_target(left, side));
+    if (!across.empty()) return across + " faces " + job.left;
+    if (of_solid) break;
+  }
+  return "no face of the part that is large enough faces " + job.left +
+         "; a side may be several faces that are joined, like F9,F10";
+}
+
 void check_facing(const TrochoidJob& job, const Setup& setup, const Target& left, const Target& right) {
   if (face_each_other(left, right)) return;
   const double cosine = facing(left, right);
@@ -71,9 +99,8 @@ void check_facing(const TrochoidJob& job, const Setup& setup, const Target& left
       cosine < -kLeastFacing
           ? "one lies behind the other"
           : fmt::format("their normals are {:.1f} degrees apart on average (180 is face to face)", degrees);
-  const std::string across = face_across(setup, left);
-  throw InputError("right", fmt::format("{} does not face {}: {}; the two sides of one cavity are needed{}", job.right,
-                                        job.left, why, across.empty() ? "" : ": " + across + " faces " + job.left));
+  throw InputError("right", fmt::format("{} does not face {}: {}; the two sides of one cavity are needed: {}",
+                                        job.right, job.left, why, accepted_across(job, setup.part)));
 }
 
 }  // namespace
@@ -87,8 +114,9 @@ CavityFaces cavity_faces(const TrochoidJob& job, const Setup& setup) {
   const std::size_t right = group_of(plus, parse_face_list(setup.part, job.right).front());
   if (plus.size() != 2 || left == right || std::max(left, right) > 1)
     throw InputError("right", fmt::format("{} and {} make {} connected side{}; two are needed, that do not touch each "
-                                          "other",
-                                          job.left, job.right, plus.size(), plus.size() == 1 ? "" : "s"));
+                                          "other: {}",
+                                          job.left, job.right, plus.size(), plus.size() == 1 ? "" : "s",
+                                          accepted_across(job, setup.part)));
   bool turn[2];
   for (const std::size_t g : {left, right})
     turn[g] = !plus[g].of_solid && looks_at(*plus[g].target, *plus[1 - g].target) < 0.5;

@@ -37,7 +37,20 @@ struct Search {
   const ToolModel& tool;
   const CavityJudge& judge;
   const Progress& progress;
+  const SideFitOptions& options;  ///< but for what a bound of the radius says
 };
+
+/// Under a bound of the radius.
+SideFitOptions options_under(const Search& search, double bound) {
+  SideFitOptions here = search.options;
+  here.fit.bounds.largest = bound;
+  if (!search.job.radius.min_mm) here.fit.bounds.smallest = std::min(here.fit.bounds.smallest, 0.5 * bound);
+  here.starts = starts_under(bound, here.fit.bounds.smallest);
+  if (search.tool.free()) return here;
+  here.starts.resize(1);
+  if (search.tool.radius) here.starts.front().radius_mm = *search.tool.radius;
+  return here;
+}
 
 double reach_of(const SideFit& sides, const CavityFaces& faces) {
   return reach_of_tool(side_of(faces.sides[0]), side_of(faces.sides[1]), sides.fit.motions, sides.fit.tool);
@@ -64,7 +77,7 @@ SideState state_of(const SideFit& sides, const CavityFaces& faces, const Trochoi
 
 /// As many layers as the tolerance needs, `fewest` or more, or as many as are asked for: not those that cannot help.
 SideFit search_sides(const Search& search, SideFitOptions options, int fewest) {
-  const auto& [job, faces, tool, judge, progress] = search;
+  const auto& [job, faces, tool, judge, progress, common] = search;
   const CavitySide left = side_of(faces.sides[0]), right = side_of(faces.sides[1]);
   SideFit best;
   const int first = job.cycles.layers > 0 ? job.cycles.layers : fewest,
@@ -136,6 +149,8 @@ CavityPlan uncut_plan(SideFit sides, double bound) {
 }
 
 CavityPlan planned(SideFit sides, const Search& search, double bound, int most_rewinds) {
+  const CavitySide left = side_of(search.faces.sides[0]), right = side_of(search.faces.sides[1]);
+  sides = settle_sides(left, right, std::move(sides), options_under(search, bound), search.progress);
   CavityProgram program = plan(search.job, search.faces, sides, most_rewinds, search.progress);
   CavityPlan out = uncut_plan(std::move(sides), bound);
   out.program = std::move(program);
@@ -187,7 +202,7 @@ CavityPlan search_ways(const Search& search, SideFitOptions options, bool thinne
 
 /// The same with a tool that is nearly as thick everywhere, if that is what is missing and it does more.
 CavityPlan search_even(const Search& search, SideFitOptions options, CavityPlan tried, CavityPlan& uncut) {
-  const auto& [job, faces, tool, judge, progress] = search;
+  const auto& [job, faces, tool, judge, progress, common] = search;
   if (!tool.free() || !wants_even_tool(tried, faces, job) || progress.stop()) return tried;
   options.starts = {{options.starts.front().radius_mm, kEven}};
   CavityPlan even = search_ways(search, options, true, uncut);
@@ -237,7 +252,7 @@ bool is_done(const CavityPlan& plan, const CavityFaces& faces, const TrochoidJob
   const FlankFitResult& fit = plan.sides.fit;
   const CavitySide left = side_of(faces.sides[0]), right = side_of(faces.sides[1]);
   const double radius = job.judge.reach_radius_mm.value_or(fit.tool.smallest());
-  const double in_reach = covered_in_reach(left, right, plan.sides, job.tolerance_mm, radius);
+  const double in_reach = covered_in_reach(left, right, fit.motions, fit.tool, job.tolerance_mm, radius);
   return covers_reachable(left, right, in_reach * cleared(plan) * fit.after.at_tolerance, job.judge.least_coverage,
                           radius);
 }
@@ -272,7 +287,7 @@ bool SearchPatience::ends_after(bool gained, bool through) {
 
 CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const ToolModel& tool,
                          const SideFitOptions& options, const CavityJudge& judge, const Progress& progress) {
-  const Search search{job, faces, tool, judge, progress};
+  const Search search{job, faces, tool, judge, progress, options};
   CavityPlan best, uncut;
   const bool given = !tool.free() && tool.radius;
   bool ends = false;
@@ -280,12 +295,7 @@ CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const
   SearchPatience patience;
   const std::vector<double> bounds = bounds_of(job, faces.width);
   for (const double bound : bounds) {
-    SideFitOptions here = options;
-    here.fit.bounds.largest = bound;
-    if (!job.radius.min_mm) here.fit.bounds.smallest = std::min(here.fit.bounds.smallest, 0.5 * bound);
-    here.starts = starts_under(bound, here.fit.bounds.smallest);
-    if (!tool.free()) here.starts.resize(1);
-    if (given) here.starts.front().radius_mm = *tool.radius;
+    const SideFitOptions here = options_under(search, bound);
     const double most_uncut = uncut.sides.fit.after.at_tolerance;
     const bool thinner = !given && bound != bounds.back();
     CavityPlan tried = search_ways(search, here, thinner, uncut);

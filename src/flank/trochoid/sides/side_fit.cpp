@@ -14,6 +14,7 @@
 #include "flank/fit/tried.h"
 #include "flank/motion/stagger.h"
 #include "flank/trochoid/sides/axial_ends.h"
+#include "flank/trochoid/sides/side_room.h"
 
 namespace flank::internal {
 namespace {
@@ -231,6 +232,16 @@ bool SideFitter::is_done(const Polished& polished) const {
                           asked > 0.0 ? asked : polished.draft.tool.smallest());
 }
 
+/// Whether sides cover clearly less than is asked for of what a tool like this reaches: the last passes do not make up for that.
+bool falls_short(const CavitySide& left, const CavitySide& right, const Polished& best, const SideFitOptions& options) {
+  constexpr double kClearly = 0.9;
+  const RadialFunction& tool = best.draft.tool;
+  const double asked = options.fit.reach_radius_mm;
+  const double reach = std::min(reachable_share(left, right, asked > 0.0 ? asked : tool.smallest()),
+                                reach_of_tool(left, right, best.draft.motions, tool));
+  return best.estimate.at_tolerance < kClearly * options.least_coverage * reach;
+}
+
 /// The best of all radii that are tried.
 SideFit search_radii(const CavitySide& left, const CavitySide& right, const ToolModel& tool,
                      const SideFitOptions& options, const Progress& progress) {
@@ -266,7 +277,9 @@ SideFit search_radii(const CavitySide& left, const CavitySide& right, const Tool
     return out;
   }
   const FlankFitOptions fit = possible(options.fit, best.draft.tool.axis_length());
-  const Polished close = settled(without_overcut(best, fitter.samples(), fit), fit);
+  out.settled = !tool.free() || !falls_short(left, right, best, options);
+  out.facing = options.facing;
+  const Polished close = out.settled ? settled(without_overcut(best, fitter.samples(), fit), fit) : std::move(best);
   out.fit = finish(close, fit, std::move(out.fit));
   return out;
 }
@@ -277,6 +290,8 @@ void code(StepCodec& codec, SideFit& sides) {
   code(codec, sides.fit);
   codec.number(sides.start_radius_mm);
   code(codec, sides.tried_radii);
+  code(codec, sides.settled);
+  code(codec, sides.facing);
   codec.require(sides.fit.motions.size() % 2 == 0, "a motion for each side is needed");
 }
 
@@ -330,6 +345,26 @@ SideFit fit_sides(const CavitySide& left, const CavitySide& right, const ToolMod
   return journaled(
       progress, "sides", [&] { return search_radii(left, right, tool, options, progress); }, options.fit,
       options.layers, options.starts, tool, options.slender, options.facing);
+}
+
+SideFit settle_sides(const CavitySide& left, const CavitySide& right, SideFit sides, const SideFitOptions& options,
+                     const Progress& progress) {
+  if (sides.settled || sides.fit.motions.empty()) return sides;
+  const auto settle = [&] {
+    Polished polished;
+    polished.draft.motions = sides.fit.motions;
+    polished.draft.tool = sides.fit.tool;
+    polished.draft.free_tool = true;
+    polished.draft.facing = sides.facing;
+    polished.estimate = sides.fit.after;
+    tie(polished.draft, left, right);
+    const FlankFitOptions fit = possible(options.fit, sides.fit.tool.axis_length());
+    SideFit out = sides;
+    out.fit = finish(flank::internal::settled(polished, fit), fit, std::move(out.fit));
+    out.settled = true;
+    return out;
+  };
+  return journaled(progress, "settle", settle, options.fit, sides.facing);
 }
 
 }  // namespace flank::internal

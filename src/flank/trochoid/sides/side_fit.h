@@ -38,6 +38,10 @@ struct SideFit {
   FlankFitResult fit;
   double start_radius_mm = 0.0;
   int tried_radii = 0;
+  /// Not of a free tool that covers clearly less than is asked for: the next layers, or the next bound, may do better, and the
+  /// last passes take longer than all before them. What is milled is settled first (settle_sides).
+  bool settled = true;
+  bool facing = true;  ///< as its options had it
 };
 
 /// Among the values of a finished step (base/step_codec.h).
@@ -67,5 +71,10 @@ struct CavityWidth {
 
 [[nodiscard]] SideFit fit_sides(const CavitySide& left, const CavitySide& right, const ToolModel& tool,
                                 const SideFitOptions& options, const Progress& progress);
+
+/// Sides that were left unsettled, after the last passes: looked at closely, and led out of what they cut and enter. `options`:
+/// those of their fit.
+[[nodiscard]] SideFit settle_sides(const CavitySide& left, const CavitySide& right, SideFit sides,
+                                   const SideFitOptions& options, const Progress& progress);
 
 }  // namespace flank::internal

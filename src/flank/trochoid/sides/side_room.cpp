@@ -76,12 +76,11 @@ double reach_of_tool(const CavitySide& left, const CavitySide& right, const std:
   return share_of(reached_by(left, motions_of(motions, 0), tool), reached_by(right, motions_of(motions, 1), tool));
 }
 
-double covered_in_reach(const CavitySide& left, const CavitySide& right, const SideFit& fit, double tolerance_mm,
-                        double radius_mm) {
-  const std::vector<RuledMotion>& motions = fit.fit.motions;
+double covered_in_reach(const CavitySide& left, const CavitySide& right, const std::vector<RuledMotion>& motions,
+                        const RadialFunction& tool, double tolerance_mm, double radius_mm) {
   if (motions.size() < 2) return 1.0;
-  return share_of(covered_by(left, motions_of(motions, 0), fit.fit.tool, tolerance_mm, radius_mm),
-                  covered_by(right, motions_of(motions, 1), fit.fit.tool, tolerance_mm, radius_mm));
+  return share_of(covered_by(left, motions_of(motions, 0), tool, tolerance_mm, radius_mm),
+                  covered_by(right, motions_of(motions, 1), tool, tolerance_mm, radius_mm));
 }
 
 double least_way_across(const std::vector<RuledMotion>& motions, const RadialFunction& tool) {

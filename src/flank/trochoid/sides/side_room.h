@@ -5,7 +5,7 @@
 
 #include "flank/radial_function.h"
 #include "flank/ruled_motion.h"
-#include "flank/trochoid/sides/side_fit.h"
+#include "flank/trochoid/sides/side_start.h"
 
 namespace flank::internal {
 
@@ -17,7 +17,8 @@ namespace flank::internal {
 
 /// Of the samples of both sides that are within the tolerance of what the tool sweeps, the share at which a ball of a radius fits
 /// between the other faces: where what such a ball reaches is asked for, the rest counts for nothing. 1 if there are none.
-[[nodiscard]] double covered_in_reach(const CavitySide& left, const CavitySide& right, const SideFit& fit,
+[[nodiscard]] double covered_in_reach(const CavitySide& left, const CavitySide& right,
+                                      const std::vector<RuledMotion>& motions, const RadialFunction& tool,
                                       double tolerance_mm, double radius_mm);
 
 /// The way from one side to the other where it is shortest, over all heights, in diameters of the tool at that height.
