@@ -12,7 +12,7 @@ function(flank_layer name)
   target_include_directories(flank_${name} PUBLIC ${PROJECT_SOURCE_DIR}/include ${PROJECT_BINARY_DIR}/include
                              ${PROJECT_SOURCE_DIR}/src)
   target_link_libraries(flank_${name} PUBLIC Eigen3::Eigen ${ARGN} PRIVATE $<BUILD_INTERFACE:flank_warnings>)
-  if("nlohmann_json::nlohmann_json" IN_LIST ARGN AND "fmt::fmt" IN_LIST ARGN)
+  if("nlohmann_json::nlohmann_json" IN_LIST ARGN AND "fmt::fmt" IN_LIST ARGN AND NOT name IN_LIST FLANK_DENSE_LAYERS)
     target_compile_options(flank_${name} PRIVATE ${FLANK_TEXT_OPTIONS})
     flank_precompile(flank_${name} flank_precompiled_text)
   else()
