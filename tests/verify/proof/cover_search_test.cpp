@@ -6,6 +6,7 @@
 #include "flank/threads.h"
 #include "flank/verify/proof/face_shape.h"
 #include "flank/verify/proof/mesh_shape.h"
+#include "sanitized.h"
 #include "verify/brute_force.h"
 #include "verify/faces.h"
 
@@ -63,8 +64,9 @@ CoverLimits usual_limits(const FaceSamples& samples) {
 }
 
 TEST(CoverSearch, ProvesNoMoreThanThereIs) {
+  const int trials = kSanitized ? 4 : 12;  // each outline once
   int between = 0;
-  for (int trial = 0; trial < 12; ++trial) {
+  for (int trial = 0; trial < trials; ++trial) {
     Random random(static_cast<std::uint64_t>(300 + trial));
     const Tool tool = brute::random_tool(random, 16.0);
     const SweptVolume volume(tool, pass(random, 0.02 * (trial % 4), tool.radial.at(8.0).r));
@@ -77,10 +79,11 @@ TEST(CoverSearch, ProvesNoMoreThanThereIs) {
     EXPECT_GE(c.proved, c.fine - 0.02) << trial;  // the limits, of samples as coarse as these
     between += c.fine > 0.05 && c.fine < 0.95 ? 1 : 0;
   }
-  EXPECT_GE(between, 3) << "some are meant to be covered in part";
+  EXPECT_GE(4 * between, trials) << "some are meant to be covered in part";
 }
 
 TEST(CoverSearch, MeshesAndCurvedFaces) {
+  if (kThreadSanitized) GTEST_SKIP() << "the same loop as over a plane";
   Random random(5);
   const Tool tool = brute::random_tool(random, 16.0);
   const SweptVolume volume(tool, pass(random, 0.04, tool.radial.at(8.0).r));
