@@ -54,7 +54,7 @@ Poses covering(const SweptStock& stock, const RowFrame& frame, const RowDisc& di
   Poses out;
   for (std::size_t k = 0; k < stock.sweeps().size(); ++k)
     for (std::size_t p = 0; p < stock.sweeps()[k].poses.size(); ++p)
-      for (int j = 0; j < 7 * 9 * 12; ++j) {
+      for (int j = 0; j < 7 * 9 * 12; j += kSanitized ? 5 : 1) {
         const double z = std::lerp(disc.low, disc.high, (j % 7) / 6.0), r = disc.radius * ((j / 7) % 9) / 8.0;
         const double angle = 2.0 * std::numbers::pi * (j / 63) / 12.0;
         const Vec3 x =
