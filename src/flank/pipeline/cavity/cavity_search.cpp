@@ -77,7 +77,8 @@ SideState state_of(const SideFit& sides, const CavityFaces& faces, const Trochoi
 
 /// As many layers as the tolerance needs, `fewest` or more, or as many as are asked for: not those that cannot help.
 SideFit search_sides(const Search& search, SideFitOptions options, int fewest) {
-  const auto& [job, faces, tool, judge, progress, common] = search;
+  const TrochoidJob& job = search.job;
+  const CavityFaces& faces = search.faces;
   const CavitySide left = side_of(faces.sides[0]), right = side_of(faces.sides[1]);
   SideFit best;
   const int first = job.cycles.layers > 0 ? job.cycles.layers : fewest,
@@ -86,12 +87,12 @@ SideFit search_sides(const Search& search, SideFitOptions options, int fewest) {
     options.layers = layers;
     // More layers make a shorter tool, which is less slender.
     options.slender = layers == last;
-    SideFit tried = fit_sides(left, right, tool, options, progress);
+    SideFit tried = fit_sides(left, right, search.tool, options, search.progress);
     const bool better = best.fit.motions.empty() ||
                         tried.fit.after.score(job.tolerance_mm) > best.fit.after.score(job.tolerance_mm) + 0.002;
     const bool ends = state_of(tried, faces, job) != SideState::kShort;
     if (better) best = std::move(tried);
-    if (ends || !better || progress.stop()) break;
+    if (ends || !better || search.progress.stop()) break;
   }
   return best;
 }
@@ -202,8 +203,9 @@ CavityPlan search_ways(const Search& search, SideFitOptions options, bool thinne
 
 /// The same with a tool that is nearly as thick everywhere, if that is what is missing and it does more.
 CavityPlan search_even(const Search& search, SideFitOptions options, CavityPlan tried, CavityPlan& uncut) {
-  const auto& [job, faces, tool, judge, progress, common] = search;
-  if (!tool.free() || !wants_even_tool(tried, faces, job) || progress.stop()) return tried;
+  const TrochoidJob& job = search.job;
+  const CavityFaces& faces = search.faces;
+  if (!search.tool.free() || !wants_even_tool(tried, faces, job) || search.progress.stop()) return tried;
   options.starts = {{options.starts.front().radius_mm, kEven}};
   CavityPlan even = search_ways(search, options, true, uncut);
   return is_done(even, faces, job) || is_better(even, tried, job.tolerance_mm) ? even : tried;
