@@ -54,6 +54,24 @@ TEST(FaceNames, ListsAndRanges) {
   EXPECT_NE(refused(part, "F1-F3,F2").find("named twice"), std::string::npos);
 }
 
+TEST(FaceNames, SolidsStandForTheirFaces) {
+  Part part = four_faces();
+  using Faces = std::vector<int>;
+  EXPECT_NE(refused(part, "S1").find("the file has none"), std::string::npos);
+  part.solids = 3;
+  for (const int k : {0, 1, 2}) {
+    Face& face = part.faces[static_cast<std::size_t>(k)];
+    face.of_solid = true, face.solid = k;
+  }
+  EXPECT_EQ(parse_face_list(part, "S2"), Faces{1});
+  EXPECT_EQ(parse_face_list(part, "s2-S3"), (Faces{1, 2}));
+  EXPECT_EQ(parse_face_list(part, "S1,F4"), (Faces{0, 3})) << "F4 is of a sheet";
+  for (const char* wrong : {"S0", "S4", "S2-", "S3-S2", "S2-F3", "S1a", "S2-S4"})
+    EXPECT_NE(refused(part, wrong).find("accepted are S1 to S3"), std::string::npos) << wrong;
+  part.left_out[1] = "for a reason";
+  EXPECT_EQ(parse_face_list(part, "S1-S2"), Faces{0});
+}
+
 TEST(FaceNames, PiecesTakeThePlaceOfTheirFace) {
   Part part = four_faces();
   EXPECT_NE(refused(part, "F2a").find("no piece"), std::string::npos) << "not split yet";

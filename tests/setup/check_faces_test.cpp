@@ -67,5 +67,17 @@ TEST(CheckFaces, SaysWhatIsLeftOut) {
             "not checked, as asked: F3, F4, F5, F6, F7, F8, F9, F10 and 10 more faces");
 }
 
+TEST(CheckFaces, SaysHowOtherSolidsAreLeftOut) {
+  Part part = part_of(6);
+  for (std::size_t k = 0; k < 5; ++k) part.faces[k].of_solid = true, part.faces[k].solid = static_cast<int>(k);
+  part.solids = 5;
+  EXPECT_NE(other_solids_note(part, {1}, {0, 2, 3, 5}).find("3 other solids"), std::string::npos);
+  EXPECT_NE(other_solids_note(part, {1}, {0, 2, 3, 5}).find("--ignore-faces S1,S3-S4"), std::string::npos);
+  EXPECT_NE(other_solids_note(part, {0, 1}, {2}).find("1 other solid, too"), std::string::npos);
+  EXPECT_EQ(other_solids_note(part, {1}, {5}), "") << "a sheet";
+  EXPECT_EQ(other_solids_note(part, {5}, {0, 1}), "") << "the target is one";
+  EXPECT_EQ(faces_to_check(part, {1}, faces({}, "S1,S3-S5")), std::vector<int>{5});
+}
+
 }  // namespace
 }  // namespace flank::internal

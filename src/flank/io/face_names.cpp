@@ -22,6 +22,33 @@ int last_number(const Part& part) {
                                name, last_number(part)));
 }
 
+/// The number in "S3", 0 if it is not the name of a solid.
+int parse_solid_name(std::string_view text) {
+  int number = 0;
+  if (text.size() < 2 || (text.front() != 'S' && text.front() != 's')) return 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data() + 1, end, number);
+  return error == std::errc() && stop == end ? std::max(0, number) : 0;
+}
+
+/// Faces of S2, or of S2-S4; what could not be read is none of them.
+std::vector<int> faces_of_solids(const Part& part, const std::string& item) {
+  const std::size_t dash = item.find('-');
+  const int first = parse_solid_name(std::string_view(item).substr(0, dash));
+  const int last = dash == std::string::npos ? first : parse_solid_name(std::string_view(item).substr(dash + 1));
+  if (first < 1 || last < first || last > part.solids)
+    throw InputError(fmt::format("{}: there is no solid \"{}\"; {}", part.file, item,
+                                 part.solids > 0 ? fmt::format("accepted are S1 to S{}", part.solids)
+                                                 : "the file has none, and its faces are F1, F2 and so on"));
+  std::vector<int> faces;
+  for (std::size_t k = 0; k < part.faces.size(); ++k) {
+    const Face& face = part.faces[k];
+    const bool named = face.of_solid && face.solid >= first - 1 && face.solid <= last - 1;
+    if (named && !part.is_left_out(static_cast<int>(k))) faces.push_back(static_cast<int>(k));
+  }
+  return faces;
+}
+
 void refuse_left_out(const Part& part, int face) {
   if (const auto why = part.left_out.find(face); why != part.left_out.end()) throw InputError(why->second);
 }
@@ -75,6 +102,7 @@ std::vector<std::string> face_list_items(const std::string& list) {
 }
 
 std::vector<int> parse_face_item(const Part& part, const std::string& item) {
+  if (!item.empty() && (item.front() == 'S' || item.front() == 's')) return faces_of_solids(part, item);
   const std::size_t dash = item.find('-');
   const FaceName first = parse_face_name(std::string_view(item).substr(0, dash));
   if (first.number < 1 || first.number > last_number(part)) refuse_name(part, item);

@@ -1,4 +1,4 @@
-/// Names of faces as users write them: F3, F3b, F5-F9.
+/// Names of faces as users write them: F3, F3b, F5-F9; S2, S2-S4 for all faces of solids.
 #pragma once
 
 #include <string>
@@ -24,7 +24,7 @@ struct FaceName {
 /// The items of a list, separated by commas, without blanks around them.
 [[nodiscard]] std::vector<std::string> face_list_items(const std::string& list);
 
-/// Indices of what one item of a list means: F3, F3b, F5-F9. Throws InputError as parse_face_list does.
+/// Indices of what one item of a list means: F3, F3b, F5-F9, S2, S2-S4. Throws InputError as parse_face_list does.
 [[nodiscard]] std::vector<int> parse_face_item(const Part& part, const std::string& item);
 
 }  // namespace flank::internal

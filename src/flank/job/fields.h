@@ -124,7 +124,8 @@ void visit_obstacles(Request& obstacles, Visitor& visit) {
                 "The tool must not enter these faces, F88,F12; default: any face that is not machined. Entering one by "
                 "more than the tolerance is exit 1"},
       obstacles.check_faces);
-  visit(FieldInfo{"ignore_faces", "", kFaces, "It may enter these: they are not checked"}, obstacles.ignore_faces);
+  visit(FieldInfo{"ignore_faces", "", kFaces, "It may enter these: they are not checked; S2-S5: all of solids 2 to 5"},
+        obstacles.ignore_faces);
   visit(FieldInfo{"shank_length", "mm", kAbove, "A cylindrical shank above the flank, of this length", kLength},
         obstacles.shank_length_mm);
   visit(FieldInfo{"shank_radius", "mm", kAbove, "Its radius; default: that of the flank's upper end", kLength},

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "flank/error.h"
 #include "flank/io/face_names.h"
@@ -35,6 +36,18 @@ std::vector<int> named_faces(const Part& part, const std::vector<int>& targets, 
   return faces;
 }
 
+/// "S1", "S3-S5", ... of 0-based solids, ascending.
+std::vector<std::string> names_of_solids(const std::set<int>& solids) {
+  std::vector<std::string> names;
+  for (auto at = solids.begin(); at != solids.end();) {
+    const int first = *at;
+    int last = first;
+    for (++at; at != solids.end() && *at == last + 1; ++at) last = *at;
+    names.push_back(first == last ? fmt::format("S{}", first + 1) : fmt::format("S{}-S{}", first + 1, last + 1));
+  }
+  return names;
+}
+
 }  // namespace
 
 std::vector<int> faces_to_check(const Part& part, const std::vector<int>& targets, const ObstacleRequest& request) {
@@ -62,6 +75,22 @@ std::string unchecked_note(const Part& part, const std::vector<int>& targets, co
   names.resize(std::min(count, kNamed));
   return fmt::format("not checked, as asked: {}{}", fmt::join(names, ", "),
                      count > kNamed ? fmt::format(" and {} more faces", count - kNamed) : "");
+}
+
+std::string other_solids_note(const Part& part, const std::vector<int>& targets, const std::vector<int>& checks) {
+  if (part.is_mesh()) return {};
+  std::set<int> own, others;
+  for (const int face : targets)
+    if (const Face& target = part.faces[static_cast<std::size_t>(face)]; target.of_solid) own.insert(target.solid);
+  if (own.empty()) return {};
+  for (const int face : checks)
+    if (const Face& check = part.faces[static_cast<std::size_t>(face)]; check.of_solid && own.count(check.solid) == 0)
+      others.insert(check.solid);
+  if (others.empty()) return {};
+  return fmt::format(
+      "the tool keeps clear of {} other solid{}, too; if the part is machined without {}: --ignore-faces {}",
+      others.size(), others.size() == 1 ? "" : "s", others.size() == 1 ? "it" : "them",
+      fmt::join(names_of_solids(others), ","));
 }
 
 }  // namespace flank::internal

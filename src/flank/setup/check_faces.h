@@ -20,4 +20,8 @@ namespace flank::internal {
 [[nodiscard]] std::string unchecked_note(const Part& part, const std::vector<int>& targets,
                                          const std::vector<int>& checks);
 
+/// Where check faces are of other solids than the targets (an assembly): that they are, and how to leave them out. Empty if none is.
+[[nodiscard]] std::string other_solids_note(const Part& part, const std::vector<int>& targets,
+                                            const std::vector<int>& checks);
+
 }  // namespace flank::internal

@@ -42,6 +42,8 @@ Setup read_setup(const PartRequest& part, const ObstacleRequest& obstacles, doub
   notes.insert(notes.end(), setup.part.repairs.begin(), setup.part.repairs.end());
   if (const std::string note = unchecked_note(setup.part, setup.targets, setup.checks); !note.empty())
     notes.push_back(note);
+  if (const std::string note = other_solids_note(setup.part, setup.targets, setup.checks); !note.empty())
+    notes.push_back(note);
   return setup;
 }
 

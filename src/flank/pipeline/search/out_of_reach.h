@@ -19,7 +19,7 @@ namespace flank::internal {
 [[nodiscard]] FlankFitOptions hardly_worth_it(FlankFitOptions options);
 
 /// Below this share of the area nobody can reach anything that is worth a tool.
-inline constexpr double kHardlyAny = 0.01;
+inline constexpr double kHardlyAny = 0.05;
 
 /// What is said of it.
 [[nodiscard]] std::string out_of_reach_note(double share, const FlankFitOptions& options);
