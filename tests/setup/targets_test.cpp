@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "cover/cover_targets.h"
+#include "geom/skins.h"
 
 namespace flank::internal {
 namespace {
@@ -43,6 +44,16 @@ TEST(MakeTargets, AreasAreThoseOfTheFaces) {
   ASSERT_EQ(groups.size(), 2u);
   EXPECT_NEAR(groups[0].target->area(), 1200.0, 1.0);
   EXPECT_NEAR(groups[1].target->area(), 600.0, 0.5);
+}
+
+TEST(WrappedNote, NamesThePiecesOfASkin) {
+  internal::Setup setup = plates();
+  setup.part.faces[1] = testing::elliptic_skin(40.0, 4.0, 30.0);
+  setup.part.faces[1].id = "F2";
+  EXPECT_EQ(wrapped_note(setup.part, {0, 2}), "");
+  const std::string note = wrapped_note(setup.part, {0, 1});
+  for (const char* said : {"F2 goes round an edge", "F2a (side)", "F2b (side)", "(edge)", "--face F2a"})
+    EXPECT_NE(note.find(said), std::string::npos) << said << " in " << note;
 }
 
 }  // namespace

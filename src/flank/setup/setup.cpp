@@ -1,9 +1,12 @@
 #include "flank/setup/setup.h"
 
+#include <utility>
+
 #include "flank/error.h"
 #include "flank/setup/check_faces.h"
 #include "flank/setup/make_obstacles.h"
 #include "flank/setup/skin.h"
+#include "flank/setup/targets.h"
 
 namespace flank::internal {
 namespace {
@@ -40,10 +43,10 @@ Setup read_setup(const PartRequest& part, const ObstacleRequest& obstacles, doub
   setup.tolerance_mm = tolerance_mm;
   setup.fixtures = read_fixtures(obstacles.fixtures, part.unit);
   notes.insert(notes.end(), setup.part.repairs.begin(), setup.part.repairs.end());
-  if (const std::string note = unchecked_note(setup.part, setup.targets, setup.checks); !note.empty())
-    notes.push_back(note);
-  if (const std::string note = other_solids_note(setup.part, setup.targets, setup.checks); !note.empty())
-    notes.push_back(note);
+  for (std::string note :
+       {wrapped_note(setup.part, setup.targets), unchecked_note(setup.part, setup.targets, setup.checks),
+        other_solids_note(setup.part, setup.targets, setup.checks)})
+    if (!note.empty()) notes.push_back(std::move(note));
   return setup;
 }
 

@@ -1,10 +1,13 @@
 #include "flank/setup/targets.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 
 #include "flank/base/parallel.h"
 #include "flank/error.h"
+#include "flank/io/face_groups.h"
 
 namespace flank::internal {
 namespace {
@@ -96,6 +99,24 @@ std::vector<TargetGroup> make_targets(const Setup& setup, int side) {
     group.target = make_target(std::move(values), group.of_solid ? +1 : side);
   }
   return targets;
+}
+
+std::string wrapped_note(const Part& part, const std::vector<int>& targets) {
+  constexpr std::size_t kNamed = 4;
+  std::vector<std::string> wrapped;
+  std::string first;
+  for (const int face : targets) {
+    std::vector<std::string> pieces;
+    for (const NamedPiece& piece : pieces_of_face(part, face))
+      pieces.push_back(fmt::format("{} ({})", piece.face.id, piece.edge ? "edge" : "side"));
+    if (pieces.empty()) continue;
+    if (first.empty()) first = part.face_id(face) + "a";
+    wrapped.push_back(fmt::format("{} goes round an edge: {}", part.face_id(face), fmt::join(pieces, ", ")));
+  }
+  if (wrapped.empty()) return {};
+  wrapped.resize(std::min(wrapped.size(), kNamed));
+  return fmt::format("{}; a tool on one side does not get round it: name a piece, --face {}",
+                     fmt::join(wrapped, "; "), first);
 }
 
 std::vector<FaceSamples> judge_samples(const Setup& setup, double spacing_mm, double check_spacing_mm) {
