@@ -183,9 +183,19 @@ struct FlankFitResult {
                                            const Progress& progress);
 
 /// Polishes given starts: one motion and one target per task (at least one; all of one axis length), one tool for all.
-/// Ranks by the first task's target and obstacles.
+/// Ranks by all their targets, each beside the obstacles of its first task.
 [[nodiscard]] FlankFitResult fit_from_starts(const std::vector<FitTask>& tasks, const ToolModel& tool,
                                              const FlankFitOptions& options, const Progress& progress);
+
+/// Motions on several targets with one tool, as they were found. `found`: the tool, of the motions' axis length.
+[[nodiscard]] FlankFitResult fit_as_found(const std::vector<FitTask>& tasks, const RadialFunction& found,
+                                          const ToolModel& tool, const FlankFitOptions& options);
+
+/// The same if they do what is asked (options.enough_coverage), else polished together, from the mean distances of their axes; the
+/// better of both.
+[[nodiscard]] FlankFitResult fit_together(const std::vector<FitTask>& tasks, const RadialFunction& found,
+                                          const ToolModel& tool, const FlankFitOptions& options,
+                                          const Progress& progress);
 
 /// A result that turns out to cut deeper than the tolerance at options.watched, between the samples that it was looked at
 /// with, led out of what it cuts. `tasks`: its targets and what is in the way of each of its motions. Notes and tried

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "cover/cover_targets.h"
+#include "flank/io/face_groups.h"
 #include "geom/skins.h"
 
 namespace flank::internal {
@@ -46,13 +47,18 @@ TEST(MakeTargets, AreasAreThoseOfTheFaces) {
   EXPECT_NEAR(groups[1].target->area(), 600.0, 0.5);
 }
 
-TEST(WrappedNote, NamesThePiecesOfASkin) {
+TEST(MakeTargets, PiecesOfASkinAreTargetsOfTheirOwn) {
   internal::Setup setup = plates();
   setup.part.faces[1] = testing::elliptic_skin(40.0, 4.0, 30.0);
   setup.part.faces[1].id = "F2";
-  EXPECT_EQ(wrapped_note(setup.part, {0, 2}), "");
-  const std::string note = wrapped_note(setup.part, {0, 1});
-  for (const char* said : {"F2 goes round an edge", "F2a (side)", "F2b (side)", "(edge)", "--face F2a"})
+  setup.part.surface_types.assign(setup.part.faces.size(), "B-spline");
+  split_two_sided(setup.part, "F1,F2");
+  setup.targets = parse_face_list(setup.part, "F1,F2");
+  ASSERT_GT(setup.targets.size(), 3u);
+  EXPECT_EQ(make_targets(setup, +1).size(), setup.targets.size());
+  EXPECT_EQ(wrapped_note(setup.part, {0}), "");
+  const std::string note = wrapped_note(setup.part, setup.targets);
+  for (const char* said : {"F2 goes round an edge and is machined in pieces", "F2a, F2b, F2c"})
     EXPECT_NE(note.find(said), std::string::npos) << said << " in " << note;
 }
 

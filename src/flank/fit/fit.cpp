@@ -259,10 +259,23 @@ FlankFitResult search_ways(const Target& target, const ToolModel& tool, const Fl
   return best_way(target, tool, options, std::move(first), search, progress);
 }
 
+/// Samples that rank fits of all targets of the tasks, each once.
+std::vector<SurfaceSample> ranking_samples_of(const std::vector<FitTask>& tasks, const FlankFitOptions& options) {
+  std::vector<SurfaceSample> samples;
+  std::vector<const Target*> seen;
+  for (const FitTask& task : tasks) {
+    if (std::find(seen.begin(), seen.end(), task.target) != seen.end()) continue;
+    seen.push_back(task.target);
+    const std::vector<SurfaceSample> own = ranking_samples(*task.target, task.obstacles, options);
+    samples.insert(samples.end(), own.begin(), own.end());
+  }
+  return samples;
+}
+
 FlankFitResult polish_starts(const std::vector<FitTask>& tasks, const ToolModel& tool, const FlankFitOptions& options,
                              const Progress& progress) {
   FlankFitResult result;
-  const std::vector<SurfaceSample> samples = ranking_samples(*tasks.front().target, tasks.front().obstacles, options);
+  const std::vector<SurfaceSample> samples = ranking_samples_of(tasks, options);
   // The start is the user's: no quick fit, which would move it towards what ranks best, and no other candidates.
   FitDraft draft = make_draft(tasks, tool, options);
   progress.step("fit", 0.1);
@@ -297,6 +310,22 @@ FlankFitResult fit_from_starts(const std::vector<FitTask>& tasks, const ToolMode
   for (const FitTask& task : tasks) starts.push_back(task.motion);
   const auto work = [&] { return polish_starts(tasks, tool, options, progress); };
   return journaled(progress, "fit from starts", work, options, tool, starts);
+}
+
+FlankFitResult fit_as_found(const std::vector<FitTask>& tasks, const RadialFunction& found, const ToolModel& tool,
+                            const FlankFitOptions& options) {
+  FLANK_ASSERT(!tasks.empty());
+  FitDraft draft = make_draft(tasks, tool, options);
+  draft.tool = found;
+  return finish(looked_at_closely(draft, options), options, {});
+}
+
+FlankFitResult fit_together(const std::vector<FitTask>& tasks, const RadialFunction& found, const ToolModel& tool,
+                            const FlankFitOptions& options, const Progress& progress) {
+  FlankFitResult as_found = fit_as_found(tasks, found, tool, options);
+  if (is_enough(as_found.after, options) || progress.stop()) return as_found;
+  FlankFitResult polished = fit_from_starts(tasks, tool, options, progress);
+  return is_better(as_found.after, polished.after, options.tolerance_mm) ? as_found : polished;
 }
 
 std::optional<FlankFitResult> mend_fit(const std::vector<FitTask>& tasks, const FlankFitResult& found,

@@ -46,6 +46,16 @@ std::vector<NamedPiece> pieces_of_face(const Part& part, int face) {
   return named;
 }
 
+void split_two_sided(Part& part, const std::string& list) {
+  std::vector<int> faces = parse_face_list(part, list);
+  std::sort(faces.rbegin(), faces.rend());  // those behind a face that is replaced move up
+  for (const int face : faces) {
+    std::vector<NamedPiece> pieces = pieces_of_face(part, face);
+    if (std::count_if(pieces.begin(), pieces.end(), [](const NamedPiece& piece) { return !piece.edge; }) > 1)
+      replace_face(part, face, std::move(pieces));
+  }
+}
+
 }  // namespace internal
 
 void split_faces(Part& part, const std::string& list) {

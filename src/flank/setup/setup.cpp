@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "flank/error.h"
+#include "flank/io/face_groups.h"
 #include "flank/setup/check_faces.h"
 #include "flank/setup/make_obstacles.h"
 #include "flank/setup/skin.h"
@@ -35,6 +36,7 @@ Setup read_setup(const PartRequest& part, const ObstacleRequest& obstacles, doub
   Setup setup;
   setup.part = read_part(part.file, part.unit);
   split_faces(setup.part, part.skin.value_or(part.faces));
+  if (!part.skin) split_two_sided(setup.part, part.faces);
   split_checks(setup.part, "check_faces", obstacles.check_faces);
   split_checks(setup.part, "ignore_faces", obstacles.ignore_faces);
   setup.targets = targets_of(setup.part, part);

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 #include "flank/base/parallel.h"
 #include "flank/error.h"
 #include "flank/io/face_groups.h"
+#include "flank/io/face_names.h"
 
 namespace flank::internal {
 namespace {
@@ -44,6 +46,12 @@ bool are_connected(const Target& a, const Face& b) {
   return touching >= kPerEdge / 2;
 }
 
+/// A side and the edge that it goes over into: what one motion does of them, the next does not.
+bool are_pieces_of_one(const Part& part, int a, int b) {
+  const FaceName one = parse_face_name(part.face_id(a)), other = parse_face_name(part.face_id(b));
+  return !one.piece.empty() && !other.piece.empty() && one.number == other.number;
+}
+
 /// Groups of faces that hang together, by their indices; each group's number is the index of one of its members.
 std::vector<std::vector<int>> connected_groups(const Part& part, const std::vector<int>& faces) {
   std::vector<int> group(faces.size());
@@ -52,7 +60,7 @@ std::vector<std::vector<int>> connected_groups(const Part& part, const std::vect
     // Asked for its own points only: which side the material is on does not matter here.
     const std::unique_ptr<Target> target = make_target({part.faces[faces[i]]}, +1);
     for (std::size_t j = i + 1; j < faces.size(); ++j) {
-      if (group[i] == group[j] || !are_connected(*target, part.faces[faces[j]])) continue;
+      if (group[i] == group[j] || are_pieces_of_one(part, faces[i], faces[j]) || !are_connected(*target, part.faces[faces[j]])) continue;
       const int from = group[j], to = group[i];
       std::replace(group.begin(), group.end(), from, to);
     }
@@ -103,20 +111,23 @@ std::vector<TargetGroup> make_targets(const Setup& setup, int side) {
 
 std::string wrapped_note(const Part& part, const std::vector<int>& targets) {
   constexpr std::size_t kNamed = 4;
-  std::vector<std::string> wrapped;
-  std::string first;
+  std::vector<std::string> notes;
+  std::map<int, std::vector<std::string>> in_pieces;  // by number of the face
   for (const int face : targets) {
+    const FaceName name = parse_face_name(part.face_id(face));
+    if (!name.piece.empty()) in_pieces[name.number].push_back(part.face_id(face));
     std::vector<std::string> pieces;
-    for (const NamedPiece& piece : pieces_of_face(part, face))
-      pieces.push_back(fmt::format("{} ({})", piece.face.id, piece.edge ? "edge" : "side"));
-    if (pieces.empty()) continue;
-    if (first.empty()) first = part.face_id(face) + "a";
-    wrapped.push_back(fmt::format("{} goes round an edge: {}", part.face_id(face), fmt::join(pieces, ", ")));
+    for (const NamedPiece& piece : pieces_of_face(part, face)) pieces.push_back(piece.face.id);
+    if (!pieces.empty())
+      notes.push_back(fmt::format("{} goes round an edge; its side and edge one by one: --face {}", part.face_id(face),
+                                  fmt::join(pieces, ",")));
   }
-  if (wrapped.empty()) return {};
-  wrapped.resize(std::min(wrapped.size(), kNamed));
-  return fmt::format("{}; a tool on one side does not get round it: name a piece, --face {}",
-                     fmt::join(wrapped, "; "), first);
+  for (const auto& [number, pieces] : in_pieces)
+    if (pieces.size() > 2)
+      notes.push_back(fmt::format("F{} goes round an edge and is machined in pieces, {}; flank inspect shows them",
+                                  number, fmt::join(pieces, ", ")));
+  notes.resize(std::min(notes.size(), kNamed));
+  return fmt::format("{}", fmt::join(notes, "; "));
 }
 
 std::vector<FaceSamples> judge_samples(const Setup& setup, double spacing_mm, double check_spacing_mm) {

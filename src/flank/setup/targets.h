@@ -13,7 +13,8 @@
 
 namespace flank::internal {
 
-/// Faces whose borders meet are one target; faces whose borders do not are several, to be machined with one tool.
+/// Faces whose borders meet are one target; faces whose borders do not, and pieces of one face, are several, to be machined with one
+/// tool.
 struct TargetGroup {
   std::string faces;  ///< "F1" or "F1,F2"
   std::unique_ptr<Target> target;
@@ -25,7 +26,8 @@ struct TargetGroup {
 /// side = -1 turns the machining side of open sheets.
 [[nodiscard]] std::vector<TargetGroup> make_targets(const Setup& setup, int side);
 
-/// Targets that go round an edge, which no tool on one side follows all the way, with the pieces that it does. Empty if none does.
+/// Targets that go round an edge: those with two sides, which are machined in pieces, and those with one, which may be. Empty if none
+/// does.
 [[nodiscard]] std::string wrapped_note(const Part& part, const std::vector<int>& targets);
 
 /// Samples of the targets and of the check faces (coarser) for the judge, in the order of the part's faces.

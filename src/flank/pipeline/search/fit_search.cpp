@@ -8,15 +8,13 @@
 #include <utility>
 
 #include "flank/error.h"
-#include "flank/fit/coverage.h"
 #include "flank/fit/tried.h"
 #include "flank/pipeline/search/closed_mesh.h"
+#include "flank/pipeline/search/group_fit.h"
 #include "flank/pipeline/search/out_of_reach.h"
 #include "flank/pipeline/search/reach_ball.h"
 #include "flank/pipeline/search/reach_further.h"
 #include "flank/pipeline/search/search_setup.h"
-#include "flank/pipeline/search/stiff_fit.h"
-#include "flank/pipeline/search/strip_gain.h"
 #include "flank/seed/axis_line.h"
 #include "flank/seed/guide_file.h"
 #include "flank/seed/guide_start.h"
@@ -71,114 +69,6 @@ double wanted_estimate(const FitJob& job, const Target& target, double spare_cov
   return std::min(wanted, most_of_facets(target, job.tolerance_mm));
 }
 
-/// Covers what was asked, by the planner's estimate, enters nothing and does not plunge.
-bool is_done(const FlankFitResult& result, double wanted, double tolerance_mm) {
-  return result.after.at_tolerance >= wanted && is_clean(result.after, tolerance_mm) && result.after.largest_c < 1.0;
-}
-
-/// Keeps the better of two results, and what was tried for both; one without a motion is none.
-void keep_better(FlankFitResult& best, FlankFitResult&& other, const FlankFitOptions& options) {
-  if (other.motions.empty()) return;
-  if (best.motions.empty() || is_better(other.after, best.after, options.tolerance_mm)) std::swap(best, other);
-  add_tried(best, other, options.bounds);
-}
-
-/// One group with as many strips as its tolerance needs: a strip more as long as that is not met, and gains something or
-/// promises to.
-FlankFitResult fit_auto(const Target& target, const ToolModel& tool, FlankFitOptions options, double wanted,
-                        const Progress& progress) {
-  /// Of the face, before the last passes, which rarely gain more than a tenth: a strip more is tried instead.
-  constexpr double kPromising = 0.85;
-  const bool has_ways = options.ways;
-  FlankFitResult best;
-  double one_covers = 0.0, rest = 1.0;
-  StripGain gain(options.tolerance_mm, !options.ways);
-  for (int count : {1, 2, 3, 4, 6, 8, 10, kMostStrips}) {
-    options.strips = count;
-    options.least_coverage_for_last_passes = count < kMostStrips ? kPromising : 0.0;
-    const double here = 1.0 - rest;  // nobody knows how many follow: each gets a half of what is left
-    FlankFitResult result = fit_automatic(target, tool, options, progress.part(here, 1.0 - (rest *= 0.5)));
-    if (count == 1) one_covers = result.after.at_tolerance;
-    // They cost as much as all before, and one strip more leads no axis out of another face.
-    if (result.other_ways == OtherWays::kHopeless) options.ways = false;
-    keep_better(best, std::move(result), options);
-    if (is_done(best, wanted, options.tolerance_mm) || !gain.goes_on(best) || progress.stop()) break;
-  }
-  if (has_ways && !options.ways && !is_done(best, wanted, options.tolerance_mm) && !progress.stop()) {
-    options.strips = std::max<int>(1, static_cast<int>(best.motions.size()));
-    options.ways = true;
-    keep_better(best, fit_automatic(target, tool, options, progress.part(1.0 - rest, 1.0)), options);
-  }
-  if (best.motions.size() > 1)
-    best.notes.push_back(fmt::format("{} strips cover {:.1f} % (estimate), one strip {:.1f} %", best.motions.size(),
-                                     100.0 * best.after.at_tolerance, 100.0 * one_covers));
-  return best;
-}
-
-/// One group: with the strips that were asked for, or with those that the tolerance needs (0). A strip more must not make
-/// it worse: where several do not give what was asked, one is tried, too. Last, the bounds on stiffness give way.
-FlankFitResult fit_group(const Target& target, const ToolModel& tool, FlankFitOptions options, int strips,
-                         double wanted, const Progress& progress) {
-  const auto done = [&](const FlankFitResult& result) {
-    return is_done(result, wanted, options.tolerance_mm) || progress.stop();
-  };
-  const double share = reachable_share(target, options);
-  if (share < kHardlyAny) {
-    FlankFitResult hidden = fit_automatic(target, tool, hardly_worth_it(options), progress);
-    hidden.notes.push_back(out_of_reach_note(share, options));
-    return hidden;
-  }
-  options.strips = std::max(1, strips);
-  /// Of the progress: where one strip and where the lifted bounds begin.
-  constexpr double kFirst = 0.6, kSoften = 0.7;
-  const Progress first = progress.part(0.0, kFirst);
-  FlankFitResult best =
-      strips > 0 ? fit_automatic(target, tool, options, first) : fit_auto(target, tool, options, wanted, first);
-  if (strips > 1 && !done(best)) {
-    options.strips = 1;
-    keep_better(best, fit_automatic(target, tool, options, progress.part(kFirst, kSoften)), options);
-  }
-  // What facets keep from a motion no slender tool brings back.
-  if (done(best) || !options.ways) {
-    note_slenderness(tool, options, best);
-    return best;
-  }
-  options.strips = std::max<int>(1, static_cast<int>(best.motions.size()));
-  return soften(target, tool, options, std::move(best), progress.part(kSoften, 1.0));
-}
-
-/// All groups with one tool: the first finds it, the others are fitted to it, then all are polished together.
-void fit_groups(const FitJob& job, FitSearch& search, const ToolModel& tool, const FlankFitOptions& options,
-                const Progress& progress) {
-  std::vector<FitTask> tasks;
-  ToolModel shared = tool;
-  for (std::size_t g = 0; g < search.targets.size(); ++g) {
-    const Target& target = *search.targets[g].target;
-    FlankFitOptions own = options;
-    own.obstacles = search.targets[g].obstacles.get();
-    // The polish of all together comes after the groups.
-    const double parts = static_cast<double>(search.targets.size() > 1 ? search.targets.size() + 1 : 1);
-    const Progress part = progress.part(static_cast<double>(g) / parts, static_cast<double>(g + 1) / parts);
-    FlankFitResult result =
-        fit_group(target, shared, own, job.strips, wanted_estimate(job, target, search.spare_coverage), part);
-    for (const RuledMotion& motion : result.motions) {
-      tasks.push_back({&target, motion, own.obstacles});
-      search.group_of_motion.push_back(g);
-    }
-    if (g == 0) {
-      const RadialFunction radial = result.tool;
-      shared.make = [radial](double, double) { return radial; };
-      shared.free_parameters.clear();
-      shared.axis_length = radial.axis_length();
-      shared.radius = radial.at(0.5 * radial.axis_length()).r;
-    }
-    if (search.targets.size() > 1) continue;
-    result.notes.insert(result.notes.begin(), search.fit.notes.begin(), search.fit.notes.end());
-    search.fit = std::move(result);
-  }
-  if (search.targets.size() > 1) search.fit = fit_from_starts(tasks, tool, options, progress);
-}
-
 /// The motion of a start over the target; `notes` gets what its propagation says.
 RuledMotion motion_of(const FitJob& job, const UserStart& start, const ToolModel& tool, const Target& target,
                       std::vector<std::string>& notes) {
@@ -223,11 +113,16 @@ FitSearch begin_side(const FitJob& job, const Setup& setup, const ToolModel& too
 }
 
 FitSearch search_side(const FitJob& job, FitSearch search, const UserStart& start, const Progress& progress) {
-  // fit_groups fills what it reads these from.
   const ToolModel tool = search.tool;
   const FlankFitOptions options = search.options;
   if (!start.given()) {
-    fit_groups(job, search, tool, options, progress);
+    GroupDemand demand{.strips = job.strips, .wanted = {}};
+    for (const TargetGroup& group : search.targets)
+      demand.wanted.push_back(wanted_estimate(job, *group.target, search.spare_coverage));
+    GroupFits found = fit_groups(search.targets, tool, options, demand, progress);
+    found.fit.notes.insert(found.fit.notes.begin(), search.fit.notes.begin(), search.fit.notes.end());
+    search.fit = std::move(found.fit);
+    search.group_of_motion = std::move(found.group_of_motion);
     return search;
   }
   if (search.targets.size() > 1)

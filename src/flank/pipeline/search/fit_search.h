@@ -11,9 +11,6 @@
 
 namespace flank::internal {
 
-/// The largest number of strips that "as many as the tolerance needs" tries.
-inline constexpr int kMostStrips = 12;
-
 struct FitSearch {
   std::vector<TargetGroup> targets;
   FlankFitResult fit;                        ///< motions of all groups, one tool

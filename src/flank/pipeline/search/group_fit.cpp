@@ -1,0 +1,224 @@
+#include "flank/pipeline/search/group_fit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <utility>
+
+#include "flank/fit/coverage.h"
+#include "flank/fit/tried.h"
+#include "flank/pipeline/search/out_of_reach.h"
+#include "flank/pipeline/search/stiff_fit.h"
+#include "flank/pipeline/search/strip_gain.h"
+
+namespace flank::internal {
+namespace {
+
+/// Keeps the better of two results, and what was tried for both; one without a motion is none.
+void keep_better(FlankFitResult& best, FlankFitResult&& other, const FlankFitOptions& options) {
+  if (other.motions.empty()) return;
+  if (best.motions.empty() || is_better(other.after, best.after, options.tolerance_mm)) std::swap(best, other);
+  add_tried(best, other, options.bounds);
+}
+
+/// One group with as many strips as its tolerance needs: a strip more as long as that is not met, and gains something or
+/// promises to.
+FlankFitResult fit_auto(const Target& target, const ToolModel& tool, FlankFitOptions options, double wanted,
+                        const Progress& progress) {
+  /// Of the face, before the last passes, which rarely gain more than a tenth: a strip more is tried instead.
+  constexpr double kPromising = 0.85;
+  const bool has_ways = options.ways;
+  FlankFitResult best;
+  double one_covers = 0.0, rest = 1.0;
+  StripGain gain(options.tolerance_mm, !options.ways);
+  for (int count : {1, 2, 3, 4, 6, 8, 10, kMostStrips}) {
+    options.strips = count;
+    options.least_coverage_for_last_passes = count < kMostStrips ? kPromising : 0.0;
+    const double here = 1.0 - rest;  // nobody knows how many follow: each gets a half of what is left
+    FlankFitResult result = fit_automatic(target, tool, options, progress.part(here, 1.0 - (rest *= 0.5)));
+    if (count == 1) one_covers = result.after.at_tolerance;
+    // They cost as much as all before, and one strip more leads no axis out of another face.
+    if (result.other_ways == OtherWays::kHopeless) options.ways = false;
+    keep_better(best, std::move(result), options);
+    if (is_done(best, wanted, options.tolerance_mm) || !gain.goes_on(best) || progress.stop()) break;
+  }
+  if (has_ways && !options.ways && !is_done(best, wanted, options.tolerance_mm) && !progress.stop()) {
+    options.strips = std::max<int>(1, static_cast<int>(best.motions.size()));
+    options.ways = true;
+    keep_better(best, fit_automatic(target, tool, options, progress.part(1.0 - rest, 1.0)), options);
+  }
+  if (best.motions.size() > 1)
+    best.notes.push_back(fmt::format("{} strips cover {:.1f} % (estimate), one strip {:.1f} %", best.motions.size(),
+                                     100.0 * best.after.at_tolerance, 100.0 * one_covers));
+  return best;
+}
+
+/// One group: with the strips that were asked for, or with those that the tolerance needs (0). A strip more must not make
+/// it worse: where several do not give what was asked, one is tried, too. Last, the bounds on stiffness give way.
+FlankFitResult fit_group(const Target& target, const ToolModel& tool, FlankFitOptions options, int strips,
+                         double wanted, const Progress& progress) {
+  const auto done = [&](const FlankFitResult& result) {
+    return is_done(result, wanted, options.tolerance_mm) || progress.stop();
+  };
+  const double share = reachable_share(target, options);
+  if (share < kHardlyAny) {
+    FlankFitResult hidden = fit_automatic(target, tool, hardly_worth_it(options), progress);
+    hidden.notes.push_back(out_of_reach_note(share, options));
+    return hidden;
+  }
+  options.strips = std::max(1, strips);
+  /// Of the progress: where one strip and where the lifted bounds begin.
+  constexpr double kFirst = 0.6, kSoften = 0.7;
+  const Progress first = progress.part(0.0, kFirst);
+  FlankFitResult best =
+      strips > 0 ? fit_automatic(target, tool, options, first) : fit_auto(target, tool, options, wanted, first);
+  if (strips > 1 && !done(best)) {
+    options.strips = 1;
+    keep_better(best, fit_automatic(target, tool, options, progress.part(kFirst, kSoften)), options);
+  }
+  // What facets keep from a motion no slender tool brings back.
+  if (done(best) || !options.ways) {
+    note_slenderness(tool, options, best);
+    return best;
+  }
+  options.strips = std::max<int>(1, static_cast<int>(best.motions.size()));
+  return soften(target, tool, options, std::move(best), progress.part(kSoften, 1.0));
+}
+
+/// The tool that was found, with nothing left open.
+ToolModel given(const RadialFunction& found) {
+  ToolModel tool;
+  tool.make = [found](double, double) { return found; };
+  tool.axis_length = found.axis_length();
+  tool.radius = found.at(0.5 * found.axis_length()).r;
+  return tool;
+}
+
+FlankFitOptions beside(const TargetGroup& group, FlankFitOptions options) {
+  options.obstacles = group.obstacles.get();
+  return options;
+}
+
+/// Fits of groups with one tool. Large groups decide what the tool is; small ones, as a blade's edges are, take it as it is.
+class TogetherFit {
+ public:
+  TogetherFit(const std::vector<TargetGroup>& groups, const ToolModel& tool, const FlankFitOptions& options,
+              const GroupDemand& demand)
+      : groups_(groups), tool_(tool), options_(options), demand_(demand) {
+    constexpr double kSmall = 0.1;  // of the largest group's area
+    double largest = 0.0;
+    for (const TargetGroup& group : groups) largest = std::max(largest, group.target->area());
+    for (std::size_t g = 0; g < groups.size(); ++g)
+      (groups[g].target->area() < kSmall * largest ? small_ : large_).push_back(g);
+  }
+
+  GroupFits run(const Progress& progress) {
+    constexpr double kFirst = 0.25, kOneEach = 0.5, kLarge = 0.8;  // of the progress
+    GroupFits fits;
+    fits.fit = fit_one(large_[0], tool_, progress.part(0.0, kFirst));
+    fits.group_of_motion.assign(fits.fit.motions.size(), large_[0]);
+    if (fits.fit.motions.empty() || progress.stop()) return fits;
+    if (large_.size() > 1) fits = fit_large(fits.fit, progress.part(kFirst, kOneEach), progress.part(kOneEach, kLarge));
+    return small_.empty() || progress.stop() ? fits : with_small(fits, progress.part(kLarge, 1.0));
+  }
+
+ private:
+  using FitOne = std::function<FlankFitResult(std::size_t group, const Progress& progress)>;
+
+  [[nodiscard]] FlankFitResult fit_one(std::size_t g, const ToolModel& tool, const Progress& progress) const {
+    return fit_group(*groups_[g].target, tool, beside(groups_[g], options_), demand_.strips, demand_.wanted[g],
+                     progress);
+  }
+
+  /// One strip on each, polished together if that is needed; else as many as each takes.
+  [[nodiscard]] GroupFits fit_large(const FlankFitResult& first, const Progress& one_each,
+                                    const Progress& progress) const {
+    constexpr double kFits = 0.5;  // of the progress
+    const ToolModel found = given(first.tool);
+    std::optional<GroupFits> one;
+    if (demand_.strips == 0 && first.motions.size() == 1) {
+      one = polished(first, one_each, [&](std::size_t g, const Progress& part) {
+        FlankFitOptions own = beside(groups_[g], options_);
+        own.ways = false;
+        own.least_coverage_for_last_passes = 2.0;  // none: they come when all are polished
+        return fit_automatic(*groups_[g].target, found, own, part);
+      });
+      if (progress.stop() || is_done(one->fit, wanted(), options_.tolerance_mm)) return *one;
+    }
+    GroupFits all = polished(first, progress.part(0.0, kFits),
+                             [&](std::size_t g, const Progress& part) { return fit_one(g, found, part); });
+    return one && is_better(one->fit.after, all.fit.after, options_.tolerance_mm) ? *one : all;
+  }
+
+  /// The first group's motions and those that `fit` finds for each of the other large ones.
+  [[nodiscard]] GroupFits polished(const FlankFitResult& first, const Progress& progress, const FitOne& fit) const {
+    constexpr double kFits = 0.5;  // of the progress
+    GroupFits fits;
+    std::vector<FitTask> tasks;
+    add(first, large_[0], tasks, fits);
+    for (std::size_t k = 1; k < large_.size(); ++k)
+      add(fit(large_[k], progress.part(0.0, kFits)), large_[k], tasks, fits);
+    FlankFitOptions options = options_;
+    options.enough_coverage = std::min(options.enough_coverage, wanted());
+    fits.fit = fit_together(tasks, first.tool, tool_, options, progress.part(kFits, 1.0));
+    return fits;
+  }
+
+  [[nodiscard]] GroupFits with_small(const GroupFits& large, const Progress& progress) const {
+    const ToolModel found = given(large.fit.tool);
+    GroupFits fits;
+    std::vector<FitTask> tasks;
+    for (std::size_t m = 0; m < large.fit.motions.size(); ++m) {
+      const TargetGroup& group = groups_[large.group_of_motion[m]];
+      tasks.push_back({group.target.get(), large.fit.motions[m], group.obstacles.get()});
+    }
+    fits.group_of_motion = large.group_of_motion;
+    for (const std::size_t g : small_) {
+      FlankFitOptions own = beside(groups_[g], options_);
+      own.ways = false;
+      own.kept_after_quick = 3, own.kept_after_polish = 1;  // they are little of all
+      const FlankFitResult fit = fit_automatic(*groups_[g].target, found, own, progress);
+      if (is_clean(fit.after, options_.tolerance_mm)) add(fit, g, tasks, fits);
+    }
+    fits.fit = fit_as_found(tasks, large.fit.tool, tool_, options_);
+    fits.fit.notes = large.fit.notes;
+    fits.fit.tried = large.fit.tried;
+    fits.fit.candidates = large.fit.candidates;
+    return fits;
+  }
+
+  void add(const FlankFitResult& fit, std::size_t g, std::vector<FitTask>& tasks, GroupFits& fits) const {
+    for (const RuledMotion& motion : fit.motions) {
+      tasks.push_back({groups_[g].target.get(), motion, groups_[g].obstacles.get()});
+      fits.group_of_motion.push_back(g);
+    }
+  }
+
+  [[nodiscard]] double wanted() const { return *std::max_element(demand_.wanted.begin(), demand_.wanted.end()); }
+
+  const std::vector<TargetGroup>& groups_;
+  const ToolModel& tool_;
+  const FlankFitOptions& options_;
+  const GroupDemand& demand_;
+  std::vector<std::size_t> large_, small_;  ///< indices of groups; large_ is not empty
+};
+
+}  // namespace
+
+/// Covers what was asked, by the planner's estimate, enters nothing and does not plunge.
+bool is_done(const FlankFitResult& result, double wanted, double tolerance_mm) {
+  return result.after.at_tolerance >= wanted && is_clean(result.after, tolerance_mm) && result.after.largest_c < 1.0;
+}
+
+GroupFits fit_groups(const std::vector<TargetGroup>& groups, const ToolModel& tool, const FlankFitOptions& options,
+                     const GroupDemand& demand, const Progress& progress) {
+  if (groups.size() > 1) return TogetherFit(groups, tool, options, demand).run(progress);
+  const FlankFitOptions own = beside(groups[0], options);
+  FlankFitResult fit = fit_group(*groups[0].target, tool, own, demand.strips, demand.wanted[0], progress);
+  const std::vector<std::size_t> group_of_motion(fit.motions.size(), 0);
+  return {std::move(fit), group_of_motion};
+}
+
+}  // namespace flank::internal
