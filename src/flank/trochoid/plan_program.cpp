@@ -131,9 +131,14 @@ PlannedLayer plan_layer(const LayerSides& sides, const HalfGuard& guard, SweptSt
   PlannedLayer planned;
   std::optional<FirstFront> first;
   if (clear != nullptr && sides.from.first() < 0.0 && options.entry.method == EntryMethod::kAuto) {
-    // The wall is so far off that there may be room for a front before the blank.
+    // The wall is so far off that there may be room for a front before the blank, and for all that lead in.
+    const std::size_t before = stock.sweeps().size();
     planned.cycles = plan_cycles(sides, guard, stock, options.cycles, first, progress);
-    if (!planned.cycles.cycles.empty() || progress.stop()) return planned;
+    const bool stuck = planned.cycles.status == CycleStatus::kStuck;
+    const bool inside = !planned.cycles.cycles.empty() && planned.cycles.cycles.back().from_x > 0.0;
+    if (!stuck || inside || progress.stop()) return planned;
+    while (stock.sweeps().size() > before) stock.remove_last();
+    planned.cycles = {};
   }
   if (clear != nullptr) {
     planned.entry = plan_entry(sides, guard, stock, *clear, options.entry, options.cycles, progress);
