@@ -244,6 +244,24 @@ TEST(CycleSearch, ACycleIsLiftedAsItNeedsWhateverTheOneBeforeWas) {
   }
 }
 
+TEST(CycleSearch, ACycleIsLiftedBetweenEndsThatEnterTheFloorThemselves) {
+  // The ends are 0.015 mm deep in the floor, and stay so; in the middle it is a hundredth of a millimetre higher.
+  const auto level = [](double low_y, double high_y, double z, const char* name) {
+    return testing::quad(Vec3(-60, low_y, z), Vec3(60, low_y, z), Vec3(-60, high_y, z), Vec3(60, high_y, z), name);
+  };
+  const Face floor = level(-30, 40, -4.985, "F1"), ridge = level(3, 7, -4.975, "F3");
+  const Face side =
+      testing::quad(Vec3(0, -5, 0), Vec3(kSlot, -5, 0), Vec3(0, -5, kLength), Vec3(kSlot, -5, kLength), "F2");
+  const std::unique_ptr<Target> target = make_target({side});
+  const ObstacleField low(testing::only({make_target({floor}), false}), *target, 2.0, 0.0),
+      high(testing::only({make_target({ridge}), false}), *target, 2.0, 0.0);
+  Searching setup({{}, {&low, &high}});
+  Trial best = setup.search.best(false);
+  ASSERT_GE(best.largest_rad, 0.0);
+  EXPECT_FALSE(setup.search.enters_anything(best));
+  EXPECT_GT(setup.search.now().lift_mm, 0.0);
+}
+
 TEST(CycleSearch, ABackThatEngagesTooFarIsNotKept) {
   Searching setup({});
   // It goes forward into full material before it comes back to the first side: no front is to blame.

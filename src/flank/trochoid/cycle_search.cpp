@@ -233,8 +233,11 @@ CycleShape CycleSearch::with_fit_back(const CycleShape& shape, double step) {
   const MeasureRings rings{rings_, volume_rings_, both_rings_};
   CycleShape best = shape;
   double least = std::numeric_limits<double>::infinity();
+  const double lift = now_.lift_mm;
   const auto look = [&](const CycleShape& other) {
+    now_.lift_mm = needed_lift(other, step);
     const Trial trial = tried(step, other, false);
+    now_.lift_mm = lift;
     if (!trial.back) return;
     const bool enters = guard_.enters_with_back(trial);
     const double angle =
@@ -329,7 +332,8 @@ double CycleSearch::needed_lift(const CycleShape& shape, double step) {
   double more = std::max(before, kLiftMore * deep + kLeastLiftMm);
   for (int k = 0; k < kTries && deep > allowed; ++k) {
     const double next = depth_with(more);
-    if (next >= kLiftHelps * deep) break;
+    // What the ends of the half enter themselves stays, however high it is lifted between them.
+    if (next > allowed && next >= kLiftHelps * deep) break;
     deep = next;
     if (deep > allowed) low = more, more += kLiftMore * deep + kLeastLiftMm;
     lift = more;
