@@ -202,6 +202,92 @@ TEST(CycleSearch, NoStepWithinTheLimitCountsAsRefused) {
   EXPECT_EQ(search.refused().step_mm, 0.1);
 }
 
+/// A search whose last front is in the middle of the slot.
+struct Searching {
+  SweptStock stock = slot();
+  LayerSides sides{straight(0.0), straight(10.0)};
+  HalfGuard guard;
+  CycleOptions options;
+  CycleSearch search;
+  explicit Searching(const GuardedFaces& faces) : guard(faces, stock.radial()), search(sides, guard, stock, options) {
+    constexpr double kStep = 1.0, kMiddle = 8.0;
+    CycleState& now = search.now();
+    now.last.from_x = now.last.to_x = -12.0;
+    while (now.last.from_x < kMiddle) {
+      Trial next = search.tried(kStep, false);
+      next.back.reset();
+      stock.add(Sweep::of(next.front, kHalfIntervals));
+      now.last = std::move(next);
+    }
+  }
+};
+
+TEST(CycleSearch, ACycleIsLiftedAsItNeedsWhateverTheOneBeforeWas) {
+  // A ridge of 4 mm below the tips, along the middle: half of the lift of the cycle before, or one and a half times as much as it takes,
+  // made every other step a short one.
+  const Face ridge = testing::quad(Vec3(-60, 4.5, -4), Vec3(60, 4.5, -4), Vec3(-60, 5.5, -4), Vec3(60, 5.5, -4), "F1");
+  const Face side =
+      testing::quad(Vec3(0, -5, 0), Vec3(kSlot, -5, 0), Vec3(0, -5, kLength), Vec3(kSlot, -5, kLength), "F2");
+  const std::unique_ptr<Target> target = make_target({side});
+  const ObstacleField field(testing::only({make_target({ridge}), false}), *target, 2.0, 0.0);
+  double usual = 0.0;
+  for (const double before : {0.0, 0.9, 1.4, 2.5}) {
+    Searching setup({{}, {&field}});
+    setup.search.now().lift_mm = before;
+    Trial best = setup.search.best(false);
+    ASSERT_GE(best.largest_rad, 0.0);
+    EXPECT_FALSE(setup.search.enters_anything(best));
+    const double lift = setup.search.now().lift_mm;
+    EXPECT_GT(lift, 0.5);
+    if (before == 0.0) usual = lift;
+    EXPECT_NEAR(lift, usual, 0.1 * usual) << before;
+  }
+}
+
+TEST(CycleSearch, ACycleIsLiftedBetweenEndsThatEnterTheFloorThemselves) {
+  // The ends are 0.015 mm deep in the floor, and stay so; in the middle it is a hundredth of a millimetre higher.
+  const auto level = [](double low_y, double high_y, double z, const char* name) {
+    return testing::quad(Vec3(-60, low_y, z), Vec3(60, low_y, z), Vec3(-60, high_y, z), Vec3(60, high_y, z), name);
+  };
+  const Face floor = level(-30, 40, -4.985, "F1"), ridge = level(3, 7, -4.975, "F3");
+  const Face side =
+      testing::quad(Vec3(0, -5, 0), Vec3(kSlot, -5, 0), Vec3(0, -5, kLength), Vec3(kSlot, -5, kLength), "F2");
+  const std::unique_ptr<Target> target = make_target({side});
+  const ObstacleField low(testing::only({make_target({floor}), false}), *target, 2.0, 0.0),
+      high(testing::only({make_target({ridge}), false}), *target, 2.0, 0.0);
+  Searching setup({{}, {&low, &high}});
+  Trial best = setup.search.best(false);
+  ASSERT_GE(best.largest_rad, 0.0);
+  EXPECT_FALSE(setup.search.enters_anything(best));
+  EXPECT_GT(setup.search.now().lift_mm, 0.0);
+}
+
+TEST(CycleSearch, ABackThatEngagesTooFarIsNotKept) {
+  Searching setup({});
+  // It goes forward into full material before it comes back to the first side: no front is to blame.
+  auto& share = setup.search.now().shape.share;
+  share[3] = 0.4, share[4] = 0.02, share[5] = 0.8;
+  const Trial best = setup.search.best(false);
+  ASSERT_GE(best.largest_rad, 0.0);
+  EXPECT_LE(best.largest_rad, setup.options.largest_rad);
+  EXPECT_GT(best.from_x - setup.search.now().last.from_x, setup.search.least_step());
+}
+
+TEST(Cycles, GoOnPastTheSidesWhereTheWallIsFartherOn) {
+  if (kSanitized) GTEST_SKIP() << "TheJudgesStockMeasuresWhatWasPlanned has the cycles";
+  SweptStock stock = slot();
+  LayerSides sides{straight(0.0), straight(10.0)};
+  for (SidePath* path : {&sides.from, &sides.to}) path->stop_at(true, 1.5 * kRadius);
+  const HalfGuard guard({}, stock.radial());
+  CycleOptions options;
+  options.strategy = CycleStrategy::kPlain;
+  const LayerCycles out = plan_cycles(sides, guard, stock, options, {}, {});
+  EXPECT_EQ(out.status, CycleStatus::kDone);
+  EXPECT_EQ(out.before_wall_mm, 0.0) << "nothing of the sides is left before it";
+  EXPECT_GE(out.cycles.back().from_x, sides.from.length());
+  EXPECT_GE(out.cycles.back().to_x, sides.to.length());
+}
+
 TEST(Cycles, AreTheSameForOneAndTwoThreads) {
   const auto poles = [](int threads) {
     set_thread_count(threads);

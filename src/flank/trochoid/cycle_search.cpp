@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flank/base/tolerance_budget.h"
-#include "flank/motion/motion_record.h"
 #include "flank/trochoid/front_adjustment.h"
 
 namespace flank::internal {
@@ -14,6 +12,9 @@ namespace {
 constexpr int kRows = 34, kRings = 7, kVolumeRings = 5;
 /// Rings of a slender tool are so many radii apart, up to so many: an edge that it meets between two would not be seen.
 constexpr double kRingsApart = 3.0;
+/// Where rows are farther apart than so many radii, in a cavity that is wide for its tool, the engagement rises and falls between two of
+/// them by as much as it is: there is a second look.
+constexpr double kRowsApart = 0.2;
 constexpr int kMostRings = 31;
 /// The engagement that a search aims at is at least so much below the limit, radians: what lies between rows.
 constexpr double kSearchMargin = 0.004;
@@ -30,20 +31,17 @@ constexpr double kMostPace = 1.25;
 constexpr double kLeastLiftMm = 0.02;
 /// A lift grows by so much of what the tips enter, and is taken back unless it leaves less than this share of that.
 constexpr double kLiftMore = 1.6, kLiftHelps = 0.7;
-/// Where it is asked how deep tips enter.
-constexpr int kLiftTimes = 17, kLiftPlaces = 5;
+/// Before a cycle is looked for, this share of what tips may enter is aimed at: its step is not known yet. Lifts, or a lift and the
+/// tolerance, that are apart by less than this share are alike.
+constexpr double kLiftAim = 0.95, kSameLift = 0.1;
 /// Of the shares of a shape: by which the change that is tried grows where it gained, and shrinks where it did not. Where
 /// even a small one gains nothing, the share is left alone for some turns: after those the cavity is another.
 constexpr double kGrow = 1.3, kShrink = 0.7, kMostSpan = 0.15, kLeastSpan = 0.008, kSpanAfterRest = 0.03;
 constexpr int kRest = 10;
 /// How near to the aim a step ends.
 constexpr double kAimBand = 0.009;
-/// Where it is asked how deep a half enters faces: deepest are places just off the ends, where it leaves a side that runs on
-/// past its face.
-constexpr int kGuardTimes = 25, kGuardPlaces = 9;
-/// Deeper than at the ends of a half by this share counts as deeper.
-constexpr double kSpare = 1.1;
-
+/// Of the aim: a back that engages farther leaves its front no step.
+constexpr double kFitBack = 0.95;
 double way_of(const Trial& trial) {
   return way_of_middle(trial.front) + (trial.back ? way_of_middle(*trial.back) : 0.0);
 }
@@ -51,39 +49,12 @@ double way_of(const Trial& trial) {
 /// How deep a cylinder's cut is that engages so far, in radii: it grows with the step, about linearly.
 double depth_of_cut(double engagement_rad) { return std::max(1e-3, 1.0 - std::cos(engagement_rad)); }
 
-void code(StepCodec& codec, Trial& trial) {
-  codec.finite(trial.from_x);
-  codec.finite(trial.to_x);
-  code(codec, trial.back);
-  code(codec, trial.front);
-  for (double* value : {&trial.largest_rad, &trial.volume_mm3, &trial.way_mm}) codec.number(*value);
-}
-
 }  // namespace
-
-void code(StepCodec& codec, RefusedStep& step) {
-  codec.finite(step.step_mm);
-  codec.finite(step.largest_rad);
-}
-
-void code(StepCodec& codec, CycleState& state) {
-  code(codec, state.last);
-  for (double& share : state.shape.share) codec.finite(share);
-  for (double& span : state.span) codec.finite(span);
-  code(codec, state.rest);
-  code(codec, state.turn);
-  code(codec, state.improved);
-  code(codec, state.short_rest);
-  for (double* value : {&state.excess_rad, &state.step_mm, &state.lift_mm, &state.largest_front_mm3})
-    codec.finite(*value);
-  code(codec, state.sweeps);
-}
 
 CycleSearch::CycleSearch(const LayerSides& sides, const HalfGuard& guard, SweptStock& stock,
                          const CycleOptions& options)
     : sides_(sides),
-      guard_(guard),
-      others_(guard.of_tips()),
+      guard_(guard, options.tolerance_mm),
       stock_(stock),
       options_(options),
       meter_(stock),
@@ -115,7 +86,7 @@ void CycleSearch::refuse(double step_mm, double largest_rad) {
 }
 
 double CycleSearch::aim() const {
-  const bool at_wall = sides_.from.stops_at_end() && sides_.from.length() - now_.last.from_x < kCornerRadii * radius_;
+  const bool at_wall = sides_.from.stops_at_end() && sides_.from.last() - now_.last.from_x < kCornerRadii * radius_;
   const double margin = at_wall ? kCornerMargin * options_.largest_rad : kSearchMargin;
   return options_.largest_rad - std::clamp(now_.excess_rad, margin, kMostExcess * options_.largest_rad);
 }
@@ -127,17 +98,14 @@ double CycleSearch::partner(double from_x, const CycleShape& shape) const {
   const double wanted = y + shape.share[CycleShape::kAhead] * gap;
   if (!sides_.from.stops_at_end()) return wanted;
   // At a wall both come to their ends together: who is there first turns on the spot, in a corner as round as the tool.
-  const double left = std::max(0.0, sides_.from.length() - from_x);
-  return std::clamp(wanted, sides_.to.length() - kMostPace * left, sides_.to.length() - left / kMostPace);
+  const double left = std::max(0.0, sides_.from.last() - from_x);
+  return std::clamp(wanted, sides_.to.last() - kMostPace * left, sides_.to.last() - left / kMostPace);
 }
 
 void CycleSearch::shape_halves(const CycleShape& shape, Trial& trial) const {
-  constexpr double kMuch = std::numeric_limits<double>::infinity();
   const double gap = gap_at(trial);
-  const auto ahead = [](const SidePath& side, double x) {
-    return side.stops_at_end() ? std::max(0.0, side.length() - x) : kMuch;
-  };
-  const auto behind = [](const SidePath& side, double x) { return side.stops_at_start() ? std::max(0.0, x) : kMuch; };
+  const auto ahead = [](const SidePath& side, double x) { return std::max(0.0, side.last() - x); };
+  const auto behind = [](const SidePath& side, double x) { return std::max(0.0, x - side.first()); };
   const double length = sides_.from.axis_length();
   trial.front = half_before_wall(length, start(trial), end(trial).reversed(), shape.front(gap, now_.lift_mm),
                                  ahead(sides_.from, trial.from_x), ahead(sides_.to, trial.to_x));
@@ -156,16 +124,23 @@ Trial CycleSearch::tried(double step, const CycleShape& shape, bool measured) {
   return trial;
 }
 
+bool CycleSearch::has_rows_apart(const RuledMotion& half) const {
+  return way_of_middle(half) > kRowsApart * radius_ * kRows;
+}
+
 void CycleSearch::take(Trial& trial, bool peak, bool volume) {
   const MeasureRings rings{rings_, volume_rings_, both_rings_};
   KeptMeasures::Kept back{EngagementPeak{}, 0.0};
   if (trial.back) {
-    back = backs_.measure(*trial.back, peak, volume, kRows, rings, meter_);
+    back = backs_.measure(*trial.back, peak, volume, kRows, rings, has_rows_apart(*trial.back), meter_);
     stock_.add(Sweep::of(*trial.back, kHalfIntervals));
   }
   const Engagement front = meter_.measure(trial.front, rings.of(peak, volume), kRows);
-  if (trial.back) stock_.remove_last();
   if (peak) trial.largest_rad = std::max(back.peak->angle_rad, front.peak.angle_rad);
+  // What is too much already need not be known.
+  if (peak && trial.largest_rad <= aim() && has_rows_apart(trial.front))
+    trial.largest_rad = std::max(trial.largest_rad, meter_.look_between(trial.front, front).angle_rad);
+  if (trial.back) stock_.remove_last();
   if (volume) trial.volume_mm3 = *back.volume_mm3 + front.volume_mm3;
 }
 
@@ -254,12 +229,41 @@ void CycleSearch::improve(Trial& best) {
   }
 }
 
+CycleShape CycleSearch::with_fit_back(const CycleShape& shape, double step) {
+  const MeasureRings rings{rings_, volume_rings_, both_rings_};
+  CycleShape best = shape;
+  double least = std::numeric_limits<double>::infinity();
+  const double lift = now_.lift_mm;
+  const auto look = [&](const CycleShape& other) {
+    now_.lift_mm = needed_lift(other, step);
+    const Trial trial = tried(step, other, false);
+    now_.lift_mm = lift;
+    if (!trial.back) return;
+    const bool enters = guard_.enters_with_back(trial);
+    const double angle =
+        backs_.measure(*trial.back, true, false, kRows, rings, has_rows_apart(*trial.back), meter_).peak->angle_rad;
+    const double excess = std::max(angle - kFitBack * aim(), 0.0) + (enters ? options_.largest_rad : 0.0);
+    if (excess < least) least = excess, best = other;
+  };
+  look(shape);
+  for (const double handle : {0.12, 0.06, 0.2})
+    for (const double bulge : {0.0, -0.08}) {
+      if (least <= 0.0) return best;
+      CycleShape other = shape;
+      other.share[3] = other.share[4] = handle;
+      other.share[5] = bulge;
+      look(other);
+    }
+  return best;
+}
+
 std::vector<CycleSearch::Prospect> CycleSearch::prospects() {
   const double step = kShortStep * radius_, lift = now_.lift_mm;
+  const CycleShape shape = with_fit_back(now_.shape, step);
   std::vector<Prospect> out;
   for (const double handle : {0.08, 0.16, 0.26}) {
     for (const double bulge : {-0.08, 0.0, 0.08, 0.16, 0.28}) {
-      Prospect prospect{now_.shape};
+      Prospect prospect{shape};
       prospect.shape.share[0] = prospect.shape.share[1] = handle;
       prospect.shape.share[2] = bulge;
       prospect.lift_mm = now_.lift_mm = needed_lift(prospect.shape, step);
@@ -312,70 +316,54 @@ void CycleSearch::reshape_short(Trial& best) {
   if (best.worth() < kGain * before) now_.short_rest = kRest;
 }
 
-const GuardDepth& CycleSearch::depth_of(Trial& trial) const {
-  if (trial.depth) return *trial.depth;
-  trial.depth = guard_.depth(trial.front, kGuardTimes, kGuardPlaces);
-  if (trial.back) trial.depth->add(guard_.depth(*trial.back, kGuardTimes, kGuardPlaces));
-  return *trial.depth;
-}
-
-double CycleSearch::depth_of_tips(const Trial& trial) const {
-  if (!others_.has_faces()) return 0.0;
-  const double front = others_.depth(trial.front, kLiftTimes, kLiftPlaces).tip;
-  return trial.back ? std::max(front, others_.depth(*trial.back, kLiftTimes, kLiftPlaces).tip) : front;
-}
-
-GuardDepth CycleSearch::depth_at_ends(const HalfGuard& guard, const Trial& trial, int places) const {
-  GuardDepth out;
-  for (const double t : {0.0, 1.0}) guard.look(trial.front.pose(t), places, out);
-  return out;
-}
-
-bool CycleSearch::enters_anything(Trial& trial) const {
-  // What the side paths enter of one kind of face allows nothing in another. Looked at as closely as a half is.
-  const double allowed = kToleranceBudget.cavity.halves * options_.tolerance_mm;
-  const GuardDepth &half = depth_of(trial), ends = depth_at_ends(guard_, trial, 2 * kGuardPlaces - 1);
-  return half.sides > std::max(allowed, ends.sides) || half.others > std::max(allowed, ends.others);
-}
-
-double CycleSearch::allowed_at_tips(const Trial& trial) const {
-  return std::max(kToleranceBudget.cavity.aim * options_.tolerance_mm,
-                  kSpare * depth_at_ends(others_, trial, kLiftPlaces).tip);
-}
-
 double CycleSearch::needed_lift(const CycleShape& shape, double step) {
   constexpr int kTries = 8;
   const double before = now_.lift_mm;
-  // No more lift than this cycle needs: the floor may fall again.
-  double lift = before > kLeastLiftMm ? 0.5 * before : 0.0, more = lift;
-  double least = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < kTries; ++k) {
-    now_.lift_mm = more;
+  double allowed = 0.0;
+  const auto depth_with = [&](double lift) {
+    now_.lift_mm = lift;
     const Trial trial = tried(step, shape, false);
-    const double deep = depth_of_tips(trial);
-    if (deep >= kLiftHelps * least) break;
-    least = deep, lift = more;
-    if (deep <= allowed_at_tips(trial)) break;
-    more += kLiftMore * deep + kLeastLiftMm;
+    allowed = kLiftAim * guard_.aim_at_tips(trial);
+    return guard_.coarse_depth_of_tips(trial);
+  };
+  // No more than this cycle needs, and no less: what a lifted cycle leaves on a floor the next ones cut besides their own, and where
+  // lifts went up and down from cycle to cycle, so did steps.
+  double low = 0.0, deep = depth_with(0.0), lift = 0.0;
+  double more = std::max(before, kLiftMore * deep + kLeastLiftMm);
+  for (int k = 0; k < kTries && deep > allowed; ++k) {
+    const double next = depth_with(more);
+    // What the ends of the half enter themselves stays, however high it is lifted between them.
+    if (next > allowed && next >= kLiftHelps * deep) break;
+    deep = next;
+    if (deep > allowed) low = more, more += kLiftMore * deep + kLeastLiftMm;
+    lift = more;
+  }
+  while (deep <= allowed && lift - low > kSameLift * std::max(lift, options_.tolerance_mm)) {
+    const double middle = 0.5 * (low + lift);
+    (depth_with(middle) <= allowed ? lift : low) = middle;
   }
   now_.lift_mm = before;
   return lift;
 }
 
+Trial CycleSearch::lifted(double step) {
+  now_.lift_mm = needed_lift(now_.shape, step);
+  return tried(step, true);
+}
+
 void CycleSearch::lift(Trial& best) {
   constexpr int kTries = 4;
-  const double allowed = allowed_at_tips(best);
-  const double before = now_.lift_mm, deepest = depth_of_tips(best);
-  double deep = deepest;
+  const double before = now_.lift_mm;
+  const double allowed = guard_.allowed_at_tips(best);
   Trial lifted = best;
-  for (int k = 0; k < kTries && deep > allowed; ++k) {
-    now_.lift_mm += kLiftMore * deep + kLeastLiftMm;
-    Trial next = longest_step(now_.shape, best.from_x - now_.last.from_x);
-    if (next.largest_rad < 0.0) break;
-    lifted = std::move(next);
-    deep = depth_of_tips(lifted);
+  for (int k = 0; k < kTries && enters_anything(lifted); ++k) {
+    const double deep = guard_.depth_of_tips(lifted);
+    if (deep <= allowed) break;
+    now_.lift_mm += kLiftMore * (deep - kLiftAim * allowed) + kSameLift * options_.tolerance_mm;
+    lifted = longest_step(now_.shape, best.from_x - now_.last.from_x);
+    if (lifted.largest_rad < 0.0) break;
   }
-  if (deep < kLiftHelps * deepest || deep <= allowed)
+  if (lifted.largest_rad >= 0.0 && !enters_anything(lifted))
     best = std::move(lifted);
   else
     now_.lift_mm = before;
@@ -387,6 +375,7 @@ Trial CycleSearch::best(bool improving) {
   // Lifted before anything is judged: another shape is not looked for where a lift does.
   now_.lift_mm = needed_lift(now_.shape, now_.step_mm);
   Trial best = longest_step(now_.shape, now_.step_mm);
+  if (best.largest_rad >= 0.0 && enters_anything(best)) lift(best);
   if (best.largest_rad < 0.0 || enters_anything(best))
     reshape(best);
   else if (best.from_x - now_.last.from_x < kShortStep * radius_)
@@ -394,7 +383,7 @@ Trial CycleSearch::best(bool improving) {
   if (improving) improve(best);
   if (options_.strategy == CycleStrategy::kAdjusted) adjust(best);
   if (best.from_x - now_.last.from_x < least_step()) best.largest_rad = -1.0;
-  if (best.largest_rad >= 0.0) lift(best);
+  if (best.largest_rad >= 0.0 && enters_anything(best)) lift(best);
   return best;
 }
 

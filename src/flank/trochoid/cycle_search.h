@@ -7,11 +7,10 @@
 #include <optional>
 #include <vector>
 
-#include "flank/base/step_codec.h"
-#include "flank/trochoid/cycle_shape.h"
+#include "flank/trochoid/cycle_guard.h"
+#include "flank/trochoid/cycle_state.h"
 #include "flank/trochoid/engagement/engagement.h"
 #include "flank/trochoid/engagement/kept_measures.h"
-#include "flank/trochoid/ways/half_guard.h"
 #include "flank/trochoid/ways/side_pairing.h"
 #include "flank/trochoid/ways/side_path.h"
 
@@ -38,43 +37,6 @@ struct CycleOptions {
 /// Poses a half path has in a stock: a multiple of its knot spans.
 inline constexpr int kHalfIntervals = 48;
 
-/// Both halves of a cycle under trial.
-struct Trial {
-  double from_x = 0.0, to_x = 0.0;
-  std::optional<RuledMotion> back;
-  RuledMotion front;
-  double largest_rad = 0.0, volume_mm3 = 0.0, way_mm = 0.0;  ///< the volume if it was asked for: weigh
-  std::optional<GuardDepth> depth;                           ///< what the halves enter, once it was asked
-  /// What is maximised: removed volume per way of front and back.
-  [[nodiscard]] double worth() const { return way_mm > 0.0 ? volume_mm3 / way_mm : 0.0; }
-};
-
-/// A step that was too long, and its engagement.
-struct RefusedStep {
-  double step_mm = 0.0, largest_rad = 0.0;
-};
-void code(StepCodec& codec, RefusedStep& step);
-
-/// What the next cycle is planned from.
-struct CycleState {
-  Trial last;
-  CycleShape shape;
-  /// By which the shares of the shape are changed.
-  std::array<double, 7> span = {0.05, 0.05, 0.08, 0.05, 0.05, 0.08, 0.05};
-  std::array<int, 7> rest = {};  ///< turns for which a share is left alone
-  std::size_t turn = 0;
-  int improved = 0;    ///< cycles whose shape was searched
-  int short_rest = 0;  ///< cycles with short steps for which no other front is looked for: the last look gained nothing
-  /// By which fine samples are expected to see more engagement than those of the search, radians.
-  double excess_rad = 0.0;
-  double step_mm = 0.0, lift_mm = 0.0;
-  double largest_front_mm3 = 0.0;
-  std::size_t sweeps = 0;  ///< in the stock
-};
-
-/// Among the values of a finished step (base/step_codec.h).
-void code(StepCodec& codec, CycleState& state);
-
 /// Trials leave the stock as it was.
 class CycleSearch {
  public:
@@ -90,6 +52,8 @@ class CycleSearch {
   void reset_shape();
   /// The cycle after now().last whose end on the first side is a step farther.
   [[nodiscard]] Trial tried(double step, bool measured) { return tried(step, now_.shape, measured); }
+  /// The same, measured, with the lift that it needs.
+  [[nodiscard]] Trial lifted(double step);
   /// The volume of a trial: most are only asked how much they engage.
   void weigh(Trial& trial) { take(trial, false, true); }
   /// The longest step of the present shape, weighed; `largest_rad` < 0: there is none.
@@ -98,10 +62,10 @@ class CycleSearch {
   /// removes less a way; its tips lifted off what they enter. `largest_rad` < 0: there is none.
   [[nodiscard]] Trial best(bool improving);
   /// Deepest that a half enters a face, mm.
-  [[nodiscard]] double entered(Trial& trial) const { return depth_of(trial).deepest(); }
+  [[nodiscard]] double entered(Trial& trial) const { return guard_.depth(trial).deepest(); }
   /// Whether a half enters a face by more than the tolerance and more than its ends; no lift and no shorter step helps
   /// there, another shape may.
-  [[nodiscard]] bool enters_anything(Trial& trial) const;
+  [[nodiscard]] bool enters_anything(Trial& trial) const { return guard_.enters_anything(trial); }
   /// The engagement that a search may see, so that fine samples see no more than the limit, radians.
   [[nodiscard]] double aim() const;
   /// Of the steps beyond the limit since the last cycle was looked for, the one that engages least.
@@ -119,6 +83,8 @@ class CycleSearch {
   [[nodiscard]] double partner(double from_x, const CycleShape& shape) const;
   void shape_halves(const CycleShape& shape, Trial& trial) const;
   [[nodiscard]] Trial tried(double step, const CycleShape& shape, bool measured);
+  /// Whether rows of a half are so far apart that the engagement is looked at between them.
+  [[nodiscard]] bool has_rows_apart(const RuledMotion& half) const;
   /// Largest engagement of its halves.
   void measure(Trial& trial) { take(trial, true, false); }
   /// Both, and sooner than one after the other.
@@ -135,6 +101,9 @@ class CycleSearch {
   };
   /// Of fronts from flat to steep, those that enter no face first, then the worthiest.
   [[nodiscard]] std::vector<Prospect> prospects();
+  /// The same fronts with a back that is within the aim by itself and enters nothing, if the present one is not and another is: greedy
+  /// shapes have led there.
+  [[nodiscard]] CycleShape with_fit_back(const CycleShape& shape, double step);
   /// Fronts from flat to steep, where the shape of the last cycle does not get on, or enters a side: the best of those that
   /// enter none, if there is one.
   void reshape(Trial& best);
@@ -144,19 +113,10 @@ class CycleSearch {
   void adjust(Trial& best);
   /// The lift with which the tips of a cycle enter nothing, if there is one that helps, mm: the floor alone is asked.
   [[nodiscard]] double needed_lift(const CycleShape& shape, double step);
-  /// Deepest that tips may enter a face: what the side paths enter themselves does not count.
-  [[nodiscard]] double allowed_at_tips(const Trial& trial) const;
-  /// Lifts the inner points of both halves for as long as their tips enter something, if that helps.
+  /// Lifts the inner points of both halves for as long as their tips enter something, if they then enter nothing.
   void lift(Trial& best);
-  [[nodiscard]] const GuardDepth& depth_of(Trial& trial) const;
-  /// Deepest that tips enter a face that is no side, mm: so coarsely that it is asked again and again.
-  [[nodiscard]] double depth_of_tips(const Trial& trial) const;
-  /// What the side paths themselves enter there: no shape of a cycle changes it.
-  [[nodiscard]] GuardDepth depth_at_ends(const HalfGuard& guard, const Trial& trial, int places) const;
-
   const LayerSides& sides_;
-  const HalfGuard& guard_;
-  const HalfGuard others_;  ///< what tips are lifted off: no side is asked for that
+  CycleGuard guard_;
   SweptStock& stock_;
   const CycleOptions& options_;
   EngagementMeter meter_;

@@ -182,15 +182,19 @@ bool CyclePlanner::accept_some(Trial trial, bool entering, LayerCycles& out) {
     // A shorter step may enter what the longer one does not.
     if ((k == 0 || entering || !search_.enters_anything(trial)) && accept(trial, out)) return true;
     if (k < kAims) {
-      trial = search_.longest_step(0.97 * step);
-      step = std::min(step, trial.from_x - now_.last.from_x);
-    } else {
-      // What the coarse samples miss does not follow the aim: shorter steps do.
-      now_.excess_rad = excess;
-      step *= 0.75;
-      if (step < search_.least_step()) break;
-      trial = search_.tried(step, true);
+      Trial lower = search_.longest_step(0.97 * step);
+      if (lower.largest_rad >= 0.0) {
+        trial = std::move(lower);
+        step = std::min(step, trial.from_x - now_.last.from_x);
+        continue;
+      }
+      k = kAims;
     }
+    // What the coarse samples miss does not follow the aim, which may be so low that no step has it: shorter steps do.
+    now_.excess_rad = excess;
+    step *= 0.75;
+    if (step < search_.least_step()) break;
+    trial = search_.lifted(step);
   }
   return false;
 }
@@ -290,9 +294,11 @@ bool CyclePlanner::ends_at_wall(double radii, LayerCycles& out) const {
   // A corner as round as the tool engages it from wall to wall, however little is taken.
   if (!sides_.from.stops_at_end()) return false;
   const Cycle& last = out.cycles.back();
-  const double before = std::max(sides_.from.length() - last.from_x, sides_.to.length() - last.to_x);
-  if (before > radii * search_.radius()) return false;
-  out.before_wall_mm = std::max(before, 1e-9);
+  const double before = std::max(sides_.from.last() - last.from_x, sides_.to.last() - last.to_x);
+  // Past the ends of both sides nothing of them is left.
+  const bool past = last.from_x >= sides_.from.length() && last.to_x >= sides_.to.length();
+  if (before > radii * search_.radius() && !(past && radii > kAgainstWall)) return false;
+  out.before_wall_mm = past ? 0.0 : std::max(before, 1e-9);
   return true;
 }
 
@@ -328,8 +334,11 @@ LayerCycles CyclePlanner::run(const std::optional<FirstFront>& first, const Prog
     progress.step("cycles", std::clamp((now_.last.from_x + 2.0 * search_.radius()) / whole, 0.0, 1.0));
     if (progress.stop()) out.status = CycleStatus::kCancelled;
     if (now_.last.from_x >= options_.most_share * sides_.from.length()) out.status = CycleStatus::kShort;
-    if (out.status == CycleStatus::kShort && ends_at_wall(kBeforeWall, out)) out.status = CycleStatus::kDone;
-    if (out.status != CycleStatus::kDone || out.before_wall_mm > 0.0) break;
+    if (out.status == CycleStatus::kShort && ends_at_wall(kBeforeWall, out)) {
+      out.status = CycleStatus::kDone;
+      break;
+    }
+    if (out.status != CycleStatus::kDone) break;
     before_.resize(out.cycles.size());
     before_.push_back(now_);
     before_.back().sweeps = stock_.sweeps().size();

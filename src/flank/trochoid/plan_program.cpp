@@ -13,8 +13,8 @@
 namespace flank::internal {
 namespace {
 
-/// Of the radius: run-outs that enter a face deeper than this end at a wall.
-constexpr double kWall = 0.2;
+/// Radii: a wall that is nearer to the end of the sides than this stands right there.
+constexpr double kNearWall = 1.0;
 /// Radii that a finishing sweep keeps off the place where an entry's first front begins or ends.
 constexpr double kOffCorner = 0.02;
 
@@ -27,6 +27,8 @@ LayerSides order_sides(const RuledMotion& left, const RuledMotion& right, bool b
       join_run_outs(a, b, radius, guard, kToleranceBudget.cavity.aim * options.cycles.tolerance_mm);
   depth.start = std::max(depth.start, here.start);
   depth.end = std::max(depth.end, here.end);
+  depth.free_start = std::min(depth.free_start, here.free_start);
+  depth.free_end = std::min(depth.free_end, here.free_end);
   const double middle = 0.5 * a.axis_length();
   const AxisPlace p = a.at(0.5 * a.length()), q = b.at(0.5 * b.length());
   const Vec3 forward = p.velocity(middle) + q.velocity(middle);
@@ -49,10 +51,11 @@ std::vector<LayerSides> order_layers(const std::vector<RuledMotion>& sides, cons
   if (depth.start > wall && depth.end <= wall) layers = ordered(true, depth = {});
   // Who asks for an open entry has an open start.
   const bool both = depth.start > wall && depth.end > wall && options.entry.method != EntryMethod::kOpen;
+  const auto before_wall = [&](double free_mm) { return free_mm < kNearWall * radius ? 0.0 : free_mm; };
   for (LayerSides& layer : layers)
     for (SidePath* path : {&layer.from, &layer.to}) {
-      if (both) path->stop_at(false);
-      if (both || (depth.end > wall && depth.start <= wall)) path->stop_at(true);
+      if (both) path->stop_at(false, before_wall(depth.free_start));
+      if (both || (depth.end > wall && depth.start <= wall)) path->stop_at(true, before_wall(depth.free_end));
     }
   return layers;
 }
@@ -68,17 +71,21 @@ SideRange range_of(const LayerSides& sides, const PlannedLayer& planned, double 
   SideRange range{-free(sides.from, false), end.from_x, -free(sides.to, false), end.to_x};
   if (done) {
     const bool open = !sides.to.stops_at_end();
-    const double over_from = open ? free(sides.from, true) : 0.0, over_to = open ? free(sides.to, true) : 0.0;
+    // Before a wall there may be material in front of the last front.
+    const auto over = [&](const SidePath& side, double front_x) {
+      return open ? free(side, true) : std::clamp(front_x - side.length(), 0.0, free(side, true));
+    };
+    const double over_from = over(sides.from, end.from_x), over_to = over(sides.to, end.to_x);
     range.from_end = sides.from.length() + over_from;
-    range.to_end = std::max(over_to == run_mm ? end.to_x : 0.0, sides.to.length() + over_to);
+    range.to_end = std::max(open && over_to == run_mm ? end.to_x : 0.0, sides.to.length() + over_to);
   }
   // Before the first front that an entry has opened there is material. That front finishes its ends itself: a sweep that ended
   // just there would end in a corner, where the tool touches material all around.
   if (planned.entry) {
     range.from_start = planned.entry->front.from_x + off_corner_mm;
     range.to_start = planned.entry->front.to_x + off_corner_mm;
-    range.from_end = sides.from.stops_at_end() ? std::min(end.from_x, sides.from.length()) : end.from_x;
-    range.to_end = sides.to.stops_at_end() ? std::min(end.to_x, sides.to.length()) : end.to_x;
+    range.from_end = sides.from.stops_at_end() ? std::min(end.from_x, sides.from.last()) : end.from_x;
+    range.to_end = sides.to.stops_at_end() ? std::min(end.to_x, sides.to.last()) : end.to_x;
   }
   return range;
 }
@@ -123,6 +130,16 @@ PlannedLayer plan_layer(const LayerSides& sides, const HalfGuard& guard, SweptSt
                         const ProgramOptions& options, const Progress& progress) {
   PlannedLayer planned;
   std::optional<FirstFront> first;
+  if (clear != nullptr && sides.from.first() < 0.0 && options.entry.method == EntryMethod::kAuto) {
+    // The wall is so far off that there may be room for a front before the blank, and for all that lead in.
+    const std::size_t before = stock.sweeps().size();
+    planned.cycles = plan_cycles(sides, guard, stock, options.cycles, first, progress);
+    const bool stuck = planned.cycles.status == CycleStatus::kStuck;
+    const bool inside = !planned.cycles.cycles.empty() && planned.cycles.cycles.back().from_x > 0.0;
+    if (!stuck || inside || progress.stop()) return planned;
+    while (stock.sweeps().size() > before) stock.remove_last();
+    planned.cycles = {};
+  }
   if (clear != nullptr) {
     planned.entry = plan_entry(sides, guard, stock, *clear, options.entry, options.cycles, progress);
     planned.no_way_in = !planned.entry && !progress.stop();
@@ -170,6 +187,8 @@ CavityProgram plan_program(const std::vector<RuledMotion>& sides, const RadialFu
     out.layers.push_back(std::move(planned));
     if (!on) break;
   }
+  // Where a front has room before the blank, a wall farther on closes nothing.
+  if (!out.layers.empty() && !out.layers.front().entry && !out.layers.front().no_way_in) out.walled_start = false;
   return out;
 }
 

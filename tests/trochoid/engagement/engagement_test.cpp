@@ -389,6 +389,20 @@ TEST(Engagement, RefinedPeaksFollowTheRidgeAlongTheAxis) {
   }
 }
 
+TEST(Engagement, ALookBetweenRowsSeesWhatRisesAndFallsThere) {
+  // Rows that are far apart, against a plane that each ring comes out of at a time of its own.
+  SweptStock stock(barrel(), {{Vec3(0.0, 1.0, 0.12).normalized(), 10.0 + 14.0 * 0.12}});
+  stock.add(Sweep::of(twisted_half(0.0), 48));
+  EngagementMeter meter(stock);
+  const RuledMotion next = twisted_half(1.1);
+  const Engagement rows = meter.measure(next, tool_rings(stock.radial(), 7, 0), 22);
+  const double looked = meter.look_between(next, rows).angle_rad / kDegree;
+  const double fine = meter.measure(next, tool_rings(stock.radial(), 61, 0), 301).peak.angle_rad / kDegree;
+  EXPECT_GE(looked, rows.peak.angle_rad / kDegree);
+  EXPECT_LT(fine - looked, 0.5 * (fine - rows.peak.angle_rad / kDegree)) << "half of what was unseen, at least";
+  EXPECT_LE(looked, fine + 2.0);
+}
+
 TEST(Engagement, RingsBetweenOthersAreAskedWhereTheyEngageMost) {
   // Between two earlier halves at different heights a ridge is left, which lies between rings that are asked in any case.
   SweptStock stock(barrel(), {{Vec3::UnitZ(), 21.3}});

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "flank/trochoid/sides/side_fit.h"
 #include "obstacle/obstacle_scene.h"
 
 namespace flank::internal {

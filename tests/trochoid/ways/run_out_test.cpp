@@ -157,6 +157,46 @@ TEST_F(RunOutTest, AWallAcrossTheWayIsToldApartFromAHub) {
   EXPECT_EQ(join_run_outs(a, b, kRadius, guard_, 0.01).end, 0.0) << "the hub is risen from";
 }
 
+TEST_F(RunOutTest, TurnsAsideWhereABentChannelGoesOn) {
+  // Straight on there is a wall that leaves room to one side: a channel that bends.
+  const Face wall =
+      testing::quad(Vec3(52, 19, -20), Vec3(112, -18.5, -20), Vec3(52, 19, 60), Vec3(112, -18.5, 60), "F3");
+  const ObstacleField field(only({make_target({wall}), false}), *blade_, 2.0, 0.0);
+  const HalfGuard guard({{}, {&field}}, kTool);
+  SidePath a = leaning(kRadius, 0.0), b = leaning(14.0, 0.0);
+  join_run_outs(a, b, kRadius);
+  const auto deepest_of_both = [&] {
+    GuardDepth depth;
+    for (const SidePath* path : {&a, &b})
+      for (double by = 0.0; by <= 6.0 * kRadius; by += 0.25) {
+        const AxisPlace place = path->at(path->length() + by);
+        guard.look({place.tip, place.u}, 9, depth);
+      }
+    return depth.deepest();
+  };
+  EXPECT_GT(deepest_of_both(), kWall * kRadius);
+  EXPECT_LE(join_run_outs(a, b, kRadius, guard, 0.01).end, kWall * kRadius);
+  EXPECT_LE(deepest_of_both(), kWall * kRadius);
+}
+
+TEST_F(RunOutTest, GoesAsFarAsAWallThatIsFartherOn) {
+  const Face wall = testing::quad(Vec3(56, -50, -20), Vec3(56, 50, -20), Vec3(56, -50, 60), Vec3(56, 50, 60), "F3");
+  const ObstacleField field(only({make_target({wall}), true}), *blade_, 2.0, 0.0);
+  const HalfGuard guard({{}, {&field}}, kTool);
+  SidePath a = leaning(kRadius, 0.0), b = leaning(19.0, 0.0);
+  const RunOutDepth depth = join_run_outs(a, b, kRadius, guard, 0.01);
+  EXPECT_EQ(depth.free_start, std::numeric_limits<double>::infinity());
+  EXPECT_GT(depth.end, kWall * kRadius);
+  // Axes end at x = 45, and a tool of 3 mm gets up to 53.
+  EXPECT_GT(depth.free_end, 2.0 * kRadius);
+  EXPECT_LE(depth.free_end, 8.01);
+  a.stop_at(true, depth.free_end);
+  EXPECT_EQ(a.last(), a.length() + depth.free_end);
+  EXPECT_LE(a.at(a.length() + 20.0).tip.x(), 53.01);
+  EXPECT_EQ(a.motions_between(1.0, a.length() + 20.0).size(), 2u);
+  EXPECT_EQ(a.poses(1.0, a.length() + 20.0, 0.01).back().tip, a.at(a.last()).tip);
+}
+
 TEST_F(RunOutTest, ASweepEndsBeforeWhatItsRunOutEnters) {
   // A rim behind the blade, so near that nothing rises in time.
   const Face rim =

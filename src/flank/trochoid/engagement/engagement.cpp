@@ -59,6 +59,8 @@ void golden(double low, double high, const F& f) {
   }
 }
 
+/// Around a large row, in steps between rows: there its ridge is looked for.
+constexpr double kBeside = 1.5;
 /// Crests of a ridge that are climbed, the highest ones, and the rings by which they are looked for, at least.
 constexpr std::size_t kClimbs = 3;
 constexpr int kLeastRings = 7;
@@ -209,8 +211,29 @@ EngagementPeak EngagementMeter::climb(const RuledMotion& motion, RidgeWindow win
   return best;
 }
 
+EngagementPeak EngagementMeter::look_between(const RuledMotion& motion, const Engagement& measured) {
+  constexpr std::size_t kLooks = 2;
+  near_.begin(motion);
+  std::vector<std::size_t> rows = largest_rows(measured.rows);
+  rows.resize(std::min(rows.size(), kLooks));
+  reserve(rows.size());
+  const double step = 1.0 / (static_cast<double>(measured.rows.size()) - 2.0);
+  std::array<EngagementPeak, kLooks> peaks;
+  parallel_for(rows.size(), [&](std::size_t k) {
+    const double t = measured.rows[rows[k]].t;
+    const RidgeWindow window{t - kBeside * step, t + kBeside * step, 0.0, motion.axis_length};
+    const Ridge ridge = ridge_in(motion, within_motion(window, motion.axis_length), kLeastRings, meters_[k], peaks[k]);
+    for (std::size_t ring = 0; ring < ridge.crests.size(); ++ring)
+      if (const Crest& crest = ridge.crests[ring]; crest.angle_rad > peaks[k].angle_rad)
+        peaks[k] = {crest.angle_rad, crest.t, ridge.s_of(ring)};
+  });
+  EngagementPeak best = measured.peak;
+  for (const EngagementPeak& peak : peaks)
+    if (peak.angle_rad > best.angle_rad) best = peak;
+  return best;
+}
+
 EngagementPeak EngagementMeter::refine(const RuledMotion& motion, const Engagement& measured, int flank_rings) {
-  constexpr double kBeside = 1.5;    // steps between rows
   constexpr double kPromise = 0.01;  // radians
   near_.begin(motion);
   const std::vector<std::size_t> rows = largest_rows(measured.rows);

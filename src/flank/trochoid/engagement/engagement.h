@@ -47,6 +47,8 @@ class EngagementMeter {
   void measure_rings(const RuledMotion& motion, std::span<const ToolRing> rings, int rows, std::span<double> angles);
   /// Larger or equal: the largest engagement near the largest rows, along the ridges that cross them.
   [[nodiscard]] EngagementPeak refine(const RuledMotion& motion, const Engagement& measured, int flank_rings);
+  /// Larger or equal: what a few rings at a few times around the two largest rows promise of their ridges.
+  [[nodiscard]] EngagementPeak look_between(const RuledMotion& motion, const Engagement& measured);
   /// Of one ring at one time.
   [[nodiscard]] double angle(const RuledMotion& motion, double t, const ToolRing& ring);
 

@@ -26,14 +26,14 @@ class KeptMeasures {
     std::optional<double> volume_mm3;
   };
   void clear() { entries_.clear(); }
-  /// With at least what is asked for; what is not known yet is measured.
+  /// With at least what is asked for; what is not known yet is measured. `between`: the peak is looked for between rows, too.
   const Kept& measure(const RuledMotion& motion, bool peak, bool volume, int rows, const MeasureRings& rings,
-                      EngagementMeter& meter) {
+                      bool between, EngagementMeter& meter) {
     Kept& kept = entry(motion);
     const bool more_peak = peak && !kept.peak, more_volume = volume && !kept.volume_mm3;
     if (!more_peak && !more_volume) return kept;
     const Engagement measured = meter.measure(motion, rings.of(more_peak, more_volume), rows);
-    if (more_peak) kept.peak = measured.peak;
+    if (more_peak) kept.peak = between ? meter.look_between(motion, measured) : measured.peak;
     if (more_volume) kept.volume_mm3 = measured.volume_mm3;
     return kept;
   }

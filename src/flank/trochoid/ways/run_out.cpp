@@ -1,11 +1,13 @@
 #include "flank/trochoid/ways/run_out.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <vector>
 
 namespace flank::internal {
 namespace {
@@ -105,18 +107,29 @@ class RunOutLook {
   /// The deepest, mm, of the run-out as it is laid now; where that is `enough` or more, the first place that shows it is all that
   /// is looked at.
   double deepest(double enough) {
-    constexpr double kFirst = 0.1, kGrow = 1.25, kStep = 0.4;  // radii: densest at the end
     GuardDepth depth;
     look(worst_, depth);
     double most = depth.deepest();
-    for (double by = kFirst; by * radius_ <= farthest_ && most < enough; by += std::min(kStep, (kGrow - 1.0) * by)) {
+    for (double by = kFirst; by * radius_ <= farthest_ && most < enough; by = next(by)) {
       look(by, depth);
       if (depth.deepest() > most) most = depth.deepest(), worst_ = by;
     }
     return most;
   }
+  /// How far it goes before it enters a face deeper than `most`, mm.
+  double free(double most) const {
+    GuardDepth depth;
+    double before = 0.0;
+    for (double by = kFirst; by * radius_ <= farthest_; before = by, by = next(by)) {
+      look(by, depth);
+      if (depth.deepest() > most) return before * radius_;
+    }
+    return farthest_;
+  }
 
  private:
+  static constexpr double kFirst = 0.1, kGrow = 1.25, kStep = 0.4;  // radii: densest at the end
+  static double next(double by) { return by + std::min(kStep, (kGrow - 1.0) * by); }
   void look(double by, GuardDepth& depth) const {
     constexpr int kPlaces = 7;
     if (by * radius_ > farthest_) return;
@@ -139,6 +152,86 @@ double entered_at_end(const SidePath& path, bool end, const HalfGuard& guard) {
   return depth.deepest();
 }
 
+/// Both run-outs at one end: of all ways to lay them the one that enters least.
+class RunOutChoice {
+ public:
+  RunOutChoice(SidePath& a, SidePath& b, bool end, double radius, const HalfGuard& guard, double allowed)
+      : a_(a),
+        b_(b),
+        end_(end),
+        radius_(radius),
+        common_(common_direction(a, b, end)),
+        up_((a.at(end ? a.length() : 0.0).u + b.at(end ? b.length() : 0.0).u).normalized()),
+        most_a_(std::max(allowed, kMore * entered_at_end(a, end, guard))),
+        most_b_(std::max(allowed, kMore * entered_at_end(b, end, guard))),
+        of_a_(a, end, radius, farthest(a, b, end, common_, radius), guard),
+        of_b_(b, end, radius, farthest(b, a, end, common_, radius), guard) {}
+
+  /// Lays it, and how deep it enters faces beyond what is allowed, mm.
+  double lay_best() {
+    const std::optional<Vec3> axis = common_axis(a_, b_, end_);
+    if (axis) for_each(common_, axis, [&](const Bend& bend) { keep_shallowest(bend); });
+    for_each(common_, {}, [&](const Bend& bend) { keep_shallowest(bend); });
+    if (least_ > kWall * radius_) turn_aside(axis);
+    lay(a_, b_, end_, best_);
+    return std::max(0.0, least_);
+  }
+  [[nodiscard]] double free_mm() const { return free_; }
+
+ private:
+  /// From gentle to steep. A floor that rises right behind the end is risen from at once.
+  template <class Use>
+  void for_each(const Vec3& direction, const std::optional<Vec3>& axis, const Use& use) const {
+    constexpr double kTurnOver = 4.0;  // radii
+    for (const Rise& rise : kRises)
+      for (const double rise_over : {1.0, 0.4, 0.1})
+        for (const double over : {1.0, 2.0, 4.0})
+          if (rise.slope > 0.0 || rise_over == 1.0)
+            use({direction, rise.slope * up_, over * radius_, rise_over * radius_, rise.until * radius_, axis,
+                 kTurnOver * radius_});
+  }
+  void keep_shallowest(const Bend& bend) {
+    if (least_ <= 0.0) return;
+    lay(a_, b_, end_, bend);
+    const double deep_a = of_a_.deepest(least_ + most_a_) - most_a_;
+    if (deep_a >= least_) return;
+    const double deep = std::max(deep_a, of_b_.deepest(least_ + most_b_) - most_b_);
+    if (deep >= least_) return;
+    least_ = deep;
+    best_ = bend;
+  }
+  /// Forwards, that is: before a wall across the way nothing is gained by turning along it.
+  void keep_farthest(const Bend& bend) {
+    constexpr double kFarther = 1.1;
+    lay(a_, b_, end_, bend);
+    const double free = std::min(of_a_.free(most_a_), of_b_.free(most_b_));
+    const double forward = free * bend.direction.dot(common_);
+    if (!(forward > kFarther * farthest_)) return;
+    free_ = free, farthest_ = forward;
+    best_ = bend;
+  }
+  /// Straight on there is a wall: curved sides are gone on along as they bend, or as far as there is room.
+  void turn_aside(const std::optional<Vec3>& axis) {
+    std::vector<Vec3> directions = {common_};
+    for (const double degrees : {15.0, -15.0, 30.0, -30.0, 45.0, -45.0})
+      directions.push_back(Eigen::AngleAxisd(degrees * std::numbers::pi / 180.0, up_) * common_);
+    for (std::size_t k = 1; k < directions.size(); ++k)
+      for_each(directions[k], axis, [&](const Bend& bend) { keep_shallowest(bend); });
+    if (least_ <= kWall * radius_) return;
+    free_ = 0.0;
+    for (const Vec3& direction : directions) for_each(direction, axis, [&](const Bend& bend) { keep_farthest(bend); });
+  }
+
+  SidePath &a_, &b_;
+  bool end_;
+  double radius_;
+  Vec3 common_, up_;
+  double most_a_, most_b_;
+  RunOutLook of_a_, of_b_;
+  Bend best_;
+  double least_ = kForever, free_ = kForever, farthest_ = 0.0;
+};
+
 }  // namespace
 
 void join_run_outs(SidePath& a, SidePath& b, double radius_mm) {
@@ -148,41 +241,10 @@ void join_run_outs(SidePath& a, SidePath& b, double radius_mm) {
 
 RunOutDepth join_run_outs(SidePath& a, SidePath& b, double radius_mm, const HalfGuard& guard, double allowed_mm) {
   RunOutDepth depth;
-  constexpr double kTurnOver = 4.0;  // radii
   for (const bool end : {false, true}) {
-    const Vec3 common = common_direction(a, b, end);
-    const Vec3 up = (a.at(end ? a.length() : 0.0).u + b.at(end ? b.length() : 0.0).u).normalized();
-    const double most_a = std::max(allowed_mm, kMore * entered_at_end(a, end, guard));
-    const double most_b = std::max(allowed_mm, kMore * entered_at_end(b, end, guard));
-    const double far_a = farthest(a, b, end, common, radius_mm), far_b = farthest(b, a, end, common, radius_mm);
-    RunOutLook of_a(a, end, radius_mm, far_a, guard), of_b(b, end, radius_mm, far_b, guard);
-    Bend best;
-    double least = std::numeric_limits<double>::infinity();
-    std::optional<Vec3> axis = common_axis(a, b, end);
-    const auto look = [&](const Rise& rise, double rise_over, double over) {
-      if (least <= 0.0) return;
-      const Bend bend{common, rise.slope * up,      over * radius_mm, rise_over * radius_mm, rise.until * radius_mm,
-                      axis,   kTurnOver * radius_mm};
-      lay(a, b, end, bend);
-      const double deep_a = of_a.deepest(least + most_a) - most_a;
-      if (deep_a >= least) return;
-      const double deep = std::max(deep_a, of_b.deepest(least + most_b) - most_b);
-      if (deep >= least) return;
-      least = deep;
-      best = bend;
-    };
-    // A floor that rises right behind the end is risen from at once.
-    const auto look_at_all = [&] {
-      for (const Rise& rise : kRises)
-        for (const double rise_over : {1.0, 0.4, 0.1})
-          for (const double over : {1.0, 2.0, 4.0})
-            if (rise.slope > 0.0 || rise_over == 1.0) look(rise, rise_over, over);
-    };
-    if (axis) look_at_all();
-    axis.reset();
-    look_at_all();
-    lay(a, b, end, best);
-    (end ? depth.end : depth.start) = std::max(0.0, least);
+    RunOutChoice choice(a, b, end, radius_mm, guard, allowed_mm);
+    (end ? depth.end : depth.start) = choice.lay_best();
+    (end ? depth.free_end : depth.free_start) = choice.free_mm();
   }
   return depth;
 }

@@ -83,15 +83,15 @@ RuledMotion SidePath::run_out_between(double from, double to) const {
 
 std::vector<RuledMotion> SidePath::motions_between(double from, double to) const {
   std::vector<RuledMotion> out;
-  if (from < 0.0 && !stops_at_start_) out.push_back(run_out_between(from, std::min(to, 0.0)));
+  from = std::max(from, first()), to = std::min(to, last());
+  if (from < 0.0) out.push_back(run_out_between(from, std::min(to, 0.0)));
   if (to > 0.0 && from < length()) out.push_back(motion_between(from, to));
-  if (to > length() && !stops_at_end_) out.push_back(run_out_between(std::max(from, length()), to));
+  if (to > length()) out.push_back(run_out_between(std::max(from, length()), to));
   return out;
 }
 
 AxisPlace SidePath::at(double x) const {
-  if (x > length() && stops_at_end_) return inside(1.0);
-  if (x < 0.0 && stops_at_start_) return inside(0.0);
+  x = std::clamp(x, first(), last());
   if (x >= 0.0 && x <= length()) return inside(time_of(x));
   const AxisPlace end = inside(x < 0.0 ? 0.0 : 1.0);
   const RunOut& out = x < 0.0 ? before_ : after_;
@@ -167,7 +167,7 @@ std::vector<Pose> SidePath::poses(double from, double to, double chord_mm) const
     for (int k = 1; k < count; ++k) add(first + (last - first) * k / count);
   };
   if (from < 0.0) add(from);
-  if (from < 0.0 && !stops_at_start_) add_between(before_, from, std::min(to, 0.0));
+  if (from < 0.0 && first() < 0.0) add_between(before_, std::max(from, first()), std::min(to, 0.0));
   for (std::size_t k = 0; k < sampled.poses.size(); ++k) {
     const double x = way_[static_cast<std::size_t>(std::lround(sampled.t[k] * kSteps))];
     if (x > from && x < to) out.push_back(sampled.poses[k]);
@@ -176,7 +176,7 @@ std::vector<Pose> SidePath::poses(double from, double to, double chord_mm) const
     const AxisPlace place = at(from);
     out.insert(out.begin(), Pose{place.tip, place.u});
   }
-  if (to > length() && !stops_at_end_) add_between(after_, std::max(from, length()), to);
+  if (to > length() && last() > length()) add_between(after_, std::max(from, length()), std::min(to, last()));
   add(to);
   return out;
 }

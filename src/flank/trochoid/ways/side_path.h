@@ -1,6 +1,7 @@
 /// A side path as the cycles see it: by the way of the axis' middle, and straight on past both its ends.
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -34,10 +35,13 @@ class SidePath {
   void raise_run_out(bool at_end, const Vec3& rise, double over_mm, double until_mm);
   /// Beyond an end the axis turns about its middle towards a unit vector less than 180 degrees from it, smoothly over a length.
   void turn_run_out(bool at_end, const std::optional<Vec3>& axis, double over_mm);
-  /// Beyond its end, or before its start, there is a wall: there the axis stays where it is.
-  void stop_at(bool end) { (end ? stops_at_end_ : stops_at_start_) = true; }
-  [[nodiscard]] bool stops_at_end() const { return stops_at_end_; }
-  [[nodiscard]] bool stops_at_start() const { return stops_at_start_; }
+  /// So far beyond its end, or before its start, there is a wall: from there on the axis stays where it is.
+  void stop_at(bool end, double beyond_mm = 0.0) { (end ? beyond_end_ : beyond_start_) = beyond_mm; }
+  [[nodiscard]] bool stops_at_end() const { return std::isfinite(beyond_end_); }
+  [[nodiscard]] bool stops_at_start() const { return std::isfinite(beyond_start_); }
+  /// Where it stops, mm; infinitely far where it does not.
+  [[nodiscard]] double first() const { return -beyond_start_; }
+  [[nodiscard]] double last() const { return length() + beyond_end_; }
   /// Poses from x = from to x = to: those of the motion within the chord tolerance, and the ends beyond it.
   [[nodiscard]] std::vector<Pose> poses(double from, double to, double chord_mm) const;
 
@@ -61,7 +65,8 @@ class SidePath {
   /// Turns the axis of a place `by` mm beyond an end about its middle.
   void turn_axis(const RunOut& out, double by, double sign, AxisPlace& place) const;
   RunOut before_, after_;
-  bool stops_at_start_ = false, stops_at_end_ = false;
+  double beyond_start_ = std::numeric_limits<double>::infinity();
+  double beyond_end_ = std::numeric_limits<double>::infinity();
   std::vector<double> way_;  ///< at equal steps of t
 };
 

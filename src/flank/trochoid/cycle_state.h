@@ -1,0 +1,39 @@
+/// What the search of one cycle hands on to the next.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "flank/base/step_codec.h"
+#include "flank/trochoid/cycle_guard.h"
+#include "flank/trochoid/cycle_shape.h"
+
+namespace flank::internal {
+
+/// A step that was too long, and its engagement.
+struct RefusedStep {
+  double step_mm = 0.0, largest_rad = 0.0;
+};
+void code(StepCodec& codec, RefusedStep& step);
+
+/// What the next cycle is planned from.
+struct CycleState {
+  Trial last;
+  CycleShape shape;
+  /// By which the shares of the shape are changed.
+  std::array<double, 7> span = {0.05, 0.05, 0.08, 0.05, 0.05, 0.08, 0.05};
+  std::array<int, 7> rest = {};  ///< turns for which a share is left alone
+  std::size_t turn = 0;
+  int improved = 0;    ///< cycles whose shape was searched
+  int short_rest = 0;  ///< cycles with short steps for which no other front is looked for: the last look gained nothing
+  /// By which fine samples are expected to see more engagement than those of the search, radians.
+  double excess_rad = 0.0;
+  double step_mm = 0.0, lift_mm = 0.0;
+  double largest_front_mm3 = 0.0;
+  std::size_t sweeps = 0;  ///< in the stock
+};
+
+/// Among the values of a finished step (base/step_codec.h).
+void code(StepCodec& codec, CycleState& state);
+
+}  // namespace flank::internal
