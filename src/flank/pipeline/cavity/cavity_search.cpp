@@ -107,12 +107,12 @@ SideFit search_sides(const Search& search, SideFitOptions options, const Known& 
   const CavitySide left = side_of(faces.sides[0]), right = side_of(faces.sides[1]);
   SideFit best;
   const int first = job.cycles.layers > 0 ? job.cycles.layers : known.fewest;
-  const bool alone = job.cycles.layers > 0 || is_wide(options.fit.bounds.largest, faces, job);
-  const int last = alone ? first : kMostLayers;
+  const int most = job.cycles.layers > 0 ? first : kMostLayers;
+  const int last = is_wide(options.fit.bounds.largest, faces, job) ? first : most;
   for (int layers = first; layers <= last;) {
     options.layers = layers;
     // More layers make a shorter tool, which is less slender.
-    options.slender = layers == last;
+    options.slender = layers == most;
     SideFit tried = fit_sides(left, right, search.tool, options, search.progress);
     const SideFit* before = best.fit.motions.empty() ? known.sides : &best;
     const bool better =
