@@ -87,7 +87,8 @@ int layers_of(const SideFit& sides) { return static_cast<int>(sides.fit.motions.
 
 double score_of(const SideFit& sides, const TrochoidJob& job) { return sides.fit.after.score(job.tolerance_mm); }
 
-/// A bound for which the narrowest place has no room: where sides fall short under it, that is the room's, which more layers do not make.
+/// A bound for which the narrowest place has no room: where sides are far from what is asked under it, that is the room's, which more
+/// layers do not make.
 bool is_wide(double bound, const CavityFaces& faces, const TrochoidJob& job) {
   return !job.radius.max_mm && bound > kMostOfWidth * faces.width.narrowest_mm * (1.0 + 1e-9);
 }
@@ -107,20 +108,21 @@ SideFit search_sides(const Search& search, SideFitOptions options, const Known& 
   const CavitySide left = side_of(faces.sides[0]), right = side_of(faces.sides[1]);
   SideFit best;
   const int first = job.cycles.layers > 0 ? job.cycles.layers : known.fewest;
-  const int most = job.cycles.layers > 0 ? first : kMostLayers;
-  const int last = is_wide(options.fit.bounds.largest, faces, job) ? first : most;
+  const int last = job.cycles.layers > 0 ? first : kMostLayers;
+  const bool wide = is_wide(options.fit.bounds.largest, faces, job);
   for (int layers = first; layers <= last;) {
     options.layers = layers;
     // More layers make a shorter tool, which is less slender.
-    options.slender = layers == most;
+    options.slender = layers == last;
     SideFit tried = fit_sides(left, right, search.tool, options, search.progress);
     const SideFit* before = best.fit.motions.empty() ? known.sides : &best;
     const bool better =
         before == nullptr || before->fit.motions.empty() || score_of(tried, job) > score_of(*before, job) + kGain;
-    const bool ends = state_of(tried, faces, job) != SideState::kShort || (thinner && is_narrow(tried));
-    const int next = tried.fit.motions.empty()
-                         ? layers + 1
-                         : layers_after(layers, tried.fit.after, job.judge.least_coverage * reach_of(tried, faces));
+    const bool some = !tried.fit.motions.empty();
+    const double asked = some ? job.judge.least_coverage * reach_of(tried, faces) : 1.0;
+    const bool far = wide && some && tried.fit.after.at_four_tolerances < asked;
+    const bool ends = far || state_of(tried, faces, job) != SideState::kShort || (thinner && is_narrow(tried));
+    const int next = some ? layers_after(layers, tried.fit.after, asked) : layers + 1;
     if (better || best.fit.motions.empty()) best = std::move(tried);
     if (ends || !better || layers == last || search.progress.stop()) break;
     layers = std::min(last, next);
