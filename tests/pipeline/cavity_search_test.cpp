@@ -107,6 +107,20 @@ TEST(CavitySearch, StartsSlimWhereAThickStartCoversLittle) {
   EXPECT_LT(sides.fit.after.overcut_mm, 0.1 * options.fit.tolerance_mm);
 }
 
+TEST(CavitySearch, TriesNoLayersThatAreTooFew) {
+  CoverageEstimate found;
+  found.at_tolerance = 0.75, found.at_four_tolerances = 0.97;
+  EXPECT_EQ(layers_after(1, found, 0.95), 2) << "within four tolerances it is all but there";
+  found.at_tolerance = 0.2, found.at_four_tolerances = 0.55;
+  EXPECT_EQ(layers_after(1, found, 0.9), 4) << "with two it would cover 55 %";
+  found.at_tolerance = 0.7, found.at_four_tolerances = 0.96;
+  EXPECT_EQ(layers_after(3, found, 0.89), 5);
+  found.at_tolerance = 0.69, found.at_four_tolerances = 0.72;
+  EXPECT_EQ(layers_after(1, found, 0.9), 2) << "what is missing is far off, for another reason";
+  found.at_tolerance = found.at_four_tolerances = 0.8;
+  EXPECT_EQ(layers_after(2, found, 0.9), 3);
+}
+
 /// A layer whose cycles ended so.
 PlannedLayer layer_of(CycleStatus status, int cycles, double share) {
   PlannedLayer layer;

@@ -183,7 +183,8 @@ CavityProgram plan_program(const std::vector<RuledMotion>& sides, const RadialFu
       const double less = planned.cycles.before_wall_mm > 0.0 ? 0.0 : radial.largest() / layer.from.length();
       here.cycles.most_share = std::min(here.cycles.most_share, planned.share - less);
     }
-    const bool on = planned.cycles.status != CycleStatus::kCancelled && here.cycles.most_share > 0.0;
+    const bool ends = !options.below_stuck && planned.cycles.status == CycleStatus::kStuck;
+    const bool on = !ends && planned.cycles.status != CycleStatus::kCancelled && here.cycles.most_share > 0.0;
     out.layers.push_back(std::move(planned));
     if (!on) break;
   }

@@ -14,6 +14,7 @@ namespace flank::internal {
 struct ProgramOptions {
   CycleOptions cycles;
   EntryOptions entry;
+  bool below_stuck = true;                ///< plan the layers below one whose cycles get stuck, as far as it got
   bool climb = true;                      ///< else conventional; the spindle turns clockwise seen from the holder
   double chord_mm = 1e-3;                 ///< of the joined poses
   std::string left = "F1", right = "F2";  ///< names for the strips

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "flank/example/example_cavity.h"
+#include "obstacle/obstacle_scene.h"
 
 namespace flank::internal {
 namespace {
@@ -66,6 +68,63 @@ TEST(SideStart, DoesNotGoUpAWallThatItsLinesLeanAgainst) {
       }
     }
   EXPECT_EQ(upright, 5);
+}
+
+TEST(SideStart, LaysBothSidesSoThatTheToolGoesTheSameWay) {
+  // Lines lean by 40 degrees to either side: those along the right wall are more nearly parallel to the left one's than those
+  // that stand as they do.
+  const double lean = 40.0 * std::numbers::pi / 180.0;
+  const auto wall = [&](double y, double sign, const char* id) {
+    const Vec3 at(0.0, y, 0.0), along(100.0, 0.0, 0.0), up(sign * 60.0 * std::sin(lean), 0.0, 60.0 * std::cos(lean));
+    return testing::quad(at, at + along, at + up, at + along + up, id);
+  };
+  Face right_wall = wall(40.0, -1.0, "F2");
+  right_wall.reversed = true;
+  const std::unique_ptr<Target> left = make_target({wall(0.0, 1.0, "F1")}), right = make_target({right_wall});
+  const auto same = [](double length) { return length; };
+  for (const bool swapped : {false, true}) {
+    const std::vector<FitTask> tasks = side_tasks({left.get(), nullptr}, {right.get(), nullptr}, Chart(*left),
+                                                  Chart(*right), {swapped, 0.0, 5.0}, 1, same, {});
+    ASSERT_EQ(tasks.size(), 2u);
+    const auto way = [&](std::size_t m) {
+      const RuledMotion& motion = tasks[m].motion;
+      const double middle = 0.5 * motion.axis_length;
+      return Vec3((motion.pose(1.0).at(middle) - motion.pose(0.0).at(middle)).normalized());
+    };
+    EXPECT_GT(way(0).dot(way(1)), swapped ? 0.1 : 0.99);
+  }
+}
+
+TEST(SideStart, EndsBeforeTheCornerWithAWallThatItsLinesRunAlong) {
+  // The wall is hollow: where a ball hardly fits between it and a side, it does half way up alone, as far as the side goes.
+  constexpr double kRadius = 8.0, kDepth = 40.0;
+  const std::unique_ptr<Target> left = testing::standing_blade(0.0);
+  const std::unique_ptr<Target> right =
+      make_target({testing::quad(Vec3(0, 40, 0), Vec3(60, 40, 0), Vec3(0, 40, kDepth), Vec3(60, 40, kDepth), "F2")});
+  const auto wall = [&] {
+    Obstacles out;
+    for (const double end : {-kDepth, kDepth}) {
+      const double z = 0.5 * kDepth + end;
+      out.faces.push_back(
+          {make_target({testing::quad(Vec3(72, -50, 20), Vec3(72, 90, 20), Vec3(32, -50, z), Vec3(32, 90, z), "F3")}),
+           false});
+    }
+    return out;
+  };
+  const ObstacleField at_left(wall(), *left, 12.0, 0.0), at_right(wall(), *right, 12.0, 0.0);
+  const auto same = [](double length) { return length; };
+  int upright = 0;
+  for (const bool swapped : {false, true}) {
+    const std::vector<FitTask> tasks = side_tasks({left.get(), &at_left}, {right.get(), &at_right}, Chart(*left),
+                                                  Chart(*right), {swapped, 0.0, kRadius}, 1, same, {});
+    ASSERT_EQ(tasks.size(), 2u);
+    if (std::abs(tasks.front().motion.pose(0.5).axis.z()) < 0.9) continue;
+    ++upright;
+    for (const FitTask& task : tasks)
+      for (const double t : {0.0, 1.0})
+        EXPECT_NEAR(task.motion.pose(t).tip.z(), task.motion.pose(0.5).tip.z(), 0.3 * kDepth) << t;
+  }
+  EXPECT_EQ(upright, 1);
 }
 
 }  // namespace

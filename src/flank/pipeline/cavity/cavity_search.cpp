@@ -21,8 +21,13 @@ constexpr double kEven = 0.85;
 /// The same of a slimmer start, where the others cover less than this share of what they reach.
 constexpr double kSlim = 0.7, kCoversLittle = 0.85;
 constexpr int kMostLayers = 5;
-/// How often cycles are taken back where none gets on (CycleOptions::most_rewinds).
-constexpr int kFewRewinds = 3, kMostRewinds = 6;
+/// How hard a way past a place is looked for where no cycle gets on.
+struct PlanEffort {
+  int most_rewinds = 3;      ///< CycleOptions::most_rewinds
+  bool below_stuck = false;  ///< ProgramOptions::below_stuck
+};
+/// Of a plan that is compared with others; of what is written in the end, where the search is not over for another reason.
+constexpr PlanEffort kTry = {}, kWrite = {3, true}, kUtmost = {6, true};
 /// Depths in faces that differ by less than this share are alike.
 constexpr double kSameDepth = 0.2;
 /// Where no cycles get through, the search ends after so many tools in a row that do not get farther: one may be unlucky.
@@ -75,24 +80,52 @@ SideState state_of(const SideFit& sides, const CavityFaces& faces, const Trochoi
   return e.at_tolerance >= least * reach_of(sides, faces) ? SideState::kObstructed : SideState::kShort;
 }
 
-/// As many layers as the tolerance needs, `fewest` or more, or as many as are asked for: not those that cannot help.
-SideFit search_sides(const Search& search, SideFitOptions options, int fewest) {
+/// A tool that has hardly any way across: its cycles would crawl.
+bool is_narrow(const SideFit& sides) { return least_way_across(sides.fit.motions, sides.fit.tool) < kLeastWay; }
+
+int layers_of(const SideFit& sides) { return static_cast<int>(sides.fit.motions.size()) / 2; }
+
+double score_of(const SideFit& sides, const TrochoidJob& job) { return sides.fit.after.score(job.tolerance_mm); }
+
+/// A bound for which the narrowest place has no room: where sides are far from what is asked under it, that is the room's, which more
+/// layers do not make.
+bool is_wide(double bound, const CavityFaces& faces, const TrochoidJob& job) {
+  return !job.radius.max_mm && bound > kMostOfWidth * faces.width.narrowest_mm * (1.0 + 1e-9);
+}
+
+/// From how many layers on sides are looked for, and what is there already.
+struct Known {
+  int fewest = 1;
+  const SideFit* sides = nullptr;  ///< more layers than the fewest only if these gain on it
+};
+
+/// As many layers as the tolerance needs, not those that cannot help; or as many as are asked for. If a thinner tool may be tried, no
+/// more layers for one that has hardly any way across: they make none.
+SideFit search_sides(const Search& search, SideFitOptions options, const Known& known, bool thinner) {
+  constexpr double kGain = 0.002;
   const TrochoidJob& job = search.job;
   const CavityFaces& faces = search.faces;
   const CavitySide left = side_of(faces.sides[0]), right = side_of(faces.sides[1]);
   SideFit best;
-  const int first = job.cycles.layers > 0 ? job.cycles.layers : fewest,
-            last = job.cycles.layers > 0 ? first : kMostLayers;
-  for (int layers = first; layers <= last; ++layers) {
+  const int first = job.cycles.layers > 0 ? job.cycles.layers : known.fewest;
+  const int last = job.cycles.layers > 0 ? first : kMostLayers;
+  const bool wide = is_wide(options.fit.bounds.largest, faces, job);
+  for (int layers = first; layers <= last;) {
     options.layers = layers;
     // More layers make a shorter tool, which is less slender.
     options.slender = layers == last;
     SideFit tried = fit_sides(left, right, search.tool, options, search.progress);
-    const bool better = best.fit.motions.empty() ||
-                        tried.fit.after.score(job.tolerance_mm) > best.fit.after.score(job.tolerance_mm) + 0.002;
-    const bool ends = state_of(tried, faces, job) != SideState::kShort;
-    if (better) best = std::move(tried);
-    if (ends || !better || search.progress.stop()) break;
+    const SideFit* before = best.fit.motions.empty() ? known.sides : &best;
+    const bool better =
+        before == nullptr || before->fit.motions.empty() || score_of(tried, job) > score_of(*before, job) + kGain;
+    const bool some = !tried.fit.motions.empty();
+    const double asked = some ? job.judge.least_coverage * reach_of(tried, faces) : 1.0;
+    const bool far = wide && some && tried.fit.after.at_four_tolerances < asked;
+    const bool ends = far || state_of(tried, faces, job) != SideState::kShort || (thinner && is_narrow(tried));
+    const int next = some ? layers_after(layers, tried.fit.after, asked) : layers + 1;
+    if (better || best.fit.motions.empty()) best = std::move(tried);
+    if (ends || !better || layers == last || search.progress.stop()) break;
+    layers = std::min(last, next);
   }
   return best;
 }
@@ -107,13 +140,14 @@ EntryMethod entry_of(const std::string& name) {
   return name == "plunge" ? EntryMethod::kPlunge : EntryMethod::kAuto;
 }
 
-CavityProgram plan(const TrochoidJob& job, const CavityFaces& faces, const SideFit& sides, int most_rewinds,
+CavityProgram plan(const TrochoidJob& job, const CavityFaces& faces, const SideFit& sides, const PlanEffort& effort,
                    const Progress& progress) {
   if (sides.fit.motions.empty() || !check_legitimacy(sides.fit.tool).legitimate) return {};
   ProgramOptions options;
   options.cycles.largest_rad = job.cycles.most_engagement_deg * kDegree;
   options.cycles.tolerance_mm = job.tolerance_mm;
-  options.cycles.most_rewinds = most_rewinds;
+  options.cycles.most_rewinds = effort.most_rewinds;
+  options.below_stuck = effort.below_stuck;
   options.cycles.strategy = strategy_of(job.cycles.strategy);
   options.entry.method = entry_of(job.cycles.entry);
   options.entry.slope_rad = job.cycles.ramp_angle_deg * kDegree;
@@ -149,10 +183,10 @@ CavityPlan uncut_plan(SideFit sides, double bound) {
   return out;
 }
 
-CavityPlan planned(SideFit sides, const Search& search, double bound, int most_rewinds) {
+CavityPlan planned(SideFit sides, const Search& search, double bound, const PlanEffort& effort = kTry) {
   const CavitySide left = side_of(search.faces.sides[0]), right = side_of(search.faces.sides[1]);
   sides = settle_sides(left, right, std::move(sides), options_under(search, bound), search.progress);
-  CavityProgram program = plan(search.job, search.faces, sides, most_rewinds, search.progress);
+  CavityProgram program = plan(search.job, search.faces, sides, effort, search.progress);
   CavityPlan out = uncut_plan(std::move(sides), bound);
   out.program = std::move(program);
   if (search.judge && gets_through(out, search.job.tolerance_mm) && !search.progress.stop())
@@ -160,28 +194,18 @@ CavityPlan planned(SideFit sides, const Search& search, double bound, int most_r
   return out;
 }
 
-/// A tool that has hardly any way across: its cycles would crawl.
-bool is_narrow(const SideFit& sides) { return least_way_across(sides.fit.motions, sides.fit.tool) < kLeastWay; }
-
 /// Of one bound of radii: sides whose axes lean alike, whose cycles are fewer and shorter; where they do not do what is asked,
 /// or cycles get stuck between them, sides as they come. If a thinner tool may be tried, no cycles for one that has hardly any
 /// way across, nor between sides that cover too little, whatever cycles there are: such sides take the place of `uncut` if they
 /// cover more.
-CavityPlan search_ways(const Search& search, SideFitOptions options, bool thinner, CavityPlan& uncut) {
+CavityPlan search_ways(const Search& search, SideFitOptions options, int fewest, bool thinner, CavityPlan& uncut) {
   const TrochoidJob& job = search.job;
   const CavityFaces& faces = search.faces;
   const double bound = options.fit.bounds.largest;
-  const auto sides = [&](bool facing, int fewest) {
-    options.facing = facing;
-    return search_sides(search, options, fewest);
-  };
-  SideFit alike = sides(true, 1);
-  // Fewer layers than the tool of these has are too few for it either way: they were too slender, or covered less.
-  const int layers = std::max(1, static_cast<int>(alike.fit.motions.size()) / 2);
+  SideFit alike = search_sides(search, options, {fewest}, thinner);
   if (thinner && is_narrow(alike)) return uncut_plan(std::move(alike), bound);
   const auto plan_of = [&](SideFit fit) {
-    if (!thinner || state_of(fit, faces, job) != SideState::kShort)
-      return planned(std::move(fit), search, bound, kFewRewinds);
+    if (!thinner || state_of(fit, faces, job) != SideState::kShort) return planned(std::move(fit), search, bound);
     const CavityPlan plan = uncut_plan(std::move(fit), bound);
     if (plan.sides.fit.after.at_tolerance > uncut.sides.fit.after.at_tolerance) uncut = plan;
     return plan;
@@ -191,7 +215,12 @@ CavityPlan search_ways(const Search& search, SideFitOptions options, bool thinne
   // What all cycles get past, but enters a face, is not the leans'.
   if (facing.program.done() && state_of(facing.sides, faces, job) != SideState::kShort) return facing;
   if (ends_search(facing.program, thinner)) return facing;
-  SideFit as_they_come = sides(false, layers);
+  if (thinner && is_wide(bound, faces, job) && facing.program.layers.empty()) return facing;
+  // Fewer layers than the tool of these has are too few for it either way: they were too slender, or covered less. So is another start.
+  const int layers = std::max(fewest, layers_of(facing.sides));
+  if (layers_of(facing.sides) > 0) options.starts = {facing.sides.start};
+  options.facing = false;
+  SideFit as_they_come = search_sides(search, options, {layers, &facing.sides}, thinner);
   // Cycles cannot make up for sides that cover no more, where the others' get through all of the way.
   const double tolerance = job.tolerance_mm;
   if (gets_through(facing, tolerance) && cleared(facing) == 1.0 &&
@@ -207,7 +236,7 @@ CavityPlan search_even(const Search& search, SideFitOptions options, CavityPlan 
   const CavityFaces& faces = search.faces;
   if (!search.tool.free() || !wants_even_tool(tried, faces, job) || search.progress.stop()) return tried;
   options.starts = {{options.starts.front().radius_mm, kEven}};
-  CavityPlan even = search_ways(search, options, true, uncut);
+  CavityPlan even = search_ways(search, options, layers_of(tried.sides), true, uncut);
   return is_done(even, faces, job) || is_better(even, tried, job.tolerance_mm) ? even : tried;
 }
 
@@ -215,7 +244,7 @@ CavityPlan search_even(const Search& search, SideFitOptions options, CavityPlan 
 void try_uncut(const Search& search, CavityPlan uncut, CavityPlan& best) {
   const double finished = cleared(best) * best.sides.fit.after.at_tolerance;
   if (!(uncut.sides.fit.after.at_tolerance > finished) || search.progress.stop()) return;
-  CavityPlan tried = planned(std::move(uncut.sides), search, uncut.largest_radius_mm, kFewRewinds);
+  CavityPlan tried = planned(std::move(uncut.sides), search, uncut.largest_radius_mm);
   tried.tools = best.tools;
   if (is_better(tried, best, search.job.tolerance_mm)) best = std::move(tried);
 }
@@ -227,6 +256,15 @@ std::vector<RadiusStart> starts_under(double bound_mm, double least_mm) {
   std::vector<RadiusStart> starts = {{radius, kStout}, {radius, kThin}};
   if (kSlim * bound_mm > least_mm) starts.push_back({kSlim * bound_mm, kThin, kCoversLittle});
   return starts;
+}
+
+int layers_after(int layers, const CoverageEstimate& found, double asked) {
+  constexpr double kUnsure = 0.7;  // of a layer: one that is hardly asked for is not counted on
+  constexpr double kMost = 2.0;    // doublings: what asks for more is far off, and not for want of layers
+  const double gained = found.at_four_tolerances - found.at_tolerance, missing = asked - found.at_tolerance;
+  if (missing > kMost * gained || !(gained > 0.0)) return layers + 1;
+  const double wanted = layers * std::exp2(std::max(0.0, missing) / gained);
+  return std::max(layers + 1, static_cast<int>(wanted + 1.0 - kUnsure));
 }
 
 bool is_better(const CavityPlan& a, const CavityPlan& b, double tolerance) {
@@ -293,18 +331,22 @@ CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const
   CavityPlan best, uncut;
   const bool given = !tool.free() && tool.radius;
   bool ends = false;
-  int tools = 0;
+  int tools = 0, fewest = 1;
   SearchPatience patience;
   const std::vector<double> bounds = bounds_of(job, faces.width);
   for (const double bound : bounds) {
     const SideFitOptions here = options_under(search, bound);
     const double most_uncut = uncut.sides.fit.after.at_tolerance;
     const bool thinner = !given && bound != bounds.back();
-    CavityPlan tried = search_ways(search, here, thinner, uncut);
+    CavityPlan tried = search_ways(search, here, fewest, thinner, uncut);
     tried = search_even(search, here, std::move(tried), uncut);
     const bool done = is_done(tried, faces, job);
     // A tool that has hardly any way across got no cycles, and says nothing of thinner ones.
     const bool narrow = tried.program.layers.empty() && is_narrow(tried.sides);
+    // How many layers sides need is theirs. Where they fell short, that may have been the thick tool's.
+    if (!narrow && !tried.sides.fit.motions.empty())
+      fewest =
+          std::max(fewest, layers_of(tried.sides) - (state_of(tried.sides, faces, job) == SideState::kShort ? 1 : 0));
     const bool covers_more = uncut.sides.fit.after.at_tolerance > most_uncut;
     const bool better = ++tools == 1 || is_better(tried, best, job.tolerance_mm);
     if (better || done) best = std::move(tried);
@@ -315,9 +357,12 @@ CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const
   }
   // Where no tool does it, the sides without cycles may be those that leave least.
   if (!is_done(best, faces, job)) try_uncut(search, std::move(uncut), best);
-  // The long search for a way past a place where cycles get stuck comes last: another tool may have no such place.
-  if (!best.program.done() && !ends && !best.sides.fit.motions.empty() && !progress.stop()) {
-    CavityPlan tried = planned(best.sides, search, best.largest_radius_mm, kMostRewinds);
+  // The long search for a way past a place where cycles get stuck comes last: another tool may have no such place. So do the layers
+  // below it.
+  const bool cut_short =
+      static_cast<int>(best.program.layers.size()) < layers_of(best.sides) && !best.program.layers.empty();
+  if (!best.program.done() && (!ends || cut_short) && !best.sides.fit.motions.empty() && !progress.stop()) {
+    CavityPlan tried = planned(best.sides, search, best.largest_radius_mm, ends ? kWrite : kUtmost);
     if (is_better(tried, best, job.tolerance_mm)) best.program = std::move(tried.program), best.finding = tried.finding;
   }
   return best;

@@ -40,6 +40,11 @@ using CavityJudge = std::function<std::optional<CavityFinding>(const CavityPlan&
 /// will be stays against the bound between walls that bulge, whose tool has a waist: where little is covered so, a thinner one begins.
 [[nodiscard]] std::vector<RadiusStart> starts_under(double bound_mm, double least_mm);
 
+/// How many layers are tried after so many, which cover less than is asked for. Of a band what a straight line leaves goes with the
+/// square of its height: with twice as many layers what is now within four tolerances may be finished, and other shares lie between
+/// and beyond.
+[[nodiscard]] int layers_after(int layers, const CoverageEstimate& found, double asked);
+
 /// Whether the judge finds all that is asked. Where nobody has judged it, whether cycles get through, enter nothing, and the verdict
 /// may be expected to find the share that is asked for: of what a ball of the least radius reaches. Some of that a tool that is thicker elsewhere leaves beside a wall, and cycles what no step there keeps the limit
 /// for: a thinner one may get nearer.

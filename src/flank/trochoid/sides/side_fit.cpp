@@ -62,13 +62,15 @@ double worth(const FitDraft& draft, const CoverageEstimate& estimate, double tol
   constexpr double kStagger = 2.0, kLean = 0.1;        // of coverage: 12 degrees cost two fifths, and two percent
   constexpr double kMuchLean = 0.3, kSteepLean = 1.0;  // from 17 degrees on, another percent for each percent
   constexpr double kLying = 0.5, kMostLying = 4.0;
+  constexpr double kMostPrice = 0.5;
   double sum = 0.0;
   for (std::size_t k = 0; k + 1 < draft.motions.size(); k += 2)
     sum += kLying * std::min(kMostLying, lying(draft.motions[k]));
   const double layers = std::max(1.0, 0.5 * static_cast<double>(draft.motions.size()));
   const double lean = mean_lean(draft.motions);
-  return estimate.score(tolerance) - kStagger * mean_stagger(draft.motions) - kLean * lean -
-         kSteepLean * std::max(0.0, lean - kMuchLean) - sum / layers;
+  const double price = kStagger * mean_stagger(draft.motions) + kLean * lean +
+                       kSteepLean * std::max(0.0, lean - kMuchLean) + sum / layers;
+  return estimate.score(tolerance) - std::min(kMostPrice, price);
 }
 
 std::vector<SurfaceSample> samples_of(const CavitySide& left, const CavitySide& right, const FlankFitOptions& options) {
@@ -151,6 +153,7 @@ class SideFitter {
 
  private:
   [[nodiscard]] Candidate quick(const SideStart& start, const FlankFitOptions& asked) const;
+  void rank(FitDraft draft, Candidate& candidate) const;
 
   const CavitySide &left_, &right_;
   const ToolModel& tool_;
@@ -158,6 +161,19 @@ class SideFitter {
   Chart left_chart_, right_chart_;
   std::vector<SurfaceSample> samples_, few_;
 };
+
+/// A draft takes the candidate's place if it is worth more.
+void SideFitter::rank(FitDraft draft, Candidate& candidate) const {
+  if (!has_values(draft)) return;
+  cut_axial_ends(draft);
+  const double tolerance = kQuickTolerances * options_.fit.tolerance_mm;
+  CoverageEstimate estimate = estimate_coverage(few_, draft.motions, draft.tool, tolerance, kQuickPoses);
+  estimate.gouge_mm = flank_gouge(draft.motions, draft.obstacles, draft.tool, kQuickPoses);
+  const double score = worth(draft, estimate, tolerance);
+  if (!candidate.draft.motions.empty() && candidate.score >= score) return;
+  candidate.draft = std::move(draft);
+  candidate.score = score;
+}
 
 Candidate SideFitter::quick(const SideStart& start, const FlankFitOptions& asked) const {
   Candidate candidate;
@@ -172,14 +188,9 @@ Candidate SideFitter::quick(const SideStart& start, const FlankFitOptions& asked
   draft.facing = options_.facing;
   FitStage stage = quick_stage(robust_scale(*left_.target, fit));
   if (draft.facing) keep_going(stage, kQuickParallel * fit.tolerance_mm, left_.target->diagonal());
-  candidate.draft = run_stage(draft, fit.bounds, stage);
-  if (!has_values(candidate.draft)) return candidate;
-  cut_axial_ends(candidate.draft);
-  const double tolerance = kQuickTolerances * options_.fit.tolerance_mm;
-  const std::vector<RuledMotion>& motions = candidate.draft.motions;
-  CoverageEstimate estimate = estimate_coverage(few_, motions, candidate.draft.tool, tolerance, kQuickPoses);
-  estimate.gouge_mm = flank_gouge(motions, candidate.draft.obstacles, candidate.draft.tool, kQuickPoses);
-  candidate.score = worth(candidate.draft, estimate, tolerance);
+  rank(draft, candidate);
+  // A start may be nearly done, as along the lines of ruled walls, and a coarse pass then only does harm.
+  rank(run_stage(draft, fit.bounds, stage), candidate);
   return candidate;
 }
 
@@ -234,7 +245,7 @@ bool SideFitter::is_done(const Polished& polished) const {
 
 /// Whether sides cover clearly less than is asked for of what a tool like this reaches: the last passes do not make up for that.
 bool falls_short(const CavitySide& left, const CavitySide& right, const Polished& best, const SideFitOptions& options) {
-  constexpr double kClearly = 0.9;
+  constexpr double kClearly = 0.95;
   const RadialFunction& tool = best.draft.tool;
   const double asked = options.fit.reach_radius_mm;
   const double reach = std::min(reachable_share(left, right, asked > 0.0 ? asked : tool.smallest()),
@@ -245,11 +256,15 @@ bool falls_short(const CavitySide& left, const CavitySide& right, const Polished
 /// The best of all radii that are tried.
 SideFit search_radii(const CavitySide& left, const CavitySide& right, const ToolModel& tool,
                      const SideFitOptions& options, const Progress& progress) {
+  constexpr double kFree = 1.1;
   SideFit out;
   const SideFitter fitter(left, right, tool, options);
   Polished best;
   const double tolerance = options.fit.tolerance_mm;
+  double free_radius = 0.0;  // start with which no radius came near to its least one
   for (const RadiusStart& start : options.starts) {
+    // With a lower one it would come to the same.
+    if (start.radius_mm == free_radius) continue;
     if (!best.draft.motions.empty() &&
         covers_reachable(left, right, best.estimate.at_tolerance, start.unless_covered, best.draft.tool.smallest()))
       continue;
@@ -264,10 +279,12 @@ SideFit search_radii(const CavitySide& left, const CavitySide& right, const Tool
     const bool better = best.draft.motions.empty() || worth(tried.polished.draft, tried.polished.estimate, tolerance) >
                                                           worth(best.draft, best.estimate, tolerance);
     const bool done = fitter.is_done(tried.polished);
+    if (tried.polished.draft.tool.smallest() > kFree * start.least_share * start.radius_mm)
+      free_radius = start.radius_mm;
     if (better) {
       best = std::move(tried.polished);
       out.fit.trace = std::move(tried.trace);
-      out.start_radius_mm = start.radius_mm;
+      out.start = start;
     }
     if (done) break;
   }
@@ -286,17 +303,17 @@ SideFit search_radii(const CavitySide& left, const CavitySide& right, const Tool
 
 }  // namespace
 
+void code(StepCodec& codec, RadiusStart& start) {
+  for (double* value : {&start.radius_mm, &start.least_share, &start.unless_covered}) codec.number(*value);
+}
+
 void code(StepCodec& codec, SideFit& sides) {
   code(codec, sides.fit);
-  codec.number(sides.start_radius_mm);
+  code(codec, sides.start);
   code(codec, sides.tried_radii);
   code(codec, sides.settled);
   code(codec, sides.facing);
   codec.require(sides.fit.motions.size() % 2 == 0, "a motion for each side is needed");
-}
-
-void code(StepCodec& codec, RadiusStart& start) {
-  for (double* value : {&start.radius_mm, &start.least_share, &start.unless_covered}) codec.number(*value);
 }
 
 CavityWidth width_between(const CavitySide& left, const CavitySide& right) {

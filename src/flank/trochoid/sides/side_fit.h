@@ -36,7 +36,7 @@ struct SideFit {
   /// motions[2 k] of the left side, [2 k + 1] of the right one, in layer k, the top one first. Both run in the same
   /// direction along the cavity, tips at the same end. Empty: no start.
   FlankFitResult fit;
-  double start_radius_mm = 0.0;
+  RadiusStart start;  ///< that it began with
   int tried_radii = 0;
   /// Not of a free tool that covers clearly less than is asked for: the next layers, or the next bound, may do better, and the
   /// last passes take longer than all before them. What is milled is settled first (settle_sides).

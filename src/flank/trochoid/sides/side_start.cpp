@@ -1,6 +1,7 @@
 #include "flank/trochoid/sides/side_start.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace flank::internal {
@@ -63,7 +64,9 @@ struct Upright {
 
 /// A wall across the way that lines lean against leaves ever less of them: followed to the end, the tool would rise along its own
 /// axis, a way on which no cycle gets on. So the way ends where half of a line is blocked; nor is such a wall a floor.
-Upright upright_part(const ClearStart& clear) {
+/// Likewise where walls leave less than half of a line and are at both of its ends, as in the corner that a side makes with a wall
+/// that its lines run along: a ball has no room there but for shreds, and through them the tip would go astray.
+Upright upright_part(const ClearStart& clear, const Chart& chart, const RuledStart& band) {
   constexpr double kFree = 0.5, kGrowing = 1e-3;  // of the longest free stretch
   const int n = static_cast<int>(clear.lines.size());
   const auto free = [&](int i) {
@@ -83,6 +86,13 @@ Upright upright_part(const ClearStart& clear) {
       i += by;
     }
   };
+  const auto hemmed = [&](int i) {
+    const ClearStart::Line& line = clear.lines[static_cast<std::size_t>(i)];
+    return line.low_blocked && line.high_blocked &&
+           !(line.high - line.low >= kFree * axis_line(chart, band, time(i)).length);
+  };
+  for (; from + 1 < n && hemmed(from); ++from) out.first = time(from + 1);
+  for (; to > from && hemmed(to); --to) out.last = time(to - 1);
   if (clear.first > 0.0) pass(from, +1, out.first);
   if (clear.last < 1.0) pass(to, -1, out.last);
   for (int i = from; i <= to; ++i)
@@ -97,7 +107,8 @@ double longest_line(const CavitySide& side, const Chart& chart, const RuledStart
     double length = kLonger * longest_chord(chart, band);
     if (side.obstacles != nullptr) {
       const ClearStart clear = clear_start(chart, band, *side.obstacles);
-      if (clear.free_lines > 0 && upright_part(clear).on_floor > kStartTimes / 4) length = kLonger * clear.longest_mm;
+      if (clear.free_lines > 0 && upright_part(clear, chart, band).on_floor > kStartTimes / 4)
+        length = kLonger * clear.longest_mm;
     }
     longest = std::max(longest, length);
   }
@@ -113,7 +124,7 @@ Laid lay(const CavitySide& side, const Chart& chart, const RuledStart& start, in
       if (clear.free_lines == 0) return {};
       // A wall across the way ends it, before the first line that it blocks: a fit that begins in the wall is thrown far off.
       const double inset = kBeforeBlocked * (clear.last - clear.first);
-      const Upright upright = upright_part(clear);
+      const Upright upright = upright_part(clear, chart, band);
       if (upright.on_floor > kStartTimes / 4) {
         band.first = upright.first, band.last = upright.last;
         const bool shorter = upright.first > clear.first || upright.last < clear.last;
@@ -141,21 +152,35 @@ void turn(Laid& laid, const Vec3& up, const Vec3& along) {
   });
 }
 
-/// The lines of the right chart that are most nearly parallel to a direction.
-RuledStart like(const Chart& chart, const SideStart& start, const Vec3& direction) {
-  RuledStart best;
-  double most = -1.0;
+/// Where the line of a start goes from its first half to its second one.
+Vec3 way_of(const Chart& chart, const RuledStart& start) {
+  return (axis_line(chart, start, 0.75).middle - axis_line(chart, start, 0.25).middle).normalized();
+}
+
+/// The lines of the right chart that go the way of the left ones, and of those the most nearly parallel to them. On blades that are
+/// twisted lines across those may be as parallel, and a tool that goes up one side while it goes along the other mills no cavity.
+RuledStart like(const Chart& chart, const SideStart& start, const Chart& left_chart, const RuledStart& left) {
+  constexpr double kOneWay = 0.2;  // cosines that differ by more are not of one way
+  const Vec3 direction = axis_line(left_chart, left, 0.5).direction, way = way_of(left_chart, left);
+  std::array<double, 2> along = {};
+  std::vector<RuledStart> all;
   for (const bool swapped : {false, true}) {
     for (const double sign : {1.0, -1.0}) {
-      RuledStart tried;
+      RuledStart& tried = all.emplace_back();
       tried.swapped = swapped;
       tried.skew_rad = sign * start.skew_rad;
       tried.radius_mm = start.radius_mm;
-      const double parallel = std::abs(axis_line(chart, tried, 0.5).direction.dot(direction));
-      if (parallel <= most + 1e-9) continue;
-      most = parallel;
-      best = tried;
+      along[swapped] = std::max(along[swapped], std::abs(way_of(chart, tried).dot(way)));
     }
+  }
+  RuledStart best;
+  double most = -1.0;
+  for (const RuledStart& tried : all) {
+    if (along[tried.swapped] < along[!tried.swapped] - kOneWay) continue;
+    const double parallel = std::abs(axis_line(chart, tried, 0.5).direction.dot(direction));
+    if (!(parallel > most + 1e-9)) continue;
+    most = parallel;
+    best = tried;
   }
   return best;
 }
@@ -177,7 +202,7 @@ std::vector<FitTask> side_tasks(const CavitySide& left, const CavitySide& right,
   on_left.swapped = start.swapped;
   on_left.skew_rad = start.skew_rad;
   on_left.radius_mm = start.radius_mm;
-  const RuledStart on_right = like(right_chart, start, axis_line(left_chart, on_left, 0.5).direction);
+  const RuledStart on_right = like(right_chart, start, left_chart, on_left);
   const double length = axis_length(
       std::max(longest_line(left, left_chart, on_left, layers), longest_line(right, right_chart, on_right, layers)));
   Laid a = lay(left, left_chart, on_left, layers, length), b = lay(right, right_chart, on_right, layers, length);
