@@ -60,7 +60,9 @@ std::vector<std::vector<int>> connected_groups(const Part& part, const std::vect
     // Asked for its own points only: which side the material is on does not matter here.
     const std::unique_ptr<Target> target = make_target({part.faces[faces[i]]}, +1);
     for (std::size_t j = i + 1; j < faces.size(); ++j) {
-      if (group[i] == group[j] || are_pieces_of_one(part, faces[i], faces[j]) || !are_connected(*target, part.faces[faces[j]])) continue;
+      if (group[i] == group[j] || are_pieces_of_one(part, faces[i], faces[j]) ||
+          !are_connected(*target, part.faces[faces[j]]))
+        continue;
       const int from = group[j], to = group[i];
       std::replace(group.begin(), group.end(), from, to);
     }
