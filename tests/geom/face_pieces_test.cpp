@@ -103,6 +103,20 @@ TEST(FacePieces, ASkinWrappedRoundOneEdge) {
   EXPECT_EQ(kinds_of(face_pieces(wrapped(40.0, 0.5, 0.02))), "se") << "what is left of the other side is none";
 }
 
+TEST(FacePieces, OnlyWhatComesBackGoesAllRound) {
+  const auto all_round = [](const Face& face) { return goes_all_round(face, face_pieces(face)); };
+  EXPECT_TRUE(all_round(testing::elliptic_skin(40.0, 4.0, 30.0, 0.3)));
+  EXPECT_TRUE(all_round(wrapped(40.0, 0.5, 1.0)));
+  EXPECT_FALSE(all_round(wrapped(40.0, 0.5, 0.4))) << "two sides, of which one is a strip";
+  EXPECT_FALSE(all_round(wrapped(40.0, 0.5, 0.02))) << "one side";
+  // Two flanks that lead out of round roots, 60 degrees apart: a rotor's lobe.
+  const auto lobe = [](double f) {
+    const double s = 120.0 * f - 60.0, bent = std::min(std::abs(s), 50.0), out = std::abs(s) - bent;
+    return Vec3(std::copysign(bent * 0.7 + 0.2 * out, s), 20.0 * std::cos(bent / 25.0) + out * 0.1, 0.0);
+  };
+  EXPECT_FALSE(all_round(testing::drawn_skin(lobe, 25.0, 0.2, 400)));
+}
+
 TEST(FacePieces, AnEdgeAtTheBorderOfASkinWithoutANormalInItsMiddle) {
   // Straight from section to section; in the middle one two control points are one, and no normal is at its start.
   const BSplineSurface drawn = wrapped(40.0, 0.5, 0.0).surface;

@@ -52,8 +52,8 @@ TEST(MakeTargets, PiecesOfASkinAreTargetsOfTheirOwn) {
   setup.part.faces[1] = testing::elliptic_skin(40.0, 4.0, 30.0);
   setup.part.faces[1].id = "F2";
   setup.part.surface_types.assign(setup.part.faces.size(), "B-spline");
-  split_two_sided(setup.part, "F1,F2");
-  setup.targets = parse_face_list(setup.part, "F1,F2");
+  split_two_sided(setup.part, "F2,F4");
+  setup.targets = parse_face_list(setup.part, "F2,F4");
   ASSERT_GT(setup.targets.size(), 3u);
   EXPECT_EQ(make_targets(setup, +1).size(), setup.targets.size());
   EXPECT_EQ(wrapped_note(setup.part, {0}), "");

@@ -359,4 +359,28 @@ std::vector<FacePiece> face_pieces(const Face& face) {
   return best ? pieces_of(face, region, *best) : std::vector<FacePiece>();
 }
 
+bool goes_all_round(const Face& face, const std::vector<FacePiece>& pieces) {
+  constexpr double kOpen = 0.35;  // of a section's length: half of it is the width of a half circle's opening
+  constexpr int kLines = 9, kSteps = 64;
+  const auto sides = std::count_if(pieces.begin(), pieces.end(), [](const FacePiece& piece) { return !piece.edge; });
+  if (sides < 2) return false;
+  const BSplineSurface &whole = face.surface, &first = pieces.front().face.surface;
+  const bool along_u = first.u_last() - first.u_first() < whole.u_last() - whole.u_first();
+  std::vector<double> openings;
+  for (int k = 1; k <= kLines; ++k) {
+    const double along = k / (kLines + 1.0);
+    const auto point = [&](int step) {
+      const double across = static_cast<double>(step) / kSteps, u = along_u ? across : along,
+                   v = along_u ? along : across;
+      return whole.value(whole.u_first() + u * (whole.u_last() - whole.u_first()),
+                         whole.v_first() + v * (whole.v_last() - whole.v_first()));
+    };
+    double length = 0.0;
+    for (int step = 0; step < kSteps; ++step) length += (point(step + 1) - point(step)).norm();
+    openings.push_back(length > 0.0 ? (point(kSteps) - point(0)).norm() / length : 1.0);
+  }
+  std::nth_element(openings.begin(), openings.begin() + kLines / 2, openings.end());
+  return openings[kLines / 2] < kOpen;
+}
+
 }  // namespace flank::internal

@@ -30,6 +30,12 @@ void replace_face(Part& part, int face, std::vector<NamedPiece> pieces) {
   part.left_out = std::move(left_out);
 }
 
+bool has_two_sides(const Part& part, int face) {
+  if (part.is_mesh() || !parse_face_name(part.face_id(face)).piece.empty()) return false;
+  const Face& whole = part.faces[static_cast<std::size_t>(face)];
+  return goes_all_round(whole, face_pieces(whole));
+}
+
 }  // namespace
 
 namespace internal {
@@ -49,11 +55,8 @@ std::vector<NamedPiece> pieces_of_face(const Part& part, int face) {
 void split_two_sided(Part& part, const std::string& list) {
   std::vector<int> faces = parse_face_list(part, list);
   std::sort(faces.rbegin(), faces.rend());  // those behind a face that is replaced move up
-  for (const int face : faces) {
-    std::vector<NamedPiece> pieces = pieces_of_face(part, face);
-    if (std::count_if(pieces.begin(), pieces.end(), [](const NamedPiece& piece) { return !piece.edge; }) > 1)
-      replace_face(part, face, std::move(pieces));
-  }
+  for (const int face : faces)
+    if (has_two_sides(part, face)) replace_face(part, face, pieces_of_face(part, face));
 }
 
 }  // namespace internal

@@ -17,7 +17,7 @@ struct NamedPiece {
 /// The pieces that a face of a CAD part is told apart into; empty if it is not, or is one already.
 [[nodiscard]] std::vector<NamedPiece> pieces_of_face(const Part& part, int face);
 
-/// Replaces each face that `list` names and that has two sides by its pieces. Throws InputError as parse_face_list does.
+/// Replaces each face that `list` names and that goes all round an aerofoil by its pieces. Throws InputError as parse_face_list does.
 void split_two_sided(Part& part, const std::string& list);
 
 }  // namespace flank::internal
