@@ -66,6 +66,20 @@ TEST(CavitySearch, IsDoneWhereTheJudgeFindsAllThatIsAsked) {
   EXPECT_FALSE(wants_even_tool(plan, faces, job));
 }
 
+TEST(CavitySearch, SidesThatAreDoneAreAGainOnThoseThatAreShort) {
+  TrochoidJob job;
+  job.judge.least_coverage = 0.95;
+  const CavityFaces faces = walled_blades();
+  // Steps of half of what is a gain by itself: only the one from short to done is one.
+  int gains = 0;
+  for (double share = 0.80; share < 0.93; share += 0.001)
+    gains += is_gain(finished(share + 0.001).sides, finished(share).sides, faces, job) ? 1 : 0;
+  EXPECT_EQ(gains, 1);
+  EXPECT_TRUE(is_gain(finished(0.803).sides, finished(0.80).sides, faces, job));
+  EXPECT_FALSE(is_gain(finished(0.80).sides, finished(0.93).sides, faces, job));
+  EXPECT_TRUE(is_gain(finished(0.80).sides, {}, faces, job));
+}
+
 TEST(CavitySearch, WantsAnEvenToolWhereTheThickEndLeavesWhatTheThinOneReaches) {
   TrochoidJob job;
   job.judge.least_coverage = 0.95;

@@ -102,7 +102,6 @@ struct Known {
 /// As many layers as the tolerance needs, not those that cannot help; or as many as are asked for. If a thinner tool may be tried, no
 /// more layers for one that has hardly any way across: they make none.
 SideFit search_sides(const Search& search, SideFitOptions options, const Known& known, bool thinner) {
-  constexpr double kGain = 0.002;
   const TrochoidJob& job = search.job;
   const CavityFaces& faces = search.faces;
   const CavitySide left = side_of(faces.sides[0]), right = side_of(faces.sides[1]);
@@ -116,12 +115,12 @@ SideFit search_sides(const Search& search, SideFitOptions options, const Known& 
     options.slender = layers == last;
     SideFit tried = fit_sides(left, right, search.tool, options, search.progress);
     const SideFit* before = best.fit.motions.empty() ? known.sides : &best;
-    const bool better =
-        before == nullptr || before->fit.motions.empty() || score_of(tried, job) > score_of(*before, job) + kGain;
+    const SideState state = state_of(tried, faces, job);
+    const bool better = before == nullptr || is_gain(tried, *before, faces, job);
     const bool some = !tried.fit.motions.empty();
     const double asked = some ? job.judge.least_coverage * reach_of(tried, faces) : 1.0;
     const bool far = wide && some && tried.fit.after.at_four_tolerances < asked;
-    const bool ends = far || state_of(tried, faces, job) != SideState::kShort || (thinner && is_narrow(tried));
+    const bool ends = far || state != SideState::kShort || (thinner && is_narrow(tried));
     const int next = some ? layers_after(layers, tried.fit.after, asked) : layers + 1;
     if (better || best.fit.motions.empty()) best = std::move(tried);
     if (ends || !better || layers == last || search.progress.stop()) break;
@@ -256,6 +255,12 @@ std::vector<RadiusStart> starts_under(double bound_mm, double least_mm) {
   std::vector<RadiusStart> starts = {{radius, kStout}, {radius, kThin}};
   if (kSlim * bound_mm > least_mm) starts.push_back({kSlim * bound_mm, kThin, kCoversLittle});
   return starts;
+}
+
+bool is_gain(const SideFit& sides, const SideFit& other, const CavityFaces& faces, const TrochoidJob& job) {
+  constexpr double kGain = 0.002;
+  if (other.fit.motions.empty() || score_of(sides, job) > score_of(other, job) + kGain) return true;
+  return state_of(sides, faces, job) != SideState::kShort && state_of(other, faces, job) == SideState::kShort;
 }
 
 int layers_after(int layers, const CoverageEstimate& found, double asked) {

@@ -40,6 +40,11 @@ using CavityJudge = std::function<std::optional<CavityFinding>(const CavityPlan&
 /// will be stays against the bound between walls that bulge, whose tool has a waist: where little is covered so, a thinner one begins.
 [[nodiscard]] std::vector<RadiusStart> starts_under(double bound_mm, double least_mm);
 
+/// Are sides so much better than others, a score of 0.002, that more layers or another lean are worth it? What no fit mends any
+/// more is a gain on what falls short, however little more it covers: less may be in reach of its tool.
+[[nodiscard]] bool is_gain(const SideFit& sides, const SideFit& other, const CavityFaces& faces,
+                           const TrochoidJob& job);
+
 /// How many layers are tried after so many, which cover less than is asked for. Of a band what a straight line leaves goes with the
 /// square of its height: with twice as many layers what is now within four tolerances may be finished, and other shares lie between
 /// and beyond.
