@@ -5,6 +5,7 @@
 
 #include "cover/cover_targets.h"
 #include "flank/io/face_groups.h"
+#include "flank/setup/wrapped_note.h"
 #include "geom/skins.h"
 
 namespace flank::internal {

@@ -7,7 +7,7 @@
 #include "flank/setup/check_faces.h"
 #include "flank/setup/make_obstacles.h"
 #include "flank/setup/skin.h"
-#include "flank/setup/targets.h"
+#include "flank/setup/wrapped_note.h"
 
 namespace flank::internal {
 namespace {

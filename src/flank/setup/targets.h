@@ -26,10 +26,6 @@ struct TargetGroup {
 /// side = -1 turns the machining side of open sheets.
 [[nodiscard]] std::vector<TargetGroup> make_targets(const Setup& setup, int side);
 
-/// Targets that go round an edge: those with two sides, which are machined in pieces, and those with one, which may be. Empty if none
-/// does.
-[[nodiscard]] std::string wrapped_note(const Part& part, const std::vector<int>& targets);
-
 /// Samples of the targets and of the check faces (coarser) for the judge, in the order of the part's faces.
 [[nodiscard]] std::vector<FaceSamples> judge_samples(const Setup& setup, double spacing_mm, double check_spacing_mm);
 
