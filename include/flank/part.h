@@ -60,8 +60,8 @@ inline constexpr double kSmallestBoxMm = 1e-3;
 void split_faces(Part& part, const std::string& list);
 
 /// Indices into faces (or mesh_faces) of a list such as "F1,F3-F5,F7a,S2". A range has both its ends; the name of a face
-/// that is split means all its pieces; S2 is all faces of the second solid that could be read. Throws InputError naming the face and the range that exists, or why a face was
-/// left out.
+/// that is split means all its pieces; S2 is all faces of the second solid that could be read. Throws InputError naming
+/// the face and the range that exists, or why a face was left out.
 [[nodiscard]] std::vector<int> parse_face_list(const Part& part, const std::string& list);
 
 /// The triangles of one mesh face as a mesh of their own (vertices renumbered).

@@ -360,7 +360,7 @@ std::vector<FacePiece> face_pieces(const Face& face) {
 }
 
 bool goes_all_round(const Face& face, const std::vector<FacePiece>& pieces) {
-  constexpr double kOpen = 0.35;  // of a section's length: half of it is the width of a half circle's opening
+  constexpr double kOpen = 0.35;  // between a section's ends, of its length: a half circle has 0.64, an aerofoil 0
   constexpr int kLines = 9, kSteps = 64;
   const auto sides = std::count_if(pieces.begin(), pieces.end(), [](const FacePiece& piece) { return !piece.edge; });
   if (sides < 2) return false;
