@@ -71,6 +71,9 @@ class Target {
   [[nodiscard]] virtual SurfaceSample as_given(const SurfaceSample& sample) const { return sample; }
   /// Is the target as it is given, of a mesh its triangles, nearer to p than this?
   [[nodiscard]] virtual bool is_nearer(const Vec3& p, double mm) const { return closest_within(p, mm).patch >= 0; }
+  /// How far samples may lie off the surface that footpoints lie on, mm: of a mesh its triangles off the smooth surface through their
+  /// corners. Else 0.
+  [[nodiscard]] virtual double samples_off_mm() const { return 0.0; }
 
   /// Points on the border of the trimmed target (not on seams and inner edges), at most `spacing_mm` apart along it.
   [[nodiscard]] virtual std::vector<Vec3> border_points(double spacing_mm) const = 0;

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "flank/base/tolerance_budget.h"
 #include "flank/example/example.h"
+#include "flank/example/example_envelope.h"
 #include "flank/example/example_perturb.h"
 #include "sanitized.h"
 
@@ -51,6 +53,26 @@ TEST_P(ExactEnvelope, IsFoundFromAStartThatIsOff) {
 
 INSTANTIATE_TEST_SUITE_P(Envelopes, ExactEnvelope,
                          ::testing::Values("envelope-hyperbolic-1", "envelope-cone-1", "envelope-spline-2"));
+
+// Triangles lie as far off the envelope as a chord off its arc, and count as overcut; the motion is the envelope's all the same.
+TEST(FlankFit, TheTrianglesOfAMeshCostAnExactFitNoDigits) {
+  if (kSanitized) GTEST_SKIP() << "minutes under a sanitizer; the model is tested there by itself";
+  const Example example = make_example("envelope-mesh");
+  const RuledMotion& truth = example.truth->motions.front();
+  const EnvelopeFace exact = envelope_face(truth, example.truth->tool.radial, 1e-8);
+  const auto smooth = make_target(std::vector<Face>{exact.face});
+  Scene scene{example, make_target(*example.mesh), {}};
+  FlankFitOptions options = options_for(scene);
+  options.tolerance_mm = 2.0 * scene.target->samples_off_mm();
+  Random random(5);
+  scene.start = perturb(truth, 1e-2, example.diagonal_mm, random);
+  const FlankFitResult result = fit_from_starts({{scene.target.get(), scene.start}}, {}, options, {});
+  ASSERT_EQ(result.motions.size(), 1u);
+  const double error = validate({{smooth.get(), result.motions.front()}}, result.tool, 301, 91).largest_mm;
+  EXPECT_GT(result.after.overcut_mm, kToleranceBudget.fit.exact_overcut * options.tolerance_mm) << "of the triangles";
+  EXPECT_LT(result.after.overcut_mm, options.tolerance_mm);
+  EXPECT_LT(error / example.diagonal_mm, kExactError);
+}
 
 // The last digits survive what is done against overcut.
 TEST(FlankFit, AConeIsFoundOnAConeEnvelope) {

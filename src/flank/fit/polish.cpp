@@ -129,7 +129,7 @@ Polished shifted(const Polished& polished, const std::vector<SurfaceSample>& sam
 /// A free, exact fit with more overcut than it may have: its radii are reduced until it has that; its motion, and so its
 /// last digits, stay. Not where it would cost coverage: then the residuals at the axis hide a deep cut elsewhere.
 Polished lowered(const Polished& exact, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
-  const double by = exact.estimate.overcut_mm - kToleranceBudget.fit.exact_overcut * options.tolerance_mm;
+  const double by = exact.estimate.overcut_mm - exact_overcut(exact.draft, options.tolerance_mm);
   if (!exact.draft.free_tool || by <= 0.0 || by > options.tolerance_mm) return exact;
   Polished lower = shifted_by(exact, by, samples, options);
   lower.exact = true;

@@ -71,6 +71,12 @@ Polished assess(FitDraft draft, const std::vector<SurfaceSample>& samples, const
   return polished;
 }
 
+double exact_overcut(const FitDraft& draft, double tolerance_mm) {
+  double off = 0.0;
+  for (const Target* target : draft.targets) off = std::max(off, target->samples_off_mm());
+  return std::min(kToleranceBudget.fit.exact_overcut * tolerance_mm + off, kToleranceBudget.fit.overcut * tolerance_mm);
+}
+
 double robust_scale(const Target& target, const FlankFitOptions& options) {
   // A robust weight is a quarter at the scale, so at four tolerances, which is what quick fits are ranked by, a sample
   // still pulls. With a tight tolerance everything about a start would be an outlier, and nothing pull: hence the

@@ -50,6 +50,10 @@ struct Polished {
   bool exact = false;         ///< the target is an envelope of such a tool, by the residual after the polish
 };
 
+/// Overcut that an exact fit may keep, mm: to take it away costs the motion its last digits. FitBudget::exact_overcut, and as much as the
+/// triangles of a mesh lie off the surface that it is exact for, as far as any fit may cut.
+[[nodiscard]] double exact_overcut(const FitDraft& draft, double tolerance_mm);
+
 /// Asked between passes: whether no more of them are wanted.
 using IsEnough = std::function<bool(const Polished&)>;
 

@@ -45,7 +45,7 @@ double share_of_whole(const FitDraft& draft, const FlankFitOptions& options) {
 /// An envelope, found to the last digits.
 bool has_last_digits(const Runner& runner, const FlankFitOptions& options) {
   return runner.polished.exact &&
-         runner.polished.estimate.overcut_mm <= kToleranceBudget.fit.exact_overcut * options.tolerance_mm;
+         runner.polished.estimate.overcut_mm <= exact_overcut(runner.polished.draft, options.tolerance_mm);
 }
 
 /// Stable, so that equal ones keep the order of their promise. At most the two of a pair are enough, so "about as stiff", and

@@ -205,9 +205,8 @@ Polished without_overcut(const Polished& polished, const std::vector<SurfaceSamp
   if (stopping()) return polished;
   const double diagonal = polished.draft.targets.front()->diagonal();
   // To take the last digits of overcut out of an exact fit costs it the last digits of everything else.
-  const double settled = polished.exact ? std::max(kSettledOvercutShare * diagonal,
-                                                   kToleranceBudget.fit.exact_overcut * options.tolerance_mm)
-                                        : kSettledOvercutShare * diagonal;
+  const double least = kSettledOvercutShare * diagonal;
+  const double settled = polished.exact ? std::max(least, exact_overcut(polished.draft, options.tolerance_mm)) : least;
   if (polished.draft.free_tool || polished.estimate.overcut_mm < settled) return polished;
   /// In tolerances. Points farther from the tool do not limit a step; a step that all the same makes one of them
   /// overcut is refused by its merit (constrained.cpp).

@@ -24,6 +24,7 @@ class MeshTarget final : public Target {
   [[nodiscard]] std::vector<SurfaceSample> samples(double spacing_mm) const override;
   [[nodiscard]] SurfaceSample as_given(const SurfaceSample& sample) const override;
   [[nodiscard]] bool is_nearer(const Vec3& p, double mm) const override;
+  [[nodiscard]] double samples_off_mm() const override { return flat_error_; }
   [[nodiscard]] std::vector<Vec3> border_points(double spacing_mm) const override;
   [[nodiscard]] int patch_count() const override { return surface_.real_triangles; }
 
