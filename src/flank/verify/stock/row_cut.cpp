@@ -88,6 +88,21 @@ FLANK_LANES void look_at_stretches(std::size_t count, const RowLook& row, const 
   }
 }
 
+/// Most are not: several are passed over at once.
+template <class Use>
+void for_each_touched(Touched& touched, std::size_t count, const Use& use) {
+  constexpr std::size_t kTogether = 8;
+  const std::size_t end = (count + kTogether - 1) / kTogether * kTogether;
+  std::fill(touched.begin() + static_cast<std::ptrdiff_t>(count), touched.begin() + static_cast<std::ptrdiff_t>(end),
+            -1.0);
+  for (std::size_t first = 0; first < end; first += kTogether) {
+    double most = touched[first];
+    for (std::size_t k = first + 1; k < first + kTogether; ++k) most = most < touched[k] ? touched[k] : most;
+    for (std::size_t k = first; most > 0.0 && k < first + kTogether; ++k)
+      if (touched[k] > 0.0) use(k);
+  }
+}
+
 class RowCutter {
  public:
   RowCutter(DexelField& field, const LineWeights& weights, const ToolSolid& tool, int row)
@@ -146,19 +161,20 @@ double RowCutter::cut(const Pose& pose) {
                0.0,
                field_.cell()};
   double removed = 0.0;
-  Touched before, behind;  // not set
+  Touched touched, behind;  // not set
   const bool gaps = field_.has_gaps(row_);
   for (int first = left; first <= right; first += kLines) {
-    const int count = std::min(kLines, right + 1 - first);
-    const auto lines = static_cast<std::size_t>(count);
+    const auto count = static_cast<std::size_t>(std::min(kLines, right + 1 - first));
     look.first = field_.place_across(first) - u;
-    look_at_stretches(lines, look, field_.lows(row_) + first, field_.gap_lows(row_) + first, before.data());
-    if (gaps) look_at_stretches(lines, look, field_.gap_highs(row_) + first, field_.highs(row_) + first, behind.data());
-    for (std::size_t k = 0; k < lines; ++k) {
-      if (!(before[k] > 0.0 || (gaps && behind[k] > 0.0))) continue;
+    look_at_stretches(count, look, field_.lows(row_) + first, field_.gap_lows(row_) + first, touched.data());
+    if (gaps) {
+      look_at_stretches(count, look, field_.gap_highs(row_) + first, field_.highs(row_) + first, behind.data());
+      for (std::size_t k = 0; k < count; ++k) touched[k] = touched[k] < behind[k] ? behind[k] : touched[k];
+    }
+    for_each_touched(touched, count, [&](std::size_t k) {
       const int line = first + static_cast<int>(k);
       removed += cut_line(line, look.lines.at(field_.place_across(line) - u), look, reach.radius);
-    }
+    });
   }
   return removed;
 }
