@@ -77,6 +77,8 @@ struct PoseLanes {
   std::array<std::int32_t, kCount> hit;  ///< not 0: it may cover something
 
   void look(const RowFrame& frame, const ToolReach& tool, const Sweep& sweep, std::size_t first);
+  /// Every Sweep::kRough-th pose, from one of these on.
+  void look_roughly(const RowFrame& frame, const ToolReach& tool, const Sweep& sweep, std::size_t first);
   /// Poses that stand for bundles, from one of them on.
   void look(const RowFrame& frame, const ToolReach& tool, const BundleLanes& bundles, std::size_t first);
   /// Where their axes meet the plane of a row, and nothing else.
