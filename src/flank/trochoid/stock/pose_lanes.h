@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "flank/base/lanes.h"
+#include "flank/base/parallel.h"
 #include "flank/trochoid/stock/swept_stock.h"
 
 namespace flank::internal {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "flank/base/lanes.h"
+#include "flank/base/parallel.h"
 
 namespace flank::internal::verify {
 namespace {

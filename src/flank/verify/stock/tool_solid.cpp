@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flank/base/lanes.h"
+#include "flank/base/parallel.h"
 #include "flank/error.h"
 #include "flank/tool.h"
 
