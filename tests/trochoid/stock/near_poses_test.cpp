@@ -93,8 +93,8 @@ TEST(NearPoses, LeaveNothingOutThatCovers) {
       const std::vector<RowDisc> parts = {{4.0, 3.0, 0.8, 0.0, 30.0}, {5.0, 0.0, 0.6, 10.0, 12.0}};
       std::vector<NearPose> all, some;
       NearScratch scratch;
-      near.add(frame, whole, {}, -1.0, 0, 1, scratch, all);
-      near.add(frame, whole, parts, -1.0, 0, 1, scratch, some);
+      near.add(frame, whole, {}, -1.0, scratch, all);
+      near.add(frame, whole, parts, -1.0, scratch, some);
       SeenPoses seen;
       near.see(frame, whole, parts, -1.0, seen);
       const Poses in_seen = found(seen);
@@ -121,7 +121,7 @@ TEST(NearPoses, AskFewerPosesOfFewerSweepsAtAFirstLook) {
   const RowDisc whole{0.0, 0.0, stock.profile().largest(), stock.profile().low(), stock.profile().high()};
   std::vector<NearPose> first;
   NearScratch scratch;
-  near.add(frame, whole, {}, 20.0, 3, 4, scratch, first);
+  near.add_roughly(frame, whole, 20.0, 3, scratch, first);
   ASSERT_FALSE(first.empty());
   EXPECT_EQ(first.front().sweep, kOwnSweep) << "the newest first";
   for (const NearPose& pose : first) {
@@ -131,6 +131,9 @@ TEST(NearPoses, AskFewerPosesOfFewerSweepsAtAFirstLook) {
     else
       EXPECT_GE(pose.sweep, 77);
   }
+  const Poses asked = found(first);
+  for (const auto& pose : covering(stock, frame, whole))
+    EXPECT_TRUE(pose.first < 77 || pose.second % 4 != 0 || asked.contains(pose)) << pose.first << " " << pose.second;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <vector>
 
 namespace flank::internal::verify {
 namespace {
@@ -84,7 +85,7 @@ TEST(ToolSolid, WhatPassesByIsNotReached) {
     const double low = place(random), high = low + std::abs(place(random));
     LineCut within;
     const bool meets = tool.reach(line, tool.largest(), within) && within.low < high && within.high > low;
-    const bool passes = ToolSolid::passes_by(line, tool.largest(), low, high);
+    const bool passes = ToolSolid::passes_by(line, tool.largest() * tool.largest(), low, high);
     EXPECT_FALSE(meets && passes);
     // The cylinder has no ends there.
     const bool outside = line.a > 0.0 && (within.high <= low || within.low >= high);
@@ -93,6 +94,62 @@ TEST(ToolSolid, WhatPassesByIsNotReached) {
   }
   EXPECT_GT(passed, 1000);
   EXPECT_LT(missed, passed);
+}
+
+/// Stretches that a quick look leaves out hold nothing of the tool; it leaves out most of those that do not.
+void expect_misses_what_is_not_cut(const ToolSolid& tool) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> place(-1.5 * tool.largest(), 1.5 * tool.largest());
+  int missed = 0, outside = 0;
+  for (const ToolLine& line : lines_beside(tool, 6000)) {
+    const double low = place(random), high = low + std::abs(place(random));
+    LineCut within;
+    double cut = 0.0;
+    if (tool.reach(line, tool.largest(), within)) {
+      const LineCuts cuts = tool.cut(line, within);
+      for (int n = 0; n < cuts.count; ++n) {
+        const LineCut& c = cuts.cuts[static_cast<std::size_t>(n)];
+        cut = std::max(cut, std::min(c.high, high) - std::max(c.low, low));
+      }
+    }
+    const bool misses = tool.misses(line, low, high);
+    EXPECT_FALSE(misses && cut > 0.0) << cut;
+    missed += misses ? 1 : 0;
+    outside += cut > 0.0 ? 0 : 1;
+  }
+  EXPECT_GT(missed, 1000);
+  EXPECT_GT(missed, 0.8 * outside);
+}
+
+TEST(ToolSolid, WhatItMissesIsNotCut) {
+  expect_misses_what_is_not_cut({{ToolFamily::kBarrel, 40.0, Eigen::Vector3d(60.0, 6.0, 18.0)}, kChord});
+  expect_misses_what_is_not_cut({{ToolFamily::kCone, 25.0, Eigen::Vector2d(2.0, 0.12)}, kChord});
+  Eigen::VectorXd radii(6);
+  radii << 6.0, 4.5, 3.0, 3.0, 4.5, 6.0;
+  expect_misses_what_is_not_cut({RadialFunction::spline(40.0, radii), kChord});
+}
+
+TEST(ToolSolid, HoldsAPointAtOneOfManyPosesAsAtEachOfThem) {
+  const ToolSolid tool({ToolFamily::kCone, 25.0, Eigen::Vector2d(2.0, 0.12)}, kChord);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> place(-20.0, 20.0);
+  std::normal_distribution<double> lean(0.0, 0.2);
+  std::vector<Pose> poses;
+  LatePoses lanes;
+  for (int k = 0; k < 75; ++k) {
+    poses.push_back(
+        {{place(random), place(random), place(random)}, Vec3(lean(random), lean(random), 1.0).normalized()});
+    lanes.add(poses.back());
+  }
+  int held = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const Vec3 x(place(random), place(random), place(random));
+    const bool one = std::any_of(poses.begin(), poses.end(), [&](const Pose& pose) { return tool.holds(pose, x); });
+    EXPECT_EQ(tool.holds(lanes, x), one);
+    held += one ? 1 : 0;
+  }
+  EXPECT_GT(held, 200);
+  EXPECT_LT(held, 1800);
 }
 
 TEST(ToolSolid, CutsAWaistTwice) {

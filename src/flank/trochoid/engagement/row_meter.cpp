@@ -34,8 +34,8 @@ RowFrame RowMeter::frame_of(const RuledMotion& motion, double t) {
 void RowMeter::look_roughly(const RowFrame& frame, std::span<const ToolRing> rings) {
   // What settled the row before settles nearly all of this one: then little is open for the close look.
   for (const Settler& settler : settlers_) near_.add_pose(frame, settler.sweep, settler.pose, own_last_, candidates_);
-  near_.add(frame, {0.0, 0.0, stock_.profile().largest(), stock_.profile().low(), stock_.profile().high()}, {},
-            own_last_, kRecent, kStride, scratch_, candidates_);
+  near_.add_roughly(frame, {0.0, 0.0, stock_.profile().largest(), stock_.profile().low(), stock_.profile().high()},
+                    own_last_, kRecent, scratch_, candidates_);
   filter_.take(candidates_);
   group_.clear();
   first_asked_ = 0;
@@ -60,7 +60,7 @@ void RowMeter::look_closely(const RowFrame& frame, std::span<const ToolRing> rin
   hints_.clear();
   if (rings.size() < kManyRings) {
     first_asked_ = candidates_.size();
-    near_.add(frame, open, parts_, own_last_, 0, 1, scratch_, candidates_);
+    near_.add(frame, open, parts_, own_last_, scratch_, candidates_);
     filter_.take(std::span<const NearPose>(candidates_).subspan(first_asked_));
     for (std::size_t k = 0; k < rings.size(); ++k) settle_ring(frame, rings, k);
     return;

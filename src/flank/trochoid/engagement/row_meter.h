@@ -106,9 +106,8 @@ class RowMeter {
     return index == kOwnSweep ? near_.own() : stock_.sweeps()[static_cast<std::size_t>(index)];
   }
 
-  /// A first look, at every kStride-th pose of the last sweeps, says where material may be; only there all poses count.
+  /// A first look, at some poses of the last sweeps, says where material may be; only there all poses count.
   static constexpr std::size_t kRecent = 3;
-  static constexpr int kStride = 4;
   /// Of the poses that settled the row before so many are part of the first look.
   static constexpr std::size_t kMostSettlers = 48;
   /// So many rings are worth the look at groups of them; so few poses are asked without another look at each ring.

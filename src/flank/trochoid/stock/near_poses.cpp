@@ -4,6 +4,13 @@
 #include <cmath>
 
 namespace flank::internal {
+namespace {
+
+NearPose pose_of(const PoseLanes& lanes, std::size_t k, int sweep, std::size_t pose) {
+  return {lanes.x0[k], lanes.y0[k], lanes.dx[k], lanes.dy[k], lanes.h0[k], lanes.dh[k], sweep, static_cast<int>(pose)};
+}
+
+}  // namespace
 
 void NearPoses::begin(const RuledMotion& motion) {
   own_ = Sweep::of(motion, kOwnIntervals);
@@ -52,41 +59,71 @@ std::size_t NearPoses::end_of(std::size_t bundle, double own_last) const {
 }
 
 void NearPoses::add_bundle(const RowFrame& frame, const RowDisc& whole, std::span<const RowDisc> discs,
-                           std::size_t bundle, double own_last, int stride, std::vector<NearPose>& out) const {
+                           std::size_t bundle, double own_last, std::vector<NearPose>& out) const {
   const int index = sweeps_[bundle];
   const std::size_t end = end_of(bundle, own_last);
   PoseLanes lanes;
   for (std::size_t from = firsts_[bundle]; from < end; from += PoseLanes::kCount) {
     lanes.look(frame, tool_, sweep_of(index), from);
     if (!lanes.meets(tool_, whole, discs)) continue;
-    const std::size_t to = std::min(from + PoseLanes::kCount, end);
-    for (std::size_t p = from; p < to; p += static_cast<std::size_t>(stride)) {
-      const std::size_t k = p - from;
-      if (lanes.hit[k] == 0) continue;
-      out.push_back(
-          {lanes.x0[k], lanes.y0[k], lanes.dx[k], lanes.dy[k], lanes.h0[k], lanes.dh[k], index, static_cast<int>(p)});
+    const std::size_t count = std::min(PoseLanes::kCount, end - from);
+    for (std::size_t k = 0; k < count; ++k)
+      if (lanes.hit[k] != 0) out.push_back(pose_of(lanes, k, index, from + k));
+  }
+}
+
+std::size_t NearPoses::count_of(std::size_t recent) const {
+  const std::size_t all = stock_.sweeps().size();
+  if (all <= recent) return bundles_.count();
+  const int oldest = static_cast<int>(all - recent);
+  return static_cast<std::size_t>(
+      std::find_if(sweeps_.begin(), sweeps_.end(), [&](int sweep) { return sweep < oldest; }) - sweeps_.begin());
+}
+
+void NearPoses::add_roughly(const RowFrame& frame, const RowDisc& whole, double own_last, std::size_t recent,
+                            NearScratch& scratch, std::vector<NearPose>& out) const {
+  const std::size_t count = count_of(recent);
+  scratch.seen.look(frame, tool_, bundles_, count, whole);
+  // Lanes of several bundles are looked at together.
+  PoseLanes lanes;
+  std::size_t looked = 0;
+  int sweep = -1;
+  for (std::size_t k = 0; k < count; ++k) {
+    if (scratch.seen.beyond[k] > 0.0 || (sweeps_[k] == kOwnSweep && static_cast<double>(firsts_[k]) > own_last))
+      continue;
+    const std::size_t end = end_of(k, own_last);
+    for (std::size_t p = firsts_[k]; p < end; p += Sweep::kRough) {
+      const std::size_t place = p / Sweep::kRough, lane = place % PoseLanes::kCount;
+      if (sweeps_[k] != sweep || place - lane != looked) {
+        sweep = sweeps_[k], looked = place - lane;
+        lanes.look_roughly(frame, tool_, sweep_of(sweep), looked);
+        (void)lanes.meets(tool_, whole, {});
+      }
+      if (lanes.hit[lane] != 0) out.push_back(pose_of(lanes, lane, sweep, p));
     }
   }
 }
 
 void NearPoses::add(const RowFrame& frame, const RowDisc& whole, std::span<const RowDisc> parts, double own_last,
-                    std::size_t recent, int stride, NearScratch& scratch, std::vector<NearPose>& out) const {
-  // The newest first: they end most gaps.
-  std::size_t count = bundles_.count();
-  const std::size_t all = stock_.sweeps().size();
-  if (recent > 0 && all > recent) {
-    const int oldest = static_cast<int>(all - recent);
-    count = static_cast<std::size_t>(
-        std::find_if(sweeps_.begin(), sweeps_.end(), [&](int sweep) { return sweep < oldest; }) - sweeps_.begin());
-  }
-  scratch.seen.look(frame, tool_, bundles_, count, whole);
+                    NearScratch& scratch, std::vector<NearPose>& out) const {
+  scratch.seen.look(frame, tool_, bundles_, bundles_.count(), whole);
   scratch.discs.take(parts);
-  for (std::size_t k = 0; k < count; ++k) {
-    if (scratch.seen.beyond[k] > 0.0) continue;
-    if (sweeps_[k] == kOwnSweep && static_cast<double>(firsts_[k]) > own_last) continue;
-    scratch.discs.meet(scratch.seen, k, bundles_.at[6][k], tool_, parts, scratch.some);
-    if (!parts.empty() && scratch.some.empty()) continue;
-    add_bundle(frame, whole, scratch.some, k, own_last, stride, out);
+  PoseLanes bundles;
+  for (std::size_t block = 0; block < bundles_.count(); block += PoseLanes::kCount) {
+    const std::size_t end = std::min(block + PoseLanes::kCount, bundles_.count());
+    const auto is_beyond = [&](double beyond) { return beyond > 0.0; };
+    const auto from = scratch.seen.beyond.cbegin();
+    if (std::all_of(from + static_cast<std::ptrdiff_t>(block), from + static_cast<std::ptrdiff_t>(end), is_beyond))
+      continue;
+    bundles.look(frame, tool_, bundles_, block);
+    if (!bundles.meets(tool_, whole, parts)) continue;
+    for (std::size_t k = block; k < end; ++k) {
+      if (bundles.hit[k - block] == 0 || scratch.seen.beyond[k] > 0.0) continue;
+      if (sweeps_[k] == kOwnSweep && static_cast<double>(firsts_[k]) > own_last) continue;
+      scratch.discs.meet(scratch.seen, k, bundles_.at[6][k], tool_, parts, scratch.some);
+      if (!parts.empty() && scratch.some.empty()) continue;
+      add_bundle(frame, whole, scratch.some, k, own_last, out);
+    }
   }
 }
 
@@ -97,7 +134,7 @@ void NearPoses::add_pose(const RowFrame& frame, int sweep, int pose, double own_
   PoseLanes lanes;
   lanes.project(frame, sweep_of(sweep), at - k);
   if (!lanes.is_near(k)) return;
-  out.push_back({lanes.x0[k], lanes.y0[k], lanes.dx[k], lanes.dy[k], lanes.h0[k], lanes.dh[k], sweep, pose});
+  out.push_back(pose_of(lanes, k, sweep, at));
 }
 
 void NearPoses::see(const RowFrame& frame, const RowDisc& whole, std::span<const RowDisc> parts, double own_last,

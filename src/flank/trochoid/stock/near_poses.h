@@ -61,11 +61,14 @@ class NearPoses {
   /// Its places in [0, own().last()] as a motion over [0, 1].
   static constexpr int kOwnIntervals = 48;
 
-  /// Adds to `out` every `stride`-th pose that may cover something of `whole`, and, where `parts` are given, of one of them:
-  /// the newest sweeps first, of the motion itself up to the place `own_last`. `recent`: of the stock's last sweeps only so
-  /// many; 0: of all. `scratch` is the caller's memory.
+  /// Adds to `out` every Sweep::kRough-th pose of the stock's last sweeps, `recent` of them, that may cover something of `whole`: the
+  /// newest sweeps first, of the motion itself up to the place `own_last`. `scratch` is the caller's memory.
+  void add_roughly(const RowFrame& frame, const RowDisc& whole, double own_last, std::size_t recent,
+                   NearScratch& scratch, std::vector<NearPose>& out) const;
+
+  /// The same with every pose of all sweeps that may cover something of one of `parts`, too, which lie in `whole`.
   void add(const RowFrame& frame, const RowDisc& whole, std::span<const RowDisc> parts, double own_last,
-           std::size_t recent, int stride, NearScratch& scratch, std::vector<NearPose>& out) const;
+           NearScratch& scratch, std::vector<NearPose>& out) const;
 
   /// One pose, if it is there at that time of the motion and says something of the row, to `out`: the same bits as those of the others.
   void add_pose(const RowFrame& frame, int sweep, int pose, double own_last, std::vector<NearPose>& out) const;
@@ -83,7 +86,9 @@ class NearPoses {
   void add_bundles_of(const Sweep& sweep, int index);
   /// Adds those of a bundle, as add does; the discs are those that it may reach.
   void add_bundle(const RowFrame& frame, const RowDisc& whole, std::span<const RowDisc> discs, std::size_t bundle,
-                  double own_last, int stride, std::vector<NearPose>& out) const;
+                  double own_last, std::vector<NearPose>& out) const;
+  /// Bundles of the motion itself and of the last `recent` sweeps.
+  [[nodiscard]] std::size_t count_of(std::size_t recent) const;
   [[nodiscard]] const Sweep& sweep_of(int index) const {
     return index == kOwnSweep ? own_ : stock_.sweeps()[static_cast<std::size_t>(index)];
   }

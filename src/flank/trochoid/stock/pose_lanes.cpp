@@ -210,6 +210,14 @@ void PoseLanes::look(const RowFrame& frame, const ToolReach& tool, const Sweep& 
   spread.fill(0.0F);
 }
 
+void PoseLanes::look_roughly(const RowFrame& frame, const ToolReach& tool, const Sweep& sweep, std::size_t first) {
+  std::array<const double*, 6> from{};
+  for (std::size_t c = 0; c < from.size(); ++c) from[c] = sweep.rough_lanes[c].data() + first;
+  look_at_lanes(frame, from, *this);
+  extend_lanes(tool, *this);
+  spread.fill(0.0F);
+}
+
 void PoseLanes::look(const RowFrame& frame, const ToolReach& tool, const BundleLanes& bundles, std::size_t first) {
   std::array<const double*, 6> from{};
   for (std::size_t c = 0; c < from.size(); ++c) from[c] = bundles.poses[c].data() + first;

@@ -8,17 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "flank/base/parallel.h"
 #include "flank/trochoid/stock/swept_stock.h"
-
-// Loops over plain arrays that a compiler turns into operations on several numbers at once.
-/// Before such a function: compiled twice, and the processor that runs it says which one is called. The results are the same
-/// bits, since lanes do not depend on each other and multiplications are not fused with additions (decision 0002).
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__gnu_linux__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define FLANK_LANES __attribute__((target_clones("avx2", "default")))
-#else
-#define FLANK_LANES
-#endif
 
 namespace flank::internal {
 
@@ -86,6 +77,8 @@ struct PoseLanes {
   std::array<std::int32_t, kCount> hit;  ///< not 0: it may cover something
 
   void look(const RowFrame& frame, const ToolReach& tool, const Sweep& sweep, std::size_t first);
+  /// Every Sweep::kRough-th pose, from one of these on.
+  void look_roughly(const RowFrame& frame, const ToolReach& tool, const Sweep& sweep, std::size_t first);
   /// Poses that stand for bundles, from one of them on.
   void look(const RowFrame& frame, const ToolReach& tool, const BundleLanes& bundles, std::size_t first);
   /// Where their axes meet the plane of a row, and nothing else.

@@ -63,6 +63,9 @@ void Sweep::make_lanes() {
     std::vector<double>& lane = lanes[static_cast<std::size_t>(c)];
     for (const Pose& p : axes) lane.push_back(c < 3 ? p.tip[c] : p.axis[c - 3]);
     lane.resize(count, lane.back());
+    std::vector<double>& rough = rough_lanes[static_cast<std::size_t>(c)];
+    for (std::size_t k = 0; k < axes.size(); k += kRough) rough.push_back(lane[k]);
+    rough.resize((rough.size() + kChunk - 1) / kChunk * kChunk, rough.back());
   }
 }
 

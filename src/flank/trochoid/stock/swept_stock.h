@@ -29,6 +29,9 @@ struct Sweep {
   /// a multiple of kChunk.
   std::array<std::vector<double>, 6> lanes;
   [[nodiscard]] std::array<const double*, 6> lanes_at(std::size_t pose) const;
+  /// The same of every kRough-th pose, for a first look.
+  std::array<std::vector<double>, 6> rough_lanes;
+  static constexpr std::size_t kRough = 4;
   /// Of kChunk intervals each: middle of the axes, and how far any middle is from it, mm.
   struct Chunk {
     Vec3 middle;

@@ -20,10 +20,11 @@ class DexelField {
 
   [[nodiscard]] int axis() const { return axis_; }
   /// The axes across the lines: lines of a row differ in across(), rows in up().
-  [[nodiscard]] int across() const { return (axis_ + 1) % 3; }
-  [[nodiscard]] int up() const { return (axis_ + 2) % 3; }
+  [[nodiscard]] int across() const { return across_; }
+  [[nodiscard]] int up() const { return up_; }
   [[nodiscard]] int rows() const { return static_cast<int>(rows_.size()); }
   [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] double cell() const { return cell_; }
   /// Where line and row lie, mm.
   [[nodiscard]] double place_across(int line) const { return low_[across()] + (line + 0.5) * cell_; }
   [[nodiscard]] double place_up(int row) const { return low_[up()] + (row + 0.5) * cell_; }
@@ -35,36 +36,55 @@ class DexelField {
   double subtract(int row, int line, double low, double high);
   /// Narrows [low, high] to its part from the first material to the last; false: there is none.
   [[nodiscard]] bool meets(int row, int line, double& low, double& high) const;
-  /// Whether there may be material between two places: sure where the line has only one stretch.
-  [[nodiscard]] bool may_meet(int row, int line, double low, double high) const {
-    const Node& node = rows_[static_cast<std::size_t>(row)].nodes[static_cast<std::size_t>(line)];
-    return node.next >= 0 || (node.span.low < node.span.high && node.span.low < high && node.span.high > low);
-  }
+  /// Of all lines of a row: where the first material begins and the last ends. A line without any ends before it begins.
+  [[nodiscard]] const float* lows(int row) const { return lows_.data() + index(row, 0); }
+  [[nodiscard]] const float* highs(int row) const { return highs_.data() + index(row, 0); }
+  /// Where the widest gap between these begins and ends: material lies before the one and behind the other. Of a line without a
+  /// gap they are where its material ends and begins.
+  [[nodiscard]] const float* gap_lows(int row) const { return gap_lows_.data() + index(row, 0); }
+  [[nodiscard]] const float* gap_highs(int row) const { return gap_highs_.data() + index(row, 0); }
+  [[nodiscard]] bool has_gaps(int row) const { return rows_[static_cast<std::size_t>(row)].chains > 0; }
+  /// Whether a line has no gap.
+  [[nodiscard]] bool is_whole(int row, int line) const { return chains_[index(row, line)] < 0; }
   /// Whether there is material at a place of the line.
   [[nodiscard]] bool holds(int row, int line, double place) const;
   /// Calls visit(DexelSpan) for all material of a line, in no order.
   template <class Visit>
   void visit(int row, int line, const Visit& visit) const {
-    const std::vector<Node>& nodes = rows_[static_cast<std::size_t>(row)].nodes;
-    for (int k = line; k >= 0; k = nodes[static_cast<std::size_t>(k)].next) {
-      const Node& node = nodes[static_cast<std::size_t>(k)];
-      if (node.span.low < node.span.high) visit(node.span);
+    const std::size_t k = index(row, line);
+    if (chains_[k] < 0) {
+      if (lows_[k] < highs_[k]) visit(DexelSpan{lows_[k], highs_[k]});
+      return;
     }
+    const std::vector<Link>& links = rows_[static_cast<std::size_t>(row)].links;
+    for (int n = chains_[k]; n >= 0; n = links[static_cast<std::size_t>(n)].next)
+      visit(links[static_cast<std::size_t>(n)].span);
   }
 
  private:
-  struct Node {
-    DexelSpan span;  ///< low >= high: none
+  struct Link {
+    DexelSpan span;
     int next = -1;
   };
-  /// The first nodes are those of the lines; further ones are chained.
+  /// The stretches of those lines that have several.
   struct Row {
-    std::vector<Node> nodes;
+    std::vector<Link> links;
     int free = -1;
+    int chains = 0;  ///< lines that have several
+    [[nodiscard]] int add(const Link& link);
   };
-  int axis_, width_ = 0;
+  [[nodiscard]] std::size_t index(int row, int line) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(line);
+  }
+  double subtract_from_chain(Row& row, std::size_t k, float from, float to);
+  /// Gives stretches back that are empty now, and says anew where the line's material begins and ends, and its gap.
+  void settle_chain(Row& row, std::size_t k);
+  int axis_, across_, up_, width_ = 0;
   double cell_;
   Vec3 low_;
+  std::vector<float> lows_, highs_, gap_lows_, gap_highs_;  ///< of all lines, row by row
+  std::vector<int>
+      chains_;  ///< the first of the stretches of a line that has several, in their order; -1: it has one, or none
   std::vector<Row> rows_;
 };
 

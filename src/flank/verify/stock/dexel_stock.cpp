@@ -6,6 +6,7 @@
 
 #include "flank/base/parallel.h"
 #include "flank/error.h"
+#include "flank/verify/stock/row_cut.h"
 
 namespace flank::internal::verify {
 namespace {
@@ -76,24 +77,38 @@ Surface surface_along(const DexelField& field, const Vec3& x, double cell) {
 
 enum class Sight { kOut, kIn, kMixed };
 
+/// Rounded down, without a call.
+int floor_of(double x) {
+  const int whole = static_cast<int>(x);
+  return whole > x ? whole - 1 : whole;
+}
+
+/// What the line says of a place; mixed within `margin` of an end of its material, mm.
+Sight sight_of(const DexelField& field, int row, int line, double place, double margin) {
+  if (row < 0 || row >= field.rows() || line < 0 || line >= field.width()) return Sight::kOut;
+  const auto seen = [&](double low, double high) {
+    if (place < low - margin || place > high + margin) return Sight::kOut;
+    return low + margin < place && place < high - margin ? Sight::kIn : Sight::kMixed;
+  };
+  const Sight all = seen(field.lows(row)[line], field.highs(row)[line]);
+  if (all == Sight::kOut || field.is_whole(row, line)) return all;
+  if (field.gap_lows(row)[line] + margin < place && place < field.gap_highs(row)[line] - margin) return Sight::kOut;
+  Sight out = Sight::kOut;
+  field.visit(row, line, [&](const DexelSpan& span) {
+    if (const Sight here = seen(span.low, span.high); here != Sight::kOut) out = here;
+  });
+  return out;
+}
+
 /// What the four lines around a point say of it; mixed where they differ, and within `margin` of an end of one, mm.
 Sight sight_along(const DexelField& field, const Vec3& x, double margin) {
-  const int i = static_cast<int>(std::floor(field.line_at(x[field.across()])));
-  const int j = static_cast<int>(std::floor(field.row_at(x[field.up()])));
+  const int line = floor_of(field.line_at(x[field.across()])), row = floor_of(field.row_at(x[field.up()]));
   const double place = x[field.axis()];
-  int in = 0;
-  for (int k = 0; k < 4; ++k) {
-    const int row = j + k / 2, line = i + k % 2;
-    if (row < 0 || row >= field.rows() || line < 0 || line >= field.width()) continue;
-    int here = 0;
-    field.visit(row, line, [&](const DexelSpan& span) {
-      if (place < span.low - margin || place > span.high + margin) return;
-      here = span.low + margin < place && place < span.high - margin ? 1 : -1;
-    });
-    if (here < 0 || in != k * here) return Sight::kMixed;
-    in += here;
-  }
-  return in == 4 ? Sight::kIn : in == 0 ? Sight::kOut : Sight::kMixed;
+  const Sight first = sight_of(field, row, line, place, margin);
+  if (first == Sight::kMixed) return first;
+  for (int k = 1; k < 4; ++k)
+    if (sight_of(field, row + k / 2, line + k % 2, place, margin) != first) return Sight::kMixed;
+  return first;
 }
 
 /// Takes away what is beyond the planes.
@@ -112,87 +127,6 @@ void cut_by_planes(DexelField& field, const std::vector<HalfSpace>& planes, int 
       field.subtract(row, line, -kFar, room / along);
     }
   }
-}
-
-int clipped(double x, int count) { return static_cast<int>(std::clamp(x, -1.0, static_cast<double>(count))); }
-
-/// The lines of a row as the tool sees them: what ToolLine has is a polynomial of the place across.
-class RowLines {
- public:
-  RowLines(const DexelField& field, const Pose& pose, const Vec3& x) {
-    const Vec3 direction = Vec3::Unit(field.axis()), over = Vec3::Unit(field.across());
-    base_ = ToolSolid::line(pose, x, direction);
-    per_z_ = over.dot(pose.axis);
-    const Vec3 p = x - pose.tip, p_across = p - base_.z0 * pose.axis, over_across = over - per_z_ * pose.axis;
-    per_b_ = over_across.dot(direction - base_.dz * pose.axis);
-    per_c_ = 2.0 * over_across.dot(p_across);
-    per_c2_ = over_across.squaredNorm();
-  }
-  /// `by`: mm across from x.
-  [[nodiscard]] ToolLine at(double by) const {
-    return {base_.z0 + by * per_z_, base_.dz, base_.a, base_.b + by * per_b_, base_.c + by * (per_c_ + by * per_c2_)};
-  }
-
- private:
-  ToolLine base_;
-  double per_z_ = 0.0, per_b_ = 0.0, per_c_ = 0.0, per_c2_ = 0.0;
-};
-
-/// Heights of the axis, and the largest radius there is of the tool, where a plane across an axis of the frame meets it.
-struct RowReach {
-  double from = 0.0, to = 0.0, radius = 0.0;
-};
-
-RowReach reach_of(const ToolSolid& tool, const Pose& pose, int c, double place) {
-  RowReach out{tool.low(), tool.high(), tool.largest()};
-  const double along = pose.axis[c];
-  if (std::abs(along) < 1e-12) return out;
-  // A point of the tool at height z lies within radius * sine of the axis' own place there.
-  const double sine = std::sqrt(std::max(0.0, 1.0 - along * along));
-  const double p = (place - pose.tip[c]) / along, off = tool.largest() * sine / std::abs(along);
-  out.from = std::max(tool.low(), p - off);
-  out.to = std::min(tool.high(), p + off);
-  out.radius = tool.largest(out.from, out.to);
-  return out;
-}
-
-/// Takes the tool away from a row of lines; returns the length that was material, mm times the cells that lines stand for.
-double cut_row(DexelField& field, const LineWeights& weights, const ToolSolid& tool, const Pose& pose, int row) {
-  const int b = field.across(), c = field.up();
-  Vec3 x = Vec3::Zero();
-  x[c] = field.place_up(row);
-  const RowReach reach = reach_of(tool, pose, c, x[c]);
-  if (reach.from > reach.to) return 0.0;
-  const double u = pose.at(reach.from)[b], v = pose.at(reach.to)[b];
-  const int left = std::max(0, clipped(std::ceil(field.line_at(std::min(u, v) - reach.radius)), field.width()));
-  const int right =
-      std::min(field.width() - 1, clipped(std::floor(field.line_at(std::max(u, v) + reach.radius)), field.width()));
-  x[b] = u;  // near the tool, so that the polynomials are exact to round-off there
-  const RowLines lines(field, pose, x);
-  // Of the axis within reach, and as far beside it: beyond, the row's lines are not touched.
-  const double p = pose.at(reach.from)[field.axis()], q = pose.at(reach.to)[field.axis()];
-  const double low = std::min(p, q) - reach.radius, high = std::max(p, q) + reach.radius;
-  double removed = 0.0;
-  for (int line = left; line <= right; ++line) {
-    if (!field.may_meet(row, line, low, high)) continue;
-    const ToolLine seen = lines.at(field.place_across(line) - u);
-    // What is left of most lines begins where the tool has just been.
-    bool beside = true;
-    field.visit(row, line, [&](const DexelSpan& span) {
-      beside = beside && ToolSolid::passes_by(seen, reach.radius, span.low, span.high);
-    });
-    if (beside) continue;
-    LineCut within;
-    if (!tool.reach(seen, reach.radius, within) || !field.meets(row, line, within.low, within.high)) continue;
-    const LineCuts cuts = tool.cut(seen, within);
-    double length = 0.0;
-    for (int n = 0; n < cuts.count; ++n) {
-      const LineCut& stretch = cuts.cuts[static_cast<std::size_t>(n)];
-      length += field.subtract(row, line, stretch.low, stretch.high);
-    }
-    if (length > 0.0) removed += length * weights.between(field, row, line, within.low, within.high);
-  }
-  return removed;
 }
 
 }  // namespace

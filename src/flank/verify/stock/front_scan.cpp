@@ -37,14 +37,12 @@ Circle circle_of(const RadialFunction& radial, const Pose& pose, const PoseVeloc
   return out;
 }
 
-bool is_engaged(const DexelStock& stock, const MovingTool& tool, const Circle& circle, double theta) {
+/// In a direction from the circle's centre.
+bool is_engaged(const DexelStock& stock, const MovingTool& tool, const Circle& circle, const Vec3& outwards) {
   // Where a front goes along a surface that was cut before, the stock has the ridges between its own cuts: what the tool meets must
   // reach farther into it. What was taken lately is asked on the front itself, since such poses leave next to nothing.
-  const Vec3 outwards = circle.outwards(theta);
   if (!stock.holds(circle.centre + (circle.radius - tool.grain_mm) * outwards, outwards)) return false;
-  const Vec3 x = circle.centre + circle.radius * outwards;
-  return std::none_of(tool.lately.begin(), tool.lately.end(),
-                      [&](const Pose& pose) { return tool.solid->holds(pose, x); });
+  return tool.lately == nullptr || !tool.solid->holds(*tool.lately, circle.centre + circle.radius * outwards);
 }
 
 /// Where the answer changes between two angles: by halving, as the depth has jumps at edges.
@@ -52,7 +50,7 @@ double crossing(const DexelStock& stock, const MovingTool& tool, const Circle& c
   constexpr int kHalvings = 9;
   for (int k = 0; k < kHalvings; ++k) {
     const double middle = 0.5 * (out + in);
-    (is_engaged(stock, tool, circle, middle) ? in : out) = middle;
+    (is_engaged(stock, tool, circle, circle.outwards(middle)) ? in : out) = middle;
   }
   return 0.5 * (out + in);
 }
@@ -67,9 +65,18 @@ double FrontScan::angle(const DexelStock& stock, const MovingTool& tool, double 
   const int steps = std::max(4, static_cast<int>(std::ceil(2.0 * circle.half / kStep)));
   const auto at = [&](int k) { return circle.half * (2.0 * (k + 0.5) / steps - 1.0); };
   double sum = 0.0, from = -circle.half;
-  bool before = is_engaged(stock, tool, circle, at(0));
+  const auto is_in = [&](const Vec2& u) {
+    return is_engaged(stock, tool, circle, u.x() * circle.forward + u.y() * circle.side);
+  };
+  // From one angle to the next by a turn, without sine and cosine.
+  const double step = 2.0 * circle.half / steps;
+  const Vec2 turn(std::cos(step), std::sin(step));
+  Vec2 direction(std::cos(at(0)), std::sin(at(0)));
+  bool before = is_in(direction);
   for (int k = 1; k < steps; ++k) {
-    const bool in = is_engaged(stock, tool, circle, at(k));
+    direction =
+        Vec2(turn.x() * direction.x() - turn.y() * direction.y(), turn.y() * direction.x() + turn.x() * direction.y());
+    const bool in = is_in(direction);
     if (in == before) continue;
     const double place =
         in ? crossing(stock, tool, circle, at(k - 1), at(k)) : crossing(stock, tool, circle, at(k), at(k - 1));

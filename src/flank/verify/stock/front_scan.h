@@ -1,9 +1,6 @@
 /// The engagement angle of a tool in a tri-dexel stock, by scanning the front of its contact circles (MATH section 10).
 #pragma once
 
-#include <span>
-#include <vector>
-
 #include "flank/verify/stock/dexel_stock.h"
 
 namespace flank::internal::verify {
@@ -20,7 +17,7 @@ struct MovingTool {
   const ToolSolid* solid = nullptr;
   Pose pose;
   PoseVelocity velocity;
-  std::span<const Pose> lately;  ///< poses before this one that the stock still has, as near as they must be
+  const LatePoses* lately = nullptr;  ///< poses before this one that the stock still has, as near as they must be
   /// What cuts of the stock leave between them, mm: ridges that are so low are not the part's, and no chip that is so thin can be
   /// told from them. So what the tool meets must reach so far into its circles.
   double grain_mm = 0.0;

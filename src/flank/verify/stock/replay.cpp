@@ -84,7 +84,7 @@ class Replayer {
   std::deque<Stretch> waiting_;
   double waiting_way_ = 0.0;
   double unmeasured_ = 0.0;  ///< way since the last place that was measured
-  std::vector<Pose> lately_;
+  LatePoses lately_;
 };
 
 /// Mean of both sides' directions: of a smooth motion that was joined straight it is the tangent, to second order.
@@ -155,7 +155,7 @@ void Replayer::go_to(const std::vector<Pose>& poses, std::size_t k, bool passed,
 void Replayer::measure(const Pose& pose, const PoseVelocity& velocity, std::size_t k, StripReplay& replay) {
   lately_.clear();
   for (const Stretch& stretch : waiting_) add_lately(stretch);
-  const FrontScan::Largest largest = scan_.largest(stock_, {&solid_, pose, velocity, lately_, grain_});
+  const FrontScan::Largest largest = scan_.largest(stock_, {&solid_, pose, velocity, &lately_, grain_});
   PoseReplay& here = replay.poses[k];
   here.measured = true;
   if (largest.angle_rad > here.angle_rad) here.angle_rad = largest.angle_rad, here.s = largest.s;
@@ -186,7 +186,7 @@ double Replayer::cut(const Stretch& stretch) {
 
 void Replayer::add_lately(const Stretch& stretch) {
   const int steps = std::max(1, static_cast<int>(std::ceil(stretch.way / late_step_)));
-  for (int n = 1; n <= steps; ++n) lately_.push_back(between(stretch.from, stretch.to, static_cast<double>(n) / steps));
+  for (int n = 1; n <= steps; ++n) lately_.add(between(stretch.from, stretch.to, static_cast<double>(n) / steps));
 }
 
 }  // namespace

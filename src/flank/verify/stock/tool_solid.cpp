@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/base/parallel.h"
 #include "flank/error.h"
 #include "flank/tool.h"
 
@@ -55,7 +56,34 @@ void add_points(const Curve& curve, double from, double to, double chord, int de
     out.back() = b;
 }
 
+/// Squared distances of a point to the axes of poses, mm^2.
+FLANK_LANES void distances_to_axes(std::size_t count, const std::array<const double*, 6>& at, const Vec3& point,
+                                   double* __restrict across) {
+  const double* __restrict tip_x = at[0], * __restrict tip_y = at[1], * __restrict tip_z = at[2], * __restrict axis_x = at[3], * __restrict axis_y = at[4], * __restrict axis_z = at[5];
+  const double px = point.x(), py = point.y(), pz = point.z();
+  for (std::size_t k = 0; k < count; ++k) {
+    const double x = px - tip_x[k], y = py - tip_y[k], z = pz - tip_z[k];
+    const double along = x * axis_x[k] + y * axis_y[k] + z * axis_z[k];
+    across[k] = x * x + y * y + z * z - along * along;
+  }
+}
+
 }  // namespace
+
+void LatePoses::clear() {
+  for (std::vector<double>& lane : at) lane.clear();
+}
+
+void LatePoses::add(const Pose& pose) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    at[c].push_back(pose.tip[static_cast<Eigen::Index>(c)]);
+    at[c + 3].push_back(pose.axis[static_cast<Eigen::Index>(c)]);
+  }
+}
+
+Pose LatePoses::operator[](std::size_t k) const {
+  return {{at[0][k], at[1][k], at[2][k]}, {at[3][k], at[4][k], at[5][k]}};
+}
 
 void LineCuts::add(double low, double high) {
   if (count > 0 && (low <= cuts[static_cast<std::size_t>(count - 1)].high + kJoin || count == kMost)) {
@@ -92,6 +120,10 @@ ToolSolid::ToolSolid(const RadialFunction& radial, double chord_mm) : chord_(cho
   }
   radii_.emplace(std::move(radii));
   make_shelves();
+  make_bands();
+  const RadialJet tip = radial.at(0.0), end = radial.at(length);
+  tip_ = {0.0, tip.r * tip.r, -tip.r * tip.d1};
+  end_ = {length, end.r * end.r, length - end.r * end.d1};
 }
 
 void ToolSolid::make_shelves() {
@@ -104,6 +136,48 @@ void ToolSolid::make_shelves() {
     while (cone + 2 < nodes_.size() && nodes_[cone + 1].x() <= z) ++cone;
     shelves_.push_back(cone > 0 ? cone - 1 : 0);  // one below: rounding
   }
+}
+
+void ToolSolid::make_bands() {
+  constexpr double kSpare = 1e-9;  // what rounding may put into the next one, bands
+  bands_per_mm_ = kBands / (high() - low());
+  const auto radius = [&](double z) {
+    const std::size_t cone = cone_at(z);
+    return nodes_[cone].y() + slopes_[cone] * (std::clamp(z, low(), high()) - nodes_[cone].x());
+  };
+  std::vector<double> most;
+  for (int k = 0; k < kBands; ++k) {
+    const double from = low() + (k - kSpare) / bands_per_mm_, to = low() + (k + 1 + kSpare) / bands_per_mm_;
+    double narrow = std::min(radius(from), radius(to)), wide = std::max(radius(from), radius(to));
+    for (std::size_t n = cone_at(from); n < nodes_.size() && nodes_[n].x() <= to; ++n) {
+      if (nodes_[n].x() < from) continue;
+      narrow = std::min(narrow, nodes_[n].y()), wide = std::max(wide, nodes_[n].y());
+    }
+    narrow = std::max(0.0, narrow - chord_ - kClear), wide += kClear;
+    bands_.push_back({narrow * narrow, wide * wide});
+    most.push_back(wide * wide);
+  }
+  squares_.emplace(std::move(most));
+}
+
+bool ToolSolid::misses(const ToolLine& line, double from, double to) const {
+  const double at_from = line.z0 + from * line.dz, at_to = line.z0 + to * line.dz;
+  const bool rising = at_from < at_to;
+  double bottom = rising ? at_from : at_to, top = rising ? at_to : at_from;
+  if (top < low() - kClear || bottom > high() + kClear) return true;
+  // What lies below the tip, or above the other end, does not count.
+  if (bottom < low()) (rising ? from : to) = (low() - line.z0) / line.dz, bottom = low();
+  if (top > high()) (rising ? to : from) = (high() - line.z0) / line.dz, top = high();
+  const double square = squares_->over(band_of(bottom), band_of(top));
+  if (passes_by(line, square, from, to)) return true;
+  // Of a line that is nearly parallel to the axis rounding says where it is nearest.
+  constexpr double kSlanted = 1e-2;
+  if (line.a > kSlanted && line.a * (line.c - square - kClear) > line.b * line.b) return true;
+  if (top > tip_.flank && bottom < end_.flank) return false;
+  const RoundEnd& end = top <= tip_.flank ? tip_ : end_;
+  const double up = line.z0 - end.centre;
+  return passes_by({0.0, 0.0, line.a + line.dz * line.dz, line.b + line.dz * up, line.c + up * up}, end.radius2, from,
+                   to);
 }
 
 ToolLine ToolSolid::line(const Pose& pose, const Vec3& point, const Vec3& direction) {
@@ -195,11 +269,27 @@ void ToolSolid::add_cone(const ToolLine& line, std::size_t cone, double from, do
 bool ToolSolid::holds(const Pose& pose, const Vec3& point) const {
   const Vec3 p = point - pose.tip;
   const double z = p.dot(pose.axis), across = p.squaredNorm() - z * z;
-  if (z <= low() || z >= high() || across >= largest_ * largest_) return false;
+  if (z <= low() || z >= high()) return false;
+  const Band& band = bands_[band_of(z)];
+  if (across >= band.most || across < band.least) return across < band.least;
   const std::size_t cone = cone_at(z);
   const Vec2 &a = nodes_[cone], &b = nodes_[cone + 1];
   const double radius = std::lerp(a.y(), b.y(), (z - a.x()) / (b.x() - a.x())) - chord_;
   return radius > 0.0 && across < radius * radius;
+}
+
+bool ToolSolid::holds(const LatePoses& poses, const Vec3& point) const {
+  constexpr std::size_t kPoses = 32;
+  std::array<double, kPoses> across;  // not set
+  std::array<const double*, 6> at{};
+  for (std::size_t first = 0; first < poses.count(); first += kPoses) {
+    const std::size_t count = std::min(kPoses, poses.count() - first);
+    for (std::size_t c = 0; c < at.size(); ++c) at[c] = poses.at[c].data() + first;
+    distances_to_axes(count, at, point, across.data());
+    for (std::size_t k = 0; k < count; ++k)
+      if (across[k] < largest_ * largest_ && holds(poses[first + k], point)) return true;
+  }
+  return false;
 }
 
 ToolSolid::Side ToolSolid::side_of(const ToolLine& line, const Block& block, double from, double to) {
