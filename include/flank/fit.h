@@ -106,6 +106,9 @@ struct FlankFitOptions {
   /// Covered share in [0, 1]: if the best candidate covers less than this after the polish, the last passes are
   /// skipped. 0: never. For a caller that would try more strips in that case anyway.
   double least_coverage_for_last_passes = 0.0;
+  /// Covered share in [0, 1]: fit_automatic returns what covers less without the last look, which costs as much as a pass. 0:
+  /// never. For a caller that mostly takes another result then, and asks with_close_look() where it does not.
+  double least_coverage_for_close_look = 0.0;
   /// Where not all can be covered: passes that give up what is beyond the tolerance.
   bool partial_passes = true;
   /// fit_automatic: what the flank must not enter; outlives the call. Null: nothing is in the way. fit_from_starts
@@ -174,6 +177,7 @@ struct FlankFitResult {
   int candidates = 0;                 ///< starts that were tried
   std::vector<TriedTool> tried;       ///< what was polished and not chosen, in its order
   OtherWays other_ways = OtherWays::kNotTried;
+  bool looked_at = true;  ///< closely: false as FlankFitOptions::least_coverage_for_close_look says
 };
 
 /// Automatic start: many ruled candidates across the target, each fitted briefly, ranked by swept coverage, the best
@@ -196,6 +200,10 @@ struct FlankFitResult {
 [[nodiscard]] FlankFitResult fit_together(const std::vector<FitTask>& tasks, const RadialFunction& found,
                                           const ToolModel& tool, const FlankFitOptions& options,
                                           const Progress& progress);
+
+/// A result that has gone without the last look, with it. `tasks`: its targets and what is in the way of each of its motions.
+[[nodiscard]] FlankFitResult with_close_look(const std::vector<FitTask>& tasks, const FlankFitResult& found,
+                                             const ToolModel& tool, const FlankFitOptions& options);
 
 /// A result that turns out to cut deeper than the tolerance at options.watched, between the samples that it was looked at
 /// with, led out of what it cuts. `tasks`: its targets and what is in the way of each of its motions. Notes and tried

@@ -71,6 +71,23 @@ TEST(FitAutomatic, IsTheSameForOneAndThreeThreads) {
   EXPECT_EQ(results[0].message, results[1].message);
 }
 
+TEST(FitAutomatic, WhatCoversLessThanTheCallerWantsLookedAtGoesWithoutTheLastLook) {
+  const auto blade = standing_blade(0.0);
+  FlankFitOptions options = small_options();
+  options.enough_coverage = 1.1;  // never
+  const FlankFitResult looked = fit_automatic(*blade, given_cylinder(5.0), options, {});
+  EXPECT_TRUE(looked.looked_at);
+  options.least_coverage_for_close_look = 1.1;
+  const FlankFitResult rough = fit_automatic(*blade, given_cylinder(5.0), options, {});
+  EXPECT_FALSE(rough.looked_at);
+  const std::vector<FitTask> tasks = {{blade.get(), rough.motions.front()}};
+  const FlankFitResult after = with_close_look(tasks, rough, given_cylinder(5.0), options);
+  EXPECT_TRUE(after.looked_at);
+  EXPECT_NEAR(after.after.at_tolerance, looked.after.at_tolerance, 0.01);
+  EXPECT_LT(after.after.overcut_mm, 0.1 * kTolerance);
+  EXPECT_EQ(after.candidates, rough.candidates);
+}
+
 TEST(FitAutomatic, CancelledItPolishesOnlyTheBestCandidate) {
   const auto blade = standing_blade(0.0);
   FlankFitOptions many = small_options();

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "fit/flat_scene.h"
+#include "flank/base/journal.h"
 #include "flank/threads.h"
 #include "flank/tool/compliance.h"
 
@@ -96,6 +97,37 @@ TEST_F(Racing, AToolMoreSlenderThanAskedIsNotEnough) {
   // A tool as thick as allowed is all that can be had.
   options_.bounds.slenderest = 5.0;
   EXPECT_TRUE(run({start(3.0)}).enough);
+}
+
+TEST_F(Racing, WhatCoversEnoughAndIsNotEnoughGetsNoMorePasses) {
+  options_.bounds.largest = 3.0;
+  options_.partial_passes = false;
+  options_.bounds.slenderest = 7.0;  // as above
+  Progress progress;
+  progress.journal = std::make_shared<Progress::Journal>();
+  const std::vector<FitDraft> starts = {start(2.0, 0.3)};
+  const Runner winner = race(starts, ranking_samples(*blade_, nullptr, options_), options_, progress);
+  EXPECT_GE(winner.polished.estimate.at_tolerance, options_.enough_coverage);
+  EXPECT_FALSE(winner.enough);
+  const auto steps = progress.journal->steps();
+  EXPECT_EQ(std::count_if(steps.begin(), steps.end(), [](const auto& step) { return step.name == "last passes"; }), 1);
+}
+
+TEST_F(Racing, WhatACloseLookHasCalledShortIsNotLookedAtAgain) {
+  options_.bounds.largest = 3.0;
+  options_.bounds.slenderest = 7.0;
+  const auto samples = ranking_samples(*blade_, nullptr, options_);
+  Runner runner{.start = start(2.0), .polished = assess(start(2.0), samples, options_), .trace = {}, .beaten = {}};
+  ASSERT_TRUE(is_enough(runner.polished.estimate, options_));
+  settle_if_enough(runner, samples, options_);
+  EXPECT_FALSE(runner.enough);
+  ASSERT_TRUE(runner.close);
+  EXPECT_EQ(runner.called_short, runner.polished.estimate.score(options_.tolerance_mm));
+  runner.close->estimate.rms_mm = 7.0;  // to be known again
+  settle_if_enough(runner, samples, options_);
+  EXPECT_EQ(runner.close->estimate.rms_mm, 7.0);
+  look_closely(runner, samples, options_);
+  EXPECT_EQ(runner.polished.estimate.rms_mm, 7.0);
 }
 
 TEST_F(Racing, IsTheSameForOneAndThreeThreads) {

@@ -48,6 +48,13 @@ TEST(StripGain, WhatRunsThroughAnotherFaceIsNothingToBeat) {
   EXPECT_TRUE(gain.goes_on(result_of(0.85, 0.05)));
 }
 
+TEST(StripGain, WhatRunsThroughAnotherFaceTellsNothingOfWhatFacetsLimit) {
+  StripGain gain(kTolerance, true);
+  EXPECT_TRUE(gain.goes_on(result_of(0.6, 20.0)));
+  EXPECT_TRUE(gain.goes_on(result_of(0.93, 0.05)));
+  EXPECT_FALSE(gain.goes_on(result_of(0.93, 0.05)));
+}
+
 TEST(StripGain, AToolThatWasBeatenButIsNearlyCleanIsAPromise) {
   StripGain gain(kTolerance);
   EXPECT_TRUE(gain.goes_on(result_of(0.5, 0.05)));

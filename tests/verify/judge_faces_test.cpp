@@ -57,6 +57,14 @@ TEST_F(HalfAPlane, CostsNoMoreThanItsSamplesWhereNothingHangsOnIt) {
   }
 }
 
+TEST_F(HalfAPlane, NothingIsProvedToBeFinishedWhereItIsCutTooDeepAnyway) {
+  for (Pose& pose : path_.strips[0].poses) pose.tip.y() -= 0.1;
+  const VerifyReport report = judged(0.4);
+  EXPECT_EQ(report.verdict, Verdict::kOvercut);
+  EXPECT_EQ(report.coverage_reachable_bound, 0.0);
+  EXPECT_EQ(report.faces[0].cover_cells, 0u);
+}
+
 TEST_F(HalfAPlane, CellsThatAreReachableInPartAreCutWhereThatDecides) {
   // Reachable is what is covered, but for a hair. Cells are 2 mm, then a quarter.
   const auto reach_to = [](FaceSamples& samples, double short_by) {

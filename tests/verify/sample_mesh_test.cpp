@@ -147,5 +147,57 @@ TEST(SampleMesh, RefusesWhatIsNoSpacingAndNoMesh) {
   EXPECT_TRUE(sample_mesh("F3", TriangleMesh(), 1.0, true).points.empty());
 }
 
+Vec3 corner(const TriangleMesh& mesh, std::size_t t, std::size_t k) {
+  return mesh.vertices[static_cast<std::size_t>(mesh.triangles[t][k])];
+}
+
+Vec3 area_vector(const TriangleMesh& mesh, std::size_t t) {
+  const Vec3 a = corner(mesh, t, 0);
+  return 0.5 * (corner(mesh, t, 1) - a).cross(corner(mesh, t, 2) - a);
+}
+
+TriangleMesh one(const Vec3& a, const Vec3& b, const Vec3& c) { return {{a, b, c}, {{0, 1, 2}}}; }
+
+TEST(SliverSlices, KeepAreaAndSideWhereverTheLongestSideIs) {
+  Random random(3);
+  for (int k = 0; k < 200; ++k) {
+    const double width = random.uniform(0.001, 3.0), top = random.uniform(-0.5, 1.5);
+    std::array<Vec3, 3> corners{Vec3(0, 0, 0), Vec3(10, 0, 0), Vec3(10 * top, width, 0)};
+    std::rotate(corners.begin(), corners.begin() + k % 3, corners.end());
+    const auto whole = one(corners[0], corners[1], corners[2]);
+    const auto sliced = verify::with_slivers_sliced(whole, 0.3);
+    Vec3 sum = Vec3::Zero(), middle = Vec3::Zero();
+    for (std::size_t t = 0; t < sliced.triangles.size(); ++t) {
+      const auto own = area_vector(sliced, t);
+      EXPECT_GT(own.z(), 0.0);
+      sum += own;
+      middle += own.z() * (corner(sliced, t, 0) + corner(sliced, t, 1) + corner(sliced, t, 2)) / 3.0;
+    }
+    const auto wanted = area_vector(whole, 0);
+    EXPECT_LT((sum - wanted).norm(), 1e-12);
+    EXPECT_LT((middle / wanted.z() - (corners[0] + corners[1] + corners[2]) / 3.0).norm(), 1e-9);
+  }
+}
+
+TEST(SliverSlices, ASliverIsSampledAsOftenAsItIsLong) {
+  const auto needle = one({0, 0, 0}, {10, 0, 0}, {10, 0.01, 0}), cap = one({0, 0, 0}, {10, 0, 0}, {5, 0.01, 0});
+  for (const auto& mesh : {needle, cap}) {
+    EXPECT_GE(sample_mesh("F1", mesh, 0.1, true).points.size(), 10000u);
+    const auto samples = sample_mesh("F1", verify::with_slivers_sliced(mesh, 0.1), 0.1, true);
+    EXPECT_LT(samples.points.size(), 260u);
+    EXPECT_LT(samples.spacing_mm, 0.1);
+  }
+}
+
+TEST(SliverSlices, OtherTrianglesStayAsTheyAre) {
+  const auto wide = one({0, 0, 0}, {10, 0, 0}, {4, 8, 0}), small = one({0, 0, 0}, {0.1, 0, 0}, {0.1, 0.001, 0});
+  const auto flat = one({0, 0, 0}, {10, 0, 0}, {5, 0, 0});
+  for (const auto& mesh : {wide, small, flat}) {
+    const auto sliced = verify::with_slivers_sliced(mesh, 0.1);
+    EXPECT_EQ(sliced.triangles, mesh.triangles);
+    EXPECT_EQ(sliced.vertices.size(), mesh.vertices.size());
+  }
+}
+
 }  // namespace
 }  // namespace flank::internal

@@ -217,8 +217,7 @@ QuickStarts quick_starts(const Target& target, const ToolModel& tool, const Flan
 
 void look_closely(Runner& runner, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options,
                   const Progress& progress) {
-  advance(runner, progress, "close look",
-          [&](Runner& next) { next.polished = looked_at_closely(next.polished, samples, options); });
+  advance(runner, progress, "close look", [&](Runner& next) { internal::look_closely(next, samples, options); });
 }
 
 /// From all starts to one result, with options.obstacles in the way from the beginning.
@@ -240,7 +239,8 @@ FlankFitResult search_starts(const Target& target, const ToolModel& tool, const 
   result.before = estimate_coverage(samples, best.start.motions, best.start.tool, options.tolerance_mm, kRankingPoses);
   result.trace = best.trace;
   result.tried = best.beaten;
-  if (!best.enough) look_closely(best, samples, options, progress);
+  result.looked_at = best.enough || best.polished.estimate.at_tolerance >= options.least_coverage_for_close_look;
+  if (!best.enough && result.looked_at) look_closely(best, samples, options, progress);
   return finish(best.polished, options, std::move(result));
 }
 
@@ -326,6 +326,19 @@ FlankFitResult fit_together(const std::vector<FitTask>& tasks, const RadialFunct
   if (is_enough(as_found.after, options) || progress.stop()) return as_found;
   FlankFitResult polished = fit_from_starts(tasks, tool, options, progress);
   return is_better(as_found.after, polished.after, options.tolerance_mm) ? as_found : polished;
+}
+
+FlankFitResult with_close_look(const std::vector<FitTask>& tasks, const FlankFitResult& found, const ToolModel& tool,
+                               const FlankFitOptions& options) {
+  FLANK_ASSERT(!tasks.empty() && tasks.size() == found.motions.size());
+  const std::vector<SurfaceSample> samples = ranking_samples_of(tasks, options);
+  FitDraft draft = make_draft(tasks, tool, options);
+  draft.motions = found.motions;
+  draft.tool = found.tool;
+  const Polished polished = assess(std::move(draft), samples, options);
+  FlankFitResult result = finish(looked_at_closely(polished, samples, options), options, found);
+  result.looked_at = true;
+  return result;
 }
 
 std::optional<FlankFitResult> mend_fit(const std::vector<FitTask>& tasks, const FlankFitResult& found,

@@ -51,6 +51,7 @@ void code(StepCodec& codec, FlankFitResult& fit) {
   code(codec, fit.candidates);
   code(codec, fit.tried);
   code_choice(codec, fit.other_ways, 4);
+  code(codec, fit.looked_at);
   codec.require(fit.motions.empty() || fit.tool.axis_length() > 0.0, "motions need a tool");
 }
 
@@ -81,6 +82,7 @@ void code(StepCodec& codec, FlankFitOptions& options) {
   codec.number(options.enough_coverage);
   code(codec, options.ways);
   codec.number(options.least_coverage_for_last_passes);
+  codec.number(options.least_coverage_for_close_look);
   code(codec, options.partial_passes);
   bool beside_walls = options.obstacles != nullptr;
   code(codec, beside_walls);

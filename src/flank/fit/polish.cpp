@@ -185,14 +185,15 @@ Polished polish(const FitDraft& draft, const std::vector<SurfaceSample>& samples
 }
 
 Polished last_passes(const Polished& polished, const std::vector<SurfaceSample>& samples,
-                     const FlankFitOptions& options, std::vector<IterationTrace>* trace, const IsEnough& enough) {
+                     const FlankFitOptions& options, std::vector<IterationTrace>* trace, const IsEnough& enough,
+                     bool begun) {
   if (stopping()) return polished;
   // An exact fit has its residuals at the axis; some of the face may lie past the axis' end: the passes below see it.
   const bool short_of_face = polished.estimate.at_tolerance < options.enough_coverage;
   // Residuals at the axis can be exact while the tool cuts deep elsewhere.
   const bool deep = polished.draft.free_tool && polished.estimate.overcut_mm > options.tolerance_mm;
   if (polished.exact && !short_of_face && !deep) return lowered(polished, samples, options);
-  return shifted(swept_polish(polished, samples, options, trace, enough), samples, options);
+  return shifted(swept_polish(polished, samples, options, trace, enough, begun), samples, options);
 }
 
 namespace {

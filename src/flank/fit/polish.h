@@ -25,10 +25,11 @@ namespace flank::internal {
                               const FlankFitOptions& options, std::vector<IterationTrace>* trace);
 
 /// The passes of swept_polish.h if the target is no envelope, and a free tool's radii reduced against overcut. An exact
-/// fit keeps its motion; a free tool's radii are reduced until FitBudget::exact_overcut is left. `enough`: as swept_polish has it.
+/// fit keeps its motion; a free tool's radii are reduced until FitBudget::exact_overcut is left. `enough`, `begun`: as
+/// swept_polish has them.
 [[nodiscard]] Polished last_passes(const Polished& polished, const std::vector<SurfaceSample>& samples,
                                    const FlankFitOptions& options, std::vector<IterationTrace>* trace,
-                                   const IsEnough& enough = {});
+                                   const IsEnough& enough = {}, bool begun = false);
 
 /// Tolerances: what is cut or entered deeper than this needs another motion; settled() does not mend it.
 inline constexpr double kMendable = 5.0;

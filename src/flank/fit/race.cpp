@@ -93,12 +93,29 @@ std::vector<Runner> polished_abreast(std::span<const FitDraft> starts, const std
   return runners;
 }
 
+double score_of(const Runner& runner, const FlankFitOptions& options) {
+  return runner.polished.estimate.score(options.tolerance_mm);
+}
+
+/// The first of the last passes, cheap: they tell whether the others may lead anywhere.
+void begin(Runner& runner, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options,
+           const Progress& progress) {
+  if (runner.begun) return;
+  advance(runner, progress, "first passes", [&](Runner& next) {
+    const double before = score_of(next, options);
+    next.polished = first_passes(next.polished, samples, options, &next.trace);
+    next.begun = true;
+    next.gained = score_of(next, options) - before;
+    settle_if_enough(next, samples, options);
+  });
+}
+
 /// The last passes of one runner. They cost more than all before.
 void pass(Runner& runner, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options,
           const Progress& progress) {
-  const auto score = [&](const Runner& any) { return any.polished.estimate.score(options.tolerance_mm); };
   advance(runner, progress, "last passes", [&](Runner& next) {
-    const double before = score(next);
+    // Of one that has only begun, what it gained by that counts.
+    const double before = score_of(next, options) - (next.passed ? 0.0 : next.gained);
     // Once: a close look costs as much as a pass, and what it has called short is mostly short after the next as well.
     bool looked = false;
     const auto enough = [&](const Polished& polished) {
@@ -108,25 +125,27 @@ void pass(Runner& runner, const std::vector<SurfaceSample>& samples, const Flank
       settle_if_enough(next, samples, options);
       return next.enough;
     };
-    Polished passed = last_passes(next.polished, samples, options, &next.trace, enough);
+    Polished passed = last_passes(next.polished, samples, options, &next.trace, enough, next.begun && !next.passed);
     if (!next.enough) {
       next.polished = std::move(passed);
       settle_if_enough(next, samples, options);
     }
-    next.passed = true;
-    next.gained = score(next) - before;
+    next.begun = next.passed = true;
+    next.gained = score_of(next, options) - before;
   });
   tell_found(progress, runner.polished.estimate, options.tolerance_mm);
 }
 
-/// The best so far, if it is all but enough, gets the last passes at once: they cost less than to polish all others.
+/// The best so far, if it is all but enough, gets the last passes at once: they cost less than to polish all others. If it is
+/// not, it may be after the first of them: residuals at the axis tell little of what several strips will cover.
 void pass_if_near(std::vector<Runner>& runners, const std::vector<SurfaceSample>& samples,
                   const FlankFitOptions& options, const Progress& progress) {
   constexpr double kNear = 0.9;  // of the face: the last passes gain a tenth where they lead anywhere
   const auto best = std::max_element(runners.begin(), runners.end(), [&](const Runner& a, const Runner& b) {
-    return a.polished.estimate.score(options.tolerance_mm) < b.polished.estimate.score(options.tolerance_mm);
+    return score_of(a, options) < score_of(b, options);
   });
-  if (best->polished.estimate.at_tolerance >= kNear) pass(*best, samples, options, progress);
+  if (best->polished.estimate.at_tolerance < kNear) begin(*best, samples, options, progress);
+  if (!best->enough && best->polished.estimate.at_tolerance >= kNear) pass(*best, samples, options, progress);
 }
 
 std::vector<Runner> polish_until_enough(const std::vector<FitDraft>& starts, const std::vector<SurfaceSample>& samples,
@@ -155,11 +174,7 @@ std::vector<Runner> polish_until_enough(const std::vector<FitDraft>& starts, con
 void look_for_hope(std::vector<Runner>& runners, const std::vector<SurfaceSample>& samples,
                    const FlankFitOptions& options, const Progress& progress) {
   const std::size_t most = std::min(runners.size(), static_cast<std::size_t>(options.kept_after_polish));
-  for (std::size_t k = 0; k < most && !progress.stop(); ++k)
-    advance(runners[k], progress, "first passes", [&](Runner& next) {
-      next.polished = first_passes(next.polished, samples, options, &next.trace);
-      settle_if_enough(next, samples, options);
-    });
+  for (std::size_t k = 0; k < most && !progress.stop(); ++k) begin(runners[k], samples, options, progress);
   sort_by_merit(runners, options);
 }
 
@@ -169,7 +184,7 @@ void pass_until_enough(std::vector<Runner>& runners, const std::vector<SurfaceSa
   const double least = options.least_coverage_for_last_passes;
   if (runners.front().polished.estimate.at_tolerance < least) look_for_hope(runners, samples, options, progress);
   if (runners.front().enough || runners.front().polished.estimate.at_tolerance < least) return;
-  const auto score = [&](const Runner& runner) { return runner.polished.estimate.score(options.tolerance_mm); };
+  const auto score = [&](const Runner& runner) { return score_of(runner, options); };
   /// Who is behind by more than this many times what the passes gained so far, and this share of coverage, cannot win.
   constexpr double kGains = 2.0, kBehind = 0.02;
   double best = -1.0, gained = 0.0;
@@ -186,7 +201,8 @@ void pass_until_enough(std::vector<Runner>& runners, const std::vector<SurfaceSa
   }
 }
 
-/// Passes once more, as long as they gain, of a fit that covers all but a little: a strip more would cost several times as much.
+/// Passes once more, as long as they gain, of a fit that covers all but a little: a strip more would cost several times as much. They
+/// make nothing of one that covers what was asked and falls short otherwise.
 void pass_again(Runner& runner, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options,
                 const Progress& progress) {
   constexpr double kLittle = 0.02;  // of the face
@@ -194,7 +210,9 @@ void pass_again(Runner& runner, const std::vector<SurfaceSample>& samples, const
   constexpr int kMost = 3;
   if (runner.gained <= 0.0) return;
   const auto missing = [&] { return options.enough_coverage - runner.polished.estimate.at_tolerance; };
-  for (int k = 0; k < kMost && !runner.enough && runner.passed && missing() <= kLittle && !progress.stop(); ++k) {
+  for (int k = 0;
+       k < kMost && !runner.enough && runner.passed && missing() > 0.0 && missing() <= kLittle && !progress.stop();
+       ++k) {
     const double before = missing();
     pass(runner, samples, options, progress);
     if (missing() > (1.0 - kGains) * before) break;
@@ -232,6 +250,8 @@ void code(StepCodec& codec, Runner& runner) {
   code(codec, runner.enough);
   code(codec, runner.passed);
   codec.number(runner.gained);
+  code(codec, runner.begun);
+  codec.number(runner.called_short);
 }
 
 void advance(Runner& runner, const Progress& progress, const char* step, const std::function<void(Runner&)>& work) {
@@ -258,13 +278,24 @@ Polished looked_at_closely(const Polished& polished, const std::vector<SurfaceSa
 }
 
 void settle_if_enough(Runner& runner, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
-  if (!is_enough(runner.polished.estimate, options)) return;
+  const double score = runner.polished.estimate.score(options.tolerance_mm);
+  if (!is_enough(runner.polished.estimate, options) || score == runner.called_short) return;
   Polished close = looked_at_closely(runner.polished, samples, options);
   const double deepest = std::max(close.estimate.overcut_mm, close.estimate.gouge_mm);
   runner.enough = is_enough(close.estimate, options) && deepest <= kToleranceBudget.fit.seen * options.tolerance_mm &&
                   is_stiff_enough(close.draft, options.bounds);
   close.exact = runner.polished.exact;
-  if (runner.enough) runner.polished = std::move(close);
+  if (runner.enough) {
+    runner.polished = std::move(close);
+  } else {
+    runner.called_short = score;
+    runner.close = std::move(close);
+  }
+}
+
+void look_closely(Runner& runner, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
+  const bool known = runner.close && score_of(runner, options) == runner.called_short;
+  runner.polished = known ? *runner.close : looked_at_closely(runner.polished, samples, options);
 }
 
 Runner race(const std::vector<FitDraft>& starts, const std::vector<SurfaceSample>& samples,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "flank/base/step_codec.h"
@@ -13,16 +14,19 @@ namespace flank::internal {
 
 /// A candidate on its way.
 struct Runner {
-  FitDraft start;                     ///< as it came from its quick fit
-  Polished polished;                  ///< as far as it has come
-  std::vector<IterationTrace> trace;  ///< of its passes
-  bool enough = false;                ///< does what was asked, looked at closely; `polished` is settled then
-  bool passed = false;                ///< has had the last passes
-  double gained = 0.0;                ///< of the score, by them
-  std::vector<TriedTool> beaten;      ///< of the winner: the others, as far as they have come
+  FitDraft start;                      ///< as it came from its quick fit
+  Polished polished;                   ///< as far as it has come
+  std::vector<IterationTrace> trace;   ///< of its passes
+  bool enough = false;                 ///< does what was asked, looked at closely; `polished` is settled then
+  bool begun = false;                  ///< has had the first of the last passes
+  bool passed = false;                 ///< has had the last passes
+  double gained = 0.0;                 ///< of the score, by them
+  double called_short = -1.0;          ///< the score at which a close look found that it is not enough; -1: none did
+  std::optional<Polished> close = {};  ///< what that look saw, if it was in this run
+  std::vector<TriedTool> beaten;       ///< of the winner: the others, as far as they have come
 };
 
-/// Among the values of a finished step (base/step_codec.h), without its start and those that it has beaten.
+/// Among the values of a finished step (base/step_codec.h), without its start, the close look, and those that it has beaten.
 void code(StepCodec& codec, Runner& runner);
 
 /// A step of one candidate, which takes its start with it; from the journal if an earlier run has finished it
@@ -38,8 +42,11 @@ void advance(Runner& runner, const Progress& progress, const char* step, const s
                                          const FlankFitOptions& options);
 
 /// Settles the runner if it seems to be enough, and keeps that if it still is: samples that rank see no rim that is a
-/// little short.
+/// little short. What has been called short stays so.
 void settle_if_enough(Runner& runner, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options);
+
+/// The last word on a runner that is not enough, which may have been said already.
+void look_closely(Runner& runner, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options);
 
 /// The winner: among those that do what was asked the one with the stiffest tool, else the one with the best score.
 /// `starts` is not empty and in the order of their promise; at most options.kept_after_quick of them are polished,

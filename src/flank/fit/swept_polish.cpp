@@ -30,7 +30,8 @@ constexpr SweptPass kNarrow = {.dead_zone = 0.5 * kWideZone, .iterations = 15};
 constexpr SweptPass kMean = {.dead_zone = 0.0, .iterations = 12};
 
 /// In the order of their passes.
-constexpr std::array<SweptPass, 6> kPasses = {kArrive, kFairRails, kSoftRails, kDense, kNarrow, kMean};
+constexpr std::array<SweptPass, 2> kFirstPasses = {kArrive, kFairRails};
+constexpr std::array<SweptPass, 4> kOtherPasses = {kSoftRails, kDense, kNarrow, kMean};
 
 /// If fair rails cover this much, none are made softer: a machine runs them better, and what softness could gain is 4
 /// of the 2,000 samples that rank drafts.
@@ -63,18 +64,23 @@ Polished with_pass(const Polished& best, const SweptPass& pass, const std::vecto
 }  // namespace
 
 Polished swept_polish(const Polished& polished, const std::vector<SurfaceSample>& samples,
-                      const FlankFitOptions& options, std::vector<IterationTrace>* trace, const IsEnough& enough) {
+                      const FlankFitOptions& options, std::vector<IterationTrace>* trace, const IsEnough& enough,
+                      bool begun) {
   Polished best = polished;
-  bool fair = false;  // fair rails are enough
-  for (SweptPass pass : kPasses) {
+  const auto fair_is_enough = [&] {
+    const CoverageEstimate& now = best.estimate;
+    return now.at_tolerance >= kFairCovers && std::max(now.overcut_mm, now.gouge_mm) <= options.tolerance_mm;
+  };
+  bool fair = begun && fair_is_enough();
+  std::vector<SweptPass> passes(kOtherPasses.begin(), kOtherPasses.end());
+  if (!begun) passes.insert(passes.begin(), kFirstPasses.begin(), kFirstPasses.end());
+  for (SweptPass pass : passes) {
     if (stopping()) break;
     if (pass.fairness == kSoft && fair) pass.fairness = kFair;
     // The last one lowers what is left of the mean, if nothing more is to be covered.
     if (pass.dead_zone == 0.0 && best.estimate.at_tolerance < kAllButCovered) continue;
     best = with_pass(best, pass, samples, options, trace);
-    const CoverageEstimate& now = best.estimate;
-    if (pass.fairness == kFair)
-      fair = now.at_tolerance >= kFairCovers && std::max(now.overcut_mm, now.gouge_mm) <= options.tolerance_mm;
+    if (pass.fairness == kFair) fair = fair_is_enough();
     if (enough && enough(best)) break;
   }
   return best;
@@ -83,7 +89,7 @@ Polished swept_polish(const Polished& polished, const std::vector<SurfaceSample>
 Polished first_passes(const Polished& polished, const std::vector<SurfaceSample>& samples,
                       const FlankFitOptions& options, std::vector<IterationTrace>* trace) {
   Polished best = polished;
-  for (const SweptPass& pass : {kArrive, kFairRails})
+  for (const SweptPass& pass : kFirstPasses)
     if (!stopping()) best = with_pass(best, pass, samples, options, trace);
   return best;
 }

@@ -15,10 +15,10 @@ namespace flank::internal {
                                        double band_mm, const ReachLimits& reach);
 
 /// Passes with a dead zone that narrows while the rails grow softer; each is kept only if it scores better on
-/// `samples`. The best so far is the result as soon as it is `enough`, if that is given.
+/// `samples`. The best so far is the result as soon as it is `enough`, if that is given. `begun`: the first passes have been.
 [[nodiscard]] Polished swept_polish(const Polished& polished, const std::vector<SurfaceSample>& samples,
                                     const FlankFitOptions& options, std::vector<IterationTrace>* trace,
-                                    const IsEnough& enough = {});
+                                    const IsEnough& enough = {}, bool begun = false);
 
 /// Its first two, cheap: they tell whether a fit that covers little at the axis leads anywhere. Beside walls the residual at the
 /// axis leaves out what the walls keep a tool from, and what is covered can be a fifth more after them.

@@ -283,6 +283,7 @@ FlankFitResult best_way(const Target& target, const ToolModel& tool, const Flank
                     best->name, 100.0 * best->polished.estimate.at_tolerance, 100.0 * first.after.at_tolerance));
     result = finish(best->polished, options, std::move(result));
     result.other_ways = OtherWays::kBest;
+    result.looked_at = true;
   }
   for (const Way& way : ways)
     if (&way != best)

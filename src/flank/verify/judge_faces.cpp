@@ -122,6 +122,9 @@ class Judge {
   [[nodiscard]] ProvedCover cover_of(const FaceSamples& samples, const std::vector<SweptDistance>& distances,
                                      const Shape* shape) const {
     if (shape == nullptr || !samples.target || samples.cells.empty()) return {};
+    // A face that is cut too deep somewhere is proved to be finished nowhere.
+    const auto too_deep = [&](const SweptDistance& d) { return d.f < -options_.tolerance_mm; };
+    if (std::any_of(distances.begin(), distances.end(), too_deep)) return {};
     CoverLimits limits;
     limits.tolerance_mm = options_.tolerance_mm;
     for (double area : samples.areas) limits.gap_mm2 += options_.proof.cover_gap_share * area;

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <vector>
 
 #include "flank/error.h"
 #include "flank/judge.h"
@@ -145,9 +148,102 @@ class MeshSampler final : public Sampler {
   std::vector<Start> starts_;  ///< of the tiles, and the end
 };
 
+/// Of the spacing or of the width: so that the diagonals of slices are no longer than it, either.
+constexpr double kSlice = 0.85;
+constexpr double kMostSlices = 1e4;
+/// Of the parts that a triangle has as it is: more are not worth the slices.
+constexpr double kClearlyFewer = 0.6;
+
+using Triangle = std::array<Vec3, 3>;
+
+double longest_side(const Triangle& t) {
+  return std::max({(t[1] - t[0]).norm(), (t[2] - t[1]).norm(), (t[0] - t[2]).norm()});
+}
+
+/// Parts with sides no longer than the spacing, as the judge cuts it.
+double parts_of(const Triangle& t, double spacing_mm) {
+  const double n = std::max(1.0, std::ceil(longest_side(t) / spacing_mm));
+  return n * n;
+}
+
+/// With its longest side first.
+Triangle turned(const Triangle& t) {
+  std::size_t longest = 0;
+  double most = -1.0;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (const double side = (t[(k + 1) % 3] - t[k]).norm(); side > most) most = side, longest = k;
+  return {t[longest], t[(longest + 1) % 3], t[(longest + 2) % 3]};
+}
+
+void add(const Vec3& a, const Vec3& b, const Vec3& c, std::vector<Triangle>& out) {
+  if ((b - a).cross(c - a).squaredNorm() > 0.0) out.push_back({a, b, c});
+}
+
+/// Slices of equal width along the longest side, each as one to three triangles that are turned as the whole is.
+std::vector<Triangle> slices_of(const Triangle& whole, int count) {
+  const auto& [a, b, c] = whole;
+  const double top = std::clamp((c - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+  // The place on the two other sides above a share of the longest.
+  const auto above = [&](double t) -> Vec3 {
+    return t < top ? Vec3(a + t / top * (c - a)) : t > top ? Vec3(c + (t - top) / (1.0 - top) * (b - c)) : c;
+  };
+  std::vector<Triangle> out;
+  for (int i = 0; i < count; ++i) {
+    const double from = static_cast<double>(i) / count, to = static_cast<double>(i + 1) / count;
+    const Vec3 low = a + from * (b - a), next = i + 1 == count ? b : Vec3(a + to * (b - a));
+    const Vec3 left = i == 0 ? a : above(from), right = i + 1 == count ? b : above(to);
+    add(low, next, right, out);
+    if (from < top && top < to) {
+      add(low, right, c, out);
+      add(low, c, left, out);
+    } else {
+      add(low, right, left, out);
+    }
+  }
+  return out;
+}
+
+/// The place as a vertex: one of the last few from `first` on, which slices share with those before them, or a new one.
+int vertex(const Vec3& place, std::size_t first, TriangleMesh& mesh) {
+  constexpr std::size_t kFew = 8;
+  const std::size_t end = mesh.vertices.size();
+  for (std::size_t v = std::max(first, end - std::min(end, kFew)); v < end; ++v)
+    if (mesh.vertices[v] == place) return static_cast<int>(v);
+  mesh.vertices.push_back(place);
+  return static_cast<int>(end);
+}
+
 }  // namespace
 
 namespace internal::verify {
+
+TriangleMesh with_slivers_sliced(TriangleMesh mesh, double spacing_mm) {
+  const std::size_t given = mesh.triangles.size();
+  for (std::size_t k = 0; k < given; ++k) {
+    Triangle own;
+    for (std::size_t i = 0; i < 3; ++i) own[i] = mesh.vertices[static_cast<std::size_t>(mesh.triangles[k][i])];
+    const Triangle whole = turned(own);
+    const double length = longest_side(whole);
+    if (!(length > spacing_mm)) continue;
+    const double width = (whole[1] - whole[0]).cross(whole[2] - whole[0]).norm() / length;
+    const double count = std::min(kMostSlices, std::ceil(length / (kSlice * std::max(spacing_mm, width))));
+    if (!(width > 0.0) || count < 2.0) continue;
+    const std::vector<Triangle> slices = slices_of(whole, static_cast<int>(count));
+    double parts = 0.0;
+    for (const Triangle& slice : slices) parts += parts_of(slice, spacing_mm);
+    if (parts > kClearlyFewer * parts_of(whole, spacing_mm)) continue;
+    const std::size_t first = mesh.vertices.size();
+    for (std::size_t s = 0; s < slices.size(); ++s) {
+      std::array<int, 3> corners{};
+      for (std::size_t i = 0; i < 3; ++i) corners[i] = vertex(slices[s][i], first, mesh);
+      if (s == 0)
+        mesh.triangles[k] = corners;
+      else
+        mesh.triangles.push_back(corners);
+    }
+  }
+  return mesh;
+}
 
 std::unique_ptr<Sampler> make_sampler(const std::string& id, const TriangleMesh& mesh, double spacing_mm, bool target,
                                       std::size_t most_samples) {

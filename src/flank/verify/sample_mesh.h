@@ -15,4 +15,9 @@ namespace flank::internal::verify {
 [[nodiscard]] std::unique_ptr<Sampler> make_sampler(const std::string& id, const TriangleMesh& mesh, double spacing_mm,
                                                     bool target, std::size_t most_samples);
 
+/// The same surface with its long and narrow triangles cut across: parts that are as small as the longest side of one asks lie far
+/// closer across it than they need to. Such a triangle is cut into slices about as long as it is wide, but no shorter than `spacing_mm`, if parts
+/// with sides of that length are then clearly fewer.
+[[nodiscard]] TriangleMesh with_slivers_sliced(TriangleMesh mesh, double spacing_mm);
+
 }  // namespace flank::internal::verify

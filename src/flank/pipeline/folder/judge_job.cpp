@@ -72,7 +72,7 @@ class JudgedShapes {
         add([&](double mm) { return verify::make_sampler(value, mm, target, kTileSamples); }, here, enough);
         continue;
       }
-      meshes_.push_back(extract_mesh(part, {face}));
+      meshes_.push_back(verify::with_slivers_sliced(extract_mesh(part, {face}), here));
       shapes_.emplace_back(&meshes_.back());
       const auto make = [&](double mm) {
         return verify::make_sampler(part.face_id(face), meshes_.back(), mm, target, kTileSamples);

@@ -46,13 +46,22 @@ double enough_for(double least_coverage) {
   return 1.0 - (1.0 - kOfTheRest) * (1.0 - least_coverage);
 }
 
+/// Where facets keep every motion from what was asked, no more than they leave is searched for, and that with little: other ways and
+/// more candidates cost as much as all else, and facets stay what they are.
+void give_up_the_rest(double most, FlankFitOptions& options) {
+  options.enough_coverage = std::min(options.enough_coverage, most);
+  options.ways = false;
+  options.kept_after_quick = 2;
+  options.kept_after_polish = 1;
+}
+
 /// `free_tool`: what is reachable is asked with the ball of the demand.
 FlankFitOptions options_of(const FitJob& job, const Setup& setup, const Target& target, bool free_tool) {
   FlankFitOptions options;
   const double most = most_of_facets(target, job.tolerance_mm), least = std::min(job.judge.least_coverage, most);
-  options.ways = least == job.judge.least_coverage;  // they cost as much as all else, and facets stay what they are
   options.tolerance_mm = job.tolerance_mm;
   options.enough_coverage = std::min(options.enough_coverage, enough_for(least));
+  if (most < job.judge.least_coverage) give_up_the_rest(most, options);
   options.axis_length_mm = job.tool.axis_length_mm;
   options.bounds = bounds_for(job, target);
   const double demanded = free_tool ? demanded_reach(job, setup, target, options.bounds) : 0.0;

@@ -7,7 +7,9 @@
 #include <optional>
 #include <utility>
 
+#include "flank/base/journal.h"
 #include "flank/fit/coverage.h"
+#include "flank/fit/fit_record.h"
 #include "flank/fit/tried.h"
 #include "flank/pipeline/search/out_of_reach.h"
 #include "flank/pipeline/search/stiff_fit.h"
@@ -23,12 +25,30 @@ void keep_better(FlankFitResult& best, FlankFitResult&& other, const FlankFitOpt
   add_tried(best, other, options.bounds);
 }
 
+/// Of the face, before the last passes, which rarely gain more than a tenth: a strip more is tried instead.
+constexpr double kPromising = 0.85;
+
+/// What covers less than this is beaten without a last look, which hardly makes it cover more.
+double least_to_look_at(const FlankFitResult& best, double tolerance_mm) {
+  constexpr double kLookGains = 0.01;  // of the face
+  const bool sound = best.looked_at && is_clean(best.after, tolerance_mm) && best.after.largest_c < 1.0;
+  return sound ? std::max(kPromising, best.after.at_tolerance - kLookGains) : kPromising;
+}
+
+/// The last look at a result that went without and was not beaten.
+FlankFitResult looked_at(FlankFitResult best, const Target& target, const ToolModel& tool,
+                         const FlankFitOptions& options, const Progress& progress) {
+  if (best.looked_at || best.motions.empty() || progress.stop()) return best;
+  std::vector<FitTask> tasks;
+  for (const RuledMotion& motion : best.motions) tasks.push_back({&target, motion, options.obstacles});
+  return journaled(
+      progress, "close look", [&] { return with_close_look(tasks, best, tool, options); }, best);
+}
+
 /// One group with as many strips as its tolerance needs: a strip more as long as that is not met, and gains something or
 /// promises to.
 FlankFitResult fit_auto(const Target& target, const ToolModel& tool, FlankFitOptions options, double wanted,
                         const Progress& progress) {
-  /// Of the face, before the last passes, which rarely gain more than a tenth: a strip more is tried instead.
-  constexpr double kPromising = 0.85;
   const bool has_ways = options.ways;
   FlankFitResult best;
   double one_covers = 0.0, rest = 1.0;
@@ -36,6 +56,7 @@ FlankFitResult fit_auto(const Target& target, const ToolModel& tool, FlankFitOpt
   for (int count : {1, 2, 3, 4, 6, 8, 10, kMostStrips}) {
     options.strips = count;
     options.least_coverage_for_last_passes = count < kMostStrips ? kPromising : 0.0;
+    options.least_coverage_for_close_look = least_to_look_at(best, options.tolerance_mm);
     const double here = 1.0 - rest;  // nobody knows how many follow: each gets a half of what is left
     FlankFitResult result = fit_automatic(target, tool, options, progress.part(here, 1.0 - (rest *= 0.5)));
     if (count == 1) one_covers = result.after.at_tolerance;
@@ -44,11 +65,13 @@ FlankFitResult fit_auto(const Target& target, const ToolModel& tool, FlankFitOpt
     keep_better(best, std::move(result), options);
     if (is_done(best, wanted, options.tolerance_mm) || !gain.goes_on(best) || progress.stop()) break;
   }
+  options.least_coverage_for_close_look = 0.0;
   if (has_ways && !options.ways && !is_done(best, wanted, options.tolerance_mm) && !progress.stop()) {
     options.strips = std::max<int>(1, static_cast<int>(best.motions.size()));
     options.ways = true;
     keep_better(best, fit_automatic(target, tool, options, progress.part(1.0 - rest, 1.0)), options);
   }
+  best = looked_at(std::move(best), target, tool, options, progress);
   if (best.motions.size() > 1)
     best.notes.push_back(fmt::format("{} strips cover {:.1f} % (estimate), one strip {:.1f} %", best.motions.size(),
                                      100.0 * best.after.at_tolerance, 100.0 * one_covers));

@@ -25,7 +25,8 @@ bool StripGain::goes_on(const FlankFitResult& best) {
   covered_ = covered;
   promised_ = std::max(promised_, promised);
   const int most = covered >= kNearlyAll ? kMostWithoutNear : kMostWithout;
-  return without_gain_ < (facets_limit_ ? 1 : most);
+  // What has covered nothing yet, because it runs through other faces, tells nothing of what facets leave.
+  return without_gain_ < (facets_limit_ && promised_ > 0.0 ? 1 : most);
 }
 
 }  // namespace flank::internal
