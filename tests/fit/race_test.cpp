@@ -99,7 +99,7 @@ TEST_F(Racing, AToolMoreSlenderThanAskedIsNotEnough) {
   EXPECT_TRUE(run({start(3.0)}).enough);
 }
 
-TEST_F(Racing, WhatCoversEnoughAndIsNotEnoughGetsNoMorePasses) {
+TEST_F(Racing, WhatCoversEnoughAndGainedNothingGetsNoMorePasses) {
   options_.bounds.largest = 3.0;
   options_.partial_passes = false;
   options_.bounds.slenderest = 7.0;  // as above

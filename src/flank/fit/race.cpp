@@ -201,8 +201,7 @@ void pass_until_enough(std::vector<Runner>& runners, const std::vector<SurfaceSa
   }
 }
 
-/// Passes once more, as long as they gain, of a fit that covers all but a little: a strip more would cost several times as much. Of one
-/// that covers what was asked and falls short otherwise, too.
+/// Passes once more, as long as they gain, of a fit that covers all but a little: a strip more would cost several times as much.
 void pass_again(Runner& runner, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options,
                 const Progress& progress) {
   constexpr double kLittle = 0.02;  // of the face
@@ -210,12 +209,17 @@ void pass_again(Runner& runner, const std::vector<SurfaceSample>& samples, const
   constexpr int kMost = 3;
   if (runner.gained <= 0.0) return;
   const auto missing = [&] { return options.enough_coverage - runner.polished.estimate.at_tolerance; };
-  for (int k = 0; k < kMost && !runner.enough && runner.passed && missing() <= kLittle && !progress.stop(); ++k) {
-    const double before = missing(), score = score_of(runner, options);
+  const auto goes_on = [&] { return !runner.enough && runner.passed && !progress.stop(); };
+  for (int k = 0; k < kMost && goes_on() && missing() > 0.0 && missing() <= kLittle; ++k) {
+    const double before = missing();
     pass(runner, samples, options, progress);
-    const bool gains = before > 0.0 ? missing() <= (1.0 - kGains) * before : score_of(runner, options) > score;
-    if (!gains) break;
+    if (missing() > (1.0 - kGains) * before) return;
   }
+  if (!goes_on() || missing() > 0.0) return;
+  // What is covered and short otherwise, as by plunging, is led out of that by one pass, or by none.
+  Runner again = runner;
+  pass(again, samples, options, progress);
+  if (again.enough) runner = std::move(again);
 }
 
 /// The runners behind the first.

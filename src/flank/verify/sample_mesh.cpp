@@ -181,7 +181,7 @@ void add(const Vec3& a, const Vec3& b, const Vec3& c, std::vector<Triangle>& out
 
 /// Slices of equal width along the longest side, each as one to three triangles that are turned as the whole is.
 std::vector<Triangle> slices_of(const Triangle& whole, int count) {
-  const auto& [a, b, c] = whole;
+  const Vec3 &a = whole[0], &b = whole[1], &c = whole[2];
   const double top = std::clamp((c - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
   // The place on the two other sides above a share of the longest.
   const auto above = [&](double t) -> Vec3 {
