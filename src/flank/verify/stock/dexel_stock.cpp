@@ -75,8 +75,6 @@ Surface surface_along(const DexelField& field, const Vec3& x, double cell) {
   return out;
 }
 
-enum class Sight { kOut, kIn, kMixed };
-
 /// Rounded down, without a call.
 int floor_of(double x) {
   const int whole = static_cast<int>(x);
@@ -109,6 +107,11 @@ Sight sight_along(const DexelField& field, const Vec3& x, double margin) {
   for (int k = 1; k < 4; ++k)
     if (sight_of(field, row + k / 2, line + k % 2, place, margin) != first) return Sight::kMixed;
   return first;
+}
+
+int most_along(const Vec3& direction) {
+  const double x = std::abs(direction.x()), y = std::abs(direction.y()), z = std::abs(direction.z());
+  return x >= y && x >= z ? 0 : y >= z ? 1 : 2;
 }
 
 /// Takes away what is beyond the planes.
@@ -219,13 +222,25 @@ double DexelStock::depth(const Vec3& x) const {
   return inside > 0 ? 0.5 * cell_ : -0.5 * cell_;
 }
 
+// Lines across a layer see it however thin it is: they are believed where none of them ends near, and where the ends of all
+// four make a surface.
 bool DexelStock::holds(const Vec3& x, const Vec3& across) const {
-  Eigen::Index most = 0;
-  across.cwiseAbs().maxCoeff(&most);
-  // Lines across a layer see it however thin it is: they are believed where none of them ends near, and where the ends of all
-  // four make a surface.
-  const DexelField& first = field(static_cast<int>(most));
-  if (const Sight sight = sight_along(first, x, cell_); sight != Sight::kMixed) return sight == Sight::kIn;
+  const DexelField& first = field(most_along(across));
+  return holds_by(first, x, sight_along(first, x, cell_));
+}
+
+bool DexelStock::holds(const Vec3& x, const Vec3& across, std::vector<EmptyBlocks>& known) const {
+  const DexelField& first = field(most_along(across));
+  EmptyBlocks& blocks = known[static_cast<std::size_t>(first.axis())];
+  const std::optional<std::size_t> block = blocks.block_at(first, x);
+  if (block && blocks.is_empty(*block)) return false;
+  const Sight sight = sight_along(first, x, cell_);
+  if (block && sight == Sight::kOut) blocks.add(first, *block, cell_);
+  return holds_by(first, x, sight);
+}
+
+bool DexelStock::holds_by(const DexelField& first, const Vec3& x, Sight sight) const {
+  if (sight != Sight::kMixed) return sight == Sight::kIn;
   const Surface surface = surface_along(first, x, cell_);
   return surface.found ? surface.distance > 0.0 : depth(x) > 0.0;
 }

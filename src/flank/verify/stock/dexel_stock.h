@@ -9,10 +9,14 @@
 #include "flank/path/half_space.h"
 #include "flank/triangle_mesh.h"
 #include "flank/verify/stock/dexel_field.h"
+#include "flank/verify/stock/empty_blocks.h"
 #include "flank/verify/stock/line_weights.h"
 #include "flank/verify/stock/tool_solid.h"
 
 namespace flank::internal::verify {
+
+/// What lines say of a place.
+enum class Sight { kOut, kIn, kMixed };
 
 /// Not for several threads at once, but for reading; works in parallel itself, with the same bits for any number of threads.
 class DexelStock {
@@ -34,6 +38,9 @@ class DexelStock {
   /// Whether depth(x) > 0, of a place where layers of material lie across a direction: quicker, as most places lie deep in the
   /// material or far from it.
   [[nodiscard]] bool holds(const Vec3& x, const Vec3& across) const;
+  /// The same, sooner where it was asked before: `known`, of the stock's fields, is from the stock as it is or was.
+  [[nodiscard]] bool holds(const Vec3& x, const Vec3& across, std::vector<EmptyBlocks>& known) const;
+  [[nodiscard]] std::vector<EmptyBlocks> empty_blocks() const { return {fields_.begin(), fields_.end()}; }
   /// The distance where lines see a smooth surface; none at edges, and where there is no material near.
   [[nodiscard]] std::optional<double> distance(const Vec3& x) const;
 
@@ -42,6 +49,8 @@ class DexelStock {
   [[nodiscard]] const DexelField& field(int axis) const { return fields_[static_cast<std::size_t>(axis)]; }
 
  private:
+  /// By the lines of a field first.
+  [[nodiscard]] bool holds_by(const DexelField& first, const Vec3& x, Sight sight) const;
   double cut_field(std::size_t axis, const ToolSolid& tool, const Pose& pose);
   Box3 box_;
   double cell_;
