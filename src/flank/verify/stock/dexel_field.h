@@ -32,9 +32,8 @@ class DexelField {
   [[nodiscard]] double line_at(double place) const { return (place - low_[across()]) / cell_ - 0.5; }
   [[nodiscard]] double row_at(double place) const { return (place - low_[up()]) / cell_ - 0.5; }
 
-  /// The same along the lines, from the box' lower side on, in cells, and how many of them hold the box.
-  [[nodiscard]] double place_along(int cell) const { return low_[axis_] + cell * cell_; }
-  [[nodiscard]] double cells_along(double place) const { return (place - low_[axis_]) / cell_; }
+  /// Where the grid begins, and how many cells along the lines hold the box.
+  [[nodiscard]] const Vec3& low() const { return low_; }
   [[nodiscard]] int depth() const { return depth_; }
 
   /// Takes [low, high] away; returns the length that was material, mm.

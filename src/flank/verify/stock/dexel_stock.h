@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -49,6 +50,16 @@ class DexelStock {
   [[nodiscard]] const DexelField& field(int axis) const { return fields_[static_cast<std::size_t>(axis)]; }
 
  private:
+  /// The surface along four lines around a point: bilinear, where all four have it.
+  struct Surface {
+    double distance = std::numeric_limits<double>::infinity();  ///< signed, mm, > 0 in the material
+    bool found = false;
+    bool any = false;     ///< one of the lines has material
+    bool inside = false;  ///< of the nearest line
+  };
+  [[nodiscard]] static Surface surface_along(const DexelField& field, const Vec3& x, double cell);
+  /// Where the surface along one of the fields is known.
+  [[nodiscard]] double depth(const Vec3& x, const DexelField* known, const Surface& of_known) const;
   /// By the lines of a field first.
   [[nodiscard]] bool holds_by(const DexelField& first, const Vec3& x, Sight sight) const;
   double cut_field(std::size_t axis, const ToolSolid& tool, const Pose& pose);

@@ -15,26 +15,22 @@ constexpr double kSpare = 1e-6;
 }  // namespace
 
 EmptyBlocks::EmptyBlocks(const DexelField& field) {
+  std::array<int, 3> cells{};
+  cells[static_cast<std::size_t>(field.across())] = field.width();
+  cells[static_cast<std::size_t>(field.up())] = field.rows();
+  cells[static_cast<std::size_t>(field.axis())] = field.depth();
   const auto all = [&] {
-    const auto blocks_of = [&](int cells) { return ((cells - 1) >> shift_) + 1; };
-    count_ = {blocks_of(field.width()), blocks_of(field.rows()), blocks_of(field.depth())};
-    return static_cast<std::size_t>(count_[0]) * static_cast<std::size_t>(count_[1]) *
-           static_cast<std::size_t>(count_[2]);
+    std::size_t product = 1;
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      count_[k] = (cells[k] + cells_ - 1) / cells_;
+      product *= static_cast<std::size_t>(count_[k]);
+    }
+    return product;
   };
-  while (all() > kMostBlocks) ++shift_;
+  while (all() > kMostBlocks) cells_ *= 2;
   asked_.assign(all(), 0);
-}
-
-std::optional<std::size_t> EmptyBlocks::block_at(const DexelField& field, const Vec3& x) const {
-  const double line = field.line_at(x[field.across()]), row = field.row_at(x[field.up()]),
-               place = field.cells_along(x[field.axis()]);
-  if (!(line >= 0.0 && row >= 0.0 && place >= 0.0)) return std::nullopt;
-  const int a = static_cast<int>(line) >> shift_, b = static_cast<int>(row) >> shift_,
-            c = static_cast<int>(place) >> shift_;
-  if (a >= count_[0] || b >= count_[1] || c >= count_[2]) return std::nullopt;
-  return (static_cast<std::size_t>(b) * static_cast<std::size_t>(count_[0]) + static_cast<std::size_t>(a)) *
-             static_cast<std::size_t>(count_[2]) +
-         static_cast<std::size_t>(c);
+  per_mm_ = 1.0 / (cells_ * field.cell());
+  low_ = field.low();
 }
 
 void EmptyBlocks::add(const DexelField& field, std::size_t block, double margin) {
@@ -43,17 +39,21 @@ void EmptyBlocks::add(const DexelField& field, std::size_t block, double margin)
 }
 
 bool EmptyBlocks::looks_empty(const DexelField& field, std::size_t block, double margin) const {
-  const auto along = static_cast<std::size_t>(count_[2]), across = static_cast<std::size_t>(count_[0]);
-  const int cells = 1 << shift_, c = static_cast<int>(block % along) * cells,
-            a = static_cast<int>(block / along % across) * cells, b = static_cast<int>(block / along / across) * cells;
-  const double more = margin + kSpare * field.cell(), low = field.place_along(c) - more,
-               high = field.place_along(c + cells) + more;
-  // A place lies between two lines and two rows.
-  const int lines = std::min(a + cells, field.width() - 1), rows = std::min(b + cells, field.rows() - 1);
-  for (int row = b; row <= rows; ++row)
-    for (int line = a; line <= lines; ++line) {
-      double from = low, to = high;
-      if (field.meets(row, line, from, to)) return false;
+  const auto nx = static_cast<std::size_t>(count_[0]), ny = static_cast<std::size_t>(count_[1]);
+  const std::array<int, 3> first = {static_cast<int>(block % nx) * cells_, static_cast<int>(block / nx % ny) * cells_,
+                                    static_cast<int>(block / nx / ny) * cells_};
+  const auto at = [&](int axis) { return first[static_cast<std::size_t>(axis)]; };
+  const double more = margin + kSpare * field.cell(),
+               from = field.low()[field.axis()] + at(field.axis()) * field.cell(), low = from - more,
+               high = from + cells_ * field.cell() + more;
+  // A place lies between two lines and two rows, which go through the middles of cells.
+  const int line_low = std::max(0, at(field.across()) - 1), row_low = std::max(0, at(field.up()) - 1);
+  const int line_high = std::min(at(field.across()) + cells_, field.width() - 1);
+  const int row_high = std::min(at(field.up()) + cells_, field.rows() - 1);
+  for (int row = row_low; row <= row_high; ++row)
+    for (int line = line_low; line <= line_high; ++line) {
+      double begin = low, end = high;
+      if (field.meets(row, line, begin, end)) return false;
     }
   return true;
 }
