@@ -126,7 +126,7 @@ TEST(DexelStock, HoldsWhatHasADepth) {
 
 TEST(DexelStock, HoldsTheSameWhereBlocksAreKnownToBeEmpty) {
   DexelStock stock(box_of(Vec3::Constant(-6.0), Vec3(6.0, 5.3, 7.1)), {}, 0.3);
-  const ToolSolid tool(cylinder(1.0, 20.0), 1e-3);
+  const ToolSolid tool(cylinder(2.5, 20.0), 1e-3);
   std::vector<EmptyBlocks> known = stock.empty_blocks();
   std::mt19937 random(5);
   std::uniform_real_distribution<double> place(-7.5, 7.5);
