@@ -135,10 +135,17 @@ void CycleSearch::take(Trial& trial, bool peak, bool volume) {
     back = backs_.measure(*trial.back, peak, volume, kRows, rings, has_rows_apart(*trial.back), meter_);
     stock_.add(Sweep::of(*trial.back, kHalfIntervals));
   }
-  const Engagement front = meter_.measure(trial.front, rings.of(peak, volume), kRows);
-  if (peak) trial.largest_rad = std::max(back.peak->angle_rad, front.peak.angle_rad);
+  const bool between = has_rows_apart(trial.front);
+  const RowRings& asked = rings.of(peak, volume);
+  const Engagement front = peak && !between
+                               ? meter_.measure_peak(trial.front, asked, kRows, front_guess_, back.peak->angle_rad)
+                               : meter_.measure(trial.front, asked, kRows);
+  if (peak) {
+    trial.largest_rad = std::max(back.peak->angle_rad, front.peak.angle_rad);
+    if (front.peak.angle_rad > 0.0) front_guess_ = front.peak.t;
+  }
   // What is too much already need not be known.
-  if (peak && trial.largest_rad <= aim() && has_rows_apart(trial.front))
+  if (peak && trial.largest_rad <= aim() && between)
     trial.largest_rad = std::max(trial.largest_rad, meter_.look_between(trial.front, front).angle_rad);
   if (trial.back) stock_.remove_last();
   if (volume) trial.volume_mm3 = *back.volume_mm3 + front.volume_mm3;

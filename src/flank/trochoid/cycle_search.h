@@ -121,7 +121,8 @@ class CycleSearch {
   const CycleOptions& options_;
   EngagementMeter meter_;
   RowRings rings_, volume_rings_, both_rings_;
-  KeptMeasures backs_;  ///< of the cycle that is looked for: many trials differ in their fronts alone
+  KeptMeasures backs_;        ///< of the cycle that is looked for: many trials differ in their fronts alone
+  double front_guess_ = 0.5;  ///< when the last front that was measured engaged most
   SidePairing pairing_;
   double radius_ = 0.0;
   RefusedStep refused_;

@@ -419,6 +419,30 @@ TEST(Engagement, RingsBetweenOthersAreAskedWhereTheyEngageMost) {
   }
 }
 
+TEST(Engagement, APeakAloneIsTheOneOfAllRows) {
+  SweptStock stock(barrel(), {{Vec3::UnitZ(), 21.3}});
+  for (const double step : {0.0, 0.4}) stock.add(Sweep::of(twisted_half(step), 48));
+  EngagementMeter meter(stock);
+  for (const double step : {0.6, 1.0, 1.5}) {
+    const RuledMotion next = twisted_half(step);
+    for (const int volume : {0, 5}) {
+      const RowRings rings(stock.radial(), 7, volume);
+      const Engagement all = meter.measure(next, rings, 34);
+      ASSERT_GT(all.peak.angle_rad, 20.0 * kDegree);
+      for (const double guess : {0.0, 0.3, 1.0}) {
+        const Engagement found = meter.measure_peak(next, rings, 34, guess, 0.0);
+        EXPECT_EQ(found.peak.angle_rad, all.peak.angle_rad) << guess;
+        EXPECT_EQ(found.peak.t, all.peak.t) << guess;
+        EXPECT_EQ(found.volume_mm3, all.volume_mm3) << "all that have an area are looked at";
+        EXPECT_EQ(meter.measure_peak(next, rings, 34, guess, 0.9 * all.peak.angle_rad).peak.angle_rad,
+                  all.peak.angle_rad);
+        EXPECT_LE(meter.measure_peak(next, rings, 34, guess, 1.5 * all.peak.angle_rad).peak.angle_rad,
+                  all.peak.angle_rad);
+      }
+    }
+  }
+}
+
 TEST(GapAt, DerivativesAreThoseOfDifferences) {
   const RadialFunction radial = barrel();
   const ToolProfile profile(radial);

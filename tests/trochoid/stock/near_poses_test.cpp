@@ -96,7 +96,7 @@ TEST(NearPoses, LeaveNothingOutThatCovers) {
       near.add(frame, whole, {}, -1.0, scratch, all);
       near.add(frame, whole, parts, -1.0, scratch, some);
       SeenPoses seen;
-      near.see(frame, whole, parts, -1.0, seen);
+      near.see(frame, whole, parts, -1.0, scratch, seen);
       const Poses in_seen = found(seen);
       EXPECT_LT(in_seen.size(), stock.sweeps().size() * 49 * 2 / 3) << "what is far away is not seen";
       const Poses in_all = found(all), in_some = found(some);

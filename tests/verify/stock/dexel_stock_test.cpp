@@ -124,6 +124,29 @@ TEST(DexelStock, HoldsWhatHasADepth) {
   EXPECT_LT(differ, kPlaces / 50);  // at edges, and where the surface lies along the lines that are asked
 }
 
+TEST(DexelStock, HoldsTheSameWhereBlocksAreKnownToBeEmpty) {
+  DexelStock stock(box_of(Vec3::Constant(-6.0), Vec3(6.0, 5.3, 7.1)), {}, 0.3);
+  const ToolSolid tool(cylinder(2.5, 20.0), 1e-3);
+  std::vector<EmptyBlocks> known = stock.empty_blocks();
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> place(-7.5, 7.5);
+  int empty = 0;
+  // A slot that grows leaves more and more blocks without material.
+  for (double x = -5.0; x <= 5.0; x += 0.5) {
+    (void)stock.cut(tool, {Vec3(x, 0.2 * x, -10.0), Vec3(0.1, -0.2, 1.0).normalized()});
+    for (int k = 0; k < 4000; ++k) {
+      const Vec3 at(place(random), place(random), place(random)), across(place(random), place(random), place(random));
+      ASSERT_EQ(stock.holds(at, across, known), stock.holds(at, across)) << at.transpose();
+    }
+  }
+  for (std::size_t axis = 0; axis < known.size(); ++axis)
+    for (int k = 0; k < 1000; ++k) {
+      const auto block = known[axis].block_at(Vec3(place(random), place(random), place(random)));
+      empty += block && known[axis].is_empty(*block) ? 1 : 0;
+    }
+  EXPECT_GT(empty, 100);
+}
+
 TEST(DexelStock, LinesAcrossALayerSeeItHoweverThinItIs) {
   constexpr double kCell = 0.4, kThin = 0.05;
   DexelStock stock(box_of(Vec3(-6.0, -6.0, 0.0), Vec3(6.0, 6.0, 6.0)), {}, kCell);

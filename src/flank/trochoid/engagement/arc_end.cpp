@@ -20,13 +20,13 @@ struct EndStep {
 
 /// Newton's step for gap = 0 and d gap / dt = 0, or for the gap alone where time is at its bounds.
 EndStep step_of(const ToolProfile& profile, const RingCircle& circle, const SweepPlace& cover, double angle, double t) {
-  const SweepPose pose = cover.sweep->at(t);
+  const SweepAxis axis(cover.sweep->at(t));
   const double c = std::cos(angle), d = std::sin(angle);
   const Vec3 x = circle.centre + circle.radius * (c * circle.x + d * circle.y), along = c * circle.y - d * circle.x;
-  const GapJet g = gap_at(profile, pose, x);
+  const GapJet g = gap_at(profile, axis, x);
   const double by_angle = circle.radius * g.gradient.dot(along), back = t + kProbe > cover.last ? -kProbe : kProbe;
   const double tt = (gap_at(profile, cover.sweep->at(t + back), x).dt - g.dt) / back;
-  const double ta = (gap_at(profile, pose, x + kProbe * circle.radius * along).dt - g.dt) / kProbe;
+  const double ta = (gap_at(profile, axis, x + kProbe * circle.radius * along).dt - g.dt) / kProbe;
   const bool low = t <= 0.0 && g.dt >= 0.0, high = t >= cover.last && g.dt <= 0.0;
   const double determinant = by_angle * tt - g.dt * ta;
   EndStep step;

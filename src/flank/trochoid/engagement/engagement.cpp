@@ -136,12 +136,16 @@ Engagement EngagementMeter::measured(const RuledMotion& motion, const RingsOf& r
   out.rows.resize(static_cast<std::size_t>(rows));
   for_each_row(motion, rings_of, rows,
                [&](std::size_t i, const EngagementRow& row, const auto&) { out.rows[i] = row; });
-  for (std::size_t i = 0; i < out.rows.size(); ++i) {
-    const EngagementRow& row = out.rows[i];
-    if (row.angle_rad > out.peak.angle_rad) out.peak = {row.angle_rad, row.t, row.s};
-    out.volume_mm3 += row.rate_mm3 * weight(i, rows);
-  }
+  sum(out);
   return out;
+}
+
+void EngagementMeter::sum(Engagement& measured) {
+  for (std::size_t i = 0; i < measured.rows.size(); ++i) {
+    const EngagementRow& row = measured.rows[i];
+    if (row.angle_rad > measured.peak.angle_rad) measured.peak = {row.angle_rad, row.t, row.s};
+    measured.volume_mm3 += row.rate_mm3 * weight(i, static_cast<int>(measured.rows.size()));
+  }
 }
 
 Engagement EngagementMeter::measure(const RuledMotion& motion, std::span<const ToolRing> rings, int rows) {
@@ -152,6 +156,33 @@ Engagement EngagementMeter::measure(const RuledMotion& motion, std::span<const T
 Engagement EngagementMeter::measure(const RuledMotion& motion, const RowRings& rings, int rows) {
   return measured(
       motion, [&](std::size_t row) { return rings.of(row); }, rows);
+}
+
+Engagement EngagementMeter::measure_peak(const RuledMotion& motion, const RowRings& rings, int rows, double guess,
+                                         double least_rad) {
+  FLANK_ASSERT(rows >= 3);
+  Engagement out;
+  const auto count = static_cast<std::size_t>(rows);
+  out.rows.resize(count);
+  near_.begin(motion);
+  const std::size_t tasks = (count + kRowsOfTask - 1) / kRowsOfTask;
+  reserve(tasks + 1);
+  const auto first = static_cast<std::size_t>(std::lround(std::clamp(guess, 0.0, 1.0) * (rows - 2.0)));
+  const auto ask = [&](RowMeter& meter, std::size_t i, double least) {
+    out.rows[i] = meter.row(motion, time_of(i, rows), rings.of(i), least);
+    return std::max(least, out.rows[i].angle_rad);
+  };
+  meters_[tasks].begin();
+  const double least = ask(meters_[tasks], first, least_rad);
+  parallel_blocks(count, kRowsOfTask, [&](std::size_t begin, std::size_t end) {
+    RowMeter& meter = meters_[begin / kRowsOfTask];
+    meter.begin_after(meters_[tasks]);
+    double here = least;
+    for (std::size_t i = begin; i < end; ++i)
+      if (i != first) here = ask(meter, i, here);
+  });
+  sum(out);
+  return out;
 }
 
 void EngagementMeter::measure_rings(const RuledMotion& motion, std::span<const ToolRing> rings, int rows,
@@ -178,7 +209,6 @@ Ridge EngagementMeter::ridge_in(const RuledMotion& motion, const RidgeWindow& wi
     asked.push_back(ring_at(stock_.radial(), std::lerp(window.s_low, window.s_high, k / (rings - 1.0))));
   const double step = (window.t_high - window.t_low) / (kRidgeTimes - 1.0);
   std::vector<RingTimes> angles(asked.size(), RingTimes{});
-  meter.begin();
   for (std::size_t i = 0; i < kRidgeTimes; ++i) {
     const EngagementRow row = meter.row(motion, window.t_low + static_cast<double>(i) * step, asked);
     for (const RingArc& arc : meter.found()) angles[arc.ring][i] += arc.arc.high - arc.arc.low;
@@ -193,6 +223,7 @@ EngagementPeak EngagementMeter::climb(const RuledMotion& motion, RidgeWindow win
   constexpr int kLooks = 3, kRings = 9;
   EngagementPeak best;
   double s = 0.0;
+  meter.begin();
   for (int look = 0; look < kLooks; ++look) {
     const Ridge ridge = ridge_in(motion, within_motion(window, motion.axis_length), kRings, meter, best);
     const std::vector<std::size_t> tops = ridge.tops();
@@ -202,7 +233,6 @@ EngagementPeak EngagementMeter::climb(const RuledMotion& motion, RidgeWindow win
   }
   window = within_motion(window, motion.axis_length);
   const ToolRing ring = ring_at(stock_.radial(), s);
-  meter.begin();
   golden(window.t_low, window.t_high, [&](double t) {
     const double angle = meter.row(motion, t, {&ring, 1}).angle_rad;
     if (angle > best.angle_rad) best = {angle, t, s};
@@ -222,6 +252,7 @@ EngagementPeak EngagementMeter::look_between(const RuledMotion& motion, const En
   parallel_for(rows.size(), [&](std::size_t k) {
     const double t = measured.rows[rows[k]].t;
     const RidgeWindow window{t - kBeside * step, t + kBeside * step, 0.0, motion.axis_length};
+    meters_[k].begin();
     const Ridge ridge = ridge_in(motion, within_motion(window, motion.axis_length), kLeastRings, meters_[k], peaks[k]);
     for (std::size_t ring = 0; ring < ridge.crests.size(); ++ring)
       if (const Crest& crest = ridge.crests[ring]; crest.angle_rad > peaks[k].angle_rad)
@@ -245,6 +276,7 @@ EngagementPeak EngagementMeter::refine(const RuledMotion& motion, const Engageme
   parallel_for(rows.size(), [&](std::size_t k) {
     const double t = measured.rows[rows[k]].t;
     const RidgeWindow window{t - kBeside * step, t + kBeside * step, 0.0, motion.axis_length};
+    meters_[k].begin();
     ridges[k] = ridge_in(motion, within_motion(window, motion.axis_length), rings, meters_[k], peaks[k]);
   });
   EngagementPeak best = measured.peak;

@@ -43,6 +43,10 @@ class EngagementMeter {
   /// The motion at these times of `rows` (>= 3), on these rings. Earlier poses of the motion itself count as swept.
   [[nodiscard]] Engagement measure(const RuledMotion& motion, std::span<const ToolRing> rings, int rows);
   [[nodiscard]] Engagement measure(const RuledMotion& motion, const RowRings& rings, int rows);
+  /// The peak and the volume alone, the peak if it is more than `least_rad`: what cannot be the peak is not looked at closely. `guess`:
+  /// about when it is; that row comes first.
+  [[nodiscard]] Engagement measure_peak(const RuledMotion& motion, const RowRings& rings, int rows, double guess,
+                                        double least_rad);
   /// Of every ring at each of `rows` (>= 3) times, row by row, into `angles`: rows x rings, radians.
   void measure_rings(const RuledMotion& motion, std::span<const ToolRing> rings, int rows, std::span<double> angles);
   /// Larger or equal: the largest engagement near the largest rows, along the ridges that cross them.
@@ -58,9 +62,12 @@ class EngagementMeter {
   void for_each_row(const RuledMotion& motion, const RingsOf& rings_of, int rows, const Use& use);
   template <class RingsOf>
   [[nodiscard]] Engagement measured(const RuledMotion& motion, const RingsOf& rings_of, int rows);
+  /// Of its rows.
+  static void sum(Engagement& measured);
   /// At least so many meters of rows are there.
   void reserve(std::size_t count);
-  /// What rings at equal steps of a window engage at equal steps of its time: their ridge. Larger engagement than `best` is kept there.
+  /// What rings at equal steps of a window engage at equal steps of its time: their ridge. Larger engagement than `best` is kept there. The
+  /// meter has begun.
   [[nodiscard]] Ridge ridge_in(const RuledMotion& motion, const RidgeWindow& window, int rings, RowMeter& meter,
                                EngagementPeak& best) const;
   /// The largest engagement of a ridge near one of its crests, by ever smaller windows.

@@ -32,8 +32,10 @@ class KeptMeasures {
     Kept& kept = entry(motion);
     const bool more_peak = peak && !kept.peak, more_volume = volume && !kept.volume_mm3;
     if (!more_peak && !more_volume) return kept;
-    const Engagement measured = meter.measure(motion, rings.of(more_peak, more_volume), rows);
-    if (more_peak) kept.peak = between ? meter.look_between(motion, measured) : measured.peak;
+    const RowRings& asked = rings.of(more_peak, more_volume);
+    const Engagement measured = more_peak && !between ? meter.measure_peak(motion, asked, rows, guess_, 0.0)
+                                                      : meter.measure(motion, asked, rows);
+    if (more_peak) kept.peak = between ? meter.look_between(motion, measured) : measured.peak, guess_ = kept.peak->t;
     if (more_volume) kept.volume_mm3 = measured.volume_mm3;
     return kept;
   }
@@ -50,6 +52,7 @@ class KeptMeasures {
     return found != entries_.end() ? found->kept : entries_.emplace_back(Entry{motion, {}}).kept;
   }
   std::vector<Entry> entries_;
+  double guess_ = 0.5;  ///< when the last of them engaged most
 };
 
 }  // namespace flank::internal

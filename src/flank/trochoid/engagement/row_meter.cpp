@@ -53,6 +53,30 @@ void RowMeter::look_roughly(const RowFrame& frame, std::span<const ToolRing> rin
   }
 }
 
+void RowMeter::leave_out(std::span<const ToolRing> rings, double least_rad) {
+  // Ends of arcs hardly move where they are settled.
+  constexpr double kSpare = 0.1;  // radians
+  std::size_t from = 0, kept = 0;
+  for (std::size_t k = 0; k < rings.size(); ++k) {
+    const std::size_t end = fronts_[k].end;
+    double open = 0.0;
+    for (std::size_t g = from; g < end; ++g) open += open_gaps_[g].within().high - open_gaps_[g].within().low;
+    const bool wanted = rings[k].area > 0.0 || open + kSpare > least_rad;
+    for (std::size_t g = from; g < end; ++g) {
+      if (!wanted) {
+        keep_bounds_of(open_gaps_[g]);
+        continue;
+      }
+      open_gaps_[kept] = open_gaps_[g];
+      found_[kept++] = found_[g];
+    }
+    from = end;
+    fronts_[k].end = kept;
+  }
+  open_gaps_.resize(kept);
+  found_.resize(kept);
+}
+
 void RowMeter::look_closely(const RowFrame& frame, std::span<const ToolRing> rings) {
   // What the first look covers stays covered: the discs hold what it left open, and little else.
   const RowDisc open = discs_of(found_, rings, stock_.profile().largest(), parts_);
@@ -66,7 +90,7 @@ void RowMeter::look_closely(const RowFrame& frame, std::span<const ToolRing> rin
     return;
   }
   // What a group of near rings does not need is left out at once; so poses are not looked at one by one before.
-  near_.see(frame, open, parts_, own_last_, seen_);
+  near_.see(frame, open, parts_, own_last_, scratch_, seen_);
   seen_filter_.take(seen_);
   wanted_.begin(rings);
   look_at_groups(frame, rings);
@@ -112,7 +136,7 @@ void RowMeter::find_group(std::span<const ToolRing> rings, std::size_t first, st
   if (group_.empty() || group_.size() > kFewPoses) filter_.take(seen_filter_, group_);
 }
 
-void RowMeter::find_arcs(const RowFrame& frame, double t, std::span<const ToolRing> rings) {
+void RowMeter::find_arcs(const RowFrame& frame, double t, std::span<const ToolRing> rings, double least_rad) {
   frame_ = frame;
   own_last_ = t * NearPoses::kOwnIntervals - 1.0;
   candidates_.clear();
@@ -121,17 +145,21 @@ void RowMeter::find_arcs(const RowFrame& frame, double t, std::span<const ToolRi
   open_gaps_.clear();
   look_at_blank(frame);
   look_roughly(frame, rings);
+  if (least_rad > 0.0) leave_out(rings, least_rad);
   if (!found_.empty()) look_closely(frame, rings);
   settlers_.swap(next_settlers_);
   next_settlers_.clear();
 }
 
 void RowMeter::keep_settlers() {
-  for (const RingGap& gap : gaps_)
-    for (const GapBound& bound : {gap.at_low, gap.at_high})
-      if (bound.is_pose()) keep_settler(bound.candidate);
+  for (const RingGap& gap : gaps_) keep_bounds_of(gap);
   if (!gaps_.empty()) return;
   for (const std::size_t candidate : cutters_) keep_settler(candidate);
+}
+
+void RowMeter::keep_bounds_of(const RingGap& gap) {
+  for (const GapBound& bound : {gap.at_low, gap.at_high})
+    if (bound.is_pose()) keep_settler(bound.candidate);
 }
 
 void RowMeter::keep_settler(std::size_t candidate) {
@@ -356,36 +384,10 @@ void RowMeter::cut_by_poses(const ToolRing& ring, const Front& front) {
   hints_.assign(cutters_.rbegin(), cutters_.rend());
 }
 
-EngagementRow RowMeter::sum_row(const RowFrame& frame, double t, std::span<const ToolRing> rings) const {
-  EngagementRow row;
-  row.t = t;
-  int flank = 0;
-  auto found = found_.begin();
-  for (std::size_t k = 0; k < rings.size(); ++k) {
-    const ToolRing& ring = rings[k];
-    const Vec3 v = frame.axis.velocity(ring.s);
-    const double along = v.dot(frame.axis.u), across = std::sqrt(std::max(0.0, v.squaredNorm() - along * along));
-    double angle = 0.0;
-    for (; found != found_.end() && found->ring == k; ++found) {
-      const Arc& arc = found->arc;
-      angle += arc.high - arc.low;
-      row.rate_mm3 += ring.area * (ring.sine * along * (arc.high - arc.low) +
-                                   ring.cosine * across * (std::sin(arc.high) - std::sin(arc.low)));
-    }
-    if (!ring.flank || !ring.asked) continue;
-    if (!ring.between) ++flank, row.mean_rad += angle;
-    if (angle <= row.angle_rad) continue;
-    row.angle_rad = angle;
-    row.s = ring.s;
-  }
-  if (flank > 0) row.mean_rad /= flank;
-  return row;
-}
-
-EngagementRow RowMeter::row(const RuledMotion& motion, double t, std::span<const ToolRing> rings) {
+EngagementRow RowMeter::row(const RuledMotion& motion, double t, std::span<const ToolRing> rings, double least_rad) {
   const RowFrame frame = frame_of(motion, t);
-  find_arcs(frame, t, rings);
-  return sum_row(frame, t, rings);
+  find_arcs(frame, t, rings, least_rad);
+  return sum_of(frame.axis, t, rings, found_);
 }
 
 }  // namespace flank::internal

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "flank/trochoid/engagement/arc_end.h"
+#include "flank/trochoid/engagement/engagement_row.h"
 #include "flank/trochoid/engagement/leaning_tool.h"
 #include "flank/trochoid/engagement/ring_gaps.h"
 #include "flank/trochoid/engagement/ring_group.h"
@@ -15,14 +16,6 @@
 #include "flank/trochoid/stock/pose_filter.h"
 
 namespace flank::internal {
-
-/// What one row of rings has: a time of the motion.
-struct EngagementRow {
-  double t = 0.0;
-  double angle_rad = 0.0, s = 0.0;  ///< the largest of the flank's rings, and where
-  double mean_rad = 0.0;            ///< of the flank's rings
-  double rate_mm3 = 0.0;            ///< volume removed per unit of t
-};
 
 /// Not for several threads at once: it keeps scratch memory, so that measuring allocates nothing once it has grown. The
 /// stock and the poses near the motion must outlive it.
@@ -33,8 +26,12 @@ class RowMeter {
 
   /// Before the first of some rows of one motion, which follow one another: what settles one of them is asked first at the next.
   void begin() { settlers_.clear(); }
-  /// The time t in [0, 1] of the motion that `near` has begun.
-  [[nodiscard]] EngagementRow row(const RuledMotion& motion, double t, std::span<const ToolRing> rings);
+  /// The same, before rows that are like the last one of another meter.
+  void begin_after(const RowMeter& other) { settlers_ = other.settlers_; }
+  /// The time t in [0, 1] of the motion that `near` has begun. Of rings without an area what engages no more than `least_rad` may be
+  /// left out.
+  [[nodiscard]] EngagementRow row(const RuledMotion& motion, double t, std::span<const ToolRing> rings,
+                                  double least_rad = 0.0);
   /// The arcs of the last row, in the order of its rings.
   [[nodiscard]] const std::vector<RingArc>& found() const { return found_; }
 
@@ -56,9 +53,11 @@ class RowMeter {
   };
   [[nodiscard]] static RowFrame frame_of(const RuledMotion& motion, double t);
   /// The arcs of all rings at a time, into found_.
-  void find_arcs(const RowFrame& frame, double t, std::span<const ToolRing> rings);
+  void find_arcs(const RowFrame& frame, double t, std::span<const ToolRing> rings, double least_rad);
   /// Which arcs the last sweeps leave open, into found_ and open_gaps_.
   void look_roughly(const RowFrame& frame, std::span<const ToolRing> rings);
+  /// Nothing is left open of rings without an area that engage no more than this, as far as the rough look tells.
+  void leave_out(std::span<const ToolRing> rings, double least_rad);
   /// What all sweeps leave of these, into found_.
   void look_closely(const RowFrame& frame, std::span<const ToolRing> rings);
   /// The same of the rings that are in wanted_, by the poses in seen_.
@@ -69,7 +68,6 @@ class RowMeter {
   void find_group(std::span<const ToolRing> rings, std::size_t first, std::size_t end);
   /// Where a ring's gaps begin in open_gaps_.
   [[nodiscard]] std::size_t first_gap(std::size_t ring) const { return ring == 0 ? 0 : fronts_[ring - 1].end; }
-  [[nodiscard]] EngagementRow sum_row(const RowFrame& frame, double t, std::span<const ToolRing> rings) const;
   /// What of it is in the blank, and a little beyond, into gaps_.
   [[nodiscard]] Front front_of(const RowFrame& frame, const ToolRing& ring);
   void look_at_blank(const RowFrame& frame);
@@ -97,6 +95,7 @@ class RowMeter {
   void cut(double low, double high, const GapBound& bound);
   /// Keeps for the next row the poses that end what is left of a ring, or that leave nothing.
   void keep_settlers();
+  void keep_bounds_of(const RingGap& gap);
   void keep_settler(std::size_t candidate);
   /// Adds the arcs of the ring whose gaps are left to found_; those that meet are one.
   void settle(const RowFrame& frame, const ToolRing& ring, std::size_t index, const Front& front);

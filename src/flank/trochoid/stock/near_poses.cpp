@@ -24,7 +24,6 @@ void NearPoses::begin(const RuledMotion& motion) {
   add_bundles_of(own_, kOwnSweep);
   for (int k = static_cast<int>(stock_.sweeps().size()) - 1; k >= 0; --k)
     if (is_ever_near(sweep_of(k), sweep_of(k).whole)) add_bundles_of(sweep_of(k), k);
-  bundles_.make_room();
 }
 
 void NearPoses::add_bundles_of(const Sweep& sweep, int index) {
@@ -104,27 +103,35 @@ void NearPoses::add_roughly(const RowFrame& frame, const RowDisc& whole, double 
   }
 }
 
+template <class Use>
+void NearPoses::for_each_bundle(const RowFrame& frame, const RowDisc& whole, std::span<const RowDisc> parts,
+                                double own_last, NearScratch& scratch, const Use& use) const {
+  scratch.seen.look(frame, tool_, bundles_, bundles_.count(), whole);
+  std::vector<std::size_t>& near = scratch.near;
+  near.clear();
+  for (std::size_t k = 0; k < bundles_.count(); ++k) {
+    const bool later = sweeps_[k] == kOwnSweep && static_cast<double>(firsts_[k]) > own_last;
+    if (!(scratch.seen.beyond[k] > 0.0) && !later) near.push_back(k);
+  }
+  PoseLanes bundles;
+  for (std::size_t block = 0; block < near.size(); block += PoseLanes::kCount) {
+    const auto some =
+        std::span<const std::size_t>(near).subspan(block, std::min(PoseLanes::kCount, near.size() - block));
+    bundles.look(frame, tool_, bundles_, some);
+    if (!bundles.meets(tool_, whole, parts)) continue;
+    for (std::size_t k = 0; k < some.size(); ++k)
+      if (bundles.hit[k] != 0) use(some[k]);
+  }
+}
+
 void NearPoses::add(const RowFrame& frame, const RowDisc& whole, std::span<const RowDisc> parts, double own_last,
                     NearScratch& scratch, std::vector<NearPose>& out) const {
-  scratch.seen.look(frame, tool_, bundles_, bundles_.count(), whole);
   scratch.discs.take(parts);
-  PoseLanes bundles;
-  for (std::size_t block = 0; block < bundles_.count(); block += PoseLanes::kCount) {
-    const std::size_t end = std::min(block + PoseLanes::kCount, bundles_.count());
-    const auto is_beyond = [&](double beyond) { return beyond > 0.0; };
-    const auto from = scratch.seen.beyond.cbegin();
-    if (std::all_of(from + static_cast<std::ptrdiff_t>(block), from + static_cast<std::ptrdiff_t>(end), is_beyond))
-      continue;
-    bundles.look(frame, tool_, bundles_, block);
-    if (!bundles.meets(tool_, whole, parts)) continue;
-    for (std::size_t k = block; k < end; ++k) {
-      if (bundles.hit[k - block] == 0 || scratch.seen.beyond[k] > 0.0) continue;
-      if (sweeps_[k] == kOwnSweep && static_cast<double>(firsts_[k]) > own_last) continue;
-      scratch.discs.meet(scratch.seen, k, bundles_.at[6][k], tool_, parts, scratch.some);
-      if (!parts.empty() && scratch.some.empty()) continue;
-      add_bundle(frame, whole, scratch.some, k, own_last, out);
-    }
-  }
+  for_each_bundle(frame, whole, parts, own_last, scratch, [&](std::size_t k) {
+    scratch.discs.meet(scratch.seen, k, bundles_.at[6][k], tool_, parts, scratch.some);
+    if (!parts.empty() && scratch.some.empty()) return;
+    add_bundle(frame, whole, scratch.some, k, own_last, out);
+  });
 }
 
 void NearPoses::add_pose(const RowFrame& frame, int sweep, int pose, double own_last,
@@ -138,23 +145,16 @@ void NearPoses::add_pose(const RowFrame& frame, int sweep, int pose, double own_
 }
 
 void NearPoses::see(const RowFrame& frame, const RowDisc& whole, std::span<const RowDisc> parts, double own_last,
-                    SeenPoses& out) const {
+                    NearScratch& scratch, SeenPoses& out) const {
   out.clear();
-  PoseLanes bundles, lanes;
-  for (std::size_t block = 0; block < bundles_.count(); block += PoseLanes::kCount) {
-    bundles.look(frame, tool_, bundles_, block);
-    if (!bundles.meets(tool_, whole, parts)) continue;
-    for (std::size_t k = 0; k < PoseLanes::kCount && block + k < bundles_.count(); ++k) {
-      const std::size_t bundle = block + k, first = firsts_[bundle];
-      const int sweep = sweeps_[bundle];
-      if (bundles.hit[k] == 0 || (sweep == kOwnSweep && static_cast<double>(first) > own_last)) continue;
-      const std::size_t end = end_of(bundle, own_last);
-      for (std::size_t from = first; from < end; from += PoseLanes::kCount) {
-        lanes.project(frame, sweep_of(sweep), from);
-        out.add(lanes, end - from, sweep, from);
-      }
+  PoseLanes lanes;
+  for_each_bundle(frame, whole, parts, own_last, scratch, [&](std::size_t bundle) {
+    const std::size_t end = end_of(bundle, own_last);
+    for (std::size_t from = firsts_[bundle]; from < end; from += PoseLanes::kCount) {
+      lanes.project(frame, sweep_of(sweeps_[bundle]), from);
+      out.add(lanes, end - from, sweeps_[bundle], from);
     }
-  }
+  });
 }
 
 void SeenPoses::clear() {

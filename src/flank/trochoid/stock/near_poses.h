@@ -48,6 +48,7 @@ struct NearScratch {
   SeenBundles seen;
   DiscLanes discs;
   std::vector<RowDisc> some;
+  std::vector<std::size_t> near;  ///< bundles
 };
 
 /// Leaves nothing out that covers something. Once a motion has begun, for many threads at once. The stock must outlive it.
@@ -76,7 +77,7 @@ class NearPoses {
   /// All poses of the bundles of which one may cover something of one of `parts`, in place of what is in `out`: more than add
   /// finds, and sooner.
   void see(const RowFrame& frame, const RowDisc& whole, std::span<const RowDisc> parts, double own_last,
-           SeenPoses& out) const;
+           NearScratch& scratch, SeenPoses& out) const;
 
  private:
   /// One past the last pose of a bundle that counts.
@@ -87,6 +88,11 @@ class NearPoses {
   /// Adds those of a bundle, as add does; the discs are those that it may reach.
   void add_bundle(const RowFrame& frame, const RowDisc& whole, std::span<const RowDisc> discs, std::size_t bundle,
                   double own_last, std::vector<NearPose>& out) const;
+  /// Calls use(bundle) for those of which a pose may cover something of one of `parts`, in their order. Those that the row's disc leaves
+  /// are few, and are looked at several at a time.
+  template <class Use>
+  void for_each_bundle(const RowFrame& frame, const RowDisc& whole, std::span<const RowDisc> parts, double own_last,
+                       NearScratch& scratch, const Use& use) const;
   /// Bundles of the motion itself and of the last `recent` sweeps.
   [[nodiscard]] std::size_t count_of(std::size_t recent) const;
   [[nodiscard]] const Sweep& sweep_of(int index) const {

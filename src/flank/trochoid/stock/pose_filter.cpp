@@ -175,29 +175,30 @@ void PoseFilter::resize(std::size_t count) {
 }
 
 void PoseFilter::take(std::span<const NearPose> candidates) {
-  resize(candidates.size());
-  for (std::size_t k = 0; k < candidates.size(); ++k) {
-    const NearPose& c = candidates[k];
-    take_poses(1, {low_, per_mm_, largest_},
-               {{&c.x0, &c.y0, &c.dx, &c.dy, &c.h0, &c.dh},
-                &x_[k],
-                &y_[k],
-                &dx_[k],
-                &dy_[k],
-                &band_[k],
-                &band_by_z_[k],
-                &slope_[k],
-                &leaning_[k],
-                &swing_[k]});
+  std::array<const double*, 6> from{};
+  for (std::size_t c = 0; c < from.size(); ++c) {
+    lanes_[c].resize(candidates.size());
+    from[c] = lanes_[c].data();
   }
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    const NearPose& pose = candidates[k];
+    lanes_[0][k] = pose.x0, lanes_[1][k] = pose.y0, lanes_[2][k] = pose.dx;
+    lanes_[3][k] = pose.dy, lanes_[4][k] = pose.h0, lanes_[5][k] = pose.dh;
+  }
+  take(candidates.size(), from);
 }
 
 void PoseFilter::take(const SeenPoses& candidates) {
-  resize(candidates.count());
-  TakenPoses poses{{},           x_.data(),         y_.data(),     dx_.data(),      dy_.data(),
-                   band_.data(), band_by_z_.data(), slope_.data(), leaning_.data(), swing_.data()};
-  for (std::size_t c = 0; c < poses.from.size(); ++c) poses.from[c] = candidates.lane(c);
-  take_poses(candidates.count(), {low_, per_mm_, largest_}, poses);
+  std::array<const double*, 6> from{};
+  for (std::size_t c = 0; c < from.size(); ++c) from[c] = candidates.lane(c);
+  take(candidates.count(), from);
+}
+
+void PoseFilter::take(std::size_t count, const std::array<const double*, 6>& from) {
+  resize(count);
+  take_poses(count, {low_, per_mm_, largest_},
+             {from, x_.data(), y_.data(), dx_.data(), dy_.data(), band_.data(), band_by_z_.data(), slope_.data(),
+              leaning_.data(), swing_.data()});
 }
 
 void PoseFilter::take(const PoseFilter& from, std::span<const std::size_t> which) {

@@ -1,6 +1,7 @@
 /// A quick look at all candidates of a ring, several at a time: which of them may reach into what is still open of it.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -49,6 +50,8 @@ class PoseFilter {
 
  private:
   void resize(std::size_t count);
+  /// `from`: as SeenPoses has them.
+  void take(std::size_t count, const std::array<const double*, 6>& from);
   void find_reaches(double z);
   void find_reaches(const RingGroup& group);
   /// Of the candidates whose reaches were found.
@@ -58,9 +61,10 @@ class PoseFilter {
   std::vector<float> bands_;
   std::vector<float> group_bands_;  ///< the same for the heights of a group about that
   double low_ = 0.0, per_mm_ = 0.0, largest_ = 0.0, group_height_ = 0.0;
-  std::vector<float> x_, y_, dx_, dy_;   ///< as NearPose has them
-  std::vector<float> band_, band_by_z_;  ///< the same of h0 and dh, in bands
-  std::vector<float> slope_;             ///< of the axes, or a little more
+  std::array<std::vector<double>, 6> lanes_;  ///< of candidates that are taken
+  std::vector<float> x_, y_, dx_, dy_;        ///< as NearPose has them
+  std::vector<float> band_, band_by_z_;       ///< the same of h0 and dh, in bands
+  std::vector<float> slope_;                  ///< of the axes, or a little more
   std::vector<float> leaning_;         ///< how far a leaning tool reaches in the plane of a ring, mm; 0: it is upright
   std::vector<float> swing_;           ///< and over which heights of its own about its axis', in bands
   std::vector<float> x_at_, y_at_;     ///< axes in the plane of the ring

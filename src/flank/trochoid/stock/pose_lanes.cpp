@@ -173,10 +173,6 @@ void BundleLanes::clear() {
   for (std::vector<double>& values : poses) values.clear();
 }
 
-void BundleLanes::make_room() {
-  for (std::vector<double>& values : poses) values.resize(values.size() + PoseLanes::kCount, values.back());
-}
-
 void SeenBundles::look(const RowFrame& frame, const ToolReach& tool, const BundleLanes& bundles, std::size_t count,
                        const RowDisc& whole) {
   for (std::vector<double>* values : {&x, &y, &along, &tilt, &beyond}) values->resize(count);
@@ -218,12 +214,18 @@ void PoseLanes::look_roughly(const RowFrame& frame, const ToolReach& tool, const
   spread.fill(0.0F);
 }
 
-void PoseLanes::look(const RowFrame& frame, const ToolReach& tool, const BundleLanes& bundles, std::size_t first) {
+void PoseLanes::look(const RowFrame& frame, const ToolReach& tool, const BundleLanes& bundles,
+                     std::span<const std::size_t> which) {
+  std::array<Doubles, 6> some;  // not set
   std::array<const double*, 6> from{};
-  for (std::size_t c = 0; c < from.size(); ++c) from[c] = bundles.poses[c].data() + first;
+  for (std::size_t c = 0; c < from.size(); ++c) {
+    for (std::size_t k = 0; k < kCount; ++k) some[c][k] = bundles.poses[c][which[std::min(k, which.size() - 1)]];
+    from[c] = some[c].data();
+  }
   look_at_lanes(frame, from, *this);
   extend_lanes(tool, *this);
-  for (std::size_t k = 0; k < kCount; ++k) spread[k] = static_cast<float>(bundles.poses[6][first + k]);
+  for (std::size_t k = 0; k < kCount; ++k)
+    spread[k] = static_cast<float>(bundles.poses[6][which[std::min(k, which.size() - 1)]]);
 }
 
 void PoseLanes::project(const RowFrame& frame, const Sweep& sweep, std::size_t first) {

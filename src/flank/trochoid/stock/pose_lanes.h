@@ -35,13 +35,11 @@ struct BundleLanes {
   std::array<std::vector<double>, 7>
       at;  ///< middle of the axes, the first axis, and how far other middles are from it, mm
   /// The pose that stands for each of them, as Sweep has its lanes, and how far its others may be from that at any height of
-  /// the tool, mm; there is room for PoseLanes::kCount more.
+  /// the tool, mm.
   std::array<std::vector<double>, 7> poses;
   /// Of a tool that reaches so many lengths of its axis past its ends.
   void add(const Sweep::Chunk& chunk, const Vec3& axis, double past_ends);
   void clear();
-  /// Once all are added.
-  void make_room();
   [[nodiscard]] std::size_t count() const { return at[0].size(); }
 };
 
@@ -79,8 +77,9 @@ struct PoseLanes {
   void look(const RowFrame& frame, const ToolReach& tool, const Sweep& sweep, std::size_t first);
   /// Every Sweep::kRough-th pose, from one of these on.
   void look_roughly(const RowFrame& frame, const ToolReach& tool, const Sweep& sweep, std::size_t first);
-  /// Poses that stand for bundles, from one of them on.
-  void look(const RowFrame& frame, const ToolReach& tool, const BundleLanes& bundles, std::size_t first);
+  /// Poses that stand for bundles, 1 to kCount of them; the last one again up to that.
+  void look(const RowFrame& frame, const ToolReach& tool, const BundleLanes& bundles,
+            std::span<const std::size_t> which);
   /// Where their axes meet the plane of a row, and nothing else.
   void project(const RowFrame& frame, const Sweep& sweep, std::size_t first);
   /// Axes that lean so far say nothing.

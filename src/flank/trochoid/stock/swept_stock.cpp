@@ -91,12 +91,20 @@ SweepPose Sweep::at(double place) const {
   return out;
 }
 
-GapJet gap_at(const ToolProfile& profile, const SweepPose& pose, const Vec3& x) {
-  GapJet jet;
+SweepAxis::SweepAxis(const SweepPose& pose) : tip(pose.tip), tip_d1(pose.tip_d1) {
   const double length = pose.direction.norm();
-  const Vec3 u = pose.direction / length, d = x - pose.tip;
+  u = pose.direction / length;
+  u_d1 = (pose.direction_d1 - pose.direction_d1.dot(u) * u) / length;
+}
+
+GapJet gap_at(const ToolProfile& profile, const SweepPose& pose, const Vec3& x) {
+  return gap_at(profile, SweepAxis(pose), x);
+}
+
+GapJet gap_at(const ToolProfile& profile, const SweepAxis& axis, const Vec3& x) {
+  GapJet jet;
+  const Vec3 &u = axis.u, &u_d1 = axis.u_d1, d = x - axis.tip;
   const double z = d.dot(u);
-  const Vec3 u_d1 = (pose.direction_d1 - pose.direction_d1.dot(u) * u) / length;
   if (z < profile.flank_low() || z > profile.flank_high()) {
     // Of a radius at its height a round end has none at its pole and an endless slope beside it: the distance to its sphere is as
     // smooth there as anywhere.
@@ -105,7 +113,7 @@ GapJet gap_at(const ToolProfile& profile, const SweepPose& pose, const Vec3& x) 
     const double distance = from.norm();
     jet.gap = distance - end.radius;
     jet.gradient = distance > 0.0 ? Vec3(from / distance) : u.unitOrthogonal();
-    jet.dt = -jet.gradient.dot(pose.tip_d1 + end.centre * u_d1);
+    jet.dt = -jet.gradient.dot(axis.tip_d1 + end.centre * u_d1);
     return jet;
   }
   ToolProfile::Place place;
@@ -115,8 +123,8 @@ GapJet gap_at(const ToolProfile& profile, const SweepPose& pose, const Vec3& x) 
   const Vec3 e = distance > 0.0 ? Vec3(across / distance) : u.unitOrthogonal();
   jet.gap = distance - place.radius;
   jet.gradient = e - place.slope * u;
-  const double z_d1 = d.dot(u_d1) - pose.tip_d1.dot(u);
-  jet.dt = -e.dot(pose.tip_d1 + z * u_d1) - place.slope * z_d1;
+  const double z_d1 = d.dot(u_d1) - axis.tip_d1.dot(u);
+  jet.dt = -e.dot(axis.tip_d1 + z * u_d1) - place.slope * z_d1;
   return jet;
 }
 

@@ -94,4 +94,12 @@ struct GapJet {
 };
 [[nodiscard]] GapJet gap_at(const ToolProfile& profile, const SweepPose& pose, const Vec3& x);
 
+/// The axis of a pose with its unit direction, for one that is asked several times.
+struct SweepAxis {
+  explicit SweepAxis(const SweepPose& pose);
+  Vec3 tip, u;
+  Vec3 tip_d1, u_d1;
+};
+[[nodiscard]] GapJet gap_at(const ToolProfile& profile, const SweepAxis& axis, const Vec3& x);
+
 }  // namespace flank::internal

@@ -17,6 +17,7 @@ DexelField::DexelField(int axis, const Box3& box, double cell_mm)
   const Vec3 size = box.high - box.low;
   const auto count = [&](int k) { return std::max(1, static_cast<int>(std::ceil(size[k] / cell_ - 1e-9))); };
   width_ = count(across());
+  depth_ = count(axis_);
   rows_.resize(static_cast<std::size_t>(count(up())));
   const std::size_t lines = index(rows(), 0);
   lows_.assign(lines, static_cast<float>(box.low[axis_]));

@@ -32,6 +32,10 @@ class DexelField {
   [[nodiscard]] double line_at(double place) const { return (place - low_[across()]) / cell_ - 0.5; }
   [[nodiscard]] double row_at(double place) const { return (place - low_[up()]) / cell_ - 0.5; }
 
+  /// Where the grid begins, and how many cells along the lines hold the box.
+  [[nodiscard]] const Vec3& low() const { return low_; }
+  [[nodiscard]] int depth() const { return depth_; }
+
   /// Takes [low, high] away; returns the length that was material, mm.
   double subtract(int row, int line, double low, double high);
   /// Narrows [low, high] to its part from the first material to the last; false: there is none.
@@ -79,7 +83,7 @@ class DexelField {
   double subtract_from_chain(Row& row, std::size_t k, float from, float to);
   /// Gives stretches back that are empty now, and says anew where the line's material begins and ends, and its gap.
   void settle_chain(Row& row, std::size_t k);
-  int axis_, across_, up_, width_ = 0;
+  int axis_, across_, up_, width_ = 0, depth_ = 0;
   double cell_;
   Vec3 low_;
   std::vector<float> lows_, highs_, gap_lows_, gap_highs_;  ///< of all lines, row by row

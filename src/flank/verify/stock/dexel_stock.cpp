@@ -13,14 +13,6 @@ namespace {
 
 constexpr double kMostLines = 1e9;
 
-/// The surface along four lines around a point: bilinear, where all four have it.
-struct Surface {
-  double distance = std::numeric_limits<double>::infinity();  ///< signed, mm, > 0 in the material
-  bool found = false;
-  bool any = false;     ///< one of the lines has material
-  bool inside = false;  ///< of the nearest line
-};
-
 /// The nearest end of a line's material: where it is, and whether material lies above it.
 struct LineEnd {
   double place = 0.0;
@@ -44,38 +36,6 @@ LineEnd nearest_end(const DexelField& field, int row, int line, double x) {
   });
   return out;
 }
-
-Surface surface_along(const DexelField& field, const Vec3& x, double cell) {
-  /// Steeper than this many cells a cell, another direction sees the surface better.
-  constexpr double kSteepest = 2.5;
-  const double line = field.line_at(x[field.across()]), row = field.row_at(x[field.up()]);
-  const int i = static_cast<int>(std::floor(line)), j = static_cast<int>(std::floor(row));
-  const double fi = line - i, fj = row - j, place = x[field.axis()];
-  std::array<LineEnd, 4> ends;
-  Surface out;
-  for (int k = 0; k < 4; ++k) {
-    LineEnd& end = ends[static_cast<std::size_t>(k)];
-    end = nearest_end(field, j + k / 2, i + k % 2, place);
-    out.any = out.any || end.found;
-  }
-  out.inside = ends[static_cast<std::size_t>((fj > 0.5 ? 2 : 0) + (fi > 0.5 ? 1 : 0))].inside;
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const LineEnd& end : ends) {
-    if (!end.found || end.lower != ends[0].lower) return out;
-    low = std::min(low, end.place);
-    high = std::max(high, end.place);
-  }
-  if (high - low > kSteepest * cell) return out;
-  const double a = std::lerp(ends[0].place, ends[1].place, fi), b = std::lerp(ends[2].place, ends[3].place, fi);
-  const double across = std::lerp(ends[1].place - ends[0].place, ends[3].place - ends[2].place, fj) / cell;
-  const double up = (b - a) / cell;
-  const double along = (place - std::lerp(a, b, fj)) * (ends[0].lower ? 1.0 : -1.0);
-  out.distance = along / std::sqrt(1.0 + across * across + up * up);
-  out.found = true;
-  return out;
-}
-
-enum class Sight { kOut, kIn, kMixed };
 
 /// Rounded down, without a call.
 int floor_of(double x) {
@@ -111,6 +71,11 @@ Sight sight_along(const DexelField& field, const Vec3& x, double margin) {
   return first;
 }
 
+int most_along(const Vec3& direction) {
+  const double x = std::abs(direction.x()), y = std::abs(direction.y()), z = std::abs(direction.z());
+  return x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+}
+
 /// Takes away what is beyond the planes.
 void cut_by_planes(DexelField& field, const std::vector<HalfSpace>& planes, int row, int line) {
   constexpr double kFar = 1e30;
@@ -130,6 +95,36 @@ void cut_by_planes(DexelField& field, const std::vector<HalfSpace>& planes, int 
 }
 
 }  // namespace
+
+DexelStock::Surface DexelStock::surface_along(const DexelField& field, const Vec3& x, double cell) {
+  /// Steeper than this many cells a cell, another direction sees the surface better.
+  constexpr double kSteepest = 2.5;
+  const double line = field.line_at(x[field.across()]), row = field.row_at(x[field.up()]);
+  const int i = static_cast<int>(std::floor(line)), j = static_cast<int>(std::floor(row));
+  const double fi = line - i, fj = row - j, place = x[field.axis()];
+  std::array<LineEnd, 4> ends;
+  Surface out;
+  for (int k = 0; k < 4; ++k) {
+    LineEnd& end = ends[static_cast<std::size_t>(k)];
+    end = nearest_end(field, j + k / 2, i + k % 2, place);
+    out.any = out.any || end.found;
+  }
+  out.inside = ends[static_cast<std::size_t>((fj > 0.5 ? 2 : 0) + (fi > 0.5 ? 1 : 0))].inside;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const LineEnd& end : ends) {
+    if (!end.found || end.lower != ends[0].lower) return out;
+    low = std::min(low, end.place);
+    high = std::max(high, end.place);
+  }
+  if (high - low > kSteepest * cell) return out;
+  const double a = std::lerp(ends[0].place, ends[1].place, fi), b = std::lerp(ends[2].place, ends[3].place, fi);
+  const double across = std::lerp(ends[1].place - ends[0].place, ends[3].place - ends[2].place, fj) / cell;
+  const double up = (b - a) / cell;
+  const double along = (place - std::lerp(a, b, fj)) * (ends[0].lower ? 1.0 : -1.0);
+  out.distance = along / std::sqrt(1.0 + across * across + up * up);
+  out.found = true;
+  return out;
+}
 
 DexelStock::DexelStock(const Box3& box, const std::vector<HalfSpace>& planes, double cell_mm)
     : box_(box), cell_(cell_mm) {
@@ -204,12 +199,14 @@ std::optional<double> DexelStock::distance(const Vec3& x) const {
   return best.found ? std::optional(best.distance) : std::nullopt;
 }
 
-double DexelStock::depth(const Vec3& x) const {
+double DexelStock::depth(const Vec3& x) const { return depth(x, nullptr, {}); }
+
+double DexelStock::depth(const Vec3& x, const DexelField* known, const Surface& of_known) const {
   Surface best;
   int inside = 0;
   bool any = false;
   for (const DexelField& field : fields_) {
-    const Surface surface = surface_along(field, x, cell_);
+    const Surface surface = &field == known ? of_known : surface_along(field, x, cell_);
     inside += surface.inside ? 1 : -1;
     any = any || surface.any;
     if (surface.found && std::abs(surface.distance) < std::abs(best.distance)) best = surface;
@@ -219,15 +216,27 @@ double DexelStock::depth(const Vec3& x) const {
   return inside > 0 ? 0.5 * cell_ : -0.5 * cell_;
 }
 
+// Lines across a layer see it however thin it is: they are believed where none of them ends near, and where the ends of all
+// four make a surface.
 bool DexelStock::holds(const Vec3& x, const Vec3& across) const {
-  Eigen::Index most = 0;
-  across.cwiseAbs().maxCoeff(&most);
-  // Lines across a layer see it however thin it is: they are believed where none of them ends near, and where the ends of all
-  // four make a surface.
-  const DexelField& first = field(static_cast<int>(most));
-  if (const Sight sight = sight_along(first, x, cell_); sight != Sight::kMixed) return sight == Sight::kIn;
+  const DexelField& first = field(most_along(across));
+  return holds_by(first, x, sight_along(first, x, cell_));
+}
+
+bool DexelStock::holds(const Vec3& x, const Vec3& across, std::vector<EmptyBlocks>& known) const {
+  const DexelField& first = field(most_along(across));
+  EmptyBlocks& blocks = known[static_cast<std::size_t>(first.axis())];
+  const std::optional<std::size_t> block = blocks.block_at(x);
+  if (block && blocks.is_empty(*block)) return false;
+  const Sight sight = sight_along(first, x, cell_);
+  if (block && sight == Sight::kOut) blocks.add(first, *block, cell_);
+  return holds_by(first, x, sight);
+}
+
+bool DexelStock::holds_by(const DexelField& first, const Vec3& x, Sight sight) const {
+  if (sight != Sight::kMixed) return sight == Sight::kIn;
   const Surface surface = surface_along(first, x, cell_);
-  return surface.found ? surface.distance > 0.0 : depth(x) > 0.0;
+  return surface.found ? surface.distance > 0.0 : depth(x, &first, surface) > 0.0;
 }
 
 }  // namespace flank::internal::verify

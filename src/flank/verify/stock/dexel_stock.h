@@ -3,16 +3,21 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <vector>
 
 #include "flank/path/half_space.h"
 #include "flank/triangle_mesh.h"
 #include "flank/verify/stock/dexel_field.h"
+#include "flank/verify/stock/empty_blocks.h"
 #include "flank/verify/stock/line_weights.h"
 #include "flank/verify/stock/tool_solid.h"
 
 namespace flank::internal::verify {
+
+/// What lines say of a place.
+enum class Sight { kOut, kIn, kMixed };
 
 /// Not for several threads at once, but for reading; works in parallel itself, with the same bits for any number of threads.
 class DexelStock {
@@ -34,6 +39,9 @@ class DexelStock {
   /// Whether depth(x) > 0, of a place where layers of material lie across a direction: quicker, as most places lie deep in the
   /// material or far from it.
   [[nodiscard]] bool holds(const Vec3& x, const Vec3& across) const;
+  /// The same, sooner where it was asked before: `known`, of the stock's fields, is from the stock as it is or was.
+  [[nodiscard]] bool holds(const Vec3& x, const Vec3& across, std::vector<EmptyBlocks>& known) const;
+  [[nodiscard]] std::vector<EmptyBlocks> empty_blocks() const { return {fields_.begin(), fields_.end()}; }
   /// The distance where lines see a smooth surface; none at edges, and where there is no material near.
   [[nodiscard]] std::optional<double> distance(const Vec3& x) const;
 
@@ -42,6 +50,18 @@ class DexelStock {
   [[nodiscard]] const DexelField& field(int axis) const { return fields_[static_cast<std::size_t>(axis)]; }
 
  private:
+  /// The surface along four lines around a point: bilinear, where all four have it.
+  struct Surface {
+    double distance = std::numeric_limits<double>::infinity();  ///< signed, mm, > 0 in the material
+    bool found = false;
+    bool any = false;     ///< one of the lines has material
+    bool inside = false;  ///< of the nearest line
+  };
+  [[nodiscard]] static Surface surface_along(const DexelField& field, const Vec3& x, double cell);
+  /// Where the surface along one of the fields is known.
+  [[nodiscard]] double depth(const Vec3& x, const DexelField* known, const Surface& of_known) const;
+  /// By the lines of a field first.
+  [[nodiscard]] bool holds_by(const DexelField& first, const Vec3& x, Sight sight) const;
   double cut_field(std::size_t axis, const ToolSolid& tool, const Pose& pose);
   Box3 box_;
   double cell_;

@@ -41,7 +41,9 @@ Circle circle_of(const RadialFunction& radial, const Pose& pose, const PoseVeloc
 bool is_engaged(const DexelStock& stock, const MovingTool& tool, const Circle& circle, const Vec3& outwards) {
   // Where a front goes along a surface that was cut before, the stock has the ridges between its own cuts: what the tool meets must
   // reach farther into it. What was taken lately is asked on the front itself, since such poses leave next to nothing.
-  if (!stock.holds(circle.centre + (circle.radius - tool.grain_mm) * outwards, outwards)) return false;
+  const Vec3 inside = circle.centre + (circle.radius - tool.grain_mm) * outwards;
+  if (!(tool.empty == nullptr ? stock.holds(inside, outwards) : stock.holds(inside, outwards, *tool.empty)))
+    return false;
   return tool.lately == nullptr || !tool.solid->holds(*tool.lately, circle.centre + circle.radius * outwards);
 }
 

@@ -21,6 +21,7 @@ struct MovingTool {
   /// What cuts of the stock leave between them, mm: ridges that are so low are not the part's, and no chip that is so thin can be
   /// told from them. So what the tool meets must reach so far into its circles.
   double grain_mm = 0.0;
+  std::vector<EmptyBlocks>* empty = nullptr;  ///< where the stock is known to have nothing, for one that is asked often
 };
 
 /// Measures on circles of some heights. Immutable.

@@ -51,7 +51,8 @@ class Replayer {
         step_(step_for(radial, options.scallop_cells)),
         late_step_(step_for(radial, kLateScallop)),
         grain_(options.scallop_cells * stock.cell()),
-        lag_(measured_ ? kLagCells * stock.cell() : 0.0) {}
+        lag_(measured_ ? kLagCells * stock.cell() : 0.0),
+        empty_(stock.empty_blocks()) {}
 
   void run(const std::vector<Strip>& strips, std::vector<StripReplay>& out);
 
@@ -85,6 +86,7 @@ class Replayer {
   double waiting_way_ = 0.0;
   double unmeasured_ = 0.0;  ///< way since the last place that was measured
   LatePoses lately_;
+  std::vector<EmptyBlocks> empty_;  ///< of the stock as it was at some time
 };
 
 /// Mean of both sides' directions: of a smooth motion that was joined straight it is the tangent, to second order.
@@ -155,7 +157,7 @@ void Replayer::go_to(const std::vector<Pose>& poses, std::size_t k, bool passed,
 void Replayer::measure(const Pose& pose, const PoseVelocity& velocity, std::size_t k, StripReplay& replay) {
   lately_.clear();
   for (const Stretch& stretch : waiting_) add_lately(stretch);
-  const FrontScan::Largest largest = scan_.largest(stock_, {&solid_, pose, velocity, &lately_, grain_});
+  const FrontScan::Largest largest = scan_.largest(stock_, {&solid_, pose, velocity, &lately_, grain_, &empty_});
   PoseReplay& here = replay.poses[k];
   here.measured = true;
   if (largest.angle_rad > here.angle_rad) here.angle_rad = largest.angle_rad, here.s = largest.s;
