@@ -41,9 +41,9 @@ struct OpenPart {
   }
   /// That holds them, and `bow` more.
   [[nodiscard]] RowDisc disc(double bow) const {
-    constexpr double kSpare = 1.02;
+    constexpr double kRoundingRoom = 1.02;
     const Vec3 centre = box.center();
-    return {centre.x(), centre.y(), kSpare * 0.5 * box.diagonal() + bow, low, high};
+    return {centre.x(), centre.y(), kRoundingRoom * 0.5 * box.diagonal() + bow, low, high};
   }
 };
 
