@@ -107,6 +107,26 @@ TEST(JudgeJob, ASmallFaceOfALargePartIsLookedAtAsFinely) {
   EXPECT_GT(report.coverage_bound.value(), 0.99);
 }
 
+TEST(JudgeJob, ALargeFaceTakesNoMoreSamplesThanAreHeldAtOnce) {
+  flank::internal::Setup setup;
+  setup.part.faces = {test::plane_face("F1", 230.0, 210.0)};
+  for (const Face& face : setup.part.faces)
+    setup.part.box.add(face.surface.poles.back()), setup.part.box.add(face.surface.poles.front());
+  setup.targets = {0};
+  Tool tool;
+  tool.radial = RadialFunction::spline(220.0, Eigen::VectorXd::Constant(6, 20.0));
+  Strip pass;
+  for (int k = -1; k < 12; ++k) pass.poses.push_back({Vec3(-10.0 + 20.0 * k, 20.0, -5.0), Vec3::UnitZ()});
+  const auto samples = [&](std::optional<double> spacing) {
+    JudgeRequest request;
+    request.sample_mm = spacing;
+    return judge_job(setup, request, tool, {{pass}}, DepthProof::kSampled).faces[0].samples;
+  };
+  EXPECT_LE(samples(std::nullopt), 65536U);
+  EXPECT_GT(samples(std::nullopt), 50000U);
+  EXPECT_GT(samples(0.5), 150000U) << "a spacing that is asked for is kept";
+}
+
 TEST(JudgeJob, AFaceAloneIsNotReachableInItsOwnCorner) {
   Part part;
   part.faces = {test::corner_face("F1", 20.0, 30.0)};

@@ -24,11 +24,16 @@ bool holds(const std::vector<int>& faces, int face) {
 
 /// Samples that a spacing may give on all faces together, which takes minutes, and that it has to give on a target.
 constexpr double kMostSamples = 1e8, kFewestSamples = 300.0;
-/// That a target gets where no spacing is asked for: proofs are made from the samples' cells, and a rib of millimetres on a part
-/// of half a metre would have a few dozen.
-constexpr double kEnoughSamples = 2000.0;
 constexpr double kReachSpacings = 2.0;         ///< usual ones, of the samples that tell where a target is
 constexpr std::size_t kTileSamples = 1 << 16;  ///< held at once, about 300 bytes each with all that is asked of them
+
+/// How many samples a target may get.
+struct SampleRange {
+  double least = 0.0, most = 1e300;
+};
+/// Where no spacing is asked for. Proofs are made from the samples' cells, and a rib of millimetres on a part of half a metre would
+/// have a few dozen; what fits into one tile is measured once, however often its coverage is looked at.
+constexpr SampleRange kUsualSamples{2000.0, 0.9 * kTileSamples};
 
 /// Refuses a spacing that is out of all proportion to the faces.
 void require_sensible(const std::vector<std::unique_ptr<verify::Sampler>>& samplers, const std::vector<int>& faces,
@@ -59,17 +64,18 @@ std::vector<int> judged_faces(const Setup& setup) {
 /// The judged faces as the judge asks for them.
 class JudgedShapes {
  public:
-  /// `least`: samples of a target, which gets a finer spacing if it must.
-  JudgedShapes(const Setup& setup, double spacing, double least) : faces_(judged_faces(setup)) {
+  /// A target gets another spacing where its samples would be fewer or more than the range says.
+  JudgedShapes(const Setup& setup, double spacing, const SampleRange& range) : faces_(judged_faces(setup)) {
     const Part& part = setup.part;
     meshes_.reserve(faces_.size());
     for (int face : faces_) {
       const bool target = holds(setup.targets, face);
-      const double here = target ? spacing : 2.0 * spacing, enough = target ? least : 0.0;
+      const double here = target ? spacing : 2.0 * spacing;
+      const SampleRange wanted = target ? range : SampleRange();
       if (!part.is_mesh()) {
         const Face& value = part.faces[static_cast<std::size_t>(face)];
         shapes_.emplace_back(&value);
-        add([&](double mm) { return verify::make_sampler(value, mm, target, kTileSamples); }, here, enough);
+        add([&](double mm) { return verify::make_sampler(value, mm, target, kTileSamples); }, here, wanted);
         continue;
       }
       meshes_.push_back(verify::with_slivers_sliced(extract_mesh(part, {face}), here));
@@ -77,7 +83,7 @@ class JudgedShapes {
       const auto make = [&](double mm) {
         return verify::make_sampler(part.face_id(face), meshes_.back(), mm, target, kTileSamples);
       };
-      add(make, here, enough);
+      add(make, here, wanted);
     }
   }
 
@@ -89,11 +95,11 @@ class JudgedShapes {
 
  private:
   template <class Make>
-  void add(const Make& make, double spacing, double least) {
+  void add(const Make& make, double spacing, const SampleRange& range) {
     std::unique_ptr<verify::Sampler> sampler = make(spacing);
-    const double count = sampler->count();
+    const double count = sampler->count(), wanted = std::clamp(count, range.least, range.most);
     // Their number goes with the square of the spacing.
-    if (count > 0.0 && count < least) sampler = make(spacing * std::sqrt(count / least));
+    if (count > 0.0 && count != wanted) sampler = make(spacing * std::sqrt(count / wanted));
     samplers_.push_back(std::move(sampler));
   }
 
@@ -130,7 +136,7 @@ double default_spacing(double diagonal_mm) {
 
 double coarse_spacing(const Setup& setup, double most_samples) {
   const double usual = default_spacing(setup.part.box.diagonal());
-  const JudgedShapes shapes(setup, usual, 0.0);
+  const JudgedShapes shapes(setup, usual, {});
   double all = 0.0, fewest = 1e300;
   for (std::size_t k = 0; k < shapes.faces().size(); ++k) {
     const double here = shapes.samplers()[k]->count();
@@ -146,7 +152,8 @@ double coarse_spacing(const Setup& setup, double most_samples) {
 VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const Tool& tool, const Path& path,
                        DepthProof depth) {
   const double usual = default_spacing(setup.part.box.diagonal());
-  const JudgedShapes shapes(setup, request.sample_mm.value_or(usual), request.sample_mm ? 0.0 : kEnoughSamples);
+  const JudgedShapes shapes(setup, request.sample_mm.value_or(usual),
+                            request.sample_mm ? SampleRange() : kUsualSamples);
   if (request.sample_mm) require_sensible(shapes.samplers(), shapes.faces(), setup, *request.sample_mm);
   const double radius = request.reach_radius_mm.value_or(smallest_radius(tool));
   // A tool that is none (a fit that failed) has nothing to reach with.
