@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fit/flat_scene.h"
+#include "flank/pipeline/lead_out.h"
 #include "sanitized.h"
 
 namespace flank::internal {
@@ -59,6 +60,33 @@ TEST(MendCuts, LeavesWhatIsWithinOrTooDeepOrOfOtherFaces) {
   EXPECT_FALSE(mend_cuts(kTolerance, search, judged(0.9 * kTolerance, 3.0 * kTolerance)));
   search.fit.motions.clear();
   EXPECT_FALSE(mend_cuts(kTolerance, search, judged(1.6 * kTolerance, 0.0)));
+}
+
+TEST(LeadOut, ByAnotherMotionFirstWhichCostsNoCoverage) {
+  if (kSanitized) GTEST_SKIP() << "passes of 2,500 points";
+  FitSearch search = on_blade();
+  std::optional<JudgedFit> before;
+  ASSERT_TRUE(lead_out(kTolerance, before, search, judged(1.1 * kTolerance, 0.0)));
+  EXPECT_EQ(search.fit.after.at_tolerance, 1.0) << "a thinner tool leaves more";
+  EXPECT_EQ(before->fit.tool.at(7.0).r, 5.0) << "what was judged is kept";
+  const double radius = search.fit.tool.at(7.0).r;
+  ASSERT_TRUE(lead_out(kTolerance, before, search, judged(1.1 * kTolerance, 0.0)));
+  EXPECT_LT(search.fit.tool.at(7.0).r, radius) << "the second time by what is certain";
+}
+
+TEST(LeadOut, GivesUpAMotionThatWasLedIntoAnotherFace) {
+  FitSearch search = on_blade();
+  std::optional<JudgedFit> before = JudgedFit{search.fit, judged(1.1 * kTolerance, 0.0)};
+  search.fit.motions.clear();
+  ASSERT_TRUE(lead_out(kTolerance, before, search, judged(0.9 * kTolerance, 3.0 * kTolerance)));
+  EXPECT_EQ(search.fit.motions.size(), 1U);
+  EXPECT_LT(search.fit.tool.at(7.0).r, 5.0);
+}
+
+TEST(LeadOut, LeavesWhatIsWithin) {
+  FitSearch search = on_blade();
+  std::optional<JudgedFit> before;
+  EXPECT_FALSE(lead_out(kTolerance, before, search, judged(0.9 * kTolerance, 0.0)));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "flank/artefact/acceptance.h"
 #include "flank/base/stopping.h"
@@ -13,11 +14,10 @@
 #include "flank/job/check_fields.h"
 #include "flank/pipeline/finish.h"
 #include "flank/pipeline/folder/judge_job.h"
-#include "flank/pipeline/mend_cuts.h"
+#include "flank/pipeline/lead_out.h"
 #include "flank/pipeline/run_journal.h"
 #include "flank/pipeline/search/fit_search.h"
 #include "flank/pipeline/search/stiff_fit.h"
-#include "flank/pipeline/thin_tool.h"
 #include "flank/setup/tool_body.h"
 #include "flank/surface/facet_gaps.h"
 
@@ -245,6 +245,7 @@ void judge_fit(const Setup& setup, const ClearanceScene& scene, FitSearch& searc
   constexpr int kMostTimes = 3;
   const FitJob job = std::get<FitJob>(result.job);
   const std::vector<std::string> notes = result.notes;
+  std::optional<JudgedFit> before;
   for (int k = 0; k < kMostTimes; ++k) {
     result.notes = notes;
     result.path = {};
@@ -254,8 +255,7 @@ void judge_fit(const Setup& setup, const ClearanceScene& scene, FitSearch& searc
     watch.lap("sample");
     judge_result(setup, scene, std::move(surfaces), result, watch);
     if (!result.complete || k + 1 == kMostTimes) return;
-    if (!thin_tool(job.tolerance_mm, search, result.verify) && !mend_cuts(job.tolerance_mm, search, result.verify))
-      return;
+    if (!lead_out(job.tolerance_mm, before, search, result.verify)) return;
     take_found(search, result);
     watch.lap("mend");
   }
