@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "flank/geom/trim.h"
 #include "geom/skins.h"
 
 namespace flank::internal {
@@ -197,6 +198,43 @@ TEST(FacePieces, TrimsAreCutWithTheFace) {
   // The seam, in the middle of a side, is a border of a trimmed face.
   ASSERT_EQ(kinds_of(pieces), "sssee");
   for (const FacePiece& piece : pieces) EXPECT_FALSE(piece.face.loops.empty());
+}
+
+/// A thin skin whose seam lies within its edge, so that a little of the edge is on the other side of it.
+Face skin_with_its_seam_in_an_edge() {
+  return testing::drawn_skin(
+      [](double f) {
+        const double angle = 2.0 * kPi * f + 0.0866;
+        return Vec3(20.0 * std::cos(angle), std::sin(angle), 0.0);
+      },
+      30.0, 0.0, 400);
+}
+
+TEST(FacePieces, TrimsThatFollowTheSurfacesBorderAreNone) {
+  const Face skin = skin_with_its_seam_in_an_edge();
+  Face trimmed = skin;
+  const BSplineSurface& s = skin.surface;
+  trimmed.loops = {rectangle_loop({s.u_first(), s.u_last(), s.v_first(), s.v_last()})};
+  const std::vector<FacePiece> pieces = face_pieces(skin), others = face_pieces(trimmed);
+  ASSERT_EQ(kinds_of(pieces), "ssee");
+  ASSERT_EQ(kinds_of(others), "ssee");
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    EXPECT_TRUE(others[k].face.loops.empty());
+    EXPECT_NEAR(area_of(pieces[k].face.surface), area_of(others[k].face.surface), 1e-9 * area_of(s));
+  }
+}
+
+TEST(FacePieces, AnEdgeAtTheSeamOfATrimmedSkinIsOneEdgeInTwoParts) {
+  Face skin = skin_with_its_seam_in_an_edge();
+  TrimLoop cut = rectangle_loop({0.0, 1.0, 0.0, 0.9});
+  skin.loops = {cut};
+  const std::vector<FacePiece> pieces = face_pieces(skin);
+  ASSERT_EQ(kinds_of(pieces), "sseee");
+  for (const FacePiece& piece : pieces) {
+    EXPECT_FALSE(piece.face.loops.empty());
+    if (piece.edge) continue;
+    EXPECT_LT(turn_of(piece.face.surface), 0.25 * kPi) << "nothing of the edge is left on a side";
+  }
 }
 
 }  // namespace

@@ -213,7 +213,8 @@ class Edges {
 };
 
 struct Division {
-  bool along_u = true, closed = false;
+  bool along_u = true;
+  bool closed = false;  ///< the surface closes upon itself, whatever the trims leave of it
   std::vector<Stretch> edges;
   double width = 0.0;  ///< of the widest section, mm
 };
@@ -221,7 +222,7 @@ struct Division {
 /// The edges that most sections across the face agree about; none: it is not to be divided in this direction.
 std::optional<Division> division_along(const Face& face, const ParameterRectangle& box, bool along_u) {
   const View view{face.surface, along_u};
-  Division division{along_u, face.loops.empty() && is_closed(face.surface, along_u), {}, 0.0};
+  Division division{along_u, is_closed(face.surface, along_u), {}, 0.0};
   const double low = along_u ? box.v0 : box.u0, high = along_u ? box.v1 : box.u1;
   // Most faces wrap round nothing: a few sections tell.
   bool wraps = false;
@@ -273,6 +274,16 @@ Stretch unwound(Stretch stretch, double first, double last) {
   const double period = last - first, tiny = 1e-9 * period;
   const double shift = std::floor((stretch.first - first + tiny) / period) * period;
   return {std::max(stretch.first - shift, first), stretch.last - shift};
+}
+
+/// A trimmed face is not cut across its seam: what goes across it is two stretches.
+void cut_at_seam(double first, double last, std::vector<Stretch>& stretches) {
+  const std::size_t count = stretches.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    if (stretches[k].last <= last) continue;
+    stretches.push_back({first, stretches[k].last - (last - first)});
+    stretches[k].last = last;
+  }
 }
 
 /// Length across the middle of the face, mm.
@@ -331,9 +342,13 @@ std::vector<FacePiece> pieces_of(const Face& face, const TrimRegion& region, Div
   const auto add = [&](std::vector<Stretch> stretches, bool edge) {
     // Samples beside a border are inset by rounding: what is left there is too short to be cut out, and nothing.
     const double least = 2.0 * kSameKnot * (last - first);
-    std::erase_if(stretches, [&](const Stretch& x) { return !(x.last - x.first > least); });
+    const auto tidy_away = [&] {
+      std::erase_if(stretches, [&](const Stretch& x) { return !(x.last - x.first > least); });
+    };
+    tidy_away();
     for (Stretch& stretch : stretches)
       if (division.closed) stretch = unwound(stretch, first, last);
+    if (!region.whole()) cut_at_seam(first, last, stretches), tidy_away();
     std::sort(stretches.begin(), stretches.end(), [](const Stretch& a, const Stretch& b) { return a.first < b.first; });
     // A surface may go on past the trims.
     std::erase_if(stretches, [&](const Stretch& x) { return is_outside(region, division, x); });
@@ -348,9 +363,11 @@ std::vector<FacePiece> pieces_of(const Face& face, const TrimRegion& region, Div
 
 }  // namespace
 
-std::vector<FacePiece> face_pieces(const Face& face) {
-  const BSplineSurface& s = face.surface;
-  const TrimRegion region(face.loops, {s.u_first(), s.u_last(), s.v_first(), s.v_last()});
+std::vector<FacePiece> face_pieces(const Face& of) {
+  const BSplineSurface& s = of.surface;
+  const TrimRegion region(of.loops, {s.u_first(), s.u_last(), s.v_first(), s.v_last()});
+  Face face = of;
+  if (region.whole()) face.loops.clear();  // they follow the surface's border, and would bind the pieces to the seam
   std::optional<Division> best;
   for (const bool along_u : {true, false}) {
     std::optional<Division> division = division_along(face, region.box(), along_u);
