@@ -26,7 +26,8 @@ struct Shortfall {
 
 /// Whether a result meets its request. Exit codes, summaries, verify.json and the report all go by this.
 struct Acceptance {
-  std::vector<Shortfall> reasons;
+  std::vector<Shortfall> reasons;   ///< why it does not meet the request; empty: it does
+  std::vector<Shortfall> cautions;  ///< what the verdict says nothing about, though a shop must know it: shown in amber
   [[nodiscard]] bool pass() const { return reasons.empty(); }
 };
 

@@ -64,10 +64,10 @@ std::string kind_name(FieldKind kind) {
   return "";
 }
 
-std::vector<std::pair<std::string, std::string>> reasons_of(const Acceptance& acceptance) {
-  std::vector<std::pair<std::string, std::string>> reasons;
-  for (const Shortfall& shortfall : acceptance.reasons) reasons.emplace_back(shortfall.figure, shortfall.text);
-  return reasons;
+std::vector<std::pair<std::string, std::string>> pairs_of(const std::vector<Shortfall>& shortfalls) {
+  std::vector<std::pair<std::string, std::string>> pairs;
+  for (const Shortfall& shortfall : shortfalls) pairs.emplace_back(shortfall.figure, shortfall.text);
+  return pairs;
 }
 
 void bind_result(py::module_& module) {
@@ -86,8 +86,11 @@ void bind_result(py::module_& module) {
       .def_property_readonly(
           "passed", [](const Result& r) { return r.acceptance().pass(); }, "Whether it meets the request.")
       .def_property_readonly(
-          "reasons", [](const Result& r) { return reasons_of(r.acceptance()); },
+          "reasons", [](const Result& r) { return pairs_of(r.acceptance().reasons); },
           "Why it does not: (figure of verify.json, one line). Empty if it does.")
+      .def_property_readonly(
+          "cautions", [](const Result& r) { return pairs_of(r.acceptance().cautions); },
+          "What the verdict says nothing about: (figure, one line).")
       .def_property_readonly("text", &summary_text, "The summary as a table for a terminal.")
       .def_property_readonly("summary_json", &summary_json, "The text of summary.json.")
       .def(
@@ -111,8 +114,11 @@ void bind_verification(py::module_& module) {
       .def_property_readonly(
           "passed", [](const Verification& v) { return v.acceptance.pass(); }, "Whether it meets the request.")
       .def_property_readonly(
-          "reasons", [](const Verification& v) { return reasons_of(v.acceptance); },
+          "reasons", [](const Verification& v) { return pairs_of(v.acceptance.reasons); },
           "Why it does not: (figure of verify.json, one line). Empty if it does.")
+      .def_property_readonly(
+          "cautions", [](const Verification& v) { return pairs_of(v.acceptance.cautions); },
+          "What the verdict says nothing about: (figure, one line).")
       .def_property_readonly("text", &verify_text, "The verdict as a table for a terminal.");
   py::class_<PostOutcome, std::shared_ptr<PostOutcome>>(module, "Program", "A program of a machine and what it does.")
       .def_readonly("program", &PostOutcome::program, "The program's text.")
@@ -127,8 +133,11 @@ void bind_verification(py::module_& module) {
       .def_property_readonly(
           "passed", [](const PostOutcome& p) { return p.acceptance.pass(); }, "Whether its links collide with nothing.")
       .def_property_readonly(
-          "reasons", [](const PostOutcome& p) { return reasons_of(p.acceptance); },
+          "reasons", [](const PostOutcome& p) { return pairs_of(p.acceptance.reasons); },
           "Which links do: (figure, one line).")
+      .def_property_readonly(
+          "cautions", [](const PostOutcome& p) { return pairs_of(p.acceptance.cautions); },
+          "What the verdict says nothing about: (figure, one line).")
       .def_property_readonly("text", &post_text, "The figures as a table for a terminal.")
       .def_property_readonly("figures_json", &post_json, "The figures as JSON.");
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace flank::internal {
 namespace {
@@ -27,19 +28,19 @@ std::vector<const FaceVerdict*> cut_faces(const VerifyReport& report, bool targe
 }
 
 /// A reason for each face that is cut: a number for the whole part would not say where to look.
-void add_cuts(const VerifyReport& report, bool targets, std::vector<Shortfall>& reasons) {
-  const std::string figure = targets ? "overcut_mm" : "gouge_mm";
+void add_cuts(const VerifyReport& report, bool targets, Acceptance& out) {
+  const Figure figure = targets ? Figure::kOvercut : Figure::kGouge;
   const std::vector<const FaceVerdict*> faces = cut_faces(report, targets);
   for (std::size_t k = 0; k < faces.size() && k < kMostFacesNamed; ++k)
-    reasons.push_back(
-        {figure, fmt::format("{} {} by {:.4f} mm > {} mm{}", faces[k]->face, targets ? "is overcut" : "is entered",
-                             faces[k]->overcut_mm, report.tolerance_mm, place(*faces[k]))});
+    add_reason(out, figure,
+               fmt::format("{} {} by {:.4f} mm > {} mm{}", faces[k]->face, targets ? "is overcut" : "is entered",
+                           faces[k]->overcut_mm, report.tolerance_mm, place(*faces[k])));
   if (faces.size() > kMostFacesNamed)
-    reasons.push_back({figure, fmt::format("and {} more faces", faces.size() - kMostFacesNamed)});
+    add_reason(out, figure, fmt::format("and {} more faces", faces.size() - kMostFacesNamed));
 }
 
 /// Faces where no cut over the tolerance was found, nor was it proved that there is none.
-void add_unproved(const VerifyReport& report, std::vector<Shortfall>& reasons) {
+void add_unproved(const VerifyReport& report, Acceptance& out) {
   std::vector<const FaceVerdict*> faces;
   // Written as a negation: a bound that is not a number proves nothing.
   for (const FaceVerdict& face : report.faces)
@@ -51,31 +52,32 @@ void add_unproved(const VerifyReport& report, std::vector<Shortfall>& reasons) {
     const Vec3& p = faces[k]->bound_point;
     const std::string sampled =
         report.depth == DepthProof::kSampled ? ", between samples; without --sample it is looked at" : "";
-    reasons.push_back({faces[k]->target ? "overcut_bound_mm" : "gouge_bound_mm",
-                       fmt::format("{} is not proved: cut by {:.4f} mm, but it may be {:.4f} mm > {} mm about "
-                                   "({:.3f}, {:.3f}, {:.3f}){}",
-                                   faces[k]->face, faces[k]->overcut_mm, faces[k]->overcut_bound_mm,
-                                   report.tolerance_mm, p.x(), p.y(), p.z(), sampled)});
+    add_reason(out, faces[k]->target ? Figure::kOvercutBound : Figure::kGougeBound,
+               fmt::format("{} is not proved: cut by {:.4f} mm, but it may be {:.4f} mm > {} mm about "
+                           "({:.3f}, {:.3f}, {:.3f}){}",
+                           faces[k]->face, faces[k]->overcut_mm, faces[k]->overcut_bound_mm, report.tolerance_mm, p.x(),
+                           p.y(), p.z(), sampled));
   }
   if (faces.size() > kMostFacesNamed)
-    reasons.push_back({"overcut_bound_mm", fmt::format("and {} more faces", faces.size() - kMostFacesNamed)});
+    add_reason(out, Figure::kOvercutBound, fmt::format("and {} more faces", faces.size() - kMostFacesNamed));
 }
 
 /// Strips inside the material: the first, and how many more.
-void add_buried(const VerifyReport& report, std::vector<Shortfall>& reasons) {
+void add_buried(const VerifyReport& report, Acceptance& out) {
   if (report.buried.empty()) return;
   const BuriedStrip& first = report.buried.front();
   std::string text = fmt::format("strip {} runs inside the material, about ({:.3f}, {:.3f}, {:.3f})", first.strip + 1,
                                  first.point.x(), first.point.y(), first.point.z());
   if (report.buried.size() > 1) text += fmt::format(", and {} more", report.buried.size() - 1);
-  reasons.push_back({"buried", text});
+  add_reason(out, Figure::kBuried, std::move(text));
 }
 
 /// Coverage that was measured but is not proved; of a target that is cut too deep, nothing of it is.
-void add_coverage(const VerifyReport& report, double least, std::vector<Shortfall>& reasons) {
+void add_coverage(const VerifyReport& report, double least, Acceptance& out) {
   if (!(report.coverage_reachable >= least)) {
-    reasons.push_back({"coverage_reachable", fmt::format("coverage {:.3f} % < {:.3f} % of what is reachable",
-                                                         100.0 * report.coverage_reachable, 100.0 * least)});
+    add_reason(out, Figure::kCoverage,
+               fmt::format("coverage {:.3f} % < {:.3f} % of what is reachable", 100.0 * report.coverage_reachable,
+                           100.0 * least));
     return;
   }
   const bool deep = report.overcut_bound_mm > report.tolerance_mm;
@@ -84,36 +86,44 @@ void add_coverage(const VerifyReport& report, double least, std::vector<Shortfal
     return a.target != b.target ? a.target : a.target && a.coverage_bound - a.coverage < b.coverage_bound - b.coverage;
   });
   const Vec3 p = worst != report.faces.end() ? worst->uncovered_point : Vec3(Vec3::Zero());
-  reasons.push_back(
-      {"coverage_bound",
-       fmt::format("coverage is not proved: {:.3f} % of what is reachable is measured, {:.3f} % is proved "
-                   "< {:.3f} %; the rest is about ({:.3f}, {:.3f}, {:.3f})",
-                   100.0 * report.coverage_reachable, 100.0 * *report.coverage_reachable_bound, 100.0 * least, p.x(),
-                   p.y(), p.z())});
+  add_reason(out, Figure::kCoverageBound,
+             fmt::format("coverage is not proved: {:.3f} % of what is reachable is measured, {:.3f} % is proved "
+                         "< {:.3f} %; the rest is about ({:.3f}, {:.3f}, {:.3f})",
+                         100.0 * report.coverage_reachable, 100.0 * *report.coverage_reachable_bound, 100.0 * least,
+                         p.x(), p.y(), p.z()));
 }
 
 }  // namespace
 
+void add_reason(Acceptance& acceptance, Figure figure, std::string text) {
+  acceptance.reasons.push_back({std::string(figure_name(figure)), std::move(text)});
+}
+
+void add_caution(Acceptance& acceptance, Figure figure, std::string text) {
+  acceptance.cautions.push_back({std::string(figure_name(figure)), std::move(text)});
+}
+
 Acceptance accept(const Tool& tool, const VerifyReport& report, double least_coverage, bool complete) {
   Acceptance out;
-  if (!complete) out.reasons.push_back({"complete", "interrupted: incomplete"});
+  if (!complete) add_reason(out, Figure::kComplete, "interrupted: incomplete");
   if (const Legitimacy legitimacy = check_legitimacy(tool.radial); !legitimacy.legitimate)
-    out.reasons.push_back({"legitimate", "the tool is not legitimate: " + legitimacy.reason});
+    add_reason(out, Figure::kLegitimate, "the tool is not legitimate: " + legitimacy.reason);
   if (!complete && report.verdict == Verdict::kNotRun) {
-    out.reasons.push_back({"verdict", "not judged: `flank verify` judges it"});
+    add_reason(out, Figure::kVerdict, "not judged: `flank verify` judges it");
     return out;
   }
-  add_cuts(report, true, out.reasons);
-  add_cuts(report, false, out.reasons);
-  add_buried(report, out.reasons);
+  add_cuts(report, true, out);
+  add_cuts(report, false, out);
+  add_buried(report, out);
   // What was stopped was judged by samples alone, and says already why it does not pass.
-  if (complete) add_unproved(report, out.reasons);
-  add_coverage(report, least_coverage, out.reasons);
+  if (complete) add_unproved(report, out);
+  add_coverage(report, least_coverage, out);
   // "surely": the judge's figure less its bound is what counts (ClearanceFigure::kept).
   for (const ClearanceFigure& f : report.clearance.figures)
     if (!f.kept)
-      out.reasons.push_back({"clearance", fmt::format("the {} does not keep {} mm from {} surely", body_name(f.body),
-                                                      f.required_mm, f.obstacle)});
+      add_reason(
+          out, Figure::kClearance,
+          fmt::format("the {} does not keep {} mm from {} surely", body_name(f.body), f.required_mm, f.obstacle));
   return out;
 }
 
@@ -124,20 +134,20 @@ void accept_stock(const StockReport& stock, double most_engagement_deg, double t
   for (const StockKind& kind : stock.kinds)
     // Cycles make the limit; a finishing sweep or a link that engages more has met what they have left.
     if (kind.engagement_deg > most && !kind.cuts_a_slot())
-      acceptance.reasons.push_back(
-          {"stock", fmt::format("replayed, a {} has an engagement of {:.3f} degrees > {} + {:.2f}, strip {}", kind.kind,
-                                kind.engagement_deg, most_engagement_deg, stock.resolution_deg, kind.strip + 1)});
+      add_reason(acceptance, Figure::kStock,
+                 fmt::format("replayed, a {} has an engagement of {:.3f} degrees > {} + {:.2f}, strip {}", kind.kind,
+                             kind.engagement_deg, most_engagement_deg, stock.resolution_deg, kind.strip + 1));
   // A stretch of up to two cells may only be the grid's.
   if (stock.uncut_mm > std::max(kMostUncutMm, 2.0 * stock.cell_mm)) {
     const Vec3& p = stock.uncut_point;
-    acceptance.reasons.push_back(
-        {"stock", fmt::format("replayed, {:.3f} mm of material are left between the sides, before ({:.3f}, {:.3f}, "
-                              "{:.3f})",
-                              stock.uncut_mm, p.x(), p.y(), p.z())});
+    add_reason(acceptance, Figure::kStock,
+               fmt::format("replayed, {:.3f} mm of material are left between the sides, before ({:.3f}, {:.3f}, "
+                           "{:.3f})",
+                           stock.uncut_mm, p.x(), p.y(), p.z()));
   }
   if (stock.entered_mm > tolerance_mm + kSpareCells * stock.cell_mm)
-    acceptance.reasons.push_back(
-        {"stock", fmt::format("replayed, a face is entered by {:.4f} mm > {} mm", stock.entered_mm, tolerance_mm)});
+    add_reason(acceptance, Figure::kStock,
+               fmt::format("replayed, a face is entered by {:.4f} mm > {} mm", stock.entered_mm, tolerance_mm));
 }
 
 void accept_bends(const PlanJob& job, const BendRadii& bends, Acceptance& acceptance) {
@@ -146,32 +156,33 @@ void accept_bends(const PlanJob& job, const BendRadii& bends, Acceptance& accept
   const double asked = *fit->min_bend_radius_mm;
   for (const auto& [end, radius_mm] : {std::pair("tip", bends.tip_mm), std::pair("holder end", bends.holder_end_mm)})
     if (radius_mm < asked)
-      acceptance.reasons.push_back(
-          {"bend_radius",
-           fmt::format("the path of the {} bends with a radius of {:.3g} mm < {} mm", end, radius_mm, asked)});
+      add_reason(acceptance, Figure::kBendRadius,
+                 fmt::format("the path of the {} bends with a radius of {:.3g} mm < {} mm", end, radius_mm, asked));
 }
 
 void accept_cavity(const TrochoidSummary& cavity, Acceptance& acceptance) {
   constexpr double kSpareDeg = 1e-6;  // rounding of a limit that cycles are made to reach
   if (cavity.largest_deg() > cavity.most_engagement_deg + kSpareDeg)
-    acceptance.reasons.push_back({"engagement", fmt::format("engagement {:.3f} degrees > {} degrees",
-                                                            cavity.largest_deg(), cavity.most_engagement_deg)});
+    add_reason(acceptance, Figure::kEngagement,
+               fmt::format("engagement {:.3f} degrees > {} degrees", cavity.largest_deg(), cavity.most_engagement_deg));
   for (std::size_t k = 0; k < cavity.layers.size(); ++k)
     if (cavity.layers[k].side_deg > cavity.most_engagement_deg + kSpareDeg)
-      acceptance.reasons.push_back(
-          {"engagement", fmt::format("layer {}: a finishing sweep has an engagement of {:.3f} degrees > {} degrees",
-                                     k + 1, cavity.layers[k].side_deg, cavity.most_engagement_deg)});
+      add_reason(acceptance, Figure::kEngagement,
+                 fmt::format("layer {}: a finishing sweep has an engagement of {:.3f} degrees > {} degrees", k + 1,
+                             cavity.layers[k].side_deg, cavity.most_engagement_deg));
   // A layer that ended early has a good engagement in what it has, and leaves the rest.
   for (std::size_t k = 0; k < cavity.layers.size(); ++k)
     if (cavity.layers[k].status != "done")
-      acceptance.reasons.push_back({"cycles", fmt::format("layer {} is {} after {} cycles", k + 1,
-                                                          cavity.layers[k].status, cavity.layers[k].cycles)});
-  if (cavity.layers.empty()) acceptance.reasons.push_back({"cycles", "no cycle was planned"});
+      add_reason(
+          acceptance, Figure::kCycles,
+          fmt::format("layer {} is {} after {} cycles", k + 1, cavity.layers[k].status, cavity.layers[k].cycles));
+  if (cavity.layers.empty()) add_reason(acceptance, Figure::kCycles, "no cycle was planned");
 }
 
 std::string reason_lines(const Acceptance& acceptance) {
   std::string text;
   for (const Shortfall& reason : acceptance.reasons) text += "              " + reason.text + "\n";
+  for (const Shortfall& caution : acceptance.cautions) text += "  CAUTION     " + caution.text + "\n";
   return text;
 }
 

@@ -2,11 +2,90 @@
 /// it from here.
 #pragma once
 
+#include <array>
 #include <string>
+#include <string_view>
 
 #include "flank/run.h"
 
 namespace flank::internal {
+
+/// Everything that a verdict can be about. A reason or a caution is made of one of these and of nothing else, so whoever shows
+/// verdicts (and whoever tests that) has the whole list.
+enum class Figure {
+  kComplete,       ///< the work was not stopped
+  kLegitimate,     ///< the tool's profile
+  kVerdict,        ///< it was judged at all
+  kOvercut,        ///< found on a target
+  kGouge,          ///< found on a check surface
+  kBuried,         ///< strips inside the material
+  kOvercutBound,   ///< proved of a target
+  kGougeBound,     ///< proved of a check surface
+  kCoverage,       ///< of what is reachable
+  kCoverageBound,  ///< the same, proved
+  kClearance,      ///< shank, holder, fixtures, links
+  kStock,          ///< the replay of a cavity's program
+  kBendRadius,     ///< of the path's ends
+  kEngagement,     ///< of the planned cycles
+  kCycles,         ///< all cycles are there
+  kTravel,         ///< a program leaves the travel of a joint
+  kAxisSpeed,      ///< a program asks a joint for more than its speed
+  kMachineBodies,  ///< table and head come too near
+  kUnreadFaces,    ///< faces that are in the file and could not be read
+  kWholeCoverage,  ///< share of the whole face, whatever is reachable
+  kHold,           ///< the axis above the flank runs through the part: nothing could hold the tool
+  kBodyUnknown,    ///< no shank or no holder was given, so none was checked
+  kSheetSide,      ///< which side of an open sheet is machined
+  kRounding,       ///< what a program's digits add
+  kRapid,          ///< a rapid move touches material
+  kWorkOffset,     ///< a program's work offset is not that of the set-up
+  kToolLength,     ///< a program's tool length is not that of the set-up
+  kToolNumber,     ///< a program cuts with another tool
+  kSpindle,        ///< a program cuts while the spindle stands still
+  kCount
+};
+
+/// The names in verify.json, in the order of Figure.
+inline constexpr std::array<std::string_view, static_cast<std::size_t>(Figure::kCount)> kFigureNames{
+    "complete",
+    "legitimate",
+    "verdict",
+    "overcut_mm",
+    "gouge_mm",
+    "buried",
+    "overcut_bound_mm",
+    "gouge_bound_mm",
+    "coverage_reachable",
+    "coverage_bound",
+    "clearance",
+    "stock",
+    "bend_radius",
+    "engagement",
+    "cycles",
+    "travel",
+    "axis_speed",
+    "machine_bodies",
+    "unread_faces",
+    "coverage",
+    "hold",
+    "shank_and_holder",
+    "sheet_side",
+    "rounding_mm",
+    "rapid",
+    "work_offset",
+    "tool_length",
+    "tool_number",
+    "spindle"};
+
+/// "overcut_mm".
+[[nodiscard]] constexpr std::string_view figure_name(Figure figure) {
+  return kFigureNames[static_cast<std::size_t>(figure)];
+}
+
+/// Adds a reason why the request is not met.
+void add_reason(Acceptance& acceptance, Figure figure, std::string text);
+/// Adds what the verdict says nothing about.
+void add_caution(Acceptance& acceptance, Figure figure, std::string text);
 
 /// Passes: the work is complete, the tool legitimate, overcut on every target and every check face surely at most the
 /// report's tolerance (its bound is; samples alone give one, too), coverage of what is reachable at least
@@ -26,7 +105,7 @@ void accept_cavity(const TrochoidSummary& cavity, Acceptance& acceptance);
 /// Adds that the path of tip or holder end bends more sharply than the job lets it (FitJob::min_bend_radius_mm).
 void accept_bends(const PlanJob& job, const BendRadii& bends, Acceptance& acceptance);
 
-/// "              F88 is entered ..." a line for each reason.
+/// "              F88 is entered ..." a line for each reason, then one for each caution.
 [[nodiscard]] std::string reason_lines(const Acceptance& acceptance);
 
 }  // namespace flank::internal

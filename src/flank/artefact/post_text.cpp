@@ -65,6 +65,8 @@ std::string post_json(const PostOutcome& o) {
                               {"acceleration", j.acceleration}});
   json["reasons"] = nlohmann::ordered_json::array();
   for (const Shortfall& r : o.acceptance.reasons) json["reasons"].push_back({{"figure", r.figure}, {"text", r.text}});
+  json["cautions"] = nlohmann::ordered_json::array();
+  for (const Shortfall& c : o.acceptance.cautions) json["cautions"].push_back({{"figure", c.figure}, {"text", c.text}});
   json["notes"] = o.notes;
   return dumped(json, 2) + "\n";
 }

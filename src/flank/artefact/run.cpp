@@ -108,6 +108,12 @@ void add_verdict(const Result& result, nlohmann::ordered_json& json) {
   if (!v.clearance.figures.empty()) json["clearance"] = clearance_to_json(v.clearance);
 }
 
+nlohmann::ordered_json shortfalls_json(const std::vector<Shortfall>& shortfalls) {
+  auto list = nlohmann::ordered_json::array();
+  for (const Shortfall& one : shortfalls) list.push_back({{"figure", one.figure}, {"text", one.text}});
+  return list;
+}
+
 nlohmann::ordered_json bends_json(const BendRadii& bends) {
   // Null: no bend at all.
   const auto radius = [](double mm) { return mm < 1e300 ? nlohmann::ordered_json(mm) : nullptr; };
@@ -199,7 +205,10 @@ std::string summary_json(const Result& result) {
   json["part"] = part_of(result.job).file;
   json["faces"] = part_of(result.job).target_text();
   json["complete"] = result.complete;
-  json["within"] = result.acceptance().pass();
+  const Acceptance acceptance = result.acceptance();
+  json["within"] = json["pass"] = acceptance.pass();
+  json["reasons"] = shortfalls_json(acceptance.reasons);
+  json["cautions"] = shortfalls_json(acceptance.cautions);
   add_verdict(result, json);
   json["chord_bound"] = result.chord_bound_mm;
   json["largest_c"] = result.largest_c;

@@ -254,6 +254,7 @@ std::string verify_to_json(const VerifyReport& r, const Acceptance& acceptance) 
             {"verdict", verdict_name(r.verdict)},
             {"pass", acceptance.pass()},
             {"reasons", Json::array()},
+            {"cautions", Json::array()},
             {"tolerance_mm", number(r.tolerance_mm)},
             {"coverage", number(r.coverage)},
             {"reachable_share", number(r.reachable_share)},
@@ -278,6 +279,8 @@ std::string verify_to_json(const VerifyReport& r, const Acceptance& acceptance) 
   }
   for (const Shortfall& reason : acceptance.reasons)
     j["reasons"].push_back({{"figure", reason.figure}, {"text", reason.text}});
+  for (const Shortfall& caution : acceptance.cautions)
+    j["cautions"].push_back({{"figure", caution.figure}, {"text", caution.text}});
   for (const FaceVerdict& f : r.faces) j["faces"].push_back(to_json(f));
   for (const WorstPlace& w : r.worst) j["worst_places"].push_back(to_json(w));
   for (double e : r.histogram_edges_mm) j["histogram"]["edges_mm"].push_back(number(e));

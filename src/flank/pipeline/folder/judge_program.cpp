@@ -70,10 +70,10 @@ WorkSetup setup_of(const VerifyJob& request, const NcProgram& program, Verificat
   return {};
 }
 
-void add_findings(const std::string& file, const char* figure, const std::vector<LimitFinding>& findings,
+void add_findings(const std::string& file, Figure figure, const std::vector<LimitFinding>& findings,
                   Acceptance& acceptance) {
   for (const LimitFinding& f : findings)
-    acceptance.reasons.push_back({figure, fmt::format("{}: line {}: {}", file, f.line, f.text)});
+    add_reason(acceptance, figure, fmt::format("{}: line {}: {}", file, f.line, f.text));
 }
 
 Verification judge(const VerifyJob& request, PlanJob job, const Question& q) {
@@ -95,8 +95,8 @@ Verification judge(const VerifyJob& request, PlanJob job, const Question& q) {
   const ClearanceScene scene = make_clearance_scene(setup, q.obstacles, has_body(q.tool), outcome.notes);
   outcome.report.clearance = measure_clearance(scene, q.tool, plot.path);
   outcome.acceptance = accept(q.tool, outcome.report, q.judge.least_coverage);
-  add_findings(file, "travel", plot.travel, outcome.acceptance);
-  add_findings(file, "axis_speed", plot.speed, outcome.acceptance);
+  add_findings(file, Figure::kTravel, plot.travel, outcome.acceptance);
+  add_findings(file, Figure::kAxisSpeed, plot.speed, outcome.acceptance);
   machine.tool_length = options.tool_length;
   MachineScene scene_of_machine = machine_scene(machine, q.tool, options.tip_offset);
   add_work(setup, q.obstacles, options.setup, scene_of_machine);

@@ -32,7 +32,7 @@ void judge_scene(const Machine& machine, double tool_length, const MachineScene&
   if (scene.solids.empty()) return;
   const Kinematics kinematics(machine, tool_length);
   for (const BodyHit& hit : check_bodies(machine, kinematics, scene.solids, track, scene.required_mm))
-    acceptance.reasons.push_back({"machine_bodies", where(hit.place) + ": " + hit_text(machine, hit)});
+    add_reason(acceptance, Figure::kMachineBodies, where(hit.place) + ": " + hit_text(machine, hit));
 }
 
 }  // namespace flank::internal

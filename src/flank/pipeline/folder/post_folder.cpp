@@ -130,14 +130,14 @@ void accept_links(const Input& input, const JudgedLinks& links, PostOutcome& out
   const double depth = links.depth_mm(), tolerance = input.setup.tolerance_mm;
   if (depth > tolerance) {
     const WorstPlace* worst = links.report.worst.empty() ? nullptr : &links.report.worst.front();
-    outcome.acceptance.reasons.push_back(
-        {"gouge_mm", fmt::format("link {} cuts {} by {:.4f} mm; more than the tolerance of {} mm",
-                                 worst != nullptr ? worst->strip + 1 : 0, worst != nullptr ? worst->face : "the part",
-                                 depth, tolerance)});
+    add_reason(outcome.acceptance, Figure::kGouge,
+               fmt::format("link {} cuts {} by {:.4f} mm; more than the tolerance of {} mm",
+                           worst != nullptr ? worst->strip + 1 : 0, worst != nullptr ? worst->face : "the part", depth,
+                           tolerance));
   }
   const ClearanceScene scene = make_clearance_scene(input.setup, input.obstacles, has_body(input.tool), outcome.notes);
   if (!measure_clearance(scene, input.tool, links.links()).kept())
-    outcome.acceptance.reasons.push_back({"clearance", "shank, holder or a fixture comes too near on a link"});
+    add_reason(outcome.acceptance, Figure::kClearance, "shank, holder or a fixture comes too near on a link");
 }
 
 /// A cavity's cycles are planned for a limit of the engagement: there the feed is what was asked for.
