@@ -2,6 +2,7 @@
 /// fixtures, along the whole motion (docs/algorithms/clearance.md).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,8 +25,8 @@ struct Obstacle {
   double deviation_mm = 0.0;  ///< the true surface is no farther than this from the triangles
 };
 
-/// Flank and shank or holder are measured apart: they may touch different things.
-enum class ToolBody { kFlank, kShank, kHolder };
+/// Flank, shank and holder are measured apart: they may touch different things. kAxis: a rod in the tool's axis above its flank.
+enum class ToolBody { kFlank, kShank, kHolder, kAxis };
 
 /// mm: accuracy of the clearance at single poses, which is for charts only and costs less like that.
 inline constexpr double kPoseClearanceMm = 0.01;
@@ -68,12 +69,28 @@ struct ClearanceReport {
   [[nodiscard]] const ClearanceFigure* worst() const;
 };
 
-[[nodiscard]] std::string_view body_name(ToolBody body);      ///< "flank", "shank", "holder"
+[[nodiscard]] std::string_view body_name(ToolBody body);      ///< "flank", "shank", "holder", "axis"
 [[nodiscard]] std::string_view role_name(ObstacleRole role);  ///< "target", "part", "fixture"
 
 /// Judges tool and path against the obstacles, continuous between the poses. Parallel; the same bits for any number of
 /// threads. Throws UsageError for an accuracy or tolerance that is not > 0, InputError for poses that are none.
 [[nodiscard]] ClearanceReport judge_clearance(const Tool& tool, const Path& path,
                                               const std::vector<Obstacle>& obstacles, const ClearanceOptions& options);
+
+/// Whether anything could hold the tool where it works, whatever shank and holder it has or lacks.
+struct HoldReport {
+  /// Of a rod in the tool's axis, from the flank's upper end to beyond all obstacles and kRodShare as thick as that end: where it
+  /// enters something (`kept` is false), nothing could hold the tool. What keeps clear by more than that end's radius reads as infinite.
+  ClearanceFigure axis;
+  /// Of a shank as thick as the flank's upper end and one diameter long, for a tool that has none of its own: what it enters most.
+  std::optional<ClearanceFigure> as_thick;
+};
+inline constexpr double kRodShare = 0.1;
+
+/// Judges that against the part's faces (fixtures count for `as_thick` and the axis as well), continuous between the poses. None if
+/// there are no obstacles or no poses. Parallel; the same bits for any number of threads. Throws as judge_clearance.
+[[nodiscard]] std::optional<HoldReport> judge_hold(const Tool& tool, const Path& path,
+                                                   const std::vector<Obstacle>& obstacles,
+                                                   const ClearanceOptions& options);
 
 }  // namespace flank

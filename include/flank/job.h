@@ -58,8 +58,9 @@ struct ObstacleRequest {
 
 /// How the result is judged.
 struct JudgeRequest {
-  double least_coverage = 0.95;     ///< share of what is reachable of the target that must be within tolerance
-  std::optional<double> sample_mm;  ///< spacing of the samples; none: by the size of the part
+  double least_coverage = 0.95;            ///< share of what is reachable of the target that must be within tolerance
+  std::optional<double> least_whole = {};  ///< share of the whole target, whatever is reachable; none: any
+  std::optional<double> sample_mm;         ///< spacing of the samples; none: by the size of the part
   std::optional<double>
       reach_radius_mm;  ///< of the ball that says what is reachable; none: the tool's smallest radius,
                         ///< of a free tool half its demanded length over slenderness_max

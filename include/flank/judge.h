@@ -208,7 +208,13 @@ struct StockReport {
   [[nodiscard]] double cycles_deg() const;
 };
 
-/// Coverage and undercut have no part in the verdict: how much is enough is for the caller to say .
+/// A ball that reaches more of the targets than the one that was asked about.
+struct FinerReach {
+  double radius_mm = 0.0;
+  double reachable_share = 0.0;  ///< of the targets' area, by few samples
+};
+
+/// Coverage and undercut have no part in the verdict: how much is enough is for the caller to say.
 struct VerifyReport {
   Verdict verdict = Verdict::kNotRun;
   double tolerance_mm = 0.0;
@@ -229,7 +235,11 @@ struct VerifyReport {
   std::vector<double> histogram_area_mm2;  ///< of f over the targets
   /// Strips that run inside a solid or behind a sheet: they may enter no face, so no depth shows them. Not filled by judge()
   std::vector<BuriedStrip> buried;
-  ClearanceReport clearance;         ///< of shank, holder and fixtures; not filled by judge()
+  ClearanceReport clearance;       ///< of shank, holder and fixtures; not filled by judge()
+  std::optional<HoldReport> hold;  ///< whether anything could hold the tool; not filled by judge()
+  /// The largest ball, up to that one, that would reach the share of the whole that is asked for, where the path leaves more of it;
+  /// not filled by judge()
+  std::optional<FinerReach> finer_reach;
   std::optional<StockReport> stock;  ///< of a program with a blank; not filled by judge()
 };
 

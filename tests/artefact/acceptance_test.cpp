@@ -38,8 +38,20 @@ VerifyReport at_the_limits() {
   return r;
 }
 
+JudgeRequest asking(double least_coverage) { return {.least_coverage = least_coverage}; }
+
+/// With a shank and a holder, and nothing of the face left.
+Tool whole_tool() {
+  Tool tool = cylinder();
+  tool.shank = {{20.0, 3.0}, {50.0, 3.0}};
+  tool.holder = {{50.0, 10.0}, {90.0, 10.0}};
+  return tool;
+}
+
 TEST(Acceptance, PassesAtTheLimits) {
-  const Acceptance a = accept(cylinder(), at_the_limits(), 0.95);
+  VerifyReport r = at_the_limits();
+  r.coverage = 0.95;
+  const Acceptance a = accept(whole_tool(), r, asking(0.95));
   EXPECT_TRUE(a.pass());
   EXPECT_EQ(reason_lines(a), "");
 }
@@ -52,21 +64,21 @@ void expect_one(const Acceptance& a, const std::string& figure, const std::strin
 }
 
 TEST(Acceptance, EachFigureAlone) {
-  expect_one(accept(cylinder(), at_the_limits(), 0.95, false), "complete", "interrupted");
+  expect_one(accept(cylinder(), at_the_limits(), asking(0.95), false), "complete", "interrupted");
   VerifyReport sampled = at_the_limits();
   sampled.faces[0].overcut_bound_mm = 1.0;  // between the samples nobody has looked
-  expect_one(accept(cylinder(), sampled, 0.95, false), "complete", "interrupted");
-  expect_one(accept(cylinder(), at_the_limits(), 0.951), "coverage_reachable", "95.000 % < 95.100 %");
+  expect_one(accept(cylinder(), sampled, asking(0.95), false), "complete", "interrupted");
+  expect_one(accept(cylinder(), at_the_limits(), asking(0.951)), "coverage_reachable", "95.000 % < 95.100 %");
   VerifyReport r = at_the_limits();
   r.faces[0].overcut_mm = r.overcut_mm = 0.0101;
-  expect_one(accept(cylinder(), r, 0.95), "overcut_mm", "F1 is overcut by 0.0101 mm > 0.01 mm");
+  expect_one(accept(cylinder(), r, asking(0.95)), "overcut_mm", "F1 is overcut by 0.0101 mm > 0.01 mm");
   r = at_the_limits();
   ClearanceFigure figure;
   figure.kept = false;
   figure.obstacle = "F7";
   r.clearance.figures = {figure};
-  expect_one(accept(cylinder(), r, 0.95), "clearance", "the shank does not keep 0 mm from F7");
-  expect_one(accept(tool_of({1, 30, 1, 30}), at_the_limits(), 0.95), "legitimate", "not legitimate");
+  expect_one(accept(cylinder(), r, asking(0.95)), "clearance", "the shank does not keep 0 mm from F7");
+  expect_one(accept(tool_of({1, 30, 1, 30}), at_the_limits(), asking(0.95)), "legitimate", "not legitimate");
 }
 
 // A face that nobody found cut is not good for that: it has to be proved, by samples too.
@@ -75,13 +87,14 @@ TEST(Acceptance, WhatIsNotProvedDoesNotPass) {
   for (FaceVerdict& face : r.faces) face.overcut_bound_mm = 0.01;
   r.overcut_bound_mm = r.gouge_bound_mm = 0.01;
   r.depth = DepthProof::kProved;
-  EXPECT_TRUE(accept(cylinder(), r, 0.95).pass());
+  EXPECT_TRUE(accept(cylinder(), r, asking(0.95)).pass());
   r.faces[1].overcut_bound_mm = r.gouge_bound_mm = 0.0123;
   r.faces[1].bound_point = Vec3(1, 2, -3);
-  expect_one(accept(cylinder(), r, 0.95), "gouge_bound_mm",
+  expect_one(accept(cylinder(), r, asking(0.95)), "gouge_bound_mm",
              "F2 is not proved: cut by 0.0100 mm, but it may be 0.0123 mm > 0.01 mm about (1.000, 2.000, -3.000)");
   r.depth = DepthProof::kSampled;
-  expect_one(accept(cylinder(), r, 0.95), "gouge_bound_mm", "between samples; without --sample it is looked at");
+  expect_one(accept(cylinder(), r, asking(0.95)), "gouge_bound_mm",
+             "between samples; without --sample it is looked at");
   EXPECT_EQ(depth_text(r).substr(0, 7), "sampled");
 }
 
@@ -89,17 +102,17 @@ TEST(Acceptance, CoverageThatIsNotProvedDoesNotPass) {
   VerifyReport r = at_the_limits();
   r.coverage_bound = 0.79;
   r.coverage_reachable_bound = 0.95;
-  EXPECT_TRUE(accept(cylinder(), r, 0.95).pass());
+  EXPECT_TRUE(accept(cylinder(), r, asking(0.95)).pass());
   r.coverage_reachable_bound = 0.94999;
   r.faces[0].uncovered_point = Vec3(1, 2, -3);
   expect_one(
-      accept(cylinder(), r, 0.95), "coverage_bound",
+      accept(cylinder(), r, asking(0.95)), "coverage_bound",
       "95.000 % of what is reachable is measured, 94.999 % is proved < 95.000 %; the rest is about (1.000, 2.000, "
       "-3.000)");
   // A target that may be cut too deep says that, and nothing of its coverage.
   r.overcut_bound_mm = r.faces[0].overcut_bound_mm = 0.02;
   r.coverage_reachable_bound = 0.0;
-  expect_one(accept(cylinder(), r, 0.95), "overcut_bound_mm", "F1 is not proved");
+  expect_one(accept(cylinder(), r, asking(0.95)), "overcut_bound_mm", "F1 is not proved");
 }
 
 TEST(Acceptance, NamesTheFacesThatAreEnteredDeepestFirst) {
@@ -107,7 +120,7 @@ TEST(Acceptance, NamesTheFacesThatAreEnteredDeepestFirst) {
   r.faces[1].overcut_mm = 0.02;
   r.faces[2].overcut_mm = r.gouge_mm = 0.5;
   r.faces[2].deepest = WorstPlace{"F3", Vec3(1, 2, -3), -0.5, 1, 4.0, 2.0};
-  const Acceptance a = accept(cylinder(), r, 0.95);
+  const Acceptance a = accept(cylinder(), r, asking(0.95));
   ASSERT_EQ(a.reasons.size(), 2u);
   EXPECT_EQ(a.reasons[0].text, "F3 is entered by 0.5000 mm > 0.01 mm at (1.000, 2.000, -3.000), strip 2");
   EXPECT_EQ(a.reasons[1].text, "F2 is entered by 0.0200 mm > 0.01 mm");
@@ -204,6 +217,65 @@ TEST(AcceptBends, EachEndIsHeldToTheRadiusThatIsAskedFor) {
   EXPECT_TRUE(a.pass()) << "a straight path";
   accept_bends(CoverJob(), bends, a);
   EXPECT_TRUE(a.pass());
+}
+
+/// The cautions of one figure.
+std::vector<std::string> cautions(const Acceptance& a, Figure figure) {
+  std::vector<std::string> texts;
+  for (const Shortfall& caution : a.cautions)
+    if (caution.figure == figure_name(figure)) texts.push_back(caution.text);
+  return texts;
+}
+
+TEST(Acceptance, WhatIsLeftOfTheWholeFaceIsACautionAndOnDemandAReason) {
+  VerifyReport r = at_the_limits();
+  r.undercut_mm = 2.1;
+  r.reach_radius_mm = 8.0;
+  r.finer_reach = {1.25, 0.96};
+  const Acceptance open = accept(whole_tool(), r, asking(0.95));
+  EXPECT_TRUE(open.pass());
+  ASSERT_EQ(cautions(open, Figure::kWholeCoverage).size(), 1u);
+  EXPECT_EQ(cautions(open, Figure::kWholeCoverage)[0],
+            "20.00 % of the face is left, up to 2.1 mm of material; a tool of radius 1.2 mm would reach 96.0 %");
+  JudgeRequest whole = asking(0.95);
+  whole.least_whole = 0.9;
+  expect_one(accept(whole_tool(), r, whole), "coverage", "90.000 % of the whole is asked for");
+  // Measured is not proved.
+  r.coverage = 0.92;
+  r.coverage_bound = 0.89;
+  r.coverage_reachable_bound = 0.95;
+  expect_one(accept(whole_tool(), r, whole), "coverage", "is not proved: 92.000 % is measured, 89.000 % is proved");
+  r.coverage_bound = 0.9;
+  EXPECT_TRUE(accept(whole_tool(), r, whole).pass());
+}
+
+TEST(Acceptance, AShankOrHolderThatIsNotGivenIsACaution) {
+  VerifyReport r = at_the_limits();
+  r.coverage = 1.0;
+  const auto said = [&](const Tool& tool) {
+    const Acceptance a = accept(tool, r, asking(0.95));
+    EXPECT_TRUE(a.pass());
+    const std::vector<std::string> texts = cautions(a, Figure::kBodyUnknown);
+    return texts.empty() ? std::string() : texts.front();
+  };
+  EXPECT_EQ(said(whole_tool()), "");
+  EXPECT_EQ(said(cylinder()), "shank and holder were not given and not checked");
+  Tool shank = whole_tool(), holder = whole_tool();
+  shank.holder.clear();
+  holder.shank.clear();
+  EXPECT_EQ(said(shank), "the holder was not given and not checked");
+  EXPECT_EQ(said(holder), "the shank was not given and not checked");
+  r.hold.emplace().as_thick = ClearanceFigure{.clearance_mm = -1.5, .kept = false, .obstacle = "F11", .strip = 2};
+  EXPECT_NE(said(cylinder()).find("would enter F11 by 1.5 mm within one diameter, strip 3; the flank is 20 mm long"),
+            std::string::npos)
+      << said(cylinder());
+}
+
+TEST(Acceptance, WhereTheAxisRunsThroughThePartNothingHoldsTheTool) {
+  VerifyReport r = at_the_limits();
+  r.hold.emplace().axis = {.body = ToolBody::kAxis, .clearance_mm = -0.3, .kept = false, .obstacle = "F8", .strip = 0};
+  for (const Tool& tool : {cylinder(), whole_tool()})
+    expect_one(accept(tool, r, asking(0.95)), "hold", "above the flank its axis runs through F8");
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ class HalfAPlane : public testing::Test {
         .size_mm = 45.0,
         .samples = [this](std::size_t, bool fine, const auto& use) { use(fine ? fine_ : samples_); },
         .shape = &shape_};
-    return verify::judge_faces(tool_, path_, {face}, {}, least_coverage);
+    return verify::judge_faces(tool_, path_, {face}, {}, {.reachable = least_coverage, .whole = 0.0});
   }
 
   Tool tool_;

@@ -211,5 +211,49 @@ TEST(Winding, IsOneInsideAndNoneOutside) {
   EXPECT_FALSE(verify::Winding({}).inside({0, 0, 0}));
 }
 
+TEST(Reach, TheLargestBallBesideAWallIsAsLargeAsItIsFar) {
+  // A wall stands on the edge z = 0 of the floor: at a distance d from it a ball of radius d touches both.
+  const FaceSamples floor = floor_samples(1.0);
+  const std::vector<ReachFace> others = solid(box({-10, -10, -5}, {50, 60, 0}), 1);
+  constexpr double kRadius = 6.0, kTolerance = 1e-4;
+  const std::vector<double> radii = ReachScene(others, {}, {kRadius, kTolerance}).largest_balls(floor);
+  ASSERT_EQ(radii.size(), floor.points.size());
+  for (std::size_t i = 0; i < radii.size(); ++i)
+    EXPECT_NEAR(radii[i], std::min(kRadius, floor.points[i].z()), 2e-3 * kRadius) << floor.points[i].transpose();
+  // It agrees with what is reachable by a ball of any radius.
+  for (const double radius : {1.0, 2.5, 5.0}) {
+    double larger = 0.0, whole = 0.0;
+    for (std::size_t i = 0; i < radii.size(); ++i)
+      larger += radii[i] >= radius ? floor.areas[i] : 0.0, whole += floor.areas[i];
+    EXPECT_NEAR(larger / whole, reach(floor, others, radius, kTolerance), 0.03) << radius;
+  }
+}
+
+TEST(Reach, TheLargestBallInAGrooveIsTheGroovesOwn) {
+  // A groove of radius 5, its own triangles, seen from its axis.
+  constexpr double kGroove = 5.0;
+  FaceSamples bottom;
+  TriangleMesh own;
+  constexpr int kSteps = 720;
+  for (int k = 0; k <= kSteps; ++k) {
+    const double a = std::numbers::pi * k / kSteps;
+    const Vec3 out(std::cos(a), -std::sin(a), 0.0);
+    own.vertices.push_back(kGroove * out - 40.0 * Vec3::UnitZ());
+    own.vertices.push_back(kGroove * out + 40.0 * Vec3::UnitZ());
+    if (k == 0) continue;
+    own.triangles.push_back({2 * k - 2, 2 * k, 2 * k - 1});
+    own.triangles.push_back({2 * k, 2 * k + 1, 2 * k - 1});
+  }
+  for (const double share : {0.3, 0.5, 0.6}) {
+    const double a = std::numbers::pi * share;
+    bottom.points.emplace_back(kGroove * std::cos(a), -kGroove * std::sin(a), 0.0);
+    bottom.normals.push_back(-bottom.points.back().normalized());
+    bottom.areas.push_back(1.0);
+  }
+  for (const double radius : ReachScene({}, own, {20.0, 1e-3}).largest_balls(bottom))
+    EXPECT_NEAR(radius, kGroove, 0.05);
+  for (const double radius : ReachScene({}, own, {4.0, 1e-3}).largest_balls(bottom)) EXPECT_EQ(radius, 4.0);
+}
+
 }  // namespace
 }  // namespace flank::internal

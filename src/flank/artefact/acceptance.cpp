@@ -76,8 +76,8 @@ void add_buried(const VerifyReport& report, Acceptance& out) {
 void add_coverage(const VerifyReport& report, double least, Acceptance& out) {
   if (!(report.coverage_reachable >= least)) {
     add_reason(out, Figure::kCoverage,
-               fmt::format("coverage {:.3f} % < {:.3f} % of what is reachable", 100.0 * report.coverage_reachable,
-                           100.0 * least));
+               fmt::format("coverage {:.3f} % < {:.3f} % of what is reachable; of the whole face {:.3f} %",
+                           100.0 * report.coverage_reachable, 100.0 * least, 100.0 * report.coverage));
     return;
   }
   const bool deep = report.overcut_bound_mm > report.tolerance_mm;
@@ -93,6 +93,63 @@ void add_coverage(const VerifyReport& report, double least, Acceptance& out) {
                          p.x(), p.y(), p.z()));
 }
 
+/// Which tool would reach what is left of the whole face.
+std::string who_reaches(const VerifyReport& report) {
+  if (!report.finer_reach) return "";
+  const auto& [radius, share] = *report.finer_reach;
+  // As far as the ball of the request goes everything was in reach, and is left all the same.
+  constexpr double kAlike = 0.999;
+  if (radius >= kAlike * report.reach_radius_mm) return "; this tool could reach it";
+  if (!(radius > report.tolerance_mm)) return "; no tool reaches it";
+  return fmt::format("; a tool of radius {:.2g} mm would reach {:.1f} %", radius, 100.0 * share);
+}
+
+/// The share of the whole face, whatever is reachable: a demand, or, where none was made, a caution if as much is left as of what is
+/// reachable may be.
+void add_whole(const VerifyReport& report, const JudgeRequest& request, Acceptance& out) {
+  const double wanted = request.least_whole.value_or(request.least_coverage);
+  const bool deep = report.overcut_bound_mm > report.tolerance_mm;
+  const bool proved = deep || !report.coverage_bound || *report.coverage_bound >= wanted;
+  if (report.coverage >= wanted && (proved || !request.least_whole)) return;
+  if (report.coverage >= wanted) {
+    add_reason(
+        out, Figure::kWholeCoverage,
+        fmt::format("coverage of the whole face is not proved: {:.3f} % is measured, {:.3f} % is proved < {:.3f} %",
+                    100.0 * report.coverage, 100.0 * *report.coverage_bound, 100.0 * wanted));
+    return;
+  }
+  const std::string text = fmt::format("{:.2f} % of the face is left, up to {:.2g} mm of material{}",
+                                       100.0 * (1.0 - report.coverage), report.undercut_mm, who_reaches(report));
+  if (request.least_whole)
+    add_reason(out, Figure::kWholeCoverage,
+               fmt::format("{}; {:.3f} % of the whole is asked for", text, 100.0 * wanted));
+  else
+    add_caution(out, Figure::kWholeCoverage, text);
+}
+
+/// Whether anything could hold the tool, and what of that was not given.
+void add_hold(const Tool& tool, const VerifyReport& report, Acceptance& out) {
+  if (report.hold && !report.hold->axis.kept) {
+    const ClearanceFigure& axis = report.hold->axis;
+    add_reason(out, Figure::kHold,
+               fmt::format("nothing could hold the tool: above the flank its axis runs through {} at ({:.3f}, {:.3f}, "
+                           "{:.3f}), strip {}",
+                           axis.obstacle, axis.point.x(), axis.point.y(), axis.point.z(), axis.strip + 1));
+  }
+  if (!tool.shank.empty() && !tool.holder.empty()) return;
+  std::string text =
+      tool.shank.empty() ? tool.holder.empty() ? "shank and holder were" : "the shank was" : "the holder was";
+  text += " not given and not checked";
+  if (report.hold && report.hold->as_thick && !report.hold->as_thick->kept) {
+    const ClearanceFigure& f = *report.hold->as_thick;
+    text += fmt::format(
+        ": a shank as thick as the flank's upper end would enter {} by {:.2g} mm within one diameter, "
+        "strip {}; the flank is {:.4g} mm long",
+        f.obstacle, f.bound_mm - f.clearance_mm, f.strip + 1, tool.radial.axis_length());
+  }
+  add_caution(out, Figure::kBodyUnknown, text);
+}
+
 }  // namespace
 
 void add_reason(Acceptance& acceptance, Figure figure, std::string text) {
@@ -103,7 +160,7 @@ void add_caution(Acceptance& acceptance, Figure figure, std::string text) {
   acceptance.cautions.push_back({std::string(figure_name(figure)), std::move(text)});
 }
 
-Acceptance accept(const Tool& tool, const VerifyReport& report, double least_coverage, bool complete) {
+Acceptance accept(const Tool& tool, const VerifyReport& report, const JudgeRequest& request, bool complete) {
   Acceptance out;
   if (!complete) add_reason(out, Figure::kComplete, "interrupted: incomplete");
   if (const Legitimacy legitimacy = check_legitimacy(tool.radial); !legitimacy.legitimate)
@@ -117,7 +174,9 @@ Acceptance accept(const Tool& tool, const VerifyReport& report, double least_cov
   add_buried(report, out);
   // What was stopped was judged by samples alone, and says already why it does not pass.
   if (complete) add_unproved(report, out);
-  add_coverage(report, least_coverage, out);
+  add_coverage(report, request.least_coverage, out);
+  add_whole(report, request, out);
+  add_hold(tool, report, out);
   // "surely": the judge's figure less its bound is what counts (ClearanceFigure::kept).
   for (const ClearanceFigure& f : report.clearance.figures)
     if (!f.kept)

@@ -88,9 +88,10 @@ void add_reason(Acceptance& acceptance, Figure figure, std::string text);
 void add_caution(Acceptance& acceptance, Figure figure, std::string text);
 
 /// Passes: the work is complete, the tool legitimate, overcut on every target and every check face surely at most the
-/// report's tolerance (its bound is; samples alone give one, too), coverage of what is reachable at least
-/// `least_coverage` (its bound, where there is one), and every clearance kept.
-[[nodiscard]] Acceptance accept(const Tool& tool, const VerifyReport& report, double least_coverage,
+/// report's tolerance (its bound is; samples alone give one, too), coverage of what is reachable, and of the whole where that is
+/// asked for, at least the request's (its bound, where there is one), every clearance kept, and nothing in the way of whatever
+/// holds the tool. Cautions: a part of the whole face that is left, a shank or holder that was not given.
+[[nodiscard]] Acceptance accept(const Tool& tool, const VerifyReport& report, const JudgeRequest& request,
                                 bool complete = true);
 
 /// Adds what the replay of a cavity's program finds against it: engagement above the limit by more than its resolution (but

@@ -40,7 +40,7 @@ std::string error_lines(const Result& result) {
   text += fmt::format("  bends       least radius {} at the tip, {} at the holder end\n",
                       bend_text(result.bends.tip_mm), bend_text(result.bends.holder_end_mm));
   if (was_stopped(result)) return text + "  judged      not at all\n";
-  text += fmt::format("  coverage    {:.2f} % of the target within {} mm\n", 100.0 * v.coverage, v.tolerance_mm);
+  text += fmt::format("  coverage    {:.2f} % of the whole face within {} mm\n", 100.0 * v.coverage, v.tolerance_mm);
   text += "  " + reach_text(v) + "\n";
   text += fmt::format("  overcut     {:.6f} mm\n", v.overcut_mm);
   text += fmt::format("  undercut    {:.6f} mm where the path touches, {:.4f} mm anywhere on the target\n",
@@ -123,8 +123,8 @@ nlohmann::ordered_json bends_json(const BendRadii& bends) {
 }  // namespace
 
 Acceptance Result::acceptance() const {
-  const double least_coverage = std::visit([](const auto& request) { return request.judge.least_coverage; }, job);
-  Acceptance out = accept(tool, verify, least_coverage, complete);
+  const JudgeRequest& request = std::visit([](const auto& asked) -> const JudgeRequest& { return asked.judge; }, job);
+  Acceptance out = accept(tool, verify, request, complete);
   if (complete) accept_bends(job, bends, out);
   if (const auto* cavity = std::get_if<TrochoidSummary>(&plan)) accept_cavity(*cavity, out);
   if (const auto* cavity = std::get_if<TrochoidJob>(&job); cavity && verify.stock)

@@ -163,7 +163,7 @@ Value value_named(const std::string& name, const std::array<Value, N>& values, c
 ClearanceFigure clearance_from(const Json& j) {
   ClearanceFigure f;
   f.body = value_named(j.at("body").get<std::string>(),
-                       std::array{ToolBody::kFlank, ToolBody::kShank, ToolBody::kHolder}, body_name);
+                       std::array{ToolBody::kFlank, ToolBody::kShank, ToolBody::kHolder, ToolBody::kAxis}, body_name);
   f.role = value_named(j.at("against").get<std::string>(),
                        std::array{ObstacleRole::kTarget, ObstacleRole::kPart, ObstacleRole::kFixture}, role_name);
   f.clearance_mm = to_number(j.at("clearance_mm"));
@@ -229,6 +229,14 @@ VerifyReport report_from(const Json& j) {
     for (const Json& c : j.at("clearance")) r.clearance.figures.push_back(clearance_from(c));
   if (j.contains("buried"))
     for (const Json& b : j.at("buried")) r.buried.push_back(buried_from(b));
+  if (j.contains("hold")) {
+    const Json& hold = j.at("hold");
+    r.hold.emplace().axis = clearance_from(hold.at("axis"));
+    if (hold.contains("as_thick")) r.hold->as_thick = clearance_from(hold.at("as_thick"));
+  }
+  if (j.contains("finer_reach"))
+    r.finer_reach = {to_number(j.at("finer_reach").at("radius_mm")),
+                     to_number(j.at("finer_reach").at("reachable_share"))};
   if (j.contains("stock")) r.stock = stock_from_json(j.at("stock"));
   return r;
 }
@@ -287,6 +295,13 @@ std::string verify_to_json(const VerifyReport& r, const Acceptance& acceptance) 
   for (double a : r.histogram_area_mm2) j["histogram"]["area_mm2"].push_back(number(a));
   for (const BuriedStrip& b : r.buried) j["buried"].push_back(to_json(b));
   if (!r.clearance.figures.empty()) j["clearance"] = to_json(r.clearance);
+  if (r.hold) {
+    j["hold"] = {{"axis", to_json(r.hold->axis)}};
+    if (r.hold->as_thick) j["hold"]["as_thick"] = to_json(*r.hold->as_thick);
+  }
+  if (r.finer_reach)
+    j["finer_reach"] = {{"radius_mm", number(r.finer_reach->radius_mm)},
+                        {"reachable_share", number(r.finer_reach->reachable_share)}};
   if (r.stock) j["stock"] = stock_to_json(*r.stock);
   return dumped(j, 2) + "\n";
 }

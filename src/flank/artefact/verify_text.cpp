@@ -83,8 +83,9 @@ std::string verify_text(const Verification& outcome) {
   for (const std::string& note : outcome.notes) text += "note: " + note + "\n";
   text += reach_text(v) + "\n";
   text += depth_text(v) + "\n";
-  text += fmt::format("coverage {:.2f} % within {} mm, overcut {:.6f} mm: {}\n", 100.0 * v.coverage, v.tolerance_mm,
-                      v.overcut_mm, outcome.acceptance.pass() ? "meets the request" : "does NOT meet the request");
+  text += fmt::format("coverage {:.2f} % of the whole face within {} mm, overcut {:.6f} mm: {}\n", 100.0 * v.coverage,
+                      v.tolerance_mm, v.overcut_mm,
+                      outcome.acceptance.pass() ? "meets the request" : "does NOT meet the request");
   text += reason_lines(outcome.acceptance);
   return text;
 }

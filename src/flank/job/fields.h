@@ -141,7 +141,9 @@ void visit_obstacles(Request& obstacles, Visitor& visit) {
                   Spelling::kFile, "--fixture"},
         obstacles.fixtures);
   visit(FieldInfo{"clearance", "mm", kAbove,
-                  "Least distance of shank and holder from the part, and of all from fixtures; default: no collision",
+                  "Least distance of the holder from the part, of the shank from its other faces (it stands on the "
+                  "flank and may "
+                  "touch the machined face), and of all from fixtures; default: no collision",
                   kDistance},
         obstacles.clearance_mm);
 }
@@ -174,6 +176,12 @@ void visit_judge(Request& judge, Visitor& visit) {
   visit(FieldInfo{"coverage", "", "", "Share of what is reachable of the face, within tolerance, that counts as done",
                   kCoverage},
         judge.least_coverage);
+  visit(
+      FieldInfo{"coverage_whole", "", "",
+                "Share of the whole face, reachable or not, that must be within tolerance; default: any, what is left "
+                "is told",
+                kCoverage},
+      judge.least_whole);
   visit(FieldInfo{"sample", "mm", "", kSampleHelp, kLength}, judge.sample_mm);
   visit(FieldInfo{"reach_radius", "mm", "Other faces", kReachHelp, kRadius}, judge.reach_radius_mm);
 }

@@ -46,7 +46,7 @@ VerifyReport quick_verdict(const Setup& setup, JudgeRequest request, const Clear
   request.sample_mm = std::max(request.sample_mm.value_or(0.0), coarse_spacing(setup, kFewSamples));
   try {
     VerifyReport report = judge_job(setup, request, result.tool, result.path, DepthProof::kSampled);
-    report.clearance = measure_clearance(scene, result.tool, result.path);
+    measure_bodies(scene, result.tool, result.path, report);
     return report;
   } catch (const Stopped&) {
     VerifyReport none;
@@ -106,7 +106,7 @@ VerifyReport judged(const Setup& setup, const ClearanceScene& scene, const Resul
   stop_here();
   VerifyReport report = judge_job(setup, request_of(result), result.tool, result.path);
   watch.lap("verify");
-  report.clearance = measure_clearance(scene, result.tool, result.path);
+  measure_bodies(scene, result.tool, result.path, report);
   watch.lap("clearance");
   return report;
 }

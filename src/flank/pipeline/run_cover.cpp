@@ -11,6 +11,8 @@
 #include "flank/pipeline/run_journal.h"
 #include "flank/pipeline/search/closed_mesh.h"
 #include "flank/pipeline/search/cover_choice.h"
+#include "flank/pipeline/search/reach_ball.h"
+#include "flank/pipeline/search/search_setup.h"
 #include "flank/setup/tool_body.h"
 #include "flank/strip/strip_order.h"
 #include "flank/toolbox/tool_spec.h"
@@ -115,6 +117,18 @@ std::vector<StripSurface> collect(const CoverJob& job, const std::vector<Covered
   return add_strips(job.tolerance_mm, groups, result);
 }
 
+/// A tool that was chosen does not say what is to be reached: the part does.
+void ask_for_reach(const CoverJob& job, const Setup& setup, const std::vector<Covered>& all, Result& result) {
+  if (job.judge.reach_radius_mm) return;
+  double ball = 1e300;
+  for (const Covered& covered : all) {
+    const Target& target = *covered.group.target;
+    const RadiusBounds bounds = radius_bounds({}, job.obstacles, target.diagonal());
+    ball = std::min(ball, reach_of_part(setup, target, job.tool.axis_length_mm, bounds));
+  }
+  std::get<CoverJob>(result.job).judge.reach_radius_mm = ball;
+}
+
 }  // namespace
 
 Result run_cover(const CoverJob& job, const Progress& asked) {
@@ -141,6 +155,7 @@ Result run_cover(const CoverJob& job, const Progress& asked) {
   watch.lap("cover");
   // Nothing takes the place of an earlier result.
   if (std::all_of(all.begin(), all.end(), [](const Covered& c) { return c.result.motions.empty(); })) stop_here();
+  if (choice) ask_for_reach(job, setup, all, result);
   std::vector<StripSurface> surfaces = collect(job, all, result);
   watch.lap("sample");
   result.complete = !progress.stop();

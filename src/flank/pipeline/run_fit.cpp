@@ -292,7 +292,7 @@ Progress once_more(const Progress& progress) {
 
 bool passes(const Result& result) {
   const auto& job = std::get<FitJob>(result.job);
-  return accept(result.tool, result.verify, job.judge.least_coverage, result.complete).reasons.empty();
+  return accept(result.tool, result.verify, job.judge, result.complete).reasons.empty();
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "flank/pipeline/finish.h"
 #include "flank/pipeline/run_fit.h"
 #include "flank/pipeline/run_journal.h"
+#include "flank/pipeline/search/reach_ball.h"
 #include "flank/pipeline/search/search_setup.h"
 #include "flank/run.h"
 #include "flank/setup/clearance_scene.h"
@@ -191,8 +192,9 @@ void take(const CavityPlan& plan, const TrochoidJob& job, const ToolSpec& spec, 
 
 }  // namespace
 
-Result run_trochoid(const TrochoidJob& job, const Progress& asked) {
+Result run_trochoid(const TrochoidJob& request, const Progress& asked) {
   const Progress progress = with_journal(asked);
+  TrochoidJob job = request;
   check_job(job);
   const ToolSpec spec = parse_tool_spec(job.tool.spec);
   check_obstacles(job.obstacles, spec.tool ? &*spec.tool : nullptr);
@@ -207,6 +209,11 @@ Result run_trochoid(const TrochoidJob& job, const Progress& asked) {
   const ClearanceScene scene = make_clearance_scene(setup, job.obstacles, has_body(spec, job.obstacles), result.notes);
   if (job.avoid) surround(job, setup, faces);
   require_room(job, spec, faces);
+  // The verdict, now and later, is about what the cavity allows.
+  if (spec.free && !job.judge.reach_radius_mm) {
+    job.judge.reach_radius_mm = reach_in_gap(setup, kMostOfWidth * faces.width.narrowest_mm);
+    result.job = job;
+  }
   SideFitOptions options = side_options(job, faces);
   options.up = up_from_floor(job, setup, faces);
   watch.lap("read");
@@ -231,7 +238,7 @@ Result run_trochoid(const TrochoidJob& job, const Progress& asked) {
   const auto own_reach = [&] {
     return reach_of_tool(side_of(faces.sides[0]), side_of(faces.sides[1]), sides.motions, sides.tool);
   };
-  note_own_reach(job, own_reach, result);
+  note_own_reach(request, own_reach, result);
   note_nearest(result);
   if (!result.complete) result.journal = progress.journal;
   return result;

@@ -12,6 +12,7 @@ namespace flank::internal {
 namespace {
 
 constexpr double kFinestMm = 0.002, kCoarsestMm = 0.02;  ///< deviation of the triangles, about half the tolerance
+constexpr double kSizeShare = 1e-3;  ///< of the part: deviation where only what might hold the tool is asked
 
 bool holds(const std::vector<int>& faces, std::size_t face) {
   return std::find(faces.begin(), faces.end(), static_cast<int>(face)) != faces.end();
@@ -57,15 +58,27 @@ ClearanceScene make_clearance_scene(const Setup& setup, const ObstacleRequest& r
   ClearanceScene scene;
   scene.options.tolerance_mm = setup.tolerance_mm;
   scene.options.required_mm = request.clearance_mm.value_or(-1.0);
+  scene.has_body = has_body;
   const double deviation =
       std::clamp(kToleranceBudget.shank.judge_triangles * setup.tolerance_mm, kFinestMm, kCoarsestMm);
-  if (has_body) add_part(setup, deviation, scene.obstacles, notes);
+  // Whether something is in the way of a tool that is not known yet need not be told to a hundredth of a millimetre.
+  std::vector<std::string> unsaid;
+  add_part(setup, has_body ? deviation : std::max(kCoarsestMm, kSizeShare * setup.part.box.diagonal()), scene.obstacles,
+           has_body ? notes : unsaid);
   for (const Part& fixture : setup.fixtures) add_fixture(fixture, deviation, scene.obstacles, notes);
   return scene;
 }
 
+void measure_bodies(const ClearanceScene& scene, const Tool& tool, const Path& path, VerifyReport& report) {
+  report.clearance = measure_clearance(scene, tool, path);
+  report.hold = judge_hold(tool, path, scene.obstacles, scene.options);
+}
+
 ClearanceReport measure_clearance(const ClearanceScene& scene, const Tool& tool, const Path& path) {
-  return scene.obstacles.empty() ? ClearanceReport() : judge_clearance(tool, path, scene.obstacles, scene.options);
+  const bool fixtures = std::any_of(scene.obstacles.begin(), scene.obstacles.end(),
+                                    [](const Obstacle& o) { return o.role == ObstacleRole::kFixture; });
+  if (!scene.has_body && !fixtures) return {};
+  return judge_clearance(tool, path, scene.obstacles, scene.options);
 }
 
 }  // namespace flank::internal

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "flank/clearance.h"
+#include "flank/judge.h"
 #include "flank/setup/setup.h"
 
 namespace flank::internal {
@@ -12,14 +13,19 @@ namespace flank::internal {
 struct ClearanceScene {
   std::vector<Obstacle> obstacles;  ///< faces of the part, then fixtures
   ClearanceOptions options;
+  bool has_body =
+      false;  ///< shank or holder are measured; else the part's faces are there for what might hold the tool alone
 };
 
-/// Triangulates the fixtures and, if the tool has a body above its flank, the part's targets and check
-/// faces; no other faces count. `notes` gets what was done to fixtures and what is inaccurate.
+/// Triangulates the fixtures and the part's targets and check faces, coarsely if the tool has no body above its flank; no other faces
+/// count. `notes` gets what was done to fixtures and what is inaccurate.
 [[nodiscard]] ClearanceScene make_clearance_scene(const Setup& setup, const ObstacleRequest& request, bool has_body,
                                                   std::vector<std::string>& notes);
 
-/// Judges shank, holder and fixtures; an empty report if there is nothing to judge.
+/// Judges shank, holder and fixtures, and whether anything could hold the tool: fills `clearance` and `hold`.
+void measure_bodies(const ClearanceScene& scene, const Tool& tool, const Path& path, VerifyReport& report);
+
+/// Judges shank, holder and fixtures alone; an empty report if there is nothing to judge.
 [[nodiscard]] ClearanceReport measure_clearance(const ClearanceScene& scene, const Tool& tool, const Path& path);
 
 }  // namespace flank::internal

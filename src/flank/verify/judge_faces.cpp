@@ -58,10 +58,10 @@ class Judge {
   Judge(const Tool& tool, const Path& path, const JudgeOptions& options)
       : tool_(tool), path_(path), options_(options), volume_(tool, path) {}
 
-  VerifyReport run(const std::vector<JudgedFace>& faces, double least_coverage) {
+  VerifyReport run(const std::vector<JudgedFace>& faces, const LeastCoverage& least) {
     const bool shapes = std::all_of(faces.begin(), faces.end(), [](const JudgedFace& f) { return f.shape != nullptr; });
     prove_depth_ = shapes && !faces.empty() && options_.depth == DepthProof::kProved;
-    keep_ = least_coverage > 0.0;
+    keep_ = least.reachable > 0.0 || least.whole > 0.0;
     std::vector<Known> known(faces.size());
     std::vector<FaceResult> results(faces.size());
     bool again = false;
@@ -72,12 +72,12 @@ class Judge {
         if (!again || faces[k].target) results[k] = judge_face(faces[k], known[k]);
       finish(results, shapes && !faces.empty());
       again = true;
-      if (border_decides(least_coverage, known)) {
+      if (border_decides(least.reachable, known)) {
         fine_ = true;
         for (Known& face : known) face.samples.reset();
         continue;
       }
-      if (!undecided(least_coverage)) break;
+      if (!undecided(least)) break;
       ++look;
     }
     return std::move(report_);
@@ -92,9 +92,11 @@ class Judge {
   }
 
   /// Measured to cover what is needed, but not proved to.
-  [[nodiscard]] bool undecided(double least) const {
-    return report_.coverage_reachable >= least && report_.overcut_bound_mm <= report_.tolerance_mm &&
-           report_.coverage_reachable_bound && *report_.coverage_reachable_bound < least;
+  [[nodiscard]] bool undecided(const LeastCoverage& least) const {
+    if (report_.overcut_bound_mm > report_.tolerance_mm || !report_.coverage_bound) return false;
+    const bool measured = report_.coverage_reachable >= least.reachable && report_.coverage >= least.whole;
+    const bool proved = *report_.coverage_reachable_bound >= least.reachable && *report_.coverage_bound >= least.whole;
+    return measured && !proved;
   }
 
   /// May the cells in which what is reachable ends tell whether what is needed is covered? They count whole where they are open, and
@@ -257,9 +259,9 @@ class Judge {
 }  // namespace
 
 VerifyReport judge_faces(const Tool& tool, const Path& path, const std::vector<JudgedFace>& faces,
-                         const JudgeOptions& options, double least_coverage) {
+                         const JudgeOptions& options, const LeastCoverage& least) {
   require_usable(options);
-  return Judge(tool, path, options).run(faces, least_coverage);
+  return Judge(tool, path, options).run(faces, least);
 }
 
 }  // namespace flank::internal::verify

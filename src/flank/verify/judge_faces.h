@@ -21,10 +21,15 @@ struct JudgedFace {
   const FaceShape* shape = nullptr;  ///< null: not known, so nothing is proved
 };
 
-/// judge() of flank/judge.h. Where the targets are measured to be covered by `least_coverage` of what is reachable, and not
+/// The shares of the targets' area, of what is reachable and of the whole, that are asked for; 0: none.
+struct LeastCoverage {
+  double reachable = 0.0, whole = 0.0;
+};
+
+/// judge() of flank/judge.h. Where the targets are measured to be covered by `least` and not
 /// proved to be, and the verdict hangs on that alone, the proof of coverage goes on, finer; and where it may hang on the cells that
 /// are reachable in part, these are cut first.
 [[nodiscard]] VerifyReport judge_faces(const Tool& tool, const Path& path, const std::vector<JudgedFace>& faces,
-                                       const JudgeOptions& options, double least_coverage = 0.0);
+                                       const JudgeOptions& options, const LeastCoverage& least = {});
 
 }  // namespace flank::internal::verify

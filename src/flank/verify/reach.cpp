@@ -39,6 +39,11 @@ double triangle_distance(const ObstacleTree& tree, int triangle, const Vec3& x) 
   return std::sqrt(closest_on_triangle(x, v[0], v[1], v[2]).squared_distance);
 }
 
+Vec3 triangle_point(const ObstacleTree& tree, int triangle, const Vec3& x) {
+  const std::array<Vec3, 3> v = tree.corners(triangle);
+  return closest_on_triangle(x, v[0], v[1], v[2]).point;
+}
+
 /// No triangle of the node is nearer.
 double node_bound(const ObstacleTree::Node& node, const Vec3& x) {
   const double along = node.normal.dot(x);
@@ -47,8 +52,8 @@ double node_bound(const ObstacleTree::Node& node, const Vec3& x) {
 }
 
 /// Distance from x to the nearest triangle where that is below `cap`, else `cap`; any distance below `enough` if there
-/// is one.
-double capped_distance(const ObstacleTree& tree, const Vec3& x, double cap, double enough) {
+/// is one. `nearest`: that triangle; stays as it is if none is below the cap.
+double capped_distance(const ObstacleTree& tree, const Vec3& x, double cap, double enough, int* nearest = nullptr) {
   if (tree.empty()) return cap;
   std::array<std::pair<int, double>, kStackSize> stack;
   int size = 0;
@@ -59,7 +64,12 @@ double capped_distance(const ObstacleTree& tree, const Vec3& x, double cap, doub
     if (promised >= least) continue;
     const ObstacleTree::Node& node = tree.node(index);
     if (node.second < 0) {
-      for (int k = node.first; k < node.end; ++k) least = std::min(least, triangle_distance(tree, k, x));
+      for (int k = node.first; k < node.end; ++k) {
+        const double here = triangle_distance(tree, k, x);
+        if (here >= least) continue;
+        least = here;
+        if (nearest != nullptr) *nearest = k;
+      }
       continue;
     }
     std::pair near{index + 1, node_bound(tree.node(index + 1), x)};
@@ -147,6 +157,28 @@ class Surroundings {
     }
   }
 
+  /// Radius of the largest ball up to `radius` that touches the target at x, on the side of the unit vector n, and is free.
+  [[nodiscard]] double largest_ball(const Vec3& x, const Vec3& n, double radius, double tolerance) const {
+    constexpr int kMostSteps = 64;
+    constexpr double kSettled = 1e-3;
+    for (int step = 0; step < kMostSteps && radius > tolerance; ++step) {
+      const Vec3 center = x + radius * n;
+      double smaller = radius;
+      for (const ObstacleTree* tree : {&surface_, &own_}) {
+        int nearest = -1;
+        const double limit = radius - tolerance;
+        if (capped_distance(*tree, center, limit, 0.0, &nearest) >= limit) continue;
+        const Vec3 away = triangle_point(*tree, nearest, center) - x;
+        // The ball that touches at x and passes through that point. What lies behind x lets none pass.
+        const double ahead = away.dot(n);
+        smaller = std::min(smaller, ahead > 0.0 ? away.squaredNorm() / (2.0 * ahead) : 0.0);
+      }
+      if (smaller >= (1.0 - kSettled) * radius) return buried(center) ? 0.0 : radius;
+      radius = smaller;
+    }
+    return 0.0;
+  }
+
   /// Whether the ball that touches the target here enters it elsewhere.
   [[nodiscard]] bool in_a_corner(const Ball& ball) const {
     return capped_distance(own_, ball.center, limit_, limit_) < limit_;
@@ -204,14 +236,14 @@ void require_usable(const ReachOptions& options) {
 }  // namespace
 
 struct ReachScene::Data {
-  double radius;
+  double radius, tolerance;
   Surroundings around;
 };
 
 ReachScene::ReachScene(const std::vector<ReachFace>& others, const TriangleMesh& own, const ReachOptions& options) {
   require_usable(options);
-  data_ = std::make_unique<const Data>(
-      Data{options.radius_mm, Surroundings(others, own, options.radius_mm - options.tolerance_mm)});
+  data_ = std::make_unique<const Data>(Data{options.radius_mm, options.tolerance_mm,
+                                            Surroundings(others, own, options.radius_mm - options.tolerance_mm)});
 }
 ReachScene::~ReachScene() = default;
 ReachScene::ReachScene(ReachScene&&) noexcept = default;
@@ -232,6 +264,19 @@ std::vector<double> ReachScene::shares(const FaceSamples& target) const {
       if (shares[i] > 0.0 && data_->around.in_a_corner(balls[i - begin])) shares[i] = 0.0;
   });
   return shares;
+}
+
+std::vector<double> ReachScene::largest_balls(const FaceSamples& target) const {
+  if (target.normals.size() != target.points.size()) throw InternalError("reach: a target's samples need normals");
+  std::vector<double> radii(target.points.size());
+  parallel_blocks(radii.size(), kLeastBlock, [&](std::size_t begin, std::size_t end) {
+    stop_here();
+    for (std::size_t i = begin; i < end; ++i)
+      radii[i] = target.normals[i].isZero()
+                     ? data_->radius
+                     : data_->around.largest_ball(target.points[i], target.normals[i], data_->radius, data_->tolerance);
+  });
+  return radii;
 }
 
 std::vector<double> reachable_shares(const FaceSamples& target, const std::vector<ReachFace>& others,

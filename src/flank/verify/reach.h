@@ -40,6 +40,11 @@ class ReachScene {
   /// Parallel; the same bits for any number of threads.
   [[nodiscard]] std::vector<double> shares(const FaceSamples& target) const;
 
+  /// Radius of the largest ball, up to the scene's own, that touches the face at each sample and is free in the same sense, mm; 0
+  /// where none is. To about a thousandth: the shrinking ball (J. Ma, S. W. Bae, S. Choi, 3D medial axis point approximation using
+  /// nearest neighbors and the normal field, The Visual Computer 28, 2012). Parallel; the same bits for any number of threads.
+  [[nodiscard]] std::vector<double> largest_balls(const FaceSamples& target) const;
+
  private:
   struct Data;
   std::unique_ptr<const Data> data_;

@@ -241,5 +241,49 @@ TEST(ClearanceVerdict, RefusesBadOptions) {
   EXPECT_THROW((void)judge_clearance(with_holder(), path_of({{Vec3::Zero(), Vec3::UnitZ()}}), {}, options), UsageError);
 }
 
+TEST(Hold, WhatCrossesTheAxisAboveTheFlankLeavesNothingToHoldTheToolBy) {
+  // A flank of 20 in z; the wall far above it is crossed by the axis, however far up it is and whatever stands between.
+  const Path path = path_of({{Vec3(0, 0, 0), Vec3::UnitZ()}, {Vec3(5, 0, 0), Vec3::UnitZ()}});
+  const auto hold_of = [&](const Tool& tool, const TriangleMesh& mesh) {
+    return judge_hold(tool, path, {{"F2", ObstacleRole::kPart, mesh, 0.0}}, {});
+  };
+  for (const double height : {21.0, 35.0, 400.0})
+    for (const Tool& tool : {cylinder(4.0, 20.0), with_holder()}) {
+      const auto hold = hold_of(tool, square(50, height));
+      ASSERT_TRUE(hold) << height;
+      EXPECT_FALSE(hold->axis.kept) << height;
+      EXPECT_EQ(hold->axis.obstacle, "F2");
+      EXPECT_EQ(hold->as_thick.has_value(), tool.shank.empty());
+    }
+  // What the flank itself goes through is the judge's, and what lies below is nobody's.
+  for (const double height : {-1.0, 5.0}) EXPECT_TRUE(hold_of(cylinder(4.0, 20.0), square(50, height))->axis.kept);
+}
+
+TEST(Hold, AWallBesideTheAxisLetsThinnerThingsPass) {
+  const Path path = path_of({{Vec3(0, 0, 0), Vec3::UnitZ()}, {Vec3(0, 5, 0), Vec3::UnitZ()}});
+  const auto wall = [](double x, double low) {
+    return std::vector<Obstacle>{
+        {"F7", ObstacleRole::kPart,
+         TriangleMesh{{{x, -50, low}, {x, 50, low}, {x, 50, 90}, {x, -50, 90}}, {{0, 1, 2}, {0, 2, 3}}}, 0.0}};
+  };
+  const Tool tool = cylinder(4.0, 20.0);
+  // 3 mm off the axis: a shank of the flank's 4 mm would enter it by 1, a thinner one would not.
+  const auto near = judge_hold(tool, path, wall(3.0, 22.0), {});
+  EXPECT_TRUE(near->axis.kept);
+  EXPECT_FALSE(near->as_thick->kept);
+  EXPECT_NEAR(near->as_thick->clearance_mm, -1.0, 0.1);
+  // Above one diameter it is not asked.
+  EXPECT_TRUE(judge_hold(tool, path, wall(3.0, 28.5), {})->as_thick->kept);
+  // A tenth of the radius off the axis nothing passes.
+  EXPECT_FALSE(judge_hold(tool, path, wall(0.2, 22.0), {})->axis.kept);
+  EXPECT_TRUE(judge_hold(tool, path, wall(0.6, 22.0), {})->axis.kept);
+}
+
+TEST(Hold, WithoutObstaclesOrPosesThereIsNothingToSay) {
+  const Path path = path_of({{Vec3(0, 0, 0), Vec3::UnitZ()}, {Vec3(5, 0, 0), Vec3::UnitZ()}});
+  EXPECT_FALSE(judge_hold(cylinder(4.0, 20.0), path, {}, {}));
+  EXPECT_FALSE(judge_hold(cylinder(4.0, 20.0), {}, {{"F2", ObstacleRole::kPart, square(50, 30.0), 0.0}}, {}));
+}
+
 }  // namespace
 }  // namespace flank::internal::verify

@@ -114,9 +114,9 @@ Verification judge_path(const VerifyJob& request, const Job& job, const std::str
   require_known_faces(path, setup.part, file("path.json"));
   outcome.report = judge_job(setup, job.judge, tool, path);
   const ClearanceScene scene = make_clearance_scene(setup, job.obstacles, has_body(tool), outcome.notes);
-  outcome.report.clearance = measure_clearance(scene, tool, path);
+  measure_bodies(scene, tool, path, outcome.report);
   const PathEngagement engagement = replay_stock(job, setup, tool, path, file("blank.json"), outcome);
-  outcome.acceptance = accept(tool, outcome.report, job.judge.least_coverage);
+  outcome.acceptance = accept(tool, outcome.report, job.judge);
   accept_program(job, outcome);
   const BendRadii bends = least_bend_radii(path, tool.radial.axis_length(), kToleranceBudget.chord * job.tolerance_mm);
   accept_bends(job, bends, outcome.acceptance);

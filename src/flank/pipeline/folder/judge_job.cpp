@@ -159,8 +159,9 @@ VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const To
   // A tool that is none (a fit that failed) has nothing to reach with.
   std::optional<TargetReach> reach;
   std::vector<BuriedStrip> buried;
+  std::vector<FaceSamples> samples;
   if (radius > 0.0) {
-    const std::vector<FaceSamples> samples = target_samples(setup, kReachSpacings * usual);
+    samples = target_samples(setup, kReachSpacings * usual);
     reach.emplace(setup, tool, path, ReachBall{radius, request.reach_radius_mm.has_value()}, samples);
     buried = find_buried(setup, tool, path, samples);
   }
@@ -170,8 +171,12 @@ VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const To
   options.depth = request.sample_mm ? DepthProof::kSampled : depth;
   const std::vector<verify::JudgedFace> judged =
       shapes.judged(setup, reach ? &*reach : nullptr, depth == DepthProof::kProved);
-  VerifyReport report = verify::judge_faces(tool, path, judged, options, request.least_coverage);
+  VerifyReport report =
+      verify::judge_faces(tool, path, judged, options, {request.least_coverage, request.least_whole.value_or(0.0)});
   report.reach_radius_mm = radius;
+  // What is left of the whole: which tool would reach it?
+  const double wanted = request.least_whole.value_or(request.least_coverage);
+  if (reach && report.coverage < wanted) report.finer_reach = finer_reach(setup, *reach, samples, wanted);
   report.buried = std::move(buried);
   if (!report.buried.empty()) report.verdict = Verdict::kOvercut;
   return report;

@@ -93,8 +93,8 @@ Verification judge(const VerifyJob& request, PlanJob job, const Question& q) {
   const Setup setup = read_setup(q.part, q.obstacles, q.tolerance_mm, repairs);
   outcome.report = judge_job(setup, q.judge, q.tool, plot.path);
   const ClearanceScene scene = make_clearance_scene(setup, q.obstacles, has_body(q.tool), outcome.notes);
-  outcome.report.clearance = measure_clearance(scene, q.tool, plot.path);
-  outcome.acceptance = accept(q.tool, outcome.report, q.judge.least_coverage);
+  measure_bodies(scene, q.tool, plot.path, outcome.report);
+  outcome.acceptance = accept(q.tool, outcome.report, q.judge);
   add_findings(file, Figure::kTravel, plot.travel, outcome.acceptance);
   add_findings(file, Figure::kAxisSpeed, plot.speed, outcome.acceptance);
   machine.tool_length = options.tool_length;

@@ -28,14 +28,13 @@ bool is_complete(const ResultFolder& folder) {
   return summary.is_object() && summary.value("complete", nlohmann::json()) == true;
 }
 
-/// As job.json has it, so that both can be compared. A fit of a free tool writes the ball that it was asked to reach with
-/// into its job.
+/// As job.json has it, so that both can be compared. Where the tool is found or chosen the ball that it was asked to reach with is
+/// written into the job.
 PlanJob as_written(const PlanJob& job, const PlanJob& written) {
   PlanJob asked = job_from_json(job_to_json(job), "job.json");
-  auto* fit = std::get_if<FitJob>(&asked);
-  const auto* made = std::get_if<FitJob>(&written);
-  if (fit != nullptr && made != nullptr && !fit->judge.reach_radius_mm)
-    fit->judge.reach_radius_mm = made->judge.reach_radius_mm;
+  const std::optional<double> made = std::visit([](const auto& plan) { return plan.judge.reach_radius_mm; }, written);
+  std::visit([&](auto& plan) { plan.judge.reach_radius_mm = plan.judge.reach_radius_mm ? plan.judge.reach_radius_mm : made; },
+             asked);
   // The part is known by its bytes.
   std::visit([](auto& plan) { plan.part.file.clear(); }, asked);
   return asked;

@@ -1,6 +1,8 @@
 #include "flank/pipeline/folder/target_reach.h"
 
 #include <algorithm>
+#include <functional>
+#include <utility>
 
 #include "flank/base/parallel.h"
 #include "flank/base/stopping.h"
@@ -134,7 +136,7 @@ std::vector<FaceSamples> target_samples(const Setup& setup, double spacing_mm) {
 TargetReach::TargetReach(const Setup& setup, const Tool& tool, const Path& path, const ReachBall& ball,
                          const std::vector<FaceSamples>& samples) {
   const Part& part = setup.part;
-  const double radius = ball.radius_mm;
+  const double radius = radius_mm_ = ball.radius_mm;
   std::vector<int> judged = setup.targets;
   judged.insert(judged.end(), setup.checks.begin(), setup.checks.end());
   if (judged.size() < 2 && !ball.corners) return;
@@ -158,12 +160,49 @@ TargetReach::TargetReach(const Setup& setup, const Tool& tool, const Path& path,
   }
 }
 
+void TargetReach::turn(const Around& around, FaceSamples& samples) {
+  if (around.turned)
+    for (Vec3& n : samples.normals) n = -n;
+}
+
 void TargetReach::fill(int face, FaceSamples& samples) const {
   const auto found = targets_.find(face);
   if (found == targets_.end()) return;
-  if (found->second.turned)
-    for (Vec3& n : samples.normals) n = -n;
+  turn(found->second, samples);
   samples.reachable = found->second.scene.shares(samples);
+}
+
+std::vector<double> TargetReach::largest_balls(int face, FaceSamples samples) const {
+  const auto found = targets_.find(face);
+  if (found == targets_.end()) return std::vector<double>(samples.points.size(), radius_mm_);
+  turn(found->second, samples);
+  return found->second.scene.largest_balls(samples);
+}
+
+FinerReach finer_reach(const Setup& setup, const TargetReach& reach, const std::vector<FaceSamples>& samples,
+                       double share) {
+  constexpr std::size_t kMostSamples = 4000;
+  std::vector<std::pair<double, double>> balls;  // radius, area
+  for (std::size_t j = 0; j < samples.size(); ++j) {
+    FaceSamples few;
+    const std::size_t step = 1 + samples[j].points.size() / kMostSamples;
+    std::vector<std::size_t> which;
+    for (std::size_t i = 0; i < samples[j].points.size(); i += step) which.push_back(i);
+    append(few, samples[j], which);
+    const std::vector<double> radii = reach.largest_balls(setup.targets[j], few);
+    for (std::size_t i = 0; i < radii.size(); ++i)
+      balls.emplace_back(radii[i], few.areas[i] * static_cast<double>(step));
+  }
+  std::sort(balls.begin(), balls.end(), std::greater());
+  double all = 0.0, reached = 0.0;
+  for (const auto& [radius, area] : balls) all += area;
+  FinerReach out;
+  for (const auto& [radius, area] : balls) {
+    reached += area;
+    out = {radius, reached / all};
+    if (reached >= share * all) break;
+  }
+  return out;
 }
 
 FaceSamples with_fine_border(const verify::Sampler& sampler, const TargetReach& reach, int face,

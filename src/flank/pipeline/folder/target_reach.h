@@ -44,14 +44,23 @@ class TargetReach {
 
   /// Fills `reachable` of samples of a target, given by its index in the part, and turns the normals of a sheet towards the tool.
   void fill(int face, FaceSamples& samples) const;
+  /// Of each sample of a target: the largest free ball, up to this one (ReachScene::largest_balls), mm.
+  [[nodiscard]] std::vector<double> largest_balls(int face, FaceSamples samples) const;
 
  private:
   struct Around {
     ReachScene scene;
     bool turned = false;  ///< the tool runs behind the sheet's normals
   };
+  static void turn(const Around& around, FaceSamples& samples);
+
+  double radius_mm_ = 0.0;
   std::map<int, Around> targets_;  ///< empty if there is nothing to keep out of
 };
+
+/// The largest ball, up to that of `reach`, that reaches at least `share` of the targets, by their `samples` (target_samples).
+[[nodiscard]] FinerReach finer_reach(const Setup& setup, const TargetReach& reach,
+                                     const std::vector<FaceSamples>& samples, double share);
 
 /// `samples` of a tile, with their reachable shares, where those at the border of what is reachable (verify/reach_border) give
 /// way to those of the parts of their cells: what is covered mostly ends where what is reachable does, and a cell there would be

@@ -11,9 +11,9 @@ namespace flank::internal {
 namespace {
 
 /// The ball that fits into the target's own corners.
-double ball_for_corners(const FitJob& job, const Target& target, double radius) {
+double ball_for_corners(double tolerance_mm, const Target& target, double radius) {
   FlankFitOptions alone;
-  alone.tolerance_mm = job.tolerance_mm;
+  alone.tolerance_mm = tolerance_mm;
   return ball_with_room(target, alone, radius);
 }
 
@@ -26,7 +26,7 @@ void allow_thin(const FitJob& job, double ball_mm, RadiusBounds& bounds) {
 
 RadiusBounds bounds_for(const FitJob& job, const Target& target) {
   RadiusBounds bounds = radius_bounds(job.radius, job.obstacles, target.diagonal());
-  allow_thin(job, ball_for_corners(job, target, bounds.smallest), bounds);
+  allow_thin(job, ball_for_corners(job.tolerance_mm, target, bounds.smallest), bounds);
   return bounds;
 }
 
@@ -38,10 +38,19 @@ double three_digits(double radius_mm) {
 
 double demanded_reach(const FitJob& job, const Setup& setup, const Target& target, const RadiusBounds& bounds) {
   if (job.judge.reach_radius_mm) return *job.judge.reach_radius_mm;
-  const double length = job.tool.axis_length_mm.value_or(std::sqrt(target.area()));
+  return reach_of_part(setup, target, job.tool.axis_length_mm, bounds);
+}
+
+double reach_of_part(const Setup& setup, const Target& target, std::optional<double> axis_length_mm,
+                     const RadiusBounds& bounds) {
+  const double length = axis_length_mm.value_or(std::sqrt(target.area()));
   const double stiff = std::clamp(0.5 * length / bounds.slenderest, bounds.smallest, bounds.largest);
   const double ball = tightest_fillet(setup.part, setup.targets, stiff).value_or(stiff);
-  return three_digits(std::max(bounds.smallest, ball_for_corners(job, target, ball)));
+  return three_digits(std::max(bounds.smallest, ball_for_corners(setup.tolerance_mm, target, ball)));
+}
+
+double reach_in_gap(const Setup& setup, double gap_mm) {
+  return three_digits(tightest_fillet(setup.part, setup.targets, gap_mm).value_or(gap_mm));
 }
 
 }  // namespace flank::internal

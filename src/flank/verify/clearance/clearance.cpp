@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 
 #include "flank/base/parallel.h"
 #include "flank/error.h"
@@ -46,6 +47,7 @@ struct Body {
   ToolBody name = ToolBody::kShank;
   std::vector<Revolved> parts;
   double deviation_mm = 0.0;
+  double limit_mm = std::numeric_limits<double>::max();  ///< clearances of that much and more need not be told apart
 };
 
 std::vector<Body> bodies_of(const Tool& tool) {
@@ -62,7 +64,7 @@ bool may_touch(ToolBody body, ObstacleRole role) { return body == ToolBody::kSha
 /// the holder must not touch anything, and the others have the tolerance.
 double requirement(const ClearanceOptions& options, ToolBody body, ObstacleRole role) {
   if (options.required_mm >= 0.0 && !may_touch(body, role)) return options.required_mm;
-  return body == ToolBody::kHolder ? 0.0 : -options.tolerance_mm;
+  return body == ToolBody::kHolder || body == ToolBody::kAxis ? 0.0 : -options.tolerance_mm;
 }
 
 ClearanceFigure measure(const Body& body, const Scene& scene, const std::vector<Obstacle>& obstacles,
@@ -71,8 +73,7 @@ ClearanceFigure measure(const Body& body, const Scene& scene, const std::vector<
   figure.body = body.name;
   figure.role = scene.role;
   figure.required_mm = requirement(options, body.name, scene.role);
-  const GapPlace place =
-      MotionGap(body.parts, scene.tree, segments).least(options.accuracy_mm, std::numeric_limits<double>::max());
+  const GapPlace place = MotionGap(body.parts, scene.tree, segments).least(options.accuracy_mm, body.limit_mm);
   if (place.segment < 0) {
     figure.clearance_mm = std::numeric_limits<double>::infinity();
     return figure;
@@ -89,6 +90,31 @@ ClearanceFigure measure(const Body& body, const Scene& scene, const std::vector<
   figure.z_mm = place.z;
   figure.rho_mm = place.rho;
   return figure;
+}
+
+/// Nothing of the obstacles is farther from any point of the tool.
+double farthest(const std::vector<Obstacle>& obstacles, const Path& path) {
+  Box3 box;
+  for (const Obstacle& o : obstacles)
+    for (const Vec3& p : o.mesh.vertices) box.add(p);
+  for (const Strip& strip : path.strips)
+    for (const Pose& pose : strip.poses) box.add(pose.tip);
+  return box.diagonal();
+}
+
+double spare(const ClearanceFigure& f) { return f.clearance_mm - f.bound_mm - f.required_mm; }
+
+/// The figure of the role of which least is spare.
+ClearanceFigure tightest(const Body& body, const std::array<Scene, kRoles.size()>& scenes,
+                         const std::vector<Obstacle>& obstacles, const std::vector<Segment>& segments,
+                         const ClearanceOptions& options) {
+  std::optional<ClearanceFigure> least;
+  for (const Scene& scene : scenes) {
+    if (scene.tree.empty()) continue;
+    const ClearanceFigure here = measure(body, scene, obstacles, segments, options);
+    if (!least || spare(here) < spare(*least)) least = here;
+  }
+  return *least;
 }
 
 /// Lowers the clearance of every pose to that of this pair.
@@ -111,7 +137,8 @@ void lower_to(std::vector<std::vector<double>>& by_strip, const Body& body, cons
 }  // namespace
 
 std::string_view body_name(ToolBody body) {
-  return body == ToolBody::kFlank ? "flank" : body == ToolBody::kShank ? "shank" : "holder";
+  constexpr std::array<std::string_view, 4> kNames{"flank", "shank", "holder", "axis"};
+  return kNames[static_cast<std::size_t>(body)];
 }
 
 std::string_view role_name(ObstacleRole role) {
@@ -123,7 +150,6 @@ bool ClearanceReport::kept() const {
 }
 
 const ClearanceFigure* ClearanceReport::worst() const {
-  const auto spare = [](const ClearanceFigure& f) { return f.clearance_mm - f.bound_mm - f.required_mm; };
   const auto least = std::min_element(figures.begin(), figures.end(),
                                       [&](const auto& a, const auto& b) { return spare(a) < spare(b); });
   return least == figures.end() ? nullptr : &*least;
@@ -147,6 +173,32 @@ ClearanceReport judge_clearance(const Tool& tool, const Path& path, const std::v
       if (!may_touch(body.name, scene.role)) lower_to(report.pose_clearance_mm, body, scene, segments);
     }
   }
+  return report;
+}
+
+std::optional<HoldReport> judge_hold(const Tool& tool, const Path& path, const std::vector<Obstacle>& obstacles,
+                                     const ClearanceOptions& options) {
+  constexpr double kAccuracyShare =
+      0.02;  // of the upper end's radius: whether something is in the way, not by how much
+  const Vec2 top = meridian_point(tool.radial, tool.radial.axis_length());
+  const std::vector<Segment> segments = PoseTree(path, tool.radial.axis_length(), 1e300).segments;
+  std::array<Scene, kRoles.size()> scenes;
+  for (std::size_t k = 0; k < kRoles.size(); ++k) scenes[k] = scene_of(obstacles, kRoles[k]);
+  const bool something = std::any_of(scenes.begin(), scenes.end(), [](const Scene& s) { return !s.tree.empty(); });
+  if (segments.empty() || !something || !(top.y() > 0.0)) return std::nullopt;
+  const auto cylinder = [&](ToolBody name, double radius, double length, double limit) {
+    return Body{name, convex_bodies({{top.x(), radius}, {top.x() + length, radius}}), 0.0, limit};
+  };
+  ClearanceOptions coarse = options;
+  coarse.accuracy_mm = std::max(options.accuracy_mm, kAccuracyShare * top.y());
+  coarse.required_mm = -1.0;  // a clearance is asked of shank and holder, not of what stands for them here
+  HoldReport report;
+  const double beyond = farthest(obstacles, path) + tool.radial.axis_length();
+  report.axis =
+      tightest(cylinder(ToolBody::kAxis, kRodShare * top.y(), beyond, top.y()), scenes, obstacles, segments, coarse);
+  if (tool.shank.empty())
+    report.as_thick =
+        tightest(cylinder(ToolBody::kShank, top.y(), 2.0 * top.y(), top.y()), scenes, obstacles, segments, coarse);
   return report;
 }
 
