@@ -158,9 +158,9 @@ inline constexpr std::string_view kBendHelp =
 
 inline constexpr std::string_view kReachHelp =
     "A place of the face counts as reachable if a ball of this radius touches it without entering another face, or a "
-    "corner of this one; --coverage is about those; default: the tool's smallest radius, of a free tool half of the "
-    "axis length (or of the root of the face's area) over --slenderness-max, less where the face is a groove or runs "
-    "into a tighter fillet";
+    "corner of this one; --coverage is about those; default: of a given tool its smallest radius; of one that is found "
+    "or chosen half of the axis length (or of the root of the face's area) over the largest slenderness, in a cavity "
+    "the thickest that goes through it; less where the face is a groove or runs into a tighter fillet";
 
 inline constexpr std::string_view kCellHelp =
     "Between the lines of the stock in which the judge replays a cavity's program; default: by the size of the cavity";
