@@ -87,8 +87,8 @@ struct HoldReport {
 };
 inline constexpr double kRodShare = 0.1;
 
-/// Judges that against the part's faces (fixtures count for `as_thick` and the axis as well), continuous between the poses. None if
-/// there are no obstacles or no poses. Parallel; the same bits for any number of threads. Throws as judge_clearance.
+/// Judges that against the part's faces, continuous between the poses; fixtures are for shank and holder to keep clear of. None if
+/// there are no faces or no poses. Parallel; the same bits for any number of threads. Throws as judge_clearance.
 [[nodiscard]] std::optional<HoldReport> judge_hold(const Tool& tool, const Path& path,
                                                    const std::vector<Obstacle>& obstacles,
                                                    const ClearanceOptions& options);

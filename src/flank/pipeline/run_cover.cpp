@@ -117,10 +117,10 @@ std::vector<StripSurface> collect(const CoverJob& job, const std::vector<Covered
   return add_strips(job.tolerance_mm, groups, result);
 }
 
-/// A tool that was chosen does not say what is to be reached: the part does.
+/// A tool that was chosen does not say what is to be reached: the part does, unless the tool is thinner.
 void ask_for_reach(const CoverJob& job, const Setup& setup, const std::vector<Covered>& all, Result& result) {
   if (job.judge.reach_radius_mm) return;
-  double ball = 1e300;
+  double ball = result.tool.radial.smallest();
   for (const Covered& covered : all) {
     const Target& target = *covered.group.target;
     const RadiusBounds bounds = radius_bounds({}, job.obstacles, target.diagonal());

@@ -173,6 +173,9 @@ TrochoidSummary summary_of(const TrochoidJob& job, const SideFit& sides, const C
 void take(const CavityPlan& plan, const TrochoidJob& job, const ToolSpec& spec, const CavityFaces& faces,
           Result& result) {
   const FlankFitResult& fit = plan.sides.fit;
+  // The verdict, now and later, is about what the cavity allows, and so was the search.
+  if (spec.free)
+    std::get<TrochoidJob>(result.job).judge.reach_radius_mm = three_digits(asked_ball(job, faces, fit.tool));
   result.motions = fit.motions;
   result.tool = found_tool(spec, fit.tool, job.obstacles);
   result.diagonal_mm = faces.sides.front().target->diagonal();
@@ -192,9 +195,8 @@ void take(const CavityPlan& plan, const TrochoidJob& job, const ToolSpec& spec, 
 
 }  // namespace
 
-Result run_trochoid(const TrochoidJob& request, const Progress& asked) {
+Result run_trochoid(const TrochoidJob& job, const Progress& asked) {
   const Progress progress = with_journal(asked);
-  TrochoidJob job = request;
   check_job(job);
   const ToolSpec spec = parse_tool_spec(job.tool.spec);
   check_obstacles(job.obstacles, spec.tool ? &*spec.tool : nullptr);
@@ -209,11 +211,7 @@ Result run_trochoid(const TrochoidJob& request, const Progress& asked) {
   const ClearanceScene scene = make_clearance_scene(setup, job.obstacles, has_body(spec, job.obstacles), result.notes);
   if (job.avoid) surround(job, setup, faces);
   require_room(job, spec, faces);
-  // The verdict, now and later, is about what the cavity allows.
-  if (spec.free && !job.judge.reach_radius_mm) {
-    job.judge.reach_radius_mm = reach_in_gap(setup, kMostOfWidth * faces.width.narrowest_mm);
-    result.job = job;
-  }
+  if (spec.free) faces.ball_mm = reach_in_gap(setup, kMostOfWidth * faces.width.narrowest_mm);
   SideFitOptions options = side_options(job, faces);
   options.up = up_from_floor(job, setup, faces);
   watch.lap("read");
@@ -238,7 +236,7 @@ Result run_trochoid(const TrochoidJob& request, const Progress& asked) {
   const auto own_reach = [&] {
     return reach_of_tool(side_of(faces.sides[0]), side_of(faces.sides[1]), sides.motions, sides.tool);
   };
-  note_own_reach(request, own_reach, result);
+  note_own_reach(job, own_reach, result);
   note_nearest(result);
   if (!result.complete) result.journal = progress.journal;
   return result;

@@ -73,7 +73,7 @@ SideState state_of(const SideFit& sides, const CavityFaces& faces, const Trochoi
   if (sides.fit.motions.empty()) return SideState::kShort;
   if (sides.fit.status == FitStatus::kWithinTolerance) return SideState::kDone;
   if (e.overcut_mm > job.tolerance_mm || e.gouge_mm > job.tolerance_mm) return SideState::kShort;
-  const double radius = job.judge.reach_radius_mm.value_or(sides.fit.tool.smallest());
+  const double radius = asked_ball(job, faces, sides.fit.tool);
   const double least = job.judge.least_coverage;
   if (covers_reachable(side_of(faces.sides[0]), side_of(faces.sides[1]), e.at_tolerance, least, radius))
     return SideState::kDone;
@@ -296,7 +296,7 @@ bool is_done(const CavityPlan& plan, const CavityFaces& faces, const TrochoidJob
   if (!gets_through(plan, job.tolerance_mm) || state_of(plan.sides, faces, job) == SideState::kShort) return false;
   const FlankFitResult& fit = plan.sides.fit;
   const CavitySide left = side_of(faces.sides[0]), right = side_of(faces.sides[1]);
-  const double radius = job.judge.reach_radius_mm.value_or(fit.tool.smallest());
+  const double radius = asked_ball(job, faces, fit.tool);
   const double in_reach = covered_in_reach(left, right, fit.motions, fit.tool, job.tolerance_mm, radius);
   return covers_reachable(left, right, in_reach * cleared(plan) * fit.after.at_tolerance, job.judge.least_coverage,
                           radius);

@@ -104,13 +104,14 @@ double farthest(const std::vector<Obstacle>& obstacles, const Path& path) {
 
 double spare(const ClearanceFigure& f) { return f.clearance_mm - f.bound_mm - f.required_mm; }
 
-/// The figure of the role of which least is spare.
+/// The figure of the role of which least is spare. Of a fixture only shank and holder themselves say what is in their way: it may
+/// stand anywhere beyond them.
 ClearanceFigure tightest(const Body& body, const std::array<Scene, kRoles.size()>& scenes,
                          const std::vector<Obstacle>& obstacles, const std::vector<Segment>& segments,
                          const ClearanceOptions& options) {
   std::optional<ClearanceFigure> least;
   for (const Scene& scene : scenes) {
-    if (scene.tree.empty()) continue;
+    if (scene.tree.empty() || scene.role == ObstacleRole::kFixture) continue;
     const ClearanceFigure here = measure(body, scene, obstacles, segments, options);
     if (!least || spare(here) < spare(*least)) least = here;
   }
@@ -184,7 +185,8 @@ std::optional<HoldReport> judge_hold(const Tool& tool, const Path& path, const s
   const std::vector<Segment> segments = PoseTree(path, tool.radial.axis_length(), 1e300).segments;
   std::array<Scene, kRoles.size()> scenes;
   for (std::size_t k = 0; k < kRoles.size(); ++k) scenes[k] = scene_of(obstacles, kRoles[k]);
-  const bool something = std::any_of(scenes.begin(), scenes.end(), [](const Scene& s) { return !s.tree.empty(); });
+  const bool something = std::any_of(
+      scenes.begin(), scenes.end(), [](const Scene& s) { return !s.tree.empty() && s.role != ObstacleRole::kFixture; });
   if (segments.empty() || !something || !(top.y() > 0.0)) return std::nullopt;
   const auto cylinder = [&](ToolBody name, double radius, double length, double limit) {
     return Body{name, convex_bodies({{top.x(), radius}, {top.x() + length, radius}}), 0.0, limit};
