@@ -52,14 +52,17 @@ std::string plan_text() {
 void simulate(const SweepPlan& plan, const SweepTask& task, const fs::path& root) {
   const std::string summary =
       R"({"coverage": 0.5, "coverage_reachable": 0.75, "overcut": 0.001, "undercut": 0.002, "strips": 2})";
-  static const std::string hash = sha256(summary);
+  const std::string verdict = R"({"pass": false, "reasons": [{"figure": "coverage_reachable", "text": "75 %"}]})";
+  static const std::string hash = sha256(summary), verdict_hash = sha256(verdict);
   fs::create_directories(root / task.name);
   write(root / task.name / "summary.json", summary);
+  write(root / task.name / "verify.json", verdict);
   Manifest manifest;
   manifest.made_by = "cover";
   manifest.folder = (root / task.name).string();
   manifest.part = manifest.judged = {plan.part, plan.part_sha256};
   manifest.files["summary.json"] = hash;
+  manifest.files["verify.json"] = verdict_hash;
   write(root / task.name / kManifestFile, manifest_to_json(manifest));
   const nlohmann::ordered_json record = {{"schema", "openflank/sweep-task/1"},
                                          {"words", task.words},

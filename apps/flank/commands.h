@@ -8,6 +8,7 @@
 #include <string>
 
 #include "flank/progress.h"
+#include "flank/run.h"
 
 namespace flank::cli {
 
@@ -21,6 +22,10 @@ struct CommonOptions {
 
 /// Exit codes of the command.
 inline constexpr int kMeetsRequest = 0, kFallsShort = 1, kWrongUsage = 2, kRefusedInput = 3, kOurFault = 4;
+/// Every command that judges ends with this.
+[[nodiscard]] inline int exit_code(const Acceptance& acceptance) {
+  return acceptance.pass() ? kMeetsRequest : kFallsShort;
+}
 
 /// Runs the chosen command and returns the exit code.
 using Command = std::function<int(const CommonOptions&)>;

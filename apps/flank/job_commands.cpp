@@ -59,7 +59,7 @@ int run_into(const Output& output, const CommonOptions& common, const PlanJob& j
     fmt::print("{}", summary_json(result));
   else if (!common.quiet)
     fmt::print("{}  written to  {}\n", printable(summary_text(result), true), printable(name));
-  return result.acceptance().pass() ? kMeetsRequest : kFallsShort;
+  return exit_code(result.acceptance());
 }
 
 /// A command that makes a folder of results from a job.
@@ -126,7 +126,7 @@ Subcommand add_verify(CLI::App& parser) {
       fmt::print("{}\n", internal::verify_to_json(outcome.report, outcome.acceptance));
     else if (!common.quiet)
       fmt::print("{}", printable(verify_text(outcome), true));
-    return outcome.acceptance.pass() ? kMeetsRequest : kFallsShort;
+    return exit_code(outcome.acceptance);
   };
   return {app, run, std::move(names)};
 }

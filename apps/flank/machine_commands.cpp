@@ -72,7 +72,7 @@ Subcommand add_post(CLI::App& parser) {
       fmt::print("{}", post_json(outcome));
     else if (!common.quiet)
       fmt::print("{}  written to  {}\n", printable(post_text(outcome), true), printable(*output));
-    return outcome.acceptance.pass() ? kMeetsRequest : kFallsShort;
+    return exit_code(outcome.acceptance);
   };
   return {app, run, std::move(names)};
 }

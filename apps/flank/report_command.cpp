@@ -62,6 +62,10 @@ int report(ReportOptions& options, const CommonOptions& common) {
   // Before anything is computed: a page over tool.json would destroy what it shows.
   if (!options.png.empty()) require_not_a_result(options.folder, options.png);
   std::vector<std::string> written{write_report(options.folder, options.html)};
+  // The page says so too, and is not green.
+  if (!std::filesystem::exists(std::filesystem::path(options.folder) / kManifestFile))
+    fmt::print(stderr, "flank: {}: no {}: nothing ties these files together; `flank verify` judges them again\n",
+               printable(options.folder), kManifestFile);
   if (!options.png.empty()) {
     if (!options.theme.empty()) options.picture.fragment = "theme=" + options.theme;
     make_picture(written.front(), options.png, options.picture);

@@ -1,7 +1,12 @@
 // The part: its target coloured by error, everything else calm.
-import { BufferAttribute, BufferGeometry, Group, LineBasicMaterial, LineSegments, Mesh } from 'three';
-import { ErrorTexture, SPANS } from './colours.js';
+import {
+  BufferAttribute, BufferGeometry, DataTexture, Group, LineBasicMaterial, LineSegments, Mesh, NearestFilter, RGBAFormat, SRGBColorSpace, Vector3,
+} from 'three';
+import { channels, ErrorTexture, SPANS } from './colours.js';
 import { PLAIN, wall } from './surface.js';
+
+/** Steps of a colour over a distance. */
+const GAP_STEPS = 512;
 
 function geometry(positions, indices) {
   const out = new BufferGeometry();
@@ -56,8 +61,79 @@ function edges(bodies) {
 export const OTHERS = ['solid', 'see-through', 'hidden'];
 const SEE_THROUGH = 0.22;
 
+/** A colour over a distance: `struck` below zero, `near` up to what was asked, the rest beyond. */
+class GapTexture {
+  constructor(reach, required) {
+    Object.assign(this, { reach, required, data: new Uint8Array(4 * GAP_STEPS).fill(255) });
+    this.texture = new DataTexture(this.data, GAP_STEPS, 1, RGBAFormat);
+    Object.assign(this.texture, { colorSpace: SRGBColorSpace, magFilter: NearestFilter, minFilter: NearestFilter });
+  }
+
+  paint(theme, rest) {
+    for (let k = 0; k < GAP_STEPS; ++k) {
+      const gap = (((k + 0.5) / GAP_STEPS) * 2 - 1) * this.reach;
+      this.data.set(channels(gap < 0 ? theme.struck : gap < this.required ? theme.near : rest), 4 * k);
+    }
+    this.texture.needsUpdate = true;
+  }
+}
+
+/** What may not be touched, coloured by how far the tool's bodies stay from it. */
+function gapMesh(body, texture) {
+  const shape = geometry(body.positions, body.indices);
+  const uv = new Float32Array(body.positions.length / 3 * 2).fill(0.5);
+  for (let i = 0; i < uv.length / 2; ++i) uv[2 * i] = body.gap ? Math.max(0.001, Math.min(0.999, 0.5 + body.gap[i] / (2 * texture.reach))) : 0.999;
+  shape.setAttribute('uv', new BufferAttribute(uv, 2));
+  const mesh = new Mesh(shape, wall({ map: texture.texture }));
+  mesh.userData.body = body;
+  return mesh;
+}
+
+const veil = (mesh, look, opacity) => {
+  const veiled = look === 'see-through';
+  mesh.visible = look !== 'hidden';
+  Object.assign(mesh.material, { transparent: veiled, opacity: veiled ? opacity : 1, depthWrite: !veiled });
+  mesh.material.needsUpdate = true;
+};
+
+/** Corners of the boxes around some meshes. */
+function cornersOf(meshes) {
+  return meshes.flatMap(({ geometry: shape }) => {
+    shape.computeBoundingBox();
+    const { min, max } = shape.boundingBox;
+    return min.x > max.x ? [] : [min.x, max.x].flatMap((x) => [min.y, max.y].flatMap((y) => [min.z, max.z].map((z) => new Vector3(x, y, z))));
+  });
+}
+
+/** The fixtures, red where the tool's bodies enter them. */
+export class FixtureModel {
+  /** `required`: the clearance that was asked for, mm. */
+  constructor(bodies, required) {
+    this.root = new Group();
+    this.texture = new GapTexture(Math.max(2 * required, 2), required);
+    this.meshes = bodies.map((body) => gapMesh(body, this.texture));
+    this.edges = edges(bodies);
+    this.root.add(...this.meshes, this.edges);
+  }
+
+  show(look) {
+    for (const mesh of this.meshes) veil(mesh, look, 2 * SEE_THROUGH);
+    this.edges.visible = look !== 'hidden';
+  }
+
+  corners() {
+    return cornersOf(this.meshes);
+  }
+
+  paint(theme) {
+    this.texture.paint(theme, theme.fixture);
+    this.edges.material.color.set(theme.edge);
+  }
+}
+
 export class PartModel {
-  constructor(bodies, tolerance) {
+  /** `struck`: the collisions of worst.js; a face that one of them names is drawn by itself. */
+  constructor(bodies, tolerance, struck = []) {
     this.root = new Group();
     this.span = SPANS[0];
     this.colours = true;
@@ -65,28 +141,31 @@ export class PartModel {
     const make = (chosen, texture) => bodies.filter(chosen).map((b) => coloured(b, tolerance, texture.texture));
     this.targets = make((b) => b.target && b.f, this.textures.target);
     this.entered = make((b) => !b.target && b.f, this.textures.entered);
-    const calm = bodies.filter((b) => !b.f);
+    const named = new Set(struck.map((one) => one.obstacle));
+    this.gaps = new GapTexture(2, Math.max(0, ...struck.map((one) => one.required)));
+    this.struck = bodies.filter((b) => !b.f && (b.gap || named.has(b.face))).map((b) => gapMesh(b, this.gaps));
+    const own = new Set(this.struck.map((mesh) => mesh.userData.body));
+    const calm = bodies.filter((b) => !b.f && !own.has(b));
     this.calm = calm.length ? merged(calm) : null;
     this.edges = edges(bodies.filter((b) => b.target));
     this.otherEdges = edges(bodies.filter((b) => !b.target));
-    this.root.add(...this.targets, ...this.entered, this.edges, this.otherEdges);
+    this.root.add(...this.targets, ...this.entered, ...this.struck, this.edges, this.otherEdges);
     if (this.calm) this.root.add(this.calm);
   }
 
   /** Everything but the targets. */
   get others() {
-    return [...this.entered, ...(this.calm ? [this.calm] : [])];
+    return [...this.entered, ...this.struck, ...(this.calm ? [this.calm] : [])];
+  }
+
+  corners() {
+    return cornersOf([...this.targets, ...this.others]);
   }
 
   /** `look`: one of OTHERS. */
   showOthers(look) {
-    for (const mesh of this.others) mesh.visible = look !== 'hidden';
     this.otherEdges.visible = look !== 'hidden';
-    for (const mesh of this.others) {
-      const veiled = look === 'see-through';
-      Object.assign(mesh.material, { transparent: veiled, opacity: veiled ? (mesh === this.calm ? SEE_THROUGH : 2 * SEE_THROUGH) : 1, depthWrite: !veiled });
-      mesh.material.needsUpdate = true;
-    }
+    for (const mesh of this.others) veil(mesh, look, mesh === this.calm ? SEE_THROUGH : 2 * SEE_THROUGH);
     this.otherEdges.material.opacity = look === 'see-through' ? 0.25 : 0.45;
   }
 
@@ -107,6 +186,7 @@ export class PartModel {
     });
     paintAll(this.targets, this.textures.target, theme.target);
     paintAll(this.entered, this.textures.entered, theme.part);
+    this.gaps.paint(theme, theme.part);
     this.calm?.material.color.set(theme.part);
     this.edges.material.color.set(theme.edge);
     this.otherEdges.material.color.set(theme.edge);

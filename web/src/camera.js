@@ -86,8 +86,8 @@ function search({ normal, centre, radius }, up, { targets, others, shares, put, 
 
 /**
  * Camera places by name, { direction, up, points that must be seen }, and the share of the path at which the tool hides
- * least. `wish` is { targets, others, axis, shares, put, toolPoints }; put(share) places the tool and returns what must
- * be seen of it, toolPoints() is its surface where it stands.
+ * least. `wish` is { targets, others, axis, shares, put, whole, toolPoints }; put(share) places the tool and returns what must
+ * be seen of it, whole(share) what shows all that there is, toolPoints() is its surface where it stands.
  */
 export function presets(frame, wish) {
   const { normal } = frame;
@@ -95,9 +95,10 @@ export function presets(frame, wish) {
   if (up.lengthSq() < 1e-4) up.copy(new Vector3(0, 0, 1).cross(normal));
   up.normalize();
   const best = search(frame, up, wish);
-  const points = [...frame.points, ...best.axis];
+  const points = [...frame.points, ...best.axis], all = [...points, ...wish.whole(best.share)];
   return { overview: { direction: best.direction, up, points }, face: { direction: normal, up, points },
     axis: { direction: wish.axis.clone().normalize(), up: normal, points: frame.points },
+    all: { direction: best.direction, up, points: all },
     share: best.share, hidden: best.hidden };
 }
 

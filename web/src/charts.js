@@ -16,7 +16,7 @@ export function histogram(verify) {
   const top = Math.max(...shares) * 1.12;
   const plot = new Plot({ x: [edges[0] * factor, edges[edges.length - 1] * factor], y: [0, top], height: 230, top: 22,
     xName: `signed error, ${unit}  (− overcut, + undercut)`, yName: 'share of the area, %', xCount: 8,
-    title: `Histogram of the signed error: ${format.percent(verify.coverage)} of the target lies within the tolerance of ${format.tolerance(verify.tolerance_mm)}` });
+    title: `Histogram of the signed error: ${format.percent(verify.coverage)} of the whole face${typeof verify.coverage_reachable === 'number' ? ` (${format.percent(verify.coverage_reachable)} of what is reachable)` : ''} lies within the tolerance of ${format.tolerance(verify.tolerance_mm)}` });
   const t = verify.tolerance_mm;
   shares.forEach((share, k) => {
     const middle = 0.5 * (edges[k] + edges[k + 1]);

@@ -15,7 +15,7 @@ const RAMPS = {
 };
 export const UNREACHED = '#7b8088';
 
-const channels = (hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16));
+export const channels = (hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16));
 
 function along(ramp, share) {
   const at = Math.max(0, Math.min(1, share)) * (ramp.length - 1);

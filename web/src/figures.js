@@ -1,6 +1,7 @@
-// The figures with what was asked, the verdict, and the worst places.
+// The figures with what was asked, and under each of them why it does not pass.
 import { html } from './dom.js';
 import * as format from './format.js';
+import { cautions, earlier, nameOf, reasons } from './verdict.js';
 
 /** What was asked for: from the view, else from the summary. */
 export function asked({ view, verify, summary }) {
@@ -18,7 +19,7 @@ function largestC({ view, summary }) {
 }
 
 /** Which faces are entered, the deepest first. */
-function enteredFaces(verify) {
+export function enteredFaces(verify) {
   return verify.faces.filter((f) => !f.target && f.overcut_mm > verify.tolerance_mm).sort((a, b) => b.overcut_mm - a.overcut_mm);
 }
 
@@ -29,49 +30,124 @@ function otherFaces(verify) {
   return `deepest cut into any face that is not a target${named ? `: ${named}${more}` : ''}`;
 }
 
-/** Rows { key, name, value, text, wanted, state }; state is pass, fail, warn or nothing. */
-export function rows(files) {
-  const { verify } = files;
-  const limit = asked(files);
-  const verdict = (holds, otherwise = 'fail') => (holds ? 'pass' : otherwise);
-  // verify.json says which figures are not as asked; files of older versions do not.
-  const judged = (key, holds) => verdict(verify.reasons ? !verify.reasons.some((reason) => reason.figure === key) : holds);
-  const out = [];
-  if (verify) {
-    const tolerance = format.tolerance(verify.tolerance_mm);
-    const v = (key, name, text, wanted, state, hint) => out.push({ key, name, value: verify[key], text, wanted, state, hint });
-    v('coverage', `Coverage within ±${tolerance}`, format.percent(verify.coverage),
-      '', '', 'share of the target’s area that is finished');
-    const reachable = 'coverage_reachable' in verify;
-    const share = reachable ? verify.coverage_reachable : verify.coverage;
-    v(reachable ? 'coverage_reachable' : 'coverage', 'Coverage of what is reachable', format.percent(share),
-      limit.coverage === null ? '' : `≥ ${format.tick(100 * limit.coverage)}\u00a0%`,
-      limit.coverage === null ? '' : judged('coverage_reachable', share >= limit.coverage),
-      reachable ? `a ball of radius ${format.plain(verify.reach_radius_mm)} mm reaches ${format.percent(verify.reachable_share)} of the target` : 'of the whole target');
-    v('overcut_mm', 'Overcut', format.error(verify.overcut_mm), `≤ ${tolerance}`,
-      judged('overcut_mm', verify.overcut_mm <= verify.tolerance_mm), 'deepest cut into the target');
-    v('gouge_mm', 'Overcut of other faces', format.error(verify.gouge_mm), `≤ ${tolerance}`,
-      judged('gouge_mm', verify.gouge_mm <= verify.tolerance_mm), otherFaces(verify));
-    v('undercut_covered_mm', 'Undercut where swept', format.error(verify.undercut_covered_mm), '', '', 'most material left where the tool sweeps past');
-    v('undercut_mm', 'Undercut anywhere', format.error(verify.undercut_mm), '', '', 'most material left anywhere on the target');
-    v('rms_mm', 'Root mean square', format.error(verify.rms_mm), '', '', 'of the error where the tool sweeps past');
-    if (verify.depth === 'proved') {
-      v('overcut_bound_mm', 'Overcut, proved', format.error(verify.overcut_bound_mm), `≤ ${tolerance}`,
-        judged('overcut_bound_mm', verify.overcut_bound_mm <= verify.tolerance_mm), 'no place of the target is cut deeper, up to its borders');
-      v('gouge_bound_mm', 'Of other faces, proved', format.error(verify.gouge_bound_mm), `≤ ${tolerance}`,
-        judged('gouge_bound_mm', verify.gouge_bound_mm <= verify.tolerance_mm), 'no place of another face is cut deeper');
-    } else v('sampling_bound_mm', 'Between the samples', format.error(verify.sampling_bound_mm), '', '',
-      `overcut may be deeper than stated by no more than this; ${verify.samples.toLocaleString('en')} samples`);
-  }
-  const tool = files.view?.tool;
+const at = (point) => `(${point.map((v) => format.plain(v, 4)).join(', ')})`;
+
+/** Both shares, side by side: neither says how good the face is without the other. */
+function shareRows(verify, { coverage }) {
+  const tolerance = format.tolerance(verify.tolerance_mm);
+  const list = [{ key: 'coverage', figure: 'coverage', name: 'Finished, whole face', text: format.percent(verify.coverage),
+    hint: `share of the area that ends within ±${tolerance}, whatever a tool can reach` }];
+  if (!('coverage_reachable' in verify)) return list;
+  const least = coverage === null ? '' : `≥ ${format.tick(100 * coverage)}\u00a0%`;
+  list.push({ key: 'coverage_reachable', figure: 'coverage_reachable', name: 'Finished, reachable', text: format.percent(verify.coverage_reachable),
+    wanted: least, hint: `a ball of radius ${format.plain(verify.reach_radius_mm)} mm reaches ${format.percent(verify.reachable_share)} of the face` });
+  if (typeof verify.coverage_reachable_bound === 'number')
+    list.push({ key: 'coverage_reachable_bound', figure: 'coverage_bound', name: 'Reachable, proved', text: format.percent(Math.floor(1e4 * verify.coverage_reachable_bound) / 1e4),
+      wanted: least, hint: 'surely finished, cell by cell' });
+  return list;
+}
+
+function depthRows(verify) {
+  const tolerance = `≤ ${format.tolerance(verify.tolerance_mm)}`;
+  const row = (key, name, wanted, hint) => ({ key, name, text: format.error(verify[key]), wanted, hint, ...(wanted ? { figure: key } : {}) });
+  const list = [row('overcut_mm', 'Overcut', tolerance, 'deepest cut into the target that was found')];
+  if (verify.depth === 'proved') list.push(row('overcut_bound_mm', 'Overcut, proved', tolerance, 'no place of the target is cut deeper, up to its borders'));
+  list.push(row('gouge_mm', 'Overcut of other faces', tolerance, otherFaces(verify)));
+  if (verify.depth === 'proved') list.push(row('gouge_bound_mm', 'Of other faces, proved', tolerance, 'no place of another face is cut deeper'));
+  else list.push(row('sampling_bound_mm', 'Between the samples', '', `overcut may be deeper than stated by no more than this; ${verify.samples.toLocaleString('en')} samples`));
+  const { buried = [] } = verify;
+  list.push({ key: 'buried.count', figure: 'buried', asks: true, name: 'Strips inside the material', value: buried.length, text: buried.length ? String(buried.length) : 'none',
+    hint: buried.length ? `strip ${buried[0].strip}, about ${at(buried[0].point)}` : 'no strip runs in a solid or behind its sheet' });
+  list.push(row('undercut_covered_mm', 'Undercut where swept', '', 'most material left where the tool sweeps past'),
+    row('undercut_mm', 'Undercut anywhere', '', 'most material left anywhere on the target'),
+    row('rms_mm', 'Root mean square', '', 'of the error where the tool sweeps past'));
+  return list;
+}
+
+const AGAINST = { target: 'the target', part: 'other faces', fixture: 'fixtures' };
+const capital = (word) => word[0].toUpperCase() + word.slice(1);
+
+/** Shank, holder and flank against what they must keep clear of: the judge says of each whether it is kept. */
+function clearanceRows(verify) {
+  return (verify.clearance ?? []).map((f) => {
+    const enters = f.clearance_mm < 0;
+    return { key: `clearance.${f.body}.${f.against}`, figure: 'clearance', name: `${capital(f.body)} to ${AGAINST[f.against] ?? f.against}`, value: f.clearance_mm,
+      text: format.length(f.clearance_mm), wanted: `≥ ${format.length(f.required_mm, 3)}`,
+      state: f.kept ? 'pass' : 'fail',
+      hint: `${enters ? 'enters ' : 'nearest '}${f.obstacle}${f.point ? ` at ${at(f.point)}` : ''}${f.strip ? `, strip ${f.strip}, pose ${format.plain(f.t + 1, 4)}` : ''}; true to ${format.error(f.bound_mm)}` };
+  });
+}
+
+function bendRows(summary) {
+  const bends = summary?.bend_radius;
+  if (!bends) return [];
+  const least = summary.least_bend_radius;
+  const radius = (mm) => (mm === null || mm > 1e6 ? 'straight' : format.length(mm, 3));
+  return [['tip', 'of the tip'], ['holder_end', 'of the holder end']].map(([end, words]) => ({ key: `bend_radius.${end}`, figure: 'bend_radius', name: `Least bend ${words}`,
+    value: bends[end], text: radius(bends[end]), wanted: least === undefined ? '' : `≥ ${format.length(least, 3)}`, hint: 'radius of its path',
+    ...(least !== undefined ? { state: bends[end] === null || bends[end] >= least ? 'pass' : 'fail' } : {}) }));
+}
+
+function cavityRows(cavity) {
+  if (!cavity) return [];
+  const done = cavity.layers.filter((layer) => layer.status === 'done').length;
+  return [{ key: 'engagement', figure: 'engagement', name: 'Engagement, planned', value: cavity.engagement, text: `${format.plain(cavity.engagement, 4)}°`,
+    wanted: `≤ ${format.plain(cavity.most_engagement)}°`, hint: 'largest of the planned cycles' },
+  { key: 'cycles', figure: 'cycles', asks: true, name: 'Layers', value: done, text: `${done} of ${cavity.layers.length}`, wanted: 'all',
+    hint: `${cavity.layers.reduce((sum, layer) => sum + layer.cycles, 0)} cycles; done to their depth` }];
+}
+
+/** The whole program in the judge's stock: one verdict over three figures. */
+function stockRows(stock, cavity) {
+  if (!stock) return [];
+  const list = [{ key: 'stock.engagement_deg', figure: 'stock', asks: true, name: 'Engagement, replayed', value: stock.engagement_deg, text: `${format.plain(stock.engagement_deg, 4)}°`,
+    wanted: cavity ? `≤ ${format.plain(cavity.most_engagement)}°` : '', hint: `in the judge’s stock${stock.resolution_deg ? `, whose cells count for ${format.plain(stock.resolution_deg, 2)}°` : ''}; this row is the verdict of the replay` }];
+  if (typeof stock.uncut_mm === 'number') list.push({ key: 'stock.uncut_mm', name: 'Material left between the sides', value: stock.uncut_mm, text: format.length(stock.uncut_mm, 3),
+    hint: stock.uncut_mm > 0 && stock.uncut_point ? `longest stretch, before ${at(stock.uncut_point)}` : 'nothing stands between them' });
+  if (typeof stock.entered_mm === 'number') list.push({ key: 'stock.entered_mm', name: 'Faces entered, replayed', value: stock.entered_mm, text: format.error(stock.entered_mm),
+    hint: 'deepest that the stock’s surface lies inside a judged face' });
+  list.push({ key: 'stock.left_mm3', name: 'Stock that is left', value: stock.left_mm3, text: `${format.plain(stock.left_mm3 / 1000, 4)}\u00a0cm³`,
+    hint: `of ${format.plain(stock.before_mm3 / 1000, 4)} cm³ of the blank, as far as the tool goes` });
+  return list;
+}
+
+function toolRows(files) {
+  const out = [], tool = files.view?.tool;
   if (tool && 'legitimate' in tool)
-    out.push({ key: 'legitimate', name: 'Profile of the tool', value: tool.legitimate, text: tool.legitimate ? 'legitimate' : 'not legitimate', wanted: '',
-      state: verdict(tool.legitimate), hint: tool.reason || 'its spheres are inscribed all along' });
+    out.push({ key: 'legitimate', figure: 'legitimate', asks: true, name: 'Profile of the tool', value: tool.legitimate, text: tool.legitimate ? 'legitimate' : 'not legitimate',
+      ...(tool.legitimate ? {} : { state: 'fail' }), hint: tool.reason || 'its spheres are inscribed all along' });
   const c = largestC(files);
   if (c !== null)
-    out.push({ key: 'largest_c', name: 'Regularity, largest |c|', value: c, text: format.plain(c), wanted: '< 1',
-      state: verdict(c < 1, 'warn'), hint: 'along the path; at 1 the tool plunges along its own axis' });
+    out.push({ key: 'largest_c', name: 'Regularity, largest |c|', value: c, text: format.plain(c), wanted: '< 1', ...(c < 1 ? {} : { state: 'warn' }),
+      hint: 'along the path; at 1 the tool plunges along its own axis' });
   return out;
+}
+
+/** Gives each reason to the row that is about its figure and fails, or a row of its own: none is without one. */
+function attach(list, said, state) {
+  for (const { figure, text } of said) {
+    // A row that the judge has found kept is about something else.
+    const about = list.filter((row) => row.figure === figure && row.state !== 'pass');
+    let row = about.find((one) => one.state === 'fail') ?? about[0];
+    if (!row) list.push(row = { key: `reason.${figure}`, figure, name: nameOf(figure), value: null, text: '' });
+    if (row.state !== 'fail') row.state = state;
+    (row.why ??= []).push({ text, state });
+  }
+}
+
+/** Rows { key, figure, name, value, text, wanted, state, hint, why }; state is pass, fail, warn or nothing, by the judge's word. */
+export function rows(files) {
+  const { verify, summary } = files;
+  const list = verify ? [...shareRows(verify, asked(files)), ...depthRows(verify), ...clearanceRows(verify)] : [];
+  for (const row of list) row.value ??= verify[row.key];
+  list.push(...bendRows(summary), ...cavityRows(summary?.cavity), ...stockRows(verify?.stock, summary?.cavity), ...toolRows(files));
+  attach(list, reasons(files), 'fail');
+  attach(list, earlier(files).map(({ figure, text }) => ({ figure, text: `when it was made: ${text}` })), 'warn');
+  attach(list, cautions(files), 'warn');
+  // What is asked and has no reason against it is kept; a file without reasons says nothing.
+  if (Array.isArray(verify?.reasons))
+    for (const row of list) if (row.figure && (row.wanted || row.asks)) row.state ??= 'pass';
+  return list;
 }
 
 const MARKS = { pass: ['✓', 'pass'], fail: ['✗', 'fail'], warn: ['!', 'look'] };
@@ -83,44 +159,16 @@ function mark(state) {
 }
 
 export function table(list) {
-  const body = list.map((row) =>
-    html('tr', {},
-      html('th', { scope: 'row', title: row.hint }, row.name, row.hint ? html('small', {}, row.hint) : null),
-      html('td', { class: 'number', 'data-key': row.key, 'data-value': JSON.stringify(row.value) }, row.text),
-      html('td', { class: 'number soft' }, row.wanted),
-      html('td', {}, mark(row.state))));
+  const body = list.flatMap((row) => [
+    html('tr', { 'data-figure': row.figure, 'data-state': row.state },
+      html('th', { scope: 'row', title: row.hint }, row.name),
+      html('td', { class: 'number', 'data-key': row.key, 'data-value': JSON.stringify(row.value ?? null) }, row.text),
+      html('td', { class: 'number soft' }, row.wanted ?? ''),
+      html('td', {}, mark(row.state))),
+    html('tr', { class: 'more' }, html('td', { colspan: 4 }, row.hint ? html('small', {}, row.hint) : null,
+      ...(row.why ?? []).map(({ text, state }) => html('em', { class: `why ${state}` }, text)))),
+  ]);
   const head = ['Figure', 'Value', 'Asked', ''].map((name, k) =>
     html('th', { scope: 'col', class: k === 1 || k === 2 ? 'number' : '' }, name || html('span', { class: 'sr' }, 'Verdict')));
   return html('table', {}, html('thead', {}, html('tr', {}, ...head)), html('tbody', {}, ...body));
-}
-
-/** The verdict over the rows: { state, text }, and how many other faces are entered. */
-export function verdict(files) {
-  const list = rows(files);
-  const failed = list.filter((row) => row.state === 'fail');
-  const judged = list.some((row) => row.state === 'pass' || row.state === 'fail');
-  const complete = files.summary?.complete !== false;
-  const entered = files.verify ? enteredFaces(files.verify) : [];
-  if (!judged) return { state: 'warn', text: 'Not judged', entered };
-  if (!complete) return { state: 'fail', text: 'Interrupted: incomplete', entered };
-  return failed.length ? { state: 'fail', text: 'Not within what was asked', entered }
-    : { state: 'pass', text: 'Within what was asked', entered };
-}
-
-/** The worst places as a list; `go` is called with the place that was chosen. */
-export function worstList(places, tolerance, go) {
-  const shown = places.filter((place) => place.f_mm !== null);
-  if (!shown.length) return html('p', { class: 'soft' }, 'Nothing is cut too deep anywhere.');
-  const item = (place, k) => {
-    const [x, y, z] = place.point.map((v) => format.plain(v, 4));
-    const deep = place.f_mm < -tolerance;
-    const button = html('button', { type: 'button', class: 'place' },
-      html('b', { class: deep ? 'pin deep' : 'pin' }, String(k + 1)),
-      html('span', {}, html('strong', {}, `${place.face}, ${format.error(place.f_mm)}`),
-        html('small', {}, `at (${x}, ${y}, ${z})${place.strip ? `, strip ${place.strip}` : ''}`)));
-    button.addEventListener('click', () => go(place, k));
-    return html('li', {}, button);
-  };
-  return html('div', {}, html('p', { class: 'soft' }, `Deepest first; minus is overcut. The tolerance is ±${format.tolerance(tolerance)}.`),
-    html('ol', { class: 'places' }, ...shown.map(item)));
 }

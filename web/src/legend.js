@@ -36,7 +36,7 @@ export function legend(tolerance, span) {
     svg('text', { x: X, y: below + 17, class: 'soft' }, 'cut too deep'));
   if (span > 1) root.append(svg('rect', { x: X, y: below + 29, width: BAR, height: 12, fill: UNREACHED }),
     svg('text', { x: X + BAR + 12, y: below + 39 }, 'not reached'));
-  else root.append(svg('text', { x: X, y: below + 38, class: 'soft' }, `tolerance ±${format.tolerance(tolerance)}`));
+  else root.append(svg('text', { x: X, y: below + 38, class: 'soft' }, `within ±${format.tolerance(tolerance)}`));
   return root;
 }
 

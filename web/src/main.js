@@ -3,17 +3,21 @@ import { cavityCharts } from './cavity.js';
 import { PathCharts, histogram } from './charts.js';
 import { packed } from './data.js';
 import { byId, html } from './dom.js';
-import { asked, rows, table, verdict, worstList } from './figures.js';
+import { asked, enteredFaces, rows, table } from './figures.js';
 import * as format from './format.js';
 import { made } from './made.js';
 import { MotionCharts } from './motion.js';
 import { PathModel } from './path.js';
 import { Player } from './player.js';
-import { profile } from './profile.js';
+import { profile, toolFacts } from './profile.js';
 import { stiffnessCharts } from './stiffness.js';
 import { watchTheme } from './theme.js';
+import { cautions, earlier, programVerdict, reasons, verdict } from './verdict.js';
 import { View } from './view.js';
+import { collisions, places, worstList } from './worst.js';
 
+/** Of fewer tools a chart over their slenderness shows nothing. */
+const LEAST_TOOLS = 3;
 /** Where the tool may stand at first: on the path, not at its ends. */
 const FIRST_SHARES = [0.14, 0.26, 0.74, 0.86];
 
@@ -34,21 +38,48 @@ function subtitle({ view, summary }) {
   return parts.join(' · ');
 }
 
+/** A pill beside the verdict; without a text there is none. */
+function pill(id, state, text, title) {
+  byId(id).hidden = !text;
+  if (!text) return;
+  byId(id).classList.add(state);
+  byId(id).textContent = text;
+  if (title) byId(id).title = title;
+}
+
+const count = (number, one, more = `${one}s`) => `${number} ${number === 1 ? one : more}`;
+
+/** Below the title: each reason, each caution, and what of the files is not as it should be. */
+function said(files) {
+  const line = (state, word) => ({ text }) => byId('said').append(html('li', { class: state }, html('strong', {}, word), ` ${text}`));
+  if (!files.tied) line('warn untied', 'NOT TIED')({ text: 'There is no manifest.json here: nothing says that these files belong together, to this part, or that nobody has changed them. “flank verify” judges them again.' });
+  reasons(files).forEach(line('fail', 'NO'));
+  earlier(files).forEach(line('warn', 'WHEN IT WAS MADE'));
+  const program = programVerdict(files);
+  program?.reasons.forEach(line('fail', 'PROGRAM'));
+  cautions(files).forEach(line('warn', 'CAUTION'));
+  program?.cautions.forEach(line('warn', 'CAUTION, PROGRAM'));
+  byId('said').hidden = !byId('said').childElementCount;
+}
+
 function head(files) {
   const { view, summary } = files;
   const part = view?.part ?? summary?.part?.split('/').pop();
   const title = part ? `${view?.faces ?? summary.faces} of ${part}` : 'OpenFlank report';
   byId('title').textContent = title;
   byId('subtitle').textContent = subtitle(files);
-  const { state, text, entered } = verdict(files);
-  byId('verdict').textContent = text;
-  byId('verdict').classList.add(state);
-  if (entered.length) {
-    byId('entered').hidden = false;
-    byId('entered').classList.add('warn');
-    byId('entered').textContent = `Enters ${entered.length} other face${entered.length === 1 ? '' : 's'}`;
-    byId('entered').title = entered.map((f) => `${f.face} by ${format.error(f.overcut_mm)}`).join(', ');
-  }
+  const { state, text } = verdict(files);
+  pill('verdict', state, text);
+  const amber = cautions(files), entered = files.verify ? enteredFaces(files.verify) : [], program = programVerdict(files);
+  pill('cautions', 'warn', amber.length ? count(amber.length, 'caution') : '', amber.map((one) => one.text).join('\n'));
+  pill('program', program?.pass ? 'warn' : 'fail', !program ? '' : !program.pass ? 'Its program: NO' : program.cautions.length ? `Its program: ${count(program.cautions.length, 'caution')}` : '');
+  pill('entered', 'fail', entered.length ? `Enters ${count(entered.length, 'other face')}` : '', entered.map((f) => `${f.face} by ${format.error(f.overcut_mm)}`).join(', '));
+  said(files);
+}
+
+/** Takes a section away; the 3D view with the column that holds it. */
+function drop(id) {
+  (byId(id)?.closest('.column') ?? byId(id))?.remove();
 }
 
 /** Draws one part of the page; a file that lacks what it needs costs that part alone. */
@@ -57,7 +88,7 @@ function part(id, draw) {
     return draw();
   } catch (error) {
     const name = byId(id)?.querySelector('h2')?.textContent ?? byId(id)?.getAttribute('aria-label') ?? id;
-    byId(id)?.remove();
+    drop(id);
     notice(`“${name}” is missing here: ${error.message}.`);
     return null;
   }
@@ -70,14 +101,14 @@ function still(files, page) {
     list.length ? byId('table').append(table(list)) : byId('figures').remove();
   });
   if (verify) {
-    part('worst', () => byId('places').append(worstList(verify.worst_places, asked(files).tolerance, page.go)));
+    part('worst', () => byId('places').append(worstList(places(verify, asked(files).tolerance), asked(files).tolerance, page.go)));
     part('spread', () => byId('histogram').append(histogram(verify)));
   } else for (const id of ['worst', 'spread']) byId(id).remove();
-  view ? part('tool', () => byId('profile').append(profile(view.tool))) : byId('tool').remove();
-  files.summary?.stiffness?.length > 1 ? part('stiffness', () => byId('steps').append(stiffnessCharts(files.summary.stiffness, asked(files).tolerance))) : byId('stiffness').remove();
+  view ? part('tool', () => byId('profile').append(profile(view.tool), toolFacts(view.tool, files.summary))) : byId('tool').remove();
+  files.summary?.stiffness?.length >= LEAST_TOOLS ? part('stiffness', () => byId('steps').append(stiffnessCharts(files.summary.stiffness, asked(files).tolerance))) : byId('stiffness').remove();
   files.summary?.cavity ? part('cavity', () => byId('cycles').append(cavityCharts(files.summary.cavity, verify?.stock))) : byId('cavity').remove();
   if (files.motion) page.motion = part('machine', () => {
-    const charts = new MotionCharts(files.motion);
+    const charts = new MotionCharts(files.motion, programVerdict(files));
     byId('motion').append(charts.root);
     return charts;
   });
@@ -93,7 +124,10 @@ function moving(files, options, page) {
   page.view = part('stage', () => {
     const view = new View(files, path, page.go);
     const at = options.get('at');
-    const share = view.open(path, at === null ? FIRST_SHARES : [Number(at)]);
+    // What collides is seen first.
+    const struck = collisions(files.verify).find((place) => place.strip && place.deep);
+    const there = struck ? page.shareOf(struck) : null;
+    const share = view.open(path, at !== null ? [Number(at)] : there !== null ? [there] : FIRST_SHARES, struck);
     page.player = new Player(path, (place, where) => { view.move(place); page.charts?.move(where); },
       () => { view.axis.choose(path.chosen); page.charts?.rebuild(); });
     page.player.set(share);
@@ -110,15 +144,20 @@ function missing(files) {
 
 function start(files, options) {
   const page = { view: null, player: null, charts: null, path: null, motion: null };
-  page.go = (place) => {
+  /** Where on what is shown of the path a place is; null: not there. */
+  page.shareOf = (place) => {
     const strip = page.path?.strips.find((s) => s.id === place.strip) ?? page.path?.strips[place.strip - 1];
-    if (page.player && strip && page.path.shown().includes(strip)) page.player.set(page.path.shareOf(strip, place.t), true);
+    return strip && page.path.shown().includes(strip) ? page.path.shareOf(strip, place.t) : null;
+  };
+  page.go = (place) => {
+    const share = page.shareOf(place);
+    if (page.player && share !== null) page.player.set(share, true);
   };
   part('heading', () => head(files));
   still(files, page);
   missing(files);
   if (files.view) moving(files, options, page);
-  else for (const id of ['stage', 'along']) byId(id).remove();
+  else for (const id of ['stage', 'along']) drop(id);
   watchTheme(() => {
     page.view?.paint();
     page.motion?.paint();
@@ -135,7 +174,8 @@ function shortcuts({ player }) {
 }
 
 const options = new URLSearchParams(location.hash.slice(1));
-const files = { view: packed('view.json'), verify: packed('verify.json'), summary: packed('summary.json'), motion: packed('motion.json') };
+const files = { view: packed('view.json'), verify: packed('verify.json'), summary: packed('summary.json'), motion: packed('motion.json'),
+  tied: document.querySelector('meta[name=flank-manifest]')?.content === 'whole' };
 if (options.get('theme')) document.documentElement.dataset.theme = options.get('theme');
 const page = start(files, options);
 shortcuts(page);

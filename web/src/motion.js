@@ -40,15 +40,24 @@ function offPlot({ off_path_mm: off, off_path_bound_mm: bound, cutting }) {
     title: `How far the machine's motion is from the planned one, at most ${format.plain(most(values.map((value) => value ?? 0)))} µm` };
 }
 
+/** What post has found against the program, and what it says nothing about. */
+function programWords(verdict) {
+  if (!verdict) return null;
+  const { pass, reasons, cautions } = verdict;
+  const item = (state) => ({ text }) => html('li', { class: state }, text);
+  return html('ul', { class: 'said', id: 'program-words' },
+    ...(reasons.length || !pass ? reasons.map(item('fail')) : [html('li', { class: 'pass' }, 'Links and joints are as asked.')]), ...cautions.map(item('warn')));
+}
+
 /** The picture of the axes, and the plots; who points at a plot sees the axes at that time. */
 export class MotionCharts {
-  constructor(motion) {
+  constructor(motion, verdict) {
     const minutes = (seconds) => (seconds < 60 ? `${format.plain(seconds, 3)} s` : `${format.plain(seconds / 60, 3)} min`);
     const text = `On ${motion.machine}: ${minutes(motion.duration_s)}, of which ${minutes(motion.cutting_s)} along the strips.`;
     const machine = new MachinePicture(motion);
     this.plots = [feedPlot(motion), loadPlot(motion), ...(motion.off_path_mm ? [offPlot(motion)] : []), ...motion.joints.map(jointPlot)].map((plot) => new SeriesPlot({
       ...plot, time: motion.time_s, pointed: (at) => machine.go(at) }));
-    this.root = html('div', {}, html('p', { class: 'soft' }, text), machine.root,
+    this.root = html('div', {}, html('p', { class: 'soft' }, text), programWords(verdict), machine.root,
       html('p', { class: 'soft' }, 'Drag across a plot to look closer, double click for the whole program.'),
       html('div', { class: 'charts' }, ...this.plots.map((plot) => plot.root)));
   }

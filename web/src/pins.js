@@ -1,27 +1,37 @@
-// Numbered pins on the worst places, over the 3D view.
+// Pins on the places to look at, over the 3D view; those behind something are pale.
 import { Vector3 } from 'three';
 import { html } from './dom.js';
-import * as format from './format.js';
+
+/** After the camera has rested for so many milliseconds it is worth asking what hides a pin. */
+const REST = 150;
 
 export class Pins {
-  constructor(holder, places, tolerance, go) {
+  /** `list`: as places() of worst.js gives it. */
+  constructor(holder, list, go) {
     this.holder = holder;
-    this.pins = places.map((place, k) => ({ place, k })).filter(({ place }) => place.f_mm !== null).map(({ place, k }) => {
-      const deep = place.f_mm < -tolerance;
-      const button = html('button', { type: 'button', class: deep ? 'pin deep' : 'pin', tabindex: '-1',
-        'aria-label': `Worst place ${k + 1}: ${place.face}, ${format.error(place.f_mm)}`, title: `${place.face}: ${format.error(place.f_mm)}` }, String(k + 1));
-      button.addEventListener('click', () => go(place, k));
+    this.pins = list.map((place) => {
+      const words = `${place.name}: ${place.what}`;
+      const button = html('button', { type: 'button', class: place.deep ? 'pin deep' : 'pin', tabindex: '-1', 'aria-label': `Place ${place.label}: ${words}`, title: words }, place.label);
+      button.addEventListener('click', () => go(place));
       holder.append(button);
-      return { button, point: new Vector3(...place.point) };
+      // A collision lies inside of something: it would always be pale.
+      return { button, point: new Vector3(...place.point), always: place.label === '!' };
     });
   }
 
-  draw(stage) {
+  /** `walls`: gives the meshes that may hide a pin. */
+  draw(stage, walls) {
     for (const { button, point } of this.pins) {
       const [x, y, depth] = stage.toScreen(point);
       button.hidden = depth > 1;
       button.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
     }
+    clearTimeout(this.resting);
+    if (this.pins.length) this.resting = setTimeout(() => this.fade(stage, walls()), REST);
+  }
+
+  fade(stage, walls) {
+    for (const { button, point, always } of this.pins) button.classList.toggle('behind', !always && stage.hides(point, walls));
   }
 
   show(visible) {

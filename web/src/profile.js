@@ -2,7 +2,7 @@
 import { html, picture, svg } from './dom.js';
 import * as format from './format.js';
 import { Plot } from './plot.js';
-import { outline } from './tool.js';
+import { outline, topOf } from './tool.js';
 
 const WIDTH = 880, LEFT = 56, RIGHT = 24;
 
@@ -31,12 +31,12 @@ class Drawing {
     const shape = outline(tool);
     this.tool = tool;
     this.shape = shape;
-    const all = [...shape.tip, ...shape.flank, ...shape.end, ...tool.shank, ...tool.holder];
+    const all = [...shape.tip, ...shape.flank, [tool.axis_length_mm, 0], ...tool.shank, ...tool.holder];
     this.z = [Math.min(...all.map((p) => p[0])), Math.max(...all.map((p) => p[0]))];
     const tallest = Math.max(...all.map((p) => p[1]));
     this.scale = Math.min((WIDTH - LEFT - RIGHT) / (this.z[1] - this.z[0]), 150 / tallest);
     this.base = 50 + tallest * this.scale;
-    this.height = this.base + 58;
+    this.height = this.base + 88;
   }
 
   x(z) { return LEFT + (z - this.z[0]) * this.scale; }
@@ -68,12 +68,15 @@ class Drawing {
     const { flank } = this.shape;
     const { least, most } = extremes(flank);
     const first = flank[0], last = flank[flank.length - 1];
-    const below = this.base + 22;
+    const below = this.base + 22, lowest = below + 30;
     const out = [line('centre', this.x(this.z[0]) - 14, this.base, this.x(this.z[1]) + 14, this.base)];
     const L = this.tool.axis_length_mm;
     out.push(line('dim leader', this.x(0), this.base, this.x(0), below + 5), line('dim leader', this.x(L), this.base, this.x(L), below + 5),
       ...span(this.x(0), below, this.x(L), below, `axis length L = ${format.length(L, 5)}`, [this.x(L / 2), below + 16]),
-      text('dim', this.x(0), below + 16, 'tip, s = 0'), text('dim', this.x(L), below + 16, 's = L'));
+      text('dim', this.x(0), below + 16, 's = 0'), text('dim', this.x(L), below + 16, 's = L'));
+    const tip = -this.tool.tip_radius_mm, top = topOf(this.tool);
+    out.push(...[tip, top].map((z) => line('dim leader', this.x(z), this.base, this.x(z), lowest + 5)), ...span(this.x(tip), lowest, this.x(top), lowest, '', [0, 0]),
+      text('dim', this.x((tip + top) / 2), lowest + 16, `length ${format.length(top - tip, 5)} ${this.tool.shank.length ? 'with its shank' : 'without a shank'}, tip R ${format.length(this.tool.tip_radius_mm)}`));
     const near = (a, b) => Math.abs(this.x(a[0]) - this.x(b[0])) < 150;
     out.push(...this.diameter(most, 'largest'));
     if (!near(least, most)) out.push(...this.diameter(least, 'smallest'));
@@ -113,6 +116,19 @@ function curvature(drawing) {
 export function profile(tool) {
   const drawing = new Drawing(tool);
   const family = tool.family === 'spline' ? 'free profile (spline)' : tool.family;
-  return html('div', {}, html('p', { class: 'soft' }, `${family}${tool.name && tool.name !== tool.family ? `, “${tool.name}”` : ''}. Drawn to scale; the heavy line cuts. Positive curvature is convex. tool.dxf holds the exact profile.`),
+  return html('div', {}, html('p', { class: 'soft' }, `${family}${tool.name && tool.name !== tool.family ? `, “${tool.name}”` : ''}. Drawn to scale as it is ground; the heavy line cuts. Positive curvature is convex. tool.dxf holds the exact profile.`),
     html('div', { class: 'scroll', tabindex: '0', role: 'group', 'aria-label': 'Drawing of the profile' }, drawing.draw(), curvature(drawing)));
+}
+
+/** How stiff it is, and what it is held by. */
+export function toolFacts(tool, summary) {
+  const facts = [], fact = (name, value, key) => facts.push(html('dt', {}, name), html('dd', key ? { 'data-key': key, 'data-value': JSON.stringify(summary[key] ?? null) } : {}, value));
+  const shape = (profile) => `${format.length(profile[profile.length - 1][0] - profile[0][0])} long, ⌀ ${format.length(2 * Math.max(...profile.map(([, r]) => r)))}, from z = ${format.length(profile[0][0])} on`;
+  if (typeof summary?.slenderness === 'number') {
+    fact('Slenderness', `${format.plain(summary.slenderness)}: bends as a cylinder of ⌀ ${format.length(summary.equivalent_diameter)} that is as long, ${format.length(summary.slenderness * summary.equivalent_diameter)}`, 'slenderness');
+    fact('Tip deflection', `${format.plain(summary.tip_deflection_um_per_100N)}\u00a0µm under 100 N across the tip, in cemented carbide`, 'tip_deflection_um_per_100N');
+  }
+  fact('Shank', tool.shank.length ? shape(tool.shank) : 'not given');
+  fact('Holder', tool.holder.length ? shape(tool.holder) : 'not given');
+  return html('dl', { id: 'tool-facts' }, ...facts);
 }

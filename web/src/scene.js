@@ -117,6 +117,13 @@ export class Stage {
     return [0.5 * (p.x + 1) * this.canvas.clientWidth, 0.5 * (1 - p.y) * this.canvas.clientHeight, p.z];
   }
 
+  /** Whether one of the meshes stands between the camera and a point; what ends at the point itself does not. */
+  hides(point, meshes) {
+    const way = point.clone().sub(this.camera.position), length = way.length();
+    const ray = new Raycaster(this.camera.position, way.normalize(), this.camera.near, length - 0.01 * this.home.radius);
+    return ray.intersectObjects(meshes, false).length > 0;
+  }
+
   pick(x, y, meshes) {
     const ray = new Raycaster();
     const where = new Vector2((2 * x) / this.canvas.clientWidth - 1, 1 - (2 * y) / this.canvas.clientHeight);

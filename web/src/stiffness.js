@@ -16,7 +16,7 @@ function range(steps) {
 }
 
 const describe = (step) =>
-  `λ ${format.plain(step.slenderness)}: ${format.percent(step.coverage)} covered, overcut ${format.error(step.overcut)}, other faces ${format.error(step.other_faces_overcut)}, ` +
+  `λ ${format.plain(step.slenderness)}: ${format.percent(step.coverage)} of the whole face covered${typeof step.coverage_reachable === 'number' ? `, ${format.percent(step.coverage_reachable)} of what is reachable` : ''}, overcut ${format.error(step.overcut)}, other faces ${format.error(step.other_faces_overcut)}, ` +
   `rms ${format.error(step.rms)}, axis ${format.length(step.axis_length)}, largest radius ${format.length(step.largest_radius)}` +
   `${step.chosen ? ' (chosen)' : step.judged ? '' : ' (the planner’s estimate)'}`;
 
@@ -35,7 +35,7 @@ const judged = (steps, value) => steps.filter((step) => step.judged).map((step) 
 function coverageChart(steps) {
   const value = (step) => 100 * step.coverage;
   const low = Math.min(...steps.map(value));
-  const plot = new Plot({ ...WIDE, x: range(steps), y: [Math.max(0, low - 0.1 * (100.5 - low)), 100.5], yName: 'coverage, %',
+  const plot = new Plot({ ...WIDE, x: range(steps), y: [Math.max(0, low - 0.1 * (100 - low)), 100], yName: 'of the whole face, %',
     title: `Coverage of the face against the tool’s slenderness, from ${format.plain(low)} to ${format.plain(Math.max(...steps.map(value)))} per cent` });
   plot.curve(judged(steps, value), 'curve main');
   dots(plot, steps, value, 'step');

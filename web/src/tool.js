@@ -9,28 +9,25 @@ const AROUND = 72;
 const CAP = 20;
 const UP = new Vector3(0, 1, 0);
 
-/** The sphere's arc from the axis to the profile: at the tip (side -1) or at the upper end (+1). */
-function cap(centre, radius, z, rho, side) {
-  const from = side < 0 ? Math.PI : Math.atan2(rho, z - centre);
-  const to = side < 0 ? Math.atan2(rho, z - centre) : 0;
-  const out = [];
+/** The arc of the tip's sphere, from the axis to where the flank begins. */
+function tipArc(radius, [z, rho]) {
+  const to = Math.atan2(rho, z), out = [];
   for (let k = 0; k <= CAP; ++k) {
-    const angle = from + ((to - from) * k) / CAP;
-    out.push([centre + radius * Math.cos(angle), Math.max(0, radius * Math.sin(angle))]);
+    const angle = Math.PI + ((to - Math.PI) * k) / CAP;
+    out.push([radius * Math.cos(angle), Math.max(0, radius * Math.sin(angle))]);
   }
   return out;
 }
 
-/** The outline [z, rho] of the flank with its round ends, from the tip upwards. */
+/** The outline [z, rho] of what is ground, from the tip upwards: as tool.dxf and tool.step have it, it ends flat where the flank does. */
 export function outline(tool) {
   const flank = tool.profile.map(([, z, rho]) => [z, rho]);
-  const first = flank[0], last = flank[flank.length - 1];
-  return {
-    tip: cap(0, tool.tip_radius_mm, first[0], first[1], -1),
-    flank,
-    end: cap(tool.axis_length_mm, tool.end_radius_mm, last[0], last[1], +1),
-  };
+  const last = flank[flank.length - 1];
+  return { tip: tipArc(tool.tip_radius_mm, flank[0]), flank, end: [last, [last[0], 0]] };
 }
+
+/** Where the tool ends, z: of the flank, or of the shank that it has. */
+export const topOf = (tool) => Math.max(...tool.profile.map(([, z]) => z), ...tool.shank.map(([z]) => z));
 
 function lathe(points, material) {
   return new Mesh(new LatheGeometry(points.map(([z, rho]) => new Vector2(rho, z)), AROUND), material);
@@ -44,10 +41,13 @@ function closed(profile) {
 }
 
 export class ToolModel {
-  constructor(tool) {
+  /** `struck`: which of flank, shank and holder come too near to something. */
+  constructor(tool, struck = []) {
     this.root = new Group();
+    this.struck = new Set(struck);
     this.length = tool.axis_length_mm;
     this.ends = [[0, tool.tip_radius_mm], [tool.axis_length_mm, tool.end_radius_mm]];
+    this.above = [...tool.shank, ...tool.holder];
     const shape = outline(tool);
     this.materials = {
       flank: surface({ specular: 0x555555 }),
@@ -55,10 +55,10 @@ export class ToolModel {
       holder: surface({ specular: 0x222222 }),
       axis: new LineBasicMaterial({ transparent: true, opacity: 0.8 }),
     };
-    this.root.add(lathe([...shape.tip, ...shape.flank.slice(1, -1), ...shape.end], this.materials.flank));
+    this.root.add(lathe([...shape.tip, ...shape.flank.slice(1), ...shape.end], this.materials.flank));
     if (tool.shank.length) this.root.add(lathe(closed(tool.shank), this.materials.shank));
     if (tool.holder.length) this.root.add(lathe(closed(tool.holder), this.materials.holder));
-    const top = Math.max(tool.axis_length_mm + tool.end_radius_mm, ...tool.shank.map((p) => p[0]), ...tool.holder.map((p) => p[0]));
+    const top = Math.max(topOf(tool), tool.axis_length_mm, ...tool.holder.map((p) => p[0]));
     const line = new BufferGeometry().setFromPoints([new Vector3(0, -2 * tool.tip_radius_mm, 0), new Vector3(0, top + 0.25 * tool.axis_length_mm, 0)]);
     this.root.add(new Line(line, this.materials.axis));
   }
@@ -79,6 +79,12 @@ export class ToolModel {
     return new Float32Array(out);
   }
 
+  /** The same around shank and holder. */
+  upperExtremes() {
+    this.root.updateMatrixWorld(true);
+    return this.above.flatMap(([z, r]) => [[-r, 0], [r, 0], [0, -r], [0, r]].map(([x, y]) => this.root.localToWorld(new Vector3(x, z, y))));
+  }
+
   /** Corners of boxes around both ends of the flank, where the tool stands. */
   extremes() {
     this.root.updateMatrixWorld(true);
@@ -87,10 +93,9 @@ export class ToolModel {
   }
 
   paint(theme) {
-    this.materials.flank.color.set(theme.tool);
-    this.materials.shank.color.set(theme.shank);
-    this.materials.holder.color.set(theme.holder);
-    this.materials.axis.color.set(theme.axis);
+    const rest = { flank: theme.tool, shank: theme.shank, holder: theme.holder };
+    for (const [body, colour] of Object.entries(rest)) this.materials[body].color.set(this.struck.has(body) ? theme.body : colour);
+    this.materials.axis.color.set(this.struck.has('axis') ? theme.struck : theme.axis);
   }
 }
 

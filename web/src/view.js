@@ -1,6 +1,6 @@
 // Puts the 3D view together: part, axis surface, tool, pins, layers, probe, keys.
 import { Vector3 } from 'three';
-import { OTHERS, PartModel } from './bodies.js';
+import { FixtureModel, OTHERS, PartModel } from './bodies.js';
 import { SPANS } from './colours.js';
 import { readBody } from './data.js';
 import { byId, html } from './dom.js';
@@ -10,6 +10,10 @@ import { Pins } from './pins.js';
 import { Stage } from './scene.js';
 import { palette } from './theme.js';
 import { AxisModel, ToolModel } from './tool.js';
+import { collisions, places } from './worst.js';
+
+/** Of more strips the surfaces of the axis are shown only if asked for. */
+const MOST_AXIS_SURFACES = 12;
 
 /** Sizes of the errors, without what was not machined at all. */
 function* swept(f, tolerance) {
@@ -28,11 +32,13 @@ export class View {
     this.tolerance = view.tolerance_mm;
     if (!path) throw new Error('there is no path');
     this.stage = new Stage(byId('canvas'));
-    this.part = new PartModel(view.bodies.map(readBody), view.tolerance_mm);
-    this.tool = new ToolModel(view.tool);
+    const struck = collisions(verify);
+    this.part = new PartModel(view.bodies.map(readBody), view.tolerance_mm, struck);
+    this.fixtures = new FixtureModel((view.fixtures ?? []).map(readBody), Math.max(0, ...struck.map((one) => one.required)));
+    this.tool = new ToolModel(view.tool, struck.map((one) => one.body));
     this.axis = new AxisModel(path, view.tool.axis_length_mm);
-    this.stage.scene.add(this.part.root, this.tool.root, this.axis.root);
-    this.pins = new Pins(byId('pins'), verify?.worst_places ?? [], view.tolerance_mm, go);
+    this.stage.scene.add(this.part.root, this.fixtures.root, this.tool.root, this.axis.root);
+    this.pins = new Pins(byId('pins'), places(verify, view.tolerance_mm), go);
     this.paint();
     this.addLayers();
     this.addScales(view);
@@ -40,12 +46,12 @@ export class View {
     this.stage.onDraw((stage) => {
       drawTriad(byId('triad'), stage.camera);
       drawScale(byId('scalebar'), stage.pixel);
-      this.pins.draw(stage);
+      this.pins.draw(stage, () => [...this.part.targets, ...this.part.others, ...this.fixtures.meshes].filter((mesh) => mesh.visible && mesh.parent.visible && !mesh.material.transparent));
     });
   }
 
-  /** Chooses the camera, and returns which of some shares of the path shows most of the target. */
-  open(path, shares) {
+  /** Chooses the camera, and returns which of some shares of the path shows most of the target. `struck`: all must be seen. */
+  open(path, shares, struck) {
     const targets = this.part.targets.length ? this.part.targets : this.part.others;
     const middle = path.locate(0.5);
     const axis = middle?.axis ?? new Vector3(0, 0, 1);
@@ -55,19 +61,20 @@ export class View {
       return place ? this.tool.extremes() : [];
     };
     const towards = middle ? [0.2, 0.5, 0.8].map(path.locate, path).map(({ tip, axis: u }) => tip.clone().addScaledVector(u, 0.5 * this.tool.length)) : [];
-    const found = this.stage.frame({ targets, others: this.part.others, axis, towards, shares, put,
-      toolPoints: () => this.tool.surface() });
+    const whole = (share) => [...put(share), ...this.tool.upperExtremes(), ...this.fixtures.corners(), ...this.part.corners()];
+    const others = [...this.part.others, ...this.fixtures.meshes];
+    const found = this.stage.frame({ targets, others, axis, towards, shares, put, whole, toolPoints: () => this.tool.surface() });
     if (found.hidden) {
       this.others.value = 'see-through';
-      this.part.showOthers('see-through');
+      this.showOthers();
     }
-    this.stage.look('overview');
+    this.stage.look(struck ? 'all' : 'overview');
     return found.share;
   }
 
   paint() {
     const theme = palette();
-    for (const model of [this.part, this.tool, this.axis]) model.paint(theme);
+    for (const model of [this.part, this.fixtures, this.tool, this.axis]) model.paint(theme);
     this.stage.draw();
   }
 
@@ -79,12 +86,15 @@ export class View {
   addLayers() {
     const layers = [
       ['Tool', true, (on) => { this.tool.root.visible = on; }],
-      ['Axis surface', true, (on) => { this.axis.root.visible = on; }],
+      // Of many strips, as of a cavity's, they would hide the part.
+      ['Axis surface', this.axis.groups.length <= MOST_AXIS_SURFACES, (on) => { this.axis.root.visible = on; }],
       ['Worst places', true, (on) => this.pins.show(on)],
+      ...(this.fixtures.meshes.length ? [['Fixtures', true, (on) => { this.fixtures.root.visible = on; }]] : []),
     ];
     for (const [name, on, show] of layers) {
       const box = html('input', { type: 'checkbox' });
       box.checked = on;
+      show(on);
       box.addEventListener('change', () => { show(box.checked); this.stage.draw(); });
       byId('layers').append(html('label', {}, box, name));
     }
@@ -95,11 +105,19 @@ export class View {
     const largest = Math.max(...this.part.targets.flatMap(({ userData }) => [...swept(userData.body.f, view.tolerance_mm)]), 1e-9) / view.tolerance_mm;
     const spans = [[SPANS[0], `± ${SPANS[0]} tolerances`], [SPANS[1], '± tolerance'], [Math.min(1, largest), '± largest error'], [0, 'no colours']];
     const range = select('Colours', spans.filter(([span], k) => k !== 2 || span < 1));
+    // A face that is good everywhere would be white all over.
+    const first = largest < 1 ? largest : SPANS[0];
+    range.value = String(first);
     range.addEventListener('change', () => this.showScale(Number(range.value)));
     this.others = select('Other faces', OTHERS.map((look) => [look, look]));
-    this.others.addEventListener('change', () => { this.part.showOthers(this.others.value); this.stage.draw(); });
-    if (!this.part.others.length) this.others.parentElement.hidden = true;
-    this.showScale(SPANS[0]);
+    this.others.addEventListener('change', () => { this.showOthers(); this.stage.draw(); });
+    if (!this.part.others.length && !this.fixtures.meshes.length) this.others.parentElement.hidden = true;
+    this.showScale(first);
+  }
+
+  showOthers() {
+    this.part.showOthers(this.others.value);
+    this.fixtures.show(this.others.value);
   }
 
   showScale(span) {
@@ -133,7 +151,7 @@ export class View {
     requestAnimationFrame(() => {
       this.probing = false;
       const box = byId('canvas').getBoundingClientRect();
-      const meshes = [...this.part.targets, ...this.part.entered, this.tool.root.children[0]].filter((m) => m.visible && m.parent.visible);
+      const meshes = [...this.part.targets, ...this.part.entered, ...this.part.struck, ...this.fixtures.meshes, this.tool.root.children[0]].filter((m) => m.visible && m.parent.visible);
       const hit = this.stage.pick(event.clientX - box.left, event.clientY - box.top, meshes);
       byId('probe').textContent = hit ? this.describe(hit) : '';
     });
@@ -142,6 +160,7 @@ export class View {
   describe({ object, face, point }) {
     const body = object.userData.body;
     if (!body) return '';
+    if (!body.f) return body.face;
     const nearest = [face.a, face.b, face.c].reduce((best, k) => {
       const d = Math.hypot(body.positions[3 * k] - point.x, body.positions[3 * k + 1] - point.y, body.positions[3 * k + 2] - point.z);
       return d < best.d ? { k, d } : best;

@@ -14,6 +14,7 @@
 #include "flank/artefact/ranking_json.h"
 #include "flank/artefact/verify_json.h"
 #include "flank/artefact/verify_text.h"
+#include "flank/artefact/write_result.h"
 #include "flank/io/text/json_dump.h"
 #include "flank/job/command_line.h"
 
@@ -198,14 +199,15 @@ std::string summary_text(const Result& result) {
   return text;
 }
 
-std::string summary_json(const Result& result) {
+std::string summary_json(const Result& result) { return internal::summary_json(result, result.acceptance()); }
+
+std::string internal::summary_json(const Result& result, const Acceptance& acceptance) {
   nlohmann::ordered_json json;
   json["schema"] = "openflank/summary/1";
   json["units"] = "mm";
   json["part"] = part_of(result.job).file;
   json["faces"] = part_of(result.job).target_text();
   json["complete"] = result.complete;
-  const Acceptance acceptance = result.acceptance();
   json["within"] = json["pass"] = acceptance.pass();
   json["reasons"] = shortfalls_json(acceptance.reasons);
   json["cautions"] = shortfalls_json(acceptance.cautions);
@@ -214,6 +216,8 @@ std::string summary_json(const Result& result) {
   json["largest_c"] = result.largest_c;
   json["largest_turn"] = result.largest_turn_rad * 180.0 / std::numbers::pi;
   json["bend_radius"] = bends_json(result.bends);
+  if (const auto* fit = std::get_if<FitJob>(&result.job); fit != nullptr && fit->min_bend_radius_mm)
+    json["least_bend_radius"] = *fit->min_bend_radius_mm;
   json["diagonal"] = result.diagonal_mm;
   json["axis_length"] = result.tool.radial.axis_length();
   const Stiffness bent = stiffness(result.tool);

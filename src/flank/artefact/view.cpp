@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <set>
 
+#include "flank/artefact/view_gaps.h"
 #include "flank/base/parallel.h"
 #include "flank/base/stopping.h"
 #include "flank/envelope/path_regularity.h"
@@ -85,6 +87,30 @@ std::set<std::string> entered_faces(const VerifyReport& verdict, double toleranc
   return entered;
 }
 
+/// Check surfaces that a shank or holder comes too near to.
+std::set<std::string> struck_faces(const VerifyReport& verdict) {
+  std::set<std::string> struck;
+  for (const ClearanceFigure& figure : verdict.clearance.figures)
+    if (!figure.kept && figure.role == ObstacleRole::kPart) struck.insert(figure.obstacle);
+  return struck;
+}
+
+/// What may not be touched, with how far the tool's bodies stay from it.
+void add_obstacles(const Setup& setup, const std::set<std::string>& struck, View& view) {
+  for (const Part& fixture : setup.fixtures)
+    for (ViewFace& body : view_fixture(fixture)) {
+      body.face = std::filesystem::path(fixture.file).filename().string() + " " + body.face;
+      view.fixtures.push_back(std::move(body));
+    }
+  std::vector<ViewFace*> faces;
+  for (ViewFace& body : view.fixtures) faces.push_back(&body);
+  measure_gaps(view.tool, view.strips, ToolBodies::kAll, faces);
+  faces.clear();
+  for (ViewFace& body : view.bodies)
+    if (!body.target && struck.contains(body.face)) faces.push_back(&body);
+  measure_gaps(view.tool, view.strips, ToolBodies::kAboveTheFlank, faces);
+}
+
 void colour_faces(View& view, const Path& path, const std::set<std::string>& entered) {
   if (path.pose_count() == 0) return;  // a volume without poses has no distance
   const SweptVolume volume(view.tool, path);
@@ -144,7 +170,10 @@ View make_view(const PlanJob& job, const Setup& setup, const Tool& tool, const P
       },
       shown);
   const std::set<std::string> entered = entered_faces(verdict, view.tolerance_mm);
-  view.bodies = view_faces(setup.part, setup.targets, entered);
+  const std::set<std::string> struck = struck_faces(verdict);
+  std::set<std::string> fine = entered;
+  fine.insert(struck.begin(), struck.end());
+  view.bodies = view_faces(setup.part, setup.targets, fine);
   view.tool = tool;
   view.profile = profile_of(tool.radial);
   // Whether the flank touches a target decides where |c| matters: elsewhere a plunge leaves no trace.
@@ -161,6 +190,7 @@ View make_view(const PlanJob& job, const Setup& setup, const Tool& tool, const P
     if (const auto& by_strip = verdict.clearance.pose_clearance_mm; index < by_strip.size())
       add_clearance(by_strip[index], view.strips.back().places);
   }
+  add_obstacles(setup, struck, view);
   judge_faces(view, path, entered);
   return view;
 }

@@ -43,7 +43,8 @@ struct View {
   std::string command;  ///< that asked for this, with file names without folders
   std::string faces;
   double tolerance_mm = 0.0, least_coverage = 0.0;
-  std::vector<ViewFace> bodies;  ///< every face of the part, in the part's order
+  std::vector<ViewFace> bodies;    ///< every face of the part, in the part's order
+  std::vector<ViewFace> fixtures;  ///< every face of the fixtures; `face` is the obstacle's name, "vice.stl F6"
   std::vector<ViewStrip> strips;
   Tool tool;
   std::vector<ProfilePoint> profile;

@@ -57,6 +57,7 @@ Json to_json(const ViewFace& body) {
             {"border_counts", counts},
             {"borders", to_base64(quantised(border, box))}};
   if (!body.f_mm.empty()) j["f_mm"] = to_base64(as_floats(body.f_mm));
+  if (!body.gap_mm.empty()) j["gap_mm"] = to_base64(as_floats(body.gap_mm));
   return j;
 }
 
@@ -182,6 +183,7 @@ std::string view_to_json(const View& view) {
             {"bodies", Json::array()}};
   for (const ViewStrip& strip : view.strips) j["strips"].push_back(to_json(strip));
   for (const ViewFace& body : view.bodies) j["bodies"].push_back(to_json(body));
+  for (const ViewFace& body : view.fixtures) j["fixtures"].push_back(to_json(body));
   return dumped(j) + "\n";
 }
 

@@ -166,4 +166,16 @@ std::vector<ViewFace> view_faces(const Part& part, const std::vector<int>& targe
   return bodies;
 }
 
+std::vector<ViewFace> view_fixture(const Part& fixture) {
+  std::vector<ViewFace> bodies = view_faces(fixture, {}, {});
+  if (!fixture.is_mesh()) {
+    refine(fixture, bodies, kFixtureTriangles, [](const ViewFace& body) { return !body.mesh.triangles.empty(); });
+    return bodies;
+  }
+  for (std::size_t count = triangles_of_others(bodies);
+       count > 0 && 4 * count <= static_cast<std::size_t>(kFixtureTriangles); count *= 4)
+    for (ViewFace& body : bodies) body.mesh = refined(body.mesh);
+  return bodies;
+}
+
 }  // namespace flank::internal

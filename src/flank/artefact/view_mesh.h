@@ -17,6 +17,9 @@ struct ViewFace {
   std::vector<std::vector<Vec3>> borders;  ///< polylines
   /// Swept distance at the vertices, mm; empty for a check surface that the judge did not find entered.
   std::vector<double> f_mm;
+  /// About how far the vertices stay from the tool's bodies, mm, negative inside: of fixtures, and of check surfaces that a
+  /// shank or holder comes too near to; else empty (view_gaps.h).
+  std::vector<double> gap_mm;
 };
 
 /// The targets get about kTargetTriangles triangles, the check surfaces that are entered kEnteredTriangles, all other
@@ -30,5 +33,9 @@ inline constexpr int kMostMeshTriangles = 300000;
 /// may look.
 [[nodiscard]] std::vector<ViewFace> view_faces(const Part& part, const std::vector<int>& targets,
                                                const std::set<std::string>& entered);
+
+/// Every face of a fixture, in about this many triangles, or as many as a mesh has: fine enough to show where it is entered.
+inline constexpr int kFixtureTriangles = 25000;
+[[nodiscard]] std::vector<ViewFace> view_fixture(const Part& fixture);
 
 }  // namespace flank::internal

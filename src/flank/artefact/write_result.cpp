@@ -33,8 +33,18 @@ std::string part_of(const PlanJob& job) {
   return std::visit([](const auto& plan) { return machined(plan).file; }, job);
 }
 
-/// Name, content.
-std::map<std::string, std::string> files_of(const Result& result) {
+Manifest manifest_of(const PlanJob& job, const std::string& part_sha256, const ResultFolder& folder) {
+  Manifest manifest;
+  manifest.made_by = std::visit([](const auto& plan) { return std::string(command_name(plan)); }, job);
+  manifest.folder = fs::absolute(folder.path()).lexically_normal().string();
+  manifest.part = {fs::absolute(part_of(job)).lexically_normal().string(), part_sha256};
+  manifest.judged = manifest.part;
+  return manifest;
+}
+
+}  // namespace
+
+std::map<std::string, std::string> result_files(const Result& result, const Acceptance& acceptance) {
   std::map<std::string, std::string> files;
   ClsOptions cls;
   cls.part = fs::path(part_of(result.job)).stem().string();
@@ -50,7 +60,7 @@ std::map<std::string, std::string> files_of(const Result& result) {
   files["path.cls"] = path_to_cls(result.path, result.tool, cls);
   files["path.csv"] = path_to_csv(result.path);
   files["job.json"] = job_to_json(result.job);
-  files["verify.json"] = verify_to_json(result.verify, result.acceptance());
+  files["verify.json"] = verify_to_json(result.verify, acceptance);
   if (result.drawings) files["view.json"] = view_to_json(result.drawings->view);
   if (result.drawings && !result.drawings->blank.empty()) files["blank.json"] = blank_to_json(result.drawings->blank);
   if (result.drawings && !result.drawings->engagement.empty())
@@ -60,23 +70,16 @@ std::map<std::string, std::string> files_of(const Result& result) {
   if (result.ranking) files["ranking.json"] = ranking_to_json(*result.ranking);
   if (!result.complete && result.journal && result.journal->key())
     files[kJournalFile] = journal_to_json(*result.journal);
-  files["summary.json"] = summary_json(result);
+  files["summary.json"] = summary_json(result, acceptance);
   return files;
 }
 
-Manifest manifest_of(const PlanJob& job, const std::string& part_sha256, const ResultFolder& folder) {
-  Manifest manifest;
-  manifest.made_by = std::visit([](const auto& plan) { return std::string(command_name(plan)); }, job);
-  manifest.folder = fs::absolute(folder.path()).lexically_normal().string();
-  manifest.part = {fs::absolute(part_of(job)).lexically_normal().string(), part_sha256};
-  manifest.judged = manifest.part;
-  return manifest;
+Manifest result_manifest(const Result& result, const ResultFolder& folder) {
+  return manifest_of(result.job, result.part_sha256, folder);
 }
 
-}  // namespace
-
 void write_result(const Result& result, ResultFolder& folder) {
-  folder.replace(files_of(result), manifest_of(result.job, result.part_sha256, folder));
+  folder.replace(result_files(result, result.acceptance()), result_manifest(result, folder));
 }
 
 bool write_steps(const Progress::Journal& journal, const PlanJob& job, ResultFolder& folder) {

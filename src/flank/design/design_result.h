@@ -27,7 +27,7 @@ struct DesignPair {
   TaskRow row;
   std::string folder;  ///< of the result; empty: there is none
   std::string way;     ///< "fit", "cover", "motion", or "as F1": the path of an equal face, moved
-  double coverage_reachable = 0.0, overcut_mm = 0.0, other_faces_overcut_mm = 0.0;
+  double coverage_reachable = 0.0, coverage = 0.0, overcut_mm = 0.0, other_faces_overcut_mm = 0.0;
   int strips = 0;
   double minutes = 0.0;  ///< strips at the feed, links at the rapid rate
   [[nodiscard]] bool finishes() const { return row.status == TaskStatus::kMeets; }

@@ -49,6 +49,7 @@ Json pair_entry(const DesignResult& result, std::size_t t, std::size_t f) {
   entry["folder"] = pair.folder;
   entry["way"] = pair.way;
   entry["coverage_reachable"] = pair.coverage_reachable;
+  entry["coverage"] = pair.coverage;
   entry["overcut_mm"] = pair.overcut_mm;
   entry["other_faces_overcut_mm"] = pair.other_faces_overcut_mm;
   entry["strips"] = pair.strips;
@@ -63,7 +64,8 @@ std::string html_cell(const DesignResult& result, std::size_t t, std::size_t f) 
   if (!pair.folder.empty()) {
     inside = fmt::format("{:.2f} %", 100.0 * pair.coverage_reachable);
     if (pair.row.page) inside = fmt::format("<a href=\"{}/report.html\">{}</a>", html_safe(pair.folder), inside);
-    inside += fmt::format("<br><small>{:.2f} min, {} strips, {}</small>", pair.minutes, pair.strips, pair.way);
+    inside += fmt::format("<br><small>{:.2f} % of the whole face, {:.2f} min, {} strips, {}</small>",
+                          100.0 * pair.coverage, pair.minutes, pair.strips, pair.way);
   } else if (!pair.row.message.empty()) {
     inside += "<br><small>" + html_safe(pair.row.message) + "</small>";
   }
@@ -114,7 +116,8 @@ std::string design_json(const DesignResult& result) {
 
 std::string design_csv(const DesignResult& result) {
   std::string text =
-      "tool,source,face,equal_to,status,way,coverage_reachable,overcut_mm,other_faces_overcut_mm,strips,minutes,chosen,"
+      "tool,source,face,equal_to,status,way,coverage_reachable,coverage,overcut_mm,other_faces_overcut_mm,strips,"
+      "minutes,chosen,"
       "folder,message\n";
   for (std::size_t t = 0; t < result.tools.size(); ++t)
     for (std::size_t f = 0; f < result.faces.size(); ++f) {
@@ -122,10 +125,10 @@ std::string design_csv(const DesignResult& result) {
       text += fmt::format("{},{},{},{},{},{},", result.tools[t].name, csv_cell(result.tools[t].source), result.faces[f],
                           first_of(result, f), status_name(pair.row.status), pair.way);
       if (pair.folder.empty())
-        text += ",,,,,";
+        text += ",,,,,,";
       else
-        text += fmt::format("{},{},{},{},{},", pair.coverage_reachable, pair.overcut_mm, pair.other_faces_overcut_mm,
-                            pair.strips, pair.minutes);
+        text += fmt::format("{},{},{},{},{},{},", pair.coverage_reachable, pair.coverage, pair.overcut_mm,
+                            pair.other_faces_overcut_mm, pair.strips, pair.minutes);
       text += fmt::format("{},{},{}\n", machines(result, t, f) ? "yes" : "no", csv_cell(pair.folder),
                           csv_cell(pair.row.message));
     }
@@ -135,8 +138,8 @@ std::string design_csv(const DesignResult& result) {
 std::string design_html(const DesignResult& result) {
   const std::string part = std::filesystem::path(result.job.part.file).filename().string();
   const std::string title = html_safe("flank design: " + part);
-  std::string text =
-      html_head(title) + fmt::format("<p>{}. Coverage is of what is reachable.</p>\n", html_safe(verdict(result)));
+  std::string text = html_head(title) +
+                     fmt::format("<p>{}. The first share is of what is reachable.</p>\n", html_safe(verdict(result)));
   text += "<table>\n<tr><th></th>";
   for (std::size_t t = 0; t < result.tools.size(); ++t) {
     const DesignTool& tool = result.tools[t];
@@ -176,9 +179,11 @@ std::string design_text(const DesignResult& result) {
       continue;
     }
     const DesignPair& pair = result.pair(static_cast<std::size_t>(tool), f);
-    text += fmt::format("  {:<5} {:<4} {:<8} {:.2f} %, overcut {:.4f} mm, {} strips, {:.2f} min\n", result.faces[f],
-                        result.tools[static_cast<std::size_t>(tool)].name, pair.way, 100.0 * pair.coverage_reachable,
-                        pair.overcut_mm, pair.strips, pair.minutes);
+    text += fmt::format(
+        "  {:<5} {:<4} {:<8} {:.2f} % of what is reachable, {:.2f} % of the whole, overcut {:.4f} mm, {} "
+        "strips, {:.2f} min\n",
+        result.faces[f], result.tools[static_cast<std::size_t>(tool)].name, pair.way, 100.0 * pair.coverage_reachable,
+        100.0 * pair.coverage, pair.overcut_mm, pair.strips, pair.minutes);
   }
   return text + verdict(result) + "\n";
 }

@@ -218,6 +218,7 @@ class Pairs {
       return json.is_object() && json.contains(key) && json[key].is_number() ? json[key].get<double>() : 0.0;
     };
     pair.coverage_reachable = number("coverage_reachable");
+    pair.coverage = number("coverage");
     pair.overcut_mm = number("overcut_mm");
     pair.other_faces_overcut_mm = number("gouge_mm");
     const Path path = read_path((folder / "path.json").string());

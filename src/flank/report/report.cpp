@@ -116,6 +116,8 @@ std::string make_report(const std::string& folder) {
   held.require_whole();
   if (held.manifest()) require_same_part(held);
   std::string data = std::string("<meta name=\"generator\" content=\"OpenFlank ") + kVersion + "\">\n", title;
+  // The page says it: nothing ties files together that no manifest names.
+  data += std::string("<meta name=\"flank-manifest\" content=\"") + (held.manifest() ? "whole" : "none") + "\">\n";
   bool found = false;
   for (const std::string& name : report_files()) {
     const auto text = read_checked(fs::path(folder) / name, schema_of(name));

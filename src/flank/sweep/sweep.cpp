@@ -1,5 +1,6 @@
 #include "flank/sweep/sweep.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -18,8 +19,24 @@ double number(const nlohmann::json& json, const char* key) {
   return found != json.end() && found->is_number() ? found->get<double>() : 0.0;
 }
 
+/// The figures of a list of reasons or cautions, in its order, each once.
+std::vector<std::string> figures_of(const nlohmann::json& json, const char* key) {
+  std::vector<std::string> names;
+  const auto list = json.find(key);
+  if (list == json.end() || !list->is_array()) return names;
+  for (const auto& one : *list) {
+    const auto figure = one.is_object() ? one.find("figure") : one.end();
+    if (!one.is_object() || figure == one.end() || !figure->is_string()) continue;
+    if (std::find(names.begin(), names.end(), *figure) == names.end()) names.push_back(figure->get<std::string>());
+  }
+  return names;
+}
+
 void read_figures(const fs::path& folder, SweepRow& row) {
-  const auto json = nlohmann::json::parse(text_of_file((folder / "summary.json").string()), nullptr, false);
+  const auto read = [&](const char* name) {
+    return nlohmann::json::parse(text_of_file((folder / name).string()), nullptr, false);
+  };
+  const nlohmann::json json = read("summary.json"), verdict = read("verify.json");
   if (!json.is_object()) return;
   SweepRow::Figures figures;
   figures.coverage = number(json, "coverage");
@@ -29,6 +46,8 @@ void read_figures(const fs::path& folder, SweepRow& row) {
   figures.other_faces_overcut_mm = number(json, "other_faces_overcut");
   figures.strips = static_cast<int>(number(json, "strips"));
   figures.slenderness = number(json, "slenderness");
+  figures.reasons = figures_of(verdict.is_object() ? verdict : json, "reasons");
+  figures.cautions = figures_of(verdict.is_object() ? verdict : json, "cautions");
   row.figures = figures;
 }
 

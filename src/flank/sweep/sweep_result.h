@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "flank/sweep/plan.h"
@@ -16,6 +17,7 @@ struct SweepRow : TaskRow {
     double overcut_mm = 0.0, undercut_mm = 0.0, other_faces_overcut_mm = 0.0;
     int strips = 0;
     double slenderness = 0.0;
+    std::vector<std::string> reasons, cautions;  ///< names of the figures that they are about, each once
   };
   std::optional<Figures> figures;
 };

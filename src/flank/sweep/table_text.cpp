@@ -8,7 +8,8 @@ namespace {
 constexpr const char* kStyle =
     "body{font:15px system-ui,sans-serif;margin:2em;color:#223}table{border-collapse:collapse;margin:1em 0 2em}"
     "th,td{border:1px solid #ccd;padding:.4em .7em;text-align:left}td small{color:#556}"
-    ".meets{background:#e2f3e4}.short{background:#fdf0d5}.none{background:#f8dcdc}.chosen{outline:2px solid #2a6}";
+    ".meets{background:#e2f3e4}.short{background:#fdf0d5}.none{background:#f8dcdc}.caution{color:#8a5a00}.chosen{"
+    "outline:2px solid #2a6}";
 
 }  // namespace
 

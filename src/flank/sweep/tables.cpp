@@ -18,6 +18,14 @@ std::string file_name(const std::string& path) { return std::filesystem::path(pa
 /// A tool as it is shown: a file without its folder.
 std::string shown_tool(const std::string& tool) { return tool.find('/') != std::string::npos ? file_name(tool) : tool; }
 
+/// "; no: overcut_mm; caution: shank_and_holder".
+std::string verdict_words(const SweepRow::Figures& f) {
+  std::string words;
+  if (!f.reasons.empty()) words += fmt::format("; no: {}", fmt::join(f.reasons, ", "));
+  if (!f.cautions.empty()) words += fmt::format("; caution: {}", fmt::join(f.cautions, ", "));
+  return words;
+}
+
 std::string html_cell(const SweepTask& task, const SweepRow& row) {
   const bool meets = row.status == TaskStatus::kMeets;
   const char* look = meets ? "meets" : row.status == TaskStatus::kFallsShort ? "short" : "none";
@@ -26,7 +34,14 @@ std::string html_cell(const SweepTask& task, const SweepRow& row) {
     const SweepRow::Figures& f = *row.figures;
     inside = fmt::format("{:.2f} %", 100.0 * f.coverage_reachable);
     if (row.page) inside = fmt::format("<a href=\"{}/report.html\">{}</a>", html_safe(task.name), inside);
-    inside += fmt::format("<br><small>{} strips, overcut {:.4f} mm</small>", f.strips, f.overcut_mm);
+    inside += fmt::format("<br><small>{:.2f} % of the whole face, {} strips, overcut {:.4f} mm</small>",
+                          100.0 * f.coverage, f.strips, f.overcut_mm);
+    // A reader sees by the colour that it falls short, and here in what.
+    if (!f.reasons.empty())
+      inside += fmt::format("<br><small>no: {}</small>", html_safe(fmt::format("{}", fmt::join(f.reasons, ", "))));
+    if (!f.cautions.empty())
+      inside += fmt::format("<br><small class=\"caution\">caution: {}</small>",
+                            html_safe(fmt::format("{}", fmt::join(f.cautions, ", "))));
   } else if (!row.message.empty()) {
     inside += "<br><small>" + html_safe(row.message) + "</small>";
   }
@@ -81,6 +96,8 @@ std::string sweep_json(const SweepResult& result) {
       entry["other_faces_overcut_mm"] = row.figures->other_faces_overcut_mm;
       entry["strips"] = row.figures->strips;
       entry["slenderness"] = row.figures->slenderness;
+      entry["reasons"] = row.figures->reasons;
+      entry["cautions"] = row.figures->cautions;
     }
     json["tasks"].push_back(std::move(entry));
   }
@@ -91,7 +108,7 @@ std::string sweep_csv(const SweepResult& result) {
   std::string text =
       "folder,face,tool,variant,status,coverage,coverage_reachable,overcut_mm,undercut_mm,other_faces_overcut_mm,"
       "strips,"
-      "slenderness,message\n";
+      "slenderness,reasons,cautions,message\n";
   for (std::size_t k = 0; k < result.rows.size(); ++k) {
     const SweepTask& task = result.plan.tasks[k];
     const SweepRow& row = result.rows[k];
@@ -99,10 +116,12 @@ std::string sweep_csv(const SweepResult& result) {
                         csv_cell(task.variant), status_name(row.status));
     if (row.figures) {
       const SweepRow::Figures& f = *row.figures;
-      text += fmt::format("{},{},{},{},{},{},{},", f.coverage, f.coverage_reachable, f.overcut_mm, f.undercut_mm,
-                          f.other_faces_overcut_mm, f.strips, f.slenderness);
+      text += fmt::format("{},{},{},{},{},{},{},{},{},", f.coverage, f.coverage_reachable, f.overcut_mm, f.undercut_mm,
+                          f.other_faces_overcut_mm, f.strips, f.slenderness,
+                          csv_cell(fmt::format("{}", fmt::join(f.reasons, " "))),
+                          csv_cell(fmt::format("{}", fmt::join(f.cautions, " "))));
     } else {
-      text += ",,,,,,,";
+      text += ",,,,,,,,,";
     }
     text += csv_cell(row.message) + "\n";
   }
@@ -112,9 +131,9 @@ std::string sweep_csv(const SweepResult& result) {
 std::string sweep_html(const SweepResult& result) {
   const SweepPlan& plan = result.plan;
   const std::string title = html_safe(fmt::format("flank sweep: {} of {}", file_name(plan.file), file_name(plan.part)));
-  std::string text =
-      html_head(title) + fmt::format("<p>{} of {} tasks meet their request. Coverage is of what is reachable.</p>\n",
-                                     result.count(TaskStatus::kMeets), result.rows.size());
+  std::string text = html_head(title) +
+                     fmt::format("<p>{} of {} tasks meet their request. The first share is of what is reachable.</p>\n",
+                                 result.count(TaskStatus::kMeets), result.rows.size());
   for (std::size_t variant = 0; variant < std::max<std::size_t>(1, plan.variants.size()); ++variant)
     text += html_table(result, variant);
   return text + "</html>\n";
@@ -127,8 +146,9 @@ std::string sweep_text(const SweepResult& result) {
     const SweepRow& row = result.rows[k];
     text += fmt::format("{:<16} {:<8} {:<28} {}", task.name, task.face, shown_tool(task.tool), status_name(row.status));
     if (row.figures)
-      text += fmt::format(", {:.2f} %, {} strips, overcut {:.4f} mm", 100.0 * row.figures->coverage_reachable,
-                          row.figures->strips, row.figures->overcut_mm);
+      text += fmt::format(", {:.2f} % of what is reachable, {:.2f} % of the whole face, {} strips, overcut {:.4f} mm{}",
+                          100.0 * row.figures->coverage_reachable, 100.0 * row.figures->coverage, row.figures->strips,
+                          row.figures->overcut_mm, verdict_words(*row.figures));
     if (!row.message.empty()) text += ": " + row.message;
     text += "\n";
   }

@@ -45,6 +45,25 @@ TaskStatus status_of(const ChildOutcome& outcome) {
   return outcome.exit_code == 1 ? TaskStatus::kFallsShort : TaskStatus::kRefused;
 }
 
+/// Whether the key is there and true.
+bool says_yes(const nlohmann::json& json, const char* key) {
+  const auto found = json.find(key);
+  return found != json.end() && found->is_boolean() && found->get<bool>();
+}
+
+/// The verdict that lies in a folder of results, whatever exit code a record states: that of verify.json, of work that was not
+/// interrupted. kFailed: there is none.
+TaskStatus verdict_in(const fs::path& folder) {
+  const auto read = [&](const char* name) {
+    return nlohmann::json::parse(text_of_file((folder / name).string()), nullptr, false);
+  };
+  const nlohmann::json verdict = read("verify.json"), summary = read("summary.json");
+  if (!verdict.is_object() || !verdict.contains("pass")) return TaskStatus::kFailed;
+  // A folder that was only judged has no summary: nothing was planned there that could be incomplete.
+  const bool complete = !fs::exists(folder / "summary.json") || (summary.is_object() && says_yes(summary, "complete"));
+  return complete && says_yes(verdict, "pass") ? TaskStatus::kMeets : TaskStatus::kFallsShort;
+}
+
 /// What was asked for, and what came of it: a later run may keep it.
 void write_record(const BatchOptions& options, const BatchTask& task, const TaskRow& row, const fs::path& file) {
   nlohmann::ordered_json json = {{"schema", kTaskSchema}, {"words", task.words}, {"part_sha256", options.part_sha256}};
@@ -83,6 +102,8 @@ std::optional<TaskRow> earlier(const BatchOptions& options, const BatchTask& tas
   row.exit_code = code->get<int>();
   row.status = status_of({row.exit_code, false});
   if (!row.has_result() || !is_whole(files.folder, options.part_sha256)) return {};
+  row.status = verdict_in(files.folder);
+  if (!row.has_result()) return {};
   row.page = fs::is_regular_file(files.folder / "report.html");
   return row;
 }
@@ -93,12 +114,13 @@ TaskRow finished(const BatchOptions& options, const BatchTask& task, const Child
   TaskRow row;
   row.status = status_of(outcome);
   row.exit_code = outcome.timed_out ? -1 : outcome.exit_code;
+  if (row.has_result()) row.status = verdict_in(files.folder);
   if (outcome.timed_out)
     row.message = fmt::format("took more than {:g} s", options.timeout_s);
   else if (!row.has_result())
     row.message = last_line(text_of_file(files.errors.string()));
   if (row.status == TaskStatus::kFailed && row.message.empty())
-    row.message = fmt::format("ended with {}", row.exit_code);
+    row.message = fmt::format("ended with {}{}", row.exit_code, outcome.failed() ? "" : " and left no verdict");
   if (row.has_result() && page_is_built()) (void)write_report(files.folder.string());
   row.page = row.has_result() && fs::is_regular_file(files.folder / "report.html");
   write_record(options, task, row, files.record);

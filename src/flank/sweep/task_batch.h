@@ -22,10 +22,10 @@ struct BatchTask {
 
 enum class TaskStatus {
   kNotRun,      ///< the batch was stopped before
-  kMeets,       ///< its result meets the request
+  kMeets,       ///< the verdict in its folder: it meets the request
   kFallsShort,  ///< there is a result, but it does not
   kRefused,     ///< wrong usage or refused input, found while it ran
-  kFailed,      ///< it ended by a fault, in every attempt
+  kFailed,      ///< it ended by a fault, in every attempt, or left no verdict
   kTimedOut,    ///< it took too long, in the last attempt
 };
 [[nodiscard]] std::string_view status_name(TaskStatus status);

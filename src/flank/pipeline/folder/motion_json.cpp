@@ -60,9 +60,16 @@ double load_of(const Machine& machine, const std::vector<TracePoint>& trace, std
   return load;
 }
 
+nlohmann::ordered_json texts_of(const std::vector<Shortfall>& shortfalls) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Shortfall& one : shortfalls) list.push_back({{"figure", one.figure}, {"text", one.text}});
+  return list;
+}
+
 }  // namespace
 
-std::string motion_json(const Machine& machine, const Post& post, const Box3& part, const WorkSetup& setup) {
+std::string motion_json(const Machine& machine, const Post& post, const Box3& part, const WorkSetup& setup,
+                        const Acceptance& acceptance) {
   using Json = nlohmann::ordered_json;
   const std::vector<TracePoint>& trace = post.trace;
   const std::size_t count = trace.empty() ? 0 : std::min(kMostTimes, std::max<std::size_t>(2, trace.size()));
@@ -108,6 +115,9 @@ std::string motion_json(const Machine& machine, const Post& post, const Box3& pa
   const Json json = {{"schema", "openflank/motion/1"},
                      {"units", "mm, degrees, s"},
                      {"machine", machine.name},
+                     {"pass", acceptance.pass()},
+                     {"reasons", texts_of(acceptance.reasons)},
+                     {"cautions", texts_of(acceptance.cautions)},
                      {"duration_s", rounded(post.time_s)},
                      {"cutting_s", rounded(post.cutting_s)},
                      {"spindle",

@@ -220,7 +220,7 @@ PostOutcome post_input(const PostJob& request, Machine machine, const Input& inp
   result.program.header.setup = outcome.setup;
   result.program.header.spindle_rpm = request.spindle_rpm;
   outcome.program = write_nc(result.program, machine.dialect);
-  outcome.motion = motion_json(machine, result, input.setup.part.box, options.setup);
+  outcome.motion = motion_json(machine, result, input.setup.part.box, options.setup, outcome.acceptance);
   return outcome;
 }
 

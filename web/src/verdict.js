@@ -1,0 +1,51 @@
+// What the files say of themselves. The verdict is the judge's (verify.json, summary.json); this page adds nothing to it, and shows
+// every reason and every caution, whatever it is about.
+
+/** What a figure is called where no row of the table is about it; one that is new here goes by its name in the files. */
+const NAMES = {
+  complete: 'Work', legitimate: 'Profile of the tool', verdict: 'Judged', overcut_mm: 'Overcut', gouge_mm: 'Overcut of other faces',
+  buried: 'Strips inside the material', overcut_bound_mm: 'Overcut, proved', gouge_bound_mm: 'Of other faces, proved',
+  coverage_reachable: 'Finished of what is reachable', coverage_bound: 'Finished, proved', clearance: 'Clearance', stock: 'Replay in a stock',
+  bend_radius: 'Bend radius', engagement: 'Engagement', cycles: 'Cycles', travel: 'Travel of the joints', axis_speed: 'Speed of the joints',
+  machine_bodies: 'Table and head', unread_faces: 'Faces that were not read', coverage: 'Finished of the whole face', hold: 'Hold of the tool',
+  shank_and_holder: 'Shank and holder', sheet_side: 'Machined side', rounding_mm: 'Rounding of the program', rapid: 'Rapid moves',
+  work_offset: 'Work offset', tool_length: 'Tool length', tool_number: 'Tool number', spindle: 'Spindle',
+};
+export const nameOf = (figure) => NAMES[figure] ?? String(figure).replaceAll('_', ' ');
+
+const list = (file, key) => (Array.isArray(file?.[key]) ? file[key] : []);
+const same = (a) => (b) => a.figure === b.figure && a.text === b.text;
+
+/** Why the result does not meet its request: [{ figure, text }]. */
+export const reasons = ({ verify }) => list(verify, 'reasons');
+
+/** What is amber beside a verdict that passes. */
+export function cautions({ verify, summary }) {
+  const said = list(verify, 'cautions');
+  return [...said, ...list(summary, 'cautions').filter((one) => !said.some(same(one)))];
+}
+
+/** What was wrong when the result was made and is not for the later verdict: both cannot be green. */
+export function earlier({ verify, summary }) {
+  if (verify?.pass !== true || summary?.pass !== false) return [];
+  const said = list(summary, 'reasons');
+  return said.length ? said : [{ figure: 'verdict', text: 'summary.json says that the request is not met' }];
+}
+
+/** { state, text } of the pill. */
+export function verdict(files) {
+  const { verify, summary, tied } = files;
+  if (typeof verify?.pass !== 'boolean') return { state: 'warn', text: 'Not judged' };
+  if (summary?.complete === false) return { state: 'fail', text: 'Interrupted: incomplete' };
+  if (!verify.pass || reasons(files).length) return { state: 'fail', text: 'Does NOT meet the request' };
+  if (!tied) return { state: 'warn', text: 'Nothing ties these files together' };
+  if (summary && summary.complete !== true) return { state: 'warn', text: 'Not known to be complete' };
+  if (earlier(files).length) return { state: 'warn', text: 'summary.json says no' };
+  return { state: 'pass', text: 'Meets the request' };
+}
+
+/** The same of the program that was written last (motion.json); null where there is none, or an older file says nothing. */
+export function programVerdict({ motion }) {
+  if (typeof motion?.pass !== 'boolean') return null;
+  return { pass: motion.pass && !list(motion, 'reasons').length, reasons: list(motion, 'reasons'), cautions: list(motion, 'cautions') };
+}
