@@ -1,5 +1,5 @@
 # The Python module openflank (python/): built where a Python 3 with its headers and NumPy is, and pybind11's headers. Without
-# them (or with FLANK_PYTHON=OFF) everything else is built.
+# them (or with FLANK_PYTHON=OFF; FLANK_PYTHON=ON insists) everything else is built.
 
 # Several interpreters may be installed: the first that has what the module needs is taken.
 function(_flank_is_usable_python result candidate)
@@ -15,14 +15,12 @@ find_program(FLANK_PYTHON_EXECUTABLE NAMES python3 VALIDATOR _flank_is_usable_py
 find_path(FLANK_PYBIND11 pybind11/pybind11.h)
 mark_as_advanced(FLANK_PYTHON_EXECUTABLE FLANK_PYBIND11)
 
-if(FLANK_PYTHON_EXECUTABLE AND FLANK_PYBIND11 AND NOT FLANK_SANITIZE AND NOT FLANK_FUZZ)
-  set(_flank_python_found ON)
-else()
-  set(_flank_python_found OFF)
+set(_flank_python_missing "")
+if(FLANK_SANITIZE OR FLANK_FUZZ)
+  set(_flank_python_missing "it is not built with sanitizers")
+elseif(NOT FLANK_PYTHON_EXECUTABLE OR NOT FLANK_PYBIND11)
+  set(_flank_python_missing "it needs pybind11 and a Python 3.9 with its headers and NumPy; Debian: scripts/install-deps.sh python")
 endif()
-option(FLANK_PYTHON "Build the Python module (needs Python 3.9 with its headers, NumPy, pybind11)" ${_flank_python_found})
-if(FLANK_PYTHON AND NOT (FLANK_PYTHON_EXECUTABLE AND FLANK_PYBIND11))
-  message(FATAL_ERROR "FLANK_PYTHON needs pybind11 and a Python with headers and NumPy (Debian: scripts/install-deps.sh python)")
-endif()
+flank_optional_part(FLANK_PYTHON "The Python module" "${_flank_python_missing}")
 set(FLANK_PYTHON_DESTINATION lib/python3/dist-packages CACHE STRING "Where the Python module is installed, below the prefix")
 mark_as_advanced(FLANK_PYTHON_DESTINATION)

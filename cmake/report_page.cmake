@@ -2,15 +2,10 @@
 # library. Where npm is missing or cannot fetch them the library is built without the page, and the command says so.
 find_program(FLANK_NODE NAMES node nodejs)
 find_program(FLANK_NPM npm)
-if(FLANK_NODE AND FLANK_NPM)
-  set(_flank_npm_found ON)
-else()
-  set(_flank_npm_found OFF)
-endif()
-option(FLANK_REPORT "Build the page of `flank report` (needs Node.js and npm)" ${_flank_npm_found})
 
-# Sets FLANK_WEB_PACKAGES to the folder of the packages, or FLANK_REPORT to OFF. Asks npm only when the lock file changed.
-function(flank_fetch_web_packages)
+# Sets FLANK_WEB_PACKAGES to the folder of the packages, or RESULT to why there are none. Asks npm only when the lock file changed, or
+# has not answered yet.
+function(flank_fetch_web_packages result)
   set(folder ${PROJECT_BINARY_DIR}/web)
   set(files package.json package-lock.json .npmrc)
   foreach(file IN LISTS files)
@@ -27,8 +22,8 @@ function(flank_fetch_web_packages)
     execute_process(COMMAND ${FLANK_NPM} ci --no-audit --no-fund --ignore-scripts WORKING_DIRECTORY ${folder}
                     RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output TIMEOUT 300)
     if(NOT status EQUAL 0)
-      message(WARNING "npm could not fetch the packages of the report page (${status}); building without it:\n${output}")
-      set(FLANK_REPORT OFF PARENT_SCOPE)
+      message(WARNING "npm could not fetch the packages of the report page (${status}):\n${output}")
+      set(${result} "npm could not fetch its packages; configure again where they can be fetched" PARENT_SCOPE)
       return()
     endif()
     file(WRITE ${stamp} ${wanted})
@@ -36,17 +31,28 @@ function(flank_fetch_web_packages)
   set(FLANK_WEB_PACKAGES ${folder}/node_modules PARENT_SCOPE)
 endfunction()
 
-if(FLANK_REPORT)
-  if(NOT _flank_npm_found)
-    message(FATAL_ERROR "FLANK_REPORT needs Node.js and npm (Debian: apt install nodejs npm)")
-  endif()
-  flank_fetch_web_packages()
+set(_flank_report_missing "")
+if(NOT FLANK_NODE OR NOT FLANK_NPM)
+  set(_flank_report_missing "it needs Node.js and npm; Debian: apt install nodejs npm")
+elseif(NOT DEFINED FLANK_REPORT OR FLANK_REPORT)
+  flank_fetch_web_packages(_flank_report_missing)
+endif()
+flank_optional_part(FLANK_REPORT "The report page" "${_flank_report_missing}")
+if(NOT FLANK_REPORT_USED AND NOT _flank_report_missing)
+  set(_flank_report_missing "FLANK_REPORT was ${FLANK_REPORT} when it was built")
 endif()
 
 # flank_report_page(TARGET): gives TARGET the source that holds the page, or one that says that there is none.
 function(flank_report_page target)
   set(source ${PROJECT_BINARY_DIR}/web/page_template.cpp)
-  if(FLANK_REPORT)
+  set(why ${PROJECT_BINARY_DIR}/web/page_reason.cpp)
+  file(CONFIGURE OUTPUT ${why} @ONLY CONTENT
+"#include \"flank/report/page_template.h\"
+namespace flank::internal {
+std::string_view page_is_missing() { return \"@_flank_report_missing@\"; }
+}  // namespace flank::internal
+")
+  if(FLANK_REPORT_USED)
     file(GLOB parts CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/web/src/*)
     add_custom_command(
       OUTPUT ${source}
@@ -64,5 +70,5 @@ std::string_view page_template() { return {}; }
 }  // namespace flank::internal
 ")
   endif()
-  target_sources(${target} PRIVATE ${source})
+  target_sources(${target} PRIVATE ${source} ${why})
 endfunction()

@@ -13,6 +13,7 @@
 #include "flank/io/text/json_input.h"
 #include "flank/job/input_files.h"
 #include "flank/pipeline/folder/resume_folder.h"
+#include "flank/pipeline/run_journal.h"
 #include "flank/run.h"
 #include "job_options.h"
 
@@ -25,13 +26,15 @@ struct Output {
   bool resume = false;  ///< go on where an earlier run was stopped
 };
 
-/// What was asked for is there already.
-int say_finished(const std::string& folder, const CommonOptions& common) {
+/// What was asked for is there already, and says what it said when it was made.
+int say_finished(const ResultFolder& folder, const CommonOptions& common) {
+  const bool meets = meets_request(folder);
   if (common.json)
-    fmt::print("{}", read_file((std::filesystem::path(folder) / "summary.json").string()));
+    fmt::print("{}", read_file((std::filesystem::path(folder.path()) / "summary.json").string()));
   else if (!common.quiet)
-    fmt::print("nothing is left to do: {} holds the complete result\n", printable(folder));
-  return kMeetsRequest;
+    fmt::print("nothing is left to do: {} holds the complete result, which {}\n", printable(folder.path()),
+               meets ? "meets the request" : "does NOT meet the request");
+  return meets ? kMeetsRequest : kFallsShort;
 }
 
 /// Makes the folder and holds it, works, writes what came out, prints the summary. A folder that it made is removed if
@@ -39,10 +42,12 @@ int say_finished(const std::string& folder, const CommonOptions& common) {
 int run_into(const Output& output, const CommonOptions& common, const PlanJob& job,
              const std::function<Result(const Progress&)>& work) {
   const std::string& name = output.folder;
+  const ReadFiles inputs = read_files(job);
+  const Unwritten unwritten(inputs);
   ResultFolder folder(name, ResultFolder::Use::kWrite);
-  folder.require_not_inputs(input_files(job));
+  folder.require_not_inputs(inputs);
   Progress progress = terminal_progress(common);
-  if (output.resume && is_finished(folder, job)) return say_finished(name, common);
+  if (output.resume && is_finished(folder, job, input_stamps(job))) return say_finished(folder, common);
   progress.journal = output.resume ? journal_of(folder) : std::make_shared<Journal>();
   Result result;
   try {

@@ -11,8 +11,10 @@
 #include "flank/base/atomic_file.h"
 #include "flank/base/printable.h"
 #include "flank/error.h"
+#include "flank/job/input_files.h"
 #include "flank/machine/model/machine_file.h"
 #include "flank/machine/model/machine_text.h"
+#include "flank/manifest/folder_inputs.h"
 #include "flank/manifest/result_folder.h"
 #include "flank/run.h"
 #include "job_options.h"
@@ -45,6 +47,22 @@ Subcommand add_machine(CLI::App& parser) {
 
 namespace {
 
+/// All that post reads: the folder with its part and fixtures, what the request names, the machine's file.
+ReadFiles inputs_of(const PostJob& job) {
+  ReadFiles files = inputs_of_folder(job.folder);
+  for_each_input(job, [&](const FieldInfo& info, const std::string& word) {
+    if (info.key != "folder") files.add(word, "as `" + field_name(info) + "`");
+  });
+  files.add(machine_file(job.machine), "as `machine`");
+  return files;
+}
+
+/// Before the program is written: whether what keep_motion writes has its place.
+void require_place_of_motion(const std::string& path) {
+  const ResultFolder folder(path, ResultFolder::Use::kWriteOrRead);
+  if (folder.manifest() && folder.writable()) folder.require_own("motion.json");
+}
+
 /// Beside the result, for its report. A folder that may not be written, or that other programs made, stays as it is.
 void keep_motion(const std::string& path, const std::string& motion) {
   ResultFolder folder(path, ResultFolder::Use::kWriteOrRead);
@@ -65,6 +83,11 @@ Subcommand add_post(CLI::App& parser) {
       "linuxcnc-xyzac-trt");
   const auto run = [job, output](const CommonOptions& common) {
     require_not_a_result(job->folder, *output);
+    require_no_result_there(*output);
+    const ReadFiles inputs = inputs_of(*job);
+    inputs.require_not_written(*output);
+    const Unwritten unwritten(inputs);
+    require_place_of_motion(job->folder);
     const PostOutcome outcome = run_post(*job);
     write_file(*output, outcome.program);
     keep_motion(job->folder, outcome.motion);

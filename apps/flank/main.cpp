@@ -23,6 +23,7 @@
 #include "flank/base/stopping.h"
 #include "flank/error.h"
 #include "flank/io/isolated/cad_reader.h"
+#include "flank/io/isolated/end_with_parent.h"
 #include "flank/io/isolated/read_isolated.h"
 #include "flank/io/isolated/serve_cad.h"
 #include "flank/threads.h"
@@ -158,6 +159,7 @@ int run_command(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  flank::internal::end_with_parent_if_asked();
   std::set_terminate(end_at_once);
   try {
     return run_command(argc, argv);

@@ -10,6 +10,7 @@
 #include "flank/base/printable.h"
 #include "flank/error.h"
 #include "flank/io/text/json_dump.h"
+#include "flank/manifest/folder_inputs.h"
 #include "flank/manifest/result_folder.h"
 #include "flank/report.h"
 #include "flank/report/browser.h"
@@ -17,8 +18,6 @@
 namespace flank::cli {
 using namespace internal;
 namespace {
-
-constexpr const char* kPageFile = "report.html";
 
 struct ReportOptions {
   std::string folder;
@@ -60,7 +59,15 @@ std::string read_size(const std::string& text, PictureOptions& picture) {
 
 int report(ReportOptions& options, const CommonOptions& common) {
   // Before anything is computed: a page over tool.json would destroy what it shows.
-  if (!options.png.empty()) require_not_a_result(options.folder, options.png);
+  const ReadFiles inputs = inputs_of_folder(options.folder);
+  const Unwritten unwritten(inputs);
+  if (!options.png.empty()) {
+    require_not_a_result(options.folder, options.png);
+    require_no_result_there(options.png);
+    inputs.require_not_written(options.png);
+    if (is_same_file(options.png, options.page()))
+      throw UsageError("png", options.png, "is the name of the page; give another one");
+  }
   std::vector<std::string> written{write_report(options.folder, options.html)};
   // The page says so too, and is not green.
   if (!std::filesystem::exists(std::filesystem::path(options.folder) / kManifestFile))

@@ -13,6 +13,7 @@
 #include "flank/inspect/inspect_text.h"
 #include "flank/io/text/json_dump.h"
 #include "flank/io/tool/tool_svg.h"
+#include "flank/manifest/result_folder.h"
 #include "flank/part.h"
 #include "flank/toolbox/tool_command.h"
 
@@ -67,6 +68,7 @@ Subcommand add_example(CLI::App& parser) {
   return {
       app,
       [name, file, options](const CommonOptions& common) {
+        require_no_result_there(*file);
         const Example example = make_example(*name, *options);
         const std::vector<std::string> written = write_example(example, *file);
         if (common.json) {
@@ -100,6 +102,7 @@ Subcommand add_tool(CLI::App& parser) {
   app->add_flag("--show", *show, "Draw the profile also when files are written");
   app->footer("Example: flank tool barrel --param arc=85 --param radius=5 --axis-length 30 -o tool.json -o tool.dxf");
   const auto run = [options, show](const CommonOptions& common) {
+    for (const std::string& file : options->outputs) require_no_result_there(file);
     const Tool tool = run_tool_command(*options);
     if (common.json) {
       fmt::print("{}", tool_summary_json(tool, options->outputs));

@@ -143,10 +143,17 @@ struct Ranking {
   std::vector<RankedChoice> tools;
 };
 
+/// A file, or a folder of files, that a job names beside its part, as it was when the job began.
+struct InputStamp {
+  std::string file;    ///< as the job names it
+  std::string sha256;  ///< of its bytes; of a folder: of the names and bytes of its files
+};
+
 /// What fit and cover make.
 struct Result {
   PlanJob job;
-  std::string part_sha256;  ///< Part::sha256 of the part that was read
+  std::string part_sha256;         ///< Part::sha256 of the part that was read
+  std::vector<InputStamp> inputs;  ///< tool, guide, fixtures, holder, catalogue, as far as they are files
   Tool tool;
   Path path;
   std::vector<RuledMotion> motions;  ///< motion k is strip k of the path; of a cavity: the side paths
@@ -188,8 +195,8 @@ struct Result {
 /// summary.json and job.json to a folder, ranking.json if there is a ranking, and resume.json if it is not complete. A tool that is not legitimate has
 /// neither tool.step nor tool.fctb. All of them take the place of an earlier result at once, with a manifest.json that ties
 /// them together and to the part (docs/schema/manifest.md); other files in the folder stay. Throws InputError if the folder
-/// cannot be written, holds a file that the job reads under one of these names, or another process writes to it; what was
-/// there is whole then.
+/// cannot be written, holds under one of these names a file that the job reads or that no earlier result made, or another
+/// process writes to it; what was there is whole then.
 void write_result(const Result& result, const std::string& folder);
 
 /// The result as a table for a terminal.

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "flank/base/printable.h"
 #include "flank/error.h"
 
 namespace flank::internal {
@@ -55,6 +56,26 @@ TEST_F(AtomicFileTest, LeavesNothingWithoutCommit) {
   }
   EXPECT_EQ(content(path("f")), "old");
   EXPECT_EQ(count(), 1);
+}
+
+TEST_F(AtomicFileTest, ANameMayBeAsLongAsTheFileSystemLetsItBe) {
+  // Of letters, and of characters of two and three bytes, which the temporary name must not cut apart.
+  for (const std::string& letter : {std::string("x"), std::string("\u00e9"), std::string("\u20ac")})
+    for (const std::size_t length : {230u, 240u, 243u, 250u, 255u}) {
+      std::string name;
+      while (name.size() + letter.size() <= length) name += letter;
+      SCOPED_TRACE(name.size());
+      const AtomicFile file(path(name));
+      EXPECT_TRUE(is_utf8(fs::path(file.temporary()).filename().string()));
+      write_file(path(name), "whole");
+      EXPECT_EQ(content(path(name)), "whole");
+    }
+  try {
+    write_file(path(std::string(256, 'x')), "too long");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("give a shorter name"), std::string::npos) << error.what();
+  }
 }
 
 TEST_F(AtomicFileTest, TheTemporaryLiesInTheSameFolder) {

@@ -51,7 +51,7 @@ TEST_F(CliResume, AFitThatWasInterruptedGoesOn) {
   // Complete: nothing is left to do.
   const auto written = fs::last_write_time(root_ / "out/path.json");
   const Outcome again = flank(resumed(fit_into("out")));
-  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(again.exit_code, whole.exit_code) << again.err;
   EXPECT_NE(again.out.find("nothing is left to do"), std::string::npos) << again.out;
   std::vector<std::string> as_json = resumed(fit_into("out"));
   as_json.emplace_back("--json");
@@ -61,6 +61,56 @@ TEST_F(CliResume, AFitThatWasInterruptedGoesOn) {
   EXPECT_EQ(other.exit_code, 3);
   EXPECT_EQ(messages(other).size(), 1u) << other.err;
   EXPECT_NE(other.err.find("complete result of another job"), std::string::npos) << other.err;
+}
+
+/// A cover that reads a file of every kind and falls short of its request.
+class CliFinished : public Cli {
+ protected:
+  void SetUp() override {
+    Cli::SetUp();
+    if (kSanitized)
+      GTEST_SKIP() << "a whole cover takes minutes under a sanitizer; its parts are tested in tests/pipeline";
+    words_ = {"cover",       make_side(),    "--face",   "F1",          "--side",    "-",
+              "--tool",      path("t.json"), "--holder", path("h.txt"), "--fixture", path("vice.step"),
+              "--tolerance", "1.5",          "--strips", "1",           "-o",        path("out")};
+    ASSERT_EQ(flank({"tool", "cylinder:radius=6", "--axis-length", "45", "-o", path("t.json")}).exit_code, 0);
+    ASSERT_EQ(flank({"example", "ruled-blade", "-o", path("vice.step")}).exit_code, 0);
+    write_file(root_ / "h.txt", "60 12\n90 12\n");
+    const Outcome made = flank(words_);
+    ASSERT_EQ(made.exit_code, 1) << made.err;
+    words_.emplace_back("--resume");
+  }
+  std::vector<std::string> words_;
+};
+
+TEST_F(CliFinished, EndsAsTheRunThatMadeItAndOnlyWithTheSameFiles) {
+  const Outcome again = flank(words_);
+  EXPECT_EQ(again.exit_code, 1) << again.err << again.out;
+  EXPECT_NE(again.out.find("does NOT meet the request"), std::string::npos) << again.out;
+  const auto expect_refused_for = [&](const std::string& name) {
+    SCOPED_TRACE(name);
+    const Outcome outcome = flank(words_);
+    EXPECT_EQ(outcome.exit_code, 3) << outcome.err << outcome.out;
+    EXPECT_EQ(messages(outcome).size(), 1u) << outcome.err;
+    EXPECT_NE(outcome.err.find(name), std::string::npos) << outcome.err;
+  };
+  // Another tool, holder or fixture; a file of the result that somebody edited.
+  for (const std::string& name :
+       {"t.json", "h.txt", "vice.step", "out/path.json", "out/tool.json", "out/verify.json"}) {
+    const std::string before = read_file(root_ / name);
+    write_file(root_ / name, before + "\n");
+    expect_refused_for(path(name));
+    write_file(root_ / name, before);
+  }
+  // A manifest that does not say what was read.
+  const std::string manifest = read_file(root_ / "out/manifest.json");
+  auto json = nlohmann::json::parse(manifest);
+  ASSERT_EQ(json.at("inputs").size(), 3u);
+  json.erase("inputs");
+  write_file(root_ / "out/manifest.json", json.dump());
+  expect_refused_for("manifest.json");
+  write_file(root_ / "out/manifest.json", manifest);
+  EXPECT_EQ(flank(words_).exit_code, 1);
 }
 
 TEST_F(CliResume, AFolderWithoutStepsIsRefused) {

@@ -1,5 +1,10 @@
 // flank sweep: plans that are refused by their line, the same bytes for any number of processes, what is kept.
+#include <sys/file.h>
+
+#include <chrono>
+#include <csignal>
 #include <map>
+#include <thread>
 
 #include "cli/cli_fixture.h"
 
@@ -115,6 +120,48 @@ TEST_F(SweepCli, ResumeKeepsWhatIsWholeAndWasAskedForAlike) {
   write_file(file, text);
   (void)flank({"sweep", file, "-o", path("out"), "--resume"});
   EXPECT_GT(time("F1-1/tool.json"), before);
+}
+
+/// Whether a process holds the folder of a result.
+bool is_held(const fs::path& folder) {
+  const int number = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (number < 0) return false;
+  const bool held = ::flock(number, LOCK_EX | LOCK_NB) != 0;
+  ::close(number);
+  return held;
+}
+
+TEST_F(SweepCli, TheTasksOfAKilledSweepEndWithItAndResumeWorksAtOnce) {
+  const std::string file = good_plan();
+  std::string err = path("streams/killed.txt");
+  posix_spawn_file_actions_t streams;
+  posix_spawn_file_actions_init(&streams);
+  posix_spawn_file_actions_addopen(&streams, 2, err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  std::vector<std::string> words{FLANK_BINARY, "sweep", file, "-o", path("out"), "--processes", "1", "--quiet"};
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  pid_t sweep = 0;
+  ASSERT_EQ(posix_spawn(&sweep, FLANK_BINARY, &streams, nullptr, argv.data(), environ), 0);
+  posix_spawn_file_actions_destroy(&streams);
+  int status = 0;
+  while (!is_held(root_ / "out/F1-1") && ::waitpid(sweep, &status, WNOHANG) == 0)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  const bool was_running = is_held(root_ / "out/F1-1");
+  ::kill(sweep, SIGKILL);
+  ::waitpid(sweep, &status, 0);
+  EXPECT_TRUE(was_running);
+  // The next run finds nobody there: only the time in which the system takes a killed process down is waited for.
+  const auto begun = std::chrono::steady_clock::now();
+  while (is_held(root_ / "out/F1-1") && std::chrono::steady_clock::now() - begun < std::chrono::seconds(20))
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_FALSE(is_held(root_ / "out/F1-1"));
+  EXPECT_FALSE(fs::exists(root_ / "out/F1-1/manifest.json")) << "it was ended, not waited for";
+  if (kSanitized) return;
+  const Outcome on = flank({"sweep", file, "-o", path("out"), "--processes", "2", "--resume", "--json"});
+  EXPECT_LE(on.exit_code, 1) << on.err;
+  for (const auto& task : nlohmann::json::parse(on.out)["tasks"])
+    EXPECT_TRUE(task["status"] == "meets the request" || task["status"] == "falls short") << task;
 }
 
 TEST_F(SweepCli, ATaskThatTakesTooLongIsToldAndTheOthersAreThere) {

@@ -44,7 +44,12 @@ class ResultFolderTest : public ::testing::Test {
     return found;
   }
   [[nodiscard]] Manifest manifest() const {
-    return {.made_by = "fit", .folder = folder(), .part = {"/p.step", "00"}, .judged = {"/p.step", "00"}, .files = {}};
+    return {.made_by = "fit",
+            .folder = folder(),
+            .part = {"/p.step", "00"},
+            .judged = {"/p.step", "00"},
+            .inputs = {},
+            .files = {}};
   }
   void replace(const Files& files) const { ResultFolder(folder(), Use::kWrite).replace(files, manifest()); }
   /// The message, "accepted" if there is none.
@@ -179,19 +184,120 @@ TEST_F(ResultFolderTest, RefusesLinksAndInputsInItsPlace) {
   fs::create_symlink(root_ / "elsewhere.json", root_ / "out/tool.json");
   EXPECT_NE(refusal([&] { const ResultFolder held(folder(), Use::kWrite); }).find("out/tool.json"), std::string::npos);
   fs::remove(root_ / "out/tool.json");
-  write("out/tool.step", "part");
+  replace({{"tool.step", "part"}});
   const ResultFolder held(folder(), Use::kWrite);
-  EXPECT_NE(refusal([&] { held.require_not_inputs({(root_ / "out/../out/tool.step").string()}); }).find("tool.step"),
+  ReadFiles part, others;
+  part.add((root_ / "out/../out/tool.step").string(), "as the part");
+  others.add((root_ / "elsewhere.json").string(), "as the tool");
+  others.add("cone:angle=3", "as the tool");
+  const std::string message = refusal([&] { held.require_not_inputs(part); });
+  EXPECT_NE(message.find("out/tool.step"), std::string::npos) << message;
+  EXPECT_NE(message.find("as the part"), std::string::npos) << message;
+  EXPECT_EQ(refusal([&] { held.require_not_inputs(others); }), "accepted");
+}
+
+TEST_F(ResultFolderTest, AStrangersFileOfAnyNameOfAResultIsNeverReplaced) {
+  for (const std::string& name : result_names()) {
+    if (name == kManifestFile) continue;
+    // Nobody says whose it is; an earlier result has no such file; tool and path of a verdict are of other programs.
+    for (const std::string made_by : {"", "fit", kMadeByVerify}) {
+      SCOPED_TRACE(name + " " + made_by);
+      fs::remove_all(folder());
+      fs::create_directories(folder());
+      Manifest earlier = manifest();
+      earlier.made_by = made_by;
+      if (made_by == "fit") ResultFolder(folder(), Use::kWrite).replace({}, earlier);
+      write("out/" + name, "a stranger's");
+      if (made_by == kMadeByVerify) ResultFolder(folder(), Use::kWriteOrRead).add({}, earlier);
+      const bool added_by_verify = made_by == kMadeByVerify && (name == "verify.json" || name == "view.json" ||
+                                                                name == "engagement.json" || name == "motion.json");
+      const std::string message = refusal([&] { replace({{name, "of a result"}}); });
+      EXPECT_EQ(message == "accepted", added_by_verify) << message;
+      if (added_by_verify) continue;
+      EXPECT_NE(message.find("out/" + name), std::string::npos) << message;
+      EXPECT_NE(message.find("give another folder"), std::string::npos) << message;
+      EXPECT_EQ(content(name), "a stranger's");
+    }
+  }
+}
+
+TEST_F(ResultFolderTest, AVerdictReplacesOnlyAVerdict) {
+  for (const std::string name : {"verify.json", "view.json", "engagement.json", "motion.json", "report.html"}) {
+    SCOPED_TRACE(name);
+    fs::remove_all(folder());
+    write("out/" + name, "a stranger's");
+    const auto add = [&] { ResultFolder(folder(), Use::kWriteOrRead).add({{name, "new"}}, manifest()); };
+    EXPECT_NE(refusal(add).find("out/" + name), std::string::npos);
+    EXPECT_EQ(all(), (Files{{name, "a stranger's"}}));
+    write("out/" + name, name == "report.html"
+                             ? "<meta name=\"generator\" content=\"OpenFlank 0.1\">"
+                             : "{\"schema\": \"openflank/" + name.substr(0, name.find('.')) + "/1\"}");
+    EXPECT_EQ(refusal(add), "accepted");
+    EXPECT_EQ(content(name), "new");
+  }
+}
+
+TEST_F(ResultFolderTest, APageThatIsAFolderOrALinkSpoilsNothing) {
+  for (const bool link : {false, true}) {
+    fs::remove_all(folder());
+    replace({{"tool.json", "a"}});
+    write("mine.txt", "mine");
+    if (link)
+      fs::create_symlink("../mine.txt", root_ / "out/report.html");
+    else
+      write("out/report.html/x", "x");
+    const std::string message = refusal([&] {
+      ResultFolder held(folder(), Use::kWriteOrRead);
+      held.add({{"report.html", "page"}}, *held.manifest());
+    });
+    EXPECT_NE(message.find("report.html: is a link or no file"), std::string::npos) << message;
+    EXPECT_FALSE(fs::exists(root_ / "out/.flank-complete"));
+    EXPECT_EQ(fs::is_symlink(root_ / "out/report.html"), link);
+    EXPECT_EQ(std::ifstream(root_ / "mine.txt").get(), 'm');
+    EXPECT_EQ(refusal([&] { ResultFolder(folder(), Use::kWriteOrRead).require_whole(); }), "accepted")
+        << "a later command";
+  }
+}
+
+TEST_F(ResultFolderTest, AManifestThatSomebodyEditedRemovesNothingOfOthers) {
+  replace({{"tool.json", "a"}});
+  write("out/thesis.txt", "precious");
+  const std::string whole = content("manifest.json");
+  // No hash at all, or the right one.
+  for (const std::string& hash : {std::string(), std::string("12"), std::string(64, 'g'), sha256("precious")}) {
+    SCOPED_TRACE(hash);
+    std::string edited = whole;
+    edited.insert(edited.find("\"tool.json\""), "\"thesis.txt\": \"" + hash + "\", ");
+    write("out/manifest.json", edited);
+    const std::string message = refusal([&] { replace({{"tool.json", "b"}}); });
+    if (hash == sha256("precious"))
+      EXPECT_EQ(message, "accepted");
+    else
+      EXPECT_NE(message.find("thesis.txt\": 64 hexadecimal digits"), std::string::npos) << message;
+    EXPECT_EQ(content("thesis.txt"), "precious");
+  }
+}
+
+TEST_F(ResultFolderTest, WhatIsReadIsNotWhatIsRemovedOrReplaced) {
+  replace({{"tool.json", "a"}, {"ranking.json", "read"}});
+  fs::create_symlink(root_ / "out/ranking.json", root_ / "part.step");
+  ReadFiles inputs;
+  inputs.add((root_ / "part.step").string(), "as the part");
+  const Unwritten unwritten(inputs);
+  EXPECT_NE(refusal([&] { replace({{"tool.json", "b"}}); }).find("as the part"), std::string::npos);
+  EXPECT_EQ(content("ranking.json"), "read");
+  write("out/.flank-unfinished/fixture.step", "vice");
+  ReadFiles fixture;
+  fixture.add((root_ / "out/.flank-unfinished/fixture.step").string(), "as a fixture");
+  const Unwritten too(fixture);
+  EXPECT_NE(refusal([&] { const ResultFolder held(folder(), Use::kWriteOrRead); }).find("as a fixture"),
             std::string::npos);
-  EXPECT_EQ(refusal([&] {
-              held.require_not_inputs({(root_ / "elsewhere.json").string(), "cone:angle=3"});
-            }),
-            "accepted");
+  EXPECT_TRUE(fs::exists(root_ / "out/.flank-unfinished/fixture.step"));
 }
 
 TEST_F(ResultFolderTest, FindsThePartThatMovedWithTheFolder) {
   write("a/blade.step", "part");
-  const Manifest moved{.made_by = "fit", .folder = "/old/a/out", .part = {}, .judged = {}, .files = {}};
+  const Manifest moved{.made_by = "fit", .folder = "/old/a/out", .part = {}, .judged = {}, .inputs = {}, .files = {}};
   EXPECT_EQ(moved_with(moved, (root_ / "a/out").string(), "/old/a/blade.step"), (root_ / "a/blade.step").string());
   EXPECT_EQ(moved_with(moved, (root_ / "a/out").string(), "/old/a/gone.step"), "/old/a/gone.step");
 }
@@ -201,13 +307,16 @@ TEST(ManifestFile, ReadsBackWithNamesOfAnyBytes) {
                     .folder = "/a b/\xff",
                     .part = {"/x\xfe%.step", "12"},
                     .judged = {"file:/odd", "34"},
-                    .files = {{"tool.json", "56"}}};
+                    .inputs = {{"/t\xfe.json", sha256("t")}},
+                    .files = {{"tool.json", sha256("a")}}};
   EXPECT_EQ(manifest_from_json(manifest_to_json(manifest), "m"), manifest);
 }
 
 TEST(ManifestFile, RefusesWhatIsNone) {
-  const Manifest manifest{.made_by = "fit", .folder = "/a", .part = {}, .judged = {}, .files = {{"tool.json", "56"}}};
+  const Manifest manifest{
+      .made_by = "fit", .folder = "/a", .part = {}, .judged = {}, .inputs = {}, .files = {{"tool.json", sha256("a")}}};
   const std::string whole = manifest_to_json(manifest);
+  EXPECT_EQ(manifest_from_json(whole, "m"), manifest);
   for (std::size_t size = 0; size + 2 < whole.size(); ++size)
     EXPECT_THROW((void)manifest_from_json(whole.substr(0, size), "m"), InputError) << size;
   std::string outside = whole;

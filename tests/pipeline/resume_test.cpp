@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "flank/artefact/write_result.h"
+#include "flank/base/sha256.h"
 #include "flank/base/stopping.h"
 #include "flank/error.h"
 #include "flank/example/example.h"
@@ -323,16 +324,25 @@ TEST_F(StoppedFit, AStepOfOtherInputsIsDoneAgain) {
 TEST_F(StoppedFit, ACompleteResultSaysWhetherAnythingIsLeft) {
   {
     const ResultFolder held(folder("out"), ResultFolder::Use::kRead);
-    EXPECT_FALSE(is_finished(held, job_)) << "it was stopped";
+    EXPECT_FALSE(is_finished(held, job_, {})) << "it was stopped";
   }
   EXPECT_TRUE(run(run_fit, job_, "out", -1, Stop::kBetween));
   const ResultFolder held(folder("out"), ResultFolder::Use::kRead);
-  EXPECT_TRUE(is_finished(held, job_));
+  EXPECT_TRUE(is_finished(held, job_, {}));
+  EXPECT_EQ(meets_request(held), content("out/summary.json").find("\"pass\": true") != std::string::npos);
   FitJob other = job_;
   other.strips = 5;
-  EXPECT_THROW((void)is_finished(held, other), InputError);
+  EXPECT_THROW((void)is_finished(held, other, {}), InputError);
+  EXPECT_THROW((void)is_finished(held, job_, {{"t.json", sha256("t")}}), InputError) << "a file that it did not read";
+  const std::string path = content("out/path.json");
+  write("path.json", path + "\n");
+  EXPECT_THROW((void)is_finished(held, job_, {}), InputError) << "edited";
+  fs::remove(root_ / "out/path.json");
+  EXPECT_THROW((void)is_finished(held, job_, {}), InputError) << "gone";
+  write("path.json", path);
+  EXPECT_TRUE(is_finished(held, job_, {}));
   std::ofstream(job_.part.file, std::ios::app) << "\n";
-  EXPECT_THROW((void)is_finished(held, job_), InputError);
+  EXPECT_THROW((void)is_finished(held, job_, {}), InputError);
 }
 
 }  // namespace

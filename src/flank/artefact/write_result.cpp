@@ -33,11 +33,13 @@ std::string part_of(const PlanJob& job) {
   return std::visit([](const auto& plan) { return machined(plan).file; }, job);
 }
 
+std::string absolute(const std::string& file) { return fs::absolute(file).lexically_normal().string(); }
+
 Manifest manifest_of(const PlanJob& job, const std::string& part_sha256, const ResultFolder& folder) {
   Manifest manifest;
   manifest.made_by = std::visit([](const auto& plan) { return std::string(command_name(plan)); }, job);
-  manifest.folder = fs::absolute(folder.path()).lexically_normal().string();
-  manifest.part = {fs::absolute(part_of(job)).lexically_normal().string(), part_sha256};
+  manifest.folder = absolute(folder.path());
+  manifest.part = {absolute(part_of(job)), part_sha256};
   manifest.judged = manifest.part;
   return manifest;
 }
@@ -75,7 +77,9 @@ std::map<std::string, std::string> result_files(const Result& result, const Acce
 }
 
 Manifest result_manifest(const Result& result, const ResultFolder& folder) {
-  return manifest_of(result.job, result.part_sha256, folder);
+  Manifest manifest = manifest_of(result.job, result.part_sha256, folder);
+  for (const InputStamp& input : result.inputs) manifest.inputs.push_back({absolute(input.file), input.sha256});
+  return manifest;
 }
 
 void write_result(const Result& result, ResultFolder& folder) {
@@ -99,8 +103,10 @@ bool write_steps(const Progress::Journal& journal, const PlanJob& job, ResultFol
 namespace flank {
 
 void write_result(const Result& result, const std::string& folder) {
+  const internal::ReadFiles inputs = internal::read_files(result.job);
+  const internal::Unwritten unwritten(inputs);
   internal::ResultFolder held(folder, internal::ResultFolder::Use::kWrite);
-  held.require_not_inputs(internal::input_files(result.job));
+  held.require_not_inputs(inputs);
   internal::write_result(result, held);
 }
 

@@ -5,11 +5,13 @@
 
 #include <atomic>
 #include <cerrno>
+#include <climits>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <utility>
 
+#include "flank/base/kept/read_files.h"
 #include "flank/error.h"
 
 namespace flank::internal {
@@ -18,14 +20,26 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void refuse(const std::string& file, int error) {
-  throw InputError(file + ": cannot be written (" + std::strerror(error) +
-                   "); give a path in a folder that exists and is writable");
+  const char* advice =
+      error == ENAMETOOLONG ? "give a shorter name" : "give a path in a folder that exists and is writable";
+  throw InputError(file + ": cannot be written (" + std::strerror(error) + "); " + advice);
 }
 
-/// Unique within the process by the counter and between processes by the number of the process.
+/// The first bytes of a name, at most so many, without half a character at their end (UTF-8).
+std::string cut_name(const std::string& name, std::size_t most) {
+  if (name.size() <= most) return name;
+  constexpr unsigned char kMask = 0xC0, kFollows = 0x80;
+  while (most > 0 && (static_cast<unsigned char>(name[most]) & kMask) == kFollows) --most;
+  return name.substr(0, most);
+}
+
+/// Unique within the process by the counter and between processes by the number of the process. A name may be as long as
+/// the file system lets it be: the temporary one is cut where it would be longer.
 std::string temporary_name(const std::string& file) {
   static std::atomic<unsigned> counter{0};
-  return file + ".part-" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
+  const std::string ending = ".part-" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
+  const fs::path path = file;
+  return (path.parent_path() / (cut_name(path.filename().string(), NAME_MAX - ending.size()) + ending)).string();
 }
 
 /// Where a link leads, even if nothing is there yet.
@@ -104,6 +118,9 @@ std::string folder_of(const std::string& file) {
 // The file is made at once, so that a wrong folder is noticed before anything is computed for it.
 AtomicFile::AtomicFile(const std::string& file) : file_(followed(file)), temporary_(temporary_name(file_)) {
   require_place(file_);
+  require_unread(file_);
+  // A name that is too long is told now, and not by the last step.
+  if (fs::path(file_).filename().string().size() > NAME_MAX) refuse(file, ENAMETOOLONG);
   const int descriptor = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (descriptor < 0) refuse(file, errno);
   ::close(descriptor);

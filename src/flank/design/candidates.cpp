@@ -61,7 +61,7 @@ BatchTask fit_task(const DesignResult& result, const DesignFolder& folder, const
   job.judge = judge_of(result);
   job.tolerance_mm = result.job.tolerance_mm;
   job.avoid = result.job.avoid;
-  return {"fit-" + names_of(result, group, "+"), command_words(PlanJob(job)), folder.inputs, false};
+  return {short_name("fit-" + names_of(result, group, "+")), command_words(PlanJob(job)), folder.inputs, false};
 }
 
 /// The faces that are equal to none before them.

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "flank/base/atomic_file.h"
+#include "flank/base/kept/read_files.h"
 #include "flank/base/sha256.h"
 #include "flank/design/candidates.h"
 #include "flank/design/design_tables.h"
@@ -13,6 +14,7 @@
 #include "flank/error.h"
 #include "flank/inspect/inspect.h"
 #include "flank/job/design_fields.h"
+#include "flank/job/input_files.h"
 #include "flank/toolbox/catalogue.h"
 #include "flank/toolbox/tool_spec.h"
 
@@ -59,10 +61,13 @@ void read_faces(DesignResult& result) {
   result.reach_radius_mm = job.judge.reach_radius_mm ? *job.judge.reach_radius_mm : usual_reach(part, faces, job);
 }
 
-std::string stamp_of_files(const ObstacleRequest& obstacles) {
+/// Of all that is read beside the part; the catalogue, too, where it is not named.
+std::string stamp_of_files(const DesignJob& job) {
   std::string all;
-  for (const std::string& file : obstacles.fixtures) all += sha256(text_of_file(file));
-  if (obstacles.holder && fs::is_regular_file(*obstacles.holder)) all += sha256(text_of_file(*obstacles.holder));
+  for_each_input(job, [&](const FieldInfo& info, const std::string& word) {
+    if (info.key != "part") all += hash_of_input(word);
+  });
+  if (job.source != "fit" && !job.choice.catalogue) all += hash_of_input(catalogue_folder({}));
   return all.empty() ? all : sha256(all);
 }
 
@@ -80,6 +85,10 @@ ToolSet choice_of(const DesignResult& result) {
 
 DesignResult run_design(const DesignJob& job, const BatchRun& run, const Progress& progress) {
   check(job);
+  const ReadFiles inputs = read_files(job);
+  const Unwritten unwritten(inputs);
+  for (const char* table : {"design.json", "design.csv", "design.html"})
+    inputs.require_not_written((fs::path(run.folder) / table).string());
   DesignResult result;
   result.job = job;
   result.job.part.file = fs::absolute(job.part.file).lexically_normal().string();
@@ -94,7 +103,7 @@ DesignResult run_design(const DesignJob& job, const BatchRun& run, const Progres
                      .retries = 0,
                      .timeout_s = 0.0};
   batch.run.folder = root;
-  const DesignFolder folder{root, stamp_of_files(job.obstacles),
+  const DesignFolder folder{root, stamp_of_files(job),
                             [&](const std::vector<BatchTask>& tasks) { return run_batch(tasks, batch, progress); }};
   find_candidates(result, folder);
   judge_pairs(result, folder, 0);

@@ -9,10 +9,13 @@
 #include <optional>
 
 #include "flank/base/atomic_file.h"
+#include "flank/base/kept/read_files.h"
 #include "flank/base/sha256.h"
+#include "flank/error.h"
 #include "flank/io/text/json_dump.h"
 #include "flank/job/command_line.h"
 #include "flank/job/job_json.h"
+#include "flank/manifest/result_folder.h"
 #include "flank/path_file.h"
 
 namespace flank::internal {
@@ -39,6 +42,21 @@ std::string guide_text(const std::vector<Pose>& poses, double axis_length_mm) {
                         end.x(), end.y(), end.z());
   }
   return text;
+}
+
+/// A folder of an earlier design, with all that it holds. Throws InputError where somebody else has put something there.
+void remove_result(const fs::path& folder) {
+  std::error_code none;
+  if (!fs::exists(folder, none)) return;
+  require_unread_below(folder.string());
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    const auto& ours = result_names();
+    if (name != kPageFile && std::find(ours.begin(), ours.end(), name) == ours.end())
+      throw InputError(entry.path().string() +
+                       ": lies where a judged pair of face and tool goes; move it away, or give " + "another folder");
+  }
+  fs::remove_all(folder);
 }
 
 class Pairs {
@@ -186,7 +204,7 @@ class Pairs {
       inputs += sha256(text);
     }
     if (!there) {
-      fs::remove_all(folder);
+      remove_result(folder);
       fs::create_directories(folder);
       for (const auto& [entry, text] : files) write_file((folder / entry).string(), text);
     }

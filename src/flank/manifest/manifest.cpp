@@ -21,6 +21,15 @@ PartStamp stamp_of(const Json& json) {
   return {name_of_text(json.at("file").get<std::string>()), json.at("sha256").get<std::string>()};
 }
 
+/// A hash that says nothing about bytes would make anything a file of a result.
+std::string hash_of(const Json& json, const std::string& name) {
+  constexpr std::size_t kDigits = 64;
+  auto text = json.get<std::string>();
+  if (text.size() != kDigits || text.find_first_not_of("0123456789abcdef") != std::string::npos)
+    throw InputError("\"" + name + "\": 64 hexadecimal digits are needed; if the file was edited, remove it");
+  return text;
+}
+
 Manifest read(const Json& json) {
   Manifest manifest;
   if (json.at("schema").get<std::string>() != kSchema)
@@ -32,8 +41,14 @@ Manifest read(const Json& json) {
   for (const auto& [name, hash] : json.at("files").items()) {
     if (name.empty() || name == "." || name == ".." || name.find('/') != std::string::npos)
       throw InputError("\"" + name + "\" is no name of a file in a folder");
-    manifest.files[name] = hash.get<std::string>();
+    manifest.files[name] = hash_of(hash, name);
   }
+  // Earlier versions wrote none.
+  if (json.contains("inputs"))
+    for (const Json& input : json.at("inputs")) {
+      const std::string file = name_of_text(input.at("file").get<std::string>());
+      manifest.inputs.push_back({file, hash_of(input.at("sha256"), file)});
+    }
   return manifest;
 }
 
@@ -45,7 +60,9 @@ std::string manifest_to_json(const Manifest& manifest) {
                {"folder", text_of_name(manifest.folder)},
                {"part", to_json(manifest.part)},
                {"judged", to_json(manifest.judged)},
+               {"inputs", Json::array()},
                {"files", Json::object()}};
+  for (const PartStamp& input : manifest.inputs) json["inputs"].push_back(to_json(input));
   for (const auto& [name, hash] : manifest.files) json["files"][name] = hash;
   return json.dump(2) + "\n";
 }

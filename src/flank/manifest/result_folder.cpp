@@ -7,13 +7,16 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <thread>
 #include <utility>
 
 #include "flank/base/atomic_file.h"
+#include "flank/base/kept/read_files.h"
 #include "flank/base/sha256.h"
 #include "flank/error.h"
 #include "flank/manifest/journal_json.h"
@@ -27,6 +30,8 @@ namespace fs = std::filesystem;
 /// by one rename: that is the moment from which the new result is there.
 constexpr const char* kUnfinished = ".flank-unfinished";
 constexpr const char* kComplete = ".flank-complete";
+/// A process that was killed keeps its lock until the system has taken it down.
+constexpr std::chrono::milliseconds kLockPatience{1000}, kLookAgain{20};
 
 std::string content_of(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -39,6 +44,25 @@ std::string content_of(const std::string& file) {
 bool is_file(const std::string& file) {
   std::error_code ignored;
   return fs::is_regular_file(file, ignored);
+}
+
+/// Names that a later result, or a report, may write over or remove; no other file of the folder is ever touched.
+bool is_of_a_result(const std::string& name) {
+  return name == kPageFile || std::find(result_names().begin(), result_names().end(), name) != result_names().end();
+}
+
+/// Whether a file says of itself that this program wrote it under this name: its schema, the generator of a page.
+bool says_it_is_ours(const std::string& name, const std::string& content) {
+  if (name == kPageFile) return content.find("name=\"generator\" content=\"OpenFlank ") != std::string::npos;
+  const std::string stem = name.substr(0, name.find('.'));
+  return content.find("\"openflank/" + stem + "/") != std::string::npos;
+}
+
+/// Of a folder whose tool and path other programs wrote, only what this one added is ours.
+bool verify_writes(const std::string& name) {
+  for (const char* own : {"verify.json", "view.json", "engagement.json", "motion.json", kPageFile, kManifestFile})
+    if (name == own) return true;
+  return false;
 }
 
 }  // namespace
@@ -74,6 +98,7 @@ ResultFolder::ResultFolder(std::string folder, Use use) : folder_(std::move(fold
       move_into_place();
     }
     read_manifest();
+    if (use == Use::kWrite) require_no_strangers();
   } catch (...) {
     clean_up();
     throw;
@@ -93,13 +118,18 @@ std::string ResultFolder::in(const std::string& name) const { return (fs::path(f
 void ResultFolder::lock() {
   lock_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   // File systems without locks have none to offer; there, only the manifest tells a mixture.
-  if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-    throw InputError(folder_ + ": another flank is writing to this folder; wait for it, or give another folder");
+  const auto begun = std::chrono::steady_clock::now();
+  while (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    if (std::chrono::steady_clock::now() - begun > kLockPatience)
+      throw InputError(folder_ + ": another flank is writing to this folder; wait for it, or give another folder");
+    std::this_thread::sleep_for(kLookAgain);
+  }
 }
 
 /// Anew: what a killed run left unfinished never was a result.
 void ResultFolder::make_unfinished() const {
   const std::string unfinished = in(kUnfinished);
+  require_unread_below(unfinished);
   std::error_code ignored;
   fs::remove_all(unfinished, ignored);
   if (::mkdir(unfinished.c_str(), 0777) != 0)
@@ -113,14 +143,41 @@ void ResultFolder::require_writable() {
   fs::remove(in(kUnfinished), ignored);
 }
 
+void ResultFolder::require_plain(const std::string& name) const {
+  std::error_code ignored;
+  const auto status = fs::symlink_status(in(name), ignored);
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    throw InputError(in(name) + ": is a link or no file, and a result has a file of this name; remove it, or give " +
+                     (name == kPageFile ? "the page another name" : "another folder"));
+}
+
 void ResultFolder::require_plain_names() const {
+  for (const std::string& name : result_names()) require_plain(name);
+}
+
+bool ResultFolder::is_ours(const std::string& name) const {
+  if (!manifest_ || !manifest_->files.contains(name)) return name == kManifestFile;
+  return manifest_->made_by != kMadeByVerify || verify_writes(name);
+}
+
+void ResultFolder::require_no_strangers() const {
   for (const std::string& name : result_names()) {
-    std::error_code ignored;
-    const auto status = fs::symlink_status(in(name), ignored);
-    if (fs::exists(status) && !fs::is_regular_file(status))
-      throw InputError(in(name) + ": is a link or no file, and a result has a file of this name; remove it, or give " +
-                       "another folder");
+    // What is read is told as such.
+    require_unread(in(name));
+    if (!is_file(in(name)) || is_ours(name)) continue;
+    throw InputError(in(name) + ": would be replaced, and " +
+                     (manifest_ ? std::string(kManifestFile) + " does not say that an earlier result made it"
+                                : std::string("no ") + kManifestFile + " says whose it is") +
+                     "; move it away, or give another folder");
   }
+}
+
+void ResultFolder::require_own(const std::string& name) const {
+  require_plain(name);
+  require_unread(in(name));
+  if (!is_file(in(name)) || is_ours(name) || says_it_is_ours(name, content_of(in(name)))) return;
+  throw InputError(in(name) + ": would be replaced, and is not of this program; move it away" +
+                   (name == kPageFile ? ", or give the page another name" : ""));
 }
 
 void ResultFolder::read_manifest() {
@@ -132,11 +189,13 @@ void ResultFolder::read_manifest() {
 void ResultFolder::replace(const std::map<std::string, std::string>& files, Manifest manifest) {
   manifest.files.clear();
   for (const auto& [name, content] : files) manifest.files[name] = sha256(content);
+  require_no_strangers();
   publish(files, manifest);
 }
 
 void ResultFolder::add(const std::map<std::string, std::string>& files, Manifest manifest) {
   if (manifest_) manifest.files = manifest_->files;
+  for (const auto& [name, content] : files) require_own(name);
   // What other programs wrote is taken as it is now.
   for (const std::string& name : result_names())
     if (name != kManifestFile && is_file(in(name)) &&
@@ -148,6 +207,11 @@ void ResultFolder::add(const std::map<std::string, std::string>& files, Manifest
 
 void ResultFolder::publish(const std::map<std::string, std::string>& files, const Manifest& manifest) {
   const std::string unfinished = in(kUnfinished);
+  // What is complete must have its place, or no later command could move it there.
+  for (const auto& [name, content] : files) {
+    require_plain(name);
+    require_unread(in(name));
+  }
   try {
     make_unfinished();
     for (const auto& [name, content] : files) write_new_file((fs::path(unfinished) / name).string(), content);
@@ -185,14 +249,14 @@ void ResultFolder::move_into_place() {
   sync_folder(folder_);
 }
 
-/// Files of the old result that the new one has not. A file that the old manifest names and somebody has changed since is
-/// theirs, unless a result has a file of that name.
+/// Files of the old result that the new one has not. Only what the old manifest names, and only under the names that results
+/// have: a page that somebody has changed since is theirs.
 void ResultFolder::remove_stale(const Manifest& next) const {
-  std::map<std::string, std::string> old = manifest_ ? manifest_->files : std::map<std::string, std::string>();
-  for (const std::string& name : result_names()) old[name] = "";
-  for (const auto& [name, hash] : old) {
-    if (next.files.contains(name) || name == kManifestFile || !is_file(in(name))) continue;
-    if (!hash.empty() && sha256(content_of(in(name))) != hash) continue;
+  if (!manifest_) return;
+  for (const auto& [name, hash] : manifest_->files) {
+    if (next.files.contains(name) || name == kManifestFile || !is_of_a_result(name) || !is_file(in(name))) continue;
+    if (name == kPageFile && sha256(content_of(in(name))) != hash) continue;
+    require_unread(in(name));
     if (::unlink(in(name).c_str()) != 0 && ::unlink(in(name).c_str()) != 0)
       throw InputError(in(name) + ": cannot be removed (" + std::strerror(errno) + ")");
   }
@@ -218,26 +282,38 @@ void ResultFolder::require_there(const std::vector<std::string>& names) const {
                        "` names it; put it back or make the result again");
 }
 
-void ResultFolder::require_not_inputs(const std::vector<std::string>& inputs) const {
-  std::error_code error;
-  for (const std::string& input : inputs) {
-    if (input.empty() || !is_file(input)) continue;
-    for (const std::string& name : result_names())
-      if (fs::equivalent(input, in(name), error) && !error)
-        throw InputError(input + ": is read, and would be overwritten by the result in " + folder_ +
-                         "; give another folder");
-  }
+void ResultFolder::require_not_inputs(const ReadFiles& inputs) const {
+  for (const std::string& name : result_names()) inputs.require_not_written(in(name));
+  inputs.require_not_written(in(kPageFile));
+  for (const char* name : {kUnfinished, kComplete}) inputs.require_none_below(in(name));
 }
 
 void require_not_a_result(const std::string& folder, const std::string& output) {
   std::error_code error;
-  const auto clean = [&](const std::string& name) { return fs::weakly_canonical(name, error); };
+  const auto clean = [&](const std::string& name) { return fs::weakly_canonical(fs::absolute(name), error); };
   for (const std::string& name : result_names()) {
     const std::string result = (fs::path(folder) / name).string();
     // The same file, by whatever name, or the same name to be.
     if (fs::equivalent(result, output, error) || clean(result) == clean(output))
       throw InputError(output + ": is a file of the result; give another name");
   }
+}
+
+void require_no_result_there(const std::string& output) {
+  std::error_code error;
+  const fs::path place = fs::weakly_canonical(fs::absolute(output, error), error);
+  const std::string folder = place.parent_path().string(), manifest = (fs::path(folder) / kManifestFile).string();
+  if (error || !is_file(manifest)) return;
+  Manifest found;
+  try {
+    found = manifest_from_json(content_of(manifest), manifest);
+  } catch (const InputError&) {
+    return;  // of another program, whose files are none of a result
+  }
+  // Tools and paths that came from elsewhere may come from there again.
+  const std::string name = place.filename().string();
+  if (name == kManifestFile || (found.made_by != kMadeByVerify && name != kPageFile && found.files.contains(name)))
+    throw InputError(output + ": is a file of the result in " + folder + "; give another name");
 }
 
 }  // namespace flank::internal

@@ -137,6 +137,7 @@ Result run_cover(const CoverJob& job, const Progress& asked) {
   (void)options_of(job);
   Result result;
   result.job = job;
+  result.inputs = input_stamps(job);
   const std::optional<ToolChoice> choice = tool_choice(job);
   if (!choice) {
     result.tool = tool_of(job.tool);

@@ -300,10 +300,11 @@ bool passes(const Result& result) {
 Result run_fit(const FitJob& job, const Progress& asked) {
   const Progress progress = with_journal(asked);
   check_job(job);
-  const ToolSpec spec = parse_tool_spec(job.tool.spec);
-  check_obstacles(job.obstacles, spec.tool ? &*spec.tool : nullptr);
   Result result;
   result.job = job;
+  result.inputs = input_stamps(job);
+  const ToolSpec spec = parse_tool_spec(job.tool.spec);
+  check_obstacles(job.obstacles, spec.tool ? &*spec.tool : nullptr);
   Stopwatch watch(result);
   progress.step("read", 0.0);
   const Setup setup = read_setup(job.part, job.obstacles, job.tolerance_mm, result.notes);

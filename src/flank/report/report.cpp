@@ -9,6 +9,7 @@
 #include "flank/base/atomic_file.h"
 #include "flank/base/sha256.h"
 #include "flank/error.h"
+#include "flank/manifest/folder_inputs.h"
 #include "flank/manifest/result_folder.h"
 #include "flank/report/page_template.h"
 #include "flank/report/report_file.h"
@@ -19,7 +20,6 @@ using namespace internal;
 namespace {
 
 namespace fs = std::filesystem;
-constexpr const char* kPageFile = "report.html";
 
 /// Replaces the first occurrence; a template without it is a fault of the build.
 std::string replaced(std::string_view text, std::string_view what, std::string_view with) {
@@ -110,7 +110,7 @@ void require_same_part(const ResultFolder& folder) {
 
 std::string make_report(const std::string& folder) {
   if (!page_is_built())
-    throw UsageError("this flank was built without the report page; install npm and build it with -D FLANK_REPORT=ON");
+    throw UsageError("this flank was built without the report page: " + std::string(page_is_missing()));
   const ResultFolder held(folder, ResultFolder::Use::kRead);
   held.require_there({"job.json", "tool.json", "path.json", "verify.json", "summary.json", "view.json"});
   held.require_whole();
@@ -135,9 +135,14 @@ std::string make_report(const std::string& folder) {
 std::string write_report(const std::string& folder, const std::string& file) {
   const std::string page_file = file.empty() ? (fs::path(folder) / kPageFile).string() : file;
   require_not_a_result(folder, page_file);
+  require_no_result_there(page_file);
+  const ReadFiles inputs = inputs_of_folder(folder);
+  const Unwritten unwritten(inputs);
+  require_unread(page_file);
   const std::string page = make_report(folder);
   if (file.empty()) {
     ResultFolder held(folder, ResultFolder::Use::kWriteOrRead);
+    held.require_own(kPageFile);
     if (held.manifest() && held.writable()) {
       held.add({{kPageFile, page}}, *held.manifest());
       return page_file;

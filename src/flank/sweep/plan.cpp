@@ -14,7 +14,10 @@
 #include "flank/io/text/toml_table.h"
 #include "flank/job/check_fields.h"
 #include "flank/job/command_line.h"
+#include "flank/job/input_files.h"
 #include "flank/part.h"
+#include "flank/sweep/task_batch.h"
+#include "flank/toolbox/catalogue.h"
 #include "flank/toolbox/tool_spec.h"
 
 namespace flank::internal {
@@ -113,6 +116,19 @@ Job job_of(const SweepPlan& plan, const std::string& face, const std::string& to
   return job;
 }
 
+/// What it reads beside the part; the catalogue, too, where it is not named.
+template <class Job>
+std::vector<std::string> inputs_of(const Job& job) {
+  std::vector<std::string> names;
+  for_each_input(job, [&](const FieldInfo& info, const std::string& word) {
+    std::error_code none;
+    if (info.key != "part" && fs::exists(word, none)) names.push_back(word);
+  });
+  if constexpr (requires { job.choice.catalogue; })
+    if (job.tool.spec == "catalogue" && !job.choice.catalogue) names.push_back(catalogue_folder({}));
+  return names;
+}
+
 template <class Job>
 void make_tasks(const TomlTable& document, SweepPlan& plan) {
   const TomlTable options = document.table("options"), variants = document.table("variants");
@@ -131,7 +147,8 @@ void make_tasks(const TomlTable& document, SweepPlan& plan) {
         if (!variant.empty()) set_options(variants.table(variant), job);
         std::string name = fmt::format("{}-{}{}{}", face, k + 1, variant.empty() ? "" : "-", variant);
         std::replace(name.begin(), name.end(), ',', '+');
-        plan.tasks.push_back({face, plan.tools[k], variant, std::move(name), command_words(PlanJob(job))});
+        plan.tasks.push_back(
+            {face, plan.tools[k], variant, short_name(name), command_words(PlanJob(job)), inputs_of(job)});
       }
 }
 

@@ -11,8 +11,9 @@ namespace flank::internal {
 /// One job of a sweep.
 struct SweepTask {
   std::string face, tool, variant;
-  std::string name;                ///< of its folder, unique in the sweep: "F1-2-fine"
-  std::vector<std::string> words;  ///< of the command that does it, without -o
+  std::string name;                 ///< of its folder, unique in the sweep: "F1-2-fine"
+  std::vector<std::string> words;   ///< of the command that does it, without -o
+  std::vector<std::string> inputs;  ///< files and folders that it reads beside the part
 };
 
 struct SweepPlan {

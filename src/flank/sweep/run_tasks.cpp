@@ -10,9 +10,11 @@
 #include <csignal>
 #include <cstring>
 #include <deque>
+#include <string_view>
 #include <thread>
 
 #include "flank/error.h"
+#include "flank/io/isolated/end_with_parent.h"
 
 extern char** environ;
 
@@ -35,6 +37,23 @@ struct Running {
   bool timed_out = false;
 };
 
+/// The environment of a child: ours, and whose end is its own.
+std::vector<std::string> environment() {
+  const std::string name = std::string(kEndsWithVariable) + "=";
+  std::vector<std::string> all{name + std::to_string(::getpid())};
+  for (char** entry = environ; *entry != nullptr; ++entry)
+    if (!std::string_view(*entry).starts_with(name)) all.emplace_back(*entry);
+  return all;
+}
+
+/// For functions of C, which take what they get as their own; valid as long as `words`.
+std::vector<char*> pointers(std::vector<std::string>& words) {
+  std::vector<char*> all;
+  for (std::string& word : words) all.push_back(word.data());
+  all.push_back(nullptr);
+  return all;
+}
+
 pid_t start(const std::string& program, const ChildTask& task) {
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
@@ -47,11 +66,10 @@ pid_t start(const std::string& program, const ChildTask& task) {
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   std::vector<std::string> words = task.words;
   words.insert(words.begin(), program);
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
+  std::vector<std::string> variables = environment();
   pid_t process = 0;
-  const int failure = posix_spawn(&process, program.c_str(), &files, &attributes, argv.data(), environ);
+  const int failure =
+      posix_spawn(&process, program.c_str(), &files, &attributes, pointers(words).data(), pointers(variables).data());
   posix_spawn_file_actions_destroy(&files);
   posix_spawnattr_destroy(&attributes);
   if (failure != 0) throw InternalError(program + ": cannot be started (" + std::strerror(failure) + ")");

@@ -28,7 +28,8 @@ struct ChildLimits {
 
 /// Runs every task, in their order as processes become free; outcome[k] is that of tasks[k]. done(k, outcome) is called
 /// once for each task that ended, in the order of their ends. Once cancelled() is true nothing more is begun, and what
-/// runs is told to end (SIGTERM) and waited for. Throws InternalError if the program cannot be started.
+/// runs is told to end (SIGTERM) and waited for. If this process is killed, so are children that are this program
+/// (io/isolated/end_with_parent.h). Throws InternalError if the program cannot be started.
 [[nodiscard]] std::vector<ChildOutcome> run_tasks(const std::string& program, const std::vector<ChildTask>& tasks,
                                                   const ChildLimits& limits,
                                                   const std::function<void(std::size_t, const ChildOutcome&)>& done,

@@ -18,6 +18,7 @@
 #include <thread>
 
 #include "flank/base/atomic_file.h"
+#include "flank/base/kept/read_files.h"
 #include "flank/error.h"
 #include "flank/job/command_line.h"
 
@@ -256,6 +257,7 @@ std::vector<ChildOutcome> slurm_tasks(const std::string& program, const std::vec
                                       const std::function<void(std::size_t, const ChildOutcome&)>& done,
                                       const std::function<bool()>& cancelled) {
   const fs::path root = fs::absolute(scratch), jobs = root / "jobs";
+  require_unread_below(root.string());
   cancel_earlier(jobs);
   fs::remove_all(root);
   std::vector<ChildOutcome> outcomes(tasks.size());

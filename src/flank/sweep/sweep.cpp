@@ -4,9 +4,12 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "flank/base/atomic_file.h"
+#include "flank/base/kept/read_files.h"
 #include "flank/base/sha256.h"
+#include "flank/job/input_files.h"
 #include "flank/sweep/tables.h"
 
 namespace flank::internal {
@@ -51,22 +54,39 @@ void read_figures(const fs::path& folder, SweepRow& row) {
   row.figures = figures;
 }
 
-/// A tool that is a file may change between two runs, and its name does not tell.
+/// A file that a task reads may change between two runs, and its name does not tell.
 std::vector<BatchTask> batch_of(const SweepPlan& plan) {
   std::map<std::string, std::string> stamps;
-  for (const std::string& tool : plan.tools)
-    if (fs::is_regular_file(tool)) stamps[tool] = sha256(text_of_file(tool));
   std::vector<BatchTask> tasks;
   for (const SweepTask& task : plan.tasks) {
-    const auto stamp = stamps.find(task.tool);
-    tasks.push_back({task.name, task.words, stamp != stamps.end() ? stamp->second : std::string(), false});
+    std::string all;
+    for (const std::string& input : task.inputs) {
+      if (!stamps.contains(input)) stamps[input] = hash_of_input(input);
+      all += stamps[input];
+    }
+    tasks.push_back({task.name, task.words, all.empty() ? all : sha256(all), false});
   }
   return tasks;
+}
+
+ReadFiles inputs_of(const SweepPlan& plan) {
+  ReadFiles files;
+  files.add(plan.file, "as the plan");
+  files.add(plan.part, "as the part");
+  std::set<std::string> seen;
+  for (const SweepTask& task : plan.tasks)
+    for (const std::string& input : task.inputs)
+      if (seen.insert(input).second) files.add(input, "by task " + task.name);
+  return files;
 }
 
 }  // namespace
 
 SweepResult run_sweep(const SweepPlan& plan, const BatchRun& run, const Progress& progress) {
+  const ReadFiles inputs = inputs_of(plan);
+  const Unwritten unwritten(inputs);
+  for (const char* table : {"sweep.json", "sweep.csv", "sweep.html"})
+    inputs.require_not_written((fs::path(run.folder) / table).string());
   const BatchOptions batch{.run = run,
                            .from = plan.folder(),
                            .part_sha256 = plan.part_sha256,

@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "flank/base/atomic_file.h"
+#include "flank/base/kept/read_files.h"
+#include "flank/base/sha256.h"
 #include "flank/error.h"
 #include "flank/io/text/json_dump.h"
 #include "flank/manifest/result_folder.h"
@@ -129,6 +131,14 @@ TaskRow finished(const BatchOptions& options, const BatchTask& task, const Child
   return row;
 }
 
+/// Each task knows what it reads itself, but not what the batch reads.
+void require_results_unread(const fs::path& folder) {
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) return;
+  for (const std::string& name : result_names()) require_unread((folder / name).string());
+  require_unread((folder / kPageFile).string());
+}
+
 std::vector<std::string> child_words(const BatchTask& task, const TaskFiles& files) {
   std::vector<std::string> words = task.words;
   // One core each: the tasks themselves are what runs in parallel.
@@ -138,6 +148,12 @@ std::vector<std::string> child_words(const BatchTask& task, const TaskFiles& fil
 }
 
 }  // namespace
+
+std::string short_name(const std::string& name) {
+  constexpr std::size_t kMost = 180, kDigits = 16;
+  if (name.size() <= kMost) return name;
+  return name.substr(0, kMost - kDigits - 1) + "-" + sha256(name).substr(0, kDigits);
+}
 
 std::string_view status_name(TaskStatus status) {
   switch (status) {
@@ -167,6 +183,7 @@ std::vector<TaskRow> run_batch(const std::vector<BatchTask>& tasks, const BatchO
   std::error_code error;
   fs::create_directories(options.run.folder, error);
   if (!fs::is_directory(options.run.folder)) throw InputError(options.run.folder + ": is no folder and cannot be made");
+  for (const BatchTask& task : tasks) require_results_unread(files_of(options, task).folder);
   std::vector<TaskRow> rows(tasks.size());
   std::vector<std::size_t> open;
   std::vector<ChildTask> children;
@@ -178,6 +195,8 @@ std::vector<TaskRow> run_batch(const std::vector<BatchTask>& tasks, const BatchO
     // Until it has ended it is not done, whatever an earlier run has left.
     const TaskFiles files = files_of(options, tasks[k]);
     std::error_code ignored;
+    require_unread(files.record.string());
+    require_unread(files.errors.string());
     fs::remove(files.record, ignored);
     open.push_back(k);
     children.push_back({child_words(tasks[k], files), options.from, files.errors.string()});

@@ -20,6 +20,9 @@ struct BatchTask {
   bool judges = false;
 };
 
+/// A list of many faces makes a name that is longer than a file system takes: its end is told by a hash then.
+[[nodiscard]] std::string short_name(const std::string& name);
+
 enum class TaskStatus {
   kNotRun,      ///< the batch was stopped before
   kMeets,       ///< the verdict in its folder: it meets the request

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "flank/base/atomic_file.h"
+#include "flank/base/kept/read_files.h"
 #include "flank/error.h"
 #include "flank/io/text/json_input.h"
 #include "flank/io/tool/tool_dxf.h"
@@ -120,11 +121,9 @@ Tool run_tool_command(const ToolCommandOptions& options) {
   // An option without effect is a mistake that its user would not notice.
   if (options.arcs && std::none_of(options.outputs.begin(), options.outputs.end(), is_dxf))
     throw UsageError("arcs", "only for a .dxf; name one as output");
-  for (const std::string& file : options.outputs) {
-    std::error_code not_there;
-    if (std::filesystem::equivalent(options.source, file, not_there))
-      throw InputError(file + ": is what is read, and would be overwritten; give another name");
-  }
+  ReadFiles inputs;
+  inputs.add(options.source, "as the tool");
+  for (const std::string& file : options.outputs) inputs.require_not_written(file);
   // All contents first: an error in the last of them leaves no file behind.
   for (const std::string& file : options.outputs) contents.push_back(tool_as(tool, file, options.arcs));
   for (std::size_t i = 0; i < contents.size(); ++i) write_file(options.outputs[i], contents[i]);

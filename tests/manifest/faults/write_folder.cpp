@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
   if (argc != 2) return 2;
   try {
     ResultFolder folder(argv[1], ResultFolder::Use::kWrite);
-    const Manifest manifest{.made_by = "fit", .folder = argv[1], .part = {}, .judged = {}, .files = {}};
+    const Manifest manifest{.made_by = "fit", .folder = argv[1], .part = {}, .judged = {}, .inputs = {}, .files = {}};
     folder.replace({{"tool.json", "new tool"}, {"path.json", "new path"}, {"verify.json", "new verdict"}}, manifest);
     folder.add({{"report.html", "new page"}}, *folder.manifest());
     return 0;

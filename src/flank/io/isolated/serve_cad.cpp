@@ -1,5 +1,6 @@
 #include "flank/io/isolated/serve_cad.h"
 
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -39,6 +40,9 @@ void set_limits(double seconds, double bytes) {
   std::signal(SIGINT, SIG_IGN);
   std::signal(SIGXCPU, SIG_DFL);
   (void)::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  // It may have ended before that line: then nobody holds the other end of the pipe.
+  pollfd pipe{kReaderPipe, 0, 0};
+  if (::poll(&pipe, 1, 0) > 0 && (pipe.revents & POLLERR) != 0) ::_exit(1);
   limit(RLIMIT_CORE, 0.0);
   limit(RLIMIT_CPU, seconds);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)

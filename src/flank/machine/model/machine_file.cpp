@@ -264,15 +264,26 @@ std::vector<std::string> machine_names() {
   return names;
 }
 
+namespace {
+
+bool is_named_file(const std::string& name_or_file) {
+  return name_or_file.find('/') != std::string::npos || fs::path(name_or_file).extension() == ".toml";
+}
+
+}  // namespace
+
+std::string machine_file(const std::string& name_or_file) {
+  return is_named_file(name_or_file) ? name_or_file : (fs::path(machine_folder()) / (name_or_file + ".toml")).string();
+}
+
 Machine read_machine(const std::string& name_or_file) {
-  if (name_or_file.find('/') != std::string::npos || fs::path(name_or_file).extension() == ".toml")
-    return machine_from_toml(read_text(name_or_file), name_or_file);
+  if (is_named_file(name_or_file)) return machine_from_toml(read_text(name_or_file), name_or_file);
   const std::vector<std::string> names = machine_names();
   // By the list, not by trying to open the file: the message can say what there is.
   if (std::find(names.begin(), names.end(), name_or_file) == names.end())
     throw InputError("machine", name_or_file,
                      fmt::format("no such machine; there are {}, or a file NAME.toml", fmt::join(names, ", ")));
-  const std::string file = (fs::path(machine_folder()) / (name_or_file + ".toml")).string();
+  const std::string file = machine_file(name_or_file);
   return machine_from_toml(read_text(file), file);
 }
 

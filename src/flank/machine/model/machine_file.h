@@ -20,6 +20,9 @@ namespace flank::internal {
 /// Throws InputError naming the known machines for a name that is none.
 [[nodiscard]] Machine read_machine(const std::string& name_or_file);
 
+/// The file that read_machine reads for this name. Throws InputError where the program's machines are not found.
+[[nodiscard]] std::string machine_file(const std::string& name_or_file);
+
 /// The folder of machines: $FLANK_MACHINES, else share/openflank/machines beside the program, as installed, or in the
 /// source tree. Throws InputError.
 [[nodiscard]] std::string machine_folder();

@@ -18,6 +18,8 @@
 #include "flank/io/path/engagement_json.h"
 #include "flank/io/text/json_input.h"
 #include "flank/job/check_fields.h"
+#include "flank/job/input_files.h"
+#include "flank/manifest/folder_inputs.h"
 #include "flank/manifest/result_folder.h"
 #include "flank/path/bend_radius.h"
 #include "flank/path_file.h"
@@ -66,8 +68,12 @@ void write_verdict(ResultFolder& folder, const PartStamp& part, const std::map<s
     outcome.notes.push_back(folder.path() + " may not be written: the verdict is not in it");
     return;
   }
-  Manifest manifest{
-      .made_by = kMadeByVerify, .folder = absolute(folder.path()), .part = part, .judged = {}, .files = {}};
+  Manifest manifest{.made_by = kMadeByVerify,
+                    .folder = absolute(folder.path()),
+                    .part = part,
+                    .judged = {},
+                    .inputs = {},
+                    .files = {}};
   // The folder stays that to which job.json's paths belong: both may have moved since, more than once.
   if (folder.manifest()) manifest = *folder.manifest();
   if (manifest.made_by == kMadeByVerify) manifest.part = part;
@@ -134,6 +140,12 @@ Verification judge_folder(const VerifyJob& request) {
   ResultFolder folder(request.folder, ResultFolder::Use::kWriteOrRead);
   folder.require_there({"job.json", "tool.json", "path.json"});
   FolderJob found = read_folder_job(request, folder);
+  ReadFiles inputs = inputs_of_folder(request.folder);
+  inputs.add(read_files(found.job));
+  // Before the work, what writing the verdict would refuse after it.
+  const Unwritten unwritten(inputs);
+  if (folder.writable())
+    for (const char* name : {"verify.json", "view.json"}) folder.require_own(name);
   return std::visit([&](auto& job) { return judge_path(request, job, found.named_part, folder); }, found.job);
 }
 

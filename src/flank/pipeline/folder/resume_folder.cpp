@@ -45,19 +45,54 @@ std::string part_hash(const PlanJob& job) {
   return sha256(read_file(file));
 }
 
+constexpr const char* kToGoOn =
+    "; to go on, give the part, the files and the options of that folder; to begin anew, leave out --resume";
+
+/// The tool, the holder, the fixtures and whatever else the job reads: the names may be others, the bytes may not.
+void require_same_inputs(const ResultFolder& folder, const std::vector<InputStamp>& inputs) {
+  const std::vector<PartStamp>& made = folder.manifest()->inputs;
+  for (std::size_t k = 0; k < inputs.size(); ++k)
+    if (k >= made.size() || made[k].sha256 != inputs[k].sha256)
+      throw InputError(inputs[k].file + ": " +
+                       (k >= made.size() ? std::string("is not named by ") + kManifestFile + " of "
+                                         : std::string("has changed since, or is another one than that of ")) +
+                       "the complete result in " + folder.path() + kToGoOn);
+  if (made.size() > inputs.size())
+    throw InputError(made[inputs.size()].file + ": was read for the complete result in " + folder.path() +
+                     ", and is gone" + kToGoOn);
+}
+
+void require_unchanged(const ResultFolder& folder) {
+  std::vector<std::string> names;
+  for (const auto& [name, hash] : folder.manifest()->files)
+    if (name != kPageFile) names.push_back(name);
+  folder.require_there(names);
+  folder.require_whole();
+}
+
+bool passes(const std::string& file) {
+  const auto json = nlohmann::json::parse(read_file(file), nullptr, false);
+  return json.is_object() && json.value("pass", nlohmann::json()) == true;
+}
+
 }  // namespace
 
-bool is_finished(const ResultFolder& folder, const PlanJob& job) {
+bool is_finished(const ResultFolder& folder, const PlanJob& job, const std::vector<InputStamp>& inputs) {
   if (!is_complete(folder)) return false;
   const std::string file = in(folder, "job.json");
   PlanJob made = job_from_json(read_file(file), file);
   std::visit([](auto& plan) { plan.part.file.clear(); }, made);
-  const char* needed = "; to go on, give the part and the options of that folder; to begin anew, leave out --resume";
   if (as_written(job, made) != made)
-    throw InputError(folder.path() + ": holds the complete result of another job" + needed);
+    throw InputError(folder.path() + ": holds the complete result of another job" + kToGoOn);
   if (folder.manifest()->part.sha256 != part_hash(job))
-    throw InputError(folder.path() + ": holds the complete result of another part" + needed);
+    throw InputError(folder.path() + ": holds the complete result of another part" + kToGoOn);
+  require_same_inputs(folder, inputs);
+  require_unchanged(folder);
   return true;
+}
+
+bool meets_request(const ResultFolder& folder) {
+  return passes(in(folder, "summary.json")) && passes(in(folder, "verify.json"));
 }
 
 std::shared_ptr<Journal> journal_of(const ResultFolder& folder) {
