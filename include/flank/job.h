@@ -118,6 +118,9 @@ struct NcRequest {
   std::optional<std::string> setup;    ///< "x,y,z,a,b,c"; none: the program's own
   std::optional<std::string> tool;     ///< tool.json; none: the folder's
   std::optional<std::string> faces;    ///< as in PartRequest; none: the folder's, else F1
+  std::optional<int> work_offset;      ///< with which it is run, 1: G54; none: what its header says, else the machine's
+  std::optional<int> tool_number;      ///< of the tool in the spindle; none: what its header says
+  std::string follow = "path";  ///< "path": it must run the folder's path; "any": where it cuts is its own affair
   bool operator==(const NcRequest&) const = default;
 };
 

@@ -54,7 +54,7 @@ class CliProgram : public Cli {
     return fs::path(::testing::TempDir()) / ("flank_cli_" + std::to_string(::getpid()) + "_program");
   }
   [[nodiscard]] std::vector<std::string> post(const std::string& machine) const {
-    return {"post", path("fit"), "--machine", machine, "-o", path(machine + ".nc")};
+    return {"post", path("fit"), "--machine", machine, "--spindle", "5000", "-o", path(machine + ".nc")};
   }
   [[nodiscard]] std::vector<std::string> verify(const std::string& machine) const {
     return {"verify", path("fit"), "--nc", path(machine + ".nc"), "--machine", machine};

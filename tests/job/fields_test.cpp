@@ -64,8 +64,8 @@ Addresses members(const CoverJob& job) {
   return all;
 }
 void add_members(const NcRequest& request, Addresses& all) {
-  const auto& [file, machine, setup, tool, faces] = request;
-  add(all, file, machine, setup, tool, faces);
+  const auto& [file, machine, setup, tool, faces, offset, number, follow] = request;
+  add(all, file, machine, setup, tool, faces, offset, number, follow);
 }
 Addresses members(const TrochoidJob& job) {
   const auto& [part, left, right, floor, tool, radius, cycles, obstacles, judge, tolerance, avoid] = job;

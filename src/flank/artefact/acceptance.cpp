@@ -186,7 +186,8 @@ Acceptance accept(const Tool& tool, const VerifyReport& report, const JudgeReque
   return out;
 }
 
-void accept_stock(const StockReport& stock, double most_engagement_deg, double tolerance_mm, Acceptance& acceptance) {
+void accept_stock(const StockReport& stock, double most_engagement_deg, double tolerance_mm, Acceptance& acceptance,
+                  const std::function<std::string(std::size_t, std::size_t)>& where) {
   constexpr double kSpareCells = 0.1;
   // The replay cuts cells: an engagement that is over by less than one of them may be the grid's.
   const double most = most_engagement_deg + stock.resolution_deg;
@@ -194,8 +195,10 @@ void accept_stock(const StockReport& stock, double most_engagement_deg, double t
     // Cycles make the limit; a finishing sweep or a link that engages more has met what they have left.
     if (kind.engagement_deg > most && !kind.cuts_a_slot())
       add_reason(acceptance, Figure::kStock,
-                 fmt::format("replayed, a {} has an engagement of {:.3f} degrees > {} + {:.2f}, strip {}", kind.kind,
-                             kind.engagement_deg, most_engagement_deg, stock.resolution_deg, kind.strip + 1));
+                 fmt::format("replayed, a {} has an engagement of {:.3f} degrees > {} + {:.2f}, {}", kind.kind,
+                             kind.engagement_deg, most_engagement_deg, stock.resolution_deg,
+                             where ? where(static_cast<std::size_t>(kind.strip), kind.pose)
+                                   : fmt::format("strip {}", kind.strip + 1)));
   // A stretch of up to two cells may only be the grid's.
   if (stock.uncut_mm > std::max(kMostUncutMm, 2.0 * stock.cell_mm)) {
     const Vec3& p = stock.uncut_point;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -42,6 +43,9 @@ enum class Figure {
   kToolLength,     ///< a program's tool length is not that of the set-up
   kToolNumber,     ///< a program cuts with another tool
   kSpindle,        ///< a program cuts while the spindle stands still
+  kMachine,        ///< a program is for another machine
+  kSetup,          ///< what a program's header says of the set-up contradicts itself
+  kProgramPath,    ///< a program does not run the path that it was made of
   kCount
 };
 
@@ -75,7 +79,10 @@ inline constexpr std::array<std::string_view, static_cast<std::size_t>(Figure::k
     "work_offset",
     "tool_length",
     "tool_number",
-    "spindle"};
+    "spindle",
+    "machine",
+    "setup",
+    "program_path"};
 
 /// "overcut_mm".
 [[nodiscard]] constexpr std::string_view figure_name(Figure figure) {
@@ -98,7 +105,9 @@ void add_caution(Acceptance& acceptance, Figure figure, std::string text);
 /// for strips that cut a slot to get in), material of more than kMostUncutMm (and two cells) left between the sides, faces
 /// entered by more than the tolerance and a tenth of a cell.
 inline constexpr double kMostUncutMm = 0.1;
-void accept_stock(const StockReport& stock, double most_engagement_deg, double tolerance_mm, Acceptance& acceptance);
+/// `where` names a pose of a strip, both 0-based; none: by the strip's number.
+void accept_stock(const StockReport& stock, double most_engagement_deg, double tolerance_mm, Acceptance& acceptance,
+                  const std::function<std::string(std::size_t strip, std::size_t pose)>& where = {});
 
 /// Adds what is not as asked of a cavity's cycles: their engagement, and that they are all there.
 void accept_cavity(const TrochoidSummary& cavity, Acceptance& acceptance);

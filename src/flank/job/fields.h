@@ -75,6 +75,12 @@ inline constexpr Accepted kSpeed{"there are feed, constant and optimal", nullptr
                                  [](std::string_view x) { return x == "feed" || x == "constant" || x == "optimal"; }};
 inline constexpr Accepted kOrder{"there are shortest and given", nullptr,
                                  [](std::string_view x) { return x == "shortest" || x == "given"; }};
+inline constexpr Accepted kFollow{"there are path and any", nullptr,
+                                  [](std::string_view x) { return x == "path" || x == "any"; }};
+inline constexpr Accepted kWorkOffset{"a number from 1 to 99 is needed",
+                                      [](double x) { return x >= 1.0 && x <= 99.0; }};
+inline constexpr Accepted kToolNumber{"a number from 1 to 1000000 is needed",
+                                      [](double x) { return x >= 1.0 && x <= 1e6; }};
 inline constexpr Accepted kTurns{"a number >= 0 is needed", not_negative};
 inline constexpr Accepted kEngagement{"an angle above 5 and up to 180 degrees is needed",
                                       [](double x) { return x > 5.0 && x <= 180.0; }};
@@ -317,6 +323,18 @@ void visit_nc(Request& nc, Visitor& visit) {
   visit(FieldInfo{"faces", "", kGroup, "Faces that it machines; default: those of DIR, else F1", kAny, Spelling::kPlain,
                   "--face"},
         nc.faces);
+  visit(
+      FieldInfo{"work_offset", "", kGroup,
+                "The work offset that holds the set-up: 1 is G54; default: as the header says, else the machine's file",
+                kWorkOffset},
+      nc.work_offset);
+  visit(FieldInfo{"tool_number", "", kGroup, "The number of the tool of DIR; default: as the header says", kToolNumber},
+        nc.tool_number);
+  visit(
+      FieldInfo{"follow", "", kGroup,
+                "path: what it cuts must be the path of DIR, all of it and in its order; any: only what is cut counts",
+                kFollow},
+      nc.follow);
 }
 
 template <class Visitor, Is<PostJob> Job>

@@ -63,9 +63,10 @@ class Backplotter {
     BlockEnd end = end_of(move);
     const bool joined = move.joined && !result_.joints.empty();
     // A strip of the program that is left and taken up again is two strips of the path: between them the tool was
-    // elsewhere.
-    const bool goes_on = !result_.path.strips.empty() && strip_ == move.strip;
+    // elsewhere, be it at its reference position.
+    const bool goes_on = joined && !result_.path.strips.empty() && strip_ == move.strip;
     if (!goes_on) begin_strip(move, joined);
+    here_ = {move.line, move.kind == NcKind::kRapid, !joined};
     double seconds = 0.0;
     if (joined) {
       add_block(end);
@@ -97,6 +98,7 @@ class Backplotter {
       strip.kind = "flank";
     }
     result_.path.strips.push_back(strip);
+    result_.moves.emplace_back();
     if (joined) push(before_.pose);
   }
 
@@ -150,6 +152,7 @@ class Backplotter {
     const Vec3 tip = controlled.at(options_.tip_offset);
     result_.path.strips.back().poses.push_back(
         {turn_.transpose() * (tip - options_.setup.translation), (turn_.transpose() * controlled.axis).normalized()});
+    result_.moves.back().push_back(here_);
   }
 
   /// As many joined poses as keep the chord: by the bends of the control's motion and of the joins.
@@ -233,6 +236,7 @@ class Backplotter {
   Eigen::Matrix3d turn_;
   BlockEnd before_;
   const NcMove* before_move_ = nullptr;
+  PoseMove here_;            ///< of the poses that are pushed
   std::int32_t strip_ = -2;  // none yet; -1 is what belongs to no strip
   int next_id_ = 1;
   Backplot result_;

@@ -27,9 +27,17 @@ struct LimitFinding {
   std::string text;
 };
 
+/// Of a pose: the move that leads to it. A strip's first pose only says where it begins, unless `from_afar`.
+struct PoseMove {
+  std::int32_t line = 0;
+  bool rapid = false;
+  bool from_afar = false;  ///< the machine came here from its reference position, by a way that is not known
+};
+
 struct Backplot {
-  Path path;                        ///< in the part's frame; what no strip claims has kind "link"
-  std::vector<JointValues> joints;  ///< at the end of each move
+  Path path;  ///< in the part's frame; what no comment claims is a link, or a strip where it cuts
+  std::vector<std::vector<PoseMove>> moves;  ///< of each pose of each strip of the path
+  std::vector<JointValues> joints;           ///< at the end of each move
   /// Between and at the ends of moves, so near that joints run straight from each to the next; and the line of each.
   std::vector<JointValues> track;
   std::vector<std::int32_t> track_lines;

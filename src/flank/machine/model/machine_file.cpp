@@ -9,10 +9,12 @@
 #include <numbers>
 #include <sstream>
 
+#include "flank/base/printable.h"
 #include "flank/base/shared_folder.h"
 #include "flank/error.h"
 #include "flank/io/text/toml_table.h"
 #include "flank/machine/model/body_file.h"
+#include "flank/machine/nc/without_effect.h"
 
 namespace flank::internal {
 namespace {
@@ -171,12 +173,24 @@ void read_digits(const TomlTable& table, const char* key, int& digits) {
   if (table.has(key)) digits = table.whole(key, 0, 9);
 }
 
+/// Words that move nothing here: programs that hold them are read.
+void read_words(const TomlTable& table, NcDialect& dialect) {
+  if (!table.has("without_effect")) return;
+  for (std::string word : table.texts("without_effect")) {
+    for (char& c : word) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    if (const std::string why = why_not_without_effect(word); !why.empty())
+      table.refuse("without_effect", fmt::format("\"{}\" {}", printable(word), why));
+    dialect.without_effect.push_back(std::move(word));
+  }
+}
+
 /// How the program is written; what it means is read_meaning's.
 void read_dialect(const TomlTable& table, Machine& machine) {
   NcDialect& dialect = machine.dialect;
   dialect.language = nc_language(table.word("language", {"linuxcnc", "fanuc", "siemens", "heidenhain", "apt"}));
   if (table.has("tcp_on")) dialect.tcp_on = table.text("tcp_on");
   if (table.has("tcp_off")) dialect.tcp_off = table.text("tcp_off");
+  read_words(table, dialect);
   if (table.has("function_tcpm")) dialect.function_tcpm = table.flag("function_tcpm");
   if (table.has("decimal_comma")) dialect.decimal_comma = table.flag("decimal_comma");
   if (table.has("line_numbers")) dialect.line_numbers = table.flag("line_numbers");

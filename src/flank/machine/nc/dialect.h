@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "flank/machine/nc/program.h"
 
@@ -20,9 +21,11 @@ struct NcDialect {
   /// Fanuc, and Siemens without a word: how the control joins blocks (the machine's setting, not the program's).
   NcJoin join = NcJoin::kAxes;
   std::string rotary = "AC";  ///< letters of the machine's rotary axes, in its order: what a program is read with
-  /// LinuxCNC: M words that switch tool-centre kinematics on and off, e.g. "M428" and "M429"; empty where the machine
-  /// does not switch.
+  /// LinuxCNC: words that switch tool-centre kinematics on and off, e.g. "M428" and "M429", or "G12.1 P1" and "G13.1"; empty
+  /// where the machine does not switch.
   std::string tcp_on = {}, tcp_off = {};
+  /// Words that move nothing on this machine, in upper case, as its file names them (without_effect.h).
+  std::vector<std::string> without_effect = {};
   /// Heidenhain: FUNCTION TCPM instead of M128. A program whose axis turns on a great circle always has the former.
   bool function_tcpm = false;
   bool decimal_comma = true;  ///< Heidenhain: comma as decimal separator

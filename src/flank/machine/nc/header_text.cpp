@@ -95,27 +95,58 @@ std::vector<std::string> header_comments(const NcHeader& header) {
   return comments;
 }
 
+namespace {
+
+/// Takes what a comment says, unless an earlier one has said something else.
+template <class T>
+void state(std::optional<T>& known, const T& said, std::string_view what, NcHeader& header) {
+  if (known && *known != said && header.stated.contradiction.empty())
+    header.stated.contradiction = "its comments name two different values of " + std::string(what);
+  if (!known) known = said;
+}
+void state(std::string& known, std::string_view said, std::string_view what, NcHeader& header) {
+  if (!known.empty() && known != said && header.stated.contradiction.empty())
+    header.stated.contradiction = "its comments name two different values of " + std::string(what);
+  if (known.empty()) known = said;
+}
+
+/// "n HOLDS X.. Y.. Z.."; its number is what the program was made for, not the program's own word.
+bool read_offset(std::string_view text, NcHeader& header) {
+  const auto number = whole(take_word(text));
+  if (!number || !text.starts_with("HOLDS ")) return false;
+  state(header.stated.work_offset, *number, "WORK OFFSET", header);
+  state(header.origin, text.substr(6), "HOLDS", header);
+  return true;
+}
+
+/// "n name". Both lines of the tool begin with TOOL; a number follows in this one only.
+bool read_tool(std::string_view text, NcHeader& header) {
+  const auto number = whole(take_word(text));
+  // No T word could say a larger one.
+  if (!number || *number < 0 || *number > kLargestNcValue) return false;
+  state(header.stated.tool, *number, "TOOL", header);
+  header.stated.tool_name = text;
+  header.tool.number = *number;
+  header.tool.name = text;
+  return true;
+}
+
+}  // namespace
+
 bool read_header_comment(std::string_view comment, NcHeader& header) {
   if (const auto part = after(comment, "PART")) {
     header.part = *part;
   } else if (const auto machine = after(comment, "MACHINE")) {
-    header.machine = *machine;
+    state(header.machine, *machine, "MACHINE", header);
   } else if (const auto setup = after(comment, "SETUP")) {
-    header.setup = *setup;
-  } else if (auto offset = after(comment, "WORK OFFSET")) {
-    // Its number is the program's own word, which counts.
-    if (!whole(take_word(*offset)) || !offset->starts_with("HOLDS ")) return false;
-    header.origin = offset->substr(6);
-  } else if (auto tool = after(comment, "TOOL")) {
-    // Both lines begin with TOOL; a number follows in the other one only.
-    if (read_dimensions(*tool, header.tool)) return true;
-    const auto number = whole(take_word(*tool));
-    // No T word could say a larger one.
-    if (!number || *number < 0 || *number > kLargestNcValue) return false;
-    header.tool.number = *number;
-    header.tool.name = *tool;
+    state(header.setup, *setup, "SETUP", header);
+  } else if (const auto offset = after(comment, "WORK OFFSET")) {
+    return read_offset(*offset, header);
+  } else if (const auto tool = after(comment, "TOOL")) {
+    return read_dimensions(*tool, header.tool) || read_tool(*tool, header);
   } else {
-    return false;
+    if (comment.find(kDryRun) == std::string_view::npos) return false;
+    header.stated.dry_run = true;
   }
   return true;
 }

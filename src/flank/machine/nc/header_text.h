@@ -19,7 +19,10 @@ inline constexpr std::size_t kLongestNcComment = 200;
 
 /// The comments of the header: part, machine, set-up, tool.
 [[nodiscard]] std::vector<std::string> header_comments(const NcHeader& header);
-/// Takes what one such comment says; false if it says nothing of a header.
+/// In a comment of a program that is to be run without the spindle.
+inline constexpr std::string_view kDryRun = "DRY RUN";
+/// Takes what one such comment says; false if it says nothing of a header. What an earlier one has said stays, and that they
+/// differ is kept.
 bool read_header_comment(std::string_view comment, NcHeader& header);
 
 /// "STRIP 3 flank F1,F3", and the comment after which moves belong to no strip.

@@ -42,6 +42,15 @@ struct NcTool {
   double tip_offset = 0.0;
 };
 
+/// What comments say of the set-up that a program was made for, apart from its words: those decide what the control does, and
+/// may have been changed since.
+struct NcStated {
+  std::optional<int> work_offset, tool;
+  std::string tool_name = {};
+  bool dry_run = false;            ///< it is to be run without the spindle
+  std::string contradiction = {};  ///< two comments that say different things, for a message; empty: none
+};
+
 /// Facts that a header states. No dates: the same program is the same bytes.
 struct NcHeader {
   std::string program = "FLANK";  ///< name of the program
@@ -53,6 +62,18 @@ struct NcHeader {
   NcTool tool;
   double spindle_rpm = 0.0;  ///< 0: the spindle is not started
   int work_offset = 1;       ///< 1 is G54 (or the first preset)
+  NcStated stated = {};      ///< of a program that was read
+};
+
+/// What holds beside the position when a move is made.
+struct NcModes {
+  std::optional<int> work_offset;  ///< none: no word has set one
+  std::optional<int> tool;         ///< in the spindle; none: no word has called one by number
+  std::string tool_name = {};      ///< likewise, where tools are called by name
+  std::optional<int> length;       ///< the tool whose length is switched on, 0: of none; none: no word says it
+  std::optional<int> edge;         ///< Siemens: D
+  bool spindle = false;            ///< it turns
+  bool operator==(const NcModes&) const = default;
 };
 
 /// What moves belong to; ids and kinds as in Path.
@@ -74,7 +95,8 @@ struct NcMove {
   Vec3 position = Vec3::Zero();
   /// Rotary values in the order of NcProgram::rotary (degrees, third component 0), or the unit vector towards the holder.
   Vec3 orientation = Vec3::Zero();
-  double feed = 0.0;  ///< as the feed mode has it, > 0 of a feed move; 0 of a rapid
+  double feed = 0.0;        ///< as the feed mode has it, > 0 of a feed move; 0 of a rapid
+  std::int32_t modes = -1;  ///< index into NcProgram::modes; -1: made here
 };
 
 /// A program. Every move states position and orientation in full; which words a text leaves out is the dialect's.
@@ -89,6 +111,7 @@ struct NcProgram {
   std::optional<Vec2> start_rotary;
   std::vector<NcStrip> strips;
   std::vector<NcMove> moves;
+  std::vector<NcModes> modes;  ///< of a program that was read, in the order in which they come into force
 };
 
 }  // namespace flank::internal

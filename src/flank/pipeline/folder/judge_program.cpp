@@ -2,20 +2,28 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
+#include <optional>
+#include <type_traits>
 
 #include "flank/artefact/acceptance.h"
 #include "flank/artefact/post_text.h"
 #include "flank/error.h"
+#include "flank/io/path/blank_json.h"
 #include "flank/io/text/json_input.h"
 #include "flank/machine/backplot.h"
 #include "flank/machine/model/machine_file.h"
 #include "flank/machine/nc/read/read_nc.h"
+#include "flank/path_file.h"
 #include "flank/pipeline/folder/folder_job.h"
 #include "flank/pipeline/folder/judge_job.h"
 #include "flank/pipeline/folder/machine_scene.h"
+#include "flank/pipeline/program/followed_path.h"
+#include "flank/pipeline/program/program_rapids.h"
+#include "flank/pipeline/program/program_setup.h"
+#include "flank/pipeline/program/stock_path.h"
 #include "flank/setup/clearance_scene.h"
 #include "flank/setup/tool_body.h"
 #include "flank/tool_file.h"
@@ -37,7 +45,7 @@ struct Question {
 
 template <class Job>
 Question question_of(const VerifyJob& request, const Job& job) {
-  Question q{job.part, job.obstacles, job.judge, job.tolerance_mm, {}};
+  Question q{machined(job), job.obstacles, job.judge, job.tolerance_mm, {}};
   const std::string tool = request.nc.tool.value_or((std::filesystem::path(request.folder) / "tool.json").string());
   q.tool = read_and_equip(tool, request.obstacles, job.obstacles);
   if (request.nc.faces) q.part.faces = *request.nc.faces, q.part.skin.reset();
@@ -76,32 +84,119 @@ void add_findings(const std::string& file, Figure figure, const std::vector<Limi
     add_reason(acceptance, figure, fmt::format("{}: line {}: {}", file, f.line, f.text));
 }
 
-Verification judge(const VerifyJob& request, PlanJob job, const Question& q) {
-  const std::string& file = *request.nc.file;
-  Machine machine = read_machine(*request.nc.machine);
-  const NcProgram program = read_nc(read_file(file), file, machine.dialect);
-  Verification outcome;
-  outcome.job = std::move(job);
+/// What the program is to be, of a folder.
+struct Planned {
+  std::optional<Path> path;
+  std::string blank;  ///< blank.json; empty: of no cavity
+};
+
+Planned planned_of(const VerifyJob& request, bool cavity) {
+  const auto file = [&](const char* name) { return (std::filesystem::path(request.folder) / name).string(); };
+  Planned planned;
+  if (request.folder.empty()) return planned;
+  planned.path = read_path(file("path.json"));
+  if (cavity && std::filesystem::exists(file("blank.json"))) planned.blank = file("blank.json");
+  return planned;
+}
+
+/// A program that was looked at: what the reasons against it name.
+struct Ran {
+  const std::string& file;
+  const NcProgram& program;
+  const Backplot& plot;
+};
+
+/// Of the tolerance: how near a program keeps to its path. A post spends a hundredth of it.
+constexpr double kFollowShare = 0.5;
+
+/// Whether the program runs the folder's path. What it is on where, is known either way.
+FollowedPath judge_way(const VerifyJob& request, const Question& q, const Planned& planned, const Ran& ran,
+                       Acceptance& acceptance) {
+  FollowedPath followed =
+      follow_path(*planned.path, ran.plot, {q.tool.radial.axis_length(), kFollowShare * q.tolerance_mm});
+  if (request.nc.follow != "path" || followed.findings.empty()) return followed;
+  const FollowFinding& first = followed.findings.front();
+  std::string text = ran.file + ": " + (first.line > 0 ? fmt::format("line {}: ", first.line) : "") + first.text;
+  if (followed.findings.size() > 1) text += fmt::format(", and {} more", followed.findings.size() - 1);
+  add_reason(acceptance, Figure::kProgramPath, text + " (--follow any leaves that out)");
+  return followed;
+}
+
+/// The stock that is cut by the program: engagement and what is left, as of a path.
+template <class Job>
+void replay_stock(const Job& job, const Setup& setup, const Question& q, const Planned& planned,
+                  const FollowedPath& followed, const Ran& ran, Verification& outcome) {
+  if constexpr (std::is_same_v<Job, TrochoidJob>) {
+    if (planned.blank.empty()) {
+      outcome.notes.push_back("no blank.json: the program is not replayed");
+      return;
+    }
+    const StockPath cut = stock_path(ran.plot, *planned.path, followed.strips, q.tool.radial.axis_length());
+    const std::vector<HalfSpace> blank = blank_from_json(read_file(planned.blank), planned.blank);
+    outcome.report.stock = judge_stock(setup, job, q.tool, cut.path, blank, 0.0).report;
+    const StockReport& stock = *outcome.report.stock;
+    const auto line = [&](std::size_t strip, std::size_t pose) {
+      return fmt::format("{}: line {}", ran.file, cut.lines[strip][std::min(pose, cut.lines[strip].size() - 1)]);
+    };
+    accept_stock(stock, job.cycles.most_engagement_deg, q.tolerance_mm, outcome.acceptance, line);
+    const double grain = std::pow(stock.cell_mm, 3);  // less is the grid's
+    for (std::size_t k = 0; k < cut.path.strips.size(); ++k)
+      if (cut.path.strips[k].kind == kRapidKind && stock.strip_mm3[k] > grain) {
+        add_reason(
+            outcome.acceptance, Figure::kRapid,
+            fmt::format("{}: replayed, a rapid move cuts {:.3g} mm^3 of the stock", line(k, 1), stock.strip_mm3[k]));
+        return;
+      }
+  }
+}
+
+/// Travel, speed, and what of the machine comes near.
+void judge_machine(const Machine& machine, const Setup& setup, const Question& q, const BackplotOptions& options,
+                   const Ran& ran, Acceptance& acceptance) {
+  add_findings(ran.file, Figure::kTravel, ran.plot.travel, acceptance);
+  add_findings(ran.file, Figure::kAxisSpeed, ran.plot.speed, acceptance);
+  MachineScene scene = machine_scene(machine, q.tool, options.tip_offset);
+  add_work(setup, q.obstacles, options.setup, scene);
+  const auto where = [&](std::size_t place) {
+    return fmt::format("{}: line {}", ran.file, ran.plot.track_lines[place]);
+  };
+  judge_scene(machine, machine.tool_length, scene, ran.plot.track, where, acceptance);
+}
+
+BackplotOptions options_of(const VerifyJob& request, const Question& q, const Machine& machine,
+                           const NcProgram& program, Verification& outcome) {
   BackplotOptions options;
   options.setup = setup_of(request, program, outcome);
   options.tool_length = program.header.tool.length > 0.0 ? program.header.tool.length : machine.tool_length;
   options.tip_offset = machine.controlled == ControlledPoint::kLowest ? q.tool.radial.at(0.0).r : 0.0;
   options.axis_length = q.tool.radial.axis_length();
   options.chord = kChordShare * q.tolerance_mm;
+  return options;
+}
+
+template <class Job>
+Verification judge(const VerifyJob& request, const Job& job, const Question& q) {
+  const std::string& file = *request.nc.file;
+  const Planned planned = planned_of(request, std::is_same_v<Job, TrochoidJob>);
+  Machine machine = read_machine(*request.nc.machine);
+  const NcProgram program = read_nc(read_file(file), file, machine.dialect);
+  Verification outcome;
+  outcome.job = job;
+  const BackplotOptions options = options_of(request, q, machine, program, outcome);
   const Backplot plot = backplot(machine, program, file, options);
+  const Ran ran{file, program, plot};
   std::vector<std::string> repairs;
   const Setup setup = read_setup(q.part, q.obstacles, q.tolerance_mm, repairs);
   outcome.report = judge_job(setup, q.judge, q.tool, plot.path);
   const ClearanceScene scene = make_clearance_scene(setup, q.obstacles, has_body(q.tool), outcome.notes);
   measure_bodies(scene, q.tool, plot.path, outcome.report);
   outcome.acceptance = accept(q.tool, outcome.report, q.judge);
-  add_findings(file, Figure::kTravel, plot.travel, outcome.acceptance);
-  add_findings(file, Figure::kAxisSpeed, plot.speed, outcome.acceptance);
+  accept_set_up(request.nc, program, machine, q.tool, options, outcome.acceptance);
+  accept_rapids(file, setup, q.obstacles, q.tool, plot, outcome.acceptance);
+  if (planned.path)
+    replay_stock(job, setup, q, planned, judge_way(request, q, planned, ran, outcome.acceptance), ran, outcome);
   machine.tool_length = options.tool_length;
-  MachineScene scene_of_machine = machine_scene(machine, q.tool, options.tip_offset);
-  add_work(setup, q.obstacles, options.setup, scene_of_machine);
-  const auto where = [&](std::size_t place) { return fmt::format("{}: line {}", file, plot.track_lines[place]); };
-  judge_scene(machine, machine.tool_length, scene_of_machine, plot.track, where, outcome.acceptance);
+  judge_machine(machine, setup, q, options, ran, outcome.acceptance);
   outcome.notes.push_back(fmt::format("{} on {}: {} moves in {}, as {} poses within {:.2g} mm of its motion",
                                       std::filesystem::path(file).filename().string(), machine.name,
                                       program.moves.size(), minutes_text(plot.time_s / 60.0), plot.path.pose_count(),

@@ -1,8 +1,10 @@
 #include "flank/machine/nc/read/gcode_words.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "flank/machine/nc/nc_number.h"
+#include "flank/machine/nc/without_effect.h"
 
 namespace flank::internal {
 
@@ -15,6 +17,11 @@ bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 void refuse_twice(const GBlock& block, const GWord& word, const NcPlace& place) {
   if (word.letter != 'G' && word.letter != 'M' && block.find(word.letter) != nullptr)
     place.refuse(std::string("the block states ") + word.letter + " twice");
+}
+
+/// Whether nothing but a number stands before this place of the block.
+bool begins(const GBlock& block) {
+  return !block.skipped && (block.words.empty() || (block.words.size() == 1 && block.words[0].letter == 'N'));
 }
 
 }  // namespace
@@ -46,12 +53,16 @@ bool GBlock::has_code(char letter, int code) const {
 void split_gcode(std::string_view line, std::string_view upper, const NcPlace& place, GBlock& block) {
   block.words.clear();
   block.comments.clear();
+  block.skipped = false;
   // Only where it is alone: a tape's beginning and end, which LinuxCNC takes for the end of the program.
   block.percent = trimmed(line) == "%";
   if (block.percent) return;
   for (std::size_t i = 0; i < upper.size();) {
     const char c = upper[i];
     if (is_space(c)) {
+      ++i;
+    } else if (c == '/' && begins(block)) {
+      block.skipped = true;
       ++i;
     } else if (c == '(') {
       // Comments do not nest on these controls: the first ")" ends it.
@@ -76,6 +87,27 @@ void split_gcode(std::string_view line, std::string_view upper, const NcPlace& p
       i = at + number->length;
     }
   }
+}
+
+void require_same_if_skipped(const GBlock& block, const NcDialect& dialect, const NcPlace& place) {
+  if (!block.skipped) return;
+  for (const GWord& word : block.words) {
+    const int m = word.letter == 'M' ? word.whole() : -1;
+    const bool same = word.letter == 'N' || m == 0 || m == 1 || (m >= 7 && m <= 9) ||
+                      is_without_effect(dialect, word.letter, word.value);
+    if (!same)
+      place.refuse(quoted(word.text) +
+                   " stands in a block that may be skipped (/); accepted there is what has no effect "
+                   "on the motion");
+  }
+}
+
+bool has_words(const GBlock& block, const std::vector<GWord>& words) {
+  return !words.empty() && std::all_of(words.begin(), words.end(), [&](const GWord& wanted) {
+    // By value, so that "M0428" and "M428.0" are the same word.
+    return std::any_of(block.words.begin(), block.words.end(),
+                       [&](const GWord& w) { return w.letter == wanted.letter && w.value == wanted.value; });
+  });
 }
 
 }  // namespace flank::internal

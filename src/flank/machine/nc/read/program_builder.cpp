@@ -76,6 +76,40 @@ void ProgramBuilder::work_offset(int number) {
   if (!program_.moves.empty() && number != program_.header.work_offset)
     place_.refuse("the work offset changes after the first move; accepted are programs in one frame");
   program_.header.work_offset = number;
+  modes_.work_offset = number;
+}
+
+void ProgramBuilder::call_tool(int number) {
+  program_.header.tool.number = number;
+  called_ = number;
+  called_name_.clear();
+  if (change_at_call_) change_tool();
+}
+
+void ProgramBuilder::call_tool(std::string_view name) {
+  // A comment of ours says it with its spaces.
+  if (program_.header.tool.name.empty()) program_.header.tool.name = name;
+  called_.reset();
+  called_name_ = name;
+  if (change_at_call_) change_tool();
+}
+
+// The spindle stands while a tool is changed, and is started anew for the next one.
+void ProgramBuilder::change_tool() {
+  modes_.tool = called_;
+  modes_.tool_name = called_name_;
+  spindle_turns(false);
+}
+
+void ProgramBuilder::spindle_speed(double turns) {
+  program_.header.spindle_rpm = turns;
+  turns_per_minute_ = turns;
+  modes_.spindle = turns_ && turns_per_minute_ > 0.0;
+}
+
+void ProgramBuilder::spindle_turns(bool turns) {
+  turns_ = turns;
+  modes_.spindle = turns_ && turns_per_minute_ > 0.0;
 }
 
 void ProgramBuilder::tool_centre(bool on) {
@@ -260,7 +294,13 @@ void ProgramBuilder::record(NcKind kind) {
     program_.start_rotary = Vec2(*rotary_before_[0], *rotary_before_[1]);
   cut_ = cut_ || feed;
   joined_ = true;
+  move.modes = present_modes();
   program_.moves.push_back(move);
+}
+
+std::int32_t ProgramBuilder::present_modes() {
+  if (program_.modes.empty() || program_.modes.back() != modes_) program_.modes.push_back(modes_);
+  return static_cast<std::int32_t>(program_.modes.size()) - 1;
 }
 
 NcProgram ProgramBuilder::finish() {

@@ -40,6 +40,19 @@ class ProgramBuilder {
   /// Length compensation, where it is a word of its own: feed moves need it under tool-centre control and forbid it
   /// without.
   void length_compensation(bool on) { length_ = on; }
+  /// The tool whose length counts from here on; 0: of none.
+  void length_of(int tool) { modes_.length = tool; }
+  /// The length of the tool in the spindle, whichever it is.
+  void own_length() { modes_.length = modes_.tool; }
+  void edge(int number) { modes_.edge = number; }
+  /// A tool is called, and is the one in the spindle from here on, or when it is changed.
+  void call_tool(int number);
+  void call_tool(std::string_view name);
+  void change_tool();
+  /// Not every control needs a word that changes the tool.
+  void change_at_call(bool at_call) { change_at_call_ = at_call; }
+  void spindle_speed(double turns);
+  void spindle_turns(bool turns);
   void incremental(bool on) { incremental_ = on; }
   void motion(NcKind kind);
 
@@ -76,6 +89,7 @@ class ProgramBuilder {
   void restart_unless_cut(const std::string& why);
   void check_feed_move();
   [[nodiscard]] double feed_of_move();
+  [[nodiscard]] std::int32_t present_modes();
 
   NcPlace place_;
   NcDialect dialect_;
@@ -96,6 +110,11 @@ class ProgramBuilder {
   bool tool_centre_ = false, switched_ = false, joint_allowed_ = true, incremental_ = false;
   bool by_vector_ = false;  ///< what was stated last: vector or rotary values
   bool joined_ = false, cut_ = false, ended_ = false;
+  NcModes modes_;
+  std::optional<int> called_;  ///< and not in the spindle yet
+  std::string called_name_;
+  double turns_per_minute_ = 0.0;
+  bool turns_ = false, change_at_call_ = false;
 };
 
 }  // namespace flank::internal

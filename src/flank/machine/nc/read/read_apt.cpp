@@ -26,6 +26,7 @@ class AptReader {
     builder_.join(NcJoin::kGreatCircle);
     // GOTO is about the tool's point from the first statement on.
     builder_.tool_centre(true);
+    builder_.change_at_call(true);  // LOADTL changes the tool
     // Without MULTAX, and until a GOTO states a vector, the tool stands along Z.
     for (std::size_t i = 0; i < 3; ++i) axis_[i] = i == 2 ? 1.0 : 0.0;
   }
@@ -67,7 +68,9 @@ class AptReader {
   void print(std::string_view text) {
     constexpr std::string_view kOffset = "WORK OFFSET ";
     const auto number = text.starts_with(kOffset) ? leading_number(text.substr(kOffset.size())) : std::nullopt;
-    if (number && number->value >= 1.0 && number->value <= 99.0)
+    // With more behind it, it is the comment of a header.
+    const bool alone = number && kOffset.size() + number->length == text.size();
+    if (alone && number->value >= 1.0 && number->value <= 99.0)
       builder_.work_offset(static_cast<int>(number->value));
     else if (text == "JOIN AXES")
       builder_.join(NcJoin::kAxes);
@@ -107,7 +110,7 @@ class AptReader {
     } else if (word == "LOADTL") {
       const double number = parameters_.empty() ? -1.0 : value(parameters_[0]);
       if (number < 0.0 || number > 1e6) refuse(statement_);
-      builder_.header().tool.number = static_cast<int>(number);
+      builder_.call_tool(static_cast<int>(number));
     } else if (word == "FINI") {
       builder_.end_program();
     } else if (std::find(kIgnored.begin(), kIgnored.end(), word) == kIgnored.end()) {
@@ -163,9 +166,11 @@ class AptReader {
 
   void spindle() {
     for (const std::string_view p : parameters_) {
-      // The direction and the state do not matter to the geometry; the number may stand before or behind them.
-      if (p == "CLW" || p == "CCLW" || p == "ON" || p == "OFF" || p == "RPM") continue;
-      if (const double speed = value(p); speed >= 0.0) builder_.header().spindle_rpm = speed;
+      // The number may stand before or behind the words.
+      if (p == "OFF") return builder_.spindle_turns(false);
+      builder_.spindle_turns(true);
+      if (p == "CLW" || p == "CCLW" || p == "ON" || p == "RPM") continue;
+      if (const double speed = value(p); speed >= 0.0) builder_.spindle_speed(speed);
     }
   }
 

@@ -1,7 +1,10 @@
 #include "flank/machine/nc/read/read_fanuc.h"
 
+#include <algorithm>
+
 #include "flank/machine/nc/read/gcode_words.h"
 #include "flank/machine/nc/read/program_builder.h"
+#include "flank/machine/nc/without_effect.h"
 
 namespace flank::internal {
 
@@ -13,7 +16,7 @@ constexpr int kLastSimpleOffset = 6, kLargestProgram = 99999999;  // G54 to G59;
 
 class FanucReader {
  public:
-  FanucReader(const std::string& file, const NcDialect& dialect) : builder_(file, dialect) {}
+  FanucReader(const std::string& file, const NcDialect& dialect) : builder_(file, dialect), dialect_(dialect) {}
 
   NcProgram read(std::string_view text) {
     NcLines lines(text);
@@ -38,6 +41,7 @@ class FanucReader {
   }
 
   void block() {
+    require_same_if_skipped(block_, dialect_, builder_.place());
     for (const GWord& word : block_.words) {
       // Modes first, whatever their place in the block: see below.
       switch (word.letter) {
@@ -54,14 +58,29 @@ class FanucReader {
     // G43.4 and G49 come into force before the axes of their block move.
     for (const GWord& word : block_.words)
       if (word.letter != 'G' && word.letter != 'M') other(word);
+    modes_behind_words();
     builder_.end_block();
     if (ends_) builder_.end_program();
+  }
+
+  /// T, S and H may stand on either side of the words that they belong to.
+  void modes_behind_words() {
+    if (block_.has_code('M', 60)) builder_.change_tool();
+    if (block_.has_code('M', 30) || block_.has_code('M', 40)) builder_.spindle_turns(true);
+    if (block_.has_code('M', 50)) builder_.spindle_turns(false);
+    if (!block_.has_code('G', 434) && !block_.has_code('G', 435)) return;
+    const GWord* const h = block_.find('H');
+    if (h != nullptr && h->whole() < 0) builder_.place().refuse_word(h->text, kName);
+    // Without H it is the length of none.
+    builder_.length_of(h != nullptr ? h->whole() : 0);
   }
 
   void tool_centre(bool on, bool vectors) {
     builder_.tool_centre(on);
     // I J K are tool vectors only under G43.5; elsewhere they would be centres of arcs, and are refused.
     if (on) vectors_ = vectors;
+    centred_ = on;
+    if (!on) builder_.length_of(0);
   }
 
   void preparatory(const GWord& word) {
@@ -119,8 +138,13 @@ class FanucReader {
         builder_.feed_mode(code == 930 ? NcFeedMode::kInverseTime : NcFeedMode::kPerMinute);
         break;
       default:
-        builder_.place().refuse_word(word.text, kName);
+        ignore(word);
     }
+  }
+
+  /// A word that the machine's file calls without effect; refuses any other.
+  void ignore(const GWord& word) const {
+    if (!is_without_effect(dialect_, word.letter, word.value)) builder_.place().refuse_word(word.text, kName);
   }
 
   void work_offset(int code) {
@@ -151,7 +175,7 @@ class FanucReader {
         ends_ = true;
         break;
       default:
-        builder_.place().refuse_word(word.text, kName);
+        ignore(word);
     }
   }
 
@@ -172,19 +196,26 @@ class FanucReader {
     } else if (is_rotary(word.letter)) {
       builder_.rotary(word.letter, coordinate(word));
     } else if (word.letter >= 'I' && word.letter <= 'K') {
-      if (!vectors_) builder_.place().refuse_word(word.text, kName);
+      if (!vectors_) refuse_vector(word);
       builder_.vector(static_cast<std::size_t>(word.letter - 'I'), coordinate(word));
     } else if (word.letter == 'F') {
       builder_.feed(word.value);
     } else if (word.letter == 'S' && word.value >= 0.0) {
-      builder_.header().spindle_rpm = word.value;
+      builder_.spindle_speed(word.value);
     } else if (word.letter == 'T' && word.whole() >= 0) {
-      builder_.header().tool.number = word.whole();
+      builder_.call_tool(word.whole());
     } else if (word.letter == 'O' && word.whole() >= 1 && word.whole() <= kLargestProgram) {
       builder_.header().number = word.whole();
     } else if (!parameter(word)) {
       builder_.place().refuse_word(word.text, kName);
     }
+  }
+
+  /// G43.4 takes rotary axes: with vectors it is G43.5 that was meant, or the words of another control.
+  [[noreturn]] void refuse_vector(const GWord& word) const {
+    if (centred_)
+      builder_.place().refuse(quoted(word.text) + " is a tool vector under G43.4; accepted are rotary axes, or G43.5");
+    builder_.place().refuse_word(word.text, kName);
   }
 
   /// Letters that belong to other words of the block.
@@ -199,13 +230,19 @@ class FanucReader {
       case 'Q':
         return block_.has_code('G', 51);
       default:
-        return false;
+        return is_parameter_letter(word.letter) && has_ignored();
     }
   }
 
+  [[nodiscard]] bool has_ignored() const {
+    return std::any_of(block_.words.begin(), block_.words.end(),
+                       [&](const GWord& w) { return is_without_effect(dialect_, w.letter, w.value); });
+  }
+
   ProgramBuilder builder_;
+  const NcDialect& dialect_;
   GBlock block_;
-  bool vectors_ = false, ends_ = false;
+  bool vectors_ = false, centred_ = false, ends_ = false;
 };
 
 }  // namespace

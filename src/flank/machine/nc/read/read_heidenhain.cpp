@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "flank/machine/nc/nc_number.h"
 #include "flank/machine/nc/read/program_builder.h"
+#include "flank/machine/nc/without_effect.h"
 
 namespace flank::internal {
 
@@ -35,7 +38,8 @@ bool is_number(std::string_view word) {
 
 class HeidenhainReader {
  public:
-  HeidenhainReader(const std::string& file, const NcDialect& dialect) : builder_(file, dialect) {
+  HeidenhainReader(const std::string& file, const NcDialect& dialect) : builder_(file, dialect), dialect_(dialect) {
+    builder_.change_at_call(true);  // TOOL CALL changes the tool
     // The control always compensates the tool's length: without M128 or TCPM its coordinates are neither joints nor
     // the tip.
     builder_.allow_joint(false);
@@ -47,6 +51,7 @@ class HeidenhainReader {
       builder_.at(lines.number());
       const std::size_t comment = lines.line().find(';');
       if (comment != std::string_view::npos) builder_.comment(lines.line().substr(comment + 1));
+      joined_.clear();
       split_words(lines.upper(), words_);
       if (words_.size() > kMostNcWords) builder_.place().refuse("a block of more than 100 words");
       // "~" continues a cycle's definition on the next line: its parameters stand one by one in lines of their own.
@@ -55,6 +60,7 @@ class HeidenhainReader {
       if (continues_) drop_tilde();
       // The block's number; a continued line has none, and a number in it would be a value.
       if (!continued && !words_.empty() && is_number(words_.front())) words_.erase(words_.begin());
+      if (skips()) continue;
       // "* - text" is a headline of the program's structure, for people.
       if (words_.empty() || words_.front().starts_with('*')) continue;
       if (continued)
@@ -66,6 +72,33 @@ class HeidenhainReader {
   }
 
  private:
+  /// A block that begins with / may be left out, and is accepted where that is the same.
+  bool skips() {
+    if (words_.empty() || words_.front().front() != '/') return false;
+    words_.front().remove_prefix(1);
+    if (words_.front().empty()) words_.erase(words_.begin());
+    for (const std::string_view w : words_)
+      if (w != "STOP" && w != "M0" && w != "M1" && w != "M8" && w != "M9" && !is_ignored(w))
+        builder_.place().refuse(quoted(w) +
+                                " stands in a block that may be skipped (/); accepted there is what has no "
+                                "effect on the motion");
+    return true;
+  }
+
+  /// Whether the machine's file says that a word moves nothing.
+  [[nodiscard]] bool is_ignored(std::string_view w) const {
+    if (is_without_effect(dialect_, w)) return true;
+    const auto number = w.size() > 1 ? leading_number(w.substr(1), true) : std::nullopt;
+    return number && number->length + 1 == w.size() && is_without_effect(dialect_, w[0], number->value);
+  }
+
+  /// Whether it says so of the whole block, as of "PLANE RESET STAY".
+  [[nodiscard]] bool is_block_ignored() const {
+    std::string text;
+    for (const std::string_view w : words_) (text += text.empty() ? "" : " ") += w;
+    return is_without_effect(dialect_, text);
+  }
+
   void drop_tilde() {
     words_.back().remove_suffix(1);
     if (words_.back().empty()) words_.pop_back();
@@ -104,7 +137,7 @@ class HeidenhainReader {
       function();
     else if (first == "L" || first == "LN" || first.starts_with('M'))
       motion();
-    else if (first != "BLK" && first != "STOP")
+    else if (first != "BLK" && first != "STOP" && !is_block_ignored())
       refuse(first);
   }
 
@@ -135,12 +168,14 @@ class HeidenhainReader {
     if (word(2).starts_with('"')) {
       const std::size_t from = line.find('"') + 1, to = line.find('"', from);
       if (to == std::string_view::npos) builder_.place().refuse("a name is not closed");
+      // What is called, not what a comment says, is the program's tool.
       builder_.header().tool.name = line.substr(from, to - from);
+      builder_.call_tool(line.substr(from, to - from));
       // A name with spaces was split into words: all up to the closing quote belong to it.
       while (i < words_.size() && !words_[i++].ends_with('"')) {
       }
     } else if (is_number(word(2))) {
-      builder_.header().tool.number = whole(word(2), 0);
+      builder_.call_tool(whole(word(2), 0));
       i = 3;
     }
     for (; i < words_.size(); ++i) tool_word(words_[i]);
@@ -149,7 +184,7 @@ class HeidenhainReader {
   /// Oversizes of the tool move its point; a program that has them means another tool than it names.
   void tool_word(std::string_view w) {
     if (w.starts_with('S'))
-      builder_.header().spindle_rpm = std::max(0.0, value(w, 1));
+      builder_.spindle_speed(std::max(0.0, value(w, 1)));
     else if (w.starts_with("DL") || w.starts_with("DR")) {
       if (value(w, 2) != 0.0) builder_.place().refuse(quoted(w) + " is an oversize of the tool; accepted is none");
     } else if (w != "Z" && !w.starts_with('F'))
@@ -208,6 +243,7 @@ class HeidenhainReader {
     }
     // L always runs at a feed; FMAX makes it rapid for its block alone (motion_word).
     builder_.motion(NcKind::kFeed);
+    join_blanks();
     bool off = false, end = false, of_m128 = false;
     for (std::size_t i = word(0).starts_with('M') ? 0 : 1; i < words_.size(); ++i) {
       const std::string_view w = words_[i];
@@ -226,6 +262,19 @@ class HeidenhainReader {
     builder_.end_block();
     if (off) builder_.tool_centre(false);
     if (end) builder_.end_program();
+  }
+
+  /// "X -16,3" is one word to the control: an address without its number takes the next one.
+  void join_blanks() {
+    for (std::size_t i = 1; i + 1 < words_.size(); ++i) {
+      const std::string_view w = words_[i], next = words_[i + 1];
+      const bool address = (w.size() == 1 && std::string_view("XYZABCF").find(w[0]) != std::string_view::npos) ||
+                           (w.size() == 2 && (w[0] == 'T' || w[0] == 'N') && w[1] >= 'X' && w[1] <= 'Z');
+      if (!address || !leading_number(next, true)) continue;
+      joined_.emplace_back(std::string(w) + std::string(next));
+      words_[i] = joined_.back();
+      words_.erase(words_.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+    }
   }
 
   void motion_word(std::string_view w) {
@@ -259,15 +308,19 @@ class HeidenhainReader {
       return;
     }
     switch (whole(w, 1)) {
-      case 0:
-      case 1:
       case 3:
       case 4:
-      case 5:
-      case 8:
-      case 9:
       case 13:
       case 14:
+        builder_.spindle_turns(true);
+        break;
+      case 5:
+        builder_.spindle_turns(false);
+        break;
+      case 0:
+      case 1:
+      case 8:
+      case 9:
       case 126:
       case 127:
         break;
@@ -277,12 +330,14 @@ class HeidenhainReader {
         builder_.to_reference();
         break;
       default:
-        refuse(w);
+        if (!is_ignored(w)) refuse(w);
     }
   }
 
   ProgramBuilder builder_;
+  const NcDialect& dialect_;
   Words words_;
+  std::deque<std::string> joined_;  ///< of the present block: words that stood apart
   bool begun_ = false, finished_ = false, continues_ = false, spatial_ = false;
 };
 

@@ -1,7 +1,11 @@
 #include "flank/machine/nc/read/read_linuxcnc.h"
 
+#include <algorithm>
+#include <vector>
+
 #include "flank/machine/nc/read/gcode_words.h"
 #include "flank/machine/nc/read/program_builder.h"
+#include "flank/machine/nc/without_effect.h"
 
 namespace flank::internal {
 
@@ -13,7 +17,10 @@ constexpr double kInch = 25.4;
 class LinuxCncReader {
  public:
   LinuxCncReader(const std::string& file, const NcDialect& dialect)
-      : builder_(file, dialect), tcp_on_(upper_case(dialect.tcp_on)), tcp_off_(upper_case(dialect.tcp_off)) {
+      : builder_(file, dialect),
+        dialect_(dialect),
+        tcp_on_(words_of(dialect.tcp_on)),
+        tcp_off_(words_of(dialect.tcp_off)) {
     // It interpolates its axes linearly; no word changes that.
     builder_.join(NcJoin::kAxes);
     // G43 is a word of its own here: from now on the builder holds feed moves to it.
@@ -39,6 +46,13 @@ class LinuxCncReader {
   }
 
  private:
+  /// Of a machine's file.
+  [[nodiscard]] static std::vector<GWord> words_of(const std::string& text) {
+    GBlock block;
+    split_gcode(text, upper_case(text), NcPlace{"the machine's tcp_on or tcp_off"}, block);
+    return block.words;
+  }
+
   /// A file between two percent signs ends with the second.
   /// A first "%" only opens the file if nothing came before it.
   void percent() {
@@ -48,8 +62,9 @@ class LinuxCncReader {
 
   void block() {
     opened_ = opened_ || !block_.words.empty();
+    require_same_if_skipped(block_, dialect_, builder_.place());
+    if (switches()) return builder_.end_block();
     for (const GWord& word : block_.words) {
-      if (switches(word)) continue;
       switch (word.letter) {
         case 'G':
           preparatory(word);
@@ -61,23 +76,37 @@ class LinuxCncReader {
           other(word);
       }
     }
+    modes_behind_words();
     builder_.end_block();
     if (ends_) builder_.end_program();
   }
 
   /// The machine's own words for its kinematics.
-  bool switches(const GWord& word) {
-    const auto is = [&](const std::string& name) {
-      // By value, so that "M0428" and "M428.0" are the same word.
-      return !name.empty() && name[0] == word.letter && name.substr(1) == std::to_string(word.whole());
-    };
-    if (!is(tcp_on_) && !is(tcp_off_)) return false;
+  bool switches() {
+    const bool on = has_words(block_, tcp_on_), off = has_words(block_, tcp_off_);
+    if (!on && !off) return false;
     // Beside other words it would matter which of them the machine runs first, and that is its remapping's own
     // business.
-    if (block_.words.size() > (block_.find('N') != nullptr ? 2u : 1u))
-      builder_.place().refuse(quoted(word.text) + " switches the kinematics; accepted is a block of its own");
-    builder_.tool_centre(is(tcp_on_));
+    const std::size_t own = (on ? tcp_on_ : tcp_off_).size() + (block_.find('N') != nullptr ? 1 : 0);
+    if (block_.words.size() > own)
+      builder_.place().refuse(quoted(block_.words.back().text) +
+                              " stands beside the word that switches the kinematics; accepted is a block of its own");
+    builder_.tool_centre(on);
     return true;
+  }
+
+  /// T, S and H may stand on either side of the words that they belong to.
+  void modes_behind_words() {
+    if (block_.has_code('M', 60)) builder_.change_tool();
+    if (block_.has_code('M', 30) || block_.has_code('M', 40)) builder_.spindle_turns(true);
+    if (block_.has_code('M', 50)) builder_.spindle_turns(false);
+    if (block_.has_code('G', 490)) builder_.length_of(0);
+    if (!block_.has_code('G', 430)) return;
+    // G43 alone takes the tool in the spindle.
+    const GWord* const h = block_.find('H');
+    if (h == nullptr) return builder_.own_length();
+    if (h->whole() < 0) builder_.place().refuse_word(h->text, kName);
+    builder_.length_of(h->whole());
   }
 
   void preparatory(const GWord& word) {
@@ -127,7 +156,7 @@ class LinuxCncReader {
         builder_.feed_mode(code == 930 ? NcFeedMode::kInverseTime : NcFeedMode::kPerMinute);
         break;
       default:
-        builder_.place().refuse_word(word.text, kName);
+        ignore(word);
     }
   }
 
@@ -148,8 +177,13 @@ class LinuxCncReader {
         ends_ = true;
         break;
       default:
-        builder_.place().refuse_word(word.text, kName);
+        ignore(word);
     }
+  }
+
+  /// A word that the machine's file calls without effect; refuses any other.
+  void ignore(const GWord& word) const {
+    if (!is_without_effect(dialect_, word.letter, word.value)) builder_.place().refuse_word(word.text, kName);
   }
 
   void other(const GWord& word) {
@@ -160,9 +194,9 @@ class LinuxCncReader {
     } else if (word.letter == 'F') {
       builder_.feed(word.value);
     } else if (word.letter == 'S' && word.value >= 0.0) {
-      builder_.header().spindle_rpm = word.value;
+      builder_.spindle_speed(word.value);
     } else if (word.letter == 'T' && word.whole() >= 0) {
-      builder_.header().tool.number = word.whole();
+      builder_.call_tool(word.whole());
     } else if (!parameter(word)) {
       builder_.place().refuse_word(word.text, kName);
     }
@@ -181,12 +215,18 @@ class LinuxCncReader {
       case 'Q':
         return block_.has_code('G', 640);
       default:
-        return false;
+        return is_parameter_letter(word.letter) && has_ignored();
     }
   }
 
+  [[nodiscard]] bool has_ignored() const {
+    return std::any_of(block_.words.begin(), block_.words.end(),
+                       [&](const GWord& w) { return is_without_effect(dialect_, w.letter, w.value); });
+  }
+
   ProgramBuilder builder_;
-  std::string tcp_on_, tcp_off_;
+  const NcDialect& dialect_;
+  std::vector<GWord> tcp_on_, tcp_off_;  ///< their texts are not kept
   GBlock block_;
   bool opened_ = false, ends_ = false;
 };

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "flank/machine/nc/read/program_builder.h"
 #include "flank/machine/nc/read/siemens_words.h"
+#include "flank/machine/nc/without_effect.h"
 
 namespace flank::internal {
 
@@ -25,7 +27,10 @@ bool is_ignored(std::string_view name) { return std::find(kIgnored.begin(), kIgn
 
 class SiemensReader {
  public:
-  SiemensReader(const std::string& file, const NcDialect& dialect) : builder_(file, dialect) {}
+  SiemensReader(const std::string& file, const NcDialect& dialect) : builder_(file, dialect), dialect_(dialect) {
+    // Machines without a magazine change a tool where it is called; those with one wait for M6 (miscellaneous).
+    builder_.change_at_call(true);
+  }
 
   NcProgram read(std::string_view text) {
     NcLines lines(text);
@@ -43,6 +48,7 @@ class SiemensReader {
 
  private:
   void block() {
+    if (block_.skipped) require_same_if_skipped();
     for (const SiemensWord& word : block_.words) {
       // One letter with a number is an address; T="NAME" has one letter and no number, and is a name.
       if (word.name.size() == 1 && word.value && !word.string)
@@ -50,6 +56,10 @@ class SiemensReader {
       else
         named(word);
     }
+    if (changes_) builder_.change_tool();
+    if (turns_) builder_.spindle_turns(*turns_);
+    changes_ = false;
+    turns_.reset();
     builder_.end_block();
     // Axes in the block of M30 still move: it ends the program behind its block.
     if (ends_) builder_.end_program();
@@ -77,13 +87,14 @@ class SiemensReader {
       if (!dwell()) builder_.feed(*word.value);
     } else if (c == 'S') {
       if (*word.value < 0.0) refuse(word);
-      if (!dwell()) builder_.header().spindle_rpm = *word.value;
+      if (!dwell()) builder_.spindle_speed(*word.value);
     } else if (c == 'T') {
-      builder_.header().tool.number = whole(word);
+      builder_.call_tool(whole(word));
     } else if (c == 'D') {
       if (whole(word) > kMostEdges) refuse(word);
       // D0 switches the tool's length off; with an edge it counts, as tool-centre control needs.
       builder_.length_compensation(whole(word) > 0);
+      builder_.edge(whole(word));
     } else if (c != 'N') {
       refuse(word);
     }
@@ -142,15 +153,48 @@ class SiemensReader {
         builder_.feed_mode(code == 93 ? NcFeedMode::kInverseTime : NcFeedMode::kPerMinute);
         break;
       default:
-        refuse(word);
+        if (!is_without_effect(dialect_, 'G', *word.value)) refuse(word);
     }
+  }
+
+  /// Whether the machine's file says that a word moves nothing.
+  [[nodiscard]] bool is_ignored_here(const SiemensWord& word) const {
+    if (word.name.size() == 1 && word.value) return is_without_effect(dialect_, word.name[0], *word.value);
+    const bool bare = word.arguments && trimmed(*word.arguments).empty();
+    return is_without_effect(dialect_, std::string(word.name) + (bare ? "()" : "")) ||
+           is_without_effect(dialect_, word.name);
+  }
+
+  /// A block that may be left out says the same with and without it, or is refused.
+  void require_same_if_skipped() const {
+    for (const SiemensWord& word : block_.words) {
+      const double m = word.name == "M" && word.value ? *word.value : -1.0;
+      const bool same = word.name == "N" || m == 0.0 || m == 1.0 || (m >= 7.0 && m <= 9.0) || word.name == "MSG" ||
+                        is_ignored_here(word);
+      if (!same)
+        builder_.place().refuse(quoted(word.text) +
+                                " stands in a block that may be skipped (/); accepted there is what "
+                                "has no effect on the motion");
+    }
+  }
+
+  /// From the first M6 on, a call only readies the next tool.
+  void change() {
+    changes_ = true;
+    builder_.change_at_call(false);
   }
 
   void miscellaneous(const SiemensWord& word, int code) {
     // M17 ends a subprogram, which a program that was cut out of a larger one may be.
     if (code == 2 || code == 30 || code == 17)
       ends_ = true;
-    else if (code > 9)
+    else if (code == 3 || code == 4)
+      turns_ = true;
+    else if (code == 5)
+      turns_ = false;
+    else if (code == 6)
+      change();
+    else if (code > 9 && !is_without_effect(dialect_, 'M', *word.value))
       refuse(word);
   }
 
@@ -172,16 +216,17 @@ class SiemensReader {
       if (!word.value) refuse(word);
       builder_.vector(static_cast<std::size_t>(name[0] - 'A'), *word.value);
     } else if (name == "T" && word.string) {
-      // A comment of ours says it with its spaces.
-      if (builder_.header().tool.name.empty()) builder_.header().tool.name = *word.string;
-    } else if (name != "ORIWKS" && !is_ignored(name)) {
+      builder_.call_tool(*word.string);
+    } else if (name != "ORIWKS" && !is_ignored(name) && !is_ignored_here(word)) {
       refuse(word);
     }
   }
 
   ProgramBuilder builder_;
+  const NcDialect& dialect_;
   SiemensBlock block_;
-  bool ends_ = false;
+  std::optional<bool> turns_;  ///< what the block says of the spindle
+  bool changes_ = false, ends_ = false;
 };
 
 }  // namespace

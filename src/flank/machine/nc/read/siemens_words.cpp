@@ -25,6 +25,11 @@ class SiemensLine {
         block.comment = line_.substr(at_ + 1);
         return;
       }
+      if (upper_[at_] == '/' && !block.skipped && (block.words.empty() || block.words.back().name == "N")) {
+        block.skipped = true;
+        ++at_;
+        continue;
+      }
       if (block.words.size() == kMostNcWords) place_.refuse("a block of more than 100 words");
       block.words.push_back(word());
     }
@@ -104,6 +109,7 @@ class SiemensLine {
 void split_siemens(std::string_view line, std::string_view upper, const NcPlace& place, SiemensBlock& block) {
   block.words.clear();
   block.comment = {};
+  block.skipped = false;
   SiemensLine(line, upper, place).split(block);
 }
 

@@ -22,10 +22,11 @@ struct SiemensWord {
 struct SiemensBlock {
   std::vector<SiemensWord> words;
   std::string_view comment;  ///< behind the semicolon
+  bool skipped = false;      ///< it begins with /: the control leaves it out where its operator says so
 };
 
 /// Takes the line apart (`upper` is the same in upper case); views point into both. Refuses what is no word: parameters,
-/// expressions, optional blocks, labels.
+/// expressions, labels.
 void split_siemens(std::string_view line, std::string_view upper, const NcPlace& place, SiemensBlock& block);
 
 }  // namespace flank::internal
