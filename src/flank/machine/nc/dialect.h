@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -23,6 +24,9 @@ struct NcDialect {
   /// LinuxCNC: M words that switch tool-centre kinematics on and off, e.g. "M428" and "M429"; empty where the machine
   /// does not switch.
   std::string tcp_on = {}, tcp_off = {};
+  /// Where the machine's own Z stands, mm, when the tool is out of the way: before rotary axes turn, before a tool is changed,
+  /// and at the end. None: Fanuc goes to its reference position, Heidenhain to the end of the travel, others to 0.
+  std::optional<double> retract_mm = {};
   /// Heidenhain: FUNCTION TCPM instead of M128. A program whose axis turns on a great circle always has the former.
   bool function_tcpm = false;
   bool decimal_comma = true;  ///< Heidenhain: comma as decimal separator
