@@ -28,6 +28,10 @@ CLI::Option* add_option(CLI::App& app, const std::string& flag, const internal::
       for (const std::string& word : words) internal::read_word(info, word, member);
     };
     return app.add_option_function<std::vector<std::string>>(flag, read, help)->allow_extra_args(false);
+  } else if constexpr (std::is_same_v<Member, bool>) {
+    if (info.spelling == internal::Spelling::kFlag) return app.add_flag(flag, member, help);
+    return app.add_option_function<std::string>(
+        flag, [info, &member](const std::string& word) { internal::read_word(info, word, member); }, help);
   } else {
     return app.add_option_function<std::string>(
         flag, [info, &member](const std::string& word) { internal::read_word(info, word, member); }, help);
@@ -54,8 +58,10 @@ FlagNames add_job_options(CLI::App& app, Job& job) {
     CLI::Option* option = add_option(app, flag, info, member);
     const std::vector<std::string> usual = internal::field_words(info, member);
     const bool needed = info.always && (usual.empty() || usual.front().empty());
-    option->required(needed)->type_name(type_name(info, member));
-    if (usual.size() == 1 && !usual.front().empty()) option->default_str(usual.front());
+    option->required(needed);
+    const bool flag_alone = info.spelling == internal::Spelling::kFlag;
+    if (!flag_alone) option->type_name(type_name(info, member));
+    if (!flag_alone && usual.size() == 1 && !usual.front().empty()) option->default_str(usual.front());
     if (!info.group.empty()) option->group(std::string(info.group));
     if (info.key == "shank_radius") radius = option;
     names[internal::field_name(info)] = flag;

@@ -79,7 +79,8 @@ Subcommand add_post(CLI::App& parser) {
   app->add_option("-o,--output", *output, "The program to write")->required();
   app->footer(
       "Example: flank example twisted-blade -o blade.step && flank fit blade.step --face F1 --tolerance 0.1 -o out; "
-      "flank post out --machine linuxcnc-xyzac-trt -o blade.ngc && flank verify out --nc blade.ngc --machine "
+      "flank post out --machine linuxcnc-xyzac-trt --spindle 8000 --feed 1000 -o blade.ngc && flank verify out --nc "
+      "blade.ngc --machine "
       "linuxcnc-xyzac-trt");
   const auto run = [job, output](const CommonOptions& common) {
     require_not_a_result(job->folder, *output);
@@ -89,12 +90,17 @@ Subcommand add_post(CLI::App& parser) {
     const Unwritten unwritten(inputs);
     require_place_of_motion(job->folder);
     const PostOutcome outcome = run_post(*job);
-    write_file(*output, outcome.program);
-    keep_motion(job->folder, outcome.motion);
+    // A program that cuts what it should not is not left lying about for somebody to run.
+    const bool written = outcome.acceptance.pass() || job->force;
+    if (written) {
+      write_file(*output, outcome.program);
+      keep_motion(job->folder, outcome.motion);
+    }
     if (common.json)
       fmt::print("{}", post_json(outcome));
     else if (!common.quiet)
-      fmt::print("{}  written to  {}\n", printable(post_text(outcome), true), printable(*output));
+      fmt::print("{}  {} {}\n", printable(post_text(outcome), true),
+                 written ? "written to " : "nothing is written without --force; not made: ", printable(*output));
     return exit_code(outcome.acceptance);
   };
   return {app, run, std::move(names)};

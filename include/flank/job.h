@@ -178,10 +178,10 @@ struct VerifyJob {
 /// Write the program with which a machine runs the path of a folder.
 struct PostJob {
   std::string folder;
-  std::string machine;               ///< name of a machine that comes with the program, or a file
-  std::optional<std::string> part;   ///< file; none: the job's
-  std::optional<std::string> setup;  ///< "x,y,z,a,b,c": where the part sits; none: searched
-  double feed_mm_min = 1000.0;       ///< of the contact along strips
+  std::string machine;                ///< name of a machine that comes with the program, or a file
+  std::optional<std::string> part;    ///< file; none: the job's
+  std::optional<std::string> setup;   ///< "x,y,z,a,b,c": where the part sits; none: searched
+  std::optional<double> feed_mm_min;  ///< of the contact along strips; needed but for a dry run or the speed "optimal"
   /// "feed": in a cavity the feed follows the engagement, elsewhere it is even; "constant"; "optimal": as fast as the machine can.
   std::string speed = "feed";
   std::optional<double>
@@ -191,7 +191,9 @@ struct PostJob {
   double link_clearance_mm = 5.0;        ///< of the tool from the part's surroundings on links
   double lift_mm = 2.0;                  ///< off the surface, before and after each strip
   std::string order = "shortest";        ///< of the strips: the shortest ways between them, or "given"
-  double spindle_rpm = 0.0;              ///< 0: the spindle is not started
+  std::optional<double> spindle_rpm;     ///< needed but for a dry run
+  bool dry = false;                      ///< the spindle stands still, and the program's header says so
+  bool force = false;  ///< write the program although it does not meet its request; its header says why
   bool operator==(const PostJob&) const = default;
 };
 

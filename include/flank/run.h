@@ -227,7 +227,7 @@ struct JointRange {
 
 /// A program and what it does.
 struct PostOutcome {
-  std::string program;           ///< the text
+  std::string program;           ///< the text; empty where it does not pass and PostJob::force does not ask for it
   std::string machine, nesting;  ///< name; "table-table", "head-table" or "head-head"
   std::string setup;             ///< "x,y,z,a,b,c", as it was given or found
   bool setup_found = false;      ///< it was searched
@@ -238,7 +238,7 @@ struct PostOutcome {
   double least_tilt_deg = 0.0;  ///< between the tool and the first rotary axis
   double minutes = 0.0, cutting_minutes = 0.0;
   std::vector<JointRange> joints;
-  Acceptance acceptance;  ///< collisions of links
+  Acceptance acceptance;  ///< collisions of links and of the machine, what the program's digits add
   std::vector<std::string> notes;
   std::string motion;  ///< motion.json: what the joints do over time, for the report (docs/schema/motion.md)
 };

@@ -121,7 +121,8 @@ void bind_verification(py::module_& module) {
           "What the verdict says nothing about: (figure, one line).")
       .def_property_readonly("text", &verify_text, "The verdict as a table for a terminal.");
   py::class_<PostOutcome, std::shared_ptr<PostOutcome>>(module, "Program", "A program of a machine and what it does.")
-      .def_readonly("program", &PostOutcome::program, "The program's text.")
+      .def_readonly("program", &PostOutcome::program,
+                    "The program's text; empty where it does not pass and force is not given.")
       .def_readonly("machine", &PostOutcome::machine, "Name of the machine.")
       .def_readonly("setup", &PostOutcome::setup, "Where the part sits: x,y,z,a,b,c; mm, degrees.")
       .def_readonly("poses", &PostOutcome::poses, "Planned poses of strips.")
@@ -131,10 +132,11 @@ void bind_verification(py::module_& module) {
       .def_readonly("minutes", &PostOutcome::minutes, "Machining time.")
       .def_readonly("notes", &PostOutcome::notes, "Warnings.")
       .def_property_readonly(
-          "passed", [](const PostOutcome& p) { return p.acceptance.pass(); }, "Whether its links collide with nothing.")
+          "passed", [](const PostOutcome& p) { return p.acceptance.pass(); },
+          "Whether its links cut and hit nothing, and its digits keep the tolerance.")
       .def_property_readonly(
           "reasons", [](const PostOutcome& p) { return pairs_of(p.acceptance.reasons); },
-          "Which links do: (figure, one line).")
+          "Why it does not: (figure, one line).")
       .def_property_readonly(
           "cautions", [](const PostOutcome& p) { return pairs_of(p.acceptance.cautions); },
           "What the verdict says nothing about: (figure, one line).")

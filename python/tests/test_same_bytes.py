@@ -49,10 +49,16 @@ def test_verify_and_report_leave_what_the_command_leaves(flank, folder, tmp_path
 
 
 def test_post_makes_the_program_of_the_command(flank, folder, tmp_path):
-    flank("post", folder, "--machine", "linuxcnc-xyzac-trt", "--feed", 800, "-o", tmp_path / "blade.ngc")
-    program = openflank.post(folder, "linuxcnc-xyzac-trt", feed_mm_min=800)
+    flank("post", folder, "--machine", "linuxcnc-xyzac-trt", "--spindle", 8000, "--feed", 800, "-o", tmp_path / "blade.ngc")
+    program = openflank.post(folder, "linuxcnc-xyzac-trt", spindle=8000, feed_mm_min=800)
     assert program.program == (tmp_path / "blade.ngc").read_text()
     assert program.passed and program.poses > 10 and program.machine == "linuxcnc-xyzac-trt"
+
+
+def test_a_post_without_a_spindle_is_asked_for(folder):
+    with pytest.raises(openflank.UsageError, match="spindle"):
+        openflank.post(folder, "linuxcnc-xyzac-trt", feed_mm_min=800)
+    assert "DRY RUN" in openflank.post(folder, "linuxcnc-xyzac-trt", dry=True).program
 
 
 def test_the_summary_is_that_of_the_command(fitted, folder):

@@ -54,7 +54,8 @@ class CliProgram : public Cli {
     return fs::path(::testing::TempDir()) / ("flank_cli_" + std::to_string(::getpid()) + "_program");
   }
   [[nodiscard]] std::vector<std::string> post(const std::string& machine) const {
-    return {"post", path("fit"), "--machine", machine, "--spindle", "5000", "-o", path(machine + ".nc")};
+    return {"post", path("fit"), "--machine", machine, "--spindle",
+            "8000", "--feed",    "1000",      "-o",    path(machine + ".nc")};
   }
   [[nodiscard]] std::vector<std::string> verify(const std::string& machine) const {
     return {"verify", path("fit"), "--nc", path(machine + ".nc"), "--machine", machine};
@@ -114,8 +115,8 @@ TEST_F(CliProgram, NamesLineAndAxisOfALimit) {
   const std::vector<std::string> far = joined(post("fanuc-ac"), {"--setup", "9000,0,0,0,0,0"});
   expect_refused(far, 3, "joint X would stand at");
   expect_refused(joined(post("fanuc-ac"), {"--setup", "9000,0"}), 2, "--setup");
-  expect_refused({"post", path("fit"), "--machine", "lathe", "-o", path("x.nc")}, 3, "--machine");
-  expect_refused({"post", path("fit"), "--machine", "fanuc-ac", "-o", path("fit/path.json")}, 3, "path.json");
+  expect_refused({"post", path("fit"), "--machine", "lathe", "--dry", "-o", path("x.nc")}, 3, "--machine");
+  expect_refused({"post", path("fit"), "--machine", "fanuc-ac", "--dry", "-o", path("fit/path.json")}, 3, "path.json");
 }
 
 // Outlines in the machine's file: what comes too near is named, by the post and by the judge of the program.
@@ -129,15 +130,61 @@ TEST_F(CliProgram, NamesWhatMeetsTheTable) {
   blocked.replace(blocked.find("cylinder_mm"), blocked.find("radius_mm") - blocked.find("cylinder_mm"),
                   "cylinder_mm = [0.0, 0.0, -70.0, 0.0, 0.0, 400.0]\n");
   write_file(root_ / "blocked.toml", blocked);
-  const Outcome posted = flank(
-      {"post", path("fit"), "--machine", path("blocked.toml"), "--setup", setup, "-o", path("blocked.nc"), "--json"});
+  const Outcome posted = flank({"post", path("fit"), "--machine", path("blocked.toml"), "--setup", setup, "--dry", "-o",
+                                path("blocked.nc"), "--json"});
   EXPECT_EQ(posted.exit_code, 1) << posted.err;
+  EXPECT_FALSE(fs::exists(root_ / "blocked.nc")) << "a program that meets the table is left for somebody to run";
   EXPECT_NE(posted.out.find("the tool and table come within"), std::string::npos) << posted.out;
   const Outcome judged =
       flank({"verify", path("fit"), "--nc", path("fanuc-ac.nc"), "--machine", path("blocked.toml"), "--json"});
   EXPECT_EQ(judged.exit_code, 1) << judged.err;
   EXPECT_NE(judged.out.find("fanuc-ac.nc: line "), std::string::npos) << judged.out;
   EXPECT_NE(judged.out.find("machine_bodies"), std::string::npos) << judged.out;
+}
+
+// A spindle that stands still is asked for, and said.
+TEST_F(CliProgram, NeedsSpindleAndFeedOrADryRun) {
+  make_result();
+  const std::vector<std::string> bare = {"post", path("fit"), "--machine", "fanuc-ac", "-o", path("bare.nc")};
+  expect_refused(bare, 2, "--spindle, 1/min, and --feed, or --dry");
+  expect_refused(joined(bare, {"--spindle", "8000"}), 2, "--feed");
+  expect_refused(joined(bare, {"--feed", "1000"}), 2, "--spindle");
+  expect_refused(joined(bare, {"--spindle", "0", "--feed", "1000"}), 2, "--spindle");
+  expect_refused(joined(bare, {"--dry", "--spindle", "8000"}), 2, "--dry");
+  EXPECT_FALSE(fs::exists(root_ / "bare.nc"));
+  ASSERT_EQ(flank(joined(bare, {"--dry"})).exit_code, 0);
+  const std::string dry = read_file(root_ / "bare.nc");
+  EXPECT_NE(dry.find("(DRY RUN: THE SPINDLE STANDS STILL)"), std::string::npos) << dry.substr(0, 600);
+  EXPECT_EQ(dry.find("M3"), std::string::npos);
+  ASSERT_EQ(flank(joined(bare, {"--spindle", "8000", "--speed", "optimal"})).exit_code, 0);
+  const std::string cuts = read_file(root_ / "bare.nc");
+  EXPECT_NE(cuts.find("S8000 M3"), std::string::npos);
+  EXPECT_EQ(cuts.find("DRY RUN"), std::string::npos);
+}
+
+// What a program's digits add counts: for every machine, with one digit too few.
+TEST_F(CliProgram, DigitsThatAreTooFewAreNoProgram) {
+  make_result();
+  const fs::path machines = fs::path(FLANK_SOURCE_DIR) / "share/machines";
+  for (const fs::directory_entry& entry : fs::directory_iterator(machines)) {
+    SCOPED_TRACE(entry.path());
+    std::string coarse = read_file(entry.path());
+    const std::size_t at = coarse.find("length_decimals = ");
+    ASSERT_NE(at, std::string::npos);
+    coarse.replace(at, std::string("length_decimals = 4").size(), "length_decimals = 0");
+    write_file(root_ / "coarse.toml", coarse);
+    const std::vector<std::string> post = {"post",   path("fit"), "--machine", path("coarse.toml"), "--spindle", "8000",
+                                           "--feed", "1000",      "-o",        path("coarse.nc")};
+    const Outcome refused = flank(joined(post, {"--json"}));
+    EXPECT_EQ(refused.exit_code, 1) << refused.err;
+    EXPECT_EQ(json::parse(refused.out).at("reasons").at(0).at("figure"), "rounding_mm") << refused.out;
+    EXPECT_FALSE(fs::exists(root_ / "coarse.nc"));
+    const Outcome forced = flank(joined(post, {"--force"}));
+    EXPECT_EQ(forced.exit_code, 1) << forced.err;
+    const std::string text = read_file(root_ / "coarse.nc");
+    EXPECT_NE(text.find("DOES NOT MEET ITS REQUEST: "), std::string::npos) << text.substr(0, 800);
+    fs::remove(root_ / "coarse.nc");
+  }
 }
 
 TEST_F(CliProgram, IsTheSameForAnyNumberOfThreads) {

@@ -71,7 +71,7 @@ const section = (name, entries) =>
   `[${name}]\n${Object.entries(entries).flatMap(([k, v]) => [v].flat().map((one) => `${k} = ${one}\n`)).join('')}`;
 
 /** The configuration of a machine: what `simulate` is given, as LinuxCNC reads it. */
-function configuration(folder, { kinematics: kins, joints }) {
+function configuration(folder, { kinematics: kins, joints, always = false }) {
   const letters = joints.map((j) => j.name).join(''), fastest = Math.max(...joints.map((j) => j.speed)), hardest = Math.max(...joints.map((j) => j.acceleration));
   let ini = section('EMC', { VERSION: '1.1', MACHINE: 'headless' }) + section('DISPLAY', { DISPLAY: './linuxcnc_ui.py' }) +
     section('TASK', { TASK: 'milltask', CYCLE_TIME: 0.001 }) + section('RS274NGC', writeSwitches(folder)) +
@@ -79,7 +79,7 @@ function configuration(folder, { kinematics: kins, joints }) {
     section('EMCIO', { EMCIO: 'io', CYCLE_TIME: 0.01, TOOL_TABLE: 'sim.tbl' }) + section('HAL', { HALFILE: 'sim.hal' }) +
     section('TRAJ', { NO_FORCE_HOMING: 1, COORDINATES: letters, LINEAR_UNITS: 'mm', ANGULAR_UNITS: 'degree', DEFAULT_LINEAR_VELOCITY: 100,
       MAX_LINEAR_VELOCITY: fastest, DEFAULT_LINEAR_ACCELERATION: hardest, MAX_LINEAR_ACCELERATION: hardest }) +
-    section('KINS', { KINEMATICS: kins === 'trivkins' ? `trivkins coordinates=${letters}` : `${kins} coordinates=${letters} sparm=identityfirst`, JOINTS: letters.length });
+    section('KINS', { KINEMATICS: kins === 'trivkins' ? `trivkins coordinates=${letters}` : `${kins} coordinates=${letters}${always ? '' : ' sparm=identityfirst'}`, JOINTS: letters.length });
   joints.forEach((j, i) => {
     const [low, high] = j.travel ?? [-1e6, 1e6];
     const axis = { TYPE: j.kind === 'rotary' ? 'ANGULAR' : 'LINEAR', HOME: 0, MAX_VELOCITY: j.speed, MAX_ACCELERATION: j.acceleration, MIN_LIMIT: low, MAX_LIMIT: high };
@@ -105,7 +105,8 @@ function hal({ kinematics: kins, joints, pins }) {
 
 /**
  * Runs a program to its end in a simulated machine: { outcome, messages, line, joints }. It takes as long as the machine would.
- * machine: { kinematics, pins, joints: [{ name, kind, travel, speed, acceleration }], tool: { number, length } }; offset: where G54 is.
+ * machine: { kinematics, pins, joints: [{ name, kind, travel, speed, acceleration }], tool: { number, length }, always: it moves by its
+ * kinematics without a word }; offset: where G54 is.
  * LinuxCNC does not run as root; then it runs as nobody.
  */
 export function simulate(folder, text, machine, offset = [0, 0, 0], limit = 250) {
@@ -130,6 +131,17 @@ export function simulate(folder, text, machine, offset = [0, 0, 0], limit = 250)
 }
 
 const apart = (a, b) => Math.max(...a.map((v, i) => Math.abs(v - b[i])));
+
+/** The farthest that a joint goes in a millisecond, as a share of what its speed allows: { share, joint, row }. */
+export function fastest(rows, joints) {
+  let worst = { share: 0 };
+  for (let row = 1; row < rows.length; ++row)
+    joints.forEach(({ name, speed }, k) => {
+      const share = Math.abs(rows[row][k] - rows[row - 1][k]) / (speed * 1e-3);
+      if (share > worst.share) worst = { share, joint: name, row };
+    });
+  return worst;
+}
 
 /** Samples without those at which the machine stood still. */
 export const moving = (rows) => rows.filter((r, i) => i === 0 || apart(r, rows[i - 1]) > 0);

@@ -7,7 +7,7 @@ import { dirname, join } from 'node:path';
 import { before, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { BINARY, flank, json, must, root, without } from './folder.mjs';
-import { forwardOf, interpret, moving, poses, simulate, stated, whyNot } from './linuxcnc.mjs';
+import { fastest, forwardOf, interpret, moving, poses, simulate, stated, whyNot } from './linuxcnc.mjs';
 
 const why = BINARY ? whyNot() : 'FLANK_BINARY does not name the command';
 if (why) {
@@ -16,6 +16,7 @@ if (why) {
 }
 
 const EXTRA_OVERCUT = 0.002;  // mm beyond the planned path's
+const MOST_OF_SPEED = 1.05;   // in a millisecond: the log's own ticks are not quite even
 const SAME = 1e-4;            // mm and degrees: the interpreter prints four decimals
 const GOLDEN = join(dirname(fileURLToPath(import.meta.url)), '../machine/nc/golden');
 const TOOL = { number: 3, length: 62.5 };  // of the golden programs
@@ -103,7 +104,7 @@ function toPart([x, y, z, ...angles], offset, pose) {
 
 /** The samples from the first to the last point that the program reaches at feed; `rows` are what its words state. */
 function cutting(rows, text, letters) {
-  const feeds = stated(text, letters).filter((m) => m[0] === 'FEED').map((m) => m.slice(1));
+  const feeds = stated(text, letters).filter((m) => m[0] === 'FEED' && !m.includes(null)).map((m) => m.slice(1));
   const near = (target) => (row) => Math.max(...row.map((v, k) => Math.abs(v - target[k]))) < 0.02;
   const first = rows.findIndex(near(feeds[0])), last = rows.findLastIndex(near(feeds.at(-1)));
   assert.ok(first >= 0 && last > first, `the machine was not seen at the first and the last point: ${first}, ${last}`);
@@ -120,14 +121,17 @@ function judged(folder, name, rows) {
 }
 
 /** Posts the folder's path for a machine, lets LinuxCNC run it, and compares what it cut with what was planned. */
-function expectAsPlanned(folder, name, [kinematics, pins], options = []) {
+function expectAsPlanned(folder, name, [kinematics, pins], options = [], always = false) {
   const file = join(root, `program-${++count}.ngc`);
-  must('post', folder, '--machine', name, '-o', file, '--quiet', ...options);
+  must('post', folder, '--machine', name, '--spindle', '8000', ...(options.includes('--feed') ? [] : ['--feed', '1000']), '-o', file, '--quiet', ...options);
   const text = readFileSync(file, 'utf8'), { setup, number, length, offset } = header(text);
-  const tool = { number, length }, joints = name === 'joint-ac', machine = machineOf(name, kinematics, pins, tool);
+  const tool = { number, length }, joints = name === 'joint-ac', machine = { ...machineOf(name, kinematics, pins, tool), always };
   expectSameMoves(text, tool);
   const run = simulate(fresh(), text, joints ? { ...machine, kinematics: 'trivkins', pins: [] } : machine, joints ? [0, 0, 0] : setup.slice(0, 3));
   assert.equal(run.outcome, 'end', `${run.line}: ${run.messages.join('\n')}`);
+  // From the first sample to the last: nothing jumps where kinematics or the tool's length are switched.
+  const jump = fastest(run.joints, machine.joints);
+  assert.ok(jump.share <= MOST_OF_SPEED, `joint ${jump.joint} goes ${jump.share.toFixed(2)} times as far in a millisecond as it can, sample ${jump.row}`);
   const rows = moving(run.joints), letters = machine.joints.map((j) => j.name).join('');
   // joint-ac counts its rotary axes the other way round.
   const done = poses(joints ? rows.map(([x, y, z, a, c]) => [x, y, z, -a, -c]) : rows, forwardOf(machine));
@@ -148,6 +152,11 @@ test('a blade is planned', () => {
 });
 test('the blade on a trunnion of A and C', () => expectAsPlanned(blade, 'linuxcnc-xyzac-trt', XYZAC));
 test('the blade on a trunnion of B and C', () => expectAsPlanned(blade, 'linuxcnc-xyzbc-trt', XYZBC));
+test('the blade where the kinematics are never switched', () => {
+  const { folder: machines } = JSON.parse(must('machine', '--list', '--json')), file = join(root, 'always.toml');
+  writeFileSync(file, readFileSync(join(machines, 'linuxcnc-xyzac-trt.toml'), 'utf8').replace(/^tcp_o.*\n/gm, ''));
+  expectAsPlanned(blade, file, XYZAC, [], true);
+});
 test('the blade in joint coordinates', () => expectAsPlanned(blade, 'joint-ac', ['xyzac-trt-kins', []]));
 
 const data = process.env.FLANK_DATA ?? join(dirname(fileURLToPath(import.meta.url)), '../../../shared/data');

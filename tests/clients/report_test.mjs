@@ -108,7 +108,7 @@ test('what a machine does is shown once there is a program', async () => {
   let page = await open(copy);
   assert.equal(await page.value(`document.querySelector('#machine') === null`), true);
   await page.close();
-  must('post', copy, '--machine', 'linuxcnc-xyzac-trt', '-o', join(root, 'posted.ngc'), '--quiet');
+  must('post', copy, '--machine', 'linuxcnc-xyzac-trt', '--dry', '-o', join(root, 'posted.ngc'), '--quiet');
   must('report', copy, '--quiet');
   page = await open(copy);
   const { joints, time_s: times, cutting } = json(copy, 'motion.json');

@@ -78,10 +78,11 @@ Addresses members(const TrochoidJob& job) {
   return all;
 }
 Addresses members(const PostJob& job) {
-  const auto& [folder, machine, part, setup, feed, speed, most, deviation, tool_length, clearance, lift, order,
-               spindle] = job;
+  const auto& [folder, machine, part, setup, feed, speed, most, deviation, tool_length, clearance, lift, order, spindle,
+               dry, force] = job;
   Addresses all;
-  add(all, folder, machine, part, setup, feed, speed, most, deviation, tool_length, clearance, lift, order, spindle);
+  add(all, folder, machine, part, setup, feed, speed, most, deviation, tool_length, clearance, lift, order, spindle,
+      dry, force);
   return all;
 }
 Addresses members(const DesignJob& job) {

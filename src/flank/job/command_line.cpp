@@ -47,6 +47,8 @@ std::vector<std::string> arguments(const Job& job) {
     for (const std::string& word : field.words) {
       if (!flag.starts_with('-')) {
         all.push_back(word);
+      } else if (field.info.spelling == Spelling::kFlag) {
+        all.push_back(flag);
       } else if (word.starts_with('-') || word.empty()) {
         // A value that begins with a minus could be taken for an option.
         all.push_back(flag + "=" + word);
@@ -67,6 +69,8 @@ std::string command(const Job& job) {
     for (const std::string& word : field.words) {
       if (!flag.starts_with('-')) {
         text += " " + shell_quoted(word);
+      } else if (field.info.spelling == Spelling::kFlag) {
+        text += " " + flag;
       } else {
         // A value that begins with a minus could be taken for an option.
         text += " " + flag + (word.starts_with('-') || word.empty() ? "=" : " ") + shell_quoted(word);

@@ -25,6 +25,7 @@ enum class Spelling {
   kFile,         ///< the name of a file or folder: absolute in job.json
   kFileOrText,   ///< a file if there is one of that name; then as kFile
   kOnOff,        ///< of a bool
+  kFlag,         ///< of a bool: the option alone, or nothing
   kSign,         ///< of a side: + or -
   kAutoOrCount,  ///< 0 is "auto"
 };
@@ -81,7 +82,7 @@ inline constexpr Accepted kWorkOffset{"a number from 1 to 99 is needed",
                                       [](double x) { return x >= 1.0 && x <= 99.0; }};
 inline constexpr Accepted kToolNumber{"a number from 1 to 1000000 is needed",
                                       [](double x) { return x >= 1.0 && x <= 1e6; }};
-inline constexpr Accepted kTurns{"a number >= 0 is needed", not_negative};
+inline constexpr Accepted kTurns{"a number > 0 is needed", positive};
 inline constexpr Accepted kEngagement{"an angle above 5 and up to 180 degrees is needed",
                                       [](double x) { return x > 5.0 && x <= 180.0; }};
 inline constexpr Accepted kCut{"there are climb and conventional", nullptr,
@@ -352,7 +353,9 @@ void visit_fields(Job& job, Visitor&& visit) {
                 "degrees; default: searched so that the machine reaches all of it",
                 kAny},
       job.setup);
-  visit(FieldInfo{"feed", "mm/min", "", "Feed of the contact along the strips", kRate}, job.feed_mm_min);
+  visit(FieldInfo{"feed", "mm/min", "",
+                  "Feed of the contact along the strips; needed, but for a dry run (1000) and --speed optimal", kRate},
+        job.feed_mm_min);
   visit(FieldInfo{"speed", "", "",
                   "feed: at the feed wherever the axes can, and in a cavity faster where less is engaged, slower where "
                   "more is, so that the thickest chip stays the same; constant: at the feed; optimal: as fast as the "
@@ -368,7 +371,15 @@ void visit_fields(Job& job, Visitor&& visit) {
   visit(FieldInfo{"tool_length", "mm", "", "From the gauge line to the controlled point; default: the machine's",
                   kLength},
         job.tool_length_mm);
-  visit(FieldInfo{"spindle", "", "", "Spindle speed, 1/min; 0: the spindle is not started", kTurns}, job.spindle_rpm);
+  visit(FieldInfo{"spindle", "", "", "Spindle speed, 1/min; needed, but for a dry run", kTurns}, job.spindle_rpm);
+  visit(FieldInfo{"dry", "", "", "A dry run: the spindle stands still, and the program's header says so", kAny,
+                  Spelling::kFlag},
+        job.dry);
+  visit(FieldInfo{"force", "", "",
+                  "Write the program although it does not meet its request; its header says why, and the exit code is "
+                  "still 1",
+                  kAny, Spelling::kFlag},
+        job.force);
   visit(FieldInfo{"link_clearance", "mm", kLinks, "Distance from the part's surroundings between strips", kLength},
         job.link_clearance_mm);
   visit(FieldInfo{"lift", "mm", kLinks, "Way off the surface before and after each strip", kLength}, job.lift_mm);

@@ -44,25 +44,40 @@ class Linker {
       : center_(options.keep_out.center()),
         radius_(kChordRoom * (0.5 * options.keep_out.diagonal() + options.tool_radius + options.clearance)) {}
 
-  /// From a pose of contact by its lead, then out along the axis to the sphere.
+  /// From a pose of contact by its lead, then out of the part to the sphere.
   std::vector<Pose> way_out(const Pose& contact, const Lead& lead, Safe& safe) const {
     std::vector<Pose> way = lead_out(contact, lead);
-    Pose p = way.back();
-    const Vec3 d = p.tip - center_;
-    const double along = d.dot(p.axis), inside = radius_ * radius_ - d.squaredNorm() + along * along;
-    // Where the line leaves the sphere; where it misses it, its nearest point: the rest of the tool is clear from there.
-    const double run = std::max(0.0, -along + (inside > 0.0 ? std::sqrt(inside) : 0.0));
+    const std::vector<Pose> rest = to_sphere(way.back(), lead.out, safe);
+    way.insert(way.end(), rest.begin() + 1, rest.end());
+    return way;
+  }
+
+  /// That pose first. Zero: along the axis.
+  std::vector<Pose> to_sphere(const Pose& from, const Vec3& out, Safe& safe) const {
+    std::vector<Pose> way{from};
+    Pose p = from;
+    const bool along_axis = out.isZero();
+    const double run = along_axis ? run_along_axis(p) : run_across(p, out);
     if (run > 0.0) {
-      p.tip += run * p.axis;
+      p.tip += run * (along_axis ? p.axis : out);
       way.push_back(p);
     }
     safe.outward = (p.tip - center_).normalized();
     safe.axis = p.axis;
+    // Beside the sphere and pointing past it: turned outward where it is, away from the part, before it comes near.
+    if (!along_axis && safe.outward.dot(safe.axis) < 0.0) {
+      const int steps = static_cast<int>(std::ceil(angle_of(p.axis, safe.outward) / kStep));
+      for (int k = 1; k <= steps; ++k)
+        way.push_back({p.tip, on_circle(p.axis, safe.outward, static_cast<double>(k) / steps)});
+      safe.axis = safe.outward;
+    }
     const Pose there = at(safe);
     // Where the line misses the sphere, or begins beyond it, the tool goes straight to the sphere from here.
     if ((there.tip - p.tip).norm() > 1e-9) way.push_back(there);
     return way;
   }
+
+  [[nodiscard]] Safe place(const Pose& p) const { return {(p.tip - center_).normalized(), p.axis}; }
 
   [[nodiscard]] Pose at(const Safe& s) const { return {center_ + radius_ * s.outward, s.axis}; }
 
@@ -80,6 +95,37 @@ class Linker {
 
  private:
   static constexpr int kLooks = 64;
+
+  /// Where the line leaves the sphere; where it misses it, its nearest point: the rest of the tool is clear from there.
+  [[nodiscard]] double run_along_axis(const Pose& p) const {
+    const Vec3 d = p.tip - center_;
+    const double along = d.dot(p.axis), inside = radius_ * radius_ - d.squaredNorm() + along * along;
+    return std::max(0.0, -along + (inside > 0.0 ? std::sqrt(inside) : 0.0));
+  }
+
+  /// The tip and all that is above it, without an end, is outside.
+  [[nodiscard]] bool clear(const Pose& p) const {
+    const Vec3 d = p.tip - center_;
+    return (d + std::max(0.0, -d.dot(p.axis)) * p.axis).norm() >= radius_;
+  }
+
+  /// So far along a direction that the tool is outside from there on.
+  [[nodiscard]] double run_across(const Pose& p, const Vec3& out) const {
+    constexpr int kSteps = 256, kHalvings = 40;
+    const auto clear_at = [&](double run) { return clear({p.tip + run * out, p.axis}); };
+    const double far = 2.0 * radius_ + (p.tip - center_).norm();
+    double low = 0.0, high = far;
+    for (int k = kSteps; k-- > 0;)
+      if (!clear_at(far * k / kSteps)) {
+        low = far * k / kSteps;
+        high = far * (k + 1) / kSteps;
+        break;
+      } else if (k == 0) {
+        return 0.0;
+      }
+    for (int k = 0; k < kHalvings; ++k) (clear_at(0.5 * (low + high)) ? high : low) = 0.5 * (low + high);
+    return high;
+  }
 
   static Safe between(const Safe& from, const Safe& to, double t) {
     return {on_circle(from.outward, to.outward, t), on_circle(from.axis, to.axis, t)};
@@ -105,8 +151,10 @@ class Linker {
 
 // A cavity's cycles follow each other in the same pose: with links between them the tool would leave the cavity each
 // time.
-std::vector<Pose> lead_out(const Pose& contact, const Lead& lead) {
-  std::vector<Pose> way{contact};
+std::vector<Pose> lead_out(const Pose& first, const Lead& lead) {
+  std::vector<Pose> way{first};
+  way.insert(way.end(), lead.back.begin(), lead.back.end());
+  const Pose contact = way.back();
   const double lift = lead.off.norm();
   if (!(lift > 0.0)) return way;
   if (lead.along.isZero()) {
@@ -250,6 +298,27 @@ Path with_links(const Path& path, const LinkOptions& options) {
   }
   if (count > 0) result.strips.push_back({++id, kLinkKind, "", way});
   return result;
+}
+
+std::vector<Pose> way_to_sphere(const Pose& from, const Lead& lead, const LinkOptions& options) {
+  Safe safe;
+  return Linker(options).to_sphere(from, lead.out, safe);
+}
+
+Pose above(const LinkOptions& options, const Vec3& up) { return Linker(options).at({up, up}); }
+
+Path upright(Path linked, const LinkOptions& options, const Vec3& up) {
+  if (linked.strips.empty()) return linked;
+  const Linker linker(options);
+  const Safe top{up, up};
+  std::vector<Pose>&first = linked.strips.front().poses, &last = linked.strips.back().poses;
+  std::vector<Pose> begin{linker.at(top)};
+  linker.round(top, linker.place(first.front()), begin);
+  // The last of them is the pose with which the link has begun, but for rounding.
+  if (begin.size() > 1) begin.pop_back();
+  first.insert(first.begin(), begin.begin(), begin.end());
+  linker.round(linker.place(last.back()), top, last);
+  return linked;
 }
 
 }  // namespace flank::internal

@@ -1,4 +1,4 @@
-/// Moves before, between and after strips: off the surface, out along the tool, round the part on a safe sphere, and back.
+/// Moves before, between and after strips: off the surface, out of the part, round it on a safe sphere, and back.
 #pragma once
 
 #include <vector>
@@ -11,9 +11,11 @@ namespace flank::internal {
 struct Lead {
   Vec3 off = Vec3::Zero();    ///< mm, across the axis, from the surface; zero: straight along the axis
   Vec3 along = Vec3::Zero();  ///< unit vector across `off` that goes on past the strip's end; zero: straight off
+  Vec3 out = Vec3::Zero();    ///< unit vector along which the tool then leaves the part; zero: along its axis
+  std::vector<Pose> back{};   ///< run before all of that: back along the strip, to where the tool can leave
 };
 
-/// The poses of a lead, the contact first. Past the end on an arc tangent to the motion, so that no mark is left where the
+/// The poses of a lead up to where the tool leaves the part, the contact first, then those of `back`. Past the end on an arc tangent to the motion, so that no mark is left where the
 /// tool would turn off, of 60 degrees and radius 2 |off|; or straight off.
 [[nodiscard]] std::vector<Pose> lead_out(const Pose& contact, const Lead& lead);
 
@@ -26,7 +28,7 @@ struct LinkOptions {
   Box3 keep_out;             ///< of the part and what stands around it, in the part's frame
   double tool_radius = 0.0;  ///< largest of flank, shank and holder, mm
   double clearance = 5.0;    ///< mm, > 0: between the tool and keep_out on the sphere
-  /// One for each strip, in the part's frame; after a lead the tool runs along its axis.
+  /// One for each strip, in the part's frame.
   std::vector<Lead> lead_at_start, lead_at_end;
 };
 
@@ -46,5 +48,16 @@ struct KnownPath {
 /// links follow them. On the sphere the tool points away from the part, so that nothing above its tip comes nearer.
 /// No link leaves a strip's first or last pose by any way but these.
 [[nodiscard]] Path with_links(const Path& path, const LinkOptions& options);
+
+/// From a lead's last pose to where the whole tool, and all that is above it, is outside of the sphere: that pose first, the
+/// last one on the sphere, pointing outward.
+[[nodiscard]] std::vector<Pose> way_to_sphere(const Pose& from, const Lead& lead, const LinkOptions& options);
+
+/// Where the tool stands above the part: on the sphere, in the direction in which it points.
+[[nodiscard]] Pose above(const LinkOptions& options, const Vec3& up);
+
+/// The path of with_links, begun and ended above the part with the tool along `up` (unit): the way of the first and of the
+/// last link goes on round the sphere.
+[[nodiscard]] Path upright(Path linked, const LinkOptions& options, const Vec3& up);
 
 }  // namespace flank::internal

@@ -9,6 +9,7 @@
 #include "flank/error.h"
 #include "flank/machine/feed.h"
 #include "flank/machine/links.h"
+#include "flank/machine/nc/write/timed_blocks.h"
 
 namespace flank::internal {
 namespace {
@@ -36,7 +37,7 @@ class Poster {
   Post run() {
     place_poses();
     const JointChoice choice = choose_joints(machine_, kinematics_, poses_);
-    post_.least_sine = choice.least_sine;
+    note_least_sine();
     post_.flips = choice.flips;
     if (choice.unreachable) return refused(*choice.unreachable);
     for (std::size_t k = 0; k < path_.strips.size(); ++k)
@@ -61,6 +62,13 @@ class Poster {
     }
     first_.push_back(poses_.size());
     if (poses_.empty()) throw InternalError("a path without poses");
+  }
+
+  /// Of what is cut: programs begin and end upright, which is singular on most machines and does no harm there.
+  void note_least_sine() {
+    for (std::size_t k = 0; k < path_.strips.size(); ++k)
+      for (std::size_t i = first_[k]; i < first_[k + 1] && !is_link(path_.strips[k]); ++i)
+        post_.least_sine = std::min(post_.least_sine, kinematics_.sine_to_first(poses_[i].pose.axis));
   }
 
   /// Names the pose by its strip and its index there, instead of its index in the whole path.
@@ -237,21 +245,6 @@ class Poster {
     return move;
   }
 
-  /// What the program states as the feed of a block that takes so long.
-  double feed_of(const NcMove& from, const NcMove& to, const BlockEnd& a, const BlockEnd& b, double seconds) const {
-    // A block of no length takes no time: F stays finite.
-    // A word holds at most 1e6 (nc_number.h): a block shorter than that allows is run a little slower.
-    constexpr double kShortest = 1e-4;
-    if (machine_.feed_mode == NcFeedMode::kInverseTime) return 60.0 / std::max(seconds, kShortest);
-    const double way = (to.position - from.position).norm();
-    // Where the controlled point stands still, controls take the feed for that of the rotary axes, degrees per minute.
-    double turn = 0.0;
-    for (const std::size_t k : machine_.rotary) turn = std::max(turn, std::abs(b.joints[k] - a.joints[k]) * kDegrees);
-    const double per_minute = (way > 1e-6 ? way : turn) / std::max(seconds, 1e-9) * 60.0;
-    // Controls refuse F0, and three decimals would print it.
-    return std::max(per_minute, 1e-3);
-  }
-
   void write_program() {
     NcProgram& program = post_.program;
     program.header.machine = machine_.name;
@@ -268,6 +261,16 @@ class Poster {
     program.join = machine_.join;
     program.feed_mode = machine_.feed_mode;
     program.rotary = machine_.rotary_joint(0).name + machine_.rotary_joint(1).name;
+    add_moves();
+    program.end_rotary = upright_end();
+    // Held back by no more than blocks deviate anyway.
+    const double held = state_feeds(program, times_, machine_.dialect, options_.deviation);
+    post_.rounding_mm = rounding() + held;
+  }
+
+  /// The blocks of all strips, and how long each shall take.
+  void add_moves() {
+    NcProgram& program = post_.program;
     std::size_t block = 0;
     const BlockEnd* before = nullptr;
     for (std::size_t k = 0; k < strips_.size(); ++k) {
@@ -276,22 +279,45 @@ class Poster {
       for (std::size_t i = before == nullptr ? 0 : 1; i < ends.size(); ++i) {
         NcMove move = move_to(ends[i]);
         move.strip = static_cast<std::int32_t>(k);
+        BlockTime time;
         // The very first move comes from anywhere, at rapid; its angles are where the program begins.
         if (before == nullptr) {
           move.kind = NcKind::kRapid;
           move.joined = false;
-          program.start_rotary =
-              Vec2(ends[i].joints[machine_.rotary[0]], ends[i].joints[machine_.rotary[1]]) * kDegrees;
+          program.start_rotary = rotary_deg(ends[i].joints);
         } else {
-          const double seconds = block_seconds_[block++];
-          move.feed = feed_of(program.moves.back(), move, *before, ends[i], seconds);
-          if (!is_link(path_.strips[k])) post_.cutting_s += seconds;
+          time = {block_seconds_[block++],
+                  (rotary_deg(ends[i].joints) - rotary_deg(before->joints)).cwiseAbs().maxCoeff()};
+          if (!is_link(path_.strips[k])) post_.cutting_s += time.seconds;
         }
         program.moves.push_back(move);
+        times_.push_back(time);
         before = &ends[i];
       }
     }
-    post_.rounding_mm = rounding();
+  }
+
+  /// In the order of programs.
+  [[nodiscard]] Vec2 rotary_deg(const JointValues& q) const {
+    return Vec2(q[machine_.rotary[0]], q[machine_.rotary[1]]) * kDegrees;
+  }
+
+  /// The rotary axes at zero but for whole turns, by the nearest way: unwinding would take as long as winding. Where the travel
+  /// has no such place they stay.
+  [[nodiscard]] Vec2 upright_end() const {
+    constexpr double kTurnDeg = 360.0;
+    Vec2 end = rotary_deg(strips_.back().blocks.back().joints);
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Joint& joint = machine_.rotary_joint(k);
+      double& value = end(static_cast<int>(k));
+      for (double turns = std::round(value / kTurnDeg), step = turns > 0.0 ? -1.0 : 1.0, tries = std::abs(turns) + 1.0;
+           tries > 0.0; turns += step, tries -= 1.0)
+        if (const double at = turns * kTurnDeg; at / kDegrees >= joint.low && at / kDegrees <= joint.high) {
+          value = at;
+          break;
+        }
+    }
+    return end;
   }
 
   /// What the digits of the program move the tool by, at most.
@@ -326,6 +352,7 @@ class Poster {
   std::vector<double> off_path_;  ///< of each node, mm
   std::int32_t blocks_ = 0;
   std::vector<double> block_seconds_;
+  std::vector<BlockTime> times_;  ///< of each move
   Post post_;
 };
 

@@ -95,8 +95,8 @@ std::vector<std::array<double, 3>> tilted_turns(const Vec3& spindle, const std::
 class Search {
  public:
   Search(const Machine& machine, const Kinematics& kinematics, const std::vector<Pose>& poses,
-         std::span<const SolidBody> solids)
-      : machine_(machine), kinematics_(kinematics), poses_(thinned(poses)), solids_(solids) {
+         std::span<const SolidBody> solids, const UprightPlace& upright)
+      : machine_(machine), kinematics_(kinematics), poses_(thinned(poses)), solids_(solids), upright_(upright) {
     for (const Pose& p : poses_) box_.add(p.tip);
   }
 
@@ -148,6 +148,10 @@ class Search {
     ++found_.tried;
     std::vector<MachinePose> placed;
     for (const Pose& p : poses_) placed.push_back({setup.to_work(p), !placed.empty()});
+    if (std::string why = not_upright(setup); !why.empty()) {
+      found_.reason = std::move(why);
+      return Outcome::kPlace;
+    }
     const JointChoice choice = choose_joints(machine_, kinematics_, placed);
     if (choice.unreachable) {
       found_.reason = choice.unreachable->reason;
@@ -169,6 +173,13 @@ class Search {
       found_.least_sine = choice.least_sine;
     }
     return Outcome::kFits;
+  }
+
+  /// Why the machine cannot stand above the part with its rotary joints at zero; empty if it can, or need not.
+  std::string not_upright(const WorkSetup& setup) const {
+    if (!upright_) return {};
+    const Vec3 up = setup.rotation().transpose() * kinematics_.direction({0.0, 0.0});
+    return travel_violation(machine_, kinematics_.joints(setup.to_work(upright_(up)).tip, {0.0, 0.0}));
   }
 
   /// At the poses alone: the whole motion is judged when it is known.
@@ -201,6 +212,7 @@ class Search {
   const Kinematics& kinematics_;
   std::vector<Pose> poses_;
   std::span<const SolidBody> solids_;
+  const UprightPlace& upright_;
   Box3 box_;
   double worth_ = 0.0;
   FoundSetup found_;
@@ -209,8 +221,8 @@ class Search {
 }  // namespace
 
 FoundSetup search_setup(const Machine& machine, const Kinematics& kinematics, const std::vector<Pose>& poses,
-                        std::span<const SolidBody> solids) {
-  return Search(machine, kinematics, poses, solids).run();
+                        std::span<const SolidBody> solids, const UprightPlace& upright) {
+  return Search(machine, kinematics, poses, solids, upright).run();
 }
 
 }  // namespace flank::internal

@@ -35,7 +35,8 @@ TEST(PathCls, ReadsBackExactly) {
 }
 
 TEST(PathCls, HasItsWordsInOrderAndShortLines) {
-  const std::string text = path_to_cls(awkward_path(), cone(2, 0.05), {"BLADE 1", "blade-tool.json", 4, 6000, 800, 25});
+  const std::string text =
+      path_to_cls(awkward_path(), cone(2, 0.05), {"BLADE 1", "blade-tool.json", 4, 6000.0, 800.0, 25});
   std::size_t at = 0;
   for (const char* word : {"PARTNO BLADE 1\n", "UNITS/MM\n", "MULTAX/ON\n", "PPRINT TOOL PROFILE blade-tool.json\n",
                            "CUTTER/", "LOADTL/4\n", "SPINDL/6000.0000,CLW\n", "RAPID\n", "GOTO/",
@@ -56,8 +57,14 @@ TEST(PathCls, EntersAndLeavesAlongTheToolAxis) {
   Path path;
   path.strips.push_back({1, "flank", "F1", {{Vec3(1, 2, 3), Vec3(0, 1, 0)}, {Vec3(2, 2, 3), Vec3(0, 0, 1)}}});
   const std::string text = path_to_cls(path, cone(2, 0.05));
-  EXPECT_NE(text.find("RAPID\nGOTO/1.0,52.0,3.0,0.0,1.0,0.0\nFEDRAT"), std::string::npos) << text;
-  EXPECT_NE(text.find("RAPID\nGOTO/2.0,2.0,53.0,0.0,0.0,1.0\nSPINDL/OFF"), std::string::npos) << text;
+  EXPECT_NE(text.find("RAPID\nGOTO/1.0,52.0,3.0,0.0,1.0,0.0\nGOTO/1.0,2.0,3.0,"), std::string::npos) << text;
+  EXPECT_NE(text.find("RAPID\nGOTO/2.0,2.0,53.0,0.0,0.0,1.0\nFINI"), std::string::npos) << text;
+}
+
+TEST(PathCls, InventsNeitherSpindleNorFeed) {
+  const std::string text = path_to_cls(awkward_path(), cone(2, 0.05));
+  for (const char* word : {"SPINDL", "FEDRAT"}) EXPECT_EQ(text.find(word), std::string::npos) << text;
+  EXPECT_NE(text.find("PPRINT NO SPINDLE SPEED IS SET\nPPRINT NO FEED IS SET\n"), std::string::npos) << text;
 }
 
 TEST(PathCls, NearestCutterOfAConeIsTheCone) {

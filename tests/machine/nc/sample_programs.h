@@ -62,7 +62,7 @@ inline NcHeader sample_header() {
   return h;
 }
 
-/// Two strips with a link between them, seven moves.
+/// Two strips with a link between them, nine moves; upright at both ends, wound up by two turns.
 inline NcProgram sample_program(const NcCase& c) {
   NcProgram p;
   p.header = sample_header();
@@ -71,7 +71,8 @@ inline NcProgram sample_program(const NcCase& c) {
   p.feed_mode = c.feed_mode;
   p.strips = {{1, "flank", "F1"}, {2, "flank", "F1,F3"}};
   const bool vector = c.positions == NcPositions::kTipVector;
-  if (vector) p.start_rotary = Vec2(-30.0, 45.0);
+  if (vector) p.start_rotary = Vec2(0.0, 45.0);
+  p.end_rotary = Vec2(0.0, -360.0);
   const double feed = c.feed_mode == NcFeedMode::kInverseTime ? 12.5 : 800.0;
   const auto add = [&](NcKind kind, int strip, Vec3 position, Vec2 rotary, Vec3 axis, double f) {
     NcMove m{.kind = kind, .joined = !p.moves.empty(), .strip = strip};
@@ -81,13 +82,15 @@ inline NcProgram sample_program(const NcCase& c) {
     p.moves.push_back(m);
   };
   const Vec3 tilted(0.6, 0.0, 0.8), upright(0.0, 0.0, 1.0);
-  add(NcKind::kRapid, -1, {10.0, -20.0, 80.0}, {-30.0, 45.0}, tilted, 0.0);
+  add(NcKind::kRapid, -1, {10.0, -20.0, 80.0}, {0.0, 45.0}, upright, 0.0);
+  add(NcKind::kFeed, -1, {10.0, -20.0, 60.0}, {-30.0, 45.0}, tilted, 4.0 * feed);
   add(NcKind::kFeed, 0, {10.0, -20.0, 12.5}, {-30.0, 45.0}, tilted, feed);
   add(NcKind::kFeed, 0, {12.0625, -18.0, 12.25}, {-29.5, 47.12345}, tilted, feed);
   add(NcKind::kFeed, 0, {14.0, -16.0, 12.0}, {0.0, 50.0}, upright, 1.5 * feed);
   add(NcKind::kRapid, -1, {14.0, -16.0, 80.0}, {0.0, 50.0}, upright, 0.0);
-  add(NcKind::kRapid, 1, {-5.0, 0.0, 80.0}, {0.0, -360.0}, upright, 0.0);
+  add(NcKind::kRapid, 1, {-5.0, 0.0, 80.0}, {0.0, 50.0}, upright, 0.0);
   add(NcKind::kFeed, 1, {-5.5, 0.0001, -0.5}, {0.5, -361.0}, {0.0, 0.6, 0.8}, 1.5 * feed);
+  add(NcKind::kFeed, -1, {-5.5, 0.0, 80.0}, {0.0, -361.0}, upright, 4.0 * feed);
   return p;
 }
 
@@ -121,8 +124,7 @@ inline NcProgram random_program(Random& random, const NcCase& c, int count) {
   NcProgram p = sample_program(c);
   p.moves.clear();
   p.strips = {{1, "flank", "F1"}, {2, "link", ""}, {7, "entry", "F2,F3"}};
-  if (c.positions != NcPositions::kTipVector && random.uniform() < 0.5)
-    p.start_rotary = Vec2(random.uniform() * 100, -3.0);
+  p.end_rotary.reset();
   const bool pieces = c.dialect.language != NcLanguage::kLinuxCnc || !c.dialect.tcp_on.empty();
   const auto between = [&](double low, double high) { return random.uniform(low, high); };
   int strip = -1;
@@ -135,6 +137,9 @@ inline NcProgram random_program(Random& random, const NcCase& c, int count) {
                         ? Vec3(Vec3(between(-1, 1), between(-1, 1), between(0.1, 1)).normalized())
                         : Vec3(between(-120, 120), between(-4e4, 4e4), 0.0);
     if (m.kind == NcKind::kFeed) m.feed = std::pow(10.0, between(-3, 5));
+    // A rapid turns nothing under tool-centre control.
+    else if (i > 0 && c.positions != NcPositions::kJoint && (m.joined || c.positions == NcPositions::kTipVector))
+      m.orientation = p.moves.back().orientation;
     p.moves.push_back(m);
   }
   return p;

@@ -64,7 +64,11 @@ std::string head(const Tool& tool, const ClsOptions& options) {
   text += fmt::format("PPRINT THE TOOL ENDS {:.4f} MM BEYOND IT\n", tool.radial.at(0.0).r);
   text += statement("CUTTER", {rounded(c.diameter), rounded(c.corner_radius), "0.0", "0.0", "0.0",
                                rounded(c.side_angle * kDegrees), rounded(c.height)});
-  text += fmt::format("LOADTL/{}\nSPINDL/{},CLW\n", options.tool_number, rounded(options.spindle_rpm));
+  // Nobody has chosen them: a number here would be run.
+  if (!options.spindle_rpm) text += "PPRINT NO SPINDLE SPEED IS SET\n";
+  if (!options.feed_mm_min) text += "PPRINT NO FEED IS SET\n";
+  text += fmt::format("LOADTL/{}\n", options.tool_number);
+  if (options.spindle_rpm) text += fmt::format("SPINDL/{},CLW\n", rounded(*options.spindle_rpm));
   return text;
 }
 
@@ -78,7 +82,7 @@ std::string strip_text(const Strip& strip, const ClsOptions& options) {
   }
   const Pose &first = strip.poses.front(), &last = strip.poses.back();
   text += "RAPID\n" + go_to(first.at(options.retract_mm), first.axis);
-  text += fmt::format("FEDRAT/{},MMPM\n", rounded(options.feed_mm_min));
+  if (options.feed_mm_min) text += fmt::format("FEDRAT/{},MMPM\n", rounded(*options.feed_mm_min));
   for (const Pose& p : strip.poses) text += go_to(p.tip, p.axis);
   return text + "RAPID\n" + go_to(last.at(options.retract_mm), last.axis);
 }
@@ -107,12 +111,12 @@ NearestCutter nearest_cutter(const Tool& tool) {
 }
 
 std::string path_to_cls(const Path& path, const Tool& tool, const ClsOptions& options) {
-  require_positive(options.spindle_rpm, "spindle speed");
-  require_positive(options.feed_mm_min, "feed");
+  require_positive(options.spindle_rpm.value_or(1.0), "spindle speed");
+  require_positive(options.feed_mm_min.value_or(1.0), "feed");
   require_positive(options.retract_mm, "retract distance");
   std::string text = head(tool, options);
   for (const Strip& strip : path.strips) text += strip_text(strip, options);
-  return text + "SPINDL/OFF\nFINI\n";
+  return text + (options.spindle_rpm ? "SPINDL/OFF\nFINI\n" : "FINI\n");
 }
 
 }  // namespace flank::internal

@@ -1,6 +1,7 @@
 /// path.cls (docs/schema/cls.md): a path as an APT cutter-location file, with the words of ISO 4343.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "flank/path.h"
@@ -11,10 +12,10 @@ namespace flank::internal {
 struct ClsOptions {
   std::string part = "PART";  ///< after PARTNO
   std::string tool_file =
-      "tool.json";              ///< the profile, named in PPRINT: CUTTER can only say the nearest standard shape
-  int tool_number = 1;          ///< LOADTL
-  double spindle_rpm = 5000.0;  ///< SPINDL
-  double feed_mm_min = 500.0;   ///< FEDRAT along the strips
+      "tool.json";      ///< the profile, named in PPRINT: CUTTER can only say the nearest standard shape
+  int tool_number = 1;  ///< LOADTL
+  std::optional<double> spindle_rpm = {};  ///< SPINDL; none: the file names none, and says so
+  std::optional<double> feed_mm_min = {};  ///< FEDRAT along the strips, likewise
   double retract_mm = 50.0;  ///< every strip is entered and left along the tool's axis over this way; the move to the
                              ///< next strip is not planned
 };

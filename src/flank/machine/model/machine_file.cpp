@@ -203,6 +203,22 @@ void read_dialect(const TomlTable& table, Machine& machine) {
   if (table.has("work_offset")) machine.work_offset = table.whole("work_offset", 1, 6);
 }
 
+/// Where the machine's Z stands when the tool is out of the way: as the file says, else just before the end of its travel on
+/// the holder's side, of controls that have no word of their own for such a place.
+void read_retract(const TomlTable& control, Machine& machine) {
+  constexpr double kBeforeTheEnd = 1.0;  // mm: a soft limit itself is refused by some controls
+  const Joint& z = machine.linear_joint(2);
+  NcDialect& dialect = machine.dialect;
+  if (control.has("retract_mm")) {
+    dialect.retract_mm = control.number("retract_mm", {-kFarMm, kFarMm});
+    if (!(*dialect.retract_mm >= z.low && *dialect.retract_mm <= z.high))
+      control.refuse("retract_mm", fmt::format("is beyond the travel of Z, {:g} to {:g}", z.low, z.high));
+  } else if (dialect.language == NcLanguage::kLinuxCnc || dialect.language == NcLanguage::kSiemens) {
+    const bool up = (z.reversed ? -1.0 : 1.0) * z.direction.dot(machine.tool_axis) >= 0.0;
+    dialect.retract_mm = up ? z.high - kBeforeTheEnd : z.low + kBeforeTheEnd;
+  }
+}
+
 void read_meaning(const TomlTable& table, Machine& machine) {
   const std::string positions = table.word("positions", {"tip-rotary", "tip-vector", "joint"});
   machine.positions = positions == "joint"        ? NcPositions::kJoint
@@ -256,6 +272,7 @@ Machine machine_from_toml(std::string_view text, const std::string& file) {
   // After the spindle and the dialect: it holds the joints against the first, and writes its letters into the second.
   place_rotary(control, chain, machine);
   machine.bodies = read_bodies(table, machine);
+  read_retract(control, machine);
   control.require_all_known();
   table.require_all_known();
   return machine;

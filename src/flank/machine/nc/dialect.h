@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,6 +27,9 @@ struct NcDialect {
   std::string tcp_on = {}, tcp_off = {};
   /// Words that move nothing on this machine, in upper case, as its file names them (without_effect.h).
   std::vector<std::string> without_effect = {};
+  /// Where the machine's own Z stands, mm, when the tool is out of the way: before rotary axes turn, before a tool is changed,
+  /// and at the end. None: Fanuc goes to its reference position, Heidenhain to the end of the travel, others to 0.
+  std::optional<double> retract_mm = {};
   /// Heidenhain: FUNCTION TCPM instead of M128. A program whose axis turns on a great circle always has the former.
   bool function_tcpm = false;
   bool decimal_comma = true;  ///< Heidenhain: comma as decimal separator

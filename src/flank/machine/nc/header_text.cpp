@@ -92,6 +92,8 @@ std::vector<std::string> header_comments(const NcHeader& header) {
   append_decimal(size += " LENGTH ", tool.length, kHeaderDecimals);
   append_decimal(size += " TIP OFFSET ", tool.tip_offset, kHeaderDecimals);
   comments.push_back(size);
+  if (header.dry_run) comments.emplace_back(kStandsStill);
+  for (const std::string& text : header.shortfalls) comments.push_back(safe_comment(std::string(kFallsShort) + text));
   return comments;
 }
 

@@ -17,6 +17,10 @@ inline constexpr std::size_t kLongestNcComment = 200;
 /// what is not printable ASCII, and ( ) ; % ~ $ " each become "_". No longer than kLongestNcComment.
 [[nodiscard]] std::string safe_comment(std::string_view name);
 
+/// What the header of a program without a spindle says, and how a line begins that says why a program is not what was asked.
+inline constexpr std::string_view kStandsStill = "DRY RUN: THE SPINDLE STANDS STILL";
+inline constexpr std::string_view kFallsShort = "DOES NOT MEET ITS REQUEST: ";
+
 /// The comments of the header: part, machine, set-up, tool.
 [[nodiscard]] std::vector<std::string> header_comments(const NcHeader& header);
 /// In a comment of a program that is to be run without the spindle.

@@ -61,6 +61,9 @@ struct NcHeader {
   std::string origin = {};        ///< what the work offset holds for that, "X5 Y-8 Z60"; empty: not known
   NcTool tool;
   double spindle_rpm = 0.0;  ///< 0: the spindle is not started
+  bool dry_run = false;      ///< written as a comment: the spindle is not to turn
+  std::vector<std::string> shortfalls =
+      {};                    ///< why the program does not meet its request, for its header. Not read back
   int work_offset = 1;       ///< 1 is G54 (or the first preset)
   NcStated stated = {};      ///< of a program that was read
 };
@@ -99,7 +102,8 @@ struct NcMove {
   std::int32_t modes = -1;  ///< index into NcProgram::modes; -1: made here
 };
 
-/// A program. Every move states position and orientation in full; which words a text leaves out is the dialect's.
+/// A program. No rapid turns a rotary axis under tool-centre control: the tip would be held while the linear axes run after
+/// it as fast as they can. Every move states position and orientation in full; which words a text leaves out is the dialect's.
 struct NcProgram {
   NcHeader header;
   NcPositions positions = NcPositions::kTipRotary;
@@ -109,6 +113,8 @@ struct NcProgram {
   /// Where the rotary axes stand before tool-centre control is switched on, degrees. Of programs with vectors it decides
   /// which of its solutions the control begins with; of others it is the first move's unless it is stated.
   std::optional<Vec2> start_rotary;
+  /// Where they are sent when all is done, in the air and without tool-centre control; none: they stay. Not read back.
+  std::optional<Vec2> end_rotary;
   std::vector<NcStrip> strips;
   std::vector<NcMove> moves;
   std::vector<NcModes> modes;  ///< of a program that was read, in the order in which they come into force

@@ -12,21 +12,7 @@ namespace {
 /// Of the samples from which a tool is lifted: of the part's diagonal.
 constexpr double kLiftSampleShare = 1.0 / 100.0;
 /// Each asks the judge once.
-constexpr int kMostTries = 8;
-
-/// Beginning and end of each strip, at both of which the tool goes on past it: at the beginning backwards.
-std::vector<StripEnd> ends_of(const Path& path, double axis_length) {
-  std::vector<StripEnd> ends;
-  const auto middle = [&](const Pose& p) { return p.at(0.5 * axis_length); };
-  for (const Strip& strip : path.strips) {
-    const std::vector<Pose>& poses = strip.poses;
-    const Pose &second = poses[std::min<std::size_t>(1, poses.size() - 1)],
-               &before = poses[poses.size() > 1 ? poses.size() - 2 : 0];
-    ends.push_back({poses.front(), middle(poses.front()) - middle(second)});
-    ends.push_back({poses.back(), middle(poses.back()) - middle(before)});
-  }
-  return ends;
-}
+constexpr int kMostTries = 24;
 
 KnownPath with_leads(const KnownPath& strips, const LeadSearch& search, LinkOptions& options) {
   options.lead_at_start.clear();
@@ -45,18 +31,26 @@ KnownPath with_leads(const KnownPath& strips, const LeadSearch& search, LinkOpti
 }
 
 /// The end of a strip near which a link cuts: link k goes from the end of the strip before it to the beginning of the next.
-std::size_t end_near(const WorstPlace& place, const Path& links) {
+/// Between their leads it is on the sphere, where it cuts nothing.
+std::size_t end_near(const WorstPlace& place, const Path& links, const KnownPath& strips, const LeadSearch& search) {
   const auto link = static_cast<std::size_t>(place.strip);
-  const bool in = link == 0 || 2.0 * place.t > static_cast<double>(links.strips[link].poses.size() - 1);
-  return in && link + 1 < links.strips.size() ? 2 * link : 2 * link - 1;
+  const std::size_t count = links.strips.size(), poses = links.strips[link].poses.size();
+  if (link == 0) return 0;
+  if (link + 1 == count) return 2 * link - 1;
+  const std::vector<Strip>& all = strips.path.strips;
+  const std::size_t out = lead_out(all[link - 1].poses.back(), search.lead(2 * link - 1)).size(),
+                    in = lead_out(all[link].poses.front(), search.lead(2 * link)).size();
+  // Midway between the two leads, by poses.
+  const double middle = 0.5 * (static_cast<double>(out) + static_cast<double>(poses) - static_cast<double>(in));
+  return place.t > middle ? 2 * link : 2 * link - 1;
 }
 
 /// Other leads where a link cuts too deep; false where there are no others.
-bool lead_otherwise(const JudgedLinks& judged, double tolerance_mm, LeadSearch& search) {
+bool lead_otherwise(const JudgedLinks& judged, const KnownPath& strips, double tolerance_mm, LeadSearch& search) {
   const Path links = judged.links();
   std::vector<std::size_t> ends;
   for (const WorstPlace& place : judged.report.worst)
-    if (-place.f > tolerance_mm) ends.push_back(end_near(place, links));
+    if (-place.f > tolerance_mm) ends.push_back(end_near(place, links, strips, search));
   std::sort(ends.begin(), ends.end());
   ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
   bool other = false;
@@ -77,16 +71,18 @@ double JudgedLinks::depth_mm() const { return std::max(report.overcut_mm, report
 
 JudgedLinks judged_links(const Setup& setup, const JudgeRequest& judge, const Tool& tool, const KnownPath& strips,
                          LinkOptions options, double lift_mm) {
-  const double diagonal = setup.part.box.diagonal(), spacing = kLiftSampleShare * diagonal;
-  LeadSearch search(tool, ends_of(strips.path, tool.radial.axis_length()), judge_samples(setup, spacing, spacing),
-                    lift_mm, diagonal);
-  JudgeRequest sampled = judge;
-  sampled.reach_radius_mm = {};
+  const double spacing = kLiftSampleShare * setup.part.box.diagonal(), tolerance = setup.tolerance_mm;
+  const std::vector<FaceSamples> samples = judge_samples(setup, spacing, spacing);
+  LeadSearch search(tool, strips.path, samples, lift_mm, tolerance, options);
+  JudgeRequest request = judge;
+  request.reach_radius_mm = {};
   JudgedLinks best;
   for (int k = 0; k < kMostTries; ++k) {
     JudgedLinks now{with_leads(strips, search, options), {}};
-    now.report = judge_job(setup, sampled, tool, now.links());
-    const bool done = now.depth_mm() <= setup.tolerance_mm || !lead_otherwise(now, setup.tolerance_mm, search);
+    // Samples refuse a way cheaply; a proof looks between them at what they let pass.
+    now.report = judge_job(setup, request, tool, now.links(), DepthProof::kSampled);
+    if (now.depth_mm() <= tolerance) now.report = judge_job(setup, request, tool, now.links());
+    const bool done = now.depth_mm() <= tolerance || !lead_otherwise(now, strips, tolerance, search);
     if (k == 0 || now.depth_mm() < best.depth_mm()) best = std::move(now);
     if (done) break;
   }

@@ -17,8 +17,9 @@ struct JudgedLinks {
   [[nodiscard]] double depth_mm() const;
 };
 
-/// Of the strips in their order. A link that cuts deeper than the tolerance is made again by the next best lead at that
-/// end, a few times; the links that cut least are kept. `options` says what to keep out of and what the tool needs; its leads
+/// Of the strips in their order, each left and entered by the first of its ways (link_lift.h) on which the judge finds no cut
+/// deeper than the tolerance. A link that cuts is made again by the next way at that end, as often as is worth it; where none
+/// is free the links that cut least are kept, and their report says so. `options` says what to keep out of and what the tool needs; its leads
 /// are filled in here.
 [[nodiscard]] JudgedLinks judged_links(const Setup& setup, const JudgeRequest& judge, const Tool& tool,
                                        const KnownPath& strips, LinkOptions options, double lift_mm);

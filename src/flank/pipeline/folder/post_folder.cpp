@@ -37,6 +37,11 @@ constexpr double kLeastDeviation = 1e-6;
 /// Where little is engaged the feed is so much faster at most: beyond, runout and the stock's own resolution of a few
 /// degrees count for more than the chip. At a limit of 60 degrees it is reached at 17.
 constexpr double kMostFeedFactor = 3.0;
+/// Of a dry run, mm/min, unless another one is given.
+constexpr double kDryFeed = 1000.0;
+/// Of the tolerance: what chords and digits of a program may add to a path that uses up all of it. As much lies outside of the
+/// budget that planner and judge share; beyond it there must be room below the tolerance.
+constexpr double kOutsideShare = 0.02;
 
 struct Input {
   Setup setup;
@@ -99,25 +104,29 @@ KnownPath in_order(const Input& input, const Box3& around, const PostJob& reques
   return ordered;
 }
 
-/// With links around the strips.
-JudgedLinks link_strips(const Input& input, const PostTool& facts, const PostJob& request) {
+/// What links keep out of, and of what size.
+LinkOptions link_options(const Input& input, const PostTool& facts, const PostJob& request) {
   LinkOptions options;
   options.keep_out = input.setup.part.box;
   for (const Part& fixture : input.setup.fixtures) options.keep_out.add(fixture.box);
   options.tool_radius = body_radius(input.tool, facts);
   options.clearance = request.link_clearance_mm;
-  return judged_links(input.setup, input.judge, input.tool, in_order(input, options.keep_out, request), options,
-                      request.lift_mm);
+  return options;
 }
 
-WorkSetup find_setup(const PostJob& request, const Machine& machine, const Path& path, const PostTool& facts,
-                     const MachineScene& scene, PostOutcome& outcome) {
+WorkSetup find_setup(const PostJob& request, const Machine& machine, const Path& path, const LinkOptions& links,
+                     const PostTool& facts, const MachineScene& scene, PostOutcome& outcome) {
   if (request.setup) return parse_setup(*request.setup);
   std::vector<Pose> poses;
   const double below = tip_offset(machine, facts);
   for (const Strip& strip : path.strips)
     for (const Pose& p : strip.poses) poses.push_back({p.at(-below), p.axis});
-  const FoundSetup found = search_setup(machine, Kinematics(machine, machine.tool_length), poses, scene.solids);
+  const auto upright = [&](const Vec3& up) {
+    const Pose p = above(links, up);
+    return Pose{p.at(-below), p.axis};
+  };
+  const FoundSetup found =
+      search_setup(machine, Kinematics(machine, machine.tool_length), poses, scene.solids, upright);
   if (!found.setup)
     throw InputError("setup", fmt::format("none of {} places and turns of the part fits machine {}: {}", found.tried,
                                           machine.name, found.reason));
@@ -131,7 +140,8 @@ void accept_links(const Input& input, const JudgedLinks& links, PostOutcome& out
   if (depth > tolerance) {
     const WorstPlace* worst = links.report.worst.empty() ? nullptr : &links.report.worst.front();
     add_reason(outcome.acceptance, Figure::kGouge,
-               fmt::format("link {} cuts {} by {:.4f} mm; more than the tolerance of {} mm",
+               fmt::format("no way from strip to strip was found that cuts nothing: link {} cuts {} by {:.4f} mm; more "
+                           "than the tolerance of {} mm",
                            worst != nullptr ? worst->strip + 1 : 0, worst != nullptr ? worst->face : "the part", depth,
                            tolerance));
   }
@@ -142,8 +152,9 @@ void accept_links(const Input& input, const JudgedLinks& links, PostOutcome& out
 
 /// A cavity's cycles are planned for a limit of the engagement: there the feed is what was asked for.
 EngagementFeed feed_rule(const PostJob& request, const Input& input, PostOutcome& outcome) {
-  EngagementFeed rule{.feed = request.feed_mm_min / 60.0};
-  rule.most_feed = request.most_feed_mm_min.value_or(kMostFeedFactor * request.feed_mm_min) / 60.0;
+  const double feed = request.feed_mm_min.value_or(kDryFeed);
+  EngagementFeed rule{.feed = feed / 60.0};
+  rule.most_feed = request.most_feed_mm_min.value_or(kMostFeedFactor * feed) / 60.0;
   if (request.speed != "feed" || !(input.engagement_rad > 0.0)) return rule;
   if (input.engagement.empty() || input.engagement.front().empty()) {
     outcome.notes.push_back("no engagement.json: the feed is the same everywhere; flank verify writes it");
@@ -154,7 +165,7 @@ EngagementFeed feed_rule(const PostJob& request, const Input& input, PostOutcome
       fmt::format("the feed follows the engagement: its thickest chip is that of {:g} mm/min at {:g} degrees, the feed "
                   "at most {:g} "
                   "mm/min",
-                  request.feed_mm_min, input.engagement_rad * 180.0 / std::numbers::pi, 60.0 * rule.most_feed));
+                  feed, input.engagement_rad * 180.0 / std::numbers::pi, 60.0 * rule.most_feed));
   return rule;
 }
 
@@ -167,6 +178,65 @@ void judge_machine(const Machine& machine, const Post& result, const MachineScen
     return fmt::format("after {:.1f} s, {}", at.time_s, at.cutting ? "along a strip" : "on a link");
   };
   judge_scene(machine, machine.tool_length, scene, track, where, outcome.acceptance);
+}
+
+/// What the judge has proved of the path: how deep it cuts at most, mm; 0 where the folder has no verdict.
+double proved_depth(const PostJob& request) {
+  const std::string file = (std::filesystem::path(request.folder) / "verify.json").string();
+  if (!std::filesystem::exists(file)) return 0.0;
+  const JsonInput verdict(file, read_file(file));
+  double depth = 0.0;
+  for (const char* key : {"overcut_bound_mm", "gouge_bound_mm"})
+    if (verdict.has(key)) depth = std::max(depth, verdict.member(key).number());
+  return depth;
+}
+
+/// The program's chords and digits move the tool off the path that was judged: what they add must leave it in the tolerance.
+void accept_rounding(const PostJob& request, const Input& input, const Post& result, PostOutcome& outcome) {
+  const double tolerance = input.setup.tolerance_mm, depth = proved_depth(request),
+               room = std::max(tolerance - depth, kOutsideShare * tolerance);
+  if (result.deviation_mm + result.rounding_mm <= room) return;
+  add_reason(
+      outcome.acceptance, Figure::kRounding,
+      fmt::format("the program's digits move the tool by up to {:.6f} mm and its chords by {:.6f} mm, the path cuts by "
+                  "up to {:.6f} mm: together that may be more than the tolerance of {} mm; more digits after the "
+                  "point (length_decimals, angle_decimals of the machine's file) or a smaller deviation are needed",
+                  result.rounding_mm, result.deviation_mm, depth, tolerance));
+}
+
+/// A rotary axis that ends turns away from where it began would be taken for a fault by who reads its display.
+void note_turns(const Machine& machine, const Post& result, PostOutcome& outcome) {
+  if (!result.program.end_rotary) return;
+  for (std::size_t k = 0; k < 2; ++k)
+    if (const double turns = std::round((*result.program.end_rotary)(static_cast<int>(k)) / 360.0); turns != 0.0)
+      outcome.notes.push_back(
+          fmt::format("axis {} ends at {:g} degrees, {:g} turn{} from zero: to unwind is for the next program",
+                      machine.rotary_joint(k).name, 360.0 * turns, std::abs(turns), std::abs(turns) == 1.0 ? "" : "s"));
+}
+
+/// Of the spindle and of what falls short, for people at the machine.
+void fill_header(const PostJob& request, const Input& input, NcHeader& header, const PostOutcome& outcome) {
+  header.part = std::filesystem::path(input.setup.part.file).filename().string();
+  header.setup = outcome.setup;
+  header.spindle_rpm = request.spindle_rpm.value_or(0.0);
+  header.dry_run = request.dry;
+  for (const Shortfall& reason : outcome.acceptance.reasons) header.shortfalls.push_back(reason.text);
+}
+
+/// A program that cuts with a spindle that stands still, or at a feed that nobody has chosen, is none.
+void require_cutting_data(const PostJob& request) {
+  if (request.dry) {
+    if (request.spindle_rpm)
+      throw UsageError("dry", "a dry run is one without the spindle; give `spindle` and `feed_mm_min`, or `dry`");
+    return;
+  }
+  if (!request.spindle_rpm || (!request.feed_mm_min && request.speed != "optimal"))
+    throw UsageError(
+        fmt::format("post: a program needs the spindle's speed and the feed; give {}{}{}, or `dry` for one that "
+                    "runs while the spindle stands still",
+                    request.spindle_rpm ? "" : "`spindle`, 1/min,",
+                    request.spindle_rpm || request.feed_mm_min || request.speed == "optimal" ? "" : " and ",
+                    request.feed_mm_min || request.speed == "optimal" ? "" : "`feed_mm_min`"));
 }
 
 [[noreturn]] void refuse(const Post& result, const PostOutcome& outcome) {
@@ -196,11 +266,16 @@ void fill(const Machine& machine, const Post& result, PostOutcome& outcome) {
 PostOutcome post_input(const PostJob& request, Machine machine, const Input& input, PostOutcome outcome) {
   if (request.tool_length_mm) machine.tool_length = *request.tool_length_mm;
   const PostTool facts = post_tool(input.tool);
-  JudgedLinks links = link_strips(input, facts, request);
-  const Path& linked = links.linked.path;
+  const LinkOptions way = link_options(input, facts, request);
+  JudgedLinks links =
+      judged_links(input.setup, input.judge, input.tool, in_order(input, way.keep_out, request), way, request.lift_mm);
+  Path& linked = links.linked.path;
   PostOptions options;
   MachineScene scene = machine_scene(machine, input.tool, tip_offset(machine, facts));
-  options.setup = find_setup(request, machine, linked, facts, scene, outcome);
+  options.setup = find_setup(request, machine, linked, way, facts, scene, outcome);
+  linked =
+      upright(std::move(linked), way,
+              options.setup.rotation().transpose() * Kinematics(machine, machine.tool_length).direction({0.0, 0.0}));
   options.deviation =
       std::max(kLeastDeviation, request.deviation_mm.value_or(kDeviationShare * input.setup.tolerance_mm));
   options.feed = feed_rule(request, input, outcome);
@@ -216,10 +291,10 @@ PostOutcome post_input(const PostJob& request, Machine machine, const Input& inp
   accept_links(input, links, outcome);
   add_work(input.setup, input.obstacles, options.setup, scene);
   judge_machine(machine, result, scene, outcome);
-  result.program.header.part = std::filesystem::path(input.setup.part.file).filename().string();
-  result.program.header.setup = outcome.setup;
-  result.program.header.spindle_rpm = request.spindle_rpm;
-  outcome.program = write_nc(result.program, machine.dialect);
+  accept_rounding(request, input, result, outcome);
+  note_turns(machine, result, outcome);
+  fill_header(request, input, result.program.header, outcome);
+  if (outcome.acceptance.pass() || request.force) outcome.program = write_nc(result.program, machine.dialect);
   outcome.motion = motion_json(machine, result, input.setup.part.box, options.setup, outcome.acceptance);
   return outcome;
 }
@@ -228,6 +303,7 @@ PostOutcome post_input(const PostJob& request, Machine machine, const Input& inp
 
 PostOutcome post_folder(const PostJob& request) {
   check_fields(request);
+  require_cutting_data(request);
   const Machine machine = read_machine(request.machine);
   if (request.setup) (void)parse_setup(*request.setup);
   const ResultFolder folder(request.folder, ResultFolder::Use::kRead);

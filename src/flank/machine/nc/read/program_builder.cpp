@@ -268,6 +268,9 @@ double ProgramBuilder::feed_of_move() {
 }
 
 void ProgramBuilder::record(NcKind kind) {
+  // The rotary axes brought upright at a feed, where tool-centre control cannot be switched off for that (LinuxCNC without
+  // such words): approach, like the rapids before position and orientation are known.
+  if (kind == NcKind::kFeed && program_.moves.empty() && !any(linear_) && block_.feed && all(block_.rotary)) return;
   const bool feed = kind == NcKind::kFeed;
   if (feed) check_feed_move();
   // A rapid between two stretches of tool-centre control: its end is in joint coordinates and says nothing of the

@@ -45,20 +45,33 @@ void GCodeWriter::block(std::string_view words) {
   motion_ = "";
 }
 
-void GCodeWriter::rotary(double first, double second) {
+void GCodeWriter::rotary(double first, double second, double feed) {
   begin();
-  text_ += "G0 ";
-  motion_ = "G0";
+  motion_ = feed > 0.0 ? "G1" : "G0";
+  (text_ += motion_) += ' ';
   append_decimal(text_ += program_.rotary[0], first, dialect_.angle_decimals);
   append_decimal((text_ += ' ') += program_.rotary[1], second, dialect_.angle_decimals);
+  if (feed > 0.0) append_decimal(text_ += " F", feed, dialect_.feed_decimals);
   end();
 }
 
-void GCodeWriter::start_rotary() {
-  if (program_.start_rotary)
-    rotary(program_.start_rotary->x(), program_.start_rotary->y());
-  else
-    rotary_of(program_.moves.front());
+void GCodeWriter::start_rotary(double feed) {
+  const Vec3& first = program_.moves.front().orientation;
+  // Moves that state the rotary axes begin where the first of them has them.
+  if (program_.positions != NcPositions::kTipVector)
+    rotary(first.x(), first.y(), feed);
+  else if (program_.start_rotary)
+    rotary(program_.start_rotary->x(), program_.start_rotary->y(), feed);
+}
+
+void GCodeWriter::end_rotary() {
+  if (program_.end_rotary) rotary(program_.end_rotary->x(), program_.end_rotary->y());
+}
+
+void GCodeWriter::retract() {
+  std::string words = "G53 G0 Z";
+  append_decimal(words, dialect_.retract_mm.value_or(0.0), dialect_.length_decimals);
+  block(words);
 }
 
 void GCodeWriter::rotary_of(const NcMove& move) {
@@ -76,23 +89,48 @@ void GCodeWriter::feed(const NcMove& move) {
   feed_ = std::move(feed);
 }
 
+/// X to Z, as far as asked for.
+void GCodeWriter::axes(const NcMove& move, int from, int to) {
+  for (int i = from; i <= to; ++i) {
+    if (i > from) text_ += ' ';
+    append_decimal(text_ += static_cast<char>('X' + i), move.position[i], dialect_.length_decimals);
+  }
+}
+
+void GCodeWriter::orientation(const NcMove& move) {
+  if (program_.positions == NcPositions::kTipVector) {
+    for (int i = 0; i < 3; ++i)
+      append_decimal((text_ += ' ') += style_.vector[static_cast<std::size_t>(i)], move.orientation[i],
+                     dialect_.vector_decimals);
+    return;
+  }
+  // Under tool-centre control a rapid leaves the rotary axes where they are (write_nc.cpp): it need not name them.
+  if (program_.positions == NcPositions::kTipRotary && move.kind == NcKind::kRapid) return;
+  for (int i = 0; i < 2; ++i)
+    append_decimal((text_ += ' ') += program_.rotary[static_cast<std::size_t>(i)], move.orientation[i],
+                   dialect_.angle_decimals);
+}
+
+/// From the safe place: over the point first, then down to it. The rotary axes are there already.
+void GCodeWriter::approach(const NcMove& move) {
+  begin();
+  text_ += "G0 ";
+  motion_ = "G0";
+  axes(move, 0, 1);
+  end();
+  begin();
+  axes(move, 2, 2);
+  if (program_.positions == NcPositions::kTipVector) orientation(move);
+  end();
+}
+
 void GCodeWriter::move(const NcMove& move) {
   begin();
   const char* const motion = move.kind == NcKind::kRapid ? "G0" : "G1";
   if (std::string_view(motion) != motion_) (text_ += motion) += ' ';
   motion_ = motion;
-  append_decimal(text_ += "X", move.position.x(), dialect_.length_decimals);
-  append_decimal(text_ += " Y", move.position.y(), dialect_.length_decimals);
-  append_decimal(text_ += " Z", move.position.z(), dialect_.length_decimals);
-  if (program_.positions == NcPositions::kTipVector) {
-    for (int i = 0; i < 3; ++i)
-      append_decimal((text_ += ' ') += style_.vector[static_cast<std::size_t>(i)], move.orientation[i],
-                     dialect_.vector_decimals);
-  } else {
-    for (int i = 0; i < 2; ++i)
-      append_decimal((text_ += ' ') += program_.rotary[static_cast<std::size_t>(i)], move.orientation[i],
-                     dialect_.angle_decimals);
-  }
+  axes(move, 0, 2);
+  orientation(move);
   if (move.kind == NcKind::kFeed) feed(move);
   end();
 }
@@ -111,7 +149,10 @@ void GCodeWriter::moves(const std::function<void(const NcMove&)>& from_reference
       // What stands between may have changed the feed mode; stating F once more costs nothing.
       feed_.clear();
     }
-    move(m);
+    if (m.kind == NcKind::kRapid && (i == 0 || !m.joined))
+      approach(m);
+    else
+      move(m);
   }
 }
 

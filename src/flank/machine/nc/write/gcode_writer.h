@@ -29,10 +29,15 @@ class GCodeWriter {
   [[nodiscard]] std::string comment_text(std::string_view text) const;
   /// A block of these words; the next move states its motion word again.
   void block(std::string_view words);
-  /// The two rotary axes at rapid, where the program says where they begin.
-  void start_rotary();
+  /// The two rotary axes at rapid, where the program begins, or at a feed in degrees per minute where tool-centre control
+  /// cannot be switched off meanwhile.
+  void start_rotary(double feed = 0.0);
   /// The rotary axes of a move at rapid; nothing where moves state vectors.
   void rotary_of(const NcMove& move);
+  /// The rotary axes where the program leaves them, if it says so.
+  void end_rotary();
+  /// The tool out of the way: the machine's own Z.
+  void retract();
   /// All moves. `from_reference` writes what stands before a move that comes from the reference position, but the first.
   void moves(const std::function<void(const NcMove&)>& from_reference);
 
@@ -41,7 +46,10 @@ class GCodeWriter {
  private:
   void begin();
   void end() { text_ += '\n'; }
-  void rotary(double first, double second);
+  void rotary(double first, double second, double feed = 0.0);
+  void axes(const NcMove& move, int from, int to);
+  void orientation(const NcMove& move);
+  void approach(const NcMove& move);
   void move(const NcMove& move);
   void feed(const NcMove& move);
 

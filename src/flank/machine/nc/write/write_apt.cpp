@@ -58,7 +58,7 @@ void header(std::string& text, const NcProgram& program) {
   print("WORK OFFSET " + std::to_string(h.work_offset));
   print(program.join == NcJoin::kGreatCircle ? "JOIN GREAT CIRCLE" : "JOIN AXES");
   text += "LOADTL/" + std::to_string(h.tool.number) + '\n';
-  if (h.spindle_rpm <= 0.0) return;
+  if (h.spindle_rpm <= 0.0) return;  // the header says that it is a dry run
   append_short_decimal(text += "SPINDL/", h.spindle_rpm, 3);
   text += ",CLW\n";
 }

@@ -35,21 +35,28 @@ std::string write_fanuc(const NcProgram& program, const NcDialect& dialect) {
   out.raw("%");
   out.raw(program_number(header.number) + " " + out.comment_text(safe_comment(header.program)));
   for (const std::string& line : header_comments(header)) out.comment(line);
+  const auto retract = [&] {
+    // A place of the machine's own Z, where its file gives one; else the reference position.
+    if (dialect.retract_mm) return out.retract();
+    out.block("G91 G28 Z0.0");
+    out.block("G90");
+  };
   // Whatever state the last program has left: millimetres, absolute, no compensation, no cycle.
   out.block("G21 G17 G90 G94 G40 G49 G80");
+  // Wherever the tool stands: nothing turns before it is out of the way.
+  retract();
   out.block("T" + tool + " M6");
   out.block(work_offset(header.work_offset));
-  if (const std::string spindle = spindle_words(header); !spindle.empty()) out.block(spindle);
   // The rotary axes turn before G43.4 or G43.5: afterwards the control would hold the tip where it is meanwhile.
   out.start_rotary();
+  if (const std::string spindle = spindle_words(header); !spindle.empty()) out.block(spindle);
   if (smooth) out.block("G5.1 Q1");
   if (tip) out.block(tcp);
   if (program.feed_mode == NcFeedMode::kInverseTime) out.block("G93");
   out.moves([&](const NcMove& move) {
     // G28 is about the machine's own axes, which tool-centre control would move with the tip in mind.
     if (tip) out.block("G49");
-    out.block("G91 G28 Z0.0");
-    out.block("G90");
+    retract();
     out.rotary_of(move);
     if (tip) out.block(tcp);
   });
@@ -57,8 +64,9 @@ std::string write_fanuc(const NcProgram& program, const NcDialect& dialect) {
   if (program.feed_mode == NcFeedMode::kInverseTime) out.block("G94");
   if (tip) out.block("G49");
   if (smooth) out.block("G5.1 Q0");
-  out.block("G91 G28 Z0.0");
-  out.block("G90 M5");
+  retract();
+  out.block("M5");
+  out.end_rotary();
   out.block("M30");
   out.raw("%");
   return out.take();

@@ -42,9 +42,10 @@ class HeidenhainWriter {
     tool_centre(true);
     moves();
     tool_centre(false);
-    // Back along the tool's axis to the end of the travel, away from the part, before the spindle stops.
-    block("L M140 MB MAX FMAX");
+    // Away from the part before the spindle stops.
+    retract();
     block("M5");
+    if (program_.end_rotary) rotary_block(program_.end_rotary->x(), program_.end_rotary->y());
     block("M30");
     block("END PGM " + name);
     return std::move(text_);
@@ -63,6 +64,9 @@ class HeidenhainWriter {
   void header() {
     const NcHeader& h = program_.header;
     for (const std::string& line : header_comments(h)) block("; " + line);
+    // Wherever the tool stands, and whatever the last program has left: nothing turns before it is out of the way.
+    tool_centre(false);
+    retract();
     std::string call = "TOOL CALL " + std::to_string(h.tool.number) + " Z";
     if (h.spindle_rpm > 0.0) append_short_decimal(call += " S", h.spindle_rpm, 3, unsigned_);
     block(call);
@@ -71,6 +75,14 @@ class HeidenhainWriter {
     if (h.spindle_rpm > 0.0) block("M3");
     // Rotary axes take the shorter way, which is what the unwound values of our blocks mean.
     block("M126");
+  }
+
+  /// To a place of the machine's own Z, where its file gives one; else back along the tool's axis to the end of the travel.
+  void retract() {
+    if (!dialect_.retract_mm) return block("L M140 MB MAX FMAX");
+    std::string words = "L Z";
+    append_decimal(words, *dialect_.retract_mm, dialect_.length_decimals, style_);
+    block(words + " R0 FMAX M91");
   }
 
   void tolerance() {
@@ -110,7 +122,7 @@ class HeidenhainWriter {
   /// The angles from which the path begins: where blocks state tool vectors, they decide which solution the control
   /// takes.
   void start_rotary() {
-    if (program_.start_rotary)
+    if (program_.positions == NcPositions::kTipVector && program_.start_rotary)
       rotary_block(program_.start_rotary->x(), program_.start_rotary->y());
     else
       rotary_of(program_.moves.front());
@@ -127,26 +139,46 @@ class HeidenhainWriter {
       // The machine leaves its reference position anew: as at the beginning, axes turn without tool-centre control.
       if (!m.joined && i > 0) {
         tool_centre(false);
-        block("L M140 MB MAX FMAX");
+        retract();
         rotary_of(m);
         tool_centre(true);
       }
-      move(m);
+      if (m.kind == NcKind::kRapid && (i == 0 || !m.joined))
+        approach(m);
+      else
+        move(m);
     }
   }
 
+  void axes(const NcMove& m, int from, int to) {
+    for (int i = from; i <= to; ++i)
+      append_decimal((text_ += ' ') += static_cast<char>('X' + i), m.position[i], dialect_.length_decimals, style_);
+  }
+
+  /// From the safe place: over the point first, then down to it. The rotary axes are there already.
+  void approach(const NcMove& m) {
+    begin();
+    text_ += 'L';
+    axes(m, 0, 1);
+    text_ += " FMAX\n";
+    if (program_.positions == NcPositions::kTipVector) return move(m);
+    begin();
+    text_ += 'L';
+    axes(m, 2, 2);
+    text_ += " FMAX\n";
+  }
+
   void move(const NcMove& m) {
-    static constexpr std::array<std::string_view, 3> kLinear = {"X", " Y", " Z"}, kVector = {" TX", " TY", " TZ"};
+    static constexpr std::array<std::string_view, 3> kVector = {" TX", " TY", " TZ"};
     const bool vector = program_.positions == NcPositions::kTipVector;
     begin();
-    text_ += vector ? "LN " : "L ";
-    for (int i = 0; i < 3; ++i)
-      append_decimal(text_ += kLinear[static_cast<std::size_t>(i)], m.position[i], dialect_.length_decimals, style_);
+    text_ += vector ? "LN" : "L";
+    axes(m, 0, 2);
     if (vector)
       for (int i = 0; i < 3; ++i)
         append_decimal(text_ += kVector[static_cast<std::size_t>(i)], m.orientation[i], dialect_.vector_decimals,
                        style_);
-    else
+    else if (m.kind == NcKind::kFeed)  // a rapid leaves the rotary axes where they are (write_nc.cpp)
       rotary(m.orientation.x(), m.orientation.y());
     if (m.kind == NcKind::kRapid)
       text_ += " FMAX";

@@ -9,6 +9,8 @@ namespace flank::internal {
 
 namespace {
 
+/// Degrees per minute with which the rotary axes turn where kinematics cannot be switched off meanwhile.
+constexpr double kTurnFeed = 600.0;
 constexpr int kFirstOfExtended = 7, kLastOffset = 9;  // G59.1 to G59.3 follow G59
 
 /// What LinuxCNC cannot say, as a user's error: another dialect, or another entry in the machine's file, mends it.
@@ -55,26 +57,34 @@ std::string write_linuxcnc(const NcProgram& program, const NcDialect& dialect) {
   out.raw("%");
   out.comment(safe_comment("PROGRAM " + header.program));
   for (const std::string& line : header_comments(header)) out.comment(line);
-  out.block("G21 G17 G90 G40 G49 G80");
+  out.block("G21 G17 G90 G94 G40 G49 G80");
   out.block(smoothing(dialect));
-  out.block(work_offset(header.work_offset));
+  // Wherever the tool stands: nothing turns before it is out of the way.
+  if (switched) out.block(dialect.tcp_off);
+  out.retract();
   out.block("T" + tool + " M6");
-  // The kinematics take the tool's length from here; joints are stated for none.
+  out.block(work_offset(header.work_offset));
+  // Without a word for them the kinematics hold the gauge point meanwhile, which no rapid may do.
+  out.start_rotary(tip && !switched ? kTurnFeed : 0.0);
+  // The kinematics take the tool's length from here; joints are stated for none. They do not jump: the tool stands upright.
   if (tip) out.block("G43 H" + tool);
   if (const std::string spindle = spindle_words(header); !spindle.empty()) out.block(spindle);
-  out.start_rotary();
   if (switched) out.block(dialect.tcp_on);
   // From here on: a G0 under G93 is right, but nothing before it needs G93.
-  out.block(program.feed_mode == NcFeedMode::kInverseTime ? "G93" : "G94");
+  if (program.feed_mode == NcFeedMode::kInverseTime) out.block("G93");
   out.moves([&](const NcMove& move) {
     if (switched) out.block(dialect.tcp_off);
+    out.retract();
     out.rotary_of(move);
     if (switched) out.block(dialect.tcp_on);
   });
   if (switched) out.block(dialect.tcp_off);
+  // Upright once more: without the tool's length the kinematics hold the joints where they are.
+  out.block("G94 G49");
+  out.retract();
   out.block("M5");
-  // The modes of a fresh control, for what is typed next.
-  out.block("G94 G49 M2");
+  if (!tip || switched) out.end_rotary();
+  out.block("M2");
   out.raw("%");
   return out.take();
 }

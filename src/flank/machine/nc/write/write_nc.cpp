@@ -37,6 +37,17 @@ void check_move(const NcProgram& program, const NcMove& move) {
     throw UsageError("feed", std::to_string(move.feed), "accepted are feeds of at least 0.000001");
 }
 
+/// A rapid is no straight line on many controls, and turning under tool-centre control it drives the linear axes after it.
+void check_rapid(const NcProgram& program, std::size_t i) {
+  const NcMove& move = program.moves[i];
+  if (move.kind != NcKind::kRapid || program.positions == NcPositions::kJoint || i == 0) return;
+  // Behind a reference position the rotary axes are turned first, where blocks state them.
+  if (!move.joined && program.positions == NcPositions::kTipRotary) return;
+  if (move.orientation != program.moves[i - 1].orientation)
+    throw UsageError("program: move " + std::to_string(i + 1) +
+                     " is a rapid that turns the rotary axes under tool-centre control; accepted is a feed move");
+}
+
 void check_program(const NcProgram& program) {
   if (program.moves.empty()) throw UsageError("program: has no moves");
   // Letters come from the machine's file, or from a caller who made the program: writers index by them.
@@ -48,7 +59,10 @@ void check_program(const NcProgram& program) {
     throw UsageError("program: the tool's number is from 0 to 1000000, that of the work offset at least 1");
   if (program.positions == NcPositions::kJoint && program.join == NcJoin::kGreatCircle)
     throw UsageError("program: joint coordinates are joined linearly, not on a great circle");
-  for (const NcMove& move : program.moves) check_move(program, move);
+  for (std::size_t i = 0; i < program.moves.size(); ++i) {
+    check_move(program, program.moves[i]);
+    check_rapid(program, i);
+  }
 }
 
 }  // namespace

@@ -49,13 +49,22 @@ std::string write_siemens(const NcProgram& program, const NcDialect& dialect) {
   GCodeWriter out(program, dialect, {"; ", "", false, {"A3=", "B3=", "C3="}});
   out.comment(safe_comment("PROGRAM " + header.program));
   for (const std::string& line : header_comments(header)) out.comment(line);
+  const auto retract = [&] {
+    // Without frames and without the tool's length: Z of the machine itself, not of the part.
+    std::string words = "SUPA G0 Z";
+    append_decimal(words, dialect.retract_mm.value_or(0.0), dialect.length_decimals);
+    out.block(words + " D0");
+  };
   out.block("G0 G17 G40 G90 G94 G710");
+  // Wherever the tool stands, and whatever the last program has left: nothing turns before it is out of the way.
+  out.block("TRAFOOF");
+  retract();
   out.block(tool_call(header.tool, tip));
   out.block("M6");
   out.block(work_offset(header.work_offset));
-  if (const std::string spindle = spindle_words(header); !spindle.empty()) out.block(spindle);
   // The rotary axes turn before TRAORI: afterwards the control would hold the tip where it is meanwhile.
   out.start_rotary();
+  if (const std::string spindle = spindle_words(header); !spindle.empty()) out.block(spindle);
   if (tip) tool_centre_on(out, program);
   if (dialect.smoothing_mm > 0.0) out.block(smoothing(dialect));
   // F is the feed of the tip, not of tip and rotary axes together.
@@ -63,15 +72,15 @@ std::string write_siemens(const NcProgram& program, const NcDialect& dialect) {
   if (program.feed_mode == NcFeedMode::kInverseTime) out.block("G93");
   out.moves([&](const NcMove& move) {
     if (tip) out.block("TRAFOOF");
-    // Without frames and without the tool's length: Z0 of the machine itself, not of the part.
-    out.block("SUPA G0 Z0.0 D0");
+    retract();
     out.block(tip ? "D1" : "D0");
     out.rotary_of(move);
     if (tip) tool_centre_on(out, program);
   });
   if (tip) out.block("TRAFOOF");
-  out.block("SUPA G0 Z0.0 D0");
+  retract();
   out.block("G94 M5");
+  out.end_rotary();
   out.block("M30");
   return out.take();
 }
