@@ -208,6 +208,12 @@ struct StockReport {
   [[nodiscard]] double cycles_deg() const;
 };
 
+/// A face that is in the file of the part, or of a fixture, and could not be read: nothing is known of what enters it.
+struct UnjudgedFace {
+  std::string face;  ///< "F3"
+  std::string why;   ///< a sentence that names file and face
+};
+
 /// Coverage and undercut have no part in the verdict: how much is enough is for the caller to say .
 struct VerifyReport {
   Verdict verdict = Verdict::kNotRun;
@@ -229,6 +235,8 @@ struct VerifyReport {
   std::vector<double> histogram_area_mm2;  ///< of f over the targets
   /// Strips that run inside a solid or behind a sheet: they may enter no face, so no depth shows them. Not filled by judge()
   std::vector<BuriedStrip> buried;
+  /// Faces that nobody could judge and that are not ignored by name. Not filled by judge()
+  std::vector<UnjudgedFace> unread_faces;
   ClearanceReport clearance;         ///< of shank, holder and fixtures; not filled by judge()
   std::optional<StockReport> stock;  ///< of a program with a blank; not filled by judge()
 };
