@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -88,12 +89,22 @@ void read_in_children(const flank::cli::CommonOptions& common) {
   });
 }
 
+/// Gives each standard stream that is closed a descriptor that can be neither read nor written: another file that gets its
+/// number would be taken for it.
+void keep_standard_streams() {
+  for (int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF)
+      static_cast<void>(!::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY));
+}
+
 /// What main does; throws only what nobody can report.
 int run_command(int argc, char** argv) {
+  keep_standard_streams();
   if (argc > 1 && std::strcmp(argv[1], flank::internal::kReadCadCommand) == 0)
     return flank::internal::serve_cad(argc - 2, argv + 2);
-  // A reader that has gone away is an error of the write, not our end.
+  // A reader that has gone away, and a limit on the size of files, are errors of the write, not our end.
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
   CLI::App parser{"flank: custom-shaped milling tools and the five-axis motions whose flank finishes a surface",
                   "flank"};
   parser.set_version_flag("--version", flank::kVersion);

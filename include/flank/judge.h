@@ -208,6 +208,12 @@ struct StockReport {
   [[nodiscard]] double cycles_deg() const;
 };
 
+/// A face that is in the file of the part, or of a fixture, and could not be read: nothing is known of what enters it.
+struct UnjudgedFace {
+  std::string face;  ///< "F3"
+  std::string why;   ///< a sentence that names file and face
+};
+
 /// A ball that reaches more of the targets than the one that was asked about.
 struct FinerReach {
   double radius_mm = 0.0;
@@ -235,6 +241,8 @@ struct VerifyReport {
   std::vector<double> histogram_area_mm2;  ///< of f over the targets
   /// Strips that run inside a solid or behind a sheet: they may enter no face, so no depth shows them. Not filled by judge()
   std::vector<BuriedStrip> buried;
+  /// Faces that nobody could judge and that are not ignored by name. Not filled by judge()
+  std::vector<UnjudgedFace> unread_faces;
   ClearanceReport clearance;       ///< of shank, holder and fixtures; not filled by judge()
   std::optional<HoldReport> hold;  ///< whether anything could hold the tool; not filled by judge()
   /// The largest ball, up to that one, that would reach the share of the whole that is asked for, where the path leaves more of it;

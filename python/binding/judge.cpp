@@ -78,7 +78,9 @@ VerifyReport judge_faces(const Tool& tool, const Path& path, const Part& part, c
   const JudgedFaces judged = faces_of(part, faces, check_faces, spacing_mm);
   JudgeOptions options;
   options.tolerance_mm = tolerance_mm;
-  return judge(tool, path, judged.samples, judged.shapes, options);
+  VerifyReport report = judge(tool, path, judged.samples, judged.shapes, options);
+  for (const auto& [face, why] : part.left_out) report.unread_faces.push_back({part.face_id(face), why});
+  return report;
 }
 
 void bind_swept(py::module_& module) {
@@ -154,6 +156,14 @@ void bind_judge(py::module_& module) {
       .def_readonly("gouge_mm", &VerifyReport::gouge_mm, "Deepest cut found in a check surface, mm.")
       .def_readonly("gouge_bound_mm", &VerifyReport::gouge_bound_mm, "No check surface is cut deeper, mm: proved.")
       .def_readonly("faces", &VerifyReport::faces, "What was found on each face.")
+      .def_property_readonly(
+          "unread_faces",
+          [](const VerifyReport& r) {
+            std::vector<std::pair<std::string, std::string>> all;
+            for (const UnjudgedFace& face : r.unread_faces) all.emplace_back(face.face, face.why);
+            return all;
+          },
+          "Faces that are in the file and could not be read, with the reason: nobody judged them.")
       .def_readonly("worst", &VerifyReport::worst, "The deepest places, over all faces.")
       .def_property_readonly("histogram_edges_mm", numbers(&VerifyReport::histogram_edges_mm),
                              "Edges of the bins of f over the targets, mm. No copy.")

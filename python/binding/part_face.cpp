@@ -16,7 +16,7 @@ const BSplineSurface& surface_of(const PartFace& face) {
 
 std::string type_of(const PartFace& face) {
   if (face.part->is_mesh()) return "mesh";
-  if (face.part->is_left_out(face.index)) return "left out";
+  if (face.part->is_left_out(face.index)) return "not read";
   const auto k = static_cast<std::size_t>(face.index);
   return k < face.part->surface_types.size() ? face.part->surface_types[k] : "B-spline";
 }
@@ -84,7 +84,7 @@ void bind_part_face(py::module_& module) {
   py::class_<PartFace> type(module, "Face",
                             "A face of a part: a B-spline surface with its trims, or a region of a mesh.");
   type.def_property_readonly("id", &PartFace::id, "\"F1\", or \"F1a\" for a piece.")
-      .def_property_readonly("type", &type_of, "plane, cylinder, B-spline, ... as the file has it; mesh; left out.")
+      .def_property_readonly("type", &type_of, "plane, cylinder, B-spline, ... as the file has it; mesh; not read.")
       .def_property_readonly(
           "left_out",
           [](const PartFace& f) {

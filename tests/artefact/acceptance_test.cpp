@@ -69,6 +69,9 @@ TEST(Acceptance, EachFigureAlone) {
   sampled.faces[0].overcut_bound_mm = 1.0;  // between the samples nobody has looked
   expect_one(accept(cylinder(), sampled, asking(0.95), false), "complete", "interrupted");
   expect_one(accept(cylinder(), at_the_limits(), asking(0.951)), "coverage_reachable", "95.000 % < 95.100 %");
+  VerifyReport unread = at_the_limits();
+  unread.unread_faces = {{"F4", "p.step, face F4 (#12 in the file): the CAD kernel cannot read it"}};
+  expect_one(accept(cylinder(), unread, asking(0.95)), "unread_faces", "F4 is not judged: p.step, face F4 (#12");
   VerifyReport r = at_the_limits();
   r.faces[0].overcut_mm = r.overcut_mm = 0.0101;
   expect_one(accept(cylinder(), r, asking(0.95)), "overcut_mm", "F1 is overcut by 0.0101 mm > 0.01 mm");

@@ -27,6 +27,28 @@ TEST_F(Cli, StandardErrorThatIsFullOrClosedCostsTheMessageOnly) {
   EXPECT_EQ(shell("\"$FLANK\" polish 2>&-"), 2);
 }
 
+TEST_F(Cli, WhicheverStreamsAreClosedASoundPartIsRead) {
+  const std::string blade = make_blade();
+  const std::string open[3] = {"", " >/dev/null", " 2>/dev/null"}, shut[3] = {" <&-", " >&-", " 2>&-"};
+  for (unsigned closed = 0; closed < 8; ++closed) {
+    std::string streams;
+    for (unsigned k = 0; k < 3; ++k) streams += (closed >> k & 1u) != 0 ? shut[k] : open[k];
+    // Only what could not be printed is a fault.
+    EXPECT_EQ(shell("\"$FLANK\" inspect '" + blade + "'" + streams), (closed & 2u) != 0 ? 3 : 0) << streams;
+    EXPECT_EQ(shell("\"$FLANK\" inspect --quiet '" + blade + "'" + streams), 0) << streams;
+    const std::string made = path("made" + std::to_string(closed) + ".step");
+    EXPECT_EQ(shell("\"$FLANK\" example ruled-blade --quiet -o '" + made + "'" + streams), 0) << streams;
+    EXPECT_EQ(read_file(made).substr(0, 12), "ISO-10303-21") << streams;
+  }
+}
+
+TEST_F(Cli, ALimitOnTheSizeOfFilesIsAMessage) {
+  const std::string err = path("err.txt"), large = path("large.step");
+  EXPECT_EQ(shell("ulimit -f 4; \"$FLANK\" example twisted-blade --quiet -o '" + large + "' 2>'" + err + "'"), 3);
+  EXPECT_NE(read_file(err).find("large.step"), std::string::npos) << read_file(err);
+  EXPECT_FALSE(fs::exists(large));
+}
+
 TEST_F(Cli, SignalsStopAndKeepTheBestSoFar) {
   if (kSanitized) GTEST_SKIP() << "whole searches take minutes";
   const std::string blade = make_blade();

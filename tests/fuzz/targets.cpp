@@ -167,7 +167,7 @@ const std::map<std::string, Target>& targets() {
       {"guide", [](std::string_view b) { refused_or([&] { (void)parse_guide("f", b); }); }},
       {"holder", [](std::string_view b) { refused_or([&] { (void)holder_profile(std::string(b)); }); }},
       {"spec", [](std::string_view b) { refused_or([&] { (void)parse_tool_spec(std::string(b), "tool"); }); }},
-      {"step", [](std::string_view b) { refused_or([&] { check_step_syntax("f", b); }); }},
+      {"step", [](std::string_view b) { refused_or([&] { (void)plain_step("f", b); }); }},
       {"part_bytes", part_bytes},
       {"machine", [](std::string_view b) { refused_or([&] { sound(machine_from_toml(b, "f")); }); }},
       {"setup", [](std::string_view b) { refused_or([&] { (void)parse_setup(std::string(b)); }); }},

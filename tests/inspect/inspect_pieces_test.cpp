@@ -44,9 +44,9 @@ TEST(InspectPieces, AreListedBelowTheirFace) {
   EXPECT_FALSE(json.at("faces")[1].contains("pieces"));
 }
 
-TEST(InspectPieces, WhatWasLeftOutIsSaid) {
+TEST(InspectPieces, WhatWasNotReadIsSaidWithItsReason) {
   const std::string table = to_table(inspect(skin_and_hole()));
-  EXPECT_NE(table.find("F2    left out"), std::string::npos);
+  EXPECT_NE(table.find("F2    not read   blade.step, face F2: for a reason"), std::string::npos);
   EXPECT_NE(table.find("- blade.step, face F2: for a reason"), std::string::npos);
 }
 

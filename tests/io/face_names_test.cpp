@@ -70,6 +70,9 @@ TEST(FaceNames, SolidsStandForTheirFaces) {
     EXPECT_NE(refused(part, wrong).find("accepted are S1 to S3"), std::string::npos) << wrong;
   part.left_out[1] = "for a reason";
   EXPECT_EQ(parse_face_list(part, "S1-S2"), Faces{0});
+  EXPECT_EQ(parse_faces(part, "S1-S2", Unread::kTaken), (Faces{0, 1}));
+  EXPECT_EQ(parse_faces(part, "F2-F3", Unread::kTaken), (Faces{1, 2}));
+  EXPECT_EQ(refused(part, "F2-F3"), "for a reason");
 }
 
 TEST(FaceNames, PiecesTakeThePlaceOfTheirFace) {

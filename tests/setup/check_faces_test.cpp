@@ -60,10 +60,24 @@ TEST(CheckFaces, RefusesWhatIsNotThere) {
   EXPECT_NE(refusal(faces("F3,F4", "F4")).find("`ignore_faces` names F4, too"), std::string::npos);
 }
 
+TEST(CheckFaces, WhatCouldNotBeReadIsSaidUnlessItIsIgnoredByName) {
+  Part part = part_of(5);
+  part.left_out[2] = "p.step, face F3: why";
+  part.left_out[4] = "p.step, face F5: why";
+  EXPECT_EQ(faces_unread(part, {1}, {}), (std::vector<int>{2, 4}));
+  EXPECT_EQ(faces_unread(part, {1}, faces({}, "F3")), std::vector<int>{4});
+  EXPECT_EQ(faces_unread(part, {1}, faces({}, "F3-F5")), std::vector<int>());
+  EXPECT_EQ(faces_unread(part, {1}, faces("F4", {})), (std::vector<int>{2, 4})) << "nobody said that they may be cut";
+  EXPECT_EQ(faces_to_check(part, {1}, faces({}, "F3-F4")), std::vector<int>{0});
+  EXPECT_THROW((void)faces_to_check(part, {1}, faces("F3", {})), UsageError) << "it cannot be checked";
+  EXPECT_EQ(unchecked_note(part, {1}, {0, 3}, {2, 4}), "");
+  EXPECT_EQ(unchecked_note(part, {1}, {0, 3}, {4}), "not checked, as asked: F3");
+}
+
 TEST(CheckFaces, SaysWhatIsLeftOut) {
-  EXPECT_EQ(unchecked_note(part_of(5), {1}, {0, 2, 3, 4}), "");
-  EXPECT_EQ(unchecked_note(part_of(5), {1}, {0, 2}), "not checked, as asked: F4, F5");
-  EXPECT_EQ(unchecked_note(part_of(20), {0}, {1}),
+  EXPECT_EQ(unchecked_note(part_of(5), {1}, {0, 2, 3, 4}, {}), "");
+  EXPECT_EQ(unchecked_note(part_of(5), {1}, {0, 2}, {}), "not checked, as asked: F4, F5");
+  EXPECT_EQ(unchecked_note(part_of(20), {0}, {1}, {}),
             "not checked, as asked: F3, F4, F5, F6, F7, F8, F9, F10 and 10 more faces");
 }
 

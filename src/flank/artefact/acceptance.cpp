@@ -72,6 +72,17 @@ void add_buried(const VerifyReport& report, Acceptance& out) {
   add_reason(out, Figure::kBuried, std::move(text));
 }
 
+/// Faces that nobody could judge.
+void add_unread(const VerifyReport& report, Acceptance& out) {
+  const std::vector<UnjudgedFace>& faces = report.unread_faces;
+  for (std::size_t k = 0; k < faces.size() && k < kMostFacesNamed; ++k)
+    add_reason(out, Figure::kUnreadFaces,
+               fmt::format("{} is not judged: {}; a result that may enter it passes if it is ignored by name", faces[k].face,
+                           faces[k].why));
+  if (faces.size() > kMostFacesNamed)
+    add_reason(out, Figure::kUnreadFaces, fmt::format("and {} more faces", faces.size() - kMostFacesNamed));
+}
+
 /// Coverage that was measured but is not proved; of a target that is cut too deep, nothing of it is.
 void add_coverage(const VerifyReport& report, double least, Acceptance& out) {
   if (!(report.coverage_reachable >= least)) {
@@ -171,6 +182,7 @@ Acceptance accept(const Tool& tool, const VerifyReport& report, const JudgeReque
   }
   add_cuts(report, true, out);
   add_cuts(report, false, out);
+  add_unread(report, out);
   add_buried(report, out);
   // What was stopped was judged by samples alone, and says already why it does not pass.
   if (complete) add_unproved(report, out);

@@ -196,6 +196,7 @@ VerifyReport report_from(const Json& j) {
   const auto schema = j.at("schema").get<std::string>();
   // Fields of another version may have the same names and other meanings.
   if (schema != kSchema) throw InputError("schema \"" + schema + "\"; " + std::string(kSchema) + " is accepted");
+  if (j.value("units", "mm") != "mm") throw InputError("units: is not \"mm\", which is accepted");
   VerifyReport r;
   r.verdict = verdict_from(j.at("verdict").get<std::string>());
   r.tolerance_mm = to_number(j.at("tolerance_mm"));
@@ -229,6 +230,9 @@ VerifyReport report_from(const Json& j) {
     for (const Json& c : j.at("clearance")) r.clearance.figures.push_back(clearance_from(c));
   if (j.contains("buried"))
     for (const Json& b : j.at("buried")) r.buried.push_back(buried_from(b));
+  if (j.contains("unread_faces"))
+    for (const Json& f : j.at("unread_faces"))
+      r.unread_faces.push_back({f.at("face").get<std::string>(), f.at("why").get<std::string>()});
   if (j.contains("hold")) {
     const Json& hold = j.at("hold");
     r.hold.emplace().axis = clearance_from(hold.at("axis"));
@@ -294,6 +298,7 @@ std::string verify_to_json(const VerifyReport& r, const Acceptance& acceptance) 
   for (double e : r.histogram_edges_mm) j["histogram"]["edges_mm"].push_back(number(e));
   for (double a : r.histogram_area_mm2) j["histogram"]["area_mm2"].push_back(number(a));
   for (const BuriedStrip& b : r.buried) j["buried"].push_back(to_json(b));
+  for (const UnjudgedFace& f : r.unread_faces) j["unread_faces"].push_back({{"face", f.face}, {"why", f.why}});
   if (!r.clearance.figures.empty()) j["clearance"] = to_json(r.clearance);
   if (r.hold) {
     j["hold"] = {{"axis", to_json(r.hold->axis)}};

@@ -19,6 +19,9 @@ using Triangle = std::array<int, 3>;
 
 /// Twice the area over the longest side squared; below this a triangle counts as having no area.
 constexpr double kFlatness = 1e-12;
+/// Vertices are farther from the middle of the mesh than this many times the usual distance only if a few are far away: in a box
+/// of equal triangles the farthest are at less than three.
+constexpr double kFarthest = 30.0;
 
 /// Throws InputError for what no repair can mend.
 void check(const TriangleMesh& mesh) {
@@ -34,9 +37,42 @@ void check(const TriangleMesh& mesh) {
       throw InputError("mesh vertex " + std::to_string(v) + " has a coordinate that is not a finite number");
 }
 
+/// The middle one of the values, which come into another order.
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The size of what the triangles are made of: the diagonal of its box, unless a few vertices far away make that; they must not
+/// decide what is small for all the others.
+double usual_size(const TriangleMesh& mesh) {
+  std::vector<char> used(mesh.vertices.size(), 0);
+  for (const Triangle& t : mesh.triangles)
+    for (const int v : t) used[static_cast<std::size_t>(v)] = 1;
+  Box3 box;
+  Vec3 middle = Vec3::Zero();
+  std::vector<double> values;
+  for (int axis = 0; axis < 3; ++axis) {
+    values.clear();
+    for (std::size_t v = 0; v < used.size(); ++v)
+      if (used[v] != 0) values.push_back(mesh.vertices[v][axis]);
+    middle[axis] = median(values);
+  }
+  values.clear();
+  for (std::size_t v = 0; v < used.size(); ++v) {
+    if (used[v] == 0) continue;
+    box.add(mesh.vertices[v]);
+    values.push_back((mesh.vertices[v] - middle).norm());
+  }
+  const double usual = median(values);
+  // Half of the vertices at one place say nothing of a size.
+  return usual > 0.0 ? std::min(box.diagonal(), kFarthest * usual) : box.diagonal();
+}
+
 /// One vertex at each place from here on. They keep their order, and those of no triangle stay until drop_unused().
 void weld(TriangleMesh& mesh, double weld_share, MeshRepair& repair) {
-  std::vector<int> number = representatives(mesh.vertices, weld_share * mesh.box().diagonal());
+  std::vector<int> number = representatives(mesh.vertices, weld_share > 0.0 ? weld_share * usual_size(mesh) : 0.0);
   std::size_t count = 0;
   for (std::size_t v = 0; v < number.size(); ++v) {
     const auto first = static_cast<std::size_t>(number[v]);

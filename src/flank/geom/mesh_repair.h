@@ -26,7 +26,8 @@ struct RepairedMesh {
   MeshRepair repair;
 };
 
-/// Welds vertices closer than `weld_share` times the box's diagonal (0: equal coordinates only), removes degenerate and
+/// Welds vertices closer than `weld_share` times the diagonal of the box of what the triangles use, but for a few vertices far away
+/// (0: equal coordinates only), removes degenerate and
 /// duplicate triangles and isolated vertices, and turns triangles so that neighbours agree. A sound mesh comes back
 /// with its numbering unchanged. Throws InputError: no triangles, an index out of range, a coordinate that is not
 /// finite, no area at all, or a one-sided (Moebius) component.

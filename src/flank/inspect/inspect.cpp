@@ -238,7 +238,8 @@ InspectReport inspect(const Part& part) {
   parallel_for(report.rows.size(), [&](std::size_t i) {
     if (part.is_left_out(static_cast<int>(i))) {
       report.rows[i].id = part.face_id(static_cast<int>(i));
-      report.rows[i].type = report.rows[i].bend = "left out";
+      report.rows[i].type = report.rows[i].bend = "not read";
+      report.rows[i].why = part.left_out.at(static_cast<int>(i));
       return;
     }
     report.rows[i] = part.is_mesh() ? inspect_mesh_face(part, static_cast<int>(i), total_area)

@@ -23,7 +23,8 @@ inline constexpr double kPureShare = 0.99;
 
 struct InspectRow {
   std::string id;    ///< F1, F2, ...
-  std::string type;  ///< plane, cylinder, ..., B-spline as the file has it; mesh
+  std::string type;  ///< plane, cylinder, ..., B-spline as the file has it; mesh; not read
+  std::string why;   ///< of a face that could not be read: a sentence. Nothing else is known of it
   int degree_u = 0, degree_v = 0, poles_u = 0, poles_v = 0;  ///< of the B-spline form; 0 for meshes
   bool rational = false;
   int triangles = 0;      ///< of a mesh face

@@ -54,6 +54,10 @@ std::string bend_of(const InspectRow& row) {
 
 /// One line of the table.
 void add_line(const InspectRow& row, std::string& text) {
+  if (!row.why.empty()) {
+    fmt::format_to(std::back_inserter(text), "{:<5} {:<10} {}\n", row.id, row.type, row.why);
+    return;
+  }
   const std::string radius =
       std::isfinite(row.smallest_concave_radius_mm) ? figures(row.smallest_concave_radius_mm, 3) : "-";
   const std::string of = row.solid >= 0 ? fmt::format("solid {}", row.solid + 1) : "sheet";
@@ -68,6 +72,7 @@ nlohmann::json box_json(const Box3& box) {
 
 /// One face with all its figures; what does not apply to its kind has no key, and "none" is null.
 nlohmann::json row_json(const InspectRow& row) {
+  if (!row.why.empty()) return {{"id", row.id}, {"type", row.type}, {"why", row.why}};
   nlohmann::json json = {{"id", row.id}, {"type", row.type}, {"area", row.area_mm2}, {"box", box_json(row.box)}};
   if (row.triangles > 0) {
     json["triangles"] = row.triangles;

@@ -31,8 +31,8 @@ int parse_solid_name(std::string_view text) {
   return error == std::errc() && stop == end ? std::max(0, number) : 0;
 }
 
-/// Faces of S2, or of S2-S4; what could not be read is none of them.
-std::vector<int> faces_of_solids(const Part& part, const std::string& item) {
+/// Faces of S2, or of S2-S4.
+std::vector<int> faces_of_solids(const Part& part, const std::string& item, Unread unread) {
   const std::size_t dash = item.find('-');
   const int first = parse_solid_name(std::string_view(item).substr(0, dash));
   const int last = dash == std::string::npos ? first : parse_solid_name(std::string_view(item).substr(dash + 1));
@@ -44,7 +44,7 @@ std::vector<int> faces_of_solids(const Part& part, const std::string& item) {
   for (std::size_t k = 0; k < part.faces.size(); ++k) {
     const Face& face = part.faces[k];
     const bool named = face.of_solid && face.solid >= first - 1 && face.solid <= last - 1;
-    if (named && !part.is_left_out(static_cast<int>(k))) faces.push_back(static_cast<int>(k));
+    if (named && (unread == Unread::kTaken || !part.is_left_out(static_cast<int>(k)))) faces.push_back(static_cast<int>(k));
   }
   return faces;
 }
@@ -101,8 +101,8 @@ std::vector<std::string> face_list_items(const std::string& list) {
   return items;
 }
 
-std::vector<int> parse_face_item(const Part& part, const std::string& item) {
-  if (!item.empty() && (item.front() == 'S' || item.front() == 's')) return faces_of_solids(part, item);
+std::vector<int> parse_face_item(const Part& part, const std::string& item, Unread unread) {
+  if (!item.empty() && (item.front() == 'S' || item.front() == 's')) return faces_of_solids(part, item, unread);
   const std::size_t dash = item.find('-');
   const FaceName first = parse_face_name(std::string_view(item).substr(0, dash));
   if (first.number < 1 || first.number > last_number(part)) refuse_name(part, item);
@@ -122,16 +122,15 @@ std::vector<int> parse_face_item(const Part& part, const std::string& item) {
       throw InputError(fmt::format("{}: there is no piece \"{}\" of F{}; flank inspect lists the pieces", part.file,
                                    item, first.number));
   }
-  for (const int face : faces) refuse_left_out(part, face);
+  if (unread == Unread::kRefused)
+    for (const int face : faces) refuse_left_out(part, face);
   return faces;
 }
 
-}  // namespace internal
-
-std::vector<int> parse_face_list(const Part& part, const std::string& list) {
+std::vector<int> parse_faces(const Part& part, const std::string& list, Unread unread) {
   std::vector<int> faces;
   for (const std::string& item : face_list_items(list)) {
-    for (const int face : parse_face_item(part, item)) {
+    for (const int face : parse_face_item(part, item, unread)) {
       if (std::find(faces.begin(), faces.end(), face) != faces.end())
         throw InputError(fmt::format("{}: face \"{}\" is named twice in \"{}\"; name each face once", part.file,
                                      part.face_id(face), list));
@@ -139,6 +138,12 @@ std::vector<int> parse_face_list(const Part& part, const std::string& list) {
     }
   }
   return faces;
+}
+
+}  // namespace internal
+
+std::vector<int> parse_face_list(const Part& part, const std::string& list) {
+  return parse_faces(part, list, Unread::kRefused);
 }
 
 }  // namespace flank

@@ -24,7 +24,14 @@ struct FaceName {
 /// The items of a list, separated by commas, without blanks around them.
 [[nodiscard]] std::vector<std::string> face_list_items(const std::string& list);
 
+/// Whether a list may name faces that could not be read: only one of faces that nobody is to ask for may.
+enum class Unread { kRefused, kTaken };
+
 /// Indices of what one item of a list means: F3, F3b, F5-F9, S2, S2-S4. Throws InputError as parse_face_list does.
-[[nodiscard]] std::vector<int> parse_face_item(const Part& part, const std::string& item);
+[[nodiscard]] std::vector<int> parse_face_item(const Part& part, const std::string& item,
+                                               Unread unread = Unread::kRefused);
+
+/// parse_face_list, and a choice.
+[[nodiscard]] std::vector<int> parse_faces(const Part& part, const std::string& list, Unread unread);
 
 }  // namespace flank::internal

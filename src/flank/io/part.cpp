@@ -98,10 +98,12 @@ Part read_part(const std::string& file, const std::optional<std::string>& unit) 
   // A wrong unit is refused before a large file is read.
   if (unit) (void)millimetres_per(*unit);
   std::string content = read_bytes(file);
-  const std::string format = sniff_format(file, content);
-  const bool mesh = format == "STL" || format == "OBJ" || format == "PLY";
   // So that a result can tell later whether the file is still the same.
   std::string hash = sha256(content);
+  // The header of a binary STL may hold any bytes.
+  if (content.starts_with(kByteOrderMark) && !is_binary_stl(content)) content.erase(0, kByteOrderMark.size());
+  const std::string format = sniff_format(file, content);
+  const bool mesh = format == "STL" || format == "OBJ" || format == "PLY";
   // CAD files go through a reader that can be replaced: in this process, or in a child that a damaged file may break.
   Part part = mesh ? read_mesh(file, format, std::move(content), unit) : cad_reader()(file, format, unit);
   part.sha256 = std::move(hash);

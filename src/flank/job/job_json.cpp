@@ -119,6 +119,8 @@ Job read_job(const Json& json, const std::set<std::string>& ignored) {
       throw InputError(key + ": " + e.what());
     }
   });
+  if (const auto units = json.find("units"); units != json.end() && *units != "mm")
+    throw InputError("units: is " + units->dump() + "; accepted is \"mm\"");
   // A misspelled key would be a demand that is silently not kept.
   for (const auto& [key, value] : json.items())
     if (!known.contains(key) && !ignored.contains(key)) throw InputError(key + ": is no key of a job file");

@@ -13,6 +13,12 @@ void require_schema(const nlohmann::json& json, const std::string& file, const s
   throw InputError(file + ": schema \"" + schema + "\" is needed");
 }
 
+/// Files of lengths are in millimetres, those of angles or of several kinds say so themselves.
+void require_units(const nlohmann::json& json, const std::string& file, const std::string& schema) {
+  if (schema == schema_of("engagement.json") || schema == schema_of("motion.json") || !json.contains("units")) return;
+  if (json["units"] != "mm") throw InputError(file + ": units: is " + json["units"].dump() + "; accepted is \"mm\"");
+}
+
 /// Throws InputError where the page would look for a list or a figure and find something else. Files by hand leave keys
 /// out; texts are only shown.
 void require_types(const nlohmann::json& json, const std::string& file) {
@@ -42,6 +48,7 @@ void check_report_file(std::string_view text, const std::string& file, const std
   const auto json = nlohmann::json::parse(text, nullptr, false);
   if (json.is_discarded()) throw InputError(file + ": not JSON; give a file written by `flank fit`");
   require_schema(json, file, schema);
+  require_units(json, file, schema);
   require_types(json, file);
 }
 

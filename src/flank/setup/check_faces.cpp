@@ -17,14 +17,14 @@ bool holds(const std::vector<int>& faces, int face) {
 
 /// The faces of a field's list. A wrong face is a wrong request here, not a wrong part.
 std::vector<int> named_faces(const Part& part, const std::vector<int>& targets, const std::string& field,
-                             const std::string& list) {
+                             const std::string& list, Unread unread) {
   std::vector<int> faces;
   try {
-    faces = parse_face_list(part, list);
+    faces = parse_faces(part, list, unread);
     // Of a range, or of a face in pieces, the rest is meant.
     for (const std::string& item : face_list_items(list)) {
-      const std::vector<int> members = parse_face_item(part, item);
-      if (std::all_of(members.begin(), members.end(), [&](int face) { return holds(targets, face); }))
+      const std::vector<int> members = parse_face_item(part, item, unread);
+      if (!members.empty() && std::all_of(members.begin(), members.end(), [&](int face) { return holds(targets, face); }))
         throw UsageError(field, list,
                          fmt::format("{} is a target; other faces of F1 to F{} are accepted", item,
                                      parse_face_name(part.face_id(part.face_count() - 1)).number));
@@ -52,8 +52,10 @@ std::vector<std::string> names_of_solids(const std::set<int>& solids) {
 
 std::vector<int> faces_to_check(const Part& part, const std::vector<int>& targets, const ObstacleRequest& request) {
   std::vector<int> only, ignored, checks;
-  if (request.check_faces) only = named_faces(part, targets, "check_faces", *request.check_faces);
-  if (request.ignore_faces) ignored = named_faces(part, targets, "ignore_faces", *request.ignore_faces);
+  if (request.check_faces)
+    only = named_faces(part, targets, "check_faces", *request.check_faces, Unread::kRefused);
+  if (request.ignore_faces)
+    ignored = named_faces(part, targets, "ignore_faces", *request.ignore_faces, Unread::kTaken);
   for (int face : only)
     if (holds(ignored, face))
       throw UsageError("check_faces",
@@ -65,11 +67,21 @@ std::vector<int> faces_to_check(const Part& part, const std::vector<int>& target
   return checks;
 }
 
-std::string unchecked_note(const Part& part, const std::vector<int>& targets, const std::vector<int>& checks) {
+std::vector<int> faces_unread(const Part& part, const std::vector<int>& targets, const ObstacleRequest& request) {
+  std::vector<int> ignored, unread;
+  if (request.ignore_faces)
+    ignored = named_faces(part, targets, "ignore_faces", *request.ignore_faces, Unread::kTaken);
+  for (const auto& [face, why] : part.left_out)
+    if (!holds(ignored, face)) unread.push_back(face);
+  return unread;
+}
+
+std::string unchecked_note(const Part& part, const std::vector<int>& targets, const std::vector<int>& checks,
+                           const std::vector<int>& unread) {
   constexpr std::size_t kNamed = 8;
   std::vector<std::string> names;
   for (int face = 0; face < part.face_count(); ++face)
-    if (!part.is_left_out(face) && !holds(targets, face) && !holds(checks, face)) names.push_back(part.face_id(face));
+    if (!holds(targets, face) && !holds(checks, face) && !holds(unread, face)) names.push_back(part.face_id(face));
   if (names.empty()) return {};
   const std::size_t count = names.size();
   names.resize(std::min(count, kNamed));

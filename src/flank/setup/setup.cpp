@@ -41,12 +41,13 @@ Setup read_setup(const PartRequest& part, const ObstacleRequest& obstacles, doub
   split_checks(setup.part, "ignore_faces", obstacles.ignore_faces);
   setup.targets = targets_of(setup.part, part);
   setup.checks = faces_to_check(setup.part, setup.targets, obstacles);
+  setup.unread = faces_unread(setup.part, setup.targets, obstacles);
   setup.side = part.side;
   setup.tolerance_mm = tolerance_mm;
   setup.fixtures = read_fixtures(obstacles.fixtures, part.unit);
   notes.insert(notes.end(), setup.part.repairs.begin(), setup.part.repairs.end());
   for (std::string note :
-       {wrapped_note(setup.part, setup.targets), unchecked_note(setup.part, setup.targets, setup.checks),
+       {wrapped_note(setup.part, setup.targets), unchecked_note(setup.part, setup.targets, setup.checks, setup.unread),
         other_solids_note(setup.part, setup.targets, setup.checks)})
     if (!note.empty()) notes.push_back(std::move(note));
   return setup;

@@ -17,6 +17,7 @@ struct Setup {
   double tolerance_mm = 0.01;
   std::vector<Part> fixtures;
   std::optional<int> side = {};  ///< of open sheets that was asked for: +1 along their normals, or -1
+  std::vector<int> unread = {};  ///< faces that are in the file and could not be read, but for those ignored by name
 };
 
 /// Reads the part, finds its faces, and reads the fixtures. `notes` gets what was repaired, and which faces are not checked. Throws UsageError

@@ -12,13 +12,14 @@
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
+#include <algorithm>
 #include <utility>
 
 #include "flank/error.h"
 #include "flank/io/cad/read_occt_face.h"
 #include "flank/io/cad/read_occt_sew.h"
-#include "flank/io/cad/read_occt_shape.h"
-#include "flank/io/cad/read_occt_silence.h"
+#include "flank/io/kernel/read_occt_shape.h"
+#include "flank/io/kernel/read_occt_silence.h"
 
 namespace flank::internal {
 namespace {
@@ -63,11 +64,14 @@ void add_extent(const TopoDS_Face& face, const std::string& type, Box3& box) {
   box.add(Vec3(x1, y1, z1));
 }
 
+/// Where the faces of the file's shape are among those of the part, among which are those that the kernel did not read.
+using Places = std::vector<std::size_t>;
+
 /// Tells every face its solid and its orientation in it; a solid of negative volume is inside out and all its faces are
 /// turned.
-void assign_solids(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& index, Part& part) {
+void assign_solids(const OcctShape& loaded, const Places& places, Part& part) {
   TopTools_IndexedMapOfShape solids;
-  TopExp::MapShapes(shape, TopAbs_SOLID, solids);
+  TopExp::MapShapes(loaded.shape, TopAbs_SOLID, solids);
   part.solids = solids.Extent();
   for (int k = 1; k <= solids.Extent(); ++k) {
     double volume = 0.0;
@@ -76,7 +80,7 @@ void assign_solids(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& 
     for (TopExp_Explorer it(solids(k), TopAbs_FACE); it.More(); it.Next()) {
       const TopoDS_Face face = TopoDS::Face(it.Current());
       volume += add_triangulation(face, ignored);
-      Face& member = part.faces[static_cast<std::size_t>(index.FindIndex(face) - 1)];
+      Face& member = part.faces[places[static_cast<std::size_t>(loaded.faces.FindIndex(face) - 1)]];
       if (member.of_solid) continue;  // shared with an earlier solid
       member.of_solid = true;
       member.solid = k - 1;
@@ -91,46 +95,93 @@ void assign_solids(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& 
 }
 
 /// A file without solids: its faces are sewn, and where they close the sides are those of the solid.
-void sew_sheets(const TopTools_IndexedMapOfShape& index, Part& part) {
-  const SewnFaces sewn = sew_loose_faces(index, part.box.diagonal());
+void sew_sheets(const OcctShape& loaded, const Places& places, Part& part) {
+  const SewnFaces sewn = sew_loose_faces(loaded.faces, part.box.diagonal());
   part.solids = sewn.solids;
-  for (std::size_t k = 0; k < part.faces.size(); ++k) {
-    part.faces[k].solid = sewn.solid[k];
-    part.faces[k].of_solid = sewn.solid[k] >= 0;
-    part.faces[k].reversed = sewn.reversed[k];
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    Face& face = part.faces[places[k]];
+    face.solid = sewn.solid[k];
+    face.of_solid = sewn.solid[k] >= 0;
+    face.reversed = sewn.reversed[k];
   }
   // A face that is all there is, is a sheet on purpose.
   if (part.faces.size() > 1) part.repairs.insert(part.repairs.end(), sewn.notes.begin(), sewn.notes.end());
 }
 
-/// Converts a face, or leaves it out with the reason: one face that nobody asked for must not lose the part.
-void add_face(const TopoDS_Face& face, Part& part) {
-  const std::string id = fmt::format("F{}", part.faces.size() + 1);
-  const std::string name = part.file + ", face " + id;
+/// Adds a face of which nothing is known but its number.
+void leave_out(Part& part, Face face, std::string type, std::string why) {
+  part.left_out[static_cast<int>(part.faces.size())] = std::move(why);
+  part.faces.push_back(std::move(face));
+  part.surface_types.push_back(std::move(type));
+}
+
+Face next_face(const Part& part) {
+  Face face;
+  face.id = fmt::format("F{}", part.faces.size() + 1);
+  return face;
+}
+
+/// Converts a face, or leaves it out with the reason: one face that nobody asked for must not lose the part. `spoilt`: why the
+/// kernel's face is not that of the file; empty where it is.
+void add_face(const TopoDS_Face& face, const std::string& spoilt, Part& part) {
+  Face whole = next_face(part);
+  const std::string name = part.file + ", face " + whole.id;
   OcctFace converted;
   converted.type = "unknown";
+  std::string why;
   try {
     converted = convert_occt_face(face, name);
-    part.repairs.insert(part.repairs.end(), converted.notes.begin(), converted.notes.end());
-    add_extent(face, converted.type, part.box);
+    if (!spoilt.empty()) why = fmt::format("{}: a part of it could not be read ({})", name, spoilt);
   } catch (const InputError& error) {
-    converted.face = {};
-    part.left_out[static_cast<int>(part.faces.size())] = error.what();
+    why = error.what();
   } catch (const Standard_Failure& failure) {
-    converted.face = {};
-    part.left_out[static_cast<int>(part.faces.size())] =
-        fmt::format("{}: its geometry cannot be used ({})", name, failure.GetMessageString());
+    why = fmt::format("{}: its geometry cannot be used ({})", name, failure.GetMessageString());
   }
-  converted.face.id = id;
+  if (!why.empty()) return leave_out(part, std::move(whole), std::move(converted.type), std::move(why));
+  part.repairs.insert(part.repairs.end(), converted.notes.begin(), converted.notes.end());
+  add_extent(face, converted.type, part.box);
+  converted.face.id = std::move(whole.id);
   part.faces.push_back(std::move(converted.face));
   part.surface_types.push_back(std::move(converted.type));
+}
+
+/// All faces of the file in its order: those behind one that could not be read keep their numbers.
+Places add_faces(const OcctShape& loaded, Part& part) {
+  Places places;
+  auto unread = loaded.left.unread.begin();
+  for (int i = 1; i <= loaded.faces.Extent() + 1; ++i) {
+    for (; unread != loaded.left.unread.end() && (unread->before <= i || i > loaded.faces.Extent()); ++unread) {
+      Face face = next_face(part);
+      std::string why = fmt::format("{}, face {} ({} in the file): the CAD kernel cannot read it ({})", part.file,
+                                    face.id, unread->entity, unread->why);
+      leave_out(part, std::move(face), "unknown", std::move(why));
+    }
+    if (i > loaded.faces.Extent()) break;
+    const auto spoilt = loaded.left.spoilt.find(i);
+    places.push_back(part.faces.size());
+    add_face(TopoDS::Face(loaded.faces(i)), spoilt == loaded.left.spoilt.end() ? "" : spoilt->second, part);
+  }
+  return places;
+}
+
+/// A face that could not be read is of the solid of its neighbours in the file.
+void assign_unread(const OcctShape& loaded, const Places& places, Part& part) {
+  std::size_t k = 0;
+  for (const UnreadFace& unread : loaded.left.unread) {
+    while (std::binary_search(places.begin(), places.end(), k)) ++k;
+    if (unread.beside > 0) {
+      const Face& beside = part.faces[places[static_cast<std::size_t>(unread.beside - 1)]];
+      part.faces[k].solid = beside.solid, part.faces[k].of_solid = beside.of_solid;
+    }
+    ++k;
+  }
 }
 
 /// Notes for what is left out; a part of which nothing is left is refused.
 void refuse_unreadable(Part& part) {
   if (part.left_out.size() == part.faces.size()) throw InputError(part.left_out.begin()->second);
   for (const auto& [face, why] : part.left_out)
-    part.repairs.push_back(why + "; the face is left out, nothing is known of what enters it");
+    part.repairs.push_back(why + "; the face is not read, nothing is known of what enters it");
 }
 
 }  // namespace
@@ -144,14 +195,13 @@ Part read_cad(const std::string& file, const std::string& format, const std::opt
   part.unit = loaded.unit;
   part.millimetres_per_unit = loaded.millimetres_per_unit;
   part.repairs = std::move(loaded.notes);
-  TopTools_IndexedMapOfShape index;
-  TopExp::MapShapes(loaded.shape, TopAbs_FACE, index);
   try {
     const BRepMesh_IncrementalMesh meshed(loaded.shape, kRelativeDeflection, true, kAngularDeflection, false);
-    for (int i = 1; i <= index.Extent(); ++i) add_face(TopoDS::Face(index(i)), part);
+    const Places places = add_faces(loaded, part);
     refuse_unreadable(part);
-    assign_solids(loaded.shape, index, part);
-    if (part.solids == 0) sew_sheets(index, part);
+    assign_solids(loaded, places, part);
+    if (part.solids == 0) sew_sheets(loaded, places, part);
+    assign_unread(loaded, places, part);
   } catch (const Standard_Failure& failure) {
     throw InputError(file + ": its geometry cannot be used (" + failure.GetMessageString() + "); export it again");
   }

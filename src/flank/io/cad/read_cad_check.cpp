@@ -14,7 +14,7 @@
 
 #include "flank/io/cad/read_cad.h"
 #include "flank/io/cad/read_occt_face.h"
-#include "flank/io/cad/read_occt_shape.h"
+#include "flank/io/kernel/read_occt_shape.h"
 #include "flank/io/cad/read_occt_trim.h"
 
 namespace flank::internal {

@@ -16,6 +16,7 @@
 #include <cstring>
 #include <ctime>
 #include <filesystem>
+#include <fstream>
 #include <vector>
 
 #include "flank/base/stopping.h"
@@ -33,11 +34,10 @@ using Clock = std::chrono::steady_clock;
 constexpr double kSecondsAtLeast = 10.0, kSecondsPerMegabyte = 30.0;  // of processor time
 /// Bytes of address space: the kernel's libraries alone take a third of the first.
 constexpr double kMemoryAtLeast = 1.5e9, kMemoryPerByte = 100.0;
-/// The limit is on processor time, which a busy machine gives slowly; by the clock, a child is stuck after so many times
-/// as much.
+/// The limit is on processor time, which a busy machine gives slowly; by the clock, a child may take so many times as much.
 constexpr double kClockPerProcessor = 30.0;
-/// One that gets no processor time at all for so long sleeps for ever.
-constexpr double kSleepSeconds = 10.0;
+/// One that is asleep for so long, and asks for no processor, sleeps for ever.
+constexpr double kSleepSeconds = 60.0;
 
 /// Closes at the end of its life.
 struct Descriptor {
@@ -88,14 +88,26 @@ pid_t start(std::vector<std::string> words, int pipe) {
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
+/// Whether a process sleeps, by the letter in /proc/PID/stat that follows its name: one that runs, waits for a processor or the disk, or was
+/// stopped by somebody does not.
+bool is_asleep(pid_t process) {
+  std::ifstream file(fmt::format("/proc/{}/stat", process));
+  std::string line;
+  std::getline(file, line);
+  // The name is in parentheses and may hold any characters.
+  const std::size_t name = line.rfind(") ");
+  return name != std::string::npos && line.compare(name + 2, 1, "S") == 0;
+}
+
 /// Tells a child that sleeps for ever from one that waits for a processor.
 class Pulse {
  public:
-  explicit Pulse(pid_t child) : known_(::clock_getcpuclockid(child, &clock_) == 0) {}
+  explicit Pulse(pid_t child) : child_(child), known_(::clock_getcpuclockid(child, &clock_) == 0) {}
   [[nodiscard]] bool stopped() {
     timespec used{};
     if (!known_ || ::clock_gettime(clock_, &used) != 0) return false;
-    if (used.tv_sec != used_.tv_sec || used.tv_nsec != used_.tv_nsec) {
+    const bool progress = used.tv_sec != used_.tv_sec || used.tv_nsec != used_.tv_nsec;
+    if (progress || !is_asleep(child_)) {
       used_ = used;
       since_ = Clock::now();
     }
@@ -103,14 +115,18 @@ class Pulse {
   }
 
  private:
+  pid_t child_;
   clockid_t clock_{};
   bool known_;
   timespec used_{};
   Clock::time_point since_ = Clock::now();
 };
 
-/// All that the child writes; nothing more once the time is over, or beyond `most` bytes.
-std::string receive(int pipe, pid_t child, double patience, double most, bool& over) {
+/// Why no more is read of what a child writes.
+enum class Over { kNot, kBytes, kAsleep, kClock };
+
+/// All that the child writes; nothing more once it takes more than `patience` by the clock, sleeps, or wrote more than `most` bytes.
+std::string receive(int pipe, pid_t child, double patience, double most, Over& over) {
   constexpr int kLookMs = 100;
   const auto begin = Clock::now();
   Pulse pulse(child);
@@ -119,8 +135,11 @@ std::string receive(int pipe, pid_t child, double patience, double most, bool& o
   while (true) {
     // Looked at every kLookMs at least: a child that writes nothing is noticed as well, and so is a request to stop.
     stop_here();
-    over = seconds_since(begin) > patience || static_cast<double>(bytes.size()) > most || pulse.stopped();
-    if (over) return bytes;
+    over = static_cast<double>(bytes.size()) > most ? Over::kBytes
+           : pulse.stopped()                        ? Over::kAsleep
+           : seconds_since(begin) > patience        ? Over::kClock
+                                                    : Over::kNot;
+    if (over != Over::kNot) return bytes;
     pollfd wait{pipe, POLLIN, 0};
     if (::poll(&wait, 1, kLookMs) <= 0) continue;
     const ssize_t got = ::read(pipe, block.data(), block.size());
@@ -142,6 +161,13 @@ int wait_for(pid_t child) {
   throw InputError(fmt::format(
       "{}: reading it takes more than {:g} s; it is damaged, or larger than that (`read_limit` sets another limit)",
       file, seconds));
+}
+
+[[noreturn]] void refuse_late(const std::string& file, double seconds) {
+  throw InputError(fmt::format(
+      "{}: reading it has not ended after {:g} s by the clock, in which it got less than {:g} s of a processor; try it "
+      "again when the machine is less busy (`read_limit` sets another limit)",
+      file, kClockPerProcessor * seconds, seconds));
 }
 
 [[noreturn]] void refuse_large(const std::string& file, double bytes) {
@@ -175,7 +201,7 @@ Part read_cad_isolated(const std::string& file, const std::string& format, const
                             to.number);
   // Ours, or the end of the pipe would never come when the child is gone.
   to.close();
-  bool over = false;
+  Over over = Over::kNot;
   std::string bytes;
   try {
     bytes = receive(from.number, child, kClockPerProcessor * seconds, memory, over);
@@ -184,12 +210,13 @@ Part read_cad_isolated(const std::string& file, const std::string& format, const
     (void)wait_for(child);
     throw;
   }
-  if (over) ::kill(child, SIGKILL);
+  if (over != Over::kNot) ::kill(child, SIGKILL);
   const int status = wait_for(child);
   stop_here();  // a signal to all that a terminal runs ends the child, too
   // In this order: a child that was killed by us has a signal too, and that is not its fault.
-  if (over && static_cast<double>(bytes.size()) > memory) refuse_large(file, memory);
-  if (over || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)) refuse_slow(file, seconds);
+  if (over == Over::kBytes) refuse_large(file, memory);
+  if (over == Over::kClock) refuse_late(file, seconds);
+  if (over == Over::kAsleep || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)) refuse_slow(file, seconds);
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || bytes.empty()) refuse_crash(file, status);
   // The first byte says what the rest is: a part, a message for the user, or one about a bug.
   const std::string_view text = std::string_view(bytes).substr(1);

@@ -43,7 +43,7 @@ bool begins_with(std::string_view content, std::string_view word) { return conte
 
 /// Without a byte order mark and blanks in front.
 std::string_view skip_space(std::string_view content) {
-  if (begins_with(content, "\xEF\xBB\xBF")) content.remove_prefix(3);
+  if (begins_with(content, kByteOrderMark)) content.remove_prefix(kByteOrderMark.size());
   while (!content.empty() && std::isspace(static_cast<unsigned char>(content.front()))) content.remove_prefix(1);
   return content;
 }
@@ -145,6 +145,9 @@ bool is_binary_stl(std::string_view content) {
 
 std::string sniff_format(const std::string& file, std::string_view content) {
   const std::string claimed = format_of_extension(file);
+  // What takes the place of large files in some repositories.
+  if (begins_with(content, "version https://git-lfs.github.com/spec/"))
+    throw InputError(file + ": is a Git LFS pointer, not the file; `git lfs pull` fetches the file");
   const std::string found = format_of_content(content);
   // A binary STL whose size is not what its count says has no other mark: believe the name, let the reader name the
   // sizes.

@@ -7,6 +7,9 @@
 
 namespace flank::internal {
 
+/// The three bytes with which some programs begin a text in UTF-8. They mean nothing.
+inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
 /// The whole file. Throws InputError for a missing file, a folder, an empty or an unreadable file.
 [[nodiscard]] std::string read_bytes(const std::string& file);
 

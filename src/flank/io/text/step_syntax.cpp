@@ -6,8 +6,10 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <unordered_set>
 
 #include "flank/error.h"
+#include "flank/io/text/read_sniff.h"
 
 namespace flank::internal {
 namespace {
@@ -17,15 +19,33 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '!'; }
 bool is_word(char c) { return is_letter(c) || is_digit(c) || c == '-'; }
 
-/// Walks over one data section.
-/// Nothing is kept of what it reads: only whether it follows the grammar matters.
+std::string in_capitals(std::string_view text) {
+  std::string capitals(text);
+  for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return capitals;
+}
+
+/// "1e5", "1.5d5" as "1.E5", "1.5E5". Readers of the kernel's kind begin another word at any other letter, and at an E that
+/// follows a single digit.
+std::string in_plain_digits(std::string_view number) {
+  std::string plain = in_capitals(number);
+  std::replace(plain.begin(), plain.end(), 'D', 'E');
+  const std::size_t exponent = plain.find('E');
+  if (exponent != std::string::npos && plain.find('.') == std::string::npos) plain.insert(exponent, 1, '.');
+  return plain;
+}
+
+/// Walks over one data section and writes it in its plain form.
 class Section {
  public:
-  Section(const std::string& file, std::string_view text, std::size_t at) : file_(file), text_(text), at_(at) {}
+  /// `out` has all of the text before `at`, or what stands for it.
+  Section(const std::string& file, std::string_view text, std::size_t at, std::string& out)
+      : file_(file), text_(text), at_(at), out_(out), written_(at) {}
 
   /// To the end of the section; returns where that is.
   std::size_t walk() {
-    for (space(); !starts_with("ENDSEC"); space()) instance();
+    for (space(); in_capitals(text_.substr(at_, 6)) != "ENDSEC"; space()) instance();
+    keep();
     return at_;
   }
 
@@ -35,20 +55,39 @@ class Section {
     const auto line = 1 + std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(at_), '\n');
     throw InputError(fmt::format("{}, line {}: {}; export the STEP file again", file_, line, why));
   }
+  /// All up to here, as it is.
+  void keep() {
+    out_.append(text_, written_, at_ - written_);
+    written_ = at_;
+  }
+  /// What stands from `begin` up to here, by other words where they differ.
+  void put(std::size_t begin, const std::string& words) {
+    if (text_.substr(begin, at_ - begin) == words) return;
+    out_.append(text_, written_, begin - written_);
+    out_ += words;
+    written_ = at_;
+  }
   [[nodiscard]] bool starts_with(std::string_view word) const { return text_.substr(at_, word.size()) == word; }
   /// The next byte, 0 at the end.
   [[nodiscard]] char peek() const { return at_ < text_.size() ? text_[at_] : '\0'; }
 
   /// Over blanks and comments.
   void space() {
-    for (;; ++at_) {
-      while (starts_with("/*")) {
+    while (true) {
+      const std::size_t begin = at_;
+      if (starts_with("/*")) {
         const std::size_t end = text_.find("*/", at_ + 2);
         if (end == std::string_view::npos) refuse("a comment is not closed");
         at_ = end + 2;
+        put(begin, " ");
+        continue;
       }
       if (at_ >= text_.size()) refuse("the section is not closed by ENDSEC");
-      if (std::isspace(static_cast<unsigned char>(text_[at_])) == 0) return;
+      const char c = text_[at_];
+      if (std::isspace(static_cast<unsigned char>(c)) == 0) return;
+      ++at_;
+      // A tab after a quotation mark keeps readers from seeing the end of the text.
+      if (c != '\n' && c != '\r') put(begin, " ");
     }
   }
 
@@ -60,8 +99,7 @@ class Section {
 
   /// #1 = WORD(...); or #1 = (WORD(...) WORD(...));
   void instance() {
-    reference();
-    expect('=');
+    define();
     space();
     if (peek() == '(') {
       ++at_;
@@ -73,6 +111,23 @@ class Section {
     expect(';');
   }
 
+  /// "#1 =", as "#1=".
+  void define() {
+    const std::size_t begin = at_;
+    reference();
+    const std::string_view name = text_.substr(begin, at_ - begin);
+    if (!defined_.insert(name).second) {
+      at_ = begin;
+      refuse(fmt::format("{} is defined a second time", name));
+    }
+    keep();
+    const std::size_t size = out_.size();
+    expect('=');
+    keep();
+    out_.resize(size);
+    out_ += '=';
+  }
+
   void reference() {
     if (peek() != '#') refuse("an instance (#1 = ...) is expected");
     ++at_;
@@ -82,10 +137,16 @@ class Section {
 
   void record() {
     if (!is_letter(peek())) refuse("the name of an entity is expected");
-    while (is_word(peek())) ++at_;
+    word();
     space();
     if (peek() != '(') refuse("a name without its parameters stands where a value is expected");
     list();
+  }
+
+  void word() {
+    const std::size_t begin = at_;
+    while (is_word(peek())) ++at_;
+    put(begin, in_capitals(text_.substr(begin, at_ - begin)));
   }
 
   /// From its opening to its closing parenthesis, with the lists in it.
@@ -121,7 +182,7 @@ class Section {
     const char c = peek();
     // A typed parameter, LENGTH_MEASURE(1.5): a name and a list.
     if (is_letter(c)) {
-      while (is_word(peek())) ++at_;
+      word();
       space();
       if (peek() != '(') refuse("a name without its parameters stands where a value is expected");
     }
@@ -143,18 +204,28 @@ class Section {
   }
   [[nodiscard]] char next() const { return at_ + 1 < text_.size() ? text_[at_ + 1] : '\0'; }
 
-  /// An apostrophe in a string is two of them, which read as two strings here: no difference.
+  /// An apostrophe in a text is two of them. Before a comma or parenthesis readers take them for the end of the text, so
+  /// there it is written by its number.
   void quoted(char mark) {
-    do {
-      const std::size_t end = text_.find(mark, at_ + 1);
-      if (end == std::string_view::npos) refuse("a text is not closed");
+    const std::size_t begin = at_++;
+    while (true) {
+      const std::size_t end = text_.find(mark, at_);
+      if (end == std::string_view::npos) {
+        at_ = begin;
+        refuse("a text is not closed");
+      }
       at_ = end + 1;
-    } while (peek() == mark);
+      if (peek() != mark) return;
+      ++at_;
+      const std::size_t next = text_.find_first_not_of(" \n\r", at_);
+      const bool like_the_end = next != std::string_view::npos && (text_[next] == ',' || text_[next] == ')');
+      if (mark == '\'' && like_the_end) put(end, "\\X\\27");
+    }
   }
 
   void enumeration() {
     ++at_;
-    while (is_word(peek())) ++at_;
+    word();
     if (peek() != '.') refuse("a word between dots is not closed");
     ++at_;
   }
@@ -167,7 +238,7 @@ class Section {
     std::string word(text_.substr(begin, end - begin));
     const std::string shown = word.substr(0, 40);
     // Some writers put D where Fortran does. from_chars takes neither that nor a plus.
-    std::replace(word.begin(), word.end(), 'D', 'e');
+    for (char& c : word) c = c == 'D' || c == 'd' ? 'e' : c;
     if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.erase(0, 1);
     double value = 0.0;
     const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
@@ -176,7 +247,8 @@ class Section {
     // A number too small for a double is nothing.
     const bool too_small = error == std::errc::result_out_of_range &&
                            (word.find("e-") != std::string::npos || word.find("E-") != std::string::npos);
-    if (whole && (too_small || (error == std::errc() && std::isfinite(value)))) return;
+    if (whole && (too_small || (error == std::errc() && std::isfinite(value))))
+      return put(begin, in_plain_digits(text_.substr(begin, end - begin)));
     at_ = begin;
     refuse(fmt::format("\"{}\" is not a finite number", shown));
   }
@@ -184,22 +256,43 @@ class Section {
   const std::string& file_;
   std::string_view text_;
   std::size_t at_;
+  std::string& out_;
+  std::size_t written_;  ///< so much of the text is in `out_`, or what stands for it
+  std::unordered_set<std::string_view> defined_;
   bool just_opened_ = false;
 };
 
+/// Where the word begins at or after `at`, in either case of letters.
+std::size_t find_word(std::string_view text, std::string_view word, std::size_t at) {
+  const auto begin = text.begin() + static_cast<std::ptrdiff_t>(std::min(at, text.size()));
+  const auto found = std::search(begin, text.end(), word.begin(), word.end(), [](unsigned char a, unsigned char b) {
+    return std::toupper(a) == std::toupper(b);
+  });
+  return found == text.end() ? std::string_view::npos : static_cast<std::size_t>(found - text.begin());
+}
+
 }  // namespace
 
-void check_step_syntax(const std::string& file, std::string_view content) {
+std::string plain_step(const std::string& file, std::string_view content) {
   constexpr std::string_view kBegin = "DATA;";
-  for (std::size_t at = content.find(kBegin); at != std::string_view::npos; at = content.find(kBegin, at)) {
+  std::string out;
+  out.reserve(content.size());
+  std::size_t copied = content.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
+  for (std::size_t at = find_word(content, kBegin, 0); at != std::string_view::npos;
+       at = find_word(content, kBegin, at)) {
     // The word may stand in a text of the header, too.
     const std::size_t next = content.find_first_not_of(" \t\r\n", at + kBegin.size());
     const bool begins_line = at == 0 || content[at - 1] == '\n' || content[at - 1] == '\r' || content[at - 1] == ';';
     const bool section = next == std::string_view::npos || content[next] == '#' || content[next] == '/' ||
-                         content.substr(next, 6) == "ENDSEC";
+                         in_capitals(content.substr(next, 6)) == "ENDSEC";
     at += kBegin.size();
-    if (begins_line || section) at = Section(file, content, at).walk();
+    if (!begins_line && !section) continue;
+    out.append(content, copied, at - kBegin.size() - copied);
+    out += kBegin;
+    copied = at = Section(file, content, at, out).walk();
   }
+  out.append(content, copied);
+  return out;
 }
 
 }  // namespace flank::internal

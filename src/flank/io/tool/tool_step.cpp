@@ -23,7 +23,7 @@
 #include <vector>
 
 #include "flank/error.h"
-#include "flank/io/cad/read_occt_silence.h"
+#include "flank/io/kernel/read_occt_silence.h"
 #include "flank/io/cad/write_occt_products.h"
 
 namespace flank::internal {

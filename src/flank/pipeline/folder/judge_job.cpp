@@ -126,6 +126,15 @@ std::vector<verify::JudgedFace> JudgedShapes::judged(const Setup& setup, const T
   return out;
 }
 
+/// Of the part, and all of the fixtures.
+std::vector<UnjudgedFace> unread_faces(const Setup& setup) {
+  std::vector<UnjudgedFace> all;
+  for (const int face : setup.unread) all.push_back({setup.part.face_id(face), setup.part.left_out.at(face)});
+  for (const Part& fixture : setup.fixtures)
+    for (const auto& [face, why] : fixture.left_out) all.push_back({fixture.face_id(face), why});
+  return all;
+}
+
 }  // namespace
 
 double default_spacing(double diagonal_mm) {
@@ -179,6 +188,8 @@ VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const To
   if (reach && report.coverage < wanted) report.finer_reach = finer_reach(setup, *reach, samples, wanted);
   report.buried = std::move(buried);
   if (!report.buried.empty()) report.verdict = Verdict::kOvercut;
+  report.unread_faces = unread_faces(setup);
+  if (!report.unread_faces.empty() && report.verdict == Verdict::kPass) report.verdict = Verdict::kUnproved;
   return report;
 }
 

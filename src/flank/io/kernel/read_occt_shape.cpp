@@ -1,4 +1,4 @@
-#include "flank/io/cad/read_occt_shape.h"
+#include "flank/io/kernel/read_occt_shape.h"
 
 #include <fmt/format.h>
 
@@ -14,13 +14,17 @@
 #include <TColStd_SequenceOfAsciiString.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TopAbs_ShapeEnum.hxx>
-#include <TopExp_Explorer.hxx>
+#include <TopExp.hxx>
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <istream>
 #include <map>
+#include <streambuf>
 
 #include "flank/error.h"
-#include "flank/io/cad/read_occt_silence.h"
+#include "flank/io/kernel/plain_file.h"
+#include "flank/io/kernel/read_occt_silence.h"
 #include "flank/io/text/read_sniff.h"
 #include "flank/io/text/read_unit.h"
 #include "flank/io/text/step_syntax.h"
@@ -34,13 +38,6 @@ constexpr double kSmallestUnitMm = 1e-4, kLargestUnitMm = 1e7;
 [[noreturn]] void refuse_content(const std::string& file, const std::string& format, const std::string& why) {
   throw InputError(file + ": cannot be read as " + format + " (" + why +
                    "); export it again, as STEP AP203, AP214 or AP242 if there is a choice");
-}
-
-/// CAD files state their unit: a user who names another one has the wrong file, or would get the wrong size.
-void refuse_other_unit(const std::string& file, const std::optional<std::string>& asked, double millimetres) {
-  if (asked && std::abs(millimetres_per(*asked) - millimetres) > 1e-6 * millimetres)
-    throw InputError(file + ": states its own unit (" + unit_of(millimetres) + "), which `unit` " + *asked +
-                     " contradicts; omit `unit`");
 }
 
 /// Millimetres of a unit as Open CASCADE names those of a STEP file: SI names with prefix, or the name of a
@@ -69,17 +66,45 @@ void state_unit(OcctShape& result, double millimetres) {
   result.unit = unit_of(millimetres);
 }
 
+/// Makes the shape as large as it is in the unit that was asked for. The file may state another one: programs that write metres and
+/// call them millimetres are many.
+void use_unit(OcctShape& result, const std::string& format, const std::optional<std::string>& asked) {
+  const double stated = result.millimetres_per_unit, wanted = asked ? millimetres_per(*asked) : stated;
+  if (std::abs(wanted - stated) <= 1e-6 * stated || result.shape.IsNull()) return;
+  gp_Trsf scale;
+  scale.SetScaleFactor(wanted / stated);
+  result.shape = BRepBuilderAPI_Transform(result.shape, scale, true).Shape();
+  if (format != "BREP")
+    result.notes.push_back(
+        fmt::format("the file states its unit as {}; its numbers were read as {}, as asked", result.unit, *asked));
+  state_unit(result, wanted);
+}
+
+/// A text as a stream, without a copy of it.
+class TextBuffer : public std::streambuf {
+ public:
+  explicit TextBuffer(std::string& text) { setg(text.data(), text.data(), text.data() + text.size()); }
+};
+
+void list_faces(OcctShape& result) {
+  result.faces.Clear();
+  if (!result.shape.IsNull()) TopExp::MapShapes(result.shape, TopAbs_FACE, result.faces);
+}
+
 /// References are checked first: the kernel drops what it cannot resolve and says nothing.
-OcctShape load_step(const std::string& file, const std::optional<std::string>& unit) {
-  const std::string content = read_bytes(file);
-  check_step_syntax(file, content);
+OcctShape load_step(const std::string& file) {
+  std::string content = plain_step(file, read_bytes(file));
   const std::vector<long> lost = undefined_step_references(content);
   if (!lost.empty())
     refuse_content(
         file, "STEP",
         fmt::format("#{} and {} other entities are referred to but not defined", lost.front(), lost.size() - 1));
   STEPControl_Reader reader;
-  if (reader.ReadFile(file.c_str()) != IFSelect_RetDone) refuse_content(file, "STEP", "its structure is damaged");
+  TextBuffer buffer(content);
+  std::istream stream(&buffer);
+  if (reader.ReadStream(file.c_str(), stream) != IFSelect_RetDone)
+    refuse_content(file, "STEP", "its structure is damaged");
+  std::string().swap(content);
   OcctShape result;
   TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
   reader.FileUnits(lengths, angles, solid_angles);
@@ -92,57 +117,44 @@ OcctShape load_step(const std::string& file, const std::optional<std::string>& u
   for (Standard_Integer i = 2; i <= lengths.Length(); ++i)
     if (millimetres_of_step_unit(lengths.Value(i).ToCString()) != millimetres)
       result.notes.push_back("the file mixes units of length; each part of it was read in its own");
-  refuse_other_unit(file, unit, millimetres);
   state_unit(result, millimetres);
   reader.TransferRoots();
   result.shape = reader.OneShape();
+  list_faces(result);
+  result.left = faces_of_step(reader.WS(), result.faces);
   return result;
 }
 
 /// The unit is stated in the global section.
-OcctShape load_iges(const std::string& file, const std::optional<std::string>& unit) {
+OcctShape load_iges(const std::string& file) {
   IGESControl_Reader reader;
-  if (reader.ReadFile(file.c_str()) != IFSelect_RetDone) refuse_content(file, "IGES", "its structure is damaged");
+  if (reader.ReadFile(PlainFile(file).name().c_str()) != IFSelect_RetDone) refuse_content(file, "IGES", "its structure is damaged");
   OcctShape result;
   const double millimetres = reader.IGESModel()->GlobalSection().UnitValue();
   if (!(millimetres >= kSmallestUnitMm && millimetres <= kLargestUnitMm))
     refuse_content(file, "IGES", fmt::format("its unit of length, {:g} mm, is none of parts", millimetres));
-  refuse_other_unit(file, unit, millimetres);
   state_unit(result, millimetres);
   reader.TransferRoots();
   result.shape = reader.OneShape();
+  list_faces(result);
+  result.left = faces_of_iges(reader.WS(), result.faces);
   return result;
 }
 
-/// BREP files state no unit: millimetres unless the user names another one.
-OcctShape load_brep(const std::string& file, const std::optional<std::string>& unit) {
+/// BREP files state no unit, and count in millimetres.
+OcctShape load_brep(const std::string& file) {
   OcctShape result;
-  if (!BRepTools::Read(result.shape, file.c_str(), BRep_Builder()))
+  if (!BRepTools::Read(result.shape, PlainFile(file).name().c_str(), BRep_Builder()))
     refuse_content(file, "BREP", "its structure is damaged");
-  state_unit(result, unit ? millimetres_per(*unit) : 1.0);
-  if (result.millimetres_per_unit != 1.0 && !result.shape.IsNull()) {
-    gp_Trsf scale;
-    scale.SetScaleFactor(result.millimetres_per_unit);
-    result.shape = BRepBuilderAPI_Transform(result.shape, scale, true).Shape();
-  }
+  state_unit(result, 1.0);
   return result;
 }
 
-/// Entities of the kinds that become faces, as the text of a STEP file has them.
-int count_step_faces(const std::string& content) {
-  int count = 0;
-  for (const std::string word : {"ADVANCED_FACE", "FACE_SURFACE"})
-    for (std::size_t at = content.find(word); at != std::string::npos; at = content.find(word, at + 1)) {
-      const char after = content[std::min(at + word.size(), content.size() - 1)];
-      count += after == '(' || after == ' ';
-    }
-  return count;
-}
-
-int count_faces(const TopoDS_Shape& shape) {
-  int count = 0;
-  for (TopExp_Explorer it(shape, TopAbs_FACE); it.More(); it.Next()) ++count;
-  return count;
+/// " that can be read (#12: ...)" where there are some in the file.
+std::string first_reason(const FileFaces& left) {
+  if (left.unread.empty()) return "";
+  return fmt::format(" that can be read ({} of {}: {})", left.unread.front().entity, left.unread.size(),
+                     left.unread.front().why);
 }
 
 }  // namespace
@@ -153,23 +165,15 @@ OcctShape load_occt_shape(const std::string& file, const std::string& format, co
   OcctShape result;
   try {
     Interface_Static::SetCVal("xstep.cascade.unit", "MM");
-    result = format == "STEP"   ? load_step(file, unit)
-             : format == "IGES" ? load_iges(file, unit)
-                                : load_brep(file, unit);
+    result = format == "STEP" ? load_step(file) : format == "IGES" ? load_iges(file) : load_brep(file);
+    use_unit(result, format, unit);
   } catch (const Standard_Failure& failure) {
     refuse_content(file, format, failure.GetMessageString());
   }
-  const int faces = result.shape.IsNull() ? 0 : count_faces(result.shape);
-  if (faces == 0)
-    throw InputError(file + ": has no faces; accepted are solids, shells and faces (not curves or meshes) in " +
-                     format);
-  if (format == "STEP") {
-    // Faces that fail are left out silently, so the text of the file is counted.
-    const int listed = count_step_faces(read_bytes(file));
-    if (faces < listed)
-      result.notes.push_back(
-          fmt::format("{} of {} faces in the file could not be read and are missing", listed - faces, listed));
-  }
+  list_faces(result);
+  if (result.faces.IsEmpty())
+    throw InputError(file + ": has no faces" + first_reason(result.left) +
+                     "; accepted are solids, shells and faces (not curves or meshes) in " + format);
   return result;
 }
 
