@@ -98,6 +98,16 @@ bool turn_false(Figure figure, Result& result) {
       cavity.layers[0].status = "stuck";
       result.plan = cavity;
       return true;
+    case Figure::kUnreadFaces:
+      verify.unread_faces.push_back({"F4", "the CAD kernel cannot read it"});
+      return true;
+    case Figure::kWholeCoverage:
+      std::get<FitJob>(result.job).judge.least_whole = 0.9;
+      verify.coverage = 0.5;
+      return true;
+    case Figure::kHold:
+      verify.hold.emplace().axis.kept = false;
+      return true;
     default:
       return false;
   }
