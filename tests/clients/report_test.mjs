@@ -166,7 +166,7 @@ test('cycles of a cavity are shown as planned and as replayed', async () => {
   const stuck = { ...layer, status: 'stuck', cycles: 1, cycle_engagement: [20], cycle_volume: [10], cycle_way: [0] };
   const summary = json(copy, 'summary.json'), verify = json(copy, 'verify.json');
   summary.cavity = { narrowest: 20, engagement: 59.5, most_engagement: 60, way: 130, minutes: 0.2, layers: [layer, stuck] };
-  verify.stock = { uncut_mm: 0.2, uncut_point: [1, 2, 3], entered_mm: 0.001, before_mm3: 5000, left_mm3: 4100, engagement_deg: 60.25, strip_engagement_deg: [0, 60.25, 30], strip_volume_mm3: [0, 850, 50], strip_way_mm: [10, 60, 60] };
+  verify.stock = { resolution_deg: 2.7, uncut_mm: 0.2, uncut_point: [1, 2, 3], entered_mm: 0.001, before_mm3: 5000, left_mm3: 4100, engagement_deg: 60.25, strip_engagement_deg: [0, 60.25, 30], strip_volume_mm3: [0, 850, 50], strip_way_mm: [10, 60, 60] };
   writeFileSync(join(copy, 'summary.json'), JSON.stringify(summary));
   writeFileSync(join(copy, 'verify.json'), JSON.stringify(verify));
   must('report', copy, '--quiet');
@@ -180,7 +180,7 @@ test('cycles of a cavity are shown as planned and as replayed', async () => {
   assert.match(words, /at most 20\.0 mm³/);
   assert.equal(await page.value(`document.querySelectorAll('#cavity rect.bar').length`), 3);
   const figures = await page.value(text('#table'));
-  for (const said of [/Engagement, planned59\.5°.*60\.0°/, /Layers1 of 2/, /Engagement, replayed60\.25°/, /Material left between the sides0\.200\smm/, /Stock that is left4\.100\scm³/])
+  for (const said of [/Engagement, planned59\.50°≤ 60\.0°/, /Layers1 of 2/, /Engagement, replayed60\.25°≤ 60\.0° \+ 2\.7°/, /Material left between the sides0\.200\smm/, /Stock that is left4\.100\scm³/])
     assert.match(figures, said);
   await page.close();
   const plain = await open(folder);

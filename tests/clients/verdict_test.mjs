@@ -145,12 +145,13 @@ test('a holder in the vice is red, in a row and in the picture', async () => {
   const drawn = await page.value(`(() => { const { view, path, player } = window.flankReport; return {
     fixtures: view.fixtures.meshes.map((m) => m.userData.body.face), inside: view.fixtures.meshes.some((m) => m.userData.body.gap.some((x) => x < 0)),
     outside: view.fixtures.meshes.some((m) => m.userData.body.gap.some((x) => x > 1)),
-    struck: [...view.tool.struck], holder: view.tool.materials.holder.color.getHexString(), shank: view.tool.materials.shank.color.getHexString(),
+    struck: [...view.tool.struck], holder: view.tool.materials.holder.color.getHexString(), flank: view.tool.materials.flank.color.getHexString(),
     t: path.locate(player.share).t, pins: [...document.querySelectorAll('#pins .pin')].map((e) => e.textContent) }; })()`);
   assert.ok(drawn.fixtures.length > 0 && drawn.fixtures.every((name) => name.startsWith('vice.stl F')), JSON.stringify(drawn.fixtures));
   assert.ok(drawn.inside && drawn.outside);
   assert.ok(drawn.struck.includes('holder'));
-  assert.notEqual(drawn.holder, drawn.shank);
+  assert.ok(!drawn.struck.includes('flank'));
+  assert.notEqual(drawn.holder, drawn.flank);
   assert.ok(Math.abs(drawn.t - figure.t) < 1.5, `${drawn.t} is not ${figure.t}`);
   assert.equal(drawn.pins[0], '!');
   // In the picture itself: red where the block was not entered would be another colour.

@@ -101,7 +101,8 @@ function cavityRows(cavity) {
 function stockRows(stock, cavity) {
   if (!stock) return [];
   const list = [{ key: 'stock.engagement_deg', figure: 'stock', asks: true, name: 'Engagement, replayed', value: stock.engagement_deg, text: `${format.plain(stock.engagement_deg, 4)}°`,
-    wanted: cavity ? `≤ ${format.plain(cavity.most_engagement)}°` : '', hint: `in the judge’s stock${stock.resolution_deg ? `, whose cells count for ${format.plain(stock.resolution_deg, 2)}°` : ''}; this row is the verdict of the replay` }];
+    wanted: cavity ? `≤ ${format.plain(cavity.most_engagement)}°${stock.resolution_deg ? ` + ${format.plain(stock.resolution_deg, 2)}°` : ''}` : '',
+    hint: 'in the judge’s stock, whose cells count for a little; this row is the verdict of the replay' }];
   if (typeof stock.uncut_mm === 'number') list.push({ key: 'stock.uncut_mm', name: 'Material left between the sides', value: stock.uncut_mm, text: format.length(stock.uncut_mm, 3),
     hint: stock.uncut_mm > 0 && stock.uncut_point ? `longest stretch, before ${at(stock.uncut_point)}` : 'nothing stands between them' });
   if (typeof stock.entered_mm === 'number') list.push({ key: 'stock.entered_mm', name: 'Faces entered, replayed', value: stock.entered_mm, text: format.error(stock.entered_mm),
