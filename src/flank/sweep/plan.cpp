@@ -116,13 +116,14 @@ Job job_of(const SweepPlan& plan, const std::string& face, const std::string& to
   return job;
 }
 
-/// What it reads beside the part; the catalogue, too, where it is not named.
+/// What it reads beside the part, from the folder in which it runs; the catalogue, too, where it is not named.
 template <class Job>
-std::vector<std::string> inputs_of(const Job& job) {
+std::vector<std::string> inputs_of(const SweepPlan& plan, const Job& job) {
   std::vector<std::string> names;
   for_each_input(job, [&](const FieldInfo& info, const std::string& word) {
     std::error_code none;
-    if (info.key != "part" && fs::exists(word, none)) names.push_back(word);
+    const std::string file = from_folder(plan, word);
+    if (info.key != "part" && fs::exists(file, none)) names.push_back(file);
   });
   if constexpr (requires { job.choice.catalogue; })
     if (job.tool.spec == "catalogue" && !job.choice.catalogue) names.push_back(catalogue_folder({}));
@@ -148,7 +149,7 @@ void make_tasks(const TomlTable& document, SweepPlan& plan) {
         std::string name = fmt::format("{}-{}{}{}", face, k + 1, variant.empty() ? "" : "-", variant);
         std::replace(name.begin(), name.end(), ',', '+');
         plan.tasks.push_back(
-            {face, plan.tools[k], variant, short_name(name), command_words(PlanJob(job)), inputs_of(job)});
+            {face, plan.tools[k], variant, short_name(name), command_words(PlanJob(job)), inputs_of(plan, job)});
       }
 }
 
