@@ -74,6 +74,7 @@ class Result {
     PostJob job;
     job.folder = folder_.string();
     job.machine = machine;
+    job.feed_mm_min = 1000.0;
     job.spindle_rpm = 5000.0;
     return run_post(job).program;
   }
@@ -448,6 +449,7 @@ class Channel {
     PostJob job;
     job.folder = folder_.string();
     job.machine = "fanuc-ac";
+    job.feed_mm_min = 1000.0;
     job.spindle_rpm = 5000.0;
     return run_post(job).program;
   }
