@@ -74,6 +74,7 @@ class Result {
     PostJob job;
     job.folder = folder_.string();
     job.machine = machine;
+    job.feed_mm_min = 1000.0;
     job.spindle_rpm = 5000.0;
     return run_post(job).program;
   }
@@ -396,7 +397,10 @@ TEST(Program, SpoiltFilesAreFoundOut) {
                         {"m11-clamp-refused.nc", "fanuc-ac", ""},
                         {"cycle800-refused.nc", "siemens-ac", ""}}) {
     // Another tool than theirs, so that there is more to say against them, too: their own fault is what is looked for.
-    VerifyJob job = result().asked(read(folder / c.file), c.machine);
+    // One of them still has the G1 that it is said to be without.
+    const std::string text = read(folder / c.file);
+    const bool rapid = std::string(c.file) == "rapid-through-the-cut.nc";
+    VerifyJob job = result().asked(rapid ? std::regex_replace(text, std::regex("\nG1 "), "\n") : text, c.machine);
     job.part = (folder / "tb.step").string();
     job.sample_mm = 3.0;
     job.nc.follow = "any";
@@ -445,6 +449,7 @@ class Channel {
     PostJob job;
     job.folder = folder_.string();
     job.machine = "fanuc-ac";
+    job.feed_mm_min = 1000.0;
     job.spindle_rpm = 5000.0;
     return run_post(job).program;
   }

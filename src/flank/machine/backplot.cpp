@@ -48,7 +48,10 @@ class Backplotter {
   /// Letters and kind of position must be the machine's, or every number would mean another joint. Tool vectors name
   /// no joints.
   void require_same_meaning() const {
-    const auto refuse_whole = [&](const std::string& text) { throw InputError(file_ + ": " + text); };
+    const auto refuse_whole = [&](const std::string& text) {
+      if (program_.moves.empty()) throw InputError(file_ + ": " + text);
+      refuse(program_.moves.front().line, text);
+    };
     const bool joint = program_.positions == NcPositions::kJoint;
     if (joint != (machine_.positions == NcPositions::kJoint))
       refuse_whole(fmt::format("states {}, but machine {} takes {}",

@@ -109,7 +109,7 @@ TEST(RealWords, BlanksBetweenALetterAndItsNumber) {
 
 TEST(RealWords, ASkippedBlockIsReadWhereItIsTheSame) {
   for (const NcLanguage language : kLanguages) {
-    const std::string move = language == NcLanguage::kFanuc ? "/ X5.0" : "/ L X+5";
+    const std::string move = language == NcLanguage::kHeidenhain ? "/ L X+5" : "/ X5.0";
     EXPECT_EQ(refusal(program(language, "/ M1"), dialect_of(language)), "") << nc_language_name(language);
     EXPECT_EQ(refusal(program(language, "/M10"), dialect_of(language, {"M10"})), "") << nc_language_name(language);
     const std::string why = refusal(program(language, move), dialect_of(language));

@@ -15,10 +15,10 @@ constexpr std::size_t kLongestWord = 40;
 
 /// Moves, planes, shifts and turns of the frame, scales, compensations, cycles, calls, kinematics and modes of feed, in tenths. They
 /// change what the coordinates of a program mean: no machine runs them without effect.
-constexpr std::array<int, 60> kWithEffect = {0,   10,  20,  30,  32,  33,  52,  53,  62,  70,  71,  72,  100, 110, 121,
-                                             131, 160, 180, 190, 200, 210, 280, 300, 310, 330, 380, 410, 412, 420, 430,
-                                             431, 434, 435, 490, 500, 510, 520, 530, 531, 540, 541, 650, 660, 670, 680,
-                                             682, 700, 710, 730, 740, 760, 810, 820, 830, 840, 850, 900, 910, 930, 940};
+constexpr std::array<int, 66> kWithEffect = {
+    0,   10,  20,  30,  32,  33,  52,  53,  62,  70,  71,  72,  100, 110, 121, 131, 160, 180, 190, 200, 210, 280,
+    300, 310, 330, 380, 410, 412, 420, 430, 431, 434, 435, 490, 500, 510, 520, 530, 531, 540, 541, 650, 660, 670,
+    680, 682, 700, 710, 730, 740, 760, 810, 820, 830, 840, 850, 900, 910, 930, 940, 920, 921, 922, 923, 960, 970};
 /// Of M: ends, stops of the spindle, tool changes, subprograms, and tool-centre control of a control that has it there.
 constexpr std::array<int, 15> kMWithEffect = {2, 3, 4, 5, 6, 13, 14, 17, 30, 91, 92, 98, 99, 128, 140};
 /// Names, or their beginnings, that move, turn or shift.

@@ -93,6 +93,64 @@ RapidMoves rapid_moves(const Backplot& plot) {
   return out;
 }
 
+namespace {
+
+/// The first poses that are looked at together; twice as many each time nothing is found: a program that cuts at rapid is found
+/// out at once, and one that does not costs no more than all of it.
+constexpr std::size_t kFirstPoses = 128;
+
+/// Takes rapids apart from the front.
+class RapidPieces {
+ public:
+  explicit RapidPieces(const RapidMoves& all) : all_(all) {}
+
+  [[nodiscard]] bool done() const { return strip_ == all_.path.strips.size(); }
+  /// The next so many poses, at least two of a strip that has them; where a strip goes on, its last pose comes again.
+  RapidMoves take(std::size_t poses) {
+    RapidMoves out;
+    for (std::size_t taken = 0; !done() && taken < poses;) {
+      const Strip& strip = all_.path.strips[strip_];
+      const std::size_t count = std::min(std::max<std::size_t>(poses - taken, 2), strip.poses.size() - pose_);
+      out.path.strips.push_back({strip.id, strip.kind, "", {}});
+      out.lines.emplace_back();
+      for (std::size_t k = pose_; k < pose_ + count; ++k) {
+        out.path.strips.back().poses.push_back(strip.poses[k]);
+        out.lines.back().push_back(all_.lines[strip_][k]);
+      }
+      taken += count;
+      pose_ += count - 1;
+      if (pose_ + 1 < strip.poses.size()) continue;
+      ++strip_;
+      pose_ = 0;
+    }
+    return out;
+  }
+
+ private:
+  const RapidMoves& all_;
+  std::size_t strip_ = 0, pose_ = 0;
+};
+
+/// Adds what comes too near on some rapids; false: nothing does.
+bool add_touches(const std::string& file, const ClearanceScene& scene, const Tool& tool, const RapidMoves& rapids,
+                 Acceptance& acceptance) {
+  bool found = false;
+  for (const ClearanceFigure& f : measure_clearance(scene, tool, rapids.path).figures) {
+    if (f.kept || f.strip < 0) continue;
+    found = true;
+    const std::vector<std::int32_t>& lines = rapids.lines[static_cast<std::size_t>(f.strip)];
+    const auto pose = std::min(static_cast<std::size_t>(std::ceil(std::max(0.0, f.t))), lines.size() - 1);
+    add_reason(acceptance, Figure::kRapid,
+               fmt::format("{}: line {}: a rapid move brings the {} to {:.3f} mm from {} at ({:.3f}, {:.3f}, {:.3f}); "
+                           "{:g} mm are needed",
+                           file, lines[pose], body_name(f.body), f.clearance_mm, f.obstacle, f.point.x(), f.point.y(),
+                           f.point.z(), scene.options.required_mm));
+  }
+  return found;
+}
+
+}  // namespace
+
 void accept_rapids(const std::string& file, const Setup& setup, const ObstacleRequest& obstacles, const Tool& tool,
                    const Backplot& plot, Acceptance& acceptance) {
   const double room = std::max({kRapidRoomMm, setup.tolerance_mm, obstacles.clearance_mm.value_or(0.0)});
@@ -103,17 +161,9 @@ void accept_rapids(const std::string& file, const Setup& setup, const ObstacleRe
   // Of a rapid nothing may touch anything: the flank the target as little as the holder a fixture.
   for (Obstacle& obstacle : scene.obstacles) obstacle.role = ObstacleRole::kFixture;
   scene.options.required_mm = room;
-  for (const ClearanceFigure& f : measure_clearance(scene, tool, rapids.path).figures) {
-    if (f.kept || f.strip < 0) continue;
-    const std::vector<std::int32_t>& lines = rapids.lines[static_cast<std::size_t>(f.strip)];
-    const auto pose = std::min(static_cast<std::size_t>(std::ceil(std::max(0.0, f.t))), lines.size() - 1);
-    add_reason(
-        acceptance, Figure::kRapid,
-        fmt::format("{}: line {}: a rapid move brings the {} to {:.3f} mm from {} at ({:.3f}, {:.3f}, {:.3f}); it "
-                    "keeps off by {:g} mm",
-                    file, lines[pose], body_name(f.body), f.clearance_mm, f.obstacle, f.point.x(), f.point.y(),
-                    f.point.z(), room));
-  }
+  RapidPieces pieces(rapids);
+  for (std::size_t poses = kFirstPoses; !pieces.done(); poses *= 2)
+    if (add_touches(file, scene, tool, pieces.take(poses), acceptance)) return;
 }
 
 }  // namespace flank::internal

@@ -22,8 +22,8 @@ struct RapidMoves {
 };
 [[nodiscard]] RapidMoves rapid_moves(const Backplot& plot);
 
-/// Adds each body of the tool that comes too near to the judged faces or to a fixture on a rapid move, by `file` and line; by the
-/// judge's own distances, between the poses too.
+/// Adds each body of the tool that comes too near to the judged faces or to a fixture on a rapid move, by `file` and line, where
+/// that happens first; by the judge's own distances, between the poses too.
 void accept_rapids(const std::string& file, const Setup& setup, const ObstacleRequest& obstacles, const Tool& tool,
                    const Backplot& plot, Acceptance& acceptance);
 

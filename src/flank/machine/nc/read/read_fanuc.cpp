@@ -220,6 +220,7 @@ class FanucReader {
 
   /// Letters that belong to other words of the block.
   [[nodiscard]] bool parameter(const GWord& word) const {
+    if (is_parameter_letter(word.letter) && has_ignored()) return true;
     switch (word.letter) {
       case 'N':
         return true;
@@ -230,7 +231,7 @@ class FanucReader {
       case 'Q':
         return block_.has_code('G', 51);
       default:
-        return is_parameter_letter(word.letter) && has_ignored();
+        return false;
     }
   }
 

@@ -205,6 +205,7 @@ class LinuxCncReader {
   /// Letters that belong to other words of the block.
   [[nodiscard]] bool parameter(const GWord& word) const {
     // H is the tool's length of G43, P and Q are the tolerances of G64, and P is the time of G4.
+    if (is_parameter_letter(word.letter) && has_ignored()) return true;
     switch (word.letter) {
       case 'N':
         return true;
@@ -215,7 +216,7 @@ class LinuxCncReader {
       case 'Q':
         return block_.has_code('G', 640);
       default:
-        return is_parameter_letter(word.letter) && has_ignored();
+        return false;
     }
   }
 
