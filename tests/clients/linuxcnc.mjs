@@ -55,6 +55,8 @@ export function stated(text, letters = 'XYZABC') {
       axes = true;
     }
     if (axes) moves.push([kind, ...[...letters].map((l) => at[l])]);
+    // Coordinates of the machine: where that is in the program's depends on the offsets that hold by then.
+    if (/\bG53\b/.test(code)) for (const [, letter] of code.matchAll(/([A-Z])(-?[0-9.]+)/g)) if (letters.includes(letter)) at[letter] = null;
   }
   return moves;
 }

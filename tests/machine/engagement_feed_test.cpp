@@ -85,6 +85,8 @@ std::pair<double, double> chips(const Post& posted, const SideCut& cut, double f
 TEST(EngagementFeed, AProgramKeepsItsThickestChip) {
   Machine machine = read_machine("fanuc-ac");
   for (Joint& joint : machine.joints) joint.acceleration *= 1e4;
+  // F is of the way that is written: with four digits after the point it would follow their rounding.
+  machine.dialect.length_decimals = 7;
   const SideCut cut = side_cut(1600);
   const PostTool tool{.name = "end mill", .axis_length = 20.0, .tip_radius = kRadius, .largest_radius = kRadius};
   PostOptions options;

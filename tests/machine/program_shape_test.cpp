@@ -66,7 +66,7 @@ bool says(const std::string& block, const char* pattern) { return std::regex_sea
 
 /// A block that moves an axis, and one that names a rotary axis; A3= is a component of a vector.
 bool moves(const std::string& block) { return says(block, R"((^| )([XYZABC][-+]?\d|M140))"); }
-bool turns(const std::string& block) { return says(block, R"((^| )[ABC][-+]?\d)"); }
+bool turns(const std::string& block) { return says(block, R"((^| )[ABC][-+]?\d+([.,]|\s|$))"); }
 bool retracts(const std::string& block) { return says(block, "^(G91 G28 Z|G53 G0 Z|SUPA G0 Z)|M140 MB MAX|M91"); }
 bool switches_on(const std::string& block) { return says(block, "G43|M428|TRAORI|M128|^FUNCTION TCPM"); }
 bool switches_off(const std::string& block) { return says(block, "G49|M429|TRAFOOF|M129|RESET TCPM"); }
@@ -97,7 +97,7 @@ TEST_P(ProgramShape, BeginsAndEndsOutOfTheWay) {
   EXPECT_TRUE(retracts(*first)) << *first;
   // What moves last is out of the way, too; then the rotary axes alone.
   auto last = std::find_if(blocks.rbegin(), blocks.rend(), moves);
-  EXPECT_TRUE(turns(*last) && !says(*last, "[XYZ]")) << *last;
+  EXPECT_TRUE(turns(*last) && !says(*last, R"([XYZ][-+]?\d)")) << *last;
   last = std::find_if(last + 1, blocks.rend(), moves);
   EXPECT_TRUE(retracts(*last)) << *last;
 }
