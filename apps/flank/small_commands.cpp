@@ -26,7 +26,8 @@ Subcommand add_inspect(CLI::App& parser) {
   auto file = std::make_shared<std::string>();
   auto unit = std::make_shared<std::optional<std::string>>();
   app->add_option("PART", *file, "STEP, IGES, BREP, STL, OBJ or PLY file")->required();
-  app->add_option("--unit", *unit, "Unit of a mesh: mm, cm, m or in")->check(CLI::IsMember({"mm", "cm", "m", "in"}));
+  app->add_option("--unit", *unit, "Unit of a mesh, or of a CAD file that states a wrong one: mm, cm, m or in")
+      ->check(CLI::IsMember({"mm", "cm", "m", "in"}));
   app->footer("Example: flank example twisted-blade -o blade.step && flank inspect blade.step");
   return {app,
           [file, unit](const CommonOptions& common) {

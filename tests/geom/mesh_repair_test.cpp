@@ -47,6 +47,22 @@ TEST(MeshRepair, WeldsASoup) {
   EXPECT_EQ(repair_mesh(soup, 1e-8).mesh.vertices.size(), mesh.vertices.size());
 }
 
+TEST(MeshRepair, VerticesFarAwayMakeNoTriangleSmall) {
+  const TriangleMesh mesh = shapes::twisted(9);
+  const double far = 1e7 * mesh.box().diagonal();
+  TriangleMesh unused = mesh, used = mesh;
+  unused.vertices.emplace_back(far, 0, 0);
+  used.vertices.emplace_back(far, 0, 0);
+  const int a = used.triangles[0][0], b = used.triangles[0][1];
+  used.triangles.push_back({b, a, static_cast<int>(used.vertices.size()) - 1});
+  for (const TriangleMesh& strange : {unused, used}) {
+    const RepairedMesh repaired = repair_mesh(strange, 1e-7);
+    EXPECT_EQ(repaired.repair.welded_vertices, 0);
+    EXPECT_EQ(repaired.repair.degenerate_triangles, 0);
+    EXPECT_EQ(repaired.mesh.triangles.size(), strange.triangles.size());
+  }
+}
+
 TEST(MeshRepair, RemovesWhatIsNoSurface) {
   TriangleMesh mesh = shapes::twisted(6);
   const double before = area(mesh);

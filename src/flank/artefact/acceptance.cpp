@@ -77,7 +77,7 @@ void add_unread(const VerifyReport& report, Acceptance& out) {
   const std::vector<UnjudgedFace>& faces = report.unread_faces;
   for (std::size_t k = 0; k < faces.size() && k < kMostFacesNamed; ++k)
     add_reason(out, Figure::kUnreadFaces,
-               fmt::format("{} is not judged: {}; a result that may enter it passes if it is ignored by name", faces[k].face,
+               fmt::format("{0} is not judged: {1}; if the tool may enter it: --ignore-faces {0}", faces[k].face,
                            faces[k].why));
   if (faces.size() > kMostFacesNamed)
     add_reason(out, Figure::kUnreadFaces, fmt::format("and {} more faces", faces.size() - kMostFacesNamed));

@@ -44,7 +44,8 @@ std::vector<int> faces_of_solids(const Part& part, const std::string& item, Unre
   for (std::size_t k = 0; k < part.faces.size(); ++k) {
     const Face& face = part.faces[k];
     const bool named = face.of_solid && face.solid >= first - 1 && face.solid <= last - 1;
-    if (named && (unread == Unread::kTaken || !part.is_left_out(static_cast<int>(k)))) faces.push_back(static_cast<int>(k));
+    if (named && (unread == Unread::kTaken || !part.is_left_out(static_cast<int>(k))))
+      faces.push_back(static_cast<int>(k));
   }
   return faces;
 }

@@ -24,7 +24,8 @@ void visit_fields(Job& job, Visitor&& visit) {
   using namespace accepted;
   visit(FieldInfo{"part", "", "", "STEP, IGES, BREP, STL, OBJ or PLY file", kAny, Spelling::kFile, "PART", true},
         job.part.file);
-  visit(FieldInfo{"unit", "", "", "Unit of a mesh: mm, cm, m or in", kUnit}, job.part.unit);
+  visit(FieldInfo{"unit", "", "", "Unit of a mesh, or of a CAD file that states a wrong one: mm, cm, m or in", kUnit},
+        job.part.unit);
   visit(FieldInfo{"faces", "", "", "Faces to finish, each by one tool of the set: F1,F3, F10-F19", kAny,
                   Spelling::kPlain, "", true},
         job.part.faces);

@@ -112,7 +112,8 @@ void visit_part(Request& part, Visitor& visit) {
   using namespace accepted;
   visit(FieldInfo{"part", "", "", "STEP, IGES, BREP, STL, OBJ or PLY file", kAny, Spelling::kFile, "PART", true},
         part.file);
-  visit(FieldInfo{"unit", "", "", "Unit of a mesh: mm, cm, m or in", kUnit}, part.unit);
+  visit(FieldInfo{"unit", "", "", "Unit of a mesh, or of a CAD file that states a wrong one: mm, cm, m or in", kUnit},
+        part.unit);
   visit(FieldInfo{"faces", "", "", "Faces to machine: F1, F1,F3, F143-F160, or a piece F1a (see flank inspect)", kAny,
                   Spelling::kPlain, "--face", true},
         part.faces);

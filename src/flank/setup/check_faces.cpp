@@ -24,7 +24,8 @@ std::vector<int> named_faces(const Part& part, const std::vector<int>& targets, 
     // Of a range, or of a face in pieces, the rest is meant.
     for (const std::string& item : face_list_items(list)) {
       const std::vector<int> members = parse_face_item(part, item, unread);
-      if (!members.empty() && std::all_of(members.begin(), members.end(), [&](int face) { return holds(targets, face); }))
+      if (!members.empty() &&
+          std::all_of(members.begin(), members.end(), [&](int face) { return holds(targets, face); }))
         throw UsageError(field, list,
                          fmt::format("{} is a target; other faces of F1 to F{} are accepted", item,
                                      parse_face_name(part.face_id(part.face_count() - 1)).number));
@@ -52,10 +53,8 @@ std::vector<std::string> names_of_solids(const std::set<int>& solids) {
 
 std::vector<int> faces_to_check(const Part& part, const std::vector<int>& targets, const ObstacleRequest& request) {
   std::vector<int> only, ignored, checks;
-  if (request.check_faces)
-    only = named_faces(part, targets, "check_faces", *request.check_faces, Unread::kRefused);
-  if (request.ignore_faces)
-    ignored = named_faces(part, targets, "ignore_faces", *request.ignore_faces, Unread::kTaken);
+  if (request.check_faces) only = named_faces(part, targets, "check_faces", *request.check_faces, Unread::kRefused);
+  if (request.ignore_faces) ignored = named_faces(part, targets, "ignore_faces", *request.ignore_faces, Unread::kTaken);
   for (int face : only)
     if (holds(ignored, face))
       throw UsageError("check_faces",
@@ -69,8 +68,7 @@ std::vector<int> faces_to_check(const Part& part, const std::vector<int>& target
 
 std::vector<int> faces_unread(const Part& part, const std::vector<int>& targets, const ObstacleRequest& request) {
   std::vector<int> ignored, unread;
-  if (request.ignore_faces)
-    ignored = named_faces(part, targets, "ignore_faces", *request.ignore_faces, Unread::kTaken);
+  if (request.ignore_faces) ignored = named_faces(part, targets, "ignore_faces", *request.ignore_faces, Unread::kTaken);
   for (const auto& [face, why] : part.left_out)
     if (!holds(ignored, face)) unread.push_back(face);
   return unread;

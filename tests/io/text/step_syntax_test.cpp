@@ -41,10 +41,18 @@ std::string plain(const std::string& data) {
 }
 
 TEST(StepSyntax, EveryWayToWriteANumberBecomesOne) {
-  for (const auto& [written, becomes] : std::vector<std::pair<std::string, std::string>>{
-           {"-4.002E0", "-4.002E0"}, {"-4.002e0", "-4.002E0"}, {"-4.002D0", "-4.002E0"}, {"-4.002d+00", "-4.002E+00"},
-           {"1e5", "1.E5"},          {"1E5", "1.E5"},          {"12D-3", "12.E-3"},      {"+.5e1", "+.5E1"},
-           {"5", "5"},               {"-7.", "-7."},           {".25", ".25"},           {"0.5E-05", "0.5E-05"}})
+  for (const auto& [written, becomes] : std::vector<std::pair<std::string, std::string>>{{"-4.002E0", "-4.002E0"},
+                                                                                         {"-4.002e0", "-4.002E0"},
+                                                                                         {"-4.002D0", "-4.002E0"},
+                                                                                         {"-4.002d+00", "-4.002E+00"},
+                                                                                         {"1e5", "1.E5"},
+                                                                                         {"1E5", "1.E5"},
+                                                                                         {"12D-3", "12.E-3"},
+                                                                                         {"+.5e1", "+.5E1"},
+                                                                                         {"5", "5"},
+                                                                                         {"-7.", "-7."},
+                                                                                         {".25", ".25"},
+                                                                                         {"0.5E-05", "0.5E-05"}})
     EXPECT_EQ(plain("#1=A('e',(" + written + ",2.),.T.);"), "#1=A('e',(" + becomes + ",2.),.T.);");
 }
 
@@ -64,6 +72,14 @@ TEST(StepSyntax, AnApostropheBeforeACommaEndsNoText) {
 TEST(StepSyntax, AByteOrderMarkGoes) {
   EXPECT_EQ(plain_step("p", "\xEF\xBB\xBFISO;DATA;\n#1=A(1e0);\nENDSEC;"), "ISO;DATA;\n#1=A(1.E0);\nENDSEC;");
   EXPECT_EQ(plain_step("p", "ISO;data;\n#1=a(1e0);\nendsec;"), "ISO;DATA;\n#1=A(1.E0);\nendsec;");
+}
+
+TEST(StepSyntax, RefusesPointsOfMoreThanThreeCoordinates) {
+  for (const char* word : {"CARTESIAN_POINT", "DIRECTION"}) {
+    const std::string name = std::string("#1=") + word;
+    EXPECT_EQ(verdict(name + "('',(1.,2.,3.));#2=A((1.,2.,3.,4.));"), "accepted");
+    EXPECT_NE(verdict(name + "('',(1.,2.,3.,4.));").find("more than 3 coordinates"), std::string::npos) << word;
+  }
 }
 
 TEST(StepSyntax, RefusesWhatIsDefinedTwice) {

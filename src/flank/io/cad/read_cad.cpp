@@ -10,6 +10,7 @@
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <algorithm>
@@ -28,6 +29,9 @@ namespace {
 /// and moves their boxes by less than a thousandth.
 constexpr double kRelativeDeflection = 0.01;
 constexpr double kAngularDeflection = 0.6;
+
+/// What the edges of a border may be apart, or off the surface, before it is said: programs leave hundredths.
+constexpr double kBorderGapMm = 0.05, kBorderGapShare = 1e-3;
 
 /// Adds the nodes of the face's triangulation to the box; returns six times the signed volume of the cone from the
 /// origin over it, with the face oriented as it stands in its solid.
@@ -108,6 +112,41 @@ void sew_sheets(const OcctShape& loaded, const Places& places, Part& part) {
   if (part.faces.size() > 1) part.repairs.insert(part.repairs.end(), sewn.notes.begin(), sewn.notes.end());
 }
 
+/// Says where the border of a face is not on its surface, or has ends elsewhere: one of them is not what was meant, and the kernel made
+/// something of both.
+void note_border_gap(const TopoDS_Face& face, const std::string& name, Part& part) {
+  double gap = 0.0;
+  Box3 size;
+  for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next())
+    gap = std::max(gap, BRep_Tool::Tolerance(TopoDS::Edge(it.Current())));
+  for (TopExp_Explorer it(face, TopAbs_VERTEX); it.More(); it.Next()) {
+    const gp_Pnt p = BRep_Tool::Pnt(TopoDS::Vertex(it.Current()));
+    size.add(Vec3(p.X(), p.Y(), p.Z()));
+    gap = std::max(gap, BRep_Tool::Tolerance(TopoDS::Vertex(it.Current())));
+  }
+  if (gap > std::max(kBorderGapMm, kBorderGapShare * size.diagonal()))
+    part.repairs.push_back(
+        fmt::format("{}: the parts of its border are up to {:.2g} mm apart, or that far off its surface; look at it "
+                    "before it is used",
+                    name, gap));
+}
+
+/// Says of which solids borders are free: a face is missing there, or does not meet its neighbours.
+void note_open_solids(const OcctShape& loaded, Part& part) {
+  TopTools_IndexedMapOfShape solids;
+  TopExp::MapShapes(loaded.shape, TopAbs_SOLID, solids);
+  for (int k = 1; k <= solids.Extent(); ++k) {
+    TopTools_IndexedDataMapOfShapeListOfShape owners;
+    TopExp::MapShapesAndAncestors(solids(k), TopAbs_EDGE, TopAbs_FACE, owners);
+    int free = 0;
+    for (int i = 1; i <= owners.Extent(); ++i)
+      free += owners(i).Extent() == 1 && !BRep_Tool::Degenerated(TopoDS::Edge(owners.FindKey(i)));
+    if (free > 0)
+      part.repairs.push_back(fmt::format(
+          "solid {} is not closed: {} borders are of one face only; what is behind them is not known", k, free));
+  }
+}
+
 /// Adds a face of which nothing is known but its number.
 void leave_out(Part& part, Face face, std::string type, std::string why) {
   part.left_out[static_cast<int>(part.faces.size())] = std::move(why);
@@ -140,6 +179,7 @@ void add_face(const TopoDS_Face& face, const std::string& spoilt, Part& part) {
   if (!why.empty()) return leave_out(part, std::move(whole), std::move(converted.type), std::move(why));
   part.repairs.insert(part.repairs.end(), converted.notes.begin(), converted.notes.end());
   add_extent(face, converted.type, part.box);
+  note_border_gap(face, name, part);
   converted.face.id = std::move(whole.id);
   part.faces.push_back(std::move(converted.face));
   part.surface_types.push_back(std::move(converted.type));
@@ -200,6 +240,7 @@ Part read_cad(const std::string& file, const std::string& format, const std::opt
     const Places places = add_faces(loaded, part);
     refuse_unreadable(part);
     assign_solids(loaded, places, part);
+    note_open_solids(loaded, part);
     if (part.solids == 0) sew_sheets(loaded, places, part);
     assign_unread(loaded, places, part);
   } catch (const Standard_Failure& failure) {

@@ -14,8 +14,8 @@
 
 #include "flank/io/cad/read_cad.h"
 #include "flank/io/cad/read_occt_face.h"
-#include "flank/io/kernel/read_occt_shape.h"
 #include "flank/io/cad/read_occt_trim.h"
+#include "flank/io/kernel/read_occt_shape.h"
 
 namespace flank::internal {
 namespace {

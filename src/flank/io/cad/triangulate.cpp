@@ -11,8 +11,8 @@
 #include "flank/base/parallel.h"
 #include "flank/error.h"
 #include "flank/geom/trim.h"
-#include "flank/io/kernel/read_occt_silence.h"
 #include "flank/io/cad/write_occt_face.h"
+#include "flank/io/kernel/read_occt_silence.h"
 
 namespace flank::internal {
 namespace {

@@ -27,9 +27,9 @@
 
 #include "flank/error.h"
 #include "flank/io/cad/read_occt_face.h"
-#include "flank/io/kernel/read_occt_silence.h"
 #include "flank/io/cad/write_occt_face.h"
 #include "flank/io/cad/write_occt_products.h"
+#include "flank/io/kernel/read_occt_silence.h"
 
 namespace flank::internal {
 namespace {

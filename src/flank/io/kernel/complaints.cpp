@@ -6,14 +6,20 @@
 #include <Interface_EntityIterator.hxx>
 #include <Interface_Graph.hxx>
 #include <Interface_InterfaceModel.hxx>
+#include <StepGeom_CartesianPoint.hxx>
+#include <StepGeom_Direction.hxx>
 #include <StepGeom_Pcurve.hxx>
 #include <StepShape_EdgeCurve.hxx>
+#include <StepShape_EdgeLoop.hxx>
 #include <StepShape_OrientedEdge.hxx>
+#include <StepShape_VertexPoint.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <Transfer_Binder.hxx>
 #include <Transfer_TransientProcess.hxx>
 #include <XSControl_TransferReader.hxx>
 #include <algorithm>
+#include <array>
+#include <gp_XYZ.hxx>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -22,6 +28,8 @@ namespace flank::internal {
 namespace {
 
 using Entity = Handle(Standard_Transient);
+
+constexpr double kTornShare = 1e-3;  ///< of the size of a border: edges that are farther apart do not meet
 
 struct Complaint {
   Entity about;
@@ -49,6 +57,58 @@ std::string dropped_edge(const Entity& entity) {
   return known ? "" : "its edge is none of a curve";
 }
 
+/// What is flat has a meaning in the parameters of a surface alone. Where a point in space is asked for the kernel adds a zero.
+std::string lacks_coordinates(const Entity& entity) {
+  const auto point = Handle(StepGeom_CartesianPoint)::DownCast(entity);
+  const auto direction = Handle(StepGeom_Direction)::DownCast(entity);
+  const int count = !point.IsNull() ? point->NbCoordinates() : !direction.IsNull() ? direction->NbDirectionRatios() : 3;
+  return count < 3 ? fmt::format("it has {} of three coordinates", count) : "";
+}
+
+gp_XYZ place_of(const Handle(StepShape_Vertex) & vertex) {
+  const auto at = Handle(StepShape_VertexPoint)::DownCast(vertex);
+  const auto point =
+      at.IsNull() ? Handle(StepGeom_CartesianPoint)() : Handle(StepGeom_CartesianPoint)::DownCast(at->VertexGeometry());
+  gp_XYZ place(0.0, 0.0, 0.0);
+  for (int i = 1; !point.IsNull() && i <= std::min(3, point->NbCoordinates()); ++i)
+    place.SetCoord(i, point->CoordinatesValue(i));
+  return place;
+}
+
+/// The two ends of each edge of a border; empty if one of them has none.
+std::vector<std::array<Handle(StepShape_Vertex), 2>> ends_of(const Handle(StepShape_EdgeLoop) & loop) {
+  std::vector<std::array<Handle(StepShape_Vertex), 2>> ends;
+  for (int i = 1; i <= loop->NbEdgeList(); ++i) {
+    Handle(StepShape_Edge) edge = loop->EdgeListValue(i);
+    for (auto turned = Handle(StepShape_OrientedEdge)::DownCast(edge); !turned.IsNull();
+         turned = Handle(StepShape_OrientedEdge)::DownCast(edge))
+      edge = turned->EdgeElement();
+    if (edge.IsNull() || edge->EdgeStart().IsNull() || edge->EdgeEnd().IsNull()) return {};
+    ends.push_back({edge->EdgeStart(), edge->EdgeEnd()});
+  }
+  return ends;
+}
+
+/// A border whose edges do not follow one another: the kernel goes straight across what is between them. Which way each edge
+/// runs is not asked: the kernel mends that.
+std::string torn(const Entity& entity) {
+  const auto loop = Handle(StepShape_EdgeLoop)::DownCast(entity);
+  if (loop.IsNull()) return {};
+  const auto ends = ends_of(loop);
+  double size = 0.0;
+  for (const auto& edge : ends)
+    for (const auto& vertex : edge) size = std::max(size, (place_of(vertex) - place_of(ends.front()[0])).Modulus());
+  const auto meet = [&](const auto& a, const auto& b) {
+    return a == b || (place_of(a) - place_of(b)).Modulus() <= kTornShare * size;
+  };
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    const auto &a = ends[k], &b = ends[(k + 1) % ends.size()];
+    if (!meet(a[0], b[0]) && !meet(a[0], b[1]) && !meet(a[1], b[0]) && !meet(a[1], b[1]))
+      return fmt::format("edges {} and {} of this border do not meet", k + 1, (k + 1) % ends.size() + 1);
+  }
+  return {};
+}
+
 /// Of all entities, in the order of the file.
 std::vector<Complaint> complaints_of(const Handle(XSControl_WorkSession) & session) {
   const Handle(Interface_InterfaceModel) model = session->Model();
@@ -59,7 +119,8 @@ std::vector<Complaint> complaints_of(const Handle(XSControl_WorkSession) & sessi
     std::string text = failure_of(model->Check(i, true));
     if (text.empty())
       if (const Handle(Transfer_Binder) made = process->Find(entity); !made.IsNull()) text = failure_of(made->Check());
-    if (text.empty()) text = dropped_edge(entity);
+    for (const auto& look : {dropped_edge, lacks_coordinates, torn})
+      if (text.empty()) text = look(entity);
     if (!text.empty()) all.push_back({entity, std::move(text)});
   }
   return all;
@@ -87,7 +148,8 @@ std::map<const Standard_Transient*, std::string> complaints_of_faces(const Handl
       for (Interface_EntityIterator users = graph.Sharings(entity); users.More(); users.Next())
         // A curve in the parameters of a surface names the surface, and stands in the borders of both its faces. Both have the curve
         // in space, too, which counts.
-        if (!users.Value()->IsKind(STANDARD_TYPE(StepGeom_Pcurve)) && seen.insert(users.Value().get()).second) ways.push_back(users.Value());
+        if (!users.Value()->IsKind(STANDARD_TYPE(StepGeom_Pcurve)) && seen.insert(users.Value().get()).second)
+          ways.push_back(users.Value());
     }
   }
   return found;

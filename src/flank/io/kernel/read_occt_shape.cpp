@@ -128,7 +128,8 @@ OcctShape load_step(const std::string& file) {
 /// The unit is stated in the global section.
 OcctShape load_iges(const std::string& file) {
   IGESControl_Reader reader;
-  if (reader.ReadFile(PlainFile(file).name().c_str()) != IFSelect_RetDone) refuse_content(file, "IGES", "its structure is damaged");
+  if (reader.ReadFile(PlainFile(file).name().c_str()) != IFSelect_RetDone)
+    refuse_content(file, "IGES", "its structure is damaged");
   OcctShape result;
   const double millimetres = reader.IGESModel()->GlobalSection().UnitValue();
   if (!(millimetres >= kSmallestUnitMm && millimetres <= kLargestUnitMm))

@@ -15,7 +15,7 @@ struct OcctShape {
   TopoDS_Shape shape;                ///< in millimetres
   TopTools_IndexedMapOfShape faces;  ///< of the shape, in their order
   FileFaces left;                    ///< what the kernel left of the faces of the file
-  std::string unit;    ///< the file's own: mm, cm, m, in, or its name where it is another
+  std::string unit;                  ///< the file's own: mm, cm, m, in, or its name where it is another
   double millimetres_per_unit = 1.0;
   std::vector<std::string> notes;  ///< what did not go as the file says, one sentence each
 };

@@ -137,7 +137,10 @@ class Section {
 
   void record() {
     if (!is_letter(peek())) refuse("the name of an entity is expected");
+    const std::size_t begin = at_;
     word();
+    const std::string name = in_capitals(text_.substr(begin, at_ - begin));
+    most_values_ = name == "CARTESIAN_POINT" || name == "DIRECTION" ? 3 : 0;
     space();
     if (peek() != '(') refuse("a name without its parameters stands where a value is expected");
     list();
@@ -151,7 +154,7 @@ class Section {
 
   /// From its opening to its closing parenthesis, with the lists in it.
   void list() {
-    int depth = 0;
+    int depth = 0, values = 0;
     bool value_next = true;
     do {
       space();
@@ -168,6 +171,8 @@ class Section {
         ++at_;
       } else {
         if (!value_next) refuse("a comma is missing");
+        if (depth > 1 && ++values > most_values_ && most_values_ > 0)
+          refuse(fmt::format("a point or a direction has more than {} coordinates", most_values_));
         value_next = opens();
         depth += value_next ? 1 : 0;
         just_opened_ = value_next;
@@ -260,14 +265,14 @@ class Section {
   std::size_t written_;  ///< so much of the text is in `out_`, or what stands for it
   std::unordered_set<std::string_view> defined_;
   bool just_opened_ = false;
+  int most_values_ = 0;  ///< in a list of this record; 0: any number
 };
 
 /// Where the word begins at or after `at`, in either case of letters.
 std::size_t find_word(std::string_view text, std::string_view word, std::size_t at) {
   const auto begin = text.begin() + static_cast<std::ptrdiff_t>(std::min(at, text.size()));
-  const auto found = std::search(begin, text.end(), word.begin(), word.end(), [](unsigned char a, unsigned char b) {
-    return std::toupper(a) == std::toupper(b);
-  });
+  const auto found = std::search(begin, text.end(), word.begin(), word.end(),
+                                 [](unsigned char a, unsigned char b) { return std::toupper(a) == std::toupper(b); });
   return found == text.end() ? std::string_view::npos : static_cast<std::size_t>(found - text.begin());
 }
 

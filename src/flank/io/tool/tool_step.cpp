@@ -23,8 +23,8 @@
 #include <vector>
 
 #include "flank/error.h"
-#include "flank/io/kernel/read_occt_silence.h"
 #include "flank/io/cad/write_occt_products.h"
+#include "flank/io/kernel/read_occt_silence.h"
 
 namespace flank::internal {
 namespace {
