@@ -498,6 +498,7 @@ def verify(
     tool: _File | None = None,
     faces: Union[str, Sequence[str]] | None = None,
     part: Union[_File, Part] | None = None,
+    side: Literal[1, -1, "+", "-"] | None = None,
     tolerance_mm: float | None = None,
     sample_mm: float | None = None,
     reach_radius_mm: float | None = None,

@@ -146,9 +146,10 @@ View make_view(const PlanJob& job, const Setup& setup, const Tool& tool, const P
   const std::set<std::string> entered = entered_faces(verdict, view.tolerance_mm);
   view.bodies = view_faces(setup.part, setup.targets, entered);
   view.tool = tool;
+  view.sides = verdict.sheet_sides;
   view.profile = profile_of(tool.radial);
   // Whether the flank touches a target decides where |c| matters: elsewhere a plunge leaves no trace.
-  const std::vector<TargetGroup> groups = make_targets(setup, +1);
+  const std::vector<TargetGroup> groups = make_targets(setup);
   std::vector<const Target*> targets;
   for (const TargetGroup& group : groups) targets.push_back(group.target.get());
   const Touches touches = [&](const Vec3& centre, double radius) {

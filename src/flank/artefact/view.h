@@ -45,6 +45,7 @@ struct View {
   double tolerance_mm = 0.0, least_coverage = 0.0;
   std::vector<ViewFace> bodies;  ///< every face of the part, in the part's order
   std::vector<ViewStrip> strips;
+  std::vector<SheetSide> sides;  ///< of open sheets that are targets: from `place` the tool is `towards`
   Tool tool;
   std::vector<ProfilePoint> profile;
 };

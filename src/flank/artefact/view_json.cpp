@@ -1,4 +1,6 @@
 #include "flank/artefact/view_json.h"
+
+#include "flank/artefact/verify_json.h"
 #include "flank/io/text/json_dump.h"
 #include "flank/version.h"
 
@@ -180,6 +182,7 @@ std::string view_to_json(const View& view) {
             {"tool", tool_to_view(view)},
             {"strips", Json::array()},
             {"bodies", Json::array()}};
+  for (const SheetSide& side : view.sides) j["sides"].push_back(sheet_side_to_json(side));
   for (const ViewStrip& strip : view.strips) j["strips"].push_back(to_json(strip));
   for (const ViewFace& body : view.bodies) j["bodies"].push_back(to_json(body));
   return dumped(j) + "\n";

@@ -161,7 +161,7 @@ VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const To
   std::vector<BuriedStrip> buried;
   if (radius > 0.0) {
     const std::vector<FaceSamples> samples = target_samples(setup, kReachSpacings * usual);
-    reach.emplace(setup, tool, path, ReachBall{radius, request.reach_radius_mm.has_value()}, samples);
+    reach.emplace(setup, ReachBall{radius, request.reach_radius_mm.has_value()}, samples);
     buried = find_buried(setup, tool, path, samples);
   }
   stop_here();
@@ -173,6 +173,7 @@ VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const To
   VerifyReport report = verify::judge_faces(tool, path, judged, options, request.least_coverage);
   report.reach_radius_mm = radius;
   report.buried = std::move(buried);
+  report.sheet_sides = setup.sides;
   if (!report.buried.empty()) report.verdict = Verdict::kOvercut;
   return report;
 }

@@ -37,7 +37,7 @@ struct Question {
 
 template <class Job>
 Question question_of(const VerifyJob& request, const Job& job) {
-  Question q{job.part, job.obstacles, job.judge, job.tolerance_mm, {}};
+  Question q{machined(job), job.obstacles, job.judge, job.tolerance_mm, {}};
   const std::string tool = request.nc.tool.value_or((std::filesystem::path(request.folder) / "tool.json").string());
   q.tool = read_and_equip(tool, request.obstacles, job.obstacles);
   if (request.nc.faces) q.part.faces = *request.nc.faces, q.part.skin.reset();
@@ -50,6 +50,7 @@ FitJob job_of(const VerifyJob& request) {
   if (!request.nc.tool) throw UsageError("tool", "is needed with `nc`, or a folder of results");
   FitJob job;
   job.part.file = *request.part;
+  job.part.side = request.side;
   job.obstacles = request.obstacles;
   job.judge = {.least_coverage = job.judge.least_coverage,
                .sample_mm = request.sample_mm,

@@ -131,8 +131,7 @@ std::vector<FaceSamples> target_samples(const Setup& setup, double spacing_mm) {
   return samples;
 }
 
-TargetReach::TargetReach(const Setup& setup, const Tool& tool, const Path& path, const ReachBall& ball,
-                         const std::vector<FaceSamples>& samples) {
+TargetReach::TargetReach(const Setup& setup, const ReachBall& ball, const std::vector<FaceSamples>& samples) {
   const Part& part = setup.part;
   const double radius = ball.radius_mm;
   std::vector<int> judged = setup.targets;
@@ -153,17 +152,14 @@ TargetReach::TargetReach(const Setup& setup, const Tool& tool, const Path& path,
       }
       others.push_back({std::move(mesh), solid == solid_of(part, own) ? -1 : solid, holds(judged, around[k])});
     }
-    const bool turned = !samples[j].of_solid && side_of_tool(tool, path, samples[j]) < 0;
-    targets_.emplace(own, Around{ReachScene(others, mine, {radius, setup.tolerance_mm}), turned});
+    targets_.emplace(own, ReachScene(others, mine, {radius, setup.tolerance_mm}));
   }
 }
 
 void TargetReach::fill(int face, FaceSamples& samples) const {
   const auto found = targets_.find(face);
   if (found == targets_.end()) return;
-  if (found->second.turned)
-    for (Vec3& n : samples.normals) n = -n;
-  samples.reachable = found->second.scene.shares(samples);
+  samples.reachable = found->second.shares(samples);
 }
 
 FaceSamples with_fine_border(const verify::Sampler& sampler, const TargetReach& reach, int face,
