@@ -48,7 +48,7 @@ std::vector<Figure> sector() {
       seconds_of([&] { report = judge(outcome.tool, outcome.path, samples, {.tolerance_mm = 0.1}); });
   const double reaching = seconds_of([&] {
     std::vector<FaceSamples> targets = target_samples(setup, kSpacingMm);
-    const TargetReach reach(setup, outcome.tool, outcome.path, {.radius_mm = 5.0}, targets);
+    const TargetReach reach(setup, {.radius_mm = 5.0}, targets);
     for (std::size_t k = 0; k < targets.size(); ++k) reach.fill(setup.targets[k], targets[k]);
   });
   set_thread_count(threads);

@@ -15,7 +15,7 @@ std::vector<Figure> from_a_start(const std::string& name, double bound, double l
   const std::unique_ptr<Target> exact_target = make_target(std::vector<Face>{exact.face});
   write_example(example, scratch(name + ".ply"));
   const Part part = read_part(scratch(name + ".ply"), "mm");
-  const std::vector<TargetGroup> targets = make_targets({part, {0}, {}, 0.01, {}}, +1);
+  const std::vector<TargetGroup> targets = make_targets({part, {0}, {}, 0.01, {}});
   const RuledMotion start = start_off(example);
   const FlankFitOptions options = open_options(d);
   FlankFitResult fit;

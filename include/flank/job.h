@@ -19,7 +19,9 @@ struct PartRequest {
   std::optional<std::string> unit;  ///< of a mesh, whose file states none: "mm", "cm", "m" or "in"
   std::string faces = "F1";         ///< "F1", "F1,F3", "F143-F160", "F1a" (a piece)
   std::optional<std::string> skin;  ///< "F143": that face and all that is joined smoothly to it, instead of `faces`
-  std::optional<int> side;          ///< +1 or -1: the machined side of an open sheet; none: both are tried
+  std::optional<int>
+      side;             ///< +1 or -1: the machined side of an open sheet; none: by the part (docs/algorithms/side.md)
+  bool facing = false;  ///< the faces are two walls of a cavity; no field: `machined` sets it
   bool operator==(const PartRequest&) const = default;
   /// For titles: "F1,F3", or "skin of F143".
   [[nodiscard]] std::string target_text() const { return skin ? "skin of " + *skin : faces; }
@@ -162,6 +164,7 @@ struct TrochoidJob {
 [[nodiscard]] inline PartRequest machined(const TrochoidJob& job) {
   PartRequest part = job.part;
   part.faces = job.left + "," + job.right;
+  part.facing = true;
   return part;
 }
 
@@ -171,6 +174,7 @@ struct VerifyJob {
   NcRequest nc;
   std::optional<std::string> part;  ///< file
   std::optional<double> tolerance_mm, sample_mm, reach_radius_mm, stock_cell_mm;
+  std::optional<int> side;  ///< as in PartRequest
   ObstacleRequest obstacles;
   bool operator==(const VerifyJob&) const = default;
 };

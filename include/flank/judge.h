@@ -33,8 +33,10 @@ struct FaceSamples {
   double spacing_mm = 0.0;
   std::vector<double> reaches_mm;         ///< of each sample: the farthest point of its cell; empty: spacing_mm
   std::vector<double> curvatures_per_mm;  ///< of each sample: largest |normal curvature|; empty: not known
-  std::vector<Vec3> normals;      ///< of each sample: unit, away from the material where `of_solid`; empty: not known
-  bool of_solid = false;          ///< the face bounds a solid; else it is a sheet, whose normals may point either way
+  std::vector<Vec3>
+      normals;            ///< of each sample: unit, away from the material where `of_solid`; of a target towards the
+                          ///< side that is machined; empty: not known
+  bool of_solid = false;  ///< the face bounds a solid; else it is a sheet, whose normals may point either way
   std::vector<double> reachable;  ///< of each sample: share of its cell that is reachable (reach.h); empty: all of it
   /// Of each sample: not 0 if no border and no kink of the face comes into its cell; empty: not known
   std::vector<char> smooth;
@@ -220,6 +222,16 @@ struct FinerReach {
   double reachable_share = 0.0;  ///< of the targets' area, by few samples
 };
 
+/// On which side of targets that bound no material the tool belongs, and why (docs/algorithms/side.md).
+struct SheetSide {
+  std::string faces;            ///< "F1" or "F1,F2": joined, with one side
+  int side = +1;                ///< +1: along the normals of the file, -1: against them
+  bool asked = false;           ///< the request says so; else the part's geometry does
+  Vec3 towards = Vec3::Zero();  ///< unit, from the sheet to the tool
+  Vec3 place = Vec3::Zero();    ///< where that is so: in the middle of the sheet
+  std::string reason;           ///< "where the normal of the file points"
+};
+
 /// Coverage and undercut have no part in the verdict: how much is enough is for the caller to say.
 struct VerifyReport {
   Verdict verdict = Verdict::kNotRun;
@@ -241,6 +253,7 @@ struct VerifyReport {
   std::vector<double> histogram_area_mm2;  ///< of f over the targets
   /// Strips that run inside a solid or behind a sheet: they may enter no face, so no depth shows them. Not filled by judge()
   std::vector<BuriedStrip> buried;
+  std::vector<SheetSide> sheet_sides;  ///< which side of open sheets is machined; not filled by judge()
   /// Faces that nobody could judge and that are not ignored by name. Not filled by judge()
   std::vector<UnjudgedFace> unread_faces;
   ClearanceReport clearance;       ///< of shank, holder and fixtures; not filled by judge()

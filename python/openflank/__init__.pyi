@@ -501,6 +501,7 @@ def verify(
     tool_number: int | None = None,
     follow: str = ...,
     part: Union[_File, Part] | None = None,
+    side: Literal[1, -1, "+", "-"] | None = None,
     tolerance_mm: float | None = None,
     sample_mm: float | None = None,
     reach_radius_mm: float | None = None,

@@ -13,16 +13,12 @@ import sys
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-# Of the blade, an open sheet, the side that is found to be the better one; of the two blades on their hub, the hub alone is
-# protected; of a cavity, one layer with the tool that it was made by.
+# Of the two blades on their hub, the hub alone is protected; of a cavity, one layer with the tool that it was made by.
 LESS = (
-    (r"^(flank (?:fit|cover) blade\.step .*?)( +#|$)", r"\1 --side +\2"),
     (r"^(flank fit blisk\.step .*?)( +#|$)", r"\1 --check-faces F1\2"),
     (r"^(flank trochoid .*?)( +#|$)", r"\1 --tool cavity.tool.json --layers 1 --strategy plain --stock-cell 2\2"),
-    (r"^\[options\]$", '[options]\nside = "+"'),
-    (r'^(result = openflank\.fit\("blade\.step", .*)\)$', r'\1, side="+")'),
 )
-FIRST_FIT = "flank fit blade.step --face F1 --tolerance 0.1 -o out --side +"
+FIRST_FIT = "flank fit blade.step --face F1 --tolerance 0.1 -o out"
 PAGES = sorted((ROOT / "docs/tutorials").glob("*.md"))
 README = (ROOT / "README.md").read_text()
 # A comment of README.md that begins so is of a line that is not run here.

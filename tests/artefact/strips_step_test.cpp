@@ -19,13 +19,13 @@ class StripsStep : public ::testing::TestWithParam<int> {};
 TEST_P(StripsStep, ReadsBackAsTheSameSurfaces) {
   const RadialFunction radial = example_tool("barrel").radial;
   const RuledMotion motion = example_motion(std::abs(GetParam()), radial.axis_length());
-  const StripSurface made = strip_surface({7, motion, 0.125, 0.8, GetParam() > 0 ? +1 : -1}, radial);
-  const std::string text = strips_to_step({made, made});
-  EXPECT_EQ(text, strips_to_step({made, made}));
+  const StripSurface made = strip_surface({7, motion, 0.125, 0.8, GetParam() > 0 ? +1 : -1}, radial, 0.01);
+  const std::string text = strips_to_step({made, made}, radial.axis_length());
+  EXPECT_EQ(text, strips_to_step({made, made}, radial.axis_length()));
   for (const char* name : {"'strip 7'", "'strip 7 axis'"}) EXPECT_NE(text.find(name), std::string::npos) << name;
   const auto file = std::filesystem::temp_directory_path() / ("flank_strips-" + std::to_string(::getpid()) + ".step");
   // Alone: coinciding sheets would be taken for one.
-  write_file(file.string(), strips_to_step({made}));
+  write_file(file.string(), strips_to_step({made}, radial.axis_length()));
   const Part part = read_part(file.string());
   std::filesystem::remove(file);
   ASSERT_EQ(part.faces.size(), 2u);

@@ -94,7 +94,7 @@ FamilySearchResult search_flat(ToolFamily family, const std::map<std::string, do
                                const FamilySearchOptions& options) {
   const auto target = testing::flat_target(0.0, 50.0, 0.0, 30.0);
   const Obstacles none;
-  const RankingTarget targets = {{target.get(), &none}};
+  const RankingTarget targets = {target.get(), &none};
   return search_family(std::span(&targets, 1), family, given, options, {});
 }
 
@@ -140,7 +140,7 @@ TEST(FamilySearch, TheNearestWhereNoneWorks) {
   // A lid lower than twice the smallest radius that is searched.
   const auto target = testing::flat_target(0.0, 50.0, 0.0, 30.0);
   const Obstacles obstacles = testing::lid_at(1.0);
-  const RankingTarget targets = {{target.get(), &obstacles}};
+  const RankingTarget targets = {target.get(), &obstacles};
   const FamilySearchResult found =
       search_family(std::span(&targets, 1), ToolFamily::kCylinder, {}, options_with_best_at(3.0, 0.0), {});
   EXPECT_EQ(found.tools.size(), 1u);

@@ -91,7 +91,7 @@ class FakeRanking : public ::testing::Test {
   /// Tool of a coverage and a number of strips.
   static Tool tool(double coverage, int strips) { return testing::cylinder(1.0 + 0.01 * coverage, 10.0 + strips); }
   std::vector<RankedTool> rank(const std::vector<Tool>& tools, const Progress& progress = {}) {
-    const RankingTarget target = {{target_.get(), &none_}};
+    const RankingTarget target = {target_.get(), &none_};
     return rank_tools(std::span(&target, 1), tools, options_, progress);
   }
 
@@ -145,22 +145,6 @@ TEST_F(FakeRanking, ThoseThatCannotWorkAreLastAndNotTried) {
   EXPECT_EQ(full_, 2);
 }
 
-TEST_F(FakeRanking, TheBetterSideOfASheet) {
-  options_.cover_with = [&](const Target& target, const Tool& tool, const Obstacles&, const CoverOptions&,
-                            const Progress&) {
-    CoverResult result;
-    result.coverage = &target == target_.get() ? 0.3 : 0.8;
-    result.motions = {testing::straight_motion(tool.radial.axis_length())};
-    return result;
-  };
-  const auto other = testing::flat_target(0.0, 50.0, 0.0, 30.0);
-  const RankingTarget target = {{target_.get(), &none_}, {other.get(), &none_}};
-  const std::vector<Tool> tools = {tool(0.9, 1)};
-  const RankedTool ranked = rank_tools(std::span(&target, 1), tools, options_, {}).front();
-  EXPECT_EQ(ranked.side, std::vector<std::size_t>{1});
-  EXPECT_NEAR(ranked.coverage, 0.8, 1e-12);
-}
-
 TEST_F(FakeRanking, AnInterruptedRankingKeepsWhatItHas) {
   std::vector<Tool> tools;
   for (int k = 0; k < 12; ++k) tools.push_back(tool(0.5 + 0.02 * k, 2));
@@ -177,7 +161,7 @@ TEST(ToolRanking, SameForAnyNumberOfThreads) {
   if (kSanitized) GTEST_SKIP() << "minutes under a sanitizer; its parts are tested there by themselves";
   const auto target = testing::flat_target(0.0, 25.0, 0.0, 15.0);
   const Obstacles none;
-  const RankingTarget targets = {{target.get(), &none}};
+  const RankingTarget targets = {target.get(), &none};
   const std::vector<Tool> tools = {testing::cylinder(4.0, 16.0), testing::cylinder(3.0, 16.0), barrel(50.0, 5.0, 20.0)};
   RankingOptions options;
   options.finalists = 1;

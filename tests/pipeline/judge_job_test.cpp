@@ -28,7 +28,7 @@ std::vector<FaceSamples> reach_of(const Part& part, int target, double radius, d
   const Setup setup{part, {target}, faces_to_check(part, {target}, {}), tolerance, {}};
   std::vector<FaceSamples> found;
   for (const double spacing : spacings) found.push_back(target_samples(setup, spacing)[0]);
-  const TargetReach reach(setup, {}, {}, {.radius_mm = radius}, {found[0]});
+  const TargetReach reach(setup, {.radius_mm = radius}, {found[0]});
   for (FaceSamples& samples : found) reach.fill(target, samples);
   return found;
 }

@@ -15,7 +15,7 @@ double ball_beside_fillet(double radius, const FitJob& job = {}) {
   flank::internal::Setup setup;
   setup.part = testing::corner(true, radius);
   setup.targets = {0};
-  const std::vector<TargetGroup> targets = make_targets(setup, +1);
+  const std::vector<TargetGroup> targets = make_targets(setup);
   const Target& target = *targets.front().target;
   return demanded_reach(job, setup, target, bounds_for(job, target));
 }

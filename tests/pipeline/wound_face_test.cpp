@@ -58,8 +58,8 @@ TEST(WoundFace, HalfATurnStandsForItAndTheRestIsChecked) {
   const auto half = half_turn_of(whole, *wound);
   ASSERT_EQ(half.part.faces.size(), 3u);
   EXPECT_EQ(half.checks, (std::vector<int>{1, 2}));
-  const double area = make_targets(whole, +1).front().target->area();
-  EXPECT_NEAR(make_targets(half, +1).front().target->area(), area / 6.0, 0.01 * area);
+  const double area = make_targets(whole).front().target->area();
+  EXPECT_NEAR(make_targets(half).front().target->area(), area / 6.0, 0.01 * area);
 }
 
 TEST(WoundFace, TheMotionGoesOverAllOfIt) {

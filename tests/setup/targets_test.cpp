@@ -25,7 +25,7 @@ std::vector<std::string> groups_of(const std::vector<int>& targets) {
   internal::Setup setup = plates();
   setup.targets = targets;
   std::vector<std::string> names;
-  for (const TargetGroup& group : make_targets(setup, +1)) names.push_back(group.faces);
+  for (const TargetGroup& group : make_targets(setup)) names.push_back(group.faces);
   return names;
 }
 
@@ -42,7 +42,7 @@ TEST(MakeTargets, FacesThatMeetAreOneTarget) {
 TEST(MakeTargets, AreasAreThoseOfTheFaces) {
   internal::Setup setup = plates();
   setup.targets = {0, 2, 3};
-  const std::vector<TargetGroup> groups = make_targets(setup, +1);
+  const std::vector<TargetGroup> groups = make_targets(setup);
   ASSERT_EQ(groups.size(), 2u);
   EXPECT_NEAR(groups[0].target->area(), 1200.0, 1.0);
   EXPECT_NEAR(groups[1].target->area(), 600.0, 0.5);
@@ -56,7 +56,7 @@ TEST(MakeTargets, PiecesOfASkinAreTargetsOfTheirOwn) {
   split_two_sided(setup.part, "F2,F4");
   setup.targets = parse_face_list(setup.part, "F2,F4");
   ASSERT_GT(setup.targets.size(), 3u);
-  EXPECT_EQ(make_targets(setup, +1).size(), setup.targets.size());
+  EXPECT_EQ(make_targets(setup).size(), setup.targets.size());
   EXPECT_EQ(wrapped_note(setup.part, {0}), "");
   const std::string note = wrapped_note(setup.part, setup.targets);
   for (const char* said : {"F2 goes round an edge and is machined in pieces", "F2a, F2b, F2c"})

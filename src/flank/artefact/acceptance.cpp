@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "flank/setup/machined_side.h"
+
 namespace flank::internal {
 namespace {
 
@@ -60,6 +62,15 @@ void add_unproved(const VerifyReport& report, Acceptance& out) {
   }
   if (faces.size() > kMostFacesNamed)
     add_reason(out, Figure::kOvercutBound, fmt::format("and {} more faces", faces.size() - kMostFacesNamed));
+}
+
+/// Which side of open sheets was taken where nobody asked for one: the file does not say where their material is.
+void add_sheet_sides(const VerifyReport& report, Acceptance& out) {
+  for (const SheetSide& sheet : report.sheet_sides)
+    if (!sheet.asked)
+      add_caution(out, Figure::kSheetSide,
+                  fmt::format("{} bounds no material; machined from {}; --side {} takes the other side", sheet.faces,
+                              side_text(sheet), sheet.side > 0 ? "-" : "+"));
 }
 
 /// Strips inside the material: the first, and how many more.
@@ -176,6 +187,7 @@ Acceptance accept(const Tool& tool, const VerifyReport& report, const JudgeReque
   if (!complete) add_reason(out, Figure::kComplete, "interrupted: incomplete");
   if (const Legitimacy legitimacy = check_legitimacy(tool.radial); !legitimacy.legitimate)
     add_reason(out, Figure::kLegitimate, "the tool is not legitimate: " + legitimacy.reason);
+  add_sheet_sides(report, out);
   if (!complete && report.verdict == Verdict::kNotRun) {
     add_reason(out, Figure::kVerdict, "not judged: `flank verify` judges it");
     return out;

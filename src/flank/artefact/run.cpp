@@ -106,6 +106,7 @@ void add_verdict(const Result& result, nlohmann::ordered_json& json) {
   json["depth"] = depth_name(v.depth);
   figure("overcut_bound", v.overcut_bound_mm);
   figure("other_faces_overcut_bound", v.gouge_bound_mm);
+  for (const SheetSide& side : v.sheet_sides) json["sides"].push_back(sheet_side_to_json(side));
   if (!v.clearance.figures.empty()) json["clearance"] = clearance_to_json(v.clearance);
 }
 
@@ -184,7 +185,7 @@ std::string summary_text(const Result& result) {
   text += fmt::format("  asked for   {}\n", fmt::join(asked_for(result.job), ", "));
   text += tool_line(result.tool) + stiffness_line(result.tool);
   text += result.path.pose_count() > 0 ? error_lines(result) : "  path        no strip: nothing is machined\n";
-  text += clearance_text(result.verify.clearance);
+  text += sheet_side_text(result.verify) + clearance_text(result.verify.clearance);
   if (result.verify.stock) text += stock_text(*result.verify.stock);
   text += plan_lines(result);
   if (result.ranking) text += ranking_table(*result.ranking);

@@ -5,7 +5,7 @@
 
 namespace flank::internal {
 
-std::string strips_to_step(const std::vector<StripSurface>& strips) {
+std::string strips_to_step(const std::vector<StripSurface>& strips, double axis_length) {
   std::vector<NamedFaces> objects;
   const auto add = [&](const std::string& name, const BSplineSurface& surface, bool reversed) {
     Face face;
@@ -14,9 +14,13 @@ std::string strips_to_step(const std::vector<StripSurface>& strips) {
     face.reversed = reversed;
     objects.push_back({name, {face}});
   };
-  for (const StripSurface& strip : strips) add(strip.name, strip.envelope, !strip.towards_tool);
+  for (const StripSurface& strip : strips)
+    if (strip.has_envelope()) add(strip.title(axis_length), strip.envelope, !strip.towards_tool);
   for (const StripSurface& strip : strips) add(strip.name + " axis", strip.axis, false);
-  return faces_to_step("strips", objects);
+  std::string title = "strips";
+  for (const StripSurface& strip : strips)
+    if (!strip.has_envelope()) title += ", without " + strip.name;
+  return faces_to_step(title, objects);
 }
 
 }  // namespace flank::internal

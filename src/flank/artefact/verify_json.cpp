@@ -74,6 +74,21 @@ BuriedStrip buried_from(const Json& j) {
   return {j.at("strip").get<int>() - 1, {to_number(p.at(0)), to_number(p.at(1)), to_number(p.at(2))}};
 }
 
+SheetSide sheet_side_from(const Json& j) {
+  const auto point = [&](const char* key) {
+    const Json& p = j.at(key);
+    return Vec3(to_number(p.at(0)), to_number(p.at(1)), to_number(p.at(2)));
+  };
+  const auto side = j.at("side").get<std::string>();
+  if (side != "+" && side != "-") throw InputError("\"" + side + "\" is no side; + or - is accepted");
+  return {j.at("faces").get<std::string>(),
+          side == "-" ? -1 : +1,
+          j.at("asked").get<bool>(),
+          point("towards"),
+          point("place"),
+          j.at("reason").get<std::string>()};
+}
+
 Json to_json(const FaceVerdict& f) {
   Json j = {{"face", f.face},
             {"target", f.target},
@@ -228,6 +243,8 @@ VerifyReport report_from(const Json& j) {
   // Files of results without shank, holder or fixtures have none; nor is there a stock where no cavity was replayed.
   if (j.contains("clearance"))
     for (const Json& c : j.at("clearance")) r.clearance.figures.push_back(clearance_from(c));
+  if (j.contains("sides"))
+    for (const Json& s : j.at("sides")) r.sheet_sides.push_back(sheet_side_from(s));
   if (j.contains("buried"))
     for (const Json& b : j.at("buried")) r.buried.push_back(buried_from(b));
   if (j.contains("unread_faces"))
@@ -256,6 +273,13 @@ std::string_view verdict_name(Verdict verdict) {
 std::string_view depth_name(DepthProof depth) { return depth == DepthProof::kProved ? "proved" : "sampled"; }
 
 Json clearance_to_json(const ClearanceReport& report) { return to_json(report); }
+
+Json sheet_side_to_json(const SheetSide& s) {
+  const auto point = [](const Vec3& p) { return Json{number(p.x()), number(p.y()), number(p.z())}; };
+  return {{"faces", s.faces},        {"side", s.side > 0 ? "+" : "-"},
+          {"asked", s.asked},        {"towards", point(s.towards)},
+          {"place", point(s.place)}, {"reason", s.reason}};
+}
 
 std::string verify_to_json(const VerifyReport& r, const Acceptance& acceptance) {
   // Over all faces; written for people, and not read back, since the faces have their own.
@@ -299,6 +323,7 @@ std::string verify_to_json(const VerifyReport& r, const Acceptance& acceptance) 
   for (double a : r.histogram_area_mm2) j["histogram"]["area_mm2"].push_back(number(a));
   for (const BuriedStrip& b : r.buried) j["buried"].push_back(to_json(b));
   for (const UnjudgedFace& f : r.unread_faces) j["unread_faces"].push_back({{"face", f.face}, {"why", f.why}});
+  for (const SheetSide& s : r.sheet_sides) j["sides"].push_back(sheet_side_to_json(s));
   if (!r.clearance.figures.empty()) j["clearance"] = to_json(r.clearance);
   if (r.hold) {
     j["hold"] = {{"axis", to_json(r.hold->axis)}};

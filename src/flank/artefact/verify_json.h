@@ -17,6 +17,9 @@ namespace flank::internal {
 /// The figures of a clearance report: "clearance" of verify.json and summary.json.
 [[nodiscard]] nlohmann::ordered_json clearance_to_json(const ClearanceReport& report);
 
+/// Which side of a sheet is machined: an entry of "sides" of verify.json, summary.json and view.json.
+[[nodiscard]] nlohmann::ordered_json sheet_side_to_json(const SheetSide& side);
+
 /// The report as indented JSON; every number is written so that reading it back gives the same bits. `acceptance` says
 /// whether it is what was asked for.
 [[nodiscard]] std::string verify_to_json(const VerifyReport& report, const Acceptance& acceptance);

@@ -7,6 +7,7 @@
 #include "flank/artefact/acceptance.h"
 #include "flank/artefact/cavity/stock_json.h"
 #include "flank/run.h"
+#include "flank/setup/machined_side.h"
 
 namespace flank::internal {
 namespace {
@@ -37,6 +38,13 @@ std::string depth_text(const VerifyReport& report) {
         report.overcut_bound_mm, report.gouge_bound_mm);
   return fmt::format("proved: no place of the target is cut deeper than {:.4f} mm, none of other faces {:.4f} mm",
                      report.overcut_bound_mm, report.gouge_bound_mm);
+}
+
+std::string sheet_side_text(const VerifyReport& report) {
+  std::string text;
+  for (const SheetSide& side : report.sheet_sides)
+    if (side.asked) text += fmt::format("  side        {}: {}\n", side.faces, side_text(side));
+  return text;
 }
 
 std::string clearance_text(const ClearanceReport& report) {
@@ -78,7 +86,7 @@ std::string verify_text(const Verification& outcome) {
   for (const WorstPlace& w : v.worst)
     text += fmt::format("worst: {} at ({:.3f}, {:.3f}, {:.3f}) f = {:.6f} mm, strip {}, pose {:.2f}, s {:.3f}\n",
                         w.face, w.point.x(), w.point.y(), w.point.z(), w.f, w.strip + 1, w.t, w.s);
-  text += clearance_text(v.clearance);
+  text += sheet_side_text(v) + clearance_text(v.clearance);
   if (v.stock) text += stock_text(*v.stock);
   for (const std::string& note : outcome.notes) text += "note: " + note + "\n";
   text += reach_text(v) + "\n";

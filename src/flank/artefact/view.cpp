@@ -175,9 +175,10 @@ View make_view(const PlanJob& job, const Setup& setup, const Tool& tool, const P
   fine.insert(struck.begin(), struck.end());
   view.bodies = view_faces(setup.part, setup.targets, fine);
   view.tool = tool;
+  view.sides = verdict.sheet_sides;
   view.profile = profile_of(tool.radial);
   // Whether the flank touches a target decides where |c| matters: elsewhere a plunge leaves no trace.
-  const std::vector<TargetGroup> groups = make_targets(setup, +1);
+  const std::vector<TargetGroup> groups = make_targets(setup);
   std::vector<const Target*> targets;
   for (const TargetGroup& group : groups) targets.push_back(group.target.get());
   const Touches touches = [&](const Vec3& centre, double radius) {

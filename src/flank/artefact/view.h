@@ -46,6 +46,7 @@ struct View {
   std::vector<ViewFace> bodies;    ///< every face of the part, in the part's order
   std::vector<ViewFace> fixtures;  ///< every face of the fixtures; `face` is the obstacle's name, "vice.stl F6"
   std::vector<ViewStrip> strips;
+  std::vector<SheetSide> sides;  ///< of open sheets that are targets: from `place` the tool is `towards`
   Tool tool;
   std::vector<ProfilePoint> profile;
 };

@@ -1,4 +1,6 @@
 #include "flank/artefact/view_json.h"
+
+#include "flank/artefact/verify_json.h"
 #include "flank/io/text/json_dump.h"
 #include "flank/version.h"
 
@@ -181,6 +183,7 @@ std::string view_to_json(const View& view) {
             {"tool", tool_to_view(view)},
             {"strips", Json::array()},
             {"bodies", Json::array()}};
+  for (const SheetSide& side : view.sides) j["sides"].push_back(sheet_side_to_json(side));
   for (const ViewStrip& strip : view.strips) j["strips"].push_back(to_json(strip));
   for (const ViewFace& body : view.bodies) j["bodies"].push_back(to_json(body));
   for (const ViewFace& body : view.fixtures) j["fixtures"].push_back(to_json(body));

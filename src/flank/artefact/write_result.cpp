@@ -57,7 +57,7 @@ std::map<std::string, std::string> result_files(const Result& result, const Acce
     files["tool.step"] = tool_to_step(result.tool);
     files["tool.fctb"] = tool_to_fctb(result.tool);
   }
-  if (result.drawings) files["strips.step"] = strips_to_step(result.drawings->strips);
+  if (result.drawings) files["strips.step"] = strips_to_step(result.drawings->strips, result.tool.radial.axis_length());
   files["path.json"] = path_to_json(result.path);
   files["path.cls"] = path_to_cls(result.path, result.tool, cls);
   files["path.csv"] = path_to_csv(result.path);

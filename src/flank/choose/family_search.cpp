@@ -43,9 +43,9 @@ struct Member {
 struct Search {
   std::span<const RankingTarget> targets;
   const FamilySearchOptions& options;
-  std::vector<std::vector<ScreenPlaces>> places;  ///< of every side of every target
-  std::vector<double> share;                      ///< of the area
-  std::vector<FamilyChart> charts;                ///< one an axis length and side of the first target
+  std::vector<ScreenPlaces> places;  ///< of every target
+  std::vector<double> share;         ///< of the area
+  std::vector<FamilyChart> charts;   ///< one an axis length, of the first target
   std::vector<double> lengths;
   ScreenOptions screen_options;
 
@@ -56,7 +56,7 @@ struct Search {
   }
   /// Covered share minus the price of as many strips as lie side by side across the target.
   [[nodiscard]] double estimate(const Member& candidate) const {
-    const double across = std::ceil(places.front().front().width_mm / candidate.radial->axis_length() - kWidthSlack);
+    const double across = std::ceil(places.front().width_mm / candidate.radial->axis_length() - kWidthSlack);
     return candidate.screen.open - options.ranking.cover.strip_price * across + tie(candidate.screen);
   }
   /// In (0, kTieShare], falling with the screen's mean error; half of it where the error is what the filter allows.
@@ -66,15 +66,13 @@ struct Search {
   }
 };
 
-/// The better side of each target, all of them added up by area. screen(target, side).
+/// All targets added up by area. screen(target).
 template <class Screen>
 ToolScreen screen_all(const Search& search, const Screen& screen) {
   ToolScreen sum;
   sum.mean_error_mm = 0.0;
   for (std::size_t k = 0; k < search.places.size(); ++k) {
-    ToolScreen part = screen(k, 0);
-    for (std::size_t i = 1; i < search.places[k].size(); ++i)
-      if (const ToolScreen other = screen(k, i); other.open > part.open) part = other;
+    const ToolScreen part = screen(k);
     sum.open += search.share[k] * part.open;
     sum.mean_error_mm += search.share[k] * part.mean_error_mm;
     if (sum.reason.empty()) sum.reason = part.reason;
@@ -152,8 +150,8 @@ std::vector<Tool> best_tools(const Search& search, std::vector<Member> candidate
 
 void screen_free(const Search& search, Member& candidate) {
   const Tool tool = search.tool(candidate);
-  candidate.screen = screen_all(search, [&](std::size_t k, std::size_t side) {
-    return screen_tool(search.places[k][side], tool, *search.targets[k][side].obstacles, search.screen_options);
+  candidate.screen = screen_all(search, [&](std::size_t k) {
+    return screen_tool(search.places[k], tool, *search.targets[k].obstacles, search.screen_options);
   });
   // A tool that cannot work is below all that may, but in the order of how near it came.
   candidate.value = candidate.screen.reason.empty() ? search.estimate(candidate) : candidate.screen.open - 1.0;
@@ -235,20 +233,18 @@ Search prepare(std::span<const RankingTarget> targets, ToolFamily family, const 
                const FamilySearchOptions& options) {
   Search search{targets, options, {}, {}, {}, {}, {options.ranking.cover.tolerance_mm}};
   double area = 0.0;
-  for (const RankingTarget& sides : targets) {
-    search.places.emplace_back();
-    for (const RankingSide& side : sides)
-      search.places.back().push_back(screen_places(*side.target, options.ranking.screen_places));
-    search.share.push_back(sides.front().target->area());
+  for (const RankingTarget& one : targets) {
+    search.places.push_back(screen_places(*one.target, options.ranking.screen_places));
+    search.share.push_back(one.target->area());
     area += search.share.back();
   }
   for (double& share : search.share) share /= area;
-  const double width = search.places.front().front().width_mm * (1.0 + options.ranking.cover.overlap_share);
+  const double width = search.places.front().width_mm * (1.0 + options.ranking.cover.overlap_share);
   for (int n = 1; n <= (options.axis_length_mm ? 1 : kMostStripsAcross); ++n) {
     const double over_n = std::round(10.0 * width / n) / 10.0;  // tenths of a millimetre, exact as decimals
     search.lengths.push_back(options.axis_length_mm.value_or(std::max(kLengthStepMm, over_n)));
-    for (const ScreenPlaces& side : search.places.front())
-      search.charts.emplace_back(family, given, search.lengths.back(), side, search.screen_options.tolerance_mm);
+    search.charts.emplace_back(family, given, search.lengths.back(), search.places.front(),
+                               search.screen_options.tolerance_mm);
   }
   return search;
 }
@@ -258,7 +254,7 @@ std::string searched_text(const Search& search) {
       search.options.axis_length_mm
           ? fmt::format("{:.4g} mm (given)", search.lengths.front())
           : fmt::format("{:.4g} mm (the face is {:.3g} mm wide: over 1 to {} strips)", fmt::join(search.lengths, ", "),
-                        search.places.front().front().width_mm, search.lengths.size());
+                        search.places.front().width_mm, search.lengths.size());
   return fmt::format("axis {}; {}", lengths, search.charts.front().text());
 }
 
@@ -277,8 +273,8 @@ FamilySearchResult search_family(std::span<const RankingTarget> targets, ToolFam
   std::vector<Member> candidates = grid_of(search);
   result.grid = static_cast<int>(candidates.size());
   parallel_for(candidates.size(), [&](std::size_t i) {
-    candidates[i].screen = screen_all(search, [&](std::size_t k, std::size_t side) {
-      return screen_meridian(search.places[k][side], *candidates[i].radial, search.screen_options);
+    candidates[i].screen = screen_all(search, [&](std::size_t k) {
+      return screen_meridian(search.places[k], *candidates[i].radial, search.screen_options);
     });
     candidates[i].value = search.estimate(candidates[i]);
   });

@@ -28,22 +28,19 @@ constexpr int kLengthChords = 200;
 /// finalists: a quick cover may be wrong about the order of tools that are close (decision 0011).
 constexpr std::size_t kHalving = 2, kLeastPerFinalist = 2;
 
-/// mm^2 over all targets; both sides of a sheet have the same.
+/// mm^2 over all targets.
 double total_area(std::span<const RankingTarget> targets) {
   double area = 0.0;
-  for (const RankingTarget& sides : targets) area += sides.front().target->area();
+  for (const RankingTarget& one : targets) area += one.target->area();
   return area;
 }
 
-/// Places of every side of every target.
-using AllPlaces = std::vector<std::vector<ScreenPlaces>>;
+/// Places of every target.
+using AllPlaces = std::vector<ScreenPlaces>;
 
 AllPlaces all_places(std::span<const RankingTarget> targets, const RankingOptions& options) {
   AllPlaces all;
-  for (const RankingTarget& sides : targets) {
-    all.emplace_back();
-    for (const RankingSide& side : sides) all.back().push_back(screen_places(*side.target, options.screen_places));
-  }
+  for (const RankingTarget& one : targets) all.push_back(screen_places(*one.target, options.screen_places));
   return all;
 }
 
@@ -54,7 +51,7 @@ void add_share(ToolScreen& sum, const ToolScreen& part, double share) {
   sum.open += share * part.open;
 }
 
-/// The better side of each target, all of them added up by area. A tool that works on one target may be used there.
+/// All targets added up by area. A tool that works on one target may be used there.
 RankedTool screened(std::span<const RankingTarget> targets, const AllPlaces& places, const Tool& tool,
                     const RankingOptions& options) {
   RankedTool ranked;
@@ -64,18 +61,14 @@ RankedTool screened(std::span<const RankingTarget> targets, const AllPlaces& pla
   const double area = total_area(targets);
   bool works = false;
   for (std::size_t k = 0; k < targets.size(); ++k) {
-    ToolScreen best;
-    for (std::size_t i = 0; i < targets[k].size(); ++i) {
-      const ToolScreen side = screen_tool(places[k][i], tool, *targets[k][i].obstacles, screen_options);
-      if (i == 0 || side.open > best.open) best = side;
-    }
+    const ToolScreen one = screen_tool(places[k], tool, *targets[k].obstacles, screen_options);
     // By area: a small target that a tool cannot machine must not outweigh a large one that it can.
-    const double share = targets[k].front().target->area() / area;
-    add_share(sum, best, share);
-    sum.least_error_mm = std::min(sum.least_error_mm, best.least_error_mm);
-    sum.mean_error_mm += share * std::min(best.mean_error_mm, kMostErrorMm);
-    works = works || best.reason.empty();
-    if (ranked.reason.empty()) ranked.reason = best.reason;
+    const double share = targets[k].target->area() / area;
+    add_share(sum, one, share);
+    sum.least_error_mm = std::min(sum.least_error_mm, one.least_error_mm);
+    sum.mean_error_mm += share * std::min(one.mean_error_mm, kMostErrorMm);
+    works = works || one.reason.empty();
+    if (ranked.reason.empty()) ranked.reason = one.reason;
   }
   if (works) ranked.reason.clear();
   sum.reason = ranked.reason;
@@ -99,7 +92,7 @@ void measure(std::span<const RankingTarget> targets, const RankingOptions& optio
   double covered = 0.0;
   for (std::size_t k = 0; k < targets.size(); ++k) {
     const CoverResult& result = ranked.results[k];
-    const double share = targets[k].front().target->area() / area;
+    const double share = targets[k].target->area() / area;
     ranked.reachable += share * result.reachable;
     // A cover's own coverage is of its reachable part: shares of the whole are what can be added.
     covered += share * result.reachable * result.coverage;
@@ -159,13 +152,10 @@ std::vector<std::size_t> best_of(const std::vector<RankedTool>& ranked, std::vec
 void code(StepCodec& codec, RankedTool& ranked) {
   code_choice(codec, ranked.stage, 4);
   code(codec, ranked.results);
-  code(codec, ranked.side);
   for (double* value : {&ranked.reachable, &ranked.coverage, &ranked.strips_mm, &ranked.links_mm, &ranked.minutes})
     codec.number(*value);
   code(codec, ranked.strips);
   codec.text(ranked.reason);
-  codec.require(ranked.side.size() == ranked.results.size(), "a side for each target is needed");
-  for (const std::size_t side : ranked.side) codec.require(side <= 1, "one of two sides is needed");
 }
 
 double strip_length(const RuledMotion& motion) {
@@ -188,18 +178,8 @@ RankedTool cover_stage(std::span<const RankingTarget> targets, const Tool& tool,
   RankedTool ranked;
   ranked.stage = stage;
   const CoverOptions cover_options = options_of(stage, options);
-  for (const RankingTarget& sides : targets) {
-    CoverResult best;
-    std::size_t side = 0;
-    for (std::size_t i = 0; i < sides.size(); ++i) {
-      CoverResult result = options.cover_with(*sides[i].target, tool, *sides[i].obstacles, cover_options, progress);
-      if (i > 0 && result.coverage * result.reachable <= best.coverage * best.reachable) continue;
-      best = std::move(result);
-      side = i;
-    }
-    ranked.results.push_back(std::move(best));
-    ranked.side.push_back(side);
-  }
+  for (const RankingTarget& one : targets)
+    ranked.results.push_back(options.cover_with(*one.target, tool, *one.obstacles, cover_options, progress));
   measure(targets, options, ranked);
   return ranked;
 }

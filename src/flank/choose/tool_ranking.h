@@ -14,13 +14,11 @@
 
 namespace flank::internal {
 
-/// One side of a target and what is in the tool's way there. Both must outlive the call; neither may be null.
-struct RankingSide {
+/// What is to be machined, and what is in the tool's way there. Both must outlive the call; neither may be null.
+struct RankingTarget {
   const Target* target = nullptr;
   const Obstacles* obstacles = nullptr;
 };
-/// What is to be machined: one side, or the better of two (an open sheet). Never empty.
-using RankingTarget = std::vector<RankingSide>;
 
 /// What machining time is reckoned with. It breaks ties between tools only, so the ratio of the two matters more than
 /// the values. Set them to those of the machine and the material.
@@ -39,7 +37,7 @@ struct RankingOptions {
   /// what a cover has (CoverOptions), since this round only has to find the better half.
   int quick_places = 16;
   int quick_directions = 8;
-  /// Places of each side at which tools are screened, >= 1. Raise it for targets with small hollows: the screen sees
+  /// Places of each target at which tools are screened, >= 1. Raise it for targets with small hollows: the screen sees
   /// one place in so many of the area.
   int screen_places = 150;
   /// cover(), unless a caller has another way to find strips. Called from several threads at once.
@@ -58,9 +56,8 @@ enum class RankingStage {
 struct RankedTool {
   std::size_t tool = 0;  ///< index into the tools that were given
   RankingStage stage = RankingStage::kScreened;
-  ToolScreen screen;                 ///< shares of all targets together; the better side of each
+  ToolScreen screen;                 ///< shares of all targets together
   std::vector<CoverResult> results;  ///< one per target
-  std::vector<std::size_t> side;     ///< of each target: the side that was better
   double reachable = 0.0;            ///< share of the area of all targets, in [0, 1]
   double coverage = 0.0;             ///< share of that, in [0, 1], by the planner's own estimate
   int strips = 0;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 
 #include "flank/envelope.h"
 
@@ -13,7 +14,7 @@ namespace flank::internal {
 namespace {
 
 constexpr int kDegree = 5;
-constexpr double kAimMm = 0.5 * kStripSurfaceMm;  ///< a margin, because not every place is looked at
+constexpr double kAim = 0.5;  ///< of what is allowed: a margin, because not every place is looked at
 /// Contact points follow the velocity of cubic rails and the slope of a cubic radial function: between their knots they
 /// are smooth, across them once differentiable. A surface that is no smoother there needs few points elsewhere.
 constexpr int kBreakMultiplicity = kDegree - 1;
@@ -32,18 +33,18 @@ std::vector<double> breaks_of(std::vector<double> inner) {
   return breaks;
 }
 
-std::vector<double> breaks_of(const StripMotion& strip) {
+std::vector<double> breaks_of(const RuledMotion& motion, double from, double to) {
   std::vector<double> inner;
-  for (const BSplineCurve3* rail : {&strip.motion.tip, &strip.motion.direction})
-    for (const double knot : rail->knots) inner.push_back((knot - strip.from_t) / (strip.to_t - strip.from_t));
+  for (const BSplineCurve3* rail : {&motion.tip, &motion.direction})
+    for (const double knot : rail->knots) inner.push_back((knot - from) / (to - from));
   return breaks_of(std::move(inner));
 }
 
 /// A spline of n coefficients has n - 3 equal intervals; all other families are smooth.
-std::vector<double> breaks_of(const RadialFunction& radial) {
+std::vector<double> breaks_of(const RadialFunction& radial, double from, double to) {
   std::vector<double> inner;
   const int pieces = radial.family() == ToolFamily::kSpline ? radial.parameter_count() - 3 : 1;
-  for (int i = 1; i < pieces; ++i) inner.push_back(static_cast<double>(i) / pieces);
+  for (int i = 1; i < pieces; ++i) inner.push_back((static_cast<double>(i) / pieces - from) / (to - from));
   return breaks_of(std::move(inner));
 }
 
@@ -78,13 +79,13 @@ class Direction {
       for (const double x : places(k)) all.push_back(x);
     return all;
   }
-  /// Halves the intervals that `error` says are too far off at one of their places. Were there any?
-  bool refine(const std::function<double(double)>& error) {
+  /// Halves the intervals where `error` is above `aim` at one of their places. Were there any?
+  bool refine(const std::function<double(double)>& error, double aim) {
     bool any = false;
     if (sites().size() > kMostStripPoints) return false;
     for (std::size_t k = 0; k < cuts_.size(); ++k) {
       const std::vector<double> at = places(k);
-      if (std::none_of(at.begin(), at.end(), [&](double x) { return error(x) > kAimMm; })) continue;
+      if (std::none_of(at.begin(), at.end(), [&](double x) { return error(x) > aim; })) continue;
       cuts_[k] *= 2;
       any = true;
     }
@@ -106,7 +107,7 @@ struct Fitted {
 };
 
 /// Interpolates, and halves intervals where the surface is too far off between its points until it is near enough.
-Fitted fitted(const ExactSurface& exact, Direction along, Direction across) {
+Fitted fitted(const ExactSurface& exact, Direction along, Direction across, double aim) {
   // Where an envelope folds, halving does not help: rounds that do not halve the deviation are the end of it.
   constexpr int kIdleRounds = 2;
   int idle = 0;
@@ -133,47 +134,88 @@ Fitted fitted(const ExactSurface& exact, Direction along, Direction across) {
       for (const double a : u) worst = std::max(worst, error(a, b));
       return worst;
     };
-    const bool finer_u = along.refine(worst_u), finer_v = across.refine(worst_v);
+    const bool finer_u = along.refine(worst_u, aim), finer_v = across.refine(worst_v, aim);
     if (!finer_u && !finer_v) return out;
   }
 }
 
+/// The envelope over a stretch.
+Fitted envelope_of(const ExactStrip& strip, const Stretch& stretch, double aim) {
+  return fitted([&](double u, double v) { return strip.contact(stretch.u(u), stretch.v(v)).point; },
+                Direction(breaks_of(strip.motion(), stretch.from_u, stretch.to_u), kDegree),
+                Direction(breaks_of(strip.radial(), stretch.from_v, stretch.to_v), kDegree), aim);
+}
+
+/// The largest stretch whose surface is true, and that surface: what a fit does not bring near enough is cut off, and the rest fitted
+/// again.
+void add_envelope(const ExactStrip& strip, double limit, double aim, StripSurface& out) {
+  constexpr int kRounds = 5;
+  constexpr double kLeastShare = 0.02;  // of the strip: less is worth no surface
+  std::optional<Fitted> fit;
+  for (int round = 0; round < kRounds; ++round) {
+    const Stretch before = out.stretch;
+    const auto is_true = [&](double u, double v) {
+      if (!strip.is_left(u, v, limit)) return false;
+      if (!fit) return true;
+      const double a = (u - before.from_u) / (before.to_u - before.from_u),
+                   b = (v - before.from_v) / (before.to_v - before.from_v);
+      return (fit->surface.value(a, b) - strip.contact(u, v).point).norm() <= limit;
+    };
+    out.stretch = largest_stretch(before, is_true);
+    if (out.stretch.area() < kLeastShare) break;
+    fit = envelope_of(strip, out.stretch, aim);
+    if (fit->deviation_mm > limit) continue;
+    out.envelope = std::move(fit->surface);
+    out.envelope_deviation_mm = fit->deviation_mm;
+    return;
+  }
+  out.stretch = {0.0, 0.0, 0.0, 0.0};
+}
+
+/// "12.5 to 100 % of its way, s 0 to 20.1 mm".
+std::string stretch_text(const Stretch& stretch, double axis_length) {
+  return fmt::format("{:.3g} to {:.3g} % of its way, s {:.4g} to {:.4g} mm", 100.0 * stretch.from_u,
+                     100.0 * stretch.to_u, axis_length * stretch.from_v, axis_length * stretch.to_v);
+}
+
+bool is_whole(const StripSurface& strip) { return strip.stretch.area() >= 1.0; }
+
 }  // namespace
 
-StripSurface strip_surface(const StripMotion& strip, const RadialFunction& radial) {
-  const auto jet = [&](double u) { return strip.motion.jet(strip.from_t + (strip.to_t - strip.from_t) * u); };
-  const auto contact = [&](double u, double v) {
-    const double s = radial.axis_length() * v;
-    return contact_point(jet(u), radial.at(s), s, strip.side);
-  };
+double strip_surface_limit(double tolerance_mm) {
+  constexpr double kShare = 0.1;
+  return std::min(tolerance_mm, std::max(kStripSurfaceMm, kShare * tolerance_mm));
+}
+
+std::string StripSurface::title(double axis_length) const {
+  return is_whole(*this) ? name : fmt::format("{}, {}", name, stretch_text(stretch, axis_length));
+}
+
+StripSurface strip_surface(const StripMotion& strip, const RadialFunction& radial, double tolerance_mm) {
+  const double limit = strip_surface_limit(tolerance_mm), aim = kAim * std::min(kStripSurfaceMm, limit);
+  const ExactStrip exact(strip, radial);
   StripSurface out;
   out.name = fmt::format("strip {}", strip.strip);
-  const Direction along(breaks_of(strip), kDegree);
-  Fitted envelope =
-      fitted([&](double u, double v) { return contact(u, v).point; }, along, Direction(breaks_of(radial), kDegree));
-  Fitted axis =
-      fitted([&](double u, double v) { return jet(u).at(radial.axis_length() * v); }, along, Direction({0.0, 1.0}, 1));
-  out.envelope_deviation_mm = envelope.deviation_mm;
+  add_envelope(exact, limit, aim, out);
+  Fitted axis = fitted([&](double u, double v) { return exact.jet(u).at(radial.axis_length() * v); },
+                       Direction(breaks_of(exact.motion(), 0.0, 1.0), kDegree), Direction({0.0, 1.0}, 1), aim);
   out.axis_deviation_mm = axis.deviation_mm;
-  const SurfaceJet middle = envelope.surface.jet(0.5, 0.5);
-  // The normal of a contact point looks from the axis to the part.
-  out.towards_tool = middle.du.cross(middle.dv).dot(contact(0.5, 0.5).normal) < 0.0;
-  for (const double u : greville_sites(envelope.surface.knots_u, kDegree))
-    for (const double v : greville_sites(envelope.surface.knots_v, kDegree))
-      out.plunging += contact(u, v).exists ? 0 : 1;
-  out.envelope = std::move(envelope.surface);
   out.axis = std::move(axis.surface);
+  if (!out.has_envelope()) return out;
+  const SurfaceJet middle = out.envelope.jet(0.5, 0.5);
+  // The normal of a contact point looks from the axis to the part.
+  out.towards_tool = middle.du.cross(middle.dv).dot(exact.contact(out.stretch.u(0.5), out.stretch.v(0.5)).normal) < 0.0;
   return out;
 }
 
-void note_strip_surfaces(const std::vector<StripSurface>& strips, std::vector<std::string>& notes) {
+void note_strip_surfaces(const std::vector<StripSurface>& strips, double axis_length, std::vector<std::string>& notes) {
   for (const StripSurface& strip : strips) {
-    if (strip.plunging > 0)
-      notes.push_back(fmt::format("strips.step: {} plunges at {} of {} points, where there is no envelope", strip.name,
-                                  strip.plunging, strip.envelope.poles.size()));
-    const double deviation = std::max(strip.envelope_deviation_mm, strip.axis_deviation_mm);
-    if (deviation > kStripSurfaceMm)
-      notes.push_back(fmt::format("strips.step: {} is up to {:.2g} mm off", strip.name, deviation));
+    if (is_whole(strip)) continue;
+    const std::string what =
+        strip.has_envelope() ? "holds " + stretch_text(strip.stretch, axis_length) : std::string("is left out");
+    notes.push_back(fmt::format(
+        "strips.step: {} {}; elsewhere the tool plunges, or another pose takes away what this surface would show",
+        strip.name, what));
   }
 }
 

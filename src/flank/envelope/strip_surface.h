@@ -5,43 +5,42 @@
 #include <vector>
 
 #include "flank/bspline_surface.h"
+#include "flank/envelope/true_stretch.h"
 #include "flank/radial_function.h"
 #include "flank/ruled_motion.h"
 
 namespace flank::internal {
 
-/// The part of a motion that became a strip.
-struct StripMotion {
-  int strip = 1;  ///< its id
-  RuledMotion motion;
-  double from_t = 0.0, to_t = 1.0;  ///< of its first and last pose
-  int side = +1;                    ///< of the contact points that machine the target (envelope.h)
-};
-
-/// Parameters of both surfaces run over [0, 1] x [0, 1]: u from the first pose to the last in equal steps of t, v from
-/// s = 0 to s = L.
+/// Parameters of both surfaces run over [0, 1] x [0, 1]: of the axis u from the first pose to the last in equal steps of t, v from
+/// s = 0 to s = L; of the envelope over `stretch` of that.
 struct StripSurface {
-  std::string name;         ///< "strip 1"
+  std::string name;  ///< "strip 1"
+  Stretch
+      stretch;  ///< of the strip, whose envelope is true; of no area where none was found: then there is no envelope
   BSplineSurface envelope;  ///< through contact points, degree 5 by 5
   BSplineSurface axis;      ///< through axis points, degree 5 by 1
   /// Largest distance found, mm, between the surfaces and the exact points of the same parameters, at kStripPlaces places
-  /// of every knot interval, a direction.
+  /// of every knot interval, a direction. Of an envelope at most strip_surface_limit.
   double envelope_deviation_mm = 0.0, axis_deviation_mm = 0.0;
   bool towards_tool = true;  ///< (S_u x S_v) of the envelope points to the side that the tool is on
-  int plunging =
-      0;  ///< points that the envelope goes through where the tool plunges (|c| >= 1): there is no contact there
+  [[nodiscard]] bool has_envelope() const { return stretch.area() > 0.0; }
+  /// "strip 4", or "strip 4, 12.5 to 100 % of its way, s 0 to 20.1 mm".
+  [[nodiscard]] std::string title(double axis_length) const;
 };
 
-/// How far a strip's surfaces may be from the exact ones, mm. A surface that its largest grid does not bring so near says
-/// so in its deviation.
+/// How near a strip's surfaces are brought to the exact ones, mm, and how many control points a direction has at most before it is not
+/// made finer.
 inline constexpr double kStripSurfaceMm = 1e-3;
 inline constexpr int kStripPlaces = 4;
-/// A direction with more control points than this is not made finer.
 inline constexpr int kMostStripPoints = 400;
+/// How far an envelope may be from what the strip leaves, mm: a surface that is farther is not written.
+[[nodiscard]] double strip_surface_limit(double tolerance_mm);
 
-[[nodiscard]] StripSurface strip_surface(const StripMotion& strip, const RadialFunction& radial);
+/// The envelope is that of the largest stretch, in time and along the axis, on which it is what the strip leaves: there is a contact,
+/// no other pose of the strip takes it away, and a spline comes near enough.
+[[nodiscard]] StripSurface strip_surface(const StripMotion& strip, const RadialFunction& radial, double tolerance_mm);
 
-/// A sentence for every strip whose surfaces are not what they should be: plunging, or farther off than kStripSurfaceMm.
-void note_strip_surfaces(const std::vector<StripSurface>& strips, std::vector<std::string>& notes);
+/// A sentence for every strip whose envelope is not written, or in part.
+void note_strip_surfaces(const std::vector<StripSurface>& strips, double axis_length, std::vector<std::string>& notes);
 
 }  // namespace flank::internal

@@ -29,9 +29,7 @@ void visit_fields(Job& job, Visitor&& visit) {
   visit(FieldInfo{"faces", "", "", "Faces to finish, each by one tool of the set: F1,F3, F10-F19", kAny,
                   Spelling::kPlain, "", true},
         job.part.faces);
-  visit(FieldInfo{"side", "", "", "Machined side of open sheets, + or -; default: both are tried", kSide,
-                  Spelling::kSign},
-        job.part.side);
+  visit(FieldInfo{"side", "", "", kSideHelp, kSide, Spelling::kSign}, job.part.side);
   visit(FieldInfo{"tools", "", "",
                   "Most tools: a number, for the set of at most so many that takes the least time; or auto: the "
                   "smallest set that finishes all that can be finished, and of these the fastest",

@@ -107,6 +107,11 @@ namespace flank::internal {
 template <class Job, class T>
 concept Is = std::same_as<std::remove_const_t<Job>, T>;
 
+inline constexpr std::string_view kSideHelp =
+    "Machined side of open sheets: + (where the normal of the file points) or -; default: the outer one of what "
+    "encloses a space, "
+    "else +";
+
 template <class Visitor, Is<PartRequest> Request>
 void visit_part(Request& part, Visitor& visit) {
   using namespace accepted;
@@ -118,9 +123,7 @@ void visit_part(Request& part, Visitor& visit) {
                   Spelling::kPlain, "--face", true},
         part.faces);
   visit(FieldInfo{"skin", "", "", "Instead: this face with all that is joined smoothly to it, F143", kAny}, part.skin);
-  visit(FieldInfo{"side", "", "", "Machined side of an open sheet, + or -; default: of the start, else both are tried",
-                  kSide, Spelling::kSign},
-        part.side);
+  visit(FieldInfo{"side", "", "", kSideHelp, kSide, Spelling::kSign}, part.side);
 }
 
 template <class Visitor, Is<ObstacleRequest> Request>
@@ -463,6 +466,7 @@ void visit_fields(Job& job, Visitor&& visit) {
   visit(
       FieldInfo{"part", "", "", "Judge against this part instead of the one named in job.json", kAny, Spelling::kFile},
       job.part);
+  visit(FieldInfo{"side", "", "", kSideHelp, kSide, Spelling::kSign}, job.side);
   visit(FieldInfo{"tolerance", "mm", "", "Tolerance instead of the job's", kLength}, job.tolerance_mm);
   visit(FieldInfo{"sample", "mm", "", kSampleHelp, kLength}, job.sample_mm);
   visit(FieldInfo{"reach_radius", "mm", "Other faces", kReachHelp, kRadius}, job.reach_radius_mm);

@@ -51,6 +51,7 @@ VerifyReport quick_verdict(const Setup& setup, JudgeRequest request, const Clear
   } catch (const Stopped&) {
     VerifyReport none;
     none.tolerance_mm = setup.tolerance_mm;
+    none.sheet_sides = setup.sides;
     return none;
   }
 }
@@ -90,7 +91,7 @@ std::vector<StripSurface> add_strips(double tolerance_mm, const std::vector<cons
                        sampled.poses.begin() + static_cast<std::ptrdiff_t>(last));
     surfaces.push_back(strip_surface({strip.id, motions[m], sampled.t[first], sampled.t[last - 1],
                                       machining_contact(motions[m], radial, *groups[m]->target)},
-                                     radial));
+                                     radial, tolerance_mm));
     result.path.strips.push_back(std::move(strip));
   }
   result.largest_c = largest_c(result.path, radial, [&](const Vec3& centre, double ball_mm) {
@@ -98,7 +99,7 @@ std::vector<StripSurface> add_strips(double tolerance_mm, const std::vector<cons
   });
   result.largest_turn_rad = largest_turn(result.path, radial.axis_length(), kToleranceBudget.chord * tolerance_mm);
   result.bends = least_bend_radii(result.path, radial.axis_length(), kToleranceBudget.chord * tolerance_mm);
-  note_strip_surfaces(surfaces, result.notes);
+  note_strip_surfaces(surfaces, radial.axis_length(), result.notes);
   return surfaces;
 }
 

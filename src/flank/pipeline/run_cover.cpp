@@ -9,7 +9,6 @@
 #include "flank/job/check_fields.h"
 #include "flank/pipeline/finish.h"
 #include "flank/pipeline/run_journal.h"
-#include "flank/pipeline/search/closed_mesh.h"
 #include "flank/pipeline/search/cover_choice.h"
 #include "flank/pipeline/search/reach_ball.h"
 #include "flank/pipeline/search/search_setup.h"
@@ -82,22 +81,10 @@ Covered cover_group(const CoverJob& job, const Setup& setup, TargetGroup group, 
   return {std::move(group), std::move(result)};
 }
 
-/// Every group; open sheets from both sides, if none is asked for, and the better one kept.
 std::vector<Covered> cover_groups(const CoverJob& job, const Setup& setup, const Tool& tool, const Progress& progress) {
   std::vector<Covered> all;
-  for (TargetGroup& group : make_targets(setup, job.part.side.value_or(+1)))
+  for (TargetGroup& group : make_targets(setup))
     all.push_back(cover_group(job, setup, std::move(group), tool, progress));
-  if (job.part.side || stopping() || targets_bound_a_solid(setup)) return all;
-  std::vector<TargetGroup> other_side = make_targets(setup, -1);
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    if (all[k].group.of_solid) continue;
-    Covered other = cover_group(job, setup, std::move(other_side[k]), tool, progress);
-    const bool better =
-        other.result.coverage * other.result.reachable > all[k].result.coverage * all[k].result.reachable;
-    if (better) all[k] = std::move(other);
-    all[k].result.notes.push_back(fmt::format("{}: open sheet: both sides were tried, side {} covers more",
-                                              all[k].group.faces, better ? "-" : "+"));
-  }
   return all;
 }
 

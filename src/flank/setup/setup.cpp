@@ -5,6 +5,7 @@
 #include "flank/error.h"
 #include "flank/io/face_groups.h"
 #include "flank/setup/check_faces.h"
+#include "flank/setup/machined_side.h"
 #include "flank/setup/make_obstacles.h"
 #include "flank/setup/skin.h"
 #include "flank/setup/wrapped_note.h"
@@ -42,7 +43,7 @@ Setup read_setup(const PartRequest& part, const ObstacleRequest& obstacles, doub
   setup.targets = targets_of(setup.part, part);
   setup.checks = faces_to_check(setup.part, setup.targets, obstacles);
   setup.unread = faces_unread(setup.part, setup.targets, obstacles);
-  setup.side = part.side;
+  setup.sides = turn_to_machined_side(part, setup.targets, setup.part);
   setup.tolerance_mm = tolerance_mm;
   setup.fixtures = read_fixtures(obstacles.fixtures, part.unit);
   notes.insert(notes.end(), setup.part.repairs.begin(), setup.part.repairs.end());

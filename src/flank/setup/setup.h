@@ -1,23 +1,23 @@
 /// A part with the faces that are machined and those that must not be entered: what every command begins with.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "flank/job.h"
+#include "flank/judge.h"
 #include "flank/part.h"
 
 namespace flank::internal {
 
 struct Setup {
-  Part part;
+  Part part;                 ///< the targets' normals point to the side that is machined
   std::vector<int> targets;  ///< indices of faces
   std::vector<int> checks;   ///< of the faces that must not be entered, ascending
   double tolerance_mm = 0.01;
   std::vector<Part> fixtures;
-  std::optional<int> side = {};  ///< of open sheets that was asked for: +1 along their normals, or -1
   std::vector<int> unread = {};  ///< faces that are in the file and could not be read, but for those ignored by name
+  std::vector<SheetSide> sides = {};  ///< of the targets that bound no material
 };
 
 /// Reads the part, finds its faces, and reads the fixtures. `notes` gets what was repaired, and which faces are not checked. Throws UsageError

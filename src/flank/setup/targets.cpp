@@ -48,13 +48,16 @@ bool are_pieces_of_one(const Part& part, int a, int b) {
   return !one.piece.empty() && !other.piece.empty() && one.number == other.number;
 }
 
-/// Groups of faces that hang together, by their indices; each group's number is the index of one of its members.
+}  // namespace
+
 std::vector<std::vector<int>> connected_groups(const Part& part, const std::vector<int>& faces) {
+  // The regions of a mesh are one target, whether they hang together or not.
+  if (part.is_mesh()) return {faces};
+  // A group's number is the index of one of its members.
   std::vector<int> group(faces.size());
   std::iota(group.begin(), group.end(), 0);
   for (std::size_t i = 0; i + 1 < faces.size(); ++i) {
-    // Asked for its own points only: which side the material is on does not matter here.
-    const std::unique_ptr<Target> target = make_target({part.faces[faces[i]]}, +1);
+    const std::unique_ptr<Target> target = make_target({part.faces[faces[i]]});
     for (std::size_t j = i + 1; j < faces.size(); ++j) {
       if (group[i] == group[j] || are_pieces_of_one(part, faces[i], faces[j]) ||
           !are_connected(*target, part.faces[faces[j]]))
@@ -73,36 +76,18 @@ std::vector<std::vector<int>> connected_groups(const Part& part, const std::vect
   return groups;
 }
 
-}  // namespace
-
-std::vector<TargetGroup> make_targets(const Setup& setup, int side) {
+std::vector<TargetGroup> make_targets(const Setup& setup) {
   const Part& part = setup.part;
-  const std::vector<int>& faces = setup.targets;
   std::vector<TargetGroup> targets;
-  // The regions of a mesh are one target, whether they hang together or not.
-  if (part.is_mesh()) {
-    TriangleMesh mesh = extract_mesh(part, faces);
-    // The machining side is where normals point: turned triangles turn it.
-    if (side < 0)
-      for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
-    TargetGroup& group = targets.emplace_back();
-    group.indices = faces;
-    for (int f : faces) group.faces += (group.faces.empty() ? "" : ",") + part.face_id(f);
-    group.target = make_target(std::move(mesh));
-    group.of_solid = false;
-    return targets;
-  }
-  for (const std::vector<int>& members : connected_groups(part, faces)) {
+  for (const std::vector<int>& members : connected_groups(part, setup.targets)) {
     TargetGroup& group = targets.emplace_back();
     group.indices = members;
     std::vector<Face> values;
     for (int f : members) {
-      values.push_back(part.faces[f]);
-      group.faces += (group.faces.empty() ? "" : ",") + part.faces[f].id;
-      // One sheet among the faces, and the side is not known for the group as a whole.
-      group.of_solid = group.of_solid && part.faces[f].of_solid;
+      group.faces += (group.faces.empty() ? "" : ",") + part.face_id(f);
+      if (!part.is_mesh()) values.push_back(part.faces[f]);
     }
-    group.target = make_target(std::move(values), group.of_solid ? +1 : side);
+    group.target = part.is_mesh() ? make_target(extract_mesh(part, members)) : make_target(std::move(values));
   }
   return targets;
 }

@@ -20,11 +20,13 @@ struct TargetGroup {
   std::unique_ptr<Target> target;
   std::vector<int> indices;                  ///< of these faces
   std::unique_ptr<ObstacleField> obstacles;  ///< what the flank keeps clear of; null: nothing near, or none is avoided
-  bool of_solid = true;                      ///< the machining side is known from the solid
 };
 
-/// side = -1 turns the machining side of open sheets.
-[[nodiscard]] std::vector<TargetGroup> make_targets(const Setup& setup, int side);
+/// Faces that hang together along their borders, and are not pieces of one face; of a mesh all are one group. In the order of `faces`.
+[[nodiscard]] std::vector<std::vector<int>> connected_groups(const Part& part, const std::vector<int>& faces);
+
+/// Machined from the side that the faces' normals point to (setup/machined_side.h).
+[[nodiscard]] std::vector<TargetGroup> make_targets(const Setup& setup);
 
 /// Samples of the targets and of the check faces (coarser) for the judge, in the order of the part's faces.
 [[nodiscard]] std::vector<FaceSamples> judge_samples(const Setup& setup, double spacing_mm, double check_spacing_mm);

@@ -70,12 +70,12 @@ SheetVotes side_votes(const SweptVolume& volume, const Path& path, const FaceSam
   return {std::move(votes), static_cast<int>(some.points.size())};
 }
 
-std::vector<BuriedStrip> strips_behind(const SheetVotes& votes, int side) {
+std::vector<BuriedStrip> strips_behind(const SheetVotes& votes) {
   std::vector<BuriedStrip> out;
   for (std::size_t k = 0; k < votes.strips.size(); ++k) {
     const SideVotes& strip = votes.strips[k];
-    const int all = strip.in_front + strip.behind, against = side > 0 ? strip.behind : strip.in_front;
-    if (against > kLeastShare * votes.asked && against > kMost * all) out.push_back({static_cast<int>(k), strip.point});
+    if (strip.behind > kLeastShare * votes.asked && strip.behind > kMost * (strip.in_front + strip.behind))
+      out.push_back({static_cast<int>(k), strip.point});
   }
   return out;
 }

@@ -32,8 +32,7 @@ struct SheetVotes {
 [[nodiscard]] SheetVotes side_votes(const SweptVolume& volume, const Path& path, const FaceSamples& sheet,
                                     double within_mm);
 
-/// The strips that machine a sheet from behind: `side` is +1 where its samples' normals point to the tool, else -1. `votes`
-/// are those within the tolerance.
-[[nodiscard]] std::vector<BuriedStrip> strips_behind(const SheetVotes& votes, int side);
+/// The strips that machine a sheet from behind. `votes` are those within the tolerance.
+[[nodiscard]] std::vector<BuriedStrip> strips_behind(const SheetVotes& votes);
 
 }  // namespace flank::internal::verify

@@ -172,7 +172,7 @@ std::vector<Ray> rays_from(const Tool& tool, const Path& path, const std::vector
   const SweptVolume volume(tool, path);
   std::vector<int> signs;
   for (FaceSamples& face : faces) {
-    const bool known = face.of_solid || face.normals.size() != face.points.size();
+    const bool known = face.of_solid || face.target || face.normals.size() != face.points.size();
     signs.push_back(known ? 1 : side_of_tool(tool, path, face));
   }
   const Sides sides{faces, signs, stride};

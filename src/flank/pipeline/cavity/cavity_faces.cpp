@@ -109,18 +109,15 @@ CavityFaces cavity_faces(const TrochoidJob& job, const Setup& setup) {
   if (setup.part.is_mesh())
     throw InputError("part", setup.part.file + ": is a mesh; a cavity needs faces (STEP, IGES or BREP)");
   CavityFaces out;
-  std::vector<TargetGroup> plus = make_targets(setup, +1), minus = make_targets(setup, -1);
-  const std::size_t left = group_of(plus, parse_face_list(setup.part, job.left).front());
-  const std::size_t right = group_of(plus, parse_face_list(setup.part, job.right).front());
-  if (plus.size() != 2 || left == right || std::max(left, right) > 1)
+  std::vector<TargetGroup> groups = make_targets(setup);
+  const std::size_t left = group_of(groups, parse_face_list(setup.part, job.left).front());
+  const std::size_t right = group_of(groups, parse_face_list(setup.part, job.right).front());
+  if (groups.size() != 2 || left == right || std::max(left, right) > 1)
     throw InputError("right", fmt::format("{} and {} make {} connected side{}; two are needed, that do not touch each "
                                           "other: {}",
-                                          job.left, job.right, plus.size(), plus.size() == 1 ? "" : "s",
+                                          job.left, job.right, groups.size(), groups.size() == 1 ? "" : "s",
                                           accepted_across(job, setup.part)));
-  bool turn[2];
-  for (const std::size_t g : {left, right})
-    turn[g] = !plus[g].of_solid && looks_at(*plus[g].target, *plus[1 - g].target) < 0.5;
-  for (const std::size_t g : {left, right}) out.sides.push_back(std::move(turn[g] ? minus[g] : plus[g]));
+  for (const std::size_t g : {left, right}) out.sides.push_back(std::move(groups[g]));
   check_facing(job, setup, *out.sides[0].target, *out.sides[1].target);
   out.width = width_between(side_of(out.sides[0]), side_of(out.sides[1]));
   return out;

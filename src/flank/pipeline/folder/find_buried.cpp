@@ -108,9 +108,7 @@ std::vector<BuriedStrip> find_buried(const Setup& setup, const Tool& tool, const
     if (sheet.of_solid) continue;
     if (!volume) volume.emplace(tool, path);
     const verify::SheetVotes votes = verify::side_votes(*volume, path, sheet, setup.tolerance_mm);
-    // The side that was asked for is that of the first of several sheets; those that are joined to it may be turned.
-    const int side = setup.side && samples.size() == 1 ? *setup.side : votes.side();
-    for (const BuriedStrip& strip : verify::strips_behind(votes, side)) out.push_back(strip);
+    for (const BuriedStrip& strip : verify::strips_behind(votes)) out.push_back(strip);
   }
   // One reason a strip is enough.
   std::stable_sort(out.begin(), out.end(),

@@ -8,8 +8,8 @@
 
 namespace flank::internal {
 
-/// Inside fixtures and solids all of whose faces are judged, and behind the targets that are open sheets: on the other side than asked
-/// for, or than most strips are. `samples` are target_samples of any spacing (target_reach.h).
+/// Inside fixtures and solids all of whose faces are judged, and behind the targets that are open sheets: on the other side than is
+/// machined (setup/machined_side.h). `samples` are target_samples of any spacing (target_reach.h).
 [[nodiscard]] std::vector<BuriedStrip> find_buried(const Setup& setup, const Tool& tool, const Path& path,
                                                    const std::vector<FaceSamples>& samples);
 

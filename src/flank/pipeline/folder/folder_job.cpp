@@ -25,6 +25,7 @@ void replace(std::optional<T>& value, const std::optional<T>& by) {
 template <class Job>
 void apply(const VerifyJob& request, Job& job) {
   replace(job.part.file, request.part);
+  replace(job.part.side, request.side);
   replace(job.tolerance_mm, request.tolerance_mm);
   replace(job.judge.sample_mm, request.sample_mm);
   replace(job.judge.reach_radius_mm, request.reach_radius_mm);

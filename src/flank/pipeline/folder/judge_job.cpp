@@ -171,7 +171,7 @@ VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const To
   std::vector<FaceSamples> samples;
   if (radius > 0.0) {
     samples = target_samples(setup, kReachSpacings * usual);
-    reach.emplace(setup, tool, path, ReachBall{radius, request.reach_radius_mm.has_value()}, samples);
+    reach.emplace(setup, ReachBall{radius, request.reach_radius_mm.has_value()}, samples);
     buried = find_buried(setup, tool, path, samples);
   }
   stop_here();
@@ -187,6 +187,7 @@ VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const To
   const double wanted = request.least_whole.value_or(request.least_coverage);
   if (reach && report.coverage < wanted) report.finer_reach = finer_reach(setup, *reach, samples, wanted);
   report.buried = std::move(buried);
+  report.sheet_sides = setup.sides;
   if (!report.buried.empty()) report.verdict = Verdict::kOvercut;
   report.unread_faces = unread_faces(setup);
   if (!report.unread_faces.empty() && report.verdict == Verdict::kPass) report.verdict = Verdict::kUnproved;

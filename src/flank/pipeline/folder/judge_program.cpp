@@ -58,6 +58,7 @@ FitJob job_of(const VerifyJob& request) {
   if (!request.nc.tool) throw UsageError("tool", "is needed with `nc`, or a folder of results");
   FitJob job;
   job.part.file = *request.part;
+  job.part.side = request.side;
   job.obstacles = request.obstacles;
   job.judge = {.least_coverage = job.judge.least_coverage,
                .sample_mm = request.sample_mm,

@@ -133,8 +133,7 @@ std::vector<FaceSamples> target_samples(const Setup& setup, double spacing_mm) {
   return samples;
 }
 
-TargetReach::TargetReach(const Setup& setup, const Tool& tool, const Path& path, const ReachBall& ball,
-                         const std::vector<FaceSamples>& samples) {
+TargetReach::TargetReach(const Setup& setup, const ReachBall& ball, const std::vector<FaceSamples>& samples) {
   const Part& part = setup.part;
   const double radius = radius_mm_ = ball.radius_mm;
   std::vector<int> judged = setup.targets;
@@ -155,28 +154,20 @@ TargetReach::TargetReach(const Setup& setup, const Tool& tool, const Path& path,
       }
       others.push_back({std::move(mesh), solid == solid_of(part, own) ? -1 : solid, holds(judged, around[k])});
     }
-    const bool turned = !samples[j].of_solid && side_of_tool(tool, path, samples[j]) < 0;
-    targets_.emplace(own, Around{ReachScene(others, mine, {radius, setup.tolerance_mm}), turned});
+    targets_.emplace(own, ReachScene(others, mine, {radius, setup.tolerance_mm}));
   }
-}
-
-void TargetReach::turn(const Around& around, FaceSamples& samples) {
-  if (around.turned)
-    for (Vec3& n : samples.normals) n = -n;
 }
 
 void TargetReach::fill(int face, FaceSamples& samples) const {
   const auto found = targets_.find(face);
   if (found == targets_.end()) return;
-  turn(found->second, samples);
-  samples.reachable = found->second.scene.shares(samples);
+  samples.reachable = found->second.shares(samples);
 }
 
-std::vector<double> TargetReach::largest_balls(int face, FaceSamples samples) const {
+std::vector<double> TargetReach::largest_balls(int face, const FaceSamples& samples) const {
   const auto found = targets_.find(face);
   if (found == targets_.end()) return std::vector<double>(samples.points.size(), radius_mm_);
-  turn(found->second, samples);
-  return found->second.scene.largest_balls(samples);
+  return found->second.largest_balls(samples);
 }
 
 FinerReach finer_reach(const Setup& setup, const TargetReach& reach, const std::vector<FaceSamples>& samples,

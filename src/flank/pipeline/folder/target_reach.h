@@ -38,24 +38,17 @@ struct ReachBall {
 /// What a ball must keep out of, for each target, made ready once. Immutable.
 class TargetReach {
  public:
-  /// `samples` are target_samples of any spacing: where the targets are, and on which side of a sheet the tool runs.
-  TargetReach(const Setup& setup, const Tool& tool, const Path& path, const ReachBall& ball,
-              const std::vector<FaceSamples>& samples);
+  /// `samples` are target_samples of any spacing: where the targets are.
+  TargetReach(const Setup& setup, const ReachBall& ball, const std::vector<FaceSamples>& samples);
 
-  /// Fills `reachable` of samples of a target, given by its index in the part, and turns the normals of a sheet towards the tool.
+  /// Fills `reachable` of samples of a target, given by its index in the part.
   void fill(int face, FaceSamples& samples) const;
   /// Of each sample of a target: the largest free ball, up to this one (ReachScene::largest_balls), mm.
-  [[nodiscard]] std::vector<double> largest_balls(int face, FaceSamples samples) const;
+  [[nodiscard]] std::vector<double> largest_balls(int face, const FaceSamples& samples) const;
 
  private:
-  struct Around {
-    ReachScene scene;
-    bool turned = false;  ///< the tool runs behind the sheet's normals
-  };
-  static void turn(const Around& around, FaceSamples& samples);
-
   double radius_mm_ = 0.0;
-  std::map<int, Around> targets_;  ///< empty if there is nothing to keep out of
+  std::map<int, ReachScene> targets_;  ///< empty if there is nothing to keep out of
 };
 
 /// The largest ball, up to that of `reach`, that reaches at least `share` of the targets, by their `samples` (target_samples).

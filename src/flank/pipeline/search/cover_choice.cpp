@@ -7,7 +7,6 @@
 #include "flank/choose/family_search.h"
 #include "flank/choose/tool_ranking.h"
 #include "flank/error.h"
-#include "flank/pipeline/search/closed_mesh.h"
 #include "flank/setup/tool_body.h"
 
 namespace flank::internal {
@@ -22,33 +21,19 @@ struct RankingReport {
   RankingOptions options;
 };
 
-/// Targets with all that is in the way of any of the tools, from every side that is asked for.
+/// Targets with all that is in the way of any of the tools.
 struct Scene {
-  std::vector<std::vector<TargetGroup>> groups;  ///< [target][side]
-  std::vector<std::vector<Obstacles>> obstacles;
+  std::vector<TargetGroup> groups;
+  std::vector<Obstacles> obstacles;
   std::vector<RankingTarget> targets;
 };
 
 Scene make_scene(const CoverJob& job, const Setup& setup, const ToolExtent& extent) {
   Scene scene;
-  std::vector<TargetGroup> other_side;
-  const bool sides_unknown = !job.part.side && !targets_bound_a_solid(setup);
-  if (sides_unknown) other_side = make_targets(setup, -1);
-  for (TargetGroup& group : make_targets(setup, job.part.side.value_or(+1))) {
-    const std::size_t k = scene.groups.size();
-    const bool both = sides_unknown && !group.of_solid;
-    scene.groups.emplace_back();
-    scene.groups.back().push_back(std::move(group));
-    if (both) scene.groups.back().push_back(std::move(other_side[k]));
-    scene.obstacles.emplace_back();
-    for (const TargetGroup& side : scene.groups.back())
-      scene.obstacles.back().push_back(obstacles_of(job, setup, side, extent));
-  }
-  for (std::size_t k = 0; k < scene.groups.size(); ++k) {
-    scene.targets.emplace_back();
-    for (std::size_t i = 0; i < scene.groups[k].size(); ++i)
-      scene.targets.back().push_back({scene.groups[k][i].target.get(), &scene.obstacles[k][i]});
-  }
+  scene.groups = make_targets(setup);
+  for (const TargetGroup& group : scene.groups) scene.obstacles.push_back(obstacles_of(job, setup, group, extent));
+  for (std::size_t k = 0; k < scene.groups.size(); ++k)
+    scene.targets.push_back({scene.groups[k].target.get(), &scene.obstacles[k]});
   return scene;
 }
 
@@ -116,16 +101,11 @@ RankingReport catalogue_report(const CoverJob& job, const ToolChoice& choice) {
   return report;
 }
 
-/// Strips of the tool that came first, on the sides that it was better on.
-std::vector<Covered> taken(Scene& scene, const RankedTool& best, bool side_was_asked) {
+/// Strips of the tool that came first.
+std::vector<Covered> taken(Scene& scene, const RankedTool& best) {
   std::vector<Covered> all;
-  for (std::size_t k = 0; k < scene.groups.size(); ++k) {
-    const std::size_t side = best.side.empty() ? 0 : best.side[k];
-    all.push_back({std::move(scene.groups[k][side]), best.results.empty() ? CoverResult{} : best.results[k]});
-    if (!side_was_asked && scene.groups[k].size() > 1)
-      all.back().result.notes.push_back(fmt::format("{}: open sheet: both sides were tried, side {} covers more",
-                                                    all.back().group.faces, side == 0 ? "+" : "-"));
-  }
+  for (std::size_t k = 0; k < scene.groups.size(); ++k)
+    all.push_back({std::move(scene.groups[k]), best.results.empty() ? CoverResult{} : best.results[k]});
   return all;
 }
 
@@ -223,7 +203,7 @@ std::vector<Covered> cover_with_best(const CoverJob& job, const ToolChoice& choi
   result.tool = report.tools[report.ranked.front().tool];
   result.ranking = as_ranking(report);
   note_none(report, result);
-  return taken(scene, report.ranked.front(), job.part.side.has_value());
+  return taken(scene, report.ranked.front());
 }
 
 }  // namespace flank::internal

@@ -8,8 +8,6 @@
 #include <utility>
 
 #include "flank/error.h"
-#include "flank/fit/tried.h"
-#include "flank/pipeline/search/closed_mesh.h"
 #include "flank/pipeline/search/group_fit.h"
 #include "flank/pipeline/search/out_of_reach.h"
 #include "flank/pipeline/search/reach_ball.h"
@@ -107,12 +105,11 @@ void fit_ball_to_slot(const FitJob& job, FitSearch& search) {
   search.reach_radius_mm = options.reach_radius_mm = three_digits(ball);
 }
 
-/// A side of the part before anything is fitted: its groups, the obstacles that lie there, and what is asked.
-FitSearch begin_side(const FitJob& job, const Setup& setup, const ToolModel& tool, int side, double spare_coverage) {
+/// Before anything is fitted: groups, the obstacles about them, and what is asked.
+FitSearch begin_search(const FitJob& job, const Setup& setup, const ToolModel& tool, double spare_coverage) {
   FitSearch search;
   search.spare_coverage = spare_coverage;
-  search.side = side;
-  search.targets = make_targets(setup, side);
+  search.targets = make_targets(setup);
   search.tool = tool;
   search.options = options_of(job, setup, *search.targets.front().target, tool.free());
   if (tool.free()) search.reach_radius_mm = search.options.reach_radius_mm;
@@ -121,8 +118,20 @@ FitSearch begin_side(const FitJob& job, const Setup& setup, const ToolModel& too
   return search;
 }
 
-FitSearch search_side(const FitJob& job, FitSearch search, const UserStart& start, const Progress& progress) {
-  const ToolModel tool = search.tool;
+/// What a user begins with must lie where the tool belongs.
+void require_machined_side(const FitJob& job, const UserStart& start, const RuledMotion& motion, const Target& target) {
+  const int side =
+      start.line ? side_of_line(target, start.line->pose(), start.line->length()) : side_of_motion(target, motion);
+  if (side < 0)
+    throw InputError(
+        start.line ? "start" : "guide",
+        fmt::format("lies on the side of {} that is not machined; of an open sheet `side` asks for the other one",
+                    job.part.target_text()));
+}
+
+FitSearch search_from(const FitJob& job, const Setup& setup, const ToolModel& tool, const UserStart& start,
+                      double spare_coverage, const Progress& progress) {
+  FitSearch search = begin_search(job, setup, tool, spare_coverage);
   const FlankFitOptions options = search.options;
   if (!start.given()) {
     GroupDemand demand{.strips = job.strips, .wanted = {}};
@@ -139,123 +148,19 @@ FitSearch search_side(const FitJob& job, FitSearch search, const UserStart& star
   const TargetGroup& group = search.targets.front();
   std::vector<std::string> notes = search.fit.notes;
   const FitTask task{group.target.get(), motion_of(job, start, tool, *group.target, notes), group.obstacles.get()};
+  require_machined_side(job, start, task.motion, *group.target);
   search.fit = fit_from_starts({task}, tool, options, progress);
   search.fit.notes.insert(search.fit.notes.begin(), notes.begin(), notes.end());
   search.group_of_motion = {0};
   return search;
 }
 
-/// The side of an open sheet on which the user's start lies.
-int side_of_start(const FitJob& job, const Setup& setup, const UserStart& start) {
-  const std::vector<TargetGroup> targets = make_targets(setup, +1);
-  const Target& target = *targets.front().target;
-  if (start.line) return side_of_line(target, start.line->pose(), start.line->length());
-  return side_of_motion(target, start_from_guide(*job.guide, start.guide, job.tool.axis_length_mm).motion);
-}
-
-bool is_sheet(const Setup& setup) {
-  if (setup.part.is_mesh()) return !targets_bound_a_solid(setup);
-  return std::any_of(setup.targets.begin(), setup.targets.end(),
-                     [&](int face) { return !setup.part.faces[face].of_solid; });
-}
-
-/// A side of a sheet: its first group, and what is asked of it there.
-struct SheetSide {
-  int sign = +1;
-  FitSearch search;
-  FlankFitOptions options;
-  double reachable = 1.0;  ///< share of the group's area
-};
-
-SheetSide look_at_side(const FitJob& job, const Setup& setup, const ToolModel& tool, int side, double spare_coverage) {
-  SheetSide look;
-  look.sign = side;
-  look.search = begin_side(job, setup, tool, side, spare_coverage);
-  const TargetGroup& group = look.search.targets.front();
-  look.options = look.search.options;
-  look.options.obstacles = group.obstacles.get();
-  look.reachable = look.search.open_share;
-  return look;
-}
-
-/// What a side promises: the score of the best quick fit of one strip, polished.
-double scout(const SheetSide& side, const ToolModel& tool, const Progress& progress) {
-  const Target& target = *side.search.targets.front().target;
-  return fit_automatic(target, tool, hardly_worth_it(side.options), progress).after.score(side.options.tolerance_mm);
-}
-
-/// The two sides of a sheet, the first the one to begin with.
-struct SheetOrder {
-  SheetSide first, second;
-  std::optional<double> promises, other_promises;  ///< where what can be reached did not tell which comes first
-};
-
-/// Where other faces hide more of one side, it comes second, without a fit; else the one that promises less.
-SheetOrder order_sides(SheetSide plus, SheetSide minus, const ToolModel& tool, const Progress& progress) {
-  constexpr double kClearlyMore = 0.05;  // of the area
-  SheetOrder order{std::move(plus), std::move(minus), {}, {}};
-  const double more = order.first.reachable - order.second.reachable;
-  if (std::abs(more) <= kClearlyMore) {
-    order.promises = scout(order.first, tool, progress.part(0.0, 0.5));
-    order.other_promises = scout(order.second, tool, progress.part(0.5, 1.0));
-  }
-  if (order.promises ? *order.promises < *order.other_promises : more < 0.0) {
-    std::swap(order.first, order.second);
-    std::swap(order.promises, order.other_promises);
-  }
-  return order;
-}
-
-FitSearch with_side(FitSearch found, const SheetSide& side, const std::string& why) {
-  found.fit.notes.push_back(fmt::format("open sheet: side {} was chosen, {}", side.sign > 0 ? "+" : "-", why));
-  return found;
-}
-
-/// A sheet can be machined from either side: from the second, too, where the first does not give what was asked, the second has as
-/// much to be reached and is not far behind.
-FitSearch search_sheet(const FitJob& job, const Setup& setup, const ToolModel& tool, double spare_coverage,
-                       const Progress& progress) {
-  constexpr double kNotFar = 0.3;  // of the score, about a share of coverage
-  SheetOrder order = order_sides(look_at_side(job, setup, tool, +1, spare_coverage),
-                                 look_at_side(job, setup, tool, -1, spare_coverage), tool, progress.part(0.0, 0.2));
-  SheetSide &one = order.first, &two = order.second;
-  FitSearch best = search_side(job, std::move(one.search), {}, progress.part(0.2, 0.8));
-  const bool done =
-      is_done(best.fit, wanted_estimate(job, *best.targets.front().target, spare_coverage), job.tolerance_mm) ||
-      progress.stop();
-  if (done || best.fit.after.at_tolerance * one.reachable > two.reachable)
-    return with_side(std::move(best), one,
-                     order.promises
-                         ? "which promises more"
-                         : fmt::format("of which other faces leave {:.0f} % to be reached, of the other {:.0f} %",
-                                       100.0 * one.reachable, 100.0 * two.reachable));
-  const double score = best.fit.after.score(job.tolerance_mm);
-  const double promised = order.other_promises ? *order.other_promises : scout(two, tool, progress.part(0.8, 0.85));
-  if (order.promises.value_or(score) - promised > kNotFar)
-    return with_side(std::move(best), one, "which promises more");
-  FitSearch other = search_side(job, std::move(two.search), {}, progress.part(0.85, 1.0));
-  const bool better = other.fit.after.score(job.tolerance_mm) > score;
-  if (better) std::swap(best, other);
-  add_tried(best.fit, other.fit, best.options.bounds);
-  return with_side(std::move(best), better ? two : one, "which covers more; both were tried");
-}
-
-/// Whatever side is asked for, or the better one.
-FitSearch search_open(const FitJob& job, const Setup& setup, const UserStart& start, const ToolModel& tool,
-                      const Progress& progress, double spare_coverage) {
-  if (is_sheet(setup) && !job.part.side && !start.given())
-    return search_sheet(job, setup, tool, spare_coverage, progress);
-  const bool by_start = is_sheet(setup) && !job.part.side;
-  const int side = by_start ? side_of_start(job, setup, start) : job.part.side.value_or(+1);
-  return search_side(job, begin_side(job, setup, tool, side, spare_coverage), start, progress);
-}
-
 /// Half a turn is searched; the whole face is what was asked for.
 FitSearch search_half_turn(const FitJob& job, const Setup& setup, const WoundFace& wound_face, const ToolModel& tool,
                            const Progress& progress, double spare_coverage) {
-  FitSearch search = search_open(job, half_turn_of(setup, wound_face), {}, tool, progress, spare_coverage);
+  FitSearch search = search_from(job, half_turn_of(setup, wound_face), tool, {}, spare_coverage, progress);
   search.wound_face = wound_face;
-  search.wound = make_targets(setup, search.side);
+  search.wound = make_targets(setup);
   if (job.avoid) add_group_obstacles(setup, job.obstacles.clearance_mm, search.options.bounds.largest, search.wound);
   search.fit.notes.push_back(
       fmt::format("{} winds {:.1f} times round its axis: what was found for half a turn goes with its screw",
@@ -289,7 +194,7 @@ FitSearch search_fit(const FitJob& job, const Setup& setup, const ToolSpec& spec
   const ToolModel tool = make_tool_model(spec, job.tool.axis_length_mm);
   const std::optional<WoundFace> wound_face = start.given() ? std::nullopt : find_wound_face(setup);
   FitSearch search = wound_face ? search_half_turn(job, setup, *wound_face, tool, progress, spare_coverage)
-                                : search_open(job, setup, start, tool, progress, spare_coverage);
+                                : search_from(job, setup, tool, start, spare_coverage, progress);
   search.fit = reach_further(search.tasks(), search.fit, search.tool, search.options, progress);
   return search;
 }

@@ -1,4 +1,4 @@
-/// The search of a fit: starts, sides of open sheets, number of strips, several targets with one tool.
+/// The search of a fit: starts, number of strips, several targets with one tool.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,6 @@ struct FitSearch {
   double spare_coverage = 0.0;               ///< as search_fit was given it
   ToolModel tool;                            ///< what was known of the tool
   FlankFitOptions options;                   ///< of the fits, but for their strips
-  int side = +1;                             ///< of open sheets
   std::optional<WoundFace> wound_face;       ///< the target is half a turn of it
   std::vector<TargetGroup> wound;            ///< all of it; empty without it
   /// The motions that were found, each on its target, to go on from.

@@ -1,14 +1,12 @@
-#include "flank/pipeline/search/closed_mesh.h"
+#include "flank/setup/closed_mesh.h"
 
 #include <span>
-#include <vector>
 
 #include "flank/geom/mesh_topology.h"
 
 namespace flank::internal {
 
-bool targets_bound_a_solid(const Setup& setup) {
-  const Part& part = setup.part;
+bool bound_a_solid(const Part& part, const std::vector<int>& faces) {
   if (!part.is_mesh()) return false;
   const std::size_t count = part.mesh.triangles.size();
   // Over every edge: a crease ends a face, and not the solid.
@@ -28,7 +26,7 @@ bool targets_bound_a_solid(const Setup& setup) {
     seen[static_cast<std::size_t>(t)] = 1;
     stack.push_back(t);
   };
-  for (const int face : setup.targets)
+  for (const int face : faces)
     for (const int t : part.mesh_faces[static_cast<std::size_t>(face)]) see(t);
   while (!stack.empty()) {
     const auto t = static_cast<std::size_t>(stack.back());

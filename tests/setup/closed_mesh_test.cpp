@@ -1,4 +1,4 @@
-#include "flank/pipeline/search/closed_mesh.h"
+#include "flank/setup/closed_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -34,24 +34,19 @@ void add_cube(Part& part, double x, std::size_t triangles = 12) {
 }
 
 TEST(ClosedMesh, ASideIsKnownWhereTheComponentOfTheTargetIsClosed) {
-  auto setup = flank::internal::Setup();
-  add_cube(setup.part, 0.0);
-  add_cube(setup.part, 50.0, 11);
-  setup.targets = {0};
-  EXPECT_TRUE(targets_bound_a_solid(setup)) << "another component is open";
-  setup.targets = {1};
-  EXPECT_TRUE(targets_bound_a_solid(setup));
-  setup.targets = {2};
-  EXPECT_FALSE(targets_bound_a_solid(setup)) << "its own is, far from the target";
-  setup.targets = {0, 3};
-  EXPECT_FALSE(targets_bound_a_solid(setup));
+  Part part;
+  add_cube(part, 0.0);
+  add_cube(part, 50.0, 11);
+  EXPECT_TRUE(bound_a_solid(part, {0})) << "another component is open";
+  EXPECT_TRUE(bound_a_solid(part, {1}));
+  EXPECT_FALSE(bound_a_solid(part, {2})) << "its own is, far from the target";
+  EXPECT_FALSE(bound_a_solid(part, {0, 3}));
 }
 
 TEST(ClosedMesh, FacesOfAFileKnowItThemselves) {
-  auto setup = flank::internal::Setup();
-  setup.part.faces.resize(1);
-  setup.targets = {0};
-  EXPECT_FALSE(targets_bound_a_solid(setup));
+  Part part;
+  part.faces.resize(1);
+  EXPECT_FALSE(bound_a_solid(part, {0}));
 }
 
 }  // namespace
