@@ -40,8 +40,8 @@ void add_members(const ObstacleRequest& request, Addresses& all) {
   add(all, check, ignore, shank_radius, shank_length, holder, fixtures, clearance);
 }
 void add_members(const JudgeRequest& request, Addresses& all) {
-  const auto& [coverage, sample, reach] = request;
-  add(all, coverage, sample, reach);
+  const auto& [coverage, whole, sample, reach] = request;
+  add(all, coverage, whole, sample, reach);
 }
 void add_members(const ChoiceRequest& request, Addresses& all) {
   const auto& [catalogue, finalists, feed, rapid] = request;

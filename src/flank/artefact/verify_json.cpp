@@ -336,15 +336,43 @@ std::string verify_to_json(const VerifyReport& r, const Acceptance& acceptance) 
   return dumped(j, 2) + "\n";
 }
 
-VerifyReport verify_from_json(const std::string& text, const std::string& source) {
+namespace {
+
+/// What `read` makes of the text, and every fault of it with the name of the file.
+template <class Read>
+auto read_from(const std::string& text, const std::string& source, const Read& read) {
   try {
-    return report_from(Json::parse(text));
+    return read(Json::parse(text));
   } catch (const InputError& e) {
     // What is wrong was found within the text, which does not know where it came from.
     throw InputError(source + ": " + e.what());
   } catch (const nlohmann::json::exception& e) {
     throw InputError(source + ": not a verify.json of schema " + std::string(kSchema) + " (" + e.what() + ")");
   }
+}
+
+std::vector<Shortfall> shortfalls_from(const Json& j, const char* key) {
+  std::vector<Shortfall> list;
+  if (j.contains(key))
+    for (const Json& one : j.at(key))
+      list.push_back({one.at("figure").get<std::string>(), one.at("text").get<std::string>()});
+  return list;
+}
+
+Acceptance acceptance_from(const Json& j) {
+  Acceptance acceptance{shortfalls_from(j, "reasons"), shortfalls_from(j, "cautions")};
+  if (!j.at("pass").get<bool>() && acceptance.pass()) add_reason(acceptance, Figure::kVerdict, "does not pass");
+  return acceptance;
+}
+
+}  // namespace
+
+VerifyReport verify_from_json(const std::string& text, const std::string& source) {
+  return read_from(text, source, report_from);
+}
+
+Acceptance acceptance_from_json(const std::string& text, const std::string& source) {
+  return read_from(text, source, acceptance_from);
 }
 
 }  // namespace flank::internal

@@ -27,5 +27,7 @@ namespace flank::internal {
 /// The report in `text`, without its acceptance. `source` names the file in messages. Throws InputError for text that is no JSON, another
 /// schema, or a field that is missing or of the wrong type.
 [[nodiscard]] VerifyReport verify_from_json(const std::string& text, const std::string& source);
+/// Its reasons and cautions; one of "verdict" where `pass` is false without any. Throws likewise.
+[[nodiscard]] Acceptance acceptance_from_json(const std::string& text, const std::string& source);
 
 }  // namespace flank::internal

@@ -94,6 +94,7 @@ std::vector<std::string> header_comments(const NcHeader& header) {
   comments.push_back(size);
   if (header.dry_run) comments.emplace_back(kStandsStill);
   for (const std::string& text : header.shortfalls) comments.push_back(safe_comment(std::string(kFallsShort) + text));
+  for (const std::string& text : header.cautions) comments.push_back(safe_comment(std::string(kCaution) + text));
   return comments;
 }
 

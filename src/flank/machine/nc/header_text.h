@@ -20,6 +20,7 @@ inline constexpr std::size_t kLongestNcComment = 200;
 /// What the header of a program without a spindle says, and how a line begins that says why a program is not what was asked.
 inline constexpr std::string_view kStandsStill = "DRY RUN: THE SPINDLE STANDS STILL";
 inline constexpr std::string_view kFallsShort = "DOES NOT MEET ITS REQUEST: ";
+inline constexpr std::string_view kCaution = "CAUTION: ";
 
 /// The comments of the header: part, machine, set-up, tool.
 [[nodiscard]] std::vector<std::string> header_comments(const NcHeader& header);

@@ -63,9 +63,10 @@ struct NcHeader {
   double spindle_rpm = 0.0;  ///< 0: the spindle is not started
   bool dry_run = false;      ///< written as a comment: the spindle is not to turn
   std::vector<std::string> shortfalls =
-      {};                    ///< why the program does not meet its request, for its header. Not read back
-  int work_offset = 1;       ///< 1 is G54 (or the first preset)
-  NcStated stated = {};      ///< of a program that was read
+      {};                                  ///< why the program does not meet its request, for its header. Not read back
+  std::vector<std::string> cautions = {};  ///< what its verdict says nothing about, likewise
+  int work_offset = 1;                     ///< 1 is G54 (or the first preset)
+  NcStated stated = {};                    ///< of a program that was read
 };
 
 /// What holds beside the position when a move is made.

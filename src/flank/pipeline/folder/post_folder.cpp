@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "flank/artefact/acceptance.h"
+#include "flank/artefact/verify_json.h"
 #include "flank/error.h"
 #include "flank/io/path/engagement_json.h"
 #include "flank/io/text/json_input.h"
@@ -180,21 +181,27 @@ void judge_machine(const Machine& machine, const Post& result, const MachineScen
   judge_scene(machine, machine.tool_length, scene, track, where, outcome.acceptance);
 }
 
-/// What the judge has proved of the path: how deep it cuts at most, mm; 0 where the folder has no verdict.
-double proved_depth(const PostJob& request) {
+/// A program is no better than its path: takes the verdict of the folder. Returns how deep the judge has proved the path to cut at
+/// most, mm; 0 where nobody has judged it.
+double take_verdict(const PostJob& request, PostOutcome& outcome) {
   const std::string file = (std::filesystem::path(request.folder) / "verify.json").string();
-  if (!std::filesystem::exists(file)) return 0.0;
-  const JsonInput verdict(file, read_file(file));
-  double depth = 0.0;
-  for (const char* key : {"overcut_bound_mm", "gouge_bound_mm"})
-    if (verdict.has(key)) depth = std::max(depth, verdict.member(key).number());
-  return depth;
+  if (!std::filesystem::exists(file)) {
+    add_caution(outcome.acceptance, Figure::kVerdict, "the path was not judged: `flank verify` judges it");
+    return 0.0;
+  }
+  const std::string text = read_file(file);
+  const Acceptance path = acceptance_from_json(text, file);
+  for (const Shortfall& reason : path.reasons)
+    outcome.acceptance.reasons.push_back({reason.figure, "the path: " + reason.text});
+  for (const Shortfall& caution : path.cautions)
+    outcome.acceptance.cautions.push_back({caution.figure, "the path: " + caution.text});
+  const VerifyReport report = verify_from_json(text, file);
+  return std::max(report.overcut_bound_mm, report.gouge_bound_mm);
 }
 
 /// The program's chords and digits move the tool off the path that was judged: what they add must leave it in the tolerance.
-void accept_rounding(const PostJob& request, const Input& input, const Post& result, PostOutcome& outcome) {
-  const double tolerance = input.setup.tolerance_mm, depth = proved_depth(request),
-               room = std::max(tolerance - depth, kOutsideShare * tolerance);
+void accept_rounding(double depth, const Input& input, const Post& result, PostOutcome& outcome) {
+  const double tolerance = input.setup.tolerance_mm, room = std::max(tolerance - depth, kOutsideShare * tolerance);
   if (result.deviation_mm + result.rounding_mm <= room) return;
   add_reason(
       outcome.acceptance, Figure::kRounding,
@@ -221,6 +228,7 @@ void fill_header(const PostJob& request, const Input& input, NcHeader& header, c
   header.spindle_rpm = request.spindle_rpm.value_or(0.0);
   header.dry_run = request.dry;
   for (const Shortfall& reason : outcome.acceptance.reasons) header.shortfalls.push_back(reason.text);
+  for (const Shortfall& caution : outcome.acceptance.cautions) header.cautions.push_back(caution.text);
 }
 
 /// A program that cuts with a spindle that stands still, or at a feed that nobody has chosen, is none.
@@ -291,7 +299,7 @@ PostOutcome post_input(const PostJob& request, Machine machine, const Input& inp
   accept_links(input, links, outcome);
   add_work(input.setup, input.obstacles, options.setup, scene);
   judge_machine(machine, result, scene, outcome);
-  accept_rounding(request, input, result, outcome);
+  accept_rounding(take_verdict(request, outcome), input, result, outcome);
   note_turns(machine, result, outcome);
   fill_header(request, input, result.program.header, outcome);
   if (outcome.acceptance.pass() || request.force) outcome.program = write_nc(result.program, machine.dialect);
