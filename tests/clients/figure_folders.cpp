@@ -1,6 +1,6 @@
 // figure_folders FOLDER: a result of each kind that the report must not show green, one folder each: with one figure of the verdict
-// turned false (no-NAME), or with one caution (mind-NAME), for every name of the library's own list, and one that is on no list; and
-// one that is sound (sound), and one whose holder runs into a vice (vice), by the judge and with all that is drawn. Each is whole, with its manifest and its report.html. Prints the names, one a line.
+// turned false (no-NAME), for every name of the library's own list, and one that is on no list; with one caution (mind-one), and with
+// one about each of them (mind-all); one that is sound (sound), and one whose holder runs into a vice (vice), by the judge and with all that is drawn. Each is whole, with its manifest and its report.html. Prints the names, one a line.
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -98,14 +98,16 @@ void write_all(const std::string& root) {
   write_folder(root, "vice", colliding, colliding.acceptance());
   std::vector<std::string> names(kFigureNames.begin(), kFigureNames.end());
   names.emplace_back("a_figure_of_tomorrow");
+  Acceptance amber;
   for (const std::string& name : names) {
-    Acceptance no, amber;
+    Acceptance no;
     no.reasons.push_back({name, "reason of " + name});
     amber.cautions.push_back({name, "caution about " + name});
     write_folder(root, "no-" + name, result, no);
-    write_folder(root, "mind-" + name, result, amber);
+    if (amber.cautions.size() == 1) write_folder(root, "mind-one", result, amber);
     std::printf("%s\n", name.c_str());
   }
+  write_folder(root, "mind-all", result, amber);
 }
 
 }  // namespace
