@@ -70,9 +70,9 @@ class CliFinished : public Cli {
     Cli::SetUp();
     if (kSanitized)
       GTEST_SKIP() << "a whole cover takes minutes under a sanitizer; its parts are tested in tests/pipeline";
-    words_ = {"cover",       make_side(),    "--face",   "F1",          "--side",    "-",
-              "--tool",      path("t.json"), "--holder", path("h.txt"), "--fixture", path("vice.step"),
-              "--tolerance", "1.5",          "--strips", "1",           "-o",        path("out")};
+    words_ = {"cover",        make_side(), "--face",      "F1",        "--side",          "-",           "--tool",
+              path("t.json"), "--holder",  path("h.txt"), "--fixture", path("vice.step"), "--tolerance", "2.5",
+              "--strips",     "1",         "-o",          path("out"), "--clearance",     "500"};
     ASSERT_EQ(flank({"tool", "cylinder:radius=6", "--axis-length", "45", "-o", path("t.json")}).exit_code, 0);
     ASSERT_EQ(flank({"example", "ruled-blade", "-o", path("vice.step")}).exit_code, 0);
     write_file(root_ / "h.txt", "60 12\n90 12\n");

@@ -161,9 +161,9 @@ bool ResultFolder::is_ours(const std::string& name) const {
 }
 
 void ResultFolder::require_no_strangers() const {
+  // What is read is told as such, before what is only there.
+  for (const std::string& name : result_names()) require_unread(in(name));
   for (const std::string& name : result_names()) {
-    // What is read is told as such.
-    require_unread(in(name));
     if (!is_file(in(name)) || is_ours(name)) continue;
     throw InputError(in(name) + ": would be replaced, and " +
                      (manifest_ ? std::string(kManifestFile) + " does not say that an earlier result made it"
