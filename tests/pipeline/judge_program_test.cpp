@@ -328,8 +328,8 @@ TEST_P(Programs, OfOneMachineDoNotPassOnAnother) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Programs, ::testing::ValuesIn(machine_names()), [](const auto& info) {
-  std::string name = info.param;
+INSTANTIATE_TEST_SUITE_P(All, Programs, ::testing::ValuesIn(machine_names()), [](const auto& of) {
+  std::string name = of.param;
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
 });
