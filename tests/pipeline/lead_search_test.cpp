@@ -20,8 +20,8 @@ struct Corner {
     for (int x = -20; x <= 0; x += 5) strip.poses.push_back({Vec3(x, 2, 0), Vec3::UnitZ()});
     strips.strips.push_back(strip);
     FaceSamples wall;
-    for (int i = -30; i <= 30; i += 2)
-      for (int j = 0; j <= 20; j += 2) {
+    for (int i = -30; i <= 30; i += 3)
+      for (int j = 0; j <= 20; j += 3) {
         wall.points.emplace_back(i, 0.0, j);
         wall.points.emplace_back(12.0, i, j);
       }
@@ -33,7 +33,7 @@ struct Corner {
   /// A plate, or a bar, between two corners.
   void plate(double x0, double x1, double y0, double y1, double z0, double z1) {
     FaceSamples face;
-    const auto steps = [](double a, double b) { return std::max(1, static_cast<int>((b - a) / 1.5)); };
+    const auto steps = [](double a, double b) { return std::max(1, static_cast<int>((b - a) / 2.0)); };
     for (int i = 0; i <= steps(x0, x1); ++i)
       for (int j = 0; j <= steps(y0, y1); ++j)
         for (int k = 0; k <= steps(z0, z1); ++k)
