@@ -147,6 +147,20 @@ TEST_P(ProgramShape, StandsUprightWhereToolCentreControlIsSwitched) {
   }
 }
 
+// Whatever the machine's file says of digits, what they move the tool by is told.
+TEST_P(ProgramShape, WhatItsDigitsAddIsTold) {
+  PostOptions options;
+  options.setup.translation = Vec3(5, -8, 60);
+  options.feed.feed = 20.0;
+  for (const int decimals : {0, 2, machine_.dialect.length_decimals}) {
+    machine_.dialect.length_decimals = decimals;
+    const Post told = post(machine_, linked(machine_, options.setup), kTool, options);
+    ASSERT_FALSE(told.unreachable);
+    EXPECT_GE(told.rounding_mm, std::sqrt(3.0) * 0.5 * std::pow(10.0, -decimals));
+    EXPECT_LE(told.rounding_mm, std::pow(10.0, -decimals) + 0.01);
+  }
+}
+
 // LinuxCNC: in inverse time its feed is length times F, and never less than 0.1 mm/min.
 TEST_P(ProgramShape, NoBlockIsRunFasterThanItSays) {
   const NcProgram program = read_nc(write_nc(program_for(machine_, 8000.0), machine_.dialect), "p", machine_.dialect);

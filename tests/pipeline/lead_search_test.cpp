@@ -17,11 +17,11 @@ struct Corner {
 
   Corner() {
     Strip strip{1, "flank", "F1", {}};
-    for (int x = -20; x <= 0; ++x) strip.poses.push_back({Vec3(x, 2, 0), Vec3::UnitZ()});
+    for (int x = -20; x <= 0; x += 5) strip.poses.push_back({Vec3(x, 2, 0), Vec3::UnitZ()});
     strips.strips.push_back(strip);
     FaceSamples wall;
-    for (int i = -30; i <= 30; ++i)
-      for (int j = 0; j <= 20; ++j) {
+    for (int i = -30; i <= 30; i += 3)
+      for (int j = 0; j <= 20; j += 3) {
         wall.points.emplace_back(i, 0.0, j);
         wall.points.emplace_back(12.0, i, j);
       }
@@ -33,7 +33,7 @@ struct Corner {
   /// A plate, or a bar, between two corners.
   void plate(double x0, double x1, double y0, double y1, double z0, double z1) {
     FaceSamples face;
-    const auto steps = [](double a, double b) { return std::max(1, static_cast<int>((b - a) / 0.5)); };
+    const auto steps = [](double a, double b) { return std::max(1, static_cast<int>((b - a) / 2.0)); };
     for (int i = 0; i <= steps(x0, x1); ++i)
       for (int j = 0; j <= steps(y0, y1); ++j)
         for (int k = 0; k <= steps(z0, z1); ++k)
@@ -81,18 +81,33 @@ TEST(LeadSearch, UnderALidTheToolLeavesInAnotherDirection) {
   }
 }
 
-// Closed all round but at the beginning: out by the way it came.
+// A lane that bends, under a lid but at its beginning: out by the way it came.
 TEST(LeadSearch, FromADeadEndTheToolGoesBackAlongItsStrip) {
-  Corner corner;
-  corner.plate(-14, 3, 0, 7, 23, 23);  // a lid
-  corner.plate(-14, 3, 7, 7, -3, 23);  // the other side
-  corner.plate(3, 3, 0, 7, -3, 23);    // the end
-  const LeadSearch search = corner.search();
+  Corner lane;
+  lane.walls.clear();
+  Strip strip{1, "flank", "F1", {}};
+  const auto at = [](double radius, double degrees, double z) {
+    const double angle = degrees * M_PI / 180.0;
+    return Vec3(radius * std::cos(angle), radius * std::sin(angle), z);
+  };
+  for (int k = 0; k <= 60; k += 6) strip.poses.push_back({at(12.0, 2.0 * k, 0.0), Vec3::UnitZ()});
+  lane.strips.strips = {strip};
+  FaceSamples walls;
+  for (int degrees = 0; degrees <= 134; degrees += 6) {
+    for (int z = -3; z <= 23; z += 3)
+      for (const double radius : {10.0, 17.0}) walls.points.push_back(at(radius, degrees, z));
+    for (double radius = 10.0; radius <= 17.0 && degrees >= 30; radius += 1.0)
+      walls.points.push_back(at(radius, degrees, 23.0));
+  }
+  for (double radius = 10.0; radius <= 17.0; radius += 1.0)
+    for (int z = -3; z <= 23; z += 2) walls.points.push_back(at(radius, 134.0, z));
+  lane.walls = {walls};
+  const LeadSearch search = lane.search();
   EXPECT_TRUE(search.lead(0).back.empty());
   const Lead& lead = search.lead(1);
-  ASSERT_GE(lead.back.size(), corner.strips.strips[0].poses.size());
-  EXPECT_LT(lead.back.back().tip.x(), -15.0) << "at the other end";
-  EXPECT_GE(corner.least(1, lead), -kTolerance);
+  ASSERT_GE(lead.back.size(), strip.poses.size());
+  EXPECT_LT((lead.back.back().tip - strip.poses.front().tip).norm(), 8.0) << "at the other end";
+  EXPECT_GE(lane.least(1, lead), -kTolerance);
 }
 
 // Closed all round: no way is free, and what is told of the best one is that it cuts.
@@ -104,9 +119,8 @@ TEST(LeadSearch, InAClosedBoxNoWayIsFree) {
   corner.plate(-24, -24, 0, 7, -3, 23);
   corner.plate(-24, 3, 0, 7, -3, -3);
   LeadSearch search = corner.search();
-  for (const std::size_t end : {0U, 1U}) do
-      EXPECT_LT(corner.least(end, search.lead(end)), -0.1);
-    while (search.next(end));
+  for (const std::size_t end : {0U, 1U})
+    for (int k = 0; k < 4; ++k, (void)search.next(end)) EXPECT_LT(corner.least(end, search.lead(end)), -0.1);
 }
 
 TEST(LeadSearch, OthersFollowUntilThereIsNone) {

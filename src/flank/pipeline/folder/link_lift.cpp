@@ -17,15 +17,18 @@ constexpr std::array<double, 2> kShares{1.0, 0.25};
 constexpr std::size_t kStraight = kDirections * kShares.size() + 1, kWays = 2 * kStraight - 1;
 constexpr double kNoWay = -1e300;  ///< in the place of a distance
 
-/// The least distance of the tool on these poses from the samples, up to `enough`.
-double least_distance(const Tool& tool, std::vector<Pose> poses, const std::vector<FaceSamples>& samples,
-                      double enough) {
+/// The least distance of the tool on these poses from the samples, up to `enough`; any value below `refused` if there is one.
+double least_distance(const Tool& tool, std::vector<Pose> poses, const std::vector<FaceSamples>& samples, double enough,
+                      double refused = -1e300) {
   Path path;
   path.strips.push_back({1, kLinkKind, "", std::move(poses)});
   const SweptVolume volume(tool, path);
   double least = enough;
   for (const FaceSamples& face : samples)
-    for (const Vec3& p : face.points) least = std::min(least, volume.distance(p, least).f);
+    for (const Vec3& p : face.points) {
+      least = std::min(least, volume.distance(p, least).f);
+      if (least < refused) return least;
+    }
   return least;
 }
 
@@ -40,11 +43,11 @@ std::vector<Pose> second_half(const std::vector<Pose>& out) {
 
 /// On a lead and on the way from it to the sphere.
 double least_on_way(const Tool& tool, const StripEnd& end, const Lead& lead, const std::vector<FaceSamples>& samples,
-                    const LinkOptions& links, double enough) {
+                    const LinkOptions& links, double enough, double refused = -1e300) {
   std::vector<Pose> poses = second_half(lead_out(end.contact, lead));
   const std::vector<Pose> rest = way_to_sphere(poses.back(), lead, links);
   poses.insert(poses.end(), rest.begin() + 1, rest.end());
-  return least_distance(tool, std::move(poses), samples, enough);
+  return least_distance(tool, std::move(poses), samples, enough, refused);
 }
 
 /// The k-th lead; nothing that is off the surface for an arc whose plane the motion leaves.
@@ -181,7 +184,7 @@ void LeadSearch::leave_otherwise(std::size_t end) {
     Way& way = others[i];
     way.lead = places[i % kPlaces].lead;
     way.lead.out = directions[i / kPlaces];
-    way.distance = least_on_way(tool_, at, way.lead, samples_, links_, 2.0 * lift_mm_);
+    way.distance = least_on_way(tool_, at, way.lead, samples_, links_, 2.0 * lift_mm_, -tolerance_mm_);
     const std::vector<Pose> out = lead_out(at.contact, way.lead);
     lengths[i] = length_of(out) + length_of(way_to_sphere(out.back(), way.lead, links_));
   });
@@ -218,7 +221,7 @@ void LeadSearch::go_back(const Path& strips) {
       } else if (const std::vector<Pose> from_other = lead_out(ends_[other].contact, out); from_other.size() > 1) {
         way.lead.back.push_back(from_other.back());
       }
-      way.distance = least_distance(tool_, way.lead.back, samples_, 2.0 * lift_mm_);
+      way.distance = least_distance(tool_, way.lead.back, samples_, 2.0 * lift_mm_, -tolerance_mm_);
     });
     std::stable_sort(ways.begin() + 1, ways.end(), [](const Way& a, const Way& b) { return a.distance > b.distance; });
     std::rotate(ways.begin(), ways.begin() + 1, ways.end());
