@@ -46,7 +46,7 @@ def _table(rows, header):
 
 def part_html(part):
     """A table of the faces."""
-    return _table([(face.id, face.type, face.trims, face.left_out) for face in part.faces], ("face", "type", "trims", "left out"))
+    return _table([(face.id, face.type, face.trims, face.left_out) for face in part.faces], ("face", "type", "trims", "not read"))
 
 
 def report_html(report):

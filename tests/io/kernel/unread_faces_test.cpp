@@ -98,6 +98,10 @@ TEST(UnreadFaces, AreThoseOfWhichAPartIsNotThere) {
   ASSERT_EQ(damaged.face_count(), sound.face_count());
   EXPECT_TRUE(damaged.is_left_out(0));
   EXPECT_NE(damaged.left_out.at(0).find("do not meet"), std::string::npos) << damaged.left_out.at(0);
+  const std::string first = reference_at(text, loops[0], 0);
+  std::string twice = text;
+  twice.insert(twice.find('#', loops[0]), first + ",");
+  EXPECT_TRUE(read_as("block.step", twice).is_left_out(0));
 }
 
 /// All numbers of the text in another spelling.
@@ -195,7 +199,9 @@ TEST(UnreadFaces, OfIgesKeepTheirNumbers) {
 
 TEST(UnreadFaces, AFileOfWhichNoFaceIsReadIsRefused) {
   std::string text = step_text(bored_block());
-  for (const std::size_t at : places_of(text, "ADVANCED_FACE")) text = kStepDamages[2].edit(text, at);
+  // From the last to the first: the new word is longer.
+  const std::vector<std::size_t> faces = places_of(text, "ADVANCED_FACE");
+  for (auto at = faces.rbegin(); at != faces.rend(); ++at) text = kStepDamages[2].edit(text, *at);
   const Scratch scratch;
   EXPECT_NE(testing_io::refusal(scratch.write("none.step", text)).find("no faces"), std::string::npos);
 }

@@ -109,6 +109,19 @@ std::string torn(const Entity& entity) {
   return {};
 }
 
+/// An edge that a border runs along twice the same way. Both ways is a seam.
+std::string repeated_edge(const Entity& entity) {
+  const auto loop = Handle(StepShape_EdgeLoop)::DownCast(entity);
+  std::set<std::pair<const Standard_Transient*, bool>> seen;
+  for (int i = 1; !loop.IsNull() && i <= loop->NbEdgeList(); ++i) {
+    const auto edge = loop->EdgeListValue(i);
+    if (edge.IsNull() || edge->EdgeElement().IsNull()) continue;
+    if (!seen.emplace(edge->EdgeElement().get(), edge->Orientation()).second)
+      return fmt::format("edge {} of this border is there twice", i);
+  }
+  return {};
+}
+
 /// Of all entities, in the order of the file.
 std::vector<Complaint> complaints_of(const Handle(XSControl_WorkSession) & session) {
   const Handle(Interface_InterfaceModel) model = session->Model();
@@ -119,7 +132,7 @@ std::vector<Complaint> complaints_of(const Handle(XSControl_WorkSession) & sessi
     std::string text = failure_of(model->Check(i, true));
     if (text.empty())
       if (const Handle(Transfer_Binder) made = process->Find(entity); !made.IsNull()) text = failure_of(made->Check());
-    for (const auto& look : {dropped_edge, lacks_coordinates, torn})
+    for (const auto& look : {dropped_edge, lacks_coordinates, torn, repeated_edge})
       if (text.empty()) text = look(entity);
     if (!text.empty()) all.push_back({entity, std::move(text)});
   }

@@ -155,9 +155,10 @@ FaceList step_shell(const Handle(StepShape_ConnectedFaceSet) & shell) {
   return list;
 }
 
-/// A surface without any trims that no other entity but a group uses.
+/// A surface without any trims that no other entity but a group uses, nor is meant for one.
 bool stands_alone(const Handle(IGESData_IGESEntity) & entity, const Interface_Graph& graph) {
-  if (!IGESToBRep::IsTopoSurface(entity)) return false;
+  constexpr int kPhysicallyDependent = 1;  // a bit of the status in the directory
+  if (!IGESToBRep::IsTopoSurface(entity) || (entity->SubordinateStatus() & kPhysicallyDependent) != 0) return false;
   for (Interface_EntityIterator users = graph.Sharings(entity); users.More(); users.Next())
     if (Handle(IGESBasic_Group)::DownCast(users.Value()).IsNull()) return false;
   return true;
