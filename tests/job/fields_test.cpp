@@ -24,7 +24,8 @@ void add(Addresses& all, const Members&... members) {
 
 // A new member of a job does not compile here until it is named, and then has to be in the table.
 void add_members(const PartRequest& request, Addresses& all) {
-  const auto& [file, unit, faces, skin, side] = request;
+  // `facing` is set by the library, not by a user.
+  const auto& [file, unit, faces, skin, side, facing] = request;
   add(all, file, unit, faces, skin, side);
 }
 void add_members(const ToolRequest& request, Addresses& all) {
@@ -69,7 +70,7 @@ void add_members(const NcRequest& request, Addresses& all) {
 }
 Addresses members(const TrochoidJob& job) {
   const auto& [part, left, right, floor, tool, radius, cycles, obstacles, judge, tolerance, avoid] = job;
-  const auto& [file, unit, faces, skin, side] = part;
+  const auto& [file, unit, faces, skin, side, facing] = part;
   const auto& [engagement, cut, layers, entry, ramp, strategy, feed, rapid, cell] = cycles;
   Addresses all;
   add_members(tool, all), add_members(radius, all), add_members(obstacles, all), add_members(judge, all);
@@ -87,18 +88,18 @@ Addresses members(const PostJob& job) {
 }
 Addresses members(const DesignJob& job) {
   const auto& [part, tools, source, shape, length, avoid, radius, choice, obstacles, judge, tolerance, change] = job;
-  const auto& [file, unit, faces, skin, side] = part;
+  const auto& [file, unit, faces, skin, side, facing] = part;
   Addresses all;
   add_members(radius, all), add_members(choice, all), add_members(obstacles, all), add_members(judge, all);
   add(all, file, unit, faces, side, tools, source, shape, length, avoid, tolerance, change);
   return all;
 }
 Addresses members(const VerifyJob& job) {
-  const auto& [folder, nc, part, tolerance, sample, reach, cell, obstacles] = job;
+  const auto& [folder, nc, part, tolerance, sample, reach, cell, side, obstacles] = job;
   Addresses all;
   add_members(nc, all);
   add_members(obstacles, all);
-  add(all, folder, part, tolerance, sample, reach, cell);
+  add(all, folder, part, tolerance, sample, reach, cell, side);
   return all;
 }
 

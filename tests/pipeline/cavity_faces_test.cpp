@@ -7,6 +7,7 @@
 
 #include "flank/error.h"
 #include "flank/example/example_cavity.h"
+#include "flank/setup/machined_side.h"
 #include "obstacle/obstacle_scene.h"
 
 namespace flank {
@@ -40,6 +41,9 @@ std::string refused(const internal::Setup& setup, const std::string& right) {
 TEST(CavityFaces, TwoThatFaceEachOtherAreTaken) {
   internal::Setup setup = two_walls();
   setup.targets = {0, 1};
+  PartRequest request;
+  request.facing = true;
+  setup.sides = internal::turn_to_machined_side(request, setup.targets, setup.part);
   EXPECT_EQ(refused(setup, "F2"), "");
 }
 

@@ -76,7 +76,8 @@ TEST_F(SheetSideTest, OfEveryExampleIsOneAtAnyToleranceAndThatOfItsOwnTool) {
 /// The round side of almost a cone.
 class OneSheet : public SheetSideTest {
  protected:
-  OneSheet() {
+  void SetUp() override {
+    SheetSideTest::SetUp();
     part_.file = file("side.step");
     (void)write_example(make_example("elliptic-side"), part_.file);
   }

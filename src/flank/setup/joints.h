@@ -52,4 +52,7 @@ class Joints {
   std::vector<double> bends_;
 };
 
+/// Faces that hang together along their borders, and are not pieces of one face; of a mesh all are one group. In the order of `faces`.
+[[nodiscard]] std::vector<std::vector<int>> connected_groups(const Part& part, const std::vector<int>& faces);
+
 }  // namespace flank::internal

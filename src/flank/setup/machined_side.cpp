@@ -12,7 +12,7 @@
 #include "flank/geom/triangle_bvh.h"
 #include "flank/obstacle/enclosure.h"
 #include "flank/setup/closed_mesh.h"
-#include "flank/setup/targets.h"
+#include "flank/setup/joints.h"
 
 namespace flank::internal {
 namespace {

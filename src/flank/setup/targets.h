@@ -22,9 +22,6 @@ struct TargetGroup {
   std::unique_ptr<ObstacleField> obstacles;  ///< what the flank keeps clear of; null: nothing near, or none is avoided
 };
 
-/// Faces that hang together along their borders, and are not pieces of one face; of a mesh all are one group. In the order of `faces`.
-[[nodiscard]] std::vector<std::vector<int>> connected_groups(const Part& part, const std::vector<int>& faces);
-
 /// Machined from the side that the faces' normals point to (setup/machined_side.h).
 [[nodiscard]] std::vector<TargetGroup> make_targets(const Setup& setup);
 
