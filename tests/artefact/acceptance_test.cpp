@@ -38,7 +38,11 @@ VerifyReport at_the_limits() {
   return r;
 }
 
-JudgeRequest asking(double least_coverage) { return {.least_coverage = least_coverage}; }
+JudgeRequest asking(double least_coverage) {
+  JudgeRequest request;
+  request.least_coverage = least_coverage;
+  return request;
+}
 
 /// With a shank and a holder, and nothing of the face left.
 Tool whole_tool() {

@@ -95,7 +95,7 @@ TEST_F(CliFinished, EndsAsTheRunThatMadeItAndOnlyWithTheSameFiles) {
     EXPECT_NE(outcome.err.find(name), std::string::npos) << outcome.err;
   };
   // Another tool, holder or fixture; a file of the result that somebody edited.
-  for (const std::string& name :
+  for (const std::string name :
        {"t.json", "h.txt", "vice.step", "out/path.json", "out/tool.json", "out/verify.json"}) {
     const std::string before = read_file(root_ / name);
     write_file(root_ / name, before + "\n");
@@ -104,10 +104,10 @@ TEST_F(CliFinished, EndsAsTheRunThatMadeItAndOnlyWithTheSameFiles) {
   }
   // A manifest that does not say what was read.
   const std::string manifest = read_file(root_ / "out/manifest.json");
-  auto json = nlohmann::json::parse(manifest);
-  ASSERT_EQ(json.at("inputs").size(), 3u);
-  json.erase("inputs");
-  write_file(root_ / "out/manifest.json", json.dump());
+  auto without = nlohmann::json::parse(manifest);
+  ASSERT_EQ(without.at("inputs").size(), 3u);
+  without.erase("inputs");
+  write_file(root_ / "out/manifest.json", without.dump());
   expect_refused_for("manifest.json");
   write_file(root_ / "out/manifest.json", manifest);
   EXPECT_EQ(flank(words_).exit_code, 1);

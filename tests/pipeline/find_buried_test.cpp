@@ -52,7 +52,7 @@ internal::Setup setup_of(Part part) {
 
 Acceptance judged(const internal::Setup& setup, const Path& path) {
   const VerifyReport report = judge_job(setup, {}, cylinder(), path);
-  return accept(cylinder(), report, {.least_coverage = 0.0});
+  return accept(cylinder(), report, {.least_coverage = 0.0, .sample_mm = {}, .reach_radius_mm = {}});
 }
 
 TEST(FindBuried, AToolThatTouchesTheTargetFromWithinDoesNotPass) {

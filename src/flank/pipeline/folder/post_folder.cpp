@@ -64,7 +64,7 @@ Input read_input(const PostJob& request, const Job& job, const ResultFolder& fol
   input.engagement.resize(input.path.strips.size());
   if (std::filesystem::exists(file("engagement.json")))
     input.engagement = engagement_from_json(read_file(file("engagement.json")), file("engagement.json"), input.path);
-  input.setup = read_setup(job.part, job.obstacles, job.tolerance_mm, notes);
+  input.setup = read_setup(machined(job), job.obstacles, job.tolerance_mm, notes);
   input.obstacles = job.obstacles;
   input.judge = job.judge;
   input.fixed_order = std::is_same_v<Job, TrochoidJob>;
