@@ -15,7 +15,7 @@ enum class ToolBodies { kAll, kAboveTheFlank };
 
 /// Fills ViewFace::gap_mm: for each vertex the least signed distance to the bodies at these poses, or at every so
 /// many of them where that is too much work. Measured across or along the axis, whichever is more: exact beside a cylinder,
-/// too small beside a cone.
+/// too large beside a cone.
 void measure_gaps(const Tool& tool, const std::vector<Pose>& all_poses, ToolBodies bodies,
                   const std::vector<ViewFace*>& faces);
 
