@@ -13,16 +13,10 @@ Tool held_cylinder() {
   return tool;
 }
 
-ViewStrip strip_of(std::vector<Pose> poses) {
-  ViewStrip strip;
-  strip.poses = std::move(poses);
-  return strip;
-}
-
 std::vector<double> gaps(const std::vector<Vec3>& points, const std::vector<Pose>& poses, ToolBodies bodies) {
   ViewFace face;
   face.mesh.vertices = points;
-  measure_gaps(held_cylinder(), {strip_of(poses)}, bodies, {&face});
+  measure_gaps(held_cylinder(), poses, bodies, {&face});
   return face.gap_mm;
 }
 

@@ -102,13 +102,15 @@ void add_obstacles(const Setup& setup, const std::set<std::string>& struck, View
       body.face = std::filesystem::path(fixture.file).filename().string() + " " + body.face;
       view.fixtures.push_back(std::move(body));
     }
+  std::vector<Pose> poses;
+  for (const ViewStrip& strip : view.strips) poses.insert(poses.end(), strip.poses.begin(), strip.poses.end());
   std::vector<ViewFace*> faces;
   for (ViewFace& body : view.fixtures) faces.push_back(&body);
-  measure_gaps(view.tool, view.strips, ToolBodies::kAll, faces);
+  measure_gaps(view.tool, poses, ToolBodies::kAll, faces);
   faces.clear();
   for (ViewFace& body : view.bodies)
     if (!body.target && struck.contains(body.face)) faces.push_back(&body);
-  measure_gaps(view.tool, view.strips, ToolBodies::kAboveTheFlank, faces);
+  measure_gaps(view.tool, poses, ToolBodies::kAboveTheFlank, faces);
 }
 
 void colour_faces(View& view, const Path& path, const std::set<std::string>& entered) {

@@ -50,9 +50,8 @@ std::vector<Revolved> bodies_of(const Tool& tool, ToolBodies which) {
   return bodies;
 }
 
-std::vector<Pose> poses_of(const std::vector<ViewStrip>& strips, std::size_t places) {
-  std::vector<Pose> all, some;
-  for (const ViewStrip& strip : strips) all.insert(all.end(), strip.poses.begin(), strip.poses.end());
+std::vector<Pose> some_of(const std::vector<Pose>& all, std::size_t places) {
+  std::vector<Pose> some;
   const std::size_t stride = all.size() * std::max<std::size_t>(1, places) / kMostLooks + 1;
   for (std::size_t k = 0; k < all.size(); k += stride) some.push_back(all[k]);
   return some;
@@ -60,12 +59,12 @@ std::vector<Pose> poses_of(const std::vector<ViewStrip>& strips, std::size_t pla
 
 }  // namespace
 
-void measure_gaps(const Tool& tool, const std::vector<ViewStrip>& strips, ToolBodies bodies,
+void measure_gaps(const Tool& tool, const std::vector<Pose>& all_poses, ToolBodies bodies,
                   const std::vector<ViewFace*>& faces) {
   std::size_t places = 0;
   for (const ViewFace* face : faces) places += face->mesh.vertices.size();
   const std::vector<Revolved> solids = bodies_of(tool, bodies);
-  const std::vector<Pose> poses = poses_of(strips, places);
+  const std::vector<Pose> poses = some_of(all_poses, places);
   if (solids.empty() || poses.empty()) return;
   const double tip_mm = tool.radial.at(0.0).r;
   for (ViewFace* face : faces) {

@@ -4,17 +4,19 @@
 
 #include <vector>
 
-#include "flank/artefact/view.h"
+#include "flank/artefact/view_mesh.h"
+#include "flank/path.h"
+#include "flank/tool.h"
 
 namespace flank::internal {
 
 /// The flank may touch the part, and is judged there by itself.
 enum class ToolBodies { kAll, kAboveTheFlank };
 
-/// Fills ViewFace::gap_mm: for each vertex the least signed distance to the bodies at the poses that are shown, or at every so
+/// Fills ViewFace::gap_mm: for each vertex the least signed distance to the bodies at these poses, or at every so
 /// many of them where that is too much work. Measured across or along the axis, whichever is more: exact beside a cylinder,
-/// too small beside a cone.
-void measure_gaps(const Tool& tool, const std::vector<ViewStrip>& strips, ToolBodies bodies,
+/// too large beside a cone.
+void measure_gaps(const Tool& tool, const std::vector<Pose>& all_poses, ToolBodies bodies,
                   const std::vector<ViewFace*>& faces);
 
 }  // namespace flank::internal
