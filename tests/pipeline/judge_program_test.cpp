@@ -424,7 +424,7 @@ TEST(Program, SpoiltFilesAreFoundOut) {
   }
 }
 
-/// A straight channel between two upright walls, and cycles along it that a cylinder cuts: circles that go on by a step each.
+/// A channel between two walls, and cycles along it that a cylinder cuts, just off the walls: circles that go on by a step each.
 class Channel {
  public:
   Channel() : folder_(fs::path(::testing::TempDir()) / ("flank_channel_program_" + std::to_string(::getpid()))) {
@@ -473,7 +473,7 @@ class Channel {
   }
 
  private:
-  static constexpr double kRadius = 4.0, kCircle = 6.0, kStep = 0.8, kTip = -6.0;
+  static constexpr double kRadius = 4.0, kCircle = 5.5, kStep = 0.8, kTip = -6.0;
 
   /// A half circle that cuts, and one back in what is cut already.
   static Path cycles() {

@@ -43,6 +43,8 @@ struct Chain {
   std::vector<double> ways;  ///< up to each of them
   std::vector<int> strip;    ///< that leads to each of them, by index
   int id = 0;                ///< of the first strip
+  std::int32_t line = 0;     ///< of the program, where it was last on the strip, or came nearest to its beginning
+  double nearest = 1e300;    ///< mm, from its beginning
   bool done = false;         ///< its end was reached
   bool told = false;         ///< it was left before, which is told once
   [[nodiscard]] double length() const { return ways.back(); }
