@@ -6,13 +6,17 @@
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
+#include <Geom_Curve.hxx>
 #include <Poly_Triangulation.hxx>
+#include <Precision.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Vertex.hxx>
 #include <algorithm>
 #include <utility>
 
@@ -112,13 +116,25 @@ void sew_sheets(const OcctShape& loaded, const Places& places, Part& part) {
   if (part.faces.size() > 1) part.repairs.insert(part.repairs.end(), sewn.notes.begin(), sewn.notes.end());
 }
 
+/// How far the curve of an edge ends from the vertices of the edge.
+double gap_at_ends(const TopoDS_Edge& edge) {
+  double first = 0.0, last = 0.0, gap = 0.0;
+  const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, first, last);
+  if (curve.IsNull()) return gap;
+  for (const auto& [t, vertex] :
+       {std::pair(first, TopExp::FirstVertex(edge)), std::pair(last, TopExp::LastVertex(edge))})
+    if (!vertex.IsNull() && !Precision::IsInfinite(t))
+      gap = std::max(gap, curve->Value(t).Distance(BRep_Tool::Pnt(vertex)));
+  return gap;
+}
+
 /// Says where the border of a face is not on its surface, or has ends elsewhere: one of them is not what was meant, and the kernel made
 /// something of both.
 void note_border_gap(const TopoDS_Face& face, const std::string& name, Part& part) {
   double gap = 0.0;
   Box3 size;
   for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next())
-    gap = std::max(gap, BRep_Tool::Tolerance(TopoDS::Edge(it.Current())));
+    gap = std::max({gap, BRep_Tool::Tolerance(TopoDS::Edge(it.Current())), gap_at_ends(TopoDS::Edge(it.Current()))});
   for (TopExp_Explorer it(face, TopAbs_VERTEX); it.More(); it.Next()) {
     const gp_Pnt p = BRep_Tool::Pnt(TopoDS::Vertex(it.Current()));
     size.add(Vec3(p.X(), p.Y(), p.Z()));

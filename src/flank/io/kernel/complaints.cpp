@@ -11,6 +11,7 @@
 #include <StepGeom_Pcurve.hxx>
 #include <StepShape_EdgeCurve.hxx>
 #include <StepShape_EdgeLoop.hxx>
+#include <StepShape_FaceSurface.hxx>
 #include <StepShape_OrientedEdge.hxx>
 #include <StepShape_VertexPoint.hxx>
 #include <TCollection_HAsciiString.hxx>
@@ -61,6 +62,7 @@ std::string dropped_edge(const Entity& entity) {
 std::string lacks_coordinates(const Entity& entity) {
   const auto point = Handle(StepGeom_CartesianPoint)::DownCast(entity);
   const auto direction = Handle(StepGeom_Direction)::DownCast(entity);
+  if (!direction.IsNull() && direction->DirectionRatios().IsNull()) return "it has no coordinates";
   const int count = !point.IsNull() ? point->NbCoordinates() : !direction.IsNull() ? direction->NbDirectionRatios() : 3;
   return count < 3 ? fmt::format("it has {} of three coordinates", count) : "";
 }
@@ -122,6 +124,16 @@ std::string repeated_edge(const Entity& entity) {
   return {};
 }
 
+/// A border that a face names twice.
+std::string repeated_border(const Entity& entity) {
+  const auto face = Handle(StepShape_FaceSurface)::DownCast(entity);
+  std::set<const Standard_Transient*> seen;
+  for (int i = 1; !face.IsNull() && i <= face->NbBounds(); ++i)
+    if (const auto border = face->BoundsValue(i); !border.IsNull() && !seen.insert(border.get()).second)
+      return fmt::format("border {} is there twice", i);
+  return {};
+}
+
 /// Of all entities, in the order of the file.
 std::vector<Complaint> complaints_of(const Handle(XSControl_WorkSession) & session) {
   const Handle(Interface_InterfaceModel) model = session->Model();
@@ -132,7 +144,7 @@ std::vector<Complaint> complaints_of(const Handle(XSControl_WorkSession) & sessi
     std::string text = failure_of(model->Check(i, true));
     if (text.empty())
       if (const Handle(Transfer_Binder) made = process->Find(entity); !made.IsNull()) text = failure_of(made->Check());
-    for (const auto& look : {dropped_edge, lacks_coordinates, torn, repeated_edge})
+    for (const auto& look : {dropped_edge, lacks_coordinates, torn, repeated_edge, repeated_border})
       if (text.empty()) text = look(entity);
     if (!text.empty()) all.push_back({entity, std::move(text)});
   }
