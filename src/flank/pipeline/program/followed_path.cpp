@@ -88,7 +88,7 @@ class Follower {
     }
     for (const Chain& chain : chains_)
       if (!chain.done && !chain.told)
-        add(0, fmt::format("strip {} of the path is not run from its beginning to its end", chain.id));
+        add(chain.line, fmt::format("strip {} of the path is not run from its beginning to its end", chain.id));
     return std::move(out_);
   }
 
@@ -107,13 +107,13 @@ class Follower {
     if (at_) {
       const double way = before_.way(here);
       const auto next = cuts ? ahead(here, kWayFactor * way + 4.0 * options_.room, way) : std::nullopt;
-      if (next && keeps_between(*next, here)) return arrive(*next, s, k);
+      if (next && keeps_between(*next, here)) return arrive(*next, move, s, k);
       leave(move);
       if (at_ && cuts && searches_++ < kMostSearches)
-        if (const auto again = ahead(here, 1e300, 0.0)) return arrive(*again, s, k);
+        if (const auto again = ahead(here, 1e300, 0.0)) return arrive(*again, move, s, k);
     }
     // A rapid, or a way from afar, may end where a strip begins, though it should not: that is another question.
-    enter(here, s, k);
+    enter(here, move, s, k);
   }
 
   /// The place ahead that is near enough, and whose way is nearest to `way`.
@@ -139,8 +139,9 @@ class Follower {
     return true;
   }
 
-  void arrive(const Place& place, std::size_t s, std::size_t k) {
+  void arrive(const Place& place, const PoseMove& move, std::size_t s, std::size_t k) {
     at_ = place;
+    place.chain->line = move.line;
     out_.strips[s][k] = place.chain->strip[place.to];
     if (place.chain->length() - place.way <= 4.0 * options_.room) place.chain->done = true;
   }
@@ -159,9 +160,12 @@ class Follower {
     chain.told = true;
   }
 
-  void enter(const Ends& here, std::size_t s, std::size_t k) {
+  void enter(const Ends& here, const PoseMove& move, std::size_t s, std::size_t k) {
     for (Chain& chain : chains_) {
-      if (chain.done || chain.told || chain.ends.front().off(here) > options_.room) continue;
+      if (chain.done || chain.told) continue;
+      const double off = chain.ends.front().off(here);
+      if (off < chain.nearest) chain.nearest = off, chain.line = move.line;
+      if (off > options_.room) continue;
       at_ = Place{&chain, 0, 0.0};
       searches_ = 0;
       out_.strips[s][k] = chain.strip.front();
