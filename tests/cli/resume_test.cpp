@@ -34,7 +34,7 @@ class CliResume : public StoppedCli {
 TEST_F(CliResume, AFitThatWasInterruptedGoesOn) {
   const Outcome whole = flank(fit_into("whole"));
   ASSERT_LE(whole.exit_code, 1) << whole.err;
-  const Ended ended = stopped_at(fit_into("out"), "polish 5", SIGINT);
+  const Ended ended = stopped_at(fit_into("out"), "polish 2", SIGINT);
   ASSERT_TRUE(WIFEXITED(ended.status)) << ended.err;
   EXPECT_EQ(WEXITSTATUS(ended.status), 1) << ended.err;
   EXPECT_NE(ended.err.find("stopped by SIGINT; the best so far is in"), std::string::npos) << ended.err;
@@ -119,7 +119,7 @@ TEST_F(CliResume, AFolderWithoutStepsIsRefused) {
 }
 
 TEST_F(CliResume, OnlyTheSameJobOfTheSamePartGoesOn) {
-  const Ended ended = stopped_at(fit_into("out"), "polish 5", SIGTERM);
+  const Ended ended = stopped_at(fit_into("out"), "polish 2", SIGTERM);
   ASSERT_TRUE(fs::exists(root_ / "out/resume.json")) << ended.err;
   const std::string before = read_file(root_ / "out/resume.json");
   const auto expect_one_line = [&](const std::vector<std::string>& words, const std::string& why) {

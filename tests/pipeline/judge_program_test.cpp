@@ -375,8 +375,8 @@ TEST(Program, TheSpindleTurnsOrItIsADryRun) {
   const Verification dry =
       run_verify(result().asked(replaced(still, "\n(?=\\(SETUP )", "\n(DRY RUN: THE SPINDLE STANDS)\n"), "fanuc-ac"));
   for (const Shortfall& reason : dry.acceptance.reasons) EXPECT_EQ(reason.figure, "overcut_bound_mm") << reason.text;
-  ASSERT_FALSE(dry.acceptance.cautions.empty());
-  EXPECT_EQ(dry.acceptance.cautions.front().figure, "spindle");
+  EXPECT_TRUE(std::any_of(dry.acceptance.cautions.begin(), dry.acceptance.cautions.end(),
+                          [](const Shortfall& caution) { return caution.figure == "spindle"; }));
 }
 
 /// Programs that were spoilt by one edit each, where $FLANK_DATA has them, and the figure in which it shows; empty: it is read.

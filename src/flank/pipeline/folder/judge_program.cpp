@@ -123,6 +123,17 @@ FollowedPath judge_way(const VerifyJob& request, const Question& q, const Planne
   return followed;
 }
 
+/// The blank of blank.json as far as the part goes: its half spaces need not close, and a program, unlike a path, comes and goes
+/// beside the part.
+std::vector<HalfSpace> blank_of(const std::string& file, const Box3& part) {
+  std::vector<HalfSpace> blank = blank_from_json(read_file(file), file);
+  for (int k = 0; k < 3; ++k) {
+    blank.push_back({Vec3::Unit(k), part.high[k]});
+    blank.push_back({-Vec3::Unit(k), -part.low[k]});
+  }
+  return blank;
+}
+
 /// The stock that is cut by the program: engagement and what is left, as of a path.
 template <class Job>
 void replay_stock(const Job& job, const Setup& setup, const Question& q, const Planned& planned,
@@ -133,7 +144,7 @@ void replay_stock(const Job& job, const Setup& setup, const Question& q, const P
       return;
     }
     const StockPath cut = stock_path(ran.plot, *planned.path, followed.strips, q.tool.radial.axis_length());
-    const std::vector<HalfSpace> blank = blank_from_json(read_file(planned.blank), planned.blank);
+    const std::vector<HalfSpace> blank = blank_of(planned.blank, setup.part.box);
     outcome.report.stock = judge_stock(setup, job, q.tool, cut.path, blank, 0.0).report;
     const StockReport& stock = *outcome.report.stock;
     const auto line = [&](std::size_t strip, std::size_t pose) {
