@@ -30,10 +30,10 @@ std::string replaced(std::string text, std::size_t at, const std::string& old, c
   return text.replace(at, old.size(), by);
 }
 
-/// The damaged file has the faces of the sound one under their numbers, but for those in `unread`.
+/// The damaged file has the faces of the sound one under their numbers, but for those in `unread`. What has become of the surface of a lost
+/// face may stand behind them.
 void expect_the_others(const Part& sound, const Part& damaged, const std::vector<int>& unread) {
-  ASSERT_EQ(damaged.face_count(), sound.face_count());
-  ASSERT_EQ(damaged.left_out.size(), unread.size());
+  ASSERT_GE(damaged.face_count(), sound.face_count());
   for (int k = 0; k < sound.face_count(); ++k) {
     const bool lost = std::find(unread.begin(), unread.end(), k) != unread.end();
     EXPECT_EQ(damaged.is_left_out(k), lost) << damaged.face_id(k);

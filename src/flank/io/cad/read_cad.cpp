@@ -6,7 +6,9 @@
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
+#include <Geom2d_Curve.hxx>
 #include <Geom_Curve.hxx>
+#include <Geom_Surface.hxx>
 #include <Poly_Triangulation.hxx>
 #include <Precision.hxx>
 #include <Standard_Failure.hxx>
@@ -128,13 +130,32 @@ double gap_at_ends(const TopoDS_Edge& edge) {
   return gap;
 }
 
+/// How far the curve of an edge in space is from its curve in the parameters of the face, where both have one parameter.
+double gap_along(const TopoDS_Edge& edge, const TopoDS_Face& face) {
+  constexpr int kPlaces = 8;
+  double first = 0.0, last = 0.0, on_first = 0.0, on_last = 0.0, gap = 0.0;
+  const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, first, last);
+  const Handle(Geom2d_Curve) on_face = BRep_Tool::CurveOnSurface(edge, face, on_first, on_last);
+  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
+  const bool known = !curve.IsNull() && !on_face.IsNull() && !surface.IsNull() && !Precision::IsInfinite(first) &&
+                     !Precision::IsInfinite(last) && BRep_Tool::SameParameter(edge) && BRep_Tool::SameRange(edge);
+  for (int k = 0; known && k <= kPlaces; ++k) {
+    const double t = first + (last - first) * k / kPlaces;
+    const gp_Pnt2d at = on_face->Value(t);
+    gap = std::max(gap, curve->Value(t).Distance(surface->Value(at.X(), at.Y())));
+  }
+  return gap;
+}
+
 /// Says where the border of a face is not on its surface, or has ends elsewhere: one of them is not what was meant, and the kernel made
 /// something of both.
 void note_border_gap(const TopoDS_Face& face, const std::string& name, Part& part) {
   double gap = 0.0;
   Box3 size;
-  for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next())
-    gap = std::max({gap, BRep_Tool::Tolerance(TopoDS::Edge(it.Current())), gap_at_ends(TopoDS::Edge(it.Current()))});
+  for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next()) {
+    const TopoDS_Edge edge = TopoDS::Edge(it.Current());
+    gap = std::max({gap, BRep_Tool::Tolerance(edge), gap_at_ends(edge), gap_along(edge, face)});
+  }
   for (TopExp_Explorer it(face, TopAbs_VERTEX); it.More(); it.Next()) {
     const gp_Pnt p = BRep_Tool::Pnt(TopoDS::Vertex(it.Current()));
     size.add(Vec3(p.X(), p.Y(), p.Z()));
