@@ -95,8 +95,7 @@ TEST_F(CliFinished, EndsAsTheRunThatMadeItAndOnlyWithTheSameFiles) {
     EXPECT_NE(outcome.err.find(name), std::string::npos) << outcome.err;
   };
   // Another tool, holder or fixture; a file of the result that somebody edited.
-  for (const std::string name :
-       {"t.json", "h.txt", "vice.step", "out/path.json", "out/tool.json", "out/verify.json"}) {
+  for (const std::string name : {"t.json", "h.txt", "vice.step", "out/path.json", "out/tool.json", "out/verify.json"}) {
     const std::string before = read_file(root_ / name);
     write_file(root_ / name, before + "\n");
     expect_refused_for(path(name));

@@ -98,12 +98,21 @@ TEST_F(Scene, DoesNotReadFixturesAgain) {
   EXPECT_TRUE(seen);
 }
 
-TEST_F(Scene, IsEmptyIfThereIsNothingToJudge) {
+TEST_F(Scene, WithoutABodyOnlyWhatCouldHoldTheToolIsAsked) {
   std::vector<std::string> notes;
   const ClearanceScene scene = make_clearance_scene(setup_, {}, false, notes);
-  EXPECT_TRUE(scene.obstacles.empty());
   EXPECT_TRUE(measure_clearance(scene, testing::cylinder(4.0, 10.0), path()).figures.empty());
   EXPECT_TRUE(notes.empty());
+  VerifyReport report;
+  measure_bodies(scene, testing::cylinder(4.0, 10.0), path(), report);
+  EXPECT_TRUE(report.clearance.figures.empty());
+  ASSERT_TRUE(report.hold);
+  EXPECT_TRUE(report.hold->as_thick);
+  // Of a part of which no face is judged nothing is asked.
+  Setup none = setup_;
+  none.targets.clear();
+  none.checks.clear();
+  EXPECT_TRUE(make_clearance_scene(none, {}, false, notes).obstacles.empty());
 }
 
 TEST_F(Scene, RefusesRequestsThatMakeNoSense) {

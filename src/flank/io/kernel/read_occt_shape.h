@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "flank/io/kernel/unread_faces.h"
+#include "flank/io/kernel/occt_unread_faces.h"
 
 namespace flank::internal {
 

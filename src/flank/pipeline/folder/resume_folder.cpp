@@ -33,8 +33,9 @@ bool is_complete(const ResultFolder& folder) {
 PlanJob as_written(const PlanJob& job, const PlanJob& written) {
   PlanJob asked = job_from_json(job_to_json(job), "job.json");
   const std::optional<double> made = std::visit([](const auto& plan) { return plan.judge.reach_radius_mm; }, written);
-  std::visit([&](auto& plan) { plan.judge.reach_radius_mm = plan.judge.reach_radius_mm ? plan.judge.reach_radius_mm : made; },
-             asked);
+  std::visit(
+      [&](auto& plan) { plan.judge.reach_radius_mm = plan.judge.reach_radius_mm ? plan.judge.reach_radius_mm : made; },
+      asked);
   // The part is known by its bytes.
   std::visit([](auto& plan) { plan.part.file.clear(); }, asked);
   return asked;

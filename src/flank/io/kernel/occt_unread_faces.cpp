@@ -1,4 +1,4 @@
-#include "flank/io/kernel/unread_faces.h"
+#include "flank/io/kernel/occt_unread_faces.h"
 
 #include <fmt/format.h>
 
@@ -28,7 +28,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "flank/io/kernel/complaints.h"
+#include "flank/io/kernel/occt_complaints.h"
 
 namespace flank::internal {
 namespace {

@@ -1,4 +1,4 @@
-#include "flank/io/kernel/complaints.h"
+#include "flank/io/kernel/occt_complaints.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // Faces that are in a file and of which the CAD kernel makes nothing keep their numbers, and say so.
-#include "flank/io/kernel/unread_faces.h"
+#include "flank/io/kernel/occt_unread_faces.h"
 
 #include <gtest/gtest.h>
 
