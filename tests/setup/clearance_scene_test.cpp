@@ -109,7 +109,7 @@ TEST_F(Scene, WithoutABodyOnlyWhatCouldHoldTheToolIsAsked) {
   ASSERT_TRUE(report.hold);
   EXPECT_TRUE(report.hold->as_thick);
   // Of a part of which no face is judged nothing is asked.
-  Setup none = setup_;
+  internal::Setup none = setup_;
   none.targets.clear();
   none.checks.clear();
   EXPECT_TRUE(make_clearance_scene(none, {}, false, notes).obstacles.empty());
