@@ -126,11 +126,11 @@ std::vector<StripEnd> ends_of(const Path& path, double axis_length) {
 std::vector<Pose> along_strip(std::vector<Pose> poses, bool from_end, const Vec3& off) {
   if (from_end) std::reverse(poses.begin(), poses.end());
   Vec3 lift = off;
-  for (std::size_t k = 0; k < poses.size(); ++k) {
+  for (Pose& pose : poses) {
     // Across the axis wherever it points by now.
-    lift -= lift.dot(poses[k].axis) * poses[k].axis;
+    lift -= lift.dot(pose.axis) * pose.axis;
     if (lift.norm() > 1e-12) lift *= off.norm() / lift.norm();
-    poses[k].tip += lift;
+    pose.tip += lift;
   }
   return poses;
 }
