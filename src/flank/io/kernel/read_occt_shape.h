@@ -12,7 +12,7 @@
 namespace flank::internal {
 
 // The kernel's map copies by what may throw, and says that it does not.
-struct OcctShape {  // NOLINT(bugprone-exception-escape)
+struct OcctShape {                   // NOLINT(bugprone-exception-escape)
   TopoDS_Shape shape;                ///< in millimetres
   TopTools_IndexedMapOfShape faces;  ///< of the shape, in their order
   FileFaces left;                    ///< what the kernel left of the faces of the file
