@@ -84,6 +84,9 @@ struct ToolModel {
   }
 };
 
+/// 15 degrees: a motion that turns more sharply has a kink.
+inline constexpr double kMostTurnRad = 0.2617993877991494;
+
 struct FlankFitOptions {
   /// mm, > 0: the |f| that counts as finished. It sets dead zones, robust scales and the score, so a fit at 0.1 is not
   /// a coarser fit at 0.01 but another one.
@@ -98,9 +101,13 @@ struct FlankFitOptions {
   /// >= 1: of 50 starts, how many are polished at most, and how many of those get the last passes (the second at most
   /// the first). Raise them if another start is suspected to win after all; most of the time goes into the last passes.
   int kept_after_quick = 6, kept_after_polish = 3;
+  /// Covered share (estimate) that is asked for, in (0, 1]: with less a result does not meet the request.
+  double least_coverage = 0.99;
   /// Covered share (estimate) at which a candidate that cuts and enters nothing too deep ends the search. Above 1: all
   /// that are kept are tried to the end.
   double enough_coverage = 0.999;
+  /// Radians that a motion may turn within 1 % of its target's diagonal (judge.h, TurnFigure).
+  double most_turn_rad = kMostTurnRad;
   /// Beside walls, where a fit that avoids them from the start falls short: try other ways, too (fit/ways.h).
   bool ways = true;
   /// Covered share in [0, 1]: if the best candidate covers less than this after the polish, the last passes are
@@ -109,8 +116,6 @@ struct FlankFitOptions {
   /// Covered share in [0, 1]: fit_automatic returns what covers less without the last look, which costs as much as a pass. 0:
   /// never. For a caller that mostly takes another result then, and asks with_close_look() where it does not.
   double least_coverage_for_close_look = 0.0;
-  /// Where not all can be covered: passes that give up what is beyond the tolerance.
-  bool partial_passes = true;
   /// fit_automatic: what the flank must not enter; outlives the call. Null: nothing is in the way. fit_from_starts
   /// takes it from its tasks instead.
   const ObstacleField* obstacles = nullptr;
@@ -129,12 +134,17 @@ struct FlankFitOptions {
 struct CoverageEstimate {
   double at_tolerance = 0.0;        ///< area share with |f| <= tolerance, in [0, 1]
   double at_four_tolerances = 0.0;  ///< area share with |f| <= 4 tolerances
+  double of_whole = 0.0;            ///< like at_tolerance, of all samples, in reach or not
   double overcut_mm = 0.0;          ///< largest max(0, -f), rim included
   double gouge_mm = 0.0;            ///< deepest that the flank enters an obstacle; estimate_coverage leaves it 0
   double undercut_mm = 0.0;         ///< largest material left anywhere on the target, max(0, f)
   double rms_mm = 0.0;              ///< root mean square of f, by area, over samples within four tolerances
   /// |c| where the flank touches the target: it plunges from 1 on. estimate_coverage leaves it 0.
   double largest_c = 0.0;
+  /// By which the motion turns (FlankFitOptions::most_turn_rad). estimate_coverage leaves it 0.
+  double turn_rad = 0.0;
+  /// Of a free tool and its shank, and of the thickest one that its bounds allow; 0 of others. estimate_coverage leaves them 0.
+  double slenderness = 0.0, least_slenderness = 0.0;
   /// Of motions over the facing sides of a cavity: how far the ends of their axes lie apart along the way, as a share of
   /// the axis length, which the tool must make up for on its way across. Else 0.
   double stagger = 0.0;
@@ -156,8 +166,8 @@ struct TriedTool {
 
 enum class FitStatus {
   kNotRun,
-  kWithinTolerance,  ///< estimated coverage >= 99 %, overcut <= tolerance and gouge <= tolerance
-  kPartial,          ///< a motion was found, but it covers less, cuts deeper, or enters an obstacle deeper
+  kWithinTolerance,  ///< by the estimate it meets what was asked (fit/rank.h)
+  kPartial,          ///< a motion was found, but it covers less, cuts or enters something deeper, has a kink or too slender a tool
   kNoStart,          ///< no start gave a motion; the result has none
 };
 

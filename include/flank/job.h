@@ -66,6 +66,8 @@ struct JudgeRequest {
   std::optional<double>
       reach_radius_mm;  ///< of the ball that says what is reachable; none: the tool's smallest radius,
                         ///< of a free tool half its demanded length over slenderness_max
+  /// Degrees that the motion may turn within 1 % of the face's diagonal; 0: any. Of fit and cover: cycles turn all the time.
+  double most_turn_deg = 15.0;
   bool operator==(const JudgeRequest&) const = default;
 };
 
@@ -152,7 +154,7 @@ struct TrochoidJob {
   RadiusRequest radius;
   CycleRequest cycles;
   ObstacleRequest obstacles;
-  JudgeRequest judge;
+  JudgeRequest judge{.sample_mm = {}, .reach_radius_mm = {}, .most_turn_deg = 0.0};
   double tolerance_mm = 0.01;
   bool avoid = true;  ///< keep clear of the other faces already in planning
   bool operator==(const TrochoidJob&) const = default;

@@ -233,6 +233,14 @@ struct SheetSide {
 };
 
 /// Coverage and undercut have no part in the verdict: how much is enough is for the caller to say.
+/// How sharply a motion turns: the largest angle between two of its directions within a stretch of 1 % of the target's diagonal, tip and
+/// upper end of the axis being one curve of six numbers.
+struct TurnFigure {
+  double angle_deg = 0.0;
+  std::size_t strip = 0;      ///< 0-based
+  Vec3 point = Vec3::Zero();  ///< the tip where it turns, mm
+};
+
 struct VerifyReport {
   Verdict verdict = Verdict::kNotRun;
   double tolerance_mm = 0.0;
@@ -261,6 +269,7 @@ struct VerifyReport {
   /// The largest ball, up to that one, that would reach the share of the whole that is asked for, where the path leaves more of it;
   /// not filled by judge()
   std::optional<FinerReach> finer_reach;
+  std::optional<TurnFigure> turn;    ///< the sharpest; none where nobody asked; not filled by judge()
   std::optional<StockReport> stock;  ///< of a program with a blank; not filled by judge()
 };
 

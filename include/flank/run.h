@@ -162,7 +162,6 @@ struct Result {
   std::optional<Ranking> ranking;  ///< if the tool was chosen
   double chord_bound_mm = 0.0;     ///< between the motions and the joined poses
   double largest_c = 0.0;          ///< of the envelope where it touches a target, along the written path; < 1 needed
-  double largest_turn_rad = 0.0;   ///< of the path of a point of the axis from pose to pose
   BendRadii bends;                 ///< of the path's two ends, within each strip
   double diagonal_mm = 0.0;        ///< of the first target
   std::vector<std::string> notes;  ///< repairs of the part, warnings

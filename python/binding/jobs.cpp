@@ -81,8 +81,6 @@ void bind_result(py::module_& module) {
       .def_readonly("part_sha256", &Result::part_sha256, "Of the part that was read.")
       .def_readonly("chord_bound_mm", &Result::chord_bound_mm, "Between the motions and the joined poses, mm: proved.")
       .def_readonly("largest_c", &Result::largest_c, "Largest |c| where the tool touches; below 1 it moves regularly.")
-      .def_readonly("largest_turn_rad", &Result::largest_turn_rad,
-                    "Largest turn of the path from pose to pose, radians.")
       .def_property_readonly(
           "passed", [](const Result& r) { return r.acceptance().pass(); }, "Whether it meets the request.")
       .def_property_readonly(

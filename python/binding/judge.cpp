@@ -164,6 +164,10 @@ void bind_judge(py::module_& module) {
             return all;
           },
           "Faces that are in the file and could not be read, with the reason: nobody judged them.")
+      .def_property_readonly(
+          "largest_turn_deg",
+          [](const VerifyReport& r) { return r.turn ? std::optional(r.turn->angle_deg) : std::nullopt; },
+          "Largest turn of the motion within 1 % of the face's diagonal, degrees; None where nobody asked.")
       .def_readonly("worst", &VerifyReport::worst, "The deepest places, over all faces.")
       .def_property_readonly("histogram_edges_mm", numbers(&VerifyReport::histogram_edges_mm),
                              "Edges of the bins of f over the targets, mm. No copy.")

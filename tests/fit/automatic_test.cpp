@@ -105,7 +105,6 @@ TEST(FitAutomatic, TheAxisHasTheLengthThatIsAskedFor) {
   if (kSanitized) GTEST_SKIP() << "three fits more on the path of the others";
   const auto blade = standing_blade(0.0);
   FlankFitOptions options = small_options();
-  options.partial_passes = false;
   EXPECT_GT(fit_automatic(*blade, given_cylinder(5.0), options, {}).motions.front().axis_length, 40.0);
   options.axis_length_mm = 33.0;
   EXPECT_EQ(fit_automatic(*blade, given_cylinder(5.0), options, {}).motions.front().axis_length, 33.0);

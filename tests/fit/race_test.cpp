@@ -7,6 +7,7 @@
 
 #include "fit/flat_scene.h"
 #include "flank/base/journal.h"
+#include "flank/fit/rank.h"
 #include "flank/threads.h"
 #include "flank/tool/compliance.h"
 
@@ -45,7 +46,7 @@ TEST_F(Racing, OfTwoThatDoWhatWasAskedTheStifferToolWins) {
   for (const auto& order : {std::vector{2.0, 6.0}, std::vector{6.0, 2.0}}) {
     const Runner winner = run({start(order[0]), start(order[1])});
     EXPECT_TRUE(winner.enough);
-    EXPECT_TRUE(is_enough(winner.polished.estimate, options_));
+    EXPECT_TRUE(meets(winner.polished.estimate, options_.enough_coverage, options_));
     EXPECT_NEAR(winner.polished.draft.tool.at(21.0).r, 6.0, 0.5);
   }
 }
@@ -77,7 +78,6 @@ TEST_F(Racing, NobodyIsTriedOnceOneIsEnough) {
 
 TEST_F(Racing, WhoCoversMoreWinsWhereNobodyDoesWhatWasAsked) {
   // Half of the path each: neither a polish nor the last passes make it longer.
-  options_.partial_passes = false;
   options_.kept_after_polish = 1;
   options_.bounds.largest = 3.0;
   const Runner winner = run({start(3.0, 0.0, 10.0), start(3.0, 0.0, 40.0)});
@@ -87,7 +87,6 @@ TEST_F(Racing, WhoCoversMoreWinsWhereNobodyDoesWhatWasAsked) {
 TEST_F(Racing, AToolMoreSlenderThanAskedIsNotEnough) {
   options_.bounds.largest = 3.0;
   options_.kept_after_polish = 1;
-  options_.partial_passes = false;
   EXPECT_TRUE(run({start(3.0)}).enough);
   options_.bounds.slenderest = 7.0;  // of 42 mm: a radius of 3 everywhere, which a soft bound does not quite give
   const Runner bounded = run({start(2.0)});
@@ -101,8 +100,7 @@ TEST_F(Racing, AToolMoreSlenderThanAskedIsNotEnough) {
 
 TEST_F(Racing, WhatCoversEnoughAndGainedNothingGetsNoMorePasses) {
   options_.bounds.largest = 3.0;
-  options_.partial_passes = false;
-  options_.bounds.slenderest = 7.0;  // as above
+  options_.most_turn_rad = -1.0;  // none
   Progress progress;
   progress.journal = std::make_shared<Progress::Journal>();
   const std::vector<FitDraft> starts = {start(2.0, 0.3)};
@@ -115,10 +113,18 @@ TEST_F(Racing, WhatCoversEnoughAndGainedNothingGetsNoMorePasses) {
 
 TEST_F(Racing, WhatACloseLookHasCalledShortIsNotLookedAtAgain) {
   options_.bounds.largest = 3.0;
-  options_.bounds.slenderest = 7.0;
   const auto samples = ranking_samples(*blade_, nullptr, options_);
-  Runner runner{.start = start(2.0), .polished = assess(start(2.0), samples, options_), .trace = {}, .beaten = {}};
-  ASSERT_TRUE(is_enough(runner.polished.estimate, options_));
+  // A motion that ends somewhere on the blade: some such end lies where few samples call more covered than many do.
+  Runner runner{.start = {}, .polished = {}, .trace = {}, .beaten = {}};
+  double seen = 0.0, rough = 0.0;
+  for (double x_last = 40.0; x_last < 44.0 && !(rough > seen + 1e-3); x_last += 0.3) {
+    runner.polished = assess(start(2.0, 0.0, x_last), samples, options_);
+    rough = runner.polished.estimate.at_tolerance;
+    seen = looked_at_closely(runner.polished, samples, options_).estimate.at_tolerance;
+  }
+  ASSERT_GT(rough, seen + 1e-3);
+  options_.enough_coverage = 0.5 * (rough + seen);
+  ASSERT_TRUE(meets(runner.polished.estimate, options_.enough_coverage, options_));
   settle_if_enough(runner, samples, options_);
   EXPECT_FALSE(runner.enough);
   ASSERT_TRUE(runner.close);
@@ -140,20 +146,6 @@ TEST_F(Racing, IsTheSameForOneAndThreeThreads) {
   EXPECT_EQ(one.polished.draft.tool.parameters(), three.polished.draft.tool.parameters());
   EXPECT_EQ(one.polished.draft.motions.front().tip.poles, three.polished.draft.motions.front().tip.poles);
   EXPECT_EQ(one.trace.size(), three.trace.size());
-}
-
-TEST_F(Racing, WhoPlungesOrCutsIsNotEnough) {
-  CoverageEstimate estimate;
-  estimate.at_tolerance = 1.0;
-  EXPECT_TRUE(is_enough(estimate, options_));
-  estimate.largest_c = 1.01;
-  EXPECT_FALSE(is_enough(estimate, options_));
-  estimate.largest_c = 0.5;
-  estimate.gouge_mm = 1.1 * options_.tolerance_mm;
-  EXPECT_FALSE(is_enough(estimate, options_));
-  estimate = {};
-  estimate.at_tolerance = options_.enough_coverage - 1e-6;
-  EXPECT_FALSE(is_enough(estimate, options_));
 }
 
 TEST_F(Racing, TellsWhatWasBeatenAndWhatWasFound) {

@@ -1,11 +1,13 @@
 // The ways beside other faces: what is cut off an axis or a path, and which of two results is the better one.
 #include "flank/fit/ways.h"
 #include "flank/fit/coverage.h"
+#include "flank/fit/rank.h"
 
 #include <gtest/gtest.h>
 
 #include "fit/flat_scene.h"
 #include "flank/fit/coverage.h"
+#include "flank/fit/rank.h"
 
 namespace flank::internal {
 namespace {
@@ -131,44 +133,20 @@ TEST(BestWay, SaysWhetherAnotherWayIsTheResult) {
   EXPECT_EQ(hopeless.after.at_tolerance, 1.0);
 }
 
-TEST(IsBetter, WhatEntersNothingGoesFirstUnlessItCoversNextToNothing) {
-  EXPECT_TRUE(is_better(covering(0.6, 0.0), covering(1.0, 0.5), 0.05));
-  EXPECT_FALSE(is_better(covering(1.0, 0.5), covering(0.6, 0.0), 0.05));
-  EXPECT_TRUE(is_better(covering(0.999, 0.44), covering(0.007, 0.0), 0.05));
-  EXPECT_FALSE(is_better(covering(0.007, 0.0), covering(0.999, 0.44), 0.05));
-  CoverageEstimate plunging = covering(0.99, 0.0);
-  plunging.largest_c = 1.5;
-  EXPECT_TRUE(is_better(covering(0.98, 0.0), plunging, 0.05)) << "a motion that no machine runs well";
-  EXPECT_FALSE(is_better(covering(0.96, 0.0), plunging, 0.05));
-  EXPECT_TRUE(is_better(covering(0.98, 0.0), covering(0.97, 0.0), 0.05));
-  EXPECT_FALSE(is_better(covering(0.97, 0.0), covering(0.98, 0.0), 0.05));
-  EXPECT_TRUE(is_better(covering(0.9, 0.0), covering(1.0, 0.0, 0.2), 0.05)) << "overcut is no price for coverage";
-}
-
 TEST(CannotWin, WhatCoversLessOrIsTooDeepToBeMended) {
-  constexpr double kTolerance = 0.05;
+  FlankFitOptions options;
+  options.tolerance_mm = 0.05;
   const CoverageEstimate clean = covering(0.9, 0.0);
-  EXPECT_TRUE(cannot_win(covering(0.85, 0.0), clean, kTolerance));
-  EXPECT_FALSE(cannot_win(covering(0.895, 0.0), clean, kTolerance)) << "a last look may cover a little more";
-  EXPECT_FALSE(cannot_win(covering(0.95, 0.0), clean, kTolerance));
-  EXPECT_FALSE(cannot_win(covering(1.0, 0.1), clean, kTolerance)) << "a little too deep can be mended";
-  EXPECT_TRUE(cannot_win(covering(1.0, 2.0), clean, kTolerance));
-  EXPECT_FALSE(cannot_win(covering(1.0, 2.0), covering(0.4, 0.0), kTolerance)) << "clean, but not worth having";
-  EXPECT_FALSE(cannot_win(covering(0.5, 0.0), covering(0.9, 2.0), kTolerance)) << "the rival is not clean";
+  EXPECT_TRUE(cannot_win(covering(0.85, 0.0), clean, options));
+  EXPECT_FALSE(cannot_win(covering(0.895, 0.0), clean, options)) << "a last look may cover a little more";
+  EXPECT_FALSE(cannot_win(covering(0.95, 0.0), clean, options));
+  EXPECT_FALSE(cannot_win(covering(1.0, 0.1), clean, options)) << "a little too deep can be mended";
+  EXPECT_TRUE(cannot_win(covering(1.0, 2.0), clean, options));
+  EXPECT_FALSE(cannot_win(covering(1.0, 2.0), covering(0.3, 0.0), options)) << "clean, but not worth having";
+  EXPECT_FALSE(cannot_win(covering(0.5, 0.0), covering(0.9, 2.0), options)) << "the rival is not clean";
   CoverageEstimate plunging = clean;
   plunging.largest_c = 1.2;
-  EXPECT_FALSE(cannot_win(covering(0.85, 0.0), plunging, kTolerance));
-}
-
-TEST(IsBetter, WhatIsNoToolGoesLast) {
-  CoverageEstimate none = covering(1.0, 0.0);
-  none.legitimate = false;
-  EXPECT_FALSE(is_clean(none, 0.05));
-  EXPECT_TRUE(is_better(covering(0.6, 0.0), none, 0.05));
-  EXPECT_TRUE(is_better(covering(0.9, 0.5), none, 0.05)) << "even one that enters a face can be made";
-  EXPECT_FALSE(is_better(none, covering(0.6, 0.0), 0.05));
-  EXPECT_TRUE(is_better(none, covering(0.3, 0.0), 0.05));
-  EXPECT_FALSE(is_better(covering(0.3, 0.0), none, 0.05));
+  EXPECT_FALSE(cannot_win(covering(0.85, 0.0), plunging, options));
 }
 
 }  // namespace

@@ -149,6 +149,16 @@ void add_whole(const VerifyReport& report, const JudgeRequest& request, Acceptan
     add_caution(out, Figure::kWholeCoverage, text);
 }
 
+/// A motion that turns on the spot leaves a mark, and a machine slows down to nothing there.
+void add_turn(const VerifyReport& report, const JudgeRequest& request, Acceptance& out) {
+  if (!report.turn || !(report.turn->angle_deg > request.most_turn_deg) || request.most_turn_deg <= 0.0) return;
+  const Vec3& p = report.turn->point;
+  add_reason(out, Figure::kTurn,
+             fmt::format("the motion turns by {:.1f} degrees > {:.4g} within 1 % of the face's diagonal, strip {}, tip at "
+                         "({:.3f}, {:.3f}, {:.3f})",
+                         report.turn->angle_deg, request.most_turn_deg, report.turn->strip + 1, p.x(), p.y(), p.z()));
+}
+
 /// Whether anything could hold the tool, and what of that was not given.
 void add_hold(const Tool& tool, const VerifyReport& report, Acceptance& out) {
   if (report.hold && !report.hold->axis.kept) {
@@ -200,6 +210,7 @@ Acceptance accept(const Tool& tool, const VerifyReport& report, const JudgeReque
   if (complete) add_unproved(report, out);
   add_coverage(report, request.least_coverage, out);
   add_whole(report, request, out);
+  add_turn(report, request, out);
   add_hold(tool, report, out);
   // "surely": the judge's figure less its bound is what counts (ClearanceFigure::kept).
   for (const ClearanceFigure& f : report.clearance.figures)

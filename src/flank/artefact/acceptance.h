@@ -46,6 +46,7 @@ enum class Figure {
   kMachine,        ///< a program is for another machine
   kSetup,          ///< what a program's header says of the set-up contradicts itself
   kProgramPath,    ///< a program does not run the path that it was made of
+  kTurn,           ///< the motion has a kink
   kCount
 };
 
@@ -82,7 +83,8 @@ inline constexpr std::array<std::string_view, static_cast<std::size_t>(Figure::k
     "spindle",
     "machine",
     "setup",
-    "program_path"};
+    "program_path",
+    "turn"};
 
 /// "overcut_mm".
 [[nodiscard]] constexpr std::string_view figure_name(Figure figure) {

@@ -34,10 +34,10 @@ std::string error_lines(const Result& result) {
   const VerifyReport& v = result.verify;
   std::string text;
   text += fmt::format(
-      "  path        {} strip{}, {} poses, joined within {:.2g} mm of the motion, largest |c| {:.3f}, largest turn "
-      "{:.1f} degrees\n",
+      "  path        {} strip{}, {} poses, joined within {:.2g} mm of the motion, largest |c| {:.3f}{}\n",
       result.path.strips.size(), result.path.strips.size() == 1 ? "" : "s", result.path.pose_count(),
-      result.chord_bound_mm, result.largest_c, result.largest_turn_rad * 180.0 / std::numbers::pi);
+      result.chord_bound_mm, result.largest_c,
+      v.turn ? fmt::format(", largest turn {:.1f} degrees", v.turn->angle_deg) : "");
   text += fmt::format("  bends       least radius {} at the tip, {} at the holder end\n",
                       bend_text(result.bends.tip_mm), bend_text(result.bends.holder_end_mm));
   if (was_stopped(result)) return text + "  judged      not at all\n";
@@ -215,7 +215,7 @@ std::string internal::summary_json(const Result& result, const Acceptance& accep
   add_verdict(result, json);
   json["chord_bound"] = result.chord_bound_mm;
   json["largest_c"] = result.largest_c;
-  json["largest_turn"] = result.largest_turn_rad * 180.0 / std::numbers::pi;
+  if (result.verify.turn) json["largest_turn"] = result.verify.turn->angle_deg;
   json["bend_radius"] = bends_json(result.bends);
   if (const auto* fit = std::get_if<FitJob>(&result.job); fit != nullptr && fit->min_bend_radius_mm)
     json["least_bend_radius"] = *fit->min_bend_radius_mm;

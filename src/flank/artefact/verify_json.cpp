@@ -45,9 +45,13 @@ double to_number(const Json& j) {
   throw InputError("\"" + word + "\" is no figure");
 }
 
+Json point(const Vec3& p) { return {number(p.x()), number(p.y()), number(p.z())}; }
+
+Vec3 to_point(const Json& p) { return {to_number(p.at(0)), to_number(p.at(1)), to_number(p.at(2))}; }
+
 /// Strips are counted from 1 in files, as people count, and from 0 in reports; null is no strip.
 Json to_json(const WorstPlace& w) {
-  return {{"face", w.face},      {"point", {number(w.point.x()), number(w.point.y()), number(w.point.z())}},
+  return {{"face", w.face},      {"point", point(w.point)},
           {"f_mm", number(w.f)}, {"strip", w.strip < 0 ? Json(nullptr) : Json(w.strip + 1)},
           {"t", number(w.t)},    {"s_mm", number(w.s)}};
 }
@@ -56,8 +60,7 @@ Json to_json(const WorstPlace& w) {
 WorstPlace place_from(const Json& j) {
   WorstPlace w;
   w.face = j.at("face").get<std::string>();
-  const Json& p = j.at("point");
-  w.point = {to_number(p.at(0)), to_number(p.at(1)), to_number(p.at(2))};
+  w.point = to_point(j.at("point"));
   w.f = to_number(j.at("f_mm"));
   w.strip = j.at("strip").is_null() ? -1 : j.at("strip").get<int>() - 1;
   w.t = to_number(j.at("t"));
@@ -66,7 +69,7 @@ WorstPlace place_from(const Json& j) {
 }
 
 Json to_json(const BuriedStrip& b) {
-  return {{"strip", b.strip + 1}, {"point", {number(b.point.x()), number(b.point.y()), number(b.point.z())}}};
+  return {{"strip", b.strip + 1}, {"point", point(b.point)}};
 }
 
 BuriedStrip buried_from(const Json& j) {
@@ -105,11 +108,11 @@ Json to_json(const FaceVerdict& f) {
             {"coverage_bound", number(f.coverage_bound)},
             {"coverage_reachable_bound", number(f.coverage_reachable_bound)},
             {"uncovered_point",
-             {number(f.uncovered_point.x()), number(f.uncovered_point.y()), number(f.uncovered_point.z())}},
+             point(f.uncovered_point)},
             {"cover_cells", f.cover_cells},
             {"sampling_bound_mm", number(f.sampling_bound_mm)},
             {"overcut_bound_mm", number(f.overcut_bound_mm)},
-            {"bound_point", {number(f.bound_point.x()), number(f.bound_point.y()), number(f.bound_point.z())}},
+            {"bound_point", point(f.bound_point)},
             {"proof_cells", f.proof_cells}};
   // Absent where nothing is cut: there is no deepest place then.
   if (f.deepest) j["deepest"] = to_json(*f.deepest);
@@ -133,14 +136,12 @@ FaceVerdict face_from(const Json& j) {
   if (j.contains("coverage_bound")) {
     f.coverage_bound = to_number(j.at("coverage_bound"));
     f.coverage_reachable_bound = to_number(j.at("coverage_reachable_bound"));
-    const Json& at = j.at("uncovered_point");
-    f.uncovered_point = {to_number(at.at(0)), to_number(at.at(1)), to_number(at.at(2))};
+      f.uncovered_point = to_point(j.at("uncovered_point"));
     f.cover_cells = j.at("cover_cells").get<std::size_t>();
   }
   f.sampling_bound_mm = to_number(j.at("sampling_bound_mm"));
   f.overcut_bound_mm = to_number(j.at("overcut_bound_mm"));
-  const Json& p = j.at("bound_point");
-  f.bound_point = {to_number(p.at(0)), to_number(p.at(1)), to_number(p.at(2))};
+  f.bound_point = to_point(j.at("bound_point"));
   f.proof_cells = j.at("proof_cells").get<std::size_t>();
   if (j.contains("deepest")) f.deepest = place_from(j.at("deepest"));
   return f;
@@ -154,7 +155,7 @@ Json to_json(const ClearanceFigure& f) {
           {"required_mm", number(f.required_mm)},
           {"kept", f.kept},
           {"obstacle", f.obstacle},
-          {"point", {number(f.point.x()), number(f.point.y()), number(f.point.z())}},
+          {"point", point(f.point)},
           {"strip", f.strip < 0 ? Json(nullptr) : Json(f.strip + 1)},
           {"t", number(f.t)},
           {"z_mm", number(f.z_mm)},
@@ -186,8 +187,7 @@ ClearanceFigure clearance_from(const Json& j) {
   f.required_mm = to_number(j.at("required_mm"));
   f.kept = j.at("kept").get<bool>();
   f.obstacle = j.at("obstacle").get<std::string>();
-  const Json& p = j.at("point");
-  f.point = {to_number(p.at(0)), to_number(p.at(1)), to_number(p.at(2))};
+  f.point = to_point(j.at("point"));
   f.strip = j.at("strip").is_null() ? -1 : j.at("strip").get<int>() - 1;
   f.t = to_number(j.at("t"));
   f.z_mm = to_number(j.at("z_mm"));
@@ -258,6 +258,10 @@ VerifyReport report_from(const Json& j) {
   if (j.contains("finer_reach"))
     r.finer_reach = {to_number(j.at("finer_reach").at("radius_mm")),
                      to_number(j.at("finer_reach").at("reachable_share"))};
+  if (j.contains("turn")) {
+    const Json& turn = j.at("turn");
+    r.turn = {to_number(turn.at("angle_deg")), turn.at("strip").get<std::size_t>() - 1, to_point(turn.at("point"))};
+  }
   if (j.contains("stock")) r.stock = stock_from_json(j.at("stock"));
   return r;
 }
@@ -275,7 +279,6 @@ std::string_view depth_name(DepthProof depth) { return depth == DepthProof::kPro
 Json clearance_to_json(const ClearanceReport& report) { return to_json(report); }
 
 Json sheet_side_to_json(const SheetSide& s) {
-  const auto point = [](const Vec3& p) { return Json{number(p.x()), number(p.y()), number(p.z())}; };
   return {{"faces", s.faces},        {"side", s.side > 0 ? "+" : "-"},
           {"asked", s.asked},        {"towards", point(s.towards)},
           {"place", point(s.place)}, {"reason", s.reason}};
@@ -332,6 +335,8 @@ std::string verify_to_json(const VerifyReport& r, const Acceptance& acceptance) 
   if (r.finer_reach)
     j["finer_reach"] = {{"radius_mm", number(r.finer_reach->radius_mm)},
                         {"reachable_share", number(r.finer_reach->reachable_share)}};
+  if (r.turn)
+    j["turn"] = {{"angle_deg", number(r.turn->angle_deg)}, {"strip", r.turn->strip + 1}, {"point", point(r.turn->point)}};
   if (r.stock) j["stock"] = stock_to_json(*r.stock);
   return dumped(j, 2) + "\n";
 }

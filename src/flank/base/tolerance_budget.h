@@ -77,8 +77,6 @@ struct FitBudget {
   double overcut = 0.95, settled_overcut = 0.92;
   /// Overcut of an exact fit that is left alone: its last digits are worth more than that.
   double exact_overcut = 0.1;
-  /// The deepest that a candidate may be, looked at closely, to end the search.
-  double seen = 0.97;
   /// The deepest that any fit may be by its estimate to count as one that cuts nothing: the judge sees a little more.
   double clean = 0.99;
   /// What may lie between the samples of the estimate.

@@ -46,18 +46,4 @@ double largest_c(const Path& path, const RadialFunction& radial, const Touches& 
   return largest;
 }
 
-double largest_turn(const Path& path, double axis_length, double still_mm) {
-  double largest = 0.0;
-  for (const Strip& strip : path.strips)
-    for (std::size_t i = 1; i + 1 < strip.poses.size(); ++i)
-      for (const double share : {0.0, 0.5, 1.0}) {
-        const double s = share * axis_length;
-        const Vec3 here = strip.poses[i].at(s);
-        const Vec3 before = here - strip.poses[i - 1].at(s), after = strip.poses[i + 1].at(s) - here;
-        if (before.norm() <= still_mm || after.norm() <= still_mm) continue;
-        largest = std::max(largest, std::atan2(before.cross(after).norm(), before.dot(after)));
-      }
-  return largest;
-}
-
 }  // namespace flank::internal

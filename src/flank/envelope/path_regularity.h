@@ -20,8 +20,4 @@ using Touches = std::function<bool(const Vec3& centre, double radius_mm)>;
 /// The largest over all steps of all strips; 0 for a path without a step.
 [[nodiscard]] double largest_c(const Path& path, const RadialFunction& radial, const Touches& touches = {});
 
-/// The sharpest corner of the path of a point of the axis (tip, middle, end; of length axis_length) at a pose, radians;
-/// 0 for a path without corners. Points that move by less than `still_mm` from one pose to the next have none.
-[[nodiscard]] double largest_turn(const Path& path, double axis_length, double still_mm);
-
 }  // namespace flank::internal

@@ -33,6 +33,8 @@ constexpr double kAllowedOvercutPrice = 0.005, kMeanPrice = 0.006;
 /// Of a motion that plunges where it touches, by what |c| is above 1, at most kMostPlunging: there the machine wobbles on
 /// the spot. A percent of coverage is worth half of it.
 constexpr double kPlungingPrice = 0.02, kMostPlunging = 1.0;
+/// Likewise of a motion that turns more sharply than it may, for each angle beyond it, at most one.
+constexpr double kTurnPrice = 0.02, kMostTurns = 1.0;
 
 /// Of a stagger as long as the axis, where it counts. Among motions that cover the same the most nearly parallel ones: a
 /// stagger of 0.1 can halve the steps of a cavity's cycles. A percent of coverage is worth half of that.
@@ -50,7 +52,8 @@ double CoverageEstimate::score(double tolerance_mm) const {
   const double within = kAllowedOvercutPrice * std::min(1.0, overcut_mm / tolerance_mm);
   return at_tolerance + kNearWorth * at_four_tolerances - kExcessPrice * excess - within -
          kMeanPrice * std::min(1.0, rms_mm / tolerance_mm) -
-         kPlungingPrice * std::clamp(largest_c - 1.0, 0.0, kMostPlunging) - kStaggerPrice * stagger;
+         kPlungingPrice * std::clamp(largest_c - 1.0, 0.0, kMostPlunging) -
+         kTurnPrice * std::clamp(turn_rad / kMostTurnRad - 1.0, 0.0, kMostTurns) - kStaggerPrice * stagger;
 }
 
 }  // namespace flank
@@ -74,13 +77,6 @@ std::vector<double> estimate_distances(const std::vector<SurfaceSample>& samples
   });
   return distances;
 }
-
-}  // namespace
-
-namespace {
-
-/// A clean result, or one with a tool that is one, that covers less than this share of what another one covers is not what anybody asked for.
-constexpr double kWorthHaving = 0.5;
 
 /// Along the axis, at most: balls a sixtieth of the axis apart overlap almost wholly.
 constexpr int kGougeSteps = 60;
@@ -183,53 +179,27 @@ std::vector<Vec3> cut_deeper_than(double depth_mm, const std::vector<SurfaceSamp
   return deep;
 }
 
-bool is_clean(const CoverageEstimate& estimate, double tolerance_mm) {
-  return estimate.legitimate &&
-         std::max(estimate.overcut_mm, estimate.gouge_mm) <= kToleranceBudget.fit.clean * tolerance_mm;
-}
-
-namespace {
-
-/// Coverage, less what a motion costs that no machine runs well: where it plunges it wobbles on the spot.
-double worth(const CoverageEstimate& estimate) {
-  constexpr double kPlunging = 0.02;
-  return estimate.at_tolerance - (estimate.largest_c < 1.0 ? 0.0 : kPlunging);
-}
-
-}  // namespace
-
-bool is_better(const CoverageEstimate& a, const CoverageEstimate& b, double tolerance_mm) {
-  if (a.legitimate != b.legitimate) {
-    const double tool = a.legitimate ? a.at_tolerance : b.at_tolerance,
-                 none = a.legitimate ? b.at_tolerance : a.at_tolerance;
-    return (tool >= kWorthHaving * none) == a.legitimate;
-  }
-  const bool clean_a = is_clean(a, tolerance_mm), clean_b = is_clean(b, tolerance_mm);
-  if (clean_a != clean_b) {
-    const double clean = clean_a ? a.at_tolerance : b.at_tolerance, other = clean_a ? b.at_tolerance : a.at_tolerance;
-    return (clean >= kWorthHaving * other) == clean_a;
-  }
-  const double worth_a = worth(a), worth_b = worth(b);
-  if (clean_a && std::abs(worth_a - worth_b) > kSameCoverage) return worth_a > worth_b;
-  return a.score(tolerance_mm) > b.score(tolerance_mm);
-}
-
 CoverageEstimate estimate_coverage(const std::vector<SurfaceSample>& samples, const std::vector<RuledMotion>& motions,
                                    const RadialFunction& tool, double tolerance_mm, int poses) {
   constexpr double kNearTolerances = 4.0;  // by the field's name
   const std::vector<double> distances = estimate_distances(samples, motions, tool, poses);
   CoverageEstimate estimate;
-  double area = 0.0, near_area = 0.0, squares = 0.0;
+  double area = 0.0, whole = 0.0, near_area = 0.0, squares = 0.0;
   for (std::size_t k = 0; k < samples.size(); ++k) {
     const SurfaceSample& sample = samples[k];
     const double f = distances[k];
-    area += sample.area;
-    if (std::abs(f) <= tolerance_mm) estimate.at_tolerance += sample.area;
+    const double reached = std::max(0.0, sample.area);
+    area += reached;
+    whole += std::abs(sample.area);
+    if (std::abs(f) <= tolerance_mm) {
+      estimate.at_tolerance += reached;
+      estimate.of_whole += std::abs(sample.area);
+    }
     // The root mean square is that of what may still be finished: places out of reach would drown it.
     if (std::abs(f) <= kNearTolerances * tolerance_mm) {
-      estimate.at_four_tolerances += sample.area;
-      near_area += sample.area;
-      squares += sample.area * f * f;
+      estimate.at_four_tolerances += reached;
+      near_area += reached;
+      squares += reached * f * f;
     }
     estimate.overcut_mm = std::max(estimate.overcut_mm, -f);
     estimate.undercut_mm = std::max(estimate.undercut_mm, f);
@@ -238,6 +208,7 @@ CoverageEstimate estimate_coverage(const std::vector<SurfaceSample>& samples, co
     estimate.at_tolerance /= area;
     estimate.at_four_tolerances /= area;
   }
+  if (whole > 0.0) estimate.of_whole /= whole;
   if (near_area > 0.0) estimate.rms_mm = std::sqrt(squares / near_area);
   return estimate;
 }

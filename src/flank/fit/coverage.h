@@ -8,28 +8,16 @@
 namespace flank::internal {
 
 /// The estimate for a set of motions over one target's samples, `poses` axis positions per motion tabulated. Samples
-/// with area 0 count for overcut and undercut alone. A sample with f < 0 is refined exactly, others to third order in
+/// with area 0 count for overcut and undercut alone, those with the negative of theirs for the share of the whole, too. A sample with f < 0 is refined exactly, others to third order in
 /// the spacing of the poses.
 [[nodiscard]] CoverageEstimate estimate_coverage(const std::vector<SurfaceSample>& samples,
                                                  const std::vector<RuledMotion>& motions, const RadialFunction& tool,
                                                  double tolerance_mm, int poses);
 
-/// Coverage is known to one of about 2,000 samples (FlankFitOptions::sample_share); two of them are no difference.
-inline constexpr double kSameCoverage = 1e-3;
-
 /// Those of the samples that are cut deeper than this, mm, by the estimate's own figures.
 [[nodiscard]] std::vector<Vec3> cut_deeper_than(double depth_mm, const std::vector<SurfaceSample>& samples,
                                                 const std::vector<RuledMotion>& motions, const RadialFunction& tool,
                                                 int poses);
-
-/// Enters and cuts nothing by more than the tolerance, by the planner's estimate and with what that may not have seen
-/// (FitBudget::clean), with a tool that is one.
-[[nodiscard]] bool is_clean(const CoverageEstimate& estimate, double tolerance_mm);
-
-/// Is `a` to be returned rather than `b`? One whose tool is one goes before one whose is none, and one that enters nothing
-/// before one that does, unless it covers less than half as much; of two that are clean the one that covers more (a motion that plunges has to cover 2 % more than one
-/// that does not), of two that are not the one that scores higher.
-[[nodiscard]] bool is_better(const CoverageEstimate& a, const CoverageEstimate& b, double tolerance_mm);
 
 /// Balls h apart leave up to h^2 / (8 r) of the flank between them: a close look sees most of that, about the deepest place
 /// of each pose. For a rough one the depth of what is far inside is estimated.

@@ -16,6 +16,7 @@
 #include "flank/fit/orbit/orbit_fit.h"
 #include "flank/fit/polish.h"
 #include "flank/fit/race.h"
+#include "flank/fit/rank.h"
 #include "flank/fit/starts/start_tasks.h"
 #include "flank/fit/tried.h"
 #include "flank/fit/ways.h"
@@ -323,9 +324,9 @@ FlankFitResult fit_as_found(const std::vector<FitTask>& tasks, const RadialFunct
 FlankFitResult fit_together(const std::vector<FitTask>& tasks, const RadialFunction& found, const ToolModel& tool,
                             const FlankFitOptions& options, const Progress& progress) {
   FlankFitResult as_found = fit_as_found(tasks, found, tool, options);
-  if (is_enough(as_found.after, options) || progress.stop()) return as_found;
+  if (meets(as_found.after, options.enough_coverage, options) || progress.stop()) return as_found;
   FlankFitResult polished = fit_from_starts(tasks, tool, options, progress);
-  return is_better(as_found.after, polished.after, options.tolerance_mm) ? as_found : polished;
+  return is_better(as_found.after, polished.after, options) ? as_found : polished;
 }
 
 FlankFitResult with_close_look(const std::vector<FitTask>& tasks, const FlankFitResult& found, const ToolModel& tool,
@@ -350,7 +351,7 @@ std::optional<FlankFitResult> mend_fit(const std::vector<FitTask>& tasks, const 
   draft.tool = found.tool;
   const Polished before = looked_at_closely(draft, options);
   const Polished after = settled(before, options);
-  if (!is_better(after.estimate, before.estimate, options.tolerance_mm)) return std::nullopt;
+  if (!is_better(after.estimate, before.estimate, options)) return std::nullopt;
   return finish(after, options, found);
 }
 

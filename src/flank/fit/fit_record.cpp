@@ -79,11 +79,12 @@ void code(StepCodec& codec, FlankFitOptions& options) {
   code(codec, options.strips);
   code(codec, options.kept_after_quick);
   code(codec, options.kept_after_polish);
+  codec.number(options.least_coverage);
   codec.number(options.enough_coverage);
+  codec.number(options.most_turn_rad);
   code(codec, options.ways);
   codec.number(options.least_coverage_for_last_passes);
   codec.number(options.least_coverage_for_close_look);
-  code(codec, options.partial_passes);
   bool beside_walls = options.obstacles != nullptr;
   code(codec, beside_walls);
   codec.number(options.reach_radius_mm);

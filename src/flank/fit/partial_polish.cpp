@@ -40,7 +40,7 @@ Polished partial_polish(const Polished& polished, const std::vector<SurfaceSampl
   constexpr int kHolds = 3;
   Polished best = polished;
   const double least = options.least_coverage_for_last_passes > 0.0 ? kNear : kWorth;
-  if (!options.partial_passes || best.estimate.at_tolerance < least || best.estimate.at_tolerance >= kAllButCovered)
+  if (best.estimate.at_tolerance < least || best.estimate.at_tolerance >= kAllButCovered)
     return best;
   const double tolerance = options.tolerance_mm, size = best.draft.targets.front()->diagonal();
   const auto pass_with = [&](const SweptPass& pass, const std::vector<Vec3>& deep) {
@@ -63,7 +63,7 @@ Polished partial_polish(const Polished& polished, const std::vector<SurfaceSampl
 
 FitDraft pass_at(const FitDraft& draft, const std::vector<Vec3>& deep, const FlankFitOptions& options, double firmness,
                  double covered, double steadiness) {
-  const SweptPass& pass = options.partial_passes && covered < kAllButCovered ? kHold : kDense;
+  const SweptPass& pass = covered < kAllButCovered ? kHold : kDense;
   std::vector<FacePoint> points = points_with(deep, draft, options, pass.points_per_side);
   FitStage stage = swept_stage(pass, options, draft.targets.front()->diagonal());
   stage.bounds_at_knots = true;

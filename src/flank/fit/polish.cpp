@@ -12,6 +12,7 @@
 #include "flank/base/tolerance_budget.h"
 #include "flank/fit/coverage.h"
 #include "flank/fit/partial_polish.h"
+#include "flank/fit/rank.h"
 #include "flank/fit/swept_polish.h"
 #include "flank/tool.h"
 #include "flank/tool/smooth_tool.h"
@@ -220,7 +221,7 @@ Polished seen_closely(FitDraft draft, const std::vector<SurfaceSample>& samples,
   constexpr int kOften = 4;
   seen.estimate.gouge_mm =
       flank_gouge(seen.draft.motions, seen.draft.obstacles, seen.draft.tool, kOften * kRankingPoses, GougeLook::kClose);
-  if (has_values(seen.draft)) seen.estimate.largest_c = written_c(seen.draft, options.tolerance_mm);
+  if (has_values(seen.draft)) measure_written(seen.draft, options.tolerance_mm, seen.estimate);
   seen.estimate.legitimate = !seen.draft.free_tool || check_legitimacy(seen.draft.tool).legitimate;
   return seen;
 }
@@ -240,7 +241,7 @@ Polished mended(const Polished& polished, const std::vector<SurfaceSample>& samp
     if (best.estimate.gouge_mm > kToleranceBudget.fit.clean * tolerance) firmness *= kFirmer;
     Polished trial = seen_closely(pass_at(best.draft, deep, options, firmness, best.estimate.at_tolerance, steadiness),
                                   samples, options);
-    if (!is_better(trial.estimate, best.estimate, tolerance)) return best;
+    if (!is_better(trial.estimate, best.estimate, options)) return best;
     best = std::move(trial);
   }
   return best;
@@ -253,24 +254,24 @@ Polished regained(Polished steady, double covered, double steadiness, const std:
   for (int k = 0; k < kMost && steady.estimate.at_tolerance < covered && !stopping(); ++k) {
     const FitDraft draft = pass_at(steady.draft, {}, options, 1.0, steady.estimate.at_tolerance, steadiness);
     Polished more = mended(seen_closely(draft, samples, options), samples, options, steadiness);
-    if (!is_better(more.estimate, steady.estimate, options.tolerance_mm)) break;
+    if (!is_better(more.estimate, steady.estimate, options)) break;
     steady = std::move(more);
   }
   return steady;
 }
 
-/// A fit that plunges where it touches, led into a motion that does not, where that costs no more than plunging does: a
+/// A fit that plunges where it touches, or has a kink, led into a motion that does neither, where that costs no more than those do: a
 /// cusp of a rail that no face needs is left over from a pass to which it was too cheap.
 Polished steadied(const Polished& polished, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
   /// As much as it takes, where the face holds against it.
   constexpr std::array kFirmness = {10.0, 100.0, 1000.0};
-  if (polished.estimate.largest_c < 1.0) return polished;
+  if (is_steady(polished.estimate, options)) return polished;
   for (const double firmness : kFirmness) {
     if (stopping()) break;
     Polished trial = seen_closely(steady_pass(polished.draft, options, firmness), samples, options);
     // Led out of what it cuts with the weights of other passes, it would plunge again.
     trial = mended(trial, samples, options, firmness);
-    if (trial.estimate.largest_c < 1.0 && is_better(trial.estimate, polished.estimate, options.tolerance_mm))
+    if (is_steady(trial.estimate, options) && is_better(trial.estimate, polished.estimate, options))
       return regained(std::move(trial), polished.estimate.at_tolerance, firmness, samples, options);
   }
   return polished;
@@ -286,7 +287,7 @@ Polished made_legitimate(const Polished& polished, const std::vector<SurfaceSamp
     const auto tool = smoothed_to_tool(draft.tool, options.tolerance_mm);
     if (tool) draft.tool = *tool;
     Polished trial = seen_closely(std::move(draft), samples, options);
-    if (is_better(trial.estimate, best.estimate, options.tolerance_mm)) best = std::move(trial);
+    if (is_better(trial.estimate, best.estimate, options)) best = std::move(trial);
   };
   smooth(polished.draft);
   const bool costs = best.estimate.at_tolerance < polished.estimate.at_tolerance - kSameCoverage;
@@ -316,7 +317,7 @@ Polished settled(const Polished& polished, const FlankFitOptions& options) {
   lower.estimate.legitimate = legitimate;
   const bool cheap = lower.estimate.at_tolerance >= again.estimate.at_tolerance - kCost;
   // What is deeper than allowed may cost more: a clean result is worth it, unless little is left.
-  return cheap || is_better(lower.estimate, again.estimate, options.tolerance_mm) ? lower : again;
+  return cheap || is_better(lower.estimate, again.estimate, options) ? lower : again;
 }
 
 Polished looked_at_closely(const FitDraft& draft, const FlankFitOptions& options) {
@@ -333,10 +334,7 @@ FlankFitResult finish(const Polished& polished, const FlankFitOptions& options, 
   // A grid of its own: 59 and 23 are primes, so it has nothing in common with the passes' grids but the ends.
   constexpr int kT = 60, kS = 24;
   result.residuals = validate(tasks, result.tool, kT, kS);
-  // Not all of it: these samples are dense, and a rim that is a little short is for the judge to call.
-  constexpr double kCovered = 0.99;
-  const bool good = result.after.at_tolerance >= kCovered && result.after.overcut_mm <= options.tolerance_mm &&
-                    result.after.gouge_mm <= options.tolerance_mm;
+  const bool good = meets(result.after, options.least_coverage, options);
   result.status = good ? FitStatus::kWithinTolerance : FitStatus::kPartial;
   result.message = fmt::format("estimated coverage {:.2f} % at {:.4g} mm, overcut {:.4g} mm",
                                100.0 * result.after.at_tolerance, options.tolerance_mm, result.after.overcut_mm);

@@ -11,8 +11,10 @@
 #include "flank/envelope/path_regularity.h"
 #include "flank/error.h"
 #include "flank/fit/coverage.h"
+#include "flank/fit/tried.h"
 #include "flank/motion/stagger.h"
 #include "flank/motion/written_path.h"
+#include "flank/path/turning.h"
 #include "flank/surface/ball_touch.h"
 
 namespace flank::internal {
@@ -30,28 +32,43 @@ double touching_c_of(const FitDraft& draft, std::size_t motion, std::span<const 
   return known;
 }
 
+/// The poses of a motion, evenly spread over its time.
+std::vector<Pose> even_poses(const RuledMotion& motion, int count) {
+  std::vector<Pose> poses(static_cast<std::size_t>(count) + 1);
+  for (std::size_t i = 0; i < poses.size(); ++i) poses[i] = motion.pose(static_cast<double>(i) / count);
+  return poses;
+}
+
+/// |c| and turn of all motions, of the poses that `poses_of` lays on each.
+template <class PosesOf>
+void measure_motion(const FitDraft& draft, double tolerance_mm, CoverageEstimate& estimate, const PosesOf& poses_of) {
+  estimate.largest_c = estimate.turn_rad = 0.0;
+  for (std::size_t m = 0; m < draft.motions.size(); ++m) {
+    const RuledMotion& motion = draft.motions[m];
+    const std::vector<Pose> poses = poses_of(motion);
+    estimate.largest_c = touching_c_of(draft, m, poses, tolerance_mm, estimate.largest_c);
+    const double window = turn_window(draft.targets[m]->diagonal());
+    estimate.turn_rad = std::max(estimate.turn_rad, sharpest_turn(poses, motion.axis_length, window).angle_rad);
+  }
+}
+
 }  // namespace
 
 double touching_c(const FitDraft& draft, double tolerance_mm, int poses) {
   double largest = 0.0;
-  std::vector<Pose> joined(static_cast<std::size_t>(poses) + 1);
-  for (std::size_t m = 0; m < draft.motions.size(); ++m) {
-    for (std::size_t i = 0; i < joined.size(); ++i) joined[i] = draft.motions[m].pose(static_cast<double>(i) / poses);
-    largest = touching_c_of(draft, m, joined, tolerance_mm, largest);
-  }
+  for (std::size_t m = 0; m < draft.motions.size(); ++m)
+    largest = touching_c_of(draft, m, even_poses(draft.motions[m], poses), tolerance_mm, largest);
   return largest;
 }
 
-double written_c(const FitDraft& draft, double tolerance_mm) {
+void measure_written(const FitDraft& draft, double tolerance_mm, CoverageEstimate& estimate) {
   const SamplingOptions written = written_path(tolerance_mm);
-  double largest = 0.0;
   try {
-    for (std::size_t m = 0; m < draft.motions.size(); ++m)
-      largest = touching_c_of(draft, m, sample_motion(draft.motions[m], written).poses, tolerance_mm, largest);
+    measure_motion(draft, tolerance_mm, estimate,
+                   [&](const RuledMotion& motion) { return sample_motion(motion, written).poses; });
   } catch (const InternalError&) {  // a pass that went wrong leaves rails without a direction
-    return std::numeric_limits<double>::infinity();
+    estimate.largest_c = std::numeric_limits<double>::infinity();
   }
-  return largest;
 }
 
 Polished assess(FitDraft draft, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
@@ -65,7 +82,12 @@ Polished assess(FitDraft draft, const std::vector<SurfaceSample>& samples, const
   if (draft.free_tool) draft.tool = clamp_tool(draft.tool, options.bounds);
   polished.estimate = estimate_coverage(samples, draft.motions, draft.tool, options.tolerance_mm, kRankingPoses);
   polished.estimate.gouge_mm = flank_gouge(draft.motions, draft.obstacles, draft.tool, kRankingPoses);
-  polished.estimate.largest_c = touching_c(draft, options.tolerance_mm, kRankingPoses);
+  measure_motion(draft, options.tolerance_mm, polished.estimate,
+                 [](const RuledMotion& motion) { return even_poses(motion, kRankingPoses); });
+  if (draft.free_tool) {
+    polished.estimate.slenderness = slenderness_of(draft.tool, options.bounds);
+    polished.estimate.least_slenderness = draft.tool.axis_length() / (2.0 * options.bounds.largest);
+  }
   if (draft.facing) polished.estimate.stagger = mean_stagger(draft.motions);
   polished.draft = std::move(draft);
   return polished;
@@ -107,7 +129,7 @@ std::vector<SurfaceSample> ranking_samples(const Target& target, const ObstacleF
   const ReachLimits reach = reach_of(options);
   std::vector<SurfaceSample> samples = target.samples(spacing);
   parallel_for(samples.size(), [&](std::size_t k) {
-    if (!is_reachable(target, obstacles, samples[k], reach)) samples[k].area = 0.0;
+    if (!is_reachable(target, obstacles, samples[k], reach)) samples[k].area = -samples[k].area;
   });
   // The rim, where a tool cuts deepest, counts for overcut alone: it has no area.
   for (const Vec3& point : target.border_points(spacing)) samples.push_back({point, Vec3::UnitZ()});

@@ -14,9 +14,9 @@ inline constexpr int kRankingPoses = 160;
 
 /// Largest |c| where the flank touches its target, between this many poses of each motion and the next ones.
 [[nodiscard]] double touching_c(const FitDraft& draft, double tolerance_mm, int poses);
-/// The same of the motions as they will be written (motion/written_path.h): a cusp that lasts for a thousandth of a motion shows.
-/// Infinite for rails that cannot be.
-[[nodiscard]] double written_c(const FitDraft& draft, double tolerance_mm);
+/// |c| and turn of the motions as they will be written (motion/written_path.h): a cusp that lasts for a thousandth of a motion shows.
+/// |c| is infinite for rails that cannot be.
+void measure_written(const FitDraft& draft, double tolerance_mm, CoverageEstimate& estimate);
 
 /// Residuals far beyond this are outliers to a robust pass; mm.
 [[nodiscard]] double robust_scale(const Target& target, const FlankFitOptions& options);
@@ -37,7 +37,8 @@ struct ReachLimits {
                                 const ReachLimits& reach);
 
 /// Samples of the target that rank drafts, spacing options.sample_share sqrt(area). Samples out of reach, in the target's
-/// own corners or because of obstacles, and points of the rim, have no area: they count for overcut alone.
+/// own corners or because of obstacles, have the negative of their area: they count for overcut and for the share of the whole. Points of the
+/// rim have none: they count for overcut alone.
 [[nodiscard]] std::vector<SurfaceSample> ranking_samples(const Target& target, const ObstacleField* obstacles,
                                                          const FlankFitOptions& options);
 

@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "flank/base/assert.h"
 #include "flank/base/journal.h"
 #include "flank/base/parallel.h"
-#include "flank/base/tolerance_budget.h"
 #include "flank/error.h"
 #include "flank/fit/coverage.h"
 #include "flank/fit/fit_record.h"
 #include "flank/fit/partial_polish.h"
+#include "flank/fit/rank.h"
 #include "flank/fit/swept_polish.h"
 #include "flank/fit/tried.h"
 
@@ -20,27 +21,6 @@ namespace {
 
 /// Candidates that are polished side by side before anybody asks whether one is enough.
 constexpr std::size_t kAbreast = 2;
-/// Of the slenderness: less makes no tool stiffer.
-constexpr double kSameStiffness = 0.02;
-/// Of the score, of a tool more slender than asked for: two percent of coverage are worth it, as for one that plunges.
-constexpr double kSlenderPrice = 0.02;
-
-/// The bound on slenderness is a soft one, and radii that were reduced against overcut no longer keep it: another start
-/// may give a tool that does. Not where no cylinder does that is as thick as allowed.
-bool is_stiff_enough(const FitDraft& draft, const RadiusBounds& bounds) {
-  const double thickest = draft.tool.axis_length() / (2.0 * bounds.largest);
-  return !draft.free_tool || thickest > bounds.slenderest || slenderness_of(draft.tool, bounds) <= bounds.slenderest;
-}
-
-/// Of the whole target, in reach or not: what a stiffer tool may cost where both do what was asked.
-constexpr double kStiffnessCost = 0.005;
-
-/// Covered share of the whole first target, in reach or not.
-double share_of_whole(const FitDraft& draft, const FlankFitOptions& options) {
-  const Target& target = *draft.targets.front();
-  const std::vector<SurfaceSample> all = target.samples(std::sqrt(target.area()) * options.sample_share);
-  return estimate_coverage(all, draft.motions, draft.tool, options.tolerance_mm, kRankingPoses).at_tolerance;
-}
 
 /// An envelope, found to the last digits.
 bool has_last_digits(const Runner& runner, const FlankFitOptions& options) {
@@ -48,27 +28,13 @@ bool has_last_digits(const Runner& runner, const FlankFitOptions& options) {
          runner.polished.estimate.overcut_mm <= exact_overcut(runner.polished.draft, options.tolerance_mm);
 }
 
-/// Stable, so that equal ones keep the order of their promise. At most the two of a pair are enough, so "about as stiff", and
-/// "covers about as much of the whole", compare no three of them. An envelope found exactly is not given away for a tool that is a little stiffer: both are
-/// as stiff as was asked, and the error is what differs, by orders of magnitude.
-void sort_by_merit(std::vector<Runner>& runners, const FlankFitOptions& options) {
-  const auto slenderness_in = [&](const Runner& runner) {
-    return slenderness_of(runner.polished.draft.tool, options.bounds);
+/// Stable, so that equal ones keep the order of their promise. What was looked at closely and is enough goes before all others.
+void sort_by_rank(std::vector<Runner>& runners, const FlankFitOptions& options) {
+  const auto place_of = [&](const Runner& runner) {
+    return std::pair(runner.enough, rank_of(runner.polished.estimate, options, has_last_digits(runner, options)));
   };
-  const auto whole_of = [&](const Runner& runner) { return share_of_whole(runner.polished.draft, options); };
-  const auto merit_of = [&](const Runner& runner) {
-    const double price = is_stiff_enough(runner.polished.draft, options.bounds) ? 0.0 : kSlenderPrice;
-    return runner.polished.estimate.score(options.tolerance_mm) - price;
-  };
-  std::stable_sort(runners.begin(), runners.end(), [&](const Runner& a, const Runner& b) {
-    if (a.enough != b.enough) return a.enough;
-    const bool digits_a = has_last_digits(a, options), digits_b = has_last_digits(b, options);
-    if (a.enough && digits_a != digits_b) return digits_a;
-    const double more = a.enough ? whole_of(a) - whole_of(b) : 0.0;
-    if (std::abs(more) > kStiffnessCost) return more > 0.0;
-    if (a.enough) return slenderness_in(a) < (1.0 - kSameStiffness) * slenderness_in(b);
-    return merit_of(a) > merit_of(b);
-  });
+  std::stable_sort(runners.begin(), runners.end(),
+                   [&](const Runner& a, const Runner& b) { return place_of(a) > place_of(b); });
 }
 
 /// These starts, polished side by side.
@@ -119,7 +85,8 @@ void pass(Runner& runner, const std::vector<SurfaceSample>& samples, const Flank
     // Once: a close look costs as much as a pass, and what it has called short is mostly short after the next as well.
     bool looked = false;
     const auto enough = [&](const Polished& polished) {
-      if (looked || !polished.draft.free_tool || !is_enough(polished.estimate, options)) return false;
+      if (looked || !polished.draft.free_tool || !meets(polished.estimate, options.enough_coverage, options))
+        return false;
       looked = true;
       next.polished = polished;
       settle_if_enough(next, samples, options);
@@ -175,7 +142,7 @@ void look_for_hope(std::vector<Runner>& runners, const std::vector<SurfaceSample
                    const FlankFitOptions& options, const Progress& progress) {
   const std::size_t most = std::min(runners.size(), static_cast<std::size_t>(options.kept_after_polish));
   for (std::size_t k = 0; k < most && !progress.stop(); ++k) begin(runners[k], samples, options, progress);
-  sort_by_merit(runners, options);
+  sort_by_rank(runners, options);
 }
 
 /// Hopeless fits are left without the last passes if the caller says what is hopeless.
@@ -269,12 +236,6 @@ void advance(Runner& runner, const Progress& progress, const char* step, const s
   runner = std::move(next);
 }
 
-bool is_enough(const CoverageEstimate& estimate, const FlankFitOptions& options) {
-  constexpr double kMostC = 0.95;  // the poses of the path lie closer than those of the estimate, and see a little more
-  return estimate.at_tolerance >= options.enough_coverage && estimate.largest_c < kMostC &&
-         is_clean(estimate, options.tolerance_mm);
-}
-
 Polished looked_at_closely(const Polished& polished, const std::vector<SurfaceSample>& samples,
                            const FlankFitOptions& options) {
   return settled(without_overcut(polished, samples, options), options);
@@ -282,11 +243,9 @@ Polished looked_at_closely(const Polished& polished, const std::vector<SurfaceSa
 
 void settle_if_enough(Runner& runner, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
   const double score = runner.polished.estimate.score(options.tolerance_mm);
-  if (!is_enough(runner.polished.estimate, options) || score == runner.called_short) return;
+  if (!meets(runner.polished.estimate, options.enough_coverage, options) || score == runner.called_short) return;
   Polished close = looked_at_closely(runner.polished, samples, options);
-  const double deepest = std::max(close.estimate.overcut_mm, close.estimate.gouge_mm);
-  runner.enough = is_enough(close.estimate, options) && deepest <= kToleranceBudget.fit.seen * options.tolerance_mm &&
-                  is_stiff_enough(close.draft, options.bounds);
+  runner.enough = meets(close.estimate, options.enough_coverage, options);
   close.exact = runner.polished.exact;
   if (runner.enough) {
     runner.polished = std::move(close);
@@ -305,10 +264,10 @@ Runner race(const std::vector<FitDraft>& starts, const std::vector<SurfaceSample
             const FlankFitOptions& options, const Progress& progress) {
   FLANK_ASSERT(!starts.empty() && options.kept_after_quick >= 1 && options.kept_after_polish >= 1);
   std::vector<Runner> runners = polish_until_enough(starts, samples, options, progress);
-  sort_by_merit(runners, options);
+  sort_by_rank(runners, options);
   if (!runners.front().enough) {
     pass_until_enough(runners, samples, options, progress);
-    sort_by_merit(runners, options);
+    sort_by_rank(runners, options);
   }
   Runner winner = std::move(runners.front());
   pass_again(winner, samples, options, progress);

@@ -33,10 +33,6 @@ void code(StepCodec& codec, Runner& runner);
 /// (base/journal.h).
 void advance(Runner& runner, const Progress& progress, const char* step, const std::function<void(Runner&)>& work);
 
-/// Does this do what was asked, so that no other candidate need be tried? Covers options.enough_coverage,
-/// is clean, and does not plunge where it touches.
-[[nodiscard]] bool is_enough(const CoverageEstimate& estimate, const FlankFitOptions& options);
-
 /// The last word on a fit: overcut of a given tool taken out, and settled (swept_polish.h, polish.h).
 [[nodiscard]] Polished looked_at_closely(const Polished& polished, const std::vector<SurfaceSample>& samples,
                                          const FlankFitOptions& options);
@@ -48,7 +44,7 @@ void settle_if_enough(Runner& runner, const std::vector<SurfaceSample>& samples,
 /// The last word on a runner that is not enough, which may have been said already.
 void look_closely(Runner& runner, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options);
 
-/// The winner: among those that do what was asked the one with the stiffest tool, else the one with the best score.
+/// The winner by its rank (rank.h).
 /// `starts` is not empty and in the order of their promise; at most options.kept_after_quick of them are polished,
 /// kept_after_polish get the last passes. The same for any number of threads.
 [[nodiscard]] Runner race(const std::vector<FitDraft>& starts, const std::vector<SurfaceSample>& samples,

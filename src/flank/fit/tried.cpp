@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "flank/fit/coverage.h"
+#include "flank/fit/rank.h"
 #include "flank/tool.h"
 
 namespace flank::internal {

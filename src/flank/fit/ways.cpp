@@ -14,6 +14,7 @@
 #include "flank/fit/coverage.h"
 #include "flank/fit/fit_record.h"
 #include "flank/fit/polish.h"
+#include "flank/fit/rank.h"
 #include "flank/fit/swept_polish.h"
 #include "flank/fit/tried.h"
 
@@ -139,12 +140,12 @@ double least_to_win(const CoverageEstimate& rival, const FlankFitOptions& option
   return std::max(options.least_coverage_for_last_passes, behind);
 }
 
-bool cannot_win(const CoverageEstimate& way, const CoverageEstimate& rival, double tolerance_mm) {
+bool cannot_win(const CoverageEstimate& way, const CoverageEstimate& rival, const FlankFitOptions& options) {
   constexpr double kLastLookGain = 0.01;  // of the face: it mends what is too deep, and hardly covers more
-  if (!is_clean(rival, tolerance_mm) || rival.largest_c >= 1.0) return false;
+  if (!is_clean(rival, options.tolerance_mm) || !is_steady(rival, options)) return false;
   if (way.at_tolerance + kLastLookGain < rival.at_tolerance) return true;
-  const bool too_deep = std::max(way.overcut_mm, way.gouge_mm) > kMendable * tolerance_mm;
-  return too_deep && is_better(rival, way, tolerance_mm);
+  const bool too_deep = std::max(way.overcut_mm, way.gouge_mm) > kMendable * options.tolerance_mm;
+  return too_deep && is_better(rival, way, options);
 }
 
 std::optional<FitDraft> shortened_axis(const FitDraft& draft, double depth_mm) {
@@ -181,18 +182,15 @@ namespace {
 /// The last look at the ways, the most promising ones first. It costs as much as a fit, so that a way that cannot win any
 /// more, against the rival or against one that has been looked at, goes without it.
 void settle_in_turn(std::vector<Way>& ways, CoverageEstimate rival, const FlankFitOptions& options) {
-  const double tolerance = options.tolerance_mm;
   std::vector<Way*> turn;
   for (Way& way : ways) turn.push_back(&way);
   std::stable_sort(turn.begin(), turn.end(), [&](const Way* a, const Way* b) {
-    const CoverageEstimate &x = a->polished.estimate, &y = b->polished.estimate;
-    const bool clean_x = is_clean(x, tolerance), clean_y = is_clean(y, tolerance);
-    return clean_x != clean_y ? clean_x : x.at_tolerance > y.at_tolerance;
+    return is_better(a->polished.estimate, b->polished.estimate, options);
   });
   for (Way* way : turn) {
-    if (cannot_win(way->polished.estimate, rival, tolerance)) continue;
+    if (cannot_win(way->polished.estimate, rival, options)) continue;
     way->polished = settled(way->polished, options);
-    if (is_better(way->polished.estimate, rival, tolerance)) rival = way->polished.estimate;
+    if (is_better(way->polished.estimate, rival, options)) rival = way->polished.estimate;
   }
 }
 
@@ -216,7 +214,7 @@ std::vector<Way> ways_from(const FitDraft& draft, bool fixed_length, const Cover
     if (shorter)
       ways.push_back({"found without the other faces and put on a shorter path", assess(*shorter, samples, options)});
     const Way start = *std::min_element(ways.begin(), ways.end(), [&](const Way& a, const Way& b) {
-      return is_better(a.polished.estimate, b.polished.estimate, tolerance);
+      return is_better(a.polished.estimate, b.polished.estimate, options);
     });
     if (can_be_led_out(start.polished)) {
       const Polished clear = last_passes(start.polished, samples, options, nullptr);
@@ -268,7 +266,7 @@ FlankFitResult best_way(const Target& target, const ToolModel& tool, const Flank
   const Way* best = nullptr;
   for (const Way& way : ways) {
     const CoverageEstimate& rival = best != nullptr ? best->polished.estimate : first.after;
-    if ((best == nullptr && first.motions.empty()) || is_better(way.polished.estimate, rival, tolerance)) best = &way;
+    if ((best == nullptr && first.motions.empty()) || is_better(way.polished.estimate, rival, options)) best = &way;
   }
   if (!can_be_led_out(ways.front().polished)) first.other_ways = OtherWays::kHopeless;
   FlankFitResult result = first;

@@ -82,6 +82,8 @@ inline constexpr Accepted kWorkOffset{"a number from 1 to 99 is needed",
                                       [](double x) { return x >= 1.0 && x <= 99.0; }};
 inline constexpr Accepted kToolNumber{"a number from 1 to 1000000 is needed",
                                       [](double x) { return x >= 1.0 && x <= 1e6; }};
+inline constexpr Accepted kTurn{"an angle above 0, at most 180 degrees, is needed",
+                                [](double x) { return x > 0.0 && x <= 180.0; }};
 inline constexpr Accepted kTurns{"a number > 0 is needed", positive};
 inline constexpr Accepted kEngagement{"an angle above 5 and up to 180 degrees is needed",
                                       [](double x) { return x > 5.0 && x <= 180.0; }};
@@ -167,6 +169,10 @@ inline constexpr std::string_view kBendHelp =
     "Least radius of curvature of the paths of tip and holder end (s = L): a sharper bend does not meet the request; "
     "default: any";
 
+inline constexpr std::string_view kTurnHelp =
+    "Largest angle, degrees, by which the motion may turn within 1 % of the face's diagonal, tip and upper end of the axis "
+    "together: a sharper turn is a kink, and does not meet the request; 180: any";
+
 inline constexpr std::string_view kReachHelp =
     "A place of the face counts as reachable if a ball of this radius touches it without entering another face, or a "
     "corner of this one; --coverage is about those; default: of a given tool its smallest radius; of one that is found "
@@ -244,6 +250,7 @@ void visit_fields(Job& job, Visitor&& visit) {
   visit_radius(job.radius, visit);
   visit(FieldInfo{"stiffness_curve", "", "Stiffness", kCurveHelp, kAny, Spelling::kOnOff}, job.stiffness_curve);
   visit(FieldInfo{"min_bend_radius", "mm", "Motion", kBendHelp, kRadius}, job.min_bend_radius_mm);
+  visit(FieldInfo{"turn_max", "", "Motion", kTurnHelp, kTurn}, job.judge.most_turn_deg);
   visit_judge(job.judge, visit);
   visit_obstacles(job.obstacles, visit);
   visit(
@@ -305,6 +312,7 @@ void visit_fields(Job& job, Visitor&& visit) {
   visit(FieldInfo{"strip_price", "", "", "Share of the face that a strip must add to be worth it; default: 0.005",
                   kPrice},
         job.strip_price);
+  visit(FieldInfo{"turn_max", "", "Motion", kTurnHelp, kTurn}, job.judge.most_turn_deg);
   visit_judge(job.judge, visit);
   visit_choice(job.choice, visit);
   visit_obstacles(job.obstacles, visit);

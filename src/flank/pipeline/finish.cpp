@@ -97,7 +97,6 @@ std::vector<StripSurface> add_strips(double tolerance_mm, const std::vector<cons
   result.largest_c = largest_c(result.path, radial, [&](const Vec3& centre, double ball_mm) {
     return ball_touches(targets, centre, ball_mm, tolerance_mm);
   });
-  result.largest_turn_rad = largest_turn(result.path, radial.axis_length(), kToleranceBudget.chord * tolerance_mm);
   result.bends = least_bend_radii(result.path, radial.axis_length(), kToleranceBudget.chord * tolerance_mm);
   note_strip_surfaces(surfaces, radial.axis_length(), result.notes);
   return surfaces;

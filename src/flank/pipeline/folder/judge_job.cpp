@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 
 #include "flank/base/stopping.h"
 #include "flank/error.h"
+#include "flank/path/turning.h"
 #include "flank/pipeline/folder/find_buried.h"
 #include "flank/pipeline/folder/target_reach.h"
 #include "flank/setup/targets.h"
@@ -135,6 +137,16 @@ std::vector<UnjudgedFace> unread_faces(const Setup& setup) {
   return all;
 }
 
+/// How sharply the path turns, beside the largest of its targets.
+std::optional<TurnFigure> turn_of(const Tool& tool, const Path& path, const std::vector<verify::JudgedFace>& faces) {
+  double size = 0.0;
+  for (const verify::JudgedFace& face : faces)
+    if (face.target) size = std::max(size, face.size_mm);
+  if (!(size > 0.0) || path.pose_count() == 0) return {};
+  const Turning turn = sharpest_turn(path, tool.radial.axis_length(), turn_window(size));
+  return TurnFigure{turn.angle_rad * 180.0 / std::numbers::pi, turn.strip, path.strips[turn.strip].poses[turn.pose].tip};
+}
+
 }  // namespace
 
 double default_spacing(double diagonal_mm) {
@@ -186,6 +198,7 @@ VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const To
   // What is left of the whole: which tool would reach it?
   const double wanted = request.least_whole.value_or(request.least_coverage);
   if (reach && report.coverage < wanted) report.finer_reach = finer_reach(setup, *reach, samples, wanted);
+  if (request.most_turn_deg > 0.0) report.turn = turn_of(tool, path, judged);
   report.buried = std::move(buried);
   report.sheet_sides = setup.sides;
   if (!report.buried.empty()) report.verdict = Verdict::kOvercut;

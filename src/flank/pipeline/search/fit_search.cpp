@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -58,7 +59,9 @@ FlankFitOptions options_of(const FitJob& job, const Setup& setup, const Target& 
   FlankFitOptions options;
   const double most = most_of_facets(target, job.tolerance_mm), least = std::min(job.judge.least_coverage, most);
   options.tolerance_mm = job.tolerance_mm;
+  options.least_coverage = least;
   options.enough_coverage = std::min(options.enough_coverage, enough_for(least));
+  if (job.judge.most_turn_deg > 0.0) options.most_turn_rad = job.judge.most_turn_deg * std::numbers::pi / 180.0;
   if (most < job.judge.least_coverage) give_up_the_rest(most, options);
   options.axis_length_mm = job.tool.axis_length_mm;
   options.bounds = bounds_for(job, target);

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "flank/base/journal.h"
-#include "flank/fit/coverage.h"
 #include "flank/fit/fit_record.h"
+#include "flank/fit/rank.h"
 #include "flank/fit/tried.h"
 #include "flank/pipeline/search/out_of_reach.h"
 #include "flank/pipeline/search/stiff_fit.h"
@@ -21,7 +21,7 @@ namespace {
 /// Keeps the better of two results, and what was tried for both; one without a motion is none.
 void keep_better(FlankFitResult& best, FlankFitResult&& other, const FlankFitOptions& options) {
   if (other.motions.empty()) return;
-  if (best.motions.empty() || is_better(other.after, best.after, options.tolerance_mm)) std::swap(best, other);
+  if (best.motions.empty() || is_better(other.after, best.after, options)) std::swap(best, other);
   add_tried(best, other, options.bounds);
 }
 
@@ -29,9 +29,9 @@ void keep_better(FlankFitResult& best, FlankFitResult&& other, const FlankFitOpt
 constexpr double kPromising = 0.85;
 
 /// What covers less than this is beaten without a last look, which hardly makes it cover more.
-double least_to_look_at(const FlankFitResult& best, double tolerance_mm) {
+double least_to_look_at(const FlankFitResult& best, const FlankFitOptions& options) {
   constexpr double kLookGains = 0.01;  // of the face
-  const bool sound = best.looked_at && is_clean(best.after, tolerance_mm) && best.after.largest_c < 1.0;
+  const bool sound = best.looked_at && is_clean(best.after, options.tolerance_mm) && is_steady(best.after, options);
   return sound ? std::max(kPromising, best.after.at_tolerance - kLookGains) : kPromising;
 }
 
@@ -56,17 +56,17 @@ FlankFitResult fit_auto(const Target& target, const ToolModel& tool, FlankFitOpt
   for (int count : {1, 2, 3, 4, 6, 8, 10, kMostStrips}) {
     options.strips = count;
     options.least_coverage_for_last_passes = count < kMostStrips ? kPromising : 0.0;
-    options.least_coverage_for_close_look = least_to_look_at(best, options.tolerance_mm);
+    options.least_coverage_for_close_look = least_to_look_at(best, options);
     const double here = 1.0 - rest;  // nobody knows how many follow: each gets a half of what is left
     FlankFitResult result = fit_automatic(target, tool, options, progress.part(here, 1.0 - (rest *= 0.5)));
     if (count == 1) one_covers = result.after.at_tolerance;
     // They cost as much as all before, and one strip more leads no axis out of another face.
     if (result.other_ways == OtherWays::kHopeless) options.ways = false;
     keep_better(best, std::move(result), options);
-    if (is_done(best, wanted, options.tolerance_mm) || !gain.goes_on(best) || progress.stop()) break;
+    if (meets(best.after, wanted, options) || !gain.goes_on(best) || progress.stop()) break;
   }
   options.least_coverage_for_close_look = 0.0;
-  if (has_ways && !options.ways && !is_done(best, wanted, options.tolerance_mm) && !progress.stop()) {
+  if (has_ways && !options.ways && !meets(best.after, wanted, options) && !progress.stop()) {
     options.strips = std::max<int>(1, static_cast<int>(best.motions.size()));
     options.ways = true;
     keep_better(best, fit_automatic(target, tool, options, progress.part(1.0 - rest, 1.0)), options);
@@ -83,7 +83,7 @@ FlankFitResult fit_auto(const Target& target, const ToolModel& tool, FlankFitOpt
 FlankFitResult fit_group(const Target& target, const ToolModel& tool, FlankFitOptions options, int strips,
                          double wanted, const Progress& progress) {
   const auto done = [&](const FlankFitResult& result) {
-    return is_done(result, wanted, options.tolerance_mm) || progress.stop();
+    return meets(result.after, wanted, options) || progress.stop();
   };
   const double share = reachable_share(target, options);
   if (share < kHardlyAny) {
@@ -168,11 +168,11 @@ class TogetherFit {
         own.least_coverage_for_last_passes = 2.0;  // none: they come when all are polished
         return fit_automatic(*groups_[g].target, found, own, part);
       });
-      if (progress.stop() || is_done(one->fit, wanted(), options_.tolerance_mm)) return *one;
+      if (progress.stop() || meets(one->fit.after, wanted(), options_)) return *one;
     }
     GroupFits all = polished(first, progress.part(0.0, kFits),
                              [&](std::size_t g, const Progress& part) { return fit_one(g, found, part); });
-    return one && is_better(one->fit.after, all.fit.after, options_.tolerance_mm) ? *one : all;
+    return one && is_better(one->fit.after, all.fit.after, options_) ? *one : all;
   }
 
   /// The first group's motions and those that `fit` finds for each of the other large ones.
@@ -229,11 +229,6 @@ class TogetherFit {
 };
 
 }  // namespace
-
-/// Covers what was asked, by the planner's estimate, enters nothing and does not plunge.
-bool is_done(const FlankFitResult& result, double wanted, double tolerance_mm) {
-  return result.after.at_tolerance >= wanted && is_clean(result.after, tolerance_mm) && result.after.largest_c < 1.0;
-}
 
 GroupFits fit_groups(const std::vector<TargetGroup>& groups, const ToolModel& tool, const FlankFitOptions& options,
                      const GroupDemand& demand, const Progress& progress) {

@@ -11,9 +11,6 @@ namespace flank::internal {
 /// The largest number of strips that "as many as the tolerance needs" tries.
 inline constexpr int kMostStrips = 12;
 
-/// Covers what was asked, by the planner's estimate, enters nothing and does not plunge.
-[[nodiscard]] bool is_done(const FlankFitResult& result, double wanted, double tolerance_mm);
-
 /// What is asked of groups.
 struct GroupDemand {
   int strips = 0;              ///< of each; 0: as many as it takes

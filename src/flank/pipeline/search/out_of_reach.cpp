@@ -11,9 +11,10 @@ namespace flank::internal {
 
 double reachable_share(const Target& target, const FlankFitOptions& options) {
   double all = 0.0, reached = 0.0;
-  for (const SurfaceSample& sample : target.samples(std::sqrt(target.area()) * options.sample_share))
-    all += sample.area;
-  for (const SurfaceSample& sample : ranking_samples(target, options.obstacles, options)) reached += sample.area;
+  for (const SurfaceSample& sample : ranking_samples(target, options.obstacles, options)) {
+    all += std::abs(sample.area);
+    reached += std::max(0.0, sample.area);
+  }
   return all > 0.0 ? reached / all : 1.0;
 }
 

@@ -12,6 +12,7 @@
 #include "flank/base/tolerance_budget.h"
 #include "flank/envelope/swept_estimate.h"
 #include "flank/fit/coverage.h"
+#include "flank/fit/rank.h"
 #include "flank/fit/fit_record.h"
 #include "flank/fit/polish.h"
 #include "flank/fit/swept_pass.h"
@@ -114,12 +115,9 @@ FitDraft further_pass(const FitDraft& draft, const FlankFitOptions& options, dou
 /// Nothing of what was asked is given up: what is in reach stays covered, nothing is entered, the flank does not plunge, and the
 /// tool is no more slender than it may be, or was.
 bool gives_up_nothing(const Polished& now, const Polished& before, const FlankFitOptions& options) {
-  constexpr double kMostC = 0.95;  // as a search that is done allows
-  const bool steady = now.estimate.largest_c < kMostC || now.estimate.largest_c <= before.estimate.largest_c;
-  const double slenderest = std::max(options.bounds.slenderest, slenderness_of(before.draft.tool, options.bounds));
-  const bool stiff = !now.draft.free_tool || slenderness_of(now.draft.tool, options.bounds) <= slenderest;
+  const bool stiff = is_stiff(now.estimate, options) || now.estimate.slenderness <= before.estimate.slenderness;
   return now.estimate.at_tolerance >= before.estimate.at_tolerance && is_clean(now.estimate, options.tolerance_mm) &&
-         steady && stiff;
+         is_steady(now.estimate, options) && stiff;
 }
 
 /// Passes as long as they gain.

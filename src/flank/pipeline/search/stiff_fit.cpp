@@ -8,18 +8,12 @@
 #include <optional>
 
 #include "flank/base/assert.h"
-#include "flank/fit/coverage.h"
+#include "flank/fit/rank.h"
 #include "flank/fit/tried.h"
 #include "flank/fit/ways.h"
 
 namespace flank::internal {
 namespace {
-
-/// Does `stiffer` do what `fit` does, up to the share that stiffness may cost?
-bool as_good(const FlankFitResult& stiffer, const FlankFitResult& fit, double tolerance_mm) {
-  return stiffer.after.at_tolerance >= fit.after.at_tolerance - kStiffnessCost &&
-         (is_clean(stiffer.after, tolerance_mm) || !is_clean(fit.after, tolerance_mm));
-}
 
 /// The tool with all radii in one ratio, such that its slenderness is this; clamped into the bounds.
 RadialFunction thickened(const RadialFunction& tool, double slenderness, const RadiusBounds& bounds) {
@@ -46,21 +40,21 @@ FlankFitResult refit(const Target& target, const ToolModel& tool, const FlankFit
 
 /// Brings the slenderness of a fit down in steps, as far as the fit stays as good.
 FlankFitResult stiffened(const Target& target, const ToolModel& tool, const FlankFitOptions& options,
-                         const FlankFitResult& open, const Progress& progress) {
+                         double slenderest, const FlankFitResult& open, const Progress& progress) {
   /// Of the slenderness that is too much, in logarithm: halving the rest of the way three times leaves an eighth.
   constexpr int kTrials = 3;
   constexpr double kSoft = 1.02;  // times the bound, which is a soft one
   FlankFitResult best = open;
   const double length = open.tool.axis_length() + options.bounds.shank_length;
   // No tool is thicker than it may be.
-  double low = std::max(options.bounds.slenderest, 0.5 * length / options.bounds.largest);
+  double low = std::max(slenderest, 0.5 * length / options.bounds.largest);
   double high = slenderness_of(open.tool, options.bounds);
   for (int trial = 0; trial < kTrials && high > kSoft * low && !progress.stop(); ++trial) {
     const double middle = std::sqrt(high * low);
     const Progress part = progress.part(static_cast<double>(trial) / kTrials, (trial + 1.0) / kTrials);
     FlankFitResult stiffer = refit(target, tool, options, best, middle, part);
     const double reached = slenderness_of(stiffer.tool, options.bounds);
-    if (reached <= kSoft * middle && as_good(stiffer, open, options.tolerance_mm)) {
+    if (reached <= kSoft * middle && !is_better(best.after, stiffer.after, options)) {
       high = reached;
       add_tried(stiffer, best, options.bounds);
       best = std::move(stiffer);
@@ -127,7 +121,7 @@ void mend_dips(const LadderSetup& setup, const std::vector<RadiusBounds>& bounds
     FlankFitResult& rung = rungs[k - 1];
     if (setup.progress.stop() || rungs[k].after.at_tolerance < rung.after.at_tolerance + kDip) continue;
     FlankFitResult again = fit_rung(setup, rungs[k].motions, bounds[k - 1]);
-    if (is_better(again.after, rung.after, setup.options.tolerance_mm)) rung = std::move(again);
+    if (is_better(again.after, rung.after, setup.options)) rung = std::move(again);
   }
 }
 
@@ -201,14 +195,13 @@ FlankFitResult soften(const Target& target, const ToolModel& tool, const FlankFi
   lifted.least_coverage_for_last_passes = least_to_win(within.after, options);
   const FlankFitResult open = fit_automatic(target, tool, lifted, progress.part(0.0, 0.6));
   // What enters other faces is no reason to take a thinner tool.
-  const bool needed = !open.motions.empty() && !as_good(within, open, options.tolerance_mm) &&
-                      is_better(open.after, within.after, options.tolerance_mm);
+  const bool needed = !open.motions.empty() && is_better(open.after, within.after, lifted);
   if (!needed) {
     add_tried(within, open, options.bounds);
     note_slenderness(tool, options, within);
     return within;
   }
-  FlankFitResult result = stiffened(target, tool, options, open, progress.part(0.6, 1.0));
+  FlankFitResult result = stiffened(target, tool, lifted, options.bounds.slenderest, open, progress.part(0.6, 1.0));
   add_tried(result, within, options.bounds);
   result.notes.push_back(
       fmt::format("a slenderness of {:.1f} is the least that was found here: within {:.1f}, {:.1f} % of the face is "

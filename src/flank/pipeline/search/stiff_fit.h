@@ -8,8 +8,7 @@
 namespace flank::internal {
 
 /// What a fit within the bounds of options.bounds is worth when they are lifted. `within` fell short of what was asked:
-/// slenderness and neck are lifted, and if that covers more than kStiffnessCost, the slenderness is brought back as far as
-/// that share allows. A note says so, with the figures. `within` itself if the tool is given, or if nothing is gained.
+/// slenderness and neck are lifted, and if that is better (fit/rank.h), the slenderness is brought back as far as it stays so. A note says so, with the figures. `within` itself if the tool is given, or if nothing is gained.
 [[nodiscard]] FlankFitResult soften(const Target& target, const ToolModel& tool, const FlankFitOptions& options,
                                     FlankFitResult within, const Progress& progress);
 
@@ -25,8 +24,5 @@ namespace flank::internal {
 /// the stiffer ones that were tried covers. The bound is a soft term: where nearly all of the face is covered it may give
 /// way a little, and nobody would know.
 void note_slenderness(const ToolModel& tool, const FlankFitOptions& options, FlankFitResult& fit);
-
-/// Share of the target's area that a stiffer tool may cost.
-inline constexpr double kStiffnessCost = 0.005;
 
 }  // namespace flank::internal

@@ -1,0 +1,28 @@
+/// How sharply a motion turns.
+#pragma once
+
+#include <span>
+
+#include "flank/path.h"
+
+namespace flank::internal {
+
+/// Of a target's diagonal: turns are looked for within stretches as long as this share of it.
+inline constexpr double kTurnStretch = 0.01;
+
+/// Of sharpest_turn().
+struct Turning {
+  double angle_rad = 0.0;
+  std::size_t strip = 0, pose = 0;  ///< 0-based: where it ends
+};
+
+/// The largest angle between two directions of a motion that are at most `window_mm` (> 0) of its way apart, each strip for itself. The
+/// motion is one curve of six numbers, tip and upper end of the axis (length `axis_length`, mm), so that a pivot about one end is no
+/// turn, and poses that are set closely at a corner do not hide it. Two ends move: for a length L on the part take sqrt(2) L.
+[[nodiscard]] Turning sharpest_turn(const Path& path, double axis_length, double window_mm);
+[[nodiscard]] Turning sharpest_turn(std::span<const Pose> poses, double axis_length, double window_mm);
+
+/// The window of a target of this diagonal, mm.
+[[nodiscard]] double turn_window(double diagonal_mm);
+
+}  // namespace flank::internal

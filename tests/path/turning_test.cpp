@@ -1,0 +1,81 @@
+// How sharply a motion turns: closed forms of a corner, a pivot, a circle, and poses that hide a corner.
+#include "flank/path/turning.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace flank::internal {
+namespace {
+
+constexpr double kLength = 30.0, kDegree = std::numbers::pi / 180.0;
+
+/// An upright axis along x, and from `at` on turned by an angle in the plane.
+std::vector<Pose> corner(double at, double angle, double step) {
+  std::vector<Pose> poses;
+  for (double x = 0.0; x < at; x += step) poses.push_back({{x, 0.0, 0.0}, Vec3::UnitZ()});
+  for (double x = 0.0; x <= at; x += step)
+    poses.push_back({{at + x * std::cos(angle), x * std::sin(angle), 0.0}, Vec3::UnitZ()});
+  return poses;
+}
+
+TEST(Turning, ACornerIsTheAngleBetweenItsLegsHoweverDenseItsPosesAre) {
+  for (const double step : {5.0, 1.0, 0.1})
+    EXPECT_NEAR(sharpest_turn(corner(20.0, 25.0 * kDegree, step), kLength, 8.0).angle_rad, 25.0 * kDegree, 1e-9) << step;
+}
+
+TEST(Turning, ACircleTurnsByTheWindowOverItsRadius) {
+  const double radius = 50.0;
+  std::vector<Pose> poses;
+  for (int k = 0; k <= 4000; ++k) {
+    const double a = k / 2000.0;
+    poses.push_back({{radius * std::cos(a), radius * std::sin(a), 0.0}, Vec3::UnitZ()});
+  }
+  // Both ends move: a window of sqrt(2) L is L of the circle.
+  EXPECT_NEAR(sharpest_turn(poses, kLength, turn_window(100.0)).angle_rad, 1.0 / radius, 1e-3 / radius + 1e-4);
+}
+
+TEST(Turning, APivotAboutTheTipIsNone) {
+  std::vector<Pose> poses;
+  for (int k = 0; k <= 100; ++k) {
+    const double a = 0.2 * k / 100.0;
+    poses.push_back({Vec3::Zero(), {std::sin(a), 0.0, std::cos(a)}});
+  }
+  EXPECT_LT(sharpest_turn(poses, kLength, 1.0).angle_rad, 2.0 * kDegree);
+}
+
+TEST(Turning, AWayBackIsHalfATurnAndNamesItsPlace) {
+  std::vector<Pose> poses = corner(10.0, 0.0, 1.0);
+  for (double x = 19.0; x > 5.0; x -= 1.0) poses.push_back({{x, 0.0, 0.0}, Vec3::UnitZ()});
+  Path path;
+  path.strips.push_back({.poses = corner(10.0, 0.1, 1.0)});
+  path.strips.push_back({.poses = poses});
+  const Turning turn = sharpest_turn(path, kLength, 2.0);
+  EXPECT_NEAR(turn.angle_rad, std::numbers::pi, 1e-9);
+  EXPECT_EQ(turn.strip, 1u);
+  EXPECT_NEAR(path.strips[1].poses[turn.pose].tip.x(), 20.0, 2.0);
+}
+
+TEST(Turning, WhatIsFartherApartThanTheWindowIsNoTurn) {
+  // Two corners of 40 degrees, 10 mm of way apart (14 of both ends): together 80 only where the window holds both.
+  std::vector<Pose> poses;
+  Vec3 at = Vec3::Zero();
+  for (const double angle : {0.0, 40.0 * kDegree, 80.0 * kDegree})
+    for (int k = 0; k < 10; ++k) {
+      poses.push_back({at, Vec3::UnitZ()});
+      at += Vec3(std::cos(angle), std::sin(angle), 0.0);
+    }
+  EXPECT_NEAR(sharpest_turn(poses, kLength, 5.0).angle_rad, 40.0 * kDegree, 1e-9);
+  EXPECT_NEAR(sharpest_turn(poses, kLength, 30.0).angle_rad, 80.0 * kDegree, 1e-9);
+}
+
+TEST(Turning, APathWithoutAStepHasNone) {
+  EXPECT_EQ(sharpest_turn(Path(), kLength, 1.0).angle_rad, 0.0);
+  const std::vector<Pose> still(3, Pose{Vec3::Zero(), Vec3::UnitZ()});
+  EXPECT_EQ(sharpest_turn(still, kLength, 1.0).angle_rad, 0.0);
+}
+
+}  // namespace
+}  // namespace flank::internal
