@@ -63,7 +63,7 @@ def fit(flank, words, parts, results, timeout):
     if not part.exists():
         return row | {"missing": True}
     out = results / "-".join([pathlib.Path(file).stem, face, tolerance, *options]).replace(" ", "")
-    log = out.with_suffix(".log")
+    log = results / (out.name + ".log")
     command = [flank, "fit", part, "--face", face, "--tolerance", tolerance, "--threads", "1", "--quiet", *options, "-o", out]
     with open(log, "w") as text:
         child = subprocess.Popen(["timeout", "-s", "INT", "-k", "60", str(timeout), *command], stdout=text, stderr=text)
@@ -147,7 +147,7 @@ def main():
     one.add_argument("--jobs", type=int, default=2)
     one.add_argument("--parts", type=pathlib.Path, default=pathlib.Path("build/parts"))
     one.add_argument("--results")
-    one.add_argument("--timeout", type=int, default=600)
+    one.add_argument("--timeout", type=int, default=900)
     commands.add_parser("show").add_argument("rows", type=pathlib.Path)
     two = commands.add_parser("diff")
     two.add_argument("before", type=pathlib.Path)

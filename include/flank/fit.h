@@ -119,6 +119,9 @@ struct FlankFitOptions {
   /// fit_automatic: what the flank must not enter; outlives the call. Null: nothing is in the way. fit_from_starts
   /// takes it from its tasks instead.
   const ObstacleField* obstacles = nullptr;
+  /// Whether a line, from a place on in a direction, is free of everything: what holds the tool comes along its axis. Called from several
+  /// threads at once. Empty: it always is.
+  std::function<bool(const Vec3& from, const Vec3& direction)> is_free_line;
   /// mm, >= 0; with obstacles: only what a ball of this radius can touch without entering them counts as target. 0: the
   /// smallest radius. Raise it to the radius of the tool that will be used.
   double reach_radius_mm = 0.0;
@@ -141,6 +144,9 @@ struct CoverageEstimate {
   double rms_mm = 0.0;              ///< root mean square of f, by area, over samples within four tolerances
   /// |c| where the flank touches the target: it plunges from 1 on. estimate_coverage leaves it 0.
   double largest_c = 0.0;
+  /// Share of the motion, by samples, at which the axis beyond the flank's upper end runs into something: nothing could hold the tool there.
+  /// estimate_coverage leaves it 0.
+  double unheld = 0.0;
   /// By which the motion turns (FlankFitOptions::most_turn_rad). estimate_coverage leaves it 0.
   double turn_rad = 0.0;
   /// Of a free tool and its shank, and of the thickest one that its bounds allow; 0 of others. estimate_coverage leaves them 0.

@@ -33,6 +33,9 @@ constexpr double kAllowedOvercutPrice = 0.005, kMeanPrice = 0.006;
 /// Of a motion that plunges where it touches, by what |c| is above 1, at most kMostPlunging: there the machine wobbles on
 /// the spot. A percent of coverage is worth half of it.
 constexpr double kPlungingPrice = 0.02, kMostPlunging = 1.0;
+/// Of a motion during which nothing could hold the tool, and that much again times its share: no result at all, but one that covers all may lead
+/// to one.
+constexpr double kUnheldPrice = 0.12;
 /// Likewise of a motion that turns more sharply than it may, for each angle beyond it, at most one.
 constexpr double kTurnPrice = 0.02, kMostTurns = 1.0;
 
@@ -50,7 +53,8 @@ double CoverageEstimate::score(double tolerance_mm) const {
   const double depth = kGougeExcess * std::min(1.0, gouge_mm / (kDeepest * tolerance_mm));
   const double excess = excess_of(overcut_mm) + excess_of(gouge_mm) + depth;
   const double within = kAllowedOvercutPrice * std::min(1.0, overcut_mm / tolerance_mm);
-  return at_tolerance + kNearWorth * at_four_tolerances - kExcessPrice * excess - within -
+  const double held = unheld > 0.0 ? kUnheldPrice * (1.0 + unheld) : 0.0;
+  return at_tolerance - held + kNearWorth * at_four_tolerances - kExcessPrice * excess - within -
          kMeanPrice * std::min(1.0, rms_mm / tolerance_mm) -
          kPlungingPrice * std::clamp(largest_c - 1.0, 0.0, kMostPlunging) -
          kTurnPrice * std::clamp(turn_rad / kMostTurnRad - 1.0, 0.0, kMostTurns) - kStaggerPrice * stagger;

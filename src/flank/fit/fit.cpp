@@ -18,6 +18,7 @@
 #include "flank/fit/race.h"
 #include "flank/fit/rank.h"
 #include "flank/fit/starts/start_tasks.h"
+#include "flank/fit/starts/upper_end.h"
 #include "flank/fit/tried.h"
 #include "flank/fit/ways.h"
 #include "flank/motion/motion_record.h"
@@ -85,6 +86,8 @@ void rough_fit(Candidate& candidate, const FitDraft& draft, const Target& target
   candidate.draft = run_stage(draft, options.bounds, stage);
   if (!has_values(candidate.draft)) return;
   candidate.estimate = rough_estimate(candidate.draft, samples, options.tolerance_mm, kQuickPoses);
+  for (const RuledMotion& motion : candidate.draft.motions)
+    candidate.estimate.unheld = std::max(candidate.estimate.unheld, unheld_share(motion, options));
   candidate.score = rough_score(candidate.estimate, options.tolerance_mm);
 }
 

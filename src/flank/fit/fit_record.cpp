@@ -23,7 +23,8 @@ void code(StepCodec& codec, RadiusBounds& bounds) {
 
 void code(StepCodec& codec, CoverageEstimate& estimate) {
   for (double* value : {&estimate.at_tolerance, &estimate.at_four_tolerances, &estimate.overcut_mm, &estimate.gouge_mm,
-                        &estimate.undercut_mm, &estimate.rms_mm, &estimate.largest_c, &estimate.stagger})
+                        &estimate.undercut_mm, &estimate.rms_mm, &estimate.largest_c, &estimate.stagger, &estimate.of_whole,
+                        &estimate.unheld, &estimate.turn_rad, &estimate.slenderness, &estimate.least_slenderness})
     codec.number(*value);
   code(codec, estimate.legitimate);
 }
@@ -87,6 +88,8 @@ void code(StepCodec& codec, FlankFitOptions& options) {
   codec.number(options.least_coverage_for_close_look);
   bool beside_walls = options.obstacles != nullptr;
   code(codec, beside_walls);
+  bool held = static_cast<bool>(options.is_free_line);
+  code(codec, held);
   codec.number(options.reach_radius_mm);
   codec.number(options.sample_share);
   options.watched.resize(codec.count(options.watched.size()));

@@ -11,6 +11,7 @@
 #include "flank/envelope/path_regularity.h"
 #include "flank/error.h"
 #include "flank/fit/coverage.h"
+#include "flank/fit/starts/upper_end.h"
 #include "flank/fit/tried.h"
 #include "flank/motion/stagger.h"
 #include "flank/motion/written_path.h"
@@ -84,6 +85,8 @@ Polished assess(FitDraft draft, const std::vector<SurfaceSample>& samples, const
   polished.estimate.gouge_mm = flank_gouge(draft.motions, draft.obstacles, draft.tool, kRankingPoses);
   measure_motion(draft, options.tolerance_mm, polished.estimate,
                  [](const RuledMotion& motion) { return even_poses(motion, kRankingPoses); });
+  for (const RuledMotion& motion : draft.motions)
+    polished.estimate.unheld = std::max(polished.estimate.unheld, unheld_share(motion, options));
   if (draft.free_tool) {
     polished.estimate.slenderness = slenderness_of(draft.tool, options.bounds);
     polished.estimate.least_slenderness = draft.tool.axis_length() / (2.0 * options.bounds.largest);

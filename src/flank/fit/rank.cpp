@@ -18,7 +18,7 @@ constexpr double kUncleanShare = 0.45, kNoToolShare = 0.65;
 double worth(const CoverageEstimate& estimate, const FlankFitOptions& options) {
   const double prices = (is_steady(estimate, options) ? 0.0 : kUnsteadyPrice) +
                         (is_stiff(estimate, options) ? 0.0 : kSlenderPrice);
-  if (is_clean(estimate, options.tolerance_mm)) return estimate.at_tolerance - prices;
+  if (is_clean(estimate, options.tolerance_mm) && estimate.unheld <= 0.0) return estimate.at_tolerance - prices;
   const double share = estimate.legitimate ? kUncleanShare : kUncleanShare * kNoToolShare;
   return share * (estimate.score(options.tolerance_mm) - prices);
 }
@@ -47,8 +47,8 @@ bool is_stiff(const CoverageEstimate& estimate, const FlankFitOptions& options) 
 }
 
 bool meets(const CoverageEstimate& estimate, double share, const FlankFitOptions& options) {
-  return estimate.at_tolerance >= share && is_clean(estimate, options.tolerance_mm) && is_steady(estimate, options) &&
-         is_stiff(estimate, options);
+  return estimate.at_tolerance >= share && is_clean(estimate, options.tolerance_mm) && estimate.unheld <= 0.0 &&
+         is_steady(estimate, options) && is_stiff(estimate, options);
 }
 
 Rank rank_of(const CoverageEstimate& estimate, const FlankFitOptions& options, bool exact) {

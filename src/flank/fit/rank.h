@@ -25,7 +25,7 @@ inline constexpr double kSameCoverage = 1e-3;
 /// No more slender than the options let a free tool be; true where no cylinder is that is as thick as they allow.
 [[nodiscard]] bool is_stiff(const CoverageEstimate& estimate, const FlankFitOptions& options);
 
-/// The one answer to "is it good enough": covers at least this share of what is reachable, is clean, steady and stiff.
+/// The one answer to "is it good enough": covers at least this share of what is reachable, is clean, held, steady and stiff.
 [[nodiscard]] bool meets(const CoverageEstimate& estimate, double share, const FlankFitOptions& options);
 
 /// The place of a result among others, larger is better: figures in steps, compared one after the other, so that the order of three never
@@ -34,7 +34,7 @@ struct Rank {
   bool meets = false;  ///< options.least_coverage
   bool exact = false;  ///< of what meets it: an envelope found to the last digits
   /// In kSameCoverage. Of what meets the request: the share of the whole face, less the price of slenderness. Of what does not: the share of
-  /// what is reachable, less what plunging, kinks and slenderness cost; of what is not clean, less than half of its score: a clean result
+  /// what is reachable, less what plunging, kinks and slenderness cost; of what is not clean or not held, less than half of its score: a clean result
   /// is given up for one that covers more than twice as much.
   long worth = 0;
   long score = 0;  ///< CoverageEstimate::score, in millionths

@@ -2,60 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <vector>
 
 #include "flank/base/parallel.h"
-#include "flank/obstacle/triangle_tree.h"
+#include "flank/obstacle/line_of_sight.h"
 
 namespace flank::internal {
 namespace {
 
 constexpr int kPlaces = 256, kRays = 32;  ///< a share of 0.8 is known to 0.01
 constexpr double kStartShare = 1e-6;      ///< of the size: nearer than this to its start a ray meets nothing
-
-TriangleTree tree_of(const TriangleMesh& mesh) {
-  std::vector<TriangleTree::Triangle> triangles(mesh.triangles.size());
-  for (std::size_t k = 0; k < triangles.size(); ++k) triangles[k].corners = corners_of(mesh, k);
-  return TriangleTree(std::move(triangles));
-}
-
-/// Moeller and Trumbore 1997: how far along a ray the triangle is met; infinite where it is not.
-double way_to(const std::array<Vec3, 3>& t, const Vec3& from, const Vec3& direction) {
-  constexpr double kNone = std::numeric_limits<double>::infinity();
-  const Vec3 ab = t[1] - t[0], ac = t[2] - t[0], across = direction.cross(ac), to = from - t[0];
-  const double det = ab.dot(across);
-  if (det == 0.0) return kNone;
-  const double u = to.dot(across) / det;
-  const Vec3 q = to.cross(ab);
-  const double v = direction.dot(q) / det;
-  return u >= 0.0 && v >= 0.0 && u + v <= 1.0 ? ac.dot(q) / det : kNone;
-}
-
-/// Is any triangle met, farther away than `least`?
-bool meets(const TriangleTree& tree, const Vec3& from, const Vec3& direction, double least) {
-  const Vec3 per_mm = direction.cwiseInverse();  // infinite along an axis: the comparisons hold all the same
-  std::vector<int> open{0};
-  while (!open.empty()) {
-    const int index = open.back();
-    open.pop_back();
-    const TriangleTree::Node& node = tree.nodes()[static_cast<std::size_t>(index)];
-    const Vec3 a = (node.center - node.half - from).cwiseProduct(per_mm),
-               b = (node.center + node.half - from).cwiseProduct(per_mm);
-    if (a.cwiseMax(b).minCoeff() < std::max(0.0, a.cwiseMin(b).maxCoeff())) continue;
-    if (node.second >= 0) {
-      open.push_back(node.second);
-      open.push_back(index + 1);
-      continue;
-    }
-    for (int k = node.first; k < node.end; ++k) {
-      const double way = way_to(tree.triangles()[static_cast<std::size_t>(k)].corners, from, direction);
-      if (way > least && way < std::numeric_limits<double>::infinity()) return true;
-    }
-  }
-  return false;
-}
 
 struct Place {
   Vec3 point, normal;

@@ -11,7 +11,9 @@
 #include "flank/error.h"
 #include "flank/fit/lengthen.h"
 #include "flank/fit/tried.h"
+#include "flank/geom/tessellate.h"
 #include "flank/job/check_fields.h"
+#include "flank/obstacle/line_of_sight.h"
 #include "flank/pipeline/finish.h"
 #include "flank/pipeline/folder/judge_job.h"
 #include "flank/pipeline/lead_out.h"
@@ -261,6 +263,17 @@ void judge_fit(const Setup& setup, const ClearanceScene& scene, FitSearch& searc
   }
 }
 
+/// Lines that meet no face of the part. What a line begins at may be its own face: not nearer than that is known to.
+decltype(FitDemand::is_free_line) free_line_in(const ClearanceScene& scene) {
+  TriangleMesh all;
+  for (const Obstacle& obstacle : scene.obstacles)
+    if (obstacle.role != ObstacleRole::kFixture) append(all, obstacle.mesh);
+  if (all.triangles.empty()) return {};
+  const double least = 1e-6 * all.box().diagonal();
+  const auto tree = std::make_shared<const TriangleTree>(tree_of(all));
+  return [tree, least](const Vec3& from, const Vec3& direction) { return !meets(*tree, from, direction, least); };
+}
+
 /// A search and its verdict. `read`: what is known before.
 Result search_and_judge(const Setup& setup, const ClearanceScene& scene, const ToolSpec& spec, Result read,
                         double spare_coverage, const Progress& progress) {
@@ -269,7 +282,7 @@ Result search_and_judge(const Setup& setup, const ClearanceScene& scene, const T
   Stopwatch watch(result);
   // What follows the search takes a share of the progress each.
   const double judged_at = job.stiffness_curve ? 0.5 : 0.9;
-  FitSearch search = search_fit(job, setup, spec, progress.part(0.0, judged_at), spare_coverage);
+  FitSearch search = search_fit(job, setup, spec, progress.part(0.0, judged_at), {spare_coverage, free_line_in(scene)});
   if (search.fit.motions.empty()) stop_here();  // nothing takes the place of an earlier result
   if (spec.free && !stopping()) lift_shank(job, scene, search, result.notes);
   take_fit(search, result);

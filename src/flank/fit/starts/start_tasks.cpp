@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "flank/fit/starts/upper_end.h"
 #include "flank/seed/clear_start.h"
 
 namespace flank::internal {
@@ -63,6 +64,20 @@ std::vector<FitTask> make_clear_tasks(const Target& target, const Chart& chart, 
   return tasks;
 }
 
+/// The motions of a start, whatever is in their way.
+std::vector<FitTask> make_free_tasks(const Target& target, const Chart& chart, const RuledStart& start,
+                                     const ToolModel& tool, const FlankFitOptions& options) {
+  const std::vector<RuledStart> bands = bands_of(start, options.strips);
+  constexpr double kLonger = 1.02;  // the axis past the longest offset contact line (MATH section 7)
+  double length = 0.0;
+  for (const RuledStart& band : bands) length = std::max(length, kLonger * longest_chord(chart, band));
+  length = tool.length_for(length, options.axis_length_mm);
+  std::vector<FitTask> tasks;
+  for (const RuledStart& band : bands)
+    tasks.push_back({&target, make_motion(chart, band, length, kStartControlPoints), options.obstacles});
+  return tasks;
+}
+
 }  // namespace
 
 std::vector<RuledStart> enumerate_starts(const Chart& chart, const ToolModel& tool, const FlankFitOptions& options,
@@ -91,18 +106,10 @@ std::vector<RuledStart> enumerate_starts(const Chart& chart, const ToolModel& to
 
 std::vector<FitTask> make_tasks(const Target& target, const Chart& chart, const RuledStart& start,
                                 const ToolModel& tool, const FlankFitOptions& options) {
-  if (options.obstacles != nullptr) {
-    std::vector<FitTask> tasks = make_clear_tasks(target, chart, start, tool, options);
-    if (!tasks.empty()) return tasks;
-  }
-  const std::vector<RuledStart> bands = bands_of(start, options.strips);
-  constexpr double kLonger = 1.02;  // the axis past the longest offset contact line (MATH section 7)
-  double length = 0.0;
-  for (const RuledStart& band : bands) length = std::max(length, kLonger * longest_chord(chart, band));
-  length = tool.length_for(length, options.axis_length_mm);
   std::vector<FitTask> tasks;
-  for (const RuledStart& band : bands)
-    tasks.push_back({&target, make_motion(chart, band, length, kStartControlPoints), options.obstacles});
+  if (options.obstacles != nullptr) tasks = make_clear_tasks(target, chart, start, tool, options);
+  if (tasks.empty()) tasks = make_free_tasks(target, chart, start, tool, options);
+  hold_from_free_end(options, tasks);
   return tasks;
 }
 

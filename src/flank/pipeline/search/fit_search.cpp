@@ -109,12 +109,13 @@ void fit_ball_to_slot(const FitJob& job, FitSearch& search) {
 }
 
 /// Before anything is fitted: groups, the obstacles about them, and what is asked.
-FitSearch begin_search(const FitJob& job, const Setup& setup, const ToolModel& tool, double spare_coverage) {
+FitSearch begin_search(const FitJob& job, const Setup& setup, const ToolModel& tool, const FitDemand& demand) {
   FitSearch search;
-  search.spare_coverage = spare_coverage;
+  search.spare_coverage = demand.spare_coverage;
   search.targets = make_targets(setup);
   search.tool = tool;
   search.options = options_of(job, setup, *search.targets.front().target, tool.free());
+  if (job.avoid) search.options.is_free_line = demand.is_free_line;
   if (tool.free()) search.reach_radius_mm = search.options.reach_radius_mm;
   if (job.avoid) add_group_obstacles(setup, job.obstacles.clearance_mm, search.options.bounds.largest, search.targets);
   fit_ball_to_slot(job, search);
@@ -133,14 +134,14 @@ void require_machined_side(const FitJob& job, const UserStart& start, const Rule
 }
 
 FitSearch search_from(const FitJob& job, const Setup& setup, const ToolModel& tool, const UserStart& start,
-                      double spare_coverage, const Progress& progress) {
-  FitSearch search = begin_search(job, setup, tool, spare_coverage);
+                      const FitDemand& demand, const Progress& progress) {
+  FitSearch search = begin_search(job, setup, tool, demand);
   const FlankFitOptions options = search.options;
   if (!start.given()) {
-    GroupDemand demand{.strips = job.strips, .wanted = {}};
+    GroupDemand groups{.strips = job.strips, .wanted = {}};
     for (const TargetGroup& group : search.targets)
-      demand.wanted.push_back(wanted_estimate(job, *group.target, search.spare_coverage));
-    GroupFits found = fit_groups(search.targets, tool, options, demand, progress);
+      groups.wanted.push_back(wanted_estimate(job, *group.target, search.spare_coverage));
+    GroupFits found = fit_groups(search.targets, tool, options, groups, progress);
     found.fit.notes.insert(found.fit.notes.begin(), search.fit.notes.begin(), search.fit.notes.end());
     search.fit = std::move(found.fit);
     search.group_of_motion = std::move(found.group_of_motion);
@@ -160,8 +161,8 @@ FitSearch search_from(const FitJob& job, const Setup& setup, const ToolModel& to
 
 /// Half a turn is searched; the whole face is what was asked for.
 FitSearch search_half_turn(const FitJob& job, const Setup& setup, const WoundFace& wound_face, const ToolModel& tool,
-                           const Progress& progress, double spare_coverage) {
-  FitSearch search = search_from(job, half_turn_of(setup, wound_face), tool, {}, spare_coverage, progress);
+                           const Progress& progress, const FitDemand& demand) {
+  FitSearch search = search_from(job, half_turn_of(setup, wound_face), tool, {}, demand, progress);
   search.wound_face = wound_face;
   search.wound = make_targets(setup);
   if (job.avoid) add_group_obstacles(setup, job.obstacles.clearance_mm, search.options.bounds.largest, search.wound);
@@ -192,12 +193,12 @@ std::vector<RuledMotion> FitSearch::motions_of(const FlankFitResult& result) con
 }
 
 FitSearch search_fit(const FitJob& job, const Setup& setup, const ToolSpec& spec, const Progress& progress,
-                     double spare_coverage) {
+                     const FitDemand& demand) {
   const UserStart start = user_start(job);
   const ToolModel tool = make_tool_model(spec, job.tool.axis_length_mm);
   const std::optional<WoundFace> wound_face = start.given() ? std::nullopt : find_wound_face(setup);
-  FitSearch search = wound_face ? search_half_turn(job, setup, *wound_face, tool, progress, spare_coverage)
-                                : search_from(job, setup, tool, start, spare_coverage, progress);
+  FitSearch search = wound_face ? search_half_turn(job, setup, *wound_face, tool, progress, demand)
+                                : search_from(job, setup, tool, start, demand, progress);
   search.fit = reach_further(search.tasks(), search.fit, search.tool, search.options, progress);
   return search;
 }

@@ -11,6 +11,12 @@
 
 namespace flank::internal {
 
+/// What is asked of a search beside its job.
+struct FitDemand {
+  double spare_coverage = 0.0;  ///< what the estimate has to promise beyond the job's demand, where a judge has seen that much less
+  decltype(FlankFitOptions::is_free_line) is_free_line = {};
+};
+
 struct FitSearch {
   std::vector<TargetGroup> targets;
   FlankFitResult fit;                        ///< motions of all groups, one tool
@@ -30,9 +36,8 @@ struct FitSearch {
   [[nodiscard]] std::vector<RuledMotion> motions_of(const FlankFitResult& result) const;
 };
 
-/// Searches. `spec`: the job's tool. `spare_coverage`: what the estimate has to promise beyond the demand before the search is
-/// done, where a judge has seen that much less. Throws UsageError and InputError.
+/// Searches. `spec`: the job's tool. Throws UsageError and InputError.
 [[nodiscard]] FitSearch search_fit(const FitJob& job, const Setup& setup, const ToolSpec& spec,
-                                   const Progress& progress, double spare_coverage = 0.0);
+                                   const Progress& progress, const FitDemand& demand = {});
 
 }  // namespace flank::internal

@@ -85,10 +85,10 @@ FlankFitResult fit_group(const Target& target, const ToolModel& tool, FlankFitOp
   const auto done = [&](const FlankFitResult& result) {
     return meets(result.after, wanted, options) || progress.stop();
   };
-  const double share = reachable_share(target, options);
-  if (share < kHardlyAny) {
+  const double reached = reachable_share(target, options), held = holdable_share(target, options);
+  if (std::min(reached, held) < kHardlyAny) {
     FlankFitResult hidden = fit_automatic(target, tool, hardly_worth_it(options), progress);
-    hidden.notes.push_back(out_of_reach_note(share, options));
+    hidden.notes.push_back(reached < kHardlyAny ? out_of_reach_note(reached, options) : not_holdable_note(held));
     return hidden;
   }
   options.strips = std::max(1, strips);

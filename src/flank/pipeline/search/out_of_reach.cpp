@@ -3,8 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
+#include <numeric>
+#include <vector>
 
+#include "flank/base/parallel.h"
 #include "flank/fit/polished.h"
 
 namespace flank::internal {
@@ -16,6 +21,37 @@ double reachable_share(const Target& target, const FlankFitOptions& options) {
     reached += std::max(0.0, sample.area);
   }
   return all > 0.0 ? reached / all : 1.0;
+}
+
+namespace {
+
+/// Is there a way out for a tool that touches the target here: along the surface, or leaning away from it as a cone does?
+bool can_be_held(const SurfaceSample& sample, double radius_mm, const FlankFitOptions& options) {
+  constexpr int kAround = 24;
+  constexpr std::array kLeans = {0.0, 0.25, 0.5};  // radians
+  const Vec3 x = sample.normal.unitOrthogonal(), y = sample.normal.cross(x), from = sample.point + radius_mm * sample.normal;
+  for (const double lean : kLeans)
+    for (int k = 0; k < kAround; ++k) {
+      const double angle = 2.0 * std::numbers::pi * k / kAround;
+      const Vec3 along = std::cos(angle) * x + std::sin(angle) * y;
+      if (options.is_free_line(from, std::cos(lean) * along + std::sin(lean) * sample.normal)) return true;
+    }
+  return false;
+}
+
+}  // namespace
+
+double holdable_share(const Target& target, const FlankFitOptions& options) {
+  constexpr double kCoarser = 2.0;  // than what ranks drafts
+  if (!options.is_free_line) return 1.0;
+  const double radius = reach_radius(options);
+  const auto samples = target.samples(kCoarser * std::sqrt(target.area()) * options.sample_share);
+  std::vector<double> held(samples.size());
+  parallel_for(samples.size(),
+               [&](std::size_t k) { held[k] = can_be_held(samples[k], radius, options) ? samples[k].area : 0.0; });
+  double all = 0.0;
+  for (const SurfaceSample& sample : samples) all += sample.area;
+  return all > 0.0 ? std::accumulate(held.begin(), held.end(), 0.0) / all : 1.0;
 }
 
 double ball_with_room(const Target& target, const FlankFitOptions& options, double radius_mm) {
@@ -43,6 +79,13 @@ std::string out_of_reach_note(double share, const FlankFitOptions& options) {
       "it enters them, or the target elsewhere, on {:.1f} % of its area; a smaller ball may reach it, and faces that "
       "are no obstacles can be ignored",
       reach_radius(options), 100.0 * (1.0 - share));
+}
+
+std::string not_holdable_note(double share) {
+  return fmt::format(
+      "a tool whose flank lies on the target could be held on {:.1f} % of its area: elsewhere its axis, continued beyond the flank in any "
+      "direction, runs into the part",
+      100.0 * share);
 }
 
 }  // namespace flank::internal

@@ -11,6 +11,10 @@ namespace flank::internal {
 /// candidates; 1 if neither another face nor a corner of the target is in the way.
 [[nodiscard]] double reachable_share(const Target& target, const FlankFitOptions& options);
 
+/// Share of the target's area where a tool that touches it could be held: in some direction along the surface, or leaning away from it, a line
+/// is free (FlankFitOptions::is_free_line). 1 where nothing is said of lines.
+[[nodiscard]] double holdable_share(const Target& target, const FlankFitOptions& options);
+
 /// The largest ball, no larger than radius_mm, that can touch half of the target or more, by the obstacles and the tolerance of
 /// the options: who machines a groove, or the wall of a slot, wants a tool that fits into it. radius_mm where hardly any does.
 [[nodiscard]] double ball_with_room(const Target& target, const FlankFitOptions& options, double radius_mm);
@@ -23,5 +27,6 @@ inline constexpr double kHardlyAny = 0.05;
 
 /// What is said of it.
 [[nodiscard]] std::string out_of_reach_note(double share, const FlankFitOptions& options);
+[[nodiscard]] std::string not_holdable_note(double share);
 
 }  // namespace flank::internal

@@ -12,7 +12,8 @@ bool StripGain::goes_on(const FlankFitResult& best) {
   constexpr int kMostWithout = 2, kMostWithoutNear = 4;
   // A flank that runs through another face can cover all of the target, and is no result that one more strip could beat.
   const auto covers = [&](const CoverageEstimate& estimate) {
-    return std::max(estimate.overcut_mm, estimate.gouge_mm) <= kNotFar * tolerance_mm_ ? estimate.at_tolerance : 0.0;
+    const bool near = std::max(estimate.overcut_mm, estimate.gouge_mm) <= kNotFar * tolerance_mm_;
+    return near && estimate.unheld <= 0.0 ? estimate.at_tolerance : 0.0;
   };
   const double covered = covers(best.after);
   double promised = covered;
