@@ -173,8 +173,8 @@ struct TriedTool {
 enum class FitStatus {
   kNotRun,
   kWithinTolerance,  ///< by the estimate it meets what was asked (fit/rank.h)
-  kPartial,          ///< a motion was found, but it covers less, cuts or enters something deeper, has a kink or too slender a tool
-  kNoStart,          ///< no start gave a motion; the result has none
+  kPartial,  ///< a motion was found, but it covers less, cuts or enters something deeper, has a kink or too slender a tool
+  kNoStart,  ///< no start gave a motion; the result has none
 };
 
 /// Beside walls: whether other ways than to avoid them from the start were tried (FlankFitOptions::ways), and what came of it.

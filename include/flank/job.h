@@ -83,6 +83,7 @@ struct FitJob {
   std::optional<std::string> guide;  ///< file of several such lines
   int strips = 0;                    ///< motions side by side; 0: as many as the tolerance needs
   bool avoid = true;                 ///< keep clear of the other faces already in planning; they are judged either way
+  std::string effort = "normal";     ///< or "quick", "thorough": how much is tried
   bool stiffness_curve = false;      ///< fit tools of other slendernesses, too, and say what each costs
   /// Least radius of curvature of the paths of tip and holder end; none: any.
   std::optional<double> min_bend_radius_mm;

@@ -23,7 +23,8 @@ std::vector<Pose> corner(double at, double angle, double step) {
 
 TEST(Turning, ACornerIsTheAngleBetweenItsLegsHoweverDenseItsPosesAre) {
   for (const double step : {5.0, 1.0, 0.1})
-    EXPECT_NEAR(sharpest_turn(corner(20.0, 25.0 * kDegree, step), kLength, 8.0).angle_rad, 25.0 * kDegree, 1e-9) << step;
+    EXPECT_NEAR(sharpest_turn(corner(20.0, 25.0 * kDegree, step), kLength, 8.0).angle_rad, 25.0 * kDegree, 1e-9)
+        << step;
 }
 
 TEST(Turning, ACircleTurnsByTheWindowOverItsRadius) {
@@ -50,8 +51,8 @@ TEST(Turning, AWayBackIsHalfATurnAndNamesItsPlace) {
   std::vector<Pose> poses = corner(10.0, 0.0, 1.0);
   for (double x = 19.0; x > 5.0; x -= 1.0) poses.push_back({{x, 0.0, 0.0}, Vec3::UnitZ()});
   Path path;
-  path.strips.push_back({.poses = corner(10.0, 0.1, 1.0)});
-  path.strips.push_back({.poses = poses});
+  path.strips.emplace_back().poses = corner(10.0, 0.1, 1.0);
+  path.strips.emplace_back().poses = poses;
   const Turning turn = sharpest_turn(path, kLength, 2.0);
   EXPECT_NEAR(turn.angle_rad, std::numbers::pi, 1e-9);
   EXPECT_EQ(turn.strip, 1u);

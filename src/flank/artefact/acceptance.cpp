@@ -153,10 +153,11 @@ void add_whole(const VerifyReport& report, const JudgeRequest& request, Acceptan
 void add_turn(const VerifyReport& report, const JudgeRequest& request, Acceptance& out) {
   if (!report.turn || !(report.turn->angle_deg > request.most_turn_deg) || request.most_turn_deg <= 0.0) return;
   const Vec3& p = report.turn->point;
-  add_reason(out, Figure::kTurn,
-             fmt::format("the motion turns by {:.1f} degrees > {:.4g} within 1 % of the face's diagonal, strip {}, tip at "
-                         "({:.3f}, {:.3f}, {:.3f})",
-                         report.turn->angle_deg, request.most_turn_deg, report.turn->strip + 1, p.x(), p.y(), p.z()));
+  add_reason(
+      out, Figure::kTurn,
+      fmt::format("the motion turns by {:.1f} degrees > {:.4g} within 1 % of the face's diagonal, strip {}, tip at "
+                  "({:.3f}, {:.3f}, {:.3f})",
+                  report.turn->angle_deg, request.most_turn_deg, report.turn->strip + 1, p.x(), p.y(), p.z()));
 }
 
 /// Whether anything could hold the tool, and what of that was not given.

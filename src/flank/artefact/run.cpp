@@ -33,11 +33,11 @@ std::string bend_text(double radius_mm) {
 std::string error_lines(const Result& result) {
   const VerifyReport& v = result.verify;
   std::string text;
-  text += fmt::format(
-      "  path        {} strip{}, {} poses, joined within {:.2g} mm of the motion, largest |c| {:.3f}{}\n",
-      result.path.strips.size(), result.path.strips.size() == 1 ? "" : "s", result.path.pose_count(),
-      result.chord_bound_mm, result.largest_c,
-      v.turn ? fmt::format(", largest turn {:.1f} degrees", v.turn->angle_deg) : "");
+  text +=
+      fmt::format("  path        {} strip{}, {} poses, joined within {:.2g} mm of the motion, largest |c| {:.3f}{}\n",
+                  result.path.strips.size(), result.path.strips.size() == 1 ? "" : "s", result.path.pose_count(),
+                  result.chord_bound_mm, result.largest_c,
+                  v.turn ? fmt::format(", largest turn {:.1f} degrees", v.turn->angle_deg) : "");
   text += fmt::format("  bends       least radius {} at the tip, {} at the holder end\n",
                       bend_text(result.bends.tip_mm), bend_text(result.bends.holder_end_mm));
   if (was_stopped(result)) return text + "  judged      not at all\n";

@@ -68,9 +68,7 @@ WorstPlace place_from(const Json& j) {
   return w;
 }
 
-Json to_json(const BuriedStrip& b) {
-  return {{"strip", b.strip + 1}, {"point", point(b.point)}};
-}
+Json to_json(const BuriedStrip& b) { return {{"strip", b.strip + 1}, {"point", point(b.point)}}; }
 
 BuriedStrip buried_from(const Json& j) {
   const Json& p = j.at("point");
@@ -107,8 +105,7 @@ Json to_json(const FaceVerdict& f) {
             {"coverage_reachable", number(f.coverage_reachable)},
             {"coverage_bound", number(f.coverage_bound)},
             {"coverage_reachable_bound", number(f.coverage_reachable_bound)},
-            {"uncovered_point",
-             point(f.uncovered_point)},
+            {"uncovered_point", point(f.uncovered_point)},
             {"cover_cells", f.cover_cells},
             {"sampling_bound_mm", number(f.sampling_bound_mm)},
             {"overcut_bound_mm", number(f.overcut_bound_mm)},
@@ -136,7 +133,7 @@ FaceVerdict face_from(const Json& j) {
   if (j.contains("coverage_bound")) {
     f.coverage_bound = to_number(j.at("coverage_bound"));
     f.coverage_reachable_bound = to_number(j.at("coverage_reachable_bound"));
-      f.uncovered_point = to_point(j.at("uncovered_point"));
+    f.uncovered_point = to_point(j.at("uncovered_point"));
     f.cover_cells = j.at("cover_cells").get<std::size_t>();
   }
   f.sampling_bound_mm = to_number(j.at("sampling_bound_mm"));
@@ -336,7 +333,8 @@ std::string verify_to_json(const VerifyReport& r, const Acceptance& acceptance) 
     j["finer_reach"] = {{"radius_mm", number(r.finer_reach->radius_mm)},
                         {"reachable_share", number(r.finer_reach->reachable_share)}};
   if (r.turn)
-    j["turn"] = {{"angle_deg", number(r.turn->angle_deg)}, {"strip", r.turn->strip + 1}, {"point", point(r.turn->point)}};
+    j["turn"] = {
+        {"angle_deg", number(r.turn->angle_deg)}, {"strip", r.turn->strip + 1}, {"point", point(r.turn->point)}};
   if (r.stock) j["stock"] = stock_to_json(*r.stock);
   return dumped(j, 2) + "\n";
 }

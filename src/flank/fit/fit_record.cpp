@@ -22,9 +22,10 @@ void code(StepCodec& codec, RadiusBounds& bounds) {
 }  // namespace
 
 void code(StepCodec& codec, CoverageEstimate& estimate) {
-  for (double* value : {&estimate.at_tolerance, &estimate.at_four_tolerances, &estimate.overcut_mm, &estimate.gouge_mm,
-                        &estimate.undercut_mm, &estimate.rms_mm, &estimate.largest_c, &estimate.stagger, &estimate.of_whole,
-                        &estimate.unheld, &estimate.turn_rad, &estimate.slenderness, &estimate.least_slenderness})
+  for (double* value :
+       {&estimate.at_tolerance, &estimate.at_four_tolerances, &estimate.overcut_mm, &estimate.gouge_mm,
+        &estimate.undercut_mm, &estimate.rms_mm, &estimate.largest_c, &estimate.stagger, &estimate.of_whole,
+        &estimate.unheld, &estimate.turn_rad, &estimate.slenderness, &estimate.least_slenderness})
     codec.number(*value);
   code(codec, estimate.legitimate);
 }

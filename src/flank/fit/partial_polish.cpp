@@ -10,17 +10,6 @@
 namespace flank::internal {
 namespace {
 
-/// Of passes that give up what is beyond the tolerance: nothing within it is to be improved.
-constexpr double kPartialZone = kToleranceBudget.fit.dead_zone_partial;
-
-/// Where one strip cannot do all that is asked: what is beyond the tolerance is given up, so that it no longer pulls at what
-/// is within, and overcut weighs more, because that has to be taken back by radii that cost coverage everywhere. First
-/// to the softer weights, then to those that hold.
-constexpr SweptPass kGiveUp = {.dead_zone = kPartialZone, .iterations = 30, .out_of_sight = 1.0, .firmness = 4.0};
-constexpr SweptPass kGiveUpSoft = {.fairness = kSofter, .iterations = 30, .out_of_sight = 1.0, .firmness = 4.0};
-constexpr SweptPass kHold = {
-    .dead_zone = kPartialZone, .fairness = kSofter, .iterations = 30, .out_of_sight = 1.0, .firmness = 16.0};
-
 /// The points of a pass, and these places, which none of them saw.
 std::vector<FacePoint> points_with(const std::vector<Vec3>& deep, const FitDraft& draft, const FlankFitOptions& options,
                                    int per_side) {
@@ -40,8 +29,7 @@ Polished partial_polish(const Polished& polished, const std::vector<SurfaceSampl
   constexpr int kHolds = 3;
   Polished best = polished;
   const double least = options.least_coverage_for_last_passes > 0.0 ? kNear : kWorth;
-  if (best.estimate.at_tolerance < least || best.estimate.at_tolerance >= kAllButCovered)
-    return best;
+  if (best.estimate.at_tolerance < least || best.estimate.at_tolerance >= kAllButCovered) return best;
   const double tolerance = options.tolerance_mm, size = best.draft.targets.front()->diagonal();
   const auto pass_with = [&](const SweptPass& pass, const std::vector<Vec3>& deep) {
     std::vector<FacePoint> points = points_with(deep, best.draft, options, pass.points_per_side);

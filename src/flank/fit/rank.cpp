@@ -16,8 +16,8 @@ constexpr double kUnsteadyPrice = 0.02, kSlenderPrice = 0.02;
 constexpr double kUncleanShare = 0.45, kNoToolShare = 0.65;
 
 double worth(const CoverageEstimate& estimate, const FlankFitOptions& options) {
-  const double prices = (is_steady(estimate, options) ? 0.0 : kUnsteadyPrice) +
-                        (is_stiff(estimate, options) ? 0.0 : kSlenderPrice);
+  const double prices =
+      (is_steady(estimate, options) ? 0.0 : kUnsteadyPrice) + (is_stiff(estimate, options) ? 0.0 : kSlenderPrice);
   if (is_clean(estimate, options.tolerance_mm) && estimate.unheld <= 0.0) return estimate.at_tolerance - prices;
   const double share = estimate.legitimate ? kUncleanShare : kUncleanShare * kNoToolShare;
   return share * (estimate.score(options.tolerance_mm) - prices);
@@ -56,8 +56,9 @@ Rank rank_of(const CoverageEstimate& estimate, const FlankFitOptions& options, b
   Rank rank;
   rank.meets = meets(estimate, options.least_coverage, options);
   rank.exact = rank.meets && exact;
-  rank.worth = steps(rank.meets ? estimate.of_whole - kSlendernessPrice * estimate.slenderness : worth(estimate, options),
-                     kSameCoverage);
+  rank.worth =
+      steps(rank.meets ? estimate.of_whole - kSlendernessPrice * estimate.slenderness : worth(estimate, options),
+            kSameCoverage);
   rank.score = steps(estimate.score(options.tolerance_mm), kMillionth);
   return rank;
 }

@@ -44,7 +44,8 @@ struct Rank {
 /// `exact`: the motion is that of an envelope, to the last digits.
 [[nodiscard]] Rank rank_of(const CoverageEstimate& estimate, const FlankFitOptions& options, bool exact = false);
 
-[[nodiscard]] inline bool is_better(const CoverageEstimate& a, const CoverageEstimate& b, const FlankFitOptions& options) {
+[[nodiscard]] inline bool is_better(const CoverageEstimate& a, const CoverageEstimate& b,
+                                    const FlankFitOptions& options) {
   return rank_of(a, options) > rank_of(b, options);
 }
 

@@ -13,26 +13,6 @@
 namespace flank::internal {
 namespace {
 
-/// First the change of residual, cheap: few points, few iterations, control points and anchor as in the tolerance pass.
-constexpr SweptPass kArrive = {.fairness = kFair,
-                               .anchor = 1e-2,
-                               .control_points = 32,
-                               .coefficients = 16,
-                               .iterations = 12,
-                               .points_per_side = 25};
-/// More control points, but fair. If that is enough, all later passes stay fair.
-constexpr SweptPass kFairRails = {.fairness = kFair, .iterations = 25, .points_per_side = 30};
-/// If it is not, soft ones.
-constexpr SweptPass kSoftRails = {.iterations = 40, .points_per_side = 30};
-/// Half the dead zone: lowers the largest error (docs/algorithms/fit.md).
-constexpr SweptPass kNarrow = {.dead_zone = 0.5 * kWideZone, .iterations = 15};
-/// No dead zone: plain least squares, which lowers the mean error where nothing more is to be covered.
-constexpr SweptPass kMean = {.dead_zone = 0.0, .iterations = 12};
-
-/// In the order of their passes.
-constexpr std::array<SweptPass, 2> kFirstPasses = {kArrive, kFairRails};
-constexpr std::array<SweptPass, 4> kOtherPasses = {kSoftRails, kDense, kNarrow, kMean};
-
 /// If fair rails cover this much, none are made softer: a machine runs them better, and what softness could gain is 4
 /// of the 2,000 samples that rank drafts.
 constexpr double kFairCovers = 0.998;

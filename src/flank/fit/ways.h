@@ -21,7 +21,7 @@ using StartSearch = std::function<FlankFitResult(const FlankFitOptions&)>;
 [[nodiscard]] double least_to_win(const CoverageEstimate& rival, const FlankFitOptions& options);
 /// Whether no last look (settled(), polish.h) at a way makes it better than a rival that has been looked at.
 [[nodiscard]] bool cannot_win(const CoverageEstimate& way, const CoverageEstimate& rival,
-                               const FlankFitOptions& options);
+                              const FlankFitOptions& options);
 
 /// The draft on the longest part of the axis that enters obstacles by no more than a depth, mm. None if that is all of
 /// it or less than a third, or if the tool is given. The draft has an obstacle field for every motion.

@@ -62,6 +62,8 @@ inline constexpr Accepted kSlope{"a number between 0 and 1 is needed", [](double
 inline constexpr Accepted kRatio{"a number > 0 is needed", positive};
 inline constexpr Accepted kProfile{"there are tapered and any", nullptr,
                                    [](std::string_view x) { return x == "tapered" || x == "any"; }};
+inline constexpr Accepted kEffort{"there are quick, normal and thorough", nullptr,
+                                  [](std::string_view x) { return x == "quick" || x == "normal" || x == "thorough"; }};
 inline constexpr Accepted kPassCount{"auto or a number from 1 to 64 is needed",
                                      [](double x) { return x >= 0.0 && x <= 64.0; }};
 inline constexpr Accepted kStrips{"a number from 1 to 200 is needed", [](double x) { return x >= 1.0 && x <= 200.0; }};
@@ -170,7 +172,8 @@ inline constexpr std::string_view kBendHelp =
     "default: any";
 
 inline constexpr std::string_view kTurnHelp =
-    "Largest angle, degrees, by which the motion may turn within 1 % of the face's diagonal, tip and upper end of the axis "
+    "Largest angle, degrees, by which the motion may turn within 1 % of the face's diagonal, tip and upper end of the "
+    "axis "
     "together: a sharper turn is a kink, and does not meet the request; 180: any";
 
 inline constexpr std::string_view kReachHelp =
@@ -244,6 +247,12 @@ void visit_fields(Job& job, Visitor&& visit) {
                   "Passes side by side with one tool: a number, or auto: as many as the tolerance needs", kPassCount,
                   Spelling::kAutoOrCount},
         job.strips);
+  visit(FieldInfo{"effort", "", "",
+                  "How much is tried: quick: few starts, four strips at most, no tool more slender than "
+                  "--slenderness-max; thorough: twice the "
+                  "starts",
+                  kEffort},
+        job.effort);
   visit(FieldInfo{"start", "", "", "First axis x,y,z,x,y,z (tip, holder end), mm; default: automatic"}, job.start);
   visit(FieldInfo{"guide", "", "", "File of several such lines: the axis follows them", kAny, Spelling::kFile},
         job.guide);

@@ -144,7 +144,8 @@ std::optional<TurnFigure> turn_of(const Tool& tool, const Path& path, const std:
     if (face.target) size = std::max(size, face.size_mm);
   if (!(size > 0.0) || path.pose_count() == 0) return {};
   const Turning turn = sharpest_turn(path, tool.radial.axis_length(), turn_window(size));
-  return TurnFigure{turn.angle_rad * 180.0 / std::numbers::pi, turn.strip, path.strips[turn.strip].poses[turn.pose].tip};
+  return TurnFigure{turn.angle_rad * 180.0 / std::numbers::pi, turn.strip,
+                    path.strips[turn.strip].poses[turn.pose].tip};
 }
 
 }  // namespace

@@ -54,11 +54,21 @@ void give_up_the_rest(double most, FlankFitOptions& options) {
   options.kept_after_polish = 1;
 }
 
+/// Of a quick search.
+constexpr int kQuickStrips = 4;
+
+/// How many candidates a search tries.
+void set_effort(const std::string& effort, FlankFitOptions& options) {
+  if (effort == "quick") options.kept_after_quick = 2, options.kept_after_polish = 1;
+  if (effort == "thorough") options.kept_after_quick *= 2, options.kept_after_polish *= 2;
+}
+
 /// `free_tool`: what is reachable is asked with the ball of the demand.
 FlankFitOptions options_of(const FitJob& job, const Setup& setup, const Target& target, bool free_tool) {
   FlankFitOptions options;
   const double most = most_of_facets(target, job.tolerance_mm), least = std::min(job.judge.least_coverage, most);
   options.tolerance_mm = job.tolerance_mm;
+  set_effort(job.effort, options);
   options.least_coverage = least;
   options.enough_coverage = std::min(options.enough_coverage, enough_for(least));
   if (job.judge.most_turn_deg > 0.0) options.most_turn_rad = job.judge.most_turn_deg * std::numbers::pi / 180.0;
@@ -139,6 +149,7 @@ FitSearch search_from(const FitJob& job, const Setup& setup, const ToolModel& to
   const FlankFitOptions options = search.options;
   if (!start.given()) {
     GroupDemand groups{.strips = job.strips, .wanted = {}};
+    if (job.effort == "quick") groups.most_strips = kQuickStrips, groups.soften = false;
     for (const TargetGroup& group : search.targets)
       groups.wanted.push_back(wanted_estimate(job, *group.target, search.spare_coverage));
     GroupFits found = fit_groups(search.targets, tool, options, groups, progress);

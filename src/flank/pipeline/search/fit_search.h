@@ -13,7 +13,8 @@ namespace flank::internal {
 
 /// What is asked of a search beside its job.
 struct FitDemand {
-  double spare_coverage = 0.0;  ///< what the estimate has to promise beyond the job's demand, where a judge has seen that much less
+  double spare_coverage =
+      0.0;  ///< what the estimate has to promise beyond the job's demand, where a judge has seen that much less
   decltype(FlankFitOptions::is_free_line) is_free_line = {};
 };
 

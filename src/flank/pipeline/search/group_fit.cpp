@@ -47,15 +47,16 @@ FlankFitResult looked_at(FlankFitResult best, const Target& target, const ToolMo
 
 /// One group with as many strips as its tolerance needs: a strip more as long as that is not met, and gains something or
 /// promises to.
-FlankFitResult fit_auto(const Target& target, const ToolModel& tool, FlankFitOptions options, double wanted,
-                        const Progress& progress) {
+FlankFitResult fit_auto(const Target& target, const ToolModel& tool, FlankFitOptions options, const GroupDemand& demand,
+                        double wanted, const Progress& progress) {
   const bool has_ways = options.ways;
   FlankFitResult best;
   double one_covers = 0.0, rest = 1.0;
   StripGain gain(options.tolerance_mm, !options.ways);
   for (int count : {1, 2, 3, 4, 6, 8, 10, kMostStrips}) {
+    if (count > demand.most_strips) break;
     options.strips = count;
-    options.least_coverage_for_last_passes = count < kMostStrips ? kPromising : 0.0;
+    options.least_coverage_for_last_passes = count < demand.most_strips ? kPromising : 0.0;
     options.least_coverage_for_close_look = least_to_look_at(best, options);
     const double here = 1.0 - rest;  // nobody knows how many follow: each gets a half of what is left
     FlankFitResult result = fit_automatic(target, tool, options, progress.part(here, 1.0 - (rest *= 0.5)));
@@ -80,8 +81,9 @@ FlankFitResult fit_auto(const Target& target, const ToolModel& tool, FlankFitOpt
 
 /// One group: with the strips that were asked for, or with those that the tolerance needs (0). A strip more must not make
 /// it worse: where several do not give what was asked, one is tried, too. Last, the bounds on stiffness give way.
-FlankFitResult fit_group(const Target& target, const ToolModel& tool, FlankFitOptions options, int strips,
-                         double wanted, const Progress& progress) {
+FlankFitResult fit_group(const Target& target, const ToolModel& tool, FlankFitOptions options,
+                         const GroupDemand& demand, double wanted, const Progress& progress) {
+  const int strips = demand.strips;
   const auto done = [&](const FlankFitResult& result) {
     return meets(result.after, wanted, options) || progress.stop();
   };
@@ -96,13 +98,13 @@ FlankFitResult fit_group(const Target& target, const ToolModel& tool, FlankFitOp
   constexpr double kFirst = 0.6, kSoften = 0.7;
   const Progress first = progress.part(0.0, kFirst);
   FlankFitResult best =
-      strips > 0 ? fit_automatic(target, tool, options, first) : fit_auto(target, tool, options, wanted, first);
+      strips > 0 ? fit_automatic(target, tool, options, first) : fit_auto(target, tool, options, demand, wanted, first);
   if (strips > 1 && !done(best)) {
     options.strips = 1;
     keep_better(best, fit_automatic(target, tool, options, progress.part(kFirst, kSoften)), options);
   }
   // What facets keep from a motion no slender tool brings back.
-  if (done(best) || !options.ways) {
+  if (done(best) || !options.ways || !demand.soften) {
     note_slenderness(tool, options, best);
     return best;
   }
@@ -151,8 +153,7 @@ class TogetherFit {
   using FitOne = std::function<FlankFitResult(std::size_t group, const Progress& progress)>;
 
   [[nodiscard]] FlankFitResult fit_one(std::size_t g, const ToolModel& tool, const Progress& progress) const {
-    return fit_group(*groups_[g].target, tool, beside(groups_[g], options_), demand_.strips, demand_.wanted[g],
-                     progress);
+    return fit_group(*groups_[g].target, tool, beside(groups_[g], options_), demand_, demand_.wanted[g], progress);
   }
 
   /// One strip on each, polished together if that is needed; else as many as each takes.
@@ -234,7 +235,7 @@ GroupFits fit_groups(const std::vector<TargetGroup>& groups, const ToolModel& to
                      const GroupDemand& demand, const Progress& progress) {
   if (groups.size() > 1) return TogetherFit(groups, tool, options, demand).run(progress);
   const FlankFitOptions own = beside(groups[0], options);
-  FlankFitResult fit = fit_group(*groups[0].target, tool, own, demand.strips, demand.wanted[0], progress);
+  FlankFitResult fit = fit_group(*groups[0].target, tool, own, demand, demand.wanted[0], progress);
   const std::vector<std::size_t> group_of_motion(fit.motions.size(), 0);
   return {std::move(fit), group_of_motion};
 }

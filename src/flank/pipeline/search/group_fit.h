@@ -13,8 +13,10 @@ inline constexpr int kMostStrips = 12;
 
 /// What is asked of groups.
 struct GroupDemand {
-  int strips = 0;              ///< of each; 0: as many as it takes
-  std::vector<double> wanted;  ///< of each: the estimate of its covered share, in [0, 1], with which it is done
+  int strips = 0;                 ///< of each; 0: as many as it takes
+  int most_strips = kMostStrips;  ///< where it takes as many as it takes
+  bool soften = true;             ///< a tool more slender than the bounds allow is tried where they cost too much
+  std::vector<double> wanted;     ///< of each: the estimate of its covered share, in [0, 1], with which it is done
 };
 
 struct GroupFits {

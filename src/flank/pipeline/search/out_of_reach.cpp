@@ -29,7 +29,8 @@ namespace {
 bool can_be_held(const SurfaceSample& sample, double radius_mm, const FlankFitOptions& options) {
   constexpr int kAround = 24;
   constexpr std::array kLeans = {0.0, 0.25, 0.5};  // radians
-  const Vec3 x = sample.normal.unitOrthogonal(), y = sample.normal.cross(x), from = sample.point + radius_mm * sample.normal;
+  const Vec3 x = sample.normal.unitOrthogonal(), y = sample.normal.cross(x),
+             from = sample.point + radius_mm * sample.normal;
   for (const double lean : kLeans)
     for (int k = 0; k < kAround; ++k) {
       const double angle = 2.0 * std::numbers::pi * k / kAround;
@@ -83,7 +84,8 @@ std::string out_of_reach_note(double share, const FlankFitOptions& options) {
 
 std::string not_holdable_note(double share) {
   return fmt::format(
-      "a tool whose flank lies on the target could be held on {:.1f} % of its area: elsewhere its axis, continued beyond the flank in any "
+      "a tool whose flank lies on the target could be held on {:.1f} % of its area: elsewhere its axis, continued "
+      "beyond the flank in any "
       "direction, runs into the part",
       100.0 * share);
 }

@@ -12,9 +12,9 @@
 #include "flank/base/tolerance_budget.h"
 #include "flank/envelope/swept_estimate.h"
 #include "flank/fit/coverage.h"
-#include "flank/fit/rank.h"
 #include "flank/fit/fit_record.h"
 #include "flank/fit/polish.h"
+#include "flank/fit/rank.h"
 #include "flank/fit/swept_pass.h"
 #include "flank/fit/tried.h"
 
@@ -100,11 +100,6 @@ double gain(const Reached& now, const Reached& before) {
 /// A pass over what the tool's own balls touch. What is far is out of sight, so that it pulls little at what is within.
 /// `steadiness`: weight of what plunges and of what lags, in that of other passes.
 FitDraft further_pass(const FitDraft& draft, const FlankFitOptions& options, double steadiness) {
-  constexpr SweptPass kFurther = {.dead_zone = kToleranceBudget.fit.dead_zone_partial,
-                                  .fairness = kSofter,
-                                  .iterations = 20,
-                                  .out_of_sight = 4.0,
-                                  .firmness = 4.0};
   FitStage stage = swept_stage(kFurther, options, draft.targets.front()->diagonal());
   stage.plunge_weight *= steadiness;
   stage.lag_weight *= steadiness;

@@ -39,8 +39,8 @@ FlankFitResult refit(const Target& target, const ToolModel& tool, const FlankFit
 }
 
 /// Brings the slenderness of a fit down in steps, as far as the fit stays as good.
-FlankFitResult stiffened(const Target& target, const ToolModel& tool, const FlankFitOptions& options,
-                         double slenderest, const FlankFitResult& open, const Progress& progress) {
+FlankFitResult stiffened(const Target& target, const ToolModel& tool, const FlankFitOptions& options, double slenderest,
+                         const FlankFitResult& open, const Progress& progress) {
   /// Of the slenderness that is too much, in logarithm: halving the rest of the way three times leaves an eighth.
   constexpr int kTrials = 3;
   constexpr double kSoft = 1.02;  // times the bound, which is a soft one
