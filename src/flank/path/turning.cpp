@@ -13,9 +13,14 @@ namespace {
 /// Steps that are shorter have no direction.
 constexpr double kStillMm = 1e-7;
 
+using Vec6 = Eigen::Matrix<double, 6, 1>;
+
+/// Of two unit vectors, to all digits also where they are nearly alike or opposed.
+double angle_between(const Vec6& a, const Vec6& b) { return 2.0 * std::atan2((a - b).norm(), (a + b).norm()); }
+
 /// One step of the motion.
 struct Step {
-  Eigen::Matrix<double, 6, 1> direction;
+  Vec6 direction;
   double at_mm = 0.0;    ///< its middle, along the way
   std::size_t pose = 0;  ///< that it begins at
 };
@@ -24,7 +29,7 @@ std::vector<Step> steps_of(std::span<const Pose> poses, double axis_length) {
   std::vector<Step> steps;
   double way = 0.0;
   for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
-    Eigen::Matrix<double, 6, 1> step;
+    Vec6 step;
     step << poses[i + 1].tip - poses[i].tip, poses[i + 1].at(axis_length) - poses[i].at(axis_length);
     const double length = step.norm();
     if (length > kStillMm) steps.push_back({step / length, way + 0.5 * length, i});
@@ -46,10 +51,11 @@ Turning sharpest_turn(std::span<const Pose> poses, double axis_length, double wi
     while (steps[i].at_mm - steps[first].at_mm > window_mm) ++first;
     for (std::size_t k = first; k < i; ++k) {
       const double cosine = steps[i].direction.dot(steps[k].direction);
-      if (cosine < least) least = cosine, sharpest.pose = steps[i].pose;
+      if (cosine >= least) continue;
+      least = cosine;
+      sharpest = {angle_between(steps[i].direction, steps[k].direction), 0, steps[i].pose};
     }
   }
-  sharpest.angle_rad = std::acos(std::clamp(least, -1.0, 1.0));
   return sharpest;
 }
 
