@@ -55,7 +55,8 @@ def table(name):
     header, rows = cells(results)
     lines = [header, ["---"] * len(header), *rows]
     source = "" if results["source"] == "measured" else f", {results['source']}"
-    told = f"Measured {results['measured']}{source}: {results['command']}; {results['machine']}.\n\n"
+    command = f"`{results['command']}`" if "--" in results["command"] else results["command"]
+    told = f"Measured {results['measured']}{source}: {command}; {results['machine']}.\n\n"
     return told + "".join("|" + "|".join(f" {cell} " if cell != "---" else cell for cell in line) + "|\n" for line in lines)
 
 
