@@ -1,7 +1,6 @@
 """scripts/check-words finds what it is there to find, and scripts/results.py a table that was changed by hand."""
 
 import pathlib
-import re
 import subprocess
 import sys
 
@@ -47,8 +46,3 @@ def test_what_is_well_written_passes(tmp_path):
 def test_tables_are_those_of_their_files():
     done = subprocess.run([sys.executable, ROOT / "scripts/results.py", "--check"], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
-
-
-def test_the_program_of_the_readme_is_the_example_that_is_built():
-    block = re.search(r"```cpp\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)[1]
-    assert block == (ROOT / "examples/run_a_fit.cpp").read_text()

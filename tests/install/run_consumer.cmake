@@ -25,7 +25,7 @@ run(${CMAKE_COMMAND} -G Ninja -S ${EXAMPLES_DIR} -B ${WORK_DIR}/examples -D CMAK
     -D CMAKE_PREFIX_PATH=${WORK_DIR}/prefix)
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/examples)
 run(${WORK_DIR}/prefix/bin/flank example twisted-blade -o ${WORK_DIR}/blade.step --quiet)
-foreach(command run_a_fit "fit_a_tool blade.step F1" "judge_files blade.step F1 tool.json path.json" "cover_a_face blade.step F1")
+foreach(command "fit_a_tool blade.step F1" "judge_files blade.step F1 tool.json path.json" "cover_a_face blade.step F1")
   separate_arguments(words UNIX_COMMAND ${command})
   list(POP_FRONT words program)
   execute_process(COMMAND ${WORK_DIR}/examples/${program} ${words} WORKING_DIRECTORY ${WORK_DIR} RESULT_VARIABLE status
