@@ -54,7 +54,7 @@ def table(name):
     results = json.loads((RESULTS / f"{name}.json").read_text(encoding="utf-8"))
     header, rows = cells(results)
     lines = [header, ["---"] * len(header), *rows]
-    source = "" if results["source"] == "measured" else f", {results['source']}"
+    source = f" at {results['commit']}" if results["source"] == "measured" else f", {results['source']}"
     command = f"`{results['command']}`" if "--" in results["command"] else results["command"]
     told = f"Measured {results['measured']}{source}: {command}; {results['machine']}.\n\n"
     return told + "".join("|" + "|".join(f" {cell} " if cell != "---" else cell for cell in line) + "|\n" for line in lines)
