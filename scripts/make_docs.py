@@ -17,12 +17,12 @@ REPOSITORY_FILES = ("README.md", "ARCHITECTURE.md", "GLOSSARY.md", "CONTRIBUTING
 CONTENTS = [
     ("Tutorials", ["tutorials/" + name for name in ("first-blade", "reading-the-report", "given-tool", "beside-a-hub", "a-cavity", "to-the-machine",
                                                     "from-python", "what-it-cannot-do")]),
-    ("Using it", ["root/README", "python", "python-api", "library", "api", "measured", "comparison"]),
+    ("Using it", ["root/README", "python", "python-api", "library", "api", "results", "comparison", "packaging"]),
     ("How it works", ["MATH", "root/ARCHITECTURE", "root/GLOSSARY", "reliability"]),
     ("Algorithms", ["algorithms/*"]),
     ("Files", ["schema/*"]),
     ("Decisions", ["decisions/*"]),
-    ("The project", ["history", "root/CONTRIBUTING", "root/CHANGELOG", "root/SECURITY"])]
+    ("The project", ["history", "history/*", "root/CONTRIBUTING", "root/CHANGELOG", "root/SECURITY"])]
 
 
 def doxygen(work):
