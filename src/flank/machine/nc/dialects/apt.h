@@ -1,14 +1,10 @@
-/// Programs of APT, as cutter-location files.
+/// Programs for APT: cutter-location files with the words of ISO 4343, for another postprocessor.
 #pragma once
 
-#include <string>
-#include <string_view>
-
-#include "flank/machine/nc/dialect.h"
+#include "flank/machine/nc/dialects/language_row.h"
 
 namespace flank::internal {
 
-/// As read_nc, for a text that was not recognised as one of another language.
-[[nodiscard]] NcProgram read_apt(std::string_view text, const std::string& file, const NcDialect& dialect);
+extern const NcLanguageRow kAptRow;
 
 }  // namespace flank::internal

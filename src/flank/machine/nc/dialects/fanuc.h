@@ -1,14 +1,10 @@
-/// Programs of Fanuc 30i and 31i.
+/// Programs for Fanuc 30i and 31i.
 #pragma once
 
-#include <string>
-#include <string_view>
-
-#include "flank/machine/nc/dialect.h"
+#include "flank/machine/nc/dialects/language_row.h"
 
 namespace flank::internal {
 
-/// As read_nc, for a text that was not recognised as one of another language.
-[[nodiscard]] NcProgram read_fanuc(std::string_view text, const std::string& file, const NcDialect& dialect);
+extern const NcLanguageRow kFanucRow;
 
 }  // namespace flank::internal

@@ -1,14 +1,10 @@
-/// Programs of Heidenhain iTNC 530 and TNC 640.
+/// Programs for Heidenhain iTNC 530 and TNC 640, in their conversational language.
 #pragma once
 
-#include <string>
-#include <string_view>
-
-#include "flank/machine/nc/dialect.h"
+#include "flank/machine/nc/dialects/language_row.h"
 
 namespace flank::internal {
 
-/// As read_nc, for a text that was not recognised as one of another language.
-[[nodiscard]] NcProgram read_heidenhain(std::string_view text, const std::string& file, const NcDialect& dialect);
+extern const NcLanguageRow kHeidenhainRow;
 
 }  // namespace flank::internal

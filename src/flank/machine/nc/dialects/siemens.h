@@ -1,14 +1,10 @@
-/// Programs of Siemens 840D sl.
+/// Programs for Siemens 840D sl.
 #pragma once
 
-#include <string>
-#include <string_view>
-
-#include "flank/machine/nc/dialect.h"
+#include "flank/machine/nc/dialects/language_row.h"
 
 namespace flank::internal {
 
-/// As read_nc, for a text that was not recognised as one of another language.
-[[nodiscard]] NcProgram read_siemens(std::string_view text, const std::string& file, const NcDialect& dialect);
+extern const NcLanguageRow kSiemensRow;
 
 }  // namespace flank::internal
