@@ -258,7 +258,7 @@ class TreeCheck {
                      : other == word || (other == layer && layer != layer_of(room));
         });
         if (met < (all ? 2 : 1))
-          report("src/flank/layers.txt", 1,
+          report(std::string("src/flank/layers.txt"), 1,
                  room + " may include " + word + ", and " + (all && met == 1 ? "includes one of them" : "does not"));
       }
     }
