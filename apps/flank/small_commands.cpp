@@ -25,7 +25,7 @@ Subcommand add_inspect(CLI::App& parser) {
       parser.add_subcommand("inspect", "List the faces of a part: type, area, size, curvature, trims, units");
   auto file = std::make_shared<std::string>();
   auto unit = std::make_shared<std::optional<std::string>>();
-  app->add_option("PART", *file, "STEP, IGES, BREP, STL, OBJ or PLY file")->required();
+  app->add_option("PART", *file, part_formats() + " file")->required();
   app->add_option("--unit", *unit, "Unit of a mesh, or of a CAD file that states a wrong one: mm, cm, m or in")
       ->check(CLI::IsMember({"mm", "cm", "m", "in"}));
   app->footer("Example: flank example twisted-blade -o blade.step && flank inspect blade.step");
@@ -50,7 +50,8 @@ Subcommand add_example(CLI::App& parser) {
   std::string names;
   for (const std::string& known : example_names()) names += (names.empty() ? "" : ", ") + known;
   app->add_option("NAME", *name, "One of: " + names)->required();
-  app->add_option("-o,--output", *file, "File to write: .step for faces, .stl, .obj or .ply for meshes")->required();
+  app->add_option("-o,--output", *file, "File to write: .step for faces, .stl or another mesh file for meshes")
+      ->required();
   app->add_option("--seed", options->seed, "Seed of the noise of noisy examples")->capture_default_str();
   CavityShape& cavity = options->cavity;
   app->add_option("--width", cavity.width_mm, "Of the cavity: across both walls, mm")->capture_default_str();
@@ -90,8 +91,7 @@ Subcommand add_tool(CLI::App& parser) {
   auto show = std::make_shared<bool>(false);
   app->add_option(
          "SOURCE", options->source,
-         "A family (cylinder, cone, barrel, lens, tapered-barrel, hyperbolic, power), a family with parameters "
-         "(cone:radius=2,angle=3), or a tool.json or .dxf")
+         "A family (" + tool_families() + "), a family with parameters (cone:radius=2,angle=3), or a tool.json or .dxf")
       ->required();
   app->add_option("--param", options->parameters, "NAME=VALUE of the family; mm, degrees")->allow_extra_args(false);
   app->add_option("--axis-length", options->axis_length_mm, "Length of the axis, mm");

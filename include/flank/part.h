@@ -1,4 +1,4 @@
-/// Reading a part: CAD files (STEP, IGES, BREP) and triangle meshes (STL, OBJ, PLY).
+/// Reading a part: CAD files and triangle meshes.
 #pragma once
 
 #include <map>
@@ -15,7 +15,7 @@ namespace flank {
 struct Part {
   std::string file;
   std::string sha256;  ///< of the bytes of the file, 64 hexadecimal digits
-  std::string format;  ///< STEP, IGES, BREP, STL, OBJ, PLY
+  std::string format;  ///< one of part_formats()
   std::string unit;    ///< of the file: mm, cm, m, in
   double millimetres_per_unit = 1.0;
   /// In the order of the file; faces[k].id == "F" + (k + 1) as long as no face is replaced by its pieces (split_faces).
@@ -48,6 +48,9 @@ inline constexpr double kLargestCoordinateMm = 1e7;
 
 /// A part whose box is smaller is refused: its details would be below what any machine and any judge resolves.
 inline constexpr double kSmallestBoxMm = 1e-3;
+
+/// The formats that are read: "STEP, IGES, BREP, STL, OBJ or PLY".
+[[nodiscard]] std::string part_formats();
 
 /// Reads a part. `unit` ("mm", "cm", "m", "in") is needed for meshes, whose files have none, and refused for CAD files
 /// that state another. Throws InputError naming the file and what would be accepted (missing, empty, truncated, not the

@@ -85,10 +85,12 @@ inline constexpr std::array<ToolFamily, 8> kToolFamilies = {
     ToolFamily::kCylinder,      ToolFamily::kCone,       ToolFamily::kBarrel, ToolFamily::kLens,
     ToolFamily::kTaperedBarrel, ToolFamily::kHyperbolic, ToolFamily::kPower,  ToolFamily::kSpline};
 
-/// "cylinder", "cone", "barrel", "lens", "tapered-barrel", "hyperbolic", "power", "spline".
+/// "tapered-barrel": as files and the command line name it.
 [[nodiscard]] std::string_view family_name(ToolFamily family);
 /// The inverse; nothing for an unknown name.
 [[nodiscard]] std::optional<ToolFamily> family_from_name(std::string_view name);
+/// "cylinder, cone, ..., power": those that are given by named parameters.
+[[nodiscard]] std::string tool_families();
 /// Names of the parameters in order; empty for splines, whose coefficients have no names.
 [[nodiscard]] std::span<const std::string_view> parameter_names(ToolFamily family);
 /// Is parameter `index` of the family an angle in radians (else a length or a plain number)?

@@ -62,7 +62,7 @@ void bind_part_class(py::module_& module) {
       module, "Part", "A part as values, in millimetres: faces as B-splines with trims, or a mesh. Made by read_part.");
   type.def_readonly("file", &Part::file, "Name of the file.")
       .def_readonly("sha256", &Part::sha256, "Of the bytes of the file, 64 hexadecimal digits.")
-      .def_readonly("format", &Part::format, "STEP, IGES, BREP, STL, OBJ or PLY.")
+      .def_readonly("format", &Part::format, "One of those that read_part reads: STEP, STL, ...")
       .def_readonly("unit", &Part::unit, "Of the file: mm, cm, m or in.")
       .def_readonly("solids", &Part::solids, "How many solids there are.")
       .def_readonly("repairs", &Part::repairs, "What was repaired, one sentence each.")
@@ -177,9 +177,11 @@ void bind_part(py::module_& module) {
   bind_part_class(module);
   module.def(
       "read_part", &read, py::arg("file"), py::arg("unit") = py::none(), py::arg("pieces") = "",
-      "Reads a STEP, IGES, BREP, STL, OBJ or PLY file. unit (\"mm\", \"cm\", \"m\", \"in\") is needed for a mesh, "
-      "whose file has none. pieces: faces to be split into sides and edges, \"F1a\". Raises InputError naming the "
-      "file and what would be accepted.");
+      ("Reads a " + part_formats() +
+       " file. unit (\"mm\", \"cm\", \"m\", \"in\") is needed for a mesh, "
+       "whose file has none. pieces: faces to be split into sides and edges, \"F1a\". Raises InputError naming the "
+       "file and what would be accepted.")
+          .c_str());
 }
 
 }  // namespace flank::python

@@ -29,6 +29,15 @@ std::string keywords(ToolFamily family) {
   return text;
 }
 
+/// "cylinder (radius), cone (radius, angle_deg), ..."
+std::string families_with_keywords() {
+  std::string text;
+  for (const ToolFamily family : kToolFamilies)
+    if (!parameter_names(family).empty())
+      text += (text.empty() ? "" : ", ") + std::string(family_name(family)) + " (" + keywords(family) + ")";
+  return text;
+}
+
 Tool checked(Tool tool) {
   const Legitimacy legitimacy = check_legitimacy(tool.radial);
   if (!legitimacy.legitimate) throw InputError("tool " + tool.name + ": " + legitimacy.reason);
@@ -43,12 +52,8 @@ void require_length(double axis_length_mm) {
 Tool make_tool(const std::string& name, double axis_length_mm, const Doubles& shank, const Doubles& holder,
                const py::kwargs& given) {
   const std::optional<ToolFamily> family = family_from_name(name);
-  if (!family || *family == ToolFamily::kSpline) {
-    std::string names;
-    for (const ToolFamily known : kToolFamilies)
-      if (known != ToolFamily::kSpline) names += (names.empty() ? "" : ", ") + std::string(family_name(known));
-    throw UsageError("family", name, "there are " + names + "; Tool.spline and Tool.load make others");
-  }
+  if (!family || parameter_names(*family).empty())
+    throw UsageError("family", name, "there are " + tool_families() + "; Tool.spline and Tool.load make others");
   require_length(axis_length_mm);
   Eigen::VectorXd parameters(static_cast<Eigen::Index>(parameter_names(*family).size()));
   for (int k = 0; k < parameters.size(); ++k) {
@@ -148,13 +153,13 @@ void bind_tool(py::module_& module) {
       module, "Tool",
       "A tool: the radial function r(s) of its flank, s in [0, L] from the tip, and shank and holder above it.");
   const py::array_t<double> none(std::vector<py::ssize_t>{0, 2});
-  type.def(
-      py::init(&make_tool), py::arg("family"), py::arg("axis_length_mm"), py::arg("shank") = none,
-      py::arg("holder") = none,
-      "A tool of a family with its parameters as keywords, mm and degrees: cylinder (radius), cone (radius, "
-      "angle_deg), barrel (arc, radius, s0), lens (radius, end_radius), tapered-barrel (arc, radius, angle_deg), "
-      "hyperbolic (radius, slope, bend), power (a, b, c, d). shank, holder: profiles N x 2 (z from s = 0, radius), "
-      "mm. Raises UsageError for wrong keywords and InputError if it is no tool.");
+  type.def(py::init(&make_tool), py::arg("family"), py::arg("axis_length_mm"), py::arg("shank") = none,
+           py::arg("holder") = none,
+           ("A tool of a family with its parameters as keywords, mm and degrees: " + families_with_keywords() +
+            ". shank, holder: profiles N x 2 (z from s = 0, radius), mm. Raises UsageError for wrong keywords and "
+            "InputError "
+            "if it is no tool.")
+               .c_str());
   type.def_static(
       "spline", &make_spline, py::arg("axis_length_mm"), py::arg("coefficients"), py::arg("name") = "spline",
       "A tool whose r(s) is a clamped cubic B-spline with equal knots over [0, L]; coefficients (n,), n >= 4, "

@@ -1,5 +1,6 @@
 // Which other faces count, and what entering one means.
 #include "cli/cli_fixture.h"
+#include "shared_data.h"
 
 namespace flank::cli {
 namespace {
@@ -33,10 +34,8 @@ class CliCheckFaces : public Cli {
 
 // Without regard to the rest of the impeller the tool runs into it: F1 stands on the hub.
 TEST_F(CliCheckFaces, EnteringAnotherFaceIsExitOneAndNamed) {
-  const fs::path part = real_part("kj66_impeller.step");
-  if (part.empty()) GTEST_SKIP() << "no real parts in FLANK_DATA";
-  const Outcome fit =
-      flank({"fit", part.string(), "--face", "F1", "--tolerance", "0.05", "--avoid", "off", "-o", path("out")});
+  FLANK_REAL_PART(part, "kj66_impeller.step");
+  const Outcome fit = flank({"fit", part, "--face", "F1", "--tolerance", "0.05", "--avoid", "off", "-o", path("out")});
   EXPECT_EQ(fit.exit_code, 1) << fit.out << fit.err;
   const json whole = file("verify.json");
   EXPECT_FALSE(whole.at("pass"));

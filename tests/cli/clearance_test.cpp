@@ -1,5 +1,6 @@
 // Shank, holder, fixtures and clearance on the command line.
 #include "cli/cli_fixture.h"
+#include "shared_data.h"
 
 namespace flank::cli {
 namespace {
@@ -120,12 +121,10 @@ TEST_F(CliClearanceFit, AFixtureInTheWayIsExitOneAndNamed) {
 }
 
 TEST_F(CliClearanceFit, AWideHolderHitsTheRealImpeller) {
-  const fs::path part = real_part("kj66_impeller.step");
-  if (part.empty()) GTEST_SKIP() << "no real parts in FLANK_DATA";
+  FLANK_REAL_PART(part, "kj66_impeller.step");
   // Planned as if the other faces were not there; the length of the axis is given, so that nothing is lifted.
-  const Outcome outcome =
-      flank({"fit", part.string(), "--face", "F1", "--tolerance", "0.05", "-o", path("out"), "--avoid", "off",
-             "--axis-length", "55", "--shank-length", "10", "--holder", "10:45,50:45"});
+  const Outcome outcome = flank({"fit", part, "--face", "F1", "--tolerance", "0.05", "-o", path("out"), "--avoid",
+                                 "off", "--axis-length", "55", "--shank-length", "10", "--holder", "10:45,50:45"});
   EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
   const json list = json::parse(read_file(root_ / "out/verify.json")).at("clearance");
   const json holder = figure(list, "holder", "part");

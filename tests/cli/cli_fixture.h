@@ -4,20 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "cli/process.h"
 #include "sanitized.h"
 
 namespace flank::cli {
-
-/// File of the folder of real parts; empty if it is not there.
-inline fs::path real_part(const std::string& name) {
-  const char* folder = std::getenv("FLANK_DATA");
-  const fs::path file = (folder ? fs::path(folder) : fs::path(FLANK_SOURCE_DIR) / "../shared/data") / name;
-  return fs::exists(file) ? file : fs::path();
-}
 
 class Cli : public ::testing::Test {
  protected:

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "cli/cli_fixture.h"
+#include "shared_data.h"
 
 namespace flank::cli {
 namespace {
@@ -26,8 +27,7 @@ TEST_F(CliDamaged, NumbersThatWouldBeReadInPart) {
 }
 
 TEST_F(CliDamaged, WhatCrashesOrHangsTheKernelIsRefused) {
-  const fs::path folder = real_part("bad");
-  if (folder.empty()) GTEST_SKIP() << "no damaged parts in FLANK_DATA";
+  FLANK_REAL_PART(folder, "bad");
   int tried = 0;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string kind = entry.path().extension();
@@ -53,10 +53,9 @@ TEST_F(CliDamaged, WhatCrashesOrHangsTheKernelIsRefused) {
 }
 
 TEST_F(CliDamaged, TheReadLimitIsKept) {
-  const fs::path part = real_part("bad/brepA_0230_flip3.brep");
-  if (part.empty()) GTEST_SKIP() << "no damaged parts in FLANK_DATA";
-  expect_refused({"inspect", part.string(), "--read-limit", "0.5"}, 3, "--read-limit");
-  expect_refused({"inspect", part.string(), "--read-limit", "0"}, 2, "--read-limit");
+  FLANK_REAL_PART(part, "bad/brepA_0230_flip3.brep");
+  expect_refused({"inspect", part, "--read-limit", "0.5"}, 3, "--read-limit");
+  expect_refused({"inspect", part, "--read-limit", "0"}, 2, "--read-limit");
 }
 
 TEST_F(CliDamaged, PipesAndDevicesAreRefused) {

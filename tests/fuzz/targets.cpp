@@ -4,17 +4,15 @@
 
 #include "flank/error.h"
 #include "flank/io/isolated/part_bytes.h"
-#include "flank/io/mesh/read_obj.h"
-#include "flank/io/mesh/read_ply.h"
-#include "flank/io/mesh/read_stl.h"
+#include "flank/io/part_format.h"
 #include "flank/io/path/path_cls_read.h"
 #include "flank/io/text/step_syntax.h"
 #include "flank/io/tool/tool_dxf_read.h"
 #include "flank/job/job_json.h"
 #include "flank/machine/kinematics.h"
 #include "flank/machine/model/machine_file.h"
-#include "flank/machine/nc/read/read_nc.h"
-#include "flank/machine/nc/write/write_nc.h"
+#include "flank/machine/nc/dialects/read_nc.h"
+#include "flank/machine/nc/dialects/write_nc.h"
 #include "flank/machine/work_setup.h"
 #include "flank/manifest/journal_json.h"
 #include "flank/manifest/manifest.h"
@@ -152,32 +150,37 @@ void part_bytes(std::string_view bytes) {
 }  // namespace
 
 const std::map<std::string, Target>& targets() {
-  static const std::map<std::string, Target> kTargets{
-      {"stl", [](std::string_view b) { refused_or([&] { sound(read_stl("f", b)); }); }},
-      {"obj", [](std::string_view b) { refused_or([&] { sound(read_obj("f", b)); }); }},
-      {"ply", [](std::string_view b) { refused_or([&] { sound(read_ply("f", b)); }); }},
-      {"tool", [](std::string_view b) { refused_or([&] { sound(tool_from_json(b, "f")); }); }},
-      {"path", [](std::string_view b) { refused_or([&] { sound(path_from_json(b, "f")); }); }},
-      {"job", [](std::string_view b) { refused_or([&] { (void)job_from_json(std::string(b), "f"); }); }},
-      {"view", [](std::string_view b) { refused_or([&] { check_report_file(b, "f", "openflank/view/1"); }); }},
-      {"manifest", [](std::string_view b) { refused_or([&] { (void)manifest_from_json(b, "f"); }); }},
-      {"resume", resume},
-      {"cls", [](std::string_view b) { refused_or([&] { sound(path_from_cls(b, "f")); }); }},
-      {"dxf", [](std::string_view b) { refused_or([&] { (void)profile_from_dxf(b, "f"); }); }},
-      {"guide", [](std::string_view b) { refused_or([&] { (void)parse_guide("f", b); }); }},
-      {"holder", [](std::string_view b) { refused_or([&] { (void)holder_profile(std::string(b)); }); }},
-      {"spec", [](std::string_view b) { refused_or([&] { (void)parse_tool_spec(std::string(b), "tool"); }); }},
-      {"step", [](std::string_view b) { refused_or([&] { (void)plain_step("f", b); }); }},
-      {"part_bytes", part_bytes},
-      {"machine", [](std::string_view b) { refused_or([&] { sound(machine_from_toml(b, "f")); }); }},
-      {"setup", [](std::string_view b) { refused_or([&] { (void)parse_setup(std::string(b)); }); }},
+  static const std::map<std::string, Target> kTargets = [] {
+    std::map<std::string, Target> all{
+        {"tool", [](std::string_view b) { refused_or([&] { sound(tool_from_json(b, "f")); }); }},
+        {"path", [](std::string_view b) { refused_or([&] { sound(path_from_json(b, "f")); }); }},
+        {"job", [](std::string_view b) { refused_or([&] { (void)job_from_json(std::string(b), "f"); }); }},
+        {"view", [](std::string_view b) { refused_or([&] { check_report_file(b, "f", "openflank/view/1"); }); }},
+        {"manifest", [](std::string_view b) { refused_or([&] { (void)manifest_from_json(b, "f"); }); }},
+        {"resume", resume},
+        {"cls", [](std::string_view b) { refused_or([&] { sound(path_from_cls(b, "f")); }); }},
+        {"dxf", [](std::string_view b) { refused_or([&] { (void)profile_from_dxf(b, "f"); }); }},
+        {"guide", [](std::string_view b) { refused_or([&] { (void)parse_guide("f", b); }); }},
+        {"holder", [](std::string_view b) { refused_or([&] { (void)holder_profile(std::string(b)); }); }},
+        {"spec", [](std::string_view b) { refused_or([&] { (void)parse_tool_spec(std::string(b), "tool"); }); }},
+        {"step", [](std::string_view b) { refused_or([&] { (void)plain_step("f", b); }); }},
+        {"part_bytes", part_bytes},
+        {"machine", [](std::string_view b) { refused_or([&] { sound(machine_from_toml(b, "f")); }); }},
+        {"setup", [](std::string_view b) { refused_or([&] { (void)parse_setup(std::string(b)); }); }},
 
-      {"nc_linuxcnc", nc_linuxcnc},
-      {"nc_fanuc", [](std::string_view b) { nc_of(b, NcLanguage::kFanuc); }},
-      {"nc_siemens", [](std::string_view b) { nc_of(b, NcLanguage::kSiemens); }},
-      {"nc_heidenhain", [](std::string_view b) { nc_of(b, NcLanguage::kHeidenhain); }},
-      {"nc_apt", [](std::string_view b) { nc_of(b, NcLanguage::kApt); }},
-  };
+        {"nc_linuxcnc", nc_linuxcnc},
+        {"nc_fanuc", [](std::string_view b) { nc_of(b, NcLanguage::kFanuc); }},
+        {"nc_siemens", [](std::string_view b) { nc_of(b, NcLanguage::kSiemens); }},
+        {"nc_heidenhain", [](std::string_view b) { nc_of(b, NcLanguage::kHeidenhain); }},
+        {"nc_apt", [](std::string_view b) { nc_of(b, NcLanguage::kApt); }},
+    };
+    for (const PartFormat& format : part_format_rows())
+      if (format.read != nullptr)
+        all[std::string(format.endings.front().substr(1))] = [&format](std::string_view b) {
+          refused_or([&] { sound(format.read("f", b)); });
+        };
+    return all;
+  }();
   return kTargets;
 }
 

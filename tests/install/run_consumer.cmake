@@ -7,13 +7,20 @@ function(run)
 endfunction()
 
 file(REMOVE_RECURSE ${WORK_DIR})
+# The program of the README is compiled as it stands there.
+file(READ ${EXAMPLES_DIR}/../README.md readme)
+if(NOT readme MATCHES "```cpp\n(.*)\n```\n\n\\[docs/library")
+  message(FATAL_ERROR "the README has no program in C++ before it names docs/library.md")
+endif()
+file(WRITE ${WORK_DIR}/readme.cpp "${CMAKE_MATCH_1}\n")
 run(${CMAKE_COMMAND} --install ${FLANK_BUILD_DIR} --prefix ${WORK_DIR}/prefix)
 file(GLOB catalogue ${WORK_DIR}/prefix/share/openflank/catalogue/*.json)
 if(NOT catalogue)
   message(FATAL_ERROR "the tool catalogue is not installed")
 endif()
 run(${CMAKE_COMMAND} -G Ninja -S ${CONSUMER_DIR} -B ${WORK_DIR}/build -D CMAKE_CXX_COMPILER=${CXX}
-    -D CMAKE_PREFIX_PATH=${WORK_DIR}/prefix -D WANTED_VERSION=${FLANK_VERSION})
+    -D CMAKE_PREFIX_PATH=${WORK_DIR}/prefix -D WANTED_VERSION=${FLANK_VERSION}
+    -D README_PROGRAM=${WORK_DIR}/readme.cpp)
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
 run(${WORK_DIR}/build/consumer ${WORK_DIR})
 if(NOT output MATCHES "^fit, cover, judge, tool and path: all there\n$")

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "flank/io/kernel/read_occt_silence.h"
-#include "flank/io/text/read_sniff.h"
+#include "flank/io/text/read_bytes.h"
 #include "io/part_files.h"
 
 namespace flank::internal::testing_io {

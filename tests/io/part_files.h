@@ -4,24 +4,17 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
 #include "flank/error.h"
 #include "flank/part.h"
+#include "shared_data.h"
 
 namespace flank::internal::testing_io {
 
 namespace fs = std::filesystem;
-
-/// Empty where the folder of real parts is absent.
-inline std::string real_part(const std::string& name) {
-  const char* folder = std::getenv("FLANK_DATA");
-  const fs::path path = (folder != nullptr ? fs::path(folder) : fs::path(FLANK_SOURCE_DIR) / "../shared/data") / name;
-  return fs::exists(path) ? path.string() : std::string();
-}
 
 inline std::string own_part(const std::string& name) {
   return std::string(FLANK_SOURCE_DIR) + "/tests/io/data/" + name;
@@ -67,7 +60,3 @@ inline bool tells(const Part& part, const std::string& words) {
 }
 
 }  // namespace flank::internal::testing_io
-
-#define FLANK_REAL_PART(variable, name)                     \
-  const std::string variable = testing_io::real_part(name); \
-  if (variable.empty()) GTEST_SKIP() << "no real parts: " name

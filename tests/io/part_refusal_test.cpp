@@ -7,7 +7,8 @@
 
 #include "flank/base/random.h"
 #include "flank/io/mesh/write_mesh.h"
-#include "flank/io/text/read_sniff.h"
+#include "flank/io/text/read_bytes.h"
+#include "flank/io/text/step_syntax.h"
 #include "io/part_files.h"
 
 namespace flank::internal {

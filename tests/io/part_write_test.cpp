@@ -5,7 +5,7 @@
 
 #include "flank/io/cad/write_step.h"
 #include "flank/io/mesh/write_mesh.h"
-#include "flank/io/text/read_sniff.h"
+#include "flank/io/text/read_bytes.h"
 #include "io/part_files.h"
 #include "rotor37_file.h"
 

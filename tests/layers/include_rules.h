@@ -2,6 +2,8 @@
 /// third parties may show, how files, folders and namespaces are named, and how many there may be.
 #pragma once
 
+#include <algorithm>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -12,7 +14,8 @@
 
 namespace flank::layers {
 
-inline constexpr int kMostFilesInAFolder = 25;
+/// Of a room below src: more than anybody reads in an afternoon, and more than one concept.
+inline constexpr int kMostLinesInARoom = 3600;
 inline constexpr int kMostFrontDoorHeaders = 30;
 
 /// Checks the tree below `root` against a table. Every violation is one sentence "file:line: what".
@@ -23,6 +26,7 @@ class TreeCheck {
   [[nodiscard]] std::vector<std::string> violations() {
     found_.clear();
     modules_.clear();
+    used_.clear();
     for (const fs::path& file : sources_below(root_ / "include/flank")) check_front_door_file(file);
     for (const fs::path& file : sources_below(root_ / "src/flank")) check_room_file(file);
     for (const fs::path& file : sources_below(root_ / "apps")) check_app_file(file);
@@ -30,6 +34,7 @@ class TreeCheck {
       for (const fs::path& file : sources_below(root_ / folder)) add_to_modules(file, includes_of(file));
     check_circles();
     check_counts();
+    check_unused();
     check_front_door_list();
     return found_;
   }
@@ -133,10 +138,13 @@ class TreeCheck {
     check_exists(file, include);
     if (is_front_door(include.path)) {
       const auto layer = table_.front_door.find(fs::path(include.path).stem().string());
-      if (layer == table_.front_door.end() || table_.sees(room, layer->second)) return;
+      if (layer == table_.front_door.end()) return;
+      used_[room].insert(layer->second);
+      if (table_.sees(room, layer->second)) return;
       return report(file, include.line, room + " may not include " + include.path + " of " + layer->second);
     }
     const std::string other = fs::path(include.path.substr(6)).parent_path().generic_string();
+    used_[room].insert(other);
     if (other == room || table_.rooms.at(room).contains(other)) return;
     report(file, include.line,
            room + " may not include " + other + (table_.rooms.contains(other) ? "" : ", an unknown folder"));
@@ -223,17 +231,37 @@ class TreeCheck {
   /// The front door has a number of its own: all of it is one concept, and a user should be able to read it through.
   void check_counts() {
     const fs::path front_door = root_ / "include/flank";
-    for (const char* folder : {"src", "include", "tests", "apps", "bench"}) {
-      for (const auto& [path, count] : files_by_folder(root_ / folder)) {
-        if (path != front_door && count > kMostFilesInAFolder)
-          report(path, 1, std::to_string(count) + " files; a folder holds " + std::to_string(kMostFilesInAFolder));
-      }
-    }
+    std::map<fs::path, int> lines;
+    for (const fs::path& file : sources_below(root_ / "src"))
+      lines[file.parent_path()] += static_cast<int>(read_lines(file).size());
+    for (const auto& [room, count] : lines)
+      if (count > kMostLinesInARoom)
+        report(room, 1, std::to_string(count) + " lines; a room holds " + std::to_string(kMostLinesInARoom));
     int headers = 0;
     for (const fs::path& file : sources_below(front_door)) headers += is_header(file) ? 1 : 0;
     if (headers > kMostFrontDoorHeaders)
       report(front_door, 1,
              std::to_string(headers) + " headers; the front door holds " + std::to_string(kMostFrontDoorHeaders));
+  }
+
+  /// A line of layers.txt names what somebody in the room includes, and nothing more: a room by its name or by a header of the front
+  /// door of its layer, all rooms of a layer where two of them are included.
+  void check_unused() {
+    for (const auto& [room, words] : table_.written) {
+      if (sources_in(root_ / "src/flank" / room).empty()) continue;  // still to come
+      const std::set<std::string>& used = used_[room];
+      for (const std::string& word : words) {
+        const std::string layer = layer_of(word);
+        const bool all = word.ends_with("/*");
+        const auto met = std::count_if(used.begin(), used.end(), [&](const std::string& other) {
+          return all ? layer_of(other) == layer && other != room
+                     : other == word || (other == layer && layer != layer_of(room));
+        });
+        if (met < (all ? 2 : 1))
+          report(std::string("src/flank/layers.txt"), 1,
+                 room + " may include " + word + ", and " + (all && met == 1 ? "includes one of them" : "does not"));
+      }
+    }
   }
 
   /// What layers.txt names must be there.
@@ -252,6 +280,8 @@ class TreeCheck {
   LayerTable table_;
   std::vector<std::string> found_;
   Graph modules_;
+  std::map<std::string, std::set<std::string>>
+      used_;  ///< by room: the rooms, and the layers of the front door, that it includes
 };
 
 }  // namespace flank::layers

@@ -60,10 +60,10 @@ class PlantedTree : public ::testing::Test {
     write("src/flank/low/a.h", "#pragma once\n#include \"flank/point.h\"\nnamespace flank::internal {}\n");
     write("src/flank/low/a.cpp", "#include \"flank/low/a.h\"\n");
     write("src/flank/low/point.cpp", "#include \"flank/point.h\"\n");
-    write("src/flank/high/part/c.h", "#pragma once\n#include \"flank/plan.h\"\n");
+    write("src/flank/high/part/c.h", "#pragma once\n#include \"flank/plan.h\"\n#include \"flank/point.h\"\n");
     write("src/flank/high/b.h", "#pragma once\n#include \"flank/low/a.h\"\n#include <Eigen/Core>\n");
     write("src/flank/high/b.cpp", "#include \"flank/high/b.h\"\n#include \"flank/high/part/c.h\"\n");
-    write("src/flank/io/read_occt.h", "#pragma once\n#include <TopoDS_Shape.hxx>\n");
+    write("src/flank/io/read_occt.h", "#pragma once\n#include <TopoDS_Shape.hxx>\n#include \"flank/low/a.h\"\n");
     write("apps/tool/main.cpp", "#include \"commands.h\"\n#include \"flank/high/b.h\"\n");
     write("apps/tool/commands.h", "namespace flank::cli {}\n");
   }
@@ -103,7 +103,7 @@ class PlantedTree : public ::testing::Test {
   }
 
   static constexpr const char* kTable =
-      "# comment\n[rooms]\nlow:\nhigh/part: low\nhigh: low high/*\nio: low\nfar: low\n"
+      "# comment\n[rooms]\nlow:\nhigh/part: low\nhigh: low high/part\nio: low\nfar:\n"
       "[front door]\npoint: low\nplan: high\n";
   fs::path root_;
 };
@@ -156,8 +156,7 @@ TEST_F(PlantedTree, KeepsTheOrderOfTheLayersAtTheFrontDoor) {
 }
 
 TEST_F(PlantedTree, FindsAHeaderOfTheFrontDoorThatIsOnlyInTheTable) {
-  fs::remove(root_ / "src/flank/high/part/c.h");
-  write("src/flank/high/b.cpp", "#include \"flank/high/b.h\"\n");
+  write("src/flank/high/part/c.h", "#pragma once\n#include \"flank/point.h\"\n");
   fs::remove(root_ / "include/flank/plan.h");
   expect_one("src/flank/layers.txt", "there is no include/flank/plan.h");
 }
@@ -224,20 +223,28 @@ TEST_F(PlantedTree, FindsCirclesOfRooms) {
                "high/part may not include high");
 }
 
-TEST_F(PlantedTree, CountsTheFilesOfAFolder) {
-  for (const char* folder : {"src/flank/low/", "tests/low/", "apps/tool/", "bench/"}) {
-    std::vector<std::string> more;
-    const int there = files_by_folder(root_)[(root_ / folder).parent_path()];
-    for (int k = there; k < kMostFilesInAFolder; ++k) {
-      more.push_back(folder + std::to_string(k) + ".txt");
-      write(more.back(), "\n");
-    }
-    EXPECT_EQ(joined(violations()), "") << folder;
-    more.push_back(std::string(folder) + "one_too_many");
-    write(more.back(), "\n");
-    expect_one(std::string(folder, std::strlen(folder) - 1) + ":1:", "26 files");
-    for (const std::string& file : more) fs::remove(root_ / file);
-  }
+TEST_F(PlantedTree, CountsTheLinesOfARoom) {
+  std::string text = "#pragma once\n";
+  const int there = static_cast<int>(read_lines(root_ / "src/flank/low/a.h").size() +
+                                     read_lines(root_ / "src/flank/low/a.cpp").size() +
+                                     read_lines(root_ / "src/flank/low/point.cpp").size());
+  for (int k = there + 1; k < kMostLinesInARoom; ++k) text += "//\n";
+  write("src/flank/low/long.h", text);
+  EXPECT_EQ(joined(violations()), "");
+  expect_found("src/flank/low/long.h", text + "//\n", "lines; a room holds");
+}
+
+TEST_F(PlantedTree, FindsWhatALineAllowsAndNobodyUses) {
+  const auto with = [](const std::string& line, const std::string& other) {
+    std::string table = kTable;
+    return table.replace(table.find(line), line.size(), other);
+  };
+  write("src/flank/layers.txt", with("far:", "far: io"));
+  EXPECT_EQ(joined(violations()), "") << "a room without a folder is still to come";
+  write("src/flank/far/d.h", "#pragma once\n");
+  expect_one("src/flank/layers.txt", "far may include io, and does not");
+  write("src/flank/layers.txt", with("high: low high/part", "high: low high/*"));
+  expect_one("src/flank/layers.txt", "high may include high/*, and includes one of them");
 }
 
 TEST_F(PlantedTree, CountsTheHeadersOfTheFrontDoor) {

@@ -77,14 +77,11 @@ inline std::vector<fs::path> sources_below(const fs::path& folder) {
   return files;
 }
 
-/// How many files of any kind every folder below `folder` holds, itself included and its subfolders not counted.
-inline std::map<fs::path, int> files_by_folder(const fs::path& folder) {
-  std::map<fs::path, int> counts;
-  if (!fs::exists(folder)) return counts;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.is_regular_file()) ++counts[entry.path().parent_path()];
-  }
-  return counts;
+/// Sources of a folder, those of its subfolders not among them.
+inline std::vector<fs::path> sources_in(const fs::path& folder) {
+  std::vector<fs::path> files = sources_below(folder);
+  std::erase_if(files, [&](const fs::path& file) { return file.parent_path() != folder; });
+  return files;
 }
 
 /// Who includes whom, by name.

@@ -10,8 +10,8 @@
 #include "flank/machine/backplot.h"
 #include "flank/machine/links.h"
 #include "flank/machine/model/machine_file.h"
-#include "flank/machine/nc/read/read_nc.h"
-#include "flank/machine/nc/write/write_nc.h"
+#include "flank/machine/nc/dialects/read_nc.h"
+#include "flank/machine/nc/dialects/write_nc.h"
 #include "flank/machine/setup_search.h"
 #include "machine/machine_paths.h"
 

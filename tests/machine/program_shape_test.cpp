@@ -11,9 +11,9 @@
 #include "flank/machine/backplot.h"
 #include "flank/machine/links.h"
 #include "flank/machine/model/machine_file.h"
-#include "flank/machine/nc/read/read_nc.h"
+#include "flank/machine/nc/dialects/read_nc.h"
+#include "flank/machine/nc/dialects/write_nc.h"
 #include "flank/machine/nc/write/timed_blocks.h"
-#include "flank/machine/nc/write/write_nc.h"
 #include "flank/machine/post.h"
 #include "machine/machine_paths.h"
 

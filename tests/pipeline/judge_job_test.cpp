@@ -2,25 +2,16 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
-
 #include "flank/pipeline/folder/target_reach.h"
 #include "flank/setup/check_faces.h"
 #include "flank/setup/targets.h"
 #include "rotor37_file.h"
 #include "sanitized.h"
+#include "shared_data.h"
 #include "verify/faces.h"
 
 namespace flank::internal {
 namespace {
-
-std::string real_part(const std::string& name) {
-  const char* folder = std::getenv("FLANK_DATA");
-  const std::filesystem::path file =
-      (folder ? std::filesystem::path(folder) : std::filesystem::path(FLANK_SOURCE_DIR) / "../shared/data") / name;
-  return std::filesystem::exists(file) ? file.string() : std::string();
-}
 
 /// Samples of one target with their reachable shares, at each spacing; what holds the ball off is made ready once.
 std::vector<FaceSamples> reach_of(const Part& part, int target, double radius, double tolerance,
@@ -137,8 +128,7 @@ TEST(JudgeJob, AFaceAloneIsNotReachableInItsOwnCorner) {
 
 TEST(JudgeJob, ReachableShareOfAnImpellerBladeThatRunsOnInTheHub) {
   if (kSanitized) GTEST_SKIP() << "the same code as between two blades of one solid, on more faces";
-  const std::string file = real_part("kj66_impeller.step");
-  if (file.empty()) GTEST_SKIP() << "no real parts in FLANK_DATA";
+  FLANK_REAL_PART(file, "kj66_impeller.step");
   const Part part = read_part(file);
   for (int target : {0, 2}) {
     const std::vector<FaceSamples> samples = reach_of(part, target, 1.5, 0.02, {1.0, 0.3});

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
@@ -24,6 +23,7 @@
 #include "flank/run.h"
 #include "flank/tool_file.h"
 #include "sanitized.h"
+#include "shared_data.h"
 
 namespace flank::internal {
 namespace {
@@ -390,9 +390,8 @@ TEST(Program, TheSpindleTurnsOrItIsADryRun) {
 /// Programs that were spoilt by one edit each, where $FLANK_DATA has them, and the figure in which it shows; empty: it is read.
 TEST(Program, SpoiltFilesAreFoundOut) {
   if (kSanitized) GTEST_SKIP() << "a dozen judgements of the kind that is made of the spoilt program of a machine";
-  const char* data = std::getenv("FLANK_DATA");
-  const fs::path folder = fs::path(data != nullptr ? data : FLANK_SOURCE_DIR "/../shared/data") / "faults/nc";
-  if (!fs::exists(folder / "tb.step")) GTEST_SKIP() << "FLANK_DATA has no faults/nc/tb.step";
+  FLANK_REAL_PART(part, "faults/nc/tb.step");
+  const fs::path folder = fs::path(part).parent_path();
   Tool tool;
   tool.radial =
       RadialFunction(ToolFamily::kCone, 60.0, Eigen::Vector2d(9.010948, std::asin((12.017229 - 9.010948) / 60.0)));

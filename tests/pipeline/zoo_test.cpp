@@ -1,22 +1,12 @@
 // Parts that the methods were not tuned on, where $FLANK_DATA has them: no crash, and no result worse than a simpler one.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
-
 #include "flank/run.h"
 #include "sanitized.h"
+#include "shared_data.h"
 
 namespace flank::internal {
 namespace {
-
-std::string zoo_part(const std::string& name) {
-  const char* folder = std::getenv("FLANK_DATA");
-  const std::filesystem::path file =
-      (folder ? std::filesystem::path(folder) : std::filesystem::path(FLANK_SOURCE_DIR) / "../shared/data") / "zoo" /
-      name;
-  return std::filesystem::exists(file) ? file.string() : std::string();
-}
 
 FitJob job_of(const std::string& file, double tolerance_mm) {
   FitJob job;
@@ -28,8 +18,7 @@ FitJob job_of(const std::string& file, double tolerance_mm) {
 
 TEST(Zoo, ACapThatAFewSeeDoesNotDriveAToolOffABlade) {
   if (kSanitized) GTEST_SKIP() << "minutes under a sanitizer";
-  const std::string file = zoo_part("hecc_main_blade.step");
-  if (file.empty()) GTEST_SKIP() << "FLANK_DATA has no zoo/hecc_main_blade.step";
+  FLANK_REAL_PART(file, "zoo/hecc_main_blade.step");
   // The cap alone: the other faces take six times as long, and are not what drove it off.
   FitJob job = job_of(file, 0.05);
   job.obstacles.check_faces = "F6";
@@ -44,8 +33,7 @@ TEST(Zoo, ACapThatAFewSeeDoesNotDriveAToolOffABlade) {
 
 TEST(Zoo, ALobeOfAScrewRotorIsDoneInThreeStripsOfOneStiffTool) {
   if (kSanitized) GTEST_SKIP() << "minutes under a sanitizer";
-  const std::string file = zoo_part("screw_male_rotor_4lobe.step");
-  if (file.empty()) GTEST_SKIP() << "FLANK_DATA has no zoo/screw_male_rotor_4lobe.step";
+  FLANK_REAL_PART(file, "zoo/screw_male_rotor_4lobe.step");
   FitJob job = job_of(file, 0.25);
   job.strips = 3;
   const Result result = run_fit(job);

@@ -4,13 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cstdlib>
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "flank/error.h"
 #include "obstacle/obstacle_scene.h"
+#include "shared_data.h"
 
 namespace flank::internal {
 namespace {
@@ -158,11 +157,9 @@ TEST(MachinedSide, OfAMeshTurnsItsTriangles) {
 
 /// Open faces of IGES files whose outside is known: a wing and a blade.
 TEST(MachinedSide, OfOpenIgesFacesIsTheirOutsideHoweverTheyAreTurned) {
-  const char* data = std::getenv("FLANK_DATA");
-  const std::string folder = data == nullptr ? "" : std::string(data) + "/zoo/";
-  if (data == nullptr || !std::filesystem::exists(folder + "asitus_blade.igs")) GTEST_SKIP() << "needs FLANK_DATA";
+  FLANK_REAL_PART(folder, "zoo");
   for (const char* name : {"asitus_blade.igs", "clarkyeah_blade.igs"}) {
-    const Part part = read_part(folder + name);
+    const Part part = read_part(folder + "/" + name);
     for (int face = 0; face < part.face_count(); ++face) {
       ASSERT_FALSE(part.faces[static_cast<std::size_t>(face)].of_solid);
       const SheetSide plus = side_of(part, face), minus = side_of(turned(part), face);

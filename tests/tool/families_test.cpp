@@ -16,7 +16,7 @@ namespace {
 constexpr double kLength = 30.0;
 
 RadialJet jet(ToolFamily family, const std::vector<double>& p, double s) {
-  return family_jet(family, kLength, p.data(), s);
+  return row_of(family).jet(kLength, p.data(), s);
 }
 
 /// Random parameters that describe a tool or something close to one.
@@ -66,7 +66,7 @@ TEST(Families, GradientsMatchFiniteDifferencesForRandomParameters) {
       const std::vector<double> p = random_parameters(family, random);
       const double s = random.uniform(0.0, kLength);
       std::array<double, 4> gradient{};
-      family_gradient(family, kLength, p.data(), s, gradient.data());
+      row_of(family).gradient(kLength, p.data(), s, gradient.data());
       for (std::size_t i = 0; i < p.size(); ++i) {
         const double h = 1e-5 * std::max(1.0, std::abs(p[i]));
         std::vector<double> up = p, down = p;
@@ -104,8 +104,8 @@ TEST(Families, ScalingEveryLengthScalesTheRadius) {
     std::vector<double> big = p;
     for (std::size_t i = 0; i < p.size(); ++i) big[i] *= std::pow(scale, powers[i]);
     for (double s = 0.0; s <= kLength; s += 2.3) {
-      const RadialJet a = family_jet(family, kLength, p.data(), s);
-      const RadialJet b = family_jet(family, scale * kLength, big.data(), scale * s);
+      const RadialJet a = row_of(family).jet(kLength, p.data(), s);
+      const RadialJet b = row_of(family).jet(scale * kLength, big.data(), scale * s);
       EXPECT_NEAR(b.r, scale * a.r, 1e-11) << family_name(family);
       EXPECT_NEAR(b.d1, a.d1, 1e-13) << family_name(family);
       EXPECT_NEAR(b.d2, a.d2 / scale, 1e-13) << family_name(family);
@@ -150,10 +150,10 @@ TEST(Families, ALensWithoutDropIsACylinderWithAGradient) {
   std::array<double, 2> gradient{};
   const std::array<double, 2> p{4.0, 4.0};
   for (double s = 0.0; s <= kLength; s += 5.0) {
-    const RadialJet flat = family_jet(ToolFamily::kLens, kLength, p.data(), s);
+    const RadialJet flat = row_of(ToolFamily::kLens).jet(kLength, p.data(), s);
     EXPECT_EQ(flat.r, 4.0);
     EXPECT_EQ(flat.d1, 0.0);
-    family_gradient(ToolFamily::kLens, kLength, p.data(), s, gradient.data());
+    row_of(ToolFamily::kLens).gradient(kLength, p.data(), s, gradient.data());
     // To first order the arc is the parabola between the two radii: shares (1 - q) and q with q = (x / half)^2.
     const double q = std::pow((s - 0.5 * kLength) / (0.5 * kLength), 2);
     EXPECT_NEAR(gradient[0], 1.0 - q, 1e-13);
@@ -176,7 +176,8 @@ TEST(Families, TurningPointIsWhereTheSlopeChangesItsSign) {
   for (const ToolFamily family : kClosedForms)
     for (int k = 0; k < 30; ++k) {
       const std::vector<double> p = random_parameters(family, random);
-      const double turn = family_turning_point(family, kLength, p.data());
+      const auto turning_point = row_of(family).turning_point;
+      const double turn = turning_point != nullptr ? turning_point(kLength, p.data()) : std::nan("");
       if (std::isnan(turn)) {
         const double first = jet(family, p, 0.0).d1;
         for (double s = 0.0; s <= kLength; s += 1.0)

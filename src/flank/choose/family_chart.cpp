@@ -9,6 +9,7 @@
 #include "flank/base/assert.h"
 #include "flank/seed/direction/direction_filter.h"
 #include "flank/tool.h"
+#include "flank/tool/families.h"
 
 namespace flank::internal {
 namespace {
@@ -68,7 +69,8 @@ double lens_end(double radius, double curvature, double axis_length) {
 FamilyChart::FamilyChart(ToolFamily family, std::map<std::string, double> given, double axis_length,
                          const ScreenPlaces& places, double tolerance_mm)
     : family_(family), given_(std::move(given)), axis_length_(axis_length) {
-  if (family_ == ToolFamily::kBarrel) given_.emplace("s0", 0.5 * axis_length_);
+  const Family& row = row_of(family_);
+  if (row.middle >= 0) given_.emplace(row.parameters[static_cast<std::size_t>(row.middle)], 0.5 * axis_length_);
   for (const std::string_view name : parameter_names(family_)) {
     const auto coordinate = coordinate_of(name);
     if (coordinate && !given_.contains(std::string(name))) coordinates_.push_back(*coordinate);
@@ -84,13 +86,12 @@ FamilyChart::FamilyChart(ToolFamily family, std::map<std::string, double> given,
   curvature_unit_ = kParabolaShare * tolerance_mm / (axis_length_ * axis_length_);
   curvature_low_ = std::min(-curvature_unit_, kMargin * quantile(lower, kQuantile));
   curvature_high_ = std::max(curvature_unit_, kMargin * quantile(upper, 1.0 - kQuantile));
-  if (family_ == ToolFamily::kHyperbolic) {
-    angle_low_ = -kMostSlope;
-    angle_high_ = kMostSlope;
-  } else {
-    angle_high_ = family_ == ToolFamily::kCone ? kMostConeAngle : kMostTaperAngle;
-  }
+  angle_low_ = row.angle_low;
+  angle_high_ = row.angle_high;
 }
+
+/// A family has an angle or a slope, which is its sine.
+bool FamilyChart::by_slope() const { return row_of(family_).angle < 0; }
 
 int FamilyChart::levels(std::size_t coordinate) const {
   switch (coordinates_[coordinate]) {
@@ -131,7 +132,7 @@ std::optional<RadialFunction> FamilyChart::at(const std::vector<double>& x) cons
     if (coordinates_[k] == FamilyCoordinate::kRadius) parameters["radius"] = here;
     if (coordinates_[k] == FamilyCoordinate::kCurvature) curvature = here;
     if (coordinates_[k] != FamilyCoordinate::kAngle) continue;
-    if (family_ == ToolFamily::kHyperbolic)
+    if (by_slope())
       parameters["slope"] = rounded(here, kSlopeStep);
     else
       parameters["angle"] = kRadiansPerDegree * rounded(here / kRadiansPerDegree, kAngleStepDegrees);
@@ -160,9 +161,9 @@ std::string FamilyChart::text() const {
     if (coordinate == FamilyCoordinate::kCurvature)
       parts.push_back(fmt::format("arc from {:.3g} mm (concave) over straight to {:.3g} mm", 1.0 / curvature_low_,
                                   1.0 / curvature_high_));
-    if (coordinate == FamilyCoordinate::kAngle && family_ == ToolFamily::kHyperbolic)
+    if (coordinate == FamilyCoordinate::kAngle && by_slope())
       parts.push_back(fmt::format("slope {:.3g} to {:.3g}", angle_low_, angle_high_));
-    if (coordinate == FamilyCoordinate::kAngle && family_ != ToolFamily::kHyperbolic)
+    if (coordinate == FamilyCoordinate::kAngle && !by_slope())
       parts.push_back(fmt::format("angle {:.3g} to {:.3g} degrees", angle_low_ / kRadiansPerDegree,
                                   angle_high_ / kRadiansPerDegree));
   }
@@ -175,7 +176,7 @@ std::string family_text(const RadialFunction& radial) {
   for (std::size_t k = 0; k < names.size(); ++k) {
     const bool angle = parameter_is_angle(radial.family(), static_cast<int>(k));
     const double value = radial.parameters()[static_cast<Eigen::Index>(k)] / (angle ? kRadiansPerDegree : 1.0);
-    if (names[k] == "s0" && value == 0.5 * radial.axis_length()) continue;
+    if (static_cast<int>(k) == row_of(radial.family()).middle && value == 0.5 * radial.axis_length()) continue;
     parts.push_back(fmt::format("{}={:.6g}", names[k], value));
   }
   return fmt::format("{}:{}", family_name(radial.family()), fmt::join(parts, ","));

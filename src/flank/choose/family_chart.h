@@ -3,7 +3,6 @@
 #pragma once
 
 #include <map>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,9 +24,9 @@ enum class FamilyCoordinate {
 /// Immutable.
 class FamilyChart {
  public:
-  /// `given`: names of parameter_names(family), mm and radians. A barrel's s0 is the middle of the axis unless given.
+  /// `given`: names of parameter_names(family), mm and radians. What is the middle of the axis in a family's row need not be given.
   /// Radii reach from a tenth of the axis (five diameters long) to 15 hundredths of the target's diagonal, curvatures
-  /// over those of the target, angles to kMostAngle.
+  /// over those of the target, angles as the family's row says (families.h).
   FamilyChart(ToolFamily family, std::map<std::string, double> given, double axis_length, const ScreenPlaces& places,
               double tolerance_mm);
 
@@ -43,6 +42,7 @@ class FamilyChart {
 
  private:
   [[nodiscard]] double value(FamilyCoordinate coordinate, double x) const;
+  [[nodiscard]] bool by_slope() const;
 
   ToolFamily family_;
   std::map<std::string, double> given_;
@@ -53,11 +53,6 @@ class FamilyChart {
   double curvature_unit_ = 0.0;                        ///< 1/mm: what the tolerance sees along this axis
   double angle_low_ = 0.0, angle_high_ = 0.0;
 };
-/// Ends of the coordinate kAngle. No limits of mathematics (any |r'| < 1 is a tool): wider than tools that are sold,
-/// and a compass search that ended at its edge, when cones went to 10 degrees only, found less.
-inline constexpr double kMostConeAngle = 20.0 * std::numbers::pi / 180.0;   ///< of the meridian to the axis, rad
-inline constexpr double kMostTaperAngle = 40.0 * std::numbers::pi / 180.0;  ///< of a tapered barrel, rad
-inline constexpr double kMostSlope = 0.2;                                   ///< of `hyperbolic`, dr/ds, either way
 
 /// "barrel:arc=85,radius=5": as a request for a tool names it; angles in degrees.
 [[nodiscard]] std::string family_text(const RadialFunction& radial);

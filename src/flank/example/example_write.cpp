@@ -29,10 +29,9 @@ std::string lower_extension(const std::string& file) {
 /// Before anything is computed or written: the kind of the part decides which files can hold it.
 void check_extension(const Example& example, const std::string& file) {
   const std::string extension = lower_extension(file);
-  const bool of_mesh = extension == ".stl" || extension == ".obj" || extension == ".ply";
   const bool of_faces = extension == ".step" || extension == ".stp";
-  if (example.mesh && !of_mesh)
-    throw UsageError(file + ": " + example.name + " is a mesh; name a file that ends in .stl, .obj or .ply");
+  if (example.mesh && !is_written_mesh(file))
+    throw UsageError(file + ": " + example.name + " is a mesh; name a file that ends in " + written_mesh_endings());
   if (!example.mesh && !of_faces)
     throw UsageError(file + ": " + example.name + " is made of faces; name a file that ends in .step or .stp");
 }

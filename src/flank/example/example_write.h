@@ -8,7 +8,7 @@
 
 namespace flank::internal {
 
-/// Writes the part as `file`: faces as .step or .stp, a mesh as .stl, .obj or .ply (millimetres). Where the truth is
+/// Writes the part as `file`: faces as .step or .stp, a mesh under an ending of write_mesh.h (millimetres). Where the truth is
 /// known, FILE.truth.json (rails, error), FILE.tool.json and FILE.path.json are written beside it, FILE without its
 /// ending. Returns the names of the files written, the part first. Throws UsageError for an ending that does not suit,
 /// InputError if writing fails.

@@ -12,11 +12,10 @@
 #include "flank/io/isolated/cad_reader.h"
 #include "flank/io/mesh/read_mesh_regions.h"
 #include "flank/io/mesh/read_mesh_repair.h"
-#include "flank/io/mesh/read_obj.h"
-#include "flank/io/mesh/read_ply.h"
 #include "flank/io/mesh/read_stl.h"
+#include "flank/io/part_format.h"
 #include "flank/io/part_range.h"
-#include "flank/io/text/read_sniff.h"
+#include "flank/io/text/read_bytes.h"
 #include "flank/io/text/read_unit.h"
 
 namespace flank {
@@ -34,10 +33,8 @@ std::string sizes_by_unit(const Vec3& size) {
 }
 
 /// In the unit of the file.
-TriangleMesh parse_mesh(const std::string& file, const std::string& format, std::string_view content) {
-  TriangleMesh mesh = format == "STL"   ? read_stl(file, content)
-                      : format == "OBJ" ? read_obj(file, content)
-                                        : read_ply(file, content);
+TriangleMesh parse_mesh(const std::string& file, const PartFormat& format, std::string_view content) {
+  TriangleMesh mesh = format.read(file, content);
   if (mesh.triangles.empty()) throw InputError(file + ": has no triangles; accepted are meshes with faces");
   return mesh;
 }
@@ -51,7 +48,7 @@ Box3 used_box(const TriangleMesh& mesh) {
 }
 
 /// A mesh as a part in millimetres, repaired, its regions as faces. Throws InputError.
-Part read_mesh(const std::string& file, const std::string& format, std::string content,
+Part read_mesh(const std::string& file, const PartFormat& format, std::string content,
                const std::optional<std::string>& unit) {
   TriangleMesh raw = parse_mesh(file, format, content);
   std::string().swap(content);  // a large file and all that follows need not be in memory together
@@ -62,7 +59,7 @@ Part read_mesh(const std::string& file, const std::string& format, std::string c
         fmt::format("{}: a mesh file has no unit; say which by `unit`: {}", file, sizes_by_unit(box.high - box.low)));
   Part part;
   part.file = file;
-  part.format = format;
+  part.format = format.name;
   part.unit = *unit;
   part.millimetres_per_unit = millimetres_per(*unit);
   // Before the repair: its tolerances and the messages are in millimetres.
@@ -70,7 +67,7 @@ Part read_mesh(const std::string& file, const std::string& format, std::string c
   part.box = used_box(raw);
   require_part_in_range(part);
   try {
-    ReadMesh repaired = repair_read_mesh(std::move(raw), format == "STL");
+    ReadMesh repaired = repair_read_mesh(std::move(raw), format.loose);
     part.mesh = std::move(repaired.mesh);
     part.repairs = std::move(repaired.account);
   } catch (const InputError& error) {
@@ -97,15 +94,15 @@ void note_doubtful_size(Part& part) {
 Part read_part(const std::string& file, const std::optional<std::string>& unit) {
   // A wrong unit is refused before a large file is read.
   if (unit) (void)millimetres_per(*unit);
-  std::string content = read_bytes(file);
+  std::string content = read_bytes(file, accepted_part_files());
   // So that a result can tell later whether the file is still the same.
   std::string hash = sha256(content);
   // The header of a binary STL may hold any bytes.
   if (content.starts_with(kByteOrderMark) && !is_binary_stl(content)) content.erase(0, kByteOrderMark.size());
-  const std::string format = sniff_format(file, content);
-  const bool mesh = format == "STL" || format == "OBJ" || format == "PLY";
+  const PartFormat& format = sniff_format(file, content);
   // CAD files go through a reader that can be replaced: in this process, or in a child that a damaged file may break.
-  Part part = mesh ? read_mesh(file, format, std::move(content), unit) : cad_reader()(file, format, unit);
+  Part part = format.read != nullptr ? read_mesh(file, format, std::move(content), unit)
+                                     : cad_reader()(file, std::string(format.name), unit);
   part.sha256 = std::move(hash);
   require_part_in_range(part);
   note_doubtful_size(part);

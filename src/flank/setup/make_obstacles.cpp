@@ -3,15 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <numeric>
 
 #include "flank/base/parallel.h"
 #include "flank/error.h"
 #include "flank/io/cad/triangulate.h"
+#include "flank/io/part_format.h"
 #include "flank/surface/facets.h"
 
 namespace flank::internal {
@@ -24,13 +23,6 @@ constexpr double kSpareTolerances = 2.0;
 /// What a planner keeps where the judge asks for `required_mm`; none: no deeper than the tolerance.
 double planned_clearance(const ObstacleChoice& choice) {
   return choice.clearance_mm.value_or(-choice.tolerance_mm) + kSpareTolerances * choice.tolerance_mm;
-}
-
-/// By its ending: only the files of meshes say nothing of their unit.
-bool is_mesh_file(const std::string& file) {
-  std::string end = std::filesystem::path(file).extension().string();
-  std::transform(end.begin(), end.end(), end.begin(), [](unsigned char c) { return std::tolower(c); });
-  return end == ".stl" || end == ".obj" || end == ".ply";
 }
 
 /// Least distance between the box of a face and the target.

@@ -9,6 +9,7 @@
 
 #include "flank/error.h"
 #include "flank/io/text/json_input.h"
+#include "flank/part.h"
 
 namespace flank::internal {
 namespace {
@@ -102,8 +103,7 @@ void check_obstacles(const ObstacleRequest& request, const Tool* tool) {
   if (request.clearance_mm && !something && (tool == nullptr || !has_body(*tool)))
     throw UsageError("clearance_mm", "needs `shank_length_mm`, `holder`, `fixtures`, or a tool with a shank");
   for (const std::string& file : request.fixtures)
-    if (!is_there(file))
-      throw InputError(file + ": no such fixture file; STEP, IGES, BREP, STL, OBJ and PLY are accepted");
+    if (!is_there(file)) throw InputError(file + ": no such fixture file; accepted: " + part_formats());
 }
 
 void equip_tool(const ObstacleRequest& request, Tool& tool) {

@@ -56,7 +56,7 @@ double lens_curvature_by_drop(double length, const double* p) {
 }
 
 /// r = (p0 + p1 s)^(1 / p3) / p2; NaN if the base is not positive.
-RadialJet power_jet(const double* p, double s) {
+RadialJet power_jet(double, const double* p, double s) {
   const double base = p[0] + p[1] * s, e = 1.0 / p[3];
   if (!(base > 0.0)) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -67,9 +67,9 @@ RadialJet power_jet(const double* p, double s) {
   return {r, d1, d1 * (e - 1.0) * p[1] / base};
 }
 
-void power_gradient(const double* p, double s, double* out) {
+void power_gradient(double length, const double* p, double s, double* out) {
   const double base = p[0] + p[1] * s, e = 1.0 / p[3];
-  const double r = power_jet(p, s).r;
+  const double r = power_jet(length, p, s).r;
   out[0] = r * e / base;
   out[1] = out[0] * s;
   out[2] = -r / p[2];
@@ -77,7 +77,7 @@ void power_gradient(const double* p, double s, double* out) {
 }
 
 /// k = 1 / (p0 - p1), so dk/dp0 = -k^2 and dk/dp1 = k^2; the largest radius acts on r directly, too.
-void barrel_gradient(const double* p, double s, double* out) {
+void barrel_gradient(double, const double* p, double s, double* out) {
   const Arc arc = barrel_arc(p, s);
   const double by_k = arc.by_k() * arc.k * arc.k;
   out[0] = -by_k;
@@ -101,82 +101,110 @@ void lens_gradient(double length, const double* p, double s, double* out) {
   out[1] = -by_drop;
 }
 
+RadialJet cylinder_jet(double, const double* p, double) { return {p[0], 0.0, 0.0}; }
+void cylinder_gradient(double, const double*, double, double* out) { out[0] = 1.0; }
+
+RadialJet cone_jet(double, const double* p, double s) {
+  const double slope = std::sin(p[1]);
+  return {p[0] + slope * s, slope, 0.0};
+}
+void cone_gradient(double, const double* p, double s, double* out) {
+  out[0] = 1.0;
+  out[1] = s * std::cos(p[1]);
+}
+
+RadialJet hyperbolic_jet(double length, const double* p, double s) {
+  const double x = s - 0.5 * length;
+  return {p[0] + x * (p[1] + p[2] * x), p[1] + 2.0 * p[2] * x, 2.0 * p[2]};
+}
+void hyperbolic_gradient(double length, const double*, double s, double* out) {
+  const double x = s - 0.5 * length;
+  out[0] = 1.0;
+  out[1] = x;
+  out[2] = x * x;
+}
+double hyperbolic_turn(double length, const double* p) {
+  return p[2] != 0.0 ? 0.5 * length - 0.5 * p[1] / p[2] : std::numeric_limits<double>::quiet_NaN();
+}
+
+using Typical = std::array<double, 4>;
+
 }  // namespace
 
-RadialJet family_jet(ToolFamily family, double axis_length, const double* p, double s) {
-  switch (family) {
-    case ToolFamily::kCylinder:
-      return {p[0], 0.0, 0.0};
-    case ToolFamily::kCone: {
-      const double slope = std::sin(p[1]);
-      return {p[0] + slope * s, slope, 0.0};
-    }
-    case ToolFamily::kBarrel:
-      return barrel_arc(p, s).jet(p[1]);
-    case ToolFamily::kLens:
-      return lens_arc(axis_length, p, s).jet(p[0]);
-    case ToolFamily::kTaperedBarrel:
-      return tapered_arc(axis_length, p, s).jet(p[1]);
-    case ToolFamily::kHyperbolic: {
-      const double x = s - 0.5 * axis_length;
-      return {p[0] + x * (p[1] + p[2] * x), p[1] + 2.0 * p[2] * x, 2.0 * p[2]};
-    }
-    case ToolFamily::kPower:
-      return power_jet(p, s);
-    case ToolFamily::kSpline:
-      break;
-  }
-  return {};
-}
-
-void family_gradient(ToolFamily family, double axis_length, const double* p, double s, double* out) {
-  switch (family) {
-    case ToolFamily::kCylinder:
-      out[0] = 1.0;
-      return;
-    case ToolFamily::kCone:
-      out[0] = 1.0;
-      out[1] = s * std::cos(p[1]);
-      return;
-    case ToolFamily::kBarrel:
-      return barrel_gradient(p, s, out);
-    case ToolFamily::kLens:
-      return lens_gradient(axis_length, p, s, out);
-    case ToolFamily::kTaperedBarrel:
-      return tapered_gradient(axis_length, p, s, out);
-    case ToolFamily::kHyperbolic: {
-      const double x = s - 0.5 * axis_length;
-      out[0] = 1.0;
-      out[1] = x;
-      out[2] = x * x;
-      return;
-    }
-    case ToolFamily::kPower:
-      return power_gradient(p, s, out);
-    case ToolFamily::kSpline:
-      return;
-  }
-}
-
-double family_turning_point(ToolFamily family, double axis_length, const double* p) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  const double middle = 0.5 * axis_length;
-  switch (family) {
-    case ToolFamily::kBarrel:
-      return p[2];
-    case ToolFamily::kLens:
-      return middle;
-    case ToolFamily::kTaperedBarrel:  // sigma - k x = 0
-      return middle + std::sin(p[2]) * (p[0] - p[1]);
-    case ToolFamily::kHyperbolic:
-      return p[2] != 0.0 ? middle - 0.5 * p[1] / p[2] : kNone;
-    case ToolFamily::kCylinder:
-    case ToolFamily::kCone:
-    case ToolFamily::kPower:
-    case ToolFamily::kSpline:
-      break;
-  }
-  return kNone;
-}
+constexpr std::array<Family, kToolFamilies.size()> kFamilies{{
+    {.name = "cylinder",
+     .parameters = {"radius"},
+     .count = 1,
+     .jet = cylinder_jet,
+     .gradient = cylinder_gradient,
+     .typical = [](double, double radius) { return Typical{radius}; }},
+    {.name = "cone",
+     .parameters = {"radius", "angle"},
+     .count = 2,
+     .angle = 1,
+     .angle_high = kMostConeAngle,
+     .jet = cone_jet,
+     .gradient = cone_gradient,
+     .typical =
+         [](double, double radius) {
+           return Typical{radius, 0.01};
+         }},
+    {.name = "barrel",
+     .parameters = {"arc", "radius", "s0"},
+     .count = 3,
+     .middle = 2,
+     .jet = [](double, const double* p, double s) { return barrel_arc(p, s).jet(p[1]); },
+     .gradient = barrel_gradient,
+     .turning_point = [](double, const double* p) { return p[2]; },
+     .typical =
+         [](double length, double radius) {
+           return Typical{radius + 4.0 * length, radius, 0.5 * length};
+         }},
+    {.name = "lens",
+     .parameters = {"radius", "end_radius"},
+     .count = 2,
+     .jet = [](double length, const double* p, double s) { return lens_arc(length, p, s).jet(p[0]); },
+     .gradient = lens_gradient,
+     .turning_point = [](double length, const double*) { return 0.5 * length; },
+     .typical =
+         [](double, double radius) {
+           return Typical{radius, 0.95 * radius};
+         }},
+    {.name = "tapered-barrel",
+     .parameters = {"arc", "radius", "angle"},
+     .count = 3,
+     .angle = 2,
+     .angle_high = kMostTaperAngle,
+     .jet = [](double length, const double* p, double s) { return tapered_arc(length, p, s).jet(p[1]); },
+     .gradient = tapered_gradient,
+     // sigma - k x = 0
+     .turning_point = [](double length, const double* p) { return 0.5 * length + std::sin(p[2]) * (p[0] - p[1]); },
+     .typical =
+         [](double length, double radius) {
+           return Typical{radius + 4.0 * length, radius, 0.02};
+         }},
+    {.name = "hyperbolic",
+     .parameters = {"radius", "slope", "bend"},
+     .count = 3,
+     .angle_low = -kMostSlope,
+     .angle_high = kMostSlope,
+     .jet = hyperbolic_jet,
+     .gradient = hyperbolic_gradient,
+     .turning_point = hyperbolic_turn,
+     .typical =
+         [](double length, double radius) {
+           return Typical{radius, 0.0, 0.02 / length};
+         }},
+    {.name = "power",
+     .parameters = {"a", "b", "c", "d"},
+     .count = 4,
+     .jet = power_jet,
+     .gradient = power_gradient,
+     .typical =
+         [](double, double radius) {
+           return Typical{radius * radius, 0.01 * radius, 1.0, 2.0};
+         }},
+    {.name = "spline"},
+}};
 
 }  // namespace flank::internal

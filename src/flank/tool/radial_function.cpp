@@ -17,27 +17,6 @@ namespace {
 /// Coefficients of a cubic with one knot span.
 constexpr int kSmallestSpline = 4;
 
-/// One row per family, in the order of the enumeration; names are those of files and of the command line.
-struct FamilyInfo {
-  std::string_view name;
-  std::array<std::string_view, 4> parameters;
-  std::size_t count;
-  int angle;  ///< index of the parameter that is an angle, -1 for none
-};
-
-constexpr std::array<FamilyInfo, 8> kFamilies = {{
-    {"cylinder", {"radius"}, 1, -1},
-    {"cone", {"radius", "angle"}, 2, 1},
-    {"barrel", {"arc", "radius", "s0"}, 3, -1},
-    {"lens", {"radius", "end_radius"}, 2, -1},
-    {"tapered-barrel", {"arc", "radius", "angle"}, 3, 2},
-    {"hyperbolic", {"radius", "slope", "bend"}, 3, -1},
-    {"power", {"a", "b", "c", "d"}, 4, -1},
-    {"spline", {}, 0, -1},
-}};
-
-const FamilyInfo& info(ToolFamily family) { return kFamilies[static_cast<std::size_t>(family)]; }
-
 /// Where coefficient i sits along the axis, in knot spans: the mean of its three inner knots.
 double greville(int count, int i) {
   double sum = 0.0;
@@ -95,7 +74,8 @@ Range radius_range(const RadialFunction& radial) {
   if (radial.family() != ToolFamily::kSpline) {
     const double length = radial.axis_length();
     for (const double s : {0.0, length}) radii.add(radial.at(s).r);
-    const double turn = family_turning_point(radial.family(), length, radial.parameters().data());
+    const auto turning_point = row_of(radial.family()).turning_point;
+    const double turn = turning_point != nullptr ? turning_point(length, radial.parameters().data()) : -1.0;
     if (turn > 0.0 && turn < length) radii.add(radial.at(turn).r);
     return radii;
   }
@@ -110,19 +90,26 @@ Range radius_range(const RadialFunction& radial) {
 
 }  // namespace
 
-std::string_view family_name(ToolFamily family) { return info(family).name; }
+std::string_view family_name(ToolFamily family) { return row_of(family).name; }
 
 std::optional<ToolFamily> family_from_name(std::string_view name) {
   for (const ToolFamily family : kToolFamilies)
-    if (info(family).name == name) return family;
+    if (row_of(family).name == name) return family;
   return std::nullopt;
 }
 
-std::span<const std::string_view> parameter_names(ToolFamily family) {
-  return std::span(info(family).parameters).first(info(family).count);
+std::string tool_families() {
+  std::string names;
+  for (const Family& row : kFamilies)
+    if (row.count > 0) names += (names.empty() ? "" : ", ") + std::string(row.name);
+  return names;
 }
 
-bool parameter_is_angle(ToolFamily family, int index) { return index >= 0 && info(family).angle == index; }
+std::span<const std::string_view> parameter_names(ToolFamily family) {
+  return std::span(row_of(family).parameters).first(row_of(family).count);
+}
+
+bool parameter_is_angle(ToolFamily family, int index) { return index >= 0 && row_of(family).angle == index; }
 
 RadialFunction::RadialFunction(ToolFamily family, double axis_length, Eigen::VectorXd parameters)
     : family_(family), axis_length_(axis_length), parameters_(std::move(parameters)) {
@@ -130,7 +117,7 @@ RadialFunction::RadialFunction(ToolFamily family, double axis_length, Eigen::Vec
   if (family == ToolFamily::kSpline) {
     if (parameters_.size() < kSmallestSpline)
       throw InternalError("a spline radial function needs at least 4 coefficients");
-  } else if (parameters_.size() != static_cast<Eigen::Index>(info(family).count)) {
+  } else if (parameters_.size() != static_cast<Eigen::Index>(row_of(family).count)) {
     throw InternalError("wrong number of parameters for a " + std::string(family_name(family)));
   }
 }
@@ -174,7 +161,7 @@ RadialFunction RadialFunction::spline_through(double axis_length, std::span<cons
 }
 
 RadialJet RadialFunction::at(double s) const {
-  if (family_ != ToolFamily::kSpline) return family_jet(family_, axis_length_, parameters_.data(), s);
+  if (family_ != ToolFamily::kSpline) return row_of(family_).jet(axis_length_, parameters_.data(), s);
   const UniformCubic b = UniformCubic::at(axis_length_, parameter_count(), s);
   const double* c = parameters_.data() + b.first;
   // Differences of the coefficients over their knots: control points of r', then of r''.
@@ -190,7 +177,7 @@ RadialJet RadialFunction::at(double s) const {
 
 void RadialFunction::active_gradient(double s, double* out) const {
   FLANK_ASSERT(out != nullptr);
-  if (family_ != ToolFamily::kSpline) return family_gradient(family_, axis_length_, parameters_.data(), s, out);
+  if (family_ != ToolFamily::kSpline) return row_of(family_).gradient(axis_length_, parameters_.data(), s, out);
   const UniformCubic b = UniformCubic::at(axis_length_, parameter_count(), s);
   std::copy(b.n3.begin(), b.n3.end(), out);
 }

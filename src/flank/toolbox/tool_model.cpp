@@ -4,34 +4,10 @@
 
 #include "flank/error.h"
 #include "flank/tool.h"
+#include "flank/tool/families.h"
 
 namespace flank::internal {
 namespace {
-
-/// Parameters of a tool about as thick as `radius` (mm), with a little of what makes its family: where that is
-/// nothing, several parameters (a, c and d of a power tool) change the radius alone, and a fit cannot tell them
-/// apart.
-std::map<std::string, double> defaults(ToolFamily family, double axis_length, double radius) {
-  switch (family) {
-    case ToolFamily::kCylinder:
-      return {{"radius", radius}};
-    case ToolFamily::kCone:
-      return {{"radius", radius}, {"angle", 0.01}};
-    case ToolFamily::kBarrel:
-      return {{"arc", radius + 4.0 * axis_length}, {"radius", radius}, {"s0", 0.5 * axis_length}};
-    case ToolFamily::kLens:
-      return {{"radius", radius}, {"end_radius", 0.95 * radius}};
-    case ToolFamily::kTaperedBarrel:
-      return {{"arc", radius + 4.0 * axis_length}, {"radius", radius}, {"angle", 0.02}};
-    case ToolFamily::kHyperbolic:
-      return {{"radius", radius}, {"slope", 0.0}, {"bend", 0.02 / axis_length}};
-    case ToolFamily::kPower:
-      return {{"a", radius * radius}, {"b", 0.01 * radius}, {"c", 1.0}, {"d", 2.0}};
-    case ToolFamily::kSpline:
-      break;
-  }
-  throw UsageError("tool", "a spline has no parameters by name; use free, or a tool.json");
-}
 
 /// The longest axis on which a given tool of a family is one; none: it never ends. mm
 std::optional<double> end_of(const ToolModel& model) {
@@ -64,13 +40,13 @@ void limit_axis(const ToolSpec& spec, const std::optional<double>& axis_length_m
 
 Eigen::VectorXd start_parameters(ToolFamily family, const std::map<std::string, double>& given, double axis_length,
                                  double radius) {
-  const std::map<std::string, double> others = defaults(family, axis_length, radius);
-  const auto names = parameter_names(family);
-  Eigen::VectorXd parameters(static_cast<Eigen::Index>(names.size()));
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    const std::string name(names[k]);
-    const auto found = given.find(name);
-    parameters[static_cast<Eigen::Index>(k)] = found != given.end() ? found->second : others.at(name);
+  const Family& row = row_of(family);
+  if (row.typical == nullptr) throw UsageError("tool", "a spline has no parameters by name; use free, or a tool.json");
+  const std::array<double, 4> typical = row.typical(axis_length, radius);
+  Eigen::VectorXd parameters(static_cast<Eigen::Index>(row.count));
+  for (std::size_t k = 0; k < row.count; ++k) {
+    const auto found = given.find(std::string(row.parameters[k]));
+    parameters[static_cast<Eigen::Index>(k)] = found != given.end() ? found->second : typical[k];
   }
   return parameters;
 }

@@ -12,6 +12,7 @@
 #include "flank/io/text/json_input.h"
 #include "flank/io/tool/tool_dxf.h"
 #include "flank/io/tool/tool_dxf_read.h"
+#include "flank/tool/families.h"
 #include "flank/tool_file.h"
 
 namespace flank::internal {
@@ -19,14 +20,6 @@ namespace flank::internal {
 namespace {
 
 constexpr double kRadiansPerDegree = 0.017453292519943295;
-
-/// For messages: all but the spline, which has no parameters that a person could type.
-std::string family_list() {
-  std::vector<std::string_view> names;
-  for (const ToolFamily family : kToolFamilies)
-    if (family != ToolFamily::kSpline) names.push_back(family_name(family));
-  return fmt::format("{}", fmt::join(names, ", "));
-}
 
 /// A spelling on the command line: capitals, blanks and underscores are no difference.
 std::string normalised(std::string name) {
@@ -75,12 +68,10 @@ bool ToolSpec::complete() const { return family && given.size() == parameter_nam
 
 bool has_open_parameters(const ToolSpec& spec) {
   if (!spec.family) return false;
-  const auto names = parameter_names(*spec.family);
-  return std::any_of(names.begin(), names.end(), [&](std::string_view name) {
-    // A barrel is thickest in its middle unless it says otherwise.
-    const bool middle = *spec.family == ToolFamily::kBarrel && name == "s0";
-    return !middle && !spec.given.contains(std::string(name));
-  });
+  const Family& row = row_of(*spec.family);
+  for (std::size_t k = 0; k < row.count; ++k)
+    if (static_cast<int>(k) != row.middle && !spec.given.contains(std::string(row.parameters[k]))) return true;
+  return false;
 }
 
 std::pair<std::string, double> parse_tool_parameter(ToolFamily family, const std::string& text,
@@ -127,7 +118,7 @@ ToolSpec parse_tool_spec(const std::string& text, const std::string& field) {
   if (!spec.family)
     throw UsageError(
         field, text,
-        fmt::format("neither a family nor a tool file; accepted: free, {}, or a tool.json", family_list()));
+        fmt::format("neither a family nor a tool file; accepted: free, {}, or a tool.json", tool_families()));
   if (colon == std::string::npos) return spec;
   // Up to and including the end: "cone:" and a comma at the end are an empty parameter, which is refused.
   for (std::size_t at = colon + 1; at <= text.size();) {
@@ -149,7 +140,7 @@ Tool make_tool(ToolFamily family, const std::map<std::string, double>& parameter
   std::vector<std::string> missing;
   for (std::size_t k = 0; k < names.size(); ++k) {
     const auto found = parameters.find(std::string(names[k]));
-    const bool middle = family == ToolFamily::kBarrel && names[k] == "s0";
+    const bool middle = static_cast<int>(k) == row_of(family).middle;
     if (found == parameters.end() && !middle) missing.emplace_back(names[k]);
     values[static_cast<Eigen::Index>(k)] = found != parameters.end() ? found->second : 0.5 * axis_length;
   }

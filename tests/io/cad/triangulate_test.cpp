@@ -2,22 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
-
 #include "flank/error.h"
 #include "rotor37_file.h"
+#include "shared_data.h"
 
 namespace flank::internal {
 namespace {
-
-std::string real_part(const std::string& name) {
-  const char* folder = std::getenv("FLANK_DATA");
-  const auto file =
-      (folder != nullptr ? std::filesystem::path(folder) : std::filesystem::path(FLANK_SOURCE_DIR) / "../shared/data") /
-      name;
-  return std::filesystem::exists(file) ? file.string() : std::string();
-}
 
 double area_of(const TriangleMesh& m) {
   double area = 0.0;
@@ -75,8 +65,7 @@ TEST(Triangulate, RealPartsKeepTheStatedDeviation) {
   const std::vector<std::pair<const char*, double>> parts = {{"kj66_impeller.step", 0.02},
                                                              {"bladex_propeller_shaft.iges", 0.5}};
   for (const auto& [name, wanted] : parts) {
-    const std::string file = real_part(name);
-    if (file.empty()) GTEST_SKIP() << "no real parts in FLANK_DATA";
+    FLANK_REAL_PART(file, name);
     for (const FaceTriangles& face : triangulate(read_part(file), wanted)) {
       EXPECT_FALSE(face.mesh.triangles.empty()) << name << ' ' << face.face;
       EXPECT_LE(face.deviation_mm, wanted) << name << ' ' << face.face;

@@ -4,7 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "flank/error.h"
-#include "flank/io/text/read_sniff.h"
+#include "flank/io/text/read_bytes.h"
+#include "flank/io/text/step_syntax.h"
 #include "io/cad_shapes.h"
 
 namespace flank::internal {

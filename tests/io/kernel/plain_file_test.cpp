@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "flank/io/mesh/write_mesh.h"
-#include "flank/io/text/read_sniff.h"
+#include "flank/io/text/read_bytes.h"
 #include "io/kernel_files.h"
 
 namespace flank::internal {

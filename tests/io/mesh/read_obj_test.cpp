@@ -5,7 +5,7 @@
 #include "flank/io/mesh/add_polygon.h"
 #include "flank/io/mesh/read_obj.h"
 #include "flank/io/mesh/write_mesh.h"
-#include "flank/io/text/read_sniff.h"
+#include "flank/io/text/read_bytes.h"
 #include "io/part_files.h"
 
 namespace flank::internal {

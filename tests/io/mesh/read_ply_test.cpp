@@ -7,7 +7,7 @@
 #include "flank/error.h"
 #include "flank/io/mesh/read_ply.h"
 #include "flank/io/mesh/write_mesh.h"
-#include "flank/io/text/read_sniff.h"
+#include "flank/io/text/read_bytes.h"
 #include "io/part_files.h"
 
 namespace flank::internal {

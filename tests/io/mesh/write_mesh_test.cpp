@@ -5,7 +5,8 @@
 #include <cstring>
 
 #include "flank/error.h"
-#include "flank/io/text/read_sniff.h"
+#include "flank/io/mesh/read_stl.h"
+#include "flank/io/text/read_bytes.h"
 #include "io/part_files.h"
 
 namespace flank::internal {

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "flank/machine/nc/write/write_nc.h"
+#include "flank/machine/nc/dialects/write_nc.h"
 #include "machine/nc/sample_programs.h"
 
 namespace flank::internal {

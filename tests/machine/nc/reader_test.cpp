@@ -5,7 +5,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "flank/machine/nc/read/read_nc.h"
+#include "flank/machine/nc/dialects/read_nc.h"
 
 namespace flank::internal {
 namespace {

@@ -8,7 +8,8 @@
 
 #include "flank/error.h"
 #include "flank/machine/model/machine_file.h"
-#include "flank/machine/nc/read/read_nc.h"
+#include "flank/machine/nc/dialects/languages.h"
+#include "flank/machine/nc/dialects/read_nc.h"
 #include "flank/machine/nc/without_effect.h"
 
 namespace flank::internal {

@@ -2,8 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "flank/error.h"
-#include "flank/machine/nc/read/read_nc.h"
-#include "flank/machine/nc/write/write_nc.h"
+#include "flank/machine/nc/dialects/languages.h"
+#include "flank/machine/nc/dialects/read_nc.h"
+#include "flank/machine/nc/dialects/write_nc.h"
 #include "machine/nc/sample_programs.h"
 
 namespace flank::internal {

@@ -2,8 +2,8 @@
 
 #include <chrono>
 
-#include "flank/machine/nc/read/read_nc.h"
-#include "flank/machine/nc/write/write_nc.h"
+#include "flank/machine/nc/dialects/read_nc.h"
+#include "flank/machine/nc/dialects/write_nc.h"
 #include "machine/nc/sample_programs.h"
 #include "sanitized.h"
 

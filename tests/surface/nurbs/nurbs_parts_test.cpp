@@ -5,7 +5,6 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <string>
 
 #include "flank/geom/trim.h"
@@ -13,6 +12,7 @@
 #include "flank/target.h"
 #include "rotor37_file.h"
 #include "sanitized.h"
+#include "shared_data.h"
 #include "surface/nurbs_fixtures.h"
 
 namespace flank::internal {
@@ -177,15 +177,14 @@ int points_a_part() {
 /// "rotor37..." is generated, everything else lies in FLANK_DATA.
 std::string file_of(const std::string& name) {
   if (name.starts_with("rotor37")) return rotor37_file(name);
-  const char* data = std::getenv("FLANK_DATA");
-  return (data != nullptr ? std::string(data) : FLANK_SOURCE_DIR "/../shared/data") + "/" + name;
+  return shared_data(name);
 }
 
 class NurbsParts : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(NurbsParts, ColdFootpointsMatchDenseSearchOnEveryFace) {
   const std::string file = file_of(GetParam());
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+  if (file.empty()) GTEST_SKIP() << "FLANK_DATA has no " << GetParam();
   const Part part = read_part(file);
   if (kSanitized && part.faces.size() > 12) GTEST_SKIP() << "the same code on more faces";
   const int each = std::max(1, points_a_part() / std::max(1, static_cast<int>(part.faces.size())));

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "flank/error.h"
-#include "flank/io/text/read_sniff.h"
+#include "flank/io/text/read_bytes.h"
 
 namespace flank::internal {
 namespace {

@@ -25,7 +25,7 @@
 #include "flank/error.h"
 #include "flank/io/kernel/plain_file.h"
 #include "flank/io/kernel/read_occt_silence.h"
-#include "flank/io/text/read_sniff.h"
+#include "flank/io/text/read_bytes.h"
 #include "flank/io/text/read_unit.h"
 #include "flank/io/text/step_syntax.h"
 

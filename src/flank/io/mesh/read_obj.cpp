@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 #include "flank/error.h"
 #include "flank/io/mesh/add_polygon.h"
+#include "flank/io/text/read_bytes.h"
 #include "flank/io/text/read_text.h"
 
 namespace flank::internal {
@@ -19,6 +23,25 @@ int vertex_index(const TextLines& lines, std::size_t word, std::size_t vertices)
 }
 
 }  // namespace
+
+bool looks_obj(std::string_view content) {
+  static const std::array<std::string_view, 14> words = {"v",      "vt",     "vn", "vp", "f", "l",      "p",
+                                                         "mtllib", "usemtl", "o",  "g",  "s", "cstype", "deg"};
+  bool vertex = false;
+  int lines = 0;
+  while (!content.empty() && lines < 200 && !vertex) {
+    const std::size_t end = content.find('\n');
+    std::string_view line = content.substr(0, end);
+    content = end == std::string_view::npos ? std::string_view{} : content.substr(end + 1);
+    line = without_blanks_in_front(line);
+    if (line.empty() || line.front() == '#') continue;
+    const std::string_view word = line.substr(0, line.find_first_of(" \t\r"));
+    if (std::find(words.begin(), words.end(), word) == words.end()) return false;
+    vertex = word == "v";
+    ++lines;
+  }
+  return vertex;
+}
 
 TriangleMesh read_obj(const std::string& file, std::string_view content) {
   TriangleMesh mesh;

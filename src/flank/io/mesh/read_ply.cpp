@@ -12,6 +12,7 @@
 
 #include "flank/error.h"
 #include "flank/io/mesh/add_polygon.h"
+#include "flank/io/text/read_bytes.h"
 #include "flank/io/text/read_text.h"
 
 namespace flank::internal {
@@ -218,6 +219,11 @@ void skip(const Element& element, Values& values) {
 }
 
 }  // namespace
+
+bool looks_ply(std::string_view content) {
+  const std::string_view text = without_blanks_in_front(content);
+  return text.starts_with("ply\n") || text.starts_with("ply\r");
+}
 
 TriangleMesh read_ply(const std::string& file, std::string_view content) {
   TextLines lines(file, content);

@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "flank/error.h"
-#include "flank/io/text/read_sniff.h"
+#include "flank/io/text/read_bytes.h"
 #include "flank/io/text/read_text.h"
 
 namespace flank::internal {
@@ -78,6 +78,21 @@ TriangleMesh read_text_stl(const std::string& file, std::string_view content) {
 }
 
 }  // namespace
+
+bool is_binary_stl(std::string_view content) {
+  if (content.size() < kHeader) return false;
+  std::uint32_t count = 0;
+  std::memcpy(&count, content.data() + 80, sizeof count);
+  // Header, count, and 50 bytes per facet: the size fits the count only in a binary STL.
+  return content.size() == kHeader + kFacet * static_cast<std::size_t>(count);
+}
+
+bool looks_stl(std::string_view content) {
+  if (is_binary_stl(content)) return true;
+  const std::string_view head = without_blanks_in_front(content).substr(0, 1000);
+  return head.starts_with("solid") &&
+         (head.find("facet") != std::string_view::npos || head.find("endsolid") != std::string_view::npos);
+}
 
 TriangleMesh read_stl(const std::string& file, std::string_view content) {
   const std::size_t first = content.find_first_not_of(" \t\r\n");

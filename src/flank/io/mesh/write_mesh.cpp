@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <iterator>
+#include <string_view>
 
 #include "flank/base/atomic_file.h"
 #include "flank/error.h"
@@ -66,15 +70,39 @@ std::string ply(const TriangleMesh& mesh) {
   return bytes;
 }
 
+struct Writer {
+  std::string_view ending;
+  std::string (*bytes)(const TriangleMesh& mesh);
+};
+
+constexpr std::array<Writer, 3> kWriters{{{".stl", stl}, {".obj", obj}, {".ply", ply}}};
+
+/// Null: no mesh is written under this name.
+const Writer* writer_of(const std::string& file) {
+  std::string ending = std::filesystem::path(file).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const auto* found =
+      std::find_if(kWriters.begin(), kWriters.end(), [&](const Writer& w) { return w.ending == ending; });
+  return found == kWriters.end() ? nullptr : found;
+}
+
 }  // namespace
+
+std::string written_mesh_endings() {
+  std::string text(kWriters.front().ending);
+  for (std::size_t k = 1; k < kWriters.size(); ++k)
+    text += (k + 1 == kWriters.size() ? " or " : ", ") + std::string(kWriters[k].ending);
+  return text;
+}
+
+bool is_written_mesh(const std::string& file) { return writer_of(file) != nullptr; }
 
 std::string mesh_to_stl(const TriangleMesh& mesh) { return stl(mesh); }
 
 void write_mesh(const std::string& file, const TriangleMesh& mesh) {
-  const std::string extension = std::filesystem::path(file).extension().string();
-  if (extension != ".stl" && extension != ".obj" && extension != ".ply")
-    throw UsageError(file + ": meshes are written as .stl, .obj or .ply");
-  write_file(file, extension == ".stl" ? stl(mesh) : extension == ".obj" ? obj(mesh) : ply(mesh));
+  const Writer* writer = writer_of(file);
+  if (writer == nullptr) throw UsageError(file + ": meshes are written as " + written_mesh_endings());
+  write_file(file, writer->bytes(mesh));
 }
 
 }  // namespace flank::internal

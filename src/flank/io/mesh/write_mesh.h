@@ -7,9 +7,13 @@
 
 namespace flank::internal {
 
-/// Binary STL (single precision), OBJ or binary little-endian PLY (both in double precision), by the extension of
-/// `file`. Throws UsageError for another extension, InputError if the file cannot be written; nothing half-written is
-/// left.
+/// ".stl, .obj or ...": how files end that write_mesh writes.
+[[nodiscard]] std::string written_mesh_endings();
+[[nodiscard]] bool is_written_mesh(const std::string& file);
+
+/// In the format that the extension of `file` says, in any case; binary and in double precision where the format can (STL has
+/// single precision). Throws UsageError for another extension, InputError if the file cannot be written; nothing half-written
+/// is left.
 void write_mesh(const std::string& file, const TriangleMesh& mesh);
 
 /// The bytes of a binary STL.

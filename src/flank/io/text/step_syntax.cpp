@@ -9,10 +9,12 @@
 #include <unordered_set>
 
 #include "flank/error.h"
-#include "flank/io/text/read_sniff.h"
+#include "flank/io/text/read_bytes.h"
 
 namespace flank::internal {
 namespace {
+
+constexpr long kLargestStepId = 100'000'000'000'000'000;  ///< longer numbers of a damaged file all count as this one
 
 /// ASCII classes of the exchange format (ISO 10303-21); "!" begins the names of user-defined entities.
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -298,6 +300,32 @@ std::string plain_step(const std::string& file, std::string_view content) {
   }
   out.append(content, copied);
   return out;
+}
+
+std::vector<long> undefined_step_references(const std::string& content) {
+  std::unordered_set<long> defined, used;
+  bool in_string = false;
+  for (std::size_t i = content.find("DATA;"); i < content.size(); ++i) {
+    const char c = content[i];
+    if (!in_string && content.compare(i, 2, "/*") == 0) {
+      // A comment may hold an apostrophe, or a # that refers to nothing.
+      i = std::min(content.find("*/", i + 2), content.size() - 2) + 1;
+      continue;
+    }
+    if (c == '\'') in_string = !in_string;
+    if (in_string || c != '#') continue;
+    long id = 0;
+    std::size_t k = i + 1;
+    for (; k < content.size() && std::isdigit(static_cast<unsigned char>(content[k])); ++k)
+      id = std::min(10 * id + (content[k] - '0'), kLargestStepId);
+    while (k < content.size() && std::isspace(static_cast<unsigned char>(content[k]))) ++k;
+    (k < content.size() && content[k] == '=' ? defined : used).insert(id);
+  }
+  std::vector<long> lost;
+  for (const long id : used)
+    if (!defined.contains(id)) lost.push_back(id);
+  std::sort(lost.begin(), lost.end());
+  return lost;
 }
 
 }  // namespace flank::internal

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace flank::internal {
 
@@ -15,5 +16,8 @@ namespace flank::internal {
 /// finite, no parameter is empty, values are separated by commas, lists and strings are closed, and no instance is
 /// defined twice.
 [[nodiscard]] std::string plain_step(const std::string& file, std::string_view content);
+
+/// Ids in the file that a STEP file refers to and does not define; the mark of a file that lost a part of itself.
+[[nodiscard]] std::vector<long> undefined_step_references(const std::string& content);
 
 }  // namespace flank::internal

@@ -14,6 +14,7 @@
 #include "flank/error.h"
 #include "flank/io/text/toml_table.h"
 #include "flank/machine/model/body_file.h"
+#include "flank/machine/nc/dialects/languages.h"
 #include "flank/machine/nc/without_effect.h"
 
 namespace flank::internal {
@@ -187,7 +188,7 @@ void read_words(const TomlTable& table, NcDialect& dialect) {
 /// How the program is written; what it means is read_meaning's.
 void read_dialect(const TomlTable& table, Machine& machine) {
   NcDialect& dialect = machine.dialect;
-  dialect.language = nc_language(table.word("language", {"linuxcnc", "fanuc", "siemens", "heidenhain", "apt"}));
+  dialect.language = nc_language(table.word("language", nc_language_names()));
   if (table.has("tcp_on")) dialect.tcp_on = table.text("tcp_on");
   if (table.has("tcp_off")) dialect.tcp_off = table.text("tcp_off");
   read_words(table, dialect);
@@ -213,7 +214,7 @@ void read_retract(const TomlTable& control, Machine& machine) {
     dialect.retract_mm = control.number("retract_mm", {-kFarMm, kFarMm});
     if (!(*dialect.retract_mm >= z.low && *dialect.retract_mm <= z.high))
       control.refuse("retract_mm", fmt::format("is beyond the travel of Z, {:g} to {:g}", z.low, z.high));
-  } else if (dialect.language == NcLanguage::kLinuxCnc || dialect.language == NcLanguage::kSiemens) {
+  } else if (!row_of(dialect.language).retract_word) {
     const bool up = (z.reversed ? -1.0 : 1.0) * z.direction.dot(machine.tool_axis) >= 0.0;
     dialect.retract_mm = up ? z.high - kBeforeTheEnd : z.low + kBeforeTheEnd;
   }
@@ -231,15 +232,16 @@ void read_meaning(const TomlTable& table, Machine& machine) {
                                                                                            : NcFeedMode::kPerMinute;
   machine.dialect.join = machine.join;
   // What the control cannot say is refused here, by line, rather than when the first program is written.
-  const NcLanguage language = machine.dialect.language;
+  const NcLanguageRow& language = row_of(machine.dialect.language);
+  const std::string title(language.title);
   if (machine.positions == NcPositions::kJoint && machine.join != NcJoin::kAxes)
     table.refuse("join", "joint coordinates are joined by \"axes\"");
-  if (language == NcLanguage::kLinuxCnc && machine.join != NcJoin::kAxes)
-    table.refuse("join", "LinuxCNC joins blocks by \"axes\"");
-  if (language == NcLanguage::kLinuxCnc && machine.positions == NcPositions::kTipVector)
-    table.refuse("positions", "LinuxCNC has no vectors; accepted are \"tip-rotary\", \"joint\"");
-  if (language == NcLanguage::kHeidenhain && machine.feed_mode == NcFeedMode::kInverseTime)
-    table.refuse("feed", "Heidenhain's feeds are \"per-minute\"");
+  if (!language.great_circle && machine.join != NcJoin::kAxes)
+    table.refuse("join", title + " joins blocks by \"axes\"");
+  if (!language.vectors && machine.positions == NcPositions::kTipVector)
+    table.refuse("positions", title + " has no vectors; accepted are \"tip-rotary\", \"joint\"");
+  if (!language.inverse_time && machine.feed_mode == NcFeedMode::kInverseTime)
+    table.refuse("feed", title + "'s feeds are \"per-minute\"");
 }
 
 std::string read_text(const std::string& file) {

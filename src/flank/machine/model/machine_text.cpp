@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "flank/machine/model/machine_file.h"
+#include "flank/machine/nc/dialects/languages.h"
 
 namespace flank::internal {
 namespace {

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "flank/machine/nc/program.h"
@@ -46,10 +45,5 @@ struct NcDialect {
 
 /// Decimals with which a feed > 0 is written: as many as the dialect says, more where it would lose itself.
 [[nodiscard]] int nc_feed_decimals(NcFeedMode mode, double feed, const NcDialect& dialect);
-
-/// "linuxcnc", "fanuc", "siemens", "heidenhain", "apt".
-[[nodiscard]] std::string_view nc_language_name(NcLanguage language);
-/// The other way round. Throws UsageError with the accepted names.
-[[nodiscard]] NcLanguage nc_language(std::string_view name);
 
 }  // namespace flank::internal

@@ -15,7 +15,7 @@
 #include "flank/io/text/json_input.h"
 #include "flank/machine/backplot.h"
 #include "flank/machine/model/machine_file.h"
-#include "flank/machine/nc/read/read_nc.h"
+#include "flank/machine/nc/dialects/read_nc.h"
 #include "flank/path_file.h"
 #include "flank/pipeline/folder/folder_job.h"
 #include "flank/pipeline/folder/judge_job.h"

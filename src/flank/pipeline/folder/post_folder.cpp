@@ -16,7 +16,7 @@
 #include "flank/job/check_fields.h"
 #include "flank/machine/links.h"
 #include "flank/machine/model/machine_file.h"
-#include "flank/machine/nc/write/write_nc.h"
+#include "flank/machine/nc/dialects/write_nc.h"
 #include "flank/machine/post.h"
 #include "flank/machine/setup_search.h"
 #include "flank/path_file.h"

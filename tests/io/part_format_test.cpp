@@ -1,8 +1,12 @@
-#include "flank/io/text/read_sniff.h"
+#include "flank/io/part_format.h"
 
 #include <gtest/gtest.h>
 
 #include "flank/error.h"
+#include "flank/io/mesh/read_stl.h"
+#include "flank/io/text/read_bytes.h"
+#include "flank/io/text/step_syntax.h"
+#include "flank/part.h"
 #include "io/part_files.h"
 
 namespace flank::internal {
@@ -29,7 +33,7 @@ const std::string kBrep = "\nCASCADE Topology V1, (c) Matra-Datavision\n";
 
 std::string refusal(const std::string& file, const std::string& content) {
   try {
-    return "read as " + sniff_format(file, content);
+    return "read as " + std::string(sniff_format(file, content).name);
   } catch (const InputError& e) {
     return e.what();
   }
@@ -83,6 +87,15 @@ TEST(SniffFormat, FilesThatLackTheirEndAreTruncated) {
   const std::string lost = kIges.substr(0, kIges.size() - 81);
   EXPECT_NE(refusal("a.iges", lost).find("T in column 73"), std::string::npos) << refusal("a.iges", lost);
   EXPECT_EQ(refusal("a.iges", kIges + "\r\n\n"), "read as IGES");
+}
+
+TEST(PartFormats, AreNamedInMessagesByTheirRows) {
+  EXPECT_EQ(part_formats(), "STEP, IGES, BREP, STL, OBJ or PLY");
+  EXPECT_EQ(accepted_part_files(),
+            "STEP (.step .stp .p21), IGES (.iges .igs), BREP (.brep .brp), STL (.stl), OBJ (.obj) or PLY (.ply)");
+  EXPECT_TRUE(is_mesh_file("a.STL"));
+  EXPECT_FALSE(is_mesh_file("a.step"));
+  EXPECT_FALSE(is_mesh_file("a"));
 }
 
 TEST(IsBinaryStl, OnlyBySize) {

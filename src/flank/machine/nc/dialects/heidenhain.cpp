@@ -1,4 +1,4 @@
-#include "flank/machine/nc/read/read_heidenhain.h"
+#include "flank/machine/nc/dialects/heidenhain.h"
 
 #include <algorithm>
 #include <array>
@@ -11,6 +11,7 @@
 #include "flank/machine/nc/nc_number.h"
 #include "flank/machine/nc/read/program_builder.h"
 #include "flank/machine/nc/without_effect.h"
+#include "flank/machine/nc/write/write_heidenhain.h"
 
 namespace flank::internal {
 
@@ -341,10 +342,22 @@ class HeidenhainReader {
   bool begun_ = false, finished_ = false, continues_ = false, spatial_ = false;
 };
 
-}  // namespace
-
+/// As read_nc, for a text that was not recognised as one of another language.
 NcProgram read_heidenhain(std::string_view text, const std::string& file, const NcDialect& dialect) {
   return HeidenhainReader(file, dialect).read(text);
 }
+
+}  // namespace
+
+constexpr NcLanguageRow kHeidenhainRow{
+    .language = NcLanguage::kHeidenhain,
+    .name = "heidenhain",
+    .title = kName,
+    .read = read_heidenhain,
+    .write = write_heidenhain,
+    .first = {"BEGIN PGM"},
+    .anywhere = {"TOOL CALL", "FUNCTION TCPM", "FMAX", "M128"},
+    .inverse_time = false,
+};
 
 }  // namespace flank::internal

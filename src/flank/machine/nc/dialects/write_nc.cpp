@@ -1,14 +1,10 @@
-#include "flank/machine/nc/write/write_nc.h"
+#include "flank/machine/nc/dialects/write_nc.h"
 
 #include <cmath>
 
 #include "flank/error.h"
+#include "flank/machine/nc/dialects/languages.h"
 #include "flank/machine/nc/nc_number.h"
-#include "flank/machine/nc/write/write_apt.h"
-#include "flank/machine/nc/write/write_fanuc.h"
-#include "flank/machine/nc/write/write_heidenhain.h"
-#include "flank/machine/nc/write/write_linuxcnc.h"
-#include "flank/machine/nc/write/write_siemens.h"
 
 namespace flank::internal {
 
@@ -50,11 +46,7 @@ void check_rapid(const NcProgram& program, std::size_t i) {
 
 void check_program(const NcProgram& program) {
   if (program.moves.empty()) throw UsageError("program: has no moves");
-  // Letters come from the machine's file, or from a caller who made the program: writers index by them.
-  const std::string& r = program.rotary;
-  const auto letter = [](char c) { return c == 'A' || c == 'B' || c == 'C'; };
-  if (r.size() != 2 || !letter(r[0]) || !letter(r[1]) || r[0] == r[1])
-    throw UsageError("rotary axes", "\"" + r + "\"", "accepted are two different letters of A, B and C");
+  require_rotary_letters(program.rotary);
   if (program.header.tool.number < 0 || program.header.tool.number > kLargestNcValue || program.header.work_offset < 1)
     throw UsageError("program: the tool's number is from 0 to 1000000, that of the work offset at least 1");
   if (program.positions == NcPositions::kJoint && program.join == NcJoin::kGreatCircle)
@@ -70,19 +62,7 @@ void check_program(const NcProgram& program) {
 std::string write_nc(const NcProgram& program, const NcDialect& dialect) {
   check_decimals(dialect);
   check_program(program);
-  switch (dialect.language) {
-    case NcLanguage::kFanuc:
-      return write_fanuc(program, dialect);
-    case NcLanguage::kSiemens:
-      return write_siemens(program, dialect);
-    case NcLanguage::kHeidenhain:
-      return write_heidenhain(program, dialect);
-    case NcLanguage::kApt:
-      return write_apt(program, dialect);
-    case NcLanguage::kLinuxCnc:
-      break;
-  }
-  return write_linuxcnc(program, dialect);
+  return row_of(dialect.language).write(program, dialect);
 }
 
 }  // namespace flank::internal
