@@ -71,8 +71,7 @@ enum class SideState {
 SideState state_of(const SideFit& sides, const CavityFaces& faces, const TrochoidJob& job) {
   const CoverageEstimate& e = sides.fit.after;
   if (sides.fit.motions.empty()) return SideState::kShort;
-  if (sides.fit.status == FitStatus::kWithinTolerance) return SideState::kDone;
-  if (e.overcut_mm > job.tolerance_mm || e.gouge_mm > job.tolerance_mm) return SideState::kShort;
+  if (e.overcut_mm > *job.tolerance_mm || e.gouge_mm > *job.tolerance_mm) return SideState::kShort;
   const double radius = asked_ball(job, faces, sides.fit.tool);
   const double least = job.judge.least_coverage;
   if (covers_reachable(side_of(faces.sides[0]), side_of(faces.sides[1]), e.at_tolerance, least, radius))
@@ -85,7 +84,7 @@ bool is_narrow(const SideFit& sides) { return least_way_across(sides.fit.motions
 
 int layers_of(const SideFit& sides) { return static_cast<int>(sides.fit.motions.size()) / 2; }
 
-double score_of(const SideFit& sides, const TrochoidJob& job) { return sides.fit.after.score(job.tolerance_mm); }
+double score_of(const SideFit& sides, const TrochoidJob& job) { return sides.fit.after.score(*job.tolerance_mm); }
 
 /// A bound for which the narrowest place has no room: where sides are far from what is asked under it, that is the room's, which more
 /// layers do not make.
@@ -144,14 +143,14 @@ CavityProgram plan(const TrochoidJob& job, const CavityFaces& faces, const SideF
   if (sides.fit.motions.empty() || !check_legitimacy(sides.fit.tool).legitimate) return {};
   ProgramOptions options;
   options.cycles.largest_rad = job.cycles.most_engagement_deg * kDegree;
-  options.cycles.tolerance_mm = job.tolerance_mm;
+  options.cycles.tolerance_mm = *job.tolerance_mm;
   options.cycles.most_rewinds = effort.most_rewinds;
   options.below_stuck = effort.below_stuck;
   options.cycles.strategy = strategy_of(job.cycles.strategy);
   options.entry.method = entry_of(job.cycles.entry);
   options.entry.slope_rad = job.cycles.ramp_angle_deg * kDegree;
   options.climb = job.cycles.cut == "climb";
-  options.chord_mm = kToleranceBudget.chord * job.tolerance_mm;
+  options.chord_mm = kToleranceBudget.chord * *job.tolerance_mm;
   options.left = faces.sides[0].faces;
   options.right = faces.sides[1].faces;
   GuardedFaces guarded;
@@ -188,7 +187,7 @@ CavityPlan planned(SideFit sides, const Search& search, double bound, const Plan
   CavityProgram program = plan(search.job, search.faces, sides, effort, search.progress);
   CavityPlan out = uncut_plan(std::move(sides), bound);
   out.program = std::move(program);
-  if (search.judge && gets_through(out, search.job.tolerance_mm) && !search.progress.stop())
+  if (search.judge && gets_through(out, *search.job.tolerance_mm) && !search.progress.stop())
     out.finding = search.judge(out);
   return out;
 }
@@ -221,12 +220,12 @@ CavityPlan search_ways(const Search& search, SideFitOptions options, int fewest,
   options.facing = false;
   SideFit as_they_come = search_sides(search, options, {layers, &facing.sides}, thinner);
   // Cycles cannot make up for sides that cover no more, where the others' get through all of the way.
-  const double tolerance = job.tolerance_mm;
+  const double tolerance = *job.tolerance_mm;
   if (gets_through(facing, tolerance) && cleared(facing) == 1.0 &&
       as_they_come.fit.after.score(tolerance) <= facing.sides.fit.after.score(tolerance))
     return facing;
   CavityPlan plain = plan_of(std::move(as_they_come));
-  return is_better(plain, facing, job.tolerance_mm) ? plain : facing;
+  return is_better(plain, facing, *job.tolerance_mm) ? plain : facing;
 }
 
 /// The same with a tool that is nearly as thick everywhere, if that is what is missing and it does more.
@@ -236,7 +235,7 @@ CavityPlan search_even(const Search& search, SideFitOptions options, CavityPlan 
   if (!search.tool.free() || !wants_even_tool(tried, faces, job) || search.progress.stop()) return tried;
   options.starts = {{options.starts.front().radius_mm, kEven}};
   CavityPlan even = search_ways(search, options, layers_of(tried.sides), true, uncut);
-  return is_done(even, faces, job) || is_better(even, tried, job.tolerance_mm) ? even : tried;
+  return is_done(even, faces, job) || is_better(even, tried, *job.tolerance_mm) ? even : tried;
 }
 
 /// Cycles between sides that got none, if more may be finished so than by the best.
@@ -245,7 +244,7 @@ void try_uncut(const Search& search, CavityPlan uncut, CavityPlan& best) {
   if (!(uncut.sides.fit.after.at_tolerance > finished) || search.progress.stop()) return;
   CavityPlan tried = planned(std::move(uncut.sides), search, uncut.largest_radius_mm);
   tried.tools = best.tools;
-  if (is_better(tried, best, search.job.tolerance_mm)) best = std::move(tried);
+  if (is_better(tried, best, *search.job.tolerance_mm)) best = std::move(tried);
 }
 
 }  // namespace
@@ -293,11 +292,11 @@ bool is_better(const CavityPlan& a, const CavityPlan& b, double tolerance) {
 
 bool is_done(const CavityPlan& plan, const CavityFaces& faces, const TrochoidJob& job) {
   if (plan.finding) return plan.finding->meets;
-  if (!gets_through(plan, job.tolerance_mm) || state_of(plan.sides, faces, job) == SideState::kShort) return false;
+  if (!gets_through(plan, *job.tolerance_mm) || state_of(plan.sides, faces, job) == SideState::kShort) return false;
   const FlankFitResult& fit = plan.sides.fit;
   const CavitySide left = side_of(faces.sides[0]), right = side_of(faces.sides[1]);
   const double radius = asked_ball(job, faces, fit.tool);
-  const double in_reach = covered_in_reach(left, right, fit.motions, fit.tool, job.tolerance_mm, radius);
+  const double in_reach = covered_in_reach(left, right, fit.motions, fit.tool, *job.tolerance_mm, radius);
   return covers_reachable(left, right, in_reach * cleared(plan) * fit.after.at_tolerance, job.judge.least_coverage,
                           radius);
 }
@@ -307,7 +306,7 @@ bool ends_search(const CavityProgram& program, bool thinner) {
 }
 
 bool wants_even_tool(const CavityPlan& plan, const CavityFaces& faces, const TrochoidJob& job) {
-  return !job.judge.reach_radius_mm && gets_through(plan, job.tolerance_mm) && !is_done(plan, faces, job) &&
+  return !job.judge.reach_radius_mm && gets_through(plan, *job.tolerance_mm) && !is_done(plan, faces, job) &&
          state_of(plan.sides, faces, job) != SideState::kShort;
 }
 
@@ -353,7 +352,7 @@ CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const
       fewest =
           std::max(fewest, layers_of(tried.sides) - (state_of(tried.sides, faces, job) == SideState::kShort ? 1 : 0));
     const bool covers_more = uncut.sides.fit.after.at_tolerance > most_uncut;
-    const bool better = ++tools == 1 || is_better(tried, best, job.tolerance_mm);
+    const bool better = ++tools == 1 || is_better(tried, best, *job.tolerance_mm);
     if (better || done) best = std::move(tried);
     best.tools = tools;
     const bool in_vain = !narrow && patience.ends_after(better || covers_more, best.program.done());
@@ -368,7 +367,7 @@ CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const
       static_cast<int>(best.program.layers.size()) < layers_of(best.sides) && !best.program.layers.empty();
   if (!best.program.done() && (!ends || cut_short) && !best.sides.fit.motions.empty() && !progress.stop()) {
     CavityPlan tried = planned(best.sides, search, best.largest_radius_mm, ends ? kWrite : kUtmost);
-    if (is_better(tried, best, job.tolerance_mm)) best.program = std::move(tried.program), best.finding = tried.finding;
+    if (is_better(tried, best, *job.tolerance_mm)) best.program = std::move(tried.program), best.finding = tried.finding;
   }
   return best;
 }
