@@ -156,8 +156,8 @@ struct TrochoidJob {
   CycleRequest cycles;
   ObstacleRequest obstacles;
   JudgeRequest judge{.sample_mm = {}, .reach_radius_mm = {}, .most_turn_deg = 0.0};
-  double tolerance_mm = 0.01;
-  bool avoid = true;  ///< keep clear of the other faces already in planning
+  std::optional<double> tolerance_mm;  ///< none: a thousandth of the diagonal of both sides, rounded down to 1, 2 or 5
+  bool avoid = true;                   ///< keep clear of the other faces already in planning
   bool operator==(const TrochoidJob&) const = default;
 };
 

@@ -9,6 +9,12 @@
 namespace flank::internal {
 namespace {
 
+TrochoidJob asked_for() {
+  TrochoidJob job;
+  job.tolerance_mm = 0.01;
+  return job;
+}
+
 /// A cavity that was cleared, of which a wall's corner is left.
 Result cleared() {
   Result out;
@@ -86,11 +92,11 @@ TEST(CavityNotes, WhereCyclesGotStuckTheLimitThatGetsPastIsTold) {
   layer.cycles.stuck = {0.0121, 61.3 * std::numbers::pi / 180.0};
   layer.share = 0.9;
   std::vector<std::string> notes;
-  note_what_is_open({}, program, notes);
+  note_what_is_open(asked_for(), program, notes);
   EXPECT_NE(notes.at(0).find("no first front before the blank keeps to 60 degrees"), std::string::npos) << notes[0];
   layer.cycles.cycles.emplace_back();
   notes.clear();
-  note_what_is_open({}, program, notes);
+  note_what_is_open(asked_for(), program, notes);
   ASSERT_EQ(notes.size(), 3u);
   EXPECT_NE(notes[0].find("0.0121 mm, engages 61.30; --max-engagement 62"), std::string::npos) << notes[0];
   EXPECT_NE(notes[1].find("the rest is left"), std::string::npos) << notes[1];
@@ -99,12 +105,12 @@ TEST(CavityNotes, WhereCyclesGotStuckTheLimitThatGetsPastIsTold) {
 /// A search that was stopped before any cycles said "no cycle was planned", and that the cavity is open.
 TEST(CavityNotes, WithoutCyclesTheSidesAreTold) {
   std::vector<std::string> notes;
-  note_what_is_open({}, {}, notes);
+  note_what_is_open(asked_for(), {}, notes);
   EXPECT_TRUE(notes.empty()) << "nobody knows yet at which ends it is open";
   CoverageEstimate sides;
   sides.at_tolerance = 0.784;
   sides.gouge_mm = 0.2341;
-  note_no_cycles({}, sides, notes);
+  note_no_cycles(asked_for(), sides, notes);
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_NE(notes.front().find("cover 78.4 % of both"), std::string::npos) << notes.front();
   EXPECT_NE(notes.front().find("by 0.2341 mm"), std::string::npos) << notes.front();
@@ -119,7 +125,7 @@ TEST(CavityNotes, FrontsThatDoNotGetIntoTheCavityAreTold) {
   const auto told = [&](double share) {
     layer.share = share;
     std::vector<std::string> notes;
-    note_what_is_open({}, program, notes);
+    note_what_is_open(asked_for(), program, notes);
     return std::count_if(notes.begin(), notes.end(), [](const std::string& note) {
       return note.find("all 134 fronts end before one of the sides begins") != std::string::npos;
     });
@@ -138,7 +144,7 @@ TEST(CavityNotes, WhereTheSidesLeadAlongTheAxisOfStuckCyclesThatIsTold) {
   const auto told = [&](double degrees) {
     layer.off_axis_rad = degrees * std::numbers::pi / 180.0;
     std::vector<std::string> notes;
-    note_what_is_open({}, program, notes);
+    note_what_is_open(asked_for(), program, notes);
     return std::count_if(notes.begin(), notes.end(), [](const std::string& note) {
       return note.find("along the tool's axis, 16 degrees off it") != std::string::npos;
     });

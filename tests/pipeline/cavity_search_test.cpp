@@ -23,6 +23,14 @@ CavityFaces walled_blades() {
   return faces;
 }
 
+/// For 95 % within a hundredth of a millimetre.
+TrochoidJob job_for_most() {
+  TrochoidJob job;
+  job.tolerance_mm = 0.01;
+  job.judge.least_coverage = 0.95;
+  return job;
+}
+
 /// Cycles that got through between sides that a tool of 2 mm at its tip and 6 mm at its other end finishes up to a share.
 CavityPlan finished(double share) {
   constexpr double kHeight = 40.0;
@@ -44,51 +52,101 @@ CavityPlan finished(double share) {
 
 TEST(CavitySearch, IsNotDoneWhereTheVerdictWillNotBeMet) {
   // With the radii that it has the tool reaches 93 %, of which 90 % is enough: the verdict counts what 2 mm reach, 97 %.
-  TrochoidJob job;
-  job.judge.least_coverage = 0.95;
+  TrochoidJob job = job_for_most();
   const CavityFaces faces = walled_blades();
-  EXPECT_FALSE(is_done(finished(0.90), faces, job));
-  EXPECT_TRUE(is_done(finished(0.93), faces, job));
+  const CavityDemand demand{job, faces};
+  EXPECT_FALSE(meets(finished(0.90), demand));
+  EXPECT_TRUE(meets(finished(0.93), demand));
 }
 
 TEST(CavitySearch, IsDoneWhereTheJudgeFindsAllThatIsAsked) {
   // Its samples are finer than those of the estimate, and it has proofs: what it finds is what counts.
-  TrochoidJob job;
-  job.judge.least_coverage = 0.95;
+  TrochoidJob job = job_for_most();
   const CavityFaces faces = walled_blades();
+  const CavityDemand demand{job, faces};
   CavityPlan plan = finished(0.93);
   plan.finding = CavityFinding{false, 0.924};
-  EXPECT_FALSE(is_done(plan, faces, job)) << "the estimate takes it for done";
-  EXPECT_TRUE(wants_even_tool(plan, faces, job));
+  EXPECT_FALSE(meets(plan, demand)) << "the estimate takes it for done";
+  EXPECT_TRUE(wants_even_tool(plan, demand));
   plan = finished(0.90);
   plan.finding = CavityFinding{true, 0.951};
-  EXPECT_TRUE(is_done(plan, faces, job));
-  EXPECT_FALSE(wants_even_tool(plan, faces, job));
+  EXPECT_TRUE(meets(plan, demand));
+  EXPECT_FALSE(wants_even_tool(plan, demand));
+}
+
+TEST(CavitySearch, TakesTheShareThatIsAskedForNotNinetyNinePercent) {
+  TrochoidJob job = job_for_most();
+  const CavityFaces faces = walled_blades();
+  const CavityDemand demand{job, faces};
+  CavityPlan plan = finished(0.992);
+  plan.sides.fit.status = FitStatus::kWithinTolerance;
+  job.judge.reach_radius_mm = 0.1;  // which reaches all
+  EXPECT_TRUE(fills_reach(plan.sides, demand));
+  job.judge.least_coverage = 0.999;
+  plan.sides.fit.tool = RadialFunction(ToolFamily::kCylinder, 40.0, Eigen::VectorXd::Constant(1, 0.1));
+  EXPECT_FALSE(fills_reach(plan.sides, demand));
+}
+
+/// The sides alone.
+CavityPlan uncut(double share) {
+  CavityPlan plan = finished(share);
+  plan.program.layers.clear();
+  return plan;
 }
 
 TEST(CavitySearch, SidesThatAreDoneAreAGainOnThoseThatAreShort) {
-  TrochoidJob job;
-  job.judge.least_coverage = 0.95;
+  const TrochoidJob job = job_for_most();
   const CavityFaces faces = walled_blades();
-  // Steps of half of what is a gain by itself: only the one from short to done is one.
-  int gains = 0;
-  for (double share = 0.80; share < 0.93; share += 0.001)
-    gains += is_gain(finished(share + 0.001).sides, finished(share).sides, faces, job) ? 1 : 0;
-  EXPECT_EQ(gains, 1);
-  EXPECT_TRUE(is_gain(finished(0.803).sides, finished(0.80).sides, faces, job));
-  EXPECT_FALSE(is_gain(finished(0.80).sides, finished(0.93).sides, faces, job));
-  EXPECT_TRUE(is_gain(finished(0.80).sides, {}, faces, job));
+  const CavityDemand demand{job, faces};
+  EXPECT_GT(rank(uncut(0.803), demand), rank(uncut(0.80), demand));
+  EXPECT_EQ(rank(uncut(0.8001), demand), rank(uncut(0.80), demand)) << "a hair is no gain";
+  EXPECT_GT(rank(uncut(0.93), demand), rank(uncut(0.80), demand));
+  EXPECT_GT(rank(uncut(0.80), demand), rank(CavityPlan{}, demand));
+}
+
+TEST(CavitySearch, ARankIsAnOrder) {
+  // Whatever three plans are compared, in whatever order: none is better than one that is better than it.
+  const TrochoidJob job = job_for_most();
+  const CavityFaces faces = walled_blades();
+  const CavityDemand demand{job, faces};
+  std::vector<CavityRank> ranks;
+  for (const double share : {0.5, 0.9, 0.93})
+    for (const double entered : {0.0, 0.009, 0.02, 0.5})
+      for (const bool judged : {false, true}) {
+        CavityPlan plan = finished(share);
+        plan.program.layers.front().cycles.cycles.resize(1);
+        plan.program.layers.front().cycles.cycles.front().entered_mm = entered;
+        if (judged) plan.finding = CavityFinding{share > 0.92, share};
+        ranks.push_back(rank(plan, demand));
+      }
+  for (const CavityRank& a : ranks)
+    for (const CavityRank& b : ranks)
+      for (const CavityRank& c : ranks) EXPECT_FALSE(a < b && b < c && !(a < c));
+}
+
+TEST(CavitySearch, SidesThatAreTooDeepOrCoverLittleAreHopeless) {
+  const TrochoidJob job = job_for_most();
+  const CavityFaces faces = walled_blades();
+  const CavityDemand demand{job, faces};
+  CavityPlan plan = finished(0.9);
+  EXPECT_FALSE(is_hopeless(plan.sides, demand));
+  plan.sides.fit.after.gouge_mm = 0.03;
+  EXPECT_FALSE(is_hopeless(plan.sides, demand)) << "a looser tolerance is met, which is said";
+  plan.sides.fit.after.gouge_mm = 6.5;
+  EXPECT_TRUE(is_hopeless(plan.sides, demand));
+  EXPECT_TRUE(is_hopeless(finished(0.01).sides, demand));
+  EXPECT_TRUE(is_hopeless({}, demand));
 }
 
 TEST(CavitySearch, WantsAnEvenToolWhereTheThickEndLeavesWhatTheThinOneReaches) {
-  TrochoidJob job;
-  job.judge.least_coverage = 0.95;
+  TrochoidJob job = job_for_most();
   const CavityFaces faces = walled_blades();
-  EXPECT_TRUE(wants_even_tool(finished(0.90), faces, job));
-  EXPECT_FALSE(wants_even_tool(finished(0.93), faces, job)) << "done";
-  EXPECT_FALSE(wants_even_tool(finished(0.80), faces, job)) << "it leaves what it reaches itself";
+  const CavityDemand demand{job, faces};
+  EXPECT_TRUE(wants_even_tool(finished(0.90), demand));
+  EXPECT_FALSE(wants_even_tool(finished(0.93), demand)) << "done";
+  EXPECT_FALSE(wants_even_tool(finished(0.80), demand)) << "it leaves what it reaches itself";
   job.judge.reach_radius_mm = 2.0;
-  EXPECT_FALSE(wants_even_tool(finished(0.90), faces, job)) << "what is to be reached does not depend on the tool";
+  EXPECT_FALSE(wants_even_tool(finished(0.90), demand)) << "what is to be reached does not depend on the tool";
 }
 
 TEST(CavitySearch, TriesNoBoundBelowTheLeastRadiusThatIsAskedFor) {
@@ -163,27 +221,25 @@ TEST(CavitySearch, EndsWhereCyclesGetStuckBeforeTheSidesBegin) {
 
 TEST(CavitySearch, SidesWithoutCyclesAreNoBetterForEnteringNothing) {
   // The former have a tool with hardly a way across; the latter cover more, and their cycles, stuck before them, enter a hair.
-  CavityPlan uncut = finished(0.6), stuck = finished(0.9);
-  uncut.program.layers.clear();
+  const TrochoidJob job = job_for_most();
+  const CavityFaces faces = walled_blades();
+  const CavityDemand demand{job, faces};
+  const CavityPlan none = uncut(0.6);
+  CavityPlan stuck = finished(0.9);
   stuck.program.layers = {layer_of(CycleStatus::kStuck, 134, 0.0)};
   stuck.program.layers.front().cycles.cycles.front().entered_mm = 0.003;
-  EXPECT_TRUE(is_better(stuck, uncut, 0.01));
-  EXPECT_FALSE(is_better(uncut, stuck, 0.01));
+  EXPECT_GT(rank(stuck, demand), rank(none, demand));
 }
 
 TEST(CavitySearch, EndsAtOnceWhereCyclesGetThroughAndAThinnerToolGainsNothing) {
-  SearchPatience patience;
-  EXPECT_FALSE(patience.ends_after(true, true));
-  EXPECT_TRUE(patience.ends_after(false, true));
+  EXPECT_FALSE(is_in_vain(0, true));
+  EXPECT_TRUE(is_in_vain(1, true));
 }
 
 TEST(CavitySearch, EndsAfterTwoToolsInARowThatGetNoFartherWhereCyclesGetStuck) {
-  SearchPatience patience;
-  EXPECT_FALSE(patience.ends_after(true, false));
-  EXPECT_FALSE(patience.ends_after(false, false)) << "one tool may be unlucky";
-  EXPECT_FALSE(patience.ends_after(true, false));
-  EXPECT_FALSE(patience.ends_after(false, false)) << "what gains begins anew";
-  EXPECT_TRUE(patience.ends_after(false, false));
+  EXPECT_FALSE(is_in_vain(0, false));
+  EXPECT_FALSE(is_in_vain(1, false)) << "one tool may be unlucky";
+  EXPECT_TRUE(is_in_vain(2, false));
 }
 
 }  // namespace

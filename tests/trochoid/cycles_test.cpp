@@ -188,18 +188,15 @@ TEST(Cycles, BeginBeforeAnEdgeThatASlenderToolMeetsBetweenTheRingsOfTheSearch) {
   for (const Cycle& cycle : out.cycles) EXPECT_LE(cycle.front.peak.angle_rad, options.largest_rad);
 }
 
-TEST(CycleSearch, NoStepWithinTheLimitCountsAsRefused) {
-  SweptStock stock = slot();
-  const LayerSides sides{straight(0.0), straight(10.0)};
-  const HalfGuard guard({}, stock.radial());
-  const CycleOptions options;
-  CycleSearch search(sides, guard, stock, options);
-  search.refuse(0.3, 41.5 * kDegree);
-  EXPECT_EQ(search.refused().largest_rad, 0.0) << "who aims lower refuses it, but the limit does not";
-  search.refuse(0.2, 63.0 * kDegree);
-  search.refuse(0.1, 61.0 * kDegree);
-  search.refuse(0.05, 62.0 * kDegree);
-  EXPECT_EQ(search.refused().step_mm, 0.1);
+TEST(CycleState, NoStepWithinTheLimitCountsAsRefused) {
+  constexpr double kLimit = 60.0 * kDegree;
+  CycleState now;
+  now.refuse(0.3, 41.5 * kDegree, kLimit);
+  EXPECT_EQ(now.refused.largest_rad, 0.0) << "who aims lower refuses it, but the limit does not";
+  now.refuse(0.2, 63.0 * kDegree, kLimit);
+  now.refuse(0.1, 61.0 * kDegree, kLimit);
+  now.refuse(0.05, 62.0 * kDegree, kLimit);
+  EXPECT_EQ(now.refused.step_mm, 0.1);
 }
 
 /// A search whose last front is in the middle of the slot.
@@ -209,12 +206,13 @@ struct Searching {
   HalfGuard guard;
   CycleOptions options;
   CycleSearch search;
-  explicit Searching(const GuardedFaces& faces) : guard(faces, stock.radial()), search(sides, guard, stock, options) {
+  CycleState now;
+  explicit Searching(const GuardedFaces& faces)
+      : guard(faces, stock.radial()), search(sides, guard, stock, options), now(search.anew({})) {
     constexpr double kStep = 1.0, kMiddle = 8.0;
-    CycleState& now = search.now();
     now.last.from_x = now.last.to_x = -12.0;
     while (now.last.from_x < kMiddle) {
-      Trial next = search.tried(kStep, false);
+      Trial next = search.plan(now, now.shape, kStep);
       next.back.reset();
       stock.add(Sweep::of(next.front, kHalfIntervals));
       now.last = std::move(next);
@@ -233,11 +231,11 @@ TEST(CycleSearch, ACycleIsLiftedAsItNeedsWhateverTheOneBeforeWas) {
   double usual = 0.0;
   for (const double before : {0.0, 0.9, 1.4, 2.5}) {
     Searching setup({{}, {&field}});
-    setup.search.now().lift_mm = before;
-    Trial best = setup.search.best(false);
-    ASSERT_GE(best.largest_rad, 0.0);
-    EXPECT_FALSE(setup.search.enters_anything(best));
-    const double lift = setup.search.now().lift_mm;
+    setup.now.shape.lift_mm = before;
+    FoundCycle best = setup.search.best(setup.now, false);
+    ASSERT_TRUE(best.some());
+    EXPECT_FALSE(setup.search.enters_anything(best.trial));
+    const double lift = best.now.shape.lift_mm;
     EXPECT_GT(lift, 0.5);
     if (before == 0.0) usual = lift;
     EXPECT_NEAR(lift, usual, 0.1 * usual) << before;
@@ -256,21 +254,31 @@ TEST(CycleSearch, ACycleIsLiftedBetweenEndsThatEnterTheFloorThemselves) {
   const ObstacleField low(testing::only({make_target({floor}), false}), *target, 2.0, 0.0),
       high(testing::only({make_target({ridge}), false}), *target, 2.0, 0.0);
   Searching setup({{}, {&low, &high}});
-  Trial best = setup.search.best(false);
-  ASSERT_GE(best.largest_rad, 0.0);
-  EXPECT_FALSE(setup.search.enters_anything(best));
-  EXPECT_GT(setup.search.now().lift_mm, 0.0);
+  FoundCycle best = setup.search.best(setup.now, false);
+  ASSERT_TRUE(best.some());
+  EXPECT_FALSE(setup.search.enters_anything(best.trial));
+  EXPECT_GT(best.now.shape.lift_mm, 0.0);
 }
 
 TEST(CycleSearch, ABackThatEngagesTooFarIsNotKept) {
   Searching setup({});
   // It goes forward into full material before it comes back to the first side: no front is to blame.
-  auto& share = setup.search.now().shape.share;
-  share[3] = 0.4, share[4] = 0.02, share[5] = 0.8;
-  const Trial best = setup.search.best(false);
-  ASSERT_GE(best.largest_rad, 0.0);
-  EXPECT_LE(best.largest_rad, setup.options.largest_rad);
-  EXPECT_GT(best.from_x - setup.search.now().last.from_x, setup.search.least_step());
+  setup.now.shape.back = {0.4, 0.02, 0.8};
+  const FoundCycle best = setup.search.best(setup.now, false);
+  ASSERT_TRUE(best.some());
+  EXPECT_LE(best.trial.largest_rad, setup.options.largest_rad);
+  EXPECT_GT(best.step(), setup.search.least_step());
+}
+
+TEST(CycleSearch, GivesTheSameForTheSameState) {
+  // Whatever was looked for in between: nothing but the state is remembered that a result depends on.
+  Searching setup({});
+  const auto front = [&](const CycleState& now) { return setup.search.best(now, true).trial.front.tip.poles; };
+  const auto first = front(setup.now);
+  CycleState other = setup.now;
+  other.shape.front = {0.3, 0.05, 0.2};
+  EXPECT_NE(front(other), first);
+  EXPECT_EQ(front(setup.now), first);
 }
 
 TEST(Cycles, GoOnPastTheSidesWhereTheWallIsFartherOn) {

@@ -167,7 +167,7 @@ View make_view(const PlanJob& job, const Setup& setup, const Tool& tool, const P
       [&](const auto& plan) {
         view.part = machined(plan).file;
         view.faces = machined(plan).target_text();
-        view.tolerance_mm = plan.tolerance_mm;
+        view.tolerance_mm = setup.tolerance_mm;
         view.least_coverage = plan.judge.least_coverage;
       },
       shown);

@@ -1,4 +1,5 @@
-/// A face as triangles for showing it: not for measuring, and not watertight against its neighbours.
+/// A face as triangles for showing it, and for questions about what lies in a line: not for measuring, and not watertight against its
+/// neighbours.
 #pragma once
 
 #include <vector>

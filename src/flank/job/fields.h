@@ -459,7 +459,12 @@ void visit_fields(Job& job, Visitor&& visit) {
   visit(FieldInfo{"tool", "", "", "free, a family with any of its parameters (cone:radius=2,angle=3), or a tool.json",
                   kAny, Spelling::kFileOrText},
         job.tool.spec);
-  visit(FieldInfo{"tolerance", "mm", "", "Tolerance of both sides", kLength}, job.tolerance_mm);
+  visit(
+      FieldInfo{"tolerance", "mm", "",
+                "Tolerance of both sides; default: a thousandth of their diagonal together, rounded down to 1, 2 or 5 "
+                "times a power of ten, from 0.005 to 0.5 mm",
+                kLength},
+      job.tolerance_mm);
   visit(FieldInfo{"axis_length", "mm", "", "Length of the tool's axis; default: as a layer needs", kLength},
         job.tool.axis_length_mm);
   visit_cycles(job.cycles, visit);

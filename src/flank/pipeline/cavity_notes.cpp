@@ -97,7 +97,7 @@ void note_what_is_open(const TrochoidJob& job, const CavityProgram& program, std
     if (layer.stuck_along_axis()) add(along_axis_sentence(layer));
     if (layer.stuck_before_sides()) add(before_sides_sentence(layer));
     if (layer.share < 1.0) add(rest_sentence(job, layer));
-    if (layer.entered_mm() > job.tolerance_mm)
+    if (layer.entered_mm() > *job.tolerance_mm)
       add(fmt::format("a half path enters a face by {:.4f} mm, by the planner's samples", layer.entered_mm()));
   }
   if (!program.layers.empty()) notes.push_back(ends_of(program));
@@ -108,7 +108,7 @@ void note_no_cycles(const TrochoidJob& job, const CoverageEstimate& sides, std::
       "no cycles were planned: the best sides that were found cover {:.1f} % of both and cut or enter faces by {:.4f} "
       "mm, by the planner's samples; {:.4g} % of what is reachable, and {:.4g} mm, are asked for",
       100.0 * sides.at_tolerance, std::max(sides.overcut_mm, sides.gouge_mm), 100.0 * job.judge.least_coverage,
-      job.tolerance_mm));
+      *job.tolerance_mm));
 }
 
 void note_own_reach(const TrochoidJob& job, const std::function<double()>& reach, Result& result) {

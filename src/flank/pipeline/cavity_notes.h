@@ -11,7 +11,7 @@
 
 namespace flank::internal {
 
-/// Where cycles got stuck or entered a face, what they left, and at which ends the cavity is open.
+/// Where cycles got stuck or entered a face, what they left, and at which ends the cavity is open. Of a job with a tolerance, as below.
 void note_what_is_open(const TrochoidJob& job, const CavityProgram& program, std::vector<std::string>& notes);
 
 /// Where a search left no cycles: what its best sides cover, by the planner's samples, and how deep they cut or enter faces.

@@ -104,13 +104,23 @@ void check_job(const TrochoidJob& job) {
 
 SideFitOptions side_options(const TrochoidJob& job, const CavityFaces& faces) {
   SideFitOptions options;
-  options.fit.tolerance_mm = kToleranceBudget.cavity.sides * job.tolerance_mm;
+  options.fit.tolerance_mm = kToleranceBudget.cavity.sides * *job.tolerance_mm;
   options.fit.axis_length_mm = job.tool.axis_length_mm;
   options.fit.bounds = radius_bounds(job.radius, job.obstacles, faces.sides.front().target->diagonal());
   options.fit.bounds.largest = bounds_of(job, faces.width).front();
   options.fit.reach_radius_mm = job.judge.reach_radius_mm.value_or(0.0);
   options.least_coverage = job.judge.least_coverage;
   return options;
+}
+
+/// Where a face lies that could not be read nothing says, so no path beside it can be proved to keep out of it.
+void require_all_faces(const Setup& setup) {
+  if (setup.unread.empty()) return;
+  const int face = setup.unread.front();
+  throw InputError("part", fmt::format("{}: {} cannot be read ({}), so nothing can be promised of a cavity beside it; "
+                                       "`ignore_faces` {} leaves it out",
+                                       setup.part.file, setup.part.face_id(face), setup.part.left_out.at(face),
+                                       setup.part.face_id(face)));
 }
 
 /// What the flank keeps clear of, and how wide the cavity is where a tool comes.
@@ -195,17 +205,20 @@ void take(const CavityPlan& plan, const TrochoidJob& job, const ToolSpec& spec, 
 
 }  // namespace
 
-Result run_trochoid(const TrochoidJob& job, const Progress& asked) {
+Result run_trochoid(const TrochoidJob& request, const Progress& asked) {
   const Progress progress = with_journal(asked);
-  check_job(job);
+  check_job(request);
   Result result;
-  result.job = job;
+  TrochoidJob job = request;
   result.inputs = input_stamps(job);
   const ToolSpec spec = parse_tool_spec(job.tool.spec);
   check_obstacles(job.obstacles, spec.tool ? &*spec.tool : nullptr);
   Stopwatch watch(result);
   progress.step("read", 0.0);
   const Setup setup = read_setup(machined(job), job.obstacles, job.tolerance_mm, result.notes);
+  require_all_faces(setup);
+  job.tolerance_mm = setup.tolerance_mm;
+  result.job = job;
   result.part_sha256 = setup.part.sha256;
   progress.journal->begin(journal_key(job, result.part_sha256));
   CavityFaces faces = cavity_faces(job, setup);

@@ -1,13 +1,17 @@
 #include "flank/setup/setup.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "flank/error.h"
 #include "flank/io/face_groups.h"
 #include "flank/setup/check_faces.h"
+#include "flank/setup/default_tolerance.h"
 #include "flank/setup/machined_side.h"
 #include "flank/setup/make_obstacles.h"
 #include "flank/setup/skin.h"
+#include "flank/setup/targets.h"
 #include "flank/setup/wrapped_note.h"
 
 namespace flank::internal {
@@ -30,9 +34,20 @@ std::vector<int> targets_of(const Part& part, const PartRequest& request) {
   return smooth_skin(part, parse_face_list(part, *request.skin));
 }
 
+/// The tolerance where none is asked for, which is said.
+double followed_size(const Setup& setup, std::vector<std::string>& notes) {
+  Box3 box;
+  for (const TargetGroup& group : make_targets(setup)) box.add(group.target->box());
+  const double tolerance = default_tolerance(box.diagonal());
+  notes.push_back(
+      fmt::format("no tolerance is given: {} mm, a thousandth of the size of the faces, {:.4g} mm, rounded down",
+                  tolerance, box.diagonal()));
+  return tolerance;
+}
+
 }  // namespace
 
-Setup read_setup(const PartRequest& part, const ObstacleRequest& obstacles, double tolerance_mm,
+Setup read_setup(const PartRequest& part, const ObstacleRequest& obstacles, std::optional<double> tolerance_mm,
                  std::vector<std::string>& notes) {
   Setup setup;
   setup.part = read_part(part.file, part.unit);
@@ -44,9 +59,9 @@ Setup read_setup(const PartRequest& part, const ObstacleRequest& obstacles, doub
   setup.checks = faces_to_check(setup.part, setup.targets, obstacles);
   setup.unread = faces_unread(setup.part, setup.targets, obstacles);
   setup.sides = turn_to_machined_side(part, setup.targets, setup.part);
-  setup.tolerance_mm = tolerance_mm;
   setup.fixtures = read_fixtures(obstacles.fixtures, part.unit);
   notes.insert(notes.end(), setup.part.repairs.begin(), setup.part.repairs.end());
+  setup.tolerance_mm = tolerance_mm ? *tolerance_mm : followed_size(setup, notes);
   for (std::string note :
        {wrapped_note(setup.part, setup.targets), unchecked_note(setup.part, setup.targets, setup.checks, setup.unread),
         other_solids_note(setup.part, setup.targets, setup.checks)})

@@ -62,73 +62,74 @@ CycleSearch::CycleSearch(const LayerSides& sides, const HalfGuard& guard, SweptS
       volume_rings_(stock.radial(), 0, kVolumeRings),
       both_rings_(stock.radial(), ring_count(stock.radial(), kRingsApart, kRings, kMostRings), kVolumeRings),
       pairing_(sides.from, sides.to, kBeyond * stock.profile().largest()),
-      radius_(stock.profile().largest()) {
-  reset_shape();
-}
+      radius_(stock.profile().largest()) {}
 
 double CycleSearch::least_step() const { return kLeastStep * radius_; }
 
-void CycleSearch::reset_shape() {
-  const CycleState usual;
-  now_.shape = usual.shape;
-  now_.span = usual.span;
-  now_.rest = usual.rest;
-  now_.turn = 0, now_.improved = 0, now_.short_rest = 0;
-  now_.excess_rad = 0.0;
-  now_.step_mm = 0.2 * radius_;
-  now_.lift_mm = 0.0;
+CycleState CycleSearch::anew(const CycleState& now) const {
+  CycleState out;
+  out.last = now.last;
+  out.step_mm = 0.2 * radius_;
+  out.largest_front_mm3 = now.largest_front_mm3;
+  out.sweeps = now.sweeps;
+  return out;
 }
 
-void CycleSearch::refuse(double step_mm, double largest_rad) {
-  // A search that aims lower refuses what the limit allows.
-  if (largest_rad <= options_.largest_rad) return;
-  if (refused_.largest_rad == 0.0 || largest_rad < refused_.largest_rad) refused_ = {step_mm, largest_rad};
-}
-
-double CycleSearch::aim() const {
-  const bool at_wall = sides_.from.stops_at_end() && sides_.from.last() - now_.last.from_x < kCornerRadii * radius_;
+double CycleSearch::aim(const CycleState& now) const {
+  const bool at_wall = sides_.from.stops_at_end() && sides_.from.last() - now.last.from_x < kCornerRadii * radius_;
   const double margin = at_wall ? kCornerMargin * options_.largest_rad : kSearchMargin;
-  return options_.largest_rad - std::clamp(now_.excess_rad, margin, kMostExcess * options_.largest_rad);
+  return options_.largest_rad - std::clamp(now.excess_rad, margin, kMostExcess * options_.largest_rad);
 }
 
-double CycleSearch::partner(double from_x, const CycleShape& shape) const {
-  const double y = across(from_x);
+double CycleSearch::gap(double from_x, double to_x) const {
   const double middle = 0.5 * sides_.from.axis_length();
-  const double gap = (sides_.from.at(from_x).at(middle) - sides_.to.at(y).at(middle)).norm();
-  const double wanted = y + shape.share[CycleShape::kAhead] * gap;
+  return (sides_.from.at(from_x).at(middle) - sides_.to.at(to_x).at(middle)).norm();
+}
+
+double CycleSearch::partner(double from_x, double ahead) const {
+  const double y = across(from_x), wanted = y + ahead * gap(from_x, y);
   if (!sides_.from.stops_at_end()) return wanted;
   // At a wall both come to their ends together: who is there first turns on the spot, in a corner as round as the tool.
   const double left = std::max(0.0, sides_.from.last() - from_x);
   return std::clamp(wanted, sides_.to.last() - kMostPace * left, sides_.to.last() - left / kMostPace);
 }
 
-void CycleSearch::shape_halves(const CycleShape& shape, Trial& trial) const {
-  const double gap = gap_at(trial);
-  const auto ahead = [](const SidePath& side, double x) { return std::max(0.0, side.last() - x); };
-  const auto behind = [](const SidePath& side, double x) { return std::max(0.0, x - side.first()); };
-  const double length = sides_.from.axis_length();
-  trial.front = half_before_wall(length, start(trial), end(trial).reversed(), shape.front(gap, now_.lift_mm),
-                                 ahead(sides_.from, trial.from_x), ahead(sides_.to, trial.to_x));
-  if (now_.last.way_mm > 0.0)
-    trial.back = half_off_wall(length, end(now_.last).reversed(), start(trial), shape.back(gap, now_.lift_mm),
-                               behind(sides_.to, now_.last.to_x), behind(sides_.from, trial.from_x));
+Trial CycleSearch::plan(const CycleState& now, const CycleShape& shape, double step) const {
+  Trial trial;
+  trial.from_x = now.last.from_x + step;
+  trial.to_x = std::max(now.last.to_x, partner(trial.from_x, shape.ahead));
+  const auto room_ahead = [](const SidePath& side, double x) { return std::max(0.0, side.last() - x); };
+  const auto room_behind = [](const SidePath& side, double x) { return std::max(0.0, x - side.first()); };
+  const double length = sides_.from.axis_length(), wide = gap(trial.from_x, trial.to_x);
+  const AxisPlace start = sides_.from.at(trial.from_x);
+  trial.front =
+      half_before_wall(length, start, sides_.to.at(trial.to_x).reversed(), shape.front.of(wide, shape.lift_mm),
+                       room_ahead(sides_.from, trial.from_x), room_ahead(sides_.to, trial.to_x));
+  if (now.last.way_mm > 0.0)
+    trial.back =
+        half_off_wall(length, sides_.to.at(now.last.to_x).reversed(), start, shape.back.of(wide, shape.lift_mm),
+                      room_behind(sides_.to, now.last.to_x), room_behind(sides_.from, trial.from_x));
+  trial.way_mm = way_of(trial);
+  return trial;
 }
 
-Trial CycleSearch::tried(double step, const CycleShape& shape, bool measured) {
-  Trial trial;
-  trial.from_x = now_.last.from_x + step;
-  trial.to_x = std::max(now_.last.to_x, partner(trial.from_x, shape));
-  shape_halves(shape, trial);
-  trial.way_mm = way_of(trial);
-  if (measured) measure(trial);
+Trial CycleSearch::measured(const CycleState& now, double step) {
+  Trial trial = plan(now, now.shape, step);
+  measure(aim(now), Asked::kPeak, trial);
   return trial;
+}
+
+Trial CycleSearch::lifted(CycleState& now, double step) {
+  now.shape.lift_mm = needed_lift(now, now.shape, step);
+  return measured(now, step);
 }
 
 bool CycleSearch::has_rows_apart(const RuledMotion& half) const {
   return way_of_middle(half) > kRowsApart * radius_ * kRows;
 }
 
-void CycleSearch::take(Trial& trial, bool peak, bool volume) {
+void CycleSearch::measure(double enough_rad, Asked asked, Trial& trial) {
+  const bool peak = asked != Asked::kVolume, volume = asked != Asked::kPeak;
   const MeasureRings rings{rings_, volume_rings_, both_rings_};
   KeptMeasures::Kept back{EngagementPeak{}, 0.0};
   if (trial.back) {
@@ -136,52 +137,55 @@ void CycleSearch::take(Trial& trial, bool peak, bool volume) {
     stock_.add(Sweep::of(*trial.back, kHalfIntervals));
   }
   const bool between = has_rows_apart(trial.front);
-  const RowRings& asked = rings.of(peak, volume);
+  const RowRings& used = rings.of(peak, volume);
   const Engagement front = peak && !between
-                               ? meter_.measure_peak(trial.front, asked, kRows, front_guess_, back.peak->angle_rad)
-                               : meter_.measure(trial.front, asked, kRows);
+                               ? meter_.measure_peak(trial.front, used, kRows, front_guess_, back.peak->angle_rad)
+                               : meter_.measure(trial.front, used, kRows);
   if (peak) {
     trial.largest_rad = std::max(back.peak->angle_rad, front.peak.angle_rad);
     if (front.peak.angle_rad > 0.0) front_guess_ = front.peak.t;
+    // What is too much already need not be known.
+    if (between && trial.largest_rad <= enough_rad)
+      trial.largest_rad = std::max(trial.largest_rad, meter_.look_between(trial.front, front).angle_rad);
   }
-  // What is too much already need not be known.
-  if (peak && trial.largest_rad <= aim() && between)
-    trial.largest_rad = std::max(trial.largest_rad, meter_.look_between(trial.front, front).angle_rad);
   if (trial.back) stock_.remove_last();
   if (volume) trial.volume_mm3 = *back.volume_mm3 + front.volume_mm3;
 }
 
-void CycleSearch::adjust(Trial& best) {
+FoundCycle CycleSearch::adjusted(FoundCycle found) {
   // Of the longest step that the whole front may take: the first of the published method's paths that is too far.
   constexpr double kFarther = 1.1;
-  if (best.largest_rad <= 0.0) return;
-  Trial trial = tried(kFarther * (best.from_x - now_.last.from_x), now_.shape, false);
+  if (found.trial.largest_rad <= 0.0) return found;
+  const double most = aim(found.now);
+  Trial trial = plan(found.now, found.now.shape, kFarther * found.step());
   if (trial.back) stock_.add(Sweep::of(*trial.back, kHalfIntervals));
-  const std::optional<RuledMotion> front = adjusted_front(trial.front, meter_, stock_, aim());
+  const std::optional<RuledMotion> front = adjusted_front(trial.front, meter_, stock_, most);
   if (trial.back) stock_.remove_last();
-  if (!front) return;
+  if (!front) return found;
   trial.front = *front;
   trial.way_mm = way_of(trial);
-  measure(trial);
-  if (trial.largest_rad <= aim() && !enters_anything(trial)) best = std::move(trial);
+  measure(most, Asked::kPeak, trial);
+  if (trial.largest_rad <= most && !enters_anything(trial)) found.trial = std::move(trial);
+  return found;
 }
 
-Trial CycleSearch::longest_step(const CycleShape& shape, double guess) {
-  const double most = 1.2 * radius_, goal = depth_of_cut(aim() - 0.5 * kAimBand);
+Trial CycleSearch::longest_step(CycleState& now, const CycleShape& shape, double guess) {
+  const double allowed = aim(now), most = 1.2 * radius_, goal = depth_of_cut(allowed - 0.5 * kAimBand);
   double low = 0.0, low_depth = 0.0, high = 0.0, high_depth = 0.0;
   Trial best;
   best.largest_rad = -1.0;
   double step = std::clamp(guess, least_step(), most);
   for (int k = 0; k < 12; ++k) {
-    Trial trial = tried(step, shape, true);
+    Trial trial = plan(now, shape, step);
+    measure(allowed, Asked::kPeak, trial);
     const double depth = depth_of_cut(trial.largest_rad);
-    if (trial.largest_rad <= aim()) {
+    if (trial.largest_rad <= allowed) {
       low = step, low_depth = depth;
       best = std::move(trial);
-      if (best.largest_rad > aim() - kAimBand || step >= most) break;
+      if (best.largest_rad > allowed - kAimBand || step >= most) break;
     } else {
       high = step, high_depth = depth;
-      refuse(step, trial.largest_rad);
+      now.refuse(step, trial.largest_rad, options_.largest_rad);
     }
     if (high == 0.0) {
       step = std::min(most, step * std::clamp(goal / low_depth, 1.02, 1.8));
@@ -196,147 +200,134 @@ Trial CycleSearch::longest_step(const CycleShape& shape, double guess) {
   return best;
 }
 
-void CycleSearch::improve(Trial& best) {
-  if (best.largest_rad < 0.0 || best.worth() <= 0.0) return;
+CycleSearch::Prospect CycleSearch::prospect(const CycleState& now, const CycleShape& shape, double step) {
+  Prospect out{shape, plan(now, shape, step)};
+  measure(aim(now), Asked::kBoth, out.probe);
+  const double longer = depth_of_cut(aim(now)) / depth_of_cut(out.probe.largest_rad);
+  out.step = longer * step;
+  out.worth = longer * out.probe.worth();
+  return out;
+}
+
+FoundCycle CycleSearch::improved(FoundCycle found) {
+  if (!found.some() || found.trial.worth() <= 0.0) return found;
   constexpr double kBetter = 1.002;
   // Of seven, in turn: shapes change little from cycle to cycle. The first ones, which begin with a guess, try them all.
-  constexpr int kVariables = 2, kFirst = 8;
-  const int all = static_cast<int>(now_.shape.share.size());
-  const int count = ++now_.improved <= kFirst ? all : kVariables;
-  for (int k = 0, looked = 0; k < all && looked < count; ++k) {
-    const std::size_t v = now_.turn++ % now_.shape.share.size();
-    if (now_.rest[v] > 0) {
-      --now_.rest[v];
+  constexpr std::size_t kVariables = 2, kAll = CycleShape::kShares;
+  constexpr int kFirst = 8;
+  CycleState& now = found.now;
+  const std::size_t count = ++now.improved <= kFirst ? kAll : kVariables;
+  for (std::size_t k = 0, looked = 0; k < kAll && looked < count; ++k) {
+    const std::size_t v = now.turn++ % kAll;
+    if (now.rest[v] > 0) {
+      --now.rest[v];
       continue;
     }
     ++looked;
     bool better = false;
     for (const double sign : {1.0, -1.0}) {
-      CycleShape shape = now_.shape;
-      shape.share[v] = std::clamp(shape.share[v] + sign * now_.span[v], kLeastShare[v], kMostShare[v]);
-      if (shape.share[v] == now_.shape.share[v]) continue;
-      const double step = best.from_x - now_.last.from_x;
+      CycleShape shape = now.shape;
+      double& share = *shape.shares()[v];
+      const double before = share;
+      share = std::clamp(share + sign * now.span[v], kLeastShare[v], kMostShare[v]);
+      if (share == before) continue;
       // What it would be worth at the aim is known well enough to see what is not worth a search.
-      Trial probe = tried(step, shape, false);
-      measure_and_weigh(probe);
-      const double longer = depth_of_cut(aim()) / depth_of_cut(probe.largest_rad);
-      if (longer * probe.worth() <= depth_of_cut(aim()) / depth_of_cut(best.largest_rad) * best.worth()) continue;
-      Trial trial = longest_step(shape, longer * step);
-      if (trial.largest_rad < 0.0 || !(trial.worth() > kBetter * best.worth())) continue;
+      const Prospect likely = prospect(now, shape, found.step());
+      if (likely.worth <= depth_of_cut(aim(now)) / depth_of_cut(found.trial.largest_rad) * found.trial.worth())
+        continue;
+      Trial trial = longest_step(now, shape, likely.step);
+      if (trial.largest_rad < 0.0 || !(trial.worth() > kBetter * found.trial.worth())) continue;
       if (enters_anything(trial)) continue;
-      best = std::move(trial);
-      now_.shape = shape;
+      found.trial = std::move(trial);
+      now.shape = shape;
       better = true;
       break;
     }
-    now_.span[v] = std::min(now_.span[v] * (better ? kGrow : kShrink), kMostSpan);
-    if (now_.span[v] >= kLeastSpan) continue;
-    now_.span[v] = kSpanAfterRest;
-    now_.rest[v] = kRest;
+    now.span[v] = std::min(now.span[v] * (better ? kGrow : kShrink), kMostSpan);
+    if (now.span[v] >= kLeastSpan) continue;
+    now.span[v] = kSpanAfterRest;
+    now.rest[v] = kRest;
   }
+  return found;
 }
 
-CycleShape CycleSearch::with_fit_back(const CycleShape& shape, double step) {
+CycleShape CycleSearch::with_fit_back(const CycleState& now, double step) {
   const MeasureRings rings{rings_, volume_rings_, both_rings_};
-  CycleShape best = shape;
+  CycleShape best = now.shape;
   double least = std::numeric_limits<double>::infinity();
-  const double lift = now_.lift_mm;
   const auto look = [&](const CycleShape& other) {
-    now_.lift_mm = needed_lift(other, step);
-    const Trial trial = tried(step, other, false);
-    now_.lift_mm = lift;
+    CycleShape lifted = other;
+    lifted.lift_mm = needed_lift(now, other, step);
+    const Trial trial = plan(now, lifted, step);
     if (!trial.back) return;
     const bool enters = guard_.enters_with_back(trial);
     const double angle =
         backs_.measure(*trial.back, true, false, kRows, rings, has_rows_apart(*trial.back), meter_).peak->angle_rad;
-    const double excess = std::max(angle - kFitBack * aim(), 0.0) + (enters ? options_.largest_rad : 0.0);
+    const double excess = std::max(angle - kFitBack * aim(now), 0.0) + (enters ? options_.largest_rad : 0.0);
     if (excess < least) least = excess, best = other;
   };
-  look(shape);
+  look(now.shape);
   for (const double handle : {0.12, 0.06, 0.2})
     for (const double bulge : {0.0, -0.08}) {
       if (least <= 0.0) return best;
-      CycleShape other = shape;
-      other.share[3] = other.share[4] = handle;
-      other.share[5] = bulge;
+      CycleShape other = now.shape;
+      other.back = {handle, handle, bulge};
       look(other);
     }
   return best;
 }
 
-std::vector<CycleSearch::Prospect> CycleSearch::prospects() {
-  const double step = kShortStep * radius_, lift = now_.lift_mm;
-  const CycleShape shape = with_fit_back(now_.shape, step);
+std::vector<CycleSearch::Prospect> CycleSearch::prospects(const CycleState& now) {
+  const double step = kShortStep * radius_;
+  CycleShape shape = with_fit_back(now, step);
   std::vector<Prospect> out;
   for (const double handle : {0.08, 0.16, 0.26}) {
     for (const double bulge : {-0.08, 0.0, 0.08, 0.16, 0.28}) {
-      Prospect prospect{shape};
-      prospect.shape.share[0] = prospect.shape.share[1] = handle;
-      prospect.shape.share[2] = bulge;
-      prospect.lift_mm = now_.lift_mm = needed_lift(prospect.shape, step);
-      Trial probe = tried(step, prospect.shape, false);
-      measure_and_weigh(probe);
-      const double longer = depth_of_cut(aim()) / depth_of_cut(probe.largest_rad);
-      prospect.enters = enters_anything(probe);
-      prospect.step = longer * step;
-      prospect.worth = longer * probe.worth();
-      out.push_back(prospect);
+      shape.front = {handle, handle, bulge};
+      shape.lift_mm = needed_lift(now, shape, step);
+      out.push_back(prospect(now, shape, step));
+      out.back().enters = enters_anything(out.back().probe);
     }
   }
-  now_.lift_mm = lift;
   std::stable_sort(out.begin(), out.end(), [](const Prospect& a, const Prospect& b) {
     return a.enters != b.enters ? b.enters : a.worth > b.worth;
   });
   return out;
 }
 
-void CycleSearch::reshape(Trial& best) {
+FoundCycle CycleSearch::reshaped(FoundCycle found) {
   /// Of those that promise most so many are searched, and more only where none of them gets on.
   constexpr int kSearched = 4;
-  bool entering = best.largest_rad >= 0.0 && enters_anything(best);
+  bool entering = found.some() && enters_anything(found.trial);
   int searched = 0;
-  double lift = now_.lift_mm;
-  for (const Prospect& prospect : prospects()) {
-    if (searched >= kSearched && best.largest_rad >= 0.0 && !entering) break;
+  for (const Prospect& likely : prospects(found.now)) {
+    if (searched >= kSearched && found.some() && !entering) break;
     ++searched;
-    now_.lift_mm = prospect.lift_mm;
-    Trial trial = longest_step(prospect.shape, prospect.step);
-    if (trial.largest_rad < 0.0 || (!entering && trial.worth() <= best.worth())) continue;
+    Trial trial = longest_step(found.now, likely.shape, likely.step);
+    if (trial.largest_rad < 0.0 || (!entering && trial.worth() <= found.trial.worth())) continue;
     const bool enters = enters_anything(trial);
-    if (enters && (!entering || trial.worth() <= best.worth())) continue;
+    if (enters && (!entering || trial.worth() <= found.trial.worth())) continue;
     entering = enters;
-    best = std::move(trial);
-    now_.shape = prospect.shape;
-    lift = prospect.lift_mm;
+    found.trial = std::move(trial);
+    found.now.shape = likely.shape;
   }
-  now_.lift_mm = lift;
+  return found;
 }
 
-void CycleSearch::reshape_short(Trial& best) {
-  constexpr double kGain = 1.05;
-  if (now_.short_rest > 0) {
-    --now_.short_rest;
-    return;
-  }
-  const double before = best.worth();
-  reshape(best);
-  if (best.worth() < kGain * before) now_.short_rest = kRest;
-}
-
-double CycleSearch::needed_lift(const CycleShape& shape, double step) {
+double CycleSearch::needed_lift(const CycleState& now, const CycleShape& shape, double step) const {
   constexpr int kTries = 8;
-  const double before = now_.lift_mm;
   double allowed = 0.0;
   const auto depth_with = [&](double lift) {
-    now_.lift_mm = lift;
-    const Trial trial = tried(step, shape, false);
+    CycleShape lifted = shape;
+    lifted.lift_mm = lift;
+    const Trial trial = plan(now, lifted, step);
     allowed = kLiftAim * guard_.aim_at_tips(trial);
     return guard_.coarse_depth_of_tips(trial);
   };
   // No more than this cycle needs, and no less: what a lifted cycle leaves on a floor the next ones cut besides their own, and where
   // lifts went up and down from cycle to cycle, so did steps.
   double low = 0.0, deep = depth_with(0.0), lift = 0.0;
-  double more = std::max(before, kLiftMore * deep + kLeastLiftMm);
+  double more = std::max(shape.lift_mm, kLiftMore * deep + kLeastLiftMm);
   for (int k = 0; k < kTries && deep > allowed; ++k) {
     const double next = depth_with(more);
     // What the ends of the half enter themselves stays, however high it is lifted between them.
@@ -349,49 +340,47 @@ double CycleSearch::needed_lift(const CycleShape& shape, double step) {
     const double middle = 0.5 * (low + lift);
     (depth_with(middle) <= allowed ? lift : low) = middle;
   }
-  now_.lift_mm = before;
   return lift;
 }
 
-Trial CycleSearch::lifted(double step) {
-  now_.lift_mm = needed_lift(now_.shape, step);
-  return tried(step, true);
-}
-
-void CycleSearch::lift(Trial& best) {
+FoundCycle CycleSearch::raised(FoundCycle found) {
   constexpr int kTries = 4;
-  const double before = now_.lift_mm;
-  const double allowed = guard_.allowed_at_tips(best);
-  Trial lifted = best;
-  for (int k = 0; k < kTries && enters_anything(lifted); ++k) {
-    const double deep = guard_.depth_of_tips(lifted);
+  const double allowed = guard_.allowed_at_tips(found.trial);
+  FoundCycle higher = found;
+  for (int k = 0; k < kTries && enters_anything(higher.trial); ++k) {
+    const double deep = guard_.depth_of_tips(higher.trial);
     if (deep <= allowed) break;
-    now_.lift_mm += kLiftMore * (deep - kLiftAim * allowed) + kSameLift * options_.tolerance_mm;
-    lifted = longest_step(now_.shape, best.from_x - now_.last.from_x);
-    if (lifted.largest_rad < 0.0) break;
+    higher.now.shape.lift_mm += kLiftMore * (deep - kLiftAim * allowed) + kSameLift * options_.tolerance_mm;
+    higher.trial = longest_step(higher.now, higher.now.shape, found.step());
+    if (!higher.some()) break;
   }
-  if (lifted.largest_rad >= 0.0 && !enters_anything(lifted))
-    best = std::move(lifted);
-  else
-    now_.lift_mm = before;
+  found.now.refused = higher.now.refused;
+  return higher.some() && !enters_anything(higher.trial) ? higher : found;
 }
 
-Trial CycleSearch::best(bool improving) {
-  refused_ = {};
+FoundCycle CycleSearch::best(CycleState now, bool improving) {
+  constexpr double kGain = 1.05;
   backs_.clear();
+  now.refused = {};
   // Lifted before anything is judged: another shape is not looked for where a lift does.
-  now_.lift_mm = needed_lift(now_.shape, now_.step_mm);
-  Trial best = longest_step(now_.shape, now_.step_mm);
-  if (best.largest_rad >= 0.0 && enters_anything(best)) lift(best);
-  if (best.largest_rad < 0.0 || enters_anything(best))
-    reshape(best);
-  else if (best.from_x - now_.last.from_x < kShortStep * radius_)
-    reshape_short(best);
-  if (improving) improve(best);
-  if (options_.strategy == CycleStrategy::kAdjusted) adjust(best);
-  if (best.from_x - now_.last.from_x < least_step()) best.largest_rad = -1.0;
-  if (best.largest_rad >= 0.0 && enters_anything(best)) lift(best);
-  return best;
+  now.shape.lift_mm = needed_lift(now, now.shape, now.step_mm);
+  FoundCycle found;
+  found.trial = longest_step(now, now.shape, now.step_mm);
+  found.now = std::move(now);
+  if (found.some() && enters_anything(found.trial)) found = raised(std::move(found));
+  if (!found.some() || enters_anything(found.trial)) {
+    found = reshaped(std::move(found));
+  } else if (found.step() < kShortStep * radius_ && --found.now.short_rest < 0) {
+    // A step that is only short: not at every cycle where that gains nothing.
+    const double before = found.trial.worth();
+    found = reshaped(std::move(found));
+    found.now.short_rest = found.trial.worth() < kGain * before ? kRest : 0;
+  }
+  if (improving) found = improved(std::move(found));
+  if (options_.strategy == CycleStrategy::kAdjusted) found = adjusted(std::move(found));
+  if (found.step() < least_step()) found.trial.largest_rad = -1.0;
+  if (found.some() && enters_anything(found.trial)) found = raised(std::move(found));
+  return found;
 }
 
 }  // namespace flank::internal

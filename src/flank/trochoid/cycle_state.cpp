@@ -22,15 +22,16 @@ void code(StepCodec& codec, RefusedStep& step) {
 
 void code(StepCodec& codec, CycleState& state) {
   code(codec, state.last);
-  for (double& share : state.shape.share) codec.finite(share);
+  for (double* share : state.shape.shares()) codec.finite(*share);
   for (double& span : state.span) codec.finite(span);
   code(codec, state.rest);
   code(codec, state.turn);
   code(codec, state.improved);
   code(codec, state.short_rest);
-  for (double* value : {&state.excess_rad, &state.step_mm, &state.lift_mm, &state.largest_front_mm3})
+  for (double* value : {&state.excess_rad, &state.step_mm, &state.shape.lift_mm, &state.largest_front_mm3})
     codec.finite(*value);
   code(codec, state.sweeps);
+  code(codec, state.refused);
 }
 
 }  // namespace flank::internal

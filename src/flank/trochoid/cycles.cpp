@@ -71,13 +71,11 @@ void code(StepCodec& codec, Half& half) {
 struct CycleStep {
   std::optional<Cycle> cycle;  ///< none: none gets on
   CycleState now;
-  RefusedStep refused;
 };
 
 void code(StepCodec& codec, CycleStep& step) {
   code(codec, step.cycle);
   code(codec, step.now);
-  code(codec, step.refused);
 }
 
 class CyclePlanner {
@@ -89,6 +87,7 @@ class CyclePlanner {
         search_(sides, guard, stock, options),
         meter_(stock),
         rings_(stock.radial(), kFineRings, kVolumeRings, kEvery) {
+    now_ = search_.anew({});
     now_.sweeps = stock.sweeps().size();
   }
 
@@ -124,7 +123,7 @@ class CyclePlanner {
   SweptStock& stock_;
   const CycleOptions& options_;
   CycleSearch search_;
-  CycleState& now_ = search_.now();
+  CycleState now_;
   EngagementMeter meter_;
   RowRings rings_;
   double out_ = 0.0;                ///< so far behind the sides nothing of the blank is left, mm
@@ -144,7 +143,7 @@ Half CyclePlanner::accepted(const RuledMotion& motion) {
 
 bool CyclePlanner::is_too_much(double largest_rad, const Trial& searched) {
   if (largest_rad <= options_.largest_rad) return false;
-  search_.refuse(searched.from_x - now_.last.from_x, largest_rad);
+  now_.refuse(searched.from_x - now_.last.from_x, largest_rad, options_.largest_rad);
   now_.excess_rad = std::max(now_.excess_rad + kLeastLess, 1.05 * (largest_rad - searched.largest_rad));
   return true;
 }
@@ -182,7 +181,7 @@ bool CyclePlanner::accept_some(Trial trial, bool entering, LayerCycles& out) {
     // A shorter step may enter what the longer one does not.
     if ((k == 0 || entering || !search_.enters_anything(trial)) && accept(trial, out)) return true;
     if (k < kAims) {
-      Trial lower = search_.longest_step(0.97 * step);
+      Trial lower = search_.longest_step(now_, now_.shape, 0.97 * step);
       if (lower.largest_rad >= 0.0) {
         trial = std::move(lower);
         step = std::min(step, trial.from_x - now_.last.from_x);
@@ -194,7 +193,7 @@ bool CyclePlanner::accept_some(Trial trial, bool entering, LayerCycles& out) {
     now_.excess_rad = excess;
     step *= 0.75;
     if (step < search_.least_step()) break;
-    trial = search_.lifted(step);
+    trial = search_.lifted(now_, step);
   }
   return false;
 }
@@ -221,13 +220,13 @@ Trial CyclePlanner::placed_first() {
   for (int k = 0; k <= kMostDoublings; ++k, far *= 2.0) {
     now_.last.from_x = -far;
     now_.last.to_x = search_.across(now_.last.from_x);
-    first = search_.tried(0.0, true);
+    first = search_.measured(now_, 0.0);
     if (cuts_nothing(search_, first)) break;
   }
   double low = 0.0, high = far;
   for (int k = 0; k < 14; ++k) {
     const double step = 0.5 * (low + high);
-    Trial trial = search_.tried(step, true);
+    Trial trial = search_.measured(now_, step);
     if (cuts_nothing(search_, trial)) {
       low = step;
       first = std::move(trial);
@@ -247,18 +246,19 @@ bool CyclePlanner::accept_first(LayerCycles& out) {
     now_.last.from_x = std::max(farthest, first.from_x - back);
     now_.last.to_x = search_.across(now_.last.from_x);
     now_.excess_rad = 0.0;
-    first = search_.tried(0.0, true);
+    first = search_.measured(now_, 0.0);
   }
   return true;
 }
 
 bool CyclePlanner::add_cycle(LayerCycles& out) {
-  Trial best = search_.best(options_.optimise() && out.cycles.size() >= plain_until_);
-  if (best.largest_rad < 0.0) return false;
-  const bool entering = search_.enters_anything(best);
+  FoundCycle found = search_.best(std::move(now_), options_.optimise() && out.cycles.size() >= plain_until_);
+  now_ = std::move(found.now);
+  if (found.trial.largest_rad < 0.0) return false;
+  const bool entering = search_.enters_anything(found.trial);
   if (entering && options_.optimise() && rewinds_ < kRewindsForFaces) return false;
-  now_.step_mm = best.from_x - now_.last.from_x;
-  if (!accept_some(best, entering, out)) return false;
+  now_.step_mm = found.trial.from_x - now_.last.from_x;
+  if (!accept_some(std::move(found.trial), entering, out)) return false;
   now_.largest_front_mm3 = std::max(now_.largest_front_mm3, out.cycles.back().front.engagement.volume_mm3);
   return true;
 }
@@ -269,7 +269,6 @@ bool CyclePlanner::next_cycle(LayerCycles& out, const Progress& progress) {
     CycleStep step;
     if (add_cycle(out)) step.cycle = out.cycles.back();
     step.now = now_;
-    step.refused = search_.refused();
     return step;
   };
   CycleStep step = journaled(progress, "cycle", search, now_);
@@ -279,7 +278,6 @@ bool CyclePlanner::next_cycle(LayerCycles& out, const Progress& progress) {
     out.cycles.push_back(std::move(*step.cycle));
   }
   now_ = std::move(step.now);
-  search_.set_refused(step.refused);
   return found;
 }
 
@@ -311,7 +309,7 @@ bool CyclePlanner::rewind(LayerCycles& out) {
   now_ = before_[stuck - back];
   while (stock_.sweeps().size() > now_.sweeps) stock_.remove_last();
   // In the middle a front of quite another shape would be in full material.
-  if (stuck - back <= 1) search_.reset_shape();
+  if (stuck - back <= 1) now_ = search_.anew(now_);
   return true;
 }
 
@@ -326,7 +324,7 @@ LayerCycles CyclePlanner::run(const std::optional<FirstFront>& first, const Prog
   if (first)
     begin_with(*first, out);
   else if (!accept_first(out))
-    out.status = CycleStatus::kStuck, out.stuck = search_.refused();
+    out.status = CycleStatus::kStuck, out.stuck = now_.refused;
   out_ = std::max(2.0 * search_.radius(), -now_.last.from_x + 2.0 * search_.radius());
   const double whole = sides_.from.length() + 4.0 * search_.radius();
   double farthest_x = -std::numeric_limits<double>::infinity();
@@ -348,7 +346,7 @@ LayerCycles CyclePlanner::run(const std::optional<FirstFront>& first, const Prog
     if (now_.last.from_x > farthest_x) {
       farthest_x = now_.last.from_x;
       farthest = out;
-      farthest.stuck = search_.refused();
+      farthest.stuck = now_.refused;
     }
     if (rewind(out)) continue;
     farthest.status = ends_at_wall(kBeforeWall, farthest) ? CycleStatus::kDone : CycleStatus::kStuck;

@@ -113,7 +113,7 @@ double EntryPlanner::allowed_at(const EntrySlot& slot) const {
 std::optional<HalfShape> EntryPlanner::front_of(const AxisPlace& from, const AxisPlace& to, double allowed) const {
   const double length = sides_.from.axis_length(), gap = (to.at(0.5 * length) - from.at(0.5 * length)).norm();
   for (const double scale : {1.0, 0.6, 0.3}) {
-    const HalfShape shape = CycleShape{}.front(scale * gap, 0.0);
+    const HalfShape shape = CycleShape{}.front.of(scale * gap, 0.0);
     if (guard_.depth(half_path(length, from, to, shape), kLookTimes, kLookPlaces).deepest() <= allowed) return shape;
   }
   return {};

@@ -28,28 +28,34 @@ struct PlanEffort {
 };
 /// Of a plan that is compared with others; of what is written in the end, where the search is not over for another reason.
 constexpr PlanEffort kTry = {}, kWrite = {3, true}, kUtmost = {6, true};
-/// Depths in faces that differ by less than this share are alike.
-constexpr double kSameDepth = 0.2;
-/// Where no cycles get through, the search ends after so many tools in a row that do not get farther: one may be unlucky.
-constexpr int kInVain = 2;
 /// Diameters of way across, least_way_across: below, cycles crawl and get stuck, however wide the cavity is elsewhere.
 constexpr double kLeastWay = 0.3;
 
+/// Tolerances: deeper sides are hopeless. Of the share that is asked for: so are those that cover less.
+constexpr double kHopelesslyDeep = 4.0, kHopelesslyShort = 0.5;
+
 /// What a search is about.
 struct Search {
-  const TrochoidJob& job;
-  const CavityFaces& faces;
+  CavityDemand demand;
   const ToolModel& tool;
   const CavityJudge& judge;
   const Progress& progress;
   const SideFitOptions& options;  ///< but for what a bound of the radius says
+  CavitySide left = side_of(demand.faces.sides[0]), right = side_of(demand.faces.sides[1]);
 };
 
-/// Under a bound of the radius.
+/// A bound of the radius. A thinner one may be tried after it: what hardly has a way across, or covers too little, gets no cycles then.
+struct Bound {
+  double mm = 0.0;
+  bool thinner = false;
+  int fewest_layers = 1;
+};
+
 SideFitOptions options_under(const Search& search, double bound) {
+  const TrochoidJob& job = search.demand.job;
   SideFitOptions here = search.options;
   here.fit.bounds.largest = bound;
-  if (!search.job.radius.min_mm) here.fit.bounds.smallest = std::min(here.fit.bounds.smallest, 0.5 * bound);
+  if (!job.radius.min_mm) here.fit.bounds.smallest = std::min(here.fit.bounds.smallest, 0.5 * bound);
   here.starts = starts_under(bound, here.fit.bounds.smallest);
   if (search.tool.free()) return here;
   here.starts.resize(1);
@@ -61,72 +67,62 @@ double reach_of(const SideFit& sides, const CavityFaces& faces) {
   return reach_of_tool(side_of(faces.sides[0]), side_of(faces.sides[1]), sides.fit.motions, sides.fit.tool);
 }
 
-/// How far sides are from what is asked.
-enum class SideState {
-  kShort,       ///< another fit may cover more
-  kObstructed,  ///< all but what other faces keep from a tool of these radii: no fit mends that
-  kDone,
-};
-
-SideState state_of(const SideFit& sides, const CavityFaces& faces, const TrochoidJob& job) {
-  const CoverageEstimate& e = sides.fit.after;
-  if (sides.fit.motions.empty()) return SideState::kShort;
-  if (sides.fit.status == FitStatus::kWithinTolerance) return SideState::kDone;
-  if (e.overcut_mm > job.tolerance_mm || e.gouge_mm > job.tolerance_mm) return SideState::kShort;
-  const double radius = asked_ball(job, faces, sides.fit.tool);
-  const double least = job.judge.least_coverage;
-  if (covers_reachable(side_of(faces.sides[0]), side_of(faces.sides[1]), e.at_tolerance, least, radius))
-    return SideState::kDone;
-  return e.at_tolerance >= least * reach_of(sides, faces) ? SideState::kObstructed : SideState::kShort;
-}
+double deepest_of(const SideFit& sides) { return std::max(sides.fit.after.overcut_mm, sides.fit.after.gouge_mm); }
 
 /// A tool that has hardly any way across: its cycles would crawl.
 bool is_narrow(const SideFit& sides) { return least_way_across(sides.fit.motions, sides.fit.tool) < kLeastWay; }
 
 int layers_of(const SideFit& sides) { return static_cast<int>(sides.fit.motions.size()) / 2; }
 
-double score_of(const SideFit& sides, const TrochoidJob& job) { return sides.fit.after.score(job.tolerance_mm); }
-
 /// A bound for which the narrowest place has no room: where sides are far from what is asked under it, that is the room's, which more
 /// layers do not make.
-bool is_wide(double bound, const CavityFaces& faces, const TrochoidJob& job) {
-  return !job.radius.max_mm && bound > kMostOfWidth * faces.width.narrowest_mm * (1.0 + 1e-9);
+bool is_wide(double bound, const CavityDemand& demand) {
+  return !demand.job.radius.max_mm && bound > kMostOfWidth * demand.faces.width.narrowest_mm * (1.0 + 1e-9);
 }
 
-/// From how many layers on sides are looked for, and what is there already.
-struct Known {
-  int fewest = 1;
-  const SideFit* sides = nullptr;  ///< more layers than the fewest only if these gain on it
-};
+/// All cycles, and none of them enters a face.
+bool gets_through(const CavityPlan& plan, const CavityDemand& demand) {
+  return plan.program.done() &&
+         plan.program.entered_mm() <= kToleranceBudget.cavity.through() * *demand.job.tolerance_mm;
+}
 
-/// As many layers as the tolerance needs, not those that cannot help; or as many as are asked for. If a thinner tool may be tried, no
-/// more layers for one that has hardly any way across: they make none.
-SideFit search_sides(const Search& search, SideFitOptions options, const Known& known, bool thinner) {
-  const TrochoidJob& job = search.job;
-  const CavityFaces& faces = search.faces;
-  const CavitySide left = side_of(faces.sides[0]), right = side_of(faces.sides[1]);
+/// Of the way of the sides, how much the cycles cleared: mean over the layers.
+double cleared(const CavityPlan& plan) {
+  double sum = 0.0;
+  for (const PlannedLayer& layer : plan.program.layers) sum += layer.share;
+  return sum / std::max(1, layers_of(plan.sides));
+}
+
+CavityPlan uncut_plan(SideFit sides, double bound) { return {std::move(sides), {}, bound, 0, {}}; }
+
+/// Whether sides are better than others, or there are no others: more layers or another lean are worth that.
+bool gains(const SideFit& sides, const SideFit& other, const CavityDemand& demand) {
+  return other.fit.motions.empty() || rank(uncut_plan(sides, 0.0), demand) > rank(uncut_plan(other, 0.0), demand);
+}
+
+/// As many layers as the tolerance needs, not those that cannot help; or as many as are asked for. `before`: sides that are there
+/// already; more layers than the fewest only for what gains on them.
+SideFit search_sides(const Search& search, SideFitOptions options, const Bound& bound, const SideFit& before) {
+  const CavityDemand& demand = search.demand;
+  const int asked_layers = demand.job.cycles.layers;
+  const int last = asked_layers > 0 ? asked_layers : kMostLayers;
   SideFit best;
-  const int first = job.cycles.layers > 0 ? job.cycles.layers : known.fewest;
-  const int last = job.cycles.layers > 0 ? first : kMostLayers;
-  const bool wide = is_wide(options.fit.bounds.largest, faces, job);
-  for (int layers = first; layers <= last;) {
-    options.layers = layers;
+  options.layers = asked_layers > 0 ? asked_layers : bound.fewest_layers;
+  while (true) {
     // More layers make a shorter tool, which is less slender.
-    options.slender = layers == last;
-    SideFit tried = fit_sides(left, right, search.tool, options, search.progress);
-    const SideFit* before = best.fit.motions.empty() ? known.sides : &best;
-    const SideState state = state_of(tried, faces, job);
-    const bool better = before == nullptr || is_gain(tried, *before, faces, job);
-    const bool some = !tried.fit.motions.empty();
-    const double asked = some ? job.judge.least_coverage * reach_of(tried, faces) : 1.0;
-    const bool far = wide && some && tried.fit.after.at_four_tolerances < asked;
-    const bool ends = far || state != SideState::kShort || (thinner && is_narrow(tried));
-    const int next = some ? layers_after(layers, tried.fit.after, asked) : layers + 1;
+    options.slender = options.layers == last;
+    SideFit tried = fit_sides(search.left, search.right, search.tool, options, search.progress);
+    const bool some = !tried.fit.motions.empty(),
+               better = gains(tried, best.fit.motions.empty() ? before : best, demand);
+    const double asked = some ? demand.job.judge.least_coverage * reach_of(tried, demand.faces) : 1.0;
+    const bool far = is_wide(bound.mm, demand) && some && tried.fit.after.at_four_tolerances < asked;
+    // More layers make no way across.
+    const bool ends = far || fills_reach(tried, demand) || (bound.thinner && is_narrow(tried));
+    const int next = some ? layers_after(options.layers, tried.fit.after, asked) : options.layers + 1;
     if (better || best.fit.motions.empty()) best = std::move(tried);
-    if (ends || !better || layers == last || search.progress.stop()) break;
-    layers = std::min(last, next);
+    if (ends || !better || options.layers == last || search.progress.stop()) return best;
+    options.layers = std::min(last, next);
   }
-  return best;
 }
 
 CycleStrategy strategy_of(const std::string& name) {
@@ -139,19 +135,20 @@ EntryMethod entry_of(const std::string& name) {
   return name == "plunge" ? EntryMethod::kPlunge : EntryMethod::kAuto;
 }
 
-CavityProgram plan(const TrochoidJob& job, const CavityFaces& faces, const SideFit& sides, const PlanEffort& effort,
+CavityProgram plan(const CavityDemand& demand, const SideFit& sides, const PlanEffort& effort,
                    const Progress& progress) {
-  if (sides.fit.motions.empty() || !check_legitimacy(sides.fit.tool).legitimate) return {};
+  const auto& [job, faces] = demand;
+  if (is_hopeless(sides, demand) || !check_legitimacy(sides.fit.tool).legitimate) return {};
   ProgramOptions options;
   options.cycles.largest_rad = job.cycles.most_engagement_deg * kDegree;
-  options.cycles.tolerance_mm = job.tolerance_mm;
+  options.cycles.tolerance_mm = *job.tolerance_mm;
   options.cycles.most_rewinds = effort.most_rewinds;
   options.below_stuck = effort.below_stuck;
   options.cycles.strategy = strategy_of(job.cycles.strategy);
   options.entry.method = entry_of(job.cycles.entry);
   options.entry.slope_rad = job.cycles.ramp_angle_deg * kDegree;
   options.climb = job.cycles.cut == "climb";
-  options.chord_mm = kToleranceBudget.chord * job.tolerance_mm;
+  options.chord_mm = kToleranceBudget.chord * *job.tolerance_mm;
   options.left = faces.sides[0].faces;
   options.right = faces.sides[1].faces;
   GuardedFaces guarded;
@@ -163,89 +160,57 @@ CavityProgram plan(const TrochoidJob& job, const CavityFaces& faces, const SideF
                       options, progress);
 }
 
-/// All cycles, and none of them enters a face.
-bool gets_through(const CavityPlan& plan, double tolerance) {
-  return plan.program.done() && plan.program.entered_mm() <= kToleranceBudget.cavity.through() * tolerance;
-}
-
-/// Of the way of the sides, how much the cycles cleared: mean over the layers.
-double cleared(const CavityPlan& plan) {
-  double sum = 0.0;
-  for (const PlannedLayer& layer : plan.program.layers) sum += layer.share;
-  return sum / static_cast<double>(std::max<std::size_t>(2, plan.sides.fit.motions.size()) / 2);
-}
-
-CavityPlan uncut_plan(SideFit sides, double bound) {
-  CavityPlan out;
-  out.sides = std::move(sides);
-  out.largest_radius_mm = bound;
-  return out;
-}
-
+/// With cycles, and judged if they get through.
 CavityPlan planned(SideFit sides, const Search& search, double bound, const PlanEffort& effort = kTry) {
-  const CavitySide left = side_of(search.faces.sides[0]), right = side_of(search.faces.sides[1]);
-  sides = settle_sides(left, right, std::move(sides), options_under(search, bound), search.progress);
-  CavityProgram program = plan(search.job, search.faces, sides, effort, search.progress);
-  CavityPlan out = uncut_plan(std::move(sides), bound);
-  out.program = std::move(program);
-  if (search.judge && gets_through(out, search.job.tolerance_mm) && !search.progress.stop())
-    out.finding = search.judge(out);
+  CavityPlan out = uncut_plan(
+      settle_sides(search.left, search.right, std::move(sides), options_under(search, bound), search.progress), bound);
+  out.program = plan(search.demand, out.sides, effort, search.progress);
+  if (search.judge && gets_through(out, search.demand) && !search.progress.stop()) out.finding = search.judge(out);
   return out;
 }
 
-/// Of one bound of radii: sides whose axes lean alike, whose cycles are fewer and shorter; where they do not do what is asked,
-/// or cycles get stuck between them, sides as they come. If a thinner tool may be tried, no cycles for one that has hardly any
-/// way across, nor between sides that cover too little, whatever cycles there are: such sides take the place of `uncut` if they
-/// cover more.
-CavityPlan search_ways(const Search& search, SideFitOptions options, int fewest, bool thinner, CavityPlan& uncut) {
-  const TrochoidJob& job = search.job;
-  const CavityFaces& faces = search.faces;
-  const double bound = options.fit.bounds.largest;
-  SideFit alike = search_sides(search, options, {fewest}, thinner);
-  if (thinner && is_narrow(alike)) return uncut_plan(std::move(alike), bound);
-  const auto plan_of = [&](SideFit fit) {
-    if (!thinner || state_of(fit, faces, job) != SideState::kShort) return planned(std::move(fit), search, bound);
-    const CavityPlan plan = uncut_plan(std::move(fit), bound);
-    if (plan.sides.fit.after.at_tolerance > uncut.sides.fit.after.at_tolerance) uncut = plan;
-    return plan;
-  };
-  CavityPlan facing = plan_of(std::move(alike));
-  if (is_done(facing, faces, job) || search.progress.stop()) return facing;
-  // What all cycles get past, but enters a face, is not the leans'.
-  if (facing.program.done() && state_of(facing.sides, faces, job) != SideState::kShort) return facing;
-  if (ends_search(facing.program, thinner)) return facing;
-  if (thinner && is_wide(bound, faces, job) && facing.program.layers.empty()) return facing;
+/// The same; without cycles where a thinner tool is the better bet.
+CavityPlan planned_under(const Bound& bound, SideFit sides, const Search& search) {
+  const bool waits = bound.thinner && (is_narrow(sides) || !fills_reach(sides, search.demand));
+  return waits ? uncut_plan(std::move(sides), bound.mm) : planned(std::move(sides), search, bound.mm);
+}
+
+const CavityPlan& best_of(const std::vector<CavityPlan>& plans, const CavityDemand& demand) {
+  return *std::max_element(plans.begin(), plans.end(),
+                           [&](const CavityPlan& a, const CavityPlan& b) { return rank(a, demand) < rank(b, demand); });
+}
+
+/// Adds sides whose axes lean alike, whose cycles are fewer and shorter; where they do not do what is asked, or cycles get stuck
+/// between them, sides as they come.
+void add_leans(const Search& search, SideFitOptions options, Bound bound, std::vector<CavityPlan>& plans) {
+  const CavityDemand& demand = search.demand;
+  const CavityPlan& alike = plans.emplace_back(planned_under(bound, search_sides(search, options, bound, {}), search));
+  if (search.progress.stop() || (bound.thinner && is_narrow(alike.sides))) return;
+  // What all cycles get past, but enters a face, is not the leans', nor is what ends the search, nor the want of room.
+  if (alike.program.done() && fills_reach(alike.sides, demand)) return;
+  if (ends_search(alike.program, bound.thinner)) return;
+  if (bound.thinner && is_wide(bound.mm, demand) && alike.program.layers.empty()) return;
   // Fewer layers than the tool of these has are too few for it either way: they were too slender, or covered less. So is another start.
-  const int layers = std::max(fewest, layers_of(facing.sides));
-  if (layers_of(facing.sides) > 0) options.starts = {facing.sides.start};
+  const SideFit before = alike.sides;
+  const bool through = gets_through(alike, demand);
+  bound.fewest_layers = std::max(bound.fewest_layers, layers_of(before));
+  if (layers_of(before) > 0) options.starts = {before.start};
   options.facing = false;
-  SideFit as_they_come = search_sides(search, options, {layers, &facing.sides}, thinner);
-  // Cycles cannot make up for sides that cover no more, where the others' get through all of the way.
-  const double tolerance = job.tolerance_mm;
-  if (gets_through(facing, tolerance) && cleared(facing) == 1.0 &&
-      as_they_come.fit.after.score(tolerance) <= facing.sides.fit.after.score(tolerance))
-    return facing;
-  CavityPlan plain = plan_of(std::move(as_they_come));
-  return is_better(plain, facing, job.tolerance_mm) ? plain : facing;
+  SideFit sides = search_sides(search, options, bound, before);
+  // Cycles cannot make up for sides that cover no more.
+  if (!through || gains(sides, before, demand)) plans.push_back(planned_under(bound, std::move(sides), search));
 }
 
-/// The same with a tool that is nearly as thick everywhere, if that is what is missing and it does more.
-CavityPlan search_even(const Search& search, SideFitOptions options, CavityPlan tried, CavityPlan& uncut) {
-  const TrochoidJob& job = search.job;
-  const CavityFaces& faces = search.faces;
-  if (!search.tool.free() || !wants_even_tool(tried, faces, job) || search.progress.stop()) return tried;
+/// All that is tried under a bound of the radius: at last a tool that is nearly as thick everywhere, if that is what is missing.
+std::vector<CavityPlan> plans_under(const Search& search, Bound bound) {
+  std::vector<CavityPlan> plans;
+  SideFitOptions options = options_under(search, bound.mm);
+  add_leans(search, options, bound, plans);
+  const CavityPlan& best = best_of(plans, search.demand);
+  if (!search.tool.free() || !wants_even_tool(best, search.demand) || search.progress.stop()) return plans;
   options.starts = {{options.starts.front().radius_mm, kEven}};
-  CavityPlan even = search_ways(search, options, layers_of(tried.sides), true, uncut);
-  return is_done(even, faces, job) || is_better(even, tried, job.tolerance_mm) ? even : tried;
-}
-
-/// Cycles between sides that got none, if more may be finished so than by the best.
-void try_uncut(const Search& search, CavityPlan uncut, CavityPlan& best) {
-  const double finished = cleared(best) * best.sides.fit.after.at_tolerance;
-  if (!(uncut.sides.fit.after.at_tolerance > finished) || search.progress.stop()) return;
-  CavityPlan tried = planned(std::move(uncut.sides), search, uncut.largest_radius_mm);
-  tried.tools = best.tools;
-  if (is_better(tried, best, search.job.tolerance_mm)) best = std::move(tried);
+  add_leans(search, options, {bound.mm, true, layers_of(best.sides)}, plans);
+  return plans;
 }
 
 }  // namespace
@@ -257,12 +222,6 @@ std::vector<RadiusStart> starts_under(double bound_mm, double least_mm) {
   return starts;
 }
 
-bool is_gain(const SideFit& sides, const SideFit& other, const CavityFaces& faces, const TrochoidJob& job) {
-  constexpr double kGain = 0.002;
-  if (other.fit.motions.empty() || score_of(sides, job) > score_of(other, job) + kGain) return true;
-  return state_of(sides, faces, job) != SideState::kShort && state_of(other, faces, job) == SideState::kShort;
-}
-
 int layers_after(int layers, const CoverageEstimate& found, double asked) {
   constexpr double kUnsure = 0.7;  // of a layer: one that is hardly asked for is not counted on
   constexpr double kMost = 2.0;    // doublings: what asks for more is far off, and not for want of layers
@@ -272,44 +231,61 @@ int layers_after(int layers, const CoverageEstimate& found, double asked) {
   return std::max(layers + 1, static_cast<int>(wanted + 1.0 - kUnsure));
 }
 
-bool is_better(const CavityPlan& a, const CavityPlan& b, double tolerance) {
-  if (a.finding && b.finding) {
-    if (a.finding->meets != b.finding->meets) return a.finding->meets;
-    if (a.finding->covered != b.finding->covered) return a.finding->covered > b.finding->covered;
-  }
-  if (a.sides.fit.motions.empty() != b.sides.fit.motions.empty()) return b.sides.fit.motions.empty();
-  if (gets_through(a, tolerance) != gets_through(b, tolerance)) return gets_through(a, tolerance);
-  if (a.program.done() != b.program.done()) return a.program.done();
-  const double finished_a = cleared(a) * a.sides.fit.after.at_tolerance;
-  const double finished_b = cleared(b) * b.sides.fit.after.at_tolerance;
-  if ((!a.program.done() || cleared(a) != cleared(b)) && finished_a != finished_b) return finished_a > finished_b;
-  const double deep_a = a.program.entered_mm(), deep_b = b.program.entered_mm();
-  // What has no cycles enters nothing, and gets no farther for that.
-  const bool both_cut = !a.program.layers.empty() && !b.program.layers.empty();
-  if (both_cut && !gets_through(a, tolerance) && std::abs(deep_a - deep_b) > kSameDepth * std::max(deep_a, deep_b))
-    return deep_a < deep_b;
-  return a.sides.fit.after.score(tolerance) > b.sides.fit.after.score(tolerance);
+bool fills_reach(const SideFit& sides, const CavityDemand& demand) {
+  const auto& [job, faces] = demand;
+  if (sides.fit.motions.empty() || deepest_of(sides) > *job.tolerance_mm) return false;
+  const double covered = sides.fit.after.at_tolerance, least = job.judge.least_coverage;
+  return covers_reachable(side_of(faces.sides[0]), side_of(faces.sides[1]), covered, least,
+                          asked_ball(job, faces, sides.fit.tool)) ||
+         covered >= least * reach_of(sides, faces);
 }
 
-bool is_done(const CavityPlan& plan, const CavityFaces& faces, const TrochoidJob& job) {
+bool is_hopeless(const SideFit& sides, const CavityDemand& demand) {
+  const auto& [job, faces] = demand;
+  if (sides.fit.motions.empty() || deepest_of(sides) > kHopelesslyDeep * *job.tolerance_mm) return true;
+  const double some = kHopelesslyShort * job.judge.least_coverage, covered = sides.fit.after.at_tolerance;
+  return covered < some && covered < some * reach_of(sides, faces);
+}
+
+bool meets(const CavityPlan& plan, const CavityDemand& demand) {
+  const auto& [job, faces] = demand;
   if (plan.finding) return plan.finding->meets;
-  if (!gets_through(plan, job.tolerance_mm) || state_of(plan.sides, faces, job) == SideState::kShort) return false;
+  if (!gets_through(plan, demand) || !fills_reach(plan.sides, demand)) return false;
   const FlankFitResult& fit = plan.sides.fit;
   const CavitySide left = side_of(faces.sides[0]), right = side_of(faces.sides[1]);
   const double radius = asked_ball(job, faces, fit.tool);
-  const double in_reach = covered_in_reach(left, right, fit.motions, fit.tool, job.tolerance_mm, radius);
+  const double in_reach = covered_in_reach(left, right, fit.motions, fit.tool, *job.tolerance_mm, radius);
   return covers_reachable(left, right, in_reach * cleared(plan) * fit.after.at_tolerance, job.judge.least_coverage,
                           radius);
+}
+
+CavityRank rank(const CavityPlan& plan, const CavityDemand& demand) {
+  constexpr double kThousandths = 1e3, kDepthStep = 0.2, kScoreStep = 0.002;
+  const double tolerance = *demand.job.tolerance_mm;
+  const double covered = plan.finding ? plan.finding->covered : cleared(plan) * plan.sides.fit.after.at_tolerance;
+  // What the tolerance allows is no depth.
+  const double depth = std::max(plan.program.entered_mm(), deepest_of(plan.sides)) / tolerance;
+  const int steps = static_cast<int>(std::ceil(std::log(std::clamp(depth, 1.0, 1e9)) / std::log1p(kDepthStep)));
+  return {plan.finding && plan.finding->meets,
+          !plan.sides.fit.motions.empty(),
+          gets_through(plan, demand),
+          plan.program.done(),
+          static_cast<int>(std::lround(kThousandths * covered)),
+          -steps,
+          fills_reach(plan.sides, demand),
+          static_cast<int>(std::lround(std::max(-1e6, plan.sides.fit.after.score(tolerance)) / kScoreStep))};
 }
 
 bool ends_search(const CavityProgram& program, bool thinner) {
   return program.stuck_along_axis() || (thinner && program.stuck_before_sides());
 }
 
-bool wants_even_tool(const CavityPlan& plan, const CavityFaces& faces, const TrochoidJob& job) {
-  return !job.judge.reach_radius_mm && gets_through(plan, job.tolerance_mm) && !is_done(plan, faces, job) &&
-         state_of(plan.sides, faces, job) != SideState::kShort;
+bool wants_even_tool(const CavityPlan& plan, const CavityDemand& demand) {
+  return !demand.job.judge.reach_radius_mm && gets_through(plan, demand) && !meets(plan, demand) &&
+         fills_reach(plan.sides, demand);
 }
+
+bool is_in_vain(int in_a_row, bool through) { return in_a_row >= (through ? 1 : 2); }
 
 std::vector<double> bounds_of(const TrochoidJob& job, const CavityWidth& width) {
   constexpr double kMuchWider = 1.6, kAboveLeast = 1.1;
@@ -325,51 +301,46 @@ std::vector<double> bounds_of(const TrochoidJob& job, const CavityWidth& width) 
   return bounds;
 }
 
-bool SearchPatience::ends_after(bool gained, bool through) {
-  in_vain_ = gained ? 0 : in_vain_ + 1;
-  return in_vain_ >= (through ? 1 : kInVain);
-}
-
 CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const ToolModel& tool,
                          const SideFitOptions& options, const CavityJudge& judge, const Progress& progress) {
-  const Search search{job, faces, tool, judge, progress, options};
-  CavityPlan best, uncut;
+  const Search search{{job, faces}, tool, judge, progress, options};
+  const CavityDemand& demand = search.demand;
+  CavityPlan best, uncut;  // the latter: of those that got no cycles the one that covers most
   const bool given = !tool.free() && tool.radius;
-  bool ends = false;
-  int tools = 0, fewest = 1;
-  SearchPatience patience;
+  const auto covered = [](const CavityPlan& plan) { return plan.sides.fit.after.at_tolerance; };
   const std::vector<double> bounds = bounds_of(job, faces.width);
+  bool ends = false;
+  int tools = 0, fewest = 1, in_vain = 0;
   for (const double bound : bounds) {
-    const SideFitOptions here = options_under(search, bound);
-    const double most_uncut = uncut.sides.fit.after.at_tolerance;
     const bool thinner = !given && bound != bounds.back();
-    CavityPlan tried = search_ways(search, here, fewest, thinner, uncut);
-    tried = search_even(search, here, std::move(tried), uncut);
-    const bool done = is_done(tried, faces, job);
+    const double most_uncut = covered(uncut);
+    std::vector<CavityPlan> plans = plans_under(search, {bound, thinner, fewest});
+    for (const CavityPlan& plan : plans)
+      if (plan.program.layers.empty() && covered(plan) > covered(uncut) && !is_narrow(plan.sides)) uncut = plan;
+    CavityPlan tried = best_of(plans, demand);
     // A tool that has hardly any way across got no cycles, and says nothing of thinner ones.
     const bool narrow = tried.program.layers.empty() && is_narrow(tried.sides);
     // How many layers sides need is theirs. Where they fell short, that may have been the thick tool's.
-    if (!narrow && !tried.sides.fit.motions.empty())
-      fewest =
-          std::max(fewest, layers_of(tried.sides) - (state_of(tried.sides, faces, job) == SideState::kShort ? 1 : 0));
-    const bool covers_more = uncut.sides.fit.after.at_tolerance > most_uncut;
-    const bool better = ++tools == 1 || is_better(tried, best, job.tolerance_mm);
+    if (!narrow) fewest = std::max(fewest, layers_of(tried.sides) - (fills_reach(tried.sides, demand) ? 0 : 1));
+    const bool better = ++tools == 1 || rank(tried, demand) > rank(best, demand), done = meets(tried, demand);
     if (better || done) best = std::move(tried);
-    best.tools = tools;
-    const bool in_vain = !narrow && patience.ends_after(better || covers_more, best.program.done());
+    if (!narrow) in_vain = better || covered(uncut) > most_uncut ? 0 : in_vain + 1;
     ends = ends_search(best.program, thinner);
-    if (done || given || in_vain || ends || progress.stop()) break;
+    if (done || given || is_in_vain(in_vain, best.program.done()) || ends || progress.stop()) break;
   }
+  const auto replace = [&](CavityPlan plan) {
+    if (rank(plan, demand) > rank(best, demand)) best = std::move(plan);
+  };
   // Where no tool does it, the sides without cycles may be those that leave least.
-  if (!is_done(best, faces, job)) try_uncut(search, std::move(uncut), best);
+  if (!meets(best, demand) && covered(uncut) > cleared(best) * covered(best) && !progress.stop())
+    replace(planned(uncut.sides, search, uncut.largest_radius_mm));
   // The long search for a way past a place where cycles get stuck comes last: another tool may have no such place. So do the layers
   // below it.
-  const bool cut_short =
-      static_cast<int>(best.program.layers.size()) < layers_of(best.sides) && !best.program.layers.empty();
-  if (!best.program.done() && (!ends || cut_short) && !best.sides.fit.motions.empty() && !progress.stop()) {
-    CavityPlan tried = planned(best.sides, search, best.largest_radius_mm, ends ? kWrite : kUtmost);
-    if (is_better(tried, best, job.tolerance_mm)) best.program = std::move(tried.program), best.finding = tried.finding;
-  }
+  const bool some = !best.program.layers.empty();
+  const bool cut_short = some && static_cast<int>(best.program.layers.size()) < layers_of(best.sides);
+  if (some && !best.program.done() && (!ends || cut_short) && !progress.stop())
+    replace(planned(best.sides, search, best.largest_radius_mm, ends ? kWrite : kUtmost));
+  best.tools = tools;
   return best;
 }
 

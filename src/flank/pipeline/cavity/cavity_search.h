@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "flank/pipeline/cavity/cavity_faces.h"
@@ -40,28 +41,38 @@ using CavityJudge = std::function<std::optional<CavityFinding>(const CavityPlan&
 /// will be stays against the bound between walls that bulge, whose tool has a waist: where little is covered so, a thinner one begins.
 [[nodiscard]] std::vector<RadiusStart> starts_under(double bound_mm, double least_mm);
 
-/// Are sides so much better than others, a score of 0.002, that more layers or another lean are worth it? What no fit mends any
-/// more is a gain on what falls short, however little more it covers: less may be in reach of its tool.
-[[nodiscard]] bool is_gain(const SideFit& sides, const SideFit& other, const CavityFaces& faces,
-                           const TrochoidJob& job);
-
 /// How many layers are tried after so many, which cover less than is asked for. Of a band what a straight line leaves goes with the
 /// square of its height: with twice as many layers what is now within four tolerances may be finished, and other shares lie between
 /// and beyond.
 [[nodiscard]] int layers_after(int layers, const CoverageEstimate& found, double asked);
 
-/// Whether the judge finds all that is asked. Where nobody has judged it, whether cycles get through, enter nothing, and the verdict
-/// may be expected to find the share that is asked for: of what a ball of the least radius reaches. Some of that a tool that is thicker elsewhere leaves beside a wall, and cycles what no step there keeps the limit
-/// for: a thinner one may get nearer.
-[[nodiscard]] bool is_done(const CavityPlan& plan, const CavityFaces& faces, const TrochoidJob& job);
+/// What a plan is measured by.
+struct CavityDemand {
+  const TrochoidJob& job;  ///< with a tolerance
+  const CavityFaces& faces;
+};
 
-/// What is better comes first: cycles that get through, then what they let the sides cover, then what enters faces less
-/// deep, if both have cycles, then sides.
-[[nodiscard]] bool is_better(const CavityPlan& a, const CavityPlan& b, double tolerance);
+/// Whether sides cut and enter nothing and cover the share that is asked for of what a ball of the tool's least radius reaches, or all
+/// but what other faces keep from a tool of these radii: no other fit mends that.
+[[nodiscard]] bool fills_reach(const SideFit& sides, const CavityDemand& demand);
+
+/// Whether sides are so far from what is asked, too deep in a face or with most of their way uncovered, that no cycles make up for it.
+[[nodiscard]] bool is_hopeless(const SideFit& sides, const CavityDemand& demand);
+
+/// Whether the judge finds all that is asked. Where nobody has judged it, whether cycles get through, enter nothing, and the verdict
+/// may be expected to find the share that is asked for: of what a ball of the least radius reaches. Some of that a tool that is thicker
+/// elsewhere leaves beside a wall, and cycles what no step there keeps the limit for: a thinner one may get nearer.
+[[nodiscard]] bool meets(const CavityPlan& plan, const CavityDemand& demand);
+
+/// The greater one is better. In this order: the judge finds all that is asked; there are sides; cycles get through and enter
+/// nothing; they get through; what is covered as far as they got, in thousandths; how deep anything is cut beyond the tolerance, in steps
+/// of a fifth; whether the sides fill what the tool reaches; the score of the sides, in steps of 0.002.
+using CavityRank = std::tuple<bool, bool, bool, bool, int, int, bool, int>;
+[[nodiscard]] CavityRank rank(const CavityPlan& plan, const CavityDemand& demand);
 
 /// Whether all that is missing is what the tool's thin end would reach beside other faces and its thicker one does not: a tool as thick at
 /// that end as at the other is asked for no more than it reaches, and is stiffer.
-[[nodiscard]] bool wants_even_tool(const CavityPlan& plan, const CavityFaces& faces, const TrochoidJob& job);
+[[nodiscard]] bool wants_even_tool(const CavityPlan& plan, const CavityDemand& demand);
 
 /// Whether cycles got stuck for what is not the radius': where the sides lead along the axis, or before any of them reached the sides,
 /// though the tool has a way across there (cycles of one that hardly has, or leaves too much of the sides, are not looked for while there
@@ -69,20 +80,12 @@ using CavityJudge = std::function<std::optional<CavityFinding>(const CavityPlan&
 /// says so: it may hardly have a way across.
 [[nodiscard]] bool ends_search(const CavityProgram& program, bool thinner);
 
-/// How long thinner tools are tried, which are slower, too.
-class SearchPatience {
- public:
-  /// After a tool that is the best so far, or is not. Ends at the first that gains nothing once the cycles of the best get
-  /// `through`, and at the second in a row where they get stuck.
-  [[nodiscard]] bool ends_after(bool gained, bool through);
+/// Thinner tools are slower, too: whether no more are tried after so many in a row that gained nothing. One may be unlucky where
+/// the cycles of the best got stuck; where they got `through`, none is.
+[[nodiscard]] bool is_in_vain(int in_a_row, bool through);
 
- private:
-  int in_vain_ = 0;
-};
-
-/// The first tool whose sides are done and whose cycles get through and enter nothing; if there is none, the one whose cycles
-/// get through and whose sides are best; else the one that gets farthest. The search ends where thinner bounds gain
-/// nothing (SearchPatience). A tool that is given is tried alone.
+/// The first tool whose plan meets the demand; if there is none, the best by its rank. The search ends where thinner bounds gain nothing. A
+/// tool that is given is tried alone. Sides that are hopeless get no cycles.
 [[nodiscard]] CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const ToolModel& tool,
                                        const SideFitOptions& options, const CavityJudge& judge,
                                        const Progress& progress);

@@ -124,7 +124,8 @@ Verification judge_path(const VerifyJob& request, const Job& job, const std::str
   const PathEngagement engagement = replay_stock(job, setup, tool, path, file("blank.json"), outcome);
   outcome.acceptance = accept(tool, outcome.report, job.judge);
   accept_program(job, outcome);
-  const BendRadii bends = least_bend_radii(path, tool.radial.axis_length(), kToleranceBudget.chord * job.tolerance_mm);
+  const BendRadii bends =
+      least_bend_radii(path, tool.radial.axis_length(), kToleranceBudget.chord * setup.tolerance_mm);
   accept_bends(job, bends, outcome.acceptance);
   std::map<std::string, std::string> files{
       {"verify.json", verify_to_json(outcome.report, outcome.acceptance)},

@@ -39,7 +39,7 @@ struct Question {
   PartRequest part;
   ObstacleRequest obstacles;
   JudgeRequest judge;
-  double tolerance_mm = 0.01;
+  std::optional<double> tolerance_mm;
   Tool tool;
 };
 
@@ -111,10 +111,10 @@ struct Ran {
 constexpr double kFollowShare = 0.5;
 
 /// Whether the program runs the folder's path. What it is on where, is known either way.
-FollowedPath judge_way(const VerifyJob& request, const Question& q, const Planned& planned, const Ran& ran,
-                       Acceptance& acceptance) {
+FollowedPath judge_way(const VerifyJob& request, const Question& q, double tolerance_mm, const Planned& planned,
+                       const Ran& ran, Acceptance& acceptance) {
   FollowedPath followed =
-      follow_path(*planned.path, ran.plot, {q.tool.radial.axis_length(), kFollowShare * q.tolerance_mm});
+      follow_path(*planned.path, ran.plot, {q.tool.radial.axis_length(), kFollowShare * tolerance_mm});
   if (request.nc.follow != "path" || followed.findings.empty()) return followed;
   const FollowFinding& first = followed.findings.front();
   std::string text = ran.file + ": " + (first.line > 0 ? fmt::format("line {}: ", first.line) : "") + first.text;
@@ -150,7 +150,7 @@ void replay_stock(const Job& job, const Setup& setup, const Question& q, const P
     const auto line = [&](std::size_t strip, std::size_t pose) {
       return fmt::format("{}: line {}", ran.file, cut.lines[strip][std::min(pose, cut.lines[strip].size() - 1)]);
     };
-    accept_stock(stock, job.cycles.most_engagement_deg, q.tolerance_mm, outcome.acceptance, line);
+    accept_stock(stock, job.cycles.most_engagement_deg, setup.tolerance_mm, outcome.acceptance, line);
     const double grain = std::pow(stock.cell_mm, 3);  // less is the grid's
     for (std::size_t k = 0; k < cut.path.strips.size(); ++k)
       if (cut.path.strips[k].kind == kRapidKind && stock.strip_mm3[k] > grain) {
@@ -175,14 +175,14 @@ void judge_machine(const Machine& machine, const Setup& setup, const Question& q
   judge_scene(machine, machine.tool_length, scene, ran.plot.track, where, acceptance);
 }
 
-BackplotOptions options_of(const VerifyJob& request, const Question& q, const Machine& machine,
+BackplotOptions options_of(const VerifyJob& request, const Question& q, double tolerance_mm, const Machine& machine,
                            const NcProgram& program, Verification& outcome) {
   BackplotOptions options;
   options.setup = setup_of(request, program, outcome);
   options.tool_length = program.header.tool.length > 0.0 ? program.header.tool.length : machine.tool_length;
   options.tip_offset = machine.controlled == ControlledPoint::kLowest ? q.tool.radial.at(0.0).r : 0.0;
   options.axis_length = q.tool.radial.axis_length();
-  options.chord = kChordShare * q.tolerance_mm;
+  options.chord = kChordShare * tolerance_mm;
   return options;
 }
 
@@ -194,19 +194,21 @@ Verification judge(const VerifyJob& request, const Job& job, const Question& q) 
   const NcProgram program = read_nc(read_file(file), file, machine.dialect);
   Verification outcome;
   outcome.job = job;
-  const BackplotOptions options = options_of(request, q, machine, program, outcome);
-  const Backplot plot = backplot(machine, program, file, options);
-  const Ran ran{file, program, plot};
   std::vector<std::string> repairs;
   const Setup setup = read_setup(q.part, q.obstacles, q.tolerance_mm, repairs);
+  const BackplotOptions options = options_of(request, q, setup.tolerance_mm, machine, program, outcome);
+  const Backplot plot = backplot(machine, program, file, options);
+  const Ran ran{file, program, plot};
   outcome.report = judge_job(setup, q.judge, q.tool, plot.path);
   const ClearanceScene scene = make_clearance_scene(setup, q.obstacles, has_body(q.tool), outcome.notes);
   measure_bodies(scene, q.tool, plot.path, outcome.report);
   outcome.acceptance = accept(q.tool, outcome.report, q.judge);
   accept_set_up(request.nc, program, machine, q.tool, options, outcome.acceptance);
   accept_rapids(file, setup, q.obstacles, q.tool, plot, outcome.acceptance);
-  if (planned.path)
-    replay_stock(job, setup, q, planned, judge_way(request, q, planned, ran, outcome.acceptance), ran, outcome);
+  if (planned.path) {
+    const FollowedPath followed = judge_way(request, q, setup.tolerance_mm, planned, ran, outcome.acceptance);
+    replay_stock(job, setup, q, planned, followed, ran, outcome);
+  }
   machine.tool_length = options.tool_length;
   judge_machine(machine, setup, q, options, ran, outcome.acceptance);
   outcome.notes.push_back(fmt::format("{} on {}: {} moves in {}, as {} poses within {:.2g} mm of its motion",

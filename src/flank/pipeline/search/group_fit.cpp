@@ -62,12 +62,12 @@ FlankFitResult fit_auto(const Target& target, const ToolModel& tool, FlankFitOpt
     FlankFitResult result = fit_automatic(target, tool, options, progress.part(here, 1.0 - (rest *= 0.5)));
     if (count == 1) one_covers = result.after.at_tolerance;
     // They cost as much as all before, and one strip more leads no axis out of another face.
-    if (result.other_ways == OtherWays::kHopeless) options.ways = false;
+    if (result.other_ways == OtherWays::kHopeless || result.after.unheld > 0.0) options.ways = false;
     keep_better(best, std::move(result), options);
     if (meets(best.after, wanted, options) || !gain.goes_on(best) || progress.stop()) break;
   }
   options.least_coverage_for_close_look = 0.0;
-  if (has_ways && !options.ways && !meets(best.after, wanted, options) && !progress.stop()) {
+  if (has_ways && !options.ways && best.after.unheld <= 0.0 && !meets(best.after, wanted, options) && !progress.stop()) {
     options.strips = std::max<int>(1, static_cast<int>(best.motions.size()));
     options.ways = true;
     keep_better(best, fit_automatic(target, tool, options, progress.part(1.0 - rest, 1.0)), options);
@@ -104,7 +104,8 @@ FlankFitResult fit_group(const Target& target, const ToolModel& tool, FlankFitOp
     keep_better(best, fit_automatic(target, tool, options, progress.part(kFirst, kSoften)), options);
   }
   // What facets keep from a motion no slender tool brings back.
-  if (done(best) || !options.ways || !demand.soften) {
+  // Nor does it let anything hold a tool where nothing could.
+  if (done(best) || !options.ways || !demand.soften || best.after.unheld > 0.0) {
     note_slenderness(tool, options, best);
     return best;
   }
