@@ -2,7 +2,7 @@
 # On a bare Debian 12 `make demo` and `make test` need only make, git and root (or sudo).
 .DEFAULT_GOAL := build
 .NOTPARALLEL:
-.PHONY: build command deps demo test test-clients sanitize asan tsan bench fuzz install deb wheel docs format format-check tidy clean help
+.PHONY: build command deps demo test test-clients sanitize asan tsan bench fuzz install deb wheel docs format format-check words tidy clean help
 
 JOBS ?= $(shell nproc)
 SECONDS ?= 60
@@ -92,6 +92,10 @@ format:  ## format the sources in place
 format-check:  ## check that the sources are formatted
 	scripts/install-deps.sh dev
 	scripts/check-format.sh
+
+words:  ## check the documents: sentences, words, links, commands, figures
+	scripts/check-words
+	scripts/results.py --check
 
 tidy:  ## lint the sources (clang-tidy), or with LAST=40 what the last 40 commits changed
 	scripts/install-deps.sh build dev

@@ -63,7 +63,7 @@ def row(flank, out, number):
     return {"part": what, "request": request, "finished": ", ".join(f"{p['coverage']:.2f}" for p in percent),
             "of_accessible": ", ".join(f"{p.get('coverage_reachable', p['coverage']):.2f}" for p in percent),
             "gouge": figures("{:.4f}", "overcut"), "gouge_others": figures("{:.4f}", "other_faces_overcut"), "slip": figures("{:.2f}", "largest_c"),
-            "ld": figures("{:.1f}", "slenderness"), "passes": figures("{}", "strips"), "cpu_s": ", ".join(f"{seconds:.0f}" for _, seconds in found),
+            "ld": figures("{:.1f}", "slenderness"), "passes": "" if command.startswith("trochoid") else figures("{}", "strips"), "cpu_s": ", ".join(f"{seconds:.0f}" for _, seconds in found),
             "verdict": ", ".join("meets" if s.get("pass") else "no" for s, _ in found), "by": "data folder" if isinstance(source, str) else "anyone"}
 
 
