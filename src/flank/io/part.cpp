@@ -105,7 +105,7 @@ Part read_part(const std::string& file, const std::optional<std::string>& unit) 
   const std::string format = sniff_format(file, content);
   const bool mesh = format == "STL" || format == "OBJ" || format == "PLY";
   // CAD files go through a reader that can be replaced: in this process, or in a child that a damaged file may break.
-  Part part = mesh ? read_mesh(file, format, std::move(content), unit) : cad_reader()(file, format, unit);
+  Part part = mesh ? read_mesh(file, format, std::move(content), unit) : cad_reader()({file, format, unit, hash});
   part.sha256 = std::move(hash);
   require_part_in_range(part);
   note_doubtful_size(part);
