@@ -18,6 +18,7 @@ struct CommonOptions {
   bool quiet = false;
   int threads = 0;
   std::optional<double> read_limit_s;  ///< for reading a CAD file; none: by its size
+  bool no_cache = false;               ///< what was read of CAD files is neither taken from the cache nor kept there
 };
 
 /// Exit codes of the command.

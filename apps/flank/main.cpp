@@ -25,6 +25,7 @@
 #include "flank/error.h"
 #include "flank/io/isolated/cad_reader.h"
 #include "flank/io/isolated/end_with_parent.h"
+#include "flank/io/isolated/part_cache.h"
 #include "flank/io/isolated/read_isolated.h"
 #include "flank/io/isolated/serve_cad.h"
 #include "flank/threads.h"
@@ -67,6 +68,7 @@ void add_common(CLI::App& app, flank::cli::CommonOptions& common) {
   app.add_option("--read-limit", common.read_limit_s,
                  "Processor time for reading a CAD file, seconds; default: 10 and 30 more for each MB of it")
       ->check(CLI::Range(0.1, 1e6));
+  app.add_flag("--no-cache", common.no_cache, "Read CAD files anew, and keep nothing of them for the next command");
 }
 
 /// The flags of a command, and those that all have.
@@ -83,9 +85,10 @@ int flushed(int code) {
 
 /// The command's threads are still to come, so it can be told now how CAD files are read.
 void read_in_children(const flank::cli::CommonOptions& common) {
-  flank::internal::set_cad_reader([limits = flank::internal::ReadLimits{common.read_limit_s}](
-                                      const auto& file, const auto& format, const auto& unit) {
-    return flank::internal::read_cad_isolated(file, format, unit, limits);
+  using namespace flank::internal;
+  const PartCache cache = common.no_cache ? PartCache{} : user_part_cache();
+  set_cad_reader([limits = ReadLimits{common.read_limit_s}, cache](const CadFile& file) {
+    return read_or_take(cache, file, [&] { return read_cad_isolated(file.name, file.format, file.unit, limits); });
   });
 }
 

@@ -16,7 +16,7 @@ namespace flank {
 /// Which faces of which part are machined.
 struct PartRequest {
   std::string file;                 ///< CAD or mesh: part_formats() of part.h
-  std::optional<std::string> unit;  ///< of a mesh, whose file states none: "mm", "cm", "m" or "in"
+  std::optional<std::string> unit;  ///< of a mesh, or of a CAD file that states a wrong one: "mm", "cm", "m" or "in"
   std::string faces = "F1";         ///< "F1", "F1,F3", "F143-F160", "F1a" (a piece)
   std::optional<std::string> skin;  ///< "F143": that face and all that is joined smoothly to it, instead of `faces`
   std::optional<int>

@@ -52,9 +52,10 @@ inline constexpr double kSmallestBoxMm = 1e-3;
 /// The formats that are read: "STEP, IGES, BREP, STL, OBJ or PLY".
 [[nodiscard]] std::string part_formats();
 
-/// Reads a part. `unit` ("mm", "cm", "m", "in") is needed for meshes, whose files have none, and refused for CAD files
-/// that state another. Throws InputError naming the file and what would be accepted (missing, empty, truncated, not the
-/// format that it claims, no unit, coordinates that are NaN or no lengths of a part, ...).
+/// Reads a part. `unit` ("mm", "cm", "m", "in") is needed for meshes, whose files have none; a CAD file that states another
+/// one is read in this one, with a note: `sha256` is that of the file, whatever unit its numbers are read in. Throws
+/// InputError naming the file and what would be accepted (missing, empty, truncated, not the format that it claims, no
+/// unit, coordinates that are NaN or no lengths of a part, ...).
 [[nodiscard]] Part read_part(const std::string& file, const std::optional<std::string>& unit = {});
 
 /// Replaces each face of which `list` names a piece ("F1a") by its pieces F1a, F1b, ...: the sides of an aerofoil and

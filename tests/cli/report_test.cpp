@@ -14,7 +14,7 @@ class CliReport : public Cli {
     Cli::SetUp();
     write_file(root_ / "out/summary.json", kSummary);
     if (flank({"report", path("out")}).err.find("without the report page") != std::string::npos)
-      GTEST_SKIP() << "built without the page (no npm)";
+      GTEST_SKIP() << "built without the page; flank report says why";
   }
 };
 

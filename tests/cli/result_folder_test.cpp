@@ -67,7 +67,7 @@ TEST_F(CliFolder, WhatOtherProgramsWroteIsJudgedWithANote) {
 }
 
 TEST_F(CliFolder, AnOldVerdictBesideANewPathIsNotShown) {
-  if (!has_page()) GTEST_SKIP() << "built without the page (no npm)";
+  if (!has_page()) GTEST_SKIP() << "built without the page; flank report says why";
   append("out/path.json", "\n");
   expect_untouched({"report", path("out")}, "out/path.json");
   ASSERT_EQ(flank({"verify", path("out")}).exit_code, 0);

@@ -104,6 +104,41 @@ TEST(FacePieces, ASkinWrappedRoundOneEdge) {
   EXPECT_EQ(kinds_of(face_pieces(wrapped(40.0, 0.5, 0.02))), "se") << "what is left of the other side is none";
 }
 
+/// One side with the half of a nose, which turns by `root_deg` at one end of the span and by `tip_deg` at the other, and half of a tail.
+Face half_skin(double root_deg, double tip_deg) {
+  constexpr double kSide = 40.0, kNose = 1.0, kTail = 0.7, kTailTurn = 100.0 * kPi / 180.0, kNoseShare = 0.03,
+                   kTailShare = 0.03;
+  const std::vector<double> v = {0.0, 0.25, 0.5, 0.75, 1.0};
+  std::vector<double> u;
+  std::vector<Vec3> points;
+  const auto arc = [](double x, double radius, double angle) {
+    return Vec2(x - radius * std::sin(angle), radius * (std::cos(angle) - 1.0));
+  };
+  for (int i = 0; i <= 400; ++i) {
+    const double f = i / 400.0;
+    u.push_back(f);
+    for (const double w : v) {
+      const double nose = (root_deg + (tip_deg - root_deg) * w) * kPi / 180.0;
+      const Vec2 p = f < kNoseShare         ? arc(0.0, kNose, nose * (1.0 - f / kNoseShare))
+                     : f > 1.0 - kTailShare ? arc(kSide, kTail, -kTailTurn * (f - 1.0 + kTailShare) / kTailShare)
+                                            : Vec2(kSide * (f - kNoseShare) / (1.0 - kNoseShare - kTailShare), 0.0);
+      points.emplace_back(p.x(), p.y(), 60.0 * w);
+    }
+  }
+  Face face;
+  face.id = "F1";
+  face.surface = interpolate_grid(points, u, v, 3);
+  return face;
+}
+
+TEST(FacePieces, AnEdgeThatFadesAlongTheSpanIsAnEdgeAllTheWay) {
+  EXPECT_EQ(kinds_of(face_pieces(half_skin(80.0, 80.0))), "see");
+  EXPECT_EQ(kinds_of(face_pieces(half_skin(30.0, 80.0))), "see")
+      << "less than a third of the sections turn by less than 45 degrees";
+  EXPECT_EQ(kinds_of(face_pieces(half_skin(80.0, 30.0))), "see");
+  EXPECT_TRUE(face_pieces(half_skin(2.0, 80.0)).empty()) << "for more than a fifth of the span there is none";
+}
+
 TEST(FacePieces, OnlyWhatComesBackGoesAllRound) {
   const auto all_round = [](const Face& face) { return goes_all_round(face, face_pieces(face)); };
   EXPECT_TRUE(all_round(testing::elliptic_skin(40.0, 4.0, 30.0, 0.3)));

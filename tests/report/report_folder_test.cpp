@@ -23,7 +23,7 @@ constexpr const char* kSummary = R"({"schema": "openflank/summary/1", "part": "/
 class ReportFolder : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (!page_is_built()) GTEST_SKIP() << "built without the page (no npm)";
+    if (!page_is_built()) GTEST_SKIP() << "built without the page: " << page_is_missing();
     root_ = fs::path(::testing::TempDir()) / ("flank_report_folder_" + std::to_string(::getpid()));
     fs::remove_all(root_);
     fs::create_directories(root_);
@@ -151,7 +151,7 @@ TEST_F(ReportFolder, NoTextOfAFileCanEndItsElement) {
 TEST(PageTemplate, EachPlaceIsThereOnceAndTheTitleIsATitle) {
   if (!page_is_built()) {
     EXPECT_THROW((void)make_report("."), UsageError);
-    GTEST_SKIP() << "built without the page (no npm)";
+    GTEST_SKIP() << "built without the page: " << page_is_missing();
   }
   const std::string page(page_template());
   for (const std::string_view place : {kTitlePlace, kDataPlace}) {

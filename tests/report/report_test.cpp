@@ -50,7 +50,7 @@ TEST(ReportPieces, EverythingGoesToItsPlace) {
 }
 
 TEST(ReportPieces, ThePageHasItsPlacesAndAsksForNothingElse) {
-  if (!page_is_built()) GTEST_SKIP() << "built without the page (no npm)";
+  if (!page_is_built()) GTEST_SKIP() << "built without the page: " << page_is_missing();
   const std::string page(page_template());
   EXPECT_NE(page.find(kTitlePlace), std::string::npos);
   EXPECT_NE(page.find(kDataPlace), std::string::npos);
@@ -61,7 +61,7 @@ TEST(ReportPieces, ThePageHasItsPlacesAndAsksForNothingElse) {
 }
 
 TEST_F(Report, SaysWhatIsWrongWithTheFolder) {
-  if (!page_is_built()) GTEST_SKIP() << "built without the page (no npm)";
+  if (!page_is_built()) GTEST_SKIP() << "built without the page: " << page_is_missing();
   EXPECT_NE(complaint().find("contains none of view.json"), std::string::npos);
   write("view.json", "{");
   EXPECT_NE(complaint().find("view.json: not JSON"), std::string::npos);
@@ -74,7 +74,7 @@ TEST_F(Report, SaysWhatIsWrongWithTheFolder) {
 }
 
 TEST_F(Report, PacksWhatIsThere) {
-  if (!page_is_built()) GTEST_SKIP() << "built without the page (no npm)";
+  if (!page_is_built()) GTEST_SKIP() << "built without the page: " << page_is_missing();
   write("summary.json", R"({"schema": "openflank/summary/1", "part": "/home/a<b.step", "faces": "F1"})");
   const std::string page = make_report(root_.string());
   EXPECT_NE(page.find("<title>F1 of a&lt;b.step - OpenFlank</title>"), std::string::npos);

@@ -1,193 +1,33 @@
 #include "flank/geom/face_pieces.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "flank/geom/face_cut.h"
+#include "flank/geom/face_section.h"
 #include "flank/geom/spline_segment.h"
 #include "flank/geom/trim.h"
 
 namespace flank::internal {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr int kSections = 33;                  ///< lines across the face that are looked at
-constexpr double kSectionShare = 0.8;          ///< of them have to agree about the number of edges
-constexpr double kFinestTurn = 4.0 * kDegree;  ///< between neighbouring samples of a section
-constexpr int kHalvings = 14;                  ///< of a knot span, towards that
-constexpr double kLeastSide = 0.1;  ///< shorter sides, as a share of the width, belong to the edges about them
-constexpr double kGap = 0.03;       ///< shorter calm stretches within an edge are part of it
-constexpr double kSharp = 1e-4;     ///< an edge that is shorter is a cut and no piece
-
-struct Sample {
-  double t;
-  Vec3 point, normal;
-};
-
-/// A stretch of a section; `last` may lie past the end of a closed one.
-struct Stretch {
-  double first = 0.0, last = 0.0;
-  [[nodiscard]] double middle() const { return 0.5 * (first + last); }
-};
-
-/// One line across the face.
-struct Section {
-  std::vector<Sample> samples;
-  double width = 0.0;  ///< largest distance between two of its points, mm
-  double turn = 0.0;   ///< largest angle between two of its normals
-};
-
-double angle(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
-
-/// The surface as seen from one of its two directions: t goes across the edges, w along them.
-struct View {
-  const BSplineSurface& s;
-  bool along_u;  ///< t is u
-
-  [[nodiscard]] double first() const { return along_u ? s.u_first() : s.v_first(); }
-  [[nodiscard]] double last() const { return along_u ? s.u_last() : s.v_last(); }
-  [[nodiscard]] std::optional<Sample> at(double t, double w) const {
-    const SurfaceJet jet = along_u ? s.jet(t, w) : s.jet(w, t);
-    const Vec3 cross = jet.du.cross(jet.dv);
-    const double length = cross.norm();
-    if (!(length > 1e-12 * std::max(jet.du.squaredNorm(), jet.dv.squaredNorm()))) return std::nullopt;
-    return Sample{t, jet.p, cross / length};
-  }
-};
-
-/// Appends samples up to `b`, so near that the normal turns little from one to the next.
-bool sample(const View& view, double w, const Sample& b, int halvings, std::vector<Sample>& samples) {
-  const Sample a = samples.back();
-  if (halvings > 0 && angle(a.normal, b.normal) > kFinestTurn) {
-    const std::optional<Sample> middle = view.at(0.5 * (a.t + b.t), w);
-    if (!middle || !sample(view, w, *middle, halvings - 1, samples)) return false;
-    return sample(view, w, b, halvings - 1, samples);
-  }
-  samples.push_back(b);
-  return true;
-}
-
-/// Empty where the surface has no normal. `closed`: ends with its start, so that a kink at the seam is seen.
-Section section_at(const View& view, double w, bool closed) {
-  Section section;
-  const std::vector<double>& knots = view.along_u ? view.s.knots_u : view.s.knots_v;
-  const int degree = view.along_u ? view.s.degree_u : view.s.degree_v;
-  const int steps = 2 * degree + 2;
-  const std::optional<Sample> start = view.at(view.first(), w);
-  if (!start) return section;
-  section.samples.push_back(*start);
-  for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
-    const double a = std::max(knots[k], view.first()), b = std::min(knots[k + 1], view.last());
-    // Inside of its span: at a crease the normal is that of this side. The jump is between the last of one span and the
-    // first of the next.
-    for (int i = 0; i <= steps && b > a; ++i) {
-      const double inset = 1e-9 * (b - a);
-      const std::optional<Sample> next = view.at(std::clamp(a + (b - a) * i / steps, a + inset, b - inset), w);
-      if (!next || !sample(view, w, *next, i == 0 ? 0 : kHalvings, section.samples)) return {};
-    }
-  }
-  if (closed) section.samples.push_back({view.last(), start->point, start->normal});
-  const std::size_t stride = std::max<std::size_t>(1, section.samples.size() / 64);
-  for (std::size_t i = 0; i < section.samples.size(); i += stride) {
-    for (std::size_t j = 0; j < i; j += stride) {
-      section.width = std::max(section.width, (section.samples[i].point - section.samples[j].point).norm());
-      section.turn = std::max(section.turn, angle(section.samples[i].normal, section.samples[j].normal));
-    }
-  }
-  return section;
-}
-
-/// Lengths along the section at its samples.
-std::vector<double> lengths_of(const Section& section) {
-  std::vector<double> lengths{0.0};
-  for (std::size_t i = 1; i < section.samples.size(); ++i)
-    lengths.push_back(lengths.back() + (section.samples[i].point - section.samples[i - 1].point).norm());
-  return lengths;
-}
-
-/// A stretch in samples: from one to another, past the end of a closed section by its count.
-struct Run {
-  std::size_t first, last;
-  double turn;
-};
-
-/// The stretches that bend like an edge, with calm gaps closed, that turn enough. `closed`: the end goes on at the start.
-std::vector<Run> edge_runs(const Section& section, const std::vector<double>& lengths, bool closed) {
-  const std::size_t count = section.samples.size() - 1;
-  const auto turn_of = [&](std::size_t i) {
-    return angle(section.samples[i % count].normal, section.samples[i % count + 1].normal);
-  };
-  const auto length_of = [&](std::size_t i) { return lengths[i % count + 1] - lengths[i % count]; };
-  const auto bent = [&](std::size_t i) {
-    const double turn = turn_of(i), length = length_of(i);
-    return turn > 1e-6 && turn * section.width > kEdgeBend * length;
-  };
-  // A closed section is looked at from the end of its longest calm stretch on.
-  std::size_t begin = 0;
-  double calm = 0.0, longest = 0.0;
-  for (std::size_t i = 0; closed && i < 2 * count; ++i) {
-    calm = bent(i) ? 0.0 : calm + length_of(i);
-    if (calm > longest) longest = calm, begin = (i + 1) % count;
-  }
-  std::vector<Run> runs;
-  double gap = 0.0;
-  for (std::size_t i = begin; i < begin + count; ++i) {
-    if (!bent(i)) {
-      gap += length_of(i);
-      continue;
-    }
-    if (runs.empty() || gap > kGap * section.width) runs.push_back({i, i + 1, 0.0});
-    runs.back().last = i + 1;
-    runs.back().turn += turn_of(i);
-    gap = 0.0;
-  }
-  std::erase_if(runs, [](const Run& run) { return run.turn < kEdgeTurnDeg * kDegree; });
-  return runs;
-}
-
-/// Joins edges between which there is no side worth the name.
-std::vector<Run> with_sides(std::vector<Run> runs, const Section& section, const std::vector<double>& lengths) {
-  const std::size_t count = section.samples.size() - 1;
-  const auto length_at = [&](std::size_t i) { return lengths[i % count] + (i >= count ? lengths.back() : 0.0); };
-  std::vector<Run> joined;
-  for (const Run& run : runs) {
-    if (!joined.empty() && length_at(run.first) - length_at(joined.back().last) < kLeastSide * section.width) {
-      joined.back().last = run.last;
-      joined.back().turn += run.turn;
-    } else {
-      joined.push_back(run);
-    }
-  }
-  return joined;
-}
-
-/// Where a section's edges are.
-std::vector<Stretch> edges_of(const Section& section, bool closed) {
-  if (section.samples.size() < 3 || section.turn < kWrapTurnDeg * kDegree) return {};
-  const std::vector<double> lengths = lengths_of(section);
-  const std::size_t count = section.samples.size() - 1;
-  const double period = section.samples.back().t - section.samples.front().t;
-  const auto parameter = [&](std::size_t i) {
-    return i <= count ? section.samples[i].t : section.samples[i - count].t + period;
-  };
-  std::vector<Stretch> edges;
-  for (const Run& run : with_sides(edge_runs(section, lengths, closed), section, lengths))
-    edges.push_back({parameter(run.first), parameter(run.last)});
-  return edges;
-}
+constexpr int kSections = 33;                         ///< lines across the face that are looked at
+constexpr double kSectionShare = 0.8;                 ///< of them have to agree about the number of edges
+constexpr double kFadedTurnDeg = 0.5 * kEdgeTurnDeg;  ///< what is left of an edge where it fades along the face
+constexpr double kSharp = 1e-4;                       ///< an edge that is shorter is a cut and no piece
 
 /// The stretches of all sections together: what any of them calls the k-th edge, matched by their middles.
 class Edges {
  public:
-  Edges(std::vector<Stretch> first, double period) : edges_(std::move(first)), period_(period) {}
+  Edges(std::vector<SectionStretch> first, double period) : edges_(std::move(first)), period_(period) {}
 
   /// False if the edges lie elsewhere.
-  bool add(const std::vector<Stretch>& others) {
-    std::vector<Stretch> grown = edges_;
+  bool add(const std::vector<SectionStretch>& others) {
+    std::vector<SectionStretch> grown = edges_;
     std::vector<char> met(edges_.size(), 0);
-    for (Stretch other : others) {
+    for (SectionStretch other : others) {
       std::size_t best = 0;
       double nearest = 1e300, shift = 0.0;
       for (std::size_t k = 0; k < edges_.size(); ++k) {
@@ -205,59 +45,90 @@ class Edges {
     return true;
   }
 
-  [[nodiscard]] const std::vector<Stretch>& edges() const { return edges_; }
+  /// Whether each of the others lies in an edge of its own.
+  [[nodiscard]] bool hold(const std::vector<SectionStretch>& others) const {
+    if (others.size() != edges_.size()) return false;
+    return std::all_of(edges_.begin(), edges_.end(), [&](const SectionStretch& edge) {
+      return std::any_of(others.begin(), others.end(), [&](const SectionStretch& other) {
+        const double turns = std::floor((other.middle() - edge.first) / period_);
+        return other.middle() - turns * period_ <= edge.last;
+      });
+    });
+  }
+
+  [[nodiscard]] const std::vector<SectionStretch>& edges() const { return edges_; }
 
  private:
-  std::vector<Stretch> edges_;
+  std::vector<SectionStretch> edges_;
   double period_;
 };
 
 struct Division {
   bool along_u = true;
   bool closed = false;  ///< the surface closes upon itself, whatever the trims leave of it
-  std::vector<Stretch> edges;
+  std::vector<SectionStretch> edges;
   double width = 0.0;  ///< of the widest section, mm
 };
 
-/// The edges that most sections across the face agree about; none: it is not to be divided in this direction.
-std::optional<Division> division_along(const Face& face, const ParameterRectangle& box, bool along_u) {
-  const View view{face.surface, along_u};
-  Division division{along_u, is_closed(face.surface, along_u), {}, 0.0};
-  const double low = along_u ? box.v0 : box.u0, high = along_u ? box.v1 : box.u1;
-  // Most faces wrap round nothing: a few sections tell.
-  bool wraps = false;
-  for (const double share : {0.2, 0.5, 0.8}) {
-    const Section section = section_at(view, low + (high - low) * share, division.closed);
-    wraps = wraps || !edges_of(section, division.closed).empty();
-  }
-  if (!wraps) return std::nullopt;
-  std::vector<std::vector<Stretch>> all;
-  std::vector<int> count_of(16, 0);
-  int sections = 0;
+/// The sections across the face; none if it wraps round nothing, as most do: a few of them tell.
+std::vector<FaceSection> sections_of(const SectionView& view, double low, double high, bool closed) {
+  const std::array<double, 3> shares = {0.2, 0.5, 0.8};
+  if (std::none_of(shares.begin(), shares.end(), [&](double share) {
+        return !edges_of(section_at(view, low + (high - low) * share, closed), closed, kEdgeTurnDeg).empty();
+      }))
+    return {};
+  std::vector<FaceSection> sections;
   for (int k = 0; k < kSections; ++k) {
     // Not on the borders themselves, where a tip may have shrunk to a point.
-    const Section section = section_at(view, low + (high - low) * (k + 0.5) / kSections, division.closed);
-    if (section.samples.empty()) continue;
-    ++sections;
-    all.push_back(edges_of(section, division.closed));
-    division.width = std::max(division.width, section.width);
+    FaceSection section = section_at(view, low + (high - low) * (k + 0.5) / kSections, closed);
+    if (!section.samples.empty()) sections.push_back(std::move(section));
+  }
+  return sections;
+}
+
+/// The edges that most sections agree about. One in which an edge turns less than elsewhere agrees if what is left of it lies there: the
+/// half of a nose that one of two faces has may turn by 80 degrees at its tip and 40 at its root.
+std::optional<Edges> common_edges(const std::vector<FaceSection>& sections, bool closed, double period) {
+  std::vector<std::vector<SectionStretch>> all;
+  std::vector<int> count_of(16, 0);
+  for (const FaceSection& section : sections) {
+    all.push_back(edges_of(section, closed, kEdgeTurnDeg));
     ++count_of[std::min(all.back().size(), count_of.size() - 1)];
   }
   const auto most = static_cast<std::size_t>(std::max_element(count_of.begin(), count_of.end()) - count_of.begin());
-  if (most == 0 || most + 1 == count_of.size() || count_of[most] < kSectionShare * sections) return std::nullopt;
-  std::erase_if(all, [&](const std::vector<Stretch>& edges) { return edges.size() != most; });
-  const double period = view.last() - view.first();
-  Edges edges(all[all.size() / 2], division.closed ? period : 1e300);
-  for (const std::vector<Stretch>& section : all)
-    if (!edges.add(section)) return std::nullopt;
-  division.edges = edges.edges();
+  if (most == 0 || most + 1 == count_of.size()) return std::nullopt;
+  std::vector<std::size_t> full, faded;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (all[k].size() <= most) (all[k].size() == most ? full : faded).push_back(k);
+  Edges edges(all[full[full.size() / 2]], closed ? period : 1e300);
+  for (const std::size_t k : full)
+    if (!edges.add(all[k])) return std::nullopt;
+  const auto agreeing =
+      full.size() + static_cast<std::size_t>(std::count_if(faded.begin(), faded.end(), [&](std::size_t k) {
+        return edges.hold(edges_of(sections[k], closed, kFadedTurnDeg));
+      }));
+  if (static_cast<double>(agreeing) < kSectionShare * static_cast<double>(sections.size())) return std::nullopt;
+  return edges;
+}
+
+/// None: it is not to be divided in this direction.
+std::optional<Division> division_along(const Face& face, const ParameterRectangle& box, bool along_u) {
+  const SectionView view{face.surface, along_u};
+  Division division{along_u, is_closed(face.surface, along_u), {}, 0.0};
+  const double low = along_u ? box.v0 : box.u0, high = along_u ? box.v1 : box.u1;
+  const std::vector<FaceSection> sections = sections_of(view, low, high, division.closed);
+  if (sections.empty()) return std::nullopt;
+  const std::optional<Edges> edges = common_edges(sections, division.closed, view.last() - view.first());
+  if (!edges) return std::nullopt;
+  division.edges = edges->edges();
+  for (const FaceSection& section : sections) division.width = std::max(division.width, section.width);
   return division;
 }
 
 /// The stretches between the edges.
-std::vector<Stretch> sides_between(const Division& division, double first, double last) {
-  std::vector<Stretch> sides;
-  const std::vector<Stretch>& edges = division.edges;
+std::vector<SectionStretch> sides_between(const Division& division, double first, double last) {
+  std::vector<SectionStretch> sides;
+  const std::vector<SectionStretch>& edges = division.edges;
   if (!division.closed) {
     sides.push_back({first, edges.front().first});
     for (std::size_t k = 0; k + 1 < edges.size(); ++k) sides.push_back({edges[k].last, edges[k + 1].first});
@@ -270,14 +141,14 @@ std::vector<Stretch> sides_between(const Division& division, double first, doubl
 }
 
 /// A stretch of a closed surface that begins within it.
-Stretch unwound(Stretch stretch, double first, double last) {
+SectionStretch unwound(SectionStretch stretch, double first, double last) {
   const double period = last - first, tiny = 1e-9 * period;
   const double shift = std::floor((stretch.first - first + tiny) / period) * period;
   return {std::max(stretch.first - shift, first), stretch.last - shift};
 }
 
 /// A trimmed face is not cut across its seam: what goes across it is two stretches.
-void cut_at_seam(double first, double last, std::vector<Stretch>& stretches) {
+void cut_at_seam(double first, double last, std::vector<SectionStretch>& stretches) {
   const std::size_t count = stretches.size();
   for (std::size_t k = 0; k < count; ++k) {
     if (stretches[k].last <= last) continue;
@@ -287,7 +158,7 @@ void cut_at_seam(double first, double last, std::vector<Stretch>& stretches) {
 }
 
 /// Length across the middle of the face, mm.
-double length_of(const View& view, const Stretch& stretch, double w) {
+double length_of(const SectionView& view, const SectionStretch& stretch, double w) {
   constexpr int kSteps = 64;
   double length = 0.0;
   Vec3 before = Vec3::Zero();
@@ -303,14 +174,14 @@ double length_of(const View& view, const Stretch& stretch, double w) {
 
 /// An edge beside which no side worth the name is left goes up to the border. Edges that are a mere cut have no width;
 /// at the border (the apex of a cone that a surface passes by a rounding error) such an edge is none at all.
-void tidy(const View& view, double w, double width, Division& division) {
+void tidy(const SectionView& view, double w, double width, Division& division) {
   const double first = view.first(), last = view.last();
   if (!division.closed) {
-    Stretch &low = division.edges.front(), &high = division.edges.back();
+    SectionStretch &low = division.edges.front(), &high = division.edges.back();
     if (length_of(view, {first, low.first}, w) < kLeastSide * width) low.first = first;
     if (length_of(view, {high.last, last}, w) < kLeastSide * width) high.last = last;
   }
-  for (Stretch& edge : division.edges) {
+  for (SectionStretch& edge : division.edges) {
     if (length_of(view, edge, w) >= kSharp * width) continue;
     if (!division.closed && edge.first == first)
       edge.last = first;
@@ -321,7 +192,7 @@ void tidy(const View& view, double w, double width, Division& division) {
   }
 }
 
-bool is_outside(const TrimRegion& region, const Division& division, const Stretch& stretch) {
+bool is_outside(const TrimRegion& region, const Division& division, const SectionStretch& stretch) {
   ParameterRectangle part = region.box();
   (division.along_u ? part.u0 : part.v0) = stretch.first;
   (division.along_u ? part.u1 : part.v1) = stretch.last;
@@ -329,30 +200,31 @@ bool is_outside(const TrimRegion& region, const Division& division, const Stretc
 }
 
 std::vector<FacePiece> pieces_of(const Face& face, const TrimRegion& region, Division division) {
-  const View view{face.surface, division.along_u};
+  const SectionView view{face.surface, division.along_u};
   const ParameterRectangle& box = region.box();
   const double first = view.first(), last = view.last();
   const double w = division.along_u ? 0.5 * (box.v0 + box.v1) : 0.5 * (box.u0 + box.u1);
   std::sort(division.edges.begin(), division.edges.end(),
-            [](const Stretch& a, const Stretch& b) { return a.first < b.first; });
+            [](const SectionStretch& a, const SectionStretch& b) { return a.first < b.first; });
   // The section in the middle may run through a place without a normal, and says nothing then.
   const double width = section_at(view, w, division.closed).width;
   tidy(view, w, width > 0.0 ? width : division.width, division);
   std::vector<FacePiece> pieces;
-  const auto add = [&](std::vector<Stretch> stretches, bool edge) {
+  const auto add = [&](std::vector<SectionStretch> stretches, bool edge) {
     // Samples beside a border are inset by rounding: what is left there is too short to be cut out, and nothing.
     const double least = 2.0 * kSameKnot * (last - first);
     const auto tidy_away = [&] {
-      std::erase_if(stretches, [&](const Stretch& x) { return !(x.last - x.first > least); });
+      std::erase_if(stretches, [&](const SectionStretch& x) { return !(x.last - x.first > least); });
     };
     tidy_away();
-    for (Stretch& stretch : stretches)
+    for (SectionStretch& stretch : stretches)
       if (division.closed) stretch = unwound(stretch, first, last);
     if (!region.whole()) cut_at_seam(first, last, stretches), tidy_away();
-    std::sort(stretches.begin(), stretches.end(), [](const Stretch& a, const Stretch& b) { return a.first < b.first; });
+    std::sort(stretches.begin(), stretches.end(),
+              [](const SectionStretch& a, const SectionStretch& b) { return a.first < b.first; });
     // A surface may go on past the trims.
-    std::erase_if(stretches, [&](const Stretch& x) { return is_outside(region, division, x); });
-    for (const Stretch& stretch : stretches)
+    std::erase_if(stretches, [&](const SectionStretch& x) { return is_outside(region, division, x); });
+    for (const SectionStretch& stretch : stretches)
       pieces.push_back({cut_face(face, division.along_u, stretch.first, stretch.last), edge});
   };
   add(sides_between(division, first, last), false);

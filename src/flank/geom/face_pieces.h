@@ -7,14 +7,6 @@
 
 namespace flank::internal {
 
-/// Where the surface's curvature across is larger than this over its width, it is an edge: a radius below a tenth of the
-/// chord. A round bar has 2, an elliptic section of axes 2 : 1 has 8 at its ends.
-inline constexpr double kEdgeBend = 10.0;
-/// An edge turns the normal by at least this much: less is a ripple, or a crease.
-inline constexpr double kEdgeTurnDeg = 45.0;
-/// Only a face whose normals turn by more than this is told apart: one tool on one side cannot see all of it.
-inline constexpr double kWrapTurnDeg = 120.0;
-
 struct FacePiece {
   Face face;          ///< without an id of its own: that of the whole face
   bool edge = false;  ///< else a side

@@ -102,7 +102,7 @@ Part read_part(const std::string& file, const std::optional<std::string>& unit) 
   const PartFormat& format = sniff_format(file, content);
   // CAD files go through a reader that can be replaced: in this process, or in a child that a damaged file may break.
   Part part = format.read != nullptr ? read_mesh(file, format, std::move(content), unit)
-                                     : cad_reader()(file, std::string(format.name), unit);
+                                     : cad_reader()({file, std::string(format.name), unit, hash});
   part.sha256 = std::move(hash);
   require_part_in_range(part);
   note_doubtful_size(part);

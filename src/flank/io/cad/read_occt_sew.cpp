@@ -29,22 +29,32 @@ struct Sewn {
   double gap_mm = 0.0;
 };
 
-Sewn sew(const TopTools_IndexedMapOfShape& faces, double tolerance_mm) {
+/// The loose faces, as each lies in the file.
+Sewn loose(const TopTools_IndexedMapOfShape& faces) {
+  Sewn result;
+  for (int i = 1; i <= faces.Extent(); ++i) result.faces.push_back(faces(i).Oriented(TopAbs_FORWARD));
+  return result;
+}
+
+/// Goes on from what a narrower gap has joined: only borders that are free still are looked at, and that is what takes the time.
+Sewn sew(const Sewn& before, double tolerance_mm) {
   BRepBuilderAPI_Sewing sewing(tolerance_mm);
-  for (int i = 1; i <= faces.Extent(); ++i) sewing.Add(faces(i).Oriented(TopAbs_FORWARD));
+  if (before.shape.IsNull())
+    for (const TopoDS_Shape& face : before.faces) sewing.Add(face);
+  else
+    sewing.Add(before.shape);
   sewing.Perform();
   Sewn result{sewing.SewedShape(), {}, sewing.NbFreeEdges(), tolerance_mm};
-  for (int i = 1; i <= faces.Extent(); ++i)
-    result.faces.push_back(sewing.ModifiedSubShape(faces(i).Oriented(TopAbs_FORWARD)));
+  for (const TopoDS_Shape& face : before.faces) result.faces.push_back(sewing.ModifiedSubShape(face));
   return result;
 }
 
 /// With the least gap beyond which nothing more closes. A gap as wide as a face would swallow it, so that one that loses
 /// faces is too wide.
 Sewn sew_by_steps(const TopTools_IndexedMapOfShape& faces, double size_mm) {
-  Sewn best = sew(faces, kFirstShare * size_mm);
+  Sewn best = sew(loose(faces), kFirstShare * size_mm);
   for (double share = 10.0 * kFirstShare; best.free_edges > 0 && share < 1.5 * kSewingShare; share *= 10.0) {
-    Sewn next = sew(faces, share * size_mm);
+    Sewn next = sew(best, share * size_mm);
     TopTools_IndexedMapOfShape left;
     TopExp::MapShapes(next.shape, TopAbs_FACE, left);
     if (left.Extent() < faces.Extent()) break;

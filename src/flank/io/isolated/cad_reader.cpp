@@ -8,7 +8,7 @@ namespace flank::internal {
 namespace {
 
 CadReader& setting() {
-  static CadReader reader = read_cad;
+  static CadReader reader = [](const CadFile& file) { return read_cad(file.name, file.format, file.unit); };
   return reader;
 }
 

@@ -1,4 +1,4 @@
-/// Who reads CAD files: this process, or a child of it (read_isolated.h).
+/// Who reads CAD files: this process, or a child of it (read_isolated.h), or a cache of what was read (part_cache.h).
 #pragma once
 
 #include <functional>
@@ -9,8 +9,16 @@
 
 namespace flank::internal {
 
-/// file, format ("STEP", "IGES", "BREP"), unit -> part; throws InputError.
-using CadReader = std::function<Part(const std::string&, const std::string&, const std::optional<std::string>&)>;
+/// A CAD file that is to be read.
+struct CadFile {
+  std::string name;
+  std::string format;  ///< "STEP", "IGES", "BREP"
+  std::optional<std::string> unit;
+  std::string sha256;  ///< of its bytes when they were looked at
+};
+
+/// Throws InputError.
+using CadReader = std::function<Part(const CadFile&)>;
 
 /// The reader in force; read_cad in this process unless a program has set another one.
 [[nodiscard]] const CadReader& cad_reader();

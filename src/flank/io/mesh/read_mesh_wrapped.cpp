@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flank/geom/face_pieces.h"
+#include "flank/geom/face_section.h"
 
 namespace flank::internal {
 namespace {
