@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "flank/base/assert.h"
@@ -126,6 +127,32 @@ Movability movability(const Target& target, const Pose& pose, double axis_length
   std::vector<Footpoint> feet(static_cast<std::size_t>(samples));
   track_axis(target, pose, axis_length, feet);
   return movability(feet, pose, axis_length, options);
+}
+
+Pose moved(const Pose& pose, const AxisVelocity& velocity, double axis_length, double step) {
+  const Vec3 axis = (pose.axis + step * velocity.omega).normalized();
+  const Vec3 middle = pose.at(0.5 * axis_length) + step * velocity.middle;
+  return {middle - 0.5 * axis_length * axis, axis};
+}
+
+AxisVelocity mean_velocity(const Pose& from, const Pose& to, double axis_length, double h) {
+  return {(to.at(0.5 * axis_length) - from.at(0.5 * axis_length)) / h, (to.axis - from.axis) / h};
+}
+
+Movability next_velocity(std::span<const Footpoint> feet, const Pose& pose, double axis_length,
+                         const AxisVelocity& last) {
+  // On changes of slide and turn, against squared sines: so small that they decide only what the normals leave open.
+  constexpr double kAxialPenalty = 1e-3, kTurnPenalty = 1e-4;
+  MovabilityOptions form;
+  form.axial_penalty = kAxialPenalty;
+  form.turn_penalty = kTurnPenalty;
+  form.previous = last.middle;
+  form.centre = last;
+  return movability(feet, pose, axis_length, form);
+}
+
+double farther_end(const Pose& from, const Pose& to, double axis_length) {
+  return std::max((to.tip - from.tip).norm(), (to.at(axis_length) - from.at(axis_length)).norm());
 }
 
 }  // namespace flank::internal

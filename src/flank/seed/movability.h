@@ -72,4 +72,20 @@ void track_axis(const Target& target, const Pose& pose, double axis_length, std:
 [[nodiscard]] Movability movability(const Target& target, const Pose& pose, double axis_length, int samples = 24,
                                     const MovabilityOptions& options = {});
 
+// What walks of a rigid axis along a target have in common: seed/propagate keeps the distances of a line, strip/grow the
+// tolerance of a tool.
+
+/// The axis after `step` of travel with a velocity: the middle moves on a line, the direction on its circle.
+[[nodiscard]] Pose moved(const Pose& pose, const AxisVelocity& velocity, double axis_length, double step);
+
+/// The velocity with which one pose became another over a step of length h.
+[[nodiscard]] AxisVelocity mean_velocity(const Pose& from, const Pose& to, double axis_length, double h);
+
+/// The most movable velocity; slide and turn that the normals leave open go on as they were in the last step.
+[[nodiscard]] Movability next_velocity(std::span<const Footpoint> feet, const Pose& pose, double axis_length,
+                                       const AxisVelocity& last);
+
+/// The displacement of the end of the axis that moved farther, mm.
+[[nodiscard]] double farther_end(const Pose& from, const Pose& to, double axis_length);
+
 }  // namespace flank::internal

@@ -10,9 +10,6 @@
 namespace flank::internal {
 namespace {
 
-/// On the differences of slide and turn from those of the last step: if the normals leave them open they go on, and
-/// the corrections, which see the distances over a whole step, decide.
-constexpr double kAxialPenalty = 1e-3, kTurnPenalty = 1e-4;
 /// Share of the trace that holds a coordinate of a correction which the distances hardly see: shift out of the surface,
 /// slide, turn out of the surface, turn in it.
 const Eigen::Vector4d kCorrectionDamping(1e-6, 1e-5, 1e-6, 1e-5);
@@ -23,18 +20,6 @@ constexpr int kCorrections = 2;
 constexpr double kGrowShare = 0.05, kGrow = 1.5;
 /// In traces, on slide and turns: so stiff that only the mean distance is corrected.
 constexpr double kHeld = 1e12;
-
-/// The rigid axis after a step with this velocity: the middle moves on a line, the direction on its circle.
-Pose moved(const Pose& pose, const AxisVelocity& v, double axis_length, double step) {
-  const Vec3 axis = (pose.axis + step * v.omega).normalized();
-  const Vec3 middle = pose.at(0.5 * axis_length) + step * v.middle;
-  return {middle - 0.5 * axis_length * axis, axis};
-}
-
-/// Mean velocity over a step of length h.
-AxisVelocity between(const Pose& from, const Pose& to, double axis_length, double h) {
-  return {(to.at(0.5 * axis_length) - from.at(0.5 * axis_length)) / h, (to.axis - from.axis) / h};
-}
 
 class Walker {
  public:
@@ -48,12 +33,7 @@ class Walker {
   Movability velocity(const Pose& pose, const AxisVelocity& previous) {
     std::copy(feet_.begin(), feet_.end(), trial_.begin());
     track_axis(target_, pose, length_, trial_);
-    MovabilityOptions form;
-    form.axial_penalty = kAxialPenalty;
-    form.turn_penalty = kTurnPenalty;
-    form.previous = previous.middle;
-    form.centre = previous;
-    return movability(trial_, pose, length_, form);
+    return next_velocity(trial_, pose, length_, previous);
   }
 
   /// One classical Runge-Kutta step of length h; false if the velocity is not defined on the way.
@@ -123,7 +103,7 @@ double Walker::correct(Pose& pose, const Vec3& heading, bool whole) {
     pose = moved(pose, change, length_, 1.0);
     track_axis(target_, pose, length_, trial_);
   }
-  return std::max((pose.tip - before.tip).norm(), (pose.at(length_) - before.at(length_)).norm());
+  return farther_end(before, pose, length_);
 }
 
 double Walker::trial_drift() const {
@@ -185,7 +165,7 @@ Propagation propagate(const Target& target, const Pose& start, double axis_lengt
     if (!advance(walker, out.poses.back(), at.velocity, size, options, h, next_h, next)) return out;
     walker.accept();
     // What the corrections have found of slide and turn is kept.
-    const AxisVelocity last = between(out.poses.back(), next, axis_length, h);
+    const AxisVelocity last = mean_velocity(out.poses.back(), next, axis_length, h);
     out.poses.push_back(next);
     out.travel_mm.push_back(out.travel_mm.back() + h);
     ++out.steps;

@@ -8,9 +8,6 @@
 namespace flank::internal {
 namespace {
 
-/// Weights of changes of slide and turn from the last step's, against squared sines: small, so they decide only what
-/// the normals leave open, which goes on as it was. The same as in the walk of seed/propagate.cpp.
-constexpr double kAxialPenalty = 1e-3, kTurnPenalty = 1e-4;
 /// Turn of the axis, times half its length, that one step may add, as a share of the step: a branch jump turns more.
 constexpr double kJump = 4.0;
 constexpr double kOffMean = 0.5;  ///< farthest that the middle of a step lies from the mean of its ends, in steps
@@ -34,13 +31,6 @@ constexpr double kJointOverlap = 0.01;
 /// mm^2: keeps a segment that lies along the axis from dividing by zero.
 constexpr double kLeastSegment = 1e-12;
 
-/// The pose after `step` of travel with a velocity, the axis kept at unit length.
-Pose shifted(const Pose& pose, const AxisVelocity& v, double axis_length, double step) {
-  const Vec3 axis = (pose.axis + step * v.omega).normalized();
-  const Vec3 middle = pose.at(0.5 * axis_length) + step * v.middle;
-  return {middle - 0.5 * axis_length * axis, axis};
-}
-
 Pose half_way(const Pose& a, const Pose& b) { return {0.5 * (a.tip + b.tip), (a.axis + b.axis).normalized()}; }
 
 class Grower {
@@ -56,7 +46,6 @@ class Grower {
   GrowEnd run(const LineFit& line, const Vec3& heading, std::vector<Pose>& poses);
 
  private:
-  Movability velocity(const AxisVelocity& last) const;
   bool step(double h, const AxisVelocity& v, LineFit& middle, LineFit& next);
   bool between(double h, const Vec3& travel, const LineFit& next, LineFit& middle);
   bool within(const LineFit& fit) const;
@@ -72,15 +61,6 @@ class Grower {
   std::vector<Footpoint> feet_;
   bool blocked_ = false;  ///< the last refusal was for another face
 };
-
-Movability Grower::velocity(const AxisVelocity& last) const {
-  MovabilityOptions form;
-  form.axial_penalty = kAxialPenalty;
-  form.turn_penalty = kTurnPenalty;
-  form.previous = last.middle;
-  form.centre = last;
-  return movability(feet_, pose_, length_, form);
-}
 
 bool Grower::within(const LineFit& fit) const {
   const double tolerance = fitter_.options().tolerance_mm;
@@ -104,7 +84,7 @@ bool Grower::advanced(double h, const Vec3& direction) const {
 bool Grower::step(double h, const AxisVelocity& v, LineFit& middle, LineFit& next) {
   blocked_ = false;
   fitter_.set_feet(feet_);
-  Pose predicted = shifted(pose_, v, length_, h);
+  Pose predicted = moved(pose_, v, length_, h);
   LineHold hold{v.middle, 0.0, kStay};
   if (guide_.neighbour) {
     const double slide = guide_slide(guide_, predicted, length_);
@@ -121,8 +101,7 @@ bool Grower::step(double h, const AxisVelocity& v, LineFit& middle, LineFit& nex
   // A line may leave the target by a short step only: past the border its path follows an extrapolation.
   if (!next.touches() && h > options_.first_step_share * size_) return false;
   if (!within(next) || !advanced(h, v.middle.normalized())) return false;
-  const double jump = std::max((next.pose.tip - pose_.tip).norm(), (next.pose.at(length_) - pose_.at(length_)).norm());
-  if (jump > kJump * h) return false;
+  if (farther_end(pose_, next.pose, length_) > kJump * h) return false;
   return between(h, v.middle, next, middle);
 }
 
@@ -133,8 +112,7 @@ bool Grower::between(double h, const Vec3& travel, const LineFit& next, LineFit&
   const Pose mean = half_way(pose_, next.pose);
   middle = fitter_.measure(mean);
   if (!within(middle)) middle = fitter_.refine(mean, {travel, 0.0, kStay});
-  const double off = std::max((middle.pose.tip - mean.tip).norm(), (middle.pose.at(length_) - mean.at(length_)).norm());
-  const bool held = off < kOffMean * h && within(middle);
+  const bool held = farther_end(mean, middle.pose, length_) < kOffMean * h && within(middle);
   blocked_ = held && !guard_.clear(middle.pose);
   fitter_.set_feet(feet);  // of `next` again: they are what the walk goes on from
   return held && !blocked_;
@@ -142,7 +120,7 @@ bool Grower::between(double h, const Vec3& travel, const LineFit& next, LineFit&
 
 /// Past the border the last motion goes on as it is, as far as it is clear.
 void Grower::overrun(const AxisVelocity& last, std::vector<Pose>& poses) {
-  const Pose next = shifted(poses.back(), last, length_, options_.overrun_share * size_);
+  const Pose next = moved(poses.back(), last, length_, options_.overrun_share * size_);
   if (within(fitter_.measure(next)) && guard_.clear(next)) poses.push_back(next);
 }
 
@@ -152,7 +130,7 @@ GrowEnd Grower::run(const LineFit& line, const Vec3& heading, std::vector<Pose>&
   AxisVelocity last{heading, Vec3::Zero()};
   double h = options_.first_step_share * size_, travel = 0.0;
   while (travel < options_.longest_travel_share * size_) {
-    const Movability at = velocity(last);
+    const Movability at = next_velocity(feet_, pose_, length_, last);
     if (!at.valid()) return GrowEnd::kTolerance;
     LineFit middle, next;
     bool done = false;
@@ -160,7 +138,7 @@ GrowEnd Grower::run(const LineFit& line, const Vec3& heading, std::vector<Pose>&
       done = step(h, at.velocity, middle, next);
     if (!done) return blocked_ ? GrowEnd::kCheck : GrowEnd::kTolerance;
     // The velocity that was, not the one predicted: it is what the next step is to continue smoothly.
-    last = {(next.pose.at(0.5 * length_) - pose_.at(0.5 * length_)) / h, (next.pose.axis - pose_.axis) / h};
+    last = mean_velocity(pose_, next.pose, length_, h);
     pose_ = next.pose;
     feet_.assign(fitter_.feet().begin(), fitter_.feet().end());
     poses.push_back(middle.pose);

@@ -41,6 +41,8 @@ constexpr double kLeastLess = 0.002;
 constexpr double kAgainstWall = 0.1, kAtWall = 0.2, kBeforeWall = 0.5;
 /// Cycles that are taken back where none gets on, at first.
 constexpr std::size_t kFirstRewind = 4;
+/// Tolerances: a cycle that enters a face deeper than this is none. A little deeper than it may is told with the request that it meets.
+constexpr double kDeepest = 4.0;
 /// How often they are taken back because a half enters a face: where the sides themselves lead there, that does not help.
 constexpr int kRewindsForFaces = 3;
 
@@ -256,7 +258,8 @@ bool CyclePlanner::add_cycle(LayerCycles& out) {
   now_ = std::move(found.now);
   if (found.trial.largest_rad < 0.0) return false;
   const bool entering = search_.enters_anything(found.trial);
-  if (entering && options_.optimise() && rewinds_ < kRewindsForFaces) return false;
+  const bool deep = entering && search_.entered(found.trial) > kDeepest * options_.tolerance_mm;
+  if (deep || (entering && options_.optimise() && rewinds_ < kRewindsForFaces)) return false;
   now_.step_mm = found.trial.from_x - now_.last.from_x;
   if (!accept_some(std::move(found.trial), entering, out)) return false;
   now_.largest_front_mm3 = std::max(now_.largest_front_mm3, out.cycles.back().front.engagement.volume_mm3);

@@ -51,6 +51,16 @@ TEST(CoveredInReach, CountsWhereTheBallFits) {
   EXPECT_EQ(covered_in_reach(side, side, motions, tool, 0.01, 10.0), 1.0) << "nothing is covered";
 }
 
+TEST(Lying, CountsAllLayersTogether) {
+  // 40 mm long on 60 mm of way: two such, one above the other, are as deep as a third more than the cavity is long; three lie behind one
+  // another between walls that are 60 mm deep.
+  const RuledMotion side = upright(4.0);
+  EXPECT_EQ(lying({}), 0.0);
+  EXPECT_EQ(lying({side, side}), 0.0);
+  EXPECT_NEAR(lying({side, side, side, side}), 2.0 * kHeight / 60.0 - 1.3, 0.01);
+  EXPECT_NEAR(lying({side, side, side, side, side, side}), 3.0 * kHeight / 60.0 - 1.3, 0.01);
+}
+
 TEST(LeastWayAcross, IsInDiametersAtTheNarrowestHeight) {
   const std::vector<RuledMotion> motions = {upright(6.0), upright(12.0)};
   EXPECT_NEAR(least_way_across(motions, cone()), 6.0 / 12.0, 0.02) << "where the cone is 12 mm thick";

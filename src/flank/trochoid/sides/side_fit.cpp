@@ -47,29 +47,17 @@ std::vector<Candidate> best_of(std::vector<Candidate> candidates) {
   return candidates;
 }
 
-/// By how much the axis is longer than a third more than its way: then it most likely lies along the cavity.
-double lying(const RuledMotion& motion) {
-  constexpr double kUpright = 1.3;
-  const double middle = 0.5 * motion.axis_length;
-  const double way = (motion.pose(1.0).at(middle) - motion.pose(0.0).at(middle)).norm();
-  return std::max(0.0, motion.axis_length / std::max(way, 1e-9) - kUpright);
-}
-
 /// Score of a draft, less a price for axes that are not parallel across the cavity, which bounds the steps of all cycles; for
 /// axes that lean along it, because the tool must then be longer, and at the ends of the cavity it is in one side long before
 /// the other; and for axes that lie along it.
 double worth(const FitDraft& draft, const CoverageEstimate& estimate, double tolerance) {
   constexpr double kStagger = 2.0, kLean = 0.1;        // of coverage: 12 degrees cost two fifths, and two percent
   constexpr double kMuchLean = 0.3, kSteepLean = 1.0;  // from 17 degrees on, another percent for each percent
-  constexpr double kLying = 0.5, kMostLying = 4.0;
+  constexpr double kLying = 0.5;
   constexpr double kMostPrice = 0.5;
-  double sum = 0.0;
-  for (std::size_t k = 0; k + 1 < draft.motions.size(); k += 2)
-    sum += kLying * std::min(kMostLying, lying(draft.motions[k]));
-  const double layers = std::max(1.0, 0.5 * static_cast<double>(draft.motions.size()));
   const double lean = mean_lean(draft.motions);
   const double price = kStagger * mean_stagger(draft.motions) + kLean * lean +
-                       kSteepLean * std::max(0.0, lean - kMuchLean) + sum / layers;
+                       kSteepLean * std::max(0.0, lean - kMuchLean) + kLying * lying(draft.motions);
   return estimate.score(tolerance) - std::min(kMostPrice, price);
 }
 

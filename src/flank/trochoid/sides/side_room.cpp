@@ -83,6 +83,18 @@ double covered_in_reach(const CavitySide& left, const CavitySide& right, const s
                   covered_by(right, motions_of(motions, 1), tool, tolerance_mm, radius_mm));
 }
 
+double lying(const std::vector<RuledMotion>& motions) {
+  constexpr double kUpright = 1.3, kMost = 4.0;
+  const double layers = std::max(1.0, std::floor(0.5 * static_cast<double>(motions.size())));
+  double sum = 0.0;
+  for (std::size_t k = 0; k + 1 < motions.size(); k += 2) {
+    const double length = motions[k].axis_length;
+    const double way = (motions[k].pose(1.0).at(0.5 * length) - motions[k].pose(0.0).at(0.5 * length)).norm();
+    sum += std::clamp(layers * length / std::max(way, 1e-9) - kUpright, 0.0, kMost);
+  }
+  return sum / layers;
+}
+
 double least_way_across(const std::vector<RuledMotion>& motions, const RadialFunction& tool) {
   constexpr int kHeights = 8;
   double least = std::numeric_limits<double>::infinity();

@@ -21,6 +21,10 @@ namespace flank::internal {
                                       const std::vector<RuledMotion>& motions, const RadialFunction& tool,
                                       double tolerance_mm, double radius_mm);
 
+/// By how much the axes of all layers together are longer than a third more than their way, in ways: then they most likely lie along the
+/// cavity, and its layers are not above one another but behind one another. Mean over the layers; 0 if they stand, 4 at most.
+[[nodiscard]] double lying(const std::vector<RuledMotion>& motions);
+
 /// The way from one side to the other where it is shortest, over all heights, in diameters of the tool at that height.
 [[nodiscard]] double least_way_across(const std::vector<RuledMotion>& motions, const RadialFunction& tool);
 
