@@ -5,8 +5,10 @@ usage: mutate-structure.py FLANK PART... [--trials N] [--seed N] [--keep FOLDER]
 
 Each trial changes one thing that a file says: how a number is written, a reference, an entry of a list, a count, knots, a sense, a
 unit, a word, a point of a border; or takes an entity out. The answer of `flank inspect` is held against that of the sound file. Its
-kinds: refused; same (faces, areas within a thousandth, box within five); told (another part, and a note, a face that is not read or
-another unit says so); silent, which is a find; and any exit code but 0 and 3. Exit code: 1 if there are finds.
+kinds: refused; same (faces, their areas and boxes within a thousandth, the box of all within five); told (another part, and a note, a
+face that is not read or another unit says so); valid (another part, and the file says so without contradicting itself: a control point
+inside a surface, which no border follows, is elsewhere); silent, which is a find; and any exit code but 0 and 3. Exit code: 1 if there
+are finds.
 """
 import argparse
 import collections
@@ -155,6 +157,41 @@ def iges_field(rng, text):
             return begin + a, begin + b
 
 
+def iges_place(text, at):
+    """Fields of the entity that a byte of the parameter section belongs to, and the number of the field."""
+    begin = text.rfind(b"\n", 0, at) + 1
+    owner = text[begin + 64: begin + 72]
+    fields, number = b"", None
+    for line in re.finditer(rb"(?m)^(.{64})(.{8})P", text):
+        if line[2] != owner:
+            continue
+        if line.start() == begin:
+            number = (fields + line[1][: at - begin]).count(b",")
+        fields += line[1].rstrip(b" ")
+    return fields.split(b","), number
+
+
+def is_inner_pole(text, at):
+    """Whether a byte of an IGES file is a coordinate of a control point of a spline surface that is in no outer row or column."""
+    fields, number = iges_place(text, at)
+    if fields[0].strip() != b"128" or number is None:
+        return False
+    upper_u, upper_v, degree_u, degree_v = (int(field) for field in fields[1:5])
+    poles = (upper_u + 1) * (upper_v + 1)
+    first = 10 + (upper_u + degree_u + 2) + (upper_v + degree_v + 2) + poles
+    pole = (number - first) // 3
+    return first <= number < first + 3 * poles and 0 < pole % (upper_u + 1) < upper_u and 0 < pole // (upper_u + 1) < upper_v
+
+
+def is_valid(sound, text, suffix):
+    """Whether a changed file says another part without contradicting itself."""
+    if suffix != ".igs" or len(sound) != len(text):
+        return False
+    at = next(k for k, (a, b) in enumerate(zip(sound, text)) if a != b)
+    begin = text.rfind(b"\n", 0, at) + 1
+    return text[begin + 72: begin + 73] == b"P" and is_inner_pole(sound, at)
+
+
 def iges_number(rng, text):
     span = iges_field(rng, text)
     width = span[1] - span[0]
@@ -219,18 +256,25 @@ def differs(sound, answer):
     if len(sound["faces"]) != len(answer["faces"]) or sound["solids"] != answer["solids"]:
         return True
     size = sum((h - l) ** 2 for l, h in zip(sound["box"]["low"], sound["box"]["high"])) ** 0.5
-    corners = [(a, b) for c in ("low", "high") for a, b in zip(sound["box"][c], answer["box"][c])]
-    areas = [(a["area"], b.get("area")) for a, b in zip(sound["faces"], answer["faces"]) if "area" in a]
-    # The box is that of triangles, which change with the order of the edges.
-    return any(abs(a - b) > 5e-3 * size for a, b in corners) or any(b is None or abs(a - b) > 1e-3 * a for a, b in areas)
+    faces = [(a, b) for a, b in zip(sound["faces"], answer["faces"]) if "area" in a]
+    # The box of all is that of triangles, which are a hundredth of an edge off and change with the order of the edges.
+    return boxes_differ(sound["box"], answer["box"], 5e-3 * size) or any(
+        "area" not in b or abs(a["area"] - b["area"]) > 1e-3 * a["area"] or boxes_differ(a["box"], b["box"], 1e-3 * size)
+        for a, b in faces)
 
 
-def judged(sound, code, answer):
+def boxes_differ(first, second, most):
+    return any(abs(a - b) > most for c in ("low", "high") for a, b in zip(first[c], second[c]))
+
+
+def judged(sound, code, answer, valid):
     if code != 0:
         return "refused" if code == 3 else f"exit {code}"
     if not differs(sound, answer):
         return "same"
-    return "told" if notes(answer) - notes(sound) or answer["unit"] != sound["unit"] else "silent"
+    if notes(answer) - notes(sound) or answer["unit"] != sound["unit"]:
+        return "told"
+    return "valid" if valid else "silent"
 
 
 def main():
@@ -251,12 +295,13 @@ def main():
             suffix = os.path.splitext(part)[1]
             change = rng.choice(CHANGES[suffix])
             with open(part, "rb") as stream:
-                text = change(rng, stream.read())
+                before = stream.read()
+            text = change(rng, before)
             name = f"{change.__name__}_{options.seed}_{trial}{suffix}"
             file = os.path.join(folder, name)
             with open(file, "wb") as stream:
                 stream.write(text)
-            verdict = judged(sound[part], *inspected(options.flank, file))
+            verdict = judged(sound[part], *inspected(options.flank, file), text != before and is_valid(before, text, suffix))
             counts[change.__name__][verdict] += 1
             if verdict == "silent" or verdict.startswith("exit"):
                 finds += 1

@@ -6,23 +6,18 @@
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
-#include <Geom2d_Curve.hxx>
-#include <Geom_Curve.hxx>
-#include <Geom_Surface.hxx>
 #include <Poly_Triangulation.hxx>
-#include <Precision.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
-#include <TopoDS_Edge.hxx>
-#include <TopoDS_Vertex.hxx>
 #include <algorithm>
 #include <utility>
 
 #include "flank/error.h"
+#include "flank/io/cad/read_occt_border.h"
 #include "flank/io/cad/read_occt_face.h"
 #include "flank/io/cad/read_occt_sew.h"
 #include "flank/io/kernel/read_occt_shape.h"
@@ -35,9 +30,6 @@ namespace {
 /// and moves their boxes by less than a thousandth.
 constexpr double kRelativeDeflection = 0.01;
 constexpr double kAngularDeflection = 0.6;
-
-/// What the edges of a border may be apart, or off the surface, before it is said: programs leave hundredths.
-constexpr double kBorderGapMm = 0.05, kBorderGapShare = 1e-3;
 
 /// Adds the nodes of the face's triangulation to the box; returns six times the signed volume of the cone from the
 /// origin over it, with the face oriented as it stands in its solid.
@@ -118,50 +110,9 @@ void sew_sheets(const OcctShape& loaded, const Places& places, Part& part) {
   if (part.faces.size() > 1) part.repairs.insert(part.repairs.end(), sewn.notes.begin(), sewn.notes.end());
 }
 
-/// How far the curve of an edge ends from the vertices of the edge.
-double gap_at_ends(const TopoDS_Edge& edge) {
-  double first = 0.0, last = 0.0, gap = 0.0;
-  const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, first, last);
-  if (curve.IsNull()) return gap;
-  for (const auto& [t, vertex] :
-       {std::pair(first, TopExp::FirstVertex(edge)), std::pair(last, TopExp::LastVertex(edge))})
-    if (!vertex.IsNull() && !Precision::IsInfinite(t))
-      gap = std::max(gap, curve->Value(t).Distance(BRep_Tool::Pnt(vertex)));
-  return gap;
-}
-
-/// How far the curve of an edge in space is from its curve in the parameters of the face, where both have one parameter.
-double gap_along(const TopoDS_Edge& edge, const TopoDS_Face& face) {
-  constexpr int kPlaces = 8;
-  double first = 0.0, last = 0.0, on_first = 0.0, on_last = 0.0, gap = 0.0;
-  const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, first, last);
-  const Handle(Geom2d_Curve) on_face = BRep_Tool::CurveOnSurface(edge, face, on_first, on_last);
-  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
-  const bool known = !curve.IsNull() && !on_face.IsNull() && !surface.IsNull() && !Precision::IsInfinite(first) &&
-                     !Precision::IsInfinite(last) && BRep_Tool::SameParameter(edge) && BRep_Tool::SameRange(edge);
-  for (int k = 0; known && k <= kPlaces; ++k) {
-    const double t = first + (last - first) * k / kPlaces;
-    const gp_Pnt2d at = on_face->Value(t);
-    gap = std::max(gap, curve->Value(t).Distance(surface->Value(at.X(), at.Y())));
-  }
-  return gap;
-}
-
-/// Says where the border of a face is not on its surface, or has ends elsewhere: one of them is not what was meant, and the kernel made
-/// something of both.
+/// Says where the border of a face is not on its surface, or has ends elsewhere.
 void note_border_gap(const TopoDS_Face& face, const std::string& name, Part& part) {
-  double gap = 0.0;
-  Box3 size;
-  for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next()) {
-    const TopoDS_Edge edge = TopoDS::Edge(it.Current());
-    gap = std::max({gap, BRep_Tool::Tolerance(edge), gap_at_ends(edge), gap_along(edge, face)});
-  }
-  for (TopExp_Explorer it(face, TopAbs_VERTEX); it.More(); it.Next()) {
-    const gp_Pnt p = BRep_Tool::Pnt(TopoDS::Vertex(it.Current()));
-    size.add(Vec3(p.X(), p.Y(), p.Z()));
-    gap = std::max(gap, BRep_Tool::Tolerance(TopoDS::Vertex(it.Current())));
-  }
-  if (gap > std::max(kBorderGapMm, kBorderGapShare * size.diagonal()))
+  if (const double gap = border_gap(face); gap > 0.0)
     part.repairs.push_back(
         fmt::format("{}: the parts of its border are up to {:.2g} mm apart, or that far off its surface; look at it "
                     "before it is used",

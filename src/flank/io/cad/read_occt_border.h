@@ -1,0 +1,13 @@
+/// How well the border of a face fits its surface and itself. Private to io: no Open CASCADE type leaves this folder.
+#pragma once
+
+#include <TopoDS_Face.hxx>
+
+namespace flank::internal {
+
+/// The most that the parts of a face's border, or its curves in space and in the surface's parameters, are apart, mm; 0 where that is no
+/// more than programs leave. Asked at the ends of every edge, and between them wherever a control point that went astray would show:
+/// one of the parts is not what was meant then, and the kernel made something of both.
+[[nodiscard]] double border_gap(const TopoDS_Face& face);
+
+}  // namespace flank::internal
