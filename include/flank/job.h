@@ -78,13 +78,13 @@ struct FitJob {
   RadiusRequest radius;
   ObstacleRequest obstacles;
   JudgeRequest judge{.least_coverage = 0.99, .sample_mm = {}, .reach_radius_mm = {}};
-  double tolerance_mm = 0.01;
-  std::optional<std::string> start;  ///< "x,y,z,x,y,z": tip and holder end of a first axis, mm
-  std::optional<std::string> guide;  ///< file of several such lines
-  int strips = 0;                    ///< motions side by side; 0: as many as the tolerance needs
-  bool avoid = true;                 ///< keep clear of the other faces already in planning; they are judged either way
-  std::string effort = "normal";     ///< or "quick", "thorough": how much is tried
-  bool stiffness_curve = false;      ///< fit tools of other slendernesses, too, and say what each costs
+  std::optional<double> tolerance_mm;  ///< none: a thousandth of the diagonal of the faces, rounded down to 1, 2 or 5
+  std::optional<std::string> start;    ///< "x,y,z,x,y,z": tip and holder end of a first axis, mm
+  std::optional<std::string> guide;    ///< file of several such lines
+  int strips = 0;                      ///< motions side by side; 0: as many as the tolerance needs
+  bool avoid = true;              ///< keep clear of the other faces already in planning; they are judged either way
+  std::string effort = "normal";  ///< or "quick", "thorough": how much is tried
+  bool stiffness_curve = false;   ///< fit tools of other slendernesses, too, and say what each costs
   /// Least radius of curvature of the paths of tip and holder end; none: any.
   std::optional<double> min_bend_radius_mm;
   bool operator==(const FitJob&) const = default;
@@ -107,12 +107,12 @@ struct CoverJob {
   ChoiceRequest choice;
   ObstacleRequest obstacles;
   JudgeRequest judge;
-  double tolerance_mm = 0.01;
-  std::string strategy = "grow";      ///< or "curves"
-  std::optional<std::uint64_t> seed;  ///< of the clustering; strategy "curves" only
-  std::string seeds = "grid";         ///< or "shape": where `grow` begins its lines
-  std::optional<int> most_strips;     ///< on one target; none: as many as are worth their price
-  std::optional<double> strip_price;  ///< share of the area that a strip must add; none: 0.005
+  std::optional<double> tolerance_mm;  ///< none: a thousandth of the diagonal of the faces, rounded down to 1, 2 or 5
+  std::string strategy = "grow";       ///< or "curves"
+  std::optional<std::uint64_t> seed;   ///< of the clustering; strategy "curves" only
+  std::string seeds = "grid";          ///< or "shape": where `grow` begins its lines
+  std::optional<int> most_strips;      ///< on one target; none: as many as are worth their price
+  std::optional<double> strip_price;   ///< share of the area that a strip must add; none: 0.005
   bool operator==(const CoverJob&) const = default;
 };
 

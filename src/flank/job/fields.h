@@ -172,6 +172,11 @@ inline constexpr std::string_view kBendHelp =
     "Least radius of curvature of the paths of tip and holder end (s = L): a sharper bend does not meet the request; "
     "default: any";
 
+inline constexpr std::string_view kToleranceHelp =
+    "Tolerance; default: a thousandth of the diagonal of all that is machined, rounded down to 1, 2 or 5 times a power "
+    "of ten, from "
+    "0.005 to 0.5 mm";
+
 inline constexpr std::string_view kTurnHelp =
     "Largest angle, degrees, by which the motion may turn within 1 % of the face's diagonal, tip and upper end of the "
     "axis "
@@ -241,7 +246,7 @@ void visit_fields(Job& job, Visitor&& visit) {
   visit(FieldInfo{"tool", "", "", "free, a family with any of its parameters (cone:radius=2,angle=3), or a tool.json",
                   kAny, Spelling::kFileOrText},
         job.tool.spec);
-  visit(FieldInfo{"tolerance", "mm", "", "Tolerance", kLength}, job.tolerance_mm);
+  visit(FieldInfo{"tolerance", "mm", "", kToleranceHelp, kLength}, job.tolerance_mm);
   visit(FieldInfo{"axis_length", "mm", "", "Length of the tool's axis; default: as the face needs", kLength},
         job.tool.axis_length_mm);
   visit(FieldInfo{"strips", "", "",
@@ -309,7 +314,7 @@ void visit_fields(Job& job, Visitor&& visit) {
           "and 4 strips, all tried",
           kLength},
       job.tool.axis_length_mm);
-  visit(FieldInfo{"tolerance", "mm", "", "Tolerance", kLength}, job.tolerance_mm);
+  visit(FieldInfo{"tolerance", "mm", "", kToleranceHelp, kLength}, job.tolerance_mm);
   visit(FieldInfo{"strategy", "", "", "How strips are found: grow, or curves (the published method, to compare)",
                   kStrategy},
         job.strategy);
@@ -459,12 +464,7 @@ void visit_fields(Job& job, Visitor&& visit) {
   visit(FieldInfo{"tool", "", "", "free, a family with any of its parameters (cone:radius=2,angle=3), or a tool.json",
                   kAny, Spelling::kFileOrText},
         job.tool.spec);
-  visit(
-      FieldInfo{"tolerance", "mm", "",
-                "Tolerance of both sides; default: a thousandth of their diagonal together, rounded down to 1, 2 or 5 "
-                "times a power of ten, from 0.005 to 0.5 mm",
-                kLength},
-      job.tolerance_mm);
+  visit(FieldInfo{"tolerance", "mm", "", kToleranceHelp, kLength}, job.tolerance_mm);
   visit(FieldInfo{"axis_length", "mm", "", "Length of the tool's axis; default: as a layer needs", kLength},
         job.tool.axis_length_mm);
   visit_cycles(job.cycles, visit);

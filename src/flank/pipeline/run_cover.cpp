@@ -101,7 +101,7 @@ std::vector<StripSurface> collect(const CoverJob& job, const std::vector<Covered
   }
   result.plan = std::move(summary);
   result.diagonal_mm = all.front().group.target->diagonal();
-  return add_strips(job.tolerance_mm, groups, result);
+  return add_strips(*job.tolerance_mm, groups, result);
 }
 
 /// A tool that was chosen does not say what is to be reached: the part does, unless the tool is thinner.
@@ -118,12 +118,12 @@ void ask_for_reach(const CoverJob& job, const Setup& setup, const std::vector<Co
 
 }  // namespace
 
-Result run_cover(const CoverJob& job, const Progress& asked) {
+Result run_cover(const CoverJob& request, const Progress& asked) {
   const Progress progress = with_journal(asked);
-  check_fields(job);
-  (void)options_of(job);
+  check_fields(request);
+  (void)options_of(request);
+  CoverJob job = request;
   Result result;
-  result.job = job;
   result.inputs = input_stamps(job);
   const std::optional<ToolChoice> choice = tool_choice(job);
   if (!choice) {
@@ -134,6 +134,8 @@ Result run_cover(const CoverJob& job, const Progress& asked) {
   Stopwatch watch(result);
   progress.step("read", 0.0);
   const Setup setup = read_setup(job.part, job.obstacles, job.tolerance_mm, result.notes);
+  job.tolerance_mm = setup.tolerance_mm;
+  result.job = job;
   result.part_sha256 = setup.part.sha256;
   progress.journal->begin(journal_key(job, result.part_sha256));
   watch.lap("read");

@@ -141,7 +141,7 @@ void lift_shank(const FitJob& job, const ClearanceScene& scene, FitSearch& searc
     Path path;
     for (const RuledMotion& motion : search.motions_of(tried)) {
       SamplingOptions options;
-      options.chord_tolerance_mm = kToleranceBudget.chord * job.tolerance_mm;
+      options.chord_tolerance_mm = kToleranceBudget.chord * *job.tolerance_mm;
       path.strips.push_back({});
       path.strips.back().poses = sample_motion(motion, options).poses;
     }
@@ -175,9 +175,9 @@ std::vector<StripSurface> sample_path(const FitSearch& search, double tolerance_
 void note_facets(const FitSearch& search, const FitJob& job, std::vector<std::string>& notes) {
   constexpr double kMostUnsaid = 0.5;  // of what may be missed
   for (const TargetGroup& group : search.targets) {
-    const FacetGaps gaps = facet_gaps(*group.target, job.tolerance_mm);
+    const FacetGaps gaps = facet_gaps(*group.target, *job.tolerance_mm);
     if (gaps.share <= kMostUnsaid * (1.0 - job.judge.least_coverage)) continue;
-    const double most = most_of_facets(*group.target, job.tolerance_mm);
+    const double most = most_of_facets(*group.target, *job.tolerance_mm);
     const bool hopeless = most < job.judge.least_coverage;
     notes.push_back(fmt::format(
         "{}: the mesh is coarse or rough: on {:.1f} % of it triangles lie farther than the tolerance, up to "
@@ -210,7 +210,7 @@ StiffnessStep judged_rung(const Setup& setup, const FitSearch& search, const Fla
   one.job = job;
   one.tool = found_tool(parse_tool_spec(job.tool.spec), rung.tool, job.obstacles);
   one.motions = search.motions_of(rung);
-  (void)add_strips(job.tolerance_mm, groups_of_motions(search), one);  // surfaces are for drawings
+  (void)add_strips(*job.tolerance_mm, groups_of_motions(search), one);  // surfaces are for drawings
   const VerifyReport verify = judge_job(setup, job.judge, one.tool, one.path, DepthProof::kSampled);
   return judged_step(tried_tool(rung.tool, rung.motions.size(), rung.after, search.options.bounds), verify);
 }
@@ -253,11 +253,11 @@ void judge_fit(const Setup& setup, const ClearanceScene& scene, FitSearch& searc
     result.path = {};
     result.chord_bound_mm = 0.0;
     result.tool = found_tool(parse_tool_spec(job.tool.spec), search.fit.tool, job.obstacles);
-    std::vector<StripSurface> surfaces = sample_path(search, job.tolerance_mm, result);
+    std::vector<StripSurface> surfaces = sample_path(search, *job.tolerance_mm, result);
     watch.lap("sample");
     judge_result(setup, scene, std::move(surfaces), result, watch);
     if (!result.complete || k + 1 == kMostTimes) return;
-    if (!lead_out(job.tolerance_mm, before, search, result.verify)) return;
+    if (!lead_out(*job.tolerance_mm, before, search, result.verify)) return;
     take_found(search, result);
     watch.lap("mend");
   }
@@ -310,17 +310,19 @@ bool passes(const Result& result) {
 
 }  // namespace
 
-Result run_fit(const FitJob& job, const Progress& asked) {
+Result run_fit(const FitJob& request, const Progress& asked) {
   const Progress progress = with_journal(asked);
-  check_job(job);
+  check_job(request);
   Result result;
-  result.job = job;
+  FitJob job = request;
   result.inputs = input_stamps(job);
   const ToolSpec spec = parse_tool_spec(job.tool.spec);
   check_obstacles(job.obstacles, spec.tool ? &*spec.tool : nullptr);
   Stopwatch watch(result);
   progress.step("read", 0.0);
   const Setup setup = read_setup(job.part, job.obstacles, job.tolerance_mm, result.notes);
+  job.tolerance_mm = setup.tolerance_mm;
+  result.job = job;
   result.part_sha256 = setup.part.sha256;
   progress.journal->begin(journal_key(job, result.part_sha256));
   check_axis_length(job, setup.part);

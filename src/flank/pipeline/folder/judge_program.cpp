@@ -63,7 +63,7 @@ FitJob job_of(const VerifyJob& request) {
   job.judge = {.least_coverage = job.judge.least_coverage,
                .sample_mm = request.sample_mm,
                .reach_radius_mm = request.reach_radius_mm};
-  job.tolerance_mm = request.tolerance_mm.value_or(job.tolerance_mm);
+  job.tolerance_mm = request.tolerance_mm;
   return job;
 }
 

@@ -12,7 +12,7 @@ CoverOptions options_of(const CoverJob& job) {
   CoverOptions options;
   options.strategy = job.strategy == "curves" ? CoverStrategy::kCurves : CoverStrategy::kGrow;
   options.places = job.seeds == "shape" ? SeedPlaces::kShape : SeedPlaces::kGrid;
-  options.tolerance_mm = job.tolerance_mm;
+  options.tolerance_mm = job.tolerance_mm.value_or(options.tolerance_mm);
   if (job.most_strips) options.most_strips = *job.most_strips;
   if (job.strip_price) options.strip_price = *job.strip_price;
   if (job.seed && options.strategy != CoverStrategy::kCurves)
@@ -34,7 +34,7 @@ ToolExtent extent_of(const Tool& tool) {
 }
 
 Obstacles obstacles_of(const CoverJob& job, const Setup& setup, const TargetGroup& group, const ToolExtent& extent) {
-  const double tolerance_mm = job.tolerance_mm;
+  const double tolerance_mm = *job.tolerance_mm;
   ObstacleChoice choice = choose_obstacles(group.indices, setup.targets, setup.checks);
   choice.fixtures = setup.fixtures;
   choice.clearance_mm = job.obstacles.clearance_mm;

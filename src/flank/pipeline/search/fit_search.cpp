@@ -66,8 +66,8 @@ void set_effort(const std::string& effort, FlankFitOptions& options) {
 /// `free_tool`: what is reachable is asked with the ball of the demand.
 FlankFitOptions options_of(const FitJob& job, const Setup& setup, const Target& target, bool free_tool) {
   FlankFitOptions options;
-  const double most = most_of_facets(target, job.tolerance_mm), least = std::min(job.judge.least_coverage, most);
-  options.tolerance_mm = job.tolerance_mm;
+  const double most = most_of_facets(target, *job.tolerance_mm), least = std::min(job.judge.least_coverage, most);
+  options.tolerance_mm = *job.tolerance_mm;
   set_effort(job.effort, options);
   options.least_coverage = least;
   options.enough_coverage = std::min(options.enough_coverage, enough_for(least));
@@ -86,7 +86,7 @@ double wanted_estimate(const FitJob& job, const Target& target, double spare_cov
   constexpr double kLeastEstimate = 0.97, kMost = 0.95;  // of the face; of what may be missing
   const double least = job.judge.least_coverage;
   const double wanted = std::max(least + std::min(spare_coverage, kMost * (1.0 - least)), kLeastEstimate);
-  return std::min(wanted, most_of_facets(target, job.tolerance_mm));
+  return std::min(wanted, most_of_facets(target, *job.tolerance_mm));
 }
 
 /// The motion of a start over the target; `notes` gets what its propagation says.

@@ -67,7 +67,8 @@ FlankFitResult fit_auto(const Target& target, const ToolModel& tool, FlankFitOpt
     if (meets(best.after, wanted, options) || !gain.goes_on(best) || progress.stop()) break;
   }
   options.least_coverage_for_close_look = 0.0;
-  if (has_ways && !options.ways && best.after.unheld <= 0.0 && !meets(best.after, wanted, options) && !progress.stop()) {
+  if (has_ways && !options.ways && best.after.unheld <= 0.0 && !meets(best.after, wanted, options) &&
+      !progress.stop()) {
     options.strips = std::max<int>(1, static_cast<int>(best.motions.size()));
     options.ways = true;
     keep_better(best, fit_automatic(target, tool, options, progress.part(1.0 - rest, 1.0)), options);

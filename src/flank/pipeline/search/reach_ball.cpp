@@ -26,7 +26,7 @@ void allow_thin(const FitJob& job, double ball_mm, RadiusBounds& bounds) {
 
 RadiusBounds bounds_for(const FitJob& job, const Target& target) {
   RadiusBounds bounds = radius_bounds(job.radius, job.obstacles, target.diagonal());
-  allow_thin(job, ball_for_corners(job.tolerance_mm, target, bounds.smallest), bounds);
+  allow_thin(job, ball_for_corners(*job.tolerance_mm, target, bounds.smallest), bounds);
   return bounds;
 }
 
