@@ -9,7 +9,7 @@
 
 #include "flank/base/parallel.h"
 #include "flank/error.h"
-#include "flank/geom/face_pieces.h"
+#include "flank/geom/pieces/face_pieces.h"
 #include "flank/io/face_names.h"
 
 namespace flank {

@@ -4,7 +4,7 @@
 #include <set>
 #include <utility>
 
-#include "flank/geom/face_section.h"
+#include "flank/geom/pieces/face_section.h"
 #include "flank/setup/joints.h"
 
 namespace flank::internal {

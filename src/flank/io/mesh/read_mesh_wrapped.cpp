@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flank/geom/face_section.h"
+#include "flank/geom/pieces/face_section.h"
 
 namespace flank::internal {
 namespace {

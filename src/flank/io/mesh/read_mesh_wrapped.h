@@ -19,7 +19,7 @@ struct FacetView {
 };
 
 /// For each triangle of a region the number of its side, from 0 on, or -1 on an edge; empty if the region does not wrap
-/// round anything. An edge bends as that of a face does (geom/face_pieces.h): by more than kEdgeBend over the region's
+/// round anything. An edge bends as that of a face does (geom/pieces/face_section.h): by more than kEdgeBend over the region's
 /// reach behind it, against the normal. A region has two sides or more, each of at least a fifth of it.
 [[nodiscard]] std::vector<int> wrapped_sides(const FacetView& mesh, const std::vector<int>& region);
 

@@ -1,4 +1,4 @@
-#include "flank/geom/face_section.h"
+#include "flank/geom/pieces/face_section.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "flank/geom/face_pieces.h"
+#include "flank/geom/pieces/face_pieces.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "flank/geom/face_pieces.h"
+#include "flank/geom/pieces/face_pieces.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "flank/geom/face_cut.h"
-#include "flank/geom/face_section.h"
+#include "flank/geom/pieces/face_section.h"
 #include "flank/geom/spline_segment.h"
 #include "flank/geom/trim.h"
 
