@@ -462,7 +462,7 @@ def trochoid(
     right: Union[str, Sequence[str]] = ...,
     floor: str | None = None,
     tool: _File = ...,
-    tolerance_mm: float = ...,
+    tolerance_mm: float | None = None,
     axis_length_mm: float | None = None,
     max_engagement: float = ...,
     cut: str = ...,

@@ -113,14 +113,15 @@ SideFitOptions side_options(const TrochoidJob& job, const CavityFaces& faces) {
   return options;
 }
 
-/// Where a face lies that could not be read nothing says, so no path beside it can be proved to keep out of it.
-void require_all_faces(const Setup& setup) {
-  if (setup.unread.empty()) return;
-  const int face = setup.unread.front();
+/// The job gets its tolerance. Where a face lies that could not be read nothing says, so no path beside it can be proved to keep out of it.
+Setup read_whole(TrochoidJob& job, std::vector<std::string>& notes) {
+  Setup setup = read_setup(machined(job), job.obstacles, job.tolerance_mm, notes);
+  job.tolerance_mm = setup.tolerance_mm;
+  if (setup.unread.empty()) return setup;
+  const std::string face = setup.part.face_id(setup.unread.front());
   throw InputError("part", fmt::format("{}: {} cannot be read ({}), so nothing can be promised of a cavity beside it; "
                                        "`ignore_faces` {} leaves it out",
-                                       setup.part.file, setup.part.face_id(face), setup.part.left_out.at(face),
-                                       setup.part.face_id(face)));
+                                       setup.part.file, face, setup.part.left_out.at(setup.unread.front()), face));
 }
 
 /// What the flank keeps clear of, and how wide the cavity is where a tool comes.
@@ -215,9 +216,7 @@ Result run_trochoid(const TrochoidJob& request, const Progress& asked) {
   check_obstacles(job.obstacles, spec.tool ? &*spec.tool : nullptr);
   Stopwatch watch(result);
   progress.step("read", 0.0);
-  const Setup setup = read_setup(machined(job), job.obstacles, job.tolerance_mm, result.notes);
-  require_all_faces(setup);
-  job.tolerance_mm = setup.tolerance_mm;
+  const Setup setup = read_whole(job, result.notes);
   result.job = job;
   result.part_sha256 = setup.part.sha256;
   progress.journal->begin(journal_key(job, result.part_sha256));

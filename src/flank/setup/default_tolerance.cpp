@@ -1,5 +1,7 @@
 #include "flank/setup/default_tolerance.h"
 
+#include <initializer_list>
+
 namespace flank::internal {
 
 double default_tolerance(double diagonal_mm) {

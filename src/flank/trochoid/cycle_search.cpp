@@ -238,9 +238,7 @@ FoundCycle CycleSearch::improved(FoundCycle found) {
       Trial trial = longest_step(now, shape, likely.step);
       if (trial.largest_rad < 0.0 || !(trial.worth() > kBetter * found.trial.worth())) continue;
       if (enters_anything(trial)) continue;
-      found.trial = std::move(trial);
-      now.shape = shape;
-      better = true;
+      found.trial = std::move(trial), now.shape = shape, better = true;
       break;
     }
     now.span[v] = std::min(now.span[v] * (better ? kGrow : kShrink), kMostSpan);
