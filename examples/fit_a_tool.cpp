@@ -15,7 +15,8 @@ int main(int argc, char** argv) try {
   job.tolerance_mm = 0.05;
   const flank::Result result = flank::run_fit(job);
   for (const flank::Shortfall& reason : result.acceptance().reasons) std::cout << reason.text << '\n';
-  std::cout << result.path.strips.size() << " strips, finished " << 100.0 * result.verify.coverage << " % of the face\n";
+  std::cout << result.path.strips.size() << " strips, finished " << 100.0 * result.verify.coverage
+            << " % of the face\n";
   flank::write_tool(result.tool, "tool.json");
   flank::write_path(result.path, "path.json");
   return EXIT_SUCCESS;
