@@ -31,6 +31,7 @@ class TreeCheck {
     found_.clear();
     modules_.clear();
     used_.clear();
+    front_used_.clear();
     for (const fs::path& file : sources_below(root_ / "include/flank")) check_front_door_file(file);
     for (const fs::path& file : sources_below(root_ / "src/flank")) check_room_file(file);
     internal_of_apps_ = 0;
@@ -113,6 +114,7 @@ class TreeCheck {
     check_exists(file, include);
     const auto other = table_.front_door.find(fs::path(include.path).stem().string());
     if (other == table_.front_door.end()) return;  // reported at the header itself
+    front_used_[layer].insert(other->second);
     for (const auto& [room, unused] : table_.rooms)
       if (layer_of(room) == layer && table_.sees(room, other->second)) return;
     report(file, include.line, layer + " may not include " + include.path + " of " + other->second);
@@ -263,7 +265,8 @@ class TreeCheck {
   void check_unused() {
     for (const auto& [room, words] : table_.written) {
       if (sources_in(root_ / "src/flank" / room).empty()) continue;  // still to come
-      const std::set<std::string>& used = used_[room];
+      std::set<std::string> used = used_[room];
+      used.merge(std::set(front_used_[room]));  // the front door of a layer goes by the room of its name
       for (const std::string& word : words) {
         const std::string layer = layer_of(word);
         const bool all = word.ends_with("/*");
@@ -295,6 +298,8 @@ class TreeCheck {
   std::vector<std::string> found_;
   Graph modules_;
   int internal_of_apps_ = 0;
+  std::map<std::string, std::set<std::string>>
+      front_used_;  ///< by layer: those that its headers of the front door include
   std::map<std::string, std::set<std::string>>
       used_;  ///< by room: the rooms, and the layers of the front door, that it includes
 };

@@ -1,3 +1,4 @@
+#include "flank/machine/nc/dialects/read_nc.h"
 
 #include "flank/machine/nc/dialects/languages.h"
 #include "flank/machine/nc/dialects/recognise.h"
