@@ -11,7 +11,7 @@
 #include <string>
 
 #include "asked_for.h"
-#include "flank/example/example.h"
+#include "flank/example.h"
 #include "flank/example/example_write.h"
 #include "flank/run.h"
 #include "flank/threads.h"

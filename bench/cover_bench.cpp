@@ -13,7 +13,7 @@
 #include "asked_for.h"
 #include "flank/base/atomic_file.h"
 #include "flank/error.h"
-#include "flank/example/example.h"
+#include "flank/example.h"
 #include "flank/example/example_write.h"
 #include "flank/run.h"
 #include "flank/threads.h"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "flank/example/example.h"
+#include "flank/example.h"
 #include "flank/seed/direction/direction_filter.h"
 
 namespace {

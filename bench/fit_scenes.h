@@ -8,7 +8,7 @@
 #include <string>
 
 #include "flank/base/random.h"
-#include "flank/example/example.h"
+#include "flank/example.h"
 #include "flank/example/example_mesh.h"
 #include "flank/example/example_perturb.h"
 #include "flank/target.h"

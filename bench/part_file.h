@@ -6,7 +6,7 @@
 #include <string>
 
 #include "flank/error.h"
-#include "flank/example/example.h"
+#include "flank/example.h"
 #include "flank/example/example_write.h"
 
 namespace flank::internal::bench {

@@ -12,7 +12,7 @@
 #include <string>
 
 #include "flank/base/sha256.h"
-#include "flank/example/example.h"
+#include "flank/example.h"
 #include "flank/example/example_write.h"
 #include "flank/manifest/manifest.h"
 #include "flank/sweep/sweep.h"

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "flank/example/example.h"
+#include "flank/example.h"
 #include "flank/example/example_write.h"
 
 namespace flank::internal::test {

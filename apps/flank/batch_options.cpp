@@ -7,7 +7,6 @@
 #include "flank/threads.h"
 
 namespace flank::cli {
-using namespace internal;
 
 std::function<BatchRun()> add_batch_options(CLI::App& app) {
   auto batch = std::make_shared<BatchRun>();

@@ -5,11 +5,11 @@
 
 #include <functional>
 
-#include "flank/sweep/task_batch.h"
+#include "flank/sweep.h"
 
 namespace flank::cli {
 
 /// Adds --output, --processes, --engine and --resume. What they say, to be asked when the command runs: --threads counts.
-std::function<internal::BatchRun()> add_batch_options(CLI::App& app);
+std::function<BatchRun()> add_batch_options(CLI::App& app);
 
 }  // namespace flank::cli

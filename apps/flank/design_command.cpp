@@ -6,9 +6,9 @@
 
 #include "batch_options.h"
 #include "design_command.h"
-#include "flank/base/printable.h"
 #include "flank/design/design.h"
 #include "flank/design/design_tables.h"
+#include "flank/printable.h"
 // The table of fields first: options are made of all that it knows.
 #include "flank/job/design_fields.h"
 

@@ -6,14 +6,13 @@
 #include <memory>
 
 #include "commands.h"
-#include "flank/artefact/verify_json.h"
 #include "flank/artefact/write_result.h"
 #include "flank/base/journal.h"
-#include "flank/base/printable.h"
 #include "flank/io/text/json_input.h"
 #include "flank/job/input_files.h"
 #include "flank/pipeline/folder/resume_folder.h"
 #include "flank/pipeline/run_journal.h"
+#include "flank/printable.h"
 #include "flank/run.h"
 #include "job_options.h"
 
@@ -128,7 +127,7 @@ Subcommand add_verify(CLI::App& parser) {
     end_on_signals();
     const Verification outcome = run_verify(*job);
     if (common.json)
-      fmt::print("{}\n", internal::verify_to_json(outcome.report, outcome.acceptance));
+      fmt::print("{}\n", verify_json(outcome));
     else if (!common.quiet)
       fmt::print("{}", printable(verify_text(outcome), true));
     return exit_code(outcome.acceptance);

@@ -9,13 +9,13 @@
 
 #include "commands.h"
 #include "flank/base/atomic_file.h"
-#include "flank/base/printable.h"
 #include "flank/error.h"
 #include "flank/job/input_files.h"
+#include "flank/machine.h"
 #include "flank/machine/model/machine_file.h"
-#include "flank/machine/model/machine_text.h"
 #include "flank/manifest/folder_inputs.h"
 #include "flank/manifest/result_folder.h"
+#include "flank/printable.h"
 #include "flank/run.h"
 #include "job_options.h"
 
@@ -32,14 +32,12 @@ Subcommand add_machine(CLI::App& parser) {
   const auto run = [name, list](const CommonOptions& common) {
     if (name->empty() && !*list) throw UsageError("machine", "a name or a file is needed, or `list`");
     if (*list) {
-      fmt::print("{}", common.json ? machine_list_json() : printable(machine_list_text(), true));
+      fmt::print("{}", common.json ? flank::machine_list_json() : printable(machine_list_table(), true));
       return kMeetsRequest;
     }
-    const Machine machine = read_machine(*name);
-    if (common.json)
-      fmt::print("{}", machine_to_json(machine));
-    else if (!common.quiet)
-      fmt::print("{}", printable(machine_to_text(machine), true));
+    // Read, and refused where it is none, also if nothing is said.
+    const std::string text = common.json ? machine_json(*name) : printable(machine_table(*name), true);
+    if (common.json || !common.quiet) fmt::print("{}", text);
     return kMeetsRequest;
   };
   return {app, run, {{"machine", "MACHINE"}, {"list", "--list"}}};

@@ -13,6 +13,7 @@
 #include <exception>
 #include <map>
 #include <new>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -20,14 +21,9 @@
 
 #include "commands.h"
 #include "design_command.h"
-#include "flank/base/printable.h"
-#include "flank/base/stopping.h"
+#include "flank/cad_process.h"
 #include "flank/error.h"
-#include "flank/io/isolated/cad_reader.h"
-#include "flank/io/isolated/end_with_parent.h"
-#include "flank/io/isolated/part_cache.h"
-#include "flank/io/isolated/read_isolated.h"
-#include "flank/io/isolated/serve_cad.h"
+#include "flank/printable.h"
 #include "flank/threads.h"
 #include "flank/version.h"
 #include "messages.h"
@@ -43,7 +39,7 @@ int complain(const std::string& message, int code) {
   std::string line = message;
   for (char& c : line)
     if (c == '\n') c = ' ';
-  line = "flank: " + flank::internal::printable(line) + "\n";
+  line = "flank: " + flank::printable(line) + "\n";
   // Nothing can be said where standard error is closed or full; the exit code says it.
   (void)std::fwrite(line.data(), 1, line.size(), stderr);
   return code;
@@ -83,15 +79,6 @@ int flushed(int code) {
   return complain(std::string("standard output cannot be written (") + std::strerror(errno) + ")", kRefusedInput);
 }
 
-/// The command's threads are still to come, so it can be told now how CAD files are read.
-void read_in_children(const flank::cli::CommonOptions& common) {
-  using namespace flank::internal;
-  const PartCache cache = common.no_cache ? PartCache{} : user_part_cache();
-  set_cad_reader([limits = ReadLimits{common.read_limit_s}, cache](const CadFile& file) {
-    return read_or_take(cache, file, [&] { return read_cad_isolated(file.name, file.format, file.unit, limits); });
-  });
-}
-
 /// Gives each standard stream that is closed a descriptor that can be neither read nor written: another file that gets its
 /// number would be taken for it.
 void keep_standard_streams() {
@@ -103,8 +90,7 @@ void keep_standard_streams() {
 /// What main does; throws only what nobody can report.
 int run_command(int argc, char** argv) {
   keep_standard_streams();
-  if (argc > 1 && std::strcmp(argv[1], flank::internal::kReadCadCommand) == 0)
-    return flank::internal::serve_cad(argc - 2, argv + 2);
+  if (const std::optional<int> code = flank::serve_as_cad_reader(argc, argv)) return *code;
   // A reader that has gone away, and a limit on the size of files, are errors of the write, not our end.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
@@ -136,7 +122,8 @@ int run_command(int argc, char** argv) {
     require_known_command(parser, argc, argv);
     parser.parse(argc, argv);
     flank::set_thread_count(common.threads);
-    read_in_children(common);
+    // The command's threads are still to come, so it can be told now how CAD files are read.
+    flank::read_cad_in_children(common.read_limit_s, !common.no_cache);
     return flushed(chosen()->run(common));
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return flushed(parser.exit(e));
@@ -145,7 +132,7 @@ int run_command(int argc, char** argv) {
     return complain(in_flags(e), kWrongUsage);
   } catch (const flank::InputError& e) {
     return complain(in_flags(e), kRefusedInput);
-  } catch (const flank::internal::Stopped&) {
+  } catch (const flank::Stopped&) {
     return complain(flank::cli::stopped_by() + "; nothing was found yet", flank::cli::kFallsShort);
   } catch (const std::bad_alloc&) {
     return complain("out of memory", kOurFault);
@@ -173,7 +160,7 @@ int run_command(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  flank::internal::end_with_parent_if_asked();
+  flank::end_with_parent();
   std::set_terminate(end_at_once);
   try {
     return run_command(argc, argv);

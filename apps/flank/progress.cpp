@@ -9,9 +9,8 @@
 #include <string_view>
 
 #include "commands.h"
-#include "flank/base/printable.h"
-#include "flank/base/progress_line.h"
-#include "flank/base/stopping.h"
+#include "flank/printable.h"
+#include "progress_line.h"
 
 namespace flank::cli {
 namespace {
@@ -22,7 +21,7 @@ void on_interrupt(int signal) {
   // A second one ends at once.
   if (interrupted != 0) std::_Exit(128 + signal);
   interrupted = signal;
-  internal::request_stop();
+  request_stop();
 }
 
 const char* name_of(int signal) { return signal == SIGTERM ? "SIGTERM" : signal == SIGHUP ? "SIGHUP" : "SIGINT"; }
@@ -46,13 +45,12 @@ void say(const std::string& message) {
 std::string stopped_by() { return fmt::format("stopped by {}", name_of(interrupted)); }
 
 void say_stopped(const std::string& folder) {
-  say(fmt::format("{}; the best so far is in {}; --resume goes on from there", stopped_by(),
-                  internal::printable(folder)));
+  say(fmt::format("{}; the best so far is in {}; --resume goes on from there", stopped_by(), printable(folder)));
 }
 
 void say_steps_kept(const std::string& folder) {
   say(fmt::format("{}; nothing was found yet, but what was done is in {}; --resume goes on from there", stopped_by(),
-                  internal::printable(folder)));
+                  printable(folder)));
 }
 
 void end_on_signals() {
@@ -66,7 +64,7 @@ Progress terminal_progress(const CommonOptions& options) {
   if (options.quiet || options.json) return progress;
   const bool terminal = isatty(STDERR_FILENO) != 0;
   const auto start = std::chrono::steady_clock::now();
-  const auto shown = std::make_shared<internal::ProgressLine>();
+  const auto shown = std::make_shared<ProgressLine>();
   progress.found = [shown](const BestSoFar& found) { shown->found(found); };
   progress.report = [terminal, start, shown](std::string_view stage, double share) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

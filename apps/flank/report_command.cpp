@@ -7,13 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
-#include "flank/base/printable.h"
 #include "flank/error.h"
 #include "flank/io/text/json_dump.h"
 #include "flank/manifest/folder_inputs.h"
 #include "flank/manifest/result_folder.h"
+#include "flank/printable.h"
 #include "flank/report.h"
-#include "flank/report/browser.h"
 
 namespace flank::cli {
 using namespace internal;

@@ -3,19 +3,14 @@
 #include <CLI/CLI.hpp>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "commands.h"
-#include "flank/base/printable.h"
-#include "flank/example/example.h"
-#include "flank/example/example_write.h"
-#include "flank/inspect/inspect.h"
-#include "flank/inspect/inspect_text.h"
-#include "flank/io/text/json_dump.h"
-#include "flank/io/tool/tool_svg.h"
+#include "flank/example.h"
+#include "flank/inspect.h"
 #include "flank/manifest/result_folder.h"
 #include "flank/part.h"
-#include "flank/toolbox/tool_command.h"
+#include "flank/printable.h"
+#include "flank/tool_command.h"
 
 namespace flank::cli {
 using namespace internal;
@@ -33,9 +28,9 @@ Subcommand add_inspect(CLI::App& parser) {
           [file, unit](const CommonOptions& common) {
             const InspectReport report = inspect(read_part(*file, *unit));
             if (common.json)
-              fmt::print("{}", inspect_to_json(report));
+              fmt::print("{}", inspect_json(report));
             else
-              fmt::print("{}", printable(to_table(report), true));
+              fmt::print("{}", printable(inspect_table(report), true));
             return 0;
           },
           {{"unit", "--unit"}}};
@@ -67,22 +62,20 @@ Subcommand add_example(CLI::App& parser) {
   app->footer(
       "Examples: flank example envelope-barrel-1 -o barrel.step; flank example rotor37 -o blade.step (a real "
       "compressor blade)");
-  return {
-      app,
-      [name, file, options](const CommonOptions& common) {
-        require_no_result_there(*file);
-        const Example example = make_example(*name, *options);
-        const std::vector<std::string> written = write_example(example, *file);
-        if (common.json) {
-          nlohmann::ordered_json json = {{"schema", "openflank/example/1"}, {"name", example.name}, {"files", written}};
-          fmt::print("{}\n", dumped(json, 2));
-        } else if (!common.quiet) {
-          fmt::print("{}: {}\n", example.name, example.description);
-          for (const std::string& path : written) fmt::print("  {}\n", printable(path));
-        }
-        return 0;
-      },
-      {}};
+  return {app,
+          [name, file, options](const CommonOptions& common) {
+            require_no_result_there(*file);
+            const Example example = make_example(*name, *options);
+            const std::vector<std::string> written = write_example(example, *file);
+            if (common.json) {
+              fmt::print("{}", example_json(example, written));
+            } else if (!common.quiet) {
+              fmt::print("{}: {}\n", example.name, example.description);
+              for (const std::string& path : written) fmt::print("  {}\n", printable(path));
+            }
+            return 0;
+          },
+          {}};
 }
 
 Subcommand add_tool(CLI::App& parser) {
@@ -109,7 +102,7 @@ Subcommand add_tool(CLI::App& parser) {
       fmt::print("{}", tool_summary_json(tool, options->outputs));
       return kMeetsRequest;
     }
-    if (options->outputs.empty() || *show) fmt::print("{}", tool_to_ascii(tool));
+    if (options->outputs.empty() || *show) fmt::print("{}", tool_drawing(tool));
     if (!common.quiet)
       for (const std::string& file : options->outputs) fmt::print("wrote {}\n", printable(file));
     return kMeetsRequest;

@@ -6,12 +6,10 @@
 
 #include "batch_options.h"
 #include "commands.h"
-#include "flank/base/printable.h"
-#include "flank/sweep/sweep.h"
-#include "flank/sweep/tables.h"
+#include "flank/printable.h"
+#include "flank/sweep.h"
 
 namespace flank::cli {
-using namespace internal;
 
 Subcommand add_sweep(CLI::App& parser) {
   CLI::App* app = parser.add_subcommand(
@@ -21,14 +19,13 @@ Subcommand add_sweep(CLI::App& parser) {
   const auto batch = add_batch_options(*app);
   app->footer("Example: flank sweep plan.toml -o out --processes 4");
   const auto run = [file, batch](const CommonOptions& common) {
-    const SweepPlan plan = read_plan(*file);
     const BatchRun whole = batch();
-    const SweepResult result = run_sweep(plan, whole, terminal_progress(common));
+    const BatchOutcome outcome = run_sweep(*file, whole, terminal_progress(common));
     if (common.json)
-      fmt::print("{}", sweep_json(result));
+      fmt::print("{}", outcome.json);
     else if (!common.quiet)
-      fmt::print("{}  written to  {}\n", printable(sweep_text(result), true), printable(whole.folder));
-    return result.pass() ? kMeetsRequest : kFallsShort;
+      fmt::print("{}  written to  {}\n", printable(outcome.table, true), printable(whole.folder));
+    return outcome.pass ? kMeetsRequest : kFallsShort;
   };
   return {app, run, {}};
 }

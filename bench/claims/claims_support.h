@@ -10,7 +10,7 @@
 #include "flank/base/random.h"
 #include "flank/envelope.h"
 #include "flank/error.h"
-#include "flank/example/example.h"
+#include "flank/example.h"
 #include "flank/example/example_perturb.h"
 #include "flank/fit.h"
 #include "flank/fit/coverage.h"

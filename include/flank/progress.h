@@ -1,6 +1,7 @@
 /// Progress and cancellation of long calculations.
 #pragma once
 
+#include <exception>
 #include <functional>
 #include <memory>
 #include <string_view>
@@ -39,6 +40,16 @@ struct Progress {
     return part;
   }
   [[nodiscard]] bool stop() const { return cancelled && cancelled(); }
+};
+
+/// Ends the work of this process early: long loops look between their steps, and end with the best they have. May be called from a
+/// signal handler.
+void request_stop() noexcept;
+
+/// Thrown, once that was asked, by work whose unfinished result is worth nothing, such as a verdict.
+class Stopped : public std::exception {
+ public:
+  [[nodiscard]] const char* what() const noexcept override { return "stopped"; }
 };
 
 }  // namespace flank

@@ -23,6 +23,17 @@ namespace flank {
 /// or cannot be written.
 std::string write_report(const std::string& folder, const std::string& file = {});
 
+/// How a picture of a page is taken.
+struct PictureOptions {
+  int width = 1600, height = 1000;  ///< of the window, pixels
+  std::string fragment;             ///< after the page's #: "theme=dark", "at=0.5"
+};
+/// Makes a PNG of an HTML file with the browser that is installed. Throws UsageError if none is, InternalError if it makes no
+/// picture.
+void make_picture(const std::string& html_file, const std::string& png_file, const PictureOptions& options = {});
+/// Hands a file to the user's browser (xdg-open) and returns. Throws UsageError if there is no way to open one.
+void open_page(const std::string& html_file);
+
 /// A page from a given template: title and data are put in their places.
 [[nodiscard]] std::string fill_page(std::string_view page, std::string_view title, std::string_view data);
 

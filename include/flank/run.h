@@ -217,6 +217,8 @@ struct Verification {
 
 /// The verdict as a table for a terminal.
 [[nodiscard]] std::string verify_text(const Verification& outcome);
+/// The same as verify.json (docs/schema/verify.md).
+[[nodiscard]] std::string verify_json(const Verification& outcome);
 
 /// The range that a joint uses, and how fast and how hard it is driven: mm or degrees, and seconds.
 struct JointRange {

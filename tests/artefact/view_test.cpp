@@ -9,7 +9,7 @@
 
 #include "flank/artefact/view_json.h"
 #include "flank/envelope/path_regularity.h"
-#include "flank/example/example.h"
+#include "flank/example.h"
 #include "flank/setup/setup.h"
 #include "flank/setup/targets.h"
 #include "sanitized.h"

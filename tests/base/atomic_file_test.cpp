@@ -7,8 +7,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "flank/base/printable.h"
 #include "flank/error.h"
+#include "flank/printable.h"
 
 namespace flank::internal {
 namespace {

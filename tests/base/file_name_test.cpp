@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "flank/base/printable.h"
 #include "flank/base/random.h"
+#include "flank/printable.h"
 
 namespace flank::internal {
 namespace {

@@ -1,5 +1,5 @@
 // No name of a file moves the cursor of a terminal.
-#include "flank/base/printable.h"
+#include "flank/printable.h"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@
 #include "flank/artefact/view.h"
 #include "flank/artefact/write_result.h"
 #include "flank/base/atomic_file.h"
-#include "flank/example/example.h"
+#include "flank/example.h"
 #include "flank/example/example_write.h"
 #include "flank/io/mesh/write_mesh.h"
 #include "flank/report.h"

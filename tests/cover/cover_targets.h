@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "flank/example/example.h"
+#include "flank/example.h"
 #include "flank/obstacle/pose_guard.h"
 #include "seed/exact_targets.h"
 

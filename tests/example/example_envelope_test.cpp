@@ -6,7 +6,7 @@
 
 #include "flank/envelope.h"
 #include "flank/error.h"
-#include "flank/example/example.h"
+#include "flank/example.h"
 #include "flank/example/example_motions.h"
 #include "flank/example/example_tools.h"
 #include "flank/target.h"

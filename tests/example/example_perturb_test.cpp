@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "flank/example/example.h"
+#include "flank/example.h"
 #include "flank/example/example_motions.h"
 #include "flank/example/example_perturb.h"
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "flank/error.h"
-#include "flank/example/example.h"
+#include "flank/example.h"
 #include "flank/example/example_rotor37_table.h"
 #include "flank/io/cad/read_cad.h"
 #include "flank/io/cad/read_cad_check.h"

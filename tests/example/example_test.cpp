@@ -1,4 +1,4 @@
-#include "flank/example/example.h"
+#include "flank/example.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "flank/error.h"
-#include "flank/example/example.h"
+#include "flank/example.h"
 #include "flank/example/example_write.h"
 #include "flank/part.h"
 #include "flank/path_file.h"

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "flank/base/tolerance_budget.h"
-#include "flank/example/example.h"
+#include "flank/example.h"
 #include "flank/example/example_envelope.h"
 #include "flank/example/example_perturb.h"
 #include "sanitized.h"

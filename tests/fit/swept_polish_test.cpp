@@ -11,7 +11,7 @@
 
 #include "fit/flat_scene.h"
 #include "flank/base/tolerance_budget.h"
-#include "flank/example/example.h"
+#include "flank/example.h"
 #include "flank/threads.h"
 #include "sanitized.h"
 

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "flank/inspect/inspect.h"
+#include "flank/inspect.h"
 #include "flank/inspect/inspect_text.h"
 #include "geom/skins.h"
 #include "io/part_files.h"

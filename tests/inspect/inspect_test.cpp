@@ -1,4 +1,4 @@
-#include "flank/inspect/inspect.h"
+#include "flank/inspect.h"
 
 #include <gtest/gtest.h>
 

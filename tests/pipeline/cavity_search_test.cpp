@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "flank/example/example.h"
+#include "flank/example.h"
 #include "obstacle/obstacle_scene.h"
 #include "sanitized.h"
 

@@ -1,7 +1,7 @@
 /// The judge shares no code with the generator of examples: where both agree, both are right.
 #include <gtest/gtest.h>
 
-#include "flank/example/example.h"
+#include "flank/example.h"
 #include "flank/judge.h"
 
 namespace flank::internal {

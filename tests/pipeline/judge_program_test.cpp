@@ -14,7 +14,7 @@
 #include <sstream>
 
 #include "flank/error.h"
-#include "flank/example/example.h"
+#include "flank/example.h"
 #include "flank/example/example_write.h"
 #include "flank/io/path/blank_json.h"
 #include "flank/job/job_json.h"

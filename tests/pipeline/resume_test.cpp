@@ -10,7 +10,7 @@
 #include "flank/base/sha256.h"
 #include "flank/base/stopping.h"
 #include "flank/error.h"
-#include "flank/example/example.h"
+#include "flank/example.h"
 #include "flank/io/cad/write_step.h"
 #include "flank/manifest/result_folder.h"
 #include "flank/pipeline/folder/resume_folder.h"

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "flank/error.h"
-#include "flank/example/example.h"
+#include "flank/example.h"
 #include "flank/example/example_write.h"
 #include "flank/pipeline/folder/judge_job.h"
 #include "flank/run.h"

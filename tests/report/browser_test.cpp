@@ -1,5 +1,6 @@
 // The command line that a browser gets: a program of ours stands in for it and writes down its words.
 #include "flank/report/browser.h"
+#include "flank/report.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

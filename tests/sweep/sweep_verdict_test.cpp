@@ -8,7 +8,7 @@
 #include "flank/artefact/acceptance.h"
 #include "flank/artefact/verify_json.h"
 #include "flank/base/atomic_file.h"
-#include "flank/example/example.h"
+#include "flank/example.h"
 #include "flank/example/example_write.h"
 #include "flank/manifest/result_folder.h"
 #include "flank/sweep/sweep.h"

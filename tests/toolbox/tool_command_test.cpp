@@ -1,4 +1,4 @@
-#include "flank/toolbox/tool_command.h"
+#include "flank/tool_command.h"
 
 #include <gtest/gtest.h>
 

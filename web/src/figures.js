@@ -1,7 +1,7 @@
 // The figures with what was asked, and under each of them why it does not pass.
 import { html } from './dom.js';
 import * as format from './format.js';
-import { cautions, earlier, nameOf, reasons } from './verdict.js';
+import { capital, cautions, earlier, nameOf, reasons } from './verdict.js';
 
 /** What was asked for: from the view, else from the summary. */
 export function asked({ view, verify, summary }) {
@@ -65,7 +65,6 @@ function depthRows(verify) {
 }
 
 const AGAINST = { target: 'the target', part: 'other faces', fixture: 'fixtures' };
-const capital = (word) => word[0].toUpperCase() + word.slice(1);
 
 /** Shank, holder and flank against what they must keep clear of: the judge says of each whether it is kept. */
 function clearanceRows(verify) {

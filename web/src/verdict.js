@@ -1,17 +1,18 @@
 // What the files say of themselves. The verdict is the judge's (verify.json, summary.json); this page adds nothing to it, and shows
 // every reason and every caution, whatever it is about.
 
-/** What a figure is called where no row of the table is about it; one that is new here goes by its name in the files. */
+/** What a figure is called where no row of the table is about it, if not by its name in the files. */
 const NAMES = {
-  complete: 'Work', legitimate: 'Profile of the tool', verdict: 'Judged', overcut_mm: 'Overcut', gouge_mm: 'Overcut of other faces',
-  buried: 'Strips inside the material', overcut_bound_mm: 'Overcut, proved', gouge_bound_mm: 'Of other faces, proved',
-  coverage_reachable: 'Finished of what is reachable', coverage_bound: 'Finished, proved', clearance: 'Clearance', stock: 'Replay in a stock',
-  bend_radius: 'Bend radius', engagement: 'Engagement', cycles: 'Cycles', travel: 'Travel of the joints', axis_speed: 'Speed of the joints',
-  machine_bodies: 'Table and head', unread_faces: 'Faces that were not read', coverage: 'Finished of the whole face', hold: 'Hold of the tool',
-  shank_and_holder: 'Shank and holder', sheet_side: 'Machined side', rounding_mm: 'Rounding of the program', rapid: 'Rapid moves',
-  work_offset: 'Work offset', tool_length: 'Tool length', tool_number: 'Tool number', spindle: 'Spindle',
+  complete: 'Work', legitimate: 'Profile of the tool', verdict: 'Judged', overcut_mm: 'Overcut',
+  gouge_mm: 'Overcut of other faces', buried: 'Strips inside the material', overcut_bound_mm: 'Overcut, proved',
+  gouge_bound_mm: 'Of other faces, proved', coverage_reachable: 'Finished of what is reachable',
+  coverage_bound: 'Finished, proved', stock: 'Replay in a stock', travel: 'Travel of the joints',
+  axis_speed: 'Speed of the joints', machine_bodies: 'Table and head', unread_faces: 'Faces that were not read',
+  coverage: 'Finished of the whole face', hold: 'Hold of the tool', sheet_side: 'Machined side',
+  rounding_mm: 'Rounding of the program', rapid: 'Rapid moves',
 };
-export const nameOf = (figure) => NAMES[figure] ?? String(figure).replaceAll('_', ' ');
+export const capital = (words) => words.charAt(0).toUpperCase() + words.slice(1);
+export const nameOf = (figure) => NAMES[figure] ?? capital(String(figure).replaceAll('_', ' '));
 
 const list = (file, key) => (Array.isArray(file?.[key]) ? file[key] : []);
 const same = (a) => (b) => a.figure === b.figure && a.text === b.text;

@@ -6,6 +6,7 @@
 
 #include "flank/artefact/acceptance.h"
 #include "flank/artefact/cavity/stock_json.h"
+#include "flank/artefact/verify_json.h"
 #include "flank/run.h"
 #include "flank/setup/machined_side.h"
 
@@ -97,5 +98,7 @@ std::string verify_text(const Verification& outcome) {
   text += reason_lines(outcome.acceptance);
   return text;
 }
+
+std::string verify_json(const Verification& outcome) { return verify_to_json(outcome.report, outcome.acceptance); }
 
 }  // namespace flank

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <string_view>
 
-#include "flank/base/printable.h"
+#include "flank/printable.h"
 
 namespace flank::internal {
 namespace {

@@ -1,8 +1,8 @@
-#include "flank/base/printable.h"
+#include "flank/printable.h"
 
 #include <cstdint>
 
-namespace flank::internal {
+namespace flank {
 namespace {
 
 /// Bytes of the character that the text begins with; 0 if it is none. Its number goes to `code`.
@@ -54,4 +54,4 @@ bool is_utf8(std::string_view text) {
   return true;
 }
 
-}  // namespace flank::internal
+}  // namespace flank

@@ -20,8 +20,6 @@ std::int64_t now_ns() {
 
 }  // namespace
 
-void request_stop() noexcept { asked.store(true, std::memory_order_relaxed); }
-
 bool stopping() noexcept {
   if (!asked.load(std::memory_order_relaxed)) return false;
   const std::int64_t until = put_off_until.load(std::memory_order_relaxed);
@@ -41,3 +39,9 @@ StopForTest::StopForTest() { request_stop(); }
 StopForTest::~StopForTest() { asked.store(false, std::memory_order_relaxed); }
 
 }  // namespace flank::internal
+
+namespace flank {
+
+void request_stop() noexcept { internal::asked.store(true, std::memory_order_relaxed); }
+
+}  // namespace flank

@@ -2,20 +2,13 @@
 /// Progress down stops a search between its stages; this stops within them.
 #pragma once
 
-#include <exception>
+#include "flank/progress.h"
 
 namespace flank::internal {
 
-/// From now on stopping() is true, in the whole process. May be called from a signal handler.
-void request_stop() noexcept;
 /// Whether the process is to end what it does.
 [[nodiscard]] bool stopping() noexcept;
 
-/// Thrown by work whose unfinished result is worth nothing, such as a verdict.
-class Stopped : public std::exception {
- public:
-  [[nodiscard]] const char* what() const noexcept override { return "stopped"; }
-};
 /// Throws Stopped if stopping().
 void stop_here();
 

@@ -12,7 +12,7 @@
 #include "flank/design/design_tables.h"
 #include "flank/design/pairs.h"
 #include "flank/error.h"
-#include "flank/inspect/inspect.h"
+#include "flank/inspect.h"
 #include "flank/job/design_fields.h"
 #include "flank/job/input_files.h"
 #include "flank/toolbox/catalogue.h"

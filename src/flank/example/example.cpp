@@ -1,4 +1,4 @@
-#include "flank/example/example.h"
+#include "flank/example.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,14 +6,17 @@
 
 #include "flank/error.h"
 #include "flank/example/example_blades.h"
+#include "flank/example/example_cavity.h"
 #include "flank/example/example_envelope.h"
 #include "flank/example/example_mesh.h"
 #include "flank/example/example_motions.h"
 #include "flank/example/example_rotor37.h"
 #include "flank/example/example_tools.h"
+#include "flank/example/example_write.h"
 #include "flank/example/wheel/impeller.h"
 
-namespace flank::internal {
+namespace flank {
+using namespace internal;
 namespace {
 
 /// Of the poses beside an exact part: a tenth of a micrometre's tenth, below what a judge of 1e-6 relative sees.
@@ -227,4 +230,12 @@ Example make_example(const std::string& name, const ExampleOptions& options) {
   throw UsageError("no example is called \"" + name + "\"; known are " + known);
 }
 
-}  // namespace flank::internal
+std::vector<std::string> write_example(const Example& example, const std::string& file) {
+  return write_example_files(example, file);
+}
+
+std::string example_json(const Example& example, const std::vector<std::string>& files) {
+  return example_files_json(example, files);
+}
+
+}  // namespace flank

@@ -68,7 +68,7 @@ std::string truth_json(const Example& example, const std::string& tool_file, con
 
 }  // namespace
 
-std::vector<std::string> write_example(const Example& example, const std::string& file) {
+std::vector<std::string> write_example_files(const Example& example, const std::string& file) {
   check_extension(example, file);
   std::vector<std::string> written{file};
   // A solid comes with its text: its faces alone would be written as sheets.
@@ -92,6 +92,10 @@ std::vector<std::string> write_example(const Example& example, const std::string
   write(tool, tool_to_json(example.truth->tool));
   write(path, path_to_json(example.truth->path));
   return written;
+}
+
+std::string example_files_json(const Example& example, const std::vector<std::string>& files) {
+  return dumped(Json{{"schema", "openflank/example/1"}, {"name", example.name}, {"files", files}}, 2) + "\n";
 }
 
 }  // namespace flank::internal

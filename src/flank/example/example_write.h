@@ -1,17 +1,16 @@
-/// An example as files.
+/// An example as files (example.h has the same for users).
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "flank/example/example.h"
+#include "flank/example.h"
 
 namespace flank::internal {
 
-/// Writes the part as `file`: faces as .step or .stp, a mesh under an ending of write_mesh.h (millimetres). Where the truth is
-/// known, FILE.truth.json (rails, error), FILE.tool.json and FILE.path.json are written beside it, FILE without its
-/// ending. Returns the names of the files written, the part first. Throws UsageError for an ending that does not suit,
-/// InputError if writing fails.
-std::vector<std::string> write_example(const Example& example, const std::string& file);
+/// As write_example of example.h.
+std::vector<std::string> write_example_files(const Example& example, const std::string& file);
+/// As example_json.
+[[nodiscard]] std::string example_files_json(const Example& example, const std::vector<std::string>& files);
 
 }  // namespace flank::internal

@@ -1,4 +1,4 @@
-#include "flank/inspect/inspect.h"
+#include "flank/inspect.h"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,11 @@
 #include "flank/base/parallel.h"
 #include "flank/geom/trim.h"
 #include "flank/inspect/inspect_mesh.h"
+#include "flank/inspect/inspect_text.h"
 #include "flank/io/face_groups.h"
 
-namespace flank::internal {
+namespace flank {
+using namespace internal;
 namespace {
 
 /// Cells that a trim cuts are halved this many times before their middle decides.
@@ -250,4 +252,8 @@ InspectReport inspect(const Part& part) {
   return report;
 }
 
-}  // namespace flank::internal
+std::string inspect_table(const InspectReport& report) { return to_table(report); }
+
+std::string inspect_json(const InspectReport& report) { return inspect_to_json(report); }
+
+}  // namespace flank

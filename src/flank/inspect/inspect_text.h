@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "flank/inspect/inspect.h"
+#include "flank/inspect.h"
 
 namespace flank::internal {
 

@@ -15,6 +15,7 @@
 
 #include "flank/base/atomic_file.h"
 #include "flank/error.h"
+#include "flank/report.h"
 
 extern char** environ;
 
@@ -107,6 +108,11 @@ std::string find_browser() {
   return "";
 }
 
+}  // namespace flank::internal
+
+namespace flank {
+using namespace internal;
+
 void make_picture(const std::string& html_file, const std::string& png_file, const PictureOptions& options) {
   const std::string browser = find_browser();
   if (browser.empty())
@@ -150,4 +156,4 @@ void open_page(const std::string& html_file) {
     throw UsageError("xdg-open found no browser (exit " + std::to_string(status) + "); open " + html_file + " in one");
 }
 
-}  // namespace flank::internal
+}  // namespace flank

@@ -10,6 +10,7 @@
 #include "flank/base/kept/read_files.h"
 #include "flank/base/sha256.h"
 #include "flank/job/input_files.h"
+#include "flank/sweep.h"
 #include "flank/sweep/tables.h"
 
 namespace flank::internal {
@@ -106,3 +107,12 @@ SweepResult run_sweep(const SweepPlan& plan, const BatchRun& run, const Progress
 }
 
 }  // namespace flank::internal
+
+namespace flank {
+
+BatchOutcome run_sweep(const std::string& plan_file, const BatchRun& run, const Progress& progress) {
+  const internal::SweepResult result = internal::run_sweep(internal::read_plan(plan_file), run, progress);
+  return {result.pass(), internal::sweep_text(result), internal::sweep_json(result)};
+}
+
+}  // namespace flank

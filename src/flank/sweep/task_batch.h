@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "flank/progress.h"
+#include "flank/sweep.h"
 
 namespace flank::internal {
 
@@ -40,18 +41,6 @@ struct TaskRow {
   std::string message;  ///< of a task without a result
   bool page = false;    ///< it has a report.html
   [[nodiscard]] bool has_result() const { return status == TaskStatus::kMeets || status == TaskStatus::kFallsShort; }
-};
-
-/// Who runs the tasks.
-enum class BatchEngine { kLocal, kSlurm };
-
-/// How a batch is run, as the user says.
-struct BatchRun {
-  std::string program;  ///< whose commands do the tasks: this one's own file
-  std::string folder;   ///< for all results; made if there is none
-  int processes = 1;    ///< tasks at a time, >= 1; nothing but the time depends on it
-  BatchEngine engine = BatchEngine::kLocal;
-  bool resume = false;  ///< tasks that an earlier run has done are kept
 };
 
 struct BatchOptions {

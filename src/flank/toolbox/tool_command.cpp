@@ -1,4 +1,4 @@
-#include "flank/toolbox/tool_command.h"
+#include "flank/tool_command.h"
 
 #include <fmt/format.h>
 
@@ -15,8 +15,10 @@
 #include "flank/io/tool/tool_step.h"
 #include "flank/io/tool/tool_svg.h"
 #include "flank/tool_file.h"
+#include "flank/toolbox/tool_spec.h"
 
-namespace flank::internal {
+namespace flank {
+using namespace internal;
 
 namespace {
 
@@ -130,4 +132,6 @@ Tool run_tool_command(const ToolCommandOptions& options) {
   return tool;
 }
 
-}  // namespace flank::internal
+std::string tool_drawing(const Tool& tool) { return tool_to_ascii(tool); }
+
+}  // namespace flank

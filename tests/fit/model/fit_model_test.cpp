@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "flank/base/random.h"
-#include "flank/example/example.h"
+#include "flank/example.h"
 #include "flank/example/example_perturb.h"
 #include "obstacle/obstacle_scene.h"
 

@@ -10,7 +10,7 @@
 #include <numeric>
 
 #include "flank/base/random.h"
-#include "flank/example/example.h"
+#include "flank/example.h"
 #include "flank/example/example_perturb.h"
 #include "flank/fit.h"
 #include "flank/fit/model/levenberg_marquardt.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "flank/example/example.h"
+#include "flank/example.h"
 #include "seed/direction/direction_shapes.h"
 #include "seed/exact_targets.h"
 

@@ -16,7 +16,6 @@
 #include "flank/base/sha256.h"
 #include "flank/error.h"
 #include "flank/io/isolated/part_bytes.h"
-#include "flank/io/text/read_sniff.h"
 #include "flank/version.h"
 
 namespace flank::internal {

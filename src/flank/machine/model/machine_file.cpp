@@ -9,13 +9,13 @@
 #include <numbers>
 #include <sstream>
 
-#include "flank/base/printable.h"
 #include "flank/base/shared_folder.h"
 #include "flank/error.h"
 #include "flank/io/text/toml_table.h"
 #include "flank/machine/model/body_file.h"
 #include "flank/machine/nc/dialects/languages.h"
 #include "flank/machine/nc/without_effect.h"
+#include "flank/printable.h"
 
 namespace flank::internal {
 namespace {

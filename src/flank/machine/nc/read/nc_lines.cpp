@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "flank/base/printable.h"
 #include "flank/error.h"
+#include "flank/printable.h"
 
 namespace flank::internal {
 

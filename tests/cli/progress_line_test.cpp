@@ -1,9 +1,9 @@
 // The estimate of the time that is left, on runs whose end is known, and the line that shows it.
-#include "flank/base/progress_line.h"
+#include "progress_line.h"
 
 #include <gtest/gtest.h>
 
-namespace flank::internal {
+namespace flank::cli {
 namespace {
 
 TEST(TimeLeft, OfAnEvenPaceIsExact) {
@@ -107,4 +107,4 @@ TEST(ProgressLine, KeepsTheBest) {
 }
 
 }  // namespace
-}  // namespace flank::internal
+}  // namespace flank::cli

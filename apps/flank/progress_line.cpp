@@ -1,11 +1,11 @@
-#include "flank/base/progress_line.h"
+#include "progress_line.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace flank::internal {
+namespace flank::cli {
 namespace {
 
 /// What a pace needs: less may be a step that was finished at once.
@@ -69,4 +69,4 @@ std::string ProgressLine::line(std::string_view stage, double share, double seco
   return line;
 }
 
-}  // namespace flank::internal
+}  // namespace flank::cli

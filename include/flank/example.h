@@ -6,14 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "flank/example/example_cavity.h"
 #include "flank/face.h"
 #include "flank/path.h"
 #include "flank/ruled_motion.h"
 #include "flank/tool.h"
 #include "flank/triangle_mesh.h"
 
-namespace flank::internal {
+namespace flank {
 
 /// The tool and the motions whose envelopes the faces (or the mesh) are, contact side +1 each.
 struct ExampleTruth {
@@ -37,6 +36,19 @@ struct Example {
   double diagonal_mm = 0.0;  ///< of the bounding box of faces or mesh, from dense points
 };
 
+/// A channel along x, open at the top (+z), and at both ends unless one has a wall.
+struct CavityShape {
+  double width_mm = 35.0;   ///< across (y), of the bounding box of both walls
+  double depth_mm = 42.0;   ///< along a wall, from its bottom to its top
+  double length_mm = 50.0;  ///< along the channel
+  double twist_deg = 16.0;  ///< of both walls about x, from one end to the other
+  double lean_deg = 4.0;    ///< of a wall, outwards towards the top: deep cavities have less, or their walls meet
+  /// How deep a wall is hollow between its bottom and its top, mm. A cone leaves about half of it.
+  double hollow_mm = 1.0;
+  bool end_wall = false;    ///< a plane across its end at +x: then it is open at the other end alone
+  bool start_wall = false;  ///< the same at -x
+};
+
 struct ExampleOptions {
   double relative_accuracy = 1e-9;  ///< of exact faces, share of the diagonal
   int mesh_vertices = 13000;        ///< about; of mesh examples
@@ -52,4 +64,12 @@ struct ExampleOptions {
 /// Throws UsageError for an unknown name (listing the known ones) and for options that make no sense.
 [[nodiscard]] Example make_example(const std::string& name, const ExampleOptions& options = {});
 
-}  // namespace flank::internal
+/// Writes the part as `file`: faces as .step or .stp, a mesh as .stl or under another ending of meshes (millimetres). Where the truth
+/// is known, FILE.truth.json (rails, error), FILE.tool.json and FILE.path.json are written beside it, FILE without its ending.
+/// Returns the names of the files written, the part first. Throws UsageError for an ending that does not suit, InputError if
+/// writing fails.
+std::vector<std::string> write_example(const Example& example, const std::string& file);
+/// What was written, for scripts: schema "openflank/example/1".
+[[nodiscard]] std::string example_json(const Example& example, const std::vector<std::string>& files);
+
+}  // namespace flank

@@ -7,7 +7,7 @@
 
 #include "flank/progress.h"
 
-namespace flank::internal {
+namespace flank::cli {
 
 /// How long a calculation will take yet, from the shares that it reports.
 ///
@@ -46,4 +46,4 @@ class ProgressLine {
   TimeLeft left_;
 };
 
-}  // namespace flank::internal
+}  // namespace flank::cli

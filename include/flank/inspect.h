@@ -8,7 +8,7 @@
 
 #include "flank/part.h"
 
-namespace flank::internal {
+namespace flank {
 
 /// How a surface bends at a point, seen from the machining side. kFlat: both principal curvatures are below kFlatBow.
 /// kConvex: it bends away (the tool may be as large as it likes). kConcave: it bends towards the machining side.
@@ -57,4 +57,9 @@ inline constexpr int kInspectGrid = 48;
 
 [[nodiscard]] InspectReport inspect(const Part& part);
 
-}  // namespace flank::internal
+/// For people: a header, one line a face, then what was repaired.
+[[nodiscard]] std::string inspect_table(const InspectReport& report);
+/// Indented JSON, schema "openflank/inspect/1"; lengths in mm, an infinite radius is null.
+[[nodiscard]] std::string inspect_json(const InspectReport& report);
+
+}  // namespace flank

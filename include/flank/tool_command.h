@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "flank/toolbox/tool_spec.h"
+#include "flank/tool.h"
 
-namespace flank::internal {
+namespace flank {
 
 /// Axis length of a family if none is given, mm.
 inline constexpr double kDefaultToolLengthMm = 30.0;
@@ -38,4 +38,7 @@ Tool run_tool_command(const ToolCommandOptions& options);
 /// Family, axis length, radii, margin of legitimacy and the names of the files, as JSON.
 [[nodiscard]] std::string tool_summary_json(const Tool& tool, const std::vector<std::string>& files);
 
-}  // namespace flank::internal
+/// The profile in characters, for a terminal: 78 columns and 16 rows.
+[[nodiscard]] std::string tool_drawing(const Tool& tool);
+
+}  // namespace flank
