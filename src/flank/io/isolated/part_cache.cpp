@@ -16,6 +16,7 @@
 #include "flank/base/sha256.h"
 #include "flank/error.h"
 #include "flank/io/isolated/part_bytes.h"
+#include "flank/io/text/read_bytes.h"
 #include "flank/version.h"
 
 namespace flank::internal {
