@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -79,8 +78,7 @@ constexpr std::array<Writer, 3> kWriters{{{".stl", stl}, {".obj", obj}, {".ply",
 
 /// Null: no mesh is written under this name.
 const Writer* writer_of(const std::string& file) {
-  std::string ending = std::filesystem::path(file).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string ending = std::filesystem::path(file).extension().string();
   const auto* found =
       std::find_if(kWriters.begin(), kWriters.end(), [&](const Writer& w) { return w.ending == ending; });
   return found == kWriters.end() ? nullptr : found;

@@ -11,7 +11,7 @@ namespace flank::internal {
 [[nodiscard]] std::string written_mesh_endings();
 [[nodiscard]] bool is_written_mesh(const std::string& file);
 
-/// In the format that the extension of `file` says, in any case; binary and in double precision where the format can (STL has
+/// In the format that the extension of `file` says; binary and in double precision where the format can (STL has
 /// single precision). Throws UsageError for another extension, InputError if the file cannot be written; nothing half-written
 /// is left.
 void write_mesh(const std::string& file, const TriangleMesh& mesh);
