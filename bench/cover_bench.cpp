@@ -93,7 +93,7 @@ void row(const Scene& scene, const CoverJob& job, const std::string& label) {
   const TargetCover cover = std::get<CoverSummary>(outcome.plan).whole();
   const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   std::printf("%-34s %-9s %7.4f %8.1f %8.1f %8.1f %7zu %9.0f %9.4f %8.1f\n", scene.name.c_str(), label.c_str(),
-              job.tolerance_mm, 100.0 * cover.before, 100.0 * cover.after, 100.0 * outcome.verify.coverage,
+              *job.tolerance_mm, 100.0 * cover.before, 100.0 * cover.after, 100.0 * outcome.verify.coverage,
               outcome.path.strips.size(), 100.0 * cover.overlap, outcome.verify.overcut_mm, seconds);
 }
 

@@ -105,6 +105,9 @@ bool turn_false(Figure figure, Result& result) {
       std::get<FitJob>(result.job).judge.least_whole = 0.9;
       verify.coverage = 0.5;
       return true;
+    case Figure::kTurn:
+      verify.turn = TurnFigure{.angle_deg = 40.0};
+      return true;
     case Figure::kHold:
       verify.hold.emplace().axis.kept = false;
       return true;

@@ -76,12 +76,12 @@ class ViewOfExample : public ::testing::Test {
     job_.part.file = "/somewhere/barrel.step";
     job_.tolerance_mm = 0.01;
     JudgeOptions options;
-    options.tolerance_mm = job_.tolerance_mm;
+    options.tolerance_mm = *job_.tolerance_mm;
     verdict_ = judge(tool_, path_, judge_samples(setup(), 0.5, 1.0), options);
     view_ = make_view(job_, setup(), tool_, path_, verdict_);
   }
 
-  [[nodiscard]] internal::Setup setup() const { return {part_, {0}, {}, job_.tolerance_mm, {}}; }
+  [[nodiscard]] internal::Setup setup() const { return {part_, {0}, {}, *job_.tolerance_mm, {}}; }
 
   FitJob job_;
   Part part_;
@@ -186,7 +186,7 @@ TEST_F(ViewOfExample, AFaceThatIsEnteredIsColoured) {
   for (Vec3& p : far.surface.poles) p -= 50.0 * normal;
   part.faces = {part.faces.front(), raised, far};
   JudgeOptions options;
-  const internal::Setup raised_setup{part, {0}, {1, 2}, job_.tolerance_mm, {}};
+  const internal::Setup raised_setup{part, {0}, {1, 2}, *job_.tolerance_mm, {}};
   const VerifyReport verdict = judge(tool_, path_, judge_samples(raised_setup, 0.5, 1.0), options);
   const View view = make_view(job_, raised_setup, tool_, path_, verdict);
   ASSERT_EQ(view.bodies.size(), 3u);

@@ -39,7 +39,7 @@ Result sound_result(const std::string& part_file) {
   result.path = example.truth->path;
   result.diagonal_mm = 10.0;
   result.verify.verdict = Verdict::kPass;
-  result.verify.tolerance_mm = job.tolerance_mm;
+  result.verify.tolerance_mm = *job.tolerance_mm;
   result.verify.depth = DepthProof::kProved;
   result.verify.coverage = result.verify.coverage_reachable = 1.0;
   result.verify.faces.emplace_back().face = "F1";
@@ -70,7 +70,7 @@ Result colliding_result(Result result, const std::string& folder) {
   write_file(file, mesh_to_stl(cube(poses.at(poses.size() / 2).at(length + 40.0), 20.0)));
   job.obstacles.fixtures = {file};
   job.obstacles.clearance_mm = 1.0;
-  const Setup setup{read_part(job.part.file), {0}, {}, job.tolerance_mm, {read_part(file, "mm")}};
+  const Setup setup{read_part(job.part.file), {0}, {}, *job.tolerance_mm, {read_part(file, "mm")}};
   std::vector<std::string> notes;
   result.verify.clearance =
       measure_clearance(make_clearance_scene(setup, job.obstacles, true, notes), result.tool, result.path);

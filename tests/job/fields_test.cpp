@@ -41,7 +41,7 @@ void add_members(const ObstacleRequest& request, Addresses& all) {
   add(all, check, ignore, shank_radius, shank_length, holder, fixtures, clearance);
 }
 void add_members(const JudgeRequest& request, Addresses& all) {
-  const auto& [coverage, whole, sample, reach] = request;
+  const auto& [coverage, whole, sample, reach, turn] = request;  // the last of fit and cover alone
   add(all, coverage, whole, sample, reach);
 }
 void add_members(const ChoiceRequest& request, Addresses& all) {
@@ -49,11 +49,11 @@ void add_members(const ChoiceRequest& request, Addresses& all) {
   add(all, catalogue, finalists, feed, rapid);
 }
 Addresses members(const FitJob& job) {
-  const auto& [part, tool, radius, obstacles, judge, tolerance, start, guide, strips, avoid, curve, bend] = job;
+  const auto& [part, tool, radius, obstacles, judge, tolerance, start, guide, strips, avoid, effort, curve, bend] = job;
   Addresses all;
   add_members(part, all), add_members(tool, all), add_members(radius, all), add_members(obstacles, all);
   add_members(judge, all);
-  add(all, tolerance, start, guide, strips, avoid, curve, bend);
+  add(all, tolerance, start, guide, strips, avoid, effort, curve, bend, judge.most_turn_deg);
   return all;
 }
 Addresses members(const CoverJob& job) {
@@ -61,7 +61,7 @@ Addresses members(const CoverJob& job) {
   Addresses all;
   add_members(part, all), add_members(tool, all), add_members(choice, all), add_members(obstacles, all);
   add_members(judge, all);
-  add(all, tolerance, strategy, seed, seeds, most_strips, price);
+  add(all, tolerance, strategy, seed, seeds, most_strips, price, judge.most_turn_deg);
   return all;
 }
 void add_members(const NcRequest& request, Addresses& all) {

@@ -22,7 +22,7 @@ FitJob full_job() {
   job.tool = {"barrel:arc=85,radius=5,s0=7", 40.5};
   job.radius = {2.25, 9.75, 0.75, 6.5, "any", 0.25, 60.5};
   job.obstacles = {{}, {}, 4.5, 30.25, "0:10,30:12.5", {"/parts/vice.stl"}, 0.75};
-  job.judge = {0.9, 0.8, 0.375, 3.5};
+  job.judge = {0.9, 0.8, 0.375, 3.5, 12.0};
   job.tolerance_mm = 0.0125;
   job.start = "0,0,5,0,0,45";
   job.guide = "/parts/guide.txt";
@@ -36,7 +36,7 @@ bool finite(const std::optional<double>& value) { return !value || std::isfinite
 /// The numbers that fit and cover have in common.
 template <class Job>
 bool sound_request(const Job& job) {
-  return std::isfinite(job.tolerance_mm) && std::isfinite(job.judge.least_coverage) && finite(job.judge.sample_mm) &&
+  return finite(job.tolerance_mm) && std::isfinite(job.judge.least_coverage) && finite(job.judge.sample_mm) &&
          finite(job.judge.reach_radius_mm) && finite(job.tool.axis_length_mm) &&
          finite(job.obstacles.shank_radius_mm) && finite(job.obstacles.shank_length_mm) &&
          finite(job.obstacles.clearance_mm);

@@ -73,9 +73,9 @@ TEST(WoundFace, TheMotionGoesOverAllOfIt) {
   ASSERT_FALSE(search.fit.motions.empty());
   const Target& whole = *search.machined().front().target;
   const CoverageEstimate estimate =
-      estimate_coverage(whole.samples(0.5), search.motions_of(search.fit), search.fit.tool, job.tolerance_mm, 600);
+      estimate_coverage(whole.samples(0.5), search.motions_of(search.fit), search.fit.tool, *job.tolerance_mm, 600);
   EXPECT_GE(estimate.at_tolerance, 0.99);
-  EXPECT_LE(estimate.overcut_mm, job.tolerance_mm);
+  EXPECT_LE(estimate.overcut_mm, *job.tolerance_mm);
 }
 
 }  // namespace

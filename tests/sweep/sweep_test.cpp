@@ -8,7 +8,7 @@
 
 #include "flank/base/atomic_file.h"
 #include "flank/error.h"
-#include "flank/example/example.h"
+#include "flank/example.h"
 #include "flank/example/example_write.h"
 #include "temporary_folder.h"
 

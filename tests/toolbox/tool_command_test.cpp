@@ -10,6 +10,7 @@
 
 #include "flank/error.h"
 #include "flank/tool_file.h"
+#include "flank/toolbox/tool_spec.h"
 
 namespace flank::internal {
 namespace {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "flank/example/example.h"
+#include "flank/example.h"
 #include "flank/example/example_write.h"
 #include "flank/part.h"
 
