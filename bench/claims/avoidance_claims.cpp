@@ -58,7 +58,7 @@ std::vector<Figure> given_on_r37(const std::string& tool) {
   Result outcome;
   const double seconds = seconds_of([&] { outcome = run_fit(job, {}); });
   return {at_most("overcut", outcome.verify.overcut_mm / outcome.diagonal_mm, 2e-5),
-          at_most("deepest in another face, mm", outcome.verify.gouge_mm, job.tolerance_mm),
+          at_most("deepest in another face, mm", outcome.verify.gouge_mm, *job.tolerance_mm),
           shown("coverage at 0.1 mm", outcome.verify.coverage), shown("rms, mm", outcome.verify.rms_mm),
           shown("seconds", seconds)};
 }

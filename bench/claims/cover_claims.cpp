@@ -204,8 +204,8 @@ std::vector<Figure> command(const Case& c) {
           at_least("coverage of the reachable share", outcome.verify.coverage_reachable, c.coverage),
           at_most("strips", static_cast<double>(outcome.motions.size()), c.strips),
           shown("overlap", cover.overlap),
-          at_most("overcut, mm", outcome.verify.overcut_mm, job.tolerance_mm),
-          at_most("deepest in another face, mm", outcome.verify.gouge_mm, job.tolerance_mm),
+          at_most("overcut, mm", outcome.verify.overcut_mm, *job.tolerance_mm),
+          at_most("deepest in another face, mm", outcome.verify.gouge_mm, *job.tolerance_mm),
           at_most("seconds", seconds, 30.0)};
 }
 
