@@ -73,14 +73,14 @@ class SpaceCurve {
   }
   [[nodiscard]] const std::vector<double>& places() const { return places_; }
 
-  /// From the nearest of the points by the method of Gauss and Newton.
-  [[nodiscard]] double distance(const gp_Pnt& p) const {
+  /// From the nearest of the points by the method of Gauss and Newton; any distance that is no more than `enough` if there is one.
+  [[nodiscard]] double distance(const gp_Pnt& p, double enough) const {
     constexpr int kSteps = 5;
     const auto nearest = std::min_element(points_.begin(), points_.end(), [&](const gp_Pnt& a, const gp_Pnt& b) {
       return a.SquareDistance(p) < b.SquareDistance(p);
     });
     double best = nearest->Distance(p), t = places_[static_cast<std::size_t>(nearest - points_.begin())];
-    for (int i = 0; i < kSteps; ++i) {
+    for (int i = 0; i < kSteps && best > enough; ++i) {
       gp_Pnt c;
       gp_Vec d;
       curve_->D1(t, c, d);
@@ -124,11 +124,13 @@ double gap_along(const TopoDS_Edge& edge, const TopoDS_Face& face, double most) 
   const auto look = [&](double t) {
     const gp_Pnt2d at = on_face->Value(t);
     const gp_Pnt p = surface->Value(at.X(), at.Y());
-    gap = std::max(gap, same ? gap_at(*curve, t, p, most) : in_space.distance(p));
+    gap = std::max(gap, same ? gap_at(*curve, t, p, most) : in_space.distance(p, most));
   };
-  for (const double t : places_on<Geom2d_BSplineCurve>(on_face, on_first, on_last)) look(t);
-  if (same)
-    for (const double t : in_space.places()) look(t);
+  std::vector<double> places = places_on<Geom2d_BSplineCurve>(on_face, on_first, on_last);
+  if (same) places.insert(places.end(), in_space.places().begin(), in_space.places().end());
+  std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  for (const double t : places) look(t);
   return gap;
 }
 
