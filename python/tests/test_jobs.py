@@ -27,7 +27,8 @@ def test_keywords_are_the_fields_of_the_table(command):
 
 def test_defaults_are_those_of_the_table():
     parameters = inspect.signature(openflank.fit).parameters
-    assert parameters["tolerance_mm"].default == 0.01 and isinstance(parameters["tolerance_mm"].default, float)
+    assert parameters["tolerance_mm"].default is None
+    assert parameters["turn_max"].default == 15.0 and isinstance(parameters["turn_max"].default, float)
     assert parameters["strips"].default == "auto"
     assert parameters["avoid"].default is True
     assert parameters["axis_length_mm"].default is None
