@@ -2,6 +2,7 @@
 #include "claims/claims_support.h"
 #include "flank/pipeline/folder/target_reach.h"
 #include "flank/setup/check_faces.h"
+#include "flank/setup/read_setup.h"
 #include "flank/setup/targets.h"
 #include "flank/threads.h"
 

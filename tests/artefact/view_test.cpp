@@ -166,7 +166,7 @@ TEST_F(ViewOfExample, TheFileIsTheSameAgainAndHidesTheFolder) {
   const auto json = nlohmann::json::parse(text);
   EXPECT_EQ(json.at("schema"), "openflank/view/1");
   EXPECT_EQ(json.at("part"), "barrel.step");
-  EXPECT_EQ(json.at("command"), "flank fit barrel.step --face F1");
+  EXPECT_EQ(json.at("command"), "flank fit barrel.step --face F1 --tolerance 0.01");
   const auto& body = json.at("bodies").at(0);
   EXPECT_EQ(body.at("positions").get<std::string>().size(), (body.at("vertices").get<std::size_t>() * 6 + 2) / 3 * 4);
   EXPECT_EQ(body.at("f_mm").get<std::string>().size(), (body.at("vertices").get<std::size_t>() * 4 + 2) / 3 * 4);

@@ -11,6 +11,7 @@
 #include "flank/example/example_write.h"
 #include "flank/pipeline/folder/judge_job.h"
 #include "flank/run.h"
+#include "flank/setup/read_setup.h"
 #include "temporary_folder.h"
 
 namespace flank::internal {

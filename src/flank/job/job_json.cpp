@@ -109,7 +109,7 @@ Job read_job(const Json& json, const std::set<std::string>& ignored) {
     const std::string key(info.key);
     known.insert(key);
     // Without these a job asks for nothing; every other field has a default.
-    const bool needed = key == "part" || key == "faces" || key == "left" || key == "right" || key == "tolerance";
+    const bool needed = key == "part" || key == "faces" || key == "left" || key == "right";
     if (ignored.contains(key) || (!needed && !json.contains(key))) return;
     if (!json.contains(key)) throw InputError(key + ": is missing");
     try {

@@ -55,12 +55,6 @@ double share_of(const TriangleTree& tree, const Place& place, const Vec3& normal
 
 }  // namespace
 
-std::array<Vec3, 3> corners_of(const TriangleMesh& mesh, std::size_t triangle) {
-  const std::array<int, 3>& t = mesh.triangles[triangle];
-  return {mesh.vertices[static_cast<std::size_t>(t[0])], mesh.vertices[static_cast<std::size_t>(t[1])],
-          mesh.vertices[static_cast<std::size_t>(t[2])]};
-}
-
 Enclosure enclosure(const TriangleMesh& surface, const TriangleMesh& all) {
   const TriangleTree tree = tree_of(all);
   const double least = kStartShare * all.box().diagonal();

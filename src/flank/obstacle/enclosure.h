@@ -1,8 +1,6 @@
 /// How far a surface and what is around it close the space before it and behind it.
 #pragma once
 
-#include <array>
-
 #include "flank/triangle_mesh.h"
 
 namespace flank::internal {
@@ -17,8 +15,5 @@ struct Enclosure {
 /// Of `surface`, which must have an area, among `all`, itself included: it may close a space alone. The same bits for any number
 /// of threads.
 [[nodiscard]] Enclosure enclosure(const TriangleMesh& surface, const TriangleMesh& all);
-
-/// The corners of a triangle of a mesh.
-[[nodiscard]] std::array<Vec3, 3> corners_of(const TriangleMesh& mesh, std::size_t triangle);
 
 }  // namespace flank::internal

@@ -3,8 +3,6 @@
 #include <limits>
 #include <vector>
 
-#include "flank/obstacle/enclosure.h"
-
 namespace flank::internal {
 namespace {
 
@@ -21,6 +19,12 @@ double way_to(const std::array<Vec3, 3>& t, const Vec3& from, const Vec3& direct
 }
 
 }  // namespace
+
+std::array<Vec3, 3> corners_of(const TriangleMesh& mesh, std::size_t triangle) {
+  const std::array<int, 3>& t = mesh.triangles[triangle];
+  return {mesh.vertices[static_cast<std::size_t>(t[0])], mesh.vertices[static_cast<std::size_t>(t[1])],
+          mesh.vertices[static_cast<std::size_t>(t[2])]};
+}
 
 TriangleTree tree_of(const TriangleMesh& mesh) {
   std::vector<TriangleTree::Triangle> triangles(mesh.triangles.size());

@@ -12,6 +12,7 @@
 #include "flank/pipeline/search/cover_choice.h"
 #include "flank/pipeline/search/reach_ball.h"
 #include "flank/pipeline/search/search_setup.h"
+#include "flank/setup/read_setup.h"
 #include "flank/setup/tool_body.h"
 #include "flank/strip/strip_order.h"
 #include "flank/toolbox/tool_spec.h"

@@ -20,6 +20,7 @@
 #include "flank/pipeline/run_journal.h"
 #include "flank/pipeline/search/fit_search.h"
 #include "flank/pipeline/search/stiff_fit.h"
+#include "flank/setup/read_setup.h"
 #include "flank/setup/tool_body.h"
 #include "flank/surface/facet_gaps.h"
 

@@ -21,6 +21,7 @@
 #include "flank/pipeline/search/search_setup.h"
 #include "flank/run.h"
 #include "flank/setup/clearance_scene.h"
+#include "flank/setup/read_setup.h"
 #include "flank/setup/tool_body.h"
 #include "flank/toolbox/tool_model.h"
 #include "flank/trochoid/program.h"

@@ -11,6 +11,7 @@
 #include "flank/geom/tessellate.h"
 #include "flank/geom/triangle_bvh.h"
 #include "flank/obstacle/enclosure.h"
+#include "flank/obstacle/line_of_sight.h"
 #include "flank/setup/closed_mesh.h"
 #include "flank/setup/joints.h"
 

@@ -21,9 +21,4 @@ struct Setup {
   std::vector<SheetSide> sides = {};  ///< of the targets that bound no material
 };
 
-/// Reads the part, finds its faces, and reads the fixtures. Without a tolerance the targets get their default_tolerance. `notes` gets what
-/// was repaired, which faces are not checked, and that tolerance. Throws UsageError and InputError.
-[[nodiscard]] Setup read_setup(const PartRequest& part, const ObstacleRequest& obstacles,
-                               std::optional<double> tolerance_mm, std::vector<std::string>& notes);
-
 }  // namespace flank::internal

@@ -27,6 +27,7 @@
 #include "flank/pipeline/folder/judge_job.h"
 #include "flank/pipeline/folder/judge_program.h"
 #include "flank/setup/clearance_scene.h"
+#include "flank/setup/read_setup.h"
 #include "flank/setup/tool_body.h"
 
 namespace flank::internal {

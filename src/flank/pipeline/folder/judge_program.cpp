@@ -25,6 +25,7 @@
 #include "flank/pipeline/program/program_setup.h"
 #include "flank/pipeline/program/stock_path.h"
 #include "flank/setup/clearance_scene.h"
+#include "flank/setup/read_setup.h"
 #include "flank/setup/tool_body.h"
 #include "flank/tool_file.h"
 

@@ -25,6 +25,7 @@
 #include "flank/pipeline/folder/machine_scene.h"
 #include "flank/pipeline/folder/motion_json.h"
 #include "flank/setup/clearance_scene.h"
+#include "flank/setup/read_setup.h"
 #include "flank/setup/tool_body.h"
 
 namespace flank {

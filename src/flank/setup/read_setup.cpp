@@ -1,4 +1,4 @@
-#include "flank/setup/setup.h"
+#include "flank/setup/read_setup.h"
 
 #include <fmt/format.h>
 
