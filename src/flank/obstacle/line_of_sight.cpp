@@ -33,6 +33,7 @@ TriangleTree tree_of(const TriangleMesh& mesh) {
 }
 
 bool meets(const TriangleTree& tree, const Vec3& from, const Vec3& direction, double least_mm) {
+  if (tree.empty()) return false;
   const Vec3 per_mm = direction.cwiseInverse();  // infinite along an axis: the comparisons hold all the same
   std::vector<int> open{0};
   while (!open.empty()) {

@@ -38,6 +38,7 @@ std::vector<FaceTriangles> coarse_triangles(const Part& part, double deviation) 
   std::vector<FaceTriangles> faces(part.faces.size());
   parallel_for(faces.size(), [&](std::size_t k) {
     faces[k].face = part.face_id(static_cast<int>(k));
+    if (part.left_out.contains(static_cast<int>(k))) return;  // it has no surface
     faces[k].mesh = tessellate(part.faces[k], {.chord_mm = deviation}).mesh;
     faces[k].deviation_mm = kAimed * deviation;
   });
