@@ -153,7 +153,7 @@ TEST(JobFile, FilesOfEarlierVersionsRead) {
 TEST(JobFile, RefusesWhatIsWrongByItsName) {
   EXPECT_EQ(refusal(changed("units", "mm")), "accepted");
   EXPECT_NE(refusal(changed("units", "in")).find("units: is \"in\"; accepted is \"mm\""), std::string::npos);
-  for (const char* key : {"part", "faces", "tolerance"})
+  for (const char* key : {"part", "faces"})
     EXPECT_NE(refusal(changed(key, nullptr)).find(std::string(key) + ": is missing"), std::string::npos);
   EXPECT_NE(refusal(changed("tolerence", 0.1)).find("tolerence: is no key"), std::string::npos);
   EXPECT_NE(refusal(changed("strategy", "grow")).find("strategy: is no key"), std::string::npos) << "of a cover";
