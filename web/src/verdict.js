@@ -8,7 +8,7 @@ const NAMES = {
   gouge_bound_mm: 'Of other faces, proved', coverage_reachable: 'Finished of what is reachable',
   coverage_bound: 'Finished, proved', stock: 'Replay in a stock', travel: 'Travel of the joints',
   axis_speed: 'Speed of the joints', machine_bodies: 'Table and head', unread_faces: 'Faces that were not read',
-  coverage: 'Finished of the whole face', hold: 'Hold of the tool', sheet_side: 'Machined side',
+  coverage: 'Finished of the whole face', hold: 'Hold of the tool', turn: 'Kinks of the motion', sheet_side: 'Machined side',
   rounding_mm: 'Rounding of the program', rapid: 'Rapid moves',
 };
 export const capital = (words) => words.charAt(0).toUpperCase() + words.slice(1);
