@@ -2,7 +2,7 @@
 /// these two questions.
 #pragma once
 
-#include <compare>
+#include <tuple>
 
 #include "flank/fit.h"
 
@@ -38,7 +38,10 @@ struct Rank {
   /// is given up for one that covers more than twice as much.
   long worth = 0;
   long score = 0;  ///< CoverageEstimate::score, in millionths
-  auto operator<=>(const Rank&) const = default;
+  friend bool operator<(const Rank& a, const Rank& b) {
+    return std::tie(a.meets, a.exact, a.worth, a.score) < std::tie(b.meets, b.exact, b.worth, b.score);
+  }
+  friend bool operator>(const Rank& a, const Rank& b) { return b < a; }
 };
 
 /// `exact`: the motion is that of an envelope, to the last digits.
