@@ -1,5 +1,7 @@
 #include "flank/fit/starts/upper_end.h"
 
+#include <algorithm>
+
 namespace flank::internal {
 
 RuledMotion turned_over(const RuledMotion& motion) {
@@ -18,6 +20,12 @@ double unheld_share(const RuledMotion& motion, const FlankFitOptions& options) {
     blocked += options.is_free_line(pose.at(motion.axis_length), pose.axis) ? 0 : 1;
   }
   return static_cast<double>(blocked) / kTimes;
+}
+
+double unheld_share(const std::vector<RuledMotion>& motions, const FlankFitOptions& options) {
+  double largest = 0.0;
+  for (const RuledMotion& motion : motions) largest = std::max(largest, unheld_share(motion, options));
+  return largest;
 }
 
 void hold_from_free_end(const FlankFitOptions& options, std::vector<FitTask>& tasks) {

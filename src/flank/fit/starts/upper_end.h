@@ -12,6 +12,8 @@ namespace flank::internal {
 
 /// Share of a motion, by samples, at which the axis, continued beyond its upper end, runs into something (FlankFitOptions::is_free_line).
 [[nodiscard]] double unheld_share(const RuledMotion& motion, const FlankFitOptions& options);
+/// The largest of several motions.
+[[nodiscard]] double unheld_share(const std::vector<RuledMotion>& motions, const FlankFitOptions& options);
 
 /// The tasks as they are, or all of them turned over where their axes, continued beyond the tip, run into less than beyond the upper end: a
 /// chart knows nothing of what holds a tool.
