@@ -106,8 +106,9 @@ struct FlankFitOptions {
   /// Covered share (estimate) at which a candidate that cuts and enters nothing too deep ends the search. Above 1: all
   /// that are kept are tried to the end.
   double enough_coverage = 0.999;
-  /// Radians that a motion may turn within 1 % of its target's diagonal (judge.h, TurnFigure).
-  double most_turn_rad = kMostTurnRad;
+  /// Radians that a motion may turn within 1 % of its target's diagonal (judge.h, TurnFigure), and the window of six numbers in which it
+  /// is asked, mm (path/turning.h); 0: that of each motion's target. Where targets are pieces of one face it is the face's.
+  double most_turn_rad = kMostTurnRad, turn_window_mm = 0.0;
   /// Beside walls, where a fit that avoids them from the start falls short: try other ways, too (fit/ways.h).
   bool ways = true;
   /// Covered share in [0, 1]: if the best candidate covers less than this after the polish, the last passes are
@@ -147,8 +148,8 @@ struct CoverageEstimate {
   /// Share of the motion, by samples, at which the axis beyond the flank's upper end runs into something: nothing could hold the tool there.
   /// estimate_coverage leaves it 0.
   double unheld = 0.0;
-  /// By which the motion turns (FlankFitOptions::most_turn_rad). estimate_coverage leaves it 0.
-  double turn_rad = 0.0;
+  /// By which the motion turns, in FlankFitOptions::most_turn_rad: it has a kink above 1. estimate_coverage leaves it 0.
+  double turn = 0.0;
   /// Of a free tool and its shank, and of the thickest one that its bounds allow; 0 of others. estimate_coverage leaves them 0.
   double slenderness = 0.0, least_slenderness = 0.0;
   /// Of motions over the facing sides of a cavity: how far the ends of their axes lie apart along the way, as a share of

@@ -20,7 +20,7 @@ namespace {
 /// |c| of the motions as they will be written.
 double written_c_of(const FitDraft& draft, double tolerance_mm) {
   CoverageEstimate estimate;
-  measure_written(draft, tolerance_mm, estimate);
+  measure_written(draft, {.tolerance_mm = tolerance_mm}, estimate);
   return estimate.largest_c;
 }
 

@@ -37,7 +37,7 @@ TEST(Assess, TellsCoverageSlendernessAndAStraightWay) {
   EXPECT_GT(seen.estimate.at_tolerance, 0.99);
   EXPECT_EQ(seen.estimate.of_whole, seen.estimate.at_tolerance);
   EXPECT_NEAR(seen.estimate.slenderness, 7.0, 1e-6);
-  EXPECT_LT(seen.estimate.turn_rad, 1e-6);
+  EXPECT_LT(seen.estimate.turn * kMostTurnRad, 1e-6);
   EXPECT_EQ(seen.estimate.unheld, 0.0);
 }
 
@@ -48,10 +48,10 @@ TEST(Assess, AKinkIsSeenInTheDraftAndInWhatIsWritten) {
   const auto middle = draft.motions[0].tip.poles.cols() / 2;
   draft.motions[0].tip.poles.col(middle).x() -= 20.0;
   const Polished seen = assess(draft, ranking_samples(*blade, nullptr, options()), options());
-  EXPECT_GT(seen.estimate.turn_rad, 2.0);
+  EXPECT_GT(seen.estimate.turn * kMostTurnRad, 2.0);
   CoverageEstimate written;
-  measure_written(draft, 0.02, written);
-  EXPECT_GT(written.turn_rad, 2.0);
+  measure_written(draft, {.tolerance_mm = 0.02}, written);
+  EXPECT_GT(written.turn * kMostTurnRad, 2.0);
 }
 
 TEST(Assess, WhereNoLineIsFreeNothingHoldsTheTool) {

@@ -42,7 +42,7 @@ TEST(Meets, EachFigureAloneIsANo) {
     return !meets(estimate, 0.99, options);
   };
   EXPECT_TRUE(no([](CoverageEstimate& e) { e.largest_c = 1.0; }));
-  EXPECT_TRUE(no([](CoverageEstimate& e) { e.turn_rad = 0.27; }));
+  EXPECT_TRUE(no([](CoverageEstimate& e) { e.turn = 1.03; }));
   EXPECT_TRUE(no([](CoverageEstimate& e) { e.legitimate = false; }));
   EXPECT_TRUE(no([](CoverageEstimate& e) { e.slenderness = 9.0; }));
   EXPECT_TRUE(no([](CoverageEstimate& e) { e.at_tolerance = std::numeric_limits<double>::quiet_NaN(); }));
@@ -62,15 +62,20 @@ TEST(IsBetter, WhatEntersNothingGoesFirstUnlessItCoversNextToNothing) {
   EXPECT_TRUE(is_better(covering(0.9), covering(1.0, 0.0, 0.2), options)) << "overcut is no price for coverage";
 }
 
-TEST(IsBetter, PlungingAndKinksCostTwoPercent) {
+TEST(IsBetter, PlungingCostsTwoPercent) {
   const FlankFitOptions options = asking();
-  CoverageEstimate plunging = covering(0.99), kinked = covering(0.99);
+  CoverageEstimate plunging = covering(0.99);
   plunging.largest_c = 1.5;
-  kinked.turn_rad = 1.0;
-  for (const CoverageEstimate& unsteady : {plunging, kinked}) {
-    EXPECT_TRUE(is_better(covering(0.98), unsteady, options));
-    EXPECT_FALSE(is_better(covering(0.96), unsteady, options));
-  }
+  EXPECT_TRUE(is_better(covering(0.98), plunging, options));
+  EXPECT_FALSE(is_better(covering(0.96), plunging, options));
+}
+
+TEST(IsBetter, AKinkIsNoResultThatMoreThanHalfOfTheFaceWouldNotBeat) {
+  const FlankFitOptions options = asking();
+  CoverageEstimate kinked = covering(0.99);
+  kinked.turn = 4.0;
+  EXPECT_TRUE(is_better(covering(0.6), kinked, options));
+  EXPECT_FALSE(is_better(covering(0.3), kinked, options));
 }
 
 TEST(IsBetter, WhatIsNoToolGoesLast) {
@@ -114,7 +119,7 @@ TEST(Rank, IsTransitiveForAnyFigures) {
     CoverageEstimate e = covering(random.uniform(0.95, 1.0), random.uniform(0.0, 0.07), random.uniform(0.0, 0.07));
     e.of_whole = e.at_tolerance * random.uniform(0.9, 1.0);
     e.largest_c = random.uniform(0.0, 1.2);
-    e.turn_rad = random.uniform(0.0, 0.4);
+    e.turn = random.uniform(0.0, 1.5);
     e.slenderness = random.uniform(1.0, 9.0);
     e.legitimate = random.uniform(0.0, 1.0) < 0.9;
     all.push_back(e);

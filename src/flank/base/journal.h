@@ -14,6 +14,7 @@
 #include "flank/base/parallel.h"
 #include "flank/base/step_codec.h"
 #include "flank/base/stopping.h"
+#include "flank/base/work_count.h"
 #include "flank/error.h"
 #include "flank/progress.h"
 
@@ -101,11 +102,28 @@ template <class... Inputs>
   return {name, fingerprint(codec.values()), {}};
 }
 
+/// The result of a step, and how much was done for it (work_count.h).
+template <class Value>
+void code_step(StepCodec& codec, Value& value, double& work) {
+  code(codec, value);
+  codec.finite(work);
+}
+
+/// Takes a step of an earlier run. What was done for it counts, so that a search that goes on ends where it would have ended.
+template <class Value>
+[[nodiscard]] bool take_step(Journal& journal, const JournalStep& step, Value& value) {
+  double work = 0.0;
+  if (!journal.take(step, [&](StepCodec& codec) { code_step(codec, value, work); })) return false;
+  count_work(static_cast<std::uint64_t>(work));
+  return true;
+}
+
 /// With its result, unless that could not be read back.
 template <class Value>
-void add_step(Journal& journal, std::size_t mark, JournalStep step, Value& value) {
+void add_step(Journal& journal, std::size_t mark, JournalStep step, Value& value, std::uint64_t done) {
   StepCodec codec;
-  code(codec, value);
+  auto work = static_cast<double>(done);
+  code_step(codec, value, work);
   step.result = codec.values();
   if (codec.writable()) journal.add(mark, std::move(step));
 }
@@ -120,10 +138,11 @@ template <class Work, class... Inputs>
   if (journal == nullptr) return Value(work());
   Value value;
   JournalStep step = begun_step(name, inputs...);
-  if (journal->take(step, [&](StepCodec& codec) { code(codec, value); })) return value;
+  if (take_step(*journal, step, value)) return value;
   const std::size_t mark = journal->mark();
+  const std::uint64_t before = work_done();
   value = work();
-  if (!(progress.stop() || stopping())) add_step(*journal, mark, std::move(step), value);
+  if (!(progress.stop() || stopping())) add_step(*journal, mark, std::move(step), value, work_done() - before);
   return value;
 }
 
@@ -137,11 +156,16 @@ template <class Work, class Inputs>
   std::vector<JournalStep> steps;
   for (std::size_t k = 0; k < count && journal != nullptr; ++k) steps.push_back(begun_step(name, inputs(k)));
   std::size_t taken = 0;
-  while (taken < steps.size() && journal->take(steps[taken], [&](StepCodec& codec) { code(codec, values[taken]); }))
-    ++taken;
-  parallel_for(count - taken, [&](std::size_t k) { values[taken + k] = work(taken + k); });
+  while (taken < steps.size() && take_step(*journal, steps[taken], values[taken])) ++taken;
+  std::vector<std::uint64_t> done(count);
+  parallel_for(count - taken, [&](std::size_t k) {
+    const std::uint64_t before = work_done();
+    values[taken + k] = work(taken + k);
+    done[taken + k] = work_done() - before;
+  });
   if (journal == nullptr || progress.stop() || stopping()) return values;
-  for (std::size_t k = taken; k < count; ++k) add_step(*journal, journal->mark(), std::move(steps[k]), values[k]);
+  for (std::size_t k = taken; k < count; ++k)
+    add_step(*journal, journal->mark(), std::move(steps[k]), values[k], done[k]);
   return values;
 }
 

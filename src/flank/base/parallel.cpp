@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "flank/base/assert.h"
+#include "flank/base/work_count.h"
 #include "flank/threads.h"
 
 namespace flank::internal {
@@ -63,7 +64,12 @@ void parallel_blocks(std::size_t count, std::size_t grain, const std::function<v
     for (std::size_t block = 0; block < blocks; ++block) run(block);
     return;
   }
-  run_blocks(blocks, run);
+  std::atomic<std::uint64_t> work{0};
+  run_blocks(blocks, [&](std::size_t block) {
+    const LoopWork counted(work);
+    run(block);
+  });
+  count_work(work);
 }
 
 }  // namespace flank::internal

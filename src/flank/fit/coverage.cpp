@@ -5,6 +5,7 @@
 
 #include "flank/base/parallel.h"
 #include "flank/base/tolerance_budget.h"
+#include "flank/base/work_count.h"
 #include "flank/envelope/swept_estimate.h"
 
 namespace flank {
@@ -36,8 +37,8 @@ constexpr double kPlungingPrice = 0.02, kMostPlunging = 1.0;
 /// Of a motion during which nothing could hold the tool, and that much again times its share: no result at all, but one that covers all may lead
 /// to one.
 constexpr double kUnheldPrice = 0.12;
-/// Likewise of a motion that turns more sharply than it may, for each angle beyond it, at most one.
-constexpr double kTurnPrice = 0.02, kMostTurns = 1.0;
+/// Likewise of a motion that turns more sharply than it may, which is no result either, for each angle beyond it, at most one.
+constexpr double kTurnPrice = 0.1, kMostTurns = 1.0;
 
 /// Of a stagger as long as the axis, where it counts. Among motions that cover the same the most nearly parallel ones: a
 /// stagger of 0.1 can halve the steps of a cavity's cycles. A percent of coverage is worth half of that.
@@ -57,7 +58,7 @@ double CoverageEstimate::score(double tolerance_mm) const {
   return at_tolerance - held + kNearWorth * at_four_tolerances - kExcessPrice * excess - within -
          kMeanPrice * std::min(1.0, rms_mm / tolerance_mm) -
          kPlungingPrice * std::clamp(largest_c - 1.0, 0.0, kMostPlunging) -
-         kTurnPrice * std::clamp(turn_rad / kMostTurnRad - 1.0, 0.0, kMostTurns) - kStaggerPrice * stagger;
+         kTurnPrice * std::clamp(turn - 1.0, 0.0, kMostTurns) - kStaggerPrice * stagger;
 }
 
 }  // namespace flank
@@ -72,6 +73,7 @@ std::vector<double> estimate_distances(const std::vector<SurfaceSample>& samples
   constexpr std::size_t kGrain = 256;  // samples per task: the estimate takes microseconds each
   const SweptEstimate swept(motions, tool, poses);
   std::vector<double> distances(samples.size());
+  count_work(samples.size());
   parallel_blocks(samples.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const SweptContact near = swept.nearest(samples[k].point);

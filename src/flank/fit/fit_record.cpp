@@ -25,7 +25,7 @@ void code(StepCodec& codec, CoverageEstimate& estimate) {
   for (double* value :
        {&estimate.at_tolerance, &estimate.at_four_tolerances, &estimate.overcut_mm, &estimate.gouge_mm,
         &estimate.undercut_mm, &estimate.rms_mm, &estimate.largest_c, &estimate.stagger, &estimate.of_whole,
-        &estimate.unheld, &estimate.turn_rad, &estimate.slenderness, &estimate.least_slenderness})
+        &estimate.unheld, &estimate.turn, &estimate.slenderness, &estimate.least_slenderness})
     codec.number(*value);
   code(codec, estimate.legitimate);
 }
@@ -84,6 +84,7 @@ void code(StepCodec& codec, FlankFitOptions& options) {
   codec.number(options.least_coverage);
   codec.number(options.enough_coverage);
   codec.number(options.most_turn_rad);
+  codec.number(options.turn_window_mm);
   code(codec, options.ways);
   codec.number(options.least_coverage_for_last_passes);
   codec.number(options.least_coverage_for_close_look);

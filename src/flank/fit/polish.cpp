@@ -221,7 +221,7 @@ Polished seen_closely(FitDraft draft, const std::vector<SurfaceSample>& samples,
   constexpr int kOften = 4;
   seen.estimate.gouge_mm =
       flank_gouge(seen.draft.motions, seen.draft.obstacles, seen.draft.tool, kOften * kRankingPoses, GougeLook::kClose);
-  if (has_values(seen.draft)) measure_written(seen.draft, options.tolerance_mm, seen.estimate);
+  if (has_values(seen.draft)) measure_written(seen.draft, options, seen.estimate);
   seen.estimate.legitimate = !seen.draft.free_tool || check_legitimacy(seen.draft.tool).legitimate;
   return seen;
 }
@@ -265,13 +265,13 @@ Polished regained(Polished steady, double covered, double steadiness, const std:
 Polished steadied(const Polished& polished, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
   /// As much as it takes, where the face holds against it.
   constexpr std::array kFirmness = {10.0, 100.0, 1000.0};
-  if (is_steady(polished.estimate, options)) return polished;
+  if (is_steady(polished.estimate)) return polished;
   for (const double firmness : kFirmness) {
     if (stopping()) break;
     Polished trial = seen_closely(steady_pass(polished.draft, options, firmness), samples, options);
     // Led out of what it cuts with the weights of other passes, it would plunge again.
     trial = mended(trial, samples, options, firmness);
-    if (is_steady(trial.estimate, options) && is_better(trial.estimate, polished.estimate, options))
+    if (is_steady(trial.estimate) && is_better(trial.estimate, polished.estimate, options))
       return regained(std::move(trial), polished.estimate.at_tolerance, firmness, samples, options);
   }
   return polished;

@@ -42,15 +42,19 @@ std::vector<Pose> even_poses(const RuledMotion& motion, int count) {
 
 /// |c| and turn of all motions, of the poses that `poses_of` lays on each.
 template <class PosesOf>
-void measure_motion(const FitDraft& draft, double tolerance_mm, CoverageEstimate& estimate, const PosesOf& poses_of) {
-  estimate.largest_c = estimate.turn_rad = 0.0;
+void measure_motion(const FitDraft& draft, const FlankFitOptions& options, CoverageEstimate& estimate,
+                    const PosesOf& poses_of) {
+  double turn = 0.0;
+  estimate.largest_c = 0.0;
   for (std::size_t m = 0; m < draft.motions.size(); ++m) {
     const RuledMotion& motion = draft.motions[m];
     const std::vector<Pose> poses = poses_of(motion);
-    estimate.largest_c = touching_c_of(draft, m, poses, tolerance_mm, estimate.largest_c);
-    const double window = turn_window(draft.targets[m]->diagonal());
-    estimate.turn_rad = std::max(estimate.turn_rad, sharpest_turn(poses, motion.axis_length, window).angle_rad);
+    estimate.largest_c = touching_c_of(draft, m, poses, options.tolerance_mm, estimate.largest_c);
+    const double own = turn_window(draft.targets[m]->diagonal());
+    const double window = std::max(own, options.turn_window_mm);
+    turn = std::max(turn, sharpest_turn(poses, motion.axis_length, window).angle_rad);
   }
+  estimate.turn = turn / options.most_turn_rad;
 }
 
 }  // namespace
@@ -62,10 +66,10 @@ double touching_c(const FitDraft& draft, double tolerance_mm, int poses) {
   return largest;
 }
 
-void measure_written(const FitDraft& draft, double tolerance_mm, CoverageEstimate& estimate) {
-  const SamplingOptions written = written_path(tolerance_mm);
+void measure_written(const FitDraft& draft, const FlankFitOptions& options, CoverageEstimate& estimate) {
+  const SamplingOptions written = written_path(options.tolerance_mm);
   try {
-    measure_motion(draft, tolerance_mm, estimate,
+    measure_motion(draft, options, estimate,
                    [&](const RuledMotion& motion) { return sample_motion(motion, written).poses; });
   } catch (const InternalError&) {  // a pass that went wrong leaves rails without a direction
     estimate.largest_c = std::numeric_limits<double>::infinity();
@@ -83,7 +87,7 @@ Polished assess(FitDraft draft, const std::vector<SurfaceSample>& samples, const
   if (draft.free_tool) draft.tool = clamp_tool(draft.tool, options.bounds);
   polished.estimate = estimate_coverage(samples, draft.motions, draft.tool, options.tolerance_mm, kRankingPoses);
   polished.estimate.gouge_mm = flank_gouge(draft.motions, draft.obstacles, draft.tool, kRankingPoses);
-  measure_motion(draft, options.tolerance_mm, polished.estimate,
+  measure_motion(draft, options, polished.estimate,
                  [](const RuledMotion& motion) { return even_poses(motion, kRankingPoses); });
   polished.estimate.unheld = unheld_share(draft.motions, options);
   if (draft.free_tool) {

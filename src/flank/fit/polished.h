@@ -16,7 +16,7 @@ inline constexpr int kRankingPoses = 160;
 [[nodiscard]] double touching_c(const FitDraft& draft, double tolerance_mm, int poses);
 /// |c| and turn of the motions as they will be written (motion/written_path.h): a cusp that lasts for a thousandth of a motion shows.
 /// |c| is infinite for rails that cannot be.
-void measure_written(const FitDraft& draft, double tolerance_mm, CoverageEstimate& estimate);
+void measure_written(const FitDraft& draft, const FlankFitOptions& options, CoverageEstimate& estimate);
 
 /// Residuals far beyond this are outliers to a robust pass; mm.
 [[nodiscard]] double robust_scale(const Target& target, const FlankFitOptions& options);

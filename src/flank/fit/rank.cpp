@@ -8,17 +8,19 @@
 namespace flank::internal {
 namespace {
 
-/// What a motion that plunges, one with a kink, and a tool that is too slender cost, in shares of coverage: no machine runs the first two
-/// well, and nobody wants the third.
-constexpr double kUnsteadyPrice = 0.02, kSlenderPrice = 0.02;
+/// What a motion that plunges and a tool that is too slender cost, in shares of coverage: no machine runs the first well, and nobody wants
+/// the second.
+constexpr double kPlungingPrice = 0.02, kSlenderPrice = 0.02;
 
-/// Of the score of what is no result as it is: it enters something; and of that where its tool is none.
+/// Of the score of what is no result as it is: it enters something, nothing holds its tool, or it has a kink; and of that where its tool is
+/// none.
 constexpr double kUncleanShare = 0.45, kNoToolShare = 0.65;
 
 double worth(const CoverageEstimate& estimate, const FlankFitOptions& options) {
   const double prices =
-      (is_steady(estimate, options) ? 0.0 : kUnsteadyPrice) + (is_stiff(estimate, options) ? 0.0 : kSlenderPrice);
-  if (is_clean(estimate, options.tolerance_mm) && estimate.unheld <= 0.0) return estimate.at_tolerance - prices;
+      (estimate.largest_c < 1.0 ? 0.0 : kPlungingPrice) + (is_stiff(estimate, options) ? 0.0 : kSlenderPrice);
+  const bool result = is_clean(estimate, options.tolerance_mm) && estimate.unheld <= 0.0 && estimate.turn <= 1.0;
+  if (result) return estimate.at_tolerance - prices;
   const double share = estimate.legitimate ? kUncleanShare : kUncleanShare * kNoToolShare;
   return share * (estimate.score(options.tolerance_mm) - prices);
 }
@@ -37,9 +39,7 @@ bool is_clean(const CoverageEstimate& estimate, double tolerance_mm) {
          std::max(estimate.overcut_mm, estimate.gouge_mm) <= kToleranceBudget.fit.clean * tolerance_mm;
 }
 
-bool is_steady(const CoverageEstimate& estimate, const FlankFitOptions& options) {
-  return estimate.largest_c < 1.0 && estimate.turn_rad <= options.most_turn_rad;
-}
+bool is_steady(const CoverageEstimate& estimate) { return estimate.largest_c < 1.0 && estimate.turn <= 1.0; }
 
 bool is_stiff(const CoverageEstimate& estimate, const FlankFitOptions& options) {
   constexpr double kRounding = 1.005;  // less is not seen in the figure that is shown
@@ -48,7 +48,7 @@ bool is_stiff(const CoverageEstimate& estimate, const FlankFitOptions& options) 
 
 bool meets(const CoverageEstimate& estimate, double share, const FlankFitOptions& options) {
   return estimate.at_tolerance >= share && is_clean(estimate, options.tolerance_mm) && estimate.unheld <= 0.0 &&
-         is_steady(estimate, options) && is_stiff(estimate, options);
+         is_steady(estimate) && is_stiff(estimate, options);
 }
 
 Rank rank_of(const CoverageEstimate& estimate, const FlankFitOptions& options, bool exact) {

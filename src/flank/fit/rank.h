@@ -20,7 +20,7 @@ inline constexpr double kSameCoverage = 1e-3;
 [[nodiscard]] bool is_clean(const CoverageEstimate& estimate, double tolerance_mm);
 
 /// The motion neither plunges nor has a kink.
-[[nodiscard]] bool is_steady(const CoverageEstimate& estimate, const FlankFitOptions& options);
+[[nodiscard]] bool is_steady(const CoverageEstimate& estimate);
 
 /// No more slender than the options let a free tool be; true where no cylinder is that is as thick as they allow.
 [[nodiscard]] bool is_stiff(const CoverageEstimate& estimate, const FlankFitOptions& options);
@@ -34,7 +34,7 @@ struct Rank {
   bool meets = false;  ///< options.least_coverage
   bool exact = false;  ///< of what meets it: an envelope found to the last digits
   /// In kSameCoverage. Of what meets the request: the share of the whole face, less the price of slenderness. Of what does not: the share of
-  /// what is reachable, less what plunging, kinks and slenderness cost; of what is not clean or not held, less than half of its score: a clean result
+  /// what is reachable, less what plunging and slenderness cost; of what is not clean, not held or has a kink, less than half of its score: a clean result
   /// is given up for one that covers more than twice as much.
   long worth = 0;
   long score = 0;  ///< CoverageEstimate::score, in millionths

@@ -142,7 +142,7 @@ double least_to_win(const CoverageEstimate& rival, const FlankFitOptions& option
 
 bool cannot_win(const CoverageEstimate& way, const CoverageEstimate& rival, const FlankFitOptions& options) {
   constexpr double kLastLookGain = 0.01;  // of the face: it mends what is too deep, and hardly covers more
-  if (!is_clean(rival, options.tolerance_mm) || !is_steady(rival, options)) return false;
+  if (!is_clean(rival, options.tolerance_mm) || !is_steady(rival)) return false;
   if (way.at_tolerance + kLastLookGain < rival.at_tolerance) return true;
   const bool too_deep = std::max(way.overcut_mm, way.gouge_mm) > kMendable * options.tolerance_mm;
   return too_deep && is_better(rival, way, options);

@@ -253,12 +253,13 @@ void visit_fields(Job& job, Visitor&& visit) {
                   "Passes side by side with one tool: a number, or auto: as many as the tolerance needs", kPassCount,
                   Spelling::kAutoOrCount},
         job.strips);
-  visit(FieldInfo{"effort", "", "",
-                  "How much is tried: quick: few starts, four strips at most, no tool more slender than "
-                  "--slenderness-max; thorough: twice the "
-                  "starts",
-                  kEffort},
-        job.effort);
+  visit(
+      FieldInfo{"effort", "", "",
+                "How much is tried: normal ends after about five minutes of one processor, with its best; quick after "
+                "20 seconds, with few starts, four strips at most and no tool more slender than --slenderness-max; "
+                "thorough has twice the starts and no limit",
+                kEffort},
+      job.effort);
   visit(FieldInfo{"start", "", "", "First axis x,y,z,x,y,z (tip, holder end), mm; default: automatic"}, job.start);
   visit(FieldInfo{"guide", "", "", "File of several such lines: the axis follows them", kAny, Spelling::kFile},
         job.guide);

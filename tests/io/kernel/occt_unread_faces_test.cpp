@@ -4,7 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <BRepBuilderAPI_Transform.hxx>
+#include <BRepMesh_IncrementalMesh.hxx>
 #include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <Poly_Triangulation.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <gp_Trsf.hxx>
 
@@ -204,6 +209,17 @@ TEST(UnreadFaces, AFileOfWhichNoFaceIsReadIsRefused) {
   for (auto at = faces.rbegin(); at != faces.rend(); ++at) text = kStepDamages[2].edit(text, *at);
   const Scratch scratch;
   EXPECT_NE(testing_io::refusal(scratch.write("none.step", text)).find("no faces"), std::string::npos);
+}
+
+/// A part is its surfaces: triangles that a file brings along may be those of another shape.
+TEST(UnreadFaces, TrianglesOfTheFileAreNotThePart) {
+  const TopoDS_Shape block = bored_block();
+  const BRepMesh_IncrementalMesh meshed(block, 0.1);
+  TopLoc_Location location;
+  const TopoDS_Face face = TopoDS::Face(TopExp_Explorer(block, TopAbs_FACE).Current());
+  BRep_Tool::Triangulation(face, location)->SetNode(1, gp_Pnt(0.0, 0.0, 500.0));
+  const Part part = read_as("block.brep", testing_io::brep_text(block));
+  EXPECT_NEAR((part.box.high - part.box.low).z(), 10.0, 1e-9);
 }
 
 }  // namespace

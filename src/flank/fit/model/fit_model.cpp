@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "flank/base/assert.h"
+#include "flank/base/work_count.h"
 
 namespace flank::internal {
 namespace {
@@ -60,6 +61,7 @@ ArrowSystem FitModel::make_system() const {
 void FitModel::locate(FitState& state) const {
   locate_obstacles(state);
   const int n = stage_.samples_s;
+  count_work(targets_.size() * static_cast<std::uint64_t>(n * stage_.samples_t));
   state.feet.resize(targets_.size());
   for (std::size_t m = 0; m < targets_.size(); ++m) {
     std::vector<Footpoint>& feet = state.feet[m];

@@ -6,6 +6,7 @@
 
 #include "flank/base/assert.h"
 #include "flank/base/parallel.h"
+#include "flank/base/work_count.h"
 #include "flank/bspline_basis.h"
 
 namespace flank::internal {
@@ -16,6 +17,8 @@ namespace {
 constexpr int kPosesPerControlPoint = 4;
 /// Points that one task of the parallel search takes: a point costs microseconds, a task must not.
 constexpr std::size_t kChunk = 64;
+/// What a point costs, in footpoints (work_count.h).
+constexpr std::uint64_t kLooks = 4;
 
 /// The residual with its dead zone cut out. Not a number stays what it is: a state without a value must not be cheap.
 double cut(double e, double dead_zone) {
@@ -44,6 +47,7 @@ void SweptModel::locate(FitState& state) const {
   base_.locate_obstacles(state);  // of the base model only this: it has no residuals here, so it needs no footpoints
   const SweptEstimate swept(state.motions, state.tool, kPosesPerControlPoint * stage().control_points);
   state.contacts.resize(points_.size());
+  count_work(points_.size() * kLooks);
   parallel_blocks(points_.size(), kChunk, [&](std::size_t begin, std::size_t end) {
     std::vector<SweptContact> places;
     for (std::size_t k = begin; k < end; ++k) {

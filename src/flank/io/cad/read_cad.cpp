@@ -4,6 +4,7 @@
 
 #include <BRepBndLib.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
+#include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <Poly_Triangulation.hxx>
@@ -224,6 +225,7 @@ Part read_cad(const std::string& file, const std::string& format, const std::opt
   part.millimetres_per_unit = loaded.millimetres_per_unit;
   part.repairs = std::move(loaded.notes);
   try {
+    BRepTools::Clean(loaded.shape);  // triangles that the file brings may be those of another shape
     const BRepMesh_IncrementalMesh meshed(loaded.shape, kRelativeDeflection, true, kAngularDeflection, false);
     const Places places = add_faces(loaded, part);
     refuse_unreadable(part);

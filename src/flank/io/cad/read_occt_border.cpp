@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "flank/io/kernel/occt_space_curve.h"
 #include "flank/vec.h"
 
 namespace flank::internal {
@@ -39,64 +40,6 @@ double gap_at_ends(const TopoDS_Edge& edge) {
       gap = std::max(gap, curve->Value(t).Distance(BRep_Tool::Pnt(vertex)));
   return gap;
 }
-
-/// Adds the knots in ]first, last[ and what is in the middle of each span: a control point moves the curve most near one of these.
-template <class Spline>
-void add_knots(const Handle(Spline) & spline, double first, double last, std::vector<double>& places) {
-  if (spline.IsNull()) return;
-  double before = first;
-  for (int i = 1; i <= spline->NbKnots(); ++i) {
-    const double knot = std::min(spline->Knot(i), last);
-    if (knot <= before) continue;
-    places.push_back(0.5 * (before + knot));
-    places.push_back(knot);
-    before = knot;
-  }
-}
-
-/// Parameters at which a curve over [first, last] is looked at.
-template <class Spline, class Curve>
-std::vector<double> places_on(const Curve& curve, double first, double last) {
-  constexpr int kPlaces = 8;
-  std::vector<double> places;
-  for (int k = 0; k <= kPlaces; ++k) places.push_back(first + (last - first) * k / kPlaces);
-  add_knots(Handle(Spline)::DownCast(curve), first, last, places);
-  return places;
-}
-
-/// The curve of an edge in space, with the points that a search on it begins at.
-class SpaceCurve {
- public:
-  SpaceCurve(const Handle(Geom_Curve) & curve, double first, double last)
-      : curve_(curve), first_(first), last_(last), places_(places_on<Geom_BSplineCurve>(curve, first, last)) {
-    for (const double t : places_) points_.push_back(curve->Value(t));
-  }
-  [[nodiscard]] const std::vector<double>& places() const { return places_; }
-
-  /// From the nearest of the points by the method of Gauss and Newton; any distance that is no more than `enough` if there is one.
-  [[nodiscard]] double distance(const gp_Pnt& p, double enough) const {
-    constexpr int kSteps = 5;
-    const auto nearest = std::min_element(points_.begin(), points_.end(), [&](const gp_Pnt& a, const gp_Pnt& b) {
-      return a.SquareDistance(p) < b.SquareDistance(p);
-    });
-    double best = nearest->Distance(p), t = places_[static_cast<std::size_t>(nearest - points_.begin())];
-    for (int i = 0; i < kSteps && best > enough; ++i) {
-      gp_Pnt c;
-      gp_Vec d;
-      curve_->D1(t, c, d);
-      best = std::min(best, c.Distance(p));
-      if (!(d.SquareMagnitude() > 0.0)) break;
-      t = std::clamp(t + gp_Vec(c, p).Dot(d) / d.SquareMagnitude(), first_, last_);
-    }
-    return best;
-  }
-
- private:
-  Handle(Geom_Curve) curve_;
-  double first_, last_;
-  std::vector<double> places_;
-  std::vector<gp_Pnt> points_;
-};
 
 /// How far a point is from the place of a curve that has its parameter; 0 where that is no more than `most`.
 double gap_at(const Geom_Curve& curve, double t, const gp_Pnt& p, double most) {

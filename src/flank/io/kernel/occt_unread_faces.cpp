@@ -29,6 +29,7 @@
 #include <utility>
 
 #include "flank/io/kernel/occt_complaints.h"
+#include "flank/io/kernel/occt_iges_border.h"
 
 namespace flank::internal {
 namespace {
@@ -192,6 +193,22 @@ void add_rest(const FaceList& all, std::vector<FaceList>& lists) {
   if (!rest.empty()) lists.push_back(std::move(rest));
 }
 
+/// Says which borders are elsewhere in space than on their surfaces.
+void note_astray_borders(const Handle(XSControl_WorkSession) & session, const FaceList& faces,
+                         std::vector<std::string>& notes) {
+  const auto model = Handle(IGESData_IGESModel)::DownCast(session->Model());
+  const Handle(Transfer_TransientProcess) process = session->TransferReader()->TransientProcess();
+  for (const Entity& entity : faces) {
+    const TopoDS_Shape made = TransferBRep::ShapeResult(process, entity);
+    const auto face = Handle(IGESData_IGESEntity)::DownCast(entity);
+    if (const double gap = made.IsNull() ? 0.0 : iges_border_gap(model, face, made); gap > 0.0)
+      notes.push_back(
+          fmt::format("{}: the curves of its border in space and in the parameters of its surface are up to {:.2g} mm "
+                      "apart; look at it before it is used",
+                      model->StringLabel(entity)->ToCString(), gap));
+  }
+}
+
 }  // namespace
 
 FileFaces faces_of_step(const Handle(XSControl_WorkSession) & session, const TopTools_IndexedMapOfShape& read) {
@@ -224,7 +241,9 @@ FileFaces faces_of_iges(const Handle(XSControl_WorkSession) & session, const Top
     if (FaceList list = iges_members(entity, graph); !list.empty()) lists.push_back(std::move(list));
   }
   add_rest(all, lists);
-  return collect(session, lists, read);
+  FileFaces result = collect(session, lists, read);
+  note_astray_borders(session, all, result.notes);
+  return result;
 }
 
 }  // namespace flank::internal

@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <utility>
 
+#include "flank/base/work_count.h"
 #include "flank/error.h"
+#include "flank/path/turning.h"
 #include "flank/pipeline/search/group_fit.h"
 #include "flank/pipeline/search/out_of_reach.h"
 #include "flank/pipeline/search/reach_ball.h"
@@ -54,13 +57,19 @@ void give_up_the_rest(double most, FlankFitOptions& options) {
   options.kept_after_polish = 1;
 }
 
-/// Of a quick search.
-constexpr int kQuickStrips = 4;
+/// How much a search does, by the word of the job.
+struct Effort {
+  double most_looks = 0.0;  ///< (base/work_count.h); a search that has done as much ends with its best so far
+  int most_strips = kMostStrips;
+  int kept_after_quick = 0, kept_after_polish = 0;
+  bool soften = true;
+};
 
-/// How many candidates a search tries.
-void set_effort(const std::string& effort, FlankFitOptions& options) {
-  if (effort == "quick") options.kept_after_quick = 2, options.kept_after_polish = 1;
-  if (effort == "thorough") options.kept_after_quick *= 2, options.kept_after_polish *= 2;
+Effort effort_of(const FitJob& job) {
+  constexpr double kNormal = 3e8, kQuick = 2e7, kNoLimit = 1e300;
+  if (job.effort == "quick") return {kQuick, 4, 2, 1, false};
+  if (job.effort == "thorough") return {kNoLimit, kMostStrips, 12, 6, true};
+  return {kNormal, kMostStrips, 6, 3, true};
 }
 
 /// `free_tool`: what is reachable is asked with the ball of the demand.
@@ -68,7 +77,9 @@ FlankFitOptions options_of(const FitJob& job, const Setup& setup, const Target& 
   FlankFitOptions options;
   const double most = most_of_facets(target, *job.tolerance_mm), least = std::min(job.judge.least_coverage, most);
   options.tolerance_mm = *job.tolerance_mm;
-  set_effort(job.effort, options);
+  const Effort effort = effort_of(job);
+  options.kept_after_quick = effort.kept_after_quick;
+  options.kept_after_polish = effort.kept_after_polish;
   options.least_coverage = least;
   options.enough_coverage = std::min(options.enough_coverage, enough_for(least));
   if (job.judge.most_turn_deg > 0.0) options.most_turn_rad = job.judge.most_turn_deg * std::numbers::pi / 180.0;
@@ -118,6 +129,22 @@ void fit_ball_to_slot(const FitJob& job, FitSearch& search) {
   search.reach_radius_mm = options.reach_radius_mm = three_digits(ball);
 }
 
+/// The window in which turns are asked, as the judge has it (path/turning.h): of the largest face; pieces of one belong together.
+double turn_window_of(const std::vector<TargetGroup>& groups) {
+  constexpr double kSpacing = 0.02;  // of the square root of the area
+  std::map<int, Box3> faces;
+  double size = 0.0;
+  if (groups.size() == 1) return turn_window(size);
+  for (const TargetGroup& group : groups)
+    for (const int face : group.indices) {
+      const double spacing = kSpacing * std::sqrt(group.target->area());
+      for (const SurfaceSample& sample : group.target->samples(spacing)) faces[face].add(sample.point);
+      for (const Vec3& point : group.target->border_points(spacing)) faces[face].add(point);
+    }
+  for (const auto& [face, box] : faces) size = std::max(size, box.diagonal());
+  return turn_window(size);
+}
+
 /// Before anything is fitted: groups, the obstacles about them, and what is asked.
 FitSearch begin_search(const FitJob& job, const Setup& setup, const ToolModel& tool, const FitDemand& demand) {
   FitSearch search;
@@ -126,6 +153,7 @@ FitSearch begin_search(const FitJob& job, const Setup& setup, const ToolModel& t
   search.tool = tool;
   search.options = options_of(job, setup, *search.targets.front().target, tool.free());
   if (job.avoid) search.options.is_free_line = demand.is_free_line;
+  search.options.turn_window_mm = turn_window_of(search.targets);
   if (tool.free()) search.reach_radius_mm = search.options.reach_radius_mm;
   if (job.avoid) add_group_obstacles(setup, job.obstacles.clearance_mm, search.options.bounds.largest, search.targets);
   fit_ball_to_slot(job, search);
@@ -148,8 +176,8 @@ FitSearch search_from(const FitJob& job, const Setup& setup, const ToolModel& to
   FitSearch search = begin_search(job, setup, tool, demand);
   const FlankFitOptions options = search.options;
   if (!start.given()) {
-    GroupDemand groups{.strips = job.strips, .wanted = {}};
-    if (job.effort == "quick") groups.most_strips = kQuickStrips, groups.soften = false;
+    const Effort effort = effort_of(job);
+    GroupDemand groups{.strips = job.strips, .most_strips = effort.most_strips, .soften = effort.soften, .wanted = {}};
     for (const TargetGroup& group : search.targets)
       groups.wanted.push_back(wanted_estimate(job, *group.target, search.spare_coverage));
     GroupFits found = fit_groups(search.targets, tool, options, groups, progress);
@@ -203,14 +231,29 @@ std::vector<RuledMotion> FitSearch::motions_of(const FlankFitResult& result) con
   return motions;
 }
 
-FitSearch search_fit(const FitJob& job, const Setup& setup, const ToolSpec& spec, const Progress& progress,
+namespace {
+
+/// A search that came to its limit has left out its last look, if its best was one of many strips that were still to be beaten.
+void end_at_limit(FitSearch& search) {
+  search.limited = true;
+  search.fit.notes.push_back(
+      "the search ended at its limit of work, with the best that it had found; `--effort thorough` has no limit");
+  if (!search.fit.looked_at && !search.fit.motions.empty())
+    search.fit = with_close_look(search.tasks(), search.fit, search.tool, search.options);
+}
+
+}  // namespace
+
+FitSearch search_fit(const FitJob& job, const Setup& setup, const ToolSpec& spec, const Progress& asked,
                      const FitDemand& demand) {
+  const Progress progress = limited(asked, effort_of(job).most_looks);
   const UserStart start = user_start(job);
   const ToolModel tool = make_tool_model(spec, job.tool.axis_length_mm);
   const std::optional<WoundFace> wound_face = start.given() ? std::nullopt : find_wound_face(setup);
   FitSearch search = wound_face ? search_half_turn(job, setup, *wound_face, tool, progress, demand)
                                 : search_from(job, setup, tool, start, demand, progress);
   search.fit = reach_further(search.tasks(), search.fit, search.tool, search.options, progress);
+  if (progress.stop() && !asked.stop()) end_at_limit(search);
   return search;
 }
 

@@ -31,7 +31,7 @@ constexpr double kPromising = 0.85;
 /// What covers less than this is beaten without a last look, which hardly makes it cover more.
 double least_to_look_at(const FlankFitResult& best, const FlankFitOptions& options) {
   constexpr double kLookGains = 0.01;  // of the face
-  const bool sound = best.looked_at && is_clean(best.after, options.tolerance_mm) && is_steady(best.after, options);
+  const bool sound = best.looked_at && is_clean(best.after, options.tolerance_mm) && is_steady(best.after);
   return sound ? std::max(kPromising, best.after.at_tolerance - kLookGains) : kPromising;
 }
 
@@ -201,18 +201,40 @@ class TogetherFit {
       tasks.push_back({group.target.get(), large.fit.motions[m], group.obstacles.get()});
     }
     fits.group_of_motion = large.group_of_motion;
+    double may_miss = missed_area(large), left = 0.0;
+    for (const std::size_t g : small_) left += groups_[g].target->area();
     for (const std::size_t g : small_) {
-      FlankFitOptions own = beside(groups_[g], options_);
-      own.ways = false;
-      own.kept_after_quick = 3, own.kept_after_polish = 1;  // they are little of all
-      const FlankFitResult fit = fit_automatic(*groups_[g].target, found, own, progress);
-      if (is_clean(fit.after, options_.tolerance_mm)) add(fit, g, tasks, fits);
+      const double area = groups_[g].target->area();
+      const FlankFitResult fit = fit_small(g, found, 1.0 - may_miss / left, progress);
+      const bool sound = is_clean(fit.after, options_.tolerance_mm) && is_steady(fit.after);
+      if (sound) add(fit, g, tasks, fits);
+      may_miss -= area * (sound ? 1.0 - fit.after.at_tolerance : 1.0);
+      left -= area;
     }
     fits.fit = fit_as_found(tasks, large.fit.tool, tool_, options_);
     fits.fit.notes = large.fit.notes;
     fits.fit.tried = large.fit.tried;
     fits.fit.candidates = large.fit.candidates;
     return fits;
+  }
+
+  /// The area, mm^2, that small groups may leave: what the whole may miss, less what the large groups leave of it.
+  [[nodiscard]] double missed_area(const GroupFits& large) const {
+    double all = 0.0, of_large = 0.0;
+    for (const TargetGroup& group : groups_) all += group.target->area();
+    for (const std::size_t g : large_) of_large += groups_[g].target->area();
+    return (1.0 - wanted()) * all - (1.0 - large.fit.after.at_tolerance) * of_large;
+  }
+
+  /// A small group as far as the whole needs it: its last percents cost as much as those of a large one, and are little of all.
+  [[nodiscard]] FlankFitResult fit_small(std::size_t g, const ToolModel& found, double share,
+                                         const Progress& progress) const {
+    constexpr double kLeast = 0.5;  // of the group: less is not worth a strip
+    const double wanted = std::clamp(share, kLeast, demand_.wanted[g]);
+    FlankFitOptions own = beside(groups_[g], options_);
+    own.least_coverage = std::min(own.least_coverage, wanted);
+    own.enough_coverage = std::min(own.enough_coverage, wanted);
+    return fit_group(*groups_[g].target, found, own, demand_, wanted, progress);
   }
 
   void add(const FlankFitResult& fit, std::size_t g, std::vector<FitTask>& tasks, GroupFits& fits) const {

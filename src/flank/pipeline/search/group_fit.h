@@ -26,7 +26,7 @@ struct GroupFits {
 
 /// The first large group finds the tool. Other large ones: one strip each with it, or with all polished together, if that does what is
 /// wanted; else as many as each takes, and polished together only if that does not do it. Groups of less than a tenth of the
-/// largest one's area take the tool as it is. Obstacles are those of the groups.
+/// largest one's area take the tool as it is, and are covered as far as the whole needs them. Obstacles are those of the groups.
 [[nodiscard]] GroupFits fit_groups(const std::vector<TargetGroup>& groups, const ToolModel& tool,
                                    const FlankFitOptions& options, const GroupDemand& demand, const Progress& progress);
 

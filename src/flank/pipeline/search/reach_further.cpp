@@ -112,7 +112,7 @@ FitDraft further_pass(const FitDraft& draft, const FlankFitOptions& options, dou
 bool gives_up_nothing(const Polished& now, const Polished& before, const FlankFitOptions& options) {
   const bool stiff = is_stiff(now.estimate, options) || now.estimate.slenderness <= before.estimate.slenderness;
   return now.estimate.at_tolerance >= before.estimate.at_tolerance && is_clean(now.estimate, options.tolerance_mm) &&
-         is_steady(now.estimate, options) && stiff;
+         is_steady(now.estimate) && stiff;
 }
 
 /// Passes as long as they gain.

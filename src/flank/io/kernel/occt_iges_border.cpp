@@ -1,0 +1,77 @@
+#include "flank/io/kernel/occt_iges_border.h"
+
+#include <BRep_Tool.hxx>
+#include <IGESGeom_CurveOnSurface.hxx>
+#include <IGESGeom_TrimmedSurface.hxx>
+#include <IGESToBRep_CurveAndSurface.hxx>
+#include <Precision.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <Transfer_TransientProcess.hxx>
+#include <algorithm>
+#include <vector>
+
+#include "flank/io/kernel/occt_space_curve.h"
+#include "flank/vec.h"
+
+namespace flank::internal {
+namespace {
+
+/// As a border and its surface (read_occt_border.cpp), mm and share of its size.
+constexpr double kGapMm = 0.05, kGapShare = 1e-3;
+
+/// The curves of the edges of a shape in space.
+std::vector<SpaceCurve> edges_of(const TopoDS_Shape& shape) {
+  std::vector<SpaceCurve> curves;
+  for (TopExp_Explorer it(shape, TopAbs_EDGE); it.More(); it.Next()) {
+    double first = 0.0, last = 0.0;
+    const Handle(Geom_Curve) curve = BRep_Tool::Curve(TopoDS::Edge(it.Current()), first, last);
+    if (!curve.IsNull() && !Precision::IsInfinite(first) && !Precision::IsInfinite(last))
+      curves.emplace_back(curve, first, last);
+  }
+  return curves;
+}
+
+/// The borders of a trimmed surface.
+std::vector<Handle(IGESGeom_CurveOnSurface)> borders_of(const Handle(IGESGeom_TrimmedSurface) & trimmed) {
+  std::vector<Handle(IGESGeom_CurveOnSurface)> borders;
+  if (trimmed->HasOuterContour()) borders.push_back(trimmed->OuterContour());
+  for (int i = 1; i <= trimmed->NbInnerContours(); ++i) borders.push_back(trimmed->InnerContour(i));
+  return borders;
+}
+
+/// What the kernel makes of a curve in space, with nothing of its surface.
+TopoDS_Shape in_space(const Handle(IGESData_IGESModel) & model, const Handle(IGESData_IGESEntity) & curve) {
+  constexpr double kEps = 1e-4, kCoefficients = 1e-6;  // as the kernel's reader has them
+  IGESToBRep_CurveAndSurface transfer(kEps, kEps, kCoefficients, true, false, false);
+  transfer.SetModel(model);
+  transfer.SetTransferProcess(new Transfer_TransientProcess);
+  return transfer.TransferGeometry(curve);
+}
+
+}  // namespace
+
+double iges_border_gap(const Handle(IGESData_IGESModel) & model, const Handle(IGESData_IGESEntity) & entity,
+                       const TopoDS_Shape& made) {
+  const auto trimmed = Handle(IGESGeom_TrimmedSurface)::DownCast(entity);
+  if (trimmed.IsNull() || trimmed->HasTransf()) return 0.0;
+  const std::vector<SpaceCurve> edges = edges_of(made);
+  Box3 size;
+  for (const SpaceCurve& edge : edges)
+    for (const gp_Pnt& p : edge.points()) size.add(Vec3(p.X(), p.Y(), p.Z()));
+  const double most = std::max(kGapMm, kGapShare * size.diagonal());
+  double gap = 0.0;
+  for (const Handle(IGESGeom_CurveOnSurface) & border : borders_of(trimmed)) {
+    if (border.IsNull() || border->HasTransf() || border->Curve3D().IsNull()) continue;
+    for (const SpaceCurve& stated : edges_of(in_space(model, border->Curve3D())))
+      for (const gp_Pnt& p : stated.points()) {
+        double least = 1e300;
+        for (const SpaceCurve& edge : edges)
+          if (least > most) least = std::min(least, edge.distance(p, most));
+        gap = std::max(gap, least);
+      }
+  }
+  return gap > most && !edges.empty() ? gap : 0.0;
+}
+
+}  // namespace flank::internal
