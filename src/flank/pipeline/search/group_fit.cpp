@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -45,40 +46,107 @@ FlankFitResult looked_at(FlankFitResult best, const Target& target, const ToolMo
       progress, "close look", [&] { return with_close_look(tasks, best, tool, options); }, best);
 }
 
-/// One group with as many strips as its tolerance needs: a strip more as long as that is not met, and gains something or
-/// promises to.
-FlankFitResult fit_auto(const Target& target, const ToolModel& tool, FlankFitOptions options, const GroupDemand& demand,
-                        double wanted, const Progress& progress) {
-  const bool has_ways = options.ways;
-  FlankFitResult best;
-  double one_covers = 0.0, rest = 1.0;
-  StripGain gain(options.tolerance_mm, !options.ways);
-  for (int count : {1, 2, 3, 4, 6, 8, 10, kMostStrips}) {
-    if (count > demand.most_strips) break;
-    options.strips = count;
-    options.least_coverage_for_last_passes = count < demand.most_strips ? kPromising : 0.0;
-    options.least_coverage_for_close_look = least_to_look_at(best, options);
-    const double here = 1.0 - rest;  // nobody knows how many follow: each gets a half of what is left
-    FlankFitResult result = fit_automatic(target, tool, options, progress.part(here, 1.0 - (rest *= 0.5)));
-    if (count == 1) one_covers = result.after.at_tolerance;
-    // They cost as much as all before, and one strip more leads no axis out of another face.
-    if (result.other_ways == OtherWays::kHopeless || result.after.unheld > 0.0) options.ways = false;
-    keep_better(best, std::move(result), options);
-    if (meets(best.after, wanted, options) || !gain.goes_on(best) || progress.stop()) break;
-  }
-  options.least_coverage_for_close_look = 0.0;
-  if (has_ways && !options.ways && best.after.unheld <= 0.0 && !meets(best.after, wanted, options) &&
-      !progress.stop()) {
-    options.strips = std::max<int>(1, static_cast<int>(best.motions.size()));
-    options.ways = true;
-    keep_better(best, fit_automatic(target, tool, options, progress.part(1.0 - rest, 1.0)), options);
-  }
-  best = looked_at(std::move(best), target, tool, options, progress);
-  if (best.motions.size() > 1)
-    best.notes.push_back(fmt::format("{} strips cover {:.1f} % (estimate), one strip {:.1f} %", best.motions.size(),
-                                     100.0 * best.after.at_tolerance, 100.0 * one_covers));
-  return best;
+/// One row of the schedule of a search that may take as many strips as it needs.
+struct Trial {
+  int strips = 1;
+  bool full = false;  ///< with all passes and other ways: others leave them out where a strip more promises more
+  bool soft = false;  ///< with a tool that is more slender than the bounds allow
+};
+
+/// Cheap trials first. What one strip can do at its best is known before three are tried, and what a softer tool does in one before six
+/// are, each of which costs several times as much.
+constexpr std::array kSchedule = {Trial{1}, Trial{2}, Trial{1, true}, Trial{3},          Trial{4}, Trial{1, true, true},
+                                  Trial{6}, Trial{8}, Trial{10},      Trial{kMostStrips}};
+
+/// All that is asked but the bound on slenderness, which is no demand.
+bool meets_softly(const FlankFitResult& fit, double wanted, FlankFitOptions options) {
+  options.bounds.slenderest = 1e300;
+  return meets(fit.after, wanted, options);
 }
+
+/// One group with as many strips as its tolerance needs: the trials of the schedule, as long as what was found does not do, and strips gain
+/// something or promise to.
+class StripSearch {
+ public:
+  StripSearch(const Target& target, const ToolModel& tool, const FlankFitOptions& options, const GroupDemand& demand,
+              double wanted)
+      : target_(target),
+        tool_(tool),
+        options_(options),
+        demand_(demand),
+        wanted_(wanted),
+        gain_(options.tolerance_mm, !options.ways) {}
+
+  FlankFitResult run(const Progress& progress) {
+    for (const Trial& trial : kSchedule) {
+      if (trial.strips > demand_.most_strips || !is_worth(trial)) continue;
+      const double here = 1.0 - rest_;  // nobody knows how many follow: each gets a half of what is left
+      const Progress part = progress.part(here, 1.0 - (rest_ *= 0.5));
+      trial.full ? try_fully(trial, part) : try_strips(trial, part);
+      if (meets(best_.after, wanted_, options_) || (trial.soft && meets_softly(best_, wanted_, options_)) ||
+          !goes_on_ || progress.stop())
+        break;
+    }
+    last_try(progress);
+    best_ = looked_at(std::move(best_), target_, tool_, options_, progress);
+    if (best_.motions.size() > 1)
+      best_.notes.push_back(fmt::format("{} strips cover {:.1f} % (estimate), one strip {:.1f} %", best_.motions.size(),
+                                        100.0 * best_.after.at_tolerance, 100.0 * one_covers_));
+    return std::move(best_);
+  }
+
+ private:
+  /// One strip that is far from doing it is not worth its last passes.
+  [[nodiscard]] bool is_worth(const Trial& trial) const {
+    constexpr double kFar = 0.5;  // of the face
+    if (!trial.full) return true;
+    return best_.after.unheld <= 0.0 && options_.ways && one_covers_ >= kFar && (!trial.soft || demand_.soften);
+  }
+
+  void try_strips(const Trial& trial, const Progress& progress) {
+    FlankFitOptions options = options_;
+    options.strips = trial.strips;
+    options.ways = options_.ways && ways_ != OtherWays::kHopeless;
+    options.least_coverage_for_last_passes = trial.strips < demand_.most_strips ? kPromising : 0.0;
+    options.least_coverage_for_close_look = least_to_look_at(best_, options);
+    FlankFitResult result = fit_automatic(target_, tool_, options, progress);
+    if (trial.strips == 1) one_covers_ = result.after.at_tolerance;
+    // They cost as much as all before, and one strip more leads no axis out of another face.
+    if (result.other_ways == OtherWays::kHopeless || result.after.unheld > 0.0) ways_ = OtherWays::kHopeless;
+    keep_better(best_, std::move(result), options_);
+    goes_on_ = gain_.goes_on(best_);
+  }
+
+  void try_fully(const Trial& trial, const Progress& progress) {
+    FlankFitOptions options = options_;
+    options.strips = 1;
+    if (!one_) one_ = fit_automatic(target_, tool_, options, progress);
+    one_covers_ = std::max(one_covers_, one_->after.at_tolerance);
+    FlankFitResult result = trial.soft ? soften(target_, tool_, options, *one_, progress) : *one_;
+    keep_better(best_, std::move(result), options_);
+  }
+
+  /// The other ways that were left out on the way.
+  void last_try(const Progress& progress) {
+    if (!options_.ways || ways_ != OtherWays::kHopeless || best_.after.unheld > 0.0 ||
+        meets_softly(best_, wanted_, options_) || progress.stop())
+      return;
+    FlankFitOptions options = options_;
+    options.strips = std::max<int>(1, static_cast<int>(best_.motions.size()));
+    keep_better(best_, fit_automatic(target_, tool_, options, progress.part(1.0 - rest_, 1.0)), options_);
+  }
+
+  const Target& target_;
+  const ToolModel& tool_;
+  const FlankFitOptions& options_;
+  const GroupDemand& demand_;
+  double wanted_ = 1.0, one_covers_ = 0.0, rest_ = 1.0;
+  StripGain gain_;
+  bool goes_on_ = true;
+  OtherWays ways_ = OtherWays::kNotTried;  ///< kHopeless: they are left to the last try
+  std::optional<FlankFitResult> one_;      ///< what one strip does at its best
+  FlankFitResult best_;
+};
 
 /// One group: with the strips that were asked for, or with those that the tolerance needs (0). A strip more must not make
 /// it worse: where several do not give what was asked, one is tried, too. Last, the bounds on stiffness give way.
@@ -98,15 +166,15 @@ FlankFitResult fit_group(const Target& target, const ToolModel& tool, FlankFitOp
   /// Of the progress: where one strip and where the lifted bounds begin.
   constexpr double kFirst = 0.6, kSoften = 0.7;
   const Progress first = progress.part(0.0, kFirst);
-  FlankFitResult best =
-      strips > 0 ? fit_automatic(target, tool, options, first) : fit_auto(target, tool, options, demand, wanted, first);
+  FlankFitResult best = strips > 0 ? fit_automatic(target, tool, options, first)
+                                   : StripSearch(target, tool, options, demand, wanted).run(first);
   if (strips > 1 && !done(best)) {
     options.strips = 1;
     keep_better(best, fit_automatic(target, tool, options, progress.part(kFirst, kSoften)), options);
   }
   // What facets keep from a motion no slender tool brings back.
   // Nor does it let anything hold a tool where nothing could.
-  if (done(best) || !options.ways || !demand.soften || best.after.unheld > 0.0) {
+  if (done(best) || meets_softly(best, wanted, options) || !options.ways || !demand.soften || best.after.unheld > 0.0) {
     note_slenderness(tool, options, best);
     return best;
   }
