@@ -43,7 +43,8 @@ double quantile(const ContactMap& map, double share) {
     below += size;
     if (below >= share * area) return bound;
   }
-  return 0.0;
+  // Of all of the area; the two sums may differ by their rounding.
+  return by_bound.empty() ? 0.0 : by_bound.back().first;
 }
 
 Json target_entry(const BoundTarget& target) {

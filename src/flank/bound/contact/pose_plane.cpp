@@ -20,12 +20,17 @@ void PosePlane::cut(double sigma, double low, double high) {
 
 void PosePlane::cut(const PosePlane& other) {
   if (other.empty()) count_ = 0;
+  double size = 0.0;
+  for (std::size_t k = 0; k < count_; ++k) size = std::max(size, corners_[k].norm());
+  for (std::size_t k = 0; k < other.count_; ++k) size = std::max(size, other.corners_[k].norm());
+  // Rounding must not take away what both have. The shorter an edge is, the less its direction is known; what that moves at
+  // the far end of the polygon, times the length of the edge, is the same for all of them.
+  const double spare = 1e-14 * size * size;
   for (std::size_t k = 0; k < other.count_ && count_ > 0; ++k) {
     const Vec2& here = other.corners_[k];
     const Vec2 edge = other.corners_[(k + 1) % other.count_] - here;
     const Vec2 out(edge.y(), -edge.x());
-    // Rounding must not take away what both have: the edge moves out by as much.
-    cut_above(out, out.dot(here) + 1e-12 * out.cwiseAbs().dot(here.cwiseAbs()));
+    cut_above(out, out.dot(here) + spare);
   }
 }
 
