@@ -44,10 +44,10 @@ add_compile_options(-ffp-contract=off)
 # their tests run as fast. The optimiser does not change what is computed.
 set(FLANK_TEXT_OPTIONS $<$<CONFIG:Release>:-O1>)
 # Layers of text that also walk over triangles, samples and poses, which takes minutes without the optimiser.
-set(FLANK_DENSE_LAYERS "")
+set(FLANK_DENSE_LAYERS bound correct)
 if(FLANK_SANITIZE AND NOT FLANK_FUZZ)
   set(FLANK_TEXT_OPTIONS -O0)
-  set(FLANK_DENSE_LAYERS machine io example inspect artefact)
+  set(FLANK_DENSE_LAYERS bound correct machine io example inspect artefact)
 endif()
 # A fault in a reader is to end the program, not to be used. A distributor who sets such flags for all packages switches this
 # off. FORTIFY needs the optimiser, and is not for sanitizers, which check more.

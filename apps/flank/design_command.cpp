@@ -9,9 +9,6 @@
 #include "flank/design/design.h"
 #include "flank/design/design_tables.h"
 #include "flank/printable.h"
-// The table of fields first: options are made of all that it knows.
-#include "flank/job/design_fields.h"
-
 #include "job_options.h"
 
 namespace flank::cli {

@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "flank/job/design_fields.h"
-#include "flank/job/field_text.h"
+#include "flank/job/more_fields.h"
 
 namespace flank::cli {
 

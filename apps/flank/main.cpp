@@ -19,7 +19,9 @@
 #include <system_error>
 #include <vector>
 
+#include "bound_command.h"
 #include "commands.h"
+#include "correct_command.h"
 #include "design_command.h"
 #include "flank/cad_process.h"
 #include "flank/error.h"
@@ -107,7 +109,7 @@ int run_command(int argc, char** argv) {
       flank::cli::add_fit(parser),     flank::cli::add_cover(parser),    flank::cli::add_verify(parser),
       flank::cli::add_report(parser),  flank::cli::add_view(parser),     flank::cli::add_machine(parser),
       flank::cli::add_post(parser),    flank::cli::add_trochoid(parser), flank::cli::add_sweep(parser),
-      flank::cli::add_design(parser)};
+      flank::cli::add_design(parser),  flank::cli::add_bound(parser),    flank::cli::add_correct(parser)};
   for (const flank::cli::Subcommand& command : commands) add_common(*command.app, common);
   const auto chosen = [&]() -> const flank::cli::Subcommand* {
     for (const flank::cli::Subcommand& command : commands)

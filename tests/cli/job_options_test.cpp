@@ -2,6 +2,7 @@
 #include "job_options.h"
 
 #include "cli/cli_fixture.h"
+#include "flank/job/bound_fields.h"
 #include "flank/job/command_line.h"
 #include "flank/job/design_fields.h"
 #include "job/random_jobs.h"
@@ -53,6 +54,8 @@ TEST_F(JobOptions, ACoverIsTheSameAgain) { expect_the_same_again<CoverJob>(); }
 TEST_F(JobOptions, AVerifyIsTheSameAgain) { expect_the_same_again<VerifyJob>(); }
 TEST_F(JobOptions, APostIsTheSameAgain) { expect_the_same_again<PostJob>(); }
 TEST_F(JobOptions, ADesignIsTheSameAgain) { expect_the_same_again<internal::DesignJob>(); }
+TEST_F(JobOptions, ABoundIsTheSameAgain) { expect_the_same_again<internal::BoundJob>(); }
+TEST_F(JobOptions, ACorrectionIsTheSameAgain) { expect_the_same_again<internal::CorrectJob>(); }
 
 TEST_F(JobOptions, ADiameterIsTwiceARadius) {
   const auto job = parsed<FitJob>({"blade.step", "--shank-length", "30", "--shank-diameter", "8"});

@@ -94,6 +94,19 @@ Addresses members(const DesignJob& job) {
   add(all, file, unit, faces, side, tools, source, shape, length, avoid, tolerance, change);
   return all;
 }
+Addresses members(const BoundJob& job) {
+  const auto& [part, tool, checked, ignored, tolerance, points, gap] = job;
+  Addresses all;
+  add_members(part, all), add_members(tool, all);
+  add(all, checked, ignored, tolerance, points, gap);
+  return all;
+}
+Addresses members(const CorrectJob& job) {
+  const auto& [folder, profile, measured, datum, limit] = job;
+  Addresses all;
+  add(all, folder, profile, measured, datum, limit);
+  return all;
+}
 Addresses members(const VerifyJob& job) {
   const auto& [folder, nc, part, tolerance, sample, reach, cell, side, obstacles] = job;
   Addresses all;
@@ -105,7 +118,7 @@ Addresses members(const VerifyJob& job) {
 
 template <class Job>
 class Fields : public testing::Test {};
-using Jobs = testing::Types<FitJob, CoverJob, TrochoidJob, VerifyJob, PostJob, DesignJob>;
+using Jobs = testing::Types<FitJob, CoverJob, TrochoidJob, VerifyJob, PostJob, DesignJob, BoundJob, CorrectJob>;
 TYPED_TEST_SUITE(Fields, Jobs);
 
 TYPED_TEST(Fields, EveryMemberIsInTheTableOnce) {

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "flank/base/random.h"
+#include "flank/job/bound_fields.h"
+#include "flank/job/correct_fields.h"
 #include "flank/job/design_fields.h"
 
 namespace flank::internal::jobs {
@@ -26,13 +28,13 @@ inline std::string nasty_text(Random& random) {
 inline void randomise(const FieldInfo& info, std::string& value, Random& random) {
   if (info.accepted.text) {
     for (const char* word :
-         {"mm",           "cm",    "m",         "in",       "grow",  "curves",  "grid",   "shape", "tapered",
-          "any",          "quick", "normal",    "thorough", "feed",  "optimal", "volume", "plain", "climb",
-          "conventional", "both",  "catalogue", "ramp",     "plunge"})
+         {"mm",           "cm",    "m",         "in",       "grow",   "curves",  "grid",   "shape", "tapered",
+          "any",          "quick", "normal",    "thorough", "feed",   "optimal", "volume", "plain", "climb",
+          "conventional", "both",  "catalogue", "ramp",     "plunge", "keep"})
       if (info.accepted.text(word) && random.uniform() < 0.5) value = word;
     if (!info.accepted.text(value))
       for (const char* word :
-           {"in", "curves", "shape", "any", "quick", "optimal", "plain", "conventional", "both", "ramp"})
+           {"in", "curves", "shape", "any", "quick", "optimal", "plain", "conventional", "both", "ramp", "keep"})
         if (info.accepted.text(word)) value = word;
     return;
   }

@@ -1,6 +1,8 @@
 #include "flank/job/check_fields.h"
 
 #include "flank/error.h"
+#include "flank/job/bound_fields.h"
+#include "flank/job/correct_fields.h"
 #include "flank/job/design_fields.h"
 #include "flank/job/field_text.h"
 #include "flank/job/fields.h"
@@ -39,5 +41,7 @@ void check_fields(const TrochoidJob& job) { check(job); }
 void check_fields(const VerifyJob& job) { check(job); }
 void check_fields(const PostJob& job) { check(job); }
 void check_fields(const DesignJob& job) { check(job); }
+void check_fields(const BoundJob& job) { check(job); }
+void check_fields(const CorrectJob& job) { check(job); }
 
 }  // namespace flank::internal

@@ -4,6 +4,8 @@
 #include <cctype>
 #include <filesystem>
 
+#include "flank/job/bound_fields.h"
+#include "flank/job/correct_fields.h"
 #include "flank/job/design_fields.h"
 #include "flank/job/field_text.h"
 #include "flank/job/fields.h"
@@ -114,6 +116,8 @@ std::string command_line(const TrochoidJob& job) { return command(job); }
 std::string command_line(const VerifyJob& job) { return command(job); }
 std::string command_line(const PostJob& job) { return command(job); }
 std::string command_line(const DesignJob& job) { return command(job); }
+std::string command_line(const BoundJob& job) { return command(job); }
+std::string command_line(const CorrectJob& job) { return command(job); }
 std::string command_line(const PlanJob& job) {
   return std::visit([](const auto& plan) { return command(plan); }, job);
 }

@@ -43,26 +43,6 @@ namespace flank {
 using namespace internal;
 namespace {
 
-void require(bool holds, const std::string& field, const std::string& text) {
-  if (!holds) throw UsageError(field, text);
-}
-
-/// A whole tool: a file, or a family with all its parameters and an axis length.
-Tool tool_of(const ToolRequest& request) {
-  require(!request.spec.empty(), "tool",
-          "a tool.json, or a family with all its parameters and `axis_length_mm`, is needed");
-  const ToolSpec spec = parse_tool_spec(request.spec);
-  if (spec.tool) {
-    require(!request.axis_length_mm, "axis_length_mm", "the tool's file has its length; it goes with a family");
-    const Legitimacy legitimacy = check_legitimacy(spec.tool->radial);
-    require(legitimacy.legitimate, "tool", request.spec + ": this is no tool: " + legitimacy.reason);
-    return *spec.tool;
-  }
-  require(!spec.free, "tool", "a cover takes a given tool; a fit finds one");
-  require(request.axis_length_mm.has_value(), "axis_length_mm", "a family needs the length of its axis");
-  return make_tool(*spec.family, spec.given, *request.axis_length_mm);
-}
-
 void add_notes(const Covered& covered, Result& result) {
   const CoverResult& cover = covered.result;
   result.notes.insert(result.notes.end(), cover.notes.begin(), cover.notes.end());
@@ -128,7 +108,7 @@ Result run_cover(const CoverJob& request, const Progress& asked) {
   result.inputs = input_stamps(job);
   const std::optional<ToolChoice> choice = tool_choice(job);
   if (!choice) {
-    result.tool = tool_of(job.tool);
+    result.tool = given_tool(job.tool.spec, job.tool.axis_length_mm, "a cover takes a given tool; a fit finds one");
     check_obstacles(job.obstacles, &result.tool);
     equip_tool(job.obstacles, result.tool);
   }

@@ -160,4 +160,21 @@ Tool make_tool(ToolFamily family, const std::map<std::string, double>& parameter
   return tool;
 }
 
+Tool given_tool(const std::string& spec, std::optional<double> axis_length_mm, const std::string& not_free) {
+  const auto require = [](bool holds, const std::string& field, const std::string& text) {
+    if (!holds) throw UsageError(field, text);
+  };
+  require(!spec.empty(), "tool", "a tool.json, or a family with all its parameters and `axis_length_mm`, is needed");
+  const ToolSpec parsed = parse_tool_spec(spec);
+  if (parsed.tool) {
+    require(!axis_length_mm, "axis_length_mm", "the tool's file has its length; it goes with a family");
+    const Legitimacy legitimacy = check_legitimacy(parsed.tool->radial);
+    require(legitimacy.legitimate, "tool", spec + ": this is no tool: " + legitimacy.reason);
+    return *parsed.tool;
+  }
+  require(!parsed.free, "tool", not_free);
+  require(axis_length_mm.has_value(), "axis_length_mm", "a family needs the length of its axis");
+  return make_tool(*parsed.family, parsed.given, *axis_length_mm);
+}
+
 }  // namespace flank::internal

@@ -43,4 +43,9 @@ struct ToolSpec {
 /// check_legitimacy's reason for what is no tool.
 [[nodiscard]] Tool make_tool(ToolFamily family, const std::map<std::string, double>& parameters, double axis_length);
 
+/// A whole tool: a file, or a family with all its parameters and the length of its axis. Throws UsageError of the fields
+/// `tool` and `axis_length_mm`; `not_free` says why the word "free" is none.
+[[nodiscard]] Tool given_tool(const std::string& spec, std::optional<double> axis_length_mm,
+                              const std::string& not_free);
+
 }  // namespace flank::internal

@@ -1,0 +1,242 @@
+#include "flank/correct/measure/face_error.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "flank/base/parallel.h"
+#include "flank/error.h"
+#include "flank/surface/mesh/scattered_spline.h"
+
+namespace flank::internal {
+namespace {
+
+constexpr std::size_t kFewest = 100;  ///< points on the face
+constexpr double kFar = 0.05;         ///< share of the face's diagonal: no face as cut is that far off
+constexpr double kMostBeside = 0.5;   ///< share of the points that may lie beside the face
+constexpr double kLeastSeen = 0.9;    ///< share of the face's area that must have a point near
+constexpr double kOutlier = 5.0;      ///< standard deviations
+constexpr double kFlat = 1e-4;        ///< mm; errors below it are all of one weight
+constexpr int kMoves = 16, kRounds = 5;
+constexpr std::array<int, 6> kCounts = {4, 5, 7, 10, 14, 20};
+
+[[noreturn]] void refuse(const FaceErrorOptions& options, const std::string& why) {
+  throw InputError(options.file + ": " + why);
+}
+
+/// Middle of the absolute values, as a standard deviation.
+double typical(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  for (double& value : values) value = std::abs(value);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return 1.4826 * *middle;
+}
+
+double rms(const std::vector<MeasuredPoint>& points) {
+  double sum = 0.0;
+  for (const MeasuredPoint& point : points) sum += point.error_mm * point.error_mm;
+  return points.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(points.size()));
+}
+
+std::vector<Footpoint> footpoints(const Target& target, const std::vector<Vec3>& points, const RigidMove& move) {
+  std::vector<Footpoint> feet(points.size());
+  parallel_for(points.size(),
+               [&](std::size_t k) { feet[k] = target.closest_within(move.of(points[k]), kFar * target.diagonal()); });
+  return feet;
+}
+
+bool on_face(const Footpoint& foot) { return foot.patch >= 0 && foot.location == Location::kInside; }
+
+Eigen::Matrix3d turn_of(const Vec3& w) {
+  const double angle = w.norm();
+  if (angle == 0.0) return Eigen::Matrix3d::Identity();
+  return Eigen::AngleAxisd(angle, w / angle).toRotationMatrix();
+}
+
+/// One step of the best fit: point to plane, with less weight for points that are far off the others. A move along which the face
+/// slides on itself is not made.
+void improve(const std::vector<Vec3>& points, const std::vector<Footpoint>& feet, double size, RigidMove& move) {
+  std::vector<double> errors;
+  for (const Footpoint& foot : feet)
+    if (on_face(foot)) errors.push_back(foot.distance);
+  const double scale = 2.0 * std::max(typical(errors), kFlat);
+  Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
+  Eigen::Matrix<double, 6, 1> right = Eigen::Matrix<double, 6, 1>::Zero();
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (!on_face(feet[k])) continue;
+    const Vec3 arm = (move.of(points[k]) - move.middle) / size;
+    Eigen::Matrix<double, 6, 1> row;
+    row << feet[k].normal, arm.cross(feet[k].normal);
+    const double weight = 1.0 / std::max(1.0, std::abs(feet[k].distance) / scale);
+    normal += weight * row * row.transpose();
+    right -= weight * feet[k].distance * row;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> modes(normal);
+  Eigen::Matrix<double, 6, 1> step = Eigen::Matrix<double, 6, 1>::Zero();
+  for (int k = 0; k < 6; ++k)
+    if (modes.eigenvalues()[k] > 1e-6 * modes.eigenvalues()[5])
+      step += modes.eigenvectors().col(k) * (modes.eigenvectors().col(k).dot(right) / modes.eigenvalues()[k]);
+  const Eigen::Matrix3d turn = turn_of(step.tail<3>() / size);
+  move.turn = turn * move.turn;
+  move.shift = turn * move.shift + step.head<3>();
+}
+
+std::vector<MeasuredPoint> measured(const Face& face, const std::vector<Vec3>& points,
+                                    const std::vector<Footpoint>& feet, const RigidMove& move) {
+  const BSplineSurface& s = face.surface;
+  std::vector<MeasuredPoint> all;
+  for (std::size_t k = 0; k < points.size(); ++k)
+    if (on_face(feet[k]))
+      all.push_back({static_cast<int>(k), move.of(points[k]), (feet[k].u - s.u_first()) / (s.u_last() - s.u_first()),
+                     (feet[k].v - s.v_first()) / (s.v_last() - s.v_first()), feet[k].distance});
+  return all;
+}
+
+/// Every part of the face must have a measured point near.
+void require_seen(const Target& target, const std::vector<MeasuredPoint>& points, const FaceErrorOptions& options) {
+  const double spacing = std::sqrt(target.area() / static_cast<double>(points.size()));
+  const double near = std::max(4.0 * spacing, 0.08 * target.diagonal());
+  double seen = 0.0, whole = 0.0;
+  for (const SurfaceSample& sample : target.samples(target.diagonal() / 40.0)) {
+    whole += sample.area;
+    for (const MeasuredPoint& point : points)
+      if ((point.point - sample.point).squaredNorm() < near * near) {
+        seen += sample.area;
+        break;
+      }
+  }
+  if (seen < kLeastSeen * whole)
+    refuse(options, "the points see " + std::to_string(static_cast<int>(100.0 * seen / whole)) +
+                        " % of the face; points all over it are needed");
+}
+
+struct Field {
+  BSplineSurface surface;
+  double noise = 0.0, score = 0.0;
+};
+
+Field fit_field(const std::vector<MeasuredPoint>& points, int count) {
+  std::vector<Vec3> values;
+  std::vector<Vec2> parameters;
+  for (const MeasuredPoint& point : points) {
+    values.emplace_back(point.error_mm, 0.0, 0.0);
+    parameters.emplace_back(point.u, point.v);
+  }
+  Field field;
+  field.surface =
+      fit_scattered(values, parameters, {.degree = 3, .count_u = count, .count_v = count, .smoothing = 1e-4});
+  double square = 0.0;
+  for (const MeasuredPoint& point : points)
+    square += std::pow(point.error_mm - field.surface.value(point.u, point.v).x(), 2);
+  const auto n = static_cast<double>(points.size()), unknowns = static_cast<double>(count * count);
+  field.noise = std::sqrt(square / (n - unknowns));
+  field.score = square / n / std::pow(1.0 - unknowns / n, 2);
+  return field;
+}
+
+Field best_field(const std::vector<MeasuredPoint>& points) {
+  Field best = fit_field(points, kCounts.front());
+  for (const int count : kCounts) {
+    if (static_cast<std::size_t>(3 * count * count) > points.size()) break;
+    Field field = fit_field(points, count);
+    if (field.score < 0.98 * best.score) best = std::move(field);
+  }
+  return best;
+}
+
+/// The smooth error, without points that are far off it. Each round asks all points again: the first field is bent by those that do not belong.
+void smooth(FaceError& error) {
+  const std::vector<MeasuredPoint> all = error.points;
+  for (int round = 0; round < kRounds; ++round) {
+    const Field field = best_field(error.points);
+    error.field = field.surface;
+    error.noise_mm = field.noise;
+    std::vector<double> rest;
+    for (const MeasuredPoint& point : all) rest.push_back(point.error_mm - field.surface.value(point.u, point.v).x());
+    const double most = kOutlier * std::max(typical(rest), 1e-7);
+    std::vector<MeasuredPoint> kept;
+    std::vector<int> outliers;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      if (std::abs(rest[k]) <= most)
+        kept.push_back(all[k]);
+      else
+        outliers.push_back(all[k].index);
+    }
+    const bool settled = round > 0 && outliers == error.outliers;
+    error.outliers = std::move(outliers);
+    if (settled) break;
+    error.points = std::move(kept);
+  }
+}
+
+void require_this_face(std::size_t on, std::size_t all, const FaceErrorOptions& options) {
+  if (on < kFewest && all - on <= all / 2)
+    refuse(options,
+           std::to_string(on) + " points lie on the face; at least " + std::to_string(kFewest) + " are needed");
+  if (static_cast<double>(all - on) > kMostBeside * static_cast<double>(all))
+    refuse(options, "only " + std::to_string(on) + " of " + std::to_string(all) +
+                        " points lie on the face or near: they are of another face, or in another datum");
+}
+
+}  // namespace
+
+double RigidMove::angle() const { return Eigen::AngleAxisd(turn).angle(); }
+
+double FaceError::at(double u, double v) const {
+  return std::clamp(field.value(std::clamp(u, 0.0, 1.0), std::clamp(v, 0.0, 1.0)).x(), -limit_mm, limit_mm);
+}
+
+FaceError face_error(const Target& target, const Face& face, const std::vector<Vec3>& points,
+                     const FaceErrorOptions& options) {
+  FaceError error;
+  error.limit_mm = options.limit_mm;
+  error.move.middle = target.box().center();
+  if (points.size() < kFewest)
+    refuse(options, std::to_string(points.size()) + " points; at least " + std::to_string(kFewest) + " are needed");
+  std::vector<Footpoint> feet = footpoints(target, points, error.move);
+  error.rms_before_mm = rms(measured(face, points, feet, error.move));
+  for (int k = 0; options.fit_datum && k < kMoves; ++k) {
+    improve(points, feet, 0.5 * target.diagonal(), error.move);
+    feet = footpoints(target, points, error.move);
+  }
+  error.points = measured(face, points, feet, error.move);
+  require_this_face(error.points.size(), points.size(), options);
+  error.beside = static_cast<int>(points.size() - error.points.size());
+  error.rms_after_mm = rms(error.points);
+  require_seen(target, error.points, options);
+  smooth(error);
+  double square = 0.0;
+  for (const MeasuredPoint& point : error.points) {
+    const double raw = error.field.value(point.u, point.v).x();
+    error.limited = error.limited || std::abs(raw) > options.limit_mm;
+    square += raw * raw;
+    error.smooth_largest_mm = std::max(error.smooth_largest_mm, std::abs(raw));
+  }
+  error.smooth_rms_mm = std::sqrt(square / static_cast<double>(error.points.size()));
+  return error;
+}
+
+Face mirrored_face(const Face& face, const FaceError& error, int side) {
+  // The error as a displacement of the surface's own poles: it gets no other knots, and stays in its other parts what it was.
+  Face mirrored = face;
+  BSplineSurface& s = mirrored.surface;
+  const std::vector<double> sites_u = greville_sites(s.knots_u, s.degree_u),
+                            sites_v = greville_sites(s.knots_v, s.degree_v);
+  std::vector<Vec3> moves;
+  for (const double u : sites_u)
+    for (const double v : sites_v) {
+      const SurfaceJet jet = face.surface.jet(u, v);
+      const Vec3 normal = side * jet.du.cross(jet.dv);
+      const double e =
+          error.at((u - s.u_first()) / (s.u_last() - s.u_first()), (v - s.v_first()) / (s.v_last() - s.v_first()));
+      moves.push_back(normal.norm() > 0.0 ? Vec3(-e * normal.normalized()) : Vec3(Vec3::Zero()));
+    }
+  const BSplineSurface move = interpolate_grid(moves, s.knots_u, s.knots_v, s.degree_u, s.degree_v);
+  for (std::size_t k = 0; k < s.poles.size(); ++k) s.poles[k] += move.poles[k];
+  return mirrored;
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,47 @@
+/// The fields of a bound: the part of the table (fields.h) that asks for proofs.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "flank/job/bound_job.h"
+#include "flank/job/fields.h"
+
+namespace flank::internal::accepted {
+
+inline constexpr Accepted kPoints{"a number from 1 to 100000 is needed", [](double x) { return x >= 1.0 && x <= 1e5; }};
+inline constexpr Accepted kGap{"a share between 0.005 and 1 is needed",
+                               [](double x) { return x >= 0.005 && x <= 1.0; }};
+
+}  // namespace flank::internal::accepted
+
+namespace flank::internal {
+
+template <class Visitor, Is<BoundJob> Job>
+void visit_fields(Job& job, Visitor&& visit) {
+  using namespace accepted;
+  visit_part(job.part, visit);
+  visit(FieldInfo{"tool", "", "", "A tool.json, or a family with all its parameters (cone:radius=2,angle=3)", kAny,
+                  Spelling::kFileOrText, "", true},
+        job.tool.spec);
+  visit(FieldInfo{"axis_length", "mm", "", "Length of the axis of a family's tool", kLength}, job.tool.axis_length_mm);
+  visit(FieldInfo{"tolerance", "mm", "", kToleranceHelp, kLength}, job.tolerance_mm);
+  visit(FieldInfo{"points", "", "", "Points of each face at which the longest contact is bounded, about", kPoints},
+        job.points);
+  visit(FieldInfo{"gap", "", "",
+                  "A bound is close enough when it is at most this share above what a pose reaches there", kGap},
+        job.gap);
+  visit(FieldInfo{"check_faces", "", "Other faces",
+                  "What no pose may enter, F88,F12; default: any face that is not machined"},
+        job.check_faces);
+  visit(FieldInfo{"ignore_faces", "", "Other faces", "It may enter these; S2-S5: all of solids 2 to 5"},
+        job.ignore_faces);
+}
+
+inline std::string_view command_name(const BoundJob&) { return "bound"; }
+
+/// As for the other jobs (check_fields.h, command_line.h).
+void check_fields(const BoundJob& job);
+[[nodiscard]] std::string command_line(const BoundJob& job);
+
+}  // namespace flank::internal

@@ -1,0 +1,22 @@
+/// What can be asked of `flank bound`.
+#pragma once
+
+#include <optional>
+
+#include "flank/job.h"
+
+namespace flank::internal {
+
+/// Prove what a tool cannot do on a face.
+struct BoundJob {
+  PartRequest part;
+  ToolRequest tool;
+  std::optional<std::string> check_faces;   ///< as in ObstacleRequest
+  std::optional<std::string> ignore_faces;  ///< as in ObstacleRequest
+  std::optional<double> tolerance_mm;  ///< none: a thousandth of the diagonal of the faces, rounded down to 1, 2 or 5
+  int points = 300;                    ///< of a face, about
+  double gap = 0.05;                   ///< a bound is close enough at most this share above what a pose reaches
+  bool operator==(const BoundJob&) const = default;
+};
+
+}  // namespace flank::internal

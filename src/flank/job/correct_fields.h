@@ -1,0 +1,47 @@
+/// The fields of a correction: the part of the table (fields.h) that asks for a motion from what was measured.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "flank/job/correct_job.h"
+#include "flank/job/fields.h"
+
+namespace flank::internal::accepted {
+
+inline constexpr Accepted kDatum{"there are fit and keep", nullptr,
+                                 [](std::string_view x) { return x == "fit" || x == "keep"; }};
+
+}  // namespace flank::internal::accepted
+
+namespace flank::internal {
+
+template <class Visitor, Is<CorrectJob> Job>
+void visit_fields(Job& job, Visitor&& visit) {
+  using namespace accepted;
+  visit(FieldInfo{"folder", "", "", "A folder written by flank fit or cover", kAny, Spelling::kFile, "DIR", true},
+        job.folder);
+  visit(FieldInfo{"profile", "", "",
+                  "Profile of the tool as ground: a .dxf, or lines z, radius in mm, z along the axis from the centre "
+                  "of the tip's sphere",
+                  kAny, Spelling::kFile},
+        job.profile);
+  visit(FieldInfo{"measured", "", "",
+                  "Points of the face as cut: lines x, y, z in mm, or the vertices of a .stl, .ply or .obj", kAny,
+                  Spelling::kFile},
+        job.measured);
+  visit(FieldInfo{"datum", "", "",
+                  "fit: measured points are moved onto the face as well as six degrees of freedom do it; keep: they "
+                  "are taken where they are",
+                  kDatum},
+        job.datum);
+  visit(FieldInfo{"limit", "mm", "", "Largest correction; default: 20 times the tolerance", kLength}, job.limit_mm);
+}
+
+inline std::string_view command_name(const CorrectJob&) { return "correct"; }
+
+/// As for the other jobs (check_fields.h, command_line.h).
+void check_fields(const CorrectJob& job);
+[[nodiscard]] std::string command_line(const CorrectJob& job);
+
+}  // namespace flank::internal

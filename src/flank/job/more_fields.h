@@ -1,0 +1,7 @@
+/// The tables of the jobs that are not of the front door, design, bound and correct, and fields as text: what options are made of.
+#pragma once
+
+#include "flank/job/bound_fields.h"
+#include "flank/job/correct_fields.h"
+#include "flank/job/design_fields.h"
+#include "flank/job/field_text.h"
