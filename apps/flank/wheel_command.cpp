@@ -51,6 +51,8 @@ void add_options(CLI::App& app, WheelJob& job, WheelProgram& program) {
   app.add_option("--tool", job.tool, "A tool.json; default: found with the sides");
   app.add_option("--sample", job.sample_mm, "Judge by samples at this spacing alone, mm; default: with a proof");
   app.add_flag_callback(
+      "--no-edges", [&job] { job.edges = false; }, "Leave out leading and trailing edges");
+  app.add_flag_callback(
       "--no-rough", [&job] { job.rough = false; }, "Leave out the roughing of the channels");
   app.add_option("--hub", job.choice.hub, "Faces of the hub, F1; default: found")->group("Roles");
   app.add_option("--blade", job.choice.blades, "Faces of a main blade, F8,F9,F10; once for each; default: found")

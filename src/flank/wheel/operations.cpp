@@ -28,6 +28,10 @@ std::string in_folder(const WheelWork& work, const std::string& name) {
   return (fs::path(work.job.folder) / name).string();
 }
 
+std::string tool_file(const WheelWork& work) {
+  return fs::absolute(in_folder(work, "tools/T1.json")).lexically_normal().string();
+}
+
 PartRequest part_request(const WheelWork& work, const std::vector<std::string>& faces) {
   PartRequest out;
   out.file = work.job.part;
@@ -164,6 +168,25 @@ WheelOperation floor_operation(WheelWork& work, const Progress&) {
   return operation;
 }
 
+WheelOperation edge_operation(WheelWork& work, const Progress& progress) {
+  WheelOperation operation{.id = "40", .kind = "edge", .folder = ""};
+  for (const WheelBlade& blade : work.sector.blades)
+    operation.faces.insert(operation.faces.end(), blade.edges.begin(), blade.edges.end());
+  if (!work.tool || operation.faces.empty()) {
+    operation.problem = work.tool ? "no blade has a face that is an edge" : "there is no tool: the sides have none";
+    return operation;
+  }
+  CoverJob job;
+  job.part = part_request(work, operation.faces);
+  job.tool.spec = tool_file(work);
+  job.tolerance_mm = work.job.tolerance_mm;
+  job.judge.sample_mm = work.job.sample_mm;
+  const std::string decides = job_to_json(job) + tool_to_json(*work.tool);
+  operation = perform(work, operation, decides, [&] { return run_cover(job, progress); });
+  take(work, operation);
+  return operation;
+}
+
 WheelOperation rough_operation(WheelWork& work, const Progress& progress) {
   const SectorChannel& channel = work.sector.channels.front();
   WheelOperation operation{.id = "10", .kind = "rough", .folder = ""};
@@ -179,7 +202,7 @@ WheelOperation rough_operation(WheelWork& work, const Progress& progress) {
   job.left = face_list(channel.first);
   job.right = face_list(channel.second);
   job.floor = work.roles.hub.front();
-  job.tool.spec = fs::absolute(in_folder(work, "tools/T1.json")).lexically_normal().string();
+  job.tool.spec = tool_file(work);
   job.tolerance_mm = work.job.tolerance_mm;
   job.judge.sample_mm = work.job.sample_mm;
   const std::string decides = job_to_json(job) + tool_to_json(*work.tool);

@@ -26,6 +26,8 @@ struct WheelWork {
 [[nodiscard]] WheelOperation side_operation(WheelWork& work, const Progress& progress);
 /// The hub between the blades, by passes of the tool's tip sphere.
 [[nodiscard]] WheelOperation floor_operation(WheelWork& work, const Progress& progress);
+/// Leading and trailing edges of the sector's blades, by strips of the same tool: `cover`.
+[[nodiscard]] WheelOperation edge_operation(WheelWork& work, const Progress& progress);
 /// The channels of the sector, by trochoidal layers with the same tool.
 [[nodiscard]] WheelOperation rough_operation(WheelWork& work, const Progress& progress);
 

@@ -53,7 +53,8 @@ WheelResult run_wheel(const WheelJob& job, const Progress& progress) {
   write_file((fs::path(job.folder) / "wheel.json").string(), wheel_json(result.roles));
   run(side_operation(work, progress.part(0.0, 0.4)));
   run(floor_operation(work, progress.part(0.4, 0.5)));
-  if (job.rough) run(rough_operation(work, progress.part(0.5, 0.8)));
+  if (job.edges) run(edge_operation(work, progress.part(0.5, 0.6)));
+  if (job.rough) run(rough_operation(work, progress.part(0.6, 0.8)));
   progress.step("verify", 0.8);
   if (!work.finish.strips.empty()) result.whole = judge_whole(work);
   if (result.whole) {

@@ -19,6 +19,7 @@ struct WheelJob {
   WheelChoice choice;
   double tolerance_mm = 0.05;
   bool rough = true;                ///< channels are roughed by trochoidal layers
+  bool edges = true;                ///< leading and trailing edges are milled
   std::string effort = "quick";     ///< of the fits
   double least_coverage = 0.97;     ///< share of what is open of the flow surface, within tolerance
   std::optional<double> sample_mm;  ///< judge by samples alone, at this spacing
