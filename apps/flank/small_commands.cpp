@@ -8,7 +8,7 @@
 #include "flank/base/atomic_file.h"
 #include "flank/error.h"
 #include "flank/example.h"
-#include "flank/feature/wheel_roles.h"
+#include "flank/feature/recognise_wheel.h"
 #include "flank/feature/wheel_table.h"
 #include "flank/inspect.h"
 #include "flank/manifest/result_folder.h"

@@ -11,6 +11,7 @@
 #include "flank/part.h"
 #include "flank/printable.h"
 #include "flank/run.h"
+#include "flank/wheel/plan_file.h"
 #include "flank/wheel/run_wheel.h"
 
 namespace flank::cli {

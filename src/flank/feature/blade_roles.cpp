@@ -151,17 +151,4 @@ WheelBlade blade_roles(const BladeFaces& blade, const std::vector<const WheelFac
   return out;
 }
 
-std::vector<std::string> WheelBlade::sides() const {
-  std::vector<std::string> out = ahead;
-  out.insert(out.end(), behind.begin(), behind.end());
-  return out;
-}
-
-std::vector<std::string> WheelBlade::flow() const {
-  std::vector<std::string> out = sides();
-  out.insert(out.end(), edges.begin(), edges.end());
-  for (const RootFillet& fillet : fillets) out.push_back(fillet.face);
-  return out;
-}
-
 }  // namespace flank::internal

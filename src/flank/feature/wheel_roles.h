@@ -52,7 +52,4 @@ struct WheelRoles {
   [[nodiscard]] int splitters() const { return static_cast<int>(blades.size()) - mains(); }
 };
 
-/// Throws InputError for what is no wheel, with what is missing, and UsageError for faces that the part does not have.
-[[nodiscard]] WheelRoles recognise_wheel(const Part& part, const WheelChoice& choice = {});
-
 }  // namespace flank::internal

@@ -37,7 +37,6 @@ Result judged_path(const WheelWork& work, const std::vector<std::string>& faces,
   job.tool.spec = fs::absolute(fs::path(work.job.folder) / "tools" / "T1.json").lexically_normal().string();
   job.tolerance_mm = work.job.tolerance_mm;
   job.judge.least_coverage = least;
-  job.judge.sample_mm = work.job.sample_mm;
   job.judge.reach_radius_mm = kOpenBall * work.job.tolerance_mm;
   const Setup setup = read_setup(job.part, job.obstacles, job.tolerance_mm, result.notes);
   result.job = job;
@@ -49,7 +48,9 @@ Result judged_path(const WheelWork& work, const std::vector<std::string>& faces,
   result.diagonal_mm = setup.part.box.diagonal();
   const ClearanceScene scene = make_clearance_scene(
       setup, job.obstacles, !result.tool.holder.empty() || !result.tool.shank.empty(), result.notes);
-  result.verify = judge_job(setup, job.judge, result.tool, result.path);
+  // Small faces beside large ones: each has samples enough only where no spacing is given for all.
+  const DepthProof depth = work.job.sample_mm ? DepthProof::kSampled : DepthProof::kProved;
+  result.verify = judge_job(setup, job.judge, result.tool, result.path, depth);
   measure_bodies(scene, result.tool, result.path, result.verify);
   auto drawings = std::make_shared<Result::Drawings>();
   drawings->view = make_view(result.job, setup, result.tool, result.path, result.verify);

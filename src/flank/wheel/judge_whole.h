@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "flank/wheel/operations.h"
+#include "flank/wheel/wheel_work.h"
 
 namespace flank::internal {
 

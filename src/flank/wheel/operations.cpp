@@ -16,6 +16,7 @@
 #include "flank/job/job_json.h"
 #include "flank/path_file.h"
 #include "flank/tool_file.h"
+#include "flank/version.h"
 #include "flank/wheel/judge_whole.h"
 #include "flank/wheel/point/floor_passes.h"
 
@@ -44,7 +45,7 @@ PartRequest part_request(const WheelWork& work, const std::vector<std::string>& 
 WheelOperation perform(WheelWork& work, WheelOperation operation, const std::string& decides,
                        const std::function<Result()>& make) {
   operation.folder = "ops/" + operation.id + "-" + operation.kind;
-  operation.key = sha256(work.part.sha256 + decides);
+  operation.key = sha256(work.part.sha256 + kVersion + decides);
   const auto known = work.finished.find(operation.id);
   if (known != work.finished.end() && known->second.done && known->second.key == operation.key &&
       fs::exists(in_folder(work, operation.folder + "/path.json"))) {
@@ -122,6 +123,8 @@ Path floor_path(const WheelWork& work) {
     place.second = lowest(strips_of(work.finish, channel.second_path), place.floor, length);
     // The path of the sector's own main blade is a pitch behind that of the next one.
     if (channel.turned) place.second = turned(place.second, work.roles.axis, work.sector.pitch_rad);
+    const WheelAxis& axis = work.roles.axis;
+    place.place = [&axis](const Vec3& p) { return Vec3(axis.along(p), axis.radius(p), 0.0); };
     FloorOptions options;
     options.tolerance_mm = work.job.tolerance_mm;
     options.clearance_mm = -0.3 * work.job.tolerance_mm;

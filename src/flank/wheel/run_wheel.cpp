@@ -5,6 +5,7 @@
 
 #include "flank/base/atomic_file.h"
 #include "flank/error.h"
+#include "flank/feature/recognise_wheel.h"
 #include "flank/feature/wheel_table.h"
 #include "flank/tool_file.h"
 #include "flank/wheel/judge_whole.h"
@@ -63,17 +64,6 @@ WheelResult run_wheel(const WheelJob& job, const Progress& progress) {
   }
   write_file(plan, plan_json(result));
   return result;
-}
-
-Acceptance WheelResult::acceptance() const {
-  Acceptance out;
-  if (whole) out = whole->acceptance();
-  for (const WheelOperation& operation : operations)
-    if (!operation.done)
-      out.reasons.push_back(
-          {"complete", "operation " + operation.id + " (" + operation.kind + ") is not there: " + operation.problem});
-  if (!whole) out.reasons.push_back({"complete", "no operation finishes anything"});
-  return out;
 }
 
 }  // namespace flank::internal

@@ -11,20 +11,31 @@
 namespace flank::internal {
 namespace {
 
-constexpr double kStepMm = 0.6;  ///< between poses of a pass, at most
-constexpr int kHeights = 12;     ///< places of the axis that are held against the sides
+constexpr double kMostStretch = 3.0;  ///< more poses than their places ask for, at most so many times
+constexpr double kStepMm = 0.6;       ///< between poses of a pass, at most
+constexpr int kHeights = 12;          ///< places of the axis that are held against the sides
 constexpr int kDrops = 12, kHalvings = 12;
 constexpr int kMostPasses = 400, kMostSteps = 4000;
 constexpr double kHeightShare = 0.1;  ///< of the tolerance: so far above the floor the sphere stays
 
-/// A path by the length of its tip's way.
+/// A path by the length of the way of its places.
 struct Rail {
   std::vector<Pose> poses;
+  std::vector<Vec3> places;
   std::vector<double> at;
 
-  explicit Rail(std::vector<Pose> all) : poses(std::move(all)) {
-    for (std::size_t k = 0; k < poses.size(); ++k)
-      at.push_back(k == 0 ? 0.0 : at.back() + (poses[k].tip - poses[k - 1].tip).norm());
+  Rail(std::vector<Pose> all, const std::function<Vec3(const Vec3&)>& place) : poses(std::move(all)) {
+    for (std::size_t k = 0; k < poses.size(); ++k) {
+      places.push_back(place ? place(poses[k].tip) : poses[k].tip);
+      at.push_back(k == 0 ? 0.0 : at.back() + (places[k] - places[k - 1]).norm());
+    }
+  }
+  [[nodiscard]] Vec3 place(double way) const {
+    const auto next = std::upper_bound(at.begin(), at.end(), way);
+    if (next == at.begin()) return places.front();
+    if (next == at.end()) return places.back();
+    const auto k = static_cast<std::size_t>(next - at.begin());
+    return places[k - 1] + (way - at[k - 1]) / std::max(at[k] - at[k - 1], 1e-12) * (places[k] - places[k - 1]);
   }
   [[nodiscard]] Pose pose(double way) const {
     const auto next = std::upper_bound(at.begin(), at.end(), way);
@@ -35,19 +46,29 @@ struct Rail {
     return {poses[k - 1].tip + x * (poses[k].tip - poses[k - 1].tip),
             (poses[k - 1].axis + x * (poses[k].axis - poses[k - 1].axis)).normalized()};
   }
-  /// The way at which its tip is nearest to p.
+  /// The way at which its place is nearest to p.
   [[nodiscard]] double nearest(const Vec3& p) const {
     double best = std::numeric_limits<double>::infinity(), way = 0.0;
     for (std::size_t k = 0; k + 1 < poses.size(); ++k) {
-      const Vec3 along = poses[k + 1].tip - poses[k].tip;
+      const Vec3 along = places[k + 1] - places[k];
       const double length2 = along.squaredNorm();
-      const double x = length2 > 0.0 ? std::clamp((p - poses[k].tip).dot(along) / length2, 0.0, 1.0) : 0.0;
-      const double off = (poses[k].tip + x * along - p).squaredNorm();
+      const double x = length2 > 0.0 ? std::clamp((p - places[k]).dot(along) / length2, 0.0, 1.0) : 0.0;
+      const double off = (places[k] + x * along - p).squaredNorm();
       if (off < best) best = off, way = at[k] + x * (at[k + 1] - at[k]);
     }
     return way;
   }
 };
+
+/// The most that tips go a step of their places' way: around an axis the way is longer than that of the places.
+double stretch_of(const Rail& rail) {
+  double most = 1.0;
+  for (std::size_t k = 0; k + 1 < rail.poses.size(); ++k) {
+    const double step = rail.at[k + 1] - rail.at[k];
+    if (step > 0.0) most = std::max(most, (rail.poses[k + 1].tip - rail.poses[k].tip).norm() / step);
+  }
+  return std::min(most, kMostStretch);
+}
 
 /// Two poses across from each other.
 struct Across {
@@ -55,26 +76,26 @@ struct Across {
 };
 
 /// Across the first rail, where the second one has its nearest place: pairs whose places on both rise together.
-std::vector<Across> pair_rails(const Rail& first, Rail second) {
-  if (first.poses.size() < 2 || second.poses.size() < 2) return {};
-  if (first.nearest(second.poses.front().tip) > first.nearest(second.poses.back().tip)) {
-    std::vector<Pose> turned(second.poses.rbegin(), second.poses.rend());
-    second = Rail(std::move(turned));
-  }
+std::vector<Across> pair_rails(const FloorChannel& channel) {
+  if (channel.first.size() < 2 || channel.second.size() < 2) return {};
+  const Rail first(channel.first, channel.place);
+  Rail second(channel.second, channel.place);
+  if (first.nearest(second.places.front()) > first.nearest(second.places.back()))
+    second = Rail({channel.second.rbegin(), channel.second.rend()}, channel.place);
   // Ends that run out are paired with each other, so that the pass is as long as the shorter side.
-  const double from = first.nearest(second.poses.front().tip), to = first.nearest(second.poses.back().tip);
-  const double back_from = second.nearest(first.pose(from).tip), back_to = second.nearest(first.pose(to).tip);
+  const double from = first.nearest(second.places.front()), to = first.nearest(second.places.back());
+  const double back_from = second.nearest(first.place(from)), back_to = second.nearest(first.place(to));
   if (!(to - from > kStepMm) || !(back_to - back_from > kStepMm)) return {};
-  const int steps = std::min(
-      kMostSteps, std::max(2, static_cast<int>(std::ceil(std::max(to - from, back_to - back_from) / kStepMm))));
+  const double stretch = std::max(stretch_of(first), stretch_of(second));
+  const int steps =
+      std::min(kMostSteps,
+               std::max(2, static_cast<int>(std::ceil(stretch * std::max(to - from, back_to - back_from) / kStepMm))));
   std::vector<Across> out;
   double last = back_from;
   for (int k = 0; k <= steps; ++k) {
-    const double x = static_cast<double>(k) / steps;
-    const Pose a = first.pose(from + x * (to - from));
-    // Half by the nearest place, half evenly: the nearest alone jumps where the channel bends.
-    const double way = std::max(last, 0.5 * second.nearest(a.tip) + 0.5 * (back_from + x * (back_to - back_from)));
-    out.push_back({a, second.pose(last = std::min(way, second.at.back()))});
+    const double way = from + (to - from) * k / steps;
+    last = std::clamp(second.nearest(first.place(way)), last, back_to);
+    out.push_back({first.pose(way), second.pose(last)});
   }
   return out;
 }
@@ -88,6 +109,12 @@ Footpoint closest_of(const std::vector<const Target*>& targets, const Vec3& p) {
     if (std::abs(foot.distance) < least) least = std::abs(foot.distance), best = foot;
   }
   return best;
+}
+
+/// Beside the border of a face a footpoint has no side: the distance alone counts there.
+double height_of(const Footpoint& foot) {
+  if (foot.patch < 0) return std::numeric_limits<double>::infinity();
+  return foot.location == Location::kInside ? foot.distance : std::abs(foot.distance);
 }
 
 class Passes {
@@ -111,16 +138,50 @@ class Passes {
     return {};
   }
 
-  /// How far the flank is from the sides, mm; < 0 inside one.
+  /// How far the flank is from the sides, and above its tip from the floor, mm; < 0 inside one. An axis that lies low over a floor cuts
+  /// it with its flank.
   [[nodiscard]] double room(const Pose& pose) const {
     double least = std::numeric_limits<double>::infinity();
     for (int k = 0; k < kHeights; ++k) {
       const double s = radial_.axis_length() * k / (kHeights - 1.0), r = radial_.at(s).r;
       const Footpoint foot = closest_of(channel_.sides, pose.at(s));
-      if (foot.patch >= 0)
-        least = std::min(least, (foot.location == Location::kInside ? foot.distance : std::abs(foot.distance)) - r);
+      least = std::min(least, height_of(foot) - r);
+      if (k > 0) least = std::min(least, height_of(closest_of(channel_.floor, pose.at(s))) - r);
     }
     return least;
+  }
+
+  /// Places across from `low` to `high` whose tips are evenly apart: what the floor and the axes make of even steps is not even.
+  [[nodiscard]] std::vector<double> even(const Across& at, double low, double high, int count) const {
+    constexpr int kFine = 24;
+    std::vector<double> ways{0.0};
+    std::optional<Pose> last = pose(at, low);
+    for (int k = 1; k <= kFine; ++k) {
+      const std::optional<Pose> here = pose(at, low + (high - low) * k / kFine);
+      ways.push_back(ways.back() + (last && here ? (here->tip - last->tip).norm() : 0.0));
+      if (here) last = here;
+    }
+    std::vector<double> out;
+    std::size_t k = 1;
+    for (int j = 0; j < count; ++j) {
+      const double way = count > 1 ? ways.back() * j / (count - 1.0) : 0.5 * ways.back();
+      while (k < kFine && ways[k] < way) ++k;
+      const double x = (way - ways[k - 1]) / std::max(ways[k] - ways[k - 1], 1e-12);
+      out.push_back(low + (high - low) * (static_cast<double>(k) - 1.0 + std::clamp(x, 0.0, 1.0)) / kFine);
+    }
+    return out;
+  }
+  /// The way across between two places, along the floor, mm.
+  [[nodiscard]] double across(const Across& at, double low, double high) const {
+    constexpr int kCoarse = 6;
+    double way = 0.0;
+    std::optional<Pose> last = pose(at, low);
+    for (int k = 1; k <= kCoarse; ++k) {
+      const std::optional<Pose> here = pose(at, low + (high - low) * k / kCoarse);
+      if (last && here) way += (here->tip - last->tip).norm();
+      if (here) last = here;
+    }
+    return way;
   }
 
   /// The outermost free place between `from`, the side's, and `to`, nearer to the middle; none if that is not free either.
@@ -178,43 +239,29 @@ int count_of(const Passes& passes, const std::vector<Across>& pairs, const std::
   double most = 1.0;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     if (!ranges[k].open) continue;
-    const std::optional<Pose> a = passes.pose(pairs[k], ranges[k].low), b = passes.pose(pairs[k], ranges[k].high);
-    if (!a || !b) continue;
+    const Range& range = ranges[k];
+    const std::optional<Pose> middle = passes.pose(pairs[k], 0.5 * (range.low + range.high));
+    if (!middle) continue;
     // The floor bends away from the tool across the passes, or towards it: the less favourable of its two bends counts.
-    const Footpoint foot = closest_of(passes.channel().floor, 0.5 * (a->tip + b->tip));
-    most = std::max(most, (b->tip - a->tip).norm() / passes.spacing(foot.k1) + 1.0);
+    const Footpoint foot = closest_of(passes.channel().floor, middle->tip);
+    most = std::max(most, passes.across(pairs[k], range.low, range.high) / passes.spacing(foot.k1) + 1.0);
   }
   return std::min(kMostPasses, static_cast<int>(std::ceil(most)));
 }
 
-}  // namespace
+using PoseRow = std::vector<std::optional<Pose>>;
 
-std::vector<Strip> floor_passes(const FloorChannel& channel, const RadialFunction& radial, const FloorOptions& options,
-                                const std::string& face) {
-  const std::vector<Across> pairs = pair_rails(Rail(channel.first), Rail(channel.second));
-  if (pairs.empty()) return {};
-  const Passes passes(channel, radial, options);
-  const std::vector<Range> ranges = ranges_of(passes, pairs);
-  const int count = count_of(passes, pairs, ranges);
-  std::vector<std::vector<std::optional<Pose>>> found(static_cast<std::size_t>(count));
-  parallel_for(found.size(), [&](std::size_t j) {
-    const double x = count > 1 ? static_cast<double>(j) / (count - 1.0) : 0.5;
-    for (std::size_t k = 0; k < pairs.size(); ++k) {
-      std::optional<Pose> here;
-      if (ranges[k].open) here = passes.pose(pairs[k], ranges[k].low + x * (ranges[k].high - ranges[k].low));
-      if (here && passes.room(*here) < options.clearance_mm - 0.1 * options.tolerance_mm) here.reset();
-      found[j].push_back(here);
-    }
-  });
+/// Stretches of poses that are there, each other row the other way round.
+std::vector<Strip> strips_from(std::vector<PoseRow> rows, const std::string& face) {
   std::vector<Strip> out;
-  for (std::size_t j = 0; j < found.size(); ++j) {
-    if (j % 2 == 1) std::reverse(found[j].begin(), found[j].end());
+  for (std::size_t j = 0; j < rows.size(); ++j) {
+    if (j % 2 == 1) std::reverse(rows[j].begin(), rows[j].end());
     Strip strip{.id = 1, .kind = "floor", .face = face, .poses = {}};
     const auto close = [&] {
       if (strip.poses.size() > 1) out.push_back(strip);
       strip.poses.clear();
     };
-    for (const std::optional<Pose>& pose : found[j])
+    for (const std::optional<Pose>& pose : rows[j])
       if (pose)
         strip.poses.push_back(*pose);
       else
@@ -222,6 +269,27 @@ std::vector<Strip> floor_passes(const FloorChannel& channel, const RadialFunctio
     close();
   }
   return out;
+}
+
+}  // namespace
+
+std::vector<Strip> floor_passes(const FloorChannel& channel, const RadialFunction& radial, const FloorOptions& options,
+                                const std::string& face) {
+  const std::vector<Across> pairs = pair_rails(channel);
+  if (pairs.empty()) return {};
+  const Passes passes(channel, radial, options);
+  const std::vector<Range> ranges = ranges_of(passes, pairs);
+  const int count = count_of(passes, pairs, ranges);
+  std::vector<PoseRow> found(static_cast<std::size_t>(count), PoseRow(pairs.size()));
+  parallel_for(pairs.size(), [&](std::size_t k) {
+    if (!ranges[k].open) return;
+    const std::vector<double> places = passes.even(pairs[k], ranges[k].low, ranges[k].high, count);
+    for (std::size_t j = 0; j < found.size(); ++j) {
+      const std::optional<Pose> here = passes.pose(pairs[k], places[j]);
+      if (here && passes.room(*here) >= options.clearance_mm - 0.1 * options.tolerance_mm) found[j][k] = here;
+    }
+  });
+  return strips_from(std::move(found), face);
 }
 
 }  // namespace flank::internal

@@ -1,5 +1,5 @@
 // The roles of a wheel's faces are found from their shapes alone, and what is no wheel is refused with what it lacks.
-#include "flank/feature/wheel_roles.h"
+#include "flank/feature/recognise_wheel.h"
 
 #include <gtest/gtest.h>
 
