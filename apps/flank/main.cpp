@@ -29,6 +29,7 @@
 #include "flank/threads.h"
 #include "flank/version.h"
 #include "messages.h"
+#include "wheel_command.h"
 
 namespace {
 
@@ -109,7 +110,8 @@ int run_command(int argc, char** argv) {
       flank::cli::add_fit(parser),     flank::cli::add_cover(parser),    flank::cli::add_verify(parser),
       flank::cli::add_report(parser),  flank::cli::add_view(parser),     flank::cli::add_machine(parser),
       flank::cli::add_post(parser),    flank::cli::add_trochoid(parser), flank::cli::add_sweep(parser),
-      flank::cli::add_design(parser),  flank::cli::add_bound(parser),    flank::cli::add_correct(parser)};
+      flank::cli::add_design(parser),  flank::cli::add_bound(parser),    flank::cli::add_correct(parser),
+      flank::cli::add_wheel(parser)};
   for (const flank::cli::Subcommand& command : commands) add_common(*command.app, common);
   const auto chosen = [&]() -> const flank::cli::Subcommand* {
     for (const flank::cli::Subcommand& command : commands)

@@ -5,7 +5,11 @@
 #include <memory>
 
 #include "commands.h"
+#include "flank/base/atomic_file.h"
+#include "flank/error.h"
 #include "flank/example.h"
+#include "flank/feature/recognise_wheel.h"
+#include "flank/feature/wheel_table.h"
 #include "flank/inspect.h"
 #include "flank/manifest/result_folder.h"
 #include "flank/part.h"
@@ -15,6 +19,43 @@
 namespace flank::cli {
 using namespace internal;
 
+namespace {
+
+/// `inspect --wheel`: roles that are given, and where wheel.json goes.
+struct WheelOptions {
+  bool asked = false;
+  WheelChoice choice;
+  std::optional<std::string> output;
+};
+
+std::shared_ptr<WheelOptions> add_wheel_options(CLI::App& app) {
+  auto wheel = std::make_shared<WheelOptions>();
+  CLI::Option* asked =
+      app.add_flag("--wheel", wheel->asked, "What the faces of a wheel are: hub, blades, sides, edges, tips, fillets");
+  const auto add = [&](CLI::Option* option) { option->group("Wheel")->needs(asked); };
+  add(app.add_option("--hub", wheel->choice.hub, "Faces of the hub, F1; default: found"));
+  add(app.add_option("--blade", wheel->choice.blades, "Faces of a main blade, F8,F9,F10; once for each; default: found")
+          ->allow_extra_args(false));
+  add(app.add_option("--splitter", wheel->choice.splitters, "The same of splitters")->allow_extra_args(false));
+  add(app.add_option("--count", wheel->choice.count, "Equal sectors in a whole turn; default: found")
+          ->check(CLI::Range(1, 1000)));
+  add(app.add_option("-o,--output", wheel->output, "File to write: wheel.json"));
+  return wheel;
+}
+
+int inspect_wheel(const Part& part, const WheelOptions& wheel, const CommonOptions& common) {
+  if (wheel.output) require_no_result_there(*wheel.output);
+  const WheelRoles roles = recognise_wheel(part, wheel.choice);
+  if (wheel.output) write_file(*wheel.output, wheel_json(roles));
+  if (common.json)
+    fmt::print("{}", wheel_json(roles));
+  else if (!common.quiet)
+    fmt::print("{}", printable(wheel_table(roles), true));
+  return kMeetsRequest;
+}
+
+}  // namespace
+
 Subcommand add_inspect(CLI::App& parser) {
   CLI::App* app =
       parser.add_subcommand("inspect", "List the faces of a part: type, area, size, curvature, trims, units");
@@ -23,17 +64,21 @@ Subcommand add_inspect(CLI::App& parser) {
   app->add_option("PART", *file, part_formats() + " file")->required();
   app->add_option("--unit", *unit, "Unit of a mesh, or of a CAD file that states a wrong one: mm, cm, m or in")
       ->check(CLI::IsMember({"mm", "cm", "m", "in"}));
-  app->footer("Example: flank example twisted-blade -o blade.step && flank inspect blade.step");
-  return {app,
-          [file, unit](const CommonOptions& common) {
-            const InspectReport report = inspect(read_part(*file, *unit));
-            if (common.json)
-              fmt::print("{}", inspect_json(report));
-            else
-              fmt::print("{}", printable(inspect_table(report), true));
-            return 0;
-          },
-          {{"unit", "--unit"}}};
+  const auto wheel = add_wheel_options(*app);
+  app->footer(
+      "Examples: flank example twisted-blade -o blade.step && flank inspect blade.step; flank example impeller -o "
+      "wheel.step && flank inspect wheel.step --wheel");
+  const auto run = [file, unit, wheel](const CommonOptions& common) {
+    const Part part = read_part(*file, *unit);
+    if (wheel->asked) return inspect_wheel(part, *wheel, common);
+    const InspectReport report = inspect(part);
+    if (common.json)
+      fmt::print("{}", inspect_json(report));
+    else
+      fmt::print("{}", printable(inspect_table(report), true));
+    return kMeetsRequest;
+  };
+  return {app, run, {{"unit", "--unit"}, {"hub", "--hub"}, {"blade", "--blade"}, {"count", "--count"}}};
 }
 
 Subcommand add_example(CLI::App& parser) {

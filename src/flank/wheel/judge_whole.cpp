@@ -1,0 +1,96 @@
+#include "flank/wheel/judge_whole.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "flank/artefact/view.h"
+#include "flank/pipeline/folder/judge_job.h"
+#include "flank/pipeline/run_journal.h"
+#include "flank/setup/clearance_scene.h"
+#include "flank/setup/read_setup.h"
+#include "flank/wheel/sector.h"
+
+namespace flank::internal {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> flow_faces(const WheelRoles& roles) {
+  std::vector<std::string> out = roles.hub;
+  for (const WheelBlade& blade : roles.blades) {
+    const std::vector<std::string> own = blade.flow();
+    out.insert(out.end(), own.begin(), own.end());
+  }
+  return out;
+}
+
+}  // namespace
+
+Result judged_path(const WheelWork& work, const std::vector<std::string>& faces, Path path, double least) {
+  Result result;
+  CoverJob job;
+  job.part.file = work.job.part;
+  job.part.unit = work.job.unit;
+  job.part.faces = face_list(faces);
+  job.tool.spec = fs::absolute(fs::path(work.job.folder) / "tools" / "T1.json").lexically_normal().string();
+  job.tolerance_mm = work.job.tolerance_mm;
+  job.judge.least_coverage = least;
+  job.judge.reach_radius_mm = kOpenBall * work.job.tolerance_mm;
+  const Setup setup = read_setup(job.part, job.obstacles, job.tolerance_mm, result.notes);
+  result.job = job;
+  result.inputs = input_stamps(job);
+  result.part_sha256 = setup.part.sha256;
+  result.tool = *work.tool;
+  result.path = std::move(path);
+  result.plan = CoverSummary{};
+  result.diagonal_mm = setup.part.box.diagonal();
+  const ClearanceScene scene = make_clearance_scene(
+      setup, job.obstacles, !result.tool.holder.empty() || !result.tool.shank.empty(), result.notes);
+  // Small faces beside large ones: each has samples enough only where no spacing is given for all.
+  const DepthProof depth = work.job.sample_mm ? DepthProof::kSampled : DepthProof::kProved;
+  result.verify = judge_job(setup, job.judge, result.tool, result.path, depth);
+  measure_bodies(scene, result.tool, result.path, result.verify);
+  auto drawings = std::make_shared<Result::Drawings>();
+  drawings->view = make_view(result.job, setup, result.tool, result.path, result.verify);
+  result.drawings = std::move(drawings);
+  return result;
+}
+
+Result judge_whole(const WheelWork& work) {
+  Path path = copied(work.finish, work.roles.axis, work.sector.pitch_rad, work.sector.copies, work.roles.whole);
+  return judged_path(work, flow_faces(work.roles), std::move(path), work.job.least_coverage);
+}
+
+std::vector<RoleFigures> role_figures(const WheelRoles& roles, const VerifyReport& report) {
+  std::vector<RoleFigures> out{{"side"}, {"edge"}, {"fillet"}, {"hub"}, {"other"}};
+  const auto has = [](const std::vector<std::string>& faces, const std::string& face) {
+    return std::find(faces.begin(), faces.end(), face) != faces.end();
+  };
+  const auto role_of = [&](const std::string& face) -> std::size_t {
+    if (has(roles.hub, face)) return 3;
+    for (const WheelBlade& blade : roles.blades) {
+      if (has(blade.sides(), face)) return 0;
+      if (has(blade.edges, face)) return 1;
+      for (const RootFillet& fillet : blade.fillets)
+        if (fillet.face == face) return 2;
+    }
+    return 4;
+  };
+  for (const FaceVerdict& face : report.faces) {
+    RoleFigures& sum = out[role_of(face.face)];
+    sum.cut_mm = std::max(sum.cut_mm, face.overcut_mm);
+    sum.area_mm2 += face.area_mm2;
+    if (!face.target) continue;
+    const double open = face.reachable_share * face.area_mm2;
+    sum.open_mm2 += open;
+    sum.within_mm2 += face.coverage_reachable * open;
+    sum.left_mm = std::max(sum.left_mm, face.undercut_mm);
+  }
+  out.erase(std::remove_if(out.begin(), out.end(), [](const RoleFigures& f) { return !(f.area_mm2 > 0.0); }),
+            out.end());
+  return out;
+}
+
+}  // namespace flank::internal

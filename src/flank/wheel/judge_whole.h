@@ -1,0 +1,24 @@
+/// Paths that are put together judged as results, and the whole wheel.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "flank/wheel/wheel_work.h"
+
+namespace flank::internal {
+
+/// A ball of this radius touches what is open of the flow surface: places inside other solids, and below a blade's foot, are not.
+/// As a share of the tolerance.
+inline constexpr double kOpenBall = 5.0;
+
+/// A path of the work's tool over some faces, judged as a cover of that tool. `least`: the share of what is open that counts as done.
+[[nodiscard]] Result judged_path(const WheelWork& work, const std::vector<std::string>& faces, Path path, double least);
+
+/// All sectors that the part has, on all its flow faces.
+[[nodiscard]] Result judge_whole(const WheelWork& work);
+
+/// The judge's figures, by what the faces are.
+[[nodiscard]] std::vector<RoleFigures> role_figures(const WheelRoles& roles, const VerifyReport& report);
+
+}  // namespace flank::internal

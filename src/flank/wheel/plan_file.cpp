@@ -1,0 +1,116 @@
+#include "flank/wheel/plan_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "flank/error.h"
+#include "flank/io/text/json_dump.h"
+#include "flank/io/text/json_input.h"
+#include "flank/wheel/sector.h"
+
+namespace flank::internal {
+namespace {
+
+constexpr const char* kSchema = "openflank/plan/1";
+
+std::vector<double> list_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+nlohmann::ordered_json operation_json(const WheelOperation& o, int copies) {
+  nlohmann::ordered_json json{{"id", o.id},       {"kind", o.kind},   {"tool", o.tool},       {"folder", o.folder},
+                              {"copies", copies}, {"faces", o.faces}, {"seconds", o.seconds}, {"done", o.done},
+                              {"pass", o.pass},   {"key", o.key}};
+  if (!o.problem.empty()) json["problem"] = o.problem;
+  return json;
+}
+
+nlohmann::ordered_json figures_json(const std::vector<RoleFigures>& figures) {
+  auto list = nlohmann::ordered_json::array();
+  for (const RoleFigures& f : figures)
+    list.push_back({{"role", f.role},
+                    {"area_mm2", f.area_mm2},
+                    {"open_mm2", f.open_mm2},
+                    {"within_mm2", f.within_mm2},
+                    {"deepest_cut_mm", f.cut_mm},
+                    {"most_left_mm", f.left_mm}});
+  return list;
+}
+
+nlohmann::ordered_json reasons_json(const Acceptance& acceptance) {
+  auto list = nlohmann::ordered_json::array();
+  for (const Shortfall& reason : acceptance.reasons) list.push_back({{"figure", reason.figure}, {"text", reason.text}});
+  return list;
+}
+
+WheelOperation operation_from(const nlohmann::json& json) {
+  WheelOperation out;
+  out.id = json.at("id"), out.kind = json.at("kind"), out.folder = json.at("folder"), out.tool = json.at("tool");
+  out.faces = json.at("faces").get<std::vector<std::string>>();
+  out.seconds = json.at("seconds"), out.key = json.at("key");
+  out.done = json.at("done"), out.pass = json.at("pass");
+  out.problem = json.value("problem", "");
+  return out;
+}
+
+}  // namespace
+
+std::map<std::string, WheelOperation> finished_operations(const std::string& file) {
+  std::map<std::string, WheelOperation> out;
+  if (!std::filesystem::exists(file)) return out;
+  const nlohmann::json json = nlohmann::json::parse(read_file(file), nullptr, false);
+  try {
+    if (json.is_discarded() || json.at("schema") != kSchema) return out;
+    for (const auto& entry : json.at("operations")) {
+      WheelOperation operation = operation_from(entry);
+      if (operation.done) out.emplace(operation.id, std::move(operation));
+    }
+  } catch (const nlohmann::json::exception&) {
+    // A damaged plan finishes nothing: everything is done again.
+    out.clear();
+  }
+  return out;
+}
+
+std::string plan_json(const WheelResult& result) {
+  nlohmann::ordered_json json;
+  json["schema"] = kSchema;
+  json["axis"] = {{"point_mm", list_of(result.roles.axis.point)}, {"direction", list_of(result.roles.axis.direction)}};
+  json["copies"] = result.copies;
+  json["tools"] = nlohmann::ordered_json::array({{{"id", "T1"}, {"file", "tools/T1.json"}}});
+  json["operations"] = nlohmann::ordered_json::array();
+  for (const WheelOperation& operation : result.operations)
+    json["operations"].push_back(operation_json(operation, result.copies));
+  if (result.whole) {
+    const Acceptance acceptance = result.acceptance();
+    json["pass"] = acceptance.pass();
+    json["reasons"] = reasons_json(acceptance);
+    json["surface"] = figures_json(result.figures);
+  }
+  return dumped(json, 2) + "\n";
+}
+
+std::string wheel_text(const WheelResult& result) {
+  std::string text =
+      fmt::format("{}: {} sectors, {} of them in the part\n", result.roles.file, result.roles.count, result.copies);
+  for (const WheelOperation& o : result.operations)
+    text +=
+        fmt::format("  {:<3} {:<6} {:<14} {:7.1f} s  {}{}\n", o.id, o.kind, face_list(o.faces), o.seconds,
+                    o.done ? (o.pass ? "done" : "done, with a shortfall") : "NOT DONE",
+                    (o.kept ? ", taken from the folder" : "") + (o.problem.empty() ? std::string() : ": " + o.problem));
+  for (const RoleFigures& f : result.figures)
+    text += f.open_mm2 > 0.0
+                ? fmt::format(
+                      "  {:<7} {:6.2f} % of {:.1f} mm2 that is open within tolerance (whole {:.1f} mm2), deepest cut "
+                      "{:.4f} mm, most left {:.3f} mm\n",
+                      f.role, 100.0 * f.within_mm2 / f.open_mm2, f.open_mm2, f.area_mm2, f.cut_mm, f.left_mm)
+                : fmt::format("  {:<7} not machined here; deepest cut {:.4f} mm\n", f.role, f.cut_mm);
+  const Acceptance acceptance = result.acceptance();
+  text += fmt::format("  verdict {}\n", acceptance.pass() ? "meets the request" : "does NOT meet the request");
+  for (const Shortfall& reason : acceptance.reasons) text += "    " + reason.text + "\n";
+  for (const Shortfall& caution : acceptance.cautions) text += "    CAUTION " + caution.text + "\n";
+  return text;
+}
+
+}  // namespace flank::internal

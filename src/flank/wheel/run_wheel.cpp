@@ -1,0 +1,69 @@
+#include "flank/wheel/run_wheel.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "flank/base/atomic_file.h"
+#include "flank/error.h"
+#include "flank/feature/recognise_wheel.h"
+#include "flank/feature/wheel_table.h"
+#include "flank/tool_file.h"
+#include "flank/wheel/judge_whole.h"
+#include "flank/wheel/operations.h"
+#include "flank/wheel/plan_file.h"
+
+namespace flank::internal {
+namespace {
+
+namespace fs = std::filesystem;
+
+void check(const WheelJob& job) {
+  if (!(job.tolerance_mm > 0.0)) throw UsageError("tolerance_mm", "a length > 0 mm is needed");
+  if (!(job.least_coverage > 0.0 && job.least_coverage <= 1.0))
+    throw UsageError("least_coverage", "a share above 0 and up to 1 is needed");
+  if (job.effort != "quick" && job.effort != "normal" && job.effort != "thorough")
+    throw UsageError("effort", job.effort, "is none of quick, normal, thorough");
+}
+
+void make_folder(const std::string& folder) {
+  std::error_code error;
+  fs::create_directories(fs::path(folder) / "tools", error);
+  fs::create_directories(fs::path(folder) / "ops", error);
+  if (!fs::is_directory(fs::path(folder) / "ops")) throw InputError(folder + ": is no folder and cannot be made");
+}
+
+}  // namespace
+
+WheelResult run_wheel(const WheelJob& job, const Progress& progress) {
+  check(job);
+  progress.step("read", 0.0);
+  const Part part = read_part(job.part, job.unit);
+  WheelResult result;
+  result.roles = recognise_wheel(part, job.choice);
+  const WheelSector sector = make_sector(result.roles);
+  result.copies = sector.copies;
+  make_folder(job.folder);
+  const std::string plan = (fs::path(job.folder) / "plan.json").string();
+  WheelWork work{job, result.roles, sector, part, finished_operations(plan), {}, {}};
+  const auto run = [&](WheelOperation operation) {
+    result.operations.push_back(std::move(operation));
+    std::stable_sort(result.operations.begin(), result.operations.end(),
+                     [](const auto& a, const auto& b) { return a.id < b.id; });
+    write_file(plan, plan_json(result));
+  };
+  write_file((fs::path(job.folder) / "wheel.json").string(), wheel_json(result.roles));
+  run(side_operation(work, progress.part(0.0, 0.4)));
+  run(floor_operation(work, progress.part(0.4, 0.5)));
+  if (job.edges) run(edge_operation(work, progress.part(0.5, 0.6)));
+  if (job.rough) run(rough_operation(work, progress.part(0.6, 0.8)));
+  progress.step("verify", 0.8);
+  if (!work.finish.strips.empty()) result.whole = judge_whole(work);
+  if (result.whole) {
+    result.figures = role_figures(result.roles, result.whole->verify);
+    write_result(*result.whole, job.folder);
+  }
+  write_file(plan, plan_json(result));
+  return result;
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,16 @@
+#include "flank/wheel/wheel_job.h"
+
+namespace flank::internal {
+
+Acceptance WheelResult::acceptance() const {
+  Acceptance out;
+  if (whole) out = whole->acceptance();
+  for (const WheelOperation& operation : operations)
+    if (!operation.done)
+      out.reasons.push_back(
+          {"complete", "operation " + operation.id + " (" + operation.kind + ") is not there: " + operation.problem});
+  if (!whole) out.reasons.push_back({"complete", "no operation finishes anything"});
+  return out;
+}
+
+}  // namespace flank::internal

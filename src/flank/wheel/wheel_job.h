@@ -1,0 +1,59 @@
+/// What is asked of a wheel, its operations and what was found of it, as values.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "flank/feature/wheel_roles.h"
+#include "flank/run.h"
+
+namespace flank::internal {
+
+/// What is asked of a wheel.
+struct WheelJob {
+  std::string part;
+  std::optional<std::string> unit;  ///< of a mesh
+  std::string folder;
+  WheelChoice choice;
+  double tolerance_mm = 0.05;
+  bool rough = true;                ///< channels are roughed by trochoidal layers
+  bool edges = true;                ///< leading and trailing edges are milled
+  std::string effort = "quick";     ///< of the fits
+  double least_coverage = 0.97;     ///< share of what is open of the flow surface, within tolerance
+  std::optional<double> sample_mm;  ///< judge by samples alone, at this spacing
+  std::optional<std::string> tool;  ///< a tool.json; none: found with the sides
+};
+
+/// One operation: a result folder of one sector, or what stopped it.
+struct WheelOperation {
+  std::string id, kind;  ///< "20", "side"
+  std::string folder;    ///< within the wheel's, "ops/20-side"
+  std::string tool = "T1";
+  std::vector<std::string> faces = {};
+  double seconds = 0.0;
+  std::string key = {};  ///< of what decides it: a finished operation of the same key is not done again
+  bool done = false;
+  bool kept = false;         ///< taken from the folder
+  bool pass = false;         ///< meets what its own folder was asked
+  std::string problem = {};  ///< why it is not done, or does not meet it
+};
+
+/// What was found of the faces of one role, by the judge of the whole.
+struct RoleFigures {
+  std::string role;
+  double area_mm2 = 0.0, open_mm2 = 0.0,
+         within_mm2 = 0.0;             ///< whole, not inside other material, of that within tolerance
+  double cut_mm = 0.0, left_mm = 0.0;  ///< deepest cut, most that is left
+};
+
+struct WheelResult {
+  WheelRoles roles;
+  int copies = 0;
+  std::vector<WheelOperation> operations;
+  std::vector<RoleFigures> figures;
+  std::optional<Result> whole;  ///< all copies of all finishing operations, judged on all flow faces
+  [[nodiscard]] Acceptance acceptance() const;
+};
+
+}  // namespace flank::internal
