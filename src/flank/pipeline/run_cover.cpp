@@ -48,10 +48,11 @@ void require(bool holds, const std::string& field, const std::string& text) {
 }
 
 /// A whole tool: a file, or a family with all its parameters and an axis length.
-Tool tool_of(const ToolRequest& request) {
+Tool tool_of(const ToolRequest& request, std::vector<std::string>& notes) {
   require(!request.spec.empty(), "tool",
           "a tool.json, or a family with all its parameters and `axis_length_mm`, is needed");
   const ToolSpec spec = parse_tool_spec(request.spec);
+  notes.insert(notes.end(), spec.notes.begin(), spec.notes.end());
   if (spec.tool) {
     require(!request.axis_length_mm, "axis_length_mm", "the tool's file has its length; it goes with a family");
     const Legitimacy legitimacy = check_legitimacy(spec.tool->radial);
@@ -128,7 +129,7 @@ Result run_cover(const CoverJob& request, const Progress& asked) {
   result.inputs = input_stamps(job);
   const std::optional<ToolChoice> choice = tool_choice(job);
   if (!choice) {
-    result.tool = tool_of(job.tool);
+    result.tool = tool_of(job.tool, result.notes);
     check_obstacles(job.obstacles, &result.tool);
     equip_tool(job.obstacles, result.tool);
   }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "flank/tool.h"
 
@@ -17,7 +18,8 @@ struct ToolSpec {
   std::optional<ToolFamily> family;  ///< set for a family
   /// By the names of parameter_names(family); mm and radians. The others are open.
   std::map<std::string, double> given;
-  std::optional<Tool> tool;  ///< set for a tool.json
+  std::optional<Tool> tool;        ///< set for a tool's file
+  std::vector<std::string> notes;  ///< what must be known of how that was read
 
   /// Is every parameter of the family given?
   [[nodiscard]] bool complete() const;
