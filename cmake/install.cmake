@@ -11,7 +11,7 @@ endif()
 # The front door and nothing else: what src/flank holds is the library's own.
 install(DIRECTORY include/flank DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev FILES_MATCHING PATTERN "*.h")
 install(FILES ${PROJECT_BINARY_DIR}/include/flank/version.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/flank COMPONENT dev)
-install(DIRECTORY share/catalogue share/machines DESTINATION ${CMAKE_INSTALL_DATADIR}/openflank COMPONENT command)
+install(DIRECTORY share/catalogue share/machines share/materials DESTINATION ${CMAKE_INSTALL_DATADIR}/openflank COMPONENT command)
 install(FILES LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT command)
 
 # Man pages and the completion of bash, made from the command's own help.

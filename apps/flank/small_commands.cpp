@@ -127,9 +127,10 @@ Subcommand add_tool(CLI::App& parser) {
   CLI::App* app = parser.add_subcommand("tool", "Make, show and convert tools");
   auto options = std::make_shared<ToolCommandOptions>();
   auto show = std::make_shared<bool>(false);
-  app->add_option(
-         "SOURCE", options->source,
-         "A family (" + tool_families() + "), a family with parameters (cone:radius=2,angle=3), or a tool.json or .dxf")
+  app->add_option("SOURCE", options->source,
+                  "A family (" + tool_families() +
+                      "), a family with parameters (cone:radius=2,angle=3), or a tool.json, a .dxf, a "
+                      ".fctb of FreeCAD, a library of Fusion (.json#NAME)")
       ->required();
   app->add_option("--param", options->parameters, "NAME=VALUE of the family; mm, degrees")->allow_extra_args(false);
   app->add_option("--axis-length", options->axis_length_mm, "Length of the axis, mm");
@@ -137,12 +138,17 @@ Subcommand add_tool(CLI::App& parser) {
   app->add_option("--name", options->name, "Name of the tool");
   app->add_option("-o,--output", options->outputs, "Files to write: .json, .dxf, .step, .fctb, .svg, .csv")
       ->allow_extra_args(false);
-  app->add_flag("--arcs", options->arcs, "A .dxf holds the profile as arcs and lines without corners, within 0.001 mm");
+  app->add_flag("--arcs", options->arcs,
+                "A .dxf holds the profile as arcs and lines without corners, within 0.001 mm; the default");
+  app->add_flag("--polygon", options->polygon, "A .dxf holds the profile as a polygon, within 0.0001 mm");
   app->add_flag("--show", *show, "Draw the profile also when files are written");
   app->footer("Example: flank tool barrel --param arc=85 --param radius=5 --axis-length 30 -o tool.json -o tool.dxf");
   const auto run = [options, show](const CommonOptions& common) {
     for (const std::string& file : options->outputs) require_no_result_there(file);
-    const Tool tool = run_tool_command(*options);
+    std::vector<std::string> notes;
+    const Tool tool = run_tool_command(*options, notes);
+    if (!common.quiet)
+      for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", printable(note));
     if (common.json) {
       fmt::print("{}", tool_summary_json(tool, options->outputs));
       return kMeetsRequest;

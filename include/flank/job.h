@@ -201,6 +201,9 @@ struct PostJob {
   std::optional<double> spindle_rpm;     ///< needed but for a dry run
   bool dry = false;                      ///< the spindle stands still, and the program's header says so
   bool force = false;  ///< write the program although it does not meet its request; its header says why
+  std::optional<std::string>
+      material;               ///< of share/materials: gives the spindle's speed and the feed where they are not given
+  std::optional<int> flutes;  ///< of the tool, for the feed of a material
   bool operator==(const PostJob&) const = default;
 };
 

@@ -534,6 +534,8 @@ def post(
     deviation_mm: float | None = None,
     tool_length_mm: float | None = None,
     spindle: float | None = None,
+    material: str | None = None,
+    flutes: int | None = None,
     dry: bool = ...,
     force: bool = ...,
     link_clearance_mm: float = ...,

@@ -149,6 +149,9 @@ TEST_F(CliProgram, NeedsSpindleAndFeedOrADryRun) {
   expect_refused(bare, 2, "--spindle, 1/min, and --feed, or --dry");
   expect_refused(joined(bare, {"--spindle", "8000"}), 2, "--feed");
   expect_refused(joined(bare, {"--feed", "1000"}), 2, "--spindle");
+  expect_refused(joined(bare, {"--material", "titanium"}), 2, "--flutes");
+  expect_refused(joined(bare, {"--flutes", "4"}), 2, "--material");
+  expect_refused(joined(bare, {"--material", "cheese", "--flutes", "4"}), 2, "aluminium");
   expect_refused(joined(bare, {"--spindle", "0", "--feed", "1000"}), 2, "--spindle");
   expect_refused(joined(bare, {"--dry", "--spindle", "8000"}), 2, "--dry");
   EXPECT_FALSE(fs::exists(root_ / "bare.nc"));

@@ -80,10 +80,10 @@ Addresses members(const TrochoidJob& job) {
 }
 Addresses members(const PostJob& job) {
   const auto& [folder, machine, part, setup, feed, speed, most, deviation, tool_length, clearance, lift, order, spindle,
-               dry, force] = job;
+               dry, force, material, flutes] = job;
   Addresses all;
   add(all, folder, machine, part, setup, feed, speed, most, deviation, tool_length, clearance, lift, order, spindle,
-      dry, force);
+      dry, force, material, flutes);
   return all;
 }
 Addresses members(const DesignJob& job) {

@@ -48,7 +48,7 @@ BoundResult run_bound(const BoundJob& request, const Progress& progress) {
   BoundResult result;
   result.job = request;
   result.tool = given_tool(request.tool.spec, request.tool.axis_length_mm,
-                           "a given tool is needed: its longest contact is bounded");
+                           "a given tool is needed: its longest contact is bounded", result.notes);
   progress.step("read", 0.0);
   ObstacleRequest obstacles;
   obstacles.check_faces = request.check_faces;

@@ -399,7 +399,16 @@ void visit_fields(Job& job, Visitor&& visit) {
   visit(FieldInfo{"tool_length", "mm", "", "From the gauge line to the controlled point; default: the machine's",
                   kLength},
         job.tool_length_mm);
-  visit(FieldInfo{"spindle", "", "", "Spindle speed, 1/min; needed, but for a dry run", kTurns}, job.spindle_rpm);
+  visit(FieldInfo{"spindle", "", "", "Spindle speed, 1/min; needed, but for a dry run and with --material", kTurns},
+        job.spindle_rpm);
+  visit(
+      FieldInfo{
+          "material", "", "",
+          "What is cut (share/materials: aluminium, titanium, ...): its cutting speed at the largest diameter and its "
+          "chip load give --spindle and --feed where they are not given; needs --flutes"},
+      job.material);
+  visit(FieldInfo{"flutes", "", "", "Cutting edges of the tool, for the feed that --material gives", kToolNumber},
+        job.flutes);
   visit(FieldInfo{"dry", "", "", "A dry run: the spindle stands still, and the program's header says so", kAny,
                   Spelling::kFlag},
         job.dry);

@@ -214,6 +214,7 @@ Result run_trochoid(const TrochoidJob& request, const Progress& asked) {
   TrochoidJob job = request;
   result.inputs = input_stamps(job);
   const ToolSpec spec = parse_tool_spec(job.tool.spec);
+  result.notes.insert(result.notes.end(), spec.notes.begin(), spec.notes.end());
   check_obstacles(job.obstacles, spec.tool ? &*spec.tool : nullptr);
   Stopwatch watch(result);
   progress.step("read", 0.0);

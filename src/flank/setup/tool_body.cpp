@@ -9,6 +9,7 @@
 
 #include "flank/error.h"
 #include "flank/io/text/json_input.h"
+#include "flank/io/tool/read_any_tool.h"
 #include "flank/part.h"
 
 namespace flank::internal {
@@ -75,12 +76,14 @@ std::vector<Vec2> lifted(std::vector<Vec2> profile, double by) {
 
 }  // namespace
 
-std::vector<Vec2> holder_profile(const std::string& text) {
+std::vector<Vec2> holder_profile(const std::string& text, double face) {
   // A file whose name has a colon is a file: being there decides.
   const bool inline_text = text.find(':') != std::string::npos && !is_there(text);
   std::vector<Vec2> profile;
   if (inline_text) {
     profile = pairs_of(text, text);
+  } else if (const std::optional<std::vector<Vec2>> drawn = read_holder_file(text)) {
+    profile = lifted(*drawn, face);
   } else {
     const std::string content = read_file(text);
     const std::size_t first = content.find_first_not_of(" \t\r\n");
@@ -114,7 +117,9 @@ void equip_tool(const ObstacleRequest& request, Tool& tool) {
     const double radius = request.shank_radius_mm.value_or(top.y());
     tool.shank = lifted({{0.0, radius}, {*request.shank_length_mm, radius}}, top.x());
   }
-  if (request.holder) tool.holder = lifted(holder_profile(*request.holder), top.x());
+  // A holder of its own file stands where the shank ends, and on the flank of a tool without one.
+  const double face = tool.shank.empty() ? 0.0 : std::max(0.0, tool.shank.back().x() - top.x());
+  if (request.holder) tool.holder = lifted(holder_profile(*request.holder, face), top.x());
 }
 
 }  // namespace flank::internal

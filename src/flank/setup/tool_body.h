@@ -19,7 +19,8 @@ void equip_tool(const ObstacleRequest& request, Tool& tool);
 /// Does the tool have anything above its flank?
 [[nodiscard]] inline bool has_body(const Tool& tool) { return !tool.shank.empty() || !tool.holder.empty(); }
 
-/// "30:10,70:12", or a file of such pairs, as points (z, radius).
-[[nodiscard]] std::vector<Vec2> holder_profile(const std::string& text);
+/// "30:10,70:12", or a file of such pairs, as points (z, radius), z above the flank's upper end. A file that counts from the
+/// holder's own face (read_holder_file) is put with that at z = `face`, mm.
+[[nodiscard]] std::vector<Vec2> holder_profile(const std::string& text, double face = 0.0);
 
 }  // namespace flank::internal

@@ -9,8 +9,8 @@
 #include "flank/base/kept/read_files.h"
 #include "flank/error.h"
 #include "flank/io/text/json_input.h"
+#include "flank/io/tool/read_any_tool.h"
 #include "flank/io/tool/tool_dxf.h"
-#include "flank/io/tool/tool_dxf_read.h"
 #include "flank/io/tool/tool_fctb.h"
 #include "flank/io/tool/tool_step.h"
 #include "flank/io/tool/tool_svg.h"
@@ -45,31 +45,26 @@ std::string profile_csv(const RadialFunction& radial) {
   return text;
 }
 
-/// A drawing does not say how long the tool's axis is; a tool's own file does, and must not be contradicted.
-Tool read_tool_file(const ToolCommandOptions& options) {
-  if (ending_of(options.source) == ".dxf")
-    return tool_from_dxf(read_file(options.source), options.source, options.axis_length_mm);
-  if (options.axis_length_mm) throw UsageError("axis_length_mm", options.source + " has its own");
-  return read_tool(options.source);
-}
-
-bool is_file(const ToolCommandOptions& options) {
-  const std::string ending = ending_of(options.source);
-  return ending == ".json" || ending == ".dxf" || options.source.find('/') != std::string::npos;
-}
-
 }  // namespace
 
 Tool tool_of_command(const ToolCommandOptions& options) {
+  std::vector<std::string> notes;
+  return tool_of_command(options, notes);
+}
+
+Tool tool_of_command(const ToolCommandOptions& options, std::vector<std::string>& notes) {
   for (const auto& [value, field] :
        {std::pair(options.axis_length_mm, "axis_length_mm"), std::pair(options.shank_diameter_mm, "shank_diameter_mm")})
     if (value && !(*value > 0.0 && *value < 1e6))
       throw UsageError(field, fmt::format("{}", *value), "a length > 0 mm is needed");
   Tool tool;
-  if (is_file(options)) {
+  if (names_a_tool_file(options.source)) {
     if (!options.parameters.empty())
       throw UsageError("param", "only for a family; " + options.source + " has its own parameters");
-    tool = read_tool_file(options);
+    // A drawing does not say how long the tool's axis is; a tool's own file does, and must not be contradicted.
+    ToolReading reading = read_any_tool(options.source, options.axis_length_mm);
+    tool = std::move(reading.tool);
+    notes.insert(notes.end(), reading.notes.begin(), reading.notes.end());
   } else {
     ToolSpec spec = parse_tool_spec(options.source, "source");
     if (!spec.family) throw UsageError("source", options.source, "name a family with its parameters, or a tool.json");
@@ -117,17 +112,24 @@ std::string tool_summary_json(const Tool& tool, const std::vector<std::string>& 
 }
 
 Tool run_tool_command(const ToolCommandOptions& options) {
-  const Tool tool = tool_of_command(options);
+  std::vector<std::string> notes;
+  return run_tool_command(options, notes);
+}
+
+Tool run_tool_command(const ToolCommandOptions& options, std::vector<std::string>& notes) {
+  const Tool tool = tool_of_command(options, notes);
   std::vector<std::string> contents;
   const auto is_dxf = [](const std::string& file) { return ending_of(file) == ".dxf"; };
   // An option without effect is a mistake that its user would not notice.
-  if (options.arcs && std::none_of(options.outputs.begin(), options.outputs.end(), is_dxf))
-    throw UsageError("arcs", "only for a .dxf; name one as output");
+  for (const auto& [asked, name] : {std::pair(options.arcs, "arcs"), std::pair(options.polygon, "polygon")})
+    if (asked && std::none_of(options.outputs.begin(), options.outputs.end(), is_dxf))
+      throw UsageError(name, "only for a .dxf; name one as output");
+  if (options.arcs && options.polygon) throw UsageError("polygon", "contradicts `arcs`");
   ReadFiles inputs;
   inputs.add(options.source, "as the tool");
   for (const std::string& file : options.outputs) inputs.require_not_written(file);
   // All contents first: an error in the last of them leaves no file behind.
-  for (const std::string& file : options.outputs) contents.push_back(tool_as(tool, file, options.arcs));
+  for (const std::string& file : options.outputs) contents.push_back(tool_as(tool, file, !options.polygon));
   for (std::size_t i = 0; i < contents.size(); ++i) write_file(options.outputs[i], contents[i]);
   return tool;
 }

@@ -10,10 +10,8 @@
 
 #include "flank/error.h"
 #include "flank/io/text/json_input.h"
-#include "flank/io/tool/tool_dxf.h"
-#include "flank/io/tool/tool_dxf_read.h"
+#include "flank/io/tool/read_any_tool.h"
 #include "flank/tool/families.h"
-#include "flank/tool_file.h"
 
 namespace flank::internal {
 
@@ -28,12 +26,6 @@ std::string normalised(std::string name) {
     if (c == '_' || c == ' ') c = '-';
   }
   return name;
-}
-
-/// By its look, not by being there: a misspelled file must be missed as a file, not as a family.
-bool names_a_file(const std::string& text) {
-  const std::string ending = normalised(std::filesystem::path(text).extension().string());
-  return ending == ".json" || ending == ".dxf" || text.find('/') != std::string::npos;
 }
 
 /// What a family's parameters are called on the command line, for messages.
@@ -101,9 +93,10 @@ std::pair<std::string, double> parse_tool_parameter(ToolFamily family, const std
 
 ToolSpec parse_tool_spec(const std::string& text, const std::string& field) {
   ToolSpec spec;
-  if (names_a_file(text)) {
-    const bool drawing = normalised(std::filesystem::path(text).extension().string()) == ".dxf";
-    spec.tool = drawing ? tool_from_dxf(read_file(text), text) : read_tool(text);
+  if (names_a_tool_file(text)) {
+    ToolReading reading = read_any_tool(text);
+    spec.tool = std::move(reading.tool);
+    spec.notes = std::move(reading.notes);
     return spec;
   }
   const std::size_t colon = text.find(':');
@@ -160,12 +153,14 @@ Tool make_tool(ToolFamily family, const std::map<std::string, double>& parameter
   return tool;
 }
 
-Tool given_tool(const std::string& spec, std::optional<double> axis_length_mm, const std::string& not_free) {
+Tool given_tool(const std::string& spec, std::optional<double> axis_length_mm, const std::string& not_free,
+                std::vector<std::string>& notes) {
   const auto require = [](bool holds, const std::string& field, const std::string& text) {
     if (!holds) throw UsageError(field, text);
   };
   require(!spec.empty(), "tool", "a tool.json, or a family with all its parameters and `axis_length_mm`, is needed");
   const ToolSpec parsed = parse_tool_spec(spec);
+  notes.insert(notes.end(), parsed.notes.begin(), parsed.notes.end());
   if (parsed.tool) {
     require(!axis_length_mm, "axis_length_mm", "the tool's file has its length; it goes with a family");
     const Legitimacy legitimacy = check_legitimacy(parsed.tool->radial);

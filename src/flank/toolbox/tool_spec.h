@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "flank/tool.h"
 
@@ -17,7 +18,8 @@ struct ToolSpec {
   std::optional<ToolFamily> family;  ///< set for a family
   /// By the names of parameter_names(family); mm and radians. The others are open.
   std::map<std::string, double> given;
-  std::optional<Tool> tool;  ///< set for a tool.json
+  std::optional<Tool> tool;        ///< set for a tool's file
+  std::vector<std::string> notes;  ///< what must be known of how that was read
 
   /// Is every parameter of the family given?
   [[nodiscard]] bool complete() const;
@@ -44,8 +46,9 @@ struct ToolSpec {
 [[nodiscard]] Tool make_tool(ToolFamily family, const std::map<std::string, double>& parameters, double axis_length);
 
 /// A whole tool: a file, or a family with all its parameters and the length of its axis. Throws UsageError of the fields
-/// `tool` and `axis_length_mm`; `not_free` says why the word "free" is none.
+/// `tool` and `axis_length_mm`; `not_free` says why the word "free" is none; `notes` gets what must
+/// be known of how a file was read.
 [[nodiscard]] Tool given_tool(const std::string& spec, std::optional<double> axis_length_mm,
-                              const std::string& not_free);
+                              const std::string& not_free, std::vector<std::string>& notes);
 
 }  // namespace flank::internal

@@ -55,10 +55,10 @@ void tables(DxfText& out, double height) {
     int colour;
     std::string_view type;
   };
-  const std::vector<Layer> layers = {{"0", kWhite, "CONTINUOUS"},     {"FLANK", kWhite, "CONTINUOUS"},
-                                     {"TIP", kGreen, "CONTINUOUS"},   {"SHANK", kCyan, "CONTINUOUS"},
-                                     {"HOLDER", kGrey, "CONTINUOUS"}, {"CENTRELINE", kRed, "CENTER"},
-                                     {"TEXT", kGrey, "CONTINUOUS"},   {kDxfDimensionLayer, kGreen, "CONTINUOUS"}};
+  const std::vector<Layer> layers = {
+      {"0", kWhite, "CONTINUOUS"},    {"FLANK", kWhite, "CONTINUOUS"}, {"TIP", kGreen, "CONTINUOUS"},
+      {"SHANK", kCyan, "CONTINUOUS"}, {"HOLDER", kGrey, "CONTINUOUS"}, {"CENTRELINE", kRed, "CENTER"},
+      {"TEXT", kGrey, "CONTINUOUS"},  {"TITLE", kGrey, "CONTINUOUS"},  {kDxfDimensionLayer, kGreen, "CONTINUOUS"}};
   out.add(0, "TABLE").add(2, "LAYER").add(70, static_cast<int>(layers.size()));
   for (const Layer& l : layers) out.add(0, "LAYER").add(2, l.name).add(70, 0).add(62, l.colour).add(6, l.type);
   out.add(0, "ENDTAB");
@@ -83,8 +83,9 @@ void polyline(DxfText& out, std::string_view layer, const std::vector<ProfileArc
   out.add(0, "SEQEND").add(8, layer);
 }
 
-void text_line(DxfText& out, double x, double y, double height, const std::string& text) {
-  out.add(0, "TEXT").add(8, "TEXT").point(10, x, y).add(40, height).add(1, text);
+void text_line(DxfText& out, double x, double y, double height, const std::string& text,
+               std::string_view layer = "TEXT") {
+  out.add(0, "TEXT").add(8, layer).point(10, x, y).add(40, height).add(1, text);
 }
 
 /// From the tool's lowest point on the axis to where the flank begins.
@@ -100,12 +101,16 @@ double text_height(const Tool& tool) { return std::max(0.5, tool.radial.axis_len
 /// Where the drawing ends: along the axis, and the largest radius of flank, shank and holder.
 struct Extent {
   double low = 0.0, high = 0.0, widest = 0.0;
+  double body = 0.0;  ///< the largest radius without the holder
 };
 
 Extent extent_of(const Tool& tool, const std::vector<Vec2>& flank) {
-  Extent e{-tool.radial.at(0.0).r, flank.back().x(), 0.0};
-  for (const auto* profile : std::initializer_list<const std::vector<Vec2>*>{&flank, &tool.shank, &tool.holder})
+  Extent e{-tool.radial.at(0.0).r, flank.back().x(), 0.0, 0.0};
+  // The holder is drawn, but is no part of the tool's own length.
+  for (const auto* profile : std::initializer_list<const std::vector<Vec2>*>{&flank, &tool.shank})
     for (const Vec2& p : *profile) e.high = std::max(e.high, p.x()), e.widest = std::max(e.widest, p.y());
+  e.body = e.widest;
+  for (const Vec2& p : tool.holder) e.widest = std::max(e.widest, p.y());
   return e;
 }
 
@@ -144,6 +149,26 @@ std::vector<DxfDimension> dimensions_of(const Tool& tool, const std::vector<Vec2
   return all;
 }
 
+/// "CONCAVE R 60.0000 MM FROM X 4 TO 20": the hollow arcs of the flank, the sharpest first named; none: that there is none.
+std::string concave_words(const std::vector<ProfileArc>& arcs) {
+  double least = INFINITY, low = INFINITY, high = -INFINITY;
+  for (const ProfileArc& arc : arcs) {
+    if (!(arc.bulge > 0.0)) continue;
+    const double b = arc.bulge;
+    least = std::min(least, (arc.to - arc.from).norm() * (1.0 + b * b) / (4.0 * b));
+    low = std::min(low, arc.from.x());
+    high = std::max(high, arc.to.x());
+  }
+  if (!std::isfinite(least)) return "NO CONCAVE ARC: ANY GRINDING WHEEL";
+  return fmt::format("CONCAVE FROM X {:.4f} TO X {:.4f}, LEAST R {:.4f} MM", low, high, least);
+}
+
+std::string shank_words(const std::vector<Vec2>& shank) {
+  if (shank.size() < 2) return "SHANK: NONE DRAWN";
+  return fmt::format("SHANK %%c{:.4f} LENGTH {:.4f} MM", 2.0 * widest_point(shank).y(),
+                     shank.back().x() - shank.front().x());
+}
+
 void notes(DxfText& out, const Tool& tool, const std::vector<Vec2>& flank, double height) {
   const RadialFunction& radial = tool.radial;
   double least = flank.front().y(), most = least;
@@ -152,10 +177,43 @@ void notes(DxfText& out, const Tool& tool, const std::vector<Vec2>& flank, doubl
       fmt::format("AXIS LENGTH {:.4f} MM (CENTRES OF INSCRIBED SPHERES)", radial.axis_length()),
       fmt::format("FLANK FROM X {:.4f} R {:.4f} TO X {:.4f} R {:.4f}", flank.front().x(), flank.front().y(),
                   flank.back().x(), flank.back().y()),
-      fmt::format("RADIUS LEAST {:.4f} LARGEST {:.4f}  TIP SPHERE R {:.4f}", least, most, radial.at(0.0).r)};
+      fmt::format("RADIUS LEAST {:.4f} LARGEST {:.4f}", least, most),
+      fmt::format("TIP BALL R {:.4f}, CUTTING", radial.at(0.0).r),
+      concave_words(profile_arcs(radial, kDxfArcsMm)),
+      shank_words(tool.shank)};
   for (std::size_t i = 0; i < lines.size(); ++i)
     text_line(out, 0.0, -extent_of(tool, flank).widest - height * (3.0 + 2.0 * static_cast<double>(i)), height,
               lines[i]);
+}
+
+/// DXF text is a line, and old readers take ASCII only.
+std::string one_line(const std::string& text) {
+  std::string out;
+  for (const char c : text) out += c >= ' ' && c <= '~' ? c : '?';
+  return out;
+}
+
+/// A frame with what a drawing office needs, below the notes.
+void title_block(DxfText& out, const Tool& tool, const Extent& e, double height) {
+  const double top = -e.widest - 17.0 * height, row = 2.0 * height, width = 40.0 * height, key = 12.0 * height;
+  const std::vector<std::pair<std::string, std::string>> rows = {
+      {"TOOL", one_line(tool.name.empty() ? std::string(family_name(tool.radial.family())) : tool.name)},
+      {"OVERALL LENGTH", fmt::format("{:.4f}", e.high - e.low)},
+      {"BLANK", fmt::format("%%c{:.4f} OR MORE", 2.0 * e.body)},
+      {"UNITS, SCALE", "MM, 1:1"},
+      {"PROFILE WITHIN", fmt::format("{:g} MM OF NOMINAL", kDxfArcsMm)}};
+  const auto line = [&](double x0, double y0, double x1, double y1) {
+    out.add(0, "LINE").add(8, "TITLE").point(10, e.low + x0, top + y0).point(11, e.low + x1, top + y1);
+  };
+  const double bottom = -row * static_cast<double>(rows.size());
+  for (std::size_t k = 0; k <= rows.size(); ++k)
+    line(0.0, -row * static_cast<double>(k), width, -row * static_cast<double>(k));
+  for (const double x : {0.0, key, width}) line(x, 0.0, x, bottom);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const double y = top - row * static_cast<double>(k) - 0.75 * row;
+    text_line(out, e.low + 0.5 * height, y, 0.8 * height, rows[k].first, "TITLE");
+    text_line(out, e.low + key + 0.5 * height, y, 0.8 * height, rows[k].second, "TITLE");
+  }
 }
 
 }  // namespace
@@ -168,7 +226,7 @@ std::string tool_to_dxf(const Tool& tool, bool arcs) {
   DxfText out;
   out.add(999, "half profile of a milling tool, millimetres");
   out.add(0, "SECTION").add(2, "HEADER").add(9, "$ACADVER").add(1, "AC1009");
-  out.add(9, "$EXTMIN").point(10, e.low - overhang, -e.widest - 8.0 * height);
+  out.add(9, "$EXTMIN").point(10, e.low - overhang, -e.widest - 28.0 * height);
   out.add(9, "$EXTMAX").point(10, e.high + overhang, e.widest + 10.0 * height);
   out.add(9, "$LTSCALE").add(40, 1.0).add(0, "ENDSEC");
   tables(out, height);
@@ -182,9 +240,11 @@ std::string tool_to_dxf(const Tool& tool, bool arcs) {
   polyline(out, "SHANK", tool.shank);
   polyline(out, "HOLDER", tool.holder);
   out.add(0, "LINE").add(8, "CENTRELINE").add(6, "CENTER");
-  out.point(10, e.low - overhang, 0.0).point(11, e.high + overhang, 0.0);
+  const double end = tool.holder.empty() ? e.high : std::max(e.high, tool.holder.back().x());
+  out.point(10, e.low - overhang, 0.0).point(11, end + overhang, 0.0);
   dxf_dimensions(out, dimensions, height);
   notes(out, tool, flank, height);
+  title_block(out, tool, e, height);
   out.add(0, "ENDSEC").add(0, "EOF");
   return out.take();
 }

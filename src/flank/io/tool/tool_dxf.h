@@ -14,9 +14,11 @@ inline constexpr double kDxfArcsMm = 1e-3;
 
 /// The whole file: x along the axis (s = 0 at x = 0, holder towards +x), y the radius; millimetres. Layers FLANK
 /// (polyline), TIP (arc of the sphere of s = 0), SHANK and HOLDER (polylines), CENTRELINE (a line of line type CENTER),
-/// TEXT (length and radii), DIMENSION (linear dimensions: of flank, axis, whole tool, shank and holder the lengths, of
-/// both ends of the flank, shank and holder the diameters, and the flank's largest radius).
-/// With `arcs` the flank is a polyline of arcs and lines without corners, within kDxfArcsMm of the meridian.
-[[nodiscard]] std::string tool_to_dxf(const Tool& tool, bool arcs = false);
+/// TEXT (length, radii, tip, hollow arcs, shank), TITLE (name, overall length without the holder, blank, units), DIMENSION
+/// (linear dimensions: of flank, axis, whole tool, shank and holder the lengths, of both ends of the flank, shank and
+/// holder the diameters, and the flank's largest radius).
+/// The flank is a polyline of arcs and lines without corners, within kDxfArcsMm of the meridian; without `arcs` a polygon
+/// within kDxfChordMm.
+[[nodiscard]] std::string tool_to_dxf(const Tool& tool, bool arcs = true);
 
 }  // namespace flank::internal

@@ -1,4 +1,4 @@
-/// The profile of a tool in a DXF, and the tool of such a profile.
+/// The tool of a drawing.
 #pragma once
 
 #include <optional>
@@ -6,18 +6,20 @@
 #include <string_view>
 #include <vector>
 
-#include "flank/tool.h"
+#include "flank/io/tool/tool_outline.h"
 
 namespace flank::internal {
 
-/// Points (z, rho) of the profile in a DXF: the polyline on layer FLANK, else the only polyline in the file (POLYLINE
-/// or LWPOLYLINE, ASCII, straight segments, millimetres). Throws InputError naming file and line.
+/// Points (z, rho) of the flank in a DXF (outline_of_drawing), its arcs as chords of 1e-4 mm. Throws InputError naming the
+/// file, and its line where one is wrong.
 [[nodiscard]] std::vector<Vec2> profile_from_dxf(std::string_view text, const std::string& file);
 
-inline constexpr int kDxfCoefficients = 48;
+/// The tool of such a drawing, with shank and holder, and what must be known of how it was read. `axis_length`: as in
+/// tool_from_outline. Throws InputError.
+[[nodiscard]] ToolReading read_tool_drawing(std::string_view text, const std::string& file,
+                                            std::optional<double> axis_length = {});
 
-/// The tool of such a profile (radial_from_meridian; kDxfCoefficients or as many as the points allow). `axis_length` as
-/// there. Throws InputError.
+/// The tool alone.
 [[nodiscard]] Tool tool_from_dxf(std::string_view text, const std::string& file,
                                  std::optional<double> axis_length = {});
 

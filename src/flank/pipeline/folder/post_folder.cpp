@@ -14,6 +14,7 @@
 #include "flank/io/path/engagement_json.h"
 #include "flank/io/text/json_input.h"
 #include "flank/job/check_fields.h"
+#include "flank/machine/cutting/materials.h"
 #include "flank/machine/links.h"
 #include "flank/machine/model/machine_file.h"
 #include "flank/machine/nc/dialects/write_nc.h"
@@ -232,6 +233,25 @@ void fill_header(const PostJob& request, const Input& input, NcHeader& header, c
   for (const Shortfall& caution : outcome.acceptance.cautions) header.cautions.push_back(caution.text);
 }
 
+/// The speed of the spindle and the feed that a material gives, where they are not given themselves.
+PostJob with_material(PostJob request, const PostTool& facts, PostOutcome& outcome) {
+  if (!request.material || request.dry) return request;
+  const Material material = find_material(*request.material);
+  const double diameter = 2.0 * facts.largest_radius;
+  const CuttingData data = cutting_data(material, diameter, *request.flutes, 0.0);
+  if (!request.spindle_rpm) request.spindle_rpm = std::floor(data.spindle_rpm);
+  // The chip stays what it is at any speed of the spindle. "optimal" has no feed of its own.
+  if (!request.feed_mm_min && request.speed != "optimal")
+    request.feed_mm_min = data.chip_mm * *request.flutes * *request.spindle_rpm;
+  outcome.notes.push_back(
+      fmt::format("{}: {:.0f} to {:.0f} m/min and a chip of {:.4f} mm at a diameter of {:.4g} mm with {} flutes: "
+                  "spindle {:g}, feed {:.4g} "
+                  "mm/min ({})",
+                  material.name, material.speed_low, material.speed_high, data.chip_mm, diameter, *request.flutes,
+                  *request.spindle_rpm, request.feed_mm_min.value_or(0.0), material.source));
+  return request;
+}
+
 /// A program that cuts with a spindle that stands still, or at a feed that nobody has chosen, is none.
 void require_cutting_data(const PostJob& request) {
   if (request.dry) {
@@ -239,6 +259,12 @@ void require_cutting_data(const PostJob& request) {
       throw UsageError("dry", "a dry run is one without the spindle; give `spindle` and `feed_mm_min`, or `dry`");
     return;
   }
+  if (request.material) {
+    (void)find_material(*request.material);
+    if (!request.flutes) throw UsageError("flutes", "how many the tool has is needed for the feed of a `material`");
+    return;
+  }
+  if (request.flutes) throw UsageError("flutes", "goes with a `material`");
   if (!request.spindle_rpm || (!request.feed_mm_min && request.speed != "optimal"))
     throw UsageError(
         fmt::format("post: a program needs the spindle's speed and the feed; give {}{}{}, or `dry` for one that "
@@ -272,9 +298,10 @@ void fill(const Machine& machine, const Post& result, PostOutcome& outcome) {
   }
 }
 
-PostOutcome post_input(const PostJob& request, Machine machine, const Input& input, PostOutcome outcome) {
-  if (request.tool_length_mm) machine.tool_length = *request.tool_length_mm;
+PostOutcome post_input(const PostJob& asked, Machine machine, const Input& input, PostOutcome outcome) {
   const PostTool facts = post_tool(input.tool);
+  const PostJob request = with_material(asked, facts, outcome);
+  if (request.tool_length_mm) machine.tool_length = *request.tool_length_mm;
   const LinkOptions way = link_options(input, facts, request);
   JudgedLinks links =
       judged_links(input.setup, input.judge, input.tool, in_order(input, way.keep_out, request), way, request.lift_mm);
