@@ -1,40 +1,18 @@
-// inspect, example, tool.
+// example, tool, fields.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <memory>
 
+#include "behind.h"
 #include "commands.h"
 #include "flank/example.h"
-#include "flank/inspect.h"
-#include "flank/manifest/result_folder.h"
-#include "flank/part.h"
+#include "flank/job/fields_json.h"
 #include "flank/printable.h"
 #include "flank/tool_command.h"
 
 namespace flank::cli {
 using namespace internal;
-
-Subcommand add_inspect(CLI::App& parser) {
-  CLI::App* app =
-      parser.add_subcommand("inspect", "List the faces of a part: type, area, size, curvature, trims, units");
-  auto file = std::make_shared<std::string>();
-  auto unit = std::make_shared<std::optional<std::string>>();
-  app->add_option("PART", *file, part_formats() + " file")->required();
-  app->add_option("--unit", *unit, "Unit of a mesh, or of a CAD file that states a wrong one: mm, cm, m or in")
-      ->check(CLI::IsMember({"mm", "cm", "m", "in"}));
-  app->footer("Example: flank example twisted-blade -o blade.step && flank inspect blade.step");
-  return {app,
-          [file, unit](const CommonOptions& common) {
-            const InspectReport report = inspect(read_part(*file, *unit));
-            if (common.json)
-              fmt::print("{}", inspect_json(report));
-            else
-              fmt::print("{}", printable(inspect_table(report), true));
-            return 0;
-          },
-          {{"unit", "--unit"}}};
-}
 
 Subcommand add_example(CLI::App& parser) {
   CLI::App* app = parser.add_subcommand(
@@ -114,6 +92,20 @@ Subcommand add_tool(CLI::App& parser) {
            {"axis_length_mm", "--axis-length"},
            {"shank_diameter_mm", "--shank-diameter"},
            {"output", "-o"}}};
+}
+
+Subcommand add_fields(CLI::App& parser) {
+  CLI::App* app =
+      parser.add_subcommand("fields", "Print the options of a command as JSON: names, units, ranges, defaults, help");
+  auto command = std::make_shared<std::string>();
+  app->add_option("COMMAND", *command, "fit, cover, trochoid, verify or post")->required();
+  app->footer("Example: flank fields fit");
+  return {app,
+          [command](const CommonOptions&) {
+            fmt::print("{}", fields_json(*command));
+            return kMeetsRequest;
+          },
+          {{"command", "COMMAND"}}};
 }
 
 }  // namespace flank::cli
