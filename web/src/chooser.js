@@ -18,6 +18,13 @@ const CORNERS = 3000;
 const ROOM = { left: 24, right: 24, top: 54, bottom: 34 };
 const VIEWS = { iso: ['Overview', [0.62, -0.72, 0.5]], front: ['Front', [0, -1, 0]], right: ['Right', [1, 0, 0]], top: ['Top', [0, 0, 1]] };
 
+/** From which of four corners most is seen of what bends: flat faces are seldom what is looked for. */
+function bestCorner(rows) {
+  const score = ([x, y, z]) => rows.reduce((sum, { normal, area, type }) => sum + (normal ? (type === 'plane' ? 0.2 : 1) * Math.sqrt(area) * Math.max(0, normal[0] * x + normal[1] * y + normal[2] * z) : 0), 0);
+  const [x, y, z] = VIEWS.iso[1], corners = [[x, y, z], [-x, y, z], [x, -y, z], [-x, -y, z]];
+  return corners.reduce((best, corner) => (score(corner) > 1.02 * score(best) ? corner : best));
+}
+
 /** Rows of faces.json with the pieces below their face. */
 const flat = (faces) => faces.flatMap((row) => [row, ...(row.pieces ?? []).map((piece) => ({ ...piece, piece: true, parent: row.id }))]);
 
@@ -107,7 +114,7 @@ export class Chooser {
     if (!points.length) [points[0], low.x, high.x] = [new Vector3(), -1, 1];
     const home = { centre: low.clone().add(high).multiplyScalar(0.5), radius: Math.max(1e-6, 0.5 * low.distanceTo(high)) };
     const views = Object.fromEntries(Object.entries(VIEWS).map(([name, [, towards]]) => {
-      const direction = new Vector3(...towards).normalize();
+      const direction = new Vector3(...(name === 'iso' ? bestCorner(this.data.faces) : towards)).normalize();
       return [name, { direction, up: Math.abs(direction.z) > 0.9 ? new Vector3(0, 1, 0) : new Vector3(0, 0, 1), points }];
     }));
     this.stage.hang(home, { ...views, overview: views.iso });

@@ -6,8 +6,8 @@ import { html } from './dom.js';
 const NAMES = { tool: 'Tool', side: 'Machined side', nc: 'Program', turn_max: 'Largest turn', dry: 'Dry run' };
 const nameOf = ({ key }) => NAMES[key] ?? key[0].toUpperCase() + key.slice(1).replaceAll('_', ' ');
 
-/** Small print of a field: the first sentence of its help. */
-const hint = ({ help }) => help.split('; default')[0];
+/** What stands for an empty field: what its help says of the default, in few words. */
+const hint = ({ help }) => /default: ([^,;:.]{1,40})/.exec(help)?.[1] ?? 'none';
 
 function choice(options, value) {
   const select = html('select', {}, ...options.map(([key, text]) => html('option', { value: key }, text)));

@@ -29,7 +29,7 @@ export class ResultPane {
     this.key = key;
     byId('jobs').replaceChildren(...jobs.map((job) => {
       const [state, words] = verdictOf(job);
-      const button = html('button', { type: 'button', class: 'jobrow', 'data-job': job.id, 'aria-pressed': String(job.id === this.chosen), title: job.line }, html('span', { class: `mark ${state}` }, words), html('strong', {}, `${Number(job.id)}`), html('span', { class: 'jobtitle' }, titleOf(job)), html('span', { class: 'soft' }, job.state === 'waiting' ? '' : seconds(job.seconds)));
+      const button = html('button', { type: 'button', class: 'jobrow', 'data-job': job.id, 'aria-pressed': String(job.id === this.chosen), title: job.line }, html('span', { class: `mark ${state}` }, words), html('strong', {}, `${Number(job.id)}`), html('span', { class: 'jobtitle' }, titleOf(job)), html('span', { class: 'soft' }, job.state === 'done' && job.seconds > 0 ? seconds(job.seconds) : ''));
       button.addEventListener('click', () => this.choose(job.id));
       return button;
     }));

@@ -1,7 +1,7 @@
 #include "flank/artefact/view_json.h"
 
 #include "flank/artefact/verify_json.h"
-#include "flank/artefact/view_body.h"
+#include "flank/artefact/view_body_json.h"
 #include "flank/io/text/json_dump.h"
 #include "flank/version.h"
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "flank/artefact/view_body.h"
+#include "flank/artefact/view_body_json.h"
 #include "flank/error.h"
 #include "flank/io/text/json_dump.h"
 #include "flank/report.h"

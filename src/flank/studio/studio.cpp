@@ -1,4 +1,4 @@
-// The network of the studio; what is answered is made in desk.cpp.
+// The network of the studio; what is answered is made in desk_json.cpp.
 #include "flank/studio/studio.h"
 
 #include <fmt/format.h>
@@ -16,9 +16,9 @@
 #include "flank/error.h"
 #include "flank/report.h"
 #include "flank/report/page_template.h"
-#include "flank/studio/desk.h"
+#include "flank/studio/desk_json.h"
 #include "flank/studio/guard.h"
-#include "flank/studio/words.h"
+#include "flank/studio/words_json.h"
 #include "flank/version.h"
 
 namespace flank::internal {
@@ -221,7 +221,9 @@ class Server {
     stream.close();
     if (!whole || !stream) {
       fs::remove(half);
-      return refuse(response, size > kMostUpload ? kTooLarge : kWrong, "the file did not arrive");
+      // The reader says so of a length that is only announced.
+      const bool large = size > kMostUpload || response.status == kTooLarge;
+      return refuse(response, large ? kTooLarge : kWrong, "the file did not arrive");
     }
     const std::string name = desk_.new_file(request.get_param_value("name"));
     rename_file(half, folder + "/" + name);

@@ -1,4 +1,4 @@
-#include "flank/artefact/view_body.h"
+#include "flank/artefact/view_body_json.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,5 +1,5 @@
 // From what a page asks for to a command line.
-#include "flank/studio/words.h"
+#include "flank/studio/words_json.h"
 
 #include <gtest/gtest.h>
 

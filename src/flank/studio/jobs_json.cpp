@@ -1,4 +1,4 @@
-#include "flank/studio/jobs.h"
+#include "flank/studio/jobs_json.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 
 #include "flank/base/atomic_file.h"
 #include "flank/error.h"
-#include "flank/studio/words.h"
+#include "flank/studio/words_json.h"
 
 namespace flank::internal {
 namespace {
@@ -91,7 +91,8 @@ StudioJob& Jobs::find(const std::string& id) {
 std::string Jobs::add(const std::string& command, const std::string& part, const Json& fields) {
   require_command(command);
   const std::string file = folder_.files() + "/" + part;
-  if (!is_plain_name(part) || !fs::is_regular_file(file)) throw UsageError("part", part, "is no part of this studio");
+  if (!is_plain_name(part) || !fs::is_regular_file(fs::symlink_status(file)))
+    throw UsageError("part", part, "is no part of this studio");
   std::vector<std::string> options = option_words(command, fields, folder_.files(), kept_fields());
   const std::lock_guard lock(mutex_);
   StudioJob job;

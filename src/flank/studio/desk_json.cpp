@@ -1,4 +1,4 @@
-#include "flank/studio/desk.h"
+#include "flank/studio/desk_json.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -12,7 +12,7 @@
 #include "flank/base/atomic_file.h"
 #include "flank/error.h"
 #include "flank/job/fields_json.h"
-#include "flank/studio/words.h"
+#include "flank/studio/words_json.h"
 #include "flank/studio/zip.h"
 
 namespace flank::internal {

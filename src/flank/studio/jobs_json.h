@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "flank/studio/job_file.h"
+#include "flank/studio/job_file_json.h"
 
 namespace flank::internal {
 

@@ -1,4 +1,4 @@
-#include "flank/studio/words.h"
+#include "flank/studio/words_json.h"
 
 #include <algorithm>
 #include <cctype>
@@ -38,7 +38,7 @@ std::string checked(const Json& field, const std::string& word, const std::strin
     throw UsageError(name, "is too long, or has control characters in it");
   const Json& file = field.at("file");
   const bool may = file != false, must = file == true;
-  if (may && is_plain_name(word) && fs::is_regular_file(fs::path(files) / word))
+  if (may && is_plain_name(word) && fs::is_regular_file(fs::symlink_status(fs::path(files) / word)))
     return (fs::path(files) / word).string();
   if (must) throw UsageError(name, word, "is no file of this studio; drop it here first");
   if (word.find('/') != std::string::npos) throw UsageError(name, word, "paths are not taken here; drop the file here");

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "flank/studio/child.h"
-#include "flank/studio/jobs.h"
+#include "flank/studio/jobs_json.h"
 
 namespace flank::internal {
 

@@ -1,4 +1,4 @@
-#include "flank/studio/job_file.h"
+#include "flank/studio/job_file_json.h"
 
 #include <fstream>
 
