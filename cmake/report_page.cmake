@@ -1,4 +1,4 @@
-# The page of `flank report`: bundled from web/ with packages that npm fetches into the build tree, and built into the
+# The pages of `flank report`, `flank inspect --html` and `flank studio`: bundled from web/ with packages that npm fetches into the build tree, and built into the
 # library. Where npm is missing or cannot fetch them the library is built without the page, and the command says so.
 find_program(FLANK_NODE NAMES node nodejs)
 find_program(FLANK_NPM npm)
@@ -56,8 +56,8 @@ std::string_view page_is_missing() { return \"@_flank_report_missing@\"; }
     file(GLOB parts CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/web/src/*)
     add_custom_command(
       OUTPUT ${source}
-      BYPRODUCTS ${PROJECT_BINARY_DIR}/web/page.html
-      COMMAND ${FLANK_NODE} ${PROJECT_SOURCE_DIR}/web/build.mjs ${FLANK_WEB_PACKAGES} ${PROJECT_BINARY_DIR}/web/page.html ${source}
+      BYPRODUCTS ${PROJECT_BINARY_DIR}/web/page.html ${PROJECT_BINARY_DIR}/web/faces.html ${PROJECT_BINARY_DIR}/web/studio.html
+      COMMAND ${FLANK_NODE} ${PROJECT_SOURCE_DIR}/web/build.mjs ${FLANK_WEB_PACKAGES} ${PROJECT_BINARY_DIR}/web ${source}
       DEPENDS ${parts} ${PROJECT_SOURCE_DIR}/web/build.mjs ${PROJECT_SOURCE_DIR}/web/package-lock.json
       COMMENT "Bundling the report page"
       VERBATIM)
@@ -67,6 +67,8 @@ std::string_view page_is_missing() { return \"@_flank_report_missing@\"; }
 "#include \"flank/report/page_template.h\"
 namespace flank::internal {
 std::string_view page_template() { return {}; }
+std::string_view faces_template() { return {}; }
+std::string_view studio_template() { return {}; }
 }  // namespace flank::internal
 ")
   endif()

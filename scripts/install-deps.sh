@@ -4,7 +4,7 @@
 set -euo pipefail
 
 build=(g++ cmake ninja-build libeigen3-dev libtbb-dev libfmt-dev nlohmann-json3-dev libcli11-dev libtomlplusplus-dev
-       libocct-data-exchange-dev libgtest-dev python3)
+       libocct-data-exchange-dev libgtest-dev python3 libcpp-httplib-dev)
 # The Python module and its tests; a build without them leaves it out.
 python=(pybind11-dev python3-dev python3-numpy python3-pytest python3-hypothesis mypy)
 package=(dpkg-dev file python3-wheel)

@@ -1,12 +1,12 @@
-// Bundles the page (esbuild) and writes it as one HTML template, and as a C++ source that holds it.
-// usage: node build.mjs NODE_MODULES OUTPUT.html OUTPUT.cpp
+// Bundles the pages (esbuild), writes each as one HTML template, and all of them as a C++ source that holds them.
+// usage: node build.mjs NODE_MODULES FOLDER OUTPUT.cpp
 import { createHash } from 'node:crypto';
 import { createRequire } from 'node:module';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
-const [packages, html, cpp] = process.argv.slice(2);
+const [packages, folder, cpp] = process.argv.slice(2);
 // The packages lie in the build tree, where an import from here would not look.
 const { build } = createRequire(join(packages, 'here.js'))('esbuild');
 const source = join(dirname(fileURLToPath(import.meta.url)), 'src');
@@ -44,17 +44,26 @@ function literals(text) {
   return parts.join('\n');
 }
 
-const script = await bundle('main.js', { format: 'iife', target: 'es2020' });
-const style = await bundle('style.css', { target: 'es2020' });
-const code = inline(script.trim());
-// The page runs this one script and fetches nothing: what a name in a file could bring in does not run.
-const page = readFileSync(join(source, 'index.html'), 'utf8')
-  .replace('SCRIPT_HASH', () => createHash('sha256').update(code, 'utf8').digest('base64'))
-  .replace('/*STYLE*/', () => inline(style.trim()))
-  .replace('/*SCRIPT*/', () => code);
-writeFileSync(html, page);
-writeFileSync(
-  cpp,
-  `// Made by web/build.mjs.\n#include "flank/report/page_template.h"\n\nnamespace flank::internal {\n\nstd::string_view page_template() {\n` +
-    `  static constexpr char kPage[] =\n${literals(page)};\n  return {kPage, sizeof kPage - 1};\n}\n\n}  // namespace flank::internal\n`,
-);
+/** A page without its data: template, script and style in one. */
+async function page({ template, script, style }) {
+  const code = inline((await bundle(script, { format: 'iife', target: 'es2020' })).trim());
+  const looks = inline((await bundle(style, { target: 'es2020' })).trim());
+  // A page runs this one script: what a name in a file could bring in does not run.
+  return readFileSync(join(source, template), 'utf8')
+    .replace('SCRIPT_HASH', () => createHash('sha256').update(code, 'utf8').digest('base64'))
+    .replace('/*STYLE*/', () => looks)
+    .replace('/*SCRIPT*/', () => code);
+}
+
+const PAGES = [
+  { name: 'page', call: 'page_template', template: 'index.html', script: 'main.js', style: 'style.css' },
+  { name: 'faces', call: 'faces_template', template: 'faces.html', script: 'faces.js', style: 'faces.css' },
+  { name: 'studio', call: 'studio_template', template: 'studio.html', script: 'studio.js', style: 'studio.css' },
+];
+let text = '// Made by web/build.mjs.\n#include "flank/report/page_template.h"\n\nnamespace flank::internal {\n';
+for (const entry of PAGES) {
+  const whole = await page(entry);
+  writeFileSync(join(folder, `${entry.name}.html`), whole);
+  text += `\nstd::string_view ${entry.call}() {\n  static constexpr char kPage[] =\n${literals(whole)};\n  return {kPage, sizeof kPage - 1};\n}\n`;
+}
+writeFileSync(cpp, `${text}\n}  // namespace flank::internal\n`);

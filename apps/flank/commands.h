@@ -16,6 +16,7 @@ namespace flank::cli {
 struct CommonOptions {
   bool json = false;
   bool quiet = false;
+  std::string progress = "line";  ///< or "json": a line of JSON for every report, also if quiet
   int threads = 0;
   std::optional<double> read_limit_s;  ///< for reading a CAD file; none: by its size
   bool no_cache = false;               ///< what was read of CAD files is neither taken from the cache nor kept there
@@ -39,6 +40,7 @@ struct Subcommand {
 };
 
 [[nodiscard]] Subcommand add_inspect(CLI::App& parser);
+[[nodiscard]] Subcommand add_fields(CLI::App& parser);
 [[nodiscard]] Subcommand add_example(CLI::App& parser);
 [[nodiscard]] Subcommand add_tool(CLI::App& parser);
 [[nodiscard]] Subcommand add_fit(CLI::App& parser);
@@ -49,6 +51,7 @@ struct Subcommand {
 [[nodiscard]] Subcommand add_view(CLI::App& parser);
 [[nodiscard]] Subcommand add_machine(CLI::App& parser);
 [[nodiscard]] Subcommand add_post(CLI::App& parser);
+[[nodiscard]] Subcommand add_studio(CLI::App& parser);
 [[nodiscard]] Subcommand add_sweep(CLI::App& parser);
 
 /// A line on stderr that grows on a terminal, plain lines otherwise, nothing if quiet; cancelled by Ctrl-C.

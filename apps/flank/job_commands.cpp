@@ -5,11 +5,12 @@
 #include <filesystem>
 #include <memory>
 
+#include "behind.h"
 #include "commands.h"
 #include "flank/artefact/write_result.h"
 #include "flank/base/journal.h"
 #include "flank/io/text/json_input.h"
-#include "flank/job/input_files.h"
+#include "flank/pipeline/fit_defaults.h"
 #include "flank/pipeline/folder/resume_folder.h"
 #include "flank/pipeline/run_journal.h"
 #include "flank/printable.h"
@@ -66,16 +67,18 @@ int run_into(const Output& output, const CommonOptions& common, const PlanJob& j
   return exit_code(result.acceptance());
 }
 
-/// A command that makes a folder of results from a job.
+/// A command that makes a folder of results from a job. instead(job, common) may do something else, and is true then.
 template <class Job>
-Subcommand job_command(CLI::App* app, Result (*work)(const Job&, const Progress&)) {
+Subcommand job_command(CLI::App* app, Result (*work)(const Job&, const Progress&),
+                       const std::function<bool(const Job&, const CommonOptions&)>& instead = {}) {
   auto job = std::make_shared<Job>();
   auto output = std::make_shared<Output>();
   FlagNames names = add_job_options(*app, *job);
   app->add_option("-o,--output", output->folder, "Folder for the results")->required();
   app->add_flag("--resume", output->resume,
                 "Go on where an earlier run of the same command into this folder was stopped; the result is the same");
-  const auto run = [job, output, work](const CommonOptions& common) {
+  const auto run = [job, output, work, instead](const CommonOptions& common) {
+    if (instead && instead(*job, common)) return kMeetsRequest;
     return run_into(*output, common, *job, [&](const Progress& progress) { return work(*job, progress); });
   };
   return {app, run, std::move(names)};
@@ -89,7 +92,23 @@ Subcommand add_fit(CLI::App& parser) {
   app->footer(
       "Example: flank example twisted-blade -o blade.step && flank fit blade.step --face F1 --tolerance 0.1 -o out\n"
       "A run that was stopped (Ctrl-C, SIGTERM, SIGHUP) goes on with the same line and --resume.");
-  return job_command<FitJob>(app, run_fit);
+  auto dry = std::make_shared<bool>(false);
+  const auto say_defaults = [dry](const FitJob& job, const CommonOptions& common) -> bool {
+    if (!*dry) return false;
+    end_on_signals();
+    const FitDefaults defaults = fit_defaults(job);
+    fmt::print("{}", common.json ? defaults_json(defaults) : printable(defaults_text(defaults), true));
+    return true;
+  };
+  Subcommand command = job_command<FitJob>(app, run_fit, say_defaults);
+  app->add_flag_callback(
+      "--dry-run",
+      [app, dry] {
+        *dry = true;
+        app->get_option("--output")->required(false);
+      },
+      "Search nothing: read the part, and tell side, tolerance, radii and reach that would be used");
+  return command;
 }
 
 Subcommand add_cover(CLI::App& parser) {

@@ -7,14 +7,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "behind.h"
 #include "commands.h"
-#include "flank/base/atomic_file.h"
 #include "flank/error.h"
-#include "flank/job/input_files.h"
 #include "flank/machine.h"
 #include "flank/machine/model/machine_file.h"
-#include "flank/manifest/folder_inputs.h"
-#include "flank/manifest/result_folder.h"
 #include "flank/printable.h"
 #include "flank/run.h"
 #include "job_options.h"

@@ -62,6 +62,10 @@ void require_known_command(const CLI::App& parser, int argc, char** argv) {
 void add_common(CLI::App& app, flank::cli::CommonOptions& common) {
   app.add_flag("--json", common.json, "Print the summary as JSON on stdout, and nothing else");
   app.add_flag("--quiet", common.quiet, "No progress and no summary");
+  app.add_option("--progress", common.progress,
+                 "How progress is told on stderr: line, or json: a line of JSON each time")
+      ->check(CLI::IsMember({"line", "json"}))
+      ->capture_default_str();
   app.add_option("--threads", common.threads, "Threads to use; 0: all cores. The result does not depend on it")
       ->check(CLI::Range(0, 1024));
   app.add_option("--read-limit", common.read_limit_s,
@@ -111,7 +115,7 @@ int run_command(int argc, char** argv) {
       flank::cli::add_report(parser),  flank::cli::add_view(parser),     flank::cli::add_machine(parser),
       flank::cli::add_post(parser),    flank::cli::add_trochoid(parser), flank::cli::add_sweep(parser),
       flank::cli::add_design(parser),  flank::cli::add_bound(parser),    flank::cli::add_correct(parser),
-      flank::cli::add_wheel(parser)};
+      flank::cli::add_wheel(parser),   flank::cli::add_fields(parser),   flank::cli::add_studio(parser)};
   for (const flank::cli::Subcommand& command : commands) add_common(*command.app, common);
   const auto chosen = [&]() -> const flank::cli::Subcommand* {
     for (const flank::cli::Subcommand& command : commands)

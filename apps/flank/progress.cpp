@@ -34,6 +34,28 @@ void on_end(int signal) {
   std::raise(signal);
 }
 
+/// A line of JSON for every report on stderr; of reports that follow each other fast only the first.
+Progress as_json(Progress progress) {
+  constexpr double kPause = 0.1;  // seconds
+  const auto start = std::chrono::steady_clock::now();
+  struct Told {
+    ProgressLine line;
+    std::string stage;
+    double seconds = -1.0;
+  };
+  const auto told = std::make_shared<Told>();
+  progress.found = [told](const BestSoFar& found) { told->line.found(found); };
+  progress.report = [start, told](std::string_view stage, double share) {
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const std::string line = told->line.json(stage, share, seconds) + "\n";
+    if (stage == told->stage && share < 1.0 && seconds < told->seconds + kPause) return;
+    told->stage = stage, told->seconds = seconds;
+    (void)std::fwrite(line.data(), 1, line.size(), stderr);
+    std::fflush(stderr);
+  };
+  return progress;
+}
+
 /// A line on stderr, also if quiet.
 void say(const std::string& message) {
   const std::string line = "flank: " + message + "\n";
@@ -61,6 +83,7 @@ Progress terminal_progress(const CommonOptions& options) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, on_interrupt);
   Progress progress;
   progress.cancelled = [] { return interrupted != 0; };
+  if (options.progress == "json") return as_json(std::move(progress));
   if (options.quiet || options.json) return progress;
   const bool terminal = isatty(STDERR_FILENO) != 0;
   const auto start = std::chrono::steady_clock::now();

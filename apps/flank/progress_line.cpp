@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 namespace flank::cli {
 namespace {
@@ -67,6 +68,21 @@ std::string ProgressLine::line(std::string_view stage, double share, double seco
   if (best_ && !best_->clean) line += fmt::format(", cutting {:.3g} mm deep", best_->deepest_mm);
   if (const std::optional<double> left = left_.seconds(seconds)) line += ", " + time_left_text(*left);
   return line;
+}
+
+std::string ProgressLine::json(std::string_view stage, double share, double seconds) {
+  left_.report(seconds, share);
+  most_ = std::clamp(share, most_, 1.0);
+  const auto rounded = [](double value, double step) { return std::round(value / step) * step; };
+  nlohmann::ordered_json json = {{"stage", stage}, {"share", std::round(most_ * 1e4) / 1e4}, {"eta_s", nullptr}};
+  if (const std::optional<double> left = left_.seconds(seconds)) json["eta_s"] = rounded(*left, 1.0);
+  json["best"] = nullptr;
+  if (best_)
+    json["best"] = {{"coverage", std::round(best_->coverage * 1e5) / 1e5},
+                    {"deepest_mm", std::isfinite(best_->deepest_mm) ? nlohmann::ordered_json(best_->deepest_mm)
+                                                                    : nlohmann::ordered_json()},
+                    {"clean", best_->clean}};
+  return json.dump();
 }
 
 }  // namespace flank::cli

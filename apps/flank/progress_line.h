@@ -40,10 +40,14 @@ class ProgressLine {
   void found(const BestSoFar& found);
   /// "polish 62 %, best 97.3 %, about 40 s left".
   [[nodiscard]] std::string line(std::string_view stage, double share, double seconds);
+  /// The same for programs, one line of JSON: {"stage", "share", "eta_s", "best"}. Its share never falls, also where the
+  /// calculation begins anew; what is not known is null.
+  [[nodiscard]] std::string json(std::string_view stage, double share, double seconds);
 
  private:
   std::optional<BestSoFar> best_;
   TimeLeft left_;
+  double most_ = 0.0;  ///< share that was told
 };
 
 }  // namespace flank::cli

@@ -6,11 +6,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "behind.h"
 #include "commands.h"
 #include "flank/error.h"
 #include "flank/io/text/json_dump.h"
-#include "flank/manifest/folder_inputs.h"
-#include "flank/manifest/result_folder.h"
 #include "flank/printable.h"
 #include "flank/report.h"
 

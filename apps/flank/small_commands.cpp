@@ -1,85 +1,18 @@
-// inspect, example, tool.
+// example, tool, fields.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <memory>
 
+#include "behind.h"
 #include "commands.h"
-#include "flank/base/atomic_file.h"
-#include "flank/error.h"
 #include "flank/example.h"
-#include "flank/feature/recognise_wheel.h"
-#include "flank/feature/wheel_table.h"
-#include "flank/inspect.h"
-#include "flank/manifest/result_folder.h"
-#include "flank/part.h"
+#include "flank/job/fields_json.h"
 #include "flank/printable.h"
 #include "flank/tool_command.h"
 
 namespace flank::cli {
 using namespace internal;
-
-namespace {
-
-/// `inspect --wheel`: roles that are given, and where wheel.json goes.
-struct WheelOptions {
-  bool asked = false;
-  WheelChoice choice;
-  std::optional<std::string> output;
-};
-
-std::shared_ptr<WheelOptions> add_wheel_options(CLI::App& app) {
-  auto wheel = std::make_shared<WheelOptions>();
-  CLI::Option* asked =
-      app.add_flag("--wheel", wheel->asked, "What the faces of a wheel are: hub, blades, sides, edges, tips, fillets");
-  const auto add = [&](CLI::Option* option) { option->group("Wheel")->needs(asked); };
-  add(app.add_option("--hub", wheel->choice.hub, "Faces of the hub, F1; default: found"));
-  add(app.add_option("--blade", wheel->choice.blades, "Faces of a main blade, F8,F9,F10; once for each; default: found")
-          ->allow_extra_args(false));
-  add(app.add_option("--splitter", wheel->choice.splitters, "The same of splitters")->allow_extra_args(false));
-  add(app.add_option("--count", wheel->choice.count, "Equal sectors in a whole turn; default: found")
-          ->check(CLI::Range(1, 1000)));
-  add(app.add_option("-o,--output", wheel->output, "File to write: wheel.json"));
-  return wheel;
-}
-
-int inspect_wheel(const Part& part, const WheelOptions& wheel, const CommonOptions& common) {
-  if (wheel.output) require_no_result_there(*wheel.output);
-  const WheelRoles roles = recognise_wheel(part, wheel.choice);
-  if (wheel.output) write_file(*wheel.output, wheel_json(roles));
-  if (common.json)
-    fmt::print("{}", wheel_json(roles));
-  else if (!common.quiet)
-    fmt::print("{}", printable(wheel_table(roles), true));
-  return kMeetsRequest;
-}
-
-}  // namespace
-
-Subcommand add_inspect(CLI::App& parser) {
-  CLI::App* app =
-      parser.add_subcommand("inspect", "List the faces of a part: type, area, size, curvature, trims, units");
-  auto file = std::make_shared<std::string>();
-  auto unit = std::make_shared<std::optional<std::string>>();
-  app->add_option("PART", *file, part_formats() + " file")->required();
-  app->add_option("--unit", *unit, "Unit of a mesh, or of a CAD file that states a wrong one: mm, cm, m or in")
-      ->check(CLI::IsMember({"mm", "cm", "m", "in"}));
-  const auto wheel = add_wheel_options(*app);
-  app->footer(
-      "Examples: flank example twisted-blade -o blade.step && flank inspect blade.step; flank example impeller -o "
-      "wheel.step && flank inspect wheel.step --wheel");
-  const auto run = [file, unit, wheel](const CommonOptions& common) {
-    const Part part = read_part(*file, *unit);
-    if (wheel->asked) return inspect_wheel(part, *wheel, common);
-    const InspectReport report = inspect(part);
-    if (common.json)
-      fmt::print("{}", inspect_json(report));
-    else
-      fmt::print("{}", printable(inspect_table(report), true));
-    return kMeetsRequest;
-  };
-  return {app, run, {{"unit", "--unit"}, {"hub", "--hub"}, {"blade", "--blade"}, {"count", "--count"}}};
-}
 
 Subcommand add_example(CLI::App& parser) {
   CLI::App* app = parser.add_subcommand(
@@ -127,10 +60,9 @@ Subcommand add_tool(CLI::App& parser) {
   CLI::App* app = parser.add_subcommand("tool", "Make, show and convert tools");
   auto options = std::make_shared<ToolCommandOptions>();
   auto show = std::make_shared<bool>(false);
-  app->add_option("SOURCE", options->source,
-                  "A family (" + tool_families() +
-                      "), a family with parameters (cone:radius=2,angle=3), or a tool.json, a .dxf, a "
-                      ".fctb of FreeCAD, a library of Fusion (.json#NAME)")
+  app->add_option(
+         "SOURCE", options->source,
+         "A family (" + tool_families() + "), a family with parameters (cone:radius=2,angle=3), or a tool.json or .dxf")
       ->required();
   app->add_option("--param", options->parameters, "NAME=VALUE of the family; mm, degrees")->allow_extra_args(false);
   app->add_option("--axis-length", options->axis_length_mm, "Length of the axis, mm");
@@ -138,17 +70,12 @@ Subcommand add_tool(CLI::App& parser) {
   app->add_option("--name", options->name, "Name of the tool");
   app->add_option("-o,--output", options->outputs, "Files to write: .json, .dxf, .step, .fctb, .svg, .csv")
       ->allow_extra_args(false);
-  app->add_flag("--arcs", options->arcs,
-                "A .dxf holds the profile as arcs and lines without corners, within 0.001 mm; the default");
-  app->add_flag("--polygon", options->polygon, "A .dxf holds the profile as a polygon, within 0.0001 mm");
+  app->add_flag("--arcs", options->arcs, "A .dxf holds the profile as arcs and lines without corners, within 0.001 mm");
   app->add_flag("--show", *show, "Draw the profile also when files are written");
   app->footer("Example: flank tool barrel --param arc=85 --param radius=5 --axis-length 30 -o tool.json -o tool.dxf");
   const auto run = [options, show](const CommonOptions& common) {
     for (const std::string& file : options->outputs) require_no_result_there(file);
-    std::vector<std::string> notes;
-    const Tool tool = run_tool_command(*options, notes);
-    if (!common.quiet)
-      for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", printable(note));
+    const Tool tool = run_tool_command(*options);
     if (common.json) {
       fmt::print("{}", tool_summary_json(tool, options->outputs));
       return kMeetsRequest;
@@ -165,6 +92,20 @@ Subcommand add_tool(CLI::App& parser) {
            {"axis_length_mm", "--axis-length"},
            {"shank_diameter_mm", "--shank-diameter"},
            {"output", "-o"}}};
+}
+
+Subcommand add_fields(CLI::App& parser) {
+  CLI::App* app =
+      parser.add_subcommand("fields", "Print the options of a command as JSON: names, units, ranges, defaults, help");
+  auto command = std::make_shared<std::string>();
+  app->add_option("COMMAND", *command, "fit, cover, trochoid, verify or post")->required();
+  app->footer("Example: flank fields fit");
+  return {app,
+          [command](const CommonOptions&) {
+            fmt::print("{}", fields_json(*command));
+            return kMeetsRequest;
+          },
+          {{"command", "COMMAND"}}};
 }
 
 }  // namespace flank::cli

@@ -20,6 +20,7 @@
 #include "flank/obstacle_field.h"
 #include "flank/obstacles.h"
 #include "flank/part.h"
+#include "flank/part_page.h"
 #include "flank/path.h"
 #include "flank/path_file.h"
 #include "flank/printable.h"

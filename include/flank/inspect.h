@@ -32,6 +32,8 @@ struct InspectRow {
   double length_u_mm = 0.0,
          length_v_mm = 0.0;            ///< of the iso-lines through the middle of the trimmed range; 0 for meshes
   Box3 box;                            ///< of the samples and the border
+  Vec3 centre = Vec3::Zero();          ///< mean of the face's area, mm; of a bent face it lies beside the face
+  Vec3 normal = Vec3::Zero();          ///< mean of the unit normals on the machining side; zero where they cancel
   std::array<double, 4> bend_share{};  ///< share of the samples, by Bend
   std::string bend;                    ///< flat, convex, concave, saddle or mixed; unknown for small mesh faces
   /// Radius of the largest sphere that fits the surface everywhere locally from the machining side; infinite where it
@@ -56,6 +58,20 @@ struct InspectReport {
 inline constexpr int kInspectGrid = 48;
 
 [[nodiscard]] InspectReport inspect(const Part& part);
+
+/// Mean unit normals shorter than this point nowhere: of a whole cylinder.
+inline constexpr double kLeastMeanNormal = 0.05;
+
+/// Which rows, in which order. Empty: all of them, and as in the file.
+struct InspectOrder {
+  std::string type;  ///< "B-spline", in any case
+  std::string sort;  ///< "face", "area" (largest first), "radius" (tightest concave first) or "type"
+};
+/// What an order may be sorted by.
+[[nodiscard]] const std::vector<std::string>& inspect_sorts();
+/// The rows of a report as an order wants them. Throws UsageError for a type that the part has not, with those that it has,
+/// and for another order.
+[[nodiscard]] InspectReport in_order(InspectReport report, const InspectOrder& order);
 
 /// For people: a header, one line a face, then what was repaired.
 [[nodiscard]] std::string inspect_table(const InspectReport& report);

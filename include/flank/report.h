@@ -31,7 +31,7 @@ struct PictureOptions {
 /// Makes a PNG of an HTML file with the browser that is installed. Throws UsageError if none is, InternalError if it makes no
 /// picture.
 void make_picture(const std::string& html_file, const std::string& png_file, const PictureOptions& options = {});
-/// Hands a file to the user's browser (xdg-open) and returns. Throws UsageError if there is no way to open one.
+/// Hands a file, or an address that begins with http://, to the user's browser (xdg-open) and returns. Throws UsageError if there is no way to open one.
 void open_page(const std::string& html_file);
 
 /// A page from a given template: title and data are put in their places.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "flank/artefact/view_body_json.h"
 #include "flank/artefact/view_json.h"
 #include "flank/envelope/path_regularity.h"
 #include "flank/example.h"

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 namespace flank::cli {
 namespace {
 
@@ -104,6 +106,29 @@ TEST(ProgressLine, KeepsTheBest) {
   line.found({.coverage = 0.9, .deepest_mm = 0.1, .clean = false});
   line.found({.coverage = 0.4, .deepest_mm = 0.0, .clean = true});
   EXPECT_EQ(line.line("polish", 0.1, 0.0), "polish  10 %, best 50.0 %");
+}
+
+TEST(ProgressJson, NeverFalls) {
+  ProgressLine line;
+  double before = 0.0;
+  for (const double share : {0.0, 0.3, 0.6, 0.1, 0.5, 0.7, 2.0}) {
+    const nlohmann::json told = nlohmann::json::parse(line.json("fit", share, 10.0 * share));
+    EXPECT_GE(told.at("share"), before) << share;
+    before = told.at("share");
+  }
+  EXPECT_EQ(before, 1.0);
+}
+
+TEST(ProgressJson, SaysWhatIsKnown) {
+  ProgressLine line;
+  const nlohmann::json first = nlohmann::json::parse(line.json("read", 0.0, 0.0));
+  EXPECT_EQ(first, nlohmann::json({{"stage", "read"}, {"share", 0.0}, {"eta_s", nullptr}, {"best", nullptr}}));
+  line.found({.coverage = 0.9731, .deepest_mm = 0.25, .clean = false});
+  for (int k = 1; k <= 5; ++k) (void)line.json("fit", 0.1 * k, 10.0 * k);
+  const nlohmann::json told = nlohmann::json::parse(line.json("polish", 0.5, 50.0));
+  EXPECT_EQ(told.at("stage"), "polish");
+  EXPECT_EQ(told.at("eta_s"), 50.0);
+  EXPECT_EQ(told.at("best"), nlohmann::json({{"coverage", 0.9731}, {"deepest_mm", 0.25}, {"clean", false}}));
 }
 
 }  // namespace

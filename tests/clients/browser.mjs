@@ -53,7 +53,7 @@ export class Browser {
     return new Promise((resolve, reject) => this.waiting.set(id, { resolve, reject }));
   }
 
-  /** A page of a file, opened in a window of a size; waits until the page says that it is ready. */
+  /** A page of a file or an address, opened in a window of a size; waits until the page says that it is ready. */
   async open(file, { width = 1400, height = 900, media = [], hash = '' } = {}) {
     const { targetId } = await this.send('Target.createTarget', { url: 'about:blank' });
     const { sessionId } = await this.send('Target.attachToTarget', { targetId, flatten: true });
@@ -62,7 +62,7 @@ export class Browser {
     for (const domain of ['Page', 'Runtime', 'Network', 'Log']) await page.send(`${domain}.enable`);
     await page.send('Emulation.setDeviceMetricsOverride', { width, height, deviceScaleFactor: 1, mobile: false });
     await page.send('Emulation.setEmulatedMedia', { features: media });
-    await page.send('Page.navigate', { url: `file://${file}${hash}` });
+    await page.send('Page.navigate', { url: `${/^http:/.test(file) ? '' : 'file://'}${file}${hash}` });
     await page.until('document.documentElement?.dataset.ready !== undefined', 60);
     return page;
   }
@@ -120,8 +120,28 @@ class Page {
   async click(selector) {
     const [x, y] = await this.value(`(() => { const e = document.querySelector(${JSON.stringify(selector)}); e.scrollIntoView({ block: 'center' });
       const b = e.getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; })()`);
+    await this.press(x, y);
+  }
+
+  /** A click at a place of the window; `shift`: with the key held. */
+  async press(x, y, shift = false) {
     for (const type of ['mousePressed', 'mouseReleased'])
-      await this.send('Input.dispatchMouseEvent', { type, x, y, button: 'left', clickCount: 1 });
+      await this.send('Input.dispatchMouseEvent', { type, x, y, button: 'left', clickCount: 1, modifiers: shift ? 8 : 0 });
+  }
+
+  move(x, y) {
+    return this.send('Input.dispatchMouseEvent', { type: 'mouseMoved', x, y });
+  }
+
+  /** Files of the machine dropped at a place of the window. */
+  async drop(x, y, ...files) {
+    const data = { items: [], files, dragOperationsMask: 1 };
+    for (const type of ['dragEnter', 'dragOver', 'drop']) await this.send('Input.dispatchDragEvent', { type, x, y, data });
+  }
+
+  /** A picture of the window as bytes of a PNG. */
+  async picture() {
+    return Buffer.from((await this.send('Page.captureScreenshot', { format: 'png' })).data, 'base64');
   }
 
   /** Two frames: what was asked to be drawn is drawn. */

@@ -8,7 +8,7 @@ import { PLAIN, wall } from './surface.js';
 /** Steps of a colour over a distance. */
 const GAP_STEPS = 512;
 
-function geometry(positions, indices) {
+export function geometry(positions, indices) {
   const out = new BufferGeometry();
   out.setAttribute('position', new BufferAttribute(positions, 3));
   out.setIndex(new BufferAttribute(indices, 1));
@@ -43,7 +43,7 @@ function merged(bodies) {
   return new Mesh(geometry(positions, indices), wall());
 }
 
-function edges(bodies) {
+export function edges(bodies) {
   const segments = [];
   for (const body of bodies) {
     let at = 0;

@@ -11,8 +11,10 @@ const ROOM = { left: 150, right: 40, top: 56, bottom: 30 };
 const NARROW = 620;
 
 export class Stage {
-  constructor(canvas) {
+  /** `room`: pixels at the sides of the picture that something else covers. */
+  constructor(canvas, room = ROOM) {
     this.canvas = canvas;
+    this.margins = room;
     this.listeners = [];
     this.quiet = true;
     // What was drawn last stays readable: for printing and for screenshots.
@@ -47,19 +49,25 @@ export class Stage {
   /** Looks for the best views; `wish` as presets() takes it. */
   frame(wish) {
     this.home = frameOf(wish.targets, wish.towards);
-    this.presets = presets(this.home, wish);
+    return this.hang(this.home, presets(this.home, wish));
+  }
+
+  /** Takes views as they are; `home`: { centre, radius } of what is looked at. */
+  hang(home, views) {
+    Object.assign(this, { home, presets: views });
     const distance = this.home.radius / Math.sin((0.5 * FIELD_OF_VIEW * Math.PI) / 180);
     this.camera.near = 0.02 * distance;
     this.camera.far = 40 * distance;
     this.resize();
-    return this.presets;
+    return views;
   }
 
   room() {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     const free = (pixels, size) => Math.max(0.4, 1 - (2 * pixels) / size);
-    return { left: free(width < NARROW ? 20 : ROOM.left, width), right: free(width < NARROW ? 20 : ROOM.right, width),
-      top: free(ROOM.top, height), bottom: free(ROOM.bottom, height) };
+    const { left, right, top, bottom } = this.margins;
+    return { left: free(width < NARROW ? 20 : left, width), right: free(width < NARROW ? 20 : right, width),
+      top: free(top, height), bottom: free(bottom, height) };
   }
 
   look(name) {

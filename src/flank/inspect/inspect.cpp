@@ -9,6 +9,7 @@
 #include "flank/base/parallel.h"
 #include "flank/geom/trim.h"
 #include "flank/inspect/inspect_mesh.h"
+#include "flank/inspect/inspect_order.h"
 #include "flank/inspect/inspect_text.h"
 #include "flank/io/face_groups.h"
 
@@ -166,7 +167,29 @@ void add_border(const Face& face, Box3& box) {
   }
 }
 
-InspectRow inspect_face(const Face& face, const std::string& type) {
+/// Centre and mean normal of samples, each with its part of the area.
+class Middle {
+ public:
+  /// `area_normal`: as long as the sample's area, mm^2, on the machining side.
+  void add(const Vec3& place, const Vec3& area_normal) {
+    const double weight = area_normal.norm();
+    area_ += weight;
+    place_ += weight * place;
+    normal_ += area_normal;
+  }
+  void write(InspectRow& row) const {
+    if (!(area_ > 0.0)) return;
+    row.centre = place_ / area_;
+    if (normal_.norm() > kLeastMeanNormal * area_) row.normal = normal_.normalized();
+  }
+
+ private:
+  double area_ = 0.0;
+  Vec3 place_ = Vec3::Zero(), normal_ = Vec3::Zero();
+};
+
+/// What of a row needs no samples.
+InspectRow row_of(const Face& face, const std::string& type) {
   const BSplineSurface& s = face.surface;
   InspectRow row;
   row.id = face.id;
@@ -177,28 +200,44 @@ InspectRow inspect_face(const Face& face, const std::string& type) {
   row.trims = static_cast<int>(face.loops.size());
   row.holes = std::max(0, row.trims - 1);
   row.solid = face.of_solid ? face.solid : -1;
-  const TrimRegion region(face.loops, {s.u_first(), s.u_last(), s.v_first(), s.v_last()});
+  return row;
+}
+
+/// Of a grid over the trimmed range, what lies inside.
+std::vector<SurfaceJet> samples_of(const BSplineSurface& s, const TrimRegion& region) {
   const ParameterRectangle& b = region.box();
-  row.area_mm2 = area(s, region);
-  row.length_u_mm = iso_length(s, b, true), row.length_v_mm = iso_length(s, b, false);
   std::vector<SurfaceJet> jets;
   for (int i = 0; i <= kInspectGrid; ++i) {
     for (int j = 0; j <= kInspectGrid; ++j) {
       const double u = middle(b.u0, b.u1, i, kInspectGrid), v = middle(b.v0, b.v1, j, kInspectGrid);
-      if (!region.whole() && !region.inside(u, v)) continue;
-      jets.push_back(s.jet(u, v));
-      row.box.add(jets.back().p);
+      if (region.whole() || region.inside(u, v)) jets.push_back(s.jet(u, v));
     }
   }
+  return jets;
+}
+
+InspectRow inspect_face(const Face& face, const std::string& type) {
+  const BSplineSurface& s = face.surface;
+  InspectRow row = row_of(face, type);
+  const TrimRegion region(face.loops, {s.u_first(), s.u_last(), s.v_first(), s.v_last()});
+  row.area_mm2 = area(s, region);
+  row.length_u_mm = iso_length(s, region.box(), true), row.length_v_mm = iso_length(s, region.box(), false);
+  const std::vector<SurfaceJet> jets = samples_of(s, region);
+  const double sign = face.reversed ? -1.0 : 1.0;
+  Middle middle_of_face;
+  Vec2 longest = Vec2::Zero();
+  for (const SurfaceJet& jet : jets) {
+    row.box.add(jet.p);
+    middle_of_face.add(jet.p, sign * jet.du.cross(jet.dv));
+    longest = longest.cwiseMax(Vec2(jet.du.norm(), jet.dv.norm()));
+  }
   add_border(face, row.box);
+  middle_of_face.write(row);
   Bends bends;
   double low = 0.0, high = 0.0;
-  Vec2 longest = Vec2::Zero();
-  for (const SurfaceJet& jet : jets) longest = longest.cwiseMax(Vec2(jet.du.norm(), jet.dv.norm()));
   // In a second round: what counts as shrunk depends on the longest derivative of the face.
   for (const SurfaceJet& jet : jets)
-    if (curvatures(jet, kShrunk * longest, face.reversed ? -1.0 : 1.0, low, high))
-      bends.add(low, high, kFlatBow / row.box.diagonal());
+    if (curvatures(jet, kShrunk * longest, sign, low, high)) bends.add(low, high, kFlatBow / row.box.diagonal());
   conclude(std::move(bends), 1.0, row);
   return row;
 }
@@ -222,6 +261,13 @@ InspectRow inspect_mesh_face(const Part& part, int index, double total_area) {
   row.triangles = static_cast<int>(mesh.triangles.size());
   row.box = mesh.box();
   row.area_mm2 = mesh_area(mesh);
+  Middle middle_of_face;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const auto corner = [&](int k) { return mesh.vertices[static_cast<std::size_t>(k)]; };
+    const Vec3 p = corner(a), q = corner(b), r = corner(c);
+    middle_of_face.add((p + q + r) / 3.0, 0.5 * (q - p).cross(r - p));
+  }
+  middle_of_face.write(row);
   Bends bends;
   if (row.area_mm2 >= kLeastAreaShareForBend * total_area)
     for (const auto& [low, high] : mesh_curvatures(mesh, kMeshSamples))
@@ -249,6 +295,13 @@ InspectReport inspect(const Part& part) {
     for (const NamedPiece& piece : pieces_of_face(part, static_cast<int>(i)))
       report.rows[i].pieces.push_back(inspect_face(piece.face, piece.edge ? "edge" : "side"));
   });
+  return report;
+}
+
+const std::vector<std::string>& inspect_sorts() { return sorts(); }
+
+InspectReport in_order(InspectReport report, const InspectOrder& order) {
+  arrange(order, report.rows);
   return report;
 }
 

@@ -52,6 +52,25 @@ std::string bend_of(const InspectRow& row) {
   return text;
 }
 
+/// A number with so many decimals; zero has no sign.
+std::string plain(double value, int decimals) {
+  const double least = 0.5 * std::pow(0.1, decimals);
+  return fmt::format("{:.{}f}", std::abs(value) < least ? 0.0 : value, decimals);
+}
+
+/// "12.3, -4.5, 0.0"; more decimals of what is smaller than a millimetre.
+std::string place_of(const InspectRow& row) {
+  const int decimals = row.box.diagonal() < 1.0 ? 4 : 1;
+  return plain(row.centre.x(), decimals) + ", " + plain(row.centre.y(), decimals) + ", " +
+         plain(row.centre.z(), decimals);
+}
+
+/// "-" where it points nowhere.
+std::string normal_of(const InspectRow& row) {
+  if (row.normal.isZero()) return "-";
+  return plain(row.normal.x(), 2) + ", " + plain(row.normal.y(), 2) + ", " + plain(row.normal.z(), 2);
+}
+
 /// One line of the table.
 void add_line(const InspectRow& row, std::string& text) {
   if (!row.why.empty()) {
@@ -61,9 +80,10 @@ void add_line(const InspectRow& row, std::string& text) {
   const std::string radius =
       std::isfinite(row.smallest_concave_radius_mm) ? figures(row.smallest_concave_radius_mm, 3) : "-";
   const std::string of = row.solid >= 0 ? fmt::format("solid {}", row.solid + 1) : "sheet";
-  fmt::format_to(std::back_inserter(text), "{:<5} {:<10} {:<21} {:>10}  {:<22} {:<37} {:>12}  {:<17} {}\n", row.id,
-                 row.type, form_of(row), figures(row.area_mm2, 2), extent_of(row), bend_of(row), radius, trims_of(row),
-                 of);
+  fmt::format_to(std::back_inserter(text),
+                 "{:<5} {:<10} {:<21} {:>10}  {:<22} {:<37} {:>12}  {:<22} {:<19} {:<17} {}\n", row.id, row.type,
+                 form_of(row), figures(row.area_mm2, 2), extent_of(row), bend_of(row), radius, place_of(row),
+                 normal_of(row), trims_of(row), of);
 }
 
 nlohmann::json box_json(const Box3& box) {
@@ -91,6 +111,9 @@ nlohmann::json row_json(const InspectRow& row) {
                         {"saddle", row.bend_share[3]}};
   json["smallest_concave_radius"] =
       std::isfinite(row.smallest_concave_radius_mm) ? nlohmann::json(row.smallest_concave_radius_mm) : nlohmann::json();
+  json["centre"] = {row.centre.x(), row.centre.y(), row.centre.z()};
+  json["normal"] =
+      row.normal.isZero() ? nlohmann::json() : nlohmann::json{row.normal.x(), row.normal.y(), row.normal.z()};
   for (const InspectRow& piece : row.pieces) json["pieces"].push_back(row_json(piece));
   json["solid"] = row.solid >= 0 ? nlohmann::json(row.solid + 1) : nlohmann::json();
   return json;
@@ -103,8 +126,8 @@ std::string to_table(const InspectReport& report) {
                                  report.unit, report.solids, report.solids == 1 ? "" : "s", report.rows.size(),
                                  report.rows.size() == 1 ? "" : "s", size_of(report.box));
   const auto out = std::back_inserter(text);
-  fmt::format_to(out, "{:<5} {:<10} {:<21} {:>10}  {:<22} {:<37} {:>12}  {:<17} {}\n", "face", "type", "degree, poles",
-                 "area mm2", "size mm", "bend", "concave r mm", "trims", "of");
+  fmt::format_to(out, "{:<5} {:<10} {:<21} {:>10}  {:<22} {:<37} {:>12}  {:<22} {:<19} {:<17} {}\n", "face", "type",
+                 "degree, poles", "area mm2", "size mm", "bend", "concave r mm", "centre mm", "normal", "trims", "of");
   for (const InspectRow& row : report.rows) {
     add_line(row, text);
     for (const InspectRow& piece : row.pieces) add_line(piece, text);

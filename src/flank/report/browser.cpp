@@ -152,7 +152,9 @@ void make_picture(const std::string& html_file, const std::string& png_file, con
 void open_page(const std::string& html_file) {
   const std::string opener = in_path("xdg-open");
   if (opener.empty()) throw UsageError("xdg-open is not installed; open " + html_file + " in a browser");
-  if (const int status = run_quietly({opener, fs::absolute(html_file).lexically_normal().string()}); status != 0)
+  const bool served = html_file.starts_with("http://");
+  const std::string page = served ? html_file : fs::absolute(html_file).lexically_normal().string();
+  if (const int status = run_quietly({opener, page}); status != 0)
     throw UsageError("xdg-open found no browser (exit " + std::to_string(status) + "); open " + html_file + " in one");
 }
 

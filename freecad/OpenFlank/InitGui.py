@@ -1,0 +1,22 @@
+# FreeCAD reads this file when it starts with a window.
+import FreeCADGui
+
+
+class OpenFlankWorkbench(FreeCADGui.Workbench):
+    """Flank milling with the command `flank`."""
+
+    MenuText = "OpenFlank"
+    ToolTip = "A tool shaped for a face, its five-axis motion, and a verdict"
+
+    def Initialize(self):
+        import flank_gui  # registers the command
+
+        self.Icon = flank_gui.NewOperation().GetResources()["Pixmap"]
+        self.appendToolbar("OpenFlank", ["OpenFlank_Operation"])
+        self.appendMenu("OpenFlank", ["OpenFlank_Operation"])
+
+    def GetClassName(self):
+        return "Gui::PythonWorkbench"
+
+
+FreeCADGui.addWorkbench(OpenFlankWorkbench())

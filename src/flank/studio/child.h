@@ -1,0 +1,53 @@
+/// Children of the studio: the command itself, started again for every piece of work.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace flank::internal {
+
+/// A process that may outlive us: a number alone may belong to another one by then.
+struct Child {
+  pid_t process = 0;        ///< 0: none
+  std::uint64_t begun = 0;  ///< when, in the kernel's ticks since the machine started
+};
+
+/// What a child is given, and where what it says goes.
+struct ChildWords {
+  std::string program;
+  std::vector<std::string> words;  ///< without the program's name
+  std::string folder;              ///< where it runs
+  std::string out, err;            ///< files for its streams; what was there is kept, and more added
+};
+
+/// Starts a child in a session of its own: signals of a terminal do not reach it, and it goes on if we are killed. Throws InternalError.
+[[nodiscard]] Child start_child(const ChildWords& words);
+
+/// Whether this very process still runs.
+[[nodiscard]] bool is_running(const Child& child);
+
+/// The exit code once it has ended, 128 + signal if a signal ended it; nothing while it runs. Of a process that somebody else
+/// started nobody learns it: -1.
+[[nodiscard]] std::optional<int> exit_of(const Child& child);
+
+/// Sends a signal to the process, if it is still this one.
+void signal_child(const Child& child, int signal);
+
+/// What a short child said.
+struct Said {
+  int exit_code = -1;  ///< 128 + signal if a signal ended it, also ours after the time
+  std::string out, err;
+};
+
+/// Runs a child to its end, at most `limit_s` seconds; of what it says at most `most_bytes` of each stream are kept.
+[[nodiscard]] Said run_child(const std::string& program, const std::vector<std::string>& words,
+                             const std::string& folder, double limit_s, std::size_t most_bytes);
+
+/// "refused by the kernel", "crashed (signal 11)": what an exit code means to people; empty for 0 to 3.
+[[nodiscard]] std::string crash_text(int exit_code);
+
+}  // namespace flank::internal

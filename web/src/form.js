@@ -1,0 +1,101 @@
+// A form made from the table of fields: eight basic ones, the rest under "more".
+import { send } from './api.js';
+import { html } from './dom.js';
+
+/** What a field is called on the page, by its key: the table's names are those of files and scripts. */
+const NAMES = { tool: 'Tool', side: 'Machined side', nc: 'Program', turn_max: 'Largest turn', dry: 'Dry run' };
+const nameOf = ({ key }) => NAMES[key] ?? key[0].toUpperCase() + key.slice(1).replaceAll('_', ' ');
+
+/** What stands for an empty field: what its help says of the default, in few words. */
+const hint = ({ help }) => /default: ([^,;:.]{1,40})/.exec(help)?.[1] ?? 'none';
+
+function choice(options, value) {
+  const select = html('select', {}, ...options.map(([key, text]) => html('option', { value: key }, text)));
+  select.value = value;
+  return select;
+}
+
+export class Form {
+  /** `fields`: of flank fields; `skip`: names that are given elsewhere; `changed()` after every change. */
+  constructor(fields, skip, changed) {
+    this.fields = fields.filter((field) => !skip.includes(field.name));
+    this.changed = changed;
+    this.inputs = new Map();
+    const basic = this.fields.filter((field) => field.basic).sort((a, b) => a.place - b.place);
+    this.basic = html('div', { class: 'fields' }, ...basic.map((field) => this.line(field)));
+    this.more = html('details', { class: 'more-fields' }, html('summary', {}, 'More'), ...this.groups());
+    this.root = html('div', { class: 'form' }, this.basic, this.more);
+  }
+
+  groups() {
+    const rest = this.fields.filter((field) => !field.basic), names = [...new Set(rest.map((field) => field.group))];
+    return names.map((name) => html('fieldset', {}, html('legend', {}, name || 'Search'), html('div', { class: 'fields' }, ...rest.filter((field) => field.group === name).map((field) => this.line(field)))));
+  }
+
+  line(field) {
+    const input = this.input(field), id = `field-${field.name}`;
+    input.id = id;
+    input.title = field.help;
+    input.addEventListener('input', () => this.changed());
+    this.inputs.set(field.name, { field, input });
+    const unit = field.unit ? html('span', { class: 'unit' }, field.unit) : null;
+    const file = field.file ? this.upload(field, input) : null;
+    return html('div', { class: 'field', 'data-field': field.name }, html('label', { for: id, title: field.help }, nameOf(field)), html('span', { class: 'entry' }, input, unit, file));
+  }
+
+  input(field) {
+    const usual = field.default ?? '';
+    if (field.choices) return choice(field.choices.map((one) => [one === usual ? '' : one, one === usual ? `${one} (default)` : one]), '');
+    if (field.kind === 'sign') return choice([['', 'found by itself'], ['+', '+ (normal of the file)'], ['-', '− (against it)']], '');
+    if (field.kind === 'switch') return choice([['', usual || 'off'], ...['on', 'off'].filter((one) => one !== (usual || 'off')).map((one) => [one, one])], '');
+    return html('input', { type: 'text', placeholder: usual || hint(field), autocomplete: 'off', spellcheck: 'false', inputmode: field.kind === 'number' ? 'decimal' : 'text' });
+  }
+
+  /** A file of the user's for a field. */
+  upload(field, input) {
+    const chosen = html('input', { type: 'file', class: 'sr', tabindex: '-1', 'aria-label': `File for ${nameOf(field)}` });
+    const button = html('button', { type: 'button', class: 'file', title: `A file for ${nameOf(field)}` }, 'File…');
+    button.addEventListener('click', () => chosen.click());
+    chosen.addEventListener('change', async () => {
+      if (!chosen.files.length) return;
+      const { name } = await send('files', chosen.files[0]);
+      input.value = field.kind === 'texts' && input.value ? `${input.value}, ${name}` : name;
+      this.changed();
+    });
+    return html('span', {}, button, chosen);
+  }
+
+  /** What was filled in, by name. */
+  values() {
+    const values = {};
+    for (const [name, { field, input }] of this.inputs) {
+      const text = input.value.trim();
+      if (text) values[name] = field.kind === 'texts' ? text.split(',').map((one) => one.trim()).filter(Boolean) : text;
+    }
+    return values;
+  }
+
+  set(values) {
+    for (const [name, { input }] of this.inputs) input.value = [values[name] ?? ''].flat().join(', ');
+    this.changed();
+  }
+
+  /** What will be taken where nothing is filled in. */
+  suggest(values) {
+    for (const [name, text] of Object.entries(values)) {
+      const entry = this.inputs.get(name);
+      if (entry && text !== null && text !== undefined && entry.input.tagName === 'INPUT') entry.input.placeholder = text;
+    }
+  }
+
+  /** Options as they are typed. */
+  words() {
+    return Object.entries(this.values()).flatMap(([name, value]) => {
+      const { field } = this.inputs.get(name);
+      if (field.flag) return value === 'on' ? [field.option] : [];
+      return [value].flat().map((one) => (/^-/.test(one) ? `${field.option}=${one}` : `${field.option} ${quoted(one)}`));
+    });
+  }
+}
+
+export const quoted = (word) => (/^[\w\-=+.,:/%@]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`);

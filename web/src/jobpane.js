@@ -1,0 +1,125 @@
+// The middle pane: what is wanted of the chosen faces.
+import { get, post } from './api.js';
+import { copy } from './copy.js';
+import { byId, html } from './dom.js';
+import { Form, quoted } from './form.js';
+import { Sides } from './sides.js';
+
+/** Milliseconds after the last change before the defaults are asked for. */
+const REST = 500;
+
+/** What can be wanted: the roles of faces and the fields that they fill. */
+const COMMANDS = {
+  fit: { name: 'Find a tool', help: 'A tool is shaped for the face, and its motion with it.', roles: { machine: 'faces', protect: 'check_faces', ignore: 'ignore_faces' }, needed: ['machine'], skip: ['skin'] },
+  cover: { name: 'Given tool', help: 'The strips with which a tool finishes the face. Tool “catalogue” chooses one from the catalogue.', roles: { machine: 'faces', protect: 'check_faces', ignore: 'ignore_faces' }, needed: ['machine'], skip: ['skin'] },
+  trochoid: { name: 'Cavity', help: 'One tool roughs and finishes the cavity between two sides.', roles: { left: 'left', right: 'right', floor: 'floor', protect: 'check_faces', ignore: 'ignore_faces' }, needed: ['left', 'right'], skip: ['faces', 'skin', 'side'] },
+};
+const SHORT = { faces: '--face', check_faces: '--check-faces', ignore_faces: '--ignore-faces', left: '--left', right: '--right', floor: '--floor' };
+
+export class JobPane {
+  /** `run(id)` is called with a job that was begun. */
+  constructor(parts, run) {
+    Object.assign(this, { parts, run, forms: new Map() });
+    byId('commands').replaceChildren(...Object.entries(COMMANDS).map(([command, { name }]) => {
+      const button = html('button', { type: 'button', 'data-command': command, 'aria-pressed': 'false' }, name);
+      button.addEventListener('click', () => this.choose(command));
+      return button;
+    }));
+    byId('run').addEventListener('click', () => this.begin());
+    for (const what of ['line', 'python']) byId(`copy-${what}`).addEventListener('click', async () => { byId(`copy-${what}`).textContent = (await copy(byId(what).textContent)) ? 'Copied' : 'Copy'; });
+  }
+
+  async choose(command) {
+    this.command = command;
+    for (const button of byId('commands').children) button.setAttribute('aria-pressed', String(button.dataset.command === command));
+    const { roles, skip, help } = COMMANDS[command];
+    byId('wanted').textContent = help;
+    if (!this.forms.has(command)) {
+      const { fields } = await get(`fields/${command}`);
+      this.forms.set(command, new Form(fields, ['part', 'unit', ...skip, ...Object.values(roles)], () => this.changed()));
+    }
+    if (this.command !== command) return;
+    this.form = this.forms.get(command);
+    byId('form').replaceChildren(this.form.root);
+    this.parts.roles(Object.keys(roles));
+    this.changed();
+  }
+
+  /** There is another part: its sides are its own. */
+  part() {
+    this.sides = new Sides(this.parts.chooser, (sign) => {
+      const entry = this.form.inputs.get('side');
+      if (entry) entry.input.value = sign;
+      this.changed();
+    });
+    if (this.form) this.parts.roles(Object.keys(COMMANDS[this.command].roles));
+    this.changed();
+  }
+
+  /** Names of the faces by the field that they fill. */
+  faces() {
+    const filled = {};
+    for (const [role, field] of Object.entries(COMMANDS[this.command].roles)) {
+      const names = this.parts.chooser?.names(role);
+      if (names) filled[field] = names;
+    }
+    return filled;
+  }
+
+  ready() {
+    return Boolean(this.parts.chooser) && COMMANDS[this.command].needed.every((role) => this.parts.chooser.names(role));
+  }
+
+  values() {
+    const unit = this.parts.data?.format && this.parts.data.unit !== 'mm' ? { unit: this.parts.data.unit } : {};
+    return { ...unit, ...this.faces(), ...this.form.values() };
+  }
+
+  changed() {
+    if (!this.form) return;
+    const faces = this.faces(), ready = this.ready();
+    byId('run').disabled = !ready;
+    byId('chosen').textContent = Object.keys(faces).length ? Object.entries(faces).map(([field, names]) => `${SHORT[field]} ${names}`).join('  ') : 'No face is chosen yet: click one in the part.';
+    byId('chosen').classList.toggle('ready', ready);
+    const words = Object.entries(faces).map(([field, names]) => `${SHORT[field]} ${names}`);
+    byId('line').textContent = ['flank', this.command, quoted(this.parts.name || 'PART'), ...words, ...this.form.words(), '-o out'].join(' ');
+    const keywords = Object.entries({ ...faces, ...this.form.values() }).map(([name, value]) => `${name}=${Array.isArray(value) || !/^-?[\d.]+(e-?\d+)?$/.test(value) ? JSON.stringify(value) : value}`);
+    byId('python').textContent = `import openflank\nresult = openflank.${this.command}(${[JSON.stringify(this.parts.name || 'PART'), ...keywords].join(', ')})\nresult.write("out")`;
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => this.ask(), REST);
+  }
+
+  /** What would be taken for what is not filled in. */
+  async ask() {
+    if (this.command !== 'fit' || !this.ready()) {
+      byId('defaults').replaceChildren();
+      return this.sides?.show([]);
+    }
+    const asked = { part: this.parts.name, fields: this.values() }, key = JSON.stringify(asked);
+    if (key === this.asked) return;
+    this.asked = key;
+    const told = await post('defaults', asked).catch((error) => ({ complaint: error.message }));
+    if (key !== this.asked) return;
+    const { defaults, complaint } = told;
+    byId('defaults').replaceChildren(...(complaint ? [html('p', { class: 'notice' }, complaint)] : []));
+    this.sides?.show(defaults?.sides ?? []);
+    if (!defaults) return;
+    const number = (value, unit = '') => (value === null ? null : `${Number(value.toPrecision(4))}${unit}`);
+    this.form.suggest({ tolerance_mm: number(defaults.tolerance), radius_min_mm: number(defaults.radius_min), radius_max_mm: number(defaults.radius_max), reach_radius_mm: number(defaults.reach_radius) });
+    const side = defaults.sides[0];
+    byId('defaults').append(html('p', {}, [`Tolerance ±${number(defaults.tolerance)} mm`, `tool radius ${number(defaults.radius_min)} to ${number(defaults.radius_max)} mm`,
+      side ? `side ${side.side === '+' ? '+' : '−'}: ${side.reason ?? ''}` : 'away from the material', defaults.reach_radius === null ? '' : `reach with a ball of R ${number(defaults.reach_radius)} mm`].filter(Boolean).join(' · ')));
+  }
+
+  async begin() {
+    byId('run').disabled = true;
+    try {
+      const { id } = await post('jobs', { command: this.command, part: this.parts.name, fields: this.values() });
+      byId('run-note').textContent = '';
+      this.run(id);
+    } catch (error) {
+      byId('run-note').textContent = error.message;
+    }
+    byId('run').disabled = !this.ready();
+  }
+}

@@ -1,0 +1,20 @@
+// Colours of the kinds of surfaces and of what a face is chosen for. They can be told apart without red and green.
+import { isDark } from './theme.js';
+
+const KINDS = {
+  plane: ['#b9c7d6', '#5f7185'], cylinder: ['#ecc980', '#96762f'], cone: ['#e3a887', '#94573a'], sphere: ['#d2b0d8', '#7d5a86'],
+  torus: ['#9fcbbb', '#477a68'], 'B-spline': ['#8fbde6', '#3b6f9f'], mesh: ['#c4c9cf', '#666f79'], 'not read': ['#e2e4e7', '#3b424a'],
+};
+const OTHER = ['#d8d3b4', '#6f6a4b'];
+
+export const kindColour = (type) => (KINDS[type] ?? OTHER)[isDark() ? 1 : 0];
+
+/** What a face is chosen for. */
+export const ROLES = {
+  machine: { name: 'Machine', colour: '#d55e00' },
+  left: { name: 'Left side', colour: '#d55e00' },
+  right: { name: 'Right side', colour: '#a23b8f' },
+  floor: { name: 'Floor', colour: '#009e73' },
+  protect: { name: 'Protect', colour: '#0050a0' },
+  ignore: { name: 'Ignore', colour: '#5b5b5b' },
+};
