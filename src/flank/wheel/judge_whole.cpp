@@ -17,9 +17,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> flow_faces(const WheelRoles& roles) {
-  std::vector<std::string> out = roles.hub;
-  for (const WheelBlade& blade : roles.blades) {
+/// The hub and one sector's blades: each target more costs memory for what is open of it, and the other blades are their copies. They
+/// are still among the faces that must not be cut.
+std::vector<std::string> flow_faces(const WheelWork& work) {
+  std::vector<std::string> out = work.roles.hub;
+  for (const WheelBlade& blade : work.sector.blades) {
     const std::vector<std::string> own = blade.flow();
     out.insert(out.end(), own.begin(), own.end());
   }
@@ -60,7 +62,7 @@ Result judged_path(const WheelWork& work, const std::vector<std::string>& faces,
 
 Result judge_whole(const WheelWork& work) {
   Path path = copied(work.finish, work.roles.axis, work.sector.pitch_rad, work.sector.copies, work.roles.whole);
-  return judged_path(work, flow_faces(work.roles), std::move(path), work.job.least_coverage);
+  return judged_path(work, flow_faces(work), std::move(path), work.job.least_coverage);
 }
 
 std::vector<RoleFigures> role_figures(const WheelRoles& roles, const VerifyReport& report) {

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -93,20 +94,51 @@ void add_all(const std::vector<std::unique_ptr<Target>>& from, std::vector<const
   for (const auto& target : from) to.push_back(target.get());
 }
 
-/// Of the strips of a side the one whose tips come nearest to the hub; none where the tool's other end is there.
-std::vector<Pose> lowest(const std::vector<Strip>& strips, const std::vector<const Target*>& hub, double length_mm) {
-  std::vector<Pose> best;
+/// A pose of a side's path by its place along the blade, and how high its tip is over the hub, mm.
+struct LowPose {
+  Pose pose;
+  double along = 0.0, height = 0.0;
+};
+
+double height_over(const std::vector<const Target*>& hub, const Vec3& p) {
   double least = std::numeric_limits<double>::infinity();
-  for (const Strip& strip : strips) {
-    const Pose& middle = strip.poses[strip.poses.size() / 2];
-    double tip = 1e300, end = 1e300;
-    for (const Target* target : hub) {
-      tip = std::min(tip, std::abs(target->closest(middle.tip).distance));
-      end = std::min(end, std::abs(target->closest(middle.at(length_mm)).distance));
+  for (const Target* target : hub) least = std::min(least, std::abs(target->closest(p).distance));
+  return least;
+}
+
+/// The lowest poses of a side's strips from one end of the blade to the other: each strip is the lower one on a stretch of its own. The
+/// axes are means over a few millimetres, so that they do not jump where another strip takes over. Empty where the tool's other end is
+/// at the hub.
+std::vector<Pose> lowest(const std::vector<Strip>& strips, const std::vector<const Target*>& hub, const WheelAxis& axis,
+                         double length_mm) {
+  constexpr double kCellMm = 1.0;
+  constexpr int kMeanCells = 3;
+  // Along the blade, from an axial inlet to a radial outlet: both coordinates together rise all the way.
+  const auto place = [&](const Pose& pose) { return Vec2(axis.along(pose.tip), axis.radius(pose.tip)); };
+  std::vector<Vec2> ends;
+  for (const Strip& strip : strips) ends.push_back(place(strip.poses.back()) - place(strip.poses.front()));
+  if (ends.empty()) return {};
+  const double sign = ends.front().x() * ends.front().y() < 0.0 ? -1.0 : 1.0;
+  std::map<int, LowPose> cells;
+  for (const Strip& strip : strips)
+    for (const Pose& pose : strip.poses) {
+      const Vec2 q = place(pose);
+      const LowPose here{pose, q.y() + sign * q.x(), height_over(hub, pose.tip)};
+      if (here.height > height_over(hub, pose.at(length_mm))) continue;
+      const auto [cell, fresh] = cells.try_emplace(static_cast<int>(std::floor(here.along / kCellMm)), here);
+      if (!fresh && here.height < cell->second.height) cell->second = here;
     }
-    if (tip < end && tip < least) least = tip, best = strip.poses;
+  std::vector<Pose> poses, out;
+  for (const auto& [cell, here] : cells) poses.push_back(here.pose);
+  out = poses;
+  const int count = static_cast<int>(poses.size());
+  for (int k = 0; k < count; ++k) {
+    Vec3 sum = Vec3::Zero();
+    for (int n = std::max(0, k - kMeanCells); n <= std::min(count - 1, k + kMeanCells); ++n)
+      sum += poses[static_cast<std::size_t>(n)].axis;
+    out[static_cast<std::size_t>(k)].axis = sum.normalized();
   }
-  return best;
+  return out;
 }
 
 Path floor_path(const WheelWork& work) {
@@ -119,8 +151,8 @@ Path floor_path(const WheelWork& work) {
     add_all(first, place.sides);
     add_all(second, place.sides);
     const double length = work.tool->radial.axis_length();
-    place.first = lowest(strips_of(work.finish, channel.first), place.floor, length);
-    place.second = lowest(strips_of(work.finish, channel.second_path), place.floor, length);
+    place.first = lowest(strips_of(work.finish, channel.first), place.floor, work.roles.axis, length);
+    place.second = lowest(strips_of(work.finish, channel.second_path), place.floor, work.roles.axis, length);
     // The path of the sector's own main blade is a pitch behind that of the next one.
     if (channel.turned) place.second = turned(place.second, work.roles.axis, work.sector.pitch_rad);
     const WheelAxis& axis = work.roles.axis;
