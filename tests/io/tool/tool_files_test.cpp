@@ -142,6 +142,13 @@ TEST(ToolFiles, DrawingsOfEveryKindAreTheSameTool) {
   expect_drawn(drawing(at(inches), 1), "inches");
   expect_drawn(drawing(polyline(placed(half, flipped(-1.0, 1.0)), true, false, "230\n-1.0\n")),
                "mirrored by its extrusion");
+  // As splines become: a ball of many chords.
+  std::vector<ProfileArc> fine;
+  const std::vector<Vec2> ball = points_of(half[0], 2e-5);
+  for (std::size_t k = 0; k < ball.size(); ++k)
+    fine.push_back({ball[k], k + 1 < ball.size() ? ball[k + 1] : half[0].to, 0.0});
+  fine.insert(fine.end(), half.begin() + 1, half.end());
+  expect_drawn(drawing(polyline(fine, true, false)), "a ball of chords");
   std::vector<ProfileArc> mixed;
   for (std::size_t k : {3u, 0u, 4u, 2u, 1u}) mixed.push_back({half[k].to, half[k].from, -half[k].bulge});
   expect_drawn(drawing(lines_and_arcs(mixed)), "in any order, backwards");

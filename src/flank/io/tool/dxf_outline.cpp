@@ -166,7 +166,7 @@ std::size_t ball_pieces(const Chain& chain) {
   std::size_t found = 0;
   for (std::size_t n = 0; n < chain.size(); ++n) {
     const Vec2 end = chain[n].to - Vec2(pole, 0.0);
-    if (!(std::abs(end.x()) > kMeetMm)) break;
+    if (!(std::abs(end.x()) > kMeetMm)) continue;          // beside the pole any circle fits
     const double r = end.squaredNorm() / (2.0 * end.x());  // of the circle about the axis through pole and end
     bool same = true;
     for (std::size_t k = 0; k <= n && same; ++k) {
