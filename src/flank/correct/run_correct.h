@@ -1,25 +1,12 @@
 /// `flank correct`: a new motion from what was measured of the tool or of the face (docs/algorithms/correct.md).
 #pragma once
 
-#include <optional>
 #include <string>
 
-#include "flank/correct/measure/face_error.h"
-#include "flank/correct/measure/ground_tool.h"
-#include "flank/job/correct_job.h"
-#include "flank/run.h"
+#include "flank/correct/correction.h"
+#include "flank/progress.h"
 
 namespace flank::internal {
-
-struct Correction {
-  CorrectJob job;
-  double tolerance_mm = 0.0;
-  std::optional<GroundTool> ground;
-  std::optional<FaceError> error;
-  /// As ground: the tool as ground on the old motion. As cut: the new motion against the nominal face, which it leaves on purpose.
-  VerifyReport other;
-  Result result;  ///< the new motion; as cut: judged against the mirrored face
-};
 
 /// Measures, and fits the new motion. Files that the new job reads (the tool as ground, the mirrored face, a guide) are written to `output`, which
 /// is made, once nothing is left to be refused. Throws UsageError and InputError.
@@ -27,9 +14,5 @@ struct Correction {
 
 /// The result, and correct.json and correct.txt beside it.
 void write_correction(const Correction& correction, const std::string& output);
-
-/// correct.json (docs/schema/correct.md), and a few lines for people.
-[[nodiscard]] std::string correction_json(const Correction& correction);
-[[nodiscard]] std::string correction_text(const Correction& correction);
 
 }  // namespace flank::internal

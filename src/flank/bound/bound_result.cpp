@@ -1,10 +1,11 @@
+#include "flank/bound/bound_result.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "flank/bound/bound_result.h"
 #include "flank/io/text/json_dump.h"
 #include "flank/job/bound_fields.h"
 

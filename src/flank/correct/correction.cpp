@@ -1,3 +1,5 @@
+#include "flank/correct/correction.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -5,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "flank/correct/run_correct.h"
 #include "flank/io/text/json_dump.h"
 #include "flank/job/correct_fields.h"
 
