@@ -145,7 +145,14 @@ Subcommand add_inspect(CLI::App& parser) {
       "Of a wheel: flank example impeller -o wheel.step && flank inspect wheel.step --wheel");
   return {app,
           [options, wheel](const CommonOptions& common) { return run_inspect(*options, *wheel, common); },
-          {{"unit", "--unit"}, {"sort", "--sort"}, {"type", "--type"}, {"png", "--png"}, {"html", "--html"}, {"hub", "--hub"}, {"blade", "--blade"}, {"count", "--count"}}};
+          {{"unit", "--unit"},
+           {"sort", "--sort"},
+           {"type", "--type"},
+           {"png", "--png"},
+           {"html", "--html"},
+           {"hub", "--hub"},
+           {"blade", "--blade"},
+           {"count", "--count"}}};
 }
 
 }  // namespace flank::cli

@@ -20,7 +20,9 @@ namespace {
 /// |c| of the motions as they will be written.
 double written_c_of(const FitDraft& draft, double tolerance_mm) {
   CoverageEstimate estimate;
-  measure_written(draft, {.tolerance_mm = tolerance_mm}, estimate);
+  FlankFitOptions options;
+  options.tolerance_mm = tolerance_mm;
+  measure_written(draft, options, estimate);
   return estimate.largest_c;
 }
 

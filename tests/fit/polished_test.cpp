@@ -50,7 +50,7 @@ TEST(Assess, AKinkIsSeenInTheDraftAndInWhatIsWritten) {
   const Polished seen = assess(draft, ranking_samples(*blade, nullptr, options()), options());
   EXPECT_GT(seen.estimate.turn * kMostTurnRad, 2.0);
   CoverageEstimate written;
-  measure_written(draft, {.tolerance_mm = 0.02}, written);
+  measure_written(draft, options(), written);
   EXPECT_GT(written.turn * kMostTurnRad, 2.0);
 }
 

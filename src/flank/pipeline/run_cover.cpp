@@ -108,7 +108,8 @@ Result run_cover(const CoverJob& request, const Progress& asked) {
   result.inputs = input_stamps(job);
   const std::optional<ToolChoice> choice = tool_choice(job);
   if (!choice) {
-    result.tool = given_tool(job.tool.spec, job.tool.axis_length_mm, "a cover takes a given tool; a fit finds one", result.notes);
+    result.tool =
+        given_tool(job.tool.spec, job.tool.axis_length_mm, "a cover takes a given tool; a fit finds one", result.notes);
     check_obstacles(job.obstacles, &result.tool);
     equip_tool(job.obstacles, result.tool);
   }
