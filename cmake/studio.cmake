@@ -3,6 +3,8 @@
 find_path(FLANK_HTTPLIB httplib.h)
 find_library(FLANK_HTTPLIB_LIBRARY cpp-httplib)
 mark_as_advanced(FLANK_HTTPLIB FLANK_HTTPLIB_LIBRARY)
+# With what Debian builds the library (its cpp-httplib.pc): its classes are others without.
+set(FLANK_HTTPLIB_DEFINITIONS CPPHTTPLIB_OPENSSL_SUPPORT CPPHTTPLIB_ZLIB_SUPPORT CPPHTTPLIB_BROTLI_SUPPORT)
 set(_flank_studio_missing "")
 if(NOT FLANK_HTTPLIB OR NOT FLANK_HTTPLIB_LIBRARY)
   set(_flank_studio_missing "it needs cpp-httplib; Debian: apt install libcpp-httplib-dev")
@@ -39,6 +41,7 @@ void run_studio(const StudioOptions&, const std::string&, const std::function<vo
                         PRIVATE $<BUILD_INTERFACE:flank_warnings>)
   if(FLANK_STUDIO_USED)
     target_link_libraries(flank_studio PUBLIC ${FLANK_HTTPLIB_LIBRARY})
+    target_compile_definitions(flank_studio PUBLIC ${FLANK_HTTPLIB_DEFINITIONS})
   endif()
   # It waits for children and for people: it needs no speed.
   target_compile_options(flank_studio PRIVATE ${FLANK_TEXT_OPTIONS})

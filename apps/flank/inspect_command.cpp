@@ -8,12 +8,9 @@
 
 #include "behind.h"
 #include "commands.h"
-#include "flank/base/atomic_file.h"
 #include "flank/error.h"
-#include "flank/feature/recognise_wheel.h"
 #include "flank/feature/wheel_table.h"
 #include "flank/inspect.h"
-#include "flank/manifest/result_folder.h"
 #include "flank/part.h"
 #include "flank/part_page.h"
 #include "flank/printable.h"

@@ -8,7 +8,6 @@
 #include "behind.h"
 #include "commands.h"
 #include "flank/artefact/write_result.h"
-#include "flank/base/journal.h"
 #include "flank/io/text/json_input.h"
 #include "flank/pipeline/fit_defaults.h"
 #include "flank/pipeline/folder/resume_folder.h"

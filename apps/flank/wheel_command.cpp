@@ -7,11 +7,9 @@
 #include <filesystem>
 #include <memory>
 
-#include "flank/base/atomic_file.h"
 #include "flank/part.h"
 #include "flank/printable.h"
 #include "flank/run.h"
-#include "flank/wheel/plan_file.h"
 #include "flank/wheel/run_wheel.h"
 
 namespace flank::cli {

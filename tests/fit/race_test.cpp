@@ -100,7 +100,7 @@ TEST_F(Racing, AToolMoreSlenderThanAskedIsNotEnough) {
 
 TEST_F(Racing, WhatCoversEnoughAndGainedNothingGetsNoMorePasses) {
   options_.bounds.largest = 3.0;
-  options_.most_turn_rad = 1e-12;  // no motion
+  options_.is_free_line = [](const Vec3&, const Vec3&) { return false; };  // nothing is ever held
   Progress progress;
   progress.journal = std::make_shared<Progress::Journal>();
   const std::vector<FitDraft> starts = {start(2.0, 0.3)};

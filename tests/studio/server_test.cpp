@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <fstream>
@@ -202,7 +203,12 @@ TEST_F(StudioServer, EndsItsChildrenWithItself) {
   const std::string name = part(studio, "twisted-blade");
   const Json asked{{"command", "fit"}, {"part", name}, {"fields", {{"tolerance_mm", "0.005"}}}};
   const std::string id = Json::parse(studio.post("jobs", asked.dump())->body).at("id");
-  (void)studio.wait(id, [](const Json& job) { return job.at("state") == "running" && !job.at("progress").empty(); });
+  // Before there is a best a stop leaves nothing to go on from.
+  (void)studio.wait(id, [](const Json& job) {
+    const Json& told = job.at("progress");
+    return std::any_of(told.begin(), told.end(),
+                       [](const Json& line) { return !line.value("best", Json()).is_null(); });
+  });
   EXPECT_EQ(studio.end(SIGINT), 0);
   const Json kept = Json::parse(cli::read_file(folder / "jobs" / id / "studio.json"));
   EXPECT_EQ(kept.at("state"), "done");

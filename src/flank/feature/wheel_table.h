@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "flank/feature/wheel_roles.h"
+#include "flank/feature/recognise_wheel.h"
 
 namespace flank::internal {
 

@@ -26,8 +26,7 @@ void visit_fields(Job& job, Visitor&& visit) {
                   "of the tip's sphere",
                   kAny, Spelling::kFile},
         job.profile);
-  visit(FieldInfo{"measured", "", "",
-                  "Points of the face as cut: lines x, y, z in mm, or the vertices of a .stl, .ply or .obj", kAny,
+  visit(FieldInfo{"measured", "", "", "Points of the face as cut: lines x, y, z in mm, or the vertices of a mesh", kAny,
                   Spelling::kFile},
         job.measured);
   visit(FieldInfo{"datum", "", "",

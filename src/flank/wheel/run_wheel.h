@@ -2,7 +2,7 @@
 #pragma once
 
 #include "flank/progress.h"
-#include "flank/wheel/wheel_job.h"
+#include "flank/wheel/plan_file.h"
 
 namespace flank::internal {
 

@@ -103,7 +103,7 @@ TEST(ProfileArcs, MoreThanAHalfCircleIsRefused) {
         "t.dxf");
     FAIL() << "accepted";
   } catch (const InputError& e) {
-    EXPECT_STREQ(e.what(), "t.dxf: line 14: an arc of more than a half circle");
+    EXPECT_STREQ(e.what(), "t.dxf: line 6: LWPOLYLINE: an arc of more than a half circle");
   }
 }
 

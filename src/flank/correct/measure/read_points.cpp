@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "flank/error.h"
+#include "flank/io/part_format.h"
 #include "flank/io/text/json_input.h"
 #include "flank/io/text/read_text.h"
 #include "flank/io/tool/tool_dxf_read.h"
@@ -53,8 +54,7 @@ std::vector<Vec2> read_profile_points(const std::string& file) {
 }
 
 std::vector<Vec3> read_measured_points(const std::string& file) {
-  const std::string end = ending(file);
-  if (end == ".stl" || end == ".ply" || end == ".obj") return read_part(file, "mm").mesh.vertices;
+  if (is_mesh_file(file)) return read_part(file, "mm").mesh.vertices;
   std::vector<Vec3> points;
   for (const std::vector<double>& line : read_number_lines(file, 3)) points.emplace_back(line[0], line[1], line[2]);
   return points;

@@ -1,6 +1,7 @@
 #include "flank/io/kernel/occt_iges_border.h"
 
 #include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
 #include <IGESGeom_CurveOnSurface.hxx>
 #include <IGESGeom_TrimmedSurface.hxx>
 #include <IGESToBRep_CurveAndSurface.hxx>
@@ -9,10 +10,10 @@
 #include <TopoDS.hxx>
 #include <Transfer_TransientProcess.hxx>
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "flank/io/kernel/occt_space_curve.h"
-#include "flank/vec.h"
 
 namespace flank::internal {
 namespace {
@@ -56,10 +57,11 @@ double iges_border_gap(const Handle(IGESData_IGESModel) & model, const Handle(IG
   const auto trimmed = Handle(IGESGeom_TrimmedSurface)::DownCast(entity);
   if (trimmed.IsNull() || trimmed->HasTransf()) return 0.0;
   const std::vector<SpaceCurve> edges = edges_of(made);
-  Box3 size;
+  Bnd_Box box;
   for (const SpaceCurve& edge : edges)
-    for (const gp_Pnt& p : edge.points()) size.add(Vec3(p.X(), p.Y(), p.Z()));
-  const double most = std::max(kGapMm, kGapShare * size.diagonal());
+    for (const gp_Pnt& p : edge.points()) box.Add(p);
+  if (box.IsVoid()) return 0.0;
+  const double most = std::max(kGapMm, kGapShare * std::sqrt(box.SquareExtent()));
   double gap = 0.0;
   for (const Handle(IGESGeom_CurveOnSurface) & border : borders_of(trimmed)) {
     if (border.IsNull() || border->HasTransf() || border->Curve3D().IsNull()) continue;
@@ -71,7 +73,7 @@ double iges_border_gap(const Handle(IGESData_IGESModel) & model, const Handle(IG
         gap = std::max(gap, least);
       }
   }
-  return gap > most && !edges.empty() ? gap : 0.0;
+  return gap > most ? gap : 0.0;
 }
 
 }  // namespace flank::internal
