@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "behind.h"
 #include "flank/part.h"
 #include "flank/printable.h"
 #include "flank/run.h"
