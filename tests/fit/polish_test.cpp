@@ -11,6 +11,7 @@
 #include "flank/fit/coverage.h"
 #include "flank/fit/partial_polish.h"
 #include "flank/threads.h"
+#include "flank/tool.h"
 #include "sanitized.h"
 #include "seed/exact_targets.h"
 

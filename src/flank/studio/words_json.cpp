@@ -85,7 +85,9 @@ std::vector<std::string> option_words(const std::string& command, const Json& fi
   if (!fields.is_object()) throw UsageError("fields", "an object of names and values is needed");
   const Json table = Json::parse(fields_json(command));
   std::vector<std::string> words;
-  for (const auto& [name, value] : fields.items()) {
+  for (const auto& item : fields.items()) {
+    const std::string& name = item.key();
+    const Json& value = item.value();
     const auto& all = table.at("fields");
     const auto field = std::find_if(all.begin(), all.end(), [&](const Json& one) { return one.at("name") == name; });
     if (field == all.end() || std::find(kept.begin(), kept.end(), name) != kept.end())
