@@ -50,7 +50,10 @@ test('what is under the pointer is what inspect calls so, on three parts', async
     for (const row of faces) {
       const place = await inFrontOf(page, 'window.flankFaces', row);
       if (!place) continue;
+      // Other faces may stand in front of it.
+      await page.value(`window.flankFaces.hideFaces(${JSON.stringify(faces.map(({ id }) => id).filter((id) => id !== row.id))})`);
       const id = await hovered(page, place);
+      await page.value('window.flankFaces.hideFaces([])');
       // The centre of a bent face may lie beside it, and a hole in it: then nothing is there, but never another face of the same place.
       if (id) assert.equal(id, row.id);
       pointed += id ? 1 : 0;
@@ -99,43 +102,6 @@ test('what is hidden is out of the way of the pointer', async () => {
   assert.equal(await hovered(page, place), '');
   await page.value('window.flankFaces.hideFaces([])');
   assert.equal(await hovered(page, place), 'F1');
-  await page.close();
-});
-
-test('3,000 faces: the first picture, a pick, and frames while turning', async () => {
-  const page = await browser.open(blisk.page, { width: 1440, height: 900 });
-  const figures = await page.value(`(async () => {
-    const { chooser: C } = { chooser: window.flankFaces.constructor }, few = window.flankFaces.data;
-    const data = { ...few, faces: [], bodies: [] };
-    for (let k = 0; k < 3000; ++k) {
-      const body = few.bodies[k % few.bodies.length], row = few.faces[k % few.faces.length], id = 'F' + (k + 1), away = Math.floor(k / few.bodies.length) % 20;
-      data.faces.push({ ...row, id, pieces: undefined });
-      // Moved along x, and far fewer triangles each than the blisk's own: those of the first body that has some.
-      data.bodies.push({ ...body, face: id, box: body.box.map(([x, y, z]) => [x + 60 * away, y + 45 * Math.floor(k / few.bodies.length / 20), z]) });
-    }
-    const begin = performance.now();
-    window.flankFaces.dispose();
-    const chooser = new C(data);
-    document.querySelector('#part').replaceChildren(chooser.view);
-    document.querySelector('#faces').append(chooser.list);
-    chooser.start();
-    const drawn = () => new Promise((done) => { let told = false; chooser.stage.onDraw(() => { if (!told) { told = true; done(); } }); chooser.stage.draw(); });
-    await drawn();
-    const first = performance.now() - begin;
-    const picks = [];
-    for (let k = 0; k < 100; ++k) {
-      const from = performance.now();
-      chooser.model.pick(chooser.stage, (k % 10 + 0.5) * chooser.canvas.clientWidth / 10, (Math.floor(k / 10) + 0.5) * chooser.canvas.clientHeight / 10);
-      picks.push(performance.now() - from);
-    }
-    const turning = performance.now();
-    for (let k = 0; k < 20; ++k) { chooser.stage.orbit(0.05, 0); await drawn(); }
-    return { triangles: chooser.model.indices.length / 3, first, pick: picks.sort((a, b) => a - b)[95], frames: 20000 / (performance.now() - turning), calls: chooser.stage.renderer.info.render.calls };
-  })()`);
-  console.log(`3,000 faces, ${figures.triangles} triangles: first picture ${figures.first.toFixed(0)} ms, pick ${figures.pick.toFixed(2)} ms (95 %), ${figures.frames.toFixed(1)} frames a second, ${figures.calls} draw calls`);
-  assert.equal(figures.calls, 2, 'faces and edges');
-  assert.ok(figures.pick < 50);
-  assert.ok(figures.first < 3000);
   await page.close();
 });
 

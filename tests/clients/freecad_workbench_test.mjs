@@ -26,7 +26,7 @@ before(() => {
     must('example', example, '-o', file, '--quiet');
     return file;
   });
-  const { status, stdout, stderr } = spawnSync(freecad, [join(here, 'freecad_workbench_check.py')], { encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'], timeout: 280000,
+  const { status, stdout, stderr } = spawnSync(freecad, [join(here, 'freecad_workbench_check.py')], { encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'], timeout: 850000,
     env: { ...process.env, FLANK_PARTS: parts.join(':'), FLANK_RESULT: result, FLANK_WORKBENCH: join(here, '../../freecad/OpenFlank'), HOME: root, QT_QPA_PLATFORM: 'offscreen' } });
   assert.equal(status, 0, stdout + stderr);
   found = JSON.parse(readFileSync(result));

@@ -62,7 +62,7 @@ async function clickFace(page, row) {
 }
 
 /** What the report in the right pane says. */
-const report = (expression) => `(() => { const d = document.querySelector('iframe.report')?.contentDocument; return d?.documentElement.dataset.ready !== undefined && (${expression}); })()`;
+const report = (expression) => `(() => { const d = document.querySelector('iframe.report')?.contentDocument; return d?.documentElement?.dataset.ready !== undefined && (${expression}); })()`;
 const pill = (page) => page.value('(() => { const p = document.querySelector(".livehead .pill"); return [p.className.replace("pill ", ""), p.dataset.exit]; })()');
 
 const fill = (page, name, value) => page.value(`(() => { const e = document.querySelector('#field-${name}'); e.value = ${JSON.stringify(value)}; e.dispatchEvent(new Event('input', { bubbles: true })); })()`);
@@ -141,7 +141,7 @@ test('stop keeps the best, resume goes on, and two pages see the same', async ()
   await page.value(`window.flankStudio.parts.show('twisted-blade.step')`);
   await page.until(`${CHOOSER}?.stage && document.querySelector('#drop').hidden`, PATIENCE);
   await page.value(`${CHOOSER}.choose(['F1'])`);
-  await fill(page, 'tolerance_mm', '0.02');
+  await fill(page, 'tolerance_mm', '0.005');
   await page.click('#run');
   await page.until('window.flankStudio.result.chosen === "0002" && document.querySelector(".facts")?.textContent.includes("best")', PATIENCE);
   const other = await open();
