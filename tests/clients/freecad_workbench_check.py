@@ -79,25 +79,12 @@ def operation():
     return found
 
 
-def stopping():
-    """A child that is told to stop once it has a best keeps it."""
-    part = os.environ["FLANK_PARTS"].split(":")[1]
-    seen = []
-
-    def progress(stage, share):
-        seen.append([stage, share])
-        return len([one for one, _ in seen if one == "polish"]) < 3
-
-    code, _ = flank_child.run(["fit", part, "--face=F1", "--tolerance=0.005", "-o", os.path.join(scratch, "stopped"), "--progress", "json", "--quiet"], progress)
-    return {"exit": code, "reports": len(seen), "resume": os.path.exists(os.path.join(scratch, "stopped", "resume.json"))}
-
-
 def colours():
     return [flank_view.colour(f, 0.1) for f in (-0.1, 0.0, 0.1, 1.0)]
 
 
 result = {}
-for name, work in (("operation", operation), ("stopping", stopping), ("colours", colours)):
+for name, work in (("operation", operation), ("colours", colours)):
     try:
         result[name] = work()
     except Exception as error:  # the test shows it

@@ -78,11 +78,6 @@ test('it is saved, loaded, computed again and undone', () => {
   assert.ok(undone >= 1);
 });
 
-test('a child that is stopped keeps what it has', () => {
-  assert.equal(found.stopping.exit, 1);
-  assert.equal(found.stopping.resume, true);
-});
-
 test('the colours tell both signs apart without green', () => {
   const [over, right, under, unreached] = found.colours;
   assert.ok(over[0] > 0.6 && over[2] < 0.3 && under[2] > 0.6 && under[0] < 0.3 && Math.min(...right) > 0.9);
