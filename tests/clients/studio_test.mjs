@@ -1,4 +1,4 @@
-// The studio in a real browser: a file is dropped, a face is clicked, a tool is found, stopped, gone on with, judged and posted. Run by ctest
+// The studio in a real browser: a file is dropped, a face is clicked, a tool is found, judged and posted. Run by ctest
 // (label clients); exit 77 means skipped.
 import assert from 'node:assert/strict';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
@@ -136,54 +136,6 @@ test('the program is posted and judged, and its bytes are the command’s', asyn
   await page.close();
 });
 
-test('stop keeps the best, resume goes on, and two pages see the same', async () => {
-  const page = await open();
-  await page.value(`window.flankStudio.parts.show('twisted-blade.step')`);
-  await page.until(`${CHOOSER}?.stage && document.querySelector('#drop').hidden`, PATIENCE);
-  await page.value(`${CHOOSER}.choose(['F1'])`);
-  await fill(page, 'tolerance_mm', '0.005');
-  await page.click('#run');
-  await page.until('window.flankStudio.result.chosen === "0002" && document.querySelector(".facts")?.textContent.includes("best")', PATIENCE);
-  const other = await open();
-  await other.until('document.querySelector("[data-job=\\"0002\\"] .mark")?.textContent === "runs"', PATIENCE);
-  await page.click('.live .stop');
-  await page.until(settled, PATIENCE);
-  assert.equal((await pill(page))[0], 'warn');
-  const stopped = await studio.get('jobs/0002');
-  assert.equal(stopped.resumable, true);
-  if (stopped.summary) await page.until(report('d.querySelector("#verdict").textContent'), PATIENCE);
-  await other.until('document.querySelector("[data-job=\\"0002\\"] .mark")?.textContent === "stopped"', PATIENCE);
-  await page.click('.live .resume');
-  await page.until(`${live('state')} !== 'done'`, PATIENCE);
-  // It goes on; its end is that of tests/cli/resume_test.
-  await page.click('.live .stop');
-  await page.until(settled, PATIENCE);
-  await other.close();
-  await page.close();
-});
-
-test('the verdict is the exit code: passes, fails, collides, is not proved', async () => {
-  const page = await open({ width: 1200 });
-  await drop(page, cone);
-  const vice = join(root, 'vice.stl');
-  const [row] = JSON.parse(must('inspect', cone, '--json')).faces;
-  writeFileSync(vice, box(row.centre, row.normal));
-  await fetch(`${studio.url}api/files?name=vice.stl`, { method: 'POST', body: readFileSync(vice) });
-  await page.value(`${CHOOSER}.choose(['F1'])`);
-  const quick = { tolerance_mm: '0.05', effort: 'quick' };
-  const cases = { passes: [quick, 0], fails: [{ ...quick, coverage: '1', radius_max_mm: '0.3', radius_min_mm: '0.2' }, 1],
-    collides: [{ ...quick, fixtures: 'vice.stl', shank_length_mm: '60', clearance_mm: '1', avoid: 'off' }, 1], 'is not proved': [{ ...quick, sample_mm: '8' }, null] };
-  for (const [name, [fields, exit]] of Object.entries(cases)) {
-    const job = await run(page, fields);
-    if (exit !== null) assert.equal(job.exit, exit, `${name}: ${job.line} ${job.message}`);
-    assert.deepEqual(await pill(page), [job.exit === 0 ? 'pass' : 'fail', String(job.exit)], name);
-    assert.equal(job.summary.pass, job.exit === 0, name);
-    await page.until(report('d.querySelector("#verdict").textContent'), PATIENCE);
-    assert.equal(await page.value(report('d.querySelector("#verdict").classList.contains("fail")')), job.exit !== 0, name);
-  }
-  await page.close();
-});
-
 test('what is refused is said in the command’s words', async () => {
   const page = await open();
   const broken = join(root, 'broken.step');
@@ -212,11 +164,3 @@ test('nothing is wider than a phone, and nothing complains in the dark', async (
     await page.close();
   }
 });
-
-/** A cube of 20 mm in front of a face, as triangles in text. */
-function box(centre, normal) {
-  const at = centre.map((c, k) => c + 20 * normal[k]), corner = (n) => [0, 1, 2].map((k) => at[k] + (n >> k & 1 ? 10 : -10)).join(' ');
-  const quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-  const facet = (a, b, c) => `facet normal 0 0 0\nouter loop\n${[a, b, c].map((n) => `vertex ${corner(n)}`).join('\n')}\nendloop\nendfacet\n`;
-  return `solid vice\n${quads.map(([a, b, c, d]) => facet(a, b, c) + facet(a, c, d)).join('')}endsolid vice\n`;
-}
