@@ -22,13 +22,10 @@ if (/without/.test(missing)) skip(missing);
 const PATIENCE = 240;
 const PICTURES = process.env.FLANK_PICTURES;
 const CHOOSER = 'window.flankStudio.parts.chooser';
-let browser, studio, blade, cone;
+let browser, studio, blade;
 before(async () => {
-  [blade, cone] = ['twisted-blade', 'envelope-cone-1'].map((example) => {
-    const file = join(root, `${example}.step`);
-    must('example', example, '-o', file, '--quiet');
-    return file;
-  });
+  blade = join(root, 'twisted-blade.step');
+  must('example', 'twisted-blade', '-o', blade, '--quiet');
   browser = new Browser();
   studio = await StudioProcess.begin(join(root, 'studio'));
 });

@@ -122,7 +122,7 @@ Said run_child(const std::string& program, const std::vector<std::string>& words
   std::optional<int> code;
   while (!(code = exit_of(child))) {
     const std::chrono::duration<double> age = std::chrono::steady_clock::now() - begin;
-    // Of this session all: the command has a child of its own that reads CAD files.
+    // Its whole group: the command has a child of its own that reads CAD files.
     if (age.count() > limit_s) ::kill(-child.process, SIGKILL);
     std::this_thread::sleep_for(kLook);
   }
