@@ -106,13 +106,13 @@ class StripSearch {
   void try_strips(const Trial& trial, const Progress& progress) {
     FlankFitOptions options = options_;
     options.strips = trial.strips;
-    options.ways = options_.ways && ways_ != OtherWays::kHopeless;
+    options.ways = options_.ways && !ways_last_;
     options.least_coverage_for_last_passes = trial.strips < demand_.most_strips ? kPromising : 0.0;
     options.least_coverage_for_close_look = least_to_look_at(best_, options);
     FlankFitResult result = fit_automatic(target_, tool_, options, progress);
     if (trial.strips == 1) one_covers_ = result.after.at_tolerance;
     // They cost as much as all before, and one strip more leads no axis out of another face.
-    if (result.other_ways == OtherWays::kHopeless || result.after.unheld > 0.0) ways_ = OtherWays::kHopeless;
+    if (result.other_ways == OtherWays::kHopeless || result.after.unheld > 0.0) ways_last_ = true;
     keep_better(best_, std::move(result), options_);
     goes_on_ = gain_.goes_on(best_);
   }
@@ -128,8 +128,8 @@ class StripSearch {
 
   /// The other ways that were left out on the way.
   void last_try(const Progress& progress) {
-    if (!options_.ways || ways_ != OtherWays::kHopeless || best_.after.unheld > 0.0 ||
-        meets_softly(best_, wanted_, options_) || progress.stop())
+    if (!options_.ways || !ways_last_ || best_.after.unheld > 0.0 || meets_softly(best_, wanted_, options_) ||
+        progress.stop())
       return;
     FlankFitOptions options = options_;
     options.strips = std::max<int>(1, static_cast<int>(best_.motions.size()));
@@ -143,8 +143,8 @@ class StripSearch {
   double wanted_ = 1.0, one_covers_ = 0.0, rest_ = 1.0;
   StripGain gain_;
   bool goes_on_ = true;
-  OtherWays ways_ = OtherWays::kNotTried;  ///< kHopeless: they are left to the last try
-  std::optional<FlankFitResult> one_;      ///< what one strip does at its best
+  bool ways_last_ = false;             ///< other ways are left to the last try
+  std::optional<FlankFitResult> one_;  ///< what one strip does at its best
   FlankFitResult best_;
 };
 
