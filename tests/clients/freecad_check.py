@@ -97,14 +97,22 @@ def strips():
     }
 
 
+def widest_at(edges, height):
+    """The largest radius at which a line across the axis at HEIGHT meets one of EDGES; the axis of the drawing is x."""
+    across = Part.makeLine(FreeCAD.Vector(height, 0, 0), FreeCAD.Vector(height, 100, 0))
+    found = [across.distToShape(edge) for edge in edges if edge.BoundBox.XMin < height < edge.BoundBox.XMax]
+    return max([point.y for distance, pairs, _ in found if distance < 1e-7 for point, _ in pairs], default=None)
+
+
 def drawing():
     FreeCAD.newDocument()
     # Texts and dimensions are read on demand only.
     FreeCAD.ParamGet("User parameter:BaseApp/Preferences/Mod/Draft").SetBool("dxftext", True)
     Import.readDXF(file("tool.dxf"))
     shapes = [o.Shape for o in FreeCAD.ActiveDocument.Objects if hasattr(o, "Shape") and not o.Shape.isNull()]
+    edges = [edge for shape in shapes for edge in shape.Edges]
     return {
-        "edges": sum(len(s.Edges) for s in shapes),
+        "radii": [widest_at(edges, height) for height in json.loads(os.environ["FLANK_HEIGHTS"])],
         "box": box(Part.makeCompound(shapes)) if shapes else None,
         "types": sorted({o.TypeId for o in FreeCAD.ActiveDocument.Objects}),
         "dimensions": sorted(

@@ -37,18 +37,21 @@ function bodyOf({ samples, axis_length: length }) {
   return { low, high, radius, widest };
 }
 
+/** Heights of the flank at which its drawing is measured. */
+const heights = () => Array.from({ length: 20 }, (_, k) => body.low + ((body.high - body.low) * (k + 0.5)) / 20);
+
 before(() => {
   const part = join(root, 'blade.step');
   must('example', 'twisted-blade', '-o', part, '--quiet');
   must('fit', part, '--face', 'F1', '--tolerance', '0.1', '--side', '+', '--shank-radius', `${SHANK.radius}`, '--shank-length', `${SHANK.length}`,
     '--holder', HOLDER.map((p) => p.join(':')).join(','), '-o', folder, '--quiet');
+  tool = json(folder, 'tool.json');
+  body = bodyOf(tool);
   const script = join(dirname(fileURLToPath(import.meta.url)), 'freecad_check.py');
   const { status, stdout, stderr } = spawnSync(freecad, [script], { encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'], timeout: 120000,
-    env: { ...process.env, FLANK_FOLDER: folder, FLANK_RESULT: result, HOME: root, QT_QPA_PLATFORM: 'offscreen' } });
+    env: { ...process.env, FLANK_FOLDER: folder, FLANK_RESULT: result, FLANK_HEIGHTS: JSON.stringify(heights()), HOME: root, QT_QPA_PLATFORM: 'offscreen' } });
   assert.equal(status, 0, stdout + stderr);
-  tool = json(folder, 'tool.json');
   found = JSON.parse(readFileSync(result));
-  body = bodyOf(tool);
 });
 
 const near = (value, expected, within, words) => assert.ok(Math.abs(value - expected) <= within, `${words}: ${value} is not ${expected}`);
@@ -85,9 +88,10 @@ test('strips.step: one B-spline face a strip, through the contact points of the 
 
 test('tool.dxf: the profile in its size, with its dimensions', () => {
   const { drawing } = found;
-  assert.ok(drawing.edges >= 200, JSON.stringify(drawing));
+  assert.equal(drawing.radii?.length, 20, JSON.stringify(drawing));
+  heights().forEach((height, k) => near(drawing.radii[k], body.radius(height), 1e-3, `radius drawn at ${height}`));
   near(drawing.box[4], HOLDER[1][1], 1e-3, 'largest radius drawn');
-  const top = body.high + HOLDER[1][0];
+  const top = body.high + SHANK.length;  // of what is ground: the holder is drawn beside it, and dimensioned by itself
   const { axis_length: length } = tool;
   for (const wanted of [length, top - body.low, 2 * SHANK.radius, SHANK.length, 2 * HOLDER[1][1], HOLDER[1][0] - HOLDER[0][0], body.widest])
     assert.ok(drawing.dimensions.some((d) => Math.abs(d - wanted) < 1e-3), `${wanted} is not among ${drawing.dimensions}`);
