@@ -62,5 +62,17 @@ TEST_F(AstrayBorder, AControlPointOfAnEdgeThatIsElsewhereIsTold) {
   EXPECT_EQ(edges, 4);
 }
 
+// No border follows it, so that nothing else of the file contradicts it.
+TEST_F(AstrayBorder, AControlPointInsideASurfaceThatIsElsewhereIsTold) {
+  const std::regex rows(
+      "B_SPLINE_SURFACE_WITH_KNOTS[^#]*#\\d+(?:,#\\d+)*\\)\\s*,\\(#\\d+(?:,#\\d+)*\\)\\s*,\\(#\\d+,#\\d+,#\\d+,#(\\d+"
+      ")");
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(text_, found, rows));
+  const std::vector<std::string> notes = notes_of(moved(found[1], 40.0));
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_NE(notes.front().find("control point 3, 4 of its surface is"), std::string::npos) << notes.front();
+}
+
 }  // namespace
 }  // namespace flank::internal

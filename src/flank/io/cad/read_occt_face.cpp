@@ -5,6 +5,7 @@
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
 #include <GeomAdaptor_Surface.hxx>
+#include <Geom_BSplineSurface.hxx>
 #include <Precision.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp_Explorer.hxx>
@@ -14,6 +15,7 @@
 #include <limits>
 
 #include "flank/error.h"
+#include "flank/geom/stray_pole.h"
 #include "flank/io/cad/read_occt_trim.h"
 #include "flank/part.h"
 
@@ -119,6 +121,25 @@ void refuse_unusable(const BSplineSurface& s, const std::string& name) {
                                    name, p.x(), p.y(), p.z(), kLargestCoordinateMm));
 }
 
+/// Says which control point of the file's surface went astray: where the border does not follow it, nothing else tells.
+void note_stray_pole(const Handle(Geom_Surface) & surface, const std::string& name, std::vector<std::string>& notes) {
+  const auto spline = Handle(Geom_BSplineSurface)::DownCast(surface);
+  if (spline.IsNull() || spline->IsURational() || spline->IsVRational()) return;
+  BSplineSurface net;
+  net.count_u = spline->NbUPoles();
+  net.count_v = spline->NbVPoles();
+  for (int i = 1; i <= net.count_u; ++i)
+    for (int j = 1; j <= net.count_v; ++j) {
+      const gp_Pnt p = spline->Pole(i, j);
+      net.poles.emplace_back(p.X(), p.Y(), p.Z());
+    }
+  if (const auto stray = stray_pole(net))
+    notes.push_back(fmt::format(
+        "{}: control point {}, {} of its surface is {:.3g} mm off the line of its neighbours, and no other is "
+        "nearly as far; look at it before it is used",
+        name, stray->u + 1, stray->v + 1, stray->off_mm));
+}
+
 }  // namespace
 
 OcctFace convert_occt_face(const TopoDS_Face& face, const std::string& name) {
@@ -139,6 +160,7 @@ OcctFace convert_occt_face(const TopoDS_Face& face, const std::string& name) {
   if (converted.approximation_mm > 0.0)
     result.notes.push_back(name + ": " + result.type + " surface approximated within " +
                            std::to_string(converted.approximation_mm) + " mm");
+  note_stray_pole(surface, name, result.notes);
   const TrimFrame frame = trim_frame(converted.surface, converted.map_u, converted.map_v);
   // Wires in the sense of the surface: the face's own turn is told apart (reversed), and would turn them once more.
   const TopoDS_Face forward = TopoDS::Face(face.Oriented(TopAbs_FORWARD));

@@ -1,0 +1,20 @@
+/// A control point of a surface that went astray: damage that a file does not contradict anywhere else.
+#pragma once
+
+#include <optional>
+
+#include "flank/bspline_surface.h"
+
+namespace flank::internal {
+
+struct StrayPole {
+  int u = 0, v = 0;     ///< its place in the net
+  double off_mm = 0.0;  ///< from where its neighbours lead one to expect it
+};
+
+/// The one control point that lies far from the line of its neighbours in both directions: by more than a hundredth of the size of the net,
+/// and by more than five times as much as any other. A crease is a line of such points, and no stray. None of rational nets, whose
+/// control points are no outline of the surface, and of nets of fewer than four rows or columns, which have too few others.
+[[nodiscard]] std::optional<StrayPole> stray_pole(const BSplineSurface& surface);
+
+}  // namespace flank::internal
