@@ -139,6 +139,43 @@ TEST(SweptEstimate, OfSeveralMotionsIsTheLeastOfEach) {
   }
 }
 
+/// A disc that is hardly longer than its flank is steep: the sphere that touches a point is far from the foot of the point on the axis.
+TEST(SweptEstimate, OfASteepDiscIsThatOfDenseSearch) {
+  const RadialFunction disc = RadialFunction::spline(
+      4.3, (Eigen::VectorXd(10) << 4.7, 4.95, 5.2, 5.4, 5.6, 5.75, 5.85, 5.95, 6.0, 6.05).finished());
+  const RuledMotion motion = testing::translation({0, 0, 0}, {40, 0, 0}, {0.2, 0, 1}, 4.3);
+  const SweptEstimate swept({motion}, disc, 160);
+  Random random(5);
+  const int points = kSanitized ? 10 : 100;
+  for (int k = 0; k < points; ++k) {
+    const double z = random.uniform(0.0, 4.3), y = disc.at(z).r + random.uniform(-0.1, 0.3);
+    const Vec3 x(random.uniform(5.0, 35.0), y, z);
+    // A sphere that is not the nearest one would leave material where there is none.
+    EXPECT_LT(swept.distance(x), dense(motion, disc, x, 600) + 0.004) << x.transpose();
+  }
+}
+
+/// Whatever the hint: of a neighbour, of a place far away, of another motion, or without a value.
+TEST(SweptEstimate, AHintChangesNothing) {
+  const std::vector<RuledMotion> motions{testing::random_motion(5), testing::random_motion(6)};
+  const SweptEstimate swept(motions, bumpy(), 81);
+  SweptContact before, far, lost;
+  far.motion = 1;
+  far.t = 1.0;
+  lost.motion = 0;
+  lost.t = 7.0;
+  for (const Vec3& x : points_near(motions[0], 60, 9)) {
+    const SweptContact alone = swept.nearest(x);
+    for (const SweptContact& hint : {before, far, lost}) {
+      const SweptContact found = swept.nearest(x, hint);
+      EXPECT_EQ(found.f, alone.f);
+      EXPECT_EQ(found.motion, alone.motion);
+      EXPECT_EQ(found.t, alone.t);
+    }
+    before = alone;
+  }
+}
+
 TEST(SweptEstimate, FindsPlacesForARadialFunctionThatIsNoTool) {
   // A barrel on an axis that is too long for it: r < 0 at both ends.
   const std::vector<RuledMotion> motions{testing::straight_motion(80.0)};

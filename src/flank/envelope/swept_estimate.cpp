@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "flank/base/assert.h"
 
@@ -17,12 +18,6 @@ constexpr int kTable = 256;
 /// Least 1 - r'^2: |r'| >= 1 is no tool, but a fit may pass through it.
 constexpr double kLeastCosineSquared = 1e-6;
 
-double interpolate(const std::vector<double>& table, double x) {
-  if (std::isnan(x)) return x;  // of a pose without a value: no place of the table
-  const int k = std::min(static_cast<int>(x), kTable - 1);
-  const double f = x - k;
-  return table[k] + f * (table[k + 1] - table[k]);
-}
 }  // namespace
 
 SweptEstimate::SweptEstimate(const std::vector<RuledMotion>& motions, const RadialFunction& radial, int poses)
@@ -41,36 +36,67 @@ SweptEstimate::SweptEstimate(const std::vector<RuledMotion>& motions, const Radi
       travel.push_back(travel.back() + step);
     }
   }
+  table_.resize(kTable + 1);
   for (int k = 0; k <= kTable; ++k) {
     const RadialJet jet = radial.at(axis_length_ * k / kTable);
-    radius_.push_back(jet.r);
-    slope_over_cosine_.push_back(jet.d1 / std::sqrt(std::max(kLeastCosineSquared, 1.0 - jet.d1 * jet.d1)));
+    Row& row = table_[static_cast<std::size_t>(k)];
+    row.radius = jet.r;
+    row.slope = jet.d1 / std::sqrt(std::max(kLeastCosineSquared, 1.0 - jet.d1 * jet.d1));
+    if (k == 0) continue;
+    Row& before = table_[static_cast<std::size_t>(k) - 1];
+    before.more_radius = row.radius - before.radius;
+    before.more_slope = row.slope - before.slope;
   }
   least_radius_ = radial.smallest();
   largest_radius_ = radial.largest();
   if (!std::isnan(least_radius_)) return;
   // A fit may pass through parameters that leave r without a value somewhere: the range of the table's values then.
-  least_radius_ = largest_radius_ = radius_.front();
-  for (const double r : radius_) {
-    least_radius_ = std::min(least_radius_, r);
-    largest_radius_ = std::max(largest_radius_, r);
+  least_radius_ = largest_radius_ = table_.front().radius;
+  for (const Row& row : table_) {
+    least_radius_ = std::min(least_radius_, row.radius);
+    largest_radius_ = std::max(largest_radius_, row.radius);
   }
 }
 
 double SweptEstimate::at_pose(const Pose& pose, const Vec3& x) const {
   const Vec3 q = x - pose.tip;
   const double z = q.dot(pose.axis);
+  if (std::isnan(z)) return z;  // of a pose without a value: no place of the table
   const double rho2 = std::max(0.0, q.squaredNorm() - z * z);
   const double rho = std::sqrt(rho2);
-  // The sphere that touches x is at s = z + r' rho / sqrt(1 - r'^2). Two fixed-point steps: r' varies little over the
-  // second.
-  double s = std::clamp(z, 0.0, axis_length_);
-  for (int k = 0; k < 2; ++k)
-    s = std::clamp(z + rho * interpolate(slope_over_cosine_, s * per_length_), 0.0, axis_length_);
-  const double near = std::sqrt(rho2 + (z - s) * (z - s)) - interpolate(radius_, s * per_length_);
-  // A profile that flares at an end, where nothing held it, has a second nearest sphere there.
+  // The sphere that touches x is at s = z + r' rho / sqrt(1 - r'^2): steps of Newton, or of the fixed point where a hollow profile has
+  // several such spheres. f is off by the square of the last step over twice rho.
+  constexpr double kLeastSlope = 0.3, kSettled = 0.25;  // no unit; intervals of the table
+  constexpr int kMostSteps = 4;
+  double s = std::clamp(z, 0.0, axis_length_), share = 0.0;
+  const Row* row = nullptr;
+  const auto look_up = [&] {
+    const double place = s * per_length_;
+    const int k = std::min(static_cast<int>(place), kTable - 1);
+    share = place - k;
+    row = table_.data() + k;
+  };
+  double last = 1.0;
+  for (int k = 0; k < kMostSteps && !(std::abs(last) < kSettled); ++k) {
+    look_up();
+    const double slope = 1.0 - rho * row->more_slope * per_length_;
+    const double step = z + rho * (row->slope + share * row->more_slope) - s;
+    const double next = std::clamp(s + step / (slope > kLeastSlope ? slope : 1.0), 0.0, axis_length_);
+    last = (next - s) * per_length_;
+    s = next;
+  }
+  if (std::isnan(s)) return s;  // of a radial function without a value
+  look_up();
+  double least = std::sqrt(rho2 + (z - s) * (z - s)) - (row->radius + share * row->more_radius);
+  // A profile that flares at an end, where nothing held it, has a second nearest sphere there. Mostly it has not, and no root is needed
+  // to know it.
   const double past = z - axis_length_;
-  return std::min({near, std::sqrt(rho2 + z * z) - radius_.front(), std::sqrt(rho2 + past * past) - radius_.back()});
+  for (const auto& [square, radius] :
+       {std::pair(rho2 + z * z, table_.front().radius), std::pair(rho2 + past * past, table_.back().radius)}) {
+    const double reach = least + radius;
+    if (reach > 0.0 && square < reach * reach) least = std::sqrt(square) - radius;
+  }
+  return least;
 }
 
 double SweptEstimate::floor_at(const Pose& pose, const Vec3& x) const {
@@ -97,29 +123,37 @@ std::size_t SweptEstimate::next_pose(std::size_t motion, std::size_t at, double 
   return static_cast<std::size_t>(std::upper_bound(first, travel.end(), until) - travel.begin());
 }
 
-std::size_t SweptEstimate::nearest_pose(std::size_t motion, const Vec3& x, double& least) const {
+SweptEstimate::Tabulated SweptEstimate::nearest_pose(std::size_t motion, const Vec3& x, const Tabulated& bound) const {
   const std::vector<Pose>& poses = poses_[motion];
-  // Every twelfth pose first: a low value early lets the walk below take long jumps.
-  constexpr std::size_t kCoarse = 12;
-  std::size_t at = 0;
-  least = std::numeric_limits<double>::infinity();
-  const auto look = [&](std::size_t i) {
-    double f = floor_at(poses[i], x);
-    if (f >= least) return f;
-    f = at_pose(poses[i], x);
-    if (f < least) {
-      least = f;
-      at = i;
-    }
-    return f;
-  };
-  for (std::size_t i = kCoarse / 2; i < poses.size(); i += kCoarse) look(i);
+  Tabulated best = bound;
   // From pose to pose f changes by no more than the axis travels: far poses are jumped over.
   for (std::size_t i = 0; i < poses.size();) {
-    const double f = look(i);
-    i = next_pose(motion, i, f - least);
+    double f = floor_at(poses[i], x);
+    if (!(f >= best.f)) {
+      f = at_pose(poses[i], x);
+      if (f < best.f) best = {i, f};
+    }
+    i = next_pose(motion, i, f - best.f);
   }
-  return at;
+  return best;
+}
+
+SweptEstimate::Tabulated SweptEstimate::nearest_pose(std::size_t motion, const Vec3& x) const {
+  const std::vector<Pose>& poses = poses_[motion];
+  // Every twelfth pose first: a low value early lets the walk take long jumps.
+  constexpr std::size_t kCoarse = 12;
+  Tabulated best;
+  for (std::size_t i = kCoarse / 2; i < poses.size(); i += kCoarse) {
+    if (floor_at(poses[i], x) >= best.f) continue;
+    const double f = at_pose(poses[i], x);
+    if (f < best.f) best = {i, f};
+  }
+  return nearest_pose(motion, x, best);
+}
+
+SweptEstimate::Tabulated SweptEstimate::at_hint(const SweptContact& hint, const Vec3& x) const {
+  const auto at = static_cast<std::size_t>(std::lround(std::clamp(hint.t, 0.0, 1.0) / spacing()));
+  return {at, at_pose(poses_[static_cast<std::size_t>(hint.motion)][at], x)};
 }
 
 double SweptEstimate::slack(std::size_t motion) const {
@@ -131,17 +165,9 @@ double SweptEstimate::slack(std::size_t motion) const {
 }
 
 double SweptEstimate::bound(const Vec3& x, const SweptContact& hint) const {
+  if (hint.motion >= 0) return at_hint(hint, x).f + slack(static_cast<std::size_t>(hint.motion));
   double bound = std::numeric_limits<double>::infinity();
-  if (hint.motion >= 0) {
-    const auto m = static_cast<std::size_t>(hint.motion);
-    const double at = std::clamp(hint.t, 0.0, 1.0) / spacing();
-    return at_pose(poses_[m][static_cast<std::size_t>(std::lround(at))], x) + slack(m);
-  }
-  for (std::size_t m = 0; m < poses_.size(); ++m) {
-    double f = 0.0;
-    (void)nearest_pose(m, x, f);
-    bound = std::min(bound, f + slack(m));
-  }
+  for (std::size_t m = 0; m < poses_.size(); ++m) bound = std::min(bound, nearest_pose(m, x).f + slack(m));
   return bound;
 }
 
@@ -177,29 +203,41 @@ void SweptEstimate::places(const Vec3& x, const SweptContact& hint, std::vector<
   if (best.motion >= 0 && std::isfinite(best.f)) places.push_back(best);
 }
 
-SweptContact SweptEstimate::nearest(const Vec3& x) const {
+SweptContact SweptEstimate::nearest(const Vec3& x, const SweptContact& hint) const {
   SweptContact best;
   best.f = std::numeric_limits<double>::infinity();
-  for (std::size_t m = 0; m < poses_.size(); ++m) {
-    const std::vector<Pose>& poses = poses_[m];
-    double least = 0.0;
-    const std::size_t at = nearest_pose(m, x, least);
-    // Vertex of the parabola through the least pose and its neighbours: at a minimum f is smooth in t.
-    double t = static_cast<double>(at);
-    if (at > 0 && at + 1 < poses.size()) {
-      const double a = at_pose(poses[at - 1], x), b = at_pose(poses[at + 1], x);
-      const double bend = a + b - 2.0 * least;
-      if (bend > 0.0) {
-        least -= (a - b) * (a - b) / (8.0 * bend);
-        t += 0.5 * (a - b) / bend;
-      }
-    }
-    if (least >= best.f) continue;
-    best.f = least;
-    best.motion = static_cast<int>(m);
-    best.t = t * spacing();
-  }
+  const auto look = [&](std::size_t m) {
+    const std::size_t none = poses_[m].size();
+    Tabulated least{none, best.f + slack(m)};
+    if (hint.motion == static_cast<int>(m)) least = at_hint(hint, x);
+    least = std::isfinite(least.f) ? nearest_pose(m, x, least) : nearest_pose(m, x);
+    if (least.at == none) return;  // nothing nearer than that of another motion
+    const SweptContact found = at_vertex(m, least, x);
+    if (found.f < best.f) best = found;
+  };
+  // A motion that is near keeps the search of the others short.
+  if (hint.motion >= 0) look(static_cast<std::size_t>(hint.motion));
+  for (std::size_t m = 0; m < poses_.size(); ++m)
+    if (hint.motion != static_cast<int>(m)) look(m);
   return best;
+}
+
+SweptContact SweptEstimate::at_vertex(std::size_t motion, const Tabulated& least, const Vec3& x) const {
+  const std::vector<Pose>& poses = poses_[motion];
+  SweptContact found;
+  found.motion = static_cast<int>(motion);
+  found.f = least.f;
+  double t = static_cast<double>(least.at);
+  if (least.at > 0 && least.at + 1 < poses.size()) {
+    const double a = at_pose(poses[least.at - 1], x), b = at_pose(poses[least.at + 1], x);
+    const double bend = a + b - 2.0 * least.f;
+    if (bend > 0.0) {
+      found.f -= (a - b) * (a - b) / (8.0 * bend);
+      t += 0.5 * (a - b) / bend;
+    }
+  }
+  found.t = t * spacing();
+  return found;
 }
 
 }  // namespace flank::internal

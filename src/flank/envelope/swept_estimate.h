@@ -2,6 +2,7 @@
 /// motions. The judge has its own, exact one.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "flank/envelope/contact_refiner.h"
@@ -18,11 +19,12 @@ class SweptEstimate {
   SweptEstimate(const std::vector<RuledMotion>& motions, const RadialFunction& radial, int poses);
 
   /// Estimate of f: least over the tabulated poses, improved by a parabola through its neighbours; the axis parameter
-  /// of a contact by two fixed-point steps s = z + r' rho / sqrt(1 - r'^2). Error of third order in the spacing of the
+  /// of a contact by Newton steps to s = z + r' rho / sqrt(1 - r'^2). Error of third order in the spacing of the
   /// poses.
   [[nodiscard]] double distance(const Vec3& x) const { return nearest(x).f; }
-  /// The same with its place: motion, t and f (s and to_axis are not filled).
-  [[nodiscard]] SweptContact nearest(const Vec3& x) const;
+  /// The same with its place: motion, t and f (s and to_axis are not filled). `hint` is a place near which it is expected, as that of a
+  /// point beside x (motion -1: none); it saves time and changes nothing.
+  [[nodiscard]] SweptContact nearest(const Vec3& x, const SweptContact& hint = {}) const;
   /// Tabulated poses that may lead to the least f: of every run of poses near the least value its best one, all motions
   /// together (motion, t and f). Between poses f can be lower by what a step along the path allows: values within that
   /// of the least count. `places` is cleared first; it stays empty only if no pose has a distance. `hint` is a place near which the least is expected (motion -1:
@@ -41,15 +43,31 @@ class SweptEstimate {
   [[nodiscard]] double floor_at(const Pose& pose, const Vec3& x) const;
   /// The next pose after `at` where f may be lower by more than `spare`.
   [[nodiscard]] std::size_t next_pose(std::size_t motion, std::size_t at, double spare) const;
-  [[nodiscard]] std::size_t nearest_pose(std::size_t motion, const Vec3& x, double& least) const;
+  /// A tabulated pose and its f.
+  struct Tabulated {
+    std::size_t at = 0;
+    double f = std::numeric_limits<double>::infinity();
+  };
+  /// The pose of least f, if that is below `bound.f`; else `bound`.
+  [[nodiscard]] Tabulated nearest_pose(std::size_t motion, const Vec3& x, const Tabulated& bound) const;
+  /// The same where nothing is known yet.
+  [[nodiscard]] Tabulated nearest_pose(std::size_t motion, const Vec3& x) const;
+  /// The pose nearest to a hint.
+  [[nodiscard]] Tabulated at_hint(const SweptContact& hint, const Vec3& x) const;
+  /// The vertex of the parabola through a least pose and its neighbours: at a minimum f is smooth in t.
+  [[nodiscard]] SweptContact at_vertex(std::size_t motion, const Tabulated& least, const Vec3& x) const;
   [[nodiscard]] double slack(std::size_t motion) const;
   [[nodiscard]] double bound(const Vec3& x, const SweptContact& hint) const;
 
   ContactRefiner refiner_;
   std::vector<std::vector<Pose>> poses_;
   std::vector<double> stride_;  ///< of each motion: no point of the axis moves farther from one pose to the next
-  std::vector<std::vector<double>> travel_;         ///< of each motion, up to each pose: the sum of such steps
-  std::vector<double> radius_, slope_over_cosine_;  ///< r and r'/sqrt(1-r'^2) at equal steps of s
+  std::vector<std::vector<double>> travel_;  ///< of each motion, up to each pose: the sum of such steps
+  /// r and r'/sqrt(1-r'^2) at a step of s, and by how much they grow to the next.
+  struct Row {
+    double radius = 0.0, more_radius = 0.0, slope = 0.0, more_slope = 0.0;
+  };
+  std::vector<Row> table_;
   double axis_length_;
   double per_length_;  ///< table intervals per mm
   double least_radius_ = 0.0, largest_radius_ = 0.0;

@@ -75,8 +75,9 @@ std::vector<double> estimate_distances(const std::vector<SurfaceSample>& samples
   std::vector<double> distances(samples.size());
   count_work(samples.size());
   parallel_blocks(samples.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    SweptContact near;  // of the sample before: mostly a neighbour
     for (std::size_t k = begin; k < end; ++k) {
-      const SweptContact near = swept.nearest(samples[k].point);
+      near = swept.nearest(samples[k].point, near);
       distances[k] = near.f;
       if (near.f < 0.0 && near.motion >= 0) distances[k] = swept.refine(samples[k].point, near).f;
     }
