@@ -18,7 +18,7 @@ FlankFitResult result_of(double covers, double gouge_mm) {
 
 /// After how many results, each clean and covering so much, the search ends; 0: it would go on.
 int ends_after(const std::vector<double>& covers) {
-  StripGain gain(kTolerance);
+  StripGain gain(kTolerance, 0.99);
   for (std::size_t k = 0; k < covers.size(); ++k)
     if (!gain.goes_on(result_of(covers[k], 0.05))) return static_cast<int>(k) + 1;
   return 0;
@@ -34,14 +34,18 @@ TEST(StripGain, WhereLittleIsMissingLessIsAGainAndFourMayBeNone) {
 }
 
 TEST(StripGain, WhereFacetsLimitWhatCanBeCoveredOneThatGainsNothingIsTheLast) {
-  StripGain gain(kTolerance, true);
+  StripGain gain(kTolerance, 0.99, true);
   EXPECT_TRUE(gain.goes_on(result_of(0.6, 0.05)));
   EXPECT_TRUE(gain.goes_on(result_of(0.93, 0.05)));
   EXPECT_FALSE(gain.goes_on(result_of(0.932, 0.05)));
 }
 
+TEST(StripGain, WhereAllIsCoveredAndSomethingElseIsAmissOneMoreIsTried) {
+  EXPECT_EQ(ends_after({0.995, 0.996, 0.997}), 2);
+}
+
 TEST(StripGain, WhatRunsThroughAnotherFaceIsNothingToBeat) {
-  StripGain gain(kTolerance);
+  StripGain gain(kTolerance, 0.99);
   // One strip covers all but a little, straight through the hub; two cover less and enter nothing.
   EXPECT_TRUE(gain.goes_on(result_of(0.93, 20.0)));
   EXPECT_TRUE(gain.goes_on(result_of(0.85, 0.05)));
@@ -49,14 +53,14 @@ TEST(StripGain, WhatRunsThroughAnotherFaceIsNothingToBeat) {
 }
 
 TEST(StripGain, WhatRunsThroughAnotherFaceTellsNothingOfWhatFacetsLimit) {
-  StripGain gain(kTolerance, true);
+  StripGain gain(kTolerance, 0.99, true);
   EXPECT_TRUE(gain.goes_on(result_of(0.6, 20.0)));
   EXPECT_TRUE(gain.goes_on(result_of(0.93, 0.05)));
   EXPECT_FALSE(gain.goes_on(result_of(0.93, 0.05)));
 }
 
 TEST(StripGain, AToolThatWasBeatenButIsNearlyCleanIsAPromise) {
-  StripGain gain(kTolerance);
+  StripGain gain(kTolerance, 0.99);
   EXPECT_TRUE(gain.goes_on(result_of(0.5, 0.05)));
   EXPECT_TRUE(gain.goes_on(result_of(0.5, 0.05)));
   FlankFitResult third = result_of(0.5, 0.05);

@@ -86,7 +86,7 @@ void rough_fit(Candidate& candidate, const FitDraft& draft, const Target& target
   candidate.draft = run_stage(draft, options.bounds, stage);
   if (!has_values(candidate.draft)) return;
   candidate.estimate = rough_estimate(candidate.draft, samples, options.tolerance_mm, kQuickPoses);
-  candidate.estimate.unheld = unheld_share(candidate.draft.motions, options);
+  candidate.estimate.unheld = unheld_share(candidate.draft.motions, candidate.draft.tool, options);
   candidate.score = rough_score(candidate.estimate, options.tolerance_mm);
 }
 

@@ -89,7 +89,7 @@ Polished assess(FitDraft draft, const std::vector<SurfaceSample>& samples, const
   polished.estimate.gouge_mm = flank_gouge(draft.motions, draft.obstacles, draft.tool, kRankingPoses);
   measure_motion(draft, options, polished.estimate,
                  [](const RuledMotion& motion) { return even_poses(motion, kRankingPoses); });
-  polished.estimate.unheld = unheld_share(draft.motions, options);
+  polished.estimate.unheld = unheld_share(draft.motions, draft.tool, options);
   if (draft.free_tool) {
     polished.estimate.slenderness = slenderness_of(draft.tool, options.bounds);
     polished.estimate.least_slenderness = draft.tool.axis_length() / (2.0 * options.bounds.largest);

@@ -46,9 +46,13 @@ bool is_stiff(const CoverageEstimate& estimate, const FlankFitOptions& options) 
   return estimate.slenderness <= kRounding * std::max(options.bounds.slenderest, estimate.least_slenderness);
 }
 
+bool covers(const CoverageEstimate& estimate, double share, const FlankFitOptions& options) {
+  return estimate.at_tolerance >= share && is_clean(estimate, options.tolerance_mm);
+}
+
 bool meets(const CoverageEstimate& estimate, double share, const FlankFitOptions& options) {
-  return estimate.at_tolerance >= share && is_clean(estimate, options.tolerance_mm) && estimate.unheld <= 0.0 &&
-         is_steady(estimate) && is_stiff(estimate, options);
+  return covers(estimate, share, options) && estimate.unheld <= 0.0 && is_steady(estimate) &&
+         is_stiff(estimate, options);
 }
 
 Rank rank_of(const CoverageEstimate& estimate, const FlankFitOptions& options, bool exact) {

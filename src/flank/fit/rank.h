@@ -25,6 +25,9 @@ inline constexpr double kSameCoverage = 1e-3;
 /// No more slender than the options let a free tool be; true where no cylinder is that is as thick as they allow.
 [[nodiscard]] bool is_stiff(const CoverageEstimate& estimate, const FlankFitOptions& options);
 
+/// Covers at least this share of what is reachable, and is clean: strips more, other ways and thinner tools are for what does not.
+[[nodiscard]] bool covers(const CoverageEstimate& estimate, double share, const FlankFitOptions& options);
+
 /// The one answer to "is it good enough": covers at least this share of what is reachable, is clean, held, steady and stiff.
 [[nodiscard]] bool meets(const CoverageEstimate& estimate, double share, const FlankFitOptions& options);
 

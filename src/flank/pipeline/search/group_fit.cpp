@@ -75,7 +75,7 @@ class StripSearch {
         options_(options),
         demand_(demand),
         wanted_(wanted),
-        gain_(options.tolerance_mm, !options.ways) {}
+        gain_(options.tolerance_mm, wanted, !options.ways) {}
 
   FlankFitResult run(const Progress& progress) {
     for (const Trial& trial : kSchedule) {
@@ -99,14 +99,15 @@ class StripSearch {
   /// One strip that is far from doing it is not worth its last passes.
   [[nodiscard]] bool is_worth(const Trial& trial) const {
     constexpr double kFar = 0.5;  // of the face
-    if (!trial.full) return true;
+    // Strips are for what is not covered: where nothing could hold the tool they change nothing.
+    if (!trial.full) return best_.after.unheld <= 0.0 || !covers(best_.after, wanted_, options_);
     return best_.after.unheld <= 0.0 && options_.ways && one_covers_ >= kFar && (!trial.soft || demand_.soften);
   }
 
   void try_strips(const Trial& trial, const Progress& progress) {
     FlankFitOptions options = options_;
     options.strips = trial.strips;
-    options.ways = options_.ways && !ways_last_;
+    options.ways = options_.ways && !ways_last_ && !covers(best_.after, wanted_, options_);
     options.least_coverage_for_last_passes = trial.strips < demand_.most_strips ? kPromising : 0.0;
     options.least_coverage_for_close_look = least_to_look_at(best_, options);
     FlankFitResult result = fit_automatic(target_, tool_, options, progress);
@@ -172,9 +173,9 @@ FlankFitResult fit_group(const Target& target, const ToolModel& tool, FlankFitOp
     options.strips = 1;
     keep_better(best, fit_automatic(target, tool, options, progress.part(kFirst, kSoften)), options);
   }
-  // What facets keep from a motion no slender tool brings back.
-  // Nor does it let anything hold a tool where nothing could.
-  if (done(best) || meets_softly(best, wanted, options) || !options.ways || !demand.soften || best.after.unheld > 0.0) {
+  // What facets keep from a motion no slender tool brings back, nor does it mend what covers all.
+  const bool enough = done(best) || covers(best.after, wanted, options);
+  if (enough || !options.ways || !demand.soften || best.after.unheld > 0.0) {
     note_slenderness(tool, options, best);
     return best;
   }

@@ -27,7 +27,8 @@ bool StripGain::goes_on(const FlankFitResult& best) {
   promised_ = std::max(promised_, promised);
   const int most = covered >= kNearlyAll ? kMostWithoutNear : kMostWithout;
   // What has covered nothing yet, because it runs through other faces, tells nothing of what facets leave.
-  return without_gain_ < (facets_limit_ && promised_ > 0.0 ? 1 : most);
+  const bool all_there_is = covered >= wanted_ || (facets_limit_ && promised_ > 0.0);
+  return without_gain_ < (all_there_is ? 1 : most);
 }
 
 }  // namespace flank::internal
