@@ -42,4 +42,5 @@ endif()
 # Machines and the catalogue of tools come with the command.
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS openflank)
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Flank milling of free-form surfaces: the Python module\nThe module openflank: the commands as functions, NumPy arrays, the judge.")
+set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/debian/documents.cmake)
 include(CPack)
