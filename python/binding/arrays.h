@@ -77,7 +77,7 @@ template <class Struct, class T>
 
 /// A 1-D array of numbers. Throws UsageError naming the argument.
 [[nodiscard]] inline std::span<const double> numbers_of(const Doubles& array, const std::string& name) {
-  if (array.ndim() != 1) throw UsageError(name, "an array of one dimension is needed");
+  if (array.ndim() != 1) throw UsageError(name, "expected an array of one dimension");
   return {array.data(), static_cast<std::size_t>(array.size())};
 }
 

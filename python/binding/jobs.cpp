@@ -39,7 +39,7 @@ py::tuple run(const std::string& command, const Fields& fields, const py::object
     else if (command == "trochoid")
       *result = run_trochoid(job_of<TrochoidJob>(fields), progress);
     else
-      throw UsageError("command", command, "there are fit, cover and trochoid");
+      throw UsageError("command", command, "must be fit, cover or trochoid");
   }
   return py::make_tuple(result, stop.reason());
 }

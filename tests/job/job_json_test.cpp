@@ -152,12 +152,12 @@ TEST(JobFile, FilesOfEarlierVersionsRead) {
 
 TEST(JobFile, RefusesWhatIsWrongByItsName) {
   EXPECT_EQ(refusal(changed("units", "mm")), "accepted");
-  EXPECT_NE(refusal(changed("units", "in")).find("units: is \"in\"; accepted is \"mm\""), std::string::npos);
+  EXPECT_NE(refusal(changed("units", "in")).find("units: is \"in\"; expected \"mm\""), std::string::npos);
   for (const char* key : {"part", "faces"})
     EXPECT_NE(refusal(changed(key, nullptr)).find(std::string(key) + ": is missing"), std::string::npos);
   EXPECT_NE(refusal(changed("tolerence", 0.1)).find("tolerence: is no key"), std::string::npos);
   EXPECT_NE(refusal(changed("strategy", "grow")).find("strategy: is no key"), std::string::npos) << "of a cover";
-  EXPECT_NE(refusal(changed("tolerance", "0.1")).find("tolerance: a number is needed"), std::string::npos);
+  EXPECT_NE(refusal(changed("tolerance", "0.1")).find("tolerance: expected a number"), std::string::npos);
   EXPECT_NE(refusal(changed("tolerance", -0.1)).find("tolerance_mm -0.1"), std::string::npos);
   EXPECT_NE(refusal(changed("strips", 1.5)).find("strips: a whole number"), std::string::npos);
   EXPECT_NE(refusal(changed("strips", 1e12)).find("strips: a whole number"), std::string::npos);
