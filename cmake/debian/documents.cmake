@@ -1,5 +1,9 @@
 # Run by CPack between staging and packaging: each Debian package gets its copyright and changelog, as Debian's policy wants them. What other
 # installations have instead, LICENSE and NOTICE in a folder of the project's name, is left out.
+file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/changelog first LIMIT_COUNT 1)
+if(NOT first MATCHES "^openflank [(]${CPACK_PACKAGE_VERSION}-")
+  message(FATAL_ERROR "cmake/debian/changelog begins with '${first}'; expected the version ${CPACK_PACKAGE_VERSION}")
+endif()
 set(packages command openflank dev libopenflank-dev python python3-openflank)
 while(packages)
   list(POP_FRONT packages component package)
