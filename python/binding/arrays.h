@@ -58,7 +58,7 @@ template <class Struct, class T>
 /// The rows of an N x width array. Throws UsageError naming the argument.
 [[nodiscard]] inline std::size_t rows(const Doubles& array, py::ssize_t width, const std::string& name) {
   if (array.ndim() != 2 || array.shape(1) != width)
-    throw UsageError(name, "an array N x " + std::to_string(width) + " is needed");
+    throw UsageError(name, "expected an array N x " + std::to_string(width));
   return static_cast<std::size_t>(array.shape(0));
 }
 

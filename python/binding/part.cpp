@@ -178,7 +178,7 @@ void bind_part(py::module_& module) {
   module.def(
       "read_part", &read, py::arg("file"), py::arg("unit") = py::none(), py::arg("pieces") = "",
       ("Reads a " + part_formats() +
-       " file. unit (\"mm\", \"cm\", \"m\", \"in\") is needed for a mesh, "
+       " file. unit (\"mm\", \"cm\", \"m\", \"in\") is required for a mesh, "
        "whose file has none. pieces: faces to be split into sides and edges, \"F1a\". Raises InputError naming the "
        "file and what would be accepted.")
           .c_str());

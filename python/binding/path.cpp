@@ -38,7 +38,7 @@ std::vector<Pose> poses_of(const Doubles& array, const std::string& where) {
     const double length = poses[k].axis.norm();
     if (!(std::abs(length - 1.0) <= kAxisLengthRounded) || !poses[k].tip.allFinite())
       throw UsageError(
-          "poses", where + ", pose " + std::to_string(k) + ": x, y, z, i, j, k with a unit vector (i, j, k) is needed");
+          "poses", where + ", pose " + std::to_string(k) + ": expected x, y, z, i, j, k with a unit vector (i, j, k)");
     if (std::abs(length - 1.0) > kAxisLengthExact) poses[k].axis /= length;
   }
   return poses;

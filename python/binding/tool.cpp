@@ -52,12 +52,12 @@ Tool make_tool(const std::string& name, double axis_length_mm, const Doubles& sh
                const py::kwargs& given) {
   const std::optional<ToolFamily> family = family_from_name(name);
   if (!family || parameter_names(*family).empty())
-    throw UsageError("family", name, "there are " + tool_families() + "; Tool.spline and Tool.load make others");
+    throw UsageError("family", name, "expected " + tool_families() + "; Tool.spline and Tool.load make others");
   require_length(axis_length_mm);
   Eigen::VectorXd parameters(static_cast<Eigen::Index>(parameter_names(*family).size()));
   for (int k = 0; k < parameters.size(); ++k) {
     const std::string key = keyword(*family, k);
-    if (!given.contains(key)) throw UsageError(key, "is needed; a " + name + " has " + keywords(*family));
+    if (!given.contains(key)) throw UsageError(key, "must be given; a " + name + " has " + keywords(*family));
     parameters[k] = given[key.c_str()].cast<double>() * (parameter_is_angle(*family, k) ? kRadiansPerDegree : 1.0);
   }
   for (const auto& [key, unused] : given) {
