@@ -71,7 +71,8 @@ std::string parse_complaint(const CLI::ParseError& error, const CLI::App* comman
   if (command == nullptr) return "give a command (see flank --help)";
   const std::string hint = fmt::format(" (see flank {} --help)", command->get_name());
   // An option that is wrong comes first: what it stands for may be what is missing.
-  if (error.get_name() != "ExtrasError" && error.get_name() != "RequiredError") return error.what() + hint;
+  const auto code = static_cast<CLI::ExitCodes>(error.get_exit_code());
+  if (code != CLI::ExitCodes::ExtrasError && code != CLI::ExitCodes::RequiredError) return error.what() + hint;
   std::vector<std::string> known;
   for (const CLI::Option* option : command->get_options())
     for (const std::string& name : option->get_lnames()) known.push_back("--" + name);

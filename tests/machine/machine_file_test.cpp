@@ -80,8 +80,8 @@ TEST(MachineFile, SaysLineAndColumnAndWhatWouldBeAccepted) {
   expect_refused("name = ", "m.toml: line 1, column ");
   expect_refused(replaced(good, "kind = \"rotary\"", "kind = \"round\""), "line 10, column 8",
                  "expected \"linear\", \"rotary\"");
-  expect_refused(replaced(good, "speed_deg_s = 100", "speed_deg_s = -1"), "speed_deg_s: a number from");
-  expect_refused(replaced(good, "speed_deg_s = 100", "speed_deg_s = \"fast\""), "speed_deg_s: a number from");
+  expect_refused(replaced(good, "speed_deg_s = 100", "speed_deg_s = -1"), "speed_deg_s: expected a number from");
+  expect_refused(replaced(good, "speed_deg_s = 100", "speed_deg_s = \"fast\""), "speed_deg_s: expected a number from");
   expect_refused(replaced(good, "speed_deg_s = 100", "speed = 100"), "speed_deg_s: is missing");
   expect_refused(replaced(good, "speed_deg_s = 100", "speed_deg_s = 100\nspeeed = 3"), "speeed: unknown key",
                  "speed_deg_s");
