@@ -9,7 +9,8 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+# Below any revision of the distribution itself, whose package then takes the place of this one.
+set(CPACK_DEBIAN_PACKAGE_RELEASE 0upstream1)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
 set(CPACK_COMPONENTS_ALL dev)
@@ -42,4 +43,5 @@ endif()
 # Machines and the catalogue of tools come with the command.
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS openflank)
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Flank milling of free-form surfaces: the Python module\nThe module openflank: the commands as functions, NumPy arrays, the judge.")
+set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/debian/documents.cmake)
 include(CPack)

@@ -13,14 +13,16 @@ std::function<BatchRun()> add_batch_options(CLI::App& app) {
   auto processes = std::make_shared<int>(0);
   auto engine = std::make_shared<std::string>("local");
   app.add_option("-o,--output", batch->folder, "Folder for all results")->required();
-  app.add_option("--processes", *processes, "Tasks at a time; 0: one for each core. The results do not depend on it")
+  app.add_option("--processes", *processes,
+                 "Number of tasks at a time; 0: one for each core. The results do not depend on it")
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));
-  app.add_option("--engine", *engine,
-                 "local: here; slurm: as job arrays of Slurm, --processes of them at a time; 0: as many as it lets run")
+  app.add_option(
+         "--engine", *engine,
+         "local: on this machine; slurm: as job arrays of Slurm, --processes at a time (0: as many as it allows)")
       ->capture_default_str()
       ->check(CLI::IsMember({"local", "slurm"}));
-  app.add_flag("--resume", batch->resume, "Keep what an earlier run of the same tasks has done");
+  app.add_flag("--resume", batch->resume, "Keep the finished tasks of an earlier run");
   return [batch, processes, engine] {
     BatchRun run = *batch;
     run.program = std::filesystem::read_symlink("/proc/self/exe").string();

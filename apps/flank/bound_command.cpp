@@ -15,7 +15,7 @@ using namespace internal;
 
 Subcommand add_bound(CLI::App& parser) {
   CLI::App* app = parser.add_subcommand(
-      "bound", "Prove what a tool cannot do on a face: the longest contact anywhere, and places that no pose finishes");
+      "bound", "Prove what a tool cannot do on a face: longest contact, and areas it can never finish");
   auto job = std::make_shared<BoundJob>();
   auto folder = std::make_shared<std::string>();
   FlagNames names = add_job_options(*app, *job);

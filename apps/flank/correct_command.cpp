@@ -15,7 +15,7 @@ using namespace internal;
 
 Subcommand add_correct(CLI::App& parser) {
   CLI::App* app = parser.add_subcommand(
-      "correct", "Fit a new motion for the tool as it was ground, or against the error of a face as it was cut");
+      "correct", "Correct the motion for the tool as ground, or against the error of the face as cut");
   auto job = std::make_shared<CorrectJob>();
   auto folder = std::make_shared<std::string>();
   FlagNames names = add_job_options(*app, *job);

@@ -15,9 +15,8 @@ namespace flank::cli {
 using namespace internal;
 
 Subcommand add_design(CLI::App& parser) {
-  CLI::App* app = parser.add_subcommand(
-      "design",
-      "Find the set of tools that finishes several faces in the least time, and judge every tool on every face");
+  CLI::App* app =
+      parser.add_subcommand("design", "Find the set of tools that finishes several faces in the least time");
   auto job = std::make_shared<DesignJob>();
   FlagNames names = add_job_options(*app, *job);
   const auto batch = add_batch_options(*app);

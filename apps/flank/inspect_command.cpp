@@ -36,14 +36,17 @@ struct WheelOptions {
 
 std::shared_ptr<WheelOptions> add_wheel_options(CLI::App& app) {
   auto wheel = std::make_shared<WheelOptions>();
-  CLI::Option* asked =
-      app.add_flag("--wheel", wheel->asked, "What the faces of a wheel are: hub, blades, sides, edges, tips, fillets");
+  CLI::Option* asked = app.add_flag("--wheel", wheel->asked,
+                                    "Name the faces of a wheel by role: hub, blades, sides, edges, tips, fillets");
   const auto add = [&](CLI::Option* option) { option->group("Wheel")->needs(asked); };
-  add(app.add_option("--hub", wheel->choice.hub, "Faces of the hub, F1; default: found"));
-  add(app.add_option("--blade", wheel->choice.blades, "Faces of a main blade, F8,F9,F10; once for each; default: found")
+  add(app.add_option("--hub", wheel->choice.hub, "Faces of the hub, as F1. Default: found"));
+  add(app.add_option("--blade", wheel->choice.blades,
+                     "Faces of a main blade, as F8,F9,F10; once for each blade. Default: found")
           ->allow_extra_args(false));
-  add(app.add_option("--splitter", wheel->choice.splitters, "The same of splitters")->allow_extra_args(false));
-  add(app.add_option("--count", wheel->choice.count, "Equal sectors in a whole turn; default: found")
+  add(app.add_option("--splitter", wheel->choice.splitters,
+                     "Faces of a splitter; once for each splitter. Default: found")
+          ->allow_extra_args(false));
+  add(app.add_option("--count", wheel->choice.count, "Number of equal sectors in a whole turn. Default: found")
           ->check(CLI::Range(1, 1000)));
   add(app.add_option("-o,--output", wheel->output, "File to write: wheel.json"));
   return wheel;
@@ -124,7 +127,7 @@ int run_inspect(const InspectOptions& options, const WheelOptions& wheel, const 
 
 Subcommand add_inspect(CLI::App& parser) {
   CLI::App* app = parser.add_subcommand(
-      "inspect", "List the faces of a part, or draw them: type, area, size, curvature, place, trims, units");
+      "inspect", "List the faces of a part with type, area, size, curvature and place, or draw them");
   auto options = std::make_shared<InspectOptions>();
   app->add_option("PART", options->part, part_formats() + " file")->required();
   app->add_option("--unit", options->unit, "Unit of a mesh, or of a CAD file that states a wrong one: mm, cm, m or in")
@@ -132,7 +135,7 @@ Subcommand add_inspect(CLI::App& parser) {
   app->add_option("--sort", options->order.sort,
                   "Order of the faces: face, area (largest first), radius (tightest concave first) or type");
   app->add_option("--type", options->order.type, "Only faces of this type: plane, cylinder, B-spline, ...");
-  app->add_option("--html", options->html, "Write a page on which faces are seen, pointed at and chosen");
+  app->add_option("--html", options->html, "Write a page that shows the faces with their numbers");
   app->add_option("--png", options->png, "Write a picture of that page (needs Chromium)");
   app->add_option("--view", options->view, "Write the faces with their triangles as JSON (docs/schema/faces.md)");
   const auto wheel = add_wheel_options(*app);

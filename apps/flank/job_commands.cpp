@@ -31,7 +31,7 @@ int say_finished(const ResultFolder& folder, const CommonOptions& common) {
   if (common.json)
     fmt::print("{}", read_file((std::filesystem::path(folder.path()) / "summary.json").string()));
   else if (!common.quiet)
-    fmt::print("nothing is left to do: {} holds the complete result, which {}\n", printable(folder.path()),
+    fmt::print("nothing to do: {} holds the complete result, which {}\n", printable(folder.path()),
                meets ? "meets the request" : "does NOT meet the request");
   return meets ? kMeetsRequest : kFallsShort;
 }
@@ -75,7 +75,7 @@ Subcommand job_command(CLI::App* app, Result (*work)(const Job&, const Progress&
   FlagNames names = add_job_options(*app, *job);
   app->add_option("-o,--output", output->folder, "Folder for the results")->required();
   app->add_flag("--resume", output->resume,
-                "Go on where an earlier run of the same command into this folder was stopped; the result is the same");
+                "Continue a stopped run of the same command into this folder; the result is the same");
   const auto run = [job, output, work, instead](const CommonOptions& common) {
     if (instead && instead(*job, common)) return kMeetsRequest;
     return run_into(*output, common, *job, [&](const Progress& progress) { return work(*job, progress); });
@@ -87,10 +87,10 @@ Subcommand job_command(CLI::App* app, Result (*work)(const Job&, const Progress&
 
 Subcommand add_fit(CLI::App& parser) {
   CLI::App* app =
-      parser.add_subcommand("fit", "Find a tool and a five-axis motion whose flank is the face, and judge them");
+      parser.add_subcommand("fit", "Find a tool and a motion that finish a face with the tool's flank, and check them");
   app->footer(
-      "Example: flank example twisted-blade -o blade.step && flank fit blade.step --face F1 --tolerance 0.1 -o out\n"
-      "A run that was stopped (Ctrl-C, SIGTERM, SIGHUP) goes on with the same line and --resume.");
+      "Example: flank example twisted-blade -o blade.step && flank fit blade.step --face F1 --tolerance 0.1 -o out\nA "
+      "stopped run (Ctrl-C, SIGTERM, SIGHUP) continues with the same command and --resume.");
   auto dry = std::make_shared<bool>(false);
   const auto say_defaults = [dry](const FitJob& job, const CommonOptions& common) -> bool {
     if (!*dry) return false;
@@ -106,34 +106,33 @@ Subcommand add_fit(CLI::App& parser) {
         *dry = true;
         app->get_option("--output")->required(false);
       },
-      "Search nothing: read the part, and tell side, tolerance, radii and reach that would be used");
+      "Do not search; print the side, tolerance, radii and accessible area that would be used");
   return command;
 }
 
 Subcommand add_cover(CLI::App& parser) {
   CLI::App* app = parser.add_subcommand(
-      "cover", "Find the strips with which a tool finishes a face, and judge them; the tool is given, or chosen");
+      "cover", "Find the passes with which a given or chosen tool finishes a face, and check them");
   app->footer(
       "Example: flank example twisted-blade -o blade.step && flank cover blade.step --face F1 --tool "
-      "barrel:arc=100,radius=5 --axis-length 20 --tolerance 0.05 -o out\n"
-      "The best tool of the catalogue: flank cover blade.step --face F1 --tool catalogue --tolerance 0.05 -o out\n"
-      "A run that was stopped goes on with the same line and --resume.");
+      "barrel:arc=100,radius=5 --axis-length 20 --tolerance 0.05 -o out\nThe best tool of the catalogue: flank cover "
+      "blade.step --face F1 --tool catalogue --tolerance 0.05 -o out\nA stopped run continues with the same command "
+      "and --resume.");
   return job_command<CoverJob>(app, run_cover);
 }
 
 Subcommand add_trochoid(CLI::App& parser) {
   CLI::App* app = parser.add_subcommand(
-      "trochoid", "Rough and finish the cavity between two sides with one tool: trochoidal cycles and side paths");
+      "trochoid", "Rough and finish the cavity between two sides with one tool, by trochoidal cycles");
   app->footer(
       "Example: flank example cavity-barrel -o cavity.step && flank trochoid cavity.step --left F1 --right F2 "
-      "--tolerance 0.02 -o out\n"
-      "A run that was stopped goes on with the same line and --resume.");
+      "--tolerance 0.02 -o out\nA stopped run continues with the same command and --resume.");
   return job_command<TrochoidJob>(app, run_trochoid);
 }
 
 Subcommand add_verify(CLI::App& parser) {
   CLI::App* app = parser.add_subcommand(
-      "verify", "Judge the tool and the path that lie in a folder, from tool, poses and part alone");
+      "verify", "Check the tool and path of a folder, or an NC program, from tool, CL points and part alone");
   auto job = std::make_shared<VerifyJob>();
   FlagNames names = add_job_options(*app, *job);
   app->footer(

@@ -2,11 +2,15 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "flank/job/fields_json.h"
 #include "flank/job/more_fields.h"
+#include "help.h"
 
 namespace flank::cli {
 
@@ -46,12 +50,23 @@ std::string type_name(const internal::FieldInfo& info, const Member&) {
   return kNumber && info.spelling == internal::Spelling::kPlain ? "NUMBER" : "TEXT";
 }
 
+/// Whether --help shows the option; the others are shown by --help-all.
+inline bool is_basic(const internal::FieldInfo& info, const std::string& command) {
+  // Beside the fields of a form: what names the part, and what is asked for most often.
+  constexpr std::array kAlways{"part",  "folder", "faces",  "skin",     "left",
+                               "right", "unit",   "strips", "coverage", "fixtures"};
+  const std::vector<std::string>& basic = internal::basic_fields(command);
+  if (basic.empty()) return info.group.empty();
+  return info.always || std::find(kAlways.begin(), kAlways.end(), info.key) != kAlways.end() ||
+         std::find(basic.begin(), basic.end(), info.key) != basic.end();
+}
+
 /// Adds an option for every field of the job, which must outlive the parsing, and --shank-diameter where it has obstacles. Words that are no
 /// value throw UsageError while they are parsed.
 template <class Job>
 FlagNames add_job_options(CLI::App& app, Job& job) {
   FlagNames names;
-  CLI::Option* radius = nullptr;
+  CLI::Option* diameter = nullptr;
   internal::visit_fields(job, [&](const internal::FieldInfo& info, auto& member) {
     const std::string flag = internal::flag_of(info);
     CLI::Option* option = add_option(app, flag, info, member);
@@ -61,17 +76,20 @@ FlagNames add_job_options(CLI::App& app, Job& job) {
     const bool flag_alone = info.spelling == internal::Spelling::kFlag;
     if (!flag_alone) option->type_name(type_name(info, member));
     if (!flag_alone && usual.size() == 1 && !usual.front().empty()) option->default_str(usual.front());
-    if (!info.group.empty()) option->group(std::string(info.group));
-    if (info.key == "shank_radius") radius = option;
+    option->group(is_basic(info, std::string(internal::command_name(job))) ? kBasicGroup
+                  : info.group.empty()                                     ? kMoreGroup
+                                                                           : std::string(info.group));
+    if constexpr (requires { job.obstacles; }) {
+      if (info.key == "shank_length")
+        diameter = app.add_option_function<double>(
+                          "--shank-diameter", [&job](double value) { job.obstacles.shank_radius_mm = 0.5 * value; },
+                          "Shank diameter. Default: that of the flank's upper end")
+                       ->group(option->get_group())
+                       ->type_name("MM");
+      if (info.key == "shank_radius") option->excludes(diameter);
+    }
     names[internal::field_name(info)] = flag;
   });
-  if constexpr (requires { job.obstacles; })
-    app.add_option_function<double>(
-           "--shank-diameter", [&job](double diameter) { job.obstacles.shank_radius_mm = 0.5 * diameter; },
-           "Its diameter")
-        ->group("Clearance")
-        ->type_name("MM")
-        ->excludes(radius);
   return names;
 }
 

@@ -20,14 +20,14 @@ namespace flank::cli {
 using namespace internal;
 
 Subcommand add_machine(CLI::App& parser) {
-  CLI::App* app = parser.add_subcommand("machine", "Show and check a machine: its joints, limits and control");
+  CLI::App* app = parser.add_subcommand("machine", "Show and check a machine: its axes, limits and control");
   auto name = std::make_shared<std::string>();
   auto list = std::make_shared<bool>(false);
   app->add_option("MACHINE", *name, "A machine that comes with flank, or a file NAME.toml (docs/schema/machine.md)");
   app->add_flag("--list", *list, "List the machines that come with flank");
   app->footer("Examples: flank machine --list; flank machine linuxcnc-xyzac-trt");
   const auto run = [name, list](const CommonOptions& common) {
-    if (name->empty() && !*list) throw UsageError("machine", "a name or a file is needed, or `list`");
+    if (name->empty() && !*list) throw UsageError("machine", "expected a name or a file, or `list`");
     if (*list) {
       fmt::print("{}", common.json ? flank::machine_list_json() : printable(machine_list_table(), true));
       return kMeetsRequest;
@@ -67,11 +67,11 @@ void keep_motion(const std::string& path, const std::string& motion) {
 }  // namespace
 
 Subcommand add_post(CLI::App& parser) {
-  CLI::App* app = parser.add_subcommand("post", "Write the program with which a machine runs the path of a folder");
+  CLI::App* app = parser.add_subcommand("post", "Write the NC program with which a machine runs the path of a folder");
   auto job = std::make_shared<PostJob>();
   auto output = std::make_shared<std::string>();
   FlagNames names = add_job_options(*app, *job);
-  app->add_option("-o,--output", *output, "The program to write")->required();
+  app->add_option("-o,--output", *output, "NC program to write")->required();
   app->footer(
       "Example: flank example twisted-blade -o blade.step && flank fit blade.step --face F1 --tolerance 0.1 -o out; "
       "flank post out --machine linuxcnc-xyzac-trt --spindle 8000 --feed 1000 -o blade.ngc && flank verify out --nc "
@@ -95,7 +95,7 @@ Subcommand add_post(CLI::App& parser) {
       fmt::print("{}", post_json(outcome));
     else if (!common.quiet)
       fmt::print("{}  {} {}\n", printable(post_text(outcome), true),
-                 written ? "written to " : "nothing is written without --force; not made: ", printable(*output));
+                 written ? "written to " : "not written without --force: ", printable(*output));
     return exit_code(outcome.acceptance);
   };
   return {app, run, std::move(names)};

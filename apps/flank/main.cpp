@@ -5,6 +5,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -12,6 +14,7 @@
 #include <cstring>
 #include <exception>
 #include <map>
+#include <memory>
 #include <new>
 #include <optional>
 #include <string>
@@ -28,6 +31,7 @@
 #include "flank/printable.h"
 #include "flank/threads.h"
 #include "flank/version.h"
+#include "help.h"
 #include "messages.h"
 #include "wheel_command.h"
 
@@ -48,30 +52,68 @@ int complain(const std::string& message, int code) {
   return code;
 }
 
-/// A first word that is no command is named, with those that are.
-void require_known_command(const CLI::App& parser, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return;
-  std::string known;
-  for (const CLI::App* command : parser.get_subcommands([](const CLI::App*) { return true; })) {
-    if (command->get_name() == argv[1]) return;
-    known += (known.empty() ? "" : ", ") + command->get_name();
+/// A first word that is no command is named, with the nearest that is one.
+void require_known_command(const CLI::App& parser, const std::vector<std::string>& words) {
+  if (words.empty() || words.front().starts_with('-')) return;
+  std::vector<std::string> known;
+  for (const CLI::App* command : parser.get_subcommands([](const CLI::App*) { return true; }))
+    known.push_back(command->get_name());
+  if (std::find(known.begin(), known.end(), words.front()) != known.end()) return;
+  const std::string nearest = flank::cli::did_you_mean(words.front(), known);
+  throw flank::UsageError(
+      fmt::format("unknown command '{}'{} {}", words.front(),
+                  nearest.empty() ? "; commands:" : nearest + " Commands:", fmt::join(known, ", ")));
+}
+
+/// What the parser complains of, in words that help: the option that does not exist with the nearest that does, or the word too many.
+std::string parse_complaint(const CLI::ParseError& error, const CLI::App* command,
+                            const std::vector<std::string>& words) {
+  if (command == nullptr) return "give a command (see flank --help)";
+  const std::string hint = fmt::format(" (see flank {} --help)", command->get_name());
+  // An option that is wrong comes first: what it stands for may be what is missing.
+  const auto code = static_cast<CLI::ExitCodes>(error.get_exit_code());
+  if (code != CLI::ExitCodes::ExtrasError && code != CLI::ExitCodes::RequiredError) return error.what() + hint;
+  std::vector<std::string> known;
+  for (const CLI::Option* option : command->get_options())
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  for (std::size_t k = 1; k < words.size(); ++k) {
+    const std::string name = words[k].substr(0, words[k].find('='));
+    // A number may begin with a minus, and a value may stand directly behind a short option.
+    const bool option = name.starts_with("--") || (name.size() == 2 && name[0] == '-' && std::isalpha(name[1]) != 0);
+    if (option && command->get_option_no_throw(name) == nullptr)
+      return fmt::format("flank {} has no option {}{}{}", command->get_name(), name,
+                         flank::cli::did_you_mean(name, known), hint);
   }
-  throw flank::UsageError(fmt::format("'{}' is no command; there are {}", argv[1], known));
+  return error.what() + hint;
+}
+
+/// Which part of the help text of all commands one stands in.
+const char* group_of(const std::string& command) {
+  for (const char* name : {"tool", "machine"})
+    if (command == name) return "Tools and machines";
+  for (const char* name : {"design", "sweep", "bound", "correct"})
+    if (command == name) return "Studies and corrections";
+  for (const char* name : {"example", "fields"})
+    if (command == name) return "Helpers";
+  return "From a part to a program";
 }
 
 void add_common(CLI::App& app, flank::cli::CommonOptions& common) {
-  app.add_flag("--json", common.json, "Print the summary as JSON on stdout, and nothing else");
-  app.add_flag("--quiet", common.quiet, "No progress and no summary");
-  app.add_option("--progress", common.progress,
-                 "How progress is told on stderr: line, or json: a line of JSON each time")
+  app.add_flag("--json", common.json, "Print the result as JSON on stdout, and nothing else");
+  app.add_flag("--quiet", common.quiet, "Print errors only");
+  const std::string group = flank::cli::kCommonGroup;
+  app.add_option("--progress", common.progress, "Progress on stderr: line, or json (one line of JSON for each report)")
       ->check(CLI::IsMember({"line", "json"}))
-      ->capture_default_str();
-  app.add_option("--threads", common.threads, "Threads to use; 0: all cores. The result does not depend on it")
-      ->check(CLI::Range(0, 1024));
+      ->capture_default_str()
+      ->group(group);
+  app.add_option("--threads", common.threads, "Number of threads; 0: all cores. The result does not depend on it")
+      ->check(CLI::Range(0, 1024))
+      ->group(group);
   app.add_option("--read-limit", common.read_limit_s,
-                 "Processor time for reading a CAD file, seconds; default: 10 and 30 more for each MB of it")
-      ->check(CLI::Range(0.1, 1e6));
-  app.add_flag("--no-cache", common.no_cache, "Read CAD files anew, and keep nothing of them for the next command");
+                 "Limit of processor time for reading a CAD file, seconds. Default: 10, and 30 for each MB of it")
+      ->check(CLI::Range(0.1, 1e6))
+      ->group(group);
+  app.add_flag("--no-cache", common.no_cache, "Neither use nor fill the cache of CAD files")->group(group);
 }
 
 /// The flags of a command, and those that all have.
@@ -101,25 +143,34 @@ int run_command(int argc, char** argv) {
   // A reader that has gone away, and a limit on the size of files, are errors of the write, not our end.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
-  CLI::App parser{"flank: custom-shaped milling tools and the five-axis motions whose flank finishes a surface",
-                  "flank"};
-  parser.set_version_flag("--version", flank::kVersion);
+  const std::vector<std::string> words = flank::cli::with_help_words({argv + 1, argv + std::max(1, argc)});
+  CLI::App parser{
+      "flank: five-axis flank milling (swarf milling). Finds tools and motions whose flank finishes a surface, and "
+      "checks them",
+      "flank"};
+  const auto formatter = std::make_shared<flank::cli::HelpFormatter>();
+  formatter->label("Positionals", "Arguments");
+  parser.formatter(formatter);
+  parser.set_help_flag("-h,--help", "Print this help and exit");
+  parser.set_help_all_flag("--help-all", "Print the help with all options and exit");
+  parser.set_version_flag("--version", flank::kVersion, "Print the version and exit");
   parser.require_subcommand(1);
-  parser.footer(
-      "Exit: 0 done, and the result meets the request; 1 done, but it does not; 2 wrong usage; 3 input refused; 4 our "
-      "fault.");
+  parser.footer("Exit status: 0 request met; 1 request not met; 2 wrong usage; 3 input refused; 4 internal error");
   flank::cli::CommonOptions common;
   std::vector<flank::cli::Subcommand> commands = {
-      flank::cli::add_inspect(parser), flank::cli::add_example(parser),  flank::cli::add_tool(parser),
-      flank::cli::add_fit(parser),     flank::cli::add_cover(parser),    flank::cli::add_verify(parser),
-      flank::cli::add_report(parser),  flank::cli::add_view(parser),     flank::cli::add_machine(parser),
-      flank::cli::add_post(parser),    flank::cli::add_trochoid(parser), flank::cli::add_sweep(parser),
-      flank::cli::add_design(parser),  flank::cli::add_bound(parser),    flank::cli::add_correct(parser),
-      flank::cli::add_wheel(parser),   flank::cli::add_fields(parser),   flank::cli::add_studio(parser)};
-  for (const flank::cli::Subcommand& command : commands) add_common(*command.app, common);
+      flank::cli::add_inspect(parser),  flank::cli::add_fit(parser),     flank::cli::add_cover(parser),
+      flank::cli::add_trochoid(parser), flank::cli::add_wheel(parser),   flank::cli::add_verify(parser),
+      flank::cli::add_report(parser),   flank::cli::add_view(parser),    flank::cli::add_post(parser),
+      flank::cli::add_studio(parser),   flank::cli::add_tool(parser),    flank::cli::add_machine(parser),
+      flank::cli::add_design(parser),   flank::cli::add_sweep(parser),   flank::cli::add_bound(parser),
+      flank::cli::add_correct(parser),  flank::cli::add_example(parser), flank::cli::add_fields(parser)};
+  for (const flank::cli::Subcommand& command : commands) {
+    command.app->group(group_of(command.app->get_name()));
+    add_common(*command.app, common);
+  }
   const auto chosen = [&]() -> const flank::cli::Subcommand* {
     for (const flank::cli::Subcommand& command : commands)
-      if (command.app->parsed() || (argc > 1 && command.app->get_name() == argv[1])) return &command;
+      if (command.app->parsed() || (!words.empty() && command.app->get_name() == words.front())) return &command;
     return nullptr;
   };
   const auto in_flags = [&](const flank::Error& error) {
@@ -127,21 +178,22 @@ int run_command(int argc, char** argv) {
     return command != nullptr ? flank::cli::in_flags(error, with_common(command->flags)) : std::string(error.what());
   };
   try {
-    require_known_command(parser, argc, argv);
-    parser.parse(argc, argv);
+    require_known_command(parser, words);
+    parser.parse(std::vector<std::string>(words.rbegin(), words.rend()));
     flank::set_thread_count(common.threads);
     // The command's threads are still to come, so it can be told now how CAD files are read.
     flank::read_cad_in_children(common.read_limit_s, !common.no_cache);
     return flushed(chosen()->run(common));
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return flushed(parser.exit(e));
-    return complain(std::string(e.what()) + " (see flank --help)", kWrongUsage);
+    const flank::cli::Subcommand* command = chosen();
+    return complain(parse_complaint(e, command != nullptr ? command->app : nullptr, words), kWrongUsage);
   } catch (const flank::UsageError& e) {
     return complain(in_flags(e), kWrongUsage);
   } catch (const flank::InputError& e) {
     return complain(in_flags(e), kRefusedInput);
   } catch (const flank::Stopped&) {
-    return complain(flank::cli::stopped_by() + "; nothing was found yet", flank::cli::kFallsShort);
+    return complain(flank::cli::stopped_by() + "; no result yet", flank::cli::kFallsShort);
   } catch (const std::bad_alloc&) {
     return complain("out of memory", kOurFault);
   } catch (const std::system_error& e) {

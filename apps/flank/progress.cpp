@@ -67,12 +67,13 @@ void say(const std::string& message) {
 std::string stopped_by() { return fmt::format("stopped by {}", name_of(interrupted)); }
 
 void say_stopped(const std::string& folder) {
-  say(fmt::format("{}; the best so far is in {}; --resume goes on from there", stopped_by(), printable(folder)));
+  say(fmt::format("{}; the best result so far is in {}; the same command with --resume continues", stopped_by(),
+                  printable(folder)));
 }
 
 void say_steps_kept(const std::string& folder) {
-  say(fmt::format("{}; nothing was found yet, but what was done is in {}; --resume goes on from there", stopped_by(),
-                  printable(folder)));
+  say(fmt::format("{}; no result yet, but the finished steps are in {}; the same command with --resume continues",
+                  stopped_by(), printable(folder)));
 }
 
 void end_on_signals() {

@@ -31,7 +31,7 @@ struct ReportOptions {
 
 void add_page(CLI::App* app, ReportOptions& options) {
   app->add_option("DIR", options.folder, "A folder written by flank fit")->required();
-  app->add_option("-o,--output", options.html, "The page to write; default: report.html in DIR");
+  app->add_option("-o,--output", options.html, "Page to write. Default: report.html in DIR");
 }
 
 /// The files that were written, for people or for scripts.
@@ -52,7 +52,7 @@ std::string read_size(const std::string& text, PictureOptions& picture) {
   const int count = std::sscanf(text.c_str(), "%dx%d%c", &picture.width, &picture.height, &rest);
   const bool sensible =
       count == 2 && std::min(picture.width, picture.height) >= 200 && std::max(picture.width, picture.height) <= 10000;
-  return sensible ? "" : text + ": WIDTHxHEIGHT in pixels, each from 200 to 10000, is needed";
+  return sensible ? "" : text + ": expected WIDTHxHEIGHT in pixels, each from 200 to 10000";
 }
 
 int report(ReportOptions& options, const CommonOptions& common) {
@@ -69,7 +69,7 @@ int report(ReportOptions& options, const CommonOptions& common) {
   std::vector<std::string> written{write_report(options.folder, options.html)};
   // The page says so too, and is not green.
   if (!std::filesystem::exists(std::filesystem::path(options.folder) / kManifestFile))
-    fmt::print(stderr, "flank: {}: no {}: nothing ties these files together; `flank verify` judges them again\n",
+    fmt::print(stderr, "flank: {}: no {}: the files may not belong together; run `flank verify`\n",
                printable(options.folder), kManifestFile);
   if (!options.png.empty()) {
     if (!options.theme.empty()) options.picture.fragment = "theme=" + options.theme;
@@ -82,15 +82,14 @@ int report(ReportOptions& options, const CommonOptions& common) {
 }  // namespace
 
 Subcommand add_report(CLI::App& parser) {
-  CLI::App* app = parser.add_subcommand(
-      "report", "Write one HTML page of what lies in a folder: the part, its error, the moving tool, the figures");
+  CLI::App* app = parser.add_subcommand("report", "Write one HTML page of a result: part, error, moving tool, figures");
   auto options = std::make_shared<ReportOptions>();
   add_page(app, *options);
   app->add_option("--png", options->png, "Also make a picture of the page (needs Chromium)");
   app->add_option("--png-size", options->size, "Size of the picture, pixels")
       ->capture_default_str()
       ->check([options](const std::string& text) { return read_size(text, options->picture); });
-  app->add_option("--theme", options->theme, "Of the picture: light or dark; default: as the system has it")
+  app->add_option("--theme", options->theme, "Theme of the picture: light or dark. Default: the system's setting")
       ->check(CLI::IsMember({"light", "dark"}));
   app->footer(
       "Example: flank example twisted-blade -o blade.step && flank fit blade.step --face F1 -o out --tolerance 0.1; "
@@ -99,7 +98,7 @@ Subcommand add_report(CLI::App& parser) {
 }
 
 Subcommand add_view(CLI::App& parser) {
-  CLI::App* app = parser.add_subcommand("view", "Write the page of a folder and open it in the browser");
+  CLI::App* app = parser.add_subcommand("view", "Write the page of a result and open it in the browser");
   auto options = std::make_shared<ReportOptions>();
   add_page(app, *options);
   app->footer(

@@ -15,8 +15,7 @@ namespace flank::cli {
 using namespace internal;
 
 Subcommand add_example(CLI::App& parser) {
-  CLI::App* app = parser.add_subcommand(
-      "example", "Write a part that the project generates itself, and its truth where it is known");
+  CLI::App* app = parser.add_subcommand("example", "Write an example part, with the exact solution where it is known");
   auto name = std::make_shared<std::string>();
   auto file = std::make_shared<std::string>();
   auto options = std::make_shared<ExampleOptions>();
@@ -27,19 +26,16 @@ Subcommand add_example(CLI::App& parser) {
       ->required();
   app->add_option("--seed", options->seed, "Seed of the noise of noisy examples")->capture_default_str();
   CavityShape& cavity = options->cavity;
-  app->add_option("--width", cavity.width_mm, "Of the cavity: across both walls, mm")->capture_default_str();
-  app->add_option("--depth", cavity.depth_mm, "Of the cavity: of a wall, mm")->capture_default_str();
-  app->add_option("--length", cavity.length_mm, "Of the cavity: along its walls, mm")->capture_default_str();
-  app->add_option("--twist", cavity.twist_deg, "Of the cavity: of its walls from end to end, degrees")
+  app->add_option("--width", cavity.width_mm, "Width of the cavity, mm")->capture_default_str();
+  app->add_option("--depth", cavity.depth_mm, "Depth of the cavity, mm")->capture_default_str();
+  app->add_option("--length", cavity.length_mm, "Length of the cavity along its walls, mm")->capture_default_str();
+  app->add_option("--twist", cavity.twist_deg, "Twist of the cavity's walls from end to end, degrees")
       ->capture_default_str();
-  app->add_option("--lean", cavity.lean_deg, "Of the cavity: of its walls outwards towards the top, degrees");
-  app->add_option("--hollow", cavity.hollow_mm, "Of the cavity: how deep its walls are hollow, mm")
-      ->capture_default_str();
-  app->add_flag("--end-wall", cavity.end_wall, "Of the cavity: a wall closes one end, F3");
-  app->add_flag("--start-wall", cavity.start_wall, "Of the cavity: a wall closes the other end, the next face");
-  app->footer(
-      "Examples: flank example envelope-barrel-1 -o barrel.step; flank example rotor37 -o blade.step (a real "
-      "compressor blade)");
+  app->add_option("--lean", cavity.lean_deg, "Outward lean of the cavity's walls towards the top, degrees");
+  app->add_option("--hollow", cavity.hollow_mm, "Hollow depth of the cavity's walls, mm")->capture_default_str();
+  app->add_flag("--end-wall", cavity.end_wall, "A wall closes one end of the cavity, F3");
+  app->add_flag("--start-wall", cavity.start_wall, "A wall closes the other end of the cavity, the next face");
+  app->footer("Examples: flank example envelope-barrel-1 -o barrel.step; flank example rotor37 -o blade.step");
   return {app,
           [name, file, options](const CommonOptions& common) {
             require_no_result_there(*file);
@@ -64,14 +60,15 @@ Subcommand add_tool(CLI::App& parser) {
          "SOURCE", options->source,
          "A family (" + tool_families() + "), a family with parameters (cone:radius=2,angle=3), or a tool.json or .dxf")
       ->required();
-  app->add_option("--param", options->parameters, "NAME=VALUE of the family; mm, degrees")->allow_extra_args(false);
+  app->add_option("--param", options->parameters, "Parameter of the family as NAME=VALUE; mm, degrees")
+      ->allow_extra_args(false);
   app->add_option("--axis-length", options->axis_length_mm, "Length of the axis, mm");
-  app->add_option("--shank-diameter", options->shank_diameter_mm, "A plain shank above the flank, mm");
+  app->add_option("--shank-diameter", options->shank_diameter_mm, "Diameter of a plain shank above the flank, mm");
   app->add_option("--name", options->name, "Name of the tool");
   app->add_option("-o,--output", options->outputs, "Files to write: .json, .dxf, .step, .fctb, .svg, .csv")
       ->allow_extra_args(false);
-  app->add_flag("--arcs", options->arcs, "A .dxf holds the profile as arcs and lines without corners, within 0.001 mm");
-  app->add_flag("--show", *show, "Draw the profile also when files are written");
+  app->add_flag("--arcs", options->arcs, "Write the profile in a .dxf as tangent arcs and lines, within 0.001 mm");
+  app->add_flag("--show", *show, "Draw the profile even when files are written");
   app->footer("Example: flank tool barrel --param arc=85 --param radius=5 --axis-length 30 -o tool.json -o tool.dxf");
   const auto run = [options, show](const CommonOptions& common) {
     for (const std::string& file : options->outputs) require_no_result_there(file);
@@ -96,7 +93,7 @@ Subcommand add_tool(CLI::App& parser) {
 
 Subcommand add_fields(CLI::App& parser) {
   CLI::App* app =
-      parser.add_subcommand("fields", "Print the options of a command as JSON: names, units, ranges, defaults, help");
+      parser.add_subcommand("fields", "Print the options of a command as JSON, with units, ranges, defaults and help");
   auto command = std::make_shared<std::string>();
   app->add_option("COMMAND", *command, "fit, cover, trochoid, verify or post")->required();
   app->footer("Example: flank fields fit");

@@ -12,8 +12,8 @@
 namespace flank::cli {
 
 Subcommand add_sweep(CLI::App& parser) {
-  CLI::App* app = parser.add_subcommand(
-      "sweep", "Run fit or cover on many faces with many tools, as a plan says, and compare the results");
+  CLI::App* app =
+      parser.add_subcommand("sweep", "Run fit or cover on many faces with many tools, and compare the results");
   auto file = std::make_shared<std::string>();
   app->add_option("PLAN", *file, "The plan, NAME.toml (docs/schema/sweep.md)")->required();
   const auto batch = add_batch_options(*app);

@@ -58,7 +58,7 @@ template <class Struct, class T>
 /// The rows of an N x width array. Throws UsageError naming the argument.
 [[nodiscard]] inline std::size_t rows(const Doubles& array, py::ssize_t width, const std::string& name) {
   if (array.ndim() != 2 || array.shape(1) != width)
-    throw UsageError(name, "an array N x " + std::to_string(width) + " is needed");
+    throw UsageError(name, "expected an array N x " + std::to_string(width));
   return static_cast<std::size_t>(array.shape(0));
 }
 
@@ -77,7 +77,7 @@ template <class Struct, class T>
 
 /// A 1-D array of numbers. Throws UsageError naming the argument.
 [[nodiscard]] inline std::span<const double> numbers_of(const Doubles& array, const std::string& name) {
-  if (array.ndim() != 1) throw UsageError(name, "an array of one dimension is needed");
+  if (array.ndim() != 1) throw UsageError(name, "expected an array of one dimension");
   return {array.data(), static_cast<std::size_t>(array.size())};
 }
 

@@ -39,7 +39,7 @@ py::tuple run(const std::string& command, const Fields& fields, const py::object
     else if (command == "trochoid")
       *result = run_trochoid(job_of<TrochoidJob>(fields), progress);
     else
-      throw UsageError("command", command, "there are fit, cover and trochoid");
+      throw UsageError("command", command, "must be fit, cover or trochoid");
   }
   return py::make_tuple(result, stop.reason());
 }
@@ -149,7 +149,7 @@ void bind_fields(py::module_& module) {
       .def_readonly("unit", &JobField::unit, "mm, mm/min; empty: none.")
       .def_readonly("group", &JobField::group, "Of the help text; empty: the first.")
       .def_readonly("help", &JobField::help, "What it means.")
-      .def_readonly("accepted", &JobField::accepted, "What is accepted; empty: any.")
+      .def_readonly("accepted", &JobField::accepted, "Values that it takes; empty: any.")
       .def_property_readonly(
           "kind", [](const JobField& f) { return kind_name(f.kind); },
           "text, texts, number, count, auto or count, sign, switch.")

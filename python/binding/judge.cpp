@@ -116,7 +116,7 @@ void bind_report_parts(py::module_& module) {
       .def_readonly("undercut_mm", &FaceVerdict::undercut_mm, "Most material left, mm (target).")
       .def_readonly("rms_mm", &FaceVerdict::rms_mm, "Root mean square of f, mm, where a strip sweeps past.")
       .def_readonly("coverage", &FaceVerdict::coverage, "Area share with |f| <= tolerance.")
-      .def_readonly("coverage_reachable", &FaceVerdict::coverage_reachable, "The same share of what is reachable.")
+      .def_readonly("coverage_reachable", &FaceVerdict::coverage_reachable, "The same share of the accessible area.")
       .def("__repr__", [](const FaceVerdict& f) { return "<openflank.FaceVerdict " + f.face + ">"; });
   py::class_<WorstPlace>(module, "WorstPlace", "A place that is cut too deep.")
       .def_readonly("face", &WorstPlace::face, "\"F1\".")
@@ -147,7 +147,7 @@ void bind_judge(py::module_& module) {
           "pass, overcut, gouge, unproved or not run.")
       .def_readonly("tolerance_mm", &VerifyReport::tolerance_mm, "mm.")
       .def_readonly("coverage", &VerifyReport::coverage, "Area share of the targets with |f| <= tolerance.")
-      .def_readonly("coverage_reachable", &VerifyReport::coverage_reachable, "The same share of what is reachable.")
+      .def_readonly("coverage_reachable", &VerifyReport::coverage_reachable, "The same share of the accessible area.")
       .def_readonly("reachable_share", &VerifyReport::reachable_share, "Area share that is reachable.")
       .def_readonly("overcut_mm", &VerifyReport::overcut_mm, "Deepest cut found in a target, mm.")
       .def_readonly("overcut_bound_mm", &VerifyReport::overcut_bound_mm, "No target is cut deeper, mm: proved.")

@@ -41,7 +41,7 @@ std::vector<PartFace> faces_of(const SharedPart& part) {
 /// The target of faces named by a list such as "F1,F3-F5".
 std::shared_ptr<Target> target_of(const SharedPart& part, const std::string& list, int side) {
   const py::gil_scoped_release release;
-  if (side != 1 && side != -1) throw UsageError("side", std::to_string(side), "+1 or -1 is needed");
+  if (side != 1 && side != -1) throw UsageError("side", std::to_string(side), "expected +1 or -1");
   const std::vector<int> chosen = parse_face_list(*part, list);
   if (part->is_mesh()) return make_target(extract_mesh(*part, chosen));
   std::vector<Face> faces;
@@ -162,7 +162,7 @@ void bind_target_class(py::module_& module) {
       .def(
           "samples",
           [](const Target& t, double spacing_mm) {
-            if (!(spacing_mm > 0.0)) throw UsageError("spacing_mm", "a length > 0 mm is needed");
+            if (!(spacing_mm > 0.0)) throw UsageError("spacing_mm", "expected a length > 0 mm");
             const py::gil_scoped_release release;
             return Samples{t.samples(spacing_mm)};
           },
@@ -178,7 +178,7 @@ void bind_part(py::module_& module) {
   module.def(
       "read_part", &read, py::arg("file"), py::arg("unit") = py::none(), py::arg("pieces") = "",
       ("Reads a " + part_formats() +
-       " file. unit (\"mm\", \"cm\", \"m\", \"in\") is needed for a mesh, "
+       " file. unit (\"mm\", \"cm\", \"m\", \"in\") is required for a mesh, "
        "whose file has none. pieces: faces to be split into sides and edges, \"F1a\". Raises InputError naming the "
        "file and what would be accepted.")
           .c_str());

@@ -30,7 +30,7 @@ py::array poses_array(std::vector<Pose> poses) {
 
 std::vector<Pose> poses_of(const Doubles& array, const std::string& where) {
   const std::size_t count = rows(array, 6, "poses");
-  if (count == 0) throw UsageError("poses", where + " has none; at least one is needed");
+  if (count == 0) throw UsageError("poses", where + " has none; expected at least one");
   std::vector<Pose> poses(count);
   const auto* first = reinterpret_cast<const Pose*>(array.data());
   for (std::size_t k = 0; k < count; ++k) {
@@ -38,7 +38,7 @@ std::vector<Pose> poses_of(const Doubles& array, const std::string& where) {
     const double length = poses[k].axis.norm();
     if (!(std::abs(length - 1.0) <= kAxisLengthRounded) || !poses[k].tip.allFinite())
       throw UsageError(
-          "poses", where + ", pose " + std::to_string(k) + ": x, y, z, i, j, k with a unit vector (i, j, k) is needed");
+          "poses", where + ", pose " + std::to_string(k) + ": expected x, y, z, i, j, k with a unit vector (i, j, k)");
     if (std::abs(length - 1.0) > kAxisLengthExact) poses[k].axis /= length;
   }
   return poses;
@@ -50,20 +50,20 @@ Path make_path(const std::vector<Doubles>& strips, const std::string& face, cons
     const int id = static_cast<int>(path.strips.size()) + 1;
     path.strips.push_back({id, kind, face, poses_of(strip, "strip " + std::to_string(id))});
   }
-  if (path.strips.empty()) throw UsageError("strips", "at least one array of poses N x 6 is needed");
+  if (path.strips.empty()) throw UsageError("strips", "expected at least one array of poses N x 6");
   return path;
 }
 
 Eigen::Matrix3Xd columns(const Doubles& points, const std::string& name) {
   const std::span<const Vec3> all = points_of(points, name);
-  if (all.size() < 4) throw UsageError(name, "at least 4 points are needed");
+  if (all.size() < 4) throw UsageError(name, "expected at least 4 points");
   Eigen::Matrix3Xd poles(3, static_cast<Eigen::Index>(all.size()));
   for (std::size_t k = 0; k < all.size(); ++k) poles.col(static_cast<Eigen::Index>(k)) = all[k];
   return poles;
 }
 
 RuledMotion make_motion(const Doubles& tip, const Doubles& direction, double axis_length_mm) {
-  if (!(axis_length_mm > 0.0)) throw UsageError("axis_length_mm", "a length > 0 mm is needed");
+  if (!(axis_length_mm > 0.0)) throw UsageError("axis_length_mm", "expected a length > 0 mm");
   RuledMotion motion;
   motion.axis_length = axis_length_mm;
   motion.tip.poles = columns(tip, "tip_poles");
@@ -90,8 +90,8 @@ struct Envelope {
 };
 
 Envelope envelope_of(const RuledMotion& motion, const Tool& tool, int side, int count_t, int count_s) {
-  if (side != 1 && side != -1) throw UsageError("side", std::to_string(side), "+1 or -1 is needed");
-  if (count_t < 2 || count_s < 2) throw UsageError("count_t", "at least 2 steps of t and of s are needed");
+  if (side != 1 && side != -1) throw UsageError("side", std::to_string(side), "expected +1 or -1");
+  if (count_t < 2 || count_s < 2) throw UsageError("count_t", "expected at least 2 steps of t and of s");
   const py::gil_scoped_release release;
   return {sample_envelope(motion, tool.radial, side, count_t, count_s), count_t, count_s};
 }

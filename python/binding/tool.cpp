@@ -45,20 +45,19 @@ Tool checked(Tool tool) {
 }
 
 void require_length(double axis_length_mm) {
-  if (!(axis_length_mm > 0.0 && axis_length_mm < 1e300))
-    throw UsageError("axis_length_mm", "a length > 0 mm is needed");
+  if (!(axis_length_mm > 0.0 && axis_length_mm < 1e300)) throw UsageError("axis_length_mm", "expected a length > 0 mm");
 }
 
 Tool make_tool(const std::string& name, double axis_length_mm, const Doubles& shank, const Doubles& holder,
                const py::kwargs& given) {
   const std::optional<ToolFamily> family = family_from_name(name);
   if (!family || parameter_names(*family).empty())
-    throw UsageError("family", name, "there are " + tool_families() + "; Tool.spline and Tool.load make others");
+    throw UsageError("family", name, "expected " + tool_families() + "; Tool.spline and Tool.load make others");
   require_length(axis_length_mm);
   Eigen::VectorXd parameters(static_cast<Eigen::Index>(parameter_names(*family).size()));
   for (int k = 0; k < parameters.size(); ++k) {
     const std::string key = keyword(*family, k);
-    if (!given.contains(key)) throw UsageError(key, "is needed; a " + name + " has " + keywords(*family));
+    if (!given.contains(key)) throw UsageError(key, "must be given; a " + name + " has " + keywords(*family));
     parameters[k] = given[key.c_str()].cast<double>() * (parameter_is_angle(*family, k) ? kRadiansPerDegree : 1.0);
   }
   for (const auto& [key, unused] : given) {
@@ -78,7 +77,7 @@ Tool make_tool(const std::string& name, double axis_length_mm, const Doubles& sh
 Tool make_spline(double axis_length_mm, const Doubles& coefficients, const std::string& name) {
   require_length(axis_length_mm);
   const std::span<const double> c = numbers_of(coefficients, "coefficients");
-  if (c.size() < 4) throw UsageError("coefficients", "at least 4 numbers are needed");
+  if (c.size() < 4) throw UsageError("coefficients", "expected at least 4 numbers");
   Tool tool;
   tool.radial = RadialFunction::spline(
       axis_length_mm, Eigen::Map<const Eigen::VectorXd>(c.data(), static_cast<Eigen::Index>(c.size())));
@@ -104,7 +103,7 @@ py::array at_all(const Tool& tool, const Doubles& s, double RadialJet::*value) {
 }
 
 py::array meridian_array(const Tool& tool, int count) {
-  if (count < 2) throw UsageError("count", "at least 2 points are needed");
+  if (count < 2) throw UsageError("count", "expected at least 2 points");
   auto* points = new std::vector<Vec2>(meridian(tool.radial, count));
   const py::capsule owner(points, [](void* p) { delete static_cast<std::vector<Vec2>*>(p); });
   return points_view(*points, owner);

@@ -23,7 +23,7 @@ def _words(field, value):
         return [os.fspath(value)]
     if field.kind == "switch":
         if not isinstance(value, bool):
-            raise TypeError(f"{field.name}: True or False is needed, not {value!r}")
+            raise TypeError(f"{field.name}: expected True or False, not {value!r}")
         return ["on" if value else "off"]
     if field.kind == "sign":
         return ["-" if value == -1 else "+" if value == 1 else str(value)]

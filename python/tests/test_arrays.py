@@ -62,9 +62,9 @@ def test_points_of_a_face_are_on_its_target(blade):
 
 def test_wrong_shapes_are_refused(blade):
     target = openflank.read_part(blade).target("F1")
-    with pytest.raises(openflank.UsageError, match="points: an array N x 3 is needed"):
+    with pytest.raises(openflank.UsageError, match="points: expected an array N x 3"):
         target.closest(np.zeros((3, 2)))
-    with pytest.raises(openflank.UsageError, match="poses: an array N x 6 is needed"):
+    with pytest.raises(openflank.UsageError, match="poses: expected an array N x 6"):
         openflank.Path([np.zeros((3, 5))])
     with pytest.raises(openflank.UsageError, match="strip 1, pose 0: .* unit vector"):
         openflank.Path([np.zeros((3, 6))])
@@ -110,9 +110,9 @@ def test_tools_of_families(tmp_path):
 
 
 def test_wrong_tools_are_refused():
-    with pytest.raises(openflank.UsageError, match="sphere: there are cylinder, cone"):
+    with pytest.raises(openflank.UsageError, match="sphere: expected cylinder, cone"):
         openflank.Tool("sphere", 30, radius=2)
-    with pytest.raises(openflank.UsageError, match="angle_deg: is needed; a cone has radius, angle_deg"):
+    with pytest.raises(openflank.UsageError, match="angle_deg: must be given; a cone has radius, angle_deg"):
         openflank.Tool("cone", 30, radius=2)
     with pytest.raises(openflank.UsageError, match="angle: is no parameter"):
         openflank.Tool("cone", 30, radius=2, angle=3, angle_deg=3)

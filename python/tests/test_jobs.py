@@ -21,7 +21,7 @@ def test_keywords_are_the_fields_of_the_table(command):
     assert names == {field.name for field in fields}
     for field in fields:
         assert field.help and f"\n{field.name}\n" in function.__doc__
-    with pytest.raises(openflank.UsageError, match="there are fit, cover"):
+    with pytest.raises(openflank.UsageError, match="must be fit, cover"):
         openflank.job_fields("sing")
 
 
@@ -38,15 +38,15 @@ def test_defaults_are_those_of_the_table():
 
 
 def test_wrong_requests_name_the_keyword(blade):
-    with pytest.raises(openflank.UsageError, match="tolerance_mm -1: a length > 0 mm is needed") as caught:
+    with pytest.raises(openflank.UsageError, match="tolerance_mm -1: expected a length > 0 mm") as caught:
         openflank.fit(blade, tolerance_mm=-1)
     assert caught.value.field == "tolerance_mm"
     assert isinstance(caught.value, ValueError) and isinstance(caught.value, openflank.Error)
-    with pytest.raises(openflank.UsageError, match="tolerence_mm: is no field of fit; there are part, "):
+    with pytest.raises(openflank.UsageError, match="tolerence_mm: is not a field of fit; expected part, "):
         openflank.fit(blade, tolerence_mm=0.1)
     with pytest.raises(openflank.UsageError, match="strips"):
         openflank.fit(blade, strips=0)
-    with pytest.raises(TypeError, match="avoid: True or False"):
+    with pytest.raises(TypeError, match="avoid: expected True or False"):
         openflank.fit(blade, avoid="maybe" and 1)
     with pytest.raises(TypeError, match="needs part"):
         openflank.fit()

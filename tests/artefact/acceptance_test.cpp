@@ -75,17 +75,17 @@ TEST(Acceptance, EachFigureAlone) {
   expect_one(accept(cylinder(), at_the_limits(), asking(0.951)), "coverage_reachable", "95.000 % < 95.100 %");
   VerifyReport unread = at_the_limits();
   unread.unread_faces = {{"F4", "p.step, face F4 (#12 in the file): the CAD kernel cannot read it"}};
-  expect_one(accept(cylinder(), unread, asking(0.95)), "unread_faces", "F4 is not judged: p.step, face F4 (#12");
+  expect_one(accept(cylinder(), unread, asking(0.95)), "unread_faces", "F4 is not checked: p.step, face F4 (#12");
   VerifyReport r = at_the_limits();
   r.faces[0].overcut_mm = r.overcut_mm = 0.0101;
-  expect_one(accept(cylinder(), r, asking(0.95)), "overcut_mm", "F1 is overcut by 0.0101 mm > 0.01 mm");
+  expect_one(accept(cylinder(), r, asking(0.95)), "overcut_mm", "F1 is gouged by 0.0101 mm > 0.01 mm");
   r = at_the_limits();
   ClearanceFigure figure;
   figure.kept = false;
   figure.obstacle = "F7";
   r.clearance.figures = {figure};
-  expect_one(accept(cylinder(), r, asking(0.95)), "clearance", "the shank does not keep 0 mm from F7");
-  expect_one(accept(tool_of({1, 30, 1, 30}), at_the_limits(), asking(0.95)), "legitimate", "not legitimate");
+  expect_one(accept(cylinder(), r, asking(0.95)), "clearance", "shank: clearance of 0 mm to F7 is not proved: it ");
+  expect_one(accept(tool_of({1, 30, 1, 30}), at_the_limits(), asking(0.95)), "legitimate", "profile is not valid");
 }
 
 // A face that nobody found cut is not good for that: it has to be proved, by samples too.
@@ -98,11 +98,10 @@ TEST(Acceptance, WhatIsNotProvedDoesNotPass) {
   r.faces[1].overcut_bound_mm = r.gouge_bound_mm = 0.0123;
   r.faces[1].bound_point = Vec3(1, 2, -3);
   expect_one(accept(cylinder(), r, asking(0.95)), "gouge_bound_mm",
-             "F2 is not proved: cut by 0.0100 mm, but it may be 0.0123 mm > 0.01 mm about (1.000, 2.000, -3.000)");
+             "F2 is not proved: gouge 0.0100 mm found, 0.0123 mm > 0.01 mm possible near (1.000, 2.000, -3.000)");
   r.depth = DepthProof::kSampled;
-  expect_one(accept(cylinder(), r, asking(0.95)), "gouge_bound_mm",
-             "between samples; without --sample it is looked at");
-  EXPECT_EQ(depth_text(r).substr(0, 7), "sampled");
+  expect_one(accept(cylinder(), r, asking(0.95)), "gouge_bound_mm", "between samples; leave out --sample for a proof");
+  EXPECT_EQ(depth_text(r).substr(0, 10), "not proved");
 }
 
 TEST(Acceptance, CoverageThatIsNotProvedDoesNotPass) {
@@ -112,10 +111,9 @@ TEST(Acceptance, CoverageThatIsNotProvedDoesNotPass) {
   EXPECT_TRUE(accept(cylinder(), r, asking(0.95)).pass());
   r.coverage_reachable_bound = 0.94999;
   r.faces[0].uncovered_point = Vec3(1, 2, -3);
-  expect_one(
-      accept(cylinder(), r, asking(0.95)), "coverage_bound",
-      "95.000 % of what is reachable is measured, 94.999 % is proved < 95.000 %; the rest is about (1.000, 2.000, "
-      "-3.000)");
+  expect_one(accept(cylinder(), r, asking(0.95)), "coverage_bound",
+             "95.000 % of the accessible area measured, 94.999 % proved < 95.000 %; largest unproved area near (1.000, "
+             "2.000, -3.000)");
   // A target that may be cut too deep says that, and nothing of its coverage.
   r.overcut_bound_mm = r.faces[0].overcut_bound_mm = 0.02;
   r.coverage_reachable_bound = 0.0;
@@ -129,8 +127,8 @@ TEST(Acceptance, NamesTheFacesThatAreEnteredDeepestFirst) {
   r.faces[2].deepest = WorstPlace{"F3", Vec3(1, 2, -3), -0.5, 1, 4.0, 2.0};
   const Acceptance a = accept(cylinder(), r, asking(0.95));
   ASSERT_EQ(a.reasons.size(), 2u);
-  EXPECT_EQ(a.reasons[0].text, "F3 is entered by 0.5000 mm > 0.01 mm at (1.000, 2.000, -3.000), strip 2");
-  EXPECT_EQ(a.reasons[1].text, "F2 is entered by 0.0200 mm > 0.01 mm");
+  EXPECT_EQ(a.reasons[0].text, "F3 is gouged by 0.5000 mm > 0.01 mm at (1.000, 2.000, -3.000), pass 2");
+  EXPECT_EQ(a.reasons[1].text, "F2 is gouged by 0.0200 mm > 0.01 mm");
   const auto json = nlohmann::json::parse(verify_to_json(r, a));
   EXPECT_EQ(json.at("pass"), false);
   EXPECT_EQ(json.at("reasons").at(0).at("figure"), "gouge_mm");
@@ -161,14 +159,14 @@ TEST(AcceptCavity, EveryMotionIsHeldToTheLimitOfTheEngagement) {
   Acceptance sweep;
   accept_cavity(cavity, sweep);
   ASSERT_EQ(sweep.reasons.size(), 1u);
-  EXPECT_EQ(sweep.reasons[0].text, "layer 2: a finishing sweep has an engagement of 178.250 degrees > 60 degrees");
+  EXPECT_EQ(sweep.reasons[0].text, "layer 2: a finishing sweep has an engagement of 178.25 degrees > 60 degrees");
   cavity = two_layers();
   cavity.layers[0].back_deg = 61.0;
   cavity.layers[1].status = "stuck";
   Acceptance both;
   accept_cavity(cavity, both);
   ASSERT_EQ(both.reasons.size(), 2u);
-  EXPECT_EQ(both.reasons[0].text, "engagement 61.000 degrees > 60 degrees");
+  EXPECT_EQ(both.reasons[0].text, "engagement 61.00 degrees > 60 degrees");
   EXPECT_EQ(both.reasons[1].text, "layer 2 is stuck after 20 cycles");
 }
 
@@ -188,7 +186,7 @@ TEST(AcceptStock, EveryKindOfStripIsHeldToTheLimitButForTheCells) {
     accept_stock(stock, 60.0, 0.02, over);
     ASSERT_EQ(over.reasons.size(), 1u) << kind.kind;
     EXPECT_EQ(over.reasons[0].text,
-              "replayed, a " + kind.kind + " has an engagement of 61.600 degrees > 60 + 1.50, strip 7");
+              "stock simulation: a " + kind.kind + " has an engagement of 61.60 degrees > 60 + 1.50, pass 7");
     kind.engagement_deg = 0.0;
   }
 }
@@ -214,7 +212,7 @@ TEST(AcceptBends, EachEndIsHeldToTheRadiusThatIsAskedFor) {
   EXPECT_TRUE(a.pass()) << "at the limit";
   job.min_bend_radius_mm = 5.0;
   accept_bends(job, bends, a);
-  expect_one(a, "bend_radius", "the holder end bends with a radius of 4 mm < 5 mm");
+  expect_one(a, "bend_radius", "the path of the holder end: 4 mm < 5 mm");
   job.min_bend_radius_mm = 20.0;
   a = {};
   accept_bends(job, bends, a);
@@ -243,15 +241,16 @@ TEST(Acceptance, WhatIsLeftOfTheWholeFaceIsACautionAndOnDemandAReason) {
   EXPECT_TRUE(open.pass());
   ASSERT_EQ(cautions(open, Figure::kWholeCoverage).size(), 1u);
   EXPECT_EQ(cautions(open, Figure::kWholeCoverage)[0],
-            "20.00 % of the face is left, up to 2.1 mm of material; a tool of radius 1.2 mm would reach 96.0 %");
+            "20.00 % of the face is not finished, up to 2.1 mm of excess material; a tool of radius 1.2 mm would reach "
+            "96.0 %");
   JudgeRequest whole = asking(0.95);
   whole.least_whole = 0.9;
-  expect_one(accept(whole_tool(), r, whole), "coverage", "90.000 % of the whole is asked for");
+  expect_one(accept(whole_tool(), r, whole), "coverage", "90.000 % of the whole face is required");
   // Measured is not proved.
   r.coverage = 0.92;
   r.coverage_bound = 0.89;
   r.coverage_reachable_bound = 0.95;
-  expect_one(accept(whole_tool(), r, whole), "coverage", "is not proved: 92.000 % is measured, 89.000 % is proved");
+  expect_one(accept(whole_tool(), r, whole), "coverage", "is not proved: 92.000 % measured, 89.000 % proved");
   r.coverage_bound = 0.9;
   EXPECT_TRUE(accept(whole_tool(), r, whole).pass());
 }
@@ -273,7 +272,8 @@ TEST(Acceptance, AShankOrHolderThatIsNotGivenIsACaution) {
   EXPECT_EQ(said(shank), "the holder was not given and not checked");
   EXPECT_EQ(said(holder), "the shank was not given and not checked");
   r.hold.emplace().as_thick = ClearanceFigure{.clearance_mm = -1.5, .kept = false, .obstacle = "F11", .strip = 2};
-  EXPECT_NE(said(cylinder()).find("would enter F11 by 1.5 mm within one diameter, strip 3; the flank is 20 mm long"),
+  EXPECT_NE(said(cylinder())
+                .find("would collide with F11 by 1.5 mm within one diameter above it, pass 3; the flank is 20 mm long"),
             std::string::npos)
       << said(cylinder());
 }

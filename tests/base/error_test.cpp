@@ -19,8 +19,8 @@ TEST(Error, EveryKindKeepsItsMessageAndIsAnError) {
 }
 
 TEST(Error, AMessageAboutAFieldBeginsWithItsName) {
-  const UsageError plain("tolerance_mm", "a length > 0 mm is needed");
-  EXPECT_STREQ(plain.what(), "tolerance_mm: a length > 0 mm is needed");
+  const UsageError plain("tolerance_mm", "expected a length > 0 mm");
+  EXPECT_STREQ(plain.what(), "tolerance_mm: expected a length > 0 mm");
   EXPECT_EQ(plain.field(), "tolerance_mm");
   const InputError with_value("catalogue", "/nowhere", "no such folder");
   EXPECT_STREQ(with_value.what(), "catalogue /nowhere: no such folder");

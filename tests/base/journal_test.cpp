@@ -99,7 +99,7 @@ TEST(Journal, DamageIsRefusedWithItsPlace) {
     (void)on.run();
     ADD_FAILURE() << "not refused";
   } catch (const InputError& error) {
-    EXPECT_EQ(std::string(error.what()), "resume.json: step 2 (b): number 0, text 0: a further number is needed");
+    EXPECT_EQ(std::string(error.what()), "resume.json: step 2 (b): number 0, text 0: expected a further number");
   }
 }
 

@@ -74,13 +74,13 @@ TEST(StepCodec, ReadsWhatItWrote) {
 TEST(StepCodec, RefusesTooFewAndTooMany) {
   StepValues values = written(kSample);
   values.numbers.pop_back();
-  expect_refused(values, "a further number is needed");
+  expect_refused(values, "expected a further number");
   values = written(kSample);
   values.numbers.push_back(1.0);
-  expect_refused(values, "nothing more is needed");
+  expect_refused(values, "expected nothing more");
   values = written(kSample);
   values.texts.clear();
-  expect_refused(values, "a further text is needed");
+  expect_refused(values, "expected a further text");
 }
 
 TEST(StepCodec, RefusesEveryNumberThatIsNone) {

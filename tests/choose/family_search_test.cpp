@@ -120,7 +120,7 @@ TEST(FamilySearch, DerivesTheLengthFromTheWidth) {
   FamilySearchOptions options = options_with_best_at(3.1, 0.0);
   options.axis_length_mm.reset();
   const FamilySearchResult found = search_flat(ToolFamily::kCylinder, {}, options);
-  EXPECT_NE(found.searched.find("mm wide: over 1 to 4 strips"), std::string::npos) << found.searched;
+  EXPECT_NE(found.searched.find("mm wide: 1 to 4 passes"), std::string::npos) << found.searched;
   const double length = found.tools.front().radial.axis_length();
   EXPECT_GE(length, 6.0);
   EXPECT_LE(length, 32.0);

@@ -109,7 +109,9 @@ TEST(ScreenMeridian, AToolTooLargeForAHollowDoesNotFit) {
   EXPECT_EQ(screen_meridian(places, testing::cylinder(29.9, 15.0).radial, options).fits, 1.0);
   const ToolScreen screen = screen_meridian(places, testing::cylinder(30.5, 15.0).radial, options);
   EXPECT_EQ(screen.fits, 0.0);
-  EXPECT_NE(screen.reason.find("needs r below 30 mm; this tool has 30.5 mm"), std::string::npos) << screen.reason;
+  EXPECT_NE(screen.reason.find("needs a tool radius below 30 mm; the smallest of this tool is 30.5 mm"),
+            std::string::npos)
+      << screen.reason;
   // What counts is the thinnest place: a cone that begins thin has spheres that fit.
   const RadialFunction cone(ToolFamily::kCone, 15.0, Eigen::Vector2d(29.0, 0.3));
   EXPECT_EQ(screen_meridian(places, cone, options).fits, 1.0);

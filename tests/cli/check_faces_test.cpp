@@ -15,10 +15,10 @@ TEST_F(Cli, RefusesCheckFacesThatAreNone) {
     words.insert(words.end(), more.begin(), more.end());
     expect_refused(words, 2, what);
   };
-  refused({"--check-faces", "F7"}, "accepted are F1 to F1");
+  refused({"--check-faces", "F7"}, "the part has one face, F1");
   refused({"--ignore-faces", "hub"}, "--ignore-faces hub");
-  refused({"--check-faces", "F1"}, "F1 is a target");
-  refused({"--ignore-faces", "F1"}, "F1 is a target");
+  refused({"--check-faces", "F1"}, "F1 is machined");
+  refused({"--ignore-faces", "F1"}, "F1 is machined");
   refused({"--avoid", "perhaps"}, "--avoid");
 }
 
@@ -48,16 +48,16 @@ TEST_F(CliCheckFaces, EnteringAnotherFaceIsExitOneAndNamed) {
     if (!f.at("target") && f.at("overcut_mm") == whole.at("gouge_mm")) deepest = f.at("face");
   const auto named = [&](const json& reason) {
     return reason.at("figure") == "gouge_mm" &&
-           reason.at("text").get<std::string>().rfind(deepest + " is entered by ", 0) == 0;
+           reason.at("text").get<std::string>().rfind(deepest + " is gouged by ", 0) == 0;
   };
   ASSERT_TRUE(std::any_of(whole.at("reasons").begin(), whole.at("reasons").end(), named)) << whole.at("reasons");
-  EXPECT_NE(fit.out.find(deepest + " is entered by "), std::string::npos) << fit.out;
-  EXPECT_NE(fit.out.find("), strip 1"), std::string::npos) << fit.out;
+  EXPECT_NE(fit.out.find(deepest + " is gouged by "), std::string::npos) << fit.out;
+  EXPECT_NE(fit.out.find("), pass 1"), std::string::npos) << fit.out;
 
   // The face entered alone: the same depth. A face that is not entered alone: pass, and it says what was left out.
   const Outcome alone = flank({"verify", path("out"), "--check-faces", deepest});
   EXPECT_EQ(alone.exit_code, 1);
-  EXPECT_NE(alone.out.find(deepest + " is entered by "), std::string::npos) << alone.out;
+  EXPECT_NE(alone.out.find(deepest + " is gouged by "), std::string::npos) << alone.out;
   EXPECT_EQ(file("verify.json").at("gouge_mm"), whole.at("gouge_mm"));
   EXPECT_EQ(file("verify.json").at("faces").size(), 2u);
   const Outcome elsewhere = flank({"verify", path("out"), "--check-faces", "F33"});

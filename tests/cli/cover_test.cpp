@@ -52,8 +52,8 @@ TEST_F(CliCover, SaysWhyAToolCannotWork) {
   const Outcome cover = flank({"cover", path("side.step"), "--tool", "cylinder:radius=80", "--axis-length", "60",
                                "--side", "-", "--tolerance", "0.001", "-o", path("out")});
   EXPECT_EQ(cover.exit_code, 1) << cover.err;
-  EXPECT_NE(cover.out.find("largest concave curvature needs r below"), std::string::npos) << cover.out;
-  EXPECT_NE(cover.out.find("no strip: nothing is machined"), std::string::npos) << cover.out;
+  EXPECT_NE(cover.out.find("the concave face needs a tool radius below"), std::string::npos) << cover.out;
+  EXPECT_NE(cover.out.find("no pass: nothing is machined"), std::string::npos) << cover.out;
   EXPECT_TRUE(json::parse(read_file(root_ / "out/summary.json")).at("undercut").is_null());
   const Outcome report = flank({"report", path("out")});
   EXPECT_TRUE(report.exit_code == 0 || report.err.find("Node.js") != std::string::npos) << report.err;
@@ -85,7 +85,7 @@ TEST_F(Cli, CoverRefusesWrongUsage) {
   }
   std::vector<std::string> unknown = tool;
   unknown.insert(unknown.end(), {"--strategy", "guess"});
-  refused(unknown, "grow and curves");
+  refused(unknown, "grow or curves");
 }
 
 }  // namespace

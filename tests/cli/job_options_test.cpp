@@ -67,8 +67,8 @@ TEST_F(JobOptions, MessagesNameOptions) {
   CLI::App app;
   CoverJob job;
   const FlagNames flags = add_job_options(app, job);
-  EXPECT_EQ(in_flags(UsageError("tolerance_mm", "a length > 0 mm is needed"), flags),
-            "--tolerance: a length > 0 mm is needed");
+  EXPECT_EQ(in_flags(UsageError("tolerance_mm", "expected a length > 0 mm"), flags),
+            "--tolerance: expected a length > 0 mm");
   EXPECT_EQ(in_flags(UsageError("faces", "F9", "no such face"), flags), "--face F9: no such face");
   EXPECT_EQ(in_flags(UsageError("tool", "a family needs `axis_length_mm`, or `nothing` and `fixtures`"), flags),
             "--tool: a family needs --axis-length, or `nothing` and --fixture");
@@ -83,7 +83,7 @@ TEST_F(JobOptions, SeedIsAcceptedOnlyIfItMeansSomething) {
   expect_refused({"inspect", blade, "--seed", "3"}, 2, "--seed");
   expect_refused(
       {"cover", blade, "--tool", "cylinder:radius=5", "--axis-length", "20", "--seed", "3", "-o", path("out")}, 2,
-      "--seed: goes with --strategy curves");
+      "--seed: needs --strategy curves");
   EXPECT_EQ(flank({"example", "twisted-blade", "--seed", "3", "-o", path("again.step")}).exit_code, 0);
 }
 

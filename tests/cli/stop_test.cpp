@@ -18,8 +18,9 @@ class CliStop : public StoppedCli {
     EXPECT_EQ(WEXITSTATUS(ended.status), 1) << ended.err;
     EXPECT_NE(ended.err.find("stopped by " + signal), std::string::npos) << ended.err;
     EXPECT_LT(ended.seconds, kMostSeconds);
-    if (ended.err.find("nothing was found yet") != std::string::npos) {
-      EXPECT_EQ(fs::exists(root_ / "out"), ended.err.find("what was done is in") != std::string::npos) << ended.err;
+    if (ended.err.find("no result yet") != std::string::npos) {
+      EXPECT_EQ(fs::exists(root_ / "out"), ended.err.find("the finished steps are in") != std::string::npos)
+          << ended.err;
       return;
     }
     const auto summary = nlohmann::json::parse(read_file(root_ / "out/summary.json"));
@@ -61,7 +62,7 @@ TEST_F(CliStop, NothingTakesThePlaceOfAnEarlierResult) {
   const Ended ended = stopped_at(words, "read", SIGINT);
   ASSERT_TRUE(WIFEXITED(ended.status)) << ended.err;
   EXPECT_EQ(WEXITSTATUS(ended.status), 1) << ended.err;
-  if (ended.err.find("nothing was found yet") != std::string::npos) {
+  if (ended.err.find("no result yet") != std::string::npos) {
     EXPECT_EQ(read_file(root_ / "out/path.json"), before);
   }
   EXPECT_TRUE(fs::exists(root_ / "out/manifest.json"));

@@ -71,7 +71,7 @@ TEST_F(ForPrograms, FacesComeWithTheirTriangles) {
 
 TEST_F(ForPrograms, TheFieldsOfACommandArePrinted) {
   EXPECT_EQ(Json::parse(flank({"fields", "fit"}).out).at("schema"), "openflank/fields/1");
-  expect_refused({"fields", "sweep"}, 2, "there are fit, cover");
+  expect_refused({"fields", "sweep"}, 2, "must be fit, cover");
 }
 
 }  // namespace

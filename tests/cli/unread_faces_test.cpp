@@ -27,7 +27,7 @@ TEST_F(Cli, AFaceThatCannotBeReadIsAReasonUnlessItIsIgnored) {
   EXPECT_NE(listed.out.find("F2    not read"), std::string::npos) << listed.out;
   const Outcome judged = flank({"verify", out, "--part", damaged});
   EXPECT_EQ(judged.exit_code, 1);
-  EXPECT_NE(judged.out.find("F2 is not judged"), std::string::npos) << judged.out;
+  EXPECT_NE(judged.out.find("F2 is not checked"), std::string::npos) << judged.out;
   const auto verdict = nlohmann::json::parse(read_file(out + "/verify.json"));
   EXPECT_FALSE(verdict.at("pass").get<bool>());
   EXPECT_EQ(verdict.at("reasons")[0].at("figure"), "unread_faces");

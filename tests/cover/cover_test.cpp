@@ -80,8 +80,8 @@ TEST(Cover, SaysWhichCurvatureForbidsTheTool) {
   const CoverResult result = cover(*hollow, testing::cylinder(80.0, 60.0), {}, options_for(1e-3), {});
   EXPECT_EQ(result.status, CoverStatus::kNoLine);
   EXPECT_TRUE(result.motions.empty());
-  EXPECT_NE(result.message.find("largest concave curvature needs r below 4"), std::string::npos) << result.message;
-  EXPECT_NE(result.message.find("this tool has 80"), std::string::npos) << result.message;
+  EXPECT_NE(result.message.find("the concave face needs a tool radius below 4"), std::string::npos) << result.message;
+  EXPECT_NE(result.message.find("the smallest of this tool is 80"), std::string::npos) << result.message;
 }
 
 TEST(Cover, SaysThatNothingCanBeReached) {

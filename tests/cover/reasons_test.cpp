@@ -79,8 +79,8 @@ TEST(Reason, NamesTheCurvatureAndTheToolsThinnestPlace) {
   // Thinnest at the holder end.
   const RadialFunction cone(ToolFamily::kCone, 25.0, Eigen::Vector2d(45.0, -std::asin(0.2)));
   const std::string text = reason_of(*target, cone, samples, {}, 0.01);
-  EXPECT_TRUE(says(text, "largest concave curvature needs r below 30 mm at (")) << text;
-  EXPECT_TRUE(says(text, "this tool has 40 mm at its thinnest, s = 25")) << text;
+  EXPECT_TRUE(says(text, "the concave face needs a tool radius below 30 mm at (")) << text;
+  EXPECT_TRUE(says(text, "the smallest of this tool is 40 mm, s = 25")) << text;
 }
 
 TEST(Reason, AToolThatFitsTheHollowIsNotBlamedForIt) {
@@ -96,7 +96,7 @@ TEST(Reason, SaysThatNoLineFits) {
   const auto target = testing::flat_target(0.0, 20.0, 0.0, 20.0);
   const std::string text =
       reason_of(*target, testing::cylinder(4.0, 12.5).radial, cover_samples(*target, 1.0), {}, 0.005);
-  EXPECT_TRUE(says(text, "no line of this tool's 12.5 mm stays within 0.005 mm of the face")) << text;
+  EXPECT_TRUE(says(text, "no contact line of this tool's 12.5 mm stays within 0.005 mm of the face")) << text;
 }
 
 TEST(Reason, NamesTheLargestPlaceThatIsLeft) {
@@ -105,7 +105,7 @@ TEST(Reason, NamesTheLargestPlaceThatIsLeft) {
   // Left: 4 x 20 mm on the left, 8 x 20 on the right, and both are apart.
   const auto strips = one_strip(samples, [](const Vec3& x) { return x.x() > 4.0 && x.x() < 32.0; });
   const std::string text = reason_of(*target, testing::cylinder(4.0, 12.0).radial, samples, strips, 0.01);
-  EXPECT_TRUE(says(text, "the largest place not covered is 160 mm2 about (36.0, 10.0, 0.0)")) << text;
+  EXPECT_TRUE(says(text, "the largest unfinished area is 160 mm2 near (36.0, 10.0, 0.0)")) << text;
 }
 
 TEST(Reason, IsEmptyWhereAllIsCovered) {

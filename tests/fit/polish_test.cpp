@@ -469,7 +469,7 @@ TEST(Polish, TheVerdictAsksForCoverageOvercutAndGouge) {
   EXPECT_EQ(result.candidates, 7) << "what was known before stays";
   EXPECT_EQ(result.motions.size(), 1u);
   EXPECT_LT(result.residuals.largest_mm, 1e-9);
-  EXPECT_NE(result.message.find("estimated coverage 100.00 % at 0.02 mm"), std::string::npos) << result.message;
+  EXPECT_NE(result.message.find("estimate: 100.00 % finished at 0.02 mm"), std::string::npos) << result.message;
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ TEST(InspectOrder, RefusesWhatThereIsNot) {
     (void)ids({"cone", ""});
     FAIL() << "no face is a cone";
   } catch (const UsageError& e) {
-    EXPECT_STREQ(e.what(), "type cone: there are B-spline and plane");
+    EXPECT_STREQ(e.what(), "type cone: must be B-spline or plane");
   }
   EXPECT_THROW((void)ids({"", "size"}), UsageError);
 }

@@ -50,14 +50,14 @@ TEST(FaceNames, ListsAndRanges) {
   EXPECT_EQ(parse_face_list(part, "F4,F1-F2"), (Faces{3, 0, 1}));
   EXPECT_EQ(parse_face_list(part, "F3-F3"), Faces{2});
   for (const char* wrong : {"", "F5", "F0", "F1,", "F3-F2", "F3-", "-F3", "F1-F5", "1-2", "F1-F2-F3"})
-    EXPECT_NE(refused(part, wrong).find("accepted are F1 to F4"), std::string::npos) << wrong;
+    EXPECT_NE(refused(part, wrong).find("the part has F1 to F4"), std::string::npos) << wrong;
   EXPECT_NE(refused(part, "F1-F3,F2").find("named twice"), std::string::npos);
 }
 
 TEST(FaceNames, SolidsStandForTheirFaces) {
   Part part = four_faces();
   using Faces = std::vector<int>;
-  EXPECT_NE(refused(part, "S1").find("the file has none"), std::string::npos);
+  EXPECT_NE(refused(part, "S1").find("the file has no solids"), std::string::npos);
   part.solids = 3;
   for (const int k : {0, 1, 2}) {
     Face& face = part.faces[static_cast<std::size_t>(k)];
@@ -67,7 +67,7 @@ TEST(FaceNames, SolidsStandForTheirFaces) {
   EXPECT_EQ(parse_face_list(part, "s2-S3"), (Faces{1, 2}));
   EXPECT_EQ(parse_face_list(part, "S1,F4"), (Faces{0, 3})) << "F4 is of a sheet";
   for (const char* wrong : {"S0", "S4", "S2-", "S3-S2", "S2-F3", "S1a", "S2-S4"})
-    EXPECT_NE(refused(part, wrong).find("accepted are S1 to S3"), std::string::npos) << wrong;
+    EXPECT_NE(refused(part, wrong).find("the part has S1 to S3"), std::string::npos) << wrong;
   part.left_out[1] = "for a reason";
   EXPECT_EQ(parse_face_list(part, "S1-S2"), Faces{0});
   EXPECT_EQ(parse_faces(part, "S1-S2", Unread::kTaken), (Faces{0, 1}));

@@ -56,8 +56,8 @@ TEST(FieldsJson, SaysWhatAFormMustKnow) {
 }
 
 TEST(FieldsJson, ChoicesAreReadFromTheSentence) {
-  EXPECT_EQ(choices_of("there are tapered and any"), (std::vector<std::string>{"tapered", "any"}));
-  EXPECT_EQ(choices_of("a length > 0 mm is needed"), std::vector<std::string>{});
+  EXPECT_EQ(choices_of("must be tapered or any"), (std::vector<std::string>{"tapered", "any"}));
+  EXPECT_EQ(choices_of("expected a length > 0 mm"), std::vector<std::string>{});
   EXPECT_EQ(choices_of(""), std::vector<std::string>{});
 }
 

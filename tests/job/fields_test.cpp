@@ -192,7 +192,7 @@ TEST(CheckFields, RefusesWhatIsOutOfRangeAndNamesTheField) {
     return refusal(job);
   };
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInfinity = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(fit([](FitJob& job) { job.tolerance_mm = 0.0; }), "tolerance_mm 0: a length > 0 mm is needed");
+  EXPECT_EQ(fit([](FitJob& job) { job.tolerance_mm = 0.0; }), "tolerance_mm 0: expected a length > 0 mm");
   for (double wrong : {-1.0, kNan, kInfinity}) {
     EXPECT_NE(fit([&](FitJob& job) { job.tolerance_mm = wrong; }).find("tolerance_mm"), std::string::npos);
     EXPECT_NE(fit([&](FitJob& job) { job.tool.axis_length_mm = wrong; }).find("axis_length_mm"), std::string::npos);
@@ -206,14 +206,14 @@ TEST(CheckFields, RefusesWhatIsOutOfRangeAndNamesTheField) {
   EXPECT_NE(fit([](FitJob& job) { job.strips = 65; }), "accepted");
   EXPECT_NE(fit([](FitJob& job) { job.radius.slope_max = 1.0; }), "accepted");
   EXPECT_NE(fit([](FitJob& job) { job.judge.least_coverage = 1.01; }), "accepted");
-  EXPECT_NE(fit([](FitJob& job) { job.part.side = 0; }).find("+ or - is needed"), std::string::npos);
-  EXPECT_NE(fit([](FitJob& job) { job.part.unit = "furlong"; }).find("mm, cm, m, in"), std::string::npos);
+  EXPECT_NE(fit([](FitJob& job) { job.part.side = 0; }).find("expected + or -"), std::string::npos);
+  EXPECT_NE(fit([](FitJob& job) { job.part.unit = "furlong"; }).find("mm, cm, m or in"), std::string::npos);
   CoverJob cover;
   cover.strategy = "guess";
-  EXPECT_EQ(refusal(cover), "strategy guess: there are grow and curves");
+  EXPECT_EQ(refusal(cover), "strategy guess: must be grow or curves");
   cover = {};
   cover.choice.feed_mm_min = 0.0;
-  EXPECT_EQ(refusal(cover), "feed_mm_min 0: a rate > 0 mm/min is needed");
+  EXPECT_EQ(refusal(cover), "feed_mm_min 0: expected a rate > 0 mm/min");
 }
 
 TEST(ReadWord, RefusesWhatIsNoValue) {

@@ -152,19 +152,19 @@ TEST(JobFile, FilesOfEarlierVersionsRead) {
 
 TEST(JobFile, RefusesWhatIsWrongByItsName) {
   EXPECT_EQ(refusal(changed("units", "mm")), "accepted");
-  EXPECT_NE(refusal(changed("units", "in")).find("units: is \"in\"; accepted is \"mm\""), std::string::npos);
+  EXPECT_NE(refusal(changed("units", "in")).find("units: is \"in\"; expected \"mm\""), std::string::npos);
   for (const char* key : {"part", "faces"})
     EXPECT_NE(refusal(changed(key, nullptr)).find(std::string(key) + ": is missing"), std::string::npos);
-  EXPECT_NE(refusal(changed("tolerence", 0.1)).find("tolerence: is no key"), std::string::npos);
-  EXPECT_NE(refusal(changed("strategy", "grow")).find("strategy: is no key"), std::string::npos) << "of a cover";
-  EXPECT_NE(refusal(changed("tolerance", "0.1")).find("tolerance: a number is needed"), std::string::npos);
+  EXPECT_NE(refusal(changed("tolerence", 0.1)).find("tolerence: unknown key"), std::string::npos);
+  EXPECT_NE(refusal(changed("strategy", "grow")).find("strategy: unknown key"), std::string::npos) << "of a cover";
+  EXPECT_NE(refusal(changed("tolerance", "0.1")).find("tolerance: expected a number"), std::string::npos);
   EXPECT_NE(refusal(changed("tolerance", -0.1)).find("tolerance_mm -0.1"), std::string::npos);
-  EXPECT_NE(refusal(changed("strips", 1.5)).find("strips: a whole number"), std::string::npos);
-  EXPECT_NE(refusal(changed("strips", 1e12)).find("strips: a whole number"), std::string::npos);
+  EXPECT_NE(refusal(changed("strips", 1.5)).find("strips: expected a whole number"), std::string::npos);
+  EXPECT_NE(refusal(changed("strips", 1e12)).find("strips: expected a whole number"), std::string::npos);
   EXPECT_NE(refusal(changed("side", 2)).find("side"), std::string::npos);
   EXPECT_NE(refusal(changed("fixtures", "vice.step")).find("fixtures: "), std::string::npos);
   EXPECT_NE(refusal(changed("schema", "openflank/path/1")).find("openflank/job/1"), std::string::npos);
-  EXPECT_NE(refusal(changed("command", "polish")).find("fit, cover and trochoid"), std::string::npos);
+  EXPECT_NE(refusal(changed("command", "polish")).find("fit, cover or trochoid"), std::string::npos);
   EXPECT_NE(refusal("{\"schema\": ").find("not a job file"), std::string::npos);
   EXPECT_NE(refusal("[]").find("schema"), std::string::npos);
 }

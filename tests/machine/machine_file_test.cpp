@@ -79,11 +79,11 @@ TEST(MachineFile, SaysLineAndColumnAndWhatWouldBeAccepted) {
   EXPECT_EQ(refusal(good), "accepted");
   expect_refused("name = ", "m.toml: line 1, column ");
   expect_refused(replaced(good, "kind = \"rotary\"", "kind = \"round\""), "line 10, column 8",
-                 "accepted are \"linear\", \"rotary\"");
-  expect_refused(replaced(good, "speed_deg_s = 100", "speed_deg_s = -1"), "speed_deg_s: a number from");
-  expect_refused(replaced(good, "speed_deg_s = 100", "speed_deg_s = \"fast\""), "speed_deg_s: a number from");
+                 "expected \"linear\", \"rotary\"");
+  expect_refused(replaced(good, "speed_deg_s = 100", "speed_deg_s = -1"), "speed_deg_s: expected a number from");
+  expect_refused(replaced(good, "speed_deg_s = 100", "speed_deg_s = \"fast\""), "speed_deg_s: expected a number from");
   expect_refused(replaced(good, "speed_deg_s = 100", "speed = 100"), "speed_deg_s: is missing");
-  expect_refused(replaced(good, "speed_deg_s = 100", "speed_deg_s = 100\nspeeed = 3"), "speeed: is no key here",
+  expect_refused(replaced(good, "speed_deg_s = 100", "speed_deg_s = 100\nspeeed = 3"), "speeed: unknown key",
                  "speed_deg_s");
   expect_refused(replaced(good, "travel_deg = [-30.0, 120.0]", "travel_deg = [120.0, -30.0]"), "lower < upper");
   expect_refused(replaced(good, "travel_deg = [-30.0, 120.0]", "travel_deg = [120.0]"), "2 numbers");
@@ -92,7 +92,7 @@ TEST(MachineFile, SaysLineAndColumnAndWhatWouldBeAccepted) {
   expect_refused(replaced(good, "schema = \"openflank/machine/1\"", "schema = \"openflank/machine/9\""),
                  "openflank/machine/1");
   expect_refused(replaced(good, "language = \"fanuc\"", "language = \"basic\""), "\"heidenhain\"");
-  expect_refused(replaced(good, "rotary = \"AC\"", "rotary = \"AB\""), "accepted are \"AC\", \"CA\"");
+  expect_refused(replaced(good, "rotary = \"AC\"", "rotary = \"AB\""), "expected \"AC\", \"CA\"");
   expect_refused(replaced(good, "[control]", "[contrl]"), "control: is missing");
 }
 
@@ -127,9 +127,9 @@ TEST(MachineFile, ReadsOutlinesOfTableAndHead) {
   EXPECT_EQ(machine_from_toml(with("X", box), "m.toml").bodies[2].link, 3u);
   EXPECT_NE(machine_to_text(machine).find("spindle nose"), std::string::npos);
   EXPECT_NE(machine_to_json(machine).find("\"bodies\""), std::string::npos);
-  expect_refused(with("B", box), "accepted are \"bed\"", "\"A\"");
+  expect_refused(with("B", box), "expected \"bed\"", "\"A\"");
   expect_refused(with("A", ""), "either box_mm or cylinder_mm");
-  expect_refused(with("A", box + "\nradius_mm = 3"), "radius_mm: is no key here");
+  expect_refused(with("A", box + "\nradius_mm = 3"), "radius_mm: unknown key");
   expect_refused(with("A", "box_mm = [0, 0, 0, 1, 0, 3]"), "box_mm", "lower corner");
   expect_refused(with("A", "cylinder_mm = [0, 0, 0, 0, 0, 1]"), "radius_mm: is missing");
   expect_refused(with("A", "cylinder_mm = [0, 0, 0, 0, 0, 0]\nradius_mm = 1"), "cylinder_mm", "differ");

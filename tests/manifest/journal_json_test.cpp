@@ -67,15 +67,15 @@ TEST(JournalJson, RefusesDamage) {
   EXPECT_NO_THROW((void)journal_from_json(good, "f"));
   expect_refused("", "not the steps of a run");
   expect_refused("[]", "not the steps of a run");
-  expect_refused(with(good, "resume/1", "resume/2"), "schema \"openflank/resume/1\" is needed");
+  expect_refused(with(good, "resume/1", "resume/2"), "expected schema \"openflank/resume/1\"");
   expect_refused(with(good, "0.25", "NaN"), "parse error");
-  expect_refused(with(good, "0.25", "null"), "step 1: a number is needed, not null");
-  expect_refused(with(good, "0.25", "\"nan\""), "step 1: a number is needed");
+  expect_refused(with(good, "0.25", "null"), "step 1: expected a number, not null");
+  expect_refused(with(good, "0.25", "\"nan\""), "step 1: expected a number");
   expect_refused(with(good, "0.25", "1e999"), "number overflow");
-  expect_refused(with(good, "0.25", "[1,2]"), "step 1: a number is needed, not [1,2]");
+  expect_refused(with(good, "0.25", "[1,2]"), "step 1: expected a number, not [1,2]");
   expect_refused(with(good, kHash, "short"), "64 hexadecimal digits");
-  expect_refused(with(good, "\"name\"", "\"more\":1,\"name\""), "step 1: there are keys that mean nothing here");
-  expect_refused(with(good, "\"version\"", "\"more\":1,\"version\""), "there are keys that mean nothing here");
+  expect_refused(with(good, "\"name\"", "\"more\":1,\"name\""), "step 1: unknown keys");
+  expect_refused(with(good, "\"version\"", "\"more\":1,\"version\""), "unknown keys");
   expect_refused(with(good, "\"texts\"", "\"text\""), "step 1: ");
 }
 

@@ -273,7 +273,7 @@ TEST_F(ResultFolderTest, AManifestThatSomebodyEditedRemovesNothingOfOthers) {
     if (hash == sha256("precious"))
       EXPECT_EQ(message, "accepted");
     else
-      EXPECT_NE(message.find("thesis.txt\": 64 hexadecimal digits"), std::string::npos) << message;
+      EXPECT_NE(message.find("thesis.txt\": expected 64 hexadecimal digits"), std::string::npos) << message;
     EXPECT_EQ(content("thesis.txt"), "precious");
   }
 }

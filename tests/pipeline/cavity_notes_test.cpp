@@ -34,14 +34,14 @@ Result cleared() {
 TEST(CavityNotes, TheNearestRequestThatIsMetIsTold) {
   Result result = cleared();
   note_nearest(result);
-  EXPECT_EQ(result.notes, std::vector<std::string>{"nearest to what is asked, this result meets --coverage 0.94"});
+  EXPECT_EQ(result.notes, std::vector<std::string>{"closest to the request, this result meets --coverage 0.94"});
 }
 
 TEST(CavityNotes, OfWhatIsTooDeepToo) {
   Result result = cleared();
   result.verify.overcut_bound_mm = 0.0144;
   note_nearest(result);
-  EXPECT_EQ(result.notes.back(), "nearest to what is asked, this result meets --coverage 0.94 --tolerance 0.015");
+  EXPECT_EQ(result.notes.back(), "closest to the request, this result meets --coverage 0.94 --tolerance 0.015");
 }
 
 TEST(CavityNotes, NoneWhereCyclesGotStuckOrAllIsMet) {
@@ -93,13 +93,13 @@ TEST(CavityNotes, WhereCyclesGotStuckTheLimitThatGetsPastIsTold) {
   layer.share = 0.9;
   std::vector<std::string> notes;
   note_what_is_open(asked_for(), program, notes);
-  EXPECT_NE(notes.at(0).find("no first front before the blank keeps to 60 degrees"), std::string::npos) << notes[0];
+  EXPECT_NE(notes.at(0).find("the first cut cannot stay within 60 degrees"), std::string::npos) << notes[0];
   layer.cycles.cycles.emplace_back();
   notes.clear();
   note_what_is_open(asked_for(), program, notes);
   ASSERT_EQ(notes.size(), 3u);
-  EXPECT_NE(notes[0].find("0.0121 mm, engages 61.30; --max-engagement 62"), std::string::npos) << notes[0];
-  EXPECT_NE(notes[1].find("the rest is left"), std::string::npos) << notes[1];
+  EXPECT_NE(notes[0].find("a step of 0.0121 mm with 61.30; --max-engagement 62"), std::string::npos) << notes[0];
+  EXPECT_NE(notes[1].find("the rest is not machined"), std::string::npos) << notes[1];
 }
 
 /// A search that was stopped before any cycles said "no cycle was planned", and that the cavity is open.
@@ -112,9 +112,9 @@ TEST(CavityNotes, WithoutCyclesTheSidesAreTold) {
   sides.gouge_mm = 0.2341;
   note_no_cycles(asked_for(), sides, notes);
   ASSERT_EQ(notes.size(), 1u);
-  EXPECT_NE(notes.front().find("cover 78.4 % of both"), std::string::npos) << notes.front();
+  EXPECT_NE(notes.front().find("finish 78.4 % of both"), std::string::npos) << notes.front();
   EXPECT_NE(notes.front().find("by 0.2341 mm"), std::string::npos) << notes.front();
-  EXPECT_NE(notes.front().find("95 % of what is reachable"), std::string::npos) << notes.front();
+  EXPECT_NE(notes.front().find("95 % of the accessible area"), std::string::npos) << notes.front();
 }
 
 TEST(CavityNotes, FrontsThatDoNotGetIntoTheCavityAreTold) {
@@ -127,7 +127,7 @@ TEST(CavityNotes, FrontsThatDoNotGetIntoTheCavityAreTold) {
     std::vector<std::string> notes;
     note_what_is_open(asked_for(), program, notes);
     return std::count_if(notes.begin(), notes.end(), [](const std::string& note) {
-      return note.find("all 134 fronts end before one of the sides begins") != std::string::npos;
+      return note.find("all 134 cutting moves end before one of the sides begins") != std::string::npos;
     });
   };
   EXPECT_EQ(told(0.0), 1);
@@ -146,7 +146,7 @@ TEST(CavityNotes, WhereTheSidesLeadAlongTheAxisOfStuckCyclesThatIsTold) {
     std::vector<std::string> notes;
     note_what_is_open(asked_for(), program, notes);
     return std::count_if(notes.begin(), notes.end(), [](const std::string& note) {
-      return note.find("along the tool's axis, 16 degrees off it") != std::string::npos;
+      return note.find("the sides run 16 degrees off the tool's axis") != std::string::npos;
     });
   };
   EXPECT_EQ(told(16.0), 1);

@@ -61,7 +61,7 @@ TEST(FindBuried, AToolThatTouchesTheTargetFromWithinDoesNotPass) {
   const Acceptance inside = judged(setup, {{along(kRadius), along(-kRadius)}});
   ASSERT_EQ(inside.reasons.size(), 1u);
   EXPECT_EQ(inside.reasons.front().figure, "buried");
-  EXPECT_NE(inside.reasons.front().text.find("strip 2 runs inside the material"), std::string::npos)
+  EXPECT_NE(inside.reasons.front().text.find("pass 2 runs inside the material"), std::string::npos)
       << inside.reasons.front().text;
 }
 

@@ -84,7 +84,8 @@ TEST_F(Ladder, ABoundThatGivesWayComesBackAsFarAsTheToolMayBeThick) {
   EXPECT_GT(slenderness, 10.0);
   EXPECT_LT(slenderness, 11.6) << "an eighth of the way from the first";
   ASSERT_FALSE(result.notes.empty());
-  EXPECT_NE(result.notes.back().find("is the least that was found here"), std::string::npos) << result.notes.back();
+  EXPECT_NE(result.notes.back().find("is the lowest found that meets the request"), std::string::npos)
+      << result.notes.back();
 }
 
 TEST_F(Ladder, ABoundThatCostsNothingIsKept) {

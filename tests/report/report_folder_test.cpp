@@ -106,9 +106,9 @@ TEST_F(ReportFolder, AFolderInTheFilesPlaceIsRefusedByName) {
 TEST_F(ReportFolder, PartAndFacesAreTexts) {
   for (const char* wrong : {"3", "null", "[\"a.step\"]", "{}"}) {
     write("view.json", std::string(R"({"schema": "openflank/view/1", "faces": "F1", "part": )") + wrong + "}");
-    expect_refused("view.json", "part: a text is needed");
+    expect_refused("view.json", "part: expected a text");
     write("view.json", std::string(R"({"schema": "openflank/view/1", "part": "a.step", "faces": )") + wrong + "}");
-    expect_refused("view.json", "faces: a text is needed");
+    expect_refused("view.json", "faces: expected a text");
   }
   write("view.json", R"({"schema": "openflank/view/1", "part": ""})");
   EXPECT_EQ(title(), "OpenFlank report");
@@ -119,12 +119,12 @@ TEST_F(ReportFolder, PartAndFacesAreTexts) {
 TEST_F(ReportFolder, RefusesFiguresOfAnotherType) {
   for (const char* wrong : {R"("bodies": 3)", R"("strips": "none")", R"("tolerance_mm": "0.1")"}) {
     write("view.json", std::string(R"({"schema": "openflank/view/1", )") + wrong + "}");
-    expect_refused("view.json", "is needed");
+    expect_refused("view.json", "expected ");
   }
   write("view.json", kView);
   for (const char* wrong : {R"("faces": "F1")", R"("pass": "yes")", R"("worst_places": {})"}) {
     write("verify.json", std::string(R"({"schema": "openflank/verify/1", )") + wrong + "}");
-    expect_refused("verify.json", "is needed");
+    expect_refused("verify.json", "expected ");
   }
 }
 

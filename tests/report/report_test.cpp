@@ -66,7 +66,7 @@ TEST_F(Report, SaysWhatIsWrongWithTheFolder) {
   write("view.json", "{");
   EXPECT_NE(complaint().find("view.json: not JSON"), std::string::npos);
   write("view.json", R"({"schema": "openflank/view/2"})");
-  EXPECT_NE(complaint().find("schema \"openflank/view/1\" is needed"), std::string::npos);
+  EXPECT_NE(complaint().find("expected schema \"openflank/view/1\""), std::string::npos);
   write("view.json", "[]");
   EXPECT_NE(complaint().find("schema"), std::string::npos);
   fs::remove_all(root_);

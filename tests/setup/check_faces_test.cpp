@@ -54,8 +54,8 @@ TEST(CheckFaces, RefusesWhatIsNotThere) {
   EXPECT_NE(refusal(faces("F6", {})).find("F1 to F5"), std::string::npos);
   EXPECT_NE(refusal(faces({}, "F0")).find("ignore_faces F0"), std::string::npos);
   EXPECT_NE(refusal(faces("", {})).find("check_faces"), std::string::npos);
-  EXPECT_NE(refusal(faces("F1,F2", {})).find("F2 is a target"), std::string::npos);
-  EXPECT_NE(refusal(faces({}, "F2")).find("F2 is a target"), std::string::npos);
+  EXPECT_NE(refusal(faces("F1,F2", {})).find("F2 is machined"), std::string::npos);
+  EXPECT_NE(refusal(faces({}, "F2")).find("F2 is machined"), std::string::npos);
   EXPECT_NE(refusal(faces("F3,F3", {})).find("twice"), std::string::npos);
   EXPECT_NE(refusal(faces("F3,F4", "F4")).find("`ignore_faces` names F4, too"), std::string::npos);
 }
@@ -71,14 +71,14 @@ TEST(CheckFaces, WhatCouldNotBeReadIsSaidUnlessItIsIgnoredByName) {
   EXPECT_EQ(faces_to_check(part, {1}, faces({}, "F3-F4")), std::vector<int>{0});
   EXPECT_THROW((void)faces_to_check(part, {1}, faces("F3", {})), UsageError) << "it cannot be checked";
   EXPECT_EQ(unchecked_note(part, {1}, {0, 3}, {2, 4}), "");
-  EXPECT_EQ(unchecked_note(part, {1}, {0, 3}, {4}), "not checked, as asked: F3");
+  EXPECT_EQ(unchecked_note(part, {1}, {0, 3}, {4}), "not checked, by --ignore-faces: F3");
 }
 
 TEST(CheckFaces, SaysWhatIsLeftOut) {
   EXPECT_EQ(unchecked_note(part_of(5), {1}, {0, 2, 3, 4}, {}), "");
-  EXPECT_EQ(unchecked_note(part_of(5), {1}, {0, 2}, {}), "not checked, as asked: F4, F5");
+  EXPECT_EQ(unchecked_note(part_of(5), {1}, {0, 2}, {}), "not checked, by --ignore-faces: F4, F5");
   EXPECT_EQ(unchecked_note(part_of(20), {0}, {1}, {}),
-            "not checked, as asked: F3, F4, F5, F6, F7, F8, F9, F10 and 10 more faces");
+            "not checked, by --ignore-faces: F3, F4, F5, F6, F7, F8, F9, F10 and 10 more faces");
 }
 
 TEST(CheckFaces, SaysHowOtherSolidsAreLeftOut) {

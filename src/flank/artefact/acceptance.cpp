@@ -16,7 +16,7 @@ constexpr std::size_t kMostFacesNamed = 8;  ///< of entered faces, the deepest f
 std::string place(const FaceVerdict& face) {
   if (!face.deepest) return "";
   const Vec3& p = face.deepest->point;
-  return fmt::format(" at ({:.3f}, {:.3f}, {:.3f}), strip {}", p.x(), p.y(), p.z(), face.deepest->strip + 1);
+  return fmt::format(" at ({:.3f}, {:.3f}, {:.3f}), pass {}", p.x(), p.y(), p.z(), face.deepest->strip + 1);
 }
 
 /// The faces that are cut deeper than the tolerance, deepest first.
@@ -35,8 +35,8 @@ void add_cuts(const VerifyReport& report, bool targets, Acceptance& out) {
   const std::vector<const FaceVerdict*> faces = cut_faces(report, targets);
   for (std::size_t k = 0; k < faces.size() && k < kMostFacesNamed; ++k)
     add_reason(out, figure,
-               fmt::format("{} {} by {:.4f} mm > {} mm{}", faces[k]->face, targets ? "is overcut" : "is entered",
-                           faces[k]->overcut_mm, report.tolerance_mm, place(*faces[k])));
+               fmt::format("{} is gouged by {:.4f} mm > {} mm{}", faces[k]->face, faces[k]->overcut_mm,
+                           report.tolerance_mm, place(*faces[k])));
   if (faces.size() > kMostFacesNamed)
     add_reason(out, figure, fmt::format("and {} more faces", faces.size() - kMostFacesNamed));
 }
@@ -53,12 +53,13 @@ void add_unproved(const VerifyReport& report, Acceptance& out) {
   for (std::size_t k = 0; k < faces.size() && k < kMostFacesNamed; ++k) {
     const Vec3& p = faces[k]->bound_point;
     const std::string sampled =
-        report.depth == DepthProof::kSampled ? ", between samples; without --sample it is looked at" : "";
-    add_reason(out, faces[k]->target ? Figure::kOvercutBound : Figure::kGougeBound,
-               fmt::format("{} is not proved: cut by {:.4f} mm, but it may be {:.4f} mm > {} mm about "
-                           "({:.3f}, {:.3f}, {:.3f}){}",
-                           faces[k]->face, faces[k]->overcut_mm, faces[k]->overcut_bound_mm, report.tolerance_mm, p.x(),
-                           p.y(), p.z(), sampled));
+        report.depth == DepthProof::kSampled ? ", between samples; leave out --sample for a proof" : "";
+    add_reason(
+        out, faces[k]->target ? Figure::kOvercutBound : Figure::kGougeBound,
+        fmt::format(
+            "{} is not proved: gouge {:.4f} mm found, {:.4f} mm > {} mm possible near ({:.3f}, {:.3f}, {:.3f}){}",
+            faces[k]->face, faces[k]->overcut_mm, faces[k]->overcut_bound_mm, report.tolerance_mm, p.x(), p.y(), p.z(),
+            sampled));
   }
   if (faces.size() > kMostFacesNamed)
     add_reason(out, Figure::kOvercutBound, fmt::format("and {} more faces", faces.size() - kMostFacesNamed));
@@ -69,7 +70,7 @@ void add_sheet_sides(const VerifyReport& report, Acceptance& out) {
   for (const SheetSide& sheet : report.sheet_sides)
     if (!sheet.asked)
       add_caution(out, Figure::kSheetSide,
-                  fmt::format("{} bounds no material; machined from {}; --side {} takes the other side", sheet.faces,
+                  fmt::format("{} belongs to no solid; machined from {}; --side {} takes the other side", sheet.faces,
                               side_text(sheet), sheet.side > 0 ? "-" : "+"));
 }
 
@@ -77,7 +78,7 @@ void add_sheet_sides(const VerifyReport& report, Acceptance& out) {
 void add_buried(const VerifyReport& report, Acceptance& out) {
   if (report.buried.empty()) return;
   const BuriedStrip& first = report.buried.front();
-  std::string text = fmt::format("strip {} runs inside the material, about ({:.3f}, {:.3f}, {:.3f})", first.strip + 1,
+  std::string text = fmt::format("pass {} runs inside the material near ({:.3f}, {:.3f}, {:.3f})", first.strip + 1,
                                  first.point.x(), first.point.y(), first.point.z());
   if (report.buried.size() > 1) text += fmt::format(", and {} more", report.buried.size() - 1);
   add_reason(out, Figure::kBuried, std::move(text));
@@ -88,7 +89,7 @@ void add_unread(const VerifyReport& report, Acceptance& out) {
   const std::vector<UnjudgedFace>& faces = report.unread_faces;
   for (std::size_t k = 0; k < faces.size() && k < kMostFacesNamed; ++k)
     add_reason(out, Figure::kUnreadFaces,
-               fmt::format("{0} is not judged: {1}; if the tool may enter it: --ignore-faces {0}", faces[k].face,
+               fmt::format("{0} is not checked: {1}; if the tool may cut into it: --ignore-faces {0}", faces[k].face,
                            faces[k].why));
   if (faces.size() > kMostFacesNamed)
     add_reason(out, Figure::kUnreadFaces, fmt::format("and {} more faces", faces.size() - kMostFacesNamed));
@@ -98,7 +99,7 @@ void add_unread(const VerifyReport& report, Acceptance& out) {
 void add_coverage(const VerifyReport& report, double least, Acceptance& out) {
   if (!(report.coverage_reachable >= least)) {
     add_reason(out, Figure::kCoverage,
-               fmt::format("coverage {:.3f} % < {:.3f} % of what is reachable; of the whole face {:.3f} %",
+               fmt::format("finished {:.3f} % < {:.3f} % of the accessible area; {:.3f} % of the whole face",
                            100.0 * report.coverage_reachable, 100.0 * least, 100.0 * report.coverage));
     return;
   }
@@ -109,8 +110,8 @@ void add_coverage(const VerifyReport& report, double least, Acceptance& out) {
   });
   const Vec3 p = worst != report.faces.end() ? worst->uncovered_point : Vec3(Vec3::Zero());
   add_reason(out, Figure::kCoverageBound,
-             fmt::format("coverage is not proved: {:.3f} % of what is reachable is measured, {:.3f} % is proved "
-                         "< {:.3f} %; the rest is about ({:.3f}, {:.3f}, {:.3f})",
+             fmt::format("finished area is not proved: {:.3f} % of the accessible area measured, {:.3f} % proved < "
+                         "{:.3f} %; largest unproved area near ({:.3f}, {:.3f}, {:.3f})",
                          100.0 * report.coverage_reachable, 100.0 * *report.coverage_reachable_bound, 100.0 * least,
                          p.x(), p.y(), p.z()));
 }
@@ -136,15 +137,15 @@ void add_whole(const VerifyReport& report, const JudgeRequest& request, Acceptan
   if (report.coverage >= wanted) {
     add_reason(
         out, Figure::kWholeCoverage,
-        fmt::format("coverage of the whole face is not proved: {:.3f} % is measured, {:.3f} % is proved < {:.3f} %",
+        fmt::format("finished area of the whole face is not proved: {:.3f} % measured, {:.3f} % proved < {:.3f} %",
                     100.0 * report.coverage, 100.0 * *report.coverage_bound, 100.0 * wanted));
     return;
   }
-  const std::string text = fmt::format("{:.2f} % of the face is left, up to {:.2g} mm of material{}",
+  const std::string text = fmt::format("{:.2f} % of the face is not finished, up to {:.2g} mm of excess material{}",
                                        100.0 * (1.0 - report.coverage), report.undercut_mm, who_reaches(report));
   if (request.least_whole)
     add_reason(out, Figure::kWholeCoverage,
-               fmt::format("{}; {:.3f} % of the whole is asked for", text, 100.0 * wanted));
+               fmt::format("{}; {:.3f} % of the whole face is required", text, 100.0 * wanted));
   else
     add_caution(out, Figure::kWholeCoverage, text);
 }
@@ -153,11 +154,10 @@ void add_whole(const VerifyReport& report, const JudgeRequest& request, Acceptan
 void add_turn(const VerifyReport& report, const JudgeRequest& request, Acceptance& out) {
   if (!report.turn || !(report.turn->angle_deg > request.most_turn_deg) || request.most_turn_deg <= 0.0) return;
   const Vec3& p = report.turn->point;
-  add_reason(
-      out, Figure::kTurn,
-      fmt::format("the motion turns by {:.1f} degrees > {:.4g} within 1 % of the face's diagonal, strip {}, tip at "
-                  "({:.3f}, {:.3f}, {:.3f})",
-                  report.turn->angle_deg, request.most_turn_deg, report.turn->strip + 1, p.x(), p.y(), p.z()));
+  add_reason(out, Figure::kTurn,
+             fmt::format("the motion turns by {:.1f} degrees > {:.4g} within 1 % of the face's diagonal, pass {}, tip "
+                         "at ({:.3f}, {:.3f}, {:.3f})",
+                         report.turn->angle_deg, request.most_turn_deg, report.turn->strip + 1, p.x(), p.y(), p.z()));
 }
 
 /// Whether anything could hold the tool, and what of that was not given.
@@ -166,7 +166,7 @@ void add_hold(const Tool& tool, const VerifyReport& report, Acceptance& out) {
     const ClearanceFigure& axis = report.hold->axis;
     add_reason(out, Figure::kHold,
                fmt::format("nothing could hold the tool: above the flank its axis runs through {} at ({:.3f}, {:.3f}, "
-                           "{:.3f}), strip {}",
+                           "{:.3f}), pass {}",
                            axis.obstacle, axis.point.x(), axis.point.y(), axis.point.z(), axis.strip + 1));
   }
   if (!tool.shank.empty() && !tool.holder.empty()) return;
@@ -176,11 +176,22 @@ void add_hold(const Tool& tool, const VerifyReport& report, Acceptance& out) {
   if (report.hold && report.hold->as_thick && !report.hold->as_thick->kept) {
     const ClearanceFigure& f = *report.hold->as_thick;
     text += fmt::format(
-        ": a shank as thick as the flank's upper end would enter {} by {:.2g} mm within one diameter, "
-        "strip {}; the flank is {:.4g} mm long",
+        ": a shank as thick as the flank's upper end would collide with {} by {:.2g} mm within one diameter above it, "
+        "pass {}; the flank is {:.4g} mm long",
         f.obstacle, f.bound_mm - f.clearance_mm, f.strip + 1, tool.radial.axis_length());
   }
   add_caution(out, Figure::kBodyUnknown, text);
+}
+
+/// The clearance that was measured beside the one that is required: how near, or how deep, and where.
+std::string lost_clearance(const ClearanceFigure& f) {
+  // The figure less its bound is what counts (ClearanceFigure::kept).
+  const std::string found = f.clearance_mm < 0.0
+                                ? fmt::format("it collides by {:.3f} mm", -f.clearance_mm)
+                                : fmt::format("it is {:.3f} mm (+-{:.3f})", f.clearance_mm, f.bound_mm);
+  return fmt::format("{}: clearance of {} mm to {} is not proved: {} at ({:.3f}, {:.3f}, {:.3f}), pass {}",
+                     body_name(f.body), f.required_mm, f.obstacle, found, f.point.x(), f.point.y(), f.point.z(),
+                     f.strip + 1);
 }
 
 }  // namespace
@@ -197,10 +208,10 @@ Acceptance accept(const Tool& tool, const VerifyReport& report, const JudgeReque
   Acceptance out;
   if (!complete) add_reason(out, Figure::kComplete, "interrupted: incomplete");
   if (const Legitimacy legitimacy = check_legitimacy(tool.radial); !legitimacy.legitimate)
-    add_reason(out, Figure::kLegitimate, "the tool is not legitimate: " + legitimacy.reason);
+    add_reason(out, Figure::kLegitimate, "the tool's profile is not valid: " + legitimacy.reason);
   add_sheet_sides(report, out);
   if (!complete && report.verdict == Verdict::kNotRun) {
-    add_reason(out, Figure::kVerdict, "not judged: `flank verify` judges it");
+    add_reason(out, Figure::kVerdict, "not checked; run `flank verify`");
     return out;
   }
   add_cuts(report, true, out);
@@ -213,12 +224,8 @@ Acceptance accept(const Tool& tool, const VerifyReport& report, const JudgeReque
   add_whole(report, request, out);
   add_turn(report, request, out);
   add_hold(tool, report, out);
-  // "surely": the judge's figure less its bound is what counts (ClearanceFigure::kept).
   for (const ClearanceFigure& f : report.clearance.figures)
-    if (!f.kept)
-      add_reason(
-          out, Figure::kClearance,
-          fmt::format("the {} does not keep {} mm from {} surely", body_name(f.body), f.required_mm, f.obstacle));
+    if (!f.kept) add_reason(out, Figure::kClearance, lost_clearance(f));
   return out;
 }
 
@@ -231,21 +238,21 @@ void accept_stock(const StockReport& stock, double most_engagement_deg, double t
     // Cycles make the limit; a finishing sweep or a link that engages more has met what they have left.
     if (kind.engagement_deg > most && !kind.cuts_a_slot())
       add_reason(acceptance, Figure::kStock,
-                 fmt::format("replayed, a {} has an engagement of {:.3f} degrees > {} + {:.2f}, {}", kind.kind,
+                 fmt::format("stock simulation: a {} has an engagement of {:.2f} degrees > {} + {:.2f}, {}", kind.kind,
                              kind.engagement_deg, most_engagement_deg, stock.resolution_deg,
                              where ? where(static_cast<std::size_t>(kind.strip), kind.pose)
-                                   : fmt::format("strip {}", kind.strip + 1)));
+                                   : fmt::format("pass {}", kind.strip + 1)));
   // A stretch of up to two cells may only be the grid's.
   if (stock.uncut_mm > std::max(kMostUncutMm, 2.0 * stock.cell_mm)) {
     const Vec3& p = stock.uncut_point;
-    add_reason(acceptance, Figure::kStock,
-               fmt::format("replayed, {:.3f} mm of material are left between the sides, before ({:.3f}, {:.3f}, "
-                           "{:.3f})",
-                           stock.uncut_mm, p.x(), p.y(), p.z()));
+    add_reason(
+        acceptance, Figure::kStock,
+        fmt::format("stock simulation: {:.3f} mm of material left between the sides, before ({:.3f}, {:.3f}, {:.3f})",
+                    stock.uncut_mm, p.x(), p.y(), p.z()));
   }
   if (stock.entered_mm > tolerance_mm + kSpareCells * stock.cell_mm)
     add_reason(acceptance, Figure::kStock,
-               fmt::format("replayed, a face is entered by {:.4f} mm > {} mm", stock.entered_mm, tolerance_mm));
+               fmt::format("stock simulation: a face is gouged by {:.4f} mm > {} mm", stock.entered_mm, tolerance_mm));
 }
 
 void accept_bends(const PlanJob& job, const BendRadii& bends, Acceptance& acceptance) {
@@ -254,19 +261,20 @@ void accept_bends(const PlanJob& job, const BendRadii& bends, Acceptance& accept
   const double asked = *fit->min_bend_radius_mm;
   for (const auto& [end, radius_mm] : {std::pair("tip", bends.tip_mm), std::pair("holder end", bends.holder_end_mm)})
     if (radius_mm < asked)
-      add_reason(acceptance, Figure::kBendRadius,
-                 fmt::format("the path of the {} bends with a radius of {:.3g} mm < {} mm", end, radius_mm, asked));
+      add_reason(
+          acceptance, Figure::kBendRadius,
+          fmt::format("smallest radius of curvature of the path of the {}: {:.3g} mm < {} mm", end, radius_mm, asked));
 }
 
 void accept_cavity(const TrochoidSummary& cavity, Acceptance& acceptance) {
   constexpr double kSpareDeg = 1e-6;  // rounding of a limit that cycles are made to reach
   if (cavity.largest_deg() > cavity.most_engagement_deg + kSpareDeg)
     add_reason(acceptance, Figure::kEngagement,
-               fmt::format("engagement {:.3f} degrees > {} degrees", cavity.largest_deg(), cavity.most_engagement_deg));
+               fmt::format("engagement {:.2f} degrees > {} degrees", cavity.largest_deg(), cavity.most_engagement_deg));
   for (std::size_t k = 0; k < cavity.layers.size(); ++k)
     if (cavity.layers[k].side_deg > cavity.most_engagement_deg + kSpareDeg)
       add_reason(acceptance, Figure::kEngagement,
-                 fmt::format("layer {}: a finishing sweep has an engagement of {:.3f} degrees > {} degrees", k + 1,
+                 fmt::format("layer {}: a finishing sweep has an engagement of {:.2f} degrees > {} degrees", k + 1,
                              cavity.layers[k].side_deg, cavity.most_engagement_deg));
   // A layer that ended early has a good engagement in what it has, and leaves the rest.
   for (std::size_t k = 0; k < cavity.layers.size(); ++k)

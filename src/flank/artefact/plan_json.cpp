@@ -19,9 +19,9 @@ std::string lines_of(const CoverSummary& cover, double) {
   std::string text;
   for (const TargetCover& t : cover.targets)
     text += fmt::format(
-        "  cover       {}: {} strip{} from {} seeds, {} lines and {} candidates; {} of what is reachable before "
-        "smoothing, {} after, overlap {}, links {:.1f} mm\n",
-        t.faces, t.strips, t.strips == 1 ? "" : "s", t.seeds, t.lines, t.grown, percent(t.before), percent(t.after),
+        "  cover       {}: {} pass{} (seeds {}, lines {}, candidates {}); {} of the accessible area before smoothing, "
+        "{} after, overlap {}, links {:.1f} mm\n",
+        t.faces, t.strips, t.strips == 1 ? "" : "es", t.seeds, t.lines, t.grown, percent(t.before), percent(t.after),
         percent(t.overlap), t.links_mm);
   return text;
 }
@@ -50,10 +50,10 @@ std::string stiffness_lines(const FitSummary& fit, double tolerance_mm) {
   for (const StiffnessStep& step : told) {
     std::string word = fmt::format("{:.1f} {}", step.slenderness, percent(step.coverage));
     if (!is_clean(step, tolerance_mm))
-      word += fmt::format(" and {:.2g} mm deep", std::max(step.overcut_mm, step.gouge_mm));
+      word += fmt::format(" with gouges of {:.2g} mm", std::max(step.overcut_mm, step.gouge_mm));
     words.push_back(word + (step.chosen ? " (chosen)" : step.judged ? "" : " (estimate)"));
   }
-  return fmt::format("  lambda      {} tools were tried; slenderness and coverage: {}\n", fit.stiffness.size(),
+  return fmt::format("  L:D         {} tools tried; L:D and finished area: {}\n", fit.stiffness.size(),
                      fmt::join(words, ", "));
 }
 

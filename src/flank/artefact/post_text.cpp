@@ -18,18 +18,18 @@ std::string internal::minutes_text(double minutes) {
 
 std::string post_text(const PostOutcome& o) {
   // What the machine is and where the part sits come first: with the part in another place the program is wrong.
-  std::string text = fmt::format("machine {} ({}), the part sits at {}{}\n", o.machine, o.nesting, o.setup,
-                                 o.setup_found ? " (found)" : "");
-  text += fmt::format("{} strips of {} poses: {} blocks with links, {} points inserted, {} left out\n", o.strips,
-                      o.poses, o.moves, o.inserted, o.left_out);
+  std::string text =
+      fmt::format("machine {} ({}), set-up {}{}\n", o.machine, o.nesting, o.setup, o.setup_found ? " (found)" : "");
+  text += fmt::format("{} pass{} of {} CL points: {} blocks with links, {} points inserted, {} left out\n", o.strips,
+                      o.strips == 1 ? "" : "es", o.poses, o.moves, o.inserted, o.left_out);
   // Both are bounds, and add up: neither is in the judge's verdict on the planned path.
-  text += fmt::format("the control's motion leaves the path by at most {:.6f} mm, and digits add at most {:.6f} mm\n",
+  text += fmt::format("the control's motion leaves the path by at most {:.2g} mm, rounding adds at most {:.1g} mm\n",
                       o.deviation_mm, o.rounding_mm);
   text += fmt::format("{:<6} {:>11} {:>11} {:>11} {:>14}\n", "joint", "from", "to", "largest /s", "largest /s^2");
   for (const JointRange& j : o.joints)
     text += fmt::format("{:<2}{:<4} {:>11.3f} {:>11.3f} {:>11.3f} {:>14.2f}\n", j.joint, j.unit, j.low, j.high, j.speed,
                         j.acceleration);
-  text += fmt::format("nearest to singular {:.2f} degrees; time {}, of which cutting {}\n", o.least_tilt_deg,
+  text += fmt::format("closest to the pole {:.2f} degrees; time {}, of which cutting {}\n", o.least_tilt_deg,
                       minutes_text(o.minutes), minutes_text(o.cutting_minutes));
   for (const std::string& note : o.notes) text += "note: " + note + "\n";
   text += reason_lines(o.acceptance);

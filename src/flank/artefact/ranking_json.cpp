@@ -64,11 +64,11 @@ std::string ranking_table(const Ranking& ranking) {
   std::size_t width = 4;
   for (const RankedChoice& tool : ranking.tools) width = std::max(width, tool.tool.size());
   std::string text = fmt::format("  ranking     {} tools: {}\n", ranking.tools.size(), ranking.source);
-  text += fmt::format("       {:<{}}   covered  reachable  of that  strips  minutes\n", "tool", width);
+  text += fmt::format("       {:<{}}  finished accessible  of that  passes  minutes\n", "tool", width);
   for (std::size_t k = 0; k < ranking.tools.size(); ++k) text += row_of(ranking.tools[k], k + 1, width);
   text += fmt::format(
-      "              minutes: {:.4g} mm/min along the strips, {:.4g} mm/min between them; as grown: left behind before "
-      "its strips were smoothed\n",
+      "              minutes: {:.4g} mm/min along the passes, {:.4g} mm/min between them; as grown: passes not "
+      "smoothed, because other tools were better\n",
       ranking.feed_mm_min, ranking.rapid_mm_min);
   return text;
 }

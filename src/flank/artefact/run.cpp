@@ -33,22 +33,22 @@ std::string bend_text(double radius_mm) {
 std::string error_lines(const Result& result) {
   const VerifyReport& v = result.verify;
   std::string text;
-  text +=
-      fmt::format("  path        {} strip{}, {} poses, joined within {:.2g} mm of the motion, largest |c| {:.3f}{}\n",
-                  result.path.strips.size(), result.path.strips.size() == 1 ? "" : "s", result.path.pose_count(),
-                  result.chord_bound_mm, result.largest_c,
-                  v.turn ? fmt::format(", largest turn {:.1f} degrees", v.turn->angle_deg) : "");
-  text += fmt::format("  bends       least radius {} at the tip, {} at the holder end\n",
+  text += fmt::format("  path        {} pass{}, {} CL points, chord error {:.2g} mm, largest axial slip |c| {:.3f}{}\n",
+                      result.path.strips.size(), result.path.strips.size() == 1 ? "" : "es", result.path.pose_count(),
+                      result.chord_bound_mm, result.largest_c,
+                      v.turn ? fmt::format(", largest turn {:.1f} degrees", v.turn->angle_deg) : "");
+  text += fmt::format("  curvature   smallest radius {} at the tip, {} at the holder end\n",
                       bend_text(result.bends.tip_mm), bend_text(result.bends.holder_end_mm));
-  if (was_stopped(result)) return text + "  judged      not at all\n";
-  text += fmt::format("  coverage    {:.2f} % of the whole face within {} mm\n", 100.0 * v.coverage, v.tolerance_mm);
+  if (was_stopped(result)) return text + "  checked     no: interrupted\n";
+  text += fmt::format("  finished    {:.2f} % of the whole face within {} mm\n", 100.0 * v.coverage, v.tolerance_mm);
   text += "  " + reach_text(v) + "\n";
-  text += fmt::format("  overcut     {:.6f} mm\n", v.overcut_mm);
-  text += fmt::format("  undercut    {:.6f} mm where the path touches, {:.4f} mm anywhere on the target\n",
+  text += fmt::format("  gouge       {:.4f} mm\n", v.overcut_mm);
+  text += fmt::format("  excess      {:.4f} mm of material in the finished area, {:.4f} mm anywhere on the face\n",
                       v.undercut_covered_mm, v.undercut_mm);
-  text += fmt::format("  rms         {:.6f} mm over the covered samples\n", v.rms_mm);
-  text += fmt::format("  other faces {:.6f} mm deepest overcut\n", v.gouge_mm);
-  text += "  judged      " + depth_text(v) + "\n";
+  text += fmt::format("  rms error   {:.4f} mm over the finished area\n", v.rms_mm);
+  if (std::any_of(v.faces.begin(), v.faces.end(), [](const FaceVerdict& face) { return !face.target; }))
+    text += fmt::format("  other faces {:.4f} mm deepest gouge\n", v.gouge_mm);
+  text += "  checked     " + depth_text(v) + "\n";
   return text;
 }
 
@@ -67,16 +67,17 @@ std::string tool_line(const Tool& tool) {
     low = std::min(low, r);
     high = std::max(high, r);
   }
-  return fmt::format("  tool        {} ({}), axis {:.3f} mm, radius {:.3f} to {:.3f} mm\n", tool.name,
-                     family_name(tool.radial.family()), length, low, high);
+  const std::string family(family_name(tool.radial.family()));
+  const std::string name = tool.name.empty() || tool.name == family ? family : tool.name + " (" + family + ")";
+  return fmt::format("  tool        {}, axis {:.3f} mm, radius {:.3f} to {:.3f} mm\n", name, length, low, high);
 }
 
 /// MATH.md, section 11, as one number that people can compare: the cylinder that bends as much.
 std::string stiffness_line(const Tool& tool) {
   const Stiffness bent = stiffness(tool);
   return fmt::format(
-      "  stiffness   slenderness {:.2f}: as a cylinder of diameter {:.3f} mm, {:.3f} mm long; its tip gives "
-      "way by {:.2f} um under {:.0f} N in carbide\n",
+      "  stiffness   L:D {:.2f}: bends as a cylinder of diameter {:.2f} mm, {:.2f} mm long; tip deflection {:.2f} um "
+      "at {:.0f} N (carbide)\n",
       bent.slenderness, bent.equivalent_diameter_mm, bent.length_mm, bent.deflection_um, kStiffnessForce);
 }
 
@@ -182,9 +183,9 @@ std::string summary_text(const Result& result) {
   const PartRequest part = part_of(result.job);
   std::string text = fmt::format("{} {}\n", part.file, part.target_text());
   // What was asked for stands first: a verdict is about that and nothing else.
-  text += fmt::format("  asked for   {}\n", fmt::join(asked_for(result.job), ", "));
+  text += fmt::format("  request     {}\n", fmt::join(asked_for(result.job), ", "));
   text += tool_line(result.tool) + stiffness_line(result.tool);
-  text += result.path.pose_count() > 0 ? error_lines(result) : "  path        no strip: nothing is machined\n";
+  text += result.path.pose_count() > 0 ? error_lines(result) : "  path        no pass: nothing is machined\n";
   text += sheet_side_text(result.verify) + clearance_text(result.verify.clearance);
   if (result.verify.stock) text += stock_text(*result.verify.stock);
   text += plan_lines(result);

@@ -42,7 +42,7 @@ double to_number(const Json& j) {
   const auto word = j.get<std::string>();
   if (word == kMinusInfinity) return -kInfinity;
   if (word == kNoNumber) return std::numeric_limits<double>::quiet_NaN();
-  throw InputError("\"" + word + "\" is no figure");
+  throw InputError("\"" + word + "\" is not a figure");
 }
 
 Json point(const Vec3& p) { return {number(p.x()), number(p.y()), number(p.z())}; }
@@ -81,7 +81,7 @@ SheetSide sheet_side_from(const Json& j) {
     return Vec3(to_number(p.at(0)), to_number(p.at(1)), to_number(p.at(2)));
   };
   const auto side = j.at("side").get<std::string>();
-  if (side != "+" && side != "-") throw InputError("\"" + side + "\" is no side; + or - is accepted");
+  if (side != "+" && side != "-") throw InputError("\"" + side + "\" is not a side; expected + or -");
   return {j.at("faces").get<std::string>(),
           side == "-" ? -1 : +1,
           j.at("asked").get<bool>(),
@@ -195,20 +195,20 @@ ClearanceFigure clearance_from(const Json& j) {
 Verdict verdict_from(const std::string& name) {
   for (const auto& [verdict, known] : kVerdicts)
     if (known == name) return verdict;
-  throw InputError("verdict \"" + name + "\"; not_run, pass, overcut, gouge or unproved is accepted");
+  throw InputError("verdict \"" + name + "\"; expected not_run, pass, overcut, gouge or unproved");
 }
 
 DepthProof depth_from(const std::string& name) {
   for (DepthProof depth : {DepthProof::kSampled, DepthProof::kProved})
     if (name == depth_name(depth)) return depth;
-  throw InputError("depth \"" + name + "\"; proved or sampled is accepted");
+  throw InputError("depth \"" + name + "\"; expected proved or sampled");
 }
 
 VerifyReport report_from(const Json& j) {
   const auto schema = j.at("schema").get<std::string>();
   // Fields of another version may have the same names and other meanings.
-  if (schema != kSchema) throw InputError("schema \"" + schema + "\"; " + std::string(kSchema) + " is accepted");
-  if (j.value("units", "mm") != "mm") throw InputError("units: is not \"mm\", which is accepted");
+  if (schema != kSchema) throw InputError("schema \"" + schema + "\"; expected " + std::string(kSchema));
+  if (j.value("units", "mm") != "mm") throw InputError("units: expected \"mm\"");
   VerifyReport r;
   r.verdict = verdict_from(j.at("verdict").get<std::string>());
   r.tolerance_mm = to_number(j.at("tolerance_mm"));
@@ -236,7 +236,7 @@ VerifyReport report_from(const Json& j) {
   // Who draws a bin takes its two edges without asking.
   if (!r.histogram_edges_mm.empty() && r.histogram_edges_mm.size() != r.histogram_area_mm2.size() + 1)
     throw InputError("a histogram of " + std::to_string(r.histogram_area_mm2.size()) + " bins with " +
-                     std::to_string(r.histogram_edges_mm.size()) + " edges; one edge more than bins is accepted");
+                     std::to_string(r.histogram_edges_mm.size()) + " edges; expected one edge more than bins");
   // Files of results without shank, holder or fixtures have none; nor is there a stock where no cavity was replayed.
   if (j.contains("clearance"))
     for (const Json& c : j.at("clearance")) r.clearance.figures.push_back(clearance_from(c));

@@ -10,8 +10,7 @@ namespace flank {
 
 void Progress::Journal::begin(const JournalKey& key) {
   if (key_ && *key_ != key) {
-    const std::string needed =
-        "; a folder that the same command left with the same part, options and version is needed";
+    const std::string needed = "; give a folder of the same command, part, options and version";
     if (key_->part != key.part) throw InputError(file_ + ": is of another part" + needed);
     if (key_->version != key.version)
       throw InputError(file_ + ": is of version " + key_->version + ", and this is " + key.version + needed);

@@ -44,8 +44,7 @@ bool is_folder(const std::string& path) {
 std::string find_shared_folder(const SharedFolder& folder) {
   if (const char* wanted = std::getenv(folder.variable); wanted != nullptr && *wanted != '\0') {
     if (is_folder(wanted)) return wanted;
-    throw InputError(std::string(folder.variable) + "=" + wanted + ": no such folder; one of " + folder.content +
-                     " is needed");
+    throw InputError(std::string(folder.variable) + "=" + wanted + ": no such folder; give one of " + folder.content);
   }
   const fs::path code = code_file();
   const std::string found = above(code, folder.name);

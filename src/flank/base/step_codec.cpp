@@ -16,7 +16,7 @@ void StepCodec::refuse(const std::string& needed) const {
 }
 
 double StepCodec::next() {
-  if (number_ == values_.numbers.size()) refuse("a further number is needed");
+  if (number_ == values_.numbers.size()) refuse("expected a further number");
   return values_.numbers[number_++];
 }
 
@@ -25,25 +25,25 @@ void StepCodec::number(double& value) {
     value = next();
   else
     values_.numbers.push_back(value);
-  require(!std::isnan(value), "a number is needed");
+  require(!std::isnan(value), "expected a number");
 }
 
 void StepCodec::finite(double& value) {
   number(value);
-  require(std::isfinite(value), "a finite number is needed");
+  require(std::isfinite(value), "expected a finite number");
 }
 
 void StepCodec::whole(std::int64_t& value, std::int64_t low, std::int64_t high) {
   if (!reading_) {
-    require(value >= low && value <= high && std::abs(value) <= kMostWhole, "a whole number in its range is needed");
+    require(value >= low && value <= high && std::abs(value) <= kMostWhole, "expected a whole number in its range");
     values_.numbers.push_back(static_cast<double>(value));
     return;
   }
   const double found = next();
   // In this order: a number out of range must not become an integer.
-  require(std::abs(found) <= static_cast<double>(kMostWhole) && found == std::floor(found), "a whole number is needed");
+  require(std::abs(found) <= static_cast<double>(kMostWhole) && found == std::floor(found), "expected a whole number");
   value = static_cast<std::int64_t>(found);
-  require(value >= low && value <= high, "a whole number in its range is needed");
+  require(value >= low && value <= high, "expected a whole number in its range");
 }
 
 void StepCodec::text(std::string& value) {
@@ -51,7 +51,7 @@ void StepCodec::text(std::string& value) {
     values_.texts.push_back(value);
     return;
   }
-  if (text_ == values_.texts.size()) refuse("a further text is needed");
+  if (text_ == values_.texts.size()) refuse("expected a further text");
   value = values_.texts[text_++];
 }
 
@@ -69,7 +69,7 @@ void StepCodec::require(bool holds, const char* needed) {
 }
 
 void StepCodec::end() const {
-  if (number_ != values_.numbers.size() || text_ != values_.texts.size()) refuse("nothing more is needed");
+  if (number_ != values_.numbers.size() || text_ != values_.texts.size()) refuse("expected nothing more");
 }
 
 void code(StepCodec& codec, bool& value) {

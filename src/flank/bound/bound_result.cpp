@@ -89,21 +89,23 @@ std::string bound_text(const BoundResult& result) {
   for (const BoundTarget& target : result.targets) {
     const ContactMap& map = target.map;
     text += fmt::format("  {}: {} points of {:.4g} mm2\n", target.faces, map.points.size(), map.area_mm2);
-    text += fmt::format("    no pose touches over more than {:.4g} mm (a tenth of the area: {:.4g}, half: {:.4g})\n",
-                        quantile(map, 1.0), quantile(map, 0.1), quantile(map, 0.5));
+    text += fmt::format(
+        "    no position of the tool touches over more than {:.4g} mm (a tenth of the area: {:.4g}, half: {:.4g})\n",
+        quantile(map, 1.0), quantile(map, 0.1), quantile(map, 0.5));
     double found = 0.0, sum = 0.0;
     for (const MapPoint& point : map.points)
       if (point.contact.bound_mm > 0.0) {
         found += point.area_mm2 * point.contact.found_mm / point.contact.bound_mm;
         sum += point.area_mm2;
       }
-    if (sum > 0.0) text += fmt::format("    poses reach {:.1f} % of these bounds, in the mean\n", 100.0 * found / sum);
+    if (sum > 0.0)
+      text += fmt::format("    positions found reach {:.1f} % of these bounds on average\n", 100.0 * found / sum);
     if (map.blocked_mm2 > 0.0)
-      text += fmt::format("    no pose finishes {:.1f} % of the area\n", 100.0 * map.blocked_mm2 / map.area_mm2);
+      text += fmt::format("    no position finishes {:.1f} % of the area\n", 100.0 * map.blocked_mm2 / map.area_mm2);
     text += fmt::format(
-        "    least way of the contact {:.4g} mm: {} strip{} at least, none longer than half of the border ({:.4g} "
-        "mm)\n",
-        map.way_mm, map.strips, map.strips == 1 ? "" : "s", 0.5 * map.border_mm);
+        "    the contact must travel at least {:.4g} mm: at least {} pass{}, none longer than half of the border "
+        "({:.4g} mm)\n",
+        map.way_mm, map.strips, map.strips == 1 ? "" : "es", 0.5 * map.border_mm);
     if (!map.complete) text += "    stopped early: the other points have no bound\n";
   }
   for (const std::string& note : result.notes) text += "  note: " + note + "\n";

@@ -48,7 +48,7 @@ BoundResult run_bound(const BoundJob& request, const Progress& progress) {
   BoundResult result;
   result.job = request;
   result.tool = given_tool(request.tool.spec, request.tool.axis_length_mm,
-                           "a given tool is needed: its longest contact is bounded", result.notes);
+                           "needs a given tool: its longest contact is bounded", result.notes);
   progress.step("read", 0.0);
   ObstacleRequest obstacles;
   obstacles.check_faces = request.check_faces;
@@ -82,7 +82,7 @@ void write_bound(const BoundResult& result, const std::string& folder) {
   const Unwritten unwritten(inputs);
   std::error_code error;
   fs::create_directories(folder, error);
-  if (!fs::is_directory(folder)) throw InputError(folder + ": is no folder and cannot be made");
+  if (!fs::is_directory(folder)) throw InputError(folder + ": is not a folder and cannot be created");
   write_file((fs::path(folder) / "bound.json").string(), bound_json(result));
   write_file((fs::path(folder) / "bound.txt").string(), bound_text(result));
 }

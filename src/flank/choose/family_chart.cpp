@@ -159,7 +159,7 @@ std::string FamilyChart::text() const {
     if (coordinate == FamilyCoordinate::kRadius)
       parts.push_back(fmt::format("radius from a tenth of the axis to {:.3g} mm", radius_high_));
     if (coordinate == FamilyCoordinate::kCurvature)
-      parts.push_back(fmt::format("arc from {:.3g} mm (concave) over straight to {:.3g} mm", 1.0 / curvature_low_,
+      parts.push_back(fmt::format("arc from {:.3g} mm (concave) through straight to {:.3g} mm", 1.0 / curvature_low_,
                                   1.0 / curvature_high_));
     if (coordinate == FamilyCoordinate::kAngle && by_slope())
       parts.push_back(fmt::format("slope {:.3g} to {:.3g}", angle_low_, angle_high_));

@@ -253,7 +253,7 @@ std::string searched_text(const Search& search) {
   const std::string lengths =
       search.options.axis_length_mm
           ? fmt::format("{:.4g} mm (given)", search.lengths.front())
-          : fmt::format("{:.4g} mm (the face is {:.3g} mm wide: over 1 to {} strips)", fmt::join(search.lengths, ", "),
+          : fmt::format("{:.4g} mm (the face is {:.3g} mm wide: 1 to {} passes)", fmt::join(search.lengths, ", "),
                         search.places.front().width_mm, search.lengths.size());
   return fmt::format("axis {}; {}", lengths, search.charts.front().text());
 }
@@ -265,7 +265,7 @@ FamilySearchResult search_family(std::span<const RankingTarget> targets, ToolFam
                                  const Progress& progress) {
   if (family == ToolFamily::kPower || family == ToolFamily::kSpline)
     throw UsageError("tool", std::string(family_name(family)),
-                     "its parameters name no sizes to search; give all of them, or use another family");
+                     "this family cannot be searched; give all parameters, or use another family");
   progress.step("grid of tools", 0.0);
   const Search search = prepare(targets, family, given, options);
   FamilySearchResult result;
@@ -284,7 +284,7 @@ FamilySearchResult search_family(std::span<const RankingTarget> targets, ToolFam
   result.screened = static_cast<int>(candidates.size());
   keep_best_of_each(search, candidates, options.tried);
   if (candidates.empty())
-    throw UsageError("tool", std::string(family_name(family)), "none is a legitimate tool, over " + result.searched);
+    throw UsageError("tool", std::string(family_name(family)), "none of these is a valid tool: " + result.searched);
   // If nothing covers anything, the user still gets a tool to look at, with the reason why it does not.
   const Tool nearest = search.tool(candidates.front());
   cover_quickly(search, candidates, "try tools", kScreenTo, kTryTo, progress);

@@ -97,21 +97,24 @@ PlaceScreen screen_place(const Footpoint& foot, const Spheres& spheres, const Po
 std::string reason_of(const ToolScreen& screen, const ScreenPlaces& places, const Spheres& spheres,
                       const RadialFunction& radial, const ScreenOptions& options) {
   if (screen.reachable == 0.0)
-    return fmt::format("a ball of its smallest radius, {:.3g} mm, touches the face nowhere without entering another",
-                       spheres.thinnest);
+    return fmt::format(
+        "too thick: a ball of its smallest radius, {:.3g} mm, touches the face nowhere without gouging another face",
+        spheres.thinnest);
   double widest = 0.0;
   for (const Footpoint& foot : places.feet) widest = std::max(widest, foot.k2 > 0.0 ? 1.0 / foot.k2 : 0.0);
   if (screen.fits == 0.0)
-    return fmt::format("the hollow of the face needs r below {:.3g} mm; this tool has {:.3g} mm at its thinnest",
-                       widest, spheres.thinnest);
+    return fmt::format(
+        "the face is concave and needs a tool radius below {:.3g} mm; the smallest of this tool is {:.3g} mm", widest,
+        spheres.thinnest);
   if (screen.accepted == 0.0)
     return fmt::format(
-        "its meridian bends otherwise than the face: along its {:.3g} mm it is off by {:.3g} mm at best; up to "
+        "its profile curvature does not match the face: along its {:.3g} mm the error is at least {:.3g} mm; up to "
         "{:.3g} mm would be worth a try",
         radial.axis_length(), screen.least_error_mm, options.slack * options.tolerance_mm);
   if (screen.open == 0.0)
-    return fmt::format("where it suits the face, {:.3g} % of it, flank, shank or holder would enter the part",
-                       100.0 * screen.accepted);
+    return fmt::format(
+        "where its profile matches the face ({:.3g} % of the face), flank, shank or holder would collide with the part",
+        100.0 * screen.accepted);
   return "";
 }
 

@@ -59,7 +59,7 @@ std::string indices(const std::vector<int>& outliers) {
 }
 
 std::string judged_line(const char* what, const VerifyReport& report) {
-  return fmt::format("  {}: {:.2f} % of what is reachable within the tolerance, overcut {:.4f} mm\n", what,
+  return fmt::format("  {}: {:.2f} % of the accessible area finished, gouge {:.4f} mm\n", what,
                      100.0 * report.coverage_reachable, report.overcut_mm);
 }
 
@@ -75,9 +75,9 @@ std::string ground_text(const GroundTool& ground) {
 std::string error_text(const FaceError& error) {
   std::string text = fmt::format("Face as cut: {} points on it, {} beside; noise {:.4f} mm\n", error.points.size(),
                                  error.beside, error.noise_mm);
-  text += fmt::format(
-      "  error {:.4f} mm rms as measured, {:.4f} after a best fit of the datum, which takes {:.1f} % away\n",
-      error.rms_before_mm, error.rms_after_mm, 100.0 * taken_away(error));
+  text +=
+      fmt::format("  error {:.4f} mm rms as measured, {:.4f} after a best fit of the datum, which removes {:.1f} %\n",
+                  error.rms_before_mm, error.rms_after_mm, 100.0 * taken_away(error));
   text += fmt::format("  smooth error over the face: {:.4f} mm rms, {:.4f} at most\n", error.smooth_rms_mm,
                       error.smooth_largest_mm);
   if (error.limited) text += fmt::format("  the correction is limited to {:.4f} mm\n", error.limit_mm);

@@ -47,7 +47,7 @@ Earlier read_earlier(const std::string& name) {
                   read_path(in(name, "path.json"))};
   folder.require_whole({"verify.json", "view.json"});
   if (std::holds_alternative<TrochoidJob>(earlier.job))
-    throw UsageError("folder", name, "holds the program of a cavity; the result of a fit or a cover is needed");
+    throw UsageError("folder", name, "holds the program of a cavity; expected the result of flank fit or flank cover");
   return earlier;
 }
 
@@ -111,7 +111,7 @@ Result run_plan(const PlanJob& job, const Progress& progress) {
 void make_folder(const std::string& output) {
   std::error_code error;
   fs::create_directories(output, error);
-  if (!fs::is_directory(output)) throw InputError(output + ": is no folder and cannot be made");
+  if (!fs::is_directory(output)) throw InputError(output + ": is not a folder and cannot be created");
 }
 
 void as_ground(Earlier& earlier, const std::string& output, const Progress& progress, Correction& correction) {
@@ -137,11 +137,11 @@ int single_face(const Setup& setup, const std::string& folder) {
   const bool plain = !setup.part.is_mesh() && setup.targets.size() == 1;
   if (!plain || setup.part.face_id(setup.targets.front()) != "F" + std::to_string(setup.targets.front() + 1))
     throw UsageError("measured", folder,
-                     "points are compared with one whole face of a CAD file; this result has another target");
+                     "points are compared with one whole face of a CAD file; this result has other faces");
   const Face& face = setup.part.faces[static_cast<std::size_t>(setup.targets.front())];
   if (!face.surface.weights.empty())
     throw UsageError("measured", folder,
-                     "the face is a rational surface; a polynomial one is needed to mirror its error");
+                     "the face is a rational surface; its error can be mirrored only on a polynomial one");
   return setup.targets.front();
 }
 
@@ -189,8 +189,8 @@ void as_cut(Earlier& earlier, const std::string& output, const Progress& progres
 Correction run_correct(const CorrectJob& job, const std::string& output, const Progress& progress) {
   check_fields(job);
   if (job.profile.has_value() == job.measured.has_value())
-    throw UsageError("profile", "", "either a profile of the tool or measured points of the face are needed");
-  if (is_same_file(job.folder, output)) throw UsageError("folder", output, "the new result needs a folder of its own");
+    throw UsageError("profile", "", "give a profile of the tool, or measured points of the face");
+  if (is_same_file(job.folder, output)) throw UsageError("folder", output, "give another folder for the new result");
   const ReadFiles inputs = read_files(job);
   const Unwritten unwritten(inputs);
   Correction correction;

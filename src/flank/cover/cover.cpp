@@ -245,7 +245,8 @@ std::vector<CoverStrip> chosen(const TileScene& scene, std::vector<CoverStrip>& 
   std::vector<CoverStrip> strips;
   for (const int k : choice.set) {
     if (k < 0 || static_cast<std::size_t>(k) >= pool.size())
-      throw InputError("a step of the run that was stopped chose a strip that there is not");
+      throw InputError(
+          "resume.json does not fit this run; start without --resume: a step chose a strip that there is not");
     strips.push_back(pool[static_cast<std::size_t>(k)]);
   }
   return strips;
@@ -262,7 +263,8 @@ CoverSamples dense_samples(const TileScene& scene, const PoseGuard& guard, Cover
 CoverResult nothing(const TileScene& scene, int lines, CoverResult result) {
   result.status = lines == 0 ? CoverStatus::kNoLine : CoverStatus::kNoStrip;
   result.message = scene.samples.cells.empty()
-                       ? "nowhere can a ball of the tool's smallest radius touch this face without entering another"
+                       ? "this tool is too thick: a ball of its smallest radius touches the face nowhere without "
+                         "gouging another face"
                        : reason_of(scene.target, scene.radial, scene.samples, {}, scene.options.tolerance_mm);
   return result;
 }

@@ -83,18 +83,18 @@ std::string reason_of(const Target& target, const RadialFunction& radial, const 
   const double thinnest = radial.smallest();
   if (thinnest * concave.curvature > 1.0)
     return fmt::format(
-        "largest concave curvature needs r below {:.3g} mm at ({:.1f}, {:.1f}, {:.1f}); this tool has {:.3g} mm at "
-        "its thinnest, s = {:.3g}",
+        "the concave face needs a tool radius below {:.3g} mm at ({:.1f}, {:.1f}, {:.1f}); the smallest of this tool "
+        "is {:.3g} mm, s = {:.3g}",
         1.0 / concave.curvature, concave.point.x(), concave.point.y(), concave.point.z(), thinnest,
         thinnest_at(radial));
   if (strips.empty())
     return fmt::format(
-        "no line of this tool's {:.3g} mm stays within {:.3g} mm of the face over its whole length: a shorter tool, or "
-        "one whose meridian bends as the face does, is needed",
+        "no contact line of this tool's {:.3g} mm stays within {:.3g} mm of the face; use a shorter tool, or one whose "
+        "profile curvature matches the face",
         radial.axis_length(), tolerance_mm);
   const auto [area, middle] = largest_gap(samples, strips);
   if (area == 0.0) return "";
-  return fmt::format("the largest place not covered is {:.3g} mm2 about ({:.1f}, {:.1f}, {:.1f})", area, middle.x(),
+  return fmt::format("the largest unfinished area is {:.3g} mm2 near ({:.1f}, {:.1f}, {:.1f})", area, middle.x(),
                      middle.y(), middle.z());
 }
 

@@ -31,7 +31,7 @@ void check(const DesignJob& job) {
   check_fields(job);
   const ToolSpec spec = parse_tool_spec(job.shape, "shape");
   if (job.source != "catalogue" && !spec.free && !has_open_parameters(spec))
-    throw UsageError("shape", job.shape, "is a whole tool; free or a family with open parameters is needed");
+    throw UsageError("shape", job.shape, "is a complete tool; expected free, or a family with open parameters");
   if (job.source != "fit") (void)read_catalogue(catalogue_folder(job.choice.catalogue));
 }
 
@@ -43,7 +43,7 @@ double usual_reach(const Part& part, const std::vector<int>& faces, const Design
     for (const int face : faces)
       if (row.id == part.face_id(face)) least = std::min(least, row.area_mm2);
   if (!std::isfinite(least) || !(least > 0.0))
-    throw UsageError("reach_radius_mm", "is needed: the faces have no area that would say it");
+    throw UsageError("reach_radius_mm", "must be given: the faces have no area to derive it from");
   // In steps that people can read, and repeat.
   const double radius = 0.5 * std::sqrt(least) / job.radius.slenderness_max;
   const double step = std::pow(10.0, std::floor(std::log10(radius)) - 1.0);
@@ -95,7 +95,7 @@ DesignResult run_design(const DesignJob& job, const BatchRun& run, const Progres
   read_faces(result);
   std::error_code error;
   fs::create_directories(run.folder, error);
-  if (!fs::is_directory(run.folder)) throw InputError(run.folder + ": is no folder and cannot be made");
+  if (!fs::is_directory(run.folder)) throw InputError(run.folder + ": is not a folder and cannot be created");
   const std::string root = fs::absolute(run.folder).lexically_normal().string();
   BatchOptions batch{.run = run,
                      .from = fs::current_path().string(),

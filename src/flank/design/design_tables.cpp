@@ -64,7 +64,7 @@ std::string html_cell(const DesignResult& result, std::size_t t, std::size_t f) 
   if (!pair.folder.empty()) {
     inside = fmt::format("{:.2f} %", 100.0 * pair.coverage_reachable);
     if (pair.row.page) inside = fmt::format("<a href=\"{}/report.html\">{}</a>", html_safe(pair.folder), inside);
-    inside += fmt::format("<br><small>{:.2f} % of the whole face, {:.2f} min, {} strips, {}</small>",
+    inside += fmt::format("<br><small>{:.2f} % of the whole face, {:.2f} min, passes {}, {}</small>",
                           100.0 * pair.coverage, pair.minutes, pair.strips, pair.way);
   } else if (!pair.row.message.empty()) {
     inside += "<br><small>" + html_safe(pair.row.message) + "</small>";
@@ -139,13 +139,12 @@ std::string design_html(const DesignResult& result) {
   const std::string part = std::filesystem::path(result.job.part.file).filename().string();
   const std::string title = html_safe("flank design: " + part);
   std::string text = html_head(title) +
-                     fmt::format("<p>{}. The first share is of what is reachable.</p>\n", html_safe(verdict(result)));
+                     fmt::format("<p>{}. The first share is of the accessible area.</p>\n", html_safe(verdict(result)));
   text += "<table>\n<tr><th></th>";
   for (std::size_t t = 0; t < result.tools.size(); ++t) {
     const DesignTool& tool = result.tools[t];
     text += fmt::format(
-        "<th class=\"{}\">{}<br><small>{}<br>{:.1f} mm long, radius {:.2f} to {:.2f} mm, slenderness "
-        "{:.1f}</small></th>",
+        "<th class=\"{}\">{}<br><small>{}<br>{:.1f} mm long, radius {:.2f} to {:.2f} mm, L:D {:.1f}</small></th>",
         is_chosen(result, t) ? "chosen" : "", tool.name, html_safe(tool.source), tool.tool.radial.axis_length(),
         tool.tool.radial.smallest(), tool.tool.radial.largest(), stiffness(tool.tool).slenderness);
   }
@@ -168,7 +167,7 @@ std::string design_text(const DesignResult& result) {
       for (std::size_t f = 0; f < result.faces.size(); ++f) count += result.pair(t, f).finishes() ? 1 : 0;
       return count;
     }();
-    text += fmt::format("{} {:<4} {:<40} finishes {} of {}, slenderness {:.1f}\n", is_chosen(result, t) ? "*" : " ",
+    text += fmt::format("{} {:<4} {:<40} finishes {} of {}, L:D {:.1f}\n", is_chosen(result, t) ? "*" : " ",
                         result.tools[t].name, result.tools[t].source, finished, result.faces.size(),
                         stiffness(result.tools[t].tool).slenderness);
   }
@@ -180,8 +179,8 @@ std::string design_text(const DesignResult& result) {
     }
     const DesignPair& pair = result.pair(static_cast<std::size_t>(tool), f);
     text += fmt::format(
-        "  {:<5} {:<4} {:<8} {:.2f} % of what is reachable, {:.2f} % of the whole, overcut {:.4f} mm, {} "
-        "strips, {:.2f} min\n",
+        "  {:<5} {:<4} {:<8} {:.2f} % of the accessible area, {:.2f} % of the whole face, gouge {:.4f} mm, passes {}, "
+        "{:.2f} min\n",
         result.faces[f], result.tools[static_cast<std::size_t>(tool)].name, pair.way, 100.0 * pair.coverage_reachable,
         100.0 * pair.coverage, pair.overcut_mm, pair.strips, pair.minutes);
   }

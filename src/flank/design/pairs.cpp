@@ -54,7 +54,8 @@ void remove_result(const fs::path& folder) {
     const auto& ours = result_names();
     if (name != kPageFile && std::find(ours.begin(), ours.end(), name) == ours.end())
       throw InputError(entry.path().string() +
-                       ": lies where a judged pair of face and tool goes; move it away, or give " + "another folder");
+                       ": is in the place of a checked pair of face and tool; move it away, or give " +
+                       "another folder");
   }
   fs::remove_all(folder);
 }

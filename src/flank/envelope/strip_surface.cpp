@@ -174,7 +174,7 @@ void add_envelope(const ExactStrip& strip, double limit, double aim, StripSurfac
 
 /// "12.5 to 100 % of its way, s 0 to 20.1 mm".
 std::string stretch_text(const Stretch& stretch, double axis_length) {
-  return fmt::format("{:.3g} to {:.3g} % of its way, s {:.4g} to {:.4g} mm", 100.0 * stretch.from_u,
+  return fmt::format("{:.3g} to {:.3g} % of its length, s {:.4g} to {:.4g} mm", 100.0 * stretch.from_u,
                      100.0 * stretch.to_u, axis_length * stretch.from_v, axis_length * stretch.to_v);
 }
 
@@ -213,9 +213,10 @@ void note_strip_surfaces(const std::vector<StripSurface>& strips, double axis_le
     if (is_whole(strip)) continue;
     const std::string what =
         strip.has_envelope() ? "holds " + stretch_text(strip.stretch, axis_length) : std::string("is left out");
-    notes.push_back(fmt::format(
-        "strips.step: {} {}; elsewhere the tool plunges, or another pose takes away what this surface would show",
-        strip.name, what));
+    notes.push_back(
+        fmt::format("strips.step: {} {}; elsewhere the tool moves along its own axis, or another position of the tool "
+                    "removes this surface",
+                    strip.name, what));
   }
 }
 

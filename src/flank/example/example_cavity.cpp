@@ -68,8 +68,8 @@ std::vector<Face> cavity_walls(const CavityShape& shape) {
   const double out = 0.5 * shape.width_mm - walls_at.highest_y, least = walls_at.least_between + 2.0 * out;
   if (!(least > 0.0))
     throw UsageError(
-        fmt::format("the walls of a cavity {:.4g} mm wide over all would meet: lean, twist, hollow and the bend along "
-                    "it need {:.4g} mm; accepted is a width above that",
+        fmt::format("the walls of a cavity {:.4g} mm wide over all would meet; with this lean, twist and hollow the "
+                    "width must be above {:.4g} mm",
                     shape.width_mm, shape.width_mm - least));
   constexpr int kAlong = 24, kUp = 16;
   std::vector<Face> walls;

@@ -84,7 +84,7 @@ EnvelopeFace envelope_face(const RuledMotion& motion, const RadialFunction& radi
     if (error_u >= limit) count_u = count_u + std::max(2, count_u / 4);
     if (error_v >= limit) count_v = count_v + std::max(2, count_v / 4);
     if (std::max(count_u, count_v) > kLargestCount)
-      throw InternalError("an example's envelope is not smooth enough for the accuracy asked for");
+      throw InternalError("an example's envelope is not smooth enough for the required accuracy");
   }
   out.face.id = "F1";
   return out;

@@ -233,7 +233,7 @@ FlankFitResult search_starts(const Target& target, const ToolModel& tool, const 
   result.candidates = quick.tried;
   if (!quick.touching) {
     result.status = FitStatus::kNoStart;
-    result.message = "no ruled start touches the target within four tolerances";
+    result.message = "no ruled start touches the machined face within four tolerances";
   }
   if (quick.drafts.empty()) return result;
   progress.step("polish", 0.5);

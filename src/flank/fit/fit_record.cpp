@@ -65,7 +65,7 @@ void code(StepCodec& codec, FitDraft& draft) {
   code(codec, draft.facing);
   codec.require(draft.motions.empty() || draft.tool.axis_length() > 0.0, "motions need a tool");
   for (const int index : draft.free_parameters)
-    codec.require(index >= 0 && index < draft.tool.parameter_count(), "a free parameter that the tool has is needed");
+    codec.require(index >= 0 && index < draft.tool.parameter_count(), "expected a free parameter that the tool has");
 }
 
 void code(StepCodec& codec, Polished& polished) {
@@ -111,7 +111,8 @@ void code(StepCodec& codec, ToolModel& tool) {
 
 void tie(FitDraft& draft, const FitDraft& like) {
   if (draft.motions.size() != like.motions.size())
-    throw InputError("a step of the run that was stopped has not as many motions as its start");
+    throw InputError(
+        "resume.json does not fit this run; start without --resume: a step has not as many motions as its start");
   draft.targets = like.targets;
   draft.obstacles = like.obstacles;
 }

@@ -336,7 +336,7 @@ FlankFitResult finish(const Polished& polished, const FlankFitOptions& options, 
   result.residuals = validate(tasks, result.tool, kT, kS);
   const bool good = meets(result.after, options.least_coverage, options);
   result.status = good ? FitStatus::kWithinTolerance : FitStatus::kPartial;
-  result.message = fmt::format("estimated coverage {:.2f} % at {:.4g} mm, overcut {:.4g} mm",
+  result.message = fmt::format("estimate: {:.2f} % finished at {:.4g} mm, gouge {:.4g} mm",
                                100.0 * result.after.at_tolerance, options.tolerance_mm, result.after.overcut_mm);
   return result;
 }

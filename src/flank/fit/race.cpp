@@ -51,7 +51,8 @@ std::vector<Runner> polished_abreast(std::span<const FitDraft> starts, const std
   };
   std::vector<Runner> runners = journaled(progress, "polish", work, inputs);
   if (runners.size() != starts.size())
-    throw InputError("a step of the run that was stopped has not as many candidates as starts");
+    throw InputError(
+        "resume.json does not fit this run; start without --resume: a step has not as many candidates as starts");
   for (std::size_t k = 0; k < runners.size(); ++k) {
     runners[k].start = starts[k];
     tie(runners[k].polished.draft, starts[k]);

@@ -205,14 +205,16 @@ std::vector<Way> ways_from(const FitDraft& draft, bool fixed_length, const Cover
   const std::vector<SurfaceSample> samples = ranking_samples(*draft.targets.front(), options.obstacles, options);
   const double tolerance = options.tolerance_mm, depth = kToleranceBudget.others.last_look * tolerance;
   std::vector<Way> ways;
-  ways.push_back({"found without the other faces", assess(draft, samples, options)});
+  ways.push_back({"planned without the neighbouring faces", assess(draft, samples, options)});
   if (!is_clean(ways.front().polished.estimate, tolerance) && !progress.stop()) {
     std::optional<FitDraft> shorter = fixed_length ? std::nullopt : shortened_axis(draft, depth);
     if (shorter)
-      ways.push_back({"found without the other faces and put on a shorter axis", assess(*shorter, samples, options)});
+      ways.push_back({"planned without the neighbouring faces, then shortened along the axis",
+                      assess(*shorter, samples, options)});
     shorter = shortened_path(draft, depth);
     if (shorter)
-      ways.push_back({"found without the other faces and put on a shorter path", assess(*shorter, samples, options)});
+      ways.push_back({"planned without the neighbouring faces, then shortened along the path",
+                      assess(*shorter, samples, options)});
     const Way start = *std::min_element(ways.begin(), ways.end(), [&](const Way& a, const Way& b) {
       return is_better(a.polished.estimate, b.polished.estimate, options);
     });
@@ -231,13 +233,13 @@ void note_limits(const CoverageEstimate& free, double tolerance_mm, FlankFitResu
   const CoverageEstimate& found = result.after;
   if (found.gouge_mm > tolerance_mm) {
     result.notes.push_back(
-        fmt::format("no motion was found that covers as much and enters no other face: this one covers {:.1f} % "
-                    "(estimate) and enters them by {:.3g} mm",
+        fmt::format("no motion found finishes as much without gouging other faces: this one finishes {:.1f} % "
+                    "(estimate) and gouges them by {:.3g} mm",
                     100.0 * found.at_tolerance, found.gouge_mm));
   } else if (free.at_tolerance > found.at_tolerance + kMore && free.gouge_mm > tolerance_mm) {
     result.notes.push_back(
-        fmt::format("the other faces forbid more: as if they were not there {:.1f} % can be covered (estimate), {:.3g} "
-                    "mm deep in them",
+        fmt::format("neighbouring faces limit the finished area: without them {:.1f} % (estimate), with gouges of "
+                    "{:.3g} mm in them",
                     100.0 * free.at_tolerance, free.gouge_mm));
   }
 }
@@ -261,7 +263,7 @@ FlankFitResult best_way(const Target& target, const ToolModel& tool, const Flank
         return ways_from(draft_of(target, tool, free, options.obstacles), fixed_length, first.after, options, progress);
       },
       free);
-  if (ways.empty()) throw InputError("a step of the run that was stopped has no way");
+  if (ways.empty()) throw InputError("resume.json is damaged: this step holds no candidate; start without --resume");
   for (Way& way : ways) tie(way.polished.draft, target, options.obstacles);
   const Way* best = nullptr;
   for (const Way& way : ways) {
@@ -277,8 +279,8 @@ FlankFitResult best_way(const Target& target, const ToolModel& tool, const Flank
     result.trace = free.trace;
     result.candidates = first.candidates + free.candidates;
     result.notes.push_back(
-        fmt::format("the motion was {}: it covers {:.1f} % (estimate); one that keeps clear from the start, {:.1f} %",
-                    best->name, 100.0 * best->polished.estimate.at_tolerance, 100.0 * first.after.at_tolerance));
+        fmt::format("the motion was {}: it finishes {:.1f} % (estimate); one planned around them, {:.1f} %", best->name,
+                    100.0 * best->polished.estimate.at_tolerance, 100.0 * first.after.at_tolerance));
     result = finish(best->polished, options, std::move(result));
     result.other_ways = OtherWays::kBest;
     result.looked_at = true;

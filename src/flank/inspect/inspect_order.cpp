@@ -17,7 +17,7 @@ std::string lower(std::string text) {
 std::string listed(const std::vector<std::string>& words) {
   std::string text;
   for (std::size_t k = 0; k < words.size(); ++k)
-    text += (k == 0 ? "" : k + 1 == words.size() ? " and " : ", ") + words[k];
+    text += (k == 0 ? "" : k + 1 == words.size() ? " or " : ", ") + words[k];
   return text;
 }
 
@@ -25,7 +25,7 @@ void keep_type(const std::string& type, std::vector<InspectRow>& rows) {
   std::set<std::string> types;
   for (const InspectRow& row : rows) types.insert(row.type);
   std::erase_if(rows, [&](const InspectRow& row) { return lower(row.type) != lower(type); });
-  if (rows.empty()) throw UsageError("type", type, "there are " + listed({types.begin(), types.end()}));
+  if (rows.empty()) throw UsageError("type", type, "must be " + listed({types.begin(), types.end()}));
 }
 
 }  // namespace
@@ -47,7 +47,7 @@ void arrange(const InspectOrder& order, std::vector<InspectRow>& rows) {
   else if (order.sort == "type")
     by([](const InspectRow& a, const InspectRow& b) { return a.type < b.type; });
   else if (!order.sort.empty() && order.sort != "face")
-    throw UsageError("sort", order.sort, "there are " + listed(sorts()));
+    throw UsageError("sort", order.sort, "must be " + listed(sorts()));
 }
 
 }  // namespace flank::internal

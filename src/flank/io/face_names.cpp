@@ -18,8 +18,9 @@ int last_number(const Part& part) {
 }
 
 [[noreturn]] void refuse_name(const Part& part, std::string_view name) {
-  throw InputError(fmt::format("{}: there is no face \"{}\"; accepted are F1 to F{}, as in F1,F3 or F2-F5", part.file,
-                               name, last_number(part)));
+  const int last = last_number(part);
+  const std::string known = last == 1 ? "one face, F1" : fmt::format("F1 to F{}", last);
+  throw InputError(fmt::format("{}: no face \"{}\"; the part has {} (see flank inspect)", part.file, name, known));
 }
 
 /// The number in "S3", 0 if it is not the name of a solid.
@@ -37,9 +38,9 @@ std::vector<int> faces_of_solids(const Part& part, const std::string& item, Unre
   const int first = parse_solid_name(std::string_view(item).substr(0, dash));
   const int last = dash == std::string::npos ? first : parse_solid_name(std::string_view(item).substr(dash + 1));
   if (first < 1 || last < first || last > part.solids)
-    throw InputError(fmt::format("{}: there is no solid \"{}\"; {}", part.file, item,
-                                 part.solids > 0 ? fmt::format("accepted are S1 to S{}", part.solids)
-                                                 : "the file has none, and its faces are F1, F2 and so on"));
+    throw InputError(fmt::format("{}: no solid \"{}\"; {}", part.file, item,
+                                 part.solids > 0 ? fmt::format("the part has S1 to S{}", part.solids)
+                                                 : "the file has no solids; its faces are F1, F2 and so on"));
   std::vector<int> faces;
   for (std::size_t k = 0; k < part.faces.size(); ++k) {
     const Face& face = part.faces[k];
@@ -120,8 +121,7 @@ std::vector<int> parse_face_item(const Part& part, const std::string& item, Unre
     for (int face = 0; face < part.face_count(); ++face)
       if (part.face_id(face) == id) faces.push_back(face);
     if (faces.empty())
-      throw InputError(fmt::format("{}: there is no piece \"{}\" of F{}; flank inspect lists the pieces", part.file,
-                                   item, first.number));
+      throw InputError(fmt::format("{}: no piece \"{}\" of F{} (see flank inspect)", part.file, item, first.number));
   }
   if (unread == Unread::kRefused)
     for (const int face : faces) refuse_left_out(part, face);

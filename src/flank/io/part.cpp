@@ -35,7 +35,7 @@ std::string sizes_by_unit(const Vec3& size) {
 /// In the unit of the file.
 TriangleMesh parse_mesh(const std::string& file, const PartFormat& format, std::string_view content) {
   TriangleMesh mesh = format.read(file, content);
-  if (mesh.triangles.empty()) throw InputError(file + ": has no triangles; accepted are meshes with faces");
+  if (mesh.triangles.empty()) throw InputError(file + ": has no triangles; expected meshes with faces");
   return mesh;
 }
 
@@ -56,7 +56,7 @@ Part read_mesh(const std::string& file, const PartFormat& format, std::string co
   // Sizes in every unit help to tell which is right: only a person can know.
   if (!unit)
     throw InputError(
-        fmt::format("{}: a mesh file has no unit; say which by `unit`: {}", file, sizes_by_unit(box.high - box.low)));
+        fmt::format("{}: a mesh file has no unit; give `unit`: {}", file, sizes_by_unit(box.high - box.low)));
   Part part;
   part.file = file;
   part.format = format.name;

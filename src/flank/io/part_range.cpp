@@ -39,12 +39,11 @@ void require_part_in_range(const Part& part) {
   const double reach = std::max(part.box.low.cwiseAbs().maxCoeff(), part.box.high.cwiseAbs().maxCoeff());
   if (reach > kLargestCoordinateMm)
     throw InputError(
-        fmt::format("{}: reaches to {:.3g} mm; coordinates up to {:g} mm are accepted: is its unit ({}) right?",
-                    part.file, reach, kLargestCoordinateMm, part.unit));
+        fmt::format("{}: reaches to {:.3g} mm; expected coordinates up to {:g} mm: is its unit ({}) right?", part.file,
+                    reach, kLargestCoordinateMm, part.unit));
   if (part.box.diagonal() < kSmallestBoxMm)
-    throw InputError(
-        fmt::format("{}: is {:.3g} mm across; parts of at least {:g} mm are accepted: is its unit ({}) right?",
-                    part.file, part.box.diagonal(), kSmallestBoxMm, part.unit));
+    throw InputError(fmt::format("{}: is {:.3g} mm across; expected at least {:g} mm: is its unit ({}) right?",
+                                 part.file, part.box.diagonal(), kSmallestBoxMm, part.unit));
 }
 
 }  // namespace flank::internal

@@ -9,9 +9,8 @@
 
 namespace flank::internal::accepted {
 
-inline constexpr Accepted kPoints{"a number from 1 to 100000 is needed", [](double x) { return x >= 1.0 && x <= 1e5; }};
-inline constexpr Accepted kGap{"a share between 0.005 and 1 is needed",
-                               [](double x) { return x >= 0.005 && x <= 1.0; }};
+inline constexpr Accepted kPoints{"expected a number from 1 to 100000", [](double x) { return x >= 1.0 && x <= 1e5; }};
+inline constexpr Accepted kGap{"expected a share between 0.005 and 1", [](double x) { return x >= 0.005 && x <= 1.0; }};
 
 }  // namespace flank::internal::accepted
 
@@ -24,17 +23,17 @@ void visit_fields(Job& job, Visitor&& visit) {
   visit(FieldInfo{"tool", "", "", "A tool.json, or a family with all its parameters (cone:radius=2,angle=3)", kAny,
                   Spelling::kFileOrText, "", true},
         job.tool.spec);
-  visit(FieldInfo{"axis_length", "mm", "", "Length of the axis of a family's tool", kLength}, job.tool.axis_length_mm);
+  visit(FieldInfo{"axis_length", "mm", "", "Axis length of a family's tool", kLength}, job.tool.axis_length_mm);
   visit(FieldInfo{"tolerance", "mm", "", kToleranceHelp, kLength}, job.tolerance_mm);
-  visit(FieldInfo{"points", "", "", "Points of each face at which the longest contact is bounded, about", kPoints},
+  visit(FieldInfo{"points", "", "", "About how many points of each face get a bound of the longest contact", kPoints},
         job.points);
-  visit(FieldInfo{"gap", "", "",
-                  "A bound is close enough when it is at most this share above what a pose reaches there", kGap},
+  visit(FieldInfo{"gap", "", "", "Accept a bound that is at most this share above the contact found there", kGap},
         job.gap);
   visit(FieldInfo{"check_faces", "", "Other faces",
-                  "What no pose may enter, F88,F12; default: any face that is not machined"},
+                  "Faces that the tool must not gouge, as F88,F12. Default: all faces that are not machined"},
         job.check_faces);
-  visit(FieldInfo{"ignore_faces", "", "Other faces", "It may enter these; S2-S5: all of solids 2 to 5"},
+  visit(FieldInfo{"ignore_faces", "", "Other faces",
+                  "Faces that the tool may cut into. S2-S5 names all faces of solids 2 to 5"},
         job.ignore_faces);
 }
 

@@ -9,7 +9,7 @@
 
 namespace flank::internal::accepted {
 
-inline constexpr Accepted kDatum{"there are fit and keep", nullptr,
+inline constexpr Accepted kDatum{"must be fit or keep", nullptr,
                                  [](std::string_view x) { return x == "fit" || x == "keep"; }};
 
 }  // namespace flank::internal::accepted
@@ -30,11 +30,10 @@ void visit_fields(Job& job, Visitor&& visit) {
                   Spelling::kFile},
         job.measured);
   visit(FieldInfo{"datum", "", "",
-                  "fit: measured points are moved onto the face as well as six degrees of freedom do it; keep: they "
-                  "are taken where they are",
+                  "fit: first move the measured points onto the face by a best fit; keep: take them where they are",
                   kDatum},
         job.datum);
-  visit(FieldInfo{"limit", "mm", "", "Largest correction; default: 20 times the tolerance", kLength}, job.limit_mm);
+  visit(FieldInfo{"limit", "mm", "", "Largest correction. Default: 20 times the tolerance", kLength}, job.limit_mm);
 }
 
 inline std::string_view command_name(const CorrectJob&) { return "correct"; }

@@ -9,11 +9,11 @@
 
 namespace flank::internal::accepted {
 
-inline constexpr Accepted kToolCount{"auto or a number from 1 to 100 is needed",
+inline constexpr Accepted kToolCount{"expected auto or a number from 1 to 100",
                                      [](double x) { return x >= 0.0 && x <= 100.0; }};
-inline constexpr Accepted kSource{"there are fit, catalogue and both", nullptr,
+inline constexpr Accepted kSource{"must be fit, catalogue or both", nullptr,
                                   [](std::string_view x) { return x == "fit" || x == "catalogue" || x == "both"; }};
-inline constexpr Accepted kMinutes{"a time >= 0 min is needed", not_negative};
+inline constexpr Accepted kMinutes{"expected a time >= 0 min", not_negative};
 
 }  // namespace flank::internal::accepted
 
@@ -22,36 +22,38 @@ namespace flank::internal {
 template <class Visitor, Is<DesignJob> Job>
 void visit_fields(Job& job, Visitor&& visit) {
   using namespace accepted;
-  visit(FieldInfo{"part", "", "", "CAD or mesh file; `flank inspect --help` names the formats", kAny, Spelling::kFile,
-                  "PART", true},
+  visit(FieldInfo{"part", "", "", "CAD or mesh file (STEP, IGES, BREP, STL, OBJ or PLY)", kAny, Spelling::kFile, "PART",
+                  true},
         job.part.file);
   visit(FieldInfo{"unit", "", "", "Unit of a mesh, or of a CAD file that states a wrong one: mm, cm, m or in", kUnit},
         job.part.unit);
-  visit(FieldInfo{"faces", "", "", "Faces to finish, each by one tool of the set: F1,F3, F10-F19", kAny,
+  visit(FieldInfo{"faces", "", "", "Faces to finish, each by one tool of the set, as F1,F3 or F10-F19", kAny,
                   Spelling::kPlain, "", true},
         job.part.faces);
   visit(FieldInfo{"side", "", "", kSideHelp, kSide, Spelling::kSign}, job.part.side);
   visit(FieldInfo{"tools", "", "",
-                  "Most tools: a number, for the set of at most so many that takes the least time; or auto: the "
-                  "smallest set that finishes all that can be finished, and of these the fastest",
+                  "Largest number of tools, for the fastest set of at most so many; or auto: the smallest set that "
+                  "finishes everything that can be finished",
                   kToolCount, Spelling::kAutoOrCount},
         job.tools);
   visit(FieldInfo{"source", "", "",
-                  "Where tools come from: fit: made for one of the faces or for several; catalogue; or both", kSource},
+                  "Where tools come from: fit (found for one or several of the faces), catalogue, or both", kSource},
         job.source);
-  visit(FieldInfo{"shape", "", "", "Of fitted tools: free, or a family with any of its parameters (cone:radius=2)"},
-        job.shape);
-  visit(FieldInfo{"tolerance", "mm", "", "Tolerance of all faces", kLength}, job.tolerance_mm);
-  visit(FieldInfo{"axis_length", "mm", "", "Length of a fitted tool's axis; default: as its faces need", kLength},
+  visit(
+      FieldInfo{"shape", "", "", "Form of fitted tools: free, or a family with any of its parameters (cone:radius=2)"},
+      job.shape);
+  visit(FieldInfo{"tolerance", "mm", "", "Allowed deviation of all faces, both ways", kLength}, job.tolerance_mm);
+  visit(FieldInfo{"axis_length", "mm", "", "Axis length of a fitted tool. Default: as its faces need", kLength},
         job.axis_length_mm);
-  visit(FieldInfo{"tool_change", "min", "", "Time that each tool of the set costs", kMinutes}, job.tool_change_min);
+  visit(FieldInfo{"tool_change", "min", "", "Time of a tool change, for each tool of the set", kMinutes},
+        job.tool_change_min);
   visit_radius(job.radius, visit);
   visit_judge(job.judge, visit);
   visit_choice(job.choice, visit);
   visit_obstacles(job.obstacles, visit);
   visit(FieldInfo{"avoid", "", "Other faces",
-                  "on: fits keep clear of the other faces; off: tools are fitted as if they were not there, which is "
-                  "quick, and covers with these tools keep clear (all are judged all the same)",
+                  "on: fits plan around the neighbouring faces; off: tools are fitted without them, which is quick "
+                  "(they are checked all the same)",
                   kAny, Spelling::kOnOff},
         job.avoid);
 }

@@ -21,6 +21,10 @@ bool parse_number(const std::string& word, T& value) {
 
 /// The table's own words of what is accepted come first, since they know the range.
 [[noreturn]] void refuse(const FieldInfo& info, const std::string& word, std::string_view otherwise) {
+  // "0.1mm": the unit is the option's, and is not written.
+  if (const std::size_t unit = word.find_first_not_of("+-.0123456789");
+      !info.unit.empty() && unit > 0 && unit < word.size())
+    throw UsageError(field_name(info), word, fmt::format("expected a number of {} without a unit", info.unit));
   throw UsageError(field_name(info), word, std::string(info.accepted.words.empty() ? otherwise : info.accepted.words));
 }
 
@@ -58,30 +62,30 @@ void read_word(const FieldInfo&, const std::string& word, std::string& value) { 
 void read_word(const FieldInfo&, const std::string& word, std::vector<std::string>& value) { value.push_back(word); }
 
 void read_word(const FieldInfo& info, const std::string& word, double& value) {
-  if (!parse_number(word, value)) refuse(info, word, "a number is needed");
+  if (!parse_number(word, value)) refuse(info, word, "expected a number");
 }
 
 void read_word(const FieldInfo& info, const std::string& word, std::uint64_t& value) {
-  if (!parse_number(word, value)) refuse(info, word, "a whole number >= 0 is needed");
+  if (!parse_number(word, value)) refuse(info, word, "expected a whole number >= 0");
 }
 
 void read_word(const FieldInfo& info, const std::string& word, bool& value) {
-  if (word != "on" && word != "off") refuse(info, word, "on or off is needed");
+  if (word != "on" && word != "off") refuse(info, word, "expected on or off");
   value = word == "on";
 }
 
 void read_word(const FieldInfo& info, const std::string& word, int& value) {
   if (info.spelling == Spelling::kSign) {
-    if (word != "+" && word != "-") refuse(info, word, "+ or - is needed");
+    if (word != "+" && word != "-") refuse(info, word, "expected + or -");
     value = word == "-" ? -1 : +1;
   } else if (info.spelling == Spelling::kAutoOrCount) {
     // 0 stands for auto in the job, but is no count.
     if (word == "auto")
       value = 0;
     else if (!parse_number(word, value) || value < 1)
-      refuse(info, word, "auto or a number is needed");
+      refuse(info, word, "expected auto or a number");
   } else if (!parse_number(word, value)) {
-    refuse(info, word, "a whole number is needed");
+    refuse(info, word, "expected a whole number");
   }
 }
 

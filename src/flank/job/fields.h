@@ -50,57 +50,56 @@ inline bool positive(double x) { return x > 0.0 && x < 1e300; }
 inline bool length(double x) { return x >= 1e-9 && x < 1e300; }
 inline bool not_negative(double x) { return x >= 0.0 && x < 1e300; }
 inline constexpr Accepted kAny{};
-inline constexpr Accepted kLength{"a length > 0 mm is needed", length};
-inline constexpr Accepted kDistance{"a length >= 0 mm is needed", not_negative};
-inline constexpr Accepted kRadius{"a radius > 0 mm is needed", length};
-inline constexpr Accepted kRate{"a rate > 0 mm/min is needed", positive};
-inline constexpr Accepted kShare{"a share between 0 and 1 is needed", [](double x) { return x >= 0.0 && x <= 1.0; }};
-inline constexpr Accepted kCoverage{"a share above 0, at most 1, is needed",
+inline constexpr Accepted kLength{"expected a length > 0 mm", length};
+inline constexpr Accepted kDistance{"expected a length >= 0 mm", not_negative};
+inline constexpr Accepted kRadius{"expected a radius > 0 mm", length};
+inline constexpr Accepted kRate{"expected a rate > 0 mm/min", positive};
+inline constexpr Accepted kShare{"expected a share between 0 and 1", [](double x) { return x >= 0.0 && x <= 1.0; }};
+inline constexpr Accepted kCoverage{"expected a share above 0 and at most 1",
                                     [](double x) { return x > 0.0 && x <= 1.0; }};
-inline constexpr Accepted kPrice{"a share from 0 to 1 is needed", [](double x) { return x >= 0.0 && x < 1.0; }};
-inline constexpr Accepted kSlope{"a number between 0 and 1 is needed", [](double x) { return x > 0.0 && x < 1.0; }};
-inline constexpr Accepted kRatio{"a number > 0 is needed", positive};
-inline constexpr Accepted kProfile{"there are tapered and any", nullptr,
+inline constexpr Accepted kPrice{"expected a share from 0 to 1", [](double x) { return x >= 0.0 && x < 1.0; }};
+inline constexpr Accepted kSlope{"expected a number between 0 and 1", [](double x) { return x > 0.0 && x < 1.0; }};
+inline constexpr Accepted kRatio{"expected a number > 0", positive};
+inline constexpr Accepted kProfile{"must be tapered or any", nullptr,
                                    [](std::string_view x) { return x == "tapered" || x == "any"; }};
-inline constexpr Accepted kEffort{"there are quick, normal and thorough", nullptr,
+inline constexpr Accepted kEffort{"must be quick, normal or thorough", nullptr,
                                   [](std::string_view x) { return x == "quick" || x == "normal" || x == "thorough"; }};
-inline constexpr Accepted kPassCount{"auto or a number from 1 to 64 is needed",
+inline constexpr Accepted kPassCount{"expected auto or a number from 1 to 64",
                                      [](double x) { return x >= 0.0 && x <= 64.0; }};
-inline constexpr Accepted kStrips{"a number from 1 to 200 is needed", [](double x) { return x >= 1.0 && x <= 200.0; }};
-inline constexpr Accepted kFinalists{"a number from 1 to 100 is needed",
+inline constexpr Accepted kStrips{"expected a number from 1 to 200", [](double x) { return x >= 1.0 && x <= 200.0; }};
+inline constexpr Accepted kFinalists{"expected a number from 1 to 100",
                                      [](double x) { return x >= 1.0 && x <= 100.0; }};
-inline constexpr Accepted kSide{"+ or - is needed", [](double x) { return x == 1.0 || x == -1.0; }};
-inline constexpr Accepted kUnit{"accepted are mm, cm, m, in", nullptr,
+inline constexpr Accepted kSide{"expected + or -", [](double x) { return x == 1.0 || x == -1.0; }};
+inline constexpr Accepted kUnit{"expected mm, cm, m or in", nullptr,
                                 [](std::string_view x) { return x == "mm" || x == "cm" || x == "m" || x == "in"; }};
-inline constexpr Accepted kStrategy{"there are grow and curves", nullptr,
+inline constexpr Accepted kStrategy{"must be grow or curves", nullptr,
                                     [](std::string_view x) { return x == "grow" || x == "curves"; }};
-inline constexpr Accepted kSpeed{"there are feed, constant and optimal", nullptr,
+inline constexpr Accepted kSpeed{"must be feed, constant or optimal", nullptr,
                                  [](std::string_view x) { return x == "feed" || x == "constant" || x == "optimal"; }};
-inline constexpr Accepted kOrder{"there are shortest and given", nullptr,
+inline constexpr Accepted kOrder{"must be shortest or given", nullptr,
                                  [](std::string_view x) { return x == "shortest" || x == "given"; }};
-inline constexpr Accepted kFollow{"there are path and any", nullptr,
+inline constexpr Accepted kFollow{"must be path or any", nullptr,
                                   [](std::string_view x) { return x == "path" || x == "any"; }};
-inline constexpr Accepted kWorkOffset{"a number from 1 to 99 is needed",
-                                      [](double x) { return x >= 1.0 && x <= 99.0; }};
-inline constexpr Accepted kToolNumber{"a number from 1 to 1000000 is needed",
+inline constexpr Accepted kWorkOffset{"expected a number from 1 to 99", [](double x) { return x >= 1.0 && x <= 99.0; }};
+inline constexpr Accepted kToolNumber{"expected a number from 1 to 1000000",
                                       [](double x) { return x >= 1.0 && x <= 1e6; }};
-inline constexpr Accepted kTurn{"an angle above 0, at most 180 degrees, is needed",
+inline constexpr Accepted kTurn{"expected an angle above 0 and at most 180 degrees",
                                 [](double x) { return x > 0.0 && x <= 180.0; }};
-inline constexpr Accepted kTurns{"a number > 0 is needed", positive};
-inline constexpr Accepted kEngagement{"an angle above 5 and up to 180 degrees is needed",
+inline constexpr Accepted kTurns{"expected a number > 0", positive};
+inline constexpr Accepted kEngagement{"expected an angle above 5 and up to 180 degrees",
                                       [](double x) { return x > 5.0 && x <= 180.0; }};
-inline constexpr Accepted kCut{"there are climb and conventional", nullptr,
+inline constexpr Accepted kCut{"must be climb or conventional", nullptr,
                                [](std::string_view x) { return x == "climb" || x == "conventional"; }};
-inline constexpr Accepted kLayers{"auto or a number from 1 to 12 is needed",
+inline constexpr Accepted kLayers{"expected auto or a number from 1 to 12",
                                   [](double x) { return x >= 0.0 && x <= 12.0; }};
-inline constexpr Accepted kCycles{"there are volume, plain and paper", nullptr,
+inline constexpr Accepted kCycles{"must be volume, plain or paper", nullptr,
                                   [](std::string_view x) { return x == "volume" || x == "plain" || x == "paper"; }};
-inline constexpr Accepted kEntry{"there are auto, open, ramp and plunge", nullptr, [](std::string_view x) {
+inline constexpr Accepted kEntry{"must be auto, open, ramp or plunge", nullptr, [](std::string_view x) {
                                    return x == "auto" || x == "open" || x == "ramp" || x == "plunge";
                                  }};
-inline constexpr Accepted kRampAngle{"an angle of at least 0.1 and at most 45 degrees is needed",
+inline constexpr Accepted kRampAngle{"expected an angle of at least 0.1 and at most 45 degrees",
                                      [](double x) { return x >= 0.1 && x <= 45.0; }};
-inline constexpr Accepted kSeeds{"there are grid and shape", nullptr,
+inline constexpr Accepted kSeeds{"must be grid or shape", nullptr,
                                  [](std::string_view x) { return x == "grid" || x == "shape"; }};
 
 }  // namespace flank::internal::accepted
@@ -112,22 +111,22 @@ template <class Job, class T>
 concept Is = std::same_as<std::remove_const_t<Job>, T>;
 
 inline constexpr std::string_view kSideHelp =
-    "Machined side of open sheets: + (where the normal of the file points) or -; default: the outer one of what "
-    "encloses a space, "
-    "else +";
+    "Machined side of an open sheet: + (towards the normal in the file) or -. Default: the outside of what encloses a "
+    "space, else +";
 
 template <class Visitor, Is<PartRequest> Request>
 void visit_part(Request& part, Visitor& visit) {
   using namespace accepted;
-  visit(FieldInfo{"part", "", "", "CAD or mesh file; `flank inspect --help` names the formats", kAny, Spelling::kFile,
-                  "PART", true},
+  visit(FieldInfo{"part", "", "", "CAD or mesh file (STEP, IGES, BREP, STL, OBJ or PLY)", kAny, Spelling::kFile, "PART",
+                  true},
         part.file);
   visit(FieldInfo{"unit", "", "", "Unit of a mesh, or of a CAD file that states a wrong one: mm, cm, m or in", kUnit},
         part.unit);
   visit(FieldInfo{"faces", "", "", "Faces to machine: F1, F1,F3, F143-F160, or a piece F1a (see flank inspect)", kAny,
                   Spelling::kPlain, "--face", true},
         part.faces);
-  visit(FieldInfo{"skin", "", "", "Instead: this face with all that is joined smoothly to it, F143", kAny}, part.skin);
+  visit(FieldInfo{"skin", "", "", "Instead of --face: this face and all faces tangent to it, as F143", kAny},
+        part.skin);
   visit(FieldInfo{"side", "", "", kSideHelp, kSide, Spelling::kSign}, part.side);
 }
 
@@ -135,79 +134,70 @@ template <class Visitor, Is<ObstacleRequest> Request>
 void visit_obstacles(Request& obstacles, Visitor& visit) {
   using namespace accepted;
   constexpr std::string_view kFaces = "Other faces", kAbove = "Clearance";
-  visit(
-      FieldInfo{"check_faces", "", kFaces,
-                "The tool must not enter these faces, F88,F12; default: any face that is not machined. Entering one by "
-                "more than the tolerance is exit 1"},
-      obstacles.check_faces);
-  visit(FieldInfo{"ignore_faces", "", kFaces, "It may enter these: they are not checked; S2-S5: all of solids 2 to 5"},
+  visit(FieldInfo{"check_faces", "", kFaces,
+                  "Faces that the tool must not gouge by more than the tolerance, as F88,F12. Default: all faces that "
+                  "are not machined"},
+        obstacles.check_faces);
+  visit(FieldInfo{"ignore_faces", "", kFaces,
+                  "Faces that the tool may cut into; they are not checked. S2-S5 names all faces of solids 2 to 5"},
         obstacles.ignore_faces);
-  visit(FieldInfo{"shank_length", "mm", kAbove, "A cylindrical shank above the flank, of this length", kLength},
+  visit(FieldInfo{"shank_length", "mm", kAbove, "Length of a cylindrical shank above the flank", kLength},
         obstacles.shank_length_mm);
-  visit(FieldInfo{"shank_radius", "mm", kAbove, "Its radius; default: that of the flank's upper end", kLength},
+  visit(FieldInfo{"shank_radius", "mm", kAbove, "Shank radius. Default: the radius of the flank's upper end", kLength},
         obstacles.shank_radius_mm);
   visit(
       FieldInfo{
           "holder", "", kAbove,
-          "Outline of the holder: z:r,z:r,... (z above the flank's upper end, radius, mm), or a file of such pairs",
+          "Holder outline as z:r,z:r,... (height above the flank's upper end and radius, mm), or a file of such pairs",
           kAny, Spelling::kFileOrText},
       obstacles.holder);
   visit(FieldInfo{"fixtures", "", kAbove,
-                  "Part file that shank, holder and flank must not touch; may be given several times", kAny,
+                  "Part file that flank, shank and holder must not touch; may be given several times", kAny,
                   Spelling::kFile, "--fixture"},
         obstacles.fixtures);
   visit(FieldInfo{"clearance", "mm", kAbove,
-                  "Least distance of the holder from the part, of the shank from its other faces (it stands on the "
-                  "flank and may "
-                  "touch the machined face), and of all from fixtures; default: no collision",
+                  "Smallest distance of the holder from the part, of the shank from the faces that are not machined, "
+                  "and of the whole tool from fixtures. Default: no collision",
                   kDistance},
         obstacles.clearance_mm);
 }
 
 inline constexpr std::string_view kCurveHelp =
-    "on: free tools of other slendernesses are fitted, too, each from the next one; summary and report say what each "
-    "covers, what it cuts and what it leaves";
+    "on: also fit free tools of other L:D and report finished area, gouge and excess material of each";
 
 inline constexpr std::string_view kBendHelp =
-    "Least radius of curvature of the paths of tip and holder end (s = L): a sharper bend does not meet the request; "
-    "default: any";
+    "Smallest radius of curvature of the paths of tip and holder end that meets the request. Default: any";
 
 inline constexpr std::string_view kToleranceHelp =
-    "Tolerance; default: a thousandth of the diagonal of all that is machined, rounded down to 1, 2 or 5 times a power "
-    "of ten, from "
-    "0.005 to 0.5 mm";
+    "Allowed deviation of the machined face, both ways. Default: a thousandth of the diagonal of the machined faces, "
+    "rounded down to 1, 2 or 5 times a power of ten, from 0.005 to 0.5 mm";
 
 inline constexpr std::string_view kTurnHelp =
-    "Largest angle, degrees, by which the motion may turn within 1 % of the face's diagonal, tip and upper end of the "
-    "axis "
-    "together: a sharper turn is a kink, and does not meet the request; 180: any";
+    "Largest turn of the motion within 1 % of the face's diagonal, degrees. A sharper turn is a kink and does not meet "
+    "the request. 180: any";
 
 inline constexpr std::string_view kReachHelp =
-    "A place of the face counts as reachable if a ball of this radius touches it without entering another face, or a "
-    "corner of this one; --coverage is about those; default: of a given tool its smallest radius; of one that is found "
-    "or chosen half of the axis length (or of the root of the face's area) over the largest slenderness, in a cavity "
-    "the thickest that goes through it; less where the face is a groove or runs into a tighter fillet";
+    "Areas where a ball of this radius would gouge a face are not accessible and do not count for --coverage. Default: "
+    "the smallest radius of a given tool; for a free tool axis length / (2 x slenderness-max); in a cavity the largest "
+    "that fits through; smaller in grooves and fillets";
 
 inline constexpr std::string_view kCellHelp =
-    "Between the lines of the stock in which the judge replays a cavity's program; default: by the size of the cavity";
+    "Grid spacing of the stock simulation. Default: by the size of the cavity";
 
 inline constexpr std::string_view kSampleHelp =
-    "Judge by samples at this spacing alone, which is quick: it passes only if nothing deeper than the tolerance has "
-    "room between them; default: "
-    "samples for the figures, and a proof";
+    "Fast check at this spacing, without the proof; it passes only if no gouge deeper than the tolerance fits between "
+    "the samples. Default: samples and a proof";
 
 template <class Visitor, Is<JudgeRequest> Request>
 void visit_judge(Request& judge, Visitor& visit) {
   using namespace accepted;
-  visit(FieldInfo{"coverage", "", "", "Share of what is reachable of the face, within tolerance, that counts as done",
-                  kCoverage},
+  visit(FieldInfo{"coverage", "", "", "Share of the accessible area that must be within the tolerance", kCoverage},
         judge.least_coverage);
-  visit(
-      FieldInfo{"coverage_whole", "", "",
-                "Share of the whole face, reachable or not, that must be within tolerance; default: any, what is left "
-                "is told",
-                kCoverage},
-      judge.least_whole);
+  visit(FieldInfo{"coverage_whole", "", "",
+                  "Share of the whole face, accessible or not, that must be within the tolerance. Default: any; a "
+                  "caution reports the rest",
+                  kCoverage},
+        judge.least_whole);
   visit(FieldInfo{"sample", "mm", "", kSampleHelp, kLength}, judge.sample_mm);
   visit(FieldInfo{"reach_radius", "mm", "Other faces", kReachHelp, kRadius}, judge.reach_radius_mm);
 }
@@ -217,24 +207,25 @@ template <class Visitor, Is<RadiusRequest> Request>
 void visit_radius(Request& radius, Visitor& visit) {
   using namespace accepted;
   constexpr std::string_view kStiff = "Stiffness";
-  visit(FieldInfo{"radius_min", "mm", "", "Smallest radius of a free tool (core); default: 1 % of the face's diagonal",
+  visit(FieldInfo{"radius_min", "mm", "", "Smallest radius of a free tool (core). Default: 1 % of the face's diagonal",
                   kRadius},
         radius.min_mm);
   visit(
-      FieldInfo{"radius_max", "mm", "", "Largest radius of a free tool; default: 15 % of the face's diagonal", kRadius},
+      FieldInfo{"radius_max", "mm", "", "Largest radius of a free tool. Default: 15 % of the face's diagonal", kRadius},
       radius.max_mm);
-  visit(FieldInfo{"slope_max", "", "", "Largest |r'| of a free tool", kSlope}, radius.slope_max);
+  visit(FieldInfo{"slope_max", "", "", "Steepest taper of a free tool's profile, dr/ds", kSlope}, radius.slope_max);
   visit(FieldInfo{"slenderness_max", "", kStiff,
-                  "Largest slenderness of a free tool, flank and shank: length over the diameter of the cylinder that "
-                  "bends as much. Where the part does not allow it, the least that does",
+                  "Largest L:D of a free tool with its shank: length over the diameter of a cylinder that bends as "
+                  "much. If the part does not allow it, the stiffest tool found is used",
                   kRatio},
         radius.slenderness_max);
-  visit(FieldInfo{"profile", "", kStiff, "tapered: a free tool has no neck; any: it may", kProfile}, radius.profile);
-  visit(FieldInfo{"neck", "", kStiff,
-                  "By which share the radius of a tapered tool may fall below what it was farther down", kShare},
+  visit(FieldInfo{"profile", "", kStiff, "tapered: a free tool has no neck; any: it may have one", kProfile},
+        radius.profile);
+  visit(FieldInfo{"neck", "", kStiff, "Allowed necking of a tapered tool, as a share of the radius nearer the tip",
+                  kShare},
         radius.neck);
   visit(FieldInfo{"wheel_radius", "mm", kStiff,
-                  "Least radius of a concave meridian: of the wheel that grinds it; default: any", kRadius},
+                  "Smallest radius of a concave profile, as the grinding wheel needs it. Default: any", kRadius},
         radius.wheel_radius_mm);
 }
 
@@ -243,25 +234,24 @@ template <class Visitor, Is<FitJob> Job>
 void visit_fields(Job& job, Visitor&& visit) {
   using namespace accepted;
   visit_part(job.part, visit);
-  visit(FieldInfo{"tool", "", "", "free, a family with any of its parameters (cone:radius=2,angle=3), or a tool.json",
+  visit(FieldInfo{"tool", "", "", "free, a family with any of its parameters (cone:radius=2,angle=3), or a tool file",
                   kAny, Spelling::kFileOrText},
         job.tool.spec);
   visit(FieldInfo{"tolerance", "mm", "", kToleranceHelp, kLength}, job.tolerance_mm);
-  visit(FieldInfo{"axis_length", "mm", "", "Length of the tool's axis; default: as the face needs", kLength},
+  visit(FieldInfo{"axis_length", "mm", "",
+                  "Length of the tool's axis, tip centre to upper end. Default: as the face needs", kLength},
         job.tool.axis_length_mm);
   visit(FieldInfo{"strips", "", "",
-                  "Passes side by side with one tool: a number, or auto: as many as the tolerance needs", kPassCount,
+                  "Number of passes side by side with one tool, or auto: as many as the tolerance needs", kPassCount,
                   Spelling::kAutoOrCount},
         job.strips);
-  visit(
-      FieldInfo{"effort", "", "",
-                "How much is tried: normal ends after about five minutes of one processor, with its best; quick after "
-                "20 seconds, with few starts, four strips at most and no tool more slender than --slenderness-max; "
-                "thorough has twice the starts and no limit",
-                kEffort},
-      job.effort);
-  visit(FieldInfo{"start", "", "", "First axis x,y,z,x,y,z (tip, holder end), mm; default: automatic"}, job.start);
-  visit(FieldInfo{"guide", "", "", "File of several such lines: the axis follows them", kAny, Spelling::kFile},
+  visit(FieldInfo{"effort", "", "",
+                  "How long to search: quick ends after about 20 s of one processor, with at most four passes; normal "
+                  "after about five minutes; thorough has no limit",
+                  kEffort},
+        job.effort);
+  visit(FieldInfo{"start", "", "", "First tool axis x,y,z,x,y,z (tip, holder end), mm. Default: found"}, job.start);
+  visit(FieldInfo{"guide", "", "", "File of several axes, one a line, that the motion follows", kAny, Spelling::kFile},
         job.guide);
   visit_radius(job.radius, visit);
   visit(FieldInfo{"stiffness_curve", "", "Stiffness", kCurveHelp, kAny, Spelling::kOnOff}, job.stiffness_curve);
@@ -269,31 +259,28 @@ void visit_fields(Job& job, Visitor&& visit) {
   visit(FieldInfo{"turn_max", "", "Motion", kTurnHelp, kTurn}, job.judge.most_turn_deg);
   visit_judge(job.judge, visit);
   visit_obstacles(job.obstacles, visit);
-  visit(
-      FieldInfo{"avoid", "", "Other faces",
-                "on: steer the tool clear of the other faces; off: fit as if they were not there (they are judged all "
-                "the same)",
-                kAny, Spelling::kOnOff},
-      job.avoid);
+  visit(FieldInfo{"avoid", "", "Other faces",
+                  "on: plan around the neighbouring faces; off: plan without them (they are checked all the same)",
+                  kAny, Spelling::kOnOff},
+        job.avoid);
 }
 
 template <class Visitor, Is<ChoiceRequest> Request>
 void visit_choice(Request& choice, Visitor& visit) {
   using namespace accepted;
   constexpr std::string_view kGroup = "Choice of the tool";
-  visit(
-      FieldInfo{"catalogue", "", kGroup,
-                "Folder of tool files (NAME.json) for --tool catalogue; default: $FLANK_CATALOGUE, else the tools that "
-                "come with flank (share/openflank/catalogue)",
-                kAny, Spelling::kFile},
-      choice.catalogue);
+  visit(FieldInfo{"catalogue", "", kGroup,
+                  "Folder of tool files (NAME.json) for --tool catalogue. Default: $FLANK_CATALOGUE, else the tools "
+                  "that come with flank (share/openflank/catalogue)",
+                  kAny, Spelling::kFile},
+        choice.catalogue);
   visit(FieldInfo{"finalists", "", kGroup,
-                  "Tools that are covered in full, strips smoothed; the others are compared by strips as they grow",
+                  "Number of tools whose passes are finished in full; the others are compared by unfinished passes",
                   kFinalists},
         choice.finalists);
-  visit(FieldInfo{"feed", "mm/min", kGroup, "Feed along the strips, for the machining time in the ranking", kRate},
+  visit(FieldInfo{"feed", "mm/min", kGroup, "Feed along the passes, for the machining time in the ranking", kRate},
         choice.feed_mm_min);
-  visit(FieldInfo{"rapid", "mm/min", kGroup, "Rate between the strips", kRate}, choice.rapid_mm_min);
+  visit(FieldInfo{"rapid", "mm/min", kGroup, "Rapid rate between the passes", kRate}, choice.rapid_mm_min);
 }
 
 template <class Visitor, Is<CoverJob> Job>
@@ -303,30 +290,26 @@ void visit_fields(Job& job, Visitor&& visit) {
   visit(
       FieldInfo{
           "tool", "", "",
-          "A tool.json; a family with all its parameters (barrel:arc=85,radius=5) and --axis-length; a family with "
-          "some or none (barrel, barrel:radius=5): the others are searched for this face; or catalogue: the best "
-          "of a folder of tools",
+          "A tool file; a family with all its parameters (barrel:arc=85,radius=5) and --axis-length; a family with "
+          "some or none (barrel), the others are found for this face; or catalogue, the best of a folder of tools",
           kAny, Spelling::kFileOrText, "", true},
       job.tool.spec);
-  visit(
-      FieldInfo{
-          "axis_length", "mm", "",
-          "Length of the axis of a family; if parameters are searched, default: the width of the face over 1, 2, 3 "
-          "and 4 strips, all tried",
-          kLength},
-      job.tool.axis_length_mm);
+  visit(FieldInfo{"axis_length", "mm", "",
+                  "Axis length of a family's tool. If parameters are found, default: the width of the face over 1, 2, "
+                  "3 and 4 passes, all tried",
+                  kLength},
+        job.tool.axis_length_mm);
   visit(FieldInfo{"tolerance", "mm", "", kToleranceHelp, kLength}, job.tolerance_mm);
-  visit(FieldInfo{"strategy", "", "", "How strips are found: grow, or curves (the published method, to compare)",
+  visit(FieldInfo{"strategy", "", "", "How passes are found: grow, or curves (the published method, to compare)",
                   kStrategy},
         job.strategy);
-  visit(FieldInfo{"seed", "", "", "Seed of the random numbers of --strategy curves; default: 1"}, job.seed);
-  visit(FieldInfo{"seeds", "", "",
-                  "Where lines are begun: grid, spread evenly, or shape, more where the face bends more", kSeeds},
+  visit(FieldInfo{"seed", "", "", "Seed of the random numbers of --strategy curves. Default: 1"}, job.seed);
+  visit(FieldInfo{"seeds", "", "", "Where passes start: grid, spread evenly; shape, more where the face is curved more",
+                  kSeeds},
         job.seeds);
-  visit(FieldInfo{"strips", "", "", "Most strips on one target; default: as many as are worth their price", kStrips},
+  visit(FieldInfo{"strips", "", "", "Largest number of passes. Default: as many as are worth --strip-price", kStrips},
         job.most_strips);
-  visit(FieldInfo{"strip_price", "", "", "Share of the face that a strip must add to be worth it; default: 0.005",
-                  kPrice},
+  visit(FieldInfo{"strip_price", "", "", "Share of the face that another pass must add. Default: 0.005", kPrice},
         job.strip_price);
   visit(FieldInfo{"turn_max", "", "Motion", kTurnHelp, kTurn}, job.judge.most_turn_deg);
   visit_judge(job.judge, visit);
@@ -340,30 +323,30 @@ template <class Visitor, Is<NcRequest> Request>
 void visit_nc(Request& nc, Visitor& visit) {
   using namespace accepted;
   constexpr std::string_view kGroup = "Program";
-  visit(FieldInfo{"nc", "", kGroup, "Judge this NC program, run on --machine, instead of the path of DIR", kAny,
+  visit(FieldInfo{"nc", "", kGroup, "Check this NC program, run on --machine, instead of the path of DIR", kAny,
                   Spelling::kFile},
         nc.file);
   visit(FieldInfo{"machine", "", kGroup, kMachineHelp, kAny, Spelling::kFileOrText}, nc.machine);
   visit(FieldInfo{"setup", "", kGroup,
-                  "Where the part sits: x,y,z,a,b,c (mm, degrees); default: as the program's header says", kAny},
+                  "Set-up of the part x,y,z,a,b,c (mm, degrees). Default: the one in the program's header", kAny},
         nc.setup);
-  visit(FieldInfo{"tool", "", kGroup, "The tool.json of the program; default: that of DIR", kAny, Spelling::kFile},
+  visit(FieldInfo{"tool", "", kGroup, "Tool file of the program. Default: that of DIR", kAny, Spelling::kFile},
         nc.tool);
-  visit(FieldInfo{"faces", "", kGroup, "Faces that it machines; default: those of DIR, else F1", kAny, Spelling::kPlain,
+  visit(FieldInfo{"faces", "", kGroup, "Faces that it machines. Default: those of DIR, else F1", kAny, Spelling::kPlain,
                   "--face"},
         nc.faces);
   visit(
-      FieldInfo{"work_offset", "", kGroup,
-                "The work offset that holds the set-up: 1 is G54; default: as the header says, else the machine's file",
-                kWorkOffset},
+      FieldInfo{
+          "work_offset", "", kGroup,
+          "Work offset that holds the set-up; 1 is G54. Default: the one in the header, else in the machine's file",
+          kWorkOffset},
       nc.work_offset);
-  visit(FieldInfo{"tool_number", "", kGroup, "The number of the tool of DIR; default: as the header says", kToolNumber},
+  visit(FieldInfo{"tool_number", "", kGroup, "Number of the tool of DIR. Default: the one in the header", kToolNumber},
         nc.tool_number);
-  visit(
-      FieldInfo{"follow", "", kGroup,
-                "path: what it cuts must be the path of DIR, all of it and in its order; any: only what is cut counts",
-                kFollow},
-      nc.follow);
+  visit(FieldInfo{"follow", "", kGroup,
+                  "path: the program must cut the whole path of DIR in its order; any: only what it cuts counts",
+                  kFollow},
+        nc.follow);
 }
 
 template <class Visitor, Is<PostJob> Job>
@@ -374,42 +357,40 @@ void visit_fields(Job& job, Visitor&& visit) {
                   true},
         job.folder);
   visit(FieldInfo{"machine", "", "", kMachineHelp, kAny, Spelling::kFileOrText, "", true}, job.machine);
-  visit(FieldInfo{"part", "", "", "Part instead of the one named in job.json", kAny, Spelling::kFile}, job.part);
-  visit(
-      FieldInfo{"setup", "", "",
-                "Where the part sits on the table: x,y,z,a,b,c: its origin, mm, and its turn about X, then Y, then Z, "
-                "degrees; default: searched so that the machine reaches all of it",
-                kAny},
-      job.setup);
+  visit(FieldInfo{"part", "", "", "Another part than the one named in job.json", kAny, Spelling::kFile}, job.part);
+  visit(FieldInfo{"setup", "", "",
+                  "Set-up of the part on the table, x,y,z,a,b,c: its origin in mm, its turns about X, then Y, then Z "
+                  "in degrees. Default: found, so that the machine reaches everything",
+                  kAny},
+        job.setup);
   visit(FieldInfo{"feed", "mm/min", "",
-                  "Feed of the contact along the strips; needed, but for a dry run (1000) and --speed optimal", kRate},
+                  "Feed of the contact along the passes; required, except for a dry run (1000) and --speed optimal",
+                  kRate},
         job.feed_mm_min);
   visit(FieldInfo{"speed", "", "",
-                  "feed: at the feed wherever the axes can, and in a cavity faster where less is engaged, slower where "
-                  "more is, so that the thickest chip stays the same; constant: at the feed; optimal: as fast as the "
-                  "axes can",
+                  "feed: at --feed as far as the axes can, in a cavity adapted to the engagement so that the thickest "
+                  "chip stays the same; constant: at --feed; optimal: as fast as the axes can",
                   kSpeed},
         job.speed);
   visit(FieldInfo{"most_feed", "mm/min", "",
-                  "In a cavity: the feed where little or nothing is engaged; default: three times the feed", kRate},
+                  "In a cavity: largest feed, where little or nothing is engaged. Default: three times --feed", kRate},
         job.most_feed_mm_min);
   visit(FieldInfo{"deviation", "mm", "",
-                  "How far the control's own motion may leave the path; default: 0.5 % of the tolerance", kLength},
+                  "Allowed deviation of the control's motion from the path. Default: 0.5 % of the tolerance", kLength},
         job.deviation_mm);
-  visit(FieldInfo{"tool_length", "mm", "", "From the gauge line to the controlled point; default: the machine's",
-                  kLength},
+  visit(FieldInfo{"tool_length", "mm", "",
+                  "Tool length, from the gauge line to the controlled point. Default: the machine's", kLength},
         job.tool_length_mm);
-  visit(FieldInfo{"spindle", "", "", "Spindle speed, 1/min; needed, but for a dry run and with --material", kTurns},
-        job.spindle_rpm);
   visit(
-      FieldInfo{
-          "material", "", "",
-          "What is cut (share/materials: aluminium, titanium, ...): its cutting speed at the largest diameter and its "
-          "chip load give --spindle and --feed where they are not given; needs --flutes"},
-      job.material);
-  visit(FieldInfo{"flutes", "", "", "Cutting edges of the tool, for the feed that --material gives", kToolNumber},
+      FieldInfo{"spindle", "", "", "Spindle speed, 1/min; required, except for a dry run and with --material", kTurns},
+      job.spindle_rpm);
+  visit(FieldInfo{"material", "", "",
+                  "Workpiece material (share/materials: aluminium, titanium, ...): derives --spindle and --feed from "
+                  "its cutting speed and chip load; needs --flutes"},
+        job.material);
+  visit(FieldInfo{"flutes", "", "", "Number of the tool's cutting edges, for the feed of --material", kToolNumber},
         job.flutes);
-  visit(FieldInfo{"dry", "", "", "A dry run: the spindle stands still, and the program's header says so", kAny,
+  visit(FieldInfo{"dry", "", "", "Dry run: the spindle stands still, and the program's header says so", kAny,
                   Spelling::kFlag},
         job.dry);
   visit(FieldInfo{"force", "", "",
@@ -417,14 +398,17 @@ void visit_fields(Job& job, Visitor&& visit) {
                   "still 1",
                   kAny, Spelling::kFlag},
         job.force);
-  visit(FieldInfo{"link_clearance", "mm", kLinks, "Distance from the part's surroundings between strips", kLength},
+  visit(FieldInfo{"link_clearance", "mm", kLinks, "Distance of the links from the part and its surroundings", kLength},
         job.link_clearance_mm);
-  visit(FieldInfo{"lift", "mm", kLinks, "Way off the surface before and after each strip", kLength}, job.lift_mm);
-  visit(FieldInfo{"order", "", kLinks,
-                  "Of the strips: shortest: short ways between them; given: that of the path. A cavity's cycles keep "
-                  "theirs",
-                  kOrder},
-        job.order);
+  visit(FieldInfo{"lift", "mm", kLinks, "Lead-in and lead-out distance from the surface, before and after each pass",
+                  kLength},
+        job.lift_mm);
+  visit(
+      FieldInfo{
+          "order", "", kLinks,
+          "Order of the passes: shortest (short links) or given (as in the path). Cycles of a cavity keep their order",
+          kOrder},
+      job.order);
 }
 
 template <class Visitor, Is<CycleRequest> Request>
@@ -433,29 +417,28 @@ void visit_cycles(Request& cycles, Visitor& visit) {
   constexpr std::string_view kGroup = "Cycles";
   visit(FieldInfo{"max_engagement", "", kGroup, "Largest engagement angle of the cutter, degrees", kEngagement},
         cycles.most_engagement_deg);
-  visit(FieldInfo{"cut", "", kGroup, "climb or conventional; the spindle turns clockwise seen from the holder", kCut},
+  visit(FieldInfo{"cut", "", kGroup, "climb or conventional milling; the spindle turns clockwise seen from the holder",
+                  kCut},
         cycles.cut);
-  visit(FieldInfo{"layers", "", kGroup, "Layers, one tool for all: a number, or auto: as many as the tolerance needs",
+  visit(FieldInfo{"layers", "", kGroup, "Number of layers with one tool, or auto: as many as the tolerance needs",
                   kLayers, Spelling::kAutoOrCount},
         cycles.layers);
-  visit(
-      FieldInfo{
-          "entry", "", kGroup,
-          "How a layer begins: open, before the blank; ramp, to and fro over its first front, sinking; plunge, along "
-          "the tool's axis at places of that front; auto: open where an end is open, else ramp. A ramp or a plunge "
-          "cuts a slot: --max-engagement does not hold there, its engagement is told by itself",
-          kEntry},
-      cycles.entry);
+  visit(FieldInfo{"entry", "", kGroup,
+                  "How a layer is entered: open, from outside the blank; ramp, to and fro while sinking; plunge, along "
+                  "the tool's axis; auto: open where an end is open, else ramp. Ramps and plunges cut a slot, beyond "
+                  "--max-engagement; their engagement is reported by itself",
+                  kEntry},
+        cycles.entry);
   visit(FieldInfo{"ramp_angle", "", kGroup, "Steepest slope of a ramp, degrees", kRampAngle}, cycles.ramp_angle_deg);
   visit(FieldInfo{"strategy", "", kGroup,
-                  "volume: the shape of every cycle is optimised for removed volume per way; plain: its step alone; "
-                  "paper: steps whose fronts are moved back where they engage too far (the published method, to "
-                  "compare)",
+                  "volume: optimise the shape of every cycle for removed volume per path length; plain: optimise its "
+                  "step only; paper: the published method, to compare",
                   kCycles},
         cycles.strategy);
-  visit(FieldInfo{"feed", "mm/min", kGroup, "Feed of the cycles and sides, for the machining time", kRate},
+  visit(FieldInfo{"feed", "mm/min", kGroup, "Feed of cycles and side paths, for the machining time", kRate},
         cycles.feed_mm_min);
-  visit(FieldInfo{"rapid", "mm/min", kGroup, "Rate of the links", kRate}, cycles.rapid_mm_min);
+  visit(FieldInfo{"rapid", "mm/min", kGroup, "Rapid rate of the links, for the machining time", kRate},
+        cycles.rapid_mm_min);
   visit(FieldInfo{"stock_cell", "mm", kGroup, kCellHelp, kLength}, cycles.stock_cell_mm);
 }
 
@@ -463,30 +446,29 @@ template <class Visitor, Is<TrochoidJob> Job>
 void visit_fields(Job& job, Visitor&& visit) {
   using namespace accepted;
   visit(FieldInfo{"part", "", "", "STEP, IGES or BREP file", kAny, Spelling::kFile, "PART", true}, job.part.file);
-  visit(FieldInfo{"left", "", "", "Faces of one side of the cavity: F9, or several that are joined, F9,F10", kAny,
+  visit(FieldInfo{"left", "", "", "Faces of one side of the cavity, as F9, or several that are joined, F9,F10", kAny,
                   Spelling::kPlain, "", true},
         job.left);
-  visit(FieldInfo{"right", "", "", "Faces of the side that faces it", kAny, Spelling::kPlain, "", true}, job.right);
+  visit(FieldInfo{"right", "", "", "Faces of the opposite side", kAny, Spelling::kPlain, "", true}, job.right);
   visit(FieldInfo{"floor", "", "",
-                  "A face at the bottom of the cavity: the tool's tip is towards it; default: the walls "
-                  "say so, else the narrower end is the bottom"},
+                  "A face at the bottom of the cavity, where the tool's tip is. Default: found from the walls, else at "
+                  "the narrower end"},
         job.floor);
-  visit(FieldInfo{"tool", "", "", "free, a family with any of its parameters (cone:radius=2,angle=3), or a tool.json",
+  visit(FieldInfo{"tool", "", "", "free, a family with any of its parameters (cone:radius=2,angle=3), or a tool file",
                   kAny, Spelling::kFileOrText},
         job.tool.spec);
   visit(FieldInfo{"tolerance", "mm", "", kToleranceHelp, kLength}, job.tolerance_mm);
-  visit(FieldInfo{"axis_length", "mm", "", "Length of the tool's axis; default: as a layer needs", kLength},
+  visit(FieldInfo{"axis_length", "mm", "",
+                  "Length of the tool's axis, tip centre to upper end. Default: as a layer needs", kLength},
         job.tool.axis_length_mm);
   visit_cycles(job.cycles, visit);
   visit_radius(job.radius, visit);
   visit_judge(job.judge, visit);
   visit_obstacles(job.obstacles, visit);
-  visit(
-      FieldInfo{"avoid", "", "Other faces",
-                "on: steer the tool clear of the other faces; off: plan as if they were not there (they are judged all "
-                "the same)",
-                kAny, Spelling::kOnOff},
-      job.avoid);
+  visit(FieldInfo{"avoid", "", "Other faces",
+                  "on: plan around the neighbouring faces; off: plan without them (they are checked all the same)",
+                  kAny, Spelling::kOnOff},
+        job.avoid);
 }
 
 template <class Visitor, Is<VerifyJob> Job>
@@ -497,10 +479,10 @@ void visit_fields(Job& job, Visitor&& visit) {
         job.folder);
   visit_nc(job.nc, visit);
   visit(
-      FieldInfo{"part", "", "", "Judge against this part instead of the one named in job.json", kAny, Spelling::kFile},
+      FieldInfo{"part", "", "", "Check against this part instead of the one named in job.json", kAny, Spelling::kFile},
       job.part);
   visit(FieldInfo{"side", "", "", kSideHelp, kSide, Spelling::kSign}, job.side);
-  visit(FieldInfo{"tolerance", "mm", "", "Tolerance instead of the job's", kLength}, job.tolerance_mm);
+  visit(FieldInfo{"tolerance", "mm", "", "Another tolerance than that of the job", kLength}, job.tolerance_mm);
   visit(FieldInfo{"sample", "mm", "", kSampleHelp, kLength}, job.sample_mm);
   visit(FieldInfo{"reach_radius", "mm", "Other faces", kReachHelp, kRadius}, job.reach_radius_mm);
   visit(FieldInfo{"stock_cell", "mm", "", kCellHelp, kLength}, job.stock_cell_mm);

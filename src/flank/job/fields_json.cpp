@@ -90,12 +90,12 @@ const std::vector<std::string>& basic_fields(const std::string& command) {
 }
 
 std::vector<std::string> choices_of(const std::string& accepted) {
-  constexpr std::string_view kBegin = "there are ", kAnd = " and ";
+  constexpr std::string_view kBegin = "must be ", kOr = " or ";
   if (!accepted.starts_with(kBegin)) return {};
   std::string rest = accepted.substr(kBegin.size());
-  const std::size_t last = rest.rfind(kAnd);
+  const std::size_t last = rest.rfind(kOr);
   if (last == std::string::npos) return {};
-  rest.replace(last, kAnd.size(), ", ");
+  rest.replace(last, kOr.size(), ", ");
   std::vector<std::string> choices;
   for (std::size_t at = 0; at != std::string::npos;) {
     const std::size_t end = rest.find(", ", at);

@@ -10,7 +10,7 @@ namespace flank::internal {
 /// know what they want. Empty for a command that has none.
 [[nodiscard]] const std::vector<std::string>& basic_fields(const std::string& command);
 
-/// "quick", "normal" and "thorough" of "there are quick, normal and thorough"; empty for other sentences.
+/// "quick", "normal" and "thorough" of "must be quick, normal or thorough"; empty for other sentences.
 [[nodiscard]] std::vector<std::string> choices_of(const std::string& accepted);
 
 /// Indented JSON, schema "openflank/fields/1": every field with name, option, unit, kind, group, default, help, what is accepted, and

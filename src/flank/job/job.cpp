@@ -60,10 +60,10 @@ void set(Job& job, const std::string& name, const std::vector<std::string>& word
     if constexpr (std::is_same_v<std::remove_reference_t<decltype(member)>, std::vector<std::string>>)
       member.clear();
     else if (words.size() != 1)
-      throw UsageError(name, "one value is needed");
+      throw UsageError(name, "expected one value");
     for (const std::string& word : words) read_word(info, word, member);
   });
-  if (!known) throw UsageError(name, "is no field of " + std::string(command_name(job)) + "; there are " + names);
+  if (!known) throw UsageError(name, "is not a field of " + std::string(command_name(job)) + "; expected " + names);
 }
 
 }  // namespace
@@ -74,7 +74,7 @@ std::vector<JobField> job_fields(const std::string& command) {
   if (command == command_name(TrochoidJob{})) return fields_of<TrochoidJob>();
   if (command == command_name(VerifyJob{})) return fields_of<VerifyJob>();
   if (command == command_name(PostJob{})) return fields_of<PostJob>();
-  throw UsageError("command", command, "there are fit, cover, trochoid, verify and post");
+  throw UsageError("command", command, "must be fit, cover, trochoid, verify or post");
 }
 
 void set_field(FitJob& job, const std::string& name, const std::vector<std::string>& words) { set(job, name, words); }

@@ -87,10 +87,10 @@ template <class T>
 void from_json(const Json& json, T& value) {
   if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
     const bool fits = json.is_number_integer() && json.get<T>() == json;
-    if (!fits) throw InputError("a whole number is needed");
+    if (!fits) throw InputError("expected a whole number");
   }
   if constexpr (std::is_same_v<T, double>) {
-    if (!json.is_number()) throw InputError("a number is needed");
+    if (!json.is_number()) throw InputError("expected a number");
   }
   value = json.get<T>();
 }
@@ -120,22 +120,22 @@ Job read_job(const Json& json, const std::set<std::string>& ignored) {
     }
   });
   if (const auto units = json.find("units"); units != json.end() && *units != "mm")
-    throw InputError("units: is " + units->dump() + "; accepted is \"mm\"");
+    throw InputError("units: is " + units->dump() + "; expected \"mm\"");
   // A misspelled key would be a demand that is silently not kept.
   for (const auto& [key, value] : json.items())
-    if (!known.contains(key) && !ignored.contains(key)) throw InputError(key + ": is no key of a job file");
+    if (!known.contains(key) && !ignored.contains(key)) throw InputError(key + ": unknown key");
   check_fields(job);
   return job;
 }
 
 PlanJob read_plan(const Json& json) {
   if (!json.is_object() || json.value("schema", "") != kSchema)
-    throw InputError(std::string("schema \"") + kSchema + "\" is needed");
+    throw InputError(std::string("expected schema \"") + kSchema + "\"");
   // A file that names no command is a job of a fit.
   const std::string command = json.value("command", "fit");
   if (command == "fit") return read_job<FitJob>(json, {});
   if (command == "trochoid") return read_job<TrochoidJob>(json, {});
-  if (command != "cover") throw InputError("command \"" + command + "\"; there are fit, cover and trochoid");
+  if (command != "cover") throw InputError("command \"" + command + "\"; expected fit, cover or trochoid");
   if (!json.contains(kOnlyInOldCovers)) return read_job<CoverJob>(json, {});
   return read_job<CoverJob>(json, {std::begin(kIgnoredInOldCovers), std::end(kIgnoredInOldCovers)});
 }

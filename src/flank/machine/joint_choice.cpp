@@ -210,7 +210,7 @@ class Choice {
       if (violation.empty()) {
         why.joint = joint_[0]->name;
         why.reason = fmt::format(
-            "no turn of joints {} and {} goes on from the pose before: one of them would leave its travel, or jump",
+            "joints {} and {} cannot continue from the CL point before: one of them would leave its travel, or jump",
             joint_[0]->name, joint_[1]->name);
         return {.joints = {}, .unreachable = why};
       }

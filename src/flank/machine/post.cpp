@@ -92,8 +92,8 @@ class Poster {
     options.deviation = link ? std::max(options_.link_deviation, options_.deviation) : options_.deviation;
     LinearisedStrip strip = linearise(kinematics_, control_, poses, {joints.data() + begin, count}, span_, options);
     if (!strip.complete || !std::isfinite(strip.deviation_mm)) {
-      post_.unreachable = Unreachable{
-          0, {}, "no number of points keeps the control's own motion within the deviation that is asked for"};
+      post_.unreachable =
+          Unreachable{0, {}, "no number of points keeps the control's motion within the required deviation"};
       post_.unreachable_strip = path_.strips[k].id;
       return false;
     }

@@ -17,8 +17,8 @@ constexpr double kFarMm = 1e6, kFarDegrees = 1e4;  // what is beyond is a slip o
 /// One message for all that can be wrong: the whole form is short enough to be shown.
 [[noreturn]] void refuse(const std::string& text) {
   throw UsageError("setup", text,
-                   "x,y,z,a,b,c is needed: where the part's origin sits on the table, mm, and how it is "
-                   "turned about X, then Y, then Z, degrees");
+                   "expected x,y,z,a,b,c: where the part's origin sits on the table, mm, and how it is turned about X, "
+                   "then Y, then Z, degrees");
 }
 
 /// Numbers between commas, blanks allowed. By from_chars, which reads the same in every locale, and never "nan" as a

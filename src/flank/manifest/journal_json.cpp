@@ -29,7 +29,7 @@ Json to_json(const JournalStep& step) {
 double number_of(const Json& json) {
   if (json == kInfinite) return std::numeric_limits<double>::infinity();
   if (json == kMinusInfinite) return -std::numeric_limits<double>::infinity();
-  if (!json.is_number()) throw InputError("a number is needed, not " + json.dump().substr(0, 20));
+  if (!json.is_number()) throw InputError("expected a number, not " + json.dump().substr(0, 20));
   return json.get<double>();
 }
 
@@ -37,18 +37,18 @@ std::string hash_of(const Json& json) {
   constexpr std::size_t kDigits = 64;
   auto text = json.get<std::string>();
   if (text.size() != kDigits || text.find_first_not_of("0123456789abcdef") != std::string::npos)
-    throw InputError("64 hexadecimal digits are needed");
+    throw InputError("expected 64 hexadecimal digits");
   return text;
 }
 
 void require_size(const Json& object, std::size_t size) {
-  if (object.size() != size) throw InputError("there are keys that mean nothing here");
+  if (object.size() != size) throw InputError("unknown keys");
 }
 
 JournalStep step_of(const Json& json) {
   JournalStep step{json.at("name").get<std::string>(), hash_of(json.at("inputs")), {}};
   const Json& numbers = json.at("numbers");
-  if (!numbers.is_array()) throw InputError("\"numbers\": a list is needed");
+  if (!numbers.is_array()) throw InputError("\"numbers\": expected a list");
   step.result.numbers.reserve(numbers.size());
   for (const Json& number : numbers) step.result.numbers.push_back(number_of(number));
   step.result.texts = json.at("texts").get<std::vector<std::string>>();
@@ -58,10 +58,10 @@ JournalStep step_of(const Json& json) {
 
 Journal read(const Json& json, const std::string& file) {
   if (json.at("schema").get<std::string>() != kSchema)
-    throw InputError(std::string("schema \"") + kSchema + "\" is needed");
+    throw InputError(std::string("expected schema \"") + kSchema + "\"");
   JournalKey key{json.at("version").get<std::string>(), hash_of(json.at("job")), hash_of(json.at("part"))};
   const Json& all = json.at("steps");
-  if (!all.is_array()) throw InputError("\"steps\": a list is needed");
+  if (!all.is_array()) throw InputError("\"steps\": expected a list");
   std::vector<JournalStep> steps;
   for (const Json& step : all) {
     try {

@@ -26,21 +26,21 @@ std::string hash_of(const Json& json, const std::string& name) {
   constexpr std::size_t kDigits = 64;
   auto text = json.get<std::string>();
   if (text.size() != kDigits || text.find_first_not_of("0123456789abcdef") != std::string::npos)
-    throw InputError("\"" + name + "\": 64 hexadecimal digits are needed; if the file was edited, remove it");
+    throw InputError("\"" + name + "\": expected 64 hexadecimal digits; if the file was edited, remove it");
   return text;
 }
 
 Manifest read(const Json& json) {
   Manifest manifest;
   if (json.at("schema").get<std::string>() != kSchema)
-    throw InputError(std::string("schema \"") + kSchema + "\" is needed");
+    throw InputError(std::string("expected schema \"") + kSchema + "\"");
   manifest.made_by = json.at("made_by").get<std::string>();
   manifest.folder = name_of_text(json.at("folder").get<std::string>());
   manifest.part = stamp_of(json.at("part"));
   manifest.judged = stamp_of(json.at("judged"));
   for (const auto& [name, hash] : json.at("files").items()) {
     if (name.empty() || name == "." || name == ".." || name.find('/') != std::string::npos)
-      throw InputError("\"" + name + "\" is no name of a file in a folder");
+      throw InputError("\"" + name + "\" is not a name of a file in a folder");
     manifest.files[name] = hash_of(hash, name);
   }
   // Earlier versions wrote none.

@@ -82,10 +82,10 @@ ResultFolder::ResultFolder(std::string folder, Use use) : folder_(std::move(fold
     made_ = fs::create_directories(folder_, error);
     if (error || !fs::is_directory(folder_))
       throw InputError(folder_ + ": cannot make this folder (" + (error ? error.message() : "a file is there") +
-                       "); a folder that can be written is needed");
+                       "); give a folder that can be written");
   }
   if (!fs::is_directory(folder_, error))
-    throw InputError(folder_ + ": no such folder; a folder written by `flank fit` is needed");
+    throw InputError(folder_ + ": no such folder; give a folder written by `flank fit`");
   writable_ = use == Use::kWrite || ::access(folder_.c_str(), W_OK | X_OK) == 0;
   try {
     if (use != Use::kRead && writable_) {
@@ -136,7 +136,7 @@ void ResultFolder::make_unfinished() const {
     throw InputError(folder_ + ": cannot be written (" + std::strerror(errno) + "); give a folder that is writable");
 }
 
-// Nobody is to learn it after the work.
+// Fail before the work, not after it.
 void ResultFolder::require_writable() {
   make_unfinished();
   std::error_code ignored;

@@ -39,7 +39,7 @@ struct CellDistance {
 };
 
 /// One tree of cells for each node of a cubic lattice, grown where it is asked for. Every function may be called from
-/// many threads at once: a cell's values do not depend on who makes it, and who comes second throws his own away.
+/// many threads at once: a cell's values do not depend on who makes it, and the thread that loses discards its copy.
 class DistanceCells {
  public:
   /// `low`: the place of the node (0, 0, 0). `error_mm`: how far the interpolated distance may be off at the place of a

@@ -139,7 +139,7 @@ struct ObstacleField::Lattice {
     return known;
   }
   /// The faces that can be nearest within half a cell of a node, likewise. A list is published by its pointer
-  /// (acquire-release); who comes second throws his own away.
+  /// (acquire-release); the thread that loses discards its copy.
   template <class Find>
   const Faces& near(std::ptrdiff_t index, Find&& find) {
     std::atomic<const Faces*>& place = faces[static_cast<std::size_t>(index)];

@@ -13,7 +13,7 @@ constexpr double kRadian = 180.0 / std::numbers::pi;
 
 std::string ends_of(const CavityProgram& program) {
   if (program.walled_start)
-    return "walls close the cavity at both ends: cycles start and end before them, opened from above";
+    return "walls close the cavity at both ends: cycles start and end in front of them, entered from above";
   if (program.walled_end)
     return "a wall closes the cavity at the end: cycles start outside of the blank and end before it";
   return "the cavity is taken as open at both ends: cycles start and end outside of the blank";
@@ -29,13 +29,12 @@ std::string stuck_sentence(const TrochoidJob& job, const LayerCycles& cycles) {
   const double most = job.cycles.most_engagement_deg;
   const RefusedStep& refused = cycles.stuck;
   if (cycles.cycles.empty() && refused.largest_rad > 0.0)
-    return fmt::format(
-        "no first front before the blank keeps to {} degrees: the one that exceeds them least engages {:.2f}", most,
-        refused.largest_rad * kRadian);
+    return fmt::format("the first cut cannot stay within {} degrees of engagement: the smallest found is {:.2f}", most,
+                       refused.largest_rad * kRadian);
   if (!(refused.largest_rad > 0.0))
-    return fmt::format("no step within {} degrees is possible that enters no face", most);
+    return fmt::format("no step within {} degrees of engagement is free of gouges", most);
   return fmt::format(
-      "no step is possible within {} degrees: the one that exceeds them least, {:.4f} mm, engages {:.2f}; "
+      "no step stays within {} degrees of engagement: the smallest excess is a step of {:.4f} mm with {:.2f}; "
       "--max-engagement {:.0f} gets past this place",
       most, refused.step_mm, refused.largest_rad * kRadian, std::ceil(refused.largest_rad * kRadian + 0.5));
 }
@@ -43,24 +42,25 @@ std::string stuck_sentence(const TrochoidJob& job, const LayerCycles& cycles) {
 /// Cycles go forward across the axis; where the sides lead along it they hardly do.
 std::string along_axis_sentence(const PlannedLayer& layer) {
   return fmt::format(
-      "there the sides lead along the tool's axis, {:.0f} degrees off it: of a step along them {:.0f} % goes forward "
-      "across the axis, where the flank cuts",
+      "there the sides run {:.0f} degrees off the tool's axis: only {:.0f} % of a step along them goes across the "
+      "axis, where the flank cuts",
       layer.off_axis_rad * kRadian, 100.0 * std::sin(layer.off_axis_rad));
 }
 
 /// A search for another tool ends there (ends_search).
 std::string before_sides_sentence(const PlannedLayer& layer) {
-  return fmt::format("all {} fronts end before one of the sides begins: they do not get into the cavity",
+  return fmt::format("all {} cutting moves end before one of the sides begins: they do not get into the cavity",
                      layer.cycles.cycles.size());
 }
 
 std::string rest_sentence(const TrochoidJob& job, const PlannedLayer& layer) {
   const double cleared = 100.0 * layer.share, before = layer.cycles.before_wall_mm;
   if (!(before > 0.0))
-    return fmt::format("cleared and finished over {:.1f} % of the way of its sides; the rest is left", cleared);
+    return fmt::format("roughed and finished over {:.1f} % of the length of its sides; the rest is not machined",
+                       cleared);
   return fmt::format(
-      "cleared and finished over {:.1f} % of the way of its sides, up to {:.2f} mm before where the wall lets the tool "
-      "go: nearer steps are too thin to be measured, or in the corners exceed {} degrees",
+      "roughed and finished over {:.1f} % of the length of its sides, up to {:.2f} mm before the limit that the wall "
+      "sets: nearer steps are too thin to be measured, or exceed {} degrees in the corners",
       cleared, before, job.cycles.most_engagement_deg);
 }
 
@@ -90,7 +90,7 @@ void note_what_is_open(const TrochoidJob& job, const CavityProgram& program, std
     const PlannedLayer& layer = program.layers[k];
     const auto add = [&](const std::string& text) { notes.push_back(fmt::format("layer {}: {}", k + 1, text)); };
     if (layer.no_way_in)
-      add(fmt::format("no {} between the sides is free of faces: it has no way in",
+      add(fmt::format("no {} between the sides is free of gouges: the layer cannot be entered",
                       job.cycles.entry == "plunge" ? "row of plunges" : "ramp"));
     else if (layer.cycles.status == CycleStatus::kStuck)
       add(stuck_sentence(job, layer.cycles));
@@ -98,17 +98,17 @@ void note_what_is_open(const TrochoidJob& job, const CavityProgram& program, std
     if (layer.stuck_before_sides()) add(before_sides_sentence(layer));
     if (layer.share < 1.0) add(rest_sentence(job, layer));
     if (layer.entered_mm() > *job.tolerance_mm)
-      add(fmt::format("a half path enters a face by {:.4f} mm, by the planner's samples", layer.entered_mm()));
+      add(fmt::format("a move gouges a face by {:.4f} mm, by the planner's samples", layer.entered_mm()));
   }
   if (!program.layers.empty()) notes.push_back(ends_of(program));
 }
 
 void note_no_cycles(const TrochoidJob& job, const CoverageEstimate& sides, std::vector<std::string>& notes) {
-  notes.push_back(fmt::format(
-      "no cycles were planned: the best sides that were found cover {:.1f} % of both and cut or enter faces by {:.4f} "
-      "mm, by the planner's samples; {:.4g} % of what is reachable, and {:.4g} mm, are asked for",
-      100.0 * sides.at_tolerance, std::max(sides.overcut_mm, sides.gouge_mm), 100.0 * job.judge.least_coverage,
-      *job.tolerance_mm));
+  notes.push_back(
+      fmt::format("no cycles were planned: the best side paths found finish {:.1f} % of both sides and gouge by {:.4f} "
+                  "mm, by the planner's samples; required: {:.4g} % of the accessible area, and {:.4g} mm",
+                  100.0 * sides.at_tolerance, std::max(sides.overcut_mm, sides.gouge_mm),
+                  100.0 * job.judge.least_coverage, *job.tolerance_mm));
 }
 
 void note_own_reach(const TrochoidJob& job, const std::function<double()>& reach, Result& result) {
@@ -116,11 +116,11 @@ void note_own_reach(const TrochoidJob& job, const std::function<double()>& reach
   if (!result.complete || report.coverage_reachable >= job.judge.least_coverage || job.judge.reach_radius_mm) return;
   const double own_reach = reach();
   if (own_reach >= report.reachable_share || own_reach <= 0.0) return;
-  result.notes.push_back(fmt::format(
-      "with the radius that it has at each place, {:.4g} to {:.4g} mm, the tool reaches {:.1f} % of the sides between "
-      "the other faces and finishes {:.1f} % of that; coverage counts what its least radius reaches, {:.1f} %",
-      result.tool.radial.smallest(), result.tool.radial.largest(), 100.0 * own_reach,
-      100.0 * std::min(1.0, report.coverage / own_reach), 100.0 * report.reachable_share));
+  result.notes.push_back(
+      fmt::format("the tool, with radii from {:.4g} to {:.4g} mm, reaches {:.1f} % of the sides between the other "
+                  "faces and finishes {:.1f} % of that; the accessible area is that of its smallest radius, {:.1f} %",
+                  result.tool.radial.smallest(), result.tool.radial.largest(), 100.0 * own_reach,
+                  100.0 * std::min(1.0, report.coverage / own_reach), 100.0 * report.reachable_share));
 }
 
 void note_nearest(Result& result) {
@@ -132,7 +132,7 @@ void note_nearest(Result& result) {
       deep ? report.coverage_reachable : report.coverage_reachable_bound.value_or(report.coverage_reachable);
   const bool covers_less = std::any_of(acceptance.reasons.begin(), acceptance.reasons.end(),
                                        [](const Shortfall& reason) { return reason.figure.starts_with("coverage"); });
-  std::string text = "nearest to what is asked, this result meets";
+  std::string text = "closest to the request, this result meets";
   if (covers_less) text += fmt::format(" --coverage {:.2f}", std::floor(100.0 * proved) / 100.0);
   if (deep) text += fmt::format(" --tolerance {:.4g}", rounded_up(deepest_of(report)));
   result.notes.push_back(text);

@@ -6,7 +6,7 @@
 
 namespace flank::internal {
 
-/// Mends motions and tool where the judge finds a target cut deeper than the tolerance: his places join the samples, which get
+/// Mends motions and tool where the judge finds a target cut deeper than the tolerance: its places join the samples, which get
 /// denser, too. False if nothing is to be done (no place of a target is too deep, or one so deep that another motion is
 /// needed), or nothing better was found.
 [[nodiscard]] bool mend_cuts(double tolerance_mm, FitSearch& search, const VerifyReport& verify);

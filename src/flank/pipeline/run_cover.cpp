@@ -48,10 +48,10 @@ void add_notes(const Covered& covered, Result& result) {
   result.notes.insert(result.notes.end(), cover.notes.begin(), cover.notes.end());
   if (!cover.message.empty()) result.notes.push_back(covered.group.faces + ": " + cover.message);
   if (cover.reachable < 0.9995)
-    result.notes.push_back(fmt::format(
-        "{}: {:.1f} % can be reached: elsewhere a ball of the tool's smallest radius would enter another face; of "
-        "that, {:.1f} % is covered",
-        covered.group.faces, 100.0 * cover.reachable, 100.0 * cover.coverage));
+    result.notes.push_back(
+        fmt::format("{}: {:.1f} % is accessible: elsewhere a ball of the tool's smallest radius would gouge another "
+                    "face; {:.1f} % of that is finished",
+                    covered.group.faces, 100.0 * cover.reachable, 100.0 * cover.coverage));
   result.seconds.insert(result.seconds.end(), cover.seconds.begin(), cover.seconds.end());
 }
 
@@ -108,8 +108,8 @@ Result run_cover(const CoverJob& request, const Progress& asked) {
   result.inputs = input_stamps(job);
   const std::optional<ToolChoice> choice = tool_choice(job);
   if (!choice) {
-    result.tool =
-        given_tool(job.tool.spec, job.tool.axis_length_mm, "a cover takes a given tool; a fit finds one", result.notes);
+    result.tool = given_tool(job.tool.spec, job.tool.axis_length_mm,
+                             "flank cover needs a given tool; flank fit finds one", result.notes);
     check_obstacles(job.obstacles, &result.tool);
     equip_tool(job.obstacles, result.tool);
   }

@@ -28,7 +28,7 @@ namespace flank::internal {
 
 void check_radius(const RadiusRequest& radius) {
   if (radius.max_mm && !(*radius.max_mm > radius.min_mm.value_or(0.0)))
-    throw UsageError("radius_max_mm", "a radius above `radius_min_mm` is needed");
+    throw UsageError("radius_max_mm", "must be above `radius_min_mm`");
 }
 
 bool has_body(const ToolSpec& spec, const ObstacleRequest& obstacles) {
@@ -112,9 +112,9 @@ namespace {
 void check_job(const FitJob& job) {
   check_fields(job);
   check_radius(job.radius);
-  if (job.start && job.guide) throw UsageError("start", "goes without `guide`; give one of them");
+  if (job.start && job.guide) throw UsageError("start", "cannot be combined with `guide`");
   if (job.stiffness_curve && job.tool.spec != "free")
-    throw UsageError("stiffness_curve", "goes with a free tool alone: the slenderness of another is its own");
+    throw UsageError("stiffness_curve", "needs a free tool (--tool free)");
 }
 
 void check_axis_length(const FitJob& job, const Part& part) {
@@ -123,13 +123,12 @@ void check_axis_length(const FitJob& job, const Part& part) {
   // A thousandth of the part would take a million passes.
   const double longest = 1.5 * size, shortest = 1e-3 * size;
   if (length > longest)
-    throw UsageError(
-        "axis_length_mm", fmt::format("{}", length),
-        fmt::format("is longer than the part ({:.1f} mm); lengths up to {:.1f} mm are accepted", size, longest));
+    throw UsageError("axis_length_mm", fmt::format("{}", length),
+                     fmt::format("is too long for this part of {:.1f} mm; expected at most {:.1f} mm", size, longest));
   if (length < shortest)
     throw UsageError(
         "axis_length_mm", fmt::format("{}", length),
-        fmt::format("is nothing beside the part ({:.3g} mm); lengths from {:.3g} mm are accepted", size, shortest));
+        fmt::format("is too short for this part of {:.3g} mm; expected at least {:.3g} mm", size, shortest));
 }
 
 /// Lifts a shank or holder that comes too near, if the flank's length is open (lengthen.h).
@@ -150,8 +149,7 @@ void lift_shank(const FitJob& job, const ClearanceScene& scene, FitSearch& searc
   };
   const double more = lengthen_until_clear(search.fit, std::max(1.0, job.obstacles.clearance_mm.value_or(0.0)), clear);
   if (more > 0.0)
-    notes.push_back(
-        fmt::format("the flank was lengthened by {} mm, so that shank and holder keep their clearances", more));
+    notes.push_back(fmt::format("the flank was lengthened by {} mm to keep shank and holder clear", more));
 }
 
 /// The group that each motion machines.
@@ -164,11 +162,12 @@ std::vector<const TargetGroup*> groups_of_motions(const FitSearch& search) {
 /// Strips of the path, with the notes of what is wrong with them.
 std::vector<StripSurface> sample_path(const FitSearch& search, double tolerance_mm, Result& result) {
   const Legitimacy legitimacy = check_legitimacy(result.tool.radial);
-  if (!legitimacy.legitimate) result.notes.push_back("the tool is not legitimate: " + legitimacy.reason);
+  if (!legitimacy.legitimate) result.notes.push_back("the tool's profile is not valid: " + legitimacy.reason);
   std::vector<StripSurface> surfaces = add_strips(tolerance_mm, groups_of_motions(search), result);
   if (result.largest_c >= 1.0)
     result.notes.push_back(fmt::format(
-        "the tool plunges where it touches the target: |c| = {:.3f} >= 1 somewhere along the path", result.largest_c));
+        "the tool moves along its own axis where it touches the machined face: axial slip |c| = {:.3f} >= 1",
+        result.largest_c));
   return surfaces;
 }
 
@@ -181,10 +180,10 @@ void note_facets(const FitSearch& search, const FitJob& job, std::vector<std::st
     const double most = most_of_facets(*group.target, *job.tolerance_mm);
     const bool hopeless = most < job.judge.least_coverage;
     notes.push_back(fmt::format(
-        "{}: the mesh is coarse or rough: on {:.1f} % of it triangles lie farther than the tolerance, up to "
-        "{:.2g} mm, off the smooth surface through their corners{}; a finer mesh, or the CAD file, shows what is meant",
+        "{}: the mesh is coarse or rough: on {:.1f} % of it triangles lie farther than the tolerance, up to {:.2g} mm, "
+        "off the smooth surface through their corners{}; use a finer mesh, or the CAD file",
         group.faces, 100.0 * gaps.share, gaps.largest_mm,
-        hopeless ? fmt::format("; smooth motions finish {:.1f} % at most, and no more was searched for", 100.0 * most)
+        hopeless ? fmt::format("; smooth motions finish {:.1f} % at most, so the search ended there", 100.0 * most)
                  : ""));
   }
 }

@@ -120,9 +120,11 @@ Setup read_whole(TrochoidJob& job, std::vector<std::string>& notes) {
   job.tolerance_mm = setup.tolerance_mm;
   if (setup.unread.empty()) return setup;
   const std::string face = setup.part.face_id(setup.unread.front());
-  throw InputError("part", fmt::format("{}: {} cannot be read ({}), so nothing can be promised of a cavity beside it; "
-                                       "`ignore_faces` {} leaves it out",
-                                       setup.part.file, face, setup.part.left_out.at(setup.unread.front()), face));
+  throw InputError(
+      "part",
+      fmt::format(
+          "{}: {} cannot be read ({}), so a cavity beside it cannot be checked; `ignore_faces` {} leaves it out",
+          setup.part.file, face, setup.part.left_out.at(setup.unread.front()), face));
 }
 
 /// What the flank keeps clear of, and how wide the cavity is where a tool comes.
@@ -131,8 +133,8 @@ void surround(const TrochoidJob& job, const Setup& setup, CavityFaces& faces) {
   add_group_obstacles(setup, job.obstacles.clearance_mm, bounds_of(job, faces.width).front(), faces.sides);
   faces.width = width_between(side_of(faces.sides[0]), side_of(faces.sides[1]));
   if (!(faces.width.narrowest_mm > 0.0))
-    throw InputError(
-        "left", job.left + ": other faces cover every place of it; nothing can be milled between it and " + job.right);
+    throw InputError("left",
+                     job.left + ": other faces cover all of it; nothing can be milled between it and " + job.right);
 }
 
 /// The tool goes between the sides: where half of their places are too narrow for the thinnest of it, no way leads through.
@@ -144,11 +146,10 @@ void require_room(const TrochoidJob& job, const ToolSpec& spec, const CavityFace
   const double radius = given ? tool.make(length, *tool.radius).smallest() : *job.radius.min_mm;
   const double thinnest = 2.0 * radius, width = faces.width.median_mm;
   if (thinnest >= width)
-    throw InputError(
-        given ? "tool" : "radius_min_mm",
-        fmt::format("the tool is {:.4g} mm thick where it is thinnest, and the cavity {:.4g} mm wide in "
-                    "the median of its places ({:.4g} mm where it is narrowest): accepted is a thinner tool",
-                    thinnest, width, faces.width.narrowest_mm));
+    throw InputError(given ? "tool" : "radius_min_mm",
+                     fmt::format("the tool is at least {:.4g} mm thick, the cavity {:.4g} mm wide in the median "
+                                 "({:.4g} mm at its narrowest): use a thinner tool",
+                                 thinnest, width, faces.width.narrowest_mm));
 }
 
 /// From the floor to the middle of the sides.
@@ -192,15 +193,13 @@ void take(const CavityPlan& plan, const TrochoidJob& job, const ToolSpec& spec, 
   result.tool = found_tool(spec, fit.tool, job.obstacles);
   result.diagonal_mm = faces.sides.front().target->diagonal();
   const Legitimacy legitimacy = check_legitimacy(result.tool.radial);
-  if (!legitimacy.legitimate) result.notes.push_back("the tool is not legitimate: " + legitimacy.reason);
+  if (!legitimacy.legitimate) result.notes.push_back("the tool's profile is not valid: " + legitimacy.reason);
   result.path = plan.program.path;
   result.chord_bound_mm = plan.program.chord_bound_mm;
   result.plan = summary_of(job, plan.sides, plan.program, faces.width.narrowest_mm);
   if (plan.tools > 1)
-    result.notes.push_back(
-        fmt::format("{} bounds of the radius were tried, from thick to thin: this tool was found "
-                    "under {:.4g} mm",
-                    plan.tools, plan.largest_radius_mm));
+    result.notes.push_back(fmt::format("{} largest radii tried, from thick to thin: this tool was found with {:.4g} mm",
+                                       plan.tools, plan.largest_radius_mm));
   note_what_is_open(job, plan.program, result.notes);
   if (plan.program.layers.empty() && legitimacy.legitimate) note_no_cycles(job, fit.after, result.notes);
 }
@@ -238,9 +237,9 @@ Result run_trochoid(const TrochoidJob& request, const Progress& asked) {
       [&](const CavityPlan& tried) { return judge.find(tried); }, progress);
   if (plan.sides.fit.motions.empty()) stop_here();
   if (plan.sides.fit.motions.empty())
-    throw InputError("left", fmt::format("no tool of radius up to {:.4g} mm finds an axis that is free in the cavity, "
-                                         "{:.3f} mm wide at its narrowest",
-                                         options.fit.bounds.largest, faces.width.narrowest_mm));
+    throw InputError(
+        "left", fmt::format("no tool of radius up to {:.4g} mm fits into the cavity, {:.3f} mm wide at its narrowest",
+                            options.fit.bounds.largest, faces.width.narrowest_mm));
   take(plan, job, spec, faces, result);
   watch.lap("cycles");
   result.complete = !progress.stop();

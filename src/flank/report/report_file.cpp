@@ -10,20 +10,20 @@ namespace {
 /// Throws InputError unless the file states this schema.
 void require_schema(const nlohmann::json& json, const std::string& file, const std::string& schema) {
   if (json.is_object() && json.contains("schema") && json["schema"] == schema) return;
-  throw InputError(file + ": schema \"" + schema + "\" is needed");
+  throw InputError(file + ": expected schema \"" + schema + "\"");
 }
 
 /// Files of lengths are in millimetres, those of angles or of several kinds say so themselves.
 void require_units(const nlohmann::json& json, const std::string& file, const std::string& schema) {
   if (schema == schema_of("engagement.json") || schema == schema_of("motion.json") || !json.contains("units")) return;
-  if (json["units"] != "mm") throw InputError(file + ": units: is " + json["units"].dump() + "; accepted is \"mm\"");
+  if (json["units"] != "mm") throw InputError(file + ": units: is " + json["units"].dump() + "; expected \"mm\"");
 }
 
 /// Throws InputError where the page would look for a list or a figure and find something else. Files by hand leave keys
 /// out; texts are only shown.
 void require_types(const nlohmann::json& json, const std::string& file) {
   const auto require = [&](const std::string& key, const char* type, bool right) {
-    if (!right) throw InputError(file + ": " + key + ": " + type + " is needed");
+    if (!right) throw InputError(file + ": " + key + ": expected " + type);
   };
   for (const auto& [key, value] : json.items()) {
     // In the other files, `faces` is a text and `strips` a number.

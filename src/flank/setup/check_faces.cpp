@@ -27,7 +27,7 @@ std::vector<int> named_faces(const Part& part, const std::vector<int>& targets, 
       if (!members.empty() &&
           std::all_of(members.begin(), members.end(), [&](int face) { return holds(targets, face); }))
         throw UsageError(field, list,
-                         fmt::format("{} is a target; other faces of F1 to F{} are accepted", item,
+                         fmt::format("{} is machined; expected other faces of F1 to F{}", item,
                                      parse_face_name(part.face_id(part.face_count() - 1)).number));
     }
   } catch (const InputError& e) {
@@ -58,7 +58,7 @@ std::vector<int> faces_to_check(const Part& part, const std::vector<int>& target
   for (int face : only)
     if (holds(ignored, face))
       throw UsageError("check_faces",
-                       fmt::format("`ignore_faces` names {}, too; it may be in one of them", part.face_id(face)));
+                       fmt::format("`ignore_faces` names {}, too; name it in one of them", part.face_id(face)));
   for (int face = 0; face < part.face_count(); ++face)
     if (!part.is_left_out(face) && !holds(targets, face) && !holds(ignored, face) &&
         (!request.check_faces || holds(only, face)))
@@ -83,7 +83,7 @@ std::string unchecked_note(const Part& part, const std::vector<int>& targets, co
   if (names.empty()) return {};
   const std::size_t count = names.size();
   names.resize(std::min(count, kNamed));
-  return fmt::format("not checked, as asked: {}{}", fmt::join(names, ", "),
+  return fmt::format("not checked, by --ignore-faces: {}{}", fmt::join(names, ", "),
                      count > kNamed ? fmt::format(" and {} more faces", count - kNamed) : "");
 }
 
@@ -98,7 +98,7 @@ std::string other_solids_note(const Part& part, const std::vector<int>& targets,
       others.insert(check.solid);
   if (others.empty()) return {};
   return fmt::format(
-      "the tool keeps clear of {} other solid{}, too; if the part is machined without {}: --ignore-faces {}",
+      "the tool also keeps clear of {} other solid{}; if the part is machined without {}: --ignore-faces {}",
       others.size(), others.size() == 1 ? "" : "s", others.size() == 1 ? "it" : "them",
       fmt::join(names_of_solids(others), ","));
 }

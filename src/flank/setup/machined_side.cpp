@@ -83,7 +83,7 @@ int side_facing(const TriangleMesh& wall, const TriangleMesh& other) {
 }
 
 Choice choose(const PartRequest& request, const Part& part, const Sheet& sheet, const std::vector<int>& others) {
-  if (request.side) return {*request.side, "as asked"};
+  if (request.side) return {*request.side, "as requested"};
   if (request.facing && !others.empty())
     return {side_facing(sheet.mesh, triangles_of(part, others)), "towards the other wall"};
   std::vector<int> all, open;
@@ -158,7 +158,7 @@ std::vector<SheetSide> turn_to_machined_side(const PartRequest& request, const s
   const std::vector<Sheet> sheets = sheets_of(part, targets);
   if (sheets.empty() && request.side && *request.side < 0)
     throw UsageError("side", "-",
-                     fmt::format("{} bounds material, which says where the tool belongs: `side` is for open sheets",
+                     fmt::format("{} is part of a solid, whose material determines the side; `side` is for open sheets",
                                  request.target_text()));
   std::vector<SheetSide> sides;
   // All are chosen before any is turned: the one must not see the other turned.

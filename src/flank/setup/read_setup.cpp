@@ -29,8 +29,7 @@ void split_checks(Part& part, const std::string& field, const std::optional<std:
 
 std::vector<int> targets_of(const Part& part, const PartRequest& request) {
   if (!request.skin) return parse_face_list(part, request.faces);
-  if (request.faces != PartRequest().faces)
-    throw UsageError("skin", *request.skin, "`faces` names faces, too; one of them is needed");
+  if (request.faces != PartRequest().faces) throw UsageError("skin", *request.skin, "cannot be combined with `faces`");
   return smooth_skin(part, parse_face_list(part, *request.skin));
 }
 
@@ -40,7 +39,7 @@ double followed_size(const Setup& setup, std::vector<std::string>& notes) {
   for (const TargetGroup& group : make_targets(setup)) box.add(group.target->box());
   const double tolerance = default_tolerance(box.diagonal());
   notes.push_back(
-      fmt::format("no tolerance is given: {} mm, a thousandth of the size of the faces, {:.4g} mm, rounded down",
+      fmt::format("no tolerance given: {} mm is used, a thousandth of the size of the faces ({:.4g} mm) rounded down",
                   tolerance, box.diagonal()));
   return tolerance;
 }

@@ -40,14 +40,14 @@ std::vector<Vec2> pairs_of(std::string text, const std::string& what) {
     // "10mm" is no number, rather than 10 with something behind it.
     if (error != std::errc() || (stop < end && *stop != ' ') || !std::isfinite(value))
       throw UsageError("holder", what,
-                       fmt::format("\"{}\" is not a number; z:radius,z:radius,... is accepted",
+                       fmt::format("\"{}\" is not a number; expected z:radius,z:radius,...",
                                    std::string(at, std::find(at, end, ' '))));
     numbers.push_back(value);
     at = stop;
   }
   if (numbers.size() % 2 != 0 || numbers.size() < 4)
     throw UsageError("holder", what,
-                     fmt::format("has {} numbers; two or more pairs z:radius are needed", numbers.size()));
+                     fmt::format("has {} numbers; expected two or more pairs z:radius", numbers.size()));
   std::vector<Vec2> profile;
   for (std::size_t k = 0; k < numbers.size(); k += 2) profile.emplace_back(numbers[k], numbers[k + 1]);
   return profile;
@@ -59,8 +59,8 @@ void check_profile(const std::vector<Vec2>& profile, const std::string& what) {
   for (std::size_t i = 0; i < profile.size(); ++i) {
     if (profile[i].x() < 0.0 || profile[i].y() < 0.0)
       throw UsageError("holder", what,
-                       fmt::format("{}:{} is negative; heights above the flank and radii >= 0 are accepted",
-                                   profile[i].x(), profile[i].y()));
+                       fmt::format("{}:{} is negative; expected heights above the flank and radii >= 0", profile[i].x(),
+                                   profile[i].y()));
     if (i > 0 && profile[i].x() < profile[i - 1].x())
       throw UsageError("holder", what,
                        fmt::format("z falls from {} to {}; z must not fall from point to point", profile[i - 1].x(),
@@ -92,7 +92,7 @@ std::vector<Vec2> holder_profile(const std::string& text, double face) {
                   ? JsonInput(text, "{\"holder\":" + content + "}").member("holder").pairs()
                   : pairs_of(content, text);
   }
-  if (profile.size() < 2) throw UsageError("holder", text, "two or more pairs z:radius are needed");
+  if (profile.size() < 2) throw UsageError("holder", text, "expected two or more pairs z:radius");
   check_profile(profile, text);
   return profile;
 }

@@ -24,7 +24,9 @@ void require_cells(const std::vector<CoverStrip>& strips, const CoverSamples& sa
   for (const CoverStrip& strip : strips)
     for (const int cell : strip.cells)
       if (cell < 0 || static_cast<std::size_t>(cell) >= samples.cells.size())
-        throw InputError("a step of the run that was stopped has strips of other samples than this run");
+        throw InputError(
+            "resume.json does not fit this run; start without --resume: a step has strips of other samples than this "
+            "run");
 }
 
 }  // namespace flank::internal

@@ -34,7 +34,7 @@ const std::set<std::string> kOwnFields = {"part", "faces", "tool"};
 std::string read_text(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream || !fs::is_regular_file(file)) throw InputError(file + ": cannot be read; a plan NAME.toml is needed");
+  if (!stream || !fs::is_regular_file(file)) throw InputError(file + ": cannot be read; expected a plan NAME.toml");
   if (text.size() > kMostBytes)
     throw InputError(fmt::format("{}: {} bytes; a plan has at most {}", file, text.size(), kMostBytes));
   return text;
@@ -136,7 +136,7 @@ void make_tasks(const TomlTable& document, SweepPlan& plan) {
   plan.variants = variants.keys();
   for (const std::string& name : plan.variants)
     if (!std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; }))
-      variants.refuse(name, "a name of letters, digits, _ and - is needed");
+      variants.refuse(name, "expected a name of letters, digits, _ and -");
   const std::vector<std::string> names = plan.variants.empty() ? std::vector<std::string>{""} : plan.variants;
   if (plan.faces.size() * plan.tools.size() * names.size() > kMostTasks)
     document.refuse("faces", fmt::format("faces times tools times variants: at most {} tasks", kMostTasks));

@@ -139,7 +139,7 @@ class Round {
       const std::string id = answer.text.substr(0, answer.text.find_first_of(";\n"));
       if (answer.exit_code == 0 && !id.empty() && id.find_first_not_of("0123456789") == std::string::npos) return id;
       // 127: the shell has found no such program.
-      if (answer.exit_code == 127) throw InternalError("sbatch is not there: Slurm is needed for this engine");
+      if (answer.exit_code == 127) throw InternalError("sbatch not found: this engine needs Slurm");
       if (!is_silence(answer) || Clock::now() - begun > kSubmitPatience)
         throw InternalError("sbatch: " + one_line(answer.text));
       std::this_thread::sleep_for(kAsk);

@@ -34,7 +34,7 @@ std::string html_cell(const SweepTask& task, const SweepRow& row) {
     const SweepRow::Figures& f = *row.figures;
     inside = fmt::format("{:.2f} %", 100.0 * f.coverage_reachable);
     if (row.page) inside = fmt::format("<a href=\"{}/report.html\">{}</a>", html_safe(task.name), inside);
-    inside += fmt::format("<br><small>{:.2f} % of the whole face, {} strips, overcut {:.4f} mm</small>",
+    inside += fmt::format("<br><small>{:.2f} % of the whole face, passes {}, gouge {:.4f} mm</small>",
                           100.0 * f.coverage, f.strips, f.overcut_mm);
     // A reader sees by the colour that it falls short, and here in what.
     if (!f.reasons.empty())
@@ -131,9 +131,10 @@ std::string sweep_csv(const SweepResult& result) {
 std::string sweep_html(const SweepResult& result) {
   const SweepPlan& plan = result.plan;
   const std::string title = html_safe(fmt::format("flank sweep: {} of {}", file_name(plan.file), file_name(plan.part)));
-  std::string text = html_head(title) +
-                     fmt::format("<p>{} of {} tasks meet their request. The first share is of what is reachable.</p>\n",
-                                 result.count(TaskStatus::kMeets), result.rows.size());
+  std::string text =
+      html_head(title) +
+      fmt::format("<p>{} of {} tasks meet their request. The first share is of the accessible area.</p>\n",
+                  result.count(TaskStatus::kMeets), result.rows.size());
   for (std::size_t variant = 0; variant < std::max<std::size_t>(1, plan.variants.size()); ++variant)
     text += html_table(result, variant);
   return text + "</html>\n";
@@ -146,7 +147,7 @@ std::string sweep_text(const SweepResult& result) {
     const SweepRow& row = result.rows[k];
     text += fmt::format("{:<16} {:<8} {:<28} {}", task.name, task.face, shown_tool(task.tool), status_name(row.status));
     if (row.figures)
-      text += fmt::format(", {:.2f} % of what is reachable, {:.2f} % of the whole face, {} strips, overcut {:.4f} mm{}",
+      text += fmt::format(", {:.2f} % of the accessible area, {:.2f} % of the whole face, passes {}, gouge {:.4f} mm{}",
                           100.0 * row.figures->coverage_reachable, 100.0 * row.figures->coverage, row.figures->strips,
                           row.figures->overcut_mm, verdict_words(*row.figures));
     if (!row.message.empty()) text += ": " + row.message;

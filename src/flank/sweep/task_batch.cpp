@@ -122,7 +122,7 @@ TaskRow finished(const BatchOptions& options, const BatchTask& task, const Child
   else if (!row.has_result())
     row.message = last_line(text_of_file(files.errors.string()));
   if (row.status == TaskStatus::kFailed && row.message.empty())
-    row.message = fmt::format("ended with {}{}", row.exit_code, outcome.failed() ? "" : " and left no verdict");
+    row.message = fmt::format("ended with {}{}", row.exit_code, outcome.failed() ? "" : " and wrote no verdict");
   if (row.has_result() && page_is_built()) (void)write_report(files.folder.string());
   row.page = row.has_result() && fs::is_regular_file(files.folder / "report.html");
   write_record(options, task, row, files.record);
@@ -182,7 +182,8 @@ std::vector<TaskRow> run_batch(const std::vector<BatchTask>& tasks, const BatchO
                                const Progress& progress) {
   std::error_code error;
   fs::create_directories(options.run.folder, error);
-  if (!fs::is_directory(options.run.folder)) throw InputError(options.run.folder + ": is no folder and cannot be made");
+  if (!fs::is_directory(options.run.folder))
+    throw InputError(options.run.folder + ": is not a folder and cannot be created");
   for (const BatchTask& task : tasks) require_results_unread(files_of(options, task).folder);
   std::vector<TaskRow> rows(tasks.size());
   std::vector<std::size_t> open;

@@ -33,7 +33,7 @@ Vec2 tangent(std::span<const Vec2> profile, std::size_t i) {
 
 /// Samples (s, r) of the normals; refuses what no inscribed spheres can have.
 std::vector<Vec2> spheres(std::span<const Vec2> profile) {
-  if (profile.size() < 4) throw InputError("meridian profile: at least 4 points (z, radius) are needed");
+  if (profile.size() < 4) throw InputError("meridian profile: expected at least 4 points (z, radius)");
   std::vector<Vec2> samples(profile.size());
   for (std::size_t i = 0; i < profile.size(); ++i) {
     if (!profile[i].allFinite()) throw InputError(at_point(i) + "coordinates must be finite numbers");

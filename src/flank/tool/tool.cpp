@@ -89,14 +89,14 @@ std::string reason(const RadialFunction& radial, int which, double s) {
   if (!std::isfinite(f.r) || !std::isfinite(f.d1) || !std::isfinite(f.d2))
     print("the radial function has no finite value at s = %.6g mm: its parameters fit no tool of this length", s);
   else if (which == kRadius)
-    print("r = %.6g mm at s = %.6g mm: the radius must be positive (r > 0 is needed)", f.r, s);
+    print("r = %.6g mm at s = %.6g mm: the radius must be positive", f.r, s);
   else if (which == kConvexity)
     print(
-        "1 - r'^2 - r r'' = %.6g at s = %.6g mm: the spheres are not inscribed, as on the outer side of a torus "
-        "(1 - r'^2 - r r'' > 0 is needed)",
+        "1 - r'^2 - r r'' = %.6g at s = %.6g mm: the spheres are not inscribed, as on the outer side of a torus (1 - "
+        "r'^2 - r r'' > 0 is required)",
         1.0 - f.d1 * f.d1 - f.r * f.d2, s);
   else
-    print("r' = %.6g at s = %.6g mm: the inscribed spheres do not touch the meridian (|r'| < 1 is needed)", f.d1, s);
+    print("r' = %.6g at s = %.6g mm: the inscribed spheres do not touch the meridian (|r'| < 1 is required)", f.d1, s);
   return text.data();
 }
 

@@ -56,7 +56,7 @@ Tool tool_of_command(const ToolCommandOptions& options, std::vector<std::string>
   for (const auto& [value, field] :
        {std::pair(options.axis_length_mm, "axis_length_mm"), std::pair(options.shank_diameter_mm, "shank_diameter_mm")})
     if (value && !(*value > 0.0 && *value < 1e6))
-      throw UsageError(field, fmt::format("{}", *value), "a length > 0 mm is needed");
+      throw UsageError(field, fmt::format("{}", *value), "expected a length > 0 mm");
   Tool tool;
   if (names_a_tool_file(options.source)) {
     if (!options.parameters.empty())

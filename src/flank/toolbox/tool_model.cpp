@@ -31,7 +31,7 @@ void limit_axis(const ToolSpec& spec, const std::optional<double>& axis_length_m
   if (!(*end > 0.0)) throw UsageError("tool", check_legitimacy(model.make(1.0, 1.0)).reason);
   if (axis_length_mm && !check_legitimacy(model.make(*axis_length_mm, 1.0)).legitimate)
     throw UsageError("axis_length_mm", fmt::format("{}", *axis_length_mm),
-                     fmt::format("is longer than such a tool can be; lengths up to {:.4g} mm are accepted", *end));
+                     fmt::format("is too long for such a tool; expected at most {:.4g} mm", *end));
   model.longest_axis = kBeforeTheEnd * *end;
   model.free_parameters.clear();  // a barrel's middle stays there, or it would end sooner on one side
 }

@@ -158,13 +158,13 @@ Tool given_tool(const std::string& spec, std::optional<double> axis_length_mm, c
   const auto require = [](bool holds, const std::string& field, const std::string& text) {
     if (!holds) throw UsageError(field, text);
   };
-  require(!spec.empty(), "tool", "a tool.json, or a family with all its parameters and `axis_length_mm`, is needed");
+  require(!spec.empty(), "tool", "expected a tool.json, or a family with all its parameters and `axis_length_mm`");
   const ToolSpec parsed = parse_tool_spec(spec);
   notes.insert(notes.end(), parsed.notes.begin(), parsed.notes.end());
   if (parsed.tool) {
-    require(!axis_length_mm, "axis_length_mm", "the tool's file has its length; it goes with a family");
+    require(!axis_length_mm, "axis_length_mm", "the tool's file has its own; only for a family");
     const Legitimacy legitimacy = check_legitimacy(parsed.tool->radial);
-    require(legitimacy.legitimate, "tool", spec + ": this is no tool: " + legitimacy.reason);
+    require(legitimacy.legitimate, "tool", spec + ": this is not a tool: " + legitimacy.reason);
     return *parsed.tool;
   }
   require(!parsed.free, "tool", not_free);

@@ -66,7 +66,7 @@ void code(StepCodec& codec, Half& half) {
   code(codec, half.engagement.rows);
   code(codec, half.peak);
   codec.number(half.way_mm);
-  codec.require(half.motion.tip.count() > 0, "a motion is needed");
+  codec.require(half.motion.tip.count() > 0, "expected a motion");
 }
 
 /// What the search of one cycle leaves.

@@ -29,7 +29,7 @@ class MeshSampler final : public Sampler {
       : id_(id), mesh_(mesh), spacing_(spacing_mm), target_(target) {
     for (std::size_t k = 0; k < mesh.triangles.size(); ++k) count_ += std::pow(parts_of(k), 2);
     if (count_ > kMostSamples)
-      throw UsageError(fmt::format("a sample spacing of {} mm gives {:.3g} samples on {}; {:.3g} are accepted",
+      throw UsageError(fmt::format("a sample spacing of {} mm gives {:.3g} samples on {}; at most {:.3g} are allowed",
                                    spacing_mm, count_, id, kMostSamples));
     std::size_t filled = most;
     for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {

@@ -195,7 +195,7 @@ TEST(PartCad, AUnitThatIsAskedForIsThatOfTheNumbers) {
   EXPECT_DOUBLE_EQ(part.millimetres_per_unit, 1.0);
   expect_size(part, 2.0, 2.0, 2.0, 1e-6);
   EXPECT_EQ(part.solids, 1);
-  EXPECT_TRUE(tells(part, "the file states its unit as in; its numbers were read as mm, as asked"));
+  EXPECT_TRUE(tells(part, "the file states its unit as in; its numbers were read as mm, as --unit says"));
 }
 
 TEST(PartCad, ScalesBrepByTheUnitAskedFor) {

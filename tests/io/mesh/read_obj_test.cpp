@@ -102,7 +102,7 @@ TEST(ReadObj, BadLinesAreRefusedByTheirNumber) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"v 1 2\n", "a.obj, line 1: a vertex needs three coordinates"},
       {"v 1 2 three\n", "a.obj, line 1: \"three\" is not a number"},
-      {"v 1 2 inf\n", "a.obj, line 1: \"inf\" is not a finite number; accepted are finite coordinates"},
+      {"v 1 2 inf\n", "a.obj, line 1: \"inf\" is not a finite number; expected finite coordinates"},
       {kFour + "f 1 2\n", "a.obj, line 5: a face needs at least three vertices"},
       {kFour + "f 1 2 # 3\n", "a.obj, line 5: a face needs at least three vertices"},
       {kFour + "f 1 2 5\n", "a.obj, line 5: vertex 5 does not exist; there are 4 so far"},

@@ -138,7 +138,7 @@ TEST(ReadPly, BadBodiesAreRefusedByRow) {
   std::string nan = good;
   const float x = std::nanf("");
   std::memcpy(nan.data() + nan.size() - 13 - 12, &x, 4);
-  EXPECT_EQ(refusal(nan), "a.ply, vertex 3: a coordinate is not a finite number; accepted are finite coordinates");
+  EXPECT_EQ(refusal(nan), "a.ply, vertex 3: a coordinate is not a finite number; expected finite coordinates");
   const std::string text = head("ascii", "float", "uchar", "int");
   EXPECT_NE(refusal(text + "0 0 0\n1 0\n0 2 0\n3 0 1 2\n").find("too few values for a vertex"), std::string::npos);
   EXPECT_NE(refusal(text + "0 0 0\n1 0 0\n0 2 0\n4 0 1 2\n").find("too few values for a face"), std::string::npos);

@@ -99,7 +99,7 @@ TEST(PathCls, BadFilesAreRefusedByLine) {
       {"UNITS/MM\nGOTO/1,2,x\n", "line 2: \"x\" is not a finite number"},
       {"GOTO/1,2,nan\n", "not a finite number"},
       {"GOTO/1,2,3,0,0,3\n", "length 3"},
-      {"UNITS/FURLONGS\n", "accepted are MM and INCHES"},
+      {"UNITS/FURLONGS\n", "expected MM or INCHES"},
       {"CIRCLE/0,0,0,0,0,1,5\n", "CIRCLE is not supported"},
       {"GOTO/1,2,3\nCYCLE/DRILL\n", "line 2: CYCLE"},
       {"GOTO/1,2,$\n", "ends within a statement"},

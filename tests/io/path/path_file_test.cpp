@@ -65,7 +65,7 @@ TEST(PathJson, BadFilesAreRefusedByName) {
       {head + "[3]}", "strips[0]: must be an object"},
       {head + R"([{"poses":[]}]})", "strips[0]: \"id\" is missing"},
       {head + R"([{"id":1.5,"poses":[]}]})", "strips[0].id: must be a whole number"},
-      {head + R"([{"id":1,"poses":[]}]})", "strips[0].poses: at least one"},
+      {head + R"([{"id":1,"poses":[]}]})", "strips[0].poses: expected at least one"},
       {head + R"([{"id":1,"poses":[[1,2,3]]}]})", "strips[0].poses[0]: has 3 entries; must have 6"},
       {head + R"([{"id":1,"poses":[[1,2,3,0,0,1],[1,2,"x",0,0,1]]}]})", "strips[0].poses[1][2]"},
       {head + R"([{"id":1,"poses":[[1,2,3,0,0,2]]}]})", "strips[0].poses[0]: the axis vector"},

@@ -17,7 +17,7 @@ TEST(ReadUnit, TheUnitsThatMayBeAskedForAndNoOthers) {
       (void)millimetres_per(unit);
       ADD_FAILURE() << unit;
     } catch (const UsageError& e) {
-      EXPECT_NE(std::string(e.what()).find("accepted are mm, cm, m, in"), std::string::npos) << e.what();
+      EXPECT_NE(std::string(e.what()).find("expected mm, cm, m or in"), std::string::npos) << e.what();
     }
   }
 }

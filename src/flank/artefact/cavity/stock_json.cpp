@@ -11,12 +11,12 @@ using Json = nlohmann::ordered_json;
 // What the replay of the program has found, kind of move by kind of move: fronts, backs, entries and sides.
 std::string stock_text(const StockReport& stock) {
   std::string text = fmt::format(
-      "  replayed    {:.1f} of {:.1f} mm3 removed, at most {:.4f} mm left between the sides, faces entered by at most "
+      "  simulated   {:.1f} of {:.1f} mm3 removed, at most {:.4f} mm left between the sides, faces gouged by at most "
       "{:.4f} mm (cells of {:.3f} mm, {:.1f} degrees)\n",
       stock.before_mm3 - stock.left_mm3, stock.before_mm3, stock.uncut_mm, stock.entered_mm, stock.cell_mm,
       stock.resolution_deg);
   for (const StockKind& kind : stock.kinds)
-    text += fmt::format("              {:<6} engagement at most {:.3f} degrees, removed {:.1f} mm3 on {:.1f} mm{}\n",
+    text += fmt::format("              {:<6} engagement at most {:.2f} degrees, removed {:.1f} mm3 on {:.1f} mm{}\n",
                         kind.kind, kind.engagement_deg, kind.volume_mm3, kind.way_mm,
                         kind.cuts_a_slot() ? " (a slot: no limit)" : "");
   return text;

@@ -12,7 +12,7 @@ namespace {
 std::string entry_text(const LayerSummary& layer) {
   const std::string how =
       layer.entry == "ramp"
-          ? fmt::format("{:.2f} mm a pass, slope {:.2f} degrees", layer.entry_depth_mm, layer.entry_slope_deg)
+          ? fmt::format("{:.2f} mm deep per run, slope {:.2f} degrees", layer.entry_depth_mm, layer.entry_slope_deg)
           : fmt::format("{:.2f} mm deep, {:.2f} mm wide after the first", layer.entry_depth_mm, layer.entry_width_mm);
   return fmt::format("entry by {}: {}, {:.1f} mm, removed {:.1f} mm3, engagement {:.1f} degrees (no limit)",
                      layer.entry, how, layer.entry_mm, layer.entry_mm3, layer.entry_deg);
@@ -22,18 +22,19 @@ std::string entry_text(const LayerSummary& layer) {
 
 std::string trochoid_lines(const TrochoidSummary& cavity) {
   std::string text = fmt::format(
-      "  cavity      {:.3f} mm wide at its narrowest, {} layer{}, way {:.1f} mm, {:.2f} min\n", cavity.narrowest_mm,
+      "  cavity      {:.3f} mm wide at its narrowest, {} layer{}, path {:.1f} mm, {:.2f} min\n", cavity.narrowest_mm,
       cavity.layers.size(), cavity.layers.size() == 1 ? "" : "s", cavity.way_mm(), cavity.minutes);
   // Fronts and backs count for the engagement that was asked for; what sides have is told beside it.
   for (std::size_t k = 0; k < cavity.layers.size(); ++k) {
     const LayerSummary& layer = cavity.layers[k];
     text += fmt::format(
-        "  layer {}     {} cycles ({}), fronts {:.1f} mm, backs {:.1f} mm, sides {:.1f} mm, links {:.1f} mm\n", k + 1,
-        layer.cycles, layer.status, layer.fronts_mm, layer.backs_mm, layer.sides_mm, layer.links_mm);
+        "  layer {}     {} cycles ({}), cutting moves {:.1f} mm, return moves {:.1f} mm, sides {:.1f} mm, links {:.1f} "
+        "mm\n",
+        k + 1, layer.cycles, layer.status, layer.fronts_mm, layer.backs_mm, layer.sides_mm, layer.links_mm);
     if (layer.entry != "open") text += fmt::format("              {}\n", entry_text(layer));
     text += fmt::format(
-        "              engagement at most {:.3f} degrees (fronts {:.3f}, backs {:.3f}), sides {:.3f}; removed {:.1f} "
-        "mm3, {:.3f} mm3 a mm\n",
+        "              engagement at most {:.2f} degrees (cutting {:.2f}, return {:.2f}), sides {:.2f}; removed {:.1f} "
+        "mm3, {:.3f} mm3 per mm of path\n",
         std::max(layer.front_deg, layer.back_deg), layer.front_deg, layer.back_deg, layer.side_deg,
         // A layer without cycles has no way to divide by.
         layer.volume_mm3 + layer.side_volume_mm3, layer.volume_mm3 / std::max(1e-9, layer.fronts_mm + layer.backs_mm));

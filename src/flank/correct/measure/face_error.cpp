@@ -110,7 +110,7 @@ void require_seen(const Target& target, const std::vector<MeasuredPoint>& points
   }
   if (seen < kLeastSeen * whole)
     refuse(options, "the points see " + std::to_string(static_cast<int>(100.0 * seen / whole)) +
-                        " % of the face; points all over it are needed");
+                        " % of the face; measure points all over it");
 }
 
 struct Field {
@@ -175,7 +175,7 @@ void smooth(FaceError& error) {
 void require_this_face(std::size_t on, std::size_t all, const FaceErrorOptions& options) {
   if (on < kFewest && all - on <= all / 2)
     refuse(options,
-           std::to_string(on) + " points lie on the face; at least " + std::to_string(kFewest) + " are needed");
+           std::to_string(on) + " points lie on the face; at least " + std::to_string(kFewest) + " are required");
   if (static_cast<double>(all - on) > kMostBeside * static_cast<double>(all))
     refuse(options, "only " + std::to_string(on) + " of " + std::to_string(all) +
                         " points lie on the face or near: they are of another face, or in another datum");
@@ -195,7 +195,7 @@ FaceError face_error(const Target& target, const Face& face, const std::vector<V
   error.limit_mm = options.limit_mm;
   error.move.middle = target.box().center();
   if (points.size() < kFewest)
-    refuse(options, std::to_string(points.size()) + " points; at least " + std::to_string(kFewest) + " are needed");
+    refuse(options, std::to_string(points.size()) + " points; at least " + std::to_string(kFewest) + " are required");
   std::vector<Footpoint> feet = footpoints(target, points, error.move);
   error.rms_before_mm = rms(measured(face, points, feet, error.move));
   for (int k = 0; options.fit_datum && k < kMoves; ++k) {

@@ -112,7 +112,7 @@ RadialFunction sum_of(const RadialFunction& nominal, const RadialFunction& diffe
 void require_covered(const std::vector<OnFlank>& placed, double length, const std::string& file) {
   if (placed.size() < kFewest)
     refuse(file, std::to_string(placed.size()) + " points lie on the flank; at least " + std::to_string(kFewest) +
-                     " points (z, radius) in mm are needed, z along the axis from the centre of the tip's sphere");
+                     " points (z, radius) in mm are required, z along the axis from the centre of the tip's sphere");
   std::vector<double> s = {0.0, length};
   for (const OnFlank& point : placed) s.push_back(point.s);
   std::sort(s.begin(), s.end());
@@ -120,8 +120,8 @@ void require_covered(const std::vector<OnFlank>& placed, double length, const st
     if (s[k] - s[k - 1] > kWidestGap * length) {
       std::array<char, 200> text{};
       std::snprintf(text.data(), text.size(),
-                    "no point from %.4g to %.4g mm of the axis (of %.4g); points all along the flank are needed",
-                    s[k - 1], s[k], length);
+                    "no point from %.4g to %.4g mm of the axis (of %.4g); measure points all along the flank", s[k - 1],
+                    s[k], length);
       refuse(file, text.data());
     }
 }
@@ -166,7 +166,7 @@ GroundTool fit_ground(const RadialFunction& nominal, const std::vector<Vec2>& po
            "its radii differ from the tool's by up to " + std::to_string(ground.largest_mm) +
                " mm: this is the profile of another tool, or z does not count from the centre of the tip's sphere");
   const Legitimacy legitimacy = check_legitimacy(ground.radial);
-  if (!legitimacy.legitimate) refuse(file, "this is no tool: " + legitimacy.reason);
+  if (!legitimacy.legitimate) refuse(file, "this is not a tool: " + legitimacy.reason);
   return ground;
 }
 

@@ -38,7 +38,7 @@ std::vector<std::vector<double>> read_number_lines(const std::string& file, std:
   TextLines reader(file, text);
   while (reader.next()) {
     if (lines.empty() && has_letters(reader.word(0))) continue;
-    if (reader.words().size() < least) reader.refuse("at least " + std::to_string(least) + " numbers are needed");
+    if (reader.words().size() < least) reader.refuse("at least " + std::to_string(least) + " numbers are required");
     std::vector<double>& line = lines.emplace_back();
     for (std::size_t k = 0; k < least; ++k) line.push_back(reader.number(k));
   }

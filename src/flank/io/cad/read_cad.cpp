@@ -115,8 +115,8 @@ void sew_sheets(const OcctShape& loaded, const Places& places, Part& part) {
 void note_border_gap(const TopoDS_Face& face, const std::string& name, Part& part) {
   if (const double gap = border_gap(face); gap > 0.0)
     part.repairs.push_back(
-        fmt::format("{}: the parts of its border are up to {:.2g} mm apart, or that far off its surface; look at it "
-                    "before it is used",
+        fmt::format("{}: the parts of its border are up to {:.2g} mm apart, or that far off its surface; check it "
+                    "before using the result",
                     name, gap));
 }
 
@@ -210,7 +210,7 @@ void assign_unread(const OcctShape& loaded, const Places& places, Part& part) {
 void refuse_unreadable(Part& part) {
   if (part.left_out.size() == part.faces.size()) throw InputError(part.left_out.begin()->second);
   for (const auto& [face, why] : part.left_out)
-    part.repairs.push_back(why + "; the face is not read, nothing is known of what enters it");
+    part.repairs.push_back(why + "; the face is not read, so gouges of it cannot be detected");
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ ParameterWindow box_of(const TopoDS_Face& face, const Handle(Geom_Surface) & sur
   };
   // Planes and cylinders go on for ever: without trims there is nothing to make a spline of.
   if (!bounded(b.u0, b.u1) || !bounded(b.v0, b.v1))
-    throw InputError(name + ": has no finite extent; accepted are faces that trims bound on every side");
+    throw InputError(name + ": has no finite extent; expected faces that trims bound on every side");
   double u0 = 0.0, u1 = 0.0, v0 = 0.0, v1 = 0.0;
   surface->Bounds(u0, u1, v0, v1);
   const auto snap = [](double& t, double end, double mm) {
@@ -97,7 +97,7 @@ ParameterWindow box_of(const TopoDS_Face& face, const Handle(Geom_Surface) & sur
 void refuse_high_degree(const BSplineSurface& s, const std::string& name) {
   if (s.degree_u > kMaxDegree || s.degree_v > kMaxDegree)
     throw InputError(name + ": has degree " + std::to_string(s.degree_u) + " x " + std::to_string(s.degree_v) +
-                     "; accepted is up to " + std::to_string(kMaxDegree));
+                     "; expected up to " + std::to_string(kMaxDegree));
 }
 
 /// False for NaN too, since it compares with nothing.
@@ -114,11 +114,11 @@ void refuse_unusable(const BSplineSurface& s, const std::string& name) {
     throw InputError(name + ": the knots of its surface are not finite numbers that rise");
   for (const double w : s.weights)
     if (!(w > 0.0) || !std::isfinite(w))
-      throw InputError(fmt::format("{}: a weight of its surface is {}; accepted are numbers > 0", name, w));
+      throw InputError(fmt::format("{}: a weight of its surface is {}; expected numbers > 0", name, w));
   for (const Vec3& p : s.poles)
     if (!usable(p.x()) || !usable(p.y()) || !usable(p.z()))
-      throw InputError(fmt::format("{}: a control point of its surface is at ({}, {}, {}); accepted are up to {} mm",
-                                   name, p.x(), p.y(), p.z(), kLargestCoordinateMm));
+      throw InputError(fmt::format("{}: a control point of its surface is at ({}, {}, {}); expected up to {} mm", name,
+                                   p.x(), p.y(), p.z(), kLargestCoordinateMm));
 }
 
 /// Says which control point of the file's surface went astray: where the border does not follow it, nothing else tells.
@@ -145,8 +145,7 @@ void note_stray_pole(const Handle(Geom_Surface) & surface, const std::string& na
 OcctFace convert_occt_face(const TopoDS_Face& face, const std::string& name) {
   OcctFace result;
   const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
-  if (surface.IsNull())
-    throw InputError(name + ": has no surface; accepted are faces with a surface (not triangulations)");
+  if (surface.IsNull()) throw InputError(name + ": has no surface; expected faces with a surface (not triangulations)");
   result.type = surface_type(surface);
   ConvertedSurface converted;
   try {

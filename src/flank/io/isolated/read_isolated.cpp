@@ -158,16 +158,16 @@ int wait_for(pid_t child) {
 }
 
 [[noreturn]] void refuse_slow(const std::string& file, double seconds) {
-  throw InputError(fmt::format(
-      "{}: reading it takes more than {:g} s; it is damaged, or larger than that (`read_limit` sets another limit)",
-      file, seconds));
+  throw InputError(
+      fmt::format("{}: reading it takes more than {:g} s; it is damaged or large; set another limit by `read_limit`",
+                  file, seconds));
 }
 
 [[noreturn]] void refuse_late(const std::string& file, double seconds) {
-  throw InputError(fmt::format(
-      "{}: reading it has not ended after {:g} s by the clock, in which it got less than {:g} s of a processor; try it "
-      "again when the machine is less busy (`read_limit` sets another limit)",
-      file, kClockPerProcessor * seconds, seconds));
+  throw InputError(
+      fmt::format("{}: reading it has not ended after {:g} s by the clock, in which it got less than {:g} s of a "
+                  "processor; try again when the machine is less busy, or set another limit by `read_limit`",
+                  file, kClockPerProcessor * seconds, seconds));
 }
 
 [[noreturn]] void refuse_large(const std::string& file, double bytes) {

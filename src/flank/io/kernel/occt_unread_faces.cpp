@@ -132,7 +132,7 @@ FileFaces collect(const Handle(XSControl_WorkSession) & session, const std::vect
   Places places(numbers);
   for (const FaceList& list : lists) {
     places.add(list, [&](std::size_t k) {
-      if (list[k].IsNull()) return UnreadFace{1, 0, "an entry of its shell", "it is no face"};
+      if (list[k].IsNull()) return UnreadFace{1, 0, "an entry of its shell", "it is not a face"};
       const std::string why = complaint(list[k]);
       return UnreadFace{1, 0, model->StringLabel(list[k])->ToCString(), why.empty() ? "no reason is given" : why};
     });
@@ -204,7 +204,7 @@ void note_astray_borders(const Handle(XSControl_WorkSession) & session, const Fa
     if (const double gap = made.IsNull() ? 0.0 : iges_border_gap(model, face, made); gap > 0.0)
       notes.push_back(
           fmt::format("{}: the curves of its border in space and in the parameters of its surface are up to {:.2g} mm "
-                      "apart; look at it before it is used",
+                      "apart; check it before using the result",
                       model->StringLabel(entity)->ToCString(), gap));
   }
 }

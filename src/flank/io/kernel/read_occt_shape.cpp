@@ -75,8 +75,8 @@ void use_unit(OcctShape& result, const std::string& format, const std::optional<
   scale.SetScaleFactor(wanted / stated);
   result.shape = BRepBuilderAPI_Transform(result.shape, scale, true).Shape();
   if (format != "BREP")
-    result.notes.push_back(
-        fmt::format("the file states its unit as {}; its numbers were read as {}, as asked", result.unit, *asked));
+    result.notes.push_back(fmt::format("the file states its unit as {}; its numbers were read as {}, as --unit says",
+                                       result.unit, *asked));
   state_unit(result, wanted);
 }
 
@@ -174,7 +174,7 @@ OcctShape load_occt_shape(const std::string& file, const std::string& format, co
   list_faces(result);
   if (result.faces.IsEmpty())
     throw InputError(file + ": has no faces" + first_reason(result.left) +
-                     "; accepted are solids, shells and faces (not curves or meshes) in " + format);
+                     "; expected solids, shells and faces (not curves or meshes) in " + format);
   return result;
 }
 

@@ -182,7 +182,7 @@ void read_vertex(const Element& element, Values& values, TriangleMesh& mesh) {
     const double x = values.next(q.type);
     if (q.name.size() == 1 && q.name[0] >= 'x' && q.name[0] <= 'z') p[q.name[0] - 'x'] = x;
   }
-  if (!p.allFinite()) values.refuse("a coordinate is not a finite number; accepted are finite coordinates");
+  if (!p.allFinite()) values.refuse("a coordinate is not a finite number; expected finite coordinates");
   mesh.vertices.push_back(p);
 }
 

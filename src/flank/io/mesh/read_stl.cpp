@@ -25,10 +25,9 @@ TriangleMesh read_binary(const std::string& file, std::string_view content) {
   std::uint32_t count = 0;
   if (content.size() >= kHeader) std::memcpy(&count, content.data() + 80, sizeof count);
   if (!is_binary_stl(content))
-    throw InputError(
-        fmt::format("{}: is truncated or not an STL file ({} bytes; its count of {} facets takes {}); accepted are "
-                    "binary and text STL",
-                    file, content.size(), count, kHeader + kFacet * std::size_t{count}));
+    throw InputError(fmt::format(
+        "{}: is truncated or not an STL file ({} bytes; its count of {} facets takes {}); expected binary or text STL",
+        file, content.size(), count, kHeader + kFacet * std::size_t{count}));
   TriangleMesh mesh;
   mesh.vertices.reserve(3 * std::size_t{count});
   mesh.triangles.reserve(count);
@@ -38,8 +37,8 @@ TriangleMesh read_binary(const std::string& file, std::string_view content) {
     for (int k = 0; k < 3; ++k) {
       const Vec3 p(f[3 * k], f[3 * k + 1], f[3 * k + 2]);
       if (!p.allFinite())
-        throw InputError(fmt::format(
-            "{}, facet {}: a coordinate is not a finite number; accepted are finite coordinates", file, i + 1));
+        throw InputError(
+            fmt::format("{}, facet {}: a coordinate is not a finite number; expected finite coordinates", file, i + 1));
       mesh.vertices.push_back(p);
     }
     add_facet(mesh);
@@ -58,9 +57,9 @@ TriangleMesh read_text_stl(const std::string& file, std::string_view content) {
     if (word == "vertex") {
       if (lines.words().size() < 4) lines.refuse("a vertex needs three coordinates");
       mesh.vertices.emplace_back(lines.number(1), lines.number(2), lines.number(3));
-      if (++corners > 3) lines.refuse("a facet has more than three vertices; accepted are triangles");
+      if (++corners > 3) lines.refuse("a facet has more than three vertices; expected triangles");
     } else if (word == "endfacet") {
-      if (corners != 3) lines.refuse("a facet has fewer than three vertices; accepted are triangles");
+      if (corners != 3) lines.refuse("a facet has fewer than three vertices; expected triangles");
       add_facet(mesh);
       corners = 0;
     } else if (word == "solid") {

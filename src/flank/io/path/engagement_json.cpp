@@ -35,8 +35,8 @@ std::string engagement_to_json(const PathEngagement& engagement) {
 PathEngagement engagement_from_json(std::string_view text, const std::string& file, const Path& path) {
   const JsonInput in(file, text);
   in.allow_keys({"schema", "units", "strips"});
-  if (in.member("schema").text() != kSchema) in.member("schema").refuse(fmt::format("accepted is \"{}\"", kSchema));
-  if (in.member("units").text() != "degrees") in.member("units").refuse("accepted is \"degrees\"");
+  if (in.member("schema").text() != kSchema) in.member("schema").refuse(fmt::format("expected \"{}\"", kSchema));
+  if (in.member("units").text() != "degrees") in.member("units").refuse("expected \"degrees\"");
   const JsonInput strips = in.member("strips");
   if (strips.size() != path.strips.size())
     strips.refuse(fmt::format("has {}, but the path has {}", strips.size(), path.strips.size()));
@@ -48,7 +48,7 @@ PathEngagement engagement_from_json(std::string_view text, const std::string& fi
     std::vector<double>& angles = engagement.emplace_back();
     for (std::size_t i = 0; i < poses; ++i) {
       const double degrees = strip.element(i).number();
-      if (!(degrees >= 0.0 && degrees <= kMostDegrees)) strip.element(i).refuse("an angle from 0 to 360 is needed");
+      if (!(degrees >= 0.0 && degrees <= kMostDegrees)) strip.element(i).refuse("expected an angle from 0 to 360");
       angles.push_back(degrees * kDegree);
     }
   }

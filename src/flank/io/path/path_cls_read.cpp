@@ -111,7 +111,7 @@ class Reader {
     while (in_.next() && in_.word() != "FINI") take();
     // A strip may be named and hold nothing, e.g. where all of its moves are rapid.
     std::erase_if(path_.strips, [](const Strip& s) { return s.poses.empty(); });
-    if (!seen_motion_) throw InputError(file_ + ": contains no GOTO; an APT cutter-location file is accepted");
+    if (!seen_motion_) throw InputError(file_ + ": contains no GOTO; expected an APT cutter-location file");
     return std::move(path_);
   }
 
@@ -128,7 +128,7 @@ class Reader {
     else if (word == "PPRINT")
       take_print();
     else if (std::find(kRefused.begin(), kRefused.end(), word) != kRefused.end())
-      in_.refuse(word + " is not supported; accepted are points, GOTO/x,y,z,i,j,k");
+      in_.refuse(word + " is not supported; expected points, GOTO/x,y,z,i,j,k");
   }
 
   void take_units() {
@@ -138,7 +138,7 @@ class Reader {
     else if (unit == "INCHES" || unit == "INCH" || unit == "IN")
       scale_ = 25.4;
     else
-      in_.refuse(fmt::format("UNITS/{}: accepted are MM and INCHES", unit));
+      in_.refuse(fmt::format("UNITS/{}: expected MM or INCHES", unit));
   }
 
   /// PPRINT STRIP id kind face

@@ -38,7 +38,7 @@ Strip strip_from(const JsonInput& in) {
     if (strip.layer < 1) in.member("layer").refuse("must be 1 or more");
   }
   const JsonInput poses = in.member("poses");
-  if (poses.size() == 0) poses.refuse("at least one pose [x, y, z, i, j, k] is needed");
+  if (poses.size() == 0) poses.refuse("expected at least one pose [x, y, z, i, j, k]");
   strip.poses.reserve(poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i) strip.poses.push_back(pose_from(poses.element(i)));
   return strip;

@@ -18,7 +18,7 @@ double unit_of_drawing(int code, const DxfPairs& in) {
   for (const auto& [number, size] : kUnits)
     if (number == code) return size;
   in.refuse(
-      fmt::format("$INSUNITS {} is no unit of a tool's drawing; accepted: mm, cm, m, um, inches, feet, mils", code));
+      fmt::format("$INSUNITS {} is not a unit of a tool's drawing; accepted: mm, cm, m, um, inches, feet, mils", code));
 }
 
 int whole_number(std::string_view text, const DxfPairs& in) {

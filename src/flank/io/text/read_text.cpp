@@ -41,7 +41,7 @@ double TextLines::number(std::size_t i) const {
   if (text.empty() || error == std::errc::invalid_argument || end != text.data() + text.size())
     refuse(fmt::format("\"{}\" is not a number", word(i)));
   if (error == std::errc::result_out_of_range || !std::isfinite(value))
-    refuse(fmt::format("\"{}\" is not a finite number; accepted are finite coordinates", word(i)));
+    refuse(fmt::format("\"{}\" is not a finite number; expected finite coordinates", word(i)));
   return value;
 }
 

@@ -27,7 +27,7 @@ constexpr std::size_t kAcceptedUnits = 4;  ///< the first of kUnits may be asked
 double millimetres_per(const std::string& unit) {
   for (std::size_t i = 0; i < kAcceptedUnits; ++i)
     if (unit == kUnits[i].first) return kUnits[i].second;
-  throw UsageError("unit", unit, "accepted are mm, cm, m, in");
+  throw UsageError("unit", unit, "expected mm, cm, m or in");
 }
 
 std::string unit_of(double millimetres) {

@@ -95,10 +95,10 @@ bool TomlTable::has(const std::string& key) const { return data_->find(key) != n
 
 double TomlTable::number(const std::string& key, NumberRange range) const {
   const toml::node* node = data_->find(key);
-  if (node == nullptr) refuse(key, "is missing; " + range_text(range) + " is needed");
+  if (node == nullptr) refuse(key, "is missing; expected " + range_text(range));
   // Not `1`, where a whole number stands for itself, but `true` and "1" are none.
   const std::optional<double> value = node->is_number() ? node->value<double>() : std::nullopt;
-  if (!value || !inside(*value, range)) refuse(key, range_text(range) + " is needed");
+  if (!value || !inside(*value, range)) refuse(key, "expected " + range_text(range));
   return *value;
 }
 
@@ -107,19 +107,19 @@ int TomlTable::whole(const std::string& key, int low, int high) const {
   const std::optional<std::int64_t> value =
       node != nullptr && node->is_integer() ? node->value<std::int64_t>() : std::nullopt;
   if (!value || *value < low || *value > high)
-    refuse(key, fmt::format("a whole number from {} to {} is needed", low, high));
+    refuse(key, fmt::format("expected a whole number from {} to {}", low, high));
   return static_cast<int>(*value);
 }
 
 bool TomlTable::flag(const std::string& key) const {
   const toml::node* node = data_->find(key);
-  if (node == nullptr || !node->is_boolean()) refuse(key, "true or false is needed");
+  if (node == nullptr || !node->is_boolean()) refuse(key, "expected true or false");
   return *node->value<bool>();
 }
 
 std::string TomlTable::text(const std::string& key) const {
   const toml::node* node = data_->find(key);
-  if (node == nullptr || !node->is_string()) refuse(key, "a text in quotes is needed");
+  if (node == nullptr || !node->is_string()) refuse(key, "expected a text in quotes");
   return *node->value<std::string>();
 }
 
@@ -130,11 +130,11 @@ std::string TomlTable::word(const std::string& key, const std::vector<std::strin
   if (value)
     for (const std::string& word : accepted)
       if (*value == word) return word;
-  refuse(key, fmt::format("accepted are \"{}\"", fmt::join(accepted, "\", \"")));
+  refuse(key, fmt::format("expected \"{}\"", fmt::join(accepted, "\", \"")));
 }
 
 std::vector<double> TomlTable::numbers(const std::string& key, std::size_t count, NumberRange range) const {
-  const std::string needed = fmt::format("[{} numbers from {:g} to {:g}] are needed", count, range.low, range.high);
+  const std::string needed = fmt::format("expected [{} numbers from {:g} to {:g}]", count, range.low, range.high);
   const toml::node* node = data_->find(key);
   const toml::array* array = node != nullptr ? node->as_array() : nullptr;
   if (array == nullptr || array->size() != count) refuse(key, needed);
@@ -151,10 +151,10 @@ std::vector<double> TomlTable::numbers(const std::string& key, std::size_t count
 std::vector<std::string> TomlTable::texts(const std::string& key) const {
   const toml::node* node = data_->find(key);
   const toml::array* array = node != nullptr ? node->as_array() : nullptr;
-  if (array == nullptr || array->empty()) refuse(key, "a list of texts in quotes, [\"...\"], is needed");
+  if (array == nullptr || array->empty()) refuse(key, "expected a list of texts in quotes, [\"...\"]");
   std::vector<std::string> all;
   for (const toml::node& element : *array) {
-    if (!element.is_string()) refuse_element(key, all.size(), "a text in quotes is needed");
+    if (!element.is_string()) refuse_element(key, all.size(), "expected a text in quotes");
     all.push_back(*element.value<std::string>());
   }
   return all;
@@ -162,18 +162,18 @@ std::vector<std::string> TomlTable::texts(const std::string& key) const {
 
 std::vector<std::string> TomlTable::words(const std::string& key) const {
   const toml::node* node = data_->find(key);
-  if (node == nullptr) refuse(key, "is missing; a value is needed");
+  if (node == nullptr) refuse(key, "is missing; expected a value");
   std::vector<std::string> all;
   if (const toml::array* array = node->as_array()) {
     for (const toml::node& element : *array) {
       const std::optional<std::string> word = word_of(element);
-      if (!word) refuse_element(key, all.size(), "a text, a number, true or false is needed");
+      if (!word) refuse_element(key, all.size(), "expected a text, a number, true or false");
       all.push_back(*word);
     }
     return all;
   }
   const std::optional<std::string> word = word_of(*node);
-  if (!word) refuse(key, "a text, a number, true or false, or a list of them is needed");
+  if (!word) refuse(key, "expected a text, a number, true or false, or a list of them");
   return {*word};
 }
 
@@ -199,7 +199,7 @@ Vec3 TomlTable::vector(const std::string& key, NumberRange range) const {
 
 TomlTable TomlTable::table(const std::string& key) const {
   const toml::node* node = data_->find(key);
-  if (node != nullptr && !node->is_table()) refuse(key, "a table [" + key + "] is needed");
+  if (node != nullptr && !node->is_table()) refuse(key, "expected a table [" + key + "]");
   // Its own list of keys that were asked for: the same table taken a second time begins a new one.
   auto data = std::make_shared<Data>();
   data->document = data_->document;
@@ -213,7 +213,7 @@ TomlTable TomlTable::table(const std::string& key) const {
 std::vector<TomlTable> TomlTable::tables(const std::string& key) const {
   const toml::node* node = data_->find(key);
   if (node == nullptr) return {};
-  const std::string needed = "tables [[" + key + "]] are needed";
+  const std::string needed = "expected tables [[" + key + "]]";
   const toml::array* array = node->as_array();
   if (array == nullptr) refuse(key, needed);
   std::vector<TomlTable> list;
@@ -236,7 +236,7 @@ void TomlTable::require_all_known() const {
   for (const auto& [key, value] : *data_->values) {
     const std::string name(key.str());
     if (known.contains(name)) continue;
-    throw InputError(fmt::format("{}: {}: is no key here; there are {}", place(data_->file, key.source().begin), name,
+    throw InputError(fmt::format("{}: unknown key \"{}\"; allowed: {}", place(data_->file, key.source().begin), name,
                                  fmt::join(known, ", ")));
   }
 }

@@ -125,7 +125,7 @@ Spline spline_of(const Entity& entity) {
   spline.knots = entity.all(40);
   const std::vector<double> x = entity.all(10), y = entity.all(20), w = entity.all(41);
   constexpr int kMostDegree = 11;
-  if (x.empty()) entity.refuse("has fit points only; control points are needed");
+  if (x.empty()) entity.refuse("has fit points only; expected control points");
   if (spline.degree < 1 || spline.degree > kMostDegree || x.size() != y.size() ||
       spline.knots.size() != x.size() + static_cast<std::size_t>(spline.degree) + 1 ||
       x.size() <= static_cast<std::size_t>(spline.degree))

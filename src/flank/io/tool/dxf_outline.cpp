@@ -273,7 +273,7 @@ std::vector<Vec2> rising(std::vector<Vec2> profile, const std::string& file, con
   for (std::size_t k = 1; k < profile.size(); ++k) {
     if (profile[k].x() < profile[k - 1].x() - kMeetMm)
       throw InputError(
-          fmt::format("{}: the {} has an undercut at z {:.4g}; z must not fall", file, what, profile[k].x()));
+          fmt::format("{}: the {} has an undercut at z {:.4g}; z must not decrease", file, what, profile[k].x()));
     profile[k].x() = std::max(profile[k].x(), profile[k - 1].x());
   }
   return profile;

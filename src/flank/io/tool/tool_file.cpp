@@ -93,7 +93,7 @@ double largest_error(const RadialFunction& radial, const std::vector<Vec2>& samp
 /// Samples (s, r) that grow in s from 0 to L.
 std::vector<Vec2> checked_samples(const JsonInput& list, double length) {
   const std::vector<Vec2> samples = list.pairs();
-  if (samples.size() < 4) list.refuse("at least 4 pairs [s, r] are needed");
+  if (samples.size() < 4) list.refuse("expected at least 4 pairs [s, r]");
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (!(samples[i].y() > 0.0)) list.element(i).refuse(fmt::format("r is {}; must be > 0", samples[i].y()));
     if (i > 0 && !(samples[i].x() > samples[i - 1].x()))
@@ -131,8 +131,8 @@ RadialFunction spline_from_samples(const JsonInput& list, const std::vector<Vec2
     why = verdict.reason;
   }
   if (!why.empty()) list.refuse("the spline through them is not a tool, " + why);
-  list.refuse(fmt::format("no cubic spline reproduces them to {} mm; more samples, or smoother ones, are needed",
-                          kToolSplineErrorMm));
+  list.refuse(
+      fmt::format("no cubic spline reproduces them to {} mm; give more or smoother samples", kToolSplineErrorMm));
 }
 
 /// Family and parameters go before samples; if both are there, they must agree.
@@ -165,7 +165,7 @@ void check_profile(const JsonInput& list, const std::vector<Vec2>& profile) {
     if (profile[i].y() < 0.0) list.element(i).refuse("the radius must be >= 0");
     if (i > 0 && profile[i].x() < profile[i - 1].x()) list.element(i).refuse("z must not decrease from point to point");
   }
-  if (profile.size() == 1) list.refuse("at least two points [z, radius] are needed");
+  if (profile.size() == 1) list.refuse("expected at least two points [z, radius]");
 }
 
 /// A profile, or a cylinder on top of the flank.

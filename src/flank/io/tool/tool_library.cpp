@@ -47,7 +47,7 @@ double quantity(const JsonInput& value) {
   unit.erase(0, std::min(unit.find_first_not_of(' '), unit.size()));
   for (const auto& [name, size] : kUnits)
     if (error == std::errc() && unit == name && std::isfinite(number)) return number * size;
-  value.refuse(fmt::format("\"{}\" is no length or angle; a number with mm, cm, in, deg or rad is accepted", text));
+  value.refuse(fmt::format("\"{}\" is not a length or angle; expected a number with mm, cm, in, deg or rad", text));
 }
 
 double size_of(const JsonInput& parameters, const char* name) {
@@ -211,9 +211,8 @@ JsonInput chosen(const JsonInput& document, bool holders, const std::string& whi
     names += (k == 0 ? "\"" : ", \"") + text_or(all[k], "description") + "\"";
   const char* what = holders ? "holder" : "tool";
   throw InputError(
-      fmt::format("{}: {} {}s{}; one is needed: write {}#NAME with the name, product number or tool number of one "
-                  "of {}{}",
-                  file, entries.size(), what, which.empty() ? "" : " go by \"" + which + "\"", file, names,
+      fmt::format("{}: {} {}s{}; name one: {}#NAME with the name, product number or tool number of one of {}{}", file,
+                  entries.size(), what, which.empty() ? "" : " go by \"" + which + "\"", file, names,
                   all.size() > kMostNames ? ", ..." : ""));
 }
 

@@ -183,7 +183,8 @@ std::string corner_note(const ToolOutline& outline, const Placed& tool) {
   const double out = (corner - Vec2(tool.shift, 0.0)).norm() + c - r;
   if (!(out > 1e-3)) return "";
   return fmt::format(
-      "the tip is no ball: planned and judged with the ball of R {:.4g} mm inside its end; its corner stands out of "
+      "the tip is not a ball: planned and checked with the ball of R {:.4g} mm inside its end; its corner stands out "
+      "of "
       "that by up "
       "to {:.3g} mm and must be kept clear of floors",
       r, out);

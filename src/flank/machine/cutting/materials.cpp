@@ -32,8 +32,8 @@ Material material_of(const TomlTable& row) {
   m.chip_low = chip[0], m.chip_high = chip[1];
   m.kc1 = row.number("kc1_n_mm2", {50.0, 10000.0});
   m.mc = row.number("mc", {0.0, 0.9});
-  if (m.name.empty()) row.refuse("name", "a name is needed");
-  if (m.source.empty()) row.refuse("source", "where the numbers are from is needed");
+  if (m.name.empty()) row.refuse("name", "expected a name");
+  if (m.source.empty()) row.refuse("source", "expected the source of the numbers");
   return m;
 }
 
@@ -72,7 +72,7 @@ Material find_material(const std::string& name) {
     if (m.name == name) return m;
     names += (names.empty() ? "" : ", ") + m.name;
   }
-  throw UsageError("material", name, "no such material; accepted are " + names);
+  throw UsageError("material", name, "no such material; expected " + names);
 }
 
 CuttingData cutting_data(const Material& material, double diameter_mm, int teeth, double largest_rpm) {

@@ -28,7 +28,7 @@ void read_box(const TomlTable& table, MachineBody& body) {
   body.from = {v[0], v[1], v[2]};
   body.to = {v[3], v[4], v[5]};
   if (!((body.to - body.from).array() > 0.0).all())
-    table.refuse("box_mm", "[x, y, z, x, y, z] is needed: the lower corner, then the upper one");
+    table.refuse("box_mm", "expected [x, y, z, x, y, z]: the lower corner, then the upper one");
 }
 
 void read_cylinder(const TomlTable& table, MachineBody& body) {
@@ -37,7 +37,7 @@ void read_cylinder(const TomlTable& table, MachineBody& body) {
   body.from = {v[0], v[1], v[2]};
   body.to = {v[3], v[4], v[5]};
   if (!((body.to - body.from).norm() > kLeastLength))
-    table.refuse("cylinder_mm", "[x, y, z, x, y, z] is needed: the two ends of its axis, which differ");
+    table.refuse("cylinder_mm", "expected [x, y, z, x, y, z]: the two ends of its axis, which differ");
   body.radius = table.number("radius_mm", kRadius);
 }
 
@@ -52,7 +52,7 @@ std::vector<MachineBody> read_bodies(const TomlTable& file, const Machine& machi
     body.name = table.text("name");
     body.link = link_of(table, machine);
     if (table.has("box_mm") == table.has("cylinder_mm"))
-      table.refuse("name", "either box_mm or cylinder_mm with radius_mm is needed");
+      table.refuse("name", "expected either box_mm or cylinder_mm with radius_mm");
     table.has("box_mm") ? read_box(table, body) : read_cylinder(table, body);
     table.require_all_known();
     bodies.push_back(std::move(body));

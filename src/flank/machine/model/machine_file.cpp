@@ -32,14 +32,14 @@ constexpr std::size_t kMostBytes = 1u << 20;  // what is larger is no machine's 
 /// A unit vector from three numbers of any size: people write (0, 1, 1) for 45 degrees.
 Vec3 read_direction(const TomlTable& table, const std::string& key) {
   const Vec3 d = table.vector(key, {-1e6, 1e6});
-  if (!(d.norm() > 1e-9)) table.refuse(key, "a direction is needed, not (0, 0, 0)");
+  if (!(d.norm() > 1e-9)) table.refuse(key, "expected a direction, not (0, 0, 0)");
   return d.normalized();
 }
 
 /// [low, high] with low < high.
 std::vector<double> read_travel(const TomlTable& table, const std::string& key, double far) {
   std::vector<double> travel = table.numbers(key, 2, {-far, far});
-  if (!(travel[0] < travel[1])) table.refuse(key, "[lower, upper] with lower < upper is needed");
+  if (!(travel[0] < travel[1])) table.refuse(key, "expected [lower, upper] with lower < upper");
   return travel;
 }
 
@@ -119,8 +119,8 @@ void place_joints(const TomlTable& file, const Chain& chain, Machine& machine) {
   if (chain.joints.size() != kJointCount || count(JointKind::kRotary) != 2)
     file.refuse(
         chain.tables.empty() || file.has("head") ? "head" : "table",
-        fmt::format("the chain has {} linear and {} rotary joints; [[table]] and [[head]] with the three linear "
-                    "joints X, Y, Z and two of A, B, C are needed",
+        fmt::format("the chain has {} linear and {} rotary joints; expected [[table]] and [[head]] with the three "
+                    "linear joints X, Y, Z and two of A, B, C",
                     count(JointKind::kLinear), count(JointKind::kRotary)));
   for (std::size_t k = 0; k < kJointCount; ++k) {
     machine.joints[k] = chain.joints[k];
@@ -138,7 +138,7 @@ void place_rotary(const TomlTable& control, const Chain& chain, Machine& machine
   const Joint &near_work = machine.joints[rotary[0]], &near_tool = machine.joints[rotary[1]];
   // Parallel axes, or a second one along the spindle, reach a cone of directions at most: no program of ours fits it.
   if (near_work.direction.cross(near_tool.direction).norm() < kLeastSine)
-    chain.tables[rotary[1]].refuse("direction", "the two rotary joints are parallel; two directions are needed");
+    chain.tables[rotary[1]].refuse("direction", "the two rotary joints are parallel; expected two directions");
   if (near_tool.direction.cross(machine.tool_axis).norm() < kLeastSine)
     chain.tables[rotary[1]].refuse(
         "direction", "this joint turns the tool about itself; its direction must not be that of the spindle");
@@ -239,7 +239,7 @@ void read_meaning(const TomlTable& table, Machine& machine) {
   if (!language.great_circle && machine.join != NcJoin::kAxes)
     table.refuse("join", title + " joins blocks by \"axes\"");
   if (!language.vectors && machine.positions == NcPositions::kTipVector)
-    table.refuse("positions", title + " has no vectors; accepted are \"tip-rotary\", \"joint\"");
+    table.refuse("positions", title + " has no vectors; expected \"tip-rotary\", \"joint\"");
   if (!language.inverse_time && machine.feed_mode == NcFeedMode::kInverseTime)
     table.refuse("feed", title + "'s feeds are \"per-minute\"");
 }
@@ -250,7 +250,7 @@ std::string read_text(const std::string& file) {
   if (in) text << in.rdbuf();
   // A folder opens like a file, and reads as an empty one.
   if (!in || fs::is_directory(file))
-    throw InputError("machine", file, "cannot be read; a file as docs/schema/machine.md describes is needed");
+    throw InputError("machine", file, "cannot be read; expected a file as docs/schema/machine.md describes");
   return text.str();
 }
 
@@ -267,7 +267,7 @@ Machine machine_from_toml(std::string_view text, const std::string& file) {
   const Chain chain = read_chain(table);
   place_joints(table, chain, machine);
   read_spindle(table.table("spindle"), machine);
-  if (!table.has("control")) table.refuse("control", "is missing; a table [control] is needed");
+  if (!table.has("control")) table.refuse("control", "is missing; expected a table [control]");
   const TomlTable control = table.table("control");
   read_dialect(control, machine);
   read_meaning(control, machine);
@@ -315,7 +315,7 @@ Machine read_machine(const std::string& name_or_file) {
   // By the list, not by trying to open the file: the message can say what there is.
   if (std::find(names.begin(), names.end(), name_or_file) == names.end())
     throw InputError("machine", name_or_file,
-                     fmt::format("no such machine; there are {}, or a file NAME.toml", fmt::join(names, ", ")));
+                     fmt::format("no such machine; expected {}, or a file NAME.toml", fmt::join(names, ", ")));
   const std::string file = machine_file(name_or_file);
   return machine_from_toml(read_text(file), file);
 }

@@ -22,7 +22,7 @@ void append(std::string& text, double value, int decimals, NcNumberStyle style, 
   FLANK_ASSERT(decimals >= 0 && decimals <= kMostNcDecimals);
   if (!std::isfinite(value)) throw InternalError("a program has a number that is not finite");
   if (std::abs(value) > kLargestNcValue)
-    throw UsageError("a program would state " + std::to_string(value) + "; accepted are values up to 1000000");
+    throw UsageError("a program would state " + std::to_string(value) + "; expected values up to 1000000");
   const std::int64_t scale = kScale[static_cast<std::size_t>(decimals)];
   // Rounded once, then taken apart exactly. A sign is written only if something is left of the value: never "-0".
   const std::int64_t scaled = std::llround(value * static_cast<double>(scale));

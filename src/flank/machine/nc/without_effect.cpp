@@ -47,10 +47,10 @@ bool name_has_effect(std::string_view word) {
 }  // namespace
 
 std::string why_not_without_effect(std::string_view word) {
-  constexpr const char* kAccepted = "accepted are M and G words as \"M10\", and names as \"CYCLE800()\"";
+  constexpr const char* kAccepted = "expected M and G words as \"M10\", and names as \"CYCLE800()\"";
   if (word.empty() || word.size() > kLongestWord || !std::all_of(word.begin(), word.end(), is_word_character) ||
       word.front() < 'A')
-    return std::string("is no word of a program; ") + kAccepted;
+    return std::string("is not a word of a program; ") + kAccepted;
   const std::optional<double> number = number_of(word);
   if (!number) return name_has_effect(word) ? "has an effect on the motion, which no machine leaves out" : "";
   const int tenths = static_cast<int>(std::lround(std::min(*number, 1e6) * 10.0));

@@ -99,8 +99,8 @@ void check_facing(const TrochoidJob& job, const Setup& setup, const Target& left
       cosine < -kLeastFacing
           ? "one lies behind the other"
           : fmt::format("their normals are {:.1f} degrees apart on average (180 is face to face)", degrees);
-  throw InputError("right", fmt::format("{} does not face {}: {}; the two sides of one cavity are needed: {}",
-                                        job.right, job.left, why, accepted_across(job, setup.part)));
+  throw InputError("right", fmt::format("{} does not face {}: {}; give the two sides of one cavity: {}", job.right,
+                                        job.left, why, accepted_across(job, setup.part)));
 }
 
 }  // namespace
@@ -113,10 +113,10 @@ CavityFaces cavity_faces(const TrochoidJob& job, const Setup& setup) {
   const std::size_t left = group_of(groups, parse_face_list(setup.part, job.left).front());
   const std::size_t right = group_of(groups, parse_face_list(setup.part, job.right).front());
   if (groups.size() != 2 || left == right || std::max(left, right) > 1)
-    throw InputError("right", fmt::format("{} and {} make {} connected side{}; two are needed, that do not touch each "
-                                          "other: {}",
-                                          job.left, job.right, groups.size(), groups.size() == 1 ? "" : "s",
-                                          accepted_across(job, setup.part)));
+    throw InputError(
+        "right",
+        fmt::format("{} and {} make {} connected side{}; expected two, that do not touch each other: {}", job.left,
+                    job.right, groups.size(), groups.size() == 1 ? "" : "s", accepted_across(job, setup.part)));
   for (const std::size_t g : {left, right}) out.sides.push_back(std::move(groups[g]));
   check_facing(job, setup, *out.sides[0].target, *out.sides[1].target);
   out.width = width_between(side_of(out.sides[0]), side_of(out.sides[1]));

@@ -56,8 +56,7 @@ void follow_moved(const ResultFolder& folder, Job& job) {
 
 FolderJob read_folder_job(const VerifyJob& request, const ResultFolder& folder) {
   const std::string file = (std::filesystem::path(folder.path()) / "job.json").string();
-  if (!std::filesystem::exists(file))
-    throw InputError(file + ": is not there; a folder written by `flank fit` is needed");
+  if (!std::filesystem::exists(file)) throw InputError(file + ": is missing; give a folder written by `flank fit`");
   FolderJob found{job_from_json(read_file(file), file), {}};
   std::visit(
       [&](auto& job) {

@@ -40,7 +40,7 @@ void require_known_faces(const Path& path, const Part& part, const std::string& 
   for (const Strip& strip : path.strips)
     for (const std::string& item : face_list_items(strip.face))
       if (parse_face_name(item).number > last)
-        throw InputError(fmt::format("{}: strip {} is of face {}, but {} has the faces F1 to F{} only", file, strip.id,
+        throw InputError(fmt::format("{}: pass {} is of face {}, but {} has the faces F1 to F{} only", file, strip.id,
                                      item, part.file, last));
 }
 
@@ -49,7 +49,7 @@ void require_known_faces(const Path& path, const Part& part, const std::string& 
 void check_origin(const VerifyJob& request, const ResultFolder& folder, const Part& part, Verification& outcome) {
   const std::optional<Manifest>& manifest = folder.manifest();
   if (!manifest) {
-    outcome.notes.push_back(std::string("no ") + kManifestFile + ": nothing says that tool and path belong together");
+    outcome.notes.push_back(std::string("no ") + kManifestFile + ": tool and path may not belong together");
     return;
   }
   // Where tool and path came from elsewhere, they may come from there again; the verdict is made anew.
@@ -57,7 +57,7 @@ void check_origin(const VerifyJob& request, const ResultFolder& folder, const Pa
   folder.require_whole({"verify.json", "view.json"});
   if (!request.part && part.sha256 != manifest->part.sha256)
     throw InputError(part.file + ": has changed since the result in " + folder.path() +
-                     " was made for it; make the result again, or name a part to judge it against by `part`");
+                     " was made for it; make the result again, or name a part to check it against by `part`");
 }
 
 std::string absolute(const std::string& file) { return std::filesystem::absolute(file).lexically_normal().string(); }
@@ -88,7 +88,7 @@ PathEngagement replay_stock(const Job& job, const Setup& setup, const Tool& tool
                             const std::string& file, Verification& outcome) {
   if constexpr (std::is_same_v<Job, TrochoidJob>) {
     if (!std::filesystem::exists(file)) {
-      outcome.notes.push_back("no blank.json: the program is not replayed");
+      outcome.notes.push_back("no blank.json: no stock simulation");
       return {};
     }
     ProgramStock stock = judge_stock(setup, job, tool, path, blank_from_json(read_file(file), file), 0.0);
@@ -158,7 +158,7 @@ namespace flank {
 Verification run_verify(const VerifyJob& request) {
   internal::check_fields(request);
   if (request.nc.file) return internal::judge_program(request);
-  if (request.folder.empty()) throw UsageError("folder", "is needed, or a program by `nc`");
+  if (request.folder.empty()) throw UsageError("folder", "give a result folder, or an NC program by `nc`");
   return internal::judge_folder(request);
 }
 

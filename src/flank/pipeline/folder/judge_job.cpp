@@ -46,12 +46,12 @@ void require_sensible(const std::vector<std::unique_ptr<verify::Sampler>>& sampl
     all += here;
     if (holds(setup.targets, faces[k]) && here < kFewestSamples)
       throw UsageError(fmt::format(
-          "a sample spacing of {} mm gives about {:.0f} samples on {}; {:.0f} are needed, which {:.3g} mm give",
+          "a sample spacing of {} mm gives about {:.0f} samples on {}; at least {:.0f} are required: {:.3g} mm",
           spacing, here, setup.part.face_id(faces[k]), kFewestSamples, spacing * std::sqrt(here / kFewestSamples)));
   }
   if (all > kMostSamples)
     throw UsageError(
-        fmt::format("a sample spacing of {} mm gives about {:.3g} samples; {:.3g} are accepted, which {:.3g} mm give",
+        fmt::format("a sample spacing of {} mm gives about {:.3g} samples; at most {:.3g} are allowed: {:.3g} mm",
                     spacing, all, kMostSamples, spacing * std::sqrt(all / kMostSamples)));
 }
 

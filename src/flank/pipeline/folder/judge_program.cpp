@@ -55,8 +55,8 @@ Question question_of(const VerifyJob& request, const Job& job) {
 
 /// Without a folder all of it must be given.
 FitJob job_of(const VerifyJob& request) {
-  if (!request.part) throw UsageError("part", "is needed with `nc`, or a folder of results");
-  if (!request.nc.tool) throw UsageError("tool", "is needed with `nc`, or a folder of results");
+  if (!request.part) throw UsageError("part", "must be given with `nc`, unless a result folder is");
+  if (!request.nc.tool) throw UsageError("tool", "must be given with `nc`, unless a result folder is");
   FitJob job;
   job.part.file = *request.part;
   job.part.side = request.side;
@@ -76,7 +76,7 @@ WorkSetup setup_of(const VerifyJob& request, const NcProgram& program, Verificat
       throw InputError(*request.nc.file + ": its header: " + e.what());
     }
   outcome.notes.push_back(
-      "neither `setup` nor the program says where the part sits: its origin is taken as the table's");
+      "neither `setup` nor the program gives the set-up: the part's origin is taken at the table's");
   return {};
 }
 
@@ -141,7 +141,7 @@ void replay_stock(const Job& job, const Setup& setup, const Question& q, const P
                   const FollowedPath& followed, const Ran& ran, Verification& outcome) {
   if constexpr (std::is_same_v<Job, TrochoidJob>) {
     if (planned.blank.empty()) {
-      outcome.notes.push_back("no blank.json: the program is not replayed");
+      outcome.notes.push_back("no blank.json: no stock simulation");
       return;
     }
     const StockPath cut = stock_path(ran.plot, *planned.path, followed.strips, q.tool.radial.axis_length());
@@ -155,9 +155,9 @@ void replay_stock(const Job& job, const Setup& setup, const Question& q, const P
     const double grain = std::pow(stock.cell_mm, 3);  // less is the grid's
     for (std::size_t k = 0; k < cut.path.strips.size(); ++k)
       if (cut.path.strips[k].kind == kRapidKind && stock.strip_mm3[k] > grain) {
-        add_reason(
-            outcome.acceptance, Figure::kRapid,
-            fmt::format("{}: replayed, a rapid move cuts {:.3g} mm^3 of the stock", line(k, 1), stock.strip_mm3[k]));
+        add_reason(outcome.acceptance, Figure::kRapid,
+                   fmt::format("{}: stock simulation: a rapid move cuts {:.3g} mm^3 of the stock", line(k, 1),
+                               stock.strip_mm3[k]));
         return;
       }
   }
@@ -212,7 +212,7 @@ Verification judge(const VerifyJob& request, const Job& job, const Question& q) 
   }
   machine.tool_length = options.tool_length;
   judge_machine(machine, setup, q, options, ran, outcome.acceptance);
-  outcome.notes.push_back(fmt::format("{} on {}: {} moves in {}, as {} poses within {:.2g} mm of its motion",
+  outcome.notes.push_back(fmt::format("{} on {}: {} moves in {}, as {} CL points within {:.2g} mm of its motion",
                                       std::filesystem::path(file).filename().string(), machine.name,
                                       program.moves.size(), minutes_text(plot.time_s / 60.0), plot.path.pose_count(),
                                       plot.chord_bound_mm));
@@ -222,7 +222,7 @@ Verification judge(const VerifyJob& request, const Job& job, const Question& q) 
 }  // namespace
 
 Verification judge_program(const VerifyJob& request) {
-  if (!request.nc.machine) throw UsageError("machine", "is needed with `nc`: a name, or a file NAME.toml");
+  if (!request.nc.machine) throw UsageError("machine", "must be given with `nc`: a name, or a file NAME.toml");
   if (request.folder.empty()) {
     const FitJob job = job_of(request);
     return judge(request, job, question_of(request, job));

@@ -131,8 +131,8 @@ WorkSetup find_setup(const PostJob& request, const Machine& machine, const Path&
   const FoundSetup found =
       search_setup(machine, Kinematics(machine, machine.tool_length), poses, scene.solids, upright);
   if (!found.setup)
-    throw InputError("setup", fmt::format("none of {} places and turns of the part fits machine {}: {}", found.tried,
-                                          machine.name, found.reason));
+    throw InputError("setup", fmt::format("machine {} reaches the part in none of {} set-ups tried: {}", machine.name,
+                                          found.tried, found.reason));
   outcome.setup_found = true;
   return *found.setup;
 }
@@ -143,14 +143,14 @@ void accept_links(const Input& input, const JudgedLinks& links, PostOutcome& out
   if (depth > tolerance) {
     const WorstPlace* worst = links.report.worst.empty() ? nullptr : &links.report.worst.front();
     add_reason(outcome.acceptance, Figure::kGouge,
-               fmt::format("no way from strip to strip was found that cuts nothing: link {} cuts {} by {:.4f} mm; more "
+               fmt::format("no link between passes was found that cuts nothing: link {} cuts {} by {:.4f} mm, more "
                            "than the tolerance of {} mm",
                            worst != nullptr ? worst->strip + 1 : 0, worst != nullptr ? worst->face : "the part", depth,
                            tolerance));
   }
   const ClearanceScene scene = make_clearance_scene(input.setup, input.obstacles, has_body(input.tool), outcome.notes);
   if (!measure_clearance(scene, input.tool, links.links()).kept())
-    add_reason(outcome.acceptance, Figure::kClearance, "shank, holder or a fixture comes too near on a link");
+    add_reason(outcome.acceptance, Figure::kClearance, "shank, holder or a fixture comes too close on a link");
 }
 
 /// A cavity's cycles are planned for a limit of the engagement: there the feed is what was asked for.
@@ -188,7 +188,7 @@ void judge_machine(const Machine& machine, const Post& result, const MachineScen
 double take_verdict(const PostJob& request, PostOutcome& outcome) {
   const std::string file = (std::filesystem::path(request.folder) / "verify.json").string();
   if (!std::filesystem::exists(file)) {
-    add_caution(outcome.acceptance, Figure::kVerdict, "the path was not judged: `flank verify` judges it");
+    add_caution(outcome.acceptance, Figure::kVerdict, "the path was not checked; run `flank verify`");
     return 0.0;
   }
   const std::string text = read_file(file);
@@ -205,12 +205,11 @@ double take_verdict(const PostJob& request, PostOutcome& outcome) {
 void accept_rounding(double depth, const Input& input, const Post& result, PostOutcome& outcome) {
   const double tolerance = input.setup.tolerance_mm, room = std::max(tolerance - depth, kOutsideShare * tolerance);
   if (result.deviation_mm + result.rounding_mm <= room) return;
-  add_reason(
-      outcome.acceptance, Figure::kRounding,
-      fmt::format("the program's digits move the tool by up to {:.6f} mm and its chords by {:.6f} mm, the path cuts by "
-                  "up to {:.6f} mm: together that may be more than the tolerance of {} mm; more digits after the "
-                  "point (length_decimals, angle_decimals of the machine's file) or a smaller deviation are needed",
-                  result.rounding_mm, result.deviation_mm, depth, tolerance));
+  add_reason(outcome.acceptance, Figure::kRounding,
+             fmt::format("rounding moves the tool by up to {:.6f} mm and its chords by {:.6f} mm, the path gouges by "
+                         "up to {:.6f} mm: together possibly more than the tolerance of {} mm; give more digits "
+                         "(length_decimals, angle_decimals of the machine's file) or a smaller --deviation",
+                         result.rounding_mm, result.deviation_mm, depth, tolerance));
 }
 
 /// A rotary axis that ends turns away from where it began would be taken for a fault by who reads its display.
@@ -219,7 +218,7 @@ void note_turns(const Machine& machine, const Post& result, PostOutcome& outcome
   for (std::size_t k = 0; k < 2; ++k)
     if (const double turns = std::round((*result.program.end_rotary)(static_cast<int>(k)) / 360.0); turns != 0.0)
       outcome.notes.push_back(
-          fmt::format("axis {} ends at {:g} degrees, {:g} turn{} from zero: to unwind is for the next program",
+          fmt::format("axis {} ends at {:g} degrees, {:g} turn{} from zero: the next program must unwind it",
                       machine.rotary_joint(k).name, 360.0 * turns, std::abs(turns), std::abs(turns) == 1.0 ? "" : "s"));
 }
 
@@ -256,19 +255,18 @@ PostJob with_material(PostJob request, const PostTool& facts, PostOutcome& outco
 void require_cutting_data(const PostJob& request) {
   if (request.dry) {
     if (request.spindle_rpm)
-      throw UsageError("dry", "a dry run is one without the spindle; give `spindle` and `feed_mm_min`, or `dry`");
+      throw UsageError("dry", "give `spindle` and `feed_mm_min`, or `dry`; a dry run has no spindle");
     return;
   }
   if (request.material) {
     (void)find_material(*request.material);
-    if (!request.flutes) throw UsageError("flutes", "how many the tool has is needed for the feed of a `material`");
+    if (!request.flutes) throw UsageError("flutes", "must be given: the feed of a `material` needs it");
     return;
   }
-  if (request.flutes) throw UsageError("flutes", "goes with a `material`");
+  if (request.flutes) throw UsageError("flutes", "needs a `material`");
   if (!request.spindle_rpm || (!request.feed_mm_min && request.speed != "optimal"))
     throw UsageError(
-        fmt::format("post: a program needs the spindle's speed and the feed; give {}{}{}, or `dry` for one that "
-                    "runs while the spindle stands still",
+        fmt::format("a program needs spindle speed and feed; give {}{}{}, or `dry` for a dry run",
                     request.spindle_rpm ? "" : "`spindle`, 1/min,",
                     request.spindle_rpm || request.feed_mm_min || request.speed == "optimal" ? "" : " and ",
                     request.feed_mm_min || request.speed == "optimal" ? "" : "`feed_mm_min`"));
@@ -277,7 +275,7 @@ void require_cutting_data(const PostJob& request) {
 [[noreturn]] void refuse(const Post& result, const PostOutcome& outcome) {
   const Unreachable& why = *result.unreachable;
   throw InputError("machine", outcome.machine,
-                   fmt::format("strip {}, pose {}: {}; the part sits at {}; another place or turn is given by `setup`",
+                   fmt::format("pass {}, CL point {}: {}; set-up {}; give another one by `setup`",
                                result.unreachable_strip, why.pose + 1, why.reason, outcome.setup));
 }
 

@@ -47,7 +47,7 @@ std::string part_hash(const PlanJob& job) {
 }
 
 constexpr const char* kToGoOn =
-    "; to go on, give the part, the files and the options of that folder; to begin anew, leave out --resume";
+    "; to resume, give the part, files and options of that folder; to start again, leave out --resume";
 
 /// The tool, the holder, the fixtures and whatever else the job reads: the names may be others, the bytes may not.
 void require_same_inputs(const ResultFolder& folder, const std::vector<InputStamp>& inputs) {
@@ -98,12 +98,12 @@ bool meets_request(const ResultFolder& folder) {
 
 std::shared_ptr<Journal> journal_of(const ResultFolder& folder) {
   if (!has(folder, kJournalFile))
-    throw InputError(folder.path() + ": there is nothing to go on from (no " + kJournalFile +
-                     " of a run that was stopped); give the folder of such a run, or leave out --resume");
+    throw InputError(folder.path() + ": nothing to resume (no " + kJournalFile +
+                     " of a stopped run); give the folder of one, or leave out --resume");
   const std::string file = in(folder, kJournalFile), text = read_file(file);
   if (sha256(text) != folder.manifest()->files.at(kJournalFile))
     throw InputError(file + ": is not the file that " + kManifestFile +
-                     " names: it was changed; leave out --resume to begin anew");
+                     " names: it was changed; leave out --resume to start again");
   return std::make_shared<Journal>(journal_from_json(text, file));
 }
 

@@ -88,7 +88,7 @@ class Follower {
     }
     for (const Chain& chain : chains_)
       if (!chain.done && !chain.told)
-        add(chain.line, fmt::format("strip {} of the path is not run from its beginning to its end", chain.id));
+        add(chain.line, fmt::format("pass {} of the path is not run from its beginning to its end", chain.id));
     return std::move(out_);
   }
 
@@ -155,8 +155,8 @@ class Follower {
     }
     if (!chain.told)
       add(move.line,
-          fmt::format("{} strip {} of the path after {:.1f} of {:.1f} mm",
-                      move.rapid ? "a rapid move leaves" : "leaves", chain.id, 0.5 * at_->way, 0.5 * chain.length()));
+          fmt::format("{} pass {} of the path after {:.1f} of {:.1f} mm", move.rapid ? "a rapid move leaves" : "leaves",
+                      chain.id, 0.5 * at_->way, 0.5 * chain.length()));
     chain.told = true;
   }
 

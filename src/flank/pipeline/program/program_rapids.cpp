@@ -142,7 +142,7 @@ bool add_touches(const std::string& file, const ClearanceScene& scene, const Too
     const auto pose = std::min(static_cast<std::size_t>(std::ceil(std::max(0.0, f.t))), lines.size() - 1);
     add_reason(acceptance, Figure::kRapid,
                fmt::format("{}: line {}: a rapid move brings the {} to {:.3f} mm from {} at ({:.3f}, {:.3f}, {:.3f}); "
-                           "{:g} mm are needed",
+                           "{:g} mm are required",
                            file, lines[pose], body_name(f.body), f.clearance_mm, f.obstacle, f.point.x(), f.point.y(),
                            f.point.z(), scene.options.required_mm));
   }

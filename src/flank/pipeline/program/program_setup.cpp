@@ -84,7 +84,7 @@ class SetUpCheck {
     if (!stated_.contradiction.empty()) add(Figure::kSetup, stated_.contradiction);
     if (!header.machine.empty() && plain(header.machine) != plain(machine_.name))
       add(Figure::kMachine,
-          fmt::format("is for machine {}, says its header; it is judged on {}", header.machine, machine_.name));
+          fmt::format("its header names machine {}, but it is checked on {}", header.machine, machine_.name));
     // Where the part sits was said anew: what the work offset held before is of no account.
     if (header.origin.empty() || request_.setup) return;
     const bool joint = program_.positions == NcPositions::kJoint;
@@ -105,9 +105,8 @@ class SetUpCheck {
     for (int k = 0; k <= kLooks; ++k)
       radius = std::max(radius, tool_.radial.at(tool_.radial.axis_length() * k / kLooks).r);
     if (std::abs(said.diameter - 2.0 * radius) > kSameDiameterMm)
-      add(Figure::kToolNumber,
-          fmt::format("its header's tool has a diameter of {:.6g} mm, the tool that is judged {:.6g}", said.diameter,
-                      2.0 * radius));
+      add(Figure::kToolNumber, fmt::format("its header's tool has a diameter of {:.6g} mm, the checked tool {:.6g}",
+                                           said.diameter, 2.0 * radius));
     if (std::abs(said.tip_offset - options_.tip_offset) > kSameMm)
       add(Figure::kToolLength,
           fmt::format("its header's TIP OFFSET is {:.6g} mm; of this tool and machine it is {:.6g}", said.tip_offset,
@@ -116,12 +115,12 @@ class SetUpCheck {
 
   void check_offset() {
     const int wanted = request_.work_offset.value_or(stated_.work_offset.value_or(machine_.work_offset));
-    const char* const whose = request_.work_offset  ? "asked for is"
+    const char* const whose = request_.work_offset  ? "--work-offset is"
                               : stated_.work_offset ? "its header says"
                                                     : "the machine's is";
     first(Figure::kWorkOffset, [&](const NcMove&, const NcModes& modes) -> std::string {
       if (modes.work_offset == wanted) return {};
-      return fmt::format("{}; {} {} (--work-offset says otherwise)",
+      return fmt::format("{}; {} {} (--work-offset allows another)",
                          modes.work_offset ? fmt::format("work offset {} holds", *modes.work_offset)
                                            : std::string("no work offset has been set"),
                          whose, wanted);
@@ -144,7 +143,7 @@ class SetUpCheck {
       }
       if (modes.tool == *wanted) return {};
       return fmt::format(
-          "{}; it should be tool {} (--tool-number says otherwise)",
+          "{}; expected tool {} (--tool-number allows another)",
           modes.tool ? fmt::format("tool {} is in the spindle", *modes.tool) : std::string("no tool has been called"),
           *wanted);
     });
@@ -171,7 +170,7 @@ class SetUpCheck {
         return fmt::format("D{} is another length than that of the tool, D1", *modes.edge);
       const std::optional<int> wanted = wanted_tool() ? wanted_tool() : modes.tool;
       if (!modes.length || !wanted || *modes.length == *wanted) return {};
-      return fmt::format("{}; it should be that of tool {}",
+      return fmt::format("{}; expected that of tool {}",
                          *modes.length == 0 ? std::string("the length of no tool is switched on")
                                             : fmt::format("the length of tool {} is switched on", *modes.length),
                          *wanted);
@@ -185,7 +184,7 @@ class SetUpCheck {
       return;
     }
     first(Figure::kSpindle, [](const NcMove& move, const NcModes& modes) -> std::string {
-      return move.kind == NcKind::kFeed && !modes.spindle ? "a cut while the spindle stands still" : "";
+      return move.kind == NcKind::kFeed && !modes.spindle ? "a cutting move while the spindle stands still" : "";
     });
   }
 

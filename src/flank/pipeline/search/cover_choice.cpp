@@ -83,7 +83,7 @@ RankingReport family_report(const CoverJob& job, const ToolChoice& choice, const
   report.options = options.ranking;
   for (const Tool& tool : found.tools)
     report.names.push_back(fmt::format("{}, axis {:.4g} mm", tool.name, tool.radial.axis_length()));
-  report.source = fmt::format("{}, searched over {}; {} tools by their meridians, {} of them in place, {} by strips",
+  report.source = fmt::format("{}, searched over {}; {} tools compared by profile, {} of them in place, {} by passes",
                               job.tool.spec, found.searched, found.grid, found.screened, found.covered);
   report.tools = std::move(found.tools);
   return report;
@@ -157,9 +157,9 @@ Ranking as_ranking(const RankingReport& report) {
 void note_none(const RankingReport& report, Result& result) {
   const RankedTool& nearest = report.ranked.front();
   if (nearest.strips > 0) return;
-  result.notes.push_back(fmt::format("none of {} tools can work here; what is written is the nearest, {}: {}",
-                                     report.names.size(), report.names[nearest.tool],
-                                     nearest.reason.empty() ? "interrupted before it was tried" : nearest.reason));
+  result.notes.push_back(fmt::format(
+      "no tool of {} can machine this face; written is the closest, {}: {}", report.names.size(),
+      report.names[nearest.tool], nearest.reason.empty() ? "interrupted before this tool was tried" : nearest.reason));
 }
 
 }  // namespace
@@ -170,9 +170,9 @@ std::optional<ToolChoice> tool_choice(const CoverJob& job) {
     if (!holds) throw UsageError(field, text);
   };
   const bool catalogue = job.tool.spec == "catalogue";
-  require(catalogue || !job.choice.catalogue, "catalogue", "goes with `tool` catalogue");
+  require(catalogue || !job.choice.catalogue, "catalogue", "needs `tool` catalogue");
   if (catalogue) {
-    require(!job.tool.axis_length_mm, "axis_length_mm", "the tools of a catalogue have theirs; it goes with a family");
+    require(!job.tool.axis_length_mm, "axis_length_mm", "the tools of a catalogue have their own; only for a family");
     choice.folder = catalogue_folder(job.choice.catalogue);
     choice.tools = read_catalogue(choice.folder);
     for (CatalogueTool& entry : choice.tools) {

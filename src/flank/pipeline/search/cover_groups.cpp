@@ -15,8 +15,7 @@ CoverOptions options_of(const CoverJob& job) {
   options.tolerance_mm = job.tolerance_mm.value_or(options.tolerance_mm);
   if (job.most_strips) options.most_strips = *job.most_strips;
   if (job.strip_price) options.strip_price = *job.strip_price;
-  if (job.seed && options.strategy != CoverStrategy::kCurves)
-    throw UsageError("seed", "goes with `strategy` curves; nothing else is random");
+  if (job.seed && options.strategy != CoverStrategy::kCurves) throw UsageError("seed", "needs `strategy` curves");
   if (job.seed) options.curves.seed = *job.seed;
   return options;
 }

@@ -108,7 +108,7 @@ RuledMotion motion_of(const FitJob& job, const UserStart& start, const ToolModel
   const LineStart found = start_from_line(target, start.line->pose(), length.value_or(start.line->length()));
   notes.push_back(found.report.message);
   if (found.report.status == LineStartStatus::kNoMotion)
-    throw InputError("start", "this line cannot move along the face: " + found.report.message);
+    throw InputError("start", "the start line cannot move along the face: " + found.report.message);
   return found.motion;
 }
 
@@ -167,7 +167,7 @@ void require_machined_side(const FitJob& job, const UserStart& start, const Rule
   if (side < 0)
     throw InputError(
         start.line ? "start" : "guide",
-        fmt::format("lies on the side of {} that is not machined; of an open sheet `side` asks for the other one",
+        fmt::format("lies on the side of {} that is not machined; for an open sheet `side` chooses the other one",
                     job.part.target_text()));
 }
 
@@ -186,8 +186,7 @@ FitSearch search_from(const FitJob& job, const Setup& setup, const ToolModel& to
     search.group_of_motion = std::move(found.group_of_motion);
     return search;
   }
-  if (search.targets.size() > 1)
-    throw UsageError(start.line ? "start" : "guide", "goes with faces that are connected, as one target");
+  if (search.targets.size() > 1) throw UsageError(start.line ? "start" : "guide", "needs faces that are connected");
   const TargetGroup& group = search.targets.front();
   std::vector<std::string> notes = search.fit.notes;
   const FitTask task{group.target.get(), motion_of(job, start, tool, *group.target, notes), group.obstacles.get()};
@@ -206,7 +205,7 @@ FitSearch search_half_turn(const FitJob& job, const Setup& setup, const WoundFac
   search.wound = make_targets(setup);
   if (job.avoid) add_group_obstacles(setup, job.obstacles.clearance_mm, search.options.bounds.largest, search.wound);
   search.fit.notes.push_back(
-      fmt::format("{} winds {:.1f} times round its axis: what was found for half a turn goes with its screw",
+      fmt::format("{} winds {:.1f} times round its axis: the motion found for half a turn was extended along the screw",
                   search.wound.front().faces, wound_face.turns()));
   return search;
 }
@@ -237,7 +236,7 @@ namespace {
 void end_at_limit(FitSearch& search) {
   search.limited = true;
   search.fit.notes.push_back(
-      "the search ended at its limit of work, with the best that it had found; `--effort thorough` has no limit");
+      "the search reached its limit of work; this is the best found. `--effort thorough` has no limit");
   if (!search.fit.looked_at && !search.fit.motions.empty())
     search.fit = with_close_look(search.tasks(), search.fit, search.tool, search.options);
 }

@@ -90,7 +90,7 @@ class StripSearch {
     last_try(progress);
     best_ = looked_at(std::move(best_), target_, tool_, options_, progress);
     if (best_.motions.size() > 1)
-      best_.notes.push_back(fmt::format("{} strips cover {:.1f} % (estimate), one strip {:.1f} %", best_.motions.size(),
+      best_.notes.push_back(fmt::format("{} passes finish {:.1f} % (estimate), one pass {:.1f} %", best_.motions.size(),
                                         100.0 * best_.after.at_tolerance, 100.0 * one_covers_));
     return std::move(best_);
   }

@@ -76,17 +76,15 @@ FlankFitOptions hardly_worth_it(FlankFitOptions options) {
 
 std::string out_of_reach_note(double share, const FlankFitOptions& options) {
   return fmt::format(
-      "other faces lie in front of the target or upon it, or it is a corner: a ball of radius {:.3g} mm that touches "
-      "it enters them, or the target elsewhere, on {:.1f} % of its area; a smaller ball may reach it, and faces that "
-      "are no obstacles can be ignored",
+      "on {1:.1f} % of its area the face is not accessible to a ball of radius {0:.3g} mm: it would gouge another "
+      "face, or this one; try a smaller --reach-radius, or --ignore-faces",
       reach_radius(options), 100.0 * (1.0 - share));
 }
 
 std::string not_holdable_note(double share) {
   return fmt::format(
-      "a tool whose flank lies on the target could be held on {:.1f} % of its area: elsewhere its axis, continued "
-      "beyond the flank in any "
-      "direction, runs into the part",
+      "only on {:.1f} % of the face could a tool be held: elsewhere its axis, continued above the flank, runs into the "
+      "part in every direction",
       100.0 * share);
 }
 

@@ -173,16 +173,12 @@ void note_slenderness(const ToolModel& tool, const FlankFitOptions& options, Fla
     if (tried.slenderness <= asked && is_clean(tried.estimate, options.tolerance_mm))
       most = std::max(most, tried.estimate.at_tolerance);
   const std::string covers = fmt::format("{:.1f} % of the face", 100.0 * fit.after.at_tolerance);
-  fit.notes.push_back(
-      most > 0.0
-          ? fmt::format("the tool's slenderness of {:.2f} is above the {:.1f} that was asked for: it covers {}, the "
-                        "best of the "
-                        "stiffer ones that were tried {:.1f} %",
-                        found, asked, covers, 100.0 * most)
-          : fmt::format(
-                "the tool's slenderness of {:.2f} is above the {:.1f} that was asked for: it covers {}, and no stiffer "
-                "one that was tried cuts nothing too deep",
-                found, asked, covers));
+  fit.notes.push_back(most > 0.0 ? fmt::format("L:D {:.2f} exceeds --slenderness-max {:.1f}: this tool finishes {}, "
+                                               "the best stiffer one tried {:.1f} %",
+                                               found, asked, covers, 100.0 * most)
+                                 : fmt::format("L:D {:.2f} exceeds --slenderness-max {:.1f}: this tool finishes {}, "
+                                               "and every stiffer one tried gouges",
+                                               found, asked, covers));
 }
 
 FlankFitResult soften(const Target& target, const ToolModel& tool, const FlankFitOptions& options,
@@ -204,9 +200,8 @@ FlankFitResult soften(const Target& target, const ToolModel& tool, const FlankFi
   FlankFitResult result = stiffened(target, tool, lifted, options.bounds.slenderest, open, progress.part(0.6, 1.0));
   add_tried(result, within, options.bounds);
   result.notes.push_back(
-      fmt::format("a slenderness of {:.1f} is the least that was found here: within {:.1f}, {:.1f} % of the face is "
-                  "covered, with it "
-                  "{:.1f} %",
+      fmt::format("L:D {:.1f} is the lowest found that meets the request: limited to {:.1f} the tool finishes {:.1f} % "
+                  "of the face, with it {:.1f} %",
                   slenderness_of(result.tool, options.bounds), options.bounds.slenderest,
                   100.0 * within.after.at_tolerance, 100.0 * result.after.at_tolerance));
   return result;

@@ -43,7 +43,7 @@ void NurbsTarget::check(const Face& face) {
   const BSplineSurface& s = face.surface;
   const auto refuse = [&](const std::string& why) { throw InputError("face " + face.id + ": " + why); };
   if (s.degree_u < 1 || s.degree_v < 1 || s.degree_u > kMaxDegree || s.degree_v > kMaxDegree)
-    refuse("degrees from 1 to " + std::to_string(kMaxDegree) + " are accepted");
+    refuse("expected degrees from 1 to " + std::to_string(kMaxDegree));
   if (!std::all_of(s.poles.begin(), s.poles.end(), [](const Vec3& p) { return p.allFinite(); }))
     refuse("its control points must be finite");
   if (!std::all_of(s.weights.begin(), s.weights.end(), [](double w) { return std::isfinite(w) && w > 0.0; }))

@@ -301,7 +301,7 @@ void code(StepCodec& codec, SideFit& sides) {
   code(codec, sides.tried_radii);
   code(codec, sides.settled);
   code(codec, sides.facing);
-  codec.require(sides.fit.motions.size() % 2 == 0, "a motion for each side is needed");
+  codec.require(sides.fit.motions.size() % 2 == 0, "expected a motion for each side");
 }
 
 CavityWidth width_between(const CavitySide& left, const CavitySide& right) {

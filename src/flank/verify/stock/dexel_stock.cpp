@@ -128,7 +128,7 @@ DexelStock::Surface DexelStock::surface_along(const DexelField& field, const Vec
 
 DexelStock::DexelStock(const Box3& box, const std::vector<HalfSpace>& planes, double cell_mm)
     : box_(box), cell_(cell_mm) {
-  if (!(cell_mm > 0.0)) throw UsageError("cell_mm", "a length > 0 mm is needed");
+  if (!(cell_mm > 0.0)) throw UsageError("cell_mm", "expected a length > 0 mm");
   const Vec3 size = box.high - box.low;
   if (!(size.minCoeff() > 0.0)) throw InputError("the box of the stock is empty");
   const double lines = (size.x() * size.y() + size.y() * size.z() + size.z() * size.x()) / (cell_ * cell_);

@@ -95,7 +95,7 @@ void LineCuts::add(double low, double high) {
 
 ToolSolid::ToolSolid(const RadialFunction& radial, double chord_mm) : chord_(chord_mm) {
   if (const Legitimacy legitimacy = check_legitimacy(radial); !legitimacy.legitimate)
-    throw InputError("the tool is not legitimate: " + legitimacy.reason);
+    throw InputError("the tool's profile is not valid: " + legitimacy.reason);
   constexpr int kPieces = 16, kDepth = 12;
   const Outline outline(radial);
   const double length = radial.axis_length();

@@ -24,7 +24,7 @@ std::string place(std::size_t strip, std::size_t pose) {
 
 Pose checked(const Pose& pose, std::size_t strip, std::size_t index) {
   if (!pose.tip.allFinite() || !pose.axis.allFinite())
-    throw InputError(place(strip, index) + " is not finite; six finite numbers are needed");
+    throw InputError(place(strip, index) + " is not finite; expected six finite numbers");
   const double length = pose.axis.norm();
   if (std::abs(length - 1.0) > kUnitTolerance)
     throw InputError(place(strip, index) + " has an axis of length " + std::to_string(length) + "; it must be 1");

@@ -256,9 +256,9 @@ void feed_of(std::string& text, std::string& last, const NcMove& move, const NcD
 /// A cutter location is a point and a vector: rotary axes are of a machine, which another postprocessor chooses.
 void refuse_unsayable(const NcProgram& program) {
   if (program.positions != NcPositions::kTipVector)
-    throw UsageError("dialect", "apt", "has tool vectors only; accepted are programs that state them");
+    throw UsageError("dialect", "apt", "has tool vectors only; expected programs that state them");
   if (program.feed_mode == NcFeedMode::kInverseTime)
-    throw UsageError("dialect", "apt", "has no inverse time; accepted is a feed in mm/min");
+    throw UsageError("dialect", "apt", "has no inverse time; expected a feed in mm/min");
 }
 
 /// As write_nc, for a program that passed its checks: GOTO with the tool vector. No rotary axes, no inverse time.

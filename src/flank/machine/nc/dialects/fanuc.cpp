@@ -110,7 +110,7 @@ class FanucReader {
       case 280:
       case 300:
         if (!block_.has_code('G', 910))
-          builder_.place().refuse(quoted(word.text) + " passes a point of the part; accepted is G91 G28");
+          builder_.place().refuse(quoted(word.text) + " passes a point of the part; expected G91 G28");
         builder_.to_reference();
         break;
       case 434:
@@ -217,7 +217,7 @@ class FanucReader {
   /// G43.4 takes rotary axes: with vectors it is G43.5 that was meant, or the words of another control.
   [[noreturn]] void refuse_vector(const GWord& word) const {
     if (centred_)
-      builder_.place().refuse(quoted(word.text) + " is a tool vector under G43.4; accepted are rotary axes, or G43.5");
+      builder_.place().refuse(quoted(word.text) + " is a tool vector under G43.4; expected rotary axes, or G43.5");
     builder_.place().refuse_word(word.text, kName);
   }
 

@@ -187,7 +187,7 @@ class HeidenhainReader {
     if (w.starts_with('S'))
       builder_.spindle_speed(std::max(0.0, value(w, 1)));
     else if (w.starts_with("DL") || w.starts_with("DR")) {
-      if (value(w, 2) != 0.0) builder_.place().refuse(quoted(w) + " is an oversize of the tool; accepted is none");
+      if (value(w, 2) != 0.0) builder_.place().refuse(quoted(w) + " is an oversize of the tool; expected none");
     } else if (w != "Z" && !w.starts_with('F'))
       refuse(w);  // among them another axis of the tool, which would turn the program's coordinate system
   }
@@ -285,7 +285,7 @@ class HeidenhainReader {
     } else if (c >= 'X' && c <= 'Z') {
       builder_.linear(static_cast<std::size_t>(c - 'X'), value(w, 1));
     } else if (c >= 'A' && c <= 'C') {
-      if (spatial_ && word(0) == "L") builder_.place().refuse(quoted(w) + " is a spatial angle; accepted is AXIS POS");
+      if (spatial_ && word(0) == "L") builder_.place().refuse(quoted(w) + " is a spatial angle; expected AXIS POS");
       builder_.rotary(c, value(w, 1));
     } else if ((c == 'T' || c == 'N') && word(0) == "LN" && w.size() > 2 && w[1] >= 'X' && w[1] <= 'Z') {
       const double v = value(w, 2);  // normals matter to a radius compensation only

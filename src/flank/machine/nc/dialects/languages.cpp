@@ -29,13 +29,13 @@ NcLanguage nc_language(std::string_view name) {
     if (rows[k]->name == name) return rows[k]->language;
     accepted += (k == 0 ? "" : k + 1 == rows.size() ? " and " : ", ") + std::string(rows[k]->name);
   }
-  throw UsageError("dialect", "\"" + std::string(name) + "\"", "accepted are " + accepted);
+  throw UsageError("dialect", "\"" + std::string(name) + "\"", "expected " + accepted);
 }
 
 void require_rotary_letters(const std::string& letters) {
   const auto is_one = [](char c) { return c == 'A' || c == 'B' || c == 'C'; };
   if (letters.size() != 2 || !is_one(letters[0]) || !is_one(letters[1]) || letters[0] == letters[1])
-    throw UsageError("rotary axes", "\"" + letters + "\"", "accepted are two different letters of A, B and C");
+    throw UsageError("rotary axes", "\"" + letters + "\"", "expected two different letters of A, B and C");
 }
 
 }  // namespace flank::internal

@@ -94,7 +94,7 @@ class LinuxCncReader {
     const std::size_t own = (on ? tcp_on_ : tcp_off_).size() + (block_.find('N') != nullptr ? 1 : 0);
     if (block_.words.size() > own)
       builder_.place().refuse(quoted(block_.words.back().text) +
-                              " stands beside the word that switches the kinematics; accepted is a block of its own");
+                              " stands beside the word that switches the kinematics; expected a block of its own");
     builder_.tool_centre(on);
     return true;
   }
@@ -145,7 +145,7 @@ class LinuxCncReader {
       case 280:
       case 300:
         if (!block_.has_code('G', 910))
-          builder_.place().refuse(quoted(word.text) + " passes a point of the part; accepted is G91 G28");
+          builder_.place().refuse(quoted(word.text) + " passes a point of the part; expected G91 G28");
         builder_.to_reference();
         break;
       case 430:
@@ -248,7 +248,7 @@ constexpr int kFirstOfExtended = 7, kLastOffset = 9;  // G59.1 to G59.3 follow G
 /// What LinuxCNC cannot say, as a user's error: another dialect, or another entry in the machine's file, mends it.
 void refuse_unsayable(const NcProgram& program, const NcDialect& dialect) {
   if (program.positions == NcPositions::kTipVector)
-    throw UsageError("dialect", "linuxcnc", "has no tool vectors; accepted are rotary axes or joint coordinates");
+    throw UsageError("dialect", "linuxcnc", "has no tool vectors; expected rotary axes or joint coordinates");
   if (program.join == NcJoin::kGreatCircle)
     throw UsageError("dialect", "linuxcnc", "joins blocks linearly in its axes, never on a great circle");
   if (program.header.work_offset > kLastOffset)

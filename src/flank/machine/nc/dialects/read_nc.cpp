@@ -15,11 +15,11 @@ void refuse_others(std::string_view text, const std::string& file, NcLanguage la
   const std::string wanted(nc_language_name(language));
   if (mark && mark->language != language)
     NcPlace{file, mark->line}.refuse(internal::quoted(mark->word) + " is of a " +
-                                     std::string(nc_language_name(mark->language)) + " program; accepted is one for " +
+                                     std::string(nc_language_name(mark->language)) + " program; expected one for " +
                                      wanted);
   const std::string_view lacks = row_of(language).always_has;
   if (!mark && !lacks.empty())
-    NcPlace{file}.refuse("no " + std::string(lacks) + " in the first lines; accepted is a program for " + wanted);
+    NcPlace{file}.refuse("no " + std::string(lacks) + " in the first lines; expected a program for " + wanted);
 }
 
 }  // namespace

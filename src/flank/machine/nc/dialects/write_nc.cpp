@@ -18,7 +18,7 @@ void check_decimals(const NcDialect& dialect) {
   for (const int decimals :
        {dialect.length_decimals, dialect.angle_decimals, dialect.vector_decimals, dialect.feed_decimals})
     if (decimals < 0 || decimals > kMostNcDecimals)
-      throw UsageError("decimals", std::to_string(decimals), "accepted are 0 to 9");
+      throw UsageError("decimals", std::to_string(decimals), "expected 0 to 9");
 }
 
 /// What a program of our own making always keeps is an InternalError; a feed may come from a user's wish.
@@ -30,7 +30,7 @@ void check_move(const NcProgram& program, const NcMove& move) {
   if (program.positions == NcPositions::kTipVector && std::abs(move.orientation.norm() - 1.0) > kUnitVectorError)
     throw InternalError("a program has a tool vector that is not of unit length");
   if (move.kind == NcKind::kFeed && !(move.feed >= kSmallestFeed))
-    throw UsageError("feed", std::to_string(move.feed), "accepted are feeds of at least 0.000001");
+    throw UsageError("feed", std::to_string(move.feed), "expected feeds of at least 0.000001");
 }
 
 /// A rapid is no straight line on many controls, and turning under tool-centre control it drives the linear axes after it.
@@ -41,7 +41,7 @@ void check_rapid(const NcProgram& program, std::size_t i) {
   if (!move.joined && program.positions == NcPositions::kTipRotary) return;
   if (move.orientation != program.moves[i - 1].orientation)
     throw UsageError("program: move " + std::to_string(i + 1) +
-                     " is a rapid that turns the rotary axes under tool-centre control; accepted is a feed move");
+                     " is a rapid that turns the rotary axes under tool-centre control; expected a feed move");
 }
 
 void check_program(const NcProgram& program) {

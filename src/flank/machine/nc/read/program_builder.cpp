@@ -74,7 +74,7 @@ void ProgramBuilder::unit(double millimetres, double feed_millimetres) {
 
 void ProgramBuilder::work_offset(int number) {
   if (!program_.moves.empty() && number != program_.header.work_offset)
-    place_.refuse("the work offset changes after the first move; accepted are programs in one frame");
+    place_.refuse("the work offset changes after the first move; expected programs in one frame");
   program_.header.work_offset = number;
   modes_.work_offset = number;
 }
@@ -116,7 +116,7 @@ void ProgramBuilder::tool_centre(bool on) {
   if (on == tool_centre_) return;  // G49 in a header and M129 at an end say what holds already
   // The axes of the block would be read with the new meaning or with the old one: controls differ, so neither is
   // taken.
-  if (moves()) place_.refuse("tool-centre control is switched within a move; accepted is a block before it");
+  if (moves()) place_.refuse("tool-centre control is switched within a move; expected a block before it");
   tool_centre_ = on;
   // Before the first switch joint coordinates may have been read as moves; with it they turn out to have been the
   // approach.
@@ -173,7 +173,7 @@ void ProgramBuilder::end_block() {
     go_to_reference();
   } else if (moves()) {
     // Not refused where G91 is read: "G91 G28 Z0" is the usual way to the reference position, and G90 follows it.
-    if (incremental_) place_.refuse("an incremental move; accepted are absolute coordinates");
+    if (incremental_) place_.refuse("an incremental move; expected absolute coordinates");
     if (!block_.rapid && !motion_) place_.refuse("a move before any G0 or G1");
     apply_words();
     record(block_.rapid ? NcKind::kRapid : *motion_);
@@ -249,11 +249,11 @@ void ProgramBuilder::check_feed_move() {
   // that compensates the length would shift by it.
   if (length_ && *length_ != tool_centre_)
     place_.refuse(tool_centre_ ? "a feed move without the tool's length (G43 H)"
-                               : "joint coordinates under length compensation; accepted are they without (G49)");
+                               : "joint coordinates under length compensation; expected them without (G49)");
   if (const std::string what = unknown(); !what.empty()) place_.refuse("a feed move before " + what + " is stated");
   if (!cut_) return;  // modes may change as they like until something is cut
   if (program_.feed_mode != mode_) place_.refuse("the feed mode changes between feed moves");
-  if (program_.join != join_) place_.refuse("the way in which blocks are joined changes between feed moves");
+  if (program_.join != join_) place_.refuse("the joining of blocks changes between feed moves");
 }
 
 /// mm/min, or 1/min in inverse time: there controls demand F in every feed block, because it says how long this block

@@ -207,10 +207,10 @@ class HeidenhainWriter {
 
 std::string write_heidenhain(const NcProgram& program, const NcDialect& dialect) {
   if (program.feed_mode == NcFeedMode::kInverseTime)
-    throw UsageError("dialect", "heidenhain", "has no inverse time; accepted is a feed in mm/min");
+    throw UsageError("dialect", "heidenhain", "has no inverse time; expected a feed in mm/min");
   if (program.positions == NcPositions::kJoint)
     throw UsageError("dialect", "heidenhain",
-                     "always compensates the tool's length; accepted are programs of the controlled point");
+                     "always compensates the tool's length; expected programs of the controlled point");
   return HeidenhainWriter(program, dialect).write();
 }
 
