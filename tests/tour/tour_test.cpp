@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "flank/path/turning.h"
 #include "flank/tour/chain.h"
 #include "tour/walls.h"
 
@@ -108,6 +109,26 @@ TEST(Tour, GoesRoundADraftedPocketInOneMotionThatTouchesAllTheTime) {
   EXPECT_GT(way_round(tour->motions[0]), 359.0) << "inside, a tool that climbs goes counter-clockwise";
 }
 
+TEST(Tour, ThatIsEasedTouchesAllTheTimeAndTurnsWithoutAJump) {
+  const std::vector<Face> walls = walls_of({});
+  TourRequest request = request_of(walls);
+  const std::optional<Tour> plain = make_tour(request);
+  request.eased = true;
+  const std::optional<Tour> eased = make_tour(request);
+  ASSERT_TRUE(plain && eased && eased->closed);
+  const Nearness near = nearness(walls, eased->motions[0], kRadius);
+  EXPECT_GT(near.deepest, -1e-4);
+  EXPECT_LT(near.loosest, 1e-4);
+  const auto sharpest = [](const Tour& tour) {
+    constexpr double kWindow = 0.5;
+    std::vector<Pose> poses;
+    for (int k = 0; k <= 3000; ++k) poses.push_back(tour.motions[0].pose(k / 3000.0));
+    return sharpest_turn(poses, tour.tool.axis_length(), kWindow).angle_rad;
+  };
+  EXPECT_LT(sharpest(*eased), 0.6 * sharpest(*plain));
+  EXPECT_LT(turning_of(eased->motions[0]).most_tilt, 10.5);
+}
+
 TEST(Tour, GoesRoundABossTheOtherWay) {
   const std::vector<Face> walls = walls_of({.hollow = false});
   const std::optional<Tour> tour = make_tour(request_of(walls));
@@ -198,7 +219,6 @@ TEST(Tour, OfAShortToolGoesRoundInLevelsWithoutALift) {
 }
 
 TEST(Tour, OfAnOpenRowEndsAtItsEnds) {
-  // Two planes that meet at an obtuse outer corner, and half a cylinder behind an inner one.
   std::vector<Face> walls = walls_of({});
   walls = {walls[0], walls[4], walls[1]};
   const std::optional<Tour> tour = make_tour(request_of(walls));

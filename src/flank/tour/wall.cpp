@@ -224,7 +224,8 @@ double Wall::twist() const {
   constexpr int kLines = 9;
   for (int k = 0; k < kLines; ++k) {
     const WallLine line = ruled_line(place_[0] + (place_[1] - place_[0]) * k / (kLines - 1.0));
-    most = std::max(most, std::acos(std::clamp(line.foot_normal.dot(line.head_normal), -1.0, 1.0)));
+    most = std::max(
+        most, std::atan2(line.foot_normal.cross(line.head_normal).norm(), line.foot_normal.dot(line.head_normal)));
   }
   return most;
 }

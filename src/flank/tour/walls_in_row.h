@@ -31,10 +31,11 @@ struct WallsInRow {
   [[nodiscard]] std::size_t next(std::size_t i) const { return i + 1 < walls.size() ? i + 1 : 0; }
 };
 
-/// What a pose must keep clear of.
+/// What a pose must keep clear of, and how a tour goes.
 struct TourScene {
   const ObstacleField* obstacles = nullptr;
   double tolerance_mm = 0.01;
+  bool eased = false;  ///< as TourRequest has it
 };
 
 /// `faces` must outlive it. None where a face is no wall.
