@@ -12,11 +12,11 @@
 #include "flank/base/work_count.h"
 #include "flank/error.h"
 #include "flank/path/turning.h"
-#include "flank/pipeline/search/group_fit.h"
 #include "flank/pipeline/search/out_of_reach.h"
 #include "flank/pipeline/search/reach_ball.h"
 #include "flank/pipeline/search/reach_further.h"
 #include "flank/pipeline/search/search_setup.h"
+#include "flank/pipeline/search/tour_start.h"
 #include "flank/seed/axis_line.h"
 #include "flank/seed/guide_file.h"
 #include "flank/seed/guide_start.h"
@@ -180,7 +180,8 @@ FitSearch search_from(const FitJob& job, const Setup& setup, const ToolModel& to
     GroupDemand groups{.strips = job.strips, .most_strips = effort.most_strips, .soften = effort.soften, .wanted = {}};
     for (const TargetGroup& group : search.targets)
       groups.wanted.push_back(wanted_estimate(job, *group.target, search.spare_coverage));
-    GroupFits found = fit_groups(search.targets, tool, options, groups, progress);
+    auto [found, exact] = fit_groups_after_tours(setup, search.targets, tool, options, groups, progress);
+    search.exact = exact;
     found.fit.notes.insert(found.fit.notes.begin(), search.fit.notes.begin(), search.fit.notes.end());
     search.fit = std::move(found.fit);
     search.group_of_motion = std::move(found.group_of_motion);
@@ -251,7 +252,7 @@ FitSearch search_fit(const FitJob& job, const Setup& setup, const ToolSpec& spec
   const std::optional<WoundFace> wound_face = start.given() ? std::nullopt : find_wound_face(setup);
   FitSearch search = wound_face ? search_half_turn(job, setup, *wound_face, tool, progress, demand)
                                 : search_from(job, setup, tool, start, demand, progress);
-  search.fit = reach_further(search.tasks(), search.fit, search.tool, search.options, progress);
+  if (!search.exact) search.fit = reach_further(search.tasks(), search.fit, search.tool, search.options, progress);
   if (progress.stop() && !asked.stop()) end_at_limit(search);
   return search;
 }

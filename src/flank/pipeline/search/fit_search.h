@@ -25,6 +25,7 @@ struct FitSearch {
   std::optional<double> reach_radius_mm;     ///< of the ball that a free tool was asked to reach with
   double open_share = 1.0;                   ///< of the first group's area, that the demanded ball reaches
   double spare_coverage = 0.0;               ///< as search_fit was given it
+  bool exact = false;                        ///< tours that no pass makes better (tour_start.h)
   bool limited = false;                      ///< the search ended where the job's effort ends, with its best so far
   ToolModel tool;                            ///< what was known of the tool
   FlankFitOptions options;                   ///< of the fits, but for their strips

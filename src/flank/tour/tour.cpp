@@ -1,0 +1,310 @@
+#include "flank/tour/tour.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "flank/geom/trim.h"
+#include "flank/tour/legs.h"
+#include "flank/tour/levels.h"
+#include "flank/tour/walls_in_row.h"
+
+namespace flank::internal {
+namespace {
+
+constexpr double kDeg = 180.0 / std::numbers::pi;
+
+/// What a tour passes without a lift, at any height.
+struct Run {
+  std::vector<TourStretch> stretches;
+  bool closed = false;
+};
+
+/// Faces without loops have none to share.
+std::vector<Face> with_loops(std::vector<Face> faces) {
+  for (Face& face : faces)
+    if (face.loops.empty()) {
+      const BSplineSurface& s = face.surface;
+      face.loops = {rectangle_loop({s.u_first(), s.u_last(), s.v_first(), s.v_last()})};
+    }
+  return faces;
+}
+
+/// The middle line of every wall.
+std::vector<WallLine> middle_lines(const WallsInRow& row) {
+  std::vector<WallLine> lines;
+  for (const Wall& wall : row.walls) lines.push_back(wall.between(wall.first({}), wall.last({}), 0.5));
+  return lines;
+}
+
+double longest_line(const WallsInRow& row) {
+  double longest = 0.0;
+  for (const Wall& wall : row.walls) longest = std::max({longest, wall.first({}).length(), wall.last({}).length()});
+  return longest;
+}
+
+/// How many of the walls leave the upper end of the tool free.
+int free_heads(const WallsInRow& row, const StraightFlank& flank, const TourRequest& request) {
+  int free = 0;
+  for (const WallLine& line : middle_lines(row)) {
+    const Pose pose = laid_against(line, flank, 0.0);
+    const Vec3 above = pose.at(flank.axis_over(line.length()));
+    free += !request.is_free_line || request.is_free_line(above, pose.axis) ? 1 : 0;
+  }
+  return free;
+}
+
+/// The row with its feet where the tip belongs, passed in the direction in which the tool climbs: its spindle turns to the right.
+std::optional<WallsInRow> oriented_row(const std::vector<Face>& faces, const Chain& chain, const StraightFlank& flank,
+                                       const TourRequest& request) {
+  std::optional<WallsInRow> row = walls_in_row(faces, chain), other = walls_in_row(faces, chain.upside_down());
+  if (!row || !other) return {};
+  const int here = free_heads(*row, flank, request), there = free_heads(*other, flank, request);
+  double rise = 0.0;
+  for (const LateralEdge& edge : chain.edges) rise += edge.direction().z();
+  // Where both ends are free, the holder is above.
+  if (there > here || (there == here && rise < 0.0)) row = std::move(other);
+  const WallLine first = row->walls[0].first({}), last = row->walls[0].last({});
+  const Vec3 way = last.foot + last.head - first.foot - first.head;
+  const WallLine middle = row->walls[0].between(first, last, 0.5);
+  const Vec3 climbs = middle.foot_normal.cross(middle.direction());
+  if (way.dot(climbs) >= 0.0) return row;
+  return walls_in_row(faces, row->chain.reversed());
+}
+
+/// The largest s over the feet, mm, at which the tip enters nothing below; beyond the feet where nothing is there. None where
+/// something is in the way however high the tool is held.
+std::optional<double> lowest_foot(const WallsInRow& row, const StraightFlank& flank, const TourScene& scene) {
+  constexpr double kBeyond = 0.02, kHighest = 0.9, kTipOff = 0.05;  // of the line; of the tolerance
+  constexpr int kSteps = 24, kHalvings = 24;
+  std::optional<double> lowest;
+  for (std::size_t i = 0; i < row.walls.size(); ++i) {
+    if (row.too_tight[i] != 0) continue;
+    const Wall& wall = row.walls[i];
+    // Lines that lean hold the tip lower.
+    for (const double share : {0.0, 0.3, 0.5, 0.7, 1.0}) {
+      const WallLine line = wall.between(wall.first({}), wall.last({}), share);
+      const double most = kBeyond * line.length(), least = -kHighest * line.length();
+      const auto clear = [&](double foot_s) {
+        const double length = std::max(0.0, foot_s + flank.axis_over(line.length()));
+        return is_clear_of_others(laid_against(line, flank, foot_s), flank, length, kTipOff * scene.tolerance_mm,
+                                  scene);
+      };
+      int step = 0;
+      while (step <= kSteps && !clear(most + (least - most) * step / kSteps)) ++step;
+      if (step > kSteps) continue;
+      double free = most + (least - most) * step / kSteps, enters = most + (least - most) * (step - 1) / kSteps;
+      for (int k = 0; step > 0 && k < kHalvings; ++k) {
+        const double middle = 0.5 * (free + enters);
+        (clear(middle) ? free : enters) = middle;
+      }
+      lowest = std::min(lowest.value_or(free), free);
+    }
+  }
+  return lowest;
+}
+
+/// About the edge between two walls, from the normals of the one to those of the other.
+TourStretch roll(const WallLine& from, const WallLine& to, const StraightFlank& flank) {
+  const auto turned = [](const Vec3& a, const Vec3& b, double share) {
+    const Vec3 axis = a.cross(b);
+    const double angle = std::atan2(axis.norm(), a.dot(b));
+    return Vec3(Eigen::AngleAxisd(share * angle, axis.normalized()) * a);
+  };
+  return [=](double share, double foot_s) {
+    WallLine line = from;
+    line.foot_normal = turned(from.foot_normal, to.foot_normal, share);
+    line.head_normal = turned(from.head_normal, to.head_normal, share);
+    return laid_against(line, flank, foot_s);
+  };
+}
+
+/// How much faster the upper end of the lines of a ruled wall goes than the lower one, at its first or last line: the difference of the
+/// axis' speeds there as a share of their mean.
+double spread_at(const Wall& wall, bool last, const StraightFlank& flank, double foot_s) {
+  constexpr double kStep = 1e-3;
+  const WallLine first = wall.first({}), end = wall.last({});
+  const WallLine a = last ? end : first, b = wall.between(first, end, last ? 1.0 - kStep : kStep);
+  const Pose p = laid_against(a, flank, foot_s), q = laid_against(b, flank, foot_s);
+  const double head_s = foot_s + flank.axis_over(a.length());
+  const double foot = (p.at(foot_s) - q.at(foot_s)).norm(), head = (p.at(head_s) - q.at(head_s)).norm();
+  return 2.0 * (head - foot) / (head + foot);
+}
+
+/// Beside a smooth joint: the lines of a plane lean over a way of `ease` mm, so that both ends of the axis come to it as fast as they go
+/// on. The flank stays on the plane; without it the tool begins to turn at once.
+struct Ease {
+  double way_mm = 0.0, spread = 0.0;
+  /// By how much the head is ahead of the foot, mm, at this distance before the joint.
+  [[nodiscard]] double ahead(double before_mm) const {
+    if (way_mm <= 0.0 || before_mm >= way_mm) return 0.0;
+    const double w = 1.0 - before_mm / way_mm;
+    return spread * way_mm * w * w * (w - 1.0);
+  }
+};
+
+Ease ease_at(const WallsInRow& row, std::size_t i, bool last, const StraightFlank& flank, double foot_s,
+             double room_mm) {
+  constexpr double kMostOfRoom = 0.45;
+  const Corner corner = last ? row.corners[i] : row.before(i);
+  const std::size_t other = last ? row.next(i) : (i > 0 ? i - 1 : row.walls.size() - 1);
+  if (corner != Corner::kSmooth || row.walls[other].flat()) return {};
+  return {std::min(flank.radius, kMostOfRoom * room_mm), spread_at(row.walls[other], !last, flank, foot_s)};
+}
+
+/// From one key of a plane to the next, in parts where an end is eased.
+void add_eased(const WallLine& a, const WallLine& b, const Ease& begin, const Ease& end, const Wall* wall,
+               const StraightFlank& flank, Run& run) {
+  const double way = 0.5 * (b.foot + b.head - a.foot - a.head).norm();
+  const Vec3 x = (b.foot + b.head - a.foot - a.head).normalized();
+  std::vector<double> parts{0.0};
+  if (begin.way_mm > 0.0) parts.push_back(begin.way_mm / way);
+  if (end.way_mm > 0.0) parts.push_back(1.0 - end.way_mm / way);
+  parts.push_back(1.0);
+  for (std::size_t k = 0; k + 1 < parts.size(); ++k)
+    run.stretches.push_back([=, from = parts[k], to = parts[k + 1]](double share, double s) {
+      const double at = from + share * (to - from);
+      WallLine line = wall->between(a, b, at);
+      const double ahead = end.ahead((1.0 - at) * way) - begin.ahead(at * way);
+      line.foot -= 0.5 * ahead * x;
+      line.head += 0.5 * ahead * x;
+      return laid_against(line, flank, s);
+    });
+}
+
+/// Wall i from end to end. False: it has no room.
+bool add_wall(const WallsInRow& row, std::size_t i, const StraightFlank& flank, double foot_s, const TourScene& scene,
+              Run& run) {
+  const std::optional<WallEnd> begin = end_of_wall(row, i, false, flank, foot_s, scene);
+  const std::optional<WallEnd> end = end_of_wall(row, i, true, flank, foot_s, scene);
+  if (!begin || !end) return false;
+  const Wall* wall = &row.walls[i];
+  const std::vector<WallLine> keys = wall->keys(*begin, *end);
+  const Vec3 way = keys.back().foot + keys.back().head - keys.front().foot - keys.front().head;
+  const WallLine first = wall->first({}), last = wall->last({});
+  if (way.dot(last.foot + last.head - first.foot - first.head) <= 0.0 && wall->flat()) return false;
+  for (std::size_t k = 0; k + 1 < keys.size(); ++k) {
+    const double room = 0.5 * (keys[k + 1].foot + keys[k + 1].head - keys[k].foot - keys[k].head).norm();
+    Ease at_begin, at_end;
+    if (scene.eased && wall->flat() && k == 0) at_begin = ease_at(row, i, false, flank, foot_s, room);
+    if (scene.eased && wall->flat() && k + 2 == keys.size()) at_end = ease_at(row, i, true, flank, foot_s, room);
+    add_eased(keys[k], keys[k + 1], at_begin, at_end, wall, flank, run);
+  }
+  return true;
+}
+
+/// The runs at one height; a run ends at every corner that is left.
+std::vector<Run> runs_at(const WallsInRow& row, const StraightFlank& flank, double foot_s, const TourScene& scene,
+                         std::vector<std::size_t>& without_room) {
+  const std::size_t count = row.walls.size();
+  std::size_t start = 0;
+  while (start < count && row.before(start) != Corner::kNone && row.before(start) != Corner::kLeft) ++start;
+  const bool closed = start == count;
+  if (closed) start = 0;
+  std::vector<Run> runs(1);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = (start + k) % count;
+    if (row.before(i) == Corner::kLeft && !runs.back().stretches.empty()) runs.emplace_back();
+    if (row.too_tight[i] != 0) continue;
+    if (!add_wall(row, i, flank, foot_s, scene, runs.back())) {
+      without_room.push_back(i);
+      continue;
+    }
+    if (row.corners[i] == Corner::kRoll)
+      runs.back().stretches.push_back(roll(row.walls[i].last({}), row.walls[row.next(i)].first({}), flank));
+  }
+  if (runs.back().stretches.empty()) runs.pop_back();
+  if (closed && runs.size() == 1 && without_room.empty()) runs[0].closed = true;
+  return runs;
+}
+
+/// What a shop must know of the corners.
+void note_corners(const WallsInRow& row, const std::vector<Face>& faces, const StraightFlank& flank, double foot_s,
+                  const std::vector<std::size_t>& without_room, std::vector<std::string>& notes) {
+  const auto name = [&](std::size_t i) { return faces[row.chain.order[i]].id; };
+  for (std::size_t i = 0; i < row.walls.size(); ++i) {
+    if (row.too_tight[i] != 0)
+      notes.push_back(
+          fmt::format("{} is left: it bends more tightly than the tool, and its neighbours end where the "
+                      "tool would enter it",
+                      name(i)));
+    const bool round = row.too_tight[i] != 0 || row.too_tight[row.next(i)] != 0;
+    if (row.corners[i] != Corner::kLeft || round) continue;
+    const double radius = std::max(flank.at(std::max(0.0, foot_s)), flank.radius);
+    notes.push_back(fmt::format(
+        "the inner corner of {:.0f} degrees between {} and {} is left: no tool of radius {:.4g} mm reaches it, and "
+        "{:.3g} mm of material stay in it; each wall ends where the tool touches the other",
+        180.0 - row.turns[i] * kDeg, name(i), name(row.next(i)), radius,
+        radius * (1.0 / std::cos(0.5 * row.turns[i]) - 1.0)));
+  }
+  for (const std::size_t i : without_room)
+    notes.push_back(fmt::format("{} is left: the tool has no room there", name(i)));
+}
+
+/// One motion a run and level; of a closed run one for all levels.
+std::vector<RuledMotion> motions_of(const std::vector<Run>& runs, const std::vector<double>& levels, double length,
+                                    double off_mm) {
+  std::vector<RuledMotion> motions;
+  for (const Run& run : runs) {
+    if (!run.closed) continue;
+    motions.push_back(motion_through(round_in_levels(run.stretches, levels, length), length, off_mm));
+  }
+  for (const double foot_s : levels)
+    for (const Run& run : runs) {
+      if (run.closed) continue;
+      std::vector<Leg> legs;
+      for (const TourStretch& stretch : run.stretches)
+        legs.push_back([stretch, foot_s](double share) { return stretch(share, foot_s); });
+      motions.push_back(motion_through(legs, length, off_mm));
+    }
+  return motions;
+}
+
+void note_tour(const WallsInRow& row, const std::vector<Face>& faces, Tour& tour) {
+  std::string names;
+  for (const std::size_t f : row.chain.order) names += (names.empty() ? "" : ", ") + faces[f].id;
+  tour.notes.insert(
+      tour.notes.begin(),
+      fmt::format("a tour of {} walls in a row ({}), {}{}; it climbs", row.walls.size(), names,
+                  tour.closed ? "all round in one motion"
+                              : fmt::format("{} motion{}", tour.motions.size(), tour.motions.size() == 1 ? "" : "s"),
+                  tour.levels > 1 ? fmt::format(", in {} levels", tour.levels) : ""));
+}
+
+}  // namespace
+
+std::optional<Tour> make_tour(const TourRequest& request) {
+  constexpr double kOff = 0.02;  // of the tolerance: what cubics may be off
+  const std::vector<Face> faces = with_loops(request.walls);
+  const std::optional<Chain> chain = find_chain(faces);
+  if (!chain) return {};
+  constexpr double kAnyLength = 1.0;
+  const std::optional<StraightFlank> flank = straight_flank(request.tool(request.axis_length_mm.value_or(kAnyLength)));
+  if (!flank) return {};
+  std::optional<WallsInRow> row = oriented_row(faces, *chain, *flank, request);
+  if (!row) return {};
+  const TourScene scene{request.obstacles, request.tolerance_mm, request.eased};
+  look_at_corners(*flank, 0.0, request.tolerance_mm, *row);
+  const std::optional<double> lowest = lowest_foot(*row, *flank, scene);
+  if (!lowest) return {};
+  look_at_corners(*flank, *lowest, request.tolerance_mm, *row);
+
+  Tour tour;
+  const Heights heights = heights_of(*lowest, flank->axis_over(longest_line(*row)), request.axis_length_mm);
+  tour.tool = request.tool(heights.axis_length_mm);
+  tour.levels = static_cast<int>(heights.foot_s.size());
+  std::vector<std::size_t> without_room;
+  const std::vector<Run> runs = runs_at(*row, *flank, *lowest, scene, without_room);
+  if (runs.empty()) return {};
+  tour.closed = runs.front().closed;
+  tour.motions = motions_of(runs, heights.foot_s, heights.axis_length_mm, kOff * request.tolerance_mm);
+  for (const Wall& wall : row->walls) tour.twist_rad = std::max(tour.twist_rad, wall.twist());
+  note_corners(*row, faces, *flank, *lowest, without_room, tour.notes);
+  note_tour(*row, faces, tour);
+  return tour;
+}
+
+}  // namespace flank::internal
