@@ -156,6 +156,9 @@ void visit_obstacles(Request& obstacles, Visitor& visit) {
                   "Part file that shank, holder and flank must not touch; may be given several times", kAny,
                   Spelling::kFile, "--fixture"},
         obstacles.fixtures);
+  visit(FieldInfo{"fixture_unit", "", kAbove,
+                  "Unit of fixtures that are meshes: mm, cm, m or in; default: `unit`, where the job has it", kUnit},
+        obstacles.fixture_unit);
   visit(FieldInfo{"clearance", "mm", kAbove,
                   "Least distance of the holder from the part, of the shank from its other faces (it stands on the "
                   "flank and may "
