@@ -54,7 +54,9 @@ struct ObstacleRequest {
   std::optional<double> shank_length_mm;    ///< a cylinder on the upper end of the flank
   std::optional<std::string> holder;        ///< "z:r,z:r,...", or a file of such pairs
   std::vector<std::string> fixtures;        ///< part files
-  std::optional<double> clearance_mm;       ///< least distance of shank and holder from the part, of all from fixtures
+  std::optional<std::string>
+      fixture_unit;                    ///< of meshes among them, "mm", "cm", "m" or "in"; none: as that of the part
+  std::optional<double> clearance_mm;  ///< least distance of shank and holder from the part, of all from fixtures
   bool operator==(const ObstacleRequest&) const = default;
 };
 

@@ -117,7 +117,17 @@ TEST_F(CliClearanceFit, AFixtureInTheWayIsExitOneAndNamed) {
     return job.dump();
   }());
   fs::rename(root_ / "out", root_ / "judged");
-  expect_refused({"verify", path("judged")}, 3, "`unit`");
+  expect_refused({"verify", path("judged")}, 3, "`fixture_unit`");
+  EXPECT_EQ(flank({"verify", path("judged"), "--fixture-unit", "mm"}).exit_code, 0);
+  // Forty inches are far away.
+  const std::vector<std::string> near{"verify", path("judged"), "--fixture", path("near.stl"), "--fixture-unit"};
+  const auto in = [&](const char* unit) {
+    std::vector<std::string> words = near;
+    words.emplace_back(unit);
+    return flank(words).exit_code;
+  };
+  EXPECT_EQ(in("mm"), 1);
+  EXPECT_EQ(in("m"), 0);
 }
 
 TEST_F(CliClearanceFit, AWideHolderHitsTheRealImpeller) {

@@ -1,6 +1,6 @@
 // A headless Chromium, driven over its debugging pipe: nothing but Node.js is needed for that.
 import { spawn } from 'node:child_process';
-import { accessSync, constants, mkdtempSync, rmSync } from 'node:fs';
+import { accessSync, constants, mkdtempSync, readdirSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 
@@ -22,6 +22,18 @@ export function findBrowser() {
 }
 
 export const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+
+/** Processor seconds of a process, of all that it started, and of those of them that have ended: what else the machine does is not in it. */
+export function processorSeconds(root) {
+  const stats = new Map();
+  for (const name of readdirSync('/proc').filter((one) => /^\d+$/.test(one)))
+    try {
+      const words = readFileSync(`/proc/${name}/stat`, 'utf8').replace(/^.*\) /s, '').split(' ');
+      stats.set(Number(name), { parent: Number(words[1]), ticks: words.slice(11, 15).reduce((sum, word) => sum + Number(word), 0) });
+    } catch { /* it has ended */ }
+  const mine = (process) => process === root || (stats.has(process) && mine(stats.get(process).parent));
+  return [...stats].filter(([process]) => mine(process)).reduce((sum, [, { ticks }]) => sum + ticks / 100, 0);
+}
 
 export class Browser {
   constructor(extra = []) {
@@ -55,7 +67,7 @@ export class Browser {
 
   /** A page of a file or an address, opened in a window of a size; waits until the page says that it is ready. */
   async open(file, { width = 1400, height = 900, media = [], hash = '' } = {}) {
-    const { targetId } = await this.send('Target.createTarget', { url: 'about:blank' });
+    const { targetId } = await this.send('Target.createTarget', { url: 'about:blank', newWindow: true });
     const { sessionId } = await this.send('Target.attachToTarget', { targetId, flatten: true });
     const page = new Page(this, sessionId, targetId);
     this.pages.set(sessionId, page);
@@ -104,7 +116,7 @@ class Page {
 
   async until(expression, seconds = 10) {
     const end = Date.now() + 1000 * seconds;
-    while (!(await this.value(expression))) {
+    while (!(await this.value(`(async () => Boolean(await (${expression})))()`))) {
       if (Date.now() > end) throw new Error(`never came true: ${expression}\n${this.complaints.join('\n')}`);
       await sleep(50);
     }
@@ -127,6 +139,13 @@ class Page {
   async press(x, y, shift = false) {
     for (const type of ['mousePressed', 'mouseReleased'])
       await this.send('Input.dispatchMouseEvent', { type, x, y, button: 'left', clickCount: 1, modifiers: shift ? 8 : 0 });
+  }
+
+  /** Another size of the window, and other wishes of who looks. */
+  async resize({ width, height, media = [] }) {
+    await this.send('Emulation.setDeviceMetricsOverride', { width, height, deviceScaleFactor: 1, mobile: false });
+    await this.send('Emulation.setEmulatedMedia', { features: media });
+    await this.frames();
   }
 
   move(x, y) {

@@ -1,7 +1,51 @@
-// The studio as a process, for the tests.
+// The studio as a process and as a page, for the tests.
 import { spawn } from 'node:child_process';
+import { mkdirSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { createInterface } from 'node:readline';
-import { BINARY } from './folder.mjs';
+import { findBrowser } from './browser.mjs';
+import { BINARY, flank, root } from './folder.mjs';
+
+/** Seconds: a machine that does much else draws slowly without a graphics card. */
+export const PATIENCE = 240;
+const PICTURES = process.env.FLANK_PICTURES;
+/** The part on the page. */
+export const CHOOSER = 'window.flankStudio.parts.chooser';
+
+function skip(why) {
+  console.log(`skipped: ${why}`);
+  process.exit(77);
+}
+
+/** Ends the test where the command, its studio or the browser is missing. */
+export function skipIfMissing() {
+  if (!BINARY) skip('FLANK_BINARY does not name the command');
+  if (!findBrowser()) skip('no Chromium here; `make test-clients` installs it');
+  const missing = flank('studio', '/no/such/part', '-o', join(root, 'none'), '--no-browser').stderr;
+  if (/without/.test(missing)) skip(missing);
+}
+
+/** Keeps a picture of the page, where pictures are wanted. */
+export async function keep(page, name) {
+  if (!PICTURES) return;
+  mkdirSync(PICTURES, { recursive: true });
+  writeFileSync(join(PICTURES, `${name}.png`), await page.picture());
+}
+
+/** Drops a file on the page and waits until its faces are drawn. */
+export async function drop(page, file) {
+  const [, stem, ending] = /([^/]*)(\.\w+)$/.exec(file);
+  await page.drop(300, 400, file);
+  // A second one of the same name gets a number.
+  await page.until(`/^${stem}(-\\d+)?\\${ending}$/.test(${CHOOSER}?.data.file) && document.querySelector('#drop').hidden`, PATIENCE);
+  await page.frames();
+}
+
+/** Fills in a field of the form. */
+export const fill = (page, name, value) => page.value(`(() => { const e = document.querySelector('#field-${name}'); e.value = ${JSON.stringify(value)}; e.dispatchEvent(new Event('input', { bubbles: true })); })()`);
+
+/** What the report in the right pane says. */
+export const report = (expression) => `(() => { const d = document.querySelector('iframe.report')?.contentDocument; return d?.documentElement?.dataset.ready !== undefined && (${expression}); })()`;
 
 export class StudioProcess {
   /** Begins it; `url` is there once it is served. */

@@ -1,27 +1,15 @@
-// The studio in a real browser: a file is dropped, a face is clicked, a tool is found, judged and posted. Run by ctest
-// (label clients); exit 77 means skipped.
+// The studio in a real browser: a file is dropped, a face is clicked, a tool is found, stopped, gone on with, judged and posted. Run by
+// ctest (label clients); exit 77 means skipped.
 import assert from 'node:assert/strict';
-import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { Browser, findBrowser, sleep } from './browser.mjs';
-import { BINARY, flank, must, root } from './folder.mjs';
+import { Browser, sleep } from './browser.mjs';
+import { flank, must, root } from './folder.mjs';
 import { hovered, inFrontOf } from './pointing.mjs';
-import { StudioProcess } from './studio.mjs';
+import { CHOOSER, drop, fill, keep, PATIENCE, report, StudioProcess, skipIfMissing } from './studio.mjs';
 
-function skip(why) {
-  console.log(`skipped: ${why}`);
-  process.exit(77);
-}
-if (!BINARY) skip('FLANK_BINARY does not name the command');
-if (!findBrowser()) skip('no Chromium here; `make test-clients` installs it');
-const missing = flank('studio', '/no/such/part', '-o', join(root, 'none'), '--no-browser').stderr;
-if (/without/.test(missing)) skip(missing);
-
-/** Seconds: a machine that does much else draws slowly without a graphics card. */
-const PATIENCE = 240;
-const PICTURES = process.env.FLANK_PICTURES;
-const CHOOSER = 'window.flankStudio.parts.chooser';
+skipIfMissing();
 let browser, studio, blade;
 before(async () => {
   blade = join(root, 'twisted-blade.step');
@@ -37,19 +25,6 @@ after(async () => {
 const open = (options) => browser.open(studio.url, { width: 1440, height: 900, ...options });
 const live = (what) => `document.querySelector('.live')?.dataset.${what}`;
 const settled = `${live('state')} === 'done'`;
-async function keep(page, name) {
-  if (!PICTURES) return;
-  mkdirSync(PICTURES, { recursive: true });
-  writeFileSync(join(PICTURES, `${name}.png`), await page.picture());
-}
-
-/** Drops a file on the page and waits until its faces are drawn. */
-async function drop(page, file) {
-  await page.drop(300, 400, file);
-  await page.until(`${CHOOSER}?.data.file === ${JSON.stringify(file.split('/').pop())} && document.querySelector('#drop').hidden`, PATIENCE);
-  await page.frames();
-}
-
 /** Clicks the middle of a face in the picture. */
 async function clickFace(page, row) {
   const place = await inFrontOf(page, CHOOSER, row);
@@ -58,16 +33,25 @@ async function clickFace(page, row) {
   await page.value(`${CHOOSER}.stage.look('iso')`);
 }
 
-/** What the report in the right pane says. */
-const report = (expression) => `(() => { const d = document.querySelector('iframe.report')?.contentDocument; return d?.documentElement?.dataset.ready !== undefined && (${expression}); })()`;
 const pill = (page) => page.value('(() => { const p = document.querySelector(".livehead .pill"); return [p.className.replace("pill ", ""), p.dataset.exit]; })()');
 
-const fill = (page, name, value) => page.value(`(() => { const e = document.querySelector('#field-${name}'); e.value = ${JSON.stringify(value)}; e.dispatchEvent(new Event('input', { bubbles: true })); })()`);
+/** Drops a mesh on the field of the fixtures: nothing runs before its unit is said. */
+async function dropFixture(page, file) {
+  await page.value('document.querySelector(".more-fields").open = true');
+  const [x, y] = await page.value('(() => { const e = document.querySelector("#field-fixtures"); e.scrollIntoView({ block: "center" }); const b = e.getBoundingClientRect(); return [b.x + 5, b.y + 5]; })()');
+  await page.drop(x, y, file);
+  await page.until(`document.querySelector('#field-fixtures').value.startsWith('vice')`, PATIENCE);
+  assert.equal(await page.value('document.querySelector("#run").disabled'), true);
+  assert.match(await page.value('document.querySelector("#run-note").textContent'), /vice.*no unit/);
+  await fill(page, 'fixture_unit', 'mm');
+  assert.equal(await page.value('document.querySelector("#run").disabled'), false);
+}
 
 /** Fills the form, runs, waits for the end; the job as the server tells it. */
-async function run(page, fields) {
+async function run(page, fields, fixture) {
   await page.value('window.flankStudio.job.form.set({})');
   for (const [name, value] of Object.entries(fields)) await fill(page, name, value);
+  if (fixture) await dropFixture(page, fixture);
   const before = (await studio.get('state')).jobs.length;
   await page.click('#run');
   await page.until(`window.flankStudio.result.chosen === ${JSON.stringify(String(before + 1).padStart(4, '0'))}`, PATIENCE);
@@ -133,8 +117,110 @@ test('the program is posted and judged, and its bytes are the command’s', asyn
   await page.close();
 });
 
-test('what is refused is said in the command’s words', async () => {
-  const page = await open();
+/** Faces and fields of a job that takes minutes: nothing is that exact. */
+const LONG = { tolerance_mm: '0.0001', effort: 'thorough' };
+const hasBest = 'document.querySelector(".live .facts")?.textContent.includes("best")';
+const markOf = (id) => `document.querySelector('[data-job="${id}"] .mark')?.textContent`;
+
+/** Begins the long job on a page; it has a best so far. */
+async function runLong(page) {
+  await page.until(`${CHOOSER}?.stage && document.querySelector('#drop').hidden`, PATIENCE);
+  await page.value(`${CHOOSER}.choose(['F1'])`);
+  for (const [name, value] of Object.entries(LONG)) await fill(page, name, value);
+  await page.until('!document.querySelector("#run").disabled', PATIENCE);
+  await page.click('#run');
+  await page.until(`${live('state')} === 'running' && ${hasBest}`, PATIENCE);
+}
+
+test('stop keeps the best, resume goes on, and two pages see the same', async () => {
+  const page = await open(), other = await open();
+  if ((await studio.get('state')).parts.includes('twisted-blade.step')) await page.value(`window.flankStudio.parts.show('twisted-blade.step')`);
+  else await drop(page, blade);
+  const id = String((await studio.get('state')).jobs.length + 1).padStart(4, '0');
+  await runLong(page);
+  await other.until(`${markOf(id)} === 'runs'`, PATIENCE);
+  // A button is the same one for as long as it can be clicked, however often the page looks at the job.
+  await page.value('document.querySelector(".live .stop").dataset.kept = "yes"');
+  const share = Number(await page.value(live('share')));
+  await sleep(1500);
+  assert.equal(await page.value('document.querySelector(".live .stop").dataset.kept'), 'yes');
+  assert.ok(Number(await page.value(live('share'))) >= share);
+  await page.click('.live .stop');
+  await page.until(settled, PATIENCE);
+  assert.deepEqual(await pill(page), ['warn', '1']);
+  const stopped = await studio.get(`jobs/${id}`);
+  assert.equal(stopped.resumable, true);
+  assert.equal(stopped.summary.complete, false);
+  await page.until(report('d.querySelector("#verdict").classList.contains("fail")'), PATIENCE);
+  await other.until(`${markOf(id)} === 'stopped'`, PATIENCE);
+  // The other page goes on with it, and the first one sees that.
+  await other.click(`[data-job="${id}"]`);
+  await other.until('document.querySelector(".live .resume")?.hidden === false', PATIENCE);
+  await other.click('.live .resume');
+  await other.until(`${live('state')} === 'running'`, PATIENCE);
+  await page.until(`${markOf(id)} === 'runs'`, PATIENCE);
+  assert.ok(Number(await other.value(live('share'))) > 0);
+  await other.click('.live .stop');
+  await page.until(`${markOf(id)} === 'stopped'`, PATIENCE);
+  assert.deepEqual([...page.complaints, ...other.complaints], []);
+  await Promise.all([page.close(), other.close()]);
+});
+
+test('a studio that is killed during a job loses nothing, and one that ends stops it', async () => {
+  const folder = join(root, 'killed'), first = await StudioProcess.begin(folder, blade), old = await browser.open(first.url, { width: 1440, height: 900 });
+  await runLong(old);
+  const { seconds } = await first.get('jobs/0001');
+  await first.end('SIGKILL');
+  await old.until('document.querySelector("#notices .notice")?.textContent.includes("does not answer")', PATIENCE);
+  const second = await StudioProcess.begin(folder), page = await browser.open(second.url, { width: 1440, height: 900 });
+  await page.until(`${live('state')} === 'running' && ${hasBest}`, PATIENCE);
+  assert.ok((await second.get('jobs/0001')).seconds > seconds, 'the same run goes on');
+  await page.click('.live .stop');
+  await page.until(settled, PATIENCE);
+  assert.deepEqual(await pill(page), ['warn', '1']);
+  await page.click('.live .resume');
+  await page.until(`${live('state')} === 'running'`, PATIENCE);
+  const begin = Date.now();
+  assert.equal(await second.end(), 0);
+  console.log(`a studio with a job ended in ${((Date.now() - begin) / 1000).toFixed(1)} s`);
+  const third = await StudioProcess.begin(folder), job = await third.get('jobs/0001');
+  assert.deepEqual([job.state, job.resumable, job.summary.complete], ['done', true, false]);
+  await third.end();
+  await Promise.all([old.close(), page.close()]);
+});
+
+test('the verdict is the exit code: passes, fails, collides, is not proved', async () => {
+  const page = await open({ width: 1200 });
+  const cone = join(root, 'cone.step'), vice = join(root, 'vice.stl');
+  must('example', 'envelope-cone-1', '-o', cone, '--quiet');
+  await drop(page, cone);
+  const [row] = JSON.parse(must('inspect', cone, '--json')).faces;
+  writeFileSync(vice, cube(row.centre, row.normal));
+  await page.value(`${CHOOSER}.choose(['F1'])`);
+  const quick = { tolerance_mm: '0.05', effort: 'quick' };
+  const cases = { passes: [quick, 0], fails: [{ ...quick, turn_max: '0.5' }, 1], 'is not proved': [{ ...quick, tolerance_mm: '0.01', sample_mm: '3.6' }, 1], collides: [{ ...quick, avoid: 'off' }, 1, vice] };
+  for (const [name, [fields, exit, fixture]] of Object.entries(cases)) {
+    const job = await run(page, fields, fixture);
+    assert.equal(job.exit, exit, `${name}: ${job.line} ${job.message}`);
+    assert.deepEqual(await pill(page), [exit === 0 ? 'pass' : 'fail', String(exit)], name);
+    assert.equal(job.summary.pass, exit === 0, name);
+    await page.until(report('d.querySelector("#verdict").textContent'), PATIENCE);
+    assert.equal(await page.value(report('d.querySelector("#verdict").classList.contains("fail")')), exit !== 0, name);
+    if (name === 'collides') assert.match(JSON.stringify(job.summary.reasons), /vice\.stl/);
+    if (name === 'is not proved') assert.match(JSON.stringify(job.summary.reasons), /not proved/);
+  }
+  await page.close();
+});
+
+test('what is refused is said in the command’s words, and the faces of a wheel have names', async () => {
+  const page = await open(), wheel = join(root, 'wheel.step');
+  must('example', 'impeller', '-o', wheel, '--quiet');
+  await drop(page, wheel);
+  await page.value(`${CHOOSER}.parts.click()`);
+  await page.until(`!${CHOOSER}.parts.disabled`, PATIENCE);
+  const { hub, blades } = JSON.parse(must('inspect', wheel, '--wheel', '--json')), named = (words) => page.value(`${CHOOSER}.rows.filter(({ of }) => of?.includes(${JSON.stringify(words)})).map(({ id }) => id)`);
+  assert.deepEqual(await named('hub'), hub);
+  assert.deepEqual(await named(`${blades[0].kind} 1 ahead`), blades[0].ahead);
   const broken = join(root, 'broken.step');
   writeFileSync(broken, 'no part');
   await page.drop(300, 400, broken);
@@ -151,13 +237,10 @@ test('what is refused is said in the command’s words', async () => {
   await page.close();
 });
 
-test('nothing is wider than a phone, and nothing complains in the dark', async () => {
-  for (const [width, height, media] of [[390, 844, []], [820, 1180, []], [1440, 900, [{ name: 'prefers-color-scheme', value: 'dark' }]]]) {
-    const page = await open({ width, height, media });
-    await page.until('document.querySelectorAll("[data-job]").length > 0', PATIENCE);
-    assert.ok(await page.value('document.documentElement.scrollWidth <= innerWidth'), `${width} wide`);
-    await keep(page, `studio-${width}`);
-    assert.deepEqual(page.complaints, []);
-    await page.close();
-  }
-});
+/** A cube of 20 mm in front of a face, as triangles in text. */
+function cube(centre, normal) {
+  const at = centre.map((c, k) => c + 20 * normal[k]), corner = (n) => [0, 1, 2].map((k) => at[k] + (n >> k & 1 ? 10 : -10)).join(' ');
+  const quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+  const facet = (a, b, c) => `facet normal 0 0 0\nouter loop\n${[a, b, c].map((n) => `vertex ${corner(n)}`).join('\n')}\nendloop\nendfacet\n`;
+  return `solid vice\n${quads.map(([a, b, c, d]) => facet(a, b, c) + facet(a, c, d)).join('')}endsolid vice\n`;
+}

@@ -37,8 +37,8 @@ void add_members(const RadiusRequest& request, Addresses& all) {
   add(all, min, max, slope, slenderness, profile, neck, wheel);
 }
 void add_members(const ObstacleRequest& request, Addresses& all) {
-  const auto& [check, ignore, shank_radius, shank_length, holder, fixtures, clearance] = request;
-  add(all, check, ignore, shank_radius, shank_length, holder, fixtures, clearance);
+  const auto& [check, ignore, shank_radius, shank_length, holder, fixtures, unit, clearance] = request;
+  add(all, check, ignore, shank_radius, shank_length, holder, fixtures, unit, clearance);
 }
 void add_members(const JudgeRequest& request, Addresses& all) {
   const auto& [coverage, whole, sample, reach, turn] = request;  // the last of fit and cover alone

@@ -2,12 +2,13 @@
 import { Plane, Vector3 } from 'three';
 import { readBody } from './data.js';
 import { html, svg } from './dom.js';
-import { faceList } from './facelist.js';
+import { faceList, facesIn } from './facelist.js';
 import { FaceModel } from './facemodel.js';
 import { FaceTable, kindButtons, paintKinds, radiusOf, sizeOf } from './facetable.js';
 import * as format from './format.js';
 import { drawScale, drawTriad } from './legend.js';
 import { kindColour, ROLES } from './kinds.js';
+import { Measure } from './measure.js';
 import { Stage } from './scene.js';
 import { palette } from './theme.js';
 
@@ -25,14 +26,21 @@ function bestCorner(rows) {
   return corners.reduce((best, corner) => (score(corner) > 1.02 * score(best) ? corner : best));
 }
 
+/** [face, what it is] of a wheel.json: "hub", "blade 2 ahead". */
+function wheelParts({ hub, shroud, blades, rest }) {
+  const all = [['hub', hub], ['shroud', shroud], ['rest', rest]], names = { ahead: 'ahead', behind: 'behind', edges: 'edge', tips: 'tip', fillets: 'fillet', buried: 'buried' };
+  blades.forEach((blade, k) => Object.entries(names).forEach(([key, name]) => all.push([`${blade.kind} ${k + 1} ${name}`, blade[key]])));
+  return all.flatMap(([words, ids]) => ids.map((id) => [id, words]));
+}
+
 /** Rows of faces.json with the pieces below their face. */
 const flat = (faces) => faces.flatMap((row) => [row, ...(row.pieces ?? []).map((piece) => ({ ...piece, piece: true, parent: row.id }))]);
 
 export class Chooser {
-  /** `data`: faces.json. `changed()` is called when other faces are chosen. */
-  constructor(data, changed = () => {}) {
-    this.data = data;
-    this.changed = changed;
+  /** `data`: faces.json. `changed()` is called when other faces are chosen. Where somebody knows them, `smooth(id)` gives the
+   * names of a face and of all that is joined to it smoothly, and `wheel()` what the faces of a wheel are. */
+  constructor(data, changed = () => {}, { smooth = null, wheel = null } = {}) {
+    Object.assign(this, { data, changed, smooth, wheel });
     this.rows = flat(data.faces);
     this.rowOf = new Map(this.rows.map((row) => [row.id, row]));
     this.marks = new Map();
@@ -50,7 +58,7 @@ export class Chooser {
     this.pins = html('div', { class: 'overlay' });
     this.triad = svg('svg', { class: 'triad', width: 84, height: 84, viewBox: '-42 -42 84 84', 'aria-hidden': 'true' });
     this.scale = html('div', { class: 'scalebar', 'aria-hidden': 'true' }, html('span'), html('i'));
-    this.picture = html('div', { class: 'picture' }, this.canvas, this.pins, html('div', { class: 'cameras' }, this.cameras(), this.section()), this.probe, this.triad, this.scale);
+    this.picture = html('div', { class: 'picture' }, this.canvas, this.pins, this.buttons = html('div', { class: 'cameras' }, this.cameras(), this.section()), this.probe, this.triad, this.scale);
     this.kinds = html('div', { class: 'kinds', role: 'group', 'aria-label': 'Kinds of faces' }, ...kindButtons(this.rows, (kind) => this.table.filter({ kind })));
     this.view = html('div', { class: 'facesview' }, this.picture, this.kinds);
   }
@@ -88,13 +96,17 @@ export class Chooser {
     this.showAll = html('button', { type: 'button', hidden: '' }, 'Show all');
     this.showAll.addEventListener('click', () => this.hideFaces([]));
     const holder = html('div', { class: 'tableholder' });
-    this.list = html('div', { class: 'faceslist' }, html('div', { class: 'tools' }, this.search, this.all, this.hide, this.showAll), holder);
+    this.tangent = html('button', { type: 'button', title: 'Choose all that is joined smoothly to the chosen faces, too', ...(this.smooth ? {} : { hidden: '' }) }, 'Tangent');
+    this.tangent.addEventListener('click', () => this.chooseSmooth());
+    this.parts = html('button', { type: 'button', title: 'What the faces of a wheel are: hub, blades, sides, edges, tips; the filter finds them, too', ...(this.wheel ? {} : { hidden: '' }) }, 'Wheel');
+    this.parts.addEventListener('click', () => this.nameWheel());
+    this.list = html('div', { class: 'faceslist' }, html('div', { class: 'tools' }, this.search, this.all, this.tangent, this.parts, this.hide, this.showAll), holder);
     this.table = new FaceTable(holder, this.rows, { hover: (id) => this.hover(id, true), click: (id, more) => this.click(id, more) }, (id) => this.marks.get(id));
   }
 
   /** Draws, once its view is in the page. */
   start() {
-    this.stage = new Stage(this.canvas, ROOM);
+    this.stage = new Stage(this.canvas, ROOM, true);
     this.stage.renderer.localClippingEnabled = true;
     this.stage.scene.add(this.model.root);
     this.frame();
@@ -102,6 +114,8 @@ export class Chooser {
       drawTriad(this.triad, stage.camera);
       drawScale(this.scale, stage.pixel);
     });
+    this.measure = new Measure(this.stage, this.model, this.pins, (text) => { this.probe.textContent = text; });
+    this.buttons.append(html('div', { class: 'group' }, this.measure.button));
     this.listen();
     this.paint();
     return this;
@@ -137,6 +151,7 @@ export class Chooser {
       if (event.ctrlKey || event.metaKey) return;
       if (event.key === 'Home') this.stage.look('iso');
       else if (event.key === 'h') this.hideChosen();
+      else if (event.key === 'm') this.measure.turn(!this.measure.on);
       else if (keys[event.key]) this.stage.orbit(...keys[event.key]);
       else return;
       event.preventDefault();
@@ -149,6 +164,7 @@ export class Chooser {
   }
 
   hoverAt(event) {
+    this.stage.moved = true;
     if (this.looking) return;
     this.looking = true;
     requestAnimationFrame(() => {
@@ -158,6 +174,10 @@ export class Chooser {
   }
 
   clickAt(event) {
+    if (this.measure.on) {
+      const box = this.canvas.getBoundingClientRect();
+      return this.measure.click(event.clientX - box.left, event.clientY - box.top);
+    }
     const found = this.at(event);
     if (found) this.click(found.id, event.shiftKey || event.ctrlKey || event.metaKey);
     else if (!event.shiftKey) this.choose([]);
@@ -167,7 +187,7 @@ export class Chooser {
   hover(id, fromTable = false) {
     if (id === this.glowing) return;
     this.glowing = id;
-    this.probe.textContent = id ? this.describe(id) : '';
+    if (!this.measure?.on || id) this.probe.textContent = id ? this.describe(id) : '';
     this.canvas.style.cursor = id ? 'pointer' : '';
     if (!fromTable) this.table.glow(id);
     this.colour();
@@ -177,7 +197,7 @@ export class Chooser {
     const row = this.rowOf.get(id);
     if (!row || row.why) return `${id}  ${row?.why ?? ''}`;
     const concave = radiusOf(row);
-    return [id, row.type, `${sizeOf(row)} mm`, `${format.plain(row.area, 4)} mm²`, concave === '–' ? row.bend : `${row.bend}, concave R ${concave} mm`].join('  ·  ');
+    return [id, ...(row.of ? [row.of] : []), row.type, `${sizeOf(row)} mm`, `${format.plain(row.area, 4)} mm²`, concave === '–' ? row.bend : `${row.bend}, concave R ${concave} mm`].join('  ·  ');
   }
 
   click(id, more) {
@@ -195,6 +215,32 @@ export class Chooser {
     for (const id of this.chosen()) this.marks.delete(id);
     for (const id of ids) this.marks.set(id, this.role);
     this.tell();
+  }
+
+  /** All that is joined smoothly to what is chosen. */
+  async chooseSmooth() {
+    this.tangent.disabled = true;
+    const ids = new Set(this.chosen());
+    for (const id of [...ids])
+      try {
+        for (const one of facesIn(await this.smooth(id))) if (this.rowOf.has(one)) ids.add(one);
+      } catch (error) {
+        this.probe.textContent = error.message;
+      }
+    this.tangent.disabled = false;
+    this.choose([...ids]);
+  }
+
+  /** Writes beside each face what it is of a wheel. */
+  async nameWheel() {
+    this.parts.disabled = true;
+    try {
+      for (const [id, words] of wheelParts(await this.wheel())) if (this.rowOf.has(id)) this.rowOf.get(id).of = words;
+      this.table.arrange();
+    } catch (error) {
+      this.probe.textContent = error.message;
+    }
+    this.parts.disabled = false;
   }
 
   chosen(role = this.role) {
@@ -240,6 +286,7 @@ export class Chooser {
 
   /** The browser keeps few pictures at a time: one that is gone gives its own back. */
   dispose() {
+    clearTimeout(this.stage?.rest);
     this.stage?.controls?.dispose();
     this.stage?.renderer.dispose();
     this.stage?.renderer.forceContextLoss();

@@ -19,3 +19,9 @@ export function faceList(ids) {
   }
   return out.map(({ begin, end, count }) => (count === 1 ? begin : count === 2 ? `${begin},${end}` : `${begin}-${end}`)).join(',');
 }
+
+/** The names in "F1,F3-F5,F7a". */
+export const facesIn = (text) => text.split(',').flatMap((part) => {
+  const [begin, end] = part.trim().split('-').map((name) => Number(NAME.exec(name)?.[1]));
+  return end ? Array.from({ length: end - begin + 1 }, (_, k) => `F${begin + k}`) : [part.trim()];
+});

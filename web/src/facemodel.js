@@ -1,5 +1,5 @@
 // All faces of a part in one draw call: a table says which triangles belong to which face, a texel of a texture is its colour.
-import { BufferAttribute, DataTexture, Group, Mesh, NearestFilter, Raycaster, RGBAFormat, SRGBColorSpace, Vector2 } from 'three';
+import { BufferAttribute, DataTexture, DoubleSide, FrontSide, Group, Mesh, NearestFilter, Raycaster, RGBAFormat, SRGBColorSpace, Vector2 } from 'three';
 import { edges, geometry } from './bodies.js';
 import { channels } from './colours.js';
 import { wall } from './surface.js';
@@ -37,6 +37,21 @@ function meets(o, d, p, a, b, c) {
   return far > 0 ? far : Infinity;
 }
 
+/** How much of all area the sum of its vectors may be for a skin that closes: borders of faces share their corners, but for 16 bits. */
+const OPEN = 1e-5;
+
+/** Whether triangles close, with their backs inside: then half of them need not be drawn, and without a graphics card drawing is slow. */
+function encloses(p, indices) {
+  let x = 0, y = 0, z = 0, area = 0, volume = 0;
+  for (let i = 0; i < indices.length; i += 3) {
+    const [a, b, c] = [3 * indices[i], 3 * indices[i + 1], 3 * indices[i + 2]];
+    const ux = p[b] - p[a], uy = p[b + 1] - p[a + 1], uz = p[b + 2] - p[a + 2], vx = p[c] - p[a], vy = p[c + 1] - p[a + 1], vz = p[c + 2] - p[a + 2];
+    const nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
+    x += nx, y += ny, z += nz, area += Math.hypot(nx, ny, nz), volume += nx * p[a] + ny * p[a + 1] + nz * p[a + 2];
+  }
+  return volume > 0 && Math.hypot(x, y, z) < OPEN * area;
+}
+
 export class FaceModel {
   /** `bodies`: as readBody gives them, in the order of the part. */
   constructor(bodies) {
@@ -61,6 +76,14 @@ export class FaceModel {
     this.root.add(this.mesh, this.edges);
     this.hidden = new Set();
     this.plane = null;
+    this.closed = encloses(this.positions, this.whole);
+    this.sides();
+  }
+
+  /** Backs are seen where something is open: by itself, cut, or with faces hidden. */
+  sides() {
+    const side = this.closed && !this.plane && !this.hidden.size ? FrontSide : DoubleSide;
+    if (this.mesh.material.side !== side) Object.assign(this.mesh.material, { side, needsUpdate: true });
   }
 
   append(body, k) {
@@ -118,6 +141,7 @@ export class FaceModel {
     this.indices.set(this.whole);
     for (const face of this.faces) if (this.hidden.has(face.id)) this.indices.fill(0, face.first, face.first + face.count);
     this.mesh.geometry.index.needsUpdate = true;
+    this.sides();
     const shown = edges(this.bodies.filter((body) => !this.hidden.has(body.face)));
     shown.material.dispose();
     this.edges.geometry.dispose();
@@ -131,6 +155,7 @@ export class FaceModel {
       material.clippingPlanes = plane ? [plane] : null;
       material.needsUpdate = true;
     }
+    this.sides();
   }
 
   /** Low and high corner of all faces. */

@@ -63,7 +63,7 @@ export class FaceTable {
 
   arrange() {
     const words = this.words.toLowerCase().split(/\s+/).filter(Boolean);
-    const text = (row) => `${row.id} ${row.type} ${row.bend ?? ''}`.toLowerCase();
+    const text = (row) => `${row.id} ${row.of ?? ''} ${row.type} ${row.bend ?? ''}`.toLowerCase();
     this.shown = this.rows.filter((row) => (!this.kind || row.type === this.kind) && words.every((word) => text(row).includes(word)));
     this.shown.sort(this.sort.order);
     if (this.turned) this.shown.reverse();
@@ -87,7 +87,7 @@ export class FaceTable {
     const button = html('button', { type: 'button', class: 'face', 'data-id': row.id, 'aria-pressed': String(Boolean(chosen)) }, row.id);
     const line = html('tr', { 'data-face': row.id, class: [chosen ? `chosen ${chosen}` : '', row.piece ? 'piece' : '', row.id === this.glowing ? 'glowing' : ''].join(' ') },
       html('th', { scope: 'row', class: 'c-id' }, button),
-      html('td', { class: 'c-type' }, html('i', { class: 'swatch', style: `background:${kindColour(row.type)}` }), row.type),
+      html('td', { class: 'c-type' }, html('i', { class: 'swatch', style: `background:${kindColour(row.type)}` }), row.of ? `${row.of}, ${row.type}` : row.type),
       ...COLUMNS.slice(2).map(({ key, number }) => html('td', { class: `c-${key}${number ? ' number' : ''}` }, cell[key](row))));
     line.addEventListener('pointerenter', () => this.told.hover(row.id));
     line.addEventListener('click', (event) => this.told.click(row.id, event.shiftKey || event.ctrlKey || event.metaKey));

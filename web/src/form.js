@@ -4,6 +4,9 @@ import { html } from './dom.js';
 
 /** What a field is called on the page, by its key: the table's names are those of files and scripts. */
 const NAMES = { tool: 'Tool', side: 'Machined side', nc: 'Program', turn_max: 'Largest turn', dry: 'Dry run' };
+/** Meshes have no unit of their own: it is asked for where one is dropped. */
+export const UNITS = ['mm', 'cm', 'm', 'in'];
+export const isMesh = (name) => /\.(stl|obj|ply)$/i.test(name);
 const nameOf = ({ key }) => NAMES[key] ?? key[0].toUpperCase() + key.slice(1).replaceAll('_', ' ');
 
 /** What stands for an empty field: what its help says of the default, in few words. */
@@ -40,29 +43,45 @@ export class Form {
     this.inputs.set(field.name, { field, input });
     const unit = field.unit ? html('span', { class: 'unit' }, field.unit) : null;
     const file = field.file ? this.upload(field, input) : null;
-    return html('div', { class: 'field', 'data-field': field.name }, html('label', { for: id, title: field.help }, nameOf(field)), html('span', { class: 'entry' }, input, unit, file));
+    const line = html('div', { class: 'field', 'data-field': field.name }, html('label', { for: id, title: field.help }, nameOf(field)), html('span', { class: 'entry' }, input, unit, file));
+    if (file) line.addEventListener('drop', (event) => { [...event.dataTransfer.files].forEach((one) => this.take(field, input, one)); });
+    return line;
   }
 
   input(field) {
     const usual = field.default ?? '';
+    if (field.key === 'fixture_unit') return choice([['', 'none is a mesh'], ...UNITS.map((unit) => [unit, unit])], '');
     if (field.choices) return choice(field.choices.map((one) => [one === usual ? '' : one, one === usual ? `${one} (default)` : one]), '');
     if (field.kind === 'sign') return choice([['', 'found by itself'], ['+', '+ (normal of the file)'], ['-', '− (against it)']], '');
     if (field.kind === 'switch') return choice([['', usual || 'off'], ...['on', 'off'].filter((one) => one !== (usual || 'off')).map((one) => [one, one])], '');
     return html('input', { type: 'text', placeholder: usual || hint(field), autocomplete: 'off', spellcheck: 'false', inputmode: field.kind === 'number' ? 'decimal' : 'text' });
   }
 
-  /** A file of the user's for a field. */
+  /** A file of the user's for a field: chosen, or dropped on it. */
   upload(field, input) {
     const chosen = html('input', { type: 'file', class: 'sr', tabindex: '-1', 'aria-label': `File for ${nameOf(field)}` });
     const button = html('button', { type: 'button', class: 'file', title: `A file for ${nameOf(field)}` }, 'File…');
     button.addEventListener('click', () => chosen.click());
-    chosen.addEventListener('change', async () => {
-      if (!chosen.files.length) return;
-      const { name } = await send('files', chosen.files[0]);
-      input.value = field.kind === 'texts' && input.value ? `${input.value}, ${name}` : name;
-      this.changed();
-    });
+    chosen.addEventListener('change', () => { if (chosen.files.length) this.take(field, input, chosen.files[0]); });
     return html('span', {}, button, chosen);
+  }
+
+  async take(field, input, file) {
+    try {
+      const { name } = await send('files', file);
+      input.value = field.kind === 'texts' && input.value ? `${input.value}, ${name}` : name;
+      this.wrong = '';
+    } catch (error) {
+      this.wrong = error.message;
+    }
+    this.changed();
+  }
+
+  /** What is still to be said before the job can run; empty: nothing. */
+  missing() {
+    const meshes = (this.values().fixtures ?? []).filter(isMesh), unit = this.inputs.get('fixture_unit')?.input;
+    this.more.open ||= meshes.length > 0;
+    return this.wrong || (meshes.length && unit && !unit.value ? `${meshes.join(', ')}: a mesh has no unit; choose the fixture unit.` : '');
   }
 
   /** What was filled in, by name. */

@@ -2,7 +2,7 @@
 import { get, post } from './api.js';
 import { copy } from './copy.js';
 import { byId, html } from './dom.js';
-import { Form, quoted } from './form.js';
+import { Form, isMesh, quoted } from './form.js';
 import { Sides } from './sides.js';
 
 /** Milliseconds after the last change before the defaults are asked for. */
@@ -67,12 +67,17 @@ export class JobPane {
   }
 
   ready() {
-    return Boolean(this.parts.chooser) && COMMANDS[this.command].needed.every((role) => this.parts.chooser.names(role));
+    return Boolean(this.parts.chooser) && !this.form.missing() && COMMANDS[this.command].needed.every((role) => this.parts.chooser.names(role));
+  }
+
+  /** A mesh has no unit of its own; a CAD file may have been read in another than it states. */
+  unit() {
+    const { data, name } = this.parts;
+    return data && (isMesh(name) || data.unit !== 'mm') ? { unit: data.unit } : {};
   }
 
   values() {
-    const unit = this.parts.data?.format && this.parts.data.unit !== 'mm' ? { unit: this.parts.data.unit } : {};
-    return { ...unit, ...this.faces(), ...this.form.values() };
+    return { ...this.unit(), ...this.faces(), ...this.form.values() };
   }
 
   changed() {
@@ -81,9 +86,10 @@ export class JobPane {
     byId('run').disabled = !ready;
     byId('chosen').textContent = Object.keys(faces).length ? Object.entries(faces).map(([field, names]) => `${SHORT[field]} ${names}`).join('  ') : 'No face is chosen yet: click one in the part.';
     byId('chosen').classList.toggle('ready', ready);
-    const words = Object.entries(faces).map(([field, names]) => `${SHORT[field]} ${names}`);
+    byId('run-note').textContent = this.form.missing();
+    const words = [...Object.values(this.unit()).map((unit) => `--unit ${unit}`), ...Object.entries(faces).map(([field, names]) => `${SHORT[field]} ${names}`)];
     byId('line').textContent = ['flank', this.command, quoted(this.parts.name || 'PART'), ...words, ...this.form.words(), '-o out'].join(' ');
-    const keywords = Object.entries({ ...faces, ...this.form.values() }).map(([name, value]) => `${name}=${Array.isArray(value) || !/^-?[\d.]+(e-?\d+)?$/.test(value) ? JSON.stringify(value) : value}`);
+    const keywords = Object.entries(this.values()).map(([name, value]) => `${name}=${Array.isArray(value) || !/^-?[\d.]+(e-?\d+)?$/.test(value) ? JSON.stringify(value) : value}`);
     byId('python').textContent = `import openflank\nresult = openflank.${this.command}(${[JSON.stringify(this.parts.name || 'PART'), ...keywords].join(', ')})\nresult.write("out")`;
     clearTimeout(this.timer);
     this.timer = setTimeout(() => this.ask(), REST);

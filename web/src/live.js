@@ -33,11 +33,15 @@ export class Live {
     Object.assign(this, { id, told, from: 0, points: [], message: '', over: false });
     this.root = html('section', { class: 'live', 'aria-label': `Job ${id}` });
     this.status = html('p', { class: 'sr', role: 'status' });
+    this.make();
     this.look();
   }
 
   async look() {
-    if (this.over) return;
+    // One at a time: two would both count the same lines.
+    if (this.over || this.looking) return;
+    this.looking = true;
+    let pause = null;
     try {
       const job = await get(`jobs/${this.id}?from=${this.from}`);
       this.from = job.next;
@@ -47,16 +51,50 @@ export class Live {
       this.job = job;
       this.draw();
       this.told(job);
-      if (job.state !== 'done') this.again();
+      if (job.state !== 'done') pause = LOOK;
     } catch (error) {
-      this.root.replaceChildren(html('p', { class: 'notice' }, error.message));
-      this.again(4 * LOOK);
+      this.complain(error);
+      pause = 4 * LOOK;
     }
+    this.looking = false;
+    if (this.soon) pause = 0;
+    this.soon = false;
+    if (pause !== null) this.again(pause);
   }
 
+  /** Looks again after a pause; right after a look that is under way if there is to be none. */
   again(pause = LOOK) {
+    if (this.looking) this.soon = true;
     clearTimeout(this.timer);
     this.timer = setTimeout(() => this.look(), pause);
+  }
+
+  /** What stays while it changes: a button that is made anew between press and release of a click is never clicked, and loses the keyboard. */
+  make() {
+    this.pill = html('span', { class: 'pill' });
+    this.facts = html('span', { class: 'soft facts' });
+    this.inner = html('div', { class: 'bar-inner' });
+    this.bar = html('div', { class: 'bar-outer', role: 'progressbar', 'aria-label': `Progress of job ${Number(this.id)}`, 'aria-valuemin': '0', 'aria-valuemax': '100' }, this.inner);
+    this.best = html('div');
+    this.words = html('div');
+    this.stop = this.button('Stop', 'stop');
+    this.resume = this.button('Resume', 'resume');
+    this.root.append(html('div', { class: 'livehead' }, this.pill, html('strong', {}, `Job ${Number(this.id)}`), this.facts, this.stop, this.resume), this.bar, this.best, this.words);
+  }
+
+  button(text, act) {
+    const made = html('button', { type: 'button', class: act, hidden: '' }, text);
+    made.addEventListener('click', async () => {
+      made.disabled = true;
+      await post(`jobs/${this.id}/${act}`).catch((error) => this.complain(error));
+      this.again(0);
+    });
+    return made;
+  }
+
+  complain(error) {
+    this.said = null;
+    this.words.replaceChildren(html('p', { class: 'notice', role: 'alert' }, error.message));
   }
 
   draw() {
@@ -65,33 +103,35 @@ export class Live {
     const share = done ? 1 : last?.share ?? 0;
     const facts = [running && last ? last.stage : '', seconds(job.seconds), running && last?.eta_s ? `about ${seconds(last.eta_s)} left` : '',
       last?.best ? `best ${(100 * last.best.coverage).toFixed(1)} %${last.best.clean ? '' : `, cuts ${Number(last.best.deepest_mm).toPrecision(2)} mm too deep`}` : ''].filter(Boolean);
-    const bar = html('div', { class: 'bar-outer', role: 'progressbar', 'aria-label': 'Progress', 'aria-valuemin': '0', 'aria-valuemax': '100', 'aria-valuenow': String(Math.round(100 * share)) }, html('div', { class: `bar-inner ${state}`, style: `width:${(100 * share).toFixed(1)}%` }));
-    this.root.dataset.state = job.state;
-    this.root.dataset.share = String(share);
-    this.root.replaceChildren(html('div', { class: 'livehead' }, html('span', { class: `pill ${state}`, 'data-exit': job.exit ?? '' }, words), html('strong', {}, `Job ${Number(job.id)}`), html('span', { class: 'soft facts' }, facts.join(' · ')), ...this.buttons()), bar,
-      ...(running && this.points.some((p) => p.best) ? [curve(this.points)] : []), ...this.said());
+    Object.assign(this.root.dataset, { state: job.state, share: String(share) });
+    this.pill.className = `pill ${state}`;
+    this.pill.dataset.exit = job.exit ?? '';
+    this.pill.textContent = words;
+    this.facts.textContent = facts.join(' \u00b7 ');
+    this.bar.setAttribute('aria-valuenow', String(Math.round(100 * share)));
+    this.inner.className = `bar-inner ${state}`;
+    this.inner.style.width = `${(100 * share).toFixed(1)}%`;
+    this.best.replaceChildren(...(running && this.points.some((p) => p.best) ? [curve(this.points)] : []));
+    this.offer();
+    this.tell();
     this.status.textContent = running ? '' : `Job ${Number(job.id)}: ${words}`;
   }
 
-  said() {
-    const { job } = this, bad = job.crash || (job.exit > 1 ? this.message.replace(/^flank: /, '') : '');
-    const stopped = job.state === 'done' && job.resumable;
-    return [...(bad ? [html('p', { class: 'notice', role: 'alert' }, bad)] : []),
-      ...(stopped ? [html('p', { class: 'soft' }, job.summary ? 'Stopped: what is shown is the best so far. Resume goes on from there.' : 'Stopped before anything was found; Resume goes on from there.')] : [])];
+  /** Which of the buttons are there. */
+  offer() {
+    const { job } = this, over = job.state === 'done';
+    this.stop.hidden = over;
+    this.stop.disabled = job.stopping;
+    this.resume.hidden = !over || !(job.resumable || (job.exit === null && !job.summary));
+    this.resume.disabled = false;
   }
 
-  buttons() {
-    const button = (text, act, disabled) => {
-      const made = html('button', { type: 'button', class: text.toLowerCase(), ...(disabled ? { disabled: '' } : {}) }, text);
-      made.addEventListener('click', async () => {
-        made.disabled = true;
-        await post(`jobs/${this.id}/${act}`);
-        this.again(0);
-      });
-      return made;
-    };
-    if (this.job.state !== 'done') return [button('Stop', 'stop', this.job.stopping)];
-    return this.job.resumable || (this.job.exit === null && !this.job.summary) ? [button('Resume', 'resume')] : [];
+  tell() {
+    const { job } = this, bad = job.crash || (job.exit > 1 ? this.message.replace(/^flank: /, '') : '');
+    const stopped = job.state !== 'done' || !job.resumable ? '' : job.summary ? 'Stopped: what is shown is the best so far. Resume goes on from there.' : 'Stopped before anything was found; Resume goes on from there.';
+    if (this.said === bad + stopped) return;
+    this.said = bad + stopped;
+    this.words.replaceChildren(...(bad ? [html('p', { class: 'notice', role: 'alert' }, bad)] : []), ...(stopped ? [html('p', { class: 'soft' }, stopped)] : []));
   }
 
   end() {

@@ -16,7 +16,7 @@ export class Machining {
     this.downloads = html('div', { class: 'downloads' });
     this.root = html('section', { class: 'card machining', 'aria-label': 'To the machine' }, html('h2', {}, 'To the machine'), this.form, this.outcome, html('h2', {}, 'To take along'), this.downloads);
     this.list(job);
-    this.begin();
+    this.begin().catch((error) => this.form.replaceChildren(html('p', { class: 'notice' }, error.message)));
   }
 
   list(job) {

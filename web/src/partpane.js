@@ -1,10 +1,9 @@
 // The left pane: a part is dropped, opened or chosen, and its faces get their roles.
-import { get, send } from './api.js';
+import { get, post, send } from './api.js';
 import { Chooser } from './chooser.js';
 import { byId, html } from './dom.js';
+import { isMesh, UNITS } from './form.js';
 import { ROLES } from './kinds.js';
-
-const UNITS = ['mm', 'cm', 'm', 'in'];
 
 export class PartPane {
   /** `told.part()` when there is another part, `told.faces()` when other faces are chosen. */
@@ -18,7 +17,8 @@ export class PartPane {
     for (const kind of ['dragleave', 'drop']) document.addEventListener(kind, (event) => { if (kind === 'drop' || !event.relatedTarget) document.body.classList.remove('dragging'); });
     document.addEventListener('drop', (event) => {
       event.preventDefault();
-      if (event.dataTransfer.files.length) this.take(event.dataTransfer.files[0]);
+      // What is dropped on a field is for that field.
+      if (event.dataTransfer.files.length && !event.target.closest?.('[data-field]')) this.take(event.dataTransfer.files[0]);
     });
   }
 
@@ -52,12 +52,20 @@ export class PartPane {
     this.chooser?.dispose();
     this.name = name;
     this.data = data;
-    this.chooser = new Chooser(data, () => this.told.faces());
+    this.chooser = new Chooser(data, () => this.told.faces(), { smooth: (id) => this.smooth(id), wheel: () => get(`parts/${encodeURIComponent(this.name)}/wheel`) });
     byId('drop').hidden = true;
     byId('chooser').hidden = byId('roles').hidden = false;
     byId('chooser').replaceChildren(this.chooser.view, this.chooser.list);
     this.chooser.start();
     this.told.part();
+  }
+
+  /** What the command would machine of the skin of a face. */
+  async smooth(id) {
+    const unit = isMesh(this.name) ? { unit: this.data.unit } : {};
+    const { defaults, complaint } = await post('defaults', { part: this.name, fields: { ...unit, skin: id } });
+    if (!defaults) throw new Error(complaint);
+    return defaults.faces;
   }
 
   /** The list of parts there are. */

@@ -10,19 +10,32 @@ const ROOM = { left: 150, right: 40, top: 56, bottom: 30 };
 /** In a narrow view what stands at the sides may cover the part. */
 const NARROW = 620;
 
+/** Without a graphics card: milliseconds of rest after which a picture is drawn again with smooth edges, twice as wide and high. */
+const REST = 250, SHARP = 2;
+
+/** Whether the processor draws: smooth edges cost it as much as all else. */
+function isSoftware() {
+  const gl = document.createElement('canvas').getContext('webgl2'), names = gl.getExtension('WEBGL_debug_renderer_info');
+  const name = names ? gl.getParameter(names.UNMASKED_RENDERER_WEBGL) : '';
+  gl.getExtension('WEBGL_lose_context')?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+}
+
 export class Stage {
-  /** `room`: pixels at the sides of the picture that something else covers. */
-  constructor(canvas, room = ROOM) {
+  /** `room`: pixels at the sides of the picture that something else covers. `quick`: without a graphics card edges are smooth at rest
+   * alone. */
+  constructor(canvas, room = ROOM, quick = false) {
     this.canvas = canvas;
     this.margins = room;
     this.listeners = [];
     this.quiet = true;
     // What was drawn last stays readable: for printing and for screenshots.
     if (!document.createElement('canvas').getContext('webgl2')) throw new Error('this browser offers no WebGL 2');
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
+    this.soft = quick && isSoftware();
+    this.renderer = new WebGLRenderer({ canvas, antialias: !this.soft, alpha: true, preserveDrawingBuffer: true });
     // Asking the driver for complaints makes it finish every program before the next is begun.
     this.renderer.debug.checkShaderErrors = false;
-    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
+    this.renderer.setPixelRatio(this.soft ? SHARP : Math.min(2, window.devicePixelRatio));
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.1, 10000);
     this.scene.add(this.camera, new AmbientLight(0xffffff, 2.45));
@@ -38,6 +51,7 @@ export class Stage {
     this.controls?.dispose();
     this.controls = new OrbitControls(this.camera, this.canvas);
     this.controls.target.copy(target);
+    this.controls.addEventListener('start', () => { this.moved = true; });
     this.controls.addEventListener('change', () => this.draw());
     this.controls.update();
   }
@@ -83,6 +97,7 @@ export class Stage {
 
   /** Turns about the target by angles in radians, or comes nearer by a factor. */
   orbit(right, upwards, nearer = 1) {
+    this.moved = true;
     const offset = this.camera.position.clone().sub(this.controls.target);
     offset.applyAxisAngle(this.camera.up, right);
     const side = new Vector3().crossVectors(this.camera.up, offset).normalize();
@@ -108,9 +123,22 @@ export class Stage {
     this.asked = true;
     requestAnimationFrame(() => {
       this.asked = false;
-      this.renderer.render(this.scene, this.camera);
+      this.render();
       for (const listener of this.listeners) listener(this);
     });
+  }
+
+  /** Now: roughly while it moves, smoothly once it rests. */
+  render() {
+    if (this.soft && this.moved) {
+      if (this.renderer.getPixelRatio() !== 1) this.renderer.setPixelRatio(1);
+      clearTimeout(this.rest);
+      this.rest = setTimeout(() => {
+        this.renderer.setPixelRatio(SHARP);
+        this.renderer.render(this.scene, this.camera);
+      }, REST);
+    }
+    this.renderer.render(this.scene, this.camera);
   }
 
   /** Millimetres of a pixel at the target's depth. */

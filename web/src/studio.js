@@ -40,6 +40,8 @@ async function again() {
 document.addEventListener('keydown', (event) => {
   if (event.key === 'Enter' && (event.ctrlKey || event.metaKey) && !byId('run').disabled) byId('run').click();
 });
+// A page that nobody looks at is slowed down by the browser.
+document.addEventListener('visibilitychange', () => { if (!document.hidden) result.live?.again(0); });
 watchTheme(() => {
   parts.paint();
   result.paint();

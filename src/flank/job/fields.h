@@ -155,6 +155,9 @@ void visit_obstacles(Request& obstacles, Visitor& visit) {
                   "Part file that flank, shank and holder must not touch; may be given several times", kAny,
                   Spelling::kFile, "--fixture"},
         obstacles.fixtures);
+  visit(FieldInfo{"fixture_unit", "", kAbove,
+                  "Unit of fixtures that are meshes: mm, cm, m or in; default: `unit`, where the job has it", kUnit},
+        obstacles.fixture_unit);
   visit(FieldInfo{"clearance", "mm", kAbove,
                   "Smallest distance of the holder from the part, of the shank from the faces that are not machined, "
                   "and of the whole tool from fixtures. Default: no collision",

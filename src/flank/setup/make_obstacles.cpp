@@ -221,6 +221,19 @@ void add_own(const Part& part, const ObstacleChoice& choice, const ObstacleDetai
   }
 }
 
+/// Says by which field a missing unit is given: `unit` is that of the part.
+Part read_mesh(const std::string& file, const std::optional<std::string>& unit) {
+  try {
+    return read_part(file, unit);
+  } catch (const InputError& e) {
+    constexpr std::string_view kField = "by `unit`";
+    std::string text = e.what();
+    const std::size_t at = unit ? std::string::npos : text.find(kField);
+    if (at == std::string::npos) throw;
+    throw InputError(text.replace(at, kField.size(), "by `fixture_unit`"));
+  }
+}
+
 }  // namespace
 
 ObstacleChoice choose_obstacles(const std::vector<int>& own, const std::vector<int>& targets,
@@ -255,7 +268,8 @@ Obstacles make_obstacles(const Part& part, const Target& target, const ObstacleC
 std::vector<Part> read_fixtures(const std::vector<std::string>& files, const std::optional<std::string>& unit) {
   std::vector<Part> fixtures;
   // A unit is asked of meshes only: a STEP file has its own, and another one on top of it would be refused.
-  for (const std::string& file : files) fixtures.push_back(read_part(file, is_mesh_file(file) ? unit : std::nullopt));
+  for (const std::string& file : files)
+    fixtures.push_back(is_mesh_file(file) ? read_mesh(file, unit) : read_part(file));
   return fixtures;
 }
 

@@ -58,7 +58,7 @@ Setup read_setup(const PartRequest& part, const ObstacleRequest& obstacles, std:
   setup.checks = faces_to_check(setup.part, setup.targets, obstacles);
   setup.unread = faces_unread(setup.part, setup.targets, obstacles);
   setup.sides = turn_to_machined_side(part, setup.targets, setup.part);
-  setup.fixtures = read_fixtures(obstacles.fixtures, part.unit);
+  setup.fixtures = read_fixtures(obstacles.fixtures, obstacles.fixture_unit ? obstacles.fixture_unit : part.unit);
   notes.insert(notes.end(), setup.part.repairs.begin(), setup.part.repairs.end());
   setup.tolerance_mm = tolerance_mm ? *tolerance_mm : followed_size(setup, notes);
   for (std::string note :

@@ -115,7 +115,7 @@ void signal_child(const Child& child, int signal) {
 }
 
 Said run_child(const std::string& program, const std::vector<std::string>& words, const std::string& folder,
-               double limit_s, std::size_t most_bytes) {
+               const ShortLimits& limits, const std::atomic<bool>& ended) {
   const Scratch scratch(folder);
   const Child child = start_child({program, words, folder, scratch.file("out"), scratch.file("err")});
   const auto begin = std::chrono::steady_clock::now();
@@ -123,10 +123,10 @@ Said run_child(const std::string& program, const std::vector<std::string>& words
   while (!(code = exit_of(child))) {
     const std::chrono::duration<double> age = std::chrono::steady_clock::now() - begin;
     // Its whole group: the command has a child of its own that reads CAD files.
-    if (age.count() > limit_s) ::kill(-child.process, SIGKILL);
+    if (ended || age.count() > limits.seconds) ::kill(-child.process, SIGKILL);
     std::this_thread::sleep_for(kLook);
   }
-  return {*code, read_some(scratch.file("out"), most_bytes), read_some(scratch.file("err"), most_bytes)};
+  return {*code, read_some(scratch.file("out"), limits.bytes), read_some(scratch.file("err"), limits.bytes)};
 }
 
 std::string crash_text(int exit_code) {

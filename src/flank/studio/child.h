@@ -3,6 +3,8 @@
 
 #include <sys/types.h>
 
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -43,9 +45,15 @@ struct Said {
   std::string out, err;
 };
 
-/// Runs a child to its end, at most `limit_s` seconds; of what it says at most `most_bytes` of each stream are kept.
+/// How long a short child may take, and how much it may say.
+struct ShortLimits {
+  double seconds = 3600.0;
+  std::size_t bytes = std::size_t{1} << 20;  ///< of each stream; what is more is thrown away
+};
+
+/// Runs a child to its end, or until `ended` is true: nobody waits for the answer any more.
 [[nodiscard]] Said run_child(const std::string& program, const std::vector<std::string>& words,
-                             const std::string& folder, double limit_s, std::size_t most_bytes);
+                             const std::string& folder, const ShortLimits& limits, const std::atomic<bool>& ended);
 
 /// "refused by the kernel", "crashed (signal 11)": what an exit code means to people; empty for 0 to 3.
 [[nodiscard]] std::string crash_text(int exit_code);

@@ -21,9 +21,6 @@ namespace {
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
-/// For children that only look, and for those that judge: reading a part has limits of its own (SECURITY.md).
-constexpr double kLimitS = 3600.0;
-constexpr std::size_t kMostSaid = std::size_t{1} << 20;
 /// Beside a part: its faces.
 constexpr const char* kFaces = ".faces.json";
 
@@ -96,7 +93,7 @@ Desk::Desk(const std::string& folder, std::string program)
 Desk::~Desk() { ::close(lock_); }
 
 Said Desk::ask(const std::vector<std::string>& words) const {
-  return run_child(program_, words, folder_.path, kLimitS, kMostSaid);
+  return run_child(program_, words, folder_.path, {}, ended_);
 }
 
 std::string Desk::new_file(const std::string& name) const {
@@ -120,6 +117,13 @@ Answer Desk::faces(const std::string& part) const {
   if (!is_plain_name(part) || !fs::is_regular_file(file)) throw InputError("there is no part " + part);
   std::ifstream stream(file, std::ios::binary);
   return {{std::istreambuf_iterator<char>(stream), {}}, "application/json", ""};
+}
+
+Answer Desk::wheel(const std::string& part) const {
+  (void)faces(part);
+  const Said said = ask({"inspect", folder_.files() + "/" + part, "--wheel", "--json"});
+  if (said.exit_code != 0) throw InputError(complaint(said));
+  return {said.out, "application/json", ""};
 }
 
 Answer Desk::state() {

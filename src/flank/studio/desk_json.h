@@ -1,6 +1,7 @@
 /// What a studio answers, without the network: its parts, its files, what its children say. May be asked by several threads.
 #pragma once
 
+#include <atomic>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -25,6 +26,8 @@ class Desk {
   Desk(const Desk&) = delete;
   Desk& operator=(const Desk&) = delete;
 
+  /// Ends what is asked now: who waits for it is told that it was ended.
+  void end() { ended_ = true; }
   [[nodiscard]] Jobs& jobs() { return jobs_; }
   [[nodiscard]] const StudioFolder& folder() const { return folder_; }
 
@@ -34,6 +37,8 @@ class Desk {
   void look_at(const std::string& part, const std::string& unit);
   /// Its faces.json.
   [[nodiscard]] Answer faces(const std::string& part) const;
+  /// What its faces are, if it is a wheel (docs/schema/wheel.md). Throws InputError with the command's own words.
+  [[nodiscard]] Answer wheel(const std::string& part) const;
   /// {"folder", "parts", "files", "jobs"}.
   [[nodiscard]] Answer state();
   [[nodiscard]] Answer fields(const std::string& command) const;
@@ -56,6 +61,7 @@ class Desk {
   StudioFolder folder_;
   std::string program_;
   int lock_ = -1;
+  std::atomic<bool> ended_{false};
   Jobs jobs_;
 };
 

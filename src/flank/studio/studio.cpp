@@ -7,8 +7,10 @@
 
 #include <atomic>
 #include <chrono>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <thread>
 #include <vector>
 
@@ -30,6 +32,8 @@ namespace fs = std::filesystem;
 constexpr const char* kLoopback = "127.0.0.1";
 constexpr std::size_t kMostUpload = std::size_t{512} << 20, kMostQuestion = std::size_t{1} << 20, kMostPath = 1000;
 constexpr std::chrono::milliseconds kLook{100};
+constexpr std::time_t kSilent = 2;    // seconds
+constexpr std::size_t kThreads = 24;  // most of them wait for a child
 constexpr int kRefused = 403, kUnknown = 404, kWrong = 400, kTooLarge = 413, kFault = 500;
 
 std::vector<std::string> segments(const std::string& path) {
@@ -62,7 +66,7 @@ Way way_of(const std::string& path) {
   return way;
 }
 
-void say(httplib::Response& response, const Answer& answer) {
+void say(httplib::Response& response, Answer answer) {
   response.status = 200;
   if (!answer.name.empty()) {
     std::string name;
@@ -73,7 +77,13 @@ void say(httplib::Response& response, const Answer& answer) {
   const bool page = answer.type.starts_with("text/html");
   response.set_header("Content-Security-Policy",
                       page ? "frame-ancestors 'self'" : "default-src 'none'; sandbox; frame-ancestors 'none'");
-  response.set_content(answer.body, answer.type);
+  // As a whole the library would pack it as tightly as it can, which takes seconds, and the way is a short one.
+  const auto body = std::make_shared<const std::string>(std::move(answer.body));
+  if (body->empty()) return response.set_content("", answer.type);
+  response.set_content_provider(body->size(), answer.type,
+                                [body](std::size_t from, std::size_t size, httplib::DataSink& sink) {
+                                  return sink.write(body->data() + from, size);
+                                });
 }
 
 void refuse(httplib::Response& response, int status, const std::string& why) {
@@ -113,6 +123,9 @@ class Server {
     server_.set_payload_max_length(kMostUpload);
     // A refused question is not read to its end: nothing may follow it on the same line.
     server_.set_keep_alive_max_count(1);
+    // Browsers open connections ahead, and say nothing on them: each holds a thread for as long.
+    server_.set_keep_alive_timeout(kSilent);
+    server_.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
     server_.set_default_headers({{"X-Content-Type-Options", "nosniff"},
                                  {"Referrer-Policy", "no-referrer"},
                                  {"Cross-Origin-Resource-Policy", "same-origin"},
@@ -132,6 +145,8 @@ class Server {
     std::atomic<bool> ended{false};
     std::thread watch([&] {
       while (!ended && !cancelled()) std::this_thread::sleep_for(kLook);
+      // A judge may take minutes, and the server waits for whoever answers.
+      desk_.end();
       server_.stop();
     });
     server_.listen_after_bind();
@@ -172,6 +187,7 @@ class Server {
     if (way.pattern == "machines") return say(response, desk_.machines());
     if (way.pattern == "fields/*") return say(response, desk_.fields(name(0)));
     if (way.pattern == "parts/*") return say(response, desk_.faces(name(0)));
+    if (way.pattern == "parts/*/wheel") return say(response, desk_.wheel(name(0)));
     if (way.pattern == "jobs/*") {
       const std::size_t from = std::strtoull(request.get_param_value("from").c_str(), nullptr, 10);
       const Json job = desk_.jobs().one(name(0), from);
