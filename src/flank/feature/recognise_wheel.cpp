@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -17,6 +18,8 @@ constexpr double kSameArea = 0.04;   ///< blades whose areas and places differ b
 constexpr double kSamePlace = 0.01;  ///< of the size
 constexpr double kSpacingDeg = 0.5;  ///< by which equal blades may stand off their places
 constexpr int kOutlinePoints = 24;
+constexpr double kDebrisShare =
+    0.01;  ///< of the size: solids that are smaller and touch nothing are no part of the wheel
 
 [[noreturn]] void refuse(const Part& part, const std::string& what) {
   throw InputError(fmt::format("{}: this is no wheel: {}", part.file, what));
@@ -162,6 +165,22 @@ void add_rest(const std::vector<WheelFace>& faces, WheelRoles& out) {
       out.rest.push_back(face.id);
 }
 
+/// Solids that are small and touch nothing: what a CAD program left behind.
+void add_debris(const std::vector<WheelFace>& faces, double size_mm, WheelRoles& out) {
+  std::map<int, Box3> solids;
+  for (const WheelFace& face : faces)
+    if (face.solid >= 0) solids[face.solid].add(face.box);
+  for (const auto& [solid, box] : solids) {
+    if (!(box.diagonal() < kDebrisShare * size_mm)) continue;
+    std::vector<const WheelFace*> others;
+    for (const WheelFace& face : faces)
+      if (face.solid != solid) others.push_back(&face);
+    if (others.empty() || std::abs(nearest(others, box.center()).height) < box.diagonal()) continue;
+    for (const WheelFace& face : faces)
+      if (face.solid == solid) out.debris.push_back(face.id);
+  }
+}
+
 void add_count(const Part& part, const std::vector<WheelFace>& faces, const WheelChoice& choice, WheelRoles& out) {
   std::vector<double> angles;
   for (const WheelBlade& blade : out.blades)
@@ -205,6 +224,7 @@ WheelRoles recognise_wheel(const Part& part, const WheelChoice& choice) {
                    [](const auto& a, const auto& b) { return a.angle_deg < b.angle_deg; });
   add_count(part, faces, choice, out);
   add_rest(faces, out);
+  add_debris(faces, size, out);
   out.outline = outline_of(out, faces);
   return out;
 }

@@ -63,7 +63,9 @@ std::string wheel_table(const WheelRoles& w) {
     text += fmt::format("{:<9} {:5.1f} {:7.2f} {:6.3f}  {:<24} {:<16} {:<16} {}{}\n", b.splitter ? "splitter" : "main",
                         b.angle_deg, b.height_mm, b.thickness_mm, list(b.ahead) + " / " + list(b.behind), list(b.edges),
                         list(b.tips), fillets_text(b.fillets), b.buried.empty() ? "" : "; buried " + list(b.buried));
-  return text + fmt::format("\nnot milled here: {}\n", list(w.rest));
+  text += fmt::format("\nnot milled here: {}\n", list(w.rest));
+  if (!w.debris.empty()) text += fmt::format("no part of the wheel: {} (small, and touch nothing)\n", list(w.debris));
+  return text;
 }
 
 std::string wheel_json(const WheelRoles& w) {
@@ -81,6 +83,7 @@ std::string wheel_json(const WheelRoles& w) {
   json["blades"] = nlohmann::ordered_json::array();
   for (const WheelBlade& blade : w.blades) json["blades"].push_back(blade_json(blade));
   json["rest"] = w.rest;
+  json["debris"] = w.debris;
   return dumped(json, 2) + "\n";
 }
 

@@ -17,6 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kDraftMm = 1.0;
+
 /// The hub and one sector's blades: each target more costs memory for what is open of it, and the other blades are their copies. They
 /// are still among the faces that must not be cut.
 std::vector<std::string> flow_faces(const WheelWork& work) {
@@ -30,7 +32,7 @@ std::vector<std::string> flow_faces(const WheelWork& work) {
 
 }  // namespace
 
-Result judged_path(const WheelWork& work, const std::vector<std::string>& faces, Path path, double least) {
+Result judged_path(const WheelWork& work, const std::vector<std::string>& faces, Path path, double least, Care care) {
   Result result;
   CoverJob job;
   job.part.file = work.job.part;
@@ -40,6 +42,8 @@ Result judged_path(const WheelWork& work, const std::vector<std::string>& faces,
   job.tolerance_mm = work.job.tolerance_mm;
   job.judge.least_coverage = least;
   job.judge.reach_radius_mm = kOpenBall * work.job.tolerance_mm;
+  if (care == Care::kDraft) job.judge.sample_mm = std::max(kDraftMm, work.job.sample_mm.value_or(0.0));
+  if (!work.roles.debris.empty()) job.obstacles.ignore_faces = face_list(work.roles.debris);
   const Setup setup = read_setup(job.part, job.obstacles, job.tolerance_mm, result.notes);
   result.job = job;
   result.inputs = input_stamps(job);
@@ -51,7 +55,7 @@ Result judged_path(const WheelWork& work, const std::vector<std::string>& faces,
   const ClearanceScene scene = make_clearance_scene(
       setup, job.obstacles, !result.tool.holder.empty() || !result.tool.shank.empty(), result.notes);
   // Small faces beside large ones: each has samples enough only where no spacing is given for all.
-  const DepthProof depth = work.job.sample_mm ? DepthProof::kSampled : DepthProof::kProved;
+  const DepthProof depth = work.job.sample_mm || care == Care::kDraft ? DepthProof::kSampled : DepthProof::kProved;
   result.verify = judge_job(setup, job.judge, result.tool, result.path, depth);
   measure_bodies(scene, result.tool, result.path, result.verify);
   auto drawings = std::make_shared<Result::Drawings>();
@@ -61,8 +65,8 @@ Result judged_path(const WheelWork& work, const std::vector<std::string>& faces,
 }
 
 Result judge_whole(const WheelWork& work) {
-  Path path = copied(work.finish, work.roles.axis, work.sector.pitch_rad, work.sector.copies, work.roles.whole);
-  return judged_path(work, flow_faces(work), std::move(path), work.job.least_coverage);
+  Path path = copied(work.finish, work.roles.axis, work.sector.pitch_rad, work.copies(), work.roles.whole);
+  return judged_path(work, flow_faces(work), std::move(path), work.job.least_coverage, Care::kFull);
 }
 
 std::vector<RoleFigures> role_figures(const WheelRoles& roles, const VerifyReport& report) {

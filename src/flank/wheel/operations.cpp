@@ -3,38 +3,28 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <filesystem>
-#include <functional>
-#include <limits>
-#include <map>
-#include <memory>
-#include <utility>
 
-#include "flank/base/sha256.h"
 #include "flank/error.h"
 #include "flank/job/job_json.h"
 #include "flank/path_file.h"
 #include "flank/tool_file.h"
-#include "flank/version.h"
+#include "flank/wheel/blade_copies.h"
 #include "flank/wheel/judge_whole.h"
-#include "flank/wheel/point/floor_passes.h"
+#include "flank/wheel/perform.h"
+#include "flank/wheel/side_guard.h"
 
 namespace flank::internal {
 namespace {
 
-namespace fs = std::filesystem;
+using Names = std::vector<std::string>;
 
-std::string in_folder(const WheelWork& work, const std::string& name) {
-  return (fs::path(work.job.folder) / name).string();
-}
+constexpr double kFitSampleMm = 1.0;   ///< of the judge of one side: the whole is judged closely at the end
+constexpr double kTaperDeg = 12.0;     ///< of the tool that is made for a wheel
+constexpr double kCornerShare = 0.5;   ///< of what may be left, that the corners at the hub may take
+constexpr double kFilletShare = 0.97;  ///< of a root fillet's radius, that the tip has
 
-std::string tool_file(const WheelWork& work) {
-  return fs::absolute(in_folder(work, "tools/T1.json")).lexically_normal().string();
-}
-
-PartRequest part_request(const WheelWork& work, const std::vector<std::string>& faces) {
+PartRequest part_request(const WheelWork& work, const Names& faces) {
   PartRequest out;
   out.file = work.job.part;
   out.unit = work.job.unit;
@@ -42,163 +32,132 @@ PartRequest part_request(const WheelWork& work, const std::vector<std::string>& 
   return out;
 }
 
-/// Makes the operation's result, unless a finished one of the same key lies in its folder. `make` throws, or gives a result.
-WheelOperation perform(WheelWork& work, WheelOperation operation, const std::string& decides,
-                       const std::function<Result()>& make) {
-  operation.folder = "ops/" + operation.id + "-" + operation.kind;
-  operation.key = sha256(work.part.sha256 + kVersion + decides);
-  const auto known = work.finished.find(operation.id);
-  if (known != work.finished.end() && known->second.done && known->second.key == operation.key &&
-      fs::exists(in_folder(work, operation.folder + "/path.json"))) {
-    operation = known->second;
-    operation.kept = true;
-    return operation;
-  }
-  const auto begun = std::chrono::steady_clock::now();
-  try {
-    const Result result = make();
-    if (result.path.pose_count() == 0) throw InputError("nothing was found that machines anything");
-    write_result(result, in_folder(work, operation.folder));
-    const Acceptance acceptance = result.acceptance();
-    operation.done = result.complete;
-    operation.pass = acceptance.pass();
-    if (!result.complete)
-      operation.problem = "it was stopped";
-    else if (!acceptance.pass())
-      operation.problem = acceptance.reasons.front().text;
-  } catch (const Error& error) {
-    operation.problem = error.what();
-  }
-  operation.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-  return operation;
-}
-
-/// Strips of an operation that is done go into the finishing path.
-void take(WheelWork& work, const WheelOperation& operation) {
-  if (!operation.done) return;
-  const Path path = read_path(in_folder(work, operation.folder + "/path.json"));
-  work.finish.strips.insert(work.finish.strips.end(), path.strips.begin(), path.strips.end());
-}
-
-std::vector<std::unique_ptr<Target>> targets_of(const WheelWork& work, const std::vector<std::string>& faces) {
-  std::vector<std::unique_ptr<Target>> out;
-  Part part = work.part;
-  if (!part.is_mesh()) split_faces(part, face_list(faces));
-  for (const int face : parse_face_list(part, face_list(faces)))
-    out.push_back(part.is_mesh() ? make_target(extract_mesh(part, {face}))
-                                 : make_target({part.faces[static_cast<std::size_t>(face)]}, +1));
+ObstacleRequest obstacle_request(const WheelWork& work) {
+  ObstacleRequest out;
+  if (!work.roles.debris.empty()) out.ignore_faces = face_list(work.roles.debris);
   return out;
 }
 
-void add_all(const std::vector<std::unique_ptr<Target>>& from, std::vector<const Target*>& to) {
-  for (const auto& target : from) to.push_back(target.get());
+/// The tip that a root fillet lets in; without fillets the largest one that leaves no more in the corners between sides and hub than a
+/// share of what may be left: a ball of radius r leaves r - sqrt(2 r tolerance) on either side, about.
+double tip_radius(WheelWork& work) {
+  double fillet = 1e300, corners = 0.0, area = 0.0, height = 1e300;
+  for (const WheelBlade& blade : work.sector.blades) {
+    for (const RootFillet& one : blade.fillets) fillet = std::min(fillet, one.low_mm);
+    corners += blade.area_mm2 / blade.height_mm;
+    area += blade.area_mm2;
+    height = std::min(height, blade.height_mm);
+  }
+  if (fillet < 1e300) return kFilletShare * fillet;
+  for (const Target* hub : work.targets.of(work.roles.hub)) area += hub->area() / work.copies_of_hub();
+  const double band = kCornerShare * (1.0 - work.job.least_coverage) * area / (2.0 * corners),
+               root = std::sqrt(2.0 * work.job.tolerance_mm), q = 0.5 * (root + std::sqrt(root * root + 4.0 * band));
+  return std::clamp(q * q, 4.0 * work.job.tolerance_mm, 0.2 * height);
 }
 
-/// A pose of a side's path by its place along the blade, and how high its tip is over the hub, mm.
-struct LowPose {
-  Pose pose;
-  double along = 0.0, height = 0.0;
-};
-
-double height_over(const std::vector<const Target*>& hub, const Vec3& p) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Target* target : hub) least = std::min(least, std::abs(target->closest(p).distance));
-  return least;
+std::string tool_spec(WheelWork& work) {
+  if (work.job.tool) return *work.job.tool;
+  return fmt::format("cone:radius={:.2f},angle={}", std::floor(tip_radius(work) * 20.0) / 20.0, kTaperDeg);
 }
 
-/// The lowest poses of a side's strips from one end of the blade to the other: each strip is the lower one on a stretch of its own. The
-/// axes are means over a few millimetres, so that they do not jump where another strip takes over. Empty where the tool's other end is
-/// at the hub.
-std::vector<Pose> lowest(const std::vector<Strip>& strips, const std::vector<const Target*>& hub, const WheelAxis& axis,
-                         double length_mm) {
-  constexpr double kCellMm = 1.0;
-  constexpr int kMeanCells = 3;
-  // Along the blade, from an axial inlet to a radial outlet: both coordinates together rise all the way.
-  const auto place = [&](const Pose& pose) { return Vec2(axis.along(pose.tip), axis.radius(pose.tip)); };
-  std::vector<Vec2> ends;
-  for (const Strip& strip : strips) ends.push_back(place(strip.poses.back()) - place(strip.poses.front()));
-  if (ends.empty()) return {};
-  const double sign = ends.front().x() * ends.front().y() < 0.0 ? -1.0 : 1.0;
-  std::map<int, LowPose> cells;
-  for (const Strip& strip : strips)
-    for (const Pose& pose : strip.poses) {
-      const Vec2 q = place(pose);
-      const LowPose here{pose, q.y() + sign * q.x(), height_over(hub, pose.tip)};
-      if (here.height > height_over(hub, pose.at(length_mm))) continue;
-      const auto [cell, fresh] = cells.try_emplace(static_cast<int>(std::floor(here.along / kCellMm)), here);
-      if (!fresh && here.height < cell->second.height) cell->second = here;
+FitJob side_job(const WheelWork& work, const Names& side, const std::string& tool) {
+  FitJob job;
+  job.part = part_request(work, side);
+  job.obstacles = obstacle_request(work);
+  job.tolerance_mm = work.job.tolerance_mm;
+  job.effort = work.job.effort;
+  job.tool.spec = tool;
+  job.judge.reach_radius_mm = kOpenBall * work.job.tolerance_mm;
+  job.judge.sample_mm = std::max(kFitSampleMm, work.job.sample_mm.value_or(0.0));
+  return job;
+}
+
+/// Each side of the sector by a fit of its own; all with the tool of the first one.
+Path fitted_sides(WheelWork& work, const std::string& spec, const Progress& progress) {
+  Path path;
+  std::vector<Names> sides;
+  for (const WheelBlade& blade : work.sector.blades) sides.push_back(blade.ahead), sides.push_back(blade.behind);
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    const double count = static_cast<double>(sides.size());
+    const Result result =
+        run_fit(side_job(work, sides[k], work.tool ? tool_file(work) : spec),
+                progress.part(static_cast<double>(k) / count, (static_cast<double>(k) + 1.0) / count));
+    if (!result.complete) throw InputError("it was stopped");
+    if (result.path.pose_count() == 0) {
+      work.notes.push_back(face_list(sides[k]) + ": no pass of the flank was found");
+      continue;
     }
-  std::vector<Pose> poses, out;
-  for (const auto& [cell, here] : cells) poses.push_back(here.pose);
-  out = poses;
-  const int count = static_cast<int>(poses.size());
-  for (int k = 0; k < count; ++k) {
-    Vec3 sum = Vec3::Zero();
-    for (int n = std::max(0, k - kMeanCells); n <= std::min(count - 1, k + kMeanCells); ++n)
-      sum += poses[static_cast<std::size_t>(n)].axis;
-    out[static_cast<std::size_t>(k)].axis = sum.normalized();
+    if (!work.tool) {
+      work.tool = result.tool;
+      write_tool(*work.tool, in_folder(work, "tools/T1.json"));
+    }
+    path.strips.insert(path.strips.end(), result.path.strips.begin(), result.path.strips.end());
   }
-  return out;
+  return path;
 }
 
-Path floor_path(const WheelWork& work) {
-  const auto hub = targets_of(work, work.roles.hub);
-  Path out;
-  for (const SectorChannel& channel : work.sector.channels) {
-    const auto first = targets_of(work, channel.first), second = targets_of(work, channel.second);
-    FloorChannel place;
-    add_all(hub, place.floor);
-    add_all(first, place.sides);
-    add_all(second, place.sides);
-    const double length = work.tool->radial.axis_length();
-    place.first = lowest(strips_of(work.finish, channel.first), place.floor, work.roles.axis, length);
-    place.second = lowest(strips_of(work.finish, channel.second_path), place.floor, work.roles.axis, length);
-    // The path of the sector's own main blade is a pitch behind that of the next one.
-    if (channel.turned) place.second = turned(place.second, work.roles.axis, work.sector.pitch_rad);
-    const WheelAxis& axis = work.roles.axis;
-    place.place = [&axis](const Vec3& p) { return Vec3(axis.along(p), axis.radius(p), 0.0); };
-    FloorOptions options;
-    options.tolerance_mm = work.job.tolerance_mm;
-    options.clearance_mm = -0.3 * work.job.tolerance_mm;
-    for (Strip& strip : floor_passes(place, work.tool->radial, options, face_list(work.roles.hub)))
-      out.strips.push_back(std::move(strip));
+/// How far other blades are from turned copies of the sector's.
+double difference_of(WheelWork& work, const std::vector<WheelSector>& sectors) {
+  double most = 0.0;
+  for (std::size_t k = 1; k < sectors.size(); ++k)
+    for (std::size_t b = 0; b < std::min(sectors[k].blades.size(), work.sector.blades.size()); ++b) {
+      const WheelBlade &own = work.sector.blades[b], &other = sectors[k].blades[b];
+      const double turn = static_cast<double>(k) * work.sector.pitch_rad;
+      most = std::max(
+          {most, side_difference(work.targets.of(own.ahead), work.targets.of(other.ahead), work.roles.axis, turn),
+           side_difference(work.targets.of(own.behind), work.targets.of(other.behind), work.roles.axis, turn)});
+    }
+  return most;
+}
+
+/// The sector's strips led onto the sides of the blades of another one.
+void carry_over(WheelWork& work, const Path& path, const WheelSector& to, double turn, Path& out) {
+  for (std::size_t b = 0; b < std::min(to.blades.size(), work.sector.blades.size()); ++b) {
+    const WheelBlade &own = work.sector.blades[b], &other = to.blades[b];
+    for (const bool ahead : {true, false}) {
+      const Names &from = ahead ? own.ahead : own.behind, &onto = ahead ? other.ahead : other.behind;
+      for (const Strip& strip : strips_of(path, from)) {
+        out.strips.push_back(carried_over(strip, work.tool->radial, work.targets.of(from), work.targets.of(onto),
+                                          work.targets.of(work.roles.hub), work.roles.axis, turn));
+        out.strips.back().face = face_list(onto);
+      }
+    }
   }
-  for (std::size_t k = 0; k < out.strips.size(); ++k) out.strips[k].id = static_cast<int>(k) + 1;
-  return out;
+}
+
+Path side_path(WheelWork& work, const std::string& spec, const Progress& progress) {
+  Path path = fitted_sides(work, spec, progress);
+  if (!work.tool || path.strips.empty()) return {};
+  if (!work.equal()) {
+    const std::vector<WheelSector> sectors = all_sectors(work.roles);
+    const Path own = path;
+    for (std::size_t k = 1; k < sectors.size(); ++k)
+      carry_over(work, own, sectors[k], static_cast<double>(k) * work.sector.pitch_rad, path);
+  }
+  path = kept_free(work, path);
+  for (std::size_t k = 0; k < path.strips.size(); ++k) path.strips[k].id = static_cast<int>(k) + 1;
+  return path;
 }
 
 }  // namespace
 
 WheelOperation side_operation(WheelWork& work, const Progress& progress) {
   WheelOperation operation{.id = "20", .kind = "side", .folder = "", .faces = work.sector.sides()};
-  FitJob job;
-  job.part = part_request(work, operation.faces);
-  job.tolerance_mm = work.job.tolerance_mm;
-  job.effort = work.job.effort;
-  if (work.job.tool) job.tool.spec = *work.job.tool;
-  job.judge.sample_mm = work.job.sample_mm;
-  operation = perform(work, operation, job_to_json(job), [&] { return run_fit(job, progress); });
+  if (work.roles.whole) work.difference_mm = difference_of(work, all_sectors(work.roles));
+  if (!work.equal())
+    work.notes.push_back(
+        fmt::format("the blades are not equal: turned copies of the first differ by up to {:.3f} mm, so "
+                    "every sector has paths of its own",
+                    work.difference_mm));
+  const std::string spec = tool_spec(work);
+  operation = perform(work, operation, job_to_json(side_job(work, operation.faces, spec)), [&] {
+    Path path = side_path(work, spec, progress);
+    if (path.strips.empty()) throw InputError("no pass of the flank was found on any side");
+    return judged_path(work, operation.faces, std::move(path), work.job.least_coverage, Care::kDraft);
+  });
   if (!operation.done) return operation;
   work.tool = read_tool(in_folder(work, operation.folder + "/tool.json"));
   write_tool(*work.tool, in_folder(work, "tools/T1.json"));
-  take(work, operation);
-  return operation;
-}
-
-WheelOperation floor_operation(WheelWork& work, const Progress&) {
-  WheelOperation operation{.id = "30", .kind = "floor", .folder = "", .faces = work.roles.hub};
-  if (!work.tool) {
-    operation.problem = "there is no tool: the sides have none";
-    return operation;
-  }
-  const std::string decides =
-      path_to_json(work.finish) + tool_to_json(*work.tool) + fmt::format("{}", work.job.tolerance_mm);
-  operation = perform(work, operation, decides, [&] {
-    Path path = floor_path(work);
-    if (path.strips.empty()) throw InputError("no pass on the hub is free between the blades' sides");
-    // The folder is about one sector: of a hub that goes all round it finishes its share.
-    return judged_path(work, operation.faces, std::move(path), work.job.least_coverage / work.roles.count * 0.5);
-  });
   take(work, operation);
   return operation;
 }
@@ -213,9 +172,10 @@ WheelOperation edge_operation(WheelWork& work, const Progress& progress) {
   }
   CoverJob job;
   job.part = part_request(work, operation.faces);
+  job.obstacles = obstacle_request(work);
   job.tool.spec = tool_file(work);
   job.tolerance_mm = work.job.tolerance_mm;
-  job.judge.sample_mm = work.job.sample_mm;
+  job.judge.reach_radius_mm = kOpenBall * work.job.tolerance_mm;
   const std::string decides = job_to_json(job) + tool_to_json(*work.tool);
   operation = perform(work, operation, decides, [&] { return run_cover(job, progress); });
   take(work, operation);

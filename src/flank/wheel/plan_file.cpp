@@ -92,8 +92,10 @@ std::string plan_json(const WheelResult& result) {
 }
 
 std::string wheel_text(const WheelResult& result) {
-  std::string text =
-      fmt::format("{}: {} sectors, {} of them in the part\n", result.roles.file, result.roles.count, result.copies);
+  std::string text = fmt::format(
+      "{}: {} sectors, {}\n", result.roles.file, result.roles.count,
+      result.copies > 1 ? fmt::format("{} copies of one", result.copies) : std::string("each planned by itself"));
+  for (const std::string& note : result.notes) text += "  note    " + note + "\n";
   for (const WheelOperation& o : result.operations)
     text +=
         fmt::format("  {:<3} {:<6} {:<14} {:7.1f} s  {}{}\n", o.id, o.kind, face_list(o.faces), o.seconds,

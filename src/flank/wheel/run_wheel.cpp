@@ -44,7 +44,7 @@ WheelResult run_wheel(const WheelJob& job, const Progress& progress) {
   result.copies = sector.copies;
   make_folder(job.folder);
   const std::string plan = (fs::path(job.folder) / "plan.json").string();
-  WheelWork work{job, result.roles, sector, part, finished_operations(plan), {}, {}};
+  WheelWork work{job, result.roles, sector, part, FaceTargets(part), wheel_faces(part), finished_operations(plan)};
   const auto run = [&](WheelOperation operation) {
     result.operations.push_back(std::move(operation));
     std::stable_sort(result.operations.begin(), result.operations.end(),
@@ -53,6 +53,7 @@ WheelResult run_wheel(const WheelJob& job, const Progress& progress) {
   };
   write_file((fs::path(job.folder) / "wheel.json").string(), wheel_json(result.roles));
   run(side_operation(work, progress.part(0.0, 0.4)));
+  result.copies = work.copies(), result.notes = work.notes;
   run(floor_operation(work, progress.part(0.4, 0.5)));
   if (job.edges) run(edge_operation(work, progress.part(0.5, 0.6)));
   if (job.rough) run(rough_operation(work, progress.part(0.6, 0.8)));

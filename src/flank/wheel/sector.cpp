@@ -42,27 +42,35 @@ std::vector<std::string> WheelSector::sides() const {
   return out;
 }
 
-WheelSector make_sector(const WheelRoles& roles) {
-  WheelSector out;
-  out.pitch_rad = 2.0 * std::numbers::pi / roles.count;
-  out.copies = roles.whole ? roles.count : roles.mains();
+std::vector<WheelSector> all_sectors(const WheelRoles& roles) {
+  std::vector<WheelSector> all;
   for (const WheelBlade& blade : roles.blades) {
     if (blade.splitter) continue;
     const WheelBlade* last = next_of(roles, blade, true);
     if (last == nullptr) continue;
+    WheelSector out;
+    out.pitch_rad = 2.0 * std::numbers::pi / roles.count;
+    out.copies = roles.whole ? roles.count : roles.mains();
     out.blades = {blade};
     const WheelBlade* at = &blade;
     while (const WheelBlade* next = next_of(roles, *at, false)) {
       const bool end = next == last;
       out.channels.push_back({at->ahead, next->behind, end ? blade.behind : next->behind, end});
-      if (end) return out;
+      if (end) break;
       out.blades.push_back(*next);
       at = next;
     }
-    out.channels.clear();
+    if (!out.channels.empty() && out.channels.back().turned) all.push_back(std::move(out));
   }
-  throw InputError(
-      fmt::format("{}: it has no two main blades beside each other, so no channel between them", roles.file));
+  return all;
+}
+
+WheelSector make_sector(const WheelRoles& roles) {
+  const std::vector<WheelSector> all = all_sectors(roles);
+  if (all.empty())
+    throw InputError(
+        fmt::format("{}: it has no two main blades beside each other, so no channel between them", roles.file));
+  return all.front();
 }
 
 std::string face_list(const std::vector<std::string>& faces) { return fmt::format("{}", fmt::join(faces, ",")); }

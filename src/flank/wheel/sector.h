@@ -28,6 +28,8 @@ struct WheelSector {
 /// The first main blade with another one behind it, and what stands between them. Throws InputError where no two main blades
 /// are there.
 [[nodiscard]] WheelSector make_sector(const WheelRoles& roles);
+/// The sectors of all main blades that have another one behind them, the one of make_sector() first.
+[[nodiscard]] std::vector<WheelSector> all_sectors(const WheelRoles& roles);
 
 /// "F1,F2".
 [[nodiscard]] std::string face_list(const std::vector<std::string>& faces);

@@ -52,6 +52,7 @@ struct WheelResult {
   int copies = 0;
   std::vector<WheelOperation> operations;
   std::vector<RoleFigures> figures;
+  std::vector<std::string> notes;
   std::optional<Result> whole;  ///< all copies of all finishing operations, judged on all flow faces
   [[nodiscard]] Acceptance acceptance() const;
 };

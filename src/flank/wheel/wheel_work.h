@@ -4,8 +4,11 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "flank/feature/wheel_face.h"
 #include "flank/tool.h"
+#include "flank/wheel/face_targets.h"
 #include "flank/wheel/sector.h"
 #include "flank/wheel/wheel_job.h"
 
@@ -16,9 +19,22 @@ struct WheelWork {
   const WheelRoles& roles;
   const WheelSector& sector;
   const Part& part;
-  std::map<std::string, WheelOperation> finished;  ///< of an earlier run, by id
-  std::optional<Tool> tool;                        ///< T1
-  Path finish;                                     ///< strips of the sector that finish something, in their order
+  FaceTargets targets;
+  std::vector<WheelFace> faces;                         ///< as triangles: what directions are chosen by
+  std::map<std::string, WheelOperation> finished = {};  ///< of an earlier run, by id
+  /// How far the blades are from turned copies of the first one, mm. From `kEqualShare` of the tolerance on every sector has paths of its
+  /// own, and `finish` holds them all.
+  double difference_mm = 0.0;
+  std::optional<Tool> tool = {};  ///< T1
+  Path finish = {};               ///< strips that finish something, in their order
+  std::vector<std::string> notes = {};
+
+  static constexpr double kEqualShare = 0.1;
+  [[nodiscard]] bool equal() const { return difference_mm <= kEqualShare * job.tolerance_mm; }
+  /// The sectors that the hub of the part goes round.
+  [[nodiscard]] int copies_of_hub() const { return roles.whole ? roles.count : 1; }
+  /// How often `finish` is turned.
+  [[nodiscard]] int copies() const { return equal() ? sector.copies : 1; }
 };
 
 }  // namespace flank::internal

@@ -1,4 +1,4 @@
-// Passes on a floor between two walls leave scallops within their share and cut neither floor nor walls.
+// Passes on a floor between two leaning walls leave scallops within their share, climb the walls, and cut nothing.
 #include "flank/wheel/point/floor_passes.h"
 
 #include <gtest/gtest.h>
@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/feature/wheel_face.h"
 #include "flank/judge.h"
 
 namespace flank::internal {
 namespace {
 
-constexpr double kLength = 40.0, kWidth = 12.0, kHeight = 20.0, kTip = 2.0, kAxis = 18.0;
+constexpr double kLength = 20.0, kWidth = 8.0, kHeight = 5.0, kLean = 0.3, kTip = 1.5, kAxis = 8.0;
+constexpr double kTolerance = 0.05;
 
 /// A bilinear face whose normal is du x dv.
 Face plane(const Vec3& corner, const Vec3& along_u, const Vec3& along_v) {
@@ -24,70 +26,94 @@ Face plane(const Vec3& corner, const Vec3& along_u, const Vec3& along_v) {
   return face;
 }
 
+WheelFace triangles(const Vec3& corner, const Vec3& along_u, const Vec3& along_v) {
+  WheelFace out;
+  out.mesh.vertices = {corner, corner + along_u, corner + along_v, corner + along_u + along_v};
+  out.mesh.triangles = {{0, 1, 3}, {0, 3, 2}};
+  out.box = out.mesh.box();
+  out.tree = TriangleBvh(out.mesh);
+  return out;
+}
+
+/// Along x; the wheel's axis is far below, so that the floor is nearly flat. A right-handed turn about it goes towards -y.
 struct Channel {
-  std::unique_ptr<Target> floor = make_target({plane(Vec3::Zero(), kLength* Vec3::UnitX(), kWidth* Vec3::UnitY())});
-  std::unique_ptr<Target> near = make_target({plane(Vec3::Zero(), kHeight* Vec3::UnitZ(), kLength* Vec3::UnitX())});
-  std::unique_ptr<Target> far =
-      make_target({plane(Vec3(0.0, kWidth, 0.0), kLength* Vec3::UnitX(), kHeight* Vec3::UnitZ())});
+  Vec3 near_up{0.0, -kLean*kHeight, kHeight}, far_up{0.0, kLean*kHeight, kHeight};
+  Vec3 along = kLength * Vec3::UnitX(), across = kWidth * Vec3::UnitY(), far_corner{0.0, kWidth, 0.0};
+  std::unique_ptr<Target> floor = make_target({plane(Vec3::Zero(), along, across)});
+  std::unique_ptr<Target> near = make_target({plane(Vec3::Zero(), near_up, along)});
+  std::unique_ptr<Target> far = make_target({plane(far_corner, along, far_up)});
+  std::vector<WheelFace> coarse{triangles(Vec3::Zero(), along, across), triangles(Vec3::Zero(), near_up, along),
+                                triangles(far_corner, along, far_up)};
   RadialFunction radial{ToolFamily::kCylinder, kAxis, Eigen::VectorXd::Constant(1, kTip)};
 
-  /// Along a wall, upright; `lift`: how high the tip is over its place on the floor.
-  [[nodiscard]] static std::vector<Pose> along(double y, double lift, bool back) {
-    std::vector<Pose> out;
-    for (int k = 0; k <= 40; ++k) out.push_back({Vec3(k, y, kTip + lift), Vec3::UnitZ()});
-    if (back) std::reverse(out.begin(), out.end());
+  [[nodiscard]] FloorChannel asked() const {
+    FloorChannel out;
+    out.axis.point = Vec3(0.0, 0.5 * kWidth, -4000.0), out.axis.direction = Vec3::UnitX();
+    out.floor = {floor.get()}, out.first = {far.get()}, out.second = {near.get()};
+    out.walls = {near.get(), far.get()};
+    for (const WheelFace& face : coarse) out.coarse.push_back(&face);
     return out;
   }
-  [[nodiscard]] FloorChannel asked(double first_y) const {
-    return {{floor.get()}, {near.get(), far.get()}, along(first_y, 3.0, false), along(kWidth - kTip, 1.0, true)};
-  }
-  [[nodiscard]] Path passes(double first_y) const {
+  [[nodiscard]] Path passes(bool finished) const {
+    PointOptions options;
+    options.tolerance_mm = kTolerance;
+    options.is_finished = [finished](const Vec3&) { return finished; };
     Path path;
-    path.strips = floor_passes(asked(first_y), radial, {.tolerance_mm = 0.05}, "F1");
+    path.strips = point_passes(asked(), radial, options, "F1", "F2", "F3");
     return path;
   }
 };
 
-TEST(FloorPasses, LeaveScallopsWithinTheirShareAndCutNothing) {
+struct Left {
+  double least = 1e300, most = -1e300;
+};
+
+/// What the path leaves of a flat face between shares of its sides; < 0: cut.
+Left left_of(const SweptVolume& volume, const Vec3& corner, const Vec3& u, const Vec3& v, double from, double to) {
+  Left out;
+  for (double x = 0.1; x <= 0.9; x += 0.031)
+    for (double y = from; y <= to; y += 0.013) {
+      const double f = volume.distance(corner + x * u + y * v).f;
+      out.least = std::min(out.least, f), out.most = std::max(out.most, f);
+    }
+  return out;
+}
+
+TEST(PointPasses, FinishFloorAndWallsAndCutNothing) {
   const Channel channel;
-  const Path path = channel.passes(kTip);
+  const Path path = channel.passes(false);
   ASSERT_GT(path.strips.size(), 5U);
   Tool tool;
   tool.radial = channel.radial;
   const SweptVolume volume(tool, path);
-  double lowest = 1e300, highest = -1e300;
-  for (double x = 2.0; x < kLength - 2.0; x += 0.37)
-    for (double y = kTip; y <= kWidth - kTip; y += 0.11) {
-      const double f = volume.distance(Vec3(x, y, 0.0)).f;
-      lowest = std::min(lowest, f), highest = std::max(highest, f);
-    }
-  EXPECT_GE(lowest, -1e-6);
-  EXPECT_LE(highest, 0.05);
-  EXPECT_GT(highest, 0.01) << "passes that are closer than the tolerance asks for take time for nothing";
-  for (const Strip& strip : path.strips) {
-    EXPECT_EQ(strip.kind, "floor");
-    for (const Pose& pose : strip.poses) {
-      EXPECT_GE(pose.tip.y(), kTip - 1e-3);
-      EXPECT_LE(pose.tip.y(), kWidth - kTip + 1e-3);
-    }
+  // The tip stands off its corner by its radius times the tangent of half of what is left of a straight angle.
+  const double corner = kTip * std::tan(0.5 * (0.5 * M_PI - std::atan(kLean)));
+  const Left floor =
+      left_of(volume, Vec3::Zero(), channel.along, channel.across, corner / kWidth, 1.0 - corner / kWidth);
+  EXPECT_GE(floor.least, -1e-6);
+  EXPECT_LE(floor.most, kTolerance);
+  EXPECT_GT(floor.most, 0.3 * kTolerance) << "passes that are closer than the tolerance asks for take time for nothing";
+  for (const bool near : {true, false}) {
+    const Vec3 up = near ? channel.near_up : channel.far_up, at = near ? Vec3::Zero() : channel.far_corner;
+    const Left wall = left_of(volume, at, channel.along, up, corner / up.norm(), 0.95);
+    EXPECT_GE(wall.least, -0.4 * kTolerance);
+    EXPECT_LE(wall.most, kTolerance);
   }
 }
 
-TEST(FloorPasses, ASidePathThatIsInsideTheWallIsLeftForTheMiddle) {
+TEST(PointPasses, AWallThatIsFinishedHasNone) {
   const Channel channel;
-  const Path path = channel.passes(0.5 * kTip);
+  const Path path = channel.passes(true);
   ASSERT_FALSE(path.strips.empty());
-  double least = 1e300;
-  for (const Strip& strip : path.strips)
-    for (const Pose& pose : strip.poses) least = std::min(least, pose.tip.y());
-  EXPECT_NEAR(least, kTip, 0.01);
+  for (const Strip& strip : path.strips) EXPECT_EQ(strip.kind, "floor");
 }
 
-TEST(FloorPasses, PathsThatDoNotRunBesideEachOtherHaveNone) {
+TEST(PointPasses, SidesThatDoNotStandOnTheFloorHaveNone) {
   const Channel channel;
-  FloorChannel asked = channel.asked(kTip);
-  for (Pose& pose : asked.second) pose.tip.x() += 3.0 * kLength;
-  EXPECT_TRUE(floor_passes(asked, channel.radial, {}, "F1").empty());
+  FloorChannel asked = channel.asked();
+  const auto beside = make_target({plane(Vec3(0.0, 0.0, 50.0), channel.near_up, channel.along)});
+  asked.second = {beside.get()};
+  EXPECT_TRUE(point_passes(asked, channel.radial, {}, "F1", "F2", "F3").empty());
 }
 
 }  // namespace

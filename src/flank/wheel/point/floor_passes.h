@@ -1,37 +1,21 @@
 /// Passes of a tool's tip sphere over the floor of a channel (docs/MATH.md, section 14): point contact.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "flank/path.h"
 #include "flank/radial_function.h"
-#include "flank/target.h"
+#include "flank/wheel/point/channel.h"
 
 namespace flank::internal {
 
-/// A channel between two sides that have paths of their own; nothing is owned.
-struct FloorChannel {
-  std::vector<const Target*> floor;
-  std::vector<const Target*> sides;  ///< both, and their edges: what the flank keeps out of
-  std::vector<Pose> first, second;   ///< paths of the two sides, with this tool
-  /// Where a tip counts as, to find the places that are across from each other: in a wheel along the axis and away from it. Empty: where
-  /// it is.
-  std::function<Vec3(const Vec3&)> place = {};
-};
-
-struct FloorOptions {
-  double tolerance_mm = 0.05;
-  double scallop_share = 0.5;  ///< of the tolerance, that scallops take; the rest is for chords and the tip's height
-  double clearance_mm = 0.0;   ///< of the flank from the sides; < 0: it may enter by so much
-};
-
-/// Strips of kind "floor", from the first side to the second; each other one the other way round. Poses lie between the sides'
-/// paths, paired by the nearest `place` on the first one's: direction on the great circle, tip on the floor's offset by the tip's
-/// radius. No pose is nearer to a side than the clearance: it moves to the middle instead, and where no place across is free it is
-/// left out. Empty where the paths do not run beside each other.
-[[nodiscard]] std::vector<Strip> floor_passes(const FloorChannel& channel, const RadialFunction& radial,
-                                              const FloorOptions& options, const std::string& face);
+/// Strips of kind "floor" from the first side to the second, and of kind "wall" up both sides from there as far as they are not finished;
+/// each other one runs the other way round. The outermost floor pass touches floor and side at once. Before and behind the sides the
+/// floor is taken to its border. A pose whose flank would enter something is left out, and a strip ends there. Empty where the sides do
+/// not stand on the floor.
+[[nodiscard]] std::vector<Strip> point_passes(const FloorChannel& channel, const RadialFunction& radial,
+                                              const PointOptions& options, const std::string& floor,
+                                              const std::string& first, const std::string& second);
 
 }  // namespace flank::internal

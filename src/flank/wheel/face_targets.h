@@ -1,0 +1,26 @@
+/// Faces of a part as targets, made once.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "flank/part.h"
+#include "flank/target.h"
+
+namespace flank::internal {
+
+class FaceTargets {
+ public:
+  explicit FaceTargets(const Part& part) : part_(part) {}
+  /// One target a face, in their order; pieces of faces count. They live as long as this. Throws UsageError for names that the part
+  /// does not have.
+  [[nodiscard]] std::vector<const Target*> of(const std::vector<std::string>& faces);
+
+ private:
+  const Part& part_;
+  std::map<std::string, std::unique_ptr<Target>> known_;
+};
+
+}  // namespace flank::internal

@@ -1,0 +1,168 @@
+// The floor of the channels, and what the flank leaves of the sides above it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "flank/error.h"
+#include "flank/path/turning.h"
+#include "flank/path_file.h"
+#include "flank/tool_file.h"
+#include "flank/wheel/judge_whole.h"
+#include "flank/wheel/operations.h"
+#include "flank/wheel/perform.h"
+#include "flank/wheel/point/floor_passes.h"
+
+namespace flank::internal {
+namespace {
+
+using Names = std::vector<std::string>;
+
+void append(Names& to, const Names& more) { to.insert(to.end(), more.begin(), more.end()); }
+
+bool holds(const Names& faces, const std::string& face) {
+  return std::find(faces.begin(), faces.end(), face) != faces.end();
+}
+
+/// Everything but the hub, what lies in it and what is no part of the wheel.
+Names walls_of(const WheelRoles& roles) {
+  Names out = roles.shroud;
+  for (const WheelBlade& blade : roles.blades) {
+    append(out, blade.flow());
+    append(out, blade.tips);
+  }
+  for (const std::string& face : roles.rest)
+    if (!holds(roles.debris, face)) out.push_back(face);
+  return out;
+}
+
+/// The distance that a path leaves at a place, about: to the nearest sphere of its poses.
+class Finished {
+ public:
+  Finished(std::vector<Strip> strips, const RadialFunction& radial, double within)
+      : strips_(std::move(strips)),
+        radial_(radial),
+        within_(within),
+        reach_(radial.axis_length() + radial.largest() + 1.0) {}
+  [[nodiscard]] bool operator()(const Vec3& x) const {
+    for (const Strip& strip : strips_)
+      for (const Pose& pose : strip.poses) {
+        const Vec3 d = x - pose.tip;
+        if (d.squaredNorm() > reach_ * reach_) continue;
+        if (distance(d, pose.axis) <= within_) return true;
+      }
+    return false;
+  }
+
+ private:
+  [[nodiscard]] double distance(const Vec3& d, const Vec3& axis) const {
+    const double z = d.dot(axis), rho = (d - z * axis).norm(), length = radial_.axis_length();
+    double s = std::clamp(z, 0.0, length), off = rho;
+    for (int k = 0; k < 3; ++k) {
+      off = std::hypot(z - s, rho);
+      s = std::clamp(z + off * radial_.at(s).d1, 0.0, length);
+    }
+    return std::hypot(z - s, rho) - radial_.at(s).r;
+  }
+  std::vector<Strip> strips_;
+  const RadialFunction& radial_;
+  double within_, reach_;
+};
+
+/// A side with the fillets at its foot: those of its blade that are nearer to it than to the other side.
+Names with_fillets(const WheelWork& work, const Names& side, FaceTargets& targets) {
+  Names out = side;
+  for (const WheelBlade& blade : work.roles.blades) {
+    const bool ahead = blade.ahead == side;
+    if (!ahead && blade.behind != side) continue;
+    const std::vector<const Target*> own = targets.of(side), other = targets.of(ahead ? blade.behind : blade.ahead);
+    for (const RootFillet& fillet : blade.fillets) {
+      const Target* face = targets.of({fillet.face}).front();
+      const std::vector<SurfaceSample> samples = face->samples(std::max(0.3, 0.1 * face->diagonal()));
+      if (samples.empty()) continue;
+      const auto least = [&](const std::vector<const Target*>& all) {
+        double mm = 1e300;
+        for (const Target* one : all)
+          mm = std::min(mm, std::abs(one->closest(samples[samples.size() / 2].point).distance));
+        return mm;
+      };
+      if (least(own) < least(other)) out.push_back(fillet.face);
+    }
+  }
+  return out;
+}
+
+/// Of the turns that the judge looks at on the hub, and a little more.
+double turn_window_of(WheelWork& work) {
+  double size = 0.0;
+  for (const Target* target : work.targets.of(work.roles.hub)) size = std::max(size, target->diagonal());
+  return 1.1 * turn_window(size);
+}
+
+FloorChannel channel_of(WheelWork& work, const SectorChannel& channel) {
+  FloorChannel out;
+  out.axis = work.roles.axis;
+  out.floor = work.targets.of(work.roles.hub);
+  out.first = work.targets.of(with_fillets(work, channel.first, work.targets));
+  out.second = work.targets.of(with_fillets(work, channel.second, work.targets));
+  const Names walls = walls_of(work.roles);
+  out.walls = work.targets.of(walls);
+  for (const WheelFace& face : work.faces)
+    if (holds(walls, face.id) || holds(work.roles.hub, face.id)) out.coarse.push_back(&face);
+  for (const WheelBlade& blade : work.sector.blades) out.blade_mm = std::max(out.blade_mm, blade.thickness_mm);
+  return out;
+}
+
+/// The strips of the sides that bound a channel, where they are.
+std::vector<Strip> side_strips(const WheelWork& work, const SectorChannel& channel) {
+  std::vector<Strip> out = strips_of(work.finish, channel.first);
+  std::vector<Strip> second = strips_of(work.finish, work.equal() ? channel.second_path : channel.second);
+  // The path of the sector's own main blade is a pitch behind that of the next one.
+  if (channel.turned && work.equal())
+    for (Strip& strip : second) strip.poses = turned(strip.poses, work.roles.axis, work.sector.pitch_rad);
+  out.insert(out.end(), second.begin(), second.end());
+  return out;
+}
+
+Path floor_path(WheelWork& work) {
+  Path out;
+  std::vector<WheelSector> sectors = {work.sector};
+  if (!work.equal()) sectors = all_sectors(work.roles);
+  for (const WheelSector& sector : sectors)
+    for (const SectorChannel& channel : sector.channels) {
+      const FloorChannel place = channel_of(work, channel);
+      PointOptions options;
+      options.tolerance_mm = work.job.tolerance_mm;
+      options.turn_window_mm = turn_window_of(work);
+      options.is_finished = Finished(side_strips(work, channel), work.tool->radial, 0.7 * work.job.tolerance_mm);
+      for (Strip& strip :
+           point_passes(place, work.tool->radial, options, face_list(work.roles.hub), face_list(channel.first),
+                        face_list(work.equal() ? channel.second_path : channel.second)))
+        out.strips.push_back(std::move(strip));
+    }
+  for (std::size_t k = 0; k < out.strips.size(); ++k) out.strips[k].id = static_cast<int>(k) + 1;
+  return out;
+}
+
+}  // namespace
+
+WheelOperation floor_operation(WheelWork& work, const Progress&) {
+  WheelOperation operation{.id = "30", .kind = "floor", .folder = "", .faces = work.roles.hub};
+  if (!work.tool) {
+    operation.problem = "there is no tool: the sides have none";
+    return operation;
+  }
+  const std::string decides =
+      path_to_json(work.finish) + tool_to_json(*work.tool) + fmt::format("{}", work.job.tolerance_mm);
+  operation = perform(work, operation, decides, [&] {
+    Path path = floor_path(work);
+    if (path.strips.empty()) throw InputError("no pass on the hub is free between the blades' sides");
+    // The folder is about one sector: of a hub that goes all round it finishes its share.
+    const double share = work.equal() && work.roles.whole ? 1.0 / work.roles.count : 1.0;
+    return judged_path(work, operation.faces, std::move(path), 0.9 * share * work.job.least_coverage, Care::kDraft);
+  });
+  take(work, operation);
+  return operation;
+}
+
+}  // namespace flank::internal

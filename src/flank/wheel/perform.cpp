@@ -1,0 +1,59 @@
+#include "flank/wheel/perform.h"
+
+#include <chrono>
+#include <filesystem>
+
+#include "flank/base/sha256.h"
+#include "flank/error.h"
+#include "flank/path_file.h"
+#include "flank/version.h"
+
+namespace flank::internal {
+
+namespace fs = std::filesystem;
+
+std::string in_folder(const WheelWork& work, const std::string& name) {
+  return (fs::path(work.job.folder) / name).string();
+}
+
+std::string tool_file(const WheelWork& work) {
+  return fs::absolute(in_folder(work, "tools/T1.json")).lexically_normal().string();
+}
+
+WheelOperation perform(const WheelWork& work, WheelOperation operation, const std::string& decides,
+                       const std::function<Result()>& make) {
+  operation.folder = "ops/" + operation.id + "-" + operation.kind;
+  operation.key = sha256(work.part.sha256 + kVersion + decides);
+  const auto known = work.finished.find(operation.id);
+  if (known != work.finished.end() && known->second.done && known->second.key == operation.key &&
+      fs::exists(in_folder(work, operation.folder + "/path.json"))) {
+    operation = known->second;
+    operation.kept = true;
+    return operation;
+  }
+  const auto begun = std::chrono::steady_clock::now();
+  try {
+    const Result result = make();
+    if (result.path.pose_count() == 0) throw InputError("nothing was found that machines anything");
+    write_result(result, in_folder(work, operation.folder));
+    const Acceptance acceptance = result.acceptance();
+    operation.done = result.complete;
+    operation.pass = acceptance.pass();
+    if (!result.complete)
+      operation.problem = "it was stopped";
+    else if (!acceptance.pass())
+      operation.problem = acceptance.reasons.front().text;
+  } catch (const Error& error) {
+    operation.problem = error.what();
+  }
+  operation.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  return operation;
+}
+
+void take(WheelWork& work, const WheelOperation& operation) {
+  if (!operation.done) return;
+  const Path path = read_path(in_folder(work, operation.folder + "/path.json"));
+  work.finish.strips.insert(work.finish.strips.end(), path.strips.begin(), path.strips.end());
+}
+
+}  // namespace flank::internal

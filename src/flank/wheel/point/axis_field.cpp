@@ -1,0 +1,136 @@
+#include "flank/wheel/point/axis_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "flank/base/parallel.h"
+
+namespace flank::internal {
+namespace {
+
+constexpr int kTilts = 8, kRound = 24;  ///< directions that are tried: tilts from the normal, and turns about it
+constexpr double kTilt = 10.0;          ///< degrees between tilts; the least keeps the contact off the tip's pole
+constexpr int kChoices = 30, kSmoothings = 12;  ///< rounds over all nodes
+constexpr double kShortOfRoom = 4.0;            ///< radians that neighbours may differ for a millimetre of room more
+
+double angle_of(const Vec3& a, const Vec3& b) { return 2.0 * std::atan2((a - b).norm(), (a + b).norm()); }
+
+}  // namespace
+
+AxisField::AxisField(const TipRoom& room, const std::vector<std::optional<TipRoom::Rest>>& places, int rows,
+                     int columns)
+    : rows_(rows), columns_(columns), nodes_(places.size()) {
+  parallel_for(places.size(), [&](std::size_t k) {
+    if (!places[k]) return;
+    nodes_[k].present = true, nodes_[k].center = places[k]->center, nodes_[k].normal = places[k]->normal;
+    look(room, nodes_[k]);
+  });
+  choose();
+  fill();
+  smooth(room);
+}
+
+Vec3 AxisField::direction(const Node& node, std::size_t k) const {
+  const double tilt = kTilt * (1.0 + static_cast<double>(k / kRound)) * std::numbers::pi / 180.0,
+               round = 2.0 * std::numbers::pi * static_cast<double>(k % kRound) / kRound;
+  const Vec3 e = node.normal.unitOrthogonal(), f = node.normal.cross(e);
+  return std::cos(tilt) * node.normal + std::sin(tilt) * (std::cos(round) * e + std::sin(round) * f);
+}
+
+void AxisField::look(const TipRoom& room, Node& node) const {
+  node.rooms.resize(kTilts * kRound);
+  for (std::size_t k = 0; k < node.rooms.size(); ++k) {
+    // What enters something by far need not be known closely.
+    node.rooms[k] = room.rough_room({node.center, direction(node, k)}, -2.0 * TipRoom::kEnoughMm);
+    if (node.rooms[k] > node.room) node.room = node.rooms[k], node.axis = direction(node, k);
+  }
+}
+
+std::vector<std::size_t> AxisField::beside(std::size_t k) const {
+  const int row = static_cast<int>(k) / columns_, column = static_cast<int>(k) % columns_;
+  std::vector<std::size_t> out;
+  for (const auto& [r, c] : {std::pair(row - 1, column), {row + 1, column}, {row, column - 1}, {row, column + 1}})
+    if (r >= 0 && r < rows_ && c >= 0 && c < columns_) {
+      const auto at = static_cast<std::size_t>(r * columns_ + c);
+      if (nodes_[at].present) out.push_back(at);
+    }
+  return out;
+}
+
+/// Each node in turn takes the direction that costs least beside those of its neighbours: what they differ by, and what it lacks of
+/// room.
+void AxisField::choose() {
+  for (int round = 0; round < kChoices; ++round)
+    for (std::size_t n = 0; n < nodes_.size(); ++n) {
+      Node& node = nodes_[n];
+      if (!node.present) continue;
+      const std::vector<std::size_t> others = beside(n);
+      double least = 1e300;
+      for (std::size_t k = 0; k < node.rooms.size(); ++k) {
+        const Vec3 axis = direction(node, k);
+        const double lack = kShortOfRoom * (TipRoom::kEnoughMm - node.rooms[k]);
+        double cost = static_cast<double>(others.size()) * lack * lack;
+        for (const std::size_t other : others) {
+          const double angle = angle_of(axis, nodes_[other].axis);
+          cost += angle * angle;
+        }
+        if (cost < least) least = cost, node.axis = axis, node.room = node.rooms[k];
+      }
+    }
+}
+
+/// What has no place of its own takes the direction of the nearest node that has one.
+void AxisField::fill() {
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    if (nodes_[n].present) continue;
+    double least = 1e300;
+    const int row = static_cast<int>(n) / columns_, column = static_cast<int>(n) % columns_;
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      if (!nodes_[k].present) continue;
+      const int dr = static_cast<int>(k) / columns_ - row, dc = static_cast<int>(k) % columns_ - column;
+      const double off = dr * dr + dc * dc;
+      if (off < least) least = off, nodes_[n].axis = nodes_[k].axis;
+    }
+  }
+}
+
+void AxisField::smooth(const TipRoom& room) {
+  for (int round = 0; round < kSmoothings; ++round) {
+    // Of two colours, as on a chess board: what is moved at once has no common sides.
+    for (std::size_t colour = 0; colour < 2; ++colour)
+      parallel_for(nodes_.size(), [&](std::size_t n) {
+        const int row = static_cast<int>(n) / columns_, column = static_cast<int>(n) % columns_;
+        Node& node = nodes_[n];
+        if (!node.present || static_cast<std::size_t>((row + column) % 2) != colour) return;
+        Vec3 sum = node.axis;
+        for (const std::size_t other : beside(n)) sum += nodes_[other].axis;
+        const double enough = std::min(node.room, 0.6 * TipRoom::kEnoughMm);
+        const Vec3 axis = sum.normalized();
+        const double here = room.rough_room({node.center, axis}, enough - 1e-9);
+        if (here >= enough - 1e-9) node.axis = axis, node.room = here;
+      });
+  }
+}
+
+Vec3 AxisField::at(double row, double column) const {
+  const double r = std::clamp(row, 0.0, rows_ - 1.0), c = std::clamp(column, 0.0, columns_ - 1.0);
+  const int i = std::min(static_cast<int>(r), std::max(0, rows_ - 2)),
+            j = std::min(static_cast<int>(c), std::max(0, columns_ - 2));
+  const double x = r - i, y = c - j;
+  const auto axis = [&](int a, int b) -> const Vec3& {
+    return nodes_[static_cast<std::size_t>(std::min(a, rows_ - 1) * columns_ + std::min(b, columns_ - 1))].axis;
+  };
+  return ((1.0 - x) * ((1.0 - y) * axis(i, j) + y * axis(i, j + 1)) +
+          x * ((1.0 - y) * axis(i + 1, j) + y * axis(i + 1, j + 1)))
+      .normalized();
+}
+
+double AxisField::least_room() const {
+  double least = 1e300;
+  for (const Node& node : nodes_)
+    if (node.present) least = std::min(least, node.room);
+  return least;
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,33 @@
+/// A channel of a wheel as passes of the tip sphere see it.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "flank/feature/wheel_axis.h"
+#include "flank/target.h"
+
+namespace flank::internal {
+
+/// Nothing is owned, and all of it must outlive what is planned with it.
+struct FloorChannel {
+  WheelAxis axis;
+  std::vector<const Target*> floor;  ///< turned about the axis
+  std::vector<const Target*> first,
+      second;  ///< the sides that bound the channel; a right-handed turn goes from first to second
+  std::vector<const Target*> walls;  ///< all that the tool keeps out of besides the floor: sides, edges, tips, fillets
+  std::vector<const WheelFace*> coarse;  ///< floor and walls as triangles: where directions are looked for
+  double blade_mm = 0.0;                 ///< thickness of the blades: so far the floor goes on beyond a side's end
+};
+
+struct PointOptions {
+  double tolerance_mm = 0.05;
+  double scallop_share = 0.5;  ///< of the tolerance, that scallops take; the rest is for chords and the tip's height
+  double enter_share = 0.3;    ///< of the tolerance: so deep a pass may enter a wall
+  double most_turn_rad = 0.2;  ///< within `turn_window_mm`: a strip that turns more sharply is two
+  double turn_window_mm = 1.0;
+  /// Whether a place of a wall is finished already; empty: none is.
+  std::function<bool(const Vec3&)> is_finished = {};
+};
+
+}  // namespace flank::internal

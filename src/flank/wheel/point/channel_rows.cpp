@@ -1,0 +1,124 @@
+#include "flank/wheel/point/channel_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "flank/base/parallel.h"
+
+namespace flank::internal {
+namespace {
+
+constexpr double kStepMm = 0.5;      ///< between rows along the channel
+constexpr int kHalvings = 14;        ///< of the search for the outermost free place
+constexpr double kMostSlope = 0.15;  ///< of the outermost pass against the channel
+constexpr double kBeyondShare =
+    0.6;  ///< of a blade's thickness, that the floor is taken beyond a side's line where no blade stands
+constexpr double kEndMm = 4.0;  ///< of a line's end, that says how the channel goes on
+
+/// A line that goes on beyond its ends beside another one, or, where that has ended, too, as both of them together ran there.
+class LongLine {
+ public:
+  LongLine(const SideLine& own, const SideLine& other) : own_(own), other_(other) {}
+  [[nodiscard]] double angle(double way) const {
+    if (way >= own_.from() && way <= own_.to()) return own_.angle(way);
+    const bool before = way < own_.from();
+    const double end = before ? own_.from() : own_.to(), reach = before ? std::max(way, std::min(end, other_.from()))
+                                                                        : std::min(way, std::max(end, other_.to()));
+    const double beside = own_.angle(end) + other_.angle(reach) - other_.angle(end);
+    return beside + (way - reach) * slope(before);
+  }
+
+ private:
+  [[nodiscard]] double slope(bool before) const {
+    const auto of = [&](const SideLine& line) {
+      const double mm = std::min(kEndMm, 0.5 * (line.to() - line.from()));
+      return before ? (line.angle(line.from() + mm) - line.angle(line.from())) / mm
+                    : (line.angle(line.to()) - line.angle(line.to() - mm)) / mm;
+    };
+    return 0.5 * (of(own_) + of(other_));
+  }
+  const SideLine &own_, &other_;
+};
+
+}  // namespace
+
+ChannelRows::ChannelRows(const FloorChannel& channel, const TipRoom& room)
+    : channel_(channel), room_(room), map_(channel.floor, channel.axis) {
+  const SideLine first(channel.first, channel.floor, map_);
+  SideLine second(channel.second, channel.floor, map_);
+  if (first.empty() || second.empty() || !(map_.length() > 0.0)) return;
+  // The second side is the next one in a right-handed turn.
+  const double middle = 0.5 * (std::max(first.from(), second.from()) + std::min(first.to(), second.to()));
+  const double whole = 2.0 * std::numbers::pi;
+  second.turn(-whole * std::floor((second.angle(middle) - first.angle(middle)) / whole));
+  place_rows(first, second);
+  parallel_for(rows_.size(), [&](std::size_t k) { bound(rows_[k]); });
+  even_out();
+}
+
+void ChannelRows::place_rows(const SideLine& first, const SideLine& second) {
+  const LongLine one(first, second), other(second, first);
+  constexpr double kFineMm = 0.1;
+  double along = 0.0, next = 0.0;
+  std::optional<Vec3> last;
+  for (int k = 0; k * kFineMm <= map_.length(); ++k) {
+    ChannelRow row;
+    row.way = k * kFineMm;
+    row.first = one.angle(row.way), row.second = other.angle(row.way);
+    row.width = (row.second - row.first) * map_.radius(row.way);
+    const Vec3 middle = map_.place(row.way, 0.5 * (row.first + row.second));
+    if (last) along += (middle - *last).norm();
+    last = middle;
+    if (along < next || !(row.width > 0.0)) continue;
+    row.along = along, next = along + kStepMm;
+    rows_.push_back(row);
+  }
+}
+
+std::optional<TipRoom::Rest> ChannelRows::at(const ChannelRow& row, double across) const {
+  return room_.rest(map_.place(row.way, row.first + across * (row.second - row.first)));
+}
+
+void ChannelRows::bound(ChannelRow& row) const {
+  const double beyond = kBeyondShare * channel_.blade_mm / row.width;
+  const auto is_free = [&](double across) {
+    const std::optional<TipRoom::Rest> here = at(row, across);
+    return here && room_.tip_is_free(here->center);
+  };
+  if (!is_free(0.5)) return;
+  const auto outermost = [&](double from) {
+    if (is_free(from)) return from;
+    double bad = from, good = 0.5;
+    for (int k = 0; k < kHalvings; ++k) {
+      const double middle = 0.5 * (bad + good);
+      (is_free(middle) ? good : bad) = middle;
+    }
+    return good;
+  };
+  row.low = outermost(-beyond), row.high = outermost(1.0 + beyond);
+  row.open = true;
+}
+
+/// The outermost passes would jump sideways where a blade begins: they swing out before it instead.
+void ChannelRows::even_out() {
+  std::vector<double> low(rows_.size()), high(rows_.size());
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const ChannelRow& row = rows_[i];
+    if (!row.open) continue;
+    low[i] = row.low * row.width, high[i] = (1.0 - row.high) * row.width;
+    for (const ChannelRow& other : rows_) {
+      const double off = kMostSlope * std::abs(other.along - row.along);
+      if (!other.open) continue;
+      low[i] = std::max(low[i], other.low * other.width - off);
+      high[i] = std::max(high[i], (1.0 - other.high) * other.width - off);
+    }
+  }
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (!rows_[i].open) continue;
+    rows_[i].low = low[i] / rows_[i].width, rows_[i].high = 1.0 - high[i] / rows_[i].width;
+    rows_[i].open = rows_[i].low < rows_[i].high;
+  }
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,42 @@
+/// Where a channel begins and ends on its floor: places along it, and at each how far the tip may go to either side.
+#pragma once
+
+#include <vector>
+
+#include "flank/wheel/point/floor_map.h"
+#include "flank/wheel/point/tip_room.h"
+
+namespace flank::internal {
+
+/// A place along the channel. Across it counts from 0, the first side's line, to 1.
+struct ChannelRow {
+  double way = 0.0;                  ///< on the floor's meridian, mm
+  double first = 0.0, second = 0.0;  ///< angles of the two sides' lines
+  double width = 0.0;                ///< between them, mm
+  double along = 0.0;                ///< along the middle of the channel, mm
+  double low = 0.0, high = 1.0;      ///< between which the tip is free
+  bool open = false;
+};
+
+class ChannelRows {
+ public:
+  ChannelRows(const FloorChannel& channel, const TipRoom& room);
+  [[nodiscard]] const std::vector<ChannelRow>& rows() const { return rows_; }
+  /// The tip's place at a share from `low` to `high` of a row; none beside the floor.
+  [[nodiscard]] std::optional<TipRoom::Rest> rest(const ChannelRow& row, double share) const {
+    return at(row, row.low + share * (row.high - row.low));
+  }
+
+ private:
+  [[nodiscard]] std::optional<TipRoom::Rest> at(const ChannelRow& row, double across) const;
+  void place_rows(const SideLine& first, const SideLine& second);
+  void bound(ChannelRow& row) const;
+  void even_out();
+
+  const FloorChannel& channel_;
+  const TipRoom& room_;
+  FloorMap map_;
+  std::vector<ChannelRow> rows_;
+};
+
+}  // namespace flank::internal

@@ -1,0 +1,97 @@
+#include "flank/wheel/point/tip_room.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "flank/feature/wheel_face.h"
+
+namespace flank::internal {
+namespace {
+
+constexpr double kHeightShare = 0.1;  ///< of the tolerance: so far above what it touches the sphere stays
+constexpr double kHorizonMm = 1.0;    ///< farther rooms are not told apart
+constexpr double kStepMm = 0.4;       ///< along the axis, at least
+constexpr double kGapPerMm = 0.08;    ///< of the axis: a direction is to leave so much more room higher up
+constexpr int kDrops = 12;
+
+/// Beside the border of a face a footpoint has no side: the distance alone counts there.
+double height_of(const Footpoint& foot) {
+  return foot.location == Location::kInside ? foot.distance : std::abs(foot.distance);
+}
+
+}  // namespace
+
+Footpoint nearest_foot(const std::vector<const Target*>& targets, const Vec3& p, double horizon_mm) {
+  Footpoint best;
+  double least = horizon_mm;
+  for (const Target* target : targets) {
+    if (target->box().squared_distance(p) >= least * least) continue;
+    const Footpoint foot = target->closest_within(p, least);
+    if (foot.patch >= 0 && std::abs(foot.distance) < least) least = std::abs(foot.distance), best = foot;
+  }
+  return best;
+}
+
+TipRoom::TipRoom(const FloorChannel& channel, const RadialFunction& radial, const PointOptions& options)
+    : channel_(channel),
+      radial_(radial),
+      tip_mm_(radial.at(0.0).r),
+      lift_mm_(tip_mm_ + kHeightShare * options.tolerance_mm),
+      enter_mm_(options.enter_share * options.tolerance_mm),
+      length_(radial.axis_length()),
+      above_(length_ + 2.0 * radial.at(length_).r) {}
+
+std::optional<TipRoom::Rest> TipRoom::rest(const Vec3& p) const {
+  Vec3 at = p;
+  for (int k = 0; k < kDrops; ++k) {
+    const Footpoint foot = nearest_foot(channel_.floor, at, std::numeric_limits<double>::infinity());
+    if (foot.patch < 0) return {};
+    const Vec3 next = foot.point + lift_mm_ * foot.normal;
+    const double moved = (next - at).norm();
+    at = next;
+    // On a floor that bends the nearest place is another one from up there.
+    if (moved < 1e-4 * lift_mm_ || k > 2)
+      return foot.location == Location::kInside ? std::optional(Rest{at, foot.normal, foot.k1}) : std::nullopt;
+  }
+  return {};
+}
+
+bool TipRoom::tip_is_free(const Vec3& center) const {
+  const Footpoint foot = nearest_foot(channel_.walls, center, tip_mm_ + kHorizonMm);
+  return foot.patch < 0 || height_of(foot) - tip_mm_ >= -enter_mm_;
+}
+
+double TipRoom::room(const Pose& pose, double up_to) const {
+  double least = kHorizonMm;
+  for (double s = 0.0; s <= up_to;) {
+    const double r = radius(s);
+    const Vec3 p = pose.at(s);
+    double gap = kHorizonMm;
+    const Footpoint wall = nearest_foot(channel_.walls, p, r + kHorizonMm);
+    if (wall.patch >= 0) gap = std::min(gap, height_of(wall) - r);
+    if (s > 0.0) {
+      const Footpoint floor = nearest_foot(channel_.floor, p, r + kHorizonMm);
+      if (floor.patch >= 0) gap = std::min(gap, height_of(floor) - r);
+    }
+    least = std::min(least, gap);
+    if (least < -enter_mm_) return least;
+    s += std::max(kStepMm, 0.5 * gap);
+  }
+  return least;
+}
+
+double TipRoom::rough_room(const Pose& pose, double least) const {
+  double best = kEnoughMm;
+  for (double s = kStepMm; s <= above_;) {
+    const double r = radius(s), wanted = std::min(kEnoughMm, kGapPerMm * s);
+    const NearFace near = nearest(channel_.coarse, pose.at(s));
+    const double gap = std::abs(near.height) - r;
+    best = std::min(best, gap + kEnoughMm - wanted);
+    if (best <= least) return best;
+    s += std::max(kStepMm, 0.6 * (gap - wanted));
+  }
+  return best;
+}
+
+}  // namespace flank::internal

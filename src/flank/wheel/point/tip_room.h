@@ -1,0 +1,48 @@
+/// Where a tool has room in a channel: its tip sphere, its flank, and what comes above it.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "flank/radial_function.h"
+#include "flank/wheel/point/channel.h"
+
+namespace flank::internal {
+
+/// The nearest of some targets; patch -1: none nearer than was asked.
+[[nodiscard]] Footpoint nearest_foot(const std::vector<const Target*>& targets, const Vec3& p, double horizon_mm);
+
+class TipRoom {
+ public:
+  TipRoom(const FloorChannel& channel, const RadialFunction& radial, const PointOptions& options);
+
+  [[nodiscard]] double tip_mm() const { return tip_mm_; }
+  /// How far the sphere's centre is from what it touches: its radius and a little of the tolerance.
+  [[nodiscard]] double lift_mm() const { return lift_mm_; }
+  /// The centre of the tip sphere that stands on the floor at the place nearest to p, and the floor's normal there.
+  struct Rest {
+    Vec3 center, normal;
+    double k1 = 0.0;  ///< the less favourable bend of the floor, 1/mm
+  };
+  [[nodiscard]] std::optional<Rest> rest(const Vec3& p) const;
+  /// Whether the tip sphere alone enters no wall deeper than a pass may.
+  [[nodiscard]] bool tip_is_free(const Vec3& center) const;
+  /// How far the flank, and a shank as thick above it, are from walls and floor, mm; < 0 inside one. Exact, but not above 1 mm.
+  [[nodiscard]] double room(const Pose& pose) const { return room(pose, above_); }
+  /// The same by triangles, less a gap that grows along the axis, up to `kEnoughMm`: what directions are chosen by. Ends early below
+  /// `least`.
+  [[nodiscard]] double rough_room(const Pose& pose, double least) const;
+  [[nodiscard]] bool is_free(const Pose& pose) const { return room(pose) >= -enter_mm_; }
+  /// The same without a shank.
+  [[nodiscard]] bool flank_is_free(const Pose& pose) const { return room(pose, length_) >= -enter_mm_; }
+  static constexpr double kEnoughMm = 0.5;
+
+ private:
+  [[nodiscard]] double room(const Pose& pose, double up_to) const;
+  [[nodiscard]] double radius(double s) const { return radial_.at(s < length_ ? s : length_).r; }
+  const FloorChannel& channel_;
+  const RadialFunction& radial_;
+  double tip_mm_, lift_mm_, enter_mm_, length_, above_;
+};
+
+}  // namespace flank::internal
