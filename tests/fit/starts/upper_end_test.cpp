@@ -39,13 +39,15 @@ TEST(UpperEnd, AMotionTurnedOverHasTheSameAxesAndTurnedTwiceIsItself) {
 TEST(UpperEnd, TheShareOfTheMotionThatRunsIntoSomethingIsCounted) {
   const auto blade = standing_blade(0.0);
   const RuledMotion motion = upright_task(*blade).motion;
-  EXPECT_EQ(unheld_share(motion, 0.0, FlankFitOptions()), 0.0);
-  EXPECT_EQ(unheld_share(motion, 0.0, beside_plane(100.0)), 1.0);
-  EXPECT_EQ(unheld_share(motion, 0.0, beside_plane(-100.0)), 0.0);
-  EXPECT_NEAR(unheld_share(motion, 0.0, beside_plane(100.0, 30.0, 90.0)), 0.5, 0.05);
+  EXPECT_EQ(unheld_share(motion, FlankFitOptions()), 0.0);
+  EXPECT_EQ(unheld_share(motion, beside_plane(100.0)), 1.0);
+  EXPECT_EQ(unheld_share(motion, beside_plane(-100.0)), 0.0);
+  EXPECT_NEAR(unheld_share(motion, beside_plane(100.0, 30.0, 90.0)), 0.5, 0.05);
   // A line passes beside what a rod runs into.
-  EXPECT_EQ(unheld_share(motion, 0.0, beside_plane(100.0, 60.5, 90.0)), 0.0);
-  EXPECT_GT(unheld_share(motion, 1.0, beside_plane(100.0, 60.5, 90.0)), 0.0);
+  const RadialFunction tool(ToolFamily::kCylinder, motion.axis_length, Eigen::VectorXd::Constant(1, 10.0));
+  EXPECT_EQ(unheld_share(motion, beside_plane(100.0, 60.5, 90.0)), 0.0);
+  EXPECT_GT(unheld_share({motion}, tool, beside_plane(100.0, 60.5, 90.0)), 0.0);
+  EXPECT_EQ(unheld_share({motion}, tool, beside_plane(100.0, 61.5, 90.0)), 0.0);
 }
 
 TEST(UpperEnd, ATaskUnderACeilingIsTurnedOverOneAboveAFloorIsNot) {
@@ -55,7 +57,7 @@ TEST(UpperEnd, ATaskUnderACeilingIsTurnedOverOneAboveAFloorIsNot) {
   EXPECT_GT(tasks[0].motion.pose(0.5).axis.z(), 0.9);
   hold_from_free_end(beside_plane(100.0), tasks);
   EXPECT_LT(tasks[0].motion.pose(0.5).axis.z(), -0.9);
-  EXPECT_EQ(unheld_share(tasks[0].motion, 0.0, beside_plane(100.0)), 0.0);
+  EXPECT_EQ(unheld_share(tasks[0].motion, beside_plane(100.0)), 0.0);
 }
 
 }  // namespace

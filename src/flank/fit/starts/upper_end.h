@@ -10,10 +10,9 @@ namespace flank::internal {
 /// The motion with tip and upper end of its axis exchanged.
 [[nodiscard]] RuledMotion turned_over(const RuledMotion& motion);
 
-/// Share of a motion, by samples, at which a rod in the axis, continued beyond its upper end, runs into something
-/// (FlankFitOptions::is_free_line). `rod_mm`: its radius, >= 0.
-[[nodiscard]] double unheld_share(const RuledMotion& motion, double rod_mm, const FlankFitOptions& options);
-/// The largest of several motions of a tool, with a rod as thin as the judge asks for (clearance.h, kRodShare).
+/// Share of a motion, by samples, at which the axis, continued beyond its upper end, runs into something (FlankFitOptions::is_free_line).
+[[nodiscard]] double unheld_share(const RuledMotion& motion, const FlankFitOptions& options);
+/// The largest of several motions of a tool, of a rod in the axis as the judge has it (clearance.h, HoldReport::axis).
 [[nodiscard]] double unheld_share(const std::vector<RuledMotion>& motions, const RadialFunction& tool,
                                   const FlankFitOptions& options);
 

@@ -99,8 +99,7 @@ class StripSearch {
   /// One strip that is far from doing it is not worth its last passes.
   [[nodiscard]] bool is_worth(const Trial& trial) const {
     constexpr double kFar = 0.5;  // of the face
-    // Strips are for what is not covered: where nothing could hold the tool they change nothing.
-    if (!trial.full) return best_.after.unheld <= 0.0 || !covers(best_.after, wanted_, options_);
+    if (!trial.full) return true;
     return best_.after.unheld <= 0.0 && options_.ways && one_covers_ >= kFar && (!trial.soft || demand_.soften);
   }
 
