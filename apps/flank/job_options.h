@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "flank/job/fields_json.h"
 #include "flank/job/more_fields.h"
 #include "help.h"
 

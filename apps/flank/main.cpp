@@ -116,6 +116,34 @@ void add_common(CLI::App& app, flank::cli::CommonOptions& common) {
   app.add_flag("--no-cache", common.no_cache, "Neither use nor fill the cache of CAD files")->group(group);
 }
 
+/// How all commands, which are still to be added, print their help.
+void set_help(CLI::App& parser) {
+  const auto formatter = std::make_shared<flank::cli::HelpFormatter>();
+  formatter->label("Positionals", "Arguments");
+  parser.formatter(formatter);
+  parser.set_help_flag("-h,--help", "Print this help and exit");
+  parser.set_help_all_flag("--help-all", "Print the help with all options and exit");
+  parser.set_version_flag("--version", flank::kVersion, "Print the version and exit");
+  parser.require_subcommand(1);
+  parser.footer("Exit status: 0 request met; 1 request not met; 2 wrong usage; 3 input refused; 4 internal error");
+}
+
+/// All commands in the order of the help text, with the options that they share.
+std::vector<flank::cli::Subcommand> add_commands(CLI::App& parser, flank::cli::CommonOptions& common) {
+  std::vector<flank::cli::Subcommand> commands = {
+      flank::cli::add_inspect(parser),  flank::cli::add_fit(parser),     flank::cli::add_cover(parser),
+      flank::cli::add_trochoid(parser), flank::cli::add_wheel(parser),   flank::cli::add_verify(parser),
+      flank::cli::add_report(parser),   flank::cli::add_view(parser),    flank::cli::add_post(parser),
+      flank::cli::add_studio(parser),   flank::cli::add_tool(parser),    flank::cli::add_machine(parser),
+      flank::cli::add_design(parser),   flank::cli::add_sweep(parser),   flank::cli::add_bound(parser),
+      flank::cli::add_correct(parser),  flank::cli::add_example(parser), flank::cli::add_fields(parser)};
+  for (const flank::cli::Subcommand& command : commands) {
+    command.app->group(group_of(command.app->get_name()));
+    add_common(*command.app, common);
+  }
+  return commands;
+}
+
 /// The flags of a command, and those that all have.
 std::map<std::string, std::string> with_common(std::map<std::string, std::string> flags) {
   flags["read_limit"] = "--read-limit";
@@ -148,26 +176,9 @@ int run_command(int argc, char** argv) {
       "flank: five-axis flank milling (swarf milling). Finds tools and motions whose flank finishes a surface, and "
       "checks them",
       "flank"};
-  const auto formatter = std::make_shared<flank::cli::HelpFormatter>();
-  formatter->label("Positionals", "Arguments");
-  parser.formatter(formatter);
-  parser.set_help_flag("-h,--help", "Print this help and exit");
-  parser.set_help_all_flag("--help-all", "Print the help with all options and exit");
-  parser.set_version_flag("--version", flank::kVersion, "Print the version and exit");
-  parser.require_subcommand(1);
-  parser.footer("Exit status: 0 request met; 1 request not met; 2 wrong usage; 3 input refused; 4 internal error");
+  set_help(parser);
   flank::cli::CommonOptions common;
-  std::vector<flank::cli::Subcommand> commands = {
-      flank::cli::add_inspect(parser),  flank::cli::add_fit(parser),     flank::cli::add_cover(parser),
-      flank::cli::add_trochoid(parser), flank::cli::add_wheel(parser),   flank::cli::add_verify(parser),
-      flank::cli::add_report(parser),   flank::cli::add_view(parser),    flank::cli::add_post(parser),
-      flank::cli::add_studio(parser),   flank::cli::add_tool(parser),    flank::cli::add_machine(parser),
-      flank::cli::add_design(parser),   flank::cli::add_sweep(parser),   flank::cli::add_bound(parser),
-      flank::cli::add_correct(parser),  flank::cli::add_example(parser), flank::cli::add_fields(parser)};
-  for (const flank::cli::Subcommand& command : commands) {
-    command.app->group(group_of(command.app->get_name()));
-    add_common(*command.app, common);
-  }
+  const std::vector<flank::cli::Subcommand> commands = add_commands(parser, common);
   const auto chosen = [&]() -> const flank::cli::Subcommand* {
     for (const flank::cli::Subcommand& command : commands)
       if (command.app->parsed() || (!words.empty() && command.app->get_name() == words.front())) return &command;

@@ -22,8 +22,8 @@ namespace flank::internal {
 template <class Visitor, Is<DesignJob> Job>
 void visit_fields(Job& job, Visitor&& visit) {
   using namespace accepted;
-  visit(FieldInfo{"part", "", "", "CAD or mesh file (STEP, IGES, BREP, STL, OBJ or PLY)", kAny, Spelling::kFile, "PART",
-                  true},
+  visit(FieldInfo{"part", "", "", "CAD or mesh file; flank inspect --help names the formats", kAny, Spelling::kFile,
+                  "PART", true},
         job.part.file);
   visit(FieldInfo{"unit", "", "", "Unit of a mesh, or of a CAD file that states a wrong one: mm, cm, m or in", kUnit},
         job.part.unit);

@@ -117,8 +117,8 @@ inline constexpr std::string_view kSideHelp =
 template <class Visitor, Is<PartRequest> Request>
 void visit_part(Request& part, Visitor& visit) {
   using namespace accepted;
-  visit(FieldInfo{"part", "", "", "CAD or mesh file (STEP, IGES, BREP, STL, OBJ or PLY)", kAny, Spelling::kFile, "PART",
-                  true},
+  visit(FieldInfo{"part", "", "", "CAD or mesh file; flank inspect --help names the formats", kAny, Spelling::kFile,
+                  "PART", true},
         part.file);
   visit(FieldInfo{"unit", "", "", "Unit of a mesh, or of a CAD file that states a wrong one: mm, cm, m or in", kUnit},
         part.unit);

@@ -1,7 +1,8 @@
-/// The tables of the jobs that are not of the front door, design, bound and correct, and fields as text: what options are made of.
+/// The tables of the jobs that are not of the front door, design, bound and correct, fields as text, and which are basic: what options are made of.
 #pragma once
 
 #include "flank/job/bound_fields.h"
 #include "flank/job/correct_fields.h"
 #include "flank/job/design_fields.h"
 #include "flank/job/field_text.h"
+#include "flank/job/fields_json.h"
