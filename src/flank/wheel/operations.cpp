@@ -25,11 +25,11 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-constexpr double kFitSampleMm = 1.0;   ///< of the judge of one side: the whole is judged closely at the end
-constexpr double kTaperDeg = 12.0;     ///< of the tool that is made for a wheel
-constexpr double kCornerShare = 0.5;   ///< of what may be left, that the corners at the hub may take
+constexpr double kFitSampleMm = 1.0;    ///< of the judge of one side: the whole is judged closely at the end
+constexpr double kTaperDeg = 12.0;      ///< of the tool that is made for a wheel
+constexpr double kCornerShare = 0.5;    ///< of what may be left, that the corners at the hub may take
 constexpr double kMostSeconds = 240.0;  ///< of processor time, for roughing and for edges
-constexpr double kFilletShare = 0.97;  ///< of a root fillet's radius, that the tip has
+constexpr double kFilletShare = 0.97;   ///< of a root fillet's radius, that the tip has
 
 /// Searches that go on until they are told to stop, told so after some processor time.
 Progress limited(const Progress& progress) {

@@ -57,7 +57,8 @@ std::string rest_text(const std::vector<RestPlace>& rest) {
     text += fmt::format("  left    {} at ({:.2f}, {:.2f}, {:.2f}): {:.1f} mm2, up to {:.3f} mm: {}\n", rest[k].face,
                         rest[k].point.x(), rest[k].point.y(), rest[k].point.z(), rest[k].area_mm2, rest[k].depth_mm,
                         rest[k].reason);
-  if (rest.size() > kShown) text += fmt::format("  left    and {} smaller places, in plan.json\n", rest.size() - kShown);
+  if (rest.size() > kShown)
+    text += fmt::format("  left    and {} smaller places, in plan.json\n", rest.size() - kShown);
   return text;
 }
 

@@ -19,7 +19,7 @@ namespace {
 constexpr double kLeastAreaMm2 = 0.5;  ///< smaller places are not listed
 constexpr double kTouching = 0.98;     ///< of a ball's radius: what it only touches, it does not enter
 constexpr int kDirectionsRound = 12;
-constexpr int kDirectionsTilted = 6;   ///< 12 degrees apart
+constexpr int kDirectionsTilted = 6;  ///< 12 degrees apart
 
 /// Who is asked about a place: all faces but one, and the tool.
 struct Around {

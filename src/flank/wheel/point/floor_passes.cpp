@@ -14,8 +14,8 @@ namespace flank::internal {
 namespace {
 
 constexpr int kMostPasses = 1024;
-constexpr int kColumns = 9;          ///< of the net of directions, across
-constexpr double kNetMm = 2.5;       ///< and along
+constexpr int kColumns = 9;     ///< of the net of directions, across
+constexpr double kNetMm = 2.5;  ///< and along
 
 /// Between passes on a floor that bends like this across, mm.
 double spacing(double tip_mm, double bend, const PointOptions& options) {
@@ -25,7 +25,8 @@ double spacing(double tip_mm, double bend, const PointOptions& options) {
 
 /// Every so many rows of the channel the net has one.
 int net_stride(const std::vector<ChannelRow>& rows) {
-  const double step = rows.size() > 1 ? (rows.back().along - rows.front().along) / (static_cast<double>(rows.size()) - 1.0) : kNetMm;
+  const double step =
+      rows.size() > 1 ? (rows.back().along - rows.front().along) / (static_cast<double>(rows.size()) - 1.0) : kNetMm;
   return std::max(1, static_cast<int>(kNetMm / step));
 }
 

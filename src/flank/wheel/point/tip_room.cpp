@@ -4,14 +4,13 @@
 #include <cmath>
 #include <limits>
 
-
 namespace flank::internal {
 namespace {
 
-constexpr double kHeightShare = 0.1;  ///< of the tolerance: so far above what it touches the sphere stays
-constexpr double kHorizonMm = 1.0;    ///< farther rooms are not told apart
-constexpr double kStepMm = 0.4;       ///< along the axis, at least
-constexpr double kGapPerMm = 0.08;    ///< of the axis: a direction is to leave so much more room higher up
+constexpr double kHeightShare = 0.1;     ///< of the tolerance: so far above what it touches the sphere stays
+constexpr double kHorizonMm = 1.0;       ///< farther rooms are not told apart
+constexpr double kStepMm = 0.4;          ///< along the axis, at least
+constexpr double kGapPerMm = 0.08;       ///< of the axis: a direction is to leave so much more room higher up
 constexpr double kTrianglesOffMm = 0.1;  ///< more than triangles are off their faces
 constexpr int kDrops = 12;
 
