@@ -1,4 +1,5 @@
-// The floor of the channels, and what the flank leaves of the sides above it.
+#include "flank/wheel/floor_operation.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 #include "flank/path_file.h"
 #include "flank/tool_file.h"
 #include "flank/wheel/judge_whole.h"
-#include "flank/wheel/operations.h"
 #include "flank/wheel/perform.h"
 #include "flank/wheel/point/floor_passes.h"
 

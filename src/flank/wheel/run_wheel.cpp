@@ -8,6 +8,7 @@
 #include "flank/feature/recognise_wheel.h"
 #include "flank/feature/wheel_table.h"
 #include "flank/io/mesh/write_mesh.h"
+#include "flank/wheel/floor_operation.h"
 #include "flank/wheel/judge_whole.h"
 #include "flank/wheel/operations.h"
 #include "flank/wheel/plan_file.h"
