@@ -1,15 +1,14 @@
-// The floor of the channels, and what the flank leaves of the sides above it.
+#include "flank/wheel/floor_operation.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "flank/error.h"
-#include "flank/path/turning.h"
 #include "flank/path_file.h"
 #include "flank/tool_file.h"
 #include "flank/wheel/judge_whole.h"
-#include "flank/wheel/operations.h"
 #include "flank/wheel/perform.h"
 #include "flank/wheel/point/floor_passes.h"
 
@@ -92,11 +91,10 @@ Names with_fillets(const WheelWork& work, const Names& side, FaceTargets& target
   return out;
 }
 
-/// Of the turns that the judge looks at on the hub, and a little more.
-double turn_window_of(WheelWork& work) {
-  double size = 0.0;
-  for (const Target* target : work.targets.of(work.roles.hub)) size = std::max(size, target->diagonal());
-  return 1.1 * turn_window(size);
+void add_mesh(const TriangleMesh& from, TriangleMesh& to) {
+  const int first = static_cast<int>(to.vertices.size());
+  to.vertices.insert(to.vertices.end(), from.vertices.begin(), from.vertices.end());
+  for (const auto& t : from.triangles) to.triangles.push_back({first + t[0], first + t[1], first + t[2]});
 }
 
 FloorChannel channel_of(WheelWork& work, const SectorChannel& channel) {
@@ -107,8 +105,13 @@ FloorChannel channel_of(WheelWork& work, const SectorChannel& channel) {
   out.second = work.targets.of(with_fillets(work, channel.second, work.targets));
   const Names walls = walls_of(work.roles);
   out.walls = work.targets.of(walls);
-  for (const WheelFace& face : work.faces)
-    if (holds(walls, face.id) || holds(work.roles.hub, face.id)) out.coarse.push_back(&face);
+  if (!work.triangles) {
+    TriangleMesh all;
+    for (const WheelFace& face : work.faces)
+      if (holds(walls, face.id) || holds(work.roles.hub, face.id)) add_mesh(face.mesh, all);
+    work.triangles.emplace(all);
+  }
+  out.coarse = &*work.triangles;
   for (const WheelBlade& blade : work.sector.blades) out.blade_mm = std::max(out.blade_mm, blade.thickness_mm);
   return out;
 }
@@ -133,7 +136,7 @@ Path floor_path(WheelWork& work) {
       const FloorChannel place = channel_of(work, channel);
       PointOptions options;
       options.tolerance_mm = work.job.tolerance_mm;
-      options.turn_window_mm = turn_window_of(work);
+      options.turn_window_mm = work.turn_window();
       options.is_finished = Finished(side_strips(work, channel), work.tool->radial, 0.7 * work.job.tolerance_mm);
       for (Strip& strip :
            point_passes(place, work.tool->radial, options, face_list(work.roles.hub), face_list(channel.first),

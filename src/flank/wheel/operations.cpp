@@ -4,11 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
+#include <filesystem>
 
+#include "flank/base/atomic_file.h"
+#include "flank/base/sha256.h"
 #include "flank/error.h"
+#include "flank/io/text/json_input.h"
 #include "flank/job/job_json.h"
 #include "flank/path_file.h"
 #include "flank/tool_file.h"
+#include "flank/version.h"
 #include "flank/wheel/blade_copies.h"
 #include "flank/wheel/judge_whole.h"
 #include "flank/wheel/perform.h"
@@ -19,10 +25,21 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-constexpr double kFitSampleMm = 1.0;   ///< of the judge of one side: the whole is judged closely at the end
-constexpr double kTaperDeg = 12.0;     ///< of the tool that is made for a wheel
-constexpr double kCornerShare = 0.5;   ///< of what may be left, that the corners at the hub may take
-constexpr double kFilletShare = 0.97;  ///< of a root fillet's radius, that the tip has
+constexpr double kFitSampleMm = 1.0;    ///< of the judge of one side: the whole is judged closely at the end
+constexpr double kTaperDeg = 12.0;      ///< of the tool that is made for a wheel
+constexpr double kCornerShare = 0.5;    ///< of what may be left, that the corners at the hub may take
+constexpr double kMostSeconds = 240.0;  ///< of processor time, for roughing and for edges
+constexpr double kFilletShare = 0.97;   ///< of a root fillet's radius, that the tip has
+
+/// Searches that go on until they are told to stop, told so after some processor time.
+Progress limited(const Progress& progress) {
+  Progress out = progress;
+  const double end = static_cast<double>(std::clock()) / CLOCKS_PER_SEC + kMostSeconds;
+  out.cancelled = [asked = progress.cancelled, end] {
+    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC > end || (asked && asked());
+  };
+  return out;
+}
 
 PartRequest part_request(const WheelWork& work, const Names& faces) {
   PartRequest out;
@@ -72,26 +89,51 @@ FitJob side_job(const WheelWork& work, const Names& side, const std::string& too
   return job;
 }
 
+/// What one side's fit found.
+struct SideFit {
+  Tool tool;
+  Path path;
+};
+
+/// A fit takes minutes: what it found lies in a folder of its own, and is taken from there where the same is asked again.
+SideFit side_fit(const WheelWork& work, const Names& side, const std::string& spec, const Progress& progress) {
+  namespace fs = std::filesystem;
+  const FitJob job = side_job(work, side, spec);
+  const fs::path folder = in_folder(work, "fits/" + face_list(side));
+  const std::string key =
+      sha256(work.part.sha256 + kVersion + job_to_json(job) + (work.tool ? tool_to_json(*work.tool) : std::string()));
+  const std::string mark = (folder / "key.txt").string(), tool = (folder / "tool.json").string(),
+                    path = (folder / "path.json").string();
+  if (fs::exists(mark) && fs::exists(tool) && fs::exists(path) && read_file(mark) == key)
+    return {read_tool(tool), read_path(path)};
+  const Result result = run_fit(job, progress);
+  if (!result.complete) throw InputError("it was stopped");
+  if (result.path.pose_count() == 0) return {};
+  fs::create_directories(folder);
+  write_tool(result.tool, tool);
+  write_path(result.path, path);
+  write_file(mark, key);
+  return {result.tool, result.path};
+}
+
 /// Each side of the sector by a fit of its own; all with the tool of the first one.
 Path fitted_sides(WheelWork& work, const std::string& spec, const Progress& progress) {
   Path path;
   std::vector<Names> sides;
   for (const WheelBlade& blade : work.sector.blades) sides.push_back(blade.ahead), sides.push_back(blade.behind);
+  const double count = static_cast<double>(sides.size());
   for (std::size_t k = 0; k < sides.size(); ++k) {
-    const double count = static_cast<double>(sides.size());
-    const Result result =
-        run_fit(side_job(work, sides[k], work.tool ? tool_file(work) : spec),
-                progress.part(static_cast<double>(k) / count, (static_cast<double>(k) + 1.0) / count));
-    if (!result.complete) throw InputError("it was stopped");
-    if (result.path.pose_count() == 0) {
+    const SideFit fit = side_fit(work, sides[k], work.tool ? tool_file(work) : spec,
+                                 progress.part(static_cast<double>(k) / count, (static_cast<double>(k) + 1.0) / count));
+    if (fit.path.strips.empty()) {
       work.notes.push_back(face_list(sides[k]) + ": no pass of the flank was found");
       continue;
     }
     if (!work.tool) {
-      work.tool = result.tool;
-      write_tool(*work.tool, in_folder(work, "tools/T1.json"));
+      work.tool = fit.tool;
+      write_tool(*work.tool, tool_file(work));
     }
-    path.strips.insert(path.strips.end(), result.path.strips.begin(), result.path.strips.end());
+    path.strips.insert(path.strips.end(), fit.path.strips.begin(), fit.path.strips.end());
   }
   return path;
 }
@@ -177,7 +219,7 @@ WheelOperation edge_operation(WheelWork& work, const Progress& progress) {
   job.tolerance_mm = work.job.tolerance_mm;
   job.judge.reach_radius_mm = kOpenBall * work.job.tolerance_mm;
   const std::string decides = job_to_json(job) + tool_to_json(*work.tool);
-  operation = perform(work, operation, decides, [&] { return run_cover(job, progress); });
+  operation = perform(work, operation, decides, [&] { return run_cover(job, limited(progress)); });
   take(work, operation);
   return operation;
 }
@@ -201,7 +243,7 @@ WheelOperation rough_operation(WheelWork& work, const Progress& progress) {
   job.tolerance_mm = work.job.tolerance_mm;
   job.judge.sample_mm = work.job.sample_mm;
   const std::string decides = job_to_json(job) + tool_to_json(*work.tool);
-  operation = perform(work, operation, decides, [&] { return run_trochoid(job, progress); });
+  operation = perform(work, operation, decides, [&] { return run_trochoid(job, limited(progress)); });
   if (work.sector.channels.size() > 1 && operation.problem.empty())
     operation.problem =
         fmt::format("only the first of {} channels of a sector is roughed", work.sector.channels.size());

@@ -40,7 +40,7 @@ WheelOperation perform(const WheelWork& work, WheelOperation operation, const st
     operation.done = result.complete;
     operation.pass = acceptance.pass();
     if (!result.complete)
-      operation.problem = "it was stopped";
+      operation.problem = "it was stopped, or came to its limit of processor time";
     else if (!acceptance.pass())
       operation.problem = acceptance.reasons.front().text;
   } catch (const Error& error) {

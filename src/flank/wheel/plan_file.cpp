@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -36,6 +37,29 @@ nlohmann::ordered_json figures_json(const std::vector<RoleFigures>& figures) {
                     {"deepest_cut_mm", f.cut_mm},
                     {"most_left_mm", f.left_mm}});
   return list;
+}
+
+nlohmann::ordered_json rest_json(const std::vector<RestPlace>& rest) {
+  auto list = nlohmann::ordered_json::array();
+  for (const RestPlace& place : rest)
+    list.push_back({{"face", place.face},
+                    {"point_mm", list_of(place.point)},
+                    {"area_mm2", place.area_mm2},
+                    {"depth_mm", place.depth_mm},
+                    {"reason", place.reason}});
+  return list;
+}
+
+std::string rest_text(const std::vector<RestPlace>& rest) {
+  constexpr std::size_t kShown = 12;
+  std::string text;
+  for (std::size_t k = 0; k < std::min(kShown, rest.size()); ++k)
+    text += fmt::format("  left    {} at ({:.2f}, {:.2f}, {:.2f}): {:.1f} mm2, up to {:.3f} mm: {}\n", rest[k].face,
+                        rest[k].point.x(), rest[k].point.y(), rest[k].point.z(), rest[k].area_mm2, rest[k].depth_mm,
+                        rest[k].reason);
+  if (rest.size() > kShown)
+    text += fmt::format("  left    and {} smaller places, in plan.json\n", rest.size() - kShown);
+  return text;
 }
 
 nlohmann::ordered_json reasons_json(const Acceptance& acceptance) {
@@ -87,6 +111,7 @@ std::string plan_json(const WheelResult& result) {
     json["pass"] = acceptance.pass();
     json["reasons"] = reasons_json(acceptance);
     json["surface"] = figures_json(result.figures);
+    json["rest"] = rest_json(result.rest);
   }
   return dumped(json, 2) + "\n";
 }
@@ -108,6 +133,7 @@ std::string wheel_text(const WheelResult& result) {
                       "{:.4f} mm, most left {:.3f} mm\n",
                       f.role, 100.0 * f.within_mm2 / f.open_mm2, f.open_mm2, f.area_mm2, f.cut_mm, f.left_mm)
                 : fmt::format("  {:<7} not machined here; deepest cut {:.4f} mm\n", f.role, f.cut_mm);
+  text += rest_text(result.rest);
   const Acceptance acceptance = result.acceptance();
   text += fmt::format("  verdict {}\n", acceptance.pass() ? "meets the request" : "does NOT meet the request");
   for (const Shortfall& reason : acceptance.reasons) text += "    " + reason.text + "\n";

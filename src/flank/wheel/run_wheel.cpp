@@ -7,10 +7,12 @@
 #include "flank/error.h"
 #include "flank/feature/recognise_wheel.h"
 #include "flank/feature/wheel_table.h"
-#include "flank/tool_file.h"
+#include "flank/io/mesh/write_mesh.h"
+#include "flank/wheel/floor_operation.h"
 #include "flank/wheel/judge_whole.h"
 #include "flank/wheel/operations.h"
 #include "flank/wheel/plan_file.h"
+#include "flank/wheel/rest_places.h"
 
 namespace flank::internal {
 namespace {
@@ -62,6 +64,9 @@ WheelResult run_wheel(const WheelJob& job, const Progress& progress) {
   if (result.whole) {
     result.figures = role_figures(result.roles, result.whole->verify);
     write_result(*result.whole, job.folder);
+    WheelRest rest = rest_of(work, *result.whole);
+    result.rest = std::move(rest.places);
+    if (!rest.mesh.triangles.empty()) write_mesh((fs::path(job.folder) / "rest.stl").string(), rest.mesh);
   }
   write_file(plan, plan_json(result));
   return result;

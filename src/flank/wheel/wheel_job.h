@@ -47,12 +47,21 @@ struct RoleFigures {
   double cut_mm = 0.0, left_mm = 0.0;  ///< deepest cut, most that is left
 };
 
+/// A place of the flow surface on which more than the tolerance is left.
+struct RestPlace {
+  std::string face;
+  Vec3 point = Vec3::Zero();  ///< the deepest of its places, on the part
+  double area_mm2 = 0.0, depth_mm = 0.0;
+  std::string reason;
+};
+
 struct WheelResult {
   WheelRoles roles;
   int copies = 0;
   std::vector<WheelOperation> operations;
   std::vector<RoleFigures> figures;
   std::vector<std::string> notes;
+  std::vector<RestPlace> rest;  ///< largest first
   std::optional<Result> whole;  ///< all copies of all finishing operations, judged on all flow faces
   [[nodiscard]] Acceptance acceptance() const;
 };

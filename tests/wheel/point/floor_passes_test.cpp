@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flank/feature/wheel_face.h"
+#include "flank/geom/triangle_bvh.h"
 #include "flank/judge.h"
 
 namespace flank::internal {
@@ -26,13 +26,12 @@ Face plane(const Vec3& corner, const Vec3& along_u, const Vec3& along_v) {
   return face;
 }
 
-WheelFace triangles(const Vec3& corner, const Vec3& along_u, const Vec3& along_v) {
-  WheelFace out;
-  out.mesh.vertices = {corner, corner + along_u, corner + along_v, corner + along_u + along_v};
-  out.mesh.triangles = {{0, 1, 3}, {0, 3, 2}};
-  out.box = out.mesh.box();
-  out.tree = TriangleBvh(out.mesh);
-  return out;
+void add_plane(const Vec3& corner, const Vec3& along_u, const Vec3& along_v, TriangleMesh& out) {
+  const int k = static_cast<int>(out.vertices.size());
+  for (const Vec3& p : {corner, Vec3(corner + along_u), Vec3(corner + along_v), Vec3(corner + along_u + along_v)})
+    out.vertices.push_back(p);
+  out.triangles.push_back({k, k + 1, k + 3});
+  out.triangles.push_back({k, k + 3, k + 2});
 }
 
 /// Along x; the wheel's axis is far below, so that the floor is nearly flat. A right-handed turn about it goes towards -y.
@@ -42,8 +41,13 @@ struct Channel {
   std::unique_ptr<Target> floor = make_target({plane(Vec3::Zero(), along, across)});
   std::unique_ptr<Target> near = make_target({plane(Vec3::Zero(), near_up, along)});
   std::unique_ptr<Target> far = make_target({plane(far_corner, along, far_up)});
-  std::vector<WheelFace> coarse{triangles(Vec3::Zero(), along, across), triangles(Vec3::Zero(), near_up, along),
-                                triangles(far_corner, along, far_up)};
+  TriangleBvh coarse = [this] {
+    TriangleMesh all;
+    add_plane(Vec3::Zero(), along, across, all);
+    add_plane(Vec3::Zero(), near_up, along, all);
+    add_plane(far_corner, along, far_up, all);
+    return TriangleBvh(all);
+  }();
   RadialFunction radial{ToolFamily::kCylinder, kAxis, Eigen::VectorXd::Constant(1, kTip)};
 
   [[nodiscard]] FloorChannel asked() const {
@@ -51,7 +55,7 @@ struct Channel {
     out.axis.point = Vec3(0.0, 0.5 * kWidth, -4000.0), out.axis.direction = Vec3::UnitX();
     out.floor = {floor.get()}, out.first = {far.get()}, out.second = {near.get()};
     out.walls = {near.get(), far.get()};
-    for (const WheelFace& face : coarse) out.coarse.push_back(&face);
+    out.coarse = &coarse;
     return out;
   }
   [[nodiscard]] Path passes(bool finished) const {

@@ -50,7 +50,8 @@ void AxisField::look(const TipRoom& room, Node& node) const {
 std::vector<std::size_t> AxisField::beside(std::size_t k) const {
   const int row = static_cast<int>(k) / columns_, column = static_cast<int>(k) % columns_;
   std::vector<std::size_t> out;
-  for (const auto& [r, c] : {std::pair(row - 1, column), {row + 1, column}, {row, column - 1}, {row, column + 1}})
+  for (const auto& [r, c] :
+       {std::pair(row - 1, column), std::pair(row + 1, column), std::pair(row, column - 1), std::pair(row, column + 1)})
     if (r >= 0 && r < rows_ && c >= 0 && c < columns_) {
       const auto at = static_cast<std::size_t>(r * columns_ + c);
       if (nodes_[at].present) out.push_back(at);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "flank/feature/wheel_axis.h"
+#include "flank/geom/triangle_bvh.h"
 #include "flank/target.h"
 
 namespace flank::internal {
@@ -16,8 +17,9 @@ struct FloorChannel {
   std::vector<const Target*> first,
       second;  ///< the sides that bound the channel; a right-handed turn goes from first to second
   std::vector<const Target*> walls;  ///< all that the tool keeps out of besides the floor: sides, edges, tips, fillets
-  std::vector<const WheelFace*> coarse;  ///< floor and walls as triangles: where directions are looked for
-  double blade_mm = 0.0;                 ///< thickness of the blades: so far the floor goes on beyond a side's end
+  const TriangleBvh* coarse =
+      nullptr;            ///< floor and walls as triangles: where directions are looked for; null: no such search
+  double blade_mm = 0.0;  ///< thickness of the blades: so far the floor goes on beyond a side's end
 };
 
 struct PointOptions {

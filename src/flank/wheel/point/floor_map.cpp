@@ -101,7 +101,8 @@ SideLine::SideLine(const std::vector<const Target*>& side, const std::vector<con
       for (const Target* one : floor)
         if (const Footpoint here = one->closest_within(s.point, least); here.patch >= 0)
           least = std::abs(here.distance), foot = here;
-      if (foot.patch < 0 || foot.location != Location::kInside) continue;
+      // A floor that ends where a leaning side begins has its border there.
+      if (foot.patch < 0) continue;
       const double way = map.way(foot.point);
       const Low low{std::abs(foot.distance), way, map.angle(s.point)};
       const auto [cell, fresh] = cells.try_emplace(static_cast<int>(std::floor(way / kSideCellMm)), low);

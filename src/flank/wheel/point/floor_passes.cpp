@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "flank/base/parallel.h"
-#include "flank/path/turning.h"
 #include "flank/wheel/point/axis_field.h"
 #include "flank/wheel/point/channel_rows.h"
 #include "flank/wheel/point/wall_passes.h"
@@ -15,9 +14,8 @@ namespace flank::internal {
 namespace {
 
 constexpr int kMostPasses = 1024;
-constexpr int kColumns = 9;          ///< of the net of directions, across
-constexpr double kNetMm = 2.5;       ///< and along
-constexpr double kShortestMm = 1.0;  ///< strips that are shorter are not worth a link
+constexpr int kColumns = 9;     ///< of the net of directions, across
+constexpr double kNetMm = 2.5;  ///< and along
 
 /// Between passes on a floor that bends like this across, mm.
 double spacing(double tip_mm, double bend, const PointOptions& options) {
@@ -27,7 +25,8 @@ double spacing(double tip_mm, double bend, const PointOptions& options) {
 
 /// Every so many rows of the channel the net has one.
 int net_stride(const std::vector<ChannelRow>& rows) {
-  const double step = rows.size() > 1 ? (rows.back().along - rows.front().along) / (rows.size() - 1.0) : kNetMm;
+  const double step =
+      rows.size() > 1 ? (rows.back().along - rows.front().along) / (static_cast<double>(rows.size()) - 1.0) : kNetMm;
   return std::max(1, static_cast<int>(kNetMm / step));
 }
 
@@ -39,7 +38,7 @@ struct Plan {
   std::size_t passes = 0;
 };
 
-/// As many passes as the widest row needs, a power of two and one: so that in narrow rows each second, fourth ... may be left out.
+/// As many passes as the widest row needs. In narrow rows each second, fourth ... is left out.
 void count_passes(Plan& plan) {
   const std::vector<ChannelRow>& rows = plan.channel.rows();
   double most = 1.0;
@@ -51,7 +50,7 @@ void count_passes(Plan& plan) {
   plan.passes = static_cast<std::size_t>(std::min<double>(most, kMostPasses)) + 1;
 }
 
-/// Whether pass j is needed in a row: those whose number has more factors of two are left out last.
+/// Whether pass j is needed in a row. Those whose number has more factors of two are left out last.
 bool is_needed(const Plan& plan, std::size_t row, std::size_t j) {
   const ChannelRow& here = plan.channel.rows()[row];
   if (!here.open || !(plan.steps[row] > 0.0)) return false;
@@ -73,7 +72,7 @@ AxisField field_of(const ChannelRows& channel, const TipRoom& room) {
   return {room, places, count, kColumns};
 }
 
-/// A pose, and whether it may run: what is not needed and what has no room are absent.
+/// A pass: what is not needed and what has no room is absent.
 PoseRow floor_row(const Plan& plan, const AxisField& field, double stride, std::size_t j) {
   const std::vector<ChannelRow>& rows = plan.channel.rows();
   const double share = static_cast<double>(j) / std::max(1.0, static_cast<double>(plan.passes) - 1.0);
@@ -91,42 +90,7 @@ PoseRow floor_row(const Plan& plan, const AxisField& field, double stride, std::
   return out;
 }
 
-/// In two where it turns too sharply, until no piece does.
-void add_strip(Strip strip, const RadialFunction& radial, const PointOptions& options, std::vector<Strip>& out) {
-  double length = 0.0;
-  for (std::size_t k = 1; k < strip.poses.size(); ++k) length += (strip.poses[k].tip - strip.poses[k - 1].tip).norm();
-  if (strip.poses.size() < 3 || length < kShortestMm) return;
-  const Turning turn = sharpest_turn(strip.poses, radial.axis_length(), options.turn_window_mm);
-  if (turn.angle_rad <= options.most_turn_rad) {
-    out.push_back(std::move(strip));
-    return;
-  }
-  const auto cut = static_cast<std::ptrdiff_t>(std::clamp<std::size_t>(turn.pose, 1, strip.poses.size() - 2));
-  Strip rest = strip;
-  rest.poses.erase(rest.poses.begin(), rest.poses.begin() + cut);
-  strip.poses.erase(strip.poses.begin() + cut + 1, strip.poses.end());
-  add_strip(std::move(strip), radial, options, out);
-  add_strip(std::move(rest), radial, options, out);
-}
-
 }  // namespace
-
-void add_strips(std::vector<PoseRow> rows, const RadialFunction& radial, const PointOptions& options,
-                const std::string& kind, const std::string& face, std::vector<Strip>& out) {
-  for (std::size_t j = 0; j < rows.size(); ++j) {
-    if (j % 2 == 1) std::reverse(rows[j].begin(), rows[j].end());
-    Strip strip{.id = 1, .kind = kind, .face = face, .poses = {}};
-    rows[j].emplace_back();
-    for (const std::optional<Pose>& pose : rows[j]) {
-      if (pose) {
-        strip.poses.push_back(*pose);
-        continue;
-      }
-      add_strip(strip, radial, options, out);
-      strip.poses.clear();
-    }
-  }
-}
 
 std::vector<Strip> point_passes(const FloorChannel& channel, const RadialFunction& radial, const PointOptions& options,
                                 const std::string& floor, const std::string& first, const std::string& second) {

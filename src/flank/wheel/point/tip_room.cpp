@@ -4,21 +4,19 @@
 #include <cmath>
 #include <limits>
 
-#include "flank/feature/wheel_face.h"
-
 namespace flank::internal {
 namespace {
 
-constexpr double kHeightShare = 0.1;  ///< of the tolerance: so far above what it touches the sphere stays
-constexpr double kHorizonMm = 1.0;    ///< farther rooms are not told apart
-constexpr double kStepMm = 0.4;       ///< along the axis, at least
-constexpr double kGapPerMm = 0.08;    ///< of the axis: a direction is to leave so much more room higher up
+constexpr double kHeightShare = 0.1;     ///< of the tolerance: so far above what it touches the sphere stays
+constexpr double kHorizonMm = 1.0;       ///< farther rooms are not told apart
+constexpr double kStepMm = 0.4;          ///< along the axis, at least
+constexpr double kGapPerMm = 0.08;       ///< of the axis: a direction is to leave so much more room higher up
+constexpr double kTrianglesOffMm = 0.1;  ///< more than triangles are off their faces
 constexpr int kDrops = 12;
 
-/// Beside the border of a face a footpoint has no side: the distance alone counts there.
-double height_of(const Footpoint& foot) {
-  return foot.location == Location::kInside ? foot.distance : std::abs(foot.distance);
-}
+/// Beside the border of a face a footpoint has no side, and from behind a thin blade its far face looks away: the distance alone counts.
+/// A tool that enters something crosses its surface somewhere.
+double height_of(const Footpoint& foot) { return std::abs(foot.distance); }
 
 }  // namespace
 
@@ -67,6 +65,14 @@ double TipRoom::room(const Pose& pose, double up_to) const {
   for (double s = 0.0; s <= up_to;) {
     const double r = radius(s);
     const Vec3 p = pose.at(s);
+    if (s > 0.0 && channel_.coarse != nullptr) {
+      const double gap = std::sqrt(channel_.coarse->closest(p).squared_distance) - r - kTrianglesOffMm;
+      if (gap > 0.0) {
+        least = std::min(least, gap);
+        s += std::max(kStepMm, 0.5 * gap);
+        continue;
+      }
+    }
     double gap = kHorizonMm;
     const Footpoint wall = nearest_foot(channel_.walls, p, r + kHorizonMm);
     if (wall.patch >= 0) gap = std::min(gap, height_of(wall) - r);
@@ -85,8 +91,7 @@ double TipRoom::rough_room(const Pose& pose, double least) const {
   double best = kEnoughMm;
   for (double s = kStepMm; s <= above_;) {
     const double r = radius(s), wanted = std::min(kEnoughMm, kGapPerMm * s);
-    const NearFace near = nearest(channel_.coarse, pose.at(s));
-    const double gap = std::abs(near.height) - r;
+    const double gap = std::sqrt(channel_.coarse->closest(pose.at(s)).squared_distance) - r;
     best = std::min(best, gap + kEnoughMm - wanted);
     if (best <= least) return best;
     s += std::max(kStepMm, 0.6 * (gap - wanted));

@@ -27,7 +27,7 @@ class TipRoom {
   [[nodiscard]] std::optional<Rest> rest(const Vec3& p) const;
   /// Whether the tip sphere alone enters no wall deeper than a pass may.
   [[nodiscard]] bool tip_is_free(const Vec3& center) const;
-  /// How far the flank, and a shank as thick above it, are from walls and floor, mm; < 0 inside one. Exact, but not above 1 mm.
+  /// How far the flank, and a shank as thick above it, are from walls and floor, mm, at least; < 0 inside one. Exact near zero.
   [[nodiscard]] double room(const Pose& pose) const { return room(pose, above_); }
   /// The same by triangles, less a gap that grows along the axis, up to `kEnoughMm`: what directions are chosen by. Ends early below
   /// `least`.

@@ -2,17 +2,12 @@
 #pragma once
 
 #include <functional>
-#include <optional>
-#include <string>
 #include <vector>
 
-#include "flank/path.h"
 #include "flank/wheel/point/channel_rows.h"
+#include "flank/wheel/point/pass_strips.h"
 
 namespace flank::internal {
-
-/// A pass, place by place along the channel; absent where it must not run or need not.
-using PoseRow = std::vector<std::optional<Pose>>;
 
 struct WallWork {
   const FloorChannel& channel;
@@ -27,9 +22,5 @@ struct WallWork {
 /// From the corner on upwards, a scallop apart, as far as places of the side are not finished and the tool has room. Passes without a
 /// pose are left out.
 [[nodiscard]] std::vector<PoseRow> wall_rows(const WallWork& work);
-
-/// Stretches of poses that are there, as strips; each other row the other way round; split where they turn too sharply.
-void add_strips(std::vector<PoseRow> rows, const RadialFunction& radial, const PointOptions& options,
-                const std::string& kind, const std::string& face, std::vector<Strip>& out);
 
 }  // namespace flank::internal
