@@ -62,7 +62,9 @@ TEST(JobFieldTable, RefusesWhatIsNoFieldAndWhatIsNoValue) {
     ADD_FAILURE() << "accepted";
   } catch (const UsageError& e) {
     EXPECT_EQ(e.field(), "tolerence_mm");
-    EXPECT_NE(std::string(e.what()).find("is no field of fit; there are part, "), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("is no field of fit; did you mean tolerance_mm; there are part, "),
+              std::string::npos)
+        << e.what();
   }
   EXPECT_THROW(set_field(job, "tolerance_mm", {"wide"}), UsageError);
   EXPECT_THROW(set_field(job, "tolerance_mm", {}), UsageError);
