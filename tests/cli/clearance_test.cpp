@@ -118,6 +118,8 @@ TEST_F(CliClearanceFit, AFixtureInTheWayIsExitOneAndNamed) {
   }());
   fs::rename(root_ / "out", root_ / "judged");
   expect_refused({"verify", path("judged")}, 3, "`fixture_unit`");
+  // The job was changed by hand on purpose.
+  fs::remove(root_ / "judged/manifest.json");
   EXPECT_EQ(flank({"verify", path("judged"), "--fixture-unit", "mm"}).exit_code, 0);
   // Ten times as far away it is not in the way.
   const std::vector<std::string> near{"verify", path("judged"), "--fixture", path("near.stl"), "--fixture-unit"};
