@@ -12,5 +12,6 @@ void bind_part(pybind11::module_& module);
 void bind_path(pybind11::module_& module);
 void bind_judge(pybind11::module_& module);
 void bind_jobs(pybind11::module_& module);
+void bind_commands(pybind11::module_& module);
 
 }  // namespace flank::python

@@ -16,6 +16,7 @@ PYBIND11_MODULE(_core, module) {
   flank::python::bind_path(module);
   flank::python::bind_judge(module);
   flank::python::bind_jobs(module);
+  flank::python::bind_commands(module);
   module.def(
       "set_thread_count", &flank::set_thread_count, py::arg("threads"),
       "Sets the number of threads that the library works with (>= 0); 0: all cores. Call it once, at the start. No "

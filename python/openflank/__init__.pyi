@@ -386,6 +386,12 @@ def report(folder: _File, file: _File | None = None) -> os.PathLike[str]: ...
 def set_thread_count(threads: int) -> None: ...
 def thread_count() -> int: ...
 
+def inspect(part: Union[_File, Part], unit: str | None = ..., sort: str = ..., type: str = ...) -> dict[str, Any]: ...
+def example(name: str, file: _File, seed: int = ...) -> dict[str, Any]: ...
+def examples() -> list[str]: ...
+def machines() -> list[dict[str, Any]]: ...
+def machine(name: _File) -> dict[str, Any]: ...
+
 # From the library's table of fields: scripts/python_stubs.py writes what follows.
 def fit(
     part: Union[_File, Part],
@@ -421,6 +427,7 @@ def fit(
     shank_radius_mm: float | None = None,
     holder: _File | None = None,
     fixtures: Sequence[_File] | None = None,
+    fixture_unit: str | None = None,
     clearance_mm: float | None = None,
     avoid: bool = ...,
     progress: _Progress | None = None,
@@ -455,6 +462,7 @@ def cover(
     shank_radius_mm: float | None = None,
     holder: _File | None = None,
     fixtures: Sequence[_File] | None = None,
+    fixture_unit: str | None = None,
     clearance_mm: float | None = None,
     progress: _Progress | None = None,
 ) -> Result: ...
@@ -493,6 +501,7 @@ def trochoid(
     shank_radius_mm: float | None = None,
     holder: _File | None = None,
     fixtures: Sequence[_File] | None = None,
+    fixture_unit: str | None = None,
     clearance_mm: float | None = None,
     avoid: bool = ...,
     progress: _Progress | None = None,
@@ -520,6 +529,7 @@ def verify(
     shank_radius_mm: float | None = None,
     holder: _File | None = None,
     fixtures: Sequence[_File] | None = None,
+    fixture_unit: str | None = None,
     clearance_mm: float | None = None,
 ) -> Verification: ...
 def post(

@@ -1,8 +1,10 @@
 """Keywords come from the library's table; errors, progress and Ctrl-C."""
 
 import inspect
+import json
 import os
 import signal
+import subprocess
 import threading
 import time
 
@@ -42,8 +44,12 @@ def test_wrong_requests_name_the_keyword(blade):
         openflank.fit(blade, tolerance_mm=-1)
     assert caught.value.field == "tolerance_mm"
     assert isinstance(caught.value, ValueError) and isinstance(caught.value, openflank.Error)
-    with pytest.raises(openflank.UsageError, match="tolerence_mm: is not a field of fit; expected part, "):
+    with pytest.raises(openflank.UsageError, match="tolerence_mm: is not a field of fit; did you mean tolerance_mm; expected part, "):
         openflank.fit(blade, tolerence_mm=0.1)
+    with pytest.raises(openflank.UsageError, match="did you mean tolerance_mm"):
+        openflank.fit(blade, tolerance=0.1)
+    with pytest.raises(openflank.UsageError, match="colour: is not a field of fit; expected part, "):
+        openflank.fit(blade, colour="red")
     with pytest.raises(openflank.UsageError, match="strips"):
         openflank.fit(blade, strips=0)
     with pytest.raises(TypeError, match="avoid: expected True or False"):
@@ -125,3 +131,21 @@ def test_other_threads_run_meanwhile(blade):
     stop.set()
     watcher.join()
     assert longest[0] < 0.5 * took, (longest, took)
+
+
+def test_what_only_looks_says_what_the_command_says(tmp_path):
+    def said(*words):
+        done = subprocess.run([os.environ["FLANK_BINARY"], *words], capture_output=True, text=True, check=True)
+        return json.loads(done.stdout)
+
+    file = tmp_path / "impeller.step"
+    assert openflank.example("impeller", file)["files"] == [str(file)]
+    assert "impeller" in openflank.examples()
+    assert openflank.inspect(file, sort="area") == said("inspect", str(file), "--sort", "area", "--json")
+    flat = openflank.inspect(openflank.read_part(file), type="plane")["faces"]
+    assert flat and all(row["type"] == "plane" for row in flat)
+    assert {"machines": openflank.machines()}.items() <= said("machine", "--list", "--json").items()
+    name = openflank.machines()[0]["name"]
+    assert openflank.machine(name) == said("machine", name, "--json")
+    with pytest.raises(openflank.UsageError, match="impellor"):
+        openflank.example("impellor", file)

@@ -118,8 +118,10 @@ TEST_F(CliClearanceFit, AFixtureInTheWayIsExitOneAndNamed) {
   }());
   fs::rename(root_ / "out", root_ / "judged");
   expect_refused({"verify", path("judged")}, 3, "`fixture_unit`");
+  // The job was changed by hand on purpose.
+  fs::remove(root_ / "judged/manifest.json");
   EXPECT_EQ(flank({"verify", path("judged"), "--fixture-unit", "mm"}).exit_code, 0);
-  // Forty inches are far away.
+  // Ten times as far away it is not in the way.
   const std::vector<std::string> near{"verify", path("judged"), "--fixture", path("near.stl"), "--fixture-unit"};
   const auto in = [&](const char* unit) {
     std::vector<std::string> words = near;
@@ -127,7 +129,7 @@ TEST_F(CliClearanceFit, AFixtureInTheWayIsExitOneAndNamed) {
     return flank(words).exit_code;
   };
   EXPECT_EQ(in("mm"), 1);
-  EXPECT_EQ(in("m"), 0);
+  EXPECT_EQ(in("cm"), 0);
 }
 
 TEST_F(CliClearanceFit, AWideHolderHitsTheRealImpeller) {

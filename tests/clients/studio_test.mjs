@@ -198,7 +198,7 @@ test('the verdict is the exit code: passes, fails, collides, is not proved', asy
   writeFileSync(vice, cube(row.centre, row.normal));
   await page.value(`${CHOOSER}.choose(['F1'])`);
   const quick = { tolerance_mm: '0.05', effort: 'quick' };
-  const cases = { passes: [quick, 0], fails: [{ ...quick, turn_max: '0.5' }, 1], 'is not proved': [{ ...quick, tolerance_mm: '0.01', sample_mm: '3.6' }, 1], collides: [{ ...quick, avoid: 'off' }, 1, vice] };
+  const cases = { passes: [quick, 0], fails: [{ ...quick, coverage: '1', radius_max_mm: '0.3', radius_min_mm: '0.2' }, 1], 'is not proved': [{ ...quick, tolerance_mm: '0.01', sample_mm: '3.6' }, 1], collides: [{ ...quick, avoid: 'off' }, 1, vice] };
   for (const [name, [fields, exit, fixture]] of Object.entries(cases)) {
     const job = await run(page, fields, fixture);
     assert.equal(job.exit, exit, `${name}: ${job.line} ${job.message}`);
@@ -227,7 +227,7 @@ test('what is refused is said in the command’s words, and the faces of a wheel
   await page.until('document.querySelector("#drop .notice")', PATIENCE);
   assert.match(await page.value('document.querySelector("#drop .notice").textContent'), /broken\.step/);
   const job = await (async () => {
-    await page.value(`window.flankStudio.parts.show('twisted-blade.step')`);
+    await page.value(`window.flankStudio.parts.show('wheel.step')`);
     await page.until('document.querySelector("#drop").hidden', PATIENCE);
     await page.value(`${CHOOSER}.choose(['F1'])`);
     return run(page, { tolerance_mm: '-1' });

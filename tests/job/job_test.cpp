@@ -62,7 +62,9 @@ TEST(JobFieldTable, RefusesWhatIsNoFieldAndWhatIsNoValue) {
     ADD_FAILURE() << "accepted";
   } catch (const UsageError& e) {
     EXPECT_EQ(e.field(), "tolerence_mm");
-    EXPECT_NE(std::string(e.what()).find("is not a field of fit; expected part, "), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("is not a field of fit; did you mean tolerance_mm; expected part, "),
+              std::string::npos)
+        << e.what();
   }
   EXPECT_THROW(set_field(job, "tolerance_mm", {"wide"}), UsageError);
   EXPECT_THROW(set_field(job, "tolerance_mm", {}), UsageError);

@@ -1,5 +1,7 @@
 #include "flank/job.h"
 
+#include <algorithm>
+#include <numeric>
 #include <type_traits>
 
 #include "flank/error.h"
@@ -48,13 +50,42 @@ std::vector<JobField> fields_of() {
   return fields;
 }
 
+/// In how many letters two words differ: changed, left out, or too many.
+std::size_t letters_apart(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t before = row[0];
+    row[0] = i;
+    for (std::size_t k = 1; k <= b.size(); ++k) {
+      const std::size_t changed = before + (a[i - 1] == b[k - 1] ? 0 : 1);
+      before = row[k];
+      row[k] = std::min({changed, row[k] + 1, row[k - 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
+
+/// "; did you mean tolerance_mm" of a name that forgets its unit or is misspelt; empty if none is near.
+std::string meant(const std::string& name, const std::vector<std::string>& known) {
+  constexpr std::size_t kMostApart = 2;
+  const auto score = [&](const std::string& one) { return one.starts_with(name + "_") ? 0 : letters_apart(name, one); };
+  const auto best = std::min_element(known.begin(), known.end(),
+                                     [&](const std::string& a, const std::string& b) { return score(a) < score(b); });
+  // Of a short word two letters are most of it.
+  const bool near = best != known.end() && score(*best) <= std::min(kMostApart, name.size() / 3);
+  return near ? "; did you mean " + *best : "";
+}
+
 template <class Job>
 void set(Job& job, const std::string& name, const std::vector<std::string>& words) {
   bool known = false;
   std::string names;
+  std::vector<std::string> all;
   visit_fields(job, [&](const FieldInfo& info, auto& member) {
     const std::string own = field_name(info);
     names += (names.empty() ? "" : ", ") + own;
+    all.push_back(own);
     if (own != name) return;
     known = true;
     if constexpr (std::is_same_v<std::remove_reference_t<decltype(member)>, std::vector<std::string>>)
@@ -63,7 +94,9 @@ void set(Job& job, const std::string& name, const std::vector<std::string>& word
       throw UsageError(name, "expected one value");
     for (const std::string& word : words) read_word(info, word, member);
   });
-  if (!known) throw UsageError(name, "is not a field of " + std::string(command_name(job)) + "; expected " + names);
+  if (!known)
+    throw UsageError(name,
+                     "is not a field of " + std::string(command_name(job)) + meant(name, all) + "; expected " + names);
 }
 
 }  // namespace
