@@ -84,12 +84,13 @@ std::optional<double> lowest_foot(const WallsInRow& row, const StraightFlank& fl
   for (std::size_t i = 0; i < row.walls.size(); ++i) {
     if (row.too_tight[i] != 0) continue;
     const Wall& wall = row.walls[i];
-    // Lines that lean hold the tip lower.
+    // Lines that lean at the ends hold the tip lower; what stands beside the wall there is for the ends to keep clear of.
     for (const double share : {0.0, 0.3, 0.5, 0.7, 1.0}) {
       const WallLine line = wall.between(wall.first({}), wall.last({}), share);
+      const bool at_corner = share == 0.0 || share == 1.0;
       const double most = kBeyond * line.length(), least = -kHighest * line.length();
       const auto clear = [&](double foot_s) {
-        const double length = std::max(0.0, foot_s + flank.axis_over(line.length()));
+        const double length = at_corner ? 0.0 : std::max(0.0, foot_s + flank.axis_over(line.length()));
         return is_clear_of_others(laid_against(line, flank, foot_s), flank, length, kTipOff * scene.tolerance_mm,
                                   scene);
       };
