@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -84,12 +85,19 @@ std::optional<double> lowest_foot(const WallsInRow& row, const StraightFlank& fl
   for (std::size_t i = 0; i < row.walls.size(); ++i) {
     if (row.too_tight[i] != 0) continue;
     const Wall& wall = row.walls[i];
-    // Lines that lean hold the tip lower.
-    for (const double share : {0.0, 0.3, 0.5, 0.7, 1.0}) {
-      const WallLine line = wall.between(wall.first({}), wall.last({}), share);
+    // Lines that lean at the ends hold the tip lower; what stands beside the wall there is for the ends to keep clear of. A radius from
+    // an inner corner, where they will be.
+    const WallEnd back{flank.radius, flank.radius};
+    const WallLine first = wall.first({}), last = wall.last({});
+    const std::array<WallLine, 5> lines{wall.first(back), wall.between(first, last, 0.3),
+                                        wall.between(first, last, 0.5), wall.between(first, last, 0.7),
+                                        wall.last(back)};
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+      const WallLine& line = lines[k];
+      const bool at_corner = k == 0 || k + 1 == lines.size();
       const double most = kBeyond * line.length(), least = -kHighest * line.length();
       const auto clear = [&](double foot_s) {
-        const double length = std::max(0.0, foot_s + flank.axis_over(line.length()));
+        const double length = at_corner ? 0.0 : std::max(0.0, foot_s + flank.axis_over(line.length()));
         return is_clear_of_others(laid_against(line, flank, foot_s), flank, length, kTipOff * scene.tolerance_mm,
                                   scene);
       };
@@ -97,7 +105,7 @@ std::optional<double> lowest_foot(const WallsInRow& row, const StraightFlank& fl
       while (step <= kSteps && !clear(most + (least - most) * step / kSteps)) ++step;
       if (step > kSteps) continue;
       double free = most + (least - most) * step / kSteps, enters = most + (least - most) * (step - 1) / kSteps;
-      for (int k = 0; step > 0 && k < kHalvings; ++k) {
+      for (int halving = 0; step > 0 && halving < kHalvings; ++halving) {
         const double middle = 0.5 * (free + enters);
         (clear(middle) ? free : enters) = middle;
       }
