@@ -30,7 +30,7 @@ TEST_F(Cli, TrochoidRefusesAToolThatIsThickerThanTheCavityIsWide) {
       {"trochoid", cavity, "--left", "F1", "--right", "F2", "--tool", "cylinder:radius=20", "-o", path("out")}, 3,
       "40 mm thick");
   expect_refused({"trochoid", cavity, "--left", "F1", "--right", "F2", "--radius-min", "15", "-o", path("out")}, 3,
-                 "--radius-min: the tool is 30 mm thick");
+                 "--radius-min: the tool is at least 30 mm thick");
 }
 
 TEST_F(Cli, RefusesFilesThatAreNoParts) {

@@ -226,11 +226,11 @@ Part read_mesh(const std::string& file, const std::optional<std::string>& unit) 
   try {
     return read_part(file, unit);
   } catch (const InputError& e) {
-    constexpr std::string_view kField = "by `unit`";
+    constexpr std::string_view kField = "give `unit`";
     std::string text = e.what();
     const std::size_t at = unit ? std::string::npos : text.find(kField);
     if (at == std::string::npos) throw;
-    throw InputError(text.replace(at, kField.size(), "by `fixture_unit`"));
+    throw InputError(text.replace(at, kField.size(), "give `fixture_unit`"));
   }
 }
 
