@@ -85,7 +85,6 @@ struct HoldReport {
   /// Of a shank as thick as the flank's upper end and one diameter long, for a tool that has none of its own: what it enters most.
   std::optional<ClearanceFigure> as_thick;
 };
-inline constexpr double kRodShare = 0.1;
 
 /// Judges that against the part's faces, continuous between the poses; fixtures are for shank and holder to keep clear of. None if
 /// there are no faces or no poses. Parallel; the same bits for any number of threads. Throws as judge_clearance.

@@ -40,6 +40,9 @@ inline constexpr double kCarbideModulus = 6e5;
 /// Infinite slenderness and deflection if the radius is not positive everywhere.
 [[nodiscard]] Stiffness stiffness(const Tool& tool);
 
+/// Of the radius at the flank's upper end: a thinner rod above it holds no tool.
+inline constexpr double kRodShare = 0.1;
+
 /// Meridian point (z, rho) of s: (s - r r', r sqrt(1 - r'^2)).
 [[nodiscard]] Vec2 meridian_point(const RadialFunction& radial, double s);
 /// Meridian polyline at `count` equal steps of s.

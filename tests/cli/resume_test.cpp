@@ -37,7 +37,7 @@ TEST_F(CliResume, AFitThatWasInterruptedGoesOn) {
   const Ended ended = stopped_at(fit_into("out"), "polish 2", SIGINT);
   ASSERT_TRUE(WIFEXITED(ended.status)) << ended.err;
   EXPECT_EQ(WEXITSTATUS(ended.status), 1) << ended.err;
-  EXPECT_NE(ended.err.find("stopped by SIGINT; the best so far is in"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("stopped by SIGINT; the best result so far is in"), std::string::npos) << ended.err;
   EXPECT_NE(ended.err.find("the same command with --resume continues"), std::string::npos) << ended.err;
   const auto manifest = nlohmann::json::parse(read_file(root_ / "out/manifest.json"));
   EXPECT_TRUE(manifest.at("files").contains("resume.json"));

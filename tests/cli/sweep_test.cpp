@@ -62,11 +62,11 @@ TEST_F(SweepCli, APlanIsRefusedByItsLineBeforeAnythingRuns) {
   expect_plan_refused(head + faces + tools + "[options]\ntolerence_mm = 1\n",
                       "line 7, column 16: tolerence_mm: is not a field of cover");
   expect_plan_refused(head + faces + tools + "[options]\ntolerance_mm = -1\n",
-                      "line 7, column 16: tolerance_mm: -1: a length > 0 mm");
+                      "line 7, column 16: tolerance_mm: -1: expected a length > 0 mm");
   expect_plan_refused(head + faces + tools + "[options]\nfaces = \"F1\"\n", "is not an option");
   expect_plan_refused(head + faces + tools + "[variants.fine]\nstrips = \"many\"\n", "line 7, column 10: strips: many");
   expect_plan_refused(head + faces + tools + "[variants.\"../out\"]\n", "letters, digits");
-  expect_plan_refused(head + faces + tools + "colour = 1\n", "line 6, column 1: colour: unknown key");
+  expect_plan_refused(head + faces + tools + "colour = 1\n", "line 6, column 1: unknown key \"colour\"");
   expect_plan_refused(head + faces + "tools = []\n", "a list of texts");
   expect_plan_refused(head + "faces = [\"F1\", \"F1\"]\n" + tools, "stands there twice");
   expect_plan_refused("command = \"sing\"\n", "schema");

@@ -83,7 +83,7 @@ TEST(MachineFile, SaysLineAndColumnAndWhatWouldBeAccepted) {
   expect_refused(replaced(good, "speed_deg_s = 100", "speed_deg_s = -1"), "speed_deg_s: expected a number from");
   expect_refused(replaced(good, "speed_deg_s = 100", "speed_deg_s = \"fast\""), "speed_deg_s: expected a number from");
   expect_refused(replaced(good, "speed_deg_s = 100", "speed = 100"), "speed_deg_s: is missing");
-  expect_refused(replaced(good, "speed_deg_s = 100", "speed_deg_s = 100\nspeeed = 3"), "speeed: unknown key",
+  expect_refused(replaced(good, "speed_deg_s = 100", "speed_deg_s = 100\nspeeed = 3"), "unknown key \"speeed\"",
                  "speed_deg_s");
   expect_refused(replaced(good, "travel_deg = [-30.0, 120.0]", "travel_deg = [120.0, -30.0]"), "lower < upper");
   expect_refused(replaced(good, "travel_deg = [-30.0, 120.0]", "travel_deg = [120.0]"), "2 numbers");
@@ -129,7 +129,7 @@ TEST(MachineFile, ReadsOutlinesOfTableAndHead) {
   EXPECT_NE(machine_to_json(machine).find("\"bodies\""), std::string::npos);
   expect_refused(with("B", box), "expected \"bed\"", "\"A\"");
   expect_refused(with("A", ""), "either box_mm or cylinder_mm");
-  expect_refused(with("A", box + "\nradius_mm = 3"), "radius_mm: unknown key");
+  expect_refused(with("A", box + "\nradius_mm = 3"), "unknown key \"radius_mm\"");
   expect_refused(with("A", "box_mm = [0, 0, 0, 1, 0, 3]"), "box_mm", "lower corner");
   expect_refused(with("A", "cylinder_mm = [0, 0, 0, 0, 0, 1]"), "radius_mm: is missing");
   expect_refused(with("A", "cylinder_mm = [0, 0, 0, 0, 0, 0]\nradius_mm = 1"), "cylinder_mm", "differ");

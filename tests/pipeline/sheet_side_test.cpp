@@ -101,7 +101,7 @@ TEST_F(OneSheet, FitAndVerifyAgreeAndSayIt) {
   EXPECT_TRUE(found.acceptance().pass());
   EXPECT_EQ(only(found.verify).side, +1);
   EXPECT_EQ(cautions(found.acceptance()), 1);
-  EXPECT_NE(summary_text(found).find("CAUTION     F1 bounds no material; machined from side +, towards"),
+  EXPECT_NE(summary_text(found).find("CAUTION     F1 belongs to no solid; machined from side +, towards"),
             std::string::npos);
   EXPECT_NE(summary_json(found).find("\"side\": \"+\""), std::string::npos);
   write_result(found, file("out"));

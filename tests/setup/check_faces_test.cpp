@@ -87,7 +87,8 @@ TEST(CheckFaces, SaysHowOtherSolidsAreLeftOut) {
   part.solids = 5;
   EXPECT_NE(other_solids_note(part, {1}, {0, 2, 3, 5}).find("3 other solids"), std::string::npos);
   EXPECT_NE(other_solids_note(part, {1}, {0, 2, 3, 5}).find("--ignore-faces S1,S3-S4"), std::string::npos);
-  EXPECT_NE(other_solids_note(part, {0, 1}, {2}).find("1 other solid, too"), std::string::npos);
+  EXPECT_NE(other_solids_note(part, {0, 1}, {2}).find("1 other solid; if the part is machined without it"),
+            std::string::npos);
   EXPECT_EQ(other_solids_note(part, {1}, {5}), "") << "a sheet";
   EXPECT_EQ(other_solids_note(part, {5}, {0, 1}), "") << "the target is one";
   EXPECT_EQ(faces_to_check(part, {1}, faces({}, "S1,S3-S5")), std::vector<int>{5});

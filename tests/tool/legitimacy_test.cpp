@@ -53,7 +53,7 @@ TEST(Legitimacy, NegativeRadiusIsNamedWhereItFirstOccurs) {
   const Legitimacy l = check_legitimacy(family(ToolFamily::kCone, 20, {1, -0.1}));
   EXPECT_FALSE(l.legitimate);
   EXPECT_NEAR(l.s, 1.0 / std::sin(0.1), 1e-9);
-  EXPECT_TRUE(says(l, "r > 0")) << l.reason;
+  EXPECT_TRUE(says(l, "the radius must be positive")) << l.reason;
 }
 
 TEST(Legitimacy, FormulasWithoutValueAreRefusedWithAReason) {

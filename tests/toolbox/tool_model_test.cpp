@@ -33,7 +33,7 @@ TEST(ToolModel, AnAxisBeyondTheEndIsRefusedWithWhatIsAccepted) {
     static_cast<void>(make_tool_model(barrel, 30.0));
     FAIL();
   } catch (const UsageError& error) {
-    EXPECT_NE(std::string(error.what()).find("accepted"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("expected at most 24 mm"), std::string::npos) << error.what();
   }
 }
 

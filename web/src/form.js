@@ -6,7 +6,8 @@ import { html } from './dom.js';
 const NAMES = { tool: 'Tool', side: 'Machined side', nc: 'Program', turn_max: 'Largest turn', dry: 'Dry run' };
 /** Meshes have no unit of their own: it is asked for where one is dropped. */
 export const UNITS = ['mm', 'cm', 'm', 'in'];
-export const isMesh = (name) => /\.(stl|obj|ply)$/i.test(name);
+/** Whether a file is a mesh, which has no unit: every format that is none of CAD. */
+export const isMesh = (name) => !/\.(step|stp|iges|igs|brep|brp)$/i.test(name);
 const nameOf = ({ key }) => NAMES[key] ?? key[0].toUpperCase() + key.slice(1).replaceAll('_', ' ');
 
 /** What stands for an empty field: what its help says of the default, in few words. */

@@ -183,15 +183,16 @@ void add_hold(const Tool& tool, const VerifyReport& report, Acceptance& out) {
   add_caution(out, Figure::kBodyUnknown, text);
 }
 
-/// The clearance that was measured beside the one that is required: how near, or how deep, and where.
+/// How near, or how deep, and where, beside the clearance that is required.
 std::string lost_clearance(const ClearanceFigure& f) {
+  const std::string place =
+      fmt::format("({:.3f}, {:.3f}, {:.3f}), pass {}", f.point.x(), f.point.y(), f.point.z(), f.strip + 1);
+  if (f.clearance_mm < 0.0)
+    return fmt::format("the {} collides with {} by {:.3f} mm at {}", body_name(f.body), f.obstacle, -f.clearance_mm,
+                       place);
   // The figure less its bound is what counts (ClearanceFigure::kept).
-  const std::string found = f.clearance_mm < 0.0
-                                ? fmt::format("it collides by {:.3f} mm", -f.clearance_mm)
-                                : fmt::format("it is {:.3f} mm (+-{:.3f})", f.clearance_mm, f.bound_mm);
-  return fmt::format("{}: clearance of {} mm to {} is not proved: {} at ({:.3f}, {:.3f}, {:.3f}), pass {}",
-                     body_name(f.body), f.required_mm, f.obstacle, found, f.point.x(), f.point.y(), f.point.z(),
-                     f.strip + 1);
+  return fmt::format("the {} keeps {:.3f} mm (+-{:.3f}) from {}, not the {} mm that are required, at {}",
+                     body_name(f.body), f.clearance_mm, f.bound_mm, f.obstacle, f.required_mm, place);
 }
 
 }  // namespace

@@ -238,7 +238,7 @@ TEST(ToolFiles, WhatCutsWithItsEndIsRefusedByName) {
   const auto of = [](const std::string& text) { return refusal([&] { (void)tool_from_fctb(text, "b.fctb"); }); };
   EXPECT_NE(of(bit("drill", R"("Diameter": "5 mm")")).find("\"drill\" does not cut with its flank"), std::string::npos);
   EXPECT_NE(of(bit("ballend", R"("Diameter": "5 mm")")).find("CuttingEdgeHeight"), std::string::npos);
-  EXPECT_NE(of(bit("ballend", R"("Diameter": "5 furlongs", "CuttingEdgeHeight": "9 mm")")).find("no length"),
+  EXPECT_NE(of(bit("ballend", R"("Diameter": "5 furlongs", "CuttingEdgeHeight": "9 mm")")).find("is not a length"),
             std::string::npos);
   EXPECT_NE(of(bit("v-bit", R"("CuttingEdgeAngle": "30 °", "TipDiameter": "0 mm", "Diameter": "8 mm")")).find("> 0"),
             std::string::npos);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "flank/clearance.h"
 #include "flank/tool.h"
 
 namespace flank::internal {
