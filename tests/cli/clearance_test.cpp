@@ -117,7 +117,7 @@ TEST_F(CliClearanceFit, AFixtureInTheWayIsExitOneAndNamed) {
     return job.dump();
   }());
   fs::rename(root_ / "out", root_ / "judged");
-  expect_refused({"verify", path("judged")}, 3, "`fixture_unit`");
+  expect_refused({"verify", path("judged")}, 3, "give --fixture-unit: mm");
   // The job was changed by hand on purpose.
   fs::remove(root_ / "judged/manifest.json");
   EXPECT_EQ(flank({"verify", path("judged"), "--fixture-unit", "mm"}).exit_code, 0);

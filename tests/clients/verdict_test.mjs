@@ -128,7 +128,7 @@ test('a verdict in a folder without a manifest is not believed, and one that was
   const untied = without(folder, 'edited');
   const said = flank('report', untied);
   assert.equal(said.status, 0);
-  assert.match(said.stderr, /no manifest\.json: nothing ties these files together/);
+  assert.match(said.stderr, /no manifest\.json: the files may not belong together/);
 });
 
 test('a holder in the vice is red, in a row and in the picture', async () => {
