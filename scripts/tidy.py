@@ -7,7 +7,7 @@ Most of clang-tidy's time goes into the headers of third parties, which it walks
 are put together in batches, each of which is read as one: only sources whose unnamed namespaces share no name go together.
 A batch that does not compile is done source by source. --deep adds the static analyser (clang-analyzer-*), which looks at
 one source at a time and takes many times as long; so does naming the files. --last 40 lints what the last 40 commits changed,
-a source for its header, too.
+a source for its header, too; of more than 120 sources those that were changed last.
 
 A source includes its own header first, which proves that header complete, because nothing is precompiled here. Headers without
 a source are compiled alone.
@@ -26,6 +26,7 @@ from unity import groups_of
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 FOLDERS = ("src/flank", "apps")
 BATCH = 20
+MOST = 120  # sources of --last: a merge of many branches would take longer than all tests
 TIDY = next((name for name in ("clang-tidy-14", "clang-tidy") if subprocess.run(
     ["which", name], capture_output=True).returncode == 0), None)
 
@@ -50,15 +51,25 @@ def compile_arguments(build):
 
 
 def changed_files(commits):
-    """Names of what the last commits changed; None, if there are not so many commits."""
-    done = subprocess.run(["git", "diff", "--name-only", f"HEAD~{commits}"], cwd=ROOT, capture_output=True, text=True)
-    return done.stdout.splitlines() if done.returncode == 0 else None
+    """Names of what is not committed and of what the last commits changed, the newest first; None, if there are not so many commits."""
+    names = []
+    for words in (["diff", "--name-only", "HEAD"], ["log", "--format=", "--name-only", f"HEAD~{commits}..HEAD"]):
+        done = subprocess.run(["git", *words], cwd=ROOT, capture_output=True, text=True)
+        if done.returncode != 0:
+            return None
+        names += filter(None, done.stdout.splitlines())
+    return list(dict.fromkeys(names))
 
 
 def changed_sources(changed, arguments):
-    """Sources that were changed, or whose header was."""
-    stems = {name.rsplit(".", 1)[0].removeprefix("include/").removeprefix("src/") for name in changed}
-    return sorted(file for file in arguments if str(file.relative_to(ROOT).with_suffix("")).removeprefix("src/") in stems)
+    """Sources that were changed, or whose header was: those that were changed last."""
+    stems = [name.rsplit(".", 1)[0].removeprefix("include/").removeprefix("src/") for name in changed]
+    place = {stem: k for k, stem in reversed(list(enumerate(stems)))}
+    own = {file: str(file.relative_to(ROOT).with_suffix("")).removeprefix("src/") for file in arguments}
+    newest = sorted((file for file in arguments if own[file] in place), key=lambda file: (place[own[file]], file))
+    if len(newest) > MOST:
+        print(f"{len(newest) - MOST} sources that were changed before are left to a lint of all", flush=True)
+    return sorted(newest[:MOST])
 
 
 def lone_headers():
