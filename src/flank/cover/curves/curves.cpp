@@ -13,6 +13,7 @@
 #include "flank/cover/tiles/smooth.h"
 #include "flank/seed/direction/seeds.h"
 #include "flank/strip/certify.h"
+#include "flank/strip/strip_record.h"
 
 namespace flank::internal {
 namespace {
