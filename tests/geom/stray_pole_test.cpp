@@ -56,5 +56,34 @@ TEST(StrayPole, IsNoneOfTooFewOrOfRationalOnes) {
   EXPECT_FALSE(stray_pole(net));
 }
 
+/// Weights of a band of arcs: those of all its columns alike.
+BSplineSurface arcs(int count_u, int count_v) {
+  BSplineSurface net = bent_net(count_u, count_v);
+  for (int i = 0; i < count_u; ++i)
+    for (int j = 0; j < count_v; ++j) net.weights.push_back(i % 2 == 0 ? 1.0 : std::sqrt(0.5));
+  return net;
+}
+
+TEST(StrayWeight, IsFoundWhereverItIs) {
+  for (const double factor : {15.0, 1.0 / 15.0, 3.0})
+    for (int i = 0; i < 9; ++i)
+      for (int j = 0; j < 5; ++j) {
+        BSplineSurface net = arcs(9, 5);
+        ASSERT_FALSE(stray_weight(net));
+        net.weights[static_cast<std::size_t>(i * 5 + j)] *= factor;
+        const auto stray = stray_weight(net);
+        ASSERT_TRUE(stray) << i << " " << j << " " << factor;
+        EXPECT_EQ(stray->u, i);
+        EXPECT_EQ(stray->v, j);
+      }
+}
+
+TEST(StrayWeight, IsNoneOfEvenOnesAndOfNone) {
+  BSplineSurface net = bent_net(6, 6);
+  EXPECT_FALSE(stray_weight(net));
+  net.weights.assign(36, 2.0);
+  EXPECT_FALSE(stray_weight(net));
+}
+
 }  // namespace
 }  // namespace flank::internal

@@ -1,6 +1,7 @@
 #include "flank/geom/stray_pole.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace flank::internal {
 namespace {
@@ -21,38 +22,59 @@ double off_at_end(const Vec3& second, const Vec3& first, const Vec3& p) {
   return (p - first - share * way).norm();
 }
 
-/// How far point k of a row of `count` lies from the line of its neighbours.
-template <class Row>
-double off_row(const Row& row, int k, int count) {
-  if (k == 0) return off_at_end(row(2), row(1), row(0));
-  if (k == count - 1) return off_at_end(row(count - 3), row(count - 2), row(count - 1));
+/// The same, where a row does not lead on beyond what it has.
+double off_last_two(const Vec3& second, const Vec3& first, const Vec3& p) { return off_between(second, p, first); }
+
+/// How far point k of a row of `count` lies from the line of its neighbours; `at_end`: of the last of a row.
+template <class Row, class AtEnd>
+double off_row(const Row& row, int k, int count, const AtEnd& at_end) {
+  if (k == 0) return at_end(row(2), row(1), row(0));
+  if (k == count - 1) return at_end(row(count - 3), row(count - 2), row(count - 1));
   return off_between(row(k - 1), row(k), row(k + 1));
+}
+
+/// The entry of a grid that lies off the line of its neighbours both ways by more than `kOthers` times as much as any other. `at`: (i, j).
+template <class Grid, class AtEnd>
+StrayPole astray(int count_u, int count_v, const Grid& at, const AtEnd& at_end) {
+  constexpr double kOthers = 5.0;
+  StrayPole worst;
+  double second = 0.0;
+  for (int i = 0; i < count_u; ++i)
+    for (int j = 0; j < count_v; ++j) {
+      const double along_u = off_row([&](int k) { return at(k, j); }, i, count_u, at_end);
+      const double along_v = off_row([&](int k) { return at(i, k); }, j, count_v, at_end);
+      const double off = std::min(along_u, along_v);
+      second = std::max(second, std::min(off, worst.off));
+      if (off > worst.off) worst = {i, j, off};
+    }
+  return worst.off > kOthers * second ? worst : StrayPole{};
+}
+
+bool large_enough(const BSplineSurface& surface) {
+  constexpr int kLeast = 4;  // rows and columns
+  return surface.count_u >= kLeast && surface.count_v >= kLeast;
 }
 
 }  // namespace
 
 std::optional<StrayPole> stray_pole(const BSplineSurface& surface) {
-  constexpr int kLeast = 4;  // rows and columns
-  constexpr double kSize = 0.01, kOthers = 5.0;
-  if (!surface.weights.empty() || surface.count_u < kLeast || surface.count_v < kLeast) return std::nullopt;
-  StrayPole worst;
-  double second = 0.0;
+  constexpr double kSize = 0.01;
+  if (!surface.weights.empty() || !large_enough(surface)) return std::nullopt;
   Box3 box;
-  for (int i = 0; i < surface.count_u; ++i)
-    for (int j = 0; j < surface.count_v; ++j) {
-      const double along_u = off_row([&](int k) -> const Vec3& { return surface.pole(k, j); }, i, surface.count_u);
-      const double along_v = off_row([&](int k) -> const Vec3& { return surface.pole(i, k); }, j, surface.count_v);
-      const double off = std::min(along_u, along_v);
-      if (off > worst.off_mm) {
-        second = worst.off_mm;
-        worst = {i, j, off};
-      } else {
-        second = std::max(second, off);
-      }
-      box.add(surface.pole(i, j));
-    }
-  if (worst.off_mm > kSize * box.diagonal() && worst.off_mm > kOthers * second) return worst;
-  return std::nullopt;
+  for (const Vec3& pole : surface.poles) box.add(pole);
+  const StrayPole worst = astray(
+      surface.count_u, surface.count_v, [&](int i, int j) { return surface.pole(i, j); }, off_at_end);
+  return worst.off > kSize * box.diagonal() ? std::optional(worst) : std::nullopt;
+}
+
+std::optional<StrayPole> stray_weight(const BSplineSurface& surface) {
+  constexpr double kFactor = 1.25;
+  if (surface.weights.empty() || !large_enough(surface)) return std::nullopt;
+  const auto logarithm = [&](int i, int j) {
+    return Vec3(std::log(surface.weights[static_cast<std::size_t>(i * surface.count_v + j)]), 0.0, 0.0);
+  };
+  const StrayPole worst = astray(surface.count_u, surface.count_v, logarithm, off_last_two);
+  return worst.off > std::log(kFactor) ? std::optional(StrayPole{worst.u, worst.v, std::exp(worst.off)}) : std::nullopt;
 }
 
 }  // namespace flank::internal

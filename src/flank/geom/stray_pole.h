@@ -8,13 +8,17 @@
 namespace flank::internal {
 
 struct StrayPole {
-  int u = 0, v = 0;     ///< its place in the net
-  double off_mm = 0.0;  ///< from where its neighbours lead one to expect it
+  int u = 0, v = 0;  ///< its place in the net
+  double off = 0.0;  ///< of a point: mm from where its neighbours lead one to expect it; of a weight: by which factor
 };
 
 /// The one control point that lies far from the line of its neighbours in both directions: by more than a hundredth of the size of the net,
 /// and by more than five times as much as any other. A crease is a line of such points, and no stray. None of rational nets, whose
 /// control points are no outline of the surface, and of nets of fewer than four rows or columns, which have too few others.
 [[nodiscard]] std::optional<StrayPole> stray_pole(const BSplineSurface& surface);
+
+/// The one weight of a rational net that is far from those of its neighbours in both directions: by a quarter or more, and by more than
+/// five times as much (as logarithms) as any other. Weights of circles differ along a row, and those of all rows alike. Weights > 0.
+[[nodiscard]] std::optional<StrayPole> stray_weight(const BSplineSurface& surface);
 
 }  // namespace flank::internal

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -14,6 +15,8 @@
 #include "flank/example.h"
 #include "flank/example/example_write.h"
 #include "flank/part.h"
+#include "shared_data.h"
+#include "temporary_folder.h"
 
 namespace flank::internal {
 namespace {
@@ -72,6 +75,58 @@ TEST_F(AstrayBorder, AControlPointInsideASurfaceThatIsElsewhereIsTold) {
   const std::vector<std::string> notes = notes_of(moved(found[1], 40.0));
   ASSERT_EQ(notes.size(), 1U);
   EXPECT_NE(notes.front().find("control point 3, 4 of its surface is"), std::string::npos) << notes.front();
+}
+
+std::string content_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+bool says(const Part& part, const std::string& words) {
+  return std::any_of(part.repairs.begin(), part.repairs.end(),
+                     [&](const std::string& note) { return note.find(words) != std::string::npos; });
+}
+
+class AstrayEntry : public TemporaryFolder {
+ protected:
+  AstrayEntry() : TemporaryFolder("flank_astray") {}
+
+  /// The part of a file with `before` changed to `after`, which is as long.
+  [[nodiscard]] Part changed(const fs::path& sound, const std::string& before, const std::string& after) const {
+    std::string text = content_of(sound);
+    const std::size_t at = text.find(before);
+    if (at == std::string::npos) throw std::logic_error(before + " is not in " + sound.string());
+    const fs::path file = root_ / sound.filename();
+    std::ofstream(file, std::ios::binary) << text.replace(at, before.size(), after);
+    return read_part(file.string());
+  }
+};
+
+// The kernel takes the curve in the surface's parameters, and nothing that it makes of it contradicts itself.
+TEST_F(AstrayEntry, ACurveInParametersThatIsElsewhereIsTold) {
+  FLANK_REAL_PART(blade, "zoo/asitus_blade.igs");
+  const std::string parts = "parameters of its surface are up to 6.";
+  EXPECT_FALSE(says(read_part(blade), parts));
+  EXPECT_TRUE(says(changed(blade, "108.0080124,0.01176649239,", "108.0080124,15           ,"), parts));
+}
+
+TEST_F(AstrayEntry, AWeightThatIsElsewhereIsTold) {
+  FLANK_REAL_PART(blade, "zoo/asitus_blade.igs");
+  const std::string line = "P    485", weight = "the weight of control point";
+  EXPECT_FALSE(says(read_part(blade), weight));
+  const std::string text = content_of(blade), row = text.substr(text.find(line) - 72, 72 + line.size());
+  std::string other = row;
+  EXPECT_TRUE(says(changed(blade, row, other.replace(60, 4, "15 ,")), weight));
+}
+
+// An arc that runs the other way round its circle: the border winds round the cone, and the kernel closes it over the apex.
+TEST_F(AstrayEntry, AnArcThatRunsTheOtherWayIsTold) {
+  FLANK_REAL_PART(pocket, "peer/draft_pocket_r6.step");
+  const std::string edge = "EDGE_CURVE('',#353,#325,#355,";
+  EXPECT_TRUE(read_part(pocket).left_out.empty());
+  const Part part = changed(pocket, edge + ".T.", edge + ".F.");
+  ASSERT_FALSE(part.left_out.empty());
+  EXPECT_NE(part.left_out.begin()->second.find("does not close in the parameters of its surface"), std::string::npos);
 }
 
 }  // namespace

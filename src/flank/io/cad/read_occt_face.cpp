@@ -121,23 +121,36 @@ void refuse_unusable(const BSplineSurface& s, const std::string& name) {
                                    p.x(), p.y(), p.z(), kLargestCoordinateMm));
 }
 
-/// Says which control point of the file's surface went astray: where the border does not follow it, nothing else tells.
-void note_stray_pole(const Handle(Geom_Surface) & surface, const std::string& name, std::vector<std::string>& notes) {
-  const auto spline = Handle(Geom_BSplineSurface)::DownCast(surface);
-  if (spline.IsNull() || spline->IsURational() || spline->IsVRational()) return;
+/// The net of a spline surface as it stands in the file, without its knots.
+BSplineSurface net_of(const Geom_BSplineSurface& spline) {
   BSplineSurface net;
-  net.count_u = spline->NbUPoles();
-  net.count_v = spline->NbVPoles();
+  net.count_u = spline.NbUPoles();
+  net.count_v = spline.NbVPoles();
+  const bool rational = spline.IsURational() || spline.IsVRational();
   for (int i = 1; i <= net.count_u; ++i)
     for (int j = 1; j <= net.count_v; ++j) {
-      const gp_Pnt p = spline->Pole(i, j);
+      const gp_Pnt p = spline.Pole(i, j);
       net.poles.emplace_back(p.X(), p.Y(), p.Z());
+      if (rational) net.weights.push_back(spline.Weight(i, j));
     }
+  return net;
+}
+
+/// Says which control point of the file's surface went astray, or its weight: where the border does not follow it, nothing else tells.
+void note_stray_pole(const Handle(Geom_Surface) & surface, const std::string& name, std::vector<std::string>& notes) {
+  const auto spline = Handle(Geom_BSplineSurface)::DownCast(surface);
+  if (spline.IsNull()) return;
+  const BSplineSurface net = net_of(*spline);
   if (const auto stray = stray_pole(net))
     notes.push_back(fmt::format(
         "{}: control point {}, {} of its surface is {:.3g} mm off the line of its neighbours, and no other is "
         "nearly as far; look at it before it is used",
-        name, stray->u + 1, stray->v + 1, stray->off_mm));
+        name, stray->u + 1, stray->v + 1, stray->off));
+  if (const auto stray = stray_weight(net))
+    notes.push_back(fmt::format(
+        "{}: the weight of control point {}, {} of its surface is {:.3g} times off those of its neighbours, and no "
+        "other is nearly as far; look at it before it is used",
+        name, stray->u + 1, stray->v + 1, stray->off));
 }
 
 }  // namespace

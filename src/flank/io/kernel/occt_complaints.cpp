@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <BRep_Tool.hxx>
 #include <Interface_Check.hxx>
 #include <Interface_EntityIterator.hxx>
 #include <Interface_Graph.hxx>
@@ -9,12 +10,18 @@
 #include <StepGeom_CartesianPoint.hxx>
 #include <StepGeom_Direction.hxx>
 #include <StepGeom_Pcurve.hxx>
+#include <StepGeom_SurfaceCurve.hxx>
 #include <StepShape_EdgeCurve.hxx>
 #include <StepShape_EdgeLoop.hxx>
 #include <StepShape_FaceSurface.hxx>
 #include <StepShape_OrientedEdge.hxx>
 #include <StepShape_VertexPoint.hxx>
 #include <TCollection_HAsciiString.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <TransferBRep.hxx>
 #include <Transfer_Binder.hxx>
 #include <Transfer_TransientProcess.hxx>
 #include <XSControl_TransferReader.hxx>
@@ -134,6 +141,40 @@ std::string repeated_border(const Entity& entity) {
   return {};
 }
 
+/// Edges of a face that the file states together with their curves in the parameters of its surface; 0 if one comes without.
+int stated_edges(const Handle(StepShape_FaceSurface) & face) {
+  int count = 0;
+  for (int i = 1; i <= face->NbBounds(); ++i) {
+    const auto border = face->BoundsValue(i);
+    const auto loop = Handle(StepShape_EdgeLoop)::DownCast(border.IsNull() ? nullptr : border->Bound());
+    for (int k = 1; !loop.IsNull() && k <= loop->NbEdgeList(); ++k, ++count) {
+      const auto turned = loop->EdgeListValue(k);
+      const auto edge =
+          Handle(StepShape_EdgeCurve)::DownCast(turned.IsNull() ? Handle(StepShape_Edge)() : turned->EdgeElement());
+      if (edge.IsNull() || edge->EdgeGeometry().IsNull()) return 0;
+      if (!edge->EdgeGeometry()->IsKind(STANDARD_TYPE(StepGeom_SurfaceCurve))) return 0;
+    }
+  }
+  return count;
+}
+
+/// A border that states its curves in the parameters of the surface, and that the kernel had to lead along a seam to close it there.
+/// Writers that state such curves state the seam, too: an edge runs the other way round its circle.
+std::string closed_by_seam(const Entity& entity, const Handle(Transfer_TransientProcess) & process) {
+  const auto face = Handle(StepShape_FaceSurface)::DownCast(entity);
+  const int stated = face.IsNull() ? 0 : stated_edges(face);
+  if (stated == 0) return {};
+  int edges = 0, seams = 0;
+  for (TopExp_Explorer faces(TransferBRep::ShapeResult(process, entity), TopAbs_FACE); faces.More(); faces.Next())
+    for (TopExp_Explorer it(faces.Current(), TopAbs_EDGE); it.More(); it.Next()) {
+      const TopoDS_Edge& edge = TopoDS::Edge(it.Current());
+      if (BRep_Tool::Degenerated(edge)) continue;
+      ++edges;
+      seams += BRep_Tool::IsClosed(edge, TopoDS::Face(faces.Current()));
+    }
+  return seams > 0 && edges > stated ? "its border does not close in the parameters of its surface" : "";
+}
+
 /// Of all entities, in the order of the file.
 std::vector<Complaint> complaints_of(const Handle(XSControl_WorkSession) & session) {
   const Handle(Interface_InterfaceModel) model = session->Model();
@@ -146,6 +187,7 @@ std::vector<Complaint> complaints_of(const Handle(XSControl_WorkSession) & sessi
       if (const Handle(Transfer_Binder) made = process->Find(entity); !made.IsNull()) text = failure_of(made->Check());
     for (const auto& look : {dropped_edge, lacks_coordinates, torn, repeated_edge, repeated_border})
       if (text.empty()) text = look(entity);
+    if (text.empty()) text = closed_by_seam(entity, process);
     if (!text.empty()) all.push_back({entity, std::move(text)});
   }
   return all;

@@ -11,6 +11,7 @@
 #include <Transfer_TransientProcess.hxx>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "flank/io/kernel/occt_space_curve.h"
@@ -50,6 +51,19 @@ TopoDS_Shape in_space(const Handle(IGESData_IGESModel) & model, const Handle(IGE
   return transfer.TransferGeometry(curve);
 }
 
+/// The largest distance of the points of `from` from the nearest of `to`; what is no more than `most` does not count.
+double largest_gap(const std::vector<SpaceCurve>& from, const std::vector<SpaceCurve>& to, double most) {
+  double gap = 0.0;
+  for (const SpaceCurve& curve : from)
+    for (const gp_Pnt& p : curve.points()) {
+      double least = 1e300;
+      for (const SpaceCurve& other : to)
+        if (least > most) least = std::min(least, other.distance(p, most));
+      gap = std::max(gap, least);
+    }
+  return gap > most ? gap : 0.0;
+}
+
 }  // namespace
 
 double iges_border_gap(const Handle(IGESData_IGESModel) & model, const Handle(IGESData_IGESEntity) & entity,
@@ -62,18 +76,17 @@ double iges_border_gap(const Handle(IGESData_IGESModel) & model, const Handle(IG
     for (const gp_Pnt& p : edge.points()) box.Add(p);
   if (box.IsVoid()) return 0.0;
   const double most = std::max(kGapMm, kGapShare * std::sqrt(box.SquareExtent()));
-  double gap = 0.0;
+  std::vector<SpaceCurve> stated;
+  bool all = true;
   for (const Handle(IGESGeom_CurveOnSurface) & border : borders_of(trimmed)) {
-    if (border.IsNull() || border->HasTransf() || border->Curve3D().IsNull()) continue;
-    for (const SpaceCurve& stated : edges_of(in_space(model, border->Curve3D())))
-      for (const gp_Pnt& p : stated.points()) {
-        double least = 1e300;
-        for (const SpaceCurve& edge : edges)
-          if (least > most) least = std::min(least, edge.distance(p, most));
-        gap = std::max(gap, least);
-      }
+    const bool known = !border.IsNull() && !border->HasTransf() && !border->Curve3D().IsNull();
+    all = all && known;
+    if (!known) continue;
+    for (SpaceCurve& curve : edges_of(in_space(model, border->Curve3D()))) stated.push_back(std::move(curve));
   }
-  return gap > most ? gap : 0.0;
+  if (stated.empty()) return 0.0;
+  // Both ways: a bulge may be narrower than the other curve's points are apart. An edge of a border that states no curve has none.
+  return std::max(largest_gap(stated, edges, most), all ? largest_gap(edges, stated, most) : 0.0);
 }
 
 }  // namespace flank::internal

@@ -139,6 +139,7 @@ OcctShape load_iges(const std::string& file) {
   result.shape = reader.OneShape();
   list_faces(result);
   result.left = faces_of_iges(reader.WS(), result.faces);
+  result.notes.insert(result.notes.end(), result.left.notes.begin(), result.left.notes.end());
   return result;
 }
 
