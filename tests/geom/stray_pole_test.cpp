@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "flank/base/random.h"
 
@@ -76,6 +78,19 @@ TEST(StrayWeight, IsFoundWhereverItIs) {
         EXPECT_EQ(stray->u, i);
         EXPECT_EQ(stray->v, j);
       }
+}
+
+TEST(StrayCurveWeight, IsNoArc) {
+  const double root = std::sqrt(0.5);
+  EXPECT_EQ(stray_curve_weight({}), 0.0);
+  EXPECT_EQ(stray_curve_weight({1.0, 1.0, root, 1.0, 1.0}), 0.0);
+  EXPECT_EQ(stray_curve_weight({1.0, 0.5, 1.0, 0.5, 1.0, 0.5, 1.0}), 0.0);
+  for (const double factor : {406.0, 15.0, 1.0 / 15.0})
+    for (int k = 0; k < 7; ++k) {
+      std::vector<double> weights(7, 1.0);
+      weights[static_cast<std::size_t>(k)] = factor;
+      EXPECT_NEAR(stray_curve_weight(weights), std::max(factor, 1.0 / factor), 1e-9) << k;
+    }
 }
 
 TEST(StrayWeight, IsNoneOfEvenOnesAndOfNone) {

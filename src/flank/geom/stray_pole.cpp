@@ -6,6 +6,8 @@
 namespace flank::internal {
 namespace {
 
+constexpr double kOthers = 5.0;  ///< so many times as far off as any other
+
 /// Distance of p from the segment between its neighbours: zero for uneven steps along a line.
 double off_between(const Vec3& before, const Vec3& p, const Vec3& after) {
   const Vec3 way = after - before;
@@ -36,7 +38,6 @@ double off_row(const Row& row, int k, int count, const AtEnd& at_end) {
 /// The entry of a grid that lies off the line of its neighbours both ways by more than `kOthers` times as much as any other. `at`: (i, j).
 template <class Grid, class AtEnd>
 StrayPole astray(int count_u, int count_v, const Grid& at, const AtEnd& at_end) {
-  constexpr double kOthers = 5.0;
   StrayPole worst;
   double second = 0.0;
   for (int i = 0; i < count_u; ++i)
@@ -75,6 +76,21 @@ std::optional<StrayPole> stray_weight(const BSplineSurface& surface) {
   };
   const StrayPole worst = astray(surface.count_u, surface.count_v, logarithm, off_last_two);
   return worst.off > std::log(kFactor) ? std::optional(StrayPole{worst.u, worst.v, std::exp(worst.off)}) : std::nullopt;
+}
+
+double stray_curve_weight(const std::vector<double>& weights) {
+  // The weight between the ends of an arc is the cosine of half its angle.
+  constexpr double kFactor = 4.0;
+  const int count = static_cast<int>(weights.size());
+  if (count < 5) return 0.0;
+  const auto logarithm = [&](int k) { return Vec3(std::log(weights[static_cast<std::size_t>(k)]), 0.0, 0.0); };
+  double worst = 0.0, second = 0.0;
+  for (int k = 0; k < count; ++k) {
+    const double off = off_row(logarithm, k, count, off_last_two);
+    second = std::max(second, std::min(off, worst));
+    worst = std::max(worst, off);
+  }
+  return worst > kOthers * second && worst > std::log(kFactor) ? std::exp(worst) : 0.0;
 }
 
 }  // namespace flank::internal

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "flank/bspline_surface.h"
 
@@ -20,5 +21,9 @@ struct StrayPole {
 /// The one weight of a rational net that is far from those of its neighbours in both directions: by a quarter or more, and by more than
 /// five times as much (as logarithms) as any other. Weights of circles differ along a row, and those of all rows alike. Weights > 0.
 [[nodiscard]] std::optional<StrayPole> stray_weight(const BSplineSurface& surface);
+
+/// By which factor the one weight of a rational curve that stands alone is off those beside it; 0: there is none. An arc is led by a
+/// single weight as well: four times is what an arc of 151 degrees has, and arcs are cut before that.
+[[nodiscard]] double stray_curve_weight(const std::vector<double>& weights);
 
 }  // namespace flank::internal

@@ -119,6 +119,23 @@ TEST_F(AstrayEntry, AWeightThatIsElsewhereIsTold) {
   EXPECT_TRUE(says(changed(blade, row, other.replace(60, 4, "15 ,")), weight));
 }
 
+TEST_F(AstrayEntry, AWeightOfABorderThatIsElsewhereIsTold) {
+  FLANK_REAL_PART(blade, "zoo/asitus_blade.igs");
+  const std::string line = "P   1575", weight = "a weight of a curve of its border";
+  EXPECT_FALSE(says(read_part(blade), weight));
+  const std::string text = content_of(blade), row = text.substr(text.find(line) - 72, 72 + line.size());
+  std::string other = row;
+  EXPECT_TRUE(says(changed(blade, row, other.replace(8, 3, "406")), weight));
+}
+
+// The kernel takes the first of two vertices that begin an edge, and misses no end.
+TEST_F(AstrayEntry, AVertexThatIsOfAnotherEdgeIsTold) {
+  FLANK_REAL_PART(blade, "zoo/occt_bug26264_blade.brep");
+  const std::string gap = "the parts of its border are up to ";
+  EXPECT_FALSE(says(read_part(blade), gap));
+  EXPECT_TRUE(says(changed(blade, "\n+7 0 -7 0 *", "\n+7 0 +9 0 *"), gap));
+}
+
 // An arc that runs the other way round its circle: the border winds round the cone, and the kernel closes it over the apex.
 TEST_F(AstrayEntry, AnArcThatRunsTheOtherWayIsTold) {
   FLANK_REAL_PART(pocket, "peer/draft_pocket_r6.step");

@@ -118,6 +118,10 @@ void note_border_gap(const TopoDS_Face& face, const std::string& name, Part& par
         fmt::format("{}: the parts of its border are up to {:.2g} mm apart, or that far off its surface; check it "
                     "before using the result",
                     name, gap));
+  if (const double factor = border_stray_weight(face); factor > 0.0)
+    part.repairs.push_back(fmt::format(
+        "{}: a weight of a curve of its border is {:.3g} times off those beside it; check it before using the result",
+        name, factor));
 }
 
 /// Says of which solids borders are free: a face is missing there, or does not meet its neighbours.

@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "flank/geom/stray_pole.h"
 #include "flank/io/kernel/occt_space_curve.h"
 #include "flank/vec.h"
 
@@ -29,7 +30,7 @@ constexpr double kGapMm = 0.05, kGapShare = 1e-3;
 /// damaged.
 constexpr double kAlong = 10.0;
 
-/// How far the curve of an edge ends from the vertices of the edge.
+/// How far the curve of an edge ends from the vertices of the edge, or a vertex of the edge from both ends.
 double gap_at_ends(const TopoDS_Edge& edge) {
   double first = 0.0, last = 0.0, gap = 0.0;
   const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, first, last);
@@ -38,6 +39,14 @@ double gap_at_ends(const TopoDS_Edge& edge) {
        {std::pair(first, TopExp::FirstVertex(edge)), std::pair(last, TopExp::LastVertex(edge))})
     if (!vertex.IsNull() && !Precision::IsInfinite(t))
       gap = std::max(gap, curve->Value(t).Distance(BRep_Tool::Pnt(vertex)));
+  if (Precision::IsInfinite(first) || Precision::IsInfinite(last)) return gap;
+  // Of two vertices that begin an edge the kernel takes the first, and an end without one it does not miss.
+  const gp_Pnt begin = curve->Value(first), end = curve->Value(last);
+  for (TopExp_Explorer it(edge, TopAbs_VERTEX); it.More(); it.Next()) {
+    if (it.Current().Orientation() == TopAbs_INTERNAL) continue;
+    const gp_Pnt p = BRep_Tool::Pnt(TopoDS::Vertex(it.Current()));
+    gap = std::max(gap, std::min(p.Distance(begin), p.Distance(end)));
+  }
   return gap;
 }
 
@@ -77,6 +86,15 @@ double gap_along(const TopoDS_Edge& edge, const TopoDS_Face& face, double most) 
   return gap;
 }
 
+/// Empty for a curve that has none, or is no spline.
+template <class Spline>
+std::vector<double> weights_of(const Handle(Spline) & spline) {
+  std::vector<double> weights;
+  for (int i = 1; !spline.IsNull() && spline->IsRational() && i <= spline->NbPoles(); ++i)
+    weights.push_back(spline->Weight(i));
+  return weights;
+}
+
 }  // namespace
 
 double border_gap(const TopoDS_Face& face) {
@@ -93,6 +111,17 @@ double border_gap(const TopoDS_Face& face) {
     gap = std::max({gap, BRep_Tool::Tolerance(edge), gap_at_ends(edge), gap_along(edge, face, most)});
   }
   return gap > most ? gap : 0.0;
+}
+
+double border_stray_weight(const TopoDS_Face& face) {
+  double worst = 0.0, first = 0.0, last = 0.0;
+  for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next()) {
+    const TopoDS_Edge& edge = TopoDS::Edge(it.Current());
+    const auto in_space = Handle(Geom_BSplineCurve)::DownCast(BRep_Tool::Curve(edge, first, last));
+    const auto on_face = Handle(Geom2d_BSplineCurve)::DownCast(BRep_Tool::CurveOnSurface(edge, face, first, last));
+    worst = std::max({worst, stray_curve_weight(weights_of(in_space)), stray_curve_weight(weights_of(on_face))});
+  }
+  return worst;
 }
 
 }  // namespace flank::internal

@@ -23,8 +23,9 @@ namespace flank::internal::verify {
 namespace {
 
 /// A segment is cut at once into intervals that move the body by no more than this: on longer ones the first-order
-/// bound would open most of the tree, to no use. And into no more than so many, whatever a path's steps are.
-constexpr double kFirstReachMm = 0.5;
+/// bound would open most of the tree, to no use. Or by no more than this share of the least clearance so far: what is farther away than
+/// that the first-order bound decides at once. And into no more than so many, whatever a path's steps are.
+constexpr double kFirstReachMm = 0.5, kFirstReach = 0.25;
 constexpr int kMostIntervals = 1024;
 constexpr double kDepthSlack = 0.25;      ///< of the bound that is allowed: error of the depth at one pose ...
 constexpr double kFirstDepthReach = 0.7;  ///< ... and first intervals once there is a collision
@@ -91,7 +92,7 @@ class GapSearch {
     // Inside a body only the first-order bound holds: intervals that it decides at once are cheaper than halving.
     const double first = best_.value < 0.0
                              ? std::min(kFirstReachMm, kFirstDepthReach * gap_bound(best_.value, accuracy_))
-                             : kFirstReachMm;
+                             : std::max(kFirstReachMm, kFirstReach * best_.value);
     const int count = std::clamp(static_cast<int>(std::ceil(reach / first)), 1, kMostIntervals);
     for (int k = 0; k < count; ++k) {
       const Interval interval{segment, static_cast<double>(k) / count, static_cast<double>(k + 1) / count};
