@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <variant>
 
+#include "flank/base/rest_of.h"
 #include "flank/base/sha256.h"
 
 namespace flank::internal {
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 /// Empty where nothing can be read: who needs the file says so.
 std::string hash_of_file(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  return sha256(std::string{std::istreambuf_iterator<char>(stream), {}});
+  return sha256(rest_of(stream));
 }
 
 }  // namespace

@@ -2,11 +2,11 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "flank/base/file_name.h"
+#include "flank/base/rest_of.h"
 #include "flank/error.h"
 #include "flank/manifest/manifest.h"
 
@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 std::string text_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
+  return rest_of(stream);
 }
 
 std::optional<Manifest> manifest_of(const fs::path& folder) {

@@ -11,12 +11,12 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <thread>
 #include <utility>
 
 #include "flank/base/atomic_file.h"
 #include "flank/base/kept/read_files.h"
+#include "flank/base/rest_of.h"
 #include "flank/base/sha256.h"
 #include "flank/error.h"
 #include "flank/manifest/journal_json.h"
@@ -36,7 +36,7 @@ constexpr std::chrono::milliseconds kLockPatience{1000}, kLookAgain{20};
 std::string content_of(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw InputError(file + ": cannot be read (" + std::strerror(errno) + ")");
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  std::string text = rest_of(stream);
   if (stream.bad()) throw InputError(file + ": cannot be read");
   return text;
 }

@@ -10,10 +10,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <sstream>
 
 #include "flank/base/atomic_file.h"
+#include "flank/base/rest_of.h"
 #include "flank/error.h"
 #include "flank/report.h"
 
@@ -142,7 +142,7 @@ void make_picture(const std::string& html_file, const std::string& png_file, con
   words.push_back(address_of(html_file) + (options.fragment.empty() ? "" : "#" + options.fragment));
   const int status = run_quietly(words);
   std::ifstream stream(picture, std::ios::binary);
-  const std::string png{std::istreambuf_iterator<char>(stream), {}};
+  const std::string png = rest_of(stream);
   if (status != 0 || png.empty())
     throw InternalError(browser + ": did not make a picture of " + html_file + " (exit " + std::to_string(status) +
                         ")");

@@ -2,11 +2,11 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "flank/base/atomic_file.h"
+#include "flank/base/rest_of.h"
 #include "flank/base/sha256.h"
 #include "flank/error.h"
 #include "flank/manifest/folder_inputs.h"
@@ -33,7 +33,7 @@ std::optional<std::string> read_checked(const fs::path& file, const std::string&
   if (!fs::exists(file)) return std::nullopt;
   if (!fs::is_regular_file(file)) throw InputError(file.string() + ": is not a file");
   std::ifstream stream(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  const std::string text = rest_of(stream);
   if (!stream.good() && !stream.eof()) throw InputError(file.string() + ": cannot be read");
   check_report_file(text, file.string(), schema);
   return text;
@@ -100,7 +100,7 @@ void require_same_part(const ResultFolder& folder) {
   const std::string file = moved_with(*folder.manifest(), folder.path(), folder.manifest()->judged.file);
   if (!fs::is_regular_file(file)) return;
   std::ifstream stream(file, std::ios::binary);
-  const std::string content{std::istreambuf_iterator<char>(stream), {}};
+  const std::string content = rest_of(stream);
   if (stream && sha256(content) != folder.manifest()->judged.sha256)
     throw InputError(file + ": has changed since the verdict in " + folder.path() +
                      " was made; run `flank fit` or `flank verify` again");

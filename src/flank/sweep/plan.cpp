@@ -6,10 +6,10 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <optional>
 #include <set>
 
+#include "flank/base/rest_of.h"
 #include "flank/error.h"
 #include "flank/io/text/toml_table.h"
 #include "flank/job/check_fields.h"
@@ -33,7 +33,7 @@ const std::set<std::string> kOwnFields = {"part", "faces", "tool"};
 
 std::string read_text(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  const std::string text = rest_of(stream);
   if (!stream || !fs::is_regular_file(file)) throw InputError(file + ": cannot be read; expected a plan NAME.toml");
   if (text.size() > kMostBytes)
     throw InputError(fmt::format("{}: {} bytes; a plan has at most {}", file, text.size(), kMostBytes));

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "flank/base/atomic_file.h"
 #include "flank/base/kept/read_files.h"
+#include "flank/base/rest_of.h"
 #include "flank/base/sha256.h"
 #include "flank/error.h"
 #include "flank/io/text/json_dump.h"
@@ -175,7 +175,7 @@ std::string_view status_name(TaskStatus status) {
 
 std::string text_of_file(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
+  return rest_of(stream);
 }
 
 std::vector<TaskRow> run_batch(const std::vector<BatchTask>& tasks, const BatchOptions& options,

@@ -202,6 +202,7 @@ TEST(FlankProfile, HugsTheOutline) {
         truth = std::min(truth, std::hypot(z - s, rho) - radial.at(s).r);
       }
       for (const Revolved& body : bodies) ours = std::min(ours, body.value(z, rho));
+      for (const Revolved& body : bodies) EXPECT_LE(body.floor(z, rho), body.value(z, rho) + 1e-12);
       if (truth > 0.0) {
         EXPECT_NEAR(ours, truth, 2.0 * kFlankProfileErrorMm) << z << ' ' << rho;
       } else {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 #include <numbers>
 
+#include "flank/base/rest_of.h"
 #include "flank/base/shared_folder.h"
 #include "flank/error.h"
 #include "flank/io/text/toml_table.h"
@@ -63,7 +63,7 @@ std::vector<Material> read_materials() {
   const std::string file = folder + "/" + kMaterialFile;
   std::ifstream in(file, std::ios::binary);
   if (!in) throw InputError(file + ": cannot be read");
-  return materials_from_toml(std::string{std::istreambuf_iterator<char>(in), {}}, file);
+  return materials_from_toml(rest_of(in), file);
 }
 
 Material find_material(const std::string& name) {

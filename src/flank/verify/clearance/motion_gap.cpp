@@ -141,7 +141,7 @@ double GapSearch::node_bound(const Frame& frame, const Sphere& sphere) const {
   const Vec3 d = sphere.center - frame.origin;
   const double z = d.dot(frame.axis), rho = std::sqrt(std::max(0.0, d.squaredNorm() - z * z));
   double least = 1e300;
-  for (const Revolved& body : motion_.body_) least = std::min(least, body.value(z, rho));
+  for (const Revolved& body : motion_.body_) least = std::min(least, body.floor(z, rho));
   return least - sphere.radius;
 }
 
@@ -181,7 +181,7 @@ void GapSearch::check(const Interval& interval, const Frame& frame, double reach
   // Depths need not be exact: what they lack counts as reach.
   const double slack = best_.value < 0.0 ? kDepthSlack * gap_bound(best_.value, accuracy_) : kDepthErrorMm;
   const double enough = needed() + reach + slack;
-  if (body.value(center.z(), std::hypot(center.x(), center.y())) - sphere.radius >= enough) return;
+  if (body.floor(center.z(), center.head<2>().norm()) - sphere.radius >= enough) return;
   const std::array<Vec3, 3> corners = motion_.tree_.corners(pair.triangle);
   const TriangleGap gap =
       triangle_gap(body, {frame.local(corners[0]), frame.local(corners[1]), frame.local(corners[2])}, enough, slack);
@@ -194,7 +194,7 @@ void GapSearch::check(const Interval& interval, const Frame& frame, double reach
              motion_.tree_.number(pair.triangle),
              frame.origin + frame.turned(gap.point),
              on_body.z(),
-             std::hypot(on_body.x(), on_body.y())};
+             on_body.head<2>().norm()};
   }
   if (reach == 0.0 || gap.value - slack - reach >= needed()) return;
   const Vec3 n = frame.turned(gap.normal);

@@ -35,6 +35,14 @@ Revolved::Revolved(std::vector<Vec2> corners, double rounding) : corners_(std::m
 // outside it is that to the nearest point of a side.
 double Revolved::value(double z, double rho) const { return distance(z, rho).value; }
 
+double Revolved::floor(double z, double rho) const {
+  if (sides_.empty()) return value(z, rho);
+  double farthest = -1e300;
+  for (const Side& side : sides_)
+    farthest = std::max(farthest, side.normal.x() * (z - side.from.x()) + side.normal.y() * (rho - side.from.y()));
+  return farthest - rounding_;
+}
+
 ProfileDistance Revolved::distance(double z, double rho) const {
   const Side* facing = nullptr;
   double farthest = -1e300;

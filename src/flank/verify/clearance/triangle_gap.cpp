@@ -30,7 +30,7 @@ struct Line {
 
 LineJet line_jet(const Revolved& body, const Line& line, double t) {
   const Vec3 x = line.at(t);
-  const double rho = std::hypot(x.x(), x.y());
+  const double rho = x.head<2>().norm();
   const ProfileDistance d = body.distance(x.z(), rho);
   const double across = line.step.x() * line.step.x() + line.step.y() * line.step.y();
   // On the axis itself rho grows in every direction: any slope between the two one-sided ones is a subgradient.
@@ -41,7 +41,7 @@ LineJet line_jet(const Revolved& body, const Line& line, double t) {
 }
 
 Vec3 gradient_at(const Revolved& body, const Vec3& x) {
-  const double rho = std::hypot(x.x(), x.y());
+  const double rho = x.head<2>().norm();
   const ProfileDistance d = body.distance(x.z(), rho);
   if (!(rho > 0.0)) return {d.drho, 0.0, d.dz};
   return {d.drho * x.x() / rho, d.drho * x.y() / rho, d.dz};
@@ -120,7 +120,7 @@ bool holds(const std::array<Vec3, 3>& v, const Vec3& cross, const Vec3& x) {
 
 /// The point of the body that is farthest along n.
 Vec3 support_point(const Revolved& body, const Vec3& n) {
-  const double across = std::hypot(n.x(), n.y());
+  const double across = n.head<2>().norm();
   const Vec2& c = body.support(n.z(), across);
   const Vec3 rounded = body.rounding() * n;
   if (!(across > 0.0)) return rounded + Vec3(0.0, 0.0, c.x());
@@ -133,7 +133,7 @@ TriangleGap best_side(const Revolved& body, const std::array<Vec3, 3>& v, double
   for (std::size_t k = 0; k < 3; ++k) {
     const Line line{v[k], v[(k + 1) % 3] - v[k]};
     const Vec3 middle = line.at(0.5);
-    if (body.value(middle.z(), std::hypot(middle.x(), middle.y())) - 0.5 * line.step.norm() >= best.value) continue;
+    if (body.value(middle.z(), middle.head<2>().norm()) - 0.5 * line.step.norm() >= best.value) continue;
     const LineMinimum found = line_minimum(body, line);
     if (found.value < best.value) best = {found.value, line.at(found.t), Vec3::Zero()};
   }
@@ -152,7 +152,7 @@ TriangleGap triangle_gap(const Revolved& body, const std::array<Vec3, 3>& v, dou
   FLANK_ASSERT(depth_error_mm > 0.0);
   const Vec3 middle = (v[0] + v[1] + v[2]) / 3.0;
   const Vec3 slope = gradient_at(body, middle);
-  const double far = tangent_bound(body.value(middle.z(), std::hypot(middle.x(), middle.y())), slope, middle, v);
+  const double far = tangent_bound(body.value(middle.z(), middle.head<2>().norm()), slope, middle, v);
   if (far >= cutoff) return {far, middle, slope};
   const Vec3 cross = (v[1] - v[0]).cross(v[2] - v[0]);
   const double doubled = cross.norm();
@@ -169,7 +169,7 @@ TriangleGap triangle_gap(const Revolved& body, const std::array<Vec3, 3>& v, dou
   const Vec3 direction = over > under ? n : Vec3(-n);
   const Vec3 foot = (over > under ? above : below) + apart * direction;
   if (holds(v, cross, foot)) {
-    const double value = apart > 0.0 ? apart : body.value(foot.z(), std::hypot(foot.x(), foot.y()));
+    const double value = apart > 0.0 ? apart : body.value(foot.z(), foot.head<2>().norm());
     if (value <= apart + depth_error_mm) return {value, foot, direction};
   }
   if (apart > 0.0) return best_side(body, v, cutoff);
