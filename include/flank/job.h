@@ -236,7 +236,7 @@ struct JobField {
   std::optional<std::string> usual;  ///< the default as a word; none: not set
 };
 
-/// The table of a command ("fit", "cover", "trochoid", "verify", "post"), in the order of its help text. Throws
+/// The table of a command ("fit", "cover", "trochoid", "verify", "post", "design"), in the order of its help text. Throws
 /// UsageError for another word.
 [[nodiscard]] std::vector<JobField> job_fields(const std::string& command);
 

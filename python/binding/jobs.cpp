@@ -156,7 +156,7 @@ void bind_fields(py::module_& module) {
       .def_readonly("needed", &JobField::needed, "Whether it has no default and must be given.")
       .def_readonly("usual", &JobField::usual, "The default as a word; None: not set.");
   module.def("job_fields", &job_fields, py::arg("command"),
-             "The table of fields of fit, cover, trochoid, verify or post.");
+             "The table of fields of fit, cover, trochoid, verify, post or design.");
 }
 
 }  // namespace

@@ -12,12 +12,13 @@ from ._core import (
     job_fields, judge, read_part, set_thread_count, swept_distances, thread_count)
 from ._commands import example, examples, inspect, machine, machines
 from ._jobs import Interrupted, cover, fit, post, report, trochoid, verify
+from ._tasks import design, sweep
 
 __all__ = [
     "Envelope", "Error", "Face", "FaceVerdict", "Footpoints", "InputError", "InternalError", "Interrupted", "JobField", "Part",
     "Path", "Program", "Result", "RuledMotion", "Samples", "Strip", "SweptDistances", "Target", "Tool", "UsageError",
-    "Verification", "VerifyReport", "WorstPlace", "cover", "example", "examples", "fit", "inspect", "job_fields", "judge",
-    "machine", "machines", "post", "read_part", "report", "set_thread_count", "swept_distances", "thread_count", "trochoid",
+    "Verification", "VerifyReport", "WorstPlace", "cover", "design", "example", "examples", "fit", "inspect", "job_fields", "judge",
+    "machine", "machines", "post", "read_part", "report", "set_thread_count", "sweep", "swept_distances", "thread_count", "trochoid",
     "verify"]
 
 for _name in __all__:

@@ -391,6 +391,23 @@ def example(name: str, file: _File, seed: int = ...) -> dict[str, Any]: ...
 def examples() -> list[str]: ...
 def machines() -> list[dict[str, Any]]: ...
 def machine(name: _File) -> dict[str, Any]: ...
+def sweep(
+    plan: _File,
+    folder: _File,
+    *,
+    processes: int = ...,
+    resume: bool = ...,
+    progress: _Progress | None = ...,
+) -> dict[str, Any]: ...
+def design(
+    part: Union[_File, Part],
+    folder: _File,
+    *,
+    processes: int = ...,
+    resume: bool = ...,
+    progress: _Progress | None = ...,
+    **fields: Any,
+) -> dict[str, Any]: ...
 
 # From the library's table of fields: scripts/python_stubs.py writes what follows.
 def fit(

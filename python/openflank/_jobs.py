@@ -35,7 +35,7 @@ def _words(field, value):
     return words if field.kind == "texts" else [",".join(words)]
 
 
-def _fields(fields, given):
+def field_words(fields, given):
     """[(name, words)] of those that are given; None leaves a field as it is."""
     known = {field.name: field for field in fields}
     # A name that there is not is told by the library, with those that there are.
@@ -73,13 +73,19 @@ def _signature(fields, progress):
     return inspect.Signature(parameters)
 
 
-def _document(first, fields, progress):
-    lines = [first, ""]
+def field_lines(fields):
+    """Name, help, unit and range of each, for a docstring."""
+    lines = []
     for field in fields:
         unit = f" [{field.unit}]" if field.unit else ""
         accepted = f" ({field.accepted})" if field.accepted else ""
         text = f"{field.help}{unit}{accepted}."
         lines += [field.name, textwrap.fill(text, 100, initial_indent="    ", subsequent_indent="    ")]
+    return lines
+
+
+def _document(first, fields, progress):
+    lines = [first, "", *field_lines(fields)]
     if progress:
         lines += ["progress", "    Called as progress(stage, share) with the share in [0, 1] of all the work. What it raises ends the work."]
     return "\n".join(lines)
@@ -102,7 +108,7 @@ def _function(command, first, run, progress):
         for parameter in positional:
             if parameter.default is parameter.empty and given.get(parameter.name) is None:
                 raise TypeError(f"{command}() needs {parameter.name}")
-        return run(command, _fields(fields, given), callback)
+        return run(command, field_words(fields, given), callback)
 
     function.__name__ = function.__qualname__ = command
     function.__signature__ = signature

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "flank/job.h"
+#include "flank/job/design_fields.h"
 #include "flank/job/field_text.h"
 #include "flank/job/fields.h"
 
@@ -56,6 +57,7 @@ std::map<std::string, Written> written_of(const std::string& command) {
   if (command == "trochoid") return written<TrochoidJob>();
   if (command == "verify") return written<VerifyJob>();
   if (command == "post") return written<PostJob>();
+  if (command == "design") return written<DesignJob>();
   return written<FitJob>();
 }
 
@@ -83,6 +85,7 @@ const std::vector<std::string>& basic_fields(const std::string& command) {
       {"cover", {"tool", "tolerance", "side", "axis_length", "strips", "shank_length", "holder", "clearance"}},
       {"trochoid", {"tolerance", "tool", "axis_length", "max_engagement", "cut", "entry", "shank_length", "holder"}},
       {"verify", {"tolerance", "nc", "machine", "setup"}},
+      {"design", {"tolerance", "tools", "source", "shape", "axis_length", "tool_change"}},
       {"post", {"machine", "spindle", "feed", "speed", "order", "setup", "tool_length", "dry"}}};
   static const std::vector<std::string> kNone;
   const auto found = kBasic.find(command);

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "flank/error.h"
+#include "flank/job/design_fields.h"
 #include "flank/job/field_text.h"
 #include "flank/job/fields.h"
 
@@ -107,7 +108,8 @@ std::vector<JobField> job_fields(const std::string& command) {
   if (command == command_name(TrochoidJob{})) return fields_of<TrochoidJob>();
   if (command == command_name(VerifyJob{})) return fields_of<VerifyJob>();
   if (command == command_name(PostJob{})) return fields_of<PostJob>();
-  throw UsageError("command", command, "must be fit, cover, trochoid, verify or post");
+  if (command == command_name(DesignJob{})) return fields_of<DesignJob>();
+  throw UsageError("command", command, "must be fit, cover, trochoid, verify, post or design");
 }
 
 void set_field(FitJob& job, const std::string& name, const std::vector<std::string>& words) { set(job, name, words); }
