@@ -23,7 +23,8 @@ def public(names):
 
 def arguments(function):
     every = function.args
-    return [a.arg for a in every.posonlyargs + every.args + every.kwonlyargs if a.arg != "self"]
+    rest = [every.kwarg] if every.kwarg else []
+    return [a.arg for a in every.posonlyargs + every.args + every.kwonlyargs + rest if a.arg != "self"]
 
 
 def told_arguments(doc):
