@@ -59,7 +59,7 @@ export class Chooser {
     this.triad = svg('svg', { class: 'triad', width: 84, height: 84, viewBox: '-42 -42 84 84', 'aria-hidden': 'true' });
     this.scale = html('div', { class: 'scalebar', 'aria-hidden': 'true' }, html('span'), html('i'));
     this.picture = html('div', { class: 'picture' }, this.canvas, this.pins, this.buttons = html('div', { class: 'cameras' }, this.cameras(), this.section()), this.probe, this.triad, this.scale);
-    this.kinds = html('div', { class: 'kinds', role: 'group', 'aria-label': 'Kinds of faces' }, ...kindButtons(this.rows, (kind) => this.table.filter({ kind })));
+    this.kinds = html('div', { class: 'kinds', role: 'group', 'aria-label': 'Types of faces' }, ...kindButtons(this.rows, (kind) => this.table.filter({ kind })));
     this.view = html('div', { class: 'facesview' }, this.picture, this.kinds);
   }
 
@@ -74,7 +74,7 @@ export class Chooser {
   /** A plane that cuts the part open. */
   section() {
     const axis = html('select', { 'aria-label': 'Section' }, ...[['', 'No section'], ['0', 'Section in X'], ['1', 'Section in Y'], ['2', 'Section in Z']].map(([value, text]) => html('option', { value }, text)));
-    const place = html('input', { type: 'range', min: '0', max: '1000', value: '500', 'aria-label': 'Place of the section', hidden: '' });
+    const place = html('input', { type: 'range', min: '0', max: '1000', value: '500', 'aria-label': 'Position of the section', hidden: '' });
     const cut = () => {
       place.hidden = axis.value === '';
       const k = Number(axis.value), box = this.model.box(), normal = new Vector3().setComponent(k, -1);
@@ -91,14 +91,14 @@ export class Chooser {
     this.search.addEventListener('input', () => this.table.filter({ words: this.search.value }));
     this.all = html('button', { type: 'button', title: 'Choose all faces that the table lists' }, 'Choose listed');
     this.all.addEventListener('click', () => this.choose(this.table.shown.map((row) => row.id)));
-    this.hide = html('button', { type: 'button', title: 'Take the chosen faces out of the picture (H)' }, 'Hide');
+    this.hide = html('button', { type: 'button', title: 'Hide the chosen faces (H)' }, 'Hide');
     this.hide.addEventListener('click', () => this.hideChosen());
     this.showAll = html('button', { type: 'button', hidden: '' }, 'Show all');
     this.showAll.addEventListener('click', () => this.hideFaces([]));
     const holder = html('div', { class: 'tableholder' });
-    this.tangent = html('button', { type: 'button', title: 'Choose all that is joined smoothly to the chosen faces, too', ...(this.smooth ? {} : { hidden: '' }) }, 'Tangent');
+    this.tangent = html('button', { type: 'button', title: 'Also choose all faces tangent to the chosen ones', ...(this.smooth ? {} : { hidden: '' }) }, 'Tangent');
     this.tangent.addEventListener('click', () => this.chooseSmooth());
-    this.parts = html('button', { type: 'button', title: 'What the faces of a wheel are: hub, blades, sides, edges, tips; the filter finds them, too', ...(this.wheel ? {} : { hidden: '' }) }, 'Wheel');
+    this.parts = html('button', { type: 'button', title: 'Name the faces of a wheel: hub, blades, sides, edges, tips; the filter then finds these names, too', ...(this.wheel ? {} : { hidden: '' }) }, 'Wheel');
     this.parts.addEventListener('click', () => this.nameWheel());
     this.list = html('div', { class: 'faceslist' }, html('div', { class: 'tools' }, this.search, this.all, this.tangent, this.parts, this.hide, this.showAll), holder);
     this.table = new FaceTable(holder, this.rows, { hover: (id) => this.hover(id, true), click: (id, more) => this.click(id, more) }, (id) => this.marks.get(id));

@@ -101,7 +101,7 @@ void answered(httplib::Response& response, const Work& work) {
   } catch (const InputError& e) {
     refuse(response, kWrong, e.what());
   } catch (const Json::exception&) {
-    refuse(response, kWrong, "this is no question that the studio knows");
+    refuse(response, kWrong, "unknown request");
   } catch (const std::exception& e) {
     refuse(response, kFault, e.what());
   }
@@ -160,12 +160,12 @@ class Server {
   Handled at_the_door(const httplib::Request& request, httplib::Response& response) {
     const std::string path = path_of(request);
     if (path.empty()) {
-      refuse(response, kRefused, "this address is not for you; the terminal shows the right one");
+      refuse(response, kRefused, "wrong key in the address; the terminal shows the right address");
       return Handled::Handled;
     }
     if (request.method == "POST") return Handled::Unhandled;
     if (request.method != "GET" && request.method != "HEAD") {
-      refuse(response, kWrong, "the studio knows GET and POST");
+      refuse(response, kWrong, "expected GET or POST");
       return Handled::Handled;
     }
     answered(response, [&] { get(path, request, response); });
@@ -208,7 +208,7 @@ class Server {
       body.append(data, size);
       return body.size() <= kMostQuestion;
     });
-    if (!whole) return refuse(response, kTooLarge, "this question is too long");
+    if (!whole) return refuse(response, kTooLarge, "the request is too long");
     const Json asked = body.empty() ? Json::object() : Json::parse(body);
     const auto done = [&] { say(response, {"{}", "application/json", ""}); };
     if (way.pattern == "defaults") return say(response, desk_.defaults(asked));
@@ -239,7 +239,7 @@ class Server {
       fs::remove(half);
       // The reader says so of a length that is only announced.
       const bool large = size > kMostUpload || response.status == kTooLarge;
-      return refuse(response, large ? kTooLarge : kWrong, "the file did not arrive");
+      return refuse(response, large ? kTooLarge : kWrong, "the file was not received completely; drop it again");
     }
     const std::string name = desk_.new_file(request.get_param_value("name"));
     rename_file(half, folder + "/" + name);
