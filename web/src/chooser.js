@@ -7,7 +7,7 @@ import { FaceModel } from './facemodel.js';
 import { FaceTable, kindButtons, paintKinds, radiusOf, sizeOf } from './facetable.js';
 import * as format from './format.js';
 import { drawScale, drawTriad } from './legend.js';
-import { kindColour, ROLES } from './kinds.js';
+import { kindColour, kindOf, ROLES } from './kinds.js';
 import { Measure } from './measure.js';
 import { Stage } from './scene.js';
 import { palette } from './theme.js';
@@ -26,11 +26,15 @@ function bestCorner(rows) {
   return corners.reduce((best, corner) => (score(corner) > 1.02 * score(best) ? corner : best));
 }
 
-/** [face, what it is] of a wheel.json: "hub", "blade 2 ahead". */
+/** [face, what it is, its role] of a wheel.json: ["F9", "blade 2 ahead", "blade side"]. */
 function wheelParts({ hub, shroud, blades, rest }) {
-  const all = [['hub', hub], ['shroud', shroud], ['rest', rest]], names = { ahead: 'ahead', behind: 'behind', edges: 'edge', tips: 'tip', fillets: 'fillet', buried: 'buried' };
-  blades.forEach((blade, k) => Object.entries(names).forEach(([key, name]) => all.push([`${blade.kind} ${k + 1} ${name}`, blade[key]])));
-  return all.flatMap(([words, ids]) => ids.map((id) => [id, words]));
+  const all = [['hub', 'hub', hub], ['shroud', 'shroud', shroud], ['rest', 'no role', rest]];
+  blades.forEach((blade, k) => {
+    const side = blade.kind === 'splitter' ? 'splitter side' : 'blade side';
+    const names = { ahead: ['ahead', side], behind: ['behind', side], edges: ['edge', 'edge'], tips: ['tip', 'tip'], fillets: ['fillet', 'fillet'], buried: ['buried', 'no role'] };
+    for (const [key, [name, role]] of Object.entries(names)) all.push([`${blade.kind} ${k + 1} ${name}`, role, blade[key]]);
+  });
+  return all.flatMap(([words, role, faces]) => faces.map((face) => [face.face ?? face, words, role]));
 }
 
 /** Rows of faces.json with the pieces below their face. */
@@ -43,6 +47,8 @@ export class Chooser {
     Object.assign(this, { data, changed, smooth, wheel });
     this.rows = flat(data.faces);
     this.rowOf = new Map(this.rows.map((row) => [row.id, row]));
+    // A page of a wheel is coloured by what its faces are.
+    for (const [id, words, role] of data.wheel ? wheelParts(data.wheel) : []) Object.assign(this.rowOf.get(id) ?? {}, { of: words, role });
     this.marks = new Map();
     this.role = 'machine';
     this.glowing = null;
@@ -273,7 +279,7 @@ export class Chooser {
     const marked = new Map();
     for (const [id, role] of this.marks) marked.set(this.rowOf.get(id)?.parent ?? id, role);
     const glowing = this.rowOf.get(this.glowing)?.parent ?? this.glowing;
-    this.model.paint((id) => (marked.has(id) ? ROLES[marked.get(id)].colour : kindColour(this.rowOf.get(id)?.type)), glowing);
+    this.model.paint((id) => (marked.has(id) ? ROLES[marked.get(id)].colour : kindColour(kindOf(this.rowOf.get(id) ?? {}))), glowing);
     this.stage?.draw();
   }
 
