@@ -145,7 +145,8 @@ Subcommand add_inspect(CLI::App& parser) {
   app->add_option("--sort", options->order.sort,
                   "Order of the faces: face, area (largest first), radius (tightest concave first) or type");
   app->add_option("--type", options->order.type, "Only faces of this type: plane, cylinder, B-spline, ...");
-  app->add_option("--html", options->html, "Write a page that shows the faces with their numbers; with --wheel in the colours of their roles");
+  app->add_option("--html", options->html,
+                  "Write a page that shows the faces with their numbers; with --wheel in the colours of their roles");
   app->add_option("--png", options->png, "Write a picture of that page (needs Chromium)");
   app->add_option("--view", options->view, "Write the faces with their triangles as JSON (docs/schema/faces.md)");
   const auto wheel = add_wheel_options(*app);

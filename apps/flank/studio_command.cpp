@@ -31,7 +31,8 @@ void say_address(const std::string& address, const StudioOptions& options, bool 
   else
     fmt::print("{}\n", address);
   if (!common.json && !common.quiet)
-    fmt::print("for this computer only; parts and jobs are kept in {}; Ctrl-C ends the studio\n", printable(options.folder));
+    fmt::print("for this computer only; parts and jobs are kept in {}; Ctrl-C ends the studio\n",
+               printable(options.folder));
   std::fflush(stdout);
   if (!open) return;
   // A browser may take its time, or all of it.
@@ -46,8 +47,8 @@ void say_address(const std::string& address, const StudioOptions& options, bool 
 }  // namespace
 
 Subcommand add_studio(CLI::App& parser) {
-  CLI::App* app = parser.add_subcommand(
-      "studio", "Open the studio in the browser: drop a part, click a face, run, check, post");
+  CLI::App* app =
+      parser.add_subcommand("studio", "Open the studio in the browser: drop a part, click a face, run, check, post");
   auto options = std::make_shared<StudioOptions>();
   auto open = std::make_shared<bool>(true);
   options->folder = "flank-studio";

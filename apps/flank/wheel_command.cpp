@@ -43,22 +43,28 @@ void add_options(CLI::App& app, WheelJob& job, WheelProgram& program) {
   app.add_option("--unit", job.unit, "Unit of a mesh, or of a CAD file that states a wrong one: mm, cm, m or in")
       ->check(CLI::IsMember({"mm", "cm", "m", "in"}));
   app.add_option("-o,--output", job.folder, "Folder for the results")->required();
-  app.add_option("--tolerance", job.tolerance_mm, "Allowed deviation of the machined faces, both ways")->capture_default_str();
+  app.add_option("--tolerance", job.tolerance_mm, "Allowed deviation of the machined faces, both ways")
+      ->capture_default_str();
   app.add_option("--coverage", job.least_coverage,
                  "Share of the accessible area of sides, edges, fillets and hub that must be within the tolerance")
       ->capture_default_str();
-  app.add_option("--effort", job.effort, "How long each fit searches: quick, normal or thorough")->capture_default_str();
+  app.add_option("--effort", job.effort, "How long each fit searches: quick, normal or thorough")
+      ->capture_default_str();
   app.add_option("--tool", job.tool, "Tool file (tool.json). Default: found with the blades' sides");
-  app.add_option("--sample", job.sample_mm, "Fast check at this spacing, without the proof. Default: samples and a proof");
+  app.add_option("--sample", job.sample_mm,
+                 "Fast check at this spacing, without the proof. Default: samples and a proof");
   app.add_flag_callback(
       "--no-edges", [&job] { job.edges = false; }, "Do not machine leading and trailing edges");
   app.add_flag_callback(
       "--no-rough", [&job] { job.rough = false; }, "Do not rough the channels");
   app.add_option("--hub", job.choice.hub, "Faces of the hub, as F1. Default: found")->group("Roles");
-  app.add_option("--blade", job.choice.blades, "Faces of a main blade, as F8,F9,F10; once for each blade. Default: found")
+  app.add_option("--blade", job.choice.blades,
+                 "Faces of a main blade, as F8,F9,F10; once for each blade. Default: found")
       ->allow_extra_args(false)
       ->group("Roles");
-  app.add_option("--splitter", job.choice.splitters, "Faces of a splitter; once for each splitter. Default: found")->allow_extra_args(false)->group("Roles");
+  app.add_option("--splitter", job.choice.splitters, "Faces of a splitter; once for each splitter. Default: found")
+      ->allow_extra_args(false)
+      ->group("Roles");
   app.add_option("--count", job.choice.count, "Number of equal sectors in a whole turn. Default: found")
       ->check(CLI::Range(1, 1000))
       ->group("Roles");

@@ -79,8 +79,11 @@ void bind_result(py::module_& module) {
       .def_readonly("notes", &Result::notes, "Notes: repairs of the part, warnings.")
       .def_readonly("complete", &Result::complete, "False: the run was stopped early, and the result is unfinished.")
       .def_readonly("part_sha256", &Result::part_sha256, "SHA-256 of the part's file.")
-      .def_readonly("chord_bound_mm", &Result::chord_bound_mm, "Proved bound of the chord error, mm: the distance of the motions from the lines that join the CL points.")
-      .def_readonly("largest_c", &Result::largest_c, "Largest axial slip |c| where the tool touches the face; at 1 it moves along its own axis.")
+      .def_readonly(
+          "chord_bound_mm", &Result::chord_bound_mm,
+          "Proved bound of the chord error, mm: the distance of the motions from the lines that join the CL points.")
+      .def_readonly("largest_c", &Result::largest_c,
+                    "Largest axial slip |c| where the tool touches the face; at 1 it moves along its own axis.")
       .def_property_readonly(
           "passed", [](const Result& r) { return r.acceptance().pass(); }, "Whether the result meets the request.")
       .def_property_readonly(

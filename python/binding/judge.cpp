@@ -96,7 +96,8 @@ void bind_swept(py::module_& module) {
         doc);
   };
   column("f_mm", &SweptDistance::f, "(N,), mm; negative: gouge, positive: excess material. No copy.");
-  column("strip", &SweptDistance::strip, "(N,): index of the pass, from 0; -1: the tool is nowhere nearer than the horizon. No copy.");
+  column("strip", &SweptDistance::strip,
+         "(N,): index of the pass, from 0; -1: the tool is nowhere nearer than the horizon. No copy.");
   column("t", &SweptDistance::t, "(N,): index of the CL point, and fraction. No copy.");
   column("s", &SweptDistance::s, "(N,), mm: arc length on the axis, in [0, L]. No copy.");
   module.def(
@@ -111,8 +112,7 @@ void bind_report_parts(py::module_& module) {
       .def_readonly("target", &FaceVerdict::target, "Whether the face is machined; else it is a check surface.")
       .def_readonly("area_mm2", &FaceVerdict::area_mm2, "Area, mm^2.")
       .def_readonly("overcut_mm", &FaceVerdict::overcut_mm, "Deepest gouge found, mm.")
-      .def_readonly("overcut_bound_mm", &FaceVerdict::overcut_bound_mm,
-                    "Proved bound of the gouge, mm.")
+      .def_readonly("overcut_bound_mm", &FaceVerdict::overcut_bound_mm, "Proved bound of the gouge, mm.")
       .def_readonly("undercut_mm", &FaceVerdict::undercut_mm, "Most excess material, mm (machined faces only).")
       .def_readonly("rms_mm", &FaceVerdict::rms_mm, "RMS of f, mm, where a pass goes over the face.")
       .def_readonly("coverage", &FaceVerdict::coverage, "Finished share of the area: |f| <= tolerance.")
@@ -140,8 +140,8 @@ void bind_judge(py::module_& module) {
       return view(values.data(), {static_cast<py::ssize_t>(values.size())}, self);
     };
   };
-  py::class_<VerifyReport, std::shared_ptr<VerifyReport>>(module, "VerifyReport",
-                                                          "The check of a tool and a path: the surface that they really leave.")
+  py::class_<VerifyReport, std::shared_ptr<VerifyReport>>(
+      module, "VerifyReport", "The check of a tool and a path: the surface that they really leave.")
       .def_property_readonly(
           "verdict", [](const VerifyReport& r) { return verdict_text(r.verdict); },
           "pass, overcut, gouge, unproved or not run.")
@@ -150,7 +150,8 @@ void bind_judge(py::module_& module) {
       .def_readonly("coverage_reachable", &VerifyReport::coverage_reachable, "Finished share of the accessible area.")
       .def_readonly("reachable_share", &VerifyReport::reachable_share, "Share of the area that is accessible.")
       .def_readonly("overcut_mm", &VerifyReport::overcut_mm, "Deepest gouge found in a machined face, mm.")
-      .def_readonly("overcut_bound_mm", &VerifyReport::overcut_bound_mm, "Proved bound of the gouge of machined faces, mm.")
+      .def_readonly("overcut_bound_mm", &VerifyReport::overcut_bound_mm,
+                    "Proved bound of the gouge of machined faces, mm.")
       .def_readonly("undercut_mm", &VerifyReport::undercut_mm, "Most excess material on a machined face, mm.")
       .def_readonly("rms_mm", &VerifyReport::rms_mm, "RMS of f, mm, where a pass goes over the face.")
       .def_readonly("gouge_mm", &VerifyReport::gouge_mm, "Deepest gouge found in a check surface, mm.")
@@ -175,11 +176,10 @@ void bind_judge(py::module_& module) {
                              "Area of each bin, mm^2. No copy.")
       .def("__repr__",
            [](const VerifyReport& r) { return "<openflank.VerifyReport, " + verdict_text(r.verdict) + ">"; });
-  module.def(
-      "judge", &judge_faces, py::arg("tool"), py::arg("path"), py::arg("part"), py::arg("faces"),
-      py::arg("tolerance_mm"), py::arg("check_faces") = "", py::arg("spacing_mm") = 1.0,
-      "Checks tool and path on faces (\"F1,F3\") of a part at samples spacing_mm apart, mm, with a proved bound "
-      "of every gouge. Raises UsageError and InputError.");
+  module.def("judge", &judge_faces, py::arg("tool"), py::arg("path"), py::arg("part"), py::arg("faces"),
+             py::arg("tolerance_mm"), py::arg("check_faces") = "", py::arg("spacing_mm") = 1.0,
+             "Checks tool and path on faces (\"F1,F3\") of a part at samples spacing_mm apart, mm, with a proved bound "
+             "of every gouge. Raises UsageError and InputError.");
 }
 
 }  // namespace flank::python

@@ -68,7 +68,8 @@ void bind_part_class(py::module_& module) {
       .def_readonly("repairs", &Part::repairs, "What was repaired, one sentence each.")
       .def_property_readonly("is_mesh", &Part::is_mesh, "Whether the part is a mesh.")
       .def_property_readonly(
-          "box", [](const Part& p) { return box_array(p.box); }, "Lowest and highest corner of the bounding box, 2 x 3, mm; tight.")
+          "box", [](const Part& p) { return box_array(p.box); },
+          "Lowest and highest corner of the bounding box, 2 x 3, mm; tight.")
       .def_property_readonly(
           "faces", [](const std::shared_ptr<Part>& p) { return faces_of(p); },
           "The faces F1, F2, ... in the order of the file.")
@@ -133,7 +134,8 @@ void bind_target_class(py::module_& module) {
   column(
       "patch", [](const Footpoint& f) { return &f.patch; }, 0, "(N,): index of the target's face, or triangle.");
 
-  py::class_<Samples> samples(module, "Samples", "Dense samples of machined faces: the centres of N cells of the surface.");
+  py::class_<Samples> samples(module, "Samples",
+                              "Dense samples of machined faces: the centres of N cells of the surface.");
   const auto sample = [&](const char* name, auto member, py::ssize_t width, const char* doc) {
     samples.def_property_readonly(
         name,
@@ -152,8 +154,7 @@ void bind_target_class(py::module_& module) {
       "areas_mm2", [](const SurfaceSample& s) { return &s.area; }, 0,
       "(N,), mm^2: the share of the area that each stands for. No copy.");
 
-  py::class_<Target, std::shared_ptr<Target>> type(module, "Target",
-                                                   "The machined faces: trimmed faces or a mesh.");
+  py::class_<Target, std::shared_ptr<Target>> type(module, "Target", "The machined faces: trimmed faces or a mesh.");
   type.def_property_readonly("area_mm2", &Target::area, "Area, mm^2.")
       .def_property_readonly("diagonal_mm", &Target::diagonal, "Diagonal of the bounding box, mm.")
       .def_property_readonly(

@@ -108,7 +108,8 @@ void bind_path_classes(py::module_& module) {
       .def("__len__", [](const Strip& s) { return s.poses.size(); });
 
   py::class_<Path, std::shared_ptr<Path>> type(
-      module, "Path", "Passes in the order of machining; their CL points are joined by straight moves of tip and axis vector.");
+      module, "Path",
+      "Passes in the order of machining; their CL points are joined by straight moves of tip and axis vector.");
   type.def(py::init(&make_path), py::arg("strips"), py::arg("face") = "F1", py::arg("kind") = "flank",
            "A path from arrays of CL points, each N x 6: tip x, y, z, mm, and unit vector i, j, k towards the holder. "
            "Raises UsageError naming pass and CL point.")

@@ -148,7 +148,8 @@ Found blades_found(const Part& part, const std::vector<BladeFaces>& candidates, 
       out.splitter.push_back(g > 0);
     }
   }
-  if (out.blades.empty()) refuse(part, "no blade found: no connected faces have two sides, one towards each direction of rotation");
+  if (out.blades.empty())
+    refuse(part, "no blade found: no connected faces have two sides, one towards each direction of rotation");
   return out;
 }
 

@@ -165,10 +165,11 @@ void ResultFolder::require_no_strangers() const {
   for (const std::string& name : result_names()) require_unread(in(name));
   for (const std::string& name : result_names()) {
     if (!is_file(in(name)) || is_ours(name)) continue;
-    throw InputError(in(name) + ": would be overwritten, and " +
-                     (manifest_ ? std::string(kManifestFile) + " does not list it as a file of an earlier result"
-                                : std::string("there is no ") + kManifestFile + " that lists it as a file of an earlier result") +
-                     "; move it away, or give another folder");
+    throw InputError(
+        in(name) + ": would be overwritten, and " +
+        (manifest_ ? std::string(kManifestFile) + " does not list it as a file of an earlier result"
+                   : std::string("there is no ") + kManifestFile + " that lists it as a file of an earlier result") +
+        "; move it away, or give another folder");
   }
 }
 

@@ -41,7 +41,8 @@ std::string checked(const Json& field, const std::string& word, const std::strin
   if (may && is_plain_name(word) && fs::is_regular_file(fs::symlink_status(fs::path(files) / word)))
     return (fs::path(files) / word).string();
   if (must) throw UsageError(name, word, "is not a file of this studio; drop it here first");
-  if (word.find('/') != std::string::npos) throw UsageError(name, word, "must be a file of this studio, not a path; drop the file here");
+  if (word.find('/') != std::string::npos)
+    throw UsageError(name, word, "must be a file of this studio, not a path; drop the file here");
   return word;
 }
 

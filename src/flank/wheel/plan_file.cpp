@@ -117,15 +117,15 @@ std::string plan_json(const WheelResult& result) {
 }
 
 std::string wheel_text(const WheelResult& result) {
-  std::string text = fmt::format(
-      "{}: {} sectors, {}\n", result.roles.file, result.roles.count,
-      result.copies > 1 ? fmt::format("one planned, copied {} times", result.copies) : std::string("each planned separately"));
+  std::string text = fmt::format("{}: {} sectors, {}\n", result.roles.file, result.roles.count,
+                                 result.copies > 1 ? fmt::format("one planned, copied {} times", result.copies)
+                                                   : std::string("each planned separately"));
   for (const std::string& note : result.notes) text += "  note    " + note + "\n";
   for (const WheelOperation& o : result.operations)
-    text +=
-        fmt::format("  {:<3} {:<6} {:<14} {:7.1f} s  {}{}\n", o.id, o.kind, face_list(o.faces), o.seconds,
-                    o.done ? (o.pass ? "done" : "done, below the request") : "NOT DONE",
-                    (o.kept ? ", kept from an earlier run" : "") + (o.problem.empty() ? std::string() : ": " + o.problem));
+    text += fmt::format(
+        "  {:<3} {:<6} {:<14} {:7.1f} s  {}{}\n", o.id, o.kind, face_list(o.faces), o.seconds,
+        o.done ? (o.pass ? "done" : "done, below the request") : "NOT DONE",
+        (o.kept ? ", kept from an earlier run" : "") + (o.problem.empty() ? std::string() : ": " + o.problem));
   for (const RoleFigures& f : result.figures)
     text += f.open_mm2 > 0.0
                 ? fmt::format(

@@ -267,9 +267,10 @@ void require_usable_trim(const TrimLoop& loop, const BSplineSurface& s, const st
     for (int i = 0; i <= steps; ++i) {
       const Vec2 p = edge.value(edge.first() + (edge.last() - edge.first()) * i / steps);
       if ((p.array() >= (low - range).array()).all() && (p.array() <= (high + range).array()).all()) continue;
-      throw InputError(fmt::format(
-          "{}: one of its trims reaches the parameters ({}, {}), far outside those of its surface, {} to {} and {} to {}", name,
-          p.x(), p.y(), low.x(), high.x(), low.y(), high.y()));
+      throw InputError(
+          fmt::format("{}: one of its trims reaches the parameters ({}, {}), far outside those of its surface, {} to "
+                      "{} and {} to {}",
+                      name, p.x(), p.y(), low.x(), high.x(), low.y(), high.y()));
     }
   }
 }
