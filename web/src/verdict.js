@@ -41,7 +41,7 @@ export function verdict(files) {
   if (!verify.pass || reasons(files).length) return { state: 'fail', text: 'Does NOT meet the request' };
   if (!tied) return { state: 'warn', text: 'The files may not belong together' };
   if (summary && summary.complete !== true) return { state: 'warn', text: 'May be incomplete' };
-  if (earlier(files).length) return { state: 'warn', text: 'summary.json does not meet the request' };
+  if (earlier(files).length) return { state: 'warn', text: 'Earlier run: does NOT meet the request' };
   return { state: 'pass', text: 'Meets the request' };
 }
 

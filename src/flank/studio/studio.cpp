@@ -197,7 +197,7 @@ class Server {
     if (way.pattern == "jobs/*/zip") return say(response, desk_.zip(name(0)));
     if (way.pattern == "jobs/*/files/*") return say(response, desk_.file(name(0), name(1)));
     if (way.pattern == "jobs/*/programs/*") return say(response, desk_.program(name(0), name(1)));
-    refuse(response, kUnknown, "there is no such page");
+    refuse(response, kUnknown, "no such page");
   }
 
   void post(const httplib::Request& request, httplib::Response& response, const httplib::ContentReader& reader) {
@@ -220,7 +220,7 @@ class Server {
     if (way.pattern == "jobs/*/resume") return desk_.jobs().resume(way.names.at(0)), done();
     if (way.pattern == "jobs/*/post") return say(response, desk_.post(way.names.at(0), asked));
     if (way.pattern == "jobs/*/judge") return say(response, desk_.judge(way.names.at(0), asked));
-    refuse(response, kUnknown, "there is no such page");
+    refuse(response, kUnknown, "no such page");
   }
 
   /// A file that was dropped on the page; a part is read, and thrown away if it is none.

@@ -118,7 +118,7 @@ std::string plan_json(const WheelResult& result) {
 
 std::string wheel_text(const WheelResult& result) {
   std::string text = fmt::format("{}: {} sectors, {}\n", result.roles.file, result.roles.count,
-                                 result.copies > 1 ? fmt::format("one planned, copied {} times", result.copies)
+                                 result.copies > 1 ? fmt::format("planned once, for {} equal sectors", result.copies)
                                                    : std::string("each planned separately"));
   for (const std::string& note : result.notes) text += "  note    " + note + "\n";
   for (const WheelOperation& o : result.operations)
