@@ -126,7 +126,7 @@ int run_inspect(const InspectOptions& options, const WheelOptions& wheel, const 
   if (options.has_pictures()) write_pictures(options, part, report, "");
   if (common.json)
     fmt::print("{}", inspect_json(report));
-  else if (!options.has_pictures())
+  else if (!common.quiet && !options.has_pictures())
     fmt::print("{}", printable(inspect_table(report), true));
   else if (!common.quiet)
     print_files(options);
