@@ -2,7 +2,7 @@
 # On a bare Debian 12 `make demo` and `make test` need only make, git and root (or sudo).
 .DEFAULT_GOAL := build
 .NOTPARALLEL:
-.PHONY: build command deps demo test test-clients sanitize asan tsan bench fuzz install deb wheel docs format format-check words tidy clean help
+.PHONY: build command deps demo test test-clients sanitize asan tsan bench fuzz install deb dist wheel docs format format-check words tidy clean help
 
 JOBS ?= $(shell nproc)
 SECONDS ?= 60
@@ -71,6 +71,9 @@ deb:  ## make Debian packages of the command, the library and the Python module,
 	cmake --preset release
 	cmake --build --preset package --parallel $(JOBS)
 	cpack --config build/release/CPackConfig.cmake -B build/packages
+
+dist: build  ## make the source archive with the built pages, in build/packages
+	scripts/source-archive.sh build/release build/packages
 
 wheel:  ## make a wheel of the Python module, in build/packages
 	scripts/install-deps.sh build python package

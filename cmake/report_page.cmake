@@ -1,5 +1,4 @@
 # The pages of `flank report`, `flank inspect --html` and `flank studio`: bundled from web/ with packages that npm fetches into the build tree, and built into the
-# library. Where npm is missing or cannot fetch them the library is built without the page, and the command says so.
 find_program(FLANK_NODE NAMES node nodejs)
 find_program(FLANK_NPM npm)
 
@@ -37,6 +36,13 @@ if(NOT FLANK_NODE OR NOT FLANK_NPM)
 elseif(NOT DEFINED FLANK_REPORT OR FLANK_REPORT)
   flank_fetch_web_packages(_flank_report_missing)
 endif()
+set(_flank_shipped_pages ${PROJECT_SOURCE_DIR}/web/built/page_template.cpp)
+set(_flank_use_shipped_pages OFF)
+if(_flank_report_missing AND EXISTS ${_flank_shipped_pages})
+  message(STATUS "The report page: as it came with the sources (${_flank_report_missing})")
+  set(_flank_report_missing "")
+  set(_flank_use_shipped_pages ON)
+endif()
 flank_optional_part(FLANK_REPORT "The report page" "${_flank_report_missing}")
 if(NOT FLANK_REPORT_USED AND NOT _flank_report_missing)
   set(_flank_report_missing "FLANK_REPORT was ${FLANK_REPORT} when it was built")
@@ -52,7 +58,9 @@ namespace flank::internal {
 std::string_view page_is_missing() { return \"@_flank_report_missing@\"; }
 }  // namespace flank::internal
 ")
-  if(FLANK_REPORT_USED)
+  if(FLANK_REPORT_USED AND _flank_use_shipped_pages)
+    set(source ${_flank_shipped_pages})
+  elseif(FLANK_REPORT_USED)
     file(GLOB parts CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/web/src/*)
     add_custom_command(
       OUTPUT ${source}

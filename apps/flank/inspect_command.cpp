@@ -25,6 +25,7 @@ struct InspectOptions {
   std::optional<std::string> unit;
   InspectOrder order;
   std::string html, png, view;  ///< files to write; empty: none
+  [[nodiscard]] bool has_pictures() const { return !html.empty() || !png.empty() || !view.empty(); }
 };
 
 /// `inspect --wheel`: roles that are given, and where wheel.json goes.
@@ -50,17 +51,6 @@ std::shared_ptr<WheelOptions> add_wheel_options(CLI::App& app) {
           ->check(CLI::Range(1, 1000)));
   add(app.add_option("-o,--output", wheel->output, "File to write: wheel.json"));
   return wheel;
-}
-
-int inspect_wheel(const Part& part, const WheelOptions& wheel, const CommonOptions& common) {
-  if (wheel.output) require_no_result_there(*wheel.output);
-  const WheelRoles roles = recognise_wheel(part, wheel.choice);
-  if (wheel.output) write_file(*wheel.output, wheel_json(roles));
-  if (common.json)
-    fmt::print("{}", wheel_json(roles));
-  else if (!common.quiet)
-    fmt::print("{}", printable(wheel_table(roles), true));
-  return kMeetsRequest;
 }
 
 /// A page that only the browser sees, for a picture alone.
@@ -93,13 +83,35 @@ void require_writable(const InspectOptions& options, const ReadFiles& inputs) {
     throw UsageError("png", options.png, "is the name of the page; give another one");
 }
 
-void write_pictures(const InspectOptions& options, const Part& part, const InspectReport& report) {
-  const std::string faces = faces_json(part, report);
+/// Page, picture and triangles; `wheel`: the text of a wheel.json, or empty.
+void write_pictures(const InspectOptions& options, const Part& part, const InspectReport& report,
+                    const std::string& wheel) {
+  const std::string faces = faces_json(part, report, wheel);
   if (!options.view.empty()) write_file(options.view, faces);
   if (options.html.empty() && options.png.empty()) return;
   const std::string page = faces_page(faces);
   if (!options.html.empty()) write_file(options.html, page);
   if (!options.png.empty()) make_picture(PageForPicture(page).file(), options.png);
+}
+
+void print_files(const InspectOptions& options) {
+  for (const std::string& file : {options.html, options.png, options.view})
+    if (!file.empty()) fmt::print("{}\n", printable(file));
+}
+
+int inspect_wheel(const InspectOptions& options, const Part& part, const WheelOptions& wheel,
+                  const CommonOptions& common) {
+  if (wheel.output) require_no_result_there(*wheel.output);
+  const WheelRoles roles = recognise_wheel(part, wheel.choice);
+  if (wheel.output) write_file(*wheel.output, wheel_json(roles));
+  if (options.has_pictures()) write_pictures(options, part, in_order(inspect(part), options.order), wheel_json(roles));
+  if (common.json)
+    fmt::print("{}", wheel_json(roles));
+  else if (!common.quiet) {
+    fmt::print("{}", printable(wheel_table(roles), true));
+    print_files(options);
+  }
+  return kMeetsRequest;
 }
 
 int run_inspect(const InspectOptions& options, const WheelOptions& wheel, const CommonOptions& common) {
@@ -109,17 +121,15 @@ int run_inspect(const InspectOptions& options, const WheelOptions& wheel, const 
   require_writable(options, inputs);
   if (wheel.output) inputs.require_not_written(*wheel.output);
   const Part part = read_part(options.part, options.unit);
-  if (wheel.asked) return inspect_wheel(part, wheel, common);
+  if (wheel.asked) return inspect_wheel(options, part, wheel, common);
   const InspectReport report = in_order(inspect(part), options.order);
-  const bool pictures = !options.html.empty() || !options.png.empty() || !options.view.empty();
-  if (pictures) write_pictures(options, part, report);
+  if (options.has_pictures()) write_pictures(options, part, report, "");
   if (common.json)
     fmt::print("{}", inspect_json(report));
-  else if (!pictures)
+  else if (!common.quiet && !options.has_pictures())
     fmt::print("{}", printable(inspect_table(report), true));
   else if (!common.quiet)
-    for (const std::string& file : {options.html, options.png, options.view})
-      if (!file.empty()) fmt::print("{}\n", printable(file));
+    print_files(options);
   return kMeetsRequest;
 }
 
@@ -135,14 +145,15 @@ Subcommand add_inspect(CLI::App& parser) {
   app->add_option("--sort", options->order.sort,
                   "Order of the faces: face, area (largest first), radius (tightest concave first) or type");
   app->add_option("--type", options->order.type, "Only faces of this type: plane, cylinder, B-spline, ...");
-  app->add_option("--html", options->html, "Write a page that shows the faces with their numbers");
+  app->add_option("--html", options->html,
+                  "Write a page that shows the faces with their numbers; with --wheel in the colours of their roles");
   app->add_option("--png", options->png, "Write a picture of that page (needs Chromium)");
   app->add_option("--view", options->view, "Write the faces with their triangles as JSON (docs/schema/faces.md)");
   const auto wheel = add_wheel_options(*app);
   app->footer(
       "Example: flank example twisted-blade -o blade.step && flank inspect blade.step\n"
       "To see which face is which: flank inspect blade.step --html faces.html\n"
-      "Of a wheel: flank example impeller -o wheel.step && flank inspect wheel.step --wheel");
+      "Of a wheel: flank example impeller -o wheel.step && flank inspect wheel.step --wheel --html wheel.html");
   return {app,
           [options, wheel](const CommonOptions& common) { return run_inspect(*options, *wheel, common); },
           {{"unit", "--unit"},

@@ -150,9 +150,10 @@ std::map<std::string, std::string> with_common(std::map<std::string, std::string
   return flags;
 }
 
-/// What was printed must have arrived: a full disk or a closed pipe is noticed when it is flushed.
+/// What was printed must have arrived: a full disk is noticed when it is flushed. A reader that has seen enough, as `head`, is no fault.
 int flushed(int code) {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  if (errno == EPIPE) return code;
   return complain(std::string("standard output cannot be written (") + std::strerror(errno) + ")", kRefusedInput);
 }
 
@@ -209,6 +210,7 @@ int run_command(int argc, char** argv) {
     return complain("out of memory", kOurFault);
   } catch (const std::system_error& e) {
     // fmt says so when a stream cannot be written.
+    if (e.code() == std::errc::broken_pipe) return kRefusedInput;
     return complain(std::string("cannot write (") + e.what() + ")", kRefusedInput);
   } catch (const std::exception& e) {
     return complain(std::string("internal error: ") + e.what(), kOurFault);

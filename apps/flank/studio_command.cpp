@@ -31,7 +31,8 @@ void say_address(const std::string& address, const StudioOptions& options, bool 
   else
     fmt::print("{}\n", address);
   if (!common.json && !common.quiet)
-    fmt::print("for this machine alone; everything is kept in {}; Ctrl-C ends it\n", printable(options.folder));
+    fmt::print("for this computer only; parts and jobs are kept in {}; Ctrl-C ends the studio\n",
+               printable(options.folder));
   std::fflush(stdout);
   if (!open) return;
   // A browser may take its time, or all of it.
@@ -46,17 +47,17 @@ void say_address(const std::string& address, const StudioOptions& options, bool 
 }  // namespace
 
 Subcommand add_studio(CLI::App& parser) {
-  CLI::App* app = parser.add_subcommand(
-      "studio", "Serve a page to this machine: drop a part, point at a face, run, watch, judge, post");
+  CLI::App* app =
+      parser.add_subcommand("studio", "Open the studio in the browser: drop a part, click a face, run, check, post");
   auto options = std::make_shared<StudioOptions>();
   auto open = std::make_shared<bool>(true);
   options->folder = "flank-studio";
-  app->add_option("PART", options->part, part_formats() + " file to begin with");
+  app->add_option("PART", options->part, part_formats() + " file to open first");
   app->add_option("--unit", options->unit, "Unit of a mesh, or of a CAD file that states a wrong one: mm, cm, m or in")
       ->check(CLI::IsMember({"mm", "cm", "m", "in"}));
-  app->add_option("-o,--output", options->folder, "Folder of parts and jobs; one that is there goes on")
+  app->add_option("-o,--output", options->folder, "Folder of parts and jobs; an earlier one is continued")
       ->capture_default_str();
-  app->add_option("--port", options->port, "Port of 127.0.0.1; 0: any that is free")
+  app->add_option("--port", options->port, "Port on 127.0.0.1; 0: any free port")
       ->capture_default_str()
       ->check(CLI::Range(0, 65535));
   app->add_flag("--browser,!--no-browser", *open, "Open the page in the browser; --no-browser only prints its address");

@@ -34,7 +34,7 @@ Acceptance post_whole(const WheelProgram& program, const WheelJob& job, bool qui
   if (outcome.acceptance.pass()) write_file(file, outcome.program);
   if (!quiet)
     fmt::print("{}  {} {}\n", printable(post_text(outcome), true),
-               outcome.acceptance.pass() ? "written to " : "not made: ", printable(file));
+               outcome.acceptance.pass() ? "written to " : "not written: ", printable(file));
   return outcome.acceptance;
 }
 
@@ -43,29 +43,35 @@ void add_options(CLI::App& app, WheelJob& job, WheelProgram& program) {
   app.add_option("--unit", job.unit, "Unit of a mesh, or of a CAD file that states a wrong one: mm, cm, m or in")
       ->check(CLI::IsMember({"mm", "cm", "m", "in"}));
   app.add_option("-o,--output", job.folder, "Folder for the results")->required();
-  app.add_option("--tolerance", job.tolerance_mm, "Tolerance, mm")->capture_default_str();
-  app.add_option("--coverage", job.least_coverage,
-                 "Share of what is open of sides, edges, fillets and hub, within tolerance, that counts as done")
+  app.add_option("--tolerance", job.tolerance_mm, "Allowed deviation of the machined faces, both ways")
       ->capture_default_str();
-  app.add_option("--effort", job.effort, "Of the fits: quick, normal or thorough")->capture_default_str();
-  app.add_option("--tool", job.tool, "A tool.json; default: found with the sides");
-  app.add_option("--sample", job.sample_mm, "Judge by samples at this spacing alone, mm; default: with a proof");
+  app.add_option("--coverage", job.least_coverage,
+                 "Share of the accessible area of sides, edges, fillets and hub that must be within the tolerance")
+      ->capture_default_str();
+  app.add_option("--effort", job.effort, "How long each fit searches: quick, normal or thorough")
+      ->capture_default_str();
+  app.add_option("--tool", job.tool, "Tool file (tool.json). Default: found with the blades' sides");
+  app.add_option("--sample", job.sample_mm,
+                 "Fast check at this spacing, without the proof. Default: samples and a proof");
   app.add_flag_callback(
-      "--no-edges", [&job] { job.edges = false; }, "Leave out leading and trailing edges");
+      "--no-edges", [&job] { job.edges = false; }, "Do not machine leading and trailing edges");
   app.add_flag_callback(
-      "--no-rough", [&job] { job.rough = false; }, "Leave out the roughing of the channels");
-  app.add_option("--hub", job.choice.hub, "Faces of the hub, F1; default: found")->group("Roles");
-  app.add_option("--blade", job.choice.blades, "Faces of a main blade, F8,F9,F10; once for each; default: found")
+      "--no-rough", [&job] { job.rough = false; }, "Do not rough the channels");
+  app.add_option("--hub", job.choice.hub, "Faces of the hub, as F1. Default: found")->group("Roles");
+  app.add_option("--blade", job.choice.blades,
+                 "Faces of a main blade, as F8,F9,F10; once for each blade. Default: found")
       ->allow_extra_args(false)
       ->group("Roles");
-  app.add_option("--splitter", job.choice.splitters, "The same of splitters")->allow_extra_args(false)->group("Roles");
-  app.add_option("--count", job.choice.count, "Equal sectors in a whole turn; default: found")
+  app.add_option("--splitter", job.choice.splitters, "Faces of a splitter; once for each splitter. Default: found")
+      ->allow_extra_args(false)
+      ->group("Roles");
+  app.add_option("--count", job.choice.count, "Number of equal sectors in a whole turn. Default: found")
       ->check(CLI::Range(1, 1000))
       ->group("Roles");
-  app.add_option("--machine", program.machine, "A machine (flank machine --list): its program is written, too")
+  app.add_option("--machine", program.machine, "Also write the program for this machine (flank machine --list)")
       ->group("Program");
   app.add_option("--feed", program.feed_mm_min, "Feed of the program, mm/min")->capture_default_str()->group("Program");
-  app.add_option("--spindle", program.spindle_rpm, "Spindle speed of the program")
+  app.add_option("--spindle", program.spindle_rpm, "Spindle speed of the program, 1/min")
       ->capture_default_str()
       ->group("Program");
 }
@@ -74,14 +80,13 @@ void add_options(CLI::App& app, WheelJob& job, WheelProgram& program) {
 
 Subcommand add_wheel(CLI::App& parser) {
   CLI::App* app = parser.add_subcommand(
-      "wheel", "Mill a whole wheel: find its roles, plan the operations of one sector, copy them, and judge the whole");
+      "wheel", "Mill a whole wheel: recognise its faces, plan one sector, copy it to the others, and check the whole");
   auto job = std::make_shared<WheelJob>();
   auto program = std::make_shared<WheelProgram>();
   add_options(*app, *job, *program);
   app->footer(
-      "Example: flank example impeller -o wheel.step && flank wheel wheel.step --tolerance 0.05 -o out. Operations "
-      "that "
-      "an earlier run into the same folder has finished are not done again.");
+      "Example: flank example impeller -o wheel.step && flank wheel wheel.step --tolerance 0.05 -o out\nOperations "
+      "that an earlier run into the same folder has finished are kept.");
   const auto run = [job, program](const CommonOptions& common) {
     const WheelResult result = run_wheel(*job, terminal_progress(common));
     Acceptance acceptance = result.acceptance();

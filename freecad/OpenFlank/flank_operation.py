@@ -13,16 +13,16 @@ import flank_view
 
 #: Properties that are fields of the command: name, kind, option, help.
 FIELDS = [
-    ("Tolerance", "App::PropertyLength", "--tolerance", "Allowed deviation of the machined face, both ways; 0: follows the size of the face"),
+    ("Tolerance", "App::PropertyLength", "--tolerance", "Allowed deviation of the machined face, both ways; 0: by the size of the face"),
     ("Tool", "App::PropertyString", "--tool", "free, a family with any of its parameters, or the name of a tool.json; empty: free"),
     ("AxisLength", "App::PropertyLength", "--axis-length", "Length of the tool's axis; 0: as the face needs"),
-    ("ShankLength", "App::PropertyLength", "--shank-length", "A cylindrical shank above the flank; 0: none is checked"),
-    ("Holder", "App::PropertyString", "--holder", "Profile of the holder, z:radius,...; empty: none is checked"),
-    ("Coverage", "App::PropertyFloat", "--coverage", "Share of what is reachable that counts as done; 0: as the command has it"),
+    ("ShankLength", "App::PropertyLength", "--shank-length", "Length of a cylindrical shank above the flank; 0: no shank, not checked"),
+    ("Holder", "App::PropertyString", "--holder", "Holder outline as z:radius,z:radius,...; empty: no holder, not checked"),
+    ("Coverage", "App::PropertyFloat", "--coverage", "Share of the accessible area that must be within the tolerance; 0: the default of the command"),
 ]
 CHOICES = [
     ("Side", ["found", "+", "-"], "--side", "Machined side of a sheet"),
-    ("Effort", ["normal", "quick", "thorough"], "--effort", "How much is tried"),
+    ("Effort", ["normal", "quick", "thorough"], "--effort", "How long to search"),
 ]
 
 
@@ -62,16 +62,16 @@ class FlankOperation:
             return False
 
         add("App::PropertyLinkSub", "Faces", "OpenFlank", "Faces to machine")
-        add("App::PropertyLinkList", "Fixtures", "OpenFlank", "What must not be entered by tool, shank and holder")
+        add("App::PropertyLinkList", "Fixtures", "OpenFlank", "Objects that tool, shank and holder must not touch")
         for name, kind, _, text in FIELDS:
             add(kind, name, "OpenFlank", text)
         for name, choices, _, text in CHOICES:
             if add("App::PropertyEnumeration", name, "OpenFlank", text):
                 setattr(obj, name, choices)
-        for kind, name, text in [("App::PropertyString", "Verdict", "What the judge says"), ("App::PropertyInteger", "ExitCode", "Of the command: 0 meets the request"),
-                                 ("App::PropertyStringList", "Reasons", "Why it does not meet the request"), ("App::PropertyStringList", "Cautions", "What a shop must know although it does"),
-                                 ("App::PropertyString", "Folder", "Where the result lies"), ("App::PropertyLink", "ToolShape", "The tool at the first pose"),
-                                 ("App::PropertyLink", "PathShape", "The way of the tip"), ("App::PropertyLink", "ErrorMap", "The faces in the colours of their error")]:
+        for kind, name, text in [("App::PropertyString", "Verdict", "Verdict of the check"), ("App::PropertyInteger", "ExitCode", "Exit code of the command: 0 meets the request"),
+                                 ("App::PropertyStringList", "Reasons", "Why it does not meet the request"), ("App::PropertyStringList", "Cautions", "What to know before machining, although the request is met"),
+                                 ("App::PropertyString", "Folder", "Folder of the result"), ("App::PropertyLink", "ToolShape", "The tool at the first CL point"),
+                                 ("App::PropertyLink", "PathShape", "The path of the tip"), ("App::PropertyLink", "ErrorMap", "The machined faces, coloured by their error")]:
             add(kind, name, "Result", text)
             obj.setEditorMode(name, 1)
 

@@ -1,7 +1,12 @@
 /// A given tool: the strips with which it finishes a target (MATH section 8; docs/algorithms/cover.md).
 ///
-/// The planner's own estimates decide here; what counts as truth is the judge's (verify/judge.h), which shares no code
-/// with it.
+/// What is guaranteed of a result, by the planner's own certificate (strip/certify.h):
+/// - no strip enters the target or an obstacle by more than the tolerance; one that would is cut short or dropped
+/// - strips stand in the order and the direction of machining
+/// - the same bytes for any number of threads; a cancelled cover has fewer strips, all of them certified
+///
+/// Nothing is thrown for a target that cannot be covered: status and message say it. The verdict is the judge's (judge.h),
+/// which shares no code with this.
 #pragma once
 
 #include <string>

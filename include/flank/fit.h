@@ -1,5 +1,16 @@
-/// The flank fit: from a target (and, if the user gives one, a start) to a tool and its motions. The passes are
-/// described in docs/algorithms/fit.md. Lengths in mm.
+/// The flank fit: from a target (and, if the user gives one, a start) to a tool and its motions (docs/algorithms/fit.md).
+///
+/// What every result has, whatever its status but kNoStart:
+/// - one tool; one motion for each strip or task, with clamped cubic rails over [0, 1], all of the tool's axis length
+/// - a free tool whose radii are clamped to RadiusBounds::smallest and largest at the end of each pass; a given tool has the
+///   shape it was given. The other bounds are soft: `after` says what they came to (`legitimate`, `slenderness`)
+/// - figures that are estimates of the planner (`before`, `after`). They are no proof: judge.h has the verdict
+/// - passes that gained: one whose result does not score better on the samples that rank is dropped
+/// - the same bytes for any number of threads, and for a run that was stopped and resumed
+///
+/// A fit that is cancelled returns its best so far. Nothing is thrown for a target that cannot be fitted: status and message
+/// say it. Notation: r(s) is the radius at s of the axis, f the signed distance from target to swept tool (MATH section 9; minus is a
+/// gouge), c the axial slip (MATH section 3). Lengths in mm.
 #pragma once
 
 #include <functional>
@@ -114,7 +125,7 @@ struct FlankFitOptions {
   /// Covered share in [0, 1]: if the best candidate covers less than this after the polish, the last passes are
   /// skipped. 0: never. For a caller that would try more strips in that case anyway.
   double least_coverage_for_last_passes = 0.0;
-  /// Covered share in [0, 1]: fit_automatic returns what covers less without the last look, which costs as much as a pass. 0:
+  /// Covered share in [0, 1]: fit_automatic returns what covers less without the close check, which costs as much as a pass. 0:
   /// never. For a caller that mostly takes another result then, and asks with_close_look() where it does not.
   double least_coverage_for_close_look = 0.0;
   /// fit_automatic: what the flank must not enter; outlives the call. Null: nothing is in the way. fit_from_starts

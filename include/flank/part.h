@@ -1,4 +1,13 @@
 /// Reading a part: CAD files and triangle meshes.
+///
+/// What is guaranteed of a part that was read:
+/// - lengths are in mm, whatever the unit of the file; every number is finite
+/// - faces keep the numbers that the file gives them: one that cannot be read has its number, no geometry, and a reason
+///   (`left_out`), so that no verdict can pass over it
+/// - every repair is one sentence of `repairs`
+/// - the same file gives the same values; `sha256` is that of its bytes
+///
+/// Any bytes may be given: what is no part is refused by InputError, which names file and place (SECURITY.md).
 #pragma once
 
 #include <map>

@@ -1,5 +1,8 @@
 /// A rigid motion of the tool axis (MATH section 2): tip rail a(t), direction rail w(t), u = w/|w|, R(s,t) = a(t) + s
 /// u(t), t in [0, 1].
+///
+/// What is guaranteed: the axis keeps its length at every t, because u is normalised when it is evaluated. Sampled poses
+/// have a proved bound of their distance to the motion (SampledMotion::chord_bound_mm), not a sampled one.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,10 @@
 /// The commands as functions: a job in (job.h), a result out, and the folder that holds it.
+///
+/// What is guaranteed of a result:
+/// - its verdict (`verify`, `acceptance()`) comes from tool, path and part alone, by code that the planner does not share
+/// - it is the same for any number of threads, and for a run that was stopped and resumed, byte by byte
+/// - it is written whole or not at all, beside a manifest that ties its files to each other and to the part
+/// - a job that cannot be done throws UsageError or InputError before any work; a result that falls short is a result
 #pragma once
 
 #include <memory>

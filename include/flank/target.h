@@ -1,4 +1,13 @@
 /// What the tool must touch. One interface for trimmed NURBS faces, meshes with jets, and several of them together.
+///
+/// What every target guarantees:
+/// - `closest` is the global closest point of the trimmed target: of NURBS faces within 1e-9 of its diagonal
+///   (docs/algorithms/nurbs_footpoints.md), of a mesh on its jets (docs/algorithms/mesh_footpoints.md)
+/// - `track` is smooth in the query point as long as the footpoint keeps its branch, also past the border
+/// - samples come in a fixed order, and each stands for its share of the trimmed area
+/// - it does not change after construction, and any number of threads may ask it
+///
+/// Lengths in mm, points in the frame of the part, normals towards the machining side.
 #pragma once
 
 #include <limits>

@@ -1,4 +1,8 @@
 /// A tool: radial function of the cutting flank, shank and holder above it; legitimacy; the meridian.
+///
+/// A tool is legitimate if the spheres of its axis are inscribed in its flank: r > 0, |r'| < 1 and 1 - r'^2 - r r'' > 0 for
+/// every s (MATH section 1). Then its meridian is a curve without corners, and it can be ground. Nothing here assumes that:
+/// check_legitimacy() says whether, and where not. Lengths in mm; s runs from the tip to the upper end, z with it.
 #pragma once
 
 #include <optional>

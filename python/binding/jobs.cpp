@@ -71,24 +71,27 @@ std::vector<std::pair<std::string, std::string>> pairs_of(const std::vector<Shor
 }
 
 void bind_result(py::module_& module) {
-  py::class_<Result, std::shared_ptr<Result>>(module, "Result", "A tool, its path and the verdict about them.")
+  py::class_<Result, std::shared_ptr<Result>>(module, "Result", "A tool, its path and their verdict.")
       .def_readonly("tool", &Result::tool, "The tool.")
       .def_readonly("path", &Result::path, "The path.")
-      .def_readonly("motions", &Result::motions, "Motion k is strip k of the path; of a cavity: the side paths.")
-      .def_readonly("report", &Result::verify, "What the judge found.")
-      .def_readonly("notes", &Result::notes, "Repairs of the part, warnings.")
-      .def_readonly("complete", &Result::complete, "False: stopped early, what is here is unfinished.")
-      .def_readonly("part_sha256", &Result::part_sha256, "Of the part that was read.")
-      .def_readonly("chord_bound_mm", &Result::chord_bound_mm, "Between the motions and the joined poses, mm: proved.")
-      .def_readonly("largest_c", &Result::largest_c, "Largest |c| where the tool touches; below 1 it moves regularly.")
+      .def_readonly("motions", &Result::motions, "Motion k belongs to pass k of the path; of a cavity: the side paths.")
+      .def_readonly("report", &Result::verify, "The figures of the check.")
+      .def_readonly("notes", &Result::notes, "Notes: repairs of the part, warnings.")
+      .def_readonly("complete", &Result::complete, "False: the run was stopped early, and the result is unfinished.")
+      .def_readonly("part_sha256", &Result::part_sha256, "SHA-256 of the part's file.")
+      .def_readonly(
+          "chord_bound_mm", &Result::chord_bound_mm,
+          "Proved bound of the chord error, mm: the distance of the motions from the lines that join the CL points.")
+      .def_readonly("largest_c", &Result::largest_c,
+                    "Largest axial slip |c| where the tool touches the face; at 1 it moves along its own axis.")
       .def_property_readonly(
-          "passed", [](const Result& r) { return r.acceptance().pass(); }, "Whether it meets the request.")
+          "passed", [](const Result& r) { return r.acceptance().pass(); }, "Whether the result meets the request.")
       .def_property_readonly(
           "reasons", [](const Result& r) { return pairs_of(r.acceptance().reasons); },
-          "Why it does not: (figure of verify.json, one line). Empty if it does.")
+          "Why it does not meet the request: pairs (figure of verify.json, sentence). Empty if it does.")
       .def_property_readonly(
           "cautions", [](const Result& r) { return pairs_of(r.acceptance().cautions); },
-          "What the verdict says nothing about: (figure, one line).")
+          "Cautions, which do not change the verdict: pairs (figure, sentence).")
       .def_property_readonly("text", &summary_text, "The summary as a table for a terminal.")
       .def_property_readonly("summary_json", &summary_json, "The text of summary.json.")
       .def(
@@ -98,7 +101,7 @@ void bind_result(py::module_& module) {
             write_result(r, folder.string());
           },
           py::arg("folder"),
-          "Writes all files of the result into a folder, at once, as the command does. Raises InputError.")
+          "Writes all files of the result into a folder, all or none, as the command does. Raises InputError.")
       .def("__repr__", [](const Result& r) {
         return "<openflank.Result, " + std::to_string(r.path.strips.size()) + " strips, " +
                (r.acceptance().pass() ? "meets its request>" : "does not meet its request>");
@@ -106,55 +109,55 @@ void bind_result(py::module_& module) {
 }
 
 void bind_verification(py::module_& module) {
-  py::class_<Verification, std::shared_ptr<Verification>>(module, "Verification", "What verify found in a folder.")
-      .def_readonly("report", &Verification::report, "What the judge found.")
+  py::class_<Verification, std::shared_ptr<Verification>>(module, "Verification", "The result of verify.")
+      .def_readonly("report", &Verification::report, "The figures of the check.")
       .def_readonly("notes", &Verification::notes, "Warnings.")
       .def_property_readonly(
-          "passed", [](const Verification& v) { return v.acceptance.pass(); }, "Whether it meets the request.")
+          "passed", [](const Verification& v) { return v.acceptance.pass(); }, "Whether the result meets the request.")
       .def_property_readonly(
           "reasons", [](const Verification& v) { return pairs_of(v.acceptance.reasons); },
-          "Why it does not: (figure of verify.json, one line). Empty if it does.")
+          "Why it does not meet the request: pairs (figure of verify.json, sentence). Empty if it does.")
       .def_property_readonly(
           "cautions", [](const Verification& v) { return pairs_of(v.acceptance.cautions); },
-          "What the verdict says nothing about: (figure, one line).")
+          "Cautions, which do not change the verdict: pairs (figure, sentence).")
       .def_property_readonly("text", &verify_text, "The verdict as a table for a terminal.");
-  py::class_<PostOutcome, std::shared_ptr<PostOutcome>>(module, "Program", "A program of a machine and what it does.")
+  py::class_<PostOutcome, std::shared_ptr<PostOutcome>>(module, "Program", "An NC program and its figures.")
       .def_readonly("program", &PostOutcome::program,
-                    "The program's text; empty where it does not pass and force is not given.")
+                    "Text of the program; empty if it does not pass and force is not set.")
       .def_readonly("machine", &PostOutcome::machine, "Name of the machine.")
-      .def_readonly("setup", &PostOutcome::setup, "Where the part sits: x,y,z,a,b,c; mm, degrees.")
-      .def_readonly("poses", &PostOutcome::poses, "Planned poses of strips.")
-      .def_readonly("moves", &PostOutcome::moves, "Blocks that move.")
+      .def_readonly("setup", &PostOutcome::setup, "Set-up of the part on the table: x,y,z,a,b,c; mm, degrees.")
+      .def_readonly("poses", &PostOutcome::poses, "Number of CL points of the passes.")
+      .def_readonly("moves", &PostOutcome::moves, "Number of blocks that move the tool.")
       .def_readonly("deviation_mm", &PostOutcome::deviation_mm,
-                    "The control's motion is nowhere farther off, mm: proved.")
+                    "Proved bound of the control's deviation from the path, mm.")
       .def_readonly("minutes", &PostOutcome::minutes, "Machining time.")
       .def_readonly("notes", &PostOutcome::notes, "Warnings.")
       .def_property_readonly(
           "passed", [](const PostOutcome& p) { return p.acceptance.pass(); },
-          "Whether its links cut and hit nothing, and its digits keep the tolerance.")
+          "Whether its links neither gouge nor collide, and its rounding keeps the tolerance.")
       .def_property_readonly(
           "reasons", [](const PostOutcome& p) { return pairs_of(p.acceptance.reasons); },
-          "Why it does not: (figure, one line).")
+          "Why it does not pass: pairs (figure, sentence).")
       .def_property_readonly(
           "cautions", [](const PostOutcome& p) { return pairs_of(p.acceptance.cautions); },
-          "What the verdict says nothing about: (figure, one line).")
+          "Cautions, which do not change the verdict: pairs (figure, sentence).")
       .def_property_readonly("text", &post_text, "The figures as a table for a terminal.")
       .def_property_readonly("figures_json", &post_json, "The figures as JSON.");
 }
 
 void bind_fields(py::module_& module) {
-  py::class_<JobField>(module, "JobField", "A line of the library's table of fields.")
+  py::class_<JobField>(module, "JobField", "A field of the library's table of fields.")
       .def_readonly("name", &JobField::name, "The keyword, with its unit: tolerance_mm.")
-      .def_readonly("option", &JobField::option, "Of the command line: --tolerance.")
-      .def_readonly("unit", &JobField::unit, "mm, mm/min; empty: none.")
-      .def_readonly("group", &JobField::group, "Of the help text; empty: the first.")
-      .def_readonly("help", &JobField::help, "What it means.")
+      .def_readonly("option", &JobField::option, "Name on the command line: --tolerance.")
+      .def_readonly("unit", &JobField::unit, "Unit: mm, mm/min; empty: none.")
+      .def_readonly("group", &JobField::group, "Group of the help text; empty: the first.")
+      .def_readonly("help", &JobField::help, "What the field means.")
       .def_readonly("accepted", &JobField::accepted, "Values that it takes; empty: any.")
       .def_property_readonly(
           "kind", [](const JobField& f) { return kind_name(f.kind); },
-          "text, texts, number, count, auto or count, sign, switch.")
+          "Kind of value: text, texts, number, count, auto or count, sign, switch.")
       .def_readonly("needed", &JobField::needed, "Whether it has no default and must be given.")
-      .def_readonly("usual", &JobField::usual, "The default as a word; None: not set.");
+      .def_readonly("usual", &JobField::usual, "The default as a text; None: not set.");
   module.def("job_fields", &job_fields, py::arg("command"),
              "The table of fields of fit, cover, trochoid, verify, post or design.");
 }

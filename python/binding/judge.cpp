@@ -95,37 +95,37 @@ void bind_swept(py::module_& module) {
         },
         doc);
   };
-  column("f_mm", &SweptDistance::f, "(N,), mm; negative: overcut, positive: material left. No copy.");
-  column("strip", &SweptDistance::strip, "(N,): 0-based; -1: nothing below the horizon. No copy.");
-  column("t", &SweptDistance::t, "(N,): pose index and fraction. No copy.");
+  column("f_mm", &SweptDistance::f, "(N,), mm; negative: gouge, positive: excess material. No copy.");
+  column("strip", &SweptDistance::strip,
+         "(N,): index of the pass, from 0; -1: the tool is nowhere nearer than the horizon. No copy.");
+  column("t", &SweptDistance::t, "(N,): index of the CL point, and fraction. No copy.");
   column("s", &SweptDistance::s, "(N,), mm: arc length on the axis, in [0, L]. No copy.");
   module.def(
       "swept_distances", &swept, py::arg("tool"), py::arg("path"), py::arg("points"), py::arg("horizon_mm") = 1e300,
       "f(x) = least distance, over the whole path, from x to the tool: for N x 3 points, mm. Exact to about 1e-9 "
-      "mm below the horizon. Raises InputError for a tool or poses that are none.");
+      "mm below the horizon. Raises InputError for an invalid tool or invalid CL points.");
 }
 
 void bind_report_parts(py::module_& module) {
-  py::class_<FaceVerdict>(module, "FaceVerdict", "What was found on one face.")
+  py::class_<FaceVerdict>(module, "FaceVerdict", "The figures of one face.")
       .def_readonly("face", &FaceVerdict::face, "\"F1\".")
-      .def_readonly("target", &FaceVerdict::target, "Whether it is machined; else it is a check surface.")
+      .def_readonly("target", &FaceVerdict::target, "Whether the face is machined; else it is a check surface.")
       .def_readonly("area_mm2", &FaceVerdict::area_mm2, "Area, mm^2.")
-      .def_readonly("overcut_mm", &FaceVerdict::overcut_mm, "Deepest cut found, mm.")
-      .def_readonly("overcut_bound_mm", &FaceVerdict::overcut_bound_mm,
-                    "Nothing of the face is cut deeper, mm: proved.")
-      .def_readonly("undercut_mm", &FaceVerdict::undercut_mm, "Most material left, mm (target).")
-      .def_readonly("rms_mm", &FaceVerdict::rms_mm, "Root mean square of f, mm, where a strip sweeps past.")
-      .def_readonly("coverage", &FaceVerdict::coverage, "Area share with |f| <= tolerance.")
-      .def_readonly("coverage_reachable", &FaceVerdict::coverage_reachable, "The same share of the accessible area.")
+      .def_readonly("overcut_mm", &FaceVerdict::overcut_mm, "Deepest gouge found, mm.")
+      .def_readonly("overcut_bound_mm", &FaceVerdict::overcut_bound_mm, "Proved bound of the gouge, mm.")
+      .def_readonly("undercut_mm", &FaceVerdict::undercut_mm, "Most excess material, mm (machined faces only).")
+      .def_readonly("rms_mm", &FaceVerdict::rms_mm, "RMS of f, mm, where a pass goes over the face.")
+      .def_readonly("coverage", &FaceVerdict::coverage, "Finished share of the area: |f| <= tolerance.")
+      .def_readonly("coverage_reachable", &FaceVerdict::coverage_reachable, "Finished share of the accessible area.")
       .def("__repr__", [](const FaceVerdict& f) { return "<openflank.FaceVerdict " + f.face + ">"; });
-  py::class_<WorstPlace>(module, "WorstPlace", "A place that is cut too deep.")
+  py::class_<WorstPlace>(module, "WorstPlace", "A place where a face is gouged.")
       .def_readonly("face", &WorstPlace::face, "\"F1\".")
       .def_property_readonly(
           "point", [](const py::object& self) { return view(self.cast<const WorstPlace&>().point.data(), {3}, self); },
           "(3,), mm. No copy.")
       .def_readonly("f_mm", &WorstPlace::f, "mm, negative.")
       .def_readonly("strip", &WorstPlace::strip, "0-based.")
-      .def_readonly("t", &WorstPlace::t, "Pose index and fraction.")
+      .def_readonly("t", &WorstPlace::t, "Index of the CL point, and fraction.")
       .def_readonly("s", &WorstPlace::s, "Arc length on the axis, mm.");
 }
 
@@ -140,22 +140,23 @@ void bind_judge(py::module_& module) {
       return view(values.data(), {static_cast<py::ssize_t>(values.size())}, self);
     };
   };
-  py::class_<VerifyReport, std::shared_ptr<VerifyReport>>(module, "VerifyReport",
-                                                          "What a tool really leaves along a path.")
+  py::class_<VerifyReport, std::shared_ptr<VerifyReport>>(
+      module, "VerifyReport", "The check of a tool and a path: the surface that they really leave.")
       .def_property_readonly(
           "verdict", [](const VerifyReport& r) { return verdict_text(r.verdict); },
           "pass, overcut, gouge, unproved or not run.")
       .def_readonly("tolerance_mm", &VerifyReport::tolerance_mm, "mm.")
-      .def_readonly("coverage", &VerifyReport::coverage, "Area share of the targets with |f| <= tolerance.")
-      .def_readonly("coverage_reachable", &VerifyReport::coverage_reachable, "The same share of the accessible area.")
-      .def_readonly("reachable_share", &VerifyReport::reachable_share, "Area share that is reachable.")
-      .def_readonly("overcut_mm", &VerifyReport::overcut_mm, "Deepest cut found in a target, mm.")
-      .def_readonly("overcut_bound_mm", &VerifyReport::overcut_bound_mm, "No target is cut deeper, mm: proved.")
-      .def_readonly("undercut_mm", &VerifyReport::undercut_mm, "Most material left on a target, mm.")
-      .def_readonly("rms_mm", &VerifyReport::rms_mm, "Root mean square of f, mm, where a strip sweeps past.")
-      .def_readonly("gouge_mm", &VerifyReport::gouge_mm, "Deepest cut found in a check surface, mm.")
-      .def_readonly("gouge_bound_mm", &VerifyReport::gouge_bound_mm, "No check surface is cut deeper, mm: proved.")
-      .def_readonly("faces", &VerifyReport::faces, "What was found on each face.")
+      .def_readonly("coverage", &VerifyReport::coverage, "Finished share of the machined faces: |f| <= tolerance.")
+      .def_readonly("coverage_reachable", &VerifyReport::coverage_reachable, "Finished share of the accessible area.")
+      .def_readonly("reachable_share", &VerifyReport::reachable_share, "Share of the area that is accessible.")
+      .def_readonly("overcut_mm", &VerifyReport::overcut_mm, "Deepest gouge found in a machined face, mm.")
+      .def_readonly("overcut_bound_mm", &VerifyReport::overcut_bound_mm,
+                    "Proved bound of the gouge of machined faces, mm.")
+      .def_readonly("undercut_mm", &VerifyReport::undercut_mm, "Most excess material on a machined face, mm.")
+      .def_readonly("rms_mm", &VerifyReport::rms_mm, "RMS of f, mm, where a pass goes over the face.")
+      .def_readonly("gouge_mm", &VerifyReport::gouge_mm, "Deepest gouge found in a check surface, mm.")
+      .def_readonly("gouge_bound_mm", &VerifyReport::gouge_bound_mm, "Proved bound of the gouge of check surfaces, mm.")
+      .def_readonly("faces", &VerifyReport::faces, "The figures of each face.")
       .def_property_readonly(
           "unread_faces",
           [](const VerifyReport& r) {
@@ -163,23 +164,22 @@ void bind_judge(py::module_& module) {
             for (const UnjudgedFace& face : r.unread_faces) all.emplace_back(face.face, face.why);
             return all;
           },
-          "Faces that are in the file and could not be read, with the reason: nobody judged them.")
+          "Faces of the file that could not be read and so were not checked, each with its reason.")
       .def_property_readonly(
           "largest_turn_deg",
           [](const VerifyReport& r) { return r.turn ? std::optional(r.turn->angle_deg) : std::nullopt; },
-          "Largest turn of the motion within 1 % of the face's diagonal, degrees; None where nobody asked.")
+          "Largest turn of the motion within 1 % of the face's diagonal, degrees; None if it was not measured.")
       .def_readonly("worst", &VerifyReport::worst, "The deepest places, over all faces.")
       .def_property_readonly("histogram_edges_mm", numbers(&VerifyReport::histogram_edges_mm),
-                             "Edges of the bins of f over the targets, mm. No copy.")
+                             "Edges of the bins of f over the machined faces, mm. No copy.")
       .def_property_readonly("histogram_area_mm2", numbers(&VerifyReport::histogram_area_mm2),
                              "Area of each bin, mm^2. No copy.")
       .def("__repr__",
            [](const VerifyReport& r) { return "<openflank.VerifyReport, " + verdict_text(r.verdict) + ">"; });
-  module.def(
-      "judge", &judge_faces, py::arg("tool"), py::arg("path"), py::arg("part"), py::arg("faces"),
-      py::arg("tolerance_mm"), py::arg("check_faces") = "", py::arg("spacing_mm") = 1.0,
-      "Judges tool and path on faces (\"F1,F3\") of a part at samples spacing_mm apart, mm, with a proof of how deep "
-      "they and the check faces are cut. Raises UsageError and InputError.");
+  module.def("judge", &judge_faces, py::arg("tool"), py::arg("path"), py::arg("part"), py::arg("faces"),
+             py::arg("tolerance_mm"), py::arg("check_faces") = "", py::arg("spacing_mm") = 1.0,
+             "Checks tool and path on faces (\"F1,F3\") of a part at samples spacing_mm apart, mm, with a proved bound "
+             "of every gouge. Raises UsageError and InputError.");
 }
 
 }  // namespace flank::python

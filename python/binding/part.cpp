@@ -61,20 +61,21 @@ void bind_part_class(py::module_& module) {
   py::class_<Part, std::shared_ptr<Part>> type(
       module, "Part", "A part as values, in millimetres: faces as B-splines with trims, or a mesh. Made by read_part.");
   type.def_readonly("file", &Part::file, "Name of the file.")
-      .def_readonly("sha256", &Part::sha256, "Of the bytes of the file, 64 hexadecimal digits.")
-      .def_readonly("format", &Part::format, "One of those that read_part reads: STEP, STL, ...")
-      .def_readonly("unit", &Part::unit, "Of the file: mm, cm, m or in.")
-      .def_readonly("solids", &Part::solids, "How many solids there are.")
+      .def_readonly("sha256", &Part::sha256, "SHA-256 of the file, 64 hexadecimal digits.")
+      .def_readonly("format", &Part::format, "Format of the file: STEP, STL, ...")
+      .def_readonly("unit", &Part::unit, "Unit of the file: mm, cm, m or in.")
+      .def_readonly("solids", &Part::solids, "Number of solids.")
       .def_readonly("repairs", &Part::repairs, "What was repaired, one sentence each.")
-      .def_property_readonly("is_mesh", &Part::is_mesh, "Whether it is a mesh.")
+      .def_property_readonly("is_mesh", &Part::is_mesh, "Whether the part is a mesh.")
       .def_property_readonly(
-          "box", [](const Part& p) { return box_array(p.box); }, "Lowest and highest corner, 2 x 3, mm; tight.")
+          "box", [](const Part& p) { return box_array(p.box); },
+          "Lowest and highest corner of the bounding box, 2 x 3, mm; tight.")
       .def_property_readonly(
           "faces", [](const std::shared_ptr<Part>& p) { return faces_of(p); },
           "The faces F1, F2, ... in the order of the file.")
       .def_property_readonly(
           "vertices", [](const py::object& self) { return points_view(self.cast<const Part&>().mesh.vertices, self); },
-          "Of a mesh: N x 3, mm. No copy.")
+          "Vertices of a mesh: N x 3, mm. No copy.")
       .def_property_readonly(
           "triangles",
           [](const py::object& self) {
@@ -82,7 +83,7 @@ void bind_part_class(py::module_& module) {
             const auto count = static_cast<py::ssize_t>(all.size());
             return view(all.empty() ? nullptr : all.front().data(), {count, 3}, self);
           },
-          "Of a mesh: indices of vertices, M x 3, counter-clockwise seen from the machining side. No copy.");
+          "Triangles of a mesh: indices of vertices, M x 3, counter-clockwise seen from the machining side. No copy.");
   type.def(
       "__getitem__",
       [](const std::shared_ptr<Part>& part, const std::string& id) {
@@ -90,7 +91,7 @@ void bind_part_class(py::module_& module) {
         if (found.size() != 1) throw UsageError("face", id, "is not one face");
         return PartFace{part, found.front()};
       },
-      py::arg("id"), "The face of this name: part[\"F1\"]. Raises InputError naming the faces that there are.");
+      py::arg("id"), "The face of this name: part[\"F1\"]. Raises InputError, which names the faces of the part.");
   type.def(
       "target",
       [](const std::shared_ptr<Part>& part, const std::string& faces, int side) {
@@ -133,7 +134,8 @@ void bind_target_class(py::module_& module) {
   column(
       "patch", [](const Footpoint& f) { return &f.patch; }, 0, "(N,): index of the target's face, or triangle.");
 
-  py::class_<Samples> samples(module, "Samples", "Dense samples of a target: the middles of N cells of its surface.");
+  py::class_<Samples> samples(module, "Samples",
+                              "Dense samples of machined faces: the centres of N cells of the surface.");
   const auto sample = [&](const char* name, auto member, py::ssize_t width, const char* doc) {
     samples.def_property_readonly(
         name,
@@ -152,10 +154,9 @@ void bind_target_class(py::module_& module) {
       "areas_mm2", [](const SurfaceSample& s) { return &s.area; }, 0,
       "(N,), mm^2: the share of the area that each stands for. No copy.");
 
-  py::class_<Target, std::shared_ptr<Target>> type(module, "Target",
-                                                   "What the tool must touch: trimmed faces or a mesh.");
+  py::class_<Target, std::shared_ptr<Target>> type(module, "Target", "The machined faces: trimmed faces or a mesh.");
   type.def_property_readonly("area_mm2", &Target::area, "Area, mm^2.")
-      .def_property_readonly("diagonal_mm", &Target::diagonal, "Diagonal of its box, mm.")
+      .def_property_readonly("diagonal_mm", &Target::diagonal, "Diagonal of the bounding box, mm.")
       .def_property_readonly(
           "box", [](const Target& t) { return box_array(t.box()); }, "Lowest and highest corner, 2 x 3, mm.")
       .def("closest", &closest, py::arg("points"), "The globally closest point for each of N x 3 points, mm.")

@@ -97,33 +97,34 @@ Envelope envelope_of(const RuledMotion& motion, const Tool& tool, int side, int 
 }
 
 void bind_path_classes(py::module_& module) {
-  py::class_<Strip>(module, "Strip", "One pass of the flank.")
-      .def_readonly("id", &Strip::id, "Number of the strip.")
+  py::class_<Strip>(module, "Strip", "One pass.")
+      .def_readonly("id", &Strip::id, "Number of the pass.")
       .def_readonly("kind", &Strip::kind, "flank, side, front, back, entry, link, ...")
-      .def_readonly("layer", &Strip::layer, "Of a cavity that is cut in layers, from 1 at the top; 0: of none.")
-      .def_readonly("face", &Strip::face, "The target, \"F1\" or \"F1,F3\".")
+      .def_readonly("layer", &Strip::layer, "Layer of a cavity, from 1 at the top; 0: no layer.")
+      .def_readonly("face", &Strip::face, "The machined faces, \"F1\" or \"F1,F3\".")
       .def_property_readonly(
           "poses", [](const py::object& self) { return poses_view(self.cast<const Strip&>().poses, self); },
           "N x 6: tip x, y, z, mm, and unit vector i, j, k towards the holder. No copy.")
       .def("__len__", [](const Strip& s) { return s.poses.size(); });
 
   py::class_<Path, std::shared_ptr<Path>> type(
-      module, "Path", "Poses in strips, in the order of machining; joined by straight moves of tip and axis vector.");
+      module, "Path",
+      "Passes in the order of machining; their CL points are joined by straight moves of tip and axis vector.");
   type.def(py::init(&make_path), py::arg("strips"), py::arg("face") = "F1", py::arg("kind") = "flank",
-           "A path of arrays of poses, each N x 6: tip x, y, z, mm, and unit vector i, j, k towards the holder. Raises "
-           "UsageError naming strip and pose.")
-      .def_readonly("strips", &Path::strips, "The strips.")
-      .def_property_readonly("pose_count", &Path::pose_count, "Poses of all strips.")
+           "A path from arrays of CL points, each N x 6: tip x, y, z, mm, and unit vector i, j, k towards the holder. "
+           "Raises UsageError naming pass and CL point.")
+      .def_readonly("strips", &Path::strips, "The passes.")
+      .def_property_readonly("pose_count", &Path::pose_count, "Number of CL points of all passes.")
       .def_static(
           "load", [](const std::filesystem::path& file) { return read_path(file.string()); }, py::arg("file"),
-          "Reads a path.json. Raises InputError naming file, strip and pose.")
+          "Reads a path.json. Raises InputError naming file, pass and CL point.")
       .def(
           "save", [](const Path& path, const std::filesystem::path& file) { write_path(path, file.string()); },
-          py::arg("file"), "Writes a path.json, whole or not at all. Raises InputError.")
+          py::arg("file"), "Writes a path.json, completely or not at all. Raises InputError.")
       .def("to_json", &path_to_json, "The text of path.json; numbers read back as the same doubles.")
       .def_static(
           "from_json", [](const std::string& text) { return path_from_json(text, "text"); }, py::arg("text"),
-          "The path of a path.json's text. Raises InputError naming strip and pose.")
+          "The path of a path.json's text. Raises InputError naming pass and CL point.")
       .def("__len__", [](const Path& p) { return p.strips.size(); })
       .def("__repr__", [](const Path& p) {
         return "<openflank.Path, " + std::to_string(p.strips.size()) + " strips, " + std::to_string(p.pose_count()) +
@@ -156,7 +157,7 @@ void bind_path(py::module_& module) {
             const auto& e = self.cast<const Envelope&>();
             return e.grid(&e.points.front().c, 0, self);
           },
-          "count_t x count_s: regularity; a contact exists where |c| < 1. No copy.");
+          "count_t x count_s: axial slip c; a contact exists where |c| < 1. No copy.");
 
   py::class_<RuledMotion, std::shared_ptr<RuledMotion>>(
       module, "RuledMotion",
@@ -178,7 +179,7 @@ void bind_path(py::module_& module) {
             for (const double at : numbers_of(t, "t")) poses.push_back(motion.pose(at));
             return poses_array(std::move(poses));
           },
-          py::arg("t"), "Poses at times t (N,) in [0, 1]: N x 6, tip (mm) and unit vector towards the holder.")
+          py::arg("t"), "CL points at times t (N,) in [0, 1]: N x 6, tip (mm) and unit vector towards the holder.")
       .def(
           "sample",
           [](const RuledMotion& motion, double chord_tolerance_mm) {
@@ -187,7 +188,7 @@ void bind_path(py::module_& module) {
             return poses_array(sample_motion(motion, options).poses);
           },
           py::arg("chord_tolerance_mm") = SamplingOptions().chord_tolerance_mm,
-          "Poses N x 6 whose straight joins are nowhere farther from the motion than chord_tolerance_mm: proved.")
+          "CL points N x 6, so dense that the chord error is at most chord_tolerance_mm: proved.")
       .def("envelope", &envelope_of, py::arg("tool"), py::arg("side") = 1, py::arg("count_t") = 101,
            py::arg("count_s") = 101,
            "Contact points of the tool under this motion, at equal steps of t and s; side +1 or -1 of the axis.");

@@ -1,4 +1,4 @@
-"""OpenFlank: finds milling tools and the five-axis motions whose flank finishes a free-form surface, and judges them.
+"""OpenFlank: finds milling tools and five-axis motions whose flank finishes a free-form surface, and checks them.
 
 Lengths are in millimetres, points in the frame of the part, poses rows (x, y, z, i, j, k): the tip and the unit vector towards the
 holder. The functions fit, cover, trochoid, verify, post, report, inspect and example do what the commands of these names do, with the

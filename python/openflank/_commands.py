@@ -28,7 +28,7 @@ def inspect(part, unit=None, sort="", type=""):
 def example(name, file, seed=1):
     """Writes a part that the library makes itself, and its truth where it is known, as flank example does: a dict with the files.
 
-    Raises UsageError for a name that there is not, with those that there are; InputError if it cannot be written.
+    Raises UsageError for an unknown name, and lists the known ones; InputError if it cannot be written.
     """
     return json.loads(_core.example_json(name, os.fspath(file), seed))
 

@@ -2,6 +2,7 @@
 
 import inspect
 import os
+import re
 import textwrap
 
 from . import _core
@@ -73,13 +74,19 @@ def _signature(fields, progress):
     return inspect.Signature(parameters)
 
 
+def _in_python(text, fields):
+    """A help text with the keywords in place of the options of the command line."""
+    names = {field.option: field.name for field in fields if field.option.startswith("--")}
+    return re.sub(r"--[a-z-]+", lambda option: names.get(option[0], option[0]), text)
+
+
 def field_lines(fields):
     """Name, help, unit and range of each, for a docstring."""
     lines = []
     for field in fields:
         unit = f" [{field.unit}]" if field.unit else ""
-        accepted = f" ({field.accepted})" if field.accepted else ""
-        text = f"{field.help}{unit}{accepted}."
+        accepted = f" ({_in_python(field.accepted, fields)})" if field.accepted else ""
+        text = f"{_in_python(field.help, fields)}{unit}{accepted}."
         lines += [field.name, textwrap.fill(text, 100, initial_indent="    ", subsequent_indent="    ")]
     return lines
 
@@ -87,7 +94,7 @@ def field_lines(fields):
 def _document(first, fields, progress):
     lines = [first, "", *field_lines(fields)]
     if progress:
-        lines += ["progress", "    Called as progress(stage, share) with the share in [0, 1] of all the work. What it raises ends the work."]
+        lines += ["progress", "    Called as progress(stage, share), share in [0, 1] of all the work. An exception that it raises ends the run."]
     return "\n".join(lines)
 
 
@@ -125,12 +132,12 @@ def _plan(command, fields, callback):
     raise stopped_by
 
 
-fit = _function("fit", "Finds a tool and a five-axis motion whose flank is the face, and judges them: a Result.", _plan, True)
-cover = _function("cover", "Finds the strips with which a given or chosen tool finishes a face, and judges them: a Result.", _plan, True)
+fit = _function("fit", "Finds a tool and a five-axis motion that finish a face, and checks them: a Result.", _plan, True)
+cover = _function("cover", "Finds the passes with which a given or chosen tool finishes a face, and checks them: a Result.", _plan, True)
 trochoid = _function(
-    "trochoid", "Roughs and finishes the cavity between two sides with one tool, and judges it: a Result.", _plan, True)
+    "trochoid", "Roughs and finishes the cavity between two sides with one tool, and checks it: a Result.", _plan, True)
 verify = _function(
-    "verify", "Judges again what lies in a folder, or a program: a Verification.",
+    "verify", "Checks the tool and path of a folder, or an NC program: a Verification.",
     lambda command, fields, callback: _core.run_verify(fields), False)
 post = _function(
     "post", "Writes the program with which a machine runs the path of a folder: a Program.",

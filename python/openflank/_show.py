@@ -54,7 +54,7 @@ def report_html(report):
     rows = [(face.face, "target" if face.target else "check", f"{100 * face.coverage:.2f} %" if face.target else "",
              f"{face.overcut_mm:.4f}", f"{face.overcut_bound_mm:.4f}", f"{face.undercut_mm:.4f}" if face.target else "")
             for face in report.faces]
-    header = ("face", "", "coverage", "overcut, mm", "proved, mm", "material left, mm")
+    header = ("face", "", "finished", "gouge, mm", "proved, mm", "excess material, mm")
     return f"<p>{html.escape(report.verdict)} at {report.tolerance_mm:g} mm</p>" + _table(rows, header)
 
 

@@ -21,6 +21,11 @@ TEST_F(Cli, StandardOutputThatIsFullOrClosedIsExitThree) {
   EXPECT_EQ(shell("\"$FLANK\" --help 2>/dev/null >/dev/full"), 3);
 }
 
+TEST_F(Cli, AReaderThatHasSeenEnoughCostsNoMessage) {
+  EXPECT_EQ(shell("(sleep 0.2; exec \"$FLANK\" --help-all) 2>'" + path("said") + "' | true"), 0);
+  EXPECT_EQ(read_file(path("said")), "");
+}
+
 TEST_F(Cli, StandardErrorThatIsFullOrClosedCostsTheMessageOnly) {
   EXPECT_EQ(shell("\"$FLANK\" inspect nothing.step 2>/dev/full"), 3);
   EXPECT_EQ(shell("\"$FLANK\" inspect nothing.step 2>&-"), 3);

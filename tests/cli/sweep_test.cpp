@@ -68,7 +68,7 @@ TEST_F(SweepCli, APlanIsRefusedByItsLineBeforeAnythingRuns) {
   expect_plan_refused(head + faces + tools + "[variants.\"../out\"]\n", "letters, digits");
   expect_plan_refused(head + faces + tools + "colour = 1\n", "line 6, column 1: unknown key \"colour\"");
   expect_plan_refused(head + faces + "tools = []\n", "a list of texts");
-  expect_plan_refused(head + "faces = [\"F1\", \"F1\"]\n" + tools, "stands there twice");
+  expect_plan_refused(head + "faces = [\"F1\", \"F1\"]\n" + tools, "is given twice");
   expect_plan_refused("command = \"sing\"\n", "schema");
   expect_plan_refused("schema = \n", "line 1");
   expect_refused({"sweep", path("none.toml"), "-o", path("out")}, 3, "none.toml: cannot be read");

@@ -105,6 +105,25 @@ test('what is hidden is out of the way of the pointer', async () => {
   await page.close();
 });
 
+test('a wheel is named and coloured by the roles of its faces', async () => {
+  const part = join(root, 'wheel.step'), file = join(root, 'wheel.html');
+  must('example', 'impeller', '-o', part);
+  must('inspect', part, '--wheel', '--html', file, '--quiet');
+  const roles = JSON.parse(must('inspect', part, '--wheel', '--json'));
+  const page = await browser.open(file);
+  const rows = JSON.parse(await page.value('JSON.stringify([...flankFaces.rowOf.values()].map(({ id, of, role }) => [id, of, role]))'));
+  const found = new Map(rows.map(([id, of, role]) => [id, { of, role }]));
+  for (const id of roles.hub) assert.deepEqual(found.get(id), { of: 'hub', role: 'hub' });
+  roles.blades.forEach((blade, k) => {
+    const side = blade.kind === 'splitter' ? 'splitter side' : 'blade side';
+    for (const id of blade.ahead) assert.deepEqual(found.get(id), { of: `${blade.kind} ${k + 1} ahead`, role: side });
+    for (const { face } of blade.fillets) assert.equal(found.get(face).role, 'fillet');
+  });
+  const kinds = await page.value('[...document.querySelectorAll(".kind")].map((button) => button.dataset.kind).join()');
+  assert.ok(kinds.includes('hub') && kinds.includes('blade side'), kinds);
+  await page.close();
+});
+
 test('a picture is written', () => {
   const png = join(root, 'blisk.png');
   must('inspect', blisk.part, '--png', png, '--quiet');

@@ -61,7 +61,7 @@ test('the slider moves the tool, by keys too', async () => {
   for (const [shown, pose] of [[first, poses[0]], [last, poses.at(-1)]])
     shown.forEach((v, k) => assert.ok(Math.abs(v - pose[k]) < 1e-4, `${shown} is not ${pose}`));
   assert.notEqual(await page.value(text('#where')), words);
-  assert.match(await page.value('document.querySelector("#time").getAttribute("aria-valuetext")'), /^strip 1, pose /);
+  assert.match(await page.value('document.querySelector("#time").getAttribute("aria-valuetext")'), /^pass 1, CL point /);
   await page.close();
 });
 
@@ -115,7 +115,7 @@ test('what a machine does is shown once there is a program', async () => {
   const { joints, time_s: times, cutting } = json(copy, 'motion.json');
   assert.equal(await page.value(`document.querySelectorAll('#machine .series canvas').length`), joints.length + 3);
   assert.equal(await page.value(`[...document.querySelectorAll('#machine canvas')].every((c) => c.width > 300 && c.getContext('2d').getImageData(0, 0, c.width, c.height).data.some((x) => x > 0))`), true);
-  assert.match(await page.value(`document.querySelector('#machine').textContent`), /On linuxcnc-xyzac-trt: .* along the strips/);
+  assert.match(await page.value(`document.querySelector('#machine').textContent`), /On linuxcnc-xyzac-trt: .* cutting/);
   // What post has found against its program stands beside the verdict, and with the program.
   const spoilt = without(copy, 'posted-badly'), motion = json(copy, 'motion.json');
   assert.equal(motion.pass, true);
@@ -123,7 +123,7 @@ test('what a machine does is shown once there is a program', async () => {
   writeFileSync(join(spoilt, 'motion.json'), JSON.stringify({ ...motion, pass: false, reasons: [{ figure: 'gouge_mm', text: 'link 4 cuts F3' }], cautions: [{ figure: 'spindle', text: 'the spindle stands' }] }));
   must('report', spoilt, '--quiet');
   const bad = await open(spoilt);
-  assert.equal(await bad.value(text('#program')), 'Its program: NO');
+  assert.equal(await bad.value(text('#program')), 'Program: does NOT pass');
   assert.match(await bad.value(text('#said')), /PROGRAM link 4 cuts F3.*CAUTION, PROGRAM the spindle stands/);
   assert.match(await bad.value(text('#program-words')), /link 4 cuts F3.*the spindle stands/);
   await bad.close();
@@ -131,7 +131,7 @@ test('what a machine does is shown once there is a program', async () => {
   const set = async (time) => {
     await page.value(`(() => { const s = document.querySelector('#machine-time'); s.value = ${time}; s.dispatchEvent(new Event('input')); return 0; })()`);
     const where = await page.value(`document.querySelector('#machine-where').textContent`);
-    assert.equal(where.includes('along a strip'), cutting[time] === 1);
+    assert.equal(where.includes('cutting'), cutting[time] === 1);
     for (const joint of joints) assert.ok(where.includes(`${joint.name} ${joint.values[time].toFixed(joint.unit === 'mm' ? 1 : 2)} ${joint.unit}`), where);
     return page.value(`JSON.stringify([...document.querySelectorAll('#machine .solid')].map((e) => [e.dataset.name, e.getAttribute('points')]))`);
   };
@@ -181,7 +181,7 @@ test('cycles of a cavity are shown as planned and as replayed', async () => {
   assert.match(words, /at most 20\.0 mm³/);
   assert.equal(await page.value(`document.querySelectorAll('#cavity rect.bar').length`), 3);
   const figures = await page.value(text('#table'));
-  for (const said of [/Engagement, planned59\.50°≤ 60\.0°/, /Layers1 of 2/, /Engagement, replayed60\.25°≤ 60\.0° \+ 2\.7°/, /Material left between the sides0\.200\smm/, /Stock that is left4\.100\scm³/])
+  for (const said of [/Engagement, planned59\.50°≤ 60\.0°/, /Layers1 of 2/, /Engagement, simulated60\.25°≤ 60\.0° \+ 2\.7°/, /Material left between the sides0\.200\smm/, /Stock left4\.100\scm³/])
     assert.match(figures, said);
   await page.close();
   const plain = await open(folder);

@@ -102,12 +102,12 @@ function spoilt(name, change) {
 test('what is not known is not green', async () => {
   const page = await open(join(figures, 'sound'));
   const cases = {
-    untied: [() => {}, 'warn', /Nothing ties these files together/],
+    untied: [() => {}, 'warn', /The files may not belong together/],
     interrupted: [({ summary }) => { summary.complete = false; }, 'fail', /incomplete/],
     'a-no-with-a-yes': [({ verify }) => { verify.reasons = [{ figure: 'overcut_mm', text: 'deep' }]; }, 'fail', /NOT/],
     'a-no-without-reasons': [({ verify }) => { verify.pass = false; }, 'fail', /NOT/],
-    'not-judged': [({ verify }) => { delete verify.pass; }, 'warn', /Not judged/],
-    'no-verdict': [(files) => { files.verify = null; }, 'warn', /Not judged/],
+    'not-judged': [({ verify }) => { delete verify.pass; }, 'warn', /Not checked/],
+    'no-verdict': [(files) => { files.verify = null; }, 'warn', /Not checked/],
   };
   for (const [name, [change, state, words]] of Object.entries(cases)) {
     const { pill, said } = await tell(page, spoilt(name, change));

@@ -49,6 +49,14 @@ program(npm 0)
 configured(${tree} 0 "ON ON" "Fetching" -D FLANK_REPORT=AUTO)
 configured(${tree} 0 "ON ON" "")
 
+# The pages that a source archive brings stand in where npm fails, and are left alone where it works.
+file(WRITE ${WORK_DIR}/project/web/built/page_template.cpp "")
+configured(${tree} 0 "ON ON" "")
+program(npm 1)
+configured(${WORK_DIR}/archive 0 "ON ON" "as it came with the sources .npm could not fetch" -D FLANK_REPORT=ON)
+file(REMOVE_RECURSE ${WORK_DIR}/project/web/built)
+program(npm 0)
+
 # What the user wants is not changed by what is there.
 configured(${tree} 0 "OFF OFF" "" -D FLANK_PYTHON=OFF -D FLANK_REPORT=OFF)
 configured(${tree} 0 "OFF OFF" "")

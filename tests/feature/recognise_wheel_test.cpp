@@ -69,7 +69,7 @@ TEST_F(WheelRolesTest, WhatIsNoWheelIsRefusedWithWhatIsMissing) {
     (void)recognise_wheel(part("twisted-blade"));
     FAIL() << "a blade alone is no wheel";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("this is no wheel: no "), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("not recognised as a wheel: no "), std::string::npos) << error.what();
   }
 }
 

@@ -6,7 +6,7 @@ async function answer(response) {
   try {
     json = JSON.parse(text);
   } catch {
-    throw new Error('the studio gave no answer that can be read');
+    throw new Error('the studio sent an answer that cannot be read');
   }
   if (!response.ok) throw new Error(json.error ?? `the studio refused (${response.status})`);
   return json;
@@ -17,7 +17,7 @@ async function to(path, options) {
   try {
     response = await fetch(`api/${path}`, { cache: 'no-store', ...options });
   } catch {
-    throw new Error('The studio does not answer: it has ended, or the machine slept. Nothing is lost; “flank studio” goes on from its folder.');
+    throw new Error('The studio does not answer: it was ended, or the computer slept. Nothing is lost: start “flank studio” again with the same folder.');
   }
   return answer(response);
 }

@@ -15,7 +15,7 @@ function running(values) {
 }
 
 function layerTable(layers) {
-  const columns = ['Layer', 'Cycles', 'Fronts', 'Backs', 'Sides', 'Links', 'Engagement', 'Removed'];
+  const columns = ['Layer', 'Cycles', 'Cutting', 'Return', 'Sides', 'Links', 'Engagement', 'Removed'];
   const head = columns.map((name, k) => html('th', { scope: 'col', class: k ? 'number' : '' }, name));
   const number = (text) => html('td', { class: 'number' }, text);
   const body = layers.map((layer, k) =>
@@ -49,17 +49,17 @@ function plannedEngagement({ layers, most_engagement: limit }) {
 function removalRate({ layers }) {
   const points = byCycle(layers, (layer, k) => (layer.cycle_way[k] > 0 ? layer.cycle_volume[k] / layer.cycle_way[k] : null));
   const rates = points.map(([, y]) => y ?? 0);
-  const plot = new Plot({ ...WIDE, x: [0, points[points.length - 1][0]], y: [0, above(rates)], xName: 'cycle', yName: 'removed, mm³ a mm',
-    title: `Removed volume for each millimetre of a cycle, at most ${format.plain(Math.max(...rates))} mm³` });
+  const plot = new Plot({ ...WIDE, x: [0, points[points.length - 1][0]], y: [0, above(rates)], xName: 'cycle', yName: 'removed, mm³/mm',
+    title: `Removed volume per millimetre of path in each cycle, at most ${format.plain(Math.max(...rates))} mm³` });
   plot.curve(points, 'curve main');
   return plot.root;
 }
 
 function measured(stock, limit) {
   const way = running(stock.strip_way_mm).map((mm) => mm / 1000);
-  const plot = new Plot({ ...WIDE, x: [0, way[way.length - 1] || 1], y: [0, above(stock.strip_engagement_deg, limit)], xName: 'way, m', yName: 'replayed, degrees',
-    title: `Largest engagement of each strip in the judge’s stock, at most ${format.plain(stock.engagement_deg, 4)} degrees` });
-  // A bar as wide as its strip is long: fronts and backs take turns.
+  const plot = new Plot({ ...WIDE, x: [0, way[way.length - 1] || 1], y: [0, above(stock.strip_engagement_deg, limit)], xName: 'path length, m', yName: 'simulated, degrees',
+    title: `Largest engagement of each move in the stock simulation, at most ${format.plain(stock.engagement_deg, 4)} degrees` });
+  // A bar as wide as its strip is long: cutting and return moves take turns.
   way.forEach((x, k) => plot.bar(k ? way[k - 1] : 0, x, stock.strip_engagement_deg[k], 'var(--accent)'));
   plot.limit(limit, 'limit');
   return plot.root;
@@ -68,8 +68,8 @@ function measured(stock, limit) {
 function leftOver(stock) {
   const way = running(stock.strip_way_mm).map((mm) => mm / 1000), taken = running(stock.strip_volume_mm3);
   const points = way.map((x, k) => [x, (stock.before_mm3 - taken[k]) / 1000]);
-  const plot = new Plot({ ...WIDE, x: [0, way[way.length - 1] || 1], y: [0, above([stock.before_mm3 / 1000])], xName: 'way, m', yName: 'left, cm³',
-    title: `What is left of the blank along the way, from ${format.plain(stock.before_mm3 / 1000)} cm³ to ${format.plain(stock.left_mm3 / 1000)} cm³` });
+  const plot = new Plot({ ...WIDE, x: [0, way[way.length - 1] || 1], y: [0, above([stock.before_mm3 / 1000])], xName: 'path length, m', yName: 'left, cm³',
+    title: `Stock left along the path, from ${format.plain(stock.before_mm3 / 1000)} cm³ to ${format.plain(stock.left_mm3 / 1000)} cm³` });
   plot.curve([[0, stock.before_mm3 / 1000], ...points], 'curve main');
   return plot.root;
 }
@@ -77,6 +77,6 @@ function leftOver(stock) {
 export function cavityCharts(cavity, stock) {
   const planned = cavity.layers.some((layer) => layer.cycles > 0) ? [plannedEngagement(cavity), removalRate(cavity)] : [];
   const replayed = stock && stock.strip_way_mm.length ? [measured(stock, cavity.most_engagement), leftOver(stock)] : [];
-  const text = `${format.length(cavity.way)} of way in ${format.plain(cavity.minutes)} min.`;
+  const text = `Path length ${format.length(cavity.way)}, ${format.plain(cavity.minutes)} min.`;
   return html('div', {}, html('p', { class: 'soft' }, text), layerTable(cavity.layers), html('div', { class: 'charts' }, ...planned, ...replayed));
 }

@@ -10,13 +10,13 @@ const scaleOf = (mm) => (mm < 1 ? { factor: 1000, unit: 'µm' } : { factor: 1, u
 export function histogram(verify) {
   const { edges_mm: edges, area_mm2: areas } = verify.histogram;
   const total = areas.reduce((sum, area) => sum + area, 0);
-  if (!areas.length || !(total > 0)) return html('p', { class: 'soft' }, 'The judge counted no area.');
+  if (!areas.length || !(total > 0)) return html('p', { class: 'soft' }, 'No area was measured.');
   const { factor, unit } = scaleOf(edges[edges.length - 1]);
   const shares = areas.map((area) => (100 * area) / total);
   const top = Math.max(...shares) * 1.12;
   const plot = new Plot({ x: [edges[0] * factor, edges[edges.length - 1] * factor], y: [0, top], height: 230, top: 22,
-    xName: `signed error, ${unit}  (− overcut, + undercut)`, yName: 'share of the area, %', xCount: 8,
-    title: `Histogram of the signed error: ${format.percent(verify.coverage)} of the whole face${typeof verify.coverage_reachable === 'number' ? ` (${format.percent(verify.coverage_reachable)} of what is reachable)` : ''} lies within the tolerance of ${format.tolerance(verify.tolerance_mm)}` });
+    xName: `signed error, ${unit}  (− gouge, + excess material)`, yName: 'share of the area, %', xCount: 8,
+    title: `Histogram of the signed error: ${format.percent(verify.coverage)} of the whole face${typeof verify.coverage_reachable === 'number' ? ` (${format.percent(verify.coverage_reachable)} of the accessible area)` : ''} lies within the tolerance of ${format.tolerance(verify.tolerance_mm)}` });
   const t = verify.tolerance_mm;
   shares.forEach((share, k) => {
     const middle = 0.5 * (edges[k] + edges[k + 1]);
@@ -28,7 +28,7 @@ export function histogram(verify) {
     plot.root.append(svg('line', { class: 'limit', x1: x, x2: x, y1: plot.top, y2: plot.bottom }),
       svg('text', { class: 'limit', x, y: plot.top - 6, 'text-anchor': 'middle' }, side < 0 ? '− tolerance' : '+ tolerance'));
   }
-  return html('div', {}, plot.root, html('p', { class: 'soft' }, 'The first and the last bar hold all that lies beyond.'));
+  return html('div', {}, plot.root, html('p', { class: 'soft' }, 'The first and the last bar also hold all larger errors.'));
 }
 
 /** [travel over all strips shown, ...values] of every place. */
@@ -56,14 +56,14 @@ function errorChart(path, tolerance) {
   // A single place that nothing reached must not flatten all others.
   const most = 3.2 * tolerance;
   const y = [Math.max(low * 1.06, -most) * factor, Math.min(high * 1.06, most) * factor];
-  const plot = new Plot({ x: [0, path.total() || 1], y, xName: 'travel of mid-axis, mm', yName: `error, ${unit}`,
-    title: `Error of the target along the path, from ${format.error(extreme(points, 1, Math.min, 0))} to ${format.error(extreme(points, 2, Math.max, 0))}` });
+  const plot = new Plot({ x: [0, path.total() || 1], y, xName: 'travel of the axis midpoint, mm', yName: `error, ${unit}`,
+    title: `Error of the machined face along the path, from ${format.error(extreme(points, 1, Math.min, 0))} to ${format.error(extreme(points, 2, Math.max, 0))}` });
   const scaled = points.map(([x, a, b]) => [x, a === null ? null : a * factor, b === null ? null : b * factor]);
   plot.band(scaled, 'band');
   plot.curve(scaled.map(([x, , b]) => [x, b]), 'curve under');
   plot.curve(scaled.map(([x, a]) => [x, a]), 'curve over');
-  plot.limit(tolerance * factor, '+ tolerance: undercut');
-  plot.limit(-tolerance * factor, '− tolerance: overcut', 11);
+  plot.limit(tolerance * factor, '+ tolerance: excess material');
+  plot.limit(-tolerance * factor, '− tolerance: gouge', 11);
   return plot;
 }
 
@@ -71,8 +71,8 @@ function regularityChart(path) {
   const points = along(path, (p, k) => [p.largest_c[k] ?? 99, 0]);
   const largest = extreme(points, 1, Math.max, 0);
   const top = Math.min(2, Math.max(1.15, 1.1 * largest));
-  const plot = new Plot({ x: [0, path.total() || 1], y: [0, top], height: 150, xName: 'travel of mid-axis, mm', yName: 'regularity |c|', yCount: 3,
-    title: `Regularity along the path: the largest |c| is ${format.plain(largest)}; at 1 the tool plunges` });
+  const plot = new Plot({ x: [0, path.total() || 1], y: [0, top], height: 150, xName: 'travel of the axis midpoint, mm', yName: 'axial slip |c|', yCount: 3,
+    title: `Axial slip along the path: the largest |c| is ${format.plain(largest)}; at 1 the tool plunges` });
   plot.curve(points, 'curve main');
   plot.limit(1, 'plunges');
   return plot;
@@ -81,8 +81,8 @@ function regularityChart(path) {
 function clearanceChart(path) {
   const points = along(path, (p, k) => [p.clearance_mm[k], 0]);
   const low = Math.min(0, extreme(points, 1, Math.min, 0)), high = extreme(points, 1, Math.max, 1);
-  const plot = new Plot({ x: [0, path.total() || 1], y: [low * 1.1, Math.max(high * 1.1, 1e-3)], height: 150, xName: 'travel of mid-axis, mm',
-    yName: 'clearance, mm', yCount: 3, title: `Clearance of shank, holder and fixtures along the path, least ${format.length(extreme(points, 1, Math.min, 0))}` });
+  const plot = new Plot({ x: [0, path.total() || 1], y: [low * 1.1, Math.max(high * 1.1, 1e-3)], height: 150, xName: 'travel of the axis midpoint, mm',
+    yName: 'clearance, mm', yCount: 3, title: `Clearance of shank, holder and fixtures along the path, at least ${format.length(extreme(points, 1, Math.min, 0))}` });
   plot.curve(points, 'curve main');
   plot.limit(0, 'touches');
   return plot;

@@ -7,7 +7,7 @@ import { FaceModel } from './facemodel.js';
 import { FaceTable, kindButtons, paintKinds, radiusOf, sizeOf } from './facetable.js';
 import * as format from './format.js';
 import { drawScale, drawTriad } from './legend.js';
-import { kindColour, ROLES } from './kinds.js';
+import { kindColour, kindOf, ROLES } from './kinds.js';
 import { Measure } from './measure.js';
 import { Stage } from './scene.js';
 import { palette } from './theme.js';
@@ -26,11 +26,15 @@ function bestCorner(rows) {
   return corners.reduce((best, corner) => (score(corner) > 1.02 * score(best) ? corner : best));
 }
 
-/** [face, what it is] of a wheel.json: "hub", "blade 2 ahead". */
+/** [face, what it is, its role] of a wheel.json: ["F9", "blade 2 ahead", "blade side"]. */
 function wheelParts({ hub, shroud, blades, rest }) {
-  const all = [['hub', hub], ['shroud', shroud], ['rest', rest]], names = { ahead: 'ahead', behind: 'behind', edges: 'edge', tips: 'tip', fillets: 'fillet', buried: 'buried' };
-  blades.forEach((blade, k) => Object.entries(names).forEach(([key, name]) => all.push([`${blade.kind} ${k + 1} ${name}`, blade[key]])));
-  return all.flatMap(([words, ids]) => ids.map((id) => [id, words]));
+  const all = [['hub', 'hub', hub], ['shroud', 'shroud', shroud], ['rest', 'no role', rest]];
+  blades.forEach((blade, k) => {
+    const side = blade.kind === 'splitter' ? 'splitter side' : 'blade side';
+    const names = { ahead: ['ahead', side], behind: ['behind', side], edges: ['edge', 'edge'], tips: ['tip', 'tip'], fillets: ['fillet', 'fillet'], buried: ['buried', 'no role'] };
+    for (const [key, [name, role]] of Object.entries(names)) all.push([`${blade.kind} ${k + 1} ${name}`, role, blade[key]]);
+  });
+  return all.flatMap(([words, role, faces]) => faces.map((face) => [face.face ?? face, words, role]));
 }
 
 /** Rows of faces.json with the pieces below their face. */
@@ -43,6 +47,8 @@ export class Chooser {
     Object.assign(this, { data, changed, smooth, wheel });
     this.rows = flat(data.faces);
     this.rowOf = new Map(this.rows.map((row) => [row.id, row]));
+    // A page of a wheel is coloured by what its faces are.
+    for (const [id, words, role] of data.wheel ? wheelParts(data.wheel) : []) Object.assign(this.rowOf.get(id) ?? {}, { of: words, role });
     this.marks = new Map();
     this.role = 'machine';
     this.glowing = null;
@@ -59,7 +65,7 @@ export class Chooser {
     this.triad = svg('svg', { class: 'triad', width: 84, height: 84, viewBox: '-42 -42 84 84', 'aria-hidden': 'true' });
     this.scale = html('div', { class: 'scalebar', 'aria-hidden': 'true' }, html('span'), html('i'));
     this.picture = html('div', { class: 'picture' }, this.canvas, this.pins, this.buttons = html('div', { class: 'cameras' }, this.cameras(), this.section()), this.probe, this.triad, this.scale);
-    this.kinds = html('div', { class: 'kinds', role: 'group', 'aria-label': 'Kinds of faces' }, ...kindButtons(this.rows, (kind) => this.table.filter({ kind })));
+    this.kinds = html('div', { class: 'kinds', role: 'group', 'aria-label': 'Types of faces' }, ...kindButtons(this.rows, (kind) => this.table.filter({ kind })));
     this.view = html('div', { class: 'facesview' }, this.picture, this.kinds);
   }
 
@@ -74,7 +80,7 @@ export class Chooser {
   /** A plane that cuts the part open. */
   section() {
     const axis = html('select', { 'aria-label': 'Section' }, ...[['', 'No section'], ['0', 'Section in X'], ['1', 'Section in Y'], ['2', 'Section in Z']].map(([value, text]) => html('option', { value }, text)));
-    const place = html('input', { type: 'range', min: '0', max: '1000', value: '500', 'aria-label': 'Place of the section', hidden: '' });
+    const place = html('input', { type: 'range', min: '0', max: '1000', value: '500', 'aria-label': 'Position of the section', hidden: '' });
     const cut = () => {
       place.hidden = axis.value === '';
       const k = Number(axis.value), box = this.model.box(), normal = new Vector3().setComponent(k, -1);
@@ -91,14 +97,14 @@ export class Chooser {
     this.search.addEventListener('input', () => this.table.filter({ words: this.search.value }));
     this.all = html('button', { type: 'button', title: 'Choose all faces that the table lists' }, 'Choose listed');
     this.all.addEventListener('click', () => this.choose(this.table.shown.map((row) => row.id)));
-    this.hide = html('button', { type: 'button', title: 'Take the chosen faces out of the picture (H)' }, 'Hide');
+    this.hide = html('button', { type: 'button', title: 'Hide the chosen faces (H)' }, 'Hide');
     this.hide.addEventListener('click', () => this.hideChosen());
     this.showAll = html('button', { type: 'button', hidden: '' }, 'Show all');
     this.showAll.addEventListener('click', () => this.hideFaces([]));
     const holder = html('div', { class: 'tableholder' });
-    this.tangent = html('button', { type: 'button', title: 'Choose all that is joined smoothly to the chosen faces, too', ...(this.smooth ? {} : { hidden: '' }) }, 'Tangent');
+    this.tangent = html('button', { type: 'button', title: 'Also choose all faces tangent to the chosen ones', ...(this.smooth ? {} : { hidden: '' }) }, 'Tangent');
     this.tangent.addEventListener('click', () => this.chooseSmooth());
-    this.parts = html('button', { type: 'button', title: 'What the faces of a wheel are: hub, blades, sides, edges, tips; the filter finds them, too', ...(this.wheel ? {} : { hidden: '' }) }, 'Wheel');
+    this.parts = html('button', { type: 'button', title: 'Name the faces of a wheel: hub, blades, sides, edges, tips; the filter then finds these names, too', ...(this.wheel ? {} : { hidden: '' }) }, 'Wheel');
     this.parts.addEventListener('click', () => this.nameWheel());
     this.list = html('div', { class: 'faceslist' }, html('div', { class: 'tools' }, this.search, this.all, this.tangent, this.parts, this.hide, this.showAll), holder);
     this.table = new FaceTable(holder, this.rows, { hover: (id) => this.hover(id, true), click: (id, more) => this.click(id, more) }, (id) => this.marks.get(id));
@@ -273,7 +279,7 @@ export class Chooser {
     const marked = new Map();
     for (const [id, role] of this.marks) marked.set(this.rowOf.get(id)?.parent ?? id, role);
     const glowing = this.rowOf.get(this.glowing)?.parent ?? this.glowing;
-    this.model.paint((id) => (marked.has(id) ? ROLES[marked.get(id)].colour : kindColour(this.rowOf.get(id)?.type)), glowing);
+    this.model.paint((id) => (marked.has(id) ? ROLES[marked.get(id)].colour : kindColour(kindOf(this.rowOf.get(id) ?? {}))), glowing);
     this.stage?.draw();
   }
 

@@ -2,7 +2,7 @@
 import { byId, html } from './dom.js';
 import { byName } from './facelist.js';
 import * as format from './format.js';
-import { kindColour } from './kinds.js';
+import { kindColour, kindOf } from './kinds.js';
 
 /** Pixels of a row, as in faces.css; rows drawn beyond what is seen. */
 const HEIGHT = 30, BEYOND = 8;
@@ -64,7 +64,7 @@ export class FaceTable {
   arrange() {
     const words = this.words.toLowerCase().split(/\s+/).filter(Boolean);
     const text = (row) => `${row.id} ${row.of ?? ''} ${row.type} ${row.bend ?? ''}`.toLowerCase();
-    this.shown = this.rows.filter((row) => (!this.kind || row.type === this.kind) && words.every((word) => text(row).includes(word)));
+    this.shown = this.rows.filter((row) => (!this.kind || kindOf(row) === this.kind) && words.every((word) => text(row).includes(word)));
     this.shown.sort(this.sort.order);
     if (this.turned) this.shown.reverse();
     COLUMNS.forEach((column, k) => this.head.children[k].setAttribute('aria-sort', column !== this.sort ? 'none' : this.turned ? 'descending' : 'ascending'));
@@ -87,7 +87,7 @@ export class FaceTable {
     const button = html('button', { type: 'button', class: 'face', 'data-id': row.id, 'aria-pressed': String(Boolean(chosen)) }, row.id);
     const line = html('tr', { 'data-face': row.id, class: [chosen ? `chosen ${chosen}` : '', row.piece ? 'piece' : '', row.id === this.glowing ? 'glowing' : ''].join(' ') },
       html('th', { scope: 'row', class: 'c-id' }, button),
-      html('td', { class: 'c-type' }, html('i', { class: 'swatch', style: `background:${kindColour(row.type)}` }), row.of ? `${row.of}, ${row.type}` : row.type),
+      html('td', { class: 'c-type' }, html('i', { class: 'swatch', style: `background:${kindColour(kindOf(row))}` }), row.of ? `${row.of}, ${row.type}` : row.type),
       ...COLUMNS.slice(2).map(({ key, number }) => html('td', { class: `c-${key}${number ? ' number' : ''}` }, cell[key](row))));
     line.addEventListener('pointerenter', () => this.told.hover(row.id));
     line.addEventListener('click', (event) => this.told.click(row.id, event.shiftKey || event.ctrlKey || event.metaKey));
@@ -122,7 +122,7 @@ export class FaceTable {
 /** A button for each kind of surface, which is the legend as well; `choose(kind)`, empty for all. */
 export function kindButtons(rows, choose) {
   const counts = new Map();
-  for (const row of rows) if (!row.piece) counts.set(row.type, (counts.get(row.type) ?? 0) + 1);
+  for (const row of rows) if (!row.piece) counts.set(kindOf(row), (counts.get(kindOf(row)) ?? 0) + 1);
   const buttons = [...counts].sort((a, b) => b[1] - a[1]).map(([kind, count]) => {
     const button = html('button', { type: 'button', class: 'kind', 'data-kind': kind, 'aria-pressed': 'false' }, html('i', { class: 'swatch' }), `${kind} ${count}`);
     button.addEventListener('click', () => {

@@ -1,9 +1,9 @@
-// The figures with what was asked, and under each of them why it does not pass.
+// The figures with what is required, and under each of them why it does not pass.
 import { html } from './dom.js';
 import * as format from './format.js';
 import { capital, cautions, earlier, nameOf, reasons } from './verdict.js';
 
-/** What was asked for: from the view, else from the summary. */
+/** What is required: from the view, else from the summary. */
 export function asked({ view, verify, summary }) {
   return {
     tolerance: verify?.tolerance_mm ?? view?.tolerance_mm ?? summary?.tolerance ?? null,
@@ -27,7 +27,7 @@ function otherFaces(verify) {
   const entered = enteredFaces(verify);
   const named = entered.slice(0, 3).map((f) => `${f.face} ${format.error(f.overcut_mm)}`).join(', ');
   const more = entered.length > 3 ? ` and ${entered.length - 3} more` : '';
-  return `deepest cut into any face that is not a target${named ? `: ${named}${more}` : ''}`;
+  return `deepest cut into any face that is not machined${named ? `: ${named}${more}` : ''}`;
 }
 
 const at = (point) => `(${point.map((v) => format.plain(v, 4)).join(', ')})`;
@@ -36,35 +36,35 @@ const at = (point) => `(${point.map((v) => format.plain(v, 4)).join(', ')})`;
 function shareRows(verify, { coverage }) {
   const tolerance = format.tolerance(verify.tolerance_mm);
   const list = [{ key: 'coverage', figure: 'coverage', name: 'Finished, whole face', text: format.percent(verify.coverage),
-    hint: `share of the area that ends within ±${tolerance}, whatever a tool can reach` }];
+    hint: `share of the whole face within ±${tolerance}, accessible or not` }];
   if (!('coverage_reachable' in verify)) return list;
   const least = coverage === null ? '' : `≥ ${format.tick(100 * coverage)}\u00a0%`;
-  list.push({ key: 'coverage_reachable', figure: 'coverage_reachable', name: 'Finished, reachable', text: format.percent(verify.coverage_reachable),
-    wanted: least, hint: `a ball of radius ${format.plain(verify.reach_radius_mm)} mm reaches ${format.percent(verify.reachable_share)} of the face` });
+  list.push({ key: 'coverage_reachable', figure: 'coverage_reachable', name: 'Finished, accessible area', text: format.percent(verify.coverage_reachable),
+    wanted: least, hint: `${format.percent(verify.reachable_share)} of the face is accessible to a ball of radius ${format.plain(verify.reach_radius_mm)} mm` });
   if (typeof verify.coverage_reachable_bound === 'number')
-    list.push({ key: 'coverage_reachable_bound', figure: 'coverage_bound', name: 'Reachable, proved', text: format.percent(Math.floor(1e4 * verify.coverage_reachable_bound) / 1e4),
-      wanted: least, hint: 'surely finished, cell by cell' });
+    list.push({ key: 'coverage_reachable_bound', figure: 'coverage_bound', name: 'Finished, proved', text: format.percent(Math.floor(1e4 * verify.coverage_reachable_bound) / 1e4),
+      wanted: least, hint: 'share of the accessible area that is proved to be finished' });
   return list;
 }
 
 function depthRows(verify) {
   const tolerance = `≤ ${format.tolerance(verify.tolerance_mm)}`;
   const row = (key, name, wanted, hint) => ({ key, name, text: format.error(verify[key]), wanted, hint, ...(wanted ? { figure: key } : {}) });
-  const list = [row('overcut_mm', 'Overcut', tolerance, 'deepest cut into the target that was found')];
-  if (verify.depth === 'proved') list.push(row('overcut_bound_mm', 'Overcut, proved', tolerance, 'no place of the target is cut deeper, up to its borders'));
-  list.push(row('gouge_mm', 'Overcut of other faces', tolerance, otherFaces(verify)));
-  if (verify.depth === 'proved') list.push(row('gouge_bound_mm', 'Of other faces, proved', tolerance, 'no place of another face is cut deeper'));
-  else list.push(row('sampling_bound_mm', 'Between the samples', '', `overcut may be deeper than stated by no more than this; ${verify.samples.toLocaleString('en')} samples`));
+  const list = [row('overcut_mm', 'Gouge', tolerance, 'deepest cut found into the machined face')];
+  if (verify.depth === 'proved') list.push(row('overcut_bound_mm', 'Gouge, proved', tolerance, 'the machined face is nowhere cut deeper, up to its borders'));
+  list.push(row('gouge_mm', 'Gouge of other faces', tolerance, otherFaces(verify)));
+  if (verify.depth === 'proved') list.push(row('gouge_bound_mm', 'Gouge of other faces, proved', tolerance, 'no other face is anywhere cut deeper'));
+  else list.push(row('sampling_bound_mm', 'Between the samples', '', `between the ${verify.samples.toLocaleString('en')} samples a gouge may be deeper by at most this`));
   const { buried = [] } = verify;
-  list.push({ key: 'buried.count', figure: 'buried', asks: true, name: 'Strips inside the material', value: buried.length, text: buried.length ? String(buried.length) : 'none',
-    hint: buried.length ? `strip ${buried[0].strip}, about ${at(buried[0].point)}` : 'no strip runs in a solid or behind its sheet' });
-  list.push(row('undercut_covered_mm', 'Undercut where swept', '', 'most material left where the tool sweeps past'),
-    row('undercut_mm', 'Undercut anywhere', '', 'most material left anywhere on the target'),
-    row('rms_mm', 'Root mean square', '', 'of the error where the tool sweeps past'));
+  list.push({ key: 'buried.count', figure: 'buried', asks: true, name: 'Passes inside the material', value: buried.length, text: buried.length ? String(buried.length) : 'none',
+    hint: buried.length ? `pass ${buried[0].strip}, near ${at(buried[0].point)}` : 'no pass runs inside a solid or behind its sheet' });
+  list.push(row('undercut_covered_mm', 'Excess material, finished area', '', 'most material left where the tool passes over the face'),
+    row('undercut_mm', 'Excess material, anywhere', '', 'most material left anywhere on the machined face'),
+    row('rms_mm', 'RMS error', '', 'root mean square of the error where the tool passes over the face'));
   return list;
 }
 
-const AGAINST = { target: 'the target', part: 'other faces', fixture: 'fixtures' };
+const AGAINST = { target: 'the machined face', part: 'other faces', fixture: 'fixtures' };
 
 /** Shank, holder and flank against what they must keep clear of: the judge says of each whether it is kept. */
 function clearanceRows(verify) {
@@ -73,7 +73,7 @@ function clearanceRows(verify) {
     return { key: `clearance.${f.body}.${f.against}`, figure: 'clearance', name: `${capital(f.body)} to ${AGAINST[f.against] ?? f.against}`, value: f.clearance_mm,
       text: format.length(f.clearance_mm), wanted: `≥ ${format.length(f.required_mm, 3)}`,
       state: f.kept ? 'pass' : 'fail',
-      hint: `${enters ? 'enters ' : 'nearest '}${f.obstacle}${f.point ? ` at ${at(f.point)}` : ''}${f.strip ? `, strip ${f.strip}, pose ${format.plain(f.t + 1, 4)}` : ''}; true to ${format.error(f.bound_mm)}` };
+      hint: `${enters ? 'collides with ' : 'nearest: '}${f.obstacle}${f.point ? ` at ${at(f.point)}` : ''}${f.strip ? `, pass ${f.strip}, CL point ${format.plain(f.t + 1, 4)}` : ''}; accurate to ±${format.error(f.bound_mm)}` };
   });
 }
 
@@ -82,8 +82,8 @@ function bendRows(summary) {
   if (!bends) return [];
   const least = summary.least_bend_radius;
   const radius = (mm) => (mm === null || mm > 1e6 ? 'straight' : format.length(mm, 3));
-  return [['tip', 'of the tip'], ['holder_end', 'of the holder end']].map(([end, words]) => ({ key: `bend_radius.${end}`, figure: 'bend_radius', name: `Least bend ${words}`,
-    value: bends[end], text: radius(bends[end]), wanted: least === undefined ? '' : `≥ ${format.length(least, 3)}`, hint: 'radius of its path',
+  return [['tip', 'of the tip'], ['holder_end', 'of the holder end']].map(([end, words]) => ({ key: `bend_radius.${end}`, figure: 'bend_radius', name: `Smallest path radius ${words}`,
+    value: bends[end], text: radius(bends[end]), wanted: least === undefined ? '' : `≥ ${format.length(least, 3)}`, hint: 'smallest radius of curvature of its path',
     ...(least !== undefined ? { state: bends[end] === null || bends[end] >= least ? 'pass' : 'fail' } : {}) }));
 }
 
@@ -91,35 +91,35 @@ function cavityRows(cavity) {
   if (!cavity) return [];
   const done = cavity.layers.filter((layer) => layer.status === 'done').length;
   return [{ key: 'engagement', figure: 'engagement', name: 'Engagement, planned', value: cavity.engagement, text: `${format.plain(cavity.engagement, 4)}°`,
-    wanted: `≤ ${format.plain(cavity.most_engagement)}°`, hint: 'largest of the planned cycles' },
+    wanted: `≤ ${format.plain(cavity.most_engagement)}°`, hint: 'largest engagement angle of the planned cycles' },
   { key: 'cycles', figure: 'cycles', asks: true, name: 'Layers', value: done, text: `${done} of ${cavity.layers.length}`, wanted: 'all',
-    hint: `${cavity.layers.reduce((sum, layer) => sum + layer.cycles, 0)} cycles; done to their depth` }];
+    hint: `${cavity.layers.reduce((sum, layer) => sum + layer.cycles, 0)} cycles; layers that are complete` }];
 }
 
 /** The whole program in the judge's stock: one verdict over three figures. */
 function stockRows(stock, cavity) {
   if (!stock) return [];
-  const list = [{ key: 'stock.engagement_deg', figure: 'stock', asks: true, name: 'Engagement, replayed', value: stock.engagement_deg, text: `${format.plain(stock.engagement_deg, 4)}°`,
+  const list = [{ key: 'stock.engagement_deg', figure: 'stock', asks: true, name: 'Engagement, simulated', value: stock.engagement_deg, text: `${format.plain(stock.engagement_deg, 4)}°`,
     wanted: cavity ? `≤ ${format.plain(cavity.most_engagement)}°${stock.resolution_deg ? ` + ${format.plain(stock.resolution_deg, 2)}°` : ''}` : '',
-    hint: 'in the judge’s stock, whose cells count for a little; this row is the verdict of the replay' }];
+    hint: 'in the stock simulation; the allowance is the size of its cells. The verdict of the simulation stands in this row' }];
   if (typeof stock.uncut_mm === 'number') list.push({ key: 'stock.uncut_mm', name: 'Material left between the sides', value: stock.uncut_mm, text: format.length(stock.uncut_mm, 3),
-    hint: stock.uncut_mm > 0 && stock.uncut_point ? `longest stretch, before ${at(stock.uncut_point)}` : 'nothing stands between them' });
-  if (typeof stock.entered_mm === 'number') list.push({ key: 'stock.entered_mm', name: 'Faces entered, replayed', value: stock.entered_mm, text: format.error(stock.entered_mm),
-    hint: 'deepest that the stock’s surface lies inside a judged face' });
-  list.push({ key: 'stock.left_mm3', name: 'Stock that is left', value: stock.left_mm3, text: `${format.plain(stock.left_mm3 / 1000, 4)}\u00a0cm³`,
-    hint: `of ${format.plain(stock.before_mm3 / 1000, 4)} cm³ of the blank, as far as the tool goes` });
+    hint: stock.uncut_mm > 0 && stock.uncut_point ? `longest stretch, before ${at(stock.uncut_point)}` : 'no material is left between them' });
+  if (typeof stock.entered_mm === 'number') list.push({ key: 'stock.entered_mm', name: 'Gouge, simulated', value: stock.entered_mm, text: format.error(stock.entered_mm),
+    hint: 'how deep the simulated stock ends below a checked face' });
+  list.push({ key: 'stock.left_mm3', name: 'Stock left', value: stock.left_mm3, text: `${format.plain(stock.left_mm3 / 1000, 4)}\u00a0cm³`,
+    hint: `of ${format.plain(stock.before_mm3 / 1000, 4)} cm³ of the blank that lie in the range of the tool` });
   return list;
 }
 
 function toolRows(files) {
   const out = [], tool = files.view?.tool;
   if (tool && 'legitimate' in tool)
-    out.push({ key: 'legitimate', figure: 'legitimate', asks: true, name: 'Profile of the tool', value: tool.legitimate, text: tool.legitimate ? 'legitimate' : 'not legitimate',
-      ...(tool.legitimate ? {} : { state: 'fail' }), hint: tool.reason || 'its spheres are inscribed all along' });
+    out.push({ key: 'legitimate', figure: 'legitimate', asks: true, name: 'Tool profile', value: tool.legitimate, text: tool.legitimate ? 'valid' : 'not valid',
+      ...(tool.legitimate ? {} : { state: 'fail' }), hint: tool.reason || 'the profile can be ground, and its flank cuts along its whole length' });
   const c = largestC(files);
   if (c !== null)
-    out.push({ key: 'largest_c', name: 'Regularity, largest |c|', value: c, text: format.plain(c), wanted: '< 1', ...(c < 1 ? {} : { state: 'warn' }),
-      hint: 'along the path; at 1 the tool plunges along its own axis' });
+    out.push({ key: 'largest_c', name: 'Axial slip, largest |c|', value: c, text: format.plain(c), wanted: '< 1', ...(c < 1 ? {} : { state: 'warn' }),
+      hint: 'how much the tool moves along its own axis where it touches; at 1 it plunges' });
   return out;
 }
 
@@ -168,7 +168,7 @@ export function table(list) {
     html('tr', { class: 'more' }, html('td', { colspan: 4 }, row.hint ? html('small', {}, row.hint) : null,
       ...(row.why ?? []).map(({ text, state }) => html('em', { class: `why ${state}` }, text)))),
   ]);
-  const head = ['Figure', 'Value', 'Asked', ''].map((name, k) =>
+  const head = ['Figure', 'Value', 'Required', ''].map((name, k) =>
     html('th', { scope: 'col', class: k === 1 || k === 2 ? 'number' : '' }, name || html('span', { class: 'sr' }, 'Verdict')));
   return html('table', {}, html('thead', {}, html('tr', {}, ...head)), html('tbody', {}, ...body));
 }

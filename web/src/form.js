@@ -51,9 +51,9 @@ export class Form {
 
   input(field) {
     const usual = field.default ?? '';
-    if (field.key === 'fixture_unit') return choice([['', 'none is a mesh'], ...UNITS.map((unit) => [unit, unit])], '');
+    if (field.key === 'fixture_unit') return choice([['', 'no fixture is a mesh'], ...UNITS.map((unit) => [unit, unit])], '');
     if (field.choices) return choice(field.choices.map((one) => [one === usual ? '' : one, one === usual ? `${one} (default)` : one]), '');
-    if (field.kind === 'sign') return choice([['', 'found by itself'], ['+', '+ (normal of the file)'], ['-', '− (against it)']], '');
+    if (field.kind === 'sign') return choice([['', 'automatic'], ['+', '+ (normal of the file)'], ['-', '− (against the normal of the file)']], '');
     if (field.kind === 'switch') return choice([['', usual || 'off'], ...['on', 'off'].filter((one) => one !== (usual || 'off')).map((one) => [one, one])], '');
     return html('input', { type: 'text', placeholder: usual || hint(field), autocomplete: 'off', spellcheck: 'false', inputmode: field.kind === 'number' ? 'decimal' : 'text' });
   }

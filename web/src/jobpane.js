@@ -10,8 +10,8 @@ const REST = 500;
 
 /** What can be wanted: the roles of faces and the fields that they fill. */
 const COMMANDS = {
-  fit: { name: 'Find a tool', help: 'A tool is shaped for the face, and its motion with it.', roles: { machine: 'faces', protect: 'check_faces', ignore: 'ignore_faces' }, needed: ['machine'], skip: ['skin'] },
-  cover: { name: 'Given tool', help: 'The strips with which a tool finishes the face. Tool “catalogue” chooses one from the catalogue.', roles: { machine: 'faces', protect: 'check_faces', ignore: 'ignore_faces' }, needed: ['machine'], skip: ['skin'] },
+  fit: { name: 'Find a tool', help: 'The shape of the tool and its motion are found together, for this face.', roles: { machine: 'faces', protect: 'check_faces', ignore: 'ignore_faces' }, needed: ['machine'], skip: ['skin'] },
+  cover: { name: 'Given tool', help: 'Passes with which a tool of your choice finishes the face. The tool “catalogue” is the best one of the catalogue.', roles: { machine: 'faces', protect: 'check_faces', ignore: 'ignore_faces' }, needed: ['machine'], skip: ['skin'] },
   trochoid: { name: 'Cavity', help: 'One tool roughs and finishes the cavity between two sides.', roles: { left: 'left', right: 'right', floor: 'floor', protect: 'check_faces', ignore: 'ignore_faces' }, needed: ['left', 'right'], skip: ['faces', 'skin', 'side'] },
 };
 const SHORT = { faces: '--face', check_faces: '--check-faces', ignore_faces: '--ignore-faces', left: '--left', right: '--right', floor: '--floor' };
@@ -114,7 +114,7 @@ export class JobPane {
     this.form.suggest({ tolerance_mm: number(defaults.tolerance), radius_min_mm: number(defaults.radius_min), radius_max_mm: number(defaults.radius_max), reach_radius_mm: number(defaults.reach_radius) });
     const side = defaults.sides[0];
     byId('defaults').append(html('p', {}, [`Tolerance ±${number(defaults.tolerance)} mm`, `tool radius ${number(defaults.radius_min)} to ${number(defaults.radius_max)} mm`,
-      side ? `side ${side.side === '+' ? '+' : '−'}: ${side.reason ?? ''}` : 'away from the material', defaults.reach_radius === null ? '' : `reach with a ball of R ${number(defaults.reach_radius)} mm`].filter(Boolean).join(' · ')));
+      side ? `side ${side.side === '+' ? '+' : '−'}: ${side.reason ?? ''}` : 'away from the material', defaults.reach_radius === null ? '' : `accessible to a ball of R ${number(defaults.reach_radius)} mm`].filter(Boolean).join(' · ')));
   }
 
   async begin() {

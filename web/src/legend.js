@@ -25,17 +25,17 @@ export function legend(tolerance, span) {
   const y = (x) => TOP + ((span - x) / (2 * span)) * HEIGHT;
   const below = TOP + HEIGHT;
   const root = svg('svg', { viewBox: '0 0 112 304', width: 112, height: 304, role: 'img',
-    'aria-label': `Colours of the signed error: pale near zero, a jump at the tolerance of ${format.tolerance(tolerance)}, blue where material is left, red where too much is taken, grey where nothing reached` });
+    'aria-label': `Colours of the signed error: pale near zero, a jump at the tolerance of ${format.tolerance(tolerance)}, blue where material is left, red where the face is gouged, grey where it is not machined` });
   root.append(...bar(y, span));
   for (const x of labels(span)) {
     const label = x === 0 ? '0' : `${x > 0 ? '+' : ''}${format.error(x * tolerance, 2)}`;
     const place = y(x) + (x === span ? 9 : x === -span ? 0 : 4);
     root.append(svg('text', { x: X + BAR + 12, y: place, class: Math.abs(x) === 1 ? 'strong' : '' }, label));
   }
-  root.append(svg('text', { x: X, y: 14, class: 'strong' }, 'Signed error'), svg('text', { x: X, y: 31, class: 'soft' }, 'material left'),
-    svg('text', { x: X, y: below + 17, class: 'soft' }, 'cut too deep'));
+  root.append(svg('text', { x: X, y: 14, class: 'strong' }, 'Signed error'), svg('text', { x: X, y: 31, class: 'soft' }, 'excess material'),
+    svg('text', { x: X, y: below + 17, class: 'soft' }, 'gouge'));
   if (span > 1) root.append(svg('rect', { x: X, y: below + 29, width: BAR, height: 12, fill: UNREACHED }),
-    svg('text', { x: X + BAR + 12, y: below + 39 }, 'not reached'));
+    svg('text', { x: X + BAR + 12, y: below + 39 }, 'not machined'));
   else root.append(svg('text', { x: X, y: below + 38, class: 'soft' }, `within ±${format.tolerance(tolerance)}`));
   return root;
 }

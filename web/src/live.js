@@ -23,7 +23,7 @@ export function verdictOf(job) {
 function curve(points) {
   const shown = points.filter(({ best }) => best), x = ({ share }) => SIZE.width * share, y = ({ best }) => SIZE.height - 4 - (SIZE.height - 8) * Math.max(0, best.coverage);
   const line = shown.map((p) => `${x(p).toFixed(1)},${y(p).toFixed(1)}`).join(' ');
-  return svg('svg', { viewBox: `0 0 ${SIZE.width} ${SIZE.height}`, class: 'curve-best', role: 'img', 'aria-label': 'Best finished share over the progress', preserveAspectRatio: 'none' },
+  return svg('svg', { viewBox: `0 0 ${SIZE.width} ${SIZE.height}`, class: 'curve-best', role: 'img', 'aria-label': 'Best finished area so far, over the progress of the job', preserveAspectRatio: 'none' },
     svg('line', { x1: 0, x2: SIZE.width, y1: 4, y2: 4, class: 'grid' }), svg('polyline', { points: line, class: 'curve main' }));
 }
 
@@ -128,7 +128,7 @@ export class Live {
 
   tell() {
     const { job } = this, bad = job.crash || (job.exit > 1 ? this.message.replace(/^flank: /, '') : '');
-    const stopped = job.state !== 'done' || !job.resumable ? '' : job.summary ? 'Stopped: what is shown is the best so far. Resume goes on from there.' : 'Stopped before anything was found; Resume goes on from there.';
+    const stopped = job.state !== 'done' || !job.resumable ? '' : job.summary ? 'Stopped. Shown is the best result so far; Resume continues from there.' : 'Stopped before a result was found; Resume continues.';
     if (this.said === bad + stopped) return;
     this.said = bad + stopped;
     this.words.replaceChildren(...(bad ? [html('p', { class: 'notice', role: 'alert' }, bad)] : []), ...(stopped ? [html('p', { class: 'soft' }, stopped)] : []));

@@ -121,7 +121,7 @@ export class MachinePicture {
     });
     const { joints, time_s: times, cutting } = this.motion;
     const words = joints.map((joint, k) => `${joint.name} ${values[k].toFixed(joint.unit === 'mm' ? 1 : 2)} ${joint.unit}`).join(', ');
-    this.words.textContent = `${format.plain(times[time], 4)} s, ${cutting[time] ? 'along a strip' : 'on a link'}: ${words}`;
+    this.words.textContent = `${format.plain(times[time], 4)} s, ${cutting[time] ? 'cutting' : 'on a link'}: ${words}`;
     this.slider.setAttribute('aria-valuetext', this.words.textContent);
   }
 }

@@ -4,7 +4,7 @@ import { html } from './dom.js';
 import { Form } from './form.js';
 
 /** Files that people ask for, and what they are. */
-const FILES = { 'tool.dxf': 'Tool drawing', 'tool.step': 'Tool, solid', 'path.cls': 'Path, CL file', 'strips.step': 'Cut surfaces', 'verify.json': 'Verdict', 'tool.json': 'Tool, exact', 'path.json': 'Path, exact' };
+const FILES = { 'tool.dxf': 'Tool drawing', 'tool.step': 'Tool, solid', 'path.cls': 'Path, CL file', 'strips.step': 'Cut surfaces', 'verify.json': 'Verdict', 'tool.json': 'Tool, as data', 'path.json': 'Path, as data' };
 
 const link = (path, text, title) => html('a', { href: place(path), download: '', class: 'download', title: title ?? '' }, text);
 
@@ -12,9 +12,9 @@ export class Machining {
   constructor(id, job, changed) {
     Object.assign(this, { id, changed });
     this.outcome = html('div', { class: 'outcome', 'aria-live': 'polite' });
-    this.form = html('div', {}, 'Machines are looked up…');
+    this.form = html('div', {}, 'Loading the list of machines…');
     this.downloads = html('div', { class: 'downloads' });
-    this.root = html('section', { class: 'card machining', 'aria-label': 'To the machine' }, html('h2', {}, 'To the machine'), this.form, this.outcome, html('h2', {}, 'To take along'), this.downloads);
+    this.root = html('section', { class: 'card machining', 'aria-label': 'To the machine' }, html('h2', {}, 'To the machine'), this.form, this.outcome, html('h2', {}, 'Files to download'), this.downloads);
     this.list(job);
     this.begin().catch((error) => this.form.replaceChildren(html('p', { class: 'notice' }, error.message)));
   }
@@ -58,7 +58,7 @@ export class Machining {
   async post() {
     const machine = this.machine.value;
     const told = await post(`jobs/${this.id}/post`, { fields: { ...this.fields.values(), machine } });
-    const judge = html('button', { type: 'button', id: 'judge' }, 'Judge the program');
+    const judge = html('button', { type: 'button', id: 'judge' }, 'Check the program');
     judge.addEventListener('click', () => this.act(judge, async () => this.say(await post(`jobs/${this.id}/judge`, { program: told.program, machine }), 'Program')));
     this.say(told, 'Post', html('p', {}, html('code', {}, told.line)), ...(told.program ? [html('p', { class: 'row' }, link(`jobs/${this.id}/programs/${told.program}`, `Download ${told.program}`), judge)] : []));
     this.changed();

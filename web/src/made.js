@@ -12,12 +12,12 @@ export function made({ view, summary, verify }, program) {
   const programs = [view ? `computed by ${view.program}` : null, `page by ${program}`].filter(Boolean);
   entries.push(['Program', programs.join(', ')]);
   if (summary) {
-    entries.push(['Path', `${summary.strips} strip${summary.strips === 1 ? '' : 's'}, ${summary.poses} poses, joined within ${format.error(summary.chord_bound)} of the motion`]);
-    entries.push(['Target', `diagonal ${format.length(summary.diagonal)}; errors relative to it: overcut ${format.plain((verify?.overcut_mm ?? summary.overcut) / summary.diagonal, 2)}`]);
+    entries.push(['Path', `${summary.strips} pass${summary.strips === 1 ? '' : 'es'}, ${summary.poses} CL points, chord error ${format.error(summary.chord_bound)}`]);
+    entries.push(['Machined face', `diagonal ${format.length(summary.diagonal)}; gouge relative to it ${format.plain((verify?.overcut_mm ?? summary.overcut) / summary.diagonal, 2)}`]);
   }
-  if (view) entries.push(['Part', `${view.part}, target ${view.faces}`]);
+  if (view) entries.push(['Part', `${view.part}, machined ${view.faces}`]);
   const notes = summary?.notes ?? [];
   if (notes.length) entries.push(['Notes', html('ul', {}, ...notes.map((note) => html('li', {}, note)))]);
   return html('div', {}, list(entries),
-    html('p', { class: 'soft' }, 'All lengths are in millimetres. The error is the signed distance between the target and what the tool leaves: minus where it cuts too deep, plus where material is left. It comes from tool, poses and part alone, not from the planner.'));
+    html('p', { class: 'soft' }, 'All lengths are in millimetres. The error is the signed distance from the machined face to the surface that the tool leaves: minus is a gouge, plus is excess material. It is computed from tool, CL points and part alone, without the planner’s figures.'));
 }

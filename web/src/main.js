@@ -31,7 +31,7 @@ function subtitle({ view, summary }) {
     const radii = view.tool.profile.map(([, , rho]) => rho);
     const kind = view.tool.family === 'spline' ? 'free tool' : view.tool.family;
     parts.push(`${kind}, ⌀ ${format.plain(2 * Math.min(...radii))} to ${format.length(2 * Math.max(...radii), 3)}, axis ${format.length(view.tool.axis_length_mm, 3)}`);
-    parts.push(`${view.strips.length} strip${view.strips.length === 1 ? '' : 's'}`);
+    parts.push(`${view.strips.length} pass${view.strips.length === 1 ? '' : 'es'}`);
   }
   const tolerance = view?.tolerance_mm ?? summary?.tolerance;
   if (tolerance) parts.push(`tolerance ±${format.tolerance(tolerance)}`);
@@ -52,9 +52,9 @@ const count = (number, one, more = `${one}s`) => `${number} ${number === 1 ? one
 /** Below the title: each reason, each caution, and what of the files is not as it should be. */
 function said(files) {
   const line = (state, word) => ({ text }) => byId('said').append(html('li', { class: state }, html('strong', {}, word), ` ${text}`));
-  if (!files.tied) line('warn untied', 'NOT TIED')({ text: 'There is no manifest.json here: nothing says that these files belong together, to this part, or that nobody has changed them. “flank verify” judges them again.' });
+  if (!files.tied) line('warn untied', 'NO MANIFEST')({ text: 'The folder has no manifest.json, so these files may be edited, or of different results or parts. “flank verify” checks them again.' });
   reasons(files).forEach(line('fail', 'NO'));
-  earlier(files).forEach(line('warn', 'WHEN IT WAS MADE'));
+  earlier(files).forEach(line('warn', 'EARLIER RUN'));
   const program = programVerdict(files);
   program?.reasons.forEach(line('fail', 'PROGRAM'));
   cautions(files).forEach(line('warn', 'CAUTION'));
@@ -72,8 +72,8 @@ function head(files) {
   pill('verdict', state, text);
   const amber = cautions(files), entered = files.verify ? enteredFaces(files.verify) : [], program = programVerdict(files);
   pill('cautions', 'warn', amber.length ? count(amber.length, 'caution') : '', amber.map((one) => one.text).join('\n'));
-  pill('program', program?.pass ? 'warn' : 'fail', !program ? '' : !program.pass ? 'Its program: NO' : program.cautions.length ? `Its program: ${count(program.cautions.length, 'caution')}` : '');
-  pill('entered', 'fail', entered.length ? `Enters ${count(entered.length, 'other face')}` : '', entered.map((f) => `${f.face} by ${format.error(f.overcut_mm)}`).join(', '));
+  pill('program', program?.pass ? 'warn' : 'fail', !program ? '' : !program.pass ? 'Program: does NOT pass' : program.cautions.length ? `Program: ${count(program.cautions.length, 'caution')}` : '');
+  pill('entered', 'fail', entered.length ? `Gouges ${count(entered.length, 'other face')}` : '', entered.map((f) => `${f.face} by ${format.error(f.overcut_mm)}`).join(', '));
   said(files);
 }
 
@@ -89,7 +89,7 @@ function part(id, draw) {
   } catch (error) {
     const name = byId(id)?.querySelector('h2')?.textContent ?? byId(id)?.getAttribute('aria-label') ?? id;
     drop(id);
-    notice(`“${name}” is missing here: ${error.message}.`);
+    notice(`“${name}” cannot be shown: ${error.message}.`);
     return null;
   }
 }
@@ -137,7 +137,7 @@ function moving(files, options, page) {
 }
 
 function missing(files) {
-  const wanted = { view: 'the 3D view, the tool and the charts along the path', verify: 'the figures of the judge', summary: 'the summary of the fit' };
+  const wanted = { view: 'the 3D view, the tool and the charts along the path', verify: 'the figures of the check', summary: 'the summary of the result' };
   for (const [name, what] of Object.entries(wanted))
     if (!files[name]) notice(`The folder holds no ${name}.json, so ${what} ${name === 'summary' ? 'is' : 'are'} missing here.${name === 'summary' ? '' : ' “flank verify” writes it.'}`);
 }

@@ -73,7 +73,7 @@ export class PartPane {
     if (names.join('\n') === this.listed && byId('parts').value === this.name) return;
     this.listed = names.join('\n');
     byId('parts').hidden = names.length < 2 && (names.length === 0 || this.name !== '');
-    byId('parts').replaceChildren(...(this.name ? [] : [html('option', { value: '' }, 'A part that is here…')]), ...names.map((name) => html('option', { value: name }, name)));
+    byId('parts').replaceChildren(...(this.name ? [] : [html('option', { value: '' }, 'Parts of this studio…')]), ...names.map((name) => html('option', { value: name }, name)));
     byId('parts').value = this.name;
   }
 

@@ -30,7 +30,7 @@ export class Player {
     this.slider.value = Math.round(1000 * this.share);
     const place = this.path.locate(this.share);
     if (!place) return;
-    const words = `strip ${place.strip.id}, pose ${(place.t + 1).toFixed(1)} of ${place.strip.poseCount}, ${format.length(place.travel, 3)} of ${format.length(place.strip.length, 3)}`;
+    const words = `pass ${place.strip.id}, CL point ${(place.t + 1).toFixed(1)} of ${place.strip.poseCount}, ${format.length(place.travel, 3)} of ${format.length(place.strip.length, 3)}`;
     byId('where').textContent = words;
     this.slider.setAttribute('aria-valuetext', words);
     this.moved(place, this.share);

@@ -125,9 +125,11 @@ export function toolFacts(tool, summary) {
   const facts = [], fact = (name, value, key) => facts.push(html('dt', {}, name), html('dd', key ? { 'data-key': key, 'data-value': JSON.stringify(summary[key] ?? null) } : {}, value));
   const shape = (profile) => `${format.length(profile[profile.length - 1][0] - profile[0][0])} long, ⌀ ${format.length(2 * Math.max(...profile.map(([, r]) => r)))}, from z = ${format.length(profile[0][0])} on`;
   if (typeof summary?.slenderness === 'number') {
-    fact('Slenderness', `${format.plain(summary.slenderness)}: bends as a cylinder of ⌀ ${format.length(summary.equivalent_diameter)} that is as long, ${format.length(summary.slenderness * summary.equivalent_diameter)}`, 'slenderness');
+    fact('Slenderness', `${format.plain(summary.slenderness)}: bends as a cylinder of ⌀ ${format.length(summary.equivalent_diameter)}, length ${format.length(summary.slenderness * summary.equivalent_diameter)}`, 'slenderness');
     fact('Tip deflection', `${format.plain(summary.tip_deflection_um_per_100N)}\u00a0µm under 100 N across the tip, in cemented carbide`, 'tip_deflection_um_per_100N');
   }
+  const concave = tool.profile.reduce((least, [, , , k]) => (k !== null && k < least ? k : least), -1e-6);
+  fact('Smallest concave R', concave < -1e-6 ? `${format.length(-1 / concave)}: the grinding wheel must be smaller` : 'none: any grinding wheel');
   fact('Shank', tool.shank.length ? shape(tool.shank) : 'not given');
   fact('Holder', tool.holder.length ? shape(tool.holder) : 'not given');
   return html('dl', { id: 'tool-facts' }, ...facts);

@@ -3,7 +3,7 @@ import { html, svg } from './dom.js';
 import * as format from './format.js';
 import { Plot } from './plot.js';
 
-const WIDE = { width: 420, height: 170, xName: 'slenderness λ (stiff to the left)', yCount: 4 };
+const WIDE = { width: 420, height: 170, xName: 'slenderness L:D (stiffer to the left)', yCount: 4 };
 
 /** Errors as people read them beside a tolerance of this size. */
 const unitOf = (tolerance) => (tolerance < 1 ? { factor: 1000, unit: 'µm' } : { factor: 1, unit: 'mm' });
@@ -16,7 +16,7 @@ function range(steps) {
 }
 
 const describe = (step) =>
-  `λ ${format.plain(step.slenderness)}: ${format.percent(step.coverage)} of the whole face covered${typeof step.coverage_reachable === 'number' ? `, ${format.percent(step.coverage_reachable)} of what is reachable` : ''}, overcut ${format.error(step.overcut)}, other faces ${format.error(step.other_faces_overcut)}, ` +
+  `L:D ${format.plain(step.slenderness)}: ${format.percent(step.coverage)} of the whole face finished${typeof step.coverage_reachable === 'number' ? `, ${format.percent(step.coverage_reachable)} of the accessible area` : ''}, gouge ${format.error(step.overcut)}, of other faces ${format.error(step.other_faces_overcut)}, ` +
   `rms ${format.error(step.rms)}, axis ${format.length(step.axis_length)}, largest radius ${format.length(step.largest_radius)}` +
   `${step.chosen ? ' (chosen)' : step.judged ? '' : ' (the planner’s estimate)'}`;
 
@@ -36,7 +36,7 @@ function coverageChart(steps) {
   const value = (step) => 100 * step.coverage;
   const low = Math.min(...steps.map(value));
   const plot = new Plot({ ...WIDE, x: range(steps), y: [Math.max(0, low - 0.1 * (100 - low)), 100], yName: 'of the whole face, %',
-    title: `Coverage of the face against the tool’s slenderness, from ${format.plain(low)} to ${format.plain(Math.max(...steps.map(value)))} per cent` });
+    title: `Finished area against the tool’s slenderness L:D, from ${format.plain(low)} to ${format.plain(Math.max(...steps.map(value)))} %` });
   plot.curve(judged(steps, value), 'curve main');
   dots(plot, steps, value, 'step');
   return plot.root;
@@ -44,12 +44,12 @@ function coverageChart(steps) {
 
 function errorChart(steps, tolerance) {
   const { factor, unit } = unitOf(tolerance);
-  const kinds = [{ name: 'overcut', class: 'over', value: (step) => factor * Math.max(step.overcut, step.other_faces_overcut) },
+  const kinds = [{ name: 'gouge', class: 'over', value: (step) => factor * Math.max(step.overcut, step.other_faces_overcut) },
     { name: 'rms', class: 'under', value: (step) => factor * step.rms }];
   // A tool that cuts far too deep must not flatten all others.
   const top = Math.min(4 * tolerance * factor, 1.1 * Math.max(tolerance * factor, ...steps.flatMap((step) => kinds.map((kind) => kind.value(step)))));
-  const plot = new Plot({ ...WIDE, x: range(steps), y: [0, top], yName: `overcut and rms, ${unit}`,
-    title: 'Deepest cut, in the target or another face, and root mean square error against the tool’s slenderness' });
+  const plot = new Plot({ ...WIDE, x: range(steps), y: [0, top], yName: `gouge and RMS error, ${unit}`,
+    title: 'Deepest gouge, of the machined or another face, and RMS error against the tool’s slenderness L:D' });
   for (const kind of kinds) {
     plot.curve(judged(steps, kind.value), `curve ${kind.class}`);
     dots(plot, steps, kind.value, `step ${kind.class}`);
@@ -62,6 +62,6 @@ function errorChart(steps, tolerance) {
 export function stiffnessCharts(steps, tolerance) {
   const chosen = steps.find((step) => step.chosen);
   const estimates = steps.some((step) => !step.judged) ? ' Hollow dots are the planner’s estimates.' : '';
-  const text = `${steps.length} tools were tried; the ring is the one that was chosen${chosen ? ` (λ ${format.plain(chosen.slenderness)})` : ''}.${estimates}`;
+  const text = `${steps.length} tools were tried; the ring is the one that was chosen${chosen ? ` (L:D ${format.plain(chosen.slenderness)})` : ''}.${estimates}`;
   return html('div', {}, html('p', { class: 'soft' }, text), html('div', { class: 'charts' }, coverageChart(steps), errorChart(steps, tolerance)));
 }

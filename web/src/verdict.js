@@ -3,12 +3,12 @@
 
 /** What a figure is called where no row of the table is about it, if not by its name in the files. */
 const NAMES = {
-  complete: 'Work', legitimate: 'Profile of the tool', verdict: 'Judged', overcut_mm: 'Overcut',
-  gouge_mm: 'Overcut of other faces', buried: 'Strips inside the material', overcut_bound_mm: 'Overcut, proved',
-  gouge_bound_mm: 'Of other faces, proved', coverage_reachable: 'Finished of what is reachable',
-  coverage_bound: 'Finished, proved', stock: 'Replay in a stock', travel: 'Travel of the joints',
-  axis_speed: 'Speed of the joints', machine_bodies: 'Table and head', unread_faces: 'Faces that were not read',
-  coverage: 'Finished of the whole face', hold: 'Hold of the tool', turn: 'Kinks of the motion', sheet_side: 'Machined side',
+  complete: 'Completeness', legitimate: 'Tool profile', verdict: 'Check', overcut_mm: 'Gouge',
+  gouge_mm: 'Gouge of other faces', buried: 'Passes inside the material', overcut_bound_mm: 'Gouge, proved',
+  gouge_bound_mm: 'Gouge of other faces, proved', coverage_reachable: 'Finished, accessible area',
+  coverage_bound: 'Finished, proved', stock: 'Stock simulation', travel: 'Travel of the axes',
+  axis_speed: 'Speed of the axes', machine_bodies: 'Table and head', unread_faces: 'Faces that were not read',
+  coverage: 'Finished, whole face', hold: 'Room for shank and holder', turn: 'Kinks of the motion', sheet_side: 'Machined side',
   rounding_mm: 'Rounding of the program', rapid: 'Rapid moves',
 };
 export const capital = (words) => words.charAt(0).toUpperCase() + words.slice(1);
@@ -30,18 +30,18 @@ export function cautions({ verify, summary }) {
 export function earlier({ verify, summary }) {
   if (verify?.pass !== true || summary?.pass !== false) return [];
   const said = list(summary, 'reasons');
-  return said.length ? said : [{ figure: 'verdict', text: 'summary.json says that the request is not met' }];
+  return said.length ? said : [{ figure: 'verdict', text: 'summary.json says that the result does not meet the request' }];
 }
 
 /** { state, text } of the pill. */
 export function verdict(files) {
   const { verify, summary, tied } = files;
-  if (typeof verify?.pass !== 'boolean') return { state: 'warn', text: 'Not judged' };
+  if (typeof verify?.pass !== 'boolean') return { state: 'warn', text: 'Not checked' };
   if (summary?.complete === false) return { state: 'fail', text: 'Interrupted: incomplete' };
   if (!verify.pass || reasons(files).length) return { state: 'fail', text: 'Does NOT meet the request' };
-  if (!tied) return { state: 'warn', text: 'Nothing ties these files together' };
-  if (summary && summary.complete !== true) return { state: 'warn', text: 'Not known to be complete' };
-  if (earlier(files).length) return { state: 'warn', text: 'summary.json says no' };
+  if (!tied) return { state: 'warn', text: 'The files may not belong together' };
+  if (summary && summary.complete !== true) return { state: 'warn', text: 'May be incomplete' };
+  if (earlier(files).length) return { state: 'warn', text: 'Earlier run: does NOT meet the request' };
   return { state: 'pass', text: 'Meets the request' };
 }
 

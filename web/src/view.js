@@ -166,7 +166,7 @@ export class View {
       return d < best.d ? { k, d } : best;
     }, { k: face.a, d: Infinity }).k;
     const at = [point.x, point.y, point.z].map((v) => format.plain(v, 4)).join(', ');
-    if (!body.target && body.f[nearest] >= 0) return `${body.face}  at (${at}): not entered`;
+    if (!body.target && body.f[nearest] >= 0) return `${body.face}  at (${at}): not gouged`;
     return `${body.face}  ${format.error(body.f[nearest])}  at (${at})`;
   }
 }

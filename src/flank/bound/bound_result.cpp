@@ -103,8 +103,8 @@ std::string bound_text(const BoundResult& result) {
     if (map.blocked_mm2 > 0.0)
       text += fmt::format("    no position finishes {:.1f} % of the area\n", 100.0 * map.blocked_mm2 / map.area_mm2);
     text += fmt::format(
-        "    the contact must travel at least {:.4g} mm: at least {} pass{}, none longer than half of the border "
-        "({:.4g} mm)\n",
+        "    the contact must travel at least {:.4g} mm: at least {} pass{}, as no pass can be longer than half of the "
+        "border ({:.4g} mm)\n",
         map.way_mm, map.strips, map.strips == 1 ? "" : "es", 0.5 * map.border_mm);
     if (!map.complete) text += "    stopped early: the other points have no bound\n";
   }

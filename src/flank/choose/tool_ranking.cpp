@@ -209,8 +209,7 @@ std::vector<RankedTool> rank_tools(std::span<const RankingTarget> targets, std::
         // A cover that was cancelled says less than the stage before it.
         if (progress.stop()) return;
         if (covered[i].results.size() != targets.size())
-          throw InputError(
-              "resume.json does not fit this run; start without --resume: a step has covers of other targets");
+          throw InputError("resume.json does not fit this run; start without --resume: a step belongs to other faces");
         const std::size_t k = some[i];
         covered[i].tool = k;
         covered[i].screen = ranked[k].screen;

@@ -73,8 +73,8 @@ std::string ground_text(const GroundTool& ground) {
 }
 
 std::string error_text(const FaceError& error) {
-  std::string text = fmt::format("Face as cut: {} points on it, {} beside; noise {:.4f} mm\n", error.points.size(),
-                                 error.beside, error.noise_mm);
+  std::string text = fmt::format("Face as cut: {} points on the face, {} off it; noise {:.4f} mm\n",
+                                 error.points.size(), error.beside, error.noise_mm);
   text +=
       fmt::format("  error {:.4f} mm rms as measured, {:.4f} after a best fit of the datum, which removes {:.1f} %\n",
                   error.rms_before_mm, error.rms_after_mm, 100.0 * taken_away(error));
@@ -116,7 +116,7 @@ std::string correction_text(const Correction& correction) {
   if (correction.error) {
     text = error_text(*correction.error);
     text += judged_line("new motion against the mirrored face", correction.result.verify);
-    text += judged_line("against the nominal face, which it leaves on purpose", correction.other);
+    text += judged_line("against the nominal face, from which it deviates on purpose", correction.other);
   }
   return text;
 }

@@ -246,7 +246,7 @@ std::vector<CoverStrip> chosen(const TileScene& scene, std::vector<CoverStrip>& 
   for (const int k : choice.set) {
     if (k < 0 || static_cast<std::size_t>(k) >= pool.size())
       throw InputError(
-          "resume.json does not fit this run; start without --resume: a step chose a strip that there is not");
+          "resume.json does not fit this run; start without --resume: a step names a pass that does not exist");
     strips.push_back(pool[static_cast<std::size_t>(k)]);
   }
   return strips;

@@ -54,7 +54,7 @@ void remove_result(const fs::path& folder) {
     const auto& ours = result_names();
     if (name != kPageFile && std::find(ours.begin(), ours.end(), name) == ours.end())
       throw InputError(entry.path().string() +
-                       ": is in the place of a checked pair of face and tool; move it away, or give " +
+                       ": is in a folder that flank design uses for its results; move it away, or give " +
                        "another folder");
   }
   fs::remove_all(folder);

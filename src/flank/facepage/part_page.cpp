@@ -13,13 +13,14 @@
 namespace flank {
 using namespace internal;
 
-std::string faces_json(const Part& part, const InspectReport& report) {
+std::string faces_json(const Part& part, const InspectReport& report, const std::string& wheel) {
   nlohmann::ordered_json json = nlohmann::ordered_json::parse(inspect_json(report));
   json["schema"] = "openflank/faces/1";
   // A page is handed on: where the part lay is nobody's business.
   json["file"] = std::filesystem::path(report.file).filename().string();
   json["bodies"] = nlohmann::ordered_json::array();
   for (const ViewFace& body : view_faces(part, {}, {})) json["bodies"].push_back(body_json(body));
+  if (!wheel.empty()) json["wheel"] = nlohmann::ordered_json::parse(wheel);
   return dumped(json) + "\n";
 }
 

@@ -22,7 +22,7 @@ constexpr double kDebrisShare =
     0.01;  ///< of the size: solids that are smaller and touch nothing are no part of the wheel
 
 [[noreturn]] void refuse(const Part& part, const std::string& what) {
-  throw InputError(fmt::format("{}: this is no wheel: {}", part.file, what));
+  throw InputError(fmt::format("{}: not recognised as a wheel: {}", part.file, what));
 }
 
 std::vector<const WheelFace*> faces_named(const Part& part, const std::vector<WheelFace>& faces,
@@ -129,7 +129,7 @@ Found blades_given(const Part& part, const std::vector<WheelFace>& faces, const 
     for (const std::string& list : *lists) {
       BladeFaces blade{faces_named(part, faces, list), 0.0};
       for (const WheelFace* face : blade.faces) blade.area += face->area;
-      if (blade.faces.empty()) throw UsageError("blade", list, "has no face that could be read");
+      if (blade.faces.empty()) throw UsageError("blade", list, "none of these faces could be read");
       out.blades.push_back(std::move(blade));
       out.splitter.push_back(lists == &choice.splitters);
     }
@@ -148,7 +148,8 @@ Found blades_found(const Part& part, const std::vector<BladeFaces>& candidates, 
       out.splitter.push_back(g > 0);
     }
   }
-  if (out.blades.empty()) refuse(part, "no blade: no connected faces have sides that look both ways round its axis");
+  if (out.blades.empty())
+    refuse(part, "no blade found: no connected faces have two sides, one towards each direction of rotation");
   return out;
 }
 
@@ -189,9 +190,9 @@ void add_count(const Part& part, const std::vector<WheelFace>& faces, const Whee
   if (out.count == 0 && angles.size() == 1) out.count = sectors_of_cuts(faces, out.axis, part.box.diagonal());
   if (out.count == 0)
     refuse(part, angles.size() == 1
-                     ? "it has one blade, and no two planes through the axis that say how many sectors there are; "
-                       "accepted is `count`"
-                     : "its blades do not stand evenly round the axis");
+                     ? "it has one blade, and no two planes through the axis that give the number of sectors; "
+                       "give `count`"
+                     : "its blades are not evenly spaced round the axis");
   out.whole = static_cast<int>(angles.size()) == out.count;
 }
 
@@ -203,7 +204,7 @@ WheelRoles recognise_wheel(const Part& part, const WheelChoice& choice) {
   WheelRoles out;
   out.file = part.file, out.part_sha256 = part.sha256;
   const std::optional<WheelAxis> axis = find_axis(faces, part.box);
-  if (!axis) refuse(part, "no axis: it has no surface of revolution");
+  if (!axis) refuse(part, "no axis found: the part has no surface of revolution");
   out.axis = *axis;
   const Found found = choice.blades.empty() ? blades_found(part, blade_candidates(faces, *axis, size), *axis, size)
                                             : blades_given(part, faces, choice);
@@ -213,7 +214,7 @@ WheelRoles recognise_wheel(const Part& part, const WheelChoice& choice) {
   else
     turned = turned_roles(faces, found.blades, *axis, size);
   if (turned.hub.empty())
-    refuse(part, "no hub: its blades stand on no surface of revolution about its axis; accepted is `hub`");
+    refuse(part, "no hub found: the blades stand on no surface of revolution about the axis; give `hub`");
   for (const WheelFace* face : turned.hub) out.hub.push_back(face->id);
   for (const WheelFace* face : turned.shroud) out.shroud.push_back(face->id);
   for (std::size_t k = 0; k < found.blades.size(); ++k) {

@@ -51,7 +51,7 @@ nlohmann::ordered_json blade_json(const WheelBlade& blade) {
 std::string wheel_table(const WheelRoles& w) {
   const Vec3 &p = w.axis.point, &d = w.axis.direction;
   std::string text = fmt::format("{}: a wheel of {} sectors{}, {} main blades and {} splitters{}\n", w.file, w.count,
-                                 w.whole ? "" : " (the part has some of them)", w.mains(), w.splitters(),
+                                 w.whole ? "" : " (the part is a piece of the wheel)", w.mains(), w.splitters(),
                                  w.whole || w.shroud.empty() ? "" : ", with a shroud");
   text += fmt::format("  axis    through {:.4f} {:.4f} {:.4f}, along {:.5f} {:.5f} {:.5f}\n", p.x(), p.y(), p.z(),
                       d.x(), d.y(), d.z());
@@ -63,8 +63,8 @@ std::string wheel_table(const WheelRoles& w) {
     text += fmt::format("{:<9} {:5.1f} {:7.2f} {:6.3f}  {:<24} {:<16} {:<16} {}{}\n", b.splitter ? "splitter" : "main",
                         b.angle_deg, b.height_mm, b.thickness_mm, list(b.ahead) + " / " + list(b.behind), list(b.edges),
                         list(b.tips), fillets_text(b.fillets), b.buried.empty() ? "" : "; buried " + list(b.buried));
-  text += fmt::format("\nnot milled here: {}\n", list(w.rest));
-  if (!w.debris.empty()) text += fmt::format("no part of the wheel: {} (small, and touch nothing)\n", list(w.debris));
+  text += fmt::format("\nwithout a role, not machined: {}\n", list(w.rest));
+  if (!w.debris.empty()) text += fmt::format("loose small faces, ignored: {}\n", list(w.debris));
   return text;
 }
 

@@ -112,7 +112,8 @@ void code(StepCodec& codec, ToolModel& tool) {
 void tie(FitDraft& draft, const FitDraft& like) {
   if (draft.motions.size() != like.motions.size())
     throw InputError(
-        "resume.json does not fit this run; start without --resume: a step has not as many motions as its start");
+        "resume.json does not fit this run; start without --resume: a step has another number of motions than its "
+        "start");
   draft.targets = like.targets;
   draft.obstacles = like.obstacles;
 }

@@ -260,8 +260,8 @@ Polished regained(Polished steady, double covered, double steadiness, const std:
   return steady;
 }
 
-/// A fit that plunges where it touches, or has a kink, led into a motion that does neither, where that costs no more than those do: a
-/// cusp of a rail that no face needs is left over from a pass to which it was too cheap.
+/// A fit that plunges where it touches, or has a kink, led into a motion that does neither, where that costs no more than those do:
+/// earlier passes may leave a cusp of a rail that the face does not require.
 Polished steadied(const Polished& polished, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
   /// As much as it takes, where the face holds against it.
   constexpr std::array kFirmness = {10.0, 100.0, 1000.0};

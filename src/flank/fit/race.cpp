@@ -52,7 +52,8 @@ std::vector<Runner> polished_abreast(std::span<const FitDraft> starts, const std
   std::vector<Runner> runners = journaled(progress, "polish", work, inputs);
   if (runners.size() != starts.size())
     throw InputError(
-        "resume.json does not fit this run; start without --resume: a step has not as many candidates as starts");
+        "resume.json does not fit this run; start without --resume: a step has another number of candidates than there "
+        "are starts");
   for (std::size_t k = 0; k < runners.size(); ++k) {
     runners[k].start = starts[k];
     tie(runners[k].polished.draft, starts[k]);

@@ -1,5 +1,5 @@
-/// The candidates of a fit against each other: who promises most gets the dear passes first, and nobody gets any more once
-/// one of them does what was asked.
+/// The candidates of a fit against each other: the most promising one gets the expensive passes first, and none gets any
+/// more once one of them meets the request.
 #pragma once
 
 #include <functional>

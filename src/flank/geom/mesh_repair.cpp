@@ -289,7 +289,7 @@ std::string MeshRepair::account() const {
   add(isolated_vertices, "removed", "isolated vertices");
   add(degenerate_triangles, "removed", "zero-area triangles");
   add(duplicate_triangles, "removed", "duplicate triangles");
-  add(swapped_diagonals, "mended", "zero-area triangles by a swap of diagonals");
+  add(swapped_diagonals, "mended", "zero-area triangles (by swapping diagonals)");
   add(flipped_triangles, "flipped", "triangles");
   return text.empty() ? "nothing" : text;
 }

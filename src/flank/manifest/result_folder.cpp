@@ -165,10 +165,11 @@ void ResultFolder::require_no_strangers() const {
   for (const std::string& name : result_names()) require_unread(in(name));
   for (const std::string& name : result_names()) {
     if (!is_file(in(name)) || is_ours(name)) continue;
-    throw InputError(in(name) + ": would be replaced, and " +
-                     (manifest_ ? std::string(kManifestFile) + " does not say that an earlier result made it"
-                                : std::string("no ") + kManifestFile + " says whose it is") +
-                     "; move it away, or give another folder");
+    throw InputError(
+        in(name) + ": would be overwritten, and " +
+        (manifest_ ? std::string(kManifestFile) + " does not list it as a file of an earlier result"
+                   : std::string("there is no ") + kManifestFile + " that lists it as a file of an earlier result") +
+        "; move it away, or give another folder");
   }
 }
 
@@ -176,7 +177,7 @@ void ResultFolder::require_own(const std::string& name) const {
   require_plain(name);
   require_unread(in(name));
   if (!is_file(in(name)) || is_ours(name) || says_it_is_ours(name, content_of(in(name)))) return;
-  throw InputError(in(name) + ": would be replaced, and is not of this program; move it away" +
+  throw InputError(in(name) + ": would be overwritten, and was not written by flank; move it away" +
                    (name == kPageFile ? ", or give the page another name" : ""));
 }
 
@@ -269,7 +270,7 @@ void ResultFolder::require_whole(const std::vector<std::string>& but) const {
     const auto found = manifest_->files.find(name);
     if (found != manifest_->files.end() && sha256(content_of(in(name))) == found->second) continue;
     throw InputError(in(name) + ": is not of the same result as the other files (" + kManifestFile + " of `flank " +
-                     manifest_->made_by + "` says so); make the result again, or, if it is meant so, remove " +
+                     manifest_->made_by + "` says so); make the result again, or, if the change is intended, remove " +
                      kManifestFile + " and run `flank verify`");
   }
 }

@@ -60,7 +60,7 @@ std::string rest_sentence(const TrochoidJob& job, const PlannedLayer& layer) {
                        cleared);
   return fmt::format(
       "roughed and finished over {:.1f} % of the length of its sides, up to {:.2f} mm before the limit that the wall "
-      "sets: nearer steps are too thin to be measured, or exceed {} degrees in the corners",
+      "sets: steps nearer to it are too thin to be measured, or exceed {} degrees in the corners",
       cleared, before, job.cycles.most_engagement_deg);
 }
 

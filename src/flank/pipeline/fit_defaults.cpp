@@ -50,16 +50,16 @@ std::string defaults_text(const FitDefaults& defaults) {
                  defaults.diagonal_mm);
   fmt::format_to(out, "  tolerance    {:.4g} mm\n", defaults.tolerance_mm);
   for (const SheetSide& side : defaults.sides) fmt::format_to(out, "  {:<12} {}\n", side.faces, side_text(side));
-  fmt::format_to(out, "  tool radius  {:.4g} to {:.4g} mm, slenderness up to {:.4g}\n", defaults.radius_min_mm,
+  fmt::format_to(out, "  tool radius  {:.4g} to {:.4g} mm, L:D up to {:.4g}\n", defaults.radius_min_mm,
                  defaults.radius_max_mm, defaults.slenderness_max);
   fmt::format_to(out, "  axis length  {}\n",
                  defaults.axis_length_mm ? fmt::format("{:.4g} mm", *defaults.axis_length_mm) : "as the face needs");
-  fmt::format_to(out, "  reachable    {}\n",
+  fmt::format_to(out, "  accessible   {}\n",
                  defaults.reach_radius_mm
-                     ? fmt::format("with a ball of radius {:.4g} mm, less where other faces leave it no room",
+                     ? fmt::format("to a ball of radius {:.4g} mm, smaller where other faces leave it no room",
                                    *defaults.reach_radius_mm)
-                     : "with a ball of the tool's smallest radius");
-  fmt::format_to(out, "  coverage     {:.4g} of that\n", defaults.least_coverage);
+                     : "to a ball of the tool's smallest radius");
+  fmt::format_to(out, "  finished     {:.4g} of the accessible area is required\n", defaults.least_coverage);
   for (const std::string& note : defaults.notes) fmt::format_to(out, "  note         {}\n", note);
   return text;
 }

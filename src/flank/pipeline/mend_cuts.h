@@ -1,4 +1,4 @@
-/// What the judge sees and the search did not, led out of by another pass.
+/// A gouge that the judge found and the search did not, taken out by another pass.
 #pragma once
 
 #include "flank/judge.h"
@@ -6,8 +6,8 @@
 
 namespace flank::internal {
 
-/// Mends motions and tool where the judge finds a target cut deeper than the tolerance: its places join the samples, which get
-/// denser, too. False if nothing is to be done (no place of a target is too deep, or one so deep that another motion is
+/// Mends motions and tool where the judge finds a target cut deeper than the tolerance: the judge's worst places are added to the
+/// samples, which get denser, too. False if nothing is to be done (no place of a target is too deep, or one so deep that another motion is
 /// needed), or nothing better was found.
 [[nodiscard]] bool mend_cuts(double tolerance_mm, FitSearch& search, const VerifyReport& verify);
 

@@ -54,7 +54,7 @@ int run_quietly(const std::vector<std::string>& words) {
   pid_t ended = 0;
   while ((ended = waitpid(child, &status, 0)) < 0 && errno == EINTR) {
   }
-  if (ended != child) throw InternalError(words.front() + ": lost");
+  if (ended != child) throw InternalError(words.front() + ": the process was lost");
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
 }
 

@@ -24,10 +24,10 @@ bool holds(const std::vector<int>& faces, std::size_t face) {
 Obstacle as_obstacle(FaceTriangles face, const std::string& name, ObstacleRole role, double deviation,
                      std::vector<std::string>& notes) {
   if (face.deviation_mm > 2.0 * deviation)
-    notes.push_back(fmt::format("{}: its triangles for clearances are up to {:.3g} mm off (counted in the bound)", name,
+    notes.push_back(fmt::format("{}: for clearances it is triangulated within {:.3g} mm (included in the bound)", name,
                                 face.deviation_mm));
   if (face.beyond_border)
-    notes.push_back(name + ": its triangles for clearances may go past its border, which could not be followed");
+    notes.push_back(name + ": its border could not be followed; for clearances its triangles may reach beyond it");
   return {name, role, std::move(face.mesh), face.deviation_mm};
 }
 

@@ -25,8 +25,8 @@ void require_cells(const std::vector<CoverStrip>& strips, const CoverSamples& sa
     for (const int cell : strip.cells)
       if (cell < 0 || static_cast<std::size_t>(cell) >= samples.cells.size())
         throw InputError(
-            "resume.json does not fit this run; start without --resume: a step has strips of other samples than this "
-            "run");
+            "resume.json does not fit this run; start without --resume: a step belongs to other samples than "
+            "those of this run");
 }
 
 }  // namespace flank::internal

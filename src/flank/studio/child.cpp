@@ -131,9 +131,9 @@ Said run_child(const std::string& program, const std::vector<std::string>& words
 
 std::string crash_text(int exit_code) {
   if (exit_code >= kSignalled)
-    return fmt::format("the command was ended by signal {}; nothing else is lost", exit_code - kSignalled);
-  if (exit_code < 0) return "the command ended while nobody looked";
-  return exit_code > 3 ? "the command failed by a fault of its own" : "";
+    return fmt::format("the command was ended by signal {}; its finished steps are kept", exit_code - kSignalled);
+  if (exit_code < 0) return "the command ended while the studio was not running";
+  return exit_code > 3 ? "internal error of the command" : "";
 }
 
 }  // namespace flank::internal

@@ -36,7 +36,7 @@ int locked(const std::string& folder) {
   if (lock < 0) throw InputError(folder + ": cannot be written");
   if (::flock(lock, LOCK_EX | LOCK_NB) != 0) {
     ::close(lock);
-    throw InputError(folder + ": another studio has this folder; give another one");
+    throw InputError(folder + ": another studio uses this folder; give another one");
   }
   return lock;
 }
@@ -44,7 +44,7 @@ int locked(const std::string& folder) {
 /// The bytes of a file in a folder of ours; links are not followed.
 std::string read_in(const std::string& folder, const std::string& name) {
   const fs::path file = fs::path(folder) / name;
-  if (!is_plain_name(name) || !fs::is_regular_file(fs::symlink_status(file))) throw InputError("there is no " + name);
+  if (!is_plain_name(name) || !fs::is_regular_file(fs::symlink_status(file))) throw InputError("no such file: " + name);
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
 }
@@ -70,7 +70,7 @@ Answer told(const Said& said, Json json) {
 
 std::string text_at(const Json& json, const char* key) {
   const auto found = json.is_object() ? json.find(key) : json.end();
-  if (!json.is_object() || found == json.end() || !found->is_string()) throw UsageError(key, "a text is needed");
+  if (!json.is_object() || found == json.end() || !found->is_string()) throw UsageError(key, "expected a text");
   return found->get<std::string>();
 }
 
@@ -114,7 +114,7 @@ void Desk::look_at(const std::string& part, const std::string& unit) {
 
 Answer Desk::faces(const std::string& part) const {
   const std::string file = folder_.files() + "/." + part + kFaces;
-  if (!is_plain_name(part) || !fs::is_regular_file(file)) throw InputError("there is no part " + part);
+  if (!is_plain_name(part) || !fs::is_regular_file(file)) throw InputError("no such part: " + part);
   std::ifstream stream(file, std::ios::binary);
   return {{std::istreambuf_iterator<char>(stream), {}}, "application/json", ""};
 }

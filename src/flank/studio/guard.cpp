@@ -23,7 +23,7 @@ std::string new_token() {
   static constexpr char kDigits[] = "0123456789abcdef";
   std::array<unsigned char, 16> bytes{};
   if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
-    throw InternalError("the system gives no random numbers");
+    throw InternalError("the system's random numbers cannot be read");
   std::string token;
   for (const unsigned char byte : bytes) {
     token += kDigits[byte >> 4];

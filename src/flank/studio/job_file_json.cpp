@@ -52,7 +52,7 @@ Json to_json(const StudioJob& job) {
 
 StudioJob job_from(const Json& json, const std::string& file) {
   try {
-    if (json.at("schema") != kSchema) throw InputError(file + ": is no job of the studio");
+    if (json.at("schema") != kSchema) throw InputError(file + ": is not a job of the studio");
     StudioJob job;
     json.at("id").get_to(job.id);
     json.at("command").get_to(job.command);
@@ -70,7 +70,7 @@ StudioJob job_from(const Json& json, const std::string& file) {
     if (!json.at("exit").is_null()) job.exit_code = json.at("exit").get<int>();
     return job;
   } catch (const Json::exception&) {
-    throw InputError(file + ": is no job of the studio");
+    throw InputError(file + ": is not a job of the studio");
   }
 }
 

@@ -41,7 +41,7 @@ const std::vector<std::string>& kept_fields() {
 
 void require_command(const std::string& command) {
   if (command != "fit" && command != "cover" && command != "trochoid")
-    throw UsageError("command", command, "there are fit, cover and trochoid");
+    throw UsageError("command", command, "expected fit, cover or trochoid");
 }
 
 }  // namespace
@@ -85,14 +85,14 @@ void Jobs::keep(const StudioJob& job) const {
 StudioJob& Jobs::find(const std::string& id) {
   for (StudioJob& job : jobs_)
     if (job.id == id) return job;
-  throw InputError("there is no job " + id);
+  throw InputError("no such job: " + id);
 }
 
 std::string Jobs::add(const std::string& command, const std::string& part, const Json& fields) {
   require_command(command);
   const std::string file = folder_.files() + "/" + part;
   if (!is_plain_name(part) || !fs::is_regular_file(fs::symlink_status(file)))
-    throw UsageError("part", part, "is no part of this studio");
+    throw UsageError("part", part, "is not a part of this studio");
   std::vector<std::string> options = option_words(command, fields, folder_.files(), kept_fields());
   const std::lock_guard lock(mutex_);
   StudioJob job;

@@ -101,7 +101,7 @@ void answered(httplib::Response& response, const Work& work) {
   } catch (const InputError& e) {
     refuse(response, kWrong, e.what());
   } catch (const Json::exception&) {
-    refuse(response, kWrong, "this is no question that the studio knows");
+    refuse(response, kWrong, "unknown request");
   } catch (const std::exception& e) {
     refuse(response, kFault, e.what());
   }
@@ -160,12 +160,12 @@ class Server {
   Handled at_the_door(const httplib::Request& request, httplib::Response& response) {
     const std::string path = path_of(request);
     if (path.empty()) {
-      refuse(response, kRefused, "this address is not for you; the terminal shows the right one");
+      refuse(response, kRefused, "wrong key in the address; the terminal shows the right address");
       return Handled::Handled;
     }
     if (request.method == "POST") return Handled::Unhandled;
     if (request.method != "GET" && request.method != "HEAD") {
-      refuse(response, kWrong, "the studio knows GET and POST");
+      refuse(response, kWrong, "expected GET or POST");
       return Handled::Handled;
     }
     answered(response, [&] { get(path, request, response); });
@@ -197,7 +197,7 @@ class Server {
     if (way.pattern == "jobs/*/zip") return say(response, desk_.zip(name(0)));
     if (way.pattern == "jobs/*/files/*") return say(response, desk_.file(name(0), name(1)));
     if (way.pattern == "jobs/*/programs/*") return say(response, desk_.program(name(0), name(1)));
-    refuse(response, kUnknown, "there is no such page");
+    refuse(response, kUnknown, "no such page");
   }
 
   void post(const httplib::Request& request, httplib::Response& response, const httplib::ContentReader& reader) {
@@ -208,7 +208,7 @@ class Server {
       body.append(data, size);
       return body.size() <= kMostQuestion;
     });
-    if (!whole) return refuse(response, kTooLarge, "this question is too long");
+    if (!whole) return refuse(response, kTooLarge, "the request is too long");
     const Json asked = body.empty() ? Json::object() : Json::parse(body);
     const auto done = [&] { say(response, {"{}", "application/json", ""}); };
     if (way.pattern == "defaults") return say(response, desk_.defaults(asked));
@@ -220,7 +220,7 @@ class Server {
     if (way.pattern == "jobs/*/resume") return desk_.jobs().resume(way.names.at(0)), done();
     if (way.pattern == "jobs/*/post") return say(response, desk_.post(way.names.at(0), asked));
     if (way.pattern == "jobs/*/judge") return say(response, desk_.judge(way.names.at(0), asked));
-    refuse(response, kUnknown, "there is no such page");
+    refuse(response, kUnknown, "no such page");
   }
 
   /// A file that was dropped on the page; a part is read, and thrown away if it is none.
@@ -239,7 +239,7 @@ class Server {
       fs::remove(half);
       // The reader says so of a length that is only announced.
       const bool large = size > kMostUpload || response.status == kTooLarge;
-      return refuse(response, large ? kTooLarge : kWrong, "the file did not arrive");
+      return refuse(response, large ? kTooLarge : kWrong, "the file was not received completely; drop it again");
     }
     const std::string name = desk_.new_file(request.get_param_value("name"));
     rename_file(half, folder + "/" + name);

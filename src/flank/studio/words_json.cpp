@@ -28,20 +28,21 @@ std::vector<std::string> words_of(const std::string& name, const Json& value) {
   if (value.is_string()) return {value.get<std::string>()};
   if (value.is_number()) return {value.dump()};
   if (value.is_boolean()) return {value.get<bool>() ? "on" : "off"};
-  throw UsageError(name, "a text, a number or a list of them is needed");
+  throw UsageError(name, "expected a text, a number or a list of them");
 }
 
 /// A word as it may stand on a command line: of a file, its path.
 std::string checked(const Json& field, const std::string& word, const std::string& files) {
   const std::string name = field.at("name");
   if (word.size() > kLongestWord || std::any_of(word.begin(), word.end(), is_control))
-    throw UsageError(name, "is too long, or has control characters in it");
+    throw UsageError(name, "is too long, or contains control characters");
   const Json& file = field.at("file");
   const bool may = file != false, must = file == true;
   if (may && is_plain_name(word) && fs::is_regular_file(fs::symlink_status(fs::path(files) / word)))
     return (fs::path(files) / word).string();
-  if (must) throw UsageError(name, word, "is no file of this studio; drop it here first");
-  if (word.find('/') != std::string::npos) throw UsageError(name, word, "paths are not taken here; drop the file here");
+  if (must) throw UsageError(name, word, "is not a file of this studio; drop it here first");
+  if (word.find('/') != std::string::npos)
+    throw UsageError(name, word, "must be a file of this studio, not a path; drop the file here");
   return word;
 }
 
@@ -82,7 +83,7 @@ std::string plain_name(const std::string& name) {
 
 std::vector<std::string> option_words(const std::string& command, const Json& fields, const std::string& files,
                                       const std::vector<std::string>& kept) {
-  if (!fields.is_object()) throw UsageError("fields", "an object of names and values is needed");
+  if (!fields.is_object()) throw UsageError("fields", "expected an object of names and values");
   const Json table = Json::parse(fields_json(command));
   std::vector<std::string> words;
   for (const auto& item : fields.items()) {
@@ -91,7 +92,7 @@ std::vector<std::string> option_words(const std::string& command, const Json& fi
     const auto& all = table.at("fields");
     const auto field = std::find_if(all.begin(), all.end(), [&](const Json& one) { return one.at("name") == name; });
     if (field == all.end() || std::find(kept.begin(), kept.end(), name) != kept.end())
-      throw UsageError(name, "is no field that a page sets for " + command);
+      throw UsageError(name, "is not a field of " + command);
     add(*field, words_of(name, value), files, words);
   }
   return words;

@@ -59,7 +59,7 @@ std::vector<std::string> distinct(const TomlTable& table, const std::string& key
   std::vector<std::string> all = table.texts(key);
   std::set<std::string> seen;
   for (std::size_t k = 0; k < all.size(); ++k)
-    if (!seen.insert(all[k]).second) table.refuse_element(key, k, all[k] + " stands there twice");
+    if (!seen.insert(all[k]).second) table.refuse_element(key, k, all[k] + " is given twice");
   return all;
 }
 
@@ -97,7 +97,7 @@ void read_tools(const TomlTable& table, SweepPlan& plan) {
 template <class Job>
 void set_options(const TomlTable& options, Job& job) {
   for (const std::string& key : options.keys()) {
-    if (kOwnFields.contains(key)) options.refuse(key, "is not an option: the plan says it for each task");
+    if (kOwnFields.contains(key)) options.refuse(key, "is set by the plan for each task, so it cannot be an option");
     try {
       set_field(job, key, options.words(key));
       check_fields(job);

@@ -236,8 +236,8 @@ void note_corners(const WallsInRow& row, const std::vector<Face>& faces, const S
   for (std::size_t i = 0; i < row.walls.size(); ++i) {
     if (row.too_tight[i] != 0)
       notes.push_back(
-          fmt::format("{} is left: it bends more tightly than the tool, and its neighbours end where the "
-                      "tool would enter it",
+          fmt::format("{} is not machined: its radius is smaller than the tool's; its neighbours are machined up to "
+                      "where the tool would gouge it",
                       name(i)));
     const bool round = row.too_tight[i] != 0 || row.too_tight[row.next(i)] != 0;
     if (row.corners[i] != Corner::kLeft || round) continue;
@@ -249,7 +249,7 @@ void note_corners(const WallsInRow& row, const std::vector<Face>& faces, const S
         radius * (1.0 / std::cos(0.5 * row.turns[i]) - 1.0)));
   }
   for (const std::size_t i : without_room)
-    notes.push_back(fmt::format("{} is left: the tool has no room there", name(i)));
+    notes.push_back(fmt::format("{} is not machined: the tool has no room there", name(i)));
 }
 
 /// One motion a run and level; of a closed run one for all levels.
@@ -276,7 +276,7 @@ void note_tour(const WallsInRow& row, const std::vector<Face>& faces, Tour& tour
   for (const std::size_t f : row.chain.order) names += (names.empty() ? "" : ", ") + faces[f].id;
   tour.notes.insert(
       tour.notes.begin(),
-      fmt::format("a tour of {} walls in a row ({}), {}{}; it climbs", row.walls.size(), names,
+      fmt::format("a tour along {} adjacent walls ({}), {}{}; climb milling", row.walls.size(), names,
                   tour.closed ? "all round in one motion"
                               : fmt::format("{} motion{}", tour.motions.size(), tour.motions.size() == 1 ? "" : "s"),
                   tour.levels > 1 ? fmt::format(", in {} levels", tour.levels) : ""));

@@ -152,14 +152,14 @@ Path floor_path(WheelWork& work) {
 WheelOperation floor_operation(WheelWork& work, const Progress&) {
   WheelOperation operation{.id = "30", .kind = "floor", .folder = "", .faces = work.roles.hub};
   if (!work.tool) {
-    operation.problem = "there is no tool: the sides have none";
+    operation.problem = "no tool, because no tool was found for the sides";
     return operation;
   }
   const std::string decides =
       path_to_json(work.finish) + tool_to_json(*work.tool) + fmt::format("{}", work.job.tolerance_mm);
   operation = perform(work, operation, decides, [&] {
     Path path = floor_path(work);
-    if (path.strips.empty()) throw InputError("no pass on the hub is free between the blades' sides");
+    if (path.strips.empty()) throw InputError("no gouge-free pass on the hub was found between the blades");
     // The folder is about one sector: of a hub that goes all round it finishes its share.
     const double share = work.equal() && work.roles.whole ? 1.0 / work.roles.count : 1.0;
     return judged_path(work, operation.faces, std::move(path), 0.9 * share * work.job.least_coverage, Care::kDraft);

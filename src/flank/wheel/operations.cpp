@@ -107,7 +107,7 @@ SideFit side_fit(const WheelWork& work, const Names& side, const std::string& sp
   if (fs::exists(mark) && fs::exists(tool) && fs::exists(path) && read_file(mark) == key)
     return {read_tool(tool), read_path(path)};
   const Result result = run_fit(job, progress);
-  if (!result.complete) throw InputError("it was stopped");
+  if (!result.complete) throw InputError("stopped");
   if (result.path.pose_count() == 0) return {};
   fs::create_directories(folder);
   write_tool(result.tool, tool);
@@ -126,7 +126,7 @@ Path fitted_sides(WheelWork& work, const std::string& spec, const Progress& prog
     const SideFit fit = side_fit(work, sides[k], work.tool ? tool_file(work) : spec,
                                  progress.part(static_cast<double>(k) / count, (static_cast<double>(k) + 1.0) / count));
     if (fit.path.strips.empty()) {
-      work.notes.push_back(face_list(sides[k]) + ": no pass of the flank was found");
+      work.notes.push_back(face_list(sides[k]) + ": no pass was found");
       continue;
     }
     if (!work.tool) {
@@ -188,13 +188,13 @@ WheelOperation side_operation(WheelWork& work, const Progress& progress) {
   if (work.roles.whole) work.difference_mm = difference_of(work, all_sectors(work.roles));
   if (!work.equal())
     work.notes.push_back(
-        fmt::format("the blades are not equal: turned copies of the first differ by up to {:.3f} mm, so "
-                    "every sector has paths of its own",
+        fmt::format("the blades are not equal: rotated copies of the first differ by up to {:.3f} mm, so "
+                    "each sector is planned separately",
                     work.difference_mm));
   const std::string spec = tool_spec(work);
   operation = perform(work, operation, job_to_json(side_job(work, operation.faces, spec)), [&] {
     Path path = side_path(work, spec, progress);
-    if (path.strips.empty()) throw InputError("no pass of the flank was found on any side");
+    if (path.strips.empty()) throw InputError("no pass was found on any side");
     return judged_path(work, operation.faces, std::move(path), work.job.least_coverage, Care::kDraft);
   });
   if (!operation.done) return operation;
@@ -209,7 +209,7 @@ WheelOperation edge_operation(WheelWork& work, const Progress& progress) {
   for (const WheelBlade& blade : work.sector.blades)
     operation.faces.insert(operation.faces.end(), blade.edges.begin(), blade.edges.end());
   if (!work.tool || operation.faces.empty()) {
-    operation.problem = work.tool ? "no blade has a face that is an edge" : "there is no tool: the sides have none";
+    operation.problem = work.tool ? "no blade has an edge face" : "no tool, because no tool was found for the sides";
     return operation;
   }
   CoverJob job;
@@ -230,7 +230,7 @@ WheelOperation rough_operation(WheelWork& work, const Progress& progress) {
   operation.faces = channel.first;
   operation.faces.insert(operation.faces.end(), channel.second.begin(), channel.second.end());
   if (!work.tool) {
-    operation.problem = "there is no tool: the sides have none";
+    operation.problem = "no tool, because no tool was found for the sides";
     return operation;
   }
   TrochoidJob job;
@@ -246,7 +246,7 @@ WheelOperation rough_operation(WheelWork& work, const Progress& progress) {
   operation = perform(work, operation, decides, [&] { return run_trochoid(job, limited(progress)); });
   if (work.sector.channels.size() > 1 && operation.problem.empty())
     operation.problem =
-        fmt::format("only the first of {} channels of a sector is roughed", work.sector.channels.size());
+        fmt::format("only the first of {} channels of each sector is roughed", work.sector.channels.size());
   return operation;
 }
 

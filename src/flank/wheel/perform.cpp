@@ -34,13 +34,13 @@ WheelOperation perform(const WheelWork& work, WheelOperation operation, const st
   const auto begun = std::chrono::steady_clock::now();
   try {
     const Result result = make();
-    if (result.path.pose_count() == 0) throw InputError("nothing was found that machines anything");
+    if (result.path.pose_count() == 0) throw InputError("no pass was found");
     write_result(result, in_folder(work, operation.folder));
     const Acceptance acceptance = result.acceptance();
     operation.done = result.complete;
     operation.pass = acceptance.pass();
     if (!result.complete)
-      operation.problem = "it was stopped, or came to its limit of processor time";
+      operation.problem = "stopped, or its limit of processor time was reached";
     else if (!acceptance.pass())
       operation.problem = acceptance.reasons.front().text;
   } catch (const Error& error) {

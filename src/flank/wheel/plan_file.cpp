@@ -54,11 +54,11 @@ std::string rest_text(const std::vector<RestPlace>& rest) {
   constexpr std::size_t kShown = 12;
   std::string text;
   for (std::size_t k = 0; k < std::min(kShown, rest.size()); ++k)
-    text += fmt::format("  left    {} at ({:.2f}, {:.2f}, {:.2f}): {:.1f} mm2, up to {:.3f} mm: {}\n", rest[k].face,
+    text += fmt::format("  excess  {} at ({:.2f}, {:.2f}, {:.2f}): {:.1f} mm2, up to {:.3f} mm: {}\n", rest[k].face,
                         rest[k].point.x(), rest[k].point.y(), rest[k].point.z(), rest[k].area_mm2, rest[k].depth_mm,
                         rest[k].reason);
   if (rest.size() > kShown)
-    text += fmt::format("  left    and {} smaller places, in plan.json\n", rest.size() - kShown);
+    text += fmt::format("  excess  and {} smaller places, in plan.json\n", rest.size() - kShown);
   return text;
 }
 
@@ -117,22 +117,22 @@ std::string plan_json(const WheelResult& result) {
 }
 
 std::string wheel_text(const WheelResult& result) {
-  std::string text = fmt::format(
-      "{}: {} sectors, {}\n", result.roles.file, result.roles.count,
-      result.copies > 1 ? fmt::format("{} copies of one", result.copies) : std::string("each planned by itself"));
+  std::string text = fmt::format("{}: {} sectors, {}\n", result.roles.file, result.roles.count,
+                                 result.copies > 1 ? fmt::format("planned once, for {} equal sectors", result.copies)
+                                                   : std::string("each planned separately"));
   for (const std::string& note : result.notes) text += "  note    " + note + "\n";
   for (const WheelOperation& o : result.operations)
-    text +=
-        fmt::format("  {:<3} {:<6} {:<14} {:7.1f} s  {}{}\n", o.id, o.kind, face_list(o.faces), o.seconds,
-                    o.done ? (o.pass ? "done" : "done, with a shortfall") : "NOT DONE",
-                    (o.kept ? ", taken from the folder" : "") + (o.problem.empty() ? std::string() : ": " + o.problem));
+    text += fmt::format(
+        "  {:<3} {:<6} {:<14} {:7.1f} s  {}{}\n", o.id, o.kind, face_list(o.faces), o.seconds,
+        o.done ? (o.pass ? "done" : "done, below the request") : "NOT DONE",
+        (o.kept ? ", kept from an earlier run" : "") + (o.problem.empty() ? std::string() : ": " + o.problem));
   for (const RoleFigures& f : result.figures)
     text += f.open_mm2 > 0.0
                 ? fmt::format(
-                      "  {:<7} {:6.2f} % of {:.1f} mm2 that is open within tolerance (whole {:.1f} mm2), deepest cut "
-                      "{:.4f} mm, most left {:.3f} mm\n",
+                      "  {:<7} {:6.2f} % of {:.1f} accessible mm2 within tolerance (whole {:.1f} mm2), deepest gouge "
+                      "{:.4f} mm, excess material {:.3f} mm\n",
                       f.role, 100.0 * f.within_mm2 / f.open_mm2, f.open_mm2, f.area_mm2, f.cut_mm, f.left_mm)
-                : fmt::format("  {:<7} not machined here; deepest cut {:.4f} mm\n", f.role, f.cut_mm);
+                : fmt::format("  {:<7} not machined; deepest gouge {:.4f} mm\n", f.role, f.cut_mm);
   text += rest_text(result.rest);
   const Acceptance acceptance = result.acceptance();
   text += fmt::format("  verdict {}\n", acceptance.pass() ? "meets the request" : "does NOT meet the request");

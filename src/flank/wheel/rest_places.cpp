@@ -39,7 +39,7 @@ struct Around {
   }
   [[nodiscard]] std::string reason(const Vec3& x, const Vec3& normal) const {
     const double tip = tool->radial.at(0.0).r;
-    if (!lets_in(x, normal, tip)) return fmt::format("a corner that the tip, of radius {:.2f} mm, does not enter", tip);
+    if (!lets_in(x, normal, tip)) return fmt::format("a corner that a tip of radius {:.2f} mm does not fit into", tip);
     PointOptions options;
     options.tolerance_mm = tolerance;
     const TipRoom room(channel, tool->radial, options);
@@ -48,9 +48,9 @@ struct Around {
       for (int round = 0; round < kDirectionsRound; ++round) {
         const double a = 12.0 * tilt * std::numbers::pi / 180.0, b = 2.0 * std::numbers::pi * round / kDirectionsRound;
         const Vec3 axis = std::cos(a) * normal + std::sin(a) * (std::cos(b) * e + std::sin(b) * f);
-        if (room.is_free({center, axis})) return "no pass goes there, though the tool has room";
+        if (room.is_free({center, axis})) return "accessible, but no pass goes there";
       }
-    return "the tool's flank has no room in any direction that was tried";
+    return "the tool collides in every direction tried";
   }
 };
 

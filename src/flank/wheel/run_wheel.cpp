@@ -20,18 +20,18 @@ namespace {
 namespace fs = std::filesystem;
 
 void check(const WheelJob& job) {
-  if (!(job.tolerance_mm > 0.0)) throw UsageError("tolerance_mm", "a length > 0 mm is needed");
+  if (!(job.tolerance_mm > 0.0)) throw UsageError("tolerance_mm", "expected a length > 0 mm");
   if (!(job.least_coverage > 0.0 && job.least_coverage <= 1.0))
-    throw UsageError("least_coverage", "a share above 0 and up to 1 is needed");
+    throw UsageError("least_coverage", "expected a share above 0 and at most 1");
   if (job.effort != "quick" && job.effort != "normal" && job.effort != "thorough")
-    throw UsageError("effort", job.effort, "is none of quick, normal, thorough");
+    throw UsageError("effort", job.effort, "must be quick, normal or thorough");
 }
 
 void make_folder(const std::string& folder) {
   std::error_code error;
   fs::create_directories(fs::path(folder) / "tools", error);
   fs::create_directories(fs::path(folder) / "ops", error);
-  if (!fs::is_directory(fs::path(folder) / "ops")) throw InputError(folder + ": is no folder and cannot be made");
+  if (!fs::is_directory(fs::path(folder) / "ops")) throw InputError(folder + ": is not a folder and cannot be created");
 }
 
 }  // namespace

@@ -68,8 +68,7 @@ std::vector<WheelSector> all_sectors(const WheelRoles& roles) {
 WheelSector make_sector(const WheelRoles& roles) {
   const std::vector<WheelSector> all = all_sectors(roles);
   if (all.empty())
-    throw InputError(
-        fmt::format("{}: it has no two main blades beside each other, so no channel between them", roles.file));
+    throw InputError(fmt::format("{}: no two main blades are adjacent, so there is no channel to machine", roles.file));
   return all.front();
 }
 

@@ -8,8 +8,8 @@ Acceptance WheelResult::acceptance() const {
   for (const WheelOperation& operation : operations)
     if (!operation.done)
       out.reasons.push_back(
-          {"complete", "operation " + operation.id + " (" + operation.kind + ") is not there: " + operation.problem});
-  if (!whole) out.reasons.push_back({"complete", "no operation finishes anything"});
+          {"complete", "operation " + operation.id + " (" + operation.kind + ") has no result: " + operation.problem});
+  if (!whole) out.reasons.push_back({"complete", "no operation has a result"});
   return out;
 }
 

@@ -109,7 +109,7 @@ void require_seen(const Target& target, const std::vector<MeasuredPoint>& points
       }
   }
   if (seen < kLeastSeen * whole)
-    refuse(options, "the points see " + std::to_string(static_cast<int>(100.0 * seen / whole)) +
+    refuse(options, "the points cover only " + std::to_string(static_cast<int>(100.0 * seen / whole)) +
                         " % of the face; measure points all over it");
 }
 
@@ -177,8 +177,10 @@ void require_this_face(std::size_t on, std::size_t all, const FaceErrorOptions& 
     refuse(options,
            std::to_string(on) + " points lie on the face; at least " + std::to_string(kFewest) + " are required");
   if (static_cast<double>(all - on) > kMostBeside * static_cast<double>(all))
-    refuse(options, "only " + std::to_string(on) + " of " + std::to_string(all) +
-                        " points lie on the face or near: they are of another face, or in another datum");
+    refuse(
+        options,
+        "only " + std::to_string(on) + " of " + std::to_string(all) +
+            " points lie on the face or near it: the others belong to another face, or the points have another datum");
 }
 
 }  // namespace

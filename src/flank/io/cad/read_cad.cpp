@@ -136,7 +136,7 @@ void note_open_solids(const OcctShape& loaded, Part& part) {
       free += owners(i).Extent() == 1 && !BRep_Tool::Degenerated(TopoDS::Edge(owners.FindKey(i)));
     if (free > 0)
       part.repairs.push_back(fmt::format(
-          "solid {} is not closed: {} borders are of one face only; what is behind them is not known", k, free));
+          "solid {} is not closed: {} edges belong to one face only, so its inside is not known there", k, free));
   }
 }
 
@@ -163,7 +163,7 @@ void add_face(const TopoDS_Face& face, const std::string& spoilt, Part& part) {
   std::string why;
   try {
     converted = convert_occt_face(face, name);
-    if (!spoilt.empty()) why = fmt::format("{}: a part of it could not be read ({})", name, spoilt);
+    if (!spoilt.empty()) why = fmt::format("{}: some of its data could not be read ({})", name, spoilt);
   } catch (const InputError& error) {
     why = error.what();
   } catch (const Standard_Failure& failure) {

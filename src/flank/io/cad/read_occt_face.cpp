@@ -143,13 +143,13 @@ void note_stray_pole(const Handle(Geom_Surface) & surface, const std::string& na
   const BSplineSurface net = net_of(*spline);
   if (const auto stray = stray_pole(net))
     notes.push_back(fmt::format(
-        "{}: control point {}, {} of its surface is {:.3g} mm off the line of its neighbours, and no other is "
-        "nearly as far; look at it before it is used",
+        "{}: control point {}, {} of its surface is {:.3g} mm off the line of its neighbours, far more than "
+        "any other; check it before using the result",
         name, stray->u + 1, stray->v + 1, stray->off));
   if (const auto stray = stray_weight(net))
     notes.push_back(fmt::format(
-        "{}: the weight of control point {}, {} of its surface is {:.3g} times off those of its neighbours, and no "
-        "other is nearly as far; look at it before it is used",
+        "{}: the weight of control point {}, {} of its surface is {:.3g} times off those of its neighbours, far "
+        "more than any other; check it before using the result",
         name, stray->u + 1, stray->v + 1, stray->off));
 }
 

@@ -257,19 +257,20 @@ void require_usable_trim(const TrimLoop& loop, const BSplineSurface& s, const st
   const Vec2 low(s.u_first(), s.v_first()), high(s.u_last(), s.v_last()), range = high - low;
   for (const BSplineCurve2& edge : loop.edges) {
     if (!edge.poles.allFinite() || !all_finite(edge.knots) || !all_finite(edge.weights))
-      throw InputError(name + ": a trim of it has control points or knots that are not finite");
+      throw InputError(name + ": one of its trims has control points or knots that are not finite");
     if (edge.poles.cols() == 0 || !(edge.last() > edge.first()))
-      throw InputError(name + ": the knots of a trim of it do not rise");
+      throw InputError(name + ": the knots of one of its trims do not rise");
     if (std::any_of(edge.weights.begin(), edge.weights.end(), [](double w) { return !(w > 0.0); }))
-      throw InputError(name + ": a weight of a trim of it is not > 0");
+      throw InputError(name + ": a weight of one of its trims is not > 0");
     // Points and not control points: those of a flat arc stand off twice as far as the arc, which is all of the range.
     const int steps = 4 * edge.count();
     for (int i = 0; i <= steps; ++i) {
       const Vec2 p = edge.value(edge.first() + (edge.last() - edge.first()) * i / steps);
       if ((p.array() >= (low - range).array()).all() && (p.array() <= (high + range).array()).all()) continue;
-      throw InputError(fmt::format(
-          "{}: a trim of it goes to the parameters ({}, {}), far beyond its surface's, {} to {} and {} to {}", name,
-          p.x(), p.y(), low.x(), high.x(), low.y(), high.y()));
+      throw InputError(
+          fmt::format("{}: one of its trims reaches the parameters ({}, {}), far outside those of its surface, {} to "
+                      "{} and {} to {}",
+                      name, p.x(), p.y(), low.x(), high.x(), low.y(), high.y()));
     }
   }
 }

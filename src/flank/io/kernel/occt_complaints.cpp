@@ -62,7 +62,7 @@ std::string dropped_edge(const Entity& entity) {
   const Handle(StepShape_Edge) edge = turned->EdgeElement();
   const bool known = !edge.IsNull() && (edge->IsKind(STANDARD_TYPE(StepShape_EdgeCurve)) ||
                                         edge->IsKind(STANDARD_TYPE(StepShape_OrientedEdge)));
-  return known ? "" : "its edge is none of a curve";
+  return known ? "" : "its edge has no curve";
 }
 
 /// What is flat has a meaning in the parameters of a surface alone. Where a point in space is asked for the kernel adds a zero.
@@ -126,7 +126,7 @@ std::string repeated_edge(const Entity& entity) {
     const auto edge = loop->EdgeListValue(i);
     if (edge.IsNull() || edge->EdgeElement().IsNull()) continue;
     if (!seen.emplace(edge->EdgeElement().get(), edge->Orientation()).second)
-      return fmt::format("edge {} of this border is there twice", i);
+      return fmt::format("edge {} of this border occurs twice", i);
   }
   return {};
 }
@@ -137,7 +137,7 @@ std::string repeated_border(const Entity& entity) {
   std::set<const Standard_Transient*> seen;
   for (int i = 1; !face.IsNull() && i <= face->NbBounds(); ++i)
     if (const auto border = face->BoundsValue(i); !border.IsNull() && !seen.insert(border.get()).second)
-      return fmt::format("border {} is there twice", i);
+      return fmt::format("border {} occurs twice", i);
   return {};
 }
 

@@ -38,7 +38,7 @@ PlainFile::PlainFile(std::string file) : name_(std::move(file)) {
     rest.remove_prefix(static_cast<std::size_t>(written));
   }
   if (!rest.empty())
-    throw InputError(name_ + ": its byte order mark cannot be left out (" + std::strerror(errno) +
+    throw InputError(name_ + ": its byte order mark cannot be removed (" + std::strerror(errno) +
                      "); save the file without one");
   name_ = fmt::format("/proc/self/fd/{}", copy_);
 }

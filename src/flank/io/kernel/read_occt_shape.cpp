@@ -57,7 +57,7 @@ double millimetres_of_step_unit(std::string name) {
 void refuse_absurd_unit(const std::string& file, std::string name) {
   std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
   if (name.ends_with("metre") && millimetres_of_step_unit(name) == 0.0)
-    refuse_content(file, "STEP", "its unit of length, " + name + ", is none of parts");
+    refuse_content(file, "STEP", "its unit of length, " + name + ", is not supported");
 }
 
 /// Of the file, for reports; the shape itself is in millimetres.
@@ -111,7 +111,7 @@ OcctShape load_step(const std::string& file) {
   for (Standard_Integer i = 1; i <= lengths.Length(); ++i) refuse_absurd_unit(file, lengths.Value(i).ToCString());
   double millimetres = lengths.IsEmpty() ? 0.0 : millimetres_of_step_unit(lengths.First().ToCString());
   if (millimetres == 0.0) {
-    result.notes.push_back("the file's unit of length is not one that is known by name; millimetres are reported");
+    result.notes.push_back("the file's unit of length has no common name; lengths are reported in millimetres");
     millimetres = 1.0;
   }
   for (Standard_Integer i = 2; i <= lengths.Length(); ++i)
@@ -133,7 +133,7 @@ OcctShape load_iges(const std::string& file) {
   OcctShape result;
   const double millimetres = reader.IGESModel()->GlobalSection().UnitValue();
   if (!(millimetres >= kSmallestUnitMm && millimetres <= kLargestUnitMm))
-    refuse_content(file, "IGES", fmt::format("its unit of length, {:g} mm, is none of parts", millimetres));
+    refuse_content(file, "IGES", fmt::format("its unit of length, {:g} mm, is not supported", millimetres));
   state_unit(result, millimetres);
   reader.TransferRoots();
   result.shape = reader.OneShape();

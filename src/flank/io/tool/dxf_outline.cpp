@@ -300,7 +300,7 @@ Chain drawn_chain(const std::vector<DxfCurve>& curves, const std::string& file) 
   if (drawn.empty())
     throw InputError(file + ": no lines, arcs, polylines or splines of a tool's outline; blocks must be exploded");
   const Chain chain = longest_chain(half_of(drawn, axis_of(curves)));
-  if (chain.empty()) throw InputError(file + ": its lines meet in no open outline of half a tool");
+  if (chain.empty()) throw InputError(file + ": its lines do not join to one open outline of half a tool");
   return from_the_tip(chain);
 }
 

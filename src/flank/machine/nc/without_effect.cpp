@@ -52,12 +52,12 @@ std::string why_not_without_effect(std::string_view word) {
       word.front() < 'A')
     return std::string("is not a word of a program; ") + kAccepted;
   const std::optional<double> number = number_of(word);
-  if (!number) return name_has_effect(word) ? "has an effect on the motion, which no machine leaves out" : "";
+  if (!number) return name_has_effect(word) ? "affects the motion, so it cannot be listed as without effect" : "";
   const int tenths = static_cast<int>(std::lround(std::min(*number, 1e6) * 10.0));
   const bool g = word.front() == 'G' && std::find(kWithEffect.begin(), kWithEffect.end(), tenths) != kWithEffect.end();
   const bool m =
       word.front() == 'M' && std::find(kMWithEffect.begin(), kMWithEffect.end(), tenths / 10) != kMWithEffect.end();
-  if (g || m) return "has an effect on the motion, which no machine leaves out";
+  if (g || m) return "affects the motion, so it cannot be listed as without effect";
   return word.front() == 'G' || word.front() == 'M' ? "" : std::string("states a value; ") + kAccepted;
 }
 

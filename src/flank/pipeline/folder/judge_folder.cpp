@@ -66,7 +66,7 @@ std::string absolute(const std::string& file) { return std::filesystem::absolute
 void write_verdict(ResultFolder& folder, const PartStamp& part, const std::map<std::string, std::string>& files,
                    Verification& outcome) {
   if (!folder.writable()) {
-    outcome.notes.push_back(folder.path() + " may not be written: the verdict is not in it");
+    outcome.notes.push_back(folder.path() + " is not writable: the verdict is printed, but not stored there");
     return;
   }
   Manifest manifest{.made_by = kMadeByVerify,

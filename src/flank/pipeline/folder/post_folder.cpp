@@ -178,7 +178,7 @@ void judge_machine(const Machine& machine, const Post& result, const MachineScen
   for (const TracePoint& at : result.trace) track.push_back(at.joints);
   const auto where = [&](std::size_t place) {
     const TracePoint& at = result.trace[place];
-    return fmt::format("after {:.1f} s, {}", at.time_s, at.cutting ? "along a strip" : "on a link");
+    return fmt::format("after {:.1f} s, {}", at.time_s, at.cutting ? "while cutting" : "on a link");
   };
   judge_scene(machine, machine.tool_length, scene, track, where, outcome.acceptance);
 }

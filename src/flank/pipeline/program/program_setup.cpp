@@ -93,7 +93,7 @@ class SetUpCheck {
     if (origin && (*origin - wanted).norm() <= kSameMm) return;
     add(Figure::kSetup,
         fmt::format("its header contradicts itself: the work offset HOLDS {}, but {}X{} Y{} Z{}", header.origin,
-                    joint ? "of joint coordinates it must hold " : "the part's origin is by SETUP at ", wanted.x(),
+                    joint ? "a program in joint coordinates needs " : "SETUP puts the part's origin at ", wanted.x(),
                     wanted.y(), wanted.z()));
   }
 

@@ -83,8 +83,9 @@ RankingReport family_report(const CoverJob& job, const ToolChoice& choice, const
   report.options = options.ranking;
   for (const Tool& tool : found.tools)
     report.names.push_back(fmt::format("{}, axis {:.4g} mm", tool.name, tool.radial.axis_length()));
-  report.source = fmt::format("{}, searched over {}; {} tools compared by profile, {} of them in place, {} by passes",
-                              job.tool.spec, found.searched, found.grid, found.screened, found.covered);
+  report.source = fmt::format(
+      "{}, searched over {}; {} tools compared by profile, {} of them placed on the face, {} by their passes",
+      job.tool.spec, found.searched, found.grid, found.screened, found.covered);
   report.tools = std::move(found.tools);
   return report;
 }

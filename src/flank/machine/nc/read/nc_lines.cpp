@@ -22,7 +22,7 @@ void NcPlace::refuse(const std::string& why) const {
 }
 
 void NcPlace::refuse_word(std::string_view word, std::string_view language) const {
-  refuse(quoted(word) + " is not of the subset that is read of " + std::string(language) + " programs");
+  refuse(quoted(word) + " is not supported in " + std::string(language) + " programs");
 }
 
 bool NcLines::next() {

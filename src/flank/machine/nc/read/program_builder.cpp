@@ -157,7 +157,7 @@ void ProgramBuilder::vector(std::size_t component, double value) {
 
 void ProgramBuilder::feed(double value) {
   if (block_.feed) place_.refuse("the block states F twice");
-  if (!(value > 0.0)) place_.refuse("a feed is more than 0");
+  if (!(value > 0.0)) place_.refuse("a feed must be more than 0");
   check_size(value * feed_unit_, place_);
   block_.feed = value;
 }
