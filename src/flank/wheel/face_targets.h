@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@ class FaceTargets {
   /// One target a face, in their order; pieces of faces count. They live as long as this. Throws UsageError for names that the part
   /// does not have.
   [[nodiscard]] std::vector<const Target*> of(const std::vector<std::string>& faces);
+  /// A face or a piece of one as the part has it; none of a mesh. Throws UsageError as of() does.
+  [[nodiscard]] std::optional<Face> face(const std::string& name) const;
 
  private:
   const Part& part_;

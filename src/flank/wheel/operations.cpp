@@ -16,9 +16,9 @@
 #include "flank/tool_file.h"
 #include "flank/version.h"
 #include "flank/wheel/blade_copies.h"
+#include "flank/wheel/guarded.h"
 #include "flank/wheel/judge_whole.h"
 #include "flank/wheel/perform.h"
-#include "flank/wheel/side_guard.h"
 
 namespace flank::internal {
 namespace {
@@ -28,7 +28,7 @@ using Names = std::vector<std::string>;
 constexpr double kFitSampleMm = 1.0;    ///< of the judge of one side: the whole is judged closely at the end
 constexpr double kTaperDeg = 12.0;      ///< of the tool that is made for a wheel
 constexpr double kCornerShare = 0.5;    ///< of what may be left, that the corners at the hub may take
-constexpr double kMostSeconds = 240.0;  ///< of processor time, for roughing and for edges
+constexpr double kMostSeconds = 240.0;  ///< of processor time, for roughing
 constexpr double kFilletShare = 0.97;   ///< of a root fillet's radius, that the tip has
 
 /// Searches that go on until they are told to stop, told so after some processor time.
@@ -176,9 +176,7 @@ Path side_path(WheelWork& work, const std::string& spec, const Progress& progres
     for (std::size_t k = 1; k < sectors.size(); ++k)
       carry_over(work, own, sectors[k], static_cast<double>(k) * work.sector.pitch_rad, path);
   }
-  path = kept_free(work, path);
-  for (std::size_t k = 0; k < path.strips.size(); ++k) path.strips[k].id = static_cast<int>(k) + 1;
-  return path;
+  return guarded(work, lifted(work, path));
 }
 
 }  // namespace
@@ -200,26 +198,6 @@ WheelOperation side_operation(WheelWork& work, const Progress& progress) {
   if (!operation.done) return operation;
   work.tool = read_tool(in_folder(work, operation.folder + "/tool.json"));
   write_tool(*work.tool, in_folder(work, "tools/T1.json"));
-  take(work, operation);
-  return operation;
-}
-
-WheelOperation edge_operation(WheelWork& work, const Progress& progress) {
-  WheelOperation operation{.id = "40", .kind = "edge", .folder = ""};
-  for (const WheelBlade& blade : work.sector.blades)
-    operation.faces.insert(operation.faces.end(), blade.edges.begin(), blade.edges.end());
-  if (!work.tool || operation.faces.empty()) {
-    operation.problem = work.tool ? "no blade has a face that is an edge" : "there is no tool: the sides have none";
-    return operation;
-  }
-  CoverJob job;
-  job.part = part_request(work, operation.faces);
-  job.obstacles = obstacle_request(work);
-  job.tool.spec = tool_file(work);
-  job.tolerance_mm = work.job.tolerance_mm;
-  job.judge.reach_radius_mm = kOpenBall * work.job.tolerance_mm;
-  const std::string decides = job_to_json(job) + tool_to_json(*work.tool);
-  operation = perform(work, operation, decides, [&] { return run_cover(job, limited(progress)); });
   take(work, operation);
   return operation;
 }

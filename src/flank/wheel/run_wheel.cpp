@@ -8,6 +8,7 @@
 #include "flank/feature/recognise_wheel.h"
 #include "flank/feature/wheel_table.h"
 #include "flank/io/mesh/write_mesh.h"
+#include "flank/wheel/face_operations.h"
 #include "flank/wheel/floor_operation.h"
 #include "flank/wheel/judge_whole.h"
 #include "flank/wheel/operations.h"
@@ -57,7 +58,12 @@ WheelResult run_wheel(const WheelJob& job, const Progress& progress) {
   run(side_operation(work, progress.part(0.0, 0.4)));
   result.copies = work.copies(), result.notes = work.notes;
   run(floor_operation(work, progress.part(0.4, 0.5)));
-  if (job.edges) run(edge_operation(work, progress.part(0.5, 0.6)));
+  progress.step("edges", 0.5);
+  const bool fillets = std::any_of(sector.blades.begin(), sector.blades.end(),
+                                   [](const WheelBlade& blade) { return !blade.fillets.empty(); });
+  if (fillets) run(fillet_operation(work));
+  if (job.edges) run(edge_operation(work));
+  run(rest_operation(work));
   if (job.rough) run(rough_operation(work, progress.part(0.6, 0.8)));
   progress.step("verify", 0.8);
   if (!work.finish.strips.empty()) result.whole = judge_whole(work);

@@ -29,8 +29,13 @@ struct WheelWork {
   std::optional<Tool> tool = {};  ///< T1
   Path finish = {};               ///< strips that finish something, in their order
   std::vector<std::string> notes = {};
-  std::optional<TriangleBvh> triangles = {};  ///< of all faces that a tool may meet, once they are asked for
+  std::optional<TriangleBvh> coarse = {}, fine = {};  ///< of all faces that a tool may meet, once they are asked for
 
+  /// Triangles by which directions are looked for, and those by which paths are held against the part: they are beside the faces by
+  /// `kGuardShare` of the tolerance at most.
+  [[nodiscard]] const TriangleBvh& coarse_triangles();
+  [[nodiscard]] const TriangleBvh& guard_triangles();
+  static constexpr double kGuardShare = 0.02;
   static constexpr double kEqualShare = 0.1;
   [[nodiscard]] bool equal() const { return difference_mm <= kEqualShare * job.tolerance_mm; }
   /// The sectors that the hub of the part goes round.
@@ -44,5 +49,8 @@ struct WheelWork {
   /// How often `finish` is turned.
   [[nodiscard]] int copies() const { return equal() ? sector.copies : 1; }
 };
+
+/// All faces but the hub, what lies in it and what is no part of the wheel.
+[[nodiscard]] std::vector<std::string> wall_faces(const WheelRoles& roles);
 
 }  // namespace flank::internal
