@@ -7,16 +7,36 @@
 namespace flank::internal {
 namespace {
 
-constexpr std::size_t kGroup = 12;  ///< poses
+constexpr std::size_t kGroup = 12;   ///< poses
+constexpr double kBetweenShare = 1.5;  ///< of sqrt(within * radius): poses that are farther apart have more between them
+
+/// The motion from pose to pose in steps of the tip and of the upper end.
+std::vector<Pose> dense(const std::vector<Pose>& poses, double length, double step) {
+  std::vector<Pose> out;
+  for (std::size_t k = 0; k + 1 < poses.size(); ++k) {
+    const Pose &a = poses[k], &b = poses[k + 1];
+    const double way = std::max((b.tip - a.tip).norm(), (b.at(length) - a.at(length)).norm());
+    const int count = std::max(1, static_cast<int>(std::ceil(way / step)));
+    for (int n = 0; n < count; ++n) {
+      const double t = static_cast<double>(n) / count;
+      out.push_back({(1.0 - t) * a.tip + t * b.tip, ((1.0 - t) * a.axis + t * b.axis).normalized()});
+    }
+  }
+  if (!poses.empty()) out.push_back(poses.back());
+  return out;
+}
 
 }  // namespace
 
 FinishedPlaces::FinishedPlaces(const std::vector<Strip>& strips, const RadialFunction& radial, double within_mm)
     : radial_(radial), within_mm_(within_mm), reach_mm_(radial.largest() + within_mm) {
-  for (const Strip& strip : strips)
-    for (std::size_t k = 0; k < strip.poses.size(); k += kGroup)
-      add({strip.poses.begin() + static_cast<std::ptrdiff_t>(k),
-           strip.poses.begin() + static_cast<std::ptrdiff_t>(std::min(k + kGroup, strip.poses.size()))});
+  const double step = kBetweenShare * std::sqrt(within_mm * radial.smallest());
+  for (const Strip& strip : strips) {
+    const std::vector<Pose> poses = dense(strip.poses, radial.axis_length(), step);
+    for (std::size_t k = 0; k < poses.size(); k += kGroup)
+      add({poses.begin() + static_cast<std::ptrdiff_t>(k),
+           poses.begin() + static_cast<std::ptrdiff_t>(std::min(k + kGroup, poses.size()))});
+  }
 }
 
 void FinishedPlaces::add(std::vector<Pose> poses) {

@@ -8,7 +8,7 @@
 
 namespace flank::internal {
 
-/// About: by the poses alone, which are near enough to each other. The radial function must outlive it.
+/// About: by poses on the way, so near to each other that little is left between them. The radial function must outlive it.
 class FinishedPlaces {
  public:
   FinishedPlaces(const std::vector<Strip>& strips, const RadialFunction& radial, double within_mm);

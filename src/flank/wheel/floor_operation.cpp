@@ -42,18 +42,6 @@ Names with_fillets(const WheelWork& work, const Names& side, FaceTargets& target
   return out;
 }
 
-FloorChannel channel_of(WheelWork& work, const SectorChannel& channel) {
-  FloorChannel out;
-  out.axis = work.roles.axis;
-  out.floor = work.targets.of(work.roles.hub);
-  out.first = work.targets.of(with_fillets(work, channel.first, work.targets));
-  out.second = work.targets.of(with_fillets(work, channel.second, work.targets));
-  out.walls = work.targets.of(wall_faces(work.roles));
-  out.coarse = &work.coarse_triangles();
-  for (const WheelBlade& blade : work.sector.blades) out.blade_mm = std::max(out.blade_mm, blade.thickness_mm);
-  return out;
-}
-
 /// The strips of the sides that bound a channel, where they are.
 std::vector<Strip> side_strips(const WheelWork& work, const SectorChannel& channel) {
   std::vector<Strip> out = strips_of(work.finish, channel.first);
@@ -71,7 +59,7 @@ Path floor_path(WheelWork& work) {
   if (!work.equal()) sectors = all_sectors(work.roles);
   for (const WheelSector& sector : sectors)
     for (const SectorChannel& channel : sector.channels) {
-      const FloorChannel place = channel_of(work, channel);
+      const FloorChannel place = floor_channel(work, channel);
       PointOptions options;
       options.tolerance_mm = work.job.tolerance_mm;
       options.turn_window_mm = work.turn_window();
@@ -86,6 +74,18 @@ Path floor_path(WheelWork& work) {
 }
 
 }  // namespace
+
+FloorChannel floor_channel(WheelWork& work, const SectorChannel& channel) {
+  FloorChannel out;
+  out.axis = work.roles.axis;
+  out.floor = work.targets.of(work.roles.hub);
+  out.first = work.targets.of(with_fillets(work, channel.first, work.targets));
+  out.second = work.targets.of(with_fillets(work, channel.second, work.targets));
+  out.walls = work.targets.of(wall_faces(work.roles));
+  out.coarse = &work.coarse_triangles();
+  for (const WheelBlade& blade : work.sector.blades) out.blade_mm = std::max(out.blade_mm, blade.thickness_mm);
+  return out;
+}
 
 WheelOperation floor_operation(WheelWork& work, const Progress&) {
   WheelOperation operation{.id = "30", .kind = "floor", .folder = "", .faces = work.roles.hub};

@@ -16,9 +16,8 @@ constexpr double kLiftFrom = 0.9, kLiftTo = 0.7;
 constexpr int kLifts = 4;     ///< rounds
 constexpr int kAlong = 8;     ///< poses to either side that are lifted along, less and less
 
-MotionGuard guard_of(WheelWork& work) {
-  return {work.guard_triangles(), WheelWork::kGuardShare * work.job.tolerance_mm, work.tool->radial,
-          kMostShare * work.job.tolerance_mm};
+MotionGuard guard_of(WheelWork& work, const RadialFunction& radial, double most_mm) {
+  return {work.guard_triangles(), WheelWork::kGuardShare * work.job.tolerance_mm, radial, most_mm};
 }
 
 /// How far each pose moves: as the one beside it that needs most asks, less by how far that is.
@@ -37,7 +36,7 @@ std::vector<Vec3> spread(const std::vector<Vec3>& needs) {
 }  // namespace
 
 Path lifted(WheelWork& work, const Path& path) {
-  const MotionGuard guard = guard_of(work);
+  const MotionGuard guard = guard_of(work, work.tool->radial, kMostShare * work.job.tolerance_mm);
   Path out = path;
   for (Strip& strip : out.strips)
     for (int round = 0; round < kLifts; ++round) {
@@ -55,7 +54,11 @@ Path lifted(WheelWork& work, const Path& path) {
 }
 
 Path guarded(WheelWork& work, const Path& path) {
-  const MotionGuard guard = guard_of(work);
+  return guarded(work, path, work.tool->radial, kMostShare * work.job.tolerance_mm);
+}
+
+Path guarded(WheelWork& work, const Path& path, const RadialFunction& radial, double most_mm) {
+  const MotionGuard guard = guard_of(work, radial, most_mm);
   std::vector<std::pair<std::size_t, std::size_t>> all;
   for (std::size_t s = 0; s < path.strips.size(); ++s)
     for (std::size_t k = 0; k + 1 < path.strips[s].poses.size(); ++k) all.emplace_back(s, k);
@@ -73,12 +76,12 @@ Path guarded(WheelWork& work, const Path& path) {
     run.poses.assign(1, strip.poses.front());
     for (std::size_t k = 0; k + 1 < strip.poses.size(); ++k, ++n) {
       if (free[n] == 0) {
-        add_strip(run, work.tool->radial, options, out.strips);
+        add_strip(run, radial, options, out.strips);
         run.poses.clear();
       }
       run.poses.push_back(strip.poses[k + 1]);
     }
-    add_strip(std::move(run), work.tool->radial, options, out.strips);
+    add_strip(std::move(run), radial, options, out.strips);
   }
   for (std::size_t k = 0; k < out.strips.size(); ++k) out.strips[k].id = static_cast<int>(k) + 1;
   return out;

@@ -14,6 +14,7 @@
 #include "flank/wheel/operations.h"
 #include "flank/wheel/plan_file.h"
 #include "flank/wheel/rest_places.h"
+#include "flank/wheel/rough_operation.h"
 
 namespace flank::internal {
 namespace {
@@ -64,7 +65,8 @@ WheelResult run_wheel(const WheelJob& job, const Progress& progress) {
   if (fillets) run(fillet_operation(work));
   if (job.edges) run(edge_operation(work));
   run(rest_operation(work));
-  if (job.rough) run(rough_operation(work, progress.part(0.6, 0.8)));
+  progress.step("rough", 0.6);
+  if (job.rough) run(rough_operation(work));
   progress.step("verify", 0.8);
   if (!work.finish.strips.empty()) result.whole = judge_whole(work);
   if (result.whole) {

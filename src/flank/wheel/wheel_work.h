@@ -26,7 +26,8 @@ struct WheelWork {
   /// How far the blades are from turned copies of the first one, mm. From `kEqualShare` of the tolerance on every sector has paths of its
   /// own, and `finish` holds them all.
   double difference_mm = 0.0;
-  std::optional<Tool> tool = {};  ///< T1
+  std::optional<Tool> tool = {};        ///< T1: finishes
+  std::optional<Tool> rough_tool = {};  ///< T2: roughs, where it is another one
   Path finish = {};               ///< strips that finish something, in their order
   std::vector<std::string> notes = {};
   std::optional<TriangleBvh> coarse = {}, fine = {};  ///< of all faces that a tool may meet, once they are asked for
