@@ -133,8 +133,16 @@ struct Ball {
 struct ReadySolid {
   int number = -1;
   Box3 box;
-  Winding winding;
-  bool all_checked = true;  ///< no face is there only to close it
+  std::vector<Winding> faces;  ///< of each of its faces
+  bool all_checked = true;     ///< none is there only to close it
+
+  /// More than half wound round, as Winding::inside says of a whole mesh.
+  [[nodiscard]] bool holds(const Vec3& x) const {
+    if ((x.array() < box.low.array()).any() || (x.array() > box.high.array()).any()) return false;
+    double sum = 0.0;
+    for (const Winding& face : faces) sum += face.number(x);
+    return std::abs(sum) > 0.5;
+  }
 };
 
 /// What the ball must keep out of.
@@ -230,15 +238,13 @@ class Surroundings {
   [[nodiscard]] bool held_by(const std::vector<TreeTriangle>& near, const Vec3& x) const {
     // Of many triangles the tree asks but a few.
     if (near.size() > kFewTriangles) return capped_distance(surface_, x, limit_, limit_) < limit_;
-    return std::any_of(near.begin(), near.end(), [&](const TreeTriangle& t) { return triangle_distance(*t.tree, t.triangle, x) < limit_; });
+    return std::any_of(near.begin(), near.end(),
+                       [&](const TreeTriangle& t) { return triangle_distance(*t.tree, t.triangle, x) < limit_; });
   }
 
   [[nodiscard]] bool buried(const Vec3& x) const {
-    return std::any_of(solids_.begin(), solids_.end(), [&](const std::shared_ptr<const ReadySolid>& solid) {
-      const Box3& box = solid->box;
-      const bool in_box = (x.array() >= box.low.array()).all() && (x.array() <= box.high.array()).all();
-      return in_box && solid->winding.inside(x);
-    });
+    return std::any_of(solids_.begin(), solids_.end(),
+                       [&](const std::shared_ptr<const ReadySolid>& solid) { return solid->holds(x); });
   }
 
   double limit_;
@@ -273,8 +279,8 @@ ReachFaces::ReachFaces(const std::vector<ReachFace>& faces) : faces_(faces.size(
   parallel_for(faces.size(), [&](std::size_t k) {
     stop_here();
     const ReachFace& face = faces[k];
-    faces_[k] = std::make_shared<const Ready>(
-        Ready{std::make_shared<const ObstacleTree>(face.mesh), face.solid, face.checked});
+    faces_[k] =
+        std::make_shared<const Ready>(Ready{std::make_shared<const ObstacleTree>(face.mesh), face.solid, face.checked});
   });
   std::map<int, std::vector<std::size_t>> solids;
   for (std::size_t k = 0; k < faces.size(); ++k)
@@ -282,10 +288,12 @@ ReachFaces::ReachFaces(const std::vector<ReachFace>& faces) : faces_(faces.size(
   for (const auto& [number, members] : solids) {
     const auto checked = [&](std::size_t k) { return faces[k].checked; };
     if (std::none_of(members.begin(), members.end(), checked)) continue;
-    TriangleMesh mesh;
-    for (const std::size_t k : members) append(mesh, faces[k].mesh);
-    solids_.push_back(std::make_shared<const Solid>(
-        Solid{{number, mesh.box(), Winding(mesh), std::all_of(members.begin(), members.end(), checked)}}));
+    Solid solid{{number, {}, {}, std::all_of(members.begin(), members.end(), checked)}};
+    for (const std::size_t k : members) {
+      if (!faces[k].mesh.triangles.empty()) solid.box.add(faces[k].mesh.box());
+      solid.faces.emplace_back(faces_[k]->tree);
+    }
+    solids_.push_back(std::make_shared<const Solid>(std::move(solid)));
   }
 }
 
@@ -305,10 +313,9 @@ ReachScene::ReachScene(const ReachFaces& faces, std::size_t target, bool corners
   }
   std::shared_ptr<const ObstacleTree> own =
       corners && is_one ? faces.faces_[target]->tree : std::make_shared<const ObstacleTree>();
-  data_ = std::make_unique<const Data>(
-      Data{options.radius_mm, options.tolerance_mm,
-           Surroundings(std::move(surface), std::move(own), std::move(solids), all_checked,
-                        options.radius_mm - options.tolerance_mm)});
+  data_ = std::make_unique<const Data>(Data{options.radius_mm, options.tolerance_mm,
+                                            Surroundings(std::move(surface), std::move(own), std::move(solids),
+                                                         all_checked, options.radius_mm - options.tolerance_mm)});
 }
 
 ReachScene::ReachScene(const std::vector<ReachFace>& others, const TriangleMesh& own, const ReachOptions& options)

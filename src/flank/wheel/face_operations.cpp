@@ -21,7 +21,7 @@ using Names = std::vector<std::string>;
 using FacesOfBlade = std::function<Names(const WheelBlade&)>;
 
 constexpr double kFinishedShare = 0.7;  ///< of the tolerance: what is left so much more counts as not finished
-constexpr double kDraftShare = 0.9;     ///< of the coverage that is asked for, that an operation's own folder is held to
+constexpr double kDraftShare = 0.9;  ///< of the coverage that is asked for, that an operation's own folder is held to
 
 Names faces_of(const std::vector<WheelBlade>& blades, const FacesOfBlade& which) {
   Names out;
@@ -49,8 +49,7 @@ Path passes_along(WheelWork& work, const std::string& kind, const Names& faces, 
   options.tolerance_mm = work.job.tolerance_mm;
   options.turn_window_mm = work.turn_window();
   if (only_rest)
-    options.is_finished =
-        FinishedPlaces(work.finish.strips, work.tool->radial, kFinishedShare * work.job.tolerance_mm);
+    options.is_finished = FinishedPlaces(work.finish.strips, work.tool->radial, kFinishedShare * work.job.tolerance_mm);
   Path out;
   for (const std::string& name : faces) {
     const std::optional<Face> face = work.targets.face(name);
@@ -96,11 +95,13 @@ Names fillets_of(const WheelBlade& blade) {
 WheelOperation fillet_operation(WheelWork& work) { return on_faces(work, "40", "fillet", fillets_of, true); }
 
 WheelOperation edge_operation(WheelWork& work) {
-  return on_faces(work, "50", "edge", [](const WheelBlade& blade) { return blade.edges; }, false);
+  return on_faces(
+      work, "50", "edge", [](const WheelBlade& blade) { return blade.edges; }, false);
 }
 
 WheelOperation rest_operation(WheelWork& work) {
-  return on_faces(work, "60", "rest", [](const WheelBlade& blade) { return blade.sides(); }, true);
+  return on_faces(
+      work, "60", "rest", [](const WheelBlade& blade) { return blade.sides(); }, true);
 }
 
 }  // namespace flank::internal

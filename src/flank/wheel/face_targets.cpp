@@ -22,7 +22,8 @@ std::vector<const Target*> FaceTargets::of(const std::vector<std::string>& faces
     std::unique_ptr<Target>& target = known_[name];
     if (!target) {
       std::optional<Face> own = face(name);
-      target = own ? make_target({std::move(*own)}, +1) : make_target(extract_mesh(part_, parse_face_list(part_, name)));
+      target =
+          own ? make_target({std::move(*own)}, +1) : make_target(extract_mesh(part_, parse_face_list(part_, name)));
     }
     out.push_back(target.get());
   }

@@ -7,8 +7,9 @@
 namespace flank::internal {
 namespace {
 
-constexpr std::size_t kGroup = 12;   ///< poses
-constexpr double kBetweenShare = 1.5;  ///< of sqrt(within * radius): poses that are farther apart have more between them
+constexpr std::size_t kGroup = 12;  ///< poses
+constexpr double kBetweenShare =
+    1.5;  ///< of sqrt(within * radius): poses that are farther apart have more between them
 
 /// The motion from pose to pose in steps of the tip and of the upper end.
 std::vector<Pose> dense(const std::vector<Pose>& poses, double length, double step) {

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kMostShare = 0.96;  ///< of the tolerance, that a face may be cut
 constexpr double kLiftFrom = 0.9, kLiftTo = 0.7;
-constexpr int kLifts = 4;     ///< rounds
-constexpr int kAlong = 8;     ///< poses to either side that are lifted along, less and less
+constexpr int kLifts = 4;  ///< rounds
+constexpr int kAlong = 8;  ///< poses to either side that are lifted along, less and less
 
 MotionGuard guard_of(WheelWork& work, const RadialFunction& radial, double most_mm) {
   return {work.guard_triangles(), WheelWork::kGuardShare * work.job.tolerance_mm, radial, most_mm};

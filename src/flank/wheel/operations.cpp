@@ -24,10 +24,10 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-constexpr double kFitSampleMm = 1.0;    ///< of the judge of one side: the whole is judged closely at the end
-constexpr double kTaperDeg = 12.0;      ///< of the tool that is made for a wheel
-constexpr double kCornerShare = 0.5;    ///< of what may be left, that the corners at the hub may take
-constexpr double kFilletShare = 0.97;   ///< of a root fillet's radius, that the tip has
+constexpr double kFitSampleMm = 1.0;   ///< of the judge of one side: the whole is judged closely at the end
+constexpr double kTaperDeg = 12.0;     ///< of the tool that is made for a wheel
+constexpr double kCornerShare = 0.5;   ///< of what may be left, that the corners at the hub may take
+constexpr double kFilletShare = 0.97;  ///< of a root fillet's radius, that the tip has
 
 PartRequest part_request(const WheelWork& work, const Names& faces) {
   PartRequest out;

@@ -21,9 +21,16 @@ constexpr const char* kSchema = "openflank/plan/1";
 std::vector<double> list_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 nlohmann::ordered_json operation_json(const WheelOperation& o, int copies) {
-  nlohmann::ordered_json json{{"id", o.id},       {"kind", o.kind},   {"tool", o.tool},       {"folder", o.folder},
-                              {"copies", o.copies > 0 ? o.copies : copies}, {"faces", o.faces}, {"seconds", o.seconds}, {"done", o.done},
-                              {"pass", o.pass},   {"key", o.key}};
+  nlohmann::ordered_json json{{"id", o.id},
+                              {"kind", o.kind},
+                              {"tool", o.tool},
+                              {"folder", o.folder},
+                              {"copies", o.copies > 0 ? o.copies : copies},
+                              {"faces", o.faces},
+                              {"seconds", o.seconds},
+                              {"done", o.done},
+                              {"pass", o.pass},
+                              {"key", o.key}};
   if (!o.problem.empty()) json["problem"] = o.problem;
   return json;
 }
@@ -113,6 +120,7 @@ std::string plan_json(const WheelResult& result) {
   json["schema"] = kSchema;
   json["axis"] = {{"point_mm", list_of(result.roles.axis.point)}, {"direction", list_of(result.roles.axis.direction)}};
   json["copies"] = result.copies;
+  if (result.roles.count > 0) json["pitch_deg"] = 360.0 / result.roles.count;
   json["tools"] = tools_json(result);
   json["operations"] = nlohmann::ordered_json::array();
   for (const WheelOperation& operation : result.operations)

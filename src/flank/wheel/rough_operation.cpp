@@ -19,19 +19,21 @@
 namespace flank::internal {
 namespace {
 
-constexpr double kAllowanceMm = 0.3;     ///< that roughing leaves
-constexpr double kWidthShare = 0.2;      ///< of a channel's width round the axis, that the tip's radius takes: channels run aslant
+constexpr double kAllowanceMm = 0.3;  ///< that roughing leaves
+constexpr double kWidthShare =
+    0.2;  ///< of a channel's width round the axis, that the tip's radius takes: channels run aslant
 constexpr double kTaperDeg = 5.0;
-constexpr double kLayerShare = 1.0;      ///< of the tip's radius
+constexpr double kLayerShare = 1.0;  ///< of the tip's radius
 constexpr double kApartShare = 1.0;
-constexpr double kSmallestGain = 1.2;    ///< a tool that is no larger is not worth a change
+constexpr double kSmallestGain = 1.2;  ///< a tool that is no larger is not worth a change
 constexpr double kMapStepMm = 0.5;
 
 double distance_to(const std::vector<Vec2>& line, const Vec2& p) {
   double least = 1e300;
   for (std::size_t k = 0; k + 1 < line.size(); ++k) {
     const Vec2 side = line[k + 1] - line[k];
-    const double t = side.squaredNorm() > 0.0 ? std::clamp((p - line[k]).dot(side) / side.squaredNorm(), 0.0, 1.0) : 0.0;
+    const double t =
+        side.squaredNorm() > 0.0 ? std::clamp((p - line[k]).dot(side) / side.squaredNorm(), 0.0, 1.0) : 0.0;
     least = std::min(least, (p - line[k] - t * side).norm());
   }
   return least;
@@ -121,7 +123,8 @@ Path rough_path(WheelWork& work, const RadialFunction& radial) {
 WheelOperation rough_operation(WheelWork& work) {
   WheelOperation operation{.id = "10", .kind = "rough", .folder = "", .faces = work.roles.hub};
   if (!work.tool || work.roles.outline.empty()) {
-    operation.problem = work.tool ? "no tips are known, so no outline of a blank" : "there is no tool: the sides have none";
+    operation.problem =
+        work.tool ? "no tips are known, so no outline of a blank" : "there is no tool: the sides have none";
     return operation;
   }
   operation.tool = choose_tool(work);

@@ -68,6 +68,8 @@ WheelResult run_wheel(const WheelJob& job, const Progress& progress) {
   progress.step("rough", 0.6);
   if (job.rough) run(rough_operation(work));
   progress.step("verify", 0.8);
+  // The judge needs memory of its own, and nothing of this.
+  work.fine.reset(), work.coarse.reset(), work.targets.forget();
   if (!work.finish.strips.empty()) result.whole = judge_whole(work);
   if (result.whole) {
     result.figures = role_figures(result.roles, result.whole->verify);

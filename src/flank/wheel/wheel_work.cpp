@@ -11,8 +11,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-constexpr double kChordShare = 0.5;  ///< of what triangles may be off: they aim at it
-constexpr int kMostSteps = 2000;     ///< of a face, in either direction
+constexpr int kMostSteps = 2000;  ///< of a face, in either direction
 
 void append(Names& to, const Names& more) { to.insert(to.end(), more.begin(), more.end()); }
 
@@ -50,7 +49,7 @@ const TriangleBvh& WheelWork::guard_triangles() {
     if (!part.is_left_out(k) && !holds(roles.debris, part.face_id(k))) counted.push_back(k);
   std::vector<TriangleMesh> meshes(counted.size());
   parallel_for(meshes.size(), [&](std::size_t k) {
-    const TessellationOptions options{.chord_mm = kChordShare * kGuardShare * job.tolerance_mm, .most_steps = kMostSteps};
+    const TessellationOptions options{.chord_mm = 0.5 * kGuardShare * job.tolerance_mm, .most_steps = kMostSteps};
     meshes[k] = part.is_mesh() ? extract_mesh(part, {counted[k]})
                                : tessellate(part.faces[static_cast<std::size_t>(counted[k])], options).mesh;
   });

@@ -28,7 +28,7 @@ struct WheelWork {
   double difference_mm = 0.0;
   std::optional<Tool> tool = {};        ///< T1: finishes
   std::optional<Tool> rough_tool = {};  ///< T2: roughs, where it is another one
-  Path finish = {};               ///< strips that finish something, in their order
+  Path finish = {};                     ///< strips that finish something, in their order
   std::vector<std::string> notes = {};
   std::optional<TriangleBvh> coarse = {}, fine = {};  ///< of all faces that a tool may meet, once they are asked for
 

@@ -23,8 +23,7 @@ Face half_cylinder() {
   for (int i = 0; i < kAcross; ++i) u.push_back(i / (kAcross - 1.0));
   for (int j = 0; j < kAlong; ++j) v.push_back(j / (kAlong - 1.0));
   for (const double a : u)
-    for (const double b : v)
-      points.emplace_back(kEdge * std::sin(M_PI * a), -kEdge * std::cos(M_PI * a), kSpan * b);
+    for (const double b : v) points.emplace_back(kEdge * std::sin(M_PI * a), -kEdge * std::cos(M_PI * a), kSpan * b);
   Face face;
   face.id = "F1";
   face.surface = interpolate_grid(points, u, v, 3);

@@ -55,7 +55,9 @@ TEST(MotionGuard, SaysFreeOfMotionsThatCutNoDeeperThanIsAllowedAndOfNoOthers) {
     // Beside the ball, the flank about along it, as far off as its radius there, a little more or less.
     const auto pose = [&](double along) {
       const Vec3 axis = (Vec3::UnitZ() + 0.1 * Vec3(any(random), any(random), 0.0)).normalized();
-      return Pose{Vec3(kBall + radial.at(0.5 * kLength).r + 0.05 * any(random) + 0.02, along, 0.0) - 0.5 * kLength * axis, axis};
+      return Pose{
+          Vec3(kBall + radial.at(0.5 * kLength).r + 0.05 * any(random) + 0.02, along, 0.0) - 0.5 * kLength * axis,
+          axis};
     };
     const Pose a = pose(-0.3), b = pose(0.3);
     const double depth = sampled_depth(triangles, radial, a, b);

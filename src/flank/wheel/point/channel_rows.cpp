@@ -10,7 +10,7 @@
 namespace flank::internal {
 namespace {
 
-constexpr double kStepMm = 0.5;      ///< between rows along the channel
+constexpr double kStepMm = 0.5;                                      ///< between rows along the channel
 constexpr std::array<double, 5> kStarts{0.5, 0.35, 0.65, 0.2, 0.8};  ///< of the search for that, across the channel
 constexpr double kMarchMm = 0.5;
 constexpr int kHalvings = 10;        ///< of the search for the outermost free place

@@ -25,16 +25,21 @@ std::vector<double> even(const std::vector<double>& sums, double from, double to
   return out;
 }
 
-std::size_t number_of(double sum) { return std::clamp<std::size_t>(static_cast<std::size_t>(std::ceil(sum)), 1, kMost); }
+std::size_t number_of(double sum) {
+  return std::clamp<std::size_t>(static_cast<std::size_t>(std::ceil(sum)), 1, kMost);
+}
 
 }  // namespace
 
 FaceLines::FaceLines(const Face& face, double tip_mm, double scallop_mm, double step_mm)
     : face_(face),
-      region_(face.loops, {face.surface.u_first(), face.surface.u_last(), face.surface.v_first(), face.surface.v_last()}) {
+      region_(face.loops,
+              {face.surface.u_first(), face.surface.u_last(), face.surface.v_first(), face.surface.v_last()}) {
   along_u_ = long_in_u();
   const ParameterRectangle& box = region_.box();
-  const auto inset = [](double from, double to) { return std::pair(from + kInset * (to - from), to - kInset * (to - from)); };
+  const auto inset = [](double from, double to) {
+    return std::pair(from + kInset * (to - from), to - kInset * (to - from));
+  };
   std::tie(a0_, a1_) = along_u_ ? inset(box.u0, box.u1) : inset(box.v0, box.v1);
   std::tie(c0_, c1_) = along_u_ ? inset(box.v0, box.v1) : inset(box.u0, box.u1);
   place_lines(tip_mm, scallop_mm);
@@ -46,7 +51,8 @@ bool FaceLines::long_in_u() const {
   double u = 0.0, v = 0.0;
   for (int i = 0; i <= kCoarse; ++i)
     for (int j = 0; j <= kCoarse; ++j) {
-      const SurfaceJet jet = face_.surface.jet(box.u0 + (box.u1 - box.u0) * i / kCoarse, box.v0 + (box.v1 - box.v0) * j / kCoarse);
+      const SurfaceJet jet =
+          face_.surface.jet(box.u0 + (box.u1 - box.u0) * i / kCoarse, box.v0 + (box.v1 - box.v0) * j / kCoarse);
       u += jet.du.norm() * (box.u1 - box.u0), v += jet.dv.norm() * (box.v1 - box.v0);
     }
   return u >= v;
@@ -57,7 +63,8 @@ std::optional<FaceLines::Frame> FaceLines::frame(double along, double across) co
   const Vec3 cross = jet.du.cross(jet.dv);
   const double length = cross.norm();
   if (!(length > 1e-12 * std::max(jet.du.squaredNorm(), jet.dv.squaredNorm()))) return {};
-  Frame out{jet.p, (face_.reversed ? -1.0 : 1.0) / length * cross, along_u_ ? jet.du : jet.dv, along_u_ ? jet.dv : jet.du};
+  Frame out{jet.p, (face_.reversed ? -1.0 : 1.0) / length * cross, along_u_ ? jet.du : jet.dv,
+            along_u_ ? jet.dv : jet.du};
   out.bend = (along_u_ ? jet.dvv : jet.duu).dot(out.normal) / out.across.squaredNorm();
   return out;
 }

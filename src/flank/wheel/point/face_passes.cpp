@@ -14,31 +14,61 @@
 namespace flank::internal {
 namespace {
 
-constexpr double kStepMm = 0.5;       ///< between poses
-constexpr double kNetMm = 2.5;        ///< of the net of directions, along
-constexpr std::size_t kColumns = 9;   ///< and across, at most
-constexpr double kLeastMm = 0.01;     ///< poses that are nearer to each other are one
-constexpr int kHalvings = 8;          ///< of the search for the end of a pass's room
+constexpr double kStepMm = 0.5;      ///< between poses
+constexpr double kNetMm = 2.5;       ///< of the net of directions, along
+constexpr std::size_t kColumns = 9;  ///< and across, at most
+constexpr double kLeastMm = 0.01;    ///< poses that are nearer to each other are one
+constexpr int kHalvings = 8;         ///< of the search for the end of a pass's room
+
+/// Of each line, its places that need a pass.
+using Wanted = std::vector<std::vector<char>>;
+
+/// Nodes of the field of directions among the places and lines.
+struct Net {
+  int rows = 2, columns = 1;
+  double rows_apart = 1.0, columns_apart = 1.0;  ///< places and lines between nodes
+  explicit Net(const FaceLines& lines)
+      : rows(static_cast<int>(std::max(2.0, std::ceil(static_cast<double>(lines.places()) * kStepMm / kNetMm)))),
+        columns(static_cast<int>(std::clamp<std::size_t>(lines.lines(), 1, kColumns))),
+        rows_apart((static_cast<double>(lines.places()) - 1.0) / (rows - 1.0)) {
+    if (columns > 1) columns_apart = (static_cast<double>(lines.lines()) - 1.0) / (columns - 1.0);
+  }
+};
 
 struct Work {
   const FaceLines& lines;
   const TipRoom& room;
-  const PointOptions& options;
   const AxisField& field;
-  double rows_apart, columns_apart;  ///< places and lines between nodes of the field
+  const Net& net;
 };
 
-AxisField field_of(const FaceLines& lines, const TipRoom& room, double rows_apart, double columns_apart, int rows,
-                   int columns) {
-  std::vector<std::optional<TipRoom::Rest>> places(static_cast<std::size_t>(rows * columns));
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    const auto row = static_cast<double>(k / static_cast<std::size_t>(columns));
-    const auto line = static_cast<std::size_t>(
-        std::lround(static_cast<double>(k % static_cast<std::size_t>(columns)) * columns_apart));
-    if (const auto place = lines.at(std::min(line, lines.lines() - 1), row * rows_apart))
-      places[k] = TipRoom::Rest{place->point + room.lift_mm() * place->normal, place->normal, 0.0};
+/// Whether a place within a node's cells needs a pass: other nodes need no direction.
+bool is_asked(const Wanted& wanted, const Net& net, double place, double line) {
+  const auto range = [](double middle, double half, std::size_t count) {
+    return std::pair(static_cast<std::size_t>(std::max(0.0, std::floor(middle - half))),
+                     static_cast<std::size_t>(std::clamp(std::ceil(middle + half), 0.0, static_cast<double>(count) - 1.0)));
+  };
+  const auto [line0, line1] = range(line, net.columns_apart, wanted.size());
+  for (std::size_t n = line0; n <= line1; ++n) {
+    const auto [place0, place1] = range(place, net.rows_apart, wanted[n].size());
+    for (std::size_t k = place0; k <= place1; ++k)
+      if (wanted[n][k] != 0) return true;
   }
-  return {room, places, rows, columns};
+  return false;
+}
+
+AxisField field_of(const FaceLines& lines, const TipRoom& room, const Net& net, const Wanted& wanted) {
+  std::vector<std::optional<TipRoom::Rest>> places(static_cast<std::size_t>(net.rows * net.columns));
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const double place = static_cast<double>(k / static_cast<std::size_t>(net.columns)) * net.rows_apart;
+    const auto line = std::min(
+        lines.lines() - 1,
+        static_cast<std::size_t>(std::lround(static_cast<double>(k % static_cast<std::size_t>(net.columns)) * net.columns_apart)));
+    if (!is_asked(wanted, net, place, static_cast<double>(line))) continue;
+    if (const auto here = lines.at(line, place))
+      places[k] = TipRoom::Rest{here->point + room.lift_mm() * here->normal, here->normal, 0.0};
+  }
+  return {room, places, net.rows, net.columns};
 }
 
 /// The pose at a place, whether it has room or not; none beside the face.
@@ -46,7 +76,7 @@ std::optional<Pose> pose_at(const Work& work, std::size_t line, double place) {
   const std::optional<FaceLines::Place> here = work.lines.at(line, place);
   if (!here) return {};
   return Pose{here->point + work.room.lift_mm() * here->normal,
-              work.field.at(place / work.rows_apart, static_cast<double>(line) / work.columns_apart)};
+              work.field.at(place / work.net.rows_apart, static_cast<double>(line) / work.net.columns_apart)};
 }
 
 bool has_room(const Work& work, const std::optional<Pose>& pose) {
@@ -67,21 +97,20 @@ Pose last_with_room(const Work& work, std::size_t line, double good, double bad,
 }
 
 /// Places of a line that need a pass: what is not finished, and a neighbour on either side.
-std::vector<char> needed(const Work& work, std::size_t line) {
-  const std::size_t count = work.lines.places();
+std::vector<char> needed(const FaceLines& lines, const PointOptions& options, std::size_t line) {
+  const std::size_t count = lines.places();
   std::vector<char> open(count, 0), out(count, 0);
   for (std::size_t k = 0; k < count; ++k) {
-    const auto place = work.lines.at(line, static_cast<double>(k));
-    open[k] = place && !(work.options.is_finished && work.options.is_finished(place->point)) ? 1 : 0;
+    const auto place = lines.at(line, static_cast<double>(k));
+    open[k] = place && !(options.is_finished && options.is_finished(place->point)) ? 1 : 0;
   }
   for (std::size_t k = 0; k < count; ++k)
     out[k] = open[k] != 0 || (k > 0 && open[k - 1] != 0) || (k + 1 < count && open[k + 1] != 0) ? 1 : 0;
   return out;
 }
 
-PoseRow row_of(const Work& work, std::size_t line) {
+PoseRow row_of(const Work& work, std::size_t line, const std::vector<char>& wanted) {
   PoseRow out;
-  const std::vector<char> wanted = needed(work, line);
   std::optional<Pose> last;
   for (std::size_t k = 0; k < wanted.size(); ++k) {
     const double place = static_cast<double>(k);
@@ -104,14 +133,13 @@ std::vector<Strip> face_passes(const Face& face, const FloorChannel& around, con
                                const PointOptions& options, const std::string& kind, const std::string& name) {
   const TipRoom room(around, radial, options);
   const FaceLines lines(face, room.tip_mm(), options.scallop_share * options.tolerance_mm, kStepMm);
-  const auto rows = static_cast<int>(std::max(2.0, std::ceil(static_cast<double>(lines.places()) * kStepMm / kNetMm)));
-  const auto columns = static_cast<int>(std::clamp<std::size_t>(lines.lines(), 1, kColumns));
-  const double rows_apart = (static_cast<double>(lines.places()) - 1.0) / (rows - 1.0),
-               columns_apart = columns > 1 ? (static_cast<double>(lines.lines()) - 1.0) / (columns - 1.0) : 1.0;
-  const AxisField field = field_of(lines, room, rows_apart, columns_apart, rows, columns);
-  const Work work{lines, room, options, field, rows_apart, columns_apart};
+  Wanted wanted(lines.lines());
+  parallel_for(wanted.size(), [&](std::size_t line) { wanted[line] = needed(lines, options, line); });
+  const Net net(lines);
+  const AxisField field = field_of(lines, room, net, wanted);
+  const Work work{lines, room, field, net};
   std::vector<PoseRow> found(lines.lines());
-  parallel_for(found.size(), [&](std::size_t line) { found[line] = row_of(work, line); });
+  parallel_for(found.size(), [&](std::size_t line) { found[line] = row_of(work, line, wanted[line]); });
   std::vector<Strip> out;
   add_strips(std::move(found), radial, options, kind, name, out);
   return out;

@@ -38,9 +38,12 @@ double MotionGuard::corner(const Motion& motion, double s, double t) const {
 bool MotionGuard::is_free(const Pose& from, const Pose& to) const {
   const Motion motion{from, to, angle_of(from.axis, to.axis)};
   const double length = radial_.axis_length();
-  const Cell whole{0.0, length, 0.0, 1.0,
-                   {corner(motion, 0.0, 0.0), corner(motion, length, 0.0), corner(motion, 0.0, 1.0),
-                    corner(motion, length, 1.0)}};
+  const Cell whole{
+      0.0,
+      length,
+      0.0,
+      1.0,
+      {corner(motion, 0.0, 0.0), corner(motion, length, 0.0), corner(motion, 0.0, 1.0), corner(motion, length, 1.0)}};
   return is_free(motion, whole);
 }
 
