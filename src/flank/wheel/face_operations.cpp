@@ -20,7 +20,7 @@ namespace {
 using Names = std::vector<std::string>;
 using FacesOfBlade = std::function<Names(const WheelBlade&)>;
 
-constexpr double kFinishedShare = 0.7;  ///< of the tolerance: what is left so much more counts as not finished
+constexpr double kFinishedShare = 0.92;  ///< of the tolerance: what is left so much more counts as not finished
 constexpr double kDraftShare = 0.9;  ///< of the coverage that is asked for, that an operation's own folder is held to
 
 Names faces_of(const std::vector<WheelBlade>& blades, const FacesOfBlade& which) {

@@ -63,7 +63,7 @@ Path floor_path(WheelWork& work) {
       PointOptions options;
       options.tolerance_mm = work.job.tolerance_mm;
       options.turn_window_mm = work.turn_window();
-      options.is_finished = FinishedPlaces(side_strips(work, channel), work.tool->radial, 0.7 * work.job.tolerance_mm);
+      options.is_finished = FinishedPlaces(side_strips(work, channel), work.tool->radial, 0.9 * work.job.tolerance_mm);
       for (Strip& strip :
            point_passes(place, work.tool->radial, options, face_list(work.roles.hub), face_list(channel.first),
                         face_list(work.equal() ? channel.second_path : channel.second)))

@@ -21,7 +21,7 @@ constexpr double kLeastMm = 0.01;    ///< poses that are nearer to each other ar
 constexpr int kHalvings = 8;         ///< of the search for the end of a pass's room
 
 /// Of each line, its places that need a pass.
-using Wanted = std::vector<std::vector<char>>;
+using AskedPlaces = std::vector<std::vector<char>>;
 
 /// Nodes of the field of directions among the places and lines.
 struct Net {
@@ -43,7 +43,7 @@ struct Work {
 };
 
 /// Whether a place within a node's cells needs a pass: other nodes need no direction.
-bool is_asked(const Wanted& wanted, const Net& net, double place, double line) {
+bool is_asked(const AskedPlaces& wanted, const Net& net, double place, double line) {
   const auto range = [](double middle, double half, std::size_t count) {
     return std::pair(static_cast<std::size_t>(std::max(0.0, std::floor(middle - half))),
                      static_cast<std::size_t>(std::clamp(std::ceil(middle + half), 0.0, static_cast<double>(count) - 1.0)));
@@ -57,7 +57,7 @@ bool is_asked(const Wanted& wanted, const Net& net, double place, double line) {
   return false;
 }
 
-AxisField field_of(const FaceLines& lines, const TipRoom& room, const Net& net, const Wanted& wanted) {
+AxisField field_of(const FaceLines& lines, const TipRoom& room, const Net& net, const AskedPlaces& wanted) {
   std::vector<std::optional<TipRoom::Rest>> places(static_cast<std::size_t>(net.rows * net.columns));
   for (std::size_t k = 0; k < places.size(); ++k) {
     const double place = static_cast<double>(k / static_cast<std::size_t>(net.columns)) * net.rows_apart;
@@ -133,7 +133,7 @@ std::vector<Strip> face_passes(const Face& face, const FloorChannel& around, con
                                const PointOptions& options, const std::string& kind, const std::string& name) {
   const TipRoom room(around, radial, options);
   const FaceLines lines(face, room.tip_mm(), options.scallop_share * options.tolerance_mm, kStepMm);
-  Wanted wanted(lines.lines());
+  AskedPlaces wanted(lines.lines());
   parallel_for(wanted.size(), [&](std::size_t line) { wanted[line] = needed(lines, options, line); });
   const Net net(lines);
   const AxisField field = field_of(lines, room, net, wanted);
