@@ -48,12 +48,12 @@ Path passes_along(WheelWork& work, const std::string& kind, const Names& faces, 
   PointOptions options;
   options.tolerance_mm = work.job.tolerance_mm;
   options.turn_window_mm = work.turn_window();
-  if (only_rest)
-    options.is_finished = FinishedPlaces(work.finish.strips, work.tool->radial, kFinishedShare * work.job.tolerance_mm);
+  const FinishedPlaces finished(work.finish.strips, work.tool->radial, kFinishedShare * work.job.tolerance_mm);
   Path out;
   for (const std::string& name : faces) {
     const std::optional<Face> face = work.targets.face(name);
     if (!face) throw InputError(name + ": passes along a face need its surface, and a mesh has none");
+    if (only_rest) options.is_finished = finished.within(work.targets.of({name}).front()->box());
     for (Strip& strip : face_passes(*face, place, work.tool->radial, options, kind, name))
       out.strips.push_back(std::move(strip));
   }

@@ -29,8 +29,11 @@ std::vector<Pose> dense(const std::vector<Pose>& poses, double length, double st
 
 }  // namespace
 
+FinishedPlaces::FinishedPlaces(const RadialFunction& radial, double within_mm)
+    : radial_(radial), within_mm_(within_mm), reach_mm_(radial.largest() + within_mm) {}
+
 FinishedPlaces::FinishedPlaces(const std::vector<Strip>& strips, const RadialFunction& radial, double within_mm)
-    : radial_(radial), within_mm_(within_mm), reach_mm_(radial.largest() + within_mm) {
+    : FinishedPlaces(radial, within_mm) {
   const double step = kBetweenShare * std::sqrt(within_mm * radial.smallest());
   for (const Strip& strip : strips) {
     const std::vector<Pose> poses = dense(strip.poses, radial.axis_length(), step);
@@ -51,6 +54,13 @@ void FinishedPlaces::add(std::vector<Pose> poses) {
   group.radius += reach_mm_;
   group.poses = std::move(poses);
   groups_.push_back(std::move(group));
+}
+
+FinishedPlaces FinishedPlaces::within(const Box3& box) const {
+  FinishedPlaces out(radial_, within_mm_);
+  for (const Group& group : groups_)
+    if (box.squared_distance(group.center) <= group.radius * group.radius) out.groups_.push_back(group);
+  return out;
 }
 
 bool FinishedPlaces::operator()(const Vec3& x) const {

@@ -12,6 +12,8 @@ namespace flank::internal {
 class FinishedPlaces {
  public:
   FinishedPlaces(const std::vector<Strip>& strips, const RadialFunction& radial, double within_mm);
+  /// Those of the poses that can say anything of a box.
+  [[nodiscard]] FinishedPlaces within(const Box3& box) const;
   /// Whether the flank of some pose comes so near to a place, or beyond it.
   [[nodiscard]] bool operator()(const Vec3& x) const;
 
@@ -22,6 +24,7 @@ class FinishedPlaces {
     Vec3 center = Vec3::Zero();
     double radius = 0.0;
   };
+  FinishedPlaces(const RadialFunction& radial, double within_mm);
   void add(std::vector<Pose> poses);
   [[nodiscard]] double distance(const Vec3& d, const Vec3& axis) const;
 

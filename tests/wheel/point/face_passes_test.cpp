@@ -79,6 +79,37 @@ TEST(FaceLines, AreNearerToEachOtherWhereTheSphereIsSmaller) {
   EXPECT_EQ(FaceLines(face, 0.5, 0.02, 0.5).places(), 25U);
 }
 
+/// A strip of a plane that lies aslant in its parameters, as trimmed planes of a CAD file do.
+Face slanting_strip() {
+  Face face;
+  BSplineSurface& s = face.surface;
+  s.degree_u = s.degree_v = 1, s.count_u = s.count_v = 2;
+  s.knots_u = s.knots_v = {0.0, 0.0, 1.0, 1.0};
+  s.poles = {Vec3(0, 0, 0), Vec3(0, 20, 0), Vec3(40, 0, 0), Vec3(40, 20, 0)};
+  const std::vector<Vec2> corners{{0.0, 0.0}, {0.05, 0.0}, {1.0, 0.95}, {1.0, 1.0}, {0.95, 1.0}, {0.0, 0.05}};
+  TrimLoop loop;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    BSplineCurve2 edge;
+    edge.degree = 1, edge.knots = {0.0, 0.0, 1.0, 1.0};
+    edge.poles.resize(2, 2);
+    edge.poles << corners[k], corners[(k + 1) % corners.size()];
+    loop.edges.push_back(edge);
+  }
+  face.loops = {loop};
+  return face;
+}
+
+TEST(FaceLines, OfAStripThatLiesAslantRunAlongIt) {
+  const Face face = slanting_strip();
+  const FaceLines lines(face, 0.5, 0.025, 0.5);
+  EXPECT_LT(lines.lines(), 12U);
+  const std::size_t middle = lines.lines() / 2;
+  int there = 0;
+  for (std::size_t k = 0; k < lines.places(); ++k) there += lines.at(middle, static_cast<double>(k)) ? 1 : 0;
+  EXPECT_GT(there, 0.9 * static_cast<double>(lines.places()));
+  EXPECT_GT(static_cast<double>(there) * 0.5, 0.9 * std::hypot(40.0, 20.0));
+}
+
 TEST(FinishedPlaces, AreThoseThatAPoseComesNearTo) {
   const RadialFunction radial(ToolFamily::kCylinder, 10.0, Eigen::VectorXd::Constant(1, 2.0));
   Strip strip;
@@ -88,6 +119,11 @@ TEST(FinishedPlaces, AreThoseThatAPoseComesNearTo) {
   EXPECT_TRUE(finished(Vec3(10.0, 0.0, -1.99)));
   EXPECT_FALSE(finished(Vec3(10.0, 2.06, 5.0)));
   EXPECT_FALSE(finished(Vec3(30.0, 2.0, 5.0)));
+  Box3 box;
+  box.add(Vec3(9.0, 1.0, 4.0)), box.add(Vec3(11.0, 3.0, 6.0));
+  const FinishedPlaces near = finished.within(box);
+  EXPECT_TRUE(near(Vec3(10.0, 2.04, 5.0)));
+  EXPECT_FALSE(near(Vec3(10.0, 2.06, 5.0)));
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 #include "flank/wheel/point/face_lines.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace flank::internal {
@@ -9,6 +11,8 @@ namespace {
 
 constexpr int kFine = 240, kCoarse = 24;  ///< places in the direction that is divided, and in the other one
 constexpr double kInset = 1e-6;           ///< of the range: the outermost lines run so far inside of the border
+constexpr int kGrid = 64;                 ///< places either way, that tell how a trimmed face lies in its parameters
+constexpr double kFull = 0.6;             ///< of the grid: a face that fills more lies along its parameters
 constexpr std::size_t kMost = 2048;       ///< lines, and places along each
 
 /// Values at which a running sum, one entry for each even step of [from, to], passes even shares of its end.
@@ -35,37 +39,79 @@ FaceLines::FaceLines(const Face& face, double tip_mm, double scallop_mm, double 
     : face_(face),
       region_(face.loops,
               {face.surface.u_first(), face.surface.u_last(), face.surface.v_first(), face.surface.v_last()}) {
-  along_u_ = long_in_u();
-  const ParameterRectangle& box = region_.box();
-  const auto inset = [](double from, double to) {
-    return std::pair(from + kInset * (to - from), to - kInset * (to - from));
-  };
-  std::tie(a0_, a1_) = along_u_ ? inset(box.u0, box.u1) : inset(box.v0, box.v1);
-  std::tie(c0_, c1_) = along_u_ ? inset(box.v0, box.v1) : inset(box.u0, box.u1);
+  const std::vector<Vec2> places = inside();
+  const bool full = region_.whole() || static_cast<double>(places.size()) > kFull * kGrid * kGrid;
+  if (full || places.size() < 3)
+    lay_along_parameters();
+  else
+    lay_aslant(places);
   place_lines(tip_mm, scallop_mm);
   place_steps(step_mm);
 }
 
-bool FaceLines::long_in_u() const {
+/// Of a grid over the box of the trimmed region.
+std::vector<Vec2> FaceLines::inside() const {
+  const ParameterRectangle& box = region_.box();
+  std::vector<Vec2> out;
+  for (int i = 0; i < kGrid; ++i)
+    for (int j = 0; j < kGrid; ++j) {
+      const Vec2 p(box.u0 + (box.u1 - box.u0) * (i + 0.5) / kGrid, box.v0 + (box.v1 - box.v0) * (j + 0.5) / kGrid);
+      if (region_.inside(p.x(), p.y())) out.push_back(p);
+    }
+  return out;
+}
+
+void FaceLines::lay_along_parameters() {
   const ParameterRectangle& box = region_.box();
   double u = 0.0, v = 0.0;
   for (int i = 0; i <= kCoarse; ++i)
     for (int j = 0; j <= kCoarse; ++j) {
-      const SurfaceJet jet =
-          face_.surface.jet(box.u0 + (box.u1 - box.u0) * i / kCoarse, box.v0 + (box.v1 - box.v0) * j / kCoarse);
+      const SurfaceJet jet = face_.surface.jet(box.u0 + (box.u1 - box.u0) * i / kCoarse,
+                                               box.v0 + (box.v1 - box.v0) * j / kCoarse);
       u += jet.du.norm() * (box.u1 - box.u0), v += jet.dv.norm() * (box.v1 - box.v0);
     }
-  return u >= v;
+  if (u < v) std::swap(along_way_, across_way_);
+  const auto inset = [](double from, double to) {
+    return std::pair(from + kInset * (to - from), to - kInset * (to - from));
+  };
+  std::tie(a0_, a1_) = u < v ? inset(box.v0, box.v1) : inset(box.u0, box.u1);
+  std::tie(c0_, c1_) = u < v ? inset(box.u0, box.u1) : inset(box.v0, box.v1);
+}
+
+/// Along the longest extent of the places, by the lengths on the surface in their middle.
+void FaceLines::lay_aslant(const std::vector<Vec2>& places) {
+  for (const Vec2& p : places) origin_ += p / static_cast<double>(places.size());
+  const SurfaceJet jet = face_.surface.jet(origin_.x(), origin_.y());
+  Eigen::Matrix<double, 3, 2> tangents;
+  tangents << jet.du, jet.dv;
+  // In lengths the parameter plane is sheared; its root of the metric straightens it.
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> metric(tangents.transpose() * tangents);
+  const Eigen::Matrix2d root = metric.operatorSqrt(), back = metric.operatorInverseSqrt();
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+  for (const Vec2& p : places) spread += (root * (p - origin_)) * (root * (p - origin_)).transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(spread);
+  along_way_ = back * axes.eigenvectors().col(1), across_way_ = back * axes.eigenvectors().col(0);
+  a0_ = c0_ = 1e300, a1_ = c1_ = -1e300;
+  for (const Vec2& p : places) {
+    const Vec2 x = axes.eigenvectors().transpose() * root * (p - origin_);
+    a0_ = std::min(a0_, x.y()), a1_ = std::max(a1_, x.y()), c0_ = std::min(c0_, x.x()), c1_ = std::max(c1_, x.x());
+  }
+  // The border is between the places: half a cell of the grid more.
+  const ParameterRectangle& box = region_.box();
+  const double cell = (root * Vec2((box.u1 - box.u0) / kGrid, (box.v1 - box.v0) / kGrid)).norm();
+  a0_ -= 0.5 * cell, a1_ += 0.5 * cell, c0_ -= 0.25 * cell, c1_ += 0.25 * cell;
 }
 
 std::optional<FaceLines::Frame> FaceLines::frame(double along, double across) const {
-  const SurfaceJet jet = along_u_ ? face_.surface.jet(along, across) : face_.surface.jet(across, along);
+  const Vec2 p = parameters(along, across), &a = along_way_, &c = across_way_;
+  const SurfaceJet jet = face_.surface.jet(p.x(), p.y());
   const Vec3 cross = jet.du.cross(jet.dv);
   const double length = cross.norm();
   if (!(length > 1e-12 * std::max(jet.du.squaredNorm(), jet.dv.squaredNorm()))) return {};
-  Frame out{jet.p, (face_.reversed ? -1.0 : 1.0) / length * cross, along_u_ ? jet.du : jet.dv,
-            along_u_ ? jet.dv : jet.du};
-  out.bend = (along_u_ ? jet.dvv : jet.duu).dot(out.normal) / out.across.squaredNorm();
+  Frame out{jet.p, (face_.reversed ? -1.0 : 1.0) / length * cross, a.x() * jet.du + a.y() * jet.dv,
+            c.x() * jet.du + c.y() * jet.dv};
+  const Vec3 second = c.x() * c.x() * jet.duu + 2.0 * c.x() * c.y() * jet.duv + c.y() * c.y() * jet.dvv;
+  out.bend = second.dot(out.normal) / out.across.squaredNorm();
   return out;
 }
 
@@ -104,7 +150,8 @@ std::optional<FaceLines::Place> FaceLines::at(std::size_t line, double place) co
   const auto k = static_cast<std::size_t>(std::min(p, std::max(0.0, last - 1.0)));
   const double a = along_[k] + (p - static_cast<double>(k)) * (along_[std::min(k + 1, along_.size() - 1)] - along_[k]);
   const double c = across_[line];
-  if (!region_.whole() && !(along_u_ ? region_.inside(a, c) : region_.inside(c, a))) return {};
+  const Vec2 at = parameters(a, c);
+  if (!region_.whole() && !region_.inside(at.x(), at.y())) return {};
   const std::optional<Frame> here = frame(a, c);
   if (!here) return {};
   return Place{here->point, here->normal};

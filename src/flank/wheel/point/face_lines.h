@@ -9,8 +9,8 @@
 
 namespace flank::internal {
 
-/// Parameter lines of the face's longer direction. Places along a line and lines are numbered evenly: by the way along, and by the
-/// scallop across.
+/// Parameter lines of the face's longer direction; where the trimmed face lies aslant in its parameters, as a strip of a plane may, straight
+/// lines of the parameters along it. Places along a line and lines are numbered evenly: by the way along, and by the scallop across.
 class FaceLines {
  public:
   /// `tip_mm`: radius of the sphere; `scallop_mm`: that two lines may leave between them; `step_mm`: between places along a line.
@@ -31,11 +31,16 @@ class FaceLines {
   [[nodiscard]] std::optional<Frame> frame(double along, double across) const;
   void place_lines(double tip_mm, double scallop_mm);
   void place_steps(double step_mm);
-  [[nodiscard]] bool long_in_u() const;
+  [[nodiscard]] std::vector<Vec2> inside() const;
+  void lay_along_parameters();
+  void lay_aslant(const std::vector<Vec2>& inside);
+  [[nodiscard]] Vec2 parameters(double along, double across) const {
+    return origin_ + along * along_way_ + across * across_way_;
+  }
 
   const Face& face_;
   TrimRegion region_;
-  bool along_u_ = true;
+  Vec2 origin_ = Vec2::Zero(), along_way_ = Vec2::UnitX(), across_way_ = Vec2::UnitY();  ///< in the parameter plane
   double a0_ = 0.0, a1_ = 1.0, c0_ = 0.0, c1_ = 1.0;  ///< of the trimmed region, along and across
   std::vector<double> along_, across_;
 };
