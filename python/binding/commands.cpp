@@ -48,7 +48,7 @@ py::tuple milled_wheel(const WheelRequest& request, const py::object& callback) 
 }
 
 void bind_wheel(py::module_& module) {
-  py::class_<WheelRequest>(module, "WheelRequest", "What is asked of a wheel.")
+  py::class_<WheelRequest>(module, "WheelRequest", "The request for a wheel.")
       .def(py::init<>())
       .def_readwrite("part", &WheelRequest::part)
       .def_readwrite("folder", &WheelRequest::folder)
