@@ -38,3 +38,4 @@
 #include "flank/triangle_mesh.h"
 #include "flank/vec.h"
 #include "flank/version.h"
+#include "flank/wheel.h"

@@ -1,7 +1,7 @@
 """OpenFlank: finds milling tools and five-axis motions whose flank finishes a free-form surface, and checks them.
 
 Lengths are in millimetres, points in the frame of the part, poses rows (x, y, z, i, j, k): the tip and the unit vector towards the
-holder. The functions fit, cover, trochoid, verify, post, report, inspect and example do what the commands of these names do, with the
+holder. The functions fit, cover, trochoid, verify, post, report, inspect, example and wheel do what the commands of these names do, with the
 same bytes.
 """
 
@@ -10,7 +10,7 @@ from ._core import (
     Envelope, Error, Face, FaceVerdict, Footpoints, InputError, InternalError, JobField, Part, Path, Program, Result,
     RuledMotion, Samples, Strip, SweptDistances, Target, Tool, UsageError, Verification, VerifyReport, WorstPlace, __version__,
     job_fields, judge, read_part, set_thread_count, swept_distances, thread_count)
-from ._commands import example, examples, inspect, machine, machines
+from ._commands import example, examples, inspect, machine, machines, wheel
 from ._jobs import Interrupted, cover, fit, post, report, trochoid, verify
 from ._tasks import design, sweep
 
@@ -19,7 +19,7 @@ __all__ = [
     "Path", "Program", "Result", "RuledMotion", "Samples", "Strip", "SweptDistances", "Target", "Tool", "UsageError",
     "Verification", "VerifyReport", "WorstPlace", "cover", "design", "example", "examples", "fit", "inspect", "job_fields", "judge",
     "machine", "machines", "post", "read_part", "report", "set_thread_count", "sweep", "swept_distances", "thread_count", "trochoid",
-    "verify"]
+    "verify", "wheel"]
 
 for _name in __all__:
     _thing = globals()[_name]

@@ -408,6 +408,24 @@ def design(
     progress: _Progress | None = ...,
     **fields: Any,
 ) -> dict[str, Any]: ...
+def wheel(
+    part: _File,
+    folder: _File,
+    *,
+    tolerance_mm: float = ...,
+    unit: str | None = ...,
+    tool: _File | None = ...,
+    coverage: float = ...,
+    effort: str = ...,
+    sample_mm: float | None = ...,
+    rough: bool = ...,
+    edges: bool = ...,
+    hub: str | None = ...,
+    blades: Sequence[str] = ...,
+    splitters: Sequence[str] = ...,
+    count: int | None = ...,
+    progress: _Progress | None = ...,
+) -> dict[str, Any]: ...
 
 # From the library's table of fields: scripts/python_stubs.py writes what follows.
 def fit(

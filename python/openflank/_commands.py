@@ -46,3 +46,38 @@ def machines():
 def machine(name):
     """Joints, limits and control of a machine, by its name or its file: a dict, as flank machine --json has it. Raises InputError."""
     return json.loads(_core.machine_json(os.fspath(name)))
+
+
+def wheel(part, folder, *, tolerance_mm=0.05, unit=None, tool=None, coverage=0.97, effort="quick", sample_mm=None, rough=True,
+          edges=True, hub=None, blades=(), splitters=(), count=None, progress=None):
+    """Mills a whole wheel, as flank wheel does: plan.json as a dict (docs/schema/wheel.md). The results lie in the folder.
+
+    part, unit
+        A file, and the unit of a mesh: "mm", "cm", "m" or "in".
+    tolerance_mm, coverage
+        The tolerance, and the share of what is open of the flow surface that must be within it.
+    tool
+        A tool.json, a family such as "cone:radius=0.6,angle=12", or "free". None: made for the wheel.
+    effort
+        Of the fits: "quick", "normal" or "thorough".
+    sample_mm
+        Judge by samples alone; None: with a proof.
+    rough, edges
+        False leaves out the roughing, or the edges.
+    hub, blades, splitters, count
+        Roles: "F1"; one list of faces a blade; equal sectors in a whole turn. What is not given is found.
+    progress
+        Called as progress(stage, share).
+
+    Raises UsageError, and InputError for a part that is no wheel.
+    """
+    request = _core.WheelRequest()
+    given = {"part": os.fspath(part), "folder": os.fspath(folder), "tolerance_mm": tolerance_mm, "unit": unit,
+             "tool": None if tool is None else os.fspath(tool), "coverage": coverage, "effort": effort, "sample_mm": sample_mm,
+             "rough": rough, "edges": edges, "hub": hub, "blades": list(blades), "splitters": list(splitters), "count": count}
+    for name, value in given.items():
+        setattr(request, name, value)
+    text, stopped_by = _core.mill_wheel(request, progress)
+    if stopped_by is not None:
+        raise stopped_by
+    return json.loads(text)

@@ -149,3 +149,10 @@ def test_what_only_looks_says_what_the_command_says(tmp_path):
     assert openflank.machine(name) == said("machine", name, "--json")
     with pytest.raises(openflank.UsageError, match="impellor"):
         openflank.example("impellor", file)
+
+
+def test_what_is_no_wheel_is_refused_and_says_what_is_missing(blade, tmp_path):
+    with pytest.raises(openflank.InputError, match="revolution|axis|blade"):
+        openflank.wheel(blade, tmp_path / "out")
+    with pytest.raises(openflank.UsageError, match="tolerance"):
+        openflank.wheel(blade, tmp_path / "out", tolerance_mm=0.0)

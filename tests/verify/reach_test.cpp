@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 #include <numeric>
 
@@ -152,6 +153,23 @@ TEST(Reach, SameBitsForAnyNumberOfThreads) {
   set_thread_count(0);
 }
 
+TEST(Reach, FacesThatAreSharedSayWhatEachSceneOfItsOwnSays) {
+  const FaceSamples floor = floor_samples(0.4);
+  const TriangleMesh own = quad({0, -9, 0}, {40, -9, 0}, {40, 30, 0}, {0, 30, 0});
+  const std::vector<TriangleMesh> block = box({10, -15, -10}, {30, 15, 7.7});
+  std::vector<ReachFace> all{{own, 0, true}, {quad({0, -9, -30}, {0, -9, 50}, {0, 30, 50}, {0, 30, -30}), 0, true}};
+  for (const ReachFace& side : solid(block, 1)) all.push_back(side);
+  // Of its own solid a target has faces to keep out of, and no inside.
+  std::vector<ReachFace> others = solid(block, 1);
+  others.push_back({all[1].mesh, -1, true});
+  const ReachFaces faces(all);
+  for (const bool corners : {false, true}) {
+    const std::vector<double> shared = ReachScene(faces, 0, corners, {1.7, 0.01}).shares(floor);
+    EXPECT_EQ(shared, ReachScene(others, corners ? own : TriangleMesh(), {1.7, 0.01}).shares(floor));
+    EXPECT_NE(*std::min_element(shared.begin(), shared.end()), *std::max_element(shared.begin(), shared.end()));
+  }
+}
+
 TEST(Reach, RefusesBallsThatAreNone) {
   for (double radius : {0.0, -1.0, 1e300 * 1e300}) EXPECT_THROW((void)reach(floor_samples(), {}, radius), UsageError);
   EXPECT_THROW((void)reach(floor_samples(), {}, 1.0, 0.0), UsageError);
@@ -208,7 +226,7 @@ TEST(Winding, IsOneInsideAndNoneOutside) {
   for (double r : {10.2, 12.0, 30.0, 1e4}) EXPECT_NEAR(winding.number({0.0, r, 0.3 * r}), 0.0, 0.05) << r;
   EXPECT_TRUE(winding.inside({1, 2, 3}));
   EXPECT_FALSE(winding.inside({10, 2, 3}));
-  EXPECT_FALSE(verify::Winding({}).inside({0, 0, 0}));
+  EXPECT_FALSE(verify::Winding(TriangleMesh()).inside({0, 0, 0}));
 }
 
 TEST(Reach, TheLargestBallBesideAWallIsAsLargeAsItIsFar) {

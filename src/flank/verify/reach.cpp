@@ -8,7 +8,9 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <span>
+#include <utility>
 
 #include "flank/base/parallel.h"
 #include "flank/base/stopping.h"
@@ -51,6 +53,14 @@ double node_bound(const ObstacleTree::Node& node, const Vec3& x) {
   return std::max(slab, (x - node.sphere.center).norm() - node.sphere.radius);
 }
 
+using Trees = std::vector<std::shared_ptr<const ObstacleTree>>;
+
+/// A triangle of one of some trees.
+struct TreeTriangle {
+  const ObstacleTree* tree = nullptr;
+  int triangle = -1;
+};
+
 /// Distance from x to the nearest triangle where that is below `cap`, else `cap`; any distance below `enough` if there
 /// is one. `nearest`: that triangle; stays as it is if none is below the cap.
 double capped_distance(const ObstacleTree& tree, const Vec3& x, double cap, double enough, int* nearest = nullptr) {
@@ -81,9 +91,21 @@ double capped_distance(const ObstacleTree& tree, const Vec3& x, double cap, doub
   return least;
 }
 
+/// The same of several trees.
+double capped_distance(const Trees& trees, const Vec3& x, double cap, double enough, TreeTriangle* nearest = nullptr) {
+  double least = cap;
+  for (const std::shared_ptr<const ObstacleTree>& tree : trees) {
+    if (least < enough) break;
+    int here = -1;
+    least = capped_distance(*tree, x, least, enough, &here);
+    if (here >= 0 && nearest != nullptr) *nearest = {tree.get(), here};
+  }
+  return least;
+}
+
 /// The triangles that are nearer to x than `cap`.
-std::vector<int> triangles_within(const ObstacleTree& tree, const Vec3& x, double cap) {
-  std::vector<int> found, stack;
+void add_triangles_within(const ObstacleTree& tree, const Vec3& x, double cap, std::vector<TreeTriangle>& found) {
+  std::vector<int> stack;
   if (!tree.empty()) stack.push_back(0);
   while (!stack.empty()) {
     const int index = stack.back();
@@ -96,9 +118,8 @@ std::vector<int> triangles_within(const ObstacleTree& tree, const Vec3& x, doubl
       continue;
     }
     for (int k = node.first; k < node.end; ++k)
-      if (triangle_distance(tree, k, x) < cap) found.push_back(k);
+      if (triangle_distance(tree, k, x) < cap) found.push_back({&tree, k});
   }
-  return found;
 }
 
 /// The ball at one sample.
@@ -108,26 +129,32 @@ struct Ball {
   double slack = 0.0;  ///< no place of the cell moves the centre by more
 };
 
+/// A solid that a ball's centre may lie in.
+struct ReadySolid {
+  int number = -1;
+  Box3 box;
+  std::vector<Winding> faces;  ///< of each of its faces
+  bool all_checked = true;     ///< none is there only to close it
+
+  /// More than half wound round, as Winding::inside says of a whole mesh.
+  [[nodiscard]] bool holds(const Vec3& x) const {
+    if ((x.array() < box.low.array()).any() || (x.array() > box.high.array()).any()) return false;
+    double sum = 0.0;
+    for (const Winding& face : faces) sum += face.number(x);
+    return std::abs(sum) > 0.5;
+  }
+};
+
 /// What the ball must keep out of.
 class Surroundings {
  public:
-  Surroundings(const std::vector<ReachFace>& others, const TriangleMesh& own, double limit) : limit_(limit), own_(own) {
-    TriangleMesh checked;
-    std::map<int, std::pair<TriangleMesh, bool>> solids;
-    for (const ReachFace& face : others) {
-      if (face.checked) append(checked, face.mesh);
-      if (face.solid < 0) continue;
-      append(solids[face.solid].first, face.mesh);
-      solids[face.solid].second |= face.checked;
-      all_checked_ = all_checked_ && face.checked;
-    }
-    surface_ = ObstacleTree(checked);
-    for (const auto& [number, solid] : solids) {
-      if (!solid.second) continue;
-      boxes_.push_back(solid.first.box());
-      solids_.emplace_back(solid.first);
-    }
-  }
+  Surroundings(Trees surface, std::shared_ptr<const ObstacleTree> own,
+               std::vector<std::shared_ptr<const ReadySolid>> solids, bool all_checked, double limit)
+      : limit_(limit),
+        all_checked_(all_checked),
+        surface_(std::move(surface)),
+        own_(std::move(own)),
+        solids_(std::move(solids)) {}
 
   /// The shares of the cells of neighbouring balls, in halves: a distance has slope 1, so that one place may decide for
   /// all of them.
@@ -164,11 +191,11 @@ class Surroundings {
     for (int step = 0; step < kMostSteps && radius > tolerance; ++step) {
       const Vec3 center = x + radius * n;
       double smaller = radius;
-      for (const ObstacleTree* tree : {&surface_, &own_}) {
-        int nearest = -1;
+      for (const Trees& trees : {surface_, Trees{own_}}) {
+        TreeTriangle nearest;
         const double limit = radius - tolerance;
-        if (capped_distance(*tree, center, limit, 0.0, &nearest) >= limit) continue;
-        const Vec3 away = triangle_point(*tree, nearest, center) - x;
+        if (capped_distance(trees, center, limit, 0.0, &nearest) >= limit) continue;
+        const Vec3 away = triangle_point(*nearest.tree, nearest.triangle, center) - x;
         // The ball that touches at x and passes through that point. What lies behind x lets none pass.
         const double ahead = away.dot(n);
         smaller = std::min(smaller, ahead > 0.0 ? away.squaredNorm() / (2.0 * ahead) : 0.0);
@@ -181,7 +208,7 @@ class Surroundings {
 
   /// Whether the ball that touches the target here enters it elsewhere.
   [[nodiscard]] bool in_a_corner(const Ball& ball) const {
-    return capped_distance(own_, ball.center, limit_, limit_) < limit_;
+    return capped_distance(*own_, ball.center, limit_, limit_) < limit_;
   }
 
  private:
@@ -193,7 +220,9 @@ class Surroundings {
     if (distance < limit_ - slack || buried(center)) return 0.0;
     if (distance >= limit_ + slack) return 1.0;
     // A triangle that holds any place of the cell is one of these.
-    const std::vector<int> near = triangles_within(surface_, center, limit_ + slack);
+    std::vector<TreeTriangle> near;
+    for (const std::shared_ptr<const ObstacleTree>& tree : surface_)
+      add_triangles_within(*tree, center, limit_ + slack, near);
     const Vec3 e1 = normal.unitOrthogonal(), e2 = normal.cross(e1);
     const double side = std::sqrt(area) / kPlaces;
     int free = 0;
@@ -206,25 +235,23 @@ class Surroundings {
   }
 
   /// Whether the ball at x meets the surface, all of which that is near enough is listed.
-  [[nodiscard]] bool held_by(const std::vector<int>& near, const Vec3& x) const {
+  [[nodiscard]] bool held_by(const std::vector<TreeTriangle>& near, const Vec3& x) const {
     // Of many triangles the tree asks but a few.
     if (near.size() > kFewTriangles) return capped_distance(surface_, x, limit_, limit_) < limit_;
-    return std::any_of(near.begin(), near.end(), [&](int k) { return triangle_distance(surface_, k, x) < limit_; });
+    return std::any_of(near.begin(), near.end(),
+                       [&](const TreeTriangle& t) { return triangle_distance(*t.tree, t.triangle, x) < limit_; });
   }
 
   [[nodiscard]] bool buried(const Vec3& x) const {
-    for (std::size_t k = 0; k < solids_.size(); ++k) {
-      const bool in_box = (x.array() >= boxes_[k].low.array()).all() && (x.array() <= boxes_[k].high.array()).all();
-      if (in_box && solids_[k].inside(x)) return true;
-    }
-    return false;
+    return std::any_of(solids_.begin(), solids_.end(),
+                       [&](const std::shared_ptr<const ReadySolid>& solid) { return solid->holds(x); });
   }
 
   double limit_;
-  bool all_checked_ = true;  ///< no face is there only to close its solid
-  ObstacleTree surface_, own_;
-  std::vector<Box3> boxes_;
-  std::vector<Winding> solids_;
+  bool all_checked_;  ///< no face of a solid is there only to close it
+  Trees surface_;     ///< one a face
+  std::shared_ptr<const ObstacleTree> own_;
+  std::vector<std::shared_ptr<const ReadySolid>> solids_;
 };
 
 void require_usable(const ReachOptions& options) {
@@ -240,11 +267,65 @@ struct ReachScene::Data {
   Surroundings around;
 };
 
-ReachScene::ReachScene(const std::vector<ReachFace>& others, const TriangleMesh& own, const ReachOptions& options) {
-  require_usable(options);
-  data_ = std::make_unique<const Data>(Data{options.radius_mm, options.tolerance_mm,
-                                            Surroundings(others, own, options.radius_mm - options.tolerance_mm)});
+struct ReachFaces::Ready {
+  std::shared_ptr<const ObstacleTree> tree;
+  int solid = -1;
+  bool checked = true;
+};
+
+struct ReachFaces::Solid : ReadySolid {};
+
+ReachFaces::ReachFaces(const std::vector<ReachFace>& faces) : faces_(faces.size()) {
+  parallel_for(faces.size(), [&](std::size_t k) {
+    stop_here();
+    const ReachFace& face = faces[k];
+    faces_[k] =
+        std::make_shared<const Ready>(Ready{std::make_shared<const ObstacleTree>(face.mesh), face.solid, face.checked});
+  });
+  std::map<int, std::vector<std::size_t>> solids;
+  for (std::size_t k = 0; k < faces.size(); ++k)
+    if (faces[k].solid >= 0) solids[faces[k].solid].push_back(k);
+  for (const auto& [number, members] : solids) {
+    const auto checked = [&](std::size_t k) { return faces[k].checked; };
+    if (std::none_of(members.begin(), members.end(), checked)) continue;
+    Solid solid{{number, {}, {}, std::all_of(members.begin(), members.end(), checked)}};
+    for (const std::size_t k : members) {
+      if (!faces[k].mesh.triangles.empty()) solid.box.add(faces[k].mesh.box());
+      solid.faces.emplace_back(faces_[k]->tree);
+    }
+    solids_.push_back(std::make_shared<const Solid>(std::move(solid)));
+  }
 }
+
+ReachScene::ReachScene(const ReachFaces& faces, std::size_t target, bool corners, const ReachOptions& options) {
+  require_usable(options);
+  Trees surface;
+  std::vector<std::shared_ptr<const ReadySolid>> solids;
+  bool all_checked = true;
+  const bool is_one = target < faces.faces_.size();
+  const int home = is_one ? faces.faces_[target]->solid : -1;
+  for (std::size_t k = 0; k < faces.faces_.size(); ++k)
+    if (k != target && faces.faces_[k]->checked) surface.push_back(faces.faces_[k]->tree);
+  for (const std::shared_ptr<const ReachFaces::Solid>& solid : faces.solids_) {
+    if (home >= 0 && solid->number == home) continue;
+    solids.push_back(solid);
+    all_checked = all_checked && solid->all_checked;
+  }
+  std::shared_ptr<const ObstacleTree> own =
+      corners && is_one ? faces.faces_[target]->tree : std::make_shared<const ObstacleTree>();
+  data_ = std::make_unique<const Data>(Data{options.radius_mm, options.tolerance_mm,
+                                            Surroundings(std::move(surface), std::move(own), std::move(solids),
+                                                         all_checked, options.radius_mm - options.tolerance_mm)});
+}
+
+ReachScene::ReachScene(const std::vector<ReachFace>& others, const TriangleMesh& own, const ReachOptions& options)
+    : ReachScene(
+          [&] {
+            std::vector<ReachFace> all = others;
+            all.push_back({own, -1, true});
+            return ReachFaces(all);
+          }(),
+          others.size(), true, options) {}
 ReachScene::~ReachScene() = default;
 ReachScene::ReachScene(ReachScene&&) noexcept = default;
 

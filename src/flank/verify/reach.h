@@ -23,11 +23,28 @@ struct ReachOptions {
   double tolerance_mm = 0.01;  ///< > 0: it may enter other faces by this much
 };
 
+/// Faces of a part made ready once, whichever of them is the target: trees over a wheel's faces take hundreds of megabytes.
+/// Immutable.
+class ReachFaces {
+ public:
+  explicit ReachFaces(const std::vector<ReachFace>& faces);
+
+ private:
+  friend class ReachScene;
+  struct Ready;
+  std::vector<std::shared_ptr<const Ready>> faces_;  ///< in their order
+  struct Solid;
+  std::vector<std::shared_ptr<const Solid>> solids_;  ///< of those that have a checked face
+};
+
 /// What a ball must keep out of, made ready once for many samples: other faces, and the target's `own` triangles (none: the
 /// target has no corners). Immutable, so many threads may ask at once. Throws UsageError for a radius or tolerance that is
 /// not > 0.
 class ReachScene {
  public:
+  /// Of face `target` of `faces` among all others; those of its own solid do not close anything. `corners`: it holds the ball off
+  /// itself, too. Shares what `faces` holds.
+  ReachScene(const ReachFaces& faces, std::size_t target, bool corners, const ReachOptions& options);
   ReachScene(const std::vector<ReachFace>& others, const TriangleMesh& own, const ReachOptions& options);
   ~ReachScene();
   ReachScene(ReachScene&&) noexcept;

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,13 @@ namespace flank::internal {
 class FaceTargets {
  public:
   explicit FaceTargets(const Part& part) : part_(part) {}
-  /// One target a face, in their order; pieces of faces count. They live as long as this. Throws UsageError for names that the part
+  /// One target a face, in their order; pieces of faces count. They live as long as this, or until forget(). Throws UsageError for names that the part
   /// does not have.
   [[nodiscard]] std::vector<const Target*> of(const std::vector<std::string>& faces);
+  /// A face or a piece of one as the part has it; none of a mesh. Throws UsageError as of() does.
+  [[nodiscard]] std::optional<Face> face(const std::string& name) const;
+  /// Gives their memory back.
+  void forget() { known_.clear(); }
 
  private:
   const Part& part_;

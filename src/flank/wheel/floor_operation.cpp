@@ -8,6 +8,8 @@
 #include "flank/error.h"
 #include "flank/path_file.h"
 #include "flank/tool_file.h"
+#include "flank/wheel/finished_places.h"
+#include "flank/wheel/guarded.h"
 #include "flank/wheel/judge_whole.h"
 #include "flank/wheel/perform.h"
 #include "flank/wheel/point/floor_passes.h"
@@ -16,57 +18,6 @@ namespace flank::internal {
 namespace {
 
 using Names = std::vector<std::string>;
-
-void append(Names& to, const Names& more) { to.insert(to.end(), more.begin(), more.end()); }
-
-bool holds(const Names& faces, const std::string& face) {
-  return std::find(faces.begin(), faces.end(), face) != faces.end();
-}
-
-/// Everything but the hub, what lies in it and what is no part of the wheel.
-Names walls_of(const WheelRoles& roles) {
-  Names out = roles.shroud;
-  for (const WheelBlade& blade : roles.blades) {
-    append(out, blade.flow());
-    append(out, blade.tips);
-  }
-  for (const std::string& face : roles.rest)
-    if (!holds(roles.debris, face)) out.push_back(face);
-  return out;
-}
-
-/// The distance that a path leaves at a place, about: to the nearest sphere of its poses.
-class Finished {
- public:
-  Finished(std::vector<Strip> strips, const RadialFunction& radial, double within)
-      : strips_(std::move(strips)),
-        radial_(radial),
-        within_(within),
-        reach_(radial.axis_length() + radial.largest() + 1.0) {}
-  [[nodiscard]] bool operator()(const Vec3& x) const {
-    for (const Strip& strip : strips_)
-      for (const Pose& pose : strip.poses) {
-        const Vec3 d = x - pose.tip;
-        if (d.squaredNorm() > reach_ * reach_) continue;
-        if (distance(d, pose.axis) <= within_) return true;
-      }
-    return false;
-  }
-
- private:
-  [[nodiscard]] double distance(const Vec3& d, const Vec3& axis) const {
-    const double z = d.dot(axis), rho = (d - z * axis).norm(), length = radial_.axis_length();
-    double s = std::clamp(z, 0.0, length), off = rho;
-    for (int k = 0; k < 3; ++k) {
-      off = std::hypot(z - s, rho);
-      s = std::clamp(z + off * radial_.at(s).d1, 0.0, length);
-    }
-    return std::hypot(z - s, rho) - radial_.at(s).r;
-  }
-  std::vector<Strip> strips_;
-  const RadialFunction& radial_;
-  double within_, reach_;
-};
 
 /// A side with the fillets at its foot: those of its blade that are nearer to it than to the other side.
 Names with_fillets(const WheelWork& work, const Names& side, FaceTargets& targets) {
@@ -91,31 +42,6 @@ Names with_fillets(const WheelWork& work, const Names& side, FaceTargets& target
   return out;
 }
 
-void add_mesh(const TriangleMesh& from, TriangleMesh& to) {
-  const int first = static_cast<int>(to.vertices.size());
-  to.vertices.insert(to.vertices.end(), from.vertices.begin(), from.vertices.end());
-  for (const auto& t : from.triangles) to.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-}
-
-FloorChannel channel_of(WheelWork& work, const SectorChannel& channel) {
-  FloorChannel out;
-  out.axis = work.roles.axis;
-  out.floor = work.targets.of(work.roles.hub);
-  out.first = work.targets.of(with_fillets(work, channel.first, work.targets));
-  out.second = work.targets.of(with_fillets(work, channel.second, work.targets));
-  const Names walls = walls_of(work.roles);
-  out.walls = work.targets.of(walls);
-  if (!work.triangles) {
-    TriangleMesh all;
-    for (const WheelFace& face : work.faces)
-      if (holds(walls, face.id) || holds(work.roles.hub, face.id)) add_mesh(face.mesh, all);
-    work.triangles.emplace(all);
-  }
-  out.coarse = &*work.triangles;
-  for (const WheelBlade& blade : work.sector.blades) out.blade_mm = std::max(out.blade_mm, blade.thickness_mm);
-  return out;
-}
-
 /// The strips of the sides that bound a channel, where they are.
 std::vector<Strip> side_strips(const WheelWork& work, const SectorChannel& channel) {
   std::vector<Strip> out = strips_of(work.finish, channel.first);
@@ -133,11 +59,11 @@ Path floor_path(WheelWork& work) {
   if (!work.equal()) sectors = all_sectors(work.roles);
   for (const WheelSector& sector : sectors)
     for (const SectorChannel& channel : sector.channels) {
-      const FloorChannel place = channel_of(work, channel);
+      const FloorChannel place = floor_channel(work, channel);
       PointOptions options;
       options.tolerance_mm = work.job.tolerance_mm;
       options.turn_window_mm = work.turn_window();
-      options.is_finished = Finished(side_strips(work, channel), work.tool->radial, 0.7 * work.job.tolerance_mm);
+      options.is_finished = FinishedPlaces(side_strips(work, channel), work.tool->radial, 0.9 * work.job.tolerance_mm);
       for (Strip& strip :
            point_passes(place, work.tool->radial, options, face_list(work.roles.hub), face_list(channel.first),
                         face_list(work.equal() ? channel.second_path : channel.second)))
@@ -149,6 +75,18 @@ Path floor_path(WheelWork& work) {
 
 }  // namespace
 
+FloorChannel floor_channel(WheelWork& work, const SectorChannel& channel) {
+  FloorChannel out;
+  out.axis = work.roles.axis;
+  out.floor = work.targets.of(work.roles.hub);
+  out.first = work.targets.of(with_fillets(work, channel.first, work.targets));
+  out.second = work.targets.of(with_fillets(work, channel.second, work.targets));
+  out.walls = work.targets.of(wall_faces(work.roles));
+  out.coarse = &work.coarse_triangles();
+  for (const WheelBlade& blade : work.sector.blades) out.blade_mm = std::max(out.blade_mm, blade.thickness_mm);
+  return out;
+}
+
 WheelOperation floor_operation(WheelWork& work, const Progress&) {
   WheelOperation operation{.id = "30", .kind = "floor", .folder = "", .faces = work.roles.hub};
   if (!work.tool) {
@@ -158,7 +96,7 @@ WheelOperation floor_operation(WheelWork& work, const Progress&) {
   const std::string decides =
       path_to_json(work.finish) + tool_to_json(*work.tool) + fmt::format("{}", work.job.tolerance_mm);
   operation = perform(work, operation, decides, [&] {
-    Path path = floor_path(work);
+    Path path = guarded(work, floor_path(work));
     if (path.strips.empty()) throw InputError("no gouge-free pass on the hub was found between the blades");
     // The folder is about one sector: of a hub that goes all round it finishes its share.
     const double share = work.equal() && work.roles.whole ? 1.0 / work.roles.count : 1.0;

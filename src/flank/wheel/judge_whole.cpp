@@ -1,7 +1,6 @@
 #include "flank/wheel/judge_whole.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <utility>
 
@@ -10,14 +9,13 @@
 #include "flank/pipeline/run_journal.h"
 #include "flank/setup/clearance_scene.h"
 #include "flank/setup/read_setup.h"
+#include "flank/wheel/perform.h"
 #include "flank/wheel/sector.h"
 
 namespace flank::internal {
 namespace {
 
-namespace fs = std::filesystem;
-
-constexpr double kDraftMm = 1.0;
+constexpr double kDraftSamples = 3e4;  ///< of a draft, on all faces together
 
 /// The hub and one sector's blades: each target more costs memory for what is open of it, and the other blades are their copies. They
 /// are still among the faces that must not be cut.
@@ -32,23 +30,24 @@ std::vector<std::string> flow_faces(const WheelWork& work) {
 
 }  // namespace
 
-Result judged_path(const WheelWork& work, const std::vector<std::string>& faces, Path path, double least, Care care) {
+Result judged_path(const WheelWork& work, const std::vector<std::string>& faces, Path path, double least, Care care,
+                   const std::string& tool) {
   Result result;
   CoverJob job;
   job.part.file = work.job.part;
   job.part.unit = work.job.unit;
   job.part.faces = face_list(faces);
-  job.tool.spec = fs::absolute(fs::path(work.job.folder) / "tools" / "T1.json").lexically_normal().string();
+  job.tool.spec = tool_file(work, tool);
   job.tolerance_mm = work.job.tolerance_mm;
   job.judge.least_coverage = least;
   job.judge.reach_radius_mm = kOpenBall * work.job.tolerance_mm;
-  if (care == Care::kDraft) job.judge.sample_mm = std::max(kDraftMm, work.job.sample_mm.value_or(0.0));
   if (!work.roles.debris.empty()) job.obstacles.ignore_faces = face_list(work.roles.debris);
   const Setup setup = read_setup(job.part, job.obstacles, job.tolerance_mm, result.notes);
+  if (care == Care::kDraft) job.judge.sample_mm = coarse_spacing(setup, kDraftSamples);
   result.job = job;
   result.inputs = input_stamps(job);
   result.part_sha256 = setup.part.sha256;
-  result.tool = *work.tool;
+  result.tool = tool == "T2" ? *work.rough_tool : *work.tool;
   result.path = std::move(path);
   result.plan = CoverSummary{};
   result.diagonal_mm = setup.part.box.diagonal();

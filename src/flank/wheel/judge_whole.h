@@ -12,12 +12,13 @@ namespace flank::internal {
 /// As a share of the tolerance.
 inline constexpr double kOpenBall = 5.0;
 
-/// How closely: an operation's own verdict is a draft, at samples a millimetre apart; the whole is judged as the job says.
+/// How closely: an operation's own verdict is a draft, at few samples; the whole is judged as the job says.
 enum class Care { kDraft, kFull };
 
-/// A path of the work's tool over some faces, judged as a cover of that tool. `least`: the share of what is open that counts as done.
+/// A path of one of the work's tools over some faces, judged as a cover of that tool. `least`: the share of what is open that counts as
+/// done.
 [[nodiscard]] Result judged_path(const WheelWork& work, const std::vector<std::string>& faces, Path path, double least,
-                                 Care care);
+                                 Care care, const std::string& tool = "T1");
 
 /// All sectors that the part has, on all its flow faces.
 [[nodiscard]] Result judge_whole(const WheelWork& work);

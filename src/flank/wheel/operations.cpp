@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <filesystem>
 
 #include "flank/base/atomic_file.h"
@@ -16,30 +15,19 @@
 #include "flank/tool_file.h"
 #include "flank/version.h"
 #include "flank/wheel/blade_copies.h"
+#include "flank/wheel/guarded.h"
 #include "flank/wheel/judge_whole.h"
 #include "flank/wheel/perform.h"
-#include "flank/wheel/side_guard.h"
 
 namespace flank::internal {
 namespace {
 
 using Names = std::vector<std::string>;
 
-constexpr double kFitSampleMm = 1.0;    ///< of the judge of one side: the whole is judged closely at the end
-constexpr double kTaperDeg = 12.0;      ///< of the tool that is made for a wheel
-constexpr double kCornerShare = 0.5;    ///< of what may be left, that the corners at the hub may take
-constexpr double kMostSeconds = 240.0;  ///< of processor time, for roughing and for edges
-constexpr double kFilletShare = 0.97;   ///< of a root fillet's radius, that the tip has
-
-/// Searches that go on until they are told to stop, told so after some processor time.
-Progress limited(const Progress& progress) {
-  Progress out = progress;
-  const double end = static_cast<double>(std::clock()) / CLOCKS_PER_SEC + kMostSeconds;
-  out.cancelled = [asked = progress.cancelled, end] {
-    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC > end || (asked && asked());
-  };
-  return out;
-}
+constexpr double kFitSampleMm = 1.0;   ///< of the judge of one side: the whole is judged closely at the end
+constexpr double kTaperDeg = 12.0;     ///< of the tool that is made for a wheel
+constexpr double kCornerShare = 0.5;   ///< of what may be left, that the corners at the hub may take
+constexpr double kFilletShare = 0.97;  ///< of a root fillet's radius, that the tip has
 
 PartRequest part_request(const WheelWork& work, const Names& faces) {
   PartRequest out;
@@ -176,9 +164,7 @@ Path side_path(WheelWork& work, const std::string& spec, const Progress& progres
     for (std::size_t k = 1; k < sectors.size(); ++k)
       carry_over(work, own, sectors[k], static_cast<double>(k) * work.sector.pitch_rad, path);
   }
-  path = kept_free(work, path);
-  for (std::size_t k = 0; k < path.strips.size(); ++k) path.strips[k].id = static_cast<int>(k) + 1;
-  return path;
+  return guarded(work, lifted(work, path));
 }
 
 }  // namespace
@@ -201,52 +187,6 @@ WheelOperation side_operation(WheelWork& work, const Progress& progress) {
   work.tool = read_tool(in_folder(work, operation.folder + "/tool.json"));
   write_tool(*work.tool, in_folder(work, "tools/T1.json"));
   take(work, operation);
-  return operation;
-}
-
-WheelOperation edge_operation(WheelWork& work, const Progress& progress) {
-  WheelOperation operation{.id = "40", .kind = "edge", .folder = ""};
-  for (const WheelBlade& blade : work.sector.blades)
-    operation.faces.insert(operation.faces.end(), blade.edges.begin(), blade.edges.end());
-  if (!work.tool || operation.faces.empty()) {
-    operation.problem = work.tool ? "no blade has an edge face" : "no tool, because no tool was found for the sides";
-    return operation;
-  }
-  CoverJob job;
-  job.part = part_request(work, operation.faces);
-  job.obstacles = obstacle_request(work);
-  job.tool.spec = tool_file(work);
-  job.tolerance_mm = work.job.tolerance_mm;
-  job.judge.reach_radius_mm = kOpenBall * work.job.tolerance_mm;
-  const std::string decides = job_to_json(job) + tool_to_json(*work.tool);
-  operation = perform(work, operation, decides, [&] { return run_cover(job, limited(progress)); });
-  take(work, operation);
-  return operation;
-}
-
-WheelOperation rough_operation(WheelWork& work, const Progress& progress) {
-  const SectorChannel& channel = work.sector.channels.front();
-  WheelOperation operation{.id = "10", .kind = "rough", .folder = ""};
-  operation.faces = channel.first;
-  operation.faces.insert(operation.faces.end(), channel.second.begin(), channel.second.end());
-  if (!work.tool) {
-    operation.problem = "no tool, because no tool was found for the sides";
-    return operation;
-  }
-  TrochoidJob job;
-  job.part.file = work.job.part;
-  job.part.unit = work.job.unit;
-  job.left = face_list(channel.first);
-  job.right = face_list(channel.second);
-  job.floor = work.roles.hub.front();
-  job.tool.spec = tool_file(work);
-  job.tolerance_mm = work.job.tolerance_mm;
-  job.judge.sample_mm = work.job.sample_mm;
-  const std::string decides = job_to_json(job) + tool_to_json(*work.tool);
-  operation = perform(work, operation, decides, [&] { return run_trochoid(job, limited(progress)); });
-  if (work.sector.channels.size() > 1 && operation.problem.empty())
-    operation.problem =
-        fmt::format("only the first of {} channels of each sector is roughed", work.sector.channels.size());
   return operation;
 }
 

@@ -1,4 +1,4 @@
-/// The operations of one sector.
+/// The operation of the sides of one sector.
 #pragma once
 
 #include "flank/progress.h"
@@ -8,9 +8,4 @@ namespace flank::internal {
 
 /// Both sides of the sector's blades, by one tool that is found or given: `fit`.
 [[nodiscard]] WheelOperation side_operation(WheelWork& work, const Progress& progress);
-/// Leading and trailing edges of the sector's blades, by strips of the same tool: `cover`.
-[[nodiscard]] WheelOperation edge_operation(WheelWork& work, const Progress& progress);
-/// The channels of the sector, by trochoidal layers with the same tool.
-[[nodiscard]] WheelOperation rough_operation(WheelWork& work, const Progress& progress);
-
 }  // namespace flank::internal

@@ -16,8 +16,8 @@ std::string in_folder(const WheelWork& work, const std::string& name) {
   return (fs::path(work.job.folder) / name).string();
 }
 
-std::string tool_file(const WheelWork& work) {
-  return fs::absolute(in_folder(work, "tools/T1.json")).lexically_normal().string();
+std::string tool_file(const WheelWork& work, const std::string& tool) {
+  return fs::absolute(in_folder(work, "tools/" + tool + ".json")).lexically_normal().string();
 }
 
 WheelOperation perform(const WheelWork& work, WheelOperation operation, const std::string& decides,

@@ -11,7 +11,7 @@ namespace flank::internal {
 /// A file in the wheel's folder.
 [[nodiscard]] std::string in_folder(const WheelWork& work, const std::string& name);
 /// tools/T1.json, absolute.
-[[nodiscard]] std::string tool_file(const WheelWork& work);
+[[nodiscard]] std::string tool_file(const WheelWork& work, const std::string& tool = "T1");
 
 /// Makes the operation's result, unless a finished one of the same key lies in its folder. `make` throws, or gives a result.
 [[nodiscard]] WheelOperation perform(const WheelWork& work, WheelOperation operation, const std::string& decides,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "flank/error.h"
 #include "flank/io/text/json_dump.h"
@@ -20,11 +21,27 @@ constexpr const char* kSchema = "openflank/plan/1";
 std::vector<double> list_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 nlohmann::ordered_json operation_json(const WheelOperation& o, int copies) {
-  nlohmann::ordered_json json{{"id", o.id},       {"kind", o.kind},   {"tool", o.tool},       {"folder", o.folder},
-                              {"copies", copies}, {"faces", o.faces}, {"seconds", o.seconds}, {"done", o.done},
-                              {"pass", o.pass},   {"key", o.key}};
+  nlohmann::ordered_json json{{"id", o.id},
+                              {"kind", o.kind},
+                              {"tool", o.tool},
+                              {"folder", o.folder},
+                              {"copies", o.copies > 0 ? o.copies : copies},
+                              {"faces", o.faces},
+                              {"seconds", o.seconds},
+                              {"done", o.done},
+                              {"pass", o.pass},
+                              {"key", o.key}};
   if (!o.problem.empty()) json["problem"] = o.problem;
   return json;
+}
+
+/// Those that an operation uses, in their order.
+nlohmann::ordered_json tools_json(const WheelResult& result) {
+  std::set<std::string> ids{"T1"};
+  for (const WheelOperation& operation : result.operations) ids.insert(operation.tool);
+  auto list = nlohmann::ordered_json::array();
+  for (const std::string& id : ids) list.push_back({{"id", id}, {"file", "tools/" + id + ".json"}});
+  return list;
 }
 
 nlohmann::ordered_json figures_json(const std::vector<RoleFigures>& figures) {
@@ -74,6 +91,7 @@ WheelOperation operation_from(const nlohmann::json& json) {
   out.faces = json.at("faces").get<std::vector<std::string>>();
   out.seconds = json.at("seconds"), out.key = json.at("key");
   out.done = json.at("done"), out.pass = json.at("pass");
+  out.copies = json.value("copies", 0);
   out.problem = json.value("problem", "");
   return out;
 }
@@ -102,7 +120,8 @@ std::string plan_json(const WheelResult& result) {
   json["schema"] = kSchema;
   json["axis"] = {{"point_mm", list_of(result.roles.axis.point)}, {"direction", list_of(result.roles.axis.direction)}};
   json["copies"] = result.copies;
-  json["tools"] = nlohmann::ordered_json::array({{{"id", "T1"}, {"file", "tools/T1.json"}}});
+  if (result.roles.count > 0) json["pitch_deg"] = 360.0 / result.roles.count;
+  json["tools"] = tools_json(result);
   json["operations"] = nlohmann::ordered_json::array();
   for (const WheelOperation& operation : result.operations)
     json["operations"].push_back(operation_json(operation, result.copies));

@@ -8,11 +8,13 @@
 #include "flank/feature/recognise_wheel.h"
 #include "flank/feature/wheel_table.h"
 #include "flank/io/mesh/write_mesh.h"
+#include "flank/wheel/face_operations.h"
 #include "flank/wheel/floor_operation.h"
 #include "flank/wheel/judge_whole.h"
 #include "flank/wheel/operations.h"
 #include "flank/wheel/plan_file.h"
 #include "flank/wheel/rest_places.h"
+#include "flank/wheel/rough_operation.h"
 
 namespace flank::internal {
 namespace {
@@ -57,9 +59,17 @@ WheelResult run_wheel(const WheelJob& job, const Progress& progress) {
   run(side_operation(work, progress.part(0.0, 0.4)));
   result.copies = work.copies(), result.notes = work.notes;
   run(floor_operation(work, progress.part(0.4, 0.5)));
-  if (job.edges) run(edge_operation(work, progress.part(0.5, 0.6)));
-  if (job.rough) run(rough_operation(work, progress.part(0.6, 0.8)));
+  progress.step("edges", 0.5);
+  const bool fillets = std::any_of(sector.blades.begin(), sector.blades.end(),
+                                   [](const WheelBlade& blade) { return !blade.fillets.empty(); });
+  if (fillets) run(fillet_operation(work));
+  if (job.edges) run(edge_operation(work));
+  run(rest_operation(work));
+  progress.step("rough", 0.6);
+  if (job.rough) run(rough_operation(work));
   progress.step("verify", 0.8);
+  // The judge needs memory of its own, and nothing of this.
+  work.fine.reset(), work.coarse.reset(), work.targets.forget();
   if (!work.finish.strips.empty()) result.whole = judge_whole(work);
   if (result.whole) {
     result.figures = role_figures(result.roles, result.whole->verify);

@@ -17,7 +17,7 @@ struct WheelJob {
   std::string folder;
   WheelChoice choice;
   double tolerance_mm = 0.05;
-  bool rough = true;                ///< channels are roughed by trochoidal layers
+  bool rough = true;                ///< channels are roughed, layer by layer
   bool edges = true;                ///< leading and trailing edges are milled
   std::string effort = "quick";     ///< of the fits
   double least_coverage = 0.97;     ///< share of what is open of the flow surface, within tolerance
@@ -32,6 +32,7 @@ struct WheelOperation {
   std::string tool = "T1";
   std::vector<std::string> faces = {};
   double seconds = 0.0;
+  int copies = 0;        ///< of its path in the whole wheel; 0: as many as of the wheel's finishing path
   std::string key = {};  ///< of what decides it: a finished operation of the same key is not done again
   bool done = false;
   bool kept = false;         ///< taken from the folder

@@ -26,11 +26,17 @@ struct WheelWork {
   /// How far the blades are from turned copies of the first one, mm. From `kEqualShare` of the tolerance on every sector has paths of its
   /// own, and `finish` holds them all.
   double difference_mm = 0.0;
-  std::optional<Tool> tool = {};  ///< T1
-  Path finish = {};               ///< strips that finish something, in their order
+  std::optional<Tool> tool = {};        ///< T1: finishes
+  std::optional<Tool> rough_tool = {};  ///< T2: roughs, where it is another one
+  Path finish = {};                     ///< strips that finish something, in their order
   std::vector<std::string> notes = {};
-  std::optional<TriangleBvh> triangles = {};  ///< of all faces that a tool may meet, once they are asked for
+  std::optional<TriangleBvh> coarse = {}, fine = {};  ///< of all faces that a tool may meet, once they are asked for
 
+  /// Triangles by which directions are looked for, and those by which paths are held against the part: they are beside the faces by
+  /// `kGuardShare` of the tolerance at most.
+  [[nodiscard]] const TriangleBvh& coarse_triangles();
+  [[nodiscard]] const TriangleBvh& guard_triangles();
+  static constexpr double kGuardShare = 0.02;
   static constexpr double kEqualShare = 0.1;
   [[nodiscard]] bool equal() const { return difference_mm <= kEqualShare * job.tolerance_mm; }
   /// The sectors that the hub of the part goes round.
@@ -44,5 +50,8 @@ struct WheelWork {
   /// How often `finish` is turned.
   [[nodiscard]] int copies() const { return equal() ? sector.copies : 1; }
 };
+
+/// All faces but the hub, what lies in it and what is no part of the wheel.
+[[nodiscard]] std::vector<std::string> wall_faces(const WheelRoles& roles);
 
 }  // namespace flank::internal

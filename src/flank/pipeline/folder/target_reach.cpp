@@ -141,20 +141,13 @@ TargetReach::TargetReach(const Setup& setup, const ReachBall& ball, const std::v
   if (judged.size() < 2 && !ball.corners) return;
   const std::vector<int> around = faces_around(part, judged);
   std::vector<TriangleMesh> meshes = meshes_of(setup, around, judged, balls_of(samples, radius), radius);
-  for (std::size_t j = 0; j < samples.size(); ++j) {
-    const int own = setup.targets[j];
-    std::vector<ReachFace> others;
-    TriangleMesh mine;
-    for (std::size_t k = 0; k < around.size(); ++k) {
-      const int solid = solid_of(part, around[k]);
-      TriangleMesh mesh = j + 1 == samples.size() ? std::move(meshes[k]) : meshes[k];
-      if (around[k] == own) {
-        if (ball.corners) mine = std::move(mesh);
-        continue;
-      }
-      others.push_back({std::move(mesh), solid == solid_of(part, own) ? -1 : solid, holds(judged, around[k])});
-    }
-    targets_.emplace(own, ReachScene(others, mine, {radius, setup.tolerance_mm}));
+  std::vector<ReachFace> all;
+  for (std::size_t k = 0; k < around.size(); ++k)
+    all.push_back({std::move(meshes[k]), solid_of(part, around[k]), holds(judged, around[k])});
+  const ReachFaces faces(all);
+  for (const int own : setup.targets) {
+    const auto at = static_cast<std::size_t>(std::find(around.begin(), around.end(), own) - around.begin());
+    targets_.emplace(own, ReachScene(faces, at, ball.corners, {radius, setup.tolerance_mm}));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace flank::internal::verify {
 namespace {
@@ -22,14 +23,17 @@ double solid_angle(const std::array<Vec3, 3>& v, const Vec3& x) {
 
 }  // namespace
 
-Winding::Winding(const TriangleMesh& mesh) : tree_(mesh) {
-  if (tree_.empty()) return;
-  for (int i = 0; i < tree_.node_count(); ++i) {
-    const ObstacleTree::Node& node = tree_.node(i);
+Winding::Winding(const TriangleMesh& mesh) : Winding(std::make_shared<const ObstacleTree>(mesh)) {}
+
+Winding::Winding(std::shared_ptr<const ObstacleTree> tree) : tree_(std::move(tree)) {
+  if (tree_->empty()) return;
+  areas_.reserve(static_cast<std::size_t>(tree_->node_count()));
+  for (int i = 0; i < tree_->node_count(); ++i) {
+    const ObstacleTree::Node& node = tree_->node(i);
     Area area;
     double weight = 0.0;
     for (int k = node.first; k < node.end; ++k) {
-      const std::array<Vec3, 3> v = tree_.corners(k);
+      const std::array<Vec3, 3> v = tree_->corners(k);
       const Vec3 vector = 0.5 * (v[1] - v[0]).cross(v[2] - v[0]);
       area.vector += vector;
       area.center += vector.norm() * (v[0] + v[1] + v[2]) / 3.0;
@@ -42,21 +46,21 @@ Winding::Winding(const TriangleMesh& mesh) : tree_(mesh) {
 }
 
 double Winding::number(const Vec3& x) const {
-  if (tree_.empty()) return 0.0;
+  if (tree_->empty()) return 0.0;
   std::array<int, kStackSize> stack;
   int size = 0;
   stack[size++] = 0;
   double sum = 0.0;
   while (size > 0) {
     const int index = stack[--size];
-    const ObstacleTree::Node& node = tree_.node(index);
+    const ObstacleTree::Node& node = tree_->node(index);
     const Area& area = areas_[static_cast<std::size_t>(index)];
     const Vec3 d = area.center - x;
     const double distance = d.norm();
     if (distance > kFar * area.radius) {
       sum += area.vector.dot(d) / (distance * distance * distance);
     } else if (node.second < 0) {
-      for (int k = node.first; k < node.end; ++k) sum += solid_angle(tree_.corners(k), x);
+      for (int k = node.first; k < node.end; ++k) sum += solid_angle(tree_->corners(k), x);
     } else {
       stack[size++] = node.second;
       stack[size++] = index + 1;

@@ -1,6 +1,7 @@
 /// Whether a point lies inside a closed solid, by the winding number of its triangles.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "flank/verify/clearance/obstacle_tree.h"
@@ -14,6 +15,8 @@ class Winding {
  public:
   /// Copies what it needs of the mesh; an empty one winds round nothing.
   explicit Winding(const TriangleMesh& mesh);
+  /// Of triangles that have a tree already, which is shared. Numbers of the faces of a solid add up to that of the solid.
+  explicit Winding(std::shared_ptr<const ObstacleTree> tree);
 
   /// Good to about 0.05 for points that are farther from the triangles than their gaps are wide.
   [[nodiscard]] double number(const Vec3& x) const;
@@ -27,7 +30,7 @@ class Winding {
     double radius = 0.0;  ///< no corner is farther from the centre
   };
 
-  ObstacleTree tree_;
+  std::shared_ptr<const ObstacleTree> tree_;
   std::vector<Area> areas_;  ///< of each node
 };
 

@@ -25,9 +25,13 @@ struct FloorChannel {
 struct PointOptions {
   double tolerance_mm = 0.05;
   double scallop_share = 0.5;  ///< of the tolerance, that scallops take; the rest is for chords and the tip's height
-  double enter_share = 0.3;    ///< of the tolerance: so deep a pass may enter a wall
+  double enter_share = 0.3;    ///< of the tolerance: so deep a pass may enter a wall; < 0: it keeps off so far
   double most_turn_rad = 0.2;  ///< within `turn_window_mm`: a strip that turns more sharply is two
   double turn_window_mm = 1.0;
+  double height_mm = 0.0;  ///< of a roughing layer over the floor; 0: the floor itself
+  double apart_mm = 0.0;   ///< between passes; 0: as the scallop says
+  /// Whether the tip at a place of its centre is in the air, and no pass is needed there; empty: nowhere.
+  std::function<bool(const Vec3&)> is_air = {};
   /// Whether a place of a wall is finished already; empty: none is.
   std::function<bool(const Vec3&)> is_finished = {};
 };

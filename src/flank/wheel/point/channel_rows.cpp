@@ -1,6 +1,7 @@
 #include "flank/wheel/point/channel_rows.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -9,8 +10,10 @@
 namespace flank::internal {
 namespace {
 
-constexpr double kStepMm = 0.5;      ///< between rows along the channel
-constexpr int kHalvings = 14;        ///< of the search for the outermost free place
+constexpr double kStepMm = 0.5;                                      ///< between rows along the channel
+constexpr std::array<double, 5> kStarts{0.5, 0.35, 0.65, 0.2, 0.8};  ///< of the search for that, across the channel
+constexpr double kMarchMm = 0.5;
+constexpr int kHalvings = 10;        ///< of the search for the outermost free place
 constexpr double kMostSlope = 0.15;  ///< of the outermost pass against the channel
 constexpr double kBeyondShare =
     0.6;  ///< of a blade's thickness, that the floor is taken beyond a side's line where no blade stands
@@ -86,10 +89,16 @@ void ChannelRows::bound(ChannelRow& row) const {
     const std::optional<TipRoom::Rest> here = at(row, across);
     return here && room_.tip_is_free(here->center);
   };
-  if (!is_free(0.5)) return;
-  const auto outermost = [&](double from) {
-    if (is_free(from)) return from;
-    double bad = from, good = 0.5;
+  // Over the floor blades lean: the middle of the channel is not that of its foot.
+  const auto start = std::find_if(kStarts.begin(), kStarts.end(), is_free);
+  if (start == kStarts.end()) return;
+  const auto outermost = [&](double to) {
+    double good = *start, bad = to;
+    // In steps that no blade fits between: behind it there is the next channel.
+    const double step = std::copysign(kMarchMm / row.width, to - good);
+    while (std::abs(to - good) > std::abs(step) && is_free(good + step)) good += step;
+    if (std::abs(to - good) <= std::abs(step) && is_free(to)) return to;
+    bad = std::abs(to - good) <= std::abs(step) ? to : good + step;
     for (int k = 0; k < kHalvings; ++k) {
       const double middle = 0.5 * (bad + good);
       (is_free(middle) ? good : bad) = middle;

@@ -19,6 +19,7 @@ constexpr double kNetMm = 2.5;  ///< and along
 
 /// Between passes on a floor that bends like this across, mm.
 double spacing(double tip_mm, double bend, const PointOptions& options) {
+  if (options.apart_mm > 0.0) return options.apart_mm;
   const double open = std::max(1.0 / tip_mm - bend, 0.1 / tip_mm);
   return std::sqrt(8.0 * options.scallop_share * options.tolerance_mm / open);
 }
@@ -83,11 +84,21 @@ PoseRow floor_row(const Plan& plan, const AxisField& field, double stride, std::
                         (i + 1 < rows.size() && is_needed(plan, i + 1, j));
     if (!needed || !rows[i].open) continue;
     const std::optional<TipRoom::Rest> rest = plan.channel.rest(rows[i], share);
-    if (!rest) continue;
+    if (!rest || (plan.options.is_air && plan.options.is_air(rest->center))) continue;
     const Pose pose{rest->center, field.at(static_cast<double>(i) / stride, share * (kColumns - 1))};
     if (plan.room.is_free(pose)) out[i] = pose;
   }
   return out;
+}
+
+std::vector<PoseRow> floor_rows(const ChannelRows& rows, const TipRoom& room, const PointOptions& options,
+                                const AxisField& field) {
+  const double stride = net_stride(rows.rows());
+  Plan plan{rows, room, options, {}, 0};
+  count_passes(plan);
+  std::vector<PoseRow> found(plan.passes);
+  parallel_for(found.size(), [&](std::size_t j) { found[j] = floor_row(plan, field, stride, j); });
+  return found;
 }
 
 }  // namespace
@@ -98,13 +109,9 @@ std::vector<Strip> point_passes(const FloorChannel& channel, const RadialFunctio
   const ChannelRows rows(channel, room);
   if (rows.rows().size() < 3) return {};
   const AxisField field = field_of(rows, room);
-  const double stride = net_stride(rows.rows());
-  Plan plan{rows, room, options, {}, 0};
-  count_passes(plan);
-  std::vector<PoseRow> found(plan.passes);
-  parallel_for(found.size(), [&](std::size_t j) { found[j] = floor_row(plan, field, stride, j); });
   std::vector<Strip> out;
-  add_strips(std::move(found), radial, options, "floor", floor, out);
+  add_strips(floor_rows(rows, room, options, field), radial, options, "floor", floor, out);
+  const double stride = net_stride(rows.rows());
   for (const bool at_first : {true, false}) {
     const auto axis = [&](std::size_t row, double inwards) {
       const double column = (kColumns - 1) * inwards;
@@ -114,6 +121,26 @@ std::vector<Strip> point_passes(const FloorChannel& channel, const RadialFunctio
                at_first ? first : second, out);
   }
   return out;
+}
+
+std::vector<Strip> layer_passes(const FloorChannel& channel, const RadialFunction& radial, const PointOptions& options,
+                                const std::string& floor) {
+  const TipRoom room(channel, radial, options);
+  const ChannelRows rows(channel, room);
+  if (rows.rows().size() < 3) return {};
+  std::vector<Strip> out;
+  add_strips(floor_rows(rows, room, options, field_of(rows, room)), radial, options, "rough", floor, out);
+  return out;
+}
+
+double channel_width(const FloorChannel& channel, const RadialFunction& radial) {
+  const TipRoom room(channel, radial, {});
+  const ChannelRows rows(channel, room);
+  std::vector<double> widths;
+  for (const ChannelRow& row : rows.rows()) widths.push_back(row.width);
+  if (widths.size() < 3) return 0.0;
+  std::sort(widths.begin(), widths.end());
+  return widths[widths.size() / 10];
 }
 
 }  // namespace flank::internal

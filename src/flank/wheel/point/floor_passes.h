@@ -18,4 +18,11 @@ namespace flank::internal {
                                               const PointOptions& options, const std::string& floor,
                                               const std::string& first, const std::string& second);
 
+/// Strips of kind "rough" of one layer, `options.height_mm` over the floor and `options.apart_mm` from each other, from side to side.
+[[nodiscard]] std::vector<Strip> layer_passes(const FloorChannel& channel, const RadialFunction& radial,
+                                              const PointOptions& options, const std::string& floor);
+
+/// The narrowest place of a channel's floor between the sides' lines, mm, but for a tenth of its length; 0 where they do not stand on it.
+[[nodiscard]] double channel_width(const FloorChannel& channel, const RadialFunction& radial);
+
 }  // namespace flank::internal

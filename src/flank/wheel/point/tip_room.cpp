@@ -35,7 +35,7 @@ TipRoom::TipRoom(const FloorChannel& channel, const RadialFunction& radial, cons
     : channel_(channel),
       radial_(radial),
       tip_mm_(radial.at(0.0).r),
-      lift_mm_(tip_mm_ + kHeightShare * options.tolerance_mm),
+      lift_mm_(tip_mm_ + kHeightShare * options.tolerance_mm + options.height_mm),
       enter_mm_(options.enter_share * options.tolerance_mm),
       length_(radial.axis_length()),
       above_(length_ + 2.0 * radial.at(length_).r) {}

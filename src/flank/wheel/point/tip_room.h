@@ -17,7 +17,7 @@ class TipRoom {
   TipRoom(const FloorChannel& channel, const RadialFunction& radial, const PointOptions& options);
 
   [[nodiscard]] double tip_mm() const { return tip_mm_; }
-  /// How far the sphere's centre is from what it touches: its radius and a little of the tolerance.
+  /// How far the sphere's centre is from what it touches: its radius, a little of the tolerance, and the height of a layer.
   [[nodiscard]] double lift_mm() const { return lift_mm_; }
   /// The centre of the tip sphere that stands on the floor at the place nearest to p, and the floor's normal there.
   struct Rest {

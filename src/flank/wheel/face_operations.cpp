@@ -1,0 +1,107 @@
+#include "flank/wheel/face_operations.h"
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <utility>
+
+#include "flank/error.h"
+#include "flank/path_file.h"
+#include "flank/tool_file.h"
+#include "flank/wheel/finished_places.h"
+#include "flank/wheel/guarded.h"
+#include "flank/wheel/judge_whole.h"
+#include "flank/wheel/perform.h"
+#include "flank/wheel/point/face_passes.h"
+
+namespace flank::internal {
+namespace {
+
+using Names = std::vector<std::string>;
+using FacesOfBlade = std::function<Names(const WheelBlade&)>;
+
+constexpr double kFinishedShare = 0.92;  ///< of the tolerance: what is left so much more counts as not finished
+constexpr double kDraftShare = 0.9;  ///< of the coverage that is asked for, that an operation's own folder is held to
+
+Names faces_of(const std::vector<WheelBlade>& blades, const FacesOfBlade& which) {
+  Names out;
+  for (const WheelBlade& blade : blades) {
+    const Names own = which(blade);
+    out.insert(out.end(), own.begin(), own.end());
+  }
+  return out;
+}
+
+/// Everything counts as a wall, the hub and the face itself among it.
+FloorChannel around(WheelWork& work) {
+  FloorChannel out;
+  out.axis = work.roles.axis;
+  Names walls = wall_faces(work.roles);
+  walls.insert(walls.end(), work.roles.hub.begin(), work.roles.hub.end());
+  out.walls = work.targets.of(walls);
+  out.coarse = &work.coarse_triangles();
+  return out;
+}
+
+Path passes_along(WheelWork& work, const std::string& kind, const Names& faces, bool only_rest) {
+  const FloorChannel place = around(work);
+  PointOptions options;
+  options.tolerance_mm = work.job.tolerance_mm;
+  options.turn_window_mm = work.turn_window();
+  const FinishedPlaces finished(work.finish.strips, work.tool->radial, kFinishedShare * work.job.tolerance_mm);
+  Path out;
+  for (const std::string& name : faces) {
+    const std::optional<Face> face = work.targets.face(name);
+    if (!face) throw InputError(name + ": passes along a face need its surface, and a mesh has none");
+    if (only_rest) options.is_finished = finished.within(work.targets.of({name}).front()->box());
+    for (Strip& strip : face_passes(*face, place, work.tool->radial, options, kind, name))
+      out.strips.push_back(std::move(strip));
+  }
+  return guarded(work, out);
+}
+
+WheelOperation on_faces(WheelWork& work, const std::string& id, const std::string& kind, const FacesOfBlade& which,
+                        bool only_rest) {
+  WheelOperation operation{.id = id, .kind = kind, .folder = "", .faces = faces_of(work.sector.blades, which)};
+  if (!work.tool || operation.faces.empty()) {
+    operation.problem = work.tool ? "no blade has such a face" : "there is no tool: the sides have none";
+    return operation;
+  }
+  std::vector<WheelBlade> blades = work.sector.blades;
+  if (!work.equal()) {
+    blades.clear();
+    for (const WheelSector& sector : all_sectors(work.roles))
+      blades.insert(blades.end(), sector.blades.begin(), sector.blades.end());
+  }
+  const std::string decides = kind + path_to_json(work.finish) + tool_to_json(*work.tool) +
+                              fmt::format("{} {}", work.job.tolerance_mm, work.job.least_coverage);
+  operation = perform(work, operation, decides, [&] {
+    Path path = passes_along(work, kind, faces_of(blades, which), only_rest);
+    if (path.strips.empty()) throw InputError("no pass has room");
+    return judged_path(work, operation.faces, std::move(path), kDraftShare * work.job.least_coverage, Care::kDraft);
+  });
+  take(work, operation);
+  return operation;
+}
+
+Names fillets_of(const WheelBlade& blade) {
+  Names out;
+  for (const RootFillet& fillet : blade.fillets) out.push_back(fillet.face);
+  return out;
+}
+
+}  // namespace
+
+WheelOperation fillet_operation(WheelWork& work) { return on_faces(work, "40", "fillet", fillets_of, true); }
+
+WheelOperation edge_operation(WheelWork& work) {
+  return on_faces(
+      work, "50", "edge", [](const WheelBlade& blade) { return blade.edges; }, false);
+}
+
+WheelOperation rest_operation(WheelWork& work) {
+  return on_faces(
+      work, "60", "rest", [](const WheelBlade& blade) { return blade.sides(); }, true);
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,148 @@
+#include "flank/wheel/point/face_passes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "flank/base/parallel.h"
+#include "flank/wheel/point/axis_field.h"
+#include "flank/wheel/point/face_lines.h"
+#include "flank/wheel/point/pass_strips.h"
+#include "flank/wheel/point/tip_room.h"
+
+namespace flank::internal {
+namespace {
+
+constexpr double kStepMm = 0.5;      ///< between poses
+constexpr double kNetMm = 2.5;       ///< of the net of directions, along
+constexpr std::size_t kColumns = 9;  ///< and across, at most
+constexpr double kLeastMm = 0.01;    ///< poses that are nearer to each other are one
+constexpr int kHalvings = 8;         ///< of the search for the end of a pass's room
+
+/// Of each line, its places that need a pass.
+using AskedPlaces = std::vector<std::vector<char>>;
+
+/// Nodes of the field of directions among the places and lines.
+struct Net {
+  int rows = 2, columns = 1;
+  double rows_apart = 1.0, columns_apart = 1.0;  ///< places and lines between nodes
+  explicit Net(const FaceLines& lines)
+      : rows(static_cast<int>(std::max(2.0, std::ceil(static_cast<double>(lines.places()) * kStepMm / kNetMm)))),
+        columns(static_cast<int>(std::clamp<std::size_t>(lines.lines(), 1, kColumns))),
+        rows_apart((static_cast<double>(lines.places()) - 1.0) / (rows - 1.0)) {
+    if (columns > 1) columns_apart = (static_cast<double>(lines.lines()) - 1.0) / (columns - 1.0);
+  }
+};
+
+struct Work {
+  const FaceLines& lines;
+  const TipRoom& room;
+  const AxisField& field;
+  const Net& net;
+};
+
+/// Whether a place within a node's cells needs a pass: other nodes need no direction.
+bool is_asked(const AskedPlaces& wanted, const Net& net, double place, double line) {
+  const auto range = [](double middle, double half, std::size_t count) {
+    return std::pair(static_cast<std::size_t>(std::max(0.0, std::floor(middle - half))),
+                     static_cast<std::size_t>(std::clamp(std::ceil(middle + half), 0.0, static_cast<double>(count) - 1.0)));
+  };
+  const auto [line0, line1] = range(line, net.columns_apart, wanted.size());
+  for (std::size_t n = line0; n <= line1; ++n) {
+    const auto [place0, place1] = range(place, net.rows_apart, wanted[n].size());
+    for (std::size_t k = place0; k <= place1; ++k)
+      if (wanted[n][k] != 0) return true;
+  }
+  return false;
+}
+
+AxisField field_of(const FaceLines& lines, const TipRoom& room, const Net& net, const AskedPlaces& wanted) {
+  std::vector<std::optional<TipRoom::Rest>> places(static_cast<std::size_t>(net.rows * net.columns));
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const double place = static_cast<double>(k / static_cast<std::size_t>(net.columns)) * net.rows_apart;
+    const auto line = std::min(
+        lines.lines() - 1,
+        static_cast<std::size_t>(std::lround(static_cast<double>(k % static_cast<std::size_t>(net.columns)) * net.columns_apart)));
+    if (!is_asked(wanted, net, place, static_cast<double>(line))) continue;
+    if (const auto here = lines.at(line, place))
+      places[k] = TipRoom::Rest{here->point + room.lift_mm() * here->normal, here->normal, 0.0};
+  }
+  return {room, places, net.rows, net.columns};
+}
+
+/// The pose at a place, whether it has room or not; none beside the face.
+std::optional<Pose> pose_at(const Work& work, std::size_t line, double place) {
+  const std::optional<FaceLines::Place> here = work.lines.at(line, place);
+  if (!here) return {};
+  return Pose{here->point + work.room.lift_mm() * here->normal,
+              work.field.at(place / work.net.rows_apart, static_cast<double>(line) / work.net.columns_apart)};
+}
+
+bool has_room(const Work& work, const std::optional<Pose>& pose) {
+  return pose && work.room.tip_is_free(pose->tip) && work.room.is_free(*pose);
+}
+
+/// The last pose with room from a place that has it to one that has none.
+Pose last_with_room(const Work& work, std::size_t line, double good, double bad, Pose pose) {
+  for (int k = 0; k < kHalvings; ++k) {
+    const double middle = 0.5 * (good + bad);
+    const std::optional<Pose> there = pose_at(work, line, middle);
+    if (has_room(work, there))
+      good = middle, pose = *there;
+    else
+      bad = middle;
+  }
+  return pose;
+}
+
+/// Places of a line that need a pass: what is not finished, and a neighbour on either side.
+std::vector<char> needed(const FaceLines& lines, const PointOptions& options, std::size_t line) {
+  const std::size_t count = lines.places();
+  std::vector<char> open(count, 0), out(count, 0);
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto place = lines.at(line, static_cast<double>(k));
+    open[k] = place && !(options.is_finished && options.is_finished(place->point)) ? 1 : 0;
+  }
+  for (std::size_t k = 0; k < count; ++k)
+    out[k] = open[k] != 0 || (k > 0 && open[k - 1] != 0) || (k + 1 < count && open[k + 1] != 0) ? 1 : 0;
+  return out;
+}
+
+PoseRow row_of(const Work& work, std::size_t line, const std::vector<char>& wanted) {
+  PoseRow out;
+  std::optional<Pose> last;
+  for (std::size_t k = 0; k < wanted.size(); ++k) {
+    const double place = static_cast<double>(k);
+    std::optional<Pose> pose = wanted[k] != 0 ? pose_at(work, line, place) : std::nullopt;
+    const bool free = has_room(work, pose);
+    if (k > 0 && wanted[k] != 0 && wanted[k - 1] != 0 && free != last.has_value()) {
+      const Pose& known = free ? *pose : *last;
+      const Pose end = last_with_room(work, line, free ? place : place - 1.0, free ? place - 1.0 : place, known);
+      if ((end.tip - known.tip).norm() > kLeastMm) out.emplace_back(end);
+    }
+    last = free ? pose : std::nullopt;
+    out.push_back(last);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Strip> face_passes(const Face& face, const FloorChannel& around, const RadialFunction& radial,
+                               const PointOptions& options, const std::string& kind, const std::string& name) {
+  const TipRoom room(around, radial, options);
+  const FaceLines lines(face, room.tip_mm(), options.scallop_share * options.tolerance_mm, kStepMm);
+  AskedPlaces wanted(lines.lines());
+  parallel_for(wanted.size(), [&](std::size_t line) { wanted[line] = needed(lines, options, line); });
+  const Net net(lines);
+  const AxisField field = field_of(lines, room, net, wanted);
+  const Work work{lines, room, field, net};
+  std::vector<PoseRow> found(lines.lines());
+  parallel_for(found.size(), [&](std::size_t line) { found[line] = row_of(work, line, wanted[line]); });
+  std::vector<Strip> out;
+  add_strips(std::move(found), radial, options, kind, name, out);
+  return out;
+}
+
+}  // namespace flank::internal

@@ -1,0 +1,130 @@
+// Passes along a round edge leave no more than the tolerance on it, and cut nothing.
+#include "flank/wheel/point/face_passes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "flank/geom/tessellate.h"
+#include "flank/judge.h"
+#include "flank/wheel/finished_places.h"
+#include "flank/wheel/point/face_lines.h"
+
+namespace flank::internal {
+namespace {
+
+constexpr double kEdge = 0.4, kSpan = 12.0, kTip = 0.5, kTolerance = 0.05;
+
+/// Half a cylinder along z, its outward side that of the edge of a blade that lies behind x = 0.
+Face half_cylinder() {
+  constexpr int kAcross = 25, kAlong = 4;
+  std::vector<Vec3> points;
+  std::vector<double> u, v;
+  for (int i = 0; i < kAcross; ++i) u.push_back(i / (kAcross - 1.0));
+  for (int j = 0; j < kAlong; ++j) v.push_back(j / (kAlong - 1.0));
+  for (const double a : u)
+    for (const double b : v) points.emplace_back(kEdge * std::sin(M_PI * a), -kEdge * std::cos(M_PI * a), kSpan * b);
+  Face face;
+  face.id = "F1";
+  face.surface = interpolate_grid(points, u, v, 3);
+  return face;
+}
+
+struct Edge {
+  Face face = half_cylinder();
+  std::unique_ptr<Target> target = make_target({face});
+  TriangleBvh coarse{tessellate(face, {.chord_mm = 0.005}).mesh};
+  Tool tool;
+  Edge() { tool.radial = RadialFunction(ToolFamily::kCone, 6.0, Eigen::Vector2d(kTip, 0.1)); }
+
+  [[nodiscard]] std::vector<Strip> passes(bool finished) const {
+    FloorChannel around;
+    around.walls = {target.get()};
+    around.coarse = &coarse;
+    PointOptions options;
+    options.tolerance_mm = kTolerance;
+    if (finished) options.is_finished = [](const Vec3&) { return true; };
+    return face_passes(face, around, tool.radial, options, "edge", "F1");
+  }
+};
+
+TEST(FacePasses, FinishARoundEdgeAndCutNothing) {
+  const Edge edge;
+  Path path;
+  path.strips = edge.passes(false);
+  ASSERT_GE(path.strips.size(), 5U);
+  const SweptVolume volume(edge.tool, path);
+  double most = -1e300, least = 1e300;
+  for (const SurfaceSample& sample : edge.target->samples(0.07)) {
+    const double f = volume.distance(sample.point).f;
+    most = std::max(most, f), least = std::min(least, f);
+  }
+  EXPECT_LE(most, kTolerance);
+  EXPECT_GT(most, 0.3 * kTolerance) << "passes that are closer than the tolerance asks for take time for nothing";
+  EXPECT_GE(least, -1e-3);
+}
+
+TEST(FacePasses, RunAlongTheLongerDirection) {
+  for (const Strip& strip : Edge().passes(false)) {
+    EXPECT_EQ(strip.kind, "edge");
+    EXPECT_GT(std::abs(strip.poses.back().tip.z() - strip.poses.front().tip.z()), 0.9 * kSpan);
+  }
+}
+
+TEST(FacePasses, WhatIsFinishedHasNone) { EXPECT_TRUE(Edge().passes(true).empty()); }
+
+TEST(FaceLines, AreNearerToEachOtherWhereTheSphereIsSmaller) {
+  const Face face = half_cylinder();
+  EXPECT_GT(FaceLines(face, 0.2, 0.02, 0.5).lines(), FaceLines(face, 2.0, 0.02, 0.5).lines());
+  EXPECT_EQ(FaceLines(face, 0.5, 0.02, 0.5).places(), 25U);
+}
+
+/// A strip of a plane that lies aslant in its parameters, as trimmed planes of a CAD file do.
+Face slanting_strip() {
+  Face face;
+  BSplineSurface& s = face.surface;
+  s.degree_u = s.degree_v = 1, s.count_u = s.count_v = 2;
+  s.knots_u = s.knots_v = {0.0, 0.0, 1.0, 1.0};
+  s.poles = {Vec3(0, 0, 0), Vec3(0, 20, 0), Vec3(40, 0, 0), Vec3(40, 20, 0)};
+  const std::vector<Vec2> corners{{0.0, 0.0}, {0.05, 0.0}, {1.0, 0.95}, {1.0, 1.0}, {0.95, 1.0}, {0.0, 0.05}};
+  TrimLoop loop;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    BSplineCurve2 edge;
+    edge.degree = 1, edge.knots = {0.0, 0.0, 1.0, 1.0};
+    edge.poles.resize(2, 2);
+    edge.poles << corners[k], corners[(k + 1) % corners.size()];
+    loop.edges.push_back(edge);
+  }
+  face.loops = {loop};
+  return face;
+}
+
+TEST(FaceLines, OfAStripThatLiesAslantRunAlongIt) {
+  const Face face = slanting_strip();
+  const FaceLines lines(face, 0.5, 0.025, 0.5);
+  EXPECT_LT(lines.lines(), 12U);
+  const std::size_t middle = lines.lines() / 2;
+  int there = 0;
+  for (std::size_t k = 0; k < lines.places(); ++k) there += lines.at(middle, static_cast<double>(k)) ? 1 : 0;
+  EXPECT_GT(there, 0.9 * static_cast<double>(lines.places()));
+  EXPECT_GT(static_cast<double>(there) * 0.5, 0.9 * std::hypot(40.0, 20.0));
+}
+
+TEST(FinishedPlaces, AreThoseThatAPoseComesNearTo) {
+  const RadialFunction radial(ToolFamily::kCylinder, 10.0, Eigen::VectorXd::Constant(1, 2.0));
+  Strip strip;
+  for (int k = 0; k <= 40; ++k) strip.poses.push_back({Vec3(0.5 * k, 0.0, 0.0), Vec3::UnitZ()});
+  const FinishedPlaces finished({strip}, radial, 0.05);
+  EXPECT_TRUE(finished(Vec3(10.0, 2.04, 5.0)));
+  EXPECT_TRUE(finished(Vec3(10.0, 0.0, -1.99)));
+  EXPECT_FALSE(finished(Vec3(10.0, 2.06, 5.0)));
+  EXPECT_FALSE(finished(Vec3(30.0, 2.0, 5.0)));
+  Box3 box;
+  box.add(Vec3(9.0, 1.0, 4.0)), box.add(Vec3(11.0, 3.0, 6.0));
+  const FinishedPlaces near = finished.within(box);
+  EXPECT_TRUE(near(Vec3(10.0, 2.04, 5.0)));
+  EXPECT_FALSE(near(Vec3(10.0, 2.06, 5.0)));
+}
+
+}  // namespace
+}  // namespace flank::internal
