@@ -103,7 +103,6 @@ std::optional<MillableSurface> millable_surface(const RuledMotion& motion, const
   for (const double margin : kMargins) {
     const Range wide_t = t.wider(margin), wide_s = s.wider(margin);
     MillableSurface out = over_range(motion, radial, side, wide_t, wide_s, aim_mm);
-    fmt::print(stderr, "DBG t {} {} s {} {} L {} c {} {}\n", t.low, t.high, s.low, s.high, radial.axis_length(), c, out.deviation_mm);
     const auto beyond = std::count_if(border.begin(), border.end(), [&](const Vec3& p) { return !out.nearest(p); });
     if (beyond > 0) {
       why = fmt::format("the surface that the tool leaves ends before {:.2g} % of the face's border",
@@ -118,6 +117,8 @@ std::optional<MillableSurface> millable_surface(const RuledMotion& motion, const
                                             (at.s - wide_s.low) / (wide_s.high - wide_s.low));
       out.deviation_mm = std::max(out.deviation_mm, (spline - exact).norm());
     }
+    constexpr double kEnd = 1e-6;
+    for (const Touch& at : touched) out.at_ends += at.t < kEnd || at.t > 1.0 - kEnd ? 1 : 0;
     why.clear();
     out.largest_c = c;
     out.used_from_s = s.low, out.used_to_s = s.high, out.used_from_t = t.low, out.used_to_t = t.high;

@@ -19,6 +19,7 @@ struct MillableSurface {
   std::unique_ptr<Target> target;  ///< of the whole surface, from the tool's side
   double deviation_mm = 0.0;       ///< of the spline from the exact envelope where the face is, at most, by samples
   double largest_c = 0.0;          ///< regularity where the face is (envelope.h), < 1 needed
+  int at_ends = 0;                 ///< places of the face that the first or the last pose is nearest to: it cuts there what the motion leaves
   double used_from_s = 0.0, used_to_s = 0.0;  ///< stretch of the axis that the face needs, mm; the tool ends at 0 and L
   double used_from_t = 0.0, used_to_t = 1.0;  ///< and of the motion
   /// Parameters of the point nearest to p; none: p lies beyond the surface.

@@ -164,29 +164,52 @@ NearestProblem problem_of(const RedesignJob& job, const Setup& setup, const Sear
   return problem;
 }
 
-/// The nearest envelope that reaches past the borders of all faces; where it does not at first, motions and tool are lengthened.
+/// The surfaces that these motions leave, or none with the reason: the first face that is not reached.
+std::vector<ChangedFace> surfaces_of(const NearestEnvelope& nearest, const Setup& setup, const Search& search, std::string& why) {
+  std::vector<ChangedFace> changed;
+  for (std::size_t k = 0; k < search.groups.size(); ++k) {
+    const TargetGroup& group = *search.groups[k];
+    const RuledMotion& motion = nearest.draft.motions[k];
+    std::optional<MillableSurface> surface =
+        millable_surface(motion, nearest.draft.tool, *group.target, kSplineShare * group.target->diagonal(), why);
+    if (!surface) {
+      why = group.faces + ": cannot be redesigned: " + why;
+      return {};
+    }
+    const int face = group.indices.front();
+    changed.push_back({face, setup.part.face_id(face), make_target({setup.part.faces[static_cast<std::size_t>(face)]}),
+                       std::move(*surface), search.borders[k], motion.pose(0.5).axis});
+  }
+  return changed;
+}
+
+int places_at_ends(const std::vector<ChangedFace>& changed) {
+  int count = 0;
+  for (const ChangedFace& face : changed) count += face.surface.at_ends;
+  return count;
+}
+
+/// The nearest envelope that reaches past the borders of all faces. Where it does not at first, or where the first or the last pose cuts
+/// what the motion leaves, motions and tool are lengthened, and fitted again; the best of these.
 NearestEnvelope reaching(NearestProblem problem, const Setup& setup, const Search& search, const Progress& progress,
                          std::vector<ChangedFace>& changed) {
   std::string why;
-  for (int round = 0;; ++round) {
-    const NearestEnvelope nearest = nearest_envelope(problem, progress);
+  std::optional<NearestEnvelope> best;
+  // Where there is a surface already, one more try is worth its time.
+  for (int round = 0; round <= (best ? 1 : kExtensions); ++round) {
+    NearestEnvelope nearest = nearest_envelope(problem, progress);
     stop_here();
-    fmt::print(stderr, "DBG rms {} largest {} start L {}\n", nearest.rms_mm, nearest.largest_mm, problem.start.tool.axis_length());
-    changed.clear();
-    for (std::size_t k = 0; k < search.groups.size(); ++k) {
-      const TargetGroup& group = *search.groups[k];
-      const RuledMotion& motion = nearest.draft.motions[k];
-      std::optional<MillableSurface> surface = millable_surface(motion, nearest.draft.tool, *group.target,
-                                                               kSplineShare * group.target->diagonal(), why);
-      if (!surface) break;
-      const int face = group.indices.front();
-      changed.push_back({face, setup.part.face_id(face), make_target({setup.part.faces[static_cast<std::size_t>(face)]}),
-                         std::move(*surface), search.borders[k], motion.pose(0.5).axis});
-    }
-    if (changed.size() == search.groups.size()) return nearest;
-    if (round == kExtensions) throw InputError(search.groups[changed.size()]->faces + ": cannot be redesigned: " + why);
+    std::vector<ChangedFace> found = surfaces_of(nearest, setup, search, why);
     problem.start = evenly_run(nearest.draft, kExtensionShare);
+    if (found.empty()) continue;
+    const int ends = places_at_ends(found);
+    if (best && ends >= places_at_ends(changed)) continue;
+    best = std::move(nearest);
+    changed = std::move(found);
+    if (ends == 0) break;
   }
+  if (!best) throw InputError(why);
+  return std::move(*best);
 }
 
 /// Tool and motions as a result of a fit, judged against the faces as they were.
