@@ -56,6 +56,7 @@ TEST_F(JobOptions, APostIsTheSameAgain) { expect_the_same_again<PostJob>(); }
 TEST_F(JobOptions, ADesignIsTheSameAgain) { expect_the_same_again<internal::DesignJob>(); }
 TEST_F(JobOptions, ABoundIsTheSameAgain) { expect_the_same_again<internal::BoundJob>(); }
 TEST_F(JobOptions, ACorrectionIsTheSameAgain) { expect_the_same_again<internal::CorrectJob>(); }
+TEST_F(JobOptions, ARedesignIsTheSameAgain) { expect_the_same_again<internal::RedesignJob>(); }
 
 TEST_F(JobOptions, ADiameterIsTwiceARadius) {
   const auto job = parsed<FitJob>({"blade.step", "--shank-length", "30", "--shank-diameter", "8"});

@@ -107,6 +107,13 @@ Addresses members(const CorrectJob& job) {
   add(all, folder, profile, measured, datum, limit);
   return all;
 }
+Addresses members(const RedesignJob& job) {
+  const auto& [part, tool, radius, weight, thickness, nearest, heights, effort, checked, ignored, tolerance] = job;
+  Addresses all;
+  add_members(part, all), add_members(tool, all), add_members(radius, all);
+  add(all, weight, thickness, nearest, heights, effort, checked, ignored, tolerance);
+  return all;
+}
 Addresses members(const VerifyJob& job) {
   const auto& [folder, nc, part, tolerance, sample, reach, cell, side, obstacles] = job;
   Addresses all;
@@ -118,7 +125,8 @@ Addresses members(const VerifyJob& job) {
 
 template <class Job>
 class Fields : public testing::Test {};
-using Jobs = testing::Types<FitJob, CoverJob, TrochoidJob, VerifyJob, PostJob, DesignJob, BoundJob, CorrectJob>;
+using Jobs = testing::Types<FitJob, CoverJob, TrochoidJob, VerifyJob, PostJob, DesignJob, BoundJob, CorrectJob,
+                             RedesignJob>;
 TYPED_TEST_SUITE(Fields, Jobs);
 
 TYPED_TEST(Fields, EveryMemberIsInTheTableOnce) {

@@ -11,6 +11,7 @@
 #include "flank/job/bound_fields.h"
 #include "flank/job/correct_fields.h"
 #include "flank/job/design_fields.h"
+#include "flank/job/redesign_fields.h"
 
 namespace flank::internal::jobs {
 
@@ -30,11 +31,11 @@ inline void randomise(const FieldInfo& info, std::string& value, Random& random)
     for (const char* word :
          {"mm",           "cm",    "m",         "in",       "grow",   "curves",  "grid",   "shape", "tapered",
           "any",          "quick", "normal",    "thorough", "feed",   "optimal", "volume", "plain", "climb",
-          "conventional", "both",  "catalogue", "ramp",     "plunge", "keep"})
+          "conventional", "both",  "catalogue", "ramp",     "plunge", "keep",    "largest"})
       if (info.accepted.text(word) && random.uniform() < 0.5) value = word;
     if (!info.accepted.text(value))
       for (const char* word :
-           {"in", "curves", "shape", "any", "quick", "optimal", "plain", "conventional", "both", "ramp", "keep"})
+           {"in", "curves", "shape", "any", "quick", "optimal", "plain", "conventional", "both", "ramp", "keep", "largest"})
         if (info.accepted.text(word)) value = word;
     return;
   }

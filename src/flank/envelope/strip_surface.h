@@ -19,7 +19,7 @@ struct StripSurface {
       stretch;  ///< of the strip, whose envelope is true; of no area where none was found: then there is no envelope
   BSplineSurface envelope;  ///< through contact points, degree 5 by 5
   BSplineSurface axis;      ///< through axis points, degree 5 by 1
-  /// Largest distance found, mm, between the surfaces and the exact points of the same parameters, at kStripPlaces places
+  /// Largest distance found, mm, between the surfaces and the exact points of the same parameters, at kFittedPlaces places
   /// of every knot interval, a direction. Of an envelope at most strip_surface_limit.
   double envelope_deviation_mm = 0.0, axis_deviation_mm = 0.0;
   bool towards_tool = true;  ///< (S_u x S_v) of the envelope points to the side that the tool is on
@@ -28,11 +28,8 @@ struct StripSurface {
   [[nodiscard]] std::string title(double axis_length) const;
 };
 
-/// How near a strip's surfaces are brought to the exact ones, mm, and how many control points a direction has at most before it is not
-/// made finer.
+/// How near a strip's surfaces are brought to the exact ones, mm.
 inline constexpr double kStripSurfaceMm = 1e-3;
-inline constexpr int kStripPlaces = 4;
-inline constexpr int kMostStripPoints = 400;
 /// How far an envelope may be from what the strip leaves, mm: a surface that is farther is not written.
 [[nodiscard]] double strip_surface_limit(double tolerance_mm);
 

@@ -79,12 +79,10 @@ Polished last_digits(const Polished& polished, const std::vector<SurfaceSample>&
   constexpr double kEnvelope = 3e-5;  // of the size, as kExactShare (polish.cpp) at the axis
   constexpr int kIterations = 30;
   constexpr double kEnvelopeGains = 0.9;   // of the mean error, at most, after a pass: else it is no envelope
-  constexpr double kDigits = 2e-6;         // of the size: overcut that is as good as none
   constexpr double kNearlyCovered = 0.98;  // by the samples: what misses more has something else to mend first
   const double size = polished.draft.targets.front()->diagonal();
   const CoverageEstimate& estimate = polished.estimate;
-  if (stopping() || !polished.draft.free_tool || estimate.at_tolerance < kNearlyCovered ||
-      estimate.rms_mm > kEnvelope * size)
+  if (stopping() || estimate.at_tolerance < kNearlyCovered || estimate.rms_mm > kEnvelope * size)
     return polished;
   const std::vector<FacePoint> points = target_points(polished.draft, kMean.points_per_side, reach_of(options));
   Polished best = polished, trial = polished;
@@ -105,7 +103,7 @@ Polished last_digits(const Polished& polished, const std::vector<SurfaceSample>&
     trial = assess(run_swept(trial.draft, options.bounds, stage, points, trace), samples, options);
     const CoverageEstimate &now = trial.estimate, &before = best.estimate;
     if (now.rms_mm > kEnvelopeGains * before.rms_mm) break;
-    const double deepest = std::max(before.overcut_mm, kDigits * size);
+    const double deepest = std::max(before.overcut_mm, kDigitsShare * size);
     const bool keeps = now.at_tolerance >= before.at_tolerance && std::max(now.overcut_mm, now.gouge_mm) <= deepest &&
                        (now.largest_c < 1.0 || now.largest_c <= before.largest_c);
     if (!keeps) continue;

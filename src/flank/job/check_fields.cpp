@@ -6,6 +6,7 @@
 #include "flank/job/design_fields.h"
 #include "flank/job/field_text.h"
 #include "flank/job/fields.h"
+#include "flank/job/redesign_fields.h"
 
 namespace flank::internal {
 namespace {
@@ -43,5 +44,6 @@ void check_fields(const PostJob& job) { check(job); }
 void check_fields(const DesignJob& job) { check(job); }
 void check_fields(const BoundJob& job) { check(job); }
 void check_fields(const CorrectJob& job) { check(job); }
+void check_fields(const RedesignJob& job) { check(job); }
 
 }  // namespace flank::internal

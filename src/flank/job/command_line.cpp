@@ -9,6 +9,7 @@
 #include "flank/job/design_fields.h"
 #include "flank/job/field_text.h"
 #include "flank/job/fields.h"
+#include "flank/job/redesign_fields.h"
 
 namespace flank::internal {
 namespace {
@@ -118,6 +119,7 @@ std::string command_line(const PostJob& job) { return command(job); }
 std::string command_line(const DesignJob& job) { return command(job); }
 std::string command_line(const BoundJob& job) { return command(job); }
 std::string command_line(const CorrectJob& job) { return command(job); }
+std::string command_line(const RedesignJob& job) { return command(job); }
 std::string command_line(const PlanJob& job) {
   return std::visit([](const auto& plan) { return command(plan); }, job);
 }

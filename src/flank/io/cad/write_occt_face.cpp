@@ -45,21 +45,6 @@ KnotTable knot_table(const std::vector<double>& knots) {
 TColStd_Array1OfReal reals(const std::vector<double>& v) { return {v.front(), 1, static_cast<int>(v.size())}; }
 TColStd_Array1OfInteger integers(const std::vector<int>& v) { return {v.front(), 1, static_cast<int>(v.size())}; }
 
-Handle(Geom_BSplineSurface) occt_surface(const BSplineSurface& s) {
-  TColgp_Array2OfPnt poles(1, s.count_u, 1, s.count_v);
-  TColStd_Array2OfReal weights(1, s.count_u, 1, s.count_v);
-  for (int i = 0; i < s.count_u; ++i) {
-    for (int j = 0; j < s.count_v; ++j) {
-      const Vec3& p = s.pole(i, j);
-      poles(i + 1, j + 1) = gp_Pnt(p.x(), p.y(), p.z());
-      weights(i + 1, j + 1) = s.weights.empty() ? 1.0 : s.weights[static_cast<std::size_t>(i * s.count_v + j)];
-    }
-  }
-  const KnotTable u = knot_table(s.knots_u), v = knot_table(s.knots_v);
-  return new Geom_BSplineSurface(poles, weights, reals(u.values), reals(v.values), integers(u.multiplicities),
-                                 integers(v.multiplicities), s.degree_u, s.degree_v);
-}
-
 Handle(Geom2d_BSplineCurve) occt_curve(const BSplineCurve2& c) {
   TColgp_Array1OfPnt2d poles(1, c.count());
   TColStd_Array1OfReal weights(1, c.count());
@@ -114,6 +99,21 @@ TopoDS_Wire occt_wire(const TrimLoop& loop, const Face& face, const Handle(Geom_
 }
 
 }  // namespace
+
+Handle(Geom_BSplineSurface) occt_surface(const BSplineSurface& s) {
+  TColgp_Array2OfPnt poles(1, s.count_u, 1, s.count_v);
+  TColStd_Array2OfReal weights(1, s.count_u, 1, s.count_v);
+  for (int i = 0; i < s.count_u; ++i) {
+    for (int j = 0; j < s.count_v; ++j) {
+      const Vec3& p = s.pole(i, j);
+      poles(i + 1, j + 1) = gp_Pnt(p.x(), p.y(), p.z());
+      weights(i + 1, j + 1) = s.weights.empty() ? 1.0 : s.weights[static_cast<std::size_t>(i * s.count_v + j)];
+    }
+  }
+  const KnotTable u = knot_table(s.knots_u), v = knot_table(s.knots_v);
+  return new Geom_BSplineSurface(poles, weights, reals(u.values), reals(v.values), integers(u.multiplicities),
+                                 integers(v.multiplicities), s.degree_u, s.degree_v);
+}
 
 double signed_area(const TrimLoop& loop) {
   double twice = 0.0;
