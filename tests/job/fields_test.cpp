@@ -79,11 +79,11 @@ Addresses members(const TrochoidJob& job) {
   return all;
 }
 Addresses members(const PostJob& job) {
-  const auto& [folder, machine, part, setup, feed, speed, most, deviation, tool_length, clearance, lift, order, spindle,
-               dry, force, material, flutes] = job;
+  const auto& [folder, more, operations, copies, axis, coolant, machine, part, setup, feed, speed, most, deviation,
+               tool_length, clearance, lift, order, spindle, dry, force, material, flutes] = job;
   Addresses all;
-  add(all, folder, machine, part, setup, feed, speed, most, deviation, tool_length, clearance, lift, order, spindle,
-      dry, force, material, flutes);
+  add(all, folder, more, operations, copies, axis, coolant, machine, part, setup, feed, speed, most, deviation,
+      tool_length, clearance, lift, order, spindle, dry, force, material, flutes);
   return all;
 }
 Addresses members(const DesignJob& job) {
@@ -108,11 +108,11 @@ Addresses members(const CorrectJob& job) {
   return all;
 }
 Addresses members(const VerifyJob& job) {
-  const auto& [folder, nc, part, tolerance, sample, reach, cell, side, obstacles] = job;
+  const auto& [folder, more, nc, part, tolerance, sample, reach, cell, side, obstacles] = job;
   Addresses all;
   add_members(nc, all);
   add_members(obstacles, all);
-  add(all, folder, part, tolerance, sample, reach, cell, side);
+  add(all, folder, more, part, tolerance, sample, reach, cell, side);
   return all;
 }
 

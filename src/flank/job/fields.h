@@ -99,6 +99,9 @@ inline constexpr Accepted kEntry{"must be auto, open, ramp or plunge", nullptr, 
                                  }};
 inline constexpr Accepted kRampAngle{"expected an angle of at least 0.1 and at most 45 degrees",
                                      [](double x) { return x >= 0.1 && x <= 45.0; }};
+inline constexpr Accepted kCopies{"expected a number from 1 to 999", [](double x) { return x >= 1.0 && x <= 999.0; }};
+inline constexpr Accepted kCoolant{"must be off, flood or mist", nullptr,
+                                   [](std::string_view x) { return x == "off" || x == "flood" || x == "mist"; }};
 inline constexpr Accepted kSeeds{"must be grid or shape", nullptr,
                                  [](std::string_view x) { return x == "grid" || x == "shape"; }};
 
@@ -352,6 +355,29 @@ void visit_nc(Request& nc, Visitor& visit) {
         nc.follow);
 }
 
+/// Of a program of several operations.
+template <class Visitor, Is<PostJob> Job>
+void visit_operations(Job& job, Visitor& visit) {
+  using namespace accepted;
+  constexpr std::string_view kGroup = "Operations";
+  visit(FieldInfo{"operations", "", kGroup,
+                  "What holds for one operation alone, NUMBER:KEY=VALUE,...: name, tool (number), length (mm), spindle "
+                  "(1/min), feed (mm/min), flutes; as 2:name=finish,tool=7. May be given several times",
+                  kAny, Spelling::kPlain, "--operation"},
+        job.operations);
+  visit(FieldInfo{"copies", "", kGroup,
+                  "Run each operation so many times, turned by 360 degrees / copies about --copy-axis. The part must be "
+                  "the same when it is turned",
+                  kCopies},
+        job.copies);
+  visit(FieldInfo{"copy_axis", "", kGroup,
+                  "Axis of the copies in the part's frame x,y,z,x,y,z: a point (mm) and a direction. Default: its Z axis",
+                  kAny},
+        job.copy_axis);
+  visit(FieldInfo{"coolant", "", "", "Coolant while the tool cuts: off, flood (M8) or mist (M7)", kCoolant},
+        job.coolant);
+}
+
 template <class Visitor, Is<PostJob> Job>
 void visit_fields(Job& job, Visitor&& visit) {
   using namespace accepted;
@@ -359,6 +385,10 @@ void visit_fields(Job& job, Visitor&& visit) {
   visit(FieldInfo{"folder", "", "", "A folder written by flank fit, cover or trochoid", kAny, Spelling::kFile, "DIR",
                   true},
         job.folder);
+  visit(FieldInfo{"more_folders", "", "",
+                  "More folders of the same part: the program has an operation for each, with its own tool", kAny,
+                  Spelling::kFile, "MORE"},
+        job.more_folders);
   visit(FieldInfo{"machine", "", "", kMachineHelp, kAny, Spelling::kFileOrText, "", true}, job.machine);
   visit(FieldInfo{"part", "", "", "Another part than the one named in job.json", kAny, Spelling::kFile}, job.part);
   visit(FieldInfo{"setup", "", "",
@@ -393,6 +423,7 @@ void visit_fields(Job& job, Visitor&& visit) {
         job.material);
   visit(FieldInfo{"flutes", "", "", "Number of the tool's cutting edges, for the feed of --material", kToolNumber},
         job.flutes);
+  visit_operations(job, visit);
   visit(FieldInfo{"dry", "", "", "Dry run: the spindle stands still, and the program's header says so", kAny,
                   Spelling::kFlag},
         job.dry);
@@ -480,6 +511,9 @@ void visit_fields(Job& job, Visitor&& visit) {
   visit(FieldInfo{"folder", "", "", "A folder written by flank fit, cover or trochoid; not needed with --nc", kAny,
                   Spelling::kFile, "DIR"},
         job.folder);
+  visit(FieldInfo{"more_folders", "", "", "The folders of the program's other operations, in their order", kAny,
+                  Spelling::kFile, "MORE"},
+        job.more_folders);
   visit_nc(job.nc, visit);
   visit(
       FieldInfo{"part", "", "", "Check against this part instead of the one named in job.json", kAny, Spelling::kFile},
