@@ -26,8 +26,9 @@ int write_sheet(const SheetJob& job, const std::string& output, const CommonOpti
   const SetupSheet sheet = make_setup_sheet(job);
   write_file(output, sheet_html(sheet));
   if (common.json)
-    fmt::print("{{\n  \"schema\": \"openflank/setup/1\",\n  \"pass\": {},\n  \"operations\": {},\n  \"tools\": {}\n}}\n",
-               sheet.verdict.pass(), sheet.operations.size(), sheet.tools.size());
+    fmt::print(
+        "{{\n  \"schema\": \"openflank/setup/1\",\n  \"pass\": {},\n  \"operations\": {},\n  \"tools\": {}\n}}\n",
+        sheet.verdict.pass(), sheet.operations.size(), sheet.tools.size());
   else if (!common.quiet)
     fmt::print("{} operation{} with {} tool{}: {}  written to  {}\n", sheet.operations.size(),
                sheet.operations.size() == 1 ? "" : "s", sheet.tools.size(), sheet.tools.size() == 1 ? "" : "s",
@@ -39,7 +40,8 @@ int write_sheet(const SheetJob& job, const std::string& output, const CommonOpti
 
 Subcommand add_setup(CLI::App& parser) {
   CLI::App* app = parser.add_subcommand(
-      "setup", "Write the set-up sheet of a program for paper: part on the table, zero point, tools, operations, verdict");
+      "setup",
+      "Write the set-up sheet of a program for paper: part on the table, zero point, tools, operations, verdict");
   auto job = std::make_shared<SheetJob>();
   auto output = std::make_shared<std::string>();
   app->add_option("DIR", job->folders, "Folders of the operations, in the order of the program")->required();
@@ -48,7 +50,8 @@ Subcommand add_setup(CLI::App& parser) {
   app->add_option("--setup", job->setup, "Set-up of the part x,y,z,a,b,c (mm, degrees). Default: the program's own");
   app->add_option("-o,--output", *output, "Page to write (HTML)")->required();
   app->footer(
-      "Example: flank post out --machine fanuc-ac --spindle 8000 --feed 1000 -o part.nc && flank setup out --nc part.nc "
+      "Example: flank post out --machine fanuc-ac --spindle 8000 --feed 1000 -o part.nc && flank setup out --nc "
+      "part.nc "
       "--machine fanuc-ac -o setup.html");
   return {app,
           [job, output](const CommonOptions& common) { return write_sheet(*job, *output, common); },

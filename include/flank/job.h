@@ -175,7 +175,7 @@ struct TrochoidJob {
 
 /// Judge again what fit, cover or trochoid left in a folder. What is given takes the place of the job's own.
 struct VerifyJob {
-  std::string folder;  ///< may be empty if a program, its part and its tool are given
+  std::string folder;                     ///< may be empty if a program, its part and its tool are given
   std::vector<std::string> more_folders;  ///< of a program of several operations: those after the first, in their order
   NcRequest nc;
   std::optional<std::string> part;  ///< file
@@ -188,12 +188,14 @@ struct VerifyJob {
 /// Write the program with which a machine runs the path of a folder, or the paths of several, one operation after the other.
 struct PostJob {
   std::string folder;
-  std::vector<std::string> more_folders;  ///< of the operations after the first, in their order: other tools, the same part and set-up
+  std::vector<std::string>
+      more_folders;  ///< of the operations after the first, in their order: other tools, the same part and set-up
   /// "2:name=finish,tool=7,length=120,spindle=12000,feed=800,flutes=3": what holds for one operation (by its number) only.
   std::vector<std::string> operations;
   int copies = 1;  ///< each operation is run so many times, turned by 360 degrees / copies about `copy_axis`
-  std::optional<std::string> copy_axis;  ///< "x,y,z,x,y,z": a point and a direction, in the part's frame; none: its Z axis
-  std::string coolant = "off";           ///< or "flood", "mist"
+  std::optional<std::string>
+      copy_axis;                      ///< "x,y,z,x,y,z": a point and a direction, in the part's frame; none: its Z axis
+  std::string coolant = "off";        ///< or "flood", "mist"
   std::string machine;                ///< name of a machine that comes with the program, or a file
   std::optional<std::string> part;    ///< file; none: the job's
   std::optional<std::string> setup;   ///< "x,y,z,a,b,c": where the part sits; none: searched

@@ -234,11 +234,11 @@ struct JointRange {
 struct PostOperation {
   std::string folder, name;
   int tool_number = 1;
-  std::string tool;            ///< its name
-  int copy = 1, copies = 1;    ///< which of the turned copies
-  double spindle_rpm = 0.0;    ///< 0: it stands
+  std::string tool;          ///< its name
+  int copy = 1, copies = 1;  ///< which of the turned copies
+  double spindle_rpm = 0.0;  ///< 0: it stands
   double minutes = 0.0, cutting_minutes = 0.0;
-  std::string motion = {};     ///< motion.json: what the joints do over time, for the report (docs/schema/motion.md)
+  std::string motion = {};  ///< motion.json: what the joints do over time, for the report (docs/schema/motion.md)
 };
 
 /// A program and what it does.
@@ -256,8 +256,9 @@ struct PostOutcome {
   std::vector<JointRange> joints;
   Acceptance acceptance;  ///< collisions of links and of the machine, what the program's digits add
   std::vector<std::string> notes;
-  std::string motion;                     ///< motion.json of the first operation
-  std::vector<PostOperation> operations;  ///< in the order of the program; the figures above are of all of them together
+  std::string motion;  ///< motion.json of the first operation
+  std::vector<PostOperation>
+      operations;  ///< in the order of the program; the figures above are of all of them together
 };
 
 /// `flank post`: reads job.json, tool.json and path.json of a folder. Throws UsageError and InputError: also where the

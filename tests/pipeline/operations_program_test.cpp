@@ -38,7 +38,8 @@ class Folders {
     const Vec3 on_face = s.value(0.5 * (s.u_first() + s.u_last()), 0.5 * (s.v_first() + s.v_last()));
     // Behind the face, where the tool is not.
     axis_.direction = middle.axis;
-    axis_.point = on_face + 60.0 * (on_face - middle.tip - middle.axis * middle.axis.dot(on_face - middle.tip)).normalized();
+    axis_.point =
+        on_face + 60.0 * (on_face - middle.tip - middle.axis * middle.axis.dot(on_face - middle.tip)).normalized();
     Face other = face;
     for (Vec3& pole : other.surface.poles) pole = copy_turn(axis_, 2, 2) * pole;
     fs::create_directories(root_);
@@ -116,7 +117,8 @@ std::string complaint(const std::string& text) { return complaint(folders().veri
 /// Replaces what is found first behind a place; throws where there is none.
 std::string replaced(std::string text, const std::string& behind, const std::string& from, const std::string& to) {
   const std::size_t place = text.find(behind), at = place == std::string::npos ? place : text.find(from, place);
-  if (at == std::string::npos) throw std::logic_error(from + " is not behind " + behind + " in\n" + text.substr(0, 2000));
+  if (at == std::string::npos)
+    throw std::logic_error(from + " is not behind " + behind + " in\n" + text.substr(0, 2000));
   return text.replace(at, from.size(), to);
 }
 
@@ -180,7 +182,8 @@ TEST(OperationsProgram, OfCopiesThatAreNotTurnedAsTheySayDoesNotPass) {
   // The first copy's moves in the place of the second one's: the second half of the part is left as it is.
   const std::size_t first = text.find("N1 "), second = text.find("(OPERATION 2 OF 4"), two = text.find("N2 "),
                     third = text.find("(OPERATION 3 OF 4");
-  const std::string same = text.substr(0, two) + "N2 " + text.substr(first + 3, second - first - 3) + text.substr(third);
+  const std::string same =
+      text.substr(0, two) + "N2 " + text.substr(first + 3, second - first - 3) + text.substr(third);
   EXPECT_NE(complaint(same).find("program_path:"), std::string::npos) << complaint(same);
   EXPECT_NE(complaint(replaced(text, "OPERATION 2 OF 4", "COPY 2 OF 2", "COPY 1 OF 2")).find("refused:"),
             std::string::npos);
@@ -219,7 +222,8 @@ TEST(OperationWords, SayWhatWouldBeAccepted) {
   EXPECT_EQ(words[1].tool, 7);
   EXPECT_EQ(words[1].flutes, 3);
   EXPECT_EQ(words[0].feed_mm_min, 800.0);
-  for (const char* wrong : {"", "3:tool=1", "0:tool=1", "1", "1:tool", "1:tool=1.5", "1:speed=3", "1:length=-4", "1:name="})
+  for (const char* wrong :
+       {"", "3:tool=1", "0:tool=1", "1", "1:tool", "1:tool=1.5", "1:speed=3", "1:length=-4", "1:name="})
     EXPECT_THROW((void)parse_operations({wrong}, 2), UsageError) << wrong;
 }
 

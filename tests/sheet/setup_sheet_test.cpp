@@ -95,7 +95,8 @@ TEST(SetupSheet, SaysWhatTheProgramSays) {
   ASSERT_EQ(sheet.tools.size(), 1U);
   EXPECT_NEAR(sheet.tools[0].stick_out_mm, folder().stick_out(), 1e-6);
   const std::string page = sheet_html(sheet);
-  for (const char* words : {"part.nc", "part.step", "T1", "fanuc-ac", "Clamping", "lies on the table", "G54", "cone &lt;4&gt;"})
+  for (const char* words :
+       {"part.nc", "part.step", "T1", "fanuc-ac", "Clamping", "lies on the table", "G54", "cone &lt;4&gt;"})
     EXPECT_TRUE(has(page, words)) << words;
 }
 

@@ -365,15 +365,17 @@ void visit_operations(Job& job, Visitor& visit) {
                   "(1/min), feed (mm/min), flutes; as 2:name=finish,tool=7. May be given several times",
                   kAny, Spelling::kPlain, "--operation"},
         job.operations);
-  visit(FieldInfo{"copies", "", kGroup,
-                  "Run each operation so many times, turned by 360 degrees / copies about --copy-axis. The part must be "
-                  "the same when it is turned",
-                  kCopies},
-        job.copies);
-  visit(FieldInfo{"copy_axis", "", kGroup,
-                  "Axis of the copies in the part's frame x,y,z,x,y,z: a point (mm) and a direction. Default: its Z axis",
-                  kAny},
-        job.copy_axis);
+  visit(
+      FieldInfo{"copies", "", kGroup,
+                "Run each operation so many times, turned by 360 degrees / copies about --copy-axis. The part must be "
+                "the same when it is turned",
+                kCopies},
+      job.copies);
+  visit(
+      FieldInfo{"copy_axis", "", kGroup,
+                "Axis of the copies in the part's frame x,y,z,x,y,z: a point (mm) and a direction. Default: its Z axis",
+                kAny},
+      job.copy_axis);
   visit(FieldInfo{"coolant", "", "", "Coolant while the tool cuts: off, flood (M8) or mist (M7)", kCoolant},
         job.coolant);
 }

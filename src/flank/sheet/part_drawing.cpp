@@ -38,7 +38,9 @@ PartDrawing::PartDrawing(const Part& part, const std::vector<int>& targets, cons
   for (std::size_t k = 0; k < faces.size(); ++k) {
     const bool target = std::find(targets.begin(), targets.end(), static_cast<int>(k)) != targets.end();
     const TriangleMesh& mesh = faces[k].mesh;
-    const auto at = [&](int i) -> Vec3 { return turn * mesh.vertices[static_cast<std::size_t>(i)] + place.translation; };
+    const auto at = [&](int i) -> Vec3 {
+      return turn * mesh.vertices[static_cast<std::size_t>(i)] + place.translation;
+    };
     for (const auto& [a, b] : borders_of(mesh)) lines_.push_back({at(a), at(b), target});
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) box_.add(at(static_cast<int>(i)));
   }
@@ -52,26 +54,28 @@ std::string PartDrawing::svg(DrawnFrom side) const {
   const double margin = kMargin * size, left = all.low.x() - margin, top = all.high[up] + margin;
   const double width = all.high.x() - all.low.x() + 2.0 * margin, height = top - all.low[up] + margin;
   const auto line = [&](double x1, double y1, double x2, double y2, const char* kind) {
-    return fmt::format("<line class=\"{}\" x1=\"{:.3f}\" y1=\"{:.3f}\" x2=\"{:.3f}\" y2=\"{:.3f}\"/>\n", kind, x1 - left,
-                       top - y1, x2 - left, top - y2);
+    return fmt::format("<line class=\"{}\" x1=\"{:.3f}\" y1=\"{:.3f}\" x2=\"{:.3f}\" y2=\"{:.3f}\"/>\n", kind,
+                       x1 - left, top - y1, x2 - left, top - y2);
   };
   const auto text = [&](double x, double y, const char* words) {
-    return fmt::format("<text x=\"{:.3f}\" y=\"{:.3f}\" font-size=\"{:.3f}\">{}</text>\n", x - left, top - y, 0.045 * size,
-                       words);
+    return fmt::format("<text x=\"{:.3f}\" y=\"{:.3f}\" font-size=\"{:.3f}\">{}</text>\n", x - left, top - y,
+                       0.045 * size, words);
   };
-  std::string out = fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:.3f} {:.3f}\">\n", width, height);
+  std::string out =
+      fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:.3f} {:.3f}\">\n", width, height);
   for (const bool target : {false, true})
     for (const Line& l : lines_)
       if (l.target == target) out += line(l.from.x(), l.from[up], l.to.x(), l.to[up], target ? "target" : "edge");
   if (side == DrawnFrom::kFront) {
     const double low = box_.low.z(), step = kHatch * size;
     out += line(box_.low.x() - step, low, box_.high.x() + step, low, "clamp");
-    for (double x = box_.low.x(); x < box_.high.x() + step; x += step) out += line(x, low, x - step, low - step, "clamp");
+    for (double x = box_.low.x(); x < box_.high.x() + step; x += step)
+      out += line(x, low, x - step, low - step, "clamp");
   }
   // The zero point, and where its axes go.
   const double axis = kAxis * size;
-  out += fmt::format("<circle class=\"zero\" cx=\"{:.3f}\" cy=\"{:.3f}\" r=\"{:.3f}\"/>\n", zero_.x() - left, top - zero_[up],
-                     0.02 * size);
+  out += fmt::format("<circle class=\"zero\" cx=\"{:.3f}\" cy=\"{:.3f}\" r=\"{:.3f}\"/>\n", zero_.x() - left,
+                     top - zero_[up], 0.02 * size);
   out += line(zero_.x(), zero_[up], zero_.x() + axis, zero_[up], "axis");
   out += line(zero_.x(), zero_[up], zero_.x(), zero_[up] + axis, "axis");
   out += text(zero_.x() + 1.1 * axis, zero_[up] - 0.1 * axis, "X");

@@ -124,7 +124,8 @@ double minutes_of(const Machine& machine, const NcProgram& program, const std::s
 double stick_out(const Tool& tool) {
   const double tip = tool.radial.at(0.0).r;
   if (!tool.holder.empty()) return tip + tool.holder.front().x();
-  return tip + (tool.shank.empty() ? meridian_point(tool.radial, tool.radial.axis_length()).x() : tool.shank.back().x());
+  return tip +
+         (tool.shank.empty() ? meridian_point(tool.radial, tool.radial.axis_length()).x() : tool.shank.back().x());
 }
 
 void add_tool(const Read& read, std::vector<std::string>& known, SetupSheet& sheet) {

@@ -22,13 +22,13 @@ struct SheetJob {
 struct SheetOperation {
   std::string name, folder, faces, kind;  ///< kind: "flank milling", "trochoidal roughing and finishing", ...
   int strips = 0, copies = 1;
-  int tool_number = 0;                    ///< 0: no program says it
-  double tool_length_mm = 0.0;            ///< from the gauge line to the controlled point; 0: no program says it
+  int tool_number = 0;          ///< 0: no program says it
+  double tool_length_mm = 0.0;  ///< from the gauge line to the controlled point; 0: no program says it
   double tolerance_mm = 0.0;
-  double spindle_rpm = 0.0;               ///< 0: it stands, or no program says it
-  double feed_low = 0.0, feed_high = 0.0; ///< mm/min of what cuts; 0: not known (inverse time)
-  double minutes = 0.0;                   ///< of all copies; 0: not known
-  Acceptance verdict;                     ///< of the folder: verify.json, and motion.json where it was posted for this machine
+  double spindle_rpm = 0.0;                ///< 0: it stands, or no program says it
+  double feed_low = 0.0, feed_high = 0.0;  ///< mm/min of what cuts; 0: not known (inverse time)
+  double minutes = 0.0;                    ///< of all copies; 0: not known
+  Acceptance verdict;  ///< of the folder: verify.json, and motion.json where it was posted for this machine
 };
 
 struct SheetTool {
@@ -40,16 +40,16 @@ struct SheetTool {
 
 struct SetupSheet {
   std::string part, part_sha256, program, program_sha256, machine;
-  int work_offset = 0;       ///< 0: no program
-  std::string origin;        ///< what the work offset holds
+  int work_offset = 0;  ///< 0: no program
+  std::string origin;   ///< what the work offset holds
   WorkSetup place;
-  bool placed = false;       ///< a program or the job says where the part sits
+  bool placed = false;  ///< a program or the job says where the part sits
   bool dry_run = false;
   Box3 box;                  ///< of the part where it is clamped, mm
   std::string front, above;  ///< drawings (SVG)
   std::vector<SheetOperation> operations;
   std::vector<SheetTool> tools;
-  Acceptance verdict;        ///< of all operations
+  Acceptance verdict;  ///< of all operations
 };
 
 /// Reads the folders, and the program. Throws UsageError for a program without a machine, InputError for what is no folder of results,

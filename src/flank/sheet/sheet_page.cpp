@@ -37,8 +37,7 @@ std::string number(double value, const char* unit) { return value > 0.0 ? fmt::f
 std::string verdict_html(const Acceptance& verdict) {
   std::string out = verdict.pass() ? "<div class=\"verdict\">MEETS THE REQUEST</div>\n"
                                    : "<div class=\"verdict no\">DOES NOT MEET THE REQUEST: do not run it</div>\n";
-  for (const Shortfall& reason : verdict.reasons)
-    out += "<p class=\"reason\">" + html_safe(reason.text) + "</p>\n";
+  for (const Shortfall& reason : verdict.reasons) out += "<p class=\"reason\">" + html_safe(reason.text) + "</p>\n";
   for (const Shortfall& caution : verdict.cautions)
     out += "<p class=\"caution\">CAUTION: " + html_safe(caution.text) + "</p>\n";
   return out;
@@ -48,7 +47,8 @@ std::string verdict_html(const Acceptance& verdict) {
 std::string zero_text(const SetupSheet& sheet) {
   const Vec3 below = sheet.place.translation - sheet.box.low, above = sheet.box.high - sheet.place.translation;
   return fmt::format(
-      "X {:.3f} from the part's left side, {:.3f} from its right; Y {:.3f} from its front, {:.3f} from its back; Z {:.3f} "
+      "X {:.3f} from the part's left side, {:.3f} from its right; Y {:.3f} from its front, {:.3f} from its back; Z "
+      "{:.3f} "
       "above its bottom, {:.3f} below its top (mm; negative: outside of the part)",
       below.x(), above.x(), below.y(), above.y(), below.z(), above.z());
 }
@@ -73,16 +73,19 @@ std::string setup_html(const SetupSheet& sheet) {
     out += row("Turned by", fmt::format("A {:g}, B {:g}, C {:g} degrees about X, then Y, then Z", a[0], a[1], a[2]));
     out += row("Clamping", clamped_side(sheet.place));
     if (sheet.work_offset > 0)
-      out += row("Zero point", fmt::format("work offset {} ({}) holds {}", sheet.work_offset,
-                                           sheet.work_offset <= 6 ? fmt::format("G{}", 53 + sheet.work_offset) : "extended",
-                                           sheet.origin.empty() ? "what the set-up says" : sheet.origin));
+      out += row("Zero point",
+                 fmt::format("work offset {} ({}) holds {}", sheet.work_offset,
+                             sheet.work_offset <= 6 ? fmt::format("G{}", 53 + sheet.work_offset) : "extended",
+                             sheet.origin.empty() ? "what the set-up says" : sheet.origin));
     out += row("Zero point is", zero_text(sheet));
   } else {
     out += row("Set-up", "not known: no program was given");
   }
   out += "</table>\n<div class=\"drawings\">\n<figure>" + sheet.front +
-         "<figcaption>From the front: X to the right, Z up. Bold: machined; hatched: the table's side</figcaption></figure>\n<figure>" +
-         sheet.above + "<figcaption>From above: X to the right, Y up. Circle: zero point</figcaption></figure>\n</div>\n";
+         "<figcaption>From the front: X to the right, Z up. Bold: machined; hatched: the table's "
+         "side</figcaption></figure>\n<figure>" +
+         sheet.above +
+         "<figcaption>From above: X to the right, Y up. Circle: zero point</figcaption></figure>\n</div>\n";
   return out;
 }
 
@@ -94,16 +97,17 @@ std::string operations_html(const SetupSheet& sheet) {
   int k = 0;
   for (const SheetOperation& one : sheet.operations) {
     const std::string times = one.copies > 1 ? fmt::format(" ({} times, turned)", one.copies) : "";
-    const std::string feed = one.feed_high > 0.0 ? fmt::format("{:.0f} to {:.0f}", one.feed_low, one.feed_high)
-                             : one.tool_number > 0    ? std::string("inverse time")
-                                                      : std::string("-");
-    out += fmt::format("<tr><td>{}</td><td>{}</td><td>{}, within {:g} mm</td><td>{}</td><td>{}</td><td class=\"n\">{}</td>"
-                       "<td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"{}\">{}</td></tr>\n",
-                       ++k, html_safe(one.name + times), one.kind, one.tolerance_mm, html_safe(one.faces),
-                       one.tool_number > 0 ? fmt::format("T{}", one.tool_number) : "-", one.strips,
-                       one.spindle_rpm > 0.0 ? fmt::format("{:.0f}", one.spindle_rpm) : "-", feed,
-                       one.minutes > 0.0 ? minutes_text(one.minutes) : "-", one.verdict.pass() ? "" : "reason",
-                       one.verdict.pass() ? "meets" : "does NOT meet");
+    const std::string feed = one.feed_high > 0.0   ? fmt::format("{:.0f} to {:.0f}", one.feed_low, one.feed_high)
+                             : one.tool_number > 0 ? std::string("inverse time")
+                                                   : std::string("-");
+    out += fmt::format(
+        "<tr><td>{}</td><td>{}</td><td>{}, within {:g} mm</td><td>{}</td><td>{}</td><td class=\"n\">{}</td>"
+        "<td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"{}\">{}</td></tr>\n",
+        ++k, html_safe(one.name + times), one.kind, one.tolerance_mm, html_safe(one.faces),
+        one.tool_number > 0 ? fmt::format("T{}", one.tool_number) : "-", one.strips,
+        one.spindle_rpm > 0.0 ? fmt::format("{:.0f}", one.spindle_rpm) : "-", feed,
+        one.minutes > 0.0 ? minutes_text(one.minutes) : "-", one.verdict.pass() ? "" : "reason",
+        one.verdict.pass() ? "meets" : "does NOT meet");
   }
   return out + "</table>\n";
 }
@@ -118,7 +122,9 @@ std::string tool_html(const SheetTool& tool) {
   out += row("Tool", (tool.number > 0 ? fmt::format("T{}  ", tool.number) : std::string()) + t.name);
   out += row("Diameter, tip", fmt::format("{:.3f} mm, ball of radius {:.3f} mm", 2.0 * largest, t.radial.at(0.0).r));
   out += row("Stick-out", fmt::format("{:.2f} mm from the lowest point to {}", tool.stick_out_mm,
-                                      holder ? "the holder" : shank ? "the end of the shank" : "the end of the flank"));
+                                      holder  ? "the holder"
+                                      : shank ? "the end of the shank"
+                                              : "the end of the flank"));
   out += row("Shank", shank ? fmt::format("diameter {:.3f} mm", 2.0 * t.shank.front().y()) : "not given, not checked");
   out += row("Holder", holder ? fmt::format("diameter {:.2f} mm at its face", 2.0 * t.holder.front().y())
                               : "not given, not checked");

@@ -188,7 +188,8 @@ TEST(OperationComment, IsReadBack) {
   EXPECT_EQ(read_operation_comment(operation_comment(plain)), plain);
   EXPECT_EQ(read_operation_comment(operation_comment(copy)), copy);
   EXPECT_EQ(read_operation_comment("OPERATION 1 OF 2 COPY shop")->name, "COPY shop");
-  for (const char* other : {"OPERATION 3 OF 2", "OPERATION 1", "OPERATION ONE OF 2", "OPERATION 0 OF 2", "OPERATIONS 1 OF 2"})
+  for (const char* other :
+       {"OPERATION 3 OF 2", "OPERATION 1", "OPERATION ONE OF 2", "OPERATION 0 OF 2", "OPERATIONS 1 OF 2"})
     EXPECT_FALSE(read_operation_comment(other)) << other;
 }
 

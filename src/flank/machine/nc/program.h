@@ -73,7 +73,7 @@ struct NcHeader {
   std::string copy_axis = {};                 ///< "x,y,z,x,y,z" in the part's frame, of an operation of several copies
   double spindle_rpm = 0.0;                   ///< 0: the spindle is not started
   std::string coolant = {};                   ///< "flood" or "mist"; empty: off. Not read back
-  bool dry_run = false;      ///< written as a comment: the spindle is not to turn
+  bool dry_run = false;                       ///< written as a comment: the spindle is not to turn
   std::vector<std::string> shortfalls =
       {};                                  ///< why the program does not meet its request, for its header. Not read back
   std::vector<std::string> cautions = {};  ///< what its verdict says nothing about, likewise

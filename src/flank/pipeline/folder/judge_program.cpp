@@ -243,8 +243,8 @@ Verification judge_operation(const VerifyJob& request, const Machine& machine, c
   }
   const ResultFolder folder(request.folder, ResultFolder::Use::kRead);
   const FolderJob found = read_folder_job(request, folder);
-  return std::visit(
-      [&](const auto& job) { return judge(request, job, question_of(request, job), machine, program); }, found.job);
+  return std::visit([&](const auto& job) { return judge(request, job, question_of(request, job), machine, program); },
+                    found.job);
 }
 
 /// What operations must have in common, and what not.
@@ -273,8 +273,8 @@ void accept_together(const VerifyJob& request, const std::vector<NcProgram>& ope
   }
 }
 
-Verification judge_operations(const VerifyJob& request, const std::vector<std::string>& folders,
-                              const Machine& machine, const std::vector<NcProgram>& operations) {
+Verification judge_operations(const VerifyJob& request, const std::vector<std::string>& folders, const Machine& machine,
+                              const std::vector<NcProgram>& operations) {
   if (request.nc.tool) throw UsageError("tool", "is of one operation; each folder has its own");
   if (request.nc.faces) throw UsageError("faces", "are of one operation; each folder has its own");
   if (request.nc.tool_number) throw UsageError("tool_number", "is of one operation; each has its own in its header");
@@ -309,8 +309,8 @@ Verification judge_program(const VerifyJob& request) {
   if (operations.size() == 1 && request.more_folders.empty())
     return judge_operation(request, machine, operations.front());
   if (request.folder.empty())
-    throw InputError(fmt::format("{}: has {} operations; give the folder of each, in their order", file,
-                                 operations.size()));
+    throw InputError(
+        fmt::format("{}: has {} operations; give the folder of each, in their order", file, operations.size()));
   std::vector<std::string> folders{request.folder};
   folders.insert(folders.end(), request.more_folders.begin(), request.more_folders.end());
   return judge_operations(request, folders, machine, operations);

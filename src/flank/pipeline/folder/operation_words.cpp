@@ -14,8 +14,9 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& text, const std::string& why) {
   throw UsageError("operations", text,
-                   why + "; expected NUMBER:KEY=VALUE,... with the keys name, tool, length (mm), spindle (1/min), feed "
-                         "(mm/min) and flutes, as 2:name=finish,tool=7,spindle=12000");
+                   why +
+                       "; expected NUMBER:KEY=VALUE,... with the keys name, tool, length (mm), spindle (1/min), feed "
+                       "(mm/min) and flutes, as 2:name=finish,tool=7,spindle=12000");
 }
 
 double positive(std::string_view value, const std::string& text) {

@@ -15,18 +15,18 @@
 namespace flank::internal {
 
 struct PlannedOperation {
-  PostJob request;          ///< of this folder alone, with the spindle and the feed that its material gives
-  std::string name;         ///< for people
+  PostJob request;   ///< of this folder alone, with the spindle and the feed that its material gives
+  std::string name;  ///< for people
   int tool_number = 1;
   Setup setup;
   Tool tool;
-  std::string tool_text;    ///< tool.json
+  std::string tool_text;  ///< tool.json
   PostTool facts;
-  std::size_t strips = 0;   ///< of the path
+  std::size_t strips = 0;  ///< of the path
   ObstacleRequest obstacles;
-  double engagement_rad = 0.0;    ///< the limit of a cavity's cycles; 0: no cavity
+  double engagement_rad = 0.0;  ///< the limit of a cavity's cycles; 0: no cavity
   bool engagement_known = false;
-  LinkOptions way;          ///< of the links
+  LinkOptions way;  ///< of the links
   JudgedLinks links;
   std::vector<std::string> notes;
 };

@@ -77,9 +77,9 @@ Path turned(Path path, const Eigen::Isometry3d& turn) {
 
 void require_same_when_turned(const Setup& setup, const CopyAxis& axis, int copies) {
   if (!setup.fixtures.empty())
-    throw InputError("copies", std::to_string(copies), "fixtures do not turn with the part; expected none, or one copy");
-  const double deviation =
-      std::max(kDeviationShare * setup.tolerance_mm, kLeastDeviation * setup.part.box.diagonal());
+    throw InputError("copies", std::to_string(copies),
+                     "fixtures do not turn with the part; expected none, or one copy");
+  const double deviation = std::max(kDeviationShare * setup.tolerance_mm, kLeastDeviation * setup.part.box.diagonal());
   const TriangleMesh mesh = judged_faces(setup, deviation);
   const TriangleBvh tree(mesh);
   const Eigen::Isometry3d turn = copy_turn(axis, 2, copies);

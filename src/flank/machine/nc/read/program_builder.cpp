@@ -76,13 +76,15 @@ void ProgramBuilder::end_operation() {
 void ProgramBuilder::begin_operation(const NcOperation& operation) {
   const std::string name = program_.header.program;
   if (program_.header.operation) {
-    if (operation.number != program_.header.operation->number + 1 || operation.count != program_.header.operation->count)
+    if (operation.number != program_.header.operation->number + 1 ||
+        operation.count != program_.header.operation->count)
       place_.refuse("operation " + std::to_string(operation.number) + " of " + std::to_string(operation.count) +
                     " follows operation " + std::to_string(program_.header.operation->number) + " of " +
                     std::to_string(program_.header.operation->count));
     end_operation();
   } else if (!program_.moves.empty() || operation.number != 1) {
-    place_.refuse("operation " + std::to_string(operation.number) + " begins where operation 1 is expected, before any move");
+    place_.refuse("operation " + std::to_string(operation.number) +
+                  " begins where operation 1 is expected, before any move");
   }
   program_ = NcProgram{};
   program_.rotary = dialect_.rotary;

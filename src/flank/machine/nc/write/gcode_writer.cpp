@@ -13,7 +13,7 @@ namespace {
 constexpr long kNumberStep = 10, kLargestNumber = 99990;  // N words have at most five digits: then they begin again
 /// Of a program of several operations all blocks but their first have larger numbers than those.
 constexpr long kAboveOperations = 10'000;
-constexpr std::size_t kBytesOfMove = 80;                  // of a block as it usually is: the text is reserved once
+constexpr std::size_t kBytesOfMove = 80;  // of a block as it usually is: the text is reserved once
 
 }  // namespace
 

@@ -25,7 +25,10 @@ std::string program_name(const std::string& name) {
 class HeidenhainWriter {
  public:
   HeidenhainWriter(std::span<const NcProgram> operations, const NcDialect& dialect)
-      : operations_(operations), program_(&operations.front()), dialect_(dialect), style_{dialect.decimal_comma ? ',' : '.', true} {
+      : operations_(operations),
+        program_(&operations.front()),
+        dialect_(dialect),
+        style_{dialect.decimal_comma ? ',' : '.', true} {
     // The control takes coordinates with a sign; feeds, speeds and tolerances have none.
     unsigned_ = style_;
     unsigned_.plus = false;
@@ -115,7 +118,7 @@ class HeidenhainWriter {
       block("M128");
     else
       block(program_->join == NcJoin::kGreatCircle ? "FUNCTION TCPM F TCP AXIS POS PATHCTRL VECTOR"
-                                                  : "FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS");
+                                                   : "FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS");
   }
 
   void rotary(double first, double second) {
