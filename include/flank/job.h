@@ -50,10 +50,13 @@ struct RadiusRequest {
 struct ObstacleRequest {
   std::optional<std::string> check_faces;   ///< "F88,F12": only these; none: every face that is not machined
   std::optional<std::string> ignore_faces;  ///< "F5": not these
-  std::optional<double> shank_radius_mm;    ///< none: that of the flank's upper end
-  std::optional<double> shank_length_mm;    ///< a cylinder on the upper end of the flank
-  std::optional<std::string> holder;        ///< "z:r,z:r,...", or a file of such pairs
-  std::vector<std::string> fixtures;        ///< part files
+  /// "given": what the next two and `tool` give, as long as nothing else is asked for; "auto": a cylinder as thick as the flank ends
+  /// (a standard diameter where one is nearly that), long enough to reach out of the part; "none".
+  std::string shank = "given";
+  std::optional<double> shank_radius_mm;  ///< none: that of the flank's upper end
+  std::optional<double> shank_length_mm;  ///< a cylinder on the upper end of the flank
+  std::optional<std::string> holder;      ///< "z:r,z:r,...", or a file of such pairs
+  std::vector<std::string> fixtures;      ///< part files
   std::optional<std::string>
       fixture_unit;                    ///< of meshes among them, "mm", "cm", "m" or "in"; none: as that of the part
   std::optional<double> clearance_mm;  ///< least distance of shank and holder from the part, of all from fixtures
@@ -83,6 +86,7 @@ struct FitJob {
   std::optional<double> tolerance_mm;  ///< none: a thousandth of the diagonal of the faces, rounded down to 1, 2 or 5
   std::optional<std::string> start;    ///< "x,y,z,x,y,z": tip and holder end of a first axis, mm
   std::optional<std::string> guide;    ///< file of several such lines
+  std::string cut = "climb";           ///< or "conventional"; the spindle turns clockwise seen from the holder
   int strips = 0;                      ///< motions side by side; 0: as many as the tolerance needs
   bool avoid = true;              ///< keep clear of the other faces already in planning; they are judged either way
   std::string effort = "normal";  ///< or "quick", "thorough": how much is tried
@@ -110,6 +114,7 @@ struct CoverJob {
   ObstacleRequest obstacles;
   JudgeRequest judge;
   std::optional<double> tolerance_mm;  ///< none: a thousandth of the diagonal of the faces, rounded down to 1, 2 or 5
+  std::string cut = "climb";           ///< as in FitJob
   std::string strategy = "grow";       ///< or "curves"
   std::optional<std::uint64_t> seed;   ///< of the clustering; strategy "curves" only
   std::string seeds = "grid";          ///< or "shape": where `grow` begins its lines
@@ -194,8 +199,11 @@ struct PostJob {
   std::vector<std::string> operations;
   int copies = 1;  ///< each operation is run so many times, turned by 360 degrees / copies about `copy_axis`
   std::optional<std::string>
-      copy_axis;                      ///< "x,y,z,x,y,z": a point and a direction, in the part's frame; none: its Z axis
-  std::string coolant = "off";        ///< or "flood", "mist"
+      copy_axis;                ///< "x,y,z,x,y,z": a point and a direction, in the part's frame; none: its Z axis
+  std::string coolant = "off";  ///< or "flood", "mist"
+  /// How the part is clamped, where the set-up is searched: "any" way up; "bottom", its Z axis up; "bore", `copy_axis` up, and on the
+  /// axis of the table.
+  std::string clamp = "any";
   std::string machine;                ///< name of a machine that comes with the program, or a file
   std::optional<std::string> part;    ///< file; none: the job's
   std::optional<std::string> setup;   ///< "x,y,z,a,b,c": where the part sits; none: searched

@@ -90,6 +90,10 @@ inline constexpr Accepted kEngagement{"expected an angle above 5 and up to 180 d
                                       [](double x) { return x > 5.0 && x <= 180.0; }};
 inline constexpr Accepted kCut{"must be climb or conventional", nullptr,
                                [](std::string_view x) { return x == "climb" || x == "conventional"; }};
+inline constexpr Accepted kShank{"must be given, auto or none", nullptr,
+                                 [](std::string_view x) { return x == "given" || x == "auto" || x == "none"; }};
+inline constexpr Accepted kClamp{"must be any, bottom or bore", nullptr,
+                                 [](std::string_view x) { return x == "any" || x == "bottom" || x == "bore"; }};
 inline constexpr Accepted kLayers{"expected auto or a number from 1 to 12",
                                   [](double x) { return x >= 0.0 && x <= 12.0; }};
 inline constexpr Accepted kCycles{"must be volume, plain or paper", nullptr,
@@ -144,6 +148,13 @@ void visit_obstacles(Request& obstacles, Visitor& visit) {
   visit(FieldInfo{"ignore_faces", "", kFaces,
                   "Faces that the tool may cut into; they are not checked. S2-S5 names all faces of solids 2 to 5"},
         obstacles.ignore_faces);
+  visit(
+      FieldInfo{
+          "shank", "", kAbove,
+          "auto: a shank as thick as the flank's upper end, or the standard diameter just below it, long enough to "
+          "reach out of the part; none: no shank; given: that of --shank-length or of the tool",
+          kShank},
+      obstacles.shank);
   visit(FieldInfo{"shank_length", "mm", kAbove, "Length of a cylindrical shank above the flank", kLength},
         obstacles.shank_length_mm);
   visit(FieldInfo{"shank_radius", "mm", kAbove, "Shank radius. Default: the radius of the flank's upper end", kLength},
@@ -177,6 +188,9 @@ inline constexpr std::string_view kBendHelp =
 inline constexpr std::string_view kToleranceHelp =
     "Allowed deviation of the machined face, both ways. Default: a thousandth of the diagonal of the machined faces, "
     "rounded down to 1, 2 or 5 times a power of ten, from 0.005 to 0.5 mm";
+
+inline constexpr std::string_view kCutHelp =
+    "climb or conventional milling, in every pass; the spindle turns clockwise seen from the holder";
 
 inline constexpr std::string_view kTurnHelp =
     "Largest turn of the motion within 1 % of the face's diagonal, degrees. A sharper turn is a kink and does not meet "
@@ -261,6 +275,7 @@ void visit_fields(Job& job, Visitor&& visit) {
         job.guide);
   visit_radius(job.radius, visit);
   visit(FieldInfo{"stiffness_curve", "", "Stiffness", kCurveHelp, kAny, Spelling::kOnOff}, job.stiffness_curve);
+  visit(FieldInfo{"cut", "", "Motion", kCutHelp, kCut}, job.cut);
   visit(FieldInfo{"min_bend_radius", "mm", "Motion", kBendHelp, kRadius}, job.min_bend_radius_mm);
   visit(FieldInfo{"turn_max", "", "Motion", kTurnHelp, kTurn}, job.judge.most_turn_deg);
   visit_judge(job.judge, visit);
@@ -317,6 +332,7 @@ void visit_fields(Job& job, Visitor&& visit) {
         job.most_strips);
   visit(FieldInfo{"strip_price", "", "", "Share of the face that another pass must add. Default: 0.005", kPrice},
         job.strip_price);
+  visit(FieldInfo{"cut", "", "Motion", kCutHelp, kCut}, job.cut);
   visit(FieldInfo{"turn_max", "", "Motion", kTurnHelp, kTurn}, job.judge.most_turn_deg);
   visit_judge(job.judge, visit);
   visit_choice(job.choice, visit);
@@ -402,6 +418,13 @@ void visit_fields(Job& job, Visitor&& visit) {
                   "Feed of the contact along the passes; required, except for a dry run (1000) and --speed optimal",
                   kRate},
         job.feed_mm_min);
+  visit(
+      FieldInfo{
+          "clamp", "", "",
+          "How the part is clamped, for a set-up that is found: any way up; bottom, its Z axis up; bore, --copy-axis "
+          "(default: its Z axis) up and on the axis of the table",
+          kClamp},
+      job.clamp);
   visit(FieldInfo{"speed", "", "",
                   "feed: at --feed as far as the axes can, in a cavity adapted to the engagement so that the thickest "
                   "chip stays the same; constant: at --feed; optimal: as fast as the axes can",

@@ -9,6 +9,7 @@
 #include "flank/artefact/acceptance.h"
 #include "flank/error.h"
 #include "flank/job/check_fields.h"
+#include "flank/machine/links.h"
 #include "flank/machine/model/machine_file.h"
 #include "flank/machine/nc/dialects/write_nc.h"
 #include "flank/machine/setup_search.h"
@@ -60,7 +61,8 @@ ProgramPlan plan_program(const PostJob& request) {
   ProgramPlan plan;
   plan.copies = request.copies;
   if (request.copy_axis) {
-    if (request.copies == 1) throw UsageError("copy_axis", "needs `copies`: how often each operation is run");
+    if (request.copies == 1 && request.clamp != "bore")
+      throw UsageError("copy_axis", "needs `copies`: how often each operation is run, or `clamp` bore");
     plan.axis = parse_copy_axis(*request.copy_axis);
   }
   const std::vector<OperationWords> words = parse_operations(request.operations, request.more_folders.size() + 1);
@@ -77,10 +79,17 @@ ProgramPlan plan_program(const PostJob& request) {
   return plan;
 }
 
+/// Which way up the part is clamped, and on what.
+Clamping clamping_of(const PostJob& request, const ProgramPlan& plan) {
+  if (request.clamp == "bottom") return {.up = Vec3::UnitZ()};
+  if (request.clamp == "bore") return {.up = plan.axis.direction, .centred = plan.axis.point};
+  return {};
+}
+
 /// All that the machine must reach, and the operation whose tool needs most room.
 WorkSetup find_setup(const PostJob& request, const Machine& machine, const ProgramPlan& plan, PostOutcome& outcome) {
   if (request.setup) return parse_setup(*request.setup);
-  std::vector<Pose> poses;
+  SetupSearch search;
   const PlannedOperation* largest = &plan.operations.front();
   Machine longest = machine;
   for (const PlannedOperation& one : plan.operations) {
@@ -91,17 +100,20 @@ WorkSetup find_setup(const PostJob& request, const Machine& machine, const Progr
     for (int copy = 1; copy <= plan.copies; ++copy) {
       const Path path = turned(one.links.linked.path, copy_turn(plan.axis, copy, plan.copies));
       for (const Strip& strip : path.strips)
-        for (const Pose& p : strip.poses) poses.push_back({p.at(-below), p.axis});
+        for (const Pose& p : strip.poses) {
+          search.poses.push_back({p.at(-below), p.axis});
+          search.cutting.push_back(strip.kind != kLinkKind);
+        }
     }
   }
   const double below = tip_offset(machine, largest->facts);
-  const auto upright = [&](const Vec3& up) {
+  search.clamping = clamping_of(request, plan);
+  search.upright = [&](const Vec3& up) {
     const Pose p = above(largest->way, up);
     return Pose{p.at(-below), p.axis};
   };
   const MachineScene scene = machine_scene(longest, largest->tool, below);
-  const FoundSetup found =
-      search_setup(longest, Kinematics(longest, longest.tool_length), poses, scene.solids, upright);
+  const FoundSetup found = search_setup(longest, Kinematics(longest, longest.tool_length), search, scene.solids);
   if (!found.setup)
     throw InputError("setup", fmt::format("machine {} reaches the part in none of {} set-ups tried: {}", machine.name,
                                           found.tried, found.reason));
